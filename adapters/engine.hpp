@@ -89,6 +89,15 @@ struct Stats {
   double wallSeconds = 0.0;
   double cpuSeconds = 0.0;
   std::map<std::string, double> counters;  ///< engine's own, e.g. "impacts", "rebuilds"
+
+  /// As results have them (support/json_fields.hpp).
+  void fields(auto& io) {
+    io("steps", steps);
+    io("contact_evaluations", contactEvaluations);
+    io("wall_s", wallSeconds);
+    io("cpu_s", cpuSeconds);
+    io("counters", counters);
+  }
 };
 
 /// The engine cannot do what the scene calls for; what() names the first such thing.

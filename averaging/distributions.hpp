@@ -18,6 +18,12 @@ struct Bins {
   double high() const { return low + count * width; }
   /// 0: below; 1 … count: bin low + (k − 1) width ≤ value < low + k width; count + 1: beyond.
   std::size_t slot(double value) const;
+
+  void fields(auto& io) {
+    io("low", low);
+    io("width", width);
+    io("count", count);
+  }
 };
 
 /// Counts of equal events in slots over time, in at most 32 blocks of equally many snapshots: when

@@ -21,10 +21,6 @@ PairedSample firstOf(const PairedSample& sample, int packings) {
   return {cut(sample.reference), cut(sample.other), sample.margin, sample.bias, {}};
 }
 
-Answer agreement(const PairedComparison& found) {
-  return *found.low <= 0.0 && *found.high >= 0.0 ? Answer::noDifference : Answer::smallDifference;
-}
-
 /// A difference is shown, and that it is less than twice the margin; the margin lies in between.
 bool isBorderline(const PairedComparison& found, const PairedSample& sample) {
   const bool positive = found.difference > 0.0;
@@ -43,8 +39,8 @@ void describe(InterimAnswer& answer, const PairedComparison& found, std::size_t 
   answer.high = found.high;
 }
 
-bool isFinal(Answer answer) {
-  return agrees(answer) || answer == Answer::disagree;
+bool isFinal(Verdict verdict) {
+  return verdict == Verdict::pass || verdict == Verdict::fail;
 }
 
 }  // namespace
@@ -78,16 +74,16 @@ std::vector<std::optional<InterimAnswer>> answersAfterInterims(std::span<const P
     for (const PairedSample& sample : family) seen.push_back(firstOf(sample, plan.packings[look]));
     const auto found = comparePaired(seen, 1.0 - plan.agreeAlpha);
     for (std::size_t k = 0; k < family.size(); ++k) {
-      if (!found[k] || (answers[k] && isFinal(answers[k]->answer))) continue;
+      if (!found[k] || (answers[k] && isFinal(answers[k]->verdict))) continue;
       InterimAnswer& own = answers[k] ? *answers[k] : answers[k].emplace();
       describe(own, *found[k], look, plan.packings[look]);
-      own.answer = Answer::undecided;
+      own.verdict = Verdict::undecided;
       if (found[k]->verdict == Verdict::pass)
-        own.answer = agreement(*found[k]);
+        own.verdict = Verdict::pass;
       else if (found[k]->pDisagree && *found[k]->pDisagree <= plan.alpha[look])
-        own.answer = Answer::disagree;
+        own.verdict = Verdict::fail;
       else if (found[k]->pDisagree && isBorderline(*found[k], family[k]))
-        own.answer = Answer::borderline;
+        own.verdict = Verdict::borderline;
     }
   }
   return answers;

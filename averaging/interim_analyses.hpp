@@ -1,10 +1,8 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "averaging/agreement.hpp"
@@ -31,28 +29,12 @@ struct InterimPlan {
 /// @pre first, count >= 1
 InterimPlan interimPlanAt(int first, int count, double alpha);
 
-/// What can be said of one endpoint of two engines.
-enum class Answer {
-  noDifference,     ///< agree: within the margin, and no difference seen
-  smallDifference,  ///< agree: within the margin, and a difference is there
-  borderline,       ///< about the margin: a difference is there, below twice the margin
-  disagree,         ///< beyond the margin
-  undecided         ///< none of these is shown
-};
-constexpr auto namesOf(Answer) {
-  return std::array<std::string_view, 5>{"no_difference_seen", "small_difference", "borderline",
-                                         "disagree", "undecided"};
-}
-constexpr bool agrees(Answer answer) {
-  return answer == Answer::noDifference || answer == Answer::smallDifference;
-}
-
-/// An answer with the interval that it rests on, on the scale of the test.
+/// A verdict with the interval that it rests on, on the scale of the test.
 struct InterimAnswer {
-  Answer answer = Answer::undecided;
-  std::size_t look = 0;  ///< index of the look that gave it, or of the last one
-  int packings = 0;      ///< that both engines have, of those looked at
-  int lost = 0;          ///< of those looked at, that one engine has no value on
+  Verdict verdict = Verdict::undecided;  ///< pass, borderline, undecided or fail
+  std::size_t look = 0;                  ///< index of the look that gave it, or of the last one
+  int packings = 0;                      ///< that both engines have, of those looked at
+  int lost = 0;                          ///< of those looked at, that one engine has no value on
   double difference = 0.0;
   std::optional<double> standardError;
   std::optional<double> low, high;  ///< (1 − 2α) interval, α that of *agree*

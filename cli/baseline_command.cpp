@@ -61,7 +61,7 @@ int diff(const CommandLine& line, const std::string& file) {
   const Overview overview = reports::diffOverview(results);
   if (line.json) {
     nlohmann::json document = toJson(results);
-    document["overview"] = toJson(overview);
+    document["overview"] = jsonOf(overview);
     fmt::print("{}", toText(document));
   } else {
     fmt::print("{}", reports::diffText(results));

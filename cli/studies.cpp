@@ -18,7 +18,7 @@
 #include "reports/report.hpp"
 #include "reports/scale/report.hpp"
 #include "reports/thesis/report.hpp"
-#include "results/collision_outcome.hpp"
+#include "results/collision.hpp"
 #include "studies/collide/collide.hpp"
 #include "studies/conformance/conformance.hpp"
 #include "studies/core/engine_access.hpp"
@@ -107,10 +107,10 @@ std::string compareText(const CompareResults& results) {
     for (const LockstepRow& row : results.lockstep->rows)
       add(reports::describe(row, results.lockstep->rules));
   for (const SurrogateEngine& own : results.endpoints.surrogates) add(reports::describe(own));
-  std::map<Answer, int> answers;
+  std::map<Verdict, int> answers;
   for (const EndpointRow& row : results.endpoints.rows) {
     if (row.kind != PairKind::peer && row.kind != PairKind::closedForm) continue;
-    ++answers[row.answer];
+    ++answers[row.verdict];
     if (row.kind == PairKind::closedForm ||
         (row.a == results.engines.front().name && !results.nothingJudged))
       add(fmt::format("{:<16} {:<26} {}", row.b, row.endpoint, reports::describeAnswer(row)));
@@ -120,11 +120,10 @@ std::string compareText(const CompareResults& results) {
     add(reports::describe(looks));
   if (!results.nothingJudged)
     text += fmt::format("{} agree, {} borderline, {} disagree, {} undecided; ",
-                        answers[Answer::noDifference] + answers[Answer::smallDifference],
-                        answers[Answer::borderline], answers[Answer::disagree],
-                        answers[Answer::undecided]);
+                        answers[Verdict::pass], answers[Verdict::borderline],
+                        answers[Verdict::fail], answers[Verdict::undecided]);
   add(fmt::format("{} of {} runs failed",
-                  std::ranges::count(results.runs, RunStatus::failed, &FlowRun::status),
+                  std::ranges::count(results.runs, Status::failed, &FlowRun::status),
                   results.runs.size()));
   return text;
 }
@@ -133,13 +132,13 @@ std::string collideText(const CollideResults& results) {
   std::map<std::string, int> refused;
   for (const CollisionVariant& variant : results.variants)
     for (const CollisionCurve& curve : variant.curves)
-      refused[curve.engine] += curve.status == SweepStatus::refused;
+      refused[curve.engine] += curve.status == Status::refused;
   std::string text;
   for (const auto& [engine, count] : refused)
     if (count > 0)
       text += fmt::format("{} does not have the law of {} sweeps; the report says why\n", engine,
                           count);
-  const CollideCount count = countOf(results);
+  const SweepCount count = countOf(results);
   return text +
          fmt::format("{} curves passed, {} differ by their model, {} failed, {} not judged\n",
                      count.held, count.modelDifference, count.beyondLimits, count.notJudged);
@@ -148,8 +147,9 @@ std::string collideText(const CollideResults& results) {
 /// "grain  without friction  0.583 of the time per step, 21 of 42 rings changed"
 std::string effectText(const EffectVariant& variant) {
   const std::string head = fmt::format("{:<16} without {:<22} ", variant.engine, variant.effect);
-  if (variant.status != EngineStatus::ran)
-    return head + fmt::format("{}: {}\n", nameOf(variant.status), variant.reason);
+  if (variant.status != Status::finished)
+    return head +
+           fmt::format("{}: {}\n", nameOf(variant.status, engineStatusNames), variant.reason);
   int judged = 0, changed = 0;
   for (const ChangedField& field : variant.changes.fields)
     for (const RingChange& ring : field.rings) {
@@ -174,14 +174,13 @@ std::string verdictText(const StabilityRun& run) {
     figure =
         fmt::format("{} {:.3g} {}, limit {:.3g}", run.measure, *run.value, run.unit, run.limit);
   if (run.step) figure += fmt::format(", step {}", *run.step);
-  return fmt::format("{:<9} {:<16} {}{}{}: {}{}{}\n", nameOf(run.verdict), run.engine, run.name,
-                     run.variant.empty() ? "" : " ", run.variant, figure,
+  return fmt::format("{:<9} {:<16} {}{}{}: {}{}{}\n", nameOf(run.verdict, stabilityNames),
+                     run.engine, run.name, run.variant.empty() ? "" : " ", run.variant, figure,
                      figure.empty() || run.reason.empty() ? "" : "; ", run.reason);
 }
 
 /// One line for each engine and reason of what was not judged: nobody reads forty of them.
-std::string unjudgedText(const std::vector<StabilityRun>& runs, StabilityVerdict verdict,
-                         const char* word) {
+std::string unjudgedText(const std::vector<StabilityRun>& runs, Verdict verdict, const char* word) {
   std::map<std::pair<std::string, std::string>, int> count;
   for (const StabilityRun& run : runs)
     if (run.verdict == verdict) ++count[{run.engine, run.reason}];
@@ -194,18 +193,18 @@ std::string unjudgedText(const std::vector<StabilityRun>& runs, StabilityVerdict
 
 std::string stabilityText(const StabilityResults& results) {
   const std::vector<StabilityRun>& runs = results.runs;
-  const auto count = [&](StabilityVerdict verdict) {
+  const auto count = [&](Verdict verdict) {
     return std::ranges::count(runs, verdict, &StabilityRun::verdict);
   };
   std::string text;
   for (const StabilityRun& run : runs)
-    if (run.verdict > StabilityVerdict::stable) text += verdictText(run);
-  text += unjudgedText(runs, StabilityVerdict::refused, "refused");
-  text += unjudgedText(runs, StabilityVerdict::notRun, "not run");
-  const auto notRun = count(StabilityVerdict::notRun);
+    if (run.verdict > Verdict::pass) text += verdictText(run);
+  text += unjudgedText(runs, Verdict::notApplicable, "refused");
+  text += unjudgedText(runs, Verdict::notMeasured, "not run");
+  const auto notRun = count(Verdict::notMeasured);
   return text + fmt::format("{} stable, {} degraded, {} unstable, {} refused{}\n",
-                            count(StabilityVerdict::stable), count(StabilityVerdict::degraded),
-                            count(StabilityVerdict::unstable), count(StabilityVerdict::refused),
+                            count(Verdict::pass), count(Verdict::borderline), count(Verdict::fail),
+                            count(Verdict::notApplicable),
                             notRun == 0 ? "" : fmt::format(", {} not run", notRun));
 }
 
@@ -233,13 +232,12 @@ EngineEntry entryOf(const std::string& engine) {
 }
 
 void print(const ConformanceResults& results) {
-  using enum ConformanceOutcome;
   fmt::print("{}\n", reports::conformanceLead(results));
-  for (const auto outcome : {brokeDown, failed, skipped})
+  for (const auto outcome : {checkBrokeDown, checkFailed, checkSkipped})
     for (const ConformanceRow& row : results.rows)
       if (row.outcome == outcome) fmt::print("  {}\n", reports::conformanceSentence(row));
   for (const ConformanceRow& row : results.rows)
-    if (row.part == "lockstep" && row.outcome == passed) fmt::print("  {}\n", row.detail);
+    if (row.part == "lockstep" && row.outcome == checkPassed) fmt::print("  {}\n", row.detail);
   for (const std::string& line :
        {reports::conformanceNotExamined(results), reports::conformanceCause(results)})
     if (!line.empty()) fmt::print("{}\n", line);

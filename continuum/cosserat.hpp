@@ -2,10 +2,9 @@
 
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
-
-#include "continuum/chebyshev.hpp"
 
 namespace crossgrain::inline continuum {
 
@@ -96,6 +95,23 @@ class CosseratEquations {
 struct CosseratPoint {
   double xi = 0.0;
   double s = 0.0, q = 0.0, m = 0.0, u = 0.0, omega = 0.0;
+};
+
+/// Polynomials of one degree on 0 ≤ ξ ≤ 1 by their values at the Chebyshev points
+/// ξ_k = (1 − cos(πk/N))/2, k = 0 … N (Trefethen 2000, Spectral Methods in MATLAB, chapter 6).
+class ChebyshevGrid {
+ public:
+  /// @param degree N ≥ 2
+  explicit ChebyshevGrid(int degree);
+
+  std::span<const double> points() const { return points_; }  ///< ascending, from 0 to 1
+  std::size_t count() const { return points_.size(); }
+
+  /// The polynomial at ξ (barycentric form).
+  double at(double xi, std::span<const double> values) const;
+
+ private:
+  std::vector<double> points_, weights_;
 };
 
 /// A solution: polynomials of s, m, u/ω and ln ω. The latter two vary by little where u and ω fall

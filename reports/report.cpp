@@ -6,7 +6,6 @@
 
 #include "reports/collide/report.hpp"
 #include "reports/common/overview.hpp"
-#include "reports/common/pages.hpp"
 #include "reports/conformance/report.hpp"
 #include "reports/cost/report.hpp"
 #include "reports/effects/report.hpp"
@@ -35,20 +34,6 @@ Report reportOf(const CompareResults& results) {
   return results.head.kind == kindAverage ? averageReport(results) : compareReport(results);
 }
 
-/// Its page still fills a template of its own.
-Report reportOf(const ThesisResults& results) {
-  Report report{{results.head, results.engines, thesisOverview(results)}};
-  report.figures = thesisFigures(results);
-  report.tables = {{"claims.csv", claimsCsv(results)},
-                   {"history.csv", historyCsv(results)},
-                   {"regime_map.csv", regimeMapCsv(results)},
-                   {"readings.csv", interpretationsCsv(results)}};
-  return report;
-}
-std::string pageOf(const ThesisResults& results, const Illustrations& shown) {
-  return thesisPage(results, shown);
-}
-
 /// @returns why there are no plots, if so
 std::optional<std::string> draw(const Report& report, const std::filesystem::path& plots) {
   makeDirectory(plots);
@@ -68,7 +53,7 @@ template <typename Results>
 ReportDigest write(const Results& results, Json document, const std::filesystem::path& dir) {
   const Report report = reportOf(results);
   makeDirectory(dir);
-  document["overview"] = toJson(report.overview);
+  document["overview"] = jsonOf(report.overview);
   writeFile(dir / "results.json", toText(document));
   for (const auto& [name, table] : report.tables) writeFile(dir / name, table);
   writeFile(dir / "summary.md", overviewMarkdown(report.overview, titleOf(report.head)));
@@ -76,10 +61,7 @@ ReportDigest write(const Results& results, Json document, const std::filesystem:
 
   const auto plots = dir / "plots";
   const auto missing = draw(report, plots);
-  if constexpr (requires(const Illustrations& shown) { pageOf(results, shown); })
-    writeFile(dir / "report.html", pageOf(results, {report.figures, plots, missing}));
-  else
-    writeFile(dir / "report.html", html(report, plots, missing));
+  writeFile(dir / "report.html", html(report, plots, missing));
   if (missing) throw std::runtime_error(*missing);
   return report;
 }

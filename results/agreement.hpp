@@ -7,12 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "averaging/agreement.hpp"
+#include "results/json_fields.hpp"
 
-/// Engines held against each other.
+/// Engines compared with each other.
 namespace crossgrain::inline results {
 
-/// Why two engines are held against each other.
+/// Why two engines are compared.
 enum class PairKind {
   peer,                  ///< both were named
   mirrorModel,           ///< the reference and a mirror of a peer
@@ -44,6 +44,20 @@ struct AgreementRing {
   TestScale scale = TestScale::linear;
   std::optional<int> packings;  ///< that both have
   Verdict verdict = Verdict::undecided;
+
+  void fields(auto& io) {
+    io("ring", ring);
+    io("difference", difference);
+    io("stderr", standardError);
+    io("low", low);
+    io("high", high);
+    io("margin", margin);
+    io("detects", detects);
+    io("within_share", withinFraction);
+    io("scale", scale);
+    io("packings", packings);
+    io("verdict", verdict, agreementNames);
+  }
 };
 
 /// The verdict on one field of two engines.
@@ -58,12 +72,30 @@ struct AgreementRow {
   Verdict verdict = Verdict::undecided;
   std::optional<double> detects;  ///< in the ring that shows it best
   std::vector<AgreementRing> rings;
+
+  void fields(auto& io) {
+    io("a", a, aName);
+    io("b", b, aName);
+    io("kind", kind);
+    io("field", field, aField);
+    io("margin", margin);
+    io("margin_relative", marginRelative);
+    io("margin_why", marginWhy);
+    io("verdict", verdict, agreementNames);
+    io("detects", detects);
+    io("rings", rings);
+  }
 };
 
 /// Where a command that judges has judged nothing: that is never a success by itself.
 struct NothingJudged {
   std::string reason;      ///< ends the line "nothing was judged: …"
-  bool byRequest = false;  ///< one engine: there was nothing to hold it against
+  bool byRequest = false;  ///< one engine: there was nothing to compare it with
+
+  void fields(auto& io) {
+    io("reason", reason);
+    io("by_request", byRequest);
+  }
 };
 
 }  // namespace crossgrain::inline results

@@ -1,6 +1,6 @@
 #include "results/collision.hpp"
 
-#include "results/collision_fields.hpp"
+#include <algorithm>
 
 namespace crossgrain::inline results {
 
@@ -10,6 +10,92 @@ Json toJson(const CollideResults& results) {
 
 CollideResults collideFromJson(const Json& json) {
   return readAs<CollideResults>(json);
+}
+
+bool CollisionCurve::allParted() const {
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (!points.parted(k)) return false;
+  return true;
+}
+
+std::string CollisionCurve::statusName() const {
+  return std::string(nameOf(std::pair(status, allParted()), sweepStatusNames));
+}
+
+const CurveScore& declaredScore(const CollisionCurve& curve) {
+  const bool known = curve.declared && curve.declared->score.verdict != Verdict::notMeasured;
+  return known ? curve.declared->score : curve.score;
+}
+
+std::optional<double> ownDeviation(const CollisionCurve& curve) {
+  if (!curve.ownScheme || !curve.ownScheme->position || !curve.ownScheme->velocity)
+    return std::nullopt;
+  return std::max(*curve.ownScheme->position, *curve.ownScheme->velocity);
+}
+
+Verdict verdictOf(const CollisionCurve& curve) {
+  using enum Verdict;
+  if (curve.status == Status::refused) return notApplicable;
+  if (curve.status == Status::failed) return fail;
+  if (curve.ownScheme && curve.ownScheme->held == false) return fail;
+  const Verdict scene = curve.score.verdict, own = declaredScore(curve).verdict;
+  const bool isTheLaw = curve.declared && curve.declared->reference == DeclaredReference::itself;
+  if (own == notMeasured) return notMeasured;
+  if (own == fail && !isTheLaw) return fail;
+  return scene == fail ? modelDifference : pass;
+}
+
+std::string outcomeName(const CollisionCurve& curve) {
+  constexpr support::EnumNames<Verdict, 5> names{{{Verdict::pass, "held"},
+                                                  {Verdict::modelDifference, "model difference"},
+                                                  {Verdict::fail, "fell short"},
+                                                  {Verdict::notMeasured, "not judged"},
+                                                  {Verdict::notApplicable, "refused"}}};
+  return curve.status == Status::failed ? "failed" : std::string(nameOf(verdictOf(curve), names));
+}
+
+bool runsBesideItsPeer(const CollideResults& results, const std::string& engine) {
+  const auto row = std::ranges::find(results.engines, engine, &EngineRow::name);
+  return row != results.engines.end() && !row->mirrors.empty() &&
+         std::ranges::find(results.engines, row->mirrors, &EngineRow::name) !=
+             results.engines.end();
+}
+
+void SweepCount::add(const CollisionCurve& curve) {
+  const bool ran = curve.status != Status::failed;
+  const Verdict verdict = verdictOf(curve);
+  failed += !ran;
+  held += verdict == Verdict::pass;
+  modelDifference += verdict == Verdict::modelDifference;
+  beyondLimits += ran && verdict == Verdict::fail;
+  notJudged += verdict == Verdict::notMeasured;
+  refused += verdict == Verdict::notApplicable;
+}
+
+SweepCount countOf(const CollideResults& results) {
+  SweepCount count;
+  for (const CollisionVariant& variant : results.variants)
+    for (const CollisionCurve& curve : variant.curves)
+      if (curve.status == Status::failed || !runsBesideItsPeer(results, curve.engine))
+        count.add(curve);
+  return count;
+}
+
+std::string nothingJudged(const CollideResults& results) {
+  if (countOf(results).judged() > 0) return {};
+  bool measured = false, noLimit = false;
+  std::string noOracle;
+  for (const CollisionVariant& variant : results.variants) {
+    if (noOracle.empty()) noOracle = variant.oracleReason;
+    noLimit = noLimit || !variant.noLimit.empty();
+    for (const CollisionCurve& curve : variant.curves)
+      for (const CollisionQuantity& quantity : scoredQuantities())
+        measured = measured || curve.score.of[quantity.id];
+  }
+  if (measured) return "the case has no [collision.margins] for what was measured";
+  if (!noOracle.empty()) return "there is no oracle to judge by: " + noOracle;
+  if (noLimit) return "the law has no limit of small time steps at any point of the sweep";
+  return "no engine has an outcome to judge";
 }
 
 }  // namespace crossgrain::inline results

@@ -4,37 +4,74 @@
 
 #include "adapters/engine.hpp"
 #include "results/collision_score.hpp"
+#include "adapters/worker/json.hpp"
 #include "results/engine_row.hpp"
 #include "results/head.hpp"
 
 /// results.json of kind "collide": sweeps of collisions, held against the oracle.
 namespace crossgrain::inline results {
 
-/// How far a sweep came.
-enum class SweepStatus {
-  finished,
-  incomplete,  ///< some pairs did not part
-  refused,
-  failed
-};
-constexpr auto namesOf(SweepStatus) {
-  return std::array<std::string_view, 4>{"finished", "incomplete", "refused", "failed"};
-}
+/// What files call how far a sweep came; second: whether all pairs parted.
+inline constexpr support::EnumNames<std::pair<Status, bool>, 7> sweepStatusNames{
+    {{{Status::finished, true}, "finished"},
+     {{Status::finished, false}, "incomplete"},
+     {{Status::refused, true}, "refused"},
+     {{Status::refused, false}, "refused"},
+     {{Status::failed, true}, "failed"},
+     {{Status::failed, false}, "failed"},
+     {{Status::notRun, true}, "not_run"}}};
 
 /// One engine's sweep at one time step.
 struct CollisionCurve {
   std::string engine;
   double dt = 0.0;                        ///< [s]
   std::optional<double> stepsPerContact;  ///< absent of rigid disks
-  SweepStatus status = SweepStatus::finished;
+  Status status = Status::finished;
   std::string reason;
   std::optional<EffectiveParameters> effective;
   std::optional<Stats> stats;
   CollisionPoints points;                 ///< none of what was refused or failed
   CurveScore score;                       ///< against the scene's law
   std::optional<DeclaredScore> declared;  ///< absent where the engine declares the scene's law
-  std::optional<SchemeScore> ownScheme;   ///< looked at at the largest time step of a variant
+  std::optional<SchemeScore> ownScheme;   ///< measured at the largest time step of a variant
+
+  bool allParted() const;
+  bool complete() const { return status == Status::finished && allParted(); }
+  /// "incomplete" where a sweep has finished and some pairs did not part.
+  std::string statusName() const;
+
+  /// Kept by itself, with the others of its engine and variant, as soon as it is there.
+  void fields(auto& io) {
+    io("engine", engine, aName);
+    io("dt", dt);
+    io("steps_per_contact", stepsPerContact);
+    std::pair how(status, allParted());
+    io("status", how, sweepStatusNames);
+    status = how.first;
+    io("reason", reason);
+    io("realised", effective);
+    io.present("stats", stats);
+    io("points", points);
+    io("score", score);
+    io("declared", declared);
+    io.present("own_scheme", ownScheme);
+  }
 };
+
+/// How a sweep compares with the law that its engine declares and with the scene's: passes both;
+/// a model difference fails the scene's law and passes its own, with conventions that the case lets
+/// it have; fails the law that it declares, or its own scheme, or the scene's where nothing is
+/// known of its own. One that was refused does not apply, one that failed fails.
+Verdict verdictOf(const CollisionCurve& curve);
+/// As files have it; of one that failed that.
+std::string outcomeName(const CollisionCurve& curve);
+
+/// The score against the law that the engine declares; the scene's where that is the same, or
+/// nothing is known of its own.
+const CurveScore& declaredScore(const CollisionCurve& curve);
+
+/// The larger of both deviations from the own scheme; absent where there is no discrete oracle.
+std::optional<double> ownDeviation(const CollisionCurve& curve);
 
 /// A point of the sweep at which the oracle's outcome is no reference: the law has no limit of
 /// small time steps there, or jumps beside it.
@@ -43,11 +80,20 @@ struct NoLimitPoint {
   double vn = 0.0;        ///< [m/s]
   double psiAfter = 0.0;  ///< Ψ_f, one of the outcomes there
   std::string reason;
+
+  void fields(auto& io) {
+    io("psi_i", psi);
+    io("v_n", vn);
+    io("psi_f", psiAfter);
+    io("reason", reason);
+  }
 };
 
 /// Ψ_f = −e_t0 Ψ_i of a rigid law while it sticks.
 struct StickingLimit {
   std::optional<double> et0;  ///< absent of soft laws
+
+  void fields(auto& io) { io("e_t0", et0); }
 };
 
 /// One variant of a case: its law, what the oracle says, and what engines made of it.
@@ -64,6 +110,21 @@ struct CollisionVariant {
   CollisionTable reference;  ///< the oracle at the points of all curves, where it has a limit
   std::vector<NoLimitPoint> noLimit;
   std::vector<CollisionCurve> curves;
+
+  void fields(auto& io) {
+    io("case", name, aName);
+    io("variant", variant);
+    io("law", law);
+    io.present("effects", effects);
+    io("e_n_closed", closedEn);
+    io("sticking", sticking);
+    io("sliding_constant", slidingConstant);
+    io("oracle", oracle);
+    io("oracle_reason", oracleReason);
+    io("reference", reference);
+    io("no_limit", noLimit);
+    io("curves", curves);
+  }
 };
 
 struct CollideResults {
@@ -72,10 +133,36 @@ struct CollideResults {
   std::vector<EngineRow> engines;
   std::vector<CollisionVariant> variants;
   std::vector<ConvergenceOrder> orders;
+
+  void fields(auto& io) {
+    head.fields(io);
+    io.present("elapsed_s", elapsed);
+    io("engines", engines);
+    io("variants", variants);
+    io("orders", orders);
+  }
 };
 
 nlohmann::json toJson(const CollideResults& results);
 /// @throws FieldError
 CollideResults collideFromJson(const nlohmann::json& json);
+
+/// A mirror that runs because its peer does.
+bool runsBesideItsPeer(const CollideResults& results, const std::string& engine);
+
+/// Sweeps by how they came out.
+struct SweepCount {
+  int held = 0, modelDifference = 0, beyondLimits = 0, notJudged = 0, refused = 0, failed = 0;
+
+  void add(const CollisionCurve& curve);
+  int judged() const { return held + modelDifference + beyondLimits; }
+};
+
+/// Of all engines, but for mirrors that run beside their peers: they say what a peer should do, and
+/// are not asked themselves. One that failed counts as failed.
+SweepCount countOf(const CollideResults& results);
+
+/// Why no sweep was judged, in a clause; empty if one was. Nothing judged is no success.
+std::string nothingJudged(const CollideResults& results);
 
 }  // namespace crossgrain::inline results

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "results/collision_table.hpp"
+#include "results/json_fields.hpp"
 
 namespace crossgrain::inline results {
 
@@ -30,17 +31,43 @@ struct QuantityScore {
   std::optional<double> limit;     ///< of max; absent: the case has none
   std::optional<bool> held;        ///< within the limit; absent without one
   std::optional<std::string> why;  ///< of the limit
+
+  void fields(auto& io) {
+    io("max", max);
+    io("rms", rms);
+    io("unit", unit);
+    io("unit_is", unitIs);
+    io("limit", limit);
+    io("held", held);
+    io.present("why", why);
+  }
 };
 
-enum class CurveVerdict { notJudged, held, beyondLimits };
-constexpr auto namesOf(CurveVerdict) {
-  return std::array<std::string_view, 3>{"not judged", "held", "fell short"};
-}
+/// What files call the verdict on a curve.
+inline constexpr support::EnumNames<Verdict, 3> curveVerdictNames{
+    {{Verdict::notMeasured, "not judged"}, {Verdict::pass, "held"}, {Verdict::fail, "fell short"}}};
 
 /// A curve against the oracle.
 struct CurveScore {
-  CurveVerdict verdict = CurveVerdict::notJudged;
+  Verdict verdict = Verdict::notMeasured;
   PerQuantity<QuantityScore> of;  ///< those that engine and oracle both have
+
+  /// The errors of Ψ_f, and e_n's in its own unit, stand there twice: so they are found at once.
+  void fields(auto& io) {
+    of.fields(io);
+    io("verdict", verdict, curveVerdictNames);
+    std::optional<double> max, rms, limit, enError;
+    if (const auto& psi = of[QuantityId::psiF]) {
+      max = psi->max;
+      rms = psi->rms;
+      limit = psi->limit;
+    }
+    if (const auto& en = of[QuantityId::en]) enError = en->max * en->unit;
+    io("max_error", max);
+    io("rms_error", rms);
+    io("limit", limit);
+    io("e_n_error", enError);
+  }
 };
 
 /// The value of a law's option, or a constant of it.
@@ -68,6 +95,13 @@ struct DeclaredScore {
   DeclaredReference reference = DeclaredReference::none;
   CurveScore score;
   std::string oracleReason;  ///< why there is no oracle of it, or not everywhere
+
+  void fields(auto& io) {
+    io("law", law);
+    io("reference", reference);
+    io("score", score);
+    io("oracle_reason", oracleReason);
+  }
 };
 
 /// A head-on impact, step by step, against the discrete oracle of the engine's own scheme: what
@@ -80,12 +114,26 @@ struct SchemeScore {
   std::optional<double> limit;  ///< of both; absent: not judged
   std::optional<bool> held;
   std::string reason;  ///< why there is none, or it was not judged
+
+  void fields(auto& io) {
+    io("scheme", scheme);
+    io("position", position);
+    io("velocity", velocity);
+    io("limit", limit);
+    io("held", held);
+    io("reason", reason);
+  }
 };
 
 /// An order of convergence p, error ∝ dt^p.
 struct FittedOrder {
   double order = 0.0;
   std::optional<double> standardError;  ///< from three time steps on
+
+  void fields(auto& io) {
+    io("order", order);
+    io("stderr", standardError);
+  }
 };
 
 /// Of one engine in one variant.
@@ -93,6 +141,22 @@ struct ConvergenceOrder {
   std::string engine, name, variant;      ///< name: the case's
   std::map<std::string, double> errorAt;  ///< rms error of Ψ_f by time step in s
   PerQuantity<FittedOrder> of;
+
+  /// Ψ_f's stands there twice, so that it is found at once.
+  void fields(auto& io) {
+    io("engine", engine, aName);
+    io("case", name, aName);
+    io("variant", variant);
+    io("error_at", errorAt);
+    io("quantities", of);
+    std::optional<double> ofPsi, error;
+    if (const auto& psi = of[QuantityId::psiF]) {
+      ofPsi = psi->order;
+      error = psi->standardError;
+    }
+    io("order", ofPsi);
+    io("stderr", error);
+  }
 };
 
 }  // namespace crossgrain::inline results

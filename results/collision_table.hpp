@@ -19,6 +19,10 @@ class PerQuantity {
   const std::optional<T>& operator[](QuantityId id) const {
     return of_[static_cast<std::size_t>(id)];
   }
+  void fields(auto& io) {
+    for (const CollisionQuantity& quantity : collisionQuantities())
+      io.present(quantity.name.data(), (*this)[quantity.id]);
+  }
 
  private:
   std::array<std::optional<T>, quantityCount> of_;
@@ -39,22 +43,40 @@ struct CollisionTable {
     const std::optional<double>& value = (*column)[row];
     return value && std::isfinite(*value) ? value : std::nullopt;
   }
-};
 
-/// How one pair of a sweep ended.
-enum class PairStatus {
-  parted,
-  notParted,
-  noLimit  ///< parted, but there is no reference to judge by: `reason` says why
+  void fields(auto& io) {
+    presentUnlessEmpty(io, "psi_i", psi);
+    presentUnlessEmpty(io, "v_n", vn);
+    columns.fields(io);
+    presentUnlessEmpty(io, "limitless", noLimit);
+  }
+
+ protected:
+  static void presentUnlessEmpty(auto& io, const char* key, auto& list) {
+    auto there = list.empty() ? std::nullopt : std::optional(list);
+    io.present(key, there);
+    if (there) list = std::move(*there);
+  }
 };
-constexpr auto namesOf(PairStatus) {
-  return std::array<std::string_view, 3>{"parted", "not parted", "no limit"};
-}
 
 /// What an engine made of a sweep.
 struct CollisionPoints : CollisionTable {
-  std::vector<PairStatus> status;
-  std::vector<std::string> reason;  ///< why there is no reference; else empty
+  std::vector<std::string> reason;  ///< why there is no reference to judge by; else empty
+
+  bool parted(std::size_t row) const { return at(QuantityId::psiF, row).has_value(); }
+  /// As files have it: a pair that parted may have no limit to be compared with.
+  std::string status(std::size_t row) const {
+    if (!parted(row)) return "not parted";
+    return row < reason.size() && !reason[row].empty() ? "no limit" : "parted";
+  }
+
+  void fields(auto& io) {
+    CollisionTable::fields(io);
+    std::vector<std::string> words;
+    for (std::size_t row = 0; row < size(); ++row) words.push_back(status(row));
+    presentUnlessEmpty(io, "status", words);
+    presentUnlessEmpty(io, "reason", reason);
+  }
 };
 
 }  // namespace crossgrain::inline results

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "results/engine_fields.hpp"
+#include "adapters/worker/json.hpp"
 #include "results/head.hpp"
 
 namespace crossgrain::inline results {
@@ -11,7 +11,7 @@ void fields(auto& io, ConformanceRow& row) {
   io("part", row.part);
   io("check", row.name);
   io("what", row.what);
-  io("outcome", row.outcome);
+  io("outcome", row.outcome, checkNames);
   io("detail", row.detail);
   io("faults", row.faults);
   io("cause", row.cause);
@@ -28,7 +28,7 @@ void fields(auto& io, ConformanceResults& results) {
   io("not_examined", results.notExamined);
 }
 
-std::size_t ConformanceResults::count(ConformanceOutcome outcome) const {
+std::size_t ConformanceResults::count(CheckOutcome outcome) const {
   return static_cast<std::size_t>(std::ranges::count(rows, outcome, &ConformanceRow::outcome));
 }
 

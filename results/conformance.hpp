@@ -13,22 +13,29 @@
 /// results.json of kind "conformance": what one engine does as it declares.
 namespace crossgrain::inline results {
 
-enum class ConformanceOutcome {
-  passed,
-  failed,
-  skipped,   ///< it does not declare what the check asks for, or cannot be asked
-  brokeDown  ///< it died, hung, or answered what is no answer
+/// How a check came out.
+struct CheckOutcome {
+  Status status;
+  Verdict verdict;
+  bool operator==(const CheckOutcome&) const = default;
 };
-constexpr auto namesOf(ConformanceOutcome) {
-  return std::array<std::string_view, 4>{"passed", "failed", "skipped", "broke_down"};
-}
+inline constexpr CheckOutcome checkPassed{Status::finished, Verdict::pass};
+inline constexpr CheckOutcome checkFailed{Status::finished, Verdict::fail};
+/// The engine does not declare what the check asks for, or cannot be asked.
+inline constexpr CheckOutcome checkSkipped{Status::notRun, Verdict::notApplicable};
+/// It died, hung, or answered what is no answer.
+inline constexpr CheckOutcome checkBrokeDown{Status::failed, Verdict::fail};
+inline constexpr support::EnumNames<CheckOutcome, 4> checkNames{{{checkPassed, "passed"},
+                                                                 {checkFailed, "failed"},
+                                                                 {checkSkipped, "skipped"},
+                                                                 {checkBrokeDown, "broke_down"}}};
 
 /// One check of one engine.
 struct ConformanceRow {
   std::string part;  ///< "suite", "lockstep", "collisions"
   std::string name;  ///< "HeadOnCollision"; of collisions the case and variant
   std::string what;  ///< what holds of an engine that passes
-  ConformanceOutcome outcome = ConformanceOutcome::passed;
+  CheckOutcome outcome = checkPassed;
   std::string detail;      ///< the first fault with its number, or why it was skipped; may be empty
   std::size_t faults = 0;  ///< that were found in all
   std::string cause = {};  ///< what explains them, sign and size; empty: nothing that was tried
@@ -44,7 +51,7 @@ struct ConformanceResults {
   std::optional<std::size_t> declared;   ///< capabilities; absent: only some checks were asked for
   std::vector<std::string> notExamined;  ///< of them, by no check
 
-  std::size_t count(ConformanceOutcome outcome) const;
+  std::size_t count(CheckOutcome outcome) const;
 };
 
 nlohmann::json toJson(const ConformanceResults& results);

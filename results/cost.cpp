@@ -1,7 +1,6 @@
 #include "results/cost.hpp"
 
-#include "results/engine_fields.hpp"
-#include "results/flow_fields.hpp"
+#include "adapters/worker/json.hpp"
 
 namespace crossgrain::inline results {
 
@@ -29,7 +28,7 @@ std::optional<std::string> schemeOf(const std::string& knob, const std::string& 
   return setting.substr(0, comma);
 }
 
-std::size_t CostResults::count(CostStatus status) const {
+std::size_t CostResults::count(Status status) const {
   return static_cast<std::size_t>(std::ranges::count(points, status, &CostPoint::status));
 }
 

@@ -26,16 +26,22 @@ inline constexpr Words aKnob{
     },
     "a knob"};
 
-/// What became of a point.
-enum class CostStatus {
-  ran,
-  failed,      ///< its engine broke down, or the step was beyond its stability limit
-  refused,     ///< its engine has no such setting
-  notMeasured  ///< the budget did not allow it; in files "undecided"
-};
-constexpr auto namesOf(CostStatus) {
-  return std::array<std::string_view, 4>{"ran", "failed", "refused", "undecided"};
-}
+/// What became of a point, as files call it. Failed: its engine broke down, or the step was beyond
+/// its stability limit; refused: its engine has no such setting; not run: the budget did not allow
+/// it.
+inline constexpr support::EnumNames<Status, 4> costStatusNames{{{Status::finished, "ran"},
+                                                                {Status::failed, "failed"},
+                                                                {Status::refused, "refused"},
+                                                                {Status::notRun, "undecided"}}};
+
+/// Whether a target is reached, as files and reports call it. Undecided: the error's interval holds
+/// the target; not reached: and every setting of the plan that may do better was run; not measured:
+/// nor was every such setting.
+inline constexpr support::EnumNames<Verdict, 4> costVerdictNames{
+    {{Verdict::pass, "reached"},
+     {Verdict::undecided, "undecided"},
+     {Verdict::fail, "not reached"},
+     {Verdict::notMeasured, "not measured"}}};
 
 /// What one setting of one engine costs and how wrong it is, in one kind of error and one measure:
 /// a point of a work–precision plot, a row of cost.csv.
@@ -63,10 +69,10 @@ struct CostPoint {
   std::optional<double> wallSeconds, cpuSeconds;
   std::optional<std::uint64_t> steps, contactEvaluations;  ///< per the same unit
 
-  CostStatus status = CostStatus::ran;
+  Status status = Status::finished;
   std::string reason;  ///< unless it ran: one line
 
-  bool ran() const { return status == CostStatus::ran; }
+  bool ran() const { return status == Status::finished; }
   bool measured() const { return ran() && error; }
   /// Averages over a single packing: their scatter is not known, so that they count nowhere.
   bool saysNothing() const { return kind == CostKind::averages && !statistical; }
@@ -114,7 +120,7 @@ void fields(auto& io, CostPoint& point) {
   io("cpu_s", point.cpuSeconds);
   io("steps", point.steps);
   io("contact_evaluations", point.contactEvaluations);
-  io("status", point.status);
+  io("status", point.status, costStatusNames);
   io("reason", point.reason);
 }
 
@@ -192,24 +198,13 @@ void fields(auto& io, Front& front) {
   io("errors", front.errors);
 }
 
-/// Whether a target is reached.
-enum class CostVerdict {
-  reached,
-  undecided,   ///< the error's interval holds the target
-  notReached,  ///< and every setting of the plan that may do better was run
-  notMeasured  ///< nor was every such setting
-};
-constexpr auto namesOf(CostVerdict) {
-  return std::array<std::string_view, 4>{"reached", "undecided", "not reached", "not measured"};
-}
-
 /// The setting of an engine for a target: the cheapest that collisions show to reach it and that
 /// averages, whose scatter seldom decides, do not contradict. Where no collision was measured
 /// averages have to show it.
 struct Advice {
   std::string engine;
   double target = 0.0;
-  CostVerdict verdict = CostVerdict::notMeasured;
+  Verdict verdict = Verdict::notMeasured;
   /// Reached: the cheapest; else the one whose largest upper end is smallest. Empty: none.
   std::string knob, setting, fragment;
   std::vector<CostKind> kinds;  ///< in which it was measured
@@ -233,7 +228,7 @@ struct Advice {
 void fields(auto& io, Advice& advice) {
   io("engine", advice.engine, aName);
   io("want", advice.target);
-  io("verdict", advice.verdict);
+  io("verdict", advice.verdict, costVerdictNames);
   io("knob", advice.knob, aKnob);
   io("setting", advice.setting);
   io("fragment", advice.fragment);
@@ -266,7 +261,7 @@ struct CostCell {
   CostKind kind = CostKind::collision;
   CostBasis basis = CostBasis::own;
   double target = 0.0;
-  CostVerdict verdict = CostVerdict::notMeasured;
+  Verdict verdict = Verdict::notMeasured;
   std::string knob = {}, setting = {};     ///< as of Advice
   std::optional<double> wallSeconds = {};  ///< of that setting [s]
   std::optional<std::size_t> point = {};   ///< its measured figure: the measure that decides
@@ -275,9 +270,7 @@ struct CostCell {
   std::optional<std::size_t> model = {};
   std::string decides = {};  ///< what would decide
 
-  bool decided() const {
-    return verdict == CostVerdict::reached || verdict == CostVerdict::notReached;
-  }
+  bool decided() const { return verdict == Verdict::pass || verdict == Verdict::fail; }
 };
 
 void fields(auto& io, CostCell& cell) {
@@ -285,7 +278,7 @@ void fields(auto& io, CostCell& cell) {
   io("error_kind", cell.kind);
   io("basis", cell.basis);
   io("want", cell.target);
-  io("verdict", cell.verdict);
+  io("verdict", cell.verdict, costVerdictNames);
   io("knob", cell.knob, aKnob);
   io("setting", cell.setting);
   io("wall_s", cell.wallSeconds);
@@ -317,7 +310,7 @@ struct CostResults : FlowFrame {
   std::vector<CostCell> cells;
 
   /// How many points have that status.
-  std::size_t count(CostStatus status) const;
+  std::size_t count(Status status) const;
 
   void fields(auto& io) {
     FlowFrame::fields(io);

@@ -1,7 +1,5 @@
 #include "results/effects.hpp"
 
-#include "results/flow_fields.hpp"
-
 namespace crossgrain::inline results {
 
 void fields(auto& io, RingChange& ring) {
@@ -26,11 +24,11 @@ void fields(auto& io, ChangedField& field) {
 }
 
 void fields(auto& io, EffectVariant& variant) {
-  const bool ran = variant.status != EngineStatus::refused;
+  const bool ran = variant.status != Status::refused;
   const bool changes = ran && variant.isSwitched();
   io("engine", variant.engine, aName);
   io("effect", variant.effect, aName);
-  io("status", variant.status);
+  io("status", variant.status, engineStatusNames);
   io("reason", variant.reason);
   io.when(ran, "step_s", variant.step);
   io.when(ran, "contacts_per_step", variant.contacts);

@@ -48,7 +48,7 @@ struct EffectChanges {
 struct EffectVariant {
   std::string engine;
   std::string effect;  ///< that is switched off; empty: everything is on
-  EngineStatus status = EngineStatus::ran;
+  Status status = Status::finished;
   std::string reason;
   std::optional<double> step;                       ///< [s] of wall time
   std::optional<double> contacts;                   ///< evaluated per step

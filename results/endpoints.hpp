@@ -5,12 +5,19 @@
 #include <string>
 #include <vector>
 
-#include "averaging/interim_analyses.hpp"
 #include "results/agreement.hpp"
 #include "results/json_fields.hpp"
 
 /// Verdicts on endpoints (cases/endpoints.hpp), and what they rest on.
 namespace crossgrain::inline results {
+
+/// What files call the verdict on an endpoint: an agreement has two names, see
+/// EndpointRow::answer().
+inline constexpr support::EnumNames<Verdict, 5> answerNames{{{Verdict::pass, "no_difference_seen"},
+                                                             {Verdict::pass, "small_difference"},
+                                                             {Verdict::borderline, "borderline"},
+                                                             {Verdict::fail, "disagree"},
+                                                             {Verdict::undecided, "undecided"}}};
 
 /// One endpoint of two engines.
 struct EndpointRow {
@@ -20,7 +27,7 @@ struct EndpointRow {
   double margin = 0.0;          ///< of the reference where marginRelative, else in the unit
   bool marginRelative = false;  ///< then engines are compared by their ratio
   std::string marginWhy;
-  Answer answer = Answer::undecided;
+  Verdict verdict = Verdict::undecided;
   std::optional<double> reference;  ///< mean over the packings of a, or the expected value [unit]
   std::optional<double> difference, low, high;  ///< b − a, with the interval of the verdict [unit]
   /// The difference in margins, with its interval: engines rank by it. With a bound the interval is
@@ -36,6 +43,18 @@ struct EndpointRow {
   std::optional<double> bound;         ///< B of those mirrors, in margins
   std::optional<double> reach;         ///< part of B: what the followed runs could have missed
 
+  /// Whether a difference is shown, within the margin or not: 0 is outside its interval, that
+  /// without B.
+  bool differenceSeen() const {
+    if (!distanceLow || !distanceHigh) return distance.value_or(0.0) != 0.0;
+    return *distanceLow + bound.value_or(0.0) > 0.0 || *distanceHigh - bound.value_or(0.0) < 0.0;
+  }
+  /// The verdict as files call it.
+  std::string answer() const {
+    const bool small = verdict == Verdict::pass && differenceSeen();
+    return std::string(small ? "small_difference" : nameOf(verdict, answerNames));
+  }
+
   void fields(auto& io) {
     io("a", a, aName);
     io("b", b, aName);
@@ -45,7 +64,11 @@ struct EndpointRow {
     io("margin", margin);
     io("margin_relative", marginRelative);
     io("margin_why", marginWhy);
-    io("answer", answer);
+    std::string word = answer();
+    if (io.reading)
+      io("answer", verdict, answerNames);
+    else
+      io("answer", word);
     io("reference", reference);
     io("difference", difference);
     io("low", low);

@@ -1,7 +1,6 @@
 #include "results/lockstep.hpp"
 
-#include "results/engine_fields.hpp"
-#include "results/flow_fields.hpp"
+#include "adapters/worker/json.hpp"
 #include "results/lockstep_findings.hpp"
 
 namespace crossgrain::inline results {

@@ -14,20 +14,36 @@
 /// engine with the conventions that an engine declares, on the scene that this engine runs.
 namespace crossgrain::inline results {
 
-enum class LockstepVerdict {
+/// How alike two runs are that should be the same: of an engine and its mirror, or of an engine now
+/// and before. From what says nothing to what differs.
+enum class Equivalence {
   notMeasured,     ///< the reason says why
+  sameBits,        ///< of what was kept of an engine
   sameToRounding,  ///< no disk ever leaves the mirror's by more than LockstepRules::rounding
   /// Not double precision is declared, and no disk ever leaves the mirror's by more than rounding
   /// to what is declared, once in every step, may do: LockstepSeparation::rounding.
   sameToPrecision,
   sameLaw,    ///< from no start beyond the rule, or from a share of starts shown to be small
-  differs,    ///< beyond the rule from a share of starts shown to be larger than strayShare
   undecided,  ///< neither is shown; the reason says why
+  differs     ///< beyond the rule from a share of starts shown to be larger than strayShare
 };
-constexpr auto namesOf(LockstepVerdict) {
-  return std::array<std::string_view, 6>{
-      "not_measured", "same_to_rounding", "same_to_its_precision",
-      "same_law",     "differs",          "undecided"};
+constexpr auto namesOf(Equivalence) {
+  return std::array<std::string_view, 7>{
+      "not_measured", "same_bits", "same_to_rounding", "same_to_its_precision",
+      "same_law",     "undecided", "differs"};
+}
+
+constexpr Verdict verdictOf(Equivalence found) {
+  switch (found) {
+    case Equivalence::notMeasured:
+      return Verdict::notMeasured;
+    case Equivalence::undecided:
+      return Verdict::undecided;
+    case Equivalence::differs:
+      return Verdict::fail;
+    default:
+      return Verdict::pass;
+  }
 }
 
 /// What the verdicts rest on.
@@ -167,7 +183,7 @@ struct NamedTerm {
 /// One engine against its mirror.
 struct LockstepRow {
   std::string engine;
-  LockstepVerdict verdict = LockstepVerdict::notMeasured;
+  Equivalence verdict = Equivalence::notMeasured;
   std::string reason;  ///< of not measured and undecided
   /// ε_eq, the median over the starts that can be read, and the interval of that median between two
   /// of them (95 %; of fewer than 6 starts the least and the largest).

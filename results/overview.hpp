@@ -1,46 +1,50 @@
 #pragma once
 
-#include <array>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "results/json_fields.hpp"
 
 /// What a report answers at a glance: a matrix of engines and questions, and what follows from it.
 namespace crossgrain::inline results {
 
-enum class CellState {
-  good,
-  modelDifference,  ///< true to the law that the engine declares, which is not the scene's
-  borderline,
-  bad,
-  undecided,
-  figure,        ///< a number that nothing is judged by: what it costs
-  notMeasured,   ///< this command or this run has no number for it
-  notApplicable  ///< the question does not arise: the reference against itself, a law that it lacks
-};
-constexpr auto namesOf(CellState) {
-  return std::array<std::string_view, 8>{"good",         "model_difference", "borderline",
-                                         "bad",          "undecided",        "figure",
-                                         "not_measured", "not_applicable"};
+/// What files call the verdict of a cell. A number that nothing is judged by, what it costs, has
+/// none.
+inline std::string cellWord(std::optional<Verdict> verdict) {
+  if (verdict == Verdict::pass) return "good";
+  if (verdict == Verdict::fail) return "bad";
+  return verdict ? std::string(nameOf(*verdict)) : "figure";
 }
 
 /// One answer: a mark and one number.
 struct OverviewCell {
-  CellState state = CellState::notMeasured;
-  std::optional<double> value = {};  ///< [unit]; absent: there is none
-  std::string unit = {};             ///< "margins", "s"
-  std::string shown = {};            ///< the number with its unit as people read it: "0.31 margins"
-  std::string words = {};            ///< what the number is of, or why there is none
+  std::optional<Verdict> verdict = Verdict::notMeasured;  ///< absent: nothing is judged by it
+  std::optional<double> value = {};                       ///< [unit]; absent: there is none
+  std::string unit = {};                                  ///< "margins", "s"
+  std::string shown = {};  ///< the number with its unit as people read it: "0.31 margins"
+  std::string words = {};  ///< what the number is of, or why there is none
   /// Id of the page's heading that has the evidence or, with a slash, a page beside it; empty: none
   std::string anchor = {};
+
+  void fields(auto& io) {
+    io("state", cellWord(verdict));
+    io("value", value);
+    io("unit", unit);
+    io("shown", shown);
+    io("words", words);
+  }
 };
 
 struct OverviewColumn {
   std::string name;    ///< of the question, in two words or three
   std::string asks;    ///< the question in a sentence
   std::string anchor;  ///< as of a cell
+
+  void fields(auto& io) {
+    io("name", name);
+    io("asks", asks);
+  }
 };
 
 struct OverviewRow {
@@ -48,22 +52,39 @@ struct OverviewRow {
   bool isEngine = true;             ///< else an effect
   std::vector<OverviewCell> cells;  ///< one for each column
   std::string anchor = {};          ///< of a page that has more of it; empty: none
+
+  void fields(auto& io) {
+    io("name", name);
+    io("cells", cells);
+  }
 };
 
-/// What a state means here, where that is not what it means everywhere.
-struct StateWords {
-  CellState state;
+/// What a verdict means here, where that is not what it means everywhere.
+struct VerdictWords {
+  std::optional<Verdict> verdict;
   std::string words;
+
+  void fields(auto& io) {
+    io("state", cellWord(verdict));
+    io("words", words);
+  }
 };
 
+/// It is written, for scripts, and never read.
 struct Overview {
   std::string rowsAre = "engine";  ///< what the rows are
-  std::vector<StateWords> states = {};
+  std::vector<VerdictWords> states = {};
   std::vector<OverviewColumn> columns;
   std::vector<OverviewRow> rows;
   std::vector<std::string> conclusion;  ///< at most three sentences
-};
 
-nlohmann::json toJson(const Overview& overview);
+  void fields(auto& io) {
+    io("rows_are", rowsAre);
+    io("states", states);
+    io("columns", columns);
+    io("rows", rows);
+    io("conclusion", conclusion);
+  }
+};
 
 }  // namespace crossgrain::inline results

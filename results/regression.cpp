@@ -1,7 +1,7 @@
 #include "results/regression.hpp"
 
+#include "adapters/worker/json.hpp"
 #include "results/endpoints.hpp"
-#include "results/engine_fields.hpp"
 #include "results/head.hpp"
 #include "results/lockstep.hpp"
 #include "results/lockstep_findings.hpp"

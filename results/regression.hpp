@@ -12,19 +12,6 @@
 /// What an engine does otherwise than a baseline or a recording has it.
 namespace crossgrain::inline results {
 
-enum class DiffVerdict {
-  notMeasured,  ///< the reason says why
-  sameBits,
-  sameToRounding,
-  sameLaw,
-  undecided,
-  differs
-};
-constexpr auto namesOf(DiffVerdict) {
-  return std::array<std::string_view, 6>{"not_measured", "same_bits", "same_to_rounding",
-                                         "same_law",     "undecided", "differs"};
-}
-
 /// Something that an engine declares: its step, an option, a constant of a kind of pair.
 struct DeclaredChange {
   std::string name, before, now;  ///< empty: not there
@@ -53,19 +40,19 @@ struct ForcesChange {
 struct DiffRow {
   std::string engine, version;        ///< now
   std::string before, versionBefore;  ///< what was kept, and of which engine
-  DiffVerdict verdict = DiffVerdict::notMeasured;
+  Equivalence verdict = Equivalence::notMeasured;
   std::string reason;   ///< why the windows were not compared
   std::string failure;  ///< of the first run that was not finished
   std::vector<DeclaredChange> declared;
   std::optional<LockstepRow> windows;  ///< compared with those kept; absent of cases of collisions
   bool mirrored = false;  ///< what was kept has a mirror, in which a deviation can be sought
-  DiffVerdict windowsVerdict = DiffVerdict::notMeasured;
+  Equivalence windowsVerdict = Equivalence::notMeasured;
   std::optional<ForcesChange>
       forces;  ///< absent where the engine does not report those of an instant
-  DiffVerdict forcesVerdict = DiffVerdict::notMeasured;  ///< differs or not measured
+  Equivalence forcesVerdict = Equivalence::notMeasured;  ///< differs or not measured
   std::vector<CollisionChange> collisions;               ///< that are not the same bits
   std::size_t sweeps = 0;                                ///< that were compared
-  DiffVerdict collisionsVerdict = DiffVerdict::notMeasured;
+  Equivalence collisionsVerdict = Equivalence::notMeasured;
   /// Averages of whole runs from each start compared with those kept; empty where none were kept,
   /// or where the windows are the same bits.
   std::vector<EndpointRow> endpoints;

@@ -15,6 +15,16 @@ struct RevCurve {
   double r = 0.0;             ///< [m]
   std::vector<double> width;  ///< [d]
   Numbers mean, standardError;
+
+  void fields(auto& io) {
+    io("method", method, aName);
+    io("field", field, aField);
+    io("unit", unit, aUnit);
+    io("r", r);
+    io("width", width);
+    io("mean", mean);
+    io("stderr", standardError);
+  }
 };
 
 /// Where, next to a width, a method comes closest to slicing.
@@ -22,6 +32,14 @@ struct RevMeeting {
   std::string method, field;
   double near = 0.0, width = 0.0;  ///< [d]
   double difference = 0.0;         ///< root mean square over the radii, in units of slicing's
+
+  void fields(auto& io) {
+    io("method", method, aName);
+    io("field", field, aField);
+    io("near", near);
+    io("width", width);
+    io("difference", difference);
+  }
 };
 
 /// How large a representative element must be.

@@ -1,25 +1,43 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "adapters/engine.hpp"
+#include "adapters/worker/json.hpp"
 #include "averaging/distributions.hpp"
 #include "averaging/profiles.hpp"
 #include "results/flow_numbers.hpp"
-#include "results/flow_state.hpp"
 #include "results/json_fields.hpp"
 #include "results/scene_picture.hpp"
 
 namespace crossgrain::inline results {
 
-enum class RunStatus { finished, failed, missing };
-constexpr auto namesOf(RunStatus) {
-  return std::array<std::string_view, 3>{"finished", "failed", "missing"};
+void fields(auto& io, Profile& profile) {
+  io("method", profile.method, aName);
+  io("field", profile.field, aField);
+  io("unit", profile.unit, aUnit);
+  io("mean", profile.mean);
+  io("stderr", profile.standardError);
+  io("n_eff", profile.nEff);
+  io("dof", profile.dof);
 }
+
+void fields(auto& io, Distribution& distribution) {
+  io("quantity", distribution.quantity, aName);
+  io("ring", distribution.ring);
+  io("axes", distribution.axes);
+  io("density", distribution.density);
+  io("stderr", distribution.standardError);
+  io("outside", distribution.outside);
+  io("samples", distribution.samples);
+}
+
+/// What files call the status of a run.
+inline constexpr support::EnumNames<Status, 3> runStatusNames{
+    {{Status::finished, "finished"}, {Status::failed, "failed"}, {Status::notRun, "missing"}}};
 
 /// One engine on one packing: what it used, what it cost and what its averages are. A run that did
 /// not finish has none.
@@ -27,7 +45,7 @@ struct FlowRun {
   std::string engine;
   std::string without;  ///< the effect that was switched off; empty: none
   int packing = 0;      ///< index
-  RunStatus status = RunStatus::finished;
+  Status status = Status::finished;
   std::string reason;
   std::optional<EffectiveParameters> effective;  ///< absent where crossgrain ran nothing
   std::optional<Stats> stats;                    ///< likewise
@@ -42,13 +60,13 @@ struct FlowRun {
   std::vector<Distribution> distributions;
   std::optional<ScenePicture> picture;  ///< of the first packing
 
-  bool finished() const { return status == RunStatus::finished; }
+  bool finished() const { return status == Status::finished; }
 
   void fields(auto& io) {
     io("engine", engine, aName);
     io.when(!without.empty(), "without", without, aName);
     io("packing", packing);
-    io("status", status);
+    io("status", status, runStatusNames);
     io("reason", reason);
     io.present("realised", effective);
     io.present("stats", stats);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "results/engine_fields.hpp"
+#include "adapters/worker/json.hpp"
 #include "results/head.hpp"
 
 namespace crossgrain::inline results {
@@ -13,7 +13,7 @@ namespace {
 
 /// Absent where there is no such point, or it did not run.
 std::optional<double> fastestStep(const ScalePoint* point) {
-  if (!point || point->status != EngineStatus::ran || point->seconds.empty()) return std::nullopt;
+  if (!point || point->status != Status::finished || point->seconds.empty()) return std::nullopt;
   return std::ranges::min(point->seconds);
 }
 

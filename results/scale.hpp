@@ -28,7 +28,7 @@ struct ScalePoint {
   std::string engine;
   std::size_t disks = 0;
   int workers = 1;  ///< threads or ranks that share a step
-  EngineStatus status = EngineStatus::ran;
+  Status status = Status::finished;
   std::string reason;
   std::uint64_t steps = 0;           ///< that each repetition timed
   std::vector<double> seconds;       ///< wall time of a step in each repetition [s]
@@ -44,7 +44,7 @@ struct ScalePoint {
     io("engine", engine, aName);
     io("disks", disks);
     io("workers", workers);
-    io("status", status);
+    io("status", status, engineStatusNames);
     io("reason", reason);
     io("steps", steps);
     io("step_s", seconds);

@@ -1,6 +1,6 @@
 #include "results/stability.hpp"
 
-#include "results/engine_fields.hpp"
+#include "adapters/worker/json.hpp"
 #include "results/head.hpp"
 #include "results/scene_picture.hpp"
 

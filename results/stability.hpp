@@ -29,12 +29,6 @@ struct HardCase {
   std::string toml;            ///< the merged document, printed
 };
 
-/// How far a run came.
-enum class HardRunStatus { finished, failed, refused, notRun };
-constexpr auto namesOf(HardRunStatus) {
-  return std::array<std::string_view, 4>{"finished", "failed", "refused", "not_run"};
-}
-
 /// A measure over time.
 struct MeasureCurve {
   std::vector<double> time;   ///< [s]
@@ -49,8 +43,8 @@ struct MeasureCurve {
 /// One engine on one variant of a hard case.
 struct StabilityRun {
   std::string engine, name, variant;  ///< name: the case's
-  HardRunStatus status = HardRunStatus::finished;
-  StabilityVerdict verdict = StabilityVerdict::refused;
+  Status status = Status::finished;
+  Verdict verdict = Verdict::notApplicable;
   std::string measure;
   std::optional<double> value;  ///< the largest that the measure was; absent: not measured
   double limit = 0.0, degradedLimit = 0.0;
@@ -71,7 +65,7 @@ struct StabilityRun {
     io("case", name, aName);
     io("variant", variant);
     io("status", status);
-    io("verdict", verdict);
+    io("verdict", verdict, stabilityNames);
     io("measure", measure, aName);
     io("value", value);
     io("limit", limit);

@@ -7,8 +7,7 @@
 #include <cstdlib>
 #include <span>
 
-#include "results/collision_fields.hpp"
-#include "results/flow_fields.hpp"
+#include "results/collision.hpp"
 
 namespace crossgrain::inline results {
 
@@ -125,7 +124,7 @@ void compact(ThesisRun& run, const ThesisCase& setup) {
     finer.places = {};  // equally wide, from wheel to ring
   }
   for (ThesisSpan& span : run.history)
-    for (const SpanNumber number : spanNumbers) round(span.*number, keptDigits);
+    for (const SpanNumber& number : spanNumbers) round(span.*number.of, keptDigits);
   own.checks.clear();
   if (own.series) own.series->clear();  // there, as distributions are
   own.picture.reset();

@@ -67,37 +67,31 @@ struct ThesisSpan {
   std::optional<double> velocityAtWheel;        ///< v_φ/(ΩR_i) of the innermost ring [-]
   std::optional<double> kineticEnergy;          ///< [J]
   std::optional<double> maxOverlap, meanOverlap;  ///< [m]
-
-  void fields(auto& io) {
-    io("from", from);
-    io("to", to);
-    io("outer_pressure", outerPressure);
-    io("wheel_torque", wheelTorque);
-    io("wheel_contacts", wheelContacts);
-    io("wheel_touched", wheelTouched);
-    io("coordination", coordination);
-    io("volume_fraction_at_wheel", volumeFractionAtWheel);
-    io("volume_fraction_outside", volumeFractionOutside);
-    io("velocity_at_wheel", velocityAtWheel);
-    io("kinetic_energy", kineticEnergy);
-    io("max_overlap", maxOverlap);
-    io("mean_overlap", meanOverlap);
-  }
 };
-using SpanNumber = std::optional<double> ThesisSpan::*;
 
-/// All numbers of a span, in the order of history.csv.
-inline constexpr std::array<SpanNumber, 11> spanNumbers = {&ThesisSpan::outerPressure,
-                                                           &ThesisSpan::wheelTorque,
-                                                           &ThesisSpan::wheelContacts,
-                                                           &ThesisSpan::wheelTouched,
-                                                           &ThesisSpan::coordination,
-                                                           &ThesisSpan::volumeFractionAtWheel,
-                                                           &ThesisSpan::volumeFractionOutside,
-                                                           &ThesisSpan::velocityAtWheel,
-                                                           &ThesisSpan::kineticEnergy,
-                                                           &ThesisSpan::maxOverlap,
-                                                           &ThesisSpan::meanOverlap};
+/// All numbers of a span with their names in files, in the order of history.csv.
+struct SpanNumber {
+  std::string_view name;
+  std::optional<double> ThesisSpan::*of;
+};
+inline constexpr SpanNumber spanNumbers[] = {
+    {"outer_pressure", &ThesisSpan::outerPressure},
+    {"wheel_torque", &ThesisSpan::wheelTorque},
+    {"wheel_contacts", &ThesisSpan::wheelContacts},
+    {"wheel_touched", &ThesisSpan::wheelTouched},
+    {"coordination", &ThesisSpan::coordination},
+    {"volume_fraction_at_wheel", &ThesisSpan::volumeFractionAtWheel},
+    {"volume_fraction_outside", &ThesisSpan::volumeFractionOutside},
+    {"velocity_at_wheel", &ThesisSpan::velocityAtWheel},
+    {"kinetic_energy", &ThesisSpan::kineticEnergy},
+    {"max_overlap", &ThesisSpan::maxOverlap},
+    {"mean_overlap", &ThesisSpan::meanOverlap}};
+
+void fields(auto& io, ThesisSpan& span) {
+  io("from", span.from);
+  io("to", span.to);
+  for (const SpanNumber& number : spanNumbers) io(number.name.data(), span.*number.of);
+}
 
 /// Averages over rings of another width than the case's.
 struct RingAverages {
@@ -136,10 +130,9 @@ struct ThesisRun {
   }
 };
 
-enum class ClaimVerdict { reproduced, refuted, undecided };
-constexpr auto namesOf(ClaimVerdict) {
-  return std::array<std::string_view, 3>{"reproduced", "refuted", "undecided"};
-}
+/// What files and reports call a claim's verdict.
+inline constexpr support::EnumNames<Verdict, 3> claimVerdictNames{
+    {{Verdict::pass, "reproduced"}, {Verdict::fail, "refuted"}, {Verdict::undecided, "undecided"}}};
 
 /// One number that a claim's verdict rests on, beside what the thesis says it should be.
 struct ClaimFigure {
@@ -148,7 +141,7 @@ struct ClaimFigure {
   std::optional<double> value, standardError;  ///< over packings
   std::optional<double> low, high;             ///< what the rule asks for; absent: no bound there
   std::string key = {};                        ///< the rule's name of it: "exponent_rp"
-  std::optional<ClaimVerdict> verdict = {};    ///< absent: reported, not judged
+  std::optional<Verdict> verdict = {};         ///< absent: reported, not judged
 
   void fields(auto& io) {
     io("name", name);
@@ -158,7 +151,7 @@ struct ClaimFigure {
     io("low", low);
     io("high", high);
     io("key", key);
-    io("verdict", verdict);
+    io("verdict", verdict, claimVerdictNames);
   }
 };
 
@@ -170,7 +163,7 @@ struct ClaimRow {
   std::string mirror;          ///< whose runs stand for the engine's, too; empty: the engine's own
   std::string interpretation;  ///< "wall spacing 2.5 mm, as printed"
   std::vector<ClaimFigure> figures;  ///< the first is the one that the table shows
-  ClaimVerdict verdict = ClaimVerdict::undecided;
+  Verdict verdict = Verdict::undecided;
   std::string why;  ///< the reason, by rule, with the numbers
   /// Of a refuted claim: why it fails, or where it would hold, as far as that was found.
   std::vector<std::string> reasons;
@@ -184,7 +177,7 @@ struct ClaimRow {
     io("carrier", mirror, aName);
     io("reading", interpretation);
     io("figures", figures);
-    io("verdict", verdict);
+    io("verdict", verdict, claimVerdictNames);
     io("why", why);
     io("reasons", reasons);
     io("legs", cases);

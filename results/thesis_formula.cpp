@@ -170,6 +170,26 @@ FormulaValue valueOf(const std::string& name, const FormulaContext& context) {
   return rings;
 }
 
+/// @throws std::logic_error for a name that no number of a span has
+std::optional<double> ThesisSpan::*numberOfSpans(std::string_view name) {
+  const auto found = std::ranges::find(spanNumbers, name, &SpanNumber::name);
+  if (found == std::end(spanNumbers))
+    throw std::logic_error(fmt::format("no number of a span: {}", name));
+  return found->of;
+}
+
+/// Mean over the spans of the averaged time, by their lengths.
+std::optional<double> averagedOf(const CaseRun& at, std::optional<double> ThesisSpan::*quantity) {
+  double sum = 0.0, length = 0.0;
+  for (const ThesisSpan& span : at.run->history) {
+    constexpr double rounding = 1e-6;  // between times that were typed in [rotations]
+    if (span.from < at.setup->settleRotations - rounding || !(span.*quantity)) continue;
+    sum += (span.to - span.from) * *(span.*quantity);
+    length += span.to - span.from;
+  }
+  return finiteOf(sum / length);
+}
+
 /// Compiles a text, from left to right.
 class Parser {
  public:
@@ -293,7 +313,7 @@ class Parser {
   Evaluator ofRun(const std::string& kind) {
     const std::string name = word();
     if (kind == "averaged")
-      return close([quantity = spanNumber(name)](const FormulaContext& context) {
+      return close([quantity = numberOfSpans(name)](const FormulaContext& context) {
         return uncertain(averagedOf(context.at, quantity));
       });
     if (kind == "fit")
@@ -419,35 +439,6 @@ FormulaValue uncertain(std::optional<double> value) {
 
 FormulaValue chosen(double value) {
   return {{value}, false, true, {std::nullopt}};
-}
-
-SpanNumber spanNumber(std::string_view name) {
-  static constexpr std::string_view names[] = {"outer_pressure",
-                                               "wheel_torque",
-                                               "wheel_contacts",
-                                               "wheel_touched",
-                                               "coordination",
-                                               "volume_fraction_at_wheel",
-                                               "volume_fraction_outside",
-                                               "velocity_at_wheel",
-                                               "kinetic_energy",
-                                               "max_overlap",
-                                               "mean_overlap"};
-  const auto found = std::ranges::find(names, name);
-  if (found == std::end(names))
-    throw std::logic_error(fmt::format("no number of a span: {}", name));
-  return spanNumbers[static_cast<std::size_t>(found - std::begin(names))];
-}
-
-std::optional<double> averagedOf(const CaseRun& at, SpanNumber quantity) {
-  double sum = 0.0, length = 0.0;
-  for (const ThesisSpan& span : at.run->history) {
-    constexpr double rounding = 1e-6;  // between times that were typed in [rotations]
-    if (span.from < at.setup->settleRotations - rounding || !(span.*quantity)) continue;
-    sum += (span.to - span.from) * *(span.*quantity);
-    length += span.to - span.from;
-  }
-  return finiteOf(sum / length);
 }
 
 const RingAverages* finestOf(const ThesisRun& run, double fewest) {

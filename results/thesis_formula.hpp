@@ -78,12 +78,6 @@ class Formula {
 FormulaValue uncertain(std::optional<double> value);
 FormulaValue chosen(double value);
 
-/// Where fields of ThesisSpan are found by the names of history.csv. @throws std::logic_error
-SpanNumber spanNumber(std::string_view name);
-
-/// Mean over the spans of the averaged time, by their lengths.
-std::optional<double> averagedOf(const CaseRun& at, SpanNumber quantity);
-
 /// The finest rings of a run that are at least so many; null if there are none.
 const RingAverages* finestOf(const ThesisRun& run, double fewest = 0.0);
 

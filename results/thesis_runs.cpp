@@ -34,7 +34,7 @@ const CollisionCurve* curveAt(const CollisionVariant& variant, const std::string
     return std::abs(std::log(curve.stepsPerContact.value_or(steps) / steps));
   };
   for (const CollisionCurve& curve : variant.curves)
-    if (curve.engine == engine && curve.status == SweepStatus::finished &&
+    if (curve.engine == engine && curve.complete() &&
         (!nearest || distance(curve) < distance(*nearest)))
       nearest = &curve;
   return nearest;

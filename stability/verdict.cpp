@@ -15,9 +15,9 @@ StabilityJudgement judgeStability(const Stability& limits, const std::vector<dou
     found.value = value;
     found.worst = k;
   }
-  found.verdict = found.value <= limits.limit      ? StabilityVerdict::stable
-                  : found.value <= limits.degraded ? StabilityVerdict::degraded
-                                                   : StabilityVerdict::unstable;
+  found.verdict = found.value <= limits.limit      ? Verdict::pass
+                  : found.value <= limits.degraded ? Verdict::borderline
+                                                   : Verdict::fail;
   return found;
 }
 

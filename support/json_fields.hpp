@@ -119,6 +119,11 @@ class FieldWriter {
   void operator()(const char* key, Enum value, const EnumNames<Enum, n>& names) {
     object_[key] = std::string(nameOf(value, names));
   }
+  template <typename Enum, std::size_t n>
+  void operator()(const char* key, const std::optional<Enum>& value,
+                  const EnumNames<Enum, n>& names) {
+    object_[key] = value ? Json(std::string(nameOf(*value, names))) : Json();
+  }
 
  private:
   Json& object_;
@@ -179,6 +184,12 @@ class FieldReader {
       throw FieldError(fmt::format("{}: is \"{}\", not one of \"{}\"", key, asOneLine(name, 60),
                                    fmt::join(names | std::views::values, "\", \"")));
     value = found->first;
+  }
+  template <typename Enum, std::size_t n>
+  void operator()(const char* key, std::optional<Enum>& value, const EnumNames<Enum, n>& names) {
+    const auto found = object_.find(key);
+    if (found == object_.end() || found->is_null()) return value.reset();
+    (*this)(key, value.emplace(names.front().first), names);
   }
 
  private:

@@ -84,14 +84,14 @@ void look(Errors& errors, const CollisionCurve& curve, const CollisionQuantity& 
 /// @param besidePeer  of a mirror that runs beside its peer: it shows the effect of the peer's
 /// conventions
 OverviewCell errorCell(const Errors& errors, bool besidePeer) {
-  const CellState state = errors.own.share > 1.0 && !besidePeer ? CellState::bad
-                          : std::max(errors.own.share, errors.scene.share) > 1.0
-                              ? CellState::modelDifference
-                          : errors.any.share >= 0.0 ? CellState::good
-                                                    : CellState::notMeasured;
-  if (state == CellState::notMeasured) return {state, {}, "of its limit", {}, {}, {}};
-  const Extreme& shown = state == CellState::bad ? errors.own
-                         : state == CellState::modelDifference
+  const Verdict state = errors.own.share > 1.0 && !besidePeer ? Verdict::fail
+                        : std::max(errors.own.share, errors.scene.share) > 1.0
+                            ? Verdict::modelDifference
+                        : errors.any.share >= 0.0 ? Verdict::pass
+                                                  : Verdict::notMeasured;
+  if (state == Verdict::notMeasured) return {state, {}, "of its limit", {}, {}, {}};
+  const Extreme& shown = state == Verdict::fail ? errors.own
+                         : state == Verdict::modelDifference
                              ? (errors.scene.share > 1.0 ? errors.scene : errors.own)
                              : errors.any;
   return {state,       shown.share, "of its limit", shortly(shown.share) + " × limit",
@@ -107,7 +107,7 @@ void forCurves(const std::vector<CaseGroup>& groups, const std::string& engine, 
 }
 
 OverviewCell schemeCell(const std::vector<CaseGroup>& groups, const std::string& engine) {
-  OverviewCell cell{CellState::notMeasured, {}, "d or v_n", {}, {}, {}};
+  OverviewCell cell{Verdict::notMeasured, {}, "d or v_n", {}, {}, {}};
   forCurves(groups, engine,
             [&](const CollisionCurve& curve, const std::string& place, const std::string& anchor) {
               const auto deviation = ownDeviation(curve);
@@ -116,9 +116,9 @@ OverviewCell schemeCell(const std::vector<CaseGroup>& groups, const std::string&
               cell.shown = shortly(deviation);
               cell.words = place;
               cell.anchor = anchor;
-              cell.state = !curve.ownScheme->held   ? CellState::figure
-                           : *curve.ownScheme->held ? CellState::good
-                                                    : CellState::bad;
+              cell.verdict.reset();
+              if (const auto held = curve.ownScheme->held)
+                cell.verdict = *held ? Verdict::pass : Verdict::fail;
             });
   return cell;
 }
@@ -133,32 +133,33 @@ OverviewCell sweepsCell(const std::vector<CaseGroup>& groups, const EngineRow& e
   std::ptrdiff_t unknown = 0;
   forCurves(groups, engine.name,
             [&](const CollisionCurve& curve, const std::string&, const std::string&) {
-              unknown += std::ranges::count(curve.points.status, PairStatus::noLimit);
+              for (std::size_t k = 0; k < curve.points.size(); ++k)
+                unknown += curve.points.status(k) == "no limit";
             });
-  OverviewCell cell{CellState::notMeasured, {}, "sweeps", {}, {}, "matrix"};
+  OverviewCell cell{Verdict::notMeasured, {}, "sweeps", {}, {}, "matrix"};
   if (all.refused > 0) cell.words = fmt::format("{} refused", all.refused);
   if (all.failed > 0)
     cell.words += fmt::format("{}{} failed", cell.words.empty() ? "" : ", ", all.failed);
   if (all.judged() == 0) {
     if (all.failed > 0)
-      cell.state = CellState::bad;
+      cell.verdict = Verdict::fail;
     else if (all.refused > 0)
-      cell.state = CellState::notApplicable;
+      cell.verdict = Verdict::notApplicable;
     return cell;
   }
   cell.value = all.held;
   cell.shown = fmt::format("{} of {}", all.held, all.judged());
   if (unknown > 0) cell.shown += fmt::format(", {} points not judged", unknown);
   const int faults = (besidePeer ? 0 : all.beyondLimits) + all.failed;
-  cell.state = faults > 0                         ? CellState::bad
-               : all.model + all.beyondLimits > 0 ? CellState::modelDifference
-                                                  : CellState::good;
+  cell.verdict = faults > 0                                   ? Verdict::fail
+                 : all.modelDifference + all.beyondLimits > 0 ? Verdict::modelDifference
+                                                              : Verdict::pass;
   return cell;
 }
 
 bool anyShown(const Overview& overview, std::size_t column) {
   return std::ranges::any_of(overview.rows, [&](const OverviewRow& row) {
-    return row.cells[column].state != CellState::notMeasured;
+    return row.cells[column].verdict != Verdict::notMeasured;
   });
 }
 
@@ -177,11 +178,9 @@ using Names = std::vector<std::string>;
 /// In a sentence: the matrix has all names.
 constexpr std::size_t mostEngines = 5, mostOfACause = 2, mostCauses = 2;
 
-/// Sweeps of an engine by outcome.
-struct EngineTally {
+/// Sweeps of an engine.
+struct EngineCount : SweepCount {
   std::string engine;
-  int held = 0, model = 0, beyondLimits = 0;
-  int judged() const { return held + model + beyondLimits; }
 };
 
 /// A possible cause of differences or failures.
@@ -200,15 +199,15 @@ Names judgedEngines(const CollideResults& results) {
   return names;
 }
 
-std::vector<EngineTally> talliesOf(const CollideResults& results) {
-  std::vector<EngineTally> tallies;
+std::vector<EngineCount> countsOf(const CollideResults& results) {
+  std::vector<EngineCount> counts;
   for (const std::string& engine : judgedEngines(results)) {
-    std::vector<const CollisionVariant*> variants;
-    for (const CollisionVariant& variant : results.variants) variants.push_back(&variant);
-    const Tally tally = tallyOf(variants, engine);
-    tallies.push_back({engine, tally.held, tally.model, tally.beyondLimits});
+    EngineCount& count = counts.emplace_back();
+    count.engine = engine;
+    for (const CollisionVariant& variant : results.variants)
+      for (const CollisionCurve* curve : curvesOf(variant, engine)) count.add(*curve);
   }
-  return tallies;
+  return counts;
 }
 
 Cause& causeOf(Causes& causes, const std::string& words) {
@@ -219,13 +218,13 @@ Cause& causeOf(Causes& causes, const std::string& words) {
 /// Of the sweeps that came out so, the likeliest cause first: what as many passing sweeps have
 /// explains nothing.
 /// @param causesIn  of a sweep: its causes' words
-Causes causesOf(const CollideResults& results, SweepOutcome outcome, const auto& causesIn) {
+Causes causesOf(const CollideResults& results, Verdict verdict, const auto& causesIn) {
   Causes causes;
   for (const std::string& engine : judgedEngines(results))
     for (const CollisionVariant& variant : results.variants)
       for (const CollisionCurve* curve : curvesOf(variant, engine)) {
-        const bool explained = outcomeOf(*curve) == outcome;
-        if (!explained && outcomeOf(*curve) != SweepOutcome::held) continue;
+        const bool explained = verdictOf(*curve) == verdict && curve->status != Status::failed;
+        if (!explained && verdictOf(*curve) != Verdict::pass) continue;
         for (const std::string& words : causesIn(*curve)) {
           Cause& cause = causeOf(causes, words);
           cause.excess += explained ? 1 : -1;
@@ -267,22 +266,22 @@ std::string causesInWords(const Causes& causes) {
 }
 
 /// "siconos (44 of 45 sweeps) and grain (2 of 242)"
-std::string failedInWords(std::vector<EngineTally> tallies) {
-  std::erase_if(tallies, [](const EngineTally& one) { return one.beyondLimits == 0; });
-  std::ranges::stable_sort(tallies, std::greater(), [](const EngineTally& one) {
+std::string failedInWords(std::vector<EngineCount> tallies) {
+  std::erase_if(tallies, [](const EngineCount& one) { return one.beyondLimits == 0; });
+  std::ranges::stable_sort(tallies, std::greater(), [](const EngineCount& one) {
     return static_cast<double>(one.beyondLimits) / one.judged();
   });
   Names words;
-  for (const EngineTally& one : tallies)
+  for (const EngineCount& one : tallies)
     words.push_back(fmt::format("{} ({} of {}{})", one.engine, one.beyondLimits, one.judged(),
                                 words.empty() ? " sweeps" : ""));
   return listedShortly(words, mostEngines);
 }
 
 /// Engines that pass every sweep that was judged.
-Names passAll(const std::vector<EngineTally>& tallies) {
+Names passAll(const std::vector<EngineCount>& tallies) {
   Names names;
-  for (const EngineTally& one : tallies)
+  for (const EngineCount& one : tallies)
     if (one.held > 0 && one.held == one.judged()) names.push_back(one.engine);
   return names;
 }
@@ -298,10 +297,10 @@ std::string joinedParts(const std::vector<std::pair<std::string_view, std::strin
 }
 
 std::string whoPasses(const CollideResults& results) {
-  const std::vector<EngineTally> tallies = talliesOf(results);
+  const std::vector<EngineCount> tallies = countsOf(results);
   Names ownLaw, unjudged;
-  for (const EngineTally& one : tallies) {
-    if (one.model > 0 && one.beyondLimits == 0) ownLaw.push_back(one.engine);
+  for (const EngineCount& one : tallies) {
+    if (one.modelDifference > 0 && one.beyondLimits == 0) ownLaw.push_back(one.engine);
     if (one.judged() == 0) unjudged.push_back(one.engine);
   }
   const std::string sentence = joinedParts(
@@ -313,23 +312,22 @@ std::string whoPasses(const CollideResults& results) {
 }
 
 std::string causesOfDifferences(const CollideResults& results) {
-  const Causes quantities = causesOf(results, SweepOutcome::beyondLimits, failuresIn);
-  return joinedParts(
-      {{"laws differ most by",
-        causesInWords(causesOf(results, SweepOutcome::modelDifference, conventionsIn))},
-       {"fails most often", quantities.empty() ? "" : quantities.front().words}});
+  const Causes quantities = causesOf(results, Verdict::fail, failuresIn);
+  return joinedParts({{"laws differ most by",
+                       causesInWords(causesOf(results, Verdict::modelDifference, conventionsIn))},
+                      {"fails most often", quantities.empty() ? "" : quantities.front().words}});
 }
 
 std::string collideNextStep(const CollideResults& results) {
   if (const std::string nothing = nothingJudged(results); !nothing.empty())
     return fmt::format("Nothing was judged: {}.", nothing);
-  const CollideCount count = countOf(results);
+  const SweepCount count = countOf(results);
   if (count.failed > 0) return "Next: see why sweeps failed, in the table of scores.";
   if (count.beyondLimits > 0)
     return "Next: see whether the failures shrink with the time step; if not, they are a fault or "
            "another law.";
   if (count.modelDifference == 0) return "All engines pass at these time steps.";
-  const Names pass = passAll(talliesOf(results));
+  const Names pass = passAll(countsOf(results));
   return fmt::format("Next: where the scene's own law is needed, take {}.",
                      pass.empty() ? "an engine that has it" : listedShortly(pass, mostEngines));
 }

@@ -60,8 +60,9 @@ struct RowHead {
 std::string verdictCells(const CollisionCurve& curve) {
   const bool ran = curve.points.size() > 0;
   std::string cells = row(
-      std::string(nameOf(outcomeOf(curve))), std::string(ran ? nameOf(curve.score.verdict) : ""),
-      std::string(ran ? nameOf(declaredScore(curve).verdict) : ""), ownDeviation(curve));
+      outcomeName(curve), std::string(ran ? nameOf(curve.score.verdict, curveVerdictNames) : ""),
+      std::string(ran ? nameOf(declaredScore(curve).verdict, curveVerdictNames) : ""),
+      ownDeviation(curve));
   cells.pop_back();
   return cells;
 }
@@ -89,19 +90,15 @@ std::string collisionsCsv(const CollideResults& results) {
                          verdictCells(curve)};
       const CollisionPoints& points = curve.points;
       for (std::size_t k = 0; k < points.size(); ++k)
-        table += csvRow(head, points, variant.reference, k,
-                        std::string(k < points.status.size() ? nameOf(points.status[k]) : ""),
+        table += csvRow(head, points, variant.reference, k, points.status(k),
                         k < points.reason.size() ? points.reason[k] : "");
-      if (points.size() == 0)
-        table += csvRow(head, {}, {}, 0, std::string(nameOf(curve.status)), curve.reason);
+      if (points.size() == 0) table += csvRow(head, {}, {}, 0, curve.statusName(), curve.reason);
     }
   }
   return table;
 }
 
 // --- checks
-
-using Outcome = JUnitCase::Outcome;
 
 /// By name.
 std::vector<CollisionQuantity> sortedQuantities() {
@@ -135,10 +132,10 @@ std::string errorOf(const QuantityScore& score) {
 JUnitCase judged(const std::string& name, const std::optional<QuantityScore>& score) {
   JUnitCase one{"", name};
   if (score && score->held) {
-    one.outcome = *score->held ? Outcome::passed : Outcome::failed;
-    if (one.outcome == Outcome::failed) one.message = errorOf(*score);
+    one.verdict = *score->held ? Verdict::pass : Verdict::fail;
+    if (one.verdict == Verdict::fail) one.message = errorOf(*score);
   } else {
-    one.outcome = Outcome::skipped;
+    one.verdict = Verdict::notMeasured;
     one.message = "not measured, or not known of the reference";
   }
   return one;
@@ -158,8 +155,8 @@ std::vector<JUnitCase> judgedSweep(const CollisionCurve& curve, const std::strin
   JUnitCase scene = judged(name, curve.score.of[quantity]);
   if (!curve.declared) return {scene};
   const DeclaredScore& declared = *curve.declared;
-  if (scene.outcome == Outcome::failed && isOfTheModel(declared, quantity)) {
-    scene.outcome = Outcome::skipped;
+  if (scene.verdict == Verdict::fail && isOfTheModel(declared, quantity)) {
+    scene.verdict = Verdict::notMeasured;
     scene.message = "model difference: " + scene.message;
   }
   if (declared.reference == DeclaredReference::itself) return {scene};
@@ -171,10 +168,10 @@ JUnitCase judgedScheme(const SchemeScore& own, const std::string& sweep) {
   const std::string figures = fmt::format("deviates by {:.2g} d and {:.2g} of the speed",
                                           own.position.value_or(0.0), own.velocity.value_or(0.0));
   if (!own.held) {
-    one.outcome = Outcome::skipped;
+    one.verdict = Verdict::notMeasured;
     one.message = figures + ", " + own.reason;
   } else if (!*own.held) {
-    one.outcome = Outcome::failed;
+    one.verdict = Verdict::fail;
     one.message = fmt::format("{} against a limit of {:g}", figures, own.limit.value_or(0.0));
   }
   return one;
@@ -184,17 +181,18 @@ JUnitCase judgedScheme(const SchemeScore& own, const std::string& sweep) {
 std::vector<JUnitCase> sweepCases(const CollisionVariant& variant, const CollisionCurve& curve) {
   const auto dt = finite(curve.dt);
   const std::string sweep = curve.engine + (dt ? fmt::format(", dt {:.4g} s", *dt) : std::string());
-  if (curve.status == SweepStatus::failed) return {{"", sweep, Outcome::error, curve.reason}};
-  if (curve.status == SweepStatus::refused)
-    return {{"", curve.engine, Outcome::skipped, curve.reason}};
+  if (curve.status == Status::failed)
+    return {{"", sweep, Verdict::notMeasured, curve.reason, 0.0, true}};
+  if (curve.status == Status::refused)
+    return {{"", curve.engine, Verdict::notMeasured, curve.reason}};
   std::vector<JUnitCase> cases;
   for (const QuantityId quantity : judgedQuantities(variant))
     std::ranges::move(judgedSweep(curve, sweep, quantity), std::back_inserter(cases));
   if (ownDeviation(curve)) cases.push_back(judgedScheme(*curve.ownScheme, sweep));
-  if (curve.status == SweepStatus::incomplete)
-    cases.push_back({"", sweep + ": all pairs part", Outcome::failed, curve.reason});
+  if (!curve.allParted())
+    cases.push_back({"", sweep + ": all pairs part", Verdict::fail, curve.reason});
   if (cases.empty())
-    cases.push_back({"", sweep, Outcome::skipped, "not judged: the case has no limits"});
+    cases.push_back({"", sweep, Verdict::notMeasured, "not judged: the case has no limits"});
   cases.front().seconds = junitSeconds(curve.stats);
   return cases;
 }

@@ -22,7 +22,7 @@ Overview collideOverview(const CollideResults& results);
 std::vector<Figure> collideFigures(const CollideResults& results);
 
 /// "✗ 3 of 4": how an engine's sweeps in some variants came out.
-CellState stateOf(const Tally& tally);
+Verdict stateOf(const Tally& tally);
 /// "4 of 24 passed", "refused"
 std::string headline(const Tally& tally);
 

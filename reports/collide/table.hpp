@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "results/collision_outcome.hpp"
+#include "results/collision.hpp"
 
 /// Looking into the results of collisions.
 namespace crossgrain::reports {
@@ -27,7 +27,6 @@ const CollisionCurve* coarsestCurve(const CollisionVariant& variant, const std::
 /// An engine's curves of a variant, by descending time step.
 std::vector<const CollisionCurve*> curvesOf(const CollisionVariant& variant,
                                             const std::string& engine);
-
 
 /// "mu 0.44", "tension cut"; absent for a constant that is not finite.
 std::optional<std::string> lawWords(const std::string& option, const LawValue& value);

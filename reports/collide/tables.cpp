@@ -117,7 +117,7 @@ std::vector<const CollisionQuantity*> scoredIn(const CaseGroup& group) {
 Cell scoreCell(const std::optional<QuantityScore>& score) {
   if (!score) return absentText;
   Cell cell(shortly(score->max), {shortly(score->rms)});
-  if (score->held) cell.state = *score->held ? CellState::good : CellState::bad;
+  if (score->held) cell.verdict = *score->held ? Verdict::pass : Verdict::fail;
   cell.marked = score->held.has_value();
   return cell;
 }
@@ -127,29 +127,23 @@ Cell schemeCell(const std::optional<SchemeScore>& own) {
   if (!own) return "";
   if (!own->position) return absentText;
   Cell cell(shortly(std::max(*own->position, own->velocity.value_or(0.0))));
-  if (own->held) cell.state = *own->held ? CellState::good : CellState::bad;
+  if (own->held) cell.verdict = *own->held ? Verdict::pass : Verdict::fail;
   cell.marked = own->held.has_value();
   return cell;
 }
 
-CellState sweepState(SweepOutcome outcome) {
-  constexpr CellState states[] = {CellState::good,          CellState::modelDifference,
-                                  CellState::bad,           CellState::notMeasured,
-                                  CellState::notApplicable, CellState::bad};
-  return states[static_cast<std::size_t>(outcome)];
-}
-
-std::string sweepWord(SweepOutcome outcome) {
-  const char* const words[] = {"passed",     "model difference", "failed",
-                               "not judged", "refused",          "broke down"};
-  return words[static_cast<std::size_t>(outcome)];
+std::string sweepWord(const CollisionCurve& curve) {
+  const char* const words[] = {"refused", "not judged", "passed", "model difference",
+                               "",        "",           "failed"};
+  return curve.status == Status::failed ? "broke down"
+                                        : words[static_cast<std::size_t>(verdictOf(curve))];
 }
 
 /// Whether a sweep passed at a time step between the largest and the smallest of its engine: it
 /// adds nothing to those.
 bool passedBetween(const CollisionVariant& variant, const CollisionCurve& curve) {
   const auto dt = finite(curve.dt);
-  if (!dt || outcomeOf(curve) != SweepOutcome::held) return false;
+  if (!dt || verdictOf(curve) != Verdict::pass) return false;
   bool larger = false, smaller = false;
   for (const CollisionCurve* other : curvesOf(variant, curve.engine)) {
     larger = larger || finite(other->dt).value_or(*dt) > *dt;
@@ -171,18 +165,17 @@ std::vector<ScoredBy> lawsOf(const CollisionCurve& curve) {
 
 }  // namespace
 
-CellState stateOf(const Tally& tally) {
-  if (tally.failed > 0 || tally.beyondLimits > 0) return CellState::bad;
-  if (tally.judged() == 0)
-    return tally.refused > 0 ? CellState::notApplicable : CellState::notMeasured;
-  return tally.model > 0 ? CellState::modelDifference : CellState::good;
+Verdict stateOf(const Tally& tally) {
+  if (tally.failed > 0 || tally.beyondLimits > 0) return Verdict::fail;
+  if (tally.judged() == 0) return tally.refused > 0 ? Verdict::notApplicable : Verdict::notMeasured;
+  return tally.modelDifference > 0 ? Verdict::modelDifference : Verdict::pass;
 }
 
 std::string headline(const Tally& tally) {
   if (tally.judged() == 0)
     return tally.failed > 0 ? "failed" : tally.refused > 0 ? "refused" : "not judged";
   std::string words = fmt::format("{} of {} passed", tally.held, tally.judged());
-  if (tally.model > 0) words += fmt::format(", {} ≠", tally.model);
+  if (tally.modelDifference > 0) words += fmt::format(", {} ≠", tally.modelDifference);
   if (tally.beyondLimits > 0) words += fmt::format(", {} ✗", tally.beyondLimits);
   return words;
 }
@@ -271,11 +264,10 @@ Table scoreTable(const CaseGroup& group) {
       for (const ScoredBy& law : lawsOf(curve)) {
         TableRow row;
         if (&law.score == &curve.score) {
-          const SweepOutcome outcome = outcomeOf(curve);
           row.cells = {variant->variant,
                        curve.engine,
                        dtOf(&curve),
-                       {sweepWord(outcome), {curve.reason}, sweepState(outcome), true},
+                       {sweepWord(curve), {curve.reason}, verdictOf(curve), true},
                        schemeCell(curve.ownScheme)};
         } else {
           row.cells.resize(5);

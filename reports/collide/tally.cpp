@@ -31,17 +31,13 @@ std::string clauseOf(const std::string& refusal) {
 }
 
 void addTo(Tally& tally, const CollisionCurve& curve) {
-  const SweepOutcome outcome = outcomeOf(curve);
-  const bool refused = outcome == SweepOutcome::refused;
-  tally.held += outcome == SweepOutcome::held;
-  tally.model += outcome == SweepOutcome::modelDifference;
-  tally.beyondLimits += outcome == SweepOutcome::beyondLimits;
-  tally.refused += refused;
-  tally.failed += outcome == SweepOutcome::failed;
-  if (refused && tally.refusal.empty()) tally.refusal = clauseOf(curve.reason);
-  if (!refused && tally.reason.empty()) tally.reason = curve.reason;
-  if (outcome == SweepOutcome::beyondLimits) tally.worst.look(declaredScore(curve));
-  if (outcome == SweepOutcome::modelDifference) tally.worstOfModel.look(curve.score);
+  tally.add(curve);
+  const bool refused = curve.status == Status::refused;
+  std::string& reason = refused ? tally.refusal : tally.reason;
+  if (reason.empty()) reason = refused ? clauseOf(curve.reason) : curve.reason;
+  const Verdict verdict = verdictOf(curve);
+  if (verdict == Verdict::fail) tally.worst.look(declaredScore(curve));
+  if (verdict == Verdict::modelDifference) tally.worstOfModel.look(curve.score);
   if (const auto own = ownDeviation(curve)) {
     tally.ownDeviation = std::max(tally.ownDeviation.value_or(0.0), *own);
     tally.ownPassed = tally.ownPassed && curve.ownScheme->held.value_or(true);

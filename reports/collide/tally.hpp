@@ -20,14 +20,11 @@ struct Worst {
 };
 
 /// Sweeps of an engine in some variants, by outcome.
-struct Tally {
-  int held = 0, model = 0, beyondLimits = 0, refused = 0, failed = 0;
+struct Tally : SweepCount {
   Worst worst, worstOfModel;
   std::string refusal, reason;         ///< the first
   std::optional<double> ownDeviation;  ///< the largest
   bool ownPassed = true;
-
-  int judged() const { return held + model + beyondLimits; }
 };
 
 Tally tallyOf(const std::vector<const CollisionVariant*>& variants, const std::string& engine);

@@ -12,13 +12,12 @@ namespace crossgrain::reports {
 
 /// One thing that was judged, or that could not be.
 struct JUnitCase {
-  enum class Outcome { passed, failed, error, skipped };
-
   std::string group;  ///< case and variant: "classname"
   std::string name;   ///< engine and what is judged
-  Outcome outcome = Outcome::passed;
+  Verdict verdict = Verdict::pass;
   std::string message = {};  ///< figure, limit and reason; why it is an error or was skipped
   double seconds = 0.0;      ///< wall time of the run; 0 where others of the same run have it
+  bool broke = false;        ///< the engine did, so that nothing could be judged
 };
 
 /// @param suite  "stability"

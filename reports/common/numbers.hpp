@@ -5,10 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "support/readable.hpp"
+
 /// Numbers for people to read, as plain text. Absent is "–".
 namespace crossgrain::reports {
 
-inline constexpr const char* absentText = "–";
+using support::absentText;
+using support::readable;
+using support::readableCount;
+using support::readableSetting;
 
 /// Absent where it is not finite, too.
 std::optional<double> finite(std::optional<double> value);
@@ -17,20 +22,7 @@ std::optional<double> finite(std::optional<double> value);
 std::optional<double> at(const std::vector<std::optional<double>>& list, std::size_t k);
 std::optional<double> at(const std::vector<double>& list, std::size_t k);
 
-/// Three significant digits: 0.0123, 12.3, 12 346, 1.23×10⁻⁵.
-std::string readable(std::optional<double> value);
-
-/// What somebody chose, with the digits that were given, up to four: 352.1, 0.25, 4×10⁻⁵.
-std::string readableSetting(std::optional<double> value);
-
-/// A count, with spaces between thousands.
-std::string readableCount(std::optional<double> value);
-
-/// Value and standard error, both to the error's second digit: 0.242 ± 0.013; where the value would
-/// have more than six digits, the error by itself: 0.0183780 ± 2.0×10⁻¹⁰.
-std::string readable(std::optional<double> value, std::optional<double> error);
-
-/// The same with the sign always there, for differences.
+/// Value and standard error with the sign always there, for differences.
 std::string readableDifference(std::optional<double> value, std::optional<double> error);
 
 /// A fraction ≥ 0 in per cent, whole or, below one, to its first digit: "40", "0.3".

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,24 +13,29 @@
 /// The matrix that a report opens with: its marks and colours, and its plain forms.
 namespace crossgrain::reports {
 
-/// How a state is shown everywhere: by its mark first, then by a colour.
-struct CellLook {
+/// How a verdict is shown everywhere: by its mark first, then by a colour. Without a verdict it is
+/// a number that nothing is judged by.
+struct VerdictLook {
+  std::optional<Verdict> verdict;
   std::string_view mark, cssClass, words;
   std::string_view terminal;  ///< number of the colour in a terminal's escape sequence
   std::string_view plot;      ///< "#rrggbb" in plots
 };
 
-constexpr CellLook lookOf(CellState state) {
-  constexpr std::array looks = {
-      CellLook{"✓", "good", "passed", "32", "#8cc3e0"},
-      CellLook{"≠", "model", "model difference: true to the law that it declares", "35", "#b8a2d8"},
-      CellLook{"≈", "borderline", "borderline", "33", "#f0d264"},
-      CellLook{"✗", "bad", "failed", "31", "#d55e00"},
-      CellLook{"?", "open", "undecided", "36", "#c0c8d0"},
-      CellLook{"•", "figure", "a number that nothing is judged by", "0", "#888888"},
-      CellLook{"–", "none", "not measured", "2", "#f2f4f5"},
-      CellLook{"·", "none nothing", "does not apply", "2", "#d5d9dd"}};
-  return looks[static_cast<std::size_t>(state)];
+/// In the order in which a legend has them.
+inline constexpr std::array verdictLooks = {
+    VerdictLook{Verdict::pass, "✓", "good", "passed", "32", "#8cc3e0"},
+    VerdictLook{Verdict::modelDifference, "≠", "model",
+                "model difference: true to the law that it declares", "35", "#b8a2d8"},
+    VerdictLook{Verdict::borderline, "≈", "borderline", "borderline", "33", "#f0d264"},
+    VerdictLook{Verdict::fail, "✗", "bad", "failed", "31", "#d55e00"},
+    VerdictLook{Verdict::undecided, "?", "open", "undecided", "36", "#c0c8d0"},
+    VerdictLook{{}, "•", "figure", "a number that nothing is judged by", "0", "#888888"},
+    VerdictLook{Verdict::notMeasured, "–", "none", "not measured", "2", "#f2f4f5"},
+    VerdictLook{Verdict::notApplicable, "·", "none nothing", "does not apply", "2", "#d5d9dd"}};
+
+constexpr const VerdictLook& lookOf(std::optional<Verdict> verdict) {
+  return *std::ranges::find(verdictLooks, verdict, &VerdictLook::verdict);
 }
 
 /// Of more questions than these a row is wrapped on the page, and Markdown has a row for each.

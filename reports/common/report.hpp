@@ -22,21 +22,21 @@ namespace crossgrain::reports {
 
 /// A part of a cell that is a row of coloured squares.
 struct Square {
-  CellState state;
+  std::optional<Verdict> verdict;
   std::string title;
 };
 
 struct Cell {
   std::string text;
   std::vector<std::string> notes;  ///< in smaller letters below
-  std::optional<CellState> state;  ///< its colour; absent: none
-  bool marked = false;             ///< the state's mark stands before the text
+  std::optional<Verdict> verdict;  ///< its colour; absent: none, unless it is marked
+  bool marked = false;             ///< the verdict's mark stands before the text
   std::string link = {};           ///< "#id" or another page; empty: none
   std::vector<Square> strip = {};
 
   Cell(std::string text_ = {}, std::vector<std::string> notes_ = {},
-       std::optional<CellState> state_ = {}, bool marked_ = false)
-      : text(std::move(text_)), notes(std::move(notes_)), state(state_), marked(marked_) {
+       std::optional<Verdict> verdict_ = {}, bool marked_ = false)
+      : text(std::move(text_)), notes(std::move(notes_)), verdict(verdict_), marked(marked_) {
     std::erase(notes, std::string());
   }
   Cell(const char* text_) : text(text_) {}

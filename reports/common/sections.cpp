@@ -7,10 +7,10 @@
 #include <cmath>
 #include <set>
 
+#include "adapters/worker/json.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/sentences.hpp"
-#include "results/engine_fields.hpp"
 #include "results/json_fields.hpp"
 #include "results/schema.hpp"
 
@@ -94,7 +94,7 @@ Cell effectCell(const std::string& effect, const std::vector<EffectiveScene>& sc
   if (missing > 0) words.push_back("✗ not simulated" + partOf(missing, calledFor));
   if (extra > 0) words.push_back("+ though not called for" + partOf(extra, scenes.size()));
   Cell cell(words.empty() ? absentText : fmt::format("{}", fmt::join(words, "; ")));
-  if (missing + extra > 0) cell.state = CellState::borderline;
+  if (missing + extra > 0) cell.verdict = Verdict::borderline;
   return cell;
 }
 
@@ -201,10 +201,10 @@ void addEngines(Report& report) {
                {"description", Kind::remark}},
               {}};
   for (const EngineRow& engine : report.engines)
-    table.rows.push_back(
-        {{engine.name, engine.version,
-          std::string(nameOf(engine.status)) + (engine.reason.empty() ? "" : ": " + engine.reason),
-          engine.mirrors, engine.summary}});
+    table.rows.push_back({{engine.name, engine.version,
+                           std::string(nameOf(engine.status, engineStatusNames)) +
+                               (engine.reason.empty() ? "" : ": " + engine.reason),
+                           engine.mirrors, engine.summary}});
   report.section("engines", "Engines").blocks.push_back(std::move(table));
 }
 

@@ -10,8 +10,6 @@ namespace crossgrain::reports {
 
 namespace {
 
-using enum ConformanceOutcome;
-
 struct CheckPart {
   const char *name, *title, *column, *asks;
 };
@@ -22,44 +20,33 @@ constexpr CheckPart checkParts[] = {
     {"collisions", "Collisions", "collisions",
      "Two-particle collisions compared with the declared law."}};
 
-CellState outcomeState(ConformanceOutcome outcome) {
-  constexpr CellState states[] = {CellState::good, CellState::bad, CellState::notApplicable,
-                                  CellState::bad};
-  return states[static_cast<std::size_t>(outcome)];
-}
-
-std::string outcomeWord(ConformanceOutcome outcome) {
-  const char* const words[] = {"passed", "failed", "skipped", "broke down"};
-  return words[static_cast<std::size_t>(outcome)];
+std::string outcomeWord(const ConformanceRow& row) {
+  return spaced(nameOf(row.outcome, checkNames));
 }
 
 bool isFault(const ConformanceRow& row) {
-  return row.outcome == failed || row.outcome == brokeDown;
+  return row.outcome.verdict == Verdict::fail;
 }
 
 OverviewCell partCell(const ConformanceResults& results, const CheckPart& part) {
   std::size_t asked = 0, passes = 0;
   std::vector<std::string> faults;
   for (const ConformanceRow& row : results.rows) {
-    if (row.part != part.name || row.outcome == skipped) continue;
+    if (row.part != part.name || row.outcome == checkSkipped) continue;
     ++asked;
-    passes += row.outcome == passed;
+    passes += row.outcome == checkPassed;
     if (isFault(row)) faults.push_back(row.name);
   }
-  OverviewCell cell{CellState::notMeasured, {}, "checks", {}, {}, ""};
+  OverviewCell cell{Verdict::notMeasured, {}, "checks", {}, {}, ""};
   if (asked == 0) return cell;
-  return {faults.empty() ? CellState::good : CellState::bad,
-          static_cast<double>(passes),
-          "checks",
-          fmt::format("{} of {}", passes, asked),
-          listedShortly(faults, 3),
-          part.name};
+  return {faults.empty() ? Verdict::pass : Verdict::fail, static_cast<double>(passes), "checks",
+          fmt::format("{} of {}", passes, asked),         listedShortly(faults, 3),    part.name};
 }
 
 OverviewCell notExaminedCell(const ConformanceResults& results) {
-  OverviewCell cell{CellState::notMeasured, {}, "capabilities", {}, {}, {}};
+  OverviewCell cell{Verdict::notMeasured, {}, "capabilities", {}, {}, {}};
   if (!results.declared) return cell;
-  cell.state = CellState::figure;
+  cell.verdict = std::nullopt;
   cell.value = static_cast<double>(results.notExamined.size());
   cell.shown = fmt::format("{} of {}", results.notExamined.size(), *results.declared);
   cell.words = listedShortly(results.notExamined, 3);
@@ -76,7 +63,7 @@ void addCheckPart(Report& report, const ConformanceResults& results, const Check
     (isFault(row) ? faults : others)
         .rows.push_back({{row.name,
                           row.what,
-                          {outcomeWord(row.outcome), {}, outcomeState(row.outcome), true},
+                          {outcomeWord(row), {}, row.outcome.verdict, true},
                           row.detail + more}});
   }
   if (faults.rows.empty() && others.rows.empty()) return;
@@ -88,27 +75,25 @@ void addCheckPart(Report& report, const ConformanceResults& results, const Check
 }
 
 std::vector<JUnitCase> conformanceChecks(const ConformanceResults& results) {
-  // In the order of ConformanceOutcome.
-  constexpr JUnitCase::Outcome outcomes[] = {JUnitCase::Outcome::passed, JUnitCase::Outcome::failed,
-                                             JUnitCase::Outcome::skipped,
-                                             JUnitCase::Outcome::error};
   std::vector<JUnitCase> cases;
   for (const ConformanceRow& row : results.rows)
-    cases.push_back({results.engine.name + " " + row.part, row.name,
-                     outcomes[static_cast<std::size_t>(row.outcome)], row.detail, row.seconds});
+    cases.push_back({results.engine.name + " " + row.part, row.name, row.outcome.verdict,
+                     row.detail, row.seconds, row.outcome.status == Status::failed});
   return cases;
 }
 
 }  // namespace
 
 std::string conformanceLead(const ConformanceResults& results) {
-  const std::size_t asked = results.rows.size() - results.count(skipped);
+  const std::size_t asked = results.rows.size() - results.count(checkSkipped);
   std::string lead = fmt::format("{} ({}): {} of {} checks passed", results.engine.name,
-                                 results.engine.version, results.count(passed), asked);
-  if (const std::size_t count = results.count(failed)) lead += fmt::format(", {} failed", count);
-  if (const std::size_t count = results.count(brokeDown))
+                                 results.engine.version, results.count(checkPassed), asked);
+  if (const std::size_t count = results.count(checkFailed))
+    lead += fmt::format(", {} failed", count);
+  if (const std::size_t count = results.count(checkBrokeDown))
     lead += fmt::format(", it broke down in {}", count);
-  if (const std::size_t count = results.count(skipped)) lead += fmt::format(", {} skipped", count);
+  if (const std::size_t count = results.count(checkSkipped))
+    lead += fmt::format(", {} skipped", count);
   const std::size_t unseen = results.notExamined.size();
   if (results.declared && unseen > 0)
     lead += fmt::format(
@@ -124,12 +109,12 @@ std::string conformanceNotExamined(const ConformanceResults& results) {
 
 std::string conformanceCause(const ConformanceResults& results) {
   if (!results.cause.empty()) return "most likely: " + results.cause;
-  if (results.count(failed) == 0) return {};
+  if (results.count(checkFailed) == 0) return {};
   return "most likely: no single cause of those tried explains it";
 }
 
 std::string conformanceSentence(const ConformanceRow& row) {
-  std::string sentence = fmt::format("{}: {} ({})", outcomeWord(row.outcome), row.name, row.what);
+  std::string sentence = fmt::format("{}: {} ({})", outcomeWord(row), row.name, row.what);
   if (!row.detail.empty()) sentence += ": " + row.detail;
   if (row.faults > 1) sentence += fmt::format(" (and {} more)", row.faults - 1);
   return sentence;

@@ -1,7 +1,10 @@
+// The plots of error against time, and what settings and measures are called in them.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 
 #include "reports/common/engines.hpp"
@@ -14,6 +17,11 @@ namespace crossgrain::reports {
 namespace {
 
 using Points = std::vector<CostPoint>;
+
+template <class Value>
+void addOnce(std::vector<Value>& values, const Value& value) {
+  if (std::ranges::find(values, value) == values.end()) values.push_back(value);
+}
 
 /// Larger errors say no more than that the run is wrong: they stand at the upper edge.
 constexpr double offScale = 10.0;
@@ -82,7 +90,7 @@ void addEngine(Panel& panel, const Points& points, const std::string& engine,
   constexpr double belowEdge = 1.35;
   for (const CostPoint& point : points) {
     if (point.engine != engine) continue;
-    if ((point.status == CostStatus::failed || point.counted().value_or(0.0) > offScale) &&
+    if ((point.status == Status::failed || point.counted().value_or(0.0) > offScale) &&
         point.wallSeconds)
       failures.points.push_back({*point.wallSeconds, panel.yRange->high / belowEdge, {}});
     auto mark = markOf(point);
@@ -151,6 +159,53 @@ std::string captionOf(const Points& points, CostKind kind) {
 }
 
 }  // namespace
+
+std::string settingText(const std::string& knob, const std::string& setting) {
+  const bool speaks = speaksForItself(knob) || knob.starts_with("effect:");
+  std::string text = speaks || setting.starts_with(knob) ? setting : knob + " " + setting;
+  const auto isLetter = [&](std::size_t k) {
+    return k < text.size() && std::isalpha(static_cast<unsigned char>(text[k])) != 0;
+  };
+  for (std::size_t k = 2; k < text.size(); ++k)  // "t_c" keeps its mark
+    if (text[k] == '_' && isLetter(k - 1) && isLetter(k - 2)) text[k] = ' ';
+  return text;
+}
+
+std::string measureText(const std::string& measure) {
+  constexpr std::string_view positions = "position_rms_";
+  const std::string scene = withoutOwn(measure);
+  if (scene != measure) return measureText(scene) + ", own limit";
+  if (measure == "psi_f") return "Ψ_f";
+  if (measure == "e_n") return measure;
+  if (!measure.starts_with(positions)) return fieldWords(measure);
+  const std::string whom = measure.substr(positions.size());
+  return "positions, compared with " + (whom == "own" ? "itself" : whom);
+}
+
+std::string timeUnit(CostKind kind) {
+  constexpr std::array units = {"one sweep of collisions", "the window", "one rotation"};
+  return units[static_cast<std::size_t>(kind)];
+}
+
+std::vector<CostKind> kindsIn(const Points& points) {
+  std::vector<CostKind> kinds;
+  for (const CostPoint& point : points) addOnce(kinds, point.kind);
+  return kinds;
+}
+
+std::vector<CostMeasure> measuresIn(const Points& points) {
+  std::vector<CostMeasure> measures;
+  for (const CostPoint& point : points) addOnce(measures, CostMeasure{point.kind, point.measure});
+  return measures;
+}
+
+std::vector<OtherSetting> otherSettings(const Points& points) {
+  std::vector<OtherSetting> settings;
+  for (const CostPoint& point : points)
+    if (point.counted() && !schemeOf(point.knob, point.setting))
+      addOnce(settings, OtherSetting{point.knob, point.setting});
+  return settings;
+}
 
 std::vector<Figure> costFigures(const CostResults& results) {
   std::vector<Figure> figures;

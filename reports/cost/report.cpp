@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <iterator>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -20,13 +20,6 @@
 namespace crossgrain::reports {
 
 namespace {
-
-using Points = std::vector<CostPoint>;
-
-template <class Value>
-void addOnce(std::vector<Value>& values, const Value& value) {
-  if (std::ranges::find(values, value) == values.end()) values.push_back(value);
-}
 
 std::string kindText(CostKind kind) {
   return kind == CostKind::collision ? "collisions" : toString(kind);
@@ -58,19 +51,19 @@ std::string intervalText(double value, double low, double high) {
 
 /// A point's error with what it lies between, or why it has none.
 std::string errorText(const CostPoint& point) {
-  if (point.status == CostStatus::notMeasured) return "not measured";
-  if (!point.ran()) return std::string(nameOf(point.status));
+  if (point.status == Status::notRun) return "not measured";
+  if (!point.ran()) return std::string(nameOf(point.status, costStatusNames));
   if (!point.error) return absentText;
   if (point.saysNothing())
     return percentText(point.error) + ", of one packing: no statistical error";
   return intervalText(*point.error, point.low(), point.high());
 }
 
-std::vector<double> targetsOf(const auto& rows) {
-  std::vector<double> targets;
-  for (const auto& row : rows) addOnce(targets, row.target);
-  std::ranges::sort(targets, std::ranges::greater());
-  return targets;
+/// Falling, each once.
+std::vector<double> targetsOf(const std::vector<CostCell>& cells) {
+  std::set<double, std::greater<>> targets;
+  for (const CostCell& cell : cells) targets.insert(cell.target);
+  return {targets.begin(), targets.end()};
 }
 
 const CostPoint* pointAt(const CostResults& results, std::optional<std::size_t> place) {
@@ -117,53 +110,6 @@ std::string decidedText(const CostResults& results) {
 
 }  // namespace
 
-std::string settingText(const std::string& knob, const std::string& setting) {
-  const bool speaks = speaksForItself(knob) || knob.starts_with("effect:");
-  std::string text = speaks || setting.starts_with(knob) ? setting : knob + " " + setting;
-  const auto isLetter = [&](std::size_t k) {
-    return k < text.size() && std::isalpha(static_cast<unsigned char>(text[k])) != 0;
-  };
-  for (std::size_t k = 2; k < text.size(); ++k)  // "t_c" keeps its mark
-    if (text[k] == '_' && isLetter(k - 1) && isLetter(k - 2)) text[k] = ' ';
-  return text;
-}
-
-std::string measureText(const std::string& measure) {
-  constexpr std::string_view positions = "position_rms_";
-  const std::string scene = withoutOwn(measure);
-  if (scene != measure) return measureText(scene) + ", own limit";
-  if (measure == "psi_f") return "Ψ_f";
-  if (measure == "e_n") return measure;
-  if (!measure.starts_with(positions)) return fieldWords(measure);
-  const std::string whom = measure.substr(positions.size());
-  return "positions, compared with " + (whom == "own" ? "itself" : whom);
-}
-
-std::string timeUnit(CostKind kind) {
-  constexpr std::array units = {"one sweep of collisions", "the window", "one rotation"};
-  return units[static_cast<std::size_t>(kind)];
-}
-
-std::vector<CostKind> kindsIn(const Points& points) {
-  std::vector<CostKind> kinds;
-  for (const CostPoint& point : points) addOnce(kinds, point.kind);
-  return kinds;
-}
-
-std::vector<CostMeasure> measuresIn(const Points& points) {
-  std::vector<CostMeasure> measures;
-  for (const CostPoint& point : points) addOnce(measures, CostMeasure{point.kind, point.measure});
-  return measures;
-}
-
-std::vector<OtherSetting> otherSettings(const Points& points) {
-  std::vector<OtherSetting> settings;
-  for (const CostPoint& point : points)
-    if (point.counted() && !schemeOf(point.knob, point.setting))
-      addOnce(settings, OtherSetting{point.knob, point.setting});
-  return settings;
-}
-
 std::string costCsv(const CostResults& results) {
   std::string table =
       "engine,setting,dt_s,error,error_kind,wall_s,cpu_s,steps,contact_evaluations,status,reason,"
@@ -177,8 +123,9 @@ std::string costCsv(const CostResults& results) {
     const CostPoint& point = results.points[k];
     table += row(point.engine, point.setting, point.dt, point.error, toString(point.kind),
                  point.wallSeconds, point.cpuSeconds, point.steps, point.contactEvaluations,
-                 std::string(nameOf(point.status)), point.reason, point.knob, point.measure,
-                 point.statistical, point.systematic, point.referenceError, point.stepsPerContact,
+                 std::string(nameOf(point.status, costStatusNames)), point.reason, point.knob,
+                 point.measure, point.statistical, point.systematic, point.referenceError,
+                 point.stepsPerContact,
                  !point.ran() ? ""
                  : onFront[k] ? "yes"
                               : "no",
@@ -189,22 +136,22 @@ std::string costCsv(const CostResults& results) {
 
 std::string costText(const CostResults& results) {
   return fmt::format("{}\n{} ran, {} failed, {} refused, {} not measured\n", decidedText(results),
-                     results.count(CostStatus::ran), results.count(CostStatus::failed),
-                     results.count(CostStatus::refused), results.count(CostStatus::notMeasured));
+                     results.count(Status::finished), results.count(Status::failed),
+                     results.count(Status::refused), results.count(Status::notRun));
 }
 
 namespace {
 
 std::string asToml(const Advice& one, const CostResults& results) {
-  std::string text =
-      fmt::format("# {}, wanted {:g} %: {}", one.engine, 100.0 * one.target, nameOf(one.verdict));
-  const bool reached = one.verdict == CostVerdict::reached;
+  std::string text = fmt::format("# {}, wanted {:g} %: {}", one.engine, 100.0 * one.target,
+                                 nameOf(one.verdict, costVerdictNames));
+  const bool reached = one.verdict == Verdict::pass;
   if (!one.setting.empty()) {
     std::vector<std::string_view> kinds;
     for (const CostKind kind : one.kinds) kinds.push_back(nameOf(kind));
-    text += reached                                   ? " by "
-            : one.verdict == CostVerdict::notMeasured ? " far enough; the best so far is "
-                                                      : "; the best is ";
+    text += reached                               ? " by "
+            : one.verdict == Verdict::notMeasured ? " far enough; the best so far is "
+                                                  : "; the best is ";
     text += speaksForItself(one.knob) ? one.setting : one.knob + " " + one.setting;
     if (one.wallSeconds)
       text +=
@@ -236,16 +183,15 @@ std::string costToml(const CostResults& results) {
 namespace {
 
 OverviewCell overviewCell(const CostResults& results, const CostCell* cost) {
-  OverviewCell cell{CellState::notMeasured, {}, "s", {}, {}, "accuracy"};
-  if (!cost || cost->verdict == CostVerdict::notMeasured) return cell;
-  if (cost->verdict == CostVerdict::reached) {
-    cell.state = CellState::good;
+  OverviewCell cell{Verdict::notMeasured, {}, "s", {}, {}, "accuracy"};
+  if (!cost || cost->verdict == Verdict::notMeasured) return cell;
+  cell.verdict = cost->verdict;
+  if (cost->verdict == Verdict::pass) {
     cell.value = cost->wallSeconds;
     cell.shown = shortDuration(cost->wallSeconds);
     cell.words = settingText(cost->knob, cost->setting);
     return cell;
   }
-  cell.state = cost->verdict == CostVerdict::undecided ? CellState::undecided : CellState::bad;
   cell.unit = "%";
   const CostPoint* point = pointAt(results, cost->point);
   const auto show = [&](double error, const std::string& measure) {
@@ -254,13 +200,13 @@ OverviewCell overviewCell(const CostResults& results, const CostCell* cost) {
     cell.words = measureText(withoutOwn(measure));
   };
   if (const CostModel* model = modelOf(results, *cost)) {
-    cell.state = CellState::modelDifference;
+    cell.verdict = Verdict::modelDifference;
     show(model->error, model->measure);
   } else if (point && point->counted()) {
     show(*point->counted(), point->measure);
   }
   const CostCell* own = cellAt(results, cost->engine, cost->kind, CostBasis::own, cost->target);
-  if (!own || own->verdict != CostVerdict::reached) return cell;
+  if (!own || own->verdict != Verdict::pass) return cell;
   cell.words += fmt::format("{}its own law: {}", cell.words.empty() ? "" : "; ",
                             settingText(own->knob, own->setting));
   if (own->wallSeconds) cell.words += ", " + shortDuration(own->wallSeconds);
@@ -277,7 +223,7 @@ std::string finestReached(const CostResults& results) {
     };
     for (const CostCell& cell : results.cells)
       if (cell.kind == kind && cell.basis == CostBasis::scene && cell.wallSeconds &&
-          cell.verdict == CostVerdict::reached && (!finest || rank(cell) < rank(*finest)))
+          cell.verdict == Verdict::pass && (!finest || rank(cell) < rank(*finest)))
         finest = &cell;
     parts.push_back(finest ? fmt::format("{} {} by {} with {} ({} for {})", kindText(kind),
                                          targetText(finest->target), finest->engine,
@@ -291,7 +237,7 @@ std::string finestReached(const CostResults& results) {
 }
 
 std::string nextStep(const CostResults& results) {
-  if (const std::size_t left = results.count(CostStatus::notMeasured))
+  if (const std::size_t left = results.count(Status::notRun))
     return fmt::format(
         "Next: the same command with --budget {:.0f}s measures the {} that did not fit into the "
         "budget.",
@@ -331,11 +277,14 @@ Overview costOverview(const CostResults& results) {
 
 namespace {
 
-/// A verdict's cell: its mark, its colour, and notes below.
-Cell verdictCell(CostVerdict verdict, std::string text, std::vector<std::string> notes) {
-  constexpr std::array states = {CellState::good, CellState::undecided, CellState::bad,
-                                 CellState::notMeasured};
-  return {std::move(text), std::move(notes), states[static_cast<std::size_t>(verdict)], true};
+/// The setting that reaches an accuracy, or the verdict with the best setting below it.
+Cell verdictCell(const auto& of, std::string remark = {}) {
+  const std::string setting = settingText(of.knob, of.setting);
+  const bool reached = of.verdict == Verdict::pass;
+  return {reached ? setting : std::string(nameOf(of.verdict, costVerdictNames)),
+          {reached || setting.empty() ? "" : "best: " + setting, std::move(remark)},
+          of.verdict,
+          true};
 }
 
 std::string decidesText(const std::string& decides) {
@@ -357,10 +306,8 @@ Table accuracyTable(const CostResults& results) {
           basis == CostBasis::own ? "the engine's own limit" : "the case's law", timeUnit(kind));
       for (const CostCell& cell : results.cells) {
         if (cell.kind != kind || cell.basis != basis) continue;
-        const bool reached = cell.verdict == CostVerdict::reached;
         const CostModel* model = modelOf(results, cell);
         const CostPoint* point = pointAt(results, cell.point);
-        const std::string setting = settingText(cell.knob, cell.setting);
         std::string error;
         if (model)
           error =
@@ -369,9 +316,7 @@ Table accuracyTable(const CostResults& results) {
         else if (point)
           error = fmt::format("{}: {}", measureText(withoutOwn(point->measure)), errorText(*point));
         table.rows.push_back(
-            {{cell.engine, targetText(cell.target),
-              verdictCell(cell.verdict, reached ? setting : std::string(nameOf(cell.verdict)),
-                          {reached || setting.empty() ? "" : "best: " + setting}),
+            {{cell.engine, targetText(cell.target), verdictCell(cell),
               readableDuration(cell.wallSeconds), Cell(error, {decidesText(cell.decides)})},
              std::exchange(group, {})});
       }
@@ -396,12 +341,7 @@ Blocks adviceBlocks(const CostResults& results) {
               {}};
   Blocks fragments;
   for (const Advice& one : results.advice) {
-    const bool reached = one.verdict == CostVerdict::reached;
-    const std::string setting = settingText(one.knob, one.setting);
     const CostPoint* obstacle = pointAt(results, one.obstacle);
-    Cell what = verdictCell(one.verdict, reached ? setting : std::string(nameOf(one.verdict)),
-                            {setting.empty() || reached ? "" : "best: " + setting,
-                             one.cheapest ? "the cheapest engine" : ""});
     std::string time = absentText;
     if (one.wallSeconds && one.costKind())
       time = fmt::format("{} for {}", readableDuration(one.wallSeconds), timeUnit(*one.costKind()));
@@ -409,10 +349,12 @@ Blocks adviceBlocks(const CostResults& results) {
                                      measureText(obstacle->measure), errorText(*obstacle))
                        : "",
               {decidesText(one.decides)});
-    table.rows.push_back({{one.engine, targetText(one.target), std::move(what), time, rest}});
-    if (!reached) continue;
-    fragments.push_back(
-        Heading{fmt::format("{} for {}: {}", one.engine, targetText(one.target), setting)});
+    table.rows.push_back(
+        {{one.engine, targetText(one.target),
+          verdictCell(one, one.cheapest ? "the cheapest engine" : ""), time, rest}});
+    if (one.verdict != Verdict::pass) continue;
+    fragments.push_back(Heading{fmt::format("{} for {}: {}", one.engine, targetText(one.target),
+                                            settingText(one.knob, one.setting))});
     fragments.push_back(Code{one.fragment.empty() ? "# the case as it is" : one.fragment});
   }
   table.note =
@@ -490,11 +432,11 @@ Table referenceTable(const CostResults& results) {
 
 /// What became of the points, and which engines refused.
 std::vector<std::string> costSentences(const CostResults& results) {
-  std::string counts = fmt::format(
-      "{} points: {} ran, {} failed, {} refused, {} not measured", results.points.size(),
-      results.count(CostStatus::ran), results.count(CostStatus::failed),
-      results.count(CostStatus::refused), results.count(CostStatus::notMeasured));
-  if (results.count(CostStatus::notMeasured) > 0 && results.budgetForTheRest)
+  std::string counts = fmt::format("{} points: {} ran, {} failed, {} refused, {} not measured",
+                                   results.points.size(), results.count(Status::finished),
+                                   results.count(Status::failed), results.count(Status::refused),
+                                   results.count(Status::notRun));
+  if (results.count(Status::notRun) > 0 && results.budgetForTheRest)
     counts += fmt::format(
         ", for they did not fit into the budget of {}; they would with --resume and a budget of "
         "about {}",
@@ -502,7 +444,7 @@ std::vector<std::string> costSentences(const CostResults& results) {
         readableDuration(std::ceil(*results.budgetForTheRest / 10.0) * 10.0));
   std::vector<std::string> sentences = {decidedText(results), counts + "."};
   for (const EngineRow& engine : results.engines)
-    if (engine.status == EngineStatus::refused)
+    if (engine.status == Status::refused)
       sentences.push_back(fmt::format("{} refused the scene: {}", engine.name, engine.reason));
   return sentences;
 }

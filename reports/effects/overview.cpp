@@ -29,17 +29,17 @@ const VariantSummary* variantOf(const std::vector<VariantSummary>& variants,
 }
 
 OverviewCell absentCell(const VariantSummary* variant, const std::string& anchor) {
-  OverviewCell cell{CellState::notMeasured, {}, "%", {}, {}, anchor};
+  OverviewCell cell{Verdict::notMeasured, {}, "%", {}, {}, anchor};
   if (!variant || variant->ran()) return cell;
-  cell.state = variant->status == EngineStatus::failed ? CellState::bad : CellState::notApplicable;
-  cell.shown = variant->status == EngineStatus::failed ? "failed" : "refused";
+  cell.verdict = variant->status == Status::failed ? Verdict::fail : Verdict::notApplicable;
+  cell.shown = variant->status == Status::failed ? "failed" : "refused";
   return cell;
 }
 
 OverviewCell savedCell(const VariantSummary* variant, const std::string& anchor) {
   OverviewCell cell = absentCell(variant, anchor);
   if (!variant || !variant->ran() || !variant->saved) return cell;
-  cell.state = CellState::figure;
+  cell.verdict = std::nullopt;
   cell.value = 100.0 * *variant->saved;
   cell.shown = percentOf(*variant->saved);
   cell.words = variant->costsTime() ? "of a step" : "of a step, within its error";
@@ -70,9 +70,9 @@ OverviewCell changedCell(const VariantSummary* variant, const std::string& ancho
     cell.words += ", too few packings";
   else if (!variant->changesSomething())
     cell.words += variant->withinMargins() ? ", all within the margins" : "";
-  cell.state = variant->changesSomething() ? CellState::modelDifference
-               : variant->withinMargins()  ? CellState::good
-                                           : CellState::undecided;
+  cell.verdict = variant->changesSomething() ? Verdict::modelDifference
+                 : variant->withinMargins()  ? Verdict::pass
+                                             : Verdict::undecided;
   return cell;
 }
 
@@ -119,12 +119,11 @@ Overview effectsOverview(const EffectsResults& results) {
   const std::vector<VariantSummary> all = variantSummaries(results);
   Overview overview;
   overview.rowsAre = "without";
-  overview.states = {
-      {CellState::modelDifference, "changes a profile"},
-      {CellState::good, "changes nothing beyond the margins"},
-      {CellState::undecided, "no significant change, and the margin is not excluded"},
-      {CellState::notApplicable, "refused"},
-      {CellState::bad, "failed"}};
+  overview.states = {{Verdict::modelDifference, "changes a profile"},
+                     {Verdict::pass, "changes nothing beyond the margins"},
+                     {Verdict::undecided, "no significant change, and the margin is not excluded"},
+                     {Verdict::notApplicable, "refused"},
+                     {Verdict::fail, "failed"}};
   for (std::size_t k = 0; k < results.engines.size(); ++k) {
     const std::string& name = results.engines[k].name;
     const std::string anchor = fmt::format("effects-{}", k + 1);
@@ -150,7 +149,7 @@ Overview effectsOverview(const EffectsResults& results) {
   }
   SaidOf said;
   for (const EngineRow& engine : results.engines)
-    if (engine.status == EngineStatus::ran)
+    if (engine.status == Status::finished)
       said.add(engine.name, effectsOf(variantSummaries(results, engine.name)));
   std::string sentence;
   for (const auto& [words, engines] : said.all())

@@ -148,7 +148,7 @@ Cell fieldCell(const FieldChange* change) {
   if (const std::string margin = againstMargin(*change); !margin.empty()) detail += "; " + margin;
   return {fmt::format("{} {}", symbolOf(*change), changePercent(*change)),
           {std::move(detail)},
-          found ? CellState::modelDifference : CellState::undecided};
+          found ? Verdict::modelDifference : Verdict::undecided};
 }
 
 /// The largest value of a field with everything on, which changes are shares of.
@@ -183,7 +183,8 @@ Table effectTable(const EffectsResults& results, const std::string& engine) {
   for (const VariantSummary& variant : variants) {
     TableRow row{{effectLabel(variant.effect)}};
     if (!variant.ran()) {
-      row.cells.front().notes = {fmt::format("{}: {}", nameOf(variant.status), variant.reason)};
+      row.cells.front().notes = {
+          fmt::format("{}: {}", nameOf(variant.status, engineStatusNames), variant.reason)};
     } else {
       row.cells.emplace_back(readable(inPercent(variant.saved), inPercent(variant.savedError)));
       row.cells.emplace_back(readable(times(variant.step, 1e6)));
@@ -198,7 +199,8 @@ Table effectTable(const EffectsResults& results, const std::string& engine) {
 std::string effectSentence(const VariantSummary& variant) {
   const std::string effect = capitalised(effectLabel(variant.effect));
   if (!variant.ran())
-    return fmt::format("{}: {}: {}.", effect, nameOf(variant.status), variant.reason);
+    return fmt::format("{}: {}: {}.", effect, nameOf(variant.status, engineStatusNames),
+                       variant.reason);
   const std::string changes = describeChanges(variant);
   return fmt::format("{} {}{}{}.", effect, describeCost(variant), changes.empty() ? "" : "; ",
                      changes);
@@ -207,7 +209,7 @@ std::string effectSentence(const VariantSummary& variant) {
 std::vector<std::string> effectsNotes(const EffectsResults& results) {
   std::vector<std::string> notes;
   for (const EngineRow& engine : results.engines)
-    if (engine.status == EngineStatus::refused)
+    if (engine.status == Status::refused)
       notes.push_back(fmt::format("{} refused the scene: {}", engine.name, engine.reason));
   if (results.packings.size() < 4)
     notes.emplace_back(
@@ -301,19 +303,19 @@ std::string effectsCsv(const EffectsResults& results) {
   const double level = std::round((1.0 - results.averaging.confidence) * 1e12) / 1e12;
   for (const EffectVariant& variant : results.variants) {
     if (!variant.isSwitched()) continue;  // everything on: the reference of the others
-    const bool refused = variant.status == EngineStatus::refused;
+    const bool refused = variant.status == Status::refused;
     const auto packings =
         refused ? std::nullopt : std::optional(static_cast<double>(variant.changes.packings));
     const std::string bars(refused ? "" : nameOf(variant.changes.bars));
     const auto line = [&](const ChangedField& field, const std::string& place,
                           const RingChange& ring) {
       const auto rTilde = place.empty() ? std::nullopt : at(results.rings.rTilde, ring.ring);
-      table +=
-          row(variant.engine, variant.effect, variant.timeRatio, field.field, place, ring.change,
-              ring.standardError, rTilde, ring.reference, field.unit, yesOrNo(ring.resolved),
-              ring.p, ring.smallest, finite(ring.p) ? std::optional(level) : std::nullopt, packings,
-              bars, variant.timeRatioError, variant.step, variant.contacts,
-              variant.precision.value_or(""), std::string(nameOf(variant.status)), variant.reason);
+      table += row(
+          variant.engine, variant.effect, variant.timeRatio, field.field, place, ring.change,
+          ring.standardError, rTilde, ring.reference, field.unit, yesOrNo(ring.resolved), ring.p,
+          ring.smallest, finite(ring.p) ? std::optional(level) : std::nullopt, packings, bars,
+          variant.timeRatioError, variant.step, variant.contacts, variant.precision.value_or(""),
+          std::string(nameOf(variant.status, engineStatusNames)), variant.reason);
     };
     for (const ChangedField& field : variant.changes.fields)
       for (const RingChange& ring : field.rings)

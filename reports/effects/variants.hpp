@@ -31,7 +31,7 @@ struct FieldChange {
 /// One engine with one effect switched off.
 struct VariantSummary {
   std::string engine, effect;
-  EngineStatus status = EngineStatus::ran;
+  Status status = Status::finished;
   std::string reason;
   std::optional<double> saved, savedError;  ///< time saved per step, over the whole step's
   std::optional<double> step, contacts;     ///< [s], number: of one step
@@ -39,7 +39,7 @@ struct VariantSummary {
   std::size_t packings = 0;
   std::vector<FieldChange> changes;  ///< of the fields that are judged, and have any number
 
-  bool ran() const { return status == EngineStatus::ran; }
+  bool ran() const { return status == Status::finished; }
   bool decidable() const;  ///< enough packings to tell what changes
   bool changesSomething() const;
   bool withinMargins() const;  ///< every field is shown to be

@@ -18,22 +18,15 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// Of a ring, which has no verdict: where its interval lies.
-CellState ringState(Verdict ring) {
-  return ring == Verdict::pass   ? CellState::good
-         : ring == Verdict::fail ? CellState::bad
-                                 : CellState::undecided;
-}
-
 /// The matrix' mark and colour of the same answer. @param brief  the distance alone
 Cell answerCell(const CompareResults& results, const EndpointRow* row, bool brief = false) {
   if (!row) return absentText;
-  const CellState state = endpointCell(results, *row).state;
-  std::string word = wordOf(row->answer);
-  if (state == CellState::modelDifference) word += " by the declared law";
-  if (state == CellState::notMeasured) word = "not judged";
+  const std::optional<Verdict> verdict = endpointCell(results, *row).verdict;
+  std::string word = wordOf(*row);
+  if (verdict == Verdict::modelDifference) word += " by the declared law";
+  if (verdict == Verdict::notMeasured) word = "not judged";
   const std::string distance = describeDistance(*row);
-  if (brief) return {distance, {}, state, true};
+  if (brief) return {distance, {}, verdict, true};
   std::vector<std::string> more = {describeSurrogate(*row), describeNeeds(*row)};
   if (row->lost > 0)
     more.push_back(counted(static_cast<std::size_t>(row->lost), "packing") + " failed");
@@ -42,7 +35,7 @@ Cell answerCell(const CompareResults& results, const EndpointRow* row, bool brie
       row->kind == PairKind::closedForm ? describeValue(*row) + ", " + distance : distance;
   return {std::move(word),
           {std::move(detail), fmt::format("{}", fmt::join(nonEmpty(std::move(more)), "; "))},
-          state,
+          verdict,
           true};
 }
 
@@ -118,7 +111,7 @@ Table ringTable(const CompareResults& results, const std::string& reference, con
       Cell cell;
       if (const AgreementRow* pair = rowOf(results.agreement, reference, peer, field))
         for (const AgreementRing& ring : pair->rings)
-          cell.strip.push_back({ringState(ring.verdict), ringInWords(ring, bin)});
+          cell.strip.push_back({ring.verdict, ringInWords(ring, bin)});
       row.cells.push_back(std::move(cell));
     }
     table.rows.push_back(std::move(row));

@@ -20,10 +20,13 @@ namespace {
 using Engines = std::vector<EngineRuns>;
 
 OverviewCell regimeCell(const FlowRun& run) {
-  OverviewCell cell{CellState::notMeasured, {}, {}, {}, {}, "regimes"};
+  OverviewCell cell{Verdict::notMeasured, {}, {}, {}, {}, "regimes"};
   if (!run.regime) return cell;
-  cell.state = run.regime->regime ? CellState::figure : CellState::undecided;
-  if (run.regime->regime) cell.shown = toString(*run.regime->regime);
+  cell.verdict = Verdict::undecided;
+  if (run.regime->regime) {
+    cell.verdict.reset();
+    cell.shown = toString(*run.regime->regime);
+  }
   if (const auto number = finite(run.regime->inertialNumber)) {
     cell.value = number;
     cell.words = fmt::format("inertial number {}", readable(number));
@@ -43,7 +46,7 @@ const EngineDrift* worstDrift(const CompareResults& results) {
 }
 
 OverviewCell steadyCell(const CompareResults& results) {
-  OverviewCell cell{CellState::notMeasured, {}, "%", {}, {}, "steady-or-not"};
+  OverviewCell cell{Verdict::notMeasured, {}, "%", {}, {}, "steady-or-not"};
   const EngineDrift* worst = worstDrift(results);
   if (!worst) return cell;
   const RelativeDrift& drift = worst->drift;
@@ -51,7 +54,7 @@ OverviewCell steadyCell(const CompareResults& results) {
     return row.drift.verdict == Drift::cannotTell;
   });
   const bool drifts = drift.verdict == Drift::drifts;
-  cell.state = drifts ? CellState::borderline : open ? CellState::undecided : CellState::good;
+  cell.verdict = drifts ? Verdict::borderline : open ? Verdict::undecided : Verdict::pass;
   const auto change = finite(drifts ? drift.change : drift.excluded);
   if (change) {
     cell.value = 100.0 * *change;
@@ -74,11 +77,11 @@ std::optional<double> errorOf(const CheckRow& check) {
 }
 
 OverviewCell balanceCell(const FlowRun& run) {
-  OverviewCell cell{CellState::notMeasured, {}, "%", {}, {}, "balance-checks"};
+  OverviewCell cell{Verdict::notMeasured, {}, "%", {}, {}, "balance-checks"};
   for (const CheckRow& check : run.checks) {
     const auto error = errorOf(check);
     if (!error || 100.0 * *error <= cell.value.value_or(-1.0)) continue;
-    cell.state = CellState::figure;
+    cell.verdict = std::nullopt;
     cell.value = 100.0 * *error;
     cell.shown = readablePercent(*error) + " %";
     cell.words = check.value.size() > 1 ? spaced(check.name) + ", worst ring" : spaced(check.name);
@@ -87,7 +90,7 @@ OverviewCell balanceCell(const FlowRun& run) {
 }
 
 OverviewCell fitCell(const EngineRuns& engine, std::string_view name) {
-  OverviewCell cell{CellState::notMeasured, {}, {}, {}, {}, "fits"};
+  OverviewCell cell{Verdict::notMeasured, {}, {}, {}, {}, "fits"};
   const auto fit = std::ranges::find(engine.fits(), name, &FitRow::name);
   if (fit == engine.fits().end()) return cell;
   cell.value = finite(fit->value);
@@ -95,7 +98,7 @@ OverviewCell fitCell(const EngineRuns& engine, std::string_view name) {
     cell.words = "no fit";
     return cell;
   }
-  cell.state = CellState::figure;
+  cell.verdict = std::nullopt;
   if (fit->unit != "-" && fit->unit != "1") cell.unit = fit->unit;
   cell.shown =
       readable(cell.value, fit->standardError) + (cell.unit.empty() ? "" : " " + cell.unit);
@@ -189,10 +192,10 @@ Overview averageOverview(const CompareResults& results) {
       {"balance", "Largest relative error of a ring's stress against the walls' forces.", ""}};
   for (const FitColumn& column : fitColumns)
     overview.columns.push_back({column.name, column.asks, "fits"});
-  overview.states = {{CellState::good, "no drift seen"},
-                     {CellState::borderline, "drifts"},
-                     {CellState::undecided, "cannot tell"},
-                     {CellState::figure, "a number that nothing is judged by"}};
+  overview.states = {{Verdict::pass, "no drift seen"},
+                     {Verdict::borderline, "drifts"},
+                     {Verdict::undecided, "cannot tell"},
+                     {std::nullopt, "a number that nothing is judged by"}};
   const std::vector<EngineRuns> engines = engineRuns(results);
   for (const EngineRuns& engine : engines) {
     if (engine.finished.empty()) continue;

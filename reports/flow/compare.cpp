@@ -142,11 +142,10 @@ std::string ratesInWords(const CompareResults& results) {
 }
 
 std::string troubleInWords(const EngineRuns& engine) {
-  if (engine.status != EngineStatus::ran)
-    return fmt::format(
-        "{} {}{}", engine.name,
-        engine.status == EngineStatus::refused ? "refused the scene" : nameOf(engine.status),
-        engine.reason.empty() ? "." : ": " + engine.reason);
+  if (engine.status != Status::finished)
+    return fmt::format("{} {}{}", engine.name,
+                       engine.status == Status::refused ? "refused the scene" : "failed",
+                       engine.reason.empty() ? "." : ": " + engine.reason);
   const std::size_t failed = engine.runs.size() - engine.finished.size();
   return failed == 0 ? std::string()
                      : fmt::format("{}: {} of {} did not finish.", engine.name, failed,

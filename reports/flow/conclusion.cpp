@@ -23,18 +23,18 @@ using Names = std::vector<std::string>;
 /// Names in a sentence.
 constexpr std::size_t mostNames = 3;
 
-Names endpointsWith(const std::vector<const EndpointRow*>& rows, Answer answer) {
+Names endpointsWith(const std::vector<const EndpointRow*>& rows, Verdict verdict) {
   Names names;
   for (const EndpointRow* row : rows)
-    if (row->answer == answer) names.push_back(endpointWords(row->endpoint));
+    if (row->verdict == verdict) names.push_back(endpointWords(row->endpoint));
   return names;
 }
 
 /// "disagreed on pressure, agreed on 6 of 9 endpoints and left 2 undecided"; of one pair.
 std::string relationOf(const std::vector<const EndpointRow*>& rows) {
-  const Names disagree = endpointsWith(rows, Answer::disagree),
-              borderline = endpointsWith(rows, Answer::borderline),
-              undecided = endpointsWith(rows, Answer::undecided);
+  const Names disagree = endpointsWith(rows, Verdict::fail),
+              borderline = endpointsWith(rows, Verdict::borderline),
+              undecided = endpointsWith(rows, Verdict::undecided);
   const std::size_t agree = rows.size() - disagree.size() - borderline.size() - undecided.size();
   // The first count has the total.
   const auto some = [&](std::size_t count, bool first) {
@@ -93,13 +93,13 @@ Names conventionsOf(const EngineRuns& engine) {
 bool disagrees(const CompareResults& results, const EngineRuns& engine) {
   return std::ranges::any_of(
       rowsOf(results.endpoints.rows, results.engines.front().name, engine.name),
-      [](const EndpointRow* row) { return row->answer == Answer::disagree; });
+      [](const EndpointRow* row) { return row->verdict == Verdict::fail; });
 }
 
 const LockstepRow* differingRow(const CompareResults& results, const std::string& engine) {
   if (results.lockstep)
     for (const LockstepRow& row : results.lockstep->rows)
-      if (row.engine == engine && row.verdict == LockstepVerdict::differs) return &row;
+      if (row.engine == engine && row.verdict == Equivalence::differs) return &row;
   return nullptr;
 }
 
@@ -155,7 +155,7 @@ const EndpointRow* nextToDecide(const CompareResults& results) {
   };
   const EndpointRow* next = nullptr;
   for (const EndpointRow& row : results.endpoints.rows)
-    if (row.kind == PairKind::peer && row.answer == Answer::undecided &&
+    if (row.kind == PairKind::peer && row.verdict == Verdict::undecided &&
         (!next || rank(row) < rank(*next)))
       next = &row;
   return next;
@@ -165,18 +165,18 @@ std::string nextStep(const CompareResults& results, const Engines& engines) {
   if (results.nothingJudged)
     return fmt::format("Nothing was judged: {}.", results.nothingJudged->reason);
   for (const EngineRuns& engine : engines)
-    if (engine.status == EngineStatus::failed || engine.finished.size() < engine.runs.size())
+    if (engine.status == Status::failed || engine.finished.size() < engine.runs.size())
       return fmt::format("Next: see why {} did not finish, under “What did not run”.", engine.name);
   for (const AlarmRow& alarm : results.endpoints.alarms)
     return fmt::format("Next: see the alarm on {}: {}.", alarm.b, alarm.what);
-  const auto has = [&](Answer answer) {
+  const auto has = [&](Verdict verdict) {
     return std::ranges::any_of(results.endpoints.rows, [&](const EndpointRow& row) {
       return (row.kind == PairKind::peer || row.kind == PairKind::closedForm) &&
-             row.answer == answer;
+             row.verdict == verdict;
     });
   };
   for (const EndpointRow& row : results.endpoints.rows)
-    if (row.answer == Answer::undecided && !row.reason.empty() &&
+    if (row.verdict == Verdict::undecided && !row.reason.empty() &&
         (row.packings == 0 || row.kind == PairKind::closedForm))
       return fmt::format("Next: {} has no value to judge: {}.", endpointWords(row.endpoint),
                          row.reason);
@@ -194,9 +194,9 @@ std::string nextStep(const CompareResults& results, const Engines& engines) {
         planned ? "the same command with a larger --budget adds them"
                 : "the case plans no further interim analysis ([looks] in its file)");
   }
-  if (has(Answer::disagree))
+  if (has(Verdict::fail))
     return "Next: compare the margins with the accuracy that is needed, or give both the same law.";
-  if (has(Answer::borderline))
+  if (has(Verdict::borderline))
     return "More packings will hardly change what is borderline: its difference is about the "
            "margin.";
   return "Nothing is left to decide at these margins.";

@@ -189,13 +189,13 @@ std::string endpointsCsv(const CompareResults& results) {
                             ? std::optional(entry.margin * std::abs(*entry.reference))
                             : std::optional(entry.margin);
     table += row(entry.a, entry.b, std::string(nameOf(entry.kind)), entry.endpoint, entry.unit,
-                 margin, std::string(nameOf(entry.answer)), entry.difference, entry.low, entry.high,
-                 entry.distance, entry.distanceLow, entry.distanceHigh,
-                 std::optional<double>(entry.look), static_cast<std::size_t>(entry.packings),
-                 static_cast<std::size_t>(entry.lost), std::optional<double>(entry.needs),
-                 std::optional<double>(entry.needsAtMost), entry.surrogateA, entry.surrogateB,
-                 entry.bound, regimesDiffer(results.regimes, entry.a, entry.b), entry.reference,
-                 entry.reason, entry.reach);
+                 margin, entry.answer(), entry.difference, entry.low, entry.high, entry.distance,
+                 entry.distanceLow, entry.distanceHigh, std::optional<double>(entry.look),
+                 static_cast<std::size_t>(entry.packings), static_cast<std::size_t>(entry.lost),
+                 std::optional<double>(entry.needs), std::optional<double>(entry.needsAtMost),
+                 entry.surrogateA, entry.surrogateB, entry.bound,
+                 regimesDiffer(results.regimes, entry.a, entry.b), entry.reference, entry.reason,
+                 entry.reach);
   }
   return table;
 }

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "cases/endpoints.hpp"
@@ -47,11 +46,8 @@ std::string endpointSymbol(const std::string& name, bool ofCell) {
   return endpoint ? std::string(endpoint->symbol) : spaced(name);
 }
 
-std::string wordOf(Answer answer) {
-  static constexpr std::array<const char*, 5> words = {"agree, no difference seen",
-                                                       "agree, small difference", "borderline",
-                                                       "disagree", "undecided"};
-  return words[static_cast<std::size_t>(answer)];
+std::string wordOf(const EndpointRow& row) {
+  return (row.verdict == Verdict::pass ? "agree, " : "") + spaced(row.answer());
 }
 
 std::string describeDistance(const EndpointRow& row) {
@@ -64,7 +60,7 @@ std::string describeDistance(const EndpointRow& row) {
 }
 
 std::string describeNeeds(const EndpointRow& row) {
-  if (row.answer != Answer::undecided || !row.needs) return {};
+  if (row.verdict != Verdict::undecided || !row.needs) return {};
   if (!row.needsAtMost)
     return fmt::format("{} packings or many more decide with 90 % chance", *row.needs);
   if (*row.needs == *row.needsAtMost)
@@ -95,7 +91,7 @@ std::string describeSurrogate(const EndpointRow& row) {
 }
 
 std::string describeAnswer(const EndpointRow& row) {
-  std::string words = wordOf(row.answer);
+  std::string words = wordOf(row);
   if (row.kind == PairKind::closedForm)
     words += fmt::format(" with the closed form ({})", describeValue(row));
   if (const std::string distance = describeDistance(row); !distance.empty())

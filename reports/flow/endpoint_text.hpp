@@ -16,7 +16,7 @@ std::string endpointWords(const std::string& name);
 std::string endpointSymbol(const std::string& name, bool ofCell);
 
 /// "agree, no difference seen", "agree, small difference", "borderline", "disagree", "undecided".
-std::string wordOf(Answer answer);
+std::string wordOf(const EndpointRow& row);
 
 /// "0.31 margins (0.05 to 0.57)"; empty where nothing was measured.
 std::string describeDistance(const EndpointRow& row);

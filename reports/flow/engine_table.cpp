@@ -48,7 +48,7 @@ Text fromEffective(std::string EffectiveParameters::*member) {
 }
 
 std::string statusOf(const EngineRuns& engine) {
-  if (engine.runs.empty()) return std::string(nameOf(engine.status));
+  if (engine.runs.empty()) return std::string(nameOf(engine.status, engineStatusNames));
   return fmt::format("{} of {}", engine.finished.size(), engine.runs.size());
 }
 
@@ -152,13 +152,14 @@ Table troubleTable(const Engines& engines) {
       {{"engine", Column::Kind::engines}, "packing", "status", {"reason", Column::Kind::remark}},
       {}};
   for (const EngineRuns& engine : engines) {
-    if (engine.status != EngineStatus::ran)
+    if (engine.status != Status::finished)
       table.rows.push_back(
-          {{engine.name, "all", std::string(nameOf(engine.status)), engine.reason}});
+          {{engine.name, "all", std::string(nameOf(engine.status, engineStatusNames)),
+            engine.reason}});
     for (const FlowRun* run : engine.runs)
       if (!run->finished())
         table.rows.push_back({{engine.name, readableCount(run->packing),
-                               std::string(nameOf(run->status)), run->reason}});
+                               std::string(nameOf(run->status, runStatusNames)), run->reason}});
   }
   return table;
 }

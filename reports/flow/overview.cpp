@@ -15,37 +15,6 @@ namespace crossgrain::reports {
 
 namespace {
 
-int severity(Answer answer) {
-  switch (answer) {
-    case Answer::noDifference:
-      return 0;
-    case Answer::smallDifference:
-      return 1;
-    case Answer::undecided:
-      return 2;
-    case Answer::borderline:
-      return 3;
-    case Answer::disagree:
-      break;
-  }
-  return 4;
-}
-
-CellState answerState(Answer answer, bool isModel) {
-  switch (answer) {
-    case Answer::noDifference:
-    case Answer::smallDifference:
-      return CellState::good;
-    case Answer::undecided:
-      return CellState::undecided;
-    case Answer::borderline:
-      return CellState::borderline;
-    case Answer::disagree:
-      break;
-  }
-  return isModel ? CellState::modelDifference : CellState::bad;
-}
-
 OverviewCell lockstepOf(const CompareResults& results, const EngineRow& engine) {
   static const LockstepFindings none;
   const LockstepFindings& findings = results.lockstep ? *results.lockstep : none;
@@ -76,7 +45,7 @@ OverviewCell averagesOf(const CompareResults& results, const EngineRow& engine) 
     return cell;
   }
   if (engine.name == reference)
-    return {CellState::notApplicable, {}, "margins", {}, "the reference", {}};
+    return {Verdict::notApplicable, {}, "margins", {}, "the reference", {}};
   if (const auto* own = surrogateBy(results.endpoints.surrogates, engine.name)) {
     const EndpointRow* worst = worstOf(rowsOf(rows, reference, own->engine));
     OverviewCell cell = worst ? endpointCell(results, *worst) : OverviewCell{};
@@ -84,10 +53,10 @@ OverviewCell averagesOf(const CompareResults& results, const EngineRow& engine) 
     return cell;
   }
   const EndpointRow* worst = worstOf(rowsOf(rows, reference, engine.name));
-  if (!worst) return {CellState::notMeasured, {}, "margins", {}, "not compared with it", {}};
+  if (!worst) return {Verdict::notMeasured, {}, "margins", {}, "not compared with it", {}};
   OverviewCell cell = endpointCell(results, *worst);
   if (alarmed(results, engine.name)) {
-    cell.state = CellState::bad;
+    cell.verdict = Verdict::fail;
     cell.words = "ALARM: " + cell.words;
   }
   if (const std::size_t packings = otherRegime(results, reference, engine.name); packings > 0)
@@ -96,9 +65,9 @@ OverviewCell averagesOf(const CompareResults& results, const EngineRow& engine) 
 }
 
 OverviewCell costOfEngine(const EngineRuns& engine) {
-  OverviewCell cell{CellState::notMeasured, costOf(engine).cpuPerSecond(), "s", {}, {}, "engines"};
+  OverviewCell cell{Verdict::notMeasured, costOf(engine).cpuPerSecond(), "s", {}, {}, "engines"};
   if (!cell.value) return cell;
-  cell.state = CellState::figure;
+  cell.verdict = std::nullopt;
   cell.shown = shortDuration(cell.value);
   return cell;
 }
@@ -112,10 +81,10 @@ std::size_t endpointsWithoutValue(const CompareResults& results, const std::stri
 }
 
 OverviewCell failedRunsOf(const CompareResults& results, const EngineRuns& engine) {
-  OverviewCell cell{CellState::notApplicable, {}, "runs", {}, {}, "packings"};
-  if (engine.status != EngineStatus::ran && engine.runs.empty()) {
-    if (engine.status == EngineStatus::failed) cell.state = CellState::bad;
-    cell.shown = engine.status == EngineStatus::refused ? "refused" : "failed";
+  OverviewCell cell{Verdict::notApplicable, {}, "runs", {}, {}, "packings"};
+  if (engine.status != Status::finished && engine.runs.empty()) {
+    if (engine.status == Status::failed) cell.verdict = Verdict::fail;
+    cell.shown = engine.status == Status::refused ? "refused" : "failed";
     cell.words = engine.reason;
     return cell;
   }
@@ -123,18 +92,18 @@ OverviewCell failedRunsOf(const CompareResults& results, const EngineRuns& engin
   const std::size_t failed = engine.runs.size() - engine.finished.size();
   cell.value = static_cast<double>(failed);
   cell.shown = fmt::format("{} of {}", failed, engine.runs.size());
-  cell.state = failed > 0 ? CellState::bad : CellState::good;
+  cell.verdict = failed > 0 ? Verdict::fail : Verdict::pass;
   if (const std::size_t endpoints = endpointsWithoutValue(results, engine.name);
       failed == 0 && endpoints > 0) {
-    cell.state = CellState::borderline;
+    cell.verdict = Verdict::borderline;
     cell.words = fmt::format("{} without a value somewhere", counted(endpoints, "endpoint"));
   }
   return cell;
 }
 
-OverviewCell valueCell(double value, const std::string& unit, CellState state) {
+OverviewCell valueCell(double value, const std::string& unit, std::optional<Verdict> verdict) {
   const bool plain = unit.empty() || unit == "1" || unit == "-";
-  return {state, value, unit, readable(value) + (plain ? "" : " " + unit), {}, {}};
+  return {verdict, value, unit, readable(value) + (plain ? "" : " " + unit), {}, {}};
 }
 
 }  // namespace
@@ -145,15 +114,15 @@ const EndpointRow* worstOf(const std::vector<const EndpointRow*>& rows) {
   };
   const EndpointRow* worst = nullptr;
   for (const EndpointRow* row : rows)
-    if (!worst || std::pair(severity(row->answer), size(*row)) >
-                      std::pair(severity(worst->answer), size(*worst)))
+    if (!worst || std::pair(row->verdict, size(*row)) > std::pair(worst->verdict, size(*worst)))
       worst = row;
   return worst;
 }
 
 OverviewCell endpointCell(const EndpointRow& row, bool isModel) {
-  OverviewCell cell{answerState(row.answer, isModel), finite(row.distance), "margins", {},
-                    endpointWords(row.endpoint),      "agreement"};
+  OverviewCell cell{row.verdict, finite(row.distance),        "margins",
+                    {},          endpointWords(row.endpoint), "agreement"};
+  if (isModel && row.verdict == Verdict::fail) cell.verdict = Verdict::modelDifference;
   if (cell.value)
     cell.shown =
         fmt::format("{}{} margins", *cell.value < 0.0 ? "−" : "", readable(std::abs(*cell.value)));
@@ -172,9 +141,9 @@ OverviewCell endpointCell(const CompareResults& results, const EndpointRow& row)
   const bool alarmed = std::ranges::any_of(results.endpoints.alarms, [&](const AlarmRow& alarm) {
     return alarm.a == row.a && alarm.b == row.b;
   });
-  if (alarmed && row.answer == Answer::disagree) cell.state = CellState::bad;
+  if (alarmed && row.verdict == Verdict::fail) cell.verdict = Verdict::fail;
   if (results.nothingJudged) {
-    cell.state = CellState::notMeasured;
+    cell.verdict = Verdict::notMeasured;
     cell.words += ", not judged";
   }
   return cell;
@@ -185,7 +154,7 @@ std::vector<std::string> disagreementsWithMirror(const CompareResults& results,
   std::vector<std::string> endpoints;
   for (const EndpointRow& row : results.endpoints.rows)
     if (row.kind == PairKind::mirrorImplementation && row.b == engine &&
-        row.answer == Answer::disagree)
+        row.verdict == Verdict::fail)
       endpoints.push_back(row.endpoint);
   return endpoints;
 }
@@ -195,19 +164,19 @@ bool isModelDifference(const CompareResults& results, const EngineRow& engine) {
   if (!disagreementsWithMirror(results, engine.name).empty()) return false;
   if (results.lockstep)
     for (const LockstepRow& row : results.lockstep->rows)
-      if (row.engine == engine.name && row.verdict != LockstepVerdict::notMeasured &&
-          row.verdict != LockstepVerdict::undecided)
-        return row.verdict != LockstepVerdict::differs;
+      if (row.engine == engine.name && row.verdict != Equivalence::notMeasured &&
+          row.verdict != Equivalence::undecided)
+        return row.verdict != Equivalence::differs;
   const Endpoints& endpoints = results.endpoints.rows;
   const std::string& reference = results.engines.front().name;
   for (const EngineRow& mirror : results.engines) {
     if (mirror.mirrors != engine.name) continue;
     bool disagrees = false;
     for (const EndpointRow* row : rowsOf(endpoints, reference, engine.name)) {
-      if (row->answer != Answer::disagree) continue;
+      if (row->verdict != Verdict::fail) continue;
       disagrees = true;
       const EndpointRow* own = rowOf(endpoints, mirror.name, engine.name, row->endpoint);
-      if (!own || severity(own->answer) > severity(Answer::smallDifference)) return false;
+      if (!own || own->verdict != Verdict::pass) return false;
     }
     return disagrees;
   }
@@ -230,7 +199,7 @@ Overview compareOverview(const CompareResults& results) {
        results.endpoints.rows.empty() ? "" : "agreement"},
       {"CPU time per simulated second", "Of stepping alone.", "engines"},
       {"failed runs", "Packings that the engine did not finish.", "packings"}};
-  overview.states = {{CellState::bad, "disagrees, or failed"}};
+  overview.states = {{Verdict::fail, "disagrees, or failed"}};
   for (const EngineRuns& engine : engineRuns(results))
     overview.rows.push_back({engine.name,
                              true,
@@ -252,11 +221,11 @@ std::vector<DigestValue> compareValues(const CompareResults& results) {
       return value.engine == reference && value.quantity == quantity;
     });
     if (known == values.end())
-      values.push_back({reference, quantity, valueCell(*of, row.unit, CellState::figure)});
+      values.push_back({reference, quantity, valueCell(*of, row.unit, std::nullopt)});
     const auto other = std::ranges::find(results.engines, row.b, &EngineRow::name);
     if (!difference || other == results.engines.end()) continue;
     values.push_back({row.b, quantity,
-                      valueCell(*of + *difference, row.unit, endpointCell(results, row).state)});
+                      valueCell(*of + *difference, row.unit, endpointCell(results, row).verdict)});
   }
   return values;
 }

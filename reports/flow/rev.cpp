@@ -86,12 +86,15 @@ Nearness nearnessOf(const RevResults& results, std::string_view field, std::stri
 }
 
 OverviewCell nearnessCell(const Nearness& near) {
-  OverviewCell cell{CellState::notMeasured, near.from, "d", {}, {}, "figures"};
+  OverviewCell cell{Verdict::notMeasured, near.from, "d", {}, {}, "figures"};
   if (!near.widest) return cell;
-  cell.state = near.from ? CellState::figure : CellState::borderline;
+  cell.verdict.reset();
   cell.shown = near.from ? fmt::format("≥ {} d", readableSetting(near.from))
                          : readablePercent(*near.widest) + " % apart";
-  if (!near.from) cell.words = "in the widest ring";
+  if (!near.from) {
+    cell.verdict = Verdict::borderline;
+    cell.words = "in the widest ring";
+  }
   return cell;
 }
 
@@ -260,8 +263,8 @@ std::string revMeetingsCsv(const RevResults& results) {
 Overview revOverview(const RevResults& results) {
   Overview overview;
   overview.rowsAre = "field";
-  overview.states = {{CellState::figure, "from that ring width on within 5 % of slicing"},
-                     {CellState::borderline, "further from slicing at any width"}};
+  overview.states = {{std::nullopt, "from that ring width on within 5 % of slicing"},
+                     {Verdict::borderline, "further from slicing at any width"}};
   for (const Weighing& weight : weights)
     overview.columns.push_back(
         {weight.words,
@@ -271,7 +274,7 @@ Overview revOverview(const RevResults& results) {
     for (const Weighing& weight : weights)
       row.cells.push_back(nearnessCell(nearnessOf(results, field, weight.method)));
     const bool any = std::ranges::any_of(
-        row.cells, [](const OverviewCell& cell) { return cell.state != CellState::notMeasured; });
+        row.cells, [](const OverviewCell& cell) { return cell.verdict != Verdict::notMeasured; });
     if (any) overview.rows.push_back(std::move(row));
   }
   overview.conclusion = revConclusion(results);
@@ -280,7 +283,7 @@ Overview revOverview(const RevResults& results) {
 
 Report reportOf(const RevResults& results) {
   Report report{{results.head,
-                 {{results.engine, "", "", "", EngineStatus::ran, ""}},  // whose snapshots
+                 {{results.engine, "", "", "", Status::finished, ""}},  // whose snapshots
                  revOverview(results)}};
   report.engineColours = false;  // colours are weights
   report.caseHeading = "The case: its cell, rings and weights";

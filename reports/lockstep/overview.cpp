@@ -16,10 +16,10 @@ namespace {
 constexpr const char* evidence = "lockstep";
 
 OverviewCell separationCell(const LockstepRow& row, bool last) {
-  OverviewCell cell{CellState::notMeasured, {}, "d", {}, {}, evidence};
+  OverviewCell cell{Verdict::notMeasured, {}, "d", {}, {}, evidence};
   if (row.separations.empty()) return cell;
   const LockstepSeparation& at = last ? row.separations.back() : row.separations.front();
-  cell.state = CellState::figure;
+  cell.verdict = std::nullopt;
   cell.value = finite(at.largest);
   cell.shown = readable(cell.value) + " d";
   cell.words = fmt::format("after {} ms", readable(1e3 * at.time));
@@ -27,9 +27,9 @@ OverviewCell separationCell(const LockstepRow& row, bool last) {
 }
 
 OverviewCell forcesCell(const LockstepRow& row) {
-  OverviewCell cell{CellState::notMeasured, {}, "of the largest", {}, {}, evidence};
+  OverviewCell cell{Verdict::notMeasured, {}, "of the largest", {}, {}, evidence};
   if (!row.forces) return cell;
-  cell.state = CellState::figure;
+  cell.verdict = std::nullopt;
   cell.value = std::max(row.forces->normal, row.forces->tangential);
   cell.shown = percentText(*cell.value);
   cell.words = "of the largest force";
@@ -39,13 +39,14 @@ OverviewCell forcesCell(const LockstepRow& row) {
 }
 
 OverviewCell termCell(const LockstepRow& row) {
-  OverviewCell cell{CellState::notApplicable, {}, "%", {}, {}, evidence};
-  if (row.verdict == LockstepVerdict::notMeasured) cell.state = CellState::notMeasured;
+  OverviewCell cell{Verdict::notApplicable, {}, "%", {}, {}, evidence};
+  if (row.verdict == Equivalence::notMeasured) cell.verdict = Verdict::notMeasured;
   if (!row.term) {
-    if (row.verdict == LockstepVerdict::differs) cell.words = "no single term accounts for it";
+    if (row.verdict == Equivalence::differs) cell.words = "no single term accounts for it";
     return cell;
   }
-  cell.state = row.verdict == LockstepVerdict::differs ? CellState::bad : CellState::figure;
+  cell.verdict.reset();
+  if (row.verdict == Equivalence::differs) cell.verdict = Verdict::fail;
   cell.words = constantWords(row.term->name);
   if (!row.term->amount) return cell;
   cell.value = 100.0 * *row.term->amount;
@@ -57,7 +58,7 @@ OverviewCell termCell(const LockstepRow& row) {
 std::string deviationOf(const LockstepFindings& findings) {
   std::vector<std::string> parts;
   for (const LockstepRow& row : findings.rows)
-    if (lockstepState(row, findings.rules) == CellState::bad)
+    if (lockstepState(row, findings.rules) == Verdict::fail)
       parts.push_back(fmt::format(
           "{}: {}", row.engine,
           row.term ? constantWords(row.term->name) : "no single constant, convention or effect"));
@@ -68,9 +69,9 @@ std::string deviationOf(const LockstepFindings& findings) {
 std::string nextOf(const LockstepFindings& findings) {
   std::vector<std::string> differ, unmeasured, undecided;
   for (const LockstepRow& row : findings.rows) {
-    if (row.verdict == LockstepVerdict::undecided) undecided.push_back(row.engine);
-    if (lockstepState(row, findings.rules) == CellState::bad) differ.push_back(row.engine);
-    if (row.verdict == LockstepVerdict::notMeasured) unmeasured.push_back(row.engine);
+    if (row.verdict == Equivalence::undecided) undecided.push_back(row.engine);
+    if (lockstepState(row, findings.rules) == Verdict::fail) differ.push_back(row.engine);
+    if (row.verdict == Equivalence::notMeasured) unmeasured.push_back(row.engine);
   }
   if (!differ.empty())
     return fmt::format("Next: see the first contact at which {} differ, in the table below.",
@@ -86,37 +87,26 @@ std::string nextOf(const LockstepFindings& findings) {
 
 }  // namespace
 
-CellState lockstepState(const LockstepRow& row, const LockstepRules& rules) {
-  switch (row.verdict) {
-    case LockstepVerdict::sameToRounding:
-    case LockstepVerdict::sameToPrecision:
-    case LockstepVerdict::sameLaw:
-      return CellState::good;
-    case LockstepVerdict::differs:
-      return openInLaw(row, rules).empty() ? CellState::bad : CellState::borderline;
-    case LockstepVerdict::undecided:
-      return CellState::undecided;
-    case LockstepVerdict::notMeasured:
-      break;
-  }
-  return CellState::notMeasured;
+Verdict lockstepState(const LockstepRow& row, const LockstepRules& rules) {
+  const bool open = row.verdict == Equivalence::differs && !openInLaw(row, rules).empty();
+  return open ? Verdict::borderline : verdictOf(row.verdict);
 }
 
 OverviewCell lockstepCell(const LockstepRow* row, const LockstepRules& rules, bool isMirror) {
   if (!row)
-    return {isMirror ? CellState::notApplicable : CellState::notMeasured,   {}, "%", {},
+    return {isMirror ? Verdict::notApplicable : Verdict::notMeasured,       {}, "%", {},
             isMirror ? "is a mirror itself" : "not compared with a mirror", {}};
   OverviewCell cell{lockstepState(*row, rules), {}, "%", {}, {}, evidence};
-  if (row->verdict == LockstepVerdict::notMeasured) {
+  if (row->verdict == Equivalence::notMeasured) {
     cell.words = row->reason;
     return cell;
   }
   cell.words = verdictWord(row->verdict);
-  if (row->verdict == LockstepVerdict::undecided) cell.words += ": " + row->reason;
-  if (row->verdict == LockstepVerdict::differs && cell.state == CellState::borderline)
+  if (row->verdict == Equivalence::undecided) cell.words += ": " + row->reason;
+  if (row->verdict == Equivalence::differs && cell.verdict == Verdict::borderline)
     cell.words = "differs only where the law leaves the order of impacts open";
   // What would just have shown is what can be said of an engine that stays within its rounding.
-  const bool bounded = row->verdict == LockstepVerdict::sameToPrecision;
+  const bool bounded = row->verdict == Equivalence::sameToPrecision;
   const auto size = bounded ? row->resolution : row->equivalent;
   if (!size) return cell;
   cell.value = 100.0 * *size;

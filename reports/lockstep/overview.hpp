@@ -10,7 +10,7 @@ namespace crossgrain::reports {
 OverviewCell lockstepCell(const LockstepRow* row, const LockstepRules& rules, bool isMirror);
 
 /// What differs only where the law leaves the order of impacts open is borderline.
-CellState lockstepState(const LockstepRow& row, const LockstepRules& rules);
+Verdict lockstepState(const LockstepRow& row, const LockstepRules& rules);
 
 /// An engine per row: its law, forces on one state, differences early and late, the deviation
 /// found.

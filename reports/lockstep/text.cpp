@@ -56,18 +56,19 @@ std::string constantWords(const std::string& constant) {
   return lookUp(constant).words;
 }
 
-std::string verdictWord(LockstepVerdict verdict) {
+std::string verdictWord(Equivalence verdict) {
   constexpr std::array words = {"not measured",
+                                "same bits",
                                 "identical to rounding",
                                 "identical to its precision",
                                 "equivalent",
-                                "differs",
-                                "undecided"};
+                                "undecided",
+                                "differs"};
   return words.at(static_cast<std::size_t>(verdict));
 }
 
 std::string describeVerdict(const LockstepRow& row, const LockstepRules& rules) {
-  if (row.verdict != LockstepVerdict::differs) return verdictWord(row.verdict);
+  if (row.verdict != Equivalence::differs) return verdictWord(row.verdict);
   if (row.term && row.term->name == rules.referencePerturbation && row.term->amount)
     return fmt::format("differs (equivalent to {} of {})", percentText(std::abs(*row.term->amount)),
                        constantSymbol(rules.referencePerturbation));
@@ -120,7 +121,7 @@ std::string openInLaw(const LockstepRow& row, const LockstepRules& rules) {
 }
 
 std::string describeResolution(const LockstepRow& row, const LockstepRules& rules) {
-  if (row.verdict != LockstepVerdict::sameToPrecision) return {};
+  if (row.verdict != Equivalence::sameToPrecision) return {};
   return row.resolution && *row.resolution < 1.0
              ? fmt::format("{} of {} would show", percentText(*row.resolution),
                            constantSymbol(rules.referencePerturbation))
@@ -129,32 +130,32 @@ std::string describeResolution(const LockstepRow& row, const LockstepRules& rule
 }
 
 std::string describe(const LockstepRow& row, const LockstepRules& rules) {
-  if (row.verdict == LockstepVerdict::notMeasured)
+  if (row.verdict == Equivalence::notMeasured)
     return fmt::format("{}: not measured: {}.", row.engine, row.reason);
   std::string words =
       fmt::format("{}: {} over {} starts", row.engine, describeVerdict(row, rules), row.starts);
-  if (row.verdict == LockstepVerdict::undecided) words += ": " + row.reason;
+  if (row.verdict == Equivalence::undecided) words += ": " + row.reason;
   if (row.separations.size() > 1)
     words += fmt::format(
         "; largest difference {} d after {}, {} d after {}", readable(row.separations[0].largest),
         milliseconds(row.separations[0].time), readable(row.separations.back().largest),
         milliseconds(row.separations.back().time));
   if (const std::string reading = describeReading(row, rules);
-      !reading.empty() && row.verdict != LockstepVerdict::sameToRounding &&
-      row.verdict != LockstepVerdict::sameToPrecision)
+      !reading.empty() && row.verdict != Equivalence::sameToRounding &&
+      row.verdict != Equivalence::sameToPrecision)
     words += "; " + reading;
   if (const std::string resolution = describeResolution(row, rules); !resolution.empty())
     words += fmt::format(" ({})", resolution);
   if (const std::string term = describeTerm(row); !term.empty())
     words += fmt::format("; deviation found: {}", term);
-  else if (row.verdict == LockstepVerdict::differs)
+  else if (row.verdict == Equivalence::differs)
     words += "; no single term accounts for it";
-  if (row.verdict != LockstepVerdict::sameToPrecision && row.precise > 0)
+  if (row.verdict != Equivalence::sameToPrecision && row.precise > 0)
     words += fmt::format("; {} of these starts stay identical to its precision", row.precise);
-  if (row.verdict == LockstepVerdict::differs && row.first)
+  if (row.verdict == Equivalence::differs && row.first)
     words += fmt::format("; first seen {}", describeFirst(row));
   if (const std::string open = openInLaw(row, rules);
-      row.verdict == LockstepVerdict::differs && !open.empty())
+      row.verdict == Equivalence::differs && !open.empty())
     words += fmt::format("; {}", open);
   if (!row.failure.empty()) words += fmt::format("; then it failed: {}", row.failure);
   return words + '.';
@@ -163,14 +164,14 @@ std::string describe(const LockstepRow& row, const LockstepRules& rules) {
 std::string leadOf(const LockstepFindings& findings) {
   std::vector<std::string> same, differ, ordered, open, undecided;
   for (const LockstepRow& row : findings.rows) {
-    if (row.verdict == LockstepVerdict::notMeasured)
+    if (row.verdict == Equivalence::notMeasured)
       open.push_back(row.engine);
-    else if (row.verdict == LockstepVerdict::undecided)
+    else if (row.verdict == Equivalence::undecided)
       undecided.push_back(row.engine);
-    else if (row.verdict == LockstepVerdict::differs && !openInLaw(row, findings.rules).empty())
+    else if (row.verdict == Equivalence::differs && !openInLaw(row, findings.rules).empty())
       ordered.push_back(row.engine);
     else
-      (row.verdict == LockstepVerdict::differs ? differ : same).push_back(row.engine);
+      (row.verdict == Equivalence::differs ? differ : same).push_back(row.engine);
   }
   if (same.empty() && differ.empty() && ordered.empty() && undecided.empty())
     return "Nothing was measured.";

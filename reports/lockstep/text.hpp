@@ -19,7 +19,7 @@ std::string constantWords(const std::string& constant);
 /// "2.10 %"
 std::string percentText(double fraction);
 
-std::string verdictWord(LockstepVerdict verdict);
+std::string verdictWord(Equivalence verdict);
 
 /// "identical to rounding", "equivalent", "identical to its precision", "undecided", "not
 /// measured". What differs is "differs (equivalent to 2.1 % of k_n)" only where that change of k_n

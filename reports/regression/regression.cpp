@@ -46,7 +46,7 @@ std::string windowsText(const DiffRow& row, const LockstepRules& rules) {
     text += fmt::format("  first beyond {} d: {}\n", readableSetting(rules.rounding), first);
   if (const std::string term = describeTerm(windows); !term.empty())
     text += fmt::format("  deviation found: {}\n", term);
-  else if (windows.verdict == LockstepVerdict::differs)
+  else if (windows.verdict == Equivalence::differs)
     text += row.mirrored ? "  deviation found: none: no single change of the mirror does that\n"
                          : "  deviation found: none: there is no mirror of it in this scene\n";
   return text;
@@ -77,14 +77,14 @@ std::string rowText(const DiffRow& row, const LockstepRules& rules) {
   for (const DeclaredChange& change : row.declared)
     text += fmt::format("  declaration changed: {}: {} → {}\n", change.name,
                         orNothing(change.before), orNothing(change.now));
-  if (row.windows && row.windowsVerdict != DiffVerdict::sameBits) text += windowsText(row, rules);
-  if (row.forcesVerdict == DiffVerdict::differs)
+  if (row.windows && row.windowsVerdict != Equivalence::sameBits) text += windowsText(row, rules);
+  if (row.forcesVerdict == Equivalence::differs)
     text += fmt::format(
         "  reported forces of the same states: of contacts by {} of the largest along the normal, "
         "{} across; on walls by {}\n",
         percentText(row.forces->normal), percentText(row.forces->tangential),
         percentText(row.forces->walls));
-  if (row.sweeps > 0 && row.collisionsVerdict != DiffVerdict::sameBits) text += collisionsText(row);
+  if (row.sweeps > 0 && row.collisionsVerdict != Equivalence::sameBits) text += collisionsText(row);
   if (row.endpoints.empty()) return text;
   text += fmt::format("  averages from {} starts:\n", row.windows->starts);
   for (const EndpointRow& endpoint : row.endpoints)
@@ -92,21 +92,15 @@ std::string rowText(const DiffRow& row, const LockstepRules& rules) {
   return text;
 }
 
-CellState stateOf(DiffVerdict verdict) {
-  if (verdict == DiffVerdict::notMeasured) return CellState::notMeasured;
-  if (verdict == DiffVerdict::undecided) return CellState::undecided;
-  return verdict == DiffVerdict::differs ? CellState::bad : CellState::good;
-}
-
 OverviewCell windowsCell(const DiffRow& row, const LockstepRules& rules) {
-  if (row.forcesVerdict == DiffVerdict::differs && row.windowsVerdict != DiffVerdict::differs) {
+  if (row.forcesVerdict == Equivalence::differs && row.windowsVerdict != Equivalence::differs) {
     const double most = std::max({row.forces->normal, row.forces->tangential, row.forces->walls});
-    return {CellState::bad, 100.0 * most, "%", percentText(most), "reported forces", {}};
+    return {Verdict::fail, 100.0 * most, "%", percentText(most), "reported forces", {}};
   }
-  OverviewCell cell{stateOf(row.windowsVerdict), {}, "%", {}, {}, {}};
-  if (cell.state == CellState::notMeasured) return cell;
+  OverviewCell cell{verdictOf(row.windowsVerdict), {}, "%", {}, {}, {}};
+  if (cell.verdict == Verdict::notMeasured) return cell;
   cell.words = spaced(nameOf(row.windowsVerdict));
-  if (row.windowsVerdict == DiffVerdict::sameBits) {
+  if (row.windowsVerdict == Equivalence::sameBits) {
     cell.value = 0.0;
     cell.shown = "same bits";
   } else if (row.windows && row.windows->equivalent) {
@@ -118,8 +112,8 @@ OverviewCell windowsCell(const DiffRow& row, const LockstepRules& rules) {
 }
 
 OverviewCell collisionsCell(const DiffRow& row) {
-  OverviewCell cell{stateOf(row.collisionsVerdict), {}, "%", {}, {}, {}};
-  if (cell.state == CellState::notMeasured) return cell;
+  OverviewCell cell{verdictOf(row.collisionsVerdict), {}, "%", {}, {}, {}};
+  if (cell.verdict == Verdict::notMeasured) return cell;
   if (row.collisions.empty()) {
     cell.value = 0.0;
     cell.shown = "same bits";
@@ -136,13 +130,13 @@ OverviewCell averagesCell(const DiffRow& row) {
   std::vector<const EndpointRow*> rows;
   for (const EndpointRow& endpoint : row.endpoints) rows.push_back(&endpoint);
   const EndpointRow* worst = worstOf(rows);
-  if (!worst) return {CellState::notMeasured, {}, "margins", {}, {}, {}};
+  if (!worst) return {Verdict::notMeasured, {}, "margins", {}, {}, {}};
   return endpointCell(*worst, false);
 }
 
 OverviewCell declaredCell(const DiffRow& row) {
   const std::size_t count = row.declared.size();
-  return {CellState::figure,
+  return {std::nullopt,
           static_cast<double>(count),
           "changes",
           fmt::format("{}", count),
@@ -175,10 +169,10 @@ std::string listText(const std::vector<AnswerDifference>& differences) {
 }  // namespace
 
 std::string describe(const DiffRow& row, const LockstepRules& rules) {
-  if (row.verdict != DiffVerdict::differs) return spaced(nameOf(row.verdict));
-  if (row.windowsVerdict == DiffVerdict::differs) return describeVerdict(*row.windows, rules);
-  if (row.forcesVerdict == DiffVerdict::differs) return "differs in reported forces";
-  if (row.collisionsVerdict == DiffVerdict::differs)
+  if (row.verdict != Equivalence::differs) return spaced(nameOf(row.verdict));
+  if (row.windowsVerdict == Equivalence::differs) return describeVerdict(*row.windows, rules);
+  if (row.forcesVerdict == Equivalence::differs) return "differs in reported forces";
+  if (row.collisionsVerdict == Equivalence::differs)
     return row.windows ? "differs in collisions" : "differs";
   return "differs in averages";
 }
@@ -207,7 +201,7 @@ Overview diffOverview(const DiffResults& results) {
                              {windowsCell(row, results.rules), collisionsCell(row),
                               averagesCell(row), declaredCell(row)}});
     verdicts.add(row.engine, describe(row, results.rules));
-    if (row.verdict != DiffVerdict::differs) continue;
+    if (row.verdict != Equivalence::differs) continue;
     differ.push_back(row.engine);
     if (row.windows && row.windows->term)
       terms.add(row.engine, constantWords(row.windows->term->name));

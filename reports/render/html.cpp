@@ -61,9 +61,9 @@ std::string linked(const std::string& address, const std::string& content) {
 
 // --- the matrix
 
-std::string meaningOf(const Overview& overview, CellState state) {
-  const auto own = std::ranges::find(overview.states, state, &StateWords::state);
-  return own == overview.states.end() ? std::string(lookOf(state).words) : own->words;
+std::string meaningOf(const Overview& overview, const VerdictLook& look) {
+  const auto own = std::ranges::find(overview.states, look.verdict, &VerdictWords::verdict);
+  return own == overview.states.end() ? std::string(look.words) : own->words;
 }
 
 /// Where it leads: a part of this page, or another page.
@@ -73,8 +73,8 @@ std::string addressOf(const std::string& anchor) {
 
 std::string matrixCell(const Overview& overview, const OverviewCell& cell,
                        const std::string& question) {
-  const CellLook look = lookOf(cell.state);
-  const std::string meaning = meaningOf(overview, cell.state);
+  const VerdictLook& look = lookOf(cell.verdict);
+  const std::string meaning = meaningOf(overview, look);
   const std::string content =
       fmt::format(R"(<b><span class="mark" role="img" aria-label="{}">{}</span> {}</b>{})",
                   escaped(meaning), look.mark, mathHtml(cell.shown),
@@ -87,14 +87,15 @@ std::string matrixCell(const Overview& overview, const OverviewCell& cell,
 
 /// What the marks stand for, of those that occur.
 std::string marksOf(const Overview& overview, bool wrapped) {
-  std::set<CellState> seen;
+  std::set<std::optional<Verdict>> seen;
   for (const OverviewRow& row : overview.rows)
-    for (const OverviewCell& cell : row.cells) seen.insert(cell.state);
-  if (wrapped) seen.erase(CellState::notApplicable);  // such cells are not there
+    for (const OverviewCell& cell : row.cells) seen.insert(cell.verdict);
+  if (wrapped) seen.erase(Verdict::notApplicable);  // such cells are not there
   std::string marks = "<p class=\"small marks\">";
-  for (const CellState state : seen)
-    marks += fmt::format(R"(<span><b class="mark {}">{}</b> {}</span> )", lookOf(state).cssClass,
-                         lookOf(state).mark, mathHtml(meaningOf(overview, state)));
+  for (const VerdictLook& look : verdictLooks)
+    if (seen.contains(look.verdict))
+      marks += fmt::format(R"(<span><b class="mark {}">{}</b> {}</span> )", look.cssClass,
+                           look.mark, mathHtml(meaningOf(overview, look)));
   return marks + "Every cell links to its evidence.</p>\n";
 }
 
@@ -221,17 +222,19 @@ class Writer {
   void cell(const Cell& cell, bool first, Column::Kind kind) {
     using enum Column::Kind;
     std::string classes = kind == number ? "n" : kind == remark ? "why" : "";
-    if (cell.state) classes += std::string(" change ") + std::string(lookOf(*cell.state).cssClass);
+    const bool coloured = cell.verdict || cell.marked;
+    const VerdictLook& look = lookOf(cell.verdict);
+    if (coloured) classes += std::string(" change ") + std::string(look.cssClass);
     std::string text = kind == engines ? names_(cell.text) : mathHtml(cell.text);
-    if (cell.state && cell.marked) text = std::string(lookOf(*cell.state).mark) + " " + text;
-    if (cell.state) text = "<b>" + text + "</b>";
+    if (cell.marked) text = std::string(look.mark) + " " + text;
+    if (coloured) text = "<b>" + text + "</b>";
     text = linked(cell.link, text);
     for (const std::string& note : cell.notes) text += "<small>" + mathHtml(note) + "</small>";
     if (!cell.strip.empty()) {
       text += "<span class=\"strip\">";
       for (const Square& square : cell.strip)
-        text += fmt::format(R"(<i class="{}" title="{}">{}</i>)", lookOf(square.state).cssClass,
-                            escaped(square.title), lookOf(square.state).mark);
+        text += fmt::format(R"(<i class="{}" title="{}">{}</i>)", lookOf(square.verdict).cssClass,
+                            escaped(square.title), lookOf(square.verdict).mark);
       text += "</span>";
     }
     const char* const tag = first ? "th" : "td";

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "reports/common/labels.hpp"
+
 namespace crossgrain::reports {
 
 namespace {
-
-using Outcome = JUnitCase::Outcome;
 
 /// As the value of an attribute. What XML 1.0 cannot hold at all, a terminal's escapes and bytes
 /// that are not UTF-8, becomes a sign of replacement.
@@ -41,59 +41,26 @@ std::string xmlText(const std::string& raw) {
   return result;
 }
 
+/// Empty where a test passes: a model difference does, and what shows nothing is skipped.
+std::string_view tagOf(const JUnitCase& one) {
+  if (one.broke) return "error";
+  if (one.verdict == Verdict::fail) return "failure";
+  return one.verdict == Verdict::pass || one.verdict == Verdict::modelDifference ? "" : "skipped";
+}
+
 std::string counts(const std::vector<JUnitCase>& cases) {
-  const auto count = [&](Outcome outcome) {
-    return std::ranges::count(cases, outcome, &JUnitCase::outcome);
-  };
+  const auto count = [&](std::string_view tag) { return std::ranges::count(cases, tag, tagOf); };
   double seconds = 0.0;
   for (const JUnitCase& each : cases) seconds += each.seconds;
   return fmt::format(R"(tests="{}" failures="{}" errors="{}" skipped="{}" time="{:.3f}")",
-                     cases.size(), count(Outcome::failed), count(Outcome::error),
-                     count(Outcome::skipped), seconds);
-}
-
-const char* tagOf(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::failed:
-      return "failure";
-    case Outcome::error:
-      return "error";
-    case Outcome::skipped:
-      return "skipped";
-    case Outcome::passed:
-      break;
-  }
-  return nullptr;
-}
-
-/// Absent: the cell answers no question.
-std::optional<Outcome> cellOutcome(CellState state) {
-  using enum CellState;
-  switch (state) {
-    case good:
-    case modelDifference:
-      return Outcome::passed;
-    case bad:
-      return Outcome::failed;
-    case borderline:
-    case undecided:
-    case notMeasured:
-      return Outcome::skipped;
-    case figure:
-    case notApplicable:
-      break;
-  }
-  return std::nullopt;
+                     cases.size(), count("failure"), count("error"), count("skipped"), seconds);
 }
 
 /// "undecided, 0.31 margins, pressure"
 std::string messageOf(const OverviewCell& cell) {
   std::vector<std::string> parts;
-  if (cell.state != CellState::good && cell.state != CellState::bad) {
-    std::string state(namesOf(cell.state)[static_cast<std::size_t>(cell.state)]);
-    std::ranges::replace(state, '_', ' ');
-    parts.push_back(std::move(state));
-  }
+  if (cell.verdict != Verdict::pass && cell.verdict != Verdict::fail)
+    parts.push_back(spaced(cellWord(cell.verdict)));
   for (const std::string& part : {cell.shown, cell.words})
     if (!part.empty()) parts.push_back(part);
   return fmt::format("{}", fmt::join(parts, ", "));
@@ -105,8 +72,8 @@ std::vector<JUnitCase> overviewCases(const Overview& overview, const std::string
   std::vector<JUnitCase> cases;
   for (const OverviewRow& row : overview.rows)
     for (std::size_t k = 0; k < row.cells.size(); ++k)
-      if (const auto outcome = cellOutcome(row.cells[k].state))
-        cases.push_back({group, fmt::format("{}: {}", row.name, overview.columns[k].name), *outcome,
+      if (const auto verdict = row.cells[k].verdict; verdict && *verdict != Verdict::notApplicable)
+        cases.push_back({group, fmt::format("{}: {}", row.name, overview.columns[k].name), *verdict,
                          messageOf(row.cells[k])});
   return cases;
 }
@@ -119,7 +86,7 @@ std::string junitXml(const std::string& suite, const std::vector<JUnitCase>& cas
   for (const JUnitCase& each : cases) {
     xml += fmt::format(R"(<testcase classname="{}" name="{}" time="{:.3f}")", xmlText(each.group),
                        xmlText(each.name), each.seconds);
-    if (const char* tag = tagOf(each.outcome))
+    if (const std::string_view tag = tagOf(each); !tag.empty())
       xml += fmt::format("><{} message=\"{}\"/></testcase>\n", tag, xmlText(each.message));
     else if (!each.message.empty())
       xml += fmt::format("><system-out>{}</system-out></testcase>\n", xmlText(each.message));

@@ -20,7 +20,7 @@ std::string padded(const std::string& text, std::size_t width) {
 }
 
 std::string textOf(const OverviewCell& cell) {
-  const std::string mark(lookOf(cell.state).mark);
+  const std::string mark(lookOf(cell.verdict).mark);
   return cell.shown.empty() ? mark : mark + " " + cell.shown;
 }
 
@@ -78,7 +78,7 @@ std::string leftOut(std::size_t rows, std::size_t columns) {
 
 std::string inColour(const OverviewCell& cell, const std::string& text, const TextLook& look) {
   if (!look.coloured) return text;
-  return fmt::format("\033[{}m{}\033[0m", lookOf(cell.state).terminal, text);
+  return fmt::format("\033[{}m{}\033[0m", lookOf(cell.verdict).terminal, text);
 }
 
 std::string withoutEnd(std::string line) {

@@ -43,7 +43,7 @@ std::string describeWorkers(const ScaleResults& results, const ScalePoint& point
 std::vector<std::string> deviationsOf(const ScaleResults& results, const std::string& engine) {
   std::vector<std::string> names;
   for (const ScalePoint& point : results.points) {
-    if (point.engine != engine || point.status != EngineStatus::ran) continue;
+    if (point.engine != engine || point.status != Status::finished) continue;
     for (const std::string& name : point.differs)
       if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   }
@@ -112,20 +112,20 @@ constexpr ScaleQuestion scaleQuestions[] = {
 
 OverviewCell scaleCell(const ScaleResults& results, const EngineRow& engine,
                        const ScaleQuestion& question) {
-  OverviewCell cell{CellState::notMeasured, {}, question.unit, {}, {}, "table"};
+  OverviewCell cell{Verdict::notMeasured, {}, question.unit, {}, {}, "table"};
   const ScalePoint* const point = largestWith(results, engine.name, question.figure);
   if (!point) {
     const bool ofSharing =
         question.figure == &ScaleFigures::strong || question.figure == &ScaleFigures::weak;
     if (ofSharing && sharedBy(results, engine.name).empty())
-      cell.state = CellState::notApplicable;
-    else if (engine.status == EngineStatus::failed) {
-      cell.state = CellState::bad;
+      cell.verdict = Verdict::notApplicable;
+    else if (engine.status == Status::failed) {
+      cell.verdict = Verdict::fail;
       cell.shown = "failed";
     }
     return cell;
   }
-  cell.state = CellState::figure;
+  cell.verdict = std::nullopt;
   cell.value = question.factor * *(scaleFigures(results, *point).*question.figure);
   cell.shown = fmt::format("{} {}", readable(cell.value), question.unit);
   cell.words = fmt::format("{}, {}", describeDisks(point->disks), describeWorkers(results, *point));
@@ -239,16 +239,16 @@ std::string scaleCsv(const ScaleResults& results) {
       "differs,reason\n";
   for (const ScalePoint& point : results.points) {
     const ScaleFigures figures = scaleFigures(results, point);
-    const bool ran = point.status == EngineStatus::ran;
+    const bool ran = point.status == Status::finished;
     std::string differs;
     for (const std::string& each : point.differs) differs += (differs.empty() ? "" : " ") + each;
     table += row(point.engine, point.disks, static_cast<std::size_t>(point.workers),
-                 sharedBy(results, point.engine), std::string(nameOf(point.status)), figures.step,
-                 figures.spread, times(figures.perDisk, 1e9), figures.strong, figures.weak,
-                 figures.ratio, point.memory, figures.bytes, point.contacts,
-                 static_cast<std::size_t>(point.steps), point.seconds.size(),
-                 ran ? std::optional(point.dt) : std::nullopt, point.precision, point.measured,
-                 differs, point.reason);
+                 sharedBy(results, point.engine),
+                 std::string(nameOf(point.status, engineStatusNames)), figures.step, figures.spread,
+                 times(figures.perDisk, 1e9), figures.strong, figures.weak, figures.ratio,
+                 point.memory, figures.bytes, point.contacts, static_cast<std::size_t>(point.steps),
+                 point.seconds.size(), ran ? std::optional(point.dt) : std::nullopt,
+                 point.precision, point.measured, differs, point.reason);
   }
   return table;
 }
@@ -267,7 +267,7 @@ Overview scaleOverview(const ScaleResults& results) {
     overview.rows.push_back(std::move(row));
     fastest.push_back(fastestOf(results, engine.name));
     const auto trouble = std::ranges::find_if(results.points, [&](const ScalePoint& point) {
-      return point.engine == engine.name && point.status != EngineStatus::ran;
+      return point.engine == engine.name && point.status != Status::finished;
     });
     if (trouble != results.points.end())
       stopped.push_back(fmt::format("{} ends at {}: {}", engine.name, describeDisks(trouble->disks),
@@ -292,9 +292,10 @@ std::string scaleText(const ScaleResults& results) {
   for (const ScalePoint& point : results.points) {
     rows.push_back({point.engine});
     for (std::string& cell : scaleCells(results, point)) rows.back().push_back(std::move(cell));
-    if (point.status != EngineStatus::ran)
+    if (point.status != Status::finished)
       notes += fmt::format("{}, {}, {}: {}: {}\n", point.engine, describeDisks(point.disks),
-                           describeWorkers(results, point), nameOf(point.status), point.reason);
+                           describeWorkers(results, point), nameOf(point.status, engineStatusNames),
+                           point.reason);
   }
   return alignedText(rows) + notes;
 }
@@ -323,8 +324,7 @@ Report reportOf(const ScaleResults& results) {
     TableRow row{{point.engine}};
     for (const std::string& cell : scaleCells(results, point)) row.cells.emplace_back(cell);
     row.cells.emplace_back(readableCount(static_cast<double>(point.steps)));
-    row.cells.emplace_back(point.status == EngineStatus::ran ? listed(point.differs)
-                                                             : point.reason);
+    row.cells.emplace_back(point.status == Status::finished ? listed(point.differs) : point.reason);
     table.rows.push_back(std::move(row));
   }
   report.section("table", "All timings").blocks.push_back(std::move(table));

@@ -36,7 +36,7 @@ void addRows(History& history) {
     const ReportDigest& digest = history.reports[k]->digest;
     for (const OverviewRow& row : digest.overview.rows)
       for (std::size_t c = 0; c < row.cells.size(); ++c)
-        if (row.cells[c].state != CellState::notApplicable)
+        if (row.cells[c].verdict != Verdict::notApplicable)
           rowIn(history, row.name, digest.overview.columns[c].name).cells[k] = row.cells[c];
     for (const DigestValue& value : digest.values)
       rowIn(history, value.engine, value.quantity).cells[k] = value.cell;
@@ -63,7 +63,7 @@ std::pair<const OverviewCell*, const OverviewCell*> endsOf(const HistoryRow& row
 
 bool answerChanged(const HistoryRow& row) {
   const auto [first, last] = endsOf(row);
-  return first && first->state != last->state;
+  return first && first->verdict != last->verdict;
 }
 
 bool caseChanged(const History& history) {
@@ -84,7 +84,7 @@ Table historyTable(const History& history) {
       const auto& cell = row.cells[k];
       line.cells.push_back({cell ? cell->shown : "",
                             {cell ? cell->words : ""},
-                            cell ? cell->state : CellState::notMeasured,
+                            cell ? cell->verdict : Verdict::notMeasured,
                             true});
       line.cells.back().link = pageOf(*history.reports[k]);
     }
@@ -124,8 +124,8 @@ std::vector<History> historiesOf(const std::vector<SiteReport>& reports) {
 std::string changeOf(const HistoryRow& row) {
   const auto [first, last] = endsOf(row);
   if (!first) return {};
-  if (first->state != last->state)
-    return fmt::format("{} → {}", lookOf(first->state).words, lookOf(last->state).words);
+  if (first->verdict != last->verdict)
+    return fmt::format("{} → {}", lookOf(first->verdict).words, lookOf(last->verdict).words);
   if (!first->value || !last->value || first->unit != last->unit) return {};
   if (*first->value == *last->value) return "same";
   if (*first->value == 0.0) return {};

@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <initializer_list>
 
+#include "reports/common/overview.hpp"
 #include "reports/common/sentences.hpp"
 #include "reports/site/site.hpp"
 #include "results/schema.hpp"
@@ -16,31 +15,20 @@ using Names = std::vector<std::string>;
 
 constexpr std::size_t mostPlaces = 2;
 
-/// States that answer a question, the most severe first.
-constexpr std::array answers = {CellState::bad, CellState::borderline, CellState::undecided,
-                                CellState::modelDifference, CellState::good};
-
-/// How many answers: "2 of 7 failed".
-std::string_view verbOf(CellState state) {
-  switch (state) {
-    case CellState::bad:
-      return "failed";
-    case CellState::borderline:
-      return "borderline";
-    case CellState::undecided:
-      return "undecided";
-    case CellState::modelDifference:
-      return "differ by their model";
-    default:
-      return "passed";
-  }
+/// Of all that is judged of an engine; absent: nothing is.
+std::optional<Verdict> mostSevere(const OverviewRow& row) {
+  std::optional<Verdict> worst;
+  for (const OverviewCell& cell : row.cells)
+    if (cell.verdict && isJudged(*cell.verdict))
+      worst = worst ? moreSevere(*worst, *cell.verdict) : *cell.verdict;
+  return worst;
 }
 
 /// Questions of a report that came out so for an engine.
-Names questionsWith(const Overview& overview, const OverviewRow& row, CellState state) {
+Names questionsWith(const Overview& overview, const OverviewRow& row, Verdict verdict) {
   Names names;
   for (std::size_t k = 0; k < row.cells.size(); ++k)
-    if (row.cells[k].state == state) names.push_back(overview.columns[k].name);
+    if (row.cells[k].verdict == verdict) names.push_back(overview.columns[k].name);
   return names;
 }
 
@@ -51,8 +39,8 @@ bool tookPart(const SiteReport& report, const std::string& engine) {
 
 /// A refuted claim is a finding about the thesis, not about the engine.
 OverviewCell claimsCell(OverviewCell cell, const Overview& overview, const OverviewRow& row) {
-  const std::size_t reproduced = questionsWith(overview, row, CellState::good).size(),
-                    refuted = questionsWith(overview, row, CellState::bad).size();
+  const std::size_t reproduced = questionsWith(overview, row, Verdict::pass).size(),
+                    refuted = questionsWith(overview, row, Verdict::fail).size();
   cell.value = static_cast<double>(reproduced);
   cell.shown = fmt::format("{} of {} reproduced", reproduced, reproduced + refuted);
   cell.words = "decided claims";
@@ -60,36 +48,35 @@ OverviewCell claimsCell(OverviewCell cell, const Overview& overview, const Overv
 }
 
 OverviewCell cellOf(const SiteReport& report, const std::string& engine) {
-  OverviewCell cell{CellState::notApplicable, {}, "questions", {}, {}, {}};
+  OverviewCell cell{Verdict::notApplicable, {}, "questions", {}, {}, {}};
   const Overview& overview = report.digest.overview;
   const OverviewRow* row = rowOf(overview, engine);
   if (!row && !tookPart(report, engine)) return cell;
   cell.anchor = pageOf(report);
-  cell.state = CellState::figure;
+  cell.verdict = std::nullopt;
   if (!row) {
     cell.words = "took part";
     return cell;
   }
   if (report.digest.head.kind == kindThesis) return claimsCell(std::move(cell), overview, *row);
-  std::size_t answered = 0;
-  for (const CellState state : answers) answered += questionsWith(overview, *row, state).size();
-  for (const CellState state : answers) {
-    const Names names = questionsWith(overview, *row, state);
-    if (names.empty()) continue;
-    cell.state = state;
-    cell.value = static_cast<double>(names.size());
-    cell.shown = fmt::format("{} of {} {}", names.size(), answered, verbOf(state));
-    if (state != CellState::good) cell.words = listedShortly(names, mostPlaces);
-    break;
-  }
+  cell.verdict = mostSevere(*row);
+  if (!cell.verdict) return cell;
+  const Names names = questionsWith(overview, *row, *cell.verdict);
+  const auto answered = std::ranges::count_if(
+      row->cells, [](const auto& one) { return one.verdict && isJudged(*one.verdict); });
+  cell.value = static_cast<double>(names.size());
+  cell.shown = fmt::format("{} of {} {}", names.size(), answered,
+                           cell.verdict == Verdict::modelDifference ? "differ by their model"
+                                                                    : lookOf(cell.verdict).words);
+  if (cell.verdict != Verdict::pass) cell.words = listedShortly(names, mostPlaces);
   return cell;
 }
 
 /// "ours and theirs in compare quick; …": rows with cells in that state.
-std::string whereWith(const Overview& overview, const Names& engines, CellState state) {
+std::string whereWith(const Overview& overview, const Names& engines, Verdict verdict) {
   SaidOf said;
   for (const OverviewRow& row : overview.rows)
-    if (const Names where = questionsWith(overview, row, state);
+    if (const Names where = questionsWith(overview, row, verdict);
         !where.empty() && std::ranges::find(engines, row.name) != engines.end())
       said.add(row.name, listedShortly(where, mostPlaces));
   std::string words;
@@ -98,30 +85,22 @@ std::string whereWith(const Overview& overview, const Names& engines, CellState 
   return words;
 }
 
-bool hasAny(const OverviewRow& row, std::initializer_list<CellState> states) {
-  return std::ranges::any_of(row.cells, [&](const OverviewCell& cell) {
-    return std::ranges::find(states, cell.state) != states.end();
-  });
-}
-
 /// @param engines  that are named: no mirrors
 std::vector<std::string> conclusionOf(const Overview& overview, const Names& engines) {
-  using enum CellState;
   Names clean;
   for (const OverviewRow& row : overview.rows)
-    if (std::ranges::find(engines, row.name) != engines.end() &&
-        hasAny(row, {good, modelDifference}) && !hasAny(row, {bad, borderline, undecided}))
+    if (const auto worst = mostSevere(row);
+        (worst == Verdict::pass || worst == Verdict::modelDifference) &&
+        std::ranges::find(engines, row.name) != engines.end())
       clean.push_back(row.name);
   std::vector<std::string> sentences;
   if (!clean.empty())
     sentences.push_back(
         fmt::format("All passed or decided: {}.", listedShortly(clean, 2 * mostPlaces)));
-  if (const std::string failed = whereWith(overview, engines, bad); !failed.empty())
+  if (const std::string failed = whereWith(overview, engines, Verdict::fail); !failed.empty())
     sentences.push_back(fmt::format("Failed: {}.", failed));
-  if (const std::string undecidedOnes = whereWith(overview, engines, undecided);
-      !undecidedOnes.empty())
-    sentences.push_back(
-        fmt::format("Undecided: {}; each report has what would decide.", undecidedOnes));
+  if (const std::string open = whereWith(overview, engines, Verdict::undecided); !open.empty())
+    sentences.push_back(fmt::format("Undecided: {}; each report has what would decide.", open));
   if (sentences.empty()) sentences.push_back("Nothing was judged in these reports.");
   return sentences;
 }
@@ -136,7 +115,7 @@ std::size_t columnOf(Overview& overview, const OverviewColumn& question) {
 }
 
 /// How many questions came out so, and in which reports.
-struct Tally {
+struct StateTally {
   std::size_t answered = 0;
   std::vector<std::string> places;  ///< reports, each once
 
@@ -183,9 +162,9 @@ std::vector<EngineRow> siteEngines(const std::vector<SiteReport>& reports) {
 
 Overview siteOverview(const std::vector<SiteReport>& reports) {
   Overview overview;
-  overview.states = {{CellState::good, "all that is judged passed"},
-                     {CellState::figure, "took part; nothing is judged by engine"},
-                     {CellState::notApplicable, "not in it"}};
+  overview.states = {{Verdict::pass, "all that is judged passed"},
+                     {std::nullopt, "took part; nothing is judged by engine"},
+                     {Verdict::notApplicable, "not in it"}};
   for (const SiteReport& report : reports)
     overview.columns.push_back(
         {ownNameOf(report, reports), titleOf(report.digest.head), pageOf(report)});
@@ -203,10 +182,10 @@ Overview siteOverview(const std::vector<SiteReport>& reports) {
 }
 
 Overview engineOverview(const std::vector<SiteReport>& reports, const std::string& engine) {
-  using enum CellState;
+  using enum Verdict;
   Overview overview;
   overview.rowsAre = "report";
-  Tally passed, differs, failed, undecidedOnes;
+  StateTally passed, differs, failed, undecidedOnes;
   for (const SiteReport& report : reports) {
     const Overview& its = report.digest.overview;
     const OverviewRow* const own = rowOf(its, engine);
@@ -219,16 +198,16 @@ Overview engineOverview(const std::vector<SiteReport>& reports, const std::strin
       row.cells.resize(std::max(row.cells.size(), column + 1), {notApplicable});
       row.cells[column] = std::move(cell);
       if (report.digest.head.kind == kindThesis) continue;  // its claims are not the engine's
-      const CellState state = own->cells[k].state;
-      if (state == good) passed.add(row.name);
-      if (state == modelDifference) differs.add(row.name);
-      if (state == bad) failed.add(row.name);
-      if (state == borderline || state == undecided) undecidedOnes.add(row.name);
+      const auto verdict = own->cells[k].verdict;
+      if (verdict == pass) passed.add(row.name);
+      if (verdict == modelDifference) differs.add(row.name);
+      if (verdict == fail) failed.add(row.name);
+      if (verdict == borderline || verdict == undecided) undecidedOnes.add(row.name);
     }
     overview.rows.push_back(std::move(row));
   }
   for (OverviewRow& row : overview.rows) row.cells.resize(overview.columns.size(), {notApplicable});
-  const auto say = [&](const char* what, const Tally& tally) {
+  const auto say = [&](const char* what, const StateTally& tally) {
     if (tally.answered > 0 && overview.conclusion.size() < 3)
       overview.conclusion.push_back(fmt::format("{}: {} ({}).", what,
                                                 counted(tally.answered, "question"),

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/worker/json.hpp"
 #include "reports/common/engines.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/overview.hpp"
 #include "reports/stability/report.hpp"
 #include "reports/stability/table.hpp"
-#include "results/engine_fields.hpp"
 #include "results/json_fields.hpp"
 #include "results/scene_picture.hpp"
 #include "results/stability.hpp"
@@ -24,19 +24,19 @@ Figure mapOf(const StabilityResults& results, const std::vector<HardGroup>& grou
   Panel panel;
   for (const HardGroup& group : groups) panel.rows.push_back(spaced(group.name));
   for (const EngineRow& engine : engines) panel.columns.push_back(engine.name);
-  for (std::size_t rank = 0; rank < namesOf(StabilityVerdict{}).size(); ++rank) {
-    const auto verdict = static_cast<StabilityVerdict>(rank);
-    panel.curves.push_back({std::string(nameOf(verdict)),
-                            {std::string(lookOf(stateOf(verdict)).plot), 5, false},
-                            Draw::tiles,
-                            {},
-                            1.0});
+  for (const auto& [verdict, name] : stabilityNames) {
+    Curve& tiles =
+        panel.curves.emplace_back(Curve{std::string(name),
+                                        {std::string(lookOf(verdict).plot), 5, false},
+                                        Draw::tiles,
+                                        {},
+                                        1.0});
+    for (std::size_t e = 0; e < engines.size(); ++e)
+      for (std::size_t g = 0; g < groups.size(); ++g)
+        if (const StabilityRun* run = worstRun(results, engines[e].name, groups[g]);
+            run && run->verdict == verdict)
+          tiles.points.push_back({static_cast<double>(e), static_cast<double>(g), {}});
   }
-  for (std::size_t e = 0; e < engines.size(); ++e)
-    for (std::size_t g = 0; g < groups.size(); ++g)
-      if (const StabilityRun* run = worstRun(results, engines[e].name, groups[g]))
-        panel.curves[static_cast<std::size_t>(run->verdict)].points.push_back(
-            {static_cast<double>(e), static_cast<double>(g), {}});
   std::erase_if(panel.curves, [](const Curve& curve) { return curve.points.empty(); });
   Figure figure;
   figure.name = "stability_map";
@@ -51,7 +51,7 @@ Figure mapOf(const StabilityResults& results, const std::vector<HardGroup>& grou
 }
 
 bool keptToLimit(const StabilityRun& run) {
-  return run.verdict <= StabilityVerdict::stable;
+  return run.verdict <= Verdict::pass;
 }
 
 Curve measureCurve(const StabilityRun& run, const LineStyle& style, bool logarithmic) {
@@ -66,7 +66,7 @@ Curve measureCurve(const StabilityRun& run, const LineStyle& style, bool logarit
 /// The variant with the worst run that is drawn, or null.
 const HardCase* worstVariant(const StabilityResults& results, const HardGroup& group) {
   const HardCase* shown = nullptr;
-  StabilityVerdict worst = StabilityVerdict::stable;
+  Verdict worst = Verdict::pass;
   for (const HardCase* variant : group.variants)
     for (const EngineRow& engine : results.engines) {
       const StabilityRun* run = runOf(results, engine.name, *variant);
@@ -221,7 +221,7 @@ std::vector<Figure> stabilityFigures(const StabilityResults& results) {
 std::vector<Picture> stabilityPictures(const StabilityResults& results) {
   std::vector<Picture> pictures;
   for (const StabilityRun& run : results.runs)
-    if (run.verdict == StabilityVerdict::unstable && run.picture)
+    if (run.verdict == Verdict::fail && run.picture)
       pictures.push_back(pictureOf(run, pictures.size() + 1));
   return pictures;
 }

@@ -94,11 +94,11 @@ FamilyTally familyTally(const StabilityResults& results, const std::string& engi
       if (familyOf(variant->measure) != family) continue;
       const StabilityRun* run = runOf(results, engine, *variant);
       if (!run) continue;
-      tally.refused += run->verdict == StabilityVerdict::refused;
-      tally.notRun += run->verdict == StabilityVerdict::notRun;
+      tally.refused += run->verdict == Verdict::notApplicable;
+      tally.notRun += run->verdict == Verdict::notMeasured;
       if (!isJudged(run->verdict)) continue;
       ++tally.judged;
-      tally.stable += run->verdict == StabilityVerdict::stable;
+      tally.stable += run->verdict == Verdict::pass;
       if (!tally.worst || isWorse(*run, *tally.worst)) {
         tally.worst = run;
         tally.anchor = fmt::format("case_{}", g + 1);
@@ -108,16 +108,16 @@ FamilyTally familyTally(const StabilityResults& results, const std::string& engi
 }
 
 OverviewCell familyCell(const FamilyTally& tally) {
-  OverviewCell cell{CellState::notMeasured, {}, "stable runs", {}, {}, tally.anchor};
+  OverviewCell cell{Verdict::notMeasured, {}, "stable runs", {}, {}, tally.anchor};
   if (!tally.worst) {
-    if (tally.refused > 0 && tally.notRun == 0) cell.state = CellState::notApplicable;
+    if (tally.refused > 0 && tally.notRun == 0) cell.verdict = Verdict::notApplicable;
     return cell;
   }
   cell.value = static_cast<double>(tally.stable);
   cell.shown = fmt::format("{} of {}", tally.stable, tally.judged);
   if (tally.notRun > 0) cell.words = fmt::format("{} not run", tally.notRun);
-  cell.state = stateOf(tally.worst->verdict);
-  if (cell.state != CellState::good) cell.words = spaced(tally.worst->name);
+  cell.verdict = tally.worst->verdict;
+  if (cell.verdict != Verdict::pass) cell.words = spaced(tally.worst->name);
   return cell;
 }
 
@@ -128,10 +128,10 @@ std::string stableEngines(const StabilityResults& results) {
     std::size_t stable = 0, degraded = 0, unstable = 0, notRun = 0;
     for (const StabilityRun& run : results.runs) {
       if (run.engine != engine.name) continue;
-      stable += run.verdict == StabilityVerdict::stable;
-      degraded += run.verdict == StabilityVerdict::degraded;
-      unstable += run.verdict == StabilityVerdict::unstable;
-      notRun += run.verdict == StabilityVerdict::notRun;
+      stable += run.verdict == Verdict::pass;
+      degraded += run.verdict == Verdict::borderline;
+      unstable += run.verdict == Verdict::fail;
+      notRun += run.verdict == Verdict::notMeasured;
     }
     const std::size_t judged = stable + degraded + unstable;
     const std::size_t all = judged + notRun;
@@ -153,7 +153,7 @@ std::string differentTransforms(const StabilityResults& results) {
   for (const EngineRow& engine : results.engines) {
     std::vector<std::string> broken;
     for (const StabilityRun& run : results.runs)
-      if (run.engine == engine.name && run.verdict == StabilityVerdict::unstable)
+      if (run.engine == engine.name && run.verdict == Verdict::fail)
         broken.push_back(fmt::format("{} {}", spaced(run.name), run.variant));
     if (!broken.empty()) said.add(engine.name, listedShortly(broken, 3));
   }
@@ -172,7 +172,7 @@ std::string unstableCases(const StabilityResults& results) {
     std::vector<std::string> unstable;
     for (const HardGroup& group : hardGroups(results))
       if (const StabilityRun* run = worstRun(results, engine.name, group);
-          run && run->verdict == StabilityVerdict::unstable)
+          run && run->verdict == Verdict::fail)
         unstable.push_back(spaced(group.name));
     if (!unstable.empty()) said.add(engine.name, listedShortly(unstable, 3));
   }
@@ -184,24 +184,23 @@ std::string unstableCases(const StabilityResults& results) {
 }
 
 std::string stabilityNextStep(const StabilityResults& results) {
-  const auto has = [&](StabilityVerdict verdict) {
+  const auto has = [&](Verdict verdict) {
     return std::ranges::find(results.runs, verdict, &StabilityRun::verdict) != results.runs.end();
   };
   if (areTransforms(results)) {
-    if (has(StabilityVerdict::unstable))
+    if (has(Verdict::fail))
       return "Next: see after which step and by how much; what depends on how a scene is expressed "
              "comes from the engine.";
-    if (has(StabilityVerdict::notRun))
+    if (has(Verdict::notMeasured))
       return "Next: the same command with a larger --budget, for what was not run.";
-    if (has(StabilityVerdict::stable))
-      return "All transformations change no more than rounding does.";
+    if (has(Verdict::pass)) return "All transformations change no more than rounding does.";
   }
-  if (has(StabilityVerdict::unstable))
+  if (has(Verdict::fail))
     return "Next: avoid scenes like these with those engines, or see from which step on the limit "
            "is passed.";
-  if (has(StabilityVerdict::degraded))
+  if (has(Verdict::borderline))
     return "Next: see whether what is degraded is more than your scene can bear.";
-  if (has(StabilityVerdict::stable)) return "Nothing here speaks against any of these engines.";
+  if (has(Verdict::pass)) return "Nothing here speaks against any of these engines.";
   return "Nothing was judged: every run was refused.";
 }
 
@@ -217,14 +216,14 @@ bool areTransforms(const StabilityResults& results) {
 Overview stabilityOverview(const StabilityResults& results) {
   Overview overview;
   if (areTransforms(results))
-    overview.states = {{CellState::good, "the same, but for rounding"},
-                       {CellState::bad, "different"},
-                       {CellState::notApplicable, "cannot be done"}};
+    overview.states = {{Verdict::pass, "the same, but for rounding"},
+                       {Verdict::fail, "different"},
+                       {Verdict::notApplicable, "cannot be done"}};
   else
-    overview.states = {{CellState::good, "all stable"},
-                       {CellState::borderline, "some degraded"},
-                       {CellState::bad, "some unstable"},
-                       {CellState::notApplicable, "refused"}};
+    overview.states = {{Verdict::pass, "all stable"},
+                       {Verdict::borderline, "some degraded"},
+                       {Verdict::fail, "some unstable"},
+                       {Verdict::notApplicable, "refused"}};
   const std::vector<NamedFamily> all = familiesOf(results);
   for (const NamedFamily& family : all)
     overview.columns.push_back({family.name, family.asks, "matrix"});

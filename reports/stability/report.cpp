@@ -22,7 +22,7 @@ using Kind = Column::Kind;
 /// The clause that names what is missing, of "X cannot run FILE: CLAUSE; HINT".
 std::string shortReason(const StabilityRun& run) {
   const auto clause = run.reason.find(".toml: ");
-  if (run.verdict != StabilityVerdict::refused || clause == std::string::npos) return run.reason;
+  if (run.verdict != Verdict::notApplicable || clause == std::string::npos) return run.reason;
   const std::string rest = run.reason.substr(clause + 7);
   return rest.substr(0, rest.find("; list "));
 }
@@ -33,7 +33,7 @@ std::string valueOf(const StabilityRun& run) {
 }
 
 std::string runWord(const StabilityRun& run) {
-  return spaced(std::string(nameOf(run.verdict)));
+  return spaced(std::string(nameOf(run.verdict, stabilityNames)));
 }
 
 /// The verdict, the measure's value, and the step from which on it was beyond its limit.
@@ -43,10 +43,10 @@ Cell runCell(const StabilityRun* run) {
   // Of a transformed case the limit is not the case's.
   if (std::isfinite(run->limit) && !std::isfinite(run->degradedLimit))
     notes.push_back("rounding may do " + readable(run->limit));
-  if (run->step && run->verdict != StabilityVerdict::stable)
+  if (run->step && run->verdict != Verdict::pass)
     notes.push_back("from step " + readableCount(stepOf(*run)));
   if (!run->value) notes.push_back(shortReason(*run));
-  return {runWord(*run), std::move(notes), stateOf(run->verdict), true};
+  return {runWord(*run), std::move(notes), run->verdict, true};
 }
 
 /// Every verdict of an engine in a case at a glance: "3 of 4 stable".
@@ -55,7 +55,7 @@ std::string stableTally(const StabilityResults& results, const std::string& engi
   int stable = 0, judged = 0;
   for (const HardCase* variant : group.variants)
     if (const StabilityRun* run = runOf(results, engine, *variant)) {
-      stable += run->verdict == StabilityVerdict::stable;
+      stable += run->verdict == Verdict::pass;
       judged += isJudged(run->verdict);
     }
   return judged > 1 ? fmt::format("{} of {} stable", stable, judged) : std::string();
@@ -121,7 +121,7 @@ Table variantTable(const StabilityResults& results, const HardGroup& group) {
 bool allStable(const StabilityResults& results, const HardGroup& group) {
   return std::ranges::all_of(results.engines, [&](const EngineRow& engine) {
     const StabilityRun* run = worstRun(results, engine.name, group);
-    return run && run->verdict == StabilityVerdict::stable;
+    return run && run->verdict == Verdict::pass;
   });
 }
 
@@ -171,7 +171,7 @@ Table scoreTable(const StabilityResults& results) {
     table.rows.push_back({{run.engine,
                            spaced(run.name),
                            run.variant,
-                           {runWord(run), {}, stateOf(run.verdict), true},
+                           {runWord(run), {}, run.verdict, true},
                            spaced(run.measure),
                            valueOf(run),
                            readableSetting(finite(run.limit)),
@@ -186,13 +186,11 @@ std::string stabilityCsv(const StabilityResults& results) {
   std::string table =
       "engine,case,verdict,measure,value,limit,unit,step,reason,degraded_limit,variant,time_s\n";
   for (const StabilityRun& run : results.runs)
-    table += row(run.engine, run.name, std::string(nameOf(run.verdict)), run.measure, run.value,
-                 finite(run.limit), run.unit, stepOf(run), run.reason, finite(run.degradedLimit),
-                 run.variant, run.time);
+    table += row(run.engine, run.name, std::string(nameOf(run.verdict, stabilityNames)),
+                 run.measure, run.value, finite(run.limit), run.unit, stepOf(run), run.reason,
+                 finite(run.degradedLimit), run.variant, run.time);
   return table;
 }
-
-using Outcome = JUnitCase::Outcome;
 
 /// "0.31 J against a limit of 0.1 J (why); reason"
 std::string limitInWords(const StabilityRun& run, const std::string& why) {
@@ -204,31 +202,29 @@ std::string limitInWords(const StabilityRun& run, const std::string& why) {
   return figure + (figure.empty() || run.reason.empty() ? "" : "; ") + run.reason;
 }
 
-Outcome junitOutcome(const StabilityRun& run) {
-  if (run.status == HardRunStatus::failed) return Outcome::error;
-  switch (run.verdict) {
-    case StabilityVerdict::unstable:
-      return Outcome::failed;
-    case StabilityVerdict::notRun:
-    case StabilityVerdict::refused:
-      return Outcome::skipped;
-    default:
-      return Outcome::passed;
-  }
+/// A degraded run passes, and its message says so.
+Verdict junitVerdict(const StabilityRun& run) {
+  if (run.status == Status::failed || !isJudged(run.verdict)) return Verdict::notMeasured;
+  return run.verdict == Verdict::fail ? Verdict::fail : Verdict::pass;
 }
 
 std::vector<JUnitCase> stabilityChecks(const StabilityResults& results) {
   std::vector<JUnitCase> cases;
   for (const StabilityRun& run : results.runs) {
-    JUnitCase one{junitGroup(run.name, run.variant), run.engine + ": " + run.measure,
-                  junitOutcome(run), "", junitSeconds(run.stats)};
-    if (one.outcome == Outcome::error || one.outcome == Outcome::skipped) {
+    JUnitCase one{junitGroup(run.name, run.variant),
+                  run.engine + ": " + run.measure,
+                  junitVerdict(run),
+                  "",
+                  junitSeconds(run.stats),
+                  run.status == Status::failed};
+    if (one.broke || one.verdict == Verdict::notMeasured) {
       one.message = run.reason;
-    } else if (run.verdict != StabilityVerdict::stable) {
+    } else if (run.verdict != Verdict::pass) {
       std::string why;
       for (const HardCase& setup : results.cases)
         if (setup.name == run.name && setup.variant == run.variant) why = setup.why;
-      one.message = std::string(nameOf(run.verdict)) + ": " + limitInWords(run, why);
+      one.message =
+          std::string(nameOf(run.verdict, stabilityNames)) + ": " + limitInWords(run, why);
     }
     cases.push_back(std::move(one));
   }

@@ -6,12 +6,6 @@
 
 namespace crossgrain::reports {
 
-CellState stateOf(StabilityVerdict verdict) {
-  using enum CellState;
-  constexpr std::array states = {notMeasured, notApplicable, good, borderline, bad};
-  return states.at(static_cast<std::size_t>(verdict));
-}
-
 std::vector<HardGroup> hardGroups(const StabilityResults& results) {
   std::vector<HardGroup> groups;
   for (const HardCase& variant : results.cases) {

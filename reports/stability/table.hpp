@@ -10,9 +10,6 @@
 /// Looking into the results of hard cases.
 namespace crossgrain::reports {
 
-/// How a verdict is shown: degraded as borderline, refused as not applicable.
-CellState stateOf(StabilityVerdict verdict);
-
 /// All variants of one hard case.
 struct HardGroup {
   std::string name;

@@ -65,14 +65,12 @@ std::string thesisAndFound(const std::string& says, const std::vector<std::strin
 
 // Parts of thesisFigures(): densities and widths of the band over ν̄ (6.4, 6.5, 7.24), rotation by
 // rotation (5.5, 6.1), the width of rings (5.6), distributions (6.6, 6.10, 6.11, 7.8, 7.9), Mohan's
-// model (9.1–9.4), collisions (4.3); and the regime map, whose figures are named map_….
+// model (9.1–9.4), collisions (4.3).
 std::vector<Figure> densityFigures(const ThesisResults& results);
 std::vector<Figure> rotationFigures(const ThesisResults& results);
 std::vector<Figure> widthOfRingFigures(const ThesisResults& results);
 std::vector<Figure> thesisDistributionFigures(const ThesisResults& results);
 std::vector<Figure> modelFigures(const ThesisResults& results);
 std::vector<Figure> collisionFigures(const ThesisResults& results);
-std::vector<Figure> mapFigures(const ThesisResults& results);
-Figure collapseFigure(const ThesisResults& results);
 
 }  // namespace crossgrain::reports

@@ -308,8 +308,6 @@ std::vector<Figure> thesisFigures(const ThesisResults& results) {
         modelFigures(results), collisionFigures(results), widthOfRingFigures(results)})
     figures.insert(figures.end(), part.begin(), part.end());
   std::ranges::stable_sort(figures, {}, orderOf);
-  const std::vector<Figure> map = mapFigures(results);
-  figures.insert(figures.end(), map.begin(), map.end());
   std::erase_if(
       figures, [](const Figure& figure) { return std::ranges::none_of(figure.panels, hasPoints); });
   return figures;

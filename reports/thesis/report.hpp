@@ -4,9 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/common/figure.hpp"
-#include "reports/common/pages.hpp"
-#include "results/overview.hpp"
+#include "reports/common/report.hpp"
 #include "results/thesis_runs.hpp"
 
 /// What is written of a campaign about the thesis' claims.
@@ -32,12 +30,12 @@ std::string regimeMapCsv(const ThesisResults& results);
 std::string interpretationsCsv(const ThesisResults& results);
 
 /// The thesis' figures from this project's data, with the thesis' axes and numbers: all that the
-/// results have data for, in the thesis' order, then those of the regime map. "figure 7.14" is
-/// named figure_7_14. A curve's colour is its volume fraction where there are several, its mark is
-/// its engine. Means are over packings.
+/// results have data for, in the thesis' order. "figure 7.14" is named figure_7_14. A curve's
+/// colour is its volume fraction where there are several, its mark is its engine. Means are over
+/// packings.
 std::vector<Figure> thesisFigures(const ThesisResults& results);
 
-std::string thesisPage(const ThesisResults& results, const Illustrations& shown);
+Report reportOf(const ThesisResults& results);
 
 /// Engines × claims: how each claim came out under its first interpretation, with the figure that
 /// this rests on.

@@ -75,7 +75,7 @@ DivergenceRule divergenceRule(const ThesisResults& results) {
 Figure fillingOverRotations(const ThesisResults& results, const char* number, double label) {
   struct Part {
     const char *name, *label;
-    SpanNumber value;
+    std::optional<double> ThesisSpan::*value;
   };
   constexpr Part parts[] = {
       {"at the wheel", "ν, innermost ring", &ThesisSpan::volumeFractionAtWheel},

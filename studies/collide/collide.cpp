@@ -9,8 +9,7 @@
 #include "cases/case_files.hpp"
 #include "cases/loader.hpp"
 #include "cases/time_step.hpp"
-#include "results/collision_fields.hpp"
-#include "results/collision_outcome.hpp"
+#include "results/collision.hpp"
 #include "results/schema.hpp"
 #include "studies/collide/own_scheme.hpp"
 #include "studies/collide/sweep.hpp"
@@ -105,7 +104,7 @@ CachedTask<std::vector<CollisionCurve>>::Outcome sweepsOf(
       CollisionCurve& none = curves.emplace_back();
       none.engine = entry.name;
       none.dt = dt;
-      none.status = refused ? SweepStatus::refused : SweepStatus::failed;
+      none.status = refused ? Status::refused : Status::failed;
       none.reason = error.what();
       // What a law lacks, it lacks at every time step.
       if (refused) break;
@@ -149,7 +148,7 @@ std::string refusalReason(const EngineEntry& entry, const std::vector<Case>& var
   for (const Case& setup : variants)
     if (const auto found = curves.find(idOf(entry, setup)); found != curves.end())
       for (const CollisionCurve& curve : found->second) {
-        if (curve.status != SweepStatus::refused) return {};
+        if (curve.status != Status::refused) return {};
         reason = curve.reason;
       }
   return reason;
@@ -175,14 +174,14 @@ EngineRow rowOf(const EngineEntry& entry, const std::vector<Case>& variants,
   EngineRow row = engineRow(entry, "");
   // Refusing some variants is no failure; the curves say which.
   if (const std::string why = refusalReason(entry, variants, curves); !why.empty()) {
-    row.status = EngineStatus::refused;
+    row.status = Status::refused;
     row.reason = why;
   }
   for (const Case& setup : variants)
     if (const auto found = curves.find(idOf(entry, setup)); found != curves.end())
       for (const CollisionCurve& curve : found->second) {
-        if (curve.status == SweepStatus::failed) {
-          row.status = EngineStatus::failed;
+        if (curve.status == Status::failed) {
+          row.status = Status::failed;
           row.reason = curve.reason;
         }
         if (curve.effective) row.version = curve.effective->version;
@@ -288,10 +287,10 @@ Outcome outcomeOfCollide(const CollideResults& results, const CommandLine&,
   std::map<std::string, std::string> reasons;  // the first of each engine
   for (const CollisionVariant& variant : results.variants)
     for (const CollisionCurve& curve : variant.curves)
-      if (curve.status == SweepStatus::failed) reasons.emplace(curve.engine, curve.reason);
+      if (curve.status == Status::failed) reasons.emplace(curve.engine, curve.reason);
   Outcome outcome;
   for (const auto& [engine, reason] : reasons) outcome.failures.push_back(reason);
-  const CollideCount count = countOf(results);
+  const SweepCount count = countOf(results);
   if (count.failed > 0)
     outcome.status = exitEngineFailed;
   else if (count.judged() == 0)

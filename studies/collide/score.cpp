@@ -84,7 +84,7 @@ CurveScore scoreSweep(const Case& setup, const std::vector<CollisionStart>& star
     judged = true;
     held = held && *one->held;
   }
-  if (judged) score.verdict = held ? CurveVerdict::held : CurveVerdict::beyondLimits;
+  if (judged) score.verdict = held ? Verdict::pass : Verdict::fail;
   return score;
 }
 

@@ -274,7 +274,7 @@ std::optional<DeclaredScore> scoreDeclared(const SweptCurve& swept, const Engine
   if (known) {
     score.reference = DeclaredReference::oracle;
     score.score = scoreSweep(declared, swept.starts, swept.found, reference, &swept.score);
-    if (score.score.verdict != CurveVerdict::beyondLimits) return score;
+    if (score.score.verdict != Verdict::fail) return score;
   }
   if (!entry.mirrors.empty()) {  // it would be held against itself
     if (!known) score.reference = DeclaredReference::itself;
@@ -285,7 +285,7 @@ std::optional<DeclaredScore> scoreDeclared(const SweptCurve& swept, const Engine
       declared, swept.starts, swept.found,
       mirrorOutcomes(declared, swept.asRun, *law, swept.effective.dt, swept.starts, swept.watch),
       &swept.score);
-  if (known && beside.verdict != CurveVerdict::held) return score;
+  if (known && beside.verdict != Verdict::pass) return score;
   score.reference = DeclaredReference::mirror;
   score.score = std::move(beside);
   return score;
@@ -319,17 +319,10 @@ CollisionCurve runSweep(Engine& engine, const EngineEntry& entry, const Case& se
   const double step = std::min(dt, effective.dt);
   const OracleCurve oracle = atStep(limit, setup, starts, step);
   const auto missing = std::ranges::count_if(found, [](const auto& outcome) { return !outcome; });
-  if (missing > 0) {
-    curve.status = SweepStatus::incomplete;
-    curve.reason = fmt::format("{} pairs did not part", missing);
-  }
+  if (missing > 0) curve.reason = fmt::format("{} pairs did not part", missing);
   curve.effective = effective;
   curve.stats = engine.stats();
   static_cast<CollisionTable&>(curve.points) = tableOf(starts, found);
-  for (std::size_t k = 0; k < found.size(); ++k)
-    curve.points.status.push_back(!found[k]                  ? PairStatus::notParted
-                                  : oracle.unsure[k].empty() ? PairStatus::parted
-                                                             : PairStatus::noLimit);
   curve.points.reason = oracle.unsure;
   const Outcomes reference = referenceOf(oracle);
   if (const auto unknown = std::ranges::count_if(reference, [](const auto& one) { return !one; });

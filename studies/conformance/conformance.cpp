@@ -38,11 +38,11 @@ void runOne(const Check& check, CheckContext context, ConformanceRow& row, Check
   try {
     check.run(context);
   } catch (const Skipped& skip) {
-    row.outcome = ConformanceOutcome::skipped;
+    row.outcome = checkSkipped;
     row.detail = skip.reason;
   } catch (const GivenUp&) {
   } catch (const EngineFailure& failure) {
-    row.outcome = ConformanceOutcome::brokeDown;
+    row.outcome = checkBrokeDown;
     row.detail = failure.what();
   } catch (const Interrupted&) {
     throw;
@@ -51,10 +51,10 @@ void runOne(const Check& check, CheckContext context, ConformanceRow& row, Check
   }
   row.faults = context.faults.size();
   result.refused.merge(context.refused);
-  if (row.outcome == ConformanceOutcome::brokeDown) return;
+  if (row.outcome == checkBrokeDown) return;
   result.examined.merge(context.examined);
   if (context.faults.empty()) return;
-  row.outcome = ConformanceOutcome::failed;
+  row.outcome = checkFailed;
   row.detail = context.faults.front();
   row.cause = context.cause.value_or("");
 }
@@ -92,7 +92,7 @@ CheckReport runChecks(const EngineEntry& entry, const std::vector<Check>& checks
     row.name = check.name;
     row.what = check.what;
     if (breakdowns >= mostBreakdowns) {
-      row.outcome = ConformanceOutcome::skipped;
+      row.outcome = checkSkipped;
       row.detail = fmt::format("not tried: it broke down {} times before", breakdowns);
       continue;
     }
@@ -100,10 +100,9 @@ CheckReport runChecks(const EngineEntry& entry, const std::vector<Check>& checks
     if (!engine) engine = start(entry);
     runOne(check, CheckContext(*engine, entry, start), row, result);
     row.seconds = std::chrono::duration<double>(Clock::now() - began).count();
-    breakdowns += row.outcome == ConformanceOutcome::brokeDown;
+    breakdowns += row.outcome == checkBrokeDown;
     // It may have died of it; the next check needs a sound one.
-    if (row.outcome == ConformanceOutcome::brokeDown || row.outcome == ConformanceOutcome::failed)
-      engine.reset();
+    if (row.outcome == checkBrokeDown || row.outcome == checkFailed) engine.reset();
   }
   return result;
 }
@@ -187,7 +186,7 @@ ConformanceRow lockstepRow(const EngineEntry& entry, const std::filesystem::path
   row.what = "it does step by step what the in-house engine does with the conventions declared";
   const auto engine = startNew(entry, scratch / "lockstep", setup.run.timeout);
   if (const std::string why = noMirrorReason(entry, engine->capabilities(), setup); !why.empty()) {
-    row.outcome = ConformanceOutcome::skipped;
+    row.outcome = checkSkipped;
     row.detail = why;
     return row;
   }
@@ -195,13 +194,12 @@ ConformanceRow lockstepRow(const EngineEntry& entry, const std::filesystem::path
       *engine, entry, setup, flowOf(setup, quickLockstepStarts), timeStep(setup), [](double) {});
   row.detail = reports::describe(found, lockstepRules(setup.law));
   if (!found.failure.empty()) {
-    row.outcome = ConformanceOutcome::brokeDown;
+    row.outcome = checkBrokeDown;
     row.detail = found.failure;
-  } else if (found.verdict == LockstepVerdict::notMeasured ||
-             found.verdict == LockstepVerdict::undecided) {
-    row.outcome = ConformanceOutcome::skipped;
-  } else if (found.verdict == LockstepVerdict::differs) {
-    row.outcome = ConformanceOutcome::failed;
+  } else if (found.verdict == Equivalence::notMeasured || found.verdict == Equivalence::undecided) {
+    row.outcome = checkSkipped;
+  } else if (found.verdict == Equivalence::differs) {
+    row.outcome = checkFailed;
     row.faults = 1;
     row.cause = causeOf(*engine, entry, setup, found);
   }
@@ -230,30 +228,22 @@ ConformanceRow rowOf(const CollisionVariant& variant, const CollisionCurve& curv
   row.name = variant.variant.empty() ? variant.name : variant.variant;
   row.what = collisionsProperty;
   row.seconds = curve.stats ? curve.stats->wallSeconds : 0.0;
-  switch (outcomeOf(curve)) {
-    case SweepOutcome::held:
-    case SweepOutcome::modelDifference:
-      break;
-    case SweepOutcome::beyondLimits: {
-      reports::Worst worst;
-      worst.look(declaredScore(curve));
-      row.outcome = ConformanceOutcome::failed;
-      row.faults = 1;
-      row.detail = worst.words();
-      if (const auto own = ownDeviation(curve))
-        row.detail += fmt::format("{}off its own time stepping by {:.2g}",
-                                  row.detail.empty() ? "" : "; ", *own);
-      break;
-    }
-    case SweepOutcome::failed:
-      row.outcome = ConformanceOutcome::brokeDown;
-      row.detail = curve.reason;
-      break;
-    case SweepOutcome::notJudged:
-    case SweepOutcome::refused:
-      row.outcome = ConformanceOutcome::skipped;
-      row.detail = curve.reason.empty() ? "no reference to compare it with" : curve.reason;
-      break;
+  const Verdict verdict = verdictOf(curve);
+  if (curve.status == Status::failed) {
+    row.outcome = checkBrokeDown;
+    row.detail = curve.reason;
+  } else if (!isJudged(verdict)) {
+    row.outcome = checkSkipped;
+    row.detail = curve.reason.empty() ? "no reference to compare it with" : curve.reason;
+  } else if (verdict == Verdict::fail) {
+    reports::Worst worst;
+    worst.look(declaredScore(curve));
+    row.outcome = checkFailed;
+    row.faults = 1;
+    row.detail = worst.words();
+    if (const auto own = ownDeviation(curve))
+      row.detail += fmt::format("{}off its own time stepping by {:.2g}",
+                                row.detail.empty() ? "" : "; ", *own);
   }
   return row;
 }
@@ -271,8 +261,8 @@ std::vector<ConformanceRow> collisionRows(const EngineEntry& entry, const Capabi
     for (const CollisionVariant& variant : collideEngines(cases, command, store).variants)
       for (const CollisionCurve& curve : variant.curves) rows.push_back(rowOf(variant, curve));
   } catch (const UnsupportedScene& refusal) {
-    rows.push_back({"collisions", cases.front().name, collisionsProperty,
-                    ConformanceOutcome::skipped, refusal.what()});
+    rows.push_back(
+        {"collisions", cases.front().name, collisionsProperty, checkSkipped, refusal.what()});
   }
   return rows;
 }
@@ -304,7 +294,7 @@ ConformanceResults runConformance(const ConformanceTask& task) {
       [&](const std::string& check, double fraction) { progress.update(0, check, fraction); });
   results.rows = std::move(suite.rows);
   progress.finish(0, fmt::format("suite: {} checks", results.rows.size()));
-  const bool alive = results.count(ConformanceOutcome::brokeDown) < 3;
+  const bool alive = results.count(checkBrokeDown) < 3;
   if (alive && wanted("FollowsItsMirror")) {
     results.rows.push_back(lockstepRow(entry, scratch.path));
     progress.finish(1, "lockstep");
@@ -326,8 +316,8 @@ ConformanceResults runConformance(const ConformanceTask& task) {
     }
   }
   for (const ConformanceRow& row : results.rows)
-    if (row.outcome == ConformanceOutcome::brokeDown && results.engine.reason.empty()) {
-      results.engine.status = EngineStatus::failed;
+    if (row.outcome == checkBrokeDown && results.engine.reason.empty()) {
+      results.engine.status = Status::failed;
       results.engine.reason = row.detail;
     }
   results.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
@@ -335,10 +325,9 @@ ConformanceResults runConformance(const ConformanceTask& task) {
 }
 
 Outcome outcomeOf(const ConformanceResults& results) {
-  using enum ConformanceOutcome;
-  if (results.count(brokeDown) > 0) return {exitEngineFailed, {results.engine.reason}};
-  if (results.count(failed) > 0) return {exitFailed};
-  return results.count(passed) == 0 ? notJudged("every check was skipped") : Outcome();
+  if (results.count(checkBrokeDown) > 0) return {exitEngineFailed, {results.engine.reason}};
+  if (results.count(checkFailed) > 0) return {exitFailed};
+  return results.count(checkPassed) == 0 ? notJudged("every check was skipped") : Outcome();
 }
 
 }  // namespace crossgrain::inline studies

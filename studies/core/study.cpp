@@ -149,14 +149,13 @@ std::vector<std::string> refusals(const std::vector<EngineRow>& engines,
                                   const std::vector<std::string>& named) {
   std::vector<std::string> lines;
   for (const EngineRow& engine : engines)
-    if (engine.status == EngineStatus::refused &&
-        std::ranges::find(named, engine.name) != named.end())
+    if (engine.status == Status::refused && std::ranges::find(named, engine.name) != named.end())
       lines.push_back(engine.reason);
   return lines;
 }
 
 EngineRow engineRow(const EngineEntry& entry, const std::string& version) {
-  return {entry.name, entry.summary, version, entry.mirrors, EngineStatus::ran, ""};
+  return {entry.name, entry.summary, version, entry.mirrors, Status::finished, ""};
 }
 
 }  // namespace crossgrain::inline studies

@@ -42,46 +42,37 @@ std::vector<std::size_t> paretoFront(const std::vector<CostPoint>& points) {
 
 namespace {
 
-/// @param engine  empty: all
-Front frontOf(const std::vector<CostPoint>& points, CostKind kind, const std::string& measure,
-              const std::string& engine) {
-  std::vector<CostPoint> own;
-  std::vector<std::size_t> members;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (points[k].kind != kind || points[k].measure != measure) continue;
-    if (!engine.empty() && points[k].engine != engine) continue;
-    own.push_back(points[k]);
-    members.push_back(k);
-  }
-  Front front{kind, measure, engine, {}, {}};
-  for (const std::size_t k : paretoFront(own)) {
-    front.points.push_back(members[k]);
-    front.errors.push_back(*own[k].counted());
-  }
-  return front;
+template <class Value>
+void addOnce(std::vector<Value>& values, const Value& value) {
+  if (std::ranges::find(values, value) == values.end()) values.push_back(value);
 }
 
-/// In the order of the points, each once.
-template <class Key>
-auto distinct(const std::vector<CostPoint>& points, Key key) {
-  std::vector<decltype(key(points.front()))> keys;
-  for (const CostPoint& point : points)
-    if (std::ranges::find(keys, key(point)) == keys.end()) keys.push_back(key(point));
-  return keys;
+std::vector<std::string> enginesIn(const std::vector<CostPoint>& points) {
+  std::vector<std::string> engines;
+  for (const CostPoint& point : points) addOnce(engines, point.engine);
+  return engines;
 }
 
 }  // namespace
 
 std::vector<Front> paretoFronts(const std::vector<CostPoint>& points) {
-  const auto engines = distinct(points, [](const CostPoint& p) { return p.engine; });
+  std::vector<std::pair<CostKind, std::string>> measures;
+  for (const CostPoint& point : points) addOnce(measures, std::pair(point.kind, point.measure));
+  std::vector<std::string> engines = enginesIn(points);
+  engines.insert(engines.begin(), "");  // all
   std::vector<Front> fronts;
-  for (const auto& [kind, measure] :
-       distinct(points, [](const CostPoint& p) { return std::pair(p.kind, p.measure); })) {
-    fronts.push_back(frontOf(points, kind, measure, ""));
-    for (const std::string& engine : engines)
-      if (Front own = frontOf(points, kind, measure, engine); !own.points.empty())
-        fronts.push_back(std::move(own));
-  }
+  for (const auto& [kind, measure] : measures)
+    for (const std::string& engine : engines) {
+      Front front{kind, measure, engine, {}, {}};
+      std::vector<CostPoint> own = points;  // those of others have no time: they keep their places
+      for (CostPoint& point : own)
+        if (point.kind != kind || point.measure != measure ||
+            (!engine.empty() && point.engine != engine))
+          point.wallSeconds.reset();
+      front.points = paretoFront(own);
+      for (const std::size_t place : front.points) front.errors.push_back(*points[place].counted());
+      if (engine.empty() || !front.points.empty()) fronts.push_back(std::move(front));
+    }
   return fronts;
 }
 
@@ -91,12 +82,10 @@ using Points = std::vector<CostPoint>;
 using Places = std::vector<std::size_t>;
 using Measure = std::pair<CostKind, std::string>;
 
-/// How a point's interval lies to a target: below it, around it, above it.
-enum class Standing { meets, may, cannot };
-
-Standing standingOf(const CostPoint& point, double target) {
-  if (point.high() <= target) return Standing::meets;
-  return point.low() <= target ? Standing::may : Standing::cannot;
+/// Pass: the point's whole interval meets the target; undecided: a part of it; fail: nothing.
+Verdict verdictOf(const CostPoint& point, double target) {
+  if (point.high() <= target) return Verdict::pass;
+  return point.low() <= target ? Verdict::undecided : Verdict::fail;
 }
 
 /// What would show whether the error lies above or below the target. Repeats are taken to show the
@@ -137,17 +126,6 @@ std::optional<std::size_t> mayYetReach(const Points& points, Places notRun, cons
   return found == notRun.end() ? std::nullopt : std::optional(*found);
 }
 
-template <class Value>
-void addOnce(std::vector<Value>& values, const Value& value) {
-  if (std::ranges::find(values, value) == values.end()) values.push_back(value);
-}
-
-std::vector<std::string> enginesIn(const Points& points) {
-  std::vector<std::string> engines;
-  for (const CostPoint& point : points) addOnce(engines, point.engine);
-  return engines;
-}
-
 /// What is asked of an engine's settings.
 struct Question {
   std::function<bool(const CostPoint&)> belongs;  ///< which points decide
@@ -162,7 +140,7 @@ struct Question {
 struct RatedSetting {
   std::string knob, setting;
   Places points;
-  Standing standing = Standing::meets;
+  Verdict verdict = Verdict::pass;
   std::size_t worst = 0;                 ///< the point with the largest upper end
   std::size_t obstacle = 0;              ///< with the largest lower end if that is above the
                                          ///< target, else the worst
@@ -204,21 +182,21 @@ void judge(RatedSetting& rated, const Points& points, const Question& question) 
     if (point.kind == question.costKind)
       rated.time =
           std::min(rated.time, point.wallSeconds.value_or(std::numeric_limits<double>::infinity()));
-    const Standing standing = standingOf(point, question.target);
-    if (standing == Standing::may && point.kind == question.onlyContradicts) {
+    const Verdict verdict = verdictOf(point, question.target);
+    if (verdict == Verdict::undecided && point.kind == question.onlyContradicts) {
       if (!rated.open || point.high() > points[*rated.open].high()) rated.open = k;
       continue;
     }
-    rated.standing = std::max(rated.standing, standing);
+    rated.verdict = moreSevere(rated.verdict, verdict);
     if (point.high() > points[rated.worst].high()) rated.worst = k;
     if (point.low() > points[rated.obstacle].low()) rated.obstacle = k;
   }
-  if (rated.standing != Standing::cannot) rated.obstacle = rated.worst;
+  if (rated.verdict != Verdict::fail) rated.obstacle = rated.worst;
 }
 
 /// Whether some setting meets a target in every measure.
 struct Settled {
-  CostVerdict verdict = CostVerdict::notMeasured;
+  Verdict verdict = Verdict::notMeasured;
   /// Reached: the cheapest; else the one whose largest upper end is smallest. Absent where no
   /// setting was measured in every measure.
   std::optional<RatedSetting> best = {};
@@ -234,8 +212,8 @@ Settled settle(const Points& points, const Question& question) {
   std::vector<Measure> measures;
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (!question.belongs(points[k])) continue;
-    if (points[k].status == CostStatus::notMeasured) notRun.push_back(k);
-    if (!refusal) refusal = points[k].status == CostStatus::refused ? points[k].reason : "";
+    if (points[k].status == Status::notRun) notRun.push_back(k);
+    if (!refusal) refusal = points[k].status == Status::refused ? points[k].reason : "";
     if (!points[k].measured()) continue;
     among.push_back(k);
     addOnce(measures, Measure(points[k].kind, points[k].measure));
@@ -247,7 +225,7 @@ Settled settle(const Points& points, const Question& question) {
       settings, [&](const RatedSetting& one) { return isComplete(one, points, measures); });
   // Some settings are not measured in every kind of error; others lack a measure of a kind.
   const bool open = std::ranges::any_of(rest, [&](const RatedSetting& one) {
-    return one.standing != Standing::cannot &&
+    return one.verdict != Verdict::fail &&
            std::ranges::all_of(measures, [&](const Measure& measure) {
              return std::ranges::any_of(
                  one.points, [&](std::size_t k) { return points[k].kind == measure.first; });
@@ -263,26 +241,25 @@ Settled settle(const Points& points, const Question& question) {
       found.decides = refusal.value_or("");
     return found;
   }
-  // Better: a better standing, then less time where it meets the target, a smaller end elsewhere.
+  // Better: a better verdict, then less time where it meets the target, a smaller end elsewhere.
   found.best =
       *std::ranges::min_element(settings, [&](const RatedSetting& a, const RatedSetting& b) {
-        if (a.standing != b.standing) return a.standing < b.standing;
-        if (a.standing == Standing::meets && a.time != b.time) return a.time < b.time;
+        if (a.verdict != b.verdict) return a.verdict < b.verdict;
+        if (a.verdict == Verdict::pass && a.time != b.time) return a.time < b.time;
         return points[a.worst].high() < points[b.worst].high();
       });
   const RatedSetting& best = *found.best;
-  found.obstacle = best.standing == Standing::meets ? best.open : best.obstacle;
-  if (best.standing != Standing::cannot) {
-    found.verdict =
-        best.standing == Standing::meets ? CostVerdict::reached : CostVerdict::undecided;
+  found.obstacle = best.verdict == Verdict::pass ? best.open : best.obstacle;
+  if (best.verdict != Verdict::fail) {
+    found.verdict = best.verdict;
     if (found.obstacle) found.decides = whatDecides(points[*found.obstacle], question.target);
     return found;
   }
   // Only where all was run that may be better is it shown that nothing reaches the target.
-  found.verdict = CostVerdict::notReached;
+  found.verdict = Verdict::fail;
   const auto missing = mayYetReach(points, notRun, points[best.worst]);
   if (!open && !missing) return found;
-  found.verdict = CostVerdict::notMeasured;
+  found.verdict = Verdict::notMeasured;
   found.decides = missing ? notRunText(points[*missing], notRun.size()) : everyMeasure;
   return found;
 }
@@ -320,7 +297,7 @@ Advice adviceFor(const Points& points, const std::string& engine, double target)
 void markCheapest(std::vector<Advice>& all, double target) {
   Advice* best = nullptr;
   for (Advice& one : all) {
-    if (one.target != target || one.verdict != CostVerdict::reached || !one.wallSeconds) continue;
+    if (one.target != target || one.verdict != Verdict::pass || !one.wallSeconds) continue;
     if (!best || one.kinds.size() > best->kinds.size() ||
         (one.kinds == best->kinds && *one.wallSeconds < *best->wallSeconds))
       best = &one;
@@ -357,12 +334,12 @@ CostCell cellOf(CostCell cell, const Points& points, const std::vector<CostModel
     cell.wallSeconds = settled.best->seconds();
     cell.point = settled.obstacle.value_or(settled.best->worst);
   }
-  if (cell.verdict == CostVerdict::reached || cell.basis == CostBasis::own) return cell;
+  if (cell.verdict == Verdict::pass || cell.basis == CostBasis::own) return cell;
   cell.model = modelAbove(models, cell);
   if (cell.model && settled.best && points[settled.best->worst].high() < models[*cell.model].low)
     cell.model.reset();
   if (cell.model) {
-    cell.verdict = CostVerdict::notReached;
+    cell.verdict = Verdict::fail;
     cell.decides.clear();
   }
   return cell;

@@ -105,7 +105,7 @@ CollisionLimit collisionLimit(Engine& engine, const EngineEntry& entry, const Ca
       const CollisionCurve sweep = runSweep(engine, entry, collisionOf(*setup), timeStep(*setup),
                                             reference.starts, reference.oracle, /*watch=*/false);
       limit.setting = fmt::format("t_c/{:g}", std::round(costContactTime(*setup) / sweep.dt));
-      if (sweep.status != SweepStatus::finished)
+      if (!sweep.complete())
         return {limit.setting, {}, {}, {}, fmt::format("at {} {}", limit.setting, sweep.reason)};
       *numbers = endsOf(sweep.points);
     }
@@ -165,7 +165,7 @@ std::string failureOf(const CollisionCurve& sweep, const Case& pair, double dt) 
   const double ofLimit = dt / pairLimit(pair);
   const std::string limit =
       ofLimit > 1.0 ? fmt::format("{} (dt = {:.3g} · 2/ω): ", beyondLimit, ofLimit) : "";
-  if (sweep.status != SweepStatus::finished) return limit + sweep.reason;
+  if (!sweep.complete()) return limit + sweep.reason;
   double largest = 0.0;
   for (std::size_t k = 0; k < sweep.points.size(); ++k)
     if (const auto en = sweep.points.at(QuantityId::en, k))
@@ -197,7 +197,7 @@ CostPoint ownPoint(CostPoint point, const std::vector<CollisionCurve>& sweeps, Q
   if (!point.ran()) return point;
   const auto ends = own.ends.find(name);
   if (ends == own.ends.end()) {
-    point.status = CostStatus::refused;
+    point.status = Status::refused;
     point.reason = fmt::format("its own limit of small steps was not found: {}", own.reason);
     return point;
   }
@@ -229,7 +229,7 @@ std::vector<CostPoint> measureCollision(Engine& engine, const EngineEntry& entry
   countWork(point, first.stats->steps, first.stats->contactEvaluations);
   for (const CollisionCurve& each : sweeps)
     if (point.reason.empty()) point.reason = failureOf(each, pair, first.dt);
-  if (!point.reason.empty()) point.status = CostStatus::failed;
+  if (!point.reason.empty()) point.status = Status::failed;
   const SweepTime time = shortestSweep(engine, entry, pair, dt, reference.starts,
                                        std::max(first.stats->wallSeconds, 1e-6));
   point.wallSeconds = time.wall;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <map>
 #include <memory>
+#include <set>
 #include <tuple>
 
 #include "cases/loader.hpp"
@@ -67,10 +68,6 @@ ErrorKinds errorKinds(CostStudy& study) {
   return kinds;
 }
 
-ErrorKind& kindOf(const ErrorKinds& kinds, const PlannedPoint& point) {
-  return **std::ranges::find_if(kinds, [&](const auto& one) { return one->kind() == point.kind; });
-}
-
 void checkEngineNames(const Case& setup) {
   checkEngineSections(setup);
   for (const auto& [name, values] : setup.cost.settings)
@@ -79,40 +76,9 @@ void checkEngineNames(const Case& setup) {
                                  setup.file.string(), name));
 }
 
-/// Every setting of every engine, for every kind of error, and what of it fits into the budget [s].
-CostPlan planCost(const CostStudy& study, const ErrorKinds& kinds, double budget) {
-  CostPlan plan{.references = ReferenceTimes(study.engines.size())};
-  for (const auto& kind : kinds) {
-    double common = 0.0;
-    for (std::size_t e = 0; e < study.engines.size(); ++e) {
-      const std::vector<CostSetting>& settings = study.settingsOf(e, kind->kind());
-      bool anew = false;
-      for (std::size_t s = 0; s < settings.size(); ++s) {
-        PlannedPoint& point = plan.points.emplace_back(PlannedPoint{e, kind->kind(), s});
-        if (!settings[s].refusal.empty() || kind->isKept(point)) continue;
-        point.seconds = kind->predicted(e, settings[s]);
-        anew = true;
-      }
-      if (!anew) continue;
-      plan.references[e][kind->kind()] = kind->ownTime(e);
-      common = kind->commonTime();
-    }
-    constexpr double largestPart = 0.8;  // of a budget that references may take
-    if (common > largestPart * budget) {
-      plan.impossible[kind->kind()] =
-          fmt::format("the reference alone would take about {:.3g} s of {:.3g} s", common, budget);
-      plan.budgetForTheRest += common / largestPart;
-    } else {
-      plan.common += common;
-    }
-  }
-  fitIntoBudget(plan, budget);
-  return plan;
-}
-
 /// Points without a number, one per measure, that say why.
 Points without(const CostStudy& study, const ErrorKind& kind, const PlannedPoint& planned,
-               CostStatus status, const std::string& reason) {
+               Status status, const std::string& reason) {
   const CostSetting& setting = study.settingOf(planned);
   CostPoint row = pointOf(study.entryOf(planned.engine).name, setting, planned.kind,
                           study.stepOf(planned.engine, setting.setup));
@@ -143,17 +109,17 @@ std::optional<std::string> pastLimit(const CostStudy& study, const PlannedPoint&
 using Measured = CachedTask<Points>::Outcome;
 
 Measured measure(CostStudy& study, ErrorKind& kind, const PlannedPoint& planned) {
-  const auto ended = [&](CostStatus status, const std::string& reason, bool isResult) {
+  const auto ended = [&](Status status, const std::string& reason, bool isResult) {
     return Measured{without(study, kind, planned, status, reason), isResult,
-                    fmt::format("{}: {}", nameOf(status), reason)};
+                    fmt::format("{}: {}", nameOf(status, costStatusNames), reason)};
   };
   try {
     Points points = kind.measure(planned);
     const CostPoint& first = points.front();
-    const std::string line = !first.ran()
-                                 ? fmt::format("{}: {}", nameOf(first.status), first.reason)
-                             : first.error ? fmt::format("{:.3g}", *first.error)
-                                           : "no number";
+    const std::string line =
+        !first.ran()  ? fmt::format("{}: {}", nameOf(first.status, costStatusNames), first.reason)
+        : first.error ? fmt::format("{:.3g}", *first.error)
+                      : "no number";
     return {std::move(points), kind.keepsPoints(), line};
   } catch (const Interrupted&) {
     throw;
@@ -162,68 +128,122 @@ Measured measure(CostStudy& study, ErrorKind& kind, const PlannedPoint& planned)
   } catch (const BadInput&) {
     throw;
   } catch (const UnsupportedScene& refusal) {
-    return ended(CostStatus::refused, refusal.what(), false);
+    return ended(Status::refused, refusal.what(), false);
   } catch (const std::exception& error) {
     if (std::string(error.what()).find(beyondLimit) == std::string::npos)
       study.engines[planned.engine].worker.reset();
     if (const auto reason = pastLimit(study, planned, error.what()))
-      return ended(CostStatus::failed, *reason, true);
+      return ended(Status::failed, *reason, true);
     study.engineFailures.push_back(error.what());
-    return ended(CostStatus::failed, error.what(), false);
+    return ended(Status::failed, error.what(), false);
   }
 }
 
-/// Measures what is planned, one point at a time: kind by kind, engines in turn, so that a machine
-/// that slows down does so for all. A point that fails ends by itself.
-/// @returns points by kind, engine and setting
-Points execute(const CostPlan& plan, CostStudy& study, const ErrorKinds& kinds) {
-  for (const auto& kind : kinds)
-    if (!plan.impossible.contains(kind->kind())) kind->makeReferences();
-  std::map<std::tuple<CostKind, std::size_t, std::size_t>, Points> found;
-  std::map<std::pair<std::size_t, CostKind>, int> rank;  // of an engine's points of a kind
-  std::vector<double> spent(study.engines.size(), 0.0);  // [s]
-  std::vector<CachedTask<Points>> tasks;
-  std::vector<const PlannedPoint*> measured;
-  for (const PlannedPoint& point : plan.points) {
-    ErrorKind& kind = kindOf(kinds, point);
-    const CostSetting& setting = study.settingOf(point);
-    const int turn = rank[{point.engine, point.kind}]++;
-    Points& points = found[{point.kind, point.engine, point.setting}];
-    if (!setting.refusal.empty())
-      points = without(study, kind, point, CostStatus::refused, setting.refusal);
-    else if (!point.notMeasured.empty())
-      points = without(study, kind, point, CostStatus::notMeasured, point.notMeasured);
-    if (!points.empty()) continue;
-    const auto work = [&, share = plan.shares[point.engine]](const auto&) -> Measured {
-      throwIfInterrupted();
-      // Predictions may be off; an engine's share is not.
-      if (double& so = spent[point.engine]; so + point.seconds > 1.2 * share + 5.0) {
-        const std::string reason = doesNotFit(point.seconds, share - so, share);
-        return {without(study, kind, point, CostStatus::notMeasured, reason), false, reason};
+/// Measures one kind of error after the other, one point at a time: of each the case as it is
+/// first, then the cheapest on whichever engine, so that a budget buys as many points as it can.
+class Measuring {
+ public:
+  /// @param budget  for all that is measured [s]
+  Measuring(CostStudy& study, double budget) : study_(study), budget_(budget) {}
+
+  void measureKind(ErrorKind& kind) {
+    std::vector<PlannedPoint> plan = planned(kind);
+    const bool anew =
+        std::ranges::any_of(plan, [](const auto& point) { return point.seconds > 0; });
+    const double common = anew ? kind.commonTime() : 0.0;
+    const std::string why = lackOfTime(common);
+    if (why.empty())
+      kind.makeReferences();
+    else
+      budgetForTheRest += common;
+    std::vector<CachedTask<Points>> tasks;
+    std::vector<const PlannedPoint*> measured;
+    for (const PlannedPoint& point : plan) {
+      const CostSetting& setting = study_.settingOf(point);
+      const auto put = [&](Status status, const std::string& reason) {
+        found_[{point.kind, point.engine, point.setting}] =
+            without(study_, kind, point, status, reason);
+      };
+      if (!setting.refusal.empty()) {
+        put(Status::refused, setting.refusal);
+      } else if (!why.empty()) {
+        put(Status::notRun, "its reference " + why);
+        budgetForTheRest += point.seconds;
+      } else {
+        tasks.push_back({.name = study_.nameOf(point),
+                         .label = fmt::format("{}, {}: {} {}", study_.entryOf(point.engine).name,
+                                              toString(point.kind), setting.knob, setting.setting),
+                         .key = study_.keyOf(point),
+                         .weight = point.seconds,
+                         .work = [&](const auto&) { return affordable(kind, point); },
+                         .priority = -static_cast<double>(tasks.size())});
+        measured.push_back(&point);
       }
-      const auto start = std::chrono::steady_clock::now();
-      Measured outcome = measure(study, kind, point);
-      spent[point.engine] +=
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-      return outcome;
-    };
-    tasks.push_back({.name = study.nameOf(point),
-                     .label = fmt::format("{}, {}: {} {}", study.entryOf(point.engine).name,
-                                          toString(point.kind), setting.knob, setting.setting),
-                     .key = study.keyOf(point),
-                     .weight = point.seconds,
-                     .work = work,
-                     .priority = -1e6 * static_cast<double>(point.kind) - turn});
-    measured.push_back(&point);
+    }
+    const auto results =
+        runOrLoad(tasks, study_.campaign.store(), study_.campaign.progress(),
+                  fmt::format("errors of {}, one at a time", toString(kind.kind())), 1);
+    for (std::size_t k = 0; k < results.size(); ++k)
+      found_[{measured[k]->kind, measured[k]->engine, measured[k]->setting}] = results[k];
   }
-  const auto results = runOrLoad(tasks, study.campaign.store(), study.campaign.progress(),
-                                 "measuring, one at a time", 1);
-  for (std::size_t k = 0; k < results.size(); ++k)
-    found[{measured[k]->kind, measured[k]->engine, measured[k]->setting}] = results[k];
-  Points all;
-  for (const auto& [at, points] : found) all.insert(all.end(), points.begin(), points.end());
-  return all;
-}
+
+  /// By kind, engine and setting.
+  Points points() const {
+    Points all;
+    for (const auto& [at, points] : found_) all.insert(all.end(), points.begin(), points.end());
+    return all;
+  }
+
+  double budgetForTheRest = 0.0;  ///< for what did not fit, all else kept [s]
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::vector<PlannedPoint> planned(const ErrorKind& kind) const {
+    std::vector<PlannedPoint> plan;
+    for (std::size_t e = 0; e < study_.engines.size(); ++e) {
+      const std::vector<CostSetting>& settings = study_.settingsOf(e, kind.kind());
+      for (std::size_t s = 0; s < settings.size(); ++s) {
+        PlannedPoint& point = plan.emplace_back(PlannedPoint{e, kind.kind(), s});
+        if (settings[s].refusal.empty() && !kind.isKept(point))
+          point.seconds = kind.predicted(e, settings[s]);
+      }
+    }
+    std::ranges::stable_sort(plan, {}, [](const PlannedPoint& point) {
+      return std::tuple(point.setting > 0, point.seconds);
+    });
+    return plan;
+  }
+
+  /// "would take about 90 s, 8 s are left of the budget of 20 s"; empty: there is time for it.
+  std::string lackOfTime(double seconds) const {
+    const double left = budget_ - std::chrono::duration<double>(Clock::now() - started_).count();
+    if (!(seconds > 0.0) || seconds <= left) return {};
+    return fmt::format("would take about {:.3g} s, {:.3g} s are left of the budget of {:.3g} s",
+                       seconds, std::max(left, 0.0), budget_);
+  }
+
+  /// The first point of an engine and kind pays for the references of its own.
+  Measured affordable(ErrorKind& kind, const PlannedPoint& point) {
+    throwIfInterrupted();
+    const std::pair group(point.kind, point.engine);
+    const double takes = point.seconds > 0.0 && !begun_.contains(group)
+                             ? point.seconds + kind.ownTime(point.engine)
+                             : point.seconds;
+    if (const std::string why = lackOfTime(takes); !why.empty()) {
+      budgetForTheRest += takes;
+      return {without(study_, kind, point, Status::notRun, why), false, why};
+    }
+    begun_.insert(group);
+    return measure(study_, kind, point);
+  }
+
+  CostStudy& study_;
+  double budget_;
+  Clock::time_point started_ = Clock::now();
+  std::map<std::tuple<CostKind, std::size_t, std::size_t>, Points> found_;
+  std::set<std::pair<CostKind, std::size_t>> begun_;
+};
 
 /// What engines took to start, and which failed for other reasons than a step beyond the stability
 /// limit.
@@ -234,9 +254,9 @@ void addEngines(CostResults& results, const CostStudy& study) {
   results.engineFailures = study.engineFailures;
   for (EngineRow& engine : results.engines)
     for (const CostPoint& point : results.points)
-      if (point.engine == engine.name && point.status == CostStatus::failed &&
+      if (point.engine == engine.name && point.status == Status::failed &&
           std::ranges::find(study.engineFailures, point.reason) != study.engineFailures.end()) {
-        engine.status = EngineStatus::failed;
+        engine.status = Status::failed;
         engine.reason = point.reason;
       }
 }
@@ -246,20 +266,18 @@ CostResults runCost(const StudyWork& work, const CostOptions& options) {
   CostStudy study(work.setup(), work.line.run, work.store);
   const ErrorKinds kinds = errorKinds(study);
   study.prepare();
-  const CostPlan plan = planCost(study, kinds, costBudget(options));
-  std::vector<std::string> names;
-  for (const EngineEntry& entry : study.campaign.engines()) names.push_back(entry.name);
-  study.campaign.progress().say(planText(plan, names, costBudget(options)));
+  Measuring measuring(study, costBudget(options));
+  for (const auto& kind : kinds) measuring.measureKind(*kind);
 
   CostResults results;
-  results.points = execute(plan, study, kinds);
+  results.points = measuring.points();
   FlowStudy couette = study.campaign.study(kindCost);
   static_cast<FlowFrame&>(results) = couette;
   results.elapsed = couette.elapsed;
   results.engines = std::move(couette.engines);
   results.packings = std::move(couette.packings);
   results.budget = costBudget(options);
-  results.budgetForTheRest = plan.budgetForTheRest;
+  results.budgetForTheRest = measuring.budgetForTheRest;
   for (const auto& kind : kinds) kind->addTo(results);
   addEngines(results, study);
   if (options.target) results.target = fractionOf(*options.target);
@@ -284,10 +302,10 @@ std::string planOfCost(const StudyWork& work, const CostOptions& options) {
       }
       if (settings.total > 0) works.push_back(settings);
     }
-  return describeDryRun(
-      fmt::format("{}budget {:.0f} s; what fits into it is planned once steps have been timed\n",
-                  study.campaign.planHead(), costBudget(options)),
-      works, work.store, work.line.run);
+  return describeDryRun(fmt::format("{}budget {:.0f} s: what it has no room for is left out, of "
+                                    "each kind of error the slowest\n",
+                                    study.campaign.planHead(), costBudget(options)),
+                        works, work.store, work.line.run);
 }
 
 Outcome outcomeOfCost(const CostResults& results, const CommandLine& line, const CostOptions&) {

@@ -9,7 +9,6 @@
 #include "cases/case.hpp"
 #include "results/cost.hpp"
 #include "studies/core/run_store.hpp"
-#include "studies/cost/plan.hpp"
 #include "studies/cost/settings.hpp"
 #include "studies/flow/campaign.hpp"
 
@@ -52,6 +51,14 @@ struct TimedEngine {
   double start = 0.0, load = 0.0, step = 0.0;                       ///< [s]
   bool takesPart = false;
   std::unique_ptr<Engine> worker;  ///< null: to be started anew
+};
+
+/// One setting of one engine, all measures of one kind of error.
+struct PlannedPoint {
+  std::size_t engine = 0;
+  CostKind kind = CostKind::collision;
+  std::size_t setting = 0;  ///< of that engine and kind; 0 is the case as it is
+  double seconds = 0.0;     ///< predicted; 0: an earlier run has it, or it is refused
 };
 
 /// What planning and measuring work with: engines and packings, the settings to measure, and by

@@ -195,7 +195,7 @@ class EffectCampaign {
     variant.effect = planned.without();
     variant.reason = planned.refusal;
     if (!planned.refusal.empty()) {
-      variant.status = EngineStatus::refused;
+      variant.status = Status::refused;
       return variant;
     }
     if (const auto found = times_.find(idOf(planned)); found != times_.end())
@@ -210,7 +210,7 @@ class EffectCampaign {
     variant.step = shortestStep(times);
     variant.contacts = times.contacts;
     if (!times.failure.empty()) {
-      variant.status = EngineStatus::failed;
+      variant.status = Status::failed;
       variant.reason = times.failure;
     }
     const auto whole = times_.find({variant.engine});
@@ -222,8 +222,8 @@ class EffectCampaign {
 
   /// A run that failed is its variant's trouble; one that finished says what was simulated.
   static void addRun(EffectVariant& variant, const FlowRun& run) {
-    if (run.status == RunStatus::failed && variant.status == EngineStatus::ran) {
-      variant.status = EngineStatus::failed;
+    if (run.status == Status::failed && variant.status == Status::finished) {
+      variant.status = Status::failed;
       variant.reason = run.reason;
     }
     if (!run.finished()) return;
@@ -251,7 +251,7 @@ Outcome outcomeOfEffects(const EffectsResults& results, const CommandLine& line,
                          const EffectsOptions&) {
   Outcome outcome{exitPassed, refusals(results.engines, line.run.engines)};
   for (const EffectVariant& variant : results.variants)
-    if (variant.status == EngineStatus::failed) {
+    if (variant.status == Status::failed) {
       outcome.failures.push_back(variant.reason);
       outcome.status = exitEngineFailed;
     }

@@ -43,7 +43,7 @@ void addFarEndpoints(const Case& setup, const std::vector<FlowRun>& runs,
     if (row.lost > row.packings && onlyOneHas(setup, runs, row) > row.packings)
       alarm(fmt::format("{} is missing on {} of {} packings", words, row.lost,
                         row.lost + row.packings));
-    else if (row.distance && std::abs(*row.distance) > farMargins && row.answer != Answer::disagree)
+    else if (row.distance && std::abs(*row.distance) > farMargins && row.verdict != Verdict::fail)
       alarm(fmt::format("{} is {:.0f} margins off, which {} packing{} cannot prove", words,
                         std::abs(*row.distance), row.packings, row.packings == 1 ? "" : "s"));
   }

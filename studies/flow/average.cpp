@@ -40,7 +40,7 @@ CompareResults averageSnapshots(const Case& setup, const std::filesystem::path& 
       averaging.preparedRotations = std::nullopt;
   averaging.snapshots = static_cast<std::int64_t>(reader.count());
   results.engines = {{reader.engine(), fmt::format("snapshots of {}", file.filename().string()), "",
-                      "", EngineStatus::ran, ""}};
+                      "", Status::finished, ""}};
   FlowRun& run = results.runs.emplace_back();
   run.engine = reader.engine();
   averages.describe(EffectiveParameters{}, run);

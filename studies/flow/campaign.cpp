@@ -12,7 +12,7 @@
 #include "cases/case_keys.hpp"
 #include "cases/flow.hpp"
 #include "cases/time_step.hpp"
-#include "results/flow_fields.hpp"
+#include "results/run.hpp"
 #include "studies/core/engine_running.hpp"
 #include "studies/flow/frame.hpp"
 #include "studies/flow/run.hpp"
@@ -226,7 +226,7 @@ CachedTask<FlowRun>::Outcome Campaign::runOne(const Variant& variant, int packin
     throw;  // nothing more can be kept
   } catch (const std::exception& error) {
     run.without = variant.without;
-    run.status = RunStatus::failed;
+    run.status = Status::failed;
     const std::string why = error.what() + stepHint(*variant.setup, dt_);
     run.reason = fmt::format("packing {}: {}", packing, why);
     return {run, false, "failed: " + why};
@@ -332,11 +332,11 @@ std::vector<EngineRow> Campaign::engineRows() const {
   std::vector<EngineRow> rows;
   for (const CampaignEngine& own : engines_) {
     EngineRow row{own.entry.name,    own.entry.summary, own.version,
-                  own.entry.mirrors, EngineStatus::ran, own.refusal};
-    if (!own.refusal.empty()) row.status = EngineStatus::refused;
+                  own.entry.mirrors, Status::finished,  own.refusal};
+    if (!own.refusal.empty()) row.status = Status::refused;
     for (const FlowRun& run : runs_)
-      if (run.engine == row.name && run.status == RunStatus::failed && row.reason.empty()) {
-        row.status = EngineStatus::failed;
+      if (run.engine == row.name && run.status == Status::failed && row.reason.empty()) {
+        row.status = Status::failed;
         row.reason = run.reason;
       }
     rows.push_back(std::move(row));

@@ -59,7 +59,7 @@ void requireTwo(const Campaign& campaign, const std::vector<std::string>& named)
 std::optional<NothingJudged> nothingJudged(const Case& setup, std::span<const EndpointRow> rows,
                                            std::size_t named) {
   const auto judged = [](const EndpointRow& row) {
-    return row.kind == PairKind::closedForm && row.answer != Answer::undecided;
+    return row.kind == PairKind::closedForm && row.verdict != Verdict::undecided;
   };
   if (std::ranges::any_of(rows, judged)) return std::nullopt;
   if (hasClosedForms(setup))
@@ -145,13 +145,13 @@ std::vector<Case> caseToCompare(const CommandLine& line, CompareOptions& own) {
 /// Only the verdicts on engines that the user named decide.
 Outcome outcomeOfCompare(const CompareResults& results, const CommandLine& line,
                          const CompareOptions& own) {
-  const auto any = [&](Answer answer) {
+  const auto any = [&](Verdict verdict) {
     return std::ranges::any_of(results.endpoints.rows, [&](const EndpointRow& row) {
-      return row.answer == answer &&
+      return row.verdict == verdict &&
              (row.kind == PairKind::peer || row.kind == PairKind::closedForm);
     });
   };
-  const auto anyLockstep = [&](LockstepVerdict verdict) {
+  const auto anyLockstep = [&](Equivalence verdict) {
     return results.lockstep &&
            std::ranges::find(results.lockstep->rows, verdict, &LockstepRow::verdict) !=
                results.lockstep->rows.end();
@@ -160,16 +160,16 @@ Outcome outcomeOfCompare(const CompareResults& results, const CommandLine& line,
   if (const auto& nothing = results.nothingJudged)
     outcome = notJudged(nothing->reason, (nothing->byRequest || line.quick) && !own.strict);
   for (const FlowRun& run : results.runs)
-    if (run.status == RunStatus::failed) outcome.failures.push_back(run.reason);
+    if (run.status == Status::failed) outcome.failures.push_back(run.reason);
   const bool failed = !outcome.failures.empty();
   const std::vector<std::string> refused = refusals(results.engines, line.run.engines);
   outcome.failures.insert(outcome.failures.end(), refused.begin(), refused.end());
   // Another law than it declares is a disagreement, whatever averages make of it.
   const bool disagree =
-      any(Answer::disagree) || anyLockstep(LockstepVerdict::differs) ||
+      any(Verdict::fail) || anyLockstep(Equivalence::differs) ||
       std::ranges::count(results.endpoints.alarms, PairKind::peer, &AlarmRow::kind) > 0;
-  const bool open = any(Answer::undecided) || any(Answer::borderline) || !refused.empty() ||
-                    anyLockstep(LockstepVerdict::undecided);
+  const bool open = any(Verdict::undecided) || any(Verdict::borderline) || !refused.empty() ||
+                    anyLockstep(Equivalence::undecided);
   if (failed)
     outcome.status = exitEngineFailed;
   else if (disagree || (own.strict && open))

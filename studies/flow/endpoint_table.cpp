@@ -176,7 +176,7 @@ EndpointRow rowOf(const EndpointPair& pair, const TestedEndpoint& tested,
   }
   if (!found) row.lost = looked;  // neither has anything
   if (!found) return row;
-  row.answer = found->answer;
+  row.verdict = found->verdict;
   row.look = static_cast<int>(found->look) + 1;
   row.packings = found->packings;
   row.lost = found->lost;
@@ -233,7 +233,7 @@ void addNeeds(std::vector<JudgedEndpoint>& judged, const InterimPlan& plan) {
     }
   for (JudgedEndpoint& one : judged) {
     const Pooled& pooled = scatter[one.tested.endpoint.name];
-    if (one.row.answer != Answer::undecided || !one.found || pooled.dof == 0) continue;
+    if (one.row.verdict != Verdict::undecided || !one.found || pooled.dof == 0) continue;
     const double margin = one.tested.sample.margin, bias = one.tested.sample.bias;
     const double distance = std::abs(one.found->difference);
     const bool toAgree = distance < margin - bias;
@@ -303,9 +303,7 @@ void answerExactly(EndpointRow& row, const RepeatedValue& a, const RepeatedValue
   if (!a.value || !b.value) return;
   row.difference = *b.value - *a.value;
   row.distance = *row.difference / row.margin;
-  row.answer = !(std::abs(*row.distance) <= 1.0) ? Answer::disagree
-               : *row.difference == 0.0          ? Answer::noDifference
-                                                 : Answer::smallDifference;
+  row.verdict = std::abs(*row.distance) <= 1.0 ? Verdict::pass : Verdict::fail;
 }
 
 }  // namespace

@@ -171,7 +171,7 @@ class Sequence {
   void close() {
     std::set<std::string> wanted;
     for (const EndpointRow& row : findings_.rows)
-      if (row.answer == Answer::undecided || row.answer == Answer::borderline) {
+      if (row.verdict == Verdict::undecided || row.verdict == Verdict::borderline) {
         wanted.insert(row.surrogateA.empty() ? row.a : row.surrogateA);
         wanted.insert(row.surrogateB.empty() ? row.b : row.surrogateB);
       }
@@ -196,7 +196,7 @@ class Sequence {
   /// Decided is what was compared and came out, nothing else.
   std::string whyNoneIsOpen() const {
     const auto isOpen = [](const EndpointRow& row) {
-      return row.answer == Answer::undecided || row.answer == Answer::borderline;
+      return row.verdict == Verdict::undecided || row.verdict == Verdict::borderline;
     };
     if (std::ranges::find(findings_.rows, PairKind::peer, &EndpointRow::kind) ==
         findings_.rows.end())

@@ -127,7 +127,7 @@ LockstepResults lockstep(const StudyWork& work, const LockstepOptions& own) {
   for (EngineRow& engine : results.engines)
     for (const LockstepRow& row : results.lockstep.rows)
       if (row.engine == engine.name && !row.failure.empty()) {
-        engine.status = EngineStatus::failed;
+        engine.status = Status::failed;
         engine.reason = row.failure;
       }
   return results;
@@ -138,9 +138,9 @@ Outcome outcomeOfLockstep(const LockstepResults& results, const CommandLine& lin
   bool judged = false, differs = false, failed = false;
   Outcome outcome{exitPassed, refusals(results.engines, line.run.engines)};
   for (const LockstepRow& row : results.lockstep.rows) {
-    judged |= row.verdict != LockstepVerdict::notMeasured;
-    differs |= row.verdict == LockstepVerdict::differs ||
-               (own.strict && row.verdict == LockstepVerdict::undecided);
+    judged |= row.verdict != Equivalence::notMeasured;
+    differs |= row.verdict == Equivalence::differs ||
+               (own.strict && row.verdict == Equivalence::undecided);
     if (row.failure.empty()) continue;
     outcome.failures.push_back(row.failure);
     failed = true;

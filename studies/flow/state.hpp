@@ -5,7 +5,6 @@
 #include "averaging/profiles.hpp"
 #include "cases/case.hpp"
 #include "results/flow_numbers.hpp"
-#include "results/flow_state.hpp"
 
 /// In what state a run was while it was averaged.
 namespace crossgrain::inline studies {

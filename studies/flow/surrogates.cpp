@@ -49,7 +49,7 @@ std::vector<SurrogateEngine> surrogateEngines(const Campaign& campaign,
   std::vector<SurrogateEngine> surrogates;
   for (const LockstepRow& row : found.rows) {
     const bool same =
-        row.verdict == LockstepVerdict::sameToRounding || row.verdict == LockstepVerdict::sameLaw;
+        row.verdict == Equivalence::sameToRounding || row.verdict == Equivalence::sameLaw;
     if (!same || !row.failure.empty() || !row.equivalentHigh) continue;
     for (std::size_t e = 0; e < campaign.engines().size(); ++e)
       if (campaign.engines()[e].mirrors == row.engine && campaign.refusal(e).empty() &&

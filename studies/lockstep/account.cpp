@@ -62,16 +62,16 @@ void judge(LockstepRow& row, bool moved, std::size_t alone) {
                                                        static_cast<double>(read - beyond));
   const ContactKinds& kinds = row.kinds;
   const bool touched = kinds.sticking + kinds.sliding + kinds.made + kinds.opened > 0;
-  row.verdict = LockstepVerdict::undecided;
+  row.verdict = Equivalence::undecided;
   if (exceedsStrayShare(beyond, read)) {
-    row.verdict = LockstepVerdict::differs;
+    row.verdict = Equivalence::differs;
     row.severalAtOnce = !exceedsStrayShare(alone, read);
   } else if (!moved && !touched)
     row.reason = "nothing touches in these windows: no law was compared";
   else if (std::ranges::max(row.track) < lockstepRounding)
-    row.verdict = LockstepVerdict::sameToRounding;
+    row.verdict = Equivalence::sameToRounding;
   else if (row.precise == row.starts)
-    row.verdict = LockstepVerdict::sameToPrecision;
+    row.verdict = Equivalence::sameToPrecision;
   else if (!moved)
     row.reason = "a change of the law's constant moves nothing here";
   else if (row.read < std::min(leastRead, row.starts))
@@ -80,9 +80,9 @@ void judge(LockstepRow& row, bool moved, std::size_t alone) {
         "proportion",
         row.read, row.starts);
   else if (beyond == 0)
-    row.verdict = row.precise > 0 ? LockstepVerdict::sameToPrecision : LockstepVerdict::sameLaw;
+    row.verdict = row.precise > 0 ? Equivalence::sameToPrecision : Equivalence::sameLaw;
   else if (*row.shareHigh < strayShare)
-    row.verdict = LockstepVerdict::sameLaw;
+    row.verdict = Equivalence::sameLaw;
   else
     row.reason = fmt::format(
         "from {} of {} starts the difference is beyond the limit, which chance may do from {:g} % "
@@ -209,7 +209,7 @@ LockstepRow SeparationAccount::row() const {
     for (const std::vector<double>& then : responses)
       moved |= std::ranges::max(then) > lockstepRounding;
   judge(row, moved, alone);
-  if (row.verdict == LockstepVerdict::sameToPrecision) row.resolution = resolution();
+  if (row.verdict == Equivalence::sameToPrecision) row.resolution = resolution();
   return row;
 }
 

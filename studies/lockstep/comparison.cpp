@@ -192,9 +192,9 @@ std::unique_ptr<Engine> mirrorOf(const Capabilities& can, const EngineEntry& ent
 }
 
 bool hasTerm(const LockstepRow& row) {
-  const bool measured = row.verdict == LockstepVerdict::sameLaw ||
-                        row.verdict == LockstepVerdict::differs ||
-                        row.verdict == LockstepVerdict::undecided;
+  const bool measured = row.verdict == Equivalence::sameLaw ||
+                        row.verdict == Equivalence::differs ||
+                        row.verdict == Equivalence::undecided;
   return measured && std::ranges::any_of(row.readings, [](const StartReading& reading) {
            return reading.beyond || reading.equivalent.value_or(0.0) >= leastNamed;
          });

@@ -6,7 +6,7 @@
 
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
-#include "results/engine_fields.hpp"
+#include "adapters/worker/json.hpp"
 #include "results/lockstep.hpp"
 #include "results/lockstep_findings.hpp"
 #include "studies/core/engine_access.hpp"
@@ -28,7 +28,7 @@ std::string noMirrorReason(const EngineEntry& entry, const Capabilities& can, co
 
 namespace {
 
-std::string describe(LockstepVerdict verdict) {
+std::string describe(Equivalence verdict) {
   std::string words(nameOf(verdict));
   std::ranges::replace(words, '_', ' ');
   return words;

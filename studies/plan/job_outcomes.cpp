@@ -38,8 +38,8 @@ JobResults resultsIn(const fs::path& folder) {
   for (const EngineRow& engine : results.engines)
     if (engine.mirrors.empty()) found.versions[engine.name] = engine.version;
   found.runs = results.runs.size();
-  found.failed = static_cast<std::size_t>(
-      std::ranges::count(results.runs, RunStatus::failed, &FlowRun::status));
+  found.failed =
+      static_cast<std::size_t>(std::ranges::count(results.runs, Status::failed, &FlowRun::status));
   return found;
 }
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "adapters/worker/arrays.hpp"
+#include "adapters/worker/json.hpp"
 #include "cases/case_keys.hpp"
 #include "cases/loader.hpp"
-#include "results/engine_fields.hpp"
 #include "results/head.hpp"
 #include "results/lockstep.hpp"
 #include "results/lockstep_findings.hpp"

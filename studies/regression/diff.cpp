@@ -150,11 +150,11 @@ class WindowsDiff {
     row.mirrored = hasNormalLaw(before_.can, caseBefore_.law);
     if (row.mirrored && hasTerm(found)) found.term = termOf(found);
     row.reason = found.reason;
-    row.windowsVerdict = sameBits_ ? DiffVerdict::sameBits : verdictOf(found.verdict);
+    row.windowsVerdict = sameBits_ ? Equivalence::sameBits : found.verdict;
     row.forces = forces_;
     if (forces_ &&
         std::max({forces_->normal, forces_->tangential, forces_->walls}) >= lockstepSameLaw)
-      row.forcesVerdict = DiffVerdict::differs;
+      row.forcesVerdict = Equivalence::differs;
     row.windows = std::move(found);
   }
 
@@ -177,23 +177,6 @@ class WindowsDiff {
         forces_->tangential = std::max(forces_->tangential, contacts->tangential);
       }
       forces_->walls = std::max(forces_->walls, wallChange(now, before));
-    }
-  }
-
-  /// No limits of a precision are given, as what was kept is no mirror.
-  static DiffVerdict verdictOf(LockstepVerdict verdict) {
-    switch (verdict) {
-      case LockstepVerdict::sameToRounding:
-        return DiffVerdict::sameToRounding;
-      case LockstepVerdict::sameToPrecision:
-      case LockstepVerdict::sameLaw:
-        return DiffVerdict::sameLaw;
-      case LockstepVerdict::differs:
-        return DiffVerdict::differs;
-      case LockstepVerdict::undecided:
-        return DiffVerdict::undecided;
-      default:
-        return DiffVerdict::notMeasured;
     }
   }
 
@@ -259,11 +242,11 @@ class WindowsDiff {
 void diffEndpoints(DiffRow& row, const EngineEntry& entry, const Case& setup,
                    const Baseline& baseline, const BaselineEngine& before,
                    const std::function<void(double)>& progress) {
-  if (before.endpoints.empty() || row.windowsVerdict == DiffVerdict::sameBits) return;
+  if (before.endpoints.empty() || row.windowsVerdict == Equivalence::sameBits) return;
   const KeptEndpoints now = endpointsFrom(entry, setup, baseline.starts, timeStep(setup), progress);
   row.endpoints = endpointChanges(setup, before.endpoints, now, {before.name, row.engine});
-  if (std::ranges::count(row.endpoints, Answer::disagree, &EndpointRow::answer) > 0)
-    row.verdict = DiffVerdict::differs;
+  if (std::ranges::count(row.endpoints, Verdict::fail, &EndpointRow::verdict) > 0)
+    row.verdict = Equivalence::differs;
 }
 
 /// Keys that differ now, "law.mu: 0.44 → 0.5", over all variants.
@@ -308,7 +291,7 @@ DiffRow diffEngine(Engine& engine, const EngineEntry& entry, const std::vector<C
     auto collisions = collisionChanges(before.collisions, collisionsOf(engine, entry, cases));
     row.sweeps = collisions.sweeps;
     row.collisions = std::move(collisions.changes);
-    if (row.sweeps > 0) row.collisionsVerdict = verdictOf(row.collisions);
+    if (row.sweeps > 0) row.collisionsVerdict = equivalenceOf(row.collisions);
   } catch (const EngineFailure& failure) {
     row.failure = failure.what();
   }
@@ -317,8 +300,8 @@ DiffRow diffEngine(Engine& engine, const EngineEntry& entry, const std::vector<C
                                  {entry.name, can, windows.effective()});
   row.verdict = std::max({row.windowsVerdict, row.collisionsVerdict, row.forcesVerdict});
   // Collisions alone do not make a flow the same.
-  const bool partly = flows && row.windowsVerdict == DiffVerdict::notMeasured;
-  if (partly && row.verdict != DiffVerdict::differs) row.verdict = DiffVerdict::notMeasured;
+  const bool partly = flows && row.windowsVerdict == Equivalence::notMeasured;
+  if (partly && row.verdict != Equivalence::differs) row.verdict = Equivalence::notMeasured;
   return row;
 }
 
@@ -358,8 +341,8 @@ Outcome outcomeOf(const DiffResults& results) {
   bool judged = false, differs = false;
   Outcome outcome;
   for (const DiffRow& row : results.rows) {
-    judged |= row.verdict != DiffVerdict::notMeasured;
-    differs |= row.verdict == DiffVerdict::differs;
+    judged |= row.verdict != Equivalence::notMeasured;
+    differs |= row.verdict == Equivalence::differs;
     if (!row.failure.empty()) outcome.failures.push_back(row.failure);
   }
   if (!outcome.failures.empty())

@@ -238,12 +238,12 @@ CollisionChanges collisionChanges(const std::vector<KeptCollisions>& before,
   return all;
 }
 
-DiffVerdict verdictOf(const std::vector<CollisionChange>& changes) {
+Equivalence equivalenceOf(const std::vector<CollisionChange>& changes) {
   double largest = 0.0;
   for (const CollisionChange& change : changes) largest = std::max(largest, change.relative);
-  if (changes.empty()) return DiffVerdict::sameBits;
-  if (largest < lockstepRounding) return DiffVerdict::sameToRounding;
-  return largest < lockstepSameLaw ? DiffVerdict::sameLaw : DiffVerdict::differs;
+  if (changes.empty()) return Equivalence::sameBits;
+  if (largest < lockstepRounding) return Equivalence::sameToRounding;
+  return largest < lockstepSameLaw ? Equivalence::sameLaw : Equivalence::differs;
 }
 
 std::vector<DeclaredChange> declaredChanges(const Declaration& before, const Declaration& now) {

@@ -35,7 +35,7 @@ CollisionChanges collisionChanges(const std::vector<KeptCollisions>& before,
                                   const std::vector<KeptCollisions>& now);
 
 /// By the largest relative change: rules.hpp has the limits and their reasons.
-DiffVerdict verdictOf(const std::vector<CollisionChange>& changes);
+Equivalence equivalenceOf(const std::vector<CollisionChange>& changes);
 
 /// What an engine declares of itself.
 struct Declaration {

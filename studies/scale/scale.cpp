@@ -71,8 +71,8 @@ TimedEngine asked(const EngineEntry& entry, const StudyWork& work) {
 }
 
 std::string outcomeOf(const ScalePoint& point) {
-  if (point.status != EngineStatus::ran)
-    return fmt::format("{}: {}", results::nameOf(point.status), point.reason);
+  if (point.status != Status::finished)
+    return fmt::format("{}: {}", nameOf(point.status, engineStatusNames), point.reason);
   return fmt::format("{:.3g} µs a step", 1e6 * std::ranges::min(point.seconds));
 }
 
@@ -112,7 +112,7 @@ class ScaleTimings {
     for (std::size_t k = 0; k < points_.size(); ++k)
       if (loaded_[k])
         progress_.finish(k, tasks_[k].label + ": finished in an earlier run");
-      else if (points_[k].status == EngineStatus::failed)
+      else if (points_[k].status == Status::failed)
         finish(k);
     for (std::size_t from = 0, to = 0; from < points_.size(); from = to) {
       while (to < points_.size() && points_[to].disks == points_[from].disks) ++to;
@@ -143,7 +143,7 @@ class ScaleTimings {
     point.workers = planned.workers;
     point.steps = plan_.steps.value_or(stepsFor(planned.disks));
     if (!own.failure.empty()) {
-      point.status = EngineStatus::failed;
+      point.status = Status::failed;
       point.reason = own.failure;
     }
     CachedTask<ScalePoint> task;
@@ -162,7 +162,7 @@ class ScaleTimings {
     loaded_.push_back(false);
   }
 
-  bool isOpen(std::size_t k) const { return !loaded_[k] && points_[k].status == EngineStatus::ran; }
+  bool isOpen(std::size_t k) const { return !loaded_[k] && points_[k].status == Status::finished; }
 
   void finish(std::size_t k) {
     progress_.finish(k, tasks_[k].label + ": " + outcomeOf(points_[k]));
@@ -174,7 +174,7 @@ class ScaleTimings {
     for (std::size_t k = from; k < to; ++k) {
       if (!isOpen(k)) continue;
       if (const auto lack = lackOfMemory(points_, k)) {
-        points_[k].status = EngineStatus::refused;
+        points_[k].status = Status::refused;
         points_[k].reason = *lack;
         finish(k);
       } else {
@@ -218,10 +218,10 @@ class ScaleTimings {
       timeSteps(point, own.entry, own.sharing.workers, scaled, scene,
                 work_.store.scratch(tasks_[k].name));
     } catch (const UnsupportedScene& refusal) {
-      point.status = EngineStatus::refused;
+      point.status = Status::refused;
       point.reason = refusal.what();
     } catch (const EngineFailure& failure) {
-      point.status = EngineStatus::failed;
+      point.status = Status::failed;
       point.reason = failure.what();
     }
   }
@@ -229,18 +229,18 @@ class ScaleTimings {
   /// Failed where any of its points did, refused where all were; with the first reason.
   EngineRow rowOf(const TimedEngine& own) const {
     EngineRow row = engineRow(own.entry, own.version);
-    row.status = EngineStatus::refused;
+    row.status = Status::refused;
     for (const ScalePoint& point : points_) {
       if (point.engine != row.name) continue;
-      if (point.status == EngineStatus::failed) {
-        row.status = EngineStatus::failed;
+      if (point.status == Status::failed) {
+        row.status = Status::failed;
         row.reason = point.reason;
         return row;
       }
-      if (point.status == EngineStatus::ran) row.status = EngineStatus::ran;
+      if (point.status == Status::finished) row.status = Status::finished;
       if (row.reason.empty()) row.reason = point.reason;
     }
-    if (row.status == EngineStatus::ran) row.reason.clear();
+    if (row.status == Status::finished) row.reason.clear();
     return row;
   }
 
@@ -321,10 +321,10 @@ ScaleResults scale(const StudyWork& work, const ScaleOptions& own) {
 Outcome outcomeOfScale(const ScaleResults& results, const CommandLine&, const ScaleOptions&) {
   Outcome outcome;
   for (const ScalePoint& point : results.points)
-    if (point.status == EngineStatus::failed) outcome.failures.push_back(point.reason);
+    if (point.status == Status::failed) outcome.failures.push_back(point.reason);
   if (!outcome.failures.empty())
     outcome.status = exitEngineFailed;
-  else if (std::ranges::find(results.points, EngineStatus::ran, &ScalePoint::status) ==
+  else if (std::ranges::find(results.points, Status::finished, &ScalePoint::status) ==
            results.points.end())
     return {exitFailed, {"nothing was timed: " + results.points.front().reason}};
   return outcome;

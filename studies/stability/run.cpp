@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "results/engine_fields.hpp"
+#include "adapters/worker/json.hpp"
 #include "results/scene_picture.hpp"
 #include "results/stability.hpp"
 #include "stability/measures.hpp"
@@ -35,14 +35,14 @@ StabilityRun rowOf(const StabilityTask& task) {
 }
 
 void refuse(StabilityRun& row, const std::string& reason) {
-  row.status = HardRunStatus::refused;
-  row.verdict = StabilityVerdict::refused;
+  row.status = Status::refused;
+  row.verdict = Verdict::notApplicable;
   row.reason = reason;
 }
 
 void fail(StabilityRun& row, const std::string& reason) {
-  row.status = HardRunStatus::failed;
-  row.verdict = StabilityVerdict::unstable;
+  row.status = Status::failed;
+  row.verdict = Verdict::fail;
   row.reason = "failed: " + reason;
 }
 

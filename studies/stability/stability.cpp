@@ -6,11 +6,11 @@
 #include <chrono>
 #include <iterator>
 
+#include "adapters/worker/json.hpp"
 #include "cases/case_files.hpp"
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
-#include "results/engine_fields.hpp"
 #include "results/scene_picture.hpp"
 #include "results/schema.hpp"
 #include "results/stability.hpp"
@@ -146,8 +146,8 @@ double predicted(const Case& setup, const EngineEntry& entry) {
 CachedTask<Rows>::Outcome limitsOf(const StabilityTask& task,
                                    const std::function<void(double)>& progress) {
   StabilityRun run = runStability(task, progress);
-  const std::string verdict(nameOf(run.verdict));
-  const bool finished = run.status != HardRunStatus::failed;
+  const std::string verdict(nameOf(run.verdict, stabilityNames));
+  const bool finished = run.status != Status::failed;
   return {{std::move(run)}, finished, verdict};
 }
 
@@ -157,9 +157,9 @@ CachedTask<Rows>::Outcome transformsOf(const StabilityTask& task, TimeBudget& bu
   const auto count = [&](auto member, auto value) {
     return std::ranges::count(rows, value, member);
   };
-  const auto broken = count(&StabilityRun::verdict, StabilityVerdict::unstable);
-  const auto late = count(&StabilityRun::status, HardRunStatus::notRun);
-  const bool finished = late + count(&StabilityRun::status, HardRunStatus::failed) == 0;
+  const auto broken = count(&StabilityRun::verdict, Verdict::fail);
+  const auto late = count(&StabilityRun::status, Status::notRun);
+  const bool finished = late + count(&StabilityRun::status, Status::failed) == 0;
   return {std::move(rows), finished,
           fmt::format("{}{}", broken == 0 ? "nothing breaks" : fmt::format("{} break", broken),
                       late == 0 ? "" : fmt::format(", {} not run", late))};
@@ -257,16 +257,16 @@ StabilityResults stability(const StudyWork& work, const StabilityOptions& own) {
 
 Outcome outcomeOfStability(const StabilityResults& results, const CommandLine&,
                            const StabilityOptions&) {
-  const auto count = [&](StabilityVerdict verdict) {
+  const auto count = [&](Verdict verdict) {
     return std::ranges::count(results.runs, verdict, &StabilityRun::verdict);
   };
-  const auto all = std::ssize(results.runs), refused = count(StabilityVerdict::refused);
+  const auto all = std::ssize(results.runs), refused = count(Verdict::notApplicable);
   if (refused == all)
     return notJudged(
         fmt::format("all runs were refused, the first because it {}", results.runs.front().reason));
-  if (refused + count(StabilityVerdict::notRun) == all)
+  if (refused + count(Verdict::notMeasured) == all)
     return notJudged("the budget ended before any run could be judged");
-  return {count(StabilityVerdict::unstable) > 0 ? exitFailed : exitPassed};
+  return {count(Verdict::fail) > 0 ? exitFailed : exitPassed};
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "results/engine_fields.hpp"
+#include "adapters/worker/json.hpp"
 #include "results/scene_picture.hpp"
 #include "results/stability.hpp"
 #include "studies/core/engine_access.hpp"
@@ -317,7 +317,7 @@ class Trial {
       row.worstTime = time;
       disk = off.disk;
     }
-    row.verdict = worst > 1.0 ? StabilityVerdict::unstable : StabilityVerdict::stable;
+    row.verdict = worst > 1.0 ? Verdict::fail : Verdict::pass;
     row.reason = worst > 1.0 ? fmt::format("disk {} is where it should not be", disk)
                  : bits      ? "the same to the bit"
                              : "";
@@ -359,20 +359,20 @@ void judged(StabilityRun& row, const std::function<void()>& work) {
   } catch (const Interrupted&) {
     throw;
   } catch (const OutOfTime& late) {
-    row.status = HardRunStatus::notRun;
-    row.verdict = StabilityVerdict::notRun;
+    row.status = Status::notRun;
+    row.verdict = Verdict::notMeasured;
     row.reason = late.what();
   } catch (const UnsupportedScene& refusal) {
-    row.status = HardRunStatus::refused;
-    row.verdict = StabilityVerdict::refused;
+    row.status = Status::refused;
+    row.verdict = Verdict::notApplicable;
     row.reason = refusal.what();
   } catch (const BadInput& refusal) {
-    row.status = HardRunStatus::refused;
-    row.verdict = StabilityVerdict::refused;
+    row.status = Status::refused;
+    row.verdict = Verdict::notApplicable;
     row.reason = refusal.what();
   } catch (const std::exception& failure) {
-    row.status = HardRunStatus::failed;
-    row.verdict = StabilityVerdict::unstable;
+    row.status = Status::failed;
+    row.verdict = Verdict::fail;
     row.reason = fmt::format("failed: {}", failure.what());
   }
 }

@@ -10,8 +10,8 @@
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
 #include "reports/lockstep/text.hpp"
-#include "results/collision_fields.hpp"
-#include "results/flow_fields.hpp"
+#include "results/collision.hpp"
+#include "results/run.hpp"
 #include "results/schema.hpp"
 #include "results/thesis.hpp"
 #include "studies/core/engine_running.hpp"
@@ -99,8 +99,7 @@ EarlierRuns readEarlierRuns(const std::filesystem::path& file) {
                     file.string(), document.at("kind").get<std::string>()));
   EarlierRuns runs;
   for (ThesisRun& run : understood(file, [&] { return thesisFromJson(document); }).runs)
-    if (!run.key.empty() && run.run.status != RunStatus::failed)
-      runs.emplace(run.key, std::move(run));
+    if (!run.key.empty() && run.run.status != Status::failed) runs.emplace(run.key, std::move(run));
   return runs;
 }
 
@@ -156,9 +155,9 @@ void ThesisCampaign::compareWithMirrors(std::size_t starts) {
   for (ThesisSurrogate& surrogate : surrogates_) {
     const auto row = std::ranges::find(found.rows, surrogate.engine, &LockstepRow::engine);
     if (row == found.rows.end()) continue;
-    surrogate.accepted = row->failure.empty() && row->equivalent &&
-                         (row->verdict == LockstepVerdict::sameToRounding ||
-                          row->verdict == LockstepVerdict::sameLaw);
+    surrogate.accepted =
+        row->failure.empty() && row->equivalent &&
+        (row->verdict == Equivalence::sameToRounding || row->verdict == Equivalence::sameLaw);
     surrogate.equivalent = row->equivalent;
     surrogate.starts = row->starts;
     surrogate.why = row->failure.empty() ? reports::describe(*row, found.rules) : row->failure;
@@ -280,7 +279,7 @@ ThesisCampaign::Outcome ThesisCampaign::make(const SweepRun& wanted, const std::
       0.01, 1.0 - timeReached(store_.unfinished(name), Json(key).dump()) / durationOf(own.setup));
   if (const double left = budget_ - elapsed(), needs = toDo * predicted(wanted); needs > left) {
     identify();
-    result.run.status = RunStatus::missing;
+    result.run.status = Status::notRun;
     result.run.reason =
         fmt::format("it would take about {}, of the budget {} {} left", roughly(needs),
                     left > 0.0 ? roughly(left) : "nothing", left > 0.0 ? "were" : "was");
@@ -311,7 +310,7 @@ ThesisCampaign::Outcome ThesisCampaign::make(const SweepRun& wanted, const std::
     throw;  // nothing more can be kept
   } catch (const std::exception& error) {
     identify();
-    result.run.status = RunStatus::failed;
+    result.run.status = Status::failed;
     result.run.reason = fmt::format("{}, packing {}: {}", own.name, wanted.packing, error.what());
     return {result, false, fmt::format("failed: {}", error.what())};
   }
@@ -363,21 +362,21 @@ ThesisResults ThesisCampaign::results() const {
   results.head.setup = {sweep_.name, "", sweep_.file.string(), readFile(sweep_.file).value_or("")};
   for (const ThesisEngine& own : engines_)
     results.engines.push_back(
-        {own.entry.name, own.entry.summary, own.version, own.entry.mirrors, EngineStatus::ran, ""});
+        {own.entry.name, own.entry.summary, own.version, own.entry.mirrors, Status::finished, ""});
   for (const SweepCase& own : sweep_.cases) results.cases.push_back(rowOf(own));
   results.surrogates = surrogates_;
   results.notes = refusals_;
   for (const ThesisRun& run : runs_) {
-    if (run.run.status == RunStatus::missing) {
+    if (run.run.status == Status::notRun) {
       results.notes.push_back(fmt::format("{}, {}, packing {} was left out: {}.", run.setup,
                                           run.engine, run.packing, run.run.reason));
       continue;
     }
     results.runs.push_back(run);
-    if (run.run.status != RunStatus::failed) continue;
+    if (run.run.status != Status::failed) continue;
     EngineRow& engine = *std::ranges::find(results.engines, run.engine, &EngineRow::name);
-    if (engine.status == EngineStatus::failed) continue;
-    engine.status = EngineStatus::failed;
+    if (engine.status == Status::failed) continue;
+    engine.status = Status::failed;
     engine.reason = run.run.reason;
   }
   std::ranges::copy(madeByOthers(results.runs), std::back_inserter(results.notes));

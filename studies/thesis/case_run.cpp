@@ -64,7 +64,7 @@ ThesisSpan ThesisHistory::momentary(const Snapshot& snapshot) {
 namespace {
 
 bool isLargest(std::size_t quantity) {
-  return spanNumbers[quantity] == &ThesisSpan::maxOverlap;
+  return spanNumbers[quantity].of == &ThesisSpan::maxOverlap;
 }
 
 }  // namespace
@@ -74,8 +74,8 @@ void ThesisHistory::add(const Snapshot& snapshot) {
   const auto own = std::ranges::find_if(spans_, [&](const Sums& span) { return when < span.to; });
   Sums& span = own == spans_.end() ? spans_.back() : *own;
   const ThesisSpan now = momentary(snapshot);
-  for (std::size_t q = 0; q < spanNumbers.size(); ++q) {
-    const std::optional<double> value = now.*spanNumbers[q];
+  for (std::size_t q = 0; q < std::size(spanNumbers); ++q) {
+    const std::optional<double> value = now.*spanNumbers[q].of;
     if (!value) continue;
     span.sum[q] = isLargest(q) ? std::max(span.sum[q], *value) : span.sum[q] + *value;
     ++span.count[q];
@@ -89,25 +89,20 @@ std::vector<ThesisSpan> ThesisHistory::spans() const {
     ThesisSpan& span = spans.emplace_back();
     span.from = sums.from;
     span.to = sums.to;
-    for (std::size_t q = 0; q < spanNumbers.size(); ++q)
+    for (std::size_t q = 0; q < std::size(spanNumbers); ++q)
       if (sums.count[q] > 0)
-        span.*spanNumbers[q] =
+        span.*spanNumbers[q].of =
             isLargest(q) ? sums.sum[q] : sums.sum[q] / static_cast<double>(sums.count[q]);
   }
   return spans;
 }
 
 json ThesisHistory::state() const {
-  json state = json::array();
-  for (const Sums& span : spans_) state.push_back({{"sum", span.sum}, {"count", span.count}});
-  return state;
+  return jsonOf(spans_);
 }
 
 void ThesisHistory::restore(const json& state) {
-  for (std::size_t k = 0; k < spans_.size(); ++k) {
-    spans_[k].sum = state.at(k).at("sum").get<std::vector<double>>();
-    spans_[k].count = state.at(k).at("count").get<std::vector<std::size_t>>();
-  }
+  readFrom(state, spans_);
 }
 
 ThesisRun runCase(const CouetteTask& task, const std::vector<int>& finerRings,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -36,10 +37,16 @@ class ThesisHistory {
 
  private:
   struct Sums {
-    double from = 0.0, to = 0.0;  ///< [rotations]
-    std::vector<double> sum =
-        std::vector<double>(spanNumbers.size());  ///< of maxOverlap the largest
-    std::vector<std::size_t> count = std::vector<std::size_t>(spanNumbers.size());
+    double from = 0.0, to = 0.0;                          ///< [rotations]
+    std::array<double, std::size(spanNumbers)> sum = {};  ///< of maxOverlap the largest
+    std::array<std::size_t, std::size(spanNumbers)> count = {};
+
+    void fields(auto& io) {
+      io("from", from);
+      io("to", to);
+      io("sum", sum);
+      io("count", count);
+    }
   };
 
   /// What one snapshot shows.

@@ -63,18 +63,20 @@ std::optional<Estimate> distanceFromAsymptote(const LawSweep& sweep, double mu, 
   return exactly(*largest);
 }
 
-void putSweeps(const LawSweeps& sweeps, double mu, double slidingFrom, Evidence& evidence) {
+using Found = std::map<std::string, Evidence>;  // by figure
+
+Found ofSweeps(const LawSweeps& sweeps, double mu, double slidingFrom) {
+  Found figures;
   for (const std::string law : {"spring", "coulomb", "viscous", "spring_dashpot"}) {
     const auto found = sweeps.find(law);
     const bool known = found != sweeps.end() && !found->second.points.empty();
     const std::string missing = fmt::format("there is no sweep of the law \"{}\"", law);
-    evidence.put(law, known ? std::optional(exactly(found->second.lowest())) : std::nullopt,
-                 missing);
+    figures[law] = {known ? std::optional(exactly(found->second.lowest())) : std::nullopt, missing};
     if (law == "spring_dashpot") continue;  // figure 4.3 has no such curve
-    evidence.put("sliding_" + law,
-                 known ? distanceFromAsymptote(found->second, mu, slidingFrom) : std::nullopt,
-                 missing);
+    figures["sliding_" + law] = {
+        known ? distanceFromAsymptote(found->second, mu, slidingFrom) : std::nullopt, missing};
   }
+  return figures;
 }
 
 /// A head-on impact by a scheme, averaged over where within a step it begins.
@@ -100,7 +102,7 @@ SchemeImpact impactBy(ContactLaw law, Integrator integrator, double reducedMass,
   return mean;
 }
 
-void putSchemes(const Case& setup, const ClaimRule& rule, Evidence& evidence) {
+Found ofSchemes(const Case& setup, const ClaimRule& rule) {
   const double reducedMass = smallPair(setup).reducedMass();
   const double dt = contactTime(setup.law, reducedMass) / rule.number("steps_per_contact");
   const SchemeImpact reference = impactBy(setup.law, Integrator::positionVerlet, reducedMass, dt);
@@ -112,8 +114,7 @@ void putSchemes(const Case& setup, const ClaimRule& rule, Evidence& evidence) {
     if (std::abs(en) > std::abs(restitution)) restitution = en;
     if (std::abs(time) > std::abs(duration)) duration = time;
   }
-  evidence.put("restitution", exactly(restitution), "");
-  evidence.put("duration", exactly(duration), "");
+  return {{"restitution", {exactly(restitution)}}, {"duration", {exactly(duration)}}};
 }
 
 /// The reference case; absent where nobody says all of it.
@@ -132,22 +133,22 @@ std::vector<ClaimRow> judgeLaw(const ThesisResults& results, const ClaimRules& r
   const std::optional<Case> setup = referenceSetup(results);
   const auto add = [&](const char* id, const Interpretation& interpretation, const auto& judge) {
     const ClaimScope scope{results, rules, rules.of(id), "-", interpretation};
-    Evidence evidence(scope);
+    Found found;
     if (setup)
-      judge(scope.rule, evidence);
+      found = judge(scope.rule);
     else
       for (const ClaimBand& band : scope.rule.figures)
-        evidence.put(band.name, {}, "no case says what the law is");
-    rows.push_back(evidence.row());
+        found[band.name] = {{}, "no case says what the law is"};
+    rows.push_back(claimRow(scope, found));
   };
   for (const TensionChoice& each : tensionChoices)
-    add("C1", {"tension", each.label, {}, {}}, [&](const ClaimRule& rule, Evidence& evidence) {
+    add("C1", {"tension", each.label, {}, {}}, [&](const ClaimRule& rule) {
       ContactLaw law = setup->law;
       law.conventions.tension = each.tension;
-      putSweeps(sweepsOf(law, smallPair(*setup)), law.mu, rule.number("sliding_from"), evidence);
+      return ofSweeps(sweepsOf(law, smallPair(*setup)), law.mu, rule.number("sliding_from"));
     });
   add("C2", {"", "head-on impacts at the thesis' step", {}, {}},
-      [&](const ClaimRule& rule, Evidence& evidence) { putSchemes(*setup, rule, evidence); });
+      [&](const ClaimRule& rule) { return ofSchemes(*setup, rule); });
   return rows;
 }
 
@@ -164,10 +165,9 @@ std::vector<ClaimRow> judgeCollisions(const CollideResults& collisions, const Cl
     for (const TensionChoice& each : tensionChoices) {
       const Interpretation interpretation{"tension", each.label, {}, {}};
       const ClaimScope scope{none, rules, rule, engine, interpretation};
-      Evidence evidence(scope);
-      putSweeps(lawSweeps(collisions, engine, each.name, steps), lawFriction(collisions),
-                rule.number("sliding_from"), evidence);
-      rows.push_back(evidence.row());
+      rows.push_back(
+          claimRow(scope, ofSweeps(lawSweeps(collisions, engine, each.name, steps),
+                                   lawFriction(collisions), rule.number("sliding_from"))));
     }
   return rows;
 }

@@ -5,49 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "averaging/statistics.hpp"
-#include "reports/common/numbers.hpp"
+#include "support/readable.hpp"
 
 namespace crossgrain::inline studies {
 namespace {
 
-Interpretation defaultOf(const ThesisResults& results, const CaseSettings& reference) {
-  Interpretation own;
-  own.label = "default: ";
-  for (const OpenChoice& open : openChoices) {
-    if (open.value == &CaseSettings::largeMass && reference.largeMass == 0.0) continue;  // not said
-    own.label += describe(open, reference) + ", ";
-  }
-  own.label += describeRate(reference);
-  for (const ThesisCase& setup : results.cases) {
-    if (!sameBut(nullptr, false, settingsOf(setup), reference)) continue;
-    if (isOf(setup, "packings")) own.judged.push_back(&setup);
-    if (isOf(setup, "packings") || isOf(setup, "time")) own.timed.push_back(&setup);
-  }
-  return own;
-}
-
-void addOthers(const ThesisResults& results, const OpenChoice& open, const CaseSettings& reference,
-               std::vector<Interpretation>& all) {
-  std::map<std::pair<double, double>, Interpretation> byValue;
-  for (const ThesisCase& setup : results.cases) {
-    const CaseSettings settings = settingsOf(setup);
-    if (!isOf(setup, open.key) || sameSetting(settings.*open.value, reference.*open.value) ||
-        !sameBut(&open, true, settings, reference))
-      continue;
-    Interpretation& own = byValue[{settings.*open.value, settings.omega}];
-    own.key = open.key;
-    own.label = describe(open, settings);
-    if (!sameSetting(settings.omega, reference.omega)) own.label += ", " + describeRate(settings);
-    own.judged.push_back(&setup);
-    own.timed.push_back(&setup);
-  }
-  for (auto& [value, own] : byValue) all.push_back(std::move(own));
-}
-
 std::string bandText(const ClaimBand& band) {
-  const auto edge = [](double value) { return reports::readableSetting(value); };
+  const auto edge = [](double value) { return readableSetting(value); };
   if (band.low && band.high)
     return fmt::format("within {} to {}", edge(*band.low), edge(*band.high));
   return band.low ? "above " + edge(*band.low) : "below " + edge(*band.high);
@@ -57,8 +24,7 @@ std::string bandText(const ClaimBand& band) {
 std::string valueText(const ClaimBand& band, const Estimate& of, std::size_t asked) {
   constexpr double rounding = 1e-12;  // where runs differ by it they do not differ
   const bool differ = of.standardError && *of.standardError > rounding * std::abs(of.value);
-  std::string text =
-      differ ? reports::readable(of.value, of.standardError) : reports::readable(of.value);
+  std::string text = differ ? readable(of.value, of.standardError) : readable(of.value);
   if (!band.unit.empty()) text += " " + band.unit;
   if (of.basis == Estimate::Basis::exact) return text;
   if (of.basis == Estimate::Basis::within)
@@ -81,60 +47,16 @@ std::string rotationsOf(const std::vector<CaseRun>& runs) {
 
 }  // namespace
 
-std::vector<Interpretation> interpretationsOf(const ThesisResults& results) {
-  const ThesisCase* const first = referenceCase(results);
-  if (!first) return {Interpretation{"", "default", {}, {}}};
-  const CaseSettings reference = settingsOf(*first);
-  std::vector<Interpretation> all{defaultOf(results, reference)};
-  for (const OpenChoice& open : openChoices) addOthers(results, open, reference, all);
-  return all;
-}
-
-RunSet ClaimScope::runsOf(const std::vector<const ThesisCase*>& cases, std::string label) const {
-  RunSet set{{}, std::move(label), {}};
-  for (const ThesisCase* setup : cases) {
-    std::set<int> own;
-    for (const std::string& name : {engine, mirror})
-      for (const CaseRun& at : finishedRuns(results, *setup, name))
-        if (own.insert(at.run->packing).second) set.runs.push_back(at);
-    if (own.empty()) set.without.push_back(setup->name);
-  }
-  return set;
-}
-
-RunSet ClaimScope::densities(double from, double to, const std::string& label) const {
-  std::vector<const ThesisCase*> cases;
-  for (const ThesisCase* setup : interpretation.judged)
-    if (setup->label >= from && setup->label < to) cases.push_back(setup);
-  return runsOf(cases, std::isinf(to)
-                           ? fmt::format("runs {} (ν̄ from {:g})", label, from)
-                           : fmt::format("runs {} (ν̄ from {:g} to {:g})", label, from, to));
-}
-
-RunSet ClaimScope::family(std::string_view name) const {
-  std::vector<const ThesisCase*> cases;
-  for (const ThesisCase& setup : results.cases)
-    if (isOf(setup, name)) cases.push_back(&setup);
-  return runsOf(cases, fmt::format("runs of the family \"{}\"", name));
-}
-
-RunSet ClaimScope::timed() const {
-  RunSet all = runsOf(interpretation.timed, "runs of the families \"packings\" and \"time\"");
-  all.runs = longestOfEachPacking(all.runs);
-  return all;
-}
-
-ClaimVerdict placeIn(const ClaimBand& band, const Estimate& estimate, double confidence,
-                     int figures) {
+Verdict placeIn(const ClaimBand& band, const Estimate& estimate, double confidence, int figures) {
   const auto half = estimate.half(confidence);
-  if (!half) return ClaimVerdict::undecided;
+  if (!half) return Verdict::undecided;
   const double x = estimate.value;
   if ((!band.low || x - *half >= *band.low) && (!band.high || x + *half <= *band.high))
-    return ClaimVerdict::reproduced;
+    return Verdict::pass;
   const double wide = *estimate.half(1.0 - (1.0 - confidence) / std::max(figures, 1));
   const bool below = band.low && x + wide < *band.low;
   const bool above = band.high && x - wide > *band.high;
-  return below || above ? ClaimVerdict::refuted : ClaimVerdict::undecided;
+  return below || above ? Verdict::fail : Verdict::undecided;
 }
 
 std::optional<int> runsToDecide(const ClaimBand& band, const Estimate& estimate,
@@ -153,88 +75,63 @@ std::optional<int> runsToDecide(const ClaimBand& band, const Estimate& estimate,
   return std::nullopt;
 }
 
-void Evidence::put(const std::string& figure, const std::optional<Estimate>& estimate,
-                   std::string missing, std::size_t of) {
-  const bool finite = estimate && std::isfinite(estimate->value);
-  entries_[scope_.rule.band(figure).name] = {finite ? estimate : std::nullopt, std::move(missing),
-                                             of};
-}
+namespace {
 
-std::string Evidence::missing(const RunSet& set) {
-  if (!set.runs.empty()) {
-    std::set<std::string> cases;
-    for (const CaseRun& at : set.runs) cases.insert(at.setup->name);
-    return fmt::format("none of {} has the data ({})", set.label, fmt::join(cases, ", "));
-  }
-  if (set.without.empty()) return fmt::format("there are no {}: no case of theirs", set.label);
-  return fmt::format("there are no {}: none of {}", set.label, fmt::join(set.without, ", "));
-}
-
-void Evidence::restsOn(const std::vector<CaseRun>& runs) {
-  runs_.insert(runs_.end(), runs.begin(), runs.end());
-}
-
-ClaimVerdict Evidence::verdictOf(const ClaimBand& band) const {
-  const auto entry = entries_.find(band.name);
-  if (entry == entries_.end() || !entry->second.estimate) return ClaimVerdict::undecided;
-  return placeIn(band, *entry->second.estimate, scope_.common("confidence"),
-                 scope_.rule.judgedFigures());
-}
-
-std::string Evidence::describe(const ClaimBand& band, ClaimVerdict verdict) const {
-  const Entry& entry = entries_.at(band.name);
-  if (!entry.estimate) return fmt::format("{}: {}", band.label, entry.missing);
+/// @param of  null: nothing is known
+std::string describe(const ClaimBand& band, const Evidence* of, Verdict verdict,
+                     double confidence) {
+  if (!of || !of->estimate) return fmt::format("{}: {}", band.label, of ? of->missing : "");
   const std::string text =
-      fmt::format("{} is {}", band.label, valueText(band, *entry.estimate, entry.of));
-  if (verdict == ClaimVerdict::reproduced) return text + ", " + bandText(band);
-  if (verdict == ClaimVerdict::refuted) return text + ", not " + bandText(band);
-  const auto n = runsToDecide(band, *entry.estimate, scope_.common("confidence"));
+      fmt::format("{} is {}", band.label, valueText(band, *of->estimate, of->of));
+  if (verdict == Verdict::pass) return text + ", " + bandText(band);
+  if (verdict == Verdict::fail) return text + ", not " + bandText(band);
+  const auto n = runsToDecide(band, *of->estimate, confidence);
   return text + ", which does not show whether it is " + bandText(band) +
          (n ? fmt::format("; about {} runs would", *n) : "");
 }
 
-ClaimRow Evidence::row() const {
-  const ClaimRule& rule = scope_.rule;
+}  // namespace
+
+ClaimRow claimRow(const ClaimScope& scope, const std::map<std::string, Evidence>& found) {
+  const ClaimRule& rule = scope.rule;
+  const double confidence = scope.common("confidence");
   ClaimRow row;
   row.id = rule.id;
   row.claim = rule.claim;
-  row.engine = scope_.engine;
-  row.mirror = scope_.mirror;
-  row.interpretation = scope_.interpretation.label;
+  row.engine = scope.engine;
+  row.mirror = scope.mirror;
+  row.interpretation = scope.interpretation.label;
   row.plot = rule.figure;
-  std::set<std::string> cases;
-  for (const CaseRun& at : runs_) cases.insert(at.setup->name);
-  row.cases.assign(cases.begin(), cases.end());
-  std::map<ClaimVerdict, std::vector<std::string>> sentences;
+  std::vector<CaseRun> runs;
+  std::map<Verdict, std::vector<std::string>, std::greater<>> sentences;  // most severe first
   for (const ClaimBand& band : rule.figures) {
-    ClaimFigure& figure = row.figures.emplace_back();
-    figure.name = band.label;
-    figure.key = band.name;
-    figure.unit = band.unit;
-    figure.low = band.low;
-    figure.high = band.high;
-    if (const auto entry = entries_.find(band.name);
-        entry != entries_.end() && entry->second.estimate) {
-      figure.value = entry->second.estimate->value;
-      figure.standardError = entry->second.estimate->standardError;
+    const auto entry = found.find(band.name);
+    const Evidence* const own = entry == found.end() ? nullptr : &entry->second;
+    if (own) runs.insert(runs.end(), own->runs.begin(), own->runs.end());
+    ClaimFigure& figure = row.figures.emplace_back(
+        ClaimFigure{band.label, band.unit, {}, {}, band.low, band.high, band.name});
+    if (own && own->estimate) {
+      figure.value = own->estimate->value;
+      figure.standardError = own->estimate->standardError;
     }
     if (!band.judged()) continue;
-    const ClaimVerdict verdict = verdictOf(band);
-    figure.verdict = verdict;
-    sentences[verdict].push_back(describe(band, verdict));
+    figure.verdict = own && own->estimate
+                         ? placeIn(band, *own->estimate, confidence, rule.judgedFigures())
+                         : Verdict::undecided;
+    sentences[*figure.verdict].push_back(describe(band, own, *figure.verdict, confidence));
   }
-  using enum ClaimVerdict;
-  row.verdict = !sentences[refuted].empty()     ? refuted
-                : !sentences[undecided].empty() ? undecided
-                                                : reproduced;
+  row.verdict = sentences.begin()->first;  // a rule has a figure with a band
   std::vector<std::string> parts;
-  for (const ClaimVerdict verdict : {refuted, undecided, reproduced})
-    if (!sentences[verdict].empty())
-      parts.push_back(fmt::format("{}: {}.", nameOf(verdict), fmt::join(sentences[verdict], "; ")));
+  for (const auto& [verdict, own] : sentences)
+    parts.push_back(
+        fmt::format("{}: {}.", nameOf(verdict, claimVerdictNames), fmt::join(own, "; ")));
   row.why = fmt::format("{}", fmt::join(parts, " "));
-  if (!runs_.empty())
-    row.why +=
-        fmt::format(" Averaged over rotations {} since the ring had closed.", rotationsOf(runs_));
+  if (runs.empty()) return row;
+  row.why +=
+      fmt::format(" Averaged over rotations {} since the ring had closed.", rotationsOf(runs));
+  std::set<std::string> cases;
+  for (const CaseRun& at : runs) cases.insert(at.setup->name);
+  row.cases.assign(cases.begin(), cases.end());
   return row;
 }
 

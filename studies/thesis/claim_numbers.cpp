@@ -305,7 +305,7 @@ constexpr NamedNumber numbersOfRun[] = {
     {"model_spin", modelSpin}};
 // clang-format on
 
-constexpr std::pair<std::string_view, SpanNumber> numbersOfSpans[] = {
+constexpr std::pair<std::string_view, std::optional<double> ThesisSpan::*> numbersOfSpans[] = {
     {"nu_wheel_", &ThesisSpan::volumeFractionAtWheel},
     {"nu_outside_", &ThesisSpan::volumeFractionOutside},
     {"pressure_", &ThesisSpan::outerPressure}};

@@ -9,9 +9,9 @@
 #include <set>
 
 #include "averaging/regime.hpp"
-#include "reports/common/numbers.hpp"
 #include "results/thesis_runs.hpp"
 #include "studies/thesis/claims.hpp"
+#include "support/readable.hpp"
 
 namespace crossgrain::inline studies {
 namespace {
@@ -134,7 +134,7 @@ std::string pressureReason(const std::vector<const ThesisRun*>& runs) {
   return fmt::format(
       "The state was not the same all the time: the outer pressure of the last rotation (up to "
       "{:g}) is {} times that of the first, in the median of {}.",
-      to, reports::readable(median), countText(ratios.size(), "run"));
+      to, readable(median), countText(ratios.size(), "run"));
 }
 
 /// A row of the same claim by other runs, and what those are.
@@ -161,10 +161,10 @@ std::string elsewhereReason(const ClaimFigure& figure, const std::vector<OtherRo
     if (!there || !there->value || !there->verdict) continue;
     if (there->value == figure.value && there->value != 0.0) continue;  // of the same runs
     ++judged;
-    if (*there->verdict != ClaimVerdict::reproduced) continue;
+    if (*there->verdict != Verdict::pass) continue;
     const std::string unit = there->unit.empty() ? "" : " " + there->unit;
-    places.push_back(fmt::format("{} ({}{})", other.label,
-                                 reports::readable(there->value, there->standardError), unit));
+    places.push_back(
+        fmt::format("{} ({}{})", other.label, readable(there->value, there->standardError), unit));
   }
   if (judged == 0) return "";
   if (places.empty())
@@ -177,12 +177,11 @@ std::vector<std::string> elsewhereReasons(const ClaimRow& row,
                                           const std::vector<OtherRow>& others) {
   std::vector<std::string> sentences, whole;
   for (const OtherRow& other : others)
-    if (other.row.verdict == ClaimVerdict::reproduced) whole.push_back(other.label);
+    if (other.row.verdict == Verdict::pass) whole.push_back(other.label);
   if (!whole.empty())
     sentences.push_back(fmt::format("The whole claim is reproduced {}.", placesText(whole)));
   for (const ClaimFigure& figure : row.figures)
-    if (figure.verdict == ClaimVerdict::refuted)
-      sentences.push_back(elsewhereReason(figure, others));
+    if (figure.verdict == Verdict::fail) sentences.push_back(elsewhereReason(figure, others));
   return sentences;
 }
 
@@ -238,7 +237,7 @@ void addReasons(const ThesisResults& results, const ClaimRules& rules, const Cla
   const std::vector<Elsewhere> elsewhere = elsewhereOf(results, ofRegimes);
   for (ClaimRow& row : rows) {
     row.reasons.clear();
-    if (row.verdict != ClaimVerdict::refuted) continue;
+    if (row.verdict != Verdict::fail) continue;
     const auto sameClaim = [&](const ClaimRow& each) {
       return each.id == row.id && each.engine == row.engine;
     };

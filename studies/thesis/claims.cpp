@@ -7,19 +7,17 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 
 #include "averaging/transition_density.hpp"
 #include "studies/thesis/claim_numbers.hpp"
-#include "studies/thesis/claim_runs.hpp"
 
 namespace crossgrain::inline studies {
 namespace {
 
 // ---- What many runs say together.
 
-/// What is put as evidence of the figure of that name.
-using FigureRule =
-    std::function<void(const ClaimScope& scope, Evidence& evidence, const std::string& figure)>;
+using FigureRule = std::function<Evidence(const ClaimScope& scope)>;
 
 FormulaContext contextOf(const CaseRun& at, const ClaimScope& scope) {
   return {at, at.run->run.profiles, "",
@@ -36,49 +34,50 @@ struct Collected {
   RunSet asked;
   std::vector<CaseRun> runs;
   std::vector<Measured> values;
+
+  /// @param missing  why there is none although runs have the number
+  Evidence evidence(std::optional<Estimate> estimate, const std::string& missing) const {
+    return {std::move(estimate),
+            values.empty() ? asked.missing() : fmt::format("{}: {}", asked.label, missing), runs,
+            asked.runs.size()};
+  }
 };
 
-Collected collect(const RunChoice& choice, const Formula& formula, const ClaimScope& scope,
-                  Evidence& evidence) {
+Collected collect(RunChoice choice, const Formula& formula, const ClaimScope& scope) {
   Collected found{choice(scope), {}, {}};
   for (const CaseRun& at : found.asked.runs)
     if (const auto value = numberOf(formula, at, scope)) {
       found.values.push_back(*value);
       found.runs.push_back(at);
     }
-  evidence.restsOn(found.runs);
   return found;
 }
 
 /// Mean over the runs that have the number.
 FigureRule mean(RunChoice runs, Formula of) {
-  return [=](const ClaimScope& scope, Evidence& evidence, const std::string& figure) {
-    const Collected found = collect(runs, of, scope, evidence);
-    evidence.put(figure, meanOver(found.values), Evidence::missing(found.asked),
-                 found.asked.runs.size());
+  return [=](const ClaimScope& scope) {
+    const Collected found = collect(runs, of, scope);
+    return found.evidence(meanOver(found.values), "");
   };
 }
 
 /// Kendall's τ with ν̄ over the runs that have the number.
 FigureRule trend(RunChoice runs, Formula of) {
-  return [=](const ClaimScope& scope, Evidence& evidence, const std::string& figure) {
-    const Collected found = collect(runs, of, scope, evidence);
+  return [=](const ClaimScope& scope) {
+    const Collected found = collect(runs, of, scope);
     std::vector<TrendPoint> points;
     for (std::size_t k = 0; k < found.runs.size(); ++k)
       points.push_back({found.runs[k].setup->label, found.values[k].value});
-    evidence.put(figure, rankTrend(points, static_cast<int>(scope.common("fewest_for_trend"))),
-                 points.empty()
-                     ? Evidence::missing(found.asked)
-                     : fmt::format("{}: {} with the data, of different ν̄, are too few for a trend",
-                                   found.asked.label, points.size()),
-                 found.asked.runs.size());
+    return found.evidence(
+        rankTrend(points, static_cast<int>(scope.common("fewest_for_trend"))),
+        fmt::format("{} with the data, of different ν̄, are too few for a trend", points.size()));
   };
 }
 
 /// Slope in lg Ω with a level for each ν̄.
 FigureRule slopeInRate(RunChoice runs, Formula of) {
-  return [=](const ClaimScope& scope, Evidence& evidence, const std::string& figure) {
-    const Collected found = collect(runs, of, scope, evidence);
+  return [=](const ClaimScope& scope) {
+    const Collected found = collect(runs, of, scope);
     std::vector<GroupedPoint> points;
     for (std::size_t k = 0; k < found.runs.size(); ++k) {
       const ThesisCase& setup = *found.runs[k].setup;
@@ -86,19 +85,19 @@ FigureRule slopeInRate(RunChoice runs, Formula of) {
           static_cast<std::size_t>(std::lround(setup.label / scope.common("same_label")));
       points.push_back({std::log10(std::abs(setup.cell.omega)), found.values[k].value, level});
     }
-    evidence.put(figure, commonSlope(points),
-                 points.empty()
-                     ? Evidence::missing(found.asked)
-                     : fmt::format("{}: {} with the data, no two rates at one ν̄ or none left for "
-                                   "the error",
-                                   found.asked.label, points.size()));
+    Evidence evidence = found.evidence(
+        commonSlope(points),
+        fmt::format("{} with the data, no two rates at one ν̄ or none left for the error",
+                    points.size()));
+    evidence.of = 0;
+    return evidence;
   };
 }
 
 /// Slope in ν̄; times the rule's change_to − change_from where `change` is wanted.
 FigureRule slopeInDensity(RunChoice runs, Formula of, bool change) {
-  return [=](const ClaimScope& scope, Evidence& evidence, const std::string& figure) {
-    const Collected found = collect(runs, of, scope, evidence);
+  return [=](const ClaimScope& scope) {
+    const Collected found = collect(runs, of, scope);
     std::vector<GroupedPoint> points;
     for (std::size_t k = 0; k < found.runs.size(); ++k)
       points.push_back({found.runs[k].setup->label, found.values[k].value, 0});
@@ -108,10 +107,7 @@ FigureRule slopeInDensity(RunChoice runs, Formula of, bool change) {
       slope->value *= span;
       *slope->standardError *= span;
     }
-    evidence.put(figure, slope,
-                 points.empty() || !change
-                     ? Evidence::missing(found.asked)
-                     : fmt::format("{}: too few, or of one ν̄", found.asked.label));
+    return found.evidence(slope, "too few, or of one ν̄");
   };
 }
 
@@ -136,32 +132,28 @@ CarryingSet carryingAfter(const ClaimScope& scope, double rotation) {
 
 /// The critical ν̄ after so many rotations; absent: after the rule's.
 FigureRule criticalAfter(std::optional<double> rotation) {
-  return [=](const ClaimScope& scope, Evidence& evidence, const std::string& figure) {
+  return [=](const ClaimScope& scope) {
     const CarryingSet after =
         carryingAfter(scope, rotation ? *rotation : scope.number("thesis_rotation"));
-    const auto carry = std::ranges::count_if(after.packings, &LoadState::carries);
-    std::optional<Estimate> critical;
-    if (const auto half = transitionDensity(after.packings, scope.number("label_spread"))) {
-      critical.emplace();
-      critical->value = half->nu;
-      critical->standardError = half->standardError;
-      critical->runs = static_cast<int>(after.packings.size());
-    }
-    evidence.put(figure, critical,
-                 after.packings.empty()
-                     ? Evidence::missing(after.set)
-                     : fmt::format("{} of {} {} carry, from which no critical ν̄ follows", carry,
-                                   after.packings.size(), after.set.label));
-    evidence.restsOn(after.set.runs);
+    Evidence evidence{{}, after.set.missing(), after.set.runs};
+    if (const auto half = transitionDensity(after.packings, scope.number("label_spread")))
+      evidence.estimate = Estimate{.value = half->nu,
+                                   .standardError = half->standardError,
+                                   .runs = static_cast<int>(after.packings.size())};
+    if (!after.packings.empty())
+      evidence.missing = fmt::format("{} of {} {} carry, from which no critical ν̄ follows",
+                                     std::ranges::count_if(after.packings, &LoadState::carries),
+                                     after.packings.size(), after.set.label);
+    return evidence;
   };
 }
 
 FigureRule shareCarrying(double rotation) {
-  return [=](const ClaimScope& scope, Evidence& evidence, const std::string& figure) {
+  return [=](const ClaimScope& scope) -> Evidence {
     const CarryingSet after = carryingAfter(scope, rotation);
     std::vector<Measured> share;
     for (const LoadState& each : after.packings) share.emplace_back(each.carries ? 1.0 : 0.0);
-    evidence.put(figure, meanOver(share), Evidence::missing(after.set));
+    return {meanOver(share), after.set.missing()};
   };
 }
 
@@ -171,7 +163,7 @@ const Formula bulkExcess =
     "mean(where(bulk_modulus / mean_field_modulus, fabric_trace, least_trace), off_walls) - 1";
 
 /// Scatter of a run's bulk ratios about the mean over the rings of all runs.
-void putCollapse(const ClaimScope& scope, Evidence& evidence, const std::string& figure) {
+Evidence collapse(const ClaimScope& scope) {
   const RunSet set = carrying<upward>(scope);
   std::vector<std::vector<double>> ratios;
   double sum = 0.0, count = 0.0;
@@ -192,14 +184,13 @@ void putCollapse(const ClaimScope& scope, Evidence& evidence, const std::string&
     scatters.emplace_back(std::sqrt(squares / static_cast<double>(ratios[k].size())));
     used.push_back(set.runs[k]);
   }
-  evidence.restsOn(used);
-  evidence.put(figure, meanOver(scatters), Evidence::missing(set), set.runs.size());
+  return {meanOver(scatters), set.missing(), used, set.runs.size()};
 }
 
 /// Mean of what a run has more of the bulk's excess than the judged run of the same packing; where
 /// there is none, than the judged runs of that label on average.
 template <RunSet (*from)(const ClaimScope&)>
-void putExcessBeyondJudged(const ClaimScope& scope, Evidence& evidence, const std::string& figure) {
+Evidence excessBeyondJudged(const ClaimScope& scope) {
   const RunSet set = carrying<from>(scope), judged = carrying<upward>(scope);
   std::vector<Measured> differences;
   std::vector<CaseRun> used;
@@ -224,12 +215,11 @@ void putExcessBeyondJudged(const ClaimScope& scope, Evidence& evidence, const st
     differences.emplace_back(own->value - *reference);
     used.push_back(at);
   }
-  evidence.restsOn(used);
-  evidence.put(figure, meanOver(differences), Evidence::missing(set), set.runs.size());
+  return {meanOver(differences), set.missing(), used, set.runs.size()};
 }
 
 /// Exponent of G in tr F over the rings of the band of all runs.
-void putShearExponent(const ClaimScope& scope, Evidence& evidence, const std::string& figure) {
+Evidence shearExponent(const ClaimScope& scope) {
   const RunSet set = carrying<flow>(scope);
   std::vector<std::vector<TrendPoint>> runs;
   for (const CaseRun& at : set.runs) {
@@ -242,15 +232,15 @@ void putShearExponent(const ClaimScope& scope, Evidence& evidence, const std::st
     }
     if (!points.empty()) runs.push_back(std::move(points));
   }
-  evidence.restsOn(set.runs);
-  evidence.put(figure, slopeOverRuns(runs),
-               runs.empty()
-                   ? Evidence::missing(set)
-                   : fmt::format("{}: fewer than three with the data, or of one tr F", set.label));
+  return {slopeOverRuns(runs),
+          runs.empty()
+              ? set.missing()
+              : fmt::format("{}: fewer than three with the data, or of one tr F", set.label),
+          set.runs};
 }
 
-void putModelCouple(const ClaimScope&, Evidence& evidence, const std::string& figure) {
-  evidence.put(figure, exactly(modelCoupleGrowth()), "");
+Evidence modelCouple(const ClaimScope&) {
+  return {exactly(modelCoupleGrowth())};
 }
 
 // ---- The table.
@@ -375,14 +365,14 @@ const std::vector<ClaimEntry>& claimTable() {
         {"stress_strain", mean(up, "axis(stress_angle - strain_angle, inside_band) / (pi / 180)")}}},
       {"C20", {"least_trace"},
        {{"mean_field", mean(up, bulkExcess)},
-        {"collapse", putCollapse},
-        {"stiffness", putExcessBeyondJudged<ofAnotherStiffness>},
-        {"frictionless", putExcessBeyondJudged<withoutFriction>},
+        {"collapse", collapse},
+        {"stiffness", excessBeyondJudged<ofAnotherStiffness>},
+        {"frictionless", excessBeyondJudged<withoutFriction>},
         {"identity", mean(up, "max(abs(where(bulk_modulus / mean_field_modulus, fabric_trace, least_trace) - 1"
                               " - fabric_deviator / fabric_trace * strain_deviator / strain_trace"
                               " * cos(2 * (strain_angle - fabric_angle))), off_walls)")}}},
       {"C21", {},
-       {{"exponent", putShearExponent},
+       {{"exponent", shearExponent},
         {"divergence", mean(inFlow, "median(positive(shear_modulus / fabric_trace), bulk) / median(positive(shear_modulus / fabric_trace), band)")}}},
       {"C22", {"layers_to"},
        {{"follows", mean(flow, "mean(spin, 0, layers_to) / mean(continuum_rotation, 0, layers_to)")},
@@ -396,7 +386,7 @@ const std::vector<ClaimEntry>& claimTable() {
        {{"velocity", mean(inFlow, "model_velocity")},
         {"spin", mean(inFlow, "model_spin")},
         {"asymmetry", mean(inFlow, "2 * (ring(stress_pr, 0) - ring(stress_rp, 0)) / (ring(stress_pr, 0) + ring(stress_rp, 0))")},
-        {"model_couple", putModelCouple},
+        {"model_couple", modelCouple},
         {"couple", mean(inFlow, "rms(couple_stress_zr, bulk) / abs(ring(couple_stress_zr, 0))")},
         {"couple_size", mean(inFlow, "abs(ring(couple_stress_zr, 0)) / (particle_diameter * length_ratio * sqrt(2 * (shape + 1)))"
                                      " / mean(stress_rr, off_walls)")}}},
@@ -464,9 +454,9 @@ std::optional<ClaimRow> judgeClaim(const ThesisResults& results, const ClaimRule
   const auto claim = std::ranges::find(claimTable(), id, &ClaimEntry::id);
   if (claim == claimTable().end() || !claim->figures.front().rule) return std::nullopt;
   const ClaimScope scope{results, rules, rules.of(id), engine, interpretation, mirror};
-  Evidence evidence(scope);
-  for (const FigureEntry& figure : claim->figures) figure.rule(scope, evidence, figure.name);
-  return evidence.row();
+  std::map<std::string, Evidence> found;
+  for (const FigureEntry& figure : claim->figures) found[figure.name] = figure.rule(scope);
+  return claimRow(scope, found);
 }
 
 std::vector<ClaimRow> judgeClaims(const ThesisResults& results, const ClaimRules& rules) {

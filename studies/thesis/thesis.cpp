@@ -75,12 +75,12 @@ Outcome outcomeOfThesis(const ThesisResults& results, const CommandLine&,
                         const ThesisOptions& own) {
   Outcome outcome;
   for (const ThesisRun& run : results.runs)
-    if (run.run.status == RunStatus::failed) outcome.failures.push_back(run.run.reason);
+    if (run.run.status == Status::failed) outcome.failures.push_back(run.run.reason);
   if (!outcome.failures.empty())
     outcome.status = exitEngineFailed;
   else if (results.runs.empty())
     return notJudged("no run was finished");
-  else if (own.strict && std::ranges::find(results.claims, ClaimVerdict::undecided,
+  else if (own.strict && std::ranges::find(results.claims, Verdict::undecided,
                                            &ClaimRow::verdict) != results.claims.end())
     outcome.status = exitFailed;
   return outcome;

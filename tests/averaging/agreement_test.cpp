@@ -77,29 +77,21 @@ TEST(ComparePaired, IntervalByHand) {
   EXPECT_EQ(c.verdict, Verdict::pass);
 }
 
-TEST(ComparePaired, TheThreeVerdicts) {
-  EXPECT_EQ(compareOne(differing({0.1, -0.1, 0.05, -0.05}, 1.0)).verdict, Verdict::pass);
-  EXPECT_EQ(compareOne(differing({5.1, 4.9, 5.05, 4.95}, 1.0)).verdict, Verdict::fail);
-  EXPECT_EQ(compareOne(differing({2.0, -2.0, 1.0, -1.0}, 1.0)).verdict, Verdict::undecided);
-}
-
-TEST(ComparePaired, AMarginIsNotJumpedByAHair) {
+TEST(ComparePaired, VerdictsOfOneRing) {
+  const auto verdict = [](const std::vector<double>& differences, double margin) {
+    return compareOne(differing(differences, margin)).verdict;
+  };
+  EXPECT_EQ(verdict({0.1, -0.1, 0.05, -0.05}, 1.0), Verdict::pass);
+  EXPECT_EQ(verdict({5.1, 4.9, 5.05, 4.95}, 1.0), Verdict::fail);
+  EXPECT_EQ(verdict({2.0, -2.0, 1.0, -1.0}, 1.0), Verdict::undecided);
+  EXPECT_EQ(verdict({0.0, 0.0, 0.0, 0.0}, 0.0), Verdict::pass);  // an engine and itself
   // 1.2 ± 0.4 is on the wrong side of 1.0 but not significantly so.
-  const PairedComparison c = compareOne(differing({0.4, 0.8, 1.6, 2.0}, 1.0));
-  EXPECT_EQ(c.verdict, Verdict::undecided);
-  EXPECT_GT(c.pDisagree.value(), 0.05);
-}
-
-TEST(ComparePaired, FewerThanFourPackingsDecideNothing) {
-  const PairedComparison same = compareOne(differing({0.0, 0.0, 0.0}, 1.0));
-  EXPECT_EQ(same.verdict, Verdict::undecided);
-  const PairedComparison far = compareOne(differing({9.0, 9.1, 9.2}, 1.0));
-  EXPECT_EQ(far.verdict, Verdict::undecided);
-  EXPECT_FALSE(far.pDisagree);
-}
-
-TEST(ComparePaired, AnEngineAgreesWithItself) {
-  EXPECT_EQ(compareOne(differing({0.0, 0.0, 0.0, 0.0}, 0.0)).verdict, Verdict::pass);
+  EXPECT_EQ(verdict({0.4, 0.8, 1.6, 2.0}, 1.0), Verdict::undecided);
+  EXPECT_GT(*compareOne(differing({0.4, 0.8, 1.6, 2.0}, 1.0)).pDisagree, 0.05);
+  // Fewer than four packings decide nothing.
+  EXPECT_EQ(verdict({0.0, 0.0, 0.0}, 1.0), Verdict::undecided);
+  EXPECT_EQ(verdict({9.0, 9.1, 9.2}, 1.0), Verdict::undecided);
+  EXPECT_FALSE(compareOne(differing({9.0, 9.1, 9.2}, 1.0)).pDisagree);
 }
 
 TEST(ComparePaired, AbsentValues) {

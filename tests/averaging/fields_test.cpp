@@ -86,34 +86,29 @@ TEST(Fields, DirectionsAreTakenAtEachDisksOwnAngle) {
       EXPECT_NEAR(turned[slot][q], straight[slot][q], 1e-14);
 }
 
-TEST(Fields, ATurningWheelGivesPositiveShearStress) {
-  // A wall disk at the wheel drags a disk outside it along +y = +φ (Ω > 0).
+/// A disk, and a wall disk of a wheel that drags it along +y = +φ (Ω > 0).
+Instant beside(double disk, double wallDisk) {
   Instant cell;
-  cell.addDisk({1.5, 0.0}, 0.2);
-  cell.scene.bodies.push_back({"wheel", Vec2::Zero(), {Vec2(1.2, 0.0)}, {0.1}, {}, {}});
-  cell.snapshot.wallPosition = {Vec2(1.2, 0.0)};
+  cell.addDisk({disk, 0.0}, 0.2);
+  cell.scene.bodies.push_back({"wheel", Vec2::Zero(), {Vec2(wallDisk, 0.0)}, {0.1}, {}, {}});
+  cell.snapshot.wallPosition = {Vec2(wallDisk, 0.0)};
   cell.addContact(0, 1, {1.0, 0.0}, 5.0, 2.0);  // force on the disk (5, 2)
+  return cell;
+}
+
+TEST(Fields, ATurningWheelGivesPositiveShearStress) {
   const Rings rings = twoRings();
-  const auto moments = test::momentsOf(rings, cell);
+  const auto moments = test::momentsOf(rings, beside(1.5, 1.2));
   const double volume = pi * 3.0 * 0.5;
   // The force runs from the disk's centre over the contact to the wall disk's: 0.2 m + 0.1 m.
   EXPECT_NEAR(valueOf("stress_pr", rings, moments, 0), 2.0 * 0.3 / volume, 1e-15);
   EXPECT_NEAR(valueOf("stress_rr", rings, moments, 0), 5.0 * 0.3 / volume, 1e-15);
   EXPECT_NEAR(valueOf("coordination", rings, moments, 0), 1.0, 1e-15);
-}
-
-TEST(Fields, StressOfAWallDiskOnTheEdgeStaysInTheCell) {
   // A wall disk on R_i = 1 m: half of it lies inside the wheel, but all its contacts are outside.
-  Instant cell;
-  cell.addDisk({1.3, 0.0}, 0.2);
-  cell.scene.bodies.push_back({"wheel", Vec2::Zero(), {Vec2(1.0, 0.0)}, {0.1}, {}, {}});
-  cell.snapshot.wallPosition = {Vec2(1.0, 0.0)};
-  cell.addContact(0, 1, {1.0, 0.0}, 5.0, 2.0);
-  const Rings rings = twoRings();
-  const auto moments = test::momentsOf(rings, cell);
-  EXPECT_NEAR(at(moments[rings.slot(0)], Moment::stressRR), 5.0 * 0.2, 1e-15);
-  EXPECT_NEAR(at(moments[rings.slot(0)], Moment::wallStressRR), 5.0 * 0.1, 1e-15);
-  EXPECT_EQ(at(moments[rings.slot(rings.insideBin())], Moment::wallStressRR), 0.0);
+  const auto edge = test::momentsOf(rings, beside(1.3, 1.0));
+  EXPECT_NEAR(at(edge[rings.slot(0)], Moment::stressRR), 5.0 * 0.2, 1e-15);
+  EXPECT_NEAR(at(edge[rings.slot(0)], Moment::wallStressRR), 5.0 * 0.1, 1e-15);
+  EXPECT_EQ(at(edge[rings.slot(rings.insideBin())], Moment::wallStressRR), 0.0);
 }
 
 TEST(Fields, NothingIsLostWithTheOverflowBins) {
@@ -224,84 +219,55 @@ TEST(Fields, SlopesMatchFiniteDifferences) {
   }
 }
 
-TEST(Fields, NamesAreTheContractOfTheCsv) {
-  const std::vector<std::string_view> names = {"volume_fraction",
-                                               "azimuthal_velocity",
-                                               "radial_velocity",
-                                               "spin",
-                                               "stress_rr",
-                                               "stress_pp",
-                                               "stress_rp",
-                                               "stress_pr",
-                                               "dynamic_stress_rr",
-                                               "dynamic_stress_pp",
-                                               "dynamic_stress_rp",
-                                               "fabric_trace",
-                                               "fabric_deviator",
-                                               "fabric_rr",
-                                               "fabric_pp",
-                                               "fabric_rp",
-                                               "coordination",
-                                               "density",
-                                               "fabric_angle",
-                                               "stress_trace",
-                                               "stress_deviator",
-                                               "stress_angle",
-                                               "stress_antisymmetric",
-                                               "fluctuation_stress_rr",
-                                               "fluctuation_stress_pp",
-                                               "fluctuation_stress_rp",
-                                               "rotational_stress",
-                                               "full_stress_rr",
-                                               "full_stress_pp",
-                                               "full_stress_rp",
-                                               "strain_rr",
-                                               "strain_pp",
-                                               "strain_rp",
-                                               "strain_pr",
-                                               "strain_trace",
-                                               "strain_deviator",
-                                               "strain_angle",
-                                               "bulk_modulus",
-                                               "shear_modulus",
-                                               "modulus_ratio",
-                                               "mean_field_modulus",
-                                               "predicted_stress_rr",
-                                               "predicted_stress_pp",
-                                               "predicted_stress_rp",
-                                               "couple_stress_zr",
-                                               "couple_stress_zp",
-                                               "curvature_zr",
-                                               "curvature_zp",
-                                               "torque_resistance",
-                                               "velocity_gradient",
-                                               "shear_rate",
-                                               "continuum_rotation",
-                                               "excess_rotation",
-                                               "contact_cos_2",
-                                               "contact_sin_2",
-                                               "contact_cos_4",
-                                               "contact_sin_4",
-                                               "contact_cos_6",
-                                               "contact_sin_6",
-                                               "contact_amplitude_2",
-                                               "contact_amplitude_4",
-                                               "contact_amplitude_6",
-                                               "contact_axis_4",
-                                               "contact_axis_6"};
-  ASSERT_EQ(fieldTable().size(), names.size());
-  for (std::size_t k = 0; k < names.size(); ++k) EXPECT_EQ(fieldTable()[k].name, names[k]);
+TEST(Fields, UnknownNameOrASnapshotOfAnotherScene_Throws) {
   EXPECT_THROW(fieldSpec("viscosity"), std::invalid_argument);
+  Instant other = touchingPair(), cut = touchingPair();
+  other.snapshot.contacts->j[0] = 2;
+  cut.snapshot.velocity.pop_back();
+  for (const Instant& instant : {other, cut})
+    EXPECT_THROW(test::momentsOf(twoRings(), instant), std::invalid_argument);
 }
 
-TEST(Fields, ASnapshotOfAnotherSceneIsRefused) {
-  Instant instant = touchingPair();
-  const Rings rings = twoRings();
-  instant.snapshot.contacts->j[0] = 2;
-  EXPECT_THROW(test::momentsOf(rings, instant), std::invalid_argument);
-  instant = touchingPair();
-  instant.snapshot.velocity.pop_back();
-  EXPECT_THROW(test::momentsOf(rings, instant), std::invalid_argument);
+constexpr double a = test::smallRadius;
+
+TEST(Lattice, TriangularUnderEqualForcesIsAPressure) {
+  constexpr double force = 1e-3;
+  const Rings rings = test::thesisRings(4);
+  const auto moments = test::momentsOf(rings, test::triangularLattice(a, force));
+  for (int ring = 0; ring < rings.count(); ++ring) {
+    // Six contacts: −Σ f⊗l = 3 f a I in each disk of volume π a² h, so σ = 3f/(π a h) ν, exactly.
+    const double nu = valueOf("volume_fraction", rings, moments, ring);
+    const double exact = 3.0 * force / (pi * a * rings.height()) * nu;
+    EXPECT_NEAR(valueOf("stress_rr", rings, moments, ring), exact, 1e-12 * exact);
+    EXPECT_NEAR(valueOf("stress_pp", rings, moments, ring), exact, 1e-12 * exact);
+    EXPECT_NEAR(valueOf("stress_rp", rings, moments, ring), 0.0, 1e-12 * exact);
+    EXPECT_NEAR(valueOf("stress_pr", rings, moments, ring), 0.0, 1e-12 * exact);
+    EXPECT_NEAR(valueOf("coordination", rings, moments, ring), 6.0, 1e-12);
+    // The continuum: ν = π/2√3, p = (√3/2) f/(a h). Rings of 10 a cut the lattice at random: 1 %.
+    EXPECT_NEAR(nu, pi / std::sqrt(12.0), 0.01);
+    const double pressure = std::sqrt(3.0) / 2.0 * force / (a * rings.height());
+    EXPECT_NEAR(valueOf("stress_rr", rings, moments, ring) / pressure, 1.0, 0.01);
+  }
+}
+
+TEST(Lattice, SquareUnderUnequalForcesAveragesOverTheAngle) {
+  constexpr double fx = 3e-3, fy = 1e-3;
+  const Rings rings = test::thesisRings(4);
+  const auto moments = test::momentsOf(
+      rings, test::lattice(a, {2.0 * a, 0.0}, {0.0, 2.0 * a}, {{1, 0, fx}, {0, 1, fy}}));
+  // σ_xx = f_x/(2 a h), σ_yy = f_y/(2 a h); over all angles σ_rr and σ_φφ are both their mean.
+  const double mean = (fx + fy) / 2.0 / (2.0 * a * rings.height());
+  for (int ring = 0; ring < rings.count(); ++ring) {
+    EXPECT_NEAR(valueOf("stress_rr", rings, moments, ring) / mean, 1.0, 0.01);
+    EXPECT_NEAR(valueOf("stress_pp", rings, moments, ring) / mean, 1.0, 0.01);
+    EXPECT_NEAR(valueOf("stress_rp", rings, moments, ring) / mean, 0.0, 0.01);
+    // The trace knows no direction: exact up to ν.
+    const double nu = valueOf("volume_fraction", rings, moments, ring);
+    const double trace = 2.0 * (fx + fy) / (pi * a * rings.height()) * nu;
+    EXPECT_NEAR(
+        valueOf("stress_rr", rings, moments, ring) + valueOf("stress_pp", rings, moments, ring),
+        trace, 1e-12 * trace);
+  }
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 
 #include "averaging/areas.hpp"
 #include "averaging/profiles.hpp"
-#include "tests/averaging/lattice.hpp"
 #include "tests/averaging/scenes.hpp"
 #include "tests/support/thesis.hpp"
 

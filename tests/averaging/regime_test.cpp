@@ -43,19 +43,13 @@ RegimeVerdict verdictOf(const Instant& instant, double contacts, double inertial
 }
 
 TEST(WheelMotion, SharesOfTheWheelsRotationAddUp) {
-  // ω falls from 0.6 Ω at the wheel to 0.1 Ω at the ring, which stands.
-  const Instant instant = turning([](double r) { return omega * (r < 1.1 ? 0.6 : 0.1); });
-  const WheelMotion motion = *wheelMotion(instant.scene, instant.snapshot, cell(), omega);
-  EXPECT_NEAR(motion.slip, 0.4, 1e-14);
-  EXPECT_NEAR(motion.shear, 0.5, 1e-14);
-  EXPECT_NEAR(1.0 - motion.slip - motion.shear, 0.1, 1e-14);  // slip at the ring
-}
-
-TEST(WheelMotion, IsTheSameForAWheelThatTurnsTheOtherWay) {
-  const Instant instant = turning([](double r) { return -omega * (r < 1.1 ? 0.6 : 0.1); });
-  const WheelMotion motion = *wheelMotion(instant.scene, instant.snapshot, cell(), -omega);
-  EXPECT_NEAR(motion.slip, 0.4, 1e-14);
-  EXPECT_NEAR(motion.shear, 0.5, 1e-14);
+  // ω falls from 0.6 Ω at the wheel to 0.1 Ω at the ring, which stands; whichever way it turns.
+  for (const double wheel : {omega, -omega}) {
+    const Instant instant = turning([&](double r) { return wheel * (r < 1.1 ? 0.6 : 0.1); });
+    const WheelMotion motion = *wheelMotion(instant.scene, instant.snapshot, cell(), wheel);
+    EXPECT_NEAR(motion.slip, 0.4, 1e-14);
+    EXPECT_NEAR(motion.shear, 0.5, 1e-14);
+  }
 }
 
 TEST(WheelMotion, IsAbsentWithoutDisksAtAWall) {
@@ -64,30 +58,20 @@ TEST(WheelMotion, IsAbsentWithoutDisksAtAWall) {
   EXPECT_FALSE(wheelMotion(instant.scene, instant.snapshot, cell(), omega));
 }
 
-TEST(Regime, ABandThatShearsFlows) {
+TEST(Regime, FlowsShearInABand_BlockedStandOrTurnAsOnePiece_CollisionsAreFewOrFast) {
   const Instant band = turning([](double r) { return omega * 0.4 * std::exp(-(r - 1.06) / 0.15); });
-  EXPECT_EQ(verdictOf(band, 18.0, 0.016).regime, Regime::flowing);
-  EXPECT_EQ(
-      verdictOf(turning([](double r) { return r < 1.1 ? -0.4 * omega : 0.0; }), 18.0, 0.016, -omega)
-          .regime,
-      Regime::flowing);
-}
-
-TEST(Regime, DisksThatStandOrTurnAsOnePieceAreBlocked) {
+  const Instant layer = turning([](double r) { return r < 1.1 ? 0.4 * omega : 0.0; });
+  const Instant other = turning([](double r) { return r < 1.1 ? -0.4 * omega : 0.0; });
   const Instant still = turning([](double) { return 0.002 * omega; });
+  const Instant piece = turning([](double) { return omega; });  // no slip, and no shear either
+  EXPECT_EQ(verdictOf(band, 18.0, 0.016).regime, Regime::flowing);
+  EXPECT_EQ(verdictOf(other, 18.0, 0.016, -omega).regime, Regime::flowing);
   EXPECT_EQ(verdictOf(still, 15.0, 1e-4).regime, Regime::blocked);
-  // The wheel takes all of them along: no slip there, and no shear among them either.
-  const Instant piece = turning([](double) { return omega; });
-  EXPECT_EQ(verdictOf(piece, 15.0, 1e-4).regime, Regime::blocked);
   EXPECT_NE(verdictOf(still, 15.0, 1e-4).reason.find("0.1"), std::string::npos);
-}
-
-TEST(Regime, AWheelWithoutContactsOrFastHitsAreCollisional) {
-  const Instant band = turning([](double r) { return r < 1.1 ? 0.4 * omega : 0.0; });
-  const Instant still = turning([](double) { return 0.0; });
+  EXPECT_EQ(verdictOf(piece, 15.0, 1e-4).regime, Regime::blocked);
   EXPECT_EQ(verdictOf(still, 0.3, 1e-4).regime, Regime::collisional);
-  EXPECT_EQ(verdictOf(band, 0.3, 0.01).regime, Regime::collisional);
-  EXPECT_EQ(verdictOf(band, 12.0, 0.27).regime, Regime::collisional);
+  EXPECT_EQ(verdictOf(layer, 0.3, 0.01).regime, Regime::collisional);
+  EXPECT_EQ(verdictOf(layer, 12.0, 0.27).regime, Regime::collisional);
 }
 
 TEST(Regime, WhatIsNotShownCannotBeTold) {

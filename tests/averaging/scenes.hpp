@@ -32,6 +32,18 @@ struct Instant {
 /// contacts (disk with disk, disk with a wall body of two wall disks). No mechanics: only sums.
 Instant randomInstant(std::uint64_t seed, int disks);
 
+/// Neighbours along m·e1 + n·e2 push on each other with that force [N].
+struct Bond {
+  int m, n;
+  double force;
+};
+
+/// Disks of radius a on all lattice points m·e1 + n·e2 within 0.28 m of the origin.
+Instant lattice(double a, const Vec2& e1, const Vec2& e2, const std::vector<Bond>& bonds);
+
+/// Touching disks, six neighbours each, equal forces.
+Instant triangularLattice(double a, double force);
+
 /// The moments under one weight, per slot.
 std::vector<Moments> momentsOf(const Coordinates& coordinates, const Instant& instant,
                                Weight weight = WeightMethod::slicing, bool countWallDisks = false);

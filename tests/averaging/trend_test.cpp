@@ -141,7 +141,7 @@ TEST(RelativeDrift, SlowNoiseIsNotTakenForAFall) {
   }
 }
 
-TEST(RelativeDrift, WhatIsTooNoisyOrTooShortCannotBeTold) {
+TEST(RelativeDrift, TooNoisyOrTooShort_CannotTell_Frozen_NoDrift) {
   const BinFractions wide = sharesOf(
       [](auto& g) {
         auto series = noisy(g, 0.0, 40);
@@ -158,9 +158,6 @@ TEST(RelativeDrift, WhatIsTooNoisyOrTooShortCannotBeTold) {
   EXPECT_FALSE(relativeDrift(std::vector(5, 1.0), confidence, limit).change);
   EXPECT_EQ(relativeDrift({}, confidence, limit).verdict, Drift::cannotTell);
   EXPECT_EQ(relativeDrift(std::vector(50, 0.0), confidence, limit).verdict, Drift::cannotTell);
-}
-
-TEST(RelativeDrift, WhatNeverChangesShowsNoDrift) {
   const RelativeDrift frozen = relativeDrift(std::vector(100, 2.5), confidence, limit);
   EXPECT_EQ(frozen.verdict, Drift::notSeen);
   EXPECT_EQ(frozen.excluded, 0.0);

@@ -143,16 +143,6 @@ TEST(CommonArea, KeepsItsRelativeAccuracyNearTangency) {
   EXPECT_NEAR(commonArea(R + a - t, a, R) / lens, 1.0, 1e-6);
 }
 
-TEST(CommonArea, RisesWithTheRadius) {
-  const double r = 0.15, a = test::smallRadius;
-  double before = 0.0;
-  for (int k = 0; k <= 10000; ++k) {
-    const double now = commonArea(r, a, r - a + 2.0 * a * k / 10000);
-    EXPECT_GE(now, before - 1e-15 * a * a);
-    before = now;
-  }
-}
-
 TEST(Weights, AddUpToOneForEveryMethod) {
   std::mt19937_64 generator(2);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -173,19 +163,6 @@ TEST(Weights, AddUpToOneForEveryMethod) {
       }
     }
   }
-}
-
-TEST(Weights, DiskCutByThreeRings) {
-  const Rings rings(0.1, 0.2, 10, 0.006, 0.0074);
-  const BinFractions weights =
-      sharesOf(rings, WeightMethod::slicing, 0.145, 0.012);  // covers 0.133 … 0.157
-  ASSERT_EQ(weights.size(), 3u);
-  const double disk = pi * 0.012 * 0.012;
-  const double upTo14 = areaByQuadrature(0.145, 0.012, 0.14);
-  const double upTo15 = areaByQuadrature(0.145, 0.012, 0.15);
-  EXPECT_NEAR(fractionIn(rings, weights, 3), upTo14 / disk, 1e-10);
-  EXPECT_NEAR(fractionIn(rings, weights, 4), (upTo15 - upTo14) / disk, 1e-10);
-  EXPECT_NEAR(fractionIn(rings, weights, 5), 1.0 - upTo15 / disk, 1e-10);
 }
 
 TEST(Weights, RingsInsideOneDisk) {

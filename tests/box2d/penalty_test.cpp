@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "tests/box2d/scenes.hpp"
 
@@ -27,104 +26,6 @@ TEST(Box2dPenalty, RestitutionWithTensionAndCut) {
     const Outcome got = outcome(runTo(*engine, scene, 3.0 * smallContactTime), 0, slow);
     EXPECT_NEAR(got.en, en, 0.01 * en);
   }
-}
-
-// One contact of two small disks with the normal fixed, in steps so small that any scheme is exact
-// to four digits. Written here from Lätzel 2003, Eqs. 4.9 and 4.16–4.25. The spring is stretched
-// after the force, and not at all by a slipping step, as there: stretched before it, the pure
-// spring follows another curve at any step (−0.48 instead of −0.59 at Ψ = 0.75), for then a spring
-// that slips as the bound falls can be unloaded by the motion.
-double reboundOf(TangentialLaw tangential, double psi) {
-  const ContactLaw law = box2dLaw();
-  const double reducedMass = 0.5 * smallMass;
-  const double dt = smallContactTime / 50000.0;
-  double delta = 0.0, vn = -slow, vt = psi * slow, xi = 0.0;
-  while (true) {
-    delta -= vn * dt;
-    if (delta < 0.0) return vt / slow;
-    const double fn = law.kn * delta - law.gn * vn;
-    const double bound = law.mu * std::max(fn, 0.0);
-    double ft = 0.0;
-    switch (tangential) {
-      case TangentialLaw::none:
-        break;
-      case TangentialLaw::coulomb:
-        ft = vt > 0.0 ? -bound : vt < 0.0 ? bound : 0.0;
-        break;
-      case TangentialLaw::viscous:
-        ft = std::clamp(-law.gt * vt, -bound, bound);
-        break;
-      case TangentialLaw::spring:
-      case TangentialLaw::springDashpot: {
-        const double dashpot = tangential == TangentialLaw::spring ? 0.0 : law.gt * vt;
-        const double wanted = -law.kt * xi - dashpot;
-        ft = std::clamp(wanted, -bound, bound);
-        xi = ft == wanted ? xi + vt * dt : -ft / law.kt;
-        break;
-      }
-    }
-    vn += fn / reducedMass * dt;
-    vt += 3.0 * ft / reducedMass * dt;
-  }
-}
-
-class EveryTangentialLaw : public testing::TestWithParam<TangentialLaw> {};
-
-TEST_P(EveryTangentialLaw, FollowsTheWholeCurve) {
-  std::vector<double> psis;
-  for (double psi = 0.0; psi <= 4.0; psi += 0.25) psis.push_back(psi);
-  Scene sweep;
-  sweep.law = box2dLaw(GetParam());
-  sweep.dt = fine;
-  for (std::size_t k = 0; k < psis.size(); ++k)
-    addPair(sweep, Vec2(0.03 * static_cast<double>(k), 0), slow, psis[k], 1e-9);
-  const auto engine = makeBox2dPenalty();
-  const Snapshot after = runTo(*engine, sweep, 3.0 * smallContactTime);
-
-  double lowest = 0.0, highest = 0.0, error = 0.0;
-  for (std::size_t k = 0; k < psis.size(); ++k) {
-    const double wanted = reboundOf(GetParam(), psis[k]);
-    const double alone =
-        outcome(runTo(*engine, onePair(sweep.law, psis[k], fine), 3.0 * smallContactTime), 0, slow)
-            .psiF;
-    const double together = outcome(after, 2 * k, slow).psiF;
-    EXPECT_NEAR(together, alone, 1e-6);  // only double's rounding of the positions differs
-    lowest = std::min(lowest, wanted);
-    highest = std::max(highest, wanted);
-    error = std::max(error, std::abs(together - wanted));
-  }
-  EXPECT_LT(error, 0.01 * (highest - lowest));
-}
-
-INSTANTIATE_TEST_SUITE_P(Box2dPenalty, EveryTangentialLaw,
-                         testing::Values(TangentialLaw::coulomb, TangentialLaw::viscous,
-                                         TangentialLaw::spring, TangentialLaw::springDashpot));
-
-TEST(Box2dPenalty, KeepsMomentumAndWithContactPointArmsAngularMomentum) {
-  Scene scene;
-  scene.law = box2dLaw();
-  scene.law.conventions.leverArm = LeverArm::contactPoint;
-  scene.dt = 4e-5;
-  addDisk(scene, smallRadius, smallMass, Vec2(0, 0), Vec2(0.1, 0.02), 8.0);
-  addDisk(scene, largeRadius, largeMass, Vec2(8.3e-3, 2e-3), Vec2(-0.05, 0), -3.0);
-  const auto momentum = [&](const Snapshot& at) {
-    return Vec2(smallMass * at.velocity[0] + largeMass * at.velocity[1]);
-  };
-  const auto angular = [&](const Snapshot& at) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < 2; ++i)
-      sum += scene.disks.mass[i] * cross(at.position[i], at.velocity[i]) +
-             scene.disks.inertia[i] * (*at.spin)[i];
-    return sum;
-  };
-  const auto engine = makeBox2dPenalty();
-  const Snapshot before = runTo(*engine, scene, 0.0);
-  engine->advance(0.02);
-  const Snapshot after = engine->snapshot(ContactReport::none);
-  EXPECT_GT((after.velocity[0] - before.velocity[0]).norm(), 0.05);  // they did collide
-  EXPECT_NEAR((momentum(after) - momentum(before)).norm(), 0.0, 1e-13 * momentum(before).norm());
-  // x × v of the semi-implicit Euler scheme is exact for central forces; 1e-12: rounding.
-  EXPECT_NEAR(angular(after), angular(before), 1e-12 * std::abs(angular(before)));
 }
 
 TEST(Box2dPenalty, ContactsAndWallForcesAreThoseOfTheMoment) {

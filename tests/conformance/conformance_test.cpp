@@ -98,18 +98,18 @@ TEST_P(Conformance, Engine_AllChecks_PassOrSkipAsExpected) {
   for (const ConformanceRow& row : done.rows) {
     // What it does not declare is not required.
     constexpr std::string_view undeclared = "declares no ";
-    if (row.outcome == ConformanceOutcome::skipped && row.detail.starts_with(undeclared) &&
+    if (row.outcome == checkSkipped && row.detail.starts_with(undeclared) &&
         std::ranges::count(done.declared, row.detail.substr(undeclared.size())) == 0)
       continue;
     const auto known = expected.find(row.name);
     if (known != expected.end()) {
-      EXPECT_EQ(row.outcome, ConformanceOutcome::skipped) << row.name << ": " << row.detail;
+      EXPECT_EQ(row.outcome, checkSkipped) << row.name << ": " << row.detail;
       EXPECT_NE(row.detail.find(known->second), std::string::npos)
           << row.name << " is expected to be skipped because the engine " << known->second
           << ", not: " << row.detail;
     } else {
-      EXPECT_EQ(row.outcome, ConformanceOutcome::passed)
-          << row.name << " (" << nameOf(row.outcome) << "): " << row.detail
+      EXPECT_EQ(row.outcome, checkPassed)
+          << row.name << " (" << nameOf(row.outcome, checkNames) << "): " << row.detail
           << fmt::format(" ({} faults)", row.faults);
     }
   }

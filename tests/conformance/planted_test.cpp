@@ -46,7 +46,7 @@ std::vector<ConformanceRow> rowsOf(const EngineEntry& entry) {
 std::string faultsOf(const std::vector<ConformanceRow>& rows) {
   std::string text;
   for (const ConformanceRow& row : rows)
-    if (row.outcome == ConformanceOutcome::failed || row.outcome == ConformanceOutcome::brokeDown)
+    if (row.outcome == checkFailed || row.outcome == checkBrokeDown)
       text += row.name + ": " + row.detail + " [" + row.cause + "]\n";
   return text;
 }
@@ -62,7 +62,7 @@ TEST_P(PlantedFault, PlantedEngine_Check_FailsAndNamesCause) {
   const std::vector<ConformanceRow> rows = rowsOf(GetParam().entry);
   const auto failed = std::ranges::find(rows, GetParam().check, &ConformanceRow::name);
   ASSERT_NE(failed, rows.end());
-  EXPECT_EQ(failed->outcome, ConformanceOutcome::failed) << failed->detail << faultsOf(rows);
+  EXPECT_EQ(failed->outcome, checkFailed) << failed->detail << faultsOf(rows);
   if (std::string_view(GetParam().cause).empty()) return;
   const auto named =
       std::ranges::find_if(rows, [](const ConformanceRow& row) { return !row.cause.empty(); });

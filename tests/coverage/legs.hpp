@@ -7,7 +7,7 @@
 
 #include "cases/case.hpp"
 #include "cases/packing.hpp"
-#include "results/flow_fields.hpp"
+#include "results/run.hpp"
 
 /// Runs of the in-house engine whose truth is known: repeats of one case, and repeats with a fault.
 namespace crossgrain::coverage {

@@ -275,10 +275,10 @@ std::vector<Rate> looks(const Sample& sample) {
         bool any = false;
         std::size_t k = 0;
         for (const std::string& name : names) {
-          decided[name].add(agrees(same[k]->answer));
-          falseAgree[name].add(agrees(edge[k]->answer));
-          any = any || edge[k]->answer == Answer::disagree;
-          found[name].add(shifted(2.0 * sign, name)[k]->answer == Answer::disagree);
+          decided[name].add(same[k]->verdict == Verdict::pass);
+          falseAgree[name].add(edge[k]->verdict == Verdict::pass);
+          any = any || edge[k]->verdict == Verdict::fail;
+          found[name].add(shifted(2.0 * sign, name)[k]->verdict == Verdict::fail);
           ++k;
         }
         falseDisagree.add(any);

@@ -66,7 +66,11 @@ TEST(RandomStiffening, OfTheOracleCloseTheAccountAndAreOdd) {
   Draw draw(11);
   double gain[2] = {-1.0, -1.0};
   for (int k = 0; k < 300; ++k) {
-    const Case setup = randomStiffeningCase(draw);
+    Case setup = randomStiffeningCase(draw);
+    if (draw.oneOf({false, true})) {
+      setup.law.damper = Damper::viscoelastic;
+      setup.law.gn = setup.law.gt = 1e-8;
+    }
     const CollidingPair pair = collidingPair(setup);
     const CollisionStart start = randomStart(draw, setup);
     const CollisionEnd end = oracleOutcome(setup.law, pair, start);
@@ -76,7 +80,10 @@ TEST(RandomStiffening, OfTheOracleCloseTheAccountAndAreOdd) {
     ASSERT_NEAR(sum, end.energyBefore, 1e-8 * end.energyBefore) << "collision " << k;
     double& most = gain[static_cast<int>(setup.law.conventions.history)];
     most = std::max(most, end.energyAfter / end.energyBefore - 1.0);
-    ASSERT_LE(end.energyAfter, end.energyBefore * (1.0 + 1e-12)) << "collision " << k;
+    // A reset to the bound stores what the dashpot carried, more than a weak damper takes.
+    if (setup.law.damper == Damper::critical) {
+      ASSERT_LE(end.energyAfter, end.energyBefore * (1.0 + 1e-12)) << "collision " << k;
+    }
     const CollisionEnd odd = oracleOutcome(setup.law, pair, {-start.psi, start.vn, start.approach});
     if (end.noLimit) continue;
     ASSERT_NEAR(odd.psi, -end.psi, 1e-7) << "collision " << k;

@@ -31,12 +31,12 @@ CostResults byHand() {
   CostResults results;
   results.head.schema = schemaVersion;
   results.head.kind = kindCost;
-  results.engines = {{"a", "", "", "", EngineStatus::ran, ""}};
+  results.engines = {{"a", "", "", "", Status::finished, ""}};
   results.points = {of("t_c/10", 0.1, 0.1, 1.0), of("t_c/100", 0.01, 0.01, 10.0),
                     of("t_c/1", 1.0, 0.0, 0.1), of("float, slow", 0.01, 0.01, 20.0)};
   CostPoint& failed = results.points[2];
   failed.error.reset();
-  failed.status = CostStatus::failed;
+  failed.status = Status::failed;
   failed.reason = "NaN, at 3";
   results.points[3].knob = "precision";
   results.fronts = {{CostKind::collision, "psi_f", "", {0, 1}, {}}};
@@ -104,17 +104,17 @@ TEST(CostFigures, ErrorBelowTheReferences_IsDrawnAtItsUpperEnd) {
 /// The engine of byHand() with another law: 25 % off, whatever the step.
 TEST(CostOverview, ModelError_IsAModelDifferenceAndTheOwnLimitIsNamed) {
   CostResults results = byHand();
-  CostCell own{"a", CostKind::collision, CostBasis::own, 0.1, CostVerdict::reached};
+  CostCell own{"a", CostKind::collision, CostBasis::own, 0.1, Verdict::pass};
   own.knob = "time_step";
   own.setting = "t_c/10";
   own.wallSeconds = 1.0;
   own.point = 0;
-  CostCell scene{"a", CostKind::collision, CostBasis::scene, 0.1, CostVerdict::notReached};
+  CostCell scene{"a", CostKind::collision, CostBasis::scene, 0.1, Verdict::fail};
   scene.model = 0;
   results.models = {{"a", CostKind::collision, "psi_f", 0.25, 0.24, 0.26}};
   results.cells = {own, scene};
   const OverviewCell cell = costOverview(results).rows[0].cells[0];
-  EXPECT_EQ(cell.state, CellState::modelDifference);
+  EXPECT_EQ(cell.verdict, Verdict::modelDifference);
   EXPECT_EQ(cell.shown, "25 % off");
   EXPECT_EQ(cell.words, "Ψ_f; its own law: t_c/10, 1.00 s");
   EXPECT_EQ(costText(results),
@@ -129,7 +129,7 @@ TEST(CostToml, AdviceForTheTarget_IsAFragmentWithCommentsAlone) {
   Advice advice;
   advice.engine = "a";
   advice.target = 0.1;
-  advice.verdict = CostVerdict::reached;
+  advice.verdict = Verdict::pass;
   advice.knob = "time_step";
   advice.setting = "t_c/10";
   advice.fragment = "[run]\nsteps_per_contact = 10\n";
@@ -145,7 +145,7 @@ TEST(CostToml, AdviceForTheTarget_IsAFragmentWithCommentsAlone) {
   EXPECT_TRUE(has(costToml(results),
                   "# collision, psi_f: 0.1 to 0.1 of its scale, which does not decide\n"
                   "# what would decide: more packings\n[run]\n"));
-  results.advice[0].verdict = CostVerdict::notMeasured;
+  results.advice[0].verdict = Verdict::notMeasured;
   EXPECT_TRUE(has(costToml(results), "not measured far enough; the best so far is t_c/10"));
   EXPECT_FALSE(has(costToml(results), "[run]"));
   results.target = 0.01;

@@ -122,7 +122,7 @@ TEST(Csv, EndpointsHaveTheAnswerAndWhatItRestsOn) {
   EXPECT_EQ(endpointsCsv(results),
             head + "one,two,peer,pressure,N/m²,0.25,undecided,,,,,,,,0,0,,,,,,,,,\n");
   results.endpoints.rows[0].reference = 200.0;
-  results.endpoints.rows[0].answer = Answer::smallDifference;
+  results.endpoints.rows[0].verdict = Verdict::pass;
   results.endpoints.rows[0].difference = 20.0;
   results.endpoints.rows[0].distance = 0.4;
   results.endpoints.rows[0].look = 2;
@@ -156,16 +156,15 @@ TEST(Csv, CollisionsShowASweepWithoutPointsByItsStatus) {
   one.points.columns[QuantityId::psiF] = {-0.125};
   one.points.columns[QuantityId::beta] = {0.25};
   one.points.columns[QuantityId::lostStiffening] = {-2e-9};
-  one.points.status = {PairStatus::noLimit};
   one.points.reason = {"it jumps"};
-  one.score.verdict = CurveVerdict::beyondLimits;
-  one.declared.emplace().score.verdict = CurveVerdict::held;
+  one.score.verdict = Verdict::fail;
+  one.declared.emplace().score.verdict = Verdict::pass;
   one.ownScheme.emplace().position = 1e-14;
   one.ownScheme->velocity = 2e-14;
   CollisionCurve& two = variant.curves.emplace_back();
   two.engine = "two";
   two.dt = NAN;
-  two.status = SweepStatus::failed;
+  two.status = Status::failed;
   two.reason = "it hung";
   CollideResults results;
   results.head.setup.name = "walton";

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/render/html.hpp"
 #include "tests/reports/has.hpp"
 
 namespace crossgrain::reports {
@@ -114,7 +115,7 @@ TEST(InterpretationChanges, AreATableAndOnThePage) {
       has(csv, "engine,family,reading,nu,rotations,number,unit,default,change,stderr,pairs\n"));
   EXPECT_TRUE(has(csv, "engine,spacing,wall spacing 7 mm,0.796,5 to 8,\"ν, ring 1\",,0.8,"));
   EXPECT_TRUE(has(csv, "engine,kn,k_n 176"));
-  const std::string page = thesisPage(results, {{}, {}, {}});
+  const std::string page = html(reportOf(results), "", std::nullopt);
   EXPECT_TRUE(has(page, "What each interpretation changes"));
   EXPECT_TRUE(has(page, "<td class=\"n\">2</td><td class=\"n\">−0.035"));
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <random>
 #include <sstream>
 
@@ -37,7 +38,7 @@ std::vector<std::string> linesOf(const std::string& text) {
 
 /// State and number of a cell.
 std::string shown(const OverviewCell& cell) {
-  return fmt::format("{} {}", nameOf(cell.state), cell.shown);
+  return fmt::format("{} {}", cellWord(cell.verdict), cell.shown);
 }
 
 const OverviewRow& rowOf(const Overview& overview, const std::string& name) {
@@ -53,7 +54,7 @@ Overview made(std::size_t rows, std::size_t columns) {
   for (std::size_t k = 0; k < rows; ++k) {
     OverviewRow row{fmt::format("engine-{}", k + 1), true, {}};
     for (std::size_t c = 0; c < columns; ++c)
-      row.cells.push_back({c == 0 ? CellState::good : CellState::bad, 0.3, "margins", "0.3 µm"});
+      row.cells.push_back({c == 0 ? Verdict::pass : Verdict::fail, 0.3, "margins", "0.3 µm"});
     overview.rows.push_back(std::move(row));
   }
   overview.conclusion = {"One.", "Two."};
@@ -120,7 +121,7 @@ TEST(CompareOverview, HasTheWorstEndpointAndSurrogates) {
   ASSERT_EQ(overview.columns[1].name, "largest difference from grain");
   EXPECT_EQ(shown(rowOf(overview, "grain").cells[1]), "not_applicable ");
   EXPECT_EQ(shown(rowOf(overview, "yade").cells[1]), "good 0.200 margins");
-  EXPECT_EQ(rowOf(overview, "yade").cells[1].words, "spin at the wheel");
+  EXPECT_EQ(rowOf(overview, "yade").cells[1].words, "pressure");
   // Not its mirror's own rows: its runs are yade's.
   EXPECT_EQ(rowOf(overview, "grain~yade").cells[1].words, "surrogate of yade");
   const OverviewCell& alarmed = rowOf(overview, "box2d-impulse").cells[1];
@@ -134,26 +135,26 @@ TEST(CompareOverview, HasTheWorstEndpointAndSurrogates) {
 /// Two engines; the second disagrees on one of two endpoints.
 CompareResults disagreeing() {
   CompareResults results;
-  results.engines = {{"ours", "", "", "", EngineStatus::ran, ""},
-                     {"theirs", "", "", "", EngineStatus::ran, ""}};
+  results.engines = {{"ours", "", "", "", Status::finished, ""},
+                     {"theirs", "", "", "", Status::finished, ""}};
   for (const auto& [endpoint, answer] :
-       {std::pair("pressure", Answer::disagree), std::pair("coordination", Answer::noDifference)}) {
+       {std::pair("pressure", Verdict::fail), std::pair("coordination", Verdict::pass)}) {
     EndpointRow row;
     row.a = "ours";
     row.b = "theirs";
     row.endpoint = endpoint;
-    row.answer = answer;
-    row.distance = answer == Answer::disagree ? 3.0 : 0.1;
+    row.verdict = answer;
+    row.distance = answer == Verdict::fail ? 3.0 : 0.1;
     results.endpoints.rows.push_back(row);
   }
   return results;
 }
 
-LockstepRow lockstepRow(LockstepVerdict verdict) {
+LockstepRow lockstepRow(Equivalence verdict) {
   LockstepRow row;
   row.engine = "theirs";
   row.verdict = verdict;
-  row.equivalent = verdict == LockstepVerdict::differs ? 0.02 : 1e-5;
+  row.equivalent = verdict == Equivalence::differs ? 0.02 : 1e-5;
   return row;
 }
 
@@ -169,14 +170,14 @@ TEST(CompareOverview, NamesTheLawAsCauseOnlyWhereThatIsShown) {
 
   results.lockstep.emplace();
   results.lockstep->rules = {1e-10, 1e-3, 1e-3, "kn", 0.05};
-  results.lockstep->rows = {lockstepRow(LockstepVerdict::sameLaw)};
+  results.lockstep->rows = {lockstepRow(Equivalence::sameLaw)};
   const Overview same = compareOverview(results);
   EXPECT_EQ(shown(rowOf(same, "theirs").cells[0]), "good 0.0100 × limit");
   EXPECT_EQ(shown(rowOf(same, "theirs").cells[1]), "model_difference 3.00 margins");
   EXPECT_EQ(same.conclusion[1],
             "Causes of differences: theirs differs by the law that it declares.");
 
-  results.lockstep->rows = {lockstepRow(LockstepVerdict::differs)};
+  results.lockstep->rows = {lockstepRow(Equivalence::differs)};
   results.lockstep->rows[0].term = NamedTerm{"gt", 0.02, 0.1};
   const Overview other = compareOverview(results);
   EXPECT_EQ(shown(rowOf(other, "theirs").cells[0]), "bad 20.0 × limit");
@@ -188,30 +189,30 @@ TEST(CompareOverview, NamesTheLawAsCauseOnlyWhereThatIsShown) {
 }
 
 /// A mirror of "theirs", and what it answers to it where the two peers disagree.
-void addMirror(CompareResults& results, Answer answer) {
-  results.engines.push_back({"mirror", "", "", "theirs", EngineStatus::ran, ""});
+void addMirror(CompareResults& results, Verdict answer) {
+  results.engines.push_back({"mirror", "", "", "theirs", Status::finished, ""});
   EndpointRow row = results.endpoints.rows[0];
   row.a = "mirror";
   row.kind = PairKind::mirrorImplementation;
-  row.answer = answer;
+  row.verdict = answer;
   results.endpoints.rows.push_back(row);
 }
 
 TEST(CompareOverview, AMirrorThatAgreesWithItsPeerIsAModelDifference) {
   CompareResults results = disagreeing();
-  addMirror(results, Answer::undecided);
+  addMirror(results, Verdict::undecided);
   EXPECT_FALSE(isModelDifference(results, results.engines[1]));
-  results.endpoints.rows.back().answer = Answer::smallDifference;
+  results.endpoints.rows.back().verdict = Verdict::pass;
   EXPECT_TRUE(isModelDifference(results, results.engines[1]));
 }
 
 TEST(CompareOverview, DisagreementWithItsMirrorIsNoModelDifference) {
   CompareResults results = disagreeing();
   results.lockstep.emplace();
-  results.lockstep->rows = {lockstepRow(LockstepVerdict::sameLaw)};
+  results.lockstep->rows = {lockstepRow(Equivalence::sameLaw)};
   EXPECT_TRUE(isModelDifference(results, results.engines[1]));
 
-  addMirror(results, Answer::disagree);
+  addMirror(results, Verdict::fail);
   EXPECT_FALSE(isModelDifference(results, results.engines[1]));
   EXPECT_EQ(compareOverview(results).conclusion[1],
             "Causes of differences: theirs disagrees with its own mirror in " +
@@ -221,7 +222,7 @@ TEST(CompareOverview, DisagreementWithItsMirrorIsNoModelDifference) {
 TEST(CompareOverview, NamesTheNextStep) {
   CompareResults results = disagreeing();
   EXPECT_TRUE(has(compareConclusion(results).back(), "Next: compare the margins with"));
-  results.endpoints.rows[1].answer = Answer::undecided;
+  results.endpoints.rows[1].verdict = Verdict::undecided;
   results.endpoints.rows[1].needs = 12;
   EXPECT_EQ(compareConclusion(results).back(),
             "Next: more packings, about 12 for the coordination of theirs against ours; the case "
@@ -229,7 +230,7 @@ TEST(CompareOverview, NamesTheNextStep) {
   results.endpoints.looks.planned = {{8, 0.01}};
   EXPECT_TRUE(
       has(compareConclusion(results).back(), "ours; the same command with a larger --budget"));
-  for (EndpointRow& row : results.endpoints.rows) row.answer = Answer::noDifference;
+  for (EndpointRow& row : results.endpoints.rows) row.verdict = Verdict::pass;
   EXPECT_EQ(compareConclusion(results),
             (std::vector<std::string>{"Against ours: theirs agreed on both endpoints.",
                                       "Nothing is left to decide at these margins."}));
@@ -246,7 +247,7 @@ CompareResults randomResults(std::mt19937& random) {
   const auto margins = [&] { return std::uniform_real_distribution(-6.0, 6.0)(random); };
   CompareResults results;
   for (const char* name : {"ours", "second", "third"})
-    results.engines.push_back({name, "", "", "", EngineStatus::ran, ""});
+    results.engines.push_back({name, "", "", "", Status::finished, ""});
   if (upTo(3) == 0) results.nothingJudged = NothingJudged{"2 packings of both engines", false};
   for (std::size_t a = 0; a < 3; ++a)
     for (std::size_t b = a + 1; b < 3; ++b)
@@ -256,9 +257,12 @@ CompareResults randomResults(std::mt19937& random) {
         row.a = results.engines[a].name;
         row.b = results.engines[b].name;
         row.endpoint = endpoint;
-        row.answer = results.nothingJudged ? Answer::undecided : static_cast<Answer>(upTo(4));
+        row.verdict = results.nothingJudged ? Verdict::undecided
+                                            : std::array{Verdict::pass, Verdict::borderline,
+                                                         Verdict::fail, Verdict::undecided}
+                                                  .at(static_cast<std::size_t>(upTo(3)));
         row.distance = margins();
-        if (row.answer == Answer::undecided && upTo(3) > 0) row.needs = 5 + upTo(200);
+        if (row.verdict == Verdict::undecided && upTo(3) > 0) row.needs = 5 + upTo(200);
         results.endpoints.rows.push_back(row);
       }
   SurrogateEngine own{"second", "mirror", 1e-4, 16, 0, {}, {}, true};
@@ -286,7 +290,7 @@ TEST(CompareSentences, ThePairThatIsNextIsOpenAndOneOfThoseShown) {
   for (int k = 0; k < 300; ++k) {
     const CompareResults results = randomResults(random);
     const std::string next = compareConclusion(results).back();
-    const auto isOpen = [](const EndpointRow& row) { return row.answer == Answer::undecided; };
+    const auto isOpen = [](const EndpointRow& row) { return row.verdict == Verdict::undecided; };
     const bool shownIsOpen =
         std::ranges::any_of(results.endpoints.rows,
                             [&](const EndpointRow& row) { return isOpen(row) && row.a == "ours"; });
@@ -313,7 +317,7 @@ TEST(CompareSentences, DoNotContradictEachOther) {
     const Overview overview = compareOverview(results);
     const std::string head = fmt::format("{}", fmt::join(overview.conclusion, " "));
     const bool open = std::ranges::any_of(results.endpoints.rows, [](const EndpointRow& row) {
-      return row.answer == Answer::undecided;
+      return row.verdict == Verdict::undecided;
     });
     EXPECT_FALSE(open && has(head, "Nothing is left to decide")) << head;
     if (!results.nothingJudged) {
@@ -325,8 +329,8 @@ TEST(CompareSentences, DoNotContradictEachOther) {
     for (const char* verdict : {"agree", "undecided", "borderline"})
       EXPECT_FALSE(has(head, verdict)) << head;
     for (const OverviewRow& row : overview.rows)
-      EXPECT_TRUE(row.cells[1].state == CellState::notMeasured ||
-                  row.cells[1].state == CellState::notApplicable);
+      EXPECT_TRUE(row.cells[1].verdict == Verdict::notMeasured ||
+                  row.cells[1].verdict == Verdict::notApplicable);
   }
   EXPECT_GT(judgedNothing, 30);
 }
@@ -335,7 +339,7 @@ TEST(CompareReport, TheTableHasTheMatrixMarkOfTheSameAnswer) {
   CompareResults results = disagreeing();
   results.lockstep.emplace();
   results.lockstep->rules.referencePerturbation = "kn";
-  results.lockstep->rows = {lockstepRow(LockstepVerdict::sameLaw)};
+  results.lockstep->rows = {lockstepRow(Equivalence::sameLaw)};
   const std::string text = textOf(compareReport(results));
   EXPECT_TRUE(has(text, "≠ disagree by the declared law // 3.00 margins")) << text;
   EXPECT_FALSE(has(text, "| ✗ disagree"));
@@ -368,7 +372,7 @@ TEST(DifferenceFigures, WhatLiesBeyondTheAxisIsMarkedWithItsNumber) {
 TEST(ProfileFigures, ASingleRunBesideMeansIsPaleAndItsMirrorIsNamed) {
   CompareResults results = disagreeing();
   results.rings.rTilde = {0.5, 1.5};
-  results.engines.push_back({"mirror", "", "", "theirs", EngineStatus::ran, ""});
+  results.engines.push_back({"mirror", "", "", "theirs", Status::finished, ""});
   Profile profile;
   profile.method = "slicing";
   profile.field = "spin";
@@ -416,7 +420,7 @@ TEST(CollideOverview, HasTheLargestShareOfALimitByLaw) {
   EXPECT_EQ(shown(rowOf(overview, "yade").cells[1]), "bad 1.2 × limit");
   EXPECT_EQ(rowOf(overview, "yade").cells[1].anchor, "case_1");
   EXPECT_EQ(shown(rowOf(overview, "grain").cells[0]), "good 6 of 6");
-  EXPECT_EQ(rowOf(overview, "odd-one").cells[0].state, CellState::bad);
+  EXPECT_EQ(rowOf(overview, "odd-one").cells[0].verdict, Verdict::fail);
   EXPECT_EQ(
       overview.conclusion[0],
       "Passed every sweep: grain; failed: box2d-impulse (2 of 2 sweeps) and yade (2 of 6); not "
@@ -430,7 +434,7 @@ TEST(CollideOverview, HasTheLargestShareOfALimitByLaw) {
         DeclaredScore& declared = curve.declared.emplace();
         declared.law = {{"tension", std::string("cut")}};
         declared.reference = DeclaredReference::oracle;
-        declared.score.verdict = CurveVerdict::held;
+        declared.score.verdict = Verdict::pass;
         QuantityScore& psi = declared.score.of[QuantityId::psiF].emplace();
         psi.max = 0.001;
         psi.limit = 0.01;
@@ -442,7 +446,7 @@ TEST(CollideOverview, HasTheLargestShareOfALimitByLaw) {
   EXPECT_EQ(declared.conclusion[1], "Fails most often: tangential rebound Ψ_f.");
   for (CollisionVariant& variant : results.variants)
     for (CollisionCurve& curve : variant.curves)
-      if (curve.engine == "yade" && curve.score.verdict == CurveVerdict::held)
+      if (curve.engine == "yade" && curve.score.verdict == Verdict::pass)
         curve.declared->law.clear();
   EXPECT_EQ(collideOverview(results).conclusion[1],
             "Laws differ most by: tension cut (yade); fails most often: tangential rebound Ψ_f.");
@@ -470,8 +474,8 @@ TEST(StabilityOverview, CountsRunsByFamily) {
 
 TEST(StabilityOverview, OfTransformsNamesWhatDiffers) {
   StabilityResults results;
-  results.engines = {{"mine", "", "", "", EngineStatus::ran, ""},
-                     {"theirs", "", "", "", EngineStatus::ran, ""}};
+  results.engines = {{"mine", "", "", "", Status::finished, ""},
+                     {"theirs", "", "", "", Status::finished, ""}};
   for (const auto& [measure, variant] :
        {std::pair("turned", "turned by 1 rad"), std::pair("renumbered", "renumbered")}) {
     HardCase one;
@@ -485,13 +489,13 @@ TEST(StabilityOverview, OfTransformsNamesWhatDiffers) {
       run.name = "cell";
       run.variant = variant;
       run.measure = measure;
-      run.verdict = StabilityVerdict::stable;
+      run.verdict = Verdict::pass;
       results.runs.push_back(run);
     }
   }
   EXPECT_TRUE(areTransforms(results));
   EXPECT_EQ(stabilityOverview(results).conclusion[0], "mine and theirs: both runs the same.");
-  results.runs[1].verdict = StabilityVerdict::unstable;
+  results.runs[1].verdict = Verdict::fail;
   const Overview overview = stabilityOverview(results);
   ASSERT_EQ(overview.columns.size(), 2u);
   EXPECT_EQ(shown(rowOf(overview, "theirs").cells[0]), "bad 0 of 1");
@@ -507,7 +511,7 @@ TEST(CostOverview, HasSettingAndTimeForEachAccuracy) {
   ASSERT_FALSE(overview.columns.empty());
   EXPECT_EQ(overview.columns[0].name, "collisions 10\u00a0%");
   const OverviewCell& first = rowOf(overview, "grain").cells[0];
-  EXPECT_EQ(first.state, CellState::good);
+  EXPECT_EQ(first.verdict, Verdict::pass);
   EXPECT_FALSE(first.shown.empty());
   EXPECT_TRUE(has(first.words, "t_c/"));
   EXPECT_LE(overview.conclusion.size(), 3u);
@@ -518,16 +522,16 @@ TEST(EffectsOverview, HasAnEffectPerRow) {
   const Overview overview = effectsOverview(sample::effectsResults(4));
   EXPECT_EQ(overview.rowsAre, "without");
   EXPECT_EQ(shown(rowOf(overview, "friction").cells[0]), "figure 50.0 %");
-  EXPECT_EQ(rowOf(overview, "friction").cells[1].state, CellState::modelDifference);
+  EXPECT_EQ(rowOf(overview, "friction").cells[1].verdict, Verdict::modelDifference);
   EXPECT_EQ(shown(rowOf(overview, "tension").cells[0]), "not_applicable refused");
   EXPECT_TRUE(has(overview.conclusion[0], "friction changes a profile"));
 }
 
 TEST(LockstepOverview, NamesTheDeviationFound) {
   LockstepResults results;
-  results.engines = {{"theirs", "", "", "", EngineStatus::ran, ""}};
+  results.engines = {{"theirs", "", "", "", Status::finished, ""}};
   results.lockstep.rules = {1e-10, 1e-3, 1e-3, "kn", 0.05};
-  results.lockstep.rows = {lockstepRow(LockstepVerdict::differs)};
+  results.lockstep.rows = {lockstepRow(Equivalence::differs)};
   results.lockstep.rows[0].term = NamedTerm{"kn", -0.02, 0.1};
   EXPECT_EQ(shown(lockstepOverview(results).rows[0].cells[0]), "bad 2.00 % of kₙ");
   results.lockstep.rows[0].term = NamedTerm{"mu", -0.02, 0.1};
@@ -543,10 +547,10 @@ TEST(DiffOverview, NamesWhatHasChanged) {
   results.rules.referencePerturbation = "kn";
   DiffRow same;
   same.engine = "one";
-  same.verdict = same.windowsVerdict = same.collisionsVerdict = DiffVerdict::sameBits;
+  same.verdict = same.windowsVerdict = same.collisionsVerdict = Equivalence::sameBits;
   DiffRow other = same;
   other.engine = "two";
-  other.verdict = other.collisionsVerdict = DiffVerdict::differs;
+  other.verdict = other.collisionsVerdict = Equivalence::differs;
   other.collisions = {{"case", "", "psi_f", 3, 9, 0.1, 0.05, 1.0, 0.1}};
   results.rows = {same, other};
   const Overview overview = diffOverview(results);
@@ -557,7 +561,7 @@ TEST(DiffOverview, NamesWhatHasChanged) {
 }
 
 EngineRow named(const char* name, const char* mirrors = "") {
-  return {name, "", "", mirrors, EngineStatus::ran, ""};
+  return {name, "", "", mirrors, Status::finished, ""};
 }
 
 TEST(EngineStyles, AreTheSameInEveryReport) {

@@ -1,15 +1,11 @@
-// States over volume fractions and rotations, and what carries the stress.
+// States over volume fractions and rotations.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <sstream>
 
-#include "reports/thesis/drawing.hpp"
 #include "reports/thesis/report.hpp"
 #include "tests/reports/has.hpp"
-#include "tests/reports/sample_results.hpp"
 
 namespace crossgrain::reports {
 namespace {
@@ -114,109 +110,6 @@ TEST(RegimeMap, IsATableToo) {
                   "critical_nu_stderr\n"));
   EXPECT_TRUE(has(csv, "engine,\"default, Ω = 0.1 /s\",0.796,5,2,1,5.25,4.75,50.5,49.5,,\n"));
   EXPECT_TRUE(has(csv, "engine,\"default, Ω = 0.1 /s\",,1,8,8,,,,,,\n"));
-}
-
-TEST(RegimeMap, SentencesSayWhereTheWheelHasContacts) {
-  const auto figures = mapFigures(fourDensities());
-  const auto contacts = std::ranges::find(figures, "map_contacts", &Figure::name);
-  EXPECT_TRUE(has(contacts->caption,
-                  "after 8 rotations: fewer than one contact at ν̄ = 0.789 … 0.793, one or more at "
-                  "ν̄ = 0.796 … 0.800"));
-  const auto critical = std::ranges::find(figures, "map_critical", &Figure::name);
-  EXPECT_TRUE(
-      has(critical->caption, "packings that carry 8 of 8 (1), 7 of 8 (2), 3 of 8 (5), 3 of 8 (8)"));
-  EXPECT_TRUE(has(critical->caption, "(5), 0.7962")) << critical->caption;
-}
-
-TEST(RegimeMap, StatesAreFollowedOverRotations) {
-  const auto figures = mapFigures(fourDensities());
-  const auto time = std::ranges::find(figures, "map_time", &Figure::name);
-  ASSERT_NE(figures.end(), time);
-  ASSERT_EQ(2u, time->panels.size());  // these runs have no ν at the wheel
-  const Curve& curve = time->panels[1].curves.at(2);
-  EXPECT_EQ("0.796", curve.name);
-  ASSERT_EQ(8u, curve.points.size());
-  EXPECT_EQ(0.5, curve.points[0].x);
-  EXPECT_NEAR(10.0, curve.points[3].y, 1e-12);
-  EXPECT_NEAR(5.25, curve.points[4].y, 1e-12);  // one of two packings carries
-  EXPECT_TRUE(
-      has(time->caption, "at ν̄ = 0.789 100 → 1.00 (up to 8), ν̄ = 0.800 100 → 100 (up to 8)"))
-      << time->caption;
-  ThesisResults brief;  // nothing was followed for two rotations
-  brief.cases = {caseAt(0.796)};
-  addRun(brief, brief.cases[0], 0, 1, 1);
-  const auto none = mapFigures(brief);
-  EXPECT_TRUE(std::ranges::find(none, "map_time", &Figure::name)->panels.empty());
-}
-
-/// I = γ̇ d √(ρ/p): of the sample at 0.804 in the first ring.
-TEST(RegimeMap, RingsAreDrawnAgainstTheInertialNumber) {
-  ThesisResults results = sample::thesisResults();
-  std::erase_if(results.runs, [](const ThesisRun& run) {
-    return run.setup != "nu-0.804" || run.engine != "alpha" || run.packing != 0;
-  });
-  const Figure figure = collapseFigure(results);
-  ASSERT_EQ(4u, figure.panels.size());
-  const double x = 0.5 * 0.1492 / 20.0 / 0.0074, nu = 0.804 - 0.2 * std::exp(-x);
-  const double rate = 0.5 * std::exp(-x / 1.9), p = 1e3 * 0.024, density = 1000.0 * 0.804;
-  const double inertial = rate * 0.0074 * std::sqrt(density / nu / p);
-  const Point& first = figure.panels[0].curves.at(0).points.at(0);
-  EXPECT_NEAR(inertial, first.x, 1e-12);
-  EXPECT_NEAR(250.0 * 0.024 / std::pow(1.0 + x * 0.0074 / 0.1032, 2) / p, first.y, 1e-12);
-  const double moving = 5e-4 * std::exp(-x);
-  EXPECT_NEAR(moving / (moving + p), figure.panels[1].curves.at(0).points.at(0).y, 1e-15);
-  EXPECT_NEAR(352.1 / (p * 0.006), figure.panels[2].curves.at(0).points.at(0).x, 1e-9);
-  // On the plane a line of one I holds the points of that I.
-  const Point& plane = figure.panels[3].curves.at(0).points.at(0);
-  EXPECT_NEAR(plane.x * plane.x * 4.0 / std::numbers::pi / (inertial * inertial), plane.y,
-              1e-9 * plane.y);
-  EXPECT_TRUE(has(figure.caption, "in no regime that is known (1 run)"));
-}
-
-/// The narrowest rings are those that were averaged; two of them have the mean by their rooms.
-TEST(RegimeMap, WiderRingsArePutTogetherOfNarrowOnes) {
-  const auto figures = widthOfRingFigures(sample::thesisResults());
-  ASSERT_EQ(1u, figures.size());
-  const Panel& panel = figures[0].panels.at(0);
-  ASSERT_EQ(8u, panel.curves.size());
-  const std::vector<Point>& slices = panel.curves[0].points;
-  const double width = 0.1492 / 60.0;
-  EXPECT_NEAR(width / 0.0074, slices[0].x, 1e-12);
-  const auto ring = [&](int k) {
-    const double x = (k + 0.5) * width / 0.0074;
-    return 1.05 * (0.804 - 0.2 * std::exp(-x));  // two packings, 1 and 1.1
-  };
-  EXPECT_NEAR(ring(6), slices[0].y, 1e-12);  // 0.12 m
-  const double r6 = 0.1032 + 6.5 * width, r5 = 0.1032 + 5.5 * width;
-  const double lower = (ring(5) * r5 + ring(6) * r6) / (r5 + r6);
-  const double r7 = 0.1032 + 7.5 * width;
-  const double upper = (ring(6) * r6 + ring(7) * r7) / (r6 + r7);
-  EXPECT_TRUE(std::abs(slices[1].y - lower) < 1e-12 || std::abs(slices[1].y - upper) < 1e-12);
-}
-
-/// Figure 4.3 of sweeps made by hand.
-TEST(RegimeMap, CollisionsAreDrawnByLaw) {
-  ThesisResults results;
-  CollideResults& collisions = results.collisions.emplace();
-  for (const char* const law : {"coulomb", "spring"}) {
-    CollisionVariant& variant = collisions.variants.emplace_back();
-    variant.law["tangential"] = std::string(law);
-    variant.law["tension"] = std::string("cut");
-    variant.law["mu"] = 0.44;
-    CollisionCurve& curve = variant.curves.emplace_back();
-    curve.engine = "engine";
-    curve.stepsPerContact = 50.0;
-    curve.points.psi = {0.5, 3.0};
-    curve.points.vn = {0.01, 0.01};
-    curve.points.columns[QuantityId::psiF] = {{law == std::string("spring") ? -0.4 : 0.0, 1.2}};
-    curve.points.columns[QuantityId::en] = {{0.34, 0.34}};
-  }
-  const auto figures = collisionFigures(results);
-  ASSERT_EQ(1u, figures.size());
-  EXPECT_EQ("figure_4_3", figures[0].name);
-  ASSERT_EQ(1u, figures[0].panels.size());  // tension was not allowed in any
-  EXPECT_TRUE(has(figures[0].caption, "tension cut, engine, spring: lowest Ψ_f −0.400, e_n 0.340"));
-  EXPECT_TRUE(collisionFigures({}).empty());
 }
 
 }  // namespace

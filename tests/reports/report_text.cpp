@@ -13,11 +13,10 @@ namespace crossgrain::reports {
 namespace {
 
 std::string cellText(const Cell& cell) {
-  std::string text = cell.state && cell.marked
-                         ? fmt::format("{} {}", lookOf(*cell.state).mark, cell.text)
-                         : cell.text;
+  std::string text =
+      cell.marked ? fmt::format("{} {}", lookOf(cell.verdict).mark, cell.text) : cell.text;
   for (const std::string& note : cell.notes) text += " // " + note;
-  for (const Square& square : cell.strip) text += lookOf(square.state).mark;
+  for (const Square& square : cell.strip) text += lookOf(square.verdict).mark;
   return text;
 }
 

@@ -75,7 +75,7 @@ TEST(CollideReport, NothingJudged_IsNoSuccess) {
   CollideResults results = sample::collideResults();
   for (CollisionVariant& variant : results.variants)
     for (CollisionCurve& curve : variant.curves) {
-      curve.score.verdict = CurveVerdict::notJudged;
+      curve.score.verdict = Verdict::notMeasured;
       if (auto& psi = curve.score.of[QuantityId::psiF]) {
         psi->limit.reset();
         psi->held.reset();
@@ -104,13 +104,13 @@ TEST(CollideReport, ModelDifference_IsNoFailure) {
         declared.score = curve.score;
         declared.score.of[QuantityId::psiF]->max = 0.001;
         declared.score.of[QuantityId::psiF]->held = true;
-        declared.score.verdict = CurveVerdict::held;
+        declared.score.verdict = Verdict::pass;
       }
   const std::string page = textOf(reportOf(results));
   EXPECT_TRUE(has(page, "| ≠ 4 of 6 passed, 2 ≠"));
   EXPECT_TRUE(has(page, "Declared instead: yade: tension cut."));
   EXPECT_TRUE(has(page, " | declared | "));
-  const CollideCount count = countOf(results);
+  const SweepCount count = countOf(results);
   EXPECT_EQ(count.modelDifference, 2);
   EXPECT_EQ(count.beyondLimits, 2);
 }
@@ -125,7 +125,7 @@ TEST(CollideReport, OwnSchemeBeyondItsLimit_Fails) {
   const std::string page = textOf(reportOf(results));
   EXPECT_TRUE(has(page, "own scheme 1×10⁻⁹"));
   EXPECT_TRUE(has(page, "| ✗ 1×10⁻⁹ |"));
-  EXPECT_EQ(outcomeOf(results.variants[0].curves[0]), SweepOutcome::beyondLimits);
+  EXPECT_EQ(verdictOf(results.variants[0].curves[0]), Verdict::fail);
 }
 
 /// A mirror beside its peer shows what the peer should do; alone it is an
@@ -153,7 +153,7 @@ TEST(CollideScores, PassedBetweenTimeSteps_IsLeftOut) {
   const std::size_t before = rows();
   CollisionCurve& middle = results.variants[0].curves[2];
   ASSERT_EQ(middle.engine, "grain");
-  middle.score.verdict = CurveVerdict::beyondLimits;
+  middle.score.verdict = Verdict::fail;
   EXPECT_EQ(rows(), before + 1) << "what failed is there";
 }
 
@@ -175,10 +175,10 @@ TEST(RevReport, NearnessToSlicing_DecidesTheMatrix) {
   ASSERT_EQ(overview.rows.size(), 1u);
   EXPECT_EQ(overview.rows[0].name, "volume fraction");
   EXPECT_EQ(overview.rows[0].cells[1].shown, "≥ 1 d");
-  EXPECT_EQ(overview.rows[0].cells[0].state, CellState::notMeasured);
+  EXPECT_EQ(overview.rows[0].cells[0].verdict, Verdict::notMeasured);
   EXPECT_EQ(overview.conclusion[1], "Within 5 % of slicing in every field: centre from 1 d.");
   results.curves[1].mean[2] = 0.9;
-  EXPECT_EQ(revOverview(results).rows[0].cells[1].state, CellState::borderline);
+  EXPECT_EQ(revOverview(results).rows[0].cells[1].verdict, Verdict::borderline);
   // Under "near d" of the first method, and a dash where no width was there to
   // meet at.
   EXPECT_TRUE(has(textOf(reportOf(sample::revResults())), "| 0.95 (1 %) | –"));

@@ -34,7 +34,7 @@ inline Json engine(const std::string& name, const std::string& summary,
 }
 
 inline EngineRow engineRow(const std::string& name, const std::string& summary,
-                           const std::string& mirrors = "", EngineStatus status = EngineStatus::ran,
+                           const std::string& mirrors = "", Status status = Status::finished,
                            const std::string& reason = "") {
   return {name, summary, "1.0", mirrors, status, reason};
 }

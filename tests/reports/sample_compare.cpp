@@ -286,7 +286,7 @@ Json endpoints(const std::string& a, const std::string& b, const std::string& ki
                 {"packings", 4},
                 {"lost", 0}};
     if (decided) {
-      row["distance_low"] = distance - 0.3;
+      row["distance_low"] = distance - (std::string_view(answer) == "small_difference" ? 0.1 : 0.3);
       row["distance_high"] = distance + 0.3;
     } else {
       row["needs"] = 12;

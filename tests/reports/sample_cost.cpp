@@ -67,7 +67,7 @@ CostPoint pointOf(const Engine& engine, const Measure& measure, double stepsPerC
   return point;
 }
 
-CostPoint without(CostPoint point, CostStatus status, const std::string& reason) {
+CostPoint without(CostPoint point, Status status, const std::string& reason) {
   point.error.reset();
   point.statistical.reset();
   point.systematic.reset();
@@ -92,10 +92,10 @@ std::vector<CostPoint> pointsOf(const Engine& engine) {
     for (const double steps : {400.0, 200.0, 100.0, 50.0, 25.0, 10.0, 5.0}) {
       CostPoint point = pointOf(engine, measure, steps);
       if (engine.name == "yade" && measure.kind == CostKind::averages && steps > 100.0)
-        point = without(point, CostStatus::notMeasured, "would take about 140 s, budget 60 s");
+        point = without(point, Status::notRun, "would take about 140 s, budget 60 s");
       points.push_back(point);
     }
-    points.push_back(without(pointOf(engine, measure, 1.2), CostStatus::failed,
+    points.push_back(without(pointOf(engine, measure, 1.2), Status::failed,
                              "a disk left the cell at step 37; " + std::string(awkward)));
   }
   return points;
@@ -124,10 +124,10 @@ CostResults costResults() {
   results.notes.clear();
   results.budget = 720.0;
   results.budgetForTheRest = 1396.0;
-  results.engines = {{"grain", "the in-house engine", "1.0", "", EngineStatus::ran, ""},
-                     {"yade", "YADE", "1.0", "", EngineStatus::ran, ""},
-                     {"box2d-penalty", "Box2D", "1.0", "", EngineStatus::ran, ""},
-                     {"box2d-impulse", "Box2D", "1.0", "", EngineStatus::refused, awkward}};
+  results.engines = {{"grain", "the in-house engine", "1.0", "", Status::finished, ""},
+                     {"yade", "YADE", "1.0", "", Status::finished, ""},
+                     {"box2d-penalty", "Box2D", "1.0", "", Status::finished, ""},
+                     {"box2d-impulse", "Box2D", "1.0", "", Status::refused, awkward}};
   results.references = {{CostKind::collision, "oracle", "10⁻¹²", 1e-11, "planar two-body problem"},
                         {CostKind::averages, "grain", "t_c/400", 0.001, awkward}};
   results.window = 0.8;

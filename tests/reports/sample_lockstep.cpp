@@ -5,7 +5,7 @@ namespace crossgrain::sample {
 
 namespace {
 
-LockstepRow row(const std::string& engine, LockstepVerdict verdict, double equivalent) {
+LockstepRow row(const std::string& engine, Equivalence verdict, double equivalent) {
   LockstepRow row;
   row.engine = engine;
   row.verdict = verdict;
@@ -13,9 +13,9 @@ LockstepRow row(const std::string& engine, LockstepVerdict verdict, double equiv
   row.equivalentLow = 0.5 * equivalent;
   row.equivalentHigh = 2.0 * equivalent;
   row.starts = row.read = 16;
-  row.readings.assign(16, {equivalent, 0.01, verdict == LockstepVerdict::differs});
-  row.beyond = verdict == LockstepVerdict::differs ? 16 : 0;
-  row.shareHigh = verdict == LockstepVerdict::differs ? 1.0 : 0.17;
+  row.readings.assign(16, {equivalent, 0.01, verdict == Equivalence::differs});
+  row.beyond = verdict == Equivalence::differs ? 16 : 0;
+  row.shareHigh = verdict == Equivalence::differs ? 1.0 : 0.17;
   for (const double time : {0.001, 0.01, 0.05, 0.1})
     row.separations.push_back(
         {time, 1e-4 * time * equivalent, time * equivalent, 1e-3 * time, {}, equivalent});
@@ -35,9 +35,8 @@ LockstepResults lockstepResults() {
                      engineRow("rigid", "another normal law")};
   results.lockstep.rules = {1e-10, 1e-3, 1e-3, "kn", 0.05};
   results.lockstep.starts.assign(16, {0, 0.1, 0.1});
-  results.lockstep.rows = {row("yade", LockstepVerdict::sameLaw, 1e-5),
-                           row("odd-one", LockstepVerdict::differs, 0.02),
-                           {}};
+  results.lockstep.rows = {
+      row("yade", Equivalence::sameLaw, 1e-5), row("odd-one", Equivalence::differs, 0.02), {}};
   LockstepRow& differs = results.lockstep.rows[1];
   differs.first = FirstExceedance{3, 0.0, 4e-4, 17, 203, "sliding", 1};
   differs.term = NamedTerm{"gt", 0.5, 0.02};

@@ -8,7 +8,7 @@ ScaleResults scaleResults() {
   results.head = scaleFromJson(head("scale", "scaled cell")).head;
   results.repetitions = 3;
   results.engines = {engineRow("grain", "in-house"),
-                     engineRow("odd-one", "a stranger", "", EngineStatus::failed, awkward)};
+                     engineRow("odd-one", "a stranger", "", Status::failed, awkward)};
   results.sharing = {{"grain", "threads"}, {"odd-one", ""}};
   double perDisk = 16e-9;
   for (const std::size_t disks : {1000u, 10'000u, 100'000u}) {
@@ -34,7 +34,7 @@ ScaleResults scaleResults() {
     odd.seconds = {10.0 * perDisk * n};
     odd.differs = {"bottom_friction", "slop"};
     if (disks == 100'000) {
-      odd.status = EngineStatus::failed;
+      odd.status = Status::failed;
       odd.reason = awkward;
       odd.seconds.clear();
       odd.differs.clear();

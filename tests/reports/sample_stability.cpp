@@ -19,8 +19,8 @@ HardCase hardCase(const char* name, const char* variant) {
           "[stability]"};
 }
 
-StabilityRun run(const char* engine, const char* name, const char* variant,
-                 StabilityVerdict verdict, std::optional<double> value) {
+StabilityRun run(const char* engine, const char* name, const char* variant, Verdict verdict,
+                 std::optional<double> value) {
   StabilityRun run;
   run.engine = engine;
   run.name = name;
@@ -50,7 +50,6 @@ ScenePicture picture() {
 }  // namespace
 
 StabilityResults stabilityResults() {
-  using enum StabilityVerdict;
   StabilityResults results;
   results.head.schema = schemaVersion;
   results.head.kind = kindStability;
@@ -58,18 +57,18 @@ StabilityResults stabilityResults() {
   results.head.setup.name = "hard cases";
   results.engines = {engineRow("grain", "in-house"), engineRow("odd-one", awkward)};
   results.cases = {hardCase("pile", "slow"), hardCase("pile", "fast"), hardCase("gas", "")};
-  StabilityRun bad = run("odd-one", "pile", "fast", unstable, 0.5);
+  StabilityRun bad = run("odd-one", "pile", "fast", Verdict::fail, 0.5);
   bad.step = 120;
   bad.time = 0.12;
   bad.curve = {{0.0, 0.1, 0.2}, {0.0, 0.005, 0.5}};
   bad.picture = picture();
-  StabilityRun refusal = run("odd-one", "gas", "", refused, {});
-  refusal.status = HardRunStatus::refused;
+  StabilityRun refusal = run("odd-one", "gas", "", Verdict::notApplicable, {});
+  refusal.status = Status::refused;
   refusal.reason = awkward;
-  results.runs = {run("grain", "pile", "slow", stable, 0.001),
-                  run("grain", "pile", "fast", degraded, 0.05),
-                  run("grain", "gas", "", stable, 0.0),
-                  run("odd-one", "pile", "slow", stable, 0.0),
+  results.runs = {run("grain", "pile", "slow", Verdict::pass, 0.001),
+                  run("grain", "pile", "fast", Verdict::borderline, 0.05),
+                  run("grain", "gas", "", Verdict::pass, 0.0),
+                  run("odd-one", "pile", "slow", Verdict::pass, 0.0),
                   bad,
                   refusal};
   return results;

@@ -54,8 +54,8 @@ TEST(ScaleOverview, TellsTheLargestCellThatEachRan) {
   EXPECT_EQ(perDisk.words, "100\u202f000 disks, 2 threads");
   EXPECT_NEAR(*perDisk.value, 16.0 * 1.21 / 1.6, 1e-9);
   EXPECT_EQ(overview.rows[1].cells[0].words, "10\u202f000 disks, one process");
-  EXPECT_EQ(overview.rows[1].cells[1].state, CellState::notApplicable);  // it has one process
-  EXPECT_EQ(overview.rows[1].cells[3].state, CellState::bad);
+  EXPECT_EQ(overview.rows[1].cells[1].verdict, Verdict::notApplicable);  // it has one process
+  EXPECT_EQ(overview.rows[1].cells[3].verdict, Verdict::fail);
   EXPECT_TRUE(has(overview.conclusion.at(0), "2 threads)"));
   EXPECT_TRUE(has(overview.conclusion.at(0), "one process; deviations: bottom_friction and slop)"));
   EXPECT_TRUE(has(overview.conclusion.at(1), "odd-one ends at 100\u202f000 disks"));

@@ -17,11 +17,11 @@ namespace crossgrain::reports {
 namespace {
 
 EngineRow engine(const char* name, const char* mirrors = "") {
-  return {name, "", "", mirrors, EngineStatus::ran, ""};
+  return {name, "", "", mirrors, Status::finished, ""};
 }
 
 /// Two questions; ours answers them so.
-SiteReport siteReportOf(const char* kind, CellState first, CellState second) {
+SiteReport siteReportOf(const char* kind, Verdict first, Verdict second) {
   SiteReport report;
   report.folder = kind;
   report.digest.head.kind = kind;
@@ -30,34 +30,34 @@ SiteReport siteReportOf(const char* kind, CellState first, CellState second) {
   Overview& overview = report.digest.overview;
   overview.columns = {{"slide", "", ""}, {"spin", "", ""}};
   OverviewCell one, two;
-  one.state = first;
-  two.state = second;
+  one.verdict = first;
+  two.verdict = second;
   overview.rows = {{"ours", true, {one, two}}, {"mirror", true, {one, two}}};
   return report;
 }
 
 TEST(SiteOverview, HasTheMostSevereAnswerOfEachReport) {
-  using enum CellState;
+  using enum Verdict;
   const std::vector<SiteReport> reports = {
-      siteReportOf("collide", good, bad), siteReportOf("compare", undecided, modelDifference),
-      siteReportOf("stability", good, notMeasured), siteReportOf("thesis", bad, good)};
+      siteReportOf("collide", pass, fail), siteReportOf("compare", undecided, modelDifference),
+      siteReportOf("stability", pass, notMeasured), siteReportOf("thesis", fail, pass)};
   const Overview overview = siteOverview(reports);
   ASSERT_EQ(overview.columns.size(), 4u);
   EXPECT_EQ(overview.columns[0].name, "collide quick");
   EXPECT_EQ(overview.columns[0].anchor, "collide/report.html");
   ASSERT_EQ(overview.rows.size(), 3u);
   const std::vector<OverviewCell>& ours = overview.rows[0].cells;
-  EXPECT_EQ(ours[0].state, bad);
+  EXPECT_EQ(ours[0].verdict, fail);
   EXPECT_EQ(ours[0].shown, "1 of 2 failed");
   EXPECT_EQ(ours[0].words, "spin");
-  EXPECT_EQ(ours[1].state, undecided);
-  EXPECT_EQ(ours[2].state, good);
+  EXPECT_EQ(ours[1].verdict, undecided);
+  EXPECT_EQ(ours[2].verdict, pass);
   EXPECT_EQ(ours[2].shown, "1 of 1 passed");
   // A refuted claim is a finding about the thesis.
-  EXPECT_EQ(ours[3].state, figure);
+  EXPECT_EQ(ours[3].verdict, std::nullopt);
   EXPECT_EQ(ours[3].shown, "1 of 2 reproduced");
   // It took part, and no row is its.
-  EXPECT_EQ(overview.rows[1].cells[0].state, figure);
+  EXPECT_EQ(overview.rows[1].cells[0].verdict, std::nullopt);
   EXPECT_EQ(overview.conclusion,
             (std::vector<std::string>{
                 "Failed: ours in collide quick.",
@@ -67,9 +67,9 @@ TEST(SiteOverview, HasTheMostSevereAnswerOfEachReport) {
 }
 
 TEST(SiteOverview, TellsReportsOfOneNameApart) {
-  using enum CellState;
-  std::vector<SiteReport> reports = {siteReportOf("collide", good, bad),
-                                     siteReportOf("collide", good, bad)};
+  using enum Verdict;
+  std::vector<SiteReport> reports = {siteReportOf("collide", pass, fail),
+                                     siteReportOf("collide", pass, fail)};
   reports[1].folder = "again";
   const Overview overview = siteOverview(reports);
   EXPECT_EQ(overview.columns[0].name, "collide quick (collide)");
@@ -77,10 +77,10 @@ TEST(SiteOverview, TellsReportsOfOneNameApart) {
 }
 
 TEST(EngineOverview, HasTheAnswersOfEachReportWithTheWayToThem) {
-  using enum CellState;
-  std::vector<SiteReport> reports = {siteReportOf("collide", good, bad),
+  using enum Verdict;
+  std::vector<SiteReport> reports = {siteReportOf("collide", pass, fail),
                                      siteReportOf("compare", undecided, modelDifference),
-                                     siteReportOf("thesis", bad, bad)};
+                                     siteReportOf("thesis", fail, fail)};
   reports[0].digest.overview.rows[0].cells[1].anchor = "scores";
   reports[1].digest.overview.columns[0].name = "averages";  // a question of its own
   const Overview ours = engineOverview(reports, "ours");
@@ -88,11 +88,11 @@ TEST(EngineOverview, HasTheAnswersOfEachReportWithTheWayToThem) {
   ASSERT_EQ(ours.columns.size(), 3u);
   EXPECT_EQ(ours.columns[2].name, "averages");
   const auto statesOf = [&](std::size_t row) {
-    std::vector<CellState> states;
-    for (const OverviewCell& cell : ours.rows[row].cells) states.push_back(cell.state);
+    std::vector<Verdict> states;
+    for (const OverviewCell& cell : ours.rows[row].cells) states.push_back(cell.verdict.value());
     return states;
   };
-  EXPECT_EQ(statesOf(0), (std::vector{good, bad, notApplicable}));
+  EXPECT_EQ(statesOf(0), (std::vector{pass, fail, notApplicable}));
   EXPECT_EQ(statesOf(1), (std::vector{notApplicable, modelDifference, undecided}));
   EXPECT_EQ(ours.rows[0].cells[1].anchor, "collide/report.html#scores");
   EXPECT_EQ(ours.rows[0].cells[0].anchor, "");
@@ -104,7 +104,7 @@ TEST(EngineOverview, HasTheAnswersOfEachReportWithTheWayToThem) {
           "Failed: 1 question (collide quick).",
           "Borderline or undecided: 1 question (compare quick).",
           "Model difference: true to the law that it declares: 1 question (compare quick)."}));
-  EXPECT_EQ(engineOverview({siteReportOf("collide", good, good)}, "ours").conclusion,
+  EXPECT_EQ(engineOverview({siteReportOf("collide", pass, pass)}, "ours").conclusion,
             std::vector<std::string>{"Passed: 2 questions (collide quick)."});
   const Overview theirs = engineOverview(reports, "theirs");  // no row is its
   EXPECT_TRUE(theirs.rows.empty());
@@ -112,8 +112,8 @@ TEST(EngineOverview, HasTheAnswersOfEachReportWithTheWayToThem) {
             std::vector<std::string>{"Nothing is judged of it in these reports."});
 }
 
-SiteReport madeBy(const char* build, const char* started, CellState state, double margins) {
-  SiteReport report = siteReportOf("compare", state, CellState::good);
+SiteReport madeBy(const char* build, const char* started, Verdict state, double margins) {
+  SiteReport report = siteReportOf("compare", state, Verdict::pass);
   report.folder = std::string("made-by-") + build;
   report.digest.head.version = "0.3.0";
   report.digest.head.build = build;
@@ -123,12 +123,12 @@ SiteReport madeBy(const char* build, const char* started, CellState state, doubl
 }
 
 TEST(History, FollowsACaseFromOneVersionToTheNext) {
-  using enum CellState;
-  std::vector<SiteReport> reports = {madeBy("new", "2026-02-01", bad, 2.0),
-                                     siteReportOf("collide", good, good),
-                                     madeBy("old", "2026-01-01", good, 0.5)};
-  reports[0].digest.values = {{"ours", "mean of spin", {figure, 3.0, "rad/s", "3 rad/s"}}};
-  reports[2].digest.values = {{"ours", "mean of spin", {figure, 4.0, "rad/s", "4 rad/s"}}};
+  using enum Verdict;
+  std::vector<SiteReport> reports = {madeBy("new", "2026-02-01", fail, 2.0),
+                                     siteReportOf("collide", pass, pass),
+                                     madeBy("old", "2026-01-01", pass, 0.5)};
+  reports[0].digest.values = {{"ours", "mean of spin", {std::nullopt, 3.0, "rad/s", "3 rad/s"}}};
+  reports[2].digest.values = {{"ours", "mean of spin", {std::nullopt, 4.0, "rad/s", "4 rad/s"}}};
   std::vector<History> histories = historiesOf(reports);
   ASSERT_EQ(histories.size(), 1u);  // collisions have one report only
   const History& history = histories[0];
@@ -146,7 +146,7 @@ TEST(History, FollowsACaseFromOneVersionToTheNext) {
   EXPECT_EQ(sentencesOf(history),
             std::vector<std::string>{"2 answers changed from the first to the last: ours, slide "
                                      "(passed → failed) and mirror, slide (passed → failed)."});
-  reports[0] = madeBy("new", "2026-02-01", good, 0.5);
+  reports[0] = madeBy("new", "2026-02-01", pass, 0.5);
   reports[0].digest.head.setup.toml = "other";
   histories = historiesOf(reports);
   EXPECT_EQ(changeOf(histories[0].rows[0]), "same");
@@ -157,9 +157,9 @@ TEST(History, FollowsACaseFromOneVersionToTheNext) {
 }
 
 TEST(History, IsOfSeveralVersionsOnly) {
-  using enum CellState;
-  std::vector<SiteReport> reports = {madeBy("one", "2026-01-01", good, 1.0),
-                                     madeBy("one", "2026-01-02", bad, 2.0)};
+  using enum Verdict;
+  std::vector<SiteReport> reports = {madeBy("one", "2026-01-01", pass, 1.0),
+                                     madeBy("one", "2026-01-02", fail, 2.0)};
   EXPECT_TRUE(historiesOf(reports).empty());
   reports[1].digest.engines[1].version = "2";  // another engine is another version, too
   EXPECT_EQ(historiesOf(reports).size(), 1u);
@@ -181,7 +181,7 @@ TEST(History, HasTheMeansOfEndpoints) {
   };
   ASSERT_NE(of(row.a), values.end());
   ASSERT_NE(of(row.b), values.end());
-  EXPECT_EQ(of(row.a)->cell.state, CellState::figure);
+  EXPECT_EQ(of(row.a)->cell.verdict, std::nullopt);
   EXPECT_DOUBLE_EQ(of(row.a)->cell.value.value(), row.reference.value());
   EXPECT_DOUBLE_EQ(of(row.b)->cell.value.value(), *row.reference + row.difference.value());
 }

@@ -26,9 +26,9 @@ TEST(StabilityTable, TheWorstVariantSpeaksForTheCase) {
   const StabilityResults results = sample::stabilityResults();
   const auto groups = hardGroups(results);
   ASSERT_EQ(groups.size(), 2u);
-  EXPECT_EQ(worstRun(results, "grain", groups[0])->verdict, StabilityVerdict::degraded);
+  EXPECT_EQ(worstRun(results, "grain", groups[0])->verdict, Verdict::borderline);
   EXPECT_EQ(worstRun(results, "odd-one", groups[0])->variant, "fast");
-  EXPECT_EQ(worstRun(results, "odd-one", groups[1])->verdict, StabilityVerdict::refused);
+  EXPECT_EQ(worstRun(results, "odd-one", groups[1])->verdict, Verdict::notApplicable);
 }
 
 TEST(StabilityFigures, AMapAndWhatWentWrongOverTime) {
@@ -69,10 +69,10 @@ StabilityResults transformsInTime() {
     run.variant = run.measure = variant;
     results.runs.push_back(run);
   }
-  results.runs[0].verdict = StabilityVerdict::stable;
+  results.runs[0].verdict = Verdict::pass;
   results.runs[0].value = 0.0;
-  results.runs[1].status = HardRunStatus::notRun;
-  results.runs[1].verdict = StabilityVerdict::notRun;
+  results.runs[1].status = Status::notRun;
+  results.runs[1].verdict = Verdict::notMeasured;
   results.runs[1].reason = "its part of the budget, 1 s, leaves no time for it";
   return results;
 }
@@ -81,8 +81,8 @@ TEST(StabilityReport, WhatWasNotRun_IsNotAmongThePassed) {
   const StabilityResults results = transformsInTime();
   const Report report = reportOf(results);
   const Overview& overview = report.overview;
-  EXPECT_EQ(overview.rows[0].cells[0].state, CellState::good);
-  EXPECT_EQ(overview.rows[0].cells[1].state, CellState::notMeasured);
+  EXPECT_EQ(overview.rows[0].cells[0].verdict, Verdict::pass);
+  EXPECT_EQ(overview.rows[0].cells[1].verdict, Verdict::notMeasured);
   ASSERT_EQ(overview.conclusion.size(), 2u);
   EXPECT_EQ(overview.conclusion[0], "slow: 1 of 2 runs the same, 1 not run.");
   EXPECT_EQ(overview.conclusion[1],

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reports/render/html.hpp"
 #include "tests/reports/has.hpp"
 
 namespace crossgrain::reports {
@@ -10,7 +11,7 @@ namespace {
 
 ThesisResults twoClaims() {
   ThesisResults results;
-  results.engines = {{"grain", "in-house", "1", "", EngineStatus::ran, ""}};
+  results.engines = {{"grain", "in-house", "1", "", Status::finished, ""}};
   results.cases.resize(2);
   ThesisCase& setup = results.cases[0];
   setup.name = "nu-0.804";
@@ -18,6 +19,9 @@ ThesisResults twoClaims() {
   setup.families = {"packings"};
   setup.label = 0.804;
   setup.cell.omega = 1.0;
+  setup.cell.innerRadius = 0.1;
+  setup.cell.outerRadius = 0.25;
+  setup.cell.diameter = 0.01;
   setup.settleRotations = 1.0;
   setup.averagedRotations = 3.0;
   results.cases[1] = setup;
@@ -44,14 +48,14 @@ ThesisResults twoClaims() {
   refuted.engine = "grain";
   refuted.interpretation = "default";
   refuted.figures = {{"C⁻¹", "d", 9.0, 0.5, 4.0, 7.0}, {"ν₀", "", 0.84, {}, {}, 0.87}};
-  refuted.figures[0].verdict = ClaimVerdict::refuted;
-  refuted.verdict = ClaimVerdict::refuted;
+  refuted.figures[0].verdict = Verdict::fail;
+  refuted.verdict = Verdict::fail;
   refuted.why = "it is 9, not 4 to 7";
   refuted.plot = "figure 6.5";
   refuted.reasons = {"Impacts dilate it."};
   results.claims = {refuted, refuted};
   results.claims.back().interpretation = "wall spacing 7 mm";
-  results.claims.back().verdict = ClaimVerdict::reproduced;
+  results.claims.back().verdict = Verdict::pass;
   ClaimRow& open = results.claims.emplace_back();
   open.id = "C6";
   open.engine = "grain";
@@ -90,7 +94,7 @@ TEST(ThesisOverview, HasEveryClaimUnderItsFirstInterpretation) {
   ClaimRow model = results.claims.front();
   model.engine = "-";
   model.id = "C1";
-  model.verdict = ClaimVerdict::reproduced;
+  model.verdict = Verdict::pass;
   model.figures.front().value.reset();
   results.claims.insert(results.claims.begin(), model);
   // The figure that refutes it is shown, not the first.
@@ -101,16 +105,16 @@ TEST(ThesisOverview, HasEveryClaimUnderItsFirstInterpretation) {
   EXPECT_EQ(overview.columns[1].asks, "a zone is dilated");
   ASSERT_EQ(overview.rows.size(), 2u);
   EXPECT_EQ(overview.rows[0].name, "grain");
-  EXPECT_EQ(overview.rows[0].cells[0].state, CellState::notApplicable);
+  EXPECT_EQ(overview.rows[0].cells[0].verdict, Verdict::notApplicable);
   const OverviewCell& refuted = overview.rows[0].cells[1];
-  EXPECT_EQ(refuted.state, CellState::bad);
+  EXPECT_EQ(refuted.verdict, Verdict::fail);
   EXPECT_EQ(refuted.shown, "9.00\u00a0d");
   EXPECT_EQ(refuted.words, "C⁻¹ [4 … 7]; ✓ under wall spacing 7 mm");
   EXPECT_EQ(refuted.anchor, "C5");
-  EXPECT_EQ(overview.rows[0].cells[2].state, CellState::undecided);
+  EXPECT_EQ(overview.rows[0].cells[2].verdict, Verdict::undecided);
   EXPECT_EQ(overview.rows[1].name, "no engine");
   EXPECT_FALSE(overview.rows[1].isEngine);
-  EXPECT_EQ(overview.rows[1].cells[0].state, CellState::good);
+  EXPECT_EQ(overview.rows[1].cells[0].verdict, Verdict::pass);
   EXPECT_EQ(overview.rows[1].cells[0].shown, "");
 }
 
@@ -135,12 +139,12 @@ TEST(ThesisPage, SaysWhatWasFoundWhatItTookAndWhatNobodyRan) {
   ThesisResults results = twoClaims();
   results.claims.push_back(results.claims.front());
   results.claims.back().reasons.clear();
-  const std::vector<Figure> figures;
-  const std::string page = thesisPage(results, {figures, "", std::nullopt});
+  const std::string page = html(reportOf(results), "", std::nullopt);
   for (const char* words :
-       {"✗ refuted", "✓ reproduced", "? undecided", "C⁻¹ = 9.00\u00a0±\u00a00.50 d <small>[4 … 7]",
-        "200 → 6.00", "<td>not run</td>", "<th rowspan=\"1\">nobody-ran-it",
-        "<td class=\"n\">1</td>", "<i>Impacts dilate it.</i>", "<i>No reason was found.</i>",
+       {"✗ refuted", "✓ reproduced", "? undecided", "C⁻¹ = 9.00\u00a0±\u00a00.50 d [4 … 7]",
+        "200 → 6.00", "nobody-ran-it: a packing", ">not run<", "<td class=\"n\">1</td>",
+        "<small>Impacts dilate it.</small>", "<small>No reason was found.</small>",
+        "<tr id=\"C5\">",
         // 34.56 s over four rotations at 1 /s are 86.4 s for one at 0.1 /s: a thousandth of a day.
         "1 min 26 s of CPU time (the median of 1 run); in 2003 it took 1 to 2 CPU days, 1000 to "
         "2000 times as much"})

@@ -5,8 +5,6 @@
 
 #include <cmath>
 
-#include "results/collision_fields.hpp"
-
 namespace crossgrain::inline results {
 namespace {
 
@@ -19,7 +17,6 @@ CollisionCurve curveOfTwo() {
   curve.points.psi = {0.0, 1.0};
   curve.points.vn = {1e-4, 1e-4};
   curve.points.columns[QuantityId::psiF] = {-0.0, std::nullopt};
-  curve.points.status = {PairStatus::parted, PairStatus::notParted};
   curve.points.reason = {"", ""};
   QuantityScore& psi = curve.score.of[QuantityId::psiF].emplace();
   psi.max = 0.3;
@@ -30,7 +27,7 @@ CollisionCurve curveOfTwo() {
   QuantityScore& en = curve.score.of[QuantityId::en].emplace();
   en.max = 0.1;
   en.unit = 3.0;
-  curve.score.verdict = CurveVerdict::held;
+  curve.score.verdict = Verdict::pass;
   curve.declared = {{{"tension", "cut"}, {"gt", 0.0}}, DeclaredReference::mirror, curve.score, "?"};
   curve.ownScheme = {"position_verlet", 1e-14, 2e-14, 1e-12, true, ""};
   return curve;
@@ -40,7 +37,7 @@ CollideResults resultsOfOneCase() {
   CollideResults results;
   results.head.kind = "collide";
   results.elapsed = 2.5;
-  results.engines = {{"grain", "in-house", "1", "", EngineStatus::ran, ""}};
+  results.engines = {{"grain", "in-house", "1", "", Status::finished, ""}};
   CollisionVariant& variant = results.variants.emplace_back();
   variant.law = {{"tension", "cut"}, {"mu", 0.44}};
   variant.effects = {"friction"};

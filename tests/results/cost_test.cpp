@@ -37,8 +37,8 @@ CostResults study() {
   results.elapsed = 12.5;
   results.effects = {"friction"};
   results.notes = {"a note"};
-  results.engines = {{"grain", "", "0.1.0", "", EngineStatus::ran, ""},
-                     {"yade", "", "", "", EngineStatus::failed, "gone"}};
+  results.engines = {{"grain", "", "0.1.0", "", Status::finished, ""},
+                     {"yade", "", "", "", Status::failed, "gone"}};
   results.cell.omega = 1.0;
   results.averaging.method = "slicing";
   results.rings.r = {0.1, 0.2};
@@ -47,7 +47,7 @@ CostResults study() {
   results.budgetForTheRest = 0.0;
   CostPoint left = point();
   left.error.reset();
-  left.status = CostStatus::notMeasured;
+  left.status = Status::notRun;
   left.reason = "would take about 90 s";
   left.knob = "effect:friction";
   results.points = {point(), left};
@@ -59,12 +59,12 @@ CostResults study() {
   Advice advice;
   advice.engine = "grain";
   advice.target = 0.1;
-  advice.verdict = CostVerdict::reached;
+  advice.verdict = Verdict::pass;
   advice.kinds = {CostKind::collision, CostKind::averages};
   advice.cheapest = true;
   results.advice = {advice};
   results.models = {{"grain", CostKind::collision, "psi_f", 0.25, 0.24, 0.26}};
-  results.cells = {{"grain", CostKind::averages, CostBasis::scene, 0.01, CostVerdict::notReached}};
+  results.cells = {{"grain", CostKind::averages, CostBasis::scene, 0.01, Verdict::fail}};
   results.cells[0].model = 0;
   return results;
 }

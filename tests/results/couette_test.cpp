@@ -54,7 +54,7 @@ FlowRun finishedRun() {
 FlowRun failedRun() {
   FlowRun run;
   run.engine = "one";
-  run.status = RunStatus::failed;
+  run.status = Status::failed;
   run.reason = "died";
   return run;
 }
@@ -76,7 +76,7 @@ template <typename Study>
 Study ranStudy(std::string_view kind) {
   Study study = studyOf<Study>(kind);
   study.elapsed = 12.5;
-  study.engines = {{"one", "an engine", "1.0", "", EngineStatus::ran, ""}};
+  study.engines = {{"one", "an engine", "1.0", "", Status::finished, ""}};
   study.packings = {{0, 18446744073709551615u, "9f86", true}};
   study.runs = {finishedRun(), failedRun()};
   study.ensemble = {{"one", "", 2, finishedRun().profiles, finishedRun().distributions, {}, {}}};
@@ -147,7 +147,7 @@ TEST(CompareResults, RoundTrip) {
   results.nothingJudged = NothingJudged{"one engine", true};
   EndpointRow endpoint;
   endpoint.endpoint = "pressure";
-  endpoint.answer = Answer::borderline;
+  endpoint.verdict = Verdict::borderline;
   endpoint.distance = -0.99;
   endpoint.surrogateB = "mirror";
   endpoint.bound = 1e-3;
@@ -204,7 +204,7 @@ TEST(EffectsResults, RoundTrip) {
   switched.changes = {
       1, BarKind::withinRun, {{"spin", "rad/s", true, Verdict::notApplicable, {ring}}}};
   refused.effect = "rotation";
-  refused.status = EngineStatus::refused;
+  refused.status = Status::refused;
   refused.reason = "cannot";
   results.variants = {whole, switched, refused};
   results.switches = {{"friction", "No tangential force."}};

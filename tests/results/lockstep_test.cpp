@@ -13,12 +13,12 @@ LockstepResults measured() {
   results.head.schema = "crossgrain-results-1";
   results.head.kind = "lockstep";
   results.elapsed = 9.5;
-  results.engines = {{"yade", "", "1", "", EngineStatus::ran, ""}};
+  results.engines = {{"yade", "", "1", "", Status::finished, ""}};
   results.lockstep.rules = {1e-10, 1e-3, 1e-3, "kn", 0.05};
   results.lockstep.starts = {{1, 0.25, 3.5}};
   LockstepRow row;
   row.engine = "yade";
-  row.verdict = LockstepVerdict::sameLaw;
+  row.verdict = Equivalence::sameLaw;
   row.equivalent = 1.2e-5;
   row.equivalentLow = 1e-5;
   row.readings = {{1.2e-5, 0.02, false}, {{}, 0.0, false}};

@@ -22,8 +22,8 @@ ScaleResults scaleStudy() {
   ScaleResults results;
   results.head.kind = "scale";
   results.repetitions = 3;
-  results.engines = {{"grain", "", "1", "", EngineStatus::ran, ""},
-                     {"other", "", "1", "", EngineStatus::ran, ""}};
+  results.engines = {{"grain", "", "1", "", Status::finished, ""},
+                     {"other", "", "1", "", Status::finished, ""}};
   results.sharing = {{"grain", "threads"}, {"other", ""}};
   results.cells = {{1000, 300, 0.2, 0.8, ""}, {2000, 400, 0.3, 0.81, ""}};
   results.points = {timed("grain", 1000, 1, {12e-6, 10e-6, 15e-6}),
@@ -66,7 +66,7 @@ TEST(ScaleFigures, AnotherEngineIsHeldAgainstTheFirst) {
 
 TEST(ScaleFigures, WhatDidNotRunHasNoneAndLendsNone) {
   ScaleResults results = scaleStudy();
-  results.points[0].status = EngineStatus::failed;
+  results.points[0].status = Status::failed;
   const ScaleFigures failed = scaleFigures(results, results.points[0]);
   EXPECT_FALSE(failed.step || failed.spread || failed.perDisk || failed.bytes || failed.ratio);
   const ScaleFigures two = scaleFigures(results, results.points[4]);
@@ -84,7 +84,7 @@ TEST(ScaleFigures, WorkersInWords) {
 TEST(ScaleResults, RoundTrip) {
   ScaleResults results = scaleStudy();
   results.elapsed = 1.5;
-  results.points[1].status = EngineStatus::refused;
+  results.points[1].status = Status::refused;
   results.points[1].reason = "no memory";
   results.points[2].differs = {"bottom_friction"};
   const Json there = Json::parse(toJson(results).dump());

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "results/engine_fields.hpp"
+#include "adapters/worker/json.hpp"
 #include "results/scene_picture.hpp"
 
 namespace crossgrain::inline results {
@@ -15,7 +15,7 @@ StabilityRun passedItsLimit() {
   StabilityRun run;
   run.engine = "grain";
   run.name = "pile";
-  run.verdict = StabilityVerdict::degraded;
+  run.verdict = Verdict::borderline;
   run.value = 0.1;
   run.step = 120;
   run.time = 0.12;
@@ -33,7 +33,7 @@ TEST(StabilityResults, RoundTrip) {
   StabilityResults results;
   results.head.kind = "stability";
   results.elapsed = 1.5;
-  results.engines = {{"grain", "in-house", "1", "", EngineStatus::ran, ""}};
+  results.engines = {{"grain", "in-house", "1", "", Status::finished, ""}};
   results.cases.resize(1);
   results.runs = {passedItsLimit(), {}};
   const Json there = Json::parse(toJson(results).dump());

@@ -12,7 +12,7 @@ ThesisResults resultsOfOneLeg() {
   ThesisResults results;
   results.head.kind = "thesis";
   results.elapsed = 12.5;
-  results.engines = {{"grain", "in-house", "1", "", EngineStatus::ran, ""}};
+  results.engines = {{"grain", "in-house", "1", "", Status::finished, ""}};
   results.surrogates = {{"other", "grain-as-other", true, 1e-9, 16, "same to rounding"}};
   results.rules = "[common]\n";
   results.collisions.emplace().head.kind = "collide";
@@ -45,7 +45,7 @@ ThesisResults resultsOfOneLeg() {
   claim.id = "C7";
   claim.mirror = "grain-as-other";
   claim.figures = {{"B", "d", 2.5, {}, 0.5, {}}};
-  claim.verdict = ClaimVerdict::refuted;
+  claim.verdict = Verdict::fail;
   claim.cases = {"nu-0.804"};
   claim.plot = "figure 6.7";
   results.notes = {"one was left out"};
@@ -66,7 +66,7 @@ TEST(ThesisResults, ComeBackAsTheyWere) {
   EXPECT_EQ(span.wheelTouched, 0.0);
   EXPECT_FALSE(span.wheelTorque);  // absent, not zero
   EXPECT_EQ(results.runs[0].finer.at(0).places.width, 0.1);
-  EXPECT_EQ(results.claims.at(0).verdict, ClaimVerdict::refuted);
+  EXPECT_EQ(results.claims.at(0).verdict, Verdict::fail);
   EXPECT_FALSE(results.claims[0].figures.at(0).high);
   EXPECT_FALSE(results.cases.at(0).bottomFriction);
   EXPECT_TRUE(results.surrogates.at(0).accepted);

@@ -44,7 +44,7 @@ TEST(AgreementTable, EnsembleIsTheMeanOverPackingsWithItsStandardError) {
   runs.push_back({});
   runs.back().engine = "a";
   runs.back().packing = 4;
-  runs.back().status = RunStatus::failed;
+  runs.back().status = Status::failed;
   const auto ensemble = ensembleOf(runs, {"a", "b"});
   ASSERT_EQ(ensemble.size(), 1u);  // b has no finished run
   const Profile& profile = ensemble[0].profiles[0];

@@ -23,13 +23,13 @@ FlowRun filled(const std::string& engine, double volumeFraction) {
   return run;
 }
 
-EndpointRow pressure(double distance, Answer answer, int packings = 8, int lost = 0) {
+EndpointRow pressure(double distance, Verdict answer, int packings = 8, int lost = 0) {
   EndpointRow row;
   row.a = "a";
   row.b = "b";
   row.endpoint = "pressure";
   row.distance = distance;
-  row.answer = answer;
+  row.verdict = answer;
   row.packings = packings;
   row.lost = lost;
   return row;
@@ -45,10 +45,10 @@ std::vector<std::string> said(const CompareResults& results,
 using Alarms = std::vector<std::string>;
 
 TEST(Alarms, AreRaisedBeyondTenMarginsUnlessItIsADisagreementAnyway) {
-  EXPECT_EQ(said({}, {pressure(-10.5, Answer::undecided, 1)}),
+  EXPECT_EQ(said({}, {pressure(-10.5, Verdict::undecided, 1)}),
             Alarms{"pressure is 10 margins off, which 1 packing cannot prove"});
-  EXPECT_EQ(said({}, {pressure(9.9, Answer::undecided)}), Alarms{});
-  EXPECT_EQ(said({}, {pressure(99.0, Answer::disagree)}), Alarms{});
+  EXPECT_EQ(said({}, {pressure(9.9, Verdict::undecided)}), Alarms{});
+  EXPECT_EQ(said({}, {pressure(99.0, Verdict::fail)}), Alarms{});
 }
 
 /// Eight packings of an engine, of which the first ones have a pressure.
@@ -68,12 +68,12 @@ TEST(Alarms, AreRaisedWhereOneEngineHasNoValueOnMostPackings) {
   CompareResults one, both;
   addRuns(one, "a", 8);
   addRuns(one, "b", 3);
-  EXPECT_EQ(said(one, {pressure(0.0, Answer::undecided, 3, 5)}),
+  EXPECT_EQ(said(one, {pressure(0.0, Verdict::undecided, 3, 5)}),
             Alarms{"pressure is missing on 5 of 8 packings"});
-  EXPECT_EQ(said(one, {pressure(0.0, Answer::undecided, 4, 4)}), Alarms{});
+  EXPECT_EQ(said(one, {pressure(0.0, Verdict::undecided, 4, 4)}), Alarms{});
   addRuns(both, "a", 3);
   addRuns(both, "b", 3);  // what neither has is no difference
-  EXPECT_EQ(said(both, {pressure(0.0, Answer::undecided, 3, 5)}), Alarms{});
+  EXPECT_EQ(said(both, {pressure(0.0, Verdict::undecided, 3, 5)}), Alarms{});
 }
 
 TEST(Alarms, AreRaisedForAnotherRegimeOnMostPackings) {

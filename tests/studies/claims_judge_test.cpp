@@ -49,7 +49,7 @@ TEST(ClaimRows, EveryClaimHasARowForEachEngineThatHasRunsAndForNoneWhereThereAre
   std::set<std::string> all;
   for (const ClaimRow& row : judged(results)) {
     all.insert(row.id);
-    EXPECT_EQ(row.verdict, ClaimVerdict::undecided) << row.id;
+    EXPECT_EQ(row.verdict, Verdict::undecided) << row.id;
     EXPECT_FALSE(row.why.empty()) << row.id;
     EXPECT_FALSE(row.figures.empty()) << row.id;
   }
@@ -126,7 +126,7 @@ TEST(ClaimRows, OneRunThatIsFarOffLeavesTheClaimOpenAndTellsHowManyWouldDecide) 
   changeOne(results,
             [](ThesisRun& run, const ThesisCase&) { setFit(run, "dilation_decay", 0.03); });
   const ClaimRow row = rowOf(judged(results), "C5");
-  EXPECT_EQ(row.verdict, ClaimVerdict::undecided) << row.why;
+  EXPECT_EQ(row.verdict, Verdict::undecided) << row.why;
   EXPECT_NE(row.why.find("runs would"), std::string::npos) << row.why;
 }
 
@@ -136,10 +136,10 @@ TEST(ClaimRows, RunsThatDoNotCarryAreLeftOutWhereTheRuleSaysSo) {
     scaleField(run, "stress_pp", 100.0);
     run.run.regime->wheelContacts = 0.2;
   });
-  EXPECT_EQ(rowOf(judged(results), "C15").verdict, ClaimVerdict::reproduced);
+  EXPECT_EQ(rowOf(judged(results), "C15").verdict, Verdict::pass);
   changeOne(results,
             [](ThesisRun& run, const ThesisCase&) { run.run.regime->wheelContacts = 2.0; });
-  EXPECT_NE(rowOf(judged(results), "C15").verdict, ClaimVerdict::reproduced);
+  EXPECT_NE(rowOf(judged(results), "C15").verdict, Verdict::pass);
 }
 
 TEST(ClaimRows, HowManyRunsCouldNotBeFittedIsSaid) {
@@ -151,8 +151,8 @@ TEST(ClaimRows, HowManyRunsCouldNotBeFittedIsSaid) {
 
 TEST(ClaimRows, RunsThatFailedAreNone) {
   ThesisResults results = world();
-  for (ThesisRun& run : results.runs) run.run.status = RunStatus::failed;
-  for (const ClaimRow& row : judged(results)) EXPECT_EQ(row.verdict, ClaimVerdict::undecided);
+  for (ThesisRun& run : results.runs) run.run.status = Status::failed;
+  for (const ClaimRow& row : judged(results)) EXPECT_EQ(row.verdict, Verdict::undecided);
 }
 
 // One seed gives one packing: two cases that follow it for different times are one sample.
@@ -199,25 +199,24 @@ TEST(ClaimsOfCollisions, OnlyASpringReversesAndSlidingNeedsTheRightRestitution) 
   // of a cut law (e_n = 0.3408) and 1.613 of one with tension (0.2223).
   EXPECT_NEAR(valueOf(printed, "Ψ_f less the asymptote, Coulomb's law"), 1.613 - 1.770, 0.002);
   EXPECT_NEAR(valueOf(cut, "Ψ_f less the asymptote, Coulomb's law"), 0.0, 0.002);
-  EXPECT_EQ(printed.verdict, ClaimVerdict::refuted) << printed.why;
+  EXPECT_EQ(printed.verdict, Verdict::fail) << printed.why;
 }
 
 TEST(ClaimsOfCollisions, WithoutFrictionNothingSlidesOrReverses) {
   ThesisResults results = worldWithLaw();
   for (ThesisCase& setup : results.cases) replaceIn(setup.caseToml, "mu = 0.44", "mu = 1e-9");
   const ClaimRow row = rowOf(judged(results), "C1", "tension cut");
-  EXPECT_EQ(row.verdict, ClaimVerdict::refuted) << row.why;
+  EXPECT_EQ(row.verdict, Verdict::fail) << row.why;
   EXPECT_NE(row.why.find("lowest Ψ_f of the spring"), std::string::npos);
 }
 
 TEST(ClaimsOfCollisions, SchemesDifferByLittleAtTheThesisStepAndByMoreAtALongOne) {
   const ClaimRow row = rowOf(judged(worldWithLaw()), "C2", "head-on");
-  EXPECT_EQ(row.verdict, ClaimVerdict::reproduced) << row.why;
+  EXPECT_EQ(row.verdict, Verdict::pass) << row.why;
   ClaimRules rules = shippedRules();
   for (ClaimRule& rule : rules.claims)
     if (rule.id == "C2") rule.numbers.front().value = 5.0;
-  EXPECT_EQ(rowOf(judgeClaims(worldWithLaw(), rules), "C2", "head-on").verdict,
-            ClaimVerdict::refuted);
+  EXPECT_EQ(rowOf(judgeClaims(worldWithLaw(), rules), "C2", "head-on").verdict, Verdict::fail);
 }
 
 CollisionVariant sweepOf(const std::string& law, const std::function<double(double)>& after) {
@@ -256,7 +255,7 @@ TEST(ClaimsOfCollisions, ReasonsTellTheTimeStepAtWhichTheFigureLiesInItsBand) {
   std::vector<ClaimRow> rows = judgeCollisions(collisions, shippedRules());
   addReasons(results, shippedRules(), {}, rows);
   const ClaimRow row = rowOf(rows, "C1", "tension cut");
-  ASSERT_EQ(row.verdict, ClaimVerdict::refuted);
+  ASSERT_EQ(row.verdict, Verdict::fail);
   EXPECT_EQ(row.reasons,
             (std::vector<std::string>{
                 "The whole claim is reproduced at 200 steps per contact.",
@@ -271,12 +270,12 @@ TEST(ClaimsOfCollisions, AnEnginesSweepsAreJudgedAsTheLawIs) {
   collisions.variants = {sweepOf("coulomb", sliding), sweepOf("viscous", sliding),
                          sweepOf("spring", reversing)};
   EXPECT_EQ(rowOf(judgeCollisions(collisions, shippedRules()), "C1", "tension cut").verdict,
-            ClaimVerdict::reproduced);
+            Verdict::pass);
   collisions.variants[0] = sweepOf("coulomb", reversing);
   const ClaimRow row = rowOf(judgeCollisions(collisions, shippedRules()), "C1", "tension cut");
-  EXPECT_EQ(row.verdict, ClaimVerdict::refuted) << row.why;
+  EXPECT_EQ(row.verdict, Verdict::fail) << row.why;
   EXPECT_EQ(rowOf(judgeCollisions(collisions, shippedRules()), "C1", "tension allowed").verdict,
-            ClaimVerdict::undecided);
+            Verdict::undecided);
 }
 
 /// Runs whose velocity and spin are those of the model as printed, and whose couple stress decays.
@@ -295,7 +294,7 @@ ThesisResults worldOfTheModel() {
 
 TEST(ClaimOfTheModel, RunsThatFollowIt_AreReproduced) {
   const ClaimRow row = rowOf(judged(worldOfTheModel()), "C24");
-  EXPECT_EQ(row.verdict, ClaimVerdict::reproduced) << row.why;
+  EXPECT_EQ(row.verdict, Verdict::pass) << row.why;
   // Facts, section 4: m(0) = 0.21358, m(1) = 0.23443.
   const auto couple = std::ranges::find(row.figures, "model_couple", &ClaimFigure::key);
   EXPECT_NEAR(couple->value.value(), 0.23443 / 0.21358, 1e-4);
@@ -310,7 +309,7 @@ TEST(ClaimOfTheModel, RunsThatDecayMoreSlowly_AreRefuted) {
     }
   });
   const ClaimRow row = rowOf(judged(results), "C24");
-  EXPECT_EQ(row.verdict, ClaimVerdict::refuted);
+  EXPECT_EQ(row.verdict, Verdict::fail);
   EXPECT_NE(row.why.find("rms of ln(u/v_φ)"), std::string::npos) << row.why;
 }
 

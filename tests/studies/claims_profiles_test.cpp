@@ -122,7 +122,7 @@ ClaimRow judged(const ThesisResults& results, const std::string& id) {
 
 TEST_P(Claims, IsReproducedWhereAllIsAsTheThesisSays) {
   const ClaimRow row = judged(world(), GetParam().id);
-  EXPECT_EQ(row.verdict, ClaimVerdict::reproduced) << row.why;
+  EXPECT_EQ(row.verdict, Verdict::pass) << row.why;
   EXPECT_FALSE(row.cases.empty());
   EXPECT_NE(row.why.find("Averaged over rotations 5 to 8"), std::string::npos) << row.why;
 }
@@ -131,7 +131,7 @@ TEST_P(Claims, IsRefutedWhereItIsNot) {
   ThesisResults results = world();
   changeAll(results, GetParam().change);
   const ClaimRow row = judged(results, GetParam().id);
-  EXPECT_EQ(row.verdict, ClaimVerdict::refuted) << row.why;
+  EXPECT_EQ(row.verdict, Verdict::fail) << row.why;
   const std::string refuted = row.why.substr(0, row.why.find(". "));
   EXPECT_TRUE(refuted.starts_with("refuted")) << row.why;
   EXPECT_NE(refuted.find(GetParam().part), std::string::npos) << row.why;
@@ -142,7 +142,7 @@ TEST_P(Claims, IsUndecidedWithoutItsRunsAndNamesTheLegs) {
   results.runs.clear();
   const std::vector<ClaimRow> rows = judgeClaims(results, shippedRules());
   const ClaimRow row = rowOf(rows, GetParam().id);
-  EXPECT_EQ(row.verdict, ClaimVerdict::undecided);
+  EXPECT_EQ(row.verdict, Verdict::undecided);
   EXPECT_TRUE(row.why.find("none of nu-0") != std::string::npos ||
               row.why.find("none of omega-0.01") != std::string::npos)
       << row.why;

@@ -42,14 +42,14 @@ ThesisResults wideZoneWhereCollisional() {
 
 TEST(ClaimReasons, OnlyRefutedClaimsHaveThem) {
   for (const ClaimRow& row : reasoned(world(2)))
-    if (row.verdict != ClaimVerdict::refuted) {
+    if (row.verdict != Verdict::fail) {
       EXPECT_TRUE(row.reasons.empty()) << row.id;
     }
 }
 
 TEST(ClaimReasons, TellTheStateOfTheRuns) {
   const ClaimRow row = rowOf(reasoned(wideZoneWhereCollisional()), "C5");
-  ASSERT_EQ(row.verdict, ClaimVerdict::refuted) << row.why;
+  ASSERT_EQ(row.verdict, Verdict::fail) << row.why;
   EXPECT_TRUE(says(row,
                    "Of its 27 runs 21 were collisional, 6 flowing while averaged, "
                    "most in the regime in which stress comes from impacts and goes with Ω²."))

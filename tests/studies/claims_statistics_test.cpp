@@ -92,25 +92,25 @@ Estimate over10(double value, double error) {
 const ClaimBand band{"width", "C⁻¹", "d", 4.0, 7.0, "w"};
 
 TEST(ClaimVerdicts, ABandHoldsTheIntervalLeavesItOutOrNeither) {
-  using enum ClaimVerdict;
+  using enum Verdict;
   // t of 9 degrees of freedom is 2.262 at 95 %, 2.685 at 97.5 %.
-  EXPECT_EQ(placeIn(band, over10(5.0, 0.44), 0.95, 1), reproduced);
+  EXPECT_EQ(placeIn(band, over10(5.0, 0.44), 0.95, 1), pass);
   EXPECT_EQ(placeIn(band, over10(5.0, 0.45), 0.95, 1), undecided);
-  EXPECT_EQ(placeIn(band, over10(3.0, 0.44), 0.95, 1), refuted);
+  EXPECT_EQ(placeIn(band, over10(3.0, 0.44), 0.95, 1), fail);
   EXPECT_EQ(placeIn(band, over10(3.0, 0.45), 0.95, 1), undecided);
-  EXPECT_EQ(placeIn(band, over10(8.0, 0.44), 0.95, 1), refuted);
+  EXPECT_EQ(placeIn(band, over10(8.0, 0.44), 0.95, 1), fail);
   // Of two figures each has half of the risk.
   EXPECT_EQ(placeIn(band, over10(3.0, 0.44), 0.95, 2), undecided);
-  EXPECT_EQ(placeIn(band, over10(3.0, 0.37), 0.95, 2), refuted);
-  EXPECT_EQ(placeIn(band, exactly(5.0), 0.95, 7), reproduced);
-  EXPECT_EQ(placeIn(band, exactly(7.1), 0.95, 7), refuted);
+  EXPECT_EQ(placeIn(band, over10(3.0, 0.37), 0.95, 2), fail);
+  EXPECT_EQ(placeIn(band, exactly(5.0), 0.95, 7), pass);
+  EXPECT_EQ(placeIn(band, exactly(7.1), 0.95, 7), fail);
   EXPECT_EQ(placeIn(band, Estimate{5.0, {}, 1.0, 1, Estimate::Basis::within}, 0.95, 1), undecided);
 }
 
 TEST(ClaimVerdicts, ABandOfOneEdgeIsOpenOnTheOtherSide) {
   const ClaimBand above{"slip", "A", "", 0.0, {}, "w"};
-  EXPECT_EQ(placeIn(above, over10(1e9, 1.0), 0.95, 1), ClaimVerdict::reproduced);
-  EXPECT_EQ(placeIn(above, over10(-3.0, 1.0), 0.95, 1), ClaimVerdict::refuted);
+  EXPECT_EQ(placeIn(above, over10(1e9, 1.0), 0.95, 1), Verdict::pass);
+  EXPECT_EQ(placeIn(above, over10(-3.0, 1.0), 0.95, 1), Verdict::fail);
 }
 
 TEST(ClaimVerdicts, AsManyRunsAsBringTheIntervalWithinTheEdge) {

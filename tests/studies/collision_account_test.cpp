@@ -54,7 +54,6 @@ TEST(ContactAccounts, ChangeNoBitOfTheOutcome) {
     EXPECT_FALSE(blind.points.columns[QuantityId::maxOverlap]);
     EXPECT_EQ(watched.points.psi, blind.points.psi);
     EXPECT_EQ(watched.points.vn, blind.points.vn);
-    EXPECT_EQ(watched.points.status, blind.points.status);
     EXPECT_EQ(watched.points.reason, blind.points.reason);
     for (const CollisionQuantity& quantity : collisionQuantities())
       if (const auto& values = blind.points.columns[quantity.id]) {

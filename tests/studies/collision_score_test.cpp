@@ -44,8 +44,8 @@ TEST(Score, LargestAndRmsErrorInUnitsOfTheRange) {
   const QuantityScore overlap = score.of[QuantityId::maxOverlap].value();
   EXPECT_NEAR(overlap.max, 1.0, 1e-12);  // twice as large
   EXPECT_EQ(overlap.unitIs, ErrorUnitKind::magnitude);
-  EXPECT_EQ(score.verdict, CurveVerdict::notJudged);  // the case has no margins
-  EXPECT_FALSE(score.of[QuantityId::duration]);       // neither has one
+  EXPECT_EQ(score.verdict, Verdict::notMeasured);  // the case has no margins
+  EXPECT_FALSE(score.of[QuantityId::duration]);    // neither has one
 }
 
 TEST(Score, HoldsWhereEveryQuantityWithAMarginDoes) {
@@ -56,16 +56,16 @@ TEST(Score, HoldsWhereEveryQuantityWithAMarginDoes) {
     return scoreSweep(setup, starts, outcomes, oracle).verdict;
   };
   setup.collision.margins["psi_f"] = {0.11, false, "in its own unit", ""};
-  EXPECT_EQ(verdict(found), CurveVerdict::held);
+  EXPECT_EQ(verdict(found), Verdict::pass);
   setup.collision.margins["max_overlap"] = {0.1, true, "a tenth of the largest", ""};
-  EXPECT_EQ(verdict(found), CurveVerdict::beyondLimits);
+  EXPECT_EQ(verdict(found), Verdict::fail);
   setup.collision.margins["max_overlap"].value = 0.3;
-  EXPECT_EQ(verdict(found), CurveVerdict::held);
+  EXPECT_EQ(verdict(found), Verdict::pass);
   setup.collision.margins["duration"] = {0.1, true, "nobody knows it", ""};
-  EXPECT_EQ(verdict(found), CurveVerdict::held);
+  EXPECT_EQ(verdict(found), Verdict::pass);
   Outcomes one = found;
   one[1].reset();
-  EXPECT_EQ(verdict(one), CurveVerdict::beyondLimits);  // a pair that did not part
+  EXPECT_EQ(verdict(one), Verdict::fail);  // a pair that did not part
 }
 
 TEST(Score, MostReferencesMissing_NothingIsJudged) {
@@ -75,12 +75,12 @@ TEST(Score, MostReferencesMissing_NothingIsJudged) {
   const Outcomes found = outcomes({0.0, 2.1, 3.0, 9.0}, 1e-6);
   Outcomes oracle = outcomes({0.0, 2.0, 2.0, 2.0}, 1e-6);
   oracle[2].reset();
-  EXPECT_EQ(scoreSweep(setup, starts, found, oracle).verdict, CurveVerdict::beyondLimits);
+  EXPECT_EQ(scoreSweep(setup, starts, found, oracle).verdict, Verdict::fail);
   oracle[3].reset();
-  EXPECT_EQ(scoreSweep(setup, starts, found, oracle).verdict, CurveVerdict::held);
+  EXPECT_EQ(scoreSweep(setup, starts, found, oracle).verdict, Verdict::pass);
   oracle[0].reset();  // the one that is left is off by 0.1 of nothing
   const CurveScore score = scoreSweep(setup, starts, found, oracle);
-  EXPECT_EQ(score.verdict, CurveVerdict::notJudged);
+  EXPECT_EQ(score.verdict, Verdict::notMeasured);
   EXPECT_FALSE(score.of[QuantityId::psiF].value().held);
 }
 

@@ -36,7 +36,7 @@ CostPoint average(CostPoint point, double error, std::optional<double> statistic
   return point;
 }
 
-CostPoint without(CostPoint point, CostStatus status, const std::string& reason) {
+CostPoint without(CostPoint point, Status status, const std::string& reason) {
   point.status = status;
   point.reason = reason;
   point.error.reset();
@@ -83,7 +83,7 @@ TEST(CostPoint, AverageOfOnePacking_HasNoStatisticalError_CountsNowhere) {
   EXPECT_EQ(one.low(), 0.0);
   EXPECT_TRUE(std::isinf(one.high()));
   const CostCell cell = costCells({one}, {}, {0.01}).front();
-  EXPECT_EQ(cell.verdict, CostVerdict::undecided);
+  EXPECT_EQ(cell.verdict, Verdict::undecided);
   EXPECT_EQ(cell.decides, "more packings: one shows no statistical error");
   EXPECT_EQ(average(at(0.0, 1.0), 0.001, 1e-4).counted(), 0.001);
 }
@@ -91,7 +91,7 @@ TEST(CostPoint, AverageOfOnePacking_HasNoStatisticalError_CountsNowhere) {
 TEST(CostFront, Points_NoneOtherBeatsInBoth_AreOnIt) {
   const Points points = {
       at(0.1, 1.0),  at(0.2, 2.0), at(0.05, 2.0), at(0.05, 3.0),
-      at(0.01, 4.0), at(0.5, 0.5), at(1e-6, {}),  without(at(0.0, 0.1), CostStatus::failed, "NaN")};
+      at(0.01, 4.0), at(0.5, 0.5), at(1e-6, {}),  without(at(0.0, 0.1), Status::failed, "NaN")};
   EXPECT_EQ(paretoFront(points), (Places{5, 0, 2, 4}));
   EXPECT_EQ(paretoFront({at(0.1, 1.0), at(0.1, 1.0)}), (Places{0, 1}));  // equal in both
   EXPECT_EQ(paretoFront({at(0.3, 1.0), at(0.1, 1.0), at(0.2, 1.0)}), (Places{1}));
@@ -131,7 +131,7 @@ Points collisions() {
 
 TEST(CostCells, SeveralSettingsMeetTheTarget_CheapestIsNamed) {
   const CostCell cell = cellOf(collisions(), 0.02);  // 4⁻³ = 0.0156
-  EXPECT_EQ(cell.verdict, CostVerdict::reached);
+  EXPECT_EQ(cell.verdict, Verdict::pass);
   EXPECT_EQ(cell.setting, "t_c/8");
   EXPECT_EQ(cell.wallSeconds, 8.0);
   EXPECT_EQ(cell.point, 2u);
@@ -140,7 +140,7 @@ TEST(CostCells, SeveralSettingsMeetTheTarget_CheapestIsNamed) {
 
 TEST(CostCells, LowerEndsAboveTheTarget_OfAllSettings_NotReached) {
   const CostCell cell = cellOf(collisions(), 0.001);
-  EXPECT_EQ(cell.verdict, CostVerdict::notReached);
+  EXPECT_EQ(cell.verdict, Verdict::fail);
   EXPECT_EQ(cell.setting, "t_c/16");
   EXPECT_EQ(cell.decides, "");
   EXPECT_EQ(cellOf({at(0.01, {}), at(0.01, 5.0)}, 0.1).wallSeconds, 5.0);  // a time that is known
@@ -149,7 +149,7 @@ TEST(CostCells, LowerEndsAboveTheTarget_OfAllSettings_NotReached) {
 TEST(CostCells, IntervalHoldsTheTarget_UndecidedAndSaysWhatWouldDecide) {
   CostPoint point = at(0.008, 1.0);
   point.statistical = 0.004;
-  EXPECT_EQ(cellOf({point}, 0.01).verdict, CostVerdict::undecided);
+  EXPECT_EQ(cellOf({point}, 0.01).verdict, Verdict::undecided);
   // Its statistical part must fall from 0.004 to 0.002: 4 times as long.
   EXPECT_EQ(cellOf({point}, 0.01).decides, "4.0 times as much simulated time");
   point.statistical.reset();
@@ -165,31 +165,30 @@ TEST(CostCells, IntervalHoldsTheTarget_UndecidedAndSaysWhatWouldDecide) {
 
 TEST(CostCells, SettingNotRunThatMayDoBetter_NotMeasured) {
   Points points = collisions();
-  points[3] = without(points[3], CostStatus::notMeasured, "would take about 90 s");
+  points[3] = without(points[3], Status::notRun, "would take about 90 s");
   CostCell cell = cellOf(points, 0.005);
-  EXPECT_EQ(cell.verdict, CostVerdict::notMeasured);
+  EXPECT_EQ(cell.verdict, Verdict::notMeasured);
   EXPECT_EQ(cell.decides, "t_c/16, which was not run: would take about 90 s");
   points[3].dt = 10.0;  // a larger step would not help
-  EXPECT_EQ(cellOf(points, 0.005).verdict, CostVerdict::notReached);
+  EXPECT_EQ(cellOf(points, 0.005).verdict, Verdict::fail);
   points[3].knob = "precision";  // another setting may
-  EXPECT_EQ(cellOf(points, 0.005).verdict, CostVerdict::notMeasured);
-  for (CostPoint& point : points)
-    point = without(point, CostStatus::notMeasured, "would take about 90 s");
+  EXPECT_EQ(cellOf(points, 0.005).verdict, Verdict::notMeasured);
+  for (CostPoint& point : points) point = without(point, Status::notRun, "would take about 90 s");
   EXPECT_EQ(cellOf(points, 0.5).decides,
             "t_c/2 and 3 more, which were not run: would take about 90 s");
-  EXPECT_EQ(cellOf({without(at(0.0, 1.0), CostStatus::failed, "NaN")}, 0.1).verdict,
-            CostVerdict::notMeasured);
-  EXPECT_EQ(cellOf({without(at(0.0, 1.0), CostStatus::refused, "it has no limit")}, 0.1).decides,
+  EXPECT_EQ(cellOf({without(at(0.0, 1.0), Status::failed, "NaN")}, 0.1).verdict,
+            Verdict::notMeasured);
+  EXPECT_EQ(cellOf({without(at(0.0, 1.0), Status::refused, "it has no limit")}, 0.1).decides,
             "it has no limit");
 }
 
 TEST(CostCells, SettingWithoutAMeasure_IsNotRecommended) {
   Points points = {at(0.005, 1.0, "t_c/10"), at(0.05, 1.0, "t_c/10", "e_n"),
                    at(0.001, 4.0, "t_c/40")};
-  EXPECT_EQ(cellOf(points, 0.01).verdict, CostVerdict::notMeasured);
+  EXPECT_EQ(cellOf(points, 0.01).verdict, Verdict::notMeasured);
   EXPECT_EQ(cellOf(points, 0.01).decides, "a setting that was measured in every measure");
   points.push_back(at(0.02, 4.0, "t_c/40", "e_n"));
-  EXPECT_EQ(cellOf(points, 0.01).verdict, CostVerdict::notReached);
+  EXPECT_EQ(cellOf(points, 0.01).verdict, Verdict::fail);
   EXPECT_EQ(cellOf(points, 0.01).point, 3u);  // the best setting's largest error
   EXPECT_EQ(cellOf(points, 0.03).setting, "t_c/40");
 }
@@ -204,17 +203,17 @@ TEST(CostCells, ModelErrorAboveTheTarget_NotReachedButOwnLimitIs) {
   CostModel model{"a", CostKind::collision, "psi_f", 0.25, 0.249, 0.251};
   Points points = ofAnotherLaw();
   const CostCell own = cellOf(points, 0.01, {model}, CostBasis::own);
-  EXPECT_EQ(own.verdict, CostVerdict::reached);
+  EXPECT_EQ(own.verdict, Verdict::pass);
   EXPECT_EQ(own.setting, "t_c/40");
   EXPECT_FALSE(own.model);
-  EXPECT_EQ(cellOf(points, 0.1, {model}).verdict, CostVerdict::notReached);
+  EXPECT_EQ(cellOf(points, 0.1, {model}).verdict, Verdict::fail);
   EXPECT_EQ(cellOf(points, 0.1, {model}).model, 0u);
-  EXPECT_EQ(cellOf(points, 0.3, {model}).verdict, CostVerdict::reached);
+  EXPECT_EQ(cellOf(points, 0.3, {model}).verdict, Verdict::pass);
   for (CostPoint& point : points) point.referenceError = 0.3;  // nothing is decided by settings
-  EXPECT_EQ(cellOf(points, 0.1).verdict, CostVerdict::undecided);
-  EXPECT_EQ(cellOf(points, 0.1, {model}).verdict, CostVerdict::notReached);
+  EXPECT_EQ(cellOf(points, 0.1).verdict, Verdict::undecided);
+  EXPECT_EQ(cellOf(points, 0.1, {model}).verdict, Verdict::fail);
   model.low = 0.1;  // it may be below
-  EXPECT_EQ(cellOf(points, 0.1, {model}).verdict, CostVerdict::undecided);
+  EXPECT_EQ(cellOf(points, 0.1, {model}).verdict, Verdict::undecided);
 }
 
 /// A limit that is 25 % off, a coarse step that is 12 to 18 % off, and one not run.
@@ -222,15 +221,15 @@ TEST(CostCells, CoarseStepMakesUpForTheModel_ModelDecidesNothing) {
   const CostModel model{"a", CostKind::collision, "psi_f", 0.25, 0.249, 0.251};
   CostPoint coarse = at(0.15, 1.0, "t_c/10");
   coarse.referenceError = 0.03;
-  CostPoint left = without(at(0.0, 2.0, "t_c/5"), CostStatus::notMeasured, "too slow");
-  EXPECT_EQ(cellOf({coarse, left}, 0.1, {model}).verdict, CostVerdict::notMeasured);
+  CostPoint left = without(at(0.0, 2.0, "t_c/5"), Status::notRun, "too slow");
+  EXPECT_EQ(cellOf({coarse, left}, 0.1, {model}).verdict, Verdict::notMeasured);
   coarse.error = 0.26;
-  EXPECT_EQ(cellOf({coarse, left}, 0.1, {model}).verdict, CostVerdict::notReached);
+  EXPECT_EQ(cellOf({coarse, left}, 0.1, {model}).verdict, Verdict::fail);
 }
 
 TEST(CostAdvice, CollisionsAndAveragesMeetTheTarget_CheapestIsNamedWithTimeOfAverages) {
   const Advice one = advice(ladder(0.05, 0.002), {0.1}).front();
-  EXPECT_EQ(one.verdict, CostVerdict::reached);
+  EXPECT_EQ(one.verdict, Verdict::pass);
   EXPECT_EQ(one.setting, "t_c/8");  // 1/64 + 0.052; 1/16 + 0.052 is above 0.1
   EXPECT_EQ(one.fragment, "[run]\n# t_c/8\n");
   EXPECT_EQ(one.kinds, (std::vector{CostKind::collision, CostKind::averages}));
@@ -245,7 +244,7 @@ TEST(CostAdvice, CollisionsAndAveragesMeetTheTarget_CheapestIsNamedWithTimeOfAve
 TEST(CostAdvice, AveragesContradict_NotReached) {
   const Points points = ladder(0.05, 0.002);
   const Advice one = advice(points, {0.01}).front();
-  EXPECT_EQ(one.verdict, CostVerdict::notReached);
+  EXPECT_EQ(one.verdict, Verdict::fail);
   EXPECT_EQ(one.setting, "t_c/16");
   EXPECT_EQ(one.obstacle, 7u);  // averages at that step: 0.052 to 0.056
   EXPECT_FALSE(one.cheapest);
@@ -256,13 +255,13 @@ TEST(CostAdvice, SettingThatOneKindDoesNotMeasure_DoesNotKeepItOpen) {
   CostPoint integrator = at(1e-4, 1.0, "velocity_verlet, t_c/8");
   integrator.knob = "integrator";
   points.push_back(integrator);
-  EXPECT_EQ(advice(points, {0.01}).front().verdict, CostVerdict::notReached);
+  EXPECT_EQ(advice(points, {0.01}).front().verdict, Verdict::fail);
 }
 
 TEST(CostAdvice, AveragesCannotDecide_CollisionsDoAndTheOpenAverageIsNamed) {
   const Points points = ladder(0.0, 0.02);
   const Advice one = advice(points, {0.01}).front();
-  EXPECT_EQ(one.verdict, CostVerdict::reached);
+  EXPECT_EQ(one.verdict, Verdict::pass);
   EXPECT_EQ(one.setting, "t_c/16");
   EXPECT_EQ(one.obstacle, 7u);
   // 4⁻⁴ = 0.0039 ± 0.02: the scatter must fall to 0.0061, (0.02/0.0061)² = 10.8
@@ -272,8 +271,8 @@ TEST(CostAdvice, AveragesCannotDecide_CollisionsDoAndTheOpenAverageIsNamed) {
 TEST(CostAdvice, OnlyAveragesMeasured_TheyHaveToShowIt) {
   Points points = ladder(0.0, 0.02);
   points.erase(points.begin(), points.begin() + 4);
-  EXPECT_EQ(advice(points, {0.01}).front().verdict, CostVerdict::undecided);
-  EXPECT_EQ(advice(points, {0.1}).front().verdict, CostVerdict::reached);
+  EXPECT_EQ(advice(points, {0.01}).front().verdict, Verdict::undecided);
+  EXPECT_EQ(advice(points, {0.1}).front().verdict, Verdict::pass);
 }
 
 TEST(CostAdvice, SmallerStepNotRun_NotMeasured) {
@@ -281,11 +280,11 @@ TEST(CostAdvice, SmallerStepNotRun_NotMeasured) {
   CostPoint left = points.back();
   *left.dt *= 0.5;
   left.setting = "half of it";
-  points.push_back(without(left, CostStatus::notMeasured, "would take about 90 s"));
+  points.push_back(without(left, Status::notRun, "would take about 90 s"));
   const Advice one = advice(points, {0.01}).front();
-  EXPECT_EQ(one.verdict, CostVerdict::notMeasured);
+  EXPECT_EQ(one.verdict, Verdict::notMeasured);
   EXPECT_EQ(one.decides, "half of it, which was not run: would take about 90 s");
-  EXPECT_EQ(advice(points, {0.1}).front().verdict, CostVerdict::reached);
+  EXPECT_EQ(advice(points, {0.1}).front().verdict, Verdict::pass);
 }
 
 TEST(CostAdvice, SettingMeasuredInOneKindOnly_IsNotRecommended) {
@@ -293,7 +292,7 @@ TEST(CostAdvice, SettingMeasuredInOneKindOnly_IsNotRecommended) {
   points.erase(points.begin() + 4, points.end() - 1);  // averages at the smallest step only
   EXPECT_EQ(advice(points, {0.5}).front().setting, "t_c/16");
   points.back().setting = "another";
-  EXPECT_EQ(advice(points, {0.5}).front().verdict, CostVerdict::notMeasured);
+  EXPECT_EQ(advice(points, {0.5}).front().verdict, Verdict::notMeasured);
 }
 
 TEST(CostAdvice, SeveralEngines_CheapestIsOfThoseMeasuredInMostKinds) {

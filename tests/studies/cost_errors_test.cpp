@@ -47,7 +47,7 @@ TEST(CostCollision, Point_HasErrorTimeAndWork) {
   EXPECT_EQ(points[2].measure, "e_n");
   EXPECT_EQ(points[3].measure, "e_n_own");
   for (const CostPoint& point : points) {
-    EXPECT_EQ(point.status, CostStatus::ran);
+    EXPECT_EQ(point.status, Status::finished);
     EXPECT_NEAR(*point.stepsPerContact, 50.0, 1e-9);
     EXPECT_GT(*point.error, 0.0);
     EXPECT_LT(*point.error, 0.05);
@@ -71,7 +71,7 @@ TEST(CostCollision, ThesisScheme_ConvergesAtFirstOrder) {
 TEST(CostCollision, StepBeyondTheStabilityLimit_FailsAndSaysSo) {
   // dt = t_c/1.2, where 2/ω is about t_c/1.6
   for (const CostPoint& point : pointsOf("time_step", "t_c/1.2")) {
-    EXPECT_EQ(point.status, CostStatus::failed);
+    EXPECT_EQ(point.status, Status::failed);
     EXPECT_TRUE(point.reason.starts_with(beyondLimit)) << point.reason;
     EXPECT_FALSE(point.error);
   }

@@ -11,7 +11,6 @@
 #include "cases/effect_switch.hpp"
 #include "cases/time_step.hpp"
 #include "oracle/impact.hpp"
-#include "studies/cost/plan.hpp"
 #include "support/bad_input.hpp"
 #include "tests/studies/cost_cases.hpp"
 
@@ -160,58 +159,6 @@ TEST(CostSettings, RemovedKey_IsRefusedAsSuch) {
       EXPECT_NE(std::string(error.what()).find("no more"), std::string::npos) << error.what();
     }
   }
-}
-
-TEST(CostPlan, Budget_IsSharedFairly) {
-  // 10 of 100 wanted by the first; the others share the 90 left in equal parts.
-  EXPECT_EQ(fairShares({10.0, 200.0, 60.0}, 100.0), (std::vector<double>{10.0, 45.0, 45.0}));
-  EXPECT_EQ(fairShares({10.0, 20.0}, 100.0), (std::vector<double>{10.0, 20.0}));
-  EXPECT_EQ(fairShares({10.0, 20.0}, -5.0), (std::vector<double>{0.0, 0.0}));
-}
-
-/// 30 and 5 s of averages, 10 s of collisions.
-CostPlan planned(double ofCollisions, double ofAverages, double budget) {
-  CostPlan plan{
-      .points = {{0, CostKind::averages, 0, 30.0},
-                 {0, CostKind::averages, 1, 5.0},
-                 {0, CostKind::collision, 0, 10.0}},
-      .references = {{{CostKind::collision, ofCollisions}, {CostKind::averages, ofAverages}}}};
-  fitIntoBudget(plan, budget);
-  return plan;
-}
-
-TEST(CostPlan, Order_IsCollisionsThenTheCaseAsItIsThenTheCheapest) {
-  const CostPlan plan = planned(0.0, 0.0, 1000.0);
-  EXPECT_EQ(plan.points[0].kind, CostKind::collision);
-  EXPECT_EQ(plan.points[1].setting, 0u);
-  for (const PlannedPoint& point : plan.points) EXPECT_EQ(point.notMeasured, "");
-  EXPECT_EQ(plan.budgetForTheRest, 0.0);
-}
-
-TEST(CostPlan, PointThatDoesNotFit_IsNotMeasuredAndSaysItsTime) {
-  const CostPlan plan = planned(2.0, 0.0, 20.0);
-  EXPECT_EQ(plan.shares, (std::vector<double>{20.0}));
-  EXPECT_EQ(plan.points[0].notMeasured, "");  // 2 + 10 of 20
-  EXPECT_EQ(plan.points[1].notMeasured,
-            "would take about 30 s, 8 s are left of the engine's share of 20 s");
-  EXPECT_EQ(plan.points[2].notMeasured, "");  // 5 of the 8 left
-  EXPECT_EQ(plan.budgetForTheRest, 30.0);
-}
-
-TEST(CostPlan, ReferencesThatDoNotFit_TakeTheirKindsPointsOnly) {
-  const CostPlan plan = planned(2.0, 8.0, 20.0);
-  EXPECT_EQ(plan.points[0].notMeasured, "");
-  EXPECT_EQ(plan.points[1].notMeasured,
-            "would take about 38 s, 8 s are left of the engine's share of 20 s");
-  EXPECT_EQ(plan.points[2].notMeasured,
-            "would take about 13 s, 8 s are left of the engine's share of 20 s");
-  EXPECT_EQ(plan.budgetForTheRest, 43.0);  // 30 + 5 of averages and their references
-}
-
-TEST(CostPlan, FinishedPoints_CostNothing) {
-  CostPlan plan{.points = {{0, CostKind::collision, 0, 0.0}}, .references = {{}}};
-  fitIntoBudget(plan, 0.0);
-  EXPECT_EQ(plan.points[0].notMeasured, "");
 }
 
 }  // namespace

@@ -50,20 +50,20 @@ TEST(DeclaredScore, AConventionThatTheCaseAllowsIsAModelDifference) {
   const Case setup = variantOf("figure-4-3.toml", "coulomb-tension");
   Declares engine(cutsTension, [](Scene&) {});
   const CollisionCurve curve = firstSweep(engine, setup);
-  EXPECT_EQ(curve.score.verdict, CurveVerdict::beyondLimits);
+  EXPECT_EQ(curve.score.verdict, Verdict::fail);
   ASSERT_TRUE(curve.declared);
   EXPECT_EQ(curve.declared->law, (LawDescription{{"tension", "cut"}}));
   EXPECT_EQ(curve.declared->reference, DeclaredReference::oracle);
-  EXPECT_EQ(curve.declared->score.verdict, CurveVerdict::held);
-  EXPECT_EQ(outcomeOf(curve), SweepOutcome::modelDifference);
+  EXPECT_EQ(curve.declared->score.verdict, Verdict::pass);
+  EXPECT_EQ(verdictOf(curve), Verdict::modelDifference);
 }
 
 TEST(DeclaredScore, AFaultBehindAConventionIsNoModelDifference) {
   const Case setup = variantOf("figure-4-3.toml", "coulomb-tension");
   Declares engine(cutsTension, [](Scene& scene) { scene.law.mu *= 1.2; });
   const CollisionCurve curve = firstSweep(engine, setup);
-  EXPECT_EQ(curve.declared->score.verdict, CurveVerdict::beyondLimits);
-  EXPECT_EQ(outcomeOf(curve), SweepOutcome::beyondLimits);
+  EXPECT_EQ(curve.declared->score.verdict, Verdict::fail);
+  EXPECT_EQ(verdictOf(curve), Verdict::fail);
 }
 
 /// Declared and not done is a fault as well.
@@ -72,8 +72,8 @@ TEST(DeclaredScore, AConventionThatIsOnlyDeclaredFallsShort) {
   Declares engine(cutsTension,
                   [](Scene& scene) { scene.law.conventions.tension = Tension::allow; });
   const CollisionCurve curve = firstSweep(engine, setup);
-  EXPECT_EQ(curve.score.verdict, CurveVerdict::held);
-  EXPECT_EQ(outcomeOf(curve), SweepOutcome::beyondLimits);
+  EXPECT_EQ(curve.score.verdict, Verdict::pass);
+  EXPECT_EQ(verdictOf(curve), Verdict::fail);
 }
 
 TEST(DeclaredScore, IsAbsentWhereTheLawIsTheScenes) {
@@ -81,7 +81,7 @@ TEST(DeclaredScore, IsAbsentWhereTheLawIsTheScenes) {
   Declares engine({}, [](Scene& scene) { scene.law.mu *= 1.2; });
   const CollisionCurve curve = firstSweep(engine, setup);
   EXPECT_FALSE(curve.declared);
-  EXPECT_EQ(outcomeOf(curve), SweepOutcome::beyondLimits);
+  EXPECT_EQ(verdictOf(curve), Verdict::fail);
 }
 
 /// A dashpot outside the bound has no limit of small steps: the in-house engine decides.
@@ -92,25 +92,25 @@ TEST(DeclaredScore, WithoutALimitOfSmallStepsTheMirrorDecides) {
   const CollisionCurve curve = firstSweep(right, setup);
   EXPECT_EQ(curve.declared->reference, DeclaredReference::mirror);
   EXPECT_NE(curve.declared->oracleReason.find("dashpot"), std::string::npos);
-  EXPECT_EQ(curve.declared->score.verdict, CurveVerdict::held);
+  EXPECT_EQ(curve.declared->score.verdict, Verdict::pass);
   EXPECT_EQ(curve.declared->score.of[QuantityId::psiF]->max, 0.0);
   Declares wrong(outside, [](Scene& scene) { scene.law.gt *= 1.5; });
-  EXPECT_EQ(outcomeOf(firstSweep(wrong, setup)), SweepOutcome::beyondLimits);
+  EXPECT_EQ(verdictOf(firstSweep(wrong, setup)), Verdict::fail);
   // A mirror is the in-house engine: it would be held against itself.
   const CollisionCurve itself = firstSweep(right, setup, "somebody");
   EXPECT_EQ(itself.declared->reference, DeclaredReference::itself);
-  EXPECT_EQ(itself.declared->score.verdict, CurveVerdict::notJudged);
-  EXPECT_NE(outcomeOf(itself), SweepOutcome::beyondLimits);
+  EXPECT_EQ(itself.declared->score.verdict, Verdict::notMeasured);
+  EXPECT_NE(verdictOf(itself), Verdict::fail);
 }
 
 /// Nothing known of the declared law is no excuse.
 TEST(DeclaredScore, OfAnUnknownLawTheScenesDecides) {
   CollisionCurve curve;
-  curve.score.verdict = CurveVerdict::beyondLimits;
+  curve.score.verdict = Verdict::fail;
   curve.declared.emplace();
-  EXPECT_EQ(outcomeOf(curve), SweepOutcome::beyondLimits);
-  curve.score.verdict = CurveVerdict::held;
-  EXPECT_EQ(outcomeOf(curve), SweepOutcome::held);
+  EXPECT_EQ(verdictOf(curve), Verdict::fail);
+  curve.score.verdict = Verdict::pass;
+  EXPECT_EQ(verdictOf(curve), Verdict::pass);
 }
 
 /// Contacts that are stiffer by as much as the engine says, at the same restitution.
@@ -121,8 +121,8 @@ TEST(DeclaredScore, AStiffnessThatIsDeclaredIsAModelDifference) {
   EXPECT_EQ(curve.score.of[QuantityId::duration]->held, false);
   ASSERT_TRUE(curve.declared);
   EXPECT_EQ(curve.declared->law.at("kn"), LawValue(25.0 * setup.law.kn));
-  EXPECT_EQ(curve.declared->score.verdict, CurveVerdict::held);
-  EXPECT_EQ(outcomeOf(curve), SweepOutcome::modelDifference);
+  EXPECT_EQ(curve.declared->score.verdict, Verdict::pass);
+  EXPECT_EQ(verdictOf(curve), Verdict::modelDifference);
 }
 
 /// Of another normal law the restitutions are those that the engine tells.
@@ -133,7 +133,7 @@ TEST(DeclaredScore, RigidContactsInPlaceOfSoftOnesAreJudgedByTheirOwnLaw) {
   ASSERT_TRUE(curve.declared);
   EXPECT_EQ(curve.declared->law.at("normal"), LawValue("rigid"));
   EXPECT_EQ(curve.declared->law.at("e_n"), LawValue(curve.effective->pairs.front().en));
-  EXPECT_EQ(curve.declared->score.verdict, CurveVerdict::held);
+  EXPECT_EQ(curve.declared->score.verdict, Verdict::pass);
 }
 
 /// Too stiff by a twentieth: contacts are 2.4 % shorter (1.9 % of Hertz' law), in every case, and

@@ -98,7 +98,7 @@ TEST(EndpointTable, ComparesPressuresByTheirRatio) {
   const Case setup = judging("pressure", {0.25, true, "because", ""});
   const auto rows = endpointRows(setup, runs, {plain}, interimPlanOf(setup), 4, {});
   ASSERT_EQ(rows.size(), 1u);
-  EXPECT_EQ(rows[0].answer, Answer::smallDifference);
+  EXPECT_EQ(rows[0].verdict, Verdict::pass);
   EXPECT_NEAR(*rows[0].distance, std::log(1.1) / std::log(1.25), 1e-9);
   EXPECT_NEAR(*rows[0].reference, 375.0, 1e-9);
   EXPECT_NEAR(*rows[0].difference, 37.5, 1e-9);
@@ -131,7 +131,7 @@ TEST(EndpointTable, TakesTheBoundOfAMirrorOffTheMargin) {
   EXPECT_EQ(rows[0].surrogateA, "");
   EXPECT_NEAR(*rows[0].reach, 0.008, 1e-12);
   EXPECT_NEAR(*rows[0].bound, 0.028, 1e-12);
-  EXPECT_EQ(rows[0].answer, Answer::smallDifference);
+  EXPECT_EQ(rows[0].verdict, Verdict::pass);
   EXPECT_NEAR(*rows[0].distance, -0.5, 1e-9);
   EXPECT_NEAR(*rows[0].distanceHigh, -0.5 + 0.028, 1e-9);
   // Nobody knows how averages respond: no row stands on the mirror's runs.
@@ -142,8 +142,8 @@ TEST(EndpointTable, TakesTheBoundOfAMirrorOffTheMargin) {
   // A bound beyond the margin leaves nothing to agree within, whichever windows it is from.
   for (const EndpointPair& loose :
        {byMirror(0.05, {{"kn", 1e-4}}), byMirror(1e-12, {{"kn", 1e-4}, {"mu", 0.25}})})
-    EXPECT_EQ(endpointRows(setup, runs, {loose}, interimPlanOf(setup), 4, responses)[0].answer,
-              Answer::undecided);
+    EXPECT_EQ(endpointRows(setup, runs, {loose}, interimPlanOf(setup), 4, responses)[0].verdict,
+              Verdict::undecided);
 }
 
 TEST(EndpointTable, SpotCheck_ReachBeyondAMargin_RefusesTheMirror) {
@@ -171,7 +171,7 @@ TEST(EndpointTable, TellsHowManyPackingsDecideFromTheScatterOfAllPairs) {
   Case setup = judging("spin_at_wheel", {1.0, false, "because", ""});
   setup.preparation.packings = 8;
   const auto rows = endpointRows(setup, runs, {plain}, interimPlanOf(setup), 8, {});
-  EXPECT_EQ(rows[0].answer, Answer::undecided);
+  EXPECT_EQ(rows[0].verdict, Verdict::undecided);
   ASSERT_TRUE(rows[0].needs && rows[0].needsAtMost);
   const double sd = std::sqrt(32.0 / 7.0);
   const auto range = packingsFor(0.0, sd, 7, 1.0, 0.05);
@@ -211,22 +211,22 @@ TEST(EndpointTable, ANegativeRatioHidesNoDisagreement) {
                         {"a", "b"}, interimPlanOf(setup));
   };
   const auto rows = rowsWith({-2.0, -2.0, -2.0, -2.0});
-  EXPECT_EQ(rows[0].answer, Answer::noDifference);  // a margin of |−2|
+  EXPECT_EQ(rows[0].verdict, Verdict::pass);  // a margin of |−2|
   EXPECT_EQ(rows[0].reference, -2.0);
-  EXPECT_EQ(rows[1].answer, Answer::disagree);
+  EXPECT_EQ(rows[1].verdict, Verdict::fail);
   const auto some = rowsWith({2.0, 2.0, 4.0, 0.0});
   EXPECT_EQ(some[0].packings, 3);
   EXPECT_EQ(some[0].lost, 1);
   EXPECT_NEAR(*some[0].reference, 8.0 / 3.0, 1e-14);  // of those that are tested
   EXPECT_NE(some[0].reason.find("0 or of another sign"), std::string::npos);
-  EXPECT_EQ(some[1].answer, Answer::disagree);
+  EXPECT_EQ(some[1].verdict, Verdict::fail);
   for (const Numbers& none : {Numbers{2.0, -2.0, 4.0, 0.0}, Numbers{0.0, 0.0, 0.0, 0.0}}) {
     const auto lost = rowsWith(none);
-    EXPECT_EQ(lost[0].answer, Answer::undecided);
+    EXPECT_EQ(lost[0].verdict, Verdict::undecided);
     EXPECT_EQ(lost[0].packings, 0);
     EXPECT_EQ(lost[0].lost, 4);
     EXPECT_NE(lost[0].reason.find("relative margin"), std::string::npos) << lost[0].reason;
-    EXPECT_EQ(lost[1].answer, Answer::disagree);
+    EXPECT_EQ(lost[1].verdict, Verdict::fail);
   }
 }
 
@@ -240,13 +240,13 @@ TEST(EndpointTable, ARelativeMarginIsOfTheSizeOfAReferenceBelowZero) {
         .front();
   };
   const EndpointRow close = rowOf(1.05), far = rowOf(1.3), back = rowOf(0.7);
-  EXPECT_EQ(close.answer, Answer::smallDifference);
+  EXPECT_EQ(close.verdict, Verdict::pass);
   EXPECT_NEAR(*close.difference, 0.05 * -271.25, 1e-9);  // b − a, as of any other endpoint
   EXPECT_NEAR(*close.distance, -std::log(1.05) / std::log(1.1), 1e-12);
   EXPECT_LE(*close.low, *close.high);
-  EXPECT_EQ(far.answer, Answer::disagree);
+  EXPECT_EQ(far.verdict, Verdict::fail);
   EXPECT_LT(*far.distance, 0.0);
-  EXPECT_EQ(back.answer, Answer::disagree);
+  EXPECT_EQ(back.verdict, Verdict::fail);
   EXPECT_GT(*back.difference, 0.0);
   EXPECT_EQ(rowOf(-1.0).packings, 0);  // of another sign: nothing to divide
 }
@@ -284,19 +284,20 @@ TEST(EndpointTable, ClosedFormsJudgeEveryEngineOnOneStart) {
   const auto rows = closedFormRows(setup, runs, {"a", "b", "noisy"}, {pair});
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(rows[0].kind, PairKind::closedForm);
-  EXPECT_EQ(rows[0].answer, Answer::smallDifference);
+  EXPECT_EQ(rows[0].verdict, Verdict::pass);
   EXPECT_NEAR(*rows[0].distance, 0.5, 1e-12);
   EXPECT_EQ(rows[0].reference, 2.0);
-  EXPECT_EQ(rows[1].answer, Answer::disagree);
+  EXPECT_EQ(rows[1].verdict, Verdict::fail);
   EXPECT_NEAR(*rows[1].distance, 3.0, 1e-12);
-  EXPECT_EQ(rows[2].answer, Answer::undecided);  // never judged by a run that is another each time
+  EXPECT_EQ(rows[2].verdict,
+            Verdict::undecided);  // never judged by a run that is another each time
   EXPECT_NE(rows[2].reason.find("run twice"), std::string::npos);
   EXPECT_FALSE(rows[2].difference);
-  EXPECT_EQ(rows[3].answer, Answer::disagree);  // a and b, 2.5 margins apart
+  EXPECT_EQ(rows[3].verdict, Verdict::fail);  // a and b, 2.5 margins apart
   EXPECT_NEAR(*rows[3].difference, 0.25, 1e-12);
   // A run that failed is no second one.
-  runs[1].status = RunStatus::failed;
-  EXPECT_EQ(closedFormRows(setup, runs, {"a"}, {})[0].answer, Answer::undecided);
+  runs[1].status = Status::failed;
+  EXPECT_EQ(closedFormRows(setup, runs, {"a"}, {})[0].verdict, Verdict::undecided);
 }
 
 TEST(EndpointTable, SpotCheck_IsComparedWithChaos) {

@@ -77,17 +77,17 @@ LockstepRow judged(std::size_t read, std::size_t beyond, std::size_t unread = 0,
 }
 
 TEST(LockstepVerdict, RestsOnAShareThatIsShown) {
-  EXPECT_EQ(judged(4, 0).verdict, LockstepVerdict::sameLaw);
+  EXPECT_EQ(judged(4, 0).verdict, Equivalence::sameLaw);
   EXPECT_NEAR(*judged(16, 0).shareHigh, 1.0 - std::pow(0.05, 1.0 / 16.0), 1e-9);
-  EXPECT_EQ(judged(16, 2).verdict, LockstepVerdict::undecided);
-  EXPECT_EQ(judged(4, 1).verdict, LockstepVerdict::undecided);
-  EXPECT_EQ(judged(1, 1).verdict, LockstepVerdict::undecided);
-  EXPECT_EQ(judged(4, 2).verdict, LockstepVerdict::differs);
-  EXPECT_EQ(judged(16, 3).verdict, LockstepVerdict::differs);
-  EXPECT_EQ(judged(64, 6).verdict, LockstepVerdict::undecided);
-  EXPECT_EQ(judged(64, 7).verdict, LockstepVerdict::differs);
+  EXPECT_EQ(judged(16, 2).verdict, Equivalence::undecided);
+  EXPECT_EQ(judged(4, 1).verdict, Equivalence::undecided);
+  EXPECT_EQ(judged(1, 1).verdict, Equivalence::undecided);
+  EXPECT_EQ(judged(4, 2).verdict, Equivalence::differs);
+  EXPECT_EQ(judged(16, 3).verdict, Equivalence::differs);
+  EXPECT_EQ(judged(64, 6).verdict, Equivalence::undecided);
+  EXPECT_EQ(judged(64, 7).verdict, Equivalence::differs);
   // One start in two hundred is what chance may do, and that it is no more is shown.
-  EXPECT_EQ(judged(200, 1).verdict, LockstepVerdict::sameLaw);
+  EXPECT_EQ(judged(200, 1).verdict, Equivalence::sameLaw);
 }
 
 /// A right engine's stray start never outweighs the others, however many there are.
@@ -95,7 +95,7 @@ TEST(LockstepVerdict, AShareWithinChanceNeverBecomesADifference) {
   for (std::size_t read = 1; read <= 1024; read *= 2)
     EXPECT_NE(
         judged(read, static_cast<std::size_t>(strayShare * static_cast<double>(read))).verdict,
-        LockstepVerdict::differs)
+        Equivalence::differs)
         << read;
 }
 
@@ -112,10 +112,10 @@ TEST(LockstepVerdict, SeveralAtOnce_UnlessAShareOfStartsPartsAtTwoDisksAlone) {
 
 TEST(LockstepVerdict, IsUndecidedWhereTooFewStartsCanBeRead) {
   const LockstepRow row = judged(3, 0, 13);
-  EXPECT_EQ(row.verdict, LockstepVerdict::undecided);
+  EXPECT_EQ(row.verdict, Equivalence::undecided);
   EXPECT_NE(row.reason.find("3 of 16"), std::string::npos) << row.reason;
-  EXPECT_EQ(judged(4, 0, 12).verdict, LockstepVerdict::sameLaw);
-  EXPECT_EQ(judged(0, 0, 16).verdict, LockstepVerdict::undecided);
+  EXPECT_EQ(judged(4, 0, 12).verdict, Equivalence::sameLaw);
+  EXPECT_EQ(judged(0, 0, 16).verdict, Equivalence::undecided);
 }
 
 TEST(LockstepVerdict, IsNoneWhereNothingTouches) {
@@ -124,7 +124,7 @@ TEST(LockstepVerdict, IsNoneWhereNothingTouches) {
   row.track = {0.0};
   row.readings.resize(4);
   judge(row, false, 0);
-  EXPECT_EQ(row.verdict, LockstepVerdict::undecided);
+  EXPECT_EQ(row.verdict, Equivalence::undecided);
   EXPECT_NE(row.reason.find("nothing touches"), std::string::npos) << row.reason;
 }
 

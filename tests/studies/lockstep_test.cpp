@@ -111,7 +111,7 @@ TEST(LockstepStarts, OfWallsThatSwingAreAllDifferent) {
 
 TEST_F(Lockstep, WithoutAFaultNothingParts) {
   const LockstepRow row = rowOf([](Scene&) {});
-  EXPECT_EQ(row.verdict, LockstepVerdict::sameToRounding);
+  EXPECT_EQ(row.verdict, Equivalence::sameToRounding);
   EXPECT_EQ(row.starts, 4u);
   EXPECT_EQ(row.track.back(), 0.0);
   EXPECT_EQ(row.forces->normal, 0.0);
@@ -161,7 +161,7 @@ TEST_F(Lockstep, NamesWhatIsOff) {
     const LockstepRow row = rowOf(fault.plant);
     printLeg(fault.what, row);
     ASSERT_TRUE(row.first) << fault.what;
-    EXPECT_NE(row.verdict, LockstepVerdict::sameToRounding) << fault.what;
+    EXPECT_NE(row.verdict, Equivalence::sameToRounding) << fault.what;
     ASSERT_TRUE(row.term) << fault.what;
     EXPECT_EQ(row.term->name, fault.term) << fault.what << " leaves " << row.term->unexplained;
     if (fault.amount) {
@@ -174,8 +174,8 @@ TEST_F(Lockstep, NamesWhatIsOff) {
 TEST_F(Lockstep, TellsByHowMuch) {
   const auto kn = [](double by) { return [by](Scene& scene) { scene.law.kn *= 1.0 + by; }; };
   const LockstepRow little = rowOf(kn(3e-5)), more = rowOf(kn(0.03));
-  EXPECT_EQ(little.verdict, LockstepVerdict::sameLaw);
-  EXPECT_EQ(more.verdict, LockstepVerdict::differs);
+  EXPECT_EQ(little.verdict, Equivalence::sameLaw);
+  EXPECT_EQ(more.verdict, Equivalence::differs);
   // At the first time told no contact has been made or broken at another step yet.
   EXPECT_NEAR(*little.separations.front().equivalent / 3e-5, 1.0, 0.1);
   EXPECT_NEAR(*more.separations.front().equivalent / 0.03, 1.0, 0.1);
@@ -190,13 +190,13 @@ TEST_F(Lockstep, SinglePrecisionIsNoOtherLaw) {
     };
   };
   const LockstepRow right = rowOf(single(0.0));
-  EXPECT_EQ(right.verdict, LockstepVerdict::sameToPrecision);
+  EXPECT_EQ(right.verdict, Equivalence::sameToPrecision);
   EXPECT_GT(right.track.back(), lockstepRounding);
   EXPECT_FALSE(right.first);
   ASSERT_TRUE(right.resolution);
   EXPECT_LT(*right.resolution, 0.05);
   const LockstepRow wrong = rowOf(single(3.0 * *right.resolution));
-  EXPECT_EQ(wrong.verdict, LockstepVerdict::differs);
+  EXPECT_EQ(wrong.verdict, Equivalence::differs);
   ASSERT_TRUE(wrong.term);
   EXPECT_EQ(wrong.term->name, "kn");
 }
@@ -209,7 +209,7 @@ TEST_F(Lockstep, FindsAContactThatIsNotThere) {
     if (++loads == 1) scene.disks.radius[lonely] *= 0.99;
   });
   printLeg("one contact dropped", row);
-  EXPECT_NE(row.verdict, LockstepVerdict::sameToRounding);
+  EXPECT_NE(row.verdict, Equivalence::sameToRounding);
   ASSERT_TRUE(row.forces);
   EXPECT_EQ(row.forces->missing, 1u);
   EXPECT_EQ(row.forces->extra, 0u);
@@ -222,7 +222,7 @@ TEST_F(Lockstep, FindsAContactThatIsNotThere) {
 /// A dashpot of the wrong sign drives what it touches until it is stopped: that is a failure, told.
 TEST_F(Lockstep, AnEngineThatBlowsUpFails) {
   const LockstepRow row = rowOf([](Scene& scene) { scene.law.gt *= -1.0; });
-  EXPECT_EQ(row.verdict, LockstepVerdict::notMeasured);
+  EXPECT_EQ(row.verdict, Equivalence::notMeasured);
   EXPECT_NE(row.failure.find("overlap"), std::string::npos) << row.failure;
   EXPECT_EQ(row.reason, row.failure);
 }
@@ -231,7 +231,7 @@ TEST_F(Lockstep, AnEngineThatBlowsUpFails) {
 /// is.
 TEST_F(Lockstep, ATenthOfTheRuleIsTheSameLawFromAnyNumberOfStarts) {
   const auto row = rowOf([](Scene& scene) { scene.law.kn *= 1.0001; });
-  EXPECT_EQ(row.verdict, LockstepVerdict::sameLaw);
+  EXPECT_EQ(row.verdict, Equivalence::sameLaw);
   EXPECT_EQ(row.beyond, 0u);
   EXPECT_EQ(row.read, row.starts);
   EXPECT_NEAR(*row.equivalent / 1e-4, 1.0, 0.5);
@@ -244,7 +244,7 @@ TEST_F(Lockstep, NamesNothingThatOnlyResembles) {
   const LockstepRow hot = rowOf([](Scene& scene) {
     for (Vec2& velocity : scene.disks.velocity) velocity *= 1.1;
   });
-  EXPECT_EQ(hot.verdict, LockstepVerdict::differs);
+  EXPECT_EQ(hot.verdict, Equivalence::differs);
   EXPECT_FALSE(hot.term) << hot.term->name;
   EXPECT_EQ(reports::describeVerdict(hot, lockstepRules(flow_->setup.law)).find("k_n"),
             std::string::npos);
@@ -261,7 +261,7 @@ TEST_F(Lockstep, OneStartOfFourDecidesNothing) {
   const LockstepRow row = rowOf([&](Scene& scene) {
     if (++loads == 2) scene.law.kn *= 1.1;
   });
-  EXPECT_EQ(row.verdict, LockstepVerdict::undecided);
+  EXPECT_EQ(row.verdict, Equivalence::undecided);
   EXPECT_EQ(row.beyond, 1u);
   EXPECT_TRUE(row.readings[1].beyond);
 }
@@ -328,7 +328,7 @@ TEST_F(FallingBall, HasAMirrorThatMovesBeforeItKicksWhereThatIsDeclared) {
 
 TEST_F(FallingBall, HasNoMirrorWhereNoSchemeFits) {
   const LockstepRow row = rowOf(-0.25);
-  EXPECT_EQ(row.verdict, LockstepVerdict::notMeasured);
+  EXPECT_EQ(row.verdict, Equivalence::notMeasured);
   EXPECT_NE(row.reason.find("no mirror has its time stepping"), std::string::npos) << row.reason;
 }
 
@@ -340,7 +340,7 @@ TEST_F(Lockstep, KeepsWhatAnEngineDidBeforeItFailed) {
   });
   EXPECT_EQ(row.starts, 2u);
   EXPECT_EQ(row.failure, "gone");
-  EXPECT_EQ(row.verdict, LockstepVerdict::sameToRounding);
+  EXPECT_EQ(row.verdict, Equivalence::sameToRounding);
 }
 
 }  // namespace

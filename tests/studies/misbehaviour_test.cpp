@@ -140,11 +140,11 @@ TEST_F(Misbehaviour, LetsTheOthersOfACampaignFinish) {
   ASSERT_EQ(runs.size(), engines.size());
   for (const FlowRun& run : runs) {
     if (run.engine == "grain") {
-      EXPECT_EQ(run.status, RunStatus::finished) << run.reason;
+      EXPECT_EQ(run.status, Status::finished) << run.reason;
       EXPECT_TRUE(run.series.value().contains("energy_residual"));
       continue;
     }
-    EXPECT_EQ(run.status, RunStatus::failed) << run.engine;
+    EXPECT_EQ(run.status, Status::failed) << run.engine;
     EXPECT_EQ(run.reason.rfind("packing 0: " + run.engine + ", ", 0), 0u) << run.reason;
   }
 }

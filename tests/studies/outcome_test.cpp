@@ -20,10 +20,10 @@ Case judging() {
   return setup;
 }
 
-EndpointRow row(PairKind kind, int packings, Answer answer = Answer::undecided) {
+EndpointRow row(PairKind kind, int packings, Verdict answer = Verdict::undecided) {
   EndpointRow result;
   result.kind = kind;
-  result.answer = answer;
+  result.verdict = answer;
   result.packings = packings;
   return result;
 }
@@ -67,30 +67,30 @@ ExitStatus compared(const CompareResults& results, bool strict = false, bool qui
 TEST(CompareOutcome, VerdictsOfNamedEngines_Decide) {
   CompareResults results;
   EXPECT_EQ(compared(results), exitPassed);
-  const auto with = [&](PairKind kind, Answer answer) {
-    results.endpoints.rows = {row(kind, 8, Answer::noDifference), row(kind, 8, answer)};
+  const auto with = [&](PairKind kind, Verdict answer) {
+    results.endpoints.rows = {row(kind, 8, Verdict::pass), row(kind, 8, answer)};
     return std::pair(compared(results), compared(results, true));
   };
-  EXPECT_EQ(with(PairKind::peer, Answer::smallDifference), std::pair(exitPassed, exitPassed));
-  EXPECT_EQ(with(PairKind::peer, Answer::undecided), std::pair(exitPassed, exitFailed));
-  EXPECT_EQ(with(PairKind::peer, Answer::borderline), std::pair(exitPassed, exitFailed));
-  EXPECT_EQ(with(PairKind::peer, Answer::disagree), std::pair(exitFailed, exitFailed));
-  EXPECT_EQ(with(PairKind::closedForm, Answer::disagree), std::pair(exitFailed, exitFailed));
-  EXPECT_EQ(with(PairKind::mirrorModel, Answer::disagree), std::pair(exitPassed, exitPassed));
+  EXPECT_EQ(with(PairKind::peer, Verdict::pass), std::pair(exitPassed, exitPassed));
+  EXPECT_EQ(with(PairKind::peer, Verdict::undecided), std::pair(exitPassed, exitFailed));
+  EXPECT_EQ(with(PairKind::peer, Verdict::borderline), std::pair(exitPassed, exitFailed));
+  EXPECT_EQ(with(PairKind::peer, Verdict::fail), std::pair(exitFailed, exitFailed));
+  EXPECT_EQ(with(PairKind::closedForm, Verdict::fail), std::pair(exitFailed, exitFailed));
+  EXPECT_EQ(with(PairKind::mirrorModel, Verdict::fail), std::pair(exitPassed, exitPassed));
 }
 
 TEST(CompareOutcome, LockstepAlarmsRefusalsAndFailures_Decide) {
   CompareResults results;
   LockstepRow found;
-  found.verdict = LockstepVerdict::undecided;
+  found.verdict = Equivalence::undecided;
   results.lockstep.emplace().rows = {found};
   EXPECT_EQ(compared(results), exitPassed);
   EXPECT_EQ(compared(results, true), exitFailed);
-  results.lockstep->rows.front().verdict = LockstepVerdict::differs;
+  results.lockstep->rows.front().verdict = Equivalence::differs;
   EXPECT_EQ(compared(results), exitFailed);
   results.lockstep.reset();
-  results.engines = {{"b", "", "", "", EngineStatus::refused, "cannot"},
-                     {"c", "", "", "", EngineStatus::refused, "was not named"}};
+  results.engines = {{"b", "", "", "", Status::refused, "cannot"},
+                     {"c", "", "", "", Status::refused, "was not named"}};
   EXPECT_EQ(compared(results), exitPassed);
   EXPECT_EQ(compared(results, true), exitFailed);
   AlarmRow alarm;
@@ -100,7 +100,7 @@ TEST(CompareOutcome, LockstepAlarmsRefusalsAndFailures_Decide) {
   results.endpoints.alarms.front().kind = PairKind::peer;
   EXPECT_EQ(compared(results), exitFailed);
   FlowRun run;
-  run.status = RunStatus::failed;
+  run.status = Status::failed;
   run.reason = "broke";
   results.runs = {run};
   EXPECT_EQ(compared(results), exitEngineFailed);
@@ -122,20 +122,20 @@ TEST(CompareOutcome, NothingJudged_IsFailureUnlessAskedFor) {
 }
 
 TEST(StabilityOutcome, UnstableOrNothingJudged_Fails) {
-  const auto status = [](const std::vector<StabilityVerdict>& verdicts) {
+  const auto status = [](const std::vector<Verdict>& verdicts) {
     StabilityResults results;
-    for (const StabilityVerdict verdict : verdicts) results.runs.emplace_back().verdict = verdict;
+    for (const Verdict verdict : verdicts) results.runs.emplace_back().verdict = verdict;
     return stabilityStudy.outcome(results, {}, {}).status;
   };
-  using enum StabilityVerdict;
-  EXPECT_EQ(status({stable, degraded, refused, notRun}), exitPassed);
-  EXPECT_EQ(status({stable, unstable}), exitFailed);
-  EXPECT_EQ(status({refused, refused}), exitFailed);
-  EXPECT_EQ(status({refused, notRun}), exitFailed);
+  EXPECT_EQ(
+      status({Verdict::pass, Verdict::borderline, Verdict::notApplicable, Verdict::notMeasured}),
+      exitPassed);
+  EXPECT_EQ(status({Verdict::pass, Verdict::fail}), exitFailed);
+  EXPECT_EQ(status({Verdict::notApplicable, Verdict::notApplicable}), exitFailed);
+  EXPECT_EQ(status({Verdict::notApplicable, Verdict::notMeasured}), exitFailed);
 }
 
-CollisionCurve curve(const std::string& engine, CurveVerdict verdict,
-                     SweepStatus status = SweepStatus::finished) {
+CollisionCurve curve(const std::string& engine, Verdict verdict, Status status = Status::finished) {
   CollisionCurve one;
   one.engine = engine;
   one.status = status;
@@ -150,23 +150,23 @@ TEST(CollideOutcome, FailedAndFellShortSweeps_Decide) {
     results.variants.emplace_back().curves = curves;
     return collideStudy.outcome(results, {}, {strict});
   };
-  const CollisionCurve good = curve("a", CurveVerdict::held);
+  const CollisionCurve good = curve("a", Verdict::pass);
   EXPECT_EQ(outcome({good}).status, exitPassed);
-  EXPECT_EQ(outcome({good, curve("b", CurveVerdict::beyondLimits)}).status, exitFailed);
-  EXPECT_TRUE(outcome({curve("a", CurveVerdict::notJudged)}).nothingJudged);
-  EXPECT_EQ(outcome({curve("a", CurveVerdict::notJudged)}).status, exitFailed);
+  EXPECT_EQ(outcome({good, curve("b", Verdict::fail)}).status, exitFailed);
+  EXPECT_TRUE(outcome({curve("a", Verdict::notMeasured)}).nothingJudged);
+  EXPECT_EQ(outcome({curve("a", Verdict::notMeasured)}).status, exitFailed);
   // True to the law that it declares, short of the scene's: only --strict asks for that.
-  CollisionCurve model = curve("b", CurveVerdict::beyondLimits);
-  model.declared.emplace().score.verdict = CurveVerdict::held;
+  CollisionCurve model = curve("b", Verdict::fail);
+  model.declared.emplace().score.verdict = Verdict::pass;
   EXPECT_EQ(outcome({good, model}).status, exitPassed);
   EXPECT_EQ(outcome({good, model}, true).status, exitFailed);
-  const CollisionCurve broken = curve("b", CurveVerdict::notJudged, SweepStatus::failed);
+  const CollisionCurve broken = curve("b", Verdict::notMeasured, Status::failed);
   EXPECT_EQ(outcome({good, broken, broken}).status, exitEngineFailed);
   EXPECT_EQ(outcome({good, broken, broken}).failures, std::vector<std::string>{"b broke"});
 }
 
 TEST(LockstepOutcome, DiffersFailureAndNoMirror_Decide) {
-  const auto status = [](LockstepVerdict verdict, const char* failure = "", bool strict = false) {
+  const auto status = [](Equivalence verdict, const char* failure = "", bool strict = false) {
     LockstepResults results;
     LockstepRow& found = results.lockstep.rows.emplace_back();
     found.verdict = verdict;
@@ -175,40 +175,38 @@ TEST(LockstepOutcome, DiffersFailureAndNoMirror_Decide) {
     own.strict = strict;
     return lockstepStudy.outcome(results, {}, own).status;
   };
-  EXPECT_EQ(status(LockstepVerdict::sameLaw), exitPassed);
-  EXPECT_EQ(status(LockstepVerdict::differs), exitFailed);
-  EXPECT_EQ(status(LockstepVerdict::undecided), exitPassed);
-  EXPECT_EQ(status(LockstepVerdict::undecided, "", true), exitFailed);
-  EXPECT_EQ(status(LockstepVerdict::notMeasured), exitFailed);
-  EXPECT_EQ(status(LockstepVerdict::notMeasured, "broke"), exitEngineFailed);
+  EXPECT_EQ(status(Equivalence::sameLaw), exitPassed);
+  EXPECT_EQ(status(Equivalence::differs), exitFailed);
+  EXPECT_EQ(status(Equivalence::undecided), exitPassed);
+  EXPECT_EQ(status(Equivalence::undecided, "", true), exitFailed);
+  EXPECT_EQ(status(Equivalence::notMeasured), exitFailed);
+  EXPECT_EQ(status(Equivalence::notMeasured, "broke"), exitEngineFailed);
 }
 
 TEST(ScaleEffectsAndConformanceOutcome, Failures_AreEngineFailures) {
   ScaleResults scaled;
-  scaled.points.emplace_back().status = EngineStatus::ran;
+  scaled.points.emplace_back().status = Status::finished;
   EXPECT_EQ(scaleStudy.outcome(scaled, {}, {}).status, exitPassed);
-  scaled.points.front().status = EngineStatus::refused;
+  scaled.points.front().status = Status::refused;
   EXPECT_EQ(scaleStudy.outcome(scaled, {}, {}).status, exitFailed);
-  scaled.points.front().status = EngineStatus::failed;
+  scaled.points.front().status = Status::failed;
   EXPECT_EQ(scaleStudy.outcome(scaled, {}, {}).status, exitEngineFailed);
   EffectsResults effects;
-  effects.variants.emplace_back().status = EngineStatus::refused;
+  effects.variants.emplace_back().status = Status::refused;
   EXPECT_EQ(effectsStudy.outcome(effects, {}, {}).status, exitPassed);
-  effects.variants.front().status = EngineStatus::failed;
+  effects.variants.front().status = Status::failed;
   EXPECT_EQ(effectsStudy.outcome(effects, {}, {}).status, exitEngineFailed);
   ConformanceResults conformance;
   for (const auto& [outcome, status] :
-       {std::pair(ConformanceOutcome::skipped, exitFailed),
-        std::pair(ConformanceOutcome::passed, exitPassed),
-        std::pair(ConformanceOutcome::failed, exitFailed),
-        std::pair(ConformanceOutcome::brokeDown, exitEngineFailed)}) {
+       {std::pair(checkSkipped, exitFailed), std::pair(checkPassed, exitPassed),
+        std::pair(checkFailed, exitFailed), std::pair(checkBrokeDown, exitEngineFailed)}) {
     conformance.rows.emplace_back().outcome = outcome;
     EXPECT_EQ(outcomeOf(conformance).status, status);
   }
 }
 
 TEST(DiffOutcome, DifferencesFailuresAndNothingMeasured_Decide) {
-  const auto status = [](DiffVerdict verdict, const char* failure = "") {
+  const auto status = [](Equivalence verdict, const char* failure = "") {
     DiffResults results;
     DiffRow& found = results.rows.emplace_back();
     found.verdict = verdict;
@@ -216,10 +214,10 @@ TEST(DiffOutcome, DifferencesFailuresAndNothingMeasured_Decide) {
     found.reason = "why";
     return outcomeOf(results).status;
   };
-  EXPECT_EQ(status(DiffVerdict::sameBits), exitPassed);
-  EXPECT_EQ(status(DiffVerdict::differs), exitFailed);
-  EXPECT_EQ(status(DiffVerdict::notMeasured), exitFailed);
-  EXPECT_EQ(status(DiffVerdict::differs, "broke"), exitEngineFailed);
+  EXPECT_EQ(status(Equivalence::sameBits), exitPassed);
+  EXPECT_EQ(status(Equivalence::differs), exitFailed);
+  EXPECT_EQ(status(Equivalence::notMeasured), exitFailed);
+  EXPECT_EQ(status(Equivalence::differs, "broke"), exitEngineFailed);
 }
 
 }  // namespace

@@ -10,10 +10,10 @@
 #include "adapters/grain.hpp"
 #include "adapters/registry.hpp"
 #include "adapters/worker/arrays.hpp"
+#include "adapters/worker/json.hpp"
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
-#include "results/engine_fields.hpp"
 #include "results/lockstep.hpp"
 #include "results/lockstep_findings.hpp"
 #include "studies/regression/diff.hpp"
@@ -75,9 +75,9 @@ class BaselineDiff : public testing::Test {
 
 TEST_F(BaselineDiff, SameEngine_SameBits) {
   const DiffRow row = rowOf([](Scene&) {});
-  EXPECT_EQ(row.verdict, DiffVerdict::sameBits);
-  EXPECT_EQ(row.windowsVerdict, DiffVerdict::sameBits);
-  EXPECT_EQ(row.collisionsVerdict, DiffVerdict::sameBits);
+  EXPECT_EQ(row.verdict, Equivalence::sameBits);
+  EXPECT_EQ(row.windowsVerdict, Equivalence::sameBits);
+  EXPECT_EQ(row.collisionsVerdict, Equivalence::sameBits);
   EXPECT_EQ(row.windows->starts, 3u);
   EXPECT_EQ(row.windows->track.back(), 0.0);
   EXPECT_EQ(row.sweeps, 1u);
@@ -87,7 +87,7 @@ TEST_F(BaselineDiff, SameEngine_SameBits) {
 /// A build in which one constant is another, and says nothing of it.
 TEST_F(BaselineDiff, ChangedConstant_IsNamedWithItsAmount) {
   const DiffRow row = rowOf([](Scene& scene) { scene.law.kn *= 1.01; });
-  EXPECT_EQ(row.verdict, DiffVerdict::differs);
+  EXPECT_EQ(row.verdict, Equivalence::differs);
   EXPECT_NEAR(*row.windows->separations.front().equivalent / 0.01, 1.0, 0.01);
   ASSERT_TRUE(row.windows->first);
   EXPECT_EQ(row.windows->first->after, 0.0);
@@ -101,13 +101,13 @@ TEST_F(BaselineDiff, ChangedConstant_IsNamedWithItsAmount) {
   ASSERT_NE(duration, row.collisions.end());
   EXPECT_LT(duration->largest, 0.0);
   EXPECT_NEAR(duration->relative / 0.005, 1.0, 0.3);
-  EXPECT_EQ(row.collisionsVerdict, DiffVerdict::differs);
+  EXPECT_EQ(row.collisionsVerdict, Equivalence::differs);
 }
 
 TEST_F(BaselineDiff, OtherIntegrator_IsNamed) {
   const DiffRow row =
       rowOf([](Scene& scene) { scene.law.conventions.integrator = Integrator::semiImplicitEuler; });
-  EXPECT_EQ(row.verdict, DiffVerdict::differs);
+  EXPECT_EQ(row.verdict, Equivalence::differs);
   ASSERT_TRUE(row.windows->term);
   EXPECT_EQ(row.windows->term->name, "integrator = semi_implicit_euler");
   EXPECT_LT(row.windows->term->unexplained, 1e-6);
@@ -119,7 +119,7 @@ TEST_F(BaselineDiff, OtherIntegrator_IsNamed) {
 
 TEST_F(BaselineDiff, HalvedStep_IsNamed) {
   const DiffRow row = rowOf([](Scene& scene) { scene.dt *= 0.5; });
-  EXPECT_EQ(row.verdict, DiffVerdict::differs);
+  EXPECT_EQ(row.verdict, Equivalence::differs);
   ASSERT_TRUE(row.windows->term);
   EXPECT_EQ(row.windows->term->name, "dt = 2e-05 s");
 }
@@ -127,14 +127,14 @@ TEST_F(BaselineDiff, HalvedStep_IsNamed) {
 /// A law that is the same to 3e-5 of k_n is the same law.
 TEST_F(BaselineDiff, TinyChange_IsTheSameLaw) {
   const DiffRow row = rowOf([](Scene& scene) { scene.law.kn *= 1.0 + 3e-5; });
-  EXPECT_EQ(row.verdict, DiffVerdict::sameLaw);
-  EXPECT_EQ(row.windowsVerdict, DiffVerdict::sameLaw);
+  EXPECT_EQ(row.verdict, Equivalence::sameLaw);
+  EXPECT_EQ(row.windowsVerdict, Equivalence::sameLaw);
 }
 
 /// Motion to the bit, and half as much again of the forces that are reported.
 TEST_F(BaselineDiff, ReportedForces_Changed_Differ) {
   const auto nothing = [](Scene&) {};
-  const auto expect = [&](const std::function<void(Snapshot&)>& shown, DiffVerdict verdict) {
+  const auto expect = [&](const std::function<void(Snapshot&)>& shown, Equivalence verdict) {
     test::PlantedEngine engine(nothing, shown);
     const DiffRow row = rowOf(engine);
     EXPECT_EQ(row.verdict, verdict);
@@ -146,7 +146,7 @@ TEST_F(BaselineDiff, ReportedForces_Changed_Differ) {
         if (!snapshot.contacts) return;
         for (double& force : snapshot.contacts->normalForce) force *= 1.5;
       },
-      DiffVerdict::differs);
+      Equivalence::differs);
   EXPECT_NEAR(contacts.forces->normal, 0.5, 1e-12);
   EXPECT_EQ(contacts.forces->walls, 0.0);
   const DiffRow walls = expect(
@@ -156,7 +156,7 @@ TEST_F(BaselineDiff, ReportedForces_Changed_Differ) {
           if (body.torque) *body.torque *= 1.5;
         }
       },
-      DiffVerdict::differs);
+      Equivalence::differs);
   EXPECT_EQ(walls.forces->normal, 0.0);
   EXPECT_NEAR(walls.forces->walls, 0.5, 1e-12);
   expect(
@@ -164,7 +164,7 @@ TEST_F(BaselineDiff, ReportedForces_Changed_Differ) {
         if (snapshot.contacts && snapshot.contacts->size() > 0)
           snapshot.contacts->normalForce.front() *= 1.0 + 1e-12;
       },
-      DiffVerdict::sameToRounding);
+      Equivalence::sameToRounding);
 }
 
 /// What is compared over several starts has one step and one precision.
@@ -180,9 +180,9 @@ TEST_F(BaselineDiff, Step_ChangedBetweenStarts_IsAFailure) {
 /// A step that never comes by the times that were kept leaves the flow unmeasured, and collisions.
 TEST_F(BaselineDiff, Step_MeetsNoKeptTime_NotMeasured) {
   const DiffRow row = rowOf([](Scene& scene) { scene.dt *= 0.99; });
-  EXPECT_EQ(row.windowsVerdict, DiffVerdict::notMeasured);
+  EXPECT_EQ(row.windowsVerdict, Equivalence::notMeasured);
   EXPECT_NE(row.reason.find("meets the times"), std::string::npos) << row.reason;
-  EXPECT_NE(row.verdict, DiffVerdict::sameBits);
+  EXPECT_NE(row.verdict, Equivalence::sameBits);
 }
 
 TEST_F(BaselineDiff, Engine_Dies_FailureInRow) {
@@ -292,14 +292,14 @@ TEST(CollisionChanges, Values_Changed_LargestRelativeFirst) {
       {"case", "", "", 1e-5, {0.0, 1.0}, {0.1, 0.1}, {{"e_n", {0.5, 0.5}}, {"psi_f", {0.0, 4.0}}}}};
   std::vector<KeptCollisions> now = before;
   const auto changes = [&] { return collisionChanges(before, now).changes; };
-  EXPECT_EQ(verdictOf(changes()), DiffVerdict::sameBits);
+  EXPECT_EQ(equivalenceOf(changes()), Equivalence::sameBits);
   now[0].values["e_n"][1] = 0.5 + 5e-12;
-  EXPECT_EQ(verdictOf(changes()), DiffVerdict::sameToRounding);
+  EXPECT_EQ(equivalenceOf(changes()), Equivalence::sameToRounding);
   now[0].values["psi_f"][0] = -0.002;  // 5e-4 of 4
-  EXPECT_EQ(verdictOf(changes()), DiffVerdict::sameLaw);
+  EXPECT_EQ(equivalenceOf(changes()), Equivalence::sameLaw);
   now[0].values["psi_f"][1] = 3.96;
   const auto found = changes();
-  EXPECT_EQ(verdictOf(found), DiffVerdict::differs);
+  EXPECT_EQ(equivalenceOf(found), Equivalence::differs);
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found.front().quantity, "psi_f");
   EXPECT_EQ(found.front().changed, 2u);

@@ -88,7 +88,7 @@ TEST(SpotCheck, FollowsItsOwnRunToWhatBeginsLate) {
   LockstepFindings lockstep;
   const EndpointFindings found = compared("worn", 25000, lockstep);
   ASSERT_EQ(lockstep.rows.size(), 1u);
-  EXPECT_EQ(lockstep.rows[0].verdict, LockstepVerdict::sameToRounding);
+  EXPECT_EQ(lockstep.rows[0].verdict, Equivalence::sameToRounding);
   ASSERT_EQ(found.surrogates.size(), 1u);
   const SurrogateEngine& own = found.surrogates[0];
   for (const SpotCheckNumber& number : own.spotCheck) EXPECT_GT(number.chance.value_or(0.0), 0.05);
@@ -109,7 +109,7 @@ TEST(SpotCheck, CatchesWhatBeginsAfterTheWindows) {
   LockstepFindings lockstep;
   const EndpointFindings found = compared("slippery", 10000, lockstep);
   ASSERT_EQ(lockstep.rows.size(), 1u);
-  EXPECT_EQ(lockstep.rows[0].verdict, LockstepVerdict::sameToRounding);
+  EXPECT_EQ(lockstep.rows[0].verdict, Equivalence::sameToRounding);
   ASSERT_EQ(found.surrogates.size(), 1u);
   EXPECT_FALSE(found.surrogates[0].inUse);
   EXPECT_NE(found.surrogates[0].alarm.find("differs by"), std::string::npos)
@@ -120,7 +120,7 @@ TEST(SpotCheck, CatchesWhatBeginsAfterTheWindows) {
     EXPECT_EQ(row.surrogateB, "");
     EXPECT_EQ(row.packings, 4) << row.endpoint;
     implementation = implementation ||
-                     (row.kind == PairKind::mirrorImplementation && row.answer == Answer::disagree);
+                     (row.kind == PairKind::mirrorImplementation && row.verdict == Verdict::fail);
   }
   EXPECT_TRUE(implementation);
 }

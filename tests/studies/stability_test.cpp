@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "results/engine_fields.hpp"
+#include "adapters/worker/json.hpp"
 #include "results/scene_picture.hpp"
 #include "results/stability.hpp"
 #include "stability/verdict.hpp"
@@ -23,14 +23,14 @@ TEST(JudgeStability, TwoLimits_GiveVerdictAndWorstSample) {
   Stability limits;
   limits.limit = 1.0;
   limits.degraded = 2.0;
-  EXPECT_EQ(judgeStability(limits, {0.0, 1.0}).verdict, StabilityVerdict::stable);
+  EXPECT_EQ(judgeStability(limits, {0.0, 1.0}).verdict, Verdict::pass);
   EXPECT_FALSE(judgeStability(limits, {0.0, 1.0}).passed);
   const StabilityJudgement degraded = judgeStability(limits, {0.0, 1.5, 2.0, 1.2});
-  EXPECT_EQ(degraded.verdict, StabilityVerdict::degraded);
+  EXPECT_EQ(degraded.verdict, Verdict::borderline);
   EXPECT_EQ(degraded.passed, 1u);
   EXPECT_EQ(degraded.worst, 2u);
   const StabilityJudgement lost = judgeStability(limits, {0.0, std::nan("")});
-  EXPECT_EQ(lost.verdict, StabilityVerdict::unstable);
+  EXPECT_EQ(lost.verdict, Verdict::fail);
   EXPECT_TRUE(std::isfinite(lost.value));
 }
 
@@ -88,10 +88,10 @@ TEST(TestStability, MisbehavingEngine_EndsItsOwnRunOnly) {
   for (const StabilityRun& run : results.runs) {
     SCOPED_TRACE(jsonOf(run).dump());
     if (run.engine == "grain" || run.engine == "good") {
-      EXPECT_EQ(run.verdict, StabilityVerdict::stable);
+      EXPECT_EQ(run.verdict, Verdict::pass);
       continue;
     }
-    EXPECT_EQ(run.verdict, StabilityVerdict::unstable);
+    EXPECT_EQ(run.verdict, Verdict::fail);
     EXPECT_TRUE(run.picture);
     if (run.engine == "pump") {  // 10 % faster after 10 steps, within a sample
       EXPECT_GT(run.step, 150);

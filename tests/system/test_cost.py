@@ -49,7 +49,6 @@ class Results(CostTest):
     def test_three_kinds_of_error(self):
         done = self.cost(*FEW)
         self.assert_status(done, HELD)
-        self.assertIn("plan for a budget of 720 s", done.stderr)
         self.assertRegex(done.stdout, r"\d+ ran, \d+ failed, \d+ refused, \d+ not measured")
         rows = self.rows()
         self.assertEqual(COLUMNS, list(rows[0])[: len(COLUMNS)])
@@ -106,7 +105,7 @@ class Budget(CostTest):
     def test_what_does_not_fit_is_not_measured(self):
         done = self.cost(*FEW, "--budget", "0.2s")
         self.assert_status(done, HELD)
-        self.assertIn("do not fit", done.stderr)
+        self.assertIn("are left of the budget of 0.2 s", done.stderr)
         # "undecided" is what files call it; it is neither that of a target nor not reached.
         left_out = [point for point in self.points() if point["status"] == "undecided"]
         self.assertTrue(left_out)

@@ -11,8 +11,7 @@ using namespace grain;
 namespace test = crossgrain::test;
 
 Simulation run(grain::Setup setup) {
-  Simulation simulation(std::move(setup));
-  simulation.advance(300);
+  Simulation simulation = test::advanced(std::move(setup), 300);
   EXPECT_GT(simulation.contacts().size(), 50u);
   return simulation;
 }

@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(TwoThreads, SteadyState,
                                           testing::Values(2)));
 
 TEST_P(SteadyState, AllocatesNothingOverStepsAndRebuilds) {
-  EXPECT_LE(allocationsOf(scene(), 3000, 3000), someGrowth());
+  EXPECT_LE(allocationsOf(scene(), 2000, 1000), someGrowth());
 }
 
 TEST_P(SteadyState, AllocatesNothingOverASecondRenumbering) {

@@ -99,11 +99,7 @@ TEST(GrainArms, OnAPlane) {
       for (const Lever velocity : levers) {
         grain::Setup setup = viscous(lever, velocity, plane);
         test::addDisk(setup.disks, radiusI - overlap, 0.0, 0.0, 0.0, spinI);
-        grain::Wall wall;
-        wall.planes = {{0.0, 0.0, 1.0, 0.0}};
-        wall.moves = false;
-        wall.motion = [](double) { return WallState{}; };
-        setup.walls.push_back(std::move(wall));
+        setup.walls.push_back(test::standing({{0.0, 0.0, 1.0, 0.0}}));
         const double inertia = setup.disks.inertia[0];
         Simulation simulation(std::move(setup));
         const double force = gt * planeArm(velocity, plane) * spinI;

@@ -80,23 +80,6 @@ INSTANTIATE_TEST_SUITE_P(
                                      Scheme{Integrator::semiImplicitEuler, Damping::lagged, 2e-3}),
                      testing::Bool()));
 
-TEST(GrainCollision, ErrorFallsWithTheSquareOfTheStep) {
-  const auto error = [](double steps) {
-    auto setup = collidingPair(0.1, 0.0, 0.0, contactTime() / steps);
-    setup.law.tangential = Tangential::none;
-    return std::abs(restitution(std::move(setup), 0.1) - closedForm(false));
-  };
-  // 4 for second order; the interpolation at the end leaves a rest that depends on the phase.
-  EXPECT_GT(error(500.0) / error(1000.0), 3.0);
-  EXPECT_LT(error(500.0) / error(1000.0), 5.0);
-}
-
-TEST(GrainCollision, RestitutionOfALinearLawDoesNotDependOnTheSpeed) {
-  const double slow = restitution(collidingPair(1e-4, 0.0, 0.0, contactTime() / 200.0), 1e-4);
-  const double fast = restitution(collidingPair(1e-1, 0.0, 0.0, contactTime() / 200.0), 1e-1);
-  EXPECT_NEAR(slow, fast, 1e-9);  // rounding of positions against overlaps of 1e-7 m
-}
-
 /// The law as the contact kernels see it, every option at run time.
 GeneralLaw<double> kernelLaw() {
   return generalLaw<double>(thesisLaw(), 1e-6, true);

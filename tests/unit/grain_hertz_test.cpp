@@ -103,21 +103,6 @@ TEST(GrainHertz, ElasticSpheresDeformAsHertzSays) {
   }
 }
 
-/// Of a dashpot −γ √(m₁₂ S) v the restitution does not depend on the speed, and with
-/// γ = −2 √(5/6) ln e/√(π² + ln² e) it is e (Tsuji et al. 1992; Antypov and Elliott 2011), if the
-/// force may pull at the end.
-TEST(GrainHertz, CriticalDampersGiveTheWantedRestitutionAtAnySpeed) {
-  for (const double e : {0.2, 0.5, 0.9})
-    for (const double speed : {0.01, 10.0}) {
-      Spheres spheres = glass;
-      spheres.speed = speed;
-      grain::Setup setup = headOn(spheres, spheres.contactTime() / 20000.0);
-      setup.law.damper = Damper::critical;
-      setup.law.gn = -2.0 * std::sqrt(5.0 / 6.0) * std::log(e) / std::hypot(M_PI, std::log(e));
-      EXPECT_NEAR(impact(setup).restitution, e, 2e-3) << e << " at " << speed;
-    }
-}
-
 /// f = k(δ^(3/2) + 3/2 A √δ δ̇): 1 − e grows as A v^(1/5), to first order
 /// 1 − e = 1.15344 · 3/2 A (k/m₁₂)^(2/5) v^(1/5) (Ramírez et al. 1999), k = k_n √R₁₂.
 TEST(GrainHertz, ViscoelasticSpheresLoseMoreWhereTheyAreFaster) {

@@ -96,43 +96,6 @@ TEST_P(Neighbours, AreThosePairsThatASearchOverAllPairsFinds) {
   EXPECT_LT(lists->counts().near, lists->counts().far);
 }
 
-TEST_P(Neighbours, OfEachPartAreInAscendingOrder) {
-  scatter(400, 20.0, 300);
-  forLists([](auto& list) {
-    for (std::size_t k = 1; k < list.farI.size(); ++k)
-      EXPECT_LT(Pair(list.farI[k - 1], list.farJ[k - 1]), Pair(list.farI[k], list.farJ[k]));
-  });
-}
-
-TEST_P(Neighbours, SpringsOfTouchingPairsSurviveARebuild) {
-  scatter(200, 15.0, 150);
-  const auto mark = [](const Pair& pair) { return 1000.0 * pair.first + pair.second + 0.5; };
-  std::set<Pair> touching;
-  forLists([&](auto& list) {
-    for (std::size_t k = 0; k < list.count; ++k) {
-      const Pair pair(list.i[k], list.j[k]);
-      if (!(gap(pair.first, pair.second) < 0.0)) continue;
-      touching.insert(pair);
-      list.spring[k] = mark(pair);
-    }
-  });
-  for (std::size_t i = 0; i < 150; i += 3) position[i].x += 0.4;  // some pairs part, some meet
-  const std::size_t rebuilds = lists->skin().rebuilds();
-  update();
-  ASSERT_EQ(lists->skin().rebuilds(), rebuilds + 1);
-  std::size_t kept = 0, fresh = 0;
-  forLists([&](auto& list) {
-    for (std::size_t k = 0; k < list.count; ++k) {
-      const Pair pair(list.i[k], list.j[k]);
-      const bool old = touching.contains(pair);
-      EXPECT_EQ(list.spring[k], old ? mark(pair) : 0.0);
-      ++(old ? kept : fresh);
-    }
-  });
-  EXPECT_GT(kept, 50u);
-  EXPECT_GT(fresh, 10u);
-}
-
 TEST_P(Neighbours, SpringsFollowTheirDisksWhenTheseAreRenumbered) {
   scatter(200, 15.0, 150);
   std::map<Pair, double> before;
@@ -159,54 +122,12 @@ TEST_P(Neighbours, SpringsFollowTheirDisksWhenTheseAreRenumbered) {
   EXPECT_GT(kept, 100u);
 }
 
-TEST_P(Neighbours, AreCollectedAnewOnceADiskUsedUpHalfTheSkin) {
-  scatter(50, 10.0, 50);
-  const std::size_t rebuilds = lists->skin().rebuilds();
-  travel.assign(50, 0.0);  // leaves the least allowance, 1e-4 of the smallest radius
-  position[17].y += 0.5 * fixedSkin - 2e-4;
-  update();
-  EXPECT_EQ(lists->skin().rebuilds(), rebuilds);
-  position[17].y += 2e-4;
-  update();
-  EXPECT_EQ(lists->skin().rebuilds(), rebuilds + 1);
-}
-
-TEST_P(Neighbours, ADiskThatIsNotFiniteIsNamed) {
-  scatter(50, 10.0, 50);
-  for (const double nowhere :
-       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    position[17].y = nowhere;
-    try {
-      update();
-      FAIL() << "no exception";
-    } catch (const NotFinite& found) {
-      EXPECT_EQ(found.disk, 17u);
-    }
-  }
-}
-
 TEST_P(Neighbours, ADiskFarAwayDoesNotBlowUpTheGrid) {
   scatter(50, 10.0, 50);
   position[0].x = 1e9;
   update();
   EXPECT_EQ(farPairs(), searchAll(50, [&](auto i, auto j) { return gap(i, j) < fixedSkin; }));
   EXPECT_GT(farPairs().size(), 0u);
-}
-
-TEST(NeighboursOfASimulation, TheSkinChangesTimeOnly) {
-  const auto run = [](double skin) {
-    grain::Setup setup = test::crowd(8, 9, 4e-5);
-    setup.skin = skin;
-    grain::Simulation simulation(std::move(setup));
-    simulation.advance(1000);
-    return simulation;
-  };
-  const auto thin = run(0.02 * test::smallRadius), thick = run(1.5 * test::smallRadius);
-  EXPECT_GT(thin.neighbours().rebuilds, 2 * thick.neighbours().rebuilds);
-  for (std::size_t i = 0; i < thin.movingCount(); ++i) {
-    EXPECT_EQ(thin.x(i), thick.x(i));
-    EXPECT_EQ(thin.spin(i), thick.spin(i));
-  }
 }
 
 TEST(NeighboursOfASimulation, ADiskThatIsNotFiniteIsNamedByItsNumber) {

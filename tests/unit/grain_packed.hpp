@@ -29,16 +29,13 @@ inline grain::Wall wheel(double x, double y, double rim, double omega) {
 
 /// Four planes around width × height, of which the lid moves up and down by `swing` [m] in 20 ms.
 inline std::vector<grain::Wall> box(double width, double height, double swing) {
-  grain::Wall fixed, lid;
-  fixed.planes = {{0.0, 0.0, 1.0, 0.0}, {width, 0.0, -1.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
-  fixed.motion = [](double) { return grain::WallState{}; };
-  fixed.moves = false;
+  grain::Wall lid;
   lid.planes = {{0.0, height, 0.0, -1.0}};
   lid.motion = [=](double t) {
     const double w = 2.0 * M_PI / 0.02;
     return grain::WallState{.y = -swing * std::sin(w * t), .vy = -swing * w * std::cos(w * t)};
   };
-  return {fixed, lid};
+  return {standing({{0.0, 0.0, 1.0, 0.0}, {width, 0.0, -1.0, 0.0}, {0.0, 0.0, 0.0, 1.0}}), lid};
 }
 
 /// About side² disks of radius 3.7 mm ± 10 % at volume fraction 0.83 in a box, off their triangular

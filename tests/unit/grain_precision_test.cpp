@@ -23,24 +23,6 @@ grain::Setup pressed(double x, double y, double gap, Precision precision) {
   return setup;
 }
 
-Wall oneDisk(double x, double y) {
-  Wall wall;
-  wall.diskX = {x - test::smallRadius};
-  wall.diskY = {y};
-  wall.diskRadius = {test::smallRadius};
-  wall.motion = [](double) { return WallState{}; };
-  wall.moves = false;
-  return wall;
-}
-
-Wall onePlane(double x, double y) {
-  Wall wall;
-  wall.planes = {{x, y, 1.0, 0.0}};
-  wall.motion = [](double) { return WallState{}; };
-  wall.moves = false;
-  return wall;
-}
-
 /// How many diameters from the origin.
 class FarFromTheOrigin : public testing::TestWithParam<std::tuple<double, Precision>> {
  protected:
@@ -52,33 +34,27 @@ class FarFromTheOrigin : public testing::TestWithParam<std::tuple<double, Precis
   /// k_n Δδ = γ_n ρ/dt, so Δδ = 13 ρ = 3e-9 m. Together less than 5 % of 1e-7 m.
   /// Double: 740 m are rounded by 6e-14 m, and this is the same 14 times.
   double tolerance() const { return precision() == Precision::float32 ? 5e-9 : 1e-12; }
-
-  void expectOverlap(Simulation& simulation) const {
-    ASSERT_EQ(simulation.contacts().size(), 1u);
-    const Contact& contact = simulation.contacts()[0];
-    EXPECT_NEAR(contact.overlap, 1e-7, tolerance());
-    EXPECT_NEAR(contact.normalForce, weight, test::thesis.kn * tolerance());
-  }
 };
 
 INSTANTIATE_TEST_SUITE_P(Diameters, FarFromTheOrigin,
                          testing::Combine(testing::Values(3.0, 1e3, 0.97e5),
                                           testing::Values(Precision::float64, Precision::float32)));
 
-TEST_P(FarFromTheOrigin, AnOverlapOfADisksPairComesToRestWhereItsForceIsTheWeight) {
-  auto setup = pressed(far(), -0.7 * far(), 1e-5, precision());  // falls 0.01 mm, then settles
-  setup.walls = {oneDisk(far(), -0.7 * far())};
-  Simulation simulation(std::move(setup));
-  simulation.advance(10000);
-  expectOverlap(simulation);
-}
-
-TEST_P(FarFromTheOrigin, AnOverlapWithAPlaneComesToRestWhereItsForceIsTheWeight) {
-  auto setup = pressed(far(), -0.7 * far(), 1e-5, precision());
-  setup.walls = {onePlane(far(), -0.7 * far())};
-  Simulation simulation(std::move(setup));
-  simulation.advance(10000);
-  expectOverlap(simulation);
+TEST_P(FarFromTheOrigin, AnOverlapComesToRestWhereItsForceIsTheWeight) {
+  const double x = far(), y = -0.7 * far();
+  Wall plane = test::standing({{x, y, 1.0, 0.0}}), disk = test::standing({});
+  disk.diskX = {x - test::smallRadius};
+  disk.diskY = {y};
+  disk.diskRadius = {test::smallRadius};
+  for (const Wall& wall : {disk, plane}) {
+    auto setup = pressed(x, y, 1e-5, precision());  // falls 0.01 mm, then settles
+    setup.walls = {wall};
+    const Simulation simulation = test::advanced(std::move(setup), 10000);
+    ASSERT_EQ(simulation.contacts().size(), 1u);
+    const Contact& contact = simulation.contacts()[0];
+    EXPECT_NEAR(contact.overlap, 1e-7, tolerance());
+    EXPECT_NEAR(contact.normalForce, weight, test::thesis.kn * tolerance());
+  }
 }
 
 TEST_P(FarFromTheOrigin, ADiskStartsThereAndFliesThere) {
@@ -88,8 +64,7 @@ TEST_P(FarFromTheOrigin, ADiskStartsThereAndFliesThere) {
   setup.gravityX = 0.0;
   setup.disks.x[0] = far() - 3.0;
   setup.disks.vx[0] = 0.3;
-  Simulation simulation(setup);
-  simulation.advance(10000);
+  const Simulation simulation = test::advanced(setup, 10000);
   // A step's way is added to coordinates that grow to 2.5 m before the new origin, rounded by up to
   // 1.2e-7 m each time; the step itself, 3e-4 m, by 1.5e-11 m.
   const double rounding = precision() == Precision::float32 ? 1.2e-7 : 6e-14;
@@ -158,8 +133,7 @@ TEST(SinglePrecision, TellsTheOverlapsThatItsForcesCameFrom) {
   setup.precision = Precision::float32;
   setup.law.tangential = Tangential::none;
   setup.law.gn = 0.0;
-  Simulation simulation(setup);
-  simulation.advance(100);
+  const Simulation simulation = test::advanced(setup, 100);
   ASSERT_GT(simulation.contacts().size(), 80u);
   for (const Contact& contact : simulation.contacts()) {
     const bool plane = static_cast<std::size_t>(contact.j) >= simulation.diskCount();

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <ostream>
+#include <utility>
+#include <vector>
 
 #include "engines/grain/simulation.hpp"
 #include "tests/support/draw.hpp"
@@ -65,17 +67,22 @@ inline grain::Setup collidingPair(double v, double impact, double spin, double d
   return setup;
 }
 
+/// A body of planes that stands still.
+inline grain::Wall standing(std::vector<grain::Plane> planes) {
+  grain::Wall wall;
+  wall.planes = std::move(planes);
+  wall.motion = [](double) { return grain::WallState{}; };
+  wall.moves = false;
+  return wall;
+}
+
 /// Leaves the first disk alone, to the right of a fixed plane through the origin.
 inline void putOnPlane(grain::Setup& setup) {
   grain::Disks& disks = setup.disks;
   for (auto* values : {&disks.x, &disks.y, &disks.vx, &disks.vy, &disks.spin, &disks.radius,
                        &disks.mass, &disks.inertia})
     values->resize(1);
-  grain::Wall wall;
-  wall.planes.push_back({0.0, 0.0, 1.0, 0.0});
-  wall.motion = [](double) { return grain::WallState{}; };
-  wall.moves = false;
-  setup.walls.push_back(wall);
+  setup.walls.push_back(standing({{0.0, 0.0, 1.0, 0.0}}));
 }
 
 /// A loose heap of disks with random velocities and spins, so that many collide at once.
@@ -90,6 +97,13 @@ inline grain::Setup crowd(int side, std::uint64_t seed, double dt) {
       addDisk(setup.disks, 2.02 * smallRadius * i, 2.02 * smallRadius * j, 0.5 * uniform(),
               0.5 * uniform(), 100.0 * uniform());
   return setup;
+}
+
+/// The setup after so many steps.
+inline grain::Simulation advanced(grain::Setup setup, std::uint64_t steps) {
+  grain::Simulation simulation(std::move(setup));
+  simulation.advance(steps);
+  return simulation;
 }
 
 }  // namespace crossgrain::test

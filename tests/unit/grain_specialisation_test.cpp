@@ -65,9 +65,8 @@ TEST_P(Specialised, GivesTheBitsOfTheGeneralKernel) {
             setup.precision = precision;
             grain::Setup general = setup;
             general.generalKernels = true;
-            Simulation special(std::move(setup)), reference(std::move(general));
-            special.advance(steps);
-            reference.advance(steps);
+            const auto special = test::advanced(setup, steps);
+            const auto reference = test::advanced(general, steps);
             EXPECT_EQ(test::difference(special, reference), "")
                 << "cut " << cut << ", dashpot " << static_cast<int>(dashpot) << ", rotation "
                 << rotation << ", plate " << static_cast<int>(plate) << ", gravity " << gravity;
@@ -113,9 +112,8 @@ TEST(Specialisation, ConventionsOfOtherEnginesGiveTheBitsOfTheGeneralKernel) {
         ASSERT_EQ(conventionSet(generalLaw<double>(setup.law, setup.dt, true)), set);
         grain::Setup general = setup;
         general.generalKernels = true;
-        Simulation special(std::move(setup)), reference(std::move(general));
-        special.advance(steps);
-        reference.advance(steps);
+        const auto special = test::advanced(setup, steps);
+        const auto reference = test::advanced(general, steps);
         EXPECT_EQ(test::difference(special, reference), "") << "set " << set << ", cut " << cut;
       }
 }
@@ -135,27 +133,21 @@ TEST(Specialisation, ConventionsWithoutKernelsOfTheirOwnRunTheGeneralOnes) {
 
 TEST(Specialisation, EffectsChangeTheRun) {
   // Else the comparison above could not tell one kernel from another.
-  const auto run = [](grain::Setup setup) {
-    Simulation simulation(std::move(setup));
-    simulation.advance(steps);
-    return test::stateOf(simulation);
-  };
-  const auto full =
-      run(scene(Tangential::springDashpot, false, Dashpot::predicted, true, Plate::spinning, true));
-  for (const auto& less :
-       {run(scene(Tangential::spring, false, Dashpot::predicted, true, Plate::spinning, true)),
-        run(scene(Tangential::springDashpot, true, Dashpot::predicted, true, Plate::spinning,
-                  true)),
-        run(scene(Tangential::springDashpot, false, Dashpot::lagged, true, Plate::spinning, true)),
-        run(scene(Tangential::springDashpot, false, Dashpot::none, true, Plate::spinning, true)),
-        run(scene(Tangential::springDashpot, false, Dashpot::predicted, false, Plate::spinning,
-                  true)),
-        run(scene(Tangential::springDashpot, false, Dashpot::predicted, true, Plate::sliding,
-                  true)),
-        run(scene(Tangential::springDashpot, false, Dashpot::predicted, true, Plate::none, true)),
-        run(scene(Tangential::springDashpot, false, Dashpot::predicted, true, Plate::spinning,
-                  false))})
-    EXPECT_NE(less, full);
+  const auto run = [](grain::Setup setup) { return test::stateOf(test::advanced(setup, steps)); };
+  using enum Plate;
+  constexpr auto spring = Tangential::spring, springDashpot = Tangential::springDashpot;
+  const auto predicted = Dashpot::predicted;
+  const auto full = run(scene(springDashpot, false, predicted, true, spinning, true));
+  for (const grain::Setup& less :
+       {scene(spring, false, predicted, true, spinning, true),
+        scene(springDashpot, true, predicted, true, spinning, true),
+        scene(springDashpot, false, Dashpot::lagged, true, spinning, true),
+        scene(springDashpot, false, Dashpot::none, true, spinning, true),
+        scene(springDashpot, false, predicted, false, spinning, true),
+        scene(springDashpot, false, predicted, true, sliding, true),
+        scene(springDashpot, false, predicted, true, Plate::none, true),
+        scene(springDashpot, false, predicted, true, spinning, false)})
+    EXPECT_NE(run(less), full);
 }
 
 }  // namespace

@@ -9,23 +9,21 @@ namespace {
 using namespace grain;
 using namespace crossgrain::test;
 
-Wall fixedFloor() {
-  Wall floor;
-  floor.planes = {{0.0, 0.0, 0.0, 1.0}};
-  floor.motion = [](double) { return WallState{}; };
-  return floor;
+/// A disk that its weight has sunk into a floor, x at v [m/s].
+grain::Setup onAFloor(double v, double dt) {
+  grain::Setup setup;
+  setup.law = thesisLaw();
+  setup.dt = dt;
+  setup.gravityY = -9.81;
+  const double sink = smallMass * 9.81 / thesis.kn;  // k_n δ = m g
+  addDisk(setup.disks, 0.0, smallRadius - sink, v, 0.0, 0.0);
+  setup.walls.push_back(standing({{0.0, 0.0, 0.0, 1.0}}));
+  return setup;
 }
 
 TEST(GrainWalls, ADiskAtRestOnAPlaneWeighsOnIt) {
-  grain::Setup setup;
-  setup.law = thesisLaw();
-  setup.dt = 4e-5;
-  setup.gravityY = -9.81;
-  const double sink = smallMass * 9.81 / thesis.kn;  // k_n δ = m g
-  addDisk(setup.disks, 0.0, smallRadius - sink, 0.0, 0.0, 0.0);
-  setup.walls.push_back(fixedFloor());
-  Simulation simulation(std::move(setup));
-  for (int step = 0; step < 10000; ++step) simulation.step();
+  const double sink = smallMass * 9.81 / thesis.kn;
+  const Simulation simulation = advanced(onAFloor(0.0, 4e-5), 10000);
   EXPECT_NEAR(simulation.y(0), smallRadius - sink, 1e-15);
   EXPECT_NEAR(simulation.wallLoad(0).fy, -smallMass * 9.81, 1e-12);
   ASSERT_EQ(simulation.contacts().size(), 1u);
@@ -36,14 +34,7 @@ TEST(GrainWalls, ADiskAtRestOnAPlaneWeighsOnIt) {
 TEST(GrainWalls, ASlidingDiskRollsInTheEndAtTwoThirdsOfItsSpeed) {
   // Friction acts at the contact only, so L about it is kept: m v a = m v' a + ½ m a² ω', v' = −ω'
   // a.
-  grain::Setup setup;
-  setup.law = thesisLaw();
-  setup.dt = 2e-5;
-  setup.gravityY = -9.81;
-  addDisk(setup.disks, 0.0, smallRadius - smallMass * 9.81 / thesis.kn, 0.3, 0.0, 0.0);
-  setup.walls.push_back(fixedFloor());
-  Simulation simulation(std::move(setup));
-  for (int step = 0; step < 20000; ++step) simulation.step();
+  const Simulation simulation = advanced(onAFloor(0.3, 2e-5), 20000);
   EXPECT_NEAR(simulation.velocityX(0), 0.2, 1e-4);  // the sunk contact: δ/a = 2e-3 of the arm
   EXPECT_NEAR(simulation.spin(0), -0.2 / smallRadius, 1e-4 / smallRadius);
 }
@@ -86,43 +77,6 @@ TEST(GrainWalls, AWheelTurnsExactlyAndFeelsTheOppositeForceAndTorque) {
   const double px = simulation.x(0) - lever * c.nx;
   const double py = simulation.y(0) - lever * c.ny;
   EXPECT_NEAR(load.torque, -(px * fy - py * fx), 1e-15 * std::abs(fx));
-}
-
-TEST(GrainWalls, AShrinkingRingMovesItsDisksInward) {
-  Wall ring;
-  ring.diskX = {0.0};
-  ring.diskY = {-0.1};
-  ring.diskRadius = {1e-3};
-  ring.motion = [](double t) {
-    WallState now;
-    now.radialShift = -0.05 * t;
-    now.radialVelocity = -0.05;
-    return now;
-  };
-  grain::Setup setup;
-  setup.law = thesisLaw();
-  setup.dt = 1e-3;
-  addDisk(setup.disks, 0.0, 0.0, 0.0, 0.0, 0.0);
-  setup.walls.push_back(ring);
-  Simulation simulation(std::move(setup));
-  for (int step = 0; step < 100; ++step) simulation.step();
-  EXPECT_NEAR(simulation.y(1), -0.095, 1e-15);
-}
-
-TEST(GrainBottom, StopsADiskAfterTheTimeThatItsFrictionTakes) {
-  // v = v₀ − µ g t once the plate's spring has slipped: 0.0103 m/s takes 53 s with µ = 2e-5. Here
-  // µ = 0.02 and 53 ms.
-  grain::Setup setup;
-  setup.law = thesisLaw();
-  setup.bottom = thesisBottom<Bottom>(0.02);
-  setup.dt = 1e-5;
-  addDisk(setup.disks, 0.0, 0.0, 0.0103, 0.0, 0.0);
-  Simulation simulation(std::move(setup));
-  const double stop = 0.0103 / (0.02 * 9.81);
-  while (simulation.time() < 0.5 * stop) simulation.step();
-  EXPECT_NEAR(simulation.velocityX(0), 0.5 * 0.0103, 1e-3 * 0.0103);
-  while (simulation.time() < 3.0 * stop) simulation.step();
-  EXPECT_NEAR(simulation.velocityX(0), 0.0, 0.01 * 0.0103);  // caught by the spring, swinging out
 }
 
 TEST(GrainBottom, BrakesSpinAndNeverDrivesIt) {

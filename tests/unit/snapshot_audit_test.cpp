@@ -115,12 +115,7 @@ TEST_F(Audit, Places) {
   expectSays(why(), "has turned by 1 rad, not by 0 rad");
 }
 
-TEST_F(Audit, Shapes) {
-  shown_.position.pop_back();
-  expectSays(why(), "2 positions are shown, not 3");
-}
-
-TEST_F(Audit, Ids) {
+TEST_F(Audit, IdsAndNumbersOfDisks) {
   contacts().i[1] = 3;
   contacts().j[1] = 3;
   expectSays(why(), "contact 1 is of 3 and 3");
@@ -131,16 +126,15 @@ TEST_F(Audit, Ids) {
   expectSays(why(), "a later id below 4");
   contacts().j[1] = 1;
   expectSays(why(), "(disk 0 with disk 1) is listed twice");
+  shown_.position.pop_back();
+  expectSays(why(), "2 positions are shown, not 3");
 }
 
-TEST_F(Audit, Normals) {
+TEST_F(Audit, NormalsAndOverlaps) {
   contacts().normal[1] *= 2.0;
   expectSays(why(), "contact 1 (disk 0 with wall disk 0): its normal has length 2, not 1");
   contacts().normal[1] = {-1.0, 0.0};
   expectSays(why(), "its normal is (-1.0000, 0.0000), from the positions (1.0000, 0.0000)");
-}
-
-TEST_F(Audit, Overlaps) {
   contacts().overlap[0] = -1.0;
   expectSays(why(),
              "contact 0 (disk 0 with disk 1): overlaps by -1 m, from the positions by 1e-05");

@@ -1,15 +1,13 @@
-// The page of a campaign, its matrix, its claims as CSV and for a terminal.
+// The report of a campaign: its matrix, its sections, its claims as CSV and for a terminal.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "reports/common/csv_row.hpp"
-#include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/overview.hpp"
-#include "reports/common/overview_marks.hpp"
-#include "reports/common/page.hpp"
 #include "reports/common/sentences.hpp"
 #include "reports/thesis/report.hpp"
 
@@ -21,10 +19,8 @@ using Claims = std::vector<const ClaimRow*>;
 
 constexpr const char* noEngine = "-";  ///< a claim's engine where none takes part
 
-CellState stateOf(ClaimVerdict verdict) {
-  return verdict == ClaimVerdict::reproduced ? CellState::good
-         : verdict == ClaimVerdict::refuted  ? CellState::bad
-                                             : CellState::undecided;
+std::string wordOf(Verdict verdict) {
+  return std::string(nameOf(verdict, claimVerdictNames));
 }
 
 /// What a rule asks of a figure: "0.791 … 0.796", "≥ 0.5"; empty: nothing.
@@ -79,19 +75,19 @@ Names rowsOf(const ThesisResults& results) {
 }
 
 OverviewCell cellOf(const Claims& claims) {
-  OverviewCell cell{CellState::notApplicable, {}, {}, {}, {}, {}};
+  OverviewCell cell{Verdict::notApplicable, {}, {}, {}, {}, {}};
   if (claims.empty()) return cell;
   const ClaimRow& claim = *claims.front();
-  cell.state = stateOf(claim.verdict);
+  cell.verdict = claim.verdict;
   cell.anchor = claim.id;
   // The figure that refutes a claim, or leaves it undecided; else the one that stands for it.
   auto figure = std::ranges::find(claim.figures, claim.verdict, &ClaimFigure::verdict);
   if (figure == claim.figures.end()) figure = claim.figures.begin();
   if (figure != claim.figures.end()) cell.words = withBounds(figure->name, *figure);
   for (const ClaimRow* other : claims)
-    if (other->verdict != claim.verdict && other->verdict != ClaimVerdict::undecided) {
+    if (other->verdict != claim.verdict && other->verdict != Verdict::undecided) {
       cell.words += fmt::format("{}{} under {}", cell.words.empty() ? "" : "; ",
-                                lookOf(stateOf(other->verdict)).mark, other->interpretation);
+                                lookOf(other->verdict).mark, other->interpretation);
       break;  // the table has the others
     }
   if (figure == claim.figures.end() || !finite(figure->value)) return cell;
@@ -105,16 +101,15 @@ std::string onEngine(const std::string& engine) {
   return engine == noEngine ? "without any engine" : "on " + engine;
 }
 
-std::size_t countOf(const Claims& claims, ClaimVerdict verdict) {
+std::size_t countOf(const Claims& claims, Verdict verdict) {
   return static_cast<std::size_t>(
       std::ranges::count(claims, verdict, [](const ClaimRow* claim) { return claim->verdict; }));
 }
 
 /// "18 reproduced, 5 refuted, 4 undecided"
 std::string countsText(const Claims& claims) {
-  return fmt::format(
-      "{} reproduced, {} refuted, {} undecided", countOf(claims, ClaimVerdict::reproduced),
-      countOf(claims, ClaimVerdict::refuted), countOf(claims, ClaimVerdict::undecided));
+  return fmt::format("{} reproduced, {} refuted, {} undecided", countOf(claims, Verdict::pass),
+                     countOf(claims, Verdict::fail), countOf(claims, Verdict::undecided));
 }
 
 /// Which are refuted, and whether a reason is known.
@@ -125,7 +120,7 @@ std::string refutedText(const ThesisResults& results) {
   for (const std::string& engine : rowsOf(results)) {
     Names ids;
     for (const ClaimRow* claim : firstClaims(results, engine)) {
-      if (claim->verdict != ClaimVerdict::refuted) continue;
+      if (claim->verdict != Verdict::fail) continue;
       ids.push_back(claim->id);
       unexplained += claim->reasons.empty();
     }
@@ -148,7 +143,7 @@ std::string nextStep(const ThesisResults& results) {
   });
   std::size_t undecided = 0;
   for (const std::string& engine : rowsOf(results))
-    undecided += countOf(firstClaims(results, engine), ClaimVerdict::undecided);
+    undecided += countOf(firstClaims(results, engine), Verdict::undecided);
   if (undecided == 0) return "Nothing is left to decide by these rules.";
   if (left > 0)
     return fmt::format(
@@ -158,78 +153,79 @@ std::string nextStep(const ThesisResults& results) {
   return "Next: see what each undecided claim lacks, in the table of claims.";
 }
 
-// ---- The page.
+// ---- Sections.
 
-/// "figure 7.14" is drawn as figure_7_14; empty: it is not drawn.
-std::string drawnPlot(const std::string& plot, const Illustrations& shown) {
-  std::string name = plot;
-  std::ranges::replace_if(
-      name, [](char c) { return c == ' ' || c == '.'; }, '_');
-  const bool drawn = !shown.missing &&
-                     std::ranges::find(shown.figures, name, &Figure::name) != shown.figures.end();
-  return drawn ? name : "";
+/// "C⁻¹ = 9.00 ± 0.50 d [4 … 7]"
+std::string figureText(const ClaimFigure& figure) {
+  return withBounds(
+      fmt::format("{} = {}{}{}", figure.name, readable(figure.value, figure.standardError),
+                  figure.unit.empty() ? "" : " ", figure.unit),
+      figure);
 }
 
-Json claimRows(const ThesisResults& results, const Illustrations& shown) {
-  Json rows = Json::array();
+Table claimTable(const ThesisResults& results) {
+  Table table{{"claim",
+               {"engine", Column::Kind::engines},
+               "verdict",
+               {"figures, and where they should lie", Column::Kind::remark},
+               {"why, and under which interpretation", Column::Kind::remark}},
+              {}};
   std::string before;
   for (const ClaimRow& claim : results.claims) {
     const bool first = claim.id != before;
     before = claim.id;
-    Json figures = Json::array(), reasons = Json::array();
-    for (const ClaimFigure& figure : claim.figures)
-      figures.push_back({{"name", mathHtml(figure.name)},
-                         {"value", readable(figure.value, figure.standardError)},
-                         {"unit", figure.unit},
-                         {"bounds", boundsText(figure)}});
-    for (const std::string& reason : claim.reasons) reasons.push_back(mathHtml(reason));
-    if (claim.verdict == ClaimVerdict::refuted && reasons.empty())
-      reasons.push_back("No reason was found.");
-    constexpr const char* classes[] = {"agree", "disagree", "undecided"};
-    constexpr const char* marks[] = {"✓", "✗", "?"};
-    const auto verdict = static_cast<std::size_t>(claim.verdict);
-    rows.push_back({{"id", claim.id},
-                    {"first", first},
-                    {"claim", first ? mathHtml(claim.claim) : ""},
-                    {"engine", claim.engine},
-                    {"mirror", claim.mirror},
-                    {"interpretation", claim.interpretation},
-                    {"figures", figures},
-                    {"verdict", fmt::format("{} {}", marks[verdict], nameOf(claim.verdict))},
-                    {"class", classes[verdict]},
-                    {"why", mathHtml(claim.why)},
-                    {"reasons", reasons},
-                    {"cases", fmt::format("{}", fmt::join(claim.cases, ", "))},
-                    {"plot", claim.plot},
-                    {"anchor", drawnPlot(claim.plot, shown)}});
+    Names figures, remarks = {claim.interpretation};
+    for (const ClaimFigure& figure : claim.figures) figures.push_back(figureText(figure));
+    remarks.insert(remarks.end(), claim.reasons.begin(), claim.reasons.end());
+    if (claim.verdict == Verdict::fail && claim.reasons.empty())
+      remarks.emplace_back("No reason was found.");
+    remarks.push_back(fmt::format("{}", fmt::join(claim.cases, ", ")));
+    remarks.push_back(claim.plot);
+    table.rows.push_back(
+        {{first ? Cell(claim.id, {claim.claim}) : Cell(),
+          Cell(claim.engine, {claim.mirror.empty() ? "" : "and runs of " + claim.mirror}),
+          Cell(wordOf(claim.verdict), {}, claim.verdict, true),
+          Cell("", std::move(figures)), Cell(claim.why, std::move(remarks))},
+         "",
+         first ? claim.id : ""});
   }
-  return rows;
+  return table;
 }
 
-/// A row for each engine of a case, the case itself in the first.
-Json caseRows(const ThesisResults& results) {
-  Json rows = Json::array();
+/// A row for each engine of a case, the cases in groups.
+Table caseTable(const ThesisResults& results) {
+  using enum Column::Kind;
+  Table table{{{"engine", engines},
+               {"ν̄ of the table", number},
+               {"ν̄ of the disks", number},
+               "disks",
+               {"Ω [/s]", number},
+               {"wall spacing [mm]", number},
+               "rotations averaged",
+               {"packings", number},
+               {"wall time a rotation", number},
+               {"CPU time", number},
+               "pressure on the ring, first → last rotation [N/m²]"},
+              {}};
   for (const ThesisCase& setup : results.cases) {
-    Json row = {{"first", true},
-                {"name", setup.name},
-                {"purpose", setup.purpose},
-                {"families", fmt::format("{}", fmt::join(setup.families, ", "))},
-                {"label", fmt::format("{:.3f}", setup.label)},
-                {"nu", fmt::format("{:.4f}", setup.cell.volumeFraction)},
-                {"counts", fmt::format("{} + {}", setup.cell.small, setup.cell.large)},
-                {"omega", readableSetting(setup.cell.omega)},
-                {"spacing", readableSetting(1e3 * setup.cell.wallSpacing)},
-                {"rotations", fmt::format("{} to {}", readableSetting(setup.settleRotations),
-                                          readableSetting(setup.endRotation()))},
-                {"engine", "not run"},
-                {"span", 1}};
-    Names engines;
-    for (const std::string& engine : enginesWithRuns(results))
-      if (!finishedRuns(results, setup, engine).empty()) engines.push_back(engine);
-    if (engines.empty()) rows.push_back(row);
-    row["span"] = std::max<std::size_t>(engines.size(), 1);
-    for (const std::string& engine : engines) {
+    std::string group =
+        fmt::format("{}: {} ({})", setup.name, setup.purpose, fmt::join(setup.families, ", "));
+    const std::vector<Cell> ofCase = {
+        fmt::format("{:.3f}", setup.label),
+        fmt::format("{:.4f}", setup.cell.volumeFraction),
+        fmt::format("{} + {}", setup.cell.small, setup.cell.large),
+        readableSetting(setup.cell.omega),
+        readableSetting(1e3 * setup.cell.wallSpacing),
+        fmt::format("{} to {}", readableSetting(setup.settleRotations),
+                    readableSetting(setup.endRotation()))};
+    const auto add = [&](const std::string& engine, const std::vector<Cell>& rest) {
+      TableRow& row = table.rows.emplace_back(TableRow{{engine}, std::exchange(group, {})});
+      row.cells.insert(row.cells.end(), ofCase.begin(), ofCase.end());
+      row.cells.insert(row.cells.end(), rest.begin(), rest.end());
+    };
+    for (const std::string& engine : enginesWithRuns(results)) {
       const std::vector<CaseRun> runs = finishedRuns(results, setup, engine);
+      if (runs.empty()) continue;
       double wall = 0.0, cpu = 0.0;  // s
       for (const CaseRun& at : runs)
         if (const auto& stats = at.run->run.stats) {
@@ -238,43 +234,66 @@ Json caseRows(const ThesisResults& results) {
         }
       const double rotations = static_cast<double>(runs.size()) * setup.endRotation();
       const auto& history = runs.front().run->history;
-      row["engine"] = engine;
-      row["packings"] = runs.size();
-      row["wall"] = readableDuration(wall / rotations);
-      row["cpu"] = readableDuration(cpu / rotations);
-      row["pressures"] = history.empty()
-                             ? absentText
-                             : fmt::format("{} → {}", readable(history.front().outerPressure),
-                                           readable(history.back().outerPressure));
-      rows.push_back(row);
-      row["first"] = false;
+      add(engine, {fmt::to_string(runs.size()), readableDuration(wall / rotations),
+                   readableDuration(cpu / rotations),
+                   history.empty() ? absentText
+                                   : fmt::format("{} → {}", readable(history.front().outerPressure),
+                                                 readable(history.back().outerPressure))});
     }
+    if (!group.empty()) add("not run", {});
   }
-  return rows;
+  table.note = "Pressures are of the first packing that there is.";
+  return table;
 }
 
-void addInterpretations(Json& view, const ThesisResults& results) {
-  view["interpretationNumbers"] = Json::array();
-  for (const ProfileNumber& number : profileNumbers)
-    view["interpretationNumbers"].push_back(
-        {{"name", mathHtml(number.label)}, {"unit", number.unit}});
-  view["interpretations"] = Json::array();
+Table interpretationTable(const ThesisResults& results) {
+  using enum Column::Kind;
+  Table table{{"interpretation", {"engine", engines}, "at ν̄", "rotations", {"pairs", number}}, {}};
+  for (const ProfileNumber& each : profileNumbers)
+    table.columns.emplace_back(
+        *each.unit == '\0' ? each.label : fmt::format("{} [{}]", each.label, each.unit), number);
   for (const InterpretationRow& of : interpretationRows(results)) {
-    Json cells = Json::array();
-    for (const InterpretationChange& change : of.changes)
-      cells.push_back({{"change", readableDifference(change.change, change.error)},
-                       {"from", readable(change.standard)},
-                       {"there", change.change.has_value()}});
     Names labels;
     for (const double label : of.labels) labels.push_back(fmt::format("{:.3f}", label));
-    view["interpretations"].push_back({{"label", mathHtml(of.label)},
-                                       {"engine", of.engine},
-                                       {"labels", fmt::format("{}", fmt::join(labels, ", "))},
-                                       {"rotations", of.rotations},
-                                       {"pairs", of.pairs},
-                                       {"changes", cells}});
+    TableRow& row = table.rows.emplace_back(
+        TableRow{{of.label, of.engine, fmt::format("{}", fmt::join(labels, ", ")), of.rotations,
+                  fmt::to_string(of.pairs)}});
+    for (const InterpretationChange& change : of.changes)
+      row.cells.emplace_back(
+          readableDifference(change.change, change.error),
+          Names{change.change ? "of " + readable(change.standard) : std::string()});
   }
-  view["hasInterpretations"] = !view["interpretations"].empty();
+  table.note =
+      "Change from the default to the interpretation, with its standard error over pairs of runs: "
+      "of the same ν̄, the same packing's index and the same rotations. Below it the default's own "
+      "value. One pair has no error; a dash is where runs are missing. Bulk: 8 ≤ r̃ < 16. "
+      "readings.csv has each ν̄ by itself.";
+  return table;
+}
+
+List howToRead() {
+  return {
+      {{"✓ reproduced",
+        "the figures lie, with their errors over packings, where the rule asks for them (in square "
+        "brackets). ✗ refuted: they do not, and the reason says how. ? undecided: too few "
+        "packings, "
+        "or none of the runs that the rule is about. A refuted claim is a finding, no failure."},
+       {"Below a refuted claim",
+        "why, as far as it was found: in which state its runs were, and where else the same rule "
+        "has "
+        "its figures in their bands; verdicts do not change. A sentence that names its evidence "
+        "was "
+        "written by a person and is shown while its conditions on the figures hold."},
+       {"Rules", "and tolerances were fixed before any run was seen; each has its reason."},
+       {"Interpretations",
+        "where the thesis contradicts itself a claim is judged under each interpretation that "
+        "there "
+        "are runs of."},
+       {"States change",
+        "for many rotations. Each figure is of the rotations that its cases name, counted since "
+        "the "
+        "ring had closed; history.csv has them all, regime_map.csv has which packings still carry "
+        "then."}}};
 }
 
 /// "grain: a rotation of the wheel at 0.1 /s takes 75 s of wall time …"; empty without runs.
@@ -299,34 +318,32 @@ std::string speedOf(const ThesisResults& results, const std::string& engine) {
       readable(secondsPerDay / cpu), readable(2.0 * secondsPerDay / cpu));
 }
 
-void addSummary(Json& view, const ThesisResults& results) {
-  Names sentences;
+/// What engines took, who stands for whom, and what failed.
+Names notesOf(const ThesisResults& results) {
+  Names notes;
   for (const std::string& engine : rowsOf(results))
-    sentences.push_back(fmt::format("Claims {}: {}.",
-                                    engine == noEngine ? "that need no engine" : "on " + engine,
-                                    countsText(firstClaims(results, engine))));
-  view["lead"] = sentences.empty() ? "No claim was judged." : sentences.front();
-  if (!sentences.empty()) sentences.erase(sentences.begin());
-  for (const EngineRow& engine : results.engines)
-    if (const std::string speed = speedOf(results, engine.name); !speed.empty())
-      sentences.push_back(speed);
+    notes.push_back(fmt::format("Claims {}: {}.",
+                                engine == noEngine ? "that need no engine" : "on " + engine,
+                                countsText(firstClaims(results, engine))));
+  for (const EngineRow& engine : results.engines) notes.push_back(speedOf(results, engine.name));
   for (const ThesisSurrogate& each : results.surrogates)
-    sentences.push_back(fmt::format(
+    notes.push_back(fmt::format(
         "{} {} {}: {}", each.engine,
         each.accepted ? "is evaluated through its mirror" : "is not evaluated through its mirror",
         each.mirror, each.why));
   for (const ThesisRun& run : results.runs)
-    if (run.run.status == RunStatus::failed) sentences.push_back("Failed: " + run.run.reason);
-  view["sentences"] = sentences;
+    if (run.run.status == Status::failed) notes.push_back("Failed: " + run.run.reason);
+  notes.insert(notes.end(), results.notes.begin(), results.notes.end());
+  return nonEmpty(std::move(notes));
 }
 
 }  // namespace
 
 Overview thesisOverview(const ThesisResults& results) {
   Overview overview;
-  overview.states = {{CellState::good, "reproduced"},
-                     {CellState::bad, "refuted"},
-                     {CellState::notApplicable, "no claim of it"}};
+  overview.states = {{Verdict::pass, "reproduced"},
+                     {Verdict::fail, "refuted"},
+                     {Verdict::notApplicable, "no claim of it"}};
   for (const ClaimRow& claim : results.claims)
     if (std::ranges::find(overview.columns, claim.id, &OverviewColumn::name) ==
         overview.columns.end())
@@ -346,27 +363,33 @@ Overview thesisOverview(const ThesisResults& results) {
   return overview;
 }
 
-std::string thesisPage(const ThesisResults& results, const Illustrations& shown) {
-  Json view = commonView(results.head, results.elapsed, results.notes, shown);
-  addSummary(view, results);
-  addOverview(view, thesisOverview(results), results.engines);
-  view["claims"] = claimRows(results, shown);
-  view["hasClaims"] = !results.claims.empty();
-  view["cases"] = caseRows(results);
-  view["figures"] = figureViews(shown, "figure_");
-  view["map"] = figureViews(shown, "map_");
-  view["hasMap"] = !view["map"].empty();
-  view["hasFigures"] = !view["figures"].empty();
-  addInterpretations(view, results);
-  view["rules"] = results.rules;
-  view["sweep"] = results.head.setup.toml;
-  view["toml"] = "";  // of a case: a sweep has many
-  view["files"] =
-      "Beside this page: results.json (everything), claims.csv (every figure of every claim), "
-      "history.csv (every rotation of every run), regime_map.csv (states over ν̄ and rotations) and "
-      "readings.csv (what each interpretation changes). "
-      "Whole runs, with series and all fields, are in runs/ where they were made.";
-  return render("report_thesis.html", view);
+Report reportOf(const ThesisResults& results) {
+  Report report{{results.head, results.engines, thesisOverview(results)}};
+  report.elapsed = results.elapsed;
+  report.notes = notesOf(results);
+  report.figures = thesisFigures(results);
+  report.engineColours = false;  // of most plots colours are volume fractions
+  report.caseHeading = "The parameter sweep";
+  report.tables = {{"claims.csv", claimsCsv(results)},
+                   {"history.csv", historyCsv(results)},
+                   {"regime_map.csv", regimeMapCsv(results)},
+                   {"readings.csv", interpretationsCsv(results)}};
+  Blocks& claims = report.section("claims", "The thesis' claims", "Claims").blocks;
+  if (results.claims.empty())
+    claims = {Paragraph{"None was judged."}};
+  else
+    claims = {claimTable(results)};
+  report.section("reading", "How to read it").blocks = {howToRead()};
+  if (!report.figures.empty())
+    report.section("figures", "The thesis' figures, redrawn", "Figures").blocks = {
+        drawingsOf(report.figures, "figure_")};
+  if (Table table = interpretationTable(results); !table.rows.empty())
+    report.section("interpretations", "What each interpretation changes", "Interpretations")
+        .blocks = {std::move(table)};
+  report.section("cases", "Cases").blocks = {caseTable(results)};
+  report.section("rules", "Rules").blocks = {
+      Details{"By what the claims are judged", {Code{results.rules}}}};
+  return report;
 }
 
 std::string claimsText(const ThesisResults& results) {
@@ -380,7 +403,7 @@ std::string claimsText(const ThesisResults& results) {
                       first.unit.empty() ? "" : " ", first.unit),
           first);
     }
-    text += fmt::format("{:<4} {:<10} {:<16} {}; {}\n", claim.id, nameOf(claim.verdict),
+    text += fmt::format("{:<4} {:<10} {:<16} {}; {}\n", claim.id, wordOf(claim.verdict),
                         claim.engine, figure, claim.interpretation);
   }
   for (const std::string& note : results.notes) text += note + "\n";
@@ -393,11 +416,11 @@ std::string claimsCsv(const ThesisResults& results) {
       "reasons\n";
   for (const ClaimRow& claim : results.claims) {
     const auto line = [&](const ClaimFigure& figure) {
-      table += row(claim.id, claim.engine, claim.mirror, claim.interpretation, figure.name,
-                   figure.value, figure.standardError, figure.low, figure.high, figure.unit,
-                   std::string(nameOf(claim.verdict)), claim.why,
-                   figure.verdict ? std::string(nameOf(*figure.verdict)) : std::string(),
-                   fmt::format("{}", fmt::join(claim.reasons, " ")));
+      table +=
+          row(claim.id, claim.engine, claim.mirror, claim.interpretation, figure.name, figure.value,
+              figure.standardError, figure.low, figure.high, figure.unit, wordOf(claim.verdict),
+              claim.why, figure.verdict ? wordOf(*figure.verdict) : std::string(),
+              fmt::format("{}", fmt::join(claim.reasons, " ")));
     };
     for (const ClaimFigure& figure : claim.figures) line(figure);
     if (claim.figures.empty()) line({});
@@ -406,16 +429,15 @@ std::string claimsCsv(const ThesisResults& results) {
 }
 
 std::string historyCsv(const ThesisResults& results) {
-  std::string table =
-      "leg,engine,packing,from_rotation,to_rotation,outer_pressure,wheel_torque,wheel_contacts,"
-      "wheel_touched,coordination,volume_fraction_at_wheel,volume_fraction_outside,"
-      "velocity_at_wheel,kinetic_energy,max_overlap,mean_overlap\n";
+  std::string table = "leg,engine,packing,from_rotation,to_rotation";
+  for (const SpanNumber& number : spanNumbers) table += fmt::format(",{}", number.name);
+  table += "\n";
   for (const ThesisRun& run : results.runs)
     for (const ThesisSpan& span : run.history) {
       std::string line = row(run.setup, run.engine, static_cast<std::size_t>(run.packing),
                              finite(span.from), finite(span.to));
       line.pop_back();
-      for (const SpanNumber number : spanNumbers) line += "," + cell(span.*number);
+      for (const SpanNumber& number : spanNumbers) line += "," + cell(span.*number.of);
       table += line + "\n";
     }
   return table;

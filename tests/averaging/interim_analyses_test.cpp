@@ -1,10 +1,13 @@
 #include "averaging/interim_analyses.hpp"
 
+#include <gsl/gsl_cdf.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 #include <random>
+
+#include "averaging/pocock.hpp"
 
 namespace crossgrain {
 namespace {
@@ -52,15 +55,15 @@ TEST(InterimSettings, AnswerInFiveWays) {
   // One look at 16 packings, t(15, 5 %) = 1.753. Scatter s gives se = s √(16/15)/4.
   const InterimPlan plan = interimPlanAt(16, 1, 0.05);
   const auto answer = [&](double mean, double scatter) {
-    return answerOf(differing(alternating(16, mean, scatter)), plan, 16).answer;
+    return answerOf(differing(alternating(16, mean, scatter)), plan, 16).verdict;
   };
-  EXPECT_EQ(answer(0.1, 1.0), Answer::noDifference);     // 0.1 ± 0.45
-  EXPECT_EQ(answer(0.5, 0.5), Answer::smallDifference);  // 0.5 ± 0.23
-  EXPECT_EQ(answer(0.99, 0.42), Answer::borderline);     // 0.99 ± 0.19
-  EXPECT_EQ(answer(-0.99, 0.42), Answer::borderline);    // the same on the other side
-  EXPECT_EQ(answer(2.0, 0.5), Answer::disagree);         // 2.0 ± 0.23
-  EXPECT_EQ(answer(0.9, 2.5), Answer::undecided);        // 0.9 ± 1.13: holds 0 and 2
-  EXPECT_EQ(answer(1.7, 2.0), Answer::undecided);        // 1.7 ± 0.91: holds the margin and 2
+  EXPECT_EQ(answer(0.1, 1.0), Verdict::pass);           // 0.1 ± 0.45
+  EXPECT_EQ(answer(0.5, 0.5), Verdict::pass);           // 0.5 ± 0.23
+  EXPECT_EQ(answer(0.99, 0.42), Verdict::borderline);   // 0.99 ± 0.19
+  EXPECT_EQ(answer(-0.99, 0.42), Verdict::borderline);  // the same on the other side
+  EXPECT_EQ(answer(2.0, 0.5), Verdict::fail);           // 2.0 ± 0.23
+  EXPECT_EQ(answer(0.9, 2.5), Verdict::undecided);      // 0.9 ± 1.13: holds 0 and 2
+  EXPECT_EQ(answer(1.7, 2.0), Verdict::undecided);      // 1.7 ± 0.91: holds the margin and 2
   const InterimAnswer found = answerOf(differing(alternating(16, 0.99, 0.42)), plan, 16);
   const double half = 1.7530503556925547 * 0.42 * std::sqrt(16.0 / 15.0) / 4.0;
   EXPECT_NEAR(found.difference, 0.99, 1e-14);
@@ -77,24 +80,21 @@ TEST(InterimSettings, KeepWhatIsDecidedAndGoOnWithTheRest) {
   const InterimAnswer first = answerOf(differing(differences), plan, 8);
   const InterimAnswer last = answerOf(differing(differences), plan, 32);
   for (const InterimAnswer& one : {first, last}) {
-    EXPECT_EQ(one.answer, Answer::noDifference);
+    EXPECT_EQ(one.verdict, Verdict::pass);
     EXPECT_EQ(one.look, 0u);
     EXPECT_EQ(one.packings, 8);
   }
   const InterimAnswer open = answerOf(differing(alternating(32, 0.0, 3.0)), plan, 24);
-  EXPECT_EQ(open.answer, Answer::undecided);
+  EXPECT_EQ(open.verdict, Verdict::undecided);
   EXPECT_EQ(open.look, 2u);
   EXPECT_EQ(open.packings, 24);
 }
 
-TEST(InterimSettings, SayNothingBeforeTheFirst) {
+TEST(InterimSettings, SayNothingBeforeTheFirst_AndCountLostPackings) {
   const InterimPlan plan = interimPlanAt(8, 4, 0.05);
   EXPECT_FALSE(answersAfterInterims(std::vector{differing(alternating(7, 0.0, 0.1))}, plan, 7)
                    .front()
                    .has_value());
-}
-
-TEST(InterimSettings, CountPackingsThatOneEngineLost) {
   PairedSample sample = differing(alternating(8, 0.0, 0.1));
   sample.other[3].reset();
   sample.other[5].reset();
@@ -108,12 +108,12 @@ TEST(InterimSettings, ABiasNarrowsAgreementAndWidensDisagreement) {
   const auto answer = [&](double mean, double scatter, double bias) {
     PairedSample sample = differing(alternating(16, mean, scatter));
     sample.bias = bias;
-    return answerOf(sample, plan, 16).answer;
+    return answerOf(sample, plan, 16).verdict;
   };
-  EXPECT_EQ(answer(0.7, 0.4, 0.0), Answer::smallDifference);  // 0.7 ± 0.18
-  EXPECT_EQ(answer(0.7, 0.4, 0.2), Answer::borderline);
-  EXPECT_EQ(answer(1.5, 0.4, 0.0), Answer::disagree);
-  EXPECT_NE(answer(1.5, 0.4, 0.4), Answer::disagree);
+  EXPECT_EQ(answer(0.7, 0.4, 0.0), Verdict::pass);  // 0.7 ± 0.18
+  EXPECT_EQ(answer(0.7, 0.4, 0.2), Verdict::borderline);
+  EXPECT_EQ(answer(1.5, 0.4, 0.0), Verdict::fail);
+  EXPECT_NE(answer(1.5, 0.4, 0.4), Verdict::fail);
 }
 
 /// A mirror's runs stand for an engine that differs from it by as much as the bias allows. The
@@ -134,7 +134,7 @@ TEST(InterimSettings, AnIntervalWidenedByABiasHoldsTheDifference) {
     const InterimAnswer found = answerOf(sample, plan, 8);
     held += *found.low - bias <= truth && truth <= *found.high + bias;
     narrow += *found.low <= truth && truth <= *found.high;
-    falseAgree += agrees(found.answer);
+    falseAgree += found.verdict == Verdict::pass;
   }
   // Three standard errors of 5 % among 4000; only one end is tried by a bias of one sign.
   constexpr double error = 3.0 * 0.00345;
@@ -161,8 +161,8 @@ TEST(InterimSettings, HoldBothErrorsAtTheMargin) {
     }
     bool any = false;
     for (const auto& found : answersAfterInterims(family, plan, 32)) {
-      any = any || found->answer == Answer::disagree;
-      falseAgree += agrees(found->answer);
+      any = any || found->verdict == Verdict::fail;
+      falseAgree += found->verdict == Verdict::pass;
       late += found->look == 3;
     }
     falseDisagree += any;
@@ -189,7 +189,7 @@ TEST(InterimSettings, FindTwoMargins) {
     std::vector<double> differences;
     for (int k = 0; k < 32; ++k) differences.push_back(2.0 + normal(generator));
     family.front() = differing(differences);
-    found += answersAfterInterims(family, plan, 32).front()->answer == Answer::disagree;
+    found += answersAfterInterims(family, plan, 32).front()->verdict == Verdict::fail;
   }
   EXPECT_GE(found, 0.98 * trials);
 }
@@ -205,7 +205,7 @@ TEST(InterimSettings, ForecastPackingsThatDecideWithTheChanceAskedFor) {
   for (int t = 0; t < trials; ++t) {
     std::vector<double> differences;
     for (int k = 0; k < *packings; ++k) differences.push_back(0.3 + 1.5 * normal(generator));
-    decided += agrees(answerOf(differing(differences), plan, *packings).answer);
+    decided += answerOf(differing(differences), plan, *packings).verdict == Verdict::pass;
   }
   EXPECT_NEAR(decided / static_cast<double>(trials), 0.9, 0.025);
   EXPECT_FALSE(packingsFor(1.0, 1.5, 1.0, 0.025));  // on the margin no number decides
@@ -220,6 +220,28 @@ TEST(InterimSettings, ChanceOfOneAsFarIsStudentsOverAllTests) {
   EXPECT_NEAR(chanceOfOneAsFar(2.3646242510102997, 1.0, 7, 1), 0.05, 1e-9);
   EXPECT_NEAR(chanceOfOneAsFar(-2.0 * 2.3646242510102997, 2.0, 7, 4), 0.2, 1e-9);
   EXPECT_EQ(chanceOfOneAsFar(0.1, 1.0, 7, 9), 1.0);
+}
+
+/// Jennison and Turnbull (2000), Table 2.1: the constant C_P(looks, α) of two-sided tests. Far from
+/// 0 only one side counts, so that one side at α/2 has the same.
+TEST(Pocock, HasThePublishedConstants) {
+  const auto constant = [](int looks, double alpha) {
+    return gsl_cdf_ugaussian_Qinv(pocockLevel(looks, alpha / 2.0));
+  };
+  EXPECT_NEAR(constant(2, 0.10), 1.875, 1.5e-3);
+  EXPECT_NEAR(constant(3, 0.10), 1.992, 1.5e-3);
+  EXPECT_NEAR(constant(4, 0.10), 2.067, 1.5e-3);
+  EXPECT_NEAR(constant(5, 0.10), 2.122, 1.5e-3);
+  EXPECT_NEAR(constant(2, 0.05), 2.178, 1e-3);
+  EXPECT_NEAR(constant(4, 0.05), 2.361, 1e-3);
+  EXPECT_NEAR(constant(5, 0.05), 2.413, 1e-3);
+  EXPECT_NEAR(constant(4, 0.01), 2.939, 1e-3);
+}
+
+TEST(Pocock, OneLookIsTheTestItself) {
+  EXPECT_EQ(pocockLevel(1, 0.05), 0.05);
+  EXPECT_GT(pocockLevel(2, 0.05), 0.025);
+  EXPECT_LT(pocockLevel(8, 0.05), pocockLevel(4, 0.05));
 }
 
 }  // namespace

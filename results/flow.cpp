@@ -1,8 +1,7 @@
-#include "results/run.hpp"
-
 #include <algorithm>
 
-#include "results/flow_fields.hpp"
+#include "results/compare.hpp"
+#include "results/rev.hpp"
 
 namespace crossgrain::inline results {
 
@@ -11,6 +10,24 @@ Json toJson(const FlowRun& run) {
 }
 FlowRun runFromJson(const Json& json) {
   return readAs<FlowRun>(json);
+}
+
+Json toJson(const CompareResults& results) {
+  return jsonOf(results);
+}
+CompareResults compareFromJson(const Json& json) {
+  auto results = readAs<CompareResults>(json);
+  // Pages and tables of a comparison begin with the first engine, the reference.
+  if (results.head.kind == kindCompare && results.engines.empty())
+    throw FieldError("engines: are none");
+  return results;
+}
+
+Json toJson(const RevResults& results) {
+  return jsonOf(results);
+}
+RevResults revFromJson(const Json& json) {
+  return readAs<RevResults>(json);
 }
 
 const Profile* profileOf(const std::vector<Profile>& profiles, std::string_view field) {
