@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engines/grain/stiffness.hpp"
+#include "engines/grain/adhesion.hpp"
 
 namespace grain {
 
@@ -9,16 +9,19 @@ namespace grain {
 
 /// f_n = f_el(δ) − γ_n v_n (linear: Lätzel 2003, Eq. 4.9).
 /// Implicit damping takes v_n at the end of the half step that f_n itself brings about:
-/// v_n = v_n' + f_n dt/(2 m₁₂), hence the divisor.
+/// v_n = v_n' + f_n dt/(2 m₁₂), hence the divisor. Where tension is cut the dashpot does not pull;
+/// cohesion does.
+/// @param body  the force without the dashpot: f_el of a law without cohesion
 template <class L, class Real>
-GRAIN_INLINE Real normalForce(const L& law, const ContactMotion<Real>& contact) {
-  Real force = elasticForce(law, contact);
+GRAIN_INLINE Real normalForce(const L& law, const ContactMotion<Real>& contact, Real body) {
+  Real force = body;
   if (law.normalDamping) {
     const Real gn = normalDamping(law, contact);
     force -= gn * contact.normalVelocity;
     if (law.implicitDamping) force /= Real(1) + gn * contact.normalCompliance;
   }
-  return law.cutTension ? larger(force, Real(0)) : force;
+  if (!law.cutTension) return force;
+  return larger(force, law.cohesion == Cohesion::none ? Real(0) : smaller(body, Real(0)));
 }
 
 template <class L, class Real>
@@ -56,7 +59,7 @@ GRAIN_INLINE Real planePoint(const L& law, Real a, Real height) {
 /// and ξ grows by v_t dt, else f_t = bound·sign(f*) and ξ = −f_t/k_t (Lätzel 2003, Eqs. 4.20–4.25).
 template <class L, class Real>
 GRAIN_INLINE ContactForce<Real> springForce(const L& law, const ContactMotion<Real>& contact,
-                                            Real normal, Real bound, Real& spring) {
+                                            Real normal, Real load, Real bound, Real& spring) {
   // With History::force the spring is the force itself: one unit of it per unit.
   const bool force = law.history == History::force;
   const Real stiffness = tangentialStiffness(law, contact);
@@ -89,26 +92,111 @@ GRAIN_INLINE ContactForce<Real> springForce(const L& law, const ContactMotion<Re
   Real slipped = -(law.resetSpringOnly ? slipping - viscous : slipping) * inverse;
   if (law.stretch == Stretch::midpoint) slipped += Real(0.5) * stretch;
   spring = holds ? stretched + (Real(1) - part) * stretch : slipped;
-  return {normal, holds ? trial : slipping, holds ? Real(0) : Real(1)};
+  return {normal, holds ? trial : slipping, holds ? Real(0) : Real(1), load};
 }
 
-/// The force on i. `spring` is ξ, kept as long as the contact lasts.
+/// The force on i. `spring` is ξ, kept as long as the contact lasts, and so is `memory`, which only
+/// a law that remembers() looks at: > 0 while JKR's bond holds, or the largest overlap.
 template <class L, class Real>
 GRAIN_INLINE ContactForce<Real> contactForce(const L& law, const ContactMotion<Real>& contact,
-                                             Real& spring) {
-  const Real normal = normalForce(law, contact);
-  if (law.tangential == Tangential::none) return {normal, Real(0), Real(0)};
-  const Real bound = coulombBound(law, normal);
+                                             Real& spring, Real& memory) {
+  const Real body = bodyForce(law, contact, memory);
+  const Real normal = normalForce(law, contact, body);
+  const Real load = boundLoad(law, contact, normal, body);
+  if (law.tangential == Tangential::none) return {normal, Real(0), Real(0), load};
+  const Real bound = coulombBound(law, load);
   const Real slip = contact.tangentialVelocity;
   if (law.tangential == Tangential::coulomb)  // Eq. 4.16
-    return {normal, -signedLike(bound, slip), Real(1)};
+    return {normal, -signedLike(bound, slip), Real(1), load};
   if (law.tangential == Tangential::viscous) {  // Eq. 4.18
     const Real gt = tangentialDamping(law, contact);
     Real trial = gt * magnitude(slip);
     if (law.implicitDamping) trial /= Real(1) + gt * contact.tangentialCompliance;
-    return {normal, -signedLike(smaller(trial, bound), slip), trial > bound ? Real(1) : Real(0)};
+    return {normal, -signedLike(smaller(trial, bound), slip), trial > bound ? Real(1) : Real(0),
+            load};
   }
-  return springForce(law, contact, normal, bound, spring);
+  return springForce(law, contact, normal, load, bound, spring);
+}
+
+/// 1/(J + m a²) of a disk from its inverse mass and moment of inertia; of a wall, whose are 0, 0.
+template <class Real>
+GRAIN_INLINE Real inverseRollingInertia(Real inverseMass, Real inverseInertia, Real a) {
+  const Real sum = inverseMass + inverseInertia * a * a;  // (J + m a²)/(m J)
+  return sum > Real(0) ? inverseMass * inverseInertia / sum : Real(0);
+}
+
+/// Lengths of a pair, or of a disk of radius a at a plane (other: 0).
+template <class L, class Real>
+GRAIN_INLINE RollingMotion<Real> rollingMotion(const L& law, Real a, Real other, Real spin) {
+  const RollingConventions c = law.rollingConventions;
+  const Real effective = other > Real(0) ? a * other / (a + other) : a;
+  const Real smallest = other > Real(0) ? smaller(a, other) : a;
+  RollingMotion<Real> motion{};
+  motion.spin = spin;
+  motion.length = c.length == RollingLength::smallerRadius    ? smallest
+                  : c.length == RollingLength::twiceEffective ? effective + effective
+                                                              : effective;
+  const Real radii = other > Real(0) ? a * other : a * a;
+  motion.square = c.stiffness == RollingStiffness::constant ? Real(1)
+                  : c.stiffness == RollingStiffness::radii  ? radii
+                                                            : motion.length * motion.length;
+  return motion;
+}
+
+/// µ_r L N [N m].
+template <class L, class Real>
+GRAIN_INLINE Real rollingBound(const L& law, const RollingMotion<Real>& motion,
+                               const ContactMotion<Real>& contact, Real normal) {
+  const RollingLoad of = law.rollingConventions.load;
+  Real load = normal;
+  if (of == RollingLoad::elastic) load = elasticForce(law, contact);
+  if (of == RollingLoad::magnitude) load = magnitude(normal);
+  return law.muR * motion.length * larger(load, Real(0));
+}
+
+/// γ_r L² of a dashpot [N m s]. @see RollingDamper
+template <class L, class Real>
+GRAIN_INLINE Real rollingDamping(const L& law, const RollingMotion<Real>& motion) {
+  if (seesRollingInertia(law))
+    return Real(2) * law.gr * squareRoot(motion.inertia * law.kr * motion.square);
+  return law.gr * motion.length * motion.length;
+}
+
+/// The rolling resistance on i. `angle` is θ, kept as long as the contact lasts. Like a tangential
+/// spring it slips where the bound is met: θ is what carries the bound then.
+template <class L, class Real>
+GRAIN_INLINE RollingTorque<Real> rollingTorque(const L& law, const RollingMotion<Real>& motion,
+                                               const ContactMotion<Real>& contact, Real normal,
+                                               Real& angle) {
+  if (law.rolling == Rolling::viscous)
+    return {-law.gr * motion.length * motion.length * motion.spin, Real(0)};
+  const Real bound = rollingBound(law, motion, contact, normal);
+  if (law.rolling == Rolling::viscousByLoad) return {-bound * motion.length * motion.spin, Real(0)};
+  if (law.rolling == Rolling::constantTorque) return {-signedLike(bound, motion.spin), Real(1)};
+  const RollingConventions c = law.rollingConventions;
+  const Real stiffness = law.kr * motion.square;
+  const Real stretch = motion.spin * law.dt;
+  const Real part = law.stretch == Stretch::after    ? Real(0)
+                    : law.stretch == Stretch::before ? Real(1)
+                                                     : Real(0.5);
+  const Real stretched = law.stretch == Stretch::after ? angle : angle + part * stretch;
+  const Real spring = -stiffness * stretched;
+  const Real viscous = -rollingDamping(law, motion) * motion.spin;
+  const Real trial = spring + viscous;
+  const Real tested = c.dashpotOutsideBound ? spring : trial;
+  const bool holds = magnitude(tested) <= bound;
+  const Real slipping = withSignOf(bound, tested);
+  Real slipped = -(c.resetSpringOnly ? slipping - viscous : slipping) / stiffness;
+  if (law.stretch == Stretch::midpoint) slipped += Real(0.5) * stretch;
+  angle = holds ? stretched + (Real(1) - part) * stretch : slipped;
+  return {holds ? trial : slipping, holds ? Real(0) : Real(1)};
+}
+
+/// Whether surfaces at that overlap are in contact, and for JKR whether they were before: 1 or 0.
+template <class L, class Real>
+GRAIN_INLINE Real isBonded(const L& law, Real overlap, Real radius, Real before) {
+  const Real bound = before > Real(0) ? -jkrRange(law, radius) : Real(0);
+  return overlap > bound ? Real(1) : Real(0);
 }
 
 }  // namespace grain

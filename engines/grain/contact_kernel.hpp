@@ -18,9 +18,11 @@ struct alignas(64) ContactBlock {
   Vec<Real> distance[blockSize], velocity[blockSize];  ///< of i relative to j
   Real radiusI[blockSize], radiusJ[blockSize], spinI[blockSize], spinJ[blockSize];
   Real inverseMass[blockSize], inverseInertiaI[blockSize], inverseInertiaJ[blockSize];
+  Real inverseRollingI[blockSize], inverseRollingJ[blockSize];  ///< 1/(J + m a²)
   Vec<Real> force[blockSize];
   Real leverI[blockSize], leverJ[blockSize];
   Real normal[blockSize], tangential[blockSize], sliding[blockSize];
+  Real rolling[blockSize], rollingSlides[blockSize];
 };
 
 /// A few vectors at a time; a library's way to copy has its beginnings to pay for.
@@ -57,15 +59,22 @@ GRAIN_INLINE void gather(const L& law, const ContactView<Real>& disks, const std
         b.inverseInertiaJ[p] = disks.inverseInertia[j];
       }
     }
+    if (seesRollingInertia(law)) {
+      b.inverseRollingI[p] =
+          inverseRollingInertia(disks.inverseMass[i], disks.inverseInertia[i], disks.radius[i]);
+      b.inverseRollingJ[p] =
+          inverseRollingInertia(disks.inverseMass[j], disks.inverseInertia[j], disks.radius[j]);
+    }
   }
 }
 
 /// The contact kernel: geometry, relative motion, law, force. Pairs that do not touch (yet) take
 /// part with no force.
-/// Writes the block, and each pair its own spring: the loop may be taken side by side.
+/// Writes the block, and each pair its own springs: the loop may be taken side by side.
 template <class L, class Real>
-GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, Real* springs,
-                                  std::size_t count, ContactBlock<Real>& b) {
+GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift,
+                                  const PairMemory<Real>& kept, std::size_t count,
+                                  ContactBlock<Real>& b) {
   const bool friction = law.tangential != Tangential::none;
   const bool history =
       law.tangential == Tangential::spring || law.tangential == Tangential::springDashpot;
@@ -81,7 +90,7 @@ GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, Real* sp
     const Real distance2 = dx * dx + dy * dy;
     // A factor and not a choice: compilers turn choices into branches, and then give up the
     // vectors.
-    const Real touches = distance2 < reach * reach ? Real(1) : Real(0);
+    Real touches = distance2 < reach * reach ? Real(1) : Real(0);
     const Real distance = squareRoot(distance2);
     const Real inverse = Real(1) / distance;
     const Real nx = dx * inverse;
@@ -89,7 +98,12 @@ GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, Real* sp
 
     ContactMotion<Real> motion{};
     motion.overlap = reach - distance;
-    if (law.normal == Normal::hertz) motion.radius = b.radiusI[p] * b.radiusJ[p] / reach;
+    if (law.normal == Normal::hertz || law.cohesion != Cohesion::none)
+      motion.radius = b.radiusI[p] * b.radiusJ[p] / reach;
+    if (law.cohesion == Cohesion::area) motion.reach = reach;
+    Real memory = remembers(law) ? kept.memory[p] : Real(0);
+    if (law.cohesion == Cohesion::jkr)
+      touches = memory = isBonded(law, motion.overlap, motion.radius, memory);
     if (law.damper == Damper::critical) motion.mass = Real(1) / b.inverseMass[p];
     if (law.normalDamping) motion.normalVelocity = b.velocity[p].x * nx + b.velocity[p].y * ny;
     if (seesCompliances(law)) motion.normalCompliance = law.halfStep * b.inverseMass[p];
@@ -109,16 +123,30 @@ GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, Real* sp
                                                        armJ * leverJ * b.inverseInertiaJ[p]);
     }
 
-    Real spring = history ? springs[p] : Real(0);
-    const ContactForce<Real> force = contactForce(law, motion, spring);
+    Real spring = history ? kept.spring[p] : Real(0);
+    const ContactForce<Real> force = contactForce(law, motion, spring, memory);
     const Real fn = touches * force.normal;
     const Real ft = touches * force.tangential;
-    if (history) springs[p] = touches * spring;
+    if (history) kept.spring[p] = touches * spring;
+    if (remembers(law)) kept.memory[p] = touches * memory;
     b.force[p].x = friction ? fn * nx - ft * ny : fn * nx;
     b.force[p].y = friction ? fn * ny + ft * nx : fn * ny;
     if (law.rotation) {
       b.leverI[p] = leverI * ft;
       b.leverJ[p] = leverJ * ft;
+    }
+    if (law.rolling != Rolling::none) {
+      RollingMotion<Real> rolling =
+          rollingMotion(law, b.radiusI[p], b.radiusJ[p], b.spinI[p] - b.spinJ[p]);
+      if (seesRollingInertia(law))
+        rolling.inertia = Real(1) / (b.inverseRollingI[p] + b.inverseRollingJ[p]);
+      Real angle = law.rolling == Rolling::spring ? kept.angle[p] : Real(0);
+      const RollingTorque<Real> resistance = rollingTorque(law, rolling, motion, force.load, angle);
+      if (law.rolling == Rolling::spring) kept.angle[p] = touches * angle;
+      b.rolling[p] = touches * resistance.torque;
+      b.rollingSlides[p] = touches * resistance.sliding;
+      b.leverI[p] -= b.rolling[p];
+      b.leverJ[p] += b.rolling[p];
     }
     b.normal[p] = fn;
     b.tangential[p] = ft;
@@ -157,11 +185,15 @@ static std::size_t contactKernel(const GeneralLaw<Real>& general, const ContactV
     const std::int32_t* j = pairs.j + begin;
     gather(law, disks, i, j, count, b);
     touching += applyLaw(law, hasLocalCoordinates<Real> ? pairs.shift + begin : nullptr,
-                         pairs.spring == nullptr ? nullptr : pairs.spring + begin, count, b);
+                         pairs.kept.from(begin), count, b);
     if (pairs.normal != nullptr) {
       copy(b.normal, count, pairs.normal + begin);
       copy(b.tangential, count, pairs.tangential + begin);
       copy(b.sliding, count, pairs.sliding + begin);
+    }
+    if (law.rolling != Rolling::none && pairs.rolling != nullptr) {
+      copy(b.rolling, count, pairs.rolling + begin);
+      copy(b.rollingSlides, count, pairs.rollingSlides + begin);
     }
     if (pairs.addTo == AddTo::none) {
       copy(b.force, count, pairs.stored.force + begin);

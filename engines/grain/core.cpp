@@ -32,6 +32,29 @@ double smallestRadius(const Disks& disks) {
   return disks.size() == 0 ? 1.0 : *std::ranges::min_element(disks.radius);
 }
 
+/// How far apart bodies may be in contact [m]: it grows with R₁₂ < a_i.
+double adhesionRange(const Setup& setup, const auto& law) {
+  if (setup.law.cohesion != Cohesion::jkr || setup.disks.size() == 0) return 0.0;
+  const double largest = *std::ranges::max_element(setup.disks.radius);
+  return 1.001 * static_cast<double>(jkrRange(law, static_cast<decltype(law.kn)>(largest)));
+}
+
+/// @throws std::invalid_argument naming what a law cannot be
+void requireSound(const Law& law) {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw std::invalid_argument(what);
+  };
+  const bool rigid = law.normal == Normal::impulse;
+  require(!rigid || law.rolling == Rolling::none, "impulses know no resistance to rolling");
+  require(!rigid || law.cohesion == Cohesion::none, "impulses know no cohesion");
+  require(law.rolling != Rolling::spring || law.kr > 0.0, "a rolling spring needs a stiffness > 0");
+  require(law.cohesion != Cohesion::jkr || (law.normal == Normal::hertz && law.w > 0.0),
+          "JKR needs Hertz' law and a work of adhesion > 0");
+  require(law.cohesion != Cohesion::elastoPlastic ||
+              (law.normal == Normal::linear && law.k2 >= law.kn && law.kc >= 0.0),
+          "an elasto-plastic contact needs the linear law, k2 >= kn and kc >= 0");
+}
+
 std::size_t partCount(const Setup& setup) {
   // A part with no disk would be of no use.
   const std::size_t most = std::max<std::size_t>(setup.disks.size(), 1);
@@ -40,7 +63,7 @@ std::size_t partCount(const Setup& setup) {
 
 MotionEffects motionEffects(const Setup& setup) {
   MotionEffects effects;
-  effects.rotation = setup.law.friction() && setup.rotation;
+  effects.rotation = setup.law.turnsDisks() && setup.rotation;
   effects.predict =
       setup.law.damping == Damping::predicted && setup.integrator != Integrator::semiImplicitEuler;
   effects.gravity = setup.gravityX != 0.0 || setup.gravityY != 0.0;
@@ -71,8 +94,11 @@ Core<Real>::Core(Setup setup)
       kernels_(kernels<Real>()),
       maxOverlap_(setup.maxOverlap > 0.0 ? setup.maxOverlap
                                          : std::numeric_limits<double>::infinity()),
-      lists_(moving_, partCount(setup), setup.law.springs(),
-             Skin(setup.skin, smallestRadius(setup.disks)), maxOverlap_),
+      lists_(moving_, partCount(setup),
+             {setup.law.springs(), setup.rotation && setup.law.rollingSprings(),
+              setup.law.remembers()},
+             Skin(setup.skin, smallestRadius(setup.disks)), maxOverlap_,
+             adhesionRange(setup, law_)),
       team_(partCount(setup)),
       reports_(partCount(setup)),
       touching_(partCount(setup)),
@@ -80,13 +106,16 @@ Core<Real>::Core(Setup setup)
   if (!(dt_ > 0.0)) throw std::invalid_argument("the time step must be > 0 s");
   if (law_.normal == Normal::impulse && integrator_ != Integrator::semiImplicitEuler)
     throw std::invalid_argument("impulses need semi-implicit Euler steps");
+  requireSound(setup.law);
   const MotionEffects effects = motionEffects(setup);
   motion_ = kernels_.motion[indexOf(effects)];
   contacts_ = kernels_.generalContacts;
   planes_ = kernels_.generalPlanes;
   if (const auto set = conventionSet(law_); set && !setup.generalKernels) {
     const std::size_t variant =
-        indexOf({law_.tangential, law_.cutTension, law_.normalDamping, law_.rotation}, *set);
+        indexOf({law_.tangential, law_.cutTension, law_.normalDamping, law_.rotation,
+                 law_.rolling == Rolling::spring, law_.cohesion == Cohesion::area},
+                *set);
     if (kernels_.contacts[variant] != nullptr) contacts_ = kernels_.contacts[variant];
     if (kernels_.planes[variant] != nullptr) planes_ = kernels_.planes[variant];
   }
@@ -104,14 +133,16 @@ void Core<Real>::buildWalls(std::vector<Wall> walls) {
     wallBegin_.push_back(next);
     next += wall.diskX.size();
     for (std::size_t member = 0; member < wall.planes.size(); ++member)
-      placedPlanes_.push_back({walls_.size(), member, {}, {}, {}, {}, {}, {}});
+      placedPlanes_.push_back({walls_.size(), member, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}});
     walls_.emplace_back(std::move(wall));
   }
   wallBegin_.push_back(next);
   reached_.resize(walls_.size());
   for (PlacedPlane& placed : placedPlanes_) {
     placed.plane = walls_[placed.wall].plane(placed.member);
-    if (lists_.springs()) placed.spring.assign(moving_, Real(0));
+    if (lists_.springs().sliding) placed.spring.assign(moving_, Real(0));
+    if (lists_.springs().rolling) placed.angle.assign(moving_, Real(0));
+    if (lists_.springs().memory) placed.memory.assign(moving_, Real(0));
   }
 }
 
@@ -203,19 +234,22 @@ void Core<Real>::beginUnderWay(const std::vector<Contact>& forces) {
     spin_ = spin;
     kick(static_cast<Real>(-by));
   };
-  const auto evaluate = [&](const PairMap<double>& springs) {
+  const auto evaluate = [&](const PairMap<Stretches>& springs) {
     setSprings(springs);
     known_.reset();
     std::ranges::fill(plateSpring_, Vec<Real>{});
     addForcesOfStart(lags);
   };
+  PairMap<Stretches> memories;  // bonds and largest overlaps are as they were
+  if (lists_.springs().memory)
+    for (const Contact& contact : forces) memories[{contact.i, contact.j}].memory = contact.memory;
   constexpr int roundsOfVelocities = 20, mostOfSprings = 30;
   for (int round = 0; lags && round < roundsOfVelocities; ++round) {
     addMissing(wanted);
     goBack(0.5 * dt_);
-    evaluate({});
+    evaluate(memories);
   }
-  PairMap<double> springs;
+  PairMap<Stretches> springs = memories;
   for (int round = 0; round < mostOfSprings; ++round) {
     if (stretch(wanted, springs)) break;
     evaluate(springs);
@@ -224,16 +258,18 @@ void Core<Real>::beginUnderWay(const std::vector<Contact>& forces) {
   if (!lags || integrator_ == Integrator::velocityVerlet) goBack(halfKick_);
 }
 
-/// Adds to the disks' forces what contacts lack of their wanted tangential ones.
+/// Adds to the disks' forces what contacts lack of their wanted tangential ones and torques.
 template <class Real>
 void Core<Real>::addMissing(const PairMap<const Contact*>& wanted) {
   for (const Contact& contact : contacts()) {
     const auto found = wanted.find({contact.i, contact.j});
     if (found == wanted.end()) continue;
     const double lacking = found->second->tangentialForce - contact.tangentialForce;
+    const double torque = found->second->rollingTorque - contact.rollingTorque;
     const auto add = [&](std::int32_t number, double sign, double arm) {
       if (static_cast<std::size_t>(number) >= moving_) return;
       const std::size_t n = placeOf(number);
+      if (law_.rotation) torque_[n] += static_cast<Real>(sign * torque);
       force_[n] += {static_cast<Real>(-sign * lacking * contact.ny),
                     static_cast<Real>(sign * lacking * contact.nx)};
       if (law_.rotation) torque_[n] -= static_cast<Real>(arm * lacking);
@@ -249,36 +285,59 @@ void Core<Real>::addMissing(const PairMap<const Contact*>& wanted) {
   }
 }
 
-/// Brings ξ of each contact nearer to its wanted force. While it sticks, f_t falls by k_t with
-/// every unit of ξ: one step of Newton's method is exact. Where the dashpot alone takes it beyond
-/// the bound, each step brings it nearer by a bound.
-/// @return whether all have it
+namespace {
+
+/// What a spring carries, or is to carry: a force, or a torque.
+struct SpringLoad {
+  double value;
+  bool slides;
+};
+
+/// Brings a spring nearer to its wanted load. While it sticks, the load falls by `unit` with every
+/// unit of the stretch: one step of Newton's method is exact. Where the dashpot alone takes it
+/// beyond the bound, each step brings it nearer by a bound.
+/// @return whether it has it
+bool stretched(SpringLoad now, SpringLoad want, double unit, double& spring) {
+  if (!(unit > 0.0)) return true;
+  const bool sameWay = now.value * want.value >= 0.0;
+  if (want.slides) {
+    // It is to slip here, too, which leaves the spring as the law resets it, whatever it was: at
+    // the bound itself rounding would decide, and a dashpot outside of the bound does not help.
+    // Where it carries nothing, as in tension, any stretch is beyond the bound.
+    if (now.slides && sameWay) return true;
+    constexpr double least = 1e-30;  // [N] or [N m]
+    spring = spring == 0.0 ? -(want.value == 0.0 ? least : 2.0 * want.value) / unit : 2.0 * spring;
+    return false;
+  }
+  const bool atBound = now.slides && sameWay && std::abs(now.value) <= std::abs(want.value);
+  const double scale = std::abs(want.value) + unit * std::abs(spring);
+  if (atBound || std::abs(now.value - want.value) <= 1e-12 * scale) return true;
+  spring += (now.value - want.value) / unit;
+  return false;
+}
+
+}  // namespace
+
+/// Brings the springs of each contact nearer to their wanted loads. @return whether all have them
 template <class Real>
-bool Core<Real>::stretch(const PairMap<const Contact*>& wanted, PairMap<double>& springs) const {
-  if (wanted.empty() || !lists_.springs()) return true;
+bool Core<Real>::stretch(const PairMap<const Contact*>& wanted, PairMap<Stretches>& springs) const {
+  if (wanted.empty() || !lists_.springs().any()) return true;
   bool settled = true;
   for (const Contact& contact : contacts()) {
     const auto found = wanted.find({contact.i, contact.j});
     if (found == wanted.end()) continue;
-    const double now = contact.tangentialForce, want = found->second->tangentialForce;
-    const double unit = forcePerStretch(contact);
-    if (!(unit > 0.0)) continue;
-    double& spring = springs[found->first];
-    const bool sameWay = now * want >= 0.0;
-    if (found->second->sliding) {
-      // It is to slip here, too, which leaves ξ as the law resets it, whatever it was: at the
-      // bound itself rounding would decide, and a dashpot outside of the bound does not help.
-      // Where it carries nothing, as in tension, any stretch is beyond the bound.
-      if (contact.sliding && sameWay) continue;
-      constexpr double least = 1e-30;  // [N]
-      spring = spring == 0.0 ? -(want == 0.0 ? least : 2.0 * want) / unit : 2.0 * spring;
-    } else {
-      const bool atBound = contact.sliding && sameWay && std::abs(now) <= std::abs(want);
-      const double scale = std::abs(want) + unit * std::abs(spring);
-      if (atBound || std::abs(now - want) <= 1e-12 * scale) continue;
-      spring += (now - want) / unit;
+    const Contact& want = *found->second;
+    Stretches& own = springs[found->first];
+    if (lists_.springs().sliding)
+      settled &=
+          stretched({contact.tangentialForce, contact.sliding},
+                    {want.tangentialForce, want.sliding}, forcePerStretch(contact), own.spring);
+    if (lists_.springs().rolling) {
+      const Contact placed = byPlace(contact);
+      settled &= stretched({contact.rollingTorque, contact.rollingSlides},
+                           {want.rollingTorque, want.rollingSlides},
+                           static_cast<double>(law_.kr * rollingLengths(placed).square), own.angle);
     }
-    settled = false;
   }
   return settled;
 }
@@ -294,29 +353,32 @@ std::size_t Core<Real>::placeOf(std::int32_t number) const {
 template <class Real>
 double Core<Real>::forcePerStretch(const Contact& contact) const {
   if (law_.history == History::force) return 1.0;
-  ContactMotion<Real> motion{};
-  motion.overlap = static_cast<Real>(contact.overlap);
-  motion.radius = pairRadius(placeOf(contact.i), placeOf(contact.j));
-  return static_cast<double>(tangentialStiffness(law_, motion));
+  return static_cast<double>(tangentialStiffness(law_, geometryOf(byPlace(contact))));
 }
 
-/// @param springs  ξ by numbers i < j; all others are relaxed
+/// @param springs  by numbers i < j; all others are relaxed
 template <class Real>
-void Core<Real>::setSprings(const PairMap<double>& springs) {
-  if (!lists_.springs()) return;
+void Core<Real>::setSprings(const PairMap<Stretches>& springs) {
+  if (!lists_.springs().any()) return;
   std::vector<KeptSpring> pairs;
-  for (PlacedPlane& placed : placedPlanes_) std::ranges::fill(placed.spring, Real(0));
-  for (const auto& [numbers, spring] : springs) {
+  for (PlacedPlane& placed : placedPlanes_)
+    for (Array<Real>* array : {&placed.spring, &placed.angle, &placed.memory})
+      std::ranges::fill(*array, Real(0));
+  for (const auto& [numbers, stretches] : springs) {
     const auto i = static_cast<std::int32_t>(placeOf(numbers.first));
     const std::size_t other = placeOf(numbers.second);
     if (other >= position_.size()) {
-      placedPlanes_[other - position_.size()].spring[static_cast<std::size_t>(i)] =
-          static_cast<Real>(spring);
+      PlacedPlane& placed = placedPlanes_[other - position_.size()];
+      const auto place = static_cast<std::size_t>(i);
+      if (lists_.springs().sliding) placed.spring[place] = static_cast<Real>(stretches.spring);
+      if (lists_.springs().rolling) placed.angle[place] = static_cast<Real>(stretches.angle);
+      if (lists_.springs().memory) placed.memory[place] = static_cast<Real>(stretches.memory);
       continue;
     }
-    const auto j = static_cast<std::int32_t>(other);
-    // ξ does not change with the order of the two disks: n and s turn round, v_t as well.
-    pairs.push_back({std::min(i, j), std::max(i, j), spring});
+    KeptSpring kept{i, static_cast<std::int32_t>(other), stretches.spring, stretches.angle,
+                    stretches.memory};
+    if (kept.j < kept.i) swapDisks(kept);
+    pairs.push_back(kept);
   }
   lists_.restoreSprings(std::move(pairs), places(), travel(), team_);
   findReachedWallDisks();
@@ -378,6 +440,9 @@ void Core<Real>::makeRoomForRecords() {
     for (Array<Real>* array :
          {&placed.overlap, &placed.normal, &placed.tangential, &placed.sliding})
       array->resize(moving_);
+  if (law_.rolling == Rolling::none) return;
+  for (PlacedPlane& placed : placedPlanes_)
+    for (Array<Real>* array : {&placed.rolling, &placed.rollingSlides}) array->resize(moving_);
 }
 
 template <class Real>
@@ -395,11 +460,15 @@ PlaneView<Real> Core<Real>::planeView(PlacedPlane& placed, bool record) {
           real(wall.vy),
           real(wall.spin),
           origin_.empty() ? nullptr : origin_.data(),
-          placed.spring.empty() ? nullptr : placed.spring.data(),
+          {placed.spring.empty() ? nullptr : placed.spring.data(),
+           placed.angle.empty() ? nullptr : placed.angle.data(),
+           placed.memory.empty() ? nullptr : placed.memory.data()},
           record ? placed.overlap.data() : nullptr,
           record ? placed.normal.data() : nullptr,
           record ? placed.tangential.data() : nullptr,
-          record ? placed.sliding.data() : nullptr};
+          record ? placed.sliding.data() : nullptr,
+          record ? placed.rolling.data() : nullptr,
+          record ? placed.rollingSlides.data() : nullptr};
 }
 
 }  // namespace grain

@@ -45,6 +45,7 @@ class Core {
   double velocityY(std::size_t number) const;
   double spin(std::size_t number) const;
   bool rotates() const { return law_.rotation; }
+  bool rolls() const { return law_.rolling != Rolling::none; }
   const MovingWall& wall(std::size_t w) const { return walls_[w]; }
   const std::vector<Contact>& contacts() const;
   WallLoad wallLoad(std::size_t wall) const;
@@ -65,8 +66,9 @@ class Core {
   friend class LedgerObserver<Real>;  // reads only
   struct PlacedPlane {
     std::size_t wall, member;
-    Plane plane;                                               ///< as it stands now
-    Array<Real> spring, overlap, normal, tangential, sliding;  ///< by the disks' places
+    Plane plane;  ///< as it stands now
+    // By the disks' places.
+    Array<Real> spring, angle, memory, overlap, normal, tangential, sliding, rolling, rollingSlides;
   };
 
   // The step.
@@ -99,10 +101,14 @@ class Core {
   template <class T>
   using PairMap = std::map<std::pair<std::int32_t, std::int32_t>, T>;
   void addMissing(const PairMap<const Contact*>& wanted);
-  bool stretch(const PairMap<const Contact*>& wanted, PairMap<double>& springs) const;
+  struct Stretches {
+    double spring = 0.0, angle = 0.0;  ///< ξ, θ
+    double memory = 0.0;
+  };
+  bool stretch(const PairMap<const Contact*>& wanted, PairMap<Stretches>& springs) const;
   std::size_t placeOf(std::int32_t number) const;
   double forcePerStretch(const Contact& contact) const;
-  void setSprings(const PairMap<double>& springs);
+  void setSprings(const PairMap<Stretches>& springs);
 
   // Housekeeping.
   void renumber();
@@ -153,6 +159,11 @@ class Core {
   void forPairsByPlace(VisitPair&& visitPair, VisitPlane&& visitPlane) const;
   std::vector<Contact> softContacts() const;
   double ownRadius(const Contact& contact) const;
+  /// What the law's energies and stiffnesses ask for, of a contact of places.
+  ContactMotion<Real> geometryOf(const Contact& contact) const;
+  Contact byPlace(Contact contact) const;
+  /// The lengths of a contact of places.
+  RollingMotion<Real> rollingLengths(const Contact& contact) const;
   Real pairRadius(std::size_t i, std::size_t j) const;
 
   GeneralLaw<Real> law_;
@@ -262,7 +273,11 @@ void Core<Real>::forDiskArrays(Visit&& visit) {
   for (auto* array :
        {&radius_, &inverseMass_, &inverseInertia_, &spin_, &seenSpin_, &torque_, &gravityForce_})
     visit(*array);
-  for (PlacedPlane& placed : placedPlanes_) visit(placed.spring);
+  for (PlacedPlane& placed : placedPlanes_) {
+    visit(placed.spring);
+    visit(placed.angle);
+    visit(placed.memory);
+  }
 }
 
 }  // namespace grain

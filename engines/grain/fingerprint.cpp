@@ -36,6 +36,15 @@ void add(Fnv1a& to, const Law& law) {
             static_cast<int>(law.damping));
   to.addAll(static_cast<int>(law.velocityLever.value_or(law.lever)),
             static_cast<int>(law.planeLever));
+  const RollingConventions& rolling = law.rollingConventions;
+  to.addAll(static_cast<int>(law.rolling), law.kr, law.gr, law.muR,
+            static_cast<int>(rolling.length), static_cast<int>(rolling.stiffness),
+            static_cast<int>(rolling.damper), static_cast<int>(rolling.load),
+            rolling.dashpotOutsideBound, rolling.resetSpringOnly);
+  const CohesionConventions& cohesion = law.cohesionConventions;
+  to.addAll(static_cast<int>(law.cohesion), law.kc, law.w, law.k2, law.plasticDepth,
+            static_cast<int>(cohesion.area), static_cast<int>(cohesion.end),
+            static_cast<int>(cohesion.load));
 }
 
 void add(Fnv1a& to, const Wall& wall) {

@@ -24,12 +24,13 @@ template <class Real, std::size_t Index>
 using LawAt =
     EffectsLaw<Real, meaningful(contactEffects(Index)), conventionSets[Index / effectVariants]>;
 
-/// Conventions other than the thesis' are compiled for the effects of its cell, tension or not: the
-/// compiler's time goes with each.
+/// Conventions other than the thesis', springs against rolling and cohesion are compiled for the
+/// effects of its cell, tension or not: the compiler's time goes with each.
 constexpr bool compiled(std::size_t index) {
   const ContactEffects e = contactEffects(index);
-  return index < effectVariants ||
-         (e.tangential == Tangential::springDashpot && e.normalDamping && e.rotation);
+  const bool allButTension =
+      e.tangential == Tangential::springDashpot && e.normalDamping && e.rotation;
+  return allButTension || (index < effectVariants && !e.rollingSpring && !e.cohesion);
 }
 
 template <class Real, std::size_t Index>

@@ -32,13 +32,26 @@ struct PairForces {
 /// none (they are stored, for two threads to add).
 enum class AddTo { both, first, none };
 
+/// What contacts remember, one entry each; null where they have no such memory. @see contactForce
+template <class Real>
+struct PairMemory {
+  Real *spring, *angle;  ///< ξ, θ
+  Real* memory;
+
+  GRAIN_INLINE PairMemory from(std::size_t begin) const {
+    const auto at = [begin](Real* all) { return all == nullptr ? nullptr : all + begin; };
+    return {at(spring), at(angle), at(memory)};
+  }
+};
+
 template <class Real>
 struct PairView {
   std::size_t count;
   const std::int32_t *i, *j;
-  const Vec<Real>* shift;               ///< origin of i − origin of j, of local coordinates
-  Real* spring;                         ///< null without springs
+  const Vec<Real>* shift;  ///< origin of i − origin of j, of local coordinates
+  PairMemory<Real> kept;
   Real *normal, *tangential, *sliding;  ///< the law's results; null: nobody asked
+  Real *rolling, *rollingSlides;        ///< likewise; null without rolling resistance
   AddTo addTo;
   PairForces<Real> stored;  ///< for AddTo::none
 };
@@ -96,8 +109,9 @@ struct PlaneView {
   Real nx, ny;
   Real centreX, centreY, vx, vy, spin;
   const Vec<Real>* origin;                        ///< of the disks' coordinates; null: one origin
-  Real* spring;                                   ///< one a disk; null without springs
+  PairMemory<Real> kept;                          ///< one a disk
   Real *overlap, *normal, *tangential, *sliding;  ///< results, one a disk; null: nobody asked
+  Real *rolling, *rollingSlides;                  ///< likewise; null without rolling resistance
 };
 
 template <class Real>
@@ -108,17 +122,23 @@ struct MotionEffects {
   bool rotation, predict, gravity, plate, plateSpin;
 };
 
-inline constexpr std::size_t effectVariants = 5 * 2 * 2 * 2;
+inline constexpr std::size_t effectVariants = 5 * 2 * 2 * 2 * 2 * 2;
 inline constexpr std::size_t contactVariants = std::size(conventionSets) * effectVariants;
 inline constexpr std::size_t motionVariants = 2 * 2 * 2 * 2 * 2;
 
 /// @param set  of conventionSets
 constexpr std::size_t indexOf(const ContactEffects& e, std::size_t set) {
   const std::size_t tangential = set * 5 + static_cast<std::size_t>(e.tangential);
-  return ((tangential * 2 + e.cutTension) * 2 + e.normalDamping) * 2 + e.rotation;
+  const std::size_t motion =
+      ((tangential * 2 + e.cutTension) * 2 + e.normalDamping) * 2 + e.rotation;
+  return (motion * 2 + e.rollingSpring) * 2 + e.cohesion;
 }
 constexpr ContactEffects contactEffects(std::size_t index) {
-  return {static_cast<Tangential>(index / 8 % 5), index / 4 % 2 == 1, index / 2 % 2 == 1,
+  return {static_cast<Tangential>(index / 32 % 5),
+          index / 16 % 2 == 1,
+          index / 8 % 2 == 1,
+          index / 4 % 2 == 1,
+          index / 2 % 2 == 1,
           index % 2 == 1};
 }
 constexpr std::size_t indexOf(const MotionEffects& e) {

@@ -15,6 +15,36 @@ enum class Normal {
   /// approaching (impacts.hpp). For semi-implicit Euler steps, in which f dt is an impulse.
   impulse
 };
+/// Attraction of the bodies of a contact. F_po is the largest pull, w the work of adhesion [J/m²],
+/// w = 2 γ of two equal surfaces.
+enum class Cohesion {
+  none,
+  area,  ///< f_el(δ) − k_c A(δ), k_c [Pa]: linear cohesion. @see CohesionArea
+  dmt,   ///< f_el(δ) − F_po, F_po = 2π w R₁₂ (Derjaguin, Muller and Toporov 1975)
+  /// Instead of Hertz' force, from the first touch until JkrEnd (Johnson, Kendall and Roberts 1971;
+  /// adhesion.hpp): contacts last beyond their geometric end. F_po = 3/2 π w R₁₂.
+  jkr,
+  /// Piecewise linear, with memory: loading by k_n, unloading by k₂(δ_max) > k_n, pull up to k_c δ
+  /// (Walton and Braun 1986, k_c = 0; Luding 2008, Eqs. 4 to 7).
+  elastoPlastic
+};
+/// A: the lens of two spheres at that distance, π (a² − h²) of a sphere at a plane; 2π R₁₂ δ, to
+/// first order the same; or twice that of two disks and as much at a plane.
+enum class CohesionArea { lens, firstOrder, twiceBetweenDisks };
+/// Until when surfaces that part pull under JKR: the largest pull, or the end of the branch.
+enum class JkrEnd { largestPull, branch };
+/// What stands for f_n in Coulomb's bound and in that of rolling: f_n; f_n without the pull; or
+/// f_n + 2 F_po, by which a contact without load slips at µ F_po.
+enum class CohesionLoad { net, withoutPull, plusTwicePullOff };
+
+struct CohesionConventions {
+  CohesionArea area = CohesionArea::lens;
+  JkrEnd end = JkrEnd::largestPull;
+  CohesionLoad load = CohesionLoad::withoutPull;
+
+  bool operator==(const CohesionConventions&) const = default;
+};
+
 /// What a dashpot's constant multiplies besides the velocity; S is f_el′(δ), or the tangential
 /// stiffness.
 enum class Damper {
@@ -38,6 +68,38 @@ enum class Lever {
 enum class PlaneLever { surface, middle, radius };
 enum class Damping { lagged, predicted, implicit };
 enum class Stretch { after, before, midpoint };  ///< when ξ += v_t dt, relative to the force
+/// Resistance of a contact against the relative spin ω_r = ω_i − ω_j of its bodies: a torque M on i
+/// and −M on j (the types of Ai et al. 2011). L is a length, N a load. @see RollingConventions
+enum class Rolling {
+  none,
+  constantTorque,  ///< A: M = −µ_r L N sign(ω_r)
+  viscous,         ///< B: M = −γ_r L² ω_r
+  viscousByLoad,   ///< B: M = −µ_r L N · L ω_r, µ_r [s/m] (Zhou et al. 1999)
+  spring  ///< C: M* = −k_r θ − γ_r L² ω_r with θ = ∫ω_r dt, limited to µ_r L N
+};
+/// L; R₁₂ = a_i a_j/(a_i + a_j), at a plane a_i.
+enum class RollingLength { effective, twiceEffective, smallerRadius };
+/// k_r of a spring: its constant times L², times a_i a_j, or as it is [N m].
+enum class RollingStiffness { lengthSquare, radii, constant };
+/// What a rolling spring's dashpot is: γ_r L² with γ_r [kg/s], or 2 η √(I k_r) with η [-] and
+/// 1/I = Σ 1/(J + m a²) over the bodies that move.
+enum class RollingDamper { constant, critical };
+/// N: max(f_n, 0), |f_n|, or the elastic part of f_n alone.
+enum class RollingLoad { compression, magnitude, elastic };
+
+/// What engines differ in that resist rolling alike.
+struct RollingConventions {
+  RollingLength length = RollingLength::effective;
+  RollingStiffness stiffness = RollingStiffness::lengthSquare;
+  RollingDamper damper = RollingDamper::constant;
+  RollingLoad load = RollingLoad::compression;
+  bool dashpotOutsideBound = false;  ///< hold only the spring's torque against the bound, which
+                                     ///< alone is left while it slips
+  bool resetSpringOnly = false;  ///< on slip spring and dashpot, not the spring, carry the bound
+
+  bool operator==(const RollingConventions&) const = default;
+};
+
 enum class Integrator { positionVerlet, velocityVerlet, semiImplicitEuler };
 
 /// The contact law and its conventions.
@@ -67,7 +129,27 @@ struct Law {
   PlaneLever planeLever = PlaneLever::surface;
   Stretch stretch = Stretch::after;
   Damping damping = Damping::predicted;
+  Cohesion cohesion = Cohesion::none;
+  double kc = 0.0;  ///< area: [Pa]; elastoPlastic: the stiffness of the pull [N/m]
+  double w = 0.0;   ///< dmt, jkr [J/m²]
+  double k2 = 0.0;  ///< elastoPlastic: the largest stiffness of unloading [N/m]
+  /// elastoPlastic: φ, at which δ_max/(2 R₁₂) the limit is reached, in terms of δ₀ [-]; 0: k₂ from
+  /// the beginning
+  double plasticDepth = 0.0;
+  CohesionConventions cohesionConventions;
+  Rolling rolling = Rolling::none;
+  double kr = 0.0;   ///< rolling stiffness [N/m], of RollingStiffness::constant [N m]
+  double gr = 0.0;   ///< rolling damping [kg/s] or as RollingDamper says
+  double muR = 0.0;  ///< [-], of Rolling::viscousByLoad [s/m]
+  RollingConventions rollingConventions;
 
+  /// Whether contacts remember more than their springs: a bond, or their largest overlap.
+  bool remembers() const {
+    return cohesion == Cohesion::jkr || cohesion == Cohesion::elastoPlastic;
+  }
+  /// Whether any torque acts on disks.
+  bool turnsDisks() const { return friction() || rolling != Rolling::none; }
+  bool rollingSprings() const { return rolling == Rolling::spring && kr > 0.0; }
   bool friction() const { return tangential != Tangential::none && mu > 0.0; }
   bool springs() const {
     return friction() &&
@@ -84,8 +166,24 @@ struct ContactMotion {
   Real normalCompliance;    ///< dt/2 · (1/m_i + 1/m_j); read by implicit damping [s/kg]
   /// dt/2 · (1/m_i + 1/m_j + c_i l_i/J_i + c_j l_j/J_j), likewise [s/kg]
   Real tangentialCompliance;
-  Real radius = 0;  ///< R₁₂ = a_i a_j/(a_i + a_j); read by Hertz' law [m]
+  Real radius = 0;  ///< R₁₂ = a_i a_j/(a_i + a_j); read by Hertz' law and cohesion [m]
+  Real reach = 0;   ///< a_i + a_j; 0: a plane; read by cohesion [m]
   Real mass = 0;    ///< m₁₂ = m_i m_j/(m_i + m_j); read by critical dampers [kg]
+};
+
+/// The same of its rolling.
+template <class Real>
+struct RollingMotion {
+  Real spin;         ///< ω_r = ω_i − ω_j [rad/s]
+  Real length;       ///< L [m]
+  Real square;       ///< what k_r's constant multiplies [m²] or 1
+  Real inertia = 0;  ///< I; read by critical dampers [kg m²]
+};
+
+template <class Real>
+struct RollingTorque {
+  Real torque;   ///< M on i; −M on j [N m]
+  Real sliding;  ///< 1 where the bound holds, else 0
 };
 
 template <class Real>
@@ -93,6 +191,7 @@ struct ContactForce {
   Real normal;      ///< f_n [N]
   Real tangential;  ///< f_t [N]
   Real sliding;     ///< 1 where the Coulomb bound holds, else 0
+  Real load;        ///< what stands for f_n in bounds [N]
 };
 
 }  // namespace grain

@@ -12,6 +12,8 @@ namespace grain {
 template <class Real>
 struct LawConstants {
   Real kn, kn3, gn, kt, inverseKt, gt, mu;
+  Real kr, gr, muR;
+  Real kc, w, k2, plasticDepth;
   Real dt;        ///< [s]
   Real halfStep;  ///< dt/2 of implicit damping; 0 where nothing is implied, at t = 0 [s]
 };
@@ -20,6 +22,7 @@ struct LawConstants {
 struct ContactEffects {
   Tangential tangential;
   bool cutTension, normalDamping, rotation;
+  bool rollingSpring = false, cohesion = false;  ///< Cohesion::area
 };
 
 /// What engines differ in that simulate the same effects of the linear law.
@@ -30,13 +33,15 @@ struct Conventions {
   PlaneLever planeLever = PlaneLever::surface;  ///< of levers that are not the radius
   Stretch stretch = Stretch::after;
   bool implicitDamping = false, dashpotOutsideBound = false, resetSpringOnly = false;
+  RollingConventions rollingConventions = {};
+  CohesionConventions cohesionConventions = {};
 
   bool operator==(const Conventions&) const = default;
 };
 
 /// Those that have kernels of their own; any others run the general ones, at a third of the speed.
 inline constexpr Conventions conventionSets[] = {{},  // the thesis'
-                                                 // YADE's, whose mirror carries its packings.
+                                                      // YADE's, whose mirror carries its packings.
                                                  {.history = History::force,
                                                   .lever = Lever::overlapMiddle,
                                                   .velocityLever = Lever::overlapMiddle,
@@ -51,6 +56,8 @@ struct GeneralLaw : LawConstants<Real>, Conventions {
   Damper damper;
   Tangential tangential;
   bool cutTension, normalDamping, rotation;
+  Rolling rolling;
+  Cohesion cohesion;
 };
 
 /// The linear law under some conventions, with the effects of a scene as constants: what the scene
@@ -72,6 +79,10 @@ struct EffectsLaw : LawConstants<Real> {
   static constexpr bool implicitDamping = C.implicitDamping;
   static constexpr bool dashpotOutsideBound = C.dashpotOutsideBound;
   static constexpr bool resetSpringOnly = C.resetSpringOnly;
+  static constexpr Rolling rolling = E.rollingSpring ? Rolling::spring : Rolling::none;
+  static constexpr RollingConventions rollingConventions = C.rollingConventions;
+  static constexpr Cohesion cohesion = E.cohesion ? Cohesion::area : Cohesion::none;
+  static constexpr CohesionConventions cohesionConventions = C.cohesionConventions;
 
   explicit EffectsLaw(const GeneralLaw<Real>& general) : LawConstants<Real>(general) {}
 };
@@ -80,6 +91,8 @@ struct EffectsLaw : LawConstants<Real> {
 template <class Real>
 std::optional<std::size_t> conventionSet(const GeneralLaw<Real>& law) {
   if (law.normal != Normal::linear || law.damper != Damper::constant) return std::nullopt;
+  if (law.rolling != Rolling::none && law.rolling != Rolling::spring) return std::nullopt;
+  if (law.cohesion != Cohesion::none && law.cohesion != Cohesion::area) return std::nullopt;
   for (std::size_t set = 0; set < std::size(conventionSets); ++set)
     if (static_cast<const Conventions&>(law) == conventionSets[set]) return set;
   return std::nullopt;
@@ -95,6 +108,18 @@ GRAIN_INLINE constexpr bool seesCompliances(const L& law) {
 template <class L>
 GRAIN_INLINE constexpr bool seesMasses(const L& law) {
   return seesCompliances(law) || law.damper == Damper::critical;
+}
+
+/// Whether a law has a memory besides its springs. @see Law::remembers
+template <class L>
+GRAIN_INLINE constexpr bool remembers(const L& law) {
+  return law.cohesion == Cohesion::jkr || law.cohesion == Cohesion::elastoPlastic;
+}
+
+/// Whether a law asks for the inertia of RollingMotion.
+template <class L>
+GRAIN_INLINE constexpr bool seesRollingInertia(const L& law) {
+  return law.rolling == Rolling::spring && law.rollingConventions.damper == RollingDamper::critical;
 }
 
 template <class Real>
@@ -125,7 +150,18 @@ GeneralLaw<Real> generalLaw(const Law& law, double dt, bool rotation) {
   to.implicitDamping = law.damping == Damping::implicit;
   to.dashpotOutsideBound = law.dashpotOutsideBound;
   to.resetSpringOnly = law.resetSpringOnly;
-  to.rotation = law.friction() && rotation;
+  to.rotation = law.turnsDisks() && rotation;
+  to.kr = static_cast<Real>(law.kr);
+  to.gr = static_cast<Real>(law.gr);
+  to.muR = static_cast<Real>(law.muR);
+  to.kc = static_cast<Real>(law.kc);
+  to.w = static_cast<Real>(law.w);
+  to.k2 = static_cast<Real>(law.k2);
+  to.plasticDepth = static_cast<Real>(law.plasticDepth);
+  to.cohesion = law.cohesion;
+  if (to.cohesion != Cohesion::none) to.cohesionConventions = law.cohesionConventions;
+  to.rolling = to.rotation ? law.rolling : Rolling::none;
+  if (to.rolling != Rolling::none) to.rollingConventions = law.rollingConventions;
   return to;
 }
 

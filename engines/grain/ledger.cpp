@@ -11,8 +11,10 @@ namespace {
 constexpr double EnergyLedger::*sums[] = {
     &EnergyLedger::workOfWalls,       &EnergyLedger::gainedByConvention,
     &EnergyLedger::lostNormalDamping, &EnergyLedger::lostTangentialDamping,
-    &EnergyLedger::lostSliding,       &EnergyLedger::lostBottom,
-    &EnergyLedger::lostRelease};
+    &EnergyLedger::lostSliding,       &EnergyLedger::lostRollingDamping,
+    &EnergyLedger::lostRolling,       &EnergyLedger::lostBottom,
+    &EnergyLedger::lostRelease,       &EnergyLedger::lostPlastic,
+    &EnergyLedger::lostDetachment};
 
 auto pairOf(const SpringAccount& spring) {
   return std::tie(spring.i, spring.j);
@@ -34,36 +36,41 @@ GRAIN_INLINE void LedgerSums::add(double EnergyLedger::*term, const HalfKicks& p
   pending_.*term += sign * power.opening * scheme_.time.opening;
 }
 
-GRAIN_INLINE void LedgerSums::settleSpring(const HalfKicks& power) {
-  SpringAccount& now = next_.back();
-  while (place_ < springs_.size() && pairOf(springs_[place_]) < pairOf(now))
-    release(springs_[place_++]);
+GRAIN_INLINE void LedgerSums::settleSpring(Spring kind, const HalfKicks& power) {
+  SpringBook& book = bookOf(kind);
+  SpringAccount& now = book.next.back();
+  while (book.place < book.springs.size() && pairOf(book.springs[book.place]) < pairOf(now))
+    release(book, book.springs[book.place++]);
   now.openingWork = power.opening * scheme_.time.opening;
   const double closingWork = power.closing * scheme_.time.closing;
-  if (place_ < springs_.size() && pairOf(springs_[place_]) == pairOf(now)) {
-    settle(springs_[place_++], now, closingWork, &EnergyLedger::lostSliding);
+  if (book.place < book.springs.size() && pairOf(book.springs[book.place]) == pairOf(now)) {
+    settle(book.springs[book.place++], now, closingWork, book.lost);
   } else {  // of a contact that has only begun
     SpringAccount before;
     before.modulus = now.modulus;
-    settle(before, now, closingWork, &EnergyLedger::lostSliding);
+    settle(before, now, closingWork, book.lost);
   }
 }
 
 void LedgerSums::endSprings() {
-  while (place_ < springs_.size()) release(springs_[place_++]);
-  springs_.swap(next_);
-  next_.clear();
-  place_ = 0;
+  for (SpringBook& book : books_) {
+    while (book.place < book.springs.size()) release(book, book.springs[book.place++]);
+    book.springs.swap(book.next);
+    book.next.clear();
+    book.place = 0;
+  }
 }
 
 void LedgerSums::renumber(std::span<const std::int32_t> newPlace) {
-  for (SpringAccount& spring : springs_) {
-    for (std::int32_t* place : {&spring.i, &spring.j})
-      if (static_cast<std::size_t>(*place) < newPlace.size())
-        *place = newPlace[static_cast<std::size_t>(*place)];
-    if (spring.j < spring.i) std::swap(spring.i, spring.j);
+  for (SpringBook& book : books_) {
+    for (SpringAccount& spring : book.springs) {
+      for (std::int32_t* place : {&spring.i, &spring.j})
+        if (static_cast<std::size_t>(*place) < newPlace.size())
+          *place = newPlace[static_cast<std::size_t>(*place)];
+      if (spring.j < spring.i) std::swap(spring.i, spring.j);
+    }
+    std::ranges::sort(book.springs, {}, pairOf);
   }
-  std::ranges::sort(springs_, {}, pairOf);
 }
 
 GRAIN_INLINE void LedgerSums::plateSpring(SpringAccount& spring, SpringAccount now,
@@ -89,9 +96,9 @@ GRAIN_INLINE void LedgerSums::spend(double EnergyLedger::*term, double loss) {
     ledger.gainedByConvention -= loss;
 }
 
-void LedgerSums::release(const SpringAccount& before) {
-  ledger.lostRelease += before.energy;
-  if (before.sliding != 0) spend(&EnergyLedger::lostSliding, -before.openingWork);
+void LedgerSums::release(const SpringBook& book, const SpringAccount& before) {
+  ledger.*book.released += before.energy;
+  if (before.sliding != 0) spend(book.lost, -before.openingWork);
 }
 
 }  // namespace grain

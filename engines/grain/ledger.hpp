@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -12,17 +13,20 @@ namespace grain {
 /// Where the energy is and where it went since t = 0 [J].
 struct EnergyLedger {
   double initial = 0.0;  ///< the states at t = 0, added up
-  double kinetic = 0.0, elasticNormal = 0.0, elasticTangential = 0.0;
+  double kinetic = 0.0, elasticNormal = 0.0, elasticTangential = 0.0, elasticRolling = 0.0;
   double potential = 0.0;  ///< of gravity, 0 for all disks at their mean position of t = 0
   double plateSprings = 0.0;
   double workOfWalls = 0.0;         ///< on the disks
   double gainedByConvention = 0.0;  ///< by springs that grow without being stretched
   double lostNormalDamping = 0.0, lostTangentialDamping = 0.0, lostSliding = 0.0;
-  double lostBottom = 0.0;   ///< to the plate
-  double lostRelease = 0.0;  ///< springs still stretched when a contact ends
+  double lostRollingDamping = 0.0, lostRolling = 0.0;  ///< by dashpots, at the bound
+  double lostBottom = 0.0;                             ///< to the plate
+  double lostRelease = 0.0;     ///< springs still stretched when a contact ends
+  double lostPlastic = 0.0;     ///< by contacts that yield
+  double lostDetachment = 0.0;  ///< bonds that still pull when a contact ends
 
   double states() const {
-    return kinetic + elasticNormal + elasticTangential + potential + plateSprings;
+    return kinetic + elasticNormal + elasticTangential + elasticRolling + potential + plateSprings;
   }
 };
 
@@ -33,7 +37,7 @@ struct HalfKicks {
   double closing = 0.0, opening = 0.0;
 };
 
-/// What a tangential spring was when it was last looked at.
+/// What a contact's spring was when it was last looked at.
 struct SpringAccount {
   std::int32_t i = 0, j = 0;  ///< of the contact, places; i < j
   std::int32_t sliding = 0;   ///< at the bound
@@ -80,10 +84,12 @@ class LedgerSums {
   void lose(double EnergyLedger::*term, const HalfKicks& power) { add(term, power, -1.0); }
   /// Powers [W] that a convention gives the disks.
   void gain(const HalfKicks& power) { add(&EnergyLedger::gainedByConvention, power, 1.0); }
+  /// `body` is the normal force of a law that remembers: one that yields counts as sliding.
+  enum class Spring { sliding, rolling, body };
   /// One spring, in ascending (i, j): its account to be filled in, then what it did.
   /// @param power  of the spring on the disks [W]
-  SpringAccount& nextSpring() { return next_.emplace_back(); }
-  void settleSpring(const HalfKicks& power);
+  SpringAccount& nextSpring(Spring of) { return bookOf(of).next.emplace_back(); }
+  void settleSpring(Spring of, const HalfKicks& power);
   /// After the last spring: those of contacts that are no more.
   void endSprings();
   /// Moving disks, the first ones, have other places. @param newPlace  old → new
@@ -101,20 +107,31 @@ class LedgerSums {
   static void forState(Sums& sums, Visit&& visit, VisitAll&& visitAll) {
     visit(sums.ledger);
     visit(sums.pending_);
-    visitAll(sums.springs_);
+    for (auto& book : sums.books_) visitAll(book.springs);
   }
 
  private:
+  /// All contacts' springs of one kind.
+  struct SpringBook {
+    double EnergyLedger::*lost;      ///< what slides at its bound
+    double EnergyLedger::*released;  ///< what a contact still holds when it ends
+    std::vector<SpringAccount> springs = {}, next = {};
+    std::size_t place = 0;  ///< in springs
+  };
+  SpringBook& bookOf(Spring kind) { return books_[static_cast<std::size_t>(kind)]; }
+
   void add(double EnergyLedger::*term, const HalfKicks& power, double sign);
   void settle(const SpringAccount& before, const SpringAccount& now, double closingWork,
               double EnergyLedger::*term);
   void spend(double EnergyLedger::*term, double loss);
-  void release(const SpringAccount& before);
+  void release(const SpringBook& book, const SpringAccount& before);
 
   Scheme scheme_;
   EnergyLedger pending_;  ///< of the openings
-  std::vector<SpringAccount> springs_, next_;
-  std::size_t place_ = 0;  ///< in springs_
+  std::array<SpringBook, 3> books_{
+      SpringBook{&EnergyLedger::lostSliding, &EnergyLedger::lostRelease},
+      SpringBook{&EnergyLedger::lostRolling, &EnergyLedger::lostRelease},
+      SpringBook{&EnergyLedger::lostPlastic, &EnergyLedger::lostDetachment}};
 };
 
 }  // namespace grain

@@ -14,6 +14,8 @@ struct ContactKinematics {
   HalfKicks normal, tangential;       ///< relative velocities half way through the kicks
   HalfKicks slip;         ///< v_t of the law then; the force does its work on tangential
   double seenSlip = 0.0;  ///< v_t that the law saw
+  HalfKicks rolling;      ///< ω_r half way through the kicks
+  double seenRolling = 0.0, wallSpin = 0.0;
 
   double along(const BodyMotion& i, const BodyMotion& j) const {
     return (i.vx - j.vx) * nx + (i.vy - j.vy) * ny;
@@ -110,9 +112,11 @@ void LedgerObserver<Real>::flushPairs() {
   gatherPairs();
   core_.kernels_.ledgerPairs(core_.law_.lever, core_.law_.velocityLever, b, pairCount_);
   for (std::size_t p = 0; p < pairCount_; ++p) {
-    if (b.touches[p] == Real(0)) continue;
     const PairList<Real>& list = *pairList_[p];
     const std::size_t k = pairPlace_[p];
+    if (core_.law_.cohesion == Cohesion::jkr ? !(list.memory[k] > Real(0))
+                                             : b.touches[p] == Real(0))
+      continue;
     const Contact contact{list.i[k],
                           list.j[k],
                           static_cast<double>(b.nx[p]),
@@ -121,7 +125,11 @@ void LedgerObserver<Real>::flushPairs() {
                           static_cast<double>(list.normal[k]),
                           static_cast<double>(list.tangential[k]),
                           list.spring.empty() ? 0.0 : static_cast<double>(list.spring[k]),
-                          list.sliding[k] != Real(0)};
+                          list.sliding[k] != Real(0),
+                          core_.rolls() ? static_cast<double>(list.rolling[k]) : 0.0,
+                          list.angle.empty() ? 0.0 : static_cast<double>(list.angle[k]),
+                          core_.rolls() && list.rollingSlides[k] != Real(0),
+                          list.memory.empty() ? 0.0 : static_cast<double>(list.memory[k])};
     ContactKinematics touch;
     touch.nx = contact.nx;
     touch.ny = contact.ny;
@@ -132,6 +140,9 @@ void LedgerObserver<Real>::flushPairs() {
     touch.slip = {b.slipClosing[p], b.slipOpening[p]};
     touch.seenSlip = b.seenSlip[p];
     const bool atWall = static_cast<std::size_t>(contact.j) >= core_.moving_;
+    touch.rolling = {b.closingI[p] - b.closingJ[p], b.openingI[p] - b.openingJ[p]};
+    touch.seenRolling = b.seenI[p] - b.seenJ[p];
+    if (atWall) touch.wallSpin = b.seenJ[p];
     accountContact(contact, touch, atWall ? &pairWall_[p] : nullptr);
   }
   pairCount_ = 0;
@@ -143,6 +154,13 @@ BodyMotion LedgerObserver<Real>::diskMotion(std::size_t wallDisk) const {
   const WallPoint point = core_.wallDisk(wallDisk);
   return {point.vx, point.vy,
           core_.law_.rotation ? core_.walls_[core_.wallOf(wallDisk)].state().spin : 0.0};
+}
+
+template <class Real>
+double LedgerObserver<Real>::wallSpinOf(std::size_t j) const {
+  const std::size_t wall =
+      j < core_.diskCount() ? core_.wallOf(j) : core_.placedPlanes_[j - core_.diskCount()].wall;
+  return core_.walls_[wall].state().spin;
 }
 
 /// Of the point of a plane that a contact touches.
@@ -188,6 +206,14 @@ GRAIN_INLINE ContactKinematics LedgerObserver<Real>::kinematicsOf(const Contact&
   touch.tangential = parts([&](const auto& a, const auto& b) { return touch.across(a, b); });
   touch.slip = parts([&](const auto& a, const auto& b) { return touch.slipOf(a, b); });
   touch.seenSlip = touch.slipOf(seen(i), wall != nullptr ? *wall : seen(j));
+  if (!core_.rolls()) return touch;
+  if (wall != nullptr) touch.wallSpin = wallSpinOf(j);
+  const auto relative = [&](const BodyMotion& a, auto&& ofJ) {
+    return a.spin - (wall != nullptr ? touch.wallSpin : ofJ().spin);
+  };
+  touch.rolling = {relative(closing_.of(i), [&] { return closing_.of(j); }),
+                   relative(opening_.of(i), [&] { return opening_.of(j); })};
+  touch.seenRolling = relative(seen(i), [&] { return seen(j); });
   return touch;
 }
 
@@ -204,25 +230,34 @@ void LedgerObserver<Real>::accountContact(const Contact& contact) {
 template <class Real>
 void LedgerObserver<Real>::accountContact(const Contact& contact, const ContactKinematics& touch,
                                           const BodyMotion* wall) {
-  ContactMotion<Real> motion{};
-  motion.overlap = static_cast<Real>(contact.overlap);
-  motion.radius =
-      core_.pairRadius(static_cast<std::size_t>(contact.i), static_cast<std::size_t>(contact.j));
-  const auto elastic = static_cast<double>(elasticForce(core_.law_, motion));
-  sums_.ledger.elasticNormal += static_cast<double>(storedEnergy(core_.law_, motion, Real(0)));
-  sums_.lose(&EnergyLedger::lostNormalDamping, times(contact.normalForce - elastic, touch.normal));
+  const ContactMotion<Real> motion = core_.geometryOf(contact);
+  Real memory = static_cast<Real>(contact.memory);
+  const auto body = static_cast<double>(bodyForce(core_.law_, motion, memory));
+  const auto energy = static_cast<double>(bodyEnergy(core_.law_, motion, memory));
+  sums_.ledger.elasticNormal += energy;
+  sums_.lose(&EnergyLedger::lostNormalDamping, times(contact.normalForce - body, touch.normal));
+  if (core_.lists_.springs().memory) {
+    SpringAccount& account = sums_.nextSpring(LedgerSums::Spring::body);
+    account.i = contact.i;
+    account.j = contact.j;
+    account.sliding = core_.law_.cohesion == Cohesion::elastoPlastic;
+    account.energy = energy;
+    sums_.settleSpring(LedgerSums::Spring::body, times(body, touch.normal));
+  }
   if (wall != nullptr) {
     const BodyMotion still{};
     const double power = -(contact.normalForce * touch.along(still, *wall) +
-                           contact.tangentialForce * touch.across(still, *wall));
+                           contact.tangentialForce * touch.across(still, *wall)) +
+                         contact.rollingTorque * touch.wallSpin;
     sums_.workOfWall({power, power});
   }
+  if (core_.rolls()) accountRolling(contact, touch);
   if (core_.law_.tangential == Tangential::none) return;
   // Where v_t has another arm than f_t, the force does work on a velocity that the law does not
   // see.
   sums_.gain({contact.tangentialForce * (touch.tangential.closing - touch.slip.closing),
               contact.tangentialForce * (touch.tangential.opening - touch.slip.opening)});
-  if (core_.lists_.springs()) {
+  if (core_.lists_.springs().sliding) {
     accountSpring(contact, touch, static_cast<double>(tangentialStiffness(core_.law_, motion)));
   } else {
     sums_.lose(contact.sliding ? &EnergyLedger::lostSliding : &EnergyLedger::lostTangentialDamping,
@@ -243,7 +278,7 @@ GRAIN_INLINE void LedgerObserver<Real>::accountSpring(const Contact& contact,
   const double unit = remembersForce ? 1.0 : stiffness;
   const double stretch = contact.spring - part * static_cast<double>(core_.law_.dt) *
                                               touch.seenSlip * (remembersForce ? stiffness : 1.0);
-  SpringAccount& account = sums_.nextSpring();
+  SpringAccount& account = sums_.nextSpring(LedgerSums::Spring::sliding);
   account.i = contact.i;
   account.j = contact.j;
   account.sliding = contact.sliding;
@@ -251,10 +286,37 @@ GRAIN_INLINE void LedgerObserver<Real>::accountSpring(const Contact& contact,
   account.square = stretch * stretch;
   account.energy = 0.5 * account.modulus * account.square;
   sums_.ledger.elasticTangential += account.energy;
-  sums_.settleSpring(times(-unit * stretch, touch.slip));
+  sums_.settleSpring(LedgerSums::Spring::sliding, times(-unit * stretch, touch.slip));
   const bool slid = contact.sliding && !core_.law_.resetSpringOnly;
   sums_.lose(slid ? &EnergyLedger::lostSliding : &EnergyLedger::lostTangentialDamping,
              times(contact.tangentialForce + unit * stretch, touch.slip));
+}
+
+/// The same of θ.
+template <class Real>
+void LedgerObserver<Real>::accountRolling(const Contact& contact, const ContactKinematics& touch) {
+  const auto lost =
+      contact.rollingSlides ? &EnergyLedger::lostRolling : &EnergyLedger::lostRollingDamping;
+  if (core_.law_.rolling != Rolling::spring)
+    return sums_.lose(lost, times(contact.rollingTorque, touch.rolling));
+  double part = 0.0;  // of ω_r dt
+  if (core_.law_.stretch == Stretch::after && !contact.rollingSlides) part = 1.0;
+  if (core_.law_.stretch == Stretch::midpoint) part = 0.5;
+  const double angle =
+      contact.angle - part * static_cast<double>(core_.law_.dt) * touch.seenRolling;
+  SpringAccount& account = sums_.nextSpring(LedgerSums::Spring::rolling);
+  account.i = contact.i;
+  account.j = contact.j;
+  account.sliding = contact.rollingSlides;
+  account.modulus = static_cast<double>(core_.law_.kr * core_.rollingLengths(contact).square);
+  account.square = angle * angle;
+  account.energy = 0.5 * account.modulus * account.square;
+  sums_.ledger.elasticRolling += account.energy;
+  const double ofSpring = -account.modulus * angle;
+  sums_.settleSpring(LedgerSums::Spring::rolling, times(ofSpring, touch.rolling));
+  sums_.lose(
+      core_.law_.rollingConventions.resetSpringOnly ? &EnergyLedger::lostRollingDamping : lost,
+      times(contact.rollingTorque - ofSpring, touch.rolling));
 }
 
 }  // namespace grain

@@ -83,7 +83,7 @@ template <class Real>
 void LedgerObserver<Real>::account(double time) {
   EnergyLedger& ledger = sums_.ledger;
   sums_.beginEvaluation();
-  ledger.kinetic = ledger.elasticNormal = ledger.elasticTangential = 0.0;
+  ledger.kinetic = ledger.elasticNormal = ledger.elasticTangential = ledger.elasticRolling = 0.0;
   ledger.potential = ledger.plateSprings = 0.0;
   lookAtDisks(time);
   if (core_.law_.normal == Normal::impulse)

@@ -71,6 +71,7 @@ class LedgerObserver {
   void accountContact(const Contact& contact, const ContactKinematics& touch,
                       const BodyMotion* wall);
   void accountSpring(const Contact& contact, const ContactKinematics& touch, double stiffness);
+  void accountRolling(const Contact& contact, const ContactKinematics& touch);
   void accountDisks();
   void accountPlate(std::size_t place);
   void takeMasses();
@@ -78,6 +79,7 @@ class LedgerObserver {
   BodyMotion seen(std::size_t place) const;
   BodyMotion diskMotion(std::size_t wallDisk) const;
   BodyMotion planeMotion(const Contact& contact) const;
+  double wallSpinOf(std::size_t wallDiskOrPlane) const;
 
   const Core<Real>& core_;
   LedgerSums sums_;

@@ -82,7 +82,8 @@ GRAIN_INLINE std::optional<Contact> Core<Real>::touching(const PairList<Real>& l
   if (!list.shift.empty()) d += list.shift[k];
   const Real reach = radius_[i] + radius_[j];
   const Real distance2 = d.x * d.x + d.y * d.y;
-  if (!(distance2 < reach * reach)) return std::nullopt;
+  if (law_.cohesion == Cohesion::jkr ? !(list.memory[k] > Real(0)) : !(distance2 < reach * reach))
+    return std::nullopt;
   const Real distance = squareRoot(distance2);
   const Real inverse = Real(1) / distance;
   return Contact{list.i[k],
@@ -93,13 +94,19 @@ GRAIN_INLINE std::optional<Contact> Core<Real>::touching(const PairList<Real>& l
                  static_cast<double>(list.normal[k]),
                  static_cast<double>(list.tangential[k]),
                  list.spring.empty() ? 0.0 : static_cast<double>(list.spring[k]),
-                 list.sliding[k] != Real(0)};
+                 list.sliding[k] != Real(0),
+                 rolls() ? static_cast<double>(list.rolling[k]) : 0.0,
+                 list.angle.empty() ? 0.0 : static_cast<double>(list.angle[k]),
+                 rolls() && list.rollingSlides[k] != Real(0),
+                 list.memory.empty() ? 0.0 : static_cast<double>(list.memory[k])};
 }
 
 template <class Real>
 GRAIN_INLINE std::optional<Contact> Core<Real>::touching(std::size_t plane, std::size_t i) const {
   const PlacedPlane& placed = placedPlanes_[plane];
-  if (!(placed.overlap[i] > Real(0))) return std::nullopt;
+  if (law_.cohesion == Cohesion::jkr ? !(placed.memory[i] > Real(0))
+                                     : !(placed.overlap[i] > Real(0)))
+    return std::nullopt;
   return Contact{static_cast<std::int32_t>(i),
                  static_cast<std::int32_t>(position_.size() + plane),
                  placed.plane.nx,
@@ -108,7 +115,11 @@ GRAIN_INLINE std::optional<Contact> Core<Real>::touching(std::size_t plane, std:
                  static_cast<double>(placed.normal[i]),
                  static_cast<double>(placed.tangential[i]),
                  placed.spring.empty() ? 0.0 : static_cast<double>(placed.spring[i]),
-                 placed.sliding[i] != Real(0)};
+                 placed.sliding[i] != Real(0),
+                 rolls() ? static_cast<double>(placed.rolling[i]) : 0.0,
+                 placed.angle.empty() ? 0.0 : static_cast<double>(placed.angle[i]),
+                 rolls() && placed.rollingSlides[i] != Real(0),
+                 placed.memory.empty() ? 0.0 : static_cast<double>(placed.memory[i])};
 }
 
 template <class Real>
@@ -124,7 +135,7 @@ std::vector<Contact> Core<Real>::softContacts() const {
 }
 
 /// The sum over the wall's contacts, each with the opposite force and, for a wall disk, with the
-/// torque about that disk's own centre that the law gives it.
+/// torque about that disk's own centre that the law gives it; against rolling, too.
 template <class Real>
 WallLoad Core<Real>::wallLoad(std::size_t w) const {
   WallLoad load;
@@ -156,7 +167,7 @@ WallLoad Core<Real>::wallLoad(std::size_t w) const {
     }
     load.fx -= forceX;
     load.fy -= forceY;
-    load.torque -= armX * forceY - armY * forceX;
+    load.torque -= armX * forceY - armY * forceX + contact.rollingTorque;
   }
   return load;
 }
@@ -188,16 +199,43 @@ Real Core<Real>::pairRadius(std::size_t i, std::size_t j) const {
 }
 
 template <class Real>
+RollingMotion<Real> Core<Real>::rollingLengths(const Contact& contact) const {
+  const auto j = static_cast<std::size_t>(contact.j);
+  return rollingMotion(law_, radius_[static_cast<std::size_t>(contact.i)],
+                       j < diskCount() ? radius_[j] : Real(0), Real(0));
+}
+
+template <class Real>
+ContactMotion<Real> Core<Real>::geometryOf(const Contact& contact) const {
+  const auto i = static_cast<std::size_t>(contact.i), j = static_cast<std::size_t>(contact.j);
+  ContactMotion<Real> motion{};
+  motion.overlap = static_cast<Real>(contact.overlap);
+  motion.radius = pairRadius(i, j);
+  motion.reach = j < diskCount() ? radius_[i] + radius_[j] : Real(0);
+  return motion;
+}
+
+/// From numbers to places.
+template <class Real>
+Contact Core<Real>::byPlace(Contact contact) const {
+  contact.i = static_cast<std::int32_t>(placeOf(contact.i));
+  contact.j = static_cast<std::int32_t>(placeOf(contact.j));
+  return contact;
+}
+
+template <class Real>
 double Core<Real>::elasticEnergy() const {
   double energy = 0.0;
-  for (const Contact& contact : contacts()) {
-    ContactMotion<Real> motion{};
-    motion.overlap = static_cast<Real>(contact.overlap);
-    const auto j = static_cast<std::size_t>(contact.j);
-    motion.radius =
-        pairRadius(static_cast<std::size_t>(indexOfId_[static_cast<std::size_t>(contact.i)]),
-                   j < moving_ ? static_cast<std::size_t>(indexOfId_[j]) : j);
+  for (const Contact& numbered : contacts()) {
+    const Contact contact = byPlace(numbered);
+    const ContactMotion<Real> motion = geometryOf(contact);
     energy += static_cast<double>(storedEnergy(law_, motion, static_cast<Real>(contact.spring)));
+    if (law_.cohesion != Cohesion::none)
+      energy += static_cast<double>(bodyEnergy(law_, motion, static_cast<Real>(contact.memory)) -
+                                    storedEnergy(law_, motion, Real(0)));
+    if (law_.rolling == Rolling::spring)
+      energy += 0.5 * static_cast<double>(law_.kr * rollingLengths(contact).square) *
+                contact.angle * contact.angle;
   }
   return energy;
 }

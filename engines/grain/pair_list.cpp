@@ -26,26 +26,47 @@ void PairList<Real>::append(std::int32_t diskI, std::int32_t diskJ) {
   farJ.push_back(diskJ);
 }
 
-template <class Real>
-void PairList<Real>::storeSprings() {
-  for (std::size_t k = 0; k < count; ++k) farSpring[far[k]] = spring[k];
+/// Each kind of memory that pairs have: visit(by near pair, by far pair, of a kept one).
+template <class Real, class Visit>
+void forMemories(PairList<Real>& list, PairSprings springs, Visit&& visit) {
+  if (springs.sliding) visit(list.spring, list.farSpring, &KeptSpring::spring);
+  if (springs.rolling) visit(list.angle, list.farAngle, &KeptSpring::angle);
+  if (springs.memory) visit(list.memory, list.farMemory, &KeptSpring::memory);
 }
 
 template <class Real>
-void PairList<Real>::carry() {
+void PairList<Real>::storeSprings(PairSprings springs) {
+  forMemories(*this, springs, [this](const auto& near, auto& all, auto) {
+    for (std::size_t k = 0; k < count; ++k) all[far[k]] = near[k];
+  });
+}
+
+template <class Real>
+void PairList<Real>::carry(PairSprings springs) {
   kept.clear();
-  for (std::size_t p = 0; p < farI.size(); ++p)
-    if (farSpring[p] != Real(0)) kept.push_back({farI[p], farJ[p], farSpring[p]});
+  for (std::size_t p = 0; p < farI.size(); ++p) {
+    KeptSpring pair{farI[p], farJ[p], 0.0, 0.0};
+    bool any = false;
+    forMemories(*this, springs, [&](const auto&, const auto& all, auto member) {
+      pair.*member = all[p];
+      any |= all[p] != Real(0);
+    });
+    if (any) kept.push_back(pair);
+  }
 }
 
 template <class Real>
-void PairList<Real>::takeKept() {
-  farSpring.assign(farI.size(), Real(0));
+void PairList<Real>::takeKept(PairSprings springs) {
+  forMemories(*this, springs,
+              [this](const auto&, auto& all, auto) { all.assign(farI.size(), Real(0)); });
   auto next = kept.begin();
   for (std::size_t p = 0; p < farI.size(); ++p) {
     while (next != kept.end() && std::tie(next->i, next->j) < std::tie(farI[p], farJ[p])) ++next;
     if (next == kept.end()) return;
-    if (next->i == farI[p] && next->j == farJ[p]) farSpring[p] = static_cast<Real>(next->spring);
+    if (next->i != farI[p] || next->j != farJ[p]) continue;
+    forMemories(*this, springs, [&](const auto&, auto& all, auto member) {
+      all[p] = static_cast<Real>(*next.*member);
+    });
   }
 }
 
@@ -63,12 +84,14 @@ TooDeep PairList<Real>::firstDeep(const Places& now, double maxOverlap) const {
 
 template <class Real>
 std::size_t PairList<Real>::chooseNear(const Places& now, std::span<const double> allowance,
-                                       double maxOverlap, bool springs) {
+                                       double maxOverlap, PairSprings springs, double range) {
   const std::size_t room = farI.size();
   for (auto* ids : {&i, &j})
     if (ids->size() < room) ids->resize(room);
   if (far.size() < room) far.resize(room);
-  if (springs && spring.size() < room) spring.resize(room);
+  forMemories(*this, springs, [room](auto& near, const auto&, auto) {
+    if (near.size() < room) near.resize(room);
+  });
   std::size_t n = 0, touching = 0, deep = 0;
   for (std::size_t p = 0; p < room; ++p) {
     const auto a = static_cast<std::size_t>(farI[p]);
@@ -80,7 +103,7 @@ std::size_t PairList<Real>::chooseNear(const Places& now, std::span<const double
     i[n] = farI[p];
     j[n] = farJ[p];
     far[n] = static_cast<std::uint32_t>(p);
-    const double within = reach + allowance[a] + allowance[b];
+    const double within = reach + range + allowance[a] + allowance[b];
     n += distance2 < within * within;
     touching += distance2 < reach * reach;
     const double closest = leastDistance(now.radius[a], now.radius[b], maxOverlap);
@@ -88,8 +111,9 @@ std::size_t PairList<Real>::chooseNear(const Places& now, std::span<const double
   }
   if (deep > 0) throw firstDeep(now, maxOverlap);
   count = n;
-  if (springs)
-    for (std::size_t k = 0; k < count; ++k) spring[k] = farSpring[far[k]];
+  forMemories(*this, springs, [this](auto& near, const auto& all, auto) {
+    for (std::size_t k = 0; k < count; ++k) near[k] = all[far[k]];
+  });
   if (now.origin.empty()) return touching;
   shift.resize(room);
   for (std::size_t k = 0; k < count; ++k) {
@@ -101,9 +125,11 @@ std::size_t PairList<Real>::chooseNear(const Places& now, std::span<const double
 }
 
 template <class Real>
-PairView<Real> PairList<Real>::view(AddTo addTo, bool record, bool rotation) {
+PairView<Real> PairList<Real>::view(AddTo addTo, bool record, bool rotation, bool rolls) {
   if (record)
     for (auto* array : {&normal, &tangential, &sliding}) array->resize(i.size());
+  if (record && rolls)
+    for (auto* array : {&rolling, &rollingSlides}) array->resize(i.size());
   if (addTo == AddTo::none) force.resize(i.size());
   if (addTo == AddTo::none && rotation) {
     leverI.resize(i.size());
@@ -113,10 +139,13 @@ PairView<Real> PairList<Real>::view(AddTo addTo, bool record, bool rotation) {
           i.data(),
           j.data(),
           shift.data(),
-          spring.empty() ? nullptr : spring.data(),
+          {spring.empty() ? nullptr : spring.data(), angle.empty() ? nullptr : angle.data(),
+           memory.empty() ? nullptr : memory.data()},
           record ? normal.data() : nullptr,
           record ? tangential.data() : nullptr,
           record ? sliding.data() : nullptr,
+          record && rolls ? rolling.data() : nullptr,
+          record && rolls ? rollingSlides.data() : nullptr,
           addTo,
           {force.data(), leverI.data(), leverJ.data()}};
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engines/grain/kernels.hpp"
@@ -21,11 +22,27 @@ struct TooDeep {
   std::size_t i, j;
 };
 
-/// The tangential spring of a pair on its way from one list to the next.
+/// What pairs remember: springs of sliding and of rolling, and what their law does besides.
+struct PairSprings {
+  bool sliding = false, rolling = false, memory = false;
+
+  bool any() const { return sliding || rolling || memory; }
+};
+
+/// The same on its way from one list to the next.
 struct KeptSpring {
   std::int32_t i, j;
-  double spring;
+  double spring;        ///< ξ
+  double angle;         ///< θ
+  double memory = 0.0;  ///< as of contactForce()
 };
+
+/// ξ does not change with the order of the two disks: n and s turn round, v_t as well; but θ of j
+/// against i is the opposite of θ of i against j.
+inline void swapDisks(KeptSpring& kept) {
+  std::swap(kept.i, kept.j);
+  kept.angle = -kept.angle;
+}
 
 /// Pairs in ascending (i, j) on two levels: those with surfaces nearer than the skin when they were
 /// collected, and of these the ones that their disks' allowances may bring together. A step works
@@ -33,13 +50,14 @@ struct KeptSpring {
 template <class Real>
 struct PairList {
   std::vector<std::int32_t> farI, farJ;
-  std::vector<Real> farSpring;
+  std::vector<Real> farSpring, farAngle, farMemory;
   std::size_t count = 0;  ///< near pairs; the arrays below have room for all far ones
   std::vector<std::int32_t> i, j;
   std::vector<std::uint32_t> far;  ///< a near pair's place among the far ones
-  Array<Real> spring;
-  Array<Vec<Real>> shift;                   ///< origin of i − origin of j, of local coordinates
-  Array<Real> normal, tangential, sliding;  ///< the last step's results, where asked for
+  Array<Real> spring, angle, memory;
+  Array<Vec<Real>> shift;  ///< origin of i − origin of j, of local coordinates
+  // The last step's results, where asked for.
+  Array<Real> normal, tangential, sliding, rolling, rollingSlides;
   Array<Vec<Real>> force;
   Array<Real> leverI, leverJ;    ///< forces for two threads to add
   std::vector<KeptSpring> kept;  ///< in ascending (i, j)
@@ -48,21 +66,22 @@ struct PairList {
   void append(std::int32_t diskI, std::int32_t diskJ);
 
   /// The near springs back to the far list.
-  void storeSprings();
+  void storeSprings(PairSprings springs);
   /// Keeps the far list's springs for the next one, and takes them up there: both lists are in one
   /// order, so that one walk through both finds every pair.
-  void carry();
-  void takeKept();
+  void carry(PairSprings springs);
+  void takeKept(PairSprings springs);
 
   /// @param maxOverlap  of any pair, in units of the smaller radius; it may be infinite
+  /// @param range  how far apart bodies may be in contact [m]
   /// @returns how many of the near pairs touch
   /// @throws TooDeep
   std::size_t chooseNear(const Places& now, std::span<const double> allowance, double maxOverlap,
-                         bool springs);
+                         PairSprings springs, double range);
 
   TooDeep firstDeep(const Places& now, double maxOverlap) const;
 
-  PairView<Real> view(AddTo addTo, bool record, bool rotation);
+  PairView<Real> view(AddTo addTo, bool record, bool rotation, bool rolls);
 };
 
 }  // namespace grain

@@ -23,11 +23,12 @@ void requireFinite(const Places& now) {
 }
 
 template <class Real>
-PairLists<Real>::PairLists(std::size_t moving, std::size_t parts, bool springs, Skin skin,
-                           double maxOverlap)
+PairLists<Real>::PairLists(std::size_t moving, std::size_t parts, PairSprings springs, Skin skin,
+                           double maxOverlap, double range)
     : moving_(moving),
       springs_(springs),
       maxOverlap_(maxOverlap),
+      range_(range),
       skin_(skin),
       lists_(parts),
       row_(parts) {}
@@ -52,7 +53,7 @@ void PairLists<Real>::update(const Places& now, std::span<const double> travel,
   const double used = skinUsed(now);
   for (auto& part : lists_)
     for (PairList<Real>& list : part)
-      if (springs_) list.storeSprings();
+      if (springs_.any()) list.storeSprings(springs_);
   if (!(used <= 0.5 * skin_.skin())) {
     skin_.tune(counts(), used);
     carrySprings();
@@ -74,8 +75,7 @@ void PairLists<Real>::renumber(std::span<const std::int32_t> newNumber, const Pl
     spring.i = newNumber[static_cast<std::size_t>(spring.i)];
     if (spring.j < static_cast<std::int32_t>(moving_))
       spring.j = newNumber[static_cast<std::size_t>(spring.j)];
-    // ξ does not change with the order of the two disks: n and s turn round, v_t as well.
-    if (spring.j < spring.i) std::swap(spring.i, spring.j);
+    if (spring.j < spring.i) swapDisks(spring);
   }
   restoreSprings(std::move(kept), now, travel, team);
 }
@@ -83,11 +83,15 @@ void PairLists<Real>::renumber(std::span<const std::int32_t> newNumber, const Pl
 template <class Real>
 std::vector<KeptSpring> PairLists<Real>::stretched() const {
   std::vector<KeptSpring> found;
-  if (!springs_) return found;
+  if (!springs_.any()) return found;
   for (const auto& part : lists_)
     for (const PairList<Real>& list : part)
-      for (std::size_t k = 0; k < list.count; ++k)
-        if (list.spring[k] != Real(0)) found.push_back({list.i[k], list.j[k], list.spring[k]});
+      for (std::size_t k = 0; k < list.count; ++k) {
+        const KeptSpring pair{list.i[k], list.j[k], springs_.sliding ? list.spring[k] : Real(0),
+                              springs_.rolling ? list.angle[k] : Real(0),
+                              springs_.memory ? list.memory[k] : Real(0)};
+        if (pair.spring != 0.0 || pair.angle != 0.0 || pair.memory != 0.0) found.push_back(pair);
+      }
   return found;
 }
 
@@ -151,9 +155,9 @@ double PairLists<Real>::skinUsed(const Places& now) const {
 
 template <class Real>
 void PairLists<Real>::carrySprings() {
-  if (!springs_) return;
+  if (!springs_.any()) return;
   for (auto& part : lists_)
-    for (PairList<Real>& list : part) list.carry();
+    for (PairList<Real>& list : part) list.carry(springs_);
 }
 
 template <class Real>
@@ -161,7 +165,7 @@ void PairLists<Real>::collect(const Places& now, ThreadTeam& team) {
   requireFinite(now);
   skin_.beginRebuild();
   const double largest = now.radius.empty() ? 1.0 : *std::ranges::max_element(now.radius);
-  grid_.sort(now.position, 2.0 * largest + skin_.skin());
+  grid_.sort(now.position, 2.0 * largest + range_ + skin_.skin());
   team.run([&](std::size_t part) { collectPart(part, now); });
   built_.assign(now.position.begin(), now.position.end());
   skin_.endRebuild();
@@ -179,7 +183,8 @@ void PairLists<Real>::collectPart(std::size_t part, const Places& now) {
     grid_.around(i, [&](std::int32_t j) {
       if (j <= static_cast<std::int32_t>(i)) return;
       const Vec<double> d = now.position[i] - now.position[static_cast<std::size_t>(j)];
-      const double reach = now.radius[i] + now.radius[static_cast<std::size_t>(j)] + skin_.skin();
+      const double reach =
+          now.radius[i] + now.radius[static_cast<std::size_t>(j)] + range_ + skin_.skin();
       if (d.x * d.x + d.y * d.y < reach * reach) row.push_back(j);
     });
     std::ranges::sort(row);
@@ -189,8 +194,8 @@ void PairLists<Real>::collectPart(std::size_t part, const Places& now) {
                              : Sort::across)
           .append(static_cast<std::int32_t>(i), j);
   }
-  if (springs_)
-    for (PairList<Real>& list : lists) list.takeKept();
+  if (springs_.any())
+    for (PairList<Real>& list : lists) list.takeKept(springs_);
 }
 
 template <class Real>
@@ -198,7 +203,7 @@ void PairLists<Real>::refresh(const Places& now, ThreadTeam& team) {
   touching_.assign(parts(), 0);
   team.run([&](std::size_t part) {
     for (PairList<Real>& list : lists_[part])
-      touching_[part] += list.chooseNear(now, allowance_, maxOverlap_, springs_);
+      touching_[part] += list.chooseNear(now, allowance_, maxOverlap_, springs_, range_);
   });
   skin_.endRefresh(counts());
 }

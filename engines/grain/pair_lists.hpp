@@ -38,9 +38,10 @@ template <class Real>
 class PairLists {
  public:
   /// @param moving   disks 0 … moving−1 move; those after belong to walls and never meet each other
-  /// @param springs  pairs have a tangential spring
   /// @param maxOverlap  of any pair, in units of the smaller radius; it may be infinite
-  PairLists(std::size_t moving, std::size_t parts, bool springs, Skin skin, double maxOverlap);
+  /// @param range  how far apart bodies may be in contact [m]
+  PairLists(std::size_t moving, std::size_t parts, PairSprings springs, Skin skin,
+            double maxOverlap, double range = 0.0);
 
   std::size_t partBegin(std::size_t part) const { return moving_ * part / parts(); }
   std::size_t parts() const { return lists_.size(); }
@@ -65,7 +66,7 @@ class PairLists {
   const PairList<Real>& list(std::size_t part, Sort sort) const {
     return lists_[part][static_cast<std::size_t>(sort)];
   }
-  bool springs() const { return springs_; }
+  PairSprings springs() const { return springs_; }
   PairCounts counts() const;
   const Skin& skin() const { return skin_; }
   void pairsTook(double seconds) { skin_.pairsTook(seconds, counts().near); }
@@ -85,8 +86,8 @@ class PairLists {
   std::size_t partOf(std::int32_t disk) const;
 
   std::size_t moving_;
-  bool springs_;
-  double maxOverlap_;
+  PairSprings springs_;
+  double maxOverlap_, range_;
   Skin skin_;
   CellGrid grid_;
   std::vector<std::array<PairList<Real>, 3>> lists_;

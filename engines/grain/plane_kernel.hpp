@@ -21,9 +21,17 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
     const Real dy = static_cast<Real>(origin.y - plane.y) + disks.position[i].y;
     const Real height = dx * plane.nx + dy * plane.ny;
     const Real overlap = disks.radius[i] - height;
-    Real spring = plane.spring == nullptr ? Real(0) : plane.spring[i];
-    ContactForce<Real> force{Real(0), Real(0), Real(0)};
-    if (overlap > Real(0)) {
+    const auto kept = [i](const Real* all) { return all == nullptr ? Real(0) : all[i]; };
+    Real spring = kept(plane.kept.spring), angle = kept(plane.kept.angle);
+    Real memory = kept(plane.kept.memory);
+    bool touches = overlap > Real(0);
+    if (law.cohesion == Cohesion::jkr) {
+      memory = isBonded(law, overlap, disks.radius[i], memory);
+      touches = memory > Real(0);
+    }
+    ContactForce<Real> force{Real(0), Real(0), Real(0), Real(0)};
+    RollingTorque<Real> resistance{Real(0), Real(0)};
+    if (touches) {
       const Real reach = planePoint(law, disks.radius[i], height);
       const Real armX = static_cast<Real>(plane.x) + dx - reach * plane.nx - plane.centreX;
       const Real armY = static_cast<Real>(plane.y) + dy - reach * plane.ny - plane.centreY;
@@ -44,20 +52,36 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
         if (law.rotation)
           motion.tangentialCompliance += law.halfStep * arm * lever * disks.inverseInertia[i];
       }
-      force = contactForce(law, motion, spring);
+      force = contactForce(law, motion, spring, memory);
       disks.force[i].x += force.normal * plane.nx - force.tangential * plane.ny;
       disks.force[i].y += force.normal * plane.ny + force.tangential * plane.nx;
       if (law.rotation) disks.torque[i] -= lever * force.tangential;
+      if (law.rolling != Rolling::none) {
+        RollingMotion<Real> rolling =
+            rollingMotion(law, disks.radius[i], Real(0), disks.spin[i] - plane.spin);
+        if (seesRollingInertia(law))
+          rolling.inertia =
+              Real(1) /
+              inverseRollingInertia(disks.inverseMass[i], disks.inverseInertia[i], disks.radius[i]);
+        resistance = rollingTorque(law, rolling, motion, force.load, angle);
+        disks.torque[i] += resistance.torque;
+      }
       ++touching;
     } else {
-      spring = Real(0);
+      spring = angle = memory = Real(0);
     }
-    if (plane.spring != nullptr) plane.spring[i] = spring;
+    if (plane.kept.spring != nullptr) plane.kept.spring[i] = spring;
+    if (plane.kept.angle != nullptr) plane.kept.angle[i] = angle;
+    if (plane.kept.memory != nullptr) plane.kept.memory[i] = memory;
     if (plane.normal != nullptr) {
       plane.overlap[i] = overlap;
       plane.normal[i] = force.normal;
       plane.tangential[i] = force.tangential;
       plane.sliding[i] = force.sliding;
+    }
+    if (law.rolling != Rolling::none && plane.rolling != nullptr) {
+      plane.rolling[i] = resistance.torque;
+      plane.rollingSlides[i] = resistance.sliding;
     }
   }
   return touching;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <new>
 #include <vector>
 
@@ -39,6 +40,20 @@ GRAIN_INLINE double squareRoot(double v) {
 }
 GRAIN_INLINE float squareRoot(float v) {
   return __builtin_sqrtf(v);
+}
+/// v^(1/3) of v >= 0, within 3e-16 of itself, by additions, products and quotients alone: the same
+/// bits everywhere. Newton's method from 2^(log₂(v)/3), linear between powers of two.
+GRAIN_INLINE double cubeRoot(double v) {
+  std::uint64_t bits;
+  __builtin_memcpy(&bits, &v, sizeof bits);
+  bits = bits / 3 + 0x2a9f7893782da1ceu;
+  double root;
+  __builtin_memcpy(&root, &bits, sizeof root);
+  for (int k = 0; k < 4; ++k) root = (2.0 * root + v / (root * root)) / 3.0;
+  return v > 0.0 ? root : 0.0;
+}
+GRAIN_INLINE float cubeRoot(float v) {
+  return static_cast<float>(cubeRoot(static_cast<double>(v)));
 }
 GRAIN_INLINE double magnitude(double v) {
   return __builtin_fabs(v);

@@ -51,6 +51,10 @@ struct Contact {
   double normalForce, tangentialForce;
   double spring;  ///< ξ after the evaluation [m]
   bool sliding;
+  double rollingTorque = 0.0;  ///< M on i, −M on j [N m]
+  double angle = 0.0;          ///< θ after the evaluation [rad]
+  bool rollingSlides = false;  ///< M is at its bound
+  double memory = 0.0;         ///< as of contactForce() [1] or [m]
 };
 
 /// The same with i < j: the force acts on the lower number.
@@ -59,6 +63,8 @@ inline Contact fromLower(Contact contact) {
   std::swap(contact.i, contact.j);
   contact.nx = -contact.nx;
   contact.ny = -contact.ny;
+  contact.rollingTorque = -contact.rollingTorque;
+  contact.angle = -contact.angle;
   return contact;
 }
 

@@ -147,8 +147,9 @@ void Core<Real>::addSoftForces(bool record) {
 template <class Real>
 std::size_t Core<Real>::addPairs(std::size_t part, Sort sort, bool record) {
   constexpr AddTo addTo[] = {AddTo::both, AddTo::none, AddTo::first};
-  const auto pairs =
-      lists_.list(part, sort).view(addTo[static_cast<std::size_t>(sort)], record, law_.rotation);
+  const auto pairs = lists_.list(part, sort)
+                         .view(addTo[static_cast<std::size_t>(sort)], record, law_.rotation,
+                               law_.rolling != Rolling::none);
   return contacts_(law_, contactView(), pairs);
 }
 

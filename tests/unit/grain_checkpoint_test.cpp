@@ -206,6 +206,12 @@ TEST(BeginUnderWay, GoesOnToRounding) {
           setup.law.stretch = stretch;
           setup.law.dashpotOutsideBound = outside;
           setup.law.history = outside ? History::force : History::displacement;
+          if (outside != hertz) {
+            setup.law.rolling = Rolling::spring;
+            setup.law.kr = 0.1 * setup.law.kn;
+            setup.law.gr = 0.1 * setup.law.gn;
+            setup.law.muR = 0.05;
+          }
           if (hertz) {
             setup.law.normal = Normal::hertz;
             setup.law.kn *= 1e3;

@@ -31,7 +31,7 @@ class Neighbours : public testing::TestWithParam<std::size_t> {
     }
     travel.assign(count, 1e-3);
     const double anyOverlap = std::numeric_limits<double>::infinity();
-    lists.emplace(moving, GetParam(), true, Skin(fixedSkin, 0.5), anyOverlap);
+    lists.emplace(moving, GetParam(), PairSprings{true, false}, Skin(fixedSkin, 0.5), anyOverlap);
     lists->rebuild(places(), travel, team);
   }
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -101,6 +104,26 @@ inline std::string difference(const grain::Simulation& a, const grain::Simulatio
   const std::string contacts = first(contactsOf(a), contactsOf(b), "contacts", 9);
   if (!contacts.empty()) return contacts;
   return a.contactEvaluations() == b.contactEvaluations() ? "" : "contact evaluations";
+}
+
+/// That the general kernels, two threads, and a restart 100 steps before come to the same bits.
+inline void expectSameBits(const grain::Setup& setup, const grain::Simulation& whole) {
+  const auto steps = whole.steps();
+  grain::Setup general = setup, threaded = setup;
+  general.generalKernels = true;
+  threaded.threads = 2;
+  for (grain::Setup* other : {&general, &threaded}) {
+    grain::Simulation simulation(grain::Setup{*other});
+    simulation.advance(steps);
+    EXPECT_EQ(difference(simulation, whole), "");
+  }
+  grain::Simulation first(grain::Setup{setup}), restored(grain::Setup{setup});
+  first.advance(steps - 100);
+  std::stringstream kept;
+  first.save(kept);
+  restored.restore(kept);
+  restored.advance(100);
+  EXPECT_EQ(difference(restored, whole), "");
 }
 
 }  // namespace crossgrain::test

@@ -1,0 +1,193 @@
+#pragma once
+
+#include "engines/grain/law_types.hpp"
+#include "engines/grain/stiffness.hpp"
+
+namespace grain {
+
+// The part of the normal force that is no dashpot's, where bodies attract each other. `L` as in
+// contact_force.hpp.
+
+/// A(δ) [m²]. @see CohesionArea
+/// Lens: π/4 (s² − d²)(d² − q²)/d² with s = a_i + a_j, q = a_i − a_j, d = s − δ; q² = s² − 4 R₁₂ s.
+template <class L, class Real>
+GRAIN_INLINE Real cohesionArea(const L& law, const ContactMotion<Real>& contact) {
+  const Real pi = Real(3.14159265358979323846);
+  const CohesionArea area = law.cohesionConventions.area;
+  const bool plane = contact.reach == Real(0);
+  if (area != CohesionArea::lens) {
+    const bool twice = area == CohesionArea::twiceBetweenDisks && !plane;
+    return (twice ? Real(4) : Real(2)) * pi * contact.radius * contact.overlap;
+  }
+  if (plane) return pi * (contact.radius + contact.radius - contact.overlap) * contact.overlap;
+  const Real d = contact.reach - contact.overlap;
+  const Real square = d * d;
+  const Real beyond = square - contact.reach * (contact.reach - Real(4) * contact.radius);
+  return Real(0.25) * pi * contact.overlap * (contact.reach + d) * beyond / square;
+}
+
+/// ∫ A dδ [m³].
+template <class L, class Real>
+Real cohesionVolume(const L& law, const ContactMotion<Real>& contact) {
+  const Real pi = Real(3.14159265358979323846), overlap = contact.overlap;
+  const bool plane = contact.reach == Real(0);
+  if (law.cohesionConventions.area != CohesionArea::lens)
+    return Real(0.5) * cohesionArea(law, contact) * overlap;
+  if (plane) return pi * overlap * overlap * (contact.radius - overlap / Real(3));
+  const Real s = contact.reach, d = s - overlap;
+  const Real q = s * (s - Real(4) * contact.radius);  // q²
+  const Real integral = (s * s + q) * overlap - (s * s * s - d * d * d) / Real(3) +
+                        s * s * q * (Real(1) / s - Real(1) / d);
+  return Real(0.25) * pi * integral;
+}
+
+/// F_po [N].
+template <class L, class Real>
+GRAIN_INLINE Real pullOff(const L& law, const ContactMotion<Real>& contact) {
+  const Real pi = Real(3.14159265358979323846);
+  const Real factor = law.cohesion == Cohesion::jkr ? Real(1.5) : Real(2);
+  return factor * pi * law.w * contact.radius;
+}
+
+/// A contact under JKR. With the radius of the contact at the largest pull,
+///   a_p³ = 9π w R²/(8 E*), R = R₁₂, E* = 3/4 k_n,
+/// and y = √(a/a_p): F = F_po (y⁶ − 2 y³), δ = (a_p²/R) (y⁴ − 4/3 y) (Johnson, Kendall and Roberts
+/// 1971). y >= 3^(−1/3), where the branch ends; the largest pull is at y = 1.
+template <class Real>
+struct JkrContact {
+  Real depth;  ///< a_p²/R, the unit of δ [m]
+  Real y;
+};
+
+/// How deep beyond its geometric end such a contact is, in units of a_p²/R, when it parts.
+GRAIN_INLINE double jkrEnd(JkrEnd end) {
+  return end == JkrEnd::largestPull ? 1.0 / 3.0 : 0.69336127435063470485;  // 3^(2/3)/3
+}
+
+template <class L, class Real>
+GRAIN_INLINE Real jkrDepth(const L& law, Real radius) {
+  const Real a =
+      cubeRoot(Real(1.5) * Real(3.14159265358979323846) * law.w * radius * radius / law.kn);
+  return a * a / radius;
+}
+
+/// How far apart surfaces are when they part [m].
+template <class L, class Real>
+GRAIN_INLINE Real jkrRange(const L& law, Real radius) {
+  return static_cast<Real>(jkrEnd(law.cohesionConventions.end)) * jkrDepth(law, radius);
+}
+
+/// y⁴ − 4/3 y = δ/depth by Newton's method from above, where the left side is convex: it falls from
+/// guess to guess and never passes the root. The guess is the parabola at the end of the branch, or
+/// for deep contacts the fourth root.
+template <class L, class Real>
+GRAIN_INLINE JkrContact<Real> jkrContact(const L& law, const ContactMotion<Real>& contact) {
+  const Real yEnd = Real(0.69336127435063470485), atZero = Real(1.10064241629820);
+  const Real depth = jkrDepth(law, contact.radius);
+  const Real target = larger(contact.overlap / depth, -yEnd);
+  const Real parabola = yEnd + squareRoot(larger(target + yEnd, Real(0)) / (Real(6) * yEnd * yEnd));
+  const Real deep = atZero + squareRoot(squareRoot(larger(target, Real(0))));
+  // At the end of the branch the slope is 0: rounding over less than this would be a step beyond.
+  const Real leastSlope = sizeof(Real) == sizeof(double) ? Real(1e-7) : Real(1e-3);
+  Real y = smaller(parabola, deep);
+  for (int k = 0; k < 8; ++k) {
+    const Real cube = y * y * y;
+    const Real slope = larger(Real(4) * cube - Real(4) / Real(3), leastSlope);
+    y = larger(y - (y * cube - Real(4) / Real(3) * y - target) / slope, yEnd);
+  }
+  return {depth, y};
+}
+
+template <class Real>
+struct PlasticContact {
+  Real force;      ///< [N]
+  Real stiffness;  ///< k₂ of unloading [N/m]
+};
+
+/// δ_max grows with the overlap, and falls where the limit of the pull is reached, so that the line
+/// of unloading passes through (δ, −k_c δ) (Luding 2008, Eqs. 4 to 7):
+///   f = k_n δ where k₂ (δ − δ₀) >= k_n δ, −k_c δ where it is below that, else k₂ (δ − δ₀),
+///   δ₀ = (1 − k_n/k₂) δ_max, k₂ = k_n + (k₂max − k_n) min(δ_max/δ*, 1),
+///   δ* = k₂max/(k₂max − k_n) φ 2 R₁₂.
+/// With k₂ = k_n + g δ_max, which changes with δ_max, the line through (δ, −k_c δ) is that of the
+/// root of g δ_max² − g δ δ_max − (k_n + k_c) δ = 0.
+template <class L, class Real>
+GRAIN_INLINE PlasticContact<Real> plasticContact(const L& law, const ContactMotion<Real>& contact,
+                                                 Real& largest) {
+  const Real overlap = larger(contact.overlap, Real(0));
+  largest = larger(largest, overlap);
+  const Real most = law.k2 - law.kn;
+  const Real depth = Real(2) * law.plasticDepth * contact.radius * law.k2;  // δ* · most
+  const auto stiffness = [&](Real m) {
+    return law.kn + (m * most < depth ? most * (m * most / depth) : most);
+  };
+  const Real k2 = stiffness(largest);
+  const Real unloading = k2 * overlap - (k2 - law.kn) * largest;
+  const Real loading = law.kn * overlap, pull = -law.kc * overlap;
+  if (unloading < pull) {
+    const Real growth = depth > Real(0) ? most * most / depth : Real(0);
+    const Real half = Real(0.5) * growth * overlap;
+    const Real root =
+        growth > Real(0)
+            ? (half + squareRoot(half * half + growth * (law.kn + law.kc) * overlap)) / growth
+            : Real(0);
+    const bool grows = growth > Real(0) && root * most < depth;
+    largest = grows ? root : (law.k2 + law.kc) * overlap / most;
+    return {pull, stiffness(largest)};
+  }
+  return {smaller(unloading, loading), k2};
+}
+
+/// The normal force without its dashpot. @param memory  the largest overlap of an elastoPlastic
+/// contact, updated; else not looked at
+template <class L, class Real>
+GRAIN_INLINE Real bodyForce(const L& law, const ContactMotion<Real>& contact, Real& memory) {
+  if (law.cohesion == Cohesion::area)
+    return elasticForce(law, contact) - law.kc * cohesionArea(law, contact);
+  if (law.cohesion == Cohesion::dmt) return elasticForce(law, contact) - pullOff(law, contact);
+  if (law.cohesion == Cohesion::jkr) {
+    const JkrContact<Real> jkr = jkrContact(law, contact);
+    const Real cube = jkr.y * jkr.y * jkr.y;
+    return pullOff(law, contact) * (cube - Real(2)) * cube;
+  }
+  if (law.cohesion == Cohesion::elastoPlastic) return plasticContact(law, contact, memory).force;
+  return elasticForce(law, contact);
+}
+
+/// What stands for f_n in a bound. @see CohesionLoad
+template <class L, class Real>
+GRAIN_INLINE Real boundLoad(const L& law, const ContactMotion<Real>& contact, Real normal,
+                            Real body) {
+  const CohesionLoad load = law.cohesionConventions.load;
+  if (law.cohesion == Cohesion::none || load == CohesionLoad::net) return normal;
+  const bool hasPullOff = law.cohesion == Cohesion::dmt || law.cohesion == Cohesion::jkr;
+  if (load == CohesionLoad::plusTwicePullOff)
+    return hasPullOff ? normal + Real(2) * pullOff(law, contact) : normal;
+  if (law.cohesion == Cohesion::elastoPlastic) return normal - smaller(body, Real(0));
+  return normal - (body - elasticForce(law, contact));
+}
+
+/// Energy of the elastic, or recoverable, normal force and of the bond, 0 at the first touch [J].
+/// JKR: F_po a_p²/R [2/5 y¹⁰ − 4/3 y⁷ + 2/3 y⁴], less that at δ = 0.
+template <class L, class Real>
+Real bodyEnergy(const L& law, const ContactMotion<Real>& contact, Real memory) {
+  if (law.cohesion == Cohesion::area)
+    return storedEnergy(law, contact, Real(0)) - law.kc * cohesionVolume(law, contact);
+  if (law.cohesion == Cohesion::dmt)
+    return storedEnergy(law, contact, Real(0)) - pullOff(law, contact) * contact.overlap;
+  if (law.cohesion == Cohesion::jkr) {
+    const JkrContact<Real> jkr = jkrContact(law, contact);
+    const auto integral = [](Real y) {
+      const Real cube = y * y * y;
+      return y * cube * (cube * (Real(0.4) * cube - Real(4) / Real(3)) + Real(2) / Real(3));
+    };
+    return pullOff(law, contact) * jkr.depth * (integral(jkr.y) - integral(Real(1.10064241629820)));
+  }
+  if (law.cohesion == Cohesion::elastoPlastic) {
+    const PlasticContact<Real> plastic = plasticContact(law, contact, memory);
+    return Real(0.5) * plastic.force * plastic.force / plastic.stiffness;
+  }
+  return storedEnergy(law, contact, Real(0));
+}
+
+}  // namespace grain
