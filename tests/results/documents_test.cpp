@@ -5,7 +5,7 @@
 #include <functional>
 #include <limits>
 
-#include "results/collision_fields.hpp"
+#include "results/collision.hpp"
 #include "results/json_fields.hpp"
 #include "results/run.hpp"
 #include "tests/reports/sample_results.hpp"
@@ -90,7 +90,7 @@ TEST(ResultsDocument, MemberOfAnotherType_ThrowsWithItsPath) {
 TEST(FlowRunDocument, NotFinished_HoldsItsReasonAlone) {
   FlowRun run;
   run.engine = "one";
-  run.status = RunStatus::failed;
+  run.status = Status::failed;
   run.reason = "died";
   run.profiles.resize(1);
   EXPECT_EQ(toJson(run),
