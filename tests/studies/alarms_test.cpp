@@ -3,24 +3,23 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/studies/flow_runs.hpp"
+
 namespace crossgrain {
 namespace {
 
-Case oneRing() {
-  Case setup;
-  setup.cell.innerRadius = 1.0;
-  setup.cell.outerRadius = 2.0;
-  setup.cell.height = 1.0;
-  setup.particles.smallRadius = 0.1;
-  setup.averaging.rings = 1;
-  return setup;
-}
+using Alarms = std::vector<std::string>;
 
-FlowRun filled(const std::string& engine, double volumeFraction) {
-  FlowRun run;
-  run.engine = engine;
-  run.profiles = {{"slicing", "volume_fraction", "", {volumeFraction}, {}, {}, {}}};
-  return run;
+Alarms alarmsAt(const CompareResults& results, const std::vector<EndpointRow>& rows = {}) {
+  Case oneRing;
+  oneRing.cell.innerRadius = 1.0;
+  oneRing.cell.outerRadius = 2.0;
+  oneRing.cell.height = 1.0;
+  oneRing.particles.smallRadius = 0.1;
+  oneRing.averaging.rings = 1;
+  Alarms what;
+  for (const AlarmRow& alarm : alarmsOf(oneRing, results, rows)) what.push_back(alarm.what);
+  return what;
 }
 
 EndpointRow pressure(double distance, Verdict answer, int packings = 8, int lost = 0) {
@@ -35,62 +34,53 @@ EndpointRow pressure(double distance, Verdict answer, int packings = 8, int lost
   return row;
 }
 
-std::vector<std::string> said(const CompareResults& results,
-                              const std::vector<EndpointRow>& rows = {}) {
-  std::vector<std::string> words;
-  for (const AlarmRow& alarm : alarmsOf(oneRing(), results, rows)) words.push_back(alarm.what);
-  return words;
-}
-
-using Alarms = std::vector<std::string>;
-
-TEST(Alarms, AreRaisedBeyondTenMarginsUnlessItIsADisagreementAnyway) {
-  EXPECT_EQ(said({}, {pressure(-10.5, Verdict::undecided, 1)}),
+TEST(Alarms, BeyondTenMarginsWithoutDisagreement_IsOne) {
+  EXPECT_EQ(alarmsAt({}, {pressure(-10.5, Verdict::undecided, 1)}),
             Alarms{"pressure is 10 margins off, which 1 packing cannot prove"});
-  EXPECT_EQ(said({}, {pressure(9.9, Verdict::undecided)}), Alarms{});
-  EXPECT_EQ(said({}, {pressure(99.0, Verdict::fail)}), Alarms{});
+  EXPECT_EQ(alarmsAt({}, {pressure(9.9, Verdict::undecided)}), Alarms{});
+  EXPECT_EQ(alarmsAt({}, {pressure(99.0, Verdict::fail)}), Alarms{});
 }
 
-/// Eight packings of an engine, of which the first ones have a pressure.
-void addRuns(CompareResults& results, const std::string& engine, int there) {
-  for (int packing = 0; packing < 8; ++packing) {
-    FlowRun run = filled(engine, 0.8);
-    run.packing = packing;
-    const std::optional<double> stress =
-        packing < there ? std::optional(100.0) : std::optional(0.0);
-    for (const char* field : {"stress_rr", "stress_pp"})
-      run.profiles.push_back({"slicing", field, "", {stress}, {}, {}, {}});
-    results.runs.push_back(std::move(run));
-  }
+/// Eight packings of a and b, of which the first ones have a pressure.
+CompareResults withPressure(int ofA, int ofB) {
+  CompareResults results;
+  for (int packing = 0; packing < 8; ++packing)
+    for (const auto& [engine, there] : {std::pair("a", ofA), {"b", ofB}}) {
+      const Numbers stress = {packing < there ? 100.0 : 0.0};
+      results.runs.push_back(
+          test::flowRun(engine, packing,
+                        {test::sliced("volume_fraction", {0.8}), test::sliced("stress_rr", stress),
+                         test::sliced("stress_pp", stress)}));
+    }
+  return results;
 }
 
-TEST(Alarms, AreRaisedWhereOneEngineHasNoValueOnMostPackings) {
-  CompareResults one, both;
-  addRuns(one, "a", 8);
-  addRuns(one, "b", 3);
-  EXPECT_EQ(said(one, {pressure(0.0, Verdict::undecided, 3, 5)}),
+TEST(Alarms, ValueOfOneEngineMissingOnMostPackings_IsOne) {
+  EXPECT_EQ(alarmsAt(withPressure(8, 3), {pressure(0.0, Verdict::undecided, 3, 5)}),
             Alarms{"pressure is missing on 5 of 8 packings"});
-  EXPECT_EQ(said(one, {pressure(0.0, Verdict::undecided, 4, 4)}), Alarms{});
-  addRuns(both, "a", 3);
-  addRuns(both, "b", 3);  // what neither has is no difference
-  EXPECT_EQ(said(both, {pressure(0.0, Verdict::undecided, 3, 5)}), Alarms{});
+  EXPECT_EQ(alarmsAt(withPressure(8, 3), {pressure(0.0, Verdict::undecided, 4, 4)}), Alarms{});
+  // What neither has is no difference.
+  EXPECT_EQ(alarmsAt(withPressure(3, 3), {pressure(0.0, Verdict::undecided, 3, 5)}), Alarms{});
 }
 
-TEST(Alarms, AreRaisedForAnotherRegimeOnMostPackings) {
+TEST(Alarms, OtherRegimeOnMostPackings_IsOne) {
   CompareResults results;
   results.regimes = {{"a", "b", PairKind::peer, 4, {0, 1, 3}}};
-  EXPECT_EQ(said(results), Alarms{"another regime on 3 of 4 packings"});
+  EXPECT_EQ(alarmsAt(results), Alarms{"another regime on 3 of 4 packings"});
   results.regimes[0].differ = {0, 1};
-  EXPECT_EQ(said(results), Alarms{});
+  EXPECT_EQ(alarmsAt(results), Alarms{});
 }
 
-TEST(Alarms, AreRaisedForDisksThatAreGone) {
+TEST(Alarms, DisksGoneFromTheCell_IsOne) {
   CompareResults results;
   results.regimes = {{"a", "b", PairKind::peer, 1, {}}};
-  results.runs = {filled("a", 0.8), filled("b", 0.6)};
-  EXPECT_EQ(said(results), Alarms{"25 % of the disks are gone from the cell"});
-  results.runs[1] = filled("b", 0.79);  // what crosses the circles of the walls and comes back
-  EXPECT_EQ(said(results), Alarms{});
+  const auto filled = [&](double fraction) {
+    results.runs = {test::flowRun("a", 0, {test::sliced("volume_fraction", {0.8})}),
+                    test::flowRun("b", 0, {test::sliced("volume_fraction", {fraction})})};
+    return alarmsAt(results);
+  };
+  EXPECT_EQ(filled(0.6), Alarms{"25 % of the disks are gone from the cell"});
+  EXPECT_EQ(filled(0.79), Alarms{});  // what crosses the circles of the walls and comes back
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace crossgrain::test {
 namespace {
 
-TEST(KeptResults, AreJudgedAlike) {
+TEST(KeptResults, Compacted_IsJudgedAlike) {
   const ThesisResults whole = world(2);
   const auto before = judgeClaims(whole, shippedRules());
   const auto after = judgeClaims(compacted(whole), shippedRules());
@@ -29,7 +29,7 @@ TEST(KeptResults, AreJudgedAlike) {
   }
 }
 
-TEST(KeptResults, StayAsTheyAre) {
+TEST(KeptResults, CompactedAgain_IsTheSame) {
   const ThesisResults once = compacted(world(1));
   EXPECT_EQ(toJson(compacted(once)), toJson(once));
   // In a file, too.
@@ -37,7 +37,7 @@ TEST(KeptResults, StayAsTheyAre) {
   EXPECT_EQ(toJson(compacted(back)), toJson(once));
 }
 
-TEST(KeptResults, AreWithoutWhatNothingIsMadeOf) {
+TEST(KeptResults, Compacted_LacksWhatNoClaimReads) {
   ThesisResults results = world(1);
   changeAll(results, [](ThesisRun& run, const ThesisCase& setup) {
     setField(run, setup, "nobody_asks_for_it", [](double) { return 1.0; });
@@ -65,7 +65,7 @@ TEST(KeptResults, AreWithoutWhatNothingIsMadeOf) {
   EXPECT_TRUE(rate->run.distributions.empty());
 }
 
-TEST(KeptResults, AreRoundedToSixDigits) {
+TEST(KeptResults, Compacted_HasSixDigits) {
   ThesisResults results = world(1);
   *fieldAt(results.runs.front(), "spin", 3) = 1.23456789e-7;
   const ThesisRun run = compacted(results).runs.front();

@@ -10,7 +10,7 @@
 namespace crossgrain::test {
 namespace {
 
-TEST(ClaimStatistics, MeanOverRunsHasTheErrorOfTheirScatter) {
+TEST(ClaimStatistics, MeanOverRuns_HasTheErrorOfTheirScatter) {
   const auto mean = meanOver(std::vector<Measured>{1.0, 2.0, 3.0});
   ASSERT_TRUE(mean);
   EXPECT_DOUBLE_EQ(mean->value, 2.0);
@@ -19,7 +19,7 @@ TEST(ClaimStatistics, MeanOverRunsHasTheErrorOfTheirScatter) {
   EXPECT_NEAR(mean->half(0.95).value(), 4.302652 / std::sqrt(3.0), 1e-5);  // Student's table
 }
 
-TEST(ClaimStatistics, OneRunHasTheErrorWithinItOrNone) {
+TEST(ClaimStatistics, MeanOfOneRun_HasTheErrorWithinItOrNone) {
   const auto known = meanOver(std::vector<Measured>{{1.0, 0.1}});
   EXPECT_EQ(known->basis, Estimate::Basis::within);
   EXPECT_EQ(known->standardError, 0.1);
@@ -29,19 +29,22 @@ TEST(ClaimStatistics, OneRunHasTheErrorWithinItOrNone) {
 }
 
 // Without ties Var S = n(n − 1)(2n + 5)/18, and τ's is that over (n(n − 1)/2)².
-TEST(ClaimStatistics, KendallsTauWithoutTies) {
+TEST(ClaimStatistics, KendallsTau_WithoutTies_ByHand) {
   const std::vector<TrendPoint> rising{{1, 1}, {2, 3}, {3, 2}, {4, 4}, {5, 5}};
   const auto tau = rankTrend(rising, 5);
   ASSERT_TRUE(tau);
   EXPECT_DOUBLE_EQ(tau->value, 0.8);  // nine pairs agree, one does not
   EXPECT_NEAR(tau->standardError.value(), std::sqrt(5.0 * 4.0 * 15.0 / 18.0) / 10.0, 1e-15);
   EXPECT_FALSE(rankTrend(rising, 6));
+  // All of one x, all of one y: no trend.
+  EXPECT_FALSE(rankTrend(std::vector<TrendPoint>{{1, 1}, {1, 2}, {1, 3}, {1, 4}, {1, 5}}, 5));
+  EXPECT_FALSE(rankTrend(std::vector<TrendPoint>{{1, 2}, {2, 2}, {3, 2}, {4, 2}, {5, 2}}, 5));
 }
 
 // Over all orders of y that there are, S has mean 0 and that variance: so it is counted here.
-TEST(ClaimStatistics, KendallsErrorIsThatOfAllOrdersTiesAndAll) {
+TEST(ClaimStatistics, KendallsTau_WithTies_HasTheErrorOfAllOrders) {
   std::vector<int> order{0, 1, 2, 3, 4, 5};
-  const double x[] = {1, 1, 2, 3, 3, 3}, y[] = {1, 2, 2, 3, 4, 4};
+  const double x[] = {1, 1, 2, 3, 3, 3}, y[] = {1, 2, 2, 2, 3, 4};
   double squares = 0.0, count = 0.0, error = 0.0;
   do {
     std::vector<TrendPoint> points;
@@ -54,12 +57,7 @@ TEST(ClaimStatistics, KendallsErrorIsThatOfAllOrdersTiesAndAll) {
   EXPECT_NEAR(error, std::sqrt(squares / count), 1e-12);
 }
 
-TEST(ClaimStatistics, NoTrendWhereAllIsTheSame) {
-  EXPECT_FALSE(rankTrend(std::vector<TrendPoint>{{1, 1}, {1, 2}, {1, 3}, {1, 4}, {1, 5}}, 5));
-  EXPECT_FALSE(rankTrend(std::vector<TrendPoint>{{1, 2}, {2, 2}, {3, 2}, {4, 2}, {5, 2}}, 5));
-}
-
-TEST(ClaimStatistics, ACommonSlopeKnowsNothingOfTheGroupsLevels) {
+TEST(ClaimStatistics, CommonSlope_OfGroupsAtOtherLevels_ByHand) {
   const std::vector<GroupedPoint> points{{0, 0.0, 0},  {1, 2.1, 0},  {2, 3.9, 0},
                                          {0, 50.1, 1}, {1, 52.0, 1}, {2, 53.9, 1}};
   const auto slope = commonSlope(points);
@@ -74,7 +72,7 @@ TEST(ClaimStatistics, ACommonSlopeKnowsNothingOfTheGroupsLevels) {
   EXPECT_FALSE(commonSlope(std::vector<GroupedPoint>{{0, 1, 0}, {1, 2, 0}}));  // no error
 }
 
-TEST(ClaimStatistics, SlopeOverRunsIsExactOnALineAndAsUncertainAsItsRunsDiffer) {
+TEST(ClaimStatistics, SlopeOverRuns_OnALine_IsExact) {
   const std::vector<std::vector<TrendPoint>> line{{{0, 1}, {1, 3}}, {{2, 5}}, {{3, 7}, {4, 9}}};
   const auto exact = slopeOverRuns(line);
   ASSERT_TRUE(exact);
@@ -91,7 +89,7 @@ Estimate over10(double value, double error) {
 
 const ClaimBand band{"width", "C⁻¹", "d", 4.0, 7.0, "w"};
 
-TEST(ClaimVerdicts, ABandHoldsTheIntervalLeavesItOutOrNeither) {
+TEST(ClaimVerdicts, Band_HoldsTheIntervalLeavesItOutOrNeither) {
   using enum Verdict;
   // t of 9 degrees of freedom is 2.262 at 95 %, 2.685 at 97.5 %.
   EXPECT_EQ(placeIn(band, over10(5.0, 0.44), 0.95, 1), pass);
@@ -107,13 +105,13 @@ TEST(ClaimVerdicts, ABandHoldsTheIntervalLeavesItOutOrNeither) {
   EXPECT_EQ(placeIn(band, Estimate{5.0, {}, 1.0, 1, Estimate::Basis::within}, 0.95, 1), undecided);
 }
 
-TEST(ClaimVerdicts, ABandOfOneEdgeIsOpenOnTheOtherSide) {
+TEST(ClaimVerdicts, BandOfOneEdge_IsOpenOnTheOtherSide) {
   const ClaimBand above{"slip", "A", "", 0.0, {}, "w"};
   EXPECT_EQ(placeIn(above, over10(1e9, 1.0), 0.95, 1), Verdict::pass);
   EXPECT_EQ(placeIn(above, over10(-3.0, 1.0), 0.95, 1), Verdict::fail);
 }
 
-TEST(ClaimVerdicts, AsManyRunsAsBringTheIntervalWithinTheEdge) {
+TEST(ClaimVerdicts, RunsToDecide_BringTheIntervalWithinTheEdge) {
   const auto n = runsToDecide(band, over10(5.0, 0.45), 0.95);
   ASSERT_TRUE(n);
   EXPECT_EQ(*n, 11);  // 2.228 × 0.45 √(10/11) = 0.956 < 1

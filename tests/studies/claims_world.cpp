@@ -180,19 +180,18 @@ ThesisRun worldRun(const ThesisCase& setup, int packing) {
 ThesisResults world(int packings) {
   ThesisResults results;
   const auto add = [&](const ThesisCase& setup) { results.cases.push_back(setup); };
-  for (const WorldLabel& of : worldLabels)
-    add(worldCase(of, fmt::format("nu-{}-{}", of.label, of.large), "packings"));
+  for (const TableRow& of : table32)
+    add(worldCase(of, fmt::format("nu-{}-{}", of.nu, of.large), "packings"));
   for (const std::size_t k : {3, 8, 14})
     for (const double omega : {0.01, 0.03, 0.1, 0.3, 1.0})
-      add(worldCase(worldLabels[k], fmt::format("omega-{}-{}", omega, worldLabels[k].label), "rate",
-                    omega));
-  ThesisCase soft = worldCase(worldLabels[8], "kn-half", "kn");
+      add(worldCase(table32[k], fmt::format("omega-{}-{}", omega, table32[k].nu), "rate", omega));
+  ThesisCase soft = worldCase(table32[8], "kn-half", "kn");
   soft.kn = 176.05;
-  ThesisCase slippery = worldCase(worldLabels[8], "no-friction", "friction");
+  ThesisCase slippery = worldCase(table32[8], "no-friction", "friction");
   slippery.mu = 0.0;
-  ThesisCase smooth = worldCase(worldLabels[8], "no-bottom", "bottom");
+  ThesisCase smooth = worldCase(table32[8], "no-bottom", "bottom");
   smooth.bottomFriction = false;
-  ThesisCase wide = worldCase(worldLabels[8], "spacing-7mm", "spacing");
+  ThesisCase wide = worldCase(table32[8], "spacing-7mm", "spacing");
   wide.cell.wallSpacing = 0.007;
   for (const ThesisCase& setup : {soft, slippery, smooth, wide}) add(setup);
   for (const ThesisCase& setup : results.cases)

@@ -10,6 +10,7 @@
 
 #include "cases/loader.hpp"
 #include "studies/thesis/claims.hpp"
+#include "tests/support/thesis.hpp"
 
 /// Results of a campaign made by hand, in which all is as the thesis says; tests change one thing.
 namespace crossgrain::test {
@@ -17,28 +18,17 @@ namespace crossgrain::test {
 inline constexpr double pi = std::numbers::pi;
 inline constexpr int worldRings = 20;
 
-struct WorldLabel {
-  double label;
-  std::size_t small, large;
-};
-
-/// Table 3.2.
-inline const std::vector<WorldLabel> worldLabels{
-    {0.789, 2462, 404}, {0.791, 2469, 405}, {0.793, 2476, 406}, {0.796, 2483, 407},
-    {0.798, 2490, 408}, {0.800, 2498, 409}, {0.800, 2511, 400}, {0.802, 2520, 399},
-    {0.804, 2511, 410}, {0.805, 2524, 404}, {0.807, 2518, 412}, {0.807, 2545, 394},
-    {0.809, 2525, 414}, {0.810, 2538, 407}, {0.811, 2555, 399}, {0.819, 2560, 418},
-    {0.828, 2588, 422}};
-
 /// A case of the thesis' cell.
-inline ThesisCase worldCase(const WorldLabel& of, const std::string& name,
-                            const std::string& family, double omega = 0.1) {
+inline ThesisCase worldCase(const TableRow& of, const std::string& name, const std::string& family,
+                            double omega = 0.1) {
   ThesisCase setup;
   setup.name = name;
   setup.families = {family};
-  setup.cell = {0.1032,   0.2524,   0.00125, 0.0025,   0.006,    omega,
-                of.small, of.large, 0.0037,  0.004495, of.label, 0.0074};
-  setup.label = of.label;
+  setup.cell = {0.1032, 0.2524, 0.00125, 0.0025,   0.006, omega,
+                {},     {},     0.0037,  0.004495, of.nu, 0.0074};
+  setup.cell.small = static_cast<std::size_t>(of.small);
+  setup.cell.large = static_cast<std::size_t>(of.large);
+  setup.label = of.nu;
   setup.kn = 352.1;
   setup.mu = 0.44;
   setup.settleRotations = 5.0;

@@ -8,7 +8,7 @@ namespace {
 
 using namespace crossgrain;
 
-TEST(ErrorUnit, IsTheRangeUnlessTheCurveHasHardlyAny) {
+TEST(ErrorUnit, CurveWithHardlyAnyRange_TakesItsMagnitude) {
   EXPECT_EQ(errorUnit({-1.0, 0.5, 2.0}).kind, ErrorUnitKind::range);
   EXPECT_EQ(errorUnit({-1.0, 0.5, 2.0}).value, 3.0);
   EXPECT_EQ(errorUnit({0.34, 0.341, -0.35}).kind, ErrorUnitKind::range);
@@ -31,7 +31,7 @@ Outcomes outcomes(const std::vector<double>& psi, double overlap) {
   return list;
 }
 
-TEST(Score, LargestAndRmsErrorInUnitsOfTheRange) {
+TEST(Score, Errors_AreInUnitsOfTheRange) {
   const Case setup = test::smallPairCase();
   const std::vector<CollisionStart> starts(3, {1.0, 0.1, Approach::spin});
   const CurveScore score =
@@ -48,7 +48,7 @@ TEST(Score, LargestAndRmsErrorInUnitsOfTheRange) {
   EXPECT_FALSE(score.of[QuantityId::duration]);    // neither has one
 }
 
-TEST(Score, HoldsWhereEveryQuantityWithAMarginDoes) {
+TEST(Score, EveryQuantityWithinItsMargin_Passes) {
   Case setup = test::smallPairCase();
   const std::vector<CollisionStart> starts(2, {1.0, 0.1, Approach::spin});
   const Outcomes oracle = outcomes({0.0, 2.0}, 1e-6), found = outcomes({0.0, 2.1}, 1.2e-6);
@@ -93,7 +93,7 @@ CollisionCurve curve(double dt, double psi, double en) {
   return curve;
 }
 
-TEST(ConvergenceOrder, IsTheSlopeOfErrorOverStepForEachQuantity) {
+TEST(ConvergenceOrder, SeveralSteps_GiveTheSlopeOfEachQuantity) {
   const CollisionCurve coarse = curve(4e-5, 16e-3, 4e-4), middle = curve(2e-5, 4e-3, 2e-4),
                        fine = curve(1e-5, 1e-3, 1e-4);
   const auto order = convergenceOrder({coarse, middle, fine});

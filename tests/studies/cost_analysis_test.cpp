@@ -248,14 +248,11 @@ TEST(CostAdvice, AveragesContradict_NotReached) {
   EXPECT_EQ(one.setting, "t_c/16");
   EXPECT_EQ(one.obstacle, 7u);  // averages at that step: 0.052 to 0.056
   EXPECT_FALSE(one.cheapest);
-}
-
-TEST(CostAdvice, SettingThatOneKindDoesNotMeasure_DoesNotKeepItOpen) {
-  Points points = ladder(0.05, 0.002);
-  CostPoint integrator = at(1e-4, 1.0, "velocity_verlet, t_c/8");
-  integrator.knob = "integrator";
-  points.push_back(integrator);
-  EXPECT_EQ(advice(points, {0.01}).front().verdict, Verdict::fail);
+  // A setting that one kind does not measure does not keep it open.
+  Points more = points;
+  more.push_back(at(1e-4, 1.0, "velocity_verlet, t_c/8"));
+  more.back().knob = "integrator";
+  EXPECT_EQ(advice(more, {0.01}).front().verdict, Verdict::fail);
 }
 
 TEST(CostAdvice, AveragesCannotDecide_CollisionsDoAndTheOpenAverageIsNamed) {
@@ -266,13 +263,10 @@ TEST(CostAdvice, AveragesCannotDecide_CollisionsDoAndTheOpenAverageIsNamed) {
   EXPECT_EQ(one.obstacle, 7u);
   // 4⁻⁴ = 0.0039 ± 0.02: the scatter must fall to 0.0061, (0.02/0.0061)² = 10.8
   EXPECT_EQ(one.decides, "10.8 times as much simulated time");
-}
-
-TEST(CostAdvice, OnlyAveragesMeasured_TheyHaveToShowIt) {
-  Points points = ladder(0.0, 0.02);
-  points.erase(points.begin(), points.begin() + 4);
-  EXPECT_EQ(advice(points, {0.01}).front().verdict, Verdict::undecided);
-  EXPECT_EQ(advice(points, {0.1}).front().verdict, Verdict::pass);
+  // Where only averages are measured, these have to show it.
+  const Points averages(points.begin() + 4, points.end());
+  EXPECT_EQ(advice(averages, {0.01}).front().verdict, Verdict::undecided);
+  EXPECT_EQ(advice(averages, {0.1}).front().verdict, Verdict::pass);
 }
 
 TEST(CostAdvice, SmallerStepNotRun_NotMeasured) {

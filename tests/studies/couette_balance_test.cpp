@@ -4,16 +4,12 @@
 #include <numbers>
 #include <numeric>
 
-#include "adapters/grain.hpp"
-#include "averaging/fits.hpp"
 #include "averaging/global.hpp"
 #include "averaging/statistics.hpp"
 #include "averaging/wall_balance.hpp"
 #include "cases/couette.hpp"
-#include "cases/loader.hpp"
-#include "cases/preparation.hpp"
-#include "cases/time_step.hpp"
 #include "studies/flow/run.hpp"
+#include "tests/studies/quick_cell.hpp"
 
 namespace {
 
@@ -34,9 +30,7 @@ class ShearedCell : public testing::Test {
   };
 
   static void SetUpTestSuite() {
-    setup_ = loadCase(std::filesystem::path(CROSSGRAIN_CASES) / "couette/quick.toml",
-                      {"bottom.mu=0.0", "preparation.rotations=0.5", "preparation.seed=3"})
-                 .front();
+    setup_ = test::quickCell({"bottom.mu=0.0", "preparation.rotations=0.5", "preparation.seed=3"});
     for (int packing = 0; packing < packings; ++packing) shear(packing);
   }
 
@@ -87,7 +81,7 @@ class ShearedCell : public testing::Test {
   static inline std::vector<Block> blocks_;
 };
 
-TEST_F(ShearedCell, EveryRingCarriesTheWheelsTorque) {
+TEST_F(ShearedCell, EveryRing_CarriesTheWheelsTorque) {
   // Without bottom friction (σ_φr + m v_r v_φ/V)·2πr²h = T at every ring, but for what spins up the
   // disks within it: a difference that averages out however much the torque itself varies.
   const Rings rings = ringsOf(setup_);
@@ -115,7 +109,7 @@ TEST_F(ShearedCell, EveryRingCarriesTheWheelsTorque) {
   }
 }
 
-TEST_F(ShearedCell, RadialStressInTheOutermostRingIsWhatThePressureOnTheWallCallsFor) {
+TEST_F(ShearedCell, OutermostRing_HasThePressureOfTheWall) {
   // Along branches σ̄_rr = P R_o/r_m − hoop term, but for what accelerates, which averages out.
   const Rings rings = ringsOf(setup_);
   const int outermost = rings.count() - 1;
@@ -136,7 +130,7 @@ TEST_F(ShearedCell, RadialStressInTheOutermostRingIsWhatThePressureOnTheWallCall
   EXPECT_LT(mean("stress_rr", outermost), 1.06 * along);
 }
 
-TEST_F(ShearedCell, ShearsInABandAtTheWheel) {
+TEST_F(ShearedCell, Shear_LiesInABandAtTheWheel) {
   const double rim = setup_.cell.omega * setup_.cell.innerRadius;
   EXPECT_GT(mean("azimuthal_velocity", 0), 0.15 * rim);
   EXPECT_LT(mean("azimuthal_velocity", 0), rim);
@@ -145,7 +139,7 @@ TEST_F(ShearedCell, ShearsInABandAtTheWheel) {
   EXPECT_LT(mean("spin", 0), -0.5);
 }
 
-TEST_F(ShearedCell, FabricTraceIsVolumeFractionTimesCoordination) {
+TEST_F(ShearedCell, FabricTrace_IsVolumeFractionTimesCoordination) {
   // Also of time means, since C is the mean weighted with volume.
   for (const Block& block : blocks_)
     for (int ring = 0; ring < 6; ++ring) {

@@ -15,6 +15,8 @@
 #include "studies/flow/averages.hpp"
 #include "studies/flow/run.hpp"
 #include "studies/flow/state_table.hpp"
+#include "tests/studies/flow_runs.hpp"
+#include "tests/studies/quick_cell.hpp"
 
 namespace {
 
@@ -31,12 +33,8 @@ RunSeries seriesOf(double shear, double contacts) {
   return series;
 }
 
-Case quick() {
-  return loadCase(CROSSGRAIN_CASES "/couette/quick.toml").front();
-}
-
-TEST(CouetteRegime, IsReadFromTheSeries) {
-  const Case setup = quick();
+TEST(CouetteRegime, SharesOfTheSeries_GiveTheRegime) {
+  const Case setup = test::quickCell();
   EXPECT_EQ(couetteRegime(setup, {}, seriesOf(0.3, 18.0)).regime, Regime::flowing);
   EXPECT_EQ(couetteRegime(setup, {}, seriesOf(0.002, 18.0)).regime, Regime::blocked);
   EXPECT_EQ(couetteRegime(setup, {}, seriesOf(0.3, 0.2)).regime, Regime::collisional);
@@ -52,18 +50,18 @@ TEST(CouetteRegime, IsReadFromTheSeries) {
   EXPECT_FALSE(unknown.reason.empty());
 }
 
-TEST(CouetteRegime, OfTwoSamplesIsOfTheTimeBetweenThem) {
+TEST(CouetteRegime, TwoSamples_BlockForTheTimeBetweenThem) {
   // The rim passes a disk in 2·0.0037/(1·0.03) = 0.247 s, two samples: of 0 and 0.3 the mean is not
   // blocked. Each by itself, one of two would be.
   RunSeries series;
   series["t_s"] = {1.0, 1.125};
   series["shear_share"] = {0.0, 0.3};
-  EXPECT_EQ(couetteRegime(quick(), {}, series).blockedFraction, 0.0);
+  EXPECT_EQ(couetteRegime(test::quickCell(), {}, series).blockedFraction, 0.0);
   series["t_s"] = {1.0, 1.25};  // a disk passes from one sample to the next
-  EXPECT_EQ(couetteRegime(quick(), {}, series).blockedFraction, 0.5);
+  EXPECT_EQ(couetteRegime(test::quickCell(), {}, series).blockedFraction, 0.5);
 }
 
-TEST(CouetteSteadiness, SaysItOfEachSeriesThatIsThere) {
+TEST(CouetteSteadiness, Series_DriftOrNot) {
   std::mt19937 generator(3);
   std::normal_distribution<double> normal;
   RunSeries series;
@@ -72,7 +70,7 @@ TEST(CouetteSteadiness, SaysItOfEachSeriesThatIsThere) {
     series["outer_pressure"].push_back(
         k % 9 == 0 ? std::nullopt : std::optional(100.0 - 0.1 * k + normal(generator)));
   }
-  const auto rows = couetteSteadiness(quick(), series);
+  const auto rows = couetteSteadiness(test::quickCell(), series);
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].quantity, "wheel_torque");
   EXPECT_EQ(rows[0].drift.verdict, Drift::notSeen);
@@ -83,23 +81,20 @@ TEST(CouetteSteadiness, SaysItOfEachSeriesThatIsThere) {
 
 /// A run of the sort that the tables take.
 FlowRun run(const std::string& engine, int packing, Regime regime, double change, Drift verdict) {
-  FlowRun run;
-  run.engine = engine;
-  run.packing = packing;
+  FlowRun run = test::flowRun(engine, packing);
   run.regime = RegimeRow{regime, "", {}, {}, {}, {}, {}};
   run.steadiness = {{"outer_pressure", {verdict, change, 0.3, std::abs(change) + 0.3}}};
   return run;
 }
 
-FlowRun notTested(const std::string& engine, int packing, Regime regime) {
-  return run(engine, packing, regime, 0.0, Drift::cannotTell);
-}
-
-TEST(Regimes, PairsSayOnWhichPackingsTheyDiffer) {
-  const std::vector<FlowRun> runs = {
-      notTested("ours", 0, Regime::flowing), notTested("ours", 1, Regime::blocked),
-      notTested("peer", 0, Regime::flowing), notTested("peer", 1, Regime::flowing),
-      notTested("peer", 2, Regime::flowing)};
+TEST(Regimes, PairOfEngines_DiffersOnSomePackings) {
+  std::vector<FlowRun> runs;
+  for (const auto& [engine, packing, regime] : {std::tuple("ours", 0, Regime::flowing),
+                                                {"ours", 1, Regime::blocked},
+                                                {"peer", 0, Regime::flowing},
+                                                {"peer", 1, Regime::flowing},
+                                                {"peer", 2, Regime::flowing}})
+    runs.push_back(run(engine, packing, regime, 0.0, Drift::cannotTell));
   const auto table = regimesOf(
       runs, {{"ours", "peer", PairKind::peer, ""}, {"ours", "nobody", PairKind::peer, ""}});
   ASSERT_EQ(table.size(), 1u);
@@ -107,7 +102,7 @@ TEST(Regimes, PairsSayOnWhichPackingsTheyDiffer) {
   EXPECT_EQ(table[0].differ, std::vector{1});
 }
 
-TEST(Steadiness, OverPackingsSeesWhatNoRunCanTell) {
+TEST(Steadiness, FourPackings_DecideWhatNoRunCan) {
   // Each run by itself: −0.4 ± 0.3 to ± 0.5, cannot tell. Four alike: −0.4 ± 0.05.
   std::vector<FlowRun> runs;
   for (int k = 0; k < 4; ++k)
@@ -127,7 +122,7 @@ TEST(Steadiness, OverPackingsSeesWhatNoRunCanTell) {
   EXPECT_EQ(steadinessOf(runs, {"ours"}, 0.95)[0].drift.verdict, Drift::cannotTell);
 }
 
-TEST(Steadiness, OfFewPackingsIsWhatAllRunsSay) {
+TEST(Steadiness, TwoPackings_DecideWhereTheyAgree) {
   std::vector<FlowRun> runs = {run("ours", 0, Regime::flowing, -0.5, Drift::drifts),
                                run("ours", 1, Regime::flowing, -0.6, Drift::drifts)};
   const auto verdict = [&] { return steadinessOf(runs, {"ours"}, 0.95)[0].drift.verdict; };
@@ -163,7 +158,7 @@ RegimeRow averaged(int seed) {
   return result.regime.value();
 }
 
-TEST(BlockedPacking, IsToldFromOneThatFlows) {
+TEST(BlockedPacking, QuickRun_DiffersFromOneThatFlows) {
   const RegimeRow blocked = averaged(2);
   EXPECT_EQ(blocked.regime, Regime::blocked) << blocked.reason;
   EXPECT_EQ(blocked.blockedFraction, 1.0);

@@ -22,7 +22,8 @@ Case variantOf(const std::string& file, const std::string& variant) {
 
 /// The first sweep of a case.
 CollisionCurve firstSweep(Engine& engine, const Case& setup, const std::string& mirrors = "") {
-  const EngineEntry entry{"here", "", makeGrain, {}, {}, mirrors};
+  EngineEntry entry = test::inHouse;
+  entry.mirrors = mirrors;
   const auto starts = collisionStarts(setup);
   DeclaredOracles declared;
   return runSweep(engine, entry, setup, collisionTimeSteps(setup).front(), starts,
@@ -46,10 +47,13 @@ class Declares : public test::PlantedEngine {
 
 const LawConventionSets cutsTension = {{"tension", {"cut"}}};
 
-TEST(DeclaredScore, AConventionThatTheCaseAllowsIsAModelDifference) {
-  const Case setup = variantOf("figure-4-3.toml", "coulomb-tension");
+Case withTension() {
+  return variantOf("figure-4-3.toml", "coulomb-tension");
+}
+
+TEST(DeclaredScore, ConventionThatTheCaseAllows_IsAModelDifference) {
   Declares engine(cutsTension, [](Scene&) {});
-  const CollisionCurve curve = firstSweep(engine, setup);
+  const CollisionCurve curve = firstSweep(engine, withTension());
   EXPECT_EQ(curve.score.verdict, Verdict::fail);
   ASSERT_TRUE(curve.declared);
   EXPECT_EQ(curve.declared->law, (LawDescription{{"tension", "cut"}}));
@@ -58,34 +62,24 @@ TEST(DeclaredScore, AConventionThatTheCaseAllowsIsAModelDifference) {
   EXPECT_EQ(verdictOf(curve), Verdict::modelDifference);
 }
 
-TEST(DeclaredScore, AFaultBehindAConventionIsNoModelDifference) {
-  const Case setup = variantOf("figure-4-3.toml", "coulomb-tension");
-  Declares engine(cutsTension, [](Scene& scene) { scene.law.mu *= 1.2; });
-  const CollisionCurve curve = firstSweep(engine, setup);
+/// A fault behind the convention, a convention that is only declared, and a fault without any.
+TEST(DeclaredScore, FaultOfTheEngine_IsNoModelDifference) {
+  const auto slippery = [](Scene& scene) { scene.law.mu *= 1.2; };
+  Declares faulty(cutsTension, slippery), undeclared({}, slippery);
+  const CollisionCurve curve = firstSweep(faulty, withTension());
   EXPECT_EQ(curve.declared->score.verdict, Verdict::fail);
   EXPECT_EQ(verdictOf(curve), Verdict::fail);
-}
-
-/// Declared and not done is a fault as well.
-TEST(DeclaredScore, AConventionThatIsOnlyDeclaredFallsShort) {
-  const Case setup = variantOf("figure-4-3.toml", "coulomb-tension");
-  Declares engine(cutsTension,
-                  [](Scene& scene) { scene.law.conventions.tension = Tension::allow; });
-  const CollisionCurve curve = firstSweep(engine, setup);
-  EXPECT_EQ(curve.score.verdict, Verdict::pass);
-  EXPECT_EQ(verdictOf(curve), Verdict::fail);
-}
-
-TEST(DeclaredScore, IsAbsentWhereTheLawIsTheScenes) {
-  const Case setup = variantOf("figure-4-3.toml", "coulomb-tension");
-  Declares engine({}, [](Scene& scene) { scene.law.mu *= 1.2; });
-  const CollisionCurve curve = firstSweep(engine, setup);
-  EXPECT_FALSE(curve.declared);
-  EXPECT_EQ(verdictOf(curve), Verdict::fail);
+  Declares only(cutsTension, [](Scene& scene) { scene.law.conventions.tension = Tension::allow; });
+  const CollisionCurve scenes = firstSweep(only, withTension());
+  EXPECT_EQ(scenes.score.verdict, Verdict::pass);
+  EXPECT_EQ(verdictOf(scenes), Verdict::fail);
+  const CollisionCurve plain = firstSweep(undeclared, withTension());
+  EXPECT_FALSE(plain.declared);
+  EXPECT_EQ(verdictOf(plain), Verdict::fail);
 }
 
 /// A dashpot outside the bound has no limit of small steps: the in-house engine decides.
-TEST(DeclaredScore, WithoutALimitOfSmallStepsTheMirrorDecides) {
+TEST(DeclaredScore, LawWithoutALimit_IsComparedWithTheMirror) {
   const Case setup = variantOf("figure-4-3.toml", "spring_dashpot-cut");
   const LawConventionSets outside = {{"dashpot", {"outside"}}};
   Declares right(outside, [](Scene&) {});
@@ -96,7 +90,7 @@ TEST(DeclaredScore, WithoutALimitOfSmallStepsTheMirrorDecides) {
   EXPECT_EQ(curve.declared->score.of[QuantityId::psiF]->max, 0.0);
   Declares wrong(outside, [](Scene& scene) { scene.law.gt *= 1.5; });
   EXPECT_EQ(verdictOf(firstSweep(wrong, setup)), Verdict::fail);
-  // A mirror is the in-house engine: it would be held against itself.
+  // A mirror is the in-house engine: it would be compared with itself.
   const CollisionCurve itself = firstSweep(right, setup, "somebody");
   EXPECT_EQ(itself.declared->reference, DeclaredReference::itself);
   EXPECT_EQ(itself.declared->score.verdict, Verdict::notMeasured);
@@ -104,7 +98,7 @@ TEST(DeclaredScore, WithoutALimitOfSmallStepsTheMirrorDecides) {
 }
 
 /// Nothing known of the declared law is no excuse.
-TEST(DeclaredScore, OfAnUnknownLawTheScenesDecides) {
+TEST(DeclaredScore, UnknownLaw_IsComparedWithTheScenes) {
   CollisionCurve curve;
   curve.score.verdict = Verdict::fail;
   curve.declared.emplace();
@@ -114,7 +108,7 @@ TEST(DeclaredScore, OfAnUnknownLawTheScenesDecides) {
 }
 
 /// Contacts that are stiffer by as much as the engine says, at the same restitution.
-TEST(DeclaredScore, AStiffnessThatIsDeclaredIsAModelDifference) {
+TEST(DeclaredScore, DeclaredStiffness_IsAModelDifference) {
   const Case setup = variantOf("restitution-sweep.toml", "base");
   const auto engine = makeStiffGrain(25.0);
   const CollisionCurve curve = firstSweep(*engine, setup);
@@ -125,8 +119,8 @@ TEST(DeclaredScore, AStiffnessThatIsDeclaredIsAModelDifference) {
   EXPECT_EQ(verdictOf(curve), Verdict::modelDifference);
 }
 
-/// Of another normal law the restitutions are those that the engine tells.
-TEST(DeclaredScore, RigidContactsInPlaceOfSoftOnesAreJudgedByTheirOwnLaw) {
+/// Of another normal law the restitutions are those that the engine reports.
+TEST(DeclaredScore, RigidContacts_AreComparedWithTheirOwnLaw) {
   const Case setup = variantOf("figure-4-3.toml", "coulomb-cut");
   const auto engine = makeBox2dImpulse();
   const CollisionCurve curve = firstSweep(*engine, setup);
@@ -138,7 +132,7 @@ TEST(DeclaredScore, RigidContactsInPlaceOfSoftOnesAreJudgedByTheirOwnLaw) {
 
 /// Too stiff by a twentieth: contacts are 2.4 % shorter (1.9 % of Hertz' law), in every case, and
 /// overlaps less deep by as much, which shows but where e_n is below a third.
-TEST(CollisionMargins, FindAContactThatIsTooStiff) {
+TEST(CollisionMargins, ContactTooStiffByATwentieth_IsBeyondThem) {
   struct Where {
     const char *file, *variant;
     bool byOverlap;

@@ -8,6 +8,7 @@
 
 #include "studies/flow/endpoint_values.hpp"
 #include "studies/lockstep/changed_cases.hpp"
+#include "tests/studies/flow_runs.hpp"
 
 namespace crossgrain {
 namespace {
@@ -24,25 +25,19 @@ Case twoRings() {
   return setup;
 }
 
-Profile profile(const std::string& field, std::optional<double> one, std::optional<double> two) {
-  return {"slicing", field, "", {one, two}, {}, {}, {}};
-}
-
 FlowRun runOf(const std::string& engine, int packing, double pressure, double spin = -1.0) {
-  FlowRun run;
-  run.engine = engine;
-  run.packing = packing;
-  run.profiles = {profile("stress_rr", 2.0 * pressure, 2.0 * pressure),
-                  profile("stress_pp", 0.0, 0.0),
-                  profile("stress_rp", 0.4 * pressure, 0.8 * pressure),
-                  profile("azimuthal_velocity", 0.8, std::nullopt),
-                  profile("spin", spin, 0.6),
-                  profile("volume_fraction", 0.6, 0.8)};
+  FlowRun run = test::flowRun(
+      engine, packing,
+      {test::sliced("stress_rr", {2.0 * pressure, 2.0 * pressure}),
+       test::sliced("stress_pp", {0.0, 0.0}),
+       test::sliced("stress_rp", {0.4 * pressure, 0.8 * pressure}),
+       test::sliced("azimuthal_velocity", {0.8, std::nullopt}), test::sliced("spin", {spin, 0.6}),
+       test::sliced("volume_fraction", {0.6, 0.8})});
   run.head = {{"coordination", "-", 3.5, {}, {}}};
   return run;
 }
 
-TEST(Endpoints, AreAreaMeansRatiosOfThemAndTheRingAtTheWheel) {
+TEST(Endpoints, Values_AreAreaMeansRatiosAndTheRingAtTheWheel) {
   const Case setup = twoRings();
   const FlowRun run = runOf("a", 0, 100.0);
   const auto value = [&](const char* name) { return endpointOf(endpointSpec(name), setup, run); };
@@ -57,17 +52,13 @@ TEST(Endpoints, AreAreaMeansRatiosOfThemAndTheRingAtTheWheel) {
   EXPECT_EQ(*value("velocity_at_wheel"), 0.8);
   EXPECT_EQ(*value("volume_fraction_at_wheel"), 0.6);
   EXPECT_EQ(*value("spin_at_wheel"), -1.0);
-}
-
-TEST(Endpoints, AreAbsentWhereThereIsNothing) {
-  const Case setup = twoRings();
-  FlowRun run = runOf("a", 0, 0.0);
-  EXPECT_FALSE(endpointOf(endpointSpec("pressure"), setup, run));
-  EXPECT_FALSE(endpointOf(endpointSpec("stress_ratio"), setup, run));
-  run.profiles.clear();
-  run.head.clear();
+  FlowRun bare = runOf("a", 0, 0.0);
+  EXPECT_FALSE(endpointOf(endpointSpec("pressure"), setup, bare));
+  EXPECT_FALSE(endpointOf(endpointSpec("stress_ratio"), setup, bare));
+  bare.profiles.clear();
+  bare.head.clear();
   for (const EndpointSpec& endpoint : endpointTable())
-    EXPECT_FALSE(endpointOf(endpoint, setup, run)) << endpoint.name;
+    EXPECT_FALSE(endpointOf(endpoint, setup, bare)) << endpoint.name;
 }
 
 Case judging(const std::string& endpoint, const Margin& margin) {
@@ -88,7 +79,7 @@ EndpointPair byMirror(double equivalent, const std::vector<EquivalentChange>& la
   return {"a", "b", PairKind::peer, "a", "mirror", {own}};
 }
 
-TEST(EndpointTable, ComparesPressuresByTheirRatio) {
+TEST(EndpointTable, RelativeMargin_ComparesRatios) {
   // b is 10 % above a on packings that differ by a factor of eight: no scatter in the ratio.
   std::vector<FlowRun> runs;
   for (const int packing : {0, 1, 2, 3}) {
@@ -115,7 +106,7 @@ void append(std::vector<FlowRun>& to, const std::vector<FlowRun>& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
-TEST(EndpointTable, TakesTheBoundOfAMirrorOffTheMargin) {
+TEST(EndpointTable, Mirror_TakesItsBoundOffTheMargin) {
   auto runs = spins("a", {-1.0, -1.1, -0.9, -1.0});
   append(runs, spins("mirror", {-1.1, -1.2, -1.0, -1.1}));
   append(runs, spins("b", {-7.0}));  // the engine itself: one run, which carries no verdict
@@ -165,7 +156,7 @@ TEST(EndpointTable, SpotCheck_ReachBeyondAMargin_RefusesTheMirror) {
   EXPECT_FALSE(judged({1, {}, 0.1, {}, "it shows no forces"}).inUse);
 }
 
-TEST(EndpointTable, TellsHowManyPackingsDecideFromTheScatterOfAllPairs) {
+TEST(EndpointTable, Undecided_HasTheNumberOfPackingsNeeded) {
   auto runs = spins("a", {0, 0, 0, 0, 0, 0, 0, 0});
   append(runs, spins("b", {2, -2, 2, -2, 2, -2, 2, -2}));
   Case setup = judging("spin_at_wheel", {1.0, false, "because", ""});
@@ -179,30 +170,27 @@ TEST(EndpointTable, TellsHowManyPackingsDecideFromTheScatterOfAllPairs) {
   EXPECT_EQ(*rows[0].needsAtMost, *range->high);
 }
 
-TEST(EndpointTable, LooksBeginWithTheCasesPackings) {
+TEST(InterimPlan, PackingsOfTheCase_GiveTheAnalyses) {
   Case setup = twoRings();
   setup.looks.count = 4;
   setup.preparation.packings = 8;
   EXPECT_EQ(interimPlanOf(setup).packings, (std::vector{8, 16, 24, 32}));
-  setup.preparation.packings = 3;  // no verdict at any look
+  setup.preparation.packings = 3;  // too few for a verdict
   EXPECT_EQ(interimPlanOf(setup).packings, std::vector{3});
   setup.particles.file = "packing.h5";
   EXPECT_EQ(interimPlanOf(setup).packings, std::vector{1});
+  Case assembly;
+  assembly.kind = CaseKind::assembly;
+  assembly.average.emplace();
+  assembly.looks.count = 2;
+  assembly.assembly.starts.files = {"a.csv", "b.csv", "c.csv", "d.csv"};
+  EXPECT_EQ(interimPlanOf(assembly).packings, std::vector{4});
+  assembly.assembly.starts.velocityRms = 0.1;  // any number of packings
+  assembly.preparation.packings = 6;
+  EXPECT_EQ(interimPlanOf(assembly).packings, (std::vector{6, 12}));
 }
 
-TEST(EndpointTable, FilesHaveOneLook) {
-  Case setup;
-  setup.kind = CaseKind::assembly;
-  setup.average.emplace();
-  setup.looks.count = 2;
-  setup.assembly.starts.files = {"a.csv", "b.csv", "c.csv", "d.csv"};
-  EXPECT_EQ(interimPlanOf(setup).packings, std::vector{4});
-  setup.assembly.starts.velocityRms = 0.1;  // any number of packings
-  setup.preparation.packings = 6;
-  EXPECT_EQ(interimPlanOf(setup).packings, (std::vector{6, 12}));
-}
-
-TEST(EndpointTable, ANegativeRatioHidesNoDisagreement) {
+TEST(EndpointTable, RatiosOfOtherSign_AreLostAndHideNoDisagreement) {
   Case setup = judging("pressure", {0.1, true, "because", ""});
   setup.averaging.endpoints["spin_at_wheel"] = {0.1, false, "because", ""};
   const Numbers spin = {-1.0, -1.1, -0.9, -1.0}, far = {1.0, 0.9, 1.1, 1.05};
@@ -230,7 +218,7 @@ TEST(EndpointTable, ANegativeRatioHidesNoDisagreement) {
   }
 }
 
-TEST(EndpointTable, ARelativeMarginIsOfTheSizeOfAReferenceBelowZero) {
+TEST(EndpointTable, RelativeMarginOfANegativeReference_IsOfItsSize) {
   Case setup = judging("pressure", {0.1, true, "because", ""});
   const Numbers discharge = {-270.0, -260.0, -280.0, -275.0};
   const auto rowOf = [&](double factor) {
@@ -255,16 +243,14 @@ TEST(EndpointTable, ARelativeMarginIsOfTheSizeOfAReferenceBelowZero) {
 std::vector<FlowRun> heights(const std::string& engine, double first, double second) {
   std::vector<FlowRun> runs;
   for (const double y : {first, second}) {
-    FlowRun run;
-    run.engine = engine;
-    run.packing = static_cast<int>(runs.size());
+    FlowRun run = test::flowRun(engine, static_cast<int>(runs.size()));
     run.series = RunSeries{{"t_s", {1.0, 2.0}}, {"disk_0_y", {0.0, y}}};
     runs.push_back(std::move(run));
   }
   return runs;
 }
 
-TEST(EndpointTable, ClosedFormsJudgeEveryEngineOnOneStart) {
+TEST(EndpointTable, ClosedForm_JudgesEveryEngineOnOneStart) {
   Case setup;
   setup.kind = CaseKind::assembly;
   OwnEndpoint apex;
@@ -322,7 +308,7 @@ TEST(EndpointTable, SpotCheck_IsComparedWithChaos) {
   EXPECT_FALSE(spotCheckOf(setup, runOf("b", 0, 1.0), runOf("m", 0, 1.0), {}).front().chance);
 }
 
-TEST(EndpointTable, OnlyConstantsThatAreThereAreChanged) {
+TEST(EndpointTable, ConstantsOfTheLaw_AreChangedByATenth) {
   Case setup = twoRings();
   setup.law.kn = 350.0;
   setup.law.mu = 0.4;
@@ -337,7 +323,7 @@ TEST(EndpointTable, OnlyConstantsThatAreThereAreChanged) {
   EXPECT_EQ(changedCases(setup).size(), 1u);
 }
 
-TEST(EndpointTable, ARespondingAverageIsBoundedByItsInterval) {
+TEST(EndpointTable, Response_IsBoundedByItsInterval) {
   const Case setup = judging("spin_at_wheel", {0.5, false, "because", ""});
   const auto own = spins("a", {-1.0, -1.0, -1.0, -1.0}),
              changed = spins("a", {-0.9, -0.7, -0.9, -0.7});

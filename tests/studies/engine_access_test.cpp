@@ -12,7 +12,8 @@
 #include "cases/time_step.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/mirrors.hpp"
-#include "support/bad_input.hpp"
+#include "tests/studies/quick_cell.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace {
 
@@ -25,14 +26,8 @@ TEST(SelectEngines, All_AddsEveryOtherInstalledEngineOnce) {
     for (std::size_t b = a + 1; b < engines.size(); ++b)
       EXPECT_NE(engines[a].name, engines[b].name);
   for (const EngineEntry& engine : engines) EXPECT_TRUE(engine.mirrors.empty());
-}
-
-TEST(SelectEngines, UnknownOrRepeatedName_Throws) {
   EXPECT_THROW(selectEngines({"grian"}), BadInput);
   EXPECT_THROW(selectEngines({"grain", "grain"}), BadInput);
-}
-
-TEST(MirrorsOf, NamedPeer_ReturnsItsMirror) {
   const auto mirrors = mirrorsOf(selectEngines({"grain", "box2d-penalty"}));
   ASSERT_EQ(mirrors.size(), 1u);
   EXPECT_EQ(mirrors[0].mirrors, "box2d-penalty");
@@ -45,12 +40,7 @@ TEST(SettingsFor, UnknownNameTypeRangeOrChoice_Throws) {
     Case setup;
     setup.file = "case.toml";
     setup.engines["one"][name] = value;
-    try {
-      settingsFor(setup, "one", can);
-    } catch (const BadInput& bad) {
-      return std::string(bad.what());
-    }
-    return std::string();
+    return test::refusalOf([&] { settingsFor(setup, "one", can); });
   };
   EXPECT_EQ(refused("dt", 1e-5), "");
   EXPECT_EQ(refused("mode", std::string("b")), "");
@@ -120,12 +110,16 @@ TEST(LoadScene, Mirror_TakesItsPeersStep) {
   EXPECT_EQ(stepOf("grain-as-box2d-impulse", own).dt, 1e-4);
 }
 
-Suitability of(const char* name, bool placed = true) {
-  const Case setup = loadCase(CROSSGRAIN_CASES "/couette/quick.toml", {}).front();
+Scene sceneOf(const Case& setup, bool placed = true) {
   Packing packing;
   if (placed) packing.disks = spreadDisks(setup);
+  return couetteScene(setup, packing, 4e-5);
+}
+
+Suitability of(const char* name, bool placed = true) {
+  const Case setup = test::quickCell();
   const EngineEntry& entry = *findEngine(name);
-  return suitabilityOf(*entry.make(), entry, setup, couetteScene(setup, packing, *setup.run.dt));
+  return suitabilityOf(*entry.make(), entry, setup, sceneOf(setup, placed));
 }
 
 bool has(const std::vector<std::string>& notes, const std::string& note) {
@@ -140,29 +134,13 @@ TEST(SuitabilityOf, EngineWithLimits_ListsStepDeviationsAndMissingEffects) {
   EXPECT_EQ(found.notSimulated,
             (std::vector<std::string>{"tangential_spring", "tangential_damping", "bottom_friction",
                                       "bottom_spin_friction"}));
-}
-
-TEST(SuitabilityOf, EngineThatDoesAll_ListsNothing) {
-  const Suitability found = of("grain");
-  EXPECT_EQ(found.dt, 4e-5);
-  EXPECT_TRUE(found.deviations.empty());
-  EXPECT_TRUE(found.notSimulated.empty());
-}
-
-TEST(SuitabilityOf, SceneWithoutDisks_ListsCapabilitiesOnly) {
-  const Suitability found = of("box2d-impulse", false);
-  EXPECT_FALSE(found.dt);
-  EXPECT_TRUE(has(found.deviations, "has no bottom_friction"));
-}
-
-Case quickCell(const std::vector<std::string>& changes = {}) {
-  return loadCase(CROSSGRAIN_CASES "/couette/quick.toml", changes).front();
-}
-
-Scene sceneOf(const Case& setup) {
-  Packing packing;
-  packing.disks = spreadDisks(setup);
-  return couetteScene(setup, packing, 4e-5);
+  const Suitability empty = of("box2d-impulse", false);  // a scene without disks
+  EXPECT_FALSE(empty.dt);
+  EXPECT_TRUE(has(empty.deviations, "has no bottom_friction"));
+  const Suitability all = of("grain");
+  EXPECT_EQ(all.dt, 4e-5);
+  EXPECT_TRUE(all.deviations.empty());
+  EXPECT_TRUE(all.notSimulated.empty());
 }
 
 std::vector<EngineEntry> mirrors() {
@@ -176,7 +154,7 @@ std::vector<EngineEntry> mirrors() {
 
 /// Whatever the peer, and from nothing but its capabilities: what it lacks is gone.
 TEST(SceneOfPeer, EveryMirror_HasTheEffectsOfItsPeer) {
-  const Case setup = quickCell();
+  const Case setup = test::quickCell();
   const Scene scene = sceneOf(setup);
   ASSERT_TRUE(effectsOf(scene).contains(Effect::bottomFriction));
   for (const EngineEntry& mirror : mirrors()) {
@@ -195,7 +173,7 @@ TEST(SceneOfPeer, EveryMirror_HasTheEffectsOfItsPeer) {
 
 /// The registry's conventions of a mirror are those that its peer declares.
 TEST(SceneOfPeer, EveryMirror_HasTheConventionsOfItsPeer) {
-  const Case setup = quickCell();
+  const Case setup = test::quickCell();
   const Scene scene = sceneOf(setup);
   for (const EngineEntry& mirror : mirrors()) {
     const Capabilities peer = *capabilitiesOf(*findEngine(mirror.mirrors), 60.0);
@@ -215,35 +193,23 @@ TEST(SceneOfPeer, EveryMirror_HasTheConventionsOfItsPeer) {
   }
 }
 
-TEST(SceneOfPeer, MissingEffects_AreDeviationsOfThePeer) {
-  const Case setup = quickCell();
-  const Adapted seen = sceneOfPeer(*findEngine("grain-as-box2d-penalty"), setup, sceneOf(setup));
-  ASSERT_FALSE(seen.deviations.empty());
-  for (const Deviation& deviation : seen.deviations)
+TEST(SceneOfPeer, PeerThatLacksEffectsRefusesOrIsUnknown_IsReported) {
+  const Case setup = test::quickCell(),
+             strict = test::quickCell({"run.may_differ=[\"integrator\"]"});
+  const Scene scene = sceneOf(setup);
+  const Adapted lacking = sceneOfPeer(*findEngine("grain-as-box2d-penalty"), setup, scene);
+  ASSERT_FALSE(lacking.deviations.empty());
+  for (const Deviation& deviation : lacking.deviations)
     EXPECT_TRUE(deviation.note.starts_with("as its peer box2d-penalty: has ")) << deviation.note;
-}
-
-TEST(SceneOfPeer, PeerThatRefuses_Throws) {
-  const Case setup = quickCell({"run.may_differ=[\"integrator\"]"});
-  const EngineEntry& mirror = *findEngine("grain-stiff");
-  try {
-    sceneOfPeer(mirror, setup, sceneOf(setup));
-    FAIL() << "no refusal";
-  } catch (const UnsupportedScene& refusal) {
-    EXPECT_TRUE(std::string(refusal.what()).starts_with("its peer box2d-impulse has no bottom_"))
-        << refusal.what();
-  }
-}
-
-TEST(SceneOfPeer, UnknownPeer_LeavesTheSceneWithANote) {
+  const std::string refusal = test::refusalOf<UnsupportedScene>(
+      [&] { sceneOfPeer(*findEngine("grain-stiff"), strict, sceneOf(strict)); });
+  EXPECT_TRUE(refusal.starts_with("its peer box2d-impulse has no bottom_")) << refusal;
   EngineEntry mirror = *findEngine("grain-as-yade");
   mirror.mirrors = "nobody";
-  const Case setup = quickCell();
-  const Scene scene = sceneOf(setup);
-  const Adapted seen = sceneOfPeer(mirror, setup, scene);
-  ASSERT_EQ(seen.deviations.size(), 1u);
-  EXPECT_EQ(seen.deviations[0].name, "peer");
-  EXPECT_EQ(effectsOf(seen.scene), effectsOf(scene));
+  const Adapted unknown = sceneOfPeer(mirror, setup, scene);
+  ASSERT_EQ(unknown.deviations.size(), 1u);
+  EXPECT_EQ(unknown.deviations[0].name, "peer");
+  EXPECT_EQ(effectsOf(unknown.scene), effectsOf(scene));
 }
 
 }  // namespace

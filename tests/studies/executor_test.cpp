@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <mutex>
+#include <thread>
 
+#include "support/busy_time.hpp"
 #include "support/scratch_folder.hpp"
 #include "support/task_pool.hpp"
 
@@ -12,43 +15,57 @@ namespace {
 
 using namespace crossgrain;
 
-TEST(TimeLeft, SpeedSoFar_GivesSeconds) {
+TEST(TimeLeft, SpeedSoFar_GivesTheTimeInItsUnit) {
   EXPECT_EQ("6 s left", timeLeft(0.25, 2.0));
   EXPECT_EQ("0 s left", timeLeft(1.0, 2.0));
   EXPECT_EQ("59 s left", timeLeft(0.5, 59.0));
-}
-
-TEST(TimeLeft, LongTimes_AreInMinutesAndHours) {
   EXPECT_EQ("1 min 00 s left", timeLeft(0.5, 60.0));
   EXPECT_EQ("59 min 59 s left", timeLeft(0.5, 3599.0));
   EXPECT_EQ("1 h 01 min left", timeLeft(0.5, 3660.0));
-}
-
-TEST(TimeLeft, FirstSecondOrHundredth_GivesNone) {
   EXPECT_EQ("estimating the time left", timeLeft(0.5, 0.9));
   EXPECT_EQ("estimating the time left", timeLeft(0.01, 100.0));
 }
 
-TEST(RunTasks, OneThread_StartsTheLongestFirst) {
-  std::vector<int> order;
-  std::vector<Task> tasks;
-  for (const int weight : {2, 9, 5})
-    tasks.push_back({static_cast<double>(weight), [&order, weight] { order.push_back(weight); }});
-  runTasks(tasks, 1);
-  EXPECT_EQ(order, (std::vector<int>{9, 5, 2}));
+TEST(RunTasks, EveryTask_RunsOnceTheLongestFirst) {
+  std::mutex mutex;
+  for (const int threads : {1, 7}) {
+    std::vector<int> order;
+    std::vector<Task> tasks;
+    for (int k = 0; k < 50; ++k) {
+      const int weight = 7 * k % 50;
+      tasks.push_back({static_cast<double>(weight), [&, weight] {
+                         const std::scoped_lock lock(mutex);
+                         order.push_back(weight);
+                       }});
+    }
+    runTasks(tasks, threads);
+    if (threads == 1) {
+      EXPECT_TRUE(std::ranges::is_sorted(order, std::ranges::greater()));
+    }
+    std::ranges::sort(order);
+    for (int k = 0; k < 50; ++k) EXPECT_EQ(order[static_cast<std::size_t>(k)], k);
+  }
 }
 
-TEST(RunTasks, ManyThreads_RunsEveryTaskOnce) {
-  std::mutex mutex;
-  std::vector<int> done(50, 0);
-  std::vector<Task> tasks;
-  for (std::size_t k = 0; k < done.size(); ++k)
-    tasks.push_back({1.0, [&, k] {
-                       const std::scoped_lock lock(mutex);
-                       ++done[k];
-                     }});
-  runTasks(tasks, 7);
-  EXPECT_EQ(done, std::vector<int>(50, 1));
+/// Two pieces, one inside the other: the time of the outer one, where a sum would be a third more.
+TEST(BusyTime, NestedPieces_CountOnceAndPausesNotAtAll) {
+  using std::chrono::milliseconds, std::this_thread::sleep_for;
+  BusyTime time;
+  EXPECT_EQ(0.0, time.seconds());
+  const auto begin = std::chrono::steady_clock::now();
+  {
+    const BusyTime::Piece outer(time);
+    sleep_for(milliseconds(20));
+    EXPECT_GE(time.seconds(), 0.02) << "what is under way counts";
+    const BusyTime::Piece inner(time);
+    sleep_for(milliseconds(20));
+  }
+  const std::chrono::duration<double> all = std::chrono::steady_clock::now() - begin;
+  const double after = time.seconds();
+  EXPECT_GE(after, 0.04);
+  EXPECT_LE(after, all.count());
+  sleep_for(milliseconds(20));
+  EXPECT_EQ(after, time.seconds());
 }
 
 using Values = std::vector<double>;
@@ -73,7 +90,7 @@ std::vector<CachedTask<Values>> fourRuns(int& done) {
   return tasks;
 }
 
-TEST(DoOrTakeUp, FinishedTasks_AreLoadedAndFailedOnesRunAgain) {
+TEST(RunOrLoad, FinishedTasks_AreLoadedAndFailedOnesRunAgain) {
   const ScratchFolder folder;
   RunCommand command;
   command.out = folder.path / "out";

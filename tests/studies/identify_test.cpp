@@ -8,12 +8,9 @@
 #include "adapters/grain.hpp"
 #include "adapters/law_options.hpp"
 #include "adapters/registry.hpp"
-#include "cases/loader.hpp"
-#include "cases/preparation.hpp"
-#include "cases/time_step.hpp"
 #include "studies/lockstep/rules.hpp"
 #include "tests/studies/planted_engine.hpp"
-#include "tests/studies/quick_flow.hpp"
+#include "tests/studies/quick_cell.hpp"
 
 namespace {
 
@@ -29,7 +26,7 @@ class Identify : public testing::Test {
   }
   static Identification of(std::function<void(Scene&)> fault) {
     test::PlantedEngine engine(std::move(fault));
-    return of(engine, {"disguised", "", makeGrain, {}, {}, ""});
+    return of(engine, test::inHouse);
   }
   static const FoundOption* optionOf(const Identification& found, const std::string& name) {
     const auto option = std::ranges::find(found.options, name, &FoundOption::name);
@@ -39,7 +36,7 @@ class Identify : public testing::Test {
   static inline test::QuickFlow* flow_ = nullptr;
 };
 
-TEST_F(Identify, TheCasesOwnLawIsFoundAsItIs) {
+TEST_F(Identify, CasesOwnLaw_IsFound) {
   const Identification found = of([](Scene&) {});
   EXPECT_FALSE(found.contradicts());
   EXPECT_EQ(found.before, 0.0);
@@ -51,7 +48,7 @@ TEST_F(Identify, TheCasesOwnLawIsFoundAsItIs) {
 
 /// Every other value of every option that has a bearing on the law is found, or told as one that
 /// does here as the case's own does.
-TEST_F(Identify, EachConventionByItself) {
+TEST_F(Identify, OneConvention_IsFoundOrOneAlike) {
   const Capabilities can = makeGrain()->capabilities();
   int found = 0, alike = 0;
   for (const LawOption& option : lawOptions()) {
@@ -73,7 +70,7 @@ TEST_F(Identify, EachConventionByItself) {
   EXPECT_LE(alike, found / 2);
 }
 
-TEST_F(Identify, SeveralThingsAtOnce) {
+TEST_F(Identify, SeveralDifferences_AreFoundAtOnce) {
   const Identification found = of([](Scene& scene) {
     scene.law.conventions.tension = Tension::cut;
     scene.law.conventions.leverArm = LeverArm::overlapMiddle;
@@ -94,7 +91,7 @@ TEST_F(Identify, SeveralThingsAtOnce) {
 }
 
 /// 25 times as stiff, in steps of a fifth: that is no small change of anything.
-TEST_F(Identify, WhatHasNoMirrorIsToldSo) {
+TEST_F(Identify, LawWithoutAMirror_IsNotCloseEnough) {
   const EngineEntry* const stiff = findEngine("grain-stiff");
   ASSERT_TRUE(stiff);
   const auto engine = stiff->make();
@@ -104,7 +101,7 @@ TEST_F(Identify, WhatHasNoMirrorIsToldSo) {
 }
 
 /// Every mirror of soft engines here, and the engine that can be asked in this process.
-TEST_F(Identify, WhatMirrorsAndPeersDeclareIsWhatTheyDo) {
+TEST_F(Identify, MirrorsAndPeers_DoAsTheyDeclare) {
   int asked = 0;
   for (const EngineEntry& entry : engineRegistry()) {
     if (!entry.make) continue;

@@ -145,72 +145,48 @@ class JobOutcomes : public testing::Test {
     writeFile(folderOf(k) / ".crossgrain", json{{"program", program}}.dump());
   }
 
-  /// What is said of job k.
-  std::string said(std::size_t k) const { return lookAtJobs(plan, folder.path()).at(k).trouble; }
-  bool merged(std::size_t k) const {
-    return !lookAtJobs(plan, folder.path()).at(k).results.empty();
+  /// The second job's results are as they are: the trouble begins so, and the others are merged.
+  void expectTrouble(const std::string& trouble, bool merged = false) const {
+    const auto outcomes = lookAtJobs(plan, folder.path());
+    EXPECT_TRUE(outcomes.at(1).trouble.starts_with(trouble)) << outcomes[1].trouble;
+    EXPECT_EQ(outcomes[1].results, merged ? folderOf(1) : fs::path());
+    for (const std::size_t k : {0u, 2u}) {
+      EXPECT_EQ(outcomes.at(k).trouble, "");
+      EXPECT_EQ(outcomes[k].results, folderOf(k));
+    }
   }
 
   TemporaryFolder folder;
   JobPlan plan;
 };
 
-TEST_F(JobOutcomes, AllAsPlanned_AreMerged) {
-  const auto outcomes = lookAtJobs(plan, folder.path());
-  ASSERT_EQ(outcomes.size(), 3u);
-  for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_EQ(outcomes[k].trouble, "");
-    EXPECT_EQ(outcomes[k].results, folderOf(k));
-  }
-}
-
-TEST_F(JobOutcomes, BrokenResults_AreNotMerged) {
+TEST_F(JobOutcomes, ResultsThatAreNotAsPlanned_AreReportedAndNotMerged) {
+  expectTrouble("", true);
   for (const char* text : {"", "{\"schema\": ", "[]", "{\"schema\": \"crossgrain-results-1\"}",
                            "{\"schema\": \"crossgrain-results-1\", \"kind\": \"compare\"}",
                            "{\"schema\": \"crossgrain-results-1\", \"kind\": \"collide\"}"}) {
     writeFile(folderOf(1) / "results.json", text);
-    EXPECT_TRUE(said(1).starts_with("broken: ")) << text << said(1);
-    EXPECT_FALSE(merged(1));
+    expectTrouble("broken: ");
   }
-}
-
-TEST_F(JobOutcomes, MissingUnfinishedOrOthersResults_AreNotMerged) {
-  const auto isLost = [&](const std::string& why) {
-    EXPECT_EQ(said(1).rfind(why, 0), 0u) << said(1);
-    EXPECT_FALSE(merged(1));
-    EXPECT_TRUE(merged(0) && merged(2));
-  };
   leave(1, 0);
-  isLost("doubled: its folder holds the results of " + plan.jobs[0].name);
+  expectTrouble("doubled: its folder holds the results of " + plan.jobs[0].name);
   leave(1, 7);
-  isLost("holds the results of another case than its own");
-  fs::remove(folderOf(1) / "results.json");
-  isLost("unfinished: ");
-  fs::remove_all(folderOf(1));
-  isLost("missing: it has not begun");
-}
-
-TEST_F(JobOutcomes, OtherVersion_IsNotMerged) {
+  expectTrouble("holds the results of another case than its own");
   leave(1, 1, "0.0.9 (abc)");
-  EXPECT_EQ(said(1),
-            "of another version: of crossgrain 0.0.9 (abc), and the plan is of " + thisProgram());
+  expectTrouble("of another version: of crossgrain 0.0.9 (abc), and the plan is of " +
+                thisProgram());
   leave(1, 1, "");
-  EXPECT_TRUE(said(1).starts_with("of another version: of an unknown build")) << said(1);
+  expectTrouble("of another version: of an unknown build");
   leave(1, 1, thisProgram(), "2");
-  EXPECT_EQ(said(1), "of another version: of yade 2, and " + plan.jobs[0].name + " is of 1");
-  EXPECT_FALSE(merged(1));
-}
-
-TEST_F(JobOutcomes, FailedRuns_AreReportedAndTheRestMerged) {
+  expectTrouble("of another version: of yade 2, and " + plan.jobs[0].name + " is of 1");
   leave(1, 1, thisProgram(), "1", 2);
-  EXPECT_EQ(said(1), "2 of 4 runs failed; the others are merged");
-  EXPECT_TRUE(merged(1));
-}
-
-TEST_F(JobOutcomes, FolderOfNoJob_IsReported) {
+  expectTrouble("2 of 4 runs failed; the others are merged", true);
+  fs::remove(folderOf(1) / "results.json");
+  expectTrouble("unfinished: ");
+  fs::remove_all(folderOf(1));
+  expectTrouble("missing: it has not begun");
   makeDirectory(folder.path() / "results" / "004-more");
-  EXPECT_EQ(lookAtJobs(plan, folder.path()).at(3).name, "004-more");
-  EXPECT_EQ(said(3), "belongs to no job of this plan");
+  EXPECT_EQ(lookAtJobs(plan, folder.path()).at(3).trouble, "belongs to no job of this plan");
 }
 
 }  // namespace

@@ -6,11 +6,11 @@
 #include "cases/collision_scene.hpp"
 #include "cases/loader.hpp"
 #include "results/schema.hpp"
-#include "studies/collide/sweep.hpp"
 #include "studies/flow/campaign.hpp"
-#include "support/bad_input.hpp"
 #include "tests/misbehaving/entries.hpp"
 #include "tests/support/pairs.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 // Engines that misbehave on purpose: each is one clear line that names engine, case, time and the
 // last good state, and the others go on.
@@ -25,10 +25,7 @@ constexpr std::uint64_t badStep = 25;
 
 class Misbehaviour : public testing::Test {
  protected:
-  fs::path folder_ =
-      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
-  void SetUp() override { fs::remove_all(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
+  const TemporaryFolder folder_;
 
   static Case pairCase() {
     Case setup = ::test::smallPairCase();
@@ -43,22 +40,19 @@ class Misbehaviour : public testing::Test {
   std::string endOf(const std::string& mischief, const Case& setup = pairCase(),
                     std::vector<Snapshot>* seen = nullptr) {
     const Scene scene = collisionScene(setup, collisionStarts(setup), dt);
-    const auto loaded =
-        loadEngine(crossgrain::test::misbehavingEntry(mischief, badStep), setup, scene, folder_);
-    try {
+    const auto loaded = loadEngine(crossgrain::test::misbehavingEntry(mischief, badStep), setup,
+                                   scene, folder_.path());
+    return crossgrain::test::refusalOf<EngineFailure>([&] {
       for (int k = 10; k <= 100; k += 10) {
         loaded.engine->advance(k * dt);
         const Snapshot now = loaded.engine->snapshot(ContactReport::none);
         if (seen != nullptr) seen->push_back(now);
       }
-    } catch (const EngineFailure& failure) {
-      return failure.what();
-    }
-    return "";
+    });
   }
 };
 
-TEST_F(Misbehaviour, IsOneLineOfEngineCaseTimeAndLastGoodState) {
+TEST_F(Misbehaviour, FatalMischief_IsOneLineWithCaseTimeAndLastGoodState) {
   const std::string good = " (last good snapshot: t = 0.0002 s)";
   const auto begins = [](const std::string& text, const std::string& with) {
     return text.rfind(with, 0) == 0;
@@ -82,7 +76,7 @@ TEST_F(Misbehaviour, IsOneLineOfEngineCaseTimeAndLastGoodState) {
 
 /// Nothing but its energy gives a pump away: no term accounts for what it brings in, here to two
 /// disks that lose nothing.
-TEST_F(Misbehaviour, OfAPumpShowsInTheEnergy) {
+TEST_F(Misbehaviour, Pump_ShowsInTheEnergyLedger) {
   Case setup = pairCase();
   setup.law.gn = 0.0;
   setup.law.tangential = TangentialLaw::none;
@@ -102,20 +96,8 @@ TEST_F(Misbehaviour, OfAPumpShowsInTheEnergy) {
   EXPECT_GT(most, 0.1 * before);
 }
 
-TEST_F(Misbehaviour, EndsItsOwnCurveOnly) {
-  const Case setup = pairCase();
-  const auto starts = collisionStarts(setup);
-  const auto oracle = oracleCurve(setup, starts);
-  for (const std::string& mischief : crossgrain::test::fatalMischiefs()) {
-    const EngineEntry entry = crossgrain::test::misbehavingEntry(mischief, badStep);
-    const auto engine = startEngine(entry, folder_, setup.run.timeout);
-    EXPECT_THROW(runSweep(*engine, entry, setup, dt, starts, oracle, false), EngineFailure)
-        << mischief;
-  }
-}
-
 /// One campaign, a good engine among bad ones.
-TEST_F(Misbehaviour, LetsTheOthersOfACampaignFinish) {
+TEST_F(Misbehaviour, EnginesOfACampaign_FailAlone) {
   const Case setup =
       loadCase(fs::path(CROSSGRAIN_CASES) / "couette/quick.toml",
                {"preparation.packings=1", "preparation.shrink_time=0.3",
@@ -128,7 +110,7 @@ TEST_F(Misbehaviour, LetsTheOthersOfACampaignFinish) {
   for (const std::string& mischief : crossgrain::test::fatalMischiefs())
     engines.push_back(crossgrain::test::misbehavingEntry(mischief, 60));
   RunCommand command;
-  command.out = folder_;
+  command.out = folder_.path();
   command.quiet = true;
   RunStore store(command, "compare", soleCase(setup));
   Campaign campaign(setup, command, engines, store);
@@ -149,19 +131,15 @@ TEST_F(Misbehaviour, LetsTheOthersOfACampaignFinish) {
   }
 }
 
-/// Every engine profits from the look that the harness takes at the scene.
-TEST_F(Misbehaviour, OfASceneIsRefusedBeforeAnyEngineSeesIt) {
+TEST_F(Misbehaviour, ImpossibleScene_IsRefusedBeforeAnyEngineLoadsIt) {
   const Case setup = pairCase();
   Scene scene = collisionScene(setup, collisionStarts(setup), dt);
   const auto refusal = [&] {
-    try {
-      loadEngine(crossgrain::test::misbehavingEntry("none", 0), setup, scene, folder_);
-    } catch (const BadInput& bad) {
-      return std::string(bad.what());
-    }
-    return std::string("none");
+    return crossgrain::test::refusalOf([&] {
+      loadEngine(crossgrain::test::misbehavingEntry("none", 0), setup, scene, folder_.path());
+    });
   };
-  EXPECT_EQ(refusal(), "none");
+  EXPECT_EQ(refusal(), "");
   const Vec2 place = scene.disks.position[0];
   scene.disks.position = {{0.5, -0.25}, {0.5, -0.25}};
   EXPECT_EQ(refusal(), "pair.toml: disk 0 and disk 1 have the same centre, (0.5, -0.25) m");
@@ -170,7 +148,7 @@ TEST_F(Misbehaviour, OfASceneIsRefusedBeforeAnyEngineSeesIt) {
             "pair.toml: disk 0 and disk 1 overlap by 0.00407 m at the start, near (0.5, -0.25) m: "
             "more than the smaller radius, so that a centre lies inside");
   scene.disks.position[1].x() += 0.2 * ::test::smallRadius;
-  EXPECT_EQ(refusal(), "none");
+  EXPECT_EQ(refusal(), "");
   scene.disks.position[0].y() = std::nan("");
   EXPECT_EQ(refusal(), "pair.toml: the position of disk 0 is not finite");
   scene.disks.position[0] = place;

@@ -64,12 +64,17 @@ ExitStatus compared(const CompareResults& results, bool strict = false, bool qui
   return compareStudy.outcome(results, line, own).status;
 }
 
+/// Without --strict and with it.
+std::pair<ExitStatus, ExitStatus> both(const CompareResults& results) {
+  return {compared(results), compared(results, true)};
+}
+
 TEST(CompareOutcome, VerdictsOfNamedEngines_Decide) {
   CompareResults results;
   EXPECT_EQ(compared(results), exitPassed);
   const auto with = [&](PairKind kind, Verdict answer) {
     results.endpoints.rows = {row(kind, 8, Verdict::pass), row(kind, 8, answer)};
-    return std::pair(compared(results), compared(results, true));
+    return both(results);
   };
   EXPECT_EQ(with(PairKind::peer, Verdict::pass), std::pair(exitPassed, exitPassed));
   EXPECT_EQ(with(PairKind::peer, Verdict::undecided), std::pair(exitPassed, exitFailed));
@@ -84,15 +89,13 @@ TEST(CompareOutcome, LockstepAlarmsRefusalsAndFailures_Decide) {
   LockstepRow found;
   found.verdict = Equivalence::undecided;
   results.lockstep.emplace().rows = {found};
-  EXPECT_EQ(compared(results), exitPassed);
-  EXPECT_EQ(compared(results, true), exitFailed);
+  EXPECT_EQ(both(results), std::pair(exitPassed, exitFailed));
   results.lockstep->rows.front().verdict = Equivalence::differs;
   EXPECT_EQ(compared(results), exitFailed);
   results.lockstep.reset();
   results.engines = {{"b", "", "", "", Status::refused, "cannot"},
                      {"c", "", "", "", Status::refused, "was not named"}};
-  EXPECT_EQ(compared(results), exitPassed);
-  EXPECT_EQ(compared(results, true), exitFailed);
+  EXPECT_EQ(both(results), std::pair(exitPassed, exitFailed));
   AlarmRow alarm;
   alarm.kind = PairKind::mirrorImplementation;
   results.endpoints.alarms = {alarm};
@@ -117,8 +120,7 @@ TEST(CompareOutcome, NothingJudged_IsFailureUnlessAskedFor) {
   EXPECT_EQ(compared(results, false, true), exitPassed);
   EXPECT_EQ(compared(results, true, true), exitFailed);
   results.nothingJudged->byRequest = true;
-  EXPECT_EQ(compared(results), exitPassed);
-  EXPECT_EQ(compared(results, true), exitFailed);
+  EXPECT_EQ(both(results), std::pair(exitPassed, exitFailed));
 }
 
 TEST(StabilityOutcome, UnstableOrNothingJudged_Fails) {
@@ -127,12 +129,11 @@ TEST(StabilityOutcome, UnstableOrNothingJudged_Fails) {
     for (const Verdict verdict : verdicts) results.runs.emplace_back().verdict = verdict;
     return stabilityStudy.outcome(results, {}, {}).status;
   };
-  EXPECT_EQ(
-      status({Verdict::pass, Verdict::borderline, Verdict::notApplicable, Verdict::notMeasured}),
-      exitPassed);
-  EXPECT_EQ(status({Verdict::pass, Verdict::fail}), exitFailed);
-  EXPECT_EQ(status({Verdict::notApplicable, Verdict::notApplicable}), exitFailed);
-  EXPECT_EQ(status({Verdict::notApplicable, Verdict::notMeasured}), exitFailed);
+  using enum Verdict;
+  EXPECT_EQ(status({pass, borderline, notApplicable, notMeasured}), exitPassed);
+  EXPECT_EQ(status({pass, fail}), exitFailed);
+  EXPECT_EQ(status({notApplicable, notApplicable}), exitFailed);
+  EXPECT_EQ(status({notApplicable, notMeasured}), exitFailed);
 }
 
 CollisionCurve curve(const std::string& engine, Verdict verdict, Status status = Status::finished) {

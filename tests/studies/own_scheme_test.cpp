@@ -17,11 +17,10 @@ namespace {
 
 using namespace crossgrain;
 
-constexpr double aFiftieth = 2.18e-3 / 50.0;
+constexpr double aFiftieth = test::smallContactTime / 50.0;
 
 SchemeScore ownScheme(Engine& engine, const Case& setup) {
-  const EngineEntry entry{"here", "", makeGrain, {}, {}, ""};
-  return schemeScore(engine, entry, setup, aFiftieth);
+  return schemeScore(engine, test::inHouse, setup, aFiftieth);
 }
 
 SchemeScore planted(std::function<void(Scene&)> fault) {
@@ -31,7 +30,7 @@ SchemeScore planted(std::function<void(Scene&)> fault) {
 
 /// Every integrator with every damping velocity, with tension and without, of disks alike and not,
 /// and on a wall.
-TEST(OwnScheme, TheInHouseEngineHoldsToEachToRounding) {
+TEST(OwnScheme, InHouseEngine_FollowsEachSchemeToRounding) {
   Case unequal = test::smallPairCase(), wall = test::smallPairCase();
   const CollidingPair pair = test::unequalPair();
   for (const int side : {0, 1}) {
@@ -63,7 +62,7 @@ TEST(OwnScheme, TheInHouseEngineHoldsToEachToRounding) {
 }
 
 /// An engine that holds a scene otherwise rounds it otherwise, and does nothing wrong.
-TEST(OwnScheme, ARoundingOfTheStartIsNoFaultUnderAnyLaw) {
+TEST(OwnScheme, RoundingOfTheStart_IsNoFaultUnderAnyLaw) {
   for (const TangentialLaw tangential :
        {TangentialLaw::none, TangentialLaw::coulomb, TangentialLaw::viscous, TangentialLaw::spring,
         TangentialLaw::springDashpot}) {
@@ -75,7 +74,7 @@ TEST(OwnScheme, ARoundingOfTheStartIsNoFaultUnderAnyLaw) {
   }
 }
 
-TEST(OwnScheme, APeerHoldsToItsOwn) {
+TEST(OwnScheme, Peer_FollowsItsOwnScheme) {
   Case setup = test::smallPairCase();
   setup.run.mayDiffer = {"integrator", "damping_velocity", "spring_update"};
   const auto engine = makeBox2dPenalty();
@@ -84,13 +83,8 @@ TEST(OwnScheme, APeerHoldsToItsOwn) {
   EXPECT_EQ(score.scheme, "semi_implicit_euler");
 }
 
-struct PlantedFault {
-  const char* what;
-  std::function<void(Scene&)> plant;
-};
-
-TEST(OwnScheme, FindsAFaultFarBelowTruncation) {
-  const std::vector<PlantedFault> faults = {
+TEST(OwnScheme, FaultFarBelowTruncation_IsFound) {
+  const std::pair<const char*, std::function<void(Scene&)>> faults[] = {
       {"k_n + 1e-9", [](Scene& scene) { scene.law.kn *= 1.0 + 1e-9; }},
       {"gamma_n + 1e-9", [](Scene& scene) { scene.law.gn *= 1.0 + 1e-9; }},
       {"a mass + 1e-9", [](Scene& scene) { scene.disks.mass[0] *= 1.0 + 1e-9; }},
@@ -99,11 +93,10 @@ TEST(OwnScheme, FindsAFaultFarBelowTruncation) {
       {"a dashpot half a step late",
        [](Scene& scene) { scene.law.conventions.dampingVelocity = DampingVelocity::lagged; }},
       {"gravity", [](Scene& scene) { scene.gravity = Vec2(0.0, -1e-6); }}};
-  for (const PlantedFault& fault : faults) {
-    const SchemeScore score = planted(fault.plant);
-    EXPECT_EQ(score.held, false) << fault.what << ": " << *score.position << ", "
-                                 << *score.velocity;
-    EXPECT_GT(std::max(*score.position, *score.velocity), 1e-11) << fault.what;
+  for (const auto& [what, plant] : faults) {
+    const SchemeScore score = planted(plant);
+    EXPECT_EQ(score.held, false) << what << ": " << *score.position << ", " << *score.velocity;
+    EXPECT_GT(std::max(*score.position, *score.velocity), 1e-11) << what;
   }
   EXPECT_EQ(planted([](Scene&) {}).held, true);
 }
@@ -120,95 +113,22 @@ class DoubleStep : public test::PlantedEngine {
   double advance(double t) override { return PlantedEngine::advance(2.0 * t); }
 };
 
-TEST(OwnScheme, FindsAnotherTimeStepThanTheOneDeclared) {
+TEST(OwnScheme, OtherTimeStepThanDeclared_IsFound) {
   DoubleStep engine;
   EXPECT_EQ(ownScheme(engine, test::smallPairCase()).held, false);
 }
 
-/// Two disks on a line by Störmer's scheme, written for this test alone: velocities are shown half
-/// a step before positions. `late` is how many steps the dashpot's velocity is behind.
-class TwoOnALine : public Engine {
- public:
-  explicit TwoOnALine(int late) : late_(late) {}
-  Capabilities capabilities() const override {
-    Capabilities can = makeGrain()->capabilities();
-    can.lawOptions["damping_velocity"] = {"lagged"};
-    return can;
-  }
-  EffectiveParameters load(const Scene& scene, const Settings&) override {
-    scene_ = scene;
-    steps_ = 0;
-    for (const std::size_t i : {0u, 1u}) {
-      x_[i] = scene.disks.position[i].x();
-      v_[i] = scene.disks.velocity[i].x();
-    }
-    seen_.assign(2, v_[0] - v_[1]);
-    EffectiveParameters effective;
-    effective.dt = scene.dt;
-    effective.precision = "double";
-    effective.integrator = "position_verlet";
-    return effective;
-  }
-  double advance(double t) override {
-    for (; steps_ < std::llround(t / scene_.dt); ++steps_) {
-      const double overlap = scene_.disks.radius[0] + scene_.disks.radius[1] - (x_[0] - x_[1]);
-      const double approach = *(seen_.rbegin() + late_);
-      const double force = overlap > 0.0 ? scene_.law.kn * overlap - scene_.law.gn * approach : 0.0;
-      for (const std::size_t i : {0u, 1u}) {
-        v_[i] += (i == 0 ? force : -force) / scene_.disks.mass[i] * scene_.dt;
-        x_[i] += v_[i] * scene_.dt;
-      }
-      seen_.push_back(v_[0] - v_[1]);
-    }
-    return static_cast<double>(steps_) * scene_.dt;
-  }
-  Snapshot snapshot(ContactReport) override {
-    Snapshot now;
-    now.positionTime = static_cast<double>(steps_) * scene_.dt;
-    now.velocityTime = now.positionTime - (steps_ > 0 ? 0.5 * scene_.dt : 0.0);
-    for (const std::size_t i : {0u, 1u}) {
-      now.position.emplace_back(x_[i], 0.0);
-      now.velocity.emplace_back(v_[i], 0.0);
-    }
-    return now;
-  }
-  Stats stats() const override { return {}; }
-
- private:
-  int late_;
-  Scene scene_;
-  long long steps_ = 0;
-  double x_[2] = {}, v_[2] = {};
-  std::vector<double> seen_;  ///< relative velocities, step by step
-};
-
-TEST(OwnScheme, AnEngineOfAFewLinesHoldsAndWithADashpotAStepLateDoesNot) {
-  Case setup = test::smallPairCase();
-  setup.run.mayDiffer = {"damping_velocity"};
-  TwoOnALine right(0), late(1);
-  const SchemeScore score = ownScheme(right, setup);
-  EXPECT_EQ(score.held, true) << *score.position << " " << *score.velocity;
-  EXPECT_EQ(ownScheme(late, setup).held, false);
+TEST(OwnScheme, NaNOnTheWay_IsFound) {
+  test::PlantedEngine lost(
+      [](Scene&) {},
+      [](Snapshot& now) {
+        if (now.positionTime > 20.0 * aFiftieth && now.positionTime < 21.5 * aFiftieth)
+          now.position[0].x() = NAN;
+      });
+  EXPECT_EQ(ownScheme(lost, test::smallPairCase()).held, false);
 }
 
-/// A NaN is no small deviation.
-class Lost : public test::PlantedEngine {
- public:
-  Lost() : PlantedEngine([](Scene&) {}) {}
-  Snapshot snapshot(ContactReport contacts) override {
-    Snapshot now = PlantedEngine::snapshot(contacts);
-    if (now.positionTime > 20.0 * aFiftieth && now.positionTime < 21.5 * aFiftieth)
-      now.position[0].x() = NAN;
-    return now;
-  }
-};
-
-TEST(OwnScheme, ANumberThatIsNoneDoesNotHold) {
-  Lost engine;
-  EXPECT_EQ(ownScheme(engine, test::smallPairCase()).held, false);
-}
-
-TEST(OwnScheme, SinglePrecisionIsToldAndNotJudged) {
+TEST(OwnScheme, SinglePrecision_IsReportedAndNotJudged) {
   Case setup = test::smallPairCase();
   setup.run.precision = Precision::float32;
   const auto engine = makeGrain();
@@ -219,7 +139,7 @@ TEST(OwnScheme, SinglePrecisionIsToldAndNotJudged) {
   EXPECT_NE(score.reason.find("float"), std::string::npos);
 }
 
-TEST(OwnScheme, IsAbsentWhereThereIsNoDiscreteOracle) {
+TEST(OwnScheme, LawWithoutADiscreteOracle_HasNoScore) {
   Case hertz = test::smallPairCase(), plate = hertz, rigid = hertz;
   hertz.law = test::hertzLaw();
   plate.bottom = BottomPlate{0.5, 1.0, 0.0, 0.0};
@@ -245,7 +165,7 @@ class Unknown : public test::PlantedEngine {
   }
 };
 
-TEST(OwnScheme, IsAbsentForASchemeThatNobodyKnows) {
+TEST(OwnScheme, UnknownScheme_HasNoScore) {
   Unknown engine;
   const SchemeScore score = ownScheme(engine, test::smallPairCase());
   EXPECT_FALSE(score.position);

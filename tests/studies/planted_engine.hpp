@@ -3,17 +3,23 @@
 #include <functional>
 #include <memory>
 
+#include "adapters/engine_entry.hpp"
 #include "adapters/grain.hpp"
 
 namespace crossgrain::test {
+
+/// The in-house engine in this process.
+inline const EngineEntry inHouse{"grain", "", makeGrain, {}, {}, ""};
 
 /// The in-house engine on another scene than it is given: right but for what is planted.
 class PlantedEngine : public Engine {
  public:
   /// @param shown  what is planted in what it shows
+  /// @param own  the engine that is right
   explicit PlantedEngine(
-      std::function<void(Scene&)> fault, std::function<void(Snapshot&)> shown = [](Snapshot&) {})
-      : fault_(std::move(fault)), shown_(std::move(shown)), own_(makeGrain()) {}
+      std::function<void(Scene&)> fault, std::function<void(Snapshot&)> shown = [](Snapshot&) {},
+      std::shared_ptr<Engine> own = makeGrain())
+      : fault_(std::move(fault)), shown_(std::move(shown)), own_(std::move(own)) {}
   Capabilities capabilities() const override { return own_->capabilities(); }
   EffectiveParameters load(const Scene& scene, const Settings& settings) override {
     Scene other = scene;
@@ -31,7 +37,7 @@ class PlantedEngine : public Engine {
  private:
   std::function<void(Scene&)> fault_;
   std::function<void(Snapshot&)> shown_;
-  std::unique_ptr<Engine> own_;
+  std::shared_ptr<Engine> own_;
 };
 
 }  // namespace crossgrain::test

@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "averaging/fields.hpp"
 #include "cases/assembly_scene.hpp"
 #include "studies/flow/endpoint_values.hpp"
 #include "studies/flow/own_endpoints.hpp"
 #include "studies/flow/region_averages.hpp"
+#include "tests/studies/flow_runs.hpp"
 
 namespace crossgrain {
 namespace {
@@ -55,12 +57,16 @@ Snapshot touching(const Scene& scene) {
   return now;
 }
 
-FlowRun averaged(const Case& setup) {
+/// The averages of that snapshot, changed if need be.
+FlowRun averaged(const Case& setup, const std::function<void(Snapshot&)>& change = {},
+                 const EffectiveParameters& effective = {}) {
   const Scene scene = assemblyScene(setup, assemblyDisks(setup, 0), 0.0, 1e-3);
   RegionAverages averages(setup, scene);
-  averages.add(touching(scene));
+  Snapshot now = touching(scene);
+  if (change) change(now);
+  averages.add(now);
   FlowRun run;
-  averages.describe(EffectiveParameters{}, run);
+  averages.describe(effective, run);
   return run;
 }
 
@@ -69,7 +75,7 @@ double valueOf(const FlowRun& run, const char* field, std::size_t bin = 0) {
   return profile ? profile->mean.at(bin).value_or(NAN) : NAN;
 }
 
-TEST(Region, HasTheVirialStressOfAWholeBox) {
+TEST(Region, WholeBox_HasTheVirialStress) {
   const FlowRun run = averaged(threeDisks());
   // σ_αβ = −(1/V) Σ f_α l_β, f on the disk, l = 1 m from its centre to the contact: both disks of
   // the pair have f_x l_x = −3 N m and, of f_t along z × n = (0, −1) on the first, f_y l_x = −0.4.
@@ -84,23 +90,15 @@ TEST(Region, HasTheVirialStressOfAWholeBox) {
   EXPECT_TRUE(std::isnan(valueOf(run, "stress_rr")));  // a name of rings
 }
 
-TEST(Region, HasNoLargestOverlapWherePairsShowNone) {
-  Case setup = threeDisks();
-  const Scene scene = assemblyScene(setup, assemblyDisks(setup, 0), 0.0, 1e-3);
-  const auto largest = [&](const Snapshot& now) {
-    RegionAverages averages(setup, scene);
-    averages.add(now);
-    FlowRun run;
-    averages.describe(EffectiveParameters{}, run);
+TEST(Region, WithoutContacts_HasNoLargestOverlap) {
+  const auto largest = [](const FlowRun& run) {
     return std::ranges::find(run.head, "max_overlap_over_d", &HeadNumber::name)->value;
   };
-  Snapshot now = touching(scene);
-  EXPECT_NEAR(largest(now).value(), 0.1 / 2.0, 1e-14);
-  now.contacts = Contacts{};
-  EXPECT_FALSE(largest(now));
+  EXPECT_NEAR(largest(averaged(threeDisks())).value(), 0.1 / 2.0, 1e-14);
+  EXPECT_FALSE(largest(averaged(threeDisks(), [](Snapshot& now) { now.contacts = Contacts{}; })));
 }
 
-TEST(Region, HasMomentsOfItsDisks) {
+TEST(Region, Disks_HaveMomentsInTheSeries) {
   const FlowRun run = averaged(threeDisks());
   const auto last = [&](const char* name) { return *valuesOf(*run.series, name).back(); };
   // Centres (0, 2), (1.9, 2), (3, 1) m.
@@ -114,7 +112,7 @@ TEST(Region, HasMomentsOfItsDisks) {
   EXPECT_NEAR(last("kinetic_energy"), 0.5 * 2.0 * (1.0 + 1.0 + 4.0), 1e-14);
 }
 
-TEST(Region, IsCutIntoSlabsAlongTheAxis) {
+TEST(Region, Slabs_ShareDisksAndContacts) {
   Case setup = threeDisks();
   setup.average->region.bins = BinKind::slabs;
   setup.average->region.axis = 0;
@@ -128,16 +126,16 @@ TEST(Region, IsCutIntoSlabsAlongTheAxis) {
   EXPECT_NEAR(whole, 6.0, 1e-13);
 }
 
-TEST(OwnEndpoints, AreMeansBinsSlopesAndRates) {
+TEST(OwnEndpoints, Reductions_AreMeansBinsSlopesAndRates) {
   Case setup = threeDisks();
   setup.average->region.bins = BinKind::slabs;
   setup.average->region.axis = 1;
   setup.average->region.count = 4;  // centres at 0.5, 1.5, 2.5, 3.5 m
   FlowRun run;
-  run.profiles = {{"slicing", "velocity_x", "m/s", {1.0, 3.0, std::nullopt, 7.0}, {}, {}, {}},
-                  {"slicing", "stress_xy", "N/m²", {-1.0, -1.0, std::nullopt, -6.0}, {}, {}, {}},
-                  {"slicing", "stress_yy", "N/m²", {8.0, 8.0, 8.0, 8.0}, {}, {}, {}},
-                  {"slicing", "volume_fraction", "-", {0.2, 0.2, 0.0, 0.6}, {}, {}, {}}};
+  run.profiles = {test::sliced("velocity_x", {1.0, 3.0, std::nullopt, 7.0}),
+                  test::sliced("stress_xy", {-1.0, -1.0, std::nullopt, -6.0}),
+                  test::sliced("stress_yy", {8.0, 8.0, 8.0, 8.0}),
+                  test::sliced("volume_fraction", {0.2, 0.2, 0.0, 0.6})};
   run.series = RunSeries{{"t_s", {1.0, 2.0, 3.0}}, {"disks", {9.0, 6.0, 3.0}}};
   const auto value = [&](const char* quantity, Reduction reduction, int bin = 0,
                          const char* per = "") {
@@ -166,14 +164,14 @@ TEST(OwnEndpoints, AreMeansBinsSlopesAndRates) {
 FlowRun withThirdSlab(double held) {
   FlowRun run;
   const auto of = [&](double value) { return held > 0.0 ? std::optional(value) : std::nullopt; };
-  run.profiles = {{"slicing", "coordination", "-", {3.0, 2.0, of(9.0), 1.0}, {}, {}, {}},
-                  {"slicing", "stress_yy", "N/m²", {4.0, 2.0, of(held), 2.0}, {}, {}, {}},
-                  {"slicing", "spin", "rad/s", {1.0, 2.0, of(50.0), 4.0}, {}, {}, {}},
-                  {"slicing", "volume_fraction", "-", {0.8, 0.4, held, 0.2}, {}, {}, {}}};
+  run.profiles = {test::sliced("coordination", {3.0, 2.0, of(9.0), 1.0}),
+                  test::sliced("stress_yy", {4.0, 2.0, of(held), 2.0}),
+                  test::sliced("spin", {1.0, 2.0, of(50.0), 4.0}),
+                  test::sliced("volume_fraction", {0.8, 0.4, held, 0.2})};
   return run;
 }
 
-TEST(OwnEndpoints, DoNotHangOnWhetherRoundingLeavesABinEmpty) {
+TEST(OwnEndpoints, BinEmptyOrAlmost_GivesTheSameValue) {
   Case setup = threeDisks();
   setup.average->region.bins = BinKind::slabs;
   setup.average->region.count = 4;
@@ -193,7 +191,7 @@ TEST(OwnEndpoints, DoNotHangOnWhetherRoundingLeavesABinEmpty) {
               (0.8 * 3.0 + 0.4 * 2.0 + 0.2 * 1.0) / 1.4, 1e-14);
 }
 
-TEST(OwnEndpoints, LackWhatARunShowsOnlyAPartOf) {
+TEST(OwnEndpoints, SeriesWithGaps_IsAbsentWithItsReason) {
   Case setup = threeDisks();
   const auto found = [&](const char* quantity, std::size_t there, Reduction reduction) {
     OwnEndpoint endpoint;
@@ -208,8 +206,7 @@ TEST(OwnEndpoints, LackWhatARunShowsOnlyAPartOf) {
     }
     run.series =
         RunSeries{{"t_s", times}, {"mean_x", values}, {"max_overlap", values}, {"disks", disks}};
-    run.profiles = {{"slicing", "velocity_x", "m/s", {2.0}, {}, {}, {}},
-                    {"slicing", "volume_fraction", "-", {0.5}, {}, {}, {}}};
+    run.profiles = {test::sliced("velocity_x", {2.0}), test::sliced("volume_fraction", {0.5})};
     return ownEndpointOf(endpoint, setup, run);
   };
   for (const char* quantity : {"mean_x", "velocity_x"}) {
@@ -242,7 +239,7 @@ FlowRun thrown() {
   return run;
 }
 
-TEST(OwnEndpoints, OfOneDiskAreApexesTimesAndEvents) {
+TEST(OwnEndpoints, OneDisk_HasApexesTimesAndEvents) {
   const Case setup = threeDisks();
   OwnEndpoint endpoint;
   endpoint.disk = 2;
@@ -267,23 +264,22 @@ TEST(OwnEndpoints, OfOneDiskAreApexesTimesAndEvents) {
   EXPECT_NEAR(*value(Reduction::reaches, 0.0), 0.2, 1e-12);
 }
 
-TEST(Region, HasTheLedgerAndTheDisksThatEndpointsAskFor) {
+TEST(Region, EndpointsOfDisks_AreKeptWithTheLedger) {
   Case setup = threeDisks();
   OwnEndpoint height, fall;
   height.disk = fall.disk = 2;
   height.quantity = "y";
   fall.quantity = "velocity_y";
   setup.average->endpoints = {height, fall, height};
-  const Scene scene = assemblyScene(setup, assemblyDisks(setup, 0), 0.0, 1e-3);
-  RegionAverages averages(setup, scene);
-  Snapshot now = touching(scene);
-  now.velocityTime = 0.1;
-  now.ledger.emplace().kinetic = 6.0;
-  averages.add(now);
-  FlowRun run;
   EffectiveParameters effective;
   effective.velocityLag = 0.25;
-  averages.describe(effective, run);
+  const FlowRun run = averaged(
+      setup,
+      [](Snapshot& now) {
+        now.velocityTime = 0.1;
+        now.ledger.emplace().kinetic = 6.0;
+      },
+      effective);
   EXPECT_EQ(valuesOf(*run.series, "energy_kinetic"), Numbers{6.0});
   EXPECT_TRUE(run.series->contains("energy_residual"));
   EXPECT_EQ(valuesOf(*run.series, "disk_2_y"), Numbers{1.0});

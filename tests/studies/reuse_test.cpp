@@ -3,21 +3,18 @@
 
 #include <filesystem>
 
-#include "adapters/grain.hpp"
 #include "adapters/worker/json.hpp"
 #include "adapters/worker/worker_pool.hpp"
 #include "cases/couette.hpp"
-#include "cases/loader.hpp"
-#include "cases/preparation.hpp"
-#include "cases/time_step.hpp"
 #include "studies/core/engine_access.hpp"
+#include "tests/studies/quick_cell.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 // Every engine, in a worker that ran other scenes before: the same bits as in a new process.
 
 namespace {
 
 using namespace crossgrain;
-namespace fs = std::filesystem;
 
 /// All that the engine shows after some steps of a case.
 std::string sightOf(Engine& engine, const EngineEntry& entry, const Case& setup,
@@ -33,16 +30,13 @@ std::string sightOf(Engine& engine, const EngineEntry& entry, const Case& setup,
   return words.dump() + std::string(bytes, arrays.bytes().size());
 }
 
-TEST(Reuse, EveryEngineDoesTheSameInAWorkerThatOthersHadBefore) {
-  const fs::path folder = fs::path(testing::TempDir()) / "crossgrain-reuse";
-  fs::remove_all(folder);
-  const auto caseWith = [](const std::vector<std::string>& changes) {
-    return loadCase(CROSSGRAIN_CASES "/couette/quick.toml", changes).front();
-  };
-  const Case plain = caseWith({});
+TEST(Reuse, WorkerThatRanOtherScenes_HasTheSameBits) {
+  const TemporaryFolder scratch;
+  const std::filesystem::path& folder = scratch.path();
+  const Case plain = test::quickCell();
   // Without friction, and stiffer: what an engine may have kept.
-  const Case other =
-      caseWith({"law.tangential=\"none\"", "law.mu=0", "law.kt=0", "law.gt=0", "law.kn=400.0"});
+  const Case other = test::quickCell(
+      {"law.tangential=\"none\"", "law.mu=0", "law.kt=0", "law.gt=0", "law.kn=400.0"});
   const auto grain = makeGrain();
   const Packing packing = packingOf(plain, 0, timeStep(plain), *grain, [](double) {});
   for (const EngineEntry& entry : selectEngines({"all"})) {
@@ -67,7 +61,6 @@ TEST(Reuse, EveryEngineDoesTheSameInAWorkerThatOthersHadBefore) {
       }
     }
   }
-  fs::remove_all(folder);
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "support/scratch_folder.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace {
 
@@ -23,11 +25,7 @@ const Cases rings40 = {{"", {{"averaging.rings", "40"}, {"law.kn", "1.0"}}}};
 
 class RunStoreTest : public testing::Test {
  protected:
-  void SetUp() override {
-    command_.out = fs::path(testing::TempDir()) /
-                   testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(command_.out);
-  }
+  RunStoreTest() { command_.out = folder_.path() / "out"; }
 
   /// A command that finishes one run.
   void finish(const std::string& name = "compare", const Cases& cases = rings20) {
@@ -37,16 +35,12 @@ class RunStoreTest : public testing::Test {
   }
 
   std::string refusal(const std::string& name, const Cases& cases) {
-    try {
-      const RunStore store(command_, name, cases);
-    } catch (const BadInput& refused) {
-      return refused.what();
-    }
-    return "none";
+    return test::refusalOf([&] { const RunStore store(command_, name, cases); });
   }
 
   bool isFinished() { return fs::exists(command_.out / "runs" / "a-p0.json"); }
 
+  const TemporaryFolder folder_;
   RunCommand command_;
 };
 
@@ -58,20 +52,15 @@ TEST_F(RunStoreTest, SameCase_LoadsFinishedRuns) {
   EXPECT_FALSE(again.find("a-p1", key));
 }
 
-TEST_F(RunStoreTest, ChangedCase_ThrowsWithEveryKey) {
+TEST_F(RunStoreTest, ChangedCaseOrCommand_ThrowsWithEveryKey) {
   finish();
   const std::string why = refusal("compare", rings40);
   EXPECT_NE(why.find("averaging.rings: 20 → 40; law.kn: none → 1.0; law.mu: 0.44 → none"),
             std::string::npos)
       << why;
   EXPECT_NE(why.find("--fresh"), std::string::npos) << why;
-  EXPECT_TRUE(isFinished());
-}
-
-TEST_F(RunStoreTest, OtherCommand_Throws) {
-  finish();
-  const std::string why = refusal("collide", {});
-  EXPECT_NE(why.find("'crossgrain compare', not of 'collide'"), std::string::npos) << why;
+  const std::string other = refusal("collide", {});
+  EXPECT_NE(other.find("'crossgrain compare', not of 'collide'"), std::string::npos) << other;
   EXPECT_TRUE(isFinished());
 }
 
@@ -81,7 +70,7 @@ TEST_F(RunStoreTest, ReportWithoutRuns_BelongsToItsCommand) {
     store.begin();
   }
   std::ofstream(command_.out / "results.json") << "{}";
-  EXPECT_EQ(refusal("average", {}), "none");
+  EXPECT_EQ(refusal("average", {}), "");
   EXPECT_NE(refusal("rev", {}).find("'crossgrain average'"), std::string::npos);
 }
 
@@ -100,13 +89,11 @@ TEST_F(RunStoreTest, OtherBuild_ThrowsNamingBoth) {
 TEST_F(RunStoreTest, OtherEngineVersion_ThrowsNamingBoth) {
   finish();
   const RunStore again(command_, "compare", rings20);
-  try {
+  const std::string why = test::refusalOf([&] {
     again.find("a-p0", {{"engine", "a"}, {"engine version", "2"}});
-    FAIL() << "not refused";
-  } catch (const BadInput& refused) {
-    EXPECT_NE(std::string(refused.what()).find("a-p0"), std::string::npos) << refused.what();
-    EXPECT_NE(std::string(refused.what()).find("engine version: 1 → 2"), std::string::npos);
-  }
+  });
+  EXPECT_NE(why.find("a-p0"), std::string::npos) << why;
+  EXPECT_NE(why.find("engine version: 1 → 2"), std::string::npos) << why;
   // An engine that did not answer is not known to be another.
   EXPECT_TRUE(again.find("a-p0", {{"engine", "a"}, {"engine version", ""}}));
 }
@@ -117,7 +104,7 @@ TEST_F(RunStoreTest, FurtherCase_IsTakenAndEarlierOnesStay) {
     RunStore store(command_, "collide", {{"two", {{"law.mu", "0.2"}}}});
     store.begin();
   }
-  EXPECT_EQ(refusal("collide", {{"two", {{"law.mu", "0.2"}}}}), "none");
+  EXPECT_EQ(refusal("collide", {{"two", {{"law.mu", "0.2"}}}}), "");
   EXPECT_NE(refusal("collide", {{"one", {{"law.mu", "0.3"}}}}).find("law.mu: 0.1 → 0.3"),
             std::string::npos);
 }
@@ -127,8 +114,8 @@ TEST_F(RunStoreTest, NothingFinished_TakesAnyCommand) {
     RunStore store(command_, "compare", rings20);
     store.begin();
   }
-  EXPECT_EQ(refusal("compare", rings40), "none");
-  EXPECT_EQ(refusal("collide", {}), "none");
+  EXPECT_EQ(refusal("compare", rings40), "");
+  EXPECT_EQ(refusal("collide", {}), "");
 }
 
 TEST_F(RunStoreTest, CommandThatDidNotBegin_LeavesNoFolder) {
@@ -137,7 +124,7 @@ TEST_F(RunStoreTest, CommandThatDidNotBegin_LeavesNoFolder) {
   fs::create_directories(command_.out);
   { const RunStore store(command_, "compare", rings20); }
   EXPECT_TRUE(fs::exists(command_.out));
-  EXPECT_EQ(refusal("collide", {}), "none");
+  EXPECT_EQ(refusal("collide", {}), "");
 }
 
 TEST_F(RunStoreTest, Fresh_SetsAsideWhatIsThere) {
@@ -170,38 +157,29 @@ TEST_F(RunStoreTest, FolderOfOthers_ThrowsEvenWithFresh) {
     EXPECT_THROW(RunStore(command_, "compare", rings20), BadInput);
   }
   EXPECT_TRUE(fs::exists(command_.out / "runs" / "thesis.txt"));
-}
-
-TEST_F(RunStoreTest, DamagedRun_IsNotFound) {
-  finish();
-  std::ofstream(command_.out / "runs" / "a-p0.json") << R"({"key": {"engine": "a"}, )";
-  EXPECT_FALSE(RunStore(command_, "compare", rings20).find("a-p0", key));
+  command_.fresh = false;
+  command_.out /= "runs/thesis.txt/out";  // which cannot be made
+  EXPECT_THROW(RunStore(command_, "compare", rings20), OutputError);
 }
 
 /// What is of another type is named with its file; what might never end is not opened.
 TEST_F(RunStoreTest, MalformedFile_ThrowsNamingFileAndMember) {
   finish();
   const fs::path run = command_.out / "runs" / "a-p0.json", marker = command_.out / ".crossgrain";
-  const auto said = [&](auto&& read) {
-    try {
-      read();
-    } catch (const BadInput& refused) {
-      return std::string(refused.what());
-    }
-    return std::string("none");
-  };
   const auto find = [&] { RunStore(command_, "compare", rings20).find("a-p0", key); };
+  std::ofstream(run) << R"({"key": {"engine": "a"}, )";
+  EXPECT_FALSE(RunStore(command_, "compare", rings20).find("a-p0", key));  // run anew
   std::ofstream(run) << R"({"key": {"engine": 7}, "run": {}})";
-  EXPECT_EQ(said(find), run.string() + ": key.engine: is number, not a text");
+  EXPECT_EQ(test::refusalOf(find), run.string() + ": key.engine: is number, not a text");
   std::ofstream(run) << R"({"key": {"engine": "a", "engine version": "1"}, "run": {"value": "a"}})";
   EXPECT_NE(
-      said([&] {
+      test::refusalOf([&] {
         RunStore(command_, "compare", rings20).findAs<std::map<std::string, double>>("a-p0", key);
       }).find(run.string() + ": value: is string, not a number"),
       std::string::npos);
   fs::remove(run);
   ASSERT_EQ(::mkfifo(run.c_str(), 0600), 0);
-  EXPECT_EQ(said(find), run.string() + ": is a named pipe, not a file");
+  EXPECT_EQ(test::refusalOf(find), run.string() + ": is a named pipe, not a file");
   std::ofstream(marker) << R"({"command": 7})";
   EXPECT_EQ(refusal("compare", rings20), marker.string() + ": command: is number, not a text");
   fs::remove(marker);
@@ -209,7 +187,7 @@ TEST_F(RunStoreTest, MalformedFile_ThrowsNamingFileAndMember) {
   EXPECT_EQ(refusal("compare", rings20), marker.string() + ": is a named pipe, not a file");
 }
 
-TEST(Files, AreReadWholeWithinTheirBoundOrRefused) {
+TEST(Files, FileBeyondItsBoundOrNone_Throws) {
   const ScratchFolder scratch;
   const fs::path file = scratch.path / "file";
   EXPECT_FALSE(readFile(file));
@@ -224,24 +202,17 @@ TEST(Files, AreReadWholeWithinTheirBoundOrRefused) {
 }
 
 /// What calls itself for each list in another would use up its stack.
-TEST(JsonText, IsBoundedInDepthAndNamesItsFaults) {
+TEST(JsonText, TooDeepOrMalformed_Throws) {
   EXPECT_EQ(parseJson("[[[1]]]", 3).dump(), "[[[1]]]");
   EXPECT_THROW(parseJson("[[[[1]]]]", 3), std::runtime_error);
   EXPECT_THROW(parseJson(std::string(1'000'000, '[')), std::runtime_error);
   EXPECT_THROW(parseJson(R"({"a": 1, "a": 2})"), std::runtime_error);
   EXPECT_THROW(parseJson("{"), NotJson);
-  try {
-    understood("run.json", [] { return member<double>(parseJson(R"({"dt": "1"})"), "dt"); });
-    FAIL() << "taken";
-  } catch (const BadInput& refused) {
-    EXPECT_STREQ(refused.what(), "run.json: dt: type must be number, but is string");
-  }
-}
-
-TEST_F(RunStoreTest, FolderThatCannotBeMade_ThrowsOutputError) {
-  std::ofstream(command_.out) << "not a folder";
-  command_.out /= "out";
-  EXPECT_THROW(RunStore(command_, "compare", rings20), OutputError);
+  EXPECT_EQ(test::refusalOf([] {
+              understood("run.json",
+                         [] { return member<double>(parseJson(R"({"dt": "1"})"), "dt"); });
+            }),
+            "run.json: dt: type must be number, but is string");
 }
 
 TEST_F(RunStoreTest, DryRun_WritesNothing) {
@@ -258,7 +229,7 @@ TEST_F(RunStoreTest, DryRun_WritesNothing) {
   finish();
   command_.dryRun = true;
   EXPECT_TRUE(RunStore(command_, "compare", rings20).find("a-p0", key));
-  EXPECT_NE(refusal("compare", rings40), "none");
+  EXPECT_NE(refusal("compare", rings40), "");
   command_.fresh = true;
   EXPECT_FALSE(RunStore(command_, "compare", rings40).find("a-p0", key));
   EXPECT_TRUE(isFinished());
@@ -275,7 +246,7 @@ TEST_F(RunStoreTest, FolderInUse_ThrowsNamingTheProcess) {
 TEST_F(RunStoreTest, LockOfDeadProcess_IsIgnored) {
   finish();
   std::ofstream(command_.out / FolderLock::name) << "crossgrain compare, process 1, since long ago";
-  EXPECT_EQ(refusal("compare", rings20), "none");
+  EXPECT_EQ(refusal("compare", rings20), "");
   EXPECT_FALSE(fs::exists(command_.out / FolderLock::name));
 }
 

@@ -18,48 +18,44 @@ ScalePlan planOf(std::vector<std::size_t> disks, std::vector<int> workers) {
   return plan;
 }
 
-TEST(ScalePlan, OneWorkerAlwaysAndWeakSizesUpToTheLargest) {
-  const auto points = plannedPoints(planOf({1000, 3000}, {2}), {true, false});
-  const std::vector<PlannedTiming> expected = {
-      {1000, 0, 1}, {1000, 0, 2}, {1000, 1, 1},   // strong; the second engine has no workers
-      {2000, 0, 2},                               // 2 · 1000 on two: weak
-      {3000, 0, 1}, {3000, 0, 2}, {3000, 1, 1}};  // 2 · 3000 are more than were asked for
-  EXPECT_EQ(points, expected);
+using Points = std::vector<PlannedTiming>;
+
+TEST(ScalePlan, SizesAndWorkers_GiveStrongAndWeakPointsOnce) {
+  EXPECT_EQ(plannedPoints(planOf({1000, 3000}, {2}), {true, false}),
+            (Points{{1000, 0, 1},
+                    {1000, 0, 2},
+                    {1000, 1, 1},  // the second engine has no workers
+                    {2000, 0, 2},  // 2 · 1000 on two: weak
+                    {3000, 0, 1},
+                    {3000, 0, 2},
+                    {3000, 1, 1}}));  // 6000 are more than asked for
+  EXPECT_EQ(plannedPoints(planOf({1000, 2000}, {1, 2}), {true}),
+            (Points{{1000, 0, 1}, {1000, 0, 2}, {2000, 0, 1}, {2000, 0, 2}}));
 }
 
-TEST(ScalePlan, EachPointOnce) {
-  const auto points = plannedPoints(planOf({1000, 2000}, {1, 2}), {true});
-  const std::vector<PlannedTiming> expected = {
-      {1000, 0, 1}, {1000, 0, 2}, {2000, 0, 1}, {2000, 0, 2}};
-  EXPECT_EQ(points, expected);
-}
-
-TEST(ScalePlan, Steps) {
+TEST(ScalePlan, NumberOfDisks_GivesStepsAndMemory) {
   EXPECT_EQ(stepsFor(1000), 20000u);
   EXPECT_EQ(stepsFor(400'000), 50u);
   EXPECT_EQ(stepsFor(10'000'000), 50u);
   EXPECT_EQ(warmUpSteps(20000), 2000u);
   EXPECT_EQ(warmUpSteps(20), 5u);
-}
-
-TEST(ScalePlan, MemoryGrowsWithDisks) {
   EXPECT_DOUBLE_EQ(expectedMemory(10'000'000, 1'000'000, 7e8), 7e9);
 }
 
-TEST(ScalePlan, UsualWorkers) {
+TEST(ScalePlan, NumberOfCores_GivesWorkersInPowersOfTwo) {
   EXPECT_EQ(usualWorkers(0), (std::vector<int>{1}));
   EXPECT_EQ(usualWorkers(2), (std::vector<int>{1, 2}));
   EXPECT_EQ(usualWorkers(6), (std::vector<int>{1, 2, 4, 6}));
 }
 
-TEST(ScalePlan, ListsOfNumbers) {
+TEST(ScalePlan, MalformedList_Throws) {
   EXPECT_EQ(wholeNumbers("--disks", "1000,20", 1, 1000), (std::vector<std::size_t>{1000, 20}));
   for (const char* wrong :
        {"", "1,", ",1", "1.5", "-1", "1e3", "0", "1001", "2,2", " 1", "99999999999999999999"})
     EXPECT_THROW(wholeNumbers("--disks", wrong, 1, 1000), BadInput) << wrong;
 }
 
-TEST(ScaleCase, HasNoCellButItsOwn) {
+TEST(ScaleCase, OtherCellOrLaw_Throws) {
   const auto caseWith = [](const char* change) {
     CommandLine line;
     line.overrides = {change};
@@ -74,7 +70,7 @@ TEST(ScaleCase, HasNoCellButItsOwn) {
 
 /// The room between the walls' surfaces less half a small disk is filled alike: the maker's own
 /// rule, as it is said in tests/bench/README.md.
-TEST(ScaledCell, OneVolumeFractionOfTheRoomAtEverySize) {
+TEST(ScaledCell, EverySize_HasTheSameVolumeFractionOfTheRoom) {
   const auto fractionOfTheRoom = [](const Case& setup) {
     const Cell& cell = setup.cell;
     const double lost = cell.wallRadius + 0.5 * setup.particles.smallRadius;

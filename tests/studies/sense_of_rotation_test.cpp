@@ -3,15 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
 #include <set>
+#include <sstream>
 
-#include "adapters/grain.hpp"
 #include "cases/couette.hpp"
-#include "cases/loader.hpp"
-#include "cases/preparation.hpp"
-#include "cases/time_step.hpp"
 #include "studies/flow/averages.hpp"
 #include "studies/flow/run.hpp"
+#include "tests/studies/quick_cell.hpp"
 
 namespace {
 
@@ -32,10 +31,8 @@ class SenseOfRotation : public testing::Test {
   static constexpr int snapshots = 25;
 
   static void SetUpTestSuite() {
-    const std::filesystem::path file =
-        std::filesystem::path(CROSSGRAIN_CASES) / "couette/quick.toml";
-    as_ = loadCase(file, {"preparation.rotations=0.3"}).front();
-    opposite_ = loadCase(file, {"cell.omega=-1.0"}).front();
+    as_ = test::quickCell({"preparation.rotations=0.3"});
+    opposite_ = test::quickCell({"cell.omega=-1.0"});
     const auto engine = makeGrain();
     packing_ = preparePacking(as_, 0, timeStep(as_), *engine, [](double) {});
     run(as_, packing_, one_, oneEnd_);
@@ -77,7 +74,7 @@ class SenseOfRotation : public testing::Test {
   static inline Snapshot oneEnd_, otherEnd_;
 };
 
-TEST_F(SenseOfRotation, TheMirroredPackingMovesAsTheMirrorImage) {
+TEST_F(SenseOfRotation, MirroredPacking_MovesAsTheMirrorImage) {
   const double d = 2.0 * as_.particles.smallRadius;
   const double rim = as_.cell.innerRadius;
   for (std::size_t i = 0; i < oneEnd_.position.size(); ++i) {
@@ -90,25 +87,17 @@ TEST_F(SenseOfRotation, TheMirroredPackingMovesAsTheMirrorImage) {
   EXPECT_NEAR(otherEnd_.bodies[0].angle, -oneEnd_.bodies[0].angle, 1e-12);
 }
 
-TEST_F(SenseOfRotation, ProfilesChangeTheirSignWhereTheyHaveOneAzimuthalIndex) {
-  const std::set<std::string> flipped = {"azimuthal_velocity",
-                                         "spin",
-                                         "stress_rp",
-                                         "stress_pr",
-                                         "stress_antisymmetric",
-                                         "dynamic_stress_rp",
-                                         "fluctuation_stress_rp",
-                                         "full_stress_rp",
-                                         "fabric_rp",
-                                         "couple_stress_zr",
-                                         "velocity_gradient",
-                                         "shear_rate",
-                                         "continuum_rotation",
-                                         "excess_rotation"};
-  const std::set<std::string> kept = {"volume_fraction",   "radial_velocity", "stress_rr",
-                                      "stress_pp",         "stress_trace",    "dynamic_stress_pp",
-                                      "stress_deviator",   "fabric_trace",    "coordination",
-                                      "rotational_stress", "density",         "fabric_deviator"};
+TEST_F(SenseOfRotation, ProfilesWithOneAzimuthalIndex_ChangeTheirSign) {
+  std::istringstream ofSense(
+      "azimuthal_velocity spin stress_rp stress_pr stress_antisymmetric dynamic_stress_rp "
+      "fluctuation_stress_rp full_stress_rp fabric_rp couple_stress_zr velocity_gradient "
+      "shear_rate "
+      "continuum_rotation excess_rotation"),
+      ofNone(
+          "volume_fraction radial_velocity stress_rr stress_pp stress_trace dynamic_stress_pp "
+          "stress_deviator fabric_trace coordination rotational_stress density fabric_deviator");
+  using Words = std::istream_iterator<std::string>;
+  const std::set<std::string> flipped(Words(ofSense), {}), kept(Words(ofNone), {});
   std::size_t seen = 0;
   for (std::size_t k = 0; k < one_.profiles.size(); ++k) {
     const Profile& a = one_.profiles[k];
@@ -123,12 +112,12 @@ TEST_F(SenseOfRotation, ProfilesChangeTheirSignWhereTheyHaveOneAzimuthalIndex) {
   EXPECT_EQ(seen, flipped.size() + kept.size());
 }
 
-TEST_F(SenseOfRotation, TheWheelsTorqueTurnsAndThePressureDoesNot) {
+TEST_F(SenseOfRotation, Series_ChangeTheSignOfTheTorqueAlone) {
   for (const auto& [name, values] : *one_.series)
     expectSame(values, valuesOf(*other_.series, name), name == "wheel_torque" ? -1.0 : 1.0, name);
 }
 
-TEST_F(SenseOfRotation, FitsAndNumbersThatAreMadeWithOmegaStay) {
+TEST_F(SenseOfRotation, FitsAndNumbers_KeepTheirValues) {
   ASSERT_GT(one_.fits.size(), 6u);
   std::size_t fitted = 0;
   for (std::size_t k = 0; k < one_.fits.size(); ++k) {
@@ -148,7 +137,7 @@ TEST_F(SenseOfRotation, FitsAndNumbersThatAreMadeWithOmegaStay) {
   }
 }
 
-TEST_F(SenseOfRotation, DistributionsAreThoseInUnitsOfTheRimsVelocity) {
+TEST_F(SenseOfRotation, Distributions_AreTheSame) {
   std::size_t seen = 0;
   for (std::size_t k = 0; k < one_.distributions.size(); ++k) {
     const Distribution& a = one_.distributions[k];
@@ -169,7 +158,7 @@ TEST_F(SenseOfRotation, DistributionsAreThoseInUnitsOfTheRimsVelocity) {
   EXPECT_GT(seen, 20u);
 }
 
-TEST_F(SenseOfRotation, APackingIsPreparedInTheCasesSense) {
+TEST_F(SenseOfRotation, Packing_IsPreparedInTheCasesSense) {
   Case setup = opposite_;
   setup.preparation.shrinkTime = 0.1;
   setup.preparation.rotations = 0.01;

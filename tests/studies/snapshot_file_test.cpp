@@ -1,14 +1,19 @@
+// Files of snapshots: what is written is read back, and what does not fit a case is refused.
 #include "studies/flow/snapshot_file.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
+#include <functional>
 
-#include "cases/loader.hpp"
+#include "cases/couette.hpp"
 #include "studies/flow/average.hpp"
-#include "support/bad_input.hpp"
+#include "studies/flow/snapshot_fit.hpp"
 #include "support/files.hpp"
+#include "tests/studies/quick_cell.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace {
 
@@ -17,50 +22,38 @@ namespace fs = std::filesystem;
 
 class SnapshotFiles : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              ("crossgrain-" +
-               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::create_directories(folder_);
-    setup_ = loadCase(fs::path(CROSSGRAIN_CASES) / "couette/quick.toml",
-                      {"particles.small=2", "particles.large=0"})
-                 .front();
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// What any other program would write: no spins, no walls, no contacts.
-  Hdf5File bareFile(std::size_t disks = 2) {
-    Hdf5File file = Hdf5File::create(path());
+  /// @param more  into the first snapshot
+  void writeBare(std::size_t disks = 2, const std::function<void(Hdf5File&)>& more = {}) const {
+    Hdf5File file = Hdf5File::create(path_);
     file.write("/disks/radius", std::vector(disks, 0.0037));
     file.write("/disks/mass", std::vector(disks, 0.275e-3));
-    return file;
-  }
-  static void addInstant(Hdf5File& file) {
-    file.write("/snapshot-000/time", std::vector{0.5, 0.5, 0.5, 0.0});
-    const double positions[] = {0.05, 0.0, 0.0, 0.06}, velocities[] = {0.0, 0.2, -0.1, 0.0};
-    file.write("/snapshot-000/position", positions, 2, 2);
-    file.write("/snapshot-000/velocity", velocities, 2, 2);
-  }
-  fs::path path() const { return folder_ / "mine.h5"; }
-
-  std::string refusal() {
-    try {
-      averageSnapshots(setup_, path(), "test");
-    } catch (const BadInput& error) {
-      return error.what();
+    if (more) {
+      file.write("/snapshot-000/time", std::vector{0.5, 0.5, 0.5, 0.0});
+      const double positions[] = {0.05, 0.0, 0.0, 0.06}, velocities[] = {0.0, 0.2, -0.1, 0.0};
+      file.write("/snapshot-000/position", positions, 2, 2);
+      file.write("/snapshot-000/velocity", velocities, 2, 2);
+      more(file);
     }
-    return "no refusal";
+    file.save();
   }
 
-  fs::path folder_;
-  Case setup_;
+  const TemporaryFolder folder_;
+  const fs::path path_ = folder_.path() / "mine.h5", part_ = folder_.path() / "mine.h5.part";
+  const Case setup_ = test::quickCell({"particles.small=2", "particles.large=0"});
 };
 
-TEST_F(SnapshotFiles, WhatIsWrittenIsReadBack) {
+Scene sceneOf(std::size_t disks) {
   Scene scene;
-  scene.disks.radius = {0.003, 0.004};
-  scene.disks.mass = {1e-3, 2e-3};
-  scene.disks.inertia = {1e-9, 2e-9};
+  scene.disks.radius.resize(disks, 0.003);
+  scene.disks.mass.resize(disks, 1e-3);
+  for (std::size_t i = 0; i < disks; ++i)
+    scene.disks.inertia.push_back(1e-9 * static_cast<double>(i + 1));
+  return scene;
+}
+
+TEST_F(SnapshotFiles, Snapshots_WrittenAndRead_AreTheSame) {
+  Scene scene = sceneOf(2);
   for (const char* name : {"wheel", "ring"}) {
     scene.bodies.emplace_back().name = name;
     scene.bodies.back().diskRadius = {0.001};
@@ -86,15 +79,15 @@ TEST_F(SnapshotFiles, WhatIsWrittenIsReadBack) {
   now.contacts->normalForce = {0.1, 0.2};
   now.contacts->tangentialForce = {0.01, -0.02};
   now.contacts->sliding = {0, 1};
-  SnapshotFile out(path(), "someone", scene, 3, 3);
+  SnapshotFile out(path_, "someone", scene, 3, 3);
   for (int k = 1; k <= 3; ++k) {
     out.offer(now, k);
-    EXPECT_TRUE(fs::exists(folder_ / "mine.h5.part"));
-    EXPECT_FALSE(fs::exists(path())) << "not whole yet";
+    EXPECT_TRUE(fs::exists(part_));
+    EXPECT_FALSE(fs::exists(path_)) << "not whole yet";
   }
   out.close();
 
-  const SnapshotReader in(path(), setup_);
+  const SnapshotReader in(path_, setup_);
   EXPECT_EQ(in.engine(), "someone");
   ASSERT_EQ(in.count(), 3u);
   EXPECT_EQ(in.scene().disks.inertia, scene.disks.inertia);
@@ -116,53 +109,38 @@ TEST_F(SnapshotFiles, WhatIsWrittenIsReadBack) {
   EXPECT_EQ(back.contacts->tangentialForce, now.contacts->tangentialForce);
   EXPECT_EQ(back.contacts->sliding, now.contacts->sliding);
 
-  const std::string xdmf = readFile(folder_ / "mine.xdmf").value();
+  const std::string xdmf = readFile(folder_.path() / "mine.xdmf").value();
   EXPECT_NE(xdmf.find("mine.h5:/snapshot-002/position"), std::string::npos);
   EXPECT_NE(xdmf.find("mine.h5:/snapshot-002/wall_position"), std::string::npos);
 }
 
-TEST_F(SnapshotFiles, OfARunBrokenOffIsBegunAnewAndEachSnapshotIsOnDiskAtOnce) {
-  Scene scene;
-  scene.disks.radius = {0.003};
-  scene.disks.mass = {1e-3};
-  scene.disks.inertia = {1e-9};
+TEST_F(SnapshotFiles, RunBrokenOff_IsBegunAnewAndEachSnapshotIsOnDiskAtOnce) {
+  const Scene scene = sceneOf(1);
   Snapshot now;
   now.position = {{0.05, 0.0}};
   now.velocity = {{0.1, 0.2}};
-  const auto size = [&] { return fs::file_size(folder_ / "mine.h5.part"); };
   std::uintmax_t afterOne = 0;
   for (int attempt = 0; attempt < 2; ++attempt) {
-    SnapshotFile out(path(), "someone", scene, 100, 100);
+    SnapshotFile out(path_, "someone", scene, 100, 100);
     out.offer(now, 1);
-    if (attempt == 0) afterOne = size();
-    EXPECT_EQ(size(), afterOne);
+    if (attempt == 0) afterOne = fs::file_size(part_);
+    EXPECT_EQ(fs::file_size(part_), afterOne);
     for (int k = 2; k <= 20; ++k) out.offer(now, k);
-    EXPECT_GT(size(), afterOne);
+    EXPECT_GT(fs::file_size(part_), afterOne);
   }
 }
 
-TEST_F(SnapshotFiles, AFolderThatCannotBeMadeIsOneClearLine) {
-  Scene scene;
-  Snapshot now;
-  fs::create_directories(path());  // where the file should be
-  SnapshotFile out(path(), "someone", scene, 1, 1);
-  out.offer(now, 1);
-  try {
-    out.close();
-    FAIL() << "no exception";
-  } catch (const OutputError& error) {
-    EXPECT_NE(std::string(error.what()).find("mine.h5: cannot be written"), std::string::npos)
-        << error.what();
-  }
+TEST_F(SnapshotFiles, FolderInItsPlace_ThrowsOutputError) {
+  fs::create_directories(path_);
+  SnapshotFile out(path_, "someone", Scene(), 1, 1);
+  out.offer(Snapshot(), 1);
+  const std::string said = test::refusalOf<OutputError>([&] { out.close(); });
+  EXPECT_NE(said.find("mine.h5: cannot be written"), std::string::npos) << said;
 }
 
-TEST_F(SnapshotFiles, WhatIsAbsentStaysAbsent) {
-  {
-    Hdf5File file = bareFile();
-    addInstant(file);
-    file.save();
-  }
-  const auto results = averageSnapshots(setup_, path(), "test");
+TEST_F(SnapshotFiles, FileWithoutSpinsAndContacts_HasNoAveragesOfThem) {
+  writeBare(2, [](Hdf5File&) {});
+  const auto results = averageSnapshots(setup_, path_, "test");
   const std::vector<Profile>& profiles = results.runs[0].profiles;
   EXPECT_FALSE(profileOf(profiles, "spin"));
   EXPECT_FALSE(profileOf(profiles, "stress_rr"));
@@ -174,39 +152,74 @@ TEST_F(SnapshotFiles, WhatIsAbsentStaysAbsent) {
   EXPECT_FALSE(velocity->mean[0]);
 }
 
-TEST_F(SnapshotFiles, WhatDoesNotFitIsRefusedInOneLine) {
-  writeFile(path(), "not HDF5");
-  EXPECT_NE(refusal().find("mine.h5: cannot be read as an HDF5 file"), std::string::npos);
-
-  bareFile().save();
-  EXPECT_NE(refusal().find("there is no /snapshot-000/position in it"), std::string::npos);
-
-  {
-    Hdf5File file = bareFile(3);
-    addInstant(file);
-    file.save();
-  }
-  EXPECT_NE(refusal().find("/snapshot-000/position holds 4 numbers, wanted are 6"),
-            std::string::npos);
-
-  {
-    Hdf5File file = bareFile();
-    addInstant(file);
+TEST_F(SnapshotFiles, MalformedFile_ThrowsNamingTheData) {
+  const auto expectRefusal = [&](const char* words) {
+    const std::string said = test::refusalOf([&] { averageSnapshots(setup_, path_, "test"); });
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+  };
+  writeFile(path_, "not HDF5");
+  expectRefusal("mine.h5: cannot be read as an HDF5 file");
+  writeBare();
+  expectRefusal("there is no /snapshot-000/position in it");
+  writeBare(3, [](Hdf5File&) {});
+  expectRefusal("/snapshot-000/position holds 4 numbers, wanted are 6");
+  writeBare(2, [](Hdf5File& file) {
     file.write("/snapshot-000/spin", std::vector{1.0, std::nan("")});
-    file.save();
-  }
-  EXPECT_NE(refusal().find("/snapshot-000/spin holds a number that is not finite"),
-            std::string::npos);
-
-  {
-    Hdf5File file = bareFile();
-    addInstant(file);
+  });
+  expectRefusal("/snapshot-000/spin holds a number that is not finite");
+  writeBare(2, [](Hdf5File& file) {
     file.write("/snapshot-000/contacts/i", std::vector<std::int32_t>{0});
     file.write("/snapshot-000/contacts/j", std::vector<std::int32_t>{2});
-    file.save();
-  }
-  EXPECT_NE(refusal().find("/contacts/j holds 2; wanted are whole numbers from 0 to 1"),
-            std::string::npos);
+  });
+  expectRefusal("/contacts/j holds 2; wanted are whole numbers from 0 to 1");
+}
+
+TEST_F(SnapshotFiles, OtherCell_IsRefusedWithEveryMisfit) {
+  const Case own = test::quickCell();
+  Packing packing;
+  packing.disks = diskKinds(own.particles);
+  for (Vec2& at : packing.disks.position) at = {0.05, 0.0};
+  const Scene scene = couetteScene(own, packing, 1e-5);
+  Snapshot now;
+  now.position = scene.disks.position;
+  now.velocity = scene.disks.velocity;
+  for (const WallBody& body : scene.bodies)
+    now.wallPosition.insert(now.wallPosition.end(), body.diskPosition.begin(),
+                            body.diskPosition.end());
+  now.bodies.resize(2);
+  now.bodies[0].angularVelocity = own.cell.omega;
+  SnapshotFile out(path_, "someone", scene, 1, 1);
+  out.offer(now, 1);
+  out.close();
+  const auto misfit = [&](const std::function<void(Case&)>& change) {
+    Case other = own;
+    change(other);
+    const SnapshotReader reader(path_, other);
+    return test::refusalOf([&] { requireFit(reader, other); });
+  };
+  EXPECT_EQ(misfit([](Case&) {}), "");
+  EXPECT_EQ(misfit([](Case& c) {  // a packing file's disks are its own
+              c.particles.file = "mine.h5";
+              c.particles.small = c.particles.large = 0;
+            }),
+            "");
+  const std::pair<std::function<void(Case&)>, const char*> misfits[] = {
+      {[](Case& c) { ++c.particles.small; }, " small disks, not "},
+      {[](Case& c) { c.particles.smallRadius = 0.00371; }, "disks of radius 0.0037 m, not "},
+      {[](Case& c) { c.particles.largeMass *= 1.1; }, "a large disk's mass 0.00049 kg, not "},
+      {[](Case& c) { c.cell.omega *= 2.0; }, "a wheel that turns at 1 rad/s, not 2 rad/s"},
+      {[](Case& c) { c.cell.outerRadius *= 1.01; }, "the ring's radius "},
+      {[](Case& c) { c.cell.innerRadius *= 1.01; }, "the wheel's radius "},
+      {[](Case& c) { c.cell.wallRadius *= 1.1; }, "wall disks' radius 0.00125 m, not "},
+      {[](Case& c) { c.cell.wallSpacing = 0.007; }, " wall disks of the wheel, not "}};
+  for (const auto& [change, says] : misfits)
+    EXPECT_NE(misfit(change).find(says), std::string::npos) << says << ": " << misfit(change);
+  const std::string all = misfit(
+      [](Case& c) { c = loadCase(fs::path(CROSSGRAIN_CASES) / "couette/nu-0.804.toml").front(); });
+  for (const char* const each : {"mine.h5 does not fit", "nu-0.804.toml", "disks, not 2921",
+                                 "the wheel's radius 0.03 m, not 0.1032 m", "not between"})
+    EXPECT_NE(all.find(each), std::string::npos) << all;
+  EXPECT_EQ(all.find('\n'), std::string::npos);
 }
 
 }  // namespace

@@ -1,29 +1,25 @@
 // Faults that begin after lockstep's windows, which cannot see them: the spot check can.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <numbers>
 
-#include "cases/loader.hpp"
 #include "studies/flow/interim_analyses.hpp"
 #include "studies/flow/lockstep_job.hpp"
 #include "studies/lockstep/rules.hpp"
 #include "tests/misbehaving/entries.hpp"
+#include "tests/studies/quick_cell.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace crossgrain {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// The in-house engine, a peer that is right until that step of a run, and the peer's mirror.
 /// @param failing  the in-house engine ends its runs halfway, and another one is there
 EndpointFindings compared(const std::string& mischief, std::uint64_t step,
                           LockstepFindings& lockstep, bool failing = false) {
-  const Case setup = loadCase(fs::path(CROSSGRAIN_CASES) / "couette/quick.toml",
-                              {"preparation.packings=4", "preparation.shrink_time=0.3",
-                               "preparation.rotations=0.1", "averaging.settle_rotations=0.05",
-                               "averaging.rotations=0.25", "looks.count=1"})
-                         .front();
+  const Case setup = test::quickCell(
+      {"preparation.packings=4", "preparation.shrink_time=0.3", "preparation.rotations=0.1",
+       "averaging.settle_rotations=0.05", "averaging.rotations=0.25", "looks.count=1"});
   EngineEntry inHouse = *findEngine("grain"), peer = test::misbehavingEntry(mischief, step),
               mirror = test::misbehavingEntry("none", 0);
   // No program "__serve" here.
@@ -37,10 +33,10 @@ EndpointFindings compared(const std::string& mischief, std::uint64_t step,
   if (failing) entries = {inHouse, another, peer, mirror};
   for (const EngineEntry& entry : entries)
     if (entry.mirrors.empty()) command.engines.push_back(entry.name);
-  command.out = fs::path(testing::TempDir()) / ("canary-" + mischief + (failing ? "-failing" : ""));
+  const TemporaryFolder folder;
+  command.out = folder.path();
   command.quiet = true;
   command.jobs = 2;
-  fs::remove_all(command.out);
   RunStore store(command, "compare", soleCase(setup));
   Campaign campaign(setup, command, entries, store);
   campaign.askEngines();
@@ -48,12 +44,10 @@ EndpointFindings compared(const std::string& mischief, std::uint64_t step,
   lockstep = lockstepOf(campaign, setup, command, quickLockstepStarts,
                         [&](const EngineEntry& entry) { return entry.name == peer.name; });
   campaign.timeEngines();
-  EndpointFindings found = runWithInterims(setup, campaign, command, lockstep, 1e6);
-  fs::remove_all(command.out);
-  return found;
+  return runWithInterims(setup, campaign, command, lockstep, 1e6);
 }
 
-TEST(SpotCheck, LetsAnEngineThatIsRightBeCarried) {
+TEST(SpotCheck, RightEngine_IsEvaluatedThroughItsMirror) {
   LockstepFindings lockstep;
   const EndpointFindings found = compared("none", 0, lockstep);
   ASSERT_EQ(found.surrogates.size(), 1u);
@@ -74,7 +68,7 @@ TEST(SpotCheck, LetsAnEngineThatIsRightBeCarried) {
   EXPECT_EQ(late.equivalents[1].constant, "mu");
 }
 
-TEST(SpotCheck, IsHeldAgainstResponsesOfTheNextEngineWhereTheFirstFails) {
+TEST(SpotCheck, FirstEngineFails_TakesResponsesOfTheNext) {
   LockstepFindings lockstep;
   const EndpointFindings found = compared("none", 0, lockstep, true);
   EXPECT_FALSE(found.responses.empty());
@@ -84,7 +78,7 @@ TEST(SpotCheck, IsHeldAgainstResponsesOfTheNextEngineWhereTheFirstFails) {
 }
 
 /// Chaos hides in an averaged run what 30 % of the friction do to a few rotations' averages.
-TEST(SpotCheck, FollowsItsOwnRunToWhatBeginsLate) {
+TEST(SpotCheck, FaultLateInTheRun_IsFoundByItsWindows) {
   LockstepFindings lockstep;
   const EndpointFindings found = compared("worn", 25000, lockstep);
   ASSERT_EQ(lockstep.rows.size(), 1u);
@@ -104,7 +98,7 @@ TEST(SpotCheck, FollowsItsOwnRunToWhatBeginsLate) {
   }
 }
 
-TEST(SpotCheck, CatchesWhatBeginsAfterTheWindows) {
+TEST(SpotCheck, FaultAfterLockstepsWindows_RunsAllPackings) {
   // 10 000 steps are four windows of 0.1 s, and a fifth of the run.
   LockstepFindings lockstep;
   const EndpointFindings found = compared("slippery", 10000, lockstep);

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "tests/studies/planted_engine.hpp"
+
 namespace {
 
 using namespace crossgrain;
@@ -49,25 +51,12 @@ class MadeUpClock final : public Engine {
   Stats stats_;
 };
 
-/// What a variant is handed for a turn; the clock itself goes on.
-class Turn final : public Engine {
- public:
-  explicit Turn(MadeUpClock& clock) : clock_(clock) {}
-  Capabilities capabilities() const override { return clock_.capabilities(); }
-  EffectiveParameters load(const Scene& scene, const Settings& settings) override {
-    return clock_.load(scene, settings);
-  }
-  double advance(double t) override { return clock_.advance(t); }
-  Snapshot snapshot(ContactReport report) override { return clock_.snapshot(report); }
-  Stats stats() const override { return clock_.stats(); }
-
- private:
-  MadeUpClock& clock_;
-};
-
 /// @param clock  outlives it
 TimedVariant variantOf(MadeUpClock& clock) {
-  return {[&clock] { return std::make_unique<Turn>(clock); },
+  // What a variant is handed for a turn; the clock itself goes on.
+  const std::shared_ptr<Engine> itself(&clock, [](Engine*) {});
+  const auto nothing = [](auto&) {};
+  return {[=] { return std::make_unique<test::PlantedEngine>(nothing, nothing, itself); },
           [](Engine& engine) {
             engine.load({}, {});
             return 1.0;  // dt
@@ -84,7 +73,7 @@ struct WholeAndWithout {
   std::array<MadeUpClock, 2> clocks;
 };
 
-TEST(StepTimes, TellTheCostOfAStepAfterTheWarmUp) {
+TEST(StepTimes, WarmUp_IsLeftOut) {
   WholeAndWithout variants(4e-4, 3e-4);
   const auto times = variants.times({0.2, 5});
   ASSERT_EQ(times[0].seconds.size(), 5u);
@@ -93,9 +82,11 @@ TEST(StepTimes, TellTheCostOfAStepAfterTheWarmUp) {
   EXPECT_NEAR(ratio->value, 0.75, 1e-9);
   EXPECT_NEAR(*ratio->standardError, 0.0, 1e-9);
   EXPECT_DOUBLE_EQ(timeRatio(times[0], times[0])->value, 1.0);
+  EXPECT_DOUBLE_EQ(*times[0].contacts, 40.0);
+  EXPECT_FALSE(times[1].contacts);
 }
 
-TEST(StepTimes, LeaveOutWhatOtherProgramsHadOfTheCore) {
+TEST(StepTimes, BusyCore_CountsItsOwnShare) {
   WholeAndWithout variants(4e-4, 3e-4);
   variants.clocks[0].shareOfCore = 0.5;  // half as much CPU time as wall
   variants.clocks[1].shareOfCore = 1.9;  // two threads
@@ -104,14 +95,7 @@ TEST(StepTimes, LeaveOutWhatOtherProgramsHadOfTheCore) {
   EXPECT_NEAR(*shortestStep(times[1]), 3e-4, 1e-12);
 }
 
-TEST(StepTimes, CountContactsWhereTheEngineDoes) {
-  WholeAndWithout variants(4e-4, 3e-4);
-  const auto times = variants.times({0.2, 2});
-  EXPECT_DOUBLE_EQ(*times[0].contacts, 40.0);
-  EXPECT_FALSE(times[1].contacts);
-}
-
-TEST(StepTimes, StepAsOftenInAllLegsAndLongEnoughInTheFastest) {
+TEST(StepTimes, EveryVariant_TakesAsManySteps) {
   WholeAndWithout variants(4e-4, 1e-4);
   variants.times({0.2, 1});
   const Stats slow = variants.clocks[0].stats(), fast = variants.clocks[1].stats();
@@ -119,7 +103,7 @@ TEST(StepTimes, StepAsOftenInAllLegsAndLongEnoughInTheFastest) {
   EXPECT_GE(fast.wallSeconds, 0.2);
 }
 
-TEST(StepTimes, TakeTheShortestRoundAndTheSpreadOfAll) {
+TEST(StepTimes, NoisyRounds_TakeTheShortestAndTheSpread) {
   WholeAndWithout variants(1e-4, 1e-4);
   // Load 0 is there for the estimate; each round is one more load.
   variants.clocks[1].noise = {3e-5, 0.0, 2e-5, 1e-5};
@@ -130,7 +114,7 @@ TEST(StepTimes, TakeTheShortestRoundAndTheSpreadOfAll) {
   EXPECT_NEAR(*ratio->standardError, std::sqrt(0.05 / 3.0) / 2.0, 1e-9);
 }
 
-TEST(StepTimes, AVariantThatBreaksDownLeavesTheOthers) {
+TEST(StepTimes, VariantThatBreaksDown_LeavesTheOthers) {
   WholeAndWithout variants(4e-4, 3e-4);
   variants.clocks[1].failsAfter = 2;
   const auto times = variants.times({0.2, 3});
@@ -138,15 +122,6 @@ TEST(StepTimes, AVariantThatBreaksDownLeavesTheOthers) {
   EXPECT_EQ(times[1].failure, "made up, at t = 3 s: broke down");
   EXPECT_TRUE(times[1].seconds.empty());
   EXPECT_FALSE(timeRatio(times[1], times[0]));
-}
-
-TEST(StepTimes, AreKeptAsJson) {
-  const StepTimes times = {{1e-5, 1.0 / 3.0}, 7.5, "why"};
-  const StepTimes back = readAs<StepTimes>(jsonOf(times));
-  EXPECT_EQ(back.seconds, times.seconds);
-  EXPECT_EQ(back.contacts, times.contacts);
-  EXPECT_EQ(back.failure, times.failure);
-  EXPECT_FALSE(readAs<StepTimes>(jsonOf(StepTimes{})).contacts);
 }
 
 }  // namespace

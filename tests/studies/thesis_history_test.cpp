@@ -6,17 +6,15 @@
 #include <numbers>
 
 #include "cases/couette.hpp"
-#include "cases/loader.hpp"
+#include "tests/studies/quick_cell.hpp"
 
 namespace crossgrain::test {
 namespace {
 
 /// One disk in the quick cell, which settles for a rotation and a half and is averaged for one.
 Case oneDisk() {
-  return loadCase(CROSSGRAIN_CASES "/couette/quick.toml",
-                  {"particles.small=1", "particles.large=0", "averaging.settle_rotations=1.5",
-                   "averaging.rotations=1.0", "averaging.snapshots_per_rotation=2"})
-      .front();
+  return quickCell({"particles.small=1", "particles.large=0", "averaging.settle_rotations=1.5",
+                    "averaging.rotations=1.0", "averaging.snapshots_per_rotation=2"});
 }
 
 class History : public testing::Test {
@@ -61,7 +59,7 @@ class History : public testing::Test {
   Scene scene_;
 };
 
-TEST_F(History, SpansAreRotationsAndBeginAnewWithTheAveragedTime) {
+TEST_F(History, Spans_AreRotationsFromTheAveragedTimeOn) {
   ThesisHistory history(setup_, scene_, 3);
   // A snapshot at the end of a span belongs to it.
   for (const double when : {0.5, 1.0, 1.5, 2.0, 2.5}) history.add(at(when, 1.0));
@@ -74,7 +72,7 @@ TEST_F(History, SpansAreRotationsAndBeginAnewWithTheAveragedTime) {
   }
 }
 
-TEST_F(History, NumbersAreMeansOfWhatSnapshotsShow) {
+TEST_F(History, Numbers_AreMeansOfSnapshots) {
   ThesisHistory history(setup_, scene_, 3);
   history.add(at(0.5, 1.0, 4.0));
   history.add(at(1.0, 3.0, {}, 6.0));
@@ -100,7 +98,7 @@ TEST_F(History, NumbersAreMeansOfWhatSnapshotsShow) {
   EXPECT_EQ(*first.volumeFractionOutside, 0.0);
 }
 
-TEST_F(History, GoesOnToTheBitFromItsState) {
+TEST_F(History, RestoredState_GoesOnToTheBit) {
   ThesisHistory whole(setup_, scene_, 3), before(setup_, scene_, 3), after(setup_, scene_, 3);
   const auto first = {at(0.5, 0.1, 1.0 / 3.0), at(1.0, 0.7, 0.1)};
   const auto second = {at(1.5, 1.0 / 7.0), at(2.0, 0.3, 0.2), at(2.5, 0.9)};

@@ -1,5 +1,5 @@
-// A case told otherwise: how constants scale, and that the in-house engine does the same to the bit
-// where nothing is rounded.
+// A case in other units, places and numbers: how constants scale, and that the in-house engine does
+// the same to the bit where nothing is rounded.
 #include "studies/stability/transforms.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,6 @@
 #include "stability/transform.hpp"
 #include "studies/conformance/conformance_scenes.hpp"
 #include "studies/lockstep/window.hpp"
-#include "studies/stability/transforms.hpp"
 
 namespace {
 
@@ -72,7 +71,7 @@ Scene everything(const ContactLaw& law) {
 
 constexpr std::uint64_t steps = 400;
 
-TEST(Transforms, OtherUnitsAreTheSameToTheBit) {
+TEST(Transforms, OtherUnits_HaveTheSameBits) {
   for (const ContactLaw& law : lawsOfEveryDimension()) {
     SCOPED_TRACE(static_cast<int>(law.normal) * 10 + static_cast<int>(law.damper));
     const Scene scene = everything(law);
@@ -88,7 +87,7 @@ TEST(Transforms, OtherUnitsAreTheSameToTheBit) {
 }
 
 /// Forgetting to scale any one constant must show: else the test above has nothing to say of it.
-TEST(Transforms, EveryConstantOfTheSceneMatters) {
+TEST(Transforms, ConstantNotScaled_IsSeen) {
   const Units units{0x1p-10, 0x1p-10, 0x1p10};
   const auto differs = [&](const ContactLaw& law, void (*forget)(Scene&, const Scene&)) {
     const Scene scene = everything(law);
@@ -99,40 +98,26 @@ TEST(Transforms, EveryConstantOfTheSceneMatters) {
     const auto told = placesBack({.units = units}, follow(*grain, other.dt, {steps})[0].position);
     return told != endOf(scene, {}, steps).position;
   };
-  using S = Scene;
-  const ContactLaw linear = fullLaw();
-  EXPECT_FALSE(differs(linear, [](S&, const S&) {}));
-  EXPECT_TRUE(differs(linear, [](S& to, const S& of) { to.law.kn = of.law.kn; }));
-  EXPECT_TRUE(differs(linear, [](S& to, const S& of) { to.law.gn = of.law.gn; }));
-  EXPECT_TRUE(differs(linear, [](S& to, const S& of) { to.law.kt = of.law.kt; }));
-  EXPECT_TRUE(differs(linear, [](S& to, const S& of) { to.law.gt = of.law.gt; }));
-  EXPECT_TRUE(differs(linear, [](S& to, const S& of) { to.gravity = of.gravity; }));
-  EXPECT_TRUE(differs(linear, [](S& to, const S& of) { to.bottom->kb = of.bottom->kb; }));
-  EXPECT_TRUE(differs(linear, [](S& to, const S& of) { to.bottom->gb = of.bottom->gb; }));
-  EXPECT_TRUE(differs(linear, [](S& to, const S& of) { to.bottom->gravity = of.bottom->gravity; }));
-  EXPECT_TRUE(differs(linear, [](S& to, const S& of) { to.disks.inertia = of.disks.inertia; }));
-  EXPECT_TRUE(
-      differs(lawsOfEveryDimension()[3], [](S& to, const S& of) { to.law.kn3 = of.law.kn3; }));
-  EXPECT_TRUE(
-      differs(lawsOfEveryDimension()[1], [](S& to, const S& of) { to.law.gn = of.law.gn; }));
+  using Forget = void (*)(Scene&, const Scene&);
+  const ContactLaw linear = fullLaw(), hertz = lawsOfEveryDimension()[1],
+                   polynomial = lawsOfEveryDimension()[3];
+  EXPECT_FALSE(differs(linear, [](Scene&, const Scene&) {}));
+  for (const Forget forget :
+       {Forget([](Scene&to, const Scene&of) { to.law.kn = of.law.kn; }),
+        Forget([](Scene&to, const Scene&of) { to.law.gn = of.law.gn; }),
+        Forget([](Scene&to, const Scene&of) { to.law.kt = of.law.kt; }),
+        Forget([](Scene&to, const Scene&of) { to.law.gt = of.law.gt; }),
+        Forget([](Scene&to, const Scene&of) { to.gravity = of.gravity; }),
+        Forget([](Scene&to, const Scene&of) { to.bottom->kb = of.bottom->kb; }),
+        Forget([](Scene&to, const Scene&of) { to.bottom->gb = of.bottom->gb; }),
+        Forget([](Scene&to, const Scene&of) { to.bottom->gravity = of.bottom->gravity; }),
+        Forget([](Scene&to, const Scene&of) { to.disks.inertia = of.disks.inertia; })})
+    EXPECT_TRUE(differs(linear, forget));
+  EXPECT_TRUE(differs(polynomial, [](Scene& to, const Scene& of) { to.law.kn3 = of.law.kn3; }));
+  EXPECT_TRUE(differs(hertz, [](Scene& to, const Scene& of) { to.law.gn = of.law.gn; }));
 }
 
-TEST(Transforms, MotionOfWallsKeepsItsUnits) {
-  WallBody body;
-  body.centre = {2.0, 1.0};
-  body.motion = {Motion::Kind::radial, 3.0, {4.0, 5.0}, {6.0, 7.0}, 8.0, 9.0, 10.0};
-  Scene scene;
-  scene.bodies = {body};
-  const Motion told = inUnits(scene, {2.0, 1.0, 4.0}).bodies[0].motion;
-  EXPECT_EQ(told.angularVelocity, 0.75);
-  EXPECT_EQ(told.velocity, Vec2(2.0, 2.5));
-  EXPECT_EQ(told.amplitude, Vec2(12.0, 14.0));
-  EXPECT_EQ(told.frequency, 2.0);
-  EXPECT_EQ(told.radialVelocity, 4.5);
-  EXPECT_EQ(told.radialEnd, 40.0);
-}
-
-TEST(Transforms, TurnedMirroredAndRenumberedAreTheSameButForRounding) {
+TEST(Transforms, TurnedMirroredRenumbered_AreTheSameToRounding) {
   const Scene scene = everything(fullLaw());
   const LockstepFrame original = endOf(scene, {}, steps);
   for (const CaseTransform& transform : caseTransforms(scene.disks.size())) {
@@ -146,16 +131,7 @@ TEST(Transforms, TurnedMirroredAndRenumberedAreTheSameButForRounding) {
   }
 }
 
-TEST(Transforms, QuarterTurnsAreExact) {
-  const Placement quarter{.turn = std::acos(0.0)};
-  EXPECT_EQ(quarter.turned({1.0, 3.0}), Vec2(-3.0, 1.0));
-  EXPECT_EQ(quarter.turnedBack({-3.0, 1.0}), Vec2(1.0, 3.0));
-  const Placement crooked{.mirror = true, .turn = 1.0};
-  EXPECT_LT((crooked.turnedBack(crooked.turned({1.0, 3.0})) - Vec2(1.0, 3.0)).norm(), 1e-15);
-  EXPECT_GT((crooked.turned({1.0, 3.0}) - Vec2(1.0, 3.0)).norm(), 0.1);
-}
-
-TEST(Transforms, AnOrderIsAPermutationWithoutASystem) {
+TEST(Transforms, ShuffledOrder_IsAPermutation) {
   const std::vector<std::size_t> order = shuffledOrder(100, transformSeed);
   EXPECT_EQ(std::set<std::size_t>(order.begin(), order.end()).size(), 100u);
   EXPECT_EQ(order, shuffledOrder(100, transformSeed));
@@ -165,36 +141,10 @@ TEST(Transforms, AnOrderIsAPermutationWithoutASystem) {
   EXPECT_TRUE(shuffledOrder(0, 1).empty());
 }
 
-TEST(Transforms, NudgesAreOfTheSizeOfRounding) {
-  const Scene scene = busyScene(fullLaw());
-  const double epsilon = 1e-10;  // far above rounding, so that it can be read off
-  const Disks moved = nudged(scene.disks, epsilon, 1);
-  EXPECT_NE(moved.position, nudged(scene.disks, epsilon, 2).position);
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    const Vec2 by = moved.position[i] - scene.disks.position[i];
-    const double size = epsilon * (scene.disks.position[i].norm() + scene.disks.radius[i]);
-    EXPECT_NEAR(std::abs(by.x()), size, 1e-5 * size);
-    EXPECT_NEAR(std::abs(by.y()), size, 1e-5 * size);
-  }
-}
-
-TEST(Transforms, SettingsAreToldInTheSameUnits) {
-  const std::vector<SettingSpec> specs = {{"dt", 5e-4, "s", "", {}},
-                                          {"slop", 0.0, "parsec", "", {}},
-                                          {"name", std::string("a"), "m", "", {}},
-                                          {"speed", 2.0, "m/s", "", {}},
-                                          {"times", 3.0, "-", "", {}}};
-  const Units units{0.5, 1.0, 4.0};
-  const Settings told = inUnits({{"speed", 8.0}}, specs, units);
-  EXPECT_EQ(told, (Settings{{"dt", 2e-3}, {"speed", 1.0}}));
-  EXPECT_TRUE(inUnits({}, specs, {}).empty());
-  EXPECT_THROW(inUnits({{"slop", 1.0}}, specs, units), UnsupportedScene);
-}
-
 /// Lengths twice as long, masses three times as large, times five times as long.
 constexpr Units units{.length = 2.0, .mass = 3.0, .time = 5.0};
 
-TEST(SettingUnits, EachUnitByItsLengthsMassesAndTimes) {
+TEST(SettingUnits, EachUnit_HasItsFactor) {
   const std::pair<const char*, double> expected[] = {
       {"", 1.0},           {"-", 1.0},           {"rad", 1.0},      {"smallest radius", 1.0},
       {"m", 2.0},          {"kg", 3.0},          {"s", 5.0},        {"m/s", 2.0 / 5},
@@ -206,21 +156,23 @@ TEST(SettingUnits, EachUnitByItsLengthsMassesAndTimes) {
   EXPECT_FALSE(factorOf("furlong", units));
 }
 
-TEST(SettingUnits, DefaultsAreSaidAndZeroStays) {
+TEST(SettingUnits, DefaultsAndZero_AreScaled) {
   const std::vector<SettingSpec> specs = {{"skin", 0.5, "m", "", {}},
                                           {"none", 0.0, "furlong", "", {}},
                                           {"share", 0.25, "-", "", {}},
+                                          {"name", std::string("a"), "m", "", {}},
                                           {"speed", 1.0, "m/s", "", {}}};
   const Settings expected = {{"skin", 1.0}, {"speed", 10.0 * 2 / 5}};
   EXPECT_EQ(inUnits({{"speed", 10.0}}, specs, units), expected);
   EXPECT_EQ(inUnits({{"speed", 10.0}}, specs, {}), (Settings{{"speed", 10.0}}));
+  EXPECT_TRUE(inUnits({}, specs, {}).empty());
   EXPECT_THROW(inUnits({{"none", 1.0}}, specs, units), UnsupportedScene);
 }
 
 /// Hours, so that the test's own time is none.
 constexpr double hours = 3600.0;
 
-TEST(TimeBudget, IsSharedEquallyAmongWhatIsStillToBeDone) {
+TEST(TimeBudget, Budget_IsSharedEquallyAmongTheRest) {
   TimeBudget budget(40.0 * hours, 4, 1);
   const TimeShare first = budget.next();
   EXPECT_NO_THROW(first.require(9.9 * hours));
@@ -233,7 +185,7 @@ TEST(TimeBudget, IsSharedEquallyAmongWhatIsStillToBeDone) {
   EXPECT_NO_THROW(budget.next().require(39.9 * hours));
 }
 
-TEST(TimeBudget, WhatRunsSideBySideHasTheTimeOfAllJobs) {
+TEST(TimeBudget, SeveralJobs_HaveTheTimeOfAll) {
   TimeBudget budget(40.0 * hours, 4, 2);
   const TimeShare first = budget.next();
   EXPECT_NO_THROW(first.require(19.9 * hours));
@@ -242,14 +194,10 @@ TEST(TimeBudget, WhatRunsSideBySideHasTheTimeOfAllJobs) {
   EXPECT_THROW(few.next().require(40.1 * hours), OutOfTime);
 }
 
-TEST(TimeBudget, WithoutOneAllIsRun) {
-  TimeBudget budget(std::numeric_limits<double>::infinity(), 1, 1);
-  EXPECT_NO_THROW(budget.next().require(1e300));
-}
-
-TEST(TimeBudget, OfNothingNothingIsRun) {
-  TimeBudget budget(0.0, 1, 1);
-  EXPECT_THROW(budget.next().require(0.0), OutOfTime);
+TEST(TimeBudget, InfiniteOrNone_RunsAllOrNothing) {
+  TimeBudget infinite(std::numeric_limits<double>::infinity(), 1, 1), none(0.0, 1, 1);
+  EXPECT_NO_THROW(infinite.next().require(1e300));
+  EXPECT_THROW(none.next().require(0.0), OutOfTime);
 }
 
 }  // namespace

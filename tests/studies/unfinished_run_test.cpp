@@ -6,7 +6,9 @@
 
 #include "adapters/grain.hpp"
 #include "tests/support/laws.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace {
 
@@ -32,10 +34,7 @@ Scene bouncing() {
 
 class UnfinishedRuns : public testing::Test {
  protected:
-  void SetUp() override {
-    fs::remove_all(folder_);
-    engine_->load(scene_, {});
-  }
+  UnfinishedRuns() { engine_->load(scene_, {}); }
 
   /// Runs to 0.05 s with a snapshot on the way, and leaves the run there.
   void leave() {
@@ -49,15 +48,13 @@ class UnfinishedRuns : public testing::Test {
     run.keep(*engine_, 0.05);
   }
 
-  /// Of this test alone: others may run at the same time.
-  const fs::path folder_ =
-      fs::path(testing::TempDir()) /
-      (std::string("unfinished-") + testing::UnitTest::GetInstance()->current_test_info()->name());
+  const TemporaryFolder scratch_;
+  const fs::path folder_ = scratch_.path() / "run";
   const Scene scene_ = bouncing();
   std::unique_ptr<Engine> engine_ = makeGrain(), later_ = makeGrain();
 };
 
-TEST_F(UnfinishedRuns, TellHowFarTheyCame) {
+TEST_F(UnfinishedRuns, TimeReached_IsThatOfTheLastCheckpoint) {
   EXPECT_EQ(timeReached(folder_, "key"), 0.0);
   leave();
   EXPECT_EQ(timeReached(folder_, "key"), 0.05);
@@ -66,7 +63,7 @@ TEST_F(UnfinishedRuns, TellHowFarTheyCame) {
   EXPECT_EQ(timeReached(folder_, "key"), 0.0);
 }
 
-TEST_F(UnfinishedRuns, GoOnToTheBit) {
+TEST_F(UnfinishedRuns, Resumed_GoesOnToTheBit) {
   leave();
   later_->load(scene_, {});
   UnfinishedRun run(folder_, "key", scene_, true);
@@ -85,31 +82,28 @@ TEST_F(UnfinishedRuns, GoOnToTheBit) {
   EXPECT_EQ(engine_->stats().contactEvaluations, later_->stats().contactEvaluations);
 }
 
-TEST_F(UnfinishedRuns, OfAnotherKeyOrDamagedAreForgotten) {
+TEST_F(UnfinishedRuns, OtherKeyOrDamagedFile_IsForgotten) {
   leave();
   EXPECT_FALSE(UnfinishedRun(folder_, "another key", scene_, true).resume(*later_));
   EXPECT_FALSE(fs::exists(folder_));
-  SetUp();
+  engine_->load(scene_, {});
   leave();
   fs::resize_file(folder_ / "snapshot-00001.bin", 10);
   EXPECT_FALSE(UnfinishedRun(folder_, "key", scene_, true).resume(*later_));
   EXPECT_FALSE(fs::exists(folder_));
 }
 
-TEST_F(UnfinishedRuns, ACheckpointCutShortIsTheEnginesFailureOnce) {
+TEST_F(UnfinishedRuns, CheckpointCutShort_FailsOnce) {
   leave();
   fs::resize_file(folder_ / "engine-2", fs::file_size(folder_ / "engine-2") / 2);
   later_->load(scene_, {});
-  try {
-    UnfinishedRun(folder_, "key", scene_, true).resume(*later_);
-    FAIL() << "no exception";
-  } catch (const EngineFailure& failure) {
-    EXPECT_NE(std::string(failure.what()).find("cut short"), std::string::npos) << failure.what();
-  }
+  const std::string failure = test::refusalOf<EngineFailure>(
+      [&] { UnfinishedRun(folder_, "key", scene_, true).resume(*later_); });
+  EXPECT_NE(failure.find("cut short"), std::string::npos) << failure;
   EXPECT_FALSE(UnfinishedRun(folder_, "key", scene_, true).resume(*later_));
 }
 
-TEST_F(UnfinishedRuns, OfEnginesWithoutCheckpointsKeepNothing) {
+TEST_F(UnfinishedRuns, EngineWithoutCheckpoints_KeepsNothing) {
   UnfinishedRun run(folder_, "key", scene_, false);
   run.took(engine_->snapshot(ContactReport::none));
   run.keep(*engine_, 0.0);

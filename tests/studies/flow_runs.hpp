@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "results/run.hpp"
+
+/// Runs of engines with numbers made by hand.
+namespace crossgrain::test {
+
+/// A field's means over rings, by slicing.
+inline Profile sliced(const std::string& field, const Numbers& mean, const Numbers& error = {}) {
+  return {"slicing", field, "", mean, error, {}, {}};
+}
+
+inline FlowRun flowRun(const std::string& engine, int packing,
+                       const std::vector<Profile>& profiles = {}) {
+  FlowRun run;
+  run.engine = engine;
+  run.packing = packing;
+  run.profiles = profiles;
+  return run;
+}
+
+}  // namespace crossgrain::test
