@@ -3,9 +3,9 @@
 
 #include <numbers>
 
-#include "files.hpp"
 #include "cases/couette.hpp"
 #include "cases/time_step.hpp"
+#include "files.hpp"
 #include "tests/support/thesis.hpp"
 
 namespace crossgrain::test {

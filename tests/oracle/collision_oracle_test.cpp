@@ -256,6 +256,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Combine(
         testing::Values(
             Convention{TangentialLaw::coulomb, SpringUpdate::after, LeverArm::radius, 1.5, 1e-5},
+            Convention{TangentialLaw::coulomb, SpringUpdate::after, LeverArm::contactPoint, 1.4,
+                       1e-5},
             Convention{TangentialLaw::viscous, SpringUpdate::after, LeverArm::radius, 1.8, 1e-6},
             Convention{TangentialLaw::spring, SpringUpdate::after, LeverArm::radius, 0.8, 1e-3},
             Convention{TangentialLaw::spring, SpringUpdate::before, LeverArm::radius, 0.8, 1e-3},
