@@ -46,7 +46,7 @@ LockstepRow lockstepRow(LockstepVerdict verdict) {
   return row;
 }
 
-TEST(CompareOverview, NamesTheLawAsCauseOnlyWhereThatIsShown) {
+TEST(CompareOverview, Disagreement_NamesTheLawAsCauseOnlyWhereThatIsShown) {
   CompareResults results = disagreeing();
   EXPECT_EQ(shown(rowNamed(compareOverview(results), "theirs").cells[1]), "bad 3.00 margins");
   EXPECT_EQ(compareConclusion(results)[0],
@@ -86,7 +86,7 @@ void addMirror(CompareResults& results, Answer answer) {
   results.endpoints.rows.push_back(row);
 }
 
-TEST(CompareOverview, AMirrorThatAgreesWithItsPeerIsAModelDifference) {
+TEST(CompareOverview, MirrorAgreesWithItsPeer_IsAModelDifference) {
   CompareResults results = disagreeing();
   addMirror(results, Answer::undecided);
   EXPECT_FALSE(isModelDifference(results, results.engines[1]));
@@ -94,7 +94,7 @@ TEST(CompareOverview, AMirrorThatAgreesWithItsPeerIsAModelDifference) {
   EXPECT_TRUE(isModelDifference(results, results.engines[1]));
 }
 
-TEST(CompareOverview, DisagreementWithItsMirrorIsNoModelDifference) {
+TEST(CompareOverview, MirrorDisagreesWithItsPeer_IsNoModelDifference) {
   CompareResults results = disagreeing();
   results.lockstep.emplace();
   results.lockstep->rows = {lockstepRow(LockstepVerdict::sameLaw)};
@@ -107,7 +107,7 @@ TEST(CompareOverview, DisagreementWithItsMirrorIsNoModelDifference) {
                 endpointWords(results.endpoints.rows[0].endpoint) + ".");
 }
 
-TEST(CompareOverview, NamesTheNextStep) {
+TEST(CompareOverview, Conclusion_NamesTheNextStep) {
   CompareResults results = disagreeing();
   EXPECT_TRUE(has(compareConclusion(results).back(), "Next: compare the margins with"));
   results.endpoints.rows[1].answer = Answer::undecided;
@@ -157,7 +157,7 @@ CompareResults randomResults(std::mt19937& random) {
   return results;
 }
 
-TEST(CompareSentences, TheFarthestEndpointIsNamed) {
+TEST(CompareSentences, SpotCheck_NamesTheFarthestEndpoint) {
   std::mt19937 random(1);
   for (int k = 0; k < 300; ++k) {
     const CompareResults results = randomResults(random);
@@ -169,7 +169,7 @@ TEST(CompareSentences, TheFarthestEndpointIsNamed) {
   }
 }
 
-TEST(CompareSentences, ThePairThatIsNextIsOpenAndOneOfThoseShown) {
+TEST(CompareSentences, NextPair_IsUndecidedAndOneOfThoseShown) {
   std::mt19937 random(2);
   int named = 0;
   for (int k = 0; k < 300; ++k) {
@@ -194,7 +194,7 @@ TEST(CompareSentences, ThePairThatIsNextIsOpenAndOneOfThoseShown) {
   EXPECT_GT(named, 100);
 }
 
-TEST(CompareSentences, DoNotContradictEachOther) {
+TEST(CompareSentences, RandomResults_DoNotContradictEachOther) {
   std::mt19937 random(3);
   int judgedNothing = 0;
   for (int k = 0; k < 300; ++k) {
@@ -220,7 +220,7 @@ TEST(CompareSentences, DoNotContradictEachOther) {
   EXPECT_GT(judgedNothing, 30);
 }
 
-TEST(DifferenceFigures, WhatLiesBeyondTheAxisIsMarkedWithItsNumber) {
+TEST(DifferenceFigures, BeyondTheAxis_IsMarkedWithItsNumber) {
   CompareResults results = disagreeing();
   results.rings.rTilde = {0.5, 1.5, 2.5};
   AgreementRow row;
@@ -244,7 +244,7 @@ TEST(DifferenceFigures, WhatLiesBeyondTheAxisIsMarkedWithItsNumber) {
   EXPECT_TRUE(has(figure.caption, "beyond 5 margins"));
 }
 
-TEST(DifferenceFigures, AreInMarginsWithTheirBand) {
+TEST(DifferenceFigures, Differences_AreInMarginsWithTheirBand) {
   CompareResults results = disagreeing();
   results.rings.rTilde = {0.5, 1.5};
   AgreementRow row;
@@ -273,7 +273,7 @@ TEST(DifferenceFigures, AreInMarginsWithTheirBand) {
   EXPECT_EQ(*panel.curves[0].points[0].error, 0.5);
 }
 
-TEST(ProfileFigures, ASingleRunBesideMeansIsPaleAndItsMirrorIsNamed) {
+TEST(ProfileFigures, SingleRunBesideMeans_IsPaleAndItsMirrorIsNamed) {
   CompareResults results = disagreeing();
   results.rings.rTilde = {0.5, 1.5};
   results.engines.push_back({"mirror", "", "", "theirs", EngineStatus::ran, ""});

@@ -13,7 +13,7 @@ namespace {
 
 using Outcome = JUnitCase::Outcome;
 
-TEST(JUnit, CountsAndSaysWhatHappened) {
+TEST(JUnit, Suite_CountsOutcomesAndHasMessages) {
   EXPECT_EQ(junitXml("stability", {{"pile", "grain: drift", Outcome::passed, "", 0.5},
                                    {"pile", "other: drift", Outcome::failed, "2 of 1"},
                                    {"gas", "other: drift", Outcome::error, "died"},
@@ -35,13 +35,13 @@ TEST(JUnit, CountsAndSaysWhatHappened) {
             "</testsuite>\n</testsuites>\n");
 }
 
-TEST(JUnit, WhatXmlCannotHoldIsReplaced) {
+TEST(JUnit, WhatXmlCannotHold_IsReplaced) {
   const std::string xml = junitXml("x", {{"a<b & \"c\"", "\x1b[31m\xff\n", Outcome::passed, ""}});
   EXPECT_TRUE(has(xml, "classname=\"a&lt;b &amp; &quot;c&quot;\"")) << xml;
   EXPECT_TRUE(has(xml, "name=\"?[31m\xEF\xBF\xBD&#10;\"")) << xml;
 }
 
-TEST(JUnit, OfAMatrixIsWhatItAnswers) {
+TEST(JUnit, Matrix_IsACaseAnAnswer) {
   using enum CellState;
   Overview overview;
   for (const CellState state :
@@ -91,7 +91,7 @@ StabilityResults hardResults(HardRunStatus status, StabilityVerdict verdict,
   return results;
 }
 
-TEST(StabilityJunit, AFailureSaysFigureLimitAndReason) {
+TEST(StabilityJunit, Failure_HasFigureLimitAndReason) {
   StabilityResults results =
       hardResults(HardRunStatus::finished, StabilityVerdict::unstable, "it slides");
   results.runs.front().value = 0.25;
@@ -103,7 +103,7 @@ TEST(StabilityJunit, AFailureSaysFigureLimitAndReason) {
       << xml;
 }
 
-TEST(StabilityJunit, AnEngineThatBrokeDownIsAnErrorAndARefusalIsSkipped) {
+TEST(StabilityJunit, BrokenDownIsAnError_RefusedIsSkipped) {
   EXPECT_TRUE(has(junitOfStability(hardResults(HardRunStatus::failed, StabilityVerdict::unstable,
                                                "failed: signal 11")),
                   "<error message=\"failed: signal 11\"/>"));
@@ -143,7 +143,7 @@ QuantityScore scoreOf(double max, const char* why = nullptr) {
   return score;
 }
 
-TEST(CollideJunit, JudgesEachQuantityThatHasALimit) {
+TEST(CollideJunit, QuantityWithALimit_IsACase) {
   const std::string xml =
       junitOfCollide(sweeps({curve(SweepStatus::finished, scoreOf(0.5, "the scheme"))}));
   EXPECT_TRUE(has(xml,
@@ -154,7 +154,7 @@ TEST(CollideJunit, JudgesEachQuantityThatHasALimit) {
   EXPECT_TRUE(has(xml, "tests=\"1\"")) << xml;
 }
 
-TEST(CollideJunit, AModelDifferenceIsNoFailureAndAFaultBehindItIs) {
+TEST(CollideJunit, ModelDifferenceIsNoFailure_FaultBehindItIs) {
   CollisionCurve one = curve(SweepStatus::finished, scoreOf(0.5));
   one.declared.emplace().reference = DeclaredReference::oracle;
   one.declared->score.of[QuantityId::psiF] = scoreOf(0.05);
@@ -170,7 +170,7 @@ TEST(CollideJunit, AModelDifferenceIsNoFailureAndAFaultBehindItIs) {
   EXPECT_TRUE(has(fault, "failures=\"2\"")) << fault;
 }
 
-TEST(CollideJunit, TheOwnSchemeIsACaseOfItsOwn) {
+TEST(CollideJunit, OwnScheme_IsACaseOfItsOwn) {
   CollisionCurve one = curve(SweepStatus::finished, scoreOf(0.05));
   SchemeScore& own = one.ownScheme.emplace();
   own.position = 1e-14;
@@ -186,7 +186,7 @@ TEST(CollideJunit, TheOwnSchemeIsACaseOfItsOwn) {
       << fault;
 }
 
-TEST(CollideJunit, WhatWasNotJudgedIsNeverASuccess) {
+TEST(CollideJunit, NotJudged_IsNeverASuccess) {
   const QuantityScore held = scoreOf(0.05);
   // Of two sweeps only the first shows the quantity.
   const std::string missing = junitOfCollide(
@@ -199,7 +199,7 @@ TEST(CollideJunit, WhatWasNotJudgedIsNeverASuccess) {
       << apart;
 }
 
-TEST(CollideJunit, AnEngineThatFailedIsAnErrorAndARefusalIsSkipped) {
+TEST(CollideJunit, FailedIsAnError_RefusedIsSkipped) {
   EXPECT_TRUE(has(junitOfCollide(sweeps({curve(SweepStatus::failed, std::nullopt)})),
                   "<error message=\"because\"/>"));
   EXPECT_TRUE(has(junitOfCollide(sweeps({curve(SweepStatus::refused, std::nullopt)})),

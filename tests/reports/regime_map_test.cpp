@@ -74,7 +74,7 @@ TEST(RegimeMap, CriticalDensity_FollowsFromThePackingsThatCarry) {
   EXPECT_TRUE(rows[2].starts_with("5,8,3,,,,,0.796")) << rows[2];
 }
 
-TEST(RegimeMap, AnInterpretationARateAndALawAreNotMixed) {
+TEST(RegimeMap, OtherInterpretationRateOrLaw_IsNotMixed) {
   ThesisResults results = fourDensities();
   ThesisCase wide = caseAt(0.800);
   wide.name = "wide";
@@ -93,7 +93,7 @@ TEST(RegimeMap, AnInterpretationARateAndALawAreNotMixed) {
   EXPECT_EQ(rowsOf(csv, ofDefault), rowsOf(regimeMapCsv(fourDensities()), ofDefault));
 }
 
-TEST(RegimeMap, TheLongestRunOfAPackingStandsForIt) {
+TEST(RegimeMap, SeveralRunsOfAPacking_TheLongestStandsForIt) {
   ThesisResults results = fourDensities();
   ThesisCase longer = caseAt(0.800);
   longer.name = "time";
@@ -106,7 +106,7 @@ TEST(RegimeMap, TheLongestRunOfAPackingStandsForIt) {
   EXPECT_TRUE(rows[5].starts_with("20,1,0,"));
 }
 
-TEST(RegimeMap, SentencesSayWhereTheWheelHasContacts) {
+TEST(RegimeMap, Captions_SayWhereTheWheelHasContacts) {
   const auto figures = mapFigures(fourDensities());
   const auto contacts = std::ranges::find(figures, "map_contacts", &Figure::name);
   EXPECT_TRUE(has(contacts->caption,
@@ -118,7 +118,7 @@ TEST(RegimeMap, SentencesSayWhereTheWheelHasContacts) {
   EXPECT_TRUE(has(critical->caption, "(5), 0.7962")) << critical->caption;
 }
 
-TEST(RegimeMap, StatesAreFollowedOverRotations) {
+TEST(RegimeMap, States_AreFollowedOverRotations) {
   const auto figures = mapFigures(fourDensities());
   const auto time = std::ranges::find(figures, "map_time", &Figure::name);
   ASSERT_NE(figures.end(), time);
@@ -140,7 +140,7 @@ TEST(RegimeMap, StatesAreFollowedOverRotations) {
 }
 
 /// I = γ̇ d √(ρ/p): of the sample at 0.804 in the first ring.
-TEST(RegimeMap, RingsAreDrawnAgainstTheInertialNumber) {
+TEST(RegimeMap, Rings_AreDrawnAgainstTheInertialNumber) {
   ThesisResults results = sample::thesisResults();
   std::erase_if(results.runs, [](const ThesisRun& run) {
     return run.setup != "nu-0.804" || run.engine != "alpha" || run.packing != 0;
@@ -164,7 +164,7 @@ TEST(RegimeMap, RingsAreDrawnAgainstTheInertialNumber) {
 }
 
 /// The narrowest rings are those that were averaged; two of them have the mean by their rooms.
-TEST(RegimeMap, WiderRingsArePutTogetherOfNarrowOnes) {
+TEST(RegimeMap, WiderRings_ArePutTogetherOfNarrowOnes) {
   const auto figures = widthOfRingFigures(sample::thesisResults());
   ASSERT_EQ(1u, figures.size());
   const Panel& panel = figures[0].panels.at(0);

@@ -36,7 +36,7 @@ SiteReport siteReportOf(const char* kind, CellState first, CellState second) {
   return report;
 }
 
-TEST(SiteOverview, HasTheMostSevereAnswerOfEachReport) {
+TEST(SiteOverview, EachReport_HasItsMostSevereAnswer) {
   using enum CellState;
   const std::vector<SiteReport> reports = {
       siteReportOf("collide", good, bad), siteReportOf("compare", undecided, modelDifference),
@@ -66,7 +66,7 @@ TEST(SiteOverview, HasTheMostSevereAnswerOfEachReport) {
             std::vector<std::string>{"All passed or decided: ours."});
 }
 
-TEST(EngineOverview, HasTheAnswersOfEachReportWithTheWayToThem) {
+TEST(EngineOverview, EachReport_HasAnswersWithTheWayToThem) {
   using enum CellState;
   std::vector<SiteReport> reports = {siteReportOf("collide", good, bad),
                                      siteReportOf("compare", undecided, modelDifference),
@@ -112,7 +112,7 @@ SiteReport madeBy(const char* build, const char* started, CellState state, doubl
   return report;
 }
 
-TEST(History, FollowsACaseFromOneVersionToTheNext) {
+TEST(History, TwoVersions_ShowWhatChanged) {
   using enum CellState;
   std::vector<SiteReport> reports = {madeBy("new", "2026-02-01", bad, 2.0),
                                      siteReportOf("collide", good, good),
@@ -146,7 +146,7 @@ TEST(History, FollowsACaseFromOneVersionToTheNext) {
                 "The case is not the same in all of them: a change may be the case's."}));
 }
 
-TEST(History, IsOfSeveralVersionsOnly) {
+TEST(History, OneVersion_HasNone) {
   using enum CellState;
   std::vector<SiteReport> reports = {madeBy("one", "2026-01-01", good, 1.0),
                                      madeBy("one", "2026-01-02", bad, 2.0)};
@@ -159,7 +159,7 @@ TEST(History, IsOfSeveralVersionsOnly) {
   for (const HistoryRow& row : histories.at(0).rows) EXPECT_EQ(changeOf(row), "");
 }
 
-TEST(History, HasTheMeansOfEndpoints) {
+TEST(History, Endpoints_HaveTheirMeans) {
   const CompareResults results = sample::compareResults(4, 10);
   const auto values = compareValues(results);
   ASSERT_FALSE(results.endpoints.rows.empty());
@@ -176,18 +176,18 @@ TEST(History, HasTheMeansOfEndpoints) {
   EXPECT_DOUBLE_EQ(of(row.b)->cell.value.value(), *row.reference + row.difference.value());
 }
 
-TEST(EnginePages, HaveNamesForAnAddressEachOnce) {
+TEST(EnginePages, Names_AreFitForAnAddressEachOnce) {
   EXPECT_EQ(enginePages({engine("yade"), engine("my engine"), engine("my/engine")}),
             (std::vector<std::string>{"engine-yade.html", "engine-my-engine.html",
                                       "engine-my-engine-2.html"}));
 }
 
-TEST(SiteFolders, AreTheirsEachOnceAndFitForAnAddress) {
+TEST(SiteFolders, Names_AreFitForAnAddressEachOnce) {
   EXPECT_EQ(siteFolders({"out/two/", "out/two", "a b#c", ".hidden", "µ"}),
             (std::vector<std::string>{"two", "two-2", "a-b-c", "-hidden", "-"}));
 }
 
-TEST(Site, HasAnIndexThatLeadsToEachReport) {
+TEST(Site, Index_LeadsToEachReport) {
   const TemporaryFolder folder;
   const auto site = folder.path() / "site";
   writeSite(

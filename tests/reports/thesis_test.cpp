@@ -59,7 +59,7 @@ ThesisResults twoClaims() {
   return results;
 }
 
-TEST(ThesisTables, HoldEveryFigureOfEveryClaim) {
+TEST(ThesisTables, Claims_HaveEveryFigure) {
   EXPECT_EQ(
       claimsCsv(twoClaims()),
       "id,engine,carrier,reading,figure,value,stderr,low,high,unit,verdict,why,figure_verdict,"
@@ -74,7 +74,7 @@ TEST(ThesisTables, HoldEveryFigureOfEveryClaim) {
       "C6,grain,,,,,,,,,undecided,no runs,,\n");
 }
 
-TEST(ThesisOverview, HasEveryClaimUnderItsFirstInterpretation) {
+TEST(ThesisOverview, Claims_AreUnderTheirFirstInterpretation) {
   ThesisResults results = twoClaims();
   ClaimRow model = results.claims.front();
   model.engine = "-";
@@ -103,7 +103,7 @@ TEST(ThesisOverview, HasEveryClaimUnderItsFirstInterpretation) {
   EXPECT_EQ(overview.rows[1].cells[0].shown, "");
 }
 
-TEST(ThesisOverview, ConcludesByRule) {
+TEST(ThesisOverview, Conclusion_IsByRule) {
   ThesisResults results = twoClaims();
   EXPECT_EQ(thesisOverview(results).conclusion,
             (std::vector<std::string>{
@@ -120,7 +120,7 @@ TEST(ThesisOverview, ConcludesByRule) {
   EXPECT_TRUE(thesisOverview(results).conclusion.empty());
 }
 
-TEST(ThesisPage, SaysWhatWasFoundWhatItTookAndWhatNobodyRan) {
+TEST(ThesisPage, Page_HasVerdictsCostAndWhatNobodyRan) {
   ThesisResults results = twoClaims();
   results.claims.push_back(results.claims.front());
   results.claims.back().reasons.clear();
