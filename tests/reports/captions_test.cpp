@@ -39,7 +39,7 @@ Panel panelWith(std::vector<double> values, double level, bool logarithmic) {
   return panel;
 }
 
-TEST(Axes, HoldThePanelsLine) {
+TEST(Axes, PanelWithLine_IncludesIt) {
   // A limit of 0.01 beside values that never came near it, and one far below them.
   EXPECT_EQ(yRangeOf(panelWith({1e-6, 3e-6}, 0.01, true)), "1e-06:0.01");
   EXPECT_EQ(yRangeOf(panelWith({5.0, 2e4}, 0.01, true)), "0.01:100000");
@@ -91,7 +91,7 @@ CollideResults energies() {
   return results;
 }
 
-TEST(EnergyFigure, PartsAddUpToAllThatWasLost) {
+TEST(EnergyFigure, Parts_AddUpToAllThatWasLost) {
   const auto figures = collideFigures(energies());
   const auto figure = std::ranges::find(figures, "collision_1_energy", &Figure::name);
   ASSERT_NE(figure, figures.end());

@@ -47,7 +47,7 @@ LockstepRow lockstepRow(Equivalence verdict) {
   return row;
 }
 
-TEST(CompareOverview, NamesTheLawAsCauseOnlyWhereThatIsShown) {
+TEST(CompareOverview, Disagreement_NamesTheLawAsCauseOnlyWhereThatIsShown) {
   CompareResults results = disagreeing();
   EXPECT_EQ(shown(rowNamed(compareOverview(results), "theirs").cells[1]), "bad 3.00 margins");
   EXPECT_EQ(compareConclusion(results)[0],
@@ -87,7 +87,7 @@ void addMirror(CompareResults& results, Verdict answer) {
   results.endpoints.rows.push_back(row);
 }
 
-TEST(CompareOverview, AMirrorThatAgreesWithItsPeerIsAModelDifference) {
+TEST(CompareOverview, MirrorAgreesWithItsPeer_IsAModelDifference) {
   CompareResults results = disagreeing();
   addMirror(results, Verdict::undecided);
   EXPECT_FALSE(isModelDifference(results, results.engines[1]));
@@ -95,7 +95,7 @@ TEST(CompareOverview, AMirrorThatAgreesWithItsPeerIsAModelDifference) {
   EXPECT_TRUE(isModelDifference(results, results.engines[1]));
 }
 
-TEST(CompareOverview, DisagreementWithItsMirrorIsNoModelDifference) {
+TEST(CompareOverview, MirrorDisagreesWithItsPeer_IsNoModelDifference) {
   CompareResults results = disagreeing();
   results.lockstep.emplace();
   results.lockstep->rows = {lockstepRow(Equivalence::sameLaw)};
@@ -108,7 +108,7 @@ TEST(CompareOverview, DisagreementWithItsMirrorIsNoModelDifference) {
                 endpointWords(results.endpoints.rows[0].endpoint) + ".");
 }
 
-TEST(CompareOverview, NamesTheNextStep) {
+TEST(CompareOverview, Conclusion_NamesTheNextStep) {
   CompareResults results = disagreeing();
   EXPECT_TRUE(has(compareConclusion(results).back(), "Next: compare the margins with"));
   results.endpoints.rows[1].verdict = Verdict::undecided;
@@ -161,7 +161,7 @@ CompareResults randomResults(std::mt19937& random) {
   return results;
 }
 
-TEST(CompareSentences, TheFarthestEndpointIsNamed) {
+TEST(CompareSentences, SpotCheck_NamesTheFarthestEndpoint) {
   std::mt19937 random(1);
   for (int k = 0; k < 300; ++k) {
     const CompareResults results = randomResults(random);
@@ -173,7 +173,7 @@ TEST(CompareSentences, TheFarthestEndpointIsNamed) {
   }
 }
 
-TEST(CompareSentences, ThePairThatIsNextIsOpenAndOneOfThoseShown) {
+TEST(CompareSentences, NextPair_IsUndecidedAndOneOfThoseShown) {
   std::mt19937 random(2);
   int named = 0;
   for (int k = 0; k < 300; ++k) {
@@ -198,7 +198,7 @@ TEST(CompareSentences, ThePairThatIsNextIsOpenAndOneOfThoseShown) {
   EXPECT_GT(named, 100);
 }
 
-TEST(CompareSentences, DoNotContradictEachOther) {
+TEST(CompareSentences, RandomResults_DoNotContradictEachOther) {
   std::mt19937 random(3);
   int judgedNothing = 0;
   for (int k = 0; k < 300; ++k) {
@@ -224,7 +224,7 @@ TEST(CompareSentences, DoNotContradictEachOther) {
   EXPECT_GT(judgedNothing, 30);
 }
 
-TEST(DifferenceFigures, WhatLiesBeyondTheAxisIsMarkedWithItsNumber) {
+TEST(DifferenceFigures, BeyondTheAxis_IsMarkedWithItsNumber) {
   CompareResults results = disagreeing();
   results.rings.rTilde = {0.5, 1.5, 2.5};
   AgreementRow row;
@@ -248,7 +248,7 @@ TEST(DifferenceFigures, WhatLiesBeyondTheAxisIsMarkedWithItsNumber) {
   EXPECT_TRUE(has(figure.caption, "beyond 5 margins"));
 }
 
-TEST(DifferenceFigures, AreInMarginsWithTheirBand) {
+TEST(DifferenceFigures, Differences_AreInMarginsWithTheirBand) {
   CompareResults results = disagreeing();
   results.rings.rTilde = {0.5, 1.5};
   AgreementRow row;
@@ -277,7 +277,7 @@ TEST(DifferenceFigures, AreInMarginsWithTheirBand) {
   EXPECT_EQ(*panel.curves[0].points[0].error, 0.5);
 }
 
-TEST(ProfileFigures, ASingleRunBesideMeansIsPaleAndItsMirrorIsNamed) {
+TEST(ProfileFigures, SingleRunBesideMeans_IsPaleAndItsMirrorIsNamed) {
   CompareResults results = disagreeing();
   results.rings.rTilde = {0.5, 1.5};
   results.engines.push_back({"mirror", "", "", "theirs", Status::finished, ""});

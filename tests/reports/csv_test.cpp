@@ -47,7 +47,7 @@ std::string averageTable(const CompareResults& results, const std::string& name)
 }
 
 /// What a spreadsheet would compute, or run, is text.
-TEST(Csv, FormulasAreText) {
+TEST(Csv, Formulas_AreText) {
   EXPECT_EQ(cell(std::string("=cmd|' /C calc'!A1")), "'=cmd|' /C calc'!A1");
   EXPECT_EQ(cell(std::string("@SUM(1,2)")), "\"'@SUM(1,2)\"");
   EXPECT_EQ(cell(std::string("+1+1")), "'+1+1");
@@ -56,7 +56,7 @@ TEST(Csv, FormulasAreText) {
   EXPECT_EQ(cell(std::optional(-0.5)), "-0.5");
 }
 
-TEST(Csv, ProfilesCountRingsFromOneAndLeaveAbsentCellsEmpty) {
+TEST(Csv, Profiles_CountRingsFromOneAndLeaveAbsentCellsEmpty) {
   EXPECT_EQ(averageTable(tiny(), "profiles.csv"),
             "engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof,"
             "from_rotation,to_rotation,prepared_rotations\n"
@@ -72,7 +72,23 @@ TEST(Csv, ProfilesCountRingsFromOneAndLeaveAbsentCellsEmpty) {
             std::string::npos);
 }
 
-TEST(Csv, AgreementHasRingsWithTheirPlaceAndNoVerdict) {
+TEST(Csv, Distributions_AreRowsOfWhatIsThere) {
+  const CompareResults results = compareFromJson(nlohmann::json::parse(R"({
+    "runs": [{"engine": "one", "packing": 2, "distributions": [
+      {"quantity": "spin", "ring": 0, "axes": [{"low": -1, "width": 0.5, "count": 3}],
+       "density": [0.25, 0, 1.5], "stderr": [0.125, 0, 0.5], "outside": 0.125, "samples": 8},
+      {"quantity": "joint", "ring": null, "samples": 4, "outside": 0,
+       "axes": [{"low": 0, "width": 1, "count": 2}, {"low": 10, "width": 2, "count": 1}],
+       "density": [0, 0.5], "stderr": []}]}]})"));
+  EXPECT_EQ(averageTable(results, "distributions.csv"),
+            "engine,packing,quantity,ring,low,high,density,stderr,low_2,high_2,stderr_kind\n"
+            "one,2,spin,1,-1,-0.5,0.25,0.125,,,within_run\n"
+            "one,2,spin,1,0,0.5,1.5,0.5,,,within_run\n"
+            "one,2,spin,1,,,0.125,,,,within_run\n"
+            "one,2,joint,all,1,2,0.5,,10,12,within_run\n");
+}
+
+TEST(Csv, Agreement_HasRingsWithTheirPlaceAndNoVerdict) {
   EXPECT_EQ(agreementCsv(tiny()),
             "a,b,field,ring,difference,stderr,low,high,margin,place,detects,within_share,"
             "packings,regimes_differ\n"
@@ -80,7 +96,7 @@ TEST(Csv, AgreementHasRingsWithTheirPlaceAndNoVerdict) {
             "one,two,spin,2,0.25,,,,0.56,open,,,,\n");
 }
 
-TEST(Csv, EndpointsHaveTheAnswerAndWhatItRestsOn) {
+TEST(Csv, Endpoints_HaveTheAnswerAndWhatItRestsOn) {
   CompareResults results = tiny();
   EndpointRow row;
   row.a = "one";
@@ -115,7 +131,7 @@ TEST(Csv, EndpointsHaveTheAnswerAndWhatItRestsOn) {
                 "0.01,2,200,why one is lost,0.002\n");
 }
 
-TEST(Csv, CollisionsShowASweepWithoutPointsByItsStatus) {
+TEST(Csv, SweepWithoutPoints_IsOneRowWithItsStatus) {
   CollisionVariant variant;
   variant.variant = "soft, cut";
   variant.reference.psi = {0.5};

@@ -25,14 +25,14 @@ EngineRow named(const char* name, const char* mirrors = "") {
   return {name, "", "", mirrors, Status::finished, ""};
 }
 
-TEST(EngineStyles, AreTheSameInEveryReport) {
+TEST(EngineStyles, OneEngine_IsTheSameInEveryReport) {
   const auto two = engineStyles({named("grain"), named("box2d-penalty")});
   const auto three = engineStyles({named("my-own"), named("yade"), named("box2d-penalty")});
   EXPECT_EQ(two[1], three[2]);
   EXPECT_EQ(engineStyles({named("my-own")})[0], three[0]);
 }
 
-TEST(EngineStyles, AMirrorHasItsPeersColourDashedWhetherOrNotThatIsThere) {
+TEST(EngineStyles, Mirror_HasItsPeersColourDashed) {
   const LineStyle peer = engineStyles({named("yade")})[0];
   for (const LineStyle& mirror : {engineStyles({named("grain-as-yade")})[0],
                                   engineStyles({named("grain"), named("x", "yade")})[1]}) {
@@ -42,7 +42,7 @@ TEST(EngineStyles, AMirrorHasItsPeersColourDashedWhetherOrNotThatIsThere) {
   }
 }
 
-TEST(EngineStyles, NoTwoOfAReportLookAlike) {
+TEST(EngineStyles, TwentyEngines_NoTwoLookAlike) {
   std::vector<EngineRow> engines;
   for (int k = 0; k < 20; ++k) engines.push_back(named(fmt::format("engine-{}", k).c_str()));
   const auto styles = engineStyles(engines);
@@ -50,7 +50,7 @@ TEST(EngineStyles, NoTwoOfAReportLookAlike) {
     for (std::size_t b = 0; b < a; ++b) EXPECT_FALSE(styles[a] == styles[b]) << a << " " << b;
 }
 
-TEST(Profiles, OfRingsWithoutAWheelAreOverTheRadius) {
+TEST(Profiles, RingsWithoutAWheel_AreOverTheRadius) {
   const CompareResults results = compareFromJson(nlohmann::json::parse(R"({
     "engines": [{"name": "e", "mirrors": "", "status": "ran"}],
     "region": {"bins": "rings", "height": 1.0, "diameter": 0.01, "disks": 9, "x": [], "y": [],
@@ -65,7 +65,7 @@ TEST(Profiles, OfRingsWithoutAWheelAreOverTheRadius) {
 
 /// v_φ/(ΩR_i) and S d/(ΩD), D = 2R_i: Lätzel (2003), chapter 6. With Ω = 1 /s, R_i = 0.1 m,
 /// d = 0.01 m these are 10 v_φ and S/20.
-TEST(Profiles, AreMadeDimensionlessAsInTheThesis) {
+TEST(Profiles, CellWithAWheel_AreDimensionlessAsInTheThesis) {
   const CompareResults results = compareFromJson(nlohmann::json::parse(R"({
     "engines": [{"name": "e", "mirrors": "", "status": "ran"}],
     "cell": {"inner_radius": 0.1, "outer_radius": 0.2, "diameter": 0.01, "omega": 1.0},
@@ -86,7 +86,7 @@ TEST(Profiles, AreMadeDimensionlessAsInTheThesis) {
   EXPECT_DOUBLE_EQ(spin.points[0].error.value(), 0.01);
 }
 
-TEST(Figures, AWideSpreadOfPositiveValuesTakesALogAxis) {
+TEST(Figures, WideSpreadOfPositiveValues_TakesALogAxis) {
   Panel panel;
   panel.curves = {{"a", {}, Draw::lines, {{0, 4, {}}, {1, 5, {}}}, 1.0},
                   {"b", {}, Draw::lines, {{0, 39, {}}}, 1.0}};
@@ -100,7 +100,7 @@ TEST(Figures, AWideSpreadOfPositiveValuesTakesALogAxis) {
   EXPECT_FALSE(panel.logY);
 }
 
-TEST(Scripts, LogAxesDropWhatIsNotPositiveAndClipBars) {
+TEST(Scripts, LogAxis_DropsWhatIsNotPositiveAndClipsBars) {
   const TemporaryFolder folder;
   Figure figure;
   figure.name = "log";
@@ -114,7 +114,7 @@ TEST(Scripts, LogAxesDropWhatIsNotPositiveAndClipBars) {
   EXPECT_EQ(readFile(folder.path() / "log.dat").value(), "# x y low high\n1 100 1 300\n3 1 ? ?\n");
 }
 
-TEST(Scripts, NamesOfCurvesRunNothing) {
+TEST(Scripts, NameOfACurve_RunsNothing) {
   const TemporaryFolder folder;
   Figure figure;
   figure.name = "odd";
@@ -127,7 +127,7 @@ TEST(Scripts, NamesOfCurvesRunNothing) {
   EXPECT_NE(svg.find("`touch pwned` {x 'y' _z"), std::string::npos);
 }
 
-TEST(Gnuplot, FailureIsOneLineWithItsLastWord) {
+TEST(Gnuplot, Failure_IsOneLineWithItsLastWord) {
   const TemporaryFolder folder;
   writeFile(folder.path() / "bad.gp", "plot 'there_is_no_such_file.dat'\n");
   try {
@@ -142,7 +142,7 @@ TEST(Gnuplot, FailureIsOneLineWithItsLastWord) {
 }
 
 /// A window of ±1 on 100 px: (0.5, 0.5) lies at x = 75, and 25 from the top.
-TEST(Strokes, SvgPutsYUpward) {
+TEST(Strokes, Svg_PutsYUpward) {
   const Drawing drawing{1.0, {{"#ff0000", 0.2, {{0.5, 0.5, 0.5, 0.5}, {-1, -1, 1, 1}}}}};
   const std::string svg = toSvg(drawing, 100, "a < b");
   EXPECT_NE(svg.find("<path stroke=\"#ff0000\" stroke-width=\"10\" d=\"M75 25h0M0 100L100 0\"/>"),
@@ -152,7 +152,7 @@ TEST(Strokes, SvgPutsYUpward) {
 }
 
 /// The same window on 75 points (100 px at 96 per inch), y upward as PDF has it.
-TEST(Strokes, PdfHasTheSameStrokesAndAValidTable) {
+TEST(Strokes, Pdf_HasTheSameStrokesAndAValidTable) {
   const Drawing drawing{1.0, {{"#ff0000", 0.2, {{0.5, 0.5, 0.5, 0.5}}}}};
   const std::string pdf = toPdf(drawing, 100);
   EXPECT_NE(pdf.find("1.000 0.000 0.000 RG 7.5 w\n56.25 56.25 m 56.25 56.25 l\nS\n"),
@@ -168,7 +168,7 @@ TEST(Strokes, PdfHasTheSameStrokesAndAValidTable) {
   }
 }
 
-TEST(Pictures, ForcesAreDrawnOnOneScaleTheFirstOnes) {
+TEST(Pictures, Forces_AreDrawnOnTheFirstEnginesScale) {
   CompareResults results = sample::compareResults(1, 200);
   const auto widest = widestForce(results.runs[0].picture.value());
   ASSERT_TRUE(widest.has_value());
@@ -193,7 +193,7 @@ TEST(Pictures, ForcesAreDrawnOnOneScaleTheFirstOnes) {
   EXPECT_NE(linesOf(5), toSvg(pictures[5].drawing, 100, ""));
 }
 
-TEST(Pictures, ForcesAreCounted) {
+TEST(Pictures, Forces_AreCounted) {
   ScenePicture picture;
   EXPECT_EQ(countForces(picture, 1.0).contacts, 0u);
   picture.contactForce = {0.5, 1.0, 1.5, NAN};

@@ -34,7 +34,7 @@ std::size_t entries(const fs::path& dir) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(dir), {}));
 }
 
-TEST(WriteFile, ReplacesTheOldFileAndLeavesNothingBeside) {
+TEST(WriteFile, OldFile_IsReplacedAndNothingLeftBeside) {
   const TemporaryFolder folder;
   writeFile(folder.path() / "a.txt", "old and longer");
   writeFile(folder.path() / "a.txt", "new");
@@ -42,7 +42,7 @@ TEST(WriteFile, ReplacesTheOldFileAndLeavesNothingBeside) {
   EXPECT_EQ(entries(folder.path()), 1u);
 }
 
-TEST(WriteFile, NamesTheFileAndTheReason) {
+TEST(WriteFile, MissingFolder_NamesTheFileAndTheReason) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "missing" / "a.txt";
   EXPECT_EQ(messageOf<std::runtime_error>([&] { writeFile(file, "x"); }),
@@ -62,7 +62,7 @@ TEST(WriteFile, NamesTheFileAndTheReason) {
   std::_Exit(7);  // exit() would take the folder of the whole test program along
 }
 
-TEST(WriteFile, AFullDiskLeavesTheOldFileAndNoHalfOne) {
+TEST(WriteFile, FullDisk_LeavesTheOldFileAndNoHalfOne) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "a.txt";
   writeFile(file, "old");
@@ -70,7 +70,7 @@ TEST(WriteFile, AFullDiskLeavesTheOldFileAndNoHalfOne) {
               "a.txt: cannot be written: File too large .old file intact.");
 }
 
-TEST(WriteReport, AFolderThatCannotBeMadeIsOneClearLine) {
+TEST(WriteReport, FolderThatCannotBeMade_IsOneLine) {
   const TemporaryFolder folder;
   writeFile(folder.path() / "file", "");
   const fs::path dir = folder.path() / "file" / "out";
@@ -78,20 +78,20 @@ TEST(WriteReport, AFolderThatCannotBeMadeIsOneClearLine) {
             dir.string() + ": cannot be written: Not a directory");
 }
 
-TEST(Results, AreReadBackAsTheyWere) {
+TEST(Results, WrittenAndRead_AreTheSame) {
   const TemporaryFolder folder;
   const nlohmann::json results = toJson(sample::compareResults(2, 50));
   writeFile(folder.path() / "results.json", toText(results));
   EXPECT_EQ(readResults(folder.path()), results);
 }
 
-TEST(Results, BytesThatAreNotUtf8DoNotStopTheWriting) {
+TEST(Results, BytesThatAreNotUtf8_AreWritten) {
   CollideResults results = sample::collideResults();
   results.head.command = "latin1 \xe9";
   EXPECT_TRUE(nlohmann::json::accept(toText(toJson(results))));
 }
 
-TEST(Results, SayWhatIsWrongWithAFolder) {
+TEST(Results, FolderWithoutThem_SaysWhatIsWrong) {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "results.json").string();
   const auto message = [&] {

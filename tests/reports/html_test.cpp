@@ -49,7 +49,7 @@ std::string withoutImages(std::string page) {
 const char* const awkwardAsHtml =
     "odd &lt;b&gt;&quot;name&quot;&lt;/b&gt; &amp; `touch pwned` {x &#39;y&#39; _z";
 
-TEST(Pages, AreSelfContainedAndWellFilled) {
+TEST(Pages, Page_NeedsNoOtherFileAndHasNoNaN) {
   for (const Written* written : {&compared(), &collided()}) {
     const std::string page = withoutImages(written->page);
     for (const char* outside : {"http:", "https:", "src=", "<link", "@import", "url("})
@@ -60,7 +60,7 @@ TEST(Pages, AreSelfContainedAndWellFilled) {
   }
 }
 
-TEST(Pages, LinksLeadSomewhere) {
+TEST(Pages, Links_LeadSomewhere) {
   for (const Written* written : {&compared(), &collided()}) {
     std::size_t links = 0;
     for (std::size_t at = 0; (at = written->page.find("href=\"#", at)) != std::string::npos;
@@ -73,7 +73,7 @@ TEST(Pages, LinksLeadSomewhere) {
   }
 }
 
-TEST(Pages, EscapeWhatUsersWrote) {
+TEST(Pages, WordsOfTheUser_AreEscaped) {
   for (const Written* written : {&compared(), &collided()}) {
     EXPECT_TRUE(has(written->page, awkwardAsHtml));
     EXPECT_FALSE(has(written->page, "<b>\"name\""));
@@ -102,7 +102,7 @@ TEST(Html, EveryBlock_IsEscapedAndTypeset) {
   EXPECT_FALSE(has(page, "a<b"));
 }
 
-TEST(Report, StandsResultsWithAlmostNothingInThem) {
+TEST(Report, ResultsWithAlmostNothing_AreWritten) {
   const TemporaryFolder folder;
   for (const char* kind : {"average", "effects", "rev", "collide"})
     EXPECT_NO_THROW(
@@ -118,7 +118,7 @@ TEST(Report, StandsResultsWithAlmostNothingInThem) {
   EXPECT_NO_THROW(writeReport(standing, folder.path()));
 }
 
-TEST(Report, NamesWhatIsWrongInAFile) {
+TEST(Report, WrongMember_IsNamedByItsPath) {
   const TemporaryFolder folder;
   const auto complaint = [&](const json& broken) -> std::string {
     try {
@@ -151,7 +151,7 @@ class PathIs {
   std::string old_;
 };
 
-TEST(Report, WithoutGnuplotEverythingElseIsThereAndOneLineSaysSo) {
+TEST(Report, WithoutGnuplot_EverythingElseIsThere) {
   const TemporaryFolder folder;
   const PathIs nowhere("/nonexistent");
   std::string message;

@@ -65,7 +65,7 @@ const InterpretationChange& changeOf(const InterpretationRow& row, const char* l
   return row.changes.at(static_cast<std::size_t>(at - std::begin(profileNumbers)));
 }
 
-TEST(InterpretationChanges, AreOfPairsOfTheSameDensityPackingAndRotations) {
+TEST(InterpretationChanges, Pairs_AreOfTheSameDensityPackingAndRotations) {
   const auto rows = interpretationRows(twoInterpretations());
   const auto row = std::ranges::find_if(rows, [](const InterpretationRow& each) {
     return each.label == "wall spacing 7 mm" && each.rotations == "5 to 8";
@@ -81,7 +81,7 @@ TEST(InterpretationChanges, AreOfPairsOfTheSameDensityPackingAndRotations) {
   EXPECT_FALSE(changeOf(*row, "v_φ/(ΩR_i), ring 1").change);
 }
 
-TEST(InterpretationChanges, AreAbsentWhereRunsAreMissing) {
+TEST(InterpretationChanges, MissingRuns_AreAbsent) {
   const auto rows = interpretationRows(twoInterpretations());
   for (const char* label : {"k_n 176.1 N/m", "wall spacing 7 mm"}) {
     const auto row = std::ranges::find_if(rows, [&](const InterpretationRow& each) {
@@ -95,7 +95,7 @@ TEST(InterpretationChanges, AreAbsentWhereRunsAreMissing) {
   }
 }
 
-TEST(InterpretationChanges, OnePairHasNoError) {
+TEST(InterpretationChanges, OnePair_HasNoError) {
   const auto rows = interpretationRows(twoInterpretations(), true);
   const auto row = std::ranges::find_if(rows, [](const InterpretationRow& each) {
     return each.rotations == "5 to 8" && each.labels == std::vector<double>{0.804} &&

@@ -11,7 +11,7 @@
 namespace crossgrain::reports {
 namespace {
 
-TEST(JUnit, CountsAndSaysWhatHappened) {
+TEST(JUnit, Suite_CountsOutcomesAndHasMessages) {
   EXPECT_EQ(junitXml("stability", {{"pile", "grain: drift", Verdict::pass, "", 0.5},
                                    {"pile", "other: drift", Verdict::fail, "2 of 1"},
                                    {"gas", "other: drift", Verdict::notMeasured, "died", 0.0, true},
@@ -33,13 +33,13 @@ TEST(JUnit, CountsAndSaysWhatHappened) {
             "</testsuite>\n</testsuites>\n");
 }
 
-TEST(JUnit, WhatXmlCannotHoldIsReplaced) {
+TEST(JUnit, WhatXmlCannotHold_IsReplaced) {
   const std::string xml = junitXml("x", {{"a<b & \"c\"", "\x1b[31m\xff\n", Verdict::pass, ""}});
   EXPECT_NE(xml.find("classname=\"a&lt;b &amp; &quot;c&quot;\""), std::string::npos) << xml;
   EXPECT_NE(xml.find("name=\"?[31m\xEF\xBF\xBD&#10;\""), std::string::npos) << xml;
 }
 
-TEST(JUnit, OfAMatrixIsWhatItAnswers) {
+TEST(JUnit, Matrix_IsACaseAnAnswer) {
   using enum Verdict;
   Overview overview;
   const std::vector<std::optional<Verdict>> verdicts = {
@@ -88,7 +88,7 @@ StabilityResults hardResults(Status status, Verdict verdict, const std::string& 
   return results;
 }
 
-TEST(StabilityJunit, AFailureSaysFigureLimitAndReason) {
+TEST(StabilityJunit, Failure_HasFigureLimitAndReason) {
   StabilityResults results = hardResults(Status::finished, Verdict::fail, "it slides");
   results.runs.front().value = 0.25;
   const std::string xml = junitOfStability(results);
@@ -99,7 +99,7 @@ TEST(StabilityJunit, AFailureSaysFigureLimitAndReason) {
       << xml;
 }
 
-TEST(StabilityJunit, AnEngineThatBrokeDownIsAnErrorAndARefusalIsSkipped) {
+TEST(StabilityJunit, BrokenDownIsAnError_RefusedIsSkipped) {
   EXPECT_NE(junitOfStability(hardResults(Status::failed, Verdict::fail, "failed: signal 11"))
                 .find("<error message=\"failed: signal 11\"/>"),
             std::string::npos);
@@ -150,7 +150,7 @@ TEST(CollideJunit, JudgesEachQuantityThatHasALimit) {
   EXPECT_NE(xml.find("tests=\"1\""), std::string::npos) << xml;
 }
 
-TEST(CollideJunit, AModelDifferenceIsNoFailureAndAFaultBehindItIs) {
+TEST(CollideJunit, ModelDifferenceIsNoFailure_FaultBehindItIs) {
   CollisionCurve one = curve(Status::finished, scoreOf(0.5));
   one.declared.emplace().reference = DeclaredReference::oracle;
   one.declared->score.of[QuantityId::psiF] = scoreOf(0.05);
@@ -166,7 +166,7 @@ TEST(CollideJunit, AModelDifferenceIsNoFailureAndAFaultBehindItIs) {
   EXPECT_NE(fault.find("failures=\"2\""), std::string::npos) << fault;
 }
 
-TEST(CollideJunit, TheOwnSchemeIsACaseOfItsOwn) {
+TEST(CollideJunit, OwnScheme_IsACaseOfItsOwn) {
   CollisionCurve one = curve(Status::finished, scoreOf(0.05));
   SchemeScore& own = one.ownScheme.emplace();
   own.position = 1e-14;
@@ -199,7 +199,7 @@ TEST(CollideJunit, WhatWasNotJudgedIsNeverASuccess) {
       << apart;
 }
 
-TEST(CollideJunit, AnEngineThatFailedIsAnErrorAndARefusalIsSkipped) {
+TEST(CollideJunit, FailedIsAnError_RefusedIsSkipped) {
   EXPECT_NE(junitOfCollide(sweeps({curve(Status::failed, std::nullopt)}))
                 .find("<error message=\"because\"/>"),
             std::string::npos);
@@ -208,7 +208,7 @@ TEST(CollideJunit, AnEngineThatFailedIsAnErrorAndARefusalIsSkipped) {
             std::string::npos);
 }
 
-TEST(CollideJunit, QuantitiesAreInTheOrderOfTheirNames) {
+TEST(CollideJunit, Quantities_AreInTheOrderOfTheirNames) {
   CollisionCurve both = curve(Status::finished, scoreOf(0.05));
   both.score.of[QuantityId::en] = both.score.of[QuantityId::psiF];
   const std::string xml = junitOfCollide(sweeps({both}));

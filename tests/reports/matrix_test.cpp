@@ -35,7 +35,7 @@ Overview made(std::size_t rows, std::size_t columns) {
   return overview;
 }
 
-TEST(OverviewText, IsAlignedWhateverTheLettersTake) {
+TEST(OverviewText, Columns_AreAlignedWhateverTheLettersTake) {
   const auto lines = linesOf(overviewText(made(2, 2), {}));
   ASSERT_EQ(lines.size(), 5u);
   EXPECT_EQ(lines[0], "engine    question 1  question 2");
@@ -43,12 +43,12 @@ TEST(OverviewText, IsAlignedWhateverTheLettersTake) {
   EXPECT_EQ(lines[4], "Two.");
 }
 
-TEST(OverviewText, HasColoursWhereTheyAreWantedOnly) {
+TEST(OverviewText, Colours_AreThereWhereWanted) {
   EXPECT_FALSE(has(overviewText(made(1, 1), {160, false}), "\033"));
   EXPECT_TRUE(has(overviewText(made(1, 1), {160, true}), "\033[32m✓ 0.3 µm"));
 }
 
-TEST(OverviewText, HasAtMostTwentyFiveLinesAndSaysWhatIsLeftOut) {
+TEST(OverviewText, ManyRows_AreCutAtTwentyFiveLines) {
   for (const std::size_t rows : {1u, 21u, 22u, 23u, 100u})
     for (const std::size_t width : {40u, 80u, 160u})
       EXPECT_LE(linesOf(overviewText(made(rows, 9), {width, false})).size(), mostOverviewLines)
@@ -57,7 +57,7 @@ TEST(OverviewText, HasAtMostTwentyFiveLinesAndSaysWhatIsLeftOut) {
   EXPECT_FALSE(has(overviewText(made(22, 1), {}), ": in the report"));
 }
 
-TEST(OverviewText, LeavesOutColumnsWhereTheirBlocksAreTooMany) {
+TEST(OverviewText, ManyColumns_AreLeftOutWithTheirNumber) {
   for (const std::size_t rows : {1u, 2u, 9u})
     for (const std::size_t width : {1u, 20u, 40u}) {
       const std::string text = overviewText(made(rows, 27), {width, false});
@@ -67,17 +67,17 @@ TEST(OverviewText, LeavesOutColumnsWhereTheirBlocksAreTooMany) {
     }
 }
 
-TEST(OverviewText, KeepsToTheWidthOfTheTerminal) {
+TEST(OverviewText, NarrowTerminal_HasNoLongerLine) {
   for (const std::string& line : linesOf(overviewText(made(3, 9), {60, false})))
     EXPECT_LE(line.size(), 60u + 6u) << line;  // marks and µ take bytes more than places
 }
 
-TEST(OverviewMarkdown, ManyQuestionsAreRows) {
+TEST(OverviewMarkdown, ManyQuestions_AreRows) {
   const std::string text = overviewMarkdown(made(2, mostColumns + 1), "t");
   EXPECT_TRUE(has(text, "\n| question 11 | ✗ 0.3 µm | ✗ 0.3 µm |\n"));
 }
 
-TEST(OverviewMarkdown, IsATableWhateverTheNames) {
+TEST(OverviewMarkdown, AwkwardNames_AreEscaped) {
   Overview overview = made(1, 1);
   overview.rows[0].name = "a|b_c";
   const std::string text = overviewMarkdown(overview, "compare: <x>");
@@ -98,7 +98,7 @@ TEST(MatrixHtml, ManyRows_HaveLimitedLines) {
   EXPECT_FALSE(isTall(true));
 }
 
-TEST(LockstepOverview, NamesTheDeviationFound) {
+TEST(LockstepOverview, Difference_NamesTheDeviationFound) {
   LockstepResults results;
   results.engines = {{"theirs", "", "", "", Status::finished, ""}};
   results.lockstep.rules = {1e-10, 1e-3, 1e-3, "kn", 0.05};
@@ -116,7 +116,7 @@ TEST(LockstepOverview, NamesTheDeviationFound) {
   EXPECT_EQ(overview.conclusion.size(), 3u);
 }
 
-TEST(DiffOverview, NamesWhatHasChanged) {
+TEST(DiffOverview, Change_IsNamed) {
   DiffResults results;
   results.rules.referencePerturbation = "kn";
   DiffRow same;

@@ -9,7 +9,7 @@
 namespace crossgrain::reports {
 namespace {
 
-TEST(Numbers, ThreeSignificantDigits) {
+TEST(Numbers, Readable_HasThreeSignificantDigits) {
   EXPECT_EQ(readable(0.0), "0");
   EXPECT_EQ(readable(0.0123456), "0.0123");
   EXPECT_EQ(readable(-12.3456), "−12.3");
@@ -22,7 +22,7 @@ TEST(Numbers, ThreeSignificantDigits) {
   EXPECT_EQ(readable(std::nullopt), "–");
 }
 
-TEST(Numbers, ErrorsHaveTwoDigitsAndTheValueStopsWithThem) {
+TEST(Numbers, Error_HasTwoDigitsAndTheValueStopsWithThem) {
   EXPECT_EQ(readable(0.24178, 0.0131), "0.242\u00a0±\u00a00.013");
   EXPECT_EQ(readable(1487.0, 61.0), "1487\u00a0±\u00a061");
   EXPECT_EQ(readable(1.234e-5, 4.8e-7), "(1.234\u00a0±\u00a00.048)×10⁻⁵");
@@ -38,27 +38,27 @@ TEST(Numbers, ErrorsHaveTwoDigitsAndTheValueStopsWithThem) {
   EXPECT_EQ(readableDifference(-0.24178, 0.0131), "−0.242\u00a0±\u00a00.013");
 }
 
-TEST(Numbers, SettingsKeepTheirDigits) {
+TEST(Numbers, Setting_KeepsItsDigits) {
   EXPECT_EQ(readableSetting(352.1), "352.1");
   EXPECT_EQ(readableSetting(4e-5), "4×10⁻⁵");
   EXPECT_EQ(readableSetting(0.25), "0.25");
 }
 
-TEST(Numbers, IndicesInARowAreToldByTheirEnds) {
+TEST(Numbers, IndicesInARow_AreGivenByTheirEnds) {
   EXPECT_EQ(indicesText({}), "");
   EXPECT_EQ(indicesText({3}), "3");
   EXPECT_EQ(indicesText({0, 1, 4}), "0, 1, 4");
   EXPECT_EQ(indicesText({0, 2, 3, 4, 5, 7}), "0, 2 to 5, 7");
 }
 
-TEST(Numbers, Durations) {
+TEST(Numbers, Durations_AreInSecondsMinutesHours) {
   EXPECT_EQ(readableDuration(12.34), "12.3 s");
   EXPECT_EQ(readableDuration(59.99), "1 min 00 s");
   EXPECT_EQ(readableDuration(754.2), "12 min 34 s");
   EXPECT_EQ(readableDuration(3720.0), "1 h 02 min");
 }
 
-TEST(Base64, ExamplesOfRfc4648) {
+TEST(Base64, Rfc4648_Examples) {
   EXPECT_EQ(base64(""), "");
   EXPECT_EQ(base64("f"), "Zg==");
   EXPECT_EQ(base64("fo"), "Zm8=");
@@ -67,7 +67,7 @@ TEST(Base64, ExamplesOfRfc4648) {
   EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
 }
 
-TEST(Labels, FieldsHaveSymbolsAndTextIsTypesetAndEscaped) {
+TEST(Labels, Fields_AreTypesetAndEscaped) {
   EXPECT_EQ(fieldLabel("stress_rp"), "shear stress σ_rφ");
   EXPECT_EQ(fieldLabel("my_<field>"), "my <field>");
   EXPECT_EQ(mathHtml("σ_rφ ∝ r^p & x _y"), "σ<sub>rφ</sub> ∝ r<sup>p</sup> &amp; x _y");

@@ -46,13 +46,13 @@ std::vector<std::string> sentencesOf(const Json& results) {
   return stateSentences(compared, engineRuns(compared));
 }
 
-TEST(StateSentences, AllAlikeIsOneSentence) {
+TEST(StateSentences, AllAlike_IsOneSentence) {
   EXPECT_EQ(sentencesOf(flowing(4)),
             std::vector<std::string>{"All 4 packings flow on every engine."});
   EXPECT_EQ(sentencesOf(flowing(1)), std::vector<std::string>{"Packing 0 flows on every engine."});
 }
 
-TEST(StateSentences, TellCollisionsAndWhatCannotBeTold) {
+TEST(StateSentences, CollisionalAndUndecided_AreNamed) {
   Json results = flowing(2);
   for (const char* engine : {"ours", "soft", "hard"}) set(results, engine, 0, "collisional");
   set(results, "hard", 1, nullptr);
@@ -73,7 +73,7 @@ Json drift(const char* engine, const char* quantity, const char* verdict, double
           {"drifting", Json::array()}, {"packings", 4}};
 }
 
-TEST(StateSentences, GiveOneOfThreeAnswersOnSteadiness) {
+TEST(StateSentences, Steadiness_HasOneOfThreeAnswers) {
   Json results = flowing(4);
   results["steadiness"] = {drift("ours", "outer_pressure", "drifts", -0.4, 0.08),
                            drift("ours", "wheel_torque", "no drift seen", 0.0, 0.2),
@@ -92,7 +92,7 @@ TEST(StateSentences, GiveOneOfThreeAnswersOnSteadiness) {
             "excluded.");
 }
 
-TEST(AveragedRotations, CountFromTheHandOverAndFromThePreparation) {
+TEST(AveragedRotations, Count_FromTheHandOverAndThePreparation) {
   FlowAveraging averaging = compareFromJson(flowing(1)).averaging;
   EXPECT_EQ(averagedRotations(averaging),
             "rotations 0.25 to 1.25 since the hand-over, 2.25 to 3.25 since the ring had closed");

@@ -24,13 +24,13 @@ std::string lineOf(const std::string& table, std::size_t line) {
   return table.substr(begin, table.find('\n', begin) - begin);
 }
 
-TEST(EffectsCsv, WhatIsNotTestedIsEmpty) {
+TEST(EffectsCsv, NotTested_IsEmpty) {
   EXPECT_EQ(lineOf(csvOf(reportOf(sample::effectsResults(1)), "effects.csv"), 2),
             "grain,friction,0.5,azimuthal_velocity,2,-0.004,0.0002,1.5,0.01,m/s,,,,,1,within_run,"
             "0.01,2.5e-06,45,double,ran,");
 }
 
-TEST(EffectVariants, HaveTheDecisiveRingAsAShareOfTheProfilesLargestValue) {
+TEST(EffectVariants, DecisiveRing_IsAShareOfTheProfilesLargestValue) {
   const auto variants = variantSummaries(sample::effectsResults(4));
   ASSERT_EQ(variants.size(), 3u);
   const FieldChange& velocity = *variants[0].of("azimuthal_velocity");
@@ -44,7 +44,7 @@ TEST(EffectVariants, HaveTheDecisiveRingAsAShareOfTheProfilesLargestValue) {
   EXPECT_FALSE(variants[2].ran());
 }
 
-TEST(EffectFigures, MarkSignificantChangesByShapeToo) {
+TEST(EffectFigures, SignificantChange_HasAShapeOfItsOwn) {
   const auto figures = effectFigures(sample::effectsResults(4));
   ASSERT_EQ(figures.front().name, "effects_1_cost");
   const Panel& cost = figures.front().panels[0];
@@ -96,7 +96,7 @@ std::vector<std::string> textLines(const std::string& text) {
   return lines;
 }
 
-TEST(ScaleText, IsAlignedAndWhatIsAbsentIsADash) {
+TEST(ScaleText, Absent_IsADash) {
   const auto lines = textLines(scaleText(sample::scaleResults()));
   ASSERT_EQ(lines.size(), 1u + 9u + 2u);  // head, points, who differs, the one that failed
   EXPECT_EQ(lines[1],
@@ -114,7 +114,7 @@ TEST(ScaleText, IsAlignedAndWhatIsAbsentIsADash) {
   EXPECT_TRUE(lines[11].starts_with("odd-one, 100\u202f000 disks, one process: failed: odd <b>"));
 }
 
-TEST(StabilityTable, TheWorstVariantSpeaksForTheCase) {
+TEST(StabilityTable, WorstVariant_StandsForTheCase) {
   const StabilityResults results = sample::stabilityResults();
   const auto groups = hardGroups(results);
   ASSERT_EQ(groups.size(), 2u);
@@ -123,7 +123,7 @@ TEST(StabilityTable, TheWorstVariantSpeaksForTheCase) {
   EXPECT_EQ(worstRun(results, "odd-one", groups[1])->verdict, Verdict::notApplicable);
 }
 
-TEST(StabilityPictures, AreCentredWhereverTheSceneIs) {
+TEST(StabilityPictures, SceneFarAway_IsCentred) {
   const auto pictures = stabilityPictures(sample::stabilityResults());
   ASSERT_EQ(pictures.size(), 1u);
   EXPECT_LT(pictures[0].drawing.halfWidth, 10.0);

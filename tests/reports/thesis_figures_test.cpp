@@ -58,7 +58,7 @@ TEST(ThesisFigures, CompactedResults_GiveTheSame) {
   }
 }
 
-TEST(ThesisFigures, NothingOfNoResults) {
+TEST(ThesisFigures, NoResults_HaveNone) {
   EXPECT_TRUE(thesisFigures({}).empty());
   ThesisResults unfinished = sample::thesisResults();
   for (ThesisRun& run : unfinished.runs) run.run.status = Status::failed;
@@ -66,7 +66,7 @@ TEST(ThesisFigures, NothingOfNoResults) {
 }
 
 /// ν̄ has the colours, engines have the marks; both are named once.
-TEST(ThesisFigures, DensitiesAndEnginesAreToldApart) {
+TEST(ThesisFigures, Densities_HaveColoursAndEnginesMarks) {
   const Panel& panel = thesisFigureNumbered("7.5").panels.at(0);
   // 0.789, 0.800 and 0.804 of both engines, four more of the first.
   ASSERT_EQ(3u * 2u + 4u, panel.curves.size());
@@ -79,7 +79,7 @@ TEST(ThesisFigures, DensitiesAndEnginesAreToldApart) {
 }
 
 /// Two packings of 1 and 1.1 times the same profile: mean 1.05, error 0.1/√2/√2.
-TEST(ThesisFigures, MeansAreOverPackings) {
+TEST(ThesisFigures, Means_AreOverPackings) {
   const Panel& panel = thesisFigureNumbered("6.7").panels.at(0);
   const Point& first = curveNamed(panel, "0.804").points.front();
   const double x = 0.5 * 0.1492 / 20.0 / 0.0074;
@@ -91,7 +91,7 @@ TEST(ThesisFigures, MeansAreOverPackings) {
   EXPECT_NEAR(0.01 * single.y, single.error.value(), 1e-12);
 }
 
-TEST(ThesisFigures, AxesAreTheThesisOnesUnlessDataLieBeyond) {
+TEST(ThesisFigures, Axes_AreTheThesisOnesUnlessDataLieBeyond) {
   const Figure& inside = thesisFigureNumbered("7.7");
   EXPECT_DOUBLE_EQ(0.0, inside.panels[0].yRange->low);
   EXPECT_DOUBLE_EQ(std::numbers::pi / 2.0, inside.panels[0].yRange->high);
@@ -104,7 +104,7 @@ TEST(ThesisFigures, AxesAreTheThesisOnesUnlessDataLieBeyond) {
 }
 
 /// G/tr F is nine times as large from r̃ = 8 on; the ring that holds it is at r̃ = 8.57.
-TEST(ThesisFigures, DivergenceOfTheShearResistance) {
+TEST(ThesisFigures, ShearResistance_Diverges) {
   const Panel& panel = thesisFigureNumbered("7.24").panels.at(0);
   const Curve& curve = curveNamed(panel, "beta");
   const double x = 8.5 * 0.1492 / 20.0 / 0.0074;
@@ -114,7 +114,7 @@ TEST(ThesisFigures, DivergenceOfTheShearResistance) {
 }
 
 /// u(0) is chosen for that: the thesis' section 9.2.
-TEST(ThesisFigures, ModelHasTheVelocityNextToTheWheel) {
+TEST(ThesisFigures, Model_HasTheVelocityNextToTheWheel) {
   const Figure& velocity = thesisFigureNumbered("9.1");
   const Curve& model = curveNamed(velocity.panels.at(0), "model as printed");
   const Curve& averages = curveNamed(velocity.panels.at(0), "alpha");
@@ -128,7 +128,7 @@ TEST(ThesisFigures, ModelHasTheVelocityNextToTheWheel) {
   EXPECT_LT(curveNamed(couple.panels.at(1), "alpha").points.front().y, 0.0);
 }
 
-TEST(ThesisFigures, CanBeDrawn) {
+TEST(ThesisFigures, All_CanBeDrawn) {
   const TemporaryFolder folder;
   std::vector<std::string> scripts;
   for (const Figure& figure : sampleFigures())

@@ -26,7 +26,7 @@ class ArrayFile : public ::testing::Test {
   }
 };
 
-TEST_F(ArrayFile, KeepsEveryBit) {
+TEST_F(ArrayFile, WrittenAndRead_KeepsEveryBit) {
   const std::vector<double> numbers = {-0.0, 5e-324, 0.1, 1e308};
   const std::vector<std::int32_t> ids = {-2147483647 - 1, 7};
   const std::vector<std::uint8_t> flags = {0, 1, 255};
@@ -53,7 +53,7 @@ TEST_F(ArrayFile, KeepsEveryBit) {
   EXPECT_THROW(ArrayReader(std::string(bytes, 8), "content", writer.list()), std::runtime_error);
 }
 
-TEST_F(ArrayFile, IsLittleEndianRawAndAligned) {
+TEST_F(ArrayFile, Bytes_AreLittleEndianAndAligned) {
   ArrayWriter writer;
   writer.add("flag", std::vector<std::uint8_t>{7});
   writer.add("id", std::vector<std::int32_t>{0x01020304});
@@ -65,7 +65,7 @@ TEST_F(ArrayFile, IsLittleEndianRawAndAligned) {
   EXPECT_EQ(bytes, std::string("\7\0\0\0\0\0\0\0\4\3\2\1", 12));
 }
 
-TEST_F(ArrayFile, RefusesWhatDoesNotFit) {
+TEST_F(ArrayFile, ListThatDoesNotFit_IsRefused) {
   std::ofstream(file_) << "0123456789";  // 10 bytes
   const auto entry = [](const char* type, auto count, auto offset) {
     return nlohmann::json{{{"name", "x"}, {"type", type}, {"count", count}, {"offset", offset}}};
@@ -82,7 +82,7 @@ TEST_F(ArrayFile, RefusesWhatDoesNotFit) {
             name + ": x has the type 'f32' (it is one of: f64, i32, u8)");
 }
 
-TEST_F(ArrayFile, RefusesNanInfinityAndWrongCounts) {
+TEST_F(ArrayFile, NanInfinityOrWrongCount_IsRefused) {
   ArrayWriter writer;
   writer.add("x", std::vector<double>{1.0, std::numeric_limits<double>::infinity()});
   writer.add("v", std::vector<Vec2>{{1.0, 2.0}});

@@ -31,7 +31,7 @@ void expectSameBits(const std::vector<Value>& a, const std::vector<Value>& b) {
   EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(Value)), 0);
 }
 
-TEST(WorkerJson, SceneKeepsEveryBit) {
+TEST(WorkerJson, Scene_KeepsEveryBit) {
   const Scene scene = test::toyScene();
   const Scene back = roundTrip(scene, sceneFromJson);
   EXPECT_EQ(back.name, scene.name);
@@ -74,7 +74,7 @@ TEST(WorkerJson, SceneKeepsEveryBit) {
   EXPECT_EQ(back.energyLedger, scene.energyLedger);
 }
 
-TEST(WorkerJson, SnapshotKeepsEveryBitAndWhatIsAbsent) {
+TEST(WorkerJson, Snapshot_KeepsEveryBitAndWhatIsAbsent) {
   const Scene scene = test::toyScene();
   test::ToyEngine engine;
   engine.load(scene, {});
@@ -116,7 +116,7 @@ TEST(WorkerJson, SnapshotKeepsEveryBitAndWhatIsAbsent) {
   EXPECT_FALSE(bareBack.ledger);
 }
 
-TEST(WorkerJson, CapabilitiesSettingsRealisedAndStatsComeBack) {
+TEST(WorkerJson, CapabilitiesSettingsParametersStats_ComeBack) {
   test::ToyEngine engine;
   const Capabilities can = engine.capabilities();
   const Capabilities back = readAs<Capabilities>(nlohmann::json::parse(jsonOf(can).dump()));

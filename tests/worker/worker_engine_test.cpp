@@ -71,7 +71,7 @@ class Worker : public ::testing::Test {
   }
 };
 
-TEST_F(Worker, RunsAsTheEngineItselfDoesBitForBit) {
+TEST_F(Worker, Run_IsTheEnginesOwnToTheBit) {
   auto worker = start("");
   test::ToyEngine direct;
   EXPECT_EQ(worker->capabilities().version, direct.capabilities().version);
@@ -95,7 +95,7 @@ TEST_F(Worker, RunsAsTheEngineItselfDoesBitForBit) {
   EXPECT_EQ(filesLeft(), std::set<std::string>{"toy.log"});
 }
 
-TEST_F(Worker, HasANewFileForEachExchangeUnlessItWritesOver) {
+TEST_F(Worker, DoesNotWriteOver_HasANewFileForEachExchange) {
   const auto worker = start("cuts");
   worker->load(test::toyScene(), {});
   EXPECT_EQ(worker->snapshot(ContactReport::instant).position.size(), 2u);
@@ -190,7 +190,7 @@ TEST_F(Worker, Refusal_IsPassedOnInBoundsAndTheWorkerLivesOn) {
   EXPECT_NEAR(worker->advance(0.5), 0.5, 1e-12);
 }
 
-TEST_F(Worker, IsKilledWhenItHangs) {
+TEST_F(Worker, ThatHangs_IsKilled) {
   const auto begin = std::chrono::steady_clock::now();
   EXPECT_EQ(advanceFailure("hang", 1.0),
             "toy, toy at t = 0 s: no answer within 1 s to advance(t = 0.5 s)");
@@ -199,7 +199,7 @@ TEST_F(Worker, IsKilledWhenItHangs) {
   EXPECT_LT(took.count(), 60.0);  // on however busy a machine
 }
 
-TEST_F(Worker, HoldsNobodyWithWhatItPutsInTheScratchFolder) {
+TEST_F(Worker, PipeOrLinkInTheScratchFolder_HoldsNobody) {
   const auto engine = start("exit");
   const auto victim = scratch_ / "victim";
   std::ofstream(victim) << "mine";
@@ -220,7 +220,7 @@ TEST_F(Worker, HoldsNobodyWithWhatItPutsInTheScratchFolder) {
   EXPECT_EQ(failureOf([&] { start("")->load(test::toyScene(), {}); }), "no failure");
 }
 
-TEST_F(Worker, IsHeldToItsMemory) {
+TEST_F(Worker, BeyondItsMemory_Ends) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the sanitizer's shadow takes all address space there is";
 #endif
@@ -233,7 +233,7 @@ TEST_F(Worker, IsHeldToItsMemory) {
             "limited to 1.07374e+09 bytes");
 }
 
-TEST_F(Worker, MayPrintWhatItLikes) {
+TEST_F(Worker, Prints_GoToTheLog) {
   {
     const auto worker = start("print");
     worker->load(test::toyScene(), {});
@@ -245,20 +245,20 @@ TEST_F(Worker, MayPrintWhatItLikes) {
   EXPECT_EQ(line, "{\"ok\":false} printed, not said");
 }
 
-TEST_F(Worker, ThatCannotBeStartedSaysWhy) {
+TEST_F(Worker, ThatCannotBeStarted_SaysWhy) {
   EXPECT_EQ(failureOf([&] { WorkerEngine("toy", {{"/no/such/program"}}, scratch_, 1.0); }),
             "toy: cannot start /no/such/program: No such file or directory");
   EXPECT_EQ(failureOf([&] { WorkerEngine("toy", {{"true"}}, scratch_, 5.0); }),
             "toy: ended (exit status 0) during hello");
 }
 
-TEST_F(Worker, LeavesNoChild) {
+TEST_F(Worker, Ended_LeavesNoChild) {
   { const auto worker = start(""); }
   EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);
   EXPECT_EQ(errno, ECHILD);
 }
 
-TEST_F(Worker, LeavesNoGrandchild) {
+TEST_F(Worker, Ended_LeavesNoGrandchild) {
   ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1), 0);  // orphans come to this process
   for (const char* mischief : {"offspring", "daemon"}) {
     SCOPED_TRACE(mischief);
@@ -280,7 +280,7 @@ TEST_F(Worker, LeavesNoGrandchild) {
   ::prctl(PR_SET_CHILD_SUBREAPER, 0);
 }
 
-TEST_F(Worker, DiesWithItsParent) {
+TEST_F(Worker, ParentKilled_Dies) {
   ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1), 0);
   int channel[2];
   ASSERT_EQ(::pipe(channel), 0);
@@ -313,7 +313,7 @@ TEST_F(Worker, DiesWithItsParent) {
   ::prctl(PR_SET_CHILD_SUBREAPER, 0);
 }
 
-TEST_F(Worker, EndsWithItsRequestsThoughASiblingLives) {
+TEST_F(Worker, RequestsEnd_EndsThoughASiblingLives) {
   std::filesystem::create_directories(scratch_);
   ChildProcess first(toyCommand(""), scratch_ / "first.log");
   ChildProcess second(toyCommand(""), scratch_ / "second.log");

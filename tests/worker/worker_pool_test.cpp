@@ -69,7 +69,7 @@ class Pool : public ::testing::Test {
   WorkerPool pool_;
 };
 
-TEST_F(Pool, HandsAWorkerFromRunToRunToTheSameBits) {
+TEST_F(Pool, WorkerOfSeveralRuns_DoesTheSameBits) {
   const Ran first = run(""), second = run(""), third = run("");
   EXPECT_EQ(first.pid, second.pid);
   EXPECT_EQ(second.pid, third.pid);
@@ -77,13 +77,13 @@ TEST_F(Pool, HandsAWorkerFromRunToRunToTheSameBits) {
   EXPECT_EQ(pool_.reasonNotReused("toy"), "");
 }
 
-TEST_F(Pool, GivesTwoAtOnceOneEach) {
+TEST_F(Pool, TwoAtOnce_HaveOneEach) {
   run("");
   const auto one = start(""), other = start("");
   EXPECT_NE(one->pid(), other->pid());
 }
 
-TEST_F(Pool, TakesAnotherCommandForAnotherEngine) {
+TEST_F(Pool, AnotherCommand_IsAnotherEngine) {
   const pid_t one = run("").pid;
   WorkerPool::Kind limited = kindOf("");
   limited.call.memory = std::uint64_t{1} << 40;
@@ -91,7 +91,7 @@ TEST_F(Pool, TakesAnotherCommandForAnotherEngine) {
   EXPECT_EQ(run("").pid, one);
 }
 
-TEST_F(Pool, SeesLeftoversAndGivesEachRunAProcessOfItsOwn) {
+TEST_F(Pool, Leftovers_EachRunHasAProcessOfItsOwn) {
   const Ran first = run("leftover"), second = run("leftover");
   EXPECT_NE(first.pid, second.pid);
   EXPECT_EQ(first.force, forceAlone());
@@ -100,7 +100,7 @@ TEST_F(Pool, SeesLeftoversAndGivesEachRunAProcessOfItsOwn) {
             "what it did after a second load is not what it did after the first");
 }
 
-TEST_F(Pool, SurvivesThatAnEngineCannotBeLoadedTwice) {
+TEST_F(Pool, CannotBeLoadedTwice_EachRunHasAProcessOfItsOwn) {
   EXPECT_EQ(run("once").force, forceAlone());
   EXPECT_EQ(run("once").force, forceAlone());
   EXPECT_NE(
@@ -110,20 +110,20 @@ TEST_F(Pool, SurvivesThatAnEngineCannotBeLoadedTwice) {
       << pool_.reasonNotReused("toy");
 }
 
-TEST_F(Pool, TakesNothingOnTrustBeforeContactsWereSeen) {
+TEST_F(Pool, NoContactsSeen_IsNotReused) {
   const pid_t first = run("lonely").pid;
   EXPECT_NE(run("lonely").pid, first);
   EXPECT_EQ(pool_.reasonNotReused("toy"), "") << "nothing was seen against it either";
   EXPECT_EQ(pool_.loadsOf(kindOf("lonely")), WorkerPool::Loads::untried);
 }
 
-TEST_F(Pool, TakesBackWhatWasOnlyAsked) {
+TEST_F(Pool, OnlyAsked_IsReused) {
   const pid_t asked = start("leftover")->pid();
   EXPECT_EQ(start("leftover")->pid(), asked);
   EXPECT_EQ(run("leftover").force, forceAlone());
 }
 
-TEST_F(Pool, EndsAWorkerThatFailedOrIsDistrusted) {
+TEST_F(Pool, FailedOrDiscarded_IsEnded) {
   pid_t pid = run("").pid;
   {
     const auto engine = start("");
@@ -139,7 +139,7 @@ TEST_F(Pool, EndsAWorkerThatFailedOrIsDistrusted) {
   EXPECT_EQ(run("").pid, pid) << "a refusal is no failure";
 }
 
-TEST_F(Pool, NoticesWhoDiedOrSpokeWhileItWaited) {
+TEST_F(Pool, DiedOrSpokeWhileWaiting_IsNotReused) {
   const pid_t pid = run("").pid;
   killAndSee(pid);
   const Ran next = run("");
@@ -158,7 +158,7 @@ TEST_F(Pool, NoticesWhoDiedOrSpokeWhileItWaited) {
   EXPECT_NE(start("more")->pid(), talker);
 }
 
-TEST_F(Pool, LeavesInEachFolderWhatWasSaidDuringThatRun) {
+TEST_F(Pool, Log_IsInTheFolderOfItsRun) {
   pool_.learn(kindOf("print"), WorkerPool::Loads::afresh);  // no trial, in which it would print
   const std::string line = "{\"ok\":false} printed, not said\n";
   const pid_t pid = run("print", "a").pid;
@@ -177,7 +177,7 @@ TEST_F(Pool, LeavesInEachFolderWhatWasSaidDuringThatRun) {
   EXPECT_EQ(logOf("c"), line);
 }
 
-TEST_F(Pool, GoesOnWithoutAWorkerWhoseLogIsNoFileAnyMore) {
+TEST_F(Pool, LogIsNoFileAnyMore_WorkerIsNotReused) {
   const auto log = scratch_ / "a" / "toy.log";
   const auto victim = scratch_ / "victim";
   const std::vector<std::function<void()>> replacements = {
@@ -201,14 +201,14 @@ TEST_F(Pool, GoesOnWithoutAWorkerWhoseLogIsNoFileAnyMore) {
   EXPECT_EQ(fs::file_size(victim), 4u);
 }
 
-TEST_F(Pool, OutlivesTheThreadThatStartedIt) {
+TEST_F(Pool, StartingThreadEnded_WorkerLives) {
   std::unique_ptr<PooledEngine> engine;
   std::thread([&] { engine = start(""); }).join();
   engine->load(test::toyScene(), {});
   EXPECT_NEAR(engine->advance(0.5), 0.5, 1e-12);
 }
 
-TEST(PoolEnd, LeavesNoChild) {
+TEST(PoolEnd, Pool_LeavesNoChild) {
   const fs::path scratch = fs::path(::testing::TempDir()) / "crossgrain-pool-end";
   pid_t pid = -1;
   {

@@ -86,7 +86,7 @@ class YadeWorker : public ::testing::Test {
   static inline std::unique_ptr<WorkerEngine> engine_;
 };
 
-TEST_F(YadeWorker, MovesWallsAsPrescribed) {
+TEST_F(YadeWorker, Walls_MoveAsPrescribed) {
   Scene scene = emptyScene();
   scene.dt = 1e-4;
   addDisk(scene, smallRadius, smallMass, {1.0, 1.0}, {0, 0});
@@ -128,7 +128,7 @@ TEST_F(YadeWorker, MovesWallsAsPrescribed) {
   RecordProperty("worst_m", std::to_string(worst * 1e15) + "e-15");
 }
 
-TEST_F(YadeWorker, BlocksSpinsThatTheSceneBlocks) {
+TEST_F(YadeWorker, RotationBlocked_SpinsStay) {
   Scene scene = emptyScene();
   scene.rotation = false;
   addDisk(scene, smallRadius, smallMass, {-smallRadius - 0.5e-6, 0.0}, {0.05, 0.0}, 10.0);
@@ -200,11 +200,11 @@ void expectForcesThatMoveTheDisks(Engine& engine, const Scene& scene) {
   EXPECT_GT(withPlane, 3u);
 }
 
-TEST_F(YadeWorker, ContactForcesAreThoseThatMovedTheDisks) {
+TEST_F(YadeWorker, ContactForces_AreThoseThatMovedTheDisks) {
   expectForcesThatMoveTheDisks(*engine_, crowdedScene());
 }
 
-TEST_F(YadeWorker, ContactForcesOfHertzLawAreThoseThatMovedTheDisks) {
+TEST_F(YadeWorker, ContactForcesOfHertzLaw_AreThoseThatMovedTheDisks) {
   expectForcesThatMoveTheDisks(*engine_, crowdedScene(hertzLaw()));
 }
 
@@ -236,7 +236,7 @@ TEST_F(YadeWorker, MixesToTheScenesConstants_OfEveryPair) {
   }
 }
 
-TEST_F(YadeWorker, RefusesWhatItCannotDo) {
+TEST_F(YadeWorker, SceneItCannotDo_IsRefused) {
   const auto refusal = [](const Scene& scene) {
     try {
       engine_->load(scene, {});
@@ -346,7 +346,7 @@ void expectElasticAsHertz(Engine& engine, const Meeting& meeting) {
 }
 
 // Chung and Ooi (2011), test 1: two glass spheres.
-TEST_F(YadeWorker, GlassSpheresMeetAsHertzSays) {
+TEST_F(YadeWorker, GlassSpheres_MeetAsHertzSays) {
   const double elasticity = 48e9 / (2 * (1 - 0.2 * 0.2));  // E₁₂
   const Meeting glass{4.0 / 3.0 * elasticity, 0.010, sphereMass(0.010, 2800), 20.0};
   EXPECT_NEAR(glass.deepest(), 274.1e-6, 0.05e-6);
@@ -356,7 +356,7 @@ TEST_F(YadeWorker, GlassSpheresMeetAsHertzSays) {
 }
 
 // Chung and Ooi (2011), test 2: an aluminium sphere on a rigid plane. R₁₂ is the sphere's radius.
-TEST_F(YadeWorker, SphereMeetsAPlaneAsHertzSays) {
+TEST_F(YadeWorker, SphereOnAPlane_MeetsAsHertzSays) {
   const double elasticity = 70e9 / (1 - 0.3 * 0.3);
   const Meeting alloy{4.0 / 3.0 * elasticity, 0.1, sphereMass(0.1, 2699), 0.2, true};
   EXPECT_NEAR(alloy.deepest(), 49.7e-6, 0.05e-6);
@@ -368,7 +368,7 @@ TEST_F(YadeWorker, SphereMeetsAPlaneAsHertzSays) {
 // In y ~ δ^(5/4) and a time that runs as δ^(1/4), Hertz' law with critical dampers is a linear
 // oscillator with β = γ/(2 √(5/6)) (Antypov and Elliott 2011), so with the tension cut its e is
 // that of Schwager and Pöschel (2007) for a linear law, at every speed.
-TEST_F(YadeWorker, CriticalDampersRestoreTheSameAtEverySpeed) {
+TEST_F(YadeWorker, CriticalDampers_RestoreTheSameAtEverySpeed) {
   constexpr double gn = 0.3;
   const double beta = gn / (2 * std::sqrt(5.0 / 6.0));
   const double omega = std::sqrt(1 - beta * beta);
@@ -386,7 +386,7 @@ TEST_F(YadeWorker, CriticalDampersRestoreTheSameAtEverySpeed) {
 }
 
 // The first step is a half kick, made of twice the inertia, which critical dampers would see.
-TEST_F(YadeWorker, FirstStepDampsWithTheScenesMasses) {
+TEST_F(YadeWorker, FirstStep_DampsWithTheScenesMasses) {
   Scene scene;
   scene.law = hertzLaw();
   scene.dt = 1e-6;
