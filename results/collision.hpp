@@ -147,6 +147,15 @@ nlohmann::json toJson(const CollideResults& results);
 /// @throws FieldError
 CollideResults collideFromJson(const nlohmann::json& json);
 
+/// The quantity furthest beyond its limit.
+struct WorstQuantity {
+  double times = 0.0;       ///< error/limit
+  std::string_view symbol;  ///< the quantity's
+
+  void take(const CurveScore& score);
+  std::string words() const;  ///< "Ψ_f 3.1 × its limit"
+};
+
 /// A mirror that runs because its peer does.
 bool runsBesideItsPeer(const CollideResults& results, const std::string& engine);
 

@@ -3,7 +3,6 @@
 #include "results/endpoints.hpp"
 #include "results/engine_fields.hpp"
 #include "results/flow_fields.hpp"
-#include "results/lockstep.hpp"
 #include "results/lockstep_findings.hpp"
 
 namespace crossgrain::inline results {
@@ -49,6 +48,13 @@ CompareResults compareFromJson(const Json& json) {
   if (results.head.kind == kindCompare && results.engines.empty())
     throw FieldError("engines: are none");
   return results;
+}
+
+Json toJson(const LockstepResults& results) {
+  return jsonOf(results);
+}
+LockstepResults lockstepFromJson(const Json& json) {
+  return readAs<LockstepResults>(json);
 }
 
 }  // namespace crossgrain::inline results

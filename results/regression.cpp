@@ -3,7 +3,6 @@
 #include "results/endpoints.hpp"
 #include "results/engine_fields.hpp"
 #include "results/head.hpp"
-#include "results/lockstep.hpp"
 #include "results/lockstep_findings.hpp"
 
 namespace crossgrain::inline results {

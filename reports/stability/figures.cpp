@@ -8,7 +8,6 @@
 #include "reports/common/numbers.hpp"
 #include "reports/common/overview.hpp"
 #include "reports/stability/report.hpp"
-#include "reports/stability/table.hpp"
 #include "results/engine_fields.hpp"
 #include "results/json_fields.hpp"
 #include "results/scene_picture.hpp"

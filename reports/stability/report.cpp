@@ -10,7 +10,6 @@
 #include "reports/common/numbers.hpp"
 #include "reports/common/sections.hpp"
 #include "reports/common/sentences.hpp"
-#include "reports/stability/table.hpp"
 #include "results/json_fields.hpp"
 
 namespace crossgrain::reports {

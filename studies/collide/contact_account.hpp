@@ -12,7 +12,7 @@ namespace crossgrain::inline studies {
 struct ContactAccount {
   double maxOverlap = 0.0;  ///< largest at any step: below the true maximum by O(dt²) [m]
   ForceWork work;
-  std::optional<EnergySplit> split;  ///< absent where the engine does not tell slip from stick, or
+  std::optional<EnergySplit> split;  ///< absent where the engine does not distinguish slip from stick, or
                                      ///< its spring's stiffness follows the overlap
 };
 

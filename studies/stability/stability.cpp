@@ -99,7 +99,7 @@ void askEngines(Suite& suite) {
              for (const Case& setup : suite.cases)
                settingsFor(setup, entry.name, can);  // throws for one that is wrong
            } catch (const EngineFailure& failure) {
-             failures[e] = failure.what();  // its runs will tell, one by one
+             failures[e] = failure.what();  // its runs will report it, one by one
            }
          }});
   runTasks(tasks, suite.command.jobs);

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "averaging/statistics.hpp"
-#include "reports/common/numbers.hpp"
+#include "support/numbers.hpp"
 
 namespace crossgrain::inline studies {
 namespace {
@@ -47,7 +47,7 @@ void addOthers(const ThesisResults& results, const OpenChoice& open, const CaseS
 }
 
 std::string bandText(const ClaimBand& band) {
-  const auto edge = [](double value) { return reports::readableSetting(value); };
+  const auto edge = [](double value) { return support::readableSetting(value); };
   if (band.low && band.high)
     return fmt::format("within {} to {}", edge(*band.low), edge(*band.high));
   return band.low ? "above " + edge(*band.low) : "below " + edge(*band.high);
@@ -58,7 +58,7 @@ std::string valueText(const ClaimBand& band, const Estimate& of, std::size_t ask
   constexpr double rounding = 1e-12;  // where runs differ by it they do not differ
   const bool differ = of.standardError && *of.standardError > rounding * std::abs(of.value);
   std::string text =
-      differ ? reports::readable(of.value, of.standardError) : reports::readable(of.value);
+      differ ? support::readable(of.value, of.standardError) : support::readable(of.value);
   if (!band.unit.empty()) text += " " + band.unit;
   if (of.basis == Estimate::Basis::exact) return text;
   if (of.basis == Estimate::Basis::within)

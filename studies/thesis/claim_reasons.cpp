@@ -9,9 +9,9 @@
 #include <set>
 
 #include "averaging/regime.hpp"
-#include "reports/common/numbers.hpp"
 #include "results/thesis_runs.hpp"
 #include "studies/thesis/claims.hpp"
+#include "support/numbers.hpp"
 
 namespace crossgrain::inline studies {
 namespace {
@@ -134,7 +134,7 @@ std::string pressureReason(const std::vector<const ThesisRun*>& runs) {
   return fmt::format(
       "The state was not the same all the time: the outer pressure of the last rotation (up to "
       "{:g}) is {} times that of the first, in the median of {}.",
-      to, reports::readable(median), countText(ratios.size(), "run"));
+      to, support::readable(median), countText(ratios.size(), "run"));
 }
 
 /// A row of the same claim by other runs, and what those are.
@@ -164,7 +164,7 @@ std::string elsewhereReason(const ClaimFigure& figure, const std::vector<OtherRo
     if (*there->verdict != ClaimVerdict::reproduced) continue;
     const std::string unit = there->unit.empty() ? "" : " " + there->unit;
     places.push_back(fmt::format("{} ({}{})", other.label,
-                                 reports::readable(there->value, there->standardError), unit));
+                                 support::readable(there->value, there->standardError), unit));
   }
   if (judged == 0) return "";
   if (places.empty())

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "reports/stability/report.hpp"
-#include "reports/stability/table.hpp"
 #include "tests/reports/report_text.hpp"
 #include "tests/reports/sample_results.hpp"
 

@@ -1,5 +1,5 @@
 // Engines against their mirrors, as a document and back.
-#include "results/lockstep.hpp"
+#include "results/compare.hpp"
 
 #include <gtest/gtest.h>
 

@@ -15,8 +15,8 @@
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
-#include "reports/lockstep/text.hpp"
-#include "studies/lockstep/comparison.hpp"
+#include "results/lockstep_text.hpp"
+#include "studies/lockstep/lockstep.hpp"
 #include "studies/lockstep/rules.hpp"
 #include "tests/studies/planted_engine.hpp"
 #include "tests/studies/quick_flow.hpp"
@@ -57,11 +57,11 @@ class Lockstep : public testing::Test {
   /// As reports/curated/lockstep/README.md has it.
   static void printLeg(const char* what, const LockstepRow& row) {
     const LockstepRules rules = lockstepRules(flow_->setup.law);
-    fmt::print("| {} | {} | {:.1e} |", what, reports::describeVerdict(row, rules),
+    fmt::print("| {} | {} | {:.1e} |", what, results::describeVerdict(row, rules),
                row.equivalent.value_or(NAN));
     for (const LockstepSeparation& at : row.separations) fmt::print(" {:.1e} |", at.largest);
-    fmt::print(" {} |\n", row.term ? reports::describeTerm(row)
-                                   : "no single term; " + reports::describeFirst(row));
+    fmt::print(" {} |\n", row.term ? results::describeTerm(row)
+                                   : "no single term; " + results::describeFirst(row));
   }
 
   static inline test::QuickFlow* flow_ = nullptr;
@@ -246,7 +246,7 @@ TEST_F(Lockstep, NamesNothingThatOnlyResembles) {
   });
   EXPECT_EQ(hot.verdict, Equivalence::differs);
   EXPECT_FALSE(hot.term) << hot.term->name;
-  EXPECT_EQ(reports::describeVerdict(hot, lockstepRules(flow_->setup.law)).find("k_n"),
+  EXPECT_EQ(results::describeVerdict(hot, lockstepRules(flow_->setup.law)).find("k_n"),
             std::string::npos);
   // The sign of the plate's torque: no negative coefficient of friction stands for it.
   const LockstepRow plate = rowOf([](Scene& scene) { scene.bottom->tauM *= -1.0; });

@@ -1,4 +1,4 @@
-#include "reports/common/numbers.hpp"
+#include "support/numbers.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace crossgrain::reports {
+namespace crossgrain::inline support {
 
 namespace {
 
@@ -140,4 +140,4 @@ std::string shortDuration(std::optional<double> seconds) {
   return readable(1e6 * *seconds) + " µs";
 }
 
-}  // namespace crossgrain::reports
+}  // namespace crossgrain::inline support
