@@ -63,11 +63,7 @@ int replay(const CommandLine& line, const std::string& file, const std::optional
     throw BadInput(fmt::format("--tolerance: {:g} must be from 0 to less than 1", tolerance));
   const ReplayResults found = replayRun(file, onlyEngine(line, "replay"), tolerance);
   fmt::print("{}", line.json ? toJson(found).dump() + "\n" : reports::replayText(found));
-  if (!found.failure.empty()) {
-    printFailure(found.failure);
-    return exitEngineFailed;
-  }
-  return found.request.empty() && found.declared.empty() ? exitPassed : exitFailed;
+  return printOutcome(line, outcomeOf(found));
 }
 
 Action declareRecord(CLI::App& app, CommandLine& line) {

@@ -14,7 +14,7 @@
 #include "reports/conformance/report.hpp"
 #include "reports/cost/report.hpp"
 #include "reports/flow/endpoint_text.hpp"
-#include "reports/lockstep/text.hpp"
+#include "reports/lockstep/report.hpp"
 #include "reports/report.hpp"
 #include "reports/scale/report.hpp"
 #include "reports/thesis/report.hpp"
@@ -307,7 +307,7 @@ int identifyEngine(const CommandLine& line) {
   const Case setup = onlyCase(line, "identify");
   const Identification found = runIdentify(setup, line.run);
   print(line.run.engines.front(), found);
-  return found.contradicts() ? exitFailed : exitPassed;
+  return printOutcome(line, outcomeOf(found));
 }
 
 Action declareIdentify(CLI::App& app, CommandLine& line) {

@@ -1,6 +1,10 @@
 #include "results/collision.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+
+#include "support/numbers.hpp"
 
 namespace crossgrain::inline results {
 
@@ -52,6 +56,19 @@ std::string outcomeName(const CollisionCurve& curve) {
                                                   {Verdict::notMeasured, "not judged"},
                                                   {Verdict::notApplicable, "refused"}}};
   return curve.status == Status::failed ? "failed" : std::string(nameOf(verdictOf(curve), names));
+}
+
+void WorstQuantity::take(const CurveScore& score) {
+  for (const CollisionQuantity& quantity : scoredQuantities()) {
+    const auto& one = score.of[quantity.id];
+    if (!one || !one->limit || one->max <= *one->limit * std::max(times, 1.0)) continue;
+    times = one->max / *one->limit;
+    symbol = quantity.label;
+  }
+}
+
+std::string WorstQuantity::words() const {
+  return fmt::format("{} {} × its limit", symbol, shortly(times));
 }
 
 bool runsBesideItsPeer(const CollideResults& results, const std::string& engine) {

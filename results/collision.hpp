@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "adapters/engine.hpp"
-#include "results/collision_score.hpp"
 #include "adapters/worker/json.hpp"
+#include "results/collision_score.hpp"
 #include "results/engine_row.hpp"
 #include "results/head.hpp"
 
@@ -146,6 +146,15 @@ struct CollideResults {
 nlohmann::json toJson(const CollideResults& results);
 /// @throws FieldError
 CollideResults collideFromJson(const nlohmann::json& json);
+
+/// The quantity furthest beyond its limit.
+struct WorstQuantity {
+  double times = 0.0;       ///< error/limit
+  std::string_view symbol;  ///< the quantity's
+
+  void take(const CurveScore& score);
+  std::string words() const;  ///< "Ψ_f 3.1 × its limit"
+};
 
 /// A mirror that runs because its peer does.
 bool runsBesideItsPeer(const CollideResults& results, const std::string& engine);

@@ -59,4 +59,18 @@ Json toJson(const CompareResults& results);
 /// @throws FieldError
 CompareResults compareFromJson(const Json& json);
 
+/// Kind "lockstep".
+struct LockstepResults : FlowStudy {
+  LockstepFindings lockstep;
+
+  void fields(auto& io) {
+    FlowStudy::fields(io);
+    io("lockstep", lockstep);
+  }
+};
+
+Json toJson(const LockstepResults& results);
+/// @throws FieldError
+LockstepResults lockstepFromJson(const Json& json);
+
 }  // namespace crossgrain::inline results

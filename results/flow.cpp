@@ -23,6 +23,13 @@ CompareResults compareFromJson(const Json& json) {
   return results;
 }
 
+Json toJson(const LockstepResults& results) {
+  return jsonOf(results);
+}
+LockstepResults lockstepFromJson(const Json& json) {
+  return readAs<LockstepResults>(json);
+}
+
 Json toJson(const RevResults& results) {
   return jsonOf(results);
 }

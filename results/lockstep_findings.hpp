@@ -118,7 +118,7 @@ struct StartReading {
 /// Contacts of the mirror that the windows came upon, each counted once a window and kind.
 struct ContactKinds {
   std::size_t sticking = 0, sliding = 0;
-  std::size_t made = 0, opened = 0;  ///< since the look before
+  std::size_t made = 0, opened = 0;  ///< since the frame before
   std::size_t wall = 0;              ///< with a wall disk
 
   void fields(auto& io) {

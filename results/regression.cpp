@@ -3,7 +3,6 @@
 #include "adapters/worker/json.hpp"
 #include "results/endpoints.hpp"
 #include "results/head.hpp"
-#include "results/lockstep.hpp"
 #include "results/lockstep_findings.hpp"
 
 namespace crossgrain::inline results {

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "reports/collide/table.hpp"
-#include "reports/collide/tally.hpp"
 #include "reports/common/report.hpp"
 
 namespace crossgrain::reports {

@@ -34,4 +34,17 @@ std::optional<std::string> lawWords(const std::string& option, const LawValue& v
 /// A quantity in plain words, its symbol beside them: "restitution e_n".
 std::string quantityWords(const CollisionQuantity& quantity);
 
+/// Sweeps of an engine in some variants, by outcome.
+struct Tally : SweepCount {
+  WorstQuantity worst, worstOfModel;
+  std::string refusal, reason;         ///< the first
+  std::optional<double> ownDeviation;  ///< the largest
+  bool ownPassed = true;
+};
+
+Tally tallyOf(const std::vector<const CollisionVariant*>& variants, const std::string& engine);
+
+/// Of sweeps that did not pass: the worst quantities, and the own scheme.
+std::vector<std::string> shortfalls(const Tally& tally);
+
 }  // namespace crossgrain::reports

@@ -16,7 +16,6 @@
 #include "reports/flow/report.hpp"
 #include "reports/flow/state.hpp"
 #include "reports/lockstep/report.hpp"
-#include "reports/lockstep/text.hpp"
 
 namespace crossgrain::reports {
 

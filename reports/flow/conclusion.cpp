@@ -11,7 +11,7 @@
 #include "reports/flow/endpoint_text.hpp"
 #include "reports/flow/engine_runs.hpp"
 #include "reports/flow/overview.hpp"
-#include "reports/lockstep/text.hpp"
+#include "reports/lockstep/report.hpp"
 
 namespace crossgrain::reports {
 

@@ -9,7 +9,7 @@
 #include "reports/common/sentences.hpp"
 #include "reports/flow/agreement_entries.hpp"
 #include "reports/flow/endpoint_text.hpp"
-#include "reports/lockstep/overview.hpp"
+#include "reports/lockstep/report.hpp"
 
 namespace crossgrain::reports {
 

@@ -1,6 +1,7 @@
-#include "reports/lockstep/overview.hpp"
+#include "reports/lockstep/report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,6 @@
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/sentences.hpp"
-#include "reports/lockstep/text.hpp"
 
 namespace crossgrain::reports {
 namespace {
@@ -86,6 +86,34 @@ std::string nextOf(const LockstepFindings& findings) {
 }
 
 }  // namespace
+
+std::string leadOf(const LockstepFindings& findings) {
+  std::vector<std::string> same, differ, ordered, open, undecided;
+  for (const LockstepRow& row : findings.rows) {
+    if (row.verdict == Equivalence::notMeasured)
+      open.push_back(row.engine);
+    else if (row.verdict == Equivalence::undecided)
+      undecided.push_back(row.engine);
+    else if (row.verdict == Equivalence::differs && !openInLaw(row, findings.rules).empty())
+      ordered.push_back(row.engine);
+    else
+      (row.verdict == Equivalence::differs ? differ : same).push_back(row.engine);
+  }
+  if (same.empty() && differ.empty() && ordered.empty() && undecided.empty())
+    return "Nothing was measured.";
+  std::vector<std::string> parts;
+  const auto add = [&](const std::vector<std::string>& names, const char* one, const char* many) {
+    if (!names.empty())
+      parts.push_back(fmt::format("{} {}", listed(names), names.size() == 1 ? one : many));
+  };
+  add(same, "is the law that it declares", "are the laws that they declare");
+  add(differ, "is another law than it declares", "are other laws than they declare");
+  add(ordered, "differs from its mirror where disks touch several at once",
+      "differ from their mirrors where disks touch several at once");
+  add(undecided, "is undecided", "are undecided");
+  add(open, "was not measured", "were not measured");
+  return fmt::format("{}.", fmt::join(parts, "; "));
+}
 
 Verdict lockstepState(const LockstepRow& row, const LockstepRules& rules) {
   const bool open = row.verdict == Equivalence::differs && !openInLaw(row, rules).empty();

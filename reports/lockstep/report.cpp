@@ -9,8 +9,6 @@
 #include "reports/common/engines.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/sections.hpp"
-#include "reports/lockstep/overview.hpp"
-#include "reports/lockstep/text.hpp"
 #include "results/json_fields.hpp"
 
 namespace crossgrain::reports {

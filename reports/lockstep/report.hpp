@@ -1,9 +1,23 @@
 #pragma once
 
 #include "reports/common/report.hpp"
-#include "results/lockstep.hpp"
+#include "results/compare.hpp"
+#include "results/lockstep_text.hpp"
 
 namespace crossgrain::reports {
+
+using results::constantSymbol;
+using results::constantWords;
+using results::describe;
+using results::describeFirst;
+using results::describeReading;
+using results::describeResolution;
+using results::describeTerm;
+using results::describeVerdict;
+using results::openInLaw;
+using results::percentText;
+using results::plainSymbol;
+using results::verdictWord;
 
 /// Plot: lockstep_separation, the difference over time beside what the yardstick's change does.
 /// Table: lockstep.csv (docs/results.md).
@@ -12,5 +26,19 @@ Report reportOf(const LockstepResults& results);
 /// The tables of its page, and how to read them.
 Blocks lockstepTables(const LockstepFindings& findings);
 List lockstepReading(const LockstepFindings& findings);
+
+/// Whether an engine has the law that it declares: ε_eq as a share of the reference constant.
+/// @param row  null: it was not compared with a mirror
+OverviewCell lockstepCell(const LockstepRow* row, const LockstepRules& rules, bool isMirror);
+
+/// What differs only where the law leaves the order of impacts open is borderline.
+Verdict lockstepState(const LockstepRow& row, const LockstepRules& rules);
+
+/// An engine per row: its law, forces on one state, differences early and late, the deviation
+/// found.
+Overview lockstepOverview(const LockstepResults& results);
+
+/// "one and another are the laws that they declare; a third was not measured."
+std::string leadOf(const LockstepFindings& findings);
 
 }  // namespace crossgrain::reports

@@ -9,8 +9,7 @@
 #include "reports/common/sentences.hpp"
 #include "reports/flow/endpoint_text.hpp"
 #include "reports/flow/overview.hpp"
-#include "reports/lockstep/overview.hpp"
-#include "reports/lockstep/text.hpp"
+#include "reports/lockstep/report.hpp"
 #include "results/json_fields.hpp"
 
 namespace crossgrain::reports {

@@ -9,7 +9,6 @@
 #include "reports/common/numbers.hpp"
 #include "reports/common/overview.hpp"
 #include "reports/stability/report.hpp"
-#include "reports/stability/table.hpp"
 #include "results/json_fields.hpp"
 #include "results/scene_picture.hpp"
 #include "results/stability.hpp"
@@ -25,12 +24,8 @@ Figure mapOf(const StabilityResults& results, const std::vector<HardGroup>& grou
   for (const HardGroup& group : groups) panel.rows.push_back(spaced(group.name));
   for (const EngineRow& engine : engines) panel.columns.push_back(engine.name);
   for (const auto& [verdict, name] : stabilityNames) {
-    Curve& tiles =
-        panel.curves.emplace_back(Curve{std::string(name),
-                                        {std::string(lookOf(verdict).plot), 5, false},
-                                        Draw::tiles,
-                                        {},
-                                        1.0});
+    Curve& tiles = panel.curves.emplace_back(Curve{
+        std::string(name), {std::string(lookOf(verdict).plot), 5, false}, Draw::tiles, {}, 1.0});
     for (std::size_t e = 0; e < engines.size(); ++e)
       for (std::size_t g = 0; g < groups.size(); ++g)
         if (const StabilityRun* run = worstRun(results, engines[e].name, groups[g]);

@@ -10,7 +10,6 @@
 #include "reports/common/numbers.hpp"
 #include "reports/common/sections.hpp"
 #include "reports/common/sentences.hpp"
-#include "reports/stability/table.hpp"
 #include "results/json_fields.hpp"
 
 namespace crossgrain::reports {
@@ -211,12 +210,9 @@ Verdict junitVerdict(const StabilityRun& run) {
 std::vector<JUnitCase> stabilityChecks(const StabilityResults& results) {
   std::vector<JUnitCase> cases;
   for (const StabilityRun& run : results.runs) {
-    JUnitCase one{junitGroup(run.name, run.variant),
-                  run.engine + ": " + run.measure,
-                  junitVerdict(run),
-                  "",
-                  junitSeconds(run.stats),
-                  run.status == Status::failed};
+    JUnitCase one{
+        junitGroup(run.name, run.variant), run.engine + ": " + run.measure, junitVerdict(run), "",
+        junitSeconds(run.stats),           run.status == Status::failed};
     if (one.broke || one.verdict == Verdict::notMeasured) {
       one.message = run.reason;
     } else if (run.verdict != Verdict::pass) {

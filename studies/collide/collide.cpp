@@ -141,42 +141,13 @@ std::vector<CachedTask<std::vector<CollisionCurve>>> tasksOf(
   return tasks;
 }
 
-/// Why an engine can run no variant at all; empty where it can run any.
-std::string refusalReason(const EngineEntry& entry, const std::vector<Case>& variants,
-                          const CollisionCurves& curves) {
-  std::string reason;
-  for (const Case& setup : variants)
-    if (const auto found = curves.find(idOf(entry, setup)); found != curves.end())
-      for (const CollisionCurve& curve : found->second) {
-        if (curve.status != Status::refused) return {};
-        reason = curve.reason;
-      }
-  return reason;
-}
-
-/// Engines that were named and can run no variant at all were asked for in vain, all of them.
-/// @throws UnsupportedScene
-void requireAnyRun(const VersionedEngines& engines, const std::vector<std::string>& named,
-                   const std::vector<Case>& variants, const CollisionCurves& curves) {
-  std::string refusal;
-  for (const auto& [entry, version] : engines) {
-    if (!isNamed(named, entry)) continue;
-    const std::string why = refusalReason(entry, variants, curves);
-    if (why.empty()) return;
-    if (refusal.empty()) refusal = why;
-  }
-  if (!refusal.empty()) throw UnsupportedScene(refusal);
-}
-
-/// How an engine came through all cases.
+/// How an engine came through all cases. Refusing some variants is no failure; the curves say
+/// which.
 EngineRow rowOf(const EngineEntry& entry, const std::vector<Case>& variants,
                 const CollisionCurves& curves) {
   EngineRow row = engineRow(entry, "");
-  // Refusing some variants is no failure; the curves say which.
-  if (const std::string why = refusalReason(entry, variants, curves); !why.empty()) {
-    row.status = Status::refused;
-    row.reason = why;
-  }
+  std::string refusal;
+  bool ran = false;
   for (const Case& setup : variants)
     if (const auto found = curves.find(idOf(entry, setup)); found != curves.end())
       for (const CollisionCurve& curve : found->second) {
@@ -184,9 +155,30 @@ EngineRow rowOf(const EngineEntry& entry, const std::vector<Case>& variants,
           row.status = Status::failed;
           row.reason = curve.reason;
         }
+        if (curve.status == Status::refused)
+          refusal = curve.reason;
+        else
+          ran = true;
         if (curve.effective) row.version = curve.effective->version;
       }
+  if (!ran && !refusal.empty()) {
+    row.status = Status::refused;
+    row.reason = refusal;
+  }
   return row;
+}
+
+/// Engines that were named and can run no variant at all were asked for in vain, all of them.
+/// @throws UnsupportedScene
+void requireAnyRun(const VersionedEngines& engines, const std::vector<EngineRow>& rows,
+                   const std::vector<std::string>& named) {
+  std::string refusal;
+  for (std::size_t e = 0; e < rows.size(); ++e) {
+    if (!isNamed(named, engines[e].first)) continue;
+    if (rows[e].status != Status::refused) return;
+    if (refusal.empty()) refusal = rows[e].reason;
+  }
+  if (!refusal.empty()) throw UnsupportedScene(refusal);
 }
 
 /// The oracle on a grid fine enough for a smooth line, about 80 points, at the first v_n.
@@ -320,9 +312,11 @@ CollideResults collideEngines(const std::vector<Case>& variants, const RunComman
   const auto tasks = tasksOf(cases, engines, command.engines, store);
   const CollisionCurves curves =
       byId(tasks, runOrLoad(tasks, store, progress, "collisions", command.jobs));
-  requireAnyRun(engines, command.engines, variants, curves);
 
   CollideResults results;
+  for (const auto& [entry, version] : engines)
+    results.engines.push_back(rowOf(entry, variants, curves));
+  requireAnyRun(engines, results.engines, command.engines);
   results.head = headOf(kindCollide, variants.front(), command.commandLine);
   results.head.setup.variant.clear();
   for (const CollisionCase& each : cases) {
@@ -338,8 +332,6 @@ CollideResults collideEngines(const std::vector<Case>& variants, const RunComman
       variant.curves.insert(variant.curves.end(), own->second.begin(), own->second.end());
     }
   }
-  for (const auto& [entry, version] : engines)
-    results.engines.push_back(rowOf(entry, variants, curves));
   results.elapsed =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return results;

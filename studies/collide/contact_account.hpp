@@ -12,8 +12,8 @@ namespace crossgrain::inline studies {
 struct ContactAccount {
   double maxOverlap = 0.0;  ///< largest at any step: below the true maximum by O(dt²) [m]
   ForceWork work;
-  std::optional<EnergySplit> split;  ///< absent where the engine does not tell slip from stick, or
-                                     ///< its spring's stiffness follows the overlap
+  std::optional<EnergySplit> split;  ///< absent where the engine does not distinguish slip from
+                                     ///< stick, or its spring's stiffness follows the overlap
 };
 
 /// How an engine runs a sweep: what is needed to read its contacts.

@@ -276,7 +276,7 @@ std::optional<DeclaredScore> scoreDeclared(const SweptCurve& swept, const Engine
     score.score = scoreSweep(declared, swept.starts, swept.found, reference, &swept.score);
     if (score.score.verdict != Verdict::fail) return score;
   }
-  if (!entry.mirrors.empty()) {  // it would be held against itself
+  if (!entry.mirrors.empty()) {  // it would be compared with itself
     if (!known) score.reference = DeclaredReference::itself;
     return score;
   }

@@ -11,14 +11,12 @@
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
-#include "reports/collide/tally.hpp"
-#include "reports/lockstep/text.hpp"
+#include "results/lockstep_text.hpp"
 #include "results/schema.hpp"
 #include "studies/collide/collide.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/executor.hpp"
 #include "studies/core/study.hpp"
-#include "studies/lockstep/comparison.hpp"
 #include "studies/lockstep/identify.hpp"
 #include "studies/lockstep/lockstep.hpp"
 #include "studies/lockstep/rules.hpp"
@@ -148,7 +146,7 @@ std::string contradictionsOf(const Identification& found) {
                                   : fmt::format("{}", fmt::join(option.declared, " or "))));
   for (const FoundConstant& constant : found.constants)
     parts.push_back(fmt::format("its {} is {:+.3g} % off the case's",
-                                reports::constantSymbol(constant.name), 100.0 * constant.change));
+                                results::constantSymbol(constant.name), 100.0 * constant.change));
   for (const std::string& effect : found.missing)
     if (std::ranges::find(found.declaredMissing, effect) == found.declaredMissing.end())
       parts.push_back(fmt::format("it does not simulate {}, which it declares", effect));
@@ -170,7 +168,7 @@ std::string causeOf(Engine& engine, const EngineEntry& entry, const Case& setup,
                     const LockstepRow& row) {
   std::vector<std::string> causes;
   if (row.term && explains(*row.term))
-    causes.push_back("lockstep's closest term: " + reports::describeTerm(row));
+    causes.push_back("lockstep's closest term: " + results::describeTerm(row));
   const std::string found = contradictionsOf(
       identify(engine, entry, setup, flowOf(setup, 2), timeStep(setup), [](double) {}));
   if (!found.empty()) causes.push_back("found from outside: " + found);
@@ -192,7 +190,7 @@ ConformanceRow lockstepRow(const EngineEntry& entry, const std::filesystem::path
   }
   const LockstepRow found = holdAgainstMirror(
       *engine, entry, setup, flowOf(setup, quickLockstepStarts), timeStep(setup), [](double) {});
-  row.detail = reports::describe(found, lockstepRules(setup.law));
+  row.detail = results::describe(found, lockstepRules(setup.law));
   if (!found.failure.empty()) {
     row.outcome = checkBrokeDown;
     row.detail = found.failure;
@@ -236,8 +234,8 @@ ConformanceRow rowOf(const CollisionVariant& variant, const CollisionCurve& curv
     row.outcome = checkSkipped;
     row.detail = curve.reason.empty() ? "no reference to compare it with" : curve.reason;
   } else if (verdict == Verdict::fail) {
-    reports::Worst worst;
-    worst.look(declaredScore(curve));
+    WorstQuantity worst;
+    worst.take(declaredScore(curve));
     row.outcome = checkFailed;
     row.faults = 1;
     row.detail = worst.words();

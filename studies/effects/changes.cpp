@@ -1,4 +1,4 @@
-#include "studies/effects/changes.hpp"
+#include "studies/effects/effects.hpp"
 
 #include <cmath>
 

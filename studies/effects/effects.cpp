@@ -10,7 +10,6 @@
 #include "cases/couette.hpp"
 #include "results/schema.hpp"
 #include "studies/core/study_cases.hpp"
-#include "studies/effects/changes.hpp"
 #include "studies/flow/agreement_table.hpp"
 #include "studies/flow/campaign.hpp"
 

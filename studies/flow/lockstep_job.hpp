@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "results/compare.hpp"
 #include "results/endpoints.hpp"
-#include "results/lockstep.hpp"
 #include "studies/core/study.hpp"
 #include "studies/flow/campaign.hpp"
 #include "studies/lockstep/identify.hpp"

@@ -7,7 +7,7 @@
 #include "results/endpoints.hpp"
 #include "results/lockstep_findings.hpp"
 #include "studies/flow/campaign.hpp"
-#include "studies/lockstep/changed_cases.hpp"
+#include "studies/lockstep/terms.hpp"
 
 namespace crossgrain::inline studies {
 

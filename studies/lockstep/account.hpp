@@ -5,22 +5,19 @@
 #include <vector>
 
 #include "results/lockstep_findings.hpp"
+#include "studies/lockstep/responses.hpp"
 #include "studies/lockstep/window.hpp"
 
 namespace crossgrain::inline studies {
 
-/// How far referencePerturbations move each disk from one start, by the times reported; change by
-/// change [d].
-using Responses = std::vector<std::vector<double>>;
-
 /// The verdict and what it rests on, from readings and what else a row has: track, kinds, starts,
 /// precise.
-/// @param moved  whether the yardstick moves anything from any start
+/// @param moved  whether the reference constant moves anything from any start
 /// @param alone  of the starts beyond the rule, how many first part at two disks that touch nothing
 ///               else, or at one that touches nothing
 void judge(LockstepRow& row, bool moved, std::size_t alone);
 
-/// Adds up what windows show of an engine and of what it is held against, start by start.
+/// Adds up what windows show of an engine and of what it is compared with, start by start.
 class SeparationAccount {
  public:
   /// @param times  of the frames of every window, since the start [s]

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <ranges>
 #include <utility>
@@ -11,38 +12,84 @@
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline studies {
-namespace {
 
-void append(std::vector<double>& all, const std::vector<double>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
-
-/// What a change of the mirror does, from all starts, by look. Absent where it cannot run like
-/// that.
-/// @param by  of a constant, the relative change
-std::optional<std::vector<std::vector<double>>> responsesTo(const MirrorChange& change, double by,
-                                                            Engine& mirror,
-                                                            const TermSearch& search) {
-  std::vector<std::vector<double>> responses(search.looks.size());
-  for (std::size_t s = 0; s < search.scenes.size(); ++s) {
+std::optional<RunsFromStarts> runsWith(Engine& mirror, const std::vector<Scene>& scenes,
+                                       const std::vector<AppliedChange>& changes,
+                                       const std::vector<double>& times) {
+  RunsFromStarts runs;
+  for (Scene scene : scenes) {
     throwIfInterrupted();
-    Scene changed = search.scenes[s];
-    change.apply(changed, by);
-    std::vector<std::uint64_t> steps;
-    for (const TermLook& look : search.looks) steps.push_back(stepsUntil(look.time, changed.dt));
-    std::vector<LockstepFrame> moved;
     try {
-      mirror.load(changed, {});
-      moved = follow(mirror, changed.dt, steps);
+      for (const AppliedChange& one : changes) one.change.apply(scene, one.by);
+      std::vector<std::uint64_t> steps;
+      for (const double time : times) steps.push_back(stepsUntil(time, scene.dt));
+      mirror.load(scene, {});
+      runs.push_back(follow(mirror, scene.dt, steps));
     } catch (const Interrupted&) {
       throw;
     } catch (const std::exception&) {
       return std::nullopt;
     }
-    for (std::size_t k = 0; k < moved.size(); ++k)
-      append(responses[k],
-             separationVector(moved[k], search.looks[k].unchanged[s], search.diameter));
   }
+  return runs;
+}
+
+std::vector<double> separationOfAll(const RunsFromStarts& one, std::size_t instant,
+                                    const RunsFromStarts& other, std::size_t otherInstant,
+                                    double diameter) {
+  std::vector<double> separation;
+  for (std::size_t s = 0; s < one.size(); ++s)
+    std::ranges::copy(separationVector(one[s][instant], other[s][otherInstant], diameter),
+                      std::back_inserter(separation));
+  return separation;
+}
+
+void TermFrames::add(const LockstepWindow& window, const std::vector<std::size_t>& reported) {
+  firstReported_ = reported.front();
+  const auto chosen = [&](const std::vector<LockstepFrame>& frames) {
+    std::vector<LockstepFrame> some(frames.begin(),
+                                    frames.begin() + static_cast<std::ptrdiff_t>(firstReported_));
+    for (const std::size_t frame : reported) some.push_back(frames[frame]);
+    for (LockstepFrame& frame : some) frame.contacts.reset();
+    return some;
+  };
+  engine_.push_back(chosen(window.engine));
+  other_.push_back(chosen(window.mirror));
+}
+
+std::vector<TermInstant> TermFrames::instants(const std::optional<FirstExceedance>& first,
+                                              double diameter) const {
+  constexpr double rounding = 1e-9;  // of a time
+  const std::vector<LockstepFrame>& frames = other_.front();
+  std::size_t when = 0;
+  while (when + 1 < frames.size() &&
+         !(first && frames[when].time >= (1.0 - rounding) * first->until))
+    ++when;
+  std::vector<TermInstant> found;
+  do {
+    TermInstant& instant = found.emplace_back();
+    instant.time = frames[when].time;
+    for (const auto& window : other_) instant.unchanged.push_back({window[when]});
+    instant.separation = separationOfAll(engine_, when, other_, when, diameter);
+  } while (++when <= firstReported_);
+  return found;
+}
+
+namespace {
+
+/// What a change of the mirror does, from all starts, by instant. Absent where it cannot run like
+/// that.
+std::optional<std::vector<std::vector<double>>> responsesTo(const AppliedChange& change,
+                                                            Engine& mirror,
+                                                            const TermSearch& search) {
+  std::vector<double> times;
+  for (const TermInstant& instant : search.instants) times.push_back(instant.time);
+  const auto moved = runsWith(mirror, search.scenes, {change}, times);
+  if (!moved) return std::nullopt;
+  std::vector<std::vector<double>> responses;
+  for (std::size_t k = 0; k < times.size(); ++k)
+    responses.push_back(
+        separationOfAll(*moved, k, search.instants[k].unchanged, 0, search.diameter));
   return responses;
 }
 
@@ -50,10 +97,10 @@ double norm(const std::vector<double>& vector) {
   return std::sqrt(std::inner_product(vector.begin(), vector.end(), vector.begin(), 0.0));
 }
 
-/// A change that may account for what is seen at one of the looks, to first order.
+/// A change that may account for what is seen at one of the instants, to first order.
 struct Candidate {
   const MirrorChange* change;
-  std::size_t look;
+  std::size_t instant;
   NamedTerm term;
 };
 
@@ -62,13 +109,13 @@ struct Candidate {
 /// the last one did.
 NamedTerm tried(const Candidate& candidate, Engine& mirror, const TermSearch& search) {
   constexpr int trials = 3;
-  const std::vector<double>& separation = search.looks[candidate.look].separation;
+  const std::vector<double>& separation = search.instants[candidate.instant].separation;
   NamedTerm best{candidate.term.name, candidate.term.amount, 1.0};
   double amount = *candidate.term.amount;
   for (int trial = 0; trial < trials; ++trial) {
-    const auto responses = responsesTo(*candidate.change, amount, mirror, search);
-    if (!responses || (*responses)[candidate.look].size() != separation.size()) break;
-    const std::vector<double>& response = (*responses)[candidate.look];
+    const auto responses = responsesTo({*candidate.change, amount}, mirror, search);
+    if (!responses || (*responses)[candidate.instant].size() != separation.size()) break;
+    const std::vector<double>& response = (*responses)[candidate.instant];
     std::vector<double> rest = separation;
     for (std::size_t k = 0; k < rest.size(); ++k) rest[k] -= response[k];
     const double left = norm(rest) / norm(separation);
@@ -89,10 +136,10 @@ std::optional<NamedTerm> closestTerm(Engine& mirror, const TermSearch& search) {
   changes.insert(changes.end(), search.more.begin(), search.more.end());
   std::vector<Candidate> candidates;
   for (const MirrorChange& change : changes) {
-    const auto responses = responsesTo(change, termChange, mirror, search);
+    const auto responses = responsesTo({change, termChange}, mirror, search);
     std::optional<Candidate> best;
     for (std::size_t k = 0; responses && k < responses->size(); ++k) {
-      const std::vector<double>& separation = search.looks[k].separation;
+      const std::vector<double>& separation = search.instants[k].separation;
       if ((*responses)[k].size() != separation.size() || norm(separation) < lockstepRounding)
         continue;
       NamedTerm term = asTerm(change, separation, (*responses)[k]);
@@ -105,46 +152,6 @@ std::optional<NamedTerm> closestTerm(Engine& mirror, const TermSearch& search) {
   for (const Candidate& one : candidates | std::views::take(mostTried))
     terms.push_back(one.change->isConstant ? tried(one, mirror, search) : one.term);
   return bestTerm(terms);
-}
-
-std::vector<double> separationOfAll(const std::vector<std::vector<LockstepFrame>>& one,
-                                    const std::vector<std::vector<LockstepFrame>>& other,
-                                    std::size_t frame, double diameter) {
-  std::vector<double> separation;
-  for (std::size_t s = 0; s < one.size(); ++s)
-    append(separation, separationVector(one[s][frame], other[s][frame], diameter));
-  return separation;
-}
-
-std::vector<std::size_t> framesForTerms(const std::vector<std::size_t>& reported) {
-  std::vector<std::size_t> frames(reported.front());
-  std::iota(frames.begin(), frames.end(), std::size_t{0});
-  frames.insert(frames.end(), reported.begin(), reported.end());
-  return frames;
-}
-
-std::vector<std::size_t> looksForTerms(const std::vector<std::size_t>& reported,
-                                       const std::vector<double>& times,
-                                       const std::optional<FirstExceedance>& first) {
-  constexpr double rounding = 1e-9;  // of a time
-  const std::vector<std::size_t> frames = framesForTerms(reported);
-  std::size_t when = 0;
-  while (when + 1 < frames.size() &&
-         !(first && times[frames[when]] >= (1.0 - rounding) * first->until))
-    ++when;
-  std::vector<std::size_t> looks = {when};
-  while (looks.back() < reported.front()) looks.push_back(looks.back() + 1);
-  return looks;
-}
-
-std::vector<LockstepFrame> chosen(const std::vector<LockstepFrame>& window,
-                                  const std::vector<std::size_t>& frames) {
-  std::vector<LockstepFrame> some;
-  for (const std::size_t frame : frames) {
-    some.push_back(window[frame]);
-    some.back().contacts.reset();
-  }
-  return some;
 }
 
 }  // namespace crossgrain::inline studies

@@ -11,46 +11,60 @@
 
 namespace crossgrain::inline studies {
 
-/// How far apart two runs from each of some starts are at one time.
-struct TermLook {
-  double time = 0.0;                     ///< since the start [s]
-  std::vector<LockstepFrame> unchanged;  ///< what the mirror does, by start
-  std::vector<double> separation;        ///< of all starts, as separationVector() has it
+/// What runs do at some instants, by start and instant.
+using RunsFromStarts = std::vector<std::vector<LockstepFrame>>;
+
+/// What the mirror does from each start with these changes. Absent where it cannot run like that.
+/// @param scenes  the mirror's, by start
+/// @param times   of the frames, since the start [s]
+/// @throws Interrupted
+std::optional<RunsFromStarts> runsWith(Engine& mirror, const std::vector<Scene>& scenes,
+                                       const std::vector<AppliedChange>& changes,
+                                       const std::vector<double>& times);
+
+/// Separations of all starts at one instant of each, one after the other: separationVector().
+std::vector<double> separationOfAll(const RunsFromStarts& one, std::size_t instant,
+                                    const RunsFromStarts& other, std::size_t otherInstant,
+                                    double diameter);
+
+/// How far apart two runs from each of some starts are at one instant.
+struct TermInstant {
+  double time = 0.0;               ///< since the start [s]
+  RunsFromStarts unchanged;        ///< what the mirror does, by start: one frame each
+  std::vector<double> separation;  ///< of all starts
+};
+
+/// What is kept of windows for the search: frames without contacts of an engine and of what it is
+/// compared with, all up to the first of those reported, and these.
+class TermFrames {
+ public:
+  /// @param reported  indices of a window's frames
+  void add(const LockstepWindow& window, const std::vector<std::size_t>& reported);
+
+  /// From the first that shows what was first seen to the first of those reported, or else that one
+  /// alone. The earlier the better: a contact made or broken at another step is no term's doing;
+  /// but the first may hold little but what is beside the term. `unchanged` is what the engine is
+  /// compared with.
+  std::vector<TermInstant> instants(const std::optional<FirstExceedance>& first,
+                                    double diameter) const;
+
+ private:
+  std::size_t firstReported_ = 0;
+  RunsFromStarts engine_, other_;
 };
 
 /// What is to be accounted for.
 struct TermSearch {
   std::vector<Scene> scenes;            ///< the mirror's, by start
-  std::vector<TermLook> looks;          ///< in order of time
+  std::vector<TermInstant> instants;    ///< in order of time
   double diameter = 0.0;                ///< [m]
   std::vector<MirrorChange> more = {};  ///< to be tried besides changesOf()
 };
 
 /// Tries every change of the mirror from every start, and those constants that explain most to
 /// first order with the amount that they would have. @returns the one that leaves least at one of
-/// the looks, in the mirror itself, if that is less than termUnexplained
+/// the instants, in the mirror itself, if that is less than termUnexplained
 /// @throws Interrupted
 std::optional<NamedTerm> closestTerm(Engine& mirror, const TermSearch& search);
-
-/// Separations of all starts at one of their frames.
-std::vector<double> separationOfAll(const std::vector<std::vector<LockstepFrame>>& one,
-                                    const std::vector<std::vector<LockstepFrame>>& other,
-                                    std::size_t frame, double diameter);
-
-/// Frames among which looks are chosen: all up to the first of those reported, and these.
-std::vector<std::size_t> framesForTerms(const std::vector<std::size_t>& reported);
-
-/// The looks, indices into framesForTerms(): from the first that shows what was first seen to the
-/// first of those reported, or else that one alone. The earlier the better: a contact made or
-/// broken at another step is no term's doing; but the first may hold little but what is beside the
-/// term.
-/// @param times  of all frames [s]
-std::vector<std::size_t> looksForTerms(const std::vector<std::size_t>& reported,
-                                       const std::vector<double>& times,
-                                       const std::optional<FirstExceedance>& first);
-
-/// Those of a window's frames, without their contacts.
-std::vector<LockstepFrame> chosen(const std::vector<LockstepFrame>& window,
-                                  const std::vector<std::size_t>& frames);
 
 }  // namespace crossgrain::inline studies

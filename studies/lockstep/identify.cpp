@@ -14,6 +14,7 @@
 #include "adapters/suitability.hpp"
 #include "cases/flow.hpp"
 #include "studies/core/engine_access.hpp"
+#include "studies/lockstep/closest_term.hpp"
 #include "studies/lockstep/rules.hpp"
 #include "studies/lockstep/separation.hpp"
 #include "studies/lockstep/terms.hpp"
@@ -40,9 +41,11 @@ bool Identification::closeEnough() const {
   return left <= std::max(lockstepRounding, leftOfNoMirror * before);
 }
 
-bool Identification::contradicts() const {
-  return !closeEnough() || !constants.empty() || missing != declaredMissing ||
-         std::ranges::any_of(options, &FoundOption::contradicts);
+Outcome outcomeOf(const Identification& found) {
+  const bool contradicts = !found.closeEnough() || !found.constants.empty() ||
+                           found.missing != found.declaredMissing ||
+                           std::ranges::any_of(found.options, &FoundOption::contradicts);
+  return {contradicts ? exitFailed : exitPassed};
 }
 
 namespace {
@@ -57,11 +60,6 @@ constexpr double alike = 0.01;
 /// A constant is put down as another one from here on: what rounding and what an engine's own way
 /// with springs do is less.
 constexpr double leastConstant = 1e-5;  // of the constant
-
-struct AppliedChange {
-  MirrorChange change;
-  double by = 0.0;  ///< of a constant
-};
 
 class Search {
  public:
@@ -82,11 +80,11 @@ class Search {
       scene.dt = step_;
       scenes_.push_back(std::move(scene));
     }
-    lookAt(0);
+    goTo(0);
   }
 
   /// Goes by what is seen at identifyTimes[when] from here on.
-  void lookAt(std::size_t when) {
+  void goTo(std::size_t when) {
     when_ = when;
     best_ = *distanceWith({});
   }
@@ -98,7 +96,11 @@ class Search {
   const std::vector<AppliedChange>& applied() const { return applied_; }
 
   /// The closest mirror's scene from the first state.
-  Scene closest() const { return changed(scenes_.front(), applied_); }
+  Scene closest() const {
+    Scene scene = scenes_.front();
+    for (const AppliedChange& one : applied_) one.change.apply(scene, one.by);
+    return scene;
+  }
 
   std::vector<MirrorChange> candidates() const {
     return changesOf(closest(), mirror_->capabilities());
@@ -106,17 +108,18 @@ class Search {
 
   /// Root of the summed squares of all components [d]; absent where it cannot run like that.
   std::optional<double> distanceWith(const std::vector<AppliedChange>& further) {
-    const auto apart = separationWith(further);
-    if (!apart) return std::nullopt;
-    return std::sqrt(std::inner_product(apart->begin(), apart->end(), apart->begin(), 0.0));
+    const auto runs = runsWithAlso(further);
+    if (!runs) return std::nullopt;
+    const std::vector<double> apart = separationFrom(*runs);
+    return std::sqrt(std::inner_product(apart.begin(), apart.end(), apart.begin(), 0.0));
   }
 
   /// The largest separation of a disk from the closest mirror [d].
   double largest() {
     double most = 0.0;
-    const auto frames = *framesWith({});
-    for (std::size_t s = 0; s < frames.size(); ++s)
-      most = std::max(most, farthest(engine_[s][when_], frames[s], diameter_).distance);
+    const RunsFromStarts runs = *runsWithAlso({});
+    for (std::size_t s = 0; s < runs.size(); ++s)
+      most = std::max(most, farthest(engine_[s][when_], runs[s][0], diameter_).distance);
     return most;
   }
 
@@ -177,18 +180,16 @@ class Search {
   /// Takes that constant, and as much of it, as leaves least, if that is half or less of what there
   /// is. @returns whether there is one
   bool takeBestConstant() {
-    const auto now = *framesWith({});
-    const auto separation = *separationWith({});
+    const RunsFromStarts now = *runsWithAlso({});
+    const std::vector<double> separation = separationFrom(now);
     std::optional<AppliedChange> best;
     double unexplained = termWorthTrying;
     for (const MirrorChange& change : candidates()) {
       if (!change.isConstant) continue;
-      const auto moved = framesWith({{change, termChange}});
+      const auto moved = runsWithAlso({{change, termChange}});
       if (!moved) continue;
-      std::vector<double> response;
-      for (std::size_t s = 0; s < moved->size(); ++s)
-        append(response, separationVector((*moved)[s], now[s], diameter_));
-      const NamedTerm term = asTerm(change, separation, response);
+      const NamedTerm term =
+          asTerm(change, separation, separationOfAll(*moved, 0, now, 0, diameter_));
       if (!(term.unexplained < unexplained)) continue;
       unexplained = term.unexplained;
       best = {change, *term.amount};
@@ -210,46 +211,22 @@ class Search {
     best_ = distance;
   }
 
-  static void append(std::vector<double>& all, const std::vector<double>& more) {
-    all.insert(all.end(), more.begin(), more.end());
+  std::optional<RunsFromStarts> runsWithAlso(const std::vector<AppliedChange>& further) {
+    std::vector<AppliedChange> all = applied_;
+    all.insert(all.end(), further.begin(), further.end());
+    return runsWith(*mirror_, scenes_, all, {time()});
   }
 
-  static Scene changed(Scene scene, const std::vector<AppliedChange>& changes) {
-    for (const AppliedChange& one : changes) one.change.apply(scene, one.by);
-    return scene;
-  }
-
-  std::optional<std::vector<LockstepFrame>> framesWith(const std::vector<AppliedChange>& further) {
-    std::vector<LockstepFrame> frames;
-    for (const Scene& scene : scenes_) {
-      throwIfInterrupted();
-      try {
-        mirror_->load(changed(changed(scene, applied_), further), {});
-        frames.push_back(follow(*mirror_, step_, {until_[when_]}).front());
-      } catch (const Interrupted&) {
-        throw;
-      } catch (const std::exception&) {
-        return std::nullopt;
-      }
-    }
-    return frames;
-  }
-
-  std::optional<std::vector<double>> separationWith(const std::vector<AppliedChange>& further) {
-    const auto frames = framesWith(further);
-    if (!frames) return std::nullopt;
-    std::vector<double> separation;
-    for (std::size_t s = 0; s < frames->size(); ++s)
-      append(separation, separationVector(engine_[s][when_], (*frames)[s], diameter_));
-    return separation;
+  std::vector<double> separationFrom(const RunsFromStarts& runs) const {
+    return separationOfAll(engine_, when_, runs, 0, diameter_);
   }
 
   double diameter_;
   std::unique_ptr<Engine> mirror_;
   double step_ = 0.0;
   std::vector<std::uint64_t> until_;
-  std::size_t when_ = 0;                            ///< index into identifyTimes
-  std::vector<std::vector<LockstepFrame>> engine_;  ///< by state and identifyTimes
+  std::size_t when_ = 0;   ///< index into identifyTimes
+  RunsFromStarts engine_;  ///< at identifyTimes
   EffectiveParameters effective_;
   std::vector<Scene> scenes_;
   std::vector<AppliedChange> applied_;
@@ -288,12 +265,12 @@ Identification identify(Engine& engine, const EngineEntry& entry, const Case& se
   Identification found;
   found.starts = states.size();
   const Scene whole = flowScene(setup, states.front().packing, dt);
-  search.lookAt(identifyTimes.size() - 1);
+  search.goTo(identifyTimes.size() - 1);
   found.time = search.time();
   found.before = search.largest();
   // One change hides behind another, and a constant behind a convention: until nothing helps.
   for (std::size_t when = 0; when < identifyTimes.size(); ++when) {
-    search.lookAt(when);
+    search.goTo(when);
     const double enough = std::max(lockstepRounding, leftOfNoMirror * search.largest());
     for (bool nearer = true; nearer && search.largest() > lockstepRounding;) {
       nearer = search.takeBestConvention() || search.takeBestConstant() ||

@@ -7,6 +7,7 @@
 #include "adapters/engine.hpp"
 #include "adapters/engine_entry.hpp"
 #include "cases/case.hpp"
+#include "studies/core/study.hpp"
 #include "studies/lockstep/starts.hpp"
 
 namespace crossgrain::inline studies {
@@ -38,9 +39,10 @@ struct Identification {
 
   /// Whether the closest mirror is one: it leaves a hundredth of the separation at most.
   bool closeEnough() const;
-  /// Whether there is none, or anything is other than the engine declares.
-  bool contradicts() const;
 };
+
+/// Failed where there is no mirror, or anything is other than the engine declares.
+Outcome outcomeOf(const Identification& found);
 
 /// Begins with the in-house engine on the case as it is and changes one thing after the other,
 /// always the one that brings it nearest to the engine: conventions and effects first, then

@@ -12,12 +12,12 @@
 #include "cases/flow.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/lockstep/account.hpp"
-#include "studies/lockstep/changed_cases.hpp"
-#include "studies/lockstep/comparison.hpp"
+#include "studies/lockstep/lockstep.hpp"
 #include "studies/lockstep/responses.hpp"
 #include "studies/lockstep/rules.hpp"
 #include "studies/lockstep/separation.hpp"
 #include "studies/lockstep/starts.hpp"
+#include "studies/lockstep/terms.hpp"
 #include "studies/lockstep/window.hpp"
 
 namespace crossgrain::inline studies {
@@ -80,7 +80,8 @@ class LateComparison {
   double length() const { return static_cast<double>(steps_.back()) * effective_.dt; }
   double reached() const { return reached_; }
 
-  /// @param measured  whether the yardstick is applied even where both are the same to rounding
+  /// @param measured  whether reference perturbations are applied even where both are the same to
+  /// rounding
   /// @return when it began [s] @throws EngineFailure, UnsupportedScene
   double window(double t, bool measured) {
     if (springs_ && !can_.instantContacts)
@@ -123,8 +124,8 @@ class LateComparison {
     return now.positionTime;
   }
 
-  /// Of constants that move anything. Empty where the yardstick does not, or where engine and
-  /// mirror part in a window in which it does not.
+  /// Of constants that move anything. Empty where the reference constant does not, or where engine
+  /// and mirror part in a window in which it does not.
   std::vector<EquivalentChange> equivalents() const {
     std::vector<EquivalentChange> found;
     for (std::size_t c = 0; c < constants_.size(); ++c) {

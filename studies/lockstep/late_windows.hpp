@@ -14,7 +14,7 @@ namespace crossgrain::inline studies {
 /// positions, velocities and tangential forces (beginUnderWay() of adapters/grain.hpp): a right
 /// engine in double precision remains the same to rounding. So what begins late, or depends on how
 /// long the engine has run, is seen without chaos: separations begin anew with every window. Their
-/// yardstick is, as in lockstep, the mirror's separation from itself where a constant is changed,
+/// measure is, as in lockstep, the mirror's separation from itself where a constant is changed,
 /// for every constant of changedCases().
 ///
 /// Windows follow one another without gaps. To first order an average over the run answers to the
@@ -28,7 +28,8 @@ namespace crossgrain::inline studies {
 /// @param engine    started; that of `entry`
 /// @param packing   that the run begins with; `index` is its own
 /// @param dt        the case's [s]
-/// @param measured  windows that the yardstick is applied to at least; those that differ by more
+/// @param measured  windows that reference perturbations are applied to at least; those that differ
+/// by more
 ///                  than rounding all are
 /// @throws Interrupted, BadInput
 LateWindows followLate(Engine& engine, const EngineEntry& entry, const Case& setup,

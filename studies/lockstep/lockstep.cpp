@@ -3,20 +3,217 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
 
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
 #include "adapters/worker/json.hpp"
-#include "results/lockstep.hpp"
+#include "cases/flow.hpp"
 #include "results/lockstep_findings.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/executor.hpp"
-#include "studies/lockstep/comparison.hpp"
+#include "studies/lockstep/account.hpp"
+#include "studies/lockstep/closest_term.hpp"
+#include "studies/lockstep/responses.hpp"
 #include "studies/lockstep/rules.hpp"
+#include "studies/lockstep/separation.hpp"
 #include "studies/lockstep/starts.hpp"
 #include "studies/lockstep/terms.hpp"
+#include "studies/lockstep/window.hpp"
 
 namespace crossgrain::inline studies {
+namespace {
+
+/// The scheme of a mirror.
+struct MirrorScheme {
+  Integrator integrator = Integrator::positionVerlet;
+  bool positionsFirst = false;  ///< disks move with the velocities of the start before any kick
+};
+
+/// As the engine declares it by its integrator and by how its velocities lie to its positions:
+/// velocity_lag is dt/2 where a kick precedes its drift (semi-implicit Euler), -dt/2 where the
+/// drift comes first, and 0 in both Verlet schemes.
+/// @param law  as the engine runs it
+/// @throws UnsupportedScene where the in-house engine has no such scheme
+MirrorScheme schemeOf(const Capabilities& can, const ContactLaw& law,
+                      const EffectiveParameters& effective) {
+  constexpr double rounding = 1e-6;
+  const double lag = effective.velocityLag / effective.dt;
+  const auto is = [lag](double value) { return std::abs(lag - value) < rounding; };
+  if (is(-0.5)) return {Integrator::semiImplicitEuler, true};
+  const bool declared = law.soft() && can.lawOptions.contains("integrator");
+  const Integrator own = law.conventions.integrator;
+  if (declared && (is(0.0) || (is(0.5) && own == Integrator::semiImplicitEuler)))
+    return {own, false};
+  if (!declared && is(0.5)) return {Integrator::semiImplicitEuler, false};
+  if (!declared && is(0.0) && law.soft()) return {own, false};
+  throw UnsupportedScene(
+      fmt::format("no mirror has its time stepping: {}, velocities {:g} dt behind their time",
+                  effective.integrator, lag));
+}
+
+/// The in-house engine, which kicks before it drifts, one step behind from where the first drift
+/// leads: x₁ = x₀ + v₀ dt, then kick and drift as ever.
+class PositionsFirst : public Engine {
+ public:
+  PositionsFirst() : own_(engineRegistry().front().make()) {}
+
+  Capabilities capabilities() const override { return own_->capabilities(); }
+  /// @throws UnsupportedScene for walls that move: theirs would be the place of a step before
+  EffectiveParameters load(const Scene& scene, const Settings& settings) override {
+    for (const WallBody& body : scene.bodies)
+      if (body.motion.kind != Motion::Kind::fixed)
+        throw UnsupportedScene("no mirror moves disks before it kicks them where walls move");
+    Scene drifted = scene;
+    for (std::size_t i = 0; i < scene.disks.size(); ++i)
+      drifted.disks.position[i] += scene.dt * scene.disks.velocity[i];
+    EffectiveParameters effective = own_->load(drifted, settings);
+    dt_ = effective.dt;
+    return effective;
+  }
+  double advance(double t) override { return own_->advance(t - dt_) + dt_; }
+  Snapshot snapshot(ContactReport contacts) override {
+    Snapshot now = own_->snapshot(contacts);
+    for (double* time : {&now.positionTime, &now.velocityTime, &now.contactTime}) *time += dt_;
+    return now;
+  }
+  Stats stats() const override { return own_->stats(); }
+
+ private:
+  std::unique_ptr<Engine> own_;
+  double dt_ = 0.0;  ///< [s]
+};
+
+/// One engine against its mirror from one state after the other.
+class Comparison {
+ public:
+  Comparison(Engine& engine, const EngineEntry& entry, const Case& setup, double dt)
+      : engine_(engine), entry_(entry), setup_(setup), dt_(dt), can_(engine.capabilities()) {}
+
+  /// @throws EngineFailure, UnsupportedScene
+  void follow(std::size_t start, const FlowState& state) {
+    const Scene scene = flowScene(setup_, state.packing, dt_);
+    EffectiveParameters effective = loadScene(engine_, entry_, setup_, scene);
+    if (effective_) requireSameStep(*effective_, effective);
+    step_ = effective.dt;
+    steps_ = lockstepSteps(step_);
+    const Scene mirrored = sceneOfMirror(can_, entry_, setup_, scene, effective);
+    if (!mirror_) mirror_ = mirrorOf(can_, entry_, setup_, scene, effective);
+    mirror_->load(mirrored, {});
+    const LockstepWindow window =
+        followBoth(engine_, *mirror_, step_, steps_, can_.instantContacts);
+    if (!account_) account_.emplace(flowDiameter(setup_), timesOf(steps_, step_), reported());
+    account_->add(start, window, responses(mirrored, window), mirrored.disks.size(),
+                  precisionLimits(effective.precision, *mirror_, mirrored, window.mirror, steps_,
+                                  flowDiameter(setup_)));
+    frames_.add(window, reported());
+    scenes_.push_back(mirrored);
+    if (!effective_) effective_ = std::move(effective);
+  }
+
+  LockstepRow result() {
+    LockstepRow row;
+    if (account_) {
+      row = account_->row();
+      if (hasTerm(row))
+        row.term = closestTerm(
+            *mirror_,
+            {scenes_, frames_.instants(row.first, flowDiameter(setup_)), flowDiameter(setup_)});
+      // Of rigid disks: impulses of one step, most of them of nothing but rounding.
+      if (!setup_.law.soft()) row.forces.reset();
+      row.effective = effective_;
+    }
+    row.engine = entry_.name;
+    return row;
+  }
+
+ private:
+  /// Frames nearest to lockstepTimes.
+  std::vector<std::size_t> reported() const {
+    std::vector<std::size_t> frames;
+    for (const double time : lockstepTimes) frames.push_back(frameAt(steps_, step_, time));
+    return frames;
+  }
+
+  /// What changes of the reference constant do to the mirror from here.
+  Responses responses(const Scene& mirrored, const LockstepWindow& window) {
+    std::vector<LockstepFrame> unchanged;
+    for (const std::size_t frame : reported()) unchanged.push_back(window.mirror[frame]);
+    return referenceResponses(*mirror_, unchanged, flowDiameter(setup_), [&](double change) {
+      Scene changed = mirrored;
+      changeReference(changed.law, change);
+      mirror_->load(changed, {});
+      return step_;
+    });
+  }
+
+  Engine& engine_;
+  const EngineEntry& entry_;
+  const Case& setup_;
+  double dt_;  ///< the case's [s]
+  Capabilities can_;
+  std::unique_ptr<Engine> mirror_;
+  double step_ = 0.0;  ///< the engine's [s]
+  std::vector<std::uint64_t> steps_;
+  std::optional<SeparationAccount> account_;
+  TermFrames frames_;
+  std::vector<Scene> scenes_;  ///< the mirror's, by start
+  std::optional<EffectiveParameters> effective_;
+};
+
+}  // namespace
+
+Scene sceneOfMirror(const Capabilities& can, const EngineEntry& entry, const Case& setup,
+                    const Scene& scene, const EffectiveParameters& effective) {
+  Scene theirs = sceneFor(can, entry, setup, scene).scene;
+  theirs.precision = Precision::float64;
+  theirs.dt = effective.dt;
+  theirs.law.conventions.integrator = schemeOf(can, theirs.law, effective).integrator;
+  return theirs;
+}
+
+std::unique_ptr<Engine> mirrorOf(const Capabilities& can, const EngineEntry& entry,
+                                 const Case& setup, const Scene& scene,
+                                 const EffectiveParameters& effective) {
+  const ContactLaw law = sceneFor(can, entry, setup, scene).scene.law;
+  if (schemeOf(can, law, effective).positionsFirst) return std::make_unique<PositionsFirst>();
+  return engineRegistry().front().make();
+}
+
+bool hasTerm(const LockstepRow& row) {
+  const bool measured = row.verdict == Equivalence::sameLaw ||
+                        row.verdict == Equivalence::differs ||
+                        row.verdict == Equivalence::undecided;
+  return measured && std::ranges::any_of(row.readings, [](const StartReading& reading) {
+           return reading.beyond || reading.equivalent.value_or(0.0) >= leastNamed;
+         });
+}
+
+LockstepRow holdAgainstMirror(Engine& engine, const EngineEntry& entry, const Case& setup,
+                              const std::vector<FlowState>& states, double dt,
+                              const std::function<void(double)>& progress) {
+  const auto began = std::chrono::steady_clock::now();
+  Comparison comparison(engine, entry, setup, dt);
+  std::string failure, refusal;
+  try {
+    for (std::size_t s = 0; s < states.size(); ++s) {
+      comparison.follow(s, states[s]);
+      progress(static_cast<double>(s + 1) / static_cast<double>(states.size()));
+    }
+  } catch (const EngineFailure& error) {
+    failure = error.what();
+  } catch (const UnsupportedScene& error) {
+    refusal = error.what();
+  }
+  LockstepRow row = comparison.result();
+  row.failure = failure;
+  if (row.starts == 0) row.reason = refusal.empty() ? failure : refusal;
+  row.wallSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return row;
+}
 
 std::string noMirrorReason(const EngineEntry& entry, const Capabilities& can, const Case& setup) {
   if (entry.name == engineRegistry().front().name)

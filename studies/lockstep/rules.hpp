@@ -2,7 +2,7 @@
 
 #include <array>
 
-/// What lockstep goes by. Fixed before any engine was looked at, each with its reason.
+/// What lockstep goes by. Fixed before any engine was measured, each with its reason.
 namespace crossgrain::inline studies {
 
 /// Double precision rounds positions to 1e-16 d; in 0.1 s of flow the separation of two runs grows
@@ -10,13 +10,13 @@ namespace crossgrain::inline studies {
 inline constexpr double lockstepRounding = 1e-10;  // [d]
 
 /// A tenth of a per cent of k_n is far below what a constant of a granular material is known to.
-inline constexpr double lockstepSameLaw = 1e-3;  // of the yardstick
+inline constexpr double lockstepSameLaw = 1e-3;  // of the reference constant
 
-/// Changes of the yardstick whose response in the mirror is the measure of a separation: the rule
-/// itself and a tenth of it, both ways. Time goes in steps: a contact that is made or broken a step
-/// earlier parts two runs by some 1e-6 d however little they differed before, and the sooner the
-/// more they differ. Where a tenth of the rule still acts in proportion, with larger separations
-/// than those of a right engine, no such event weighs as much as that tenth.
+/// Changes of the reference constant whose response in the mirror is the measure of a separation:
+/// the rule itself and a tenth of it, both ways. Time goes in steps: a contact that is made or
+/// broken a step earlier parts two runs by some 1e-6 d however little they differed before, and the
+/// sooner the more they differ. Where a tenth of the rule still acts in proportion, with larger
+/// separations than those of a right engine, no such event weighs as much as that tenth.
 inline constexpr std::array referencePerturbations = {1e-4, -1e-4, 1e-3, -1e-3};  // of the constant
 
 /// A disk's responses are in proportion where the largest of the four, per unit of change, is at
@@ -61,13 +61,14 @@ inline constexpr double termUnexplained = 0.2;
 
 /// What parts an engine from its mirror by less is rounding and contacts made a step earlier, and
 /// has no name.
-inline constexpr double leastNamed = 1e-6;  // of the yardstick
+inline constexpr double leastNamed = 1e-6;  // of the reference constant
 
 /// Starts along the flow; what n windows do not show happens in less than 3/n of all, at 95 %.
 inline constexpr std::size_t lockstepStarts = 16;
 inline constexpr std::size_t quickLockstepStarts = 4;  ///< of commands in a hurry
 
-/// Windows within an engine's own run that the yardstick is applied to: as many as starts.
+/// Windows within an engine's own run that reference perturbations are applied to: as many as
+/// starts.
 inline constexpr std::size_t lateWindowsMeasured = lockstepStarts;
 
 /// A mirror whose spot check leaves more than a margin of an endpoint open says nothing of it that

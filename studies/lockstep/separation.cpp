@@ -67,7 +67,7 @@ std::size_t touching(const Pair& of, const LockstepFrame& frame, std::size_t wal
   for (const std::int32_t id : {of.first, of.second}) {
     if (static_cast<std::size_t>(id) >= wallFrom) continue;
     std::size_t count = 0;
-    for (const auto& [pair, index] : byPair(frame.contacts))
+    for (const auto& [pair, where] : byPair(frame.contacts))
       count += pair.first == id || pair.second == id;
     most = std::max(most, count);
   }
@@ -127,16 +127,16 @@ ContactKinds kindsVisited(const std::vector<LockstepFrame>& mirror, std::size_t 
   std::set<Pair> sticking, sliding, made, opened, wall;
   for (std::size_t k = 0; k < mirror.size(); ++k) {
     const auto now = byPair(mirror[k].contacts);
-    for (const auto& [pair, index] : now) {
-      (slides(*mirror[k].contacts, index) ? sliding : sticking).insert(pair);
+    for (const auto& [pair, where] : now) {
+      (slides(*mirror[k].contacts, where) ? sliding : sticking).insert(pair);
       if (static_cast<std::size_t>(std::max(pair.first, pair.second)) >= wallFrom)
         wall.insert(pair);
     }
     if (k == 0) continue;
     const auto before = byPair(mirror[k - 1].contacts);
-    for (const auto& [pair, index] : now)
+    for (const auto& [pair, where] : now)
       if (!before.contains(pair)) made.insert(pair);
-    for (const auto& [pair, index] : before)
+    for (const auto& [pair, where] : before)
       if (!now.contains(pair)) opened.insert(pair);
   }
   return {sticking.size(), sliding.size(), made.size(), opened.size(), wall.size()};
@@ -149,8 +149,8 @@ std::optional<LockstepForces> forcesOfFirstStep(const LockstepWindow& window) {
   const auto ours = byPair(window.mirror.front().contacts);
   LockstepForces found;
   found.contacts = ours.size();
-  for (const auto& [pair, index] : ours) found.missing += !theirs.contains(pair);
-  for (const auto& [pair, index] : theirs) found.extra += !ours.contains(pair);
+  for (const auto& [pair, where] : ours) found.missing += !theirs.contains(pair);
+  for (const auto& [pair, where] : theirs) found.extra += !ours.contains(pair);
   double unit = 0.0;
   const auto forces = forcesOfBoth(window.engine.front(), window.mirror.front());
   for (const auto& [pair, both] : forces) unit = std::max(unit, std::abs(both.normal[1]));

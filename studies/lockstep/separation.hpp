@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "results/lockstep.hpp"
+#include "results/lockstep_findings.hpp"
 #include "studies/lockstep/window.hpp"
 
 /// How far two runs from the same start have come apart. No engine is asked here.
@@ -32,7 +32,7 @@ std::vector<double> separationVector(const LockstepFrame& one, const LockstepFra
 /// @param wallFrom  ids from here on are the walls'
 ContactKinds kindsVisited(const std::vector<LockstepFrame>& mirror, std::size_t wallFrom);
 
-/// Forces of the first frame. Absent where the engine does not tell them.
+/// Forces of the first frame. Absent where the engine does not report them.
 std::optional<LockstepForces> forcesOfFirstStep(const LockstepWindow& window);
 
 /// Of many starts: counts add up, the largest difference stays.

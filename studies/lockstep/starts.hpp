@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cases/packing.hpp"
-#include "results/lockstep.hpp"
+#include "results/lockstep_findings.hpp"
 
 namespace crossgrain::inline studies {
 

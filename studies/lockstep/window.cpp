@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "studies/lockstep/rules.hpp"
@@ -53,14 +52,18 @@ std::uint64_t stepsUntil(double time, double dt) {
   return static_cast<std::uint64_t>(std::max(1ll, std::llround(time / dt)));
 }
 
-std::vector<std::uint64_t> lockstepSteps(double dt) {
+std::vector<std::uint64_t> stepsUpTo(std::uint64_t last, std::set<std::uint64_t> also) {
   constexpr double perDecade = 12.0;
-  const std::uint64_t last = stepsUntil(lockstepTimes.back(), dt);
-  std::set<std::uint64_t> steps;
-  for (const double time : lockstepTimes) steps.insert(stepsUntil(time, dt));
+  also.insert(last);
   for (double step = 1.0; step < static_cast<double>(last); step *= std::pow(10.0, 1.0 / perDecade))
-    steps.insert(static_cast<std::uint64_t>(std::llround(step)));
-  return {steps.begin(), steps.end()};
+    also.insert(static_cast<std::uint64_t>(std::llround(step)));
+  return {also.begin(), also.end()};
+}
+
+std::vector<std::uint64_t> lockstepSteps(double dt) {
+  std::set<std::uint64_t> reported;
+  for (const double time : lockstepTimes) reported.insert(stepsUntil(time, dt));
+  return stepsUpTo(stepsUntil(lockstepTimes.back(), dt), reported);
 }
 
 std::vector<double> timesOf(const std::vector<std::uint64_t>& steps, double dt) {
@@ -87,7 +90,7 @@ LockstepWindow followBoth(Engine& engine, Engine& mirror, double dt,
         static_cast<std::uint64_t>(std::llround(window.engine.back().contactTime / dt));
     requireFinite(window.engine.back());
 
-    // Forces of a step before are held against those that the mirror had then.
+    // Forces of a step before are compared with those that the mirror had then.
     std::optional<Contacts> before;
     if (contacts && stepOfForces < step) {
       takeTo(mirror, stepOfForces, dt);

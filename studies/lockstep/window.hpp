@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "adapters/engine.hpp"
@@ -28,7 +29,10 @@ struct LockstepWindow {
 /// The number of steps nearest to that time, one at least.
 std::uint64_t stepsUntil(double time, double dt);
 
-/// The steps after which both are looked at: the first, about twelve in each tenfold, and those
+/// The first, about twelve in each tenfold, the last, and what else is given.
+std::vector<std::uint64_t> stepsUpTo(std::uint64_t last, std::set<std::uint64_t> also = {});
+
+/// The steps after which both are compared: the first, about twelve in each tenfold, and those
 /// nearest to lockstepTimes.
 std::vector<std::uint64_t> lockstepSteps(double dt);
 
@@ -48,7 +52,7 @@ LockstepWindow followBoth(Engine& engine, Engine& mirror, double dt,
                           double since = 0.0);
 
 /// One alone, loaded and not yet advanced, up to the last of the steps.
-/// @param before  called before each look, with the steps done and those of the look; may throw
+/// @param before  called before each frame, with the steps done and those of the frame; may throw
 /// @throws EngineFailure, Interrupted
 std::vector<LockstepFrame> follow(
     Engine& engine, double dt, const std::vector<std::uint64_t>& steps,

@@ -7,7 +7,6 @@
 #include "cases/case_keys.hpp"
 #include "cases/loader.hpp"
 #include "results/head.hpp"
-#include "results/lockstep.hpp"
 #include "results/lockstep_findings.hpp"
 #include "studies/lockstep/rules.hpp"
 #include "studies/regression/record_file.hpp"

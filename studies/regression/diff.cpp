@@ -16,10 +16,9 @@
 #include "studies/core/executor.hpp"
 #include "studies/core/study.hpp"
 #include "studies/lockstep/closest_term.hpp"
-#include "studies/lockstep/comparison.hpp"
+#include "studies/lockstep/lockstep.hpp"
 #include "studies/lockstep/rules.hpp"
 #include "studies/lockstep/separation.hpp"
-#include "studies/regression/differences.hpp"
 #include "studies/regression/observe.hpp"
 #include "support/bad_input.hpp"
 #include "support/scratch_folder.hpp"
@@ -131,8 +130,7 @@ class WindowsDiff {
     compareForces(window);
     if (!account_) account_.emplace(diameter_, timesOf(common_.steps, step_), common_.reported);
     account_->add(s, window, responses, state.packing.disks.size());
-    engineFrames_.push_back(chosen(window.engine, framesForTerms(common_.reported)));
-    keptFrames_.push_back(chosen(window.mirror, framesForTerms(common_.reported)));
+    frames_.add(window, common_.reported);
   }
 
   const std::optional<EffectiveParameters>& effective() const { return effective_; }
@@ -185,18 +183,9 @@ class WindowsDiff {
   std::optional<NamedTerm> termOf(const LockstepRow& row) {
     const EngineEntry* const known = findEngine(before_.name);
     const EngineEntry entry = known ? *known : EngineEntry{before_.name, "", {}, {}, {}, ""};
-    const std::vector<std::size_t> frames = framesForTerms(common_.reported);
     std::unique_ptr<Engine> mirror;
     const double dt = before_.effective->dt;
-    TermSearch search;
-    search.diameter = diameter_;
-    std::vector<std::uint64_t> steps;
-    for (const std::size_t when : looksForTerms(common_.reported, row.trackTime, row.first)) {
-      TermLook& look = search.looks.emplace_back();
-      look.time = row.trackTime[frames[when]];
-      look.separation = separationOfAll(engineFrames_, keptFrames_, when, diameter_);
-      steps.push_back(stepsUntil(look.time, dt));
-    }
+    TermSearch search{{}, frames_.instants(row.first, diameter_), diameter_};
     for (std::size_t s = 0; s < row.starts; ++s) {
       const Scene scene =
           couetteScene(caseBefore_, baseline_.starts[s].packing, timeStep(caseBefore_));
@@ -207,10 +196,12 @@ class WindowsDiff {
       } catch (const UnsupportedScene&) {
         return std::nullopt;
       }
-      mirror->load(search.scenes.back(), {});
-      const auto unchanged = studies::follow(*mirror, dt, steps);
-      for (std::size_t k = 0; k < steps.size(); ++k)
-        search.looks[k].unchanged.push_back(unchanged[k]);
+    }
+    // What was kept is no mirror's: what its mirror does is run again.
+    for (TermInstant& instant : search.instants) {
+      auto unchanged = runsWith(*mirror, search.scenes, {}, {instant.time});
+      if (!unchanged) return std::nullopt;
+      instant.unchanged = std::move(*unchanged);
     }
     if (step_ != dt)
       search.more.push_back({fmt::format("dt = {} s", step_), false,
@@ -233,8 +224,7 @@ class WindowsDiff {
   std::optional<ForcesChange> forces_;
   std::optional<EffectiveParameters> effective_;
   std::optional<SeparationAccount> account_;
-  std::vector<std::vector<LockstepFrame>> engineFrames_,
-      keptFrames_;  ///< by start and framesForTerms()
+  TermFrames frames_;
 };
 
 /// Whole runs again, where they were kept and the windows do not make them needless: a difference

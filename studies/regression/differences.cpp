@@ -1,4 +1,4 @@
-#include "studies/regression/differences.hpp"
+#include "studies/regression/diff.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

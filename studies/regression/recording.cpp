@@ -20,7 +20,7 @@
 #include "studies/core/engine_access.hpp"
 #include "studies/core/engine_running.hpp"
 #include "studies/core/run_store.hpp"
-#include "studies/regression/differences.hpp"
+#include "studies/regression/diff.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "support/interrupt.hpp"
@@ -239,6 +239,11 @@ ReplayResults replayRun(const std::filesystem::path& recording, const EngineEntr
   }
   if (results.asked == 0) throw BadInput(fmt::format("{}: holds no requests", recording.string()));
   return results;
+}
+
+Outcome outcomeOf(const ReplayResults& results) {
+  if (!results.failure.empty()) return {exitEngineFailed, {results.failure}};
+  return {results.request.empty() && results.declared.empty() ? exitPassed : exitFailed};
 }
 
 }  // namespace crossgrain::inline studies

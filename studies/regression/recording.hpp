@@ -9,6 +9,7 @@
 #include "adapters/worker/worker_engine.hpp"
 #include "cases/case.hpp"
 #include "results/regression.hpp"
+#include "studies/core/study.hpp"
 #include "studies/regression/record_file.hpp"
 
 /// One run as a file of every request and answer, and the same requests put to an engine again.
@@ -46,5 +47,8 @@ Recorded recordRun(const EngineEntry& entry, const Case& setup, const std::files
 /// @throws BadInput for what is no recording, or cannot be asked again
 ReplayResults replayRun(const std::filesystem::path& recording, const EngineEntry& entry,
                         double tolerance);
+
+/// An engine that failed, then an answer or a declaration that differs.
+Outcome outcomeOf(const ReplayResults& results);
 
 }  // namespace crossgrain::inline studies

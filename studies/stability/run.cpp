@@ -5,7 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/suitability.hpp"
 #include "adapters/worker/json.hpp"
+#include "cases/assembly_scene.hpp"
+#include "cases/collision_scene.hpp"
+#include "cases/couette.hpp"
+#include "cases/time_step.hpp"
 #include "results/scene_picture.hpp"
 #include "results/stability.hpp"
 #include "stability/measures.hpp"
@@ -13,11 +18,63 @@
 #include "studies/core/engine_access.hpp"
 #include "studies/core/engine_running.hpp"
 #include "studies/core/study.hpp"
-#include "studies/stability/recorder.hpp"
+#include "studies/flow/run.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline studies {
+
+HardScene plainScene(const Case& setup, const Packing& packing) {
+  const double dt = timeStep(setup);
+  switch (setup.kind) {
+    case CaseKind::assembly:
+      return {&setup, assemblyScene(setup), assemblyDuration(setup)};
+    case CaseKind::collision:
+      return {&setup, collisionScene(setup, collisionStarts(setup), dt),
+              dt + 2.5 * impactTimes(setup).longest + 20.0 * dt};
+    case CaseKind::couette:
+      break;
+  }
+  return {&setup, couetteScene(setup, packing, dt),
+          (setup.averaging.settleRotations + setup.averaging.rotations) * rotationTime(setup)};
+}
+
+HardScene hardScene(const Case& setup, const Packing& packing) {
+  HardScene hard = plainScene(setup, packing);
+  hard.scene.energyLedger =
+      setup.run.energyLedger || stabilityMeasure(setup.stability->measure).takesLedger;
+  return hard;
+}
+
+Recording record(Engine& engine, const EngineEntry& entry, const HardScene& hard,
+                 const std::function<void(double)>& progress) {
+  const Case& setup = *hard.setup;
+  Recording run{
+      hard.scene,
+      {},
+      {},
+      {},
+      setup.stability->settle,
+      setup.assembly.placement,
+      setup.kind == CaseKind::collision ? collisionStarts(setup) : std::vector<CollisionStart>{},
+      lawAsRun(engine.capabilities(), hard.scene.law)};
+  try {
+    run.effective = loadScene(engine, entry, setup, hard.scene);
+    run.snapshots.push_back(engine.snapshot(ContactReport::none));
+    const int samples = setup.stability->samples;
+    double now = 0.0;
+    for (int k = 1; k <= samples; ++k) {
+      const double next = hard.duration * k / samples;
+      advanceInPieces(engine, run.effective, now, next);
+      now = next;
+      run.snapshots.push_back(engine.snapshot(ContactReport::instant));
+      progress(static_cast<double>(k) / samples);
+    }
+  } catch (const EngineFailure& failure) {
+    run.failure = failure.what();
+  }
+  return run;
+}
 
 namespace {
 
@@ -147,13 +204,6 @@ void judgeRestart(StabilityRun& row, const StabilityTask& task, const HardScene&
   judgeNumber(row, *task.setup->stability, largestDistance(hard.scene, whole, resumed));
 }
 
-/// The largest time step with which a scene that barely moves goes on barely moving [s].
-struct StepLimit {
-  double measured = 0.0;
-  double theory = 0.0;        ///< theoreticalStepLimit()
-  double coordination = 0.0;  ///< coordinationStepLimit()
-};
-
 bool staysCalm(Engine& engine, const EngineEntry& entry, const HardScene& hard, double dt) {
   constexpr double growth = 100.0;
   HardScene run = hard;
@@ -172,33 +222,30 @@ bool staysCalm(Engine& engine, const EngineEntry& entry, const HardScene& hard, 
 /// Halves the interval between a step that is stable and one that is not, from 0.1 to 1.6 of
 /// theory's, until it is known to 0.5 % of that. Stable: over the scene's number of steps no sample
 /// finds more than 100 times the kinetic energy of the start.
+/// @returns the largest stable one, by theory's; 0 if none is
 /// @throws UnsupportedScene for an engine that takes steps of its own, EngineFailure
-StepLimit measureStepLimit(Engine& engine, const EngineEntry& entry, const HardScene& hard,
-                           const std::function<void(double)>& progress) {
-  StepLimit limit;
-  limit.theory = theoreticalStepLimit(hard.scene);
-  limit.coordination = coordinationStepLimit(hard.scene);
+double measuredStepLimit(Engine& engine, const EngineEntry& entry, const HardScene& hard,
+                         double theory, const std::function<void(double)>& progress) {
   double stable = 0.1, unstable = 1.6;
   constexpr double precision = 0.005;
-  if (!staysCalm(engine, entry, hard, stable * limit.theory)) return limit;
+  if (!staysCalm(engine, entry, hard, stable * theory)) return 0.0;
   while (unstable - stable > precision) {
     const double middle = 0.5 * (stable + unstable);
-    (staysCalm(engine, entry, hard, middle * limit.theory) ? stable : unstable) = middle;
+    (staysCalm(engine, entry, hard, middle * theory) ? stable : unstable) = middle;
     progress(1.0 - (unstable - stable) / 1.5);
   }
-  limit.measured = stable * limit.theory;
-  return limit;
+  return stable;
 }
 
 void judgeStepLimit(StabilityRun& row, const StabilityTask& task, const HardScene& hard,
                     Engine& engine, const std::function<void(double)>& progress) {
-  const StepLimit found = measureStepLimit(engine, task.entry, hard, progress);
-  judgeNumber(row, *task.setup->stability, std::max(0.0, 1.0 - found.measured / found.theory));
+  const double theory = theoreticalStepLimit(hard.scene);
+  const double measured = theory * measuredStepLimit(engine, task.entry, hard, theory, progress);
+  judgeNumber(row, *task.setup->stability, std::max(0.0, 1.0 - measured / theory));
   row.reason = fmt::format(
       "steps up to {:.4g} s were stable, {:.3f} of the 2/ω = {:.4g} s of all contacts together; "
-      "the "
-      "estimate from the coordination number is {:.4g} s",
-      found.measured, found.measured / found.theory, found.theory, found.coordination);
+      "the estimate from the coordination number is {:.4g} s",
+      measured, measured / theory, theory, coordinationStepLimit(hard.scene));
 }
 
 /// The start is one that must be refused, by the harness or by the engine.
@@ -237,15 +284,15 @@ void judge(StabilityRun& row, const StabilityTask& task, Engine& engine,
 
 }  // namespace
 
-StabilityRun runStability(const StabilityTask& task, const std::function<void(double)>& progress) {
-  StabilityRun row = rowOf(task);
+void judged(StabilityRun& row, const std::function<void()>& work) {
   try {
-    if (!task.unprepared.empty())
-      throw BadInput(task.unprepared);  // nobody's failure: it never ran
-    const auto engine = startAudited(task.entry, task.scratch, task.setup->run.timeout);
-    judge(row, task, *engine, progress);
+    work();
   } catch (const Interrupted&) {
     throw;
+  } catch (const OutOfTime& late) {
+    row.status = Status::notRun;
+    row.verdict = Verdict::notMeasured;
+    row.reason = late.what();
   } catch (const UnsupportedScene& refusal) {
     refuse(row, refusal.what());
   } catch (const BadInput& refusal) {
@@ -253,6 +300,16 @@ StabilityRun runStability(const StabilityTask& task, const std::function<void(do
   } catch (const std::exception& failure) {
     fail(row, failure.what());
   }
+}
+
+StabilityRun runStability(const StabilityTask& task, const std::function<void(double)>& progress) {
+  StabilityRun row = rowOf(task);
+  judged(row, [&] {
+    if (!task.unprepared.empty())
+      throw BadInput(task.unprepared);  // nobody's failure: it never ran
+    const auto engine = startAudited(task.entry, task.scratch, task.setup->run.timeout);
+    judge(row, task, *engine, progress);
+  });
   return row;
 }
 

@@ -8,6 +8,7 @@
 
 #include "adapters/worker/json.hpp"
 #include "cases/case_files.hpp"
+#include "cases/flow.hpp"
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
@@ -99,7 +100,7 @@ void askEngines(Suite& suite) {
              for (const Case& setup : suite.cases)
                settingsFor(setup, entry.name, can);  // throws for one that is wrong
            } catch (const EngineFailure& failure) {
-             failures[e] = failure.what();  // its runs will tell, one by one
+             failures[e] = failure.what();  // its runs will report it, one by one
            }
          }});
   runTasks(tasks, suite.command.jobs);

@@ -16,7 +16,7 @@
 #include "studies/core/engine_access.hpp"
 #include "studies/lockstep/separation.hpp"
 #include "studies/lockstep/window.hpp"
-#include "studies/stability/recorder.hpp"
+#include "studies/stability/run.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
 
@@ -141,7 +141,7 @@ class Trial {
     dt_ = effective.dt;
     const double all = std::round(hard.duration / dt_);
     last_ = static_cast<std::uint64_t>(std::clamp(all, 1.0, static_cast<double>(transformSteps)));
-    steps_ = looks(last_);
+    steps_ = stepsUpTo(last_);
     original_ = followInTime();
     rounding(epsilonOf(effective));
   }
@@ -168,17 +168,6 @@ class Trial {
   }
 
  private:
-  /// After the first step, about twelve in each tenfold, and the last.
-  static std::vector<std::uint64_t> looks(std::uint64_t last) {
-    std::vector<std::uint64_t> steps;
-    for (double step = 1.0; step < static_cast<double>(last); step *= std::pow(10.0, 1.0 / 12.0))
-      if (const auto whole = static_cast<std::uint64_t>(std::llround(step));
-          (steps.empty() || steps.back() < whole) && whole < last)
-        steps.push_back(whole);
-    steps.push_back(last);
-    return steps;
-  }
-
   ContactReport contacts() const {
     return can_.instantContacts ? ContactReport::instant : ContactReport::none;
   }
@@ -208,7 +197,7 @@ class Trial {
     }
   }
 
-  /// The run as it is, given up where the next look would come too late: nobody knows yet how slow
+  /// The run as it is, given up where the next frame would come too late: nobody knows yet how slow
   /// the engine is. @throws OutOfTime
   std::vector<LockstepFrame> followInTime() {
     using Clock = std::chrono::steady_clock;
@@ -223,7 +212,7 @@ class Trial {
     return frames;
   }
 
-  /// limits_: what rounding may do, look by look [d].
+  /// limits_: what rounding may do, frame by frame [d].
   void rounding(double epsilon) {
     const double nudge = epsilon * extentOf(hard_.scene) / diameter_;
     std::vector<double> once(steps_.size(), nudge);
@@ -264,7 +253,7 @@ class Trial {
     });
   }
 
-  /// From the look in the middle on.
+  /// From the frame in the middle on.
   std::vector<LockstepFrame> restarted() {
     if (!can_.checkpoints) throw UnsupportedScene("has no checkpoints");
     if (steps_.size() < 3) throw UnsupportedScene("the case is too short to have a middle");
@@ -290,7 +279,7 @@ class Trial {
     });
   }
 
-  /// @param from  the look that the first of the frames is of
+  /// @param from  index of the first of the frames
   void compare(StabilityRun& row, const std::vector<LockstepFrame>& frames, std::size_t from) {
     if (from >= blind_)
       throw UnsupportedScene(
@@ -335,7 +324,7 @@ class Trial {
   std::uint64_t last_ = 0;
   std::unique_ptr<Engine> engine_;
   Capabilities can_;
-  std::vector<std::uint64_t> steps_;  ///< of the looks
+  std::vector<std::uint64_t> steps_;  ///< of the frames
   std::vector<LockstepFrame> original_;
   std::vector<double> limits_;
   std::size_t blind_ = 0;  ///< the first snapshot at which nothing can be compared any more
@@ -350,31 +339,6 @@ StabilityRun rowOf(const StabilityTask& task, const CaseTransform& transform) {
   row.unit = "d";
   row.limit = row.degradedLimit = std::numeric_limits<double>::quiet_NaN();
   return row;
-}
-
-/// Does it, and whatever the engine does is a verdict.
-void judged(StabilityRun& row, const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Interrupted&) {
-    throw;
-  } catch (const OutOfTime& late) {
-    row.status = Status::notRun;
-    row.verdict = Verdict::notMeasured;
-    row.reason = late.what();
-  } catch (const UnsupportedScene& refusal) {
-    row.status = Status::refused;
-    row.verdict = Verdict::notApplicable;
-    row.reason = refusal.what();
-  } catch (const BadInput& refusal) {
-    row.status = Status::refused;
-    row.verdict = Verdict::notApplicable;
-    row.reason = refusal.what();
-  } catch (const std::exception& failure) {
-    row.status = Status::failed;
-    row.verdict = Verdict::fail;
-    row.reason = fmt::format("failed: {}", failure.what());
-  }
 }
 
 }  // namespace

@@ -35,11 +35,6 @@ class TimeShare {
   Clock::time_point began_ = Clock::now();
 };
 
-/// What was not run for want of time: no verdict on anybody.
-class OutOfTime : public std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
 /// A budget that several pieces of work have together. Each has an equal part of what is left when
 /// it begins, so that a slow engine takes no other's time, and what quick ones leave is used.
 class TimeBudget {
@@ -70,7 +65,7 @@ std::optional<double> factorOf(const std::string& unit, const Units& units);
 /// @throws UnsupportedScene naming a setting whose unit is not known
 Settings inUnits(Settings settings, const std::vector<SettingSpec>& specs, const Units& units);
 
-// What verdicts go by, fixed before any engine was looked at, each with its reason.
+// What verdicts go by, fixed before any engine was measured, each with its reason.
 
 /// A fault shows in its first contacts; much later chaos has had its part.
 inline constexpr std::uint64_t transformSteps = 2000;
@@ -97,7 +92,7 @@ inline constexpr std::uint64_t transformSeed = 22;
 enum class TransformRun {
   another,  ///< of the transformed scene
   restart,  ///< taken up from a checkpoint in the middle, by another worker
-  oneGo     ///< of one advance, where the run itself is looked at some forty times
+  oneGo     ///< of one advance, where the run itself has some forty snapshots
 };
 
 /// One of them, as reports have it: a measure is a column, a name one of its rows.

@@ -9,8 +9,8 @@
 #include "cases/couette.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
-#include "reports/lockstep/text.hpp"
 #include "results/collision.hpp"
+#include "results/lockstep_text.hpp"
 #include "results/run.hpp"
 #include "results/schema.hpp"
 #include "results/thesis.hpp"
@@ -160,7 +160,7 @@ void ThesisCampaign::compareWithMirrors(std::size_t starts) {
         (row->verdict == Equivalence::sameToRounding || row->verdict == Equivalence::sameLaw);
     surrogate.equivalent = row->equivalent;
     surrogate.starts = row->starts;
-    surrogate.why = row->failure.empty() ? reports::describe(*row, found.rules) : row->failure;
+    surrogate.why = row->failure.empty() ? results::describe(*row, found.rules) : row->failure;
     if (!surrogate.accepted) continue;
     for (ThesisEngine& own : engines_)
       if (own.entry.name == surrogate.engine) own.part = SweepEngine::Part::throughMirror;

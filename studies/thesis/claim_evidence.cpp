@@ -8,7 +8,7 @@
 #include <set>
 
 #include "averaging/statistics.hpp"
-#include "support/readable.hpp"
+#include "support/numbers.hpp"
 
 namespace crossgrain::inline studies {
 namespace {

@@ -11,7 +11,7 @@
 #include "averaging/regime.hpp"
 #include "results/thesis_runs.hpp"
 #include "studies/thesis/claims.hpp"
-#include "support/readable.hpp"
+#include "support/numbers.hpp"
 
 namespace crossgrain::inline studies {
 namespace {

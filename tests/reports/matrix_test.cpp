@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "reports/common/overview.hpp"
-#include "reports/lockstep/overview.hpp"
+#include "reports/lockstep/report.hpp"
 #include "reports/regression/regression.hpp"
 #include "reports/render/html.hpp"
 #include "tests/reports/report_text.hpp"

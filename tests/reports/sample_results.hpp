@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "results/collision.hpp"
+#include "results/compare.hpp"
 #include "results/cost.hpp"
 #include "results/effects.hpp"
-#include "results/lockstep.hpp"
 #include "results/rev.hpp"
 #include "results/scale.hpp"
 #include "results/stability.hpp"

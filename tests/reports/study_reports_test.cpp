@@ -11,7 +11,6 @@
 #include "reports/flow/report.hpp"
 #include "reports/scale/report.hpp"
 #include "reports/stability/report.hpp"
-#include "reports/stability/table.hpp"
 #include "tests/reports/report_text.hpp"
 #include "tests/reports/sample_results.hpp"
 

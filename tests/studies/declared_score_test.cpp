@@ -4,7 +4,7 @@
 #include "adapters/box2d.hpp"
 #include "cases/loader.hpp"
 #include "cases/time_step.hpp"
-#include "reports/collide/table.hpp"
+#include "results/collision.hpp"
 #include "studies/collide/sweep.hpp"
 #include "tests/studies/planted_engine.hpp"
 #include "tests/support/pairs.hpp"

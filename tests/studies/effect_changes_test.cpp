@@ -1,4 +1,4 @@
-#include "studies/effects/changes.hpp"
+#include "studies/effects/effects.hpp"
 
 #include <gsl/gsl_cdf.h>
 #include <gtest/gtest.h>

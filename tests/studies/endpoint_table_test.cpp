@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "studies/flow/endpoint_values.hpp"
-#include "studies/lockstep/changed_cases.hpp"
+#include "studies/lockstep/terms.hpp"
 #include "tests/studies/flow_runs.hpp"
 
 namespace crossgrain {

@@ -38,7 +38,7 @@ class Identify : public testing::Test {
 
 TEST_F(Identify, CasesOwnLaw_IsFound) {
   const Identification found = of([](Scene&) {});
-  EXPECT_FALSE(found.contradicts());
+  EXPECT_EQ(outcomeOf(found).status, exitPassed);
   EXPECT_EQ(found.before, 0.0);
   EXPECT_EQ(found.left, 0.0);
   EXPECT_TRUE(found.constants.empty());
@@ -78,7 +78,7 @@ TEST_F(Identify, SeveralDifferences_AreFoundAtOnce) {
     scene.law.mu *= 1.02;
     scene.bottom.reset();
   });
-  EXPECT_TRUE(found.contradicts());
+  EXPECT_EQ(outcomeOf(found).status, exitFailed);
   EXPECT_LT(found.left, 1e-6);
   EXPECT_EQ(optionOf(found, "tension")->values.front(), "cut");
   EXPECT_EQ(optionOf(found, "lever_arm")->values.front(), "overlap_middle");
@@ -97,7 +97,7 @@ TEST_F(Identify, LawWithoutAMirror_IsNotCloseEnough) {
   const auto engine = stiff->make();
   const Identification found = of(*engine, *stiff);
   EXPECT_FALSE(found.closeEnough());
-  EXPECT_TRUE(found.contradicts());
+  EXPECT_EQ(outcomeOf(found).status, exitFailed);
 }
 
 /// Every mirror of soft engines here, and the engine that can be asked in this process.

@@ -11,7 +11,6 @@
 #include "adapters/worker/arrays.hpp"
 #include "results/lockstep_findings.hpp"
 #include "studies/regression/diff.hpp"
-#include "studies/regression/differences.hpp"
 #include "studies/regression/observe.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"

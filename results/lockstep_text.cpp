@@ -1,18 +1,14 @@
-#include "reports/lockstep/text.hpp"
+#include "results/lockstep_text.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "reports/common/labels.hpp"
-#include "reports/common/numbers.hpp"
-#include "reports/common/sentences.hpp"
-#include "results/json_fields.hpp"
+#include "support/numbers.hpp"
 
-namespace crossgrain::reports {
+namespace crossgrain::inline results {
 namespace {
 
 std::string milliseconds(double time) {
@@ -161,32 +157,4 @@ std::string describe(const LockstepRow& row, const LockstepRules& rules) {
   return words + '.';
 }
 
-std::string leadOf(const LockstepFindings& findings) {
-  std::vector<std::string> same, differ, ordered, open, undecided;
-  for (const LockstepRow& row : findings.rows) {
-    if (row.verdict == Equivalence::notMeasured)
-      open.push_back(row.engine);
-    else if (row.verdict == Equivalence::undecided)
-      undecided.push_back(row.engine);
-    else if (row.verdict == Equivalence::differs && !openInLaw(row, findings.rules).empty())
-      ordered.push_back(row.engine);
-    else
-      (row.verdict == Equivalence::differs ? differ : same).push_back(row.engine);
-  }
-  if (same.empty() && differ.empty() && ordered.empty() && undecided.empty())
-    return "Nothing was measured.";
-  std::vector<std::string> parts;
-  const auto add = [&](const std::vector<std::string>& names, const char* one, const char* many) {
-    if (!names.empty())
-      parts.push_back(fmt::format("{} {}", listed(names), names.size() == 1 ? one : many));
-  };
-  add(same, "is the law that it declares", "are the laws that they declare");
-  add(differ, "is another law than it declares", "are other laws than they declare");
-  add(ordered, "differs from its mirror where disks touch several at once",
-      "differ from their mirrors where disks touch several at once");
-  add(undecided, "is undecided", "are undecided");
-  add(open, "was not measured", "were not measured");
-  return fmt::format("{}.", fmt::join(parts, "; "));
-}
-
-}  // namespace crossgrain::reports
+}  // namespace crossgrain::inline results

@@ -5,7 +5,7 @@
 #include "results/lockstep_findings.hpp"
 
 /// Lockstep findings in words, for the page and the command line alike.
-namespace crossgrain::reports {
+namespace crossgrain::inline results {
 
 /// "kn" → "k_n", as everywhere in reports.
 std::string constantSymbol(const std::string& constant);
@@ -46,7 +46,4 @@ std::string describeResolution(const LockstepRow& row, const LockstepRules& rule
 /// One sentence on one engine.
 std::string describe(const LockstepRow& row, const LockstepRules& rules);
 
-/// "one and another are the laws that they declare; a third was not measured."
-std::string leadOf(const LockstepFindings& findings);
-
-}  // namespace crossgrain::reports
+}  // namespace crossgrain::inline results
