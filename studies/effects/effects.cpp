@@ -11,8 +11,8 @@
 #include "results/schema.hpp"
 #include "studies/core/study_cases.hpp"
 #include "studies/effects/changes.hpp"
-#include "studies/flow/agreement_table.hpp"
 #include "studies/flow/campaign.hpp"
+#include "studies/flow/ensemble.hpp"
 
 namespace crossgrain::inline studies {
 

@@ -8,6 +8,7 @@
 
 #include "adapters/worker/json.hpp"
 #include "cases/case_files.hpp"
+#include "cases/flow.hpp"
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"

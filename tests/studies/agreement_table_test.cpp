@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "averaging/agreement.hpp"
+#include "studies/flow/ensemble.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "studies/flow/contact_notes.hpp"
+#include "studies/flow/notes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "averaging/rings.hpp"
+#include "studies/flow/notes.hpp"
 #include "studies/flow/run.hpp"
-#include "studies/flow/velocity_notes.hpp"
 #include "tests/support/thesis.hpp"
 
 namespace {

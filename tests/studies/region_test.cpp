@@ -5,9 +5,8 @@
 
 #include "averaging/fields.hpp"
 #include "cases/assembly_scene.hpp"
+#include "studies/flow/averages.hpp"
 #include "studies/flow/endpoint_values.hpp"
-#include "studies/flow/own_endpoints.hpp"
-#include "studies/flow/region_averages.hpp"
 
 namespace crossgrain {
 namespace {

@@ -1,5 +1,5 @@
 // Snapshots of another cell are refused, with all that does not fit.
-#include "studies/flow/snapshot_fit.hpp"
+#include "studies/flow/snapshot_file.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
