@@ -9,7 +9,6 @@
 #include "reports/common/numbers.hpp"
 #include "reports/common/report.hpp"
 #include "reports/render/html.hpp"
-#include "reports/render/page_files.hpp"
 
 namespace crossgrain::reports {
 
