@@ -19,7 +19,7 @@ namespace crossgrain::inline results {
 using Numbers = std::vector<std::optional<double>>;
 
 /// Numbers of the whole cell over time, by name: "t_s", "wheel_torque", …, "energy_…" of a ledger.
-/// All are as long as "t_s". @see CouetteSeries
+/// All are as long as "t_s". @see CouetteAverages
 using RunSeries = std::map<std::string, Numbers>;
 
 /// Empty where there is no such series.

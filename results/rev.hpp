@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "results/flow_frame.hpp"
@@ -41,6 +43,12 @@ struct RevMeeting {
     io("difference", difference);
   }
 };
+
+/// How far a method is from slicing in rings of that width [d]: √⟨(m − slicing)²⟩/√⟨slicing²⟩ over
+/// the radii that have room for such a ring; absent without one.
+std::optional<double> differenceFromSlicing(const std::vector<RevCurve>& curves,
+                                            std::string_view field, std::string_view method,
+                                            double width);
 
 /// How large a representative element must be.
 struct RevResults : FlowFrame {

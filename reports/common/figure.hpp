@@ -77,9 +77,6 @@ int widthOf(const Figure& figure);
 /// one engine far off does not flatten the others.
 void chooseLogY(Panel& panel);
 
-/// Whether a point is drawn, wherever the axes end: it is finite, and positive on a log axis.
-bool drawable(const Panel& panel, const Point& point);
-
 /// Whether anything of a curve lies within the panel: a key names nothing else.
 bool isSeen(const Panel& panel, const Curve& curve);
 

@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "adapters/engine.hpp"
 #include "reports/common/figure.hpp"
-#include "reports/common/junit.hpp"
 #include "reports/common/pictures.hpp"
 #include "results/engine_row.hpp"
 #include "results/head.hpp"
@@ -130,6 +130,16 @@ struct DigestValue {
   OverviewCell cell;
 };
 
+/// One thing that was judged, or that could not be.
+struct JUnitCase {
+  std::string group;  ///< case and variant: "classname"
+  std::string name;   ///< engine and what is judged
+  Verdict verdict = Verdict::pass;
+  std::string message = {};  ///< figure, limit and reason; why it is an error or was skipped
+  double seconds = 0.0;      ///< wall time of the run; 0 where others of the same run have it
+  bool broke = false;        ///< the engine did, so that nothing could be judged
+};
+
 /// What a site keeps of a report.
 struct ReportDigest {
   ResultsHead head;
@@ -165,5 +175,22 @@ std::string titleOf(const ResultsHead& head);
 
 /// The matrix as tests, for studies that have no finer ones.
 std::vector<JUnitCase> matrixChecks(const Report& report);
+
+// Checks as JUnit's XML, which build servers read.
+
+/// @param suite  "stability"
+std::string junitXml(const std::string& suite, const std::vector<JUnitCase>& cases);
+
+/// A matrix as tests, one for each cell that answers a question: what passed passes, a model
+/// difference too; what failed fails; borderline, undecided and not measured are skipped with their
+/// words, for nothing was shown. Figures and cells without a question are left out.
+/// @param group  "classname" of all
+std::vector<JUnitCase> overviewCases(const Overview& overview, const std::string& group);
+
+/// "CASE VARIANT", or the one where the other says nothing more.
+std::string junitGroup(const std::string& name, const std::string& variant);
+
+/// Of a run; 0 where it is not known [s].
+double junitSeconds(const std::optional<Stats>& stats);
 
 }  // namespace crossgrain::reports

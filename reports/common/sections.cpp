@@ -208,10 +208,4 @@ void addEngines(Report& report) {
   report.section("engines", "Engines").blocks.push_back(std::move(table));
 }
 
-std::vector<Column> engineColumns(std::vector<Column> first,
-                                  const std::vector<EngineRow>& engines) {
-  for (const EngineRow& engine : engines) first.emplace_back(engine.name, Kind::engine);
-  return first;
-}
-
 }  // namespace crossgrain::reports

@@ -27,6 +27,9 @@ void addPackings(Report& report, const std::vector<PackingRow>& packings);
 void addEngines(Report& report);
 
 /// A column for each of these engines, after the first ones.
-std::vector<Column> engineColumns(std::vector<Column> first, const std::vector<EngineRow>& engines);
+std::vector<Column> engineColumns(std::vector<Column> first, const auto& engines) {
+  for (const EngineRow& engine : engines) first.emplace_back(engine.name, Column::Kind::engine);
+  return first;
+}
 
 }  // namespace crossgrain::reports

@@ -11,7 +11,6 @@
 #include "reports/flow/engine_table.hpp"
 #include "reports/flow/overview.hpp"
 #include "reports/flow/report.hpp"
-#include "reports/flow/state.hpp"
 
 namespace crossgrain::reports {
 
@@ -181,8 +180,7 @@ std::vector<std::string> averageNotes(const CompareResults& results, const Engin
   return sentences;
 }
 
-}  // namespace
-
+/// Whose snapshots: in which state, how steady, how well balanced, and what the fits give.
 Overview averageOverview(const CompareResults& results) {
   Overview overview;
   overview.rowsAre = "snapshots of";
@@ -210,6 +208,8 @@ Overview averageOverview(const CompareResults& results) {
   if (!states.empty()) overview.conclusion.insert(overview.conclusion.begin() + 1, states.back());
   return overview;
 }
+
+}  // namespace
 
 Report averageReport(const CompareResults& results) {
   const Engines engines = engineRuns(results);

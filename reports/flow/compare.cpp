@@ -8,13 +8,11 @@
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/sentences.hpp"
-#include "reports/flow/agreement_entries.hpp"
 #include "reports/flow/endpoint_text.hpp"
 #include "reports/flow/engine_table.hpp"
 #include "reports/flow/figures.hpp"
 #include "reports/flow/overview.hpp"
 #include "reports/flow/report.hpp"
-#include "reports/flow/state.hpp"
 #include "reports/lockstep/report.hpp"
 
 namespace crossgrain::reports {
@@ -42,7 +40,7 @@ Cell fitCell(const FitRow* fit) {
 }
 
 Table fitTable(const Engines& engines) {
-  Table table{columnsOf({"quantity", {"expected", Kind::number}}, engines), {}};
+  Table table{engineColumns({"quantity", {"expected", Kind::number}}, engines), {}};
   table.columns.emplace_back("unit");
   std::vector<std::string> names;
   for (const EngineRuns& engine : engines)

@@ -7,7 +7,6 @@
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/sentences.hpp"
-#include "reports/flow/agreement_entries.hpp"
 #include "reports/flow/endpoint_text.hpp"
 #include "reports/flow/engine_runs.hpp"
 #include "reports/flow/overview.hpp"

@@ -6,6 +6,7 @@
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/sentences.hpp"
+#include "reports/flow/endpoint_text.hpp"
 #include "reports/flow/figures.hpp"
 
 namespace crossgrain::reports {
@@ -80,17 +81,12 @@ std::vector<Figure> differenceFigures(const CompareResults& results,
   std::vector<Figure> figures;
   if (engines.empty()) return figures;
   const std::string& reference = engines.front().name;
-  std::vector<std::string> fields;
-  for (const AgreementRow& row : results.agreement)
-    if (std::ranges::find(fields, row.field) == fields.end()) fields.push_back(row.field);
-  for (const std::string& field : fields) {
+  for (const std::string& field : fieldsOf(results.agreement)) {
     Panel panel;
     for (const EngineRuns& engine : engines)
-      for (const AgreementRow& row : results.agreement)
-        if (row.field == field && ((row.a == reference && row.b == engine.name) ||
-                                   (row.b == reference && row.a == engine.name)))
-          if (Curve curve = differenceCurve(results, row, engine); !curve.points.empty())
-            panel.curves.push_back(std::move(curve));
+      if (const AgreementRow* row = rowOf(results.agreement, reference, engine.name, field))
+        if (Curve curve = differenceCurve(results, *row, engine); !curve.points.empty())
+          panel.curves.push_back(std::move(curve));
     if (panel.curves.empty()) continue;
     panel.xLabel = binAxis(results);
     panel.yLabel = fmt::format("difference of {} [margins]", fieldWords(field));
@@ -100,11 +96,7 @@ std::vector<Figure> differenceFigures(const CompareResults& results,
     panel.level = 0.0;
     const std::size_t engineCurves = panel.curves.size();
     markWhatIsBeyond(panel);
-    Figure figure;
-    figure.name = "difference_" + field;
-    figure.title = fmt::format("Difference of the {} from that of {}, in margins",
-                               fieldWords(field), reference);
-    figure.caption = capitalised(fmt::format(
+    std::string caption = capitalised(fmt::format(
         "{} minus that of {}, in the {}'s margin; blue: within it. Bars: ± half the interval "
         "that the {}'s colour rests on{}.",
         fieldWords(field), reference, binWord(results), binWord(results),
@@ -112,8 +104,11 @@ std::vector<Figure> differenceFigures(const CompareResults& results,
             ? fmt::format(". Triangles: beyond {:g} margins; the number is an engine's farthest",
                           mostMargins)
             : ""));
-    figure.panels.push_back(std::move(panel));
-    figures.push_back(std::move(figure));
+    figures.push_back({"difference_" + field,
+                       fmt::format("Difference of the {} from that of {}, in margins",
+                                   fieldWords(field), reference),
+                       std::move(caption),
+                       {panel}});
   }
   return figures;
 }

@@ -96,7 +96,7 @@ std::vector<Point> densest(const Distribution& joint, double fraction) {
 Panel jointPanel(const EngineRuns& engine) {
   const Distribution* joint = distributionOf(engine, "azimuthal_velocity_and_spin", {});
   Panel panel;
-  panel.title = engine.name;
+  panel.name = engine.name;
   panel.xLabel = speedAxis;
   panel.yLabel = spinAxis;
   panel.xRange = Range{-0.3, 1.3};

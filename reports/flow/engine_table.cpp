@@ -8,7 +8,6 @@
 
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
-#include "reports/flow/state.hpp"
 #include "results/json_fields.hpp"
 
 namespace crossgrain::reports {
@@ -34,7 +33,7 @@ void addGroup(Table& table, const std::string& title, Rows rows) {
 }
 
 Table emptyTable(const Engines& engines) {
-  Table table{columnsOf({""}, engines), {}};
+  Table table{engineColumns({""}, engines), {}};
   table.columns.emplace_back("unit");
   return table;
 }
@@ -175,11 +174,6 @@ std::string binsInWords(const FlowFrame& frame) {
 }
 
 }  // namespace
-
-std::vector<Column> columnsOf(std::vector<Column> first, const Engines& engines) {
-  for (const EngineRuns& engine : engines) first.emplace_back(engine.name, Column::Kind::engine);
-  return first;
-}
 
 void addEngineTable(Blocks& blocks, const Engines& engines) {
   Table table = emptyTable(engines);

@@ -19,9 +19,6 @@ std::vector<Figure> profileFigures(const FlowFrame& frame, const std::vector<Eng
 /// difference_FIELD: engines minus the reference, ring by ring, in margins, with the margin's band.
 std::vector<Figure> differenceFigures(const CompareResults& results,
                                       const std::vector<EngineRuns>& engines);
-std::vector<Figure> checkFigures(const FlowFrame& frame, const std::vector<EngineRuns>& engines);
-std::vector<Figure> seriesFigures(const FlowFrame& frame, const std::vector<EngineRuns>& engines);
-
 std::vector<Figure> distributionFigures(const FlowFrame& frame,
                                         const std::vector<EngineRuns>& engines);
 

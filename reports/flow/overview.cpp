@@ -7,7 +7,6 @@
 
 #include "reports/common/numbers.hpp"
 #include "reports/common/sentences.hpp"
-#include "reports/flow/agreement_entries.hpp"
 #include "reports/flow/endpoint_text.hpp"
 #include "reports/lockstep/report.hpp"
 
@@ -123,9 +122,7 @@ OverviewCell endpointCell(const EndpointRow& row, bool isModel) {
   OverviewCell cell{row.verdict, finite(row.distance),        "margins",
                     {},          endpointWords(row.endpoint), "agreement"};
   if (isModel && row.verdict == Verdict::fail) cell.verdict = Verdict::modelDifference;
-  if (cell.value)
-    cell.shown =
-        fmt::format("{}{} margins", *cell.value < 0.0 ? "−" : "", readable(std::abs(*cell.value)));
+  if (cell.value) cell.shown = readable(cell.value) + " margins";
   return cell;
 }
 

@@ -14,9 +14,6 @@ Overview compareOverview(const CompareResults& results);
 /// Means of the endpoints, the reference's as numbers and the others' with their answers.
 std::vector<DigestValue> compareValues(const CompareResults& results);
 
-/// Whose snapshots: in which state, how steady, how well balanced, and what the fits give.
-Overview averageOverview(const CompareResults& results);
-
 /// A field per row, a weight per column: from which ring width on the weight hardly matters.
 Overview revOverview(const RevResults& results);
 

@@ -6,8 +6,8 @@
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/sentences.hpp"
+#include "reports/flow/engine_table.hpp"
 #include "reports/flow/figures.hpp"
-#include "reports/flow/state.hpp"
 
 namespace crossgrain::reports {
 
@@ -240,12 +240,10 @@ std::vector<Figure> profileFigures(const FlowFrame& frame, const std::vector<Eng
   for (const ProfilePlot& plot : plotsOf(frame)) {
     Panel panel = profilePanel(frame, engines, plot, faint);
     if (!hasPoints(panel)) continue;
-    Figure figure;
-    figure.name = "profile_" + plot.name;
-    figure.title = "Profile of the " + plot.title();
-    figure.caption = captionOf(frame, plot, panel);
-    figure.panels.push_back(std::move(panel));
-    figures.push_back(std::move(figure));
+    figures.push_back({"profile_" + plot.name,
+                       "Profile of the " + plot.title(),
+                       captionOf(frame, plot, panel),
+                       {panel}});
   }
   return figures;
 }

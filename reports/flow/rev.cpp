@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <set>
+#include <span>
 
 #include "reports/common/csv_row.hpp"
 #include "reports/common/labels.hpp"
@@ -24,45 +25,22 @@ constexpr std::array drawnFields = {"volume_fraction", "azimuthal_velocity", "sp
 
 using Names = std::vector<std::string>;
 
-constexpr const char* plainWeight = "slicing";  ///< what the others are compared with
 /// Below it two weights agree on a field: packings of one cell differ as much at best.
 constexpr double hardlyApart = 0.05;
 
 struct Weighing {
-  const char *method, *words;
+  std::string method, words;
+  LineStyle style;  ///< Okabe and Ito 2008
 };
-constexpr std::array weights = {
-    Weighing{"straight_cut", "straight cut"}, Weighing{"centre", "centre"},
-    Weighing{"line_gaussian", "line, Gaussian"}, Weighing{"line_heaviside", "line, Heaviside"}};
-
-const RevCurve* revCurve(const RevResults& results, std::string_view field, std::string_view method,
-                         double r) {
-  for (const RevCurve& curve : results.curves)
-    if (curve.field == field && curve.method == method && curve.r == r) return &curve;
-  return nullptr;
-}
-
-std::optional<double> meanAt(const RevCurve& curve, double width) {
-  const auto found = std::ranges::find(curve.width, width);
-  if (found == curve.width.end()) return std::nullopt;
-  return at(curve.mean, static_cast<std::size_t>(found - curve.width.begin()));
-}
-
-/// √⟨(m − slicing)²⟩/√⟨slicing²⟩ over the radii that have room for a ring of that width.
-std::optional<double> apartAt(const RevResults& results, std::string_view field,
-                              std::string_view method, double width) {
-  double difference = 0.0, scale = 0.0;
-  for (const RevCurve& plain : results.curves) {
-    if (plain.field != field || plain.method != plainWeight) continue;
-    const RevCurve* other = revCurve(results, field, method, plain.r);
-    const auto a = meanAt(plain, width), b = other ? meanAt(*other, width) : std::nullopt;
-    if (!a || !b) continue;
-    difference += (*b - *a) * (*b - *a);
-    scale += *a * *a;
-  }
-  if (scale == 0.0) return std::nullopt;
-  return std::sqrt(difference / scale);
-}
+/// What the others are compared with first.
+const std::array<Weighing, 5> revWeights = {
+    {{"slicing", "slicing", {"#000000", 7, false}},
+     {"straight_cut", "straight cut", {"#56b4e9", 5, true}},
+     {"centre", "centre", {"#d55e00", 9, false}},
+     {"line_gaussian", "line, Gaussian", {"#009e73", 11, false}},
+     {"line_heaviside", "line, Heaviside", {"#cc79a7", 13, true}}}};
+const std::span comparedWeights = std::span(revWeights).subspan(1);
+const std::span kernelWeights = std::span(revWeights).subspan(2);
 
 /// From which width on a weight stays near slicing, and how far apart they are at the widest one.
 struct Nearness {
@@ -76,7 +54,7 @@ Nearness nearnessOf(const RevResults& results, std::string_view field, std::stri
     widths.insert(curve.width.begin(), curve.width.end());
   Nearness near;
   for (auto width = widths.rbegin(); width != widths.rend(); ++width) {
-    const auto apart = apartAt(results, field, method, *width);
+    const auto apart = differenceFromSlicing(results.curves, field, method, *width);
     if (!apart) continue;
     if (!near.widest) near.widest = apart;
     if (*apart > hardlyApart) break;
@@ -138,7 +116,7 @@ std::string revLead(const RevResults& results) {
 std::vector<std::string> revConclusion(const RevResults& results) {
   Names near, far;
   double from = 0.0;
-  for (const Weighing& weight : weights) {
+  for (const Weighing& weight : comparedWeights) {
     const WeightSummary summary = weightSummaryOf(results, weight.method);
     if (!summary.any) continue;
     if (summary.apart.empty()) {
@@ -164,23 +142,8 @@ std::vector<std::string> revConclusion(const RevResults& results) {
   return sentences;
 }
 
-struct MethodStyle {
-  std::string_view name;
-  LineStyle style;
-};
-
-/// Okabe and Ito 2008
-const std::array<MethodStyle, 5>& methodStyles() {
-  static const std::array<MethodStyle, 5> styles = {{{"slicing", {"#000000", 7, false}},
-                                                     {"straight_cut", {"#56b4e9", 5, true}},
-                                                     {"centre", {"#d55e00", 9, false}},
-                                                     {"line_gaussian", {"#009e73", 11, false}},
-                                                     {"line_heaviside", {"#cc79a7", 13, true}}}};
-  return styles;
-}
-
-Curve drawnCurve(const RevCurve& curve, const MethodStyle& method) {
-  Curve drawn{spaced(method.name), method.style, Draw::linesAndPoints, {}, 1.2};
+Curve drawnCurve(const RevCurve& curve, const Weighing& weight) {
+  Curve drawn{spaced(weight.method), weight.style, Draw::linesAndPoints, {}, 1.2};
   for (std::size_t k = 0; k < curve.width.size(); ++k) {
     const auto width = at(curve.width, k), mean = at(curve.mean, k);
     if (width && mean) drawn.points.push_back({*width, *mean, {}});
@@ -202,10 +165,10 @@ Figure fieldFigure(const RevResults& results, const std::string& field) {
     panel.xLabel = "Δr / d";
     panel.yLabel = fieldAxis(field);
     panel.logX = true;
-    for (const MethodStyle& method : methodStyles())
+    for (const Weighing& weight : revWeights)
       for (const RevCurve& curve : results.curves)
-        if (curve.field == field && curve.method == method.name && curve.r == r)
-          panel.curves.push_back(drawnCurve(curve, method));
+        if (curve.field == field && curve.method == weight.method && curve.r == r)
+          panel.curves.push_back(drawnCurve(curve, weight));
     panel.key = figure.panels.empty() ? Key::outside : Key::none;
     if (hasPoints(panel)) figure.panels.push_back(std::move(panel));
   }
@@ -213,7 +176,7 @@ Figure fieldFigure(const RevResults& results, const std::string& field) {
 }
 
 /// Where the method meets slicing next to that width; a dash where no radius has room for it.
-std::string meetingOf(const RevResults& results, const char* field, const char* method,
+std::string meetingOf(const RevResults& results, const char* field, const std::string& method,
                       double near) {
   for (const RevMeeting& row : results.meetings)
     if (row.field == field && row.method == method && row.near == near)
@@ -226,14 +189,15 @@ std::string meetingOf(const RevResults& results, const char* field, const char* 
 /// A row per field: where centre and line averages come closest to slicing near d and 2 d.
 Table meetingTable(const RevResults& results) {
   Table table{{"field"}, {}};
-  for (const char* method : {"centre", "line, Gaussian", "line, Heaviside"})
+  for (const Weighing& weight : kernelWeights)
     for (const char* near : {"d", "2 d"})
-      table.columns.emplace_back(fmt::format("{}, near {}", method, near), Column::Kind::number);
+      table.columns.emplace_back(fmt::format("{}, near {}", weight.words, near),
+                                 Column::Kind::number);
   for (const char* const field : drawnFields) {
     TableRow row{{fieldLabel(field)}};
-    for (const char* method : {"centre", "line_gaussian", "line_heaviside"})
+    for (const Weighing& weight : kernelWeights)
       for (const double near : {1.0, 2.0})
-        row.cells.emplace_back(meetingOf(results, field, method, near));
+        row.cells.emplace_back(meetingOf(results, field, weight.method, near));
     const bool any = std::ranges::any_of(row.cells.begin() + 1, row.cells.end(),
                                          [](const Cell& cell) { return cell.text != absentText; });
     if (any) table.rows.push_back(std::move(row));
@@ -265,13 +229,13 @@ Overview revOverview(const RevResults& results) {
   overview.rowsAre = "field";
   overview.states = {{std::nullopt, "from that ring width on within 5 % of slicing"},
                      {Verdict::borderline, "further from slicing at any width"}};
-  for (const Weighing& weight : weights)
+  for (const Weighing& weight : comparedWeights)
     overview.columns.push_back(
         {weight.words,
          "From which ring width on does this weight give what slicing gives, within 5 %?", "meet"});
   for (const char* const field : drawnFields) {
     OverviewRow row{fieldWords(field), false, {}};
-    for (const Weighing& weight : weights)
+    for (const Weighing& weight : comparedWeights)
       row.cells.push_back(nearnessCell(nearnessOf(results, field, weight.method)));
     const bool any = std::ranges::any_of(
         row.cells, [](const OverviewCell& cell) { return cell.verdict != Verdict::notMeasured; });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "reports/common/numbers.hpp"
@@ -102,19 +103,13 @@ std::vector<Point> balancePoints(const RingPlaces& rings, const CheckRow& check)
   return points;
 }
 
-}  // namespace
-
 std::vector<Figure> seriesFigures(const FlowFrame& frame, const std::vector<EngineRuns>& engines) {
   std::vector<Figure> figures;
   for (const SeriesPlot& plot : seriesPlots()) {
     Panel panel = seriesPanel(frame, engines, plot);
     if (!hasPoints(panel)) continue;
-    Figure figure;
-    figure.name = "series_" + plot.name;
-    figure.title = plot.title + " against time";
-    figure.caption = plot.title + ".";
-    figure.panels.push_back(std::move(panel));
-    figures.push_back(std::move(figure));
+    figures.push_back(
+        {"series_" + plot.name, plot.title + " against time", plot.title + ".", {panel}});
   }
   return figures;
 }
@@ -145,23 +140,22 @@ std::vector<Figure> checkFigures(const FlowFrame& frame, const std::vector<Engin
       if (!curve.points.empty()) panel.curves.push_back(std::move(curve));
     }
     if (!hasPoints(panel)) continue;
-    Figure figure;
-    figure.name = fmt::format("check_{}", figures.size() + 1);
-    figure.title = label;
-    figure.caption = label + ". Bars: ± one standard error within the run.";
-    figure.panels.push_back(std::move(panel));
-    figures.push_back(std::move(figure));
+    figures.push_back({fmt::format("check_{}", figures.size() + 1),
+                       label,
+                       label + ". Bars: ± one standard error within the run.",
+                       {panel}});
   }
   return figures;
 }
 
+}  // namespace
+
 std::vector<Figure> compareFigures(const CompareResults& results) {
   const std::vector<EngineRuns> engines = engineRuns(results);
   std::vector<Figure> figures = profileFigures(results, engines);
-  for (auto& figure : differenceFigures(results, engines)) figures.push_back(std::move(figure));
-  for (auto& figure : checkFigures(results, engines)) figures.push_back(std::move(figure));
-  for (auto& figure : seriesFigures(results, engines)) figures.push_back(std::move(figure));
-  for (auto& figure : distributionFigures(results, engines)) figures.push_back(std::move(figure));
+  for (auto more : {differenceFigures(results, engines), checkFigures(results, engines),
+                    seriesFigures(results, engines), distributionFigures(results, engines)})
+    std::ranges::move(more, std::back_inserter(figures));
   return figures;
 }
 

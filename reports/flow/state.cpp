@@ -1,4 +1,4 @@
-#include "reports/flow/state.hpp"
+#include "reports/flow/engine_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +12,6 @@
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/sentences.hpp"
-#include "reports/flow/engine_table.hpp"
 
 namespace crossgrain::reports {
 
@@ -197,7 +196,7 @@ Cell regimeCell(const FlowRun* run) {
 }
 
 Table regimeTable(const Engines& engines) {
-  Table table{columnsOf({{"packing", Column::Kind::number}}, engines), {}};
+  Table table{engineColumns({{"packing", Column::Kind::number}}, engines), {}};
   std::set<int> packings;
   for (const EngineRuns& engine : engines)
     for (const FlowRun* run : engine.finished)
@@ -243,7 +242,7 @@ Cell steadinessCell(const EngineDrift& row) {
 }
 
 Table steadinessTable(const std::vector<EngineDrift>& all, const Engines& engines) {
-  Table table{columnsOf({"series"}, engines), {}};
+  Table table{engineColumns({"series"}, engines), {}};
   std::vector<std::string> quantities;
   for (const EngineDrift& row : all)
     if (std::ranges::find(quantities, row.quantity) == quantities.end())

@@ -25,6 +25,12 @@ std::string quoted(const std::string& words) {
   return result + "'";
 }
 
+/// Whether a point is drawn, wherever the axes end: it is finite, and positive on a log axis.
+bool drawable(const Panel& panel, const Point& point) {
+  return std::isfinite(point.x) && std::isfinite(point.y) && (!panel.logX || point.x > 0.0) &&
+         (!panel.logY || point.y > 0.0);
+}
+
 /// The range of a log axis: whole decades, at most eight of the data since below lies noise about
 /// zero; a narrow one just holds its data. The panel's line is on it in any case.
 std::optional<Range> logRange(const Panel& panel) {
@@ -336,11 +342,6 @@ std::string terminals(const Figure& figure, std::size_t rows) {
 
 int widthOf(const Figure& figure) {
   return figure.rowNames + figure.panelWidth * figure.columns;
-}
-
-bool drawable(const Panel& panel, const Point& point) {
-  return std::isfinite(point.x) && std::isfinite(point.y) && (!panel.logX || point.x > 0.0) &&
-         (!panel.logY || point.y > 0.0);
 }
 
 std::optional<Range> yRange(const Panel& panel) {

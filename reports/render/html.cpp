@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <set>
 
 #include "reports/common/engines.hpp"
@@ -12,8 +13,6 @@
 #include "reports/common/numbers.hpp"
 #include "reports/common/overview.hpp"
 #include "reports/common/sentences.hpp"
-#include "reports/render/base64.hpp"
-#include "reports/render/page_files.hpp"
 #include "support/files.hpp"
 
 namespace crossgrain::reports {
@@ -288,6 +287,22 @@ std::string filesOf(const Report& report) {
 }
 
 }  // namespace
+
+std::string base64(std::string_view bytes) {
+  static constexpr char digits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string encoded;
+  encoded.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t k = 0; k < bytes.size(); k += 3) {
+    const std::size_t count = bytes.size() - k < 3 ? bytes.size() - k : 3;
+    std::uint32_t group = 0;
+    for (std::size_t b = 0; b < 3; ++b)
+      group = group << 8 | (b < count ? static_cast<unsigned char>(bytes[k + b]) : 0u);
+    for (std::size_t d = 0; d < 4; ++d)
+      encoded += d <= count ? digits[group >> (18 - 6 * d) & 63u] : '=';
+  }
+  return encoded;
+}
 
 std::string htmlHead(const Report& report) {
   const std::string title = escaped(titleOf(report.head));

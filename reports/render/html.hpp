@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "reports/common/report.hpp"
 
@@ -29,5 +30,11 @@ std::string htmlDrawing(const Report& report, const std::string& name,
 std::string htmlLegend(const std::vector<EngineRow>& engines);
 /// The case, the files, and how to make the page again, to the document's last line.
 std::string htmlFoot(const Report& report);
+
+/// A file of reports/page, kept in the program at build time, by its name.
+const std::string& pageFile(const std::string& name);
+
+/// Base64 of RFC 4648, padded, without line breaks.
+std::string base64(std::string_view bytes);
 
 }  // namespace crossgrain::reports

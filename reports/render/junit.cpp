@@ -1,4 +1,4 @@
-#include "reports/common/junit.hpp"
+#include "reports/common/report.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "reports/site/history.hpp"
+#include "reports/site/site.hpp"
 
 #include <fmt/format.h>
 

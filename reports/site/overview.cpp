@@ -115,7 +115,7 @@ std::size_t columnOf(Overview& overview, const OverviewColumn& question) {
 }
 
 /// How many questions came out so, and in which reports.
-struct StateTally {
+struct QuestionCount {
   std::size_t answered = 0;
   std::vector<std::string> places;  ///< reports, each once
 
@@ -143,14 +143,6 @@ std::string nameOfReport(const SiteReport& report) {
   return name.empty() ? report.digest.head.kind : report.digest.head.kind + " " + name;
 }
 
-std::string ownNameOf(const SiteReport& report, const std::vector<SiteReport>& reports) {
-  const std::string name = nameOfReport(report);
-  const bool alone = std::ranges::count(reports, name, [](const SiteReport& one) {
-                       return nameOfReport(one);
-                     }) < 2;
-  return alone ? name : fmt::format("{} ({})", name, report.folder);
-}
-
 std::vector<EngineRow> siteEngines(const std::vector<SiteReport>& reports) {
   std::vector<EngineRow> engines;
   for (const SiteReport& report : reports)
@@ -159,6 +151,19 @@ std::vector<EngineRow> siteEngines(const std::vector<SiteReport>& reports) {
         engines.push_back(engine);
   return engines;
 }
+
+namespace {
+
+/// The report's name; with its folder's, "compare quick (old)", where another has the same.
+std::string ownNameOf(const SiteReport& report, const std::vector<SiteReport>& reports) {
+  const std::string name = nameOfReport(report);
+  const bool alone = std::ranges::count(reports, name, [](const SiteReport& one) {
+                       return nameOfReport(one);
+                     }) < 2;
+  return alone ? name : fmt::format("{} ({})", name, report.folder);
+}
+
+}  // namespace
 
 Overview siteOverview(const std::vector<SiteReport>& reports) {
   Overview overview;
@@ -185,7 +190,7 @@ Overview engineOverview(const std::vector<SiteReport>& reports, const std::strin
   using enum Verdict;
   Overview overview;
   overview.rowsAre = "report";
-  StateTally passed, differs, failed, undecidedOnes;
+  QuestionCount passed, differs, failed, undecidedOnes;
   for (const SiteReport& report : reports) {
     const Overview& its = report.digest.overview;
     const OverviewRow* const own = rowOf(its, engine);
@@ -207,7 +212,7 @@ Overview engineOverview(const std::vector<SiteReport>& reports, const std::strin
     overview.rows.push_back(std::move(row));
   }
   for (OverviewRow& row : overview.rows) row.cells.resize(overview.columns.size(), {notApplicable});
-  const auto say = [&](const char* what, const StateTally& tally) {
+  const auto say = [&](const char* what, const QuestionCount& tally) {
     if (tally.answered > 0 && overview.conclusion.size() < 3)
       overview.conclusion.push_back(fmt::format("{}: {} ({}).", what,
                                                 counted(tally.answered, "question"),

@@ -7,7 +7,6 @@
 #include "reports/common/overview.hpp"
 #include "reports/common/sentences.hpp"
 #include "reports/render/html.hpp"
-#include "reports/site/history.hpp"
 #include "reports/site/site.hpp"
 #include "results/schema.hpp"
 #include "support/files.hpp"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,6 @@ std::string pageOf(const SiteReport& report);
 
 /// "compare quick"
 std::string nameOfReport(const SiteReport& report);
-
-/// Its name; with its folder's, "compare quick (old)", where another of the reports has the same.
-std::string ownNameOf(const SiteReport& report, const std::vector<SiteReport>& reports);
 
 /// The engine's row; null where the matrix has none.
 const OverviewRow* rowOf(const Overview& overview, const std::string& engine);
@@ -48,5 +46,36 @@ void writeIndex(const std::vector<SiteReport>& reports, const std::filesystem::p
 /// Names of folders in a site, of results in these: their own, in letters that an address may have,
 /// each once.
 std::vector<std::string> siteFolders(const std::vector<std::filesystem::path>& results);
+
+// Answers to one case, from one version to the next.
+
+/// One engine's answers to one question, or its values of one quantity.
+struct HistoryRow {
+  std::string engine, question;
+  std::vector<std::optional<OverviewCell>> cells;  ///< one for each report; absent: it has none
+};
+
+/// Reports of one command on one case that stem from more than one version of crossgrain or of an
+/// engine.
+struct History {
+  std::string name;                        ///< "compare quick"
+  std::vector<const SiteReport*> reports;  ///< the oldest first
+  std::vector<HistoryRow> rows;
+};
+
+/// "0.3.0 (7902f0e)"
+std::string stampOf(const ResultsHead& head);
+
+std::vector<History> historiesOf(const std::vector<SiteReport>& reports);
+
+/// Change from the first that has the row to the last: "passed → failed", "+1.2 %",
+/// "same"; empty where only one has it.
+std::string changeOf(const HistoryRow& row);
+
+/// Which answers changed, and whether the case did, at most three sentences.
+std::vector<std::string> sentencesOf(const History& history);
+
+/// The section of the index; none where no case has several versions.
+void addHistory(Report& index, const std::vector<SiteReport>& reports);
 
 }  // namespace crossgrain::reports

@@ -196,6 +196,24 @@ void discardWorker(Engine& engine) {
 
 namespace {
 
+/// What the case says under [engines.NAME], and where it is silent the engine's own file.
+Settings settingsSaid(const Case& setup, const std::string& engine) {
+  Settings settings;
+  if (const auto section = setup.engines.find(engine); section != setup.engines.end())
+    settings = section->second;
+  if (const EngineEntry* const entry = findEngine(engine))
+    settings.insert(entry->settings.begin(), entry->settings.end());
+  return settings;
+}
+
+/// The settings with the rule of the header spelt out: an engine with a default of its own is set
+/// to take the scene's step where the case gives one.
+Settings withStep(Settings settings, const Case& setup, const Capabilities& can) {
+  const bool has = std::ranges::find(can.settings, "dt", &SettingSpec::name) != can.settings.end();
+  if (setup.run.dt && has) settings.try_emplace("dt", 0.0);
+  return settings;
+}
+
 bool isWithin(const SettingSpec& spec, double number) {
   return std::isfinite(number) && spec.least <= number && number <= spec.most &&
          (!spec.whole || number == std::floor(number));
@@ -286,6 +304,8 @@ Adapted sceneFor(const Capabilities& can, const EngineEntry& entry, const Case& 
   return {std::move(own.scene), std::move(theirs.deviations)};
 }
 
+namespace {
+
 EffectiveParameters loadAdapted(Engine& engine, const EngineEntry& entry, const Case& setup,
                                 const Scene& scene) {
   const Capabilities can = engine.capabilities();
@@ -299,6 +319,8 @@ EffectiveParameters loadAdapted(Engine& engine, const EngineEntry& entry, const 
     effective.deviations.push_back(std::move(*step));
   return effective;
 }
+
+}  // namespace
 
 EffectiveParameters loadScene(Engine& engine, const EngineEntry& entry, const Case& setup,
                               const Scene& scene) {
@@ -331,21 +353,6 @@ const double* stepIn(const Settings& settings) {
 }
 
 }  // namespace
-
-Settings settingsSaid(const Case& setup, const std::string& engine) {
-  Settings settings;
-  if (const auto section = setup.engines.find(engine); section != setup.engines.end())
-    settings = section->second;
-  if (const EngineEntry* const entry = findEngine(engine))
-    settings.insert(entry->settings.begin(), entry->settings.end());
-  return settings;
-}
-
-Settings withStep(Settings settings, const Case& setup, const Capabilities& can) {
-  const bool has = std::ranges::find(can.settings, "dt", &SettingSpec::name) != can.settings.end();
-  if (setup.run.dt && has) settings.try_emplace("dt", 0.0);
-  return settings;
-}
 
 std::optional<double> stepOfItsOwn(const Case& setup, const std::string& engine,
                                    const Capabilities& can) {

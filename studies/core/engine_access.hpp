@@ -105,12 +105,8 @@ LoadedEngine loadEngine(const EngineEntry& entry, const Case& setup, const Scene
 
 /// Has an engine load the scene as far as the case lets it differ, a mirror that of its peer. What
 /// it then really does, with all deviations, its time step among them.
-/// @throws UnsupportedScene saying what it cannot do
-EffectiveParameters loadAdapted(Engine& engine, const EngineEntry& entry, const Case& setup,
-                                const Scene& scene);
-
-/// The same, and refusals name engine and case. A scene that no engine can start from
-/// (startFault()) is BadInput.
+/// @throws UnsupportedScene naming engine, case and what it cannot do; BadInput for a scene that no
+/// engine can start from (startFault())
 EffectiveParameters loadScene(Engine& engine, const EngineEntry& entry, const Case& setup,
                               const Scene& scene);
 
@@ -128,13 +124,6 @@ void requireSameStep(const EffectiveParameters& first, const EffectiveParameters
 /// The step of the first three lines [s]; absent where the engine follows the case.
 std::optional<double> stepOfItsOwn(const Case& setup, const std::string& engine,
                                    const Capabilities& can);
-
-/// What the case says under [engines.NAME], and where it is silent the engine's own file.
-Settings settingsSaid(const Case& setup, const std::string& engine);
-
-/// The settings with the rule above spelt out: an engine with a default of its own is set to take
-/// the scene's step where the case gives one.
-Settings withStep(Settings settings, const Case& setup, const Capabilities& can);
 
 /// That the engine takes other steps than the scene's; absent if it does not.
 std::optional<Deviation> stepDeviation(double engineStep, double sceneStep);

@@ -16,12 +16,15 @@
 
 namespace crossgrain::inline studies {
 
-void advanceInPieces(Engine& engine, const EffectiveParameters& effective, double from, double to) {
+double advanceInPieces(Engine& engine, const EffectiveParameters& effective, double from, double to,
+                       const std::function<void(double)>& between) {
   const double piece = 2000.0 * effective.dt;
+  double reached = from;
   for (double now = from; now < to;) {
+    if (between) between(now);
     throwIfInterrupted();
     const double next = std::min(to, now + piece);
-    const double reached = engine.advance(next);
+    reached = engine.advance(next);
     if (!(std::abs(reached - next) <= effective.dt)) {
       discardWorker(engine);
       throw EngineFailure(fmt::format("{}: asked for t = {:g} s it stopped at {:g} s",
@@ -29,6 +32,7 @@ void advanceInPieces(Engine& engine, const EffectiveParameters& effective, doubl
     }
     now = next;
   }
+  return reached;
 }
 
 BriefTiming briefTiming(Engine& engine, const EngineEntry& entry, const Case& setup,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 
 #include "adapters/engine.hpp"
@@ -9,8 +10,11 @@
 namespace crossgrain::inline studies {
 
 /// Advances in pieces that an engine can answer within its time-out; Ctrl-C is heard in between.
+/// @param between  called before each piece with the time reached [s]
+/// @returns the time reached, which is within a step of `to` [s]
 /// @throws EngineFailure if it stops anywhere else, Interrupted
-void advanceInPieces(Engine& engine, const EffectiveParameters& effective, double from, double to);
+double advanceInPieces(Engine& engine, const EffectiveParameters& effective, double from, double to,
+                       const std::function<void(double)>& between = {});
 
 /// What a step of an engine takes, from a brief look.
 struct BriefTiming {

@@ -77,6 +77,14 @@ namespace {
 /// Longest wait for the first answer of an engine that nobody has seen yet [s].
 constexpr double patience = 60.0;
 
+/// As conventionsFromWords() reads them.
+std::vector<std::string> describeConventions(const LawConventionSets& conventions) {
+  std::vector<std::string> words;
+  for (const auto& [option, values] : conventions)
+    words.push_back(fmt::format("{}={}", option, fmt::join(values, ",")));
+  return words;
+}
+
 /// The in-house engine with the conventions of another. Which law a scene has is the scene's
 /// matter.
 std::optional<EngineEntry> mirrorOf(const std::string& name, const Capabilities& can) {
@@ -109,13 +117,6 @@ void addMirror(const EngineEntry& entry) {
 }
 
 }  // namespace
-
-std::vector<std::string> describeConventions(const LawConventionSets& conventions) {
-  std::vector<std::string> words;
-  for (const auto& [option, values] : conventions)
-    words.push_back(fmt::format("{}={}", option, fmt::join(values, ",")));
-  return words;
-}
 
 LawConventionSets conventionsFromWords(const std::vector<std::string>& words) {
   LawConventionSets conventions;

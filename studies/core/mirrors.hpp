@@ -36,9 +36,7 @@ std::string addExternalEngine(EngineEntry entry);
 /// "all", for each of them that can be started.
 void addMirrorOfShelved(const std::string& name);
 
-/// Conventions on the command line of such a mirror's worker, "lever_arm=radius,contact_point", and
-/// back.
-std::vector<std::string> describeConventions(const LawConventionSets& conventions);
+/// Conventions from the command line of such a mirror's worker, "lever_arm=radius,contact_point".
 LawConventionSets conventionsFromWords(const std::vector<std::string>& words);
 
 }  // namespace crossgrain::inline studies

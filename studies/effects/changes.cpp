@@ -3,14 +3,14 @@
 #include <cmath>
 
 #include "studies/flow/agreement_table.hpp"
-#include "studies/flow/paired_rings.hpp"
+#include "studies/flow/paired_runs.hpp"
 
 namespace crossgrain::inline studies {
 
 namespace {
 
 struct TestedChange {
-  TestedRing test;                  ///< of no change: margin 0, on the scale of the case's margin
+  PairedTest test;                  ///< of no change: margin 0, on the scale of the case's margin
   PairedSample plain;               ///< in the field's unit
   std::optional<double> reference;  ///< mean over packings
   std::optional<double> withinRun;  ///< error of the only packing's difference
@@ -38,8 +38,8 @@ struct PairedRuns {
 /// Of a relative margin ratios are tested, as they are against the margin: so what is shown to lie
 /// beyond the margin is also significantly different from no change, µ = 0 being the smaller claim
 /// of the same test.
-TestedRing testOfNoChange(const Margin* margin, const Numbers& whole, const Numbers& switched) {
-  TestedRing ring = testedRing(margin ? *margin : Margin{}, whole, switched);
+PairedTest testOfNoChange(const Margin* margin, const Numbers& whole, const Numbers& switched) {
+  PairedTest ring = testedRing(margin ? *margin : Margin{}, whole, switched);
   ring.sample.margin = 0.0;
   return ring;
 }

@@ -10,8 +10,8 @@
 #include "cases/couette.hpp"
 #include "results/schema.hpp"
 #include "studies/core/study_cases.hpp"
-#include "studies/flow/agreement_table.hpp"
 #include "studies/flow/campaign.hpp"
+#include "studies/flow/ensemble.hpp"
 
 namespace crossgrain::inline studies {
 

@@ -2,52 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
-
-#include "studies/flow/paired_rings.hpp"
 
 namespace crossgrain::inline studies {
 
 namespace {
 
 /// In the field's unit; of a relative one none where the reference has nothing.
-std::optional<double> marginOf(const TestedRing& ring, const Margin& margin) {
+std::optional<double> marginOf(const PairedTest& test, const Margin& margin) {
   if (!margin.relative) return margin.value;
-  if (!(ring.reference > 0.0)) return std::nullopt;
-  return margin.value * ring.reference;
+  if (test.reference == 0.0) return std::nullopt;
+  return margin.value * std::abs(test.reference);
 }
 
 /// What was found, in the field's unit: a ratio as the difference that it makes to the reference.
-/// @param detects  the smallest difference that such a test finds, on its own scale
-AgreementRing ringRow(std::size_t index, const TestedRing& ring, const PairedComparison& found,
-                      const Margin& margin, std::optional<double> detects) {
+/// @param level  of a test that would find a difference by itself
+AgreementRing ringRow(std::size_t index, const PairedTest& test, const PairedComparison& found,
+                      const Margin& margin, double level) {
   const auto bound = [&](const std::optional<double>& value) {
-    return value ? std::optional(inUnit(ring, *value)) : std::nullopt;
+    return value ? std::optional(inUnit(test, *value)) : std::nullopt;
   };
-  // The larger of two negative values has the smaller logarithm.
-  const auto& [low, high] =
-      ring.sign < 0.0 ? std::tie(found.high, found.low) : std::tie(found.low, found.high);
   AgreementRing row;
   row.ring = index;
-  if (found.packings > 0) row.difference = inUnit(ring, found.difference);
+  if (found.packings > 0) row.difference = inUnit(test, found.difference);
   row.standardError = found.standardError;
-  if (ring.logarithmic && found.standardError)
-    row.standardError = ring.reference * std::exp(found.difference) * *found.standardError;
-  row.low = bound(low);
-  row.high = bound(high);
-  row.margin = marginOf(ring, margin);
-  if (detects) row.detects = std::abs(inUnit(ring, *detects));
+  if (test.logarithmic && found.standardError)
+    row.standardError =
+        std::abs(test.reference) * std::exp(test.sign * found.difference) * *found.standardError;
+  row.low = bound(found.low);
+  row.high = bound(found.high);
+  row.margin = marginOf(test, margin);
+  if (found.standardError)
+    if (const auto smallest =
+            smallestDetectable(*found.standardError, found.packings, test.sample.margin, level))
+      row.detects = std::abs(inUnit(test, test.sign * *smallest));
   row.withinFraction = found.withinFraction;
-  row.scale = ring.logarithmic ? TestScale::logarithmic : TestScale::linear;
+  row.scale = test.logarithmic ? TestScale::logarithmic : TestScale::linear;
   row.packings = found.packings;
   row.verdict = found.verdict;
   return row;
-}
-
-std::optional<double> detectable(const TestedRing& ring, const PairedComparison& found,
-                                 double level) {
-  if (!found.standardError) return std::nullopt;
-  return smallestDetectable(*found.standardError, found.packings, ring.sample.margin, level);
 }
 
 /// What a difference in all rings must at least be to be found: the ring that shows it best.
@@ -59,19 +51,20 @@ std::optional<double> smallestOf(const std::vector<AgreementRing>& rings) {
 }
 
 /// All rings of all fields are one family of tests, so they are put through together.
-struct Family {
+struct RingFamily {
   struct Field {
     std::string name;
     const Margin* margin;
     std::size_t first, rings;
   };
   std::vector<Field> fields;
-  std::vector<TestedRing> tested;
+  std::vector<PairedTest> tested;
 };
 
-Family familyOf(const Case& setup, const Runs& reference, const Runs& other, std::size_t packings) {
+RingFamily ringFamilyOf(const Case& setup, const Runs& reference, const Runs& other,
+                        std::size_t packings) {
   const std::string& method = setup.averaging.methods.front();
-  Family family;
+  RingFamily family;
   for (const auto& [name, margin] : setup.averaging.margins) {
     const auto ours = fieldByRing(reference, method, name, packings);
     const auto theirs = fieldByRing(other, method, name, packings);
@@ -90,14 +83,14 @@ Family familyOf(const Case& setup, const Runs& reference, const Runs& other, std
   return family;
 }
 
-std::vector<AgreementRow> pairAgreement(const Case& setup, std::span<const FlowRun> runs,
-                                        const ComparedPair& pair) {
-  const Runs reference = finishedRuns(runs, pair.reference);
-  const Runs other = finishedRuns(runs, pair.other, pair.without);
-  if (reference.empty() || other.empty()) return {};
-  const Family family = familyOf(setup, reference, other, packingsOf(runs));
+void addPair(std::vector<AgreementRow>& table, const Case& setup, std::span<const FlowRun> runs,
+             const ComparedPair& pair, const std::vector<SurrogateEngine>& surrogates) {
+  const Runs reference = runsFor(runs, pair.a, surrogates);
+  const Runs other = runsFor(runs, pair.b, surrogates, pair.without);
+  if (reference.empty() || other.empty()) return;
+  const RingFamily family = ringFamilyOf(setup, reference, other, packingsOf(runs));
   std::vector<PairedSample> samples;
-  for (const TestedRing& ring : family.tested) samples.push_back(ring.sample);
+  for (const PairedTest& ring : family.tested) samples.push_back(ring.sample);
   const auto results = comparePaired(samples, setup.averaging.confidence);
 
   const auto tests =
@@ -106,38 +99,34 @@ std::vector<AgreementRow> pairAgreement(const Case& setup, std::span<const FlowR
   const double level =
       (1.0 - setup.averaging.confidence) / static_cast<double>(std::max<std::ptrdiff_t>(tests, 1));
 
-  std::vector<AgreementRow> table;
-  for (const Family::Field& field : family.fields) {
+  for (const RingFamily::Field& field : family.fields) {
     const std::span rings(results.begin() + static_cast<std::ptrdiff_t>(field.first), field.rings);
     const FieldVerdict verdict = fieldVerdict(rings);
     AgreementRow row;
-    row.a = pair.reference;
-    row.b = pair.other;
+    row.a = pair.a;
+    row.b = pair.b;
     row.kind = pair.kind;
     row.field = field.name;
     row.margin = field.margin->value;
     row.marginRelative = field.margin->relative;
     row.marginWhy = field.margin->why;
     row.verdict = verdict.verdict;
-    for (std::size_t ring = 0; ring < field.rings; ++ring) {
-      const TestedRing& tested = family.tested[field.first + ring];
+    for (std::size_t ring = 0; ring < field.rings; ++ring)
       if (rings[ring])
-        row.rings.push_back(ringRow(ring, tested, *rings[ring], *field.margin,
-                                    detectable(tested, *rings[ring], level)));
-    }
+        row.rings.push_back(
+            ringRow(ring, family.tested[field.first + ring], *rings[ring], *field.margin, level));
     row.detects = smallestOf(row.rings);
     table.push_back(std::move(row));
   }
-  return table;
 }
 
 }  // namespace
 
 std::vector<AgreementRow> agreementOf(const Case& setup, std::span<const FlowRun> runs,
-                                      const std::vector<ComparedPair>& pairs) {
+                                      const std::vector<ComparedPair>& pairs,
+                                      const std::vector<SurrogateEngine>& surrogates) {
   std::vector<AgreementRow> table;
-  for (const ComparedPair& pair : pairs)
-    for (AgreementRow& row : pairAgreement(setup, runs, pair)) table.push_back(std::move(row));
+  for (const ComparedPair& pair : pairs) addPair(table, setup, runs, pair, surrogates);
   return table;
 }
 

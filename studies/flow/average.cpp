@@ -5,10 +5,9 @@
 #include "results/schema.hpp"
 #include "studies/core/study_cases.hpp"
 #include "studies/flow/averages.hpp"
+#include "studies/flow/ensemble.hpp"
 #include "studies/flow/frame.hpp"
 #include "studies/flow/snapshot_file.hpp"
-#include "studies/flow/snapshot_fit.hpp"
-#include "studies/flow/state_table.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
 

@@ -1,22 +1,71 @@
 #include "studies/flow/averages.hpp"
 
+#include "averaging/global.hpp"
+#include "averaging/grid.hpp"
+#include "averaging/regime.hpp"
+#include "averaging/rings.hpp"
+#include "cases/couette.hpp"
+#include "cases/flow.hpp"
 #include "studies/flow/run.hpp"
-#include "studies/flow/state.hpp"
 #include "studies/flow/summary.hpp"
 
 namespace crossgrain::inline studies {
+
+std::shared_ptr<const Coordinates> binsOf(const Case& setup) {
+  if (!setup.average) return std::make_shared<Rings>(ringsOf(setup));
+  const Region& region = setup.average->region;
+  if (region.hasRings())
+    return std::make_shared<Rings>(region.innerRadius, region.outerRadius, region.count,
+                                   region.height, flowDiameter(setup));
+  return std::make_shared<Grid>(region.low, region.high, region.columnCount(), region.rowCount(),
+                                region.height);
+}
+
+std::unique_ptr<FlowAverages> flowAverages(const Case& setup, const Scene& scene) {
+  if (setup.average) return std::make_unique<RegionAverages>(setup, scene);
+  return std::make_unique<CouetteAverages>(setup, scene);
+}
+
+void addGlobalNumbers(RunSeries& rows, const Scene& scene, const Snapshot& now) {
+  const GlobalNumbers numbers = globalNumbers(scene, now);
+  rows["t_s"].push_back(now.positionTime);
+  rows["kinetic_energy"].push_back(numbers.kineticEnergy);
+  rows["coordination"].push_back(numbers.coordination);
+  rows["max_overlap"].push_back(numbers.maxOverlap);
+  rows["mean_overlap"].push_back(numbers.meanOverlap);
+  rows["sliding_fraction"].push_back(numbers.slidingFraction);
+  rows["pairs_listed"].push_back(numbers.listedPairs);
+  if (!now.ledger) return;
+  for (const LedgerTerm& term : ledgerTerms)
+    rows["energy_" + std::string(term.name)].push_back(*now.ledger.*term.value);
+  rows["energy_residual"].push_back(residual(*now.ledger));
+}
 
 CouetteAverages::CouetteAverages(const Case& setup, const Scene& scene)
     : setup_(setup),
       scene_(scene),
       profiles_(ringsOf(setup), weightsOf(setup, setup.averaging.methods), scene),
-      series_(setup, scene),
       distributions_(ringsOf(setup), scene, distributionScales(setup)),
       spin_(ringsOf(setup), scene) {}
 
+void CouetteAverages::addSeries(const Snapshot& now) {
+  addGlobalNumbers(series_, scene_, now);
+  series_["wheel_torque"].push_back(drivingTorque(scene_, now, wheelName));
+  // Snapshots of another source may lack the walls: no disks of a ring, no pressure on it.
+  const auto pressure =
+      now.wallPosition.empty()
+          ? std::nullopt
+          : radialPressure(scene_, now, ringName, setup_.cell.outerRadius, setup_.cell.height);
+  series_["outer_pressure"].push_back(pressure);
+  series_["wheel_contacts"].push_back(contactsOf(scene_, now, wheelName));
+  const auto motion = wheelMotion(scene_, now, ringsOf(setup_), setup_.cell.omega);
+  series_["wheel_slip"].push_back(motion ? std::optional(motion->slip) : std::nullopt);
+  series_["shear_share"].push_back(motion ? std::optional(motion->shear) : std::nullopt);
+}
+
 void CouetteAverages::add(const Snapshot& snapshot) {
   profiles_.add(snapshot);
-  series_.add(snapshot);
+  addSeries(snapshot);
   distributions_.add(snapshot);
   spin_.add(snapshot);
   // As the pressure on the ring: only of snapshots that hold the walls.
@@ -26,7 +75,7 @@ void CouetteAverages::add(const Snapshot& snapshot) {
 
 void CouetteAverages::describe(const EffectiveParameters& effective, FlowRun& run) const {
   run.profiles = profiles_.profiles();
-  run.series = series_.rows();
+  run.series = series_;
   run.head = headNumbers(setup_, run.profiles, *run.series, effective);
   run.regime = couetteRegime(setup_, run.profiles, *run.series);
   run.steadiness = couetteSteadiness(setup_, *run.series);

@@ -1,35 +1,84 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "adapters/scene.hpp"
+#include "adapters/snapshot.hpp"
+#include "averaging/coordinates.hpp"
 #include "averaging/distributions.hpp"
 #include "averaging/layer_spin.hpp"
 #include "averaging/profiles.hpp"
 #include "averaging/wall_balance.hpp"
+#include "cases/case.hpp"
 #include "results/run.hpp"
-#include "studies/flow/flow_averages.hpp"
-#include "studies/flow/series.hpp"
 
 namespace crossgrain::inline studies {
+
+/// The bins that a case averages over: its rings, or what [average] says.
+std::shared_ptr<const Coordinates> binsOf(const Case& setup);
+
+/// All that is averaged over the snapshots of one run.
+class FlowAverages {
+ public:
+  virtual ~FlowAverages() = default;
+
+  /// @throws std::invalid_argument for a snapshot that does not fit the scene or those before it
+  virtual void add(const Snapshot& snapshot) = 0;
+
+  /// Puts them, and what follows from them, into a run: all but what it was run with and its
+  /// picture.
+  virtual void describe(const EffectiveParameters& effective, FlowRun& run) const = 0;
+};
+
+/// Adds the numbers that any scene has to series: the snapshot's time, kinetic energy, what
+/// contacts show and the engine's ledger, where it keeps one.
+void addGlobalNumbers(RunSeries& rows, const Scene& scene, const Snapshot& now);
+
+/// Those of the case's kind. Both arguments outlive them.
+std::unique_ptr<FlowAverages> flowAverages(const Case& setup, const Scene& scene);
 
 /// All that is averaged over the snapshots of a Couette cell, whether they come from an engine or
 /// from a file.
 class CouetteAverages : public FlowAverages {
  public:
-  /// Both outlive it. @param scene  see CouetteSeries
+  /// Both outlive it. The scene has the Couette cell's two bodies.
   CouetteAverages(const Case& setup, const Scene& scene);
 
   void add(const Snapshot& snapshot) override;
   void describe(const EffectiveParameters& effective, FlowRun& run) const override;
 
  private:
+  void addSeries(const Snapshot& now);
+
   const Case& setup_;
   const Scene& scene_;
   ProfileAccumulator profiles_;
-  CouetteSeries series_;
+  RunSeries series_;
   DistributionAccumulator distributions_;
   LayerSpin spin_;
   std::vector<WallBalance> wall_;  ///< one a snapshot that holds the walls and contacts
+};
+
+/// What is averaged of an assembly: profiles over the bins of its region; and series of the region,
+/// of the whole scene and of those disks that endpoints ask for (cases/case.hpp).
+class RegionAverages : public FlowAverages {
+ public:
+  /// Both outlive it.
+  RegionAverages(const Case& setup, const Scene& scene);
+
+  void add(const Snapshot& snapshot) override;
+  void describe(const EffectiveParameters& effective, FlowRun& run) const override;
+
+ private:
+  void addMoments(const Snapshot& now);
+  void addDisks(const Snapshot& now);
+
+  const Case& setup_;
+  const Scene& scene_;
+  std::shared_ptr<const Coordinates> bins_;
+  ProfileAccumulator profiles_;
+  RunSeries series_;
 };
 
 }  // namespace crossgrain::inline studies

@@ -9,31 +9,16 @@
 #include "results/schema.hpp"
 #include "studies/core/study_cases.hpp"
 #include "studies/flow/agreement_table.hpp"
-#include "studies/flow/alarms.hpp"
 #include "studies/flow/campaign.hpp"
-#include "studies/flow/contact_notes.hpp"
+#include "studies/flow/ensemble.hpp"
 #include "studies/flow/interim_analyses.hpp"
 #include "studies/flow/lockstep_job.hpp"
-#include "studies/flow/state_table.hpp"
-#include "studies/flow/velocity_notes.hpp"
+#include "studies/flow/notes.hpp"
 #include "studies/lockstep/rules.hpp"
 
 namespace crossgrain::inline studies {
 
 namespace {
-
-/// The pair with the engines whose runs stand for both.
-ComparedPair byRuns(const EndpointPair& pair) {
-  return {pair.runsOfA, pair.runsOfB, pair.kind, ""};
-}
-
-/// What runs show, under the names of the engines that they stand for.
-void nameEngines(auto& rows, const EndpointPair& pair) {
-  for (auto& row : rows) {
-    row.a = pair.a;
-    row.b = pair.b;
-  }
-}
 
 /// Those whose implementation is in question: not what mirrors are made of, nor mirrors themselves.
 bool hasMirror(const EngineEntry& entry) {
@@ -112,22 +97,18 @@ CompareResults compare(const StudyWork& work, const CompareOptions& own) {
   if (!lockstep.rows.empty()) results.lockstep = std::move(lockstep);
   std::vector<std::string> names;
   for (const EngineRow& engine : results.engines) names.push_back(engine.name);
-  for (const EndpointPair& pair : pairsOf(campaign, command.engines, endpoints.surrogates)) {
-    auto regimes = regimesOf(results.runs, {byRuns(pair)});
-    auto rings = agreementOf(setup, results.runs, {byRuns(pair)});
-    nameEngines(regimes, pair);
-    nameEngines(rings, pair);
-    std::ranges::move(regimes, std::back_inserter(results.regimes));
-    std::ranges::move(rings, std::back_inserter(results.agreement));
-  }
+  const auto pairs = pairsOf(campaign, command.engines, endpoints.surrogates);
+  results.regimes = regimesOf(results.runs, pairs, endpoints.surrogates);
+  results.agreement = agreementOf(setup, results.runs, pairs, endpoints.surrogates);
   results.steadiness = steadinessOf(results.runs, names, setup.averaging.confidence);
   results.ensemble = ensembleOf(results.runs, names);
-  endpoints.alarms = alarmsOf(setup, results, endpoints.rows);
+  results.endpoints = std::move(endpoints);
+  results.endpoints.alarms = alarmsOf(setup, results);
   const auto named = std::ranges::count_if(campaign.engines(), [&](const EngineEntry& entry) {
     return entry.mirrors.empty() || isNamed(command.engines, entry);
   });
-  results.nothingJudged = nothingJudged(setup, endpoints.rows, static_cast<std::size_t>(named));
-  results.endpoints = std::move(endpoints);
+  results.nothingJudged =
+      nothingJudged(setup, results.endpoints.rows, static_cast<std::size_t>(named));
   if (const auto& nothing = results.nothingJudged)
     results.notes.push_back(fmt::format("Nothing was judged: {}.", nothing->reason));
   std::ranges::move(velocityNotes(results), std::back_inserter(results.notes));

@@ -10,7 +10,6 @@
 #include "cases/endpoints.hpp"
 #include "cases/flow.hpp"
 #include "studies/flow/endpoint_values.hpp"
-#include "studies/flow/paired_rings.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -18,61 +17,12 @@ namespace {
 
 constexpr int fewestPackings = 4;  // of any verdict
 
-/// B and the part of it that is the spot check's, in margins.
-struct Bound {
-  double all = 0.0, late = 0.0;
+/// An endpoint of two engines on its way to a verdict.
+struct EndpointTest {
+  EndpointRow row;
+  PairedTest test;
+  std::optional<InterimAnswer> found = {};
 };
-
-/// One endpoint as it is put to the test: by difference, or by the logarithm of the ratio.
-struct TestedEndpoint {
-  EndpointSpec endpoint;
-  const Margin* margin;
-  PairedSample sample;
-  double sign = 1.0;       ///< of the values whose ratio is tested
-  double reference = 0.0;  ///< mean over packings of a [unit]
-  std::optional<Bound> bound;
-  std::string reason;  ///< EndpointRow::reason
-};
-
-double testMargin(const EndpointSpec& endpoint, const Margin& margin) {
-  return endpoint.byRatio ? std::log1p(margin.value) : margin.value;
-}
-
-/// Of the values of a reference, for a margin that is a share of |reference|: +1 or −1; 0 where
-/// both occur or none, as a share of what may be 0 is no margin.
-double signOf(const Numbers& values) {
-  double sign = 0.0;
-  for (const auto& value : values) {
-    if (!value || *value == 0.0 || !std::isfinite(*value)) continue;
-    const double own = *value > 0.0 ? 1.0 : -1.0;
-    if (sign == -own) return 0.0;
-    sign = own;
-  }
-  return sign;
-}
-
-/// Those that can be tested: what is 0 or of another sign has no ratio, and its packing counts as
-/// lost.
-Numbers testable(const EndpointSpec& endpoint, Numbers values, double sign) {
-  for (auto& value : values)
-    if (value && (!std::isfinite(*value) || (endpoint.byRatio && !(sign * *value > 0.0))))
-      value.reset();
-  return values;
-}
-
-/// On the scale of the test, which rises with the value whatever its sign.
-Numbers onScale(const EndpointSpec& endpoint, Numbers values, double sign) {
-  values = testable(endpoint, std::move(values), sign);
-  if (endpoint.byRatio)
-    for (auto& value : values)
-      if (value) value = sign * std::log(sign * *value);
-  return values;
-}
-
-/// A difference on the scale of the test as the one that it makes in the endpoint's unit.
-double inUnit(const TestedEndpoint& tested, double value) {
-  return tested.endpoint.byRatio ? tested.reference * std::expm1(tested.sign * value) : value;
-}
 
 /// Why some of the values cannot be tested by their ratio; empty: all can.
 std::string whyNoRatio(const EndpointSpec& endpoint, const Numbers& reference,
@@ -89,72 +39,12 @@ std::string whyNoRatio(const EndpointSpec& endpoint, const Numbers& reference,
   return {};
 }
 
-/// Of all mirrors together. Absent where a response or an equivalent change is not known.
-std::optional<Bound> boundOf(std::string_view endpoint, const std::vector<SurrogateEngine>& mirrors,
-                             const std::vector<EndpointResponse>& responses) {
-  Bound bound;
-  for (const SurrogateEngine& mirror : mirrors) {
-    const auto late = reachOf(endpoint, mirror.late, responses);
-    if (!late) return std::nullopt;
-    double start = 0.0;
-    for (const EndpointResponse& response : responses)
-      if (response.endpoint == endpoint && response.bound)
-        start = std::max(start, mirror.equivalent / response.change * *response.bound);
-    bound.all += start + *late;
-    bound.late += *late;
-  }
-  return bound;
-}
-
-bool isCarried(const EndpointPair& pair) {
-  return pair.runsOfA != pair.a || pair.runsOfB != pair.b;
-}
-
-TestedEndpoint tested(const Case& setup, const EndpointSpec& endpoint, const Numbers& reference,
-                      const Numbers& other) {
-  const Margin& margin = setup.averaging.endpoints.at(std::string(endpoint.name));
-  TestedEndpoint own{endpoint,
-                     &margin,
-                     endpointSample(endpoint, margin, reference, other),
-                     signOf(reference),
-                     0.0,
-                     {},
-                     whyNoRatio(endpoint, reference, other)};
-  if (const auto mean = ensembleMean(testable(endpoint, reference, own.sign)))
-    own.reference = mean->mean;
-  return own;
-}
-
-std::vector<TestedEndpoint> familyOf(const Case& setup, std::span<const FlowRun> runs,
-                                     const EndpointPair& pair,
-                                     const std::vector<EndpointResponse>& responses) {
-  const std::size_t packings = packingsOf(runs);
-  const Runs ours = finishedRuns(runs, pair.runsOfA), theirs = finishedRuns(runs, pair.runsOfB);
-  std::vector<TestedEndpoint> family;
-  for (const EndpointSpec& endpoint : endpointsOf(setup)) {
-    TestedEndpoint tested =
-        studies::tested(setup, endpoint, endpointByPacking(endpoint, setup, ours, packings),
-                        endpointByPacking(endpoint, setup, theirs, packings));
-    for (const Runs& engine : {ours, theirs})
-      if (tested.reason.empty()) tested.reason = missingValueReason(endpoint, setup, engine);
-    if (isCarried(pair)) {
-      tested.bound = boundOf(endpoint.name, pair.by, responses);
-      // Nothing is known of the true difference: no verdict can stand on these runs.
-      if (!tested.bound) continue;
-      tested.sample.bias = tested.bound->all * tested.sample.margin;
-    }
-    family.push_back(std::move(tested));
-  }
-  return family;
-}
-
-/// All but what was found.
-EndpointRow emptyRow(const std::string& a, const std::string& b, PairKind kind,
-                     const EndpointSpec& endpoint, const Margin& margin) {
+/// All but what is found.
+EndpointRow emptyRow(const ComparedPair& pair, const EndpointSpec& endpoint, const Margin& margin) {
   EndpointRow row;
-  row.a = a;
-  row.b = b;
-  row.kind = kind;
+  row.a = pair.a;
+  row.b = pair.b;
+  row.kind = pair.kind;
   row.endpoint = endpoint.name;
   row.unit = endpoint.unit;
   row.margin = margin.value;
@@ -163,34 +53,80 @@ EndpointRow emptyRow(const std::string& a, const std::string& b, PairKind kind,
   return row;
 }
 
-/// @param looked  packings
-EndpointRow rowOf(const EndpointPair& pair, const TestedEndpoint& tested,
-                  const std::optional<InterimAnswer>& found, int looked) {
-  EndpointRow row = emptyRow(pair.a, pair.b, pair.kind, tested.endpoint, *tested.margin);
-  row.reason = tested.reason;
-  if (pair.runsOfA != pair.a) row.surrogateA = pair.runsOfA;
-  if (pair.runsOfB != pair.b) row.surrogateB = pair.runsOfB;
-  if (tested.bound) {
-    row.bound = tested.bound->all;
-    row.reach = tested.bound->late;
+EndpointTest testOf(const Case& setup, const ComparedPair& pair, const EndpointSpec& endpoint,
+                    const Numbers& reference, const Numbers& other) {
+  const Margin& margin = setup.averaging.endpoints.at(std::string(endpoint.name));
+  EndpointTest own{emptyRow(pair, endpoint, margin),
+                   testedEndpoint(endpoint, margin, reference, other)};
+  own.row.reason = whyNoRatio(endpoint, reference, other);
+  return own;
+}
+
+/// Adds the bound of a mirror to the row of an engine that is evaluated through it. @returns
+/// whether there is one: not where a response or an equivalent change is not known
+bool addBound(EndpointRow& row, const SurrogateEngine& mirror,
+              const std::vector<EndpointResponse>& responses) {
+  const auto late = reachOf(row.endpoint, mirror.late, responses);
+  if (!late) return false;
+  double start = 0.0;
+  for (const EndpointResponse& response : responses)
+    if (response.endpoint == row.endpoint && response.bound)
+      start = std::max(start, mirror.equivalent / response.change * *response.bound);
+  row.bound = row.bound.value_or(0.0) + (start + *late);
+  row.reach = row.reach.value_or(0.0) + *late;
+  return true;
+}
+
+std::vector<EndpointTest> familyOf(const Case& setup, std::span<const FlowRun> runs,
+                                   const ComparedPair& pair, const EndpointFindings& known) {
+  const std::size_t packings = packingsOf(runs);
+  const Runs ours = runsFor(runs, pair.a, known.surrogates),
+             theirs = runsFor(runs, pair.b, known.surrogates);
+  std::vector<EndpointTest> family;
+  if (ours.empty() || theirs.empty()) return family;
+  for (const EndpointSpec& endpoint : endpointsOf(setup)) {
+    EndpointTest own =
+        testOf(setup, pair, endpoint, endpointByPacking(endpoint, setup, ours, packings),
+               endpointByPacking(endpoint, setup, theirs, packings));
+    for (const Runs* engine : {&ours, &theirs})
+      if (own.row.reason.empty()) own.row.reason = missingValueReason(endpoint, setup, *engine);
+    // Without a bound nothing is known of the true difference: no verdict can stand on these runs.
+    bool bounded = true;
+    for (const auto& [engine, mirror] :
+         {std::pair(&pair.a, &own.row.surrogateA), std::pair(&pair.b, &own.row.surrogateB)})
+      if (const SurrogateEngine* const by = surrogateOf(known.surrogates, *engine)) {
+        *mirror = by->mirror;
+        bounded = bounded && addBound(own.row, *by, known.responses);
+      }
+    if (!bounded) continue;
+    own.test.sample.bias = own.row.bound.value_or(0.0) * own.test.sample.margin;
+    family.push_back(std::move(own));
   }
-  if (!found) row.lost = looked;  // neither has anything
-  if (!found) return row;
-  row.verdict = found->verdict;
-  row.look = static_cast<int>(found->look) + 1;
-  row.packings = found->packings;
-  row.lost = found->lost;
-  if (found->packings == 0) return row;
-  const double margin = tested.sample.margin, bias = tested.sample.bias;
-  row.reference = tested.reference;
-  row.difference = inUnit(tested, found->difference);
-  row.distance = found->difference / margin;
-  if (!found->low) return row;
-  row.low = inUnit(tested, *found->low - bias);
-  row.high = inUnit(tested, *found->high + bias);
-  row.distanceLow = (*found->low - bias) / margin;
-  row.distanceHigh = (*found->high + bias) / margin;
-  return row;
+  return family;
+}
+
+/// @param looked  packings
+void answer(EndpointTest& own, int looked) {
+  EndpointRow& row = own.row;
+  if (!own.found) {
+    row.lost = looked;  // neither has anything
+    return;
+  }
+  const InterimAnswer& found = *own.found;
+  row.verdict = found.verdict;
+  row.look = static_cast<int>(found.look) + 1;
+  row.packings = found.packings;
+  row.lost = found.lost;
+  if (found.packings == 0) return;
+  const double margin = own.test.sample.margin, bias = own.test.sample.bias;
+  row.reference = own.test.reference;
+  row.difference = inUnit(own.test, found.difference);
+  row.distance = found.difference / margin;
+  if (!found.low) return;
+  row.low = inUnit(own.test, *found.low - bias);
+  row.high = inUnit(own.test, *found.high + bias);
+  row.distanceLow = (*found.low - bias) / margin;
+  row.distanceHigh = (*found.high + bias) / margin;
 }
 
 /// Scatter of one paired difference on the scale of the test, of all pairs of an endpoint together.
@@ -214,27 +150,21 @@ Pooled chaosOf(const std::string& endpoint, const std::vector<EndpointResponse>&
   return {dof * squares / count, dof};
 }
 
-/// A row and what it was made of.
-struct JudgedEndpoint {
-  EndpointRow row;
-  TestedEndpoint tested;
-  std::optional<InterimAnswer> found;
-};
-
-void addNeeds(std::vector<JudgedEndpoint>& judged, const InterimPlan& plan) {
-  std::map<std::string_view, Pooled> scatter;
-  for (const JudgedEndpoint& one : judged)
+/// How many packings would decide what is undecided, by the scatter of all pairs.
+void addNeeds(std::vector<EndpointTest>& tests, const InterimPlan& plan) {
+  std::map<std::string, Pooled> scatter;
+  for (const EndpointTest& one : tests)
     if (one.found && one.found->standardError) {
-      Pooled& pooled = scatter[one.tested.endpoint.name];
+      Pooled& pooled = scatter[one.row.endpoint];
       const int dof = one.found->packings - 1;
       pooled.squares +=
           dof * *one.found->standardError * *one.found->standardError * one.found->packings;
       pooled.dof += dof;
     }
-  for (JudgedEndpoint& one : judged) {
-    const Pooled& pooled = scatter[one.tested.endpoint.name];
+  for (EndpointTest& one : tests) {
+    const Pooled& pooled = scatter[one.row.endpoint];
     if (one.row.verdict != Verdict::undecided || !one.found || pooled.dof == 0) continue;
-    const double margin = one.tested.sample.margin, bias = one.tested.sample.bias;
+    const double margin = one.test.sample.margin, bias = one.test.sample.bias;
     const double distance = std::abs(one.found->difference);
     const bool toAgree = distance < margin - bias;
     if (!toAgree && distance < margin + bias) continue;  // what a mirror leaves open, none decide
@@ -248,22 +178,26 @@ void addNeeds(std::vector<JudgedEndpoint>& judged, const InterimPlan& plan) {
   }
 }
 
-/// The family of one pair after the looks that so many packings allow.
-void judge(const EndpointPair& pair, const std::vector<TestedEndpoint>& family,
-           const InterimPlan& plan, int available, std::vector<JudgedEndpoint>& judged) {
+/// Judges the family of one pair after the interim analyses that so many packings allow, and adds
+/// it to the others.
+void judge(std::vector<EndpointTest> family, const InterimPlan& plan, int available,
+           std::vector<EndpointTest>& judged) {
   std::vector<PairedSample> samples;
-  for (const TestedEndpoint& tested : family) samples.push_back(tested.sample);
+  for (const EndpointTest& own : family) samples.push_back(own.test.sample);
   const auto found = answersAfterInterims(samples, plan, available);
   const std::size_t looks = interimsTaken(plan, available);
   const int looked = looks > 0 ? plan.packings[looks - 1] : 0;
-  for (std::size_t k = 0; k < family.size(); ++k)
-    judged.push_back({rowOf(pair, family[k], found[k], looked), family[k], found[k]});
+  for (std::size_t k = 0; k < family.size(); ++k) {
+    family[k].found = found[k];
+    answer(family[k], looked);
+    judged.push_back(std::move(family[k]));
+  }
 }
 
-std::vector<EndpointRow> rowsOf(std::vector<JudgedEndpoint> judged, const InterimPlan& plan) {
+std::vector<EndpointRow> rowsOf(std::vector<EndpointTest> judged, const InterimPlan& plan) {
   addNeeds(judged, plan);
   std::vector<EndpointRow> rows;
-  for (JudgedEndpoint& one : judged) rows.push_back(std::move(one.row));
+  for (EndpointTest& one : judged) rows.push_back(std::move(one.row));
   return rows;
 }
 
@@ -310,21 +244,19 @@ void answerExactly(EndpointRow& row, const RepeatedValue& a, const RepeatedValue
 
 std::vector<EndpointRow> closedFormRows(const Case& setup, std::span<const FlowRun> runs,
                                         const std::vector<std::string>& engines,
-                                        const std::vector<EndpointPair>& pairs) {
+                                        const std::vector<ComparedPair>& pairs) {
   std::vector<EndpointRow> rows;
   for (const OwnEndpoint& own : setup.average->endpoints) {
     const EndpointSpec endpoint = endpointSpec(setup, own.name);
-    const Margin& margin = setup.averaging.endpoints.at(own.name);
-    const auto add = [&](const std::string& a, const std::string& b, PairKind kind,
-                         const RepeatedValue& first) {
-      rows.push_back(emptyRow(a, b, kind, endpoint, margin));
-      answerExactly(rows.back(), first, repeatedValue(endpoint, setup, runs, b));
+    const auto add = [&](const ComparedPair& pair, const RepeatedValue& first) {
+      rows.push_back(emptyRow(pair, endpoint, setup.averaging.endpoints.at(own.name)));
+      answerExactly(rows.back(), first, repeatedValue(endpoint, setup, runs, pair.b));
     };
     for (const std::string& engine : engines)
-      add(closedFormName, engine, PairKind::closedForm, {own.expected, 0, {}});
-    for (const EndpointPair& pair : pairs)
+      add({closedFormName, engine, PairKind::closedForm}, {own.expected, 0, {}});
+    for (const ComparedPair& pair : pairs)
       if (!finishedRuns(runs, pair.a).empty() && !finishedRuns(runs, pair.b).empty())
-        add(pair.a, pair.b, pair.kind, repeatedValue(endpoint, setup, runs, pair.a));
+        add(pair, repeatedValue(endpoint, setup, runs, pair.a));
   }
   return rows;
 }
@@ -336,39 +268,24 @@ InterimPlan interimPlanOf(const Case& setup) {
   return interimPlanAt(first, oneLook ? 1 : setup.looks.count, 1.0 - setup.averaging.confidence);
 }
 
-PairedSample endpointSample(const EndpointSpec& endpoint, const Margin& margin, Numbers reference,
-                            Numbers other) {
-  const double sign = signOf(reference);
-  return {onScale(endpoint, std::move(reference), sign),
-          onScale(endpoint, std::move(other), sign),
-          testMargin(endpoint, margin),
-          0.0,
-          {}};
-}
-
 std::vector<EndpointRow> endpointRows(const Case& setup, const std::vector<EndpointValues>& family,
                                       const std::pair<std::string, std::string>& names,
                                       const InterimPlan& plan) {
-  const EndpointPair pair{names.first, names.second, PairKind::peer, names.first, names.second};
-  std::vector<TestedEndpoint> endpoints;
+  std::vector<EndpointTest> tests, judged;
   for (const EndpointValues& values : family)
-    endpoints.push_back(
-        tested(setup, endpointSpec(setup, values.endpoint), values.reference, values.other));
-  std::vector<JudgedEndpoint> judged;
-  judge(pair, endpoints, plan, plan.packings.back(), judged);
+    tests.push_back(testOf(setup, {names.first, names.second}, endpointSpec(setup, values.endpoint),
+                           values.reference, values.other));
+  judge(std::move(tests), plan, plan.packings.back(), judged);
   return rowsOf(std::move(judged), plan);
 }
 
 std::vector<EndpointRow> endpointRows(const Case& setup, std::span<const FlowRun> runs,
-                                      const std::vector<EndpointPair>& pairs,
+                                      const std::vector<ComparedPair>& pairs,
                                       const InterimPlan& plan, int available,
-                                      const std::vector<EndpointResponse>& responses) {
-  std::vector<JudgedEndpoint> judged;
-  for (const EndpointPair& pair : pairs) {
-    if (finishedRuns(runs, pair.runsOfA).empty() || finishedRuns(runs, pair.runsOfB).empty())
-      continue;
-    judge(pair, familyOf(setup, runs, pair, responses), plan, available, judged);
-  }
+                                      const EndpointFindings& known) {
+  std::vector<EndpointTest> judged;
+  for (const ComparedPair& pair : pairs)
+    judge(familyOf(setup, runs, pair, known), plan, available, judged);
   return rowsOf(std::move(judged), plan);
 }
 
@@ -382,22 +299,18 @@ std::optional<double> reachOf(std::string_view endpoint, const LateWindows& late
   return reach;
 }
 
-EndpointResponse responseTo(const Case& setup, std::span<const FlowRun> runs,
-                            std::span<const FlowRun> changed, const std::string& name,
-                            const std::string& constant, double change, std::size_t packings) {
+EndpointResponse responseTo(const Case& setup, const Runs& runs, const Runs& changed,
+                            const std::string& name, const std::string& constant, double change,
+                            std::size_t packings) {
   const EndpointSpec endpoint = endpointSpec(setup, name);
-  const auto valuesOf = [&](std::span<const FlowRun> all) {
-    Runs finished;
-    for (const FlowRun& run : all)
-      if (run.finished()) finished.push_back(&run);
-    return endpointByPacking(endpoint, setup, finished, packings);
-  };
   EndpointResponse response{name, constant, change, {}, {}, {}, 0};
-  const std::vector one = {endpointSample(endpoint, setup.averaging.endpoints.at(name),
-                                          valuesOf(runs), valuesOf(changed))};
-  const double margin = one.front().margin;
+  const PairedSample sample = testedEndpoint(endpoint, setup.averaging.endpoints.at(name),
+                                             endpointByPacking(endpoint, setup, runs, packings),
+                                             endpointByPacking(endpoint, setup, changed, packings))
+                                  .sample;
+  const double margin = sample.margin;
   const double bothTails = 1.0 - (1.0 - setup.averaging.confidence) / 2.0;
-  const auto found = comparePaired(one, bothTails).front();
+  const auto found = comparePaired({&sample, 1}, bothTails).front();
   if (!found || found->packings == 0) return response;
   response.packings = found->packings;
   response.difference = found->difference / margin;
@@ -414,11 +327,11 @@ std::vector<SpotCheckNumber> spotCheckOf(const Case& setup, const FlowRun& engin
   for (const auto& [name, allowed] : setup.averaging.endpoints) {
     const EndpointSpec endpoint = endpointSpec(setup, name);
     SpotCheckNumber number{name, {}, {}, {}, {}};
-    const Numbers own = {endpointOf(endpoint, setup, mirror)};
-    const Numbers pair =
-        onScale(endpoint, {own.front(), endpointOf(endpoint, setup, engine)}, signOf(own));
-    if (pair[0] && pair[1])
-      number.difference = (*pair[1] - *pair[0]) / testMargin(endpoint, allowed);
+    const auto [reference, other, margin, bias, within] =
+        testedEndpoint(endpoint, allowed, {endpointOf(endpoint, setup, mirror)},
+                       {endpointOf(endpoint, setup, engine)})
+            .sample;
+    if (reference[0] && other[0]) number.difference = (*other[0] - *reference[0]) / margin;
     const Pooled chaos = chaosOf(name, responses);
     if (chaos.dof > 0) number.floor = std::sqrt(chaos.squares / chaos.dof);
     const std::size_t tests = setup.averaging.endpoints.size();

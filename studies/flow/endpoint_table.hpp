@@ -10,23 +10,16 @@
 #include "cases/endpoints.hpp"
 #include "results/endpoints.hpp"
 #include "results/run.hpp"
+#include "studies/flow/paired_runs.hpp"
 
 namespace crossgrain::inline studies {
 
-/// Two engines to hold against each other, and whose runs stand for each.
-struct EndpointPair {
-  std::string a, b;
-  PairKind kind = PairKind::peer;
-  std::string runsOfA, runsOfB;  ///< a and b themselves, or mirrors that carry their packings
-  std::vector<SurrogateEngine> by = {};  ///< what is known of those mirrors
-};
-
-/// The looks of a case: at its packings, and as many more each time.
+/// The interim analyses of a case: at its packings, and as many more each time.
 /// A single one where the first has too few packings for any verdict, or where packings are a file.
 InterimPlan interimPlanOf(const Case& setup);
 
-/// Answers on every endpoint with a margin, pair by pair, after the looks that `available` packings
-/// allow; the endpoints of a pair are one family.
+/// Verdicts on every endpoint with a margin, pair by pair, after the interim analyses that
+/// `available` packings allow; the endpoints of a pair are one family.
 ///
 /// Where mirrors stand for engines, their averages follow under the assumption that averages
 /// respond linearly to so small a change, and to whatever separates trajectories as far as a
@@ -38,17 +31,18 @@ InterimPlan interimPlanOf(const Case& setup);
 /// the beginning show and ε_late,c what windows over a whole run of the engine's own do, the upper
 /// ends of their intervals. The second term is what the followed run of the spot check could have
 /// missed. Without responses, or late windows, there is no bound and no row.
+/// @param known  surrogates and responses; no rows yet
 std::vector<EndpointRow> endpointRows(const Case& setup, std::span<const FlowRun> runs,
-                                      const std::vector<EndpointPair>& pairs,
+                                      const std::vector<ComparedPair>& pairs,
                                       const InterimPlan& plan, int available,
-                                      const std::vector<EndpointResponse>& responses);
+                                      const EndpointFindings& known);
 
-/// Answers on endpoints with expected values, of runs of one start: each of these engines against
+/// Verdicts on endpoints with expected values, of runs of one start: each of these engines against
 /// the closed form, and pair by pair. Numbers that come back the same when the start is run again
 /// have no scatter: within the margin they agree, else they disagree. Others are undecided.
 std::vector<EndpointRow> closedFormRows(const Case& setup, std::span<const FlowRun> runs,
                                         const std::vector<std::string>& engines,
-                                        const std::vector<EndpointPair>& pairs);
+                                        const std::vector<ComparedPair>& pairs);
 
 /// Values of one endpoint of two engines, in the order in which they were added.
 struct EndpointValues {
@@ -56,16 +50,11 @@ struct EndpointValues {
   Numbers reference, other;
 };
 
-/// Answers on such values alone, one family.
+/// Verdicts on such values alone, one family.
 /// @param names  of the two engines
 std::vector<EndpointRow> endpointRows(const Case& setup, const std::vector<EndpointValues>& family,
                                       const std::pair<std::string, std::string>& names,
                                       const InterimPlan& plan);
-
-/// Two engines' values as they are put to the test: by difference, or by the logarithm of the
-/// ratio, for which all values of the reference need one sign. @param margin  the case's
-PairedSample endpointSample(const EndpointSpec& endpoint, const Margin& margin, Numbers reference,
-                            Numbers other);
 
 /// max over constants c of ε_late,c R_c / change, in margins; absent where nothing is known of it.
 std::optional<double> reachOf(std::string_view endpoint, const LateWindows& late,
@@ -74,9 +63,9 @@ std::optional<double> reachOf(std::string_view endpoint, const LateWindows& late
 /// What the change of a constant does to an endpoint: runs with it against runs without, packing by
 /// packing.
 /// @param packings  how many there are
-EndpointResponse responseTo(const Case& setup, std::span<const FlowRun> runs,
-                            std::span<const FlowRun> changed, const std::string& endpoint,
-                            const std::string& constant, double change, std::size_t packings);
+EndpointResponse responseTo(const Case& setup, const Runs& runs, const Runs& changed,
+                            const std::string& endpoint, const std::string& constant, double change,
+                            std::size_t packings);
 
 /// An engine's run against its mirror's of the same packing, in margins, beside the scatter that
 /// chaos gives two such runs, which the responses show. `chance` is that of Student's t, of all

@@ -8,8 +8,7 @@
 #include <stdexcept>
 
 #include "averaging/fields.hpp"
-#include "studies/flow/flow_averages.hpp"
-#include "studies/flow/own_endpoints.hpp"
+#include "studies/flow/averages.hpp"
 
 namespace crossgrain::inline studies {
 

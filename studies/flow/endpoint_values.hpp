@@ -7,7 +7,7 @@
 
 #include "cases/case.hpp"
 #include "cases/endpoints.hpp"
-#include "studies/flow/paired_rings.hpp"
+#include "studies/flow/paired_runs.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -23,6 +23,19 @@ std::string missingValueReason(const EndpointSpec& endpoint, const Case& setup, 
 /// Of one engine's finished runs, by packing index.
 Numbers endpointByPacking(const EndpointSpec& endpoint, const Case& setup, const Runs& runs,
                           std::size_t packings);
+
+/// An endpoint that the case makes up itself, of one finished run. [unit of the endpoint]
+struct OwnValue {
+  std::optional<double> value;  ///< absent where there is nothing to measure
+  std::string why;              ///< why it is absent, where more can be said of it
+};
+
+/// A run that lacks more than mostMissing of the snapshots that a number is made of has no value: a
+/// mean over what is left is off the mean over all by up to that share of the quantity's range, and
+/// margins are a tenth to a quarter of what is measured.
+OwnValue ownEndpointOf(const OwnEndpoint& endpoint, const Case& setup, const FlowRun& run);
+
+inline constexpr double mostMissing = 0.05;
 
 /// A field bin by bin, as means and slopes over bins take it. What is per volume weighs the bin's
 /// volume and is 0 where a bin is empty; what is of the content weighs that, Σ w V = ν V: so a bin

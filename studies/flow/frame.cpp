@@ -7,7 +7,7 @@
 #include "cases/effect_switch.hpp"
 #include "cases/flow.hpp"
 #include "studies/core/study.hpp"
-#include "studies/flow/flow_averages.hpp"
+#include "studies/flow/averages.hpp"
 #include "studies/flow/run.hpp"
 
 namespace crossgrain::inline studies {

@@ -6,7 +6,6 @@
 #include <set>
 #include <utility>
 
-#include "studies/flow/agreement_table.hpp"
 #include "studies/flow/endpoint_table.hpp"
 #include "studies/flow/lockstep_job.hpp"
 #include "studies/flow/surrogates.hpp"
@@ -15,17 +14,11 @@ namespace crossgrain::inline studies {
 
 namespace {
 
-EndpointPair standingIn(const ComparedPair& pair, const std::vector<SurrogateEngine>& surrogates) {
-  EndpointPair own{pair.reference, pair.other, pair.kind, pair.reference, pair.other};
-  for (std::string* const runs : {&own.runsOfA, &own.runsOfB})
-    if (const SurrogateEngine* const by = surrogateOf(surrogates, *runs)) {
-      *runs = by->mirror;
-      own.by.push_back(*by);
-    }
-  return own;
+bool isOpen(const EndpointRow& row) {
+  return row.verdict == Verdict::undecided || row.verdict == Verdict::borderline;
 }
 
-/// Looks in sequence, see runWithInterims().
+/// Interim analyses in sequence, see runWithInterims().
 class Sequence {
  public:
   Sequence(const Case& setup, Campaign& campaign, const RunCommand& command, double budget)
@@ -43,14 +36,14 @@ class Sequence {
   }
 
   EndpointFindings run() {
-    firstLook();
+    firstAnalysis();
     if (hasClosedForms(setup_)) return closedForms();
     InterimFindings& looks = findings_.looks;
     while (looks.ended.empty()) {
       ++looks.taken;
       judge();
       close();
-      looks.ended = whyNoFurther();
+      looks.ended = reasonToStop();
       if (looks.ended.empty()) runOn(plan_.packings[looks.taken - 1], plan_.packings[looks.taken]);
     }
     return std::move(findings_);
@@ -74,12 +67,12 @@ class Sequence {
 
   /// Everyone runs the first packings, but those that mirrors may carry, which run one. Beside them
   /// runs what tells how averages respond, which is asked for where there are such.
-  void firstLook() {
-    std::vector<Variant> whole, canaries, changed;
+  void firstAnalysis() {
+    std::vector<Variant> whole, spotChecked, changed;
     for (const std::size_t e : open_)
-      (mayUseSurrogate(e) ? canaries : whole).push_back({e, "", &setup_});
+      (mayUseSurrogate(e) ? spotChecked : whole).push_back({e, "", &setup_});
     std::vector<std::size_t> responding;
-    if (!canaries.empty()) responding = respondingEngines();
+    if (!spotChecked.empty()) responding = respondingEngines();
     std::vector<ChangedCase> cases;
     if (!responding.empty()) {
       cases = changedCases(setup_);
@@ -87,19 +80,19 @@ class Sequence {
     }
     const int packings = plan_.packings.front();
     const std::vector<PlannedRuns> all = {
-        {whole, {0, packings}}, {canaries, {0, 1}}, {changed, {0, packings}}};
+        {whole, {0, packings}}, {spotChecked, {0, 1}}, {changed, {0, packings}}};
     // The followed run of a spot check takes as long as the averaged one.
-    sayWhetherBeyondBudget(campaign_.secondsOf(all) + campaign_.secondsOf({{canaries, {0, 1}}}));
+    warnIfBeyondBudget(campaign_.secondsOf(all) + campaign_.secondsOf({{spotChecked, {0, 1}}}));
     RunsById runs = campaign_.runSome(all, "running engines"), ofChanged;
     for (auto next = runs.begin(); next != runs.end();)
       if (const auto run = next++; !run->first.variant.empty()) ofChanged.insert(runs.extract(run));
     campaign_.add(std::move(runs));
-    if (canaries.empty()) return;
+    if (spotChecked.empty()) return;
     if (!cases.empty()) respond(responding, cases, std::move(ofChanged));
-    judgeCanaries(setup_, campaign_, findings_.responses, findings_.surrogates);
-    followOwnRuns(canaries);
+    judgeSpotChecks(setup_, campaign_, findings_.responses, findings_.surrogates);
+    followOwnRuns(spotChecked);
     std::vector<Variant> themselves;
-    for (const Variant& variant : canaries)
+    for (const Variant& variant : spotChecked)
       if (!surrogateOf(findings_.surrogates, nameOf(variant.engine))) themselves.push_back(variant);
     if (!themselves.empty() && packings > 1)
       campaign_.add(campaign_.runSome({{themselves, {1, packings}}},
@@ -107,9 +100,9 @@ class Sequence {
   }
 
   /// Only of those whose averaged run raised no alarm: the others run all packings anyway.
-  void followOwnRuns(const std::vector<Variant>& canaries) {
+  void followOwnRuns(const std::vector<Variant>& spotChecked) {
     std::vector<std::size_t> engines;
-    for (const Variant& variant : canaries)
+    for (const Variant& variant : spotChecked)
       if (surrogateOf(findings_.surrogates, nameOf(variant.engine)))
         engines.push_back(variant.engine);
     std::vector<LateWindows> late = lateWindowsOf(campaign_, setup_, command_, engines);
@@ -121,7 +114,7 @@ class Sequence {
 
   /// Without the first look there is no answer at all, so it is taken even so: who cannot wait is
   /// to know at once.
-  void sayWhetherBeyondBudget(double seconds) {
+  void warnIfBeyondBudget(double seconds) {
     if (const double end = campaign_.elapsed() + seconds; end > findings_.looks.budget)
       campaign_.progress().say(
           fmt::format("the first analysis, at {} packings, is likely to end after {:.2g} s, by a "
@@ -164,14 +157,14 @@ class Sequence {
   void judge() {
     const auto pairs = pairsOf(campaign_, command_.engines, findings_.surrogates);
     findings_.rows = endpointRows(setup_, campaign_.runs(), pairs, plan_,
-                                  plan_.packings[findings_.looks.taken - 1], findings_.responses);
+                                  plan_.packings[findings_.looks.taken - 1], findings_);
   }
 
   /// Engines with nothing left to decide, or that finish nothing, run no more.
   void close() {
     std::set<std::string> wanted;
     for (const EndpointRow& row : findings_.rows)
-      if (row.verdict == Verdict::undecided || row.verdict == Verdict::borderline) {
+      if (isOpen(row)) {
         wanted.insert(row.surrogateA.empty() ? row.a : row.surrogateA);
         wanted.insert(row.surrogateB.empty() ? row.b : row.surrogateB);
       }
@@ -180,13 +173,13 @@ class Sequence {
     });
   }
 
-  std::string whyNoFurther() const {
+  std::string reasonToStop() const {
     const std::size_t taken = findings_.looks.taken;
-    if (open_.empty()) return whyNoneIsOpen();
+    if (open_.empty()) return reasonNoneIsOpen();
     if (open_.size() < 2) return "no two engines are left that finish their runs";
     if (taken == plan_.packings.size())
       return fmt::format("{} packings are the most", plan_.packings.back());
-    if (campaign_.elapsed() + nextLook() > findings_.looks.budget)
+    if (campaign_.elapsed() + secondsOfNext() > findings_.looks.budget)
       return fmt::format(
           "the next analysis, at {} packings, would have ended after the budget of {:g} s",
           plan_.packings[taken], findings_.looks.budget);
@@ -194,10 +187,7 @@ class Sequence {
   }
 
   /// Decided is what was compared and came out, nothing else.
-  std::string whyNoneIsOpen() const {
-    const auto isOpen = [](const EndpointRow& row) {
-      return row.verdict == Verdict::undecided || row.verdict == Verdict::borderline;
-    };
+  std::string reasonNoneIsOpen() const {
     if (std::ranges::find(findings_.rows, PairKind::peer, &EndpointRow::kind) ==
         findings_.rows.end())
       return "there was nothing to compare between two engines that were named";
@@ -207,7 +197,7 @@ class Sequence {
   }
 
   /// Seconds that the next look takes, by the runs so far.
-  double nextLook() const {
+  double secondsOfNext() const {
     const std::size_t taken = findings_.looks.taken;
     const int more = plan_.packings[taken] - plan_.packings[taken - 1];
     double seconds = campaign_.secondsOfPreparing(plan_.packings[taken]);
@@ -253,25 +243,23 @@ class Sequence {
 
 }  // namespace
 
-std::vector<EndpointPair> pairsOf(const Campaign& campaign, const std::vector<std::string>& names,
+std::vector<ComparedPair> pairsOf(const Campaign& campaign, const std::vector<std::string>& names,
                                   const std::vector<SurrogateEngine>& surrogates) {
   const auto engines = campaign.engines();
   const auto named = [&](const EngineEntry& entry) {
     return entry.mirrors.empty() || isNamed(names, entry);
   };
-  std::vector<EndpointPair> pairs;
+  std::vector<ComparedPair> pairs;
   for (std::size_t a = 0; a < engines.size(); ++a)
     for (std::size_t b = a + 1; b < engines.size(); ++b)
       if (named(engines[a]) && named(engines[b]))
-        pairs.push_back(
-            standingIn({engines[a].name, engines[b].name, PairKind::peer, ""}, surrogates));
+        pairs.push_back({engines[a].name, engines[b].name});
   for (const EngineEntry& mirror : engines) {
     if (named(mirror) || surrogateBy(surrogates, mirror.name)) continue;
     const std::string reference = engines.front().name;
     if (reference != mirror.mirrors)
-      pairs.push_back(standingIn({reference, mirror.name, PairKind::mirrorModel, ""}, {}));
-    pairs.push_back(
-        standingIn({mirror.name, mirror.mirrors, PairKind::mirrorImplementation, ""}, {}));
+      pairs.push_back({reference, mirror.name, PairKind::mirrorModel});
+    pairs.push_back({mirror.name, mirror.mirrors, PairKind::mirrorImplementation});
   }
   return pairs;
 }

@@ -1,11 +1,10 @@
-#include "studies/flow/own_endpoints.hpp"
+#include "studies/flow/endpoint_values.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "studies/flow/endpoint_values.hpp"
 #include "studies/flow/frame.hpp"
 #include "studies/flow/summary.hpp"
 

@@ -1,4 +1,4 @@
-#include "studies/flow/region_averages.hpp"
+#include "studies/flow/averages.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,26 +8,16 @@
 #include "cases/flow.hpp"
 #include "cases/time_step.hpp"
 #include "studies/flow/run.hpp"
-#include "studies/flow/series.hpp"
 #include "studies/flow/summary.hpp"
 
 namespace crossgrain::inline studies {
 
-RegionSeries::RegionSeries(const Case& setup, const Scene& scene)
-    : average_(*setup.average), region_(average_.region), scene_(scene), bins_(binsOf(setup)) {}
-
-void RegionSeries::add(const Snapshot& now) {
-  addGlobalNumbers(rows_, scene_, now);
-  addMoments(now);
-  addDisks(now);
-}
-
-void RegionSeries::addDisks(const Snapshot& now) {
+void RegionAverages::addDisks(const Snapshot& now) {
   std::set<std::string> added;  // two endpoints may share a column
-  for (const OwnEndpoint& own : average_.endpoints) {
+  for (const OwnEndpoint& own : setup_.average->endpoints) {
     if (!own.disk || !added.insert(own.series()).second) continue;
     const auto i = static_cast<std::size_t>(*own.disk);
-    Numbers& row = rows_[own.series()];
+    Numbers& row = series_[own.series()];
     if (own.quantity == "spin")
       row.push_back(now.spin ? std::optional((*now.spin)[i]) : std::nullopt);
     else {
@@ -35,10 +25,10 @@ void RegionSeries::addDisks(const Snapshot& now) {
       row.push_back(own.quantity.ends_with("y") ? pair.y() : pair.x());
     }
   }
-  if (!added.empty()) rows_["velocity_t_s"].push_back(now.velocityTime);
+  if (!added.empty()) series_["velocity_t_s"].push_back(now.velocityTime);
 }
 
-void RegionSeries::addMoments(const Snapshot& now) {
+void RegionAverages::addMoments(const Snapshot& now) {
   std::vector<std::size_t> inside;
   double mass = 0.0, top = -INFINITY;
   Vec2 first = Vec2::Zero(), second = Vec2::Zero();
@@ -55,12 +45,12 @@ void RegionSeries::addMoments(const Snapshot& now) {
   for (const std::size_t i : inside)
     second += scene_.disks.mass[i] * (now.position[i] - centre).cwiseAbs2();
   const Vec2 rms = any ? Vec2((second / mass).cwiseSqrt()) : Vec2::Zero();
-  const double height = centre.y() - region_.low.y();
+  const double height = centre.y() - setup_.average->region.low.y();
   const auto number = [&](const char* name, double value) {
-    rows_[name].push_back(any && std::isfinite(value) ? std::optional(value) : std::nullopt);
+    series_[name].push_back(any && std::isfinite(value) ? std::optional(value) : std::nullopt);
   };
-  rows_["disks"].push_back(static_cast<double>(inside.size()));
-  number("top", top - region_.low.y());
+  series_["disks"].push_back(static_cast<double>(inside.size()));
+  number("top", top - setup_.average->region.low.y());
   number("mean_x", centre.x());
   number("mean_y", height);
   number("rms_x", rms.x());
@@ -70,17 +60,20 @@ void RegionSeries::addMoments(const Snapshot& now) {
 
 RegionAverages::RegionAverages(const Case& setup, const Scene& scene)
     : setup_(setup),
-      profiles_(binsOf(setup), weightsOf(setup, setup.averaging.methods), scene),
-      series_(setup, scene) {}
+      scene_(scene),
+      bins_(binsOf(setup)),
+      profiles_(bins_, weightsOf(setup, setup.averaging.methods), scene) {}
 
 void RegionAverages::add(const Snapshot& snapshot) {
   profiles_.add(snapshot);
-  series_.add(snapshot);
+  addGlobalNumbers(series_, scene_, snapshot);
+  addMoments(snapshot);
+  addDisks(snapshot);
 }
 
 void RegionAverages::describe(const EffectiveParameters& effective, FlowRun& run) const {
   run.profiles = profiles_.profiles();
-  run.series = series_.rows();
+  run.series = series_;
   if (const auto times = run.series->find("velocity_t_s"); times != run.series->end())
     for (auto& t : times->second) *t -= effective.velocityLag;
   const double diameter = flowDiameter(setup_);

@@ -1,4 +1,4 @@
-#include "studies/flow/rev.hpp"
+#include "studies/flow/average.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,6 @@
 #include "studies/flow/frame.hpp"
 #include "studies/flow/run.hpp"
 #include "studies/flow/snapshot_file.hpp"
-#include "studies/flow/snapshot_fit.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
 
@@ -81,53 +80,20 @@ void addWidth(const Case& setup, const SnapshotReader& reader, double width, Cur
   }
 }
 
-std::optional<double> valueAt(const Curves& curves, const std::string& method,
-                              const std::string& field, double r, double width) {
-  const auto found = curves.find({method, field, r});
-  if (found == curves.end()) return std::nullopt;
-  const auto& [_, curve] = *found;
-  const auto at = std::ranges::find(curve.width, width);
-  return at == curve.width.end() ? std::nullopt
-                                 : curve.mean[static_cast<std::size_t>(at - curve.width.begin())];
-}
-
-/// √⟨(m − slicing)²⟩/√⟨slicing²⟩ over the radii at one width; absent without a radius.
-std::optional<double> apart(const Curves& curves, const std::string& method,
-                            const std::string& field, const std::vector<double>& radii,
-                            double width) {
-  double difference = 0.0, scale = 0.0;
-  for (const double r : radii) {
-    const auto slicing = valueAt(curves, "slicing", field, r, width);
-    const auto other = valueAt(curves, method, field, r, width);
-    if (!slicing || !other) continue;
-    difference += (*other - *slicing) * (*other - *slicing);
-    scale += *slicing * *slicing;
-  }
-  if (scale == 0.0) return std::nullopt;
-  return std::sqrt(difference / scale);
-}
-
-std::vector<RevMeeting> meetingsOf(const Curves& curves) {
-  std::vector<double> radii;
-  for (const auto& [_, curve] : curves)
-    if (std::ranges::find(radii, curve.r) == radii.end()) radii.push_back(curve.r);
+std::vector<RevMeeting> meetingsOf(const std::vector<RevCurve>& curves) {
   std::vector<RevMeeting> rows;
   for (const std::string_view method : weightNames) {
     if (method == "slicing") continue;
     for (const FieldSpec& spec : fieldTable())
       for (const double near : {1.0, 2.0}) {
-        std::optional<double> best, where;
+        std::optional<RevMeeting> best;
         for (const double width : widths()) {
           if (std::abs(width - near) > 0.26) continue;
-          const auto found =
-              apart(curves, std::string(method), std::string(spec.name), radii, width);
-          if (found && (!best || *found < *best)) {
-            best = found;
-            where = width;
-          }
+          const auto found = differenceFromSlicing(curves, spec.name, method, width);
+          if (found && (!best || *found < best->difference))
+            best = {std::string(method), std::string(spec.name), near, width, *found};
         }
-        if (best)
-          rows.push_back({std::string(method), std::string(spec.name), near, *where, *best});
+        if (best) rows.push_back(*best);
       }
   }
   return rows;
@@ -156,11 +122,11 @@ RevResults averagePerWidth(const StudyWork& work, const AverageOptions&) {
   results.averaging.lineWidth = setup.averaging.lineWidth;
   results.notes = {fmt::format("Averaged from the {} snapshots of {}; nothing was run.",
                                reader.count(), file.string())};
-  results.meetings = meetingsOf(curves);
   for (const std::string_view method : weightNames)
     for (const FieldSpec& field : fieldTable())
       for (const auto& [_, curve] : curves)
         if (curve.method == method && curve.field == field.name) results.curves.push_back(curve);
+  results.meetings = meetingsOf(results.curves);
   return results;
 }
 

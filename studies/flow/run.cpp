@@ -8,9 +8,9 @@
 
 #include "adapters/audit.hpp"
 #include "cases/flow.hpp"
-#include "studies/core/engine_access.hpp"
+#include "studies/core/engine_running.hpp"
 #include "studies/core/study.hpp"
-#include "studies/flow/flow_averages.hpp"
+#include "studies/flow/averages.hpp"
 #include "studies/flow/snapshot_file.hpp"
 #include "studies/flow/unfinished_run.hpp"
 #include "support/interrupt.hpp"
@@ -47,8 +47,6 @@ FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& p
   const FlowTimes times = flowTimes(setup);
   const auto [settled, interval, samples] = times;
   const double end = times.end();
-  // In pieces: an engine answers within its time-out however far apart snapshots are.
-  const double piece = 2000.0 * loaded.effective.dt;
   UnfinishedRun unfinished(task.unfinished, task.key, scene,
                            loaded.can.checkpoints && report == ContactReport::instant);
   const auto before = unfinished.resume(engine);
@@ -68,19 +66,14 @@ FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& p
   double now = before ? before->time : 0.0;
   std::optional<double> reached;
   const auto advanceTo = [&](double t) {
-    while (now < t) {
-      if (interrupted()) unfinished.keep(engine, now);
-      throwIfInterrupted();
-      const double next = std::min(t, now + piece);
-      reached = engine.advance(next);
-      if (!(std::abs(*reached - next) <= loaded.effective.dt)) {
-        discardWorker(engine);
-        throw EngineFailure(fmt::format("{}, {}: asked for t = {:g} s it stopped at {:g} s",
-                                        task.entry.name, setup.name, next, *reached));
-      }
-      now = next;
-      unfinished.keepIfDue(engine, now);
-    }
+    if (now < t)
+      reached = advanceInPieces(engine, loaded.effective, now, t, [&](double at) {
+        if (interrupted())
+          unfinished.keep(engine, at);
+        else
+          unfinished.keepIfDue(engine, at);
+      });
+    now = std::max(now, t);
     progress(t / end);
   };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -7,10 +9,15 @@
 #include "adapters/scene.hpp"
 #include "adapters/snapshot.hpp"
 #include "cases/case.hpp"
-#include "studies/flow/snapshot_xdmf.hpp"
 #include "support/hdf5_file.hpp"
 
 namespace crossgrain::inline studies {
+
+/// "/snapshot-NNN", counted from 0: the group of a snapshot in a file of snapshots, whose datasets
+/// docs/files.md has.
+inline std::string snapshotGroup(std::size_t k) {
+  return fmt::format("/snapshot-{:03d}", k);
+}
 
 /// Writes a few evenly spaced snapshots of a run as HDF5, with an XDMF file beside it that ParaView
 /// opens. They go to NAME.part one by one, which gets its name when the run is over. README.md has
@@ -29,7 +36,13 @@ class SnapshotFile {
   void close();
 
  private:
+  /// What the XDMF text has to know of a snapshot in the file.
+  struct KeptSnapshot {
+    double time;  ///< of positions [s]
+    bool spins;
+  };
   void begin();
+  std::string xdmf() const;
 
   std::filesystem::path file_, part_;
   std::string engine_;
@@ -76,5 +89,18 @@ class SnapshotReader {
   std::string engine_;
   std::size_t count_ = 0;
 };
+
+/// Snapshots of one cell averaged with the rings of another give numbers without meaning. Held
+/// against the case are what the file says of disks (how many of each radius, their masses; not
+/// where the case takes them from a packing file), wall disks (how many, radius, distance from the
+/// axis), the wheel's rate and where the disks' centres are. What the file does not hold is not
+/// asked for.
+/// @throws BadInput naming the file and all that does not fit, in one line
+void requireFit(const SnapshotReader& reader, const Case& setup);
+
+/// Every snapshot of the file can be true of its disks (adapters/audit.hpp), as far as a file says:
+/// not its time step, nor how walls were to move, and its numbers may be of single precision.
+/// @throws BadInput naming the file, the snapshot and what cannot be
+void requireSound(const SnapshotReader& reader, const Case& setup);
 
 }  // namespace crossgrain::inline studies

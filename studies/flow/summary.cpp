@@ -9,6 +9,7 @@
 #include "averaging/fits.hpp"
 #include "averaging/regime.hpp"
 #include "averaging/statistics.hpp"
+#include "averaging/trend.hpp"
 #include "cases/time_step.hpp"
 #include "oracle/impact.hpp"
 #include "results/run.hpp"
@@ -105,6 +106,23 @@ FitRow fitRow(const Fit& fit, const std::string& parameter, const std::string& n
   return row;
 }
 
+/// ρ of a small disk [kg/m³].
+double diskDensity(const Case& setup) {
+  const Particles& disks = setup.particles;
+  const double area = std::numbers::pi * disks.smallRadius * disks.smallRadius;
+  return disks.smallMass / (area * setup.cell.height);
+}
+
+/// Samples in the time in which the wheel's rim passes one disk, at least one.
+std::size_t rimPassesADisk(const Case& setup, const RunSeries& series) {
+  const std::vector<double> times = presentNumbers(valuesOf(series, "t_s"));
+  if (times.size() < 2) return 1;
+  const double interval = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+  const double rim = std::abs(setup.cell.omega) * setup.cell.innerRadius;
+  const double window = 2.0 * setup.particles.smallRadius / rim / interval;
+  return static_cast<std::size_t>(std::max(1L, std::lround(window)));
+}
+
 }  // namespace
 
 std::vector<double> presentNumbers(const Numbers& values) {
@@ -123,12 +141,6 @@ std::optional<double> meanOf(const Numbers& values) {
 DistributionScales distributionScales(const Case& setup) {
   return {setup.cell.omega * setup.cell.innerRadius,
           1.0 / spinScale(ringsOf(setup), setup.cell.omega)};
-}
-
-double diskDensity(const Case& setup) {
-  const Particles& disks = setup.particles;
-  const double area = std::numbers::pi * disks.smallRadius * disks.smallRadius;
-  return disks.smallMass / (area * setup.cell.height);
 }
 
 std::vector<HeadNumber> headNumbers(const Case& setup, const std::vector<Profile>& profiles,
@@ -239,6 +251,31 @@ std::vector<CheckRow> couetteChecks(const Case& setup, const std::vector<Profile
   }
   if (auto check = wallCheck(setup, profiles, series, wall)) checks.push_back(std::move(*check));
   return checks;
+}
+
+RegimeRow couetteRegime(const Case& setup, const std::vector<Profile>& profiles,
+                        const RunSeries& series) {
+  RegimeFigures figures;
+  figures.wheelContacts = meanOf(valuesOf(series, "wheel_contacts"));
+  const auto slip = meanOf(valuesOf(series, "wheel_slip"));
+  const auto shear = meanOf(valuesOf(series, "shear_share"));
+  if (slip && shear) figures.motion = WheelMotion{*slip, *shear};
+  figures.inertialNumber = inertialNumber(ringsOf(setup), profiles, diskDensity(setup));
+  figures.blockedFraction = blockedFraction(presentNumbers(valuesOf(series, "shear_share")),
+                                            rimPassesADisk(setup, series));
+  const RegimeVerdict verdict = regimeOf(figures);
+  return {verdict.regime, verdict.reason,         figures.wheelContacts,  slip,
+          shear,          figures.inertialNumber, figures.blockedFraction};
+}
+
+std::vector<SeriesDrift> couetteSteadiness(const Case& setup, const RunSeries& series) {
+  std::vector<SeriesDrift> rows;
+  for (const char* name : watchedSeries) {
+    const std::vector<double> values = presentNumbers(valuesOf(series, name));
+    if (!values.empty())
+      rows.push_back({name, relativeDrift(values, setup.averaging.confidence, largestUnseenDrift)});
+  }
+  return rows;
 }
 
 }  // namespace crossgrain::inline studies

@@ -15,9 +15,6 @@ namespace crossgrain::inline studies {
 /// The wheel's surface speed and the spin that rolls on it, as the thesis scales distributions.
 DistributionScales distributionScales(const Case& setup);
 
-/// ρ of a small disk [kg/m³].
-double diskDensity(const Case& setup);
-
 /// Numbers that are there, and their mean; absent without any.
 std::vector<double> presentNumbers(const Numbers& values);
 std::optional<double> meanOf(const Numbers& values);
@@ -40,5 +37,24 @@ std::vector<FitRow> spinFits(const Case& setup, const LayerSpin& spin);
 std::vector<CheckRow> couetteChecks(const Case& setup, const std::vector<Profile>& profiles,
                                     const RunSeries& series,
                                     const std::vector<WallBalance>& wall = {});
+
+/// The series that say whether a run was steady. Torque and pressure are what the walls carry,
+/// kinetic energy is what moves; each may drift without the others.
+inline constexpr const char* watchedSeries[] = {"wheel_torque", "outer_pressure", "kinetic_energy"};
+
+/// What a change of a mean must stay below to be called "not seen": cases allow two engines to
+/// differ by a quarter in their stresses, and a drift beyond that would decide more than the
+/// engines do.
+inline constexpr double largestUnseenDrift = 0.25;
+
+/// The rules and their reasons are in averaging/regime.hpp.
+/// @param series  as CouetteAverages makes it
+RegimeRow couetteRegime(const Case& setup, const std::vector<Profile>& profiles,
+                        const RunSeries& series);
+
+/// Of each of watchedSeries the change of its straight line over the averaged time in units of its
+/// mean, with its interval at the case's confidence, and up to what size a change is not excluded.
+/// A series that the engine does not show is left out.
+std::vector<SeriesDrift> couetteSteadiness(const Case& setup, const RunSeries& series);
 
 }  // namespace crossgrain::inline studies

@@ -16,14 +16,6 @@ namespace {
 
 constexpr int spotCheckPacking = 0;
 
-const FlowRun* finishedRun(const Campaign& campaign, const std::string& engine, int packing) {
-  const auto& runs = campaign.runs();
-  const auto found = std::ranges::find_if(runs, [&](const FlowRun& run) {
-    return run.engine == engine && run.packing == packing && run.finished();
-  });
-  return found == runs.end() ? nullptr : &*found;
-}
-
 /// Why a mirror cannot stand for its engine; empty: it can.
 std::string alarmOf(const Case& setup, const std::vector<SpotCheckNumber>& spotCheck,
                     double alpha) {
@@ -65,12 +57,15 @@ std::vector<SurrogateEngine> surrogateEngines(const Campaign& campaign,
   return surrogates;
 }
 
-void judgeCanaries(const Case& setup, const Campaign& campaign,
-                   const std::vector<EndpointResponse>& responses,
-                   std::vector<SurrogateEngine>& engines) {
+void judgeSpotChecks(const Case& setup, const Campaign& campaign,
+                     const std::vector<EndpointResponse>& responses,
+                     std::vector<SurrogateEngine>& engines) {
   for (SurrogateEngine& own : engines) {
-    const FlowRun* const run = finishedRun(campaign, own.engine, own.spotCheckPacking);
-    const FlowRun* const mirror = finishedRun(campaign, own.mirror, own.spotCheckPacking);
+    const auto first = [&](const std::string& engine) -> const FlowRun* {
+      const Runs runs = finishedRuns(campaign.runs(), engine);
+      return runs.empty() || runs.front()->packing != own.spotCheckPacking ? nullptr : runs.front();
+    };
+    const FlowRun *const run = first(own.engine), *const mirror = first(own.mirror);
     if (!run || !mirror) {
       own.alarm = fmt::format("{} run of packing {} did not finish",
                               run ? "the mirror's" : "its own", own.spotCheckPacking);
@@ -108,19 +103,18 @@ std::vector<EndpointResponse> endpointResponses(const Case& setup, const Campaig
                                                 const std::string& engine,
                                                 const std::vector<ChangedCase>& changed,
                                                 const RunsById& runs, int packings) {
-  const auto count = static_cast<std::size_t>(packings);
-  std::vector<FlowRun> own;
-  for (const FlowRun& run : campaign.runs())
-    if (run.engine == engine && run.packing < packings) own.push_back(run);
+  Runs own = finishedRuns(campaign.runs(), engine);
+  std::erase_if(own, [&](const FlowRun* run) { return run->packing >= packings; });
   std::vector<EndpointResponse> responses;
   for (const ChangedCase& one : changed) {
-    std::vector<FlowRun> with;
+    Runs with;
     for (int k = 0; k < packings; ++k)
-      if (const auto run = runs.find({engine, one.name, k}); run != runs.end())
-        with.push_back(run->second);
+      if (const auto run = runs.find({engine, one.name, k});
+          run != runs.end() && run->second.finished())
+        with.push_back(&run->second);
     for (const auto& [endpoint, margin] : setup.averaging.endpoints)
-      responses.push_back(
-          responseTo(setup, own, with, endpoint, one.constant, responseChange, count));
+      responses.push_back(responseTo(setup, own, with, endpoint, one.constant, responseChange,
+                                     static_cast<std::size_t>(packings)));
   }
   return responses;
 }

@@ -29,9 +29,9 @@ std::vector<EndpointResponse> endpointResponses(const Case& setup, const Campaig
 
 /// The first part of the spot check: compares the averaged run of each with its mirror's on the
 /// same packing, where chaos is as the responses show it. Sets `inUse`, or the alarm.
-void judgeCanaries(const Case& setup, const Campaign& campaign,
-                   const std::vector<EndpointResponse>& responses,
-                   std::vector<SurrogateEngine>& engines);
+void judgeSpotChecks(const Case& setup, const Campaign& campaign,
+                     const std::vector<EndpointResponse>& responses,
+                     std::vector<SurrogateEngine>& engines);
 
 /// The second: what windows within a run of its own show. Where they leave more than largestReach
 /// of an endpoint open, the mirror does not stand for the engine, and that is the alarm.

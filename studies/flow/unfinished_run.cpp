@@ -15,12 +15,12 @@ using nlohmann::json;
 namespace {
 
 constexpr auto interval = std::chrono::seconds(30);
-constexpr const char* index = "index.json";
+constexpr const char* indexName = "index.json";
 
 /// What was kept under that key; null: nothing that can be used.
 json keptUnder(const fs::path& folder, const std::string& key) {
   try {
-    json kept = readJsonFile(folder / index).value_or(json());
+    json kept = readJsonFile(folder / indexName).value_or(json());
     return kept.is_object() && member<std::string>(kept, "key") == key ? kept : json();
   } catch (const FieldError&) {
     return json();
@@ -112,15 +112,15 @@ void UnfinishedRun::keep(Engine& engine, double time) {
   const auto checkpointName = [](int number) { return fmt::format("engine-{}", number); };
   engine.checkpoint(folder_ / checkpointName(++checkpoints_));
   const Stats stats = engine.stats();
-  writeFile(folder_ / index, json({{"key", key_},
-                                   {"time", time},
-                                   {"wall_s", earlierWall_ + stats.wallSeconds},
-                                   {"cpu_s", earlierCpu_ + stats.cpuSeconds},
-                                   {"checkpoint", checkpointName(checkpoints_)},
-                                   {"checkpoints", checkpoints_},
-                                   {"aside", aside_ ? aside_() : json()},
-                                   {"snapshots", snapshots_}})
-                                 .dump());
+  writeFile(folder_ / indexName, json({{"key", key_},
+                                       {"time", time},
+                                       {"wall_s", earlierWall_ + stats.wallSeconds},
+                                       {"cpu_s", earlierCpu_ + stats.cpuSeconds},
+                                       {"checkpoint", checkpointName(checkpoints_)},
+                                       {"checkpoints", checkpoints_},
+                                       {"aside", aside_ ? aside_() : json()},
+                                       {"snapshots", snapshots_}})
+                                     .dump());
   std::error_code ignored;
   fs::remove(folder_ / checkpointName(checkpoints_ - 1), ignored);
   keptAt_ = std::chrono::steady_clock::now();

@@ -21,7 +21,7 @@ namespace crossgrain::inline studies {
 /// two densities; the last one before may therefore be shorter.
 class ThesisHistory {
  public:
-  /// Both outlive it. @param scene  see CouetteSeries
+  /// Both outlive it. @param scene  see CouetteAverages
   /// @param settlingSnapshots  of all the time that is not averaged
   ThesisHistory(const Case& setup, const Scene& scene, int settlingSnapshots);
 

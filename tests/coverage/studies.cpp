@@ -12,7 +12,7 @@
 #include "averaging/statistics.hpp"
 #include "studies/flow/endpoint_table.hpp"
 #include "studies/flow/endpoint_values.hpp"
-#include "studies/flow/paired_rings.hpp"
+#include "studies/flow/paired_runs.hpp"
 
 namespace crossgrain::coverage {
 
@@ -115,14 +115,15 @@ PairedSample shiftedSample(const Case& setup, const std::string& name, const Run
   const auto values = [&](const Runs& runs) {
     return pick(endpointByPacking(endpoint, setup, runs, packings), order, first, group);
   };
-  PairedSample sample = endpointSample(endpoint, setup.averaging.endpoints.at(name),
-                                       values(reference), values(other));
+  PairedSample sample =
+      testedEndpoint(endpoint, setup.averaging.endpoints.at(name), values(reference), values(other))
+          .sample;
   for (auto& value : sample.other)
     if (value) *value += margins * sample.margin;
   return sample;
 }
 
-double deviationOf(const TestedRing& ring) {
+double deviationOf(const PairedTest& ring) {
   Numbers differences;
   for (std::size_t k = 0; k < ring.sample.reference.size(); ++k)
     if (ring.sample.reference[k] && ring.sample.other[k])
@@ -299,7 +300,7 @@ std::vector<Rate> power(const Sample& sample, int group) {
   const double level = (1.0 - confidence) / static_cast<double>(family.field.size());
   std::vector<Rate> rates;
   for (std::size_t k = 0; k < family.field.size(); ++k) {
-    const TestedRing all = testedRing(family.margin[k], family.reference[k], family.other[k]);
+    const PairedTest all = testedRing(family.margin[k], family.reference[k], family.other[k]);
     const double shift =
         *smallestDetectable(deviationOf(all) / std::sqrt(group), group, all.sample.margin, level);
     Tally tally;

@@ -4,7 +4,7 @@
 
 #include "reports/common/labels.hpp"
 #include "reports/common/sentences.hpp"
-#include "reports/render/base64.hpp"
+#include "reports/render/html.hpp"
 
 namespace crossgrain::reports {
 namespace {

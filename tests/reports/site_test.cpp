@@ -6,7 +6,6 @@
 #include "reports/flow/endpoint_text.hpp"
 #include "reports/flow/overview.hpp"
 #include "reports/report.hpp"
-#include "reports/site/history.hpp"
 #include "results/schema.hpp"
 #include "support/files.hpp"
 #include "tests/reports/report_text.hpp"

@@ -1,4 +1,4 @@
-#include "reports/flow/state.hpp"
+#include "reports/flow/engine_table.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "averaging/agreement.hpp"
-#include "studies/flow/paired_rings.hpp"
+#include "studies/flow/ensemble.hpp"
 #include "tests/studies/flow_runs.hpp"
 
 namespace {

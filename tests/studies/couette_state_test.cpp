@@ -1,4 +1,4 @@
-#include "studies/flow/state.hpp"
+#include "studies/flow/summary.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
 #include "studies/flow/averages.hpp"
+#include "studies/flow/ensemble.hpp"
 #include "studies/flow/run.hpp"
-#include "studies/flow/state_table.hpp"
 #include "tests/studies/flow_runs.hpp"
 #include "tests/studies/quick_cell.hpp"
 

@@ -6,9 +6,8 @@
 #include <numbers>
 
 #include "averaging/rings.hpp"
-#include "studies/flow/contact_notes.hpp"
+#include "studies/flow/notes.hpp"
 #include "studies/flow/run.hpp"
-#include "studies/flow/velocity_notes.hpp"
 #include "tests/studies/flow_runs.hpp"
 #include "tests/support/thesis.hpp"
 

@@ -141,4 +141,22 @@ TEST(EffectChanges, FewPackings_AreNotResolved) {
   EXPECT_NEAR(ring(one, 0, 0).standardError.value(), 0.5, 1e-12);  // 0.3 and 0.4
 }
 
+/// −2 … −16 become a tenth smaller in size: a ratio is tested, and the interval is of the values.
+TEST(EffectChanges, NegativeValuesOfARelativeMargin_IntervalIsInTheOrderOfValues) {
+  std::vector<FlowRun> all;
+  for (int k = 0; k < 4; ++k) {
+    const double value = -std::exp2(k + 1), scatter = k % 2 == 0 ? 0.01 : -0.01;
+    addRun(all, "", k, {test::sliced("v", {value}, {0.1})});
+    addRun(all, "friction", k, {test::sliced("v", {(0.9 + scatter) * value}, {0.1})});
+  }
+  Case setup;
+  setup.averaging.margins["v"] = {0.25, true, "because", ""};
+  const EffectChanges changes = effectChanges(setup, all, "a", "friction");
+  const RingChange& only = ring(changes, 0, 0);
+  EXPECT_EQ(only.resolved, true);
+  EXPECT_GT(only.low.value(), 0.0);
+  EXPECT_LT(only.low.value(), 0.75);  // a tenth of 7.5
+  EXPECT_GT(only.high.value(), 0.75);
+}
+
 }  // namespace

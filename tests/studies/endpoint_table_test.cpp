@@ -67,16 +67,20 @@ Case judging(const std::string& endpoint, const Margin& margin) {
   return setup;
 }
 
-const EndpointPair plain = {"a", "b", PairKind::peer, "a", "b"};
+const ComparedPair plain = {"a", "b"};
 
 /// By "mirror", from which it differs as so much of k_n would, and late as so much of each would.
-EndpointPair byMirror(double equivalent, const std::vector<EquivalentChange>& late) {
-  SurrogateEngine own;
+EndpointFindings byMirror(double equivalent, const std::vector<EquivalentChange>& late,
+                          const std::vector<EndpointResponse>& responses = {}) {
+  EndpointFindings known;
+  known.responses = responses;
+  SurrogateEngine& own = known.surrogates.emplace_back();
+  own.inUse = true;
   own.engine = "b";
   own.mirror = "mirror";
   own.equivalent = equivalent;
   own.late.equivalents = late;
-  return {"a", "b", PairKind::peer, "a", "mirror", {own}};
+  return known;
 }
 
 TEST(EndpointTable, RelativeMargin_ComparesRatios) {
@@ -111,11 +115,14 @@ TEST(EndpointTable, Mirror_TakesItsBoundOffTheMargin) {
   append(runs, spins("mirror", {-1.1, -1.2, -1.0, -1.1}));
   append(runs, spins("b", {-7.0}));  // the engine itself: one run, which carries no verdict
   const Case setup = judging("spin_at_wheel", {0.2, false, "because", ""});
-  const EndpointPair carried = byMirror(1e-3, {{"kn", 1e-4}, {"mu", 2e-3}});
   // 10 % of k_n do at most two margins, of µ 0.4: B = 1e-3/0.1 · 2 + max(1e-4 · 2, 2e-3 · 0.4)/0.1.
   const std::vector<EndpointResponse> responses = {{"spin_at_wheel", "kn", 0.1, 0.5, 2.0, 1.0, 4},
                                                    {"spin_at_wheel", "mu", 0.1, 0.1, 0.4, 1.0, 4}};
-  const auto rows = endpointRows(setup, runs, {carried}, interimPlanOf(setup), 4, responses);
+  const std::vector<EquivalentChange> late = {{"kn", 1e-4}, {"mu", 2e-3}};
+  const auto rowsOf = [&](const EndpointFindings& known) {
+    return endpointRows(setup, runs, {plain}, interimPlanOf(setup), 4, known);
+  };
+  const auto rows = rowsOf(byMirror(1e-3, late, responses));
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].b, "b");
   EXPECT_EQ(rows[0].surrogateB, "mirror");
@@ -126,15 +133,13 @@ TEST(EndpointTable, Mirror_TakesItsBoundOffTheMargin) {
   EXPECT_NEAR(*rows[0].distance, -0.5, 1e-9);
   EXPECT_NEAR(*rows[0].distanceHigh, -0.5 + 0.028, 1e-9);
   // Nobody knows how averages respond: no row stands on the mirror's runs.
-  EXPECT_TRUE(endpointRows(setup, runs, {carried}, interimPlanOf(setup), 4, {}).empty());
+  EXPECT_TRUE(rowsOf(byMirror(1e-3, late)).empty());
   // Nor where nobody looked at what begins late.
-  EXPECT_TRUE(
-      endpointRows(setup, runs, {byMirror(1e-3, {})}, interimPlanOf(setup), 4, responses).empty());
+  EXPECT_TRUE(rowsOf(byMirror(1e-3, {}, responses)).empty());
   // A bound beyond the margin leaves nothing to agree within, whichever windows it is from.
-  for (const EndpointPair& loose :
-       {byMirror(0.05, {{"kn", 1e-4}}), byMirror(1e-12, {{"kn", 1e-4}, {"mu", 0.25}})})
-    EXPECT_EQ(endpointRows(setup, runs, {loose}, interimPlanOf(setup), 4, responses)[0].verdict,
-              Verdict::undecided);
+  for (const EndpointFindings& loose : {byMirror(0.05, {{"kn", 1e-4}}, responses),
+                                        byMirror(1e-12, {{"kn", 1e-4}, {"mu", 0.25}}, responses)})
+    EXPECT_EQ(rowsOf(loose)[0].verdict, Verdict::undecided);
 }
 
 TEST(EndpointTable, SpotCheck_ReachBeyondAMargin_RefusesTheMirror) {
@@ -266,8 +271,7 @@ TEST(EndpointTable, ClosedForm_JudgesEveryEngineOnOneStart) {
   auto runs = heights("a", 2.05, 2.05);
   append(runs, heights("b", 2.3, 2.3));
   append(runs, heights("noisy", 2.0, 2.0 + 1e-15));
-  const EndpointPair pair = {"a", "b", PairKind::peer, "a", "b"};
-  const auto rows = closedFormRows(setup, runs, {"a", "b", "noisy"}, {pair});
+  const auto rows = closedFormRows(setup, runs, {"a", "b", "noisy"}, {plain});
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(rows[0].kind, PairKind::closedForm);
   EXPECT_EQ(rows[0].verdict, Verdict::pass);
@@ -327,7 +331,8 @@ TEST(EndpointTable, Response_IsBoundedByItsInterval) {
   const Case setup = judging("spin_at_wheel", {0.5, false, "because", ""});
   const auto own = spins("a", {-1.0, -1.0, -1.0, -1.0}),
              changed = spins("a", {-0.9, -0.7, -0.9, -0.7});
-  const EndpointResponse found = responseTo(setup, own, changed, "spin_at_wheel", "kn", 0.1, 4);
+  const EndpointResponse found = responseTo(
+      setup, finishedRuns(own, "a"), finishedRuns(changed, "a"), "spin_at_wheel", "kn", 0.1, 4);
   EXPECT_NEAR(*found.difference, 0.4, 1e-12);
   // t(3, 2.5 %) = 3.182, se = 0.1·√(4/3)/2.
   EXPECT_NEAR(*found.scatter, 0.1 * std::sqrt(4.0 / 3.0) / 0.5, 1e-12);

@@ -6,9 +6,8 @@
 
 #include "averaging/fields.hpp"
 #include "cases/assembly_scene.hpp"
+#include "studies/flow/averages.hpp"
 #include "studies/flow/endpoint_values.hpp"
-#include "studies/flow/own_endpoints.hpp"
-#include "studies/flow/region_averages.hpp"
 #include "tests/studies/flow_runs.hpp"
 
 namespace crossgrain {

@@ -9,7 +9,6 @@
 
 #include "cases/couette.hpp"
 #include "studies/flow/average.hpp"
-#include "studies/flow/snapshot_fit.hpp"
 #include "support/files.hpp"
 #include "tests/studies/quick_cell.hpp"
 #include "tests/support/refusal.hpp"

@@ -1,18 +1,31 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "results/run.hpp"
-#include "studies/flow/agreement_table.hpp"
+#include "studies/flow/paired_runs.hpp"
 
+/// What the runs of engines say together, over packings.
 namespace crossgrain::inline studies {
+
+/// The mean over packings of every profile, distribution, fit and head number of an engine's
+/// finished runs with that switched off, with sd/√P as error; absent without a finished run.
+std::optional<CouetteEnsemble> ensembleOf(std::span<const FlowRun> runs, const std::string& engine,
+                                          const std::string& without);
+
+/// Of those engines that finished a run of the case as it is.
+std::vector<CouetteEnsemble> ensembleOf(std::span<const FlowRun> runs,
+                                        const std::vector<std::string>& engines);
 
 /// Of every pair that has any packing that both have a regime for. Asked before any mean is taken:
 /// a difference of means over different regimes says nothing of either.
+/// @param surrogates  who is evaluated through a mirror
 std::vector<RegimesOfPair> regimesOf(std::span<const FlowRun> runs,
-                                     const std::vector<ComparedPair>& pairs);
+                                     const std::vector<ComparedPair>& pairs,
+                                     const std::vector<SurrogateEngine>& surrogates = {});
 
 /// Per engine and watched series.
 ///

@@ -1,0 +1,231 @@
+#include "studies/flow/notes.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+
+#include "averaging/agreement.hpp"
+#include "averaging/statistics.hpp"
+#include "cases/endpoints.hpp"
+#include "studies/flow/endpoint_values.hpp"
+#include "studies/flow/paired_runs.hpp"
+
+namespace crossgrain::inline studies {
+
+namespace {
+
+constexpr double farMargins = 10.0;
+/// Of the disks: what crosses the walls' circles and comes back is a tenth of that.
+constexpr double goneFraction = 0.02;
+
+/// On how many packings exactly one of both engines has a value: one that neither has is no
+/// difference.
+int onlyOneHas(const Case& setup, const CompareResults& results, const EndpointRow& row) {
+  const auto valuesOf = [&](const std::string& engine) {
+    return endpointByPacking(endpointSpec(setup, row.endpoint), setup,
+                             runsFor(results.runs, engine, results.endpoints.surrogates),
+                             packingsOf(results.runs));
+  };
+  const Numbers ours = valuesOf(row.a), theirs = valuesOf(row.b);
+  int count = 0;
+  for (std::size_t k = 0; k < ours.size(); ++k)
+    count += ours[k].has_value() != theirs[k].has_value();
+  return count;
+}
+
+void addFarEndpoints(const Case& setup, const CompareResults& results,
+                     std::vector<AlarmRow>& alarms) {
+  for (const EndpointRow& row : results.endpoints.rows) {
+    const std::string words(endpointSpec(setup, row.endpoint).words);
+    const auto alarm = [&](std::string what) {
+      alarms.push_back({row.a, row.b, row.kind, std::move(what)});
+    };
+    if (row.kind == PairKind::closedForm) continue;  // what is missing or far off is its answer
+    if (row.lost > row.packings && onlyOneHas(setup, results, row) > row.packings)
+      alarm(fmt::format("{} is missing on {} of {} packings", words, row.lost,
+                        row.lost + row.packings));
+    else if (row.distance && std::abs(*row.distance) > farMargins && row.verdict != Verdict::fail)
+      alarm(fmt::format("{} is {:.0f} margins off, which {} packing{} cannot prove", words,
+                        std::abs(*row.distance), row.packings, row.packings == 1 ? "" : "s"));
+  }
+}
+
+/// Fraction of the disks' area that is in the cell, mean over packings.
+std::optional<double> filled(const Case& setup, const CompareResults& results,
+                             const std::string& engine) {
+  Numbers values;
+  for (const FlowRun* run : finishedRuns(results.runs, engine))
+    values.push_back(cellMean(setup, *run, "volume_fraction"));
+  const auto mean = ensembleMean(values);
+  return mean ? std::optional(mean->mean) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<AlarmRow> alarmsOf(const Case& setup, const CompareResults& results) {
+  std::vector<AlarmRow> alarms;
+  addFarEndpoints(setup, results, alarms);
+  for (const RegimesOfPair& pair : results.regimes) {
+    if (2 * static_cast<int>(pair.differ.size()) > pair.packings)
+      alarms.push_back(
+          {pair.a, pair.b, pair.kind,
+           fmt::format("another regime on {} of {} packings", pair.differ.size(), pair.packings)});
+    if (setup.average) continue;  // its bins may fill and empty
+    const auto ours = filled(setup, results, pair.a), theirs = filled(setup, results, pair.b);
+    if (ours && theirs && *theirs < (1.0 - goneFraction) * *ours)
+      alarms.push_back({pair.a, pair.b, pair.kind,
+                        fmt::format("{:.0f} % of the disks are gone from the cell",
+                                    100.0 * (1.0 - *theirs / *ours))});
+  }
+  return alarms;
+}
+
+namespace {
+
+/// Over all snapshots of all finished runs of an engine.
+std::optional<double> meanOf(const FlowStudy& study, const std::string& engine,
+                             const char* series) {
+  std::vector<double> values;
+  for (const FlowRun& run : study.runs) {
+    if (run.engine != engine || !run.finished() || !run.series) continue;
+    for (const auto& value : valuesOf(*run.series, series))
+      if (value) values.push_back(*value);
+  }
+  if (values.empty()) return std::nullopt;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+std::vector<std::string> contactNotes(const FlowStudy& study) {
+  std::vector<std::string> differ, same;
+  for (const EngineRow& engine : study.engines) {
+    const std::string& name = engine.name;
+    const auto counted = meanOf(study, name, "coordination");
+    const auto listed = meanOf(study, name, "pairs_listed");
+    if (!counted || !listed) continue;
+    if (*listed == *counted)
+      same.push_back(name);
+    else
+      differ.push_back(fmt::format("{} {:.3g} instead of {:.3g}", name, *listed, *counted));
+  }
+  if (differ.empty() && same.empty()) return {};
+  std::string outcome;
+  if (!differ.empty()) outcome = fmt::format("{}", fmt::join(differ, ", "));
+  if (!same.empty())
+    outcome += fmt::format("{}no other for {}", differ.empty() ? "" : "; ", fmt::join(same, ", "));
+  return {fmt::format(
+      "Contacts are pairs that transmit a force. With every pair that an engine lists, the "
+      "coordination C (and with it the trace of the fabric, νC) would be: {}.",
+      outcome)};
+}
+
+namespace {
+
+constexpr double measuringError = 0.15;
+constexpr std::size_t bandRings = 3;
+
+using ByPacking = std::map<int, Numbers>;
+
+ByPacking velocitiesOf(const FlowStudy& study, const std::string& engine) {
+  ByPacking found;
+  for (const FlowRun* run : finishedRuns(study.runs, engine))
+    if (const Profile* profile =
+            profileOf(run->profiles, study.averaging.method, "azimuthal_velocity"))
+      found[run->packing] = profile->mean;
+  return found;
+}
+
+/// Paired difference of two engines in one ring, as a fraction of the first one's mean.
+struct Difference {
+  double fraction = 0.0;
+  double halfWidth = INFINITY;  ///< of the 95 % interval; infinite with fewer than two packings
+  bool holds() const {
+    return std::abs(fraction) <= measuringError || std::abs(fraction) <= halfWidth;
+  }
+};
+
+std::optional<Difference> difference(const ByPacking& from, const ByPacking& to, std::size_t ring) {
+  Numbers differences, references;
+  for (const auto& [packing, reference] : from) {
+    const auto other = to.find(packing);
+    if (other == to.end() || ring >= reference.size() || ring >= other->second.size()) continue;
+    if (!reference[ring] || !other->second[ring]) continue;
+    differences.emplace_back(*other->second[ring] - *reference[ring]);
+    references.push_back(reference[ring]);
+  }
+  const auto mean = ensembleMean(differences);
+  const auto reference = ensembleMean(references);
+  if (!mean || reference->mean == 0.0) return std::nullopt;
+  Difference result;
+  result.fraction = mean->mean / std::abs(reference->mean);
+  if (mean->standardError)
+    result.halfWidth = studentQuantile(0.95, mean->packings - 1) * *mean->standardError /
+                       std::abs(reference->mean);
+  return result;
+}
+
+std::string percent(const Difference& d) {
+  return std::isfinite(d.halfWidth)
+             ? fmt::format("{:+.0f} ± {:.0f} %", 100.0 * d.fraction, 100.0 * d.halfWidth)
+             : fmt::format("{:+.0f} %", 100.0 * d.fraction);
+}
+
+std::string mirrorSentence(const FlowStudy& study, const std::string& peer,
+                           const ByPacking& reference, const ByPacking& measured, std::size_t ring,
+                           const char* bin) {
+  for (const EngineRow& engine : study.engines) {
+    if (engine.mirrors != peer) continue;
+    const ByPacking mirror = velocitiesOf(study, engine.name);
+    const auto model = difference(reference, mirror, ring);
+    const auto rest = difference(mirror, measured, ring);
+    if (!model || !rest) continue;
+    const char* reading = rest->holds() && !model->holds() ? "the model makes the difference"
+                          : model->holds() && !rest->holds()
+                              ? "what it mirrors is not what makes the difference"
+                              : "it explains a part, as far as these packings show";
+    return fmt::format(" Its mirror {} (same {}) is {} off the reference and {} off it: {}.",
+                       engine.name, bin, percent(*model), percent(*rest), reading);
+  }
+  return " It has no mirror.";
+}
+
+}  // namespace
+
+std::vector<std::string> velocityNotes(const FlowStudy& study) {
+  std::vector<std::string> notes;
+  const std::string& first = study.engines.front().name;
+  const char* const bin = study.region ? "bin" : "ring";
+  const ByPacking reference = velocitiesOf(study, first);
+  for (const EngineRow& engine : study.engines) {
+    const std::string& name = engine.name;
+    if (name == first || !engine.mirrors.empty()) continue;
+    const ByPacking measured = velocitiesOf(study, name);
+    std::vector<std::string> differences;
+    std::string beyond;
+    for (std::size_t ring = 0; ring < bandRings; ++ring) {
+      const auto found = difference(reference, measured, ring);
+      if (!found || !std::isfinite(found->halfWidth)) continue;  // one packing has no interval
+      differences.push_back(percent(*found));
+      if (!found->holds() && beyond.empty())
+        beyond = fmt::format(" In {} {} it is beyond both.", bin, ring + 1) +
+                 mirrorSentence(study, name, reference, measured, ring, bin);
+    }
+    if (differences.empty()) continue;
+    notes.push_back(
+        fmt::format("v_φ of {} in {}s 1 to {} against {} (95 % interval over packings): {}. {}{}",
+                    name, bin, differences.size(), first, fmt::join(differences, ", "),
+                    beyond.empty() ? "Within 15 % or within the interval in each."
+                                   : "Not within 15 % or the "
+                                     "interval everywhere.",
+                    beyond));
+  }
+  return notes;
+}
+
+}  // namespace crossgrain::inline studies

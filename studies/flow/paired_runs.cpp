@@ -1,0 +1,116 @@
+#include "studies/flow/paired_runs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crossgrain::inline studies {
+
+namespace {
+
+void takeLogarithms(PairedTest& test, const Margin& margin) {
+  for (auto* values : {&test.sample.reference, &test.sample.other})
+    for (auto& value : *values)
+      if (value) value = test.sign * std::log(test.sign * *value);
+  test.sample.margin = std::log1p(margin.value);
+  test.logarithmic = true;
+}
+
+}  // namespace
+
+Runs finishedRuns(std::span<const FlowRun> runs, const std::string& engine,
+                  const std::string& without) {
+  Runs found;
+  for (const FlowRun& run : runs)
+    if (run.engine == engine && run.finished() && run.without == without) found.push_back(&run);
+  std::ranges::sort(found, {}, [](const FlowRun* run) { return run->packing; });
+  return found;
+}
+
+Runs runsFor(std::span<const FlowRun> runs, const std::string& engine,
+             const std::vector<SurrogateEngine>& surrogates, const std::string& without) {
+  const SurrogateEngine* const own = surrogateOf(surrogates, engine);
+  return finishedRuns(runs, own ? own->mirror : engine, without);
+}
+
+std::size_t packingsOf(std::span<const FlowRun> runs) {
+  int packings = 0;
+  for (const FlowRun& run : runs) packings = std::max(packings, run.packing + 1);
+  return static_cast<std::size_t>(packings);
+}
+
+std::vector<Numbers> fieldByRing(const Runs& runs, const std::string& method,
+                                 const std::string& field, std::size_t packings,
+                                 Numbers Profile::*what) {
+  std::vector<Numbers> rings;
+  for (const FlowRun* run : runs) {
+    const Profile* profile = profileOf(run->profiles, method, field);
+    if (!profile) continue;
+    const Numbers& values = profile->*what;
+    rings.resize(std::max(rings.size(), values.size()), Numbers(packings));
+    for (std::size_t ring = 0; ring < values.size(); ++ring)
+      rings[ring][static_cast<std::size_t>(run->packing)] = values[ring];
+  }
+  return rings;
+}
+
+PairedTest testedRing(const Margin& margin, const Numbers& reference, const Numbers& other) {
+  PairedTest test{{reference, other, margin.value, 0.0, {}}};
+  const auto mean = ensembleMean(reference);
+  if (mean) test.reference = mean->mean;
+  if (!margin.relative) return test;
+  test.sample.margin *= std::abs(test.reference);
+  test.sign = test.reference < 0.0 ? -1.0 : 1.0;
+  const auto ofThatSign = [&](const std::optional<double>& value) {
+    return !value || test.sign * *value > 0.0;
+  };
+  if (mean && std::ranges::all_of(reference, ofThatSign) && std::ranges::all_of(other, ofThatSign))
+    takeLogarithms(test, margin);
+  return test;
+}
+
+double signOf(const Numbers& values) {
+  double sign = 0.0;
+  for (const auto& value : values) {
+    if (!value || *value == 0.0 || !std::isfinite(*value)) continue;
+    const double own = *value > 0.0 ? 1.0 : -1.0;
+    if (sign == -own) return 0.0;
+    sign = own;
+  }
+  return sign;
+}
+
+PairedTest testedEndpoint(const EndpointSpec& endpoint, const Margin& margin,
+                          const Numbers& reference, const Numbers& other) {
+  PairedTest test{{reference, other, margin.value, 0.0, {}}, false, signOf(reference)};
+  for (auto* values : {&test.sample.reference, &test.sample.other})
+    for (auto& value : *values)
+      if (value && (!std::isfinite(*value) || (endpoint.byRatio && !(test.sign * *value > 0.0))))
+        value.reset();
+  if (const auto mean = ensembleMean(test.sample.reference)) test.reference = mean->mean;
+  if (endpoint.byRatio) takeLogarithms(test, margin);
+  return test;
+}
+
+void addWithinVariance(PairedTest& test, const Numbers& referenceError, const Numbers& otherError) {
+  const auto variance = [&](const std::optional<double>& value, const std::optional<double>& error,
+                            double& sum) {
+    if (!value || !error) return false;
+    const double relative = test.logarithmic ? *error / std::exp(test.sign * *value) : *error;
+    sum += relative * relative;
+    return true;
+  };
+  PairedSample& sample = test.sample;
+  sample.withinVariance.assign(sample.reference.size(), std::nullopt);
+  for (std::size_t k = 0; k < sample.reference.size(); ++k) {
+    double sum = 0.0;
+    if (variance(sample.reference[k], referenceError[k], sum) &&
+        variance(sample.other[k], otherError[k], sum))
+      sample.withinVariance[k] = sum;
+  }
+}
+
+double inUnit(const PairedTest& test, double difference) {
+  return test.logarithmic ? test.reference * std::expm1(test.sign * difference) : difference;
+}
+
+}  // namespace crossgrain::inline studies
