@@ -102,23 +102,23 @@ TEST(AgreementRow, ThreePackings_AreUndecided) {
 }
 
 TEST(PairedRings, RelativeMargin_IsOnLogarithms) {
-  const TestedRing ring = testedRing({0.1, true, "", ""}, {-2.0, -4.0}, {-2.2, -4.4});
+  const PairedTest ring = testedRing({0.1, true, "", ""}, {-2.0, -4.0}, {-2.2, -4.4});
   ASSERT_TRUE(ring.logarithmic);
   EXPECT_EQ(ring.sign, -1.0);
-  EXPECT_EQ(ring.reference, 3.0);
+  EXPECT_EQ(ring.reference, -3.0);
   EXPECT_NEAR(ring.sample.margin, std::log(1.1), 1e-15);
   for (std::size_t k = 0; k < 2; ++k)
-    EXPECT_NEAR(*ring.sample.other[k] - *ring.sample.reference[k], std::log(1.1), 1e-15);
-  EXPECT_NEAR(inUnit(ring, std::log(1.1)), -0.3, 1e-15);  // a tenth more of −3
+    EXPECT_NEAR(*ring.sample.other[k] - *ring.sample.reference[k], -std::log(1.1), 1e-15);
+  EXPECT_NEAR(inUnit(ring, -std::log(1.1)), -0.3, 1e-15);  // a tenth more of −3
 }
 
 /// ± 0.4 of 2 is a fifth, ± 0.4 of 4 a tenth; without logarithms 0.3² + 0.4² = 0.25.
 TEST(PairedRings, ErrorsOfRuns_AreRelativeOnLogarithms) {
-  TestedRing ratio = testedRing({0.1, true, "", ""}, {2.0, 4.0}, {4.0, 8.0});
+  PairedTest ratio = testedRing({0.1, true, "", ""}, {2.0, 4.0}, {4.0, 8.0});
   addWithinVariance(ratio, {0.4, 0.4}, {0.4, std::nullopt});
   EXPECT_NEAR(ratio.sample.withinVariance[0].value(), 0.2 * 0.2 + 0.1 * 0.1, 1e-15);
   EXPECT_FALSE(ratio.sample.withinVariance[1]);
-  TestedRing difference = testedRing({0.1, false, "", ""}, {2.0, 4.0}, {2.5, 4.5});
+  PairedTest difference = testedRing({0.1, false, "", ""}, {2.0, 4.0}, {2.5, 4.5});
   EXPECT_FALSE(difference.logarithmic);
   EXPECT_EQ(difference.sample.margin, 0.1);
   addWithinVariance(difference, {0.3, 0.3}, {0.4, 0.4});
