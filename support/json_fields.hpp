@@ -12,6 +12,7 @@
 #include <optional>
 #include <ranges>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -58,10 +59,12 @@ struct Words {
 template <typename Enum, std::size_t n>
 using EnumNames = std::array<std::pair<Enum, std::string_view>, n>;
 
-/// @pre the file has a name for it
+/// @throws std::logic_error where the file has no name for it
 template <typename Enum, std::size_t n>
 constexpr std::string_view nameOf(Enum value, const EnumNames<Enum, n>& names) {
-  return std::ranges::find(names, value, &EnumNames<Enum, n>::value_type::first)->second;
+  const auto found = std::ranges::find(names, value, &EnumNames<Enum, n>::value_type::first);
+  if (found == names.end()) throw std::logic_error("an enumerator that files have no name for");
+  return found->second;
 }
 
 class FieldWriter;
@@ -177,7 +180,8 @@ class FieldReader {
   }
   template <typename Enum, std::size_t n>
   void operator()(const char* key, Enum& value, const EnumNames<Enum, n>& names) {
-    std::string name(nameOf(value, names));
+    if (!object_.contains(key)) return;
+    std::string name;
     (*this)(key, name);
     const auto found = std::ranges::find(names, name, &EnumNames<Enum, n>::value_type::second);
     if (found == names.end())

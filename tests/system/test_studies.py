@@ -214,7 +214,7 @@ class Cost(SystemTest):
     def test_what_does_not_fit_the_budget_is_not_measured(self):
         done = self.cost("--budget", "0.002s")
         self.assert_status(done, HELD)
-        self.assertIn("do not fit", done.stderr)
+        self.assertIn("are left of the budget of 0.002 s", done.stderr)
         # "undecided" is what files call it; it is neither that of a target nor not reached.
         left_out = [point for point in self.results()["points"] if point["status"] == "undecided"]
         self.assertTrue(left_out)
