@@ -119,7 +119,7 @@ constexpr Named exitStatuses[] = {
     {"1",
      "engines disagree, or something failed or is unstable (an engine failed the law that it "
      "declares; the scene's only under --strict)"},
-    {"2", "bad input: nothing was judged"},
+    {"2", "bad input: nothing was run"},
     {"3", "an engine failed, or the disk is full (outranks 1)"},
     {"130", "interrupted"}};
 

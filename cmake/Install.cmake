@@ -25,6 +25,15 @@ install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
 install(FILES README.md LICENSE CHANGELOG.md adapters/worker/protocol.schema.json
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# What these pages link to, at the place where they look for it.
+file(GLOB_RECURSE crossgrain_pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
+     adapters/*.md averaging/*.md cases/*.md engines/*.md oracle/*.md reports/curated/*.md tests/*.md)
+list(FILTER crossgrain_pages EXCLUDE REGEX node_modules)
+foreach(page ${crossgrain_pages} reports/curated/cost/cost_collision.png reports/curated/effects/effects_1_cost.png
+        reports/curated/full/overview.png reports/curated/stability/stability_map.png)
+  cmake_path(GET page PARENT_PATH folder)
+  install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
+endforeach()
 
 set(crossgrain_libraries crossgrain_options crossgrain_support crossgrain_continuum grain box2d_granular crossgrain_adapters
     crossgrain_worker crossgrain_engines crossgrain_oracle crossgrain_stability crossgrain_averaging

@@ -8,7 +8,7 @@
 #include "results/engine_row.hpp"
 #include "results/head.hpp"
 
-/// results.json of kind "collide": sweeps of collisions, held against the oracle.
+/// results.json of kind "collide": sweeps of collisions, compared with the oracle.
 namespace crossgrain::inline results {
 
 /// What files call how far a sweep came; second: whether all pairs parted.

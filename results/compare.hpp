@@ -34,7 +34,7 @@ struct FlowStudy : FlowFrame {
 
 /// Kind "compare"; and kind "average", of one source and one packing, where nothing is compared.
 struct CompareResults : FlowStudy {
-  std::optional<LockstepFindings> lockstep;  ///< absent: nobody was held against a mirror
+  std::optional<LockstepFindings> lockstep;  ///< absent: nobody was compared with a mirror
   std::vector<RegimesOfPair> regimes;
   std::vector<EngineDrift> steadiness;
   std::vector<CouetteEnsemble> ensemble;

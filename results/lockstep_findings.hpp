@@ -10,7 +10,7 @@
 #include "adapters/engine.hpp"
 #include "results/json_fields.hpp"
 
-/// Engines held against their mirrors, step by step from the same starts. A mirror is the in-house
+/// Engines compared with their mirrors, step by step from the same starts. A mirror is the in-house
 /// engine with the conventions that an engine declares, on the scene that this engine runs.
 namespace crossgrain::inline results {
 
@@ -49,7 +49,7 @@ constexpr Verdict verdictOf(Equivalence found) {
 /// What the verdicts rest on.
 struct LockstepRules {
   double rounding = 0.0;              ///< [d]
-  double sameLaw = 0.0;               ///< change of the yardstick, as a fraction of it
+  double sameLaw = 0.0;               ///< reference perturbation, as a fraction of its constant
   double referenceChange = 0.0;       ///< largest by which it was changed to see what that does
   std::string referencePerturbation;  ///< the constant: "kn"
   double strayShare = 0.0;            ///< of starts that may be beyond sameLaw by chance
@@ -79,10 +79,11 @@ struct LockstepStart {
 /// How far disks are from the mirror's, so long after the start: of each start the disk that is
 /// farthest.
 struct LockstepSeparation {
-  double time = 0.0;                            ///< since the start [s]
-  double median = 0.0;                          ///< over the starts [d]
-  double largest = 0.0;                         ///< [d]
-  std::optional<double> referencePerturbation;  ///< median of what the yardstick's change does [d]
+  double time = 0.0;     ///< since the start [s]
+  double median = 0.0;   ///< over the starts [d]
+  double largest = 0.0;  ///< [d]
+  std::optional<double>
+      referencePerturbation;  ///< median of what the reference perturbation does [d]
   /// What rounding to the declared precision may do, the median over the starts [d]; absent of
   /// double precision.
   std::optional<double> rounding;
@@ -196,7 +197,7 @@ struct LockstepRow {
   bool severalAtOnce = false;
   /// Upper bound of the share of all states that are beyond the rule, at 95 %.
   std::optional<double> shareHigh;
-  /// Of same to its precision: the smallest change of the yardstick that would show beyond
+  /// Of same to its precision: the smallest change of that constant that would show beyond
   /// rounding; absent: none of those tried.
   std::optional<double> resolution;
   std::size_t starts = 0;   ///< that were followed to the end

@@ -76,7 +76,7 @@ struct ScaleResults {
 std::string describeWorkers(const ScaleSharing& sharing, int workers);
 
 /// What follows from a point and the others of its engine. All of it is absent where it did not
-/// run or what it is held against did not.
+/// run or what it is compared with did not.
 struct ScaleFigures {
   std::optional<double> step;     ///< wall time of the fastest repetition's step [s]
   std::optional<double> spread;   ///< (slowest − fastest)/fastest; of one repetition none

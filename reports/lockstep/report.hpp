@@ -19,7 +19,7 @@ using results::percentText;
 using results::plainSymbol;
 using results::verdictWord;
 
-/// Plot: lockstep_separation, the difference over time beside what the yardstick's change does.
+/// Plot: lockstep_separation, the difference over time beside what the reference perturbation does.
 /// Table: lockstep.csv (docs/results.md).
 Report reportOf(const LockstepResults& results);
 

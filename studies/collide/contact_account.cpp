@@ -97,9 +97,9 @@ void addStep(ContactAccount& account, const ContactKinematics& touch, double sto
 }
 
 /// Sums what the contacts of one step did into the accounts.
-class Accountant {
+class ContactWork {
  public:
-  explicit Accountant(const ContactRecording& run)
+  explicit ContactWork(const ContactRecording& run)
       : run_(run), accounts(run.scene.disks.size() / (run.pair.plane ? 1 : 2)) {
     if (!run.effective.pairs.empty()) pair_ = run.effective.pairs.front();
   }
@@ -166,8 +166,8 @@ class Accountant {
 std::vector<std::optional<ContactAccount>> recordContacts(Engine& engine,
                                                           const ContactRecording& run, double end) {
   const double dt = run.effective.dt;
-  Accountant accountant(run);
-  accountant.add(engine.snapshot(ContactReport::none));
+  ContactWork work(run);
+  work.add(engine.snapshot(ContactReport::none));
   const auto steps = std::llround(end / dt);
   bool over = false;
   for (long long step = 1; step <= steps && !over; ++step) {
@@ -175,10 +175,10 @@ std::vector<std::optional<ContactAccount>> recordContacts(Engine& engine,
     engine.advance(static_cast<double>(step) * dt);
     const Snapshot now = engine.snapshot(ContactReport::instant);
     if (now.contactInterval > 0.0) break;  // means over a step: no forces of one instant
-    over = accountant.add(now) == 0 && accountant.allMet();
+    over = work.add(now) == 0 && work.allMet();
   }
   engine.advance(end);
-  return accountant.accounts;
+  return work.accounts;
 }
 
 }  // namespace crossgrain::inline studies

@@ -6,6 +6,7 @@ program runs, in a mount namespace of its own.
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -104,6 +105,14 @@ class WithoutTheSources(InstalledTest):
 
 
 class LaidOut(InstalledTest):
+    def test_links_of_the_documents_lead_somewhere(self):
+        documents = next(self.prefix.glob("share/doc/*"))
+        for page in (documents / "README.md", *documents.glob("docs/*.md")):
+            links = re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8"))
+            for link in links:
+                if "://" not in link:
+                    self.assertTrue((page.parent / link).exists(), f"{page.name}: {link}")
+
     def test_completion(self):
         self.assertTrue((self.prefix / "share/bash-completion/completions/crossgrain").exists())
 

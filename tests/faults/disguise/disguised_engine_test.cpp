@@ -44,20 +44,20 @@ TEST(DisguisedEngine, DoesTheSameButForRounding) {
   all.nudge = 6;
   all.restartEvery = 2;
   test::DisguisedEngine disguised(all, folder.path());
-  const Snapshot told = endOf(disguised, scene);
-  EXPECT_NE(told.position, original.position);
-  ASSERT_EQ(told.position.size(), original.position.size());
-  for (std::size_t i = 0; i < told.position.size(); ++i) {
-    EXPECT_LT((told.position[i] - original.position[i]).norm(), 1e-10 * scene.disks.radius[i]);
-    EXPECT_LT((told.velocity[i] - original.velocity[i]).norm(), 1e-9);
-    EXPECT_NEAR((*told.spin)[i], (*original.spin)[i], 1e-7);
+  const Snapshot seen = endOf(disguised, scene);
+  EXPECT_NE(seen.position, original.position);
+  ASSERT_EQ(seen.position.size(), original.position.size());
+  for (std::size_t i = 0; i < seen.position.size(); ++i) {
+    EXPECT_LT((seen.position[i] - original.position[i]).norm(), 1e-10 * scene.disks.radius[i]);
+    EXPECT_LT((seen.velocity[i] - original.velocity[i]).norm(), 1e-9);
+    EXPECT_NEAR((*seen.spin)[i], (*original.spin)[i], 1e-7);
   }
-  for (std::size_t b = 0; b < told.bodies.size(); ++b) {
-    EXPECT_NEAR(told.bodies[b].angle, original.bodies[b].angle, 1e-12);
-    EXPECT_LT((*told.bodies[b].force - *original.bodies[b].force).norm(), 1e-8);
-    EXPECT_NEAR(*told.bodies[b].torque, *original.bodies[b].torque, 1e-9);
+  for (std::size_t b = 0; b < seen.bodies.size(); ++b) {
+    EXPECT_NEAR(seen.bodies[b].angle, original.bodies[b].angle, 1e-12);
+    EXPECT_LT((*seen.bodies[b].force - *original.bodies[b].force).norm(), 1e-8);
+    EXPECT_NEAR(*seen.bodies[b].torque, *original.bodies[b].torque, 1e-9);
   }
-  const auto theirs = forcesOf(told), ours = forcesOf(original);
+  const auto theirs = forcesOf(seen), ours = forcesOf(original);
   ASSERT_EQ(theirs.size(), ours.size());
   EXPECT_GT(ours.size(), 3u);
   for (const auto& [pair, force] : ours)
