@@ -148,6 +148,12 @@ class Core {
   /// Pair k of a list, or a disk and a plane, if they touch; i and j are places, of planes as
   /// numbers.
   std::optional<Contact> touching(const PairList<Real>& list, std::size_t k) const;
+  /// @param overlaps  by geometry; a bond decides where the law has one
+  bool isContact(const PairList<Real>& list, std::size_t k, bool overlaps) const {
+    return law_.cohesion == Cohesion::jkr ? list.memory[k] > Real(0) : overlaps;
+  }
+  Contact contactOf(const PairList<Real>& list, std::size_t k, Vec<Real> normal,
+                    Real overlap) const;
   std::optional<Contact> touching(std::size_t plane, std::size_t i) const;
   /// Calls visit(contact), of places, in the order in which a disk's forces are summed up: disk by
   /// disk its pairs by ascending partner, wall disks, planes.
@@ -235,6 +241,25 @@ void Core<Real>::guarded(Work&& work) {
   } catch (const TooDeep& found) {
     reportTooDeep(found);
   }
+}
+
+/// What the last step recorded of a pair. @param normal  from j to i
+template <class Real>
+GRAIN_INLINE Contact Core<Real>::contactOf(const PairList<Real>& list, std::size_t k,
+                                           Vec<Real> normal, Real overlap) const {
+  return Contact{list.i[k],
+                 list.j[k],
+                 static_cast<double>(normal.x),
+                 static_cast<double>(normal.y),
+                 static_cast<double>(overlap),
+                 static_cast<double>(list.normal[k]),
+                 static_cast<double>(list.tangential[k]),
+                 list.spring.empty() ? 0.0 : static_cast<double>(list.spring[k]),
+                 list.sliding[k] != Real(0),
+                 rolls() ? static_cast<double>(list.rolling[k]) : 0.0,
+                 list.angle.empty() ? 0.0 : static_cast<double>(list.angle[k]),
+                 rolls() && list.rollingSlides[k] != Real(0),
+                 list.memory.empty() ? 0.0 : static_cast<double>(list.memory[k])};
 }
 
 template <class Real>

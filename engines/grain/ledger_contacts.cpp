@@ -114,22 +114,8 @@ void LedgerObserver<Real>::flushPairs() {
   for (std::size_t p = 0; p < pairCount_; ++p) {
     const PairList<Real>& list = *pairList_[p];
     const std::size_t k = pairPlace_[p];
-    if (core_.law_.cohesion == Cohesion::jkr ? !(list.memory[k] > Real(0))
-                                             : b.touches[p] == Real(0))
-      continue;
-    const Contact contact{list.i[k],
-                          list.j[k],
-                          static_cast<double>(b.nx[p]),
-                          static_cast<double>(b.ny[p]),
-                          static_cast<double>(b.overlap[p]),
-                          static_cast<double>(list.normal[k]),
-                          static_cast<double>(list.tangential[k]),
-                          list.spring.empty() ? 0.0 : static_cast<double>(list.spring[k]),
-                          list.sliding[k] != Real(0),
-                          core_.rolls() ? static_cast<double>(list.rolling[k]) : 0.0,
-                          list.angle.empty() ? 0.0 : static_cast<double>(list.angle[k]),
-                          core_.rolls() && list.rollingSlides[k] != Real(0),
-                          list.memory.empty() ? 0.0 : static_cast<double>(list.memory[k])};
+    if (!core_.isContact(list, k, b.touches[p] != Real(0))) continue;
+    const Contact contact = core_.contactOf(list, k, {b.nx[p], b.ny[p]}, b.overlap[p]);
     ContactKinematics touch;
     touch.nx = contact.nx;
     touch.ny = contact.ny;

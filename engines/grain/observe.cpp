@@ -82,23 +82,10 @@ GRAIN_INLINE std::optional<Contact> Core<Real>::touching(const PairList<Real>& l
   if (!list.shift.empty()) d += list.shift[k];
   const Real reach = radius_[i] + radius_[j];
   const Real distance2 = d.x * d.x + d.y * d.y;
-  if (law_.cohesion == Cohesion::jkr ? !(list.memory[k] > Real(0)) : !(distance2 < reach * reach))
-    return std::nullopt;
+  if (!isContact(list, k, distance2 < reach * reach)) return std::nullopt;
   const Real distance = squareRoot(distance2);
   const Real inverse = Real(1) / distance;
-  return Contact{list.i[k],
-                 list.j[k],
-                 static_cast<double>(d.x * inverse),
-                 static_cast<double>(d.y * inverse),
-                 static_cast<double>(reach - distance),
-                 static_cast<double>(list.normal[k]),
-                 static_cast<double>(list.tangential[k]),
-                 list.spring.empty() ? 0.0 : static_cast<double>(list.spring[k]),
-                 list.sliding[k] != Real(0),
-                 rolls() ? static_cast<double>(list.rolling[k]) : 0.0,
-                 list.angle.empty() ? 0.0 : static_cast<double>(list.angle[k]),
-                 rolls() && list.rollingSlides[k] != Real(0),
-                 list.memory.empty() ? 0.0 : static_cast<double>(list.memory[k])};
+  return contactOf(list, k, {d.x * inverse, d.y * inverse}, reach - distance);
 }
 
 template <class Real>

@@ -21,9 +21,10 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
     const Real dy = static_cast<Real>(origin.y - plane.y) + disks.position[i].y;
     const Real height = dx * plane.nx + dy * plane.ny;
     const Real overlap = disks.radius[i] - height;
-    const auto kept = [i](const Real* all) { return all == nullptr ? Real(0) : all[i]; };
-    Real spring = kept(plane.kept.spring), angle = kept(plane.kept.angle);
-    Real memory = kept(plane.kept.memory);
+    // What the law does not have is not compiled.
+    Real spring = plane.kept.spring == nullptr ? Real(0) : plane.kept.spring[i];
+    Real angle = law.rolling == Rolling::spring ? plane.kept.angle[i] : Real(0);
+    Real memory = remembers(law) ? plane.kept.memory[i] : Real(0);
     bool touches = overlap > Real(0);
     if (law.cohesion == Cohesion::jkr) {
       memory = isBonded(law, overlap, disks.radius[i], memory);
@@ -71,8 +72,8 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
       spring = angle = memory = Real(0);
     }
     if (plane.kept.spring != nullptr) plane.kept.spring[i] = spring;
-    if (plane.kept.angle != nullptr) plane.kept.angle[i] = angle;
-    if (plane.kept.memory != nullptr) plane.kept.memory[i] = memory;
+    if (law.rolling == Rolling::spring) plane.kept.angle[i] = angle;
+    if (remembers(law)) plane.kept.memory[i] = memory;
     if (plane.normal != nullptr) {
       plane.overlap[i] = overlap;
       plane.normal[i] = force.normal;
