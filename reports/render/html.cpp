@@ -19,6 +19,10 @@ namespace crossgrain::reports {
 
 namespace {
 
+/// One of its figures or pictures; empty where it was not drawn.
+std::string htmlDrawing(const Report& report, const std::string& name,
+                        const std::filesystem::path& plots);
+
 /// "All pairs" → "all-pairs".
 std::string slugOf(const std::string& words) {
   std::string slug;
@@ -304,6 +308,9 @@ std::string base64(std::string_view bytes) {
   return encoded;
 }
 
+namespace {
+
+/// From the document's first line to its title.
 std::string htmlHead(const Report& report) {
   const std::string title = escaped(titleOf(report.head));
   return fmt::format(
@@ -319,6 +326,8 @@ std::string htmlHead(const Report& report) {
                       report.head.version.empty() ? "" : "version " + report.head.version,
                       machineOf(report)})));
 }
+
+}  // namespace
 
 std::string htmlMatrix(const Overview& overview, const std::vector<EngineRow>& engines,
                        bool wrapped) {
@@ -351,6 +360,9 @@ std::string htmlMatrix(const Overview& overview, const std::vector<EngineRow>& e
   return text + "</section>\n";
 }
 
+namespace {
+
+/// The legend of the engines' colours.
 std::string htmlLegend(const std::vector<EngineRow>& engines) {
   const EngineNames names(engines);
   std::string text = "<p class=\"legend\" id=\"legend\">";
@@ -388,6 +400,7 @@ std::string htmlDrawing(const Report& report, const std::string& name,
       escaped(name));
 }
 
+/// The case, the files, and how to make the page again, to the document's last line.
 std::string htmlFoot(const Report& report) {
   const CaseHead& setup = report.head.setup;
   std::string text;
@@ -419,6 +432,8 @@ std::string htmlFoot(const Report& report) {
                   machineOf(report)})),
              pageFile("tables.js"));
 }
+
+}  // namespace
 
 std::string html(const Report& report, const std::filesystem::path& plots,
                  const std::optional<std::string>& missing) {

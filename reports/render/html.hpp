@@ -15,21 +15,11 @@ namespace crossgrain::reports {
 std::string html(const Report& report, const std::filesystem::path& plots,
                  const std::optional<std::string>& missing);
 
-// Its parts.
-
-/// From the document's first line to its title.
-std::string htmlHead(const Report& report);
+/// Its matrix.
 /// @param wrapped  every cell has its question, and those without one are left out: for rows that
 ///                 share few questions
 std::string htmlMatrix(const Overview& overview, const std::vector<EngineRow>& engines,
                        bool wrapped = false);
-/// One of its figures or pictures; empty where it was not drawn.
-std::string htmlDrawing(const Report& report, const std::string& name,
-                        const std::filesystem::path& plots);
-/// The legend of the engines' colours.
-std::string htmlLegend(const std::vector<EngineRow>& engines);
-/// The case, the files, and how to make the page again, to the document's last line.
-std::string htmlFoot(const Report& report);
 
 /// A file of reports/page, kept in the program at build time, by its name.
 const std::string& pageFile(const std::string& name);
