@@ -59,8 +59,8 @@ std::string timeFault(const Snapshot& snapshot, const AuditBasis& basis,
 std::string positionFault(const Snapshot& snapshot, const AuditBasis& basis);
 
 /// Every contact: i < j, i a moving disk, no pair twice, |n| = 1. Forces of an instant also: normal
-/// and overlap are those of the positions at contactTime, no force passes a gap, and no pair that
-/// overlaps is left out.
+/// and overlap are those of the positions at contactTime, no force passes a gap (but a bond of
+/// JKR's, as far as that reaches), and no pair that overlaps is left out.
 ///
 /// What conventions leave open: contacts of another time than the positions are looked for where
 /// disks were then, half of what two disks moved meanwhile being left to schemes whose velocities
@@ -70,10 +70,11 @@ std::string positionFault(const Snapshot& snapshot, const AuditBasis& basis);
 /// belong to no positions.
 std::string contactFault(const Snapshot& snapshot, const AuditBasis& basis);
 
-/// The forces of every contact against the law: f_n from overlap and approach, |f_t| within its
-/// bound by the law's conventions. Of instants of soft disks, and of rigid disks f_n ≥ 0 alone.
-/// Velocities are known to what forces change of them in a step and a half, as schemes have their
-/// dashpots see velocities of up to that long before.
+/// The forces of every contact against the law: f_n from overlap and approach, |f_t| and the torque
+/// against rolling within their bounds by the law's conventions. An elasto-plastic law, whose
+/// memory nobody shows, has a range of f_n. Of instants of soft disks, and of rigid disks f_n ≥ 0
+/// alone. Velocities are known to what forces change of them in a step and a half, as schemes have
+/// their dashpots see velocities of up to that long before.
 /// @param law  the one that the engine declares (adapters/declared_law.hpp)
 std::string lawFault(const Snapshot& snapshot, const AuditBasis& basis, const ContactLaw& law);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "adapters/audit_geometry.hpp"
@@ -31,6 +32,64 @@ ElasticPart elasticPart(const ContactLaw& law, double overlap, double reducedRad
       return {(law.kn + law.kn3 * depth) * depth * depth,
               (2.0 * law.kn + 3.0 * law.kn3 * depth) * depth, law.kt};
     case NormalLaw::rigid:
+      break;
+  }
+  return {0.0, 0.0, 0.0};
+}
+
+/// A range of forces where the law has a memory that nobody shows.
+struct Attraction {
+  double least, most;    ///< that is added to f_el [N]
+  double stiffness;      ///< |its derivative| [N/m]
+  double pullOff = 0.0;  ///< F_po [N]
+};
+
+/// @param reach  a_i + a_j, at a plane 0 [m]
+Attraction attraction(const ContactLaw& law, double overlap, double radius, double reach) {
+  using std::numbers::pi;
+  const double elastic = elasticPart(law, overlap, radius).force;
+  switch (law.cohesion) {
+    case CohesionLaw::area: {
+      const double round = 2.0 * pi * radius;  // A′(0)
+      double area = round * overlap;
+      if (law.conventions.cohesionArea == CohesionArea::twiceBetweenDisks && reach > 0.0)
+        area *= 2.0;
+      if (law.conventions.cohesionArea == CohesionArea::lens) {
+        // The lens of two spheres: π h² with h² = a_i² − x², x from the centre of i to its plane.
+        const double a =
+            reach > 0.0 ? 0.5 * (reach + std::sqrt(std::max(reach * (reach - 4.0 * radius), 0.0)))
+                        : radius;
+        const double d = reach - overlap, b = reach - a;
+        const double x = reach > 0.0 ? (d * d + a * a - b * b) / (2.0 * d) : radius - overlap;
+        area = pi * (a * a - x * x);
+      }
+      return {-law.kc * area, -law.kc * area, 2.0 * law.kc * round};
+    }
+    case CohesionLaw::dmt: {
+      const double pull = 2.0 * pi * law.w * radius;
+      return {-pull, -pull, 0.0, pull};
+    }
+    case CohesionLaw::jkr: {
+      // F/F_po = x³ − 2 x^1.5, δ R/a_p² = x² − 4/3 √x, x = a/a_p, by bisection.
+      const double width = std::cbrt(1.5 * pi * law.w * radius * radius / law.kn);
+      const double wanted = overlap * radius / (width * width), pull = 1.5 * pi * law.w * radius;
+      double low = 1.0 / std::cbrt(9.0), high = 2.0 + 2.0 * std::sqrt(std::max(wanted, 0.0));
+      for (int k = 0; k < 100; ++k) {
+        const double x = 0.5 * (low + high);
+        (x * x - 4.0 / 3.0 * std::sqrt(x) < wanted ? low : high) = x;
+      }
+      const double force = pull * (low * low * low - 2.0 * std::pow(low, 1.5)) - elastic;
+      // dF/dδ; it has no bound at the end of the branch.
+      const double slope = 2.0 * low - 2.0 / 3.0 / std::sqrt(low);
+      const double stiffness = pull * (3.0 * low * low - 3.0 * std::sqrt(low)) /
+                               std::max(slope, 1e-3) * radius / (width * width);
+      return {force, force, std::abs(stiffness), pull};
+    }
+    case CohesionLaw::elastoPlastic: {  // between loading and the largest pull
+      const double depth = std::max(overlap, 0.0);
+      return {-(law.kc + law.kn) * depth, 0.0, law.kUnload + law.kc};
+    }
+    case CohesionLaw::none:
       break;
   }
   return {0.0, 0.0, 0.0};
@@ -88,11 +147,13 @@ struct VelocityDoubt {
 /// Everything about one contact that its forces are compared with.
 struct ContactKinematics {
   PairPlace place;
-  double radius;    ///< R₁₂ [m]
-  double mass;      ///< m₁₂ [kg]
-  double approach;  ///< v_n as shown [m/s]
-  double slip;      ///< at most, |v_t| [m/s]
-  double doubt;     ///< of v_n [m/s]
+  double radius;         ///< R₁₂ [m]
+  double reach;          ///< a_i + a_j, at a plane 0 [m]
+  double smallerRadius;  ///< [m]
+  double mass;           ///< m₁₂ [kg]
+  double approach;       ///< v_n as shown [m/s]
+  double slip;           ///< at most, |v_t| [m/s]
+  double doubt;          ///< of v_n [m/s]
 };
 
 ContactKinematics kinematicsOf(const Snapshot& snapshot, const AuditBasis& basis,
@@ -106,6 +167,8 @@ ContactKinematics kinematicsOf(const Snapshot& snapshot, const AuditBasis& basis
   ContactKinematics touch{};
   touch.place = pairPlace(places, basis, i, j);
   const double own = basis.radius[i];
+  touch.reach = j < round ? own + basis.radius[j] : 0.0;
+  touch.smallerRadius = j < round ? std::min(own, basis.radius[j]) : own;
   touch.radius = j < round ? own * basis.radius[j] / (own + basis.radius[j]) : own;
   const double mass = scene.disks.mass[i];
   touch.mass = j < disks ? mass * scene.disks.mass[j] / (mass + scene.disks.mass[j]) : mass;
@@ -128,33 +191,82 @@ ContactKinematics kinematicsOf(const Snapshot& snapshot, const AuditBasis& basis
 std::string normalFault(double found, const ContactLaw& law, const ContactKinematics& touch,
                         double relative) {
   const ElasticPart elastic = elasticPart(law, touch.place.overlap, touch.radius);
+  const Attraction pull = attraction(law, touch.place.overlap, touch.radius, touch.reach);
   const double gn = damping(law.damper, law.gn, elastic.stiffness, touch.mass);
-  double force = elastic.force - gn * touch.approach;
-  if (law.conventions.tension == Tension::cut) force = std::max(force, 0.0);
-  const double allowed = relative * (std::abs(elastic.force) + gn * std::abs(touch.approach)) +
-                         elastic.stiffness * touch.place.uncertain + gn * touch.doubt;
-  if (std::abs(found - force) <= allowed) return {};
+  const auto forceAt = [&](double attractive) {
+    const double body = elastic.force + attractive, force = body - gn * touch.approach;
+    return law.conventions.tension == Tension::cut ? std::max(force, std::min(body, 0.0)) : force;
+  };
+  const double least = forceAt(pull.least), most = forceAt(pull.most);
+  const double allowed =
+      relative * (std::abs(elastic.force) + std::abs(pull.least) + gn * std::abs(touch.approach)) +
+      (elastic.stiffness + pull.stiffness) * touch.place.uncertain + gn * touch.doubt;
+  if (found >= least - allowed && found <= most + allowed) return {};
   return fmt::format(
       "f_n is {:.6g} N, by the law {:.6g} N from an overlap of {:.3g} m (to within "
       "{:.2g} N)",
-      found, force, touch.place.overlap, allowed);
+      found, found < least ? least : most, touch.place.overlap, allowed);
+}
+
+/// What stands for f_n in the bounds of sliding and rolling, at most [N].
+double loadOf(double normal, const ContactLaw& law, const ContactKinematics& touch) {
+  if (!law.coheres() || law.conventions.cohesionLoad == CohesionLoad::net) return normal;
+  const Attraction pull = attraction(law, touch.place.overlap, touch.radius, touch.reach);
+  if (law.conventions.cohesionLoad == CohesionLoad::plusTwicePullOff)
+    return normal + 2.0 * pull.pullOff;
+  // An elasto-plastic contact keeps its load; where it pulls, the pull is left out.
+  return law.cohesion == CohesionLaw::elastoPlastic
+             ? std::max(normal, 0.0) + std::max(-pull.least, 0.0)
+             : normal - pull.most;
 }
 
 std::string tangentialFault(double normal, double found, const ContactLaw& law,
                             const ContactKinematics& touch, double relative) {
-  const bool friction = law.tangential != TangentialLaw::none && law.mu > 0.0;
+  const bool friction = law.friction();
   const bool anyway = law.conventions.coulombBound != CoulombBound::compression;
-  double bound = !friction ? 0.0 : law.mu * (anyway ? std::abs(normal) : std::max(normal, 0.0));
+  const double load = loadOf(normal, law, touch);
+  double bound = !friction ? 0.0 : law.mu * (anyway ? std::abs(load) : std::max(load, 0.0));
   const ElasticPart elastic = elasticPart(law, touch.place.overlap, touch.radius);
   if (friction && law.tangential == TangentialLaw::springDashpot &&
       law.conventions.dashpot == Dashpot::outside)
     bound +=
         damping(law.damper, law.gt, elastic.tangential, touch.mass) * (touch.slip + touch.doubt);
-  const double allowed =
+  double allowed =
       bound * (1.0 + relative) + relative * (std::abs(elastic.force) + std::abs(normal));
+  if (friction && law.coheres())  // what an uncertain overlap leaves open of the pull
+    allowed += law.mu * attraction(law, touch.place.overlap, touch.radius, touch.reach).stiffness *
+               touch.place.uncertain;
   if (std::abs(found) <= allowed) return {};
   return fmt::format("|f_t| is {:.6g} N, the law allows {:.6g} N at f_n = {:.6g} N",
                      std::abs(found), bound, normal);
+}
+
+/// Of laws that limit the torque: constant, and a spring that holds its dashpot to the bound too.
+std::string rollingFault(double normal, double found, const ContactLaw& law,
+                         const ContactKinematics& touch, double relative) {
+  const LawConventions& how = law.conventions;
+  const bool limited = law.rolling == RollingLaw::constantTorque ||
+                       (law.rolling == RollingLaw::spring &&
+                        (law.gr == 0.0 || how.rollingDashpot == Dashpot::inside));
+  if (law.rolls() && !limited) return {};
+  double length = touch.radius;
+  if (how.rollingLength == RollingLength::twiceEffective) length *= 2.0;
+  if (how.rollingLength == RollingLength::smallerRadius) length = touch.smallerRadius;
+  const ElasticPart elastic = elasticPart(law, touch.place.overlap, touch.radius);
+  const double load = loadOf(normal, law, touch);
+  const double most = how.rollingLoad == RollingLoad::elastic     ? elastic.force
+                      : how.rollingLoad == RollingLoad::magnitude ? std::abs(load)
+                                                                  : std::max(load, 0.0);
+  const double bound = law.rolls() ? law.muR * length * most : 0.0;
+  const double unsure =
+      (elastic.stiffness +
+       attraction(law, touch.place.overlap, touch.radius, touch.reach).stiffness) *
+      touch.place.uncertain;
+  const double allowed =
+      bound * (1.0 + relative) + law.muR * length * (relative * std::abs(normal) + unsure);
+  if (std::abs(found) <= allowed) return {};
+  return fmt::format("the torque against rolling is {:.6g} N m, the law allows {:.6g} N m",
+                     std::abs(found), bound);
 }
 
 }  // namespace
@@ -176,6 +288,8 @@ std::string lawFault(const Snapshot& snapshot, const AuditBasis& basis, const Co
       const ContactKinematics touch = kinematicsOf(snapshot, basis, places, doubts, k);
       why = normalFault(fn, law, touch, relative);
       if (why.empty()) why = tangentialFault(fn, ft, law, touch, relative);
+      if (why.empty() && !contacts.rollingTorque.empty())
+        why = rollingFault(fn, contacts.rollingTorque[k], law, touch, relative);
     }
     if (!why.empty()) return fmt::format("{}: {}", contactName(contacts, k, *basis.scene), why);
   }

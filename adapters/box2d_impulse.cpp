@@ -84,6 +84,8 @@ class Box2dImpulse : public Engine {
     Capabilities can;
     can.version = box2dVersion();
     for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
+    for (const Effect effect : {Effect::rollingResistance, Effect::cohesion, Effect::pairMaterials})
+      can.effects[effect] = Support::never;
     // The plate's spring and dashpot are a soft law, for which the step of rigid contacts is too
     // long.
     can.effects[Effect::bottomFriction] = Support::never;

@@ -23,6 +23,8 @@ class Box2dPenalty : public Engine {
     Capabilities can;
     can.version = box2dVersion();
     for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
+    for (const Effect effect : {Effect::rollingResistance, Effect::cohesion, Effect::pairMaterials})
+      can.effects[effect] = Support::never;
     can.lawOptions = {{"normal", {"linear"}},
                       {"damper", {"constant"}},
                       {"spring_update", {"after", "before"}},

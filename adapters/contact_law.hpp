@@ -107,6 +107,75 @@ enum class DampingVelocity {
   implicit    ///< the velocity at t that the contact's own force brings about
 };
 
+/// Rolling resistance: a torque M on i and −M on j against ω_r = ω_i − ω_j, the types of Ai et al.
+/// (2011). L is a length, N a load; what they are is a convention.
+enum class RollingLaw {
+  none,
+  constantTorque,  ///< type A: M = −µ_r L N sign(ω_r)
+  viscous,         ///< type B: M = −γ_r L² ω_r
+  viscousByLoad,   ///< type B: M = −µ_r L² N ω_r, µ_r [s/m] (Zhou et al. 1999)
+  spring  ///< type C: M* = −k_r θ − γ_r L² ω_r, θ = ∫ω_r dt, limited to µ_r L N (Iwashita and Oda
+          ///< 1998)
+};
+
+/// L, with R₁₂ = a_i a_j/(a_i + a_j), at a wall's plane a_i: one µ_r is three strengths.
+enum class RollingLength {
+  effective,       ///< R₁₂ (LAMMPS, LIGGGHTS)
+  twiceEffective,  ///< 2 R₁₂ (MercuryDPM)
+  smallerRadius    ///< min(a_i, a_j) (YADE)
+};
+
+/// What multiplies the constant k_r of a rolling spring.
+enum class RollingStiffness {
+  lengthSquare,  ///< L²: k_r [N/m] (LAMMPS)
+  radii,         ///< a_i a_j: k_r [N/m] (YADE)
+  constant       ///< 1: k_r [N m]
+};
+
+/// What the dashpot of a rolling spring is.
+enum class RollingDamper {
+  constant,  ///< γ_r L² ω_r, γ_r [kg/s] (LAMMPS)
+  critical  ///< 2 γ_r √(I k_r) ω_r, γ_r the damping ratio [-], 1/I = Σ 1/(J + m a²) (LIGGGHTS)
+};
+
+/// N, the load that µ_r multiplies.
+enum class RollingLoad {
+  compression,  ///< max(f_n, 0)
+  magnitude,    ///< |f_n|
+  elastic       ///< f_el(δ), without dashpot and cohesion (LIGGGHTS' cdt)
+};
+
+/// Attraction. F_po is the largest pull, w the work of adhesion [J/m²], 2 γ of two equal surfaces.
+enum class CohesionLaw {
+  none,
+  area,          ///< f_el(δ) − k_c A(δ), k_c [Pa] (LIGGGHTS' sjkr)
+  dmt,           ///< f_el(δ) − F_po, F_po = 2π w R₁₂ (Derjaguin, Muller and Toporov 1975)
+  jkr,           ///< in place of Hertz' force, from the first touch until the surfaces part beyond
+                 ///< δ = 0; F_po = 3/2 π w R₁₂ (Johnson, Kendall and Roberts 1971)
+  elastoPlastic  ///< k_n δ on loading, k₂(δ_max) on unloading, pull up to k_c δ (Walton and Braun
+                 ///< 1986 with k_c = 0; Luding 2008, Eqs. 4 to 7)
+};
+
+/// A of CohesionLaw::area.
+enum class CohesionArea {
+  lens,              ///< of two spheres at that distance (LIGGGHTS' sjkr)
+  firstOrder,        ///< 2π R₁₂ δ, the lens to first order
+  twiceBetweenDisks  ///< 4π R₁₂ δ, at a wall's plane 2π R₁₂ δ (LIGGGHTS' sjkr2)
+};
+
+/// Until when parting surfaces pull under JKR.
+enum class JkrEnd {
+  largestPull,  ///< F = −F_po (LAMMPS)
+  branch        ///< where the branch ends, at −5/9 F_po (Thornton and Ning 1998)
+};
+
+/// What stands for f_n in Coulomb's bound and in that of rolling, of a law with cohesion.
+enum class CohesionLoad {
+  net,              ///< f_n, the pull included
+  withoutPull,      ///< f_n without the pull
+  plusTwicePullOff  ///< f_n + 2 F_po: no load slips at µ F_po (Thornton 1991; LAMMPS)
+};
+
 enum class Integrator {
   positionVerlet,  ///< Störmer's scheme on positions: x(t+dt) = 2x(t) − x(t−dt) + a dt²
   velocityVerlet,
@@ -124,6 +193,15 @@ struct LawConventions {
   PlaneArm planeArm = PlaneArm::surface;
   History history = History::displacement;
   DampingVelocity dampingVelocity = DampingVelocity::predicted;
+  RollingLength rollingLength = RollingLength::effective;
+  RollingStiffness rollingStiffness = RollingStiffness::lengthSquare;
+  RollingDamper rollingDamper = RollingDamper::constant;
+  RollingLoad rollingLoad = RollingLoad::compression;
+  Dashpot rollingDashpot = Dashpot::inside;       ///< of the rolling spring and its bound
+  SpringReset rollingReset = SpringReset::total;  ///< of θ, where M is at its bound
+  CohesionArea cohesionArea = CohesionArea::lens;
+  JkrEnd jkrEnd = JkrEnd::largestPull;
+  CohesionLoad cohesionLoad = CohesionLoad::withoutPull;
   Integrator integrator = Integrator::positionVerlet;
 
   /// The arm in v_t by its own name.
@@ -144,7 +222,7 @@ struct LawConventions {
   bool operator==(const LawConventions&) const = default;
 };
 
-/// Parameters of the law that the scene calls for; the same for all contacts.
+/// Parameters of the law that a pair of bodies has.
 struct ContactLaw {
   NormalLaw normal = NormalLaw::linear;
   TangentialLaw tangential = TangentialLaw::springDashpot;
@@ -157,6 +235,17 @@ struct ContactLaw {
   double mu = 0.0;   ///< Coulomb's coefficient, static = dynamic [-]
   double en = 1.0;   ///< rigid law: normal restitution [-]
   double et0 = 0.0;  ///< rigid law: tangential restitution of a sticking contact [-]
+  RollingLaw rolling = RollingLaw::none;
+  double kr = 0.0;   ///< rolling stiffness [N/m], or [N m] as RollingStiffness says
+  double gr = 0.0;   ///< rolling damping [kg/s], or as RollingDamper says
+  double muR = 0.0;  ///< coefficient of rolling resistance [-]; viscousByLoad [s/m]
+  CohesionLaw cohesion = CohesionLaw::none;
+  double kc = 0.0;       ///< area: pull per area [Pa]; elastoPlastic: its stiffness [N/m]
+  double w = 0.0;        ///< dmt, jkr: work of adhesion [J/m²]
+  double kUnload = 0.0;  ///< elastoPlastic: the largest stiffness of unloading [N/m]
+  /// elastoPlastic: φ, the largest overlap in units of 2 R₁₂ at which unloading reaches kUnload,
+  /// counted at zero force [-]; 0: unloading has kUnload from the beginning
+  double plasticDepth = 0.0;
   LawConventions conventions;
 
   bool soft() const { return normal != NormalLaw::rigid; }
@@ -165,6 +254,9 @@ struct ContactLaw {
   bool springs() const {
     return tangential == TangentialLaw::spring || tangential == TangentialLaw::springDashpot;
   }
+  bool friction() const { return mu > 0.0 && (!soft() || tangential != TangentialLaw::none); }
+  bool rolls() const { return rolling != RollingLaw::none; }
+  bool coheres() const { return cohesion != CohesionLaw::none; }
   bool dashpots() const {
     return tangential == TangentialLaw::viscous || tangential == TangentialLaw::springDashpot;
   }

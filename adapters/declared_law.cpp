@@ -31,6 +31,7 @@ ContactLaw stiffened(ContactLaw law, double factor) {
   law.kn *= factor;
   law.kn3 *= factor;
   law.kt *= factor;
+  law.kr *= factor;
   const double slower = law.damper == Damper::constant       ? std::sqrt(factor)
                         : law.damper == Damper::viscoelastic ? 1.0 / std::sqrt(factor)
                                                              : 1.0;

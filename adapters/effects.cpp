@@ -25,7 +25,12 @@ Effects effectsOf(const Scene& scene) {
     call(friction && law.springs() && law.kt > 0.0, Effect::tangentialSpring);
     call(friction && law.dashpots() && law.gt > 0.0, Effect::tangentialDamping);
   }
-  call(effects.contains(Effect::friction) && scene.rotation, Effect::rotation);
+  call(law.soft() && law.rolls(), Effect::rollingResistance);
+  call(law.soft() && law.coheres(), Effect::cohesion);
+  call(scene.materials.has_value(), Effect::pairMaterials);
+  const bool turns =
+      effects.contains(Effect::friction) || effects.contains(Effect::rollingResistance);
+  call(turns && scene.rotation, Effect::rotation);
 
   if (scene.bottom && scene.bottom->mu > 0.0) {
     effects.insert(Effect::bottomFriction);

@@ -19,7 +19,7 @@ struct LedgerTerm {
   int sign;
 };
 
-inline constexpr std::array<LedgerTerm, 13> ledgerTerms = {{
+inline constexpr std::array<LedgerTerm, 18> ledgerTerms = {{
     {"initial", &EnergyLedger::initial, -1},
     {"kinetic", &EnergyLedger::kinetic, 1},
     {"elastic_normal", &EnergyLedger::elasticNormal, 1},
@@ -33,7 +33,15 @@ inline constexpr std::array<LedgerTerm, 13> ledgerTerms = {{
     {"lost_sliding", &EnergyLedger::lostSliding, 1},
     {"lost_bottom", &EnergyLedger::lostBottom, 1},
     {"lost_release", &EnergyLedger::lostRelease, 1},
+    {"elastic_rolling", &EnergyLedger::elasticRolling, 1},
+    {"lost_rolling_damping", &EnergyLedger::lostRollingDamping, 1},
+    {"lost_rolling", &EnergyLedger::lostRolling, 1},
+    {"lost_plastic", &EnergyLedger::lostPlastic, 1},
+    {"lost_detachment", &EnergyLedger::lostDetachment, 1},
 }};
+
+/// The first ones are those of every law, the rest of laws that resist rolling or cohere.
+inline constexpr std::size_t commonLedgerTerms = 13;
 
 /// What no term accounts for: states + losses − initial − what came in; > 0: energy from nowhere.
 /// It shrinks with dt at the order of the scheme.

@@ -63,7 +63,9 @@ struct Deviation {
 struct PairCoefficients {
   std::string pair;  ///< e.g. "3.70 mm – 3.70 mm", "3.70 mm – wall"
   double kn = 0.0, gn = 0.0, kt = 0.0, gt = 0.0, mu = 0.0;
-  double en = 0.0, et0 = 0.0;  ///< where the engine uses restitutions
+  double en = 0.0, et0 = 0.0;            ///< where the engine uses restitutions
+  double kr = 0.0, gr = 0.0, muR = 0.0;  ///< where contacts resist rolling
+  double kc = 0.0, w = 0.0;              ///< where they cohere
 };
 
 /// What an engine really uses after loading a scene.

@@ -47,6 +47,24 @@ grain::Law translate(const ContactLaw& law) {
   to.damping = how.integrator == Integrator::semiImplicitEuler
                    ? grain::Damping::lagged
                    : static_cast<grain::Damping>(how.dampingVelocity);
+  to.rolling = static_cast<grain::Rolling>(law.rolling);
+  to.kr = law.kr;
+  to.gr = law.gr;
+  to.muR = law.muR;
+  to.rollingConventions = {static_cast<grain::RollingLength>(how.rollingLength),
+                           static_cast<grain::RollingStiffness>(how.rollingStiffness),
+                           static_cast<grain::RollingDamper>(how.rollingDamper),
+                           static_cast<grain::RollingLoad>(how.rollingLoad),
+                           how.rollingDashpot == Dashpot::outside,
+                           how.rollingReset == SpringReset::springOnly};
+  to.cohesion = static_cast<grain::Cohesion>(law.cohesion);
+  to.kc = law.kc;
+  to.w = law.w;
+  to.k2 = law.kUnload;
+  to.plasticDepth = law.plasticDepth;
+  to.cohesionConventions = {static_cast<grain::CohesionArea>(how.cohesionArea),
+                            static_cast<grain::JkrEnd>(how.jkrEnd),
+                            static_cast<grain::CohesionLoad>(how.cohesionLoad)};
   return to;
 }
 
@@ -111,6 +129,7 @@ class GrainEngine : public Engine {
     Capabilities can;
     can.version = "0.1.0";
     for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
+    can.effects[Effect::pairMaterials] = Support::never;
     for (const LawOption& option : lawOptions())
       can.lawOptions[std::string(option.name)] = {option.values.begin(), option.values.end()};
     // A mirror of soft contacts has nothing to say of rigid ones, and the other way round.
@@ -166,7 +185,8 @@ class GrainEngine : public Engine {
     setup.threads = static_cast<int>(setting(settings, "threads", 1.0));
     bodies_ = scene.bodies;
     mu_ = law.mu;
-    spins_ = effectsOf(own).contains(Effect::friction);
+    rolls_ = law.rolls();
+    spins_ = law.friction() || law.rolls();
     stopwatch_ = {};
     simulation_.emplace(std::move(setup));
 
@@ -293,6 +313,7 @@ class GrainEngine : public Engine {
       contacts.normalForce.push_back(contact.normalForce);
       contacts.tangentialForce.push_back(contact.tangentialForce);
       contacts.sliding.push_back(contact.sliding);
+      if (rolls_) contacts.rollingTorque.push_back(contact.rollingTorque);
     }
     return contacts;
   }
@@ -302,6 +323,7 @@ class GrainEngine : public Engine {
   std::vector<WallBody> bodies_;
   bool rigid_ = false;
   double mu_ = 0.0;
+  bool rolls_ = false;
   bool spins_ = false;  ///< whether snapshots have them; blocked ones are zero
   std::optional<grain::Simulation> simulation_;
   Stopwatch stopwatch_;

@@ -12,21 +12,23 @@ namespace {
 
 template <typename Enum>
 LawOption option(std::string_view name, Enum ContactLaw::*member,
-                 std::vector<std::string_view> values) {
+                 std::vector<std::string_view> values, LawPart part = LawPart::contact) {
   return {name, std::move(values),
           [member](const ContactLaw& law) { return static_cast<std::size_t>(law.*member); },
-          [member](ContactLaw& law, std::size_t index) { law.*member = static_cast<Enum>(index); }};
+          [member](ContactLaw& law, std::size_t index) { law.*member = static_cast<Enum>(index); },
+          part};
 }
 
 template <typename Enum>
 LawOption option(std::string_view name, Enum LawConventions::*member,
-                 std::vector<std::string_view> values) {
+                 std::vector<std::string_view> values, LawPart part = LawPart::contact) {
   return {
       name, std::move(values),
       [member](const ContactLaw& law) { return static_cast<std::size_t>(law.conventions.*member); },
       [member](ContactLaw& law, std::size_t index) {
         law.conventions.*member = static_cast<Enum>(index);
-      }};
+      },
+      part};
 }
 
 const LawOption& findOption(std::string_view name) {
@@ -62,17 +64,53 @@ std::span<const LawOption> lawOptions() {
              {"lagged", "predicted", "implicit"}),
       option("integrator", &LawConventions::integrator,
              {"position_verlet", "velocity_verlet", "semi_implicit_euler"}),
+      option("rolling", &ContactLaw::rolling,
+             {"none", "constant_torque", "viscous", "viscous_by_load", "spring"}, LawPart::rolling),
+      option("rolling_length", &LawConventions::rollingLength,
+             {"effective", "twice_effective", "smaller_radius"}, LawPart::rolling),
+      option("rolling_stiffness", &LawConventions::rollingStiffness,
+             {"length_square", "radii", "constant"}, LawPart::rolling),
+      option("rolling_damper", &LawConventions::rollingDamper, {"constant", "critical"},
+             LawPart::rolling),
+      option("rolling_load", &LawConventions::rollingLoad, {"compression", "magnitude", "elastic"},
+             LawPart::rolling),
+      option("rolling_dashpot", &LawConventions::rollingDashpot, {"inside", "outside"},
+             LawPart::rolling),
+      option("rolling_reset", &LawConventions::rollingReset, {"total", "spring_only"},
+             LawPart::rolling),
+      option("cohesion", &ContactLaw::cohesion, {"none", "area", "dmt", "jkr", "elasto_plastic"},
+             LawPart::cohesion),
+      option("cohesion_area", &LawConventions::cohesionArea,
+             {"lens", "first_order", "twice_between_disks"}, LawPart::cohesion),
+      option("jkr_end", &LawConventions::jkrEnd, {"largest_pull", "branch"}, LawPart::cohesion),
+      option("cohesion_load", &LawConventions::cohesionLoad,
+             {"net", "without_pull", "plus_twice_pull_off"}, LawPart::cohesion),
   };
   return options;
 }
 
 std::span<const LawConstant> lawConstants() {
   static constexpr std::array constants = {
-      LawConstant{"kn", &ContactLaw::kn}, LawConstant{"kn3", &ContactLaw::kn3},
-      LawConstant{"gn", &ContactLaw::gn}, LawConstant{"kt", &ContactLaw::kt},
-      LawConstant{"gt", &ContactLaw::gt}, LawConstant{"mu", &ContactLaw::mu},
-      LawConstant{"en", &ContactLaw::en}, LawConstant{"et0", &ContactLaw::et0}};
+      LawConstant{"kn", &ContactLaw::kn},
+      LawConstant{"kn3", &ContactLaw::kn3},
+      LawConstant{"gn", &ContactLaw::gn},
+      LawConstant{"kt", &ContactLaw::kt},
+      LawConstant{"gt", &ContactLaw::gt},
+      LawConstant{"mu", &ContactLaw::mu},
+      LawConstant{"en", &ContactLaw::en},
+      LawConstant{"et0", &ContactLaw::et0},
+      LawConstant{"kr", &ContactLaw::kr, LawPart::rolling},
+      LawConstant{"gr", &ContactLaw::gr, LawPart::rolling},
+      LawConstant{"mu_r", &ContactLaw::muR, LawPart::rolling},
+      LawConstant{"kc", &ContactLaw::kc, LawPart::cohesion},
+      LawConstant{"w", &ContactLaw::w, LawPart::cohesion},
+      LawConstant{"k_unload", &ContactLaw::kUnload, LawPart::cohesion},
+      LawConstant{"plastic_depth", &ContactLaw::plasticDepth, LawPart::cohesion}};
   return constants;
+}
+
+bool hasPart(const ContactLaw& law, LawPart part) {
+  return part == LawPart::contact || (part == LawPart::rolling ? law.rolls() : law.coheres());
 }
 
 std::string lawOptionValue(const ContactLaw& law, std::string_view name) {
@@ -88,6 +126,27 @@ void setLawOption(ContactLaw& law, std::string_view name, std::string_view value
                                             fmt::join(entry.values, ", ")));
   entry.set(law, static_cast<std::size_t>(found - entry.values.begin()));
 }
+
+namespace {
+
+bool rollingMatters(const ContactLaw& law, std::string_view name) {
+  const bool spring = law.rolling == RollingLaw::spring;
+  const bool bounded = law.rolls() && law.rolling != RollingLaw::viscous;
+  if (name == "rolling") return law.rolls();
+  if (name == "rolling_length") return law.rolls();
+  if (name == "rolling_stiffness") return spring;
+  if (name == "rolling_load") return bounded && (law.gn > 0.0 || law.coheres());
+  return spring && law.gr > 0.0;  // rolling_damper, rolling_dashpot, rolling_reset
+}
+
+bool cohesionMatters(const ContactLaw& law, std::string_view name) {
+  if (name == "cohesion_area") return law.cohesion == CohesionLaw::area;
+  if (name == "jkr_end") return law.cohesion == CohesionLaw::jkr;
+  if (name == "cohesion_load") return law.coheres() && (law.friction() || law.rolls());
+  return law.coheres();
+}
+
+}  // namespace
 
 bool mattersTo(const ContactLaw& law, std::string_view name) {
   const bool soft = law.soft();
@@ -107,6 +166,8 @@ bool mattersTo(const ContactLaw& law, std::string_view name) {
     return soft && law.tangential == TangentialLaw::springDashpot;
   if (name == "spring_update") return soft && law.springs();
   if (name == "history") return law.normal == NormalLaw::hertz && law.springs();
+  if (findOption(name).part == LawPart::rolling) return rollingMatters(law, name);
+  if (findOption(name).part == LawPart::cohesion) return cohesionMatters(law, name);
   return true;
 }
 

@@ -10,23 +10,32 @@
 
 namespace crossgrain {
 
+/// The part of a law that options and constants belong to. Of rolling and cohesion they are told
+/// only where a law has that part.
+enum class LawPart { contact, rolling, cohesion };
+
+/// Whether the law has that part.
+bool hasPart(const ContactLaw& law, LawPart part);
+
 /// One option of the contact law under the name that case files use.
 struct LawOption {
   std::string_view name;                              ///< e.g. "dashpot"
   std::vector<std::string_view> values;               ///< e.g. "inside", "outside", in enum order
   std::function<std::size_t(const ContactLaw&)> get;  ///< index into values
   std::function<void(ContactLaw&, std::size_t)> set;
+  LawPart part = LawPart::contact;
 };
 
 /// Every option of the law: normal, damper, tangential, tension, coulomb_bound, dashpot,
 /// spring_reset, spring_update, lever_arm, velocity_arm, plane_arm, history, damping_velocity,
-/// integrator.
+/// integrator; rolling and its six conventions; cohesion and its three.
 std::span<const LawOption> lawOptions();
 
 /// One constant of the law; case files and units: adapters/contact_law.hpp.
 struct LawConstant {
   std::string_view name;  ///< as in the worker protocol
   double ContactLaw::*value;
+  LawPart part = LawPart::contact;
 };
 
 /// All of them. A law that has no use for one leaves it as it is.

@@ -10,12 +10,21 @@ namespace crossgrain {
 PairCoefficients coefficientsOf(const ContactLaw& law) {
   PairCoefficients row;
   const bool soft = law.soft();
-  const bool friction = law.mu > 0.0 && (!soft || law.tangential != TangentialLaw::none);
+  const bool friction = law.friction();
   if (soft) {
     row.kn = law.kn;
     row.gn = law.gn;
   } else {
     row.en = law.en;
+  }
+  if (soft && law.rolls()) {
+    row.kr = law.kr;
+    row.gr = law.gr;
+    row.muR = law.muR;
+  }
+  if (soft && law.coheres()) {
+    row.kc = law.kc;
+    row.w = law.w;
   }
   if (!friction) return row;
   row.mu = law.mu;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <stdexcept>
 
 namespace crossgrain {
 
@@ -35,6 +36,21 @@ std::vector<double> Scene::radii() const {
   for (const WallBody& body : bodies)
     all.insert(all.end(), body.diskRadius.begin(), body.diskRadius.end());
   return all;
+}
+
+const ContactLaw& Scene::lawOf(std::size_t i, std::size_t j) const {
+  if (!materials) return law;
+  const auto materialOf = [&](std::size_t id) {
+    if (id < disks.size()) return materials->ofDisk[id];
+    std::size_t first = disks.size();  // wall disks body by body, then planes body by body
+    for (const bool planes : {false, true})
+      for (std::size_t b = 0; b < bodies.size(); ++b) {
+        first += planes ? bodies[b].planes.size() : bodies[b].diskRadius.size();
+        if (id < first) return materials->ofBody[b];
+      }
+    throw std::out_of_range("an id that the scene does not have");
+  };
+  return materials->law(materialOf(i), materialOf(j));
 }
 
 std::string nameOfId(const Scene& scene, std::size_t id) {

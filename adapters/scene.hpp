@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -51,13 +52,30 @@ enum class Precision { float64, float32 };
 inline constexpr std::array<std::string_view, 2> precisionNames = {"double", "float"};
 std::string toString(Precision precision);
 
+/// Bodies of several materials: the contact law of each two of them.
+struct Materials {
+  std::vector<std::string> names;    ///< "glass", "steel", …
+  std::vector<std::int32_t> ofDisk;  ///< index into names, of each disk
+  std::vector<std::int32_t> ofBody;  ///< of each wall body: its disks and planes
+  /// Of materials a and b at a · (number of materials) + b; symmetric. They differ in constants
+  /// alone: options, conventions and the effects that they call for are those of Scene::law.
+  std::vector<ContactLaw> laws;
+
+  const ContactLaw& law(std::int32_t a, std::int32_t b) const {
+    return laws[static_cast<std::size_t>(a) * names.size() + static_cast<std::size_t>(b)];
+  }
+
+  bool operator==(const Materials&) const = default;
+};
+
 /// One granular scene: everything an engine needs, plain data in SI units, laboratory frame.
 /// Ids: disks 0 … N−1, then the wall disks body by body, then the planes body by body.
 struct Scene {
   std::string name;
   Disks disks;
   std::vector<WallBody> bodies;
-  ContactLaw law;
+  ContactLaw law;                      ///< of all pairs
+  std::optional<Materials> materials;  ///< instead, where pairs differ
   std::optional<BottomPlate> bottom;
   Vec2 gravity = Vec2::Zero();  ///< in the plane [m/s²]
   bool rotation = true;         ///< false: friction acts, but no spin changes; all are zero
@@ -67,8 +85,17 @@ struct Scene {
 
   std::size_t wallDiskCount() const;
   std::size_t planeCount() const;
+  /// Of a pair by their ids; what `law` is where all pairs are alike.
+  const ContactLaw& lawOf(std::size_t i, std::size_t j) const;
   std::vector<double> radii() const;  ///< of the disks, then of the wall disks [m]
 };
+
+/// Does the same to the law of all pairs.
+void changeLaws(Scene& scene, auto&& change) {
+  change(scene.law);
+  if (scene.materials)
+    for (ContactLaw& law : scene.materials->laws) change(law);
+}
 
 /// "disk 3", "wall disk 12", "plane 0": what an id is, each kind counted from 0.
 std::string nameOfId(const Scene& scene, std::size_t id);

@@ -26,6 +26,11 @@ struct Contacts {
   std::vector<double> normalForce;      ///< f_n on i along the normal, > 0 repulsive [N]
   std::vector<double> tangentialForce;  ///< f_t on i along z × normal [N]
   std::vector<std::uint8_t> sliding;    ///< 1 where the Coulomb bound holds; may be empty: unknown
+  /// M on i, −M on j, of laws that resist rolling [N m]; may be empty: none, or unknown
+  std::vector<double> rollingTorque;
+  /// Power that dashpots, sliding and rolling turn into heat at contactTime [W]; may be empty:
+  /// unknown
+  std::vector<double> dissipation;
 
   std::size_t size() const { return i.size(); }
   /// On the first of the two [N].

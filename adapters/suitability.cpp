@@ -18,22 +18,26 @@ Support supportOf(const Capabilities& can, Effect effect) {
 void removeEffect(Scene& scene, Effect effect) {
   switch (effect) {
     case Effect::normalDamping:
-      scene.law.gn = 0.0;
-      scene.law.en = 1.0;
+      changeLaws(scene, [](ContactLaw& law) {
+        law.gn = 0.0;
+        law.en = 1.0;
+      });
       break;
     case Effect::rotation:
       scene.rotation = false;
       std::ranges::fill(scene.disks.spin, 0.0);
       break;
     case Effect::friction:
-      scene.law.mu = 0.0;
-      scene.law.tangential = TangentialLaw::none;
+      changeLaws(scene, [](ContactLaw& law) {
+        law.mu = 0.0;
+        law.tangential = TangentialLaw::none;
+      });
       break;
     case Effect::tangentialSpring:
-      scene.law.kt = 0.0;
+      changeLaws(scene, [](ContactLaw& law) { law.kt = 0.0; });
       break;
     case Effect::tangentialDamping:
-      scene.law.gt = 0.0;
+      changeLaws(scene, [](ContactLaw& law) { law.gt = 0.0; });
       break;
     case Effect::bottomFriction:
       scene.bottom.reset();
@@ -46,6 +50,15 @@ void removeEffect(Scene& scene, Effect effect) {
       break;
     case Effect::movingWalls:
       for (WallBody& body : scene.bodies) body.motion = {};
+      break;
+    case Effect::rollingResistance:
+      changeLaws(scene, [](ContactLaw& law) { law.rolling = RollingLaw::none; });
+      break;
+    case Effect::cohesion:
+      changeLaws(scene, [](ContactLaw& law) { law.cohesion = CohesionLaw::none; });
+      break;
+    case Effect::pairMaterials:
+      scene.materials.reset();
       break;
   }
 }
@@ -101,7 +114,9 @@ Effects simulatedEffects(const Capabilities& can, const Scene& scene) {
 ContactLaw lawAsRun(const Capabilities& can, ContactLaw law) {
   for (const auto& [option, values] : can.lawOptions) {
     // What the constants mean hangs on these: an engine that lacks the law converts it, or refuses.
-    if (option == "normal" || option == "tangential" || option == "damper") continue;
+    if (option == "normal" || option == "tangential" || option == "damper" || option == "rolling" ||
+        option == "cohesion")
+      continue;
     if (!values.empty() && !has(can, law, option)) setLawOption(law, option, values.front());
   }
   if (!can.tangentialRestitution && law.normal == NormalLaw::rigid) law.et0 = 0.0;
@@ -136,7 +151,7 @@ Adapted adaptScene(const Capabilities& can, const Scene& scene,
       for (const Effect effect : allEffects)
         if (toString(effect) == mismatch.name) removeEffect(adapted.scene, effect);
   }
-  adapted.scene.law = lawAsRun(can, adapted.scene.law);
+  changeLaws(adapted.scene, [&](ContactLaw& law) { law = lawAsRun(can, law); });
   const std::vector<std::string> beyond =
       beyondLimits(can.limits, adapted.scene, !hasNormalLaw(can, scene.law));
   if (!beyond.empty()) throw UnsupportedScene(fmt::format("{}", fmt::join(beyond, "; ")));

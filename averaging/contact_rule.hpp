@@ -7,9 +7,9 @@
 namespace crossgrain::inline averaging {
 
 /// What is a contact: a pair of disks (or disk and wall) that transmits a force, f_n ≠ 0 or
-/// f_t ≠ 0, at the instant shown, or as a mean over the interval shown. So C counts what carries
-/// load, as coordination numbers of granular packings do (Agnolin and Roux 2007), and σ and fabric
-/// are sums over the same set.
+/// f_t ≠ 0, or a torque against rolling, at the instant shown, or as a mean over the interval
+/// shown. So C counts what carries load, as coordination numbers of granular packings do (Agnolin
+/// and Roux 2007), and σ and fabric are sums over the same set.
 ///
 /// It is the one rule that suits all engines. Overlap is no such rule: rigid disks touch
 /// at δ ≤ 0 or stay within the solver's slop, whether or not an impulse passes; and where tension
@@ -17,7 +17,8 @@ namespace crossgrain::inline averaging {
 /// its dashpot (f_n < 0, tension allowed) does transmit, and counts. Engines list the pairs that
 /// they looked at; the averaging, and nobody else, decides.
 inline bool transmits(const Contacts& pairs, std::size_t k) {
-  return pairs.normalForce[k] != 0.0 || pairs.tangentialForce[k] != 0.0;
+  return pairs.normalForce[k] != 0.0 || pairs.tangentialForce[k] != 0.0 ||
+         (!pairs.rollingTorque.empty() && pairs.rollingTorque[k] != 0.0);
 }
 
 }  // namespace crossgrain::inline averaging

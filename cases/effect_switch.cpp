@@ -75,6 +75,17 @@ const std::array switchables = {
                  return Change{"The plate brakes velocities and leaves spins alone.",
                                "[bottom]\nspin = false\n"};
                }},
+    Switchable{"rolling_resistance", Effect::rollingResistance, nullptr,
+               [](const Case&) {
+                 return Change{"No torque against rolling.",
+                               "[law]\nrolling = \"none\"\nmu_r = 0.0\nkr = 0.0\ngr = 0.0\n"};
+               }},
+    Switchable{"cohesion", Effect::cohesion, nullptr,
+               [](const Case&) {
+                 return Change{"No attraction.",
+                               "[law]\ncohesion = \"none\"\nkc = 0.0\nw = 0.0\nk_unload = "
+                               "0.0\nplastic_depth = 0.0\n"};
+               }},
     Switchable{"tension_cut", std::nullopt, keepsTension,
                [](const Case&) {
                  return Change{

@@ -8,8 +8,12 @@
 namespace crossgrain::inline cases {
 namespace {
 
-/// The keys of [law]: the constants, of which Hertz' law has materials instead.
+/// The keys of [law]: the constants, of which Hertz' law has materials instead, and what others
+/// can be given by.
 struct LawInput : ContactLaw {
+  double krPerKt = 0.0, krFactor = 0.0;  ///< k_r = (…) k_t; k_r = (…) k_n µ_r²
+  double gamma = 0.0;                    ///< surface energy, w or half of it
+  std::string gammaIs = "half_of_w";
   double young[2] = {}, poisson[2] = {};  ///< of the two bodies, or twice the same
 };
 
@@ -43,7 +47,25 @@ constexpr std::pair<const char*, const char*> optionMeanings[] = {
     {"history", "what a Hertz contact remembers: ξ, or the force, which grows by −k_t v_t dt"},
     {"damping_velocity",
      "in the dashpots: v(t − dt/2), v(t − dt/2) + a dt/2, or the one that the force makes"},
-    {"integrator", "the scheme of the in-house engine"}};
+    {"integrator", "the scheme of the in-house engine"},
+    {"rolling",
+     "torque M on i, −M on j: −µ_r L N sign(ω_r); −γ_r L² ω_r; −µ_r L² N ω_r; or −k_r θ − γ_r L² "
+     "ω_r, θ = ∫ω_r dt, limited to µ_r L N. ω_r = ω_i − ω_j"},
+    {"rolling_length", "L: R₁₂, 2 R₁₂ or the smaller radius; at a plane a_i, 2 a_i, a_i"},
+    {"rolling_stiffness", "what `kr` is times: L², a_i a_j, or 1 (then N m)"},
+    {"rolling_damper",
+     "what `gr` is: γ_r [kg/s] of γ_r L² ω_r, or the damping ratio of 2 γ_r √(I k_r) ω_r, 1/I = Σ "
+     "1/(J + m a²)"},
+    {"rolling_load", "N: max(f_n, 0), |f_n|, or f_el without dashpot and cohesion"},
+    {"rolling_dashpot",
+     "whether the bound limits spring and dashpot, or the spring, which is alone while it slips"},
+    {"rolling_reset", "at the bound the spring alone carries it, or spring and dashpot together"},
+    {"cohesion",
+     "none; −k_c A(δ); −F_po = −2π w R₁₂; JKR in place of Hertz' force, until beyond δ = 0; or "
+     "elasto-plastic: k_n δ on loading, up to `k_unload` on unloading, pull up to k_c δ"},
+    {"cohesion_area", "A: the lens of two spheres; 2π R₁₂ δ; 4π R₁₂ δ, at a plane 2π R₁₂ δ"},
+    {"jkr_end", "where parting surfaces let go: at the largest pull, or at the end of the branch"},
+    {"cohesion_load", "what µ and µ_r multiply: f_n, f_n without the pull, or f_n + 2 F_po"}};
 
 std::vector<Key<LawInput>> lawTable() {
   std::vector<Key<LawInput>> keys;
@@ -87,7 +109,44 @@ std::vector<Key<LawInput>> lawTable() {
           "normal restitution; in place of `gn` with `damper = \"critical\"`")
           .listed("required (rigid)"),
       key("e_t0", &ContactLaw::et0, between(0.0, 1.0),
-          "rigid: tangential restitution of a sticking contact")};
+          "rigid: tangential restitution of a sticking contact"),
+      key("mu_r", &ContactLaw::muR, atLeast(0.0),
+          "coefficient of rolling resistance, > 0; `viscous_by_load`: in s/m")
+          .listed("required with rolling (not viscous)"),
+      key("kr", &ContactLaw::kr, atLeast(0.0, "N/m"),
+          "rolling stiffness, > 0, as `rolling_stiffness` says")
+          .listed("required with rolling = spring"),
+      key("kr_per_kt", &LawInput::krPerKt, atLeast(0.0),
+          "in place of `kr`: k_r = k_t times this (1: Iwashita and Oda 1998)"),
+      key("kr_factor", &LawInput::krFactor, atLeast(0.0),
+          "in place of `kr`: k_r = k_n µ_r² times this (2.25: spheres, Ai et al. 2011; 3: disks, "
+          "Jiang et al. 2005)"),
+      special<LawInput>({"gr", "kg/s; –", "0", valuesOf(atLeast(0.0)),
+                         "rolling damping, in the unit of `rolling_damper`; `viscous`: > 0"},
+                        [](Reader& in, const std::string& key, LawInput& law) {
+                          const bool critical =
+                              law.conventions.rollingDamper == RollingDamper::critical;
+                          in.read(key, law.gr, atLeast(0.0, critical ? "" : "kg/s"));
+                        }),
+      special<LawInput>({"kc", "Pa; N/m", "required (area); 0", valuesOf(atLeast(0.0)),
+                         "`area`: pull per area, > 0; `elasto_plastic`: its stiffness"},
+                        [](Reader& in, const std::string& key, LawInput& law) {
+                          const bool area = law.cohesion == CohesionLaw::area;
+                          in.read(key, law.kc, atLeast(0.0, area ? "Pa" : "N/m"));
+                        }),
+      key("w", &ContactLaw::w, atLeast(0.0, "J/m^2"), "work of adhesion, > 0")
+          .listed("required (dmt, jkr)"),
+      key("gamma", &LawInput::gamma, atLeast(0.0, "J/m^2"), "in place of `w`: surface energy")
+          .listed(""),
+      key("gamma_is", &LawInput::gammaIs, Names{"half_of_w", "w"},
+          "what `gamma` means: w = 2 γ (LAMMPS, YADE), or w = γ (MercuryDPM)"),
+      key("k_unload", &ContactLaw::kUnload, atLeast(0.0, "N/m"),
+          "the largest stiffness of unloading, > `kn`")
+          .listed("required (elasto_plastic)"),
+      key("plastic_depth", &ContactLaw::plasticDepth, atLeast(0.0),
+          "φ, at which share of 2 R₁₂ the overlap at zero force makes unloading that stiff; 0: "
+          "always")
+          .listed("0")};
   keys.insert(keys.end(), std::begin(constants), std::end(constants));
   return keys;
 }
@@ -186,6 +245,93 @@ void setRestitution(const Reader& in, ContactLaw& law) {
   law.en = 1.0;
 }
 
+/// What of the part `without` asks for is no part of the law: may be given as zero.
+void refuseAll(const Reader& in, std::initializer_list<std::pair<const char*, double>> constants,
+               const char* without) {
+  for (const auto& [key, value] : constants)
+    refuse(in, key, value, fmt::format("{} without {}", key, without));
+}
+
+/// k_r as it is, per k_t or per k_n µ_r².
+void setRollingStiffness(const Reader& in, LawInput& law) {
+  const int given = in.has("kr") + in.has("kr_per_kt") + in.has("kr_factor");
+  in.check(given < 2, "kr", "one of kr, kr_per_kt and kr_factor");
+  if (given == 0) in.failMissing("kr", "a rolling spring needs it > 0, or kr_per_kt or kr_factor");
+  for (const auto& [key, factor, of] : {std::tuple{"kr_per_kt", law.krPerKt, law.kt},
+                                        {"kr_factor", law.krFactor, law.kn * law.muR * law.muR}}) {
+    if (!in.has(key)) continue;
+    in.check(law.normal == NormalLaw::linear, key,
+             "a linear law's stiffness is a constant: give kr");
+    in.check(law.conventions.rollingStiffness != RollingStiffness::constant, key,
+             "[N/m], and rolling_stiffness = \"constant\" is [N m]: give kr");
+    in.check(factor > 0.0 && of > 0.0, key, "a rolling spring needs it > 0, and what it is times");
+    law.kr = factor * of;
+  }
+  if (in.has("kr")) demand(in, "kr", law.kr, "a rolling spring");
+}
+
+/// Checks what the rolling law needs, and clears what it does not use, as of friction.
+void settleRolling(const Reader& in, LawInput& law) {
+  if (!law.rolls())
+    return refuseAll(in,
+                     {{"mu_r", law.muR},
+                      {"kr", law.kr},
+                      {"kr_per_kt", law.krPerKt},
+                      {"kr_factor", law.krFactor},
+                      {"gr", law.gr}},
+                     "rolling resistance (law.rolling is none)");
+  if (law.rolling == RollingLaw::viscous) {
+    demand(in, "gr", law.gr, "viscous rolling resistance");
+    law.muR = 0.0;
+  } else {
+    demand(in, "mu_r", law.muR, "this rolling resistance");
+  }
+  if (law.rolling == RollingLaw::spring)
+    setRollingStiffness(in, law);
+  else
+    law.kr = 0.0;
+  if (law.rolling != RollingLaw::viscous && law.rolling != RollingLaw::spring) law.gr = 0.0;
+}
+
+/// The same of cohesion.
+void settleCohesion(const Reader& in, LawInput& law) {
+  if (!law.coheres())
+    return refuseAll(in,
+                     {{"kc", law.kc},
+                      {"w", law.w},
+                      {"gamma", law.gamma},
+                      {"k_unload", law.kUnload},
+                      {"plastic_depth", law.plasticDepth}},
+                     "cohesion (law.cohesion is none)");
+  const bool bySurface = law.cohesion == CohesionLaw::dmt || law.cohesion == CohesionLaw::jkr;
+  const bool yields = law.cohesion == CohesionLaw::elastoPlastic;
+  if (law.cohesion == CohesionLaw::jkr)
+    in.check(law.normal == NormalLaw::hertz, "cohesion",
+             "\"jkr\" is Hertz' law with adhesion: it needs normal = \"hertz\"");
+  if (yields)
+    in.check(law.normal == NormalLaw::linear, "cohesion",
+             "\"elasto_plastic\" is piecewise linear: it needs normal = \"linear\"");
+  if (bySurface) {
+    in.check(!in.has("w") || !in.has("gamma"), "gamma", "and w: give one of them");
+    if (in.has("gamma")) {
+      demand(in, "gamma", law.gamma, "adhesion");
+      law.w = law.gammaIs == "w" ? law.gamma : 2.0 * law.gamma;
+    } else {
+      demand(in, "w", law.w, "adhesion");
+    }
+    law.kc = 0.0;
+  } else {
+    law.w = 0.0;
+  }
+  if (law.cohesion == CohesionLaw::area) demand(in, "kc", law.kc, "cohesion by area");
+  if (yields) {
+    demand(in, "k_unload", law.kUnload, "an elasto-plastic law");
+    in.check(law.kUnload > law.kn, "k_unload", "unloading is stiffer than loading: more than kn");
+  } else {
+    law.kUnload = law.plasticDepth = 0.0;
+  }
+}
+
 void settleSoft(const Reader& in, LawInput& law, bool ofTwoBodies) {
   refuseKeys(in, {"e_t0"}, "a rigid law");
   if (law.normal == NormalLaw::linear) {
@@ -205,9 +351,13 @@ void settleSoft(const Reader& in, LawInput& law, bool ofTwoBodies) {
     in.failMissing("gn", "an undamped law says 0");
   if (!in.has("tangential")) in.failMissing("tangential", "a frictionless law says none");
   settleTangential(in, law);
+  settleRolling(in, law);
+  settleCohesion(in, law);
 }
 
 void settleRigid(const Reader& in, ContactLaw& law) {
+  in.check(!law.rolls(), "rolling", "a rigid law has no rolling resistance");
+  in.check(!law.coheres(), "cohesion", "a rigid law has no cohesion");
   if (!in.has("e_n")) in.failMissing("e_n", "a rigid law needs it");
   for (const auto& [key, value] :
        {std::pair{"kn", law.kn}, {"gn", law.gn}, {"kt", law.kt}, {"gt", law.gt}})
@@ -239,6 +389,8 @@ void readLaw(Reader& in, ContactLaw& contact, bool ofTwoBodies) {
   else
     settleRigid(in, input);
   contact = input;
+  in.check(!ofTwoBodies || (!contact.rolls() && !contact.coheres()),
+           contact.rolls() ? "rolling" : "cohesion", "the oracle of collisions has no such law");
 }
 
 void readBottom(Reader& root, std::optional<BottomPlate>& plate) {

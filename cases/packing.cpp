@@ -56,10 +56,11 @@ std::string packingHash(const Case& setup, int index, double dt) {
   std::string text = fmt::format("preparation 2; dt {};", setup.preparation.dt.value_or(dt));
   const ContactLaw& law = setup.law;
   for (const LawOption& option : lawOptions())
-    text += fmt::format("{} {};", option.name, option.values[option.get(law)]);
+    if (hasPart(law, option.part))
+      text += fmt::format("{} {};", option.name, option.values[option.get(law)]);
   text += "law";
   for (const LawConstant& constant : lawConstants())
-    text += fmt::format(" {}", law.*constant.value);
+    if (hasPart(law, constant.part)) text += fmt::format(" {}", law.*constant.value);
   text += ';';
   if (setup.bottom)
     text += fmt::format("bottom {} {} {} {} {} {};", setup.bottom->mu, setup.bottom->kb,

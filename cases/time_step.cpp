@@ -168,6 +168,40 @@ double signOf(const LawConventions& how) {
   return how.springUpdate == SpringUpdate::before ? share : -share;
 }
 
+/// No dashpot of rolling is implicit.
+double rollingLagging(const LawConventions& how) {
+  return std::max(laggingOf(how), 1.0);
+}
+
+/// Rolling of the lightest bodies at a distance of a: (1/Σ 1/J) θ̈ + γ L² θ̇ + k_r (…) θ = 0, all
+/// over a². Of two equal disks that turn against each other without slip Σ = 2/J, L = a/2; of one
+/// on a plane Σ = 1/J, or 1/(J + m a²) where friction holds it, L = a. That which bears less.
+Oscillator rollingOscillator(const ContactLaw& law, const LightestPair& pair, double a) {
+  const double mass = 0.5 / pair.normal;                                     // 1/m
+  const double inertia = 0.5 * (1.0 / pair.tangential - 1.0 / pair.normal);  // a²/J
+  if (!(inertia > 0.0)) return {0.0, 0.0, 1.0};
+  const double held = mass * inertia / (mass + inertia);  // a²/(J + m a²)
+  const auto termOf = [&](double sum, double heldSum, double reach, double radii) {
+    const LawConventions& how = law.conventions;
+    const double length = how.rollingLength == RollingLength::effective        ? reach
+                          : how.rollingLength == RollingLength::twiceEffective ? 2.0 * reach
+                                                                               : 1.0;
+    const double times = how.rollingStiffness == RollingStiffness::constant ? 1.0 / (a * a)
+                         : how.rollingStiffness == RollingStiffness::radii  ? radii
+                                                                            : length * length;
+    const bool critical =
+        law.rolling == RollingLaw::spring && how.rollingDamper == RollingDamper::critical;
+    const double stiffness = law.rolling == RollingLaw::spring ? law.kr * times : 0.0;
+    const double damping =
+        critical ? 2.0 * law.gr * std::sqrt(stiffness / heldSum) : law.gr * length * length;
+    return Oscillator{stiffness, damping, 1.0 / sum, signOf(how)};
+  };
+  const Oscillator disks = termOf(2.0 * inertia, 2.0 * held, 0.5, 1.0);
+  const Oscillator plane = termOf(law.friction() ? held : inertia, held, 1.0, 1.0);
+  const double s = rollingLagging(law.conventions);
+  return longestStep(disks, s) < longestStep(plane, s) ? disks : plane;
+}
+
 /// Of an assembly's start, the two fastest against each other [m/s].
 double startingSpeed(const Assembly& assembly) {
   double disk = 0.0, wall = 0.0, second = 0.0;
@@ -222,6 +256,12 @@ std::optional<PairStepLimit> pairStepLimit(const Case& setup,
   const PairStepLimit tangential =
       limitOf("tangential", {kt, gt, pair.tangential, signOf(law.conventions)});
   if (tangential.dt < least.dt) least = tangential;
+  if (law.rolling == RollingLaw::viscous || law.rolling == RollingLaw::spring) {
+    const Oscillator term = rollingOscillator(law, pair, flowDiameter(setup) / 2.0);
+    const PairStepLimit rolling{longestStep(term, rollingLagging(law.conventions)), "rolling",
+                                term.stiffness, term.damping, term.mass};
+    if (rolling.dt < least.dt) least = rolling;
+  }
   if (!std::isfinite(least.dt)) return std::nullopt;
   return least;
 }

@@ -68,7 +68,7 @@ std::optional<double> pairContactTime(const Case& setup);
 /// Disks with several contacts bear less: six of them 1/√6 of it without dashpots.
 struct PairStepLimit {
   double dt;         ///< [s]
-  const char* term;  ///< "normal", "tangential"
+  const char* term;  ///< "normal", "tangential", "rolling"
   double stiffness;  ///< k of that term [N/m]
   double damping;    ///< γ of it [kg/s]
   double mass;       ///< m of it [kg]

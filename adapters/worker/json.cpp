@@ -18,10 +18,16 @@ constexpr std::size_t mostContacts = 100;
 
 void fields(auto& io, ContactLaw& law) {
   for (const LawConstant& constant : lawConstants())
-    io.required(constant.name.data(), law.*constant.value);
+    if (constant.part == LawPart::contact)
+      io.required(constant.name.data(), law.*constant.value);
+    else
+      io.when(hasPart(law, constant.part), constant.name.data(), law.*constant.value);
   for (const LawOption& option : lawOptions()) {
     std::string value = lawOptionValue(law, option.name);
-    io.required(option.name.data(), value);
+    if (option.part == LawPart::contact)
+      io.required(option.name.data(), value);
+    else
+      io.when(hasPart(law, option.part), option.name.data(), value);
     if (io.reading) setLawOption(law, option.name, value);
   }
 }
@@ -57,10 +63,17 @@ void fields(auto& io, WallBody& body) {
   io.required("motion", body.motion);
 }
 
+void fields(auto& io, Materials& materials) {
+  io.required("names", materials.names);
+  io.required("of_body", materials.ofBody);
+  io.required("laws", materials.laws);
+}
+
 void fields(auto& io, Scene& scene) {
   io.required("name", scene.name);
   io.required("bodies", scene.bodies);
   io.required("law", scene.law);
+  io.present("materials", scene.materials);
   io.present("bottom", scene.bottom);
   io.required("gravity", scene.gravity);
   io.required("rotation", scene.rotation);
@@ -84,7 +97,13 @@ void fields(auto& io, Energies& energies) {
 }
 
 void fields(auto& io, EnergyLedger& ledger) {
-  for (const LedgerTerm& term : ledgerTerms) io.required(term.name.data(), ledger.*term.value);
+  for (std::size_t k = 0; k < ledgerTerms.size(); ++k) {
+    const auto& [name, value, sign] = ledgerTerms[k];
+    if (k < commonLedgerTerms)
+      io.required(name.data(), ledger.*value);
+    else
+      io.when(ledger.*value != 0.0, name.data(), ledger.*value);
+  }
 }
 
 void fields(auto& io, Snapshot& snapshot) {
@@ -160,6 +179,28 @@ void contactLists(const auto& io, auto& contacts, std::size_t count) {
   io("contacts.tangential_force", contacts.tangentialForce, count);
 }
 
+/// Lists of contacts that an engine need not have: empty without.
+void optionalContactLists(const auto& visit) {
+  visit("contacts.rolling_torque", &Contacts::rollingTorque);
+  visit("contacts.dissipation", &Contacts::dissipation);
+}
+
+/// @throws std::runtime_error unless every body is of one of the materials, every two of which have
+///         a law
+void checkMaterials(const Materials& materials, std::size_t bodies) {
+  const std::size_t count = materials.names.size();
+  const auto among = [&](std::int32_t one) {
+    return one >= 0 && static_cast<std::size_t>(one) < count;
+  };
+  if (materials.ofBody.size() != bodies || materials.laws.size() != count * count ||
+      !std::ranges::all_of(materials.ofBody, among) ||
+      !std::ranges::all_of(materials.ofDisk, among))
+    throw std::runtime_error(
+        fmt::format("materials: are not {0} with a law for each two of them and a material of each "
+                    "body",
+                    count));
+}
+
 Contacts contactsFrom(const ArrayReader& arrays, std::size_t ids) {
   const std::size_t count = arrays.count("contacts.i"), most = mostContacts * ids;
   if (count > most)
@@ -168,6 +209,9 @@ Contacts contactsFrom(const ArrayReader& arrays, std::size_t ids) {
   Contacts contacts;
   contactLists(ListReader{arrays}, contacts, count);
   if (arrays.has("contacts.sliding")) contacts.sliding = arrays.u8("contacts.sliding", count);
+  optionalContactLists([&](const char* name, auto list) {
+    if (arrays.has(name)) contacts.*list = arrays.f64(name, count);
+  });
   for (std::size_t k = 0; k < count; ++k)
     if (contacts.i[k] < 0 || contacts.i[k] >= contacts.j[k] ||
         static_cast<std::size_t>(contacts.j[k]) >= ids)
@@ -199,6 +243,7 @@ Json toJson(const Scene& scene, ArrayWriter& arrays) {
   Json out = jsonOf(scene);
   const ListWriter writer{arrays};
   lists(writer, scene.disks, 0);
+  if (scene.materials) writer("disks.material", scene.materials->ofDisk, 0);
   out["disks"] = scene.disks.size();
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     bodyLists(writer, scene.bodies[b], b, 0);
@@ -210,7 +255,12 @@ Json toJson(const Scene& scene, ArrayWriter& arrays) {
 Scene sceneFromJson(const Json& in, const ArrayReader& arrays) {
   auto scene = readAs<Scene>(in);
   const ListReader reader{arrays};
-  lists(reader, scene.disks, member<std::size_t>(in, "disks"));
+  const auto disks = member<std::size_t>(in, "disks");
+  lists(reader, scene.disks, disks);
+  if (auto& materials = scene.materials) {
+    reader("disks.material", materials->ofDisk, disks);
+    checkMaterials(*materials, scene.bodies.size());
+  }
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     bodyLists(reader, scene.bodies[b], b, member<std::size_t>(in.at("bodies")[b], "disks"));
   return scene;
@@ -222,6 +272,9 @@ Json toJson(const Snapshot& snapshot, ArrayWriter& arrays) {
   if (const auto& contacts = snapshot.contacts) {
     contactLists(writer, *contacts, 0);
     if (!contacts->sliding.empty()) arrays.add("contacts.sliding", contacts->sliding);
+    optionalContactLists([&](const char* name, auto list) {
+      if (const auto& values = *contacts.*list; !values.empty()) arrays.add(name, values);
+    });
   }
   return jsonOf(snapshot);
 }

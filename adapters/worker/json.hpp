@@ -145,6 +145,12 @@ void fields(auto& io, PairCoefficients& pair) {
   constant("mu", pair.mu, pair.mu != 0.0);
   constant("en", pair.en, !springs);
   constant("et0", pair.et0, !springs && pair.mu != 0.0);
+  for (const auto& [key, value] : {std::pair{"kr", &pair.kr},
+                                   {"gr", &pair.gr},
+                                   {"mu_r", &pair.muR},
+                                   {"kc", &pair.kc},
+                                   {"w", &pair.w}})
+    io.when(*value != 0.0, key, *value);
 }
 
 void fields(auto& io, EffectiveParameters& effective) {

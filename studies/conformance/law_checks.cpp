@@ -330,7 +330,8 @@ void conventionsAreThoseDeclared(CheckContext& context) {
   for (const LawOption& option : lawOptions()) {
     const std::string name(option.name);
     const auto values = context.can.lawOptions.find(name);
-    if (std::ranges::count(oraclesOptions, name) > 0 || values == context.can.lawOptions.end())
+    if (std::ranges::count(oraclesOptions, name) > 0 || option.part != LawPart::contact ||
+        values == context.can.lawOptions.end())
       continue;
     for (const std::string& value : values->second) {
       std::string why;

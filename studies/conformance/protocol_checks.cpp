@@ -133,18 +133,28 @@ void simulatesWhatTheSceneCallsFor(CheckContext& context) {
 /// calls for everything: an effect that an engine never simulates is not among the simulated ones,
 /// a soft law's springs in a rigid engine included.
 void effectsAreThoseThatItsCapabilitiesSay(CheckContext& context) {
-  Scene full = fullScene(fullLaw());
+  ContactLaw all = fullLaw();
+  all.rolling = RollingLaw::spring;
+  all.kr = 0.1 * all.kt;
+  all.muR = 0.1;
+  all.cohesion = CohesionLaw::area;
+  all.kc = all.kn / (100.0 * smallRadius);
+  Scene full = fullScene(all);
+  full.materials = Materials{{"one"},
+                             std::vector<std::int32_t>(full.disks.size()),
+                             std::vector<std::int32_t>(full.bodies.size()),
+                             {all}};
   context.requireEqual(effectsOf(full).size(), allEffects.size(),
                        "effects of a scene that calls for all");
-  std::vector<std::string> all;
-  for (const Effect effect : allEffects) all.push_back(toString(effect));
-  for (const LawOption& option : lawOptions()) all.emplace_back(option.name);
-  Scene scene = adaptScene(context.can, full, all).scene;
+  std::vector<std::string> anything;
+  for (const Effect effect : allEffects) anything.push_back(toString(effect));
+  for (const LawOption& option : lawOptions()) anything.emplace_back(option.name);
+  Scene scene = adaptScene(context.can, full, anything).scene;
   try {
     context.effective = context.engine.load(scene, context.entry.settings);
   } catch (const UnsupportedScene&) {  // nor can it put another law in this one's place
-    full.law = context.law();
-    scene = adaptScene(context.can, full, all).scene;
+    full = fullScene(context.law());
+    scene = adaptScene(context.can, full, anything).scene;
     context.effective = context.engine.load(scene, context.entry.settings);
   }
   for (const Effect effect : effectsOf(full))

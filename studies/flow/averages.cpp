@@ -1,5 +1,7 @@
 #include "studies/flow/averages.hpp"
 
+#include <span>
+
 #include "averaging/global.hpp"
 #include "averaging/grid.hpp"
 #include "averaging/regime.hpp"
@@ -36,7 +38,9 @@ void addGlobalNumbers(RunSeries& rows, const Scene& scene, const Snapshot& now) 
   rows["sliding_fraction"].push_back(numbers.slidingFraction);
   rows["pairs_listed"].push_back(numbers.listedPairs);
   if (!now.ledger) return;
-  for (const LedgerTerm& term : ledgerTerms)
+  const bool more = scene.law.rolls() || scene.law.coheres();
+  for (const LedgerTerm& term :
+       std::span(ledgerTerms).first(more ? ledgerTerms.size() : commonLedgerTerms))
     rows["energy_" + std::string(term.name)].push_back(*now.ledger.*term.value);
   rows["energy_residual"].push_back(residual(*now.ledger));
 }

@@ -24,6 +24,8 @@ void writeContacts(Hdf5File& out, const std::string& path, const Contacts& conta
   if (!contacts.sliding.empty())
     out.write(path + "/sliding",
               std::vector<std::int32_t>(contacts.sliding.begin(), contacts.sliding.end()));
+  if (!contacts.rollingTorque.empty()) out.write(path + "/rolling_torque", contacts.rollingTorque);
+  if (!contacts.dissipation.empty()) out.write(path + "/dissipation", contacts.dissipation);
 }
 
 /// One row per body; force and torque where every body has them.

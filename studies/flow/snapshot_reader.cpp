@@ -136,6 +136,9 @@ Contacts SnapshotReader::readContacts(const std::string& path) const {
   if (file_.holds(path + "/sliding"))
     for (const double slides : numbers(path + "/sliding", count))
       contacts.sliding.push_back(slides != 0.0 ? 1 : 0);
+  for (const auto& [name, list] : {std::pair{"/rolling_torque", &contacts.rollingTorque},
+                                   {"/dissipation", &contacts.dissipation}})
+    if (file_.holds(path + name)) *list = numbers(path + name, count);
   return contacts;
 }
 

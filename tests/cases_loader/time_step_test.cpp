@@ -127,6 +127,29 @@ TEST(StepLimit, Linear_EachTerm_IsItsOscillators) {
   EXPECT_DOUBLE_EQ(pairStepLimit(c)->dt, limit);
 }
 
+/// L = a at a plane, a/2 between equal disks; J = m a²/2.
+TEST(StepLimit, Rolling_IsThatOfAPlaneOrOfTwoDisksThatTurnAgainstEachOther) {
+  Case c = thesisCell();
+  c.law.gn = c.law.mu = 0.0;
+  c.law.tangential = TangentialLaw::none;
+  c.law.rolling = RollingLaw::spring;
+  c.law.muR = 0.1;
+  c.law.kr = 20.0 * c.law.kn;
+  // On a plane without friction θ̈ = −k_r a²/J θ.
+  EXPECT_DOUBLE_EQ(pairStepLimit(c)->dt, 2.0 * std::sqrt(smallMass / 2.0 / c.law.kr));
+  EXPECT_STREQ(pairStepLimit(c)->term, "rolling");
+  // With friction it rolls: J + m a². Two disks that gear have θ̈ = −k_r (a/2)² 2/J θ.
+  c.law.mu = 0.5;
+  c.law.tangential = TangentialLaw::coulomb;
+  EXPECT_DOUBLE_EQ(pairStepLimit(c)->dt, 2.0 * std::sqrt(smallMass / c.law.kr));
+  c.law.conventions.rollingLength = RollingLength::smallerRadius;  // L = a: four times as stiff
+  EXPECT_DOUBLE_EQ(pairStepLimit(c)->dt, std::sqrt(smallMass / c.law.kr));
+  // A dashpot alone, γ_r L² 2/J, of a predicted ω_r: dt = 1/(2η).
+  c.law.rolling = RollingLaw::viscous;
+  c.law.gr = 100.0;
+  EXPECT_DOUBLE_EQ(pairStepLimit(c)->dt, 0.5 / (100.0 * 4.0 / smallMass / 2.0));
+}
+
 /// A start's file may have disks of any inertia.
 TEST(StepLimit, Tangential_OfAStartsFile_TakesItsInertias) {
   Disks disks;

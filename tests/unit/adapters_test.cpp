@@ -66,6 +66,40 @@ TEST(Effects, AreDerivedFromTheScene) {
                                        Effect::gravity, Effect::movingWalls}));
 }
 
+TEST(Effects, RollingResistanceTurnsDisksAndCohesionDoesNot) {
+  Scene scene = oneDisk();
+  scene.law.tangential = TangentialLaw::none;
+  scene.law.cohesion = CohesionLaw::area;
+  EXPECT_EQ(effectsOf(scene), (Effects{Effect::normalDamping, Effect::cohesion}));
+  scene.law.rolling = RollingLaw::constantTorque;
+  EXPECT_EQ(effectsOf(scene), (Effects{Effect::normalDamping, Effect::rotation,
+                                       Effect::rollingResistance, Effect::cohesion}));
+}
+
+TEST(Suitability, ALawThatAnEngineLacksIsNamedWithItsOption) {
+  Scene scene = oneDisk();
+  scene.law.rolling = RollingLaw::constantTorque;
+  scene.law.muR = 0.1;
+  Capabilities can = able();
+  can.lawOptions["rolling"] = {"spring"};
+  EXPECT_EQ(refusalOf(can, scene, {}),
+            "has rolling = spring, not constant_torque; list \"rolling\" under [run] may_differ to "
+            "run it all the same");
+  can.lawOptions["rolling_length"] = {"smaller_radius"};
+  scene.law.rolling = RollingLaw::spring;
+  EXPECT_EQ(refusalOf(can, scene, {}),
+            "has rolling_length = smaller_radius, not effective; list \"rolling_length\" under "
+            "[run] may_differ to run it all the same");
+  // What the law does not have does not matter.
+  scene.law.rolling = RollingLaw::none;
+  EXPECT_EQ(refusalOf(can, scene, {}), "");
+  can.effects[Effect::cohesion] = Support::never;
+  scene.law.cohesion = CohesionLaw::dmt;
+  EXPECT_EQ(refusalOf(can, scene, {}),
+            "has no cohesion; list \"cohesion\" under [run] may_differ to run it all the same");
+  EXPECT_FALSE(adaptScene(can, scene, {"cohesion"}).scene.law.coheres());
+}
+
 TEST(Suitability, ARefusalNamesAllThingsAndHowToAllowThem) {
   Capabilities can = able();
   can.effects[Effect::friction] = Support::never;

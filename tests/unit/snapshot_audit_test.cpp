@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "adapters/audit.hpp"
@@ -318,6 +319,92 @@ TEST_F(Audit, Costs) {
   stats.steps = 100;
   stats.cpuSeconds = -1.0;
   expectSays(statsFault(stats, dt, 100.0 * dt), "which cannot be");
+}
+
+/// Two equal disks under JKR, at the places of the facts that LAMMPS was run for: R* = 0.25 m,
+/// E* = 5·10⁴ Pa, γ = 100 J/m², so w = 2 γ.
+TEST_F(Audit, BondOfJkr_ReachesBeyondTheContact) {
+  scene_.bodies.clear();
+  shown_.bodies.clear();
+  shown_.wallPosition.clear();
+  ContactLaw& law = scene_.law = {};
+  law.normal = NormalLaw::hertz;
+  law.tangential = TangentialLaw::none;
+  law.kn = 4.0 / 3.0 * 5e4;
+  law.cohesion = CohesionLaw::jkr;
+  law.w = 200.0;
+  scene_.disks.radius = {0.5, 0.5, 0.1};
+  const auto at = [&](double overlap, double force) {
+    scene_.disks.position = {{0.0, 0.0}, {1.0 - overlap, 0.0}, {5.0, 5.0}};
+    shown_.position = scene_.disks.position;
+    shown_.velocity.assign(3, Vec2::Zero());
+    contacts() = {{0}, {1}, {Vec2(-1.0, 0.0)}, {overlap}, {force}, {0.0}, {}, {}, {}};
+  };
+  for (const auto& [overlap, force] :
+       {std::pair(0.002, -201.2221), {0.0, -209.4395}, {-0.012, -235.6027}}) {
+    at(overlap, force);
+    EXPECT_EQ(why(), "");
+    at(overlap, force + 1e-3);
+    expectSays(lawFaultOf(), "by the law " + std::to_string(force).substr(0, 6));
+  }
+  at(-0.01229, -235.0);  // the pull ends at −0.012277 m
+  expectSays(why(), "passes a gap of 0.0123 m");
+  law.conventions.jkrEnd = JkrEnd::branch;
+  EXPECT_EQ(why(), "");
+  at(-0.0256, -131.0);  // and here at −0.02554 m
+  expectSays(why(), "passes a gap");
+}
+
+TEST_F(Audit, ForcesOfCohesiveLaws) {
+  ContactLaw& law = scene_.law;
+  law.gn = 0.0;
+  const double fn = law.kn * depth;
+  contacts().tangentialForce = {0.0, 0.0};
+  law.cohesion = CohesionLaw::dmt;
+  law.w = 0.1 * fn / (std::numbers::pi * smallRadius);  // F_po = 0.1 f_el, R₁₂ = a/2
+  contacts().normalForce = {0.9 * fn, 0.9 * fn};
+  EXPECT_EQ(lawFaultOf(), "");
+  contacts().normalForce[1] = fn;
+  expectSays(lawFaultOf(), "f_n is");
+  // Without the pull sliding is bounded by µ f_el; with it by less.
+  contacts().normalForce[1] = 0.9 * fn;
+  contacts().tangentialForce[0] = 0.99 * law.mu * fn;
+  EXPECT_EQ(lawFaultOf(), "");
+  law.conventions.cohesionLoad = CohesionLoad::net;
+  expectSays(lawFaultOf(), "|f_t|");
+  law.conventions.cohesionLoad = CohesionLoad::plusTwicePullOff;
+  contacts().tangentialForce[0] = 1.09 * law.mu * fn;
+  EXPECT_EQ(lawFaultOf(), "");
+  contacts().tangentialForce[0] = 0.0;
+
+  // δ_max is nobody's to see: any force between loading and the largest pull.
+  law.cohesion = CohesionLaw::elastoPlastic;
+  law.kc = 0.5 * law.kn;
+  law.kUnload = 3.0 * law.kn;
+  for (const double share : {1.0, 0.1, -0.5}) {
+    contacts().normalForce = {share * fn, share * fn};
+    EXPECT_EQ(lawFaultOf(), "") << share;
+  }
+  for (const double share : {1.001, -0.501}) {
+    contacts().normalForce[0] = share * fn;
+    expectSays(lawFaultOf(), "f_n is");
+  }
+}
+
+TEST_F(Audit, TorqueAgainstRolling_IsWithinItsBound) {
+  ContactLaw& law = scene_.law;
+  law.gn = 0.0;
+  law.rolling = RollingLaw::constantTorque;
+  law.muR = 0.2;
+  const double bound = law.muR * 0.5 * smallRadius * law.kn * depth;
+  contacts().rollingTorque = {bound, -bound};
+  EXPECT_EQ(lawFaultOf(), "");
+  contacts().rollingTorque[1] *= 1.001;
+  expectSays(lawFaultOf(), "the torque against rolling");
+  law.conventions.rollingLength = RollingLength::smallerRadius;
+  EXPECT_EQ(lawFaultOf(), "");
+  law.rolling = RollingLaw::none;
+  expectSays(lawFaultOf(), "the law allows 0 N m");
 }
 
 }  // namespace

@@ -10,6 +10,15 @@
 namespace crossgrain {
 namespace {
 
+/// Every option has its last value, and every constant one of its own.
+ContactLaw lawOfAllParts() {
+  ContactLaw law;
+  for (const LawOption& option : lawOptions()) option.set(law, option.values.size() - 1);
+  double value = 0.1;
+  for (const LawConstant& constant : lawConstants()) law.*constant.value = value += 1.0 / 3.0;
+  return law;
+}
+
 /// A trip through text and a file, as between two processes.
 template <typename Value, typename Read>
 auto roundTrip(const Value& value, Read&& read) {
@@ -74,6 +83,34 @@ TEST(WorkerJson, Scene_KeepsEveryBit) {
   EXPECT_EQ(back.energyLedger, scene.energyLedger);
 }
 
+TEST(WorkerJson, LawsOfMaterials_KeepEveryBit) {
+  Scene scene = test::toyScene();
+  scene.law = lawOfAllParts();
+  Materials& materials = scene.materials.emplace();
+  materials = {{"glass", "steel"}, {}, {}, std::vector<ContactLaw>(4, scene.law)};
+  materials.laws[1].mu = materials.laws[2].mu = 0.7;
+  materials.ofDisk.assign(scene.disks.size(), 1);
+  materials.ofBody.assign(scene.bodies.size(), 0);
+  const Scene back = roundTrip(scene, sceneFromJson);
+  EXPECT_EQ(back.law, scene.law);
+  EXPECT_EQ(back.materials, scene.materials);
+  EXPECT_EQ(&back.lawOf(0, 1), &back.materials->law(1, 1));
+  EXPECT_EQ(&back.lawOf(0, scene.disks.size()), &back.materials->law(1, 0));
+
+  scene.materials->ofDisk.front() = 2;
+  EXPECT_THROW(roundTrip(scene, sceneFromJson), std::runtime_error);
+}
+
+/// An older worker knows nothing of them, and finds nothing of them.
+TEST(WorkerJson, LawWithoutRollingAndCohesion_DoesNotTellTheirConventions) {
+  ArrayWriter arrays;
+  const nlohmann::json law = toJson(test::toyScene(), arrays).at("law");
+  for (const LawOption& option : lawOptions())
+    EXPECT_EQ(law.contains(std::string(option.name)), option.part == LawPart::contact);
+  for (const LawConstant& constant : lawConstants())
+    EXPECT_EQ(law.contains(std::string(constant.name)), constant.part == LawPart::contact);
+}
+
 TEST(WorkerJson, Snapshot_KeepsEveryBitAndWhatIsAbsent) {
   const Scene scene = test::toyScene();
   test::ToyEngine engine;
@@ -82,7 +119,9 @@ TEST(WorkerJson, Snapshot_KeepsEveryBitAndWhatIsAbsent) {
   const auto read = [&](const nlohmann::json& json, const ArrayReader& arrays) {
     return snapshotFromJson(json, arrays, scene);
   };
-  const Snapshot full = engine.snapshot(ContactReport::instant);
+  Snapshot full = engine.snapshot(ContactReport::instant);
+  full.contacts->rollingTorque = {1.0 / 13.0};
+  full.contacts->dissipation = {1.0 / 17.0};
   const Snapshot back = roundTrip(full, read);
   EXPECT_EQ(back.positionTime, full.positionTime);
   EXPECT_EQ(back.velocityTime, full.velocityTime);
@@ -103,6 +142,8 @@ TEST(WorkerJson, Snapshot_KeepsEveryBitAndWhatIsAbsent) {
   expectSameBits(back.contacts->normalForce, full.contacts->normalForce);
   expectSameBits(back.contacts->tangentialForce, full.contacts->tangentialForce);
   EXPECT_EQ(back.contacts->sliding, full.contacts->sliding);
+  expectSameBits(back.contacts->rollingTorque, full.contacts->rollingTorque);
+  expectSameBits(back.contacts->dissipation, full.contacts->dissipation);
   EXPECT_EQ(back.energies->elastic, full.energies->elastic);
   for (const LedgerTerm& term : ledgerTerms)
     EXPECT_EQ(*back.ledger.*term.value, *full.ledger.*term.value) << term.name;

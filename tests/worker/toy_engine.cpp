@@ -116,7 +116,7 @@ Snapshot ToyEngine::snapshot(ContactReport contacts) {
   snapshot.bodies[1].torque = std::tan(t);
   if (contacts != ContactReport::none) {
     const Vec2 normal = (snapshot.position[0] - snapshot.position[1]).normalized();
-    snapshot.contacts = Contacts{{0}, {1}, {normal}, {std::exp(t)}, {t / 3}, {-t / 7}, {1}};
+    snapshot.contacts = Contacts{{0}, {1}, {normal}, {std::exp(t)}, {t / 3}, {-t / 7}, {1}, {}, {}};
     snapshot.energies = Energies{t / 9, t / 11};
     if (scene_.energyLedger) {
       snapshot.ledger.emplace();

@@ -161,7 +161,10 @@ TEST_F(Worker, AnswerToHelloOrLoadThatCannotBe_IsRefused) {
            std::pair("option",
                      "unknown law option 'colour' (there are: normal, damper, tangential, tension, "
                      "coulomb_bound, dashpot, spring_reset, spring_update, lever_arm, "
-                     "velocity_arm, plane_arm, history, damping_velocity, integrator)"),
+                     "velocity_arm, plane_arm, history, damping_velocity, integrator, rolling, "
+                     "rolling_length, rolling_stiffness, rolling_damper, rolling_load, "
+                     "rolling_dashpot, rolling_reset, cohesion, cohesion_area, jkr_end, "
+                     "cohesion_load)"),
            {"value", "tension cannot be 'red' (it is one of: allow, cut)"},
            {"no value", "tension has no value"},
        })
