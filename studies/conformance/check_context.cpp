@@ -25,7 +25,8 @@ Comparison within(double distance, double size, const Tolerance& allowed,
 bool sameContacts(const Contacts& a, const Contacts& b) {
   return a.i == b.i && a.j == b.j && a.normal == b.normal && a.overlap == b.overlap &&
          a.normalForce == b.normalForce && a.tangentialForce == b.tangentialForce &&
-         a.sliding == b.sliding;
+         a.sliding == b.sliding && a.rollingTorque == b.rollingTorque &&
+         a.dissipation == b.dissipation;
 }
 
 bool sameBody(const BodySnapshot& a, const BodySnapshot& b) {

@@ -119,6 +119,8 @@ Record recordOf(const BaselineWindow& window) {
       arrays.add(at + "normal_force", contacts->normalForce);
       arrays.add(at + "tangential_force", contacts->tangentialForce);
       if (!contacts->sliding.empty()) arrays.add(at + "sliding", contacts->sliding);
+      if (!contacts->rollingTorque.empty())
+        arrays.add(at + "rolling_torque", contacts->rollingTorque);
     }
     heads.push_back(std::move(head));
   }
@@ -152,6 +154,8 @@ LockstepFrame frameOf(const FrameHead& head, const ArrayReader& arrays, const st
   contacts.tangentialForce = arrays.f64(at + "tangential_force", count);
   contacts.sliding.assign(count, 0);
   if (arrays.has(at + "sliding")) contacts.sliding = arrays.u8(at + "sliding", count);
+  if (arrays.has(at + "rolling_torque"))
+    contacts.rollingTorque = arrays.f64(at + "rolling_torque", count);
   return frame;
 }
 

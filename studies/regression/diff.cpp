@@ -69,8 +69,9 @@ bool sameForces(const LockstepFrame& one, const LockstepFrame& other) {
   const auto alike = [](const BodySnapshot& before, const BodySnapshot& now) {
     return before.force == now.force && before.torque == now.torque;
   };
-  return (!a || (a->i == b->i && a->j == b->j && a->normalForce == b->normalForce &&
-                 a->tangentialForce == b->tangentialForce)) &&
+  return (!a ||
+          (a->i == b->i && a->j == b->j && a->normalForce == b->normalForce &&
+           a->tangentialForce == b->tangentialForce && a->rollingTorque == b->rollingTorque)) &&
          std::ranges::equal(one.bodies, other.bodies, alike);
 }
 

@@ -69,8 +69,9 @@ Declared declaredBy(const Declaration& engine, bool withAbilities) {
   for (const Effect effect : ran.effects) all["simulates " + toString(effect)] = "yes";
   for (const PairCoefficients& pair : ran.pairs) {
     const std::pair<const char*, double> constants[] = {
-        {"kn", pair.kn}, {"gn", pair.gn}, {"kt", pair.kt},  {"gt", pair.gt},
-        {"mu", pair.mu}, {"en", pair.en}, {"et0", pair.et0}};
+        {"kn", pair.kn}, {"gn", pair.gn},    {"kt", pair.kt},   {"gt", pair.gt},
+        {"mu", pair.mu}, {"en", pair.en},    {"et0", pair.et0}, {"kr", pair.kr},
+        {"gr", pair.gr}, {"mu_r", pair.muR}, {"kc", pair.kc},   {"w", pair.w}};
     for (const auto& [name, value] : constants)
       if (value != 0.0) all[fmt::format("{} of {}", name, pair.pair)] = fmt::format("{}", value);
   }
