@@ -214,6 +214,8 @@ double loadOf(double normal, const ContactLaw& law, const ContactKinematics& tou
   const Attraction pull = attraction(law, touch.place.overlap, touch.radius, touch.reach);
   if (law.conventions.cohesionLoad == CohesionLoad::plusTwicePullOff)
     return normal + 2.0 * pull.pullOff;
+  if (law.conventions.cohesionLoad == CohesionLoad::magnitudePlusPullOff)
+    return std::abs(normal) + pull.pullOff;
   // An elasto-plastic contact keeps its load; where it pulls, the pull is left out.
   return law.cohesion == CohesionLaw::elastoPlastic
              ? std::max(normal, 0.0) + std::max(-pull.least, 0.0)
@@ -252,6 +254,8 @@ std::string rollingFault(double normal, double found, const ContactLaw& law,
   double length = touch.radius;
   if (how.rollingLength == RollingLength::twiceEffective) length *= 2.0;
   if (how.rollingLength == RollingLength::smallerRadius) length = touch.smallerRadius;
+  if (how.rollingLength == RollingLength::meanRadius)
+    length = touch.reach > 0.0 ? 0.5 * touch.reach : touch.radius;
   const ElasticPart elastic = elasticPart(law, touch.place.overlap, touch.radius);
   const double load = loadOf(normal, law, touch);
   const double most = how.rollingLoad == RollingLoad::elastic     ? elastic.force

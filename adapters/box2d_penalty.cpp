@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -23,10 +25,7 @@ class Box2dPenalty : public Engine {
     Capabilities can;
     can.version = box2dVersion();
     for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
-    for (const Effect effect : {Effect::rollingResistance, Effect::cohesion, Effect::pairMaterials})
-      can.effects[effect] = Support::never;
-    can.lawOptions = {{"normal", {"linear"}},
-                      {"damper", {"constant"}},
+    can.lawOptions = {{"normal", {"linear", "hertz"}},
                       {"spring_update", {"after", "before"}},
                       {"lever_arm", {"radius", "contact_point"}},
                       {"velocity_arm", {"lever_arm"}},
@@ -41,10 +40,9 @@ class Box2dPenalty : public Engine {
   }
 
   EffectiveParameters load(const Scene& scene, const Settings& settings) override {
-    if (scene.law.normal != NormalLaw::linear)
-      throw UnsupportedScene("has only normal = \"linear\"");
-    if (scene.law.damper != Damper::constant && mattersTo(scene.law, "damper"))
-      throw UnsupportedScene("has only damper = \"constant\"");
+    if (scene.law.normal != NormalLaw::linear && scene.law.normal != NormalLaw::hertz)
+      throw UnsupportedScene(fmt::format("has normal = linear | hertz, not \"{}\"",
+                                         lawOptionValue(scene.law, "normal")));
     const std::vector<SettingSpec> specs = capabilities().settings;
     const double dt = numberSetting(settings, specs, "dt");
     const box2d_granular::Model model =
@@ -53,8 +51,9 @@ class Box2dPenalty : public Engine {
     if (scene.bottom && scene.bottom->mu > 0.0)
       plate = {scene.bottom->mu,   scene.bottom->kb,      scene.bottom->gb,
                scene.bottom->tauM, scene.bottom->gravity, scene.bottom->spin};
-    world_.emplace(model, box2dSoftLaw(scene.law), plate);
-    spins_ = effectsOf(scene).contains(Effect::friction);
+    world_.emplace(model, box2dSoftLaw(scene.law), plate, pairLaws(scene));
+    spins_ = scene.law.friction() || scene.law.rolls();
+    rolls_ = scene.law.rolls();
     stopwatch_ = {};
 
     EffectiveParameters effective;
@@ -97,6 +96,18 @@ class Box2dPenalty : public Engine {
   }
 
  private:
+  static std::optional<box2d_granular::PairLaws> pairLaws(const Scene& scene) {
+    if (!scene.materials) return std::nullopt;
+    const Materials& from = *scene.materials;
+    box2d_granular::PairLaws to{from.ofDisk, from.names.size(), {}};
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+      to.material.insert(to.material.end(), scene.bodies[b].diskRadius.size(), from.ofBody[b]);
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+      to.material.insert(to.material.end(), scene.bodies[b].planes.size(), from.ofBody[b]);
+    for (const ContactLaw& law : from.laws) to.laws.push_back(box2dSoftLaw(law));
+    return to;
+  }
+
   Contacts contacts() const {
     Contacts contacts;
     for (const box2d_granular::SoftContact& contact : world_->contacts()) {
@@ -108,12 +119,14 @@ class Box2dPenalty : public Engine {
       contacts.normalForce.push_back(contact.force.normal);
       contacts.tangentialForce.push_back(contact.force.tangential);
       contacts.sliding.push_back(contact.force.sliding);
+      if (rolls_) contacts.rollingTorque.push_back(contact.rolling);
     }
     return contacts;
   }
 
   std::optional<box2d_granular::PenaltyWorld> world_;
   bool spins_ = false;  ///< whether any force asks for them
+  bool rolls_ = false;
   Stopwatch stopwatch_;
 };
 
@@ -130,7 +143,7 @@ EngineEntry box2dPenaltyEngine() {
 EngineEntry box2dPenaltyMirror() {
   return mirrorEntry("grain-as-box2d-penalty",
                      "the in-house engine with the penalty engine's conventions", "box2d-penalty",
-                     {"linear"},
+                     {"linear", "hertz"},
                      {{"integrator", {"semi_implicit_euler"}},
                       {"damping_velocity", {"lagged"}},
                       {"spring_update", {"after", "before"}},

@@ -122,7 +122,8 @@ enum class RollingLaw {
 enum class RollingLength {
   effective,       ///< R₁₂ (LAMMPS, LIGGGHTS)
   twiceEffective,  ///< 2 R₁₂ (MercuryDPM)
-  smallerRadius    ///< min(a_i, a_j) (YADE)
+  smallerRadius,   ///< min(a_i, a_j) (YADE: CohFrictMat)
+  meanRadius       ///< (a_i + a_j)/2 (YADE: Hertz' law)
 };
 
 /// What multiplies the constant k_r of a rolling spring.
@@ -171,9 +172,10 @@ enum class JkrEnd {
 
 /// What stands for f_n in Coulomb's bound and in that of rolling, of a law with cohesion.
 enum class CohesionLoad {
-  net,              ///< f_n, the pull included
-  withoutPull,      ///< f_n without the pull
-  plusTwicePullOff  ///< f_n + 2 F_po: no load slips at µ F_po (Thornton 1991; LAMMPS)
+  net,                  ///< f_n, the pull included
+  withoutPull,          ///< f_n without the pull
+  plusTwicePullOff,     ///< f_n + 2 F_po: no load slips at µ F_po (Thornton 1991; LAMMPS)
+  magnitudePlusPullOff  ///< |f_n| + F_po (YADE)
 };
 
 enum class Integrator {

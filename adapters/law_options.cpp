@@ -67,7 +67,7 @@ std::span<const LawOption> lawOptions() {
       option("rolling", &ContactLaw::rolling,
              {"none", "constant_torque", "viscous", "viscous_by_load", "spring"}, LawPart::rolling),
       option("rolling_length", &LawConventions::rollingLength,
-             {"effective", "twice_effective", "smaller_radius"}, LawPart::rolling),
+             {"effective", "twice_effective", "smaller_radius", "mean_radius"}, LawPart::rolling),
       option("rolling_stiffness", &LawConventions::rollingStiffness,
              {"length_square", "radii", "constant"}, LawPart::rolling),
       option("rolling_damper", &LawConventions::rollingDamper, {"constant", "critical"},
@@ -84,7 +84,8 @@ std::span<const LawOption> lawOptions() {
              {"lens", "first_order", "twice_between_disks"}, LawPart::cohesion),
       option("jkr_end", &LawConventions::jkrEnd, {"largest_pull", "branch"}, LawPart::cohesion),
       option("cohesion_load", &LawConventions::cohesionLoad,
-             {"net", "without_pull", "plus_twice_pull_off"}, LawPart::cohesion),
+             {"net", "without_pull", "plus_twice_pull_off", "magnitude_plus_pull_off"},
+             LawPart::cohesion),
   };
   return options;
 }
@@ -153,9 +154,10 @@ bool mattersTo(const ContactLaw& law, std::string_view name) {
   const bool damped = law.gn > 0.0 || law.gt > 0.0;
   if (name == "tension") return soft && law.gn > 0.0;
   if (name == "damper" || name == "damping_velocity") return soft && damped;
-  if (name == "coulomb_bound")
-    return soft && law.tangential != TangentialLaw::none && law.gn > 0.0 &&
-           law.conventions.tension == Tension::allow;
+  if (name == "coulomb_bound") {
+    const bool pulls = law.gn > 0.0 && law.conventions.tension == Tension::allow;
+    return soft && law.tangential != TangentialLaw::none && (pulls || law.coheres());
+  }
   const bool arms = soft && law.tangential != TangentialLaw::none;
   const LeverArm lever = law.conventions.leverArm, ofVelocity = law.conventions.armOfVelocity();
   if (name == "lever_arm") return arms;
@@ -164,7 +166,7 @@ bool mattersTo(const ContactLaw& law, std::string_view name) {
     return arms && (lever != LeverArm::radius || ofVelocity != LeverArm::radius);
   if (name == "dashpot" || name == "spring_reset")
     return soft && law.tangential == TangentialLaw::springDashpot;
-  if (name == "spring_update") return soft && law.springs();
+  if (name == "spring_update") return soft && (law.springs() || law.rolling == RollingLaw::spring);
   if (name == "history") return law.normal == NormalLaw::hertz && law.springs();
   if (findOption(name).part == LawPart::rolling) return rollingMatters(law, name);
   if (findOption(name).part == LawPart::cohesion) return cohesionMatters(law, name);

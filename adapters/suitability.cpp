@@ -115,7 +115,7 @@ ContactLaw lawAsRun(const Capabilities& can, ContactLaw law) {
   for (const auto& [option, values] : can.lawOptions) {
     // What the constants mean hangs on these: an engine that lacks the law converts it, or refuses.
     if (option == "normal" || option == "tangential" || option == "damper" || option == "rolling" ||
-        option == "cohesion")
+        option == "rolling_stiffness" || option == "rolling_damper" || option == "cohesion")
       continue;
     if (!values.empty() && !has(can, law, option)) setLawOption(law, option, values.front());
   }

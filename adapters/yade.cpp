@@ -21,13 +21,15 @@ std::string yadeMissing() {
 /// YADE executes engines/yade/worker.py, which speaks the worker protocol.
 EngineEntry yadeEngine() {
   return {.name = "yade",
-          .summary = "YADE, its viscoelastic and Hertz-Mindlin laws on spheres kept in a plane",
+          .summary =
+              "YADE, its viscoelastic, cohesive-frictional, Luding and Hertz-Mindlin laws on "
+              "spheres kept in a plane",
           .command = yadeCommand,
           .missing = yadeMissing};
 }
 
-/// Law2_ScGeom_ViscElPhys_Basic or Law2_ScGeom_MindlinPhys_Mindlin, which share its conventions,
-/// and NewtonIntegrator (engines/yade/README.md).
+/// Law2_ScGeom_ViscElPhys_Basic, …6D_CohFrictPhys_CohesionMoment, …LudingPhys_Basic or
+/// …MindlinPhys_Mindlin, which share conventions, and NewtonIntegrator (engines/yade/README.md).
 EngineEntry yadeMirror() {
   return mirrorEntry("grain-as-yade", "the in-house engine with YADE's conventions", "yade",
                      {"linear", "hertz"},
@@ -38,10 +40,16 @@ EngineEntry yadeMirror() {
                       {"spring_update", {"before"}},
                       {"lever_arm", {"overlap_middle"}},
                       {"velocity_arm", {"lever_arm"}},
-                      {"plane_arm", {"surface"}},
+                      {"plane_arm", {"surface", "middle"}},
                       {"history", {"force"}},
                       {"damping_velocity", {"lagged"}},
-                      {"integrator", {"position_verlet"}}});
+                      {"integrator", {"position_verlet"}},
+                      {"rolling", {"spring", "viscous_by_load"}},
+                      {"rolling_length", {"mean_radius", "smaller_radius"}},
+                      {"rolling_stiffness", {"constant", "radii"}},
+                      {"rolling_load", {"compression", "magnitude"}},
+                      {"cohesion", {"dmt", "elasto_plastic"}},
+                      {"cohesion_load", {"magnitude_plus_pull_off"}}});
 }
 
 }  // namespace crossgrain

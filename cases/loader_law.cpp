@@ -51,7 +51,8 @@ constexpr std::pair<const char*, const char*> optionMeanings[] = {
     {"rolling",
      "torque M on i, −M on j: −µ_r L N sign(ω_r); −γ_r L² ω_r; −µ_r L² N ω_r; or −k_r θ − γ_r L² "
      "ω_r, θ = ∫ω_r dt, limited to µ_r L N. ω_r = ω_i − ω_j"},
-    {"rolling_length", "L: R₁₂, 2 R₁₂ or the smaller radius; at a plane a_i, 2 a_i, a_i"},
+    {"rolling_length",
+     "L: R₁₂, 2 R₁₂, the smaller radius or their mean; at a plane a_i, 2 a_i, a_i, a_i"},
     {"rolling_stiffness", "what `kr` is times: L², a_i a_j, or 1 (then N m)"},
     {"rolling_damper",
      "what `gr` is: γ_r [kg/s] of γ_r L² ω_r, or the damping ratio of 2 γ_r √(I k_r) ω_r, 1/I = Σ "
@@ -65,7 +66,8 @@ constexpr std::pair<const char*, const char*> optionMeanings[] = {
      "elasto-plastic: k_n δ on loading, up to `k_unload` on unloading, pull up to k_c δ"},
     {"cohesion_area", "A: the lens of two spheres; 2π R₁₂ δ; 4π R₁₂ δ, at a plane 2π R₁₂ δ"},
     {"jkr_end", "where parting surfaces let go: at the largest pull, or at the end of the branch"},
-    {"cohesion_load", "what µ and µ_r multiply: f_n, f_n without the pull, or f_n + 2 F_po"}};
+    {"cohesion_load",
+     "what µ and µ_r multiply: f_n, f_n without the pull, f_n + 2 F_po or |f_n| + F_po"}};
 
 std::vector<Key<LawInput>> lawTable() {
   std::vector<Key<LawInput>> keys;

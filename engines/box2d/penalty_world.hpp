@@ -5,8 +5,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "engines/box2d/general_law.hpp"
 #include "engines/box2d/members.hpp"
-#include "engines/box2d/soft_law.hpp"
 #include "engines/box2d/world.hpp"
 
 namespace box2d_granular {
@@ -34,6 +34,15 @@ struct SoftContact {
   bool touching = false;
   PairGeometry geometry{};
   ContactForce force{};
+  double rolling = 0.0;  ///< M on i [N m]
+  PairMemory memory{};   ///< in place of `spring`, of laws that are not plain
+};
+
+/// Laws of pairs of materials.
+struct PairLaws {
+  std::vector<std::int32_t> material;  ///< of each id
+  std::size_t count = 0;               ///< of materials
+  std::vector<SoftLaw> laws;           ///< of materials a and b at a · count + b
 };
 
 /// Soft disks on Box2D's collision detection.
@@ -53,7 +62,9 @@ struct SoftContact {
 /// touch.
 class PenaltyWorld : private b2ContactListener {
  public:
-  PenaltyWorld(const Model& model, const SoftLaw& law, std::optional<Plate> plate);
+  /// @param pairs  laws in place of `law`, which has the same parts
+  PenaltyWorld(const Model& model, const SoftLaw& law, std::optional<Plate> plate,
+               std::optional<PairLaws> pairs = std::nullopt);
 
   void step();
 
@@ -69,7 +80,7 @@ class PenaltyWorld : private b2ContactListener {
   std::vector<WallLoad> wallLoads() const;  ///< at time(), wall by wall
 
   double kineticEnergy() const;  ///< ½ m v² + ½ J ω² [J]
-  double elasticEnergy() const;  ///< ½ k_n δ² + ½ k_t ξ² [J]
+  double elasticEnergy() const;  ///< of contacts: ½ k_n δ² + ½ k_t ξ², or storedEnergy() [J]
 
   std::uint64_t contactEvaluations() const { return contactEvaluations_; }
 
@@ -81,8 +92,12 @@ class PenaltyWorld : private b2ContactListener {
   void moveWalls();
   void showBox2d();
   void evaluateForces();
-  template <bool Damped, Tangential T>
+  template <bool Plain, bool Damped, Tangential T>
   void addContactForces();
+  const SoftLaw& lawOf(const SoftContact& contact) const;
+  PairMotion motionOf(const SoftContact& contact, double vn, double vt) const;
+  bool touches(SoftContact& contact) const;
+  void addGeneralForce(SoftContact& contact, double vn, double vt);
   void addPlateForces();
   /// The arms of f_t about the two centres [m].
   struct Levers {
@@ -93,6 +108,8 @@ class PenaltyWorld : private b2ContactListener {
   Vector planeVelocity(const SoftContact& contact) const;
 
   SoftLaw law_;
+  std::optional<PairLaws> pairs_;
+  bool plain_;  ///< contactForce() is the law of all pairs
   std::optional<Plate> plate_;
   Vector gravity_;
   double dt_;
@@ -106,7 +123,7 @@ class PenaltyWorld : private b2ContactListener {
   std::vector<const b2Contact*> owner_;  ///< of each element of contacts_
   std::unordered_map<const b2Contact*, std::size_t> slot_;
   std::vector<Vector> force_;        ///< on the disks [N]
-  std::vector<double> torque_;       ///< likewise, with friction only [N m]
+  std::vector<double> torque_;       ///< likewise, with friction or rolling resistance only [N m]
   std::vector<Vector> plateSpring_;  ///< likewise, on a plate only [m]
 };
 

@@ -8,6 +8,23 @@ namespace box2d_granular {
 enum class Tangential { none, coulomb, viscous, spring, springDashpot };
 enum class Bound { compression, magnitude, signedForce };  ///< µ times max(f_n, 0), |f_n| or f_n
 
+enum class Normal { linear, hertz };  ///< k_n δ or k_n √R₁₂ δ^(3/2); k_t is then k_t √(R₁₂ δ)
+/// What dashpots' constants multiply besides the velocity, S the stiffness: 1, S, √(m₁₂ S).
+enum class Damper { constant, viscoelastic, critical };
+enum class History { displacement, force };  ///< what a contact remembers where k_t follows δ
+/// Torque M on i, −M on j: −µ_r L N sign ω_r, −γ_r L² ω_r, −µ_r L² N ω_r, or a spring of θ = ∫ω_r
+/// dt with a dashpot, limited to µ_r L N.
+enum class Rolling { none, constantTorque, viscous, viscousByLoad, spring };
+enum class RollingLength { effective, twiceEffective, smallerRadius, meanRadius };  ///< L
+enum class RollingStiffness { lengthSquare, radii, constant };  ///< k_r times L², a_i a_j or 1
+enum class RollingDamper { constant, critical };                ///< γ_r L² or 2 γ_r √(I k_r)
+enum class RollingLoad { compression, magnitude, elastic };     ///< N: max(f_n, 0), |f_n| or f_el
+enum class Cohesion { none, area, dmt, jkr, elastoPlastic };
+enum class CohesionArea { lens, firstOrder, twiceBetweenDisks };
+enum class JkrEnd { largestPull, branch };
+/// What bounds take for f_n: f_n, f_n without the pull, f_n + 2 F_po, |f_n| + F_po.
+enum class CohesionLoad { net, withoutPull, plusTwicePullOff, magnitudePlusPullOff };
+
 /// A soft contact law and its conventions.
 ///
 /// n points from j to i, s = z × n, overlap δ = a_i + a_j − |x_i − x_j|;
@@ -27,7 +44,36 @@ struct SoftLaw {
   bool stretchBefore = false;        ///< ξ += v_t dt before the force, not after it
   bool leverToContactPoint = false;  ///< l_i = a_i − δ a_j/(a_i + a_j) instead of a_i
 
+  // What follows only general_law.hpp knows.
+  Normal normal = Normal::linear;  ///< hertz: k_n is 4/3 E₁₂ and k_t 8 G₁₂ [Pa]
+  Damper damper = Damper::constant;
+  History history = History::displacement;
+  Rolling rolling = Rolling::none;
+  double kr = 0.0;   ///< [N/m] or [N m]
+  double gr = 0.0;   ///< [kg/s] or [-]
+  double muR = 0.0;  ///< [-]; viscousByLoad: [s/m]
+  RollingLength rollingLength = RollingLength::effective;
+  RollingStiffness rollingStiffness = RollingStiffness::lengthSquare;
+  RollingDamper rollingDamper = RollingDamper::constant;
+  RollingLoad rollingLoad = RollingLoad::compression;
+  bool rollingDashpotOutside = false;   ///< as dashpotOutsideBound, of the rolling spring
+  bool rollingResetSpringOnly = false;  ///< as resetSpringOnly
+  Cohesion cohesion = Cohesion::none;
+  double kc = 0.0;            ///< area: [Pa]; elastoPlastic: stiffness of the pull [N/m]
+  double w = 0.0;             ///< dmt, jkr: work of adhesion [J/m²]
+  double kUnload = 0.0;       ///< elastoPlastic [N/m]
+  double plasticDepth = 0.0;  ///< elastoPlastic, φ [-]
+  CohesionArea cohesionArea = CohesionArea::lens;
+  JkrEnd jkrEnd = JkrEnd::largestPull;
+  CohesionLoad cohesionLoad = CohesionLoad::withoutPull;
+
   bool friction() const { return tangential != Tangential::none && mu > 0.0; }
+  bool turnsDisks() const { return friction() || rolling != Rolling::none; }
+  /// Whether contactForce() below is all of it.
+  bool plain() const {
+    return normal == Normal::linear && damper == Damper::constant && rolling == Rolling::none &&
+           cohesion == Cohesion::none;
+  }
 };
 
 struct ContactForce {

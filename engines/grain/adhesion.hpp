@@ -163,6 +163,8 @@ GRAIN_INLINE Real boundLoad(const L& law, const ContactMotion<Real>& contact, Re
   const bool hasPullOff = law.cohesion == Cohesion::dmt || law.cohesion == Cohesion::jkr;
   if (load == CohesionLoad::plusTwicePullOff)
     return hasPullOff ? normal + Real(2) * pullOff(law, contact) : normal;
+  if (load == CohesionLoad::magnitudePlusPullOff)
+    return magnitude(normal) + (hasPullOff ? pullOff(law, contact) : Real(0));
   if (law.cohesion == Cohesion::elastoPlastic) return normal - smaller(body, Real(0));
   return normal - (body - elasticForce(law, contact));
 }

@@ -131,9 +131,11 @@ GRAIN_INLINE RollingMotion<Real> rollingMotion(const L& law, Real a, Real other,
   const RollingConventions c = law.rollingConventions;
   const Real effective = other > Real(0) ? a * other / (a + other) : a;
   const Real smallest = other > Real(0) ? smaller(a, other) : a;
+  const Real mean = other > Real(0) ? Real(0.5) * (a + other) : a;
   RollingMotion<Real> motion{};
   motion.spin = spin;
   motion.length = c.length == RollingLength::smallerRadius    ? smallest
+                  : c.length == RollingLength::meanRadius     ? mean
                   : c.length == RollingLength::twiceEffective ? effective + effective
                                                               : effective;
   const Real radii = other > Real(0) ? a * other : a * a;

@@ -34,8 +34,8 @@ enum class CohesionArea { lens, firstOrder, twiceBetweenDisks };
 /// Until when surfaces that part pull under JKR: the largest pull, or the end of the branch.
 enum class JkrEnd { largestPull, branch };
 /// What stands for f_n in Coulomb's bound and in that of rolling: f_n; f_n without the pull; or
-/// f_n + 2 F_po, by which a contact without load slips at µ F_po.
-enum class CohesionLoad { net, withoutPull, plusTwicePullOff };
+/// f_n + 2 F_po, by which a contact without load slips at µ F_po; or |f_n| + F_po.
+enum class CohesionLoad { net, withoutPull, plusTwicePullOff, magnitudePlusPullOff };
 
 struct CohesionConventions {
   CohesionArea area = CohesionArea::lens;
@@ -78,7 +78,7 @@ enum class Rolling {
   spring  ///< C: M* = −k_r θ − γ_r L² ω_r with θ = ∫ω_r dt, limited to µ_r L N
 };
 /// L; R₁₂ = a_i a_j/(a_i + a_j), at a plane a_i.
-enum class RollingLength { effective, twiceEffective, smallerRadius };
+enum class RollingLength { effective, twiceEffective, smallerRadius, meanRadius };
 /// k_r of a spring: its constant times L², times a_i a_j, or as it is [N m].
 enum class RollingStiffness { lengthSquare, radii, constant };
 /// What a rolling spring's dashpot is: γ_r L² with γ_r [kg/s], or 2 η √(I k_r) with η [-] and

@@ -3,27 +3,32 @@ of YADE's own (hubs, clumps) come after them."""
 
 import math
 
+import numpy as np
 from yade import (
-    Bo1_Sphere_Aabb,
-    Bo1_Wall_Aabb,
     ForceResetter,
     FrictMat,
     HarmonicMotionEngine,
-    Ig2_Sphere_Sphere_ScGeom,
-    Ig2_Wall_Sphere_ScGeom,
     InsertionSortCollider,
     InteractionLoop,
     NewtonIntegrator,
     O,
+    Vector3,
     utils,
 )
 
 DISK_MASK, WALL_MASK, HUB_MASK = 1, 3, 0  # two walls share all bits: the collider skips them
+BOX_REACH = 1e6  # half a box's length [m]
+
+
+def kind_mask(kind):
+    """The bit that disks of a kind share with the boxes that are planes to them alone."""
+    return 4 << kind
 WHITE = (1, 1, 1)  # without a colour YADE reseeds Python's random numbers for one
 
 
-def place_disks(arrays, rotation):
+def place_disks(arrays, kinds, rotation, boxes):
     columns = (
+        kinds.of_disk,
         arrays["disks.radius"].tolist(),
         arrays["disks.mass"].tolist(),
         arrays["disks.inertia"].tolist(),
@@ -31,8 +36,9 @@ def place_disks(arrays, rotation):
         arrays["disks.velocity"].reshape(-1, 2).tolist(),
         arrays["disks.spin"].tolist(),
     )
-    for radius, mass, inertia, (x, y), (u, v), spin in zip(*columns):
-        disk = utils.sphere((x, y, 0), radius, color=WHITE, material=0, mask=DISK_MASK)
+    for kind, radius, mass, inertia, (x, y), (u, v), spin in zip(*columns):
+        mask = DISK_MASK | kind_mask(kind) if boxes else DISK_MASK
+        disk = utils.sphere((x, y, 0), radius, color=WHITE, material=kind, mask=mask)
         state = disk.state
         state.mass, state.inertia = mass, (inertia, inertia, inertia)
         state.vel = (u, v, 0)
@@ -41,23 +47,53 @@ def place_disks(arrays, rotation):
         O.bodies.append(disk)
 
 
-def place_walls(bodies):
-    """Sets each body's disk_ids and plane_ids."""
-    for body in bodies:
+def place_walls(bodies, law):
+    """Sets each body's disk_ids and plane_ids, in the order of the scene's planes, and for boxes,
+    of which each plane has one for every kind of disks, how deep their centres lie."""
+    kinds = law.kinds
+    for body, of_disks in zip(bodies, kinds.of_wall):
         disks = [
-            utils.sphere((x, y, 0), radius, fixed=True, color=WHITE, material=0, mask=WALL_MASK)
-            for (x, y), radius in zip(body.disk_position.tolist(), body.disk_radius.tolist())
+            utils.sphere((x, y, 0), radius, fixed=True, color=WHITE, material=kind, mask=WALL_MASK)
+            for (x, y), radius, kind in zip(
+                body.disk_position.tolist(), body.disk_radius.tolist(), of_disks
+            )
         ]
         body.disk_ids = O.bodies.append(disks)
-    for body in bodies:
-        body.plane_ids = []
-        for plane in body.planes:
-            axis = 0 if plane["normal"][0] else 1
-            point = (*plane["point"], 0)
-            sense = int(plane["normal"][axis])
-            wall = utils.wall(point, axis, sense=sense, color=WHITE, material=0)
-            wall.mask = WALL_MASK
-            body.plane_ids.append(O.bodies.append(wall))
+    for body, of_planes in zip(bodies, kinds.of_plane):
+        shapes = boxes_of if law.boxes else wall_of
+        body.plane_depth = box_depth(kinds) if law.boxes else 0.0
+        made = [shapes(plane, kind, law) for plane, kind in zip(body.planes, of_planes)]
+        body.plane_ids = [O.bodies.append(shape) for of_plane in made for shape in of_plane]
+
+
+def wall_of(plane, kind, law):
+    axis = 0 if plane["normal"][0] else 1
+    point, sense = (*plane["point"], 0), int(plane["normal"][axis])
+    wall = utils.wall(point, axis, sense=sense, color=WHITE, material=kind)
+    wall.mask = WALL_MASK
+    return [wall]
+
+
+def boxes_of(plane, kind, law):
+    """Of each kind of disks one, whose constants depend on their radius."""
+    depth = box_depth(law.kinds)
+    axis = 0 if plane["normal"][0] else 1
+    extents = [BOX_REACH, BOX_REACH, BOX_REACH]
+    extents[axis] = depth
+    centre = Vector3(*plane["point"], 0) - depth * Vector3(*plane["normal"], 0)
+    boxes = []
+    for disks in np.flatnonzero(~law.kinds.wall).tolist():
+        material = O.materials.append(law.material(kind, float(law.kinds.radius[disks])))
+        law.name_box(material, kind, disks)
+        box = utils.box(centre, extents, fixed=True, color=WHITE, material=material)
+        box.mask = kind_mask(disks)  # nothing that walls have; two boxes have no geometry
+        boxes.append(box)
+    return boxes
+
+
+def box_depth(kinds):
+    """A power of two, with which centres round nothing."""
+    return 2.0 ** math.ceil(math.log2(4 * kinds.radius[~kinds.wall].max()))
 
 
 def start_walls(bodies):
@@ -113,22 +149,16 @@ def build_engines(law, bodies, dt, gravity, verlet_distance):
     ]
     newton = NewtonIntegrator(damping=0, gravity=(*gravity, 0))
     constants, force = law.functors
-    # noRatch would have springs stretched at another point than the one where forces act; hertzian
-    # makes a plane a sphere of 1e8 radii, not of one.
-    with_plane = Ig2_Wall_Sphere_ScGeom(noRatch=False, hertzian=True)
+    bounds, geometries = law.shapes()
     O.engines = [
         ForceResetter(),
         *(exact for exact, _ in moved),
         InsertionSortCollider(
-            [Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()],
+            bounds,
             verletDist=-verlet_distance,
             avoidSelfInteractionMask=WALL_MASK & ~DISK_MASK,
         ),
-        InteractionLoop(
-            [Ig2_Sphere_Sphere_ScGeom(avoidGranularRatcheting=False), with_plane],
-            [constants],
-            [force],
-        ),
+        InteractionLoop(geometries, [constants], [force]),
         *(drift for _, drift in moved),
         newton,
     ]

@@ -22,8 +22,9 @@ def turned(v):
     return np.column_stack([-v[:, 1], v[:, 0]])
 
 
-def read_contacts(law, radius, first_plane, velocity, spin):
+def read_contacts(law, radius, first_plane, per_plane, velocity, spin):
     """@param radius, velocity, spin  of all bodies by id, as the law saw them
+    @param per_plane  bodies of YADE that are one plane
     @return the protocol's contact arrays"""
     interactions = [i for i in O.interactions if i.isReal]
     first = np.array([i.id1 for i in interactions], int)
@@ -34,21 +35,27 @@ def read_contacts(law, radius, first_plane, velocity, spin):
 
     tangent = turned(normal)
     # Arms reach to the contact point: the middle of the overlap, with a plane the plane.
-    depth = np.where((first < first_plane) & (second < first_plane), 0.5, 1.0) * overlap
+    at_plane = 0.5 if law.plane_arm == "middle" else 1.0
+    depth = np.where((first < first_plane) & (second < first_plane), 0.5, at_plane) * overlap
     slip = dot(velocity[first] - velocity[second], tangent)
     slip += spin[first] * (radius[first] - depth) + spin[second] * (radius[second] - depth)
     # Those on the second.
-    pressing, tangential, sliding = law.forces(
-        [i.phys for i in interactions], normal, tangent, slip
-    )
+    physs = [i.phys for i in interactions]
+    pressing, tangential, sliding = law.forces(physs, normal, tangent, slip)
 
     forward = first < second
-    return {
+    last = np.maximum(first, second)
+    planes = np.maximum(last - first_plane, 0)
+    arrays = {
         "contacts.i": ("i32", np.minimum(first, second)),
-        "contacts.j": ("i32", np.maximum(first, second)),
+        "contacts.j": ("i32", last - planes + planes // per_plane),
         "contacts.normal": ("f64", np.where(forward, -1.0, 1.0)[:, None] * normal),
         "contacts.overlap": ("f64", overlap),
         "contacts.normal_force": ("f64", pressing),
         "contacts.tangential_force": ("f64", tangential),
         "contacts.sliding": ("u8", sliding & law.friction),
     }
+    if law.rolls:
+        torque = law.torques(physs, pressing, spin[first] - spin[second])
+        arrays["contacts.rolling_torque"] = ("f64", np.where(forward, -1.0, 1.0) * torque)
+    return arrays

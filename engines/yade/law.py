@@ -1,19 +1,40 @@
 """What YADE's contact laws have in common."""
 
+import math
+
+import numpy as np
 from crossgrain_answers import demand_tangential
 from crossgrain_worker import Unsupported
+from yade import (
+    Bo1_Sphere_Aabb,
+    Bo1_Wall_Aabb,
+    Ig2_Sphere_Sphere_ScGeom,
+    Ig2_Wall_Sphere_ScGeom,
+    MatchMaker,
+)
+
+from contacts import z
 
 MOST_KINDS = 4  # of disks in the table of pairs: a longer one is of no use to a reader
+AT_THE_BOUND = 1 - 1e-12  # a slipping contact's spring is scaled to the bound, up to rounding
 
 
 class Law:
     """A scene's constants. A law's own class adds
 
     functors        of YADE: one that makes a pair's constants, one that makes its force
-    material()      of every body
+    materials()     of the kinds of bodies
     coefficients()  what YADE made of a pair's constants, in the scene's terms
     forces()        those of contacts
+    torques()       of contacts that resist rolling, on the second
     """
+
+    rolls = coheres = False
+    by_plane = False  # whether planes need a material of their own
+    boxes = False  # whether planes are boxes, one for each kind of disks
+    plane_arm = "surface"
+    deviations = ()
+    rolling, cohesion = ("none",), ("none",)  # what a class has
 
     def __init__(self, law):
         kind = law["tangential"]
@@ -28,6 +49,30 @@ class Law:
             raise Unsupported(
                 "holds no tangential dashpot to the Coulomb bound without a spring (kt = 0)"
             )
+        self.conventions = law
+        self.demand_part(law, "rolling", self.rolling)
+        self.demand_part(law, "cohesion", self.cohesion)
+        self.rolls = law.get("rolling", "none") != "none"
+        self.coheres = law.get("cohesion", "none") != "none"
+        if self.rolls and self.coheres:
+            raise Unsupported("has no law with rolling resistance and cohesion")
+        if self.rolls and law["rolling"] == "spring" and law["gr"] > 0:
+            raise Unsupported("has no rolling dashpot (gr = 0)")
+
+    @property
+    def by_radius(self):
+        return self.rolls
+
+    def set_kinds(self, kinds):
+        """Called once, before materials()."""
+        self.kinds = kinds
+
+    @staticmethod
+    def demand_part(law, part, values):
+        value = law.get(part, "none")
+        if value not in values:
+            had = " | ".join(values)
+            raise Unsupported(f'has {part} = {had} with normal = "{law["normal"]}", not "{value}"')
 
     def demand_damper(self, law, only):
         if law["damper"] != only and (self.gn > 0 or self.gt > 0):
@@ -35,6 +80,44 @@ class Law:
                 f'has only damper = "{only}" with normal = "{law["normal"]}", '
                 f'not "{law["damper"]}"'
             )
+
+    def demand_plane_arm(self, with_planes):
+        """Only lever arms at planes differ between YADE's laws."""
+        arm = self.conventions["plane_arm"]
+        if with_planes and self.friction and arm != self.plane_arm:
+            raise Unsupported(f'has plane_arm = "{self.plane_arm}" with this law, not "{arm}"')
+
+    def shapes(self):
+        """Functors that bound shapes, and those that find how two of them lie."""
+        # noRatch would have springs stretched at another point than the one where forces act;
+        # hertzian makes a plane a sphere of 1e8 radii, not of one.
+        return [Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], [
+            Ig2_Sphere_Sphere_ScGeom(avoidGranularRatcheting=False),
+            Ig2_Wall_Sphere_ScGeom(noRatch=False, hertzian=True),
+        ]
+
+    def each_pair(self, values):
+        """A MatchMaker of a table of two kinds' values; kinds are numbered as their materials."""
+        if not self.kinds.several:
+            return MatchMaker(algo="val", val=float(values[0, 0]))
+        pairs = np.argwhere(np.triu(np.ones_like(values)))
+        return MatchMaker(matches=[(int(a), int(b), float(values[a, b])) for a, b in pairs])
+
+    def set_friction(self):
+        """Else YADE takes the smaller of two materials' friction angles."""
+        if self.friction and self.kinds.several:
+            self.functors[0].frictAngle = self.each_pair(np.arctan(self.kinds.table("mu")))
+
+    def friction_angle(self):
+        return math.atan(self.mu)
+
+    def of_each(self, physs, name, alike):
+        """A constant of contacts, which all have the same in a scene of one material."""
+        return np.array([getattr(p, name) for p in physs], float) if self.kinds.several else alike
+
+    def torques(self, physs, pressure, rolling):
+        """@param rolling  the first's spin less the second's"""
+        return z([self.moment(p) for p in physs])
 
     def without_absent(self, constants):
         """Those that contacts have: without friction no tangential one, of a spring no dashpot."""
@@ -59,8 +142,9 @@ def kinds_of_disks(radius, mass):
     return kinds
 
 
-def representative_pairs(radius, mass, wall_disks, planes):
-    """(name, i, j) of one pair of each kind that the scene can bring together."""
+def representative_pairs(radius, mass, wall_disks, plane_of):
+    """(name, i, j) of one pair of each kind that the scene can bring together.
+    @param plane_of  a plane's id for a disk's, if there are planes"""
     kinds = list(kinds_of_disks(radius, mass).items())
     pairs = []
     for a, (name, ids) in enumerate(kinds):
@@ -69,6 +153,6 @@ def representative_pairs(radius, mass, wall_disks, planes):
                 pairs.append((f"{name} with {other}", ids[0], others[-1]))
         if wall_disks:
             pairs.append((f"{name} with wall disk", ids[0], wall_disks[0]))
-        if planes:
-            pairs.append((f"{name} with plane", ids[0], planes[0]))
+        if plane_of:
+            pairs.append((f"{name} with plane", ids[0], plane_of(ids[0])))
     return pairs

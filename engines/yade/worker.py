@@ -22,10 +22,13 @@ from yade import O, utils
 
 import build
 import crossgrain_worker
+from cohesive_frictional import CohesiveFrictional
 from contacts import read_contacts, xy, z
 from crossgrain_answers import demand_plain_walls, effects_called, effects_without_bottom, setting, stats
 from crossgrain_walls import bodies_of
+from kinds import Kinds
 from law import representative_pairs
+from luding import Luding
 from mindlin import Mindlin
 from viscoelastic import Viscoelastic
 
@@ -41,11 +44,23 @@ def close_yades_servers():
         ).start()
 
 
+def law_of(law):
+    normal = law["normal"]
+    if normal not in LAWS:
+        raise crossgrain_worker.Unsupported(f'has normal = {" | ".join(LAWS)}, not "{normal}"')
+    if normal == "linear" and law.get("cohesion", "none") != "none":
+        return Luding(law)
+    if normal == "linear" and law.get("rolling") == "spring":
+        return CohesiveFrictional(law)
+    return LAWS[normal](law)
+
+
 class Yade:
     def capabilities(self):
         return {
             "version": yade.config.version,
-            "effects": effects_without_bottom(),
+            "effects": effects_without_bottom()
+            | {name: "optional" for name in ("rolling_resistance", "cohesion", "pair_materials")},
             "law_options": {
                 "normal": list(LAWS),
                 "damper": ["constant", "critical"],
@@ -57,10 +72,16 @@ class Yade:
                 "spring_update": ["before"],
                 "lever_arm": ["overlap_middle"],
                 "velocity_arm": ["lever_arm"],
-                "plane_arm": ["surface"],
+                "plane_arm": ["surface", "middle"],
                 "history": ["force"],
                 "damping_velocity": ["lagged"],
                 "integrator": ["position_verlet"],
+                "rolling": ["spring", "viscous_by_load"],
+                "rolling_length": ["mean_radius", "smaller_radius"],
+                "rolling_stiffness": ["constant", "radii"],
+                "rolling_load": ["compression", "magnitude"],
+                "cohesion": ["dmt", "elasto_plastic"],
+                "cohesion_load": ["magnitude_plus_pull_off"],
             },
             "plane_motions": ["fixed", "translating", "oscillating"],
             "plane_normals": "axis",
@@ -81,12 +102,12 @@ class Yade:
         }
 
     def load(self, scene, arrays, settings):
-        normal = scene["law"]["normal"]
-        if normal not in LAWS:
-            raise crossgrain_worker.Unsupported(f'has normal = {" | ".join(LAWS)}, not "{normal}"')
-        self.law = LAWS[normal](scene["law"])
+        self.law = law_of(scene["law"])
         self.bodies = bodies_of(scene, arrays)
         demand_plain_walls(scene, self.bodies)
+        self.law.demand_plane_arm(any(body.planes for body in self.bodies))
+        kinds = Kinds(scene, arrays, self.bodies, self.law.by_radius, self.law.by_plane)
+        self.law.set_kinds(kinds)
         self.dt = settings.get("dt", 0.0) or scene["dt"]
         self.gravity = scene["gravity"]
         self.disks = scene["disks"]
@@ -94,10 +115,12 @@ class Yade:
 
         O.reset()
         O.dt = self.dt
-        O.materials.append(self.law.material())
-        self.rotation = self.law.friction and scene["rotation"]
-        build.place_disks(arrays, self.rotation)
-        build.place_walls(self.bodies)
+        O.materials.append(self.law.materials())
+        self.spins = self.law.friction or self.law.rolls
+        self.rotation = self.spins and scene["rotation"]
+        boxes = self.law.boxes and bool(kinds.plane.any())
+        build.place_disks(arrays, kinds, self.rotation, boxes)
+        build.place_walls(self.bodies, self.law)
         self.states = [body.state for body in O.bodies]
         self.first_plane = self.disks + sum(len(body.disk_ids) for body in self.bodies)
         self.radius = np.zeros(len(self.states))  # of planes: no arm
@@ -126,11 +149,15 @@ class Yade:
         pairs = []
         wall_disks = [id_ for body in self.bodies for id_ in body.disk_ids]
         planes = [id_ for body in self.bodies for id_ in body.plane_ids]
-        radius = self.radius
+        kinds, radius = self.law.kinds, self.radius
         for name, i, j in representative_pairs(
-            radius[: self.disks], self.mass, wall_disks, planes
+            radius[: self.disks],
+            self.mass,
+            wall_disks,
+            planes and (lambda i: planes[kinds.of_disk[i] if self.law.boxes else 0]),
         ):
-            made = self.law.coefficients(utils.createInteraction(i, j))
+            other = radius[j] if j < self.first_plane else math.inf
+            made = self.law.coefficients(utils.createInteraction(i, j), radius[i], other)
             pairs.append({"pair": name, **self.law.without_absent(made)})
         O.interactions.clear()
         return {
@@ -140,10 +167,20 @@ class Yade:
             "precision": "double",
             "integrator": "position_verlet",
             "velocity_lag": 0.0,
-            "effects": effects_called(self.law, scene),
+            "effects": self.effects(scene),
             "pairs": pairs,
-            "deviations": [],
+            "deviations": list(self.law.deviations),
         }
+
+    def effects(self, scene):
+        called = effects_called(self.law, scene)
+        more = {
+            "rolling_resistance": self.law.rolls,
+            "cohesion": self.law.coheres,
+            "pair_materials": self.law.kinds.several,
+            "rotation": self.rotation and "rotation" not in called,
+        }
+        return called + [name for name, calls in more.items() if calls]
 
     def advance(self, t):
         wall, cpu = time.perf_counter(), time.thread_time()
@@ -206,14 +243,17 @@ class Yade:
             "velocity": ("f64", velocity),
             "wall_position": ("f64", xy([state.pos for state in walls])),
         }
-        if self.law.friction:
+        if self.spins:
             arrays["spin"] = ("f64", spin)
         forces = None  # before the first step there are none, and so no contacts
         if self.steps:
             forces = self.forces(0 if report == "instant" else self.disks)
             if report == "instant":
                 seen = self.seen_by_the_law(velocity, spin, *forces)
-                arrays.update(read_contacts(self.law, self.radius, self.first_plane, *seen))
+                per_plane = np.count_nonzero(~self.law.kinds.wall) if self.law.boxes else 1
+                arrays.update(
+                    read_contacts(self.law, self.radius, self.first_plane, per_plane, *seen)
+                )
         snapshot["bodies"] = [self.body_snapshot(body, time_, forces) for body in self.bodies]
         return snapshot, arrays
 
@@ -253,7 +293,10 @@ class Yade:
             then = time_ - self.dt
             ids = body.disk_ids + body.plane_ids
             force, torque = forces[0][ids], forces[1][ids]
-            points = np.concatenate([body.disk_states(then)[0], body.plane_states(then)[0]])
+            at, normal = body.plane_states(then)
+            if len(at):  # boxes have their centres below
+                at = np.repeat(at - body.plane_depth * normal, len(body.plane_ids) // len(at), 0)
+            points = np.concatenate([body.disk_states(then)[0], at])
             arm = points - body.state(then)[0]
             snapshot["force"] = force.sum(axis=0).tolist()
             snapshot["torque"] = float(

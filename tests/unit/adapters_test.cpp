@@ -277,6 +277,23 @@ TEST(LawOptions, OptionsThatHaveNoBearingOnALawDoNotMatter) {
   EXPECT_FALSE(mattersTo(law, "tension"));
 }
 
+TEST(LawOptions, OptionsOfFriction_MatterToLawsThatPullAndToRollingSprings) {
+  ContactLaw law;
+  law.tangential = TangentialLaw::spring;
+  EXPECT_FALSE(mattersTo(law, "coulomb_bound")) << "nothing pulls";
+  law.cohesion = CohesionLaw::dmt;
+  EXPECT_TRUE(mattersTo(law, "coulomb_bound"));
+  law.tangential = TangentialLaw::none;
+  EXPECT_FALSE(mattersTo(law, "spring_update"));
+  law.rolling = RollingLaw::spring;
+  EXPECT_TRUE(mattersTo(law, "spring_update")) << "of the rolling spring";
+  // k_r in another unit would be another constant.
+  Capabilities can;
+  can.lawOptions = {{"rolling_stiffness", {"constant"}}, {"rolling_length", {"smaller_radius"}}};
+  EXPECT_EQ(lawOptionValue(lawAsRun(can, law), "rolling_stiffness"), "length_square");
+  EXPECT_EQ(lawOptionValue(lawAsRun(can, law), "rolling_length"), "smaller_radius");
+}
+
 TEST(LawOptions, UnknownNamesAndValuesAreSaid) {
   ContactLaw law;
   setLawOption(law, "lever_arm", "contact_point");

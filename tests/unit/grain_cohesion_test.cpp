@@ -269,6 +269,8 @@ TEST(CohesionLoads, InCoulombsBound_AreTheConventions) {
   EXPECT_NEAR(bound(CohesionLoad::withoutPull, rest), 0.5 * pull, 1e-9);
   EXPECT_NEAR(bound(CohesionLoad::plusTwicePullOff, rest), pull, 1e-9);
   EXPECT_NEAR(bound(CohesionLoad::plusTwicePullOff, 0.0), 0.5 * pull, 1e-9);
+  EXPECT_NEAR(bound(CohesionLoad::magnitudePlusPullOff, rest), 0.5 * pull, 1e-9);
+  EXPECT_NEAR(bound(CohesionLoad::magnitudePlusPullOff, 0.0), pull, 1e-9);  // F = −F_po
 }
 
 TEST(CutTension, OfACohesiveContact_CutsTheDashpotAlone) {

@@ -206,11 +206,12 @@ grain::Setup heldPair(const Law& law, double overlap, double turn) {
 }
 
 TEST(RollingSpring, PairWithCentresHeld_ItsTorqueIsTheConventions) {
-  // Slipping: −µ_r L N. L = R₁₂ = 0.0667 m, 2 R₁₂, or the smaller radius.
+  // Slipping: −µ_r L N. L = R₁₂ = 0.0667 m, 2 R₁₂, the smaller radius or their mean.
   const double effective = 0.1 * 0.2 / 0.3, overlap = 1e-5;
-  for (const auto& [length, metres] : {std::pair{RollingLength::effective, effective},
-                                       std::pair{RollingLength::twiceEffective, 2.0 * effective},
-                                       std::pair{RollingLength::smallerRadius, 0.1}}) {
+  for (const auto& [length, metres] :
+       {std::pair{RollingLength::effective, effective},
+        std::pair{RollingLength::twiceEffective, 2.0 * effective},
+        std::pair{RollingLength::smallerRadius, 0.1}, std::pair{RollingLength::meanRadius, 0.15}}) {
     Law law = springLaw(1e8);
     law.tangential = Tangential::none;
     law.rollingConventions.length = length;

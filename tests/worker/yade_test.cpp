@@ -1,90 +1,13 @@
 // YADE in its worker: walls, constants and forces, its Hertz–Mindlin functors against closed forms.
 // All else that an engine must do is asked of it, as of every other, in tests/conformance; oblique
 // impacts are compared with their mirror there.
-#include <gtest/gtest.h>
-#include <unistd.h>
+#include "tests/worker/yade_worker.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-
-#include "adapters/registry.hpp"
-#include "adapters/worker/worker_engine.hpp"
-#include "tests/support/laws.hpp"
-#include "tests/support/scenes.hpp"
 
 namespace crossgrain::test {
 namespace {
-
-Scene emptyScene() {
-  Scene scene;
-  scene.name = "yade test";
-  scene.law = thesisLaw();
-  scene.dt = 4e-5;
-  return scene;
-}
-
-WallBody ringBody(const std::string& name, Vec2 centre, double radius, int count, Motion motion) {
-  WallBody body;
-  body.name = name;
-  body.centre = centre;
-  body.motion = motion;
-  for (int k = 0; k < count; ++k) {
-    const double angle = 2 * std::numbers::pi * k / count;
-    body.diskPosition.push_back(centre + radius * Vec2(std::cos(angle), std::sin(angle)));
-    body.diskRadius.push_back(wallRadius);
-  }
-  return body;
-}
-
-/// Disks pressed together by gravity onto a turning wheel and a floor that shakes.
-Scene crowdedScene(const ContactLaw& law = emptyScene().law) {
-  Scene scene = emptyScene();
-  scene.law = law;
-  scene.gravity = {-1.0, -9.81};
-  for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 5; ++column) {
-      const bool big = (row + column) % 3 == 0;
-      addDisk(scene, big ? largeRadius : smallRadius, big ? largeMass : smallMass,
-              {8.3e-3 * column + 2e-3 * row, 0.0165 + 8.1e-3 * row},
-              {0.02 * row, 0.03 - 0.01 * column}, 5.0 - column);
-    }
-  scene.bodies.push_back(ringBody("wheel", {0.017, 0.001}, 0.01, 24, rotating(2.0)));
-  WallBody floor;
-  floor.name = "floor";
-  floor.planes = {{{0.0, 0.005}, {0.0, 1.0}}, {{-0.006, 0.0}, {1.0, 0.0}}};
-  floor.motion.kind = Motion::Kind::oscillating;
-  floor.motion.amplitude = {1e-4, 2e-4};
-  floor.motion.frequency = 300.0;
-  scene.bodies.push_back(floor);
-  return scene;
-}
-
-class YadeWorker : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    if (findEngine("yade")->missing().empty()) engine_ = startYade("yade");
-  }
-  static void TearDownTestSuite() {
-    engine_.reset();
-    std::filesystem::remove_all(scratch());
-  }
-  void SetUp() override {
-    if (!engine_) GTEST_SKIP() << findEngine("yade")->missing();
-  }
-
-  /// Of this process alone: others may run at the same time.
-  static std::filesystem::path scratch() {
-    return std::filesystem::path(::testing::TempDir()) /
-           ("crossgrain-yade-" + std::to_string(getpid()));
-  }
-  static std::unique_ptr<WorkerEngine> startYade(const std::string& name) {
-    return std::make_unique<WorkerEngine>(name, findEngine("yade")->command(), scratch() / name,
-                                          120.0);
-  }
-
-  static inline std::unique_ptr<WorkerEngine> engine_;
-};
 
 TEST_F(YadeWorker, Walls_MoveAsPrescribed) {
   Scene scene = emptyScene();
@@ -144,8 +67,8 @@ TEST_F(YadeWorker, RotationBlocked_SpinsStay) {
   EXPECT_NE(after.velocity[0].y(), 0.0);             // and their spins rubbed
 }
 
-// Newton's second law ties velocities, which YADE integrates, to the contacts that the worker
-// reads.
+}  // namespace
+
 void expectForcesThatMoveTheDisks(Engine& engine, const Scene& scene) {
   const std::size_t count = scene.disks.size();
   engine.load(scene, {});
@@ -165,17 +88,20 @@ void expectForcesThatMoveTheDisks(Engine& engine, const Scene& scene) {
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const auto i = static_cast<std::size_t>(contacts.i[c]);
       const auto j = static_cast<std::size_t>(contacts.j[c]);
+      ASSERT_LT(i, count);
       const Vec2 f = contacts.normalForce[c] * contacts.normal[c] +
                      contacts.tangentialForce[c] * perpendicular(contacts.normal[c]);
       const bool plane = j >= count + 24;
-      const double depth = (plane ? 1.0 : 0.5) * contacts.overlap[c];
+      const bool onPlane = plane && scene.law.conventions.planeArm == PlaneArm::surface;
+      const double depth = (onPlane ? 1.0 : 0.5) * contacts.overlap[c];
+      const double rolling = contacts.rollingTorque.empty() ? 0.0 : contacts.rollingTorque[c];
       EXPECT_GT(contacts.overlap[c], 0.0);
       force[i] += f;
-      torque[i] -= (scene.disks.radius[i] - depth) * contacts.tangentialForce[c];
+      torque[i] += rolling - (scene.disks.radius[i] - depth) * contacts.tangentialForce[c];
       (contacts.sliding[c] ? sliding : sticking) += 1;
       if (j < count) {
         force[j] -= f;
-        torque[j] -= (scene.disks.radius[j] - depth) * contacts.tangentialForce[c];
+        torque[j] -= rolling + (scene.disks.radius[j] - depth) * contacts.tangentialForce[c];
       } else {
         bodyForce[plane ? 1 : 0] -= f;
         (plane ? withPlane : withWall) += 1;
@@ -199,6 +125,8 @@ void expectForcesThatMoveTheDisks(Engine& engine, const Scene& scene) {
   EXPECT_GT(withWall, 3u);
   EXPECT_GT(withPlane, 3u);
 }
+
+namespace {
 
 TEST_F(YadeWorker, ContactForces_AreThoseThatMovedTheDisks) {
   expectForcesThatMoveTheDisks(*engine_, crowdedScene());
@@ -237,14 +165,7 @@ TEST_F(YadeWorker, MixesToTheScenesConstants_OfEveryPair) {
 }
 
 TEST_F(YadeWorker, SceneItCannotDo_IsRefused) {
-  const auto refusal = [](const Scene& scene) {
-    try {
-      engine_->load(scene, {});
-    } catch (const UnsupportedScene& error) {
-      return std::string(error.what());
-    }
-    return std::string("ran");
-  };
+  const auto refusal = [](const Scene& scene) { return refusalOf(*engine_, scene); };
   Scene bottom = crowdedScene(), tilted = crowdedScene();
   bottom.bottom = thesisBottom<BottomPlate>();
   EXPECT_EQ(refusal(bottom), "has no bottom_friction");
