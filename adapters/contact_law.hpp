@@ -173,7 +173,8 @@ enum class JkrEnd {
 enum class CohesionLoad {
   net,              ///< f_n, the pull included
   withoutPull,      ///< f_n without the pull
-  plusTwicePullOff  ///< f_n + 2 F_po: no load slips at µ F_po (Thornton 1991; LAMMPS)
+  plusTwicePullOff,  ///< f_n without its dashpot + 2 F_po (Thornton 1991; LAMMPS' jkr)
+  netWithoutDashpot  ///< f_n without its dashpot (LAMMPS' dmt)
 };
 
 enum class Integrator {

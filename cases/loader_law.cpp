@@ -65,7 +65,9 @@ constexpr std::pair<const char*, const char*> optionMeanings[] = {
      "elasto-plastic: k_n δ on loading, up to `k_unload` on unloading, pull up to k_c δ"},
     {"cohesion_area", "A: the lens of two spheres; 2π R₁₂ δ; 4π R₁₂ δ, at a plane 2π R₁₂ δ"},
     {"jkr_end", "where parting surfaces let go: at the largest pull, or at the end of the branch"},
-    {"cohesion_load", "what µ and µ_r multiply: f_n, f_n without the pull, or f_n + 2 F_po"}};
+    {"cohesion_load",
+     "what µ and µ_r multiply: f_n, f_n without the pull, f_n without its dashpot + 2 F_po, or "
+     "without that"}};
 
 std::vector<Key<LawInput>> lawTable() {
   std::vector<Key<LawInput>> keys;
