@@ -3,6 +3,7 @@ is a fix of its own."""
 
 import math
 
+import jkr
 import numpy as np
 from crossgrain_answers import demand_plain_walls
 from crossgrain_worker import Unsupported
@@ -95,6 +96,7 @@ class Scene:
     def set_up(self, position, kind, skin):
         """An empty box for atoms of that many types."""
         depth, reach = self.extent(position)
+        self.reach = reach
         self.run(
             f"""units si
             dimension 2
@@ -110,15 +112,30 @@ class Scene:
     def order_of_atoms(self):
         """Where a pair (i, j) becomes (j, i), LAMMPS reverses its springs: right of the tangential one, wrong of that of
         rolling, which is the same seen from either side. That happens as atoms are sorted or go over to another rank.
+        Bonds (jkr.py) are known of the atoms of one rank, in the order of their ids.
 
-        @raise Unsupported for the latter"""
-        if not self.law.rolls:
+        @raise Unsupported for several ranks"""
+        if not (self.law.rolls or self.law.bonds):
             return ""
         if self.lammps.place()[1] > 1:
-            raise Unsupported(
-                "has rolling_resistance on one rank alone: it reverses rolling springs of disks that go over to another"
-            )
+            what = "rolling_resistance" if self.law.rolls else 'cohesion = "jkr"'
+            raise Unsupported(f"has {what} on one rank alone (README.md of engines/lammps)")
         return " sort 0 0"
+
+    def list_lines(self, skin):
+        """Of neighbours: made anew as atoms move; under JKR once, of all pairs.
+
+        @raise Unsupported where these are too many"""
+        if not self.law.bonds:
+            return f"""neighbor {skin!r} {"bin" if self.atoms > FEW else "nsq"}
+            neigh_modify delay 0 every 1 check yes"""
+        if self.atoms > jkr.MOST:
+            raise Unsupported(
+                f'has cohesion = "jkr" for at most {jkr.MOST} bodies, not {self.atoms}: it drops bonds as it makes lists of '
+                "neighbours anew, so they are made once, of all pairs"
+            )
+        return f"""neighbor {4.0 * self.reach!r} nsq
+            neigh_modify delay 0 every 1 check yes one {self.atoms} page {100 * self.atoms}"""
 
     def law_lines(self):
         if self.laws.count == 1:
@@ -133,8 +150,7 @@ class Scene:
         self.run(
             f"""pair_style granular
             {self.law_lines()}
-            neighbor {skin!r} {"bin" if self.atoms > FEW else "nsq"}
-            neigh_modify delay 0 every 1 check yes
+            {self.list_lines(skin)}
             timestep {dt!r}
             group disks type {self.disk_types}
             compute pairs all pair/local {self.law.asked()} cutoff radius

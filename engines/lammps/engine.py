@@ -3,6 +3,7 @@
 import math
 import time
 
+import jkr
 import numpy as np
 from build import Scene, check
 from contacts import contacts_of_rows, pair_rows, read_plane_contacts, torques_at_planes
@@ -38,7 +39,7 @@ class Engine:
         "rolling_reset": ["spring_only"],
         "cohesion": list(COHESION),
         "jkr_end": ["largest_pull"],
-        "cohesion_load": ["plus_twice_pull_off"],
+        "cohesion_load": ["plus_twice_pull_off", "net_without_dashpot"],
     }
 
     limits = {
@@ -48,13 +49,19 @@ class Engine:
         "plane_normals": "axis",
     }
 
+    bonds = None  # under JKR, in the process that runs it
+
     def __init__(self, lammps=None):
         self.lammps = lammps or Lammps()
 
     def pair_rows(self):
+        if self.bonds:
+            return jkr.pair_rows(self.lammps, self.law, self.bonds)
         return pair_rows(self.lammps, self.law)
 
     def contacts_of_rows(self, rows, position):
+        if self.bonds:
+            return jkr.contacts_of_rows(rows, self.made, position, self.bonds)
         return contacts_of_rows(rows, self.made, position)
 
     def capabilities(self):
@@ -114,6 +121,8 @@ class Engine:
         self.made.place(settings.get("skin", 0.2), self.dt)
         self.lammps.command("run 0 post no")
         self.made.put_first_forces()
+        self.bonds = jkr.Bonds(self.made, self.lammps.gather("x", 3)[:, :2]) if self.law.bonds else None
+        self.follow_bonds()
         self.steps = self.evaluations = 0
         self.wall_seconds = self.cpu_seconds = 0.0
         return {
@@ -143,13 +152,18 @@ class Engine:
         wall, cpu = time.perf_counter(), time.thread_time()
         target = math.floor(t / self.dt + 0.5)
         while self.steps < target:
-            chunk = min(target - self.steps, CHUNK)
+            chunk = 1 if self.bonds else min(target - self.steps, CHUNK)
             self.lammps.command(f"run {chunk} pre no post no")
+            self.follow_bonds()
             self.steps += chunk
-            self.evaluations += chunk * self.lammps.count_of_compute("ids")
+            self.evaluations += chunk * (self.bonds.count() if self.bonds else self.lammps.count_of_compute("ids"))
         self.wall_seconds += time.perf_counter() - wall
         self.cpu_seconds += time.thread_time() - cpu
         return self.steps * self.dt
+
+    def follow_bonds(self):
+        if self.bonds:
+            self.bonds.follow(self.lammps.own("x")[:, :2])
 
     def snapshot(self, report):
         return self.snapshot_of([self.part(report)], report, self.steps)

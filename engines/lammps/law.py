@@ -2,6 +2,7 @@
 
 import math
 
+import jkr
 import numpy as np
 from crossgrain_answers import demand_law
 from crossgrain_worker import Unsupported
@@ -10,7 +11,9 @@ NORMALS = ("linear", "hertz")
 DAMPERS = ("constant", "critical")
 KINDS = ("none", "viscous", "spring", "spring_dashpot")
 ROLLING = ("none", "spring")
-COHESION = ("none", "dmt")
+COHESION = ("none", "dmt", "jkr")
+# The pull-off that is to be in the bound of a DMT contact is not: it is worked out from a variable that only JKR sets.
+LOADS = {"dmt": "net_without_dashpot", "jkr": "plus_twice_pull_off"}
 # The worker holds |f_t| to be at the bound within this; LAMMPS scales the spring to it.
 AT_THE_BOUND = 1 - 1e-12
 # f_el′(δ) over f_el(δ)/δ: of Hertz' law f_el grows as δ^(3/2).
@@ -103,6 +106,9 @@ class Law:
         self.cohesion = demand_part(law, "cohesion", COHESION)
         if self.cohesion != "none" and law["normal"] != "hertz":
             raise Unsupported(f'has cohesion = "{self.cohesion}" with normal = "hertz" alone')
+        self.bonds = self.cohesion == "jkr"
+        if self.bonds and law["damper"] != "constant" and (law["gn"] > 0 or law["gt"] > 0):
+            raise Unsupported('has dashpots of damper = "constant" alone with cohesion = "jkr"')
         self.normal, self.history = law["normal"], law.get("history", "displacement")
         self.critical = law["damper"] == "critical"
         self.friction = kind != "none" and law["mu"] > 0
@@ -113,6 +119,9 @@ class Law:
         self.kt = law["kt"] if self.spring else 0.0
         self.gt = law["gt"] if self.dashpot else 0.0
         self.turns = self.friction or self.rolls
+        load = LOADS.get(self.cohesion)
+        if load and self.turns and law["cohesion_load"] != load:
+            raise Unsupported(f'has cohesion_load = "{load}" with cohesion = "{self.cohesion}"')
         self.kr, self.gr, self.mu_r = (law[name] if self.rolls else 0.0 for name in ("kr", "gr", "mu_r"))
         self.w = law["w"] if self.cohesion != "none" else 0.0
         if self.gt > 0 and self.gn == 0:
@@ -148,6 +157,12 @@ class Law:
 
         @raise Unsupported for planes with critical dashpots: LAMMPS' are others there (README.md)"""
         number, damping = self.damping()
+        if plane and self.bonds:
+            raise Unsupported('has cohesion = "jkr" between disks alone: at planes it lets go before the largest pull')
+        if plane and self.cohesion == "dmt" and self.turns:
+            raise Unsupported(
+                'has cohesion = "dmt" with friction or rolling between disks alone: at planes their bound has 4π r² in it'
+            )
         if plane and damping == "tsuji":
             raise Unsupported('has damper = "critical" between disks alone, not at planes')
         normal = f"{'hertz' if self.normal == 'hertz' else 'hooke'} {self.kn!r} {number!r}"
@@ -155,6 +170,8 @@ class Law:
             # By Young's modulus, Poisson's ratio 0 and γ = w/2: k_n is 4/3 E/2 of two bodies of the same E.
             normal = f"{self.cohesion} {1.5 * self.kn!r} {number!r} 0 {0.5 * self.w!r}"
         rolling = f" rolling sds {self.kr!r} {self.gr!r} {self.mu_r!r}" if self.rolls else ""
+        if self.bonds and not self.rolls and not self.spring:
+            rolling = " rolling sds 1.0 0.0 0.0"  # no torque; LAMMPS stops where bonds have no springs ("overflow")
         return f"{normal} damping {damping} tangential {self.tangential()}{rolling}"
 
     def asked(self):
@@ -162,16 +179,39 @@ class Law:
         return "force p1 p2 p5 p6" if self.rolls else "force p1 p2"
 
     def load(self, pressing, overlap, radius):
-        """What µ multiplies: f_n, or of a law that coheres f_n without its dashpot and twice the pull-off besides.
+        """What µ multiplies: f_n, or of a law that coheres f_n without its dashpot, under JKR with 2 F_po besides.
 
         @param radius  R₁₂"""
         if self.cohesion == "none":
             return pressing
-        return self.kn * np.sqrt(radius * overlap) * overlap + self.pull_off(radius)
+        if self.bonds:
+            return self.bond_force(overlap, 0.0, radius) + 3.0 * math.pi * self.w * radius
+        return self.kn * np.sqrt(radius * overlap) * overlap - 2.0 * math.pi * self.w * radius
 
-    def pull_off(self, radius):
-        """F_po"""
-        return 2.0 * math.pi * self.w * radius
+    # Of JKR's contacts, which jkr.py works out: as the functions of pair_style granular do.
+
+    def bond_range(self, radius):
+        return jkr.RANGE * jkr.depth(self.kn, self.w, radius)
+
+    def bond_force(self, overlap, approach, radius):
+        return jkr.contact(self.kn, self.w, radius, overlap)[0] - self.gn * approach
+
+    def bond_friction(self, of_spring, slip, overlap, radius, large_overlap, large_radius):
+        """@param of_spring  force of the spring where the overlap and R₁₂ are the large ones"""
+        if not self.friction:
+            return np.zeros(len(slip))
+        if self.history != "force":
+            small, large = (
+                jkr.contact(self.kn, self.w, r, d)[1] for r, d in ((radius, overlap), (large_radius, large_overlap))
+            )
+            of_spring = of_spring * small / large
+        bound = self.mu * np.abs(self.load(None, overlap, radius))
+        return np.clip(of_spring - self.gt * slip, -bound, bound)
+
+    def bond_rolling(self, of_spring, spin, overlap, radius):
+        """@param of_spring  its torque on the first, R₁₂ as it is"""
+        bound = self.mu_r * radius * np.abs(self.load(None, overlap, radius))
+        return np.clip(of_spring - self.gr * radius**2 * spin, -bound, bound)
 
     def sliding(self, pressing, tangential, overlap, radius, _reach):
         """Where |f_t| is at the bound; nothing slides without friction.

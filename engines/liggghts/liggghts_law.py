@@ -30,6 +30,7 @@ class Law:
         self.gt = law["gt"] if self.dashpot else 0.0
         if self.friction and self.kt == 0:
             raise Unsupported("has friction by springs alone: kt must be > 0")
+        self.bonds = False
         self.cohesion = demand_part(law, "cohesion", COHESION)
         self.kc = law["kc"] if self.cohesion != "none" else 0.0
         self.area_model = AREAS[law["cohesion_area"]] if self.cohesion != "none" else ""
