@@ -212,10 +212,14 @@ std::string normalFault(double found, const ContactLaw& law, const ContactKinema
 double loadOf(double normal, const ContactLaw& law, const ContactKinematics& touch) {
   if (!law.coheres() || law.conventions.cohesionLoad == CohesionLoad::net) return normal;
   const Attraction pull = attraction(law, touch.place.overlap, touch.radius, touch.reach);
-  if (law.conventions.cohesionLoad == CohesionLoad::plusTwicePullOff)
-    return normal + 2.0 * pull.pullOff;
   if (law.conventions.cohesionLoad == CohesionLoad::magnitudePlusPullOff)
     return std::abs(normal) + pull.pullOff;
+  if (law.conventions.cohesionLoad == CohesionLoad::plusTwicePullOff ||
+      law.conventions.cohesionLoad == CohesionLoad::netWithoutDashpot) {
+    const double body = elasticPart(law, touch.place.overlap, touch.radius).force + pull.most;
+    const bool plus = law.conventions.cohesionLoad == CohesionLoad::plusTwicePullOff;
+    return plus ? body + 2.0 * pull.pullOff : body;
+  }
   // An elasto-plastic contact keeps its load; where it pulls, the pull is left out.
   return law.cohesion == CohesionLaw::elastoPlastic
              ? std::max(normal, 0.0) + std::max(-pull.least, 0.0)

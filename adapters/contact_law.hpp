@@ -172,10 +172,11 @@ enum class JkrEnd {
 
 /// What stands for f_n in Coulomb's bound and in that of rolling, of a law with cohesion.
 enum class CohesionLoad {
-  net,                  ///< f_n, the pull included
-  withoutPull,          ///< f_n without the pull
-  plusTwicePullOff,     ///< f_n + 2 F_po: no load slips at µ F_po (Thornton 1991; LAMMPS)
-  magnitudePlusPullOff  ///< |f_n| + F_po (YADE)
+  net,                   ///< f_n, the pull included
+  withoutPull,           ///< f_n without the pull
+  plusTwicePullOff,      ///< f_n without its dashpot + 2 F_po (Thornton 1991; LAMMPS' jkr)
+  magnitudePlusPullOff,  ///< |f_n| + F_po (YADE)
+  netWithoutDashpot      ///< f_n without its dashpot (LAMMPS' dmt)
 };
 
 enum class Integrator {

@@ -50,6 +50,14 @@ EngineEntry lammpsMirror() {
                       {"lever_arm", {"overlap_middle"}},
                       {"velocity_arm", {"radius"}},
                       {"plane_arm", {"radius"}},
+                      {"rolling_length", {"effective"}},
+                      {"rolling_stiffness", {"length_square"}},
+                      {"rolling_damper", {"constant"}},
+                      {"rolling_load", {"magnitude"}},
+                      {"rolling_dashpot", {"inside"}},
+                      {"rolling_reset", {"spring_only"}},
+                      {"jkr_end", {"largest_pull"}},
+                      {"cohesion_load", {"plus_twice_pull_off", "net_without_dashpot"}},
                       {"damping_velocity", {"lagged"}},
                       {"integrator", {"position_verlet"}}});
 }

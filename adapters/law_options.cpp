@@ -84,7 +84,8 @@ std::span<const LawOption> lawOptions() {
              {"lens", "first_order", "twice_between_disks"}, LawPart::cohesion),
       option("jkr_end", &LawConventions::jkrEnd, {"largest_pull", "branch"}, LawPart::cohesion),
       option("cohesion_load", &LawConventions::cohesionLoad,
-             {"net", "without_pull", "plus_twice_pull_off", "magnitude_plus_pull_off"},
+             {"net", "without_pull", "plus_twice_pull_off", "magnitude_plus_pull_off",
+              "net_without_dashpot"},
              LawPart::cohesion),
   };
   return options;

@@ -67,7 +67,9 @@ constexpr std::pair<const char*, const char*> optionMeanings[] = {
     {"cohesion_area", "A: the lens of two spheres; 2π R₁₂ δ; 4π R₁₂ δ, at a plane 2π R₁₂ δ"},
     {"jkr_end", "where parting surfaces let go: at the largest pull, or at the end of the branch"},
     {"cohesion_load",
-     "what µ and µ_r multiply: f_n, f_n without the pull, f_n + 2 F_po or |f_n| + F_po"}};
+     "what µ and µ_r multiply: f_n, f_n without the pull, f_n without its dashpot + 2 F_po, |f_n| "
+     "+ "
+     "F_po, or f_n without its dashpot"}};
 
 std::vector<Key<LawInput>> lawTable() {
   std::vector<Key<LawInput>> keys;

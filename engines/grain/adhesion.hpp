@@ -98,6 +98,12 @@ GRAIN_INLINE JkrContact<Real> jkrContact(const L& law, const ContactMotion<Real>
   return {depth, y};
 }
 
+template <class L, class Real>
+GRAIN_INLINE Real jkrRadius(const L& law, const ContactMotion<Real>& contact) {
+  const JkrContact<Real> jkr = jkrContact(law, contact);
+  return squareRoot(jkr.depth * contact.radius) * jkr.y * jkr.y;
+}
+
 template <class Real>
 struct PlasticContact {
   Real force;      ///< [N]
@@ -160,9 +166,10 @@ GRAIN_INLINE Real boundLoad(const L& law, const ContactMotion<Real>& contact, Re
                             Real body) {
   const CohesionLoad load = law.cohesionConventions.load;
   if (law.cohesion == Cohesion::none || load == CohesionLoad::net) return normal;
+  if (load == CohesionLoad::netWithoutDashpot) return body;
   const bool hasPullOff = law.cohesion == Cohesion::dmt || law.cohesion == Cohesion::jkr;
   if (load == CohesionLoad::plusTwicePullOff)
-    return hasPullOff ? normal + Real(2) * pullOff(law, contact) : normal;
+    return hasPullOff ? body + Real(2) * pullOff(law, contact) : normal;
   if (load == CohesionLoad::magnitudePlusPullOff)
     return magnitude(normal) + (hasPullOff ? pullOff(law, contact) : Real(0));
   if (law.cohesion == Cohesion::elastoPlastic) return normal - smaller(body, Real(0));

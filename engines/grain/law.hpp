@@ -33,9 +33,16 @@ enum class Cohesion {
 enum class CohesionArea { lens, firstOrder, twiceBetweenDisks };
 /// Until when surfaces that part pull under JKR: the largest pull, or the end of the branch.
 enum class JkrEnd { largestPull, branch };
-/// What stands for f_n in Coulomb's bound and in that of rolling: f_n; f_n without the pull; or
-/// f_n + 2 F_po, by which a contact without load slips at µ F_po; or |f_n| + F_po.
-enum class CohesionLoad { net, withoutPull, plusTwicePullOff, magnitudePlusPullOff };
+/// What stands for f_n in Coulomb's bound and in that of rolling: f_n; f_n without the pull; f_n
+/// without its dashpot + 2 F_po, by which a contact without load slips at µ F_po; |f_n| + F_po; or
+/// f_n without its dashpot.
+enum class CohesionLoad {
+  net,
+  withoutPull,
+  plusTwicePullOff,
+  magnitudePlusPullOff,
+  netWithoutDashpot
+};
 
 struct CohesionConventions {
   CohesionArea area = CohesionArea::lens;

@@ -27,10 +27,15 @@ GRAIN_INLINE Real normalStiffness(const L& law, const ContactMotion<Real>& conta
   return Real(1.5) * law.kn * squareRoot(contact.radius * overlap);
 }
 
-/// Hertz–Mindlin: 8 G₁₂ √(R₁₂ δ) (Johnson 1985, Eq. 7.43).
+/// a of a contact under JKR [m]. @see adhesion.hpp
+template <class L, class Real>
+Real jkrRadius(const L& law, const ContactMotion<Real>& contact);
+
+/// Hertz–Mindlin: 8 G₁₂ a, a = √(R₁₂ δ) (Johnson 1985, Eq. 7.43), or JKR's (Thornton 1991).
 template <class L, class Real>
 GRAIN_INLINE Real tangentialStiffness(const L& law, const ContactMotion<Real>& contact) {
   if (law.normal != Normal::hertz) return law.kt;
+  if (law.cohesion == Cohesion::jkr) return law.kt * jkrRadius(law, contact);
   return law.kt * squareRoot(contact.radius * larger(contact.overlap, Real(0)));
 }
 

@@ -3,11 +3,11 @@ is a fix of its own."""
 
 import math
 
+import jkr
 import numpy as np
 from crossgrain_answers import demand_plain_walls
 from crossgrain_worker import Unsupported
 
-DISKS = 1  # the type of moving disks; wall bodies are 2, 3, …
 AXES = {"x": np.array([1.0, 0.0]), "y": np.array([0.0, 1.0])}
 FEW = 50  # atoms: a box that small may have no room for bins
 IMMOVABLE = 1e30  # kg, of walls: nothing integrates them, and m₁₂ of a pair with one is the disk's mass to the last bit
@@ -33,9 +33,13 @@ def check(scene, bodies, arrays):
 class Scene:
     """A scene as LAMMPS has it. Sets each body's disk_ids and plane_numbers."""
 
-    def __init__(self, lammps, scene, arrays, bodies, law, rotation):
+    def __init__(self, lammps, scene, arrays, bodies, laws, rotation):
         self.lammps, self.scene, self.arrays = lammps, scene, arrays
-        self.bodies, self.law, self.rotation = bodies, law, rotation
+        self.bodies, self.laws, self.law, self.rotation = bodies, laws, laws.one, rotation
+        # Types: one of moving disks for each material from 1 on, then one for each wall body.
+        self.materials_of_types = [*range(laws.count), *laws.of_body]
+        self.first_body = 1 + laws.count
+        self.disk_types = " ".join(map(str, range(1, self.first_body)))
         self.planes = 0
         self.plane_normals = []
         next_id = scene["disks"]
@@ -62,7 +66,7 @@ class Scene:
         turning = [np.full(len(b.disk_ids), b.state(0.0)[3]) for b in bodies]
         spin = np.concatenate([arrays["disks.spin"], *turning])
         kind = np.concatenate(
-            [np.full(n, DISKS), *(np.full(len(b.disk_ids), k) for k, b in enumerate(bodies, 2))]
+            [1 + self.laws.of_disk, *(np.full(len(b.disk_ids), k) for k, b in enumerate(bodies, self.first_body))]
         )
         zero = np.zeros(len(kind))
         skin *= self.radius[:n].min()
@@ -75,13 +79,13 @@ class Scene:
         self.lammps.scatter("v", np.column_stack([velocity, zero]))
         self.lammps.scatter("omega", np.column_stack([zero, zero, spin]))
         self.set_law(skin, dt)
-        for k, body in enumerate(bodies, 2):
+        for k, body in enumerate(bodies, self.first_body):
             self.leave_out_pairs(k)
             for number, plane in zip(body.plane_numbers, body.planes):
-                self.raise_plane(number, plane)
+                self.raise_plane(number, plane, self.materials_of_types[k - 1])
         self.stretch_springs()
         self.integrate()
-        for k, body in enumerate(bodies, 2):
+        for k, body in enumerate(bodies, self.first_body):
             self.move(k, body)
 
     def extent(self, position):
@@ -92,28 +96,64 @@ class Scene:
     def set_up(self, position, kind, skin):
         """An empty box for atoms of that many types."""
         depth, reach = self.extent(position)
+        self.reach = reach
         self.run(
             f"""units si
             dimension 2
             atom_style sphere
-            atom_modify map array
+            atom_modify map array{self.order_of_atoms()}
             boundary s s p
             newton off
             comm_modify vel yes
             region everywhere block {-reach!r} {reach!r} {-reach!r} {reach!r} {-depth!r} {depth!r}
-            create_box {1 + len(self.bodies)} everywhere"""
+            create_box {len(self.materials_of_types)} everywhere"""
+        )
+
+    def order_of_atoms(self):
+        """Where a pair (i, j) becomes (j, i), LAMMPS reverses its springs: right of the tangential one, wrong of that of
+        rolling, which is the same seen from either side. That happens as atoms are sorted or go over to another rank.
+        Bonds (jkr.py) are known of the atoms of one rank, in the order of their ids.
+
+        @raise Unsupported for several ranks"""
+        if not (self.law.rolls or self.law.bonds):
+            return ""
+        if self.lammps.place()[1] > 1:
+            what = "rolling_resistance" if self.law.rolls else 'cohesion = "jkr"'
+            raise Unsupported(f"has {what} on one rank alone (README.md of engines/lammps)")
+        return " sort 0 0"
+
+    def list_lines(self, skin):
+        """Of neighbours: made anew as atoms move; under JKR once, of all pairs.
+
+        @raise Unsupported where these are too many"""
+        if not self.law.bonds:
+            return f"""neighbor {skin!r} {"bin" if self.atoms > FEW else "nsq"}
+            neigh_modify delay 0 every 1 check yes"""
+        if self.atoms > jkr.MOST:
+            raise Unsupported(
+                f'has cohesion = "jkr" for at most {jkr.MOST} bodies, not {self.atoms}: it drops bonds as it makes lists of '
+                "neighbours anew, so they are made once, of all pairs"
+            )
+        return f"""neighbor {4.0 * self.reach!r} nsq
+            neigh_modify delay 0 every 1 check yes one {self.atoms} page {100 * self.atoms}"""
+
+    def law_lines(self):
+        if self.laws.count == 1:
+            return f"pair_coeff * * {self.law.words()}"
+        kinds = list(enumerate(self.materials_of_types, 1))
+        return "\n".join(
+            f"pair_coeff {a} {b} {self.laws.between(of_a, of_b).words()}" for a, of_a in kinds for b, of_b in kinds if a <= b
         )
 
     def set_law(self, skin, dt):
         """The law, the lists and what is asked for of contacts."""
         self.run(
             f"""pair_style granular
-            pair_coeff * * {self.law.words()}
-            neighbor {skin!r} {"bin" if self.atoms > FEW else "nsq"}
-            neigh_modify delay 0 every 1 check yes
+            {self.law_lines()}
+            {self.list_lines(skin)}
             timestep {dt!r}
-            group disks type {DISKS}
-            compute pairs all pair/local force p1 p2 cutoff radius
+            group disks type {self.disk_types}
+            compute pairs all pair/local {self.law.asked()} cutoff radius
             compute ids all property/local patom1 patom2 cutoff radius
             thermo_style custom step
             thermo 0"""
@@ -149,7 +189,7 @@ class Scene:
 
     def leave_out_pairs(self, kind):
         """Of wall disks with each other."""
-        for other in range(2, kind + 1):
+        for other in range(self.first_body, kind + 1):
             self.lammps.command(f"neigh_modify exclude type {other} {kind}")
 
     def move(self, kind, body):
@@ -175,11 +215,29 @@ class Scene:
             words = f"wiggle {x!r} {y!r} 0 {2.0 * math.pi / motion['frequency']!r}"
         self.lammps.command(f"fix move{kind} {group} move {words}")
 
-    def raise_plane(self, number, plane):
+    def raise_plane(self, number, plane, material):
+        """A fix for each material of disks."""
         axis = 0 if plane["normal"][0] else 1
         place = repr(float(plane["point"][axis]))
         ends = f"{place} NULL" if plane["normal"][axis] > 0 else f"NULL {place}"
-        self.lammps.command(
-            f"fix plane{number} disks wall/gran granular {self.law.words(plane=True)} "
-            f"{'xy'[axis]}plane {ends} contacts"
-        )
+        for name, group, of_disks in self.plane_fixes(number):
+            if group != "disks":
+                self.lammps.command(f"group {group} type {1 + of_disks}")
+            words = self.laws.between(of_disks, material).words(plane=True)
+            self.lammps.command(f"fix {name} {group} wall/gran granular {words} {'xy'[axis]}plane {ends} contacts")
+
+    def plane_fixes(self, number):
+        """Of one plane: the fix' name, its group, the material of that."""
+        if self.laws.count == 1:
+            return [(f"plane{number}", "disks", 0)]
+        return [(f"plane{number}of{of}", f"disks{of}", of) for of in range(self.laws.count)]
+
+    def forces_of_plane(self, number):
+        """On this rank's atoms, (n, 2)."""
+        return sum(self.lammps.fix_array(name, 4)[:, 1:3] for name, _, _ in self.plane_fixes(number))
+
+    def radii(self, i, j):
+        """R₁₂ and a_i + a_j of pairs; at a plane both a_i."""
+        curvature = np.concatenate([1.0 / self.radius, np.zeros(self.planes)])
+        radius = np.concatenate([self.radius, np.zeros(self.planes)])
+        return 1.0 / (curvature[i] + curvature[j]), radius[i] + radius[j]

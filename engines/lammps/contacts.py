@@ -8,10 +8,11 @@ def turned(v):
     return np.column_stack([-v[:, 1], v[:, 0]])
 
 
-def pair_rows(lammps):
-    """Of the pairs of this rank: ids from 1 on, normal force, tangential force along x and y."""
+def pair_rows(lammps, law):
+    """Of the pairs of this rank: ids from 1 on, and what the law asks for."""
     ids = lammps.local_compute("ids", 2).reshape(-1, 2)
-    return np.column_stack([ids, lammps.local_compute("pairs", 3).reshape(-1, 3)])
+    columns = len(law.asked().split())
+    return np.column_stack([ids, lammps.local_compute("pairs", columns).reshape(-1, columns)])
 
 
 def pair_geometry(rows, made, position):
@@ -26,16 +27,20 @@ def pair_geometry(rows, made, position):
 
 
 def contacts_of_rows(rows, made, position):
-    """Of two atoms: i < j, normal from j to i, overlap, forces on i."""
+    """Of two atoms: i < j, normal from j to i, overlap, forces on i, torque against rolling on i."""
     i, j, normal, overlap, sign = pair_geometry(rows, made, position)
-    force, x, y = rows[:, 2:].T
-    # LAMMPS' tangential force is that on the first of the two.
+    force, x, y = rows[:, 2:5].T
+    # LAMMPS' tangential force is that on the first of the two, and so is what it resists rolling with: R₁₂ times that
+    # along the tangent as the first sees it.
     tangent = turned(normal)
-    return i, j, normal, overlap, force, sign * (x * tangent[:, 0] + y * tangent[:, 1])
+    rolling = np.zeros(len(i))
+    if made.law.rolls:
+        rolling = made.radii(i, j)[0] * (rows[:, 5:] * tangent).sum(axis=1)
+    return i, j, normal, overlap, force, sign * (x * tangent[:, 0] + y * tangent[:, 1]), rolling
 
 
 def read_plane_contacts(made, bodies, position, on_planes):
-    """The same of disks with planes, plane by plane. on_planes: force on each atom by each."""
+    """The same of disks with planes, plane by plane, the torque unknown. on_planes: force on each atom by each."""
     n = made.scene["disks"]
     for body in bodies:
         for number, plane in zip(body.plane_numbers, body.planes):
@@ -52,4 +57,23 @@ def read_plane_contacts(made, bodies, position, on_planes):
                 overlap[i],
                 force @ normal,
                 (force * tangent).sum(axis=1),
+                np.full(len(i), np.nan),  # the fix does not report it
             )
+
+
+def torques_at_planes(made, columns, torque):
+    """Torques against rolling of the contacts in `columns`, those at planes from what is left of each disk's torque.
+    None where a disk touches several planes: it does not say whose it is."""
+    i, j, _, overlap, _, tangential, rolling = columns
+    unknown = np.isnan(rolling)
+    touched, counts = np.unique(i[unknown], return_counts=True)
+    if (counts > 1).any():
+        return None
+    left = torque.copy()
+    radius = np.concatenate([made.radius, np.zeros(made.planes)])
+    known = np.where(unknown, 0.0, rolling)
+    at_plane = j >= made.atoms
+    np.add.at(left, i, (radius[i] - np.where(at_plane, 0.0, 0.5 * overlap)) * tangential - known)
+    pair = ~at_plane
+    np.add.at(left, j[pair], ((radius[j] - 0.5 * overlap) * tangential + known)[pair])
+    return np.where(unknown, left[i], rolling)

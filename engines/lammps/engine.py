@@ -3,15 +3,17 @@
 import math
 import time
 
+import jkr
 import numpy as np
 from build import Scene, check
-from contacts import contacts_of_rows, pair_rows, read_plane_contacts
+from contacts import contacts_of_rows, pair_rows, read_plane_contacts, torques_at_planes
 from crossgrain_answers import at, effects_called, effects_without_bottom, setting, stats
 from crossgrain_walls import bodies_of
-from law import DAMPERS, KINDS, NORMALS, Law
+from law import COHESION, DAMPERS, KINDS, NORMALS, ROLLING, Law, Laws
 from library import Lammps
 
 CHUNK = 1000  # steps between two checks of the number of contacts
+PARTS = ("rolling_resistance", "cohesion", "pair_materials")  # effects
 
 
 class Engine:
@@ -30,6 +32,14 @@ class Engine:
         "spring_reset": ["spring_only"],
         "velocity_arm": ["radius"],
         "plane_arm": ["radius"],
+        "rolling": list(ROLLING),
+        "rolling_damper": ["constant"],
+        "rolling_load": ["magnitude"],
+        "rolling_dashpot": ["inside"],
+        "rolling_reset": ["spring_only"],
+        "cohesion": list(COHESION),
+        "jkr_end": ["largest_pull"],
+        "cohesion_load": ["plus_twice_pull_off", "net_without_dashpot"],
     }
 
     limits = {
@@ -39,19 +49,25 @@ class Engine:
         "plane_normals": "axis",
     }
 
+    bonds = None  # under JKR, in the process that runs it
+
     def __init__(self, lammps=None):
         self.lammps = lammps or Lammps()
 
     def pair_rows(self):
-        return pair_rows(self.lammps)
+        if self.bonds:
+            return jkr.pair_rows(self.lammps, self.law, self.bonds)
+        return pair_rows(self.lammps, self.law)
 
     def contacts_of_rows(self, rows, position):
+        if self.bonds:
+            return jkr.contacts_of_rows(rows, self.made, position, self.bonds)
         return contacts_of_rows(rows, self.made, position)
 
     def capabilities(self):
         return {
             "version": self.lammps.version(),
-            "effects": effects_without_bottom(),
+            "effects": effects_without_bottom() | {name: "optional" for name in PARTS},
             "law_options": {
                 "normal": ["linear"],
                 "damper": ["constant"],
@@ -61,6 +77,8 @@ class Engine:
                 "lever_arm": ["overlap_middle"],
                 "damping_velocity": ["lagged"],
                 "integrator": ["position_verlet"],
+                "rolling_length": ["effective"],
+                "rolling_stiffness": ["length_square"],
                 **self.conventions,
             },
             **self.limits,
@@ -82,15 +100,16 @@ class Engine:
 
     def take(self, scene, arrays, settings):
         """All of a scene that LAMMPS need not know of."""
-        self.law = self.Law(scene["law"])
         self.bodies = bodies_of(scene, arrays)
+        self.laws = Laws(self.Law, scene, arrays, self.bodies)
+        self.law = self.laws.one
         self.check(scene, self.bodies, arrays)
         self.dt = settings.get("dt", 0.0) or scene["dt"]
         self.gravity = np.array(scene["gravity"])
         self.disks = scene["disks"]
         self.mass, self.inertia = arrays["disks.mass"], arrays["disks.inertia"]
-        self.rotation = self.law.friction and scene["rotation"]
-        self.made = self.Scene(self.lammps, scene, arrays, self.bodies, self.law, self.rotation)
+        self.rotation = self.law.turns and scene["rotation"]
+        self.made = self.Scene(self.lammps, scene, arrays, self.bodies, self.laws, self.rotation)
 
     def forget_arrays(self):
         """Of who makes snapshots alone: nothing of a scene's disks but their radii."""
@@ -102,6 +121,8 @@ class Engine:
         self.made.place(settings.get("skin", 0.2), self.dt)
         self.lammps.command("run 0 post no")
         self.made.put_first_forces()
+        self.bonds = jkr.Bonds(self.made, self.lammps.gather("x", 3)[:, :2]) if self.law.bonds else None
+        self.follow_bonds()
         self.steps = self.evaluations = 0
         self.wall_seconds = self.cpu_seconds = 0.0
         return {
@@ -111,22 +132,38 @@ class Engine:
             "precision": "double",
             "integrator": "position_verlet",
             "velocity_lag": 0.0,
-            "effects": effects_called(self.law, scene),
-            "pairs": [{"pair": "all", **self.law.coefficients()}],
+            "effects": self.effects(scene),
+            "pairs": self.laws.table(),
             "deviations": [],
         }
+
+    def effects(self, scene):
+        """Those that the scene calls for."""
+        law = self.law
+        called = set(effects_called(law, scene))
+        called |= {
+            name
+            for name, calls in zip((*PARTS, "rotation"), (law.rolls, law.cohesion != "none", "materials" in scene, self.rotation))
+            if calls
+        }
+        return sorted(called)
 
     def advance(self, t):
         wall, cpu = time.perf_counter(), time.thread_time()
         target = math.floor(t / self.dt + 0.5)
         while self.steps < target:
-            chunk = min(target - self.steps, CHUNK)
+            chunk = 1 if self.bonds else min(target - self.steps, CHUNK)
             self.lammps.command(f"run {chunk} pre no post no")
+            self.follow_bonds()
             self.steps += chunk
-            self.evaluations += chunk * self.lammps.count_of_compute("ids")
+            self.evaluations += chunk * (self.bonds.count() if self.bonds else self.lammps.count_of_compute("ids"))
         self.wall_seconds += time.perf_counter() - wall
         self.cpu_seconds += time.thread_time() - cpu
         return self.steps * self.dt
+
+    def follow_bonds(self):
+        if self.bonds:
+            self.bonds.follow(self.lammps.own("x")[:, :2])
 
     def snapshot(self, report):
         return self.snapshot_of([self.part(report)], report, self.steps)
@@ -144,7 +181,7 @@ class Engine:
             "torque": self.lammps.own("torque")[:, 2].copy(),
         }
         for k in range(self.made.planes):
-            found[f"on_plane.{k}"] = self.lammps.fix_array(f"plane{k}", 4)[:, 1:3]
+            found[f"on_plane.{k}"] = self.made.forces_of_plane(k)
         if report == "instant":
             found["pairs"] = self.pairs_of_step(found)
         return found
@@ -185,27 +222,33 @@ class Engine:
             "velocity": ("f64", of_all("velocity")[:n]),
             "wall_position": ("f64", position[n:]),
         }
-        if self.law.friction:
+        if self.law.turns:
             arrays["spin"] = ("f64", of_all("spin")[:n])
         if report == "instant":
             rows = np.concatenate([part["pairs"] for part in parts])
-            arrays.update(self.contacts(rows, position, on_planes))
+            arrays.update(self.contacts(rows, position, on_planes, torque))
         bodies = [self.body_snapshot(b, now, position, force, torque, on_planes) for b in self.bodies]
         return at(now, bodies), arrays
 
-    def contacts(self, rows, position, on_planes):
+    def contacts(self, rows, position, on_planes, torque):
         of_pairs = self.contacts_of_rows(rows, position)
         columns = [of_pairs, *read_plane_contacts(self.made, self.bodies, position, on_planes)]
-        i, j, normal, overlap, pressing, tangential = map(np.concatenate, zip(*columns))
-        return {
+        columns = [np.concatenate(column) for column in zip(*columns)]
+        i, j, normal, overlap, pressing, tangential, _ = columns
+        sliding = self.laws.of_pairs("sliding", i, j, pressing, tangential, overlap, *self.made.radii(i, j))
+        found = {
             "contacts.i": ("i32", i),
             "contacts.j": ("i32", j),
             "contacts.normal": ("f64", normal),
             "contacts.overlap": ("f64", overlap),
             "contacts.normal_force": ("f64", pressing),
             "contacts.tangential_force": ("f64", tangential),
-            "contacts.sliding": ("u8", self.law.sliding(pressing, tangential)),
+            "contacts.sliding": ("u8", sliding),
         }
+        rolling = torques_at_planes(self.made, columns, torque) if self.law.rolls else None
+        if rolling is not None:
+            found["contacts.rolling_torque"] = ("f64", rolling)
+        return found
 
     def body_snapshot(self, body, now, position, force, torque, on_planes):
         centre, velocity, angle, spin = body.state(now)

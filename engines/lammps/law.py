@@ -1,7 +1,8 @@
-"""The scene's soft law in LAMMPS' terms: pair_style granular, hooke or hertz."""
+"""The scene's soft laws in LAMMPS' terms: pair_style granular, hooke, hertz or dmt, and rolling sds."""
 
 import math
 
+import jkr
 import numpy as np
 from crossgrain_answers import demand_law
 from crossgrain_worker import Unsupported
@@ -9,6 +10,10 @@ from crossgrain_worker import Unsupported
 NORMALS = ("linear", "hertz")
 DAMPERS = ("constant", "critical")
 KINDS = ("none", "viscous", "spring", "spring_dashpot")
+ROLLING = ("none", "spring")
+COHESION = ("none", "dmt", "jkr")
+# The pull-off that is to be in the bound of a DMT contact is not: it is worked out from a variable that only JKR sets.
+LOADS = {"dmt": "net_without_dashpot", "jkr": "plus_twice_pull_off"}
 # The worker holds |f_t| to be at the bound within this; LAMMPS scales the spring to it.
 AT_THE_BOUND = 1 - 1e-12
 # f_el′(δ) over f_el(δ)/δ: of Hertz' law f_el grows as δ^(3/2).
@@ -16,6 +21,16 @@ STIFFNESS = {"linear": 1.0, "hertz": 1.5}
 # LAMMPS' `damping tsuji` is given a restitution e and takes this for α in α √(m₁₂ f_el/δ), whatever e comes of it:
 # coefficients of e⁶ … e⁰ (its documentation of pair_style granular, after Tsuji et al. 1992).
 ALPHA = (4.8218, -18.022, 27.467, -22.348, 11.087, -4.2783, 1.2728)
+
+
+def demand_part(law, name, values):
+    """Of a law with rolling resistance or cohesion, which one it is.
+
+    @raise Unsupported"""
+    value = law.get(name, "none")
+    if value not in values:
+        raise Unsupported(f'has {name} = {" | ".join(values)}, not "{value}"')
+    return value
 
 
 def told_restitution(alpha):
@@ -32,6 +47,52 @@ def told_restitution(alpha):
     return min(max(real[0], 0.0), 1.0)
 
 
+class Laws:
+    """Those of the scene's pairs: one, or that of each two of its materials, which differ in constants alone.
+
+    one    what all of them share but the constants
+    count  of materials
+    of_disk, of_body  material of each disk, each body"""
+
+    def __init__(self, law, scene, arrays, bodies):
+        """@param law  makes one of the protocol's"""
+        self.one = law(scene["law"])
+        materials = scene.get("materials")
+        if materials:
+            self.all = [law(each) for each in materials["laws"]]
+            self.count = len(materials["names"])
+            self.of_disk, self.of_body = arrays["disks.material"], materials["of_body"]
+        else:
+            self.all, self.count = [self.one], 1
+            self.of_disk, self.of_body = np.zeros(scene["disks"], int), [0] * len(bodies)
+        of_walls = [np.full(len(body.disk_radius), of) for body, of in zip(bodies, self.of_body)]
+        of_planes = [np.full(len(body.planes), of) for body, of in zip(bodies, self.of_body)]
+        self.of_id = np.concatenate([self.of_disk, *of_walls, *of_planes]).astype(int)
+
+    def between(self, a, b):
+        """That of two materials."""
+        return self.all[a * self.count + b]
+
+    def of_pairs(self, name, i, j, *columns):
+        """What the method `name` of their own law makes of the columns of each pair (i, j)."""
+        which = self.of_id[i] * self.count + self.of_id[j]
+        found = np.zeros(len(which))
+        for k in np.unique(which):
+            rows = which == k
+            found[rows] = getattr(self.all[k], name)(*(column[rows] for column in columns))
+        return found
+
+    def table(self):
+        """Of Realised."""
+        if self.count == 1:
+            return [{"pair": "all", **self.one.coefficients()}]
+        return [
+            {"pair": f"material {a + 1} with {b + 1}", **self.between(a, b).coefficients()}
+            for a in range(self.count)
+            for b in range(a, self.count)
+        ]
+
+
 class Law:
     """f_n = f_el(δ) − γ v_n; the tangential spring and dashpot together limited to µ |f_n|.
 
@@ -41,6 +102,13 @@ class Law:
     def __init__(self, law):
         kind = law["tangential"]
         demand_law(law, NORMALS, DAMPERS, KINDS)
+        self.rolls = demand_part(law, "rolling", ROLLING) != "none"
+        self.cohesion = demand_part(law, "cohesion", COHESION)
+        if self.cohesion != "none" and law["normal"] != "hertz":
+            raise Unsupported(f'has cohesion = "{self.cohesion}" with normal = "hertz" alone')
+        self.bonds = self.cohesion == "jkr"
+        if self.bonds and law["damper"] != "constant" and (law["gn"] > 0 or law["gt"] > 0):
+            raise Unsupported('has dashpots of damper = "constant" alone with cohesion = "jkr"')
         self.normal, self.history = law["normal"], law.get("history", "displacement")
         self.critical = law["damper"] == "critical"
         self.friction = kind != "none" and law["mu"] > 0
@@ -50,6 +118,12 @@ class Law:
         self.dashpot = self.friction and kind in ("viscous", "spring_dashpot")
         self.kt = law["kt"] if self.spring else 0.0
         self.gt = law["gt"] if self.dashpot else 0.0
+        self.turns = self.friction or self.rolls
+        load = LOADS.get(self.cohesion)
+        if load and self.turns and law["cohesion_load"] != load:
+            raise Unsupported(f'has cohesion_load = "{load}" with cohesion = "{self.cohesion}"')
+        self.kr, self.gr, self.mu_r = (law[name] if self.rolls else 0.0 for name in ("kr", "gr", "mu_r"))
+        self.w = law["w"] if self.cohesion != "none" else 0.0
         if self.gt > 0 and self.gn == 0:
             raise Unsupported(
                 "expresses the tangential dashpot as a multiple of the normal one, so it has none "
@@ -83,19 +157,76 @@ class Law:
 
         @raise Unsupported for planes with critical dashpots: LAMMPS' are others there (README.md)"""
         number, damping = self.damping()
+        if plane and self.bonds:
+            raise Unsupported('has cohesion = "jkr" between disks alone: at planes it lets go before the largest pull')
+        if plane and self.cohesion == "dmt" and self.turns:
+            raise Unsupported(
+                'has cohesion = "dmt" with friction or rolling between disks alone: at planes their bound has 4π r² in it'
+            )
         if plane and damping == "tsuji":
             raise Unsupported('has damper = "critical" between disks alone, not at planes')
-        name = "hertz" if self.normal == "hertz" else "hooke"
-        return f"{name} {self.kn!r} {number!r} damping {damping} tangential {self.tangential()}"
+        normal = f"{'hertz' if self.normal == 'hertz' else 'hooke'} {self.kn!r} {number!r}"
+        if self.cohesion != "none":
+            # By Young's modulus, Poisson's ratio 0 and γ = w/2: k_n is 4/3 E/2 of two bodies of the same E.
+            normal = f"{self.cohesion} {1.5 * self.kn!r} {number!r} 0 {0.5 * self.w!r}"
+        rolling = f" rolling sds {self.kr!r} {self.gr!r} {self.mu_r!r}" if self.rolls else ""
+        if self.bonds and not self.rolls and not self.spring:
+            rolling = " rolling sds 1.0 0.0 0.0"  # no torque; LAMMPS stops where bonds have no springs ("overflow")
+        return f"{normal} damping {damping} tangential {self.tangential()}{rolling}"
 
-    def sliding(self, pressing, tangential):
-        """Where |f_t| is at the bound; nothing slides without friction."""
-        bound = self.mu * np.abs(pressing)
+    def asked(self):
+        """Of `compute pair/local`: the normal force, tangential force and, of rolling, that along x and y."""
+        return "force p1 p2 p5 p6" if self.rolls else "force p1 p2"
+
+    def load(self, pressing, overlap, radius):
+        """What µ multiplies: f_n, or of a law that coheres f_n without its dashpot, under JKR with 2 F_po besides.
+
+        @param radius  R₁₂"""
+        if self.cohesion == "none":
+            return pressing
+        if self.bonds:
+            return self.bond_force(overlap, 0.0, radius) + 3.0 * math.pi * self.w * radius
+        return self.kn * np.sqrt(radius * overlap) * overlap - 2.0 * math.pi * self.w * radius
+
+    # Of JKR's contacts, which jkr.py works out: as the functions of pair_style granular do.
+
+    def bond_range(self, radius):
+        return jkr.RANGE * jkr.depth(self.kn, self.w, radius)
+
+    def bond_force(self, overlap, approach, radius):
+        return jkr.contact(self.kn, self.w, radius, overlap)[0] - self.gn * approach
+
+    def bond_friction(self, of_spring, slip, overlap, radius, large_overlap, large_radius):
+        """@param of_spring  force of the spring where the overlap and R₁₂ are the large ones"""
+        if not self.friction:
+            return np.zeros(len(slip))
+        if self.history != "force":
+            small, large = (
+                jkr.contact(self.kn, self.w, r, d)[1] for r, d in ((radius, overlap), (large_radius, large_overlap))
+            )
+            of_spring = of_spring * small / large
+        bound = self.mu * np.abs(self.load(None, overlap, radius))
+        return np.clip(of_spring - self.gt * slip, -bound, bound)
+
+    def bond_rolling(self, of_spring, spin, overlap, radius):
+        """@param of_spring  its torque on the first, R₁₂ as it is"""
+        bound = self.mu_r * radius * np.abs(self.load(None, overlap, radius))
+        return np.clip(of_spring - self.gr * radius**2 * spin, -bound, bound)
+
+    def sliding(self, pressing, tangential, overlap, radius, _reach):
+        """Where |f_t| is at the bound; nothing slides without friction.
+
+        @param radius, reach  R₁₂ and a_i + a_j"""
+        bound = self.mu * np.abs(self.load(pressing, overlap, radius))
         return self.friction & (bound > 0) & (np.abs(tangential) >= AT_THE_BOUND * bound)
 
     def coefficients(self):
-        """The same for all pairs: those that contacts have."""
+        """Those that contacts have."""
         found = {"kn": self.kn, "gn": self.gn}
+        if self.rolls:
+            found |= {"kr": self.kr, "gr": self.gr, "mu_r": self.mu_r}
+        if self.cohesion != "none":
+            found["w"] = self.w
         if self.friction:
             found["mu"] = self.mu
         if self.spring:

@@ -5,6 +5,7 @@ import ctypes
 import build
 import numpy as np
 from contacts import pair_geometry, turned
+from crossgrain_worker import Unsupported
 from library import ARRAY, LOCAL, Lammps
 
 SHARED = "libliggghts.so.3"
@@ -40,7 +41,7 @@ class Liggghts(Lammps):
 class Scene(build.Scene):
     def set_up(self, position, kind, skin):
         depth, reach = self.extent(position)
-        kinds = 1 + len(self.bodies)
+        kinds = len(self.materials_of_types)
         self.run(
             f"""units si
             dimension 2
@@ -53,11 +54,13 @@ class Scene(build.Scene):
             create_box {kinds} everywhere
             neighbor {skin!r} bin"""
         )
-        for name, value in self.law.properties().items():
-            values = " ".join([repr(value)] * kinds**2)
-            self.lammps.command(
-                f"fix {name} all property/global {name} peratomtypepair {kinds} {values}"
-            )
+        of = self.materials_of_types
+        laws = [self.laws.between(a, b) for a in of for b in of]
+        if any(law.words() != self.law.words() for law in laws):
+            raise Unsupported("has one model of rolling friction for all materials")
+        for name in self.law.properties():
+            values = " ".join(repr(law.properties()[name]) for law in laws)
+            self.lammps.command(f"fix {name} all property/global {name} peratomtypepair {kinds} {values}")
 
     def set_law(self, skin, dt):
         self.run(
@@ -65,16 +68,12 @@ class Scene(build.Scene):
             pair_coeff * *
             neigh_modify delay 0 every 1 check yes contact_distance_factor {FORGETS!r}
             timestep {dt!r}
-            group disks type {build.DISKS}
-            compute pairs all pair/gran/local {self.asked()}
+            group disks type {self.disk_types}
+            compute pairs all pair/gran/local {self.law.asked()}
             compute partners all contact/atom
             thermo_style custom step
             thermo 1000000"""
         )
-
-    def asked(self):
-        """Of each contact: 2 ids and a flag, 3 components of the force and, with friction, of the spring."""
-        return "id force history" if self.law.friction else "id force"
 
     def stretch_springs(self):
         super().stretch_springs()
@@ -95,11 +94,34 @@ class Scene(build.Scene):
 
 
 def pair_rows(lammps, law):
-    return lammps.local_compute("pairs", 9 if law.friction else 6)
+    """What the law asks for, and the spin of the first less that of the second."""
+    rows = lammps.local_compute("pairs", 6 + 3 * (law.rolling_model == "cdt") + law.history())
+    spin = lammps.gather("omega", 3)[:, 2]
+    first, second = rows[:, :2].astype(int).T - 1
+    return np.column_stack([rows, spin[first] - spin[second]])
+
+
+def rolling_torques(rows, made, i, j, normal, overlap, sign, pressing):
+    """On i. Of constant torque it is what the force at a − δ/2 leaves of the torque; of a spring, which is kept as its
+    torque on the second, that with the dashpot."""
+    law = made.law
+    if not law.rolls:
+        return np.zeros(len(i))
+    radius, reach = made.radii(i, j)
+    if law.rolling_model == "cdt":
+        first = rows[:, 0].astype(int) - 1
+        tangential = (rows[:, 3:5] * turned(normal)).sum(axis=1) * sign
+        return sign * rows[:, 8] + (made.radius[first] - 0.5 * overlap) * tangential * sign
+    mass = np.full(made.atoms, build.IMMOVABLE)
+    mass[: made.scene["disks"]] = made.arrays["disks.mass"]
+    of_i, of_j = mass[i] * made.radius[i] ** 2, mass[j] * made.radius[j] ** 2
+    inertia = 1.5 * of_i * of_j / (of_i + of_j)
+    columns = -sign * rows[:, -2], sign * rows[:, -1], pressing, overlap, radius, reach, inertia
+    return made.laws.of_pairs("rolling_torque", i, j, *columns)
 
 
 def contacts_of_rows(rows, made, position):
-    """Of two atoms: i < j, normal from j to i, overlap, forces on i.
+    """Of two atoms: i < j, normal from j to i, overlap, forces on i, torque against rolling on i.
 
     LIGGGHTS evaluates its law anew when it is asked. A spring that was set to the bound is not over it then, so it
     would show the dashpot beside it, which did not act: there the force is the spring's alone."""
@@ -110,6 +132,10 @@ def contacts_of_rows(rows, made, position):
     pressing = sign * (force * normal).sum(axis=1)
     tangential = sign * (force * tangent).sum(axis=1)
     if law.friction:
-        of_spring = -law.kt * sign * (rows[:, 6:8] * tangent).sum(axis=1)
-        tangential = np.where(law.sliding(pressing, of_spring), of_spring, tangential)
-    return i, j, normal, overlap, pressing, tangential
+        at = 6 + 3 * (law.rolling_model == "cdt")
+        stretch = sign * (rows[:, at : at + 2] * tangent).sum(axis=1)
+        of_spring = made.laws.of_pairs("spring_force", i, j, stretch)
+        sliding = made.laws.of_pairs("sliding", i, j, pressing, of_spring, overlap, *made.radii(i, j))
+        tangential = np.where(sliding > 0, of_spring, tangential)
+    rolling = rolling_torques(rows, made, i, j, normal, overlap, sign, pressing)
+    return i, j, normal, overlap, pressing, tangential, rolling

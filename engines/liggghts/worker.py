@@ -13,7 +13,7 @@ sys.dont_write_bytecode = True
 
 import crossgrain_worker
 from engine import Engine
-from liggghts_law import Law
+from liggghts_law import AREAS, COHESION, ROLLING, Law
 from liggghts_scene import Liggghts, Scene, contacts_of_rows, pair_rows
 
 
@@ -25,6 +25,14 @@ class LiggghtsEngine(Engine):
         "dashpot": ["outside"],
         "spring_reset": ["total"],
         "velocity_arm": ["lever_arm"],
+        "rolling": list(ROLLING),
+        "rolling_damper": ["critical"],
+        "rolling_load": ["magnitude", "elastic"],
+        "rolling_dashpot": ["outside"],
+        "rolling_reset": ["total"],
+        "cohesion": list(COHESION),
+        "cohesion_area": list(AREAS),
+        "cohesion_load": ["without_pull", "net"],
     }
 
     limits = Engine.limits | {"inertia": [0.5], "plane_motions": []}

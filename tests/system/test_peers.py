@@ -144,6 +144,11 @@ class Yade(Peer):
 
 
 TWO = "--set=engines.lammps.ranks=2"
+HERTZ = CASES / "cost/hertz.toml"
+SPRING = {"law.rolling": "spring", "law.mu_r": 0.1, "law.rolling_load": "magnitude"}
+DAMPED_HERTZ = {"law.tangential": "spring_dashpot", "law.damper": "constant", "law.gn": 0.1, "law.gt": 0.08}
+# A pull of 2 mN, about that of a chain of disks in the cell.
+ADHESIVE = {"law.w": 0.17}
 DIAMETER = 2 * 3.7e-3  # m, of a small disk of the quick cell
 
 
@@ -161,6 +166,22 @@ class Lammps(Peer):
                 self.assertEqual("same_to_rounding", row["verdict"])
                 self.assertGreater(row["kinds"]["wall"], 0)
                 self.assertLess(max(row["forces"]["normal"], row["forces"]["tangential"]), 1e-12)
+
+    def test_is_its_laws_of_rolling_and_cohesion(self):
+        """In windows of 100 ms, in which LAMMPS would sort atoms and make lists anew: it would reverse rolling springs and
+        drop bonds."""
+        spring = SPRING | {"law.gr": 0.05, "law.rolling_reset": "spring_only"}
+        jkr = DAMPED_HERTZ | ADHESIVE | {"law.cohesion": "jkr", "law.cohesion_load": "plus_twice_pull_off"}
+        for case, law in (
+            (COUETTE, spring | {"law.kr_per_kt": 1.0}),
+            (HERTZ, DAMPED_HERTZ | ADHESIVE | {"law.cohesion": "dmt", "law.cohesion_load": "net_without_dashpot"}),
+            (HERTZ, jkr),
+            (HERTZ, jkr | spring | {"law.kr": 100.0, "law.history": "force"}),
+        ):
+            with self.subTest(law=law):
+                row = self.lockstep("lammps", *(f"--set={key}={value}" for key, value in law.items()), case=case)
+                self.assertEqual("same_to_rounding", row["verdict"])
+                self.assertLess(max(row["forces"]["normal"], row["forces"]["tangential"]), 1e-10)
 
     def test_conventions_are_found_from_outside(self):
         """Arms of f_t and of v_t that differ: neither alone brings a mirror nearer, the two together do."""
@@ -195,6 +216,23 @@ class Lammps(Peer):
                     (pathlib.Path(folder) / program.name).symlink_to(program)
             done = self.compare(TWO, "--quiet", engines="lammps", out=self.folder / "other", env={"PATH": folder})
         self.assert_one_error(done, BAD_INPUT, "ranks = 2", "mpirun", "openmpi-bin")
+
+    def test_what_it_lacks_of_rolling_and_cohesion_is_refused_by_name(self):
+        jkr = DAMPED_HERTZ | ADHESIVE | {"law.cohesion": "jkr", "law.cohesion_load": "plus_twice_pull_off"}
+        for case, law, reason in (
+            (COUETTE, SPRING | {"law.rolling": "constant_torque"}, "has rolling = none | spring, not constant_torque"),
+            (COUETTE, SPRING | {"law.kr": 100.0, "engines.lammps.ranks": 2}, "has rolling_resistance on one rank alone"),
+            (COUETTE, {"law.cohesion": "area", "law.kc": 1e3}, "has cohesion = none | dmt | jkr, not area"),
+            (COUETTE, ADHESIVE | {"law.cohesion": "dmt"}, 'has cohesion = "dmt" with normal = "hertz" alone'),
+            (HERTZ, jkr | {"law.cohesion_load": "net_without_dashpot"}, 'has cohesion_load = "plus_twice_pull_off" with'),
+            (HERTZ, jkr | {"law.damper": "critical"}, 'dashpots of damper = "constant" alone with cohesion = "jkr"'),
+            (HERTZ, jkr | {"particles.small": 1850}, "for at most 2000 bodies, not"),
+            (CASES / "assembly/pile.toml", {"law.rolling": "viscous", "law.gr": 1.0}, "has rolling = none | spring, not viscous"),
+        ):
+            with self.subTest(reason=reason):
+                changes = (f"--set={key}={value}" for key, value in law.items())
+                done = self.run_program("check", case, "--no-timing", "--engines", "lammps", *changes)
+                self.assertIn(reason, done.stdout + done.stderr)
 
     def snapshots_of(self, ranks):
         """Time and arrays of every snapshot of a recorded run."""
@@ -291,6 +329,34 @@ class Liggghts(Peer):
         )  # fmt: skip
         curves = [c for variant in self.results()["variants"] for c in variant["curves"] if c["engine"] == "liggghts"]
         self.assertEqual([("finished", True)] * 4, [(curve["status"], curve["own_scheme"]["held"]) for curve in curves])
+
+    def test_is_its_laws_of_rolling_and_cohesion(self):
+        """ε_eq is to be within a thousandth; what LIGGGHTS leaves of it without these laws is 3e-7."""
+        epsd = SPRING | {"law.kr_factor": 2.25, "law.rolling_dashpot": "outside", "law.rolling_damper": "critical", "law.gr": 0.1}
+        area = {"law.cohesion": "area", "law.kc": 6e3}
+        for law in (
+            {"law.rolling": "constant_torque", "law.mu_r": 0.05, "law.rolling_load": "elastic"},
+            SPRING | {"law.kr_per_kt": 1.0},
+            area | {"law.cohesion_area": "twice_between_disks"},
+            epsd | area | {"law.cohesion_load": "net"},
+        ):
+            with self.subTest(law=law):
+                row = self.lockstep("liggghts", *(f"--set={key}={value}" for key, value in law.items()))
+                self.assertEqual("same_law", row["verdict"])
+                self.assertLess(row["equivalent"], 1e-4)
+
+    def test_what_it_lacks_of_rolling_and_cohesion_is_refused_by_name(self):
+        for law, reason in (
+            (SPRING | {"law.kr": 100.0}, "here kr = 7.92225 N/m (epsd) or 267.1 N/m (epsd2), not 100 N/m"),  # 2.25 k_n µ_r²; k_t
+            (SPRING | {"law.rolling": "constant_torque"}, 'has rolling_load = "elastic" with rolling = "constant_torque"'),
+            (SPRING | {"law.rolling": "viscous", "law.gr": 1.0}, "has rolling = none | constant_torque | spring, not viscous"),
+            (ADHESIVE | {"law.cohesion": "dmt"}, "has cohesion = none | area, not dmt"),
+            ({"law.cohesion": "area", "law.kc": 1e3, "law.cohesion_area": "first_order"}, "not first_order"),
+        ):
+            with self.subTest(reason=reason):
+                changes = (f"--set={key}={value}" for key, value in law.items())
+                done = self.run_program("check", COUETTE, "--no-timing", "--engines", "liggghts", *changes)
+                self.assertIn(reason, done.stdout + done.stderr)
 
     def test_passes_its_checks(self):
         done = self.run_program("conformance", "liggghts", "--quiet", "-k", "Contact")

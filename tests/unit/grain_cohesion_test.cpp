@@ -251,15 +251,18 @@ TEST(ElastoPlastic, Restitution_IsThatOfTheAreas) {
 }
 
 TEST(CohesionLoads, InCoulombsBound_AreTheConventions) {
-  // A pair at rest under DMT without load slips at nothing, at µ F_po, or at 2 µ F_po − µ F_po.
+  // A pair at rest under DMT without load slips at nothing, at µ F_po, or at 2 µ F_po − µ F_po; in
+  // the last its dashpot takes no part.
   Law law = jkrLaw();
   law.cohesion = Cohesion::dmt;
   law.tangential = Tangential::coulomb;
   law.mu = 0.5;
+  double approach = 0.0;
   const double pull = 2.0 * M_PI * 200.0 * 0.25;
   const auto bound = [&](CohesionLoad load, double overlap) {
     law.cohesionConventions.load = load;
     ContactMotion<double> motion = at(overlap);
+    motion.normalVelocity = approach;
     motion.tangentialVelocity = 1.0;
     double spring = 0.0, memory = 0.0;
     return -contactForce(generalLaw<double>(law, 1e-5, true), motion, spring, memory).tangential;
@@ -271,6 +274,31 @@ TEST(CohesionLoads, InCoulombsBound_AreTheConventions) {
   EXPECT_NEAR(bound(CohesionLoad::plusTwicePullOff, 0.0), 0.5 * pull, 1e-9);
   EXPECT_NEAR(bound(CohesionLoad::magnitudePlusPullOff, rest), 0.5 * pull, 1e-9);
   EXPECT_NEAR(bound(CohesionLoad::magnitudePlusPullOff, 0.0), pull, 1e-9);  // F = −F_po
+  law.gn = 10.0;
+  approach = -1.0;
+  EXPECT_NEAR(bound(CohesionLoad::plusTwicePullOff, rest), pull, 1e-9);
+  EXPECT_NEAR(bound(CohesionLoad::net, rest), 5.0, 1e-9);
+  EXPECT_NEAR(bound(CohesionLoad::netWithoutDashpot, rest), 0.0, 1e-9);
+}
+
+TEST(Jkr, TangentialSpring_SeesItsContactRadius) {
+  // k_t a: at δ = 0 a = (2πw R²/E*)^(1/3), from 4/3 √(a/a_p) = (a/a_p)² with a_p³ = 9π w R²/(8 E*);
+  // a = a_p at −δ_p.
+  Law law = jkrLaw();
+  law.tangential = Tangential::spring;
+  law.mu = 1e6;
+  law.kt = 1e4;
+  const double modulus = 0.75 * law.kn, radius = at(0.0).radius;
+  const auto stiffness = [&](double overlap) {
+    ContactMotion<double> motion = at(overlap);
+    double spring = 1e-6, memory = 1.0;
+    return -contactForce(generalLaw<double>(law, 1e-5, true), motion, spring, memory).tangential /
+           1e-6;
+  };
+  const double peak = std::cbrt(9.0 * M_PI * law.w * radius * radius / (8.0 * modulus));
+  EXPECT_NEAR(stiffness(0.0), law.kt * std::cbrt(2.0 * M_PI * law.w * radius * radius / modulus),
+              1e-6 * law.kt);
+  EXPECT_NEAR(stiffness(-peak * peak / (3.0 * radius)), law.kt * peak, 1e-6 * law.kt * peak);
 }
 
 TEST(CutTension, OfACohesiveContact_CutsTheDashpotAlone) {
