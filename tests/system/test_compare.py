@@ -293,13 +293,13 @@ class Assemblies(SystemTest):
         off = {
             "rolling/constant-torque": "law.mu_r=0.051", "rolling/viscous": "law.gr=0.00305",
             "rolling/viscous-by-load": "law.mu_r=0.305", "rolling/spring": "law.mu_r=0.051",
-            "rolling/oscillation": "law.kr_factor=2.3", "rolling/incline": "law.kr_factor=2.3",
+            "rolling/oscillation": "law.kr_factor=2.3", "rolling/oscillation-elastic": "law.kr_factor=2.3", "rolling/incline": "law.kr_factor=2.3",
             "rolling/incline-ratio": "law.kr_factor=2.3", "rolling/incline-beyond": "law.mu_r=0.0505",
             "rolling/spin-only": "law.mu_r=0.0505", "rolling/spin-only-spring": "law.mu_r=0.0505",
             "rolling/slip-to-roll-sphere": "law.mu=0.21", "rolling/slip-to-roll": "law.mu_r=0.0525",
             "cohesion/dmt-hangs": "law.w=0.505", "cohesion/jkr-hangs": "law.w=0.51", "cohesion/area-hangs": "law.kc=55900",
             "cohesion/dmt-impact": "law.w=0.51", "cohesion/jkr-impact": "law.w=0.51", "cohesion/jkr-impact-branch": "law.w=0.51",
-            "cohesion/luding-impact": "law.k_unload=410", "cohesion/walton-braun-impact": "law.k_unload=410",
+            "cohesion/luding-impact": "law.k_unload=410", "cohesion/walton-braun-impact": "law.k_unload=410", "cohesion/luding-impact-growing": "law.k_unload=740", "cohesion/luding-impact-pair": "law.k_unload=740",
             "cohesion/falls-without": "assembly.gravity=[0.0, -9.82]",
         }  # fmt: skip
         shipped = {str(file.relative_to(folder).with_suffix("")) for file in folder.glob("*/*.toml")}
