@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "oracle/impact.hpp"
 #include "stability/recording.hpp"
@@ -35,6 +36,90 @@ double tangentialEnergy(const Recording& run, const Snapshot& snapshot) {
   return energy;
 }
 
+/// ½ M²/k_r(…) of a rolling spring's torques, which a dashpot may be part of.
+double rollingEnergy(const Recording& run, const Snapshot& snapshot) {
+  const ContactLaw& law = run.law;
+  if (law.rolling != RollingLaw::spring || !snapshot.contacts) return 0.0;
+  const Contacts& contacts = *snapshot.contacts;
+  const std::vector<double> radius = run.scene.radii();
+  double energy = 0.0;
+  for (std::size_t k = 0; k < contacts.rollingTorque.size(); ++k) {
+    const double a = radius[static_cast<std::size_t>(contacts.i[k])];
+    const auto j = static_cast<std::size_t>(contacts.j[k]);
+    const bool plane = j >= radius.size();
+    const double b = plane ? a : radius[j], reduced = plane ? a : a * b / (a + b);
+    const LawConventions& how = law.conventions;
+    const double length = how.rollingLength == RollingLength::effective        ? reduced
+                          : how.rollingLength == RollingLength::twiceEffective ? 2.0 * reduced
+                                                                               : std::min(a, b);
+    const double times = how.rollingStiffness == RollingStiffness::constant ? 1.0
+                         : how.rollingStiffness == RollingStiffness::radii  ? a * b
+                                                                            : length * length;
+    energy += 0.5 * contacts.rollingTorque[k] * contacts.rollingTorque[k] / (law.kr * times);
+  }
+  return energy;
+}
+
+/// JKR's energy at an overlap, 0 at the first touch, negative where the bond holds: with the radius
+/// of contact a = a_p y² the integral of F_po (y⁶ − 2 y³) over δ = (a_p²/R)(y⁴ − 4/3 y) is
+/// F_po (a_p²/R)(2/5 y¹⁰ − 4/3 y⁷ + 2/3 y⁴); a_p³ = 9π w R²/(8 E*), F_po = 3/2 π w R (Johnson,
+/// Kendall and Roberts 1971). y by halving, from the end of the branch, y³ = 1/3, on.
+double jkrEnergy(const ContactLaw& law, double radius, double overlap) {
+  const double cube = 1.5 * std::numbers::pi * law.w * radius * radius / law.kn;
+  const double unit = std::pow(cube, 2.0 / 3.0) / radius;
+  double low = std::cbrt(1.0 / 3.0), high = 2.0 + overlap / unit;
+  for (int halvings = 0; halvings < 60; ++halvings) {
+    const double y = 0.5 * (low + high);
+    (y * (y * y * y - 4.0 / 3.0) < overlap / unit ? low : high) = y;
+  }
+  const auto integral = [](double y) {
+    const double power = y * y * y * y;
+    return power * (0.4 * power * y * y - 4.0 / 3.0 * y * y * y + 2.0 / 3.0);
+  };
+  return 1.5 * std::numbers::pi * law.w * radius * unit *
+         (integral(low) - integral(std::cbrt(4.0 / 3.0)));
+}
+
+/// Of the normal force without its dashpot [J]. Areas are those to first order. An elasto-plastic
+/// contact's is not a matter of its overlap alone: plasticEnergy().
+double bodyEnergy(const ContactLaw& law, const Overlap& at) {
+  const double elastic = elasticEnergy(law, at.reducedRadius, at.depth);
+  const double round = std::numbers::pi * at.reducedRadius;
+  if (law.cohesion == CohesionLaw::dmt) return elastic - 2.0 * round * law.w * at.depth;
+  if (law.cohesion == CohesionLaw::jkr) return jkrEnergy(law, at.reducedRadius, at.depth);
+  if (law.cohesion == CohesionLaw::area) {
+    const bool twice = law.conventions.cohesionArea == CohesionArea::twiceBetweenDisks &&
+                       at.smallerRadius != at.reducedRadius;
+    return elastic - (twice ? 2.0 : 1.0) * round * law.kc * at.depth * at.depth;
+  }
+  return law.cohesion == CohesionLaw::elastoPlastic ? 0.0 : elastic;
+}
+
+/// What unloading gives back, ½ f²/k₂ with the stiffest k₂ there is: no more than there is.
+double plasticEnergy(const ContactLaw& law, const Snapshot& snapshot) {
+  if (law.cohesion != CohesionLaw::elastoPlastic || !snapshot.contacts) return 0.0;
+  double energy = 0.0;
+  for (const double force : snapshot.contacts->normalForce)
+    energy += 0.5 * force * force / law.kUnload;
+  return energy;
+}
+
+/// Of JKR's bonds beyond the end of geometric contact, as far as they are shown [J].
+double stretchedBonds(const ContactLaw& law, const Recording& run, const Snapshot& snapshot) {
+  if (law.cohesion != CohesionLaw::jkr || !snapshot.contacts) return 0.0;
+  const Contacts& contacts = *snapshot.contacts;
+  const std::vector<double> radius = run.scene.radii();
+  double energy = 0.0;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    if (contacts.overlap[k] > 0.0) continue;
+    const double a = radius[static_cast<std::size_t>(contacts.i[k])];
+    const auto j = static_cast<std::size_t>(contacts.j[k]);
+    energy += jkrEnergy(law, j < radius.size() ? a * radius[j] / (a + radius[j]) : a,
+                        contacts.overlap[k]);
+  }
+  return energy;
+}
+
 }  // namespace
 
 EnergyState energyOf(const Recording& run, const Snapshot& snapshot) {
@@ -44,10 +129,10 @@ EnergyState energyOf(const Recording& run, const Snapshot& snapshot) {
   // Not the ledger's tangential springs: where they slip, a convention may put into them what no
   // force ever gives back.
   if (const auto& ledger = snapshot.ledger) {
-    EnergyState energy{
-        ledger->kinetic,
-        ledger->elasticNormal + ledger->plateSprings + tangentialEnergy(run, snapshot),
-        ledger->potential};
+    EnergyState energy{ledger->kinetic,
+                       ledger->elasticNormal + ledger->plateSprings + ledger->elasticRolling +
+                           tangentialEnergy(run, snapshot),
+                       ledger->potential};
     for (std::size_t i = 0; i < snapshot.position.size(); ++i)  // at the time of the velocities
       energy.potential += later * scene.disks.mass[i] * scene.gravity.dot(snapshot.velocity[i]);
     return energy;
@@ -64,21 +149,22 @@ EnergyState energyOf(const Recording& run, const Snapshot& snapshot) {
   if (law.normal == NormalLaw::linear && !run.effective.pairs.empty())
     law.kn = run.effective.pairs.front().kn;
   for (const Overlap& overlap : overlapsOf(scene, position, t))
-    energy.elastic += elasticEnergy(law, overlap.reducedRadius, overlap.depth);
-  energy.elastic += tangentialEnergy(run, snapshot);
+    energy.elastic += bodyEnergy(law, overlap);
+  energy.elastic += plasticEnergy(law, snapshot) + stretchedBonds(law, run, snapshot);
+  energy.elastic += tangentialEnergy(run, snapshot) + rollingEnergy(run, snapshot);
   return energy;
 }
 
 double energyScale(const Recording& run) {
   const Disks& disks = run.scene.disks;
   const EnergyState start = energyOf(run, run.snapshots.front());
-  double scale = start.kinetic + start.elastic;
+  double scale = start.kinetic + std::abs(start.elastic);
   for (std::size_t i = 0; i < disks.size(); ++i)
     scale += disks.mass[i] * run.scene.gravity.norm() * disks.radius[i];
   if (scale > 0.0) return scale;
   for (const Snapshot& snapshot : run.snapshots) {
     const EnergyState now = energyOf(run, snapshot);
-    scale = std::max(scale, now.kinetic + now.elastic);
+    scale = std::max(scale, now.kinetic + std::abs(now.elastic));
   }
   return scale;
 }

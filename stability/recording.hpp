@@ -47,7 +47,7 @@ std::vector<Vec2> wallDisksAt(const Scene& scene, double t);
 /// Energies of a scene at the time of a snapshot's velocities [J].
 struct EnergyState {
   double kinetic = 0.0;    ///< translation and rotation of the disks
-  double elastic = 0.0;    ///< in the contacts, as far as it is known
+  double elastic = 0.0;    ///< in the contacts, as far as it is known; of bonds < 0
   double potential = 0.0;  ///< of the disks in the plane's gravity, −Σ m g·x
 
   double total() const { return kinetic + elastic + potential; }
@@ -57,13 +57,15 @@ struct EnergyState {
 /// positions, and with them the energies of springs and gravity, are taken back to the time that
 /// the velocities belong to; so the sum of a leapfrog engine is as good as its scheme, second
 /// order. Normal springs hold what the scene's law says of the overlaps, tangential ones f_t²/2k_t
-/// of the forces shown; engines that put impulses in place of the law's springs hold
-/// nothing, but at t = 0 what the law would: that much motion a start with overlaps may become.
+/// of the forces shown, rolling ones M²/2k_r(…) of the torques; cohesion what its law gives, of JKR
+/// beyond δ = 0 and of an elasto-plastic law as far as contacts are shown; engines that put
+/// impulses in place of the law's springs hold nothing, but at t = 0 what the law would: that much
+/// motion a start with overlaps may become.
 EnergyState energyOf(const Recording& run, const Snapshot& snapshot);
 
 /// What all energies of a run are measured by: kinetic and elastic energy at the start and the work
-/// of lifting every disk by its radius; where all of that is nothing, the run's largest kinetic and
-/// elastic energy [J].
+/// of lifting every disk by its radius, a bond's energy by its size; where all of that is nothing,
+/// the run's largest kinetic and elastic energy [J].
 double energyScale(const Recording& run);
 
 }  // namespace crossgrain::inline stability

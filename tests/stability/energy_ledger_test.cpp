@@ -5,6 +5,7 @@
 #include "adapters/grain.hpp"
 #include "cases/collision_scene.hpp"
 #include "oracle/collision_oracle.hpp"
+#include "stability/recording.hpp"
 #include "tests/support/pairs.hpp"
 
 // The in-house engine's energy ledger against the account that the oracle integrates.
@@ -115,5 +116,70 @@ TEST(EnergyLedgers, ResidualIsWhatNoTermAccountsFor) {
   ledger.gainedByConvention = 0.25;
   EXPECT_EQ(residual(ledger), 0.0);
 }
+
+/// What an engine without a ledger has in its contacts, against the in-house engine's ledger: a
+/// disk with spin falls on one that lies on a plane, elastic and sticky, and comes back or stays.
+class EnergyWithoutLedger : public testing::TestWithParam<CohesionLaw> {};
+
+TEST_P(EnergyWithoutLedger, OfCohesionAndRolling_IsTheLedgers) {
+  Recording run;
+  Scene& scene = run.scene;
+  scene.energyLedger = true;
+  scene.dt = 1e-6;
+  scene.disks = {{1e-3, 1.2e-3},
+                 {4e-6, 5e-6},
+                 {1.6e-12, 2.9e-12},
+                 {{0.0, 0.999e-3}, {1e-4, 3.21e-3}},
+                 {{0.0, 0.0}, {0.0, -0.05}},
+                 {0.0, 20.0}};
+  WallBody floor;
+  floor.planes.push_back({{0.0, 0.0}, {0.0, 1.0}});
+  scene.bodies.push_back(floor);
+  ContactLaw& law = scene.law;
+  const bool linear = GetParam() == CohesionLaw::elastoPlastic;
+  law.normal = linear ? NormalLaw::linear : NormalLaw::hertz;
+  law.kn = linear ? 100.0 : 7e6;
+  law.tangential = TangentialLaw::spring;
+  law.kt = linear ? 70.0 : 5e6;
+  law.mu = 0.5;
+  law.rolling = RollingLaw::spring;
+  law.kr = 20.0;
+  law.muR = 0.2;
+  law.cohesion = GetParam();
+  law.w = 0.3;
+  law.kc = linear ? 20.0 : 1e5;
+  law.kUnload = 300.0;
+  law.conventions.cohesionArea = CohesionArea::firstOrder;
+  law.conventions.springUpdate = SpringUpdate::before;
+  law.conventions.integrator = Integrator::velocityVerlet;
+  const auto engine = makeGrain();
+  run.effective = engine->load(scene, {});
+  run.law = law;
+  double largest = 0.0, smallest = 0.0, rolling = 0.0;
+  for (int k = 1; k <= 200; ++k) {
+    engine->advance(k * 2e-5);
+    Snapshot now = engine->snapshot(ContactReport::instant);
+    const EnergyLedger ledger = now.ledger.value();
+    // Springs of friction are no part of it: k_t changes with a Hertz contact's depth.
+    const double known = ledger.elasticNormal + ledger.elasticRolling;
+    now.ledger.reset();
+    run.effective.pairs.clear();  // tells k_t
+    const EnergyState found = energyOf(run, now);
+    EXPECT_NEAR(found.elastic, known, 1e-6 * 1e-8) << k;
+    EXPECT_NEAR(found.kinetic, ledger.kinetic, 1e-12 * 1e-8) << k;
+    largest = std::max(largest, found.elastic);
+    smallest = std::min(smallest, found.elastic);
+    rolling = std::max(rolling, ledger.elasticRolling);
+  }
+  EXPECT_GT(largest - smallest, 1e-9);  // of 1e-8 J
+  EXPECT_GT(rolling, 1e-12);
+  if (GetParam() == CohesionLaw::dmt || GetParam() == CohesionLaw::jkr) {
+    EXPECT_LT(smallest, 0.0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, EnergyWithoutLedger,
+                         testing::Values(CohesionLaw::none, CohesionLaw::area, CohesionLaw::dmt,
+                                         CohesionLaw::jkr, CohesionLaw::elastoPlastic));
 
 }  // namespace

@@ -287,6 +287,40 @@ class Assemblies(SystemTest):
                 self.assert_status(self.compare(case, f"--set={change}"), FELL_SHORT)
                 self.assertIn("disagree", {row["answer"] for row in self.rows("endpoints.csv")})
 
+    def test_closed_forms_of_rolling_and_cohesion_find_a_law_a_little_off(self):
+        """A constant off by 1 to 5 % fails each scene, and the in-house engine keeps to a third of its margins but where one says what parting takes."""
+        folder = CASES / "assembly"
+        off = {
+            "rolling/constant-torque": "law.mu_r=0.051", "rolling/viscous": "law.gr=0.00305",
+            "rolling/viscous-by-load": "law.mu_r=0.305", "rolling/spring": "law.mu_r=0.051",
+            "rolling/oscillation": "law.kr_factor=2.3", "rolling/oscillation-elastic": "law.kr_factor=2.3", "rolling/incline": "law.kr_factor=2.3",
+            "rolling/incline-ratio": "law.kr_factor=2.3", "rolling/incline-beyond": "law.mu_r=0.0505",
+            "rolling/spin-only": "law.mu_r=0.0505", "rolling/spin-only-spring": "law.mu_r=0.0505",
+            "rolling/slip-to-roll-sphere": "law.mu=0.21", "rolling/slip-to-roll": "law.mu_r=0.0525",
+            "cohesion/dmt-hangs": "law.w=0.505", "cohesion/jkr-hangs": "law.w=0.51", "cohesion/area-hangs": "law.kc=55900",
+            "cohesion/dmt-impact": "law.w=0.51", "cohesion/jkr-impact": "law.w=0.51", "cohesion/jkr-impact-branch": "law.w=0.51",
+            "cohesion/luding-impact": "law.k_unload=410", "cohesion/walton-braun-impact": "law.k_unload=410", "cohesion/luding-impact-growing": "law.k_unload=740", "cohesion/luding-impact-pair": "law.k_unload=740",
+            "cohesion/falls-without": "assembly.gravity=[0.0, -9.82]",
+        }  # fmt: skip
+        shipped = {str(file.relative_to(folder).with_suffix("")) for file in folder.glob("*/*.toml")}
+        self.assertEqual(shipped, set(off) | {"cohesion/column", "cohesion/column-without"})
+        for name, change in off.items():
+            with self.subTest(name):
+                self.out = self.folder / name.replace("/", "-")
+                self.assert_status(self.compare(folder / f"{name}.toml"), HELD)
+                for row in self.rows("endpoints.csv"):
+                    share = 0.7 if row["endpoint"] == "overload" else 1 / 3
+                    self.assertLess(abs(float(row["difference"])), share * float(row["margin"]), row)
+                self.out = self.folder / f"{name.replace('/', '-')}-off"
+                self.assert_status(self.compare(folder / f"{name}.toml", f"--set={change}"), FELL_SHORT)
+
+    def test_column_stands_by_its_cohesion_alone(self):
+        for name, low, high in (("column", 0.074, 0.085), ("column-without", 0.0, 0.05)):  # of 12 layers of 6.4 mm
+            self.out = self.folder / name
+            self.assert_status(self.compare(CASES / f"assembly/cohesion/{name}.toml", "--set=preparation.packings=1"), HELD)
+            top = float(self.rows("series.csv")[-1]["top"])
+            self.assertTrue(low < top < high, top)
+
     def test_engine_that_loses_its_disk_has_no_mean(self):
         """The only disk leaves the averaged part: a mean of what was seen before is no value."""
         case = self.write("case.toml", LEAVES.replace("LAWS", str(CASES / "laws")))
