@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <type_traits>
 
 #include "engines/grain/contact_force.hpp"
 #include "engines/grain/kernels.hpp"
@@ -25,6 +26,27 @@ struct alignas(64) ContactBlock {
   Real rolling[blockSize], rollingSlides[blockSize];
 };
 
+/// With the constants of each pair. @see forPairConstants
+template <class Real>
+struct MaterialBlock : ContactBlock<Real> {
+  Real constants[pairConstants][blockSize];
+};
+template <class L, class Real>
+using BlockOf = std::conditional_t<HasMaterials<L>, MaterialBlock<Real>, ContactBlock<Real>>;
+
+/// A pair's own law: of a law without materials that one itself.
+template <class L, class Real>
+GRAIN_INLINE const L& lawOfPair(const L& law, const ContactBlock<Real>&, std::size_t) {
+  return law;
+}
+template <HasMaterials L, class Real>
+GRAIN_INLINE L lawOfPair(const L& law, const MaterialBlock<Real>& b, std::size_t p) {
+  L own = law;
+  forPairConstants(law, [&](std::size_t which, auto member)
+                            GRAIN_INLINE_LAMBDA { own.*member = b.constants[which][p]; });
+  return own;
+}
+
 /// A few vectors at a time; a library's way to copy has its beginnings to pay for.
 template <class T>
 GRAIN_INLINE void copy(const T* from, std::size_t count, T* to) {
@@ -40,7 +62,7 @@ GRAIN_INLINE bool seesVelocities(const L& law) {
 
 template <class L, class Real>
 GRAIN_INLINE void gather(const L& law, const ContactView<Real>& disks, const std::int32_t* pairI,
-                         const std::int32_t* pairJ, std::size_t count, ContactBlock<Real>& b) {
+                         const std::int32_t* pairJ, std::size_t count, BlockOf<L, Real>& b) {
   for (std::size_t p = 0; p < count; ++p) {
     const auto i = static_cast<std::size_t>(pairI[p]);
     const auto j = static_cast<std::size_t>(pairJ[p]);
@@ -65,6 +87,11 @@ GRAIN_INLINE void gather(const L& law, const ContactView<Real>& disks, const std
       b.inverseRollingJ[p] =
           inverseRollingInertia(disks.inverseMass[j], disks.inverseInertia[j], disks.radius[j]);
     }
+    if constexpr (HasMaterials<L>) {
+      const GeneralLaw<Real>& own = disks.lawOf(disks.material[i], disks.material[j]);
+      forPairConstants(law, [&](std::size_t which, auto member)
+                                GRAIN_INLINE_LAMBDA { b.constants[which][p] = own.*member; });
+    }
   }
 }
 
@@ -72,15 +99,16 @@ GRAIN_INLINE void gather(const L& law, const ContactView<Real>& disks, const std
 /// part with no force.
 /// Writes the block, and each pair its own springs: the loop may be taken side by side.
 template <class L, class Real>
-GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift,
+GRAIN_INLINE std::size_t applyLaw(const L& common, const Vec<Real>* shift,
                                   const PairMemory<Real>& kept, std::size_t count,
-                                  ContactBlock<Real>& b) {
-  const bool friction = law.tangential != Tangential::none;
+                                  BlockOf<L, Real>& b) {
+  const bool friction = common.tangential != Tangential::none;
   const bool history =
-      law.tangential == Tangential::spring || law.tangential == Tangential::springDashpot;
+      common.tangential == Tangential::spring || common.tangential == Tangential::springDashpot;
   Real touching = 0;
 #pragma omp simd reduction(+ : touching)
   for (std::size_t p = 0; p < count; ++p) {
+    const L& law = lawOfPair(common, b, p);
     const Real reach = b.radiusI[p] + b.radiusJ[p];
     Real dx = b.distance[p].x, dy = b.distance[p].y;
     if constexpr (hasLocalCoordinates<Real>) {
@@ -177,7 +205,7 @@ template <class L, class Real>
 static std::size_t contactKernel(const GeneralLaw<Real>& general, const ContactView<Real>& disks,
                                  const PairView<Real>& pairs) {
   const L law(general);
-  ContactBlock<Real> b;
+  BlockOf<L, Real> b;
   std::size_t touching = 0;
   for (std::size_t begin = 0; begin < pairs.count; begin += blockSize) {
     const std::size_t count = std::min(blockSize, pairs.count - begin);

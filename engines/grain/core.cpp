@@ -33,26 +33,62 @@ double smallestRadius(const Disks& disks) {
 }
 
 /// How far apart bodies may be in contact [m]: it grows with R₁₂ < a_i.
-double adhesionRange(const Setup& setup, const auto& law) {
+template <class Real>
+double adhesionRange(const Setup& setup) {
   if (setup.law.cohesion != Cohesion::jkr || setup.disks.size() == 0) return 0.0;
   const double largest = *std::ranges::max_element(setup.disks.radius);
-  return 1.001 * static_cast<double>(jkrRange(law, static_cast<decltype(law.kn)>(largest)));
+  double range = 0.0;
+  const auto look = [&](const Law& law) {
+    const auto own = generalLaw<Real>(law, setup.dt, setup.rotation);
+    range = std::max(range, 1.001 * static_cast<double>(jkrRange(own, static_cast<Real>(largest))));
+  };
+  if (setup.materials)
+    std::ranges::for_each(setup.materials->laws, look);
+  else
+    look(setup.law);
+  return range;
+}
+
+void demand(bool holds, const char* what) {
+  if (!holds) throw std::invalid_argument(what);
 }
 
 /// @throws std::invalid_argument naming what a law cannot be
 void requireSound(const Law& law) {
-  const auto require = [](bool holds, const char* what) {
-    if (!holds) throw std::invalid_argument(what);
-  };
   const bool rigid = law.normal == Normal::impulse;
-  require(!rigid || law.rolling == Rolling::none, "impulses know no resistance to rolling");
-  require(!rigid || law.cohesion == Cohesion::none, "impulses know no cohesion");
-  require(law.rolling != Rolling::spring || law.kr > 0.0, "a rolling spring needs a stiffness > 0");
-  require(law.cohesion != Cohesion::jkr || (law.normal == Normal::hertz && law.w > 0.0),
-          "JKR needs Hertz' law and a work of adhesion > 0");
-  require(law.cohesion != Cohesion::elastoPlastic ||
-              (law.normal == Normal::linear && law.k2 >= law.kn && law.kc >= 0.0),
-          "an elasto-plastic contact needs the linear law, k2 >= kn and kc >= 0");
+  demand(!rigid || law.rolling == Rolling::none, "impulses know no resistance to rolling");
+  demand(!rigid || law.cohesion == Cohesion::none, "impulses know no cohesion");
+  demand(law.rolling != Rolling::spring || law.kr > 0.0, "a rolling spring needs a stiffness > 0");
+  demand(law.cohesion != Cohesion::jkr || (law.normal == Normal::hertz && law.w > 0.0),
+         "JKR needs Hertz' law and a work of adhesion > 0");
+  demand(law.cohesion != Cohesion::elastoPlastic ||
+             (law.normal == Normal::linear && law.k2 >= law.kn && law.kc >= 0.0),
+         "an elasto-plastic contact needs the linear law, k2 >= kn and kc >= 0");
+}
+
+/// @throws std::invalid_argument where the laws of materials are not what Setup asks for
+void requireSound(const Materials& materials, const Setup& setup) {
+  const auto within = [&](const std::vector<std::int32_t>& of, std::size_t size) {
+    return of.size() == size && std::ranges::all_of(of, [&](std::int32_t material) {
+             return material >= 0 && static_cast<std::size_t>(material) < materials.count;
+           });
+  };
+  demand(within(materials.ofDisk, setup.disks.size()) &&
+             within(materials.ofWall, setup.walls.size()) &&
+             materials.laws.size() == materials.count * materials.count,
+         "each disk and wall has a material, and each two of these a law");
+  for (const Law& law : materials.laws) {
+    requireSound(law);
+    const Law& all = setup.law;
+    demand(all.gn > 0.0 || law.gn == 0.0, "materials have no dashpots where the law has none");
+    demand(all.friction() || !law.friction(), "materials have no friction where the law has none");
+  }
+}
+
+/// Of two materials: without friction no spring and no dashpot acts along the tangent.
+Law lawOfPair(Law law) {
+  if (!(law.mu > 0.0)) law.kt = law.gt = 0.0;
+  return law;
 }
 
 std::size_t partCount(const Setup& setup) {
@@ -98,7 +134,7 @@ Core<Real>::Core(Setup setup)
              {setup.law.springs(), setup.rotation && setup.law.rollingSprings(),
               setup.law.remembers()},
              Skin(setup.skin, smallestRadius(setup.disks)), maxOverlap_,
-             adhesionRange(setup, law_)),
+             adhesionRange<Real>(setup)),
       team_(partCount(setup)),
       reports_(partCount(setup)),
       touching_(partCount(setup)),
@@ -107,23 +143,44 @@ Core<Real>::Core(Setup setup)
   if (law_.normal == Normal::impulse && integrator_ != Integrator::semiImplicitEuler)
     throw std::invalid_argument("impulses need semi-implicit Euler steps");
   requireSound(setup.law);
+  if (setup.materials) requireSound(*setup.materials, setup);
   const MotionEffects effects = motionEffects(setup);
   motion_ = kernels_.motion[indexOf(effects)];
-  contacts_ = kernels_.generalContacts;
-  planes_ = kernels_.generalPlanes;
+  const bool materials = setup.materials.has_value();
+  contacts_ = materials ? kernels_.generalMaterialContacts : kernels_.generalContacts;
+  planes_ = materials ? kernels_.materialPlanes : kernels_.generalPlanes;
   if (const auto set = conventionSet(law_); set && !setup.generalKernels) {
     const std::size_t variant =
         indexOf({law_.tangential, law_.cutTension, law_.normalDamping, law_.rotation,
                  law_.rolling == Rolling::spring, law_.cohesion == Cohesion::area},
                 *set);
-    if (kernels_.contacts[variant] != nullptr) contacts_ = kernels_.contacts[variant];
-    if (kernels_.planes[variant] != nullptr) planes_ = kernels_.planes[variant];
+    const auto& contacts = materials ? kernels_.materialContacts : kernels_.contacts;
+    if (contacts[variant] != nullptr) contacts_ = contacts[variant];
+    if (!materials && kernels_.planes[variant] != nullptr) planes_ = kernels_.planes[variant];
   }
 
+  if (materials) buildMaterials(setup);
   buildWalls(std::move(setup.walls));
   allocate(setup.disks, effects);
   if (setup.ledger) ledger_ = std::make_unique<LedgerObserver<Real>>(*this, setup);
   start();
+}
+
+template <class Real>
+void Core<Real>::buildMaterials(const Setup& setup) {
+  const Materials& materials = *setup.materials;
+  materials_ = static_cast<std::int32_t>(materials.count);
+  for (const Law& law : materials.laws) {
+    laws_.push_back(generalLaw<Real>(lawOfPair(law), setup.dt, setup.rotation));
+    impactLaws_.push_back({law.en, law.et0, law.friction() ? law.mu : 0.0});
+  }
+  material_.assign(materials.ofDisk.begin(), materials.ofDisk.end());
+  for (const bool planes : {false, true})
+    for (std::size_t w = 0; w < setup.walls.size(); ++w) {
+      const Wall& wall = setup.walls[w];
+      material_.insert(material_.end(), planes ? wall.planes.size() : wall.diskX.size(),
+                       materials.ofWall[w]);
+    }
 }
 
 template <class Real>
@@ -334,9 +391,9 @@ bool Core<Real>::stretch(const PairMap<const Contact*>& wanted, PairMap<Stretche
                     {want.tangentialForce, want.sliding}, forcePerStretch(contact), own.spring);
     if (lists_.springs().rolling) {
       const Contact placed = byPlace(contact);
-      settled &= stretched({contact.rollingTorque, contact.rollingSlides},
-                           {want.rollingTorque, want.rollingSlides},
-                           static_cast<double>(law_.kr * rollingLengths(placed).square), own.angle);
+      settled &= stretched(
+          {contact.rollingTorque, contact.rollingSlides}, {want.rollingTorque, want.rollingSlides},
+          static_cast<double>(lawOf(placed).kr * rollingLengths(placed).square), own.angle);
     }
   }
   return settled;
@@ -353,7 +410,8 @@ std::size_t Core<Real>::placeOf(std::int32_t number) const {
 template <class Real>
 double Core<Real>::forcePerStretch(const Contact& contact) const {
   if (law_.history == History::force) return 1.0;
-  return static_cast<double>(tangentialStiffness(law_, geometryOf(byPlace(contact))));
+  const Contact placed = byPlace(contact);
+  return static_cast<double>(tangentialStiffness(lawOf(placed), geometryOf(placed)));
 }
 
 /// @param springs  by numbers i < j; all others are relaxed
@@ -412,7 +470,8 @@ Places Core<Real>::places() {
 template <class Real>
 ContactView<Real> Core<Real>::contactView() {
   return {position_.data(),    velocitySeen().data(),  spinSeen().data(), radius_.data(),
-          inverseMass_.data(), inverseInertia_.data(), force_.data(),     torque_.data()};
+          inverseMass_.data(), inverseInertia_.data(), force_.data(),     torque_.data(),
+          material_.data(),    laws_.data(),           materials_};
 }
 
 template <class Real>
@@ -450,25 +509,29 @@ PlaneView<Real> Core<Real>::planeView(PlacedPlane& placed, bool record) {
   const Plane& plane = placed.plane;
   const WallState& wall = walls_[placed.wall].state();
   const auto real = [](double v) { return static_cast<Real>(v); };
-  return {plane.x,
-          plane.y,
-          real(plane.nx),
-          real(plane.ny),
-          real(wall.x),
-          real(wall.y),
-          real(wall.vx),
-          real(wall.vy),
-          real(wall.spin),
-          origin_.empty() ? nullptr : origin_.data(),
-          {placed.spring.empty() ? nullptr : placed.spring.data(),
-           placed.angle.empty() ? nullptr : placed.angle.data(),
-           placed.memory.empty() ? nullptr : placed.memory.data()},
-          record ? placed.overlap.data() : nullptr,
-          record ? placed.normal.data() : nullptr,
-          record ? placed.tangential.data() : nullptr,
-          record ? placed.sliding.data() : nullptr,
-          record ? placed.rolling.data() : nullptr,
-          record ? placed.rollingSlides.data() : nullptr};
+  return {
+      plane.x,
+      plane.y,
+      real(plane.nx),
+      real(plane.ny),
+      real(wall.x),
+      real(wall.y),
+      real(wall.vx),
+      real(wall.vy),
+      real(wall.spin),
+      origin_.empty() ? nullptr : origin_.data(),
+      {placed.spring.empty() ? nullptr : placed.spring.data(),
+       placed.angle.empty() ? nullptr : placed.angle.data(),
+       placed.memory.empty() ? nullptr : placed.memory.data()},
+      record ? placed.overlap.data() : nullptr,
+      record ? placed.normal.data() : nullptr,
+      record ? placed.tangential.data() : nullptr,
+      record ? placed.sliding.data() : nullptr,
+      record ? placed.rolling.data() : nullptr,
+      record ? placed.rollingSlides.data() : nullptr,
+      material_.empty()
+          ? 0
+          : material_[position_.size() + static_cast<std::size_t>(&placed - placedPlanes_.data())]};
 }
 
 }  // namespace grain

@@ -28,7 +28,8 @@ class Core {
   explicit Core(Setup setup);
 
   /// @param record  whether contacts() is to know this step's forces
-  void step(bool record);
+  /// @param tally   whether the ledger is to know what each contact loses
+  void step(bool record, bool tally);
   void beginUnderWay(const std::vector<Contact>& forces);
   void findNeighbours();
 
@@ -53,6 +54,9 @@ class Core {
   double elasticEnergy() const;
   /// nullptr where none is kept
   const EnergyLedger* energyLedger() const { return ledger_ ? &ledger_->ledger() : nullptr; }
+  std::vector<double> contactLosses() const {
+    return ledger_ ? ledger_->contactLosses(contacts()) : std::vector<double>();
+  }
 
   std::uint64_t contactEvaluations() const { return contactEvaluations_; }
   std::uint64_t unfinishedImpacts() const { return unfinishedImpacts_; }
@@ -94,6 +98,7 @@ class Core {
 
   // The beginning.
   void buildWalls(std::vector<Wall> walls);
+  void buildMaterials(const Setup& setup);
   void allocate(const Disks& disks, const MotionEffects& effects);
   void start();
   void addForcesOfStart(bool underWay);
@@ -164,6 +169,17 @@ class Core {
   template <class VisitPair, class VisitPlane>
   void forPairsByPlace(VisitPair&& visitPair, VisitPlane&& visitPlane) const;
   std::vector<Contact> softContacts() const;
+  /// Of a disk and another or a plane, by places. Only constants differ from law_.
+  const GeneralLaw<Real>& lawOf(std::size_t i, std::size_t j) const {
+    return laws_.empty() ? law_ : laws_[pairOf(i, j)];
+  }
+  const GeneralLaw<Real>& lawOf(const Contact& contact) const {
+    return lawOf(static_cast<std::size_t>(contact.i), static_cast<std::size_t>(contact.j));
+  }
+  /// In laws_.
+  std::size_t pairOf(std::size_t i, std::size_t j) const {
+    return static_cast<std::size_t>(material_[i] * materials_ + material_[j]);
+  }
   double ownRadius(const Contact& contact) const;
   /// What the law's energies and stiffnesses ask for, of a contact of places.
   ContactMotion<Real> geometryOf(const Contact& contact) const;
@@ -173,6 +189,9 @@ class Core {
   Real pairRadius(std::size_t i, std::size_t j) const;
 
   GeneralLaw<Real> law_;
+  std::vector<GeneralLaw<Real>> laws_;  ///< of two materials each; empty: law_ is that of all
+  std::int32_t materials_ = 0;
+  Array<std::int32_t> material_;  ///< of moving disks, wall disks, planes, where there are several
   Integrator integrator_;
   double dt_;
   double halfKick_ = 0.0;  ///< from the stored velocity to the one at time() [s]
@@ -224,6 +243,7 @@ class Core {
   std::vector<std::size_t> touching_;
   bool recorded_ = false;
   ImpactLaw impactLaw_;
+  std::vector<ImpactLaw> impactLaws_;  ///< as laws_
   std::vector<ImpactBody> impactBodies_;
   std::vector<Impact> impacts_;  ///< of the last step
   mutable std::optional<std::vector<Contact>> known_;
@@ -298,6 +318,7 @@ void Core<Real>::forDiskArrays(Visit&& visit) {
   for (auto* array :
        {&radius_, &inverseMass_, &inverseInertia_, &spin_, &seenSpin_, &torque_, &gravityForce_})
     visit(*array);
+  if (!material_.empty()) visit(material_);
   for (PlacedPlane& placed : placedPlanes_) {
     visit(placed.spring);
     visit(placed.angle);

@@ -65,6 +65,11 @@ std::uint64_t fingerprint(const Setup& setup) {
   to.add(static_cast<std::uint64_t>(setup.walls.size()));
   for (const Wall& wall : setup.walls) add(to, wall);
   add(to, setup.law);
+  if (const auto& materials = setup.materials) {
+    for (const Law& law : materials->laws) add(to, law);
+    for (const auto* list : {&materials->ofDisk, &materials->ofWall})
+      for (const std::int32_t material : *list) to.addAll(material);
+  }
   to.addAll(setup.bottom.has_value());
   if (const auto& plate = setup.bottom)
     to.addAll(plate->mu, plate->kb, plate->gb, plate->tauM, plate->gravity, plate->spin);

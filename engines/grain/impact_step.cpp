@@ -82,6 +82,7 @@ void Core<Real>::findPairImpacts() {
         impact.leverJ = armOf(law_.lever, radiusJ, radiusI, impact.overlap);
         impact.armI = armOf(law_.velocityLever, radiusI, radiusJ, impact.overlap);
         impact.armJ = armOf(law_.velocityLever, radiusJ, radiusI, impact.overlap);
+        if (!laws_.empty()) impact.law = &impactLaws_[pairOf(i, j)];
         impacts_.push_back(impact);
       }
     }
@@ -113,6 +114,7 @@ void Core<Real>::findPlaneImpacts(std::size_t p) {
     impact.leverI = planeArmOf(law_.lever, law_.planeLever, radius, height);
     impact.armI = planeArmOf(law_.velocityLever, law_.planeLever, radius, height);
     impact.plane = static_cast<std::int32_t>(p);
+    if (!laws_.empty()) impact.law = &impactLaws_[pairOf(i, position_.size() + p)];
     impactBodies_.push_back(wallBody(wall, wall.offsetOf(armX, armY)));
     impacts_.push_back(impact);
   }

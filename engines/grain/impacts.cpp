@@ -28,6 +28,10 @@ double slipCompliance(const Impact& c, const ImpactBody& i, const ImpactBody& j)
          c.armJ * c.leverJ * j.inverseInertia;
 }
 
+const ImpactLaw& lawOf(const Impact& c, const ImpactLaw& ofAll) {
+  return c.law != nullptr ? *c.law : ofAll;
+}
+
 void push(ImpactBody& body, double jx, double jy, double torque) {
   body.vx += jx * body.inverseMass;
   body.vy += jy * body.inverseMass;
@@ -42,7 +46,8 @@ void push(const Impact& c, std::span<ImpactBody> bodies, double normal, double t
 }
 
 /// @returns whether the two approached faster than that [m/s]
-bool collide(const ImpactLaw& law, Impact& c, std::span<ImpactBody> bodies, double still) {
+bool collide(const ImpactLaw& ofAll, Impact& c, std::span<ImpactBody> bodies, double still) {
+  const ImpactLaw& law = lawOf(c, ofAll);
   const ImpactBody& i = bodies[c.i];
   const ImpactBody& j = bodies[c.j];
   const double vn = normalVelocity(c, i, j);
@@ -102,7 +107,8 @@ double atMost(double rebound, double now) {
 }
 
 /// @returns by how much it changed the contact's velocities [m/s]
-double correct(const ImpactLaw& law, const Impact& c, Hold& hold, std::span<ImpactBody> bodies) {
+double correct(const ImpactLaw& ofAll, const Impact& c, Hold& hold, std::span<ImpactBody> bodies) {
+  const ImpactLaw& law = lawOf(c, ofAll);
   const ImpactBody& i = bodies[c.i];
   const ImpactBody& j = bodies[c.j];
   const double yields = normalCompliance(i, j);
@@ -139,9 +145,11 @@ Pair plus(const Pair& a, double factor, const Pair& b) {
 void accelerate(const ImpactLaw& law, std::span<ImpactBody> bodies, std::span<const Impact> impacts,
                 std::span<Hold> holds, std::vector<ImpactBody>& added) {
   double along = 0.0, curvature = 0.0, stiffness = 0.0, slope = 0.0;
-  for (Hold& hold : holds) {
+  for (std::size_t k = 0; k < impacts.size(); ++k) {
+    Hold& hold = holds[k];
+    const double mu = lawOf(impacts[k], law).mu;
     if (!(hold.impulse.normal > 0.0)) hold.change.normal = 0.0;
-    if (!(std::abs(hold.impulse.tangential) < law.mu * hold.impulse.normal))
+    if (!(std::abs(hold.impulse.tangential) < mu * hold.impulse.normal))
       hold.change.tangential = 0.0;
     along += dot(hold.change, hold.response);
     curvature += dot(hold.direction, hold.response);
@@ -209,7 +217,8 @@ bool solveImpacts(const ImpactLaw& law, std::span<ImpactBody> bodies, std::span<
     const double approach = -normalVelocity(c, i, j);
     const double kicked = (j.kickX - i.kickX) * c.nx + (j.kickY - i.kickY) * c.ny;
     fastest = std::max({fastest, approach, approach + kicked});
-    holds[k].target = {law.en * approach, -law.et0 * slipVelocity(c, i, j)};
+    const ImpactLaw& own = lawOf(c, law);
+    holds[k].target = {own.en * approach, -own.et0 * slipVelocity(c, i, j)};
   }
   const double still = negligible * fastest;
   collideAll(law, bodies, impacts, still);
@@ -228,8 +237,8 @@ bool solveImpacts(const ImpactLaw& law, std::span<ImpactBody> bodies, std::span<
     c.normal += holds[k].impulse.normal;
     c.tangential += holds[k].impulse.tangential;
     // Rounding of a sum of two that are at the bound.
-    c.slid = law.mu > 0.0 && c.normal > 0.0 &&
-             std::abs(c.tangential) >= (1.0 - 1e-12) * law.mu * c.normal;
+    const double mu = lawOf(c, law).mu;
+    c.slid = mu > 0.0 && c.normal > 0.0 && std::abs(c.tangential) >= (1.0 - 1e-12) * mu * c.normal;
   }
   return held;
 }

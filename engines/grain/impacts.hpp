@@ -31,6 +31,7 @@ struct Impact {
   double tangential = 0.0;            ///< along s = z × n [N s]
   bool slid = false;                  ///< whether Coulomb's bound held
   std::int32_t plane = -1;            ///< whose point body j is, if it is one's
+  const ImpactLaw* law = nullptr;     ///< of the two, where it is not that of all
 };
 
 /// The impulses of one step, of disks that touch at its beginning.

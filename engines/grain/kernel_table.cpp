@@ -39,6 +39,16 @@ constexpr ContactKernel<Real> contactKernelAt() {
   return nullptr;
 }
 
+/// Of materials: under the thesis' conventions, for the effects of its cell.
+template <class Real, std::size_t Index>
+constexpr ContactKernel<Real> materialKernelAt() {
+  constexpr ContactEffects e = contactEffects(Index);
+  constexpr bool ofTheCell = e.tangential == Tangential::springDashpot && e.normalDamping &&
+                             e.rotation && Index < effectVariants;
+  if constexpr (ofTheCell) return &contactKernel<OfMaterials<LawAt<Real, Index>>, Real>;
+  return nullptr;
+}
+
 template <class Real, std::size_t Index>
 constexpr PlaneKernel<Real> planeKernelAt() {
   if constexpr (compiled(Index)) return &planeKernel<LawAt<Real, Index>, Real>;
@@ -62,6 +72,9 @@ Kernels<Real> table(std::index_sequence<C...>, std::index_sequence<M...>,
           {&kickKernel<Real, false>, &kickKernel<Real, true>},
           {planeKernelAt<Real, C>()...},
           &planeKernel<GeneralLaw<Real>, Real>,
+          {materialKernelAt<Real, C>()...},
+          &contactKernel<OfMaterials<GeneralLaw<Real>>, Real>,
+          &planeKernel<OfMaterials<GeneralLaw<Real>>, Real>,
           {&ledgerDiskKernel<Real, D>...},
           &ledgerPairKernel<Real>};
 }

@@ -19,6 +19,14 @@ struct ContactView {
   const Real *inverseMass, *inverseInertia;  ///< 0 for wall disks
   Vec<Real>* force;
   Real* torque;
+  /// Of a law of materials: that of each disk, and the laws by pairs of them.
+  const std::int32_t* material = nullptr;
+  const GeneralLaw<Real>* laws = nullptr;
+  std::int32_t materials = 0;
+
+  GRAIN_INLINE const GeneralLaw<Real>& lawOf(std::int32_t a, std::int32_t b) const {
+    return laws[a * materials + b];
+  }
 };
 
 /// Forces of a list of pairs, one entry a pair: on i, and l f_t of i and j.
@@ -112,6 +120,7 @@ struct PlaneView {
   PairMemory<Real> kept;                          ///< one a disk
   Real *overlap, *normal, *tangential, *sliding;  ///< results, one a disk; null: nobody asked
   Real *rolling, *rollingSlides;                  ///< likewise; null without rolling resistance
+  std::int32_t material = 0;                      ///< its own, of a law of materials
 };
 
 template <class Real>
@@ -160,6 +169,10 @@ struct Kernels {
   KickKernel<Real> kick[2];                   ///< without and with rotation
   PlaneKernel<Real> planes[contactVariants];  ///< likewise
   PlaneKernel<Real> generalPlanes;
+  /// The same of laws of materials, whose few planes run the general one.
+  ContactKernel<Real> materialContacts[contactVariants];
+  ContactKernel<Real> generalMaterialContacts;
+  PlaneKernel<Real> materialPlanes;
   LedgerDiskKernel<Real> ledgerDisks[ledgerDiskVariants];
   LedgerPairKernel<Real> ledgerPairs;
 };

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <iterator>
 #include <optional>
+#include <type_traits>
 
 #include "engines/grain/law.hpp"
 
@@ -86,6 +87,53 @@ struct EffectsLaw : LawConstants<Real> {
 
   explicit EffectsLaw(const GeneralLaw<Real>& general) : LawConstants<Real>(general) {}
 };
+
+/// A law whose constants are those of each pair's materials.
+template <class L>
+struct OfMaterials : L {
+  static constexpr bool ofMaterials = true;
+
+  template <class Real>
+  explicit OfMaterials(const GeneralLaw<Real>& general) : L(general) {}
+};
+
+template <class L>
+concept HasMaterials = requires {
+  L::ofMaterials;
+};
+
+/// How many constants pairs can differ in.
+inline constexpr std::size_t pairConstants = 14;
+
+/// Calls visit(which, member) for each of them that the law has a use for; which < pairConstants.
+template <class L, class Visit>
+GRAIN_INLINE void forPairConstants(const L& law, Visit&& visit) {
+  using Constants = LawConstants<std::remove_cvref_t<decltype(law.kn)>>;
+  const bool springs =
+      law.tangential == Tangential::spring || law.tangential == Tangential::springDashpot;
+  const bool dashpots =
+      law.tangential == Tangential::viscous || law.tangential == Tangential::springDashpot;
+  visit(0, &Constants::kn);
+  if (law.normal == Normal::polynomial) visit(1, &Constants::kn3);
+  if (law.normalDamping) visit(2, &Constants::gn);
+  if (law.tangential != Tangential::none) visit(3, &Constants::mu);
+  if (springs) {
+    visit(4, &Constants::kt);
+    visit(5, &Constants::inverseKt);
+  }
+  if (dashpots) visit(6, &Constants::gt);
+  if (law.rolling != Rolling::none) {
+    visit(7, &Constants::kr);
+    visit(8, &Constants::gr);
+    visit(9, &Constants::muR);
+  }
+  if (law.cohesion == Cohesion::none) return;
+  visit(10, &Constants::kc);
+  if (law.cohesion == Cohesion::dmt || law.cohesion == Cohesion::jkr) visit(11, &Constants::w);
+  if (law.cohesion != Cohesion::elastoPlastic) return;
+  visit(12, &Constants::k2);
+  visit(13, &Constants::plasticDepth);
+}
 
 /// Which of conventionSets a law has, so that only effects remain to be chosen; absent: none.
 template <class Real>

@@ -43,13 +43,15 @@ GRAIN_INLINE void LedgerSums::settleSpring(Spring kind, const HalfKicks& power) 
     release(book, book.springs[book.place++]);
   now.openingWork = power.opening * scheme_.time.opening;
   const double closingWork = power.closing * scheme_.time.closing;
+  double spent;
   if (book.place < book.springs.size() && pairOf(book.springs[book.place]) == pairOf(now)) {
-    settle(book.springs[book.place++], now, closingWork, book.lost);
+    spent = settle(book.springs[book.place++], now, closingWork, book.lost);
   } else {  // of a contact that has only begun
     SpringAccount before;
     before.modulus = now.modulus;
-    settle(before, now, closingWork, book.lost);
+    spent = settle(before, now, closingWork, book.lost);
   }
+  if (loss_ != nullptr) loss_->closing += spent;
 }
 
 void LedgerSums::endSprings() {
@@ -80,20 +82,22 @@ GRAIN_INLINE void LedgerSums::plateSpring(SpringAccount& spring, SpringAccount n
   spring = now;
 }
 
-GRAIN_INLINE void LedgerSums::settle(const SpringAccount& before, const SpringAccount& now,
-                                     double closingWork, double EnergyLedger::*term) {
+GRAIN_INLINE double LedgerSums::settle(const SpringAccount& before, const SpringAccount& now,
+                                       double closingWork, double EnergyLedger::*term) {
   const double stiffening = 0.25 * (now.modulus - before.modulus) * (before.square + now.square);
   ledger.gainedByConvention += stiffening;
-  if (before.sliding == 0 && now.sliding == 0) return;
+  if (before.sliding == 0 && now.sliding == 0) return 0.0;
   const double taken = -(before.openingWork + closingWork);
-  spend(term, taken - (now.energy - before.energy - stiffening));
+  return spend(term, taken - (now.energy - before.energy - stiffening));
 }
 
-GRAIN_INLINE void LedgerSums::spend(double EnergyLedger::*term, double loss) {
-  if (loss >= 0.0)
+GRAIN_INLINE double LedgerSums::spend(double EnergyLedger::*term, double loss) {
+  if (loss >= 0.0) {
     ledger.*term += loss;
-  else
-    ledger.gainedByConvention -= loss;
+    return loss;
+  }
+  ledger.gainedByConvention -= loss;
+  return 0.0;
 }
 
 void LedgerSums::release(const SpringBook& book, const SpringAccount& before) {

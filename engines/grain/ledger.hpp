@@ -81,7 +81,15 @@ class LedgerSums {
   /// Powers [W], > 0 to the disks.
   void workOfWall(const HalfKicks& power) { add(&EnergyLedger::workOfWalls, power, 1.0); }
   /// Powers [W] of forces that are no spring's, > 0 to the disks: their opposites are losses.
-  void lose(double EnergyLedger::*term, const HalfKicks& power) { add(term, power, -1.0); }
+  void lose(double EnergyLedger::*term, const HalfKicks& power) {
+    add(term, power, -1.0);
+    if (loss_ == nullptr) return;
+    loss_->closing -= power.closing * scheme_.time.closing;
+    loss_->opening -= power.opening * scheme_.time.opening;
+  }
+  /// Where all that is lost from now on is added up as well [J]: that of a contact; null: nowhere.
+  /// What a contact loses as it ends is in no such sum.
+  void tally(HalfKicks* loss) { loss_ = loss; }
   /// Powers [W] that a convention gives the disks.
   void gain(const HalfKicks& power) { add(&EnergyLedger::gainedByConvention, power, 1.0); }
   /// `body` is the normal force of a law that remembers: one that yields counts as sliding.
@@ -121,13 +129,15 @@ class LedgerSums {
   SpringBook& bookOf(Spring kind) { return books_[static_cast<std::size_t>(kind)]; }
 
   void add(double EnergyLedger::*term, const HalfKicks& power, double sign);
-  void settle(const SpringAccount& before, const SpringAccount& now, double closingWork,
-              double EnergyLedger::*term);
-  void spend(double EnergyLedger::*term, double loss);
+  /// @returns what is lost [J]
+  double settle(const SpringAccount& before, const SpringAccount& now, double closingWork,
+                double EnergyLedger::*term);
+  double spend(double EnergyLedger::*term, double loss);
   void release(const SpringBook& book, const SpringAccount& before);
 
   Scheme scheme_;
   EnergyLedger pending_;  ///< of the openings
+  HalfKicks* loss_ = nullptr;
   std::array<SpringBook, 3> books_{
       SpringBook{&EnergyLedger::lostSliding, &EnergyLedger::lostRelease},
       SpringBook{&EnergyLedger::lostRolling, &EnergyLedger::lostRelease},

@@ -216,10 +216,28 @@ void LedgerObserver<Real>::accountContact(const Contact& contact) {
 template <class Real>
 void LedgerObserver<Real>::accountContact(const Contact& contact, const ContactKinematics& touch,
                                           const BodyMotion* wall) {
+  if (!tallies_) return accountForces(contact, touch, wall);
+  HalfKicks loss;
+  sums_.tally(&loss);
+  accountForces(contact, touch, wall);
+  sums_.tally(nullptr);
+  const auto numberOf = [this](std::int32_t place) {
+    const auto at = static_cast<std::size_t>(place);
+    return at < core_.moving_ ? core_.idAtIndex_[at] : place;
+  };
+  const std::int32_t i = numberOf(contact.i), j = numberOf(contact.j);
+  losses_.push_back({std::min(i, j), std::max(i, j), loss});
+}
+
+/// The same, nothing kept of the contact itself.
+template <class Real>
+void LedgerObserver<Real>::accountForces(const Contact& contact, const ContactKinematics& touch,
+                                         const BodyMotion* wall) {
   const ContactMotion<Real> motion = core_.geometryOf(contact);
+  const GeneralLaw<Real>& law = core_.lawOf(contact);
   Real memory = static_cast<Real>(contact.memory);
-  const auto body = static_cast<double>(bodyForce(core_.law_, motion, memory));
-  const auto energy = static_cast<double>(bodyEnergy(core_.law_, motion, memory));
+  const auto body = static_cast<double>(bodyForce(law, motion, memory));
+  const auto energy = static_cast<double>(bodyEnergy(law, motion, memory));
   sums_.ledger.elasticNormal += energy;
   sums_.lose(&EnergyLedger::lostNormalDamping, times(contact.normalForce - body, touch.normal));
   if (core_.lists_.springs().memory) {
@@ -244,7 +262,7 @@ void LedgerObserver<Real>::accountContact(const Contact& contact, const ContactK
   sums_.gain({contact.tangentialForce * (touch.tangential.closing - touch.slip.closing),
               contact.tangentialForce * (touch.tangential.opening - touch.slip.opening)});
   if (core_.lists_.springs().sliding) {
-    accountSpring(contact, touch, static_cast<double>(tangentialStiffness(core_.law_, motion)));
+    accountSpring(contact, touch, static_cast<double>(tangentialStiffness(law, motion)));
   } else {
     sums_.lose(contact.sliding ? &EnergyLedger::lostSliding : &EnergyLedger::lostTangentialDamping,
                times(contact.tangentialForce, touch.slip));
@@ -294,7 +312,8 @@ void LedgerObserver<Real>::accountRolling(const Contact& contact, const ContactK
   account.i = contact.i;
   account.j = contact.j;
   account.sliding = contact.rollingSlides;
-  account.modulus = static_cast<double>(core_.law_.kr * core_.rollingLengths(contact).square);
+  account.modulus =
+      static_cast<double>(core_.lawOf(contact).kr * core_.rollingLengths(contact).square);
   account.square = angle * angle;
   account.energy = 0.5 * account.modulus * account.square;
   sums_.ledger.elasticRolling += account.energy;

@@ -1,5 +1,9 @@
 #include "engines/grain/ledger_observer.hpp"
 
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
 #include "engines/grain/contact_force.hpp"
 #include "engines/grain/core.hpp"
 #include "engines/grain/reorder.hpp"
@@ -69,13 +73,41 @@ void LedgerObserver<Real>::renumber(std::span<const std::int32_t> order,
 
 template <class Real>
 void LedgerObserver<Real>::begin() {
+  tallies_ = true;
   account(0.0);
   sums_.begin();
 }
 
 template <class Real>
-void LedgerObserver<Real>::afterForces() {
+void LedgerObserver<Real>::afterForces(bool tally) {
+  tallies_ = tally;
+  std::swap(losses_, lossesBefore_);
+  losses_.clear();
   account(toForces_);
+}
+
+template <class Real>
+std::vector<double> LedgerObserver<Real>::contactLosses(
+    const std::vector<Contact>& contacts) const {
+  const auto pairOf = [](const auto& of) { return std::pair(of.i, of.j); };
+  const auto sorted = [&](std::vector<ContactLoss> losses) {
+    std::ranges::sort(losses, {}, pairOf);
+    return losses;
+  };
+  const auto now = sorted(losses_), before = sorted(lossesBefore_);
+  const auto of = [&](const std::vector<ContactLoss>& losses, const Contact& contact) {
+    const auto found = std::ranges::lower_bound(losses, pairOf(contact), {}, pairOf);
+    return found != losses.end() && pairOf(*found) == pairOf(contact) ? found->loss : HalfKicks{};
+  };
+  const HalfKicks& time = sums_.scheme().time;
+  std::vector<double> powers;
+  for (const Contact& contact : contacts) {
+    const double closing = of(now, contact).closing, opening = of(now, contact).opening;
+    powers.push_back(core_.steps() == 0
+                         ? opening / time.opening
+                         : (of(before, contact).opening + closing) / (time.opening + time.closing));
+  }
+  return powers;
 }
 
 /// @param time  from the stored velocities to that of the forces [s]

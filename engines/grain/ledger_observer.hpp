@@ -33,7 +33,8 @@ class LedgerObserver {
   void begin();
   /// Before the motion kernel stretches the plate's springs.
   void beforeMotion();
-  void afterForces();
+  /// @param tally  whether contactLosses() is to know of this step
+  void afterForces(bool tally);
   /// After a checkpoint is restored.
   void placesRestored() { takeMasses(); }
   /// Places change. @param order  the old place of each new one; scratch: as of reorder()
@@ -41,6 +42,10 @@ class LedgerObserver {
                 std::vector<std::byte>& scratch);
 
   const EnergyLedger& ledger() const { return sums_.ledger; }
+  /// Power that each of these contacts turned into heat in the step that led here, at t = 0 in the
+  /// half kick from there [W]: what their dashpots lost, and what sliding, rolling and yield took.
+  /// @pre the last two evaluations were tallied, or all there are
+  std::vector<double> contactLosses(const std::vector<Contact>& contacts) const;
 
   /// Calls visit(sums), visitAll(springs) and visitSame(list of known length) for all that a
   /// checkpoint has to keep.
@@ -48,6 +53,7 @@ class LedgerObserver {
   static void forState(Self& self, Visit&& visit, VisitAll&& visitAll, VisitSame&& visitSame) {
     LedgerSums::forState(self.sums_, visit, visitAll);
     visitSame(self.plateAccounts_);
+    visitAll(self.losses_);
   }
 
  private:
@@ -62,6 +68,12 @@ class LedgerObserver {
     DiskMotions view() { return {velocity.data(), spin.data()}; }
   };
 
+  /// What a contact lost, by numbers i < j [J].
+  struct ContactLoss {
+    std::int32_t i, j;
+    HalfKicks loss;
+  };
+
   void account(double time);
   void lookAtDisks(double time);
   void accountPairs();
@@ -70,6 +82,8 @@ class LedgerObserver {
   void accountContact(const Contact& contact);
   void accountContact(const Contact& contact, const ContactKinematics& touch,
                       const BodyMotion* wall);
+  void accountForces(const Contact& contact, const ContactKinematics& touch,
+                     const BodyMotion* wall);
   void accountSpring(const Contact& contact, const ContactKinematics& touch, double stiffness);
   void accountRolling(const Contact& contact, const ContactKinematics& touch);
   void accountDisks();
@@ -94,6 +108,8 @@ class LedgerObserver {
   std::vector<double> plateSlides_, plateSquare_;
   std::vector<PlatePower> plateClosing_, plateOpening_;
   std::vector<SpringAccount> plateAccounts_;
+  std::vector<ContactLoss> losses_, lossesBefore_;  ///< of this evaluation and the one before
+  bool tallies_ = false;
   // The pairs at hand, and where they are from.
   LedgerPairs<Real> pairs_;
   std::size_t pairCount_ = 0;

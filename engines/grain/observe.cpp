@@ -216,13 +216,14 @@ double Core<Real>::elasticEnergy() const {
   for (const Contact& numbered : contacts()) {
     const Contact contact = byPlace(numbered);
     const ContactMotion<Real> motion = geometryOf(contact);
-    energy += static_cast<double>(storedEnergy(law_, motion, static_cast<Real>(contact.spring)));
+    const GeneralLaw<Real>& law = lawOf(contact);
+    energy += static_cast<double>(storedEnergy(law, motion, static_cast<Real>(contact.spring)));
     if (law_.cohesion != Cohesion::none)
-      energy += static_cast<double>(bodyEnergy(law_, motion, static_cast<Real>(contact.memory)) -
-                                    storedEnergy(law_, motion, Real(0)));
+      energy += static_cast<double>(bodyEnergy(law, motion, static_cast<Real>(contact.memory)) -
+                                    storedEnergy(law, motion, Real(0)));
     if (law_.rolling == Rolling::spring)
-      energy += 0.5 * static_cast<double>(law_.kr * rollingLengths(contact).square) *
-                contact.angle * contact.angle;
+      energy += 0.5 * static_cast<double>(law.kr * rollingLengths(contact).square) * contact.angle *
+                contact.angle;
   }
   return energy;
 }

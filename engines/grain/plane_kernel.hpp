@@ -5,14 +5,31 @@
 
 namespace grain {
 
+/// The law of a disk with the plane: of a law without materials that one itself.
+template <class L, class Real>
+GRAIN_INLINE const L& lawAtPlane(const L& law, const ContactView<Real>&, const PlaneView<Real>&,
+                                 std::size_t) {
+  return law;
+}
+template <HasMaterials L, class Real>
+GRAIN_INLINE L lawAtPlane(const L& law, const ContactView<Real>& disks,
+                          const PlaneView<Real>& plane, std::size_t i) {
+  L own = law;
+  const GeneralLaw<Real>& constants = disks.lawOf(disks.material[i], plane.material);
+  forPairConstants(
+      law, [&](std::size_t, auto member) GRAIN_INLINE_LAMBDA { own.*member = constants.*member; });
+  return own;
+}
+
 /// Disks begin … end−1 against one plane. Planes are few and few disks touch one, so disks are
 /// taken one by one.
 template <class L, class Real>
 static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactView<Real>& disks,
                                const PlaneView<Real>& plane, std::size_t begin, std::size_t end) {
-  const L law(general);
+  const L common(general);
   std::size_t touching = 0;
   for (std::size_t i = begin; i < end; ++i) {
+    const L& law = lawAtPlane(common, disks, plane, i);
     // Origin and plane first: where the disk touches their difference is small.
     Vec<double> origin{0.0, 0.0};
     if constexpr (hasLocalCoordinates<Real>)

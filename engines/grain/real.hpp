@@ -34,6 +34,7 @@ using Array = std::vector<T, CacheLineAllocator<T>>;
 // for several instruction sets, and the linker would keep one arbitrary copy of a function that
 // was not inlined.
 #define GRAIN_INLINE [[gnu::always_inline]] inline
+#define GRAIN_INLINE_LAMBDA __attribute__((always_inline))
 
 GRAIN_INLINE double squareRoot(double v) {
   return __builtin_sqrt(v);

@@ -27,7 +27,8 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 void Simulation::advance(std::uint64_t steps) {
   with(core_, [&](auto& core) {
-    for (std::uint64_t left = steps; left-- > 0;) core.step(left == 0);
+    // A contact's loss over the last step began with the forces of the one before.
+    for (std::uint64_t left = steps; left-- > 0;) core.step(left == 0, left <= 1);
   });
 }
 
@@ -114,6 +115,10 @@ double Simulation::elasticEnergy() const {
 
 const EnergyLedger* Simulation::energyLedger() const {
   return with(core_, [](const auto& core) { return core.energyLedger(); });
+}
+
+std::vector<double> Simulation::contactLosses() const {
+  return with(core_, [](const auto& core) { return core.contactLosses(); });
 }
 
 Simulation::Neighbours Simulation::neighbours() const {

@@ -80,6 +80,10 @@ class Simulation {
   /// Where the energy is and went, kept step by step where Setup::ledger asks for it, else nullptr.
   const EnergyLedger* energyLedger() const;
 
+  /// Power that each of contacts() turned into heat, by dashpots, sliding, rolling and yield, in
+  /// the step that led to time(); at t = 0 in the half kick from there. Empty without a ledger [W].
+  std::vector<double> contactLosses() const;
+
   /// How the neighbour lists fare; differs from run to run where the skin is tuned.
   struct Neighbours {
     std::size_t rebuilds, refreshes, nearPairs, farPairs;

@@ -20,7 +20,7 @@ constexpr std::uint64_t renumberingInterval = 8192;
 
 ///   kick: v += a dt   drift: x += v dt   move walls   forces: a(x, v)
 template <class Real>
-void Core<Real>::step(bool record) {
+void Core<Real>::step(bool record, bool tally) {
   known_.reset();
   if (ledger_) ledger_->beforeMotion();
   advanceDisks();
@@ -29,7 +29,7 @@ void Core<Real>::step(bool record) {
   if (steps_ % renumberingInterval == 0) renumber();
   if (outdated_) updateNeighbours();
   addForces(record || ledger_ != nullptr);
-  if (ledger_) ledger_->afterForces();
+  if (ledger_) ledger_->afterForces(tally);
   if (integrator_ == Integrator::velocityVerlet) kick(static_cast<Real>(0.5 * dt_));
 }
 

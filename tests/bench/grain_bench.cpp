@@ -7,6 +7,7 @@
 #include <barrier>
 #include <chrono>
 #include <map>
+#include <numbers>
 #include <thread>
 #include <vector>
 
@@ -100,6 +101,30 @@ Traffic stepTraffic(const Setup& setup) {
   return traffic;
 }
 
+/// Springs against rolling, k_r = k_t (Iwashita and Oda 1998).
+void resistRolling(Setup& s) {
+  s.law.rolling = grain::Rolling::spring;
+  s.law.kr = s.law.kt;
+  s.law.muR = 0.3;
+}
+
+/// A pull of a tenth of the elastic force, 2π k_c R₁₂ = k_n/10 of two small disks.
+void cohere(Setup& s) {
+  s.law.cohesion = grain::Cohesion::area;
+  s.law.kc = 0.1 * s.law.kn / (std::numbers::pi * s.disks.radius.front());
+}
+
+/// Disks of two materials in turn, walls of a third, and all pairs with the same law: the contacts
+/// are those of the law without materials.
+void mix(Setup& s) {
+  grain::Materials& materials = s.materials.emplace();
+  materials.count = 3;
+  for (std::size_t i = 0; i < s.disks.size(); ++i)
+    materials.ofDisk.push_back(static_cast<std::int32_t>(i % 2));
+  materials.ofWall.assign(s.walls.size(), 2);
+  materials.laws.assign(9, s.law);
+}
+
 /// One set of effects: the thesis' law, changed.
 struct EffectSet {
   const char* name;
@@ -120,6 +145,20 @@ constexpr EffectSet effectSets[] = {
     {"cut_tension", [](Setup& s) { s.law.cutTension = true; }},
     {"no_rotation", [](Setup& s) { s.rotation = false; }},
     {"ledger", [](Setup& s) { s.ledger = true; }},
+    {"rolling", resistRolling},
+    {"cohesion", cohere},
+    {"rolling_cohesion",
+     [](Setup& s) {
+       resistRolling(s);
+       cohere(s);
+     }},
+    {"materials", mix},
+    {"rolling_cohesion_materials",
+     [](Setup& s) {
+       resistRolling(s);
+       cohere(s);
+       mix(s);
+     }},
 };
 
 std::filesystem::path packingFolder;
