@@ -24,11 +24,6 @@ double normalStiffness(const SoftLaw& law, const PairMotion& motion) {
   return 1.5 * law.kn * std::sqrt(motion.radius() * std::max(motion.overlap, 0.0));
 }
 
-double tangentialStiffness(const SoftLaw& law, const PairMotion& motion) {
-  if (law.normal == Normal::linear) return law.kt;
-  return law.kt * std::sqrt(motion.radius() * std::max(motion.overlap, 0.0));
-}
-
 double damping(const SoftLaw& law, double constant, double stiffness, double mass) {
   switch (law.damper) {
     case Damper::viscoelastic:
@@ -91,6 +86,16 @@ struct Jkr {
   }
 };
 
+/// k_t times the contact's radius, Hertz' or JKR's.
+double tangentialStiffness(const SoftLaw& law, const PairMotion& motion) {
+  if (law.normal == Normal::linear) return law.kt;
+  if (law.cohesion == Cohesion::jkr) {
+    const double root = Jkr(law, motion.radius()).rootAt(motion.overlap);
+    return law.kt * root * root;
+  }
+  return law.kt * std::sqrt(motion.radius() * std::max(motion.overlap, 0.0));
+}
+
 /// Unloading by k₂(δ_max) = k_n + (k₂max − k_n) min(δ_max/δ*, 1) to δ₀ = (1 − k_n/k₂) δ_max, and on
 /// −k_c δ, where δ_max falls so that the line of unloading meets the present point (Luding 2008).
 double plasticForce(const SoftLaw& law, const PairMotion& motion, double& largest) {
@@ -134,9 +139,11 @@ double loadOf(const SoftLaw& law, const PairMotion& motion, double normal, doubl
   const double pull = pullOff(law, motion.radius());
   switch (law.cohesionLoad) {
     case CohesionLoad::plusTwicePullOff:
-      return normal + 2.0 * pull;
+      return pull > 0.0 ? body + 2.0 * pull : normal;
     case CohesionLoad::magnitudePlusPullOff:
       return std::abs(normal) + pull;
+    case CohesionLoad::netWithoutDashpot:
+      return body;
     case CohesionLoad::withoutPull:
       return law.cohesion == Cohesion::elastoPlastic ? normal - std::min(body, 0.0)
                                                      : normal - body + elasticForce(law, motion);

@@ -23,7 +23,13 @@ enum class Cohesion { none, area, dmt, jkr, elastoPlastic };
 enum class CohesionArea { lens, firstOrder, twiceBetweenDisks };
 enum class JkrEnd { largestPull, branch };
 /// What bounds take for f_n: f_n, f_n without the pull, f_n + 2 F_po, |f_n| + F_po.
-enum class CohesionLoad { net, withoutPull, plusTwicePullOff, magnitudePlusPullOff };
+enum class CohesionLoad {
+  net,
+  withoutPull,
+  plusTwicePullOff,
+  magnitudePlusPullOff,
+  netWithoutDashpot
+};
 
 /// A soft contact law and its conventions.
 ///
