@@ -96,7 +96,6 @@ class Scene:
     def set_up(self, position, kind, skin):
         """An empty box for atoms of that many types."""
         depth, reach = self.extent(position)
-        self.reach = reach
         self.run(
             f"""units si
             dimension 2
@@ -123,19 +122,11 @@ class Scene:
         return " sort 0 0"
 
     def list_lines(self, skin):
-        """Of neighbours: made anew as atoms move; under JKR once, of all pairs.
-
-        @raise Unsupported where these are too many"""
-        if not self.law.bonds:
-            return f"""neighbor {skin!r} {"bin" if self.atoms > FEW else "nsq"}
+        """Of neighbours. They are those nearer than the skin, so that a bond which is longer is lost as lists are made anew."""
+        if self.law.bonds:
+            skin = max(skin, 1.01 * jkr.largest_range(self))
+        return f"""neighbor {skin!r} {"bin" if self.atoms > FEW else "nsq"}
             neigh_modify delay 0 every 1 check yes"""
-        if self.atoms > jkr.MOST:
-            raise Unsupported(
-                f'has cohesion = "jkr" for at most {jkr.MOST} bodies, not {self.atoms}: it drops bonds as it makes lists of '
-                "neighbours anew, so they are made once, of all pairs"
-            )
-        return f"""neighbor {4.0 * self.reach!r} nsq
-            neigh_modify delay 0 every 1 check yes one {self.atoms} page {100 * self.atoms}"""
 
     def law_lines(self):
         if self.laws.count == 1:

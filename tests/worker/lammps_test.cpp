@@ -133,8 +133,9 @@ double jkrForce(double kn, double w, double radius, double overlap) {
 using LammpsAlone = LammpsWorkers;
 
 TEST_P(LammpsAlone, BondOfJkr_OutlastsLists) {
-  // Disks part slowly while they fly 20 radii, so that LAMMPS would make its lists anew a hundred
-  // times; beyond the range a_p²/(3 R₁₂) nothing acts.
+  // Disks part slowly while they fly 20 radii, so that LAMMPS makes its lists anew again and again;
+  // with the skin as asked for, a third of the bond's range a_p²/(3 R₁₂), it would lose the bond
+  // there. Beyond that range nothing acts.
   Scene scene = emptyScene(NormalLaw::hertz);
   ContactLaw& law = scene.law;
   law.cohesion = CohesionLaw::jkr;
@@ -145,7 +146,7 @@ TEST_P(LammpsAlone, BondOfJkr_OutlastsLists) {
   scene.dt = 1e-6;
   addDisk(scene, smallRadius, heavy, {0.0, 0.0}, {10.0, 0.0});
   addDisk(scene, smallRadius, heavy, {0.0, 2.0 * smallRadius - 0.1 * range}, {10.0, 200.0 * range});
-  engine_->load(scene, {});
+  engine_->load(scene, {{"skin", 0.3 * range / smallRadius}});
   bool stretched = false, parted = false;
   double before = 0.0, speed = 200.0 * range;
   for (int k = 1; k <= 8; ++k) {
