@@ -113,6 +113,10 @@ TEST_P(LammpsWorkers, RollingSpringOfAPair_OscillatesAsItsStiffnessSays) {
                            0.5 * smallRadius);
 }
 
+TEST_P(LammpsWorkers, RollingSpringAtAPlane_OscillatesAsItsStiffnessSays) {
+  expectRollingOscillation(*engine_, planeWall({0.0, 0.0}, {0.0, 1.0}), smallRadius, smallRadius);
+}
+
 INSTANTIATE_TEST_SUITE_P(Both, LammpsWorkers, ::testing::Values("lammps", "liggghts"),
                          [](const auto& each) { return std::string(each.param); });
 
@@ -172,10 +176,6 @@ TEST_P(LammpsAlone, BondOfJkr_OutlastsLists) {
     speed += slower;
   }
   EXPECT_TRUE(stretched && parted);
-}
-
-TEST_P(LammpsAlone, RollingSpringAtAPlane_OscillatesAsItsStiffnessSays) {
-  expectRollingOscillation(*engine_, planeWall({0.0, 0.0}, {0.0, 1.0}), smallRadius, smallRadius);
 }
 
 TEST_P(LammpsAlone, CohesionAtPlanes_IsRefusedWhereItIsWrong) {
