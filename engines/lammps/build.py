@@ -31,7 +31,12 @@ def check(scene, bodies, arrays):
 
 
 class Scene:
-    """A scene as LAMMPS has it. Sets each body's disk_ids and plane_numbers."""
+    """A scene as LAMMPS has it. Sets each body's disk_ids and plane_numbers.
+
+    plane_arm, plane_point  what of the overlap the arm of f_t at a plane is shorter than a, and how much nearer to the
+                            centre than a the force on the plane is taken to act"""
+
+    plane_arm, plane_point = 0.0, 1.0
 
     def __init__(self, lammps, scene, arrays, bodies, laws, rotation):
         self.lammps, self.scene, self.arrays = lammps, scene, arrays
@@ -82,7 +87,7 @@ class Scene:
         for k, body in enumerate(bodies, self.first_body):
             self.leave_out_pairs(k)
             for number, plane in zip(body.plane_numbers, body.planes):
-                self.raise_plane(number, plane, self.materials_of_types[k - 1])
+                self.raise_plane(number, plane, k)
         self.stretch_springs()
         self.integrate()
         for k, body in enumerate(bodies, self.first_body):
@@ -96,7 +101,6 @@ class Scene:
     def set_up(self, position, kind, skin):
         """An empty box for atoms of that many types."""
         depth, reach = self.extent(position)
-        self.reach = reach
         self.run(
             f"""units si
             dimension 2
@@ -123,19 +127,11 @@ class Scene:
         return " sort 0 0"
 
     def list_lines(self, skin):
-        """Of neighbours: made anew as atoms move; under JKR once, of all pairs.
-
-        @raise Unsupported where these are too many"""
-        if not self.law.bonds:
-            return f"""neighbor {skin!r} {"bin" if self.atoms > FEW else "nsq"}
+        """Of neighbours. They are those nearer than the skin, so that a bond which is longer is lost as lists are made anew."""
+        if self.law.bonds:
+            skin = max(skin, 1.01 * jkr.largest_range(self))
+        return f"""neighbor {skin!r} {"bin" if self.atoms > FEW else "nsq"}
             neigh_modify delay 0 every 1 check yes"""
-        if self.atoms > jkr.MOST:
-            raise Unsupported(
-                f'has cohesion = "jkr" for at most {jkr.MOST} bodies, not {self.atoms}: it drops bonds as it makes lists of '
-                "neighbours anew, so they are made once, of all pairs"
-            )
-        return f"""neighbor {4.0 * self.reach!r} nsq
-            neigh_modify delay 0 every 1 check yes one {self.atoms} page {100 * self.atoms}"""
 
     def law_lines(self):
         if self.laws.count == 1:
@@ -181,6 +177,9 @@ class Scene:
             x, y = (g / gravity for g in self.scene["gravity"])
             self.lammps.command(f"fix gravity disks gravity {gravity!r} vector {x!r} {y!r} 0")
         self.lammps.command(f"fix motion disks {self.motion_style()}")
+        self.keep_in_plane()
+
+    def keep_in_plane(self):
         self.lammps.command("fix plane all enforce2d")
 
     def motion_style(self):
@@ -215,15 +214,15 @@ class Scene:
             words = f"wiggle {x!r} {y!r} 0 {2.0 * math.pi / motion['frequency']!r}"
         self.lammps.command(f"fix move{kind} {group} move {words}")
 
-    def raise_plane(self, number, plane, material):
-        """A fix for each material of disks."""
+    def raise_plane(self, number, plane, kind):
+        """A fix for each material of disks. @param kind  type of its body"""
         axis = 0 if plane["normal"][0] else 1
         place = repr(float(plane["point"][axis]))
         ends = f"{place} NULL" if plane["normal"][axis] > 0 else f"NULL {place}"
         for name, group, of_disks in self.plane_fixes(number):
             if group != "disks":
                 self.lammps.command(f"group {group} type {1 + of_disks}")
-            words = self.laws.between(of_disks, material).words(plane=True)
+            words = self.laws.between(of_disks, self.materials_of_types[kind - 1]).words(plane=True)
             self.lammps.command(f"fix {name} {group} wall/gran granular {words} {'xy'[axis]}plane {ends} contacts")
 
     def plane_fixes(self, number):

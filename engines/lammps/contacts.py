@@ -73,7 +73,7 @@ def torques_at_planes(made, columns, torque):
     radius = np.concatenate([made.radius, np.zeros(made.planes)])
     known = np.where(unknown, 0.0, rolling)
     at_plane = j >= made.atoms
-    np.add.at(left, i, (radius[i] - np.where(at_plane, 0.0, 0.5 * overlap)) * tangential - known)
+    np.add.at(left, i, (radius[i] - np.where(at_plane, made.plane_arm, 0.5) * overlap) * tangential - known)
     pair = ~at_plane
     np.add.at(left, j[pair], ((radius[j] - 0.5 * overlap) * tangential + known)[pair])
     return np.where(unknown, left[i], rolling)

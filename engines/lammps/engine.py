@@ -134,8 +134,11 @@ class Engine:
             "velocity_lag": 0.0,
             "effects": self.effects(scene),
             "pairs": self.laws.table(),
-            "deviations": [],
+            "deviations": self.deviations(),
         }
+
+    def deviations(self):
+        return []
 
     def effects(self, scene):
         """Those that the scene calls for."""
@@ -260,10 +263,12 @@ class Engine:
         for k, point in zip(body.plane_numbers, points):
             on_plane = -on_planes[k][: self.disks]
             total = total + on_plane.sum(axis=0)
-            # Where a disk's centre is projected onto the plane.
+            # On the line from a disk's centre to its projection onto the plane.
             normal = self.made.plane_normals[k]
             gap = (position[: self.disks] - point) @ normal
-            arm = position[: self.disks] - gap[:, None] * normal - centre
+            overlap = self.made.radius[: self.disks] - gap
+            apart = gap + (1.0 - self.made.plane_point) * overlap
+            arm = position[: self.disks] - apart[:, None] * normal - centre
             moment += (arm[:, 0] * on_plane[:, 1] - arm[:, 1] * on_plane[:, 0]).sum()
         return {
             "centre": centre.tolist(),

@@ -9,7 +9,6 @@ import math
 import numpy as np
 
 RANGE = 1.0 / 3.0  # of a bond, in units of a_p²/R₁₂: LAMMPS' ends at the largest pull
-MOST = 2000  # bodies: all pairs are kept, see Bonds
 ENLARGED = 10.0  # ranges by which radii are larger while LAMMPS is asked: no spring is beyond its bound then
 
 
@@ -29,43 +28,54 @@ def contact(kn, w, radius, overlap):
 
 
 class Bonds:
-    """Which pairs of atoms are in contact. They are from when they touch until the range of their bond.
-
-    LAMMPS drops a bond that is beyond its geometric end where it makes the neighbour lists anew, so these are made once,
-    of all pairs."""
+    """Which pairs of atoms, i < j, are in contact: from when they touch until the range of their bond."""
 
     def __init__(self, made, position):
         self.made = made
-        count = made.atoms
-        self.i, self.j = np.triu_indices(count, 1)
-        movable = self.i < made.scene["disks"]
-        self.i, self.j = self.i[movable], self.j[movable]
+        self.slack = 0.5 * made.radius.min()  # what atoms may move before pairs are looked for anew
+        self.i = self.j = np.empty(0, int)
+        self.held = np.empty(0, bool)
+        self.look_for_pairs(position)
+
+    def look_for_pairs(self, position):
+        """All that are near; those that hold stay held."""
+        made = self.made
+        before = self.keys()[self.held]
+        reach = 2.0 * self.slack + largest_range(made)
+        near = [
+            i + 1 + np.flatnonzero(self.distances(position, i, slice(i + 1, None)) < made.radius[i] + made.radius[i + 1 :] + reach)
+            for i in range(made.scene["disks"])
+        ]
+        self.i = np.repeat(np.arange(len(near)), list(map(len, near)))
+        self.j = np.concatenate(near)
+        self.held = np.isin(self.keys(), before)
         radius, self.reach = made.radii(self.i, self.j)
         self.range = made.laws.of_pairs("bond_range", self.i, self.j, radius)
-        self.held = np.zeros(len(self.i), bool)
-        self.slack = 0.5 * made.radius.min()
-        self.look_anew(position)
-
-    def look_anew(self, position):
-        """At which pairs are near."""
         self.seen = position.copy()
-        self.near = np.flatnonzero(self.distances(position, slice(None)) < self.reach + self.range + 2.0 * self.slack)
 
-    def distances(self, position, which):
-        apart = position[self.i[which]] - position[self.j[which]]
+    def keys(self):
+        return self.i * self.made.atoms + self.j
+
+    @staticmethod
+    def distances(position, i, j):
+        apart = position[i] - position[j]
         return np.hypot(apart[:, 0], apart[:, 1])
 
     def follow(self, position):
         """To be called with the positions of every step."""
         moved = position - self.seen
         if (moved * moved).sum(axis=1).max() > self.slack**2:
-            self.look_anew(position)
-        near = self.near
-        limit = self.reach[near] + np.where(self.held[near], self.range[near], 0.0)
-        self.held[near] = self.distances(position, near) < limit
+            self.look_for_pairs(position)
+        limit = self.reach + np.where(self.held, self.range, 0.0)
+        self.held = self.distances(position, self.i, self.j) < limit
 
     def count(self):
         return int(self.held.sum())
+
+
+def largest_range(made):
+    """No bond of the scene is longer [m]."""
+    return max(law.bond_range(made.radius.max()) for law in made.laws.all)
 
 
 def pair_rows(lammps, law, bonds):
@@ -97,7 +107,7 @@ def pair_rows(lammps, law, bonds):
 
 
 def enlarged(bonds):
-    return bonds.made.radius + ENLARGED * bonds.range.max(initial=0.0)
+    return bonds.made.radius + ENLARGED * largest_range(bonds.made)
 
 
 def contacts_of_rows(rows, made, position, bonds):

@@ -87,24 +87,32 @@ class Law:
         return found
 
     def words(self):
+        return f"{self.model_words()} {self.setting_words()}"
+
+    def model_words(self):
         tangential = "history" if self.friction else "off"
-        damping = "on" if self.dashpot else "off"
         models = f"model hooke/stiffness tangential {tangential}"
         if self.cohesion != "none":
             models += f" cohesion {self.area_model}"
         if self.rolls:
             models += f" rolling_friction {self.rolling_model}"
-        words = f"{models} tangential_damping {damping} absolute_damping on limitForce off"
+        return models
+
+    def setting_words(self):
+        damping = "on" if self.dashpot else "off"
+        words = f"tangential_damping {damping} absolute_damping on limitForce off"
         return words + (f" tangential_reduce {'on' if self.net else 'off'}" if self.cohesion != "none" else "")
 
     def pull(self, overlap, radius, reach):
-        """k_c A of two disks. A is the lens of two spheres, or 4π R₁₂ δ."""
+        """k_c A. A is the lens of two spheres, at a plane its disk, or 4π R₁₂ δ, at a plane half that."""
         if self.cohesion == "none":
             return 0.0
+        at_plane = radius == reach
         if self.area_model == "sjkr2":
-            return self.kc * 4.0 * math.pi * radius * overlap
+            return self.kc * np.where(at_plane, 2.0, 4.0) * math.pi * radius * overlap
         d2 = (reach - overlap) ** 2
-        return self.kc * 0.25 * math.pi * overlap * (2.0 * reach - overlap) * (d2 - reach * (reach - 4.0 * radius)) / d2
+        lens = 0.25 * math.pi * overlap * (2.0 * reach - overlap) * (d2 - reach * (reach - 4.0 * radius)) / d2
+        return self.kc * np.where(at_plane, math.pi * overlap * (2.0 * reach - overlap), lens)
 
     def load(self, pressing, overlap, radius, reach):
         """What µ and µ_r multiply the magnitude of: f_n, the pull in it or not."""
@@ -123,7 +131,7 @@ class Law:
 
         @param spring   torque of the spring on it [N m]
         @param spin     ω of the first less that of the second [rad/s]
-        @param inertia  of 1/I = Σ 1/(3/2 m a²) [kg m²]"""
+        @param inertia  of 1/I = Σ 1/(J + m a²) [kg m²]"""
         bound = self.mu_r * radius * np.abs(self.load(pressing, overlap, radius, reach))
         dashpot = -2.0 * self.gr * np.sqrt(inertia * self.kr) * radius * spin
         return np.where(np.abs(spring) < AT_THE_BOUND * bound, spring + dashpot, spring)

@@ -6,7 +6,7 @@ import build
 import numpy as np
 from contacts import pair_geometry, turned
 from crossgrain_worker import Unsupported
-from library import ARRAY, LOCAL, Lammps
+from library import ARRAY, ATOM, LOCAL, Lammps
 
 SHARED = "libliggghts.so.3"
 # Pairs nearer than so many sums of their radii are looked at, and those that do not touch lose their spring. With 1.0,
@@ -30,6 +30,14 @@ class Liggghts(Lammps):
     def own_count(self):
         return self.atoms()  # one rank
 
+    def set_fix_array(self, name, values):
+        """The first columns of a fix's array."""
+        pointer = self.library.lammps_extract_fix(self.handle, name.encode(), ATOM, ARRAY, 0, 0)
+        rows = ctypes.cast(pointer, ctypes.POINTER(ctypes.POINTER(ctypes.c_double)))
+        for atom, row in enumerate(values):
+            for column, value in enumerate(row):
+                rows[atom][column] = value
+
     def count_of_compute(self, name):
         """LIGGGHTS does not report the rows of a local compute: half of all disks' partners."""
         self.library.lammps_extract_compute.restype = ctypes.c_void_p
@@ -39,15 +47,21 @@ class Liggghts(Lammps):
 
 
 class Scene(build.Scene):
+    plane_arm, plane_point = 0.5, 0.5
+
+    def dimension(self):
+        """LIGGGHTS has J = m a²/2 in two dimensions and 2/5 m a² in three, where nothing leaves the plane either."""
+        return 3 if self.rotation and build.shape_of(self.arrays) == "" else 2
+
     def set_up(self, position, kind, skin):
         depth, reach = self.extent(position)
         kinds = len(self.materials_of_types)
         self.run(
             f"""units si
-            dimension 2
+            dimension {self.dimension()}
             atom_style granular
             atom_modify map array sort 0 0
-            boundary f f p
+            boundary f f {"f" if self.dimension() == 3 else "p"}
             newton off
             communicate single vel yes
             region everywhere block {-reach!r} {reach!r} {-reach!r} {reach!r} {-depth!r} {depth!r} units box
@@ -75,9 +89,21 @@ class Scene(build.Scene):
             thermo 1000000"""
         )
 
+    def raise_plane(self, number, plane, kind):
+        axis = 0 if plane["normal"][0] else 1
+        place = repr(float(plane["point"][axis]))
+        models, settings = self.law.model_words(), self.law.setting_words()
+        self.lammps.command(
+            f"fix plane{number} disks wall/gran {models} primitive type {kind} {'xy'[axis]}plane {place} store_force yes {settings}"
+        )
+
+    def forces_of_plane(self, number):
+        return self.lammps.fix_array(f"force_plane{number}", 3)[:, :2]
+
     def stretch_springs(self):
         super().stretch_springs()
         self.first = self.lammps.gather("f", 3), self.lammps.gather("torque", 3)
+        self.first_of_planes = [self.forces_of_plane(number) for number in range(self.planes)]
 
     def put_first_forces(self):
         """A run is set up by evaluating the law once more, which shows sliding contacts with a dashpot (read_contacts
@@ -87,6 +113,12 @@ class Scene(build.Scene):
         force[:n, :2] += self.arrays["disks.mass"][:, None] * self.scene["gravity"]
         self.lammps.scatter("f", force)
         self.lammps.scatter("torque", torque)
+        for number, forces in enumerate(self.first_of_planes):
+            self.lammps.set_fix_array(f"force_plane{number}", forces)
+
+    def keep_in_plane(self):
+        if self.dimension() == 2:
+            super().keep_in_plane()
 
     def motion_style(self):
         # Without rotation torques are summed up and spin nothing.
@@ -115,7 +147,7 @@ def rolling_torques(rows, made, i, j, normal, overlap, sign, pressing):
     mass = np.full(made.atoms, build.IMMOVABLE)
     mass[: made.scene["disks"]] = made.arrays["disks.mass"]
     of_i, of_j = mass[i] * made.radius[i] ** 2, mass[j] * made.radius[j] ** 2
-    inertia = 1.5 * of_i * of_j / (of_i + of_j)
+    inertia = (1.5 if made.dimension() == 2 else 1.4) * of_i * of_j / (of_i + of_j)
     columns = -sign * rows[:, -2], sign * rows[:, -1], pressing, overlap, radius, reach, inertia
     return made.laws.of_pairs("rolling_torque", i, j, *columns)
 

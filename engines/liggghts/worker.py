@@ -25,6 +25,7 @@ class LiggghtsEngine(Engine):
         "dashpot": ["outside"],
         "spring_reset": ["total"],
         "velocity_arm": ["lever_arm"],
+        "plane_arm": ["middle"],
         "rolling": list(ROLLING),
         "rolling_damper": ["critical"],
         "rolling_load": ["magnitude", "elastic"],
@@ -35,7 +36,12 @@ class LiggghtsEngine(Engine):
         "cohesion_load": ["without_pull", "net"],
     }
 
-    limits = Engine.limits | {"inertia": [0.5], "plane_motions": []}
+    def deviations(self):
+        if not (self.made.planes and self.law.kr > 0):
+            return []
+        note = "at a plane LIGGGHTS takes ω (a − δ/2)/(a − δ) for ω in rolling springs and their dashpots"
+        return [{"name": "rolling_velocity_at_planes", "value": 0.0, "unit": "", "note": note}]
+
 
     def pair_rows(self):
         return pair_rows(self.lammps, self.law)

@@ -168,8 +168,7 @@ class Lammps(Peer):
                 self.assertLess(max(row["forces"]["normal"], row["forces"]["tangential"]), 1e-12)
 
     def test_is_its_laws_of_rolling_and_cohesion(self):
-        """In windows of 100 ms, in which LAMMPS would sort atoms and make lists anew: it would reverse rolling springs and
-        drop bonds."""
+        """In windows of 100 ms, in which LAMMPS would sort atoms and reverse rolling springs: 0.02 d."""
         spring = SPRING | {"law.gr": 0.05, "law.rolling_reset": "spring_only"}
         jkr = DAMPED_HERTZ | ADHESIVE | {"law.cohesion": "jkr", "law.cohesion_load": "plus_twice_pull_off"}
         for case, law in (
@@ -180,7 +179,8 @@ class Lammps(Peer):
         ):
             with self.subTest(law=law):
                 row = self.lockstep("lammps", *(f"--set={key}={value}" for key, value in law.items()), case=case)
-                self.assertEqual("same_to_rounding", row["verdict"])
+                self.assertIn(row["verdict"], ("same_to_rounding", "same_law"))
+                self.assertLess(row["equivalent"] or 0.0, 1e-9)
                 self.assertLess(max(row["forces"]["normal"], row["forces"]["tangential"]), 1e-10)
 
     def test_conventions_are_found_from_outside(self):
@@ -223,10 +223,9 @@ class Lammps(Peer):
             (COUETTE, SPRING | {"law.rolling": "constant_torque"}, "has rolling = none | spring, not constant_torque"),
             (COUETTE, SPRING | {"law.kr": 100.0, "engines.lammps.ranks": 2}, "has rolling_resistance on one rank alone"),
             (COUETTE, {"law.cohesion": "area", "law.kc": 1e3}, "has cohesion = none | dmt | jkr, not area"),
-            (COUETTE, ADHESIVE | {"law.cohesion": "dmt"}, 'has cohesion = "dmt" with normal = "hertz" alone'),
+            (COUETTE, ADHESIVE | {"law.cohesion": "dmt", "law.cohesion_load": "net_without_dashpot"}, 'has cohesion = "dmt" with normal = "hertz" alone'),
             (HERTZ, jkr | {"law.cohesion_load": "net_without_dashpot"}, 'has cohesion_load = "plus_twice_pull_off" with'),
             (HERTZ, jkr | {"law.damper": "critical"}, 'dashpots of damper = "constant" alone with cohesion = "jkr"'),
-            (HERTZ, jkr | {"particles.small": 1850}, "for at most 2000 bodies, not"),
             (CASES / "assembly/pile.toml", {"law.rolling": "viscous", "law.gr": 1.0}, "has rolling = none | spring, not viscous"),
         ):
             with self.subTest(reason=reason):
