@@ -297,8 +297,9 @@ class Assemblies(SystemTest):
             "rolling/incline-ratio": "law.kr_factor=2.3", "rolling/incline-beyond": "law.mu_r=0.0505",
             "rolling/spin-only": "law.mu_r=0.0505", "rolling/spin-only-spring": "law.mu_r=0.0505",
             "rolling/slip-to-roll-sphere": "law.mu=0.21", "rolling/slip-to-roll": "law.mu_r=0.0525",
+            "rolling/groove-constant-torque": "law.mu_r=0.051", "rolling/groove-spring": "law.kr_factor=2.28",
             "cohesion/dmt-hangs": "law.w=0.505", "cohesion/jkr-hangs": "law.w=0.51", "cohesion/area-hangs": "law.kc=55900",
-            "cohesion/dmt-impact": "law.w=0.51", "cohesion/jkr-impact": "law.w=0.51", "cohesion/jkr-impact-branch": "law.w=0.51",
+            "cohesion/dmt-impact": "law.w=0.51", "cohesion/area-impact": "law.kc=99000", "cohesion/jkr-impact-pair": "law.w=0.51", "cohesion/jkr-impact": "law.w=0.51", "cohesion/jkr-impact-branch": "law.w=0.51",
             "cohesion/luding-impact": "law.k_unload=410", "cohesion/walton-braun-impact": "law.k_unload=410", "cohesion/luding-impact-growing": "law.k_unload=740", "cohesion/luding-impact-pair": "law.k_unload=740",
             "cohesion/falls-without": "assembly.gravity=[0.0, -9.82]",
         }  # fmt: skip
