@@ -40,7 +40,7 @@ def run(options, spec, seconds, fault, command, kept):
     out = options.out / "run"
     shutil.rmtree(out, ignore_errors=True)
     engine = engine_file(options.out / "engines", options.engine, fault)
-    words = [word.format(engine=engine) for word in spec["arguments"]]
+    words = [word.format(engine=engine, cell=fault.get("cell", "")) for word in spec]
     line = [str(options.crossgrain), command, *words, "--quiet", "--out", str(out)]
     began = time.monotonic()
     try:
@@ -81,6 +81,7 @@ def main():
     parser.add_argument("--crossgrain", type=pathlib.Path, required=True, help="the program")
     parser.add_argument("--engine", type=pathlib.Path, required=True, help="planted_engine")
     parser.add_argument("--out", type=pathlib.Path, required=True, help="records, and the table")
+    parser.add_argument("--faults", type=pathlib.Path, default=here / "faults.toml", help="the list of them")
     parser.add_argument("--only", default="", help="faults whose names this regular expression matches, and the control")
     parser.add_argument("--commands", default="", help="some of them, separated by commas; all unless given")
     parser.add_argument("--again", action="store_true", help="run also what has a record")
@@ -90,11 +91,17 @@ def main():
         path.resolve() for path in (options.crossgrain, options.engine, options.out))
     for folder in ("records", "engines"):
         (options.out / folder).mkdir(parents=True, exist_ok=True)
-    commands = tomllib.loads((here / "commands.toml").read_text())
-    most = commands.pop("most_seconds")
-    faults = [control, *tomllib.loads((here / "faults.toml").read_text())["fault"]]
+    given = tomllib.loads(options.faults.read_text())
+    if "commands" in given:  # with controls of their own
+        most, commands, faults = given["most_seconds"], given["commands"], given["fault"]
+    else:
+        commands = tomllib.loads((here / "commands.toml").read_text())
+        most = commands.pop("most_seconds")
+        commands = {name: spec["arguments"] for name, spec in commands.items()}
+        faults = [control, *given["fault"]]
     wanted = options.commands.split(",") if options.commands else list(commands)
     chosen = [fault for fault in faults if fault is control or re.search(options.only, fault["name"])]
+    right = set()
     records = []
     for command in wanted:  # the control comes first
         for fault in chosen:
@@ -115,12 +122,13 @@ def main():
     if not options.require:
         return 0
     seen = {record["fault"] for record in records if record["found"]}
-    missed = [fault["name"] for fault in chosen if fault is not control and fault["name"] not in seen]
+    missed = [fault["name"] for fault in chosen if fault["patch"] and fault["name"] not in seen]
     for name in missed:
         print(f"not found: {name}")
-    if "right" in seen:
+    accused = [fault["name"] for fault in chosen if not fault["patch"] and fault["name"] in seen]
+    if accused:
         print("the right engine was found at fault")
-    return 1 if missed or "right" in seen else 0
+    return 1 if missed or accused else 0
 
 
 if __name__ == "__main__":

@@ -25,7 +25,7 @@ Simulation::Simulation(World world, const Faults& faults)
   for (std::size_t b = 0; b < world_.bodies.size(); ++b) {
     bodyOf_.insert(bodyOf_.end(), world_.bodies[b].radius.size(), b);
     for (std::size_t k = 0; k < world_.bodies[b].planes.size(); ++k)
-      planeSpring_.emplace_back(world_.disks, 0.0);
+      planeMemory_.emplace_back(world_.disks);
   }
   if (world_.disks > 0)
     smallest_ = *std::min_element(world_.radius.begin(),
@@ -135,23 +135,21 @@ void Simulation::addPairs() {
   for (Pair& pair : neighbours_.pairs) {
     const auto [i, j] = std::pair(pair.i, pair.j);
     const Vector apart = w.position[i] - w.position[j];
-    const double reach = w.radius[i] + w.radius[j], square = dot(apart, apart);
-    if (!(square < reach * reach)) {
-      if (faults_.keepOpenSpring == 0.0) pair.spring = 0.0;
-      continue;
-    }
+    const double reach = w.radius[i] + w.radius[j], distance = std::sqrt(dot(apart, apart));
+    const double overlap = reach - distance;
+    if (!holds({w.radius[i], w.radius[j], overlap}, pair.kept)) continue;
     const bool wall = j >= w.disks;
-    const double distance = std::sqrt(square), overlap = reach - distance;
     const bool flipped = wall && faults_.flippedWalls == static_cast<double>(i + 1);
     const Vector n = ((flipped ? -1.0 : 1.0) / distance) * apart;
     const double rim = arm(i, overlap) * seenSpin_[i] + arm(j, overlap) * seenSpin_[j];
-    Contact c =
-        contact(i, j, n, overlap, dashpotVelocity_[i] - dashpotVelocity_[j], rim, pair.spring);
+    Contact c = contact(i, j, n, overlap, dashpotVelocity_[i] - dashpotVelocity_[j], rim,
+                        seenSpin_[j], pair.kept);
     if (wall) {
       push(bodyOf_[j - w.disks], w.position[j], c, arm(j, overlap));
     } else {
       force_[j] = force_[j] - faults_.forceOnSecond * (c.fn * c.normal + c.ft * turned(c.normal));
       torque_[j] -= faults_.torque * faults_.torqueOfSecond * arm(j, overlap) * c.ft;
+      torque_[j] -= faults_.rollOnSecond * c.rolling;
       ++touching_[j];
     }
   }
@@ -160,17 +158,14 @@ void Simulation::addPairs() {
 void Simulation::addPlanes() {
   const World& w = world_;
   std::size_t id = w.radius.size();
-  auto springs = planeSpring_.begin();
+  auto memories = planeMemory_.begin();
   for (std::size_t b = 0; b < w.bodies.size(); ++b)
     for (const Plane& plane : w.bodies[b].planes) {
       for (std::size_t i = 0; i < w.disks; ++i) {
-        double& spring = (*springs)[i];
+        Memory& kept = (*memories)[i];
         const double height = dot(w.position[i] - plane.point, plane.normal);
         const double overlap = w.radius[i] - height;
-        if (!(overlap > 0.0)) {
-          if (faults_.keepOpenSpring == 0.0) spring = 0.0;
-          continue;
-        }
+        if (!holds({w.radius[i], 0.0, overlap}, kept)) continue;
         const Vector foot = w.position[i] - height * plane.normal;
         const bool flipped = faults_.flippedWalls == static_cast<double>(i + 1);
         Vector wall = seenOfWall(w.bodies[b].velocityAt(foot));
@@ -179,10 +174,11 @@ void Simulation::addPlanes() {
         const double lever = faults_.leverMiddle != 0.0 ? height : w.radius[i];
         const Contact c =
             contact(i, id, (flipped ? -1.0 : 1.0) * plane.normal, overlap,
-                    dashpotVelocity_[i] - wall, faults_.planeSpin * lever * seenSpin_[i], spring);
+                    dashpotVelocity_[i] - wall, faults_.planeSpin * lever * seenSpin_[i],
+                    w.turns ? faults_.wallSpin * w.bodies[b].spin : 0.0, kept);
         push(b, foot, c, 0.0);
       }
-      ++springs;
+      ++memories;
       ++id;
     }
 }
@@ -197,10 +193,23 @@ double Simulation::arm(std::size_t k, double overlap) const {
   return world_.radius[k] - (faults_.leverMiddle != 0.0 ? 0.5 * overlap : 0.0);
 }
 
-/// The law for one pair; keeps its spring, lists it, and adds its force to disk i.
+/// Whether the two are in contact; one that opens forgets.
+bool Simulation::holds(const Touching& pair, Memory& kept) const {
+  const bool touching = touches(world_.law.kn, world_.law.more, pair, faults_, kept);
+  if (touching && world_.law.more.cohesion == Cohesion::jkr) kept.deepest = 1.0;
+  if (touching) return true;
+  if (faults_.keepOpenSpring == 0.0) kept.spring = 0.0;
+  if (faults_.keepOpenAngle == 0.0) kept.angle = 0.0;
+  kept.deepest = 0.0;
+  return false;
+}
+
+/// The law for one pair; keeps its springs, lists it, and adds its force to disk i.
+/// @param spinOfOther  as contacts see it [rad/s]
 Contact Simulation::contact(std::size_t i, std::size_t j, Vector n, double overlap, Vector relative,
-                            double rim, double& spring) {
+                            double rim, double spinOfOther, Memory& kept) {
   const Law& law = world_.law;
+  double& spring = kept.spring;
   const bool wall = j >= world_.disks;
   double mu = law.mu * (wall ? faults_.wallMu : 1.0);
   if (i % 2 == 1) mu *= faults_.muOdd;
@@ -209,7 +218,10 @@ Contact Simulation::contact(std::size_t i, std::size_t j, Vector n, double overl
   const double gn = law.gn * (wall ? faults_.wallGn : 1.0);
   const double slip = dot(relative, turned(n)) - rim;
   if (slip > 0.0) mu *= faults_.muAnticlockwise;
-  double elastic = law.kn * overlap;
+  const bool plane = j >= world_.radius.size();
+  const Touching pair{world_.radius[i], plane ? 0.0 : world_.radius[j], overlap};
+  const NormalParts body = normalParts(law.kn, law.more, pair, wall, faults_, kept);
+  double elastic = body.whole;
   if (faults_.mostOverlap > 0.0)
     elastic = std::min(elastic, law.kn * faults_.mostOverlap * smallest_);
   Contact c{static_cast<std::int32_t>(i),
@@ -221,19 +233,27 @@ Contact Simulation::contact(std::size_t i, std::size_t j, Vector n, double overl
             elastic,
             false};
   if (faults_.cutTension != 0.0) c.fn = std::max(c.fn, 0.0);
+  // Bounds are those of the force without the pull.
+  double load = c.fn;
+  if (law.more.cohesion == Cohesion::elastoPlastic)
+    load -= std::min(body.whole, 0.0);
+  else if (law.more.cohesion != Cohesion::none)
+    load -= body.whole - body.elastic;
+  const double kt =
+      law.more.hertz ? law.kt * std::sqrt(pair.radius() * std::max(overlap, 0.0)) : law.kt;
   if (law.friction) {
-    const double bound = mu * std::max(c.fn, 0.0), stretch = slip * world_.dt;
+    const double bound = mu * std::max(load, 0.0), stretch = slip * world_.dt;
     const double viscous = law.dashpot ? -law.gt * slip : 0.0;
     if (law.spring) {
       const double stretched = faults_.springBefore != 0.0 ? spring + stretch : spring;
-      const double trial = -law.kt * stretched + viscous;
-      const double tested = faults_.dashpotOutside != 0.0 ? -law.kt * stretched : trial;
+      const double trial = -kt * stretched + viscous;
+      const double tested = faults_.dashpotOutside != 0.0 ? -kt * stretched : trial;
       c.sliding = !(std::abs(tested) <= bound);
       c.ft = c.sliding ? signedLike(bound, tested) : trial;
       if (!c.sliding || faults_.keepSpring != 0.0)
         spring = faults_.springBefore != 0.0 ? stretched : spring + stretch;
       else
-        spring = -(faults_.springOnly != 0.0 ? c.ft - viscous : c.ft) / law.kt;
+        spring = kt > 0.0 ? -(faults_.springOnly != 0.0 ? c.ft - viscous : c.ft) / kt : 0.0;
     } else if (law.dashpot) {
       c.sliding = std::abs(viscous) > bound;
       c.ft = signedLike(std::min(std::abs(viscous), bound), viscous);
@@ -246,14 +266,18 @@ Contact Simulation::contact(std::size_t i, std::size_t j, Vector n, double overl
   const bool tooMany =
       faults_.mostContacts > 0.0 && touching_[i] > static_cast<int>(faults_.mostContacts);
   if (everyNth(faults_.dropEvery, evaluations_ + contacts_.size() + 1) || tooMany ||
-      overlap < faults_.leastOverlap)
+      (faults_.leastOverlap > 0.0 && overlap < faults_.leastOverlap))
     c.fn = c.ft = c.elastic = 0.0;
+  if (world_.turns)
+    c.rolling = (wall ? faults_.rollAtWalls : 1.0) * rollingTorque(law.more, pair, load,
+                                                                   seenSpin_[i] - spinOfOther,
+                                                                   world_.dt, faults_, kept.angle);
   force_[i] = force_[i] + c.fn * n + c.ft * turned(n);
   const double lever = !wall || j < world_.radius.size()
                            ? arm(i, overlap)
                            : world_.radius[i] - (faults_.leverMiddle != 0.0 ? overlap : 0.0);
   const double share = faults_.torque * (j >= world_.radius.size() ? faults_.planeTorque : 1.0);
-  torque_[i] -= share * lever * c.ft;
+  torque_[i] += c.rolling - share * lever * c.ft;
   contacts_.push_back(c);
   return c;
 }
@@ -261,17 +285,17 @@ Contact Simulation::contact(std::size_t i, std::size_t j, Vector n, double overl
 void Simulation::push(std::size_t body, Vector place, const Contact& c, double arm) {
   const Vector on = -1.0 * (c.fn * c.normal + c.ft * turned(c.normal));
   onBody_[body] = onBody_[body] + on;
-  torqueOnBody_[body] += cross(place - world_.bodies[body].centre, on) - arm * c.ft;
+  torqueOnBody_[body] += cross(place - world_.bodies[body].centre, on) - arm * c.ft - c.rolling;
 }
 
 void Simulation::forgetSprings() {
-  for (Pair& pair : neighbours_.pairs) pair.spring = 0.0;
+  for (Pair& pair : neighbours_.pairs) pair.kept = {};
 }
 
 void Simulation::takeSprings(const Simulation& other) {
   for (Pair& pair : neighbours_.pairs)
     for (const Pair& old : other.neighbours_.pairs)
-      if (old.i == pair.i && old.j == pair.j) pair.spring = old.spring;
+      if (old.i == pair.i && old.j == pair.j) pair.kept = old.kept;
 }
 
 }  // namespace crossgrain::planted

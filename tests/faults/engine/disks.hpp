@@ -15,6 +15,7 @@ using crossgrain_worker::Body;
 struct Law {
   double kn = 0.0, gn = 0.0, kt = 0.0, gt = 0.0, mu = 0.0;
   bool friction = false, spring = false, dashpot = false;  ///< of the tangential force
+  Resistance more;
 };
 struct Plate {
   double mu = 0.0, kb = 0.0, gb = 0.0, tauM = 0.0, gravity = 0.0;
@@ -27,6 +28,7 @@ struct Contact {
   Vector normal;
   double overlap, fn, ft, elastic;
   bool sliding;
+  double rolling = 0.0;  ///< M on i, −M on j [N m]
 };
 
 /// Everything that a scene loads.
@@ -78,7 +80,8 @@ class Simulation {
   void addPairs();
   void addPlanes();
   Contact contact(std::size_t i, std::size_t j, Vector n, double overlap, Vector relative,
-                  double rim, double& spring);
+                  double rim, double spinOfOther, Memory& kept);
+  bool holds(const Touching& pair, Memory& kept) const;
   void push(std::size_t body, Vector place, const Contact& c, double arm);
   double arm(std::size_t i, double overlap) const;
   Vector seenOfWall(Vector velocity) const;
@@ -87,7 +90,7 @@ class Simulation {
   Faults faults_;
   Neighbours neighbours_;
   std::vector<std::size_t> bodyOf_;               ///< of each wall disk
-  std::vector<std::vector<double>> planeSpring_;  ///< by plane and disk
+  std::vector<std::vector<Memory>> planeMemory_;  ///< by plane and disk
   std::vector<Vector> plateSpring_;
   std::vector<Vector> force_, dashpotVelocity_, onBody_;
   std::vector<double> torque_, seenSpin_, torqueOnBody_;

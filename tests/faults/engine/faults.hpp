@@ -94,6 +94,21 @@ struct Faults {
   double mostSpeed = given("most_speed", 0.0);        ///< [m/s] faster disks are slowed to it
   double mostContacts = given("most_contacts", 0.0);  ///< n: a disk's further ones have no force
 
+  // Rolling resistance and cohesion: factors of what the scene says, then what happens in a step.
+  double kr = given("kr", 1.0), gr = given("gr", 1.0), muR = given("mu_r", 1.0);
+  double rollLength = given("roll_length", 1.0);  ///< of L; 2: MercuryDPM's
+  double rollOnSecond = given("roll_on_second", 1.0),
+         rollAtWalls = given("roll_at_walls", 1.0);  ///< of the torque
+  double pull = given("pull", 1.0),
+         pullAtWalls = given("pull_at_walls", 1.0);  ///< of k_c and w; 0: no cohesion
+  double rollDashpotOutside = given("roll_dashpot_outside", 0.0),
+         rollSpringOnly = given("roll_spring_only", 0.0);  ///< rolling_dashpot, rolling_reset
+  double rollTurnedByList =
+      given("roll_turned_by_list", 0.0);  ///< θ changes its sign with every list of neighbours
+  double keepOpenAngle = given("keep_open_angle", 0.0);  ///< a contact that opens keeps its θ
+  double letsGo = given("lets_go", 0.0);  ///< JKR's contacts end where surfaces just touch
+  double forgetDeepest = given("forget_deepest", 0.0);  ///< plastic contacts forget δ_max
+
   // Right in one telling of a scene and wrong in another.
   double gravityX = given("gravity_x", 1.0);  ///< factor of gravity's x component
   double wallVelocityY =

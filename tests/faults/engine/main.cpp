@@ -18,13 +18,42 @@
 namespace crossgrain::planted {
 namespace {
 
+const std::vector<std::string> rollingKinds = {"none", "constant_torque", "viscous", "spring"};
+const std::vector<std::string> cohesionKinds = {"none", "area", "dmt", "jkr", "elasto_plastic"};
+
 using crossgrain_worker::ArrayFile;
 using crossgrain_worker::Arrays;
 using crossgrain_worker::Json;
 using crossgrain_worker::Unsupported;
 
+/// Which of the names it is; 0 where the law has no such part. @throws Unsupported
+int kindOf(const Json& law, const char* part, const std::vector<std::string>& names) {
+  const std::string name = law.value(part, names.front());
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (names[k] == name) return static_cast<int>(k);
+  throw Unsupported(std::string("has no ") + part + " = " + name);
+}
+
+/// Keys of a part are there where a law has that part.
+Resistance resistanceOf(const Json& law, const Faults& faults) {
+  Resistance own;
+  own.hertz = law.at("normal") == "hertz";
+  own.rolling = static_cast<Rolling>(kindOf(law, "rolling", rollingKinds));
+  own.cohesion = static_cast<Cohesion>(kindOf(law, "cohesion", cohesionKinds));
+  const auto number = [&law](const char* name) { return law.value(name, 0.0); };
+  own.kr = faults.kr * number("kr");
+  own.gr = faults.gr * number("gr");
+  own.muR = faults.muR * number("mu_r");
+  own.kc = number("kc");
+  own.w = number("w");
+  own.k2 = number("k_unload");
+  own.depth = number("plastic_depth");
+  return own;
+}
+
 Law lawOf(const Json& law, const Faults& faults) {
-  if (law.at("normal") != "linear") throw Unsupported("has only normal = linear");
+  if (law.at("normal") != "linear" && law.at("normal") != "hertz")
+    throw Unsupported("has only normal = linear | hertz");
   const std::string tangential = law.at("tangential");
   Law own;
   own.kn = faults.kn * law.at("kn").get<double>();
@@ -32,6 +61,7 @@ Law lawOf(const Json& law, const Faults& faults) {
   own.kt = faults.kt * law.at("kt").get<double>();
   own.gt = faults.gt * law.at("gt").get<double>();
   own.mu = faults.mu * law.at("mu").get<double>();
+  own.more = resistanceOf(law, faults);
   own.friction = tangential != "none" && own.mu > 0.0;
   own.spring = tangential == "spring" || tangential == "spring_dashpot";
   own.dashpot = tangential == "viscous" || tangential == "spring_dashpot";
@@ -62,7 +92,8 @@ World worldOf(const Json& scene, const Arrays& arrays, const Faults& faults) {
   w.law = lawOf(scene.at("law"), faults);
   w.plate = plateOf(scene);
   w.gravity = {scene.at("gravity").at(0), scene.at("gravity").at(1)};
-  w.turns = w.law.friction && scene.at("rotation").get<bool>();
+  const bool torques = w.law.friction || w.law.more.rolling != Rolling::none;
+  w.turns = torques && scene.at("rotation").get<bool>();
   w.radius = arrays.at("disks.radius");
   w.mass = arrays.at("disks.mass");
   w.inertia = arrays.at("disks.inertia");
@@ -138,7 +169,7 @@ void addDisks(ArrayFile& arrays, const Simulation& simulation, const Faults& fau
   arrays.add("wall_position", flat(world.position, world.disks, world.position.size()));
   arrays.add("position", flat(position, 0, world.disks));
   arrays.add("velocity", flat(velocity, 0, world.disks));
-  if (world.law.friction) arrays.add("spin", spin);
+  if (world.law.friction || world.law.more.rolling != Rolling::none) arrays.add("spin", spin);
 }
 
 void addContacts(ArrayFile& arrays, const Simulation& simulation, const Loads& loads,
@@ -146,7 +177,7 @@ void addContacts(ArrayFile& arrays, const Simulation& simulation, const Loads& l
   const World& world = simulation.world();
   const std::vector<std::size_t> number = shownNumbers(world, faults);
   std::vector<std::int32_t> i, j;
-  std::vector<double> normal, overlap, fn, ft;
+  std::vector<double> normal, overlap, fn, ft, rolling;
   std::vector<std::uint8_t> sliding;
   unsigned long long count = 0;
   for (const Contact& c : loads.contacts) {
@@ -155,7 +186,8 @@ void addContacts(ArrayFile& arrays, const Simulation& simulation, const Loads& l
     auto other = static_cast<std::int32_t>(number[static_cast<std::size_t>(c.j)]);
     const bool wall = static_cast<std::size_t>(c.j) >= world.disks;
     Vector n = c.normal;
-    if (other < one) {
+    const bool swapped = other < one;
+    if (swapped) {
       std::swap(one, other);
       n = -1.0 * n;
     }
@@ -166,6 +198,7 @@ void addContacts(ArrayFile& arrays, const Simulation& simulation, const Loads& l
     overlap.push_back(c.overlap);
     fn.push_back(faults.showElastic != 0.0 ? c.elastic : c.fn);
     ft.push_back(c.ft);
+    rolling.push_back(swapped ? -c.rolling : c.rolling);
     sliding.push_back(c.sliding && faults.showSlidingAsSticking == 0.0);
   }
   arrays.add("contacts.i", i);
@@ -175,6 +208,7 @@ void addContacts(ArrayFile& arrays, const Simulation& simulation, const Loads& l
   arrays.add("contacts.normal_force", fn);
   arrays.add("contacts.tangential_force", ft);
   arrays.add("contacts.sliding", sliding);
+  if (world.law.more.rolling != Rolling::none) arrays.add("contacts.rolling_torque", rolling);
 }
 
 Json bodiesOf(const Simulation& simulation, const Loads& loads, const Faults& faults) {
@@ -202,13 +236,14 @@ class PlantedEngine {
     Json effects;
     for (const char* name :
          {"normal_damping", "friction", "tangential_spring", "tangential_damping", "rotation",
-          "bottom_friction", "bottom_spin_friction", "gravity", "moving_walls"})
+          "bottom_friction", "bottom_spin_friction", "gravity", "moving_walls",
+          "rolling_resistance", "cohesion"})
       effects[name] = "optional";
     const auto only = [](const char* value) { return Json::array({value}); };
     return {{"version", "1"},
             {"effects", effects},
             {"law_options",
-             {{"normal", only("linear")},
+             {{"normal", {"linear", "hertz"}},
               {"damper", only("constant")},
               {"tangential", {"none", "coulomb", "viscous", "spring", "spring_dashpot"}},
               {"tension", only("allow")},
@@ -220,7 +255,18 @@ class PlantedEngine {
               {"velocity_arm", only("lever_arm")},
               {"history", only("displacement")},
               {"damping_velocity", only("predicted")},
-              {"integrator", only("position_verlet")}}},
+              {"integrator", only("position_verlet")},
+              {"rolling", rollingKinds},
+              {"rolling_length", only("effective")},
+              {"rolling_stiffness", only("length_square")},
+              {"rolling_damper", only("constant")},
+              {"rolling_load", only("compression")},
+              {"rolling_dashpot", only("inside")},
+              {"rolling_reset", only("total")},
+              {"cohesion", cohesionKinds},
+              {"cohesion_area", only("lens")},
+              {"jkr_end", only("largest_pull")},
+              {"cohesion_load", only("without_pull")}}},
             {"precisions", only("double")},
             {"instant_contacts", true},
             {"accumulated_contacts", false},
@@ -251,7 +297,9 @@ class PlantedEngine {
           {"bottom_friction", world.plate.present},
           {"bottom_spin_friction", world.plate.present && world.plate.spin && world.turns},
           {"gravity", world.gravity.x != 0.0 || world.gravity.y != 0.0},
-          {"moving_walls", moving}})
+          {"moving_walls", moving},
+          {"rolling_resistance", law.more.rolling != Rolling::none},
+          {"cohesion", law.more.cohesion != Cohesion::none}})
       if (on) effects.push_back(name);
     return {{"engine", "planted"},    {"version", "1"},
             {"dt", world.dt},         {"precision", "double"},

@@ -7,6 +7,7 @@
 
 #include "crossgrain_walls.hpp"
 #include "faults.hpp"
+#include "resistance.hpp"
 
 namespace crossgrain::planted {
 
@@ -16,7 +17,7 @@ using crossgrain_worker::Vector;
 /// Two that are near each other, i < j, i a disk and j a disk or wall disk.
 struct Pair {
   std::size_t i, j;
-  double spring = 0.0;  ///< ξ [m]
+  Memory kept = {};
 
   bool before(const Pair& other) const { return i < other.i || (i == other.i && j < other.j); }
 };
@@ -41,7 +42,8 @@ class Neighbours {
     for (Pair& pair : pairs) {
       while (old != before.end() && old->before(pair)) ++old;
       if (old != before.end() && old->i == pair.i && old->j == pair.j && !lost)
-        pair.spring = old->spring;
+        pair.kept = old->kept;
+      if (faults.rollTurnedByList != 0.0) pair.kept.angle = -pair.kept.angle;
     }
   }
 
