@@ -73,7 +73,7 @@ class Check(SystemTest):
         # 246 disks; rings of 2π·30/4.8 = 39 and 2π·75/4.8 = 98 wall disks, to the nearest; 1.25 rotations in steps of 4e-5 s.
         for line in (
             r"quick: 246 disks, 137 wall disks, dt 4e-05 s", r"per packing: 196350 steps[\s\S]*grain +can run it",
-            r"(?m)^  effects called for: .*rotation.*; left out: gravity$",
+            r"(?m)^  effects called for: .*rotation.*; left out: gravity, rolling_resistance, cohesion, pair_materials$",
             r"volume fraction 0\.7\d+, .*39 on the wheel, 98 on the ring",
             r"54\.4 steps in the shortest contact; .*at most 0\.000572 s",
             r"margin of field azimuthal_velocity: 0\.0015 m/s, a share of rim_speed",

@@ -323,7 +323,11 @@ class Schema(SystemTest):
 
     def test_has_every_law_option(self):
         """The in-house engine has them all."""
-        (_, hello), (load, _), *_ = self.recorded("grain", COLLISION)
+        rolls = ['law.rolling="spring"', "law.kr=1e3", "law.mu_r=0.1"]
+        coheres = ['law.cohesion="area"', "law.kc=1.0"]
+        (_, hello), (load, _), *_ = self.recorded(
+            "grain", CASES / "hard/pile.toml", "--time=0.001", *(f"--set={key}" for key in rolls + coheres)
+        )
         options = {name: set(of["enum"]) for name, of in SCHEMA["$defs"]["lawOptions"].items()}
         declared = hello["capabilities"]["law_options"]
         self.assertEqual(options, {name: set(values) for name, values in declared.items()})
