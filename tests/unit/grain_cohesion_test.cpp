@@ -288,6 +288,7 @@ TEST(Jkr, TangentialSpring_SeesItsContactRadius) {
   law.tangential = Tangential::spring;
   law.mu = 1e6;
   law.kt = 1e4;
+  law.cohesionConventions.load = CohesionLoad::plusTwicePullOff;
   const double modulus = 0.75 * law.kn, radius = at(0.0).radius;
   const auto stiffness = [&](double overlap) {
     ContactMotion<double> motion = at(overlap);
@@ -334,7 +335,7 @@ Law lawOf(Cohesion cohesion) {
     law.normal = Normal::hertz;
     law.kn *= 1e4;
     law.kt *= 1e4;
-    law.w = cohesion == Cohesion::jkr ? 0.3 : 0.1;
+    law.w = cohesion == Cohesion::jkr ? 0.2 : 0.1;
   }
   return law;
 }
