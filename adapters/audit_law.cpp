@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "adapters/audit_geometry.hpp"
+#include "adapters/law_options.hpp"
 
 namespace crossgrain {
 namespace {
@@ -277,9 +278,19 @@ std::string rollingFault(double normal, double found, const ContactLaw& law,
                      std::abs(found), bound);
 }
 
+/// The law of contact k with the options of `law`, as the engine runs them.
+ContactLaw ownLaw(const AuditBasis& basis, const Contacts& contacts, std::size_t k,
+                  const ContactLaw& law) {
+  if (!basis.scene->materials) return law;
+  ContactLaw own = basis.scene->lawOf(static_cast<std::size_t>(contacts.i[k]),
+                                      static_cast<std::size_t>(contacts.j[k]));
+  for (const LawOption& option : lawOptions()) option.set(own, option.get(law));
+  return own;
+}
+
 }  // namespace
 
-std::string lawFault(const Snapshot& snapshot, const AuditBasis& basis, const ContactLaw& law) {
+std::string lawFault(const Snapshot& snapshot, const AuditBasis& basis, const ContactLaw& ofAll) {
   if (!snapshot.contacts || snapshot.contactInterval > 1.5 * basis.dt) return {};
   const Contacts& contacts = *snapshot.contacts;
   const ContactPlaces places = contactPlaces(snapshot, basis);
@@ -289,6 +300,7 @@ std::string lawFault(const Snapshot& snapshot, const AuditBasis& basis, const Co
     const double fn = contacts.normalForce[k], ft = contacts.tangentialForce[k];
     const auto j = static_cast<std::size_t>(contacts.j[k]);
     if (j >= basis.radius.size() && !places.planes[j - basis.radius.size()].known) continue;
+    const ContactLaw law = ownLaw(basis, contacts, k, ofAll);
     std::string why;
     if (!law.soft()) {
       if (fn < 0.0) why = fmt::format("f_n is {:.6g} N: rigid disks do not pull", fn);

@@ -42,7 +42,7 @@ ContactLaw stiffened(ContactLaw law, double factor) {
 
 std::optional<ContactLaw> declaredLaw(const Capabilities& can, const Scene& scene,
                                       const EffectiveParameters& effective, double reducedMass) {
-  ContactLaw law = lawAsRun(can, scene.law);
+  ContactLaw law = lawAsRun(can, scene.materials ? scene.lawOf(0, 1) : scene.law);
   const auto stiffness = std::ranges::find(effective.deviations, "stiffness", &Deviation::name);
   if (stiffness != effective.deviations.end()) law = stiffened(law, stiffness->value);
   if (hasNormalLaw(can, law)) return law;

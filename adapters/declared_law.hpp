@@ -10,8 +10,8 @@ namespace crossgrain {
 /// 1/√factor as long.
 ContactLaw stiffened(ContactLaw law, double factor);
 
-/// The law that an engine says it runs, between the two bodies of a collision scene: the scene's,
-/// with
+/// The law that an engine says it runs, between the two bodies of a collision scene, its first two:
+/// the scene's, with
 ///   the engine's conventions in place of those that it lacks (lawAsRun()),
 ///   all constants as stiff as its deviation "stiffness" says,
 ///   and if it has rigid contacts in place of soft ones, e_n, e_t0 and µ of the pair as

@@ -105,6 +105,11 @@ grain::Setup setupOf(const Scene& scene) {
   setup.disks.inertia = scene.disks.inertia;
   for (const WallBody& body : scene.bodies) setup.walls.push_back(translate(body));
   setup.law = translate(scene.law);
+  if (const auto& materials = scene.materials) {
+    setup.materials =
+        grain::Materials{materials->ofDisk, materials->ofBody, materials->names.size(), {}};
+    for (const ContactLaw& law : materials->laws) setup.materials->laws.push_back(translate(law));
+  }
   if (scene.bottom && scene.bottom->mu > 0.0)
     setup.bottom = {scene.bottom->mu,   scene.bottom->kb,      scene.bottom->gb,
                     scene.bottom->tauM, scene.bottom->gravity, scene.bottom->spin};
@@ -129,7 +134,6 @@ class GrainEngine : public Engine {
     Capabilities can;
     can.version = "0.1.0";
     for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
-    can.effects[Effect::pairMaterials] = Support::never;
     for (const LawOption& option : lawOptions())
       can.lawOptions[std::string(option.name)] = {option.values.begin(), option.values.end()};
     // A mirror of soft contacts has nothing to say of rigid ones, and the other way round.
@@ -169,22 +173,21 @@ class GrainEngine : public Engine {
     if (std::ranges::find(normals, lawOptionValue(scene.law, "normal")) == normals.end())
       throw UnsupportedScene(rigid ? "has no rigid contacts, only soft ones"
                                    : "has rigid contacts only, normal = \"rigid\"");
-    ContactLaw law = lawAsRun(can, scene.law);
-    // An impulse is a force within one step of the scheme in which a kick precedes its drift.
-    if (rigid) law.conventions.integrator = Integrator::semiImplicitEuler;
     const double stiffness = setting(settings, "stiffness", stiffness_);
-    law = stiffened(law, stiffness);
-
-    Scene own = scene;
-    own.law = law;
+    Scene& own = own_ = scene;
+    changeLaws(own, [&](ContactLaw& law) {
+      law = lawAsRun(can, law);
+      // An impulse is a force within one step of the scheme in which a kick precedes its drift.
+      if (rigid) law.conventions.integrator = Integrator::semiImplicitEuler;
+      law = stiffened(law, stiffness);
+    });
+    const ContactLaw& law = own.law;
     own.dt = scene.dt / std::sqrt(stiffness);
     grain::Setup setup = setupOf(own);
     if (const double dt = setting(settings, "dt", 0.0); dt > 0.0) setup.dt = dt;
     setup.skin = setting(settings, "skin", 0.0);
     setup.maxOverlap = setting(settings, "max_overlap", setup.maxOverlap);
     setup.threads = static_cast<int>(setting(settings, "threads", 1.0));
-    bodies_ = scene.bodies;
-    mu_ = law.mu;
     rolls_ = law.rolls();
     spins_ = law.friction() || law.rolls();
     stopwatch_ = {};
@@ -209,7 +212,8 @@ class GrainEngine : public Engine {
     if (stiffness != 1.0)
       effective.deviations.push_back(
           {"stiffness", stiffness, "-", "contacts are this many times as stiff as the case's"});
-    effective.pairs = pairTable(scene, [&](double) { return coefficientsOf(law); });
+    effective.pairs =
+        pairTable(own, [](const ContactLaw& of, double) { return coefficientsOf(of); });
     return effective;
   }
 
@@ -236,7 +240,7 @@ class GrainEngine : public Engine {
     }
     for (std::size_t i = now.movingCount(); i < now.diskCount(); ++i)
       snapshot.wallPosition.emplace_back(now.x(i), now.y(i));
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    for (std::size_t b = 0; b < own_.bodies.size(); ++b) {
       const grain::WallState wall = now.wallState(b);
       const grain::WallLoad load = now.wallLoad(b);
       snapshot.bodies.push_back({{wall.x, wall.y},
@@ -278,7 +282,9 @@ class GrainEngine : public Engine {
       forces[k].j = contacts.j[k];
       forces[k].tangentialForce = contacts.tangentialForce[k];
       // Without flags: at the bound to what an engine's own rounding may leave of it.
-      const double bound = mu_ * std::abs(contacts.normalForce[k]);
+      const ContactLaw& law = own_.lawOf(static_cast<std::size_t>(contacts.i[k]),
+                                         static_cast<std::size_t>(contacts.j[k]));
+      const double bound = law.mu * std::abs(contacts.normalForce[k]);
       forces[k].sliding = contacts.sliding.empty()
                               ? std::abs(forces[k].tangentialForce) >= (1.0 - 1e-6) * bound
                               : contacts.sliding[k] != 0;
@@ -315,14 +321,14 @@ class GrainEngine : public Engine {
       contacts.sliding.push_back(contact.sliding);
       if (rolls_) contacts.rollingTorque.push_back(contact.rollingTorque);
     }
+    contacts.dissipation = simulation_->contactLosses();
     return contacts;
   }
 
   LawConventionSets conventions_;
   double stiffness_;
-  std::vector<WallBody> bodies_;
+  Scene own_;  ///< as it is run
   bool rigid_ = false;
-  double mu_ = 0.0;
   bool rolls_ = false;
   bool spins_ = false;  ///< whether snapshots have them; blocked ones are zero
   std::optional<grain::Simulation> simulation_;

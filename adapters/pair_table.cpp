@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <set>
-#include <utility>
+#include <string>
+#include <tuple>
 
 namespace crossgrain {
 
@@ -35,27 +36,49 @@ PairCoefficients coefficientsOf(const ContactLaw& law) {
 }
 
 std::vector<PairCoefficients> pairTable(
-    const Scene& scene, const std::function<PairCoefficients(double reducedMass)>& coefficients) {
+    const Scene& scene,
+    const std::function<PairCoefficients(const ContactLaw& law, double reducedMass)>&
+        coefficients) {
   // A table of more kinds than this is of no use to a reader.
   constexpr std::size_t mostKinds = 4;
-  std::set<std::pair<double, double>> kinds;  // radius, mass
+  const auto& materials = scene.materials;
+  std::set<std::tuple<double, double, std::int32_t>> kinds;  // radius, mass, material
   for (std::size_t i = 0; i < scene.disks.size() && kinds.size() < mostKinds; ++i)
-    kinds.emplace(scene.disks.radius[i], scene.disks.mass[i]);
+    kinds.emplace(scene.disks.radius[i], scene.disks.mass[i], materials ? materials->ofDisk[i] : 0);
+  std::set<std::int32_t> walls;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    walls.insert(materials ? materials->ofBody[b] : 0);
 
-  const auto name = [](const std::pair<double, double>& kind) {
-    return fmt::format("{:.4g} mm, {:.4g} g", kind.first * 1e3, kind.second * 1e3);
+  const auto madeOf = [&](std::int32_t material) {
+    return materials ? " of " + materials->names[static_cast<std::size_t>(material)] : "";
+  };
+  const auto name = [&](const auto& kind) {
+    const auto& [radius, mass, material] = kind;
+    return fmt::format("{:.4g} mm, {:.4g} g{}", radius * 1e3, mass * 1e3, madeOf(material));
   };
   std::vector<PairCoefficients> table;
-  const auto addRow = [&](const std::string& pair, double reducedMass) {
-    PairCoefficients& row = table.emplace_back(coefficients(reducedMass));
+  const auto addRow = [&](const std::string& pair, std::int32_t a, std::int32_t b,
+                          double reducedMass) {
+    PairCoefficients& row =
+        table.emplace_back(coefficients(materials ? materials->law(a, b) : scene.law, reducedMass));
     row.pair = pair;
   };
   for (auto a = kinds.begin(); a != kinds.end(); ++a) {
-    for (auto b = a; b != kinds.end(); ++b)
-      addRow(name(*a) + " with " + name(*b), a->second * b->second / (a->second + b->second));
-    if (!scene.bodies.empty()) addRow(name(*a) + " with wall", a->second);
+    const auto [radius, mass, material] = *a;
+    for (auto b = a; b != kinds.end(); ++b) {
+      const double other = std::get<1>(*b);
+      addRow(name(*a) + " with " + name(*b), material, std::get<2>(*b),
+             mass * other / (mass + other));
+    }
+    for (const std::int32_t wall : walls)
+      addRow(name(*a) + " with wall" + madeOf(wall), material, wall, mass);
   }
   return table;
+}
+
+std::vector<PairCoefficients> pairTable(
+    const Scene& scene, const std::function<PairCoefficients(double reducedMass)>& coefficients) {
+  return pairTable(scene, [&](const ContactLaw&, double mass) { return coefficients(mass); });
 }
 
 }  // namespace crossgrain

@@ -28,8 +28,9 @@ struct Contacts {
   std::vector<std::uint8_t> sliding;    ///< 1 where the Coulomb bound holds; may be empty: unknown
   /// M on i, −M on j, of laws that resist rolling [N m]; may be empty: none, or unknown
   std::vector<double> rollingTorque;
-  /// Power that dashpots, sliding and rolling turn into heat at contactTime [W]; may be empty:
-  /// unknown
+  /// Power that dashpots, sliding, rolling and yield turn into heat, over the step that ends at
+  /// contactTime or at that instant [W]; may be empty: unknown. Asked for with
+  /// Scene::energyLedger
   std::vector<double> dissipation;
 
   std::size_t size() const { return i.size(); }

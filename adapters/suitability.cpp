@@ -99,8 +99,12 @@ std::vector<Mismatch> mismatches(const Capabilities& can, const Scene& scene) {
     found.push_back({name, fmt::format("has {} = {}, not {}", name, fmt::join(values, " | "),
                                        lawOptionValue(scene.law, name))});
   }
-  if (sameLaw && scene.law.normal == NormalLaw::rigid && scene.law.et0 != 0.0 &&
-      !can.tangentialRestitution)
+  const bool restores =
+      scene.law.et0 != 0.0 ||
+      (scene.materials && std::ranges::any_of(scene.materials->laws, [](const ContactLaw& law) {
+         return law.et0 != 0.0;
+       }));
+  if (sameLaw && scene.law.normal == NormalLaw::rigid && restores && !can.tangentialRestitution)
     found.push_back({tangentialRestitutionName, "has no tangential restitution (e_t0 = 0)"});
   return found;
 }

@@ -12,13 +12,19 @@
 
 namespace crossgrain::inline averaging {
 
-SpringConstants springConstants(const ContactLaw& law) {
+SpringConstants springConstants(const Scene& scene) {
+  const ContactLaw& law = scene.law;
   SpringConstants springs;
   if (law.normal != NormalLaw::linear) return springs;
   const bool spring =
       law.tangential == TangentialLaw::spring || law.tangential == TangentialLaw::springDashpot;
-  if (law.kn > 0.0) springs.kn = law.kn;
-  if (spring && law.kt > 0.0) springs.kt = law.kt;
+  const auto common = [&](double ContactLaw::*constant) {
+    const auto same = [&](const ContactLaw& own) { return own.*constant == law.*constant; };
+    return law.*constant > 0.0 &&
+           (!scene.materials || std::ranges::all_of(scene.materials->laws, same));
+  };
+  if (common(&ContactLaw::kn)) springs.kn = law.kn;
+  if (spring && common(&ContactLaw::kt)) springs.kt = law.kt;
   return springs;
 }
 
@@ -239,6 +245,7 @@ std::vector<FieldSpec> makeTable() {
       {"contact_amplitude_6", "", "", "1", "length of (cos, sin) of order 6", Needs::contacts, [](Bin b) { return length(twiceMean(b, cos6), twiceMean(b, sin6)); }},
       {"contact_axis_4", "", "", "rad", "angle of (cos, sin) of order 4, over 4", Needs::contacts, [](Bin b) { return direction(twiceMean(b, cos4), twiceMean(b, sin4)) / 4.0; }},
       {"contact_axis_6", "", "", "rad", "angle of (cos, sin) of order 6, over 6", Needs::contacts, [](Bin b) { return direction(twiceMean(b, cos6), twiceMean(b, sin6)) / 6.0; }},
+      {"dissipation", "dissipation", "", "W/m³", "Σ w Σ_c P_c / V_ring, P_c the power that a contact turns into heat, to each of two disks half", Needs::dissipation, [](Bin b) { return b.perVolume(heat); }},
       // clang-format on
   };
 }
@@ -299,6 +306,9 @@ bool available(const FieldSpec& field, const Snapshot& snapshot, const SpringCon
       return snapshot.contacts && springs.kn;
     case Needs::tangentialSpring:
       return snapshot.contacts && springs.kt;
+    case Needs::dissipation:
+      return snapshot.contacts &&
+             snapshot.contacts->dissipation.size() == snapshot.contacts->size();
   }
   throw std::invalid_argument("averaging: not a need");
 }

@@ -19,15 +19,16 @@ enum class Needs {
   kinematics,  ///< no more
   spin,
   contacts,
-  normalSpring,     ///< contacts, and a scene whose law has a constant k_n
-  tangentialSpring  ///< contacts, and a scene whose law has a constant k_t
+  normalSpring,      ///< contacts, and a scene whose law has a constant k_n
+  tangentialSpring,  ///< contacts, and a scene whose law has a constant k_t
+  dissipation        ///< contacts whose dissipation the engine reports
 };
 
 /// Stiffnesses of the scene's law that some fields are made with; absent where it has none.
 struct SpringConstants {
   std::optional<double> kn, kt;  ///< [N/m]
 };
-SpringConstants springConstants(const ContactLaw& law);
+SpringConstants springConstants(const Scene& scene);
 
 /// One bin as its fields see it: moments of it and of its neighbours, and the scene's constants.
 class BinView {

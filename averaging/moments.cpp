@@ -209,7 +209,16 @@ void MomentSums::sumContacts(const Contacts& contacts) {
       }
       side = 1.0;
     }
+    if (!contacts.dissipation.empty()) addHeat(contacts, c);
   }
+}
+
+void MomentSums::addHeat(const Contacts& contacts, std::size_t c) {
+  const auto i = static_cast<std::size_t>(contacts.i[c]);
+  const auto j = static_cast<std::size_t>(contacts.j[c]);
+  const bool pair = j < mass_.size();
+  contactSums_[i].heat += (pair ? 0.5 : 1.0) * contacts.dissipation[c];
+  if (pair) contactSums_[j].heat += 0.5 * contacts.dissipation[c];
 }
 
 Moments MomentSums::momentsOf(const Snapshot& snapshot, std::size_t p, const Vec2& er) const {
@@ -249,6 +258,7 @@ Moments MomentSums::momentsOf(const Snapshot& snapshot, std::size_t p, const Vec
   at(moments, Moment::fabricPP) = 0.5 * volume * (sums.count - harmonic2.x());
   at(moments, Moment::fabricRP) = 0.5 * volume * harmonic2.y();
   at(moments, Moment::contacts) = volume * sums.count;
+  at(moments, Moment::heat) = sums.heat;
   at(moments, Moment::overlapRR) = 0.5 * (sums.overlap + overlap.x());
   at(moments, Moment::overlapPP) = 0.5 * (sums.overlap - overlap.x());
   at(moments, Moment::overlapRP) = 0.5 * overlap.y();

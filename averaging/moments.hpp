@@ -50,10 +50,11 @@ enum class Moment : std::size_t {
   cos4,       ///< V Σ_c cos 4α, α the angle of l from the first direction [m³]
   sin4,       ///< V Σ_c sin 4α [m³]
   cos6,       ///< V Σ_c cos 6α [m³]
-  sin6        ///< V Σ_c sin 6α [m³]
+  sin6,       ///< V Σ_c sin 6α [m³]
+  heat  ///< Σ_c P/2, P what the contact turns into heat; with a wall P, so that none is lost [W]
 };
 
-inline constexpr std::size_t momentCount = static_cast<std::size_t>(Moment::sin6) + 1;
+inline constexpr std::size_t momentCount = static_cast<std::size_t>(Moment::heat) + 1;
 
 /// One number for each Moment.
 using Moments = std::array<double, momentCount>;
@@ -107,11 +108,13 @@ class MomentSums {
     Vec2 overlapHarmonic = Vec2::Zero();  ///< Σ δ a (cos 2α, sin 2α) [m²]
     double overlap = 0.0;                 ///< Σ δ a [m²]
     double count = 0.0;
+    double heat = 0.0;  ///< [W]
   };
 
   void check(const Snapshot& snapshot) const;
   void fetch(std::int32_t disk) const;
   void sumContacts(const Contacts& contacts);
+  void addHeat(const Contacts& contacts, std::size_t c);
   Moments momentsOf(const Snapshot& snapshot, std::size_t disk, const Vec2& er) const;
   void addWalls(const Snapshot& snapshot, Partition& partition, std::vector<Moments>& sums) const;
   void addBranches(const Snapshot& snapshot, Partition& partition,

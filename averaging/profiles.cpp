@@ -38,20 +38,25 @@ ProfileAccumulator::ProfileAccumulator(std::shared_ptr<const Coordinates> coordi
                                        bool countWallDisks)
     : coordinates_(std::move(coordinates)),
       weights_(std::move(weights)),
-      springs_(springConstants(scene.law)),
+      springs_(springConstants(scene)),
       sums_(coordinates_, weights_, scene, countWallDisks),
       series_(weights_.size(), BlockSeries(coordinates_->slots() * momentCount)) {}
 
 void ProfileAccumulator::add(const Snapshot& snapshot) {
   std::vector<const FieldSpec*> fields;
   for (const FieldSpec& field : averaging::fieldsOf(*coordinates_))
-    if (available(field, snapshot, springs_)) fields.push_back(&field);
+    if (field.needs != Needs::dissipation && available(field, snapshot, springs_))
+      fields.push_back(&field);
   if (snapshots_ > 0 && fields != fields_)
     throw std::invalid_argument(fmt::format(
         "averaging: the snapshot at {} s {} spin and {} contacts, unlike the ones before it; "
         "all snapshots of one average must hold the same",
         snapshot.positionTime, snapshot.spin ? "has" : "lacks",
         snapshot.contacts ? "has" : "lacks"));
+  // A snapshot without contacts is not one of an engine that does not report it.
+  const bool some = snapshot.contacts && !snapshot.contacts->dissipation.empty();
+  reportsHeat_ |= some;
+  lacksHeat_ |= !snapshot.contacts || (!some && snapshot.contacts->size() > 0);
   sums_.compute(snapshot, momentary_);
   for (std::size_t k = 0; k < series_.size(); ++k) series_[k].add(flat(momentary_[k]));
   ++snapshots_;
@@ -73,6 +78,9 @@ std::vector<Profile> ProfileAccumulator::profiles() const {
   for (std::size_t weight = 0; weight < weights_.size(); ++weight) {
     const std::vector<Moments> mean = meanMoments(weight);
     for (const FieldSpec* field : fields_) result.push_back(profile(weight, *field, mean));
+    if (!reportsHeat_ || lacksHeat_) continue;
+    for (const FieldSpec& field : averaging::fieldsOf(*coordinates_))
+      if (field.needs == Needs::dissipation) result.push_back(profile(weight, field, mean));
   }
   return result;
 }

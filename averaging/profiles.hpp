@@ -72,7 +72,8 @@ class ProfileAccumulator {
   std::vector<BlockSeries> series_;              ///< per weight, of all moments of all slots
   std::vector<std::vector<Moments>> momentary_;  ///< of the last snapshot
   std::size_t snapshots_ = 0;
-  std::vector<const FieldSpec*> fields_;  ///< those that the snapshots have data for
+  std::vector<const FieldSpec*> fields_;          ///< those that the snapshots have data for
+  bool reportsHeat_ = false, lacksHeat_ = false;  ///< whether snapshots have Contacts::dissipation
 };
 
 }  // namespace crossgrain::inline averaging

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "cases/couette.hpp"
+#include "cases/materials.hpp"
 #include "cases/time_step.hpp"
-#include "oracle/impact.hpp"
 #include "support/random.hpp"
 
 namespace crossgrain::inline cases {
@@ -132,6 +132,7 @@ Scene assemblyScene(const Case& setup, Disks disks, double wallTime, double dt) 
     scene.bodies.push_back(bodyOf(group, assembly, scene.bodies.size()));
     moveOn(scene.bodies.back(), wallTime);
   }
+  addMaterials(scene, setup);
   return scene;
 }
 
@@ -173,7 +174,7 @@ double assemblyDuration(const Case& setup) {
   const Assembly& assembly = setup.assembly;
   if (assembly.duration) return *assembly.duration;
   if (assembly.steps) return *assembly.steps * timeStep(setup);
-  return *assembly.contactTimes * contactTime(setup.law, lightestReducedMass(setup));
+  return *assembly.contactTimes * shortestContact(setup);
 }
 
 std::vector<Vec2> gridPlaces(int columns, int rows, const Vec2& spacing, bool triangular) {

@@ -26,6 +26,12 @@ namespace crossgrain::inline cases {
 /// The most disks that a case may have, wall disks too: checked before room for them is taken.
 inline constexpr int mostDisks = 1'000'000;
 
+/// What a body is made of, as the case file says.
+struct MaterialName {
+  std::string name;   ///< empty: it does not say
+  std::string where;  ///< "file:3:1: assembly.disks[0].material"
+};
+
 /// The Couette shear cell (Lätzel 2003, chapter 3). All wall disks' centres lie on R_i and R_o.
 struct Cell {
   double innerRadius = 0.0;  ///< R_i, the wheel, centre at the origin [m]
@@ -34,6 +40,7 @@ struct Cell {
   double wallSpacing = 0.0;  ///< between wall disks along each wall [m]
   double height = 0.0;       ///< h of the disks, normal to the plane [m]
   double omega = 0.0;        ///< Ω of the wheel, counter-clockwise positive [rad/s]
+  MaterialName wheelMaterial = {}, ringMaterial = {};
 };
 
 struct Particles {
@@ -45,6 +52,7 @@ struct Particles {
   double maxOverlap = 0.2;  ///< largest overlap allowed at a start, in units of the small radius
   std::string maxOverlapKey = "particles.max_overlap";  ///< where the user says it
   std::optional<std::filesystem::path> file;  ///< a packing of the user's own (docs/cases.md)
+  MaterialName smallMaterial = {}, largeMaterial = {};
 };
 
 /// Dilute lattice, random velocities, turning wheel, shrinking ring, then rotations (thesis §3.3).
@@ -112,7 +120,8 @@ struct Collision {
   double inertiaFactor = 0.5;
   std::vector<double> stepsPerContact = {50.0};  ///< one sweep for each
   double startPhase = 0.5;  ///< the disks touch this fraction of a step after a step, [0, 1)
-  std::map<std::string, Margin> margins;  ///< "psi_f", "e_n": largest distance from the oracle
+  std::map<std::string, Margin> margins;    ///< "psi_f", "e_n": largest distance from the oracle
+  std::vector<MaterialName> material = {};  ///< of the two, where [[law.pairs]] has them
 };
 
 /// Disks of one kind, each at `position` plus one of `places`.
@@ -126,6 +135,7 @@ struct DiskGroup {
   double jitter = 0.0;        ///< each coordinate is off by up to this, uniformly [diameters]
   double radiusSpread = 0.0;  ///< radii are off by up to this share, uniformly [-]
   double velocityRms = 0.0;   ///< of each component, normally distributed about `velocity` [m/s]
+  MaterialName material = {};
 };
 
 /// A body of planes and wall disks that moves as prescribed.
@@ -136,6 +146,7 @@ struct WallGroup {
   double radius = 0.0;         ///< of wall disks [m]
   std::vector<double> radii;   ///< of each, where they are not all alike [m]
   Motion motion;
+  MaterialName material = {};
 };
 
 /// Starts of the user's own, in place of groups: each is a packing.
@@ -148,6 +159,7 @@ struct StartFiles {
   std::vector<Vec2> fixedPosition = {};      ///< of disks that stand still, alike in all files [m]
   std::vector<double> fixedRadius = {};      ///< [m]
   std::vector<std::vector<int>> lines = {};  ///< of each file, of its disks and then its fixed ones
+  MaterialName material = {};
 };
 
 /// Disks and walls put together as a case file says, and then placed as a whole; gravity and walls
@@ -265,6 +277,9 @@ struct Case {
   std::filesystem::path file;
   std::string resolvedToml;  ///< the merged document, printed: what was really run
   ContactLaw law;
+  /// Where pairs of bodies differ: names and laws alone. `law` is that of pairs without one of
+  /// their own, whose options and effects all have.
+  std::optional<Materials> materials;
   std::optional<BottomPlate> bottom;
   Cell cell;
   Particles particles;

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "adapters/start_check.hpp"
+#include "cases/materials.hpp"
 #include "support/bad_input.hpp"
 
 namespace crossgrain::inline cases {
@@ -87,6 +88,7 @@ Scene couetteScene(const Case& setup, const Packing& packing, double dt) {
   wheel.motion.angularVelocity = setup.cell.omega;
   scene.bodies.push_back(std::move(wheel));
   scene.bodies.push_back(wallRing(ringName, setup.cell, setup.cell.outerRadius, 0.0));
+  addMaterials(scene, setup);
   return scene;
 }
 

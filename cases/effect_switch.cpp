@@ -5,6 +5,7 @@
 
 #include "cases/flow.hpp"
 #include "cases/loader.hpp"
+#include "cases/loader_document.hpp"
 
 namespace crossgrain::inline cases {
 namespace {
@@ -21,6 +22,21 @@ struct Switchable {
   bool (*has)(const Case&);
   Change (*change)(const Case&);
 };
+
+/// The pairs of materials without some constants, which are then those of [law]; to follow its
+/// keys.
+std::string pairsWithout(const Case& setup, std::initializer_list<std::string_view> constants) {
+  const toml::table root = toml::parse(setup.resolvedToml);
+  const toml::array* const pairs = root.at_path("law.pairs").as_array();
+  std::string text;
+  for (std::size_t k = 0; pairs && k < pairs->size(); ++k) {
+    text += "[[law.pairs]]\n";
+    for (const auto& [key, value] : *pairs->get(k)->as_table())
+      if (std::ranges::find(constants, key.str()) == constants.end())
+        text += fmt::format("{} = {}\n", key.str(), printValue(value));
+  }
+  return text;
+}
 
 Change noTangentialSpring(const Case& setup) {
   if (setup.law.gt > 0.0)
@@ -47,7 +63,8 @@ const std::array switchables = {
     Switchable{"normal_damping", Effect::normalDamping, nullptr,
                [](const Case& setup) {
                  return Change{"Normal contacts lose no energy: no dashpot, restitution 1.",
-                               setup.law.soft() ? "[law]\ngn = 0.0\n" : "[law]\ne_n = 1.0\n"};
+                               (setup.law.soft() ? "[law]\ngn = 0.0\n" : "[law]\ne_n = 1.0\n") +
+                                   pairsWithout(setup, {"gn", "e_n"})};
                }},
     Switchable{"friction", Effect::friction, nullptr,
                [](const Case& setup) {
@@ -55,7 +72,7 @@ const std::array switchables = {
                  if (setup.law.normal != NormalLaw::hertz) law += "kt = 0.0\n";  // else of young
                  return Change{
                      "No tangential force; with it go rotation, tangential springs and dashpots.",
-                     law};
+                     law + pairsWithout(setup, {"mu", "kt", "gt"})};
                }},
     Switchable{"tangential_spring", Effect::tangentialSpring, nullptr, noTangentialSpring},
     Switchable{"tangential_damping", Effect::tangentialDamping, nullptr, noTangentialDamping},
@@ -75,16 +92,27 @@ const std::array switchables = {
                  return Change{"The plate brakes velocities and leaves spins alone.",
                                "[bottom]\nspin = false\n"};
                }},
-    Switchable{"rolling_resistance", Effect::rollingResistance, nullptr,
-               [](const Case&) {
-                 return Change{"No torque against rolling.",
-                               "[law]\nrolling = \"none\"\nmu_r = 0.0\nkr = 0.0\ngr = 0.0\n"};
-               }},
+    Switchable{
+        "rolling_resistance", Effect::rollingResistance, nullptr,
+        [](const Case& setup) {
+          return Change{
+              "No torque against rolling.",
+              "[law]\nrolling = \"none\"\nmu_r = 0.0\nkr = 0.0\nkr_per_kt = 0.0\nkr_factor = "
+              "0.0\ngr = 0.0\n" +
+                  pairsWithout(setup, {"mu_r", "kr", "kr_per_kt", "kr_factor", "gr"})};
+        }},
     Switchable{"cohesion", Effect::cohesion, nullptr,
+               [](const Case& setup) {
+                 return Change{
+                     "No attraction.",
+                     "[law]\ncohesion = \"none\"\nkc = 0.0\nw = 0.0\ngamma = 0.0\nk_unload = "
+                     "0.0\nplastic_depth = 0.0\n" +
+                         pairsWithout(setup, {"kc", "w", "gamma", "k_unload", "plastic_depth"})};
+               }},
+    Switchable{"pair_materials", Effect::pairMaterials, nullptr,
                [](const Case&) {
-                 return Change{"No attraction.",
-                               "[law]\ncohesion = \"none\"\nkc = 0.0\nw = 0.0\nk_unload = "
-                               "0.0\nplastic_depth = 0.0\n"};
+                 return Change{"All pairs have the law of those that are not named.",
+                               "[law]\npairs = []\n"};
                }},
     Switchable{"tension_cut", std::nullopt, keepsTension,
                [](const Case&) {

@@ -28,6 +28,8 @@ struct EffectSwitch {
 /// - tangential damping: the spring alone; of the viscous law its limit γ_t → ∞, Coulomb's;
 /// - rotation: no spins;  bottom friction: no plate;  bottom spin friction: the plate leaves
 ///   spins alone;
+/// - rolling resistance, cohesion: no such torque, no attraction;  pairs of materials: the law of
+///   those that are not named for all;
 /// - tension (f_n < 0 cut off); double precision (single instead).
 std::vector<EffectSwitch> effectSwitches(const Case& setup);
 

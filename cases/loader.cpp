@@ -9,6 +9,7 @@
 #include "cases/couette.hpp"
 #include "cases/loader_document.hpp"
 #include "cases/loader_sections.hpp"
+#include "cases/materials.hpp"
 #include "cases/time_step.hpp"
 #include "oracle/impact.hpp"
 #include "support/input_file.hpp"
@@ -64,10 +65,19 @@ void requireStep(Reader& run, const Case& c) {
 void checkDamping(const Reader& law, const Case& c) {
   if (c.law.normal != NormalLaw::linear) return;
   const double mass = lightestReducedMass(c);
-  const double critical = 2.0 * std::sqrt(c.law.kn * mass);
-  const double used = withConstantDampers(c.law, mass).gn;
-  law.check(used < critical, "gn", "overdamps the lightest pair: must be < {:.4g}",
-            c.law.gn * critical / used);
+  const auto check = [&](const ContactLaw& own, const char* key, const std::string& what) {
+    const double critical = 2.0 * std::sqrt(own.kn * mass);
+    const double used = withConstantDampers(own, mass).gn;
+    law.check(used < critical, key, "{}overdamps the lightest pair: must be < {:.4g}", what,
+              own.gn * critical / used);
+  };
+  check(c.law, "gn", "");
+  if (!c.materials) return;
+  const auto& names = c.materials->names;
+  for (std::size_t a = 0; a < names.size(); ++a)
+    for (std::size_t b = a; b < names.size(); ++b)
+      check(c.materials->law(static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)), "pairs",
+            fmt::format("gn of {} with {} ", names[a], names[b]));
 }
 
 /// No disk may slip through a wall, nor through the ring where a packing begins.
@@ -135,6 +145,7 @@ void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
   readPreparation(preparation, c.preparation);
   readAveraging(averaging, c, c.averaging);
   readInterims(looks, c.looks);
+  settleMaterials(c);
   requireStep(run, c);
   readCost(cost, c.cost);
   checkDamping(law, c);
@@ -150,6 +161,7 @@ void readAssemblyCase(Reader& root, Reader& law, Reader& run, Case& c) {
   Reader looks = root.section("looks");
   readBottom(root, c.bottom);
   readAssembly(assembly, c.assembly);
+  settleMaterials(c);
   readPackings(preparation, c);
   readInterims(looks, c.looks);
   std::vector<Reader> endpoints;
@@ -171,6 +183,7 @@ void readAssemblyCase(Reader& root, Reader& law, Reader& run, Case& c) {
 void readCollisionCase(Reader& root, Reader& law, Reader& run, Case& c) {
   Reader collision = root.section("collision");
   readCollision(collision, c.collision);
+  settleMaterials(c);
   run.check(!run.has("steps_per_contact"), "steps_per_contact",
             "a collision takes collision.steps_per_contact");
   if (c.law.soft()) {
@@ -217,7 +230,9 @@ Case readCase(const std::filesystem::path& file, CaseDocument& document) {
 
   readHeader(header, c);
   refuseSections(root, c.kind);
+  std::vector<Reader> pairs = law.sections("pairs");
   readLaw(law, c.law, c.kind == CaseKind::collision);
+  readPairLaws(law, pairs, c);
   readRun(run, c.run);
   readEngines(engines, c.engines);
   if (root.has("stability")) readStability(stability, c.stability.emplace());

@@ -111,7 +111,10 @@ const Section<DisksInput>& disksKeys() {
            key("radius_spread", &D::radiusSpread, between(0.0, 0.9),
                "radii are off by up to this share, masses as their square"),
            key("velocity_rms", &D::velocityRms, atLeast(0.0, "m/s"),
-               "normally distributed, added to `velocity`")}));
+               "normally distributed, added to `velocity`"),
+           keyOf<D>(
+               "material", [](D& d) -> MaterialName& { return d.material; }, any,
+               "of `[[law.pairs]]`")}));
   return section;
 }
 
@@ -156,7 +159,10 @@ const Section<WallsInput>& wallsKeys() {
                .listed("with `amplitude`"),
            key("omega", &Motion::angularVelocity, anyNumber("rad/s"), "or it turns about a centre")
                .listed("–"),
-           key("centre", &W::centre, anyNumber("m"), "of that")}));
+           key("centre", &W::centre, anyNumber("m"), "of that"),
+           keyOf<W>(
+               "material", [](W& w) -> MaterialName& { return w.material; }, any,
+               "of `[[law.pairs]]`")}));
   return section;
 }
 
@@ -203,6 +209,7 @@ WallGroup readWalls(Reader in) {
 struct StartInput {
   std::vector<std::filesystem::path> files;
   double density = 0.0, velocityRms = 0.0;
+  MaterialName material, fixedMaterial;
 };
 
 const Section<StartInput>& startKeys() {
@@ -217,7 +224,9 @@ const Section<StartInput>& startKeys() {
            .listed("required where a file has no masses"),
        key("velocity_rms", &StartInput::velocityRms, atLeast(0.0, "m/s"),
            "normally distributed, added: makes `preparation.packings` packings of the files in "
-           "turn")});
+           "turn"),
+       key("material", &StartInput::material, any, "of its disks, a name of `[[law.pairs]]`"),
+       key("fixed_material", &StartInput::fixedMaterial, any, "of those that stand still")});
   return section;
 }
 
@@ -241,6 +250,7 @@ void readStartFiles(Reader& in, Assembly& assembly) {
   in.check(!input.files.empty(), "file", "must name one file or more");
   starts.files = input.files;
   starts.velocityRms = input.velocityRms;
+  starts.material = input.material;
   for (const auto& file : starts.files) {
     const auto mass = [&](double radius) {
       if (input.density == 0.0)
@@ -266,6 +276,7 @@ void readStartFiles(Reader& in, Assembly& assembly) {
   WallGroup fixed;  // disks of the file that stand still, as one more body
   fixed.position = starts.fixedPosition;
   fixed.radii = starts.fixedRadius;
+  fixed.material = input.fixedMaterial;
   assembly.walls.push_back(fixed);
 }
 

@@ -78,6 +78,18 @@ const Section<Collision>& collisionKeys() {
             "one number for both disks, or `[a, b]`; with a wall the disk's")
            .usedBy(users),
        need("mass", &Collision::mass, positive("kg"), "likewise").usedBy(users),
+       special<Collision>(
+           {"material", "", "–", "",
+            "one name of `[[law.pairs]]` for both, or `[a, b]`; a wall is the second"},
+           [](Reader& in, const std::string& key, Collision& c) {
+             const toml::node* const node = in.take(key);
+             if (!node) return;
+             const toml::array* const both = node->as_array();
+             in.check(!both || both->size() == 2, key, "must be one name or two");
+             for (const std::size_t side : {0u, 1u})
+               convert({both ? *both->get(side) : *node, "collision.material"},
+                       c.material.emplace_back());
+           }),
        key("inertia_factor", &Collision::inertiaFactor, aboveZeroTo(1.0), "as in `[particles]`")
            .usedBy(users),
        key("steps_per_contact", &Collision::stepsPerContact, atLeast(2.0),

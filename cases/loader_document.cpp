@@ -37,6 +37,8 @@ const std::vector<std::vector<Way>> rivals = {
     {{"large_number_share"}, {"large_mass_share"}},
     {{"small_mass", "large_mass"}, {"density"}},
     {{"gn"}, {"e_n"}},
+    {{"kr"}, {"kr_per_kt"}, {"kr_factor"}},
+    {{"w"}, {"gamma"}},
 };
 
 toml::table parse(std::string_view text, const std::string& source) {

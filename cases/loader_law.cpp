@@ -15,6 +15,8 @@ struct LawInput : ContactLaw {
   double gamma = 0.0;                    ///< surface energy, w or half of it
   std::string gammaIs = "half_of_w";
   double young[2] = {}, poisson[2] = {};  ///< of the two bodies, or twice the same
+  bool ofPair = false;                    ///< [[law.pairs]]: may lack what [law] has
+  double krOfLaw = 0.0;                   ///< of a pair without a bound, which no spring is seen of
 };
 
 const char* dampingUnit(const ContactLaw& law) {
@@ -185,6 +187,12 @@ void demand(const Reader& in, std::string_view key, double value, std::string_vi
   in.check(value > 0.0, key, "{} needs it > 0", of);
 }
 
+/// A pair may be without it.
+void demandUnlessPair(const Reader& in, std::string_view key, double value, std::string_view of,
+                      const LawInput& law) {
+  if (!law.ofPair || !in.has(key) || value > 0.0) demand(in, key, value, of);
+}
+
 /// A parameter that the law does not have may be given as zero, so that variants can switch it off.
 void refuse(const Reader& in, std::string_view key, double value, std::string_view reason) {
   if (value > 0.0) in.fail(key, "{}: set it to 0 or leave it out", reason);
@@ -198,7 +206,7 @@ void refuseKeys(const Reader& in, std::initializer_list<const char*> keys, std::
 
 /// Checks what the tangential law needs, and clears what it does not use: the thesis' table 4.1
 /// serves all its laws.
-void settleTangential(const Reader& in, ContactLaw& law) {
+void settleTangential(const Reader& in, LawInput& law) {
   if (law.tangential == TangentialLaw::none) {
     for (const auto& [key, value] : {std::pair{"mu", law.mu}, {"kt", law.kt}, {"gt", law.gt}})
       refuse(in, key, value, fmt::format("{} without friction (law.tangential is none)", key));
@@ -209,12 +217,12 @@ void settleTangential(const Reader& in, ContactLaw& law) {
   else if (law.normal != NormalLaw::hertz)
     demand(in, "kt", law.kt, "a spring law");
   if (law.tangential == TangentialLaw::viscous)
-    demand(in, "gt", law.gt, "a viscous law");
+    demandUnlessPair(in, "gt", law.gt, "a viscous law", law);
   else if (law.tangential != TangentialLaw::springDashpot)
     law.gt = 0.0;
   else if (!in.has("gt"))
     in.failMissing("gt", "a spring_dashpot law has one, if only of 0");
-  demand(in, "mu", law.mu, "a tangential law");
+  demandUnlessPair(in, "mu", law.mu, "a tangential law", law);
 }
 
 /// k_n = 4/3 E₁₂ with 1/E₁₂ = Σ (1 − ν²)/E, k_t = 8 G₁₂ with 1/G₁₂ = Σ (2 − ν)/G,
@@ -264,6 +272,10 @@ void setRollingStiffness(const Reader& in, LawInput& law) {
   for (const auto& [key, factor, of] : {std::tuple{"kr_per_kt", law.krPerKt, law.kt},
                                         {"kr_factor", law.krFactor, law.kn * law.muR * law.muR}}) {
     if (!in.has(key)) continue;
+    if (law.ofPair && law.muR == 0.0) {
+      law.kr = law.krOfLaw;
+      return;
+    }
     in.check(law.normal == NormalLaw::linear, key,
              "a linear law's stiffness is a constant: give kr");
     in.check(law.conventions.rollingStiffness != RollingStiffness::constant, key,
@@ -288,7 +300,7 @@ void settleRolling(const Reader& in, LawInput& law) {
     demand(in, "gr", law.gr, "viscous rolling resistance");
     law.muR = 0.0;
   } else {
-    demand(in, "mu_r", law.muR, "this rolling resistance");
+    demandUnlessPair(in, "mu_r", law.muR, "this rolling resistance", law);
   }
   if (law.rolling == RollingLaw::spring)
     setRollingStiffness(in, law);
@@ -317,17 +329,19 @@ void settleCohesion(const Reader& in, LawInput& law) {
              "\"elasto_plastic\" is piecewise linear: it needs normal = \"linear\"");
   if (bySurface) {
     in.check(!in.has("w") || !in.has("gamma"), "gamma", "and w: give one of them");
-    if (in.has("gamma")) {
-      demand(in, "gamma", law.gamma, "adhesion");
-      law.w = law.gammaIs == "w" ? law.gamma : 2.0 * law.gamma;
-    } else {
-      demand(in, "w", law.w, "adhesion");
-    }
+    const char* const given = in.has("gamma") ? "gamma" : "w";
+    const double value = in.has("gamma") ? law.gamma : law.w;
+    if (law.cohesion == CohesionLaw::jkr)
+      demand(in, given, value, "a bond of JKR's");
+    else
+      demandUnlessPair(in, given, value, "adhesion", law);
+    if (in.has("gamma")) law.w = law.gammaIs == "w" ? law.gamma : 2.0 * law.gamma;
     law.kc = 0.0;
   } else {
     law.w = 0.0;
   }
-  if (law.cohesion == CohesionLaw::area) demand(in, "kc", law.kc, "cohesion by area");
+  if (law.cohesion == CohesionLaw::area)
+    demandUnlessPair(in, "kc", law.kc, "cohesion by area", law);
   if (yields) {
     demand(in, "k_unload", law.kUnload, "an elasto-plastic law");
     in.check(law.kUnload > law.kn, "k_unload", "unloading is stiffer than loading: more than kn");
@@ -359,7 +373,7 @@ void settleSoft(const Reader& in, LawInput& law, bool ofTwoBodies) {
   settleCohesion(in, law);
 }
 
-void settleRigid(const Reader& in, ContactLaw& law) {
+void settleRigid(const Reader& in, LawInput& law) {
   in.check(!law.rolls(), "rolling", "a rigid law has no rolling resistance");
   in.check(!law.coheres(), "cohesion", "a rigid law has no cohesion");
   if (!in.has("e_n")) in.failMissing("e_n", "a rigid law needs it");
@@ -369,7 +383,7 @@ void settleRigid(const Reader& in, ContactLaw& law) {
   if (!in.has("tangential"))
     law.tangential = law.mu > 0.0 ? TangentialLaw::coulomb : TangentialLaw::none;
   if (law.tangential == TangentialLaw::coulomb)
-    demand(in, "mu", law.mu, "a tangential law");
+    demandUnlessPair(in, "mu", law.mu, "a tangential law", law);
   else if (law.tangential != TangentialLaw::none)
     in.fail("tangential", "a rigid law has none or coulomb");
   else
@@ -378,12 +392,31 @@ void settleRigid(const Reader& in, ContactLaw& law) {
 
 }  // namespace
 
-std::vector<SectionInfo> lawSections() {
-  return {lawKeys().info(), bottomKeys().info()};
+namespace {
+
+/// What two materials cannot differ in.
+bool isOption(const std::string& key) {
+  return key == "gamma_is" || std::ranges::count(lawOptions(), key, &LawOption::name) > 0;
 }
 
-void readLaw(Reader& in, ContactLaw& contact, bool ofTwoBodies) {
-  LawInput input;
+SectionInfo pairSection() {
+  SectionInfo info{.name = "law.pairs",
+                   .note =
+                       "The law of two materials, for each two that differ from `[law]`: what "
+                       "it does not give is that of `[law]`, and so are all options and "
+                       "effects.",
+                   .isList = true,
+                   .keys = {{"between", "", "required", "", "the two, or twice the same"}}};
+  for (KeyInfo key : lawKeys().info().keys) {
+    if (isOption(key.name)) continue;
+    key.standard = "that of `[law]`";
+    key.meaning = "as there";
+    info.keys.push_back(key);
+  }
+  return info;
+}
+
+void settle(Reader& in, LawInput& input, bool ofTwoBodies) {
   lawKeys().read(in, input);
   if (input.normal != NormalLaw::hertz) refuseKeys(in, {"young", "poisson"}, "normal = \"hertz\"");
   if (input.normal != NormalLaw::polynomial)
@@ -392,6 +425,73 @@ void readLaw(Reader& in, ContactLaw& contact, bool ofTwoBodies) {
     settleSoft(in, input, ofTwoBodies);
   else
     settleRigid(in, input);
+}
+
+/// Of keys that stand for each other, those that a pair puts out of use in [law] by giving one.
+Names replaced(const Reader& pair) {
+  Names hidden;
+  for (const Names& same : {Names{"gn", "e_n"}, {"w", "gamma"}, {"kr", "kr_per_kt", "kr_factor"}})
+    if (std::ranges::any_of(same, [&](const std::string& key) { return pair.has(key); }))
+      hidden.insert(hidden.end(), same.begin(), same.end());
+  return hidden;
+}
+
+/// What a pair has and [law] has not would be an effect that engines do not look for.
+void refuseNewEffects(const Reader& in, const ContactLaw& pair, const ContactLaw& law) {
+  const auto check = [&](bool is, bool may, const char* key) {
+    if (in.has(key))
+      in.check(!is || may, key, "[law] is without it, and pairs have no effect that it has not");
+  };
+  check(pair.gn > 0.0, law.gn > 0.0, in.has("e_n") ? "e_n" : "gn");
+  if (!pair.soft()) check(pair.en < 1.0, law.en < 1.0, "e_n");
+  check(pair.gt > 0.0, law.gt > 0.0, "gt");
+  check(pair.mu > 0.0, law.mu > 0.0, "mu");
+}
+
+}  // namespace
+
+std::vector<SectionInfo> lawSections() {
+  return {lawKeys().info(), pairSection(), bottomKeys().info()};
+}
+
+void readPairLaws(const Reader& law, std::vector<Reader>& pairs, Case& c) {
+  if (pairs.empty()) return;
+  std::vector<std::pair<Names, ContactLaw>> found;
+  Names names;
+  for (Reader& pair : pairs) {
+    Names between;
+    pair.require("between", between);
+    if (!pair.has("between")) pair.failMissing("between");
+    pair.check(between.size() == 2, "between", "must be two materials");
+    for (const std::string& key : pair.keys())
+      if (isOption(key)) pair.fail(key, "an option is that of [law] for all pairs");
+    for (const auto& [others, theirs] : found)
+      pair.check(!std::ranges::is_permutation(others, between), "between", "is there twice");
+    LawInput input;
+    input.ofPair = true;
+    input.krOfLaw = c.law.kr;
+    Reader both = pair.above(law, replaced(pair));
+    settle(both, input, true);
+    refuseNewEffects(both, input, c.law);
+    for (const std::string& name : between)
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    found.emplace_back(between, input);
+  }
+  Materials& materials = c.materials.emplace();
+  materials.names = names;
+  materials.laws.assign(names.size() * names.size(), c.law);
+  const auto indexOf = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+  };
+  for (const auto& [between, own] : found) {
+    const std::size_t a = indexOf(between[0]), b = indexOf(between[1]);
+    materials.laws[a * names.size() + b] = materials.laws[b * names.size() + a] = own;
+  }
+}
+
+void readLaw(Reader& in, ContactLaw& contact, bool ofTwoBodies) {
+  LawInput input;
+  settle(in, input, ofTwoBodies);
   contact = input;
   in.check(!ofTwoBodies || (!contact.rolls() && !contact.coheres()),
            contact.rolls() ? "rolling" : "cohesion", "the oracle of collisions has no such law");

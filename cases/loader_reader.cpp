@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "cases/case.hpp"
 #include "cases/loader_document.hpp"
 #include "support/input_file.hpp"
 #include "support/nearest.hpp"
@@ -121,6 +122,11 @@ void convert(const Value& value, std::string& target, const Names& choices) {
                (isForeign(value.node.source()) ? "" : suggestion(target, choices)));
 }
 
+void convert(const Value& value, MaterialName& target, Anything) {
+  convert(value, target.name, Sentence{"a material has a name"});
+  target.where = location(value.node.source()) + value.path;
+}
+
 void convert(const Value& value, std::filesystem::path& target, const ExistingFile& wanted) {
   std::string name;
   convert(value, name);
@@ -170,16 +176,30 @@ void convert(const Value& value, double (&target)[2], const Range& range) {
 Reader::Reader(const toml::table* table, std::string path, std::string file)
     : table_(table), path_(std::move(path)), file_(std::move(file)) {}
 
+Reader Reader::above(const Reader& base, const Names& without) const {
+  Reader both = *this;
+  both.below_ = base.table_;
+  both.pathBelow_ = base.path_;
+  both.without_ = without;
+  return both;
+}
+
+const toml::node* Reader::find(std::string_view key) const {
+  if (table_ && table_->contains(key)) return table_->get(key);
+  const bool hidden = std::ranges::find(without_, key) != without_.end();
+  return below_ && !hidden ? below_->get(key) : nullptr;
+}
+
 bool Reader::has(std::string_view key) const {
-  return table_ && table_->contains(key);
+  return find(key) != nullptr;
 }
 
 bool Reader::isTable(std::string_view key) const {
-  return has(key) && table_->get(key)->is_table();
+  return has(key) && find(key)->is_table();
 }
 
 bool Reader::isNumber(std::string_view key) const {
-  return has(key) && table_->get(key)->is_number();
+  return has(key) && find(key)->is_number();
 }
 
 Names Reader::keys() const {
@@ -190,12 +210,14 @@ Names Reader::keys() const {
 }
 
 std::string Reader::pathOf(std::string_view key) const {
-  return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
+  const bool own = !below_ || (table_ && table_->contains(key)) || !has(key);
+  const std::string& path = own ? path_ : pathBelow_;
+  return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
 }
 
 const toml::node* Reader::take(std::string_view key) {
   if (std::ranges::find(known_, key) == known_.end()) known_.emplace_back(key);
-  return table_ ? table_->get(key) : nullptr;
+  return find(key);
 }
 
 std::string Reader::onlyOne(std::initializer_list<const char*> keys, std::string_view rule) {
@@ -248,7 +270,7 @@ void Reader::failMissing(std::string_view key, std::string_view reason) const {
 }
 
 void Reader::fail(std::string_view key, std::string_view message) const {
-  Value{*table_->get(key), pathOf(key)}.fail(message);
+  Value{*find(key), pathOf(key)}.fail(message);
 }
 
 }  // namespace crossgrain::inline cases

@@ -21,6 +21,7 @@
 namespace crossgrain::inline cases {
 
 using Names = std::vector<std::string>;
+struct MaterialName;
 
 /// Text that may be anything, and true or false.
 struct Anything {};
@@ -56,6 +57,7 @@ void convert(const Value& value, std::uint64_t& target, const Range& range);
 void convert(const Value& value, std::string& target, Anything = {});
 void convert(const Value& value, std::string& target, const Sentence& sentence);
 void convert(const Value& value, std::string& target, const Names& choices);
+void convert(const Value& value, MaterialName& target, Anything = {});
 void convert(const Value& value, std::filesystem::path& target, const ExistingFile& wanted);
 /// A list, or one value that stands for a list of one; never empty.
 void convert(const Value& value, std::vector<double>& target, const Range& range);
@@ -129,6 +131,9 @@ class Reader {
     return file;
   }
 
+  /// This table on top of another: what it lacks it has from there, but for some keys.
+  Reader above(const Reader& base, const Names& without) const;
+
   /// The table under a key; an empty reader where it is absent.
   Reader section(std::string_view key);
   /// A list of tables, [[path.key]]; none where it is absent.
@@ -157,10 +162,14 @@ class Reader {
   }
 
  private:
+  const toml::node* find(std::string_view key) const;
   std::string pathOf(std::string_view key) const;
 
   const toml::table* table_;
   std::string path_, file_;
+  const toml::table* below_ = nullptr;
+  std::string pathBelow_;
+  Names without_;
   Names known_, missing_;
 };
 

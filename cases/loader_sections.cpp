@@ -32,7 +32,9 @@ const Section<Cell>& cellKeys() {
             Range{.unit = "rad/s",
                   .reason = ": all is timed in rotations of the wheel; < 0 is clockwise",
                   .notZero = true},
-            "Ω of the wheel, counter-clockwise; its sign is that of v_φ, spin, σ_rφ and torque")});
+            "Ω of the wheel, counter-clockwise; its sign is that of v_φ, spin, σ_rφ and torque"),
+       key("wheel_material", &Cell::wheelMaterial, any, "of `[[law.pairs]]`"),
+       key("ring_material", &Cell::ringMaterial, any, "likewise")});
   return section;
 }
 
@@ -69,7 +71,10 @@ const Section<ParticlesInput>& particlesKeys() {
        key("max_overlap", &P::maxOverlap, between(0.0, 1.0),
            "largest overlap of a start, in units of `small_radius`"),
        key("file", &P::file, ExistingFile{".h5"},
-           "a packing of your own, relative to this file; its numbers hold")});
+           "a packing of your own, relative to this file; its numbers hold"),
+       key("small_material", &P::smallMaterial, any, "of `[[law.pairs]]`"),
+       key("large_material", &P::largeMaterial, any,
+           "likewise; disks of a file are of the nearer radius")});
   return section;
 }
 
@@ -204,7 +209,8 @@ const Section<RunOptions>& runKeys() {
            "also run the in-house engine under each peer's conventions")
            .usedBy("compare plan collide"),
        key("energy_ledger", &RunOptions::energyLedger, any,
-           "energy term by term of engines that can: columns `energy_…` of `series.csv`")
+           "energy term by term of engines that can: columns `energy_…` of `series.csv`, and the "
+           "field `dissipation`")
            .usedBy("compare plan record stability effects cost scale"),
        key("keep_snapshots", &RunOptions::keepSnapshots, between(0, 1'000'000), "per run, in HDF5")
            .usedBy("compare plan effects cost")});

@@ -27,6 +27,9 @@ std::vector<SectionInfo> averageSections();    ///< [average] …, [[endpoints]]
 
 /// @param ofTwoBodies  in a collision, whose bodies may be of two materials
 void readLaw(Reader& in, ContactLaw& law, bool ofTwoBodies);
+/// [[law.pairs]], into materials with their laws, of which law.law is that of all others.
+/// @param law  read already
+void readPairLaws(const Reader& law, std::vector<Reader>& pairs, Case& c);
 /// [bottom]; a plate without friction is none.
 void readBottom(Reader& root, std::optional<BottomPlate>& bottom);
 void readCell(Reader& in, Cell& cell);

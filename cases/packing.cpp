@@ -58,10 +58,22 @@ std::string packingHash(const Case& setup, int index, double dt) {
   for (const LawOption& option : lawOptions())
     if (hasPart(law, option.part))
       text += fmt::format("{} {};", option.name, option.values[option.get(law)]);
+  const auto addConstants = [&](const ContactLaw& of) {
+    for (const LawConstant& constant : lawConstants())
+      if (hasPart(of, constant.part)) text += fmt::format(" {}", of.*constant.value);
+    text += ';';
+  };
   text += "law";
-  for (const LawConstant& constant : lawConstants())
-    if (hasPart(law, constant.part)) text += fmt::format(" {}", law.*constant.value);
-  text += ';';
+  addConstants(law);
+  if (setup.materials) {
+    text += "pairs";
+    std::ranges::for_each(setup.materials->laws, addConstants);
+    const Particles& disks = setup.particles;
+    for (const MaterialName* each : {&disks.smallMaterial, &disks.largeMaterial,
+                                     &setup.cell.wheelMaterial, &setup.cell.ringMaterial})
+      text += fmt::format(" {};", std::ranges::find(setup.materials->names, each->name) -
+                                      setup.materials->names.begin());
+  }
   if (setup.bottom)
     text += fmt::format("bottom {} {} {} {} {} {};", setup.bottom->mu, setup.bottom->kb,
                         setup.bottom->gb, setup.bottom->tauM, setup.bottom->gravity,

@@ -137,7 +137,11 @@ Packing makePacking(const Case& setup, const std::function<void(double)>& progre
   const auto report = [&](std::uint64_t done) {
     progress(static_cast<double>(done) / static_cast<double>(relaxing + shearing));
   };
-  const auto scene = [&] { return couetteScene(setup, packing, timeStep(setup)); };
+  const auto scene = [&] {
+    Scene made = couetteScene(setup, packing, timeStep(setup));
+    made.materials.reset();  // they go by the order of the ids
+    return made;
+  };
   relax(scene(), packing.disks, report);
   shear(scene(), packing, [&](std::uint64_t done) { report(relaxing + done); });
   packing.disks = reordered(packing.disks, idAtSite);

@@ -9,6 +9,7 @@
 
 #include "cases/collision_scene.hpp"
 #include "cases/flow.hpp"
+#include "cases/materials.hpp"
 #include "oracle/impact.hpp"
 
 namespace crossgrain::inline cases {
@@ -84,7 +85,14 @@ double lightestReducedMass(const Case& c) {
 double timeStep(const Case& c) {
   if (c.kind == CaseKind::collision) return collisionTimeSteps(c).front();
   if (c.run.dt) return *c.run.dt;
-  return contactTime(c.law, lightestReducedMass(c)) / c.run.stepsPerContact;
+  return shortestContact(c) / c.run.stepsPerContact;
+}
+
+double shortestContact(const Case& c) {
+  const double mass = lightestReducedMass(c);
+  double shortest = INFINITY;
+  for (const ContactLaw& law : lawsOf(c)) shortest = std::min(shortest, contactTime(law, mass));
+  return shortest;
 }
 
 double preparationTime(const Case& c) {
@@ -223,17 +231,16 @@ double startingSpeed(const Assembly& assembly) {
 std::optional<double> pairContactTime(const Case& setup) {
   if (setup.law.normal != NormalLaw::linear || setup.particles.file) return std::nullopt;
   try {
-    return contactTime(setup.law, lightestReducedMass(setup));
+    return shortestContact(setup);
   } catch (const std::invalid_argument&) {
     return std::nullopt;  // overdamped
   }
 }
 
-std::optional<PairStepLimit> pairStepLimit(const Case& setup,
-                                           std::optional<LightestPair> lightest) {
-  const ContactLaw& law = setup.law;
-  if (setup.kind == CaseKind::collision || !law.soft()) return std::nullopt;
-  const LightestPair pair = lightest ? *lightest : lightestPair(setup);
+namespace {
+
+std::optional<PairStepLimit> pairStepLimit(const Case& setup, const ContactLaw& law,
+                                           const LightestPair& pair) {
   const double speed = setup.kind == CaseKind::couette
                            ? std::abs(setup.cell.omega) * setup.cell.innerRadius
                            : startingSpeed(setup.assembly);
@@ -263,6 +270,20 @@ std::optional<PairStepLimit> pairStepLimit(const Case& setup,
     if (rolling.dt < least.dt) least = rolling;
   }
   if (!std::isfinite(least.dt)) return std::nullopt;
+  return least;
+}
+
+}  // namespace
+
+std::optional<PairStepLimit> pairStepLimit(const Case& setup,
+                                           std::optional<LightestPair> lightest) {
+  if (setup.kind == CaseKind::collision || !setup.law.soft()) return std::nullopt;
+  const LightestPair pair = lightest ? *lightest : lightestPair(setup);
+  std::optional<PairStepLimit> least;
+  for (const ContactLaw& law : lawsOf(setup)) {
+    const auto limit = pairStepLimit(setup, law, pair);
+    if (limit && (!least || limit->dt < least->dt)) least = limit;
+  }
   return least;
 }
 

@@ -43,6 +43,10 @@ double preparationTime(const Case& c);
 /// Time steps that this takes, of [preparation] dt or, without one, of timeStep().
 double preparationSteps(const Case& c);
 
+/// t_c of the lightest pair under the law that makes it shortest [s].
+/// @throws std::invalid_argument for a law that has none
+double shortestContact(const Case& c);
+
 /// t_c of the lightest pair that a case's own numbers allow [s]; absent for a law that has none,
 /// and where the disks are a packing file's.
 std::optional<double> pairContactTime(const Case& setup);

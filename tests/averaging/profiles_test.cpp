@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -103,6 +104,49 @@ TEST(Profiles, AFieldWithoutDataIsAbsent) {
     const bool filling = profile.field == "volume_fraction" || profile.field == "density";
     EXPECT_EQ(profile.mean[1].has_value(), filling) << profile.field;
   }
+}
+
+/// Disks at 1.5 m and 2.5 m that turn 3 W into heat, the second beside a wall disk with 5 W more.
+Instant warm() {
+  Instant instant;
+  instant.addDisk({1.5, 0.0}, 0.2);
+  instant.addDisk({2.5, 0.0}, 0.2);
+  instant.addWall("ring", {Vec2(2.9, 0.0)}, 0.1);
+  instant.addContact(0, 1, {-1.0, 0.0}, 1.0, 0.0);
+  instant.addContact(1, 2, {-1.0, 0.0}, 1.0, 0.0);
+  instant.snapshot.contacts->dissipation = {3.0, 5.0};
+  return instant;
+}
+
+TEST(Profiles, Dissipation_IsTheHeatOfEachDisksContactsOverTheVolume) {
+  const Instant instant = warm();
+  ProfileAccumulator accumulator(twoRings(), {WeightMethod::centre}, instant.scene);
+  accumulator.add(instant.snapshot);
+  const Profile field = find(accumulator.profiles(), "dissipation");
+  // Half of 3 W; the other half and all 5 W. π (2² − 1²) · 0.5 m³ and π (3² − 2²) · 0.5 m³.
+  EXPECT_NEAR(field.mean[0].value(), 1.5 / (1.5 * std::numbers::pi), 1e-15);
+  EXPECT_NEAR(field.mean[1].value(), 6.5 / (2.5 * std::numbers::pi), 1e-15);
+  EXPECT_EQ(field.unit, "W/m³");
+  EXPECT_TRUE(fieldSpec("dissipation").perVolume);
+}
+
+TEST(Profiles, Dissipation_IsAbsentUnlessEverySnapshotWithContactsReportsIt) {
+  const auto has = [](const ProfileAccumulator& accumulator) {
+    return std::ranges::any_of(accumulator.profiles(),
+                               [](const Profile& p) { return p.field == "dissipation"; });
+  };
+  const Instant reported = warm();
+  Instant without = warm(), apart = warm();
+  without.snapshot.contacts->dissipation.clear();
+  apart.snapshot.contacts = Contacts{};
+  ProfileAccumulator accumulator(twoRings(), {WeightMethod::centre}, reported.scene);
+  accumulator.add(apart.snapshot);
+  EXPECT_FALSE(has(accumulator));
+  accumulator.add(reported.snapshot);
+  accumulator.add(apart.snapshot);
+  EXPECT_TRUE(has(accumulator));
+  accumulator.add(without.snapshot);
+  EXPECT_FALSE(has(accumulator));
 }
 
 TEST(Profiles, SnapshotsOfOneAverageMustHoldTheSame) {

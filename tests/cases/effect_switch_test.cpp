@@ -76,6 +76,34 @@ TEST(EffectSwitch, Without_LacksTheEffectAndItsDependents) {
   }
 }
 
+TEST(EffectSwitch, RollingCohesionAndMaterials_AreSwitchedOneByOne) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "more_effects.toml";
+  std::ofstream(file)
+      << test::withLine(test::withLine(test::soundCase, 16,
+                                       "omega = 1.0\nwheel_material = \"steel\"\nring_material = "
+                                       "\"steel\""),
+                        9,
+                        "tangential = \"spring_dashpot\"\nrolling = \"spring\"\nmu_r = 0.1\n"
+                        "kr_factor = 3.0\ngr = 1e-3\ncohesion = \"area\"\nkc = 1e4")
+      << "small_material = \"glass\"\nlarge_material = \"glass\"\n[[law.pairs]]\n"
+         "between = [\"glass\", \"steel\"]\nkn = 500.0\ngn = 0.2\nmu = 0.1\nkt = 200.0\n"
+         "gt = 0.1\nmu_r = 0.3\nkc = 2e4\n";
+  const Case base = loadCase(file).front();
+  const Effects all = effectsOf(base);
+  using enum Effect;
+  for (const Effect effect : {normalDamping, friction, tangentialSpring, tangentialDamping,
+                              rotation, rollingResistance, cohesion, pairMaterials}) {
+    const auto one = without(base, effect);
+    ASSERT_TRUE(one) << toString(effect);
+    EXPECT_TRUE(all.contains(effect));
+    EXPECT_FALSE(effectsOf(one->without).contains(effect)) << toString(effect);
+    EXPECT_EQ(one->without.materials.has_value(), effect != pairMaterials) << toString(effect);
+    EXPECT_EQ(loadCase(file, {}, one->fragment).front().resolvedToml, one->without.resolvedToml);
+  }
+  EXPECT_EQ(without(base, cohesion)->without.materials->law(0, 1).muR, 0.3);
+  EXPECT_EQ(without(base, pairMaterials)->without.law, base.law);
+}
+
 TEST(EffectSwitch, Without_KeepsOtherConstants) {
   const Case base = thesisCase();
   const auto switches = effectSwitches(base);

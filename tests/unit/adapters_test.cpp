@@ -257,6 +257,34 @@ TEST(GrainAdapter, StepsInTheScenesPrecision) {
   EXPECT_NE(rounded.velocity[0].x(), exact.velocity[0].x());
 }
 
+TEST(GrainAdapter, RunsThePairsOfMaterialsAndReportsTheirConstants) {
+  Scene scene = grazing();
+  const auto engine = makeGrain();
+  const Snapshot alike = after(*engine, scene);
+  Materials& materials = scene.materials.emplace();
+  materials = {{"glass", "steel"}, {0, 1}, {}, std::vector<ContactLaw>(4, scene.law)};
+  materials.ofBody.assign(scene.bodies.size(), 1);
+  const Snapshot same = after(*engine, scene);
+  EXPECT_EQ(same.velocity, alike.velocity);
+  for (const std::size_t mixed : {1u, 2u}) materials.laws[mixed].mu = 0.0;
+  scene.energyLedger = true;
+  const EffectiveParameters effective = engine->load(scene, {});
+  EXPECT_TRUE(effective.effects.contains(Effect::pairMaterials));
+  const auto ofPair = [&](const std::string& part) {
+    return std::ranges::find_if(effective.pairs, [&](const PairCoefficients& row) {
+      return row.pair.find(part) != std::string::npos;
+    });
+  };
+  ASSERT_NE(ofPair("of glass with"), effective.pairs.end());
+  EXPECT_EQ(ofPair("g of steel")->mu, 0.0);
+  EXPECT_EQ(ofPair("of steel with")->mu, scene.law.mu);
+  const Snapshot smooth = after(*engine, scene);
+  EXPECT_EQ(*smooth.spin, scene.disks.spin);
+  EXPECT_NE(smooth.velocity, alike.velocity);
+  const Snapshot now = engine->snapshot(ContactReport::instant);
+  EXPECT_EQ(now.contacts->dissipation.size(), now.contacts->size());
+}
+
 TEST(LawOptions, OptionsThatHaveNoBearingOnALawDoNotMatter) {
   ContactLaw law = oneDisk().law;
   EXPECT_TRUE(mattersTo(law, "lever_arm"));

@@ -71,6 +71,20 @@ void expectSays(const std::string& why, const std::string& part) {
   EXPECT_NE(why.find(part), std::string::npos) << "'" << why << "' without '" << part << "'";
 }
 
+TEST_F(Audit, ForcesOfMaterials_AreThoseOfTheirPair) {
+  Materials& materials = scene_.materials.emplace();
+  materials = {{"glass", "steel"}, {0, 0, 0}, {1}, std::vector<ContactLaw>(4, scene_.law)};
+  for (const std::size_t mixed : {1u, 2u}) {
+    materials.laws[mixed].kn *= 3.0;
+    materials.laws[mixed].mu = 0.0;
+  }
+  expectSays(lawFaultOf(), "contact 1 (disk 0 with wall disk 0): f_n is");
+  contacts().normalForce[1] *= 3.0;
+  EXPECT_EQ(lawFaultOf(), "");
+  contacts().tangentialForce[1] = 0.1 * contacts().normalForce[1];  // within [law]'s mu
+  expectSays(lawFaultOf(), "contact 1 (disk 0 with wall disk 0): |f_t| is");
+}
+
 TEST_F(Audit, SoundSnapshotsPass) {
   EXPECT_EQ(why(), "");
   EXPECT_EQ(lawFaultOf(), "");

@@ -1,0 +1,113 @@
+#include "cases/materials.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "support/bad_input.hpp"
+#include "support/nearest.hpp"
+
+namespace crossgrain::inline cases {
+namespace {
+
+/// Someone who is of a material, and how to call him where he names none.
+struct Body {
+  std::string who;
+  const MaterialName* material;
+};
+
+std::vector<Body> bodiesOf(const Case& setup) {
+  std::vector<Body> bodies;
+  if (setup.kind == CaseKind::collision) {
+    for (const MaterialName& material : setup.collision.material)
+      bodies.push_back({"[collision]", &material});
+    return bodies;
+  }
+  if (setup.kind == CaseKind::couette) {
+    const Particles& p = setup.particles;
+    if (p.small > 0 || p.file) bodies.push_back({"[particles] small", &p.smallMaterial});
+    if (p.large > 0 || p.file) bodies.push_back({"[particles] large", &p.largeMaterial});
+    bodies.push_back({"[cell] wheel", &setup.cell.wheelMaterial});
+    bodies.push_back({"[cell] ring", &setup.cell.ringMaterial});
+    return bodies;
+  }
+  const Assembly& assembly = setup.assembly;
+  for (std::size_t k = 0; k < assembly.disks.size(); ++k)
+    bodies.push_back({fmt::format("assembly.disks[{}]", k), &assembly.disks[k].material});
+  if (!assembly.starts.disks.empty())
+    bodies.push_back({"[assembly.start]", &assembly.starts.material});
+  for (std::size_t k = 0; k < assembly.walls.size(); ++k)
+    bodies.push_back({fmt::format("assembly.walls[{}]", k), &assembly.walls[k].material});
+  return bodies;
+}
+
+std::int32_t indexOf(const Materials& materials, const MaterialName& material) {
+  return static_cast<std::int32_t>(std::ranges::find(materials.names, material.name) -
+                                   materials.names.begin());
+}
+
+}  // namespace
+
+std::vector<ContactLaw> lawsOf(const Case& setup) {
+  return setup.materials ? setup.materials->laws : std::vector{setup.law};
+}
+
+void settleMaterials(Case& setup) {
+  if (!setup.materials) return;
+  const Materials& materials = *setup.materials;
+  std::vector<bool> used(materials.names.size(), false);
+  const std::vector<Body> bodies = bodiesOf(setup);
+  if (bodies.empty())
+    throw BadInput(fmt::format("{}: [collision] has no material, and [[law.pairs]] of two",
+                               setup.file.string()));
+  for (const auto& [who, material] : bodies) {
+    if (material->name.empty())
+      throw BadInput(fmt::format("{}: {} has no material, and [[law.pairs]] of some",
+                                 setup.file.string(), who));
+    const auto index = static_cast<std::size_t>(indexOf(materials, *material));
+    if (index == used.size())
+      throw BadInput(fmt::format("{} = \"{}\": no [[law.pairs]] has that material{}",
+                                 material->where, material->name,
+                                 suggestion(material->name, materials.names)));
+    used[index] = true;
+  }
+  if (const auto idle = std::ranges::find(used, false); idle != used.end())
+    throw BadInput(fmt::format("{}: [[law.pairs]] has a material that nobody is made of, \"{}\"",
+                               setup.file.string(),
+                               materials.names[static_cast<std::size_t>(idle - used.begin())]));
+  if (setup.kind == CaseKind::collision) {
+    setup.law = materials.law(indexOf(materials, setup.collision.material.front()),
+                              indexOf(materials, setup.collision.material.back()));
+    setup.materials.reset();
+  } else if (std::ranges::all_of(materials.laws,
+                                 [&](const ContactLaw& law) { return law == setup.law; })) {
+    setup.materials.reset();
+  }
+}
+
+void addMaterials(Scene& scene, const Case& setup) {
+  if (!setup.materials) return;
+  Materials& materials = scene.materials.emplace(*setup.materials);
+  const auto index = [&](const MaterialName& material) { return indexOf(materials, material); };
+  if (setup.kind == CaseKind::couette) {
+    const Particles& p = setup.particles;
+    for (std::size_t i = 0; i < scene.disks.size(); ++i) {
+      const double a = scene.disks.radius[i];
+      const bool small = p.file ? std::abs(a - p.smallRadius) <= std::abs(a - p.largeRadius)
+                                : i < static_cast<std::size_t>(p.small);
+      materials.ofDisk.push_back(index(small ? p.smallMaterial : p.largeMaterial));
+    }
+    materials.ofBody = {index(setup.cell.wheelMaterial), index(setup.cell.ringMaterial)};
+    return;
+  }
+  const Assembly& assembly = setup.assembly;
+  for (const DiskGroup& group : assembly.disks)
+    materials.ofDisk.insert(materials.ofDisk.end(), group.places.size(), index(group.material));
+  if (!assembly.starts.disks.empty())
+    materials.ofDisk.assign(scene.disks.size(), index(assembly.starts.material));
+  for (const WallGroup& wall : assembly.walls) materials.ofBody.push_back(index(wall.material));
+}
+
+}  // namespace crossgrain::inline cases
