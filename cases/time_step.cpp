@@ -137,7 +137,10 @@ struct Deepest {
 };
 
 Deepest deepest(const ContactLaw& law, const Impact& impact) {
-  if (law.normal == NormalLaw::linear) return {law.kn, law.kt};
+  if (law.normal == NormalLaw::linear) {
+    const bool yields = law.cohesion == CohesionLaw::elastoPlastic;  // unloads up to so stiff
+    return {yields ? law.kUnload : law.kn, law.kt};
+  }
   const double overlap = deepestOverlap(law, impact);
   if (law.normal == NormalLaw::polynomial)
     return {(2.0 * law.kn + 3.0 * law.kn3 * overlap) * overlap, law.kt};

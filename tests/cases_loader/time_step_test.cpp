@@ -108,6 +108,10 @@ TEST(StepLimit, Linear_EachTerm_IsItsOscillators) {
   const std::string why = unstableStepFault(c, 1.0, "run.dt");
   for (const char* part : {"run.dt = 1 s", "0.00125 s", "normal spring", "352.1 N/m"})
     EXPECT_NE(why.find(part), std::string::npos) << why;
+  c.law.cohesion = CohesionLaw::elastoPlastic;
+  c.law.kUnload = 4.0 * c.law.kn;  // a contact unloads by as much
+  EXPECT_DOUBLE_EQ(pairStepLimit(c)->dt, limit / 2.0);
+  c.law.cohesion = CohesionLaw::none;
 
   c.law.tangential = TangentialLaw::spring;
   c.law.kt = 20.0 * c.law.kn;
