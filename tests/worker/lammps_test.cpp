@@ -73,6 +73,7 @@ TEST_P(LammpsWorkers, Materials_PairsHaveTheirOwnStiffness) {
   const EffectiveParameters effective = engine_->load(scene, {});
   EXPECT_TRUE(effective.effects.contains(Effect::pairMaterials));
   ASSERT_EQ(effective.pairs.size(), 3U);
+  EXPECT_EQ(effective.pairs[1].pair, "soft with hard");
   EXPECT_EQ(effective.pairs[1].kn, 2e3);
   const Contacts contacts = engine_->snapshot(ContactReport::instant).contacts.value();
   std::vector<double> found;
