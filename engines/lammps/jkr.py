@@ -42,10 +42,10 @@ class Bonds:
         made = self.made
         before = self.keys()[self.held]
         reach = 2.0 * self.slack + largest_range(made)
-        near = [
-            i + 1 + np.flatnonzero(self.distances(position, i, slice(i + 1, None)) < made.radius[i] + made.radius[i + 1 :] + reach)
-            for i in range(made.scene["disks"])
-        ]
+        near = []
+        for i in range(made.scene["disks"]):
+            gaps = self.distances(position, i, slice(i + 1, None)) - made.radius[i] - made.radius[i + 1 :]
+            near.append(i + 1 + np.flatnonzero(gaps < reach))
         self.i = np.repeat(np.arange(len(near)), list(map(len, near)))
         self.j = np.concatenate(near)
         self.held = np.isin(self.keys(), before)

@@ -60,7 +60,8 @@ class Laws:
         materials = scene.get("materials")
         if materials:
             self.all = [law(each) for each in materials["laws"]]
-            self.count = len(materials["names"])
+            self.names = materials["names"]
+            self.count = len(self.names)
             self.of_disk, self.of_body = arrays["disks.material"], materials["of_body"]
         else:
             self.all, self.count = [self.one], 1
@@ -87,7 +88,7 @@ class Laws:
         if self.count == 1:
             return [{"pair": "all", **self.one.coefficients()}]
         return [
-            {"pair": f"material {a + 1} with {b + 1}", **self.between(a, b).coefficients()}
+            {"pair": f"{self.names[a]} with {self.names[b]}", **self.between(a, b).coefficients()}
             for a in range(self.count)
             for b in range(a, self.count)
         ]

@@ -93,9 +93,8 @@ class Scene(build.Scene):
         axis = 0 if plane["normal"][0] else 1
         place = repr(float(plane["point"][axis]))
         models, settings = self.law.model_words(), self.law.setting_words()
-        self.lammps.command(
-            f"fix plane{number} disks wall/gran {models} primitive type {kind} {'xy'[axis]}plane {place} store_force yes {settings}"
-        )
+        wall = f"primitive type {kind} {'xy'[axis]}plane {place} store_force yes"
+        self.lammps.command(f"fix plane{number} disks wall/gran {models} {wall} {settings}")
 
     def forces_of_plane(self, number):
         return self.lammps.fix_array(f"force_plane{number}", 3)[:, :2]

@@ -149,6 +149,8 @@ SPRING = {"law.rolling": "spring", "law.mu_r": 0.1, "law.rolling_load": "magnitu
 DAMPED_HERTZ = {"law.tangential": "spring_dashpot", "law.damper": "constant", "law.gn": 0.1, "law.gt": 0.08}
 # A pull of 2 mN, about that of a chain of disks in the cell.
 ADHESIVE = {"law.w": 0.17}
+DMT = {"law.cohesion": "dmt", "law.cohesion_load": "net_without_dashpot"}
+JKR = {"law.cohesion": "jkr", "law.cohesion_load": "plus_twice_pull_off"}
 DIAMETER = 2 * 3.7e-3  # m, of a small disk of the quick cell
 
 
@@ -170,10 +172,10 @@ class Lammps(Peer):
     def test_is_its_laws_of_rolling_and_cohesion(self):
         """In windows of 100 ms, in which LAMMPS would sort atoms and reverse rolling springs: 0.02 d."""
         spring = SPRING | {"law.gr": 0.05, "law.rolling_reset": "spring_only"}
-        jkr = DAMPED_HERTZ | ADHESIVE | {"law.cohesion": "jkr", "law.cohesion_load": "plus_twice_pull_off"}
+        jkr = DAMPED_HERTZ | ADHESIVE | JKR
         for case, law in (
             (COUETTE, spring | {"law.kr_per_kt": 1.0}),
-            (HERTZ, DAMPED_HERTZ | ADHESIVE | {"law.cohesion": "dmt", "law.cohesion_load": "net_without_dashpot"}),
+            (HERTZ, DAMPED_HERTZ | ADHESIVE | DMT),
             (HERTZ, jkr),
             (HERTZ, jkr | spring | {"law.kr": 100.0, "law.history": "force"}),
         ):
@@ -218,12 +220,12 @@ class Lammps(Peer):
         self.assert_one_error(done, BAD_INPUT, "ranks = 2", "mpirun", "openmpi-bin")
 
     def test_what_it_lacks_of_rolling_and_cohesion_is_refused_by_name(self):
-        jkr = DAMPED_HERTZ | ADHESIVE | {"law.cohesion": "jkr", "law.cohesion_load": "plus_twice_pull_off"}
+        jkr = DAMPED_HERTZ | ADHESIVE | JKR
         for case, law, reason in (
             (COUETTE, SPRING | {"law.rolling": "constant_torque"}, "has rolling = none | spring, not constant_torque"),
             (COUETTE, SPRING | {"law.kr": 100.0, "engines.lammps.ranks": 2}, "has rolling_resistance on one rank alone"),
             (COUETTE, {"law.cohesion": "area", "law.kc": 1e3}, "has cohesion = none | dmt | jkr, not area"),
-            (COUETTE, ADHESIVE | {"law.cohesion": "dmt", "law.cohesion_load": "net_without_dashpot"}, 'has cohesion = "dmt" with normal = "hertz" alone'),
+            (COUETTE, ADHESIVE | DMT, 'has cohesion = "dmt" with normal = "hertz" alone'),
             (HERTZ, jkr | {"law.cohesion_load": "net_without_dashpot"}, 'has cohesion_load = "plus_twice_pull_off" with'),
             (HERTZ, jkr | {"law.damper": "critical"}, 'dashpots of damper = "constant" alone with cohesion = "jkr"'),
             (CASES / "assembly/pile.toml", {"law.rolling": "viscous", "law.gr": 1.0}, "has rolling = none | spring, not viscous"),
