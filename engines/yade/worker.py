@@ -207,6 +207,7 @@ class Yade:
         self.scale_inertia(2.0)
         O.step()
         self.scale_inertia(0.5)
+        self.law.begin()
         self.kick = self.dt / 2
         self.steps = 1
         self.evaluations = O.interactions.countReal()
