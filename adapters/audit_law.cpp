@@ -266,6 +266,7 @@ std::string rollingFault(double normal, double found, const ContactLaw& law,
   const double most = how.rollingLoad == RollingLoad::elastic     ? elastic.force
                       : how.rollingLoad == RollingLoad::magnitude ? std::abs(load)
                                                                   : std::max(load, 0.0);
+  if (how.rollingLoad == RollingLoad::whileCompressed && most <= 0.0) return {};
   const double bound = law.rolls() ? law.muR * length * most : 0.0;
   const double unsure =
       (elastic.stiffness +

@@ -141,9 +141,10 @@ enum class RollingDamper {
 
 /// N, the load that µ_r multiplies.
 enum class RollingLoad {
-  compression,  ///< max(f_n, 0)
-  magnitude,    ///< |f_n|
-  elastic       ///< f_el(δ), without dashpot and cohesion (LIGGGHTS' cdt)
+  compression,     ///< max(f_n, 0)
+  magnitude,       ///< |f_n|
+  elastic,         ///< f_el(δ), without dashpot and cohesion (LIGGGHTS' cdt)
+  whileCompressed  ///< max(f_n, 0); where that is 0 a spring has no limit (YADE's Hertz law)
 };
 
 /// Attraction. F_po is the largest pull, w the work of adhesion [J/m²], 2 γ of two equal surfaces.

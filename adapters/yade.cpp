@@ -47,7 +47,7 @@ EngineEntry yadeMirror() {
                       {"rolling", {"spring", "viscous_by_load"}},
                       {"rolling_length", {"mean_radius", "smaller_radius"}},
                       {"rolling_stiffness", {"constant", "radii"}},
-                      {"rolling_load", {"compression", "magnitude"}},
+                      {"rolling_load", {"while_compressed"}},
                       {"cohesion", {"dmt", "elasto_plastic"}},
                       {"cohesion_load", {"magnitude_plus_pull_off"}}});
 }

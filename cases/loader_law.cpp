@@ -59,7 +59,9 @@ constexpr std::pair<const char*, const char*> optionMeanings[] = {
     {"rolling_damper",
      "what `gr` is: γ_r [kg/s] of γ_r L² ω_r, or the damping ratio of 2 γ_r √(I k_r) ω_r, 1/I = Σ "
      "1/(J + m a²)"},
-    {"rolling_load", "N: max(f_n, 0), |f_n|, or f_el without dashpot and cohesion"},
+    {"rolling_load",
+     "N: max(f_n, 0), |f_n|, f_el without dashpot and cohesion, or max(f_n, 0) with no limit of a "
+     "spring where it is 0"},
     {"rolling_dashpot",
      "whether the bound limits spring and dashpot, or the spring, which is alone while it slips"},
     {"rolling_reset", "at the bound the spring alone carries it, or spring and dashpot together"},

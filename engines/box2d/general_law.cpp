@@ -1,5 +1,6 @@
 #include "engines/box2d/general_law.hpp"
 
+#include <limits>
 #include <numbers>
 #include <tuple>
 #include <utility>
@@ -242,7 +243,8 @@ double rollingTorque(const SoftLaw& law, const PairMotion& motion, double load,
                            : viscous;
   const Slider slider{stiffness,         motion.spin * motion.dt,   -gamma * motion.spin,
                       law.stretchBefore, law.rollingDashpotOutside, law.rollingResetSpringOnly};
-  return slider.pull(memory.angle, bound).first;
+  const bool limited = law.rollingLoad != RollingLoad::whileCompressed || bound > 0.0;
+  return slider.pull(memory.angle, limited ? bound : std::numeric_limits<double>::infinity()).first;
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ enum class Rolling { none, constantTorque, viscous, viscousByLoad, spring };
 enum class RollingLength { effective, twiceEffective, smallerRadius, meanRadius };  ///< L
 enum class RollingStiffness { lengthSquare, radii, constant };  ///< k_r times L², a_i a_j or 1
 enum class RollingDamper { constant, critical };                ///< γ_r L² or 2 γ_r √(I k_r)
-enum class RollingLoad { compression, magnitude, elastic };     ///< N: max(f_n, 0), |f_n| or f_el
+/// N: max(f_n, 0), |f_n| or f_el; whileCompressed: where max(f_n, 0) is 0 a spring has no limit.
+enum class RollingLoad { compression, magnitude, elastic, whileCompressed };
 enum class Cohesion { none, area, dmt, jkr, elastoPlastic };
 enum class CohesionArea { lens, firstOrder, twiceBetweenDisks };
 enum class JkrEnd { largestPull, branch };

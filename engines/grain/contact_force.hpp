@@ -186,7 +186,8 @@ GRAIN_INLINE RollingTorque<Real> rollingTorque(const L& law, const RollingMotion
   const Real viscous = -rollingDamping(law, motion) * motion.spin;
   const Real trial = spring + viscous;
   const Real tested = c.dashpotOutsideBound ? spring : trial;
-  const bool holds = magnitude(tested) <= bound;
+  const bool limited = c.load != RollingLoad::whileCompressed || bound > Real(0);
+  const bool holds = !limited || magnitude(tested) <= bound;
   const Real slipping = withSignOf(bound, tested);
   Real slipped = -(c.resetSpringOnly ? slipping - viscous : slipping) / stiffness;
   if (law.stretch == Stretch::midpoint) slipped += Real(0.5) * stretch;

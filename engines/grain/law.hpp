@@ -91,8 +91,9 @@ enum class RollingStiffness { lengthSquare, radii, constant };
 /// What a rolling spring's dashpot is: γ_r L² with γ_r [kg/s], or 2 η √(I k_r) with η [-] and
 /// 1/I = Σ 1/(J + m a²) over the bodies that move.
 enum class RollingDamper { constant, critical };
-/// N: max(f_n, 0), |f_n|, or the elastic part of f_n alone.
-enum class RollingLoad { compression, magnitude, elastic };
+/// N: max(f_n, 0), |f_n|, or the elastic part of f_n alone; whileCompressed: as the first, but
+/// where it is 0 a spring has no limit.
+enum class RollingLoad { compression, magnitude, elastic, whileCompressed };
 
 /// What engines differ in that resist rolling alike.
 struct RollingConventions {

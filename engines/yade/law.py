@@ -124,6 +124,9 @@ class Law:
         has = {"mu": self.friction, "kt": self.friction, "gt": self.dashpot}
         return {name: value for name, value in constants.items() if has.get(name, True)}
 
+    def begin(self):
+        """Called after the first step, in which contacts of the start were made."""
+
     def scale_inertia(self, factor):
         """Called when the masses are set to so many times what they were, which must not change a
         force."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 from crossgrain_worker import Unsupported
-from yade import Ip2_LudingMat_LudingMat_LudingPhys, Law2_ScGeom_LudingPhys_Basic, LudingMat
+from yade import Ip2_LudingMat_LudingMat_LudingPhys, Law2_ScGeom_LudingPhys_Basic, LudingMat, O
 
 from contacts import dot, xy
 from law import AT_THE_BOUND, Law
@@ -50,6 +50,15 @@ class Luding(Law):
             LudingMat(k1=k1, kp=kp, kc=kc, PhiF=phi, ks=ks, G0=0, frictionAngle=angle)
             for k1, kp, kc, phi, ks, angle in np.column_stack([*columns, self.angles]).tolist()
         ]
+
+    def begin(self):
+        # YADE has δ₀ of the k₂ before the step in which δ_max grew. A contact that is there at the
+        # start had none, and would be elastic until it is pressed deeper.
+        for interaction in O.interactions:
+            if interaction.isReal:
+                phys = interaction.phys
+                rise = (phys.kp - phys.k1) * min(phys.DeltMax / phys.DeltPMax, 1)
+                phys.DeltNull = min(rise / (phys.k1 + rise) * phys.DeltMax, phys.DeltPNull)
 
     def coefficients(self, interaction, a, b):
         phys = interaction.phys

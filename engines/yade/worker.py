@@ -79,7 +79,7 @@ class Yade:
                 "rolling": ["spring", "viscous_by_load"],
                 "rolling_length": ["mean_radius", "smaller_radius"],
                 "rolling_stiffness": ["constant", "radii"],
-                "rolling_load": ["compression", "magnitude"],
+                "rolling_load": ["while_compressed"],
                 "cohesion": ["dmt", "elasto_plastic"],
                 "cohesion_load": ["magnitude_plus_pull_off"],
             },
@@ -207,6 +207,7 @@ class Yade:
         self.scale_inertia(2.0)
         O.step()
         self.scale_inertia(0.5)
+        self.law.begin()
         self.kick = self.dt / 2
         self.steps = 1
         self.evaluations = O.interactions.countReal()

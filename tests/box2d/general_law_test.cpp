@@ -170,6 +170,14 @@ TEST(Box2dRolling, Torques_ByHand) {
   law.gn = 50.0;  // f_n = 150 N, of which 100 N count
   turned.angle = 1.0;
   EXPECT_NEAR(torque(turned), -10.0 * effective, 1e-12);
+  // Parting so fast that tension is cut: no load, no torque, or no limit.
+  law.rollingLoad = box::RollingLoad::compression;
+  law.cutTension = true;
+  pair.normalVelocity = 10.0;
+  pair.spin = 0.0;
+  EXPECT_EQ(torque(turned), 0.0);
+  law.rollingLoad = box::RollingLoad::whileCompressed;
+  EXPECT_NEAR(torque(turned), -50.0, 1e-12);
 }
 
 // The engine finds the contact as long as the bond lasts, beyond the shapes' overlap.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "engines/grain/contact_force.hpp"
 #include "tests/unit/grain_packed.hpp"
 
 // Resistance to rolling: closed forms on a plane and of two disks (J ω' = −f a − M, m v' = f, with
@@ -238,6 +239,20 @@ TEST(RollingSpring, PairWithCentresHeld_ItsTorqueIsTheConventions) {
     const double turned =
         contact.angle - (simulation.spin(0) - simulation.spin(1)) * simulation.dt();
     EXPECT_NEAR(contact.rollingTorque, -10.0 * factor * turned, 1e-5 * 10.0 * factor * turned);
+  }
+}
+
+TEST(RollingSpring, WithoutLoad_HasNoLimitWhereTheConventionSaysSo) {
+  Law law = springLaw(10.0);
+  for (const RollingLoad counts : {RollingLoad::compression, RollingLoad::whileCompressed}) {
+    law.rollingConventions.load = counts;
+    const auto general = generalLaw<double>(law, 1e-5, true);
+    const auto motion = rollingMotion(general, 0.2, 0.0, 0.0);  // L = a = 0.2 m, ω_r = 0
+    double angle = 0.01;
+    const double free = counts == RollingLoad::whileCompressed ? -10.0 * 0.2 * 0.2 * 0.01 : 0.0;
+    EXPECT_NEAR(rollingTorque(general, motion, {}, 0.0, angle).torque, free, 1e-15);
+    angle = 1e3;  // with a load both have the limit
+    EXPECT_NEAR(rollingTorque(general, motion, {}, 5.0, angle).torque, -0.1 * 0.2 * 5.0, 1e-12);
   }
 }
 

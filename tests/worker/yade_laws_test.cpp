@@ -30,6 +30,7 @@ ContactLaw hertzRolling() {
   law.muR = 0.1;
   law.conventions.rollingLength = RollingLength::meanRadius;
   law.conventions.rollingStiffness = RollingStiffness::constant;
+  law.conventions.rollingLoad = RollingLoad::whileCompressed;
   return law;
 }
 
@@ -98,6 +99,13 @@ TEST_F(YadeWorker, RollingTorques_ByHand) {
     const double length = linear ? smallRadius : 0.5 * (smallRadius + largeRadius);
     EXPECT_NEAR(contacts.rollingTorque[0] / (0.1 * length * contacts.normalForce[0]), -1.0, 1e-9);
   }
+  // Parting so fast that the dashpot's tension is cut: no load, and no limit.
+  Scene parting = turningPair(hertzRolling(), largeRadius, spin);
+  parting.law.kr *= 1e4;
+  parting.disks.velocity[1] = {1e-3, 0.0};
+  const Contacts cut = contactsAfter(*engine_, parting, 5);
+  EXPECT_EQ(cut.normalForce[0], 0.0);
+  EXPECT_NEAR(cut.rollingTorque[0] / (parting.law.kr * 5.0 * spin * parting.dt), -1.0, 1e-6);
   const Contacts contacts =
       contactsAfter(*engine_, turningPair(rollingByLoad(), smallRadius, spin), 1);
   const double expected = smallRadius * smallRadius * contacts.normalForce[0] * spin;
