@@ -6,6 +6,7 @@
 
 #include "adapters/law_options.hpp"
 #include "adapters/suitability.hpp"
+#include "studies/conformance/declared_laws.hpp"
 
 namespace crossgrain::conformance {
 namespace {
@@ -25,7 +26,8 @@ Comparison within(double distance, double size, const Tolerance& allowed,
 bool sameContacts(const Contacts& a, const Contacts& b) {
   return a.i == b.i && a.j == b.j && a.normal == b.normal && a.overlap == b.overlap &&
          a.normalForce == b.normalForce && a.tangentialForce == b.tangentialForce &&
-         a.sliding == b.sliding;
+         a.sliding == b.sliding && a.rollingTorque == b.rollingTorque &&
+         a.dissipation == b.dissipation;
 }
 
 bool sameBody(const BodySnapshot& a, const BodySnapshot& b) {
@@ -47,6 +49,15 @@ bool hasBearing(const Capabilities& can, const std::string& option, const std::s
   law.gn = law.gt = law.mu = 1.0;
   // An arm of v_t that is that of f_t could be another one wherever there are arms.
   const std::string asked = option == "velocity_arm" ? "lever_arm" : option;
+  const auto known = std::ranges::find(lawOptions(), option, &LawOption::name);
+  if (known->part == LawPart::rolling || known->part == LawPart::cohesion)
+    return std::ranges::any_of(resistingLaws(can), [&](ContactLaw resisting) {
+      if (option == "rolling" || option == "cohesion")
+        return lawOptionValue(resisting, option) == value && value != "none";
+      resisting.gn = resisting.gr = 1.0;
+      setLawOption(resisting, option, value);
+      return mattersTo(resisting, option);
+    });
   for (const std::string& normal : candidates("normal"))
     for (const std::string& tangential : candidates("tangential"))
       for (const std::string& tension : candidates("tension"))
@@ -185,8 +196,11 @@ std::vector<std::string> valuesOf(const Capabilities& can, const ContactLaw& law
 }
 
 ContactLaw followed(const Capabilities& can, ContactLaw law) {
-  for (const auto& [name, values] : can.lawOptions)
+  for (const auto& [name, values] : can.lawOptions) {
+    // What it resists rolling by, or coheres, belongs to laws that do.
+    if ((name == "rolling" && !law.rolls()) || (name == "cohesion" && !law.coheres())) continue;
     if (!contains(values, lawOptionValue(law, name))) setLawOption(law, name, values.back());
+  }
   if (!can.tangentialRestitution) law.et0 = 0.0;
   return law;
 }
