@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <optional>
 
 #include "adapters/declared_law.hpp"
@@ -189,6 +190,9 @@ class GrainEngine : public Engine {
     setup.maxOverlap = setting(settings, "max_overlap", setup.maxOverlap);
     setup.threads = static_cast<int>(setting(settings, "threads", 1.0));
     rolls_ = law.rolls();
+    bonds_ = law.cohesion == CohesionLaw::jkr;
+    law_ = law;
+    radii_ = scene.radii();
     spins_ = law.friction() || law.rolls();
     stopwatch_ = {};
     simulation_.emplace(std::move(setup));
@@ -288,6 +292,12 @@ class GrainEngine : public Engine {
       forces[k].sliding = contacts.sliding.empty()
                               ? std::abs(forces[k].tangentialForce) >= (1.0 - 1e-6) * bound
                               : contacts.sliding[k] != 0;
+      if (!contacts.rollingTorque.empty()) {
+        forces[k].rollingTorque = contacts.rollingTorque[k];
+        forces[k].rollingSlides =
+            std::abs(forces[k].rollingTorque) >= (1.0 - 1e-6) * rollingBound(contacts, k);
+      }
+      if (bonds_) forces[k].memory = 1.0;  // listed: bonded
     }
     simulation_->beginUnderWay(forces);
   }
@@ -307,6 +317,23 @@ class GrainEngine : public Engine {
   static double setting(const Settings& settings, const std::string& name, double otherwise) {
     const auto found = settings.find(name);
     return found == settings.end() ? otherwise : std::get<double>(found->second);
+  }
+
+  /// µ_r L N of a contact; infinite where N is not its normal force.
+  double rollingBound(const Contacts& contacts, std::size_t k) const {
+    const LawConventions& how = law_.conventions;
+    if (law_.coheres() || how.rollingLoad == RollingLoad::elastic)
+      return std::numeric_limits<double>::infinity();
+    const double own = radii_[static_cast<std::size_t>(contacts.i[k])];
+    const auto j = static_cast<std::size_t>(contacts.j[k]);
+    const bool plane = j >= radii_.size();
+    double length = plane ? own : own * radii_[j] / (own + radii_[j]);
+    if (how.rollingLength == RollingLength::twiceEffective) length *= 2.0;
+    if (how.rollingLength == RollingLength::smallerRadius && !plane)
+      length = std::min(own, radii_[j]);
+    const double load = contacts.normalForce[k];
+    return law_.muR * length *
+           (how.rollingLoad == RollingLoad::magnitude ? std::abs(load) : std::max(load, 0.0));
   }
 
   Contacts contacts() const {
@@ -330,7 +357,10 @@ class GrainEngine : public Engine {
   Scene own_;  ///< as it is run
   bool rigid_ = false;
   bool rolls_ = false;
-  bool spins_ = false;  ///< whether snapshots have them; blocked ones are zero
+  ContactLaw law_;
+  std::vector<double> radii_;  ///< of disks and wall disks [m]
+  bool bonds_ = false;         ///< whether contacts last beyond their overlap
+  bool spins_ = false;         ///< whether snapshots have them; blocked ones are zero
   std::optional<grain::Simulation> simulation_;
   Stopwatch stopwatch_;
 };

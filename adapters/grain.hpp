@@ -36,8 +36,10 @@ std::unique_ptr<Engine> makeStiffGrain(double factor);
 
 /// Has the in-house engine or a mirror, which has loaded a scene of soft disks and not yet
 /// advanced, begin as one that is in the middle of a run: with springs stretched for the tangential
-/// forces of these contacts, as another engine reports them, and velocities within a step. See
-/// grain::Simulation::beginUnderWay(). @throws UnsupportedScene of any other engine
+/// forces and torques of these contacts, as another engine reports them, bonds of JKR's law where
+/// there are contacts, and velocities within a step. Largest overlaps of plastic contacts, which
+/// nobody reports, are those of the instant. See grain::Simulation::beginUnderWay(). @throws
+/// UnsupportedScene of any other engine
 void beginUnderWay(Engine& inHouse, const Contacts& contacts);
 
 }  // namespace crossgrain

@@ -21,11 +21,21 @@ struct Constant {
 
 /// What is no constant, as "tension = cut", stands for itself.
 Constant lookUp(const std::string& name) {
-  static const Constant constants[] = {
-      {"kn", "k_n", "the normal stiffness"},   {"kn3", "k_n3", "the cubic normal stiffness"},
-      {"gn", "γ_n", "the normal damping"},     {"kt", "k_t", "the tangential stiffness"},
-      {"gt", "γ_t", "the tangential damping"}, {"mu", "µ", "the coefficient of friction"},
-      {"en", "e_n", "the normal restitution"}, {"et0", "e_t0", "the tangential restitution"}};
+  static const Constant constants[] = {{"kn", "k_n", "the normal stiffness"},
+                                       {"kn3", "k_n3", "the cubic normal stiffness"},
+                                       {"gn", "γ_n", "the normal damping"},
+                                       {"kt", "k_t", "the tangential stiffness"},
+                                       {"gt", "γ_t", "the tangential damping"},
+                                       {"mu", "µ", "the coefficient of friction"},
+                                       {"en", "e_n", "the normal restitution"},
+                                       {"et0", "e_t0", "the tangential restitution"},
+                                       {"kr", "k_r", "the rolling stiffness"},
+                                       {"gr", "γ_r", "the rolling damping"},
+                                       {"mu_r", "µ_r", "the coefficient of rolling resistance"},
+                                       {"kc", "k_c", "the constant of cohesion"},
+                                       {"w", "w", "the work of adhesion"},
+                                       {"k_unload", "k₂", "the stiffness of unloading"},
+                                       {"plastic_depth", "φ", "the plastic depth"}};
   const auto* const found = std::ranges::find(constants, name, &Constant::name);
   return found == std::end(constants) ? Constant{name, name, name} : *found;
 }
@@ -42,7 +52,8 @@ std::string constantSymbol(const std::string& constant) {
 
 std::string plainSymbol(const std::string& constant) {
   std::string symbol = constantSymbol(constant);
-  for (const auto& [mark, below] : {std::pair("_n", "ₙ"), std::pair("_t", "ₜ")})
+  for (const auto& [mark, below] :
+       {std::pair("_n", "ₙ"), std::pair("_t", "ₜ"), std::pair("_r", "ᵣ")})
     if (const std::size_t at = symbol.find(mark); at != std::string::npos)
       symbol.replace(at, 2, below);
   return symbol;

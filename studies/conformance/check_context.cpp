@@ -6,6 +6,7 @@
 
 #include "adapters/law_options.hpp"
 #include "adapters/suitability.hpp"
+#include "studies/conformance/declared_laws.hpp"
 
 namespace crossgrain::conformance {
 namespace {
@@ -48,6 +49,15 @@ bool hasBearing(const Capabilities& can, const std::string& option, const std::s
   law.gn = law.gt = law.mu = 1.0;
   // An arm of v_t that is that of f_t could be another one wherever there are arms.
   const std::string asked = option == "velocity_arm" ? "lever_arm" : option;
+  const auto known = std::ranges::find(lawOptions(), option, &LawOption::name);
+  if (known->part == LawPart::rolling || known->part == LawPart::cohesion)
+    return std::ranges::any_of(resistingLaws(can), [&](ContactLaw resisting) {
+      if (option == "rolling" || option == "cohesion")
+        return lawOptionValue(resisting, option) == value && value != "none";
+      resisting.gn = resisting.gr = 1.0;
+      setLawOption(resisting, option, value);
+      return mattersTo(resisting, option);
+    });
   for (const std::string& normal : candidates("normal"))
     for (const std::string& tangential : candidates("tangential"))
       for (const std::string& tension : candidates("tension"))
@@ -186,8 +196,11 @@ std::vector<std::string> valuesOf(const Capabilities& can, const ContactLaw& law
 }
 
 ContactLaw followed(const Capabilities& can, ContactLaw law) {
-  for (const auto& [name, values] : can.lawOptions)
+  for (const auto& [name, values] : can.lawOptions) {
+    // What it resists rolling by, or coheres, belongs to laws that do.
+    if ((name == "rolling" && !law.rolls()) || (name == "cohesion" && !law.coheres())) continue;
     if (!contains(values, lawOptionValue(law, name))) setLawOption(law, name, values.back());
+  }
   if (!can.tangentialRestitution) law.et0 = 0.0;
   return law;
 }

@@ -215,6 +215,8 @@ Checks lifecycleChecks();
 Checks freeMotionChecks();
 Checks collisionChecks();
 Checks lawChecks();
+Checks conventionChecks();
+Checks resistanceChecks();
 Checks symmetryChecks();
 Checks wallChecks();
 Checks contactChecks();

@@ -14,6 +14,7 @@
 #include "results/lockstep_text.hpp"
 #include "results/schema.hpp"
 #include "studies/collide/collide.hpp"
+#include "studies/conformance/declared_laws.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/executor.hpp"
 #include "studies/core/study.hpp"
@@ -63,8 +64,8 @@ std::vector<Check> checksOf(bool isMirror) {
   std::vector<Check> all;
   for (const Checks& part :
        {capabilityChecks(), lifecycleChecks(), freeMotionChecks(), collisionChecks(), lawChecks(),
-        symmetryChecks(), wallChecks(), contactChecks(), reachChecks(), refusalChecks(),
-        isMirror ? mirrorChecks() : Checks{}})
+        conventionChecks(), resistanceChecks(), symmetryChecks(), wallChecks(), contactChecks(),
+        reachChecks(), refusalChecks(), isMirror ? mirrorChecks() : Checks{}})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }
@@ -175,14 +176,18 @@ std::string causeOf(Engine& engine, const EngineEntry& entry, const Case& setup,
   return fmt::format("{}", fmt::join(causes, "; "));
 }
 
-ConformanceRow lockstepRow(const EngineEntry& entry, const std::filesystem::path& scratch) {
-  const Case setup =
+/// @param name  of the row  @param part  how the law of the cell becomes the row's
+ConformanceRow lockstepRow(
+    const EngineEntry& entry, const std::filesystem::path& scratch, const std::string& name,
+    const std::function<void(ContactLaw&)>& part = [](ContactLaw&) {}) {
+  Case setup =
       loadCase(dataFolder() / "cases/couette/quick.toml", {"preparation.rotations=0.1"}).front();
+  part(setup.law);
   ConformanceRow row;
   row.part = "lockstep";
-  row.name = "FollowsItsMirror";
+  row.name = name;
   row.what = "it does step by step what the in-house engine does with the conventions declared";
-  const auto engine = startNew(entry, scratch / "lockstep", setup.run.timeout);
+  const auto engine = startNew(entry, scratch / name, setup.run.timeout);
   if (const std::string why = noMirrorReason(entry, engine->capabilities(), setup); !why.empty()) {
     row.outcome = checkSkipped;
     row.detail = why;
@@ -202,6 +207,29 @@ ConformanceRow lockstepRow(const EngineEntry& entry, const std::filesystem::path
     row.cause = causeOf(*engine, entry, setup, found);
   }
   return row;
+}
+
+/// Under the thesis' law, and under the laws that resist rolling or cohere which the engine has
+/// beside it.
+std::vector<ConformanceRow> lockstepRows(const EngineEntry& entry, const Capabilities& can,
+                                         const std::filesystem::path& scratch,
+                                         const std::function<bool(const std::string&)>& wanted) {
+  std::vector<ConformanceRow> rows;
+  const auto add = [&](const std::string& name, const auto& part) {
+    if (wanted(name)) rows.push_back(lockstepRow(entry, scratch, name, part));
+  };
+  add("FollowsItsMirror", [](ContactLaw&) {});
+  const std::vector<RollingLaw> rolling = conformance::rollingLaws(can);
+  if (!rolling.empty())
+    add("FollowsItsMirrorRolling",
+        [&](ContactLaw& law) { law = conformance::withRolling(law, rolling.back()); });
+  for (const CohesionLaw kind : conformance::cohesionLaws(can)) {
+    if (!conformance::goesWith(kind, NormalLaw::linear)) continue;
+    add("FollowsItsMirrorWithCohesion",
+        [&](ContactLaw& law) { law = conformance::withCohesion(law, kind); });
+    break;
+  }
+  return rows;
 }
 
 /// What explains the failures, each cause once: lockstep's first, which is the most exact.
@@ -293,8 +321,9 @@ ConformanceResults runConformance(const ConformanceTask& task) {
   results.rows = std::move(suite.rows);
   progress.finish(0, fmt::format("suite: {} checks", results.rows.size()));
   const bool alive = results.count(checkBrokeDown) < 3;
-  if (alive && wanted("FollowsItsMirror")) {
-    results.rows.push_back(lockstepRow(entry, scratch.path));
+  if (alive) {
+    std::ranges::move(lockstepRows(entry, can, scratch.path, wanted),
+                      std::back_inserter(results.rows));
     progress.finish(1, "lockstep");
   }
   if (alive && wanted("collisions")) {

@@ -97,6 +97,20 @@ Scene busyScene(const ContactLaw& law) {
   return scene;
 }
 
+Scene plateScene(const ContactLaw& law) {
+  Scene scene = busyScene(law);
+  scene.bottom = thesisBottom<BottomPlate>();
+  return scene;
+}
+
+Scene withMaterials(Scene scene) {
+  scene.materials = Materials{{"one"},
+                              std::vector<std::int32_t>(scene.disks.size()),
+                              std::vector<std::int32_t>(scene.bodies.size()),
+                              {scene.law}};
+  return scene;
+}
+
 Scene shifted(Scene scene, const Vec2& by) {
   for (Vec2& position : scene.disks.position) position += by;
   for (WallBody& body : scene.bodies) {

@@ -115,6 +115,12 @@ Scene landingScene(const ContactLaw& law, double steps);
 Scene busyScene(const ContactLaw& law);
 inline constexpr double busyEnd = 0.02;  ///< [s]
 
+/// The same on the thesis' plate: it calls for everything that a law of the thesis has.
+Scene plateScene(const ContactLaw& law);
+
+/// Every disk and wall of one and the same material: pairs could differ.
+Scene withMaterials(Scene scene);
+
 /// Everything moved by that much [m].
 Scene shifted(Scene scene, const Vec2& by);
 

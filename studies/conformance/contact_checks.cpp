@@ -7,6 +7,7 @@
 #include "adapters/audit.hpp"
 #include "adapters/declared_law.hpp"
 #include "studies/conformance/check_context.hpp"
+#include "studies/conformance/declared_laws.hpp"
 
 namespace crossgrain::conformance {
 namespace {
@@ -53,13 +54,20 @@ Scene allKindsOfContact(const ContactLaw& law, bool withPlane) {
   return scene;
 }
 
-/// Every step of a heap on a turning wheel, and of an impact.
+/// Every step of a heap on a turning wheel, and of an impact, which parts under cohesion, too.
 void snapshotsAreSound(CheckContext& context) {
   context.needsContacts();
-  for (const auto& [scene, end] :
-       {std::pair(context.busy(), busyEnd),
-        {allKindsOfContact(context.law(), false), 2.0 * Encounter::end}}) {
-    context.load(scene);
+  std::vector<std::pair<Scene, double>> scenes = {
+      {context.busy(), busyEnd}, {allKindsOfContact(context.law(), false), 2.0 * Encounter::end}};
+  for (const ContactLaw& law : resistingLaws(context.can))
+    if (law.coheres()) scenes.emplace_back(allKindsOfContact(law, false), 2.0 * Encounter::end);
+  const std::size_t required = 2;  // the other laws have their own checks
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    const auto& [scene, end] = scenes[k];
+    if (const auto why = context.refusal(scene)) {
+      if (k < required) context.skip(*why);
+      continue;
+    }
     const AuditBasis basis = auditBasis(context.scene, context.can, context.effective);
     const double dt = context.effective.dt;
     const auto last = std::llround(end / dt);
@@ -77,13 +85,21 @@ void snapshotsAreSound(CheckContext& context) {
 /// The same, compared with the law that the engine declares.
 void forcesAreThoseOfTheLaw(CheckContext& context) {
   context.needsContacts();
-  context.load(context.busy());
-  const AuditBasis basis = auditBasis(context.scene, context.can, context.effective);
-  const auto law = declaredLaw(context.can, context.scene, context.effective, 0.5 * smallMass);
-  if (!law) context.skip("declares no law with known constants");
-  for (const Snapshot& now : context.watch(busyEnd)) {
-    const std::string why = lawFault(now, basis, *law);
-    if (!why.empty()) context.fault(text("at t = ", now.contactTime, " s ", why));
+  std::vector<Scene> scenes = {context.busy()};
+  for (const ContactLaw& law : resistingLaws(context.can))
+    scenes.push_back(context.simplified(busyScene(law)));
+  for (const Scene& scene : scenes) {
+    if (const auto why = context.refusal(scene)) {
+      if (&scene == &scenes.front()) context.skip(*why);
+      continue;
+    }
+    const AuditBasis basis = auditBasis(context.scene, context.can, context.effective);
+    const auto law = declaredLaw(context.can, context.scene, context.effective, 0.5 * smallMass);
+    if (!law) context.skip("declares no law with known constants");
+    for (const Snapshot& now : context.watch(busyEnd)) {
+      const std::string why = lawFault(now, basis, *law);
+      if (!why.empty()) context.fault(text("at t = ", now.contactTime, " s ", why));
+    }
   }
 }
 
@@ -292,6 +308,15 @@ void energyLedgerIsClosed(CheckContext& context) {
                  "the same at t_c/400, which is to be less");
 }
 
+/// The engine's law, and the same that resists rolling, where the engine has that.
+std::vector<ContactLaw> lawsOfLoads(CheckContext& context) {
+  std::vector<ContactLaw> laws = {context.law()};
+  const std::vector<RollingLaw> rolling = rollingLaws(context.can);
+  if (!rolling.empty() && laws.front().soft())
+    laws.push_back(withRolling(laws.front(), rolling.back()));
+  return laws;
+}
+
 /// The force and torque on the first body are those of its contacts, step by step.
 /// @param torqueOf  contact c on the body, whose force on the body is given, with the centres then
 /// @param reach     how far from the body's centre forces act [m]
@@ -301,6 +326,7 @@ std::set<std::int32_t> expectLoads(
     const std::function<double(const Contacts&, std::size_t c, const Vec2& force,
                                const std::vector<Vec2>& centres)>& torqueOf) {
   context.load(scene);
+  const bool rolls = context.effective.effects.contains(Effect::rollingResistance);
   const std::vector<Snapshot> seen = context.watch(Encounter::end);
   const double relative =
       context.byPrecision(1e-12, 1e-5, "").relative + 2.0 * turnWithin(seen.back().contactInterval);
@@ -310,6 +336,8 @@ std::set<std::int32_t> expectLoads(
     touched.insert(now.contacts->j.begin(), now.contacts->j.end());
     const BodySnapshot& body = now.bodies[0];
     if (!body.force || !body.torque) context.skip("shows no wall loads");
+    if (rolls && now.contacts->size() > 0 && now.contacts->rollingTorque.empty())
+      context.skip("shows no torque against rolling");
     const std::vector<Vec2> centres = centresAt(now.contactTime, seen);
     Vec2 force = Vec2::Zero();
     double torque = 0.0, size = 0.0;
@@ -317,6 +345,7 @@ std::set<std::int32_t> expectLoads(
       const Vec2 onBody = -forceOf(*now.contacts, c);
       force += onBody;
       torque += torqueOf(*now.contacts, c, onBody, centres);
+      if (!now.contacts->rollingTorque.empty()) torque -= now.contacts->rollingTorque[c];
       size += onBody.norm();
     }
     const Tolerance sum = {relative * size, 0.0, "roundings, and a normal that turns"};
@@ -336,39 +365,43 @@ void wallLoadsAreThoseOfTheirContacts(CheckContext& context) {
   std::vector<Vec2> rim;
   for (const double angle : {-0.35, 0.0, 0.35})
     rim.push_back(centre + wheelRadius * direction(angle));
-  Scene scene = emptyScene(context.law(), coarseSteps);
-  scene.bodies = {wallOf("wheel", centre, rim, rotating(0.5))};
   const Vec2 between = direction(0.175);
-  addDisk(scene, smallRadius, smallMass, centre + 0.0308 * between, -Encounter::speed * between,
-          9.0);
-  const auto touched = expectLoads(
-      context, scene, wheelRadius,
-      [&](const Contacts& contacts, std::size_t c, const Vec2& force, const auto& centres) {
-        return cross(centres[contacts.j[c]] - centre, force) -
-               armOf(scene.law, contacts.overlap[c]) * contacts.tangentialForce[c];
-      });
-  context.equal(touched.size(), 2u, "wall disks touched by a disk that falls between two");
+  for (const ContactLaw& law : lawsOfLoads(context)) {
+    Scene scene = emptyScene(law, coarseSteps);
+    scene.bodies = {wallOf("wheel", centre, rim, rotating(0.5))};
+    addDisk(scene, smallRadius, smallMass, centre + 0.0308 * between, -Encounter::speed * between,
+            9.0);
+    const auto touched = expectLoads(
+        context, scene, wheelRadius,
+        [&](const Contacts& contacts, std::size_t c, const Vec2& force, const auto& centres) {
+          return cross(centres[contacts.j[c]] - centre, force) -
+                 armOf(scene.law, contacts.overlap[c]) * contacts.tangentialForce[c];
+        });
+    context.equal(touched.size(), 2u, "wall disks touched by a disk that falls between two");
+  }
 }
 
 /// f_n and f_t act on the plane where it is nearest to the disk's centre, or half the overlap
 /// behind that where the engine has its contact points in the middle of overlaps.
 void planeLoadsAreThoseOfTheirContacts(CheckContext& context) {
   context.needsContacts();
-  Scene scene = emptyScene(context.law(), coarseSteps);
-  scene.bodies = {planeWall({0.2, -smallRadius - Encounter::gap}, {0.0, 1.0})};
-  scene.bodies[0].centre = {-0.01, 0.003};
-  addDisk(scene, smallRadius, smallMass, {0.0, 0.0}, {0.02, -Encounter::speed}, 9.0);
-  const WallBody& body = scene.bodies[0];
-  const LawConventions& how = scene.law.conventions;
-  const bool inside = how.leverArm != LeverArm::radius && how.planeArm == PlaneArm::middle;
-  const auto touched = expectLoads(
-      context, scene, 0.01,
-      [&](const Contacts& contacts, std::size_t c, const Vec2& force, const auto& centres) {
-        Vec2 foot(centres[0].x(), body.planes[0].point.y());
-        if (inside) foot.y() -= 0.5 * contacts.overlap[c];
-        return cross(foot - body.centre, force);
-      });
-  context.expect(!touched.empty(), "it never shows a contact with the plane");
+  for (const ContactLaw& law : lawsOfLoads(context)) {
+    Scene scene = emptyScene(law, coarseSteps);
+    scene.bodies = {planeWall({0.2, -smallRadius - Encounter::gap}, {0.0, 1.0})};
+    scene.bodies[0].centre = {-0.01, 0.003};
+    addDisk(scene, smallRadius, smallMass, {0.0, 0.0}, {0.02, -Encounter::speed}, 9.0);
+    const WallBody& body = scene.bodies[0];
+    const LawConventions& how = scene.law.conventions;
+    const bool inside = how.leverArm != LeverArm::radius && how.planeArm == PlaneArm::middle;
+    const auto touched = expectLoads(
+        context, scene, 0.01,
+        [&](const Contacts& contacts, std::size_t c, const Vec2& force, const auto& centres) {
+          Vec2 foot(centres[0].x(), body.planes[0].point.y());
+          if (inside) foot.y() -= 0.5 * contacts.overlap[c];
+          return cross(foot - body.centre, force);
+        });
+    context.expect(!touched.empty(), "it never shows a contact with the plane");
+  }
 }
 
 }  // namespace

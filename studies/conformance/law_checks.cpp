@@ -1,53 +1,17 @@
-// Two bodies meet once, under every law that the engine declares: compared with the oracle, its
-// conventions with the in-house engine that has them, and a mirror with its peer.
+// Two bodies meet once, under every law that the engine declares: compared with the oracle, and a
+// mirror with its peer.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <string>
 
-#include "adapters/declared_law.hpp"
 #include "adapters/law_options.hpp"
 #include "studies/conformance/check_context.hpp"
+#include "studies/conformance/declared_laws.hpp"
 #include "studies/conformance/meeting.hpp"
-#include "studies/lockstep/rules.hpp"
-#include "studies/lockstep/terms.hpp"
 
 namespace crossgrain::conformance {
 namespace {
-
-/// Constants of dashpots that take away about as much, whatever they multiply: e_n is between 0.2
-/// and 0.9.
-void setDampers(ContactLaw& law, const std::string& damper) {
-  setLawOption(law, "damper", damper);
-  const bool linear = law.normal == NormalLaw::linear;
-  switch (law.damper) {
-    case Damper::constant:
-      law.gn = linear ? thesis.gn : 0.03;  // [kg/s]; where k is 0 at the first touch, less
-      law.gt = linear ? thesis.gt : 0.0;
-      break;
-    case Damper::viscoelastic:
-      law.gn = 3e-4;  // [s]
-      law.gt = 2e-4;
-      break;
-    case Damper::critical:
-      law.gn = 0.3;  // [-]
-      law.gt = 0.2;
-      break;
-  }
-}
-
-ContactLaw lawOf(const Capabilities& can, const std::string& normal) {
-  ContactLaw law = normal == "hertz" ? hertzLaw() : fullLaw();
-  setLawOption(law, "normal", normal);
-  if (law.normal == NormalLaw::polynomial) {  // as deep as the linear law, the cubic part a third
-    law.kn = 8e6;                             // [N/m²]
-    law.kn3 = 5e10;                           // [N/m³]
-  }
-  law = followed(can, law);
-  if (law.soft()) setDampers(law, valuesOf(can, law, "damper").front());
-  return law;
-}
 
 /// Of each normal law the first kind of damper and every other, every tangential law, and tension
 /// both ways, one after the other.
@@ -79,8 +43,6 @@ std::string nameOf(const ContactLaw& law) {
                          : "");
 }
 
-constexpr std::array oraclesOptions = {"normal", "damper", "tangential", "tension"};
-
 /// @returns whether there was a reference
 bool compared(CheckContext& context, Meeting meeting) {
   const ContactLaw& law = meeting.law;
@@ -97,7 +59,7 @@ bool compared(CheckContext& context, Meeting meeting) {
   const auto result = meet(context, meeting, &why);
   const bool known = result && expectTheOracle(context, meeting, *result, nameOf(law));
   if (why.empty()) why = "there is no reference for " + nameOf(law);
-  for (const char* option : oraclesOptions) {
+  for (const char* option : {"normal", "damper", "tangential", "tension"}) {
     const std::string capability = text(option, " = ", lawOptionValue(law, option));
     if (!known) context.couldNotExamine(capability, why);
     if (known && mattersTo(law, option)) context.examine(capability);
@@ -175,174 +137,6 @@ void movingPlanesFollowTheOracle(CheckContext& context) {
   if (!any) context.skip("it refuses planes that move, or there is no reference for its laws");
   context.examine(planeMotion(Motion::Kind::translating));
   context.examine(planesAlongThemselves);
-}
-
-// ---- conventions -------------------------------------------------------------------------------
-
-/// An arm of v_t has a bearing wherever there are arms of f_t: it could be another one.
-std::string bearingOf(const std::string& option) {
-  return option == "velocity_arm" ? "lever_arm" : option;
-}
-
-/// Disks that stick, slip and roll on each other, on wall disks and, where the engine has planes,
-/// on a plane; far enough apart not to meet, of several sizes.
-Scene conventionsScene(const ContactLaw& law, bool withPlane) {
-  Scene scene = emptyScene(law, coarseSteps);
-  std::vector<Vec2> posts;
-  const double apart = 12.0 * largeRadius;
-  int k = 0;
-  for (const double spin : {-60.0, -6.0, 12.0, 70.0}) {
-    Encounter pair = crookedEncounter();
-    pair.obliqueness = 0.3 * (k - 1.5);
-    pair.spins[0] = spin;
-    const Scene met = encounterScene(pair, law, coarseSteps);
-    const Vec2 place(0.1, apart * k);
-    for (const int i : {0, 1})
-      addDisk(scene, met.disks.radius[i], met.disks.mass[i], met.disks.position[i] + place,
-              met.disks.velocity[i], met.disks.spin[i]);
-    const Vec2 post(0.2, apart * k);
-    posts.push_back(post);
-    addDisk(scene, largeRadius, largeMass,
-            post + Vec2(smallRadius + largeRadius + Encounter::gap, 0.0), {-0.1, 0.03 * k}, spin);
-    if (withPlane)
-      addDisk(scene, smallRadius, smallMass, {smallRadius + Encounter::gap, apart * k},
-              {-0.1, 0.04 * (k - 1)}, spin);
-    ++k;
-  }
-  scene.bodies = {wallOf("posts", Vec2::Zero(), posts)};
-  if (withPlane) scene.bodies.push_back(planeWall(Vec2::Zero(), Vec2::UnitX()));
-  return scene;
-}
-
-/// Velocities and rims' speeds in the end, one after the other [m/s].
-std::vector<double> motionAt(Engine& engine, const Scene& scene, double t) {
-  engine.advance(t);
-  const Snapshot now = engine.snapshot(ContactReport::none);
-  const std::vector<double> spins = spinsOf(scene, now);
-  std::vector<double> motion;
-  for (std::size_t i = 0; i < now.velocity.size(); ++i)
-    motion.insert(motion.end(),
-                  {now.velocity[i].x(), now.velocity[i].y(), spins[i] * scene.disks.radius[i]});
-  return motion;
-}
-
-double farthest(const std::vector<double>& one, const std::vector<double>& other) {
-  double most = 0.0;
-  for (std::size_t k = 0; k < one.size(); ++k) most = std::max(most, std::abs(one[k] - other[k]));
-  return most;
-}
-
-/// Laws under which the option has a bearing, of those that the engine declares.
-std::vector<ContactLaw> lawsFor(const Capabilities& can, const std::string& option,
-                                const std::string& value) {
-  std::vector<ContactLaw> laws;
-  for (const std::string& normal : valuesOf(can, followed(can, fullLaw()), "normal"))
-    for (const std::string& tension : valuesOf(can, fullLaw(), "tension"))
-      for (const std::string& arm : valuesOf(can, fullLaw(), "lever_arm")) {
-        ContactLaw law = lawOf(can, normal);
-        if (!law.soft()) continue;
-        setLawOption(law, "tension", tension);
-        setLawOption(law, "lever_arm", arm);
-        setLawOption(law, option, value);
-        if (!mattersTo(law, bearingOf(option))) continue;
-        for (const std::string& damper : valuesOf(can, law, "damper")) {
-          laws.push_back(law);
-          setDampers(laws.back(), damper);
-        }
-      }
-  return laws;
-}
-
-/// Loads the scene of conventions under the first of these laws that the engine takes, with a plane
-/// where it takes that. @returns whether there is one; @param why  gets the last refusal
-bool loadedUnderAny(CheckContext& context, const std::vector<ContactLaw>& laws, bool withPlane,
-                    std::string& why) {
-  for (const ContactLaw& law : laws) {
-    if (withPlane && !context.refusal(conventionsScene(law, true))) return true;
-    const auto refusal = context.refusal(conventionsScene(law, false));
-    if (!refusal) return true;
-    why = *refusal;
-  }
-  return false;
-}
-
-/// What is loaded, under one value of a convention: the engine is compared with the in-house engine
-/// that has it, and with those that have each other value.
-/// @returns whether the law is known, so that it could be
-bool expectConvention(CheckContext& context, Engine& inHouse, const LawOption& option,
-                      const std::string& value) {
-  const std::string name(option.name);
-  const std::string capability = text(name, " = ", value);
-  const Scene ran = context.scene;
-  const auto declared = declaredLaw(context.can, ran, context.effective, 0.5 * smallMass);
-  if (!declared || !declared->soft()) return false;
-  const std::vector<double> found = motionAt(context.engine, ran, Encounter::end);
-  const auto mirror = [&](std::string_view which, double stiffer) {
-    Scene mirrored = ran;
-    mirrored.law = *declared;
-    mirrored.dt = context.effective.dt;
-    mirrored.precision = Precision::float64;
-    setLawOption(mirrored.law, name, which);
-    changeReference(mirrored.law, stiffer);
-    inHouse.load(mirrored, {});
-    return motionAt(inHouse, mirrored, Encounter::end);
-  };
-  const std::vector<double> wanted = mirror(value, 0.0);
-  const double limit = std::max(farthest(mirror(value, lockstepSameLaw), wanted),
-                                context.byPrecision(1e-9, 1e-3, "").relative * Encounter::speed);
-  const double off = farthest(found, wanted);
-  bool known = true;  // from every other value
-  std::string nearest;
-  double least = off;
-  for (const std::string_view other : option.values) {
-    if (other == value || !mattersTo(ran.law, bearingOf(name))) continue;
-    const std::vector<double> otherwise = mirror(other, 0.0);
-    const double apart = farthest(otherwise, wanted);
-    if (apart <= 1e-3 * limit) continue;  // another name of the same
-    if (apart <= 2.0 * limit) {
-      known = false;
-      context.couldNotExamine(capability, text("hardly other than ", other, " here"));
-    }
-    if (const double left = farthest(found, otherwise); left < least) {
-      least = left;
-      nearest = other;
-    }
-  }
-  if (known) context.examine(capability);
-  if (off <= limit) return true;
-  context.fault(text("under ", capability, " it is off the in-house engine by ",
-                     fmt::format("{:.3g} m/s, allowed {:.3g}", off, limit),
-                     " (a thousandth of k_n)"));
-  if (!nearest.empty() && least <= limit)
-    context.suspect(text("it has ", name, " = ", nearest, ", and declares ", value));
-  return true;
-}
-
-/// The in-house engine from the same start, each value of the option in turn; that of the engine's
-/// own declaration has to come nearest, and to within what a thousandth of k_n (lockstep's rule for
-/// one law) moves. A value is examined where every other one leads elsewhere.
-void conventionsAreThoseDeclared(CheckContext& context) {
-  if (context.inHouse())
-    context.skip("it is the in-house engine, and would be compared with itself");
-  const auto inHouse = engineRegistry().front().make();
-  const bool withPlane = !context.refusal(conventionsScene(context.law(), true));
-  bool any = false;
-  for (const LawOption& option : lawOptions()) {
-    const std::string name(option.name);
-    const auto values = context.can.lawOptions.find(name);
-    if (std::ranges::count(oraclesOptions, name) > 0 || option.part != LawPart::contact ||
-        values == context.can.lawOptions.end())
-      continue;
-    for (const std::string& value : values->second) {
-      std::string why;
-      if (loadedUnderAny(context, lawsFor(context.can, name, value), withPlane, why)) {
-        any = expectConvention(context, *inHouse, option, value) || any;
-      } else if (!why.empty()) {
-        context.couldNotExamine(text(name, " = ", value), why);
-      }
-    }
-  }
-  if (!any) context.skip("it declares no convention of a soft law, or refuses the scenes");
 }
 
 // ---- mirrors ------------------------------------------------------------------------------------
@@ -460,9 +254,6 @@ Checks lawChecks() {
        planesFollowTheOracle},
       {"MovingPlanesFollowTheOracle", "and on a plane that moves along itself, towards it or away",
        movingPlanesFollowTheOracle},
-      {"ConventionsAreThoseDeclared",
-       "its conventions are those declared: the in-house engine with them does the same",
-       conventionsAreThoseDeclared},
   };
   return list;
 }

@@ -11,7 +11,8 @@ namespace crossgrain::inline studies {
 
 /// Follows one run of an engine from the hand-over to its end, without loading it again, and
 /// compares it window after window with its mirror, which begins each from the engine's own
-/// positions, velocities and tangential forces (beginUnderWay() of adapters/grain.hpp): a right
+/// positions, velocities, tangential forces, torques against rolling and bonds
+/// (beginUnderWay() of adapters/grain.hpp): a right
 /// engine in double precision remains the same to rounding. So what begins late, or depends on how
 /// long the engine has run, is seen without chaos: separations begin anew with every window. Their
 /// measure is, as in lockstep, the mirror's separation from itself where a constant is changed,

@@ -144,7 +144,7 @@ class Comparison {
     for (const std::size_t frame : reported()) unchanged.push_back(window.mirror[frame]);
     return referenceResponses(*mirror_, unchanged, flowDiameter(setup_), [&](double change) {
       Scene changed = mirrored;
-      changeReference(changed.law, change);
+      changeLaws(changed, [&](ContactLaw& law) { changeReference(law, change); });
       mirror_->load(changed, {});
       return step_;
     });

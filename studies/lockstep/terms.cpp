@@ -19,9 +19,10 @@ void addConstants(std::vector<MirrorChange>& changes, const Scene& scene) {
     changes.push_back({std::move(name), true, std::move(apply)});
   };
   for (const LawConstant& constant : lawConstants())
-    if (scene.law.*constant.value != 0.0)
-      add(std::string(constant.name),
-          [value = constant.value](Scene& changed, double by) { changed.law.*value *= 1.0 + by; });
+    if (scene.law.*constant.value != 0.0 && hasPart(scene.law, constant.part))
+      add(std::string(constant.name), [value = constant.value](Scene& changed, double by) {
+        changeLaws(changed, [&](ContactLaw& law) { law.*value *= 1.0 + by; });
+      });
   const std::pair<const char*, double BottomPlate::*> plate[] = {
       {"plate mu", &BottomPlate::mu},
       {"plate kb", &BottomPlate::kb},
@@ -52,17 +53,16 @@ void addConventions(std::vector<MirrorChange>& changes, const Scene& scene,
                     const Capabilities& can) {
   for (const LawOption& option : lawOptions()) {
     const std::string name(option.name);
-    // With these the constants would mean something else.
-    if (name == "normal" || name == "damper") continue;
     // An arm of v_t that is that of f_t can become another one wherever there are arms.
     if (!mattersTo(scene.law, name == "velocity_arm" ? "lever_arm" : name)) continue;
     const auto values = can.lawOptions.find(name);
     if (values == can.lawOptions.end()) continue;
     for (const std::string& value : values->second)
-      if (value != lawOptionValue(scene.law, name))
+      if (value != lawOptionValue(scene.law, name) && constantsServe(scene.law, name, value))
         changes.push_back(
-            {fmt::format("{} = {}", name, value), false,
-             [name, value](Scene& changed, double) { setLawOption(changed.law, name, value); }});
+            {fmt::format("{} = {}", name, value), false, [name, value](Scene& changed, double) {
+               changeLaws(changed, [&](ContactLaw& law) { setLawOption(law, name, value); });
+             }});
   }
 }
 
@@ -82,6 +82,23 @@ double dot(const std::vector<double>& one, const std::vector<double>& other) {
 }
 
 }  // namespace
+
+bool constantsServe(const ContactLaw& law, std::string_view option, std::string_view value) {
+  if (option == "normal" || option == "damper" || option == "rolling_damper") return false;
+  const bool perRadian = law.conventions.rollingStiffness == RollingStiffness::constant;
+  if (option == "rolling_stiffness") return (value == "constant") == perRadian;
+  if (option == "rolling") {
+    if (value == "none") return false;
+    if (value == "spring" && !(law.kr > 0.0)) return false;
+    if (value == "viscous")
+      return law.gr > 0.0 && law.conventions.rollingDamper == RollingDamper::constant;
+    return law.muR > 0.0 &&
+           (value == "viscous_by_load") == (law.rolling == RollingLaw::viscousByLoad);
+  }
+  if (option == "cohesion")
+    return law.w > 0.0 && (value == "dmt" || (value == "jkr" && law.normal == NormalLaw::hertz));
+  return true;
+}
 
 std::vector<MirrorChange> changesOf(const Scene& scene, const Capabilities& can) {
   std::vector<MirrorChange> changes;

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "adapters/engine.hpp"
@@ -24,6 +25,11 @@ struct AppliedChange {
   MirrorChange change;
   double by = 0.0;  ///< of a constant
 };
+
+/// Whether the constants of a law mean the same under another value of an option: with another kind
+/// of damper, say, they would have another unit, and others would be missing. Where a law resists
+/// rolling or coheres, "none" is no such value: that is a missing effect.
+bool constantsServe(const ContactLaw& law, std::string_view option, std::string_view value);
 
 /// All that could be otherwise in this scene.
 /// @param can  of the in-house engine

@@ -100,5 +100,81 @@ TEST_F(LoaderErrors, Law_Rigid_HasNeitherSpringsNorAContactTime) {
   });
 }
 
+/// A disk alone; further lines of its law: 16 on.
+const std::string loneDisk =
+    "[case]\nkind = \"assembly\"\n[assembly]\nduration = 1\n[[assembly.disks]]\n"
+    "position = [0, 0]\nradius = 1\nmass = 1\n[run]\ndt = 1e-6\n[law]\nnormal = \"linear\"\n"
+    "tangential = \"none\"\ngn = 0\nkn = 100\n";
+
+TEST_F(LoaderErrors, Law_OfRolling_NeedsItsConstantsWithinTheirRanges) {
+  expectMessages({
+      {loneDisk + "rolling = \"spring\"\nmu_r = 0.1\nkr_factor = 3\n", ""},
+      {loneDisk + "mu_r = -0.1\n", "case.toml:16:8: law.mu_r = -0.1: must be >= 0"},
+      {loneDisk + "mu_r = 0.1\n",
+       "case.toml:16:8: law.mu_r = 0.1: mu_r without rolling resistance (law.rolling is none): set "
+       "it to 0 or leave it out"},
+      {loneDisk + "kr = 5\n",
+       "case.toml:16:6: law.kr = 5: kr without rolling resistance (law.rolling is none): set it to "
+       "0 or leave it out"},
+      {loneDisk + "rolling = \"sping\"\n",
+       "case.toml:16:11: law.rolling = \"sping\": unknown name (did you mean spring?)"},
+      {loneDisk + "rolling = \"spring\"\n",
+       "case.toml:11:1: law.mu_r is missing: this rolling resistance needs it > 0"},
+      {loneDisk + "rolling = \"spring\"\nmu_r = 0\nkr = 1\n",
+       "case.toml:17:8: law.mu_r = 0: this rolling resistance needs it > 0"},
+      {loneDisk + "rolling = \"spring\"\nmu_r = 0.1\n",
+       "case.toml:11:1: law.kr is missing: a rolling spring needs it > 0, or kr_per_kt or "
+       "kr_factor"},
+      {loneDisk + "rolling = \"spring\"\nmu_r = 0.1\nkr = 0\n",
+       "case.toml:18:6: law.kr = 0: a rolling spring needs it > 0"},
+      {loneDisk + "rolling = \"spring\"\nmu_r = 0.1\nkr = 1\nkr_factor = 3\n",
+       "case.toml:18:6: law.kr = 1: one of kr, kr_per_kt and kr_factor"},
+      {loneDisk + "rolling = \"spring\"\nmu_r = 0.1\nkr_per_kt = 1\n",
+       "case.toml:18:13: law.kr_per_kt = 1: a rolling spring needs it > 0, and what it is times"},
+      {loneDisk +
+           "rolling = \"spring\"\nmu_r = 0.1\nkr_factor = 2.25\nrolling_stiffness = \"constant\"\n",
+       "case.toml:18:13: law.kr_factor = 2.25: [N/m], and rolling_stiffness = \"constant\" is [N "
+       "m]: give kr"},
+      {loneDisk + "rolling = \"viscous\"\n",
+       "case.toml:11:1: law.gr is missing: viscous rolling resistance needs it > 0"},
+      {loneDisk + "rolling = \"spring\"\nmu_r = 0.1\nkr = 1\ngr = -1\n",
+       "case.toml:19:6: law.gr = -1: must be >= 0 kg/s"},
+      {loneDisk + "rolling = \"constant_torque\"\nmu_r = inf\n",
+       "case.toml:17:8: law.mu_r = inf: is infinite: must be >= 0"},
+  });
+}
+
+TEST_F(LoaderErrors, Law_OfCohesion_NeedsItsConstantsWithinTheirRanges) {
+  expectMessages({
+      {loneDisk + "cohesion = \"dmt\"\ngamma = 0.05\n", ""},
+      {loneDisk + "kc = 1\n",
+       "case.toml:16:6: law.kc = 1: kc without cohesion (law.cohesion is none): set it to 0 or "
+       "leave it out"},
+      {loneDisk + "w = 0.1\n",
+       "case.toml:16:5: law.w = 0.1: w without cohesion (law.cohesion is none): set it to 0 or "
+       "leave it out"},
+      {loneDisk + "cohesion = \"area\"\n",
+       "case.toml:11:1: law.kc is missing: cohesion by area needs it > 0"},
+      {loneDisk + "cohesion = \"area\"\nkc = -1\n", "case.toml:17:6: law.kc = -1: must be >= 0 Pa"},
+      {loneDisk + "cohesion = \"dmt\"\n",
+       "case.toml:11:1: law.w is missing: adhesion needs it > 0"},
+      {loneDisk + "cohesion = \"dmt\"\ngamma = -0.1\n",
+       "case.toml:17:9: law.gamma = -0.1: must be >= 0 J/m^2"},
+      {loneDisk + "cohesion = \"dmt\"\nw = 0.1\ngamma = 0.05\n",
+       "case.toml:18:9: law.gamma = 0.05: and w: give one of them"},
+      {loneDisk + "cohesion = \"jkr\"\nw = 0.1\n",
+       "case.toml:16:12: law.cohesion = \"jkr\": \"jkr\" is Hertz' law with adhesion: it needs "
+       "normal = \"hertz\""},
+      {loneDisk + "cohesion = \"elasto_plastic\"\n",
+       "case.toml:11:1: law.k_unload is missing: an elasto-plastic law needs it > 0"},
+      {loneDisk + "cohesion = \"elasto_plastic\"\nk_unload = 50\n",
+       "case.toml:17:12: law.k_unload = 50: unloading is stiffer than loading: more than kn"},
+      {loneDisk + "cohesion = \"elasto_plastic\"\nk_unload = 200\nplastic_depth = -1\n",
+       "case.toml:18:17: law.plastic_depth = -1: must be >= 0"},
+      {loneDisk + "cohesion = \"elasto_plastic\"\nk_unload = 200\nkc = nan\n",
+       "case.toml:18:6: law.kc = nan: is not a number"},
+  });
+}
+
 }  // namespace
 }  // namespace crossgrain::test

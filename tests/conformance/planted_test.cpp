@@ -15,8 +15,9 @@ namespace {
 struct Planted {
   const char* name;
   EngineEntry entry;
-  const char* check;  ///< that has to fail
-  const char* cause;  ///< regular expression of the first that is named; empty: none is
+  const char* check;   ///< that has to fail
+  const char* cause;   ///< regular expression of the first that is named; empty: none is
+  bool alone = false;  ///< whether no other check is run
 };
 
 /// tests/faults/engine with one of its numbers changed.
@@ -36,10 +37,13 @@ EngineEntry mischiefOf(const std::string& mischief) {
   return misbehavingEntry(mischief, 0);
 }
 
-std::vector<ConformanceRow> rowsOf(const EngineEntry& entry) {
+/// @param only  the check that is run; empty: all
+std::vector<ConformanceRow> rowsOf(const EngineEntry& entry, const std::string& only = {}) {
   const ScratchFolder scratch;
-  return conformance::runChecks(entry, conformance::checksOf(false), scratch.path,
-                                [](const std::string&, double) {})
+  std::vector<conformance::Check> checks = conformance::checksOf(false);
+  std::erase_if(
+      checks, [&](const conformance::Check& check) { return !only.empty() && check.name != only; });
+  return conformance::runChecks(entry, checks, scratch.path, [](const std::string&, double) {})
       .rows;
 }
 
@@ -59,7 +63,8 @@ TEST(PlantedFaults, RightEngine_AllChecks_FindNoFault) {
 class PlantedFault : public testing::TestWithParam<Planted> {};
 
 TEST_P(PlantedFault, PlantedEngine_Check_FailsAndNamesCause) {
-  const std::vector<ConformanceRow> rows = rowsOf(GetParam().entry);
+  const std::vector<ConformanceRow> rows =
+      rowsOf(GetParam().entry, GetParam().alone ? GetParam().check : "");
   const auto failed = std::ranges::find(rows, GetParam().check, &ConformanceRow::name);
   ASSERT_NE(failed, rows.end());
   EXPECT_EQ(failed->outcome, checkFailed) << failed->detail << faultsOf(rows);
@@ -69,6 +74,35 @@ TEST_P(PlantedFault, PlantedEngine_Check_FailsAndNamesCause) {
   ASSERT_NE(named, rows.end()) << faultsOf(rows);
   EXPECT_TRUE(std::regex_search(named->cause, std::regex(GetParam().cause))) << faultsOf(rows);
 }
+
+/// Faults of rolling resistance and cohesion, each with the check that is for it.
+Planted resisting(const char* name, const char* fault, const char* check, const char* cause) {
+  return {name, plantedEntry(name, fault), check, cause, true};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Resisting, PlantedFault,
+    testing::Values(
+        resisting("rolling_bound", "mu_r=1.05", "ConventionsAreThoseDeclared", "^µ_r \\+(4\\.|5)"),
+        resisting("rolling_stiffness", "kr=0.5", "ConventionsAreThoseDeclared", "^k_r -(49|50)"),
+        resisting("rolling_length", "roll_length=2", "ConventionsAreThoseDeclared",
+                  "^it has rolling_length = twice_effective, and declares effective"),
+        resisting("rolling_dashpot", "roll_dashpot_outside=1", "ConventionsAreThoseDeclared",
+                  "^it has rolling_dashpot = outside, and declares inside"),
+        resisting("rolling_of_one", "roll_on_second=0", "RollingFollowsItsClosedForms",
+                  "^the torque against rolling acts on the first of two disks alone"),
+        resisting("rolling_at_walls", "roll_at_walls=0", "RollingFollowsItsClosedForms",
+                  "^nothing resists rolling at planes"),
+        resisting("rolling_turned", "roll_turned_by_list=1", "MemoriesHoldWhileAnotherFliesBy",
+                  "lost or turned round where lists of neighbours"),
+        resisting("rolling_outlives", "keep_open_angle=1", "FreeFlightRemembersNothing",
+                  "outlives"),
+        resisting("weak_pull", "pull=0.98", "ConventionsAreThoseDeclared", "^(k_c|w) -(1\\.9|2)"),
+        resisting("bond_let_go", "lets_go=1", "CohesionFollowsItsClosedForms",
+                  "^contacts of JKR's law let go where surfaces just touch"),
+        resisting("deepest_forgotten", "forget_deepest=1", "CohesionFollowsItsClosedForms", ""),
+        resisting("no_pull_at_walls", "pull_at_walls=0", "ForcesAreThoseOfTheLaw", "")),
+    [](const auto& one) { return std::string(one.param.name); });
 
 INSTANTIATE_TEST_SUITE_P(
     One, PlantedFault,

@@ -29,7 +29,9 @@ inline Case costCase(const std::string& fragment = {}) {
 /// The quick cell's first packing and states along its flow, which fixtures make once for all of
 /// their tests.
 struct QuickFlow {
-  explicit QuickFlow(std::size_t starts) : setup(quickCell()), dt(timeStep(setup)) {
+  /// @param changes  of the cell, KEY=VALUE each
+  explicit QuickFlow(std::size_t starts, const std::vector<std::string>& changes = {})
+      : setup(quickCell(changes)), dt(timeStep(setup)) {
     const auto engine = makeGrain();
     const auto nobody = [](double) {};
     packings = {packingOf(setup, 0, dt, *engine, nobody)};

@@ -61,6 +61,10 @@ ENGINES = {
         "box2d-penalty cannot run", "quick.toml", "damping_velocity = lagged, not predicted", '"damping_velocity"',
     ),
     f"compare {CELL} {RUN} --set=preparation.engine=box2d-penalty": "box2d-penalty cannot prepare packings of",
+    f"compare {CELL} --engines box2d-impulse --out out --quiet --set=law.rolling=constant_torque --set=law.mu_r=0.1": (
+        "box2d-impulse cannot run", "has no rolling_resistance", '"rolling_resistance" under [run] may_differ',
+    ),
+    f"compare {CELL} --engines box2d-impulse --out out --quiet --set=law.cohesion=dmt --set=law.w=0.1": "has no cohesion",
     "conformance yad": "did you mean yade?",
     "conformance all": "takes one engine",
 }  # fmt: skip

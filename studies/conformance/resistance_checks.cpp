@@ -1,0 +1,471 @@
+// Rolling resistance, cohesion and laws of pairs of materials, of engines that declare them: closed
+// forms of two bodies, without the in-house engine.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "adapters/law_options.hpp"
+#include "oracle/impact.hpp"
+#include "studies/conformance/check_context.hpp"
+#include "studies/conformance/declared_laws.hpp"
+
+namespace crossgrain::conformance {
+namespace {
+
+const Tolerance firstOrderScheme = {0.0, 0.02, "a first-order scheme at t_c/400"};
+
+/// Two small disks, head on, that turn against each other: their surfaces do not slip, and where
+/// they roll nothing else acts on their spins.
+constexpr double pairSpin = 40.0;  // of each [rad/s]
+constexpr double pairMass = 0.5 * smallMass, pairRadius = 0.5 * smallRadius;
+
+/// The first normal law of the engine, without dashpots.
+ContactLaw withoutDashpots(const Capabilities& can, const std::string& normal) {
+  ContactLaw law = lawOf(can, normal);
+  law.gn = 0.0;
+  return law;
+}
+
+std::string firstNormal(CheckContext& context) {
+  return lawOptionValue(context.law(), "normal");
+}
+
+/// L of a small disk on another one, or at a plane [m].
+double rollingLength(const ContactLaw& law, bool plane) {
+  const double effective = plane ? smallRadius : pairRadius;
+  switch (law.conventions.rollingLength) {
+    case RollingLength::twiceEffective:
+      return 2.0 * effective;
+    case RollingLength::smallerRadius:
+      return smallRadius;
+    case RollingLength::effective:
+      break;
+  }
+  return effective;
+}
+
+/// What k_r's constant is times [m²] or 1.
+double rollingSquare(const ContactLaw& law, bool plane) {
+  const double length = rollingLength(law, plane);
+  switch (law.conventions.rollingStiffness) {
+    case RollingStiffness::radii:
+      return smallRadius * smallRadius;
+    case RollingStiffness::constant:
+      return 1.0;
+    case RollingStiffness::lengthSquare:
+      break;
+  }
+  return length * length;
+}
+
+// ---- rolling ------------------------------------------------------------------------------------
+
+/// ω_r after an impact by ω_r before it. J ω′ = ∓M of both; without dashpots the impulse of f_n is
+/// 2 m₁₂ v, the duration t_c. With 1/J the sum of both inverse moments of inertia:
+///   A  ω_r − µ_r L 2 m₁₂ v/J,   B  exp(−γ_r L² t_c/J),   by load  exp(−µ_r L² 2 m₁₂ v/J),
+///   C  cos(t_c √(k_r/J)) while its spring holds.
+double rollsOn(const ContactLaw& law, bool plane, double spin) {
+  const double mass = plane ? smallMass : pairMass;
+  const double inverse = (plane ? 1.0 : 2.0) / smallInertia;
+  const double length = rollingLength(law, plane);
+  const double impulse = 2.0 * mass * Encounter::speed;
+  const double duration =
+      impactTime(law, {mass, plane ? smallRadius : pairRadius, Encounter::speed});
+  switch (law.rolling) {
+    case RollingLaw::constantTorque:
+      return spin - law.muR * length * impulse * inverse;
+    case RollingLaw::viscous:
+      return spin * std::exp(-law.gr * length * length * duration * inverse);
+    case RollingLaw::viscousByLoad:
+      return spin * std::exp(-law.muR * length * length * impulse * inverse);
+    case RollingLaw::spring:
+      return spin * std::cos(duration * std::sqrt(law.kr * rollingSquare(law, plane) * inverse));
+    case RollingLaw::none:
+      break;
+  }
+  return spin;
+}
+
+/// A disk that falls straight on a plane and turns; nothing slips against it without friction.
+Scene turningOnPlane(const ContactLaw& law) {
+  Scene scene = emptyScene(law, fineSteps);
+  scene.bodies = {planeWall({0.2, 0.0}, Vec2::UnitY())};
+  addDisk(scene, smallRadius, smallMass, {0.0, smallRadius + Encounter::gap},
+          {0.0, -Encounter::speed}, pairSpin);
+  return scene;
+}
+
+void rollingFollowsItsClosedForms(CheckContext& context) {
+  context.needs(toString(Effect::rollingResistance));
+  bool any = false;
+  for (const RollingLaw kind : rollingLaws(context.can)) {
+    ContactLaw law = withRolling(withoutDashpots(context.can, firstNormal(context)), kind);
+    const std::string name = "rolling = " + lawOptionValue(law, "rolling");
+    if (kind == RollingLaw::spring) {
+      law.gr = 0.0;
+      law.muR = 1e3;  // never at its bound
+    }
+    Encounter pair;
+    pair.spins[0] = pairSpin;
+    pair.spins[1] = -pairSpin;
+    // Nothing slips, with friction or without, as long as both have their torque.
+    if (context.refusal(encounterScene(pair, frictionless(law), fineSteps)))
+      if (const auto why = context.refusal(encounterScene(pair, law, fineSteps))) {
+        context.couldNotExamine(name, *why);
+        continue;
+      }
+    any = true;
+    context.examine(toString(Effect::rollingResistance));
+    const std::vector<double> spins = spinsOf(context.scene, context.at(Encounter::end));
+    const double lost = pairSpin - 0.5 * rollsOn(law, false, 2.0 * pairSpin);
+    const double first = pairSpin - spins[0], second = pairSpin + spins[1];
+    if (std::abs(first) > 0.1 * lost && std::abs(second) < 1e-3 * lost)
+      context.suspect("the torque against rolling acts on the first of two disks alone");
+    context.near(first, lost, firstOrderScheme,
+                 name + ", the spin lost by the first of two disks [rad/s]");
+    context.near(second, lost, firstOrderScheme,
+                 name + ", the spin lost by the second of two disks [rad/s]");
+
+    if (context.refusal(turningOnPlane(frictionless(law)))) continue;
+    const double left = spinsOf(context.scene, context.at(Encounter::end))[0];
+    const double lostOnPlane = pairSpin - rollsOn(law, true, pairSpin);
+    if (std::abs(pairSpin - left) < 1e-3 * lostOnPlane)
+      context.suspect("nothing resists rolling at planes");
+    context.near(pairSpin - left, lostOnPlane, firstOrderScheme,
+                 name + ", the spin lost on a plane [rad/s]");
+  }
+  if (!any) context.skip("it refuses every law that resists rolling here");
+}
+
+/// Under its weight, along a slope of angle β (Ai et al. 2011; J = q m R²): at rest up to
+/// tan β = µ_r L/R, then faster by g (sin β − µ_r L/R cos β)/(1 + q).
+void rollingHoldsASlope(CheckContext& context) {
+  context.needs(toString(Effect::rollingResistance));
+  context.needs(planes);
+  constexpr double gravity = 9.81, end = 0.05;
+  constexpr double holding = 0.5, rolling = 2.0;  // times the steepest slope that holds
+  const std::vector<RollingLaw> kinds = rollingLaws(context.can);
+  if (std::ranges::count(kinds, RollingLaw::spring) == 0) context.skip("has no rolling spring");
+  const ContactLaw base = lawOf(context.can, firstNormal(context));
+  if (base.normal != NormalLaw::linear) context.skip("has no linear law");
+  const ContactLaw law = withRolling(base, RollingLaw::spring);
+  const double most = law.muR * rollingLength(law, true) / smallRadius;
+  for (const double part : {holding, rolling}) {
+    const double slope = std::atan(part * most);
+    Scene scene = emptyScene(law, 100.0);
+    scene.gravity = gravity * Vec2(std::sin(slope), -std::cos(slope));
+    scene.bodies = {planeWall({0.2, 0.0}, Vec2::UnitY())};
+    const double depth = smallMass * gravity * std::cos(slope) / law.kn;
+    addDisk(scene, smallRadius, smallMass, {0.0, smallRadius - depth}, Vec2::Zero());
+    context.load(scene);
+    const double speed = context.at(end).velocity[0].x();
+    const double free = gravity * std::sin(slope) / 1.5 * end;
+    if (part == holding)
+      context.near(speed, 0.0, {0.02 * free, 0.0, "of the speed without resistance; springs swing"},
+                   "the speed on a slope that holds a disk [m/s]");
+    else
+      context.near(speed, (1.0 - most / std::tan(slope)) * free,
+                   {0.03 * free, 0.0, "of the speed without resistance; springs swing"},
+                   "the speed on a slope that does not hold it [m/s]");
+  }
+}
+
+/// M on i, −M on j, each beside −l f_t: what snapshots show of it adds up to what changed the
+/// spins.
+void rollingTorquesAreThoseThatAct(CheckContext& context) {
+  context.needs(toString(Effect::rollingResistance));
+  context.needsContacts();
+  bool shown = false;
+  for (const RollingLaw kind : rollingLaws(context.can)) {
+    const ContactLaw law = withRolling(lawOf(context.can, firstNormal(context)), kind);
+    Encounter pair = crookedEncounter();
+    pair.radii[1] = pair.radii[0];  // every engine's contact point is then in the middle
+    if (context.refusal(encounterScene(pair, law, coarseSteps))) continue;
+    const std::vector<Snapshot> seen = context.watch(Encounter::end);
+    const double dt = context.effective.dt;
+    double impulses[2] = {}, size = 0.0;
+    for (const Snapshot& now : seen) {
+      if (&now == &seen.front() || !now.contacts || now.contacts->rollingTorque.empty()) continue;
+      const Contacts& all = *now.contacts;
+      const bool radius = law.conventions.leverArm == LeverArm::radius;
+      const double lever = smallRadius - (radius ? 0.0 : 0.5 * all.overlap.front());
+      for (const int disk : {0, 1}) {
+        const double rolled = (disk == 0 ? 1.0 : -1.0) * all.rollingTorque.front();
+        impulses[disk] += dt * (rolled - lever * all.tangentialForce.front());
+      }
+      size += dt * std::abs(all.rollingTorque.front());
+    }
+    if (size == 0.0) continue;
+    shown = true;
+    const double interval = seen.back().contactInterval * Encounter::speed / smallRadius;
+    const double part = context.byPrecision(1e-12, 1e-5, "").relative + interval;
+    for (const int disk : {0, 1}) {
+      const double gained = spinsOf(context.scene, seen.back())[static_cast<std::size_t>(disk)] -
+                            spinsOf(context.scene, seen.front())[static_cast<std::size_t>(disk)];
+      const double unit = smallMass * Encounter::speed * smallRadius;
+      context.near(
+          impulses[disk], context.scene.disks.inertia[static_cast<std::size_t>(disk)] * gained,
+          {part * unit, 0.0, "roundings, and a normal that turns"},
+          text("rolling = ", lawOptionValue(law, "rolling"), ", the sum of torques on disk ", disk,
+               " over time against its change of angular momentum [kg m²/s]"));
+    }
+  }
+  if (!shown) context.skip("shows no torque against rolling");
+}
+
+/// A disk that turns between two posts, held by all that contacts remember, while another flies by,
+/// for which lists of neighbours are made anew: it does what it does alone.
+void memoriesHoldWhileAnotherFliesBy(CheckContext& context) {
+  const std::vector<ContactLaw> laws = resistingLaws(context.can);
+  if (laws.empty()) context.skip("declares no rolling_resistance and no cohesion");
+  constexpr double depth = 0.02 * smallRadius, end = 0.03, speed = 2.0;
+  constexpr double post = 2.0 * smallRadius - depth;
+  bool any = false;
+  for (const ContactLaw& law : laws) {
+    Scene scene = emptyScene(law, coarseSteps);
+    scene.bodies = {wallOf("posts", Vec2::Zero(), {{0.0, post}, {0.0, -post}})};
+    const auto states = [&](double passing) {
+      Scene both = scene;
+      addDisk(both, smallRadius, smallMass, {-0.03, 20.0 * smallRadius}, {passing, 0.0});
+      addDisk(both, smallRadius, smallMass, Vec2::Zero(), {0.02, 0.0}, 5.0);
+      // One of a pair of its own, in which the second is the one that turns.
+      addDisk(both, smallRadius, smallMass, {0.1, 0.0}, {0.01, 0.0}, -3.0);
+      addDisk(both, smallRadius, smallMass, {0.1, post}, {-0.01, 0.0}, 4.0);
+      return context.refusal(both) ? std::vector<DiskState>() : statesOf(both, context.at(end));
+    };
+    const std::vector<DiskState> wanted = states(0.0), found = states(speed);
+    if (wanted.empty() || found.empty()) continue;
+    any = true;
+    const std::size_t before = context.faults.size();
+    for (const std::size_t i : {1, 2, 3})
+      context.sameMotion(
+          found[i], wanted[i],
+          context.byPrecision(1e-9, 1e-3, "roundings of another order of sums"),
+          text(" of disk ", i, " under rolling = ", lawOptionValue(law, "rolling"),
+               ", cohesion = ", lawOptionValue(law, "cohesion"), " while another flies by"));
+    if (context.faults.size() > before && law.rolling == RollingLaw::spring)
+      context.suspect(
+          "rolling springs are lost or turned round where lists of neighbours are made anew");
+  }
+  if (!any) context.skip("it refuses every law that resists rolling or coheres here");
+}
+
+// ---- cohesion -----------------------------------------------------------------------------------
+
+double pullOff(const ContactLaw& law) {
+  const double factor = law.cohesion == CohesionLaw::jkr ? 1.5 : 2.0;
+  return factor * std::numbers::pi * law.w * pairRadius;
+}
+
+/// a_p²/R of JKR's contact, the unit of its overlaps: a_p³ = 9π w R²/(8 E*), E* = 3/4 k_n [m].
+double bondDepth(const ContactLaw& law) {
+  const double width = std::cbrt(1.5 * std::numbers::pi * law.w * pairRadius * pairRadius / law.kn);
+  return width * width / pairRadius;
+}
+
+/// The energy that a touch of two small disks costs, of JKR's contact alone: 0.320 F_po a_p²/R to
+/// the largest pull, 0.649 to the end of the branch, which is y⁴ − 4/3 y at 1 and at 3^(−1/3) of
+/// F_po a_p²/R (2/5 y¹⁰ − 4/3 y⁷ + 2/3 y⁴), less that at (4/3)^(1/3) (Johnson et al. 1971).
+double lossOfBond(const ContactLaw& law) {
+  const auto energy = [](double y) {
+    return 0.4 * std::pow(y, 10.0) - 4.0 / 3.0 * std::pow(y, 7.0) + 2.0 / 3.0 * std::pow(y, 4.0);
+  };
+  const double end = law.conventions.jkrEnd == JkrEnd::branch ? std::cbrt(1.0 / 3.0) : 1.0;
+  return pullOff(law) * bondDepth(law) * (energy(end) - energy(std::cbrt(4.0 / 3.0)));
+}
+
+/// How far apart surfaces are when they part, in units of a_p²/R.
+double bondEnd(const ContactLaw& law) {
+  return law.conventions.jkrEnd == JkrEnd::branch ? std::cbrt(9.0) / 3.0 : 1.0 / 3.0;
+}
+
+/// e_n of a plastic contact: e² = k_n/k₂ − k_c δ_min δ₀/(k_n δ_m²), the areas of Luding (2008),
+/// Fig. 1.
+double plasticRestitution(const ContactLaw& law, double speed) {
+  const double deepest = speed * std::sqrt(pairMass / law.kn), most = law.kUnload - law.kn;
+  const double limit = law.kUnload / most * law.plasticDepth * 2.0 * pairRadius;
+  const double k2 = law.kn + most * (limit > 0.0 ? std::min(1.0, deepest / limit) : 1.0);
+  const double rest = (1.0 - law.kn / k2) * deepest,
+               least = (k2 - law.kn) * deepest / (k2 + law.kc);
+  return std::sqrt(law.kn / k2 - law.kc * least * rest / (law.kn * deepest * deepest));
+}
+
+/// ∫ f_n dδ of a law that gives back what it takes [J].
+double energyAt(const ContactLaw& law, double overlap) {
+  const double elastic = elasticEnergy(law, pairRadius, overlap);
+  if (law.cohesion == CohesionLaw::dmt) return elastic - pullOff(law) * overlap;
+  const double circle = std::numbers::pi * pairRadius, reach = 2.0 * smallRadius;
+  double volume = circle * overlap * overlap;  // ∫ A dδ of A = 2π R₁₂ δ
+  if (law.conventions.cohesionArea == CohesionArea::twiceBetweenDisks) volume *= 2.0;
+  if (law.conventions.cohesionArea == CohesionArea::lens)  // A = π/4 (s² − d²) of equal spheres
+    volume = 0.25 * std::numbers::pi * overlap * overlap * (reach - overlap / 3.0);
+  return elastic - law.kc * volume;
+}
+
+/// Duration of such an impact: 2 ∫ dδ/√(v² − 2 W/m₁₂) up to where W = m₁₂ v²/2, by δ = δ_m (1 −
+/// u²), which takes the singular end away [s].
+double durationOf(const ContactLaw& law, double speed) {
+  const double kinetic = 0.5 * pairMass * speed * speed;
+  double low = 0.0, high = smallRadius;
+  for (int k = 0; k < 200; ++k) {
+    const double middle = 0.5 * (low + high);
+    (energyAt(law, middle) < kinetic ? low : high) = middle;
+  }
+  constexpr int parts = 4000;
+  double sum = 0.0;
+  for (int k = 0; k < parts; ++k) {
+    const double u = (k + 0.5) / parts, overlap = low * (1.0 - u * u);
+    sum += 2.0 * low * u / parts / std::sqrt(2.0 * (kinetic - energyAt(law, overlap)) / pairMass);
+  }
+  return 2.0 * sum;
+}
+
+/// Two small disks that meet head on at that speed.
+Scene headOn(const ContactLaw& law, double speed) {
+  Scene scene = encounterScene({}, law, fineSteps);
+  for (Vec2& velocity : scene.disks.velocity) velocity *= speed / Encounter::speed;
+  return scene;
+}
+
+/// How far apart surfaces are, and how fast they part.
+struct Parting {
+  double gap, speed;  ///< [m, m/s]
+};
+
+Parting partingOf(const Snapshot& now) {
+  const Vec2 apart = now.position[0] - now.position[1];
+  return {apart.norm() - 2.0 * smallRadius,
+          (now.velocity[0] - now.velocity[1]).dot(apart.normalized())};
+}
+
+/// Contacts are shown from the first touch until they let go, pulling beyond their overlap.
+void expectBond(CheckContext& context, const ContactLaw& law, double end) {
+  double farthest = 0.0, first = 1.0;
+  for (const Snapshot& now : context.watch(end)) {
+    if (!now.contacts || now.contacts->size() == 0) continue;
+    const double overlap = now.contacts->overlap.front();
+    if (first > 0.5) first = overlap;
+    if (now.contacts->normalForce.front() < 0.0) farthest = std::min(farthest, overlap);
+  }
+  const double reach = bondEnd(law) * bondDepth(law);
+  if (farthest == 0.0) context.suspect("contacts of JKR's law let go where surfaces just touch");
+  context.atLeast(first, -1e-3 * reach, "the overlap where a bond of JKR's begins [m]");
+  context.near(farthest, -reach, {0.05 * reach, 0.0, "what two surfaces move in a step"},
+               "the overlap where a bond of JKR's lets go [m]");
+}
+
+void cohesionFollowsItsClosedForms(CheckContext& context) {
+  context.needs(toString(Effect::cohesion));
+  bool any = false;
+  for (const CohesionLaw kind : cohesionLaws(context.can))
+    for (const std::string& normal : valuesOf(context.can, context.law(), "normal")) {
+      const ContactLaw base = withoutDashpots(context.can, normal);
+      if (!base.soft() || !goesWith(kind, base.normal)) continue;
+      const ContactLaw law = withCohesion(base, kind);
+      const std::string name =
+          text(normal, " with cohesion = ", lawOptionValue(law, "cohesion"), ", ");
+      const bool bonds = kind == CohesionLaw::jkr;
+      const double sticking = bonds ? std::sqrt(2.0 * lossOfBond(law) / pairMass) : 0.0;
+      const double speed = bonds ? 1.5 * sticking : Encounter::speed;
+      const double end =
+          Encounter::gap / speed + 5.0 * impactTime(law, {pairMass, pairRadius, speed});
+      if (const auto why = context.refusal(headOn(law, speed))) {
+        context.couldNotExamine("cohesion = " + lawOptionValue(law, "cohesion"), *why);
+        continue;
+      }
+      any = true;
+      context.examine(toString(Effect::cohesion));
+      const Snapshot after = context.at(end);
+      const Parting parted = partingOf(after);
+      double restitution = 1.0;
+      if (bonds) restitution = std::sqrt(1.0 - 1.0 / (1.5 * 1.5));
+      if (kind == CohesionLaw::elastoPlastic) restitution = plasticRestitution(law, speed);
+      context.near(parted.speed / speed, restitution, firstOrderScheme, name + "e_n");
+      if (kind == CohesionLaw::area || kind == CohesionLaw::dmt)
+        context.near(after.positionTime - Encounter::gap / speed - parted.gap / parted.speed,
+                     durationOf(law, speed), firstOrderScheme, name + "how long they touch [s]");
+      if (!bonds) continue;
+      if (context.contactReport() == ContactReport::instant) {
+        context.load(headOn(law, speed));
+        expectBond(context, law, end);
+      }
+      context.load(headOn(law, 0.5 * sticking));
+      const double stuck = Encounter::gap / (0.5 * sticking);
+      for (const double times : {2.0, 3.0, 4.0})
+        context.atMost(partingOf(context.at(times * stuck)).gap, bondEnd(law) * bondDepth(law),
+                       name + "the gap of disks that met at half the speed that sticks [m]");
+    }
+  if (!any) context.skip("it refuses every law with cohesion here");
+}
+
+// ---- materials ----------------------------------------------------------------------------------
+
+/// Two of one material, one of each, two of the other, and one at a wall of the other.
+Scene fourEncounters(const ContactLaw& law) {
+  Scene scene = emptyScene(law, coarseSteps);
+  constexpr double apart = 12.0 * smallRadius;
+  for (int k = 0; k < 3; ++k) {
+    const Scene met = encounterScene({.obliqueness = 0.4, .spins = {9.0, -4.0}}, law, coarseSteps);
+    for (const std::size_t i : {0, 1})
+      addDisk(scene, smallRadius, smallMass, met.disks.position[i] + Vec2(0.0, apart * k),
+              met.disks.velocity[i], met.disks.spin[i]);
+  }
+  const Vec2 post(0.0, 3.0 * apart);
+  scene.bodies = {wallOf("post", post, {post})};
+  addDisk(scene, smallRadius, smallMass, post + Vec2(2.0 * smallRadius + Encounter::gap, 0.0),
+          {-Encounter::speed, 0.03}, 7.0);
+  return scene;
+}
+
+/// Each pair does what it does where all are like it.
+void materialsHaveTheirOwnLaws(CheckContext& context) {
+  context.needs(toString(Effect::pairMaterials));
+  ContactLaw one = context.law(), mixed = one, other = one;
+  mixed.kn *= 1.3;
+  mixed.mu *= 0.4;
+  mixed.en *= 0.7;
+  other.kn *= 0.6;
+  other.gn *= 0.5;
+  other.mu *= 1.5;
+  Scene scene = fourEncounters(one);
+  scene.materials =
+      Materials{{"one", "other"}, {0, 0, 0, 1, 1, 1, 0}, {1}, {one, mixed, mixed, other}};
+  const std::vector<DiskState> found = statesOf(scene, context.run(scene, Encounter::end));
+  context.examine(toString(Effect::pairMaterials));
+  const Tolerance rounding = context.byPrecision(1e-9, 1e-4, "roundings");
+  const auto expectLike = [&](const ContactLaw& law, std::initializer_list<std::size_t> disks,
+                              const char* which) {
+    Scene alike = fourEncounters(law);
+    alike.dt = scene.dt;
+    const std::vector<DiskState> wanted = statesOf(scene, context.run(alike, Encounter::end));
+    for (const std::size_t i : disks)
+      context.sameMotion(found[i], wanted[i], rounding, text(" of disk ", i, ", ", which));
+  };
+  expectLike(one, {0, 1}, "of one material");
+  expectLike(mixed, {2, 3, 6}, "of one of each material");
+  expectLike(other, {4, 5}, "of the other material");
+}
+
+}  // namespace
+
+Checks resistanceChecks() {
+  static constexpr Check list[] = {
+      {"RollingFollowsItsClosedForms", "rolling resistance takes as much spin as closed forms say",
+       rollingFollowsItsClosedForms},
+      {"RollingHoldsASlope", "a rolling spring holds a disk up to the slope that it can",
+       rollingHoldsASlope},
+      {"RollingTorquesAreThoseThatAct", "the torques shown against rolling are those that act",
+       rollingTorquesAreThoseThatAct},
+      {"MemoriesHoldWhileAnotherFliesBy",
+       "what contacts remember holds while lists of neighbours are made anew",
+       memoriesHoldWhileAnotherFliesBy},
+      {"CohesionFollowsItsClosedForms", "cohesion costs and lasts as closed forms say",
+       cohesionFollowsItsClosedForms},
+      {"MaterialsHaveTheirOwnLaws", "each two materials have a law of their own",
+       materialsHaveTheirOwnLaws},
+  };
+  return list;
+}
+
+}  // namespace crossgrain::conformance
