@@ -10,6 +10,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "oracle/cohesion.hpp"
 #include "oracle/impact.hpp"
 
 namespace crossgrain::inline oracle {
@@ -183,6 +184,83 @@ ImpliedImpact impliedImpact(const ContactLaw& given, const CollidingPair& pair) 
       implied.stickingEndsAtPsi = *implied.slidingConstant / (1.0 + *implied.et0);
   }
   return implied;
+}
+
+double rollingLength(const ContactLaw& law, const CollidingPair& pair) {
+  const double reduced = pair.reducedRadius();
+  switch (law.conventions.rollingLength) {
+    case RollingLength::effective:
+      break;
+    case RollingLength::twiceEffective:
+      return 2.0 * reduced;
+    case RollingLength::smallerRadius:
+      return pair.plane ? pair.radius[0] : std::min(pair.radius[0], pair.radius[1]);
+  }
+  return reduced;
+}
+
+double rollingSquare(const ContactLaw& law, const CollidingPair& pair) {
+  const double length = rollingLength(law, pair);
+  switch (law.conventions.rollingStiffness) {
+    case RollingStiffness::lengthSquare:
+      break;
+    case RollingStiffness::radii:
+      return pair.radius[0] * (pair.plane ? pair.radius[0] : pair.radius[1]);
+    case RollingStiffness::constant:
+      return 1.0;
+  }
+  return length * length;
+}
+
+namespace {
+
+double aboutContact(const CollidingPair& pair, int side) {
+  return pair.inertia[side] + pair.mass[side] * pair.radius[side] * pair.radius[side];
+}
+
+}  // namespace
+
+double rollingDamperUnit(const ContactLaw& law, const CollidingPair& pair, double stiffness) {
+  const double length = rollingLength(law, pair);
+  if (law.rolling != RollingLaw::spring || law.conventions.rollingDamper == RollingDamper::constant)
+    return length * length;
+  const double inverse =
+      1.0 / aboutContact(pair, 0) + (pair.plane ? 0.0 : 1.0 / aboutContact(pair, 1));
+  return 2.0 * std::sqrt(stiffness / inverse);
+}
+
+double rollingInertia(const CollidingPair& pair) {
+  if (pair.plane) return aboutContact(pair, 0);
+  return 1.0 / (1.0 / pair.inertia[0] + 1.0 / pair.inertia[1]);
+}
+
+void calibrateRolling(ContactLaw& law, const CollidingPair& pair, double frequency, double decay) {
+  const double inertia = rollingInertia(pair), omega = 2.0 * std::numbers::pi * frequency;
+  const double stiffness = inertia * (omega * omega + decay * decay);
+  law.kr = stiffness / rollingSquare(law, pair);
+  law.gr = 2.0 * inertia * decay / rollingDamperUnit(law, pair, stiffness);
+}
+
+ImpliedRolling impliedRolling(const ContactLaw& law, const CollidingPair& pair) {
+  const double inertia = rollingInertia(pair), stiffness = law.kr * rollingSquare(law, pair);
+  const double decay = law.gr * rollingDamperUnit(law, pair, stiffness) / (2.0 * inertia);
+  const double square = stiffness / inertia - decay * decay;
+  if (!(square > 0.0)) throw std::invalid_argument("the rolling spring does not oscillate");
+  return {std::sqrt(square) / (2.0 * std::numbers::pi), decay};
+}
+
+double rollingCoefficientOf(const ContactLaw& law, double angle) {
+  return std::tan(angle) / rollingLength(law, diskOnWall(1.0, 1.0, 1.0));
+}
+
+double restAngle(const ContactLaw& law) {
+  return std::atan(law.muR * rollingLength(law, diskOnWall(1.0, 1.0, 1.0)));
+}
+
+double workOfAdhesion(const ContactLaw& law, double force, double reducedRadius) {
+  ContactLaw unit = law;
+  unit.w = 1.0;
+  return force / pullOff(unit, reducedRadius);
 }
 
 }  // namespace crossgrain::inline oracle

@@ -80,6 +80,39 @@ struct ImpliedImpact {
 /// @throws std::invalid_argument for a rigid law and for an overdamped pair
 ImpliedImpact impliedImpact(const ContactLaw& law, const CollidingPair& pair);
 
+/// L of rolling resistance [m], and what the constant k_r is times, L², a_i a_j [m²] or 1.
+/// @see RollingLength, RollingStiffness
+double rollingLength(const ContactLaw& law, const CollidingPair& pair);
+double rollingSquare(const ContactLaw& law, const CollidingPair& pair);
+/// What γ_r is times in the dashpot: L² [m²], or 2 √(I_c K) of a rolling spring with a critical
+/// damper, 1/I_c = Σ 1/(J + m a²) [N m s]. @param stiffness  K of the spring [N m]
+double rollingDamperUnit(const ContactLaw& law, const CollidingPair& pair, double stiffness);
+
+/// What turns against a contact's rolling spring and dashpot, I θ̈ + G θ̇ + K θ = 0 with K = k_r L²
+/// (or as RollingStiffness says): a disk that rolls on a plane without slip, I = J + m a², or the
+/// relative spin of a pair whose centres are held, 1/I = 1/J_i + 1/J_j [kg m²].
+double rollingInertia(const CollidingPair& pair);
+
+/// Sets k_r and γ_r so that this oscillates at a frequency [Hz], its amplitude falling as e^(−λt):
+///   K = I ((2π f)² + λ²), G = 2 I λ, γ_r = G/rollingDamperUnit().
+/// @param decay  λ [1/s]
+void calibrateRolling(ContactLaw& law, const CollidingPair& pair, double frequency, double decay);
+
+/// The same back. @throws std::invalid_argument for what does not oscillate
+struct ImpliedRolling {
+  double frequency;  ///< [Hz]
+  double decay;      ///< λ [1/s]
+};
+ImpliedRolling impliedRolling(const ContactLaw& law, const CollidingPair& pair);
+
+/// µ_r with which a disk rests on inclines up to that angle, tan β = µ_r L/a with L at a plane: m g
+/// sin β a is what turns it, µ_r L m g cos β what holds it. @param angle  β [rad], < π/2
+double rollingCoefficientOf(const ContactLaw& law, double angle);
+double restAngle(const ContactLaw& law);
+
+/// w of law.cohesion, DMT or JKR, with that largest pull F_po [N]: F/(2π R₁₂), F/(3/2 π R₁₂).
+double workOfAdhesion(const ContactLaw& law, double pullOff, double reducedRadius);
+
 /// −v_t(t)/v_t(0) of the oscillator dv_t/dt = −2η_t v_t − Ω_t² ξ, dξ/dt = v_t, ξ(0) = 0, damped
 /// below, at or above critical (η_t = Ω_t).
 /// @param undamped Ω_t [rad/s]

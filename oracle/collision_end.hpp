@@ -55,7 +55,8 @@ struct PairMotion {
 };
 
 /// Where the energy went that a collision took, a closed account:
-/// before = after + normalDamping + tangentialDamping + stiffening + sliding + stored.
+/// before = after + the sum of all parts. Parts of a law's rolling resistance and cohesion are
+/// absent where it has none, or where nobody knows.
 struct EnergySplit {
   /// ∫ (f_el − f_n) v_n dt: the dashpot's, and what the spring does not give back where tension is
   /// cut [J]
@@ -69,6 +70,15 @@ struct EnergySplit {
   /// from the first instant of a slip to the last: the law resets it [J]
   double sliding = 0.0;
   double stored = 0.0;  ///< k_t ξ²/2 in the tangential spring when the disks part, lost then [J]
+  /// ∫ γ_r L² ω_r² dt of a rolling spring's dashpot while it does not slip; of the viscous laws
+  /// −∫ M ω_r dt [J]
+  std::optional<double> rollingDamping = {};
+  /// −∫ M ω_r dt at the bound, with what the spring's resets take and what it holds in the end [J]
+  std::optional<double> rolling = {};
+  /// Of an elasto-plastic contact, between its lines of loading and unloading [J]
+  std::optional<double> plastic = {};
+  /// Of JKR's bond, which reaches farther on parting than when bodies meet [J]
+  std::optional<double> detachment = {};
 };
 
 /// What is left after a collision, at the instant of separation and with that instant's normal.
@@ -95,6 +105,9 @@ struct CollisionEnd {
   /// reset: where that leads is a function of log dt. The outcome is one of a narrow family, whose
   /// members are further apart than 1e-4 of the larger of v_n and v_t.
   bool noLimit = false;
+  /// False: a pair that coheres and still touches after longestContact; then only energyBefore is
+  /// of any use.
+  bool parted = true;
 };
 
 /// The motion when the disks touch first.

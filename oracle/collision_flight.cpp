@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oracle/cohesion.hpp"
+
 namespace crossgrain::inline oracle {
 
 CollidingPair pairOf(const Scene& scene, std::size_t pair) {
@@ -39,13 +41,14 @@ std::optional<CollisionEnd> wallCollisionEnd(const Scene& scene, const Snapshot&
   const double reach = disks.radius[disk];
   const double height = after.position[disk].x() - wall.x() * after.positionTime;
   const Vec2 velocity = after.velocity[disk] - wall;
-  if (velocity.x() <= 0.0 || height < reach) return std::nullopt;
-  CollisionEnd end = endOf(pairOf(scene, disk), start,
-                           {velocity.x(), velocity.y(), {spinsOf(disks, after)[disk], 0.0}});
-  const double parting = (reach - height) / velocity.x();
+  const double end = reach + bondRange(scene.law, reach);
+  if (velocity.x() <= 0.0 || height < end) return std::nullopt;
+  CollisionEnd parted = endOf(pairOf(scene, disk), start,
+                              {velocity.x(), velocity.y(), {spinsOf(disks, after)[disk], 0.0}});
+  const double parting = (end - height) / velocity.x();
   const double touch = (disks.position[disk].x() - reach) / (wall.x() - disks.velocity[disk].x());
-  if (scene.law.soft()) end.duration = after.positionTime + parting - touch;
-  return end;
+  if (scene.law.soft()) parted.duration = after.positionTime + parting - touch;
+  return parted;
 }
 
 }  // namespace
@@ -59,18 +62,19 @@ std::optional<CollisionEnd> collisionEnd(const Scene& scene, const Snapshot& aft
   const double reach = disks.radius[i] + disks.radius[j];
   const Vec2 apart = after.position[i] - after.position[j];
   const Vec2 velocity = after.velocity[i] - after.velocity[j];
-  if (apart.dot(velocity) <= 0.0 || apart.norm() < reach) return std::nullopt;
-  const double parting = timeOfParting(apart, velocity, reach);
+  const double end = reach + bondRange(scene.law, pairOf(scene, pair).reducedRadius());
+  if (apart.dot(velocity) <= 0.0 || apart.norm() < end) return std::nullopt;
+  const double parting = timeOfParting(apart, velocity, end);
   const Vec2 normal = (apart + parting * velocity).normalized();
   const std::vector<double>& spin = spinsOf(disks, after);
-  CollisionEnd end =
+  CollisionEnd parted =
       endOf(pairOf(scene, pair), start,
             {velocity.dot(normal), velocity.dot(perpendicular(normal)), {spin[i], spin[j]}});
   // The flight that brought them together, run backwards, parted them when they met.
   const double touch = -timeOfParting(disks.position[i] - disks.position[j],
                                       disks.velocity[j] - disks.velocity[i], reach);
-  if (scene.law.soft()) end.duration = after.positionTime + parting - touch;
-  return end;
+  if (scene.law.soft()) parted.duration = after.positionTime + parting - touch;
+  return parted;
 }
 
 }  // namespace crossgrain::inline oracle

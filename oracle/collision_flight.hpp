@@ -12,7 +12,8 @@ namespace crossgrain::inline oracle {
 /// disk k and its one plane.
 CollidingPair pairOf(const Scene& scene, std::size_t pair);
 
-/// Traces the free flight after the collision back to the instant when the disks parted. An end
+/// Traces the free flight after the collision back to the instant when the disks parted, under JKR
+/// where the scene's law lets go. An end
 /// without maxOverlap and lost, which the flight does not have.
 /// @param scene  as in pairOf() @param start  of that pair
 /// @returns none if they never met or still touch

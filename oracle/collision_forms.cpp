@@ -2,6 +2,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "oracle/cohesion.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"
 
@@ -35,6 +36,13 @@ double restitutionOfLinearLaw(const ContactLaw& law, double reducedMass) {
 
 std::optional<double> closedRestitution(const ContactLaw& law, double reducedMass) {
   if (!law.soft()) return law.en;
+  if (law.coheres()) {
+    if (law.gn > 0.0 || law.cohesion == CohesionLaw::jkr || law.plasticDepth > 0.0)
+      return std::nullopt;
+    if (law.cohesion != CohesionLaw::elastoPlastic) return 1.0;
+    // With one k₂ it is the same at all speeds, for all bodies.
+    return elastoPlasticRestitution(law, {{1.0, 1.0}, {1.0, 1.0}, {1.0, 1.0}}, 1.0);
+  }
   if (law.normal == NormalLaw::linear) return restitutionOfLinearLaw(law, reducedMass);
   if (law.gn == 0.0) return 1.0;
   if (law.normal != NormalLaw::hertz || law.damper != Damper::critical) return std::nullopt;
@@ -48,8 +56,31 @@ std::optional<double> closedRestitution(const ContactLaw& law, double reducedMas
   return restitutionOfLinearLaw(oscillator, 1.0);
 }
 
+double elastoPlasticRestitution(const ContactLaw& law, const CollidingPair& pair, double speed) {
+  const double largest = speed * std::sqrt(pair.reducedMass() / law.kn);
+  const double k2 = unloadingStiffness(law, pair.reducedRadius(), largest);
+  const double least = (k2 - law.kn) / (k2 + law.kc);  // δ_min/δ_m
+  const double square = law.kn / k2 - law.kc * least * (1.0 - law.kn / k2) / law.kn;
+  return std::sqrt(std::max(square, 0.0));
+}
+
+double jkrLossFactor(JkrEnd end) {
+  const double atTouch = 8.0 / 15.0 * std::cbrt(4.0 / 3.0);
+  return end == JkrEnd::largestPull ? atTouch - 4.0 / 15.0
+                                    : atTouch + 4.0 / 45.0 * std::cbrt(1.0 / 3.0);
+}
+
+std::optional<double> stickingSpeed(const ContactLaw& law, const CollidingPair& pair) {
+  if (law.cohesion == CohesionLaw::elastoPlastic || law.gn > 0.0) return std::nullopt;
+  if (law.cohesion != CohesionLaw::jkr) return 0.0;
+  const double radius = pair.reducedRadius();
+  const double loss =
+      jkrLossFactor(law.conventions.jkrEnd) * pullOff(law, radius) * jkrUnit(law, radius);
+  return std::sqrt(2.0 * loss / pair.reducedMass());
+}
+
 std::optional<double> slidingConstant(const ContactLaw& law, const CollidingPair& pair) {
-  if (!(law.mu > 0.0)) return std::nullopt;
+  if (!(law.mu > 0.0) || law.rolls() || law.coheres()) return std::nullopt;
   ContactLaw cut = law;
   cut.conventions.tension = Tension::cut;
   const auto restitution = closedRestitution(cut, pair.reducedMass());

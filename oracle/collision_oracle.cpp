@@ -35,8 +35,12 @@ double TwoBodyProblem::contactTime(double speed) const {
 /// 1e-7 of the whole for overlaps of 1e-8 of the reach.
 State TwoBodyProblem::firstTouch(const CollisionStart& start) const {
   const PairMotion touch = motionBefore(pair_, start);
-  State state{reach_, 0.0, touch.normal, touch.tangential, touch.spin[0], touch.spin[1], 0.0, 0.0,
-              0.0,    0.0, 0.0};
+  State state{};
+  state.x = reach_;
+  state.vx = touch.normal;
+  state.vy = touch.tangential;
+  state.spinI = touch.spin[0];
+  state.spinJ = touch.spin[1];
   double later = start.late;
   if (law_.stiffens())
     later = std::max({later, 1e-12 * contactTime(start.vn), visibleLength() / start.vn});
@@ -88,8 +92,10 @@ double TwoBodyProblem::roundingOfForce(const State& s) const {
   const Slope kt = tangentialStiffness(k.overlap);
   const double stretch = remembersForce() ? 0.0 : std::abs(s.spring);
   return std::numeric_limits<double>::epsilon() * reach_ *
-         (stiffness(k.overlap).value + normalDamping(k.overlap).rate * std::abs(k.normalVelocity) +
-          kt.rate * stretch + tangentialDamping(k.overlap).rate * std::abs(k.tangentialVelocity));
+         (std::max(stiffness(k.overlap).value,
+                   law_.coheres() ? std::abs(cohesiveForce(k).rate) : 0.0) +
+          normalDamping(k.overlap).rate * std::abs(k.normalVelocity) + kt.rate * stretch +
+          tangentialDamping(k.overlap).rate * std::abs(k.tangentialVelocity));
 }
 
 CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
@@ -101,7 +107,7 @@ CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
   State now = firstTouch(start);
   stillness_ = 1e-13 * start.vn * (1.0 + std::abs(start.psi));
   noLimit_ = jumpsAtTouch(start);
-  enterPhase(now);
+  enterPhase(now, true);
 
   std::array<double, dimension> error{};
   const auto stepFrom = [&](const State& from, double h) {
@@ -116,7 +122,7 @@ CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
   const double energy = energyOf(pair_, motionBefore(pair_, start));
   const auto errorOfStep = [&] {
     double sum = std::hypot(error[2], error[3]) / start.vn;
-    for (std::size_t k = dimension - 4; k < dimension; ++k) sum += std::abs(error[k]) / energy;
+    for (const std::size_t k : accounts) sum += std::abs(error[k]) / energy;
     return sum;
   };
   /// When within h a guard that is > 0 at first no longer is.
@@ -130,34 +136,34 @@ CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
   };
   const auto phaseLasts = [this](const State& s) { return firstGuard(s); };
   const auto approach = [this](const State& s) { return -kinematics(s).normalVelocity; };
-  const auto tangentialGuardAfter = [&](const State& from, double h) {
-    return tangentialGuard(stepFrom(from, h));
-  };
-  /// When within h the tangential guard, > 0 at both ends, is ≤ 0 in between: where it falls at
-  /// first and rises at last its minimum is looked for. Else the events between would be missed,
-  /// and with them that a contact sticks for less than a step before its bound begins to fall,
-  /// which is where the outcome jumps.
-  const auto dipOf = [&](const State& from, const State& to, double h) -> std::optional<double> {
-    const double little = 1e-6 * h, first = tangentialGuard(from), last = tangentialGuard(to);
+  /// When within h a guard of friction or rolling, > 0 at both ends, is ≤ 0 in between: where it
+  /// falls at first and rises at last its minimum is looked for. Else the events between would be
+  /// missed, and with them that a contact sticks for less than a step before its bound begins to
+  /// fall, which is where the outcome jumps.
+  const auto dipOf = [&](const auto& guardOf, const State& from, const State& to,
+                         double h) -> std::optional<double> {
+    const auto guardAfter = [&](const State& of, double time) {
+      return guardOf(stepFrom(of, time));
+    };
+    const double little = 1e-6 * h, first = guardOf(from), last = guardOf(to);
     const bool justBegun = first < 1e-9 * last;  // it is 0 to rounding
-    if (justBegun || tangentialGuard(along(from, little)) >= first ||
-        tangentialGuard(along(to, -little)) >= last)
+    if (justBegun || guardOf(along(from, little)) >= first || guardOf(along(to, -little)) >= last)
       return std::nullopt;
     constexpr double golden = 0.6180339887498949;
     double low = 0.0, high = h;
     double left = high - golden * h, right = low + golden * h;
-    double atLeft = tangentialGuardAfter(from, left), atRight = tangentialGuardAfter(from, right);
+    double atLeft = guardAfter(from, left), atRight = guardAfter(from, right);
     while (high - low > little) {
       if (!(atLeft > 0.0)) return left;
       if (!(atRight > 0.0)) return right;
       if (atLeft < atRight) {
         high = std::exchange(right, left);
         left = high - golden * (high - low);
-        atRight = std::exchange(atLeft, tangentialGuardAfter(from, left));
+        atRight = std::exchange(atLeft, guardAfter(from, left));
       } else {
         low = std::exchange(left, right);
         right = low + golden * (high - low);
-        atLeft = std::exchange(atRight, tangentialGuardAfter(from, right));
+        atLeft = std::exchange(atRight, guardAfter(from, right));
       }
     }
     return std::nullopt;
@@ -166,12 +172,16 @@ CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
   // Steps of t_c/400 leave rk8pd's own error far below rounding where the law is smooth; where it
   // is not, at the ends of a contact that stiffens, they shrink until it is again, to a thousandth
   // of the time in which the overlap comes or goes at most, which is fine enough for any power of
-  // it, or to that in which positions change visibly. Events cut steps short.
+  // it, or to that in which positions change visibly. Events cut steps short. A bond passes δ = 0
+  // again and again: a fiftieth is still 1e-14 of a step's own.
   const double fullStep = contactTime / 400.0;
+  const double least = law_.coheres() ? 0.02 : 1e-3;
   const auto shortest = [&](const State& from) {
     const Kinematics k = kinematics(from);
-    return std::min(fullStep,
-                    std::max(1e-3 * k.overlap, visibleLength()) / std::abs(k.normalVelocity));
+    return std::min(
+        fullStep,
+        std::max(least * std::min(std::abs(k.overlap), k.overlap + bondRange_), visibleLength()) /
+            std::abs(k.normalVelocity));
   };
   /// Errors below this are those of rounded positions, which a force sees.
   const auto allowed = [&](const State& from, double h) {
@@ -195,19 +205,28 @@ CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
     if (!(phaseLasts(next) > 0.0))
       within = h;
     else if (law_.springs())
-      within = dipOf(now, next, h);
+      within = dipOf([this](const State& s) { return tangentialGuard(s); }, now, next, h);
+    if (!within && law_.rolling == RollingLaw::spring)
+      within =
+          dipOf([this](const State& s) { return rollingGuard(s, kinematics(s)); }, now, next, h);
     const bool event = within.has_value();
     if (event) {
       h = timeOf(phaseLasts, now, *within);
       next = stepFrom(now, h);
     }
     if (approach(now) > 0.0 && !(approach(next) > 0.0))
-      maxOverlap = kinematics(stepFrom(now, timeOf(approach, now, h))).overlap;
+      maxOverlap =
+          std::max(maxOverlap, kinematics(stepFrom(now, timeOf(approach, now, h))).overlap);
     duration += h;
     now = next;
+    if (law_.coheres() && duration > longestContact * contactTime) {
+      CollisionEnd end = endAt(now, start);
+      end.parted = false;
+      return end;
+    }
     if (!event) continue;
     const Kinematics k = kinematics(now);
-    if (k.overlap <= 1e-14 * reach_ && k.normalVelocity > 0.0) {
+    if (k.overlap + bondRange_ <= 1e-14 * reach_ && k.normalVelocity > 0.0) {
       CollisionEnd end = endAt(now, start);
       end.duration = duration;
       end.maxOverlap = maxOverlap;
@@ -241,6 +260,12 @@ void requireContinuousLimit(const ContactLaw& law) {
         "spring_reset = \"spring_only\" with history = \"displacement\": as k_t goes to 0 the "
         "spring "
         "that balances the dashpot is stretched without bound; there is no oracle for it");
+  if (law.coheres() && law.tangential != TangentialLaw::none &&
+      how.coulombBound == CoulombBound::signedForce)
+    jumps = "coulomb_bound = \"signed\"";
+  if (law.rolling == RollingLaw::spring && law.gr > 0.0 && how.rollingDashpot == Dashpot::outside &&
+      how.rollingReset == SpringReset::total && how.springUpdate == SpringUpdate::after)
+    jumps = "rolling_dashpot = \"outside\" with spring_update = \"after\"";
   if (jumps)
     throw std::invalid_argument(std::string(jumps) +
                                 " has no limit of small time steps to score against");

@@ -11,6 +11,8 @@ namespace crossgrain::inline oracle {
 /// rounding; where a law that stiffens is not smooth, at δ = 0, steps shrink until it is again.
 /// Every change between stick and slip, of v_t's sign and of compression is an event, located to
 /// rounding. The energies lost are integrated beside the motion. Rigid laws: rigidOutcome().
+/// Rolling resistance and cohesion as in adapters/contact_law.hpp; a pair that coheres may not part
+/// (CollisionEnd::parted).
 /// @throws std::invalid_argument for an overdamped pair, which never parts, and for conventions
 ///         whose force jumps with every step so that they have no limit of small steps
 CollisionEnd oracleOutcome(const ContactLaw& law, const CollidingPair& pair,
@@ -40,10 +42,29 @@ CollisionEnd rigidOutcome(const ContactLaw& law, const CollidingPair& pair,
 /// is allowed, exp(−(η/ω)(π − atan2(2ηω, ω² − η²))) where it is cut.
 double restitutionOfLinearLaw(const ContactLaw& law, double reducedMass);
 
-/// The same of any law where it has a closed form: rigid and undamped ones, and Hertz' with
+/// The same of any law where it has a closed form: rigid and undamped ones (elasto-plastic with one
+/// k₂, and cohesion that loses nothing, too), and Hertz' with
 /// critical dampers, which is that of a linear law with the share β = γ_n/(2 √(5/6)) of critical
 /// damping: exp(−π β/√(1 − β²)) where tension is allowed (Antypov and Elliott 2011).
 std::optional<double> closedRestitution(const ContactLaw& law, double reducedMass);
+
+/// e_n of an undamped elasto-plastic contact, head on at that speed: with the largest overlap
+/// δ_m = v √(m₁₂/k_n), k₂ of it, δ₀ = (1 − k_n/k₂) δ_m and δ_min = (k₂ − k_n) δ_m/(k₂ + k_c), from
+/// the areas under its lines, e² = k_n/k₂ − k_c δ_min δ₀/(k_n δ_m²); √(k_n/k₂) without a pull
+/// (Walton and Braun 1986). 0: it sticks.
+double elastoPlasticRestitution(const ContactLaw& law, const CollidingPair& pair, double speed);
+
+/// What a touch under JKR loses, from δ = 0 on approach to where the bond ends, in units of F_po
+/// a_p²/R₁₂: of U/(F_po a_p²/R₁₂) = 2/5 y¹⁰ − 4/3 y⁷ + 2/3 y⁴, the integral of the force, between
+/// y³ = 4/3 (δ = 0) and y = 1 (the largest pull) or y³ = 1/3 (the end of the branch):
+///   8/15 (4/3)^⅓ − 4/15 = 0.3203, or 8/15 (4/3)^⅓ + 4/45 (1/3)^⅓ = 0.6486,
+/// the latter 7.09 (w⁵ R₁₂⁴/E*²)^⅓ (Thornton and Ning 1998).
+double jkrLossFactor(JkrEnd end);
+
+/// The speed below which an undamped head-on impact sticks, ½ m₁₂ v² = loss per touch [m/s]: of
+/// JKR; 0 of other laws without a loss; absent of elasto-plastic ones, whose loss follows the
+/// speed.
+std::optional<double> stickingSpeed(const ContactLaw& law, const CollidingPair& pair);
 
 /// The constant of the sliding asymptote Ψ_f = Ψ_i − constant: (1 + 1/q)(1 + e) µ with e of the cut
 /// law where the bound is µ max(f_n, 0), tension or not. Absent without friction or a known e.

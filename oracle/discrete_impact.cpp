@@ -1,8 +1,10 @@
 #include "oracle/discrete_impact.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
+#include "oracle/cohesion.hpp"
 #include "oracle/impact.hpp"
 
 namespace crossgrain::inline oracle {
@@ -10,32 +12,99 @@ namespace {
 
 using Extended = long double;
 
-/// The linear law along the normal.
-struct NormalContact {
-  Extended kn, gn;
-  bool cutsTension;
-
-  /// On the gap [N]. @param weight  what the implicit dashpot divides by, else 1
-  Extended force(Extended gap, Extended velocity, Extended weight) const {
-    if (!(gap < 0)) return 0;
-    const Extended whole = (-kn * gap - gn * velocity) / weight;
-    return cutsTension ? std::max(whole, Extended(0)) : whole;
+/// The law along the normal, with what the contact remembers from step to step.
+class NormalContact {
+ public:
+  /// @param law  linear ones with constant dampers
+  NormalContact(const ContactLaw& law, const DiscreteStart& start)
+      : law_(law),
+        pair_(start.pair),
+        mass_(start.reducedMass),
+        cutsTension_(law.conventions.tension == Tension::cut) {
+    if (law.stiffens() || law.coheres()) radius_ = Extended(start.pair.reducedRadius());
   }
+
+  /// On the gap [N]. @param compliance  dt/(2 m₁₂) of the implicit dashpot, else 0
+  Extended force(Extended gap, Extended velocity, Extended compliance) {
+    const Extended overlap = -gap;
+    touches_ = overlap > (touches_ ? -bondRange(law_, radius_) : Extended(0));
+    if (!touches_) {
+      largest_ = 0;
+      return 0;
+    }
+    const Extended body = bodyForce(overlap), gn = damping(std::max(overlap, Extended(0)));
+    const Extended whole = (body - gn * velocity) / (1 + gn * compliance);
+    if (!cutsTension_) return whole;
+    return std::max(whole, law_.coheres() ? std::min(body, Extended(0)) : Extended(0));
+  }
+
+ private:
+  Extended elastic(Extended overlap) const {
+    const Extended kn = law_.kn;
+    if (law_.normal == NormalLaw::hertz)
+      return kn * std::sqrt(radius_ * std::max(overlap, Extended(0))) * overlap;
+    if (law_.normal == NormalLaw::polynomial)
+      return (kn + Extended(law_.kn3) * overlap) * overlap * overlap;
+    return kn * overlap;
+  }
+  /// γ_n [kg/s]. @param depth  ≥ 0
+  Extended damping(Extended depth) const {
+    const Extended constant = law_.gn, kn = law_.kn;
+    if (law_.damper == Damper::constant) return constant;
+    const Extended stiffness =
+        law_.normal == NormalLaw::hertz        ? Extended(1.5L) * kn * std::sqrt(radius_ * depth)
+        : law_.normal == NormalLaw::polynomial ? (2 * kn + 3 * Extended(law_.kn3) * depth) * depth
+                                               : kn;
+    if (law_.damper == Damper::viscoelastic) return constant * stiffness;
+    return constant * std::sqrt(mass_ * std::max(stiffness, Extended(0)));
+  }
+  Extended bodyForce(Extended overlap) {
+    switch (law_.cohesion) {
+      case CohesionLaw::none:
+        break;
+      case CohesionLaw::area:
+        return elastic(overlap) - Extended(law_.kc) * cohesionArea(law_, pair_, overlap).value;
+      case CohesionLaw::dmt:
+        return elastic(overlap) - 2 * pi * Extended(law_.w) * radius_;
+      case CohesionLaw::jkr: {
+        const Extended y = jkrRoot(overlap / jkrUnit(law_, radius_)), cube = y * y * y;
+        return Extended(1.5L) * pi * Extended(law_.w) * radius_ * (cube - 2) * cube;
+      }
+      case CohesionLaw::elastoPlastic:
+        return yielding(overlap);
+    }
+    return elastic(overlap);
+  }
+  /// min(k_n δ, k₂ (δ − δ₀)), where that is below −k_c δ this, with δ_max drawn back.
+  Extended yielding(Extended overlap) {
+    largest_ = std::max(largest_, overlap);
+    const Extended k2 = unloadingStiffness(law_, radius_, largest_), kn = law_.kn;
+    const Extended unloading = k2 * overlap - (k2 - kn) * largest_,
+                   pull = -Extended(law_.kc) * overlap;
+    if (unloading >= pull) return std::min(kn * overlap, unloading);
+    largest_ = largestAtPull(law_, radius_, overlap);
+    return pull;
+  }
+
+  static constexpr Extended pi = std::numbers::pi_v<Extended>;
+  const ContactLaw& law_;
+  CollidingPair pair_;
+  Extended mass_, radius_ = 0, largest_ = 0;
+  bool cutsTension_, touches_ = false;
 };
 
 }  // namespace
 
 std::vector<DiscreteMotion> discreteImpact(const ContactLaw& law, const DiscreteStart& start,
                                            std::size_t steps) {
-  if (law.normal != NormalLaw::linear)
-    throw std::invalid_argument("only the linear law has a discrete oracle");
+  if (!law.soft()) throw std::invalid_argument("a rigid law has no discrete oracle");
   const ContactLaw constant = withConstantDampers(law, start.reducedMass);
-  const NormalContact contact{constant.kn, constant.gn, law.conventions.tension == Tension::cut};
+  NormalContact contact(constant, start);
   const bool euler = law.conventions.integrator == Integrator::semiImplicitEuler;
   const DampingVelocity damping = euler ? DampingVelocity::lagged : law.conventions.dampingVelocity;
   const Extended mass = start.reducedMass, dt = start.dt, half = dt / 2;
 
-  Extended x = start.gap, a = contact.force(x, start.velocity, 1) / mass;
+  Extended x = start.gap, a = contact.force(x, start.velocity, 0) / mass;
   Extended u = start.velocity - (euler ? Extended(0) : half * a);
   std::vector<DiscreteMotion> motion{{start.gap, start.velocity, start.velocity}};
   motion.reserve(steps + 1);
@@ -44,7 +113,7 @@ std::vector<DiscreteMotion> discreteImpact(const ContactLaw& law, const Discrete
     x += u * dt;
     const Extended seen = damping == DampingVelocity::predicted ? u + half * a : u;
     const bool implicit = damping == DampingVelocity::implicit;
-    a = contact.force(x, seen, implicit ? 1 + contact.gn * half / mass : 1) / mass;
+    a = contact.force(x, seen, implicit ? half / mass : Extended(0)) / mass;
     motion.push_back({static_cast<double>(x), static_cast<double>(u),
                       static_cast<double>(euler ? u : u + half * a)});
   }

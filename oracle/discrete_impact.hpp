@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "adapters/contact_law.hpp"
+#include "oracle/collision_end.hpp"
 
 namespace crossgrain::inline oracle {
 
@@ -20,12 +20,14 @@ struct DiscreteStart {
   double velocity;     ///< < 0 on approach [m/s]
   double reducedMass;  ///< m₁₂ [kg]
   double dt;           ///< [s]
+  /// The bodies, of laws that look at radii: Hertz' and those of cohesion
+  CollidingPair pair = {};
 };
 
-/// A head-on impact under the linear law, not as it is but as a time-stepping scheme has it: free
-/// flight, spring, dashpot, tension cut, step by step in extended precision (2⁻⁶⁴). An engine that
-/// runs this scheme must hold to it to rounding, at any time step: what is left of its distance
-/// from the continuous solution is truncation, and no bug.
+/// A head-on impact, not as it is but as a time-stepping scheme has it: free
+/// flight, spring, dashpot, cohesion, tension cut, step by step in extended precision (2⁻⁶⁴). An
+/// engine that runs this scheme must hold to it to rounding, at any time step: what is left of its
+/// distance from the continuous solution is truncation, and no bug.
 ///
 /// All schemes of law.conventions.integrator are one recursion with a_k = f(x_k, w_k)/m₁₂,
 ///   u_{k+1/2} = u_{k−1/2} + a_k dt,  x_{k+1} = x_k + u_{k+1/2} dt
@@ -38,8 +40,10 @@ struct DiscreteStart {
 ///     predicted  u_{k−1/2} + a_{k−1} dt/2
 ///     implicit   u_{k−1/2} + a_k dt/2, hence f = (−k_n x − γ_n u_{k−1/2})/(1 + γ_n dt/(2 m₁₂))
 ///     and v_0 itself in a_0.
+/// Of what a contact remembers, JKR's bond holds from the first step with an overlap to the last
+/// within its range; δ_max is that of the steps.
 /// @returns steps + 1 of them, the start first
-/// @throws std::invalid_argument for another law than the linear one
+/// @throws std::invalid_argument for a rigid law
 std::vector<DiscreteMotion> discreteImpact(const ContactLaw& law, const DiscreteStart& start,
                                            std::size_t steps);
 

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "oracle/cohesion.hpp"
+
 namespace crossgrain::inline oracle {
 
 double dampingOf(Damper damper, double constant, double stiffness, double reducedMass) {
@@ -72,8 +74,15 @@ double deepestOverlap(const ContactLaw& law, const Impact& impact) {
   return outside;
 }
 
-double impactTime(const ContactLaw& law, const Impact& impact) {
-  if (!law.stiffens()) return contactTime(law, impact.reducedMass);
+double impactTime(const ContactLaw& law, const Impact& asked) {
+  if (!law.stiffens()) return contactTime(law, asked.reducedMass);
+  Impact impact = asked;
+  if (law.normal == NormalLaw::hertz && law.coheres()) {
+    const double pull = pullOff(law, asked.reducedRadius);
+    const double balance = std::pow(pull / (law.kn * std::sqrt(asked.reducedRadius)), 2.0 / 3.0);
+    impact.speed =
+        std::sqrt(impact.speed * impact.speed + 2.0 * pull * balance / impact.reducedMass);
+  }
   const double deepest = deepestOverlap(law, impact);
   // δ = δ_max (1 − s²) takes the root's singularity out of T = 2 ∫ dδ/√(v² − 2 W/m₁₂).
   const auto integrand = [&](double s) {

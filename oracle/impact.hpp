@@ -35,8 +35,14 @@ double deepestOverlap(const ContactLaw& law, const Impact& impact);
 /// @param reducedRadius  R₁₂; linear and polynomial laws do not ask for it [m]
 double elasticEnergy(const ContactLaw& law, double reducedRadius, double overlap);
 
+/// Of contacts that cohere, in units of impactTime(): what lasts longer counts as a pair that does
+/// not part.
+constexpr double longestContact = 10.0;
+
 /// How long an impact lasts [s]: contactTime() of a linear law; of one that stiffens its elastic
 /// part, T = 2 ∫ dδ/√(v² − 2 W(δ)/m₁₂), for Hertz 2.9432 δ_max/v (Johnson 1985, Eq. 11.24).
+/// Under DMT and JKR that of bodies which also come with what their attraction gives them, F_po
+/// over the overlap that balances it: else the slowest would seem to take for ever.
 double impactTime(const ContactLaw& law, const Impact& impact);
 
 }  // namespace crossgrain::inline oracle

@@ -3,39 +3,43 @@
 /// When a phase ends, and which one comes next.
 namespace crossgrain::inline oracle {
 
-namespace {
-
-double sign(double value) {
-  return (value > 0.0) - (value < 0.0);
-}
-
-}  // namespace
-
-/// d v_t/dt per f_t [1/kg].
+/// d v_t/dt per f_t [1/kg]. Where a torque holds ω_r, it answers to f_t as well.
 double TwoBodyProblem::compliance(const Kinematics& k) const {
-  return inverseMass_ + k.armI * k.leverI / pair_.inertia[0] + k.armJ * k.leverJ / pair_.inertia[1];
+  const double free =
+      inverseMass_ + k.armI * k.leverI / pair_.inertia[0] + k.armJ * k.leverJ / pair_.inertia[1];
+  if (phase_.rolling != Phase::Rolling::hold) return free;
+  return free - slippingByTorque(k) * turningBySlip(k) / rollingCompliance();
 }
 
-/// The f_t that makes dv_t/dt = 0. Without f_t, dv_t/dt = −θ' v_n − c_i' ω_i − c_j' ω_j, where θ'
-/// is the rate at which the normal turns and c' = armFraction · v_n.
+/// dv_t/dt without f_t and M: −θ' v_n − c_i' ω_i − c_j' ω_j, where θ' is the rate at which the
+/// normal turns and c' = armFraction · v_n.
+double TwoBodyProblem::slipDrift(const State& s, const Kinematics& k) const {
+  return -k.turning * k.normalVelocity -
+         k.normalVelocity * (armFraction(0) * s.spinI + armFraction(1) * s.spinJ);
+}
+
+/// The f_t that makes dv_t/dt = 0 beside M; where that holds ω_r, with the M of both.
 double TwoBodyProblem::holdingForce(const State& s, const Kinematics& k) const {
-  const double drift = -k.turning * k.normalVelocity -
-                       k.normalVelocity * (armFraction(0) * s.spinI + armFraction(1) * s.spinJ);
+  double drift = slipDrift(s, k);
+  if (law_.rolls() && phase_.rolling != Phase::Rolling::hold)
+    drift -= slippingByTorque(k) * rollingTorque(s, k);
   return -drift / compliance(k);
 }
 
-/// d bound/dt, from df_n/dt = −S v_n − γ_n dv_n/dt + γ_n′ v_n² and dv_n/dt = a·n + θ'² |x|.
-double TwoBodyProblem::boundRate(const State& s, const Kinematics& k) const {
+/// dv_n/dt = a·n + θ'² |x|.
+double TwoBodyProblem::normalAcceleration(const State& s, const Kinematics& k) const {
   const State rate = derivative(s);
-  const double acceleration = rate.vx * k.nx + rate.vy * k.ny + k.turning * k.sideways;
-  const Slope gn = normalDamping(k.overlap);
-  return bound(-stiffness(k.overlap).value * k.normalVelocity - gn.value * acceleration +
-               gn.rate * k.normalVelocity * k.normalVelocity);
+  return rate.vx * k.nx + rate.vy * k.ny + k.turning * k.sideways;
+}
+
+double TwoBodyProblem::boundRate(const State& s, const Kinematics& k) const {
+  return bound(loadRate(k, normalAcceleration(s, k)));
 }
 
 /// What the law leaves the spring with while it slips.
 double TwoBodyProblem::slippedSpring(const Kinematics& k) const {
-  const double force = bound(normalForce(k)) * phase_.side;
+  if (springUnit(k.overlap) == 0.0) return 0.0;  // beyond δ = 0
+  const double force = boundNow(k) * phase_.side;
   const bool springOnly = law_.conventions.springReset == SpringReset::springOnly;
   const double viscous = tangentialDamping(k.overlap).value * k.tangentialVelocity;
   return -(springOnly ? force + viscous : force) / springUnit(k.overlap);
@@ -67,7 +71,7 @@ double TwoBodyProblem::slipGuard(const State& s, const Kinematics& k) const {
 /// that begins to stick at its bound.
 double TwoBodyProblem::dashpotRate(const State& s, const Kinematics& k) const {
   const Slope gt = tangentialDamping(k.overlap);
-  const double sticking = bound(normalForce(k)) * phase_.side;
+  const double sticking = boundNow(k) * phase_.side;
   return (-gt.value * compliance(k) * (sticking - holdingForce(s, k)) +
           gt.rate * k.normalVelocity * k.tangentialVelocity) *
          phase_.side;
@@ -75,7 +79,7 @@ double TwoBodyProblem::dashpotRate(const State& s, const Kinematics& k) const {
 
 double TwoBodyProblem::tangentialGuard(const State& s) const {
   const Kinematics k = kinematics(s);
-  const double limit = bound(normalForce(k));
+  const double limit = boundNow(k);
   switch (phase_.tangential) {
     case Phase::Tangential::none:
       return 1.0;
@@ -98,7 +102,9 @@ double TwoBodyProblem::tangentialGuard(const State& s) const {
 /// The phase lasts while this is > 0.
 double TwoBodyProblem::firstGuard(const State& s) const {
   const Kinematics k = kinematics(s);
-  double guard = std::min(k.overlap, tangentialGuard(s));
+  double guard = std::min(k.overlap + bondRange_, tangentialGuard(s));
+  if (law_.rolls()) guard = std::min(guard, rollingGuard(s, k));
+  if (law_.coheres()) return std::min(guard, cohesionGuard(k));
   if (law_.gn > 0.0) guard = std::min(guard, phase_.compressive ? trialNormal(k) : -trialNormal(k));
   return guard;
 }
@@ -126,7 +132,7 @@ bool TwoBodyProblem::jumpsAtTouch(const CollisionStart& start) {
   const Phase before = phase_;
   phase_ = {Phase::Tangential::stick, 0.0, true};
   const Kinematics touch = kinematics(s);
-  const double limit = bound(normalForce(touch)), tested = testedForce(touch, s.spring);
+  const double limit = boundNow(touch), tested = testedForce(touch, s.spring);
   phase_.side = sign(tested);
   bool jumps = std::abs(std::abs(tested) - limit) <= alike * limit;
   if (jumps) {
@@ -155,31 +161,52 @@ bool TwoBodyProblem::slipsAtFirst(const CollisionStart& start) {
   const State s = firstTouch(start);
   phase_ = {Phase::Tangential::stick, 0.0, true};
   const Kinematics touch = kinematics(s);
-  return std::abs(testedForce(touch, s.spring)) > bound(normalForce(touch));
+  return std::abs(testedForce(touch, s.spring)) > boundNow(touch);
+}
+
+/// Whether an event leaves the tangential phase as it is: others than its own must not reset a
+/// spring that slips.
+bool TwoBodyProblem::tangentialLasts(const State& s) const {
+  const bool none = law_.tangential == TangentialLaw::none || hasNoBound();
+  return none == (phase_.tangential == Phase::Tangential::none) && tangentialGuard(s) > 0.0;
 }
 
 /// Begins the phase that holds right after `s`, an event or the start. While a contact slips, the
-/// energy in its spring is part of the slip's account.
-void TwoBodyProblem::enterPhase(State& s) {
+/// energy in its spring is part of the slip's account. Where friction and rolling resistance hold a
+/// contact at rest, each counts on the other.
+/// @param anew  at the first touch
+void TwoBodyProblem::enterPhase(State& s, bool anew) {
   s.lostSliding += storedEnergy(s);
-  choosePhase(s);
+  s.lostRolling += rollingEnergy(s);
+  chooseNormal(s, anew);
+  const bool others = law_.rolls() || law_.coheres();
+  const bool unloaded = phase_.tangential == Phase::Tangential::none && law_.springs();
+  if (!anew && law_.coheres() && unloaded && !hasNoBound()) {
+    phase_.side = 0.0;  // a bound of 0 has reset the spring until now
+    s.spring = slippedSpring(kinematics(s));
+  }
+  if (anew || !others || !tangentialLasts(s)) choosePhase(s);
+  if (law_.rolls()) {
+    chooseRolling(s, anew);
+    if (phase_.tangential == Phase::Tangential::hold && !tangentialLasts(s)) {
+      choosePhase(s);
+      chooseRolling(s, false);
+    }
+  }
   s.lostSliding -= storedEnergy(s);
+  s.lostRolling -= rollingEnergy(s);
 }
 
 /// Resets the spring where the law does.
 void TwoBodyProblem::choosePhase(State& s) {
   const Kinematics k = kinematics(s);
-  phase_.compressive = law_.gn == 0.0 || trialNormal(k) > 0.0;
-  const bool tension = !phase_.compressive;
-  const bool noBound = tension && (law_.conventions.tension == Tension::cut ||
-                                   law_.conventions.coulombBound == CoulombBound::compression);
-  if (law_.tangential == TangentialLaw::none || noBound) {
+  if (law_.tangential == TangentialLaw::none || hasNoBound()) {
     phase_.tangential = Phase::Tangential::none;
     return;
   }
 
   const double slip = k.tangentialVelocity;
-  const double limit = bound(normalForce(k));
+  const double limit = boundNow(k);
   const bool still = std::abs(slip) < 2.0 * stillness_;
   if (law_.tangential == TangentialLaw::coulomb && still) {
     // At rest to the last bit, else what is left of v_t would end the slip that may follow at once.
@@ -201,7 +228,7 @@ void TwoBodyProblem::choosePhase(State& s) {
 }
 
 void TwoBodyProblem::chooseSpringPhase(State& s, const Kinematics& k) {
-  const double limit = bound(normalForce(k));
+  const double limit = boundNow(k);
   if (phase_.tangential == Phase::Tangential::slip) {
     s.spring = slippedSpring(k);
     // A slip with a dashpot ends at v_t = 0, unless the spring is reset beside the dashpot.

@@ -1,3 +1,4 @@
+#include "oracle/cohesion.hpp"
 #include "oracle/two_body_problem.hpp"
 
 /// The law between two events, and the motion that it makes.
@@ -7,9 +8,12 @@ TwoBodyProblem::TwoBodyProblem(const ContactLaw& law, const CollidingPair& pair)
     : law_(law),
       pair_(pair),
       reach_(pair.radius[0] + pair.radius[1]),
-      inverseMass_(1.0 / pair.mass[0] + 1.0 / pair.mass[1]) {
+      inverseMass_(1.0 / pair.mass[0] + 1.0 / pair.mass[1]),
+      reducedRadius_(pair.reducedRadius()),
+      bondRange_(bondRange(law, reducedRadius_)) {
   if (law.tangential == TangentialLaw::spring) law_.gt = 0.0;
   if (law.mu == 0.0) law_.tangential = TangentialLaw::none;
+  if (law.rolls()) setRollingConstants();
 }
 
 double TwoBodyProblem::elasticForce(double overlap) const {
@@ -74,26 +78,29 @@ Kinematics TwoBodyProblem::kinematics(const State& s) const {
   k.sideways = -s.vx * k.ny + s.vy * k.nx;
   k.turning = pair_.plane ? 0.0 : k.sideways / k.distance;
   k.tangentialVelocity = k.sideways - k.armI * s.spinI - k.armJ * s.spinJ;
+  k.rollingSpin = s.spinI - s.spinJ;
+  k.largest = s.largest;
   return k;
 }
 
+/// Where tension is cut the dashpot does not pull; cohesion does.
 double TwoBodyProblem::normalForce(const Kinematics& k) const {
-  const bool cut = law_.conventions.tension == Tension::cut;
-  return cut && !phase_.compressive ? 0.0 : trialNormal(k);
+  if (!cuts()) return trialNormal(k);
+  return phase_.pulls ? bodyForce(k) : 0.0;
 }
 
-/// Linear in f_n within a phase, so it also maps df_n/dt to the bound's rate.
-double TwoBodyProblem::bound(double normal) const {
-  if (phase_.compressive) return law_.mu * normal;
+/// Linear in the load within a phase, so it also maps the load's rate to the bound's.
+double TwoBodyProblem::bound(double load) const {
+  if (phase_.loaded) return law_.mu * load;
   switch (law_.conventions.coulombBound) {
     case CoulombBound::compression:
       return 0.0;
     case CoulombBound::magnitude:
-      return -law_.mu * normal;
+      return -law_.mu * load;
     case CoulombBound::signedForce:
       break;
   }
-  return law_.mu * normal;
+  return law_.mu * load;
 }
 
 /// What is compared with the bound.
@@ -113,7 +120,7 @@ double TwoBodyProblem::tangentialForce(const State& s, const Kinematics& k) cons
       return -springUnit(k.overlap) * s.spring -
              tangentialDamping(k.overlap).value * k.tangentialVelocity;
     case Phase::Tangential::slip:
-      return bound(normalForce(k)) * phase_.side;
+      return boundNow(k) * phase_.side;
     case Phase::Tangential::hold:
       break;
   }
@@ -122,7 +129,7 @@ double TwoBodyProblem::tangentialForce(const State& s, const Kinematics& k) cons
 
 /// In the tangential spring while it sticks [J].
 double TwoBodyProblem::storedEnergy(const State& s) const {
-  if (phase_.tangential != Phase::Tangential::stick) return 0.0;
+  if (phase_.tangential != Phase::Tangential::stick || !springHasEnergy()) return 0.0;
   const double overlap = kinematics(s).overlap;
   const double stiffness = tangentialStiffness(overlap).value;
   if (!(stiffness > 0.0)) return 0.0;
@@ -134,7 +141,7 @@ double TwoBodyProblem::storedEnergy(const State& s) const {
 /// that keeps ξ, −½ ξ² dk_t/dt; of one that keeps its force f, +½ (f/k_t)² dk_t/dt [W].
 double TwoBodyProblem::stiffeningLoss(const State& s, const Kinematics& k) const {
   const Slope stiffness = tangentialStiffness(k.overlap);
-  if (stiffness.rate == 0.0) return 0.0;
+  if (stiffness.rate == 0.0 || !springHasEnergy()) return 0.0;
   const double stretch = remembersForce() ? s.spring / stiffness.value : s.spring;
   const double rising = -0.5 * stiffness.rate * k.normalVelocity * stretch * stretch;
   return remembersForce() ? rising : -rising;
@@ -148,19 +155,31 @@ State TwoBodyProblem::derivative(const State& s) const {
   const double worked = workedVelocity(s, k);
   const bool sticks = phase_.tangential == Phase::Tangential::stick;
   const bool damps = sticks || phase_.tangential == Phase::Tangential::damped;
+  const double torque = rollingTorque(s, k), body = bodyForce(k);
+  const bool rollingDamps = phase_.rolling == Phase::Rolling::stick;
+  const double rollingLoss = -torque * k.rollingSpin;
+  const double sticking = springHasEnergy() ? tangentialDamping(k.overlap).value * slip * slip +
+                                                  tangential * (slip - worked)
+                                            : -tangential * worked;
   const double growth = remembersForce() ? tangentialStiffness(k.overlap).value * slip : slip;
-  return {
-      s.vx,
-      s.vy,
-      (normal * k.nx - tangential * k.ny) * inverseMass_,
-      (normal * k.ny + tangential * k.nx) * inverseMass_,
-      -k.leverI * tangential / pair_.inertia[0],
-      -k.leverJ * tangential / pair_.inertia[1],
-      sticks ? growth : 0.0,
-      (elasticForce(k.overlap) - normal) * k.normalVelocity,
-      damps ? tangentialDamping(k.overlap).value * slip * slip + tangential * (slip - worked) : 0.0,
-      sticks ? stiffeningLoss(s, k) : 0.0,
-      damps ? 0.0 : -tangential * worked};
+  return {s.vx,
+          s.vy,
+          (normal * k.nx - tangential * k.ny) * inverseMass_,
+          (normal * k.ny + tangential * k.nx) * inverseMass_,
+          (torque - k.leverI * tangential) / pair_.inertia[0],
+          (-torque - k.leverJ * tangential) / pair_.inertia[1],
+          sticks ? growth : 0.0,
+          (body - normal) * k.normalVelocity,
+          damps ? sticking : 0.0,
+          sticks ? stiffeningLoss(s, k) : 0.0,
+          damps ? 0.0 : -tangential * worked,
+          rollingDamps ? k.rollingSpin : 0.0,
+          0.0,
+          rollingDamps ? rollingDamping_ * k.rollingSpin * k.rollingSpin
+          : phase_.rolling == Phase::Rolling::damped ? rollingLoss
+                                                     : 0.0,
+          phase_.rolling == Phase::Rolling::slip ? rollingLoss : 0.0,
+          remembersBody() ? -body * k.normalVelocity : 0.0};
 }
 
 CollisionEnd TwoBodyProblem::endAt(const State& s, const CollisionStart& start) const {
@@ -168,6 +187,13 @@ CollisionEnd TwoBodyProblem::endAt(const State& s, const CollisionStart& start) 
   CollisionEnd end = endOf(pair_, start, {k.normalVelocity, k.sideways, {s.spinI, s.spinJ}});
   end.noLimit = noLimit_;
   end.lost = {s.lostNormal, s.lostTangential, s.lostStiffening, s.lostSliding, storedEnergy(s)};
+  const bool spring = law_.rolling == RollingLaw::spring;
+  if (spring || law_.rolling == RollingLaw::constantTorque)
+    end.lost->rolling = s.lostRolling + rollingEnergy(s);
+  if (law_.rolls() && law_.rolling != RollingLaw::constantTorque && !(spring && law_.gr == 0.0))
+    end.lost->rollingDamping = s.lostRollingDamping;
+  if (law_.cohesion == CohesionLaw::elastoPlastic) end.lost->plastic = s.lostBody;
+  if (law_.cohesion == CohesionLaw::jkr) end.lost->detachment = s.lostBody;
   return end;
 }
 

@@ -10,13 +10,18 @@
 namespace crossgrain::inline oracle {
 
 /// Relative position and velocity of i against j, both spins, what the tangential spring remembers
-/// (ξ, or its force with the sign of ξ); and the account of the energy lost so far, as in
-/// EnergySplit.
+/// (ξ, or its force with the sign of ξ); the account of the energy lost so far, as in EnergySplit;
+/// θ of the rolling spring and δ_max of an elasto-plastic contact; and the account of these.
 struct State {
   double x, y, vx, vy, spinI, spinJ, spring;
   double lostNormal, lostTangential, lostStiffening, lostSliding;
+  double angle, largest;
+  double lostRollingDamping, lostRolling;
+  double lostBody;  ///< −∫ f v_n dt of the force without its dashpot, of a body that forgets
 };
-constexpr std::size_t dimension = 11;
+constexpr std::size_t dimension = 16;
+/// Which of them are accounts.
+constexpr std::size_t accounts[] = {7, 8, 9, 10, 13, 14, 15};
 static_assert(sizeof(State) == dimension * sizeof(double));
 
 /// Between two events the right-hand side is smooth; a phase says which branch of the law holds.
@@ -29,7 +34,22 @@ struct Phase {
     hold     ///< Coulomb's law at v_t = 0: the force that keeps it there
   } tangential = Tangential::none;
   double side = 0.0;        ///< sign of f_t while it slips
-  bool compressive = true;  ///< f_el − γ_n v_n > 0
+  bool compressive = true;  ///< f_el − γ_n v_n > 0; of cohesion, more than the pull alone
+  bool loaded = true;       ///< the load that bounds multiply is > 0
+
+  /// Of cohesion: whether the bodies attract each other, their dashpot apart; whether they are
+  /// beyond δ = 0; and on which line an elasto-plastic contact is.
+  bool pulls = false, beyond = false;
+  enum class Line { loading, unloading, pull } line = Line::loading;
+
+  enum class Rolling {
+    none,    ///< no torque, or none as there is no load
+    damped,  ///< type B
+    stick,   ///< type C, M = −k_r θ − γ_r ω_r
+    slip,    ///< M = bound · rollingSide
+    hold     ///< type A at ω_r = 0: the torque that keeps it there
+  } rolling = Rolling::none;
+  double rollingSide = 0.0;  ///< sign of M while it slips
 };
 
 struct Kinematics {
@@ -39,7 +59,13 @@ struct Kinematics {
   double turning;         ///< rate at which the normal turns [rad/s]
   double leverI, leverJ;  ///< of f_t [m]
   double armI, armJ;      ///< of the spins in v_t [m]
+  double rollingSpin;     ///< ω_r = ω_i − ω_j [rad/s]
+  double largest;         ///< δ_max of an elasto-plastic contact [m]
 };
+
+inline double sign(double value) {
+  return (value > 0.0) - (value < 0.0);
+}
 
 /// A function of the overlap and its derivative.
 struct Slope {
@@ -75,11 +101,14 @@ class TwoBodyProblem {
     return remembersForce() ? 1.0 : tangentialStiffness(overlap).value;
   }
   bool remembersForce() const { return law_.conventions.history == History::force; }
+  /// A remembered force over a stiffness that goes to 0 under a pull has no energy: all its work
+  /// counts as that of sticking.
+  bool springHasEnergy() const { return !(remembersForce() && law_.stiffens() && law_.coheres()); }
 
   // The law
   Kinematics kinematics(const State& s) const;
   double trialNormal(const Kinematics& k) const {
-    return elasticForce(k.overlap) - normalDamping(k.overlap).value * k.normalVelocity;
+    return bodyForce(k) - normalDamping(k.overlap).value * k.normalVelocity;
   }
   double leverFraction(int side) const { return fractionOf(law_.conventions.leverArm, side); }
   double armFraction(int side) const { return fractionOf(law_.conventions.armOfVelocity(), side); }
@@ -87,7 +116,8 @@ class TwoBodyProblem {
     return crossgrain::leverFraction(arm, law_.conventions.planeArm, pair_, side);
   }
   double normalForce(const Kinematics& k) const;
-  double bound(double normal) const;
+  double bound(double load) const;
+  double boundNow(const Kinematics& k) const { return bound(load(k)); }
   double testedForce(const Kinematics& k, double spring) const;
   double tangentialForce(const State& s, const Kinematics& k) const;
   double storedEnergy(const State& s) const;
@@ -99,7 +129,60 @@ class TwoBodyProblem {
   State derivative(const State& s) const;
   CollisionEnd endAt(const State& s, const CollisionStart& start) const;
 
+  // Cohesion
+  double bodyForce(const Kinematics& k) const {
+    return law_.coheres() ? cohesiveForce(k).value : elasticForce(k.overlap);
+  }
+  Slope cohesiveForce(const Kinematics& k) const;
+  double load(const Kinematics& k) const;
+  double loadRate(const Kinematics& k, double acceleration) const;
+  bool remembersBody() const {
+    return law_.cohesion == CohesionLaw::jkr || law_.cohesion == CohesionLaw::elastoPlastic;
+  }
+  bool cuts() const {
+    return law_.conventions.tension == Tension::cut && !phase_.compressive && law_.gn > 0.0;
+  }
+  double beyondPull(const Kinematics& k) const;
+  bool neverLoaded() const;
+  double cohesionGuard(const Kinematics& k) const;
+  void chooseLine(State& s);
+  void chooseNormal(State& s, bool anew);
+  bool hasNoBound() const;
+
+  // Rolling
+  void setRollingConstants();
+  double rollingLoad(const Kinematics& k) const;
+  bool hasNoRollingBound() const;
+  double rollingBound(const Kinematics& k) const {
+    return law_.muR * rollingLength_ * std::max(rollingLoad(k), 0.0);
+  }
+  double rollingTested(const State& s, const Kinematics& k) const;
+  double rollingTorque(const State& s, const Kinematics& k) const;
+  double rollingEnergy(const State& s) const;
+  double holdingTorque(const State& s, const Kinematics& k) const;
+  double rollingBoundRate(const State& s, const Kinematics& k) const;
+  double rollingDashpotRate(const State& s, const Kinematics& k) const;
+  double rollingSlipGuard(const State& s, const Kinematics& k) const;
+  double slippedAngle(const Kinematics& k) const;
+  double rollingGuard(const State& s, const Kinematics& k) const;
+  void chooseRolling(State& s, bool anew);
+  void chooseRollingSpring(State& s);
+  /// ω_r set by the first spin.
+  void setRollingSpin(State& s, double spin) const { s.spinI = s.spinJ + spin; }
+  /// d ω_r/dt per M [1/(kg m²)], and per −f_t [1/(kg m)].
+  double rollingCompliance() const { return 1.0 / pair_.inertia[0] + 1.0 / pair_.inertia[1]; }
+  double turningBySlip(const Kinematics& k) const {
+    return k.leverI / pair_.inertia[0] - k.leverJ / pair_.inertia[1];
+  }
+  /// d v_t/dt per −M [1/(kg m)].
+  double slippingByTorque(const Kinematics& k) const {
+    return k.armI / pair_.inertia[0] - k.armJ / pair_.inertia[1];
+  }
+
   // Events
+  double slipDrift(const State& s, const Kinematics& k) const;
+  double normalAcceleration(const State& s, const Kinematics& k) const;
+  bool tangentialLasts(const State& s) const;
   double compliance(const Kinematics& k) const;
   double holdingForce(const State& s, const Kinematics& k) const;
   double boundRate(const State& s, const Kinematics& k) const;
@@ -108,7 +191,7 @@ class TwoBodyProblem {
   double dashpotRate(const State& s, const Kinematics& k) const;
   double tangentialGuard(const State& s) const;
   double firstGuard(const State& s) const;
-  void enterPhase(State& s);
+  void enterPhase(State& s, bool anew = false);
   void choosePhase(State& s);
   void chooseSpringPhase(State& s, const Kinematics& k);
 
@@ -125,6 +208,10 @@ class TwoBodyProblem {
   ContactLaw law_;
   CollidingPair pair_;
   double reach_, inverseMass_;
+  double reducedRadius_, bondRange_;  ///< R₁₂, bondRange() [m]
+  double rollingLength_ = 0.0;        ///< L [m]
+  double rollingStiffness_ = 0.0;     ///< k_r (…) [N m]
+  double rollingDamping_ = 0.0;       ///< of its dashpot [N m s]
   Phase phase_;
   double stillness_ = 0.0;  ///< v_t that counts as 0 [m/s]
   double overshoot_ = 0.0;  ///< overshoot() [m/s]

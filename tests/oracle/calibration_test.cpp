@@ -267,4 +267,46 @@ TEST(Calibration, WhatCannotBeReachedIsRefused) {
   EXPECT_THROW(impliedImpact(law, test::smallPair()), std::invalid_argument);
 }
 
+/// A disk of 1 g and 5 mm on a plane: I = 3/2 m a², K = I ((2π 20)² + 25), G = 10 I; and
+/// back, by every convention.
+TEST(CalibrateRolling, FrequencyAndDecay_AreThoseOfTheOscillator) {
+  const CollidingPair disk = diskOnWall(5e-3, 1e-3, 0.5 * 1e-3 * 25e-6);
+  for (const CollidingPair& pair : {disk, unequalPair()})
+    for (const auto stiffness :
+         {RollingStiffness::lengthSquare, RollingStiffness::radii, RollingStiffness::constant})
+      for (const auto damper : {RollingDamper::constant, RollingDamper::critical}) {
+        ContactLaw law;
+        law.rolling = RollingLaw::spring;
+        law.conventions.rollingStiffness = stiffness;
+        law.conventions.rollingDamper = damper;
+        calibrateRolling(law, pair, 20.0, 5.0);
+        EXPECT_NEAR(impliedRolling(law, pair).frequency, 20.0, 1e-12);
+        EXPECT_NEAR(impliedRolling(law, pair).decay, 5.0, 1e-12);
+      }
+  ContactLaw law;
+  law.rolling = RollingLaw::spring;
+  calibrateRolling(law, disk, 20.0, 5.0);
+  const double inertia = 1.5 * 1e-3 * 25e-6;
+  EXPECT_NEAR(law.kr, inertia * (1600.0 * pi * pi + 25.0) / 25e-6, 1e-9);
+  EXPECT_NEAR(law.gr, 2.0 * inertia * 5.0 / 25e-6, 1e-15);
+}
+
+TEST(CalibrateRolling, AngleOfRest_IsTheCoefficientsTangent) {
+  ContactLaw law;
+  EXPECT_NEAR(rollingCoefficientOf(law, 0.3), std::tan(0.3), 1e-15);
+  law.conventions.rollingLength = RollingLength::twiceEffective;
+  EXPECT_NEAR(rollingCoefficientOf(law, 0.3), 0.5 * std::tan(0.3), 1e-15);
+  law.muR = rollingCoefficientOf(law, 0.3);
+  EXPECT_NEAR(restAngle(law), 0.3, 1e-15);
+}
+
+/// R₁₂ = 0.25 m, γ = 100 J/m², w = 200 J/m²: 235.62 N under JKR, 314.16 N under DMT.
+TEST(CalibrateAdhesion, WorkOfAdhesion_IsThatOfThePull) {
+  ContactLaw law;
+  law.cohesion = CohesionLaw::jkr;
+  EXPECT_NEAR(workOfAdhesion(law, 235.6194490, 0.25), 200.0, 1e-6);
+  law.cohesion = CohesionLaw::dmt;
+  EXPECT_NEAR(workOfAdhesion(law, 314.1592654, 0.25), 200.0, 1e-6);
+}
+
 }  // namespace

@@ -162,8 +162,36 @@ TEST(DiscreteImpact, EndsWithTheRestitutionOfTheLaw) {
   }
 }
 
-TEST(DiscreteImpact, OnlyTheLinearLawHasOne) {
-  EXPECT_THROW(discreteImpact(test::hertzLaw(), {0.0, -1.0, 1.0, 1.0}, 1), std::invalid_argument);
+TEST(DiscreteImpact, ARigidLawHasNone) {
+  EXPECT_THROW(discreteImpact(test::rigidLaw(0.9, 0.0, 0.0), {0.0, -1.0, 1.0, 1.0}, 1),
+               std::invalid_argument);
+}
+
+/// Two spheres of 0.5 m and 1 kg under every law of cohesion, in so fine steps that it is the
+/// impact itself: e_n of the oracle in continuous time, at second order.
+TEST(DiscreteImpact, OfCohesion_TendsToTheImpactItself) {
+  const CollidingPair pair{{0.5, 0.5}, {1.0, 1.0}, {0.1, 0.1}};
+  for (const CohesionLaw cohesion :
+       {CohesionLaw::area, CohesionLaw::dmt, CohesionLaw::jkr, CohesionLaw::elastoPlastic}) {
+    ContactLaw law = unitLaw();
+    law.normal = cohesion == CohesionLaw::jkr ? NormalLaw::hertz : NormalLaw::linear;
+    law.cohesion = cohesion;
+    law.kn = cohesion == CohesionLaw::jkr ? 4.0 / 3.0 * 5e4 : 1e4;
+    law.w = cohesion == CohesionLaw::jkr ? 200.0 : 20.0;
+    law.kc = cohesion == CohesionLaw::area ? 2e3 : 1e3;
+    law.kUnload = 4e4;
+    law.plasticDepth = 0.05;
+    const double speed = 5.0, time = impactTime(law, {0.5, 0.25, speed});
+    const double expected = oracleOutcome(law, pair, {0.0, speed}).en;
+    const auto error = [&](double steps) {
+      const double dt = time / steps;
+      const auto motion = discreteImpact(law, {0.5 * dt * speed, -speed, 0.5, dt, pair},
+                                         static_cast<std::size_t>(3.0 * steps));
+      return std::abs(motion.back().velocity / speed - expected);
+    };
+    EXPECT_LT(error(20000), 1e-3) << static_cast<int>(cohesion);
+    EXPECT_LT(error(20000), 0.5 * error(1000)) << static_cast<int>(cohesion);
+  }
 }
 
 /// A critical damper of a linear law is a constant one: γ √(m₁₂ k).

@@ -1,0 +1,169 @@
+#include <limits>
+#include <stdexcept>
+
+#include "oracle/cohesion.hpp"
+#include "oracle/two_body_problem.hpp"
+
+/// Bodies that attract each other: their force, the load that bounds multiply, and what of both
+/// changes at which instant.
+namespace crossgrain::inline oracle {
+
+/// The force without its dashpot, and its derivative by δ. Elasto-plastic: of the line that the
+/// contact is on.
+Slope TwoBodyProblem::cohesiveForce(const Kinematics& k) const {
+  const double elastic = elasticForce(k.overlap), stiff = stiffness(k.overlap).value;
+  switch (law_.cohesion) {
+    case CohesionLaw::area: {
+      const AreaSlope area = cohesionArea(law_, pair_, k.overlap);
+      return {elastic - law_.kc * area.value, stiff - law_.kc * area.rate};
+    }
+    case CohesionLaw::dmt:
+      return {elastic - pullOff(law_, reducedRadius_), stiff};
+    case CohesionLaw::jkr: {
+      // F = F_po (y⁶ − 2 y³), δ = unit (y⁴ − 4/3 y).
+      const double pull = pullOff(law_, reducedRadius_), unit = jkrUnit(law_, reducedRadius_);
+      const double y = jkrRoot(k.overlap / unit), cube = y * y * y;
+      return {pull * (cube - 2.0) * cube,
+              pull / unit * 6.0 * y * y * (cube - 1.0) / (4.0 * cube - 4.0 / 3.0)};
+    }
+    case CohesionLaw::elastoPlastic:
+      break;
+    case CohesionLaw::none:
+      return {elastic, stiff};
+  }
+  if (phase_.line == Phase::Line::loading) return {elastic, law_.kn};
+  if (phase_.line == Phase::Line::pull) return {-law_.kc * k.overlap, -law_.kc};
+  const double k2 = unloadingStiffness(law_, reducedRadius_, k.largest);
+  return {k2 * k.overlap - (k2 - law_.kn) * k.largest, k2};
+}
+
+/// What stands for f_n in bounds. @see CohesionLoad
+double TwoBodyProblem::load(const Kinematics& k) const {
+  const double normal = normalForce(k);
+  if (!law_.coheres()) return normal;
+  switch (law_.conventions.cohesionLoad) {
+    case CohesionLoad::net:
+      return normal;
+    case CohesionLoad::plusTwicePullOff:
+      return normal + 2.0 * pullOff(law_, reducedRadius_);
+    case CohesionLoad::withoutPull:
+      break;
+  }
+  if (law_.cohesion == CohesionLaw::elastoPlastic)
+    return phase_.pulls ? normal - bodyForce(k) : normal;
+  return normal - (bodyForce(k) - elasticForce(k.overlap));
+}
+
+/// d load/dt, from df/dt = −f′ v_n of what follows the overlap and −γ_n dv_n/dt + γ_n′ v_n² of the
+/// dashpot. @param acceleration  dv_n/dt [m/s²]
+double TwoBodyProblem::loadRate(const Kinematics& k, double acceleration) const {
+  const double elastic = -stiffness(k.overlap).value * k.normalVelocity;
+  const double body = law_.coheres() ? -cohesiveForce(k).rate * k.normalVelocity : elastic;
+  const Slope gn = normalDamping(k.overlap);
+  double normal = body - gn.value * acceleration + gn.rate * k.normalVelocity * k.normalVelocity;
+  if (cuts()) normal = phase_.pulls ? body : 0.0;
+  if (!law_.coheres() || law_.conventions.cohesionLoad != CohesionLoad::withoutPull) return normal;
+  if (law_.cohesion == CohesionLaw::elastoPlastic) return phase_.pulls ? normal - body : normal;
+  return normal - (body - elastic);
+}
+
+/// By how much the force exceeds the pull alone, or of what sign that is: where tension is cut it
+/// acts while this is > 0.
+double TwoBodyProblem::beyondPull(const Kinematics& k) const {
+  return phase_.pulls ? -k.normalVelocity : trialNormal(k);
+}
+
+/// Whether the load of this phase is zero throughout, to rounding: it has no sign to watch.
+bool TwoBodyProblem::neverLoaded() const {
+  const bool nothing = cuts() && !phase_.pulls;  // f_n is 0
+  if (!law_.coheres()) return nothing;
+  const CohesionLoad of = law_.conventions.cohesionLoad;
+  const bool bare = law_.gn == 0.0 || cuts();  // f_n is the body's alone
+  if (law_.cohesion == CohesionLaw::elastoPlastic) {
+    if (of == CohesionLoad::withoutPull) return nothing || (phase_.pulls && bare);
+    return nothing || (phase_.line == Phase::Line::pull && law_.kc == 0.0 && bare);
+  }
+  if (of == CohesionLoad::withoutPull)
+    return phase_.beyond && (bare || law_.damper != Damper::constant);
+  return nothing && (of == CohesionLoad::net || pullOff(law_, reducedRadius_) == 0.0);
+}
+
+/// > 0 as long as the force is the same smooth function of the motion.
+double TwoBodyProblem::cohesionGuard(const Kinematics& k) const {
+  double guard = std::numeric_limits<double>::infinity();
+  const auto keeps = [&](bool positive, double value) {
+    guard = std::min(guard, positive ? value : -value);
+  };
+  bool changesSign = true;
+  if (law_.cohesion == CohesionLaw::jkr) keeps(!phase_.beyond, k.overlap);
+  if (law_.cohesion == CohesionLaw::elastoPlastic) {
+    changesSign = phase_.line == Phase::Line::unloading;
+    if (changesSign)
+      guard = std::min(k.largest - k.overlap, bodyForce(k) + law_.kc * k.overlap);
+    else
+      keeps(phase_.line == Phase::Line::pull, k.normalVelocity);
+  }
+  if (changesSign) keeps(!phase_.pulls, bodyForce(k));
+  if (law_.conventions.tension == Tension::cut && law_.gn > 0.0)
+    keeps(phase_.compressive, beyondPull(k));
+  const bool bounded = law_.rolls() || law_.tangential != TangentialLaw::none;
+  if (bounded && !neverLoaded()) keeps(phase_.loaded, load(k));
+  return guard;
+}
+
+/// Loading ends at the turning point, whose overlap is remembered; unloading at that overlap or at
+/// the limit of the pull; the pull where the bodies turn again.
+void TwoBodyProblem::chooseLine(State& s) {
+  const Kinematics k = kinematics(s);
+  using enum Phase::Line;
+  if (phase_.line == loading && k.normalVelocity >= 0.0) {
+    s.largest = k.overlap;
+    phase_.line = unloading;
+  } else if (phase_.line == pull && k.normalVelocity <= 0.0) {
+    s.largest = largestAtPull(law_, reducedRadius_, k.overlap);
+    phase_.line = unloading;
+  } else if (phase_.line == unloading && k.normalVelocity < 0.0 && k.overlap >= k.largest) {
+    phase_.line = loading;
+  } else if (phase_.line == unloading && k.normalVelocity > 0.0 &&
+             bodyForce(k) <= -law_.kc * k.overlap) {
+    phase_.line = pull;
+  }
+}
+
+/// The parts of a phase that are about the normal. @param anew  at the first touch
+void TwoBodyProblem::chooseNormal(State& s, bool anew) {
+  if (!law_.coheres()) {
+    phase_.compressive = law_.gn == 0.0 || trialNormal(kinematics(s)) > 0.0;
+    phase_.loaded = phase_.compressive;
+    return;
+  }
+  const bool yields = law_.cohesion == CohesionLaw::elastoPlastic;
+  if (yields) chooseLine(s);
+  const Kinematics k = kinematics(s);
+  // Where an event is, a value is zero to the rounding of positions: its rate says what follows.
+  const double rounding = std::numeric_limits<double>::epsilon() * reach_;
+  const auto isPositive = [](double value, double rate, double unit) {
+    return std::abs(value) > 4.0 * unit ? value > 0.0 : rate > 0.0;
+  };
+  const Slope body = cohesiveForce(k);
+  phase_.beyond =
+      law_.cohesion == CohesionLaw::jkr && !isPositive(k.overlap, -k.normalVelocity, rounding);
+  phase_.pulls =
+      yields && phase_.line != Phase::Line::unloading
+          ? phase_.line == Phase::Line::pull
+          : !isPositive(body.value, -body.rate * k.normalVelocity, std::abs(body.rate) * rounding);
+  const bool cut = law_.conventions.tension == Tension::cut && law_.gn > 0.0;
+  phase_.compressive = !cut || beyondPull(k) > 0.0;
+  phase_.loaded =
+      !neverLoaded() &&
+      isPositive(load(k), anew ? 1.0 : loadRate(k, normalAcceleration(s, k)), roundingOfForce(s));
+}
+
+/// Whether there is no friction for want of a load.
+bool TwoBodyProblem::hasNoBound() const {
+  const bool compression = law_.conventions.coulombBound == CoulombBound::compression;
+  if (law_.coheres()) return neverLoaded() || (!phase_.loaded && compression);
+  return !phase_.compressive && (compression || law_.conventions.tension == Tension::cut);
+}
+
+}  // namespace crossgrain::inline oracle
