@@ -195,6 +195,8 @@ double rollingLength(const ContactLaw& law, const CollidingPair& pair) {
       return 2.0 * reduced;
     case RollingLength::smallerRadius:
       return pair.plane ? pair.radius[0] : std::min(pair.radius[0], pair.radius[1]);
+    case RollingLength::meanRadius:
+      return pair.plane ? pair.radius[0] : 0.5 * (pair.radius[0] + pair.radius[1]);
   }
   return reduced;
 }

@@ -41,11 +41,16 @@ Slope TwoBodyProblem::cohesiveForce(const Kinematics& k) const {
 double TwoBodyProblem::load(const Kinematics& k) const {
   const double normal = normalForce(k);
   if (!law_.coheres()) return normal;
+  const double pull = pullOff(law_, reducedRadius_);
   switch (law_.conventions.cohesionLoad) {
     case CohesionLoad::net:
       return normal;
     case CohesionLoad::plusTwicePullOff:
-      return normal + 2.0 * pullOff(law_, reducedRadius_);
+      return pull > 0.0 ? bodyForce(k) + 2.0 * pull : normal;
+    case CohesionLoad::magnitudePlusPullOff:
+      return std::abs(normal) + pull;
+    case CohesionLoad::netWithoutDashpot:
+      return bodyForce(k);
     case CohesionLoad::withoutPull:
       break;
   }
@@ -62,7 +67,13 @@ double TwoBodyProblem::loadRate(const Kinematics& k, double acceleration) const 
   const Slope gn = normalDamping(k.overlap);
   double normal = body - gn.value * acceleration + gn.rate * k.normalVelocity * k.normalVelocity;
   if (cuts()) normal = phase_.pulls ? body : 0.0;
-  if (!law_.coheres() || law_.conventions.cohesionLoad != CohesionLoad::withoutPull) return normal;
+  if (!law_.coheres()) return normal;
+  const CohesionLoad of = law_.conventions.cohesionLoad;
+  if (of == CohesionLoad::netWithoutDashpot ||
+      (of == CohesionLoad::plusTwicePullOff && pullOff(law_, reducedRadius_) > 0.0))
+    return body;
+  if (of == CohesionLoad::magnitudePlusPullOff) return normalForce(k) < 0.0 ? -normal : normal;
+  if (of != CohesionLoad::withoutPull) return normal;
   if (law_.cohesion == CohesionLaw::elastoPlastic) return phase_.pulls ? normal - body : normal;
   return normal - (body - elastic);
 }
@@ -81,11 +92,14 @@ bool TwoBodyProblem::neverLoaded() const {
   const bool bare = law_.gn == 0.0 || cuts();  // f_n is the body's alone
   if (law_.cohesion == CohesionLaw::elastoPlastic) {
     if (of == CohesionLoad::withoutPull) return nothing || (phase_.pulls && bare);
-    return nothing || (phase_.line == Phase::Line::pull && law_.kc == 0.0 && bare);
+    const bool empty = phase_.line == Phase::Line::pull && law_.kc == 0.0;
+    if (of == CohesionLoad::netWithoutDashpot) return empty;
+    return nothing || (empty && bare);
   }
   if (of == CohesionLoad::withoutPull)
     return phase_.beyond && (bare || law_.damper != Damper::constant);
-  return nothing && (of == CohesionLoad::net || pullOff(law_, reducedRadius_) == 0.0);
+  return nothing && of != CohesionLoad::netWithoutDashpot &&
+         (of == CohesionLoad::net || pullOff(law_, reducedRadius_) == 0.0);
 }
 
 /// > 0 as long as the force is the same smooth function of the motion.

@@ -45,6 +45,12 @@ Slope TwoBodyProblem::stiffness(double overlap) const {
 
 Slope TwoBodyProblem::tangentialStiffness(double overlap) const {
   if (law_.normal != NormalLaw::hertz) return {law_.kt, 0.0};
+  if (law_.cohesion == CohesionLaw::jkr) {  // k_t a, a = a_p y²
+    const double unit = jkrUnit(law_, reducedRadius_), y = jkrRoot(overlap / unit);
+    const double width = law_.kt * std::sqrt(unit * reducedRadius_);
+    const double slope = std::max(4.0 * y * y * y - 4.0 / 3.0, 1e-12);  // of δ/unit by y
+    return {width * y * y, 2.0 * width * y / (unit * slope)};
+  }
   const double depth = std::max(overlap, 0.0);
   const double root = std::sqrt(pair_.reducedRadius() * depth);
   return {law_.kt * root, depth > 0.0 ? 0.5 * law_.kt * root / depth : 0.0};

@@ -22,15 +22,22 @@ double TwoBodyProblem::rollingLoad(const Kinematics& k) const {
     case RollingLoad::magnitude:
       return phase_.loaded ? load(k) : -load(k);
     case RollingLoad::compression:
+    case RollingLoad::whileCompressed:
       break;
   }
   return phase_.loaded ? load(k) : 0.0;
 }
 
+/// Whether the spring has no limit now. @see RollingLoad::whileCompressed
+bool TwoBodyProblem::rollsWithoutLimit() const {
+  return law_.rolling == RollingLaw::spring && !phase_.loaded &&
+         law_.conventions.rollingLoad == RollingLoad::whileCompressed;
+}
+
 bool TwoBodyProblem::hasNoRollingBound() const {
   const RollingLoad of = law_.conventions.rollingLoad;
   if (of == RollingLoad::elastic) return phase_.beyond;
-  return neverLoaded() || (!phase_.loaded && of == RollingLoad::compression);
+  return neverLoaded() || (!phase_.loaded && of != RollingLoad::magnitude);
 }
 
 /// What is compared with the bound.
@@ -74,7 +81,7 @@ double TwoBodyProblem::rollingBoundRate(const State& s, const Kinematics& k) con
   const double factor = law_.muR * rollingLength_;
   if (law_.conventions.rollingLoad == RollingLoad::elastic)
     return -factor * stiffness(k.overlap).value * k.normalVelocity;
-  if (!phase_.loaded && law_.conventions.rollingLoad == RollingLoad::compression) return 0.0;
+  if (!phase_.loaded && law_.conventions.rollingLoad != RollingLoad::magnitude) return 0.0;
   return factor * (phase_.loaded ? 1.0 : -1.0) * loadRate(k, normalAcceleration(s, k));
 }
 
@@ -111,7 +118,7 @@ double TwoBodyProblem::rollingGuard(const State& s, const Kinematics& k) const {
     case Phase::Rolling::damped:
       return 1.0;
     case Phase::Rolling::stick:
-      return rollingBound(k) - std::abs(rollingTested(s, k));
+      return rollsWithoutLimit() ? 1.0 : rollingBound(k) - std::abs(rollingTested(s, k));
     case Phase::Rolling::hold:
       return rollingBound(k) - std::abs(holdingTorque(s, k));
     case Phase::Rolling::slip:
@@ -126,6 +133,11 @@ void TwoBodyProblem::chooseRolling(State& s, bool anew) {
   const Kinematics k = kinematics(s);
   if (law_.rolling == RollingLaw::viscous || law_.rolling == RollingLaw::viscousByLoad) {
     phase_.rolling = Phase::Rolling::damped;
+    return;
+  }
+  if (rollsWithoutLimit()) {
+    if (phase_.rolling == Phase::Rolling::slip) s.angle = slippedAngle(k);
+    phase_.rolling = Phase::Rolling::stick;
     return;
   }
   const bool none = hasNoRollingBound(), wasNone = phase_.rolling == Phase::Rolling::none;

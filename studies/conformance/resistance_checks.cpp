@@ -38,6 +38,7 @@ double rollingLength(const ContactLaw& law, bool plane) {
     case RollingLength::twiceEffective:
       return 2.0 * effective;
     case RollingLength::smallerRadius:
+    case RollingLength::meanRadius:
       return smallRadius;
     case RollingLength::effective:
       break;

@@ -227,7 +227,8 @@ ContactLaw randomCohesion(Draw& draw, const CollidingPair& pair) {
       draw.oneOf({CohesionArea::lens, CohesionArea::firstOrder, CohesionArea::twiceBetweenDisks});
   how.jkrEnd = draw.oneOf({JkrEnd::largestPull, JkrEnd::branch});
   how.cohesionLoad =
-      draw.oneOf({CohesionLoad::net, CohesionLoad::withoutPull, CohesionLoad::plusTwicePullOff});
+      draw.oneOf({CohesionLoad::net, CohesionLoad::withoutPull, CohesionLoad::plusTwicePullOff,
+                  CohesionLoad::magnitudePlusPullOff, CohesionLoad::netWithoutDashpot});
   if (law.cohesion == CohesionLaw::area)
     law.kc = draw.uniform(0.05, 0.4) * law.kn / (4.0 * M_PI * R);
   if (law.cohesion == CohesionLaw::elastoPlastic) law.kc = draw.uniform(0.0, 0.1) * law.kn;

@@ -81,6 +81,7 @@ class PlainIntegration {
     const double a = pair_.radius[0], b = pair_.radius[1],
                  two = pair_.plane ? 2.0 * a : 2.0 * a * b / (a + b);
     if (how_.rollingLength == RollingLength::smallerRadius) return pair_.plane ? a : std::min(a, b);
+    if (how_.rollingLength == RollingLength::meanRadius) return pair_.plane ? a : 0.5 * (a + b);
     return how_.rollingLength == RollingLength::twiceEffective ? two : 0.5 * two;
   }
   double kr() const {
@@ -132,6 +133,15 @@ class PlainIntegration {
     if (how_.jkrEnd == JkrEnd::branch) return std::cbrt(M_PI * law_.w * R() * R() / (8.0 * E()));
     return std::cbrt(9.0 * M_PI * law_.w * R() * R() / (8.0 * E()));
   }
+  /// By bisection.
+  double radiusAt(double overlap) const {
+    double low = radiusOfEnd(), high = pair_.radius[0];
+    for (int k = 0; k < 60; ++k) {
+      const double middle = 0.5 * (low + high);
+      (overlapOf(middle) < overlap ? low : high) = middle;
+    }
+    return low;
+  }
   /// The overlap at which bodies part [m].
   double end() const { return law_.cohesion == CohesionLaw::jkr ? overlapOf(radiusOfEnd()) : 0.0; }
   double pull() const {
@@ -166,14 +176,8 @@ class PlainIntegration {
         }
         return elastic - law_.kc * area;
       }
-      case CohesionLaw::jkr: {
-        double low = radiusOfEnd(), high = a;
-        for (int k = 0; k < 60; ++k) {
-          const double middle = 0.5 * (low + high);
-          (overlapOf(middle) < d ? low : high) = middle;
-        }
-        return forceOf(low);
-      }
+      case CohesionLaw::jkr:
+        return forceOf(radiusAt(d));
       case CohesionLaw::elastoPlastic:
         break;
     }
@@ -206,7 +210,7 @@ class PlainIntegration {
     if (law_.normal == NormalLaw::hertz) {
       elastic = law_.kn * root * d;
       stiffness = 1.5 * law_.kn * root;
-      c.kt = law_.kt * root;
+      c.kt = law_.kt * (law_.cohesion == CohesionLaw::jkr ? radiusAt(d) : root);
     } else if (law_.normal == NormalLaw::polynomial) {
       elastic = (law_.kn + law_.kn3 * d) * d * d;
       stiffness = (2.0 * law_.kn + 3.0 * law_.kn3 * d) * std::max(d, 0.0);
@@ -217,9 +221,13 @@ class PlainIntegration {
     c.fn = body - damping(law_.gn, stiffness) * c.vn;
     if (how_.tension == Tension::cut) c.fn = std::max(c.fn, law_.coheres() ? attraction : 0.0);
     double load = c.fn;
-    if (law_.coheres() && how_.cohesionLoad == CohesionLoad::plusTwicePullOff) load += 2.0 * pull();
-    if (law_.coheres() && how_.cohesionLoad == CohesionLoad::withoutPull)
-      load -= yields ? attraction : body - elastic;
+    if (law_.coheres()) {
+      const CohesionLoad of = how_.cohesionLoad;
+      if (of == CohesionLoad::plusTwicePullOff && pull() > 0.0) load = body + 2.0 * pull();
+      if (of == CohesionLoad::netWithoutDashpot) load = body;
+      if (of == CohesionLoad::magnitudePlusPullOff) load = std::abs(load) + pull();
+      if (of == CohesionLoad::withoutPull) load -= yields ? attraction : body - elastic;
+    }
     const double size =
         how_.coulombBound == CoulombBound::magnitude ? std::abs(load) : std::max(load, 0.0);
     c.bound = law_.mu * size;
@@ -228,6 +236,8 @@ class PlainIntegration {
                                : how_.rollingLoad == RollingLoad::magnitude ? std::abs(load)
                                                                             : load;
     c.rollingBound = law_.muR * rollingLength() * std::max(rollingLoad, 0.0);
+    if (isSpring() && how_.rollingLoad == RollingLoad::whileCompressed && !(rollingLoad > 0.0))
+      c.rollingBound = INFINITY;
     return c;
   }
 

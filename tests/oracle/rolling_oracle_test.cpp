@@ -204,13 +204,13 @@ ContactLaw randomRolling(Draw& draw, const CollidingPair& pair) {
   how.tension = draw.oneOf({Tension::allow, Tension::cut});
   how.springUpdate = draw.oneOf({SpringUpdate::before, SpringUpdate::midpoint});
   how.springReset = SpringReset::springOnly;
-  how.rollingLength = draw.oneOf(
-      {RollingLength::effective, RollingLength::twiceEffective, RollingLength::smallerRadius});
+  how.rollingLength = draw.oneOf({RollingLength::effective, RollingLength::twiceEffective,
+                                  RollingLength::smallerRadius, RollingLength::meanRadius});
   how.rollingStiffness = draw.oneOf(
       {RollingStiffness::lengthSquare, RollingStiffness::radii, RollingStiffness::constant});
   how.rollingDamper = draw.oneOf({RollingDamper::constant, RollingDamper::critical});
-  how.rollingLoad =
-      draw.oneOf({RollingLoad::compression, RollingLoad::magnitude, RollingLoad::elastic});
+  how.rollingLoad = draw.oneOf({RollingLoad::compression, RollingLoad::magnitude,
+                                RollingLoad::elastic, RollingLoad::whileCompressed});
   how.rollingDashpot = draw.oneOf({Dashpot::inside, Dashpot::inside, Dashpot::outside});
   how.rollingReset = draw.oneOf({SpringReset::total, SpringReset::springOnly});
   law.muR = draw.uniform(0.02, 0.6);
