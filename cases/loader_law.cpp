@@ -389,8 +389,6 @@ void readLaw(Reader& in, ContactLaw& contact, bool ofTwoBodies) {
   else
     settleRigid(in, input);
   contact = input;
-  in.check(!ofTwoBodies || (!contact.rolls() && !contact.coheres()),
-           contact.rolls() ? "rolling" : "cohesion", "the oracle of collisions has no such law");
 }
 
 void readBottom(Reader& root, std::optional<BottomPlate>& plate) {
