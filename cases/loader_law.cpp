@@ -495,8 +495,6 @@ void readLaw(Reader& in, ContactLaw& contact, bool ofTwoBodies) {
   LawInput input;
   settle(in, input, ofTwoBodies);
   contact = input;
-  in.check(!ofTwoBodies || (!contact.rolls() && !contact.coheres()),
-           contact.rolls() ? "rolling" : "cohesion", "the oracle of collisions has no such law");
 }
 
 void readBottom(Reader& root, std::optional<BottomPlate>& plate) {

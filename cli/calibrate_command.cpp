@@ -15,6 +15,7 @@
 #include "cases/collision_scene.hpp"
 #include "cases/keys.hpp"
 #include "cases/loader.hpp"
+#include "cli/calibrate_contact.hpp"
 #include "cli/option_groups.hpp"
 #include "oracle/calibration.hpp"
 #include "studies/core/study_cases.hpp"
@@ -213,6 +214,7 @@ struct Request {
   std::optional<double> mass, mass2, radius, radius2, inertiaFactor;
   std::optional<double> mu, vn;
   std::optional<std::string> tension, tangential;
+  ContactRequest contact;
 };
 
 enum class Part { wanted, constant, body, further };
@@ -408,6 +410,17 @@ int calibrate(const CommandLine& line, const Request& request) {
     if (const auto value = request.*number.member; value && !number.range.contains(*value))
       throw BadInput(
           fmt::format("{} = {}: must be {}", number.option, *value, number.range.text()));
+  if (request.contact.given()) {
+    for (const Number& number : numbers())
+      if (request.*number.member && number.part != Part::body)
+        throw BadInput(fmt::format("{}: rolling resistance and cohesion are a call of their own",
+                                   number.option));
+    if (!line.inputs.empty() || request.tension || request.tangential)
+      throw BadInput("rolling resistance and cohesion are a call of their own");
+    fmt::print("{}", request.contact.answer({request.radius, request.radius2, request.mass,
+                                             request.mass2, request.inertiaFactor}));
+    return exitPassed;
+  }
   refuseContradictions(request);
   const Number* wanted = firstGiven(request, Part::wanted);
   // A stiffness may be wanted, too.
@@ -435,6 +448,7 @@ Action declareCalibrate(CLI::App& app, CommandLine& line) {
           "allow|cut");
   addText(app, "--tangential", request->tangential,
           "tangential law wanted (default: spring_dashpot)", "spring|spring_dashpot");
+  request->contact.addOptions(app);
   return [&line, request] { return calibrate(line, *request); };
 }
 
@@ -446,7 +460,10 @@ extern const Command calibrateCommand = {
     "crossgrain calibrate --en 0.9 --kn 1e4 --mass 1e-3 --radius 5e-3\n"
     "crossgrain calibrate --kn 352.1 --gn 0.19 --kt 267.1 --gt 0.15 --mu 0.44 --mass 0.275e-3 "
     "--radius 3.7e-3\n"
-    "crossgrain calibrate cases/couette/quick.toml",
+    "crossgrain calibrate cases/couette/quick.toml\n"
+    "crossgrain calibrate --rolling-frequency 20 --rolling-decay 5 --rest-angle 15 --mass 1e-3 "
+    "--mass2 inf --radius 5e-3\n"
+    "crossgrain calibrate --pull-off 1e-3 --cohesion jkr --radius 5e-3",
     declareCalibrate};
 
 }  // namespace crossgrain::inline cli

@@ -19,6 +19,17 @@ std::optional<double> workOf(const Outcome& outcome) {
   return outcome.work ? std::optional((*outcome.work).*part) : std::nullopt;
 }
 
+/// Of the dashpot alone where that is known: a body may take energy of its own.
+std::optional<double> normalDamping(const Outcome& outcome) {
+  if (outcome.end.lost) return outcome.end.lost->normalDamping;
+  return outcome.work ? std::optional(outcome.work->normal) : std::nullopt;
+}
+
+template <std::optional<double> EnergySplit::*part>
+std::optional<double> furtherLost(const Outcome& outcome) {
+  return outcome.end.lost ? (*outcome.end.lost).*part : std::nullopt;
+}
+
 template <auto member>
 std::optional<double> own(const Outcome& outcome) {
   return outcome.end.*member;
@@ -53,8 +64,7 @@ constexpr std::array<CollisionQuantity, quantityCount> quantities = {{
     {Id::duration, "duration", "duration", "s", 7, own<&End::duration>, Scored::byLargest},
     {Id::maxOverlap, "max_overlap", "overlap", "m", 8, own<&End::maxOverlap>, Scored::byLargest},
     {Id::energyLost, "energy_lost", "energy lost", "J", 0, energyLost, fraction, InFiles::no},
-    {Id::lostNormalDamping, "lost_normal_damping", "normal", "J", 11, workOf<&ForceWork::normal>,
-     fraction},
+    {Id::lostNormalDamping, "lost_normal_damping", "normal", "J", 11, normalDamping, fraction},
     {Id::lostTangential, "lost_tangential", "tangential", "J", 15, workOf<&ForceWork::tangential>,
      fraction},
     {Id::lostTangentialDamping, "lost_tangential_damping", "sticking", "J", 12,
@@ -63,6 +73,12 @@ constexpr std::array<CollisionQuantity, quantityCount> quantities = {{
      fraction},
     {Id::lostSliding, "lost_sliding", "sliding", "J", 13, partLost<&Split::sliding>, fraction},
     {Id::lostStored, "lost_stored", "stored", "J", 14, partLost<&Split::stored>, fraction},
+    {Id::lostRollingDamping, "lost_rolling_damping", "rolling damping", "J", 17,
+     furtherLost<&Split::rollingDamping>, fraction},
+    {Id::lostRolling, "lost_rolling", "rolling", "J", 18, furtherLost<&Split::rolling>, fraction},
+    {Id::lostPlastic, "lost_plastic", "yield", "J", 19, furtherLost<&Split::plastic>, fraction},
+    {Id::lostDetachment, "lost_detachment", "detachment", "J", 20, furtherLost<&Split::detachment>,
+     fraction},
     {Id::energyBefore, "energy_before", "energy before", "J", 9, own<&End::energyBefore>,
      Scored::never},
     {Id::energyAfter, "energy_after", "energy after", "J", 10, own<&End::energyAfter>,
@@ -84,7 +100,7 @@ static_assert(quantities[scoredCount - 1].scored != Scored::never &&
 
 std::optional<double> CollisionQuantity::scoredValue(const CollisionOutcome& outcome,
                                                      const CollidingPair& pair, double vn) const {
-  const auto itself = value(outcome);
+  const auto itself = valueOf(outcome);
   if (!itself) return std::nullopt;
   switch (scored) {
     case Scored::asItIs:

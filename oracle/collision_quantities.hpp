@@ -20,6 +20,10 @@ struct CollisionOutcome {
   std::optional<ForceWork> work;
 };
 
+/// csvPlace of the first quantity that stands behind all other columns, in files whose laws have
+/// it.
+constexpr int firstPlaceAtEnd = 17;
+
 /// With the work that the end's own account of the energy implies: a spring's gain over a whole
 /// contact is what it stores in the end.
 CollisionOutcome outcomeOf(const CollisionEnd& end);
@@ -43,6 +47,10 @@ enum class QuantityId {
   lostStiffening,
   lostSliding,
   lostStored,
+  lostRollingDamping,
+  lostRolling,
+  lostPlastic,
+  lostDetachment,
   energyBefore,
   energyAfter
 };
@@ -66,6 +74,10 @@ struct CollisionQuantity {
   /// file. Not: it follows from others.
   InFiles inFiles = InFiles::nineDigits;
 
+  /// The same; absent of a pair that has not parted.
+  std::optional<double> valueOf(const CollisionOutcome& outcome) const {
+    return outcome.end.parted ? value(outcome) : std::nullopt;
+  }
   /// As `scored` says; absent where the collision has none.
   /// @param vn  speed of approach [m/s]
   std::optional<double> scoredValue(const CollisionOutcome& outcome, const CollidingPair& pair,

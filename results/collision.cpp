@@ -18,7 +18,7 @@ CollideResults collideFromJson(const Json& json) {
 
 bool CollisionCurve::allParted() const {
   for (std::size_t k = 0; k < points.size(); ++k)
-    if (!points.parted(k)) return false;
+    if (!points.parted(k) && points.shouldPart(k)) return false;
   return true;
 }
 

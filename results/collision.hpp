@@ -35,7 +35,7 @@ struct CollisionCurve {
   std::optional<DeclaredScore> declared;  ///< absent where the engine declares the scene's law
   std::optional<SchemeScore> ownScheme;   ///< measured at the largest time step of a variant
 
-  bool allParted() const;
+  bool allParted() const;  ///< but those that stick by the oracle
   bool complete() const { return status == Status::finished && allParted(); }
   /// "incomplete" where a sweep has finished and some pairs did not part.
   std::string statusName() const;

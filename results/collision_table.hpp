@@ -62,8 +62,10 @@ struct CollisionTable {
 /// What an engine made of a sweep.
 struct CollisionPoints : CollisionTable {
   std::vector<std::string> reason;  ///< why there is no reference to judge by; else empty
+  std::vector<bool> sticks;         ///< which pairs do not part by the oracle; empty: none
 
   bool parted(std::size_t row) const { return at(QuantityId::psiF, row).has_value(); }
+  bool shouldPart(std::size_t row) const { return row >= sticks.size() || !sticks[row]; }
   /// As files have it: a pair that parted may have no limit to be compared with.
   std::string status(std::size_t row) const {
     if (!parted(row)) return "not parted";
@@ -76,6 +78,7 @@ struct CollisionPoints : CollisionTable {
     for (std::size_t row = 0; row < size(); ++row) words.push_back(status(row));
     presentUnlessEmpty(io, "status", words);
     presentUnlessEmpty(io, "reason", reason);
+    presentUnlessEmpty(io, "sticks", sticks);
   }
 };
 

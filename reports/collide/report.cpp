@@ -23,14 +23,31 @@ namespace {
 std::vector<const CollisionQuantity*> furtherQuantities() {
   std::vector<const CollisionQuantity*> further;
   for (const CollisionQuantity& quantity : collisionQuantities())
-    if (quantity.csvPlace > 0) further.push_back(&quantity);
+    if (quantity.csvPlace > 0 && quantity.csvPlace < firstPlaceAtEnd) further.push_back(&quantity);
   std::ranges::sort(further, {}, &CollisionQuantity::csvPlace);
   return further;
 }
 
-std::string furtherColumns() {
+/// Those at the end of all columns that some law of the file has.
+std::vector<const CollisionQuantity*> quantitiesAtEnd(const CollideResults& results) {
+  std::vector<const CollisionQuantity*> there;
+  for (const CollisionQuantity& quantity : collisionQuantities()) {
+    const auto has = [&](const CollisionTable& table) { return bool(table.columns[quantity.id]); };
+    if (quantity.csvPlace < firstPlaceAtEnd) continue;
+    if (std::ranges::any_of(results.variants, [&](const CollisionVariant& variant) {
+          return has(variant.reference) ||
+                 std::ranges::any_of(variant.curves, [&](const CollisionCurve& curve) {
+                   return has(curve.points);
+                 });
+        }))
+      there.push_back(&quantity);
+  }
+  return there;
+}
+
+std::string columnsOf(const std::vector<const CollisionQuantity*>& quantities) {
   std::string columns;
-  for (const CollisionQuantity* quantity : furtherQuantities()) {
+  for (const CollisionQuantity* quantity : quantities) {
     std::string unit(quantity->unit);
     std::ranges::replace(unit, '/', '_');
     if (!unit.empty()) unit = "_" + unit;
@@ -39,10 +56,10 @@ std::string furtherColumns() {
   return columns;
 }
 
-std::string furtherCells(const CollisionTable& points, const CollisionTable& reference,
-                         std::size_t k) {
+std::string cellsOf(const std::vector<const CollisionQuantity*>& quantities,
+                    const CollisionTable& points, const CollisionTable& reference, std::size_t k) {
   std::string cells;
-  for (const CollisionQuantity* quantity : furtherQuantities())
+  for (const CollisionQuantity* quantity : quantities)
     for (const CollisionTable* table : {&points, &reference})
       cells += "," + cell(table->at(quantity->id, k));
   return cells;
@@ -53,6 +70,7 @@ struct RowHead {
   const std::string &engine, &name, &variant;
   std::optional<double> dt;
   std::string verdicts;
+  const std::vector<const CollisionQuantity*>& atEnd;
 };
 
 /// Of the whole curve: its outcome; verdicts by the scene's law and by the one that its engine
@@ -75,19 +93,21 @@ std::string csvRow(const RowHead& head, const CollisionTable& points,
           points.at(QuantityId::en, k), points.at(QuantityId::psiF, k),
           reference.at(QuantityId::en, k), reference.at(QuantityId::psiF, k), head.dt, status);
   line.pop_back();
-  return line + furtherCells(points, reference, k) + "," + cell(reason) + "," + head.verdicts +
-         "\n";
+  return line + cellsOf(furtherQuantities(), points, reference, k) + "," + cell(reason) + "," +
+         head.verdicts + cellsOf(head.atEnd, points, reference, k) + "\n";
 }
 
 std::string collisionsCsv(const CollideResults& results) {
+  const auto atEnd = quantitiesAtEnd(results);
   std::string table =
       "engine,case,variant,psi_i,v_n,e_n,psi_f,e_n_reference,psi_f_reference,dt_s,status" +
-      furtherColumns() + ",reason,outcome,verdict_scene,verdict_declared,own_scheme\n";
+      columnsOf(furtherQuantities()) + ",reason,outcome,verdict_scene,verdict_declared,own_scheme" +
+      columnsOf(atEnd) + "\n";
   for (const CollisionVariant& variant : results.variants) {
     const std::string name = caseOf(results, variant);
     for (const CollisionCurve& curve : variant.curves) {
-      const RowHead head{curve.engine, name, variant.variant, finite(curve.dt),
-                         verdictCells(curve)};
+      const RowHead head{curve.engine,        name, variant.variant, finite(curve.dt),
+                         verdictCells(curve), atEnd};
       const CollisionPoints& points = curve.points;
       for (std::size_t k = 0; k < points.size(); ++k)
         table += csvRow(head, points, variant.reference, k, points.status(k),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oracle/cohesion.hpp"
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline studies {
@@ -47,6 +48,7 @@ struct ContactKinematics {
   double worked;  ///< the tangential velocity that f_t does work on
   double slip;    ///< v_t of the law
   bool slides;
+  double torque = 0.0, rollingSpin = 0.0;  ///< M, and ω_r that it does work on
 };
 
 ContactKinematics touchAt(const Contacts& contacts, std::size_t c, const ContactRecording& run,
@@ -70,7 +72,25 @@ ContactKinematics touchAt(const Contacts& contacts, std::size_t c, const Contact
           velocity.dot(normal),
           velocity.dot(perpendicular(normal)) - turning(how.leverArm),
           velocity.dot(perpendicular(normal)) - turning(how.armOfVelocity()),
-          !contacts.sliding.empty() && contacts.sliding[c] != 0};
+          !contacts.sliding.empty() && contacts.sliding[c] != 0,
+          contacts.rollingTorque.empty() ? 0.0 : contacts.rollingTorque[c],
+          motions.spin(i, time) - (wall ? 0.0 : motions.spin(j, time))};
+}
+
+/// The parts of a law's rolling resistance and cohesion that its forces tell: of a rolling spring
+/// with a dashpot they do not say which of both took what, and of a body that yields or lets go not
+/// what its dashpot did where that follows the overlap or tension is cut.
+EnergySplit partsOf(const ContactLaw& law) {
+  EnergySplit split;
+  const bool spring = law.rolling == RollingLaw::spring;
+  if (law.rolling == RollingLaw::constantTorque || (spring && law.gr == 0.0)) split.rolling = 0.0;
+  if (law.rolls() && !spring && !split.rolling) split.rollingDamping = 0.0;
+  const bool known =
+      law.gn == 0.0 || (law.normal == NormalLaw::linear && law.damper == Damper::constant &&
+                        law.conventions.tension == Tension::allow);
+  if (known && law.cohesion == CohesionLaw::elastoPlastic) split.plastic = 0.0;
+  if (known && law.cohesion == CohesionLaw::jkr) split.detachment = 0.0;
+  return split;
 }
 
 /// In the tangential spring, as far as the force tells [J].
@@ -84,12 +104,22 @@ double storedEnergy(const ContactLaw& law, const PairCoefficients& pair,
   return 0.5 * force * force / pair.kt;
 }
 
-void addStep(ContactAccount& account, const ContactKinematics& touch, double stored, double dt) {
-  const double normal = -touch.normalForce * touch.normalVelocity * dt;
+void addStep(ContactAccount& account, const ContactLaw& law, const ContactKinematics& touch,
+             double stored, double dt) {
+  double normal = -touch.normalForce * touch.normalVelocity * dt;
   const double tangential = -touch.tangentialForce * touch.worked * dt;
   account.work.normal += normal;
   account.work.tangential += tangential;
   if (!account.split) return;
+  const double rolling = -touch.torque * touch.rollingSpin * dt;
+  if (account.split->rolling) *account.split->rolling += rolling;
+  if (account.split->rollingDamping) *account.split->rollingDamping += rolling;
+  for (auto* body : {&account.split->plastic, &account.split->detachment})
+    if (*body) {
+      const double damped = law.gn * touch.normalVelocity * touch.normalVelocity * dt;
+      **body += normal - damped;
+      normal = damped;
+    }
   account.split->normalDamping += normal;
   (touch.slides ? account.split->sliding : account.split->tangentialDamping) +=
       tangential - (stored - account.split->stored);
@@ -124,7 +154,7 @@ class ContactWork {
   std::vector<std::size_t> touchingPairs() const {
     std::vector<std::size_t> places;
     for (std::size_t c = 0; c < pending_->size(); ++c)
-      if (pending_->overlap[c] > 0.0 && isOfAPair(c)) places.push_back(c);
+      if (pending_->overlap[c] > -range_ && isOfAPair(c)) places.push_back(c);
     return places;
   }
   bool isOfAPair(std::size_t c) const {
@@ -142,11 +172,12 @@ class ContactWork {
       auto& account = accounts[pairOf(c)];
       if (!account) {
         account.emplace();
-        if (run_.slidingFlags && !run_.law.stiffens()) account->split.emplace();
+        const bool tells = !run_.law.stiffens() || (run_.law.coheres() && !run_.law.springs());
+        if (run_.slidingFlags && tells) account->split = partsOf(run_.law);
       }
       account->maxOverlap = std::max(account->maxOverlap, pending_->overlap[c]);
       const ContactKinematics touch = touchAt(*pending_, c, run_, motions_, pendingTime_);
-      addStep(*account, touch, storedEnergy(run_.law, pair_, touch), run_.effective.dt);
+      addStep(*account, run_.law, touch, storedEnergy(run_.law, pair_, touch), run_.effective.dt);
     }
     pending_.reset();
   }
@@ -156,6 +187,8 @@ class ContactWork {
   Motions motions_;
   std::optional<Contacts> pending_;
   double pendingTime_ = 0.0;
+  /// How far beyond δ = 0 a contact that the engine shows may be a bond [m].
+  double range_ = bondRange(run_.law, run_.pair.reducedRadius());
 
  public:
   std::vector<std::optional<ContactAccount>> accounts;

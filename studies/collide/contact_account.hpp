@@ -13,7 +13,8 @@ struct ContactAccount {
   double maxOverlap = 0.0;  ///< largest at any step: below the true maximum by O(dt²) [m]
   ForceWork work;
   std::optional<EnergySplit> split;  ///< absent where the engine does not distinguish slip from
-                                     ///< stick, or its spring's stiffness follows the overlap
+                                     ///< stick, or its spring's stiffness follows the overlap;
+                                     ///< parts of a law that its forces do not tell are absent
 };
 
 /// How an engine runs a sweep: what is needed to read its contacts.

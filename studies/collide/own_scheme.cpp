@@ -18,7 +18,7 @@ namespace {
 
 /// Why there is no discrete oracle, in a clause; empty where there is.
 std::string whyNone(const Case& setup) {
-  if (setup.law.normal != NormalLaw::linear) return "only the linear law has a discrete oracle";
+  if (!setup.law.soft()) return "a rigid law has no discrete oracle";
   if (setup.bottom) return "the plate under the disks has no discrete oracle";
   return {};
 }
@@ -28,9 +28,14 @@ Case headOn(const Case& setup) {
   Case one = setup;
   Collision& collision = one.collision;
   const CollidingPair pair = collidingPair(setup);
-  const double omega = std::numbers::pi / contactTime(setup.law, pair.reducedMass());
+  const double overlap = 0.01 * (pair.radius[0] + pair.radius[1]);
   collision.psi = {0.0};
-  collision.vn = {0.01 * (pair.radius[0] + pair.radius[1]) * omega};
+  if (setup.law.stiffens()) {
+    const double energy = elasticEnergy(setup.law, pair.reducedRadius(), overlap);
+    collision.vn = {std::sqrt(2.0 * energy / pair.reducedMass())};
+  } else {
+    collision.vn = {overlap * std::numbers::pi / contactTime(setup.law, pair.reducedMass())};
+  }
   collision.counterSpin = {0.0};
   collision.wallVelocity = Vec2::Zero();
   collision.startPhase = 0.25;
@@ -116,8 +121,8 @@ SchemeScore schemeScore(Engine& engine, const EngineEntry& entry, const Case& se
   auto law =
       declaredLaw(can, sceneFor(can, entry, one, scene).scene, effective, pair.reducedMass());
   const auto integrator = integratorNamed(effective.integrator);
-  if (!law || law->normal != NormalLaw::linear)
-    score.reason = "its law is not the linear one";
+  if (!law || law->normal != setup.law.normal)
+    score.reason = "its law is another one";
   else if (!integrator)
     score.reason = fmt::format("there is no discrete oracle of its scheme, {}", score.scheme);
   if (!score.reason.empty()) return score;
@@ -125,10 +130,10 @@ SchemeScore schemeScore(Engine& engine, const EngineEntry& entry, const Case& se
 
   const double speed = starts.front().vn, step = effective.dt;
   const Follower follower(scene, pair, speed, effective.velocityLag);
-  const double end = dt + 2.5 * contactTime(*law, pair.reducedMass());
+  const double end = dt + 2.5 * impactTime(*law, {pair.reducedMass(), pair.reducedRadius(), speed});
   const auto steps = static_cast<std::size_t>(std::ceil(end / step));
   const auto motion =
-      discreteImpact(*law, {follower.gap(), -speed, pair.reducedMass(), step}, steps);
+      discreteImpact(*law, {follower.gap(), -speed, pair.reducedMass(), step, pair}, steps);
   for (std::size_t k = 1; k <= steps; ++k) {
     engine.advance(static_cast<double>(k) * step);
     follower.compare(motion[k], engine.snapshot(ContactReport::none), score);

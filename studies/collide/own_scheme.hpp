@@ -16,9 +16,10 @@ constexpr double ownSchemeLimit = 1e-12;
 /// flight again. Tells a fault from truncation, at any time step.
 ///
 /// The speed is not the case's but such that the overlap is a hundredth of the sum of radii,
-/// where rounded positions give the force to 1e-14; a linear law is the same at all speeds. The
-/// bodies touch a quarter of a step after a step, so that before and after are not alike, and a
-/// wall stands still. Coulomb's law without a spring is frictionless there, as nothing slips.
+/// where rounded positions give the force to 1e-14 (of an undamped law); a linear law is the same
+/// at all speeds. The bodies touch a quarter of a step after a step, so that before and after are
+/// not alike, and a wall stands still. Coulomb's law without a spring is frictionless there, as
+/// nothing slips.
 /// @throws EngineFailure, UnsupportedScene, BadInput
 SchemeScore schemeScore(Engine& engine, const EngineEntry& entry, const Case& setup, double dt);
 

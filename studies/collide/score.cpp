@@ -76,7 +76,12 @@ std::optional<QuantityScore> scoreQuantity(const Case& setup, const CollisionQua
 CurveScore scoreSweep(const Case& setup, const std::vector<CollisionStart>& starts,
                       const Outcomes& found, const Outcomes& oracle, const CurveScore* units) {
   CurveScore score;
-  bool judged = false, held = std::ranges::all_of(found, [](const auto&o) { return bool(o); });
+  bool judged = false, held = true;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const bool sticks = oracle[k] && !oracle[k]->end.parted;
+    held = held && found[k].has_value() != sticks;
+    judged = judged || (sticks && !setup.collision.margins.empty());
+  }
   for (const CollisionQuantity& quantity : scoredQuantities()) {
     auto& one = score.of[quantity.id] =
         scoreQuantity(setup, quantity, starts, found, oracle, units);

@@ -11,6 +11,7 @@
 namespace crossgrain::inline studies {
 
 /// One outcome per collision of a sweep; absent where the pair did not part or there is no oracle.
+/// An oracle's may say that they do not part (CollisionEnd::parted).
 using Outcomes = std::vector<std::optional<CollisionOutcome>>;
 
 /// What a quantity's errors are given in.
@@ -29,8 +30,9 @@ bool mostAreKnown(const Outcomes& outcomes);
 
 /// For each quantity that both the engine and the oracle have, its largest and rms error over the
 /// whole curve; and whether it held, within the case's margins, where there are any. A sweep holds
-/// where every quantity with a margin does and no pair is missing. Where the oracle lacks more than
-/// half of the collisions nothing is judged: the range of what is left is no unit either.
+/// where every quantity with a margin does and all pairs parted but those that stick by the oracle.
+/// Where the oracle lacks more than half of the collisions nothing is judged: the range of what is
+/// left is no unit either.
 /// @param units  a score whose units are taken, where it has them: margins are of the scene's curve
 CurveScore scoreSweep(const Case& setup, const std::vector<CollisionStart>& starts,
                       const Outcomes& found, const Outcomes& oracle,

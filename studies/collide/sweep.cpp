@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "adapters/declared_law.hpp"
@@ -11,6 +12,7 @@
 #include "adapters/registry.hpp"
 #include "cases/time_step.hpp"
 #include "oracle/collision_flight.hpp"
+#include "oracle/impact.hpp"
 #include "studies/collide/contact_account.hpp"
 
 namespace crossgrain::inline studies {
@@ -25,6 +27,10 @@ LawDescription describeLaw(const ContactLaw& law) {
       {"kn", has.kn}, {"gn", has.gn}, {"kt", has.kt}, {"gt", has.gt}, {"mu", has.mu}};
   for (const auto& [name, value] : constants)
     if (value > 0.0) words[name] = value;
+  for (const LawConstant& constant : lawConstants())
+    if (constant.part != LawPart::contact && hasPart(law, constant.part) &&
+        law.*constant.value > 0.0)
+      words[std::string(constant.name)] = law.*constant.value;
   if (!law.soft()) words["e_n"] = law.en;
   if (!law.soft() && has.mu > 0.0) words["e_t0"] = law.et0;
   if (law.normal == NormalLaw::polynomial) words["kn3"] = law.kn3;
@@ -55,7 +61,7 @@ std::optional<double> marginOfPsi(const Case& setup, const OracleCurve& oracle) 
   if (!margin->second.relative) return margin->second.value;
   std::vector<double> psi;
   for (const auto& end : oracle.ends)
-    if (end) psi.push_back(end->psi);
+    if (end && end->parted) psi.push_back(end->psi);
   return margin->second.value * errorUnit(psi).value;
 }
 
@@ -66,14 +72,16 @@ constexpr double steepest = 3.0;
 /// by one at most; the rest is room for what is steep but smooth in between.
 void findJumps(const Case& setup, const std::vector<CollisionStart>& starts, OracleCurve& oracle) {
   const auto margin = marginOfPsi(setup, oracle);
-  if (!margin || !setup.law.springs() || !setup.law.soft()) return;
+  const bool springs = setup.law.springs() || setup.law.rolling == RollingLaw::spring;
+  if (!margin || !springs || !setup.law.soft()) return;
   for (std::size_t k = 0; k < starts.size(); ++k) {
-    if (!oracle.ends[k] || !oracle.unsure[k].empty()) continue;
+    if (!oracle.ends[k] || !oracle.ends[k]->parted || !oracle.unsure[k].empty()) continue;
     for (const double side : {-1.0, 1.0}) {
       CollisionStart beside = starts[k];
       beside.psi += side * *margin;
       try {
-        const double there = oracleOutcome(setup.law, collidingPair(setup), beside).psi;
+        const CollisionEnd end = oracleOutcome(setup.law, collidingPair(setup), beside);
+        const double there = end.parted ? end.psi : std::numeric_limits<double>::infinity();
         if (std::abs(there - oracle.ends[k]->psi) > steepest * *margin)
           oracle.unsure[k] = fmt::format(
               "the law jumps within the margin of psi_f: psi_f is {:.4g} here and {:.4g} at psi_i "
@@ -114,7 +122,7 @@ OracleCurve atStep(OracleCurve oracle, const Case& setup, const std::vector<Coll
   const auto margin = marginOfPsi(setup, oracle);
   if (!margin) return oracle;
   for (std::size_t k = 0; k < starts.size(); ++k) {
-    if (!oracle.ends[k] || !oracle.unsure[k].empty() ||
+    if (!oracle.ends[k] || !oracle.ends[k]->parted || !oracle.unsure[k].empty() ||
         !stepMissesSlip(setup.law, collidingPair(setup), starts[k], dt))
       continue;
     CollisionStart late = starts[k];
@@ -152,7 +160,7 @@ std::optional<std::vector<std::optional<double>>> columnOf(const CollisionQuanti
                                                            const Outcomes& outcomes) {
   std::vector<std::optional<double>> column;
   for (const auto& outcome : outcomes) {
-    auto value = outcome ? quantity.value(*outcome) : std::nullopt;
+    auto value = outcome ? quantity.valueOf(*outcome) : std::nullopt;
     if (value && quantity.inFiles == CollisionQuantity::InFiles::nineDigits)
       value = shortened(*value);
     column.push_back(value);
@@ -181,7 +189,9 @@ CollisionTable tableOf(const std::vector<CollisionStart>& starts, const Outcomes
 
 double sweepEnd(const Case& setup, double dt, double engineStep) {
   const double contact = impactTimes(setup).longest;
-  return dt + 2.5 * contact + 20.0 * engineStep;
+  // One that coheres is over when the oracle says so, too.
+  const double contacts = setup.law.coheres() ? longestContact : 2.5;
+  return dt + contacts * contact + 20.0 * engineStep;
 }
 
 Outcomes outcomesOf(const OracleCurve& oracle) {
@@ -213,9 +223,11 @@ Outcomes runOutcomes(Engine& engine, const Capabilities& can, const Case& setup,
   else
     engine.advance(end);
   const Snapshot after = engine.snapshot(ContactReport::none);
+  Scene under = scene;  // where a bond lets go is a convention
+  under.law = law;
   Outcomes outcomes;
   for (std::size_t k = 0; k < starts.size(); ++k) {
-    const auto parted = collisionEnd(scene, after, k, starts[k]);
+    const auto parted = collisionEnd(under, after, k, starts[k]);
     outcomes.push_back(parted ? std::optional(CollisionOutcome{*parted, {}}) : std::nullopt);
     if (!parted || !accounts[k]) continue;
     outcomes[k]->end.maxOverlap = accounts[k]->maxOverlap;
@@ -318,12 +330,18 @@ CollisionCurve runSweep(Engine& engine, const EngineEntry& entry, const Case& se
   // An engine of impulses does not resolve a contact: its steps excuse nothing.
   const double step = std::min(dt, effective.dt);
   const OracleCurve oracle = atStep(limit, setup, starts, step);
-  const auto missing = std::ranges::count_if(found, [](const auto& outcome) { return !outcome; });
+  int missing = 0;
+  std::vector<bool> sticks;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    sticks.push_back(oracle.ends[k] && !oracle.ends[k]->parted);
+    missing += !found[k] && !sticks[k];
+  }
   if (missing > 0) curve.reason = fmt::format("{} pairs did not part", missing);
   curve.effective = effective;
   curve.stats = engine.stats();
   static_cast<CollisionTable&>(curve.points) = tableOf(starts, found);
   curve.points.reason = oracle.unsure;
+  if (std::ranges::find(sticks, true) != sticks.end()) curve.points.sticks = sticks;
   const Outcomes reference = referenceOf(oracle);
   if (const auto unknown = std::ranges::count_if(reference, [](const auto& one) { return !one; });
       unknown > 0)
