@@ -116,7 +116,9 @@ class LateComparison {
                        referenceResponses(*mirror_, window.mirror, flowDiameter(setup_),
                                           [&](double change) {
                                             Scene changed = mirrored;
-                                            changeConstant(changed.law, constants_[c], change);
+                                            changeLaws(changed, [&](ContactLaw& law) {
+                                              changeConstant(law, constants_[c], change);
+                                            });
                                             return begin(changed);
                                           }),
                        mirrored.disks.size());

@@ -144,7 +144,7 @@ class Comparison {
     for (const std::size_t frame : reported()) unchanged.push_back(window.mirror[frame]);
     return referenceResponses(*mirror_, unchanged, flowDiameter(setup_), [&](double change) {
       Scene changed = mirrored;
-      changeReference(changed.law, change);
+      changeLaws(changed, [&](ContactLaw& law) { changeReference(law, change); });
       mirror_->load(changed, {});
       return step_;
     });
@@ -171,7 +171,8 @@ Scene sceneOfMirror(const Capabilities& can, const EngineEntry& entry, const Cas
   Scene theirs = sceneFor(can, entry, setup, scene).scene;
   theirs.precision = Precision::float64;
   theirs.dt = effective.dt;
-  theirs.law.conventions.integrator = schemeOf(can, theirs.law, effective).integrator;
+  const Integrator integrator = schemeOf(can, theirs.law, effective).integrator;
+  changeLaws(theirs, [&](ContactLaw& law) { law.conventions.integrator = integrator; });
   return theirs;
 }
 

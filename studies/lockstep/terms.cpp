@@ -9,6 +9,7 @@
 
 #include "adapters/law_options.hpp"
 #include "adapters/suitability.hpp"
+#include "cases/materials.hpp"
 #include "studies/lockstep/rules.hpp"
 
 namespace crossgrain::inline studies {
@@ -20,8 +21,9 @@ void addConstants(std::vector<MirrorChange>& changes, const Scene& scene) {
   };
   for (const LawConstant& constant : lawConstants())
     if (scene.law.*constant.value != 0.0)
-      add(std::string(constant.name),
-          [value = constant.value](Scene& changed, double by) { changed.law.*value *= 1.0 + by; });
+      add(std::string(constant.name), [value = constant.value](Scene& changed, double by) {
+        changeLaws(changed, [&](ContactLaw& law) { law.*value *= 1.0 + by; });
+      });
   const std::pair<const char*, double BottomPlate::*> plate[] = {
       {"plate mu", &BottomPlate::mu},
       {"plate kb", &BottomPlate::kb},
@@ -61,8 +63,9 @@ void addConventions(std::vector<MirrorChange>& changes, const Scene& scene,
     for (const std::string& value : values->second)
       if (value != lawOptionValue(scene.law, name))
         changes.push_back(
-            {fmt::format("{} = {}", name, value), false,
-             [name, value](Scene& changed, double) { setLawOption(changed.law, name, value); }});
+            {fmt::format("{} = {}", name, value), false, [name, value](Scene& changed, double) {
+               changeLaws(changed, [&](ContactLaw& law) { setLawOption(law, name, value); });
+             }});
   }
 }
 
@@ -185,7 +188,8 @@ std::vector<ChangedCase> changedCases(const Case& setup) {
   std::vector<ChangedCase> cases;
   for (const std::string& constant : constants) {
     cases.push_back({constant, fmt::format("{}+{:g}%", constant, 100.0 * responseChange), setup});
-    changeConstant(cases.back().setup.law, constant, responseChange);
+    changeLaws(cases.back().setup,
+               [&](ContactLaw& law) { changeConstant(law, constant, responseChange); });
   }
   return cases;
 }

@@ -100,7 +100,7 @@ std::vector<FlowState> startsOf(const Case& setup, double dt, std::size_t count,
 
 EffectiveParameters loadStart(const Observed& of, const FlowState& state, double change) {
   Scene scene = couetteScene(of.setup, state.packing, of.dt);
-  if (change != 0.0) changeReference(scene.law, change);
+  if (change != 0.0) changeLaws(scene, [&](ContactLaw& law) { changeReference(law, change); });
   return loadScene(of.engine, of.entry, of.setup, scene);
 }
 
