@@ -28,10 +28,6 @@ namespace {
 constexpr double stepsPerContact = 50.0;
 constexpr double softOverlap = 0.01;  // of the smaller radius
 
-std::string constant(const char* key, double value, const char* unit) {
-  return fmt::format("{:<46} # {}\n", fmt::format("{} = {}", key, value), unit);
-}
-
 std::string note(const std::string& label, const std::string& value) {
   return fmt::format("#   {:<50} {}\n", label, value);
 }
@@ -260,11 +256,6 @@ const Number* firstGiven(const Request& request, Part part) {
   for (const Number& number : numbers())
     if (number.part == part && request.*number.member) return &number;
   return nullptr;
-}
-
-double need(std::optional<double> value, const char* option, const char* why) {
-  if (!value) throw BadInput(fmt::format("{} is missing: {}", option, why));
-  return *value;
 }
 
 CollidingPair askedPair(const Request& request) {

@@ -16,9 +16,6 @@
 #include "support/bad_input.hpp"
 
 namespace crossgrain::inline cli {
-namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 double need(std::optional<double> value, const char* option, const char* why) {
   if (!value) throw BadInput(fmt::format("{} is missing: {}", option, why));
@@ -28,6 +25,10 @@ double need(std::optional<double> value, const char* option, const char* why) {
 std::string constant(const char* key, double value, const char* unit) {
   return fmt::format("{:<46} # {}\n", fmt::format("{} = {}", key, value), unit);
 }
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
 
 std::string option(const ContactLaw& law, const char* name) {
   return fmt::format("{} = \"{}\"\n", name, lawOptionValue(law, name));

@@ -7,6 +7,12 @@
 
 namespace crossgrain::inline cli {
 
+/// An option's value. @throws BadInput naming it and why it is needed
+double need(std::optional<double> value, const char* option, const char* why);
+
+/// A line of a [law] table.
+std::string constant(const char* key, double value, const char* unit);
+
 /// What calibrate is asked of rolling resistance and cohesion: wanted values or constants, of a
 /// disk on a plane, or of a pair. SI units.
 class ContactRequest {

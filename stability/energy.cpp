@@ -29,10 +29,17 @@ double tangentialEnergy(const Recording& run, const Snapshot& snapshot) {
   const ContactLaw& law = run.scene.law;
   const bool constant = law.springs() && law.normal == NormalLaw::linear;
   if (!constant || !snapshot.contacts || run.effective.pairs.empty()) return 0.0;
-  const double kt = run.effective.pairs.front().kt;
-  if (!(kt > 0.0)) return 0.0;
+  const Contacts& contacts = *snapshot.contacts;
   double energy = 0.0;
-  for (const double force : snapshot.contacts->tangentialForce) energy += 0.5 * force * force / kt;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const double force = contacts.tangentialForce[k];
+    const double kt = run.scene.materials ? run.scene
+                                                .lawOf(static_cast<std::size_t>(contacts.i[k]),
+                                                       static_cast<std::size_t>(contacts.j[k]))
+                                                .kt
+                                          : run.effective.pairs.front().kt;
+    if (kt > 0.0) energy += 0.5 * force * force / kt;
+  }
   return energy;
 }
 
@@ -149,7 +156,8 @@ EnergyState energyOf(const Recording& run, const Snapshot& snapshot) {
   if (law.normal == NormalLaw::linear && !run.effective.pairs.empty())
     law.kn = run.effective.pairs.front().kn;
   for (const Overlap& overlap : overlapsOf(scene, position, t))
-    energy.elastic += bodyEnergy(law, overlap);
+    energy.elastic +=
+        bodyEnergy(scene.materials ? scene.lawOf(overlap.i, overlap.j) : law, overlap);
   energy.elastic += plasticEnergy(law, snapshot) + stretchedBonds(law, run, snapshot);
   energy.elastic += tangentialEnergy(run, snapshot) + rollingEnergy(run, snapshot);
   return energy;

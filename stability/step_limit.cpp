@@ -15,7 +15,8 @@ std::vector<Vec2> accelerations(const Scene& scene, const std::vector<Overlap>& 
   for (const Overlap& contact : contacts) {
     const bool pair = contact.j < disks.size();
     const Vec2 apart = pair ? displaced[contact.i] - displaced[contact.j] : displaced[contact.i];
-    const Vec2 force = scene.law.kn * apart.dot(contact.normal) * contact.normal;
+    const double kn = scene.lawOf(contact.i, contact.j).kn;
+    const Vec2 force = kn * apart.dot(contact.normal) * contact.normal;
     result[contact.i] += force / disks.mass[contact.i];
     if (pair) result[contact.j] -= force / disks.mass[contact.j];
   }
@@ -54,6 +55,8 @@ double theoreticalStepLimit(const Scene& scene) {
 }
 
 double coordinationStepLimit(const Scene& scene) {
+  double kn = scene.law.kn;
+  if (scene.materials) kn = std::ranges::max(scene.materials->laws, {}, &ContactLaw::kn).kn;
   std::vector<int> count(scene.disks.size(), 0);
   for (const Overlap& contact : startContacts(scene)) {
     ++count[contact.i];
@@ -62,8 +65,7 @@ double coordinationStepLimit(const Scene& scene) {
   double limit = INFINITY;
   for (std::size_t i = 0; i < count.size(); ++i)
     if (count[i] > 0)
-      limit =
-          std::min(limit, 2.0 * std::sqrt(scene.disks.mass[i] / (2.0 * scene.law.kn * count[i])));
+      limit = std::min(limit, 2.0 * std::sqrt(scene.disks.mass[i] / (2.0 * kn * count[i])));
   return limit;
 }
 

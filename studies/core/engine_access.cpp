@@ -270,15 +270,16 @@ auto namingRefusals(const EngineEntry& entry, const Case& setup, Work&& work) {
   }
 }
 
-/// An engine's own time step, if it runs soft laws with it. @param law  as it runs it
+/// An engine's own time step, if it runs soft laws with it. @param scene  as it runs it
 void checkOwnStep(const Capabilities& can, const EngineEntry& entry, const Case& setup,
-                  const ContactLaw& law, const Settings& settings) {
+                  const Scene& scene, const Settings& settings) {
   const auto step = settings.find("dt");
   if (step == settings.end() || !std::holds_alternative<double>(step->second)) return;
   const auto normal = can.lawOptions.find("normal");
   if (normal != can.lawOptions.end() && normal->second == std::vector<std::string>{"rigid"}) return;
   Case own = setup;
-  own.law = law;
+  own.law = scene.law;
+  own.materials = scene.materials;
   const std::string why = unstableStepFault(own, std::get<double>(step->second),
                                             fmt::format("[engines.{}] dt", entry.name));
   if (!why.empty())
@@ -292,7 +293,7 @@ void checkSuitable(const Capabilities& can, const EngineEntry& entry, const Case
                    const Scene& scene) {
   const Adapted adapted =
       namingRefusals(entry, setup, [&] { return sceneFor(can, entry, setup, scene); });
-  checkOwnStep(can, entry, setup, adapted.scene.law, settingsFor(setup, entry.name, can));
+  checkOwnStep(can, entry, setup, adapted.scene, settingsFor(setup, entry.name, can));
 }
 
 Adapted sceneFor(const Capabilities& can, const EngineEntry& entry, const Case& setup,

@@ -60,7 +60,8 @@ Adapted sceneOfPeer(const EngineEntry& mirror, const Case& setup, const Scene& s
     throw UnsupportedScene(fmt::format("its peer {} {}", peer->name, refusal.what()));
   }
   adapted.scene.precision = scene.precision;
-  if (!sameLaw) adapted.scene.law.conventions = scene.law.conventions;
+  if (!sameLaw)
+    changeLaws(adapted.scene, [&](ContactLaw& law) { law.conventions = scene.law.conventions; });
   std::erase_if(adapted.deviations, [&](const Deviation& deviation) {
     return deviation.name == "precision" || (!sameLaw && deviation.name == "normal");
   });

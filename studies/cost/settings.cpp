@@ -8,6 +8,7 @@
 #include "adapters/law_options.hpp"
 #include "cases/effect_switch.hpp"
 #include "cases/loader.hpp"
+#include "cases/materials.hpp"
 #include "cases/time_step.hpp"
 #include "oracle/impact.hpp"
 #include "studies/core/engine_access.hpp"
@@ -22,8 +23,12 @@ double costContactTime(const Case& setup) {
         fmt::format("{}: cost counts steps in the contact time of a soft law: rigid disks "
                     "have none",
                     setup.file.string()));
-  return impactTime(
-      setup.law, {lightestReducedMass(setup), setup.particles.smallRadius / 2.0, setup.cost.speed});
+  double shortest = INFINITY;
+  for (const ContactLaw& law : lawsOf(setup))
+    shortest =
+        std::min(shortest, impactTime(law, {lightestReducedMass(setup),
+                                            setup.particles.smallRadius / 2.0, setup.cost.speed}));
+  return shortest;
 }
 
 double engineStep(const Case& setup, const std::string& engine, const Capabilities& can) {

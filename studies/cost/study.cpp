@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "cases/couette.hpp"
+#include "cases/materials.hpp"
 #include "cases/time_step.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/cost/trajectory.hpp"
@@ -26,11 +27,12 @@ double secondsSince(Clock::time_point start) {
 }  // namespace
 
 double pairLimit(const Case& setup) {
-  return 2.0 * std::sqrt(lightestReducedMass(setup) / setup.law.kn);
+  const double kn = std::ranges::max(lawsOf(setup), {}, &ContactLaw::kn).kn;
+  return 2.0 * std::sqrt(lightestReducedMass(setup) / kn);
 }
 
 double packingLimit(const Case& setup) {
-  return 2.0 * std::sqrt(lightestReducedMass(setup) / (6.0 * setup.law.kn));
+  return pairLimit(setup) / std::sqrt(6.0);
 }
 
 void requireSound(const Case& setup, const Snapshot& snapshot) {

@@ -9,6 +9,7 @@
 
 #include "adapters/audit.hpp"
 #include "cases/couette.hpp"
+#include "cases/materials.hpp"
 #include "studies/flow/snapshot_file.hpp"
 #include "support/bad_input.hpp"
 #include "support/hdf5_file.hpp"
@@ -93,6 +94,7 @@ void SnapshotReader::readScene(const Case& setup) {
       scene_.disks.inertia.push_back(setup.particles.inertiaFactor * scene_.disks.mass[p] *
                                      scene_.disks.radius[p] * scene_.disks.radius[p]);
   for (const char* name : {wheelName, ringName}) scene_.bodies.emplace_back().name = name;
+  addMaterials(scene_, setup);
   const auto walls = file_.read("/walls/radius");
   if (!walls || walls->empty()) return;
   const std::vector<double> wallRadius = numbers("/walls/radius", walls->size());

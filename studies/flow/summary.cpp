@@ -11,7 +11,6 @@
 #include "averaging/statistics.hpp"
 #include "averaging/trend.hpp"
 #include "cases/time_step.hpp"
-#include "oracle/impact.hpp"
 #include "results/run.hpp"
 #include "studies/flow/run.hpp"
 
@@ -156,7 +155,7 @@ std::vector<HeadNumber> headNumbers(const Case& setup, const std::vector<Profile
   const auto rp = ringMean(profiles, "stress_rp", 0);
   if (rr && rp && *rr > 0.0) stressRatio = *rp / *rr;
   if (effective.dt > 0.0 && setup.law.normal == NormalLaw::linear && !setup.particles.file)
-    stepFraction = effective.dt / contactTime(setup.law, lightestReducedMass(setup));
+    stepFraction = effective.dt / shortestContact(setup);
   const auto number = [](const char* name, const std::optional<double>& value) {
     return HeadNumber{name, "-", value, {}, {}};
   };

@@ -171,7 +171,8 @@ Scene sceneOfMirror(const Capabilities& can, const EngineEntry& entry, const Cas
   Scene theirs = sceneFor(can, entry, setup, scene).scene;
   theirs.precision = Precision::float64;
   theirs.dt = effective.dt;
-  theirs.law.conventions.integrator = schemeOf(can, theirs.law, effective).integrator;
+  const Integrator integrator = schemeOf(can, theirs.law, effective).integrator;
+  changeLaws(theirs, [&](ContactLaw& law) { law.conventions.integrator = integrator; });
   return theirs;
 }
 

@@ -9,6 +9,7 @@
 
 #include "adapters/law_options.hpp"
 #include "adapters/suitability.hpp"
+#include "cases/materials.hpp"
 #include "studies/lockstep/rules.hpp"
 
 namespace crossgrain::inline studies {
@@ -202,7 +203,8 @@ std::vector<ChangedCase> changedCases(const Case& setup) {
   std::vector<ChangedCase> cases;
   for (const std::string& constant : constants) {
     cases.push_back({constant, fmt::format("{}+{:g}%", constant, 100.0 * responseChange), setup});
-    changeConstant(cases.back().setup.law, constant, responseChange);
+    changeLaws(cases.back().setup,
+               [&](ContactLaw& law) { changeConstant(law, constant, responseChange); });
   }
   return cases;
 }
