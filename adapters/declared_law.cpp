@@ -37,6 +37,15 @@ ContactLaw stiffened(ContactLaw law, double factor) {
                                                              : 1.0;
   law.gn *= slower;
   law.gt *= slower;
+  // The torque against rolling acts for 1/√factor as long, and a load's impulse is what it was.
+  if (law.conventions.rollingDamper == RollingDamper::constant || law.rolling != RollingLaw::spring)
+    law.gr *= std::sqrt(factor);
+  // Overlaps and forces of an impact change by 1/√factor and √factor, of Hertz' law by their 4/5.
+  const double force = law.normal == NormalLaw::hertz ? std::pow(factor, 0.4) : std::sqrt(factor);
+  law.kc *= factor;
+  law.kUnload *= factor;
+  law.plasticDepth /= force;
+  law.w *= force;
   return law;
 }
 

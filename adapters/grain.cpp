@@ -140,6 +140,9 @@ class GrainEngine : public Engine {
     // A mirror of soft contacts has nothing to say of rigid ones, and the other way round.
     if (!conventions_.empty() || stiffness_ != 1.0) std::erase(can.lawOptions["normal"], "rigid");
     for (const auto& [name, values] : conventions_) can.lawOptions[name] = values;
+    if (can.lawOptions["normal"] == std::vector<std::string>{"rigid"})
+      for (const Effect effect : {Effect::rollingResistance, Effect::cohesion})
+        can.effects[effect] = Support::never;
     can.precisions = {Precision::float64, Precision::float32};
     can.slidingFlags = true;
     can.checkpoints = true;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include "adapters/declared_law.hpp"
 #include "adapters/law_options.hpp"
 #include "oracle/impact.hpp"
 #include "studies/conformance/check_context.hpp"
@@ -25,6 +26,12 @@ ContactLaw withoutDashpots(const Capabilities& can, const std::string& normal) {
   ContactLaw law = lawOf(can, normal);
   law.gn = 0.0;
   return law;
+}
+
+/// The law that the engine declares it has, of what is loaded.
+ContactLaw declared(CheckContext& context) {
+  return declaredLaw(context.can, context.scene, context.effective, pairMass)
+      .value_or(context.scene.law);
 }
 
 std::string firstNormal(CheckContext& context) {
@@ -118,8 +125,9 @@ void rollingFollowsItsClosedForms(CheckContext& context) {
       }
     any = true;
     context.examine(toString(Effect::rollingResistance));
+    const ContactLaw own = declared(context);
     const std::vector<double> spins = spinsOf(context.scene, context.at(Encounter::end));
-    const double lost = pairSpin - 0.5 * rollsOn(law, false, 2.0 * pairSpin);
+    const double lost = pairSpin - 0.5 * rollsOn(own, false, 2.0 * pairSpin);
     const double first = pairSpin - spins[0], second = pairSpin + spins[1];
     if (std::abs(first) > 0.1 * lost && std::abs(second) < 1e-3 * lost)
       context.suspect("the torque against rolling acts on the first of two disks alone");
@@ -130,7 +138,7 @@ void rollingFollowsItsClosedForms(CheckContext& context) {
 
     if (context.refusal(turningOnPlane(frictionless(law)))) continue;
     const double left = spinsOf(context.scene, context.at(Encounter::end))[0];
-    const double lostOnPlane = pairSpin - rollsOn(law, true, pairSpin);
+    const double lostOnPlane = pairSpin - rollsOn(own, true, pairSpin);
     if (std::abs(pairSpin - left) < 1e-3 * lostOnPlane)
       context.suspect("nothing resists rolling at planes");
     context.near(pairSpin - left, lostOnPlane, firstOrderScheme,
@@ -160,6 +168,7 @@ void rollingHoldsASlope(CheckContext& context) {
     const double depth = smallMass * gravity * std::cos(slope) / law.kn;
     addDisk(scene, smallRadius, smallMass, {0.0, smallRadius - depth}, Vec2::Zero());
     context.load(scene);
+    if (declared(context).kn != law.kn) context.skip("its contacts are stiffer than the scene's");
     const double speed = context.at(end).velocity[0].x();
     const double free = gravity * std::sin(slope) / 1.5 * end;
     if (part == holding)
@@ -377,24 +386,25 @@ void cohesionFollowsItsClosedForms(CheckContext& context) {
       }
       any = true;
       context.examine(toString(Effect::cohesion));
+      const ContactLaw own = declared(context);
       const Snapshot after = context.at(end);
       const Parting parted = partingOf(after);
       double restitution = 1.0;
       if (bonds) restitution = std::sqrt(1.0 - 1.0 / (1.5 * 1.5));
-      if (kind == CohesionLaw::elastoPlastic) restitution = plasticRestitution(law, speed);
+      if (kind == CohesionLaw::elastoPlastic) restitution = plasticRestitution(own, speed);
       context.near(parted.speed / speed, restitution, firstOrderScheme, name + "e_n");
       if (kind == CohesionLaw::area || kind == CohesionLaw::dmt)
         context.near(after.positionTime - Encounter::gap / speed - parted.gap / parted.speed,
-                     durationOf(law, speed), firstOrderScheme, name + "how long they touch [s]");
+                     durationOf(own, speed), firstOrderScheme, name + "how long they touch [s]");
       if (!bonds) continue;
       if (context.contactReport() == ContactReport::instant) {
         context.load(headOn(law, speed));
-        expectBond(context, law, end);
+        expectBond(context, own, end);
       }
       context.load(headOn(law, 0.5 * sticking));
       const double stuck = Encounter::gap / (0.5 * sticking);
       for (const double times : {2.0, 3.0, 4.0})
-        context.atMost(partingOf(context.at(times * stuck)).gap, bondEnd(law) * bondDepth(law),
+        context.atMost(partingOf(context.at(times * stuck)).gap, bondEnd(own) * bondDepth(own),
                        name + "the gap of disks that met at half the speed that sticks [m]");
     }
   if (!any) context.skip("it refuses every law with cohesion here");
