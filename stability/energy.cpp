@@ -2,6 +2,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "oracle/calibration.hpp"
+#include "oracle/cohesion.hpp"
 #include "oracle/impact.hpp"
 #include "stability/recording.hpp"
 
@@ -45,8 +47,7 @@ double tangentialEnergy(const Recording& run, const Snapshot& snapshot) {
 
 /// ½ M²/k_r(…) of a rolling spring's torques, which a dashpot may be part of.
 double rollingEnergy(const Recording& run, const Snapshot& snapshot) {
-  const ContactLaw& law = run.law;
-  if (law.rolling != RollingLaw::spring || !snapshot.contacts) return 0.0;
+  if (run.law.rolling != RollingLaw::spring || !snapshot.contacts) return 0.0;
   const Contacts& contacts = *snapshot.contacts;
   const std::vector<double> radius = run.scene.radii();
   double energy = 0.0;
@@ -54,37 +55,29 @@ double rollingEnergy(const Recording& run, const Snapshot& snapshot) {
     const double a = radius[static_cast<std::size_t>(contacts.i[k])];
     const auto j = static_cast<std::size_t>(contacts.j[k]);
     const bool plane = j >= radius.size();
-    const double b = plane ? a : radius[j], reduced = plane ? a : a * b / (a + b);
-    const LawConventions& how = law.conventions;
-    const double length = how.rollingLength == RollingLength::effective        ? reduced
-                          : how.rollingLength == RollingLength::twiceEffective ? 2.0 * reduced
-                                                                               : std::min(a, b);
-    const double times = how.rollingStiffness == RollingStiffness::constant ? 1.0
-                         : how.rollingStiffness == RollingStiffness::radii  ? a * b
-                                                                            : length * length;
-    energy += 0.5 * contacts.rollingTorque[k] * contacts.rollingTorque[k] / (law.kr * times);
+    const ContactLaw& law =
+        run.scene.materials ? run.scene.lawOf(static_cast<std::size_t>(contacts.i[k]), j) : run.law;
+    CollidingPair pair{};
+    pair.radius[0] = a;
+    pair.radius[1] = plane ? 0.0 : radius[j];
+    pair.plane = plane;
+    const double stiffness = law.kr * rollingSquare(law, pair);
+    energy += 0.5 * contacts.rollingTorque[k] * contacts.rollingTorque[k] / stiffness;
   }
   return energy;
 }
 
 /// JKR's energy at an overlap, 0 at the first touch, negative where the bond holds: with the radius
 /// of contact a = a_p y² the integral of F_po (y⁶ − 2 y³) over δ = (a_p²/R)(y⁴ − 4/3 y) is
-/// F_po (a_p²/R)(2/5 y¹⁰ − 4/3 y⁷ + 2/3 y⁴); a_p³ = 9π w R²/(8 E*), F_po = 3/2 π w R (Johnson,
-/// Kendall and Roberts 1971). y by halving, from the end of the branch, y³ = 1/3, on.
+/// F_po (a_p²/R)(2/5 y¹⁰ − 4/3 y⁷ + 2/3 y⁴) (Johnson, Kendall and Roberts 1971).
 double jkrEnergy(const ContactLaw& law, double radius, double overlap) {
-  const double cube = 1.5 * std::numbers::pi * law.w * radius * radius / law.kn;
-  const double unit = std::pow(cube, 2.0 / 3.0) / radius;
-  double low = std::cbrt(1.0 / 3.0), high = 2.0 + overlap / unit;
-  for (int halvings = 0; halvings < 60; ++halvings) {
-    const double y = 0.5 * (low + high);
-    (y * (y * y * y - 4.0 / 3.0) < overlap / unit ? low : high) = y;
-  }
+  const double unit = jkrUnit(law, radius);
   const auto integral = [](double y) {
     const double power = y * y * y * y;
     return power * (0.4 * power * y * y - 4.0 / 3.0 * y * y * y + 2.0 / 3.0);
   };
-  return 1.5 * std::numbers::pi * law.w * radius * unit *
-         (integral(low) - integral(std::cbrt(4.0 / 3.0)));
+  return pullOff(law, radius) * unit *
+         (integral(jkrRoot(overlap / unit)) - integral(std::cbrt(4.0 / 3.0)));
 }
 
 /// Of the normal force without its dashpot [J]. Areas are those to first order. An elasto-plastic
@@ -92,7 +85,7 @@ double jkrEnergy(const ContactLaw& law, double radius, double overlap) {
 double bodyEnergy(const ContactLaw& law, const Overlap& at) {
   const double elastic = elasticEnergy(law, at.reducedRadius, at.depth);
   const double round = std::numbers::pi * at.reducedRadius;
-  if (law.cohesion == CohesionLaw::dmt) return elastic - 2.0 * round * law.w * at.depth;
+  if (law.cohesion == CohesionLaw::dmt) return elastic - pullOff(law, at.reducedRadius) * at.depth;
   if (law.cohesion == CohesionLaw::jkr) return jkrEnergy(law, at.reducedRadius, at.depth);
   if (law.cohesion == CohesionLaw::area) {
     const bool twice = law.conventions.cohesionArea == CohesionArea::twiceBetweenDisks &&
