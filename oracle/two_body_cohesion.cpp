@@ -102,14 +102,21 @@ bool TwoBodyProblem::neverLoaded() const {
          (of == CohesionLoad::net || pullOff(law_, reducedRadius_) == 0.0);
 }
 
+/// What an error of the overlap changes the load by at most [N/m].
+double TwoBodyProblem::stiffest(const Kinematics& k) const {
+  return std::max(stiffness(k.overlap).value, std::abs(cohesiveForce(k).rate));
+}
+
 /// > 0 as long as the force is the same smooth function of the motion.
 double TwoBodyProblem::cohesionGuard(const Kinematics& k) const {
   double guard = std::numeric_limits<double>::infinity();
-  const auto keeps = [&](bool positive, double value) {
-    guard = std::min(guard, positive ? value : -value);
+  // A sign that was chosen by its rate, within four roundings of 0, lasts until eight beyond.
+  const double rounding = std::numeric_limits<double>::epsilon() * reach_;
+  const auto keeps = [&](bool positive, double value, double unit = 0.0) {
+    guard = std::min(guard, (positive ? value : -value) + 8.0 * unit);
   };
   bool changesSign = true;
-  if (law_.cohesion == CohesionLaw::jkr) keeps(!phase_.beyond, k.overlap);
+  if (law_.cohesion == CohesionLaw::jkr) keeps(!phase_.beyond, k.overlap, rounding);
   if (law_.cohesion == CohesionLaw::elastoPlastic) {
     changesSign = phase_.line == Phase::Line::unloading;
     if (changesSign)
@@ -117,11 +124,11 @@ double TwoBodyProblem::cohesionGuard(const Kinematics& k) const {
     else
       keeps(phase_.line == Phase::Line::pull, k.normalVelocity);
   }
-  if (changesSign) keeps(!phase_.pulls, bodyForce(k));
+  if (changesSign) keeps(!phase_.pulls, bodyForce(k), std::abs(cohesiveForce(k).rate) * rounding);
   if (law_.conventions.tension == Tension::cut && law_.gn > 0.0)
     keeps(phase_.compressive, beyondPull(k));
   const bool bounded = law_.rolls() || law_.tangential != TangentialLaw::none;
-  if (bounded && !neverLoaded()) keeps(phase_.loaded, load(k));
+  if (bounded && !neverLoaded()) keeps(phase_.loaded, load(k), stiffest(k) * rounding);
   return guard;
 }
 
@@ -169,8 +176,8 @@ void TwoBodyProblem::chooseNormal(State& s, bool anew) {
   const bool cut = law_.conventions.tension == Tension::cut && law_.gn > 0.0;
   phase_.compressive = !cut || beyondPull(k) > 0.0;
   phase_.loaded =
-      !neverLoaded() &&
-      isPositive(load(k), anew ? 1.0 : loadRate(k, normalAcceleration(s, k)), roundingOfForce(s));
+      !neverLoaded() && isPositive(load(k), anew ? 1.0 : loadRate(k, normalAcceleration(s, k)),
+                                   stiffest(k) * rounding);
 }
 
 /// Whether there is no friction for want of a load.

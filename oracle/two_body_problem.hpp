@@ -144,6 +144,7 @@ class TwoBodyProblem {
   }
   double beyondPull(const Kinematics& k) const;
   bool neverLoaded() const;
+  double stiffest(const Kinematics& k) const;
   double cohesionGuard(const Kinematics& k) const;
   void chooseLine(State& s);
   void chooseNormal(State& s, bool anew);
