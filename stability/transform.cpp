@@ -48,6 +48,16 @@ ContactLaw inUnits(ContactLaw law, const Units& units) {
   law.kt *= law.normal == NormalLaw::hertz ? modulus : stiffness;
   law.gn *= damperUnit(law.damper, units);
   law.gt *= damperUnit(law.damper, units);
+  const LawConventions& how = law.conventions;
+  const bool perAngle = how.rollingStiffness == RollingStiffness::constant;  // [N m]
+  law.kr *= perAngle ? units.of(2, 1, -2) : stiffness;
+  const bool ratio =
+      law.rolling == RollingLaw::spring && how.rollingDamper == RollingDamper::critical;
+  law.gr *= ratio ? 1.0 : units.of(0, 1, -1);
+  if (law.rolling == RollingLaw::viscousByLoad) law.muR *= units.of(-1, 0, 1);
+  law.kc *= law.cohesion == CohesionLaw::area ? modulus : stiffness;
+  law.w *= stiffness;  // J/m² is N/m
+  law.kUnload *= stiffness;
   return law;
 }
 
@@ -67,7 +77,7 @@ Scene inUnits(Scene scene, const Units& units) {
     for (Plane& plane : body.planes) plane.point *= units.length;
     body.motion = inUnits(body.motion, units);
   }
-  scene.law = inUnits(scene.law, units);
+  changeLaws(scene, [&](ContactLaw& law) { law = inUnits(law, units); });
   if (scene.bottom) {
     scene.bottom->kb *= units.of(0, 1, -2);
     scene.bottom->gb *= units.of(0, 1, -1);
@@ -111,6 +121,10 @@ Scene renumbered(Scene scene, const std::vector<std::size_t>& order) {
     disks.spin[k] = from.spin[order[k]];
   }
   scene.disks = std::move(disks);
+  if (scene.materials) {
+    const std::vector<std::int32_t> ofDisk = scene.materials->ofDisk;
+    for (std::size_t k = 0; k < order.size(); ++k) scene.materials->ofDisk[k] = ofDisk[order[k]];
+  }
   return scene;
 }
 

@@ -41,7 +41,7 @@ GRAIN_INLINE const L& lawOfPair(const L& law, const ContactBlock<Real>&, std::si
 }
 template <HasMaterials L, class Real>
 GRAIN_INLINE L lawOfPair(const L& law, const MaterialBlock<Real>& b, std::size_t p) {
-  L own = law;
+  L own = onlySteps(law);
   forPairConstants(law, [&](std::size_t which, auto member)
                             GRAIN_INLINE_LAMBDA { own.*member = b.constants[which][p]; });
   return own;

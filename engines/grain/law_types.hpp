@@ -85,6 +85,7 @@ struct EffectsLaw : LawConstants<Real> {
   static constexpr Cohesion cohesion = E.cohesion ? Cohesion::area : Cohesion::none;
   static constexpr CohesionConventions cohesionConventions = C.cohesionConventions;
 
+  EffectsLaw() = default;
   explicit EffectsLaw(const GeneralLaw<Real>& general) : LawConstants<Real>(general) {}
 };
 
@@ -93,6 +94,7 @@ template <class L>
 struct OfMaterials : L {
   static constexpr bool ofMaterials = true;
 
+  OfMaterials() = default;
   template <class Real>
   explicit OfMaterials(const GeneralLaw<Real>& general) : L(general) {}
 };
@@ -101,6 +103,21 @@ template <class L>
 concept HasMaterials = requires {
   L::ofMaterials;
 };
+
+/// The law without its constants. A law copied as a whole would stand in memory, where the compiler
+/// leaves it: its constants are each to be a vector.
+template <class L>
+GRAIN_INLINE L onlySteps(const L& law) {
+  if constexpr (std::is_member_object_pointer_v<decltype(&L::planeLever)>) {  // the general one:
+                                                                              // its options too
+    return law;
+  } else {
+    L own;
+    own.dt = law.dt;
+    own.halfStep = law.halfStep;
+    return own;
+  }
+}
 
 /// How many constants pairs can differ in.
 inline constexpr std::size_t pairConstants = 14;

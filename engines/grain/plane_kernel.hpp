@@ -29,7 +29,6 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
   const L common(general);
   std::size_t touching = 0;
   for (std::size_t i = begin; i < end; ++i) {
-    const L& law = lawAtPlane(common, disks, plane, i);
     // Origin and plane first: where the disk touches their difference is small.
     Vec<double> origin{0.0, 0.0};
     if constexpr (hasLocalCoordinates<Real>)
@@ -40,16 +39,17 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
     const Real overlap = disks.radius[i] - height;
     // What the law does not have is not compiled.
     Real spring = plane.kept.spring == nullptr ? Real(0) : plane.kept.spring[i];
-    Real angle = law.rolling == Rolling::spring ? plane.kept.angle[i] : Real(0);
-    Real memory = remembers(law) ? plane.kept.memory[i] : Real(0);
+    Real angle = common.rolling == Rolling::spring ? plane.kept.angle[i] : Real(0);
+    Real memory = remembers(common) ? plane.kept.memory[i] : Real(0);
     bool touches = overlap > Real(0);
-    if (law.cohesion == Cohesion::jkr) {
-      memory = isBonded(law, overlap, disks.radius[i], memory);
+    if (common.cohesion == Cohesion::jkr) {
+      memory = isBonded(lawAtPlane(common, disks, plane, i), overlap, disks.radius[i], memory);
       touches = memory > Real(0);
     }
     ContactForce<Real> force{Real(0), Real(0), Real(0), Real(0)};
     RollingTorque<Real> resistance{Real(0), Real(0)};
     if (touches) {
+      const L& law = lawAtPlane(common, disks, plane, i);
       const Real reach = planePoint(law, disks.radius[i], height);
       const Real armX = static_cast<Real>(plane.x) + dx - reach * plane.nx - plane.centreX;
       const Real armY = static_cast<Real>(plane.y) + dy - reach * plane.ny - plane.centreY;
@@ -89,15 +89,15 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
       spring = angle = memory = Real(0);
     }
     if (plane.kept.spring != nullptr) plane.kept.spring[i] = spring;
-    if (law.rolling == Rolling::spring) plane.kept.angle[i] = angle;
-    if (remembers(law)) plane.kept.memory[i] = memory;
+    if (common.rolling == Rolling::spring) plane.kept.angle[i] = angle;
+    if (remembers(common)) plane.kept.memory[i] = memory;
     if (plane.normal != nullptr) {
       plane.overlap[i] = overlap;
       plane.normal[i] = force.normal;
       plane.tangential[i] = force.tangential;
       plane.sliding[i] = force.sliding;
     }
-    if (law.rolling != Rolling::none && plane.rolling != nullptr) {
+    if (common.rolling != Rolling::none && plane.rolling != nullptr) {
       plane.rolling[i] = resistance.torque;
       plane.rollingSlides[i] = resistance.sliding;
     }

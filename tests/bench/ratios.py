@@ -68,6 +68,9 @@ def main():
     for name in ("no_bottom", "viscous", "coulomb", "cut_tension", "no_rotation"):
         ratios(figures, f"thesis / {name}, same contacts",
                same + "thesis/double/1", f"{same}{name}/double/1")  # fmt: skip
+    for name in ("rolling", "cohesion", "rolling_cohesion", "materials", "rolling_cohesion_materials", "ledger"):
+        ratios(figures, f"{name} / thesis, same contacts",
+               f"{same}{name}/double/1", same + "thesis/double/1")  # fmt: skip
     ratios(figures, "double / float", thesis, step + "thesis/float/1")
     ratios(figures, "1 thread / 2", thesis, step + "thesis/double/2")
     ratios(figures, "1 thread / 2, float", step + "thesis/float/1", step + "thesis/float/2")

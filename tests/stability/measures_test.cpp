@@ -270,4 +270,16 @@ TEST(StepLimit, OfOneContactAndOfARow) {
   EXPECT_LE(coordinationStepLimit(row), theoreticalStepLimit(row));
 }
 
+TEST(StepLimit, AndEnergy_OfMaterials_AreThoseOfTheirPair) {
+  Series pair;
+  pair.run.snapshots.front().position[1] = {1.9, 0.0};
+  Scene& scene = pair.run.scene;
+  scene.disks.position[1] = {1.9, 0.0};
+  scene.materials = Materials{{"a", "b"}, {0, 1}, {}, std::vector<ContactLaw>(4, scene.law)};
+  for (const std::size_t mixed : {1u, 2u}) scene.materials->laws[mixed].kn *= 4.0;
+  EXPECT_NEAR(theoreticalStepLimit(scene), 0.1, 1e-9);
+  EXPECT_NEAR(coordinationStepLimit(scene), 0.1, 1e-12);
+  EXPECT_NEAR(energyOf(pair.run, pair.run.snapshots.front()).elastic, 0.5 * 400.0 * 0.01, 1e-12);
+}
+
 }  // namespace

@@ -122,6 +122,44 @@ TEST(Transform, InOtherUnitsALawIsAsStiff) {
   EXPECT_EQ(polynomial.gn, 8.0);
 }
 
+TEST(Transform, InOtherUnitsRollingAndCohesionAreAsStrong) {
+  const Units units{.length = 2.0, .mass = 3.0, .time = 4.0};
+  ContactLaw law;
+  law.rolling = RollingLaw::spring;
+  law.cohesion = CohesionLaw::area;
+  law.kr = law.kc = law.w = law.kUnload = 16.0;
+  law.gr = 8.0;
+  law.muR = 0.5;
+  const ContactLaw spring = inUnits(law, units);
+  EXPECT_EQ(spring.kr, 3.0);  // N/m · 3/4²
+  EXPECT_EQ(spring.gr, 6.0);  // kg/s · 3/4
+  EXPECT_EQ(spring.muR, 0.5);
+  EXPECT_EQ(spring.kc, 1.5);  // Pa · 3/(2 · 4²)
+  EXPECT_EQ(spring.w, 3.0);
+  EXPECT_EQ(spring.kUnload, 3.0);
+  law.conventions.rollingStiffness = RollingStiffness::constant;
+  law.conventions.rollingDamper = RollingDamper::critical;
+  law.cohesion = CohesionLaw::elastoPlastic;
+  const ContactLaw other = inUnits(law, units);
+  EXPECT_EQ(other.kr, 12.0);  // N m · 3 · 2²/4²
+  EXPECT_EQ(other.gr, 8.0);
+  EXPECT_EQ(other.kc, 3.0);  // N/m
+  law.rolling = RollingLaw::viscousByLoad;
+  EXPECT_EQ(inUnits(law, units).muR, 1.0);  // s/m · 4/2
+}
+
+TEST(Transform, MaterialsGoWithTheirDisksAndLawsWithTheUnits) {
+  Scene scene = small();
+  scene.law.kn = 16.0;
+  scene.materials = Materials{{"a", "b"}, {0, 1}, {1}, std::vector<ContactLaw>(4, scene.law)};
+  scene.materials->laws[3].kn = 32.0;
+  const Units units{.length = 2.0, .mass = 3.0, .time = 4.0};
+  const Scene other = transformed(scene, {.units = units, .order = {1, 0}});
+  EXPECT_EQ(other.materials->ofDisk, (std::vector<std::int32_t>{1, 0}));
+  EXPECT_EQ(other.lawOf(0, 2).kn, 6.0);
+  EXPECT_EQ(other.lawOf(1, 2).kn, 3.0);
+}
+
 TEST(Transform, WhatComesOutIsTakenBack) {
   Transform by = mirrored;
   by.units = {.length = 2.0, .time = 4.0};
