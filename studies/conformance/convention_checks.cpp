@@ -165,7 +165,7 @@ std::string constantOff(const Mirror& mirror, const ContactLaw& law, LawPart par
       factor = by;
       return true;
     };
-    for (const double by : {0.25, 0.5, 0.75, 0.9, 1.1, 1.25, 1.5, 2.0}) attempt(by);
+    for (const double by : {1.0, 0.25, 0.5, 0.75, 0.9, 1.1, 1.25, 1.5, 2.0}) attempt(by);
     for (double width = 0.125; width > 2e-4; width *= 0.5)
       if (!attempt(factor + width)) attempt(factor - width);
     if (!(least <= limit)) continue;
