@@ -230,7 +230,7 @@ class Engine:
         if report == "instant":
             rows = np.concatenate([part["pairs"] for part in parts])
             arrays.update(self.contacts(rows, position, on_planes, torque))
-        bodies = [self.body_snapshot(b, now, position, force, torque, on_planes) for b in self.bodies]
+        bodies = [self.body_snapshot(b, now, position, force, torque, on_planes, arrays) for b in self.bodies]
         return at(now, bodies), arrays
 
     def contacts(self, rows, position, on_planes, torque):
@@ -253,7 +253,16 @@ class Engine:
             found["contacts.rolling_torque"] = ("f64", rolling)
         return found
 
-    def body_snapshot(self, body, now, position, force, torque, on_planes):
+    def rolling_on_planes(self, body, arrays):
+        """The sum of torques against rolling on a body's planes, which the fix leaves out; None where they are unknown."""
+        if not self.law.rolls or not len(body.plane_numbers):
+            return 0.0
+        if "contacts.rolling_torque" not in arrays:
+            return None
+        partner, rolling = arrays["contacts.j"][1], arrays["contacts.rolling_torque"][1]
+        return -rolling[np.isin(partner, self.made.atoms + np.asarray(body.plane_numbers))].sum()
+
+    def body_snapshot(self, body, now, position, force, torque, on_planes, arrays):
         centre, velocity, angle, spin = body.state(now)
         members = body.disk_ids
         total = force[members].sum(axis=0)
@@ -270,14 +279,15 @@ class Engine:
             apart = gap + (1.0 - self.made.plane_point) * overlap
             arm = position[: self.disks] - apart[:, None] * normal - centre
             moment += (arm[:, 0] * on_plane[:, 1] - arm[:, 1] * on_plane[:, 0]).sum()
-        return {
+        shown = {
             "centre": centre.tolist(),
             "angle": angle,
             "velocity": velocity.tolist(),
             "angular_velocity": spin,
             "force": total.tolist(),
-            "torque": float(moment),
         }
+        rolling = self.rolling_on_planes(body, arrays)
+        return shown if rolling is None else shown | {"torque": float(moment + rolling)}
 
     def stats(self):
         return stats(self.steps, self.evaluations, self.wall_seconds, self.cpu_seconds)

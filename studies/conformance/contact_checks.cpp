@@ -339,8 +339,8 @@ std::set<std::int32_t> expectLoads(
     touched.insert(now.contacts->j.begin(), now.contacts->j.end());
     const BodySnapshot& body = now.bodies[0];
     if (!body.force || !body.torque) context.skip("shows no wall loads");
-    if (rolls && now.contacts->size() > 0 && now.contacts->rollingTorque.empty())
-      context.skip("shows no torque against rolling");
+    // An engine need not know whose torque it is.
+    const bool unknown = rolls && now.contacts->size() > 0 && now.contacts->rollingTorque.empty();
     const std::vector<Vec2> centres = centresAt(now.contactTime, seen);
     Vec2 force = Vec2::Zero();
     double torque = 0.0, size = 0.0;
@@ -354,8 +354,9 @@ std::set<std::int32_t> expectLoads(
     const Tolerance sum = {relative * size, 0.0, "roundings, and a normal that turns"};
     const std::string when = text(" at t = ", now.contactTime, " s");
     context.near(*body.force, force, sum, "the force [N]" + when);
-    context.near(*body.torque, torque, {reach * sum.absolute, 0.0, sum.why},
-                 "the torque [N m]" + when);
+    if (!unknown)
+      context.near(*body.torque, torque, {reach * sum.absolute, 0.0, sum.why},
+                   "the torque [N m]" + when);
   }
   return touched;
 }
@@ -374,6 +375,7 @@ void wallLoadsAreThoseOfTheirContacts(CheckContext& context) {
     scene.bodies = {wallOf("wheel", centre, rim, rotating(0.5))};
     addDisk(scene, smallRadius, smallMass, centre + 0.0308 * between, -Encounter::speed * between,
             9.0);
+    if (law.rolls() && context.refusal(scene)) continue;
     const auto touched = expectLoads(
         context, scene, wheelRadius,
         [&](const Contacts& contacts, std::size_t c, const Vec2& force, const auto& centres) {
@@ -393,6 +395,7 @@ void planeLoadsAreThoseOfTheirContacts(CheckContext& context) {
     scene.bodies = {planeWall({0.2, -smallRadius - Encounter::gap}, {0.0, 1.0})};
     scene.bodies[0].centre = {-0.01, 0.003};
     addDisk(scene, smallRadius, smallMass, {0.0, 0.0}, {0.02, -Encounter::speed}, 9.0);
+    if (law.rolls() && context.refusal(scene)) continue;
     const WallBody& body = scene.bodies[0];
     const LawConventions& how = scene.law.conventions;
     const bool inside = how.leverArm != LeverArm::radius && how.planeArm == PlaneArm::middle;

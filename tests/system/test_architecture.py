@@ -53,7 +53,7 @@ def types_of(path):
             inside.append(opened[1])
         elif line.startswith("}  // namespace"):
             inside.pop()
-        elif defined := re.match(r"(?:struct|class|enum class) (?:alignas\(\d+\) )?(\w+)\b[^;]*$", line):
+        elif defined := re.match(r"(?:struct|class|enum class) (?:alignas\(\d+\) )?(\w+)\b(?!::)[^;]*$", line):
             if "" not in inside:
                 yield "::".join(inside), defined[1]
 

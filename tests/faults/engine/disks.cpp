@@ -239,8 +239,11 @@ Contact Simulation::contact(std::size_t i, std::size_t j, Vector n, double overl
     load -= std::min(body.whole, 0.0);
   else if (law.more.cohesion != Cohesion::none)
     load -= body.whole - body.elastic;
-  const double kt =
-      law.more.hertz ? law.kt * std::sqrt(pair.radius() * std::max(overlap, 0.0)) : law.kt;
+  double kt = law.kt;  // of Hertz' law times the contact's radius, its own or JKR's
+  if (law.more.cohesion == Cohesion::jkr)
+    kt *= std::pow(jkrRoot(law.kn, faults_.pull * law.more.w, pair.radius(), overlap), 2);
+  else if (law.more.hertz)
+    kt *= std::sqrt(pair.radius() * std::max(overlap, 0.0));
   if (law.friction) {
     const double bound = mu * std::max(load, 0.0), stretch = slip * world_.dt;
     const double viscous = law.dashpot ? -law.gt * slip : 0.0;

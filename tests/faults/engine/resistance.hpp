@@ -37,9 +37,8 @@ struct Touching {
 };
 
 /// Johnson, Kendall and Roberts (1971) with E* = 3/4 k_n and s² the radius of the contact:
-/// δ = s⁴/R − √(2π w/E*) s, F = 4 E* s⁶/(3 R) − √(8π w E*) s³. Newton's method from above, where
-/// the first is convex.
-inline double jkrForce(double kn, double w, double radius, double overlap) {
+/// δ = s⁴/R − √(2π w/E*) s. Newton's method from above, where that is convex. @returns s [√m]
+inline double jkrRoot(double kn, double w, double radius, double overlap) {
   const double modulus = 0.75 * kn;
   const double slope = radius * std::sqrt(2.0 * std::numbers::pi * w / modulus);
   double s = std::pow(std::max(overlap, 0.0) * radius, 0.25) + std::cbrt(slope);
@@ -49,6 +48,12 @@ inline double jkrForce(double kn, double w, double radius, double overlap) {
     if (!(next < s)) break;
     s = next;
   }
+  return s;
+}
+
+/// F = 4 E* s⁶/(3 R) − √(8π w E*) s³.
+inline double jkrForce(double kn, double w, double radius, double overlap) {
+  const double modulus = 0.75 * kn, s = jkrRoot(kn, w, radius, overlap);
   const double cube = s * s * s;
   return 4.0 / 3.0 * modulus / radius * cube * cube -
          std::sqrt(8.0 * std::numbers::pi * w * modulus) * cube;
