@@ -97,7 +97,7 @@ void ContactRequest::addOptions(CLI::App& app) {
   for (const Number& number : numbers())
     addNumber(app, number.option, this->*number.member, number.what);
   addText(app, "--rolling-length", length_, "length of rolling resistance (default: effective)",
-          "effective|twice_effective|smaller_radius");
+          "effective|twice_effective|smaller_radius|mean_radius");
   addText(app, "--rolling-stiffness", stiffness_, "what kr is times (default: length_square)",
           "length_square|radii|constant");
   addText(app, "--rolling-damper", damper_, "what gr is (default: constant)", "constant|critical");
@@ -117,10 +117,10 @@ std::string ContactRequest::rolling(const Bodies& bodies) const {
   set(law, "rolling_stiffness", stiffness_);
   set(law, "rolling_damper", damper_);
   const bool spring = frequency_ || kr_;
-  const CollidingPair pair = pairOf(bodies, spring);
+  const auto pair = spring ? std::optional(pairOf(bodies, true)) : std::nullopt;
   law.muR = restAngle_ ? rollingCoefficientOf(law, *restAngle_ * degree) : muR_.value_or(0.0);
   if (frequency_) {
-    calibrateRolling(law, pair, *frequency_, decay_.value_or(0.0));
+    calibrateRolling(law, *pair, *frequency_, decay_.value_or(0.0));
   } else {
     law.kr = kr_.value_or(0.0);
     law.gr = gr_.value_or(0.0);
@@ -134,10 +134,10 @@ std::string ContactRequest::rolling(const Bodies& bodies) const {
     text += constant("kr", law.kr, constantK ? "N m" : "N/m");
     text += constant("gr", law.gr, critical ? "-, the damping ratio" : "kg/s");
     try {
-      const ImpliedRolling is = impliedRolling(law, pair);
-      meaning += note(
-          pair.plane ? "frequency on a plane, without slip" : "frequency of the pair, centres held",
-          is.frequency, "Hz");
+      const ImpliedRolling is = impliedRolling(law, *pair);
+      meaning += note(pair->plane ? "frequency on a plane, without slip"
+                                  : "frequency of the pair, centres held",
+                      is.frequency, "Hz");
       meaning += note("decay of its amplitude", is.decay, "1/s");
     } catch (const std::invalid_argument& error) {
       throw BadInput(fmt::format("--gr = {}: {}", law.gr, error.what()));

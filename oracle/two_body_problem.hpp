@@ -154,7 +154,6 @@ class TwoBodyProblem {
   void setRollingConstants();
   double rollingLoad(const Kinematics& k) const;
   bool hasNoRollingBound() const;
-  bool rollsWithoutLimit() const;
   double rollingBound(const Kinematics& k) const {
     return law_.muR * rollingLength_ * std::max(rollingLoad(k), 0.0);
   }

@@ -28,12 +28,6 @@ double TwoBodyProblem::rollingLoad(const Kinematics& k) const {
   return phase_.loaded ? load(k) : 0.0;
 }
 
-/// Whether the spring has no limit now. @see RollingLoad::whileCompressed
-bool TwoBodyProblem::rollsWithoutLimit() const {
-  return law_.rolling == RollingLaw::spring && !phase_.loaded &&
-         law_.conventions.rollingLoad == RollingLoad::whileCompressed;
-}
-
 bool TwoBodyProblem::hasNoRollingBound() const {
   const RollingLoad of = law_.conventions.rollingLoad;
   if (of == RollingLoad::elastic) return phase_.beyond;
@@ -118,7 +112,7 @@ double TwoBodyProblem::rollingGuard(const State& s, const Kinematics& k) const {
     case Phase::Rolling::damped:
       return 1.0;
     case Phase::Rolling::stick:
-      return rollsWithoutLimit() ? 1.0 : rollingBound(k) - std::abs(rollingTested(s, k));
+      return rollingBound(k) - std::abs(rollingTested(s, k));
     case Phase::Rolling::hold:
       return rollingBound(k) - std::abs(holdingTorque(s, k));
     case Phase::Rolling::slip:
@@ -133,11 +127,6 @@ void TwoBodyProblem::chooseRolling(State& s, bool anew) {
   const Kinematics k = kinematics(s);
   if (law_.rolling == RollingLaw::viscous || law_.rolling == RollingLaw::viscousByLoad) {
     phase_.rolling = Phase::Rolling::damped;
-    return;
-  }
-  if (rollsWithoutLimit()) {
-    if (phase_.rolling == Phase::Rolling::slip) s.angle = slippedAngle(k);
-    phase_.rolling = Phase::Rolling::stick;
     return;
   }
   const bool none = hasNoRollingBound(), wasNone = phase_.rolling == Phase::Rolling::none;

@@ -33,6 +33,16 @@ def demand_part(law, name, values):
     return value
 
 
+def demand_spring_units(law, damper):
+    """What k_r and γ_r of a rolling spring are times, which a case may let differ: they would be other constants.
+
+    @raise Unsupported"""
+    wanted = {"rolling_stiffness": "length_square"} | ({"rolling_damper": damper} if law["gr"] > 0 else {})
+    for name, value in wanted.items():
+        if law["rolling"] == "spring" and law[name] != value:
+            raise Unsupported(f'has {name} = "{value}", not "{law[name]}"')
+
+
 def told_restitution(alpha):
     """The e in [0, 1] of which `damping tsuji` makes that α.
 
@@ -104,6 +114,8 @@ class Law:
         kind = law["tangential"]
         demand_law(law, NORMALS, DAMPERS, KINDS)
         self.rolls = demand_part(law, "rolling", ROLLING) != "none"
+        if self.rolls:
+            demand_spring_units(law, "constant")
         self.cohesion = demand_part(law, "cohesion", COHESION)
         if self.cohesion != "none" and law["normal"] != "hertz":
             raise Unsupported(f'has cohesion = "{self.cohesion}" with normal = "hertz" alone')

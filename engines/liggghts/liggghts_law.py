@@ -5,7 +5,7 @@ import math
 import numpy as np
 from crossgrain_answers import demand_linear
 from crossgrain_worker import Unsupported
-from law import demand_part
+from law import demand_part, demand_spring_units
 
 KINDS = ("none", "spring", "spring_dashpot")
 ROLLING = ("none", "constant_torque", "spring")
@@ -59,6 +59,7 @@ class Law:
         """LIGGGHTS is given no k_r, it has its own.
 
         @raise Unsupported where that is another than the scene's"""
+        demand_spring_units(law, "critical")
         self.kr, self.gr = law["kr"], law["gr"]
         of_model = {"epsd": 2.25 * self.kn * self.mu_r**2}
         if self.friction and self.gr == 0:

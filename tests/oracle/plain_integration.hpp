@@ -236,8 +236,6 @@ class PlainIntegration {
                                : how_.rollingLoad == RollingLoad::magnitude ? std::abs(load)
                                                                             : load;
     c.rollingBound = law_.muR * rollingLength() * std::max(rollingLoad, 0.0);
-    if (isSpring() && how_.rollingLoad == RollingLoad::whileCompressed && !(rollingLoad > 0.0))
-      c.rollingBound = INFINITY;
     return c;
   }
 

@@ -209,10 +209,11 @@ ContactLaw randomRolling(Draw& draw, const CollidingPair& pair) {
   how.rollingStiffness = draw.oneOf(
       {RollingStiffness::lengthSquare, RollingStiffness::radii, RollingStiffness::constant});
   how.rollingDamper = draw.oneOf({RollingDamper::constant, RollingDamper::critical});
-  how.rollingLoad = draw.oneOf({RollingLoad::compression, RollingLoad::magnitude,
-                                RollingLoad::elastic, RollingLoad::whileCompressed});
+  how.rollingLoad =
+      draw.oneOf({RollingLoad::compression, RollingLoad::magnitude, RollingLoad::elastic});
   how.rollingDashpot = draw.oneOf({Dashpot::inside, Dashpot::inside, Dashpot::outside});
   how.rollingReset = draw.oneOf({SpringReset::total, SpringReset::springOnly});
+  if (how.rollingDashpot == Dashpot::outside) how.rollingReset = SpringReset::total;
   law.muR = draw.uniform(0.02, 0.6);
   if (law.rolling == RollingLaw::viscousByLoad) law.muR = draw.uniform(0.1, 5.0);
   const bool constant = how.rollingStiffness == RollingStiffness::constant;

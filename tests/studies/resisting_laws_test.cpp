@@ -87,9 +87,9 @@ TEST_F(ResistingCell, RollingSpring_ConstantsAndConventionsAreFound) {
 TEST_F(ResistingCell, CohesionByArea_ConstantsAndConventionsAreFound) {
   const test::QuickFlow flow(3, {"preparation.rotations=0.2", "law.cohesion=area", "law.kc=3000"});
   expectConstant(flow, &ContactLaw::kc, "kc");
-  // Two areas and two loads; without a pull-off, f_n + 2 F_po is f_n.
+  // Two areas, |f_n| and f_n without its dashpot; without a pull-off f_n + 2 F_po is f_n.
   const auto [found, alike] = expectOptions(flow, LawPart::cohesion);
-  EXPECT_EQ(found, 2);
+  EXPECT_EQ(found, 4);
   EXPECT_EQ(alike, 2);
   const LockstepRow without = row(flow, [](ContactLaw& law) { law.cohesion = CohesionLaw::none; });
   ASSERT_TRUE(without.term);

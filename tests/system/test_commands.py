@@ -150,6 +150,23 @@ class Calibrate(SystemTest):
             for label, value in (("e_n", 0.9), ("e_t0 without slip", 0.5), ("contact time t_c", 1e-3)):
                 self.assertEqual(value, self.implied(back, label))
 
+    def test_rolling_and_cohesion_give_back_what_was_wanted(self):
+        """By hand: µ_r = tan β; (1 + q) m (ω² + λ²) = k_r on a plane, γ_r = 2 (1 + q) m λ; w = F/(3/2 π R12) of JKR."""
+        disk = ("--mass=1e-3", "--mass2=inf", "--radius=5e-3")
+        law = tomllib.loads(self.calibrate("--rolling-frequency=20", "--rolling-decay=5", "--rest-angle=12", *disk))["law"]
+        self.assertAlmostEqual(math.tan(math.radians(12.0)), law["mu_r"], 12)
+        self.assertAlmostEqual(1.5e-3 * ((40.0 * math.pi) ** 2 + 25.0), law["kr"], 9)
+        self.assertAlmostEqual(0.015, law["gr"], 12)
+        back = self.calibrate(*(f"--{key.replace('_', '-')}={law[key]!r}" for key in ("kr", "gr", "mu_r")), *disk)
+        for label, value in (("frequency on a plane, without slip", 20.0), ("decay of its amplitude", 5.0),
+                             ("a disk rests on inclines up to", 12.0)):  # fmt: skip
+            self.assertEqual(value, self.implied(back, label))
+        # An angle has no length, but for whose µ_r it is.
+        twice = tomllib.loads(self.calibrate("--rest-angle=12", "--rolling-length=twice_effective"))["law"]
+        self.assertAlmostEqual(0.5 * math.tan(math.radians(12.0)), twice["mu_r"], 12)
+        pull = tomllib.loads(self.calibrate("--pull-off=1e-3", "--cohesion=jkr", "--radius=1e-3"))["law"]
+        self.assertAlmostEqual(1e-3 / (1.5 * math.pi * 0.5e-3), pull["w"], 9)
+
     def test_stiffness_instead_of_contact_time(self):
         """By hand: m = m12 = 0.5e-3 kg, t_c = π/√(k_n/m − (γ_n/2m)²), e_n = exp(−γ_n t_c/2m)."""
         mass, kn = 0.5e-3, 1e4
