@@ -147,7 +147,7 @@ std::vector<Key<LawInput>> lawTable() {
       key("gamma", &LawInput::gamma, atLeast(0.0, "J/m^2"), "in place of `w`: surface energy")
           .listed(""),
       key("gamma_is", &LawInput::gammaIs, Names{"half_of_w", "w"},
-          "what `gamma` means: w = 2 γ (LAMMPS, YADE), or w = γ (MercuryDPM)"),
+          "what `gamma` means: w = 2 γ, or w = γ"),
       key("k_unload", &ContactLaw::kUnload, atLeast(0.0, "N/m"),
           "the largest stiffness of unloading, > `kn`")
           .listed("required (elasto_plastic)"),
@@ -165,22 +165,6 @@ const Section<LawInput>& lawKeys() {
        .note = "With n from j to i, s = z × n, δ > 0 in contact, v_n < 0 on approach, v_t = (v_i − "
                "v_j)·s − (a_i ω_i + a_j ω_j)."},
       lawTable());
-  return section;
-}
-
-const Section<BottomPlate>& bottomKeys() {
-  static const Section<BottomPlate> section(
-      {.name = "bottom",
-       .kinds = "couette, assembly",
-       .commands = "compare plan lockstep identify baseline record effects cost stability collide "
-                   "scale",
-       .note = "Leave it out for no plate."},
-      {need("mu", &BottomPlate::mu, atLeast(0.0), "µ_b"),
-       need("kb", &BottomPlate::kb, atLeast(0.0, "N/m"), "spring of a disk on the plate"),
-       need("gb", &BottomPlate::gb, atLeast(0.0, "kg/s"), "dashpot"),
-       need("tau_m", &BottomPlate::tauM, atLeast(0.0), "τ_M of Eq. 4.28"),
-       key("gravity", &BottomPlate::gravity, positive("m/s^2"), "presses disks on the plate"),
-       key("spin", &BottomPlate::spin, any, "whether the plate also brakes spin")});
   return section;
 }
 
@@ -453,7 +437,7 @@ void refuseNewEffects(const Reader& in, const ContactLaw& pair, const ContactLaw
 }  // namespace
 
 std::vector<SectionInfo> lawSections() {
-  return {lawKeys().info(), pairSection(), bottomKeys().info()};
+  return {lawKeys().info(), pairSection()};
 }
 
 void readPairLaws(const Reader& law, std::vector<Reader>& pairs, Case& c) {
@@ -495,13 +479,6 @@ void readLaw(Reader& in, ContactLaw& contact, bool ofTwoBodies) {
   LawInput input;
   settle(in, input, ofTwoBodies);
   contact = input;
-}
-
-void readBottom(Reader& root, std::optional<BottomPlate>& plate) {
-  Reader in = root.section("bottom");
-  if (!root.has("bottom")) return;
-  bottomKeys().read(in, plate.emplace());
-  if (plate->mu == 0.0) plate.reset();
 }
 
 }  // namespace crossgrain::inline cases

@@ -18,6 +18,22 @@ namespace {
 
 constexpr int mostSnapshots = 10'000'000;  // averaged in one run
 
+const Section<BottomPlate>& bottomKeys() {
+  static const Section<BottomPlate> section(
+      {.name = "bottom",
+       .kinds = "couette, assembly",
+       .commands = "compare plan lockstep identify baseline record effects cost stability collide "
+                   "scale",
+       .note = "Leave it out for no plate."},
+      {need("mu", &BottomPlate::mu, atLeast(0.0), "µ_b"),
+       need("kb", &BottomPlate::kb, atLeast(0.0, "N/m"), "spring of a disk on the plate"),
+       need("gb", &BottomPlate::gb, atLeast(0.0, "kg/s"), "dashpot"),
+       need("tau_m", &BottomPlate::tauM, atLeast(0.0), "τ_M of Eq. 4.28"),
+       key("gravity", &BottomPlate::gravity, positive("m/s^2"), "presses disks on the plate"),
+       key("spin", &BottomPlate::spin, any, "whether the plate also brakes spin")});
+  return section;
+}
+
 const Section<Cell>& cellKeys() {
   static const Section<Cell> section(
       {.name = "cell", .kinds = "couette"},
@@ -254,6 +270,7 @@ std::vector<Judged> judgedEndpoints() {
 
 std::vector<SectionInfo> cellSections() {
   return {
+      bottomKeys().info(),
       cellKeys().info(),
       particlesKeys().info(),
       preparationKeys().info(),
@@ -291,6 +308,13 @@ double massOf(const Reader& in, double density, double radius, double height) {
   const double mass = density * std::numbers::pi * radius * radius * height;
   in.check(std::isnormal(mass), "density", "makes disks of radius {} m weigh {} kg", radius, mass);
   return mass;
+}
+
+void readBottom(Reader& root, std::optional<BottomPlate>& plate) {
+  Reader in = root.section("bottom");
+  if (!root.has("bottom")) return;
+  bottomKeys().read(in, plate.emplace());
+  if (plate->mu == 0.0) plate.reset();
 }
 
 void readCell(Reader& in, Cell& c) {

@@ -13,11 +13,11 @@
 namespace crossgrain::inline cases {
 
 // Tables of keys, for the list of them (loader.cpp, loader_law.cpp, …).
-std::vector<SectionInfo> headerSections();     ///< [case], [[variants]]
-std::vector<SectionInfo> lawSections();        ///< [law], [bottom]
-std::vector<SectionInfo> cellSections();       ///< [cell] … [looks], [averaging.margins]
-std::vector<SectionInfo> costSections();       ///< [cost]
-std::vector<SectionInfo> runSections();        ///< [run], [engines.NAME], [stability]
+std::vector<SectionInfo> headerSections();  ///< [case], [[variants]]
+std::vector<SectionInfo> lawSections();     ///< [law], [[law.pairs]]
+std::vector<SectionInfo> cellSections();    ///< [bottom], [cell] … [looks], [averaging.margins]
+std::vector<SectionInfo> costSections();    ///< [cost]
+std::vector<SectionInfo> runSections();     ///< [run], [engines.NAME], [stability]
 std::vector<SectionInfo> collisionSections();  ///< [collision], [collision.margins]
 std::vector<SectionInfo> assemblySections();   ///< [assembly] …, [assembly.start]
 std::vector<SectionInfo> averageSections();    ///< [average] …, [[endpoints]]
