@@ -155,11 +155,13 @@ struct ContactKinematics {
   double approach;       ///< v_n as shown [m/s]
   double slip;           ///< at most, |v_t| [m/s]
   double doubt;          ///< of v_n [m/s]
+  ElasticPart elastic;
+  Attraction pull;
 };
 
 ContactKinematics kinematicsOf(const Snapshot& snapshot, const AuditBasis& basis,
                                const ContactPlaces& places, const VelocityDoubt& doubts,
-                               std::size_t k) {
+                               std::size_t k, const ContactLaw& law) {
   const Scene& scene = *basis.scene;
   const Contacts& contacts = *snapshot.contacts;
   const auto i = static_cast<std::size_t>(contacts.i[k]);
@@ -171,6 +173,8 @@ ContactKinematics kinematicsOf(const Snapshot& snapshot, const AuditBasis& basis
   touch.reach = j < round ? own + basis.radius[j] : 0.0;
   touch.smallerRadius = j < round ? std::min(own, basis.radius[j]) : own;
   touch.radius = j < round ? own * basis.radius[j] / (own + basis.radius[j]) : own;
+  touch.elastic = elasticPart(law, touch.place.overlap, touch.radius);
+  touch.pull = attraction(law, touch.place.overlap, touch.radius, touch.reach);
   const double mass = scene.disks.mass[i];
   touch.mass = j < disks ? mass * scene.disks.mass[j] / (mass + scene.disks.mass[j]) : mass;
   const Vec2 relative = places.velocity[i] - velocityOfSecond(places, basis, i, j);
@@ -191,8 +195,8 @@ ContactKinematics kinematicsOf(const Snapshot& snapshot, const AuditBasis& basis
 
 std::string normalFault(double found, const ContactLaw& law, const ContactKinematics& touch,
                         double relative) {
-  const ElasticPart elastic = elasticPart(law, touch.place.overlap, touch.radius);
-  const Attraction pull = attraction(law, touch.place.overlap, touch.radius, touch.reach);
+  const ElasticPart& elastic = touch.elastic;
+  const Attraction& pull = touch.pull;
   const double gn = damping(law.damper, law.gn, elastic.stiffness, touch.mass);
   const auto forceAt = [&](double attractive) {
     const double body = elastic.force + attractive, force = body - gn * touch.approach;
@@ -212,12 +216,12 @@ std::string normalFault(double found, const ContactLaw& law, const ContactKinema
 /// What stands for f_n in the bounds of sliding and rolling, at most [N].
 double loadOf(double normal, const ContactLaw& law, const ContactKinematics& touch) {
   if (!law.coheres() || law.conventions.cohesionLoad == CohesionLoad::net) return normal;
-  const Attraction pull = attraction(law, touch.place.overlap, touch.radius, touch.reach);
+  const Attraction& pull = touch.pull;
   if (law.conventions.cohesionLoad == CohesionLoad::magnitudePlusPullOff)
     return std::abs(normal) + pull.pullOff;
   if (law.conventions.cohesionLoad == CohesionLoad::plusTwicePullOff ||
       law.conventions.cohesionLoad == CohesionLoad::netWithoutDashpot) {
-    const double body = elasticPart(law, touch.place.overlap, touch.radius).force + pull.most;
+    const double body = touch.elastic.force + pull.most;
     const bool plus = law.conventions.cohesionLoad == CohesionLoad::plusTwicePullOff;
     return plus ? body + 2.0 * pull.pullOff : body;
   }
@@ -233,7 +237,7 @@ std::string tangentialFault(double normal, double found, const ContactLaw& law,
   const bool anyway = law.conventions.coulombBound != CoulombBound::compression;
   const double load = loadOf(normal, law, touch);
   double bound = !friction ? 0.0 : law.mu * (anyway ? std::abs(load) : std::max(load, 0.0));
-  const ElasticPart elastic = elasticPart(law, touch.place.overlap, touch.radius);
+  const ElasticPart& elastic = touch.elastic;
   if (friction && law.tangential == TangentialLaw::springDashpot &&
       law.conventions.dashpot == Dashpot::outside)
     bound +=
@@ -241,8 +245,7 @@ std::string tangentialFault(double normal, double found, const ContactLaw& law,
   double allowed =
       bound * (1.0 + relative) + relative * (std::abs(elastic.force) + std::abs(normal));
   if (friction && law.coheres())  // what an uncertain overlap leaves open of the pull
-    allowed += law.mu * attraction(law, touch.place.overlap, touch.radius, touch.reach).stiffness *
-               touch.place.uncertain;
+    allowed += law.mu * touch.pull.stiffness * touch.place.uncertain;
   if (std::abs(found) <= allowed) return {};
   return fmt::format("|f_t| is {:.6g} N, the law allows {:.6g} N at f_n = {:.6g} N",
                      std::abs(found), bound, normal);
@@ -261,17 +264,14 @@ std::string rollingFault(double normal, double found, const ContactLaw& law,
   if (how.rollingLength == RollingLength::smallerRadius) length = touch.smallerRadius;
   if (how.rollingLength == RollingLength::meanRadius)
     length = touch.reach > 0.0 ? 0.5 * touch.reach : touch.radius;
-  const ElasticPart elastic = elasticPart(law, touch.place.overlap, touch.radius);
+  const ElasticPart& elastic = touch.elastic;
   const double load = loadOf(normal, law, touch);
   const double most = how.rollingLoad == RollingLoad::elastic     ? elastic.force
                       : how.rollingLoad == RollingLoad::magnitude ? std::abs(load)
                                                                   : std::max(load, 0.0);
   if (how.rollingLoad == RollingLoad::whileCompressed && most <= 0.0) return {};
   const double bound = law.rolls() ? law.muR * length * most : 0.0;
-  const double unsure =
-      (elastic.stiffness +
-       attraction(law, touch.place.overlap, touch.radius, touch.reach).stiffness) *
-      touch.place.uncertain;
+  const double unsure = (elastic.stiffness + touch.pull.stiffness) * touch.place.uncertain;
   const double allowed =
       bound * (1.0 + relative) + law.muR * length * (relative * std::abs(normal) + unsure);
   if (std::abs(found) <= allowed) return {};
@@ -306,7 +306,7 @@ std::string lawFault(const Snapshot& snapshot, const AuditBasis& basis, const Co
     if (!law.soft()) {
       if (fn < 0.0) why = fmt::format("f_n is {:.6g} N: rigid disks do not pull", fn);
     } else {
-      const ContactKinematics touch = kinematicsOf(snapshot, basis, places, doubts, k);
+      const ContactKinematics touch = kinematicsOf(snapshot, basis, places, doubts, k, law);
       why = normalFault(fn, law, touch, relative);
       if (why.empty()) why = tangentialFault(fn, ft, law, touch, relative);
       if (why.empty() && !contacts.rollingTorque.empty())
