@@ -38,6 +38,14 @@ std::string pairsWithout(const Case& setup, std::initializer_list<std::string_vi
   return text;
 }
 
+/// The option of that name is "none", and the constants of its part are 0.
+Change withoutPart(const Case& setup, const char* what, std::string_view option,
+                   std::initializer_list<std::string_view> constants) {
+  std::string law = fmt::format("[law]\n{} = \"none\"\n", option);
+  for (const std::string_view constant : constants) law += fmt::format("{} = 0.0\n", constant);
+  return {what, law + pairsWithout(setup, constants)};
+}
+
 Change noTangentialSpring(const Case& setup) {
   if (setup.law.gt > 0.0)
     return {"The viscous law: contacts have no history.", "[law]\ntangential = \"viscous\"\n"};
@@ -92,22 +100,15 @@ const std::array switchables = {
                  return Change{"The plate brakes velocities and leaves spins alone.",
                                "[bottom]\nspin = false\n"};
                }},
-    Switchable{
-        "rolling_resistance", Effect::rollingResistance, nullptr,
-        [](const Case& setup) {
-          return Change{
-              "No torque against rolling.",
-              "[law]\nrolling = \"none\"\nmu_r = 0.0\nkr = 0.0\nkr_per_kt = 0.0\nkr_factor = "
-              "0.0\ngr = 0.0\n" +
-                  pairsWithout(setup, {"mu_r", "kr", "kr_per_kt", "kr_factor", "gr"})};
-        }},
+    Switchable{"rolling_resistance", Effect::rollingResistance, nullptr,
+               [](const Case& setup) {
+                 return withoutPart(setup, "No torque against rolling.", "rolling",
+                                    {"mu_r", "kr", "kr_per_kt", "kr_factor", "gr"});
+               }},
     Switchable{"cohesion", Effect::cohesion, nullptr,
                [](const Case& setup) {
-                 return Change{
-                     "No attraction.",
-                     "[law]\ncohesion = \"none\"\nkc = 0.0\nw = 0.0\ngamma = 0.0\nk_unload = "
-                     "0.0\nplastic_depth = 0.0\n" +
-                         pairsWithout(setup, {"kc", "w", "gamma", "k_unload", "plastic_depth"})};
+                 return withoutPart(setup, "No attraction.", "cohesion",
+                                    {"kc", "w", "gamma", "k_unload", "plastic_depth"});
                }},
     Switchable{"pair_materials", Effect::pairMaterials, nullptr,
                [](const Case&) {

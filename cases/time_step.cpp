@@ -192,13 +192,13 @@ Oscillator rollingOscillator(const ContactLaw& law, const LightestPair& pair, do
   const double inertia = 0.5 * (1.0 / pair.tangential - 1.0 / pair.normal);  // a²/J
   if (!(inertia > 0.0)) return {0.0, 0.0, 1.0};
   const double held = mass * inertia / (mass + inertia);  // a²/(J + m a²)
-  const auto termOf = [&](double sum, double heldSum, double reach, double radii) {
+  const auto termOf = [&](double sum, double heldSum, double reach) {
     const LawConventions& how = law.conventions;
     const double length = how.rollingLength == RollingLength::effective        ? reach
                           : how.rollingLength == RollingLength::twiceEffective ? 2.0 * reach
                                                                                : 1.0;
     const double times = how.rollingStiffness == RollingStiffness::constant ? 1.0 / (a * a)
-                         : how.rollingStiffness == RollingStiffness::radii  ? radii
+                         : how.rollingStiffness == RollingStiffness::radii  ? 1.0
                                                                             : length * length;
     const bool critical =
         law.rolling == RollingLaw::spring && how.rollingDamper == RollingDamper::critical;
@@ -207,8 +207,8 @@ Oscillator rollingOscillator(const ContactLaw& law, const LightestPair& pair, do
         critical ? 2.0 * law.gr * std::sqrt(stiffness / heldSum) : law.gr * length * length;
     return Oscillator{stiffness, damping, 1.0 / sum, signOf(how)};
   };
-  const Oscillator disks = termOf(2.0 * inertia, 2.0 * held, 0.5, 1.0);
-  const Oscillator plane = termOf(law.friction() ? held : inertia, held, 1.0, 1.0);
+  const Oscillator disks = termOf(2.0 * inertia, 2.0 * held, 0.5);
+  const Oscillator plane = termOf(law.friction() ? held : inertia, held, 1.0);
   const double s = rollingLagging(law.conventions);
   return longestStep(disks, s) < longestStep(plane, s) ? disks : plane;
 }

@@ -7,6 +7,7 @@
 
 #include "adapters/declared_law.hpp"
 #include "adapters/law_options.hpp"
+#include "oracle/calibration.hpp"
 #include "oracle/impact.hpp"
 #include "studies/conformance/check_context.hpp"
 #include "studies/conformance/declared_laws.hpp"
@@ -38,33 +39,10 @@ std::string firstNormal(CheckContext& context) {
   return lawOptionValue(context.law(), "normal");
 }
 
-/// L of a small disk on another one, or at a plane [m].
-double rollingLength(const ContactLaw& law, bool plane) {
-  const double effective = plane ? smallRadius : pairRadius;
-  switch (law.conventions.rollingLength) {
-    case RollingLength::twiceEffective:
-      return 2.0 * effective;
-    case RollingLength::smallerRadius:
-    case RollingLength::meanRadius:
-      return smallRadius;
-    case RollingLength::effective:
-      break;
-  }
-  return effective;
-}
-
-/// What k_r's constant is times [m²] or 1.
-double rollingSquare(const ContactLaw& law, bool plane) {
-  const double length = rollingLength(law, plane);
-  switch (law.conventions.rollingStiffness) {
-    case RollingStiffness::radii:
-      return smallRadius * smallRadius;
-    case RollingStiffness::constant:
-      return 1.0;
-    case RollingStiffness::lengthSquare:
-      break;
-  }
-  return length * length;
+/// Two small disks, or one on a plane.
+CollidingPair smallPair(bool plane) {
+  if (plane) return diskOnWall(smallRadius, smallMass, smallInertia);
+  return {{smallRadius, smallRadius}, {smallMass, smallMass}, {smallInertia, smallInertia}};
 }
 
 // ---- rolling ------------------------------------------------------------------------------------
@@ -76,7 +54,8 @@ double rollingSquare(const ContactLaw& law, bool plane) {
 double rollsOn(const ContactLaw& law, bool plane, double spin) {
   const double mass = plane ? smallMass : pairMass;
   const double inverse = (plane ? 1.0 : 2.0) / smallInertia;
-  const double length = rollingLength(law, plane);
+  const CollidingPair pair = smallPair(plane);
+  const double length = rollingLength(law, pair);
   const double impulse = 2.0 * mass * Encounter::speed;
   const double duration =
       impactTime(law, {mass, plane ? smallRadius : pairRadius, Encounter::speed});
@@ -88,7 +67,7 @@ double rollsOn(const ContactLaw& law, bool plane, double spin) {
     case RollingLaw::viscousByLoad:
       return spin * std::exp(-law.muR * length * length * impulse * inverse);
     case RollingLaw::spring:
-      return spin * std::cos(duration * std::sqrt(law.kr * rollingSquare(law, plane) * inverse));
+      return spin * std::cos(duration * std::sqrt(law.kr * rollingSquare(law, pair) * inverse));
     case RollingLaw::none:
       break;
   }
@@ -159,7 +138,7 @@ void rollingHoldsASlope(CheckContext& context) {
   const ContactLaw base = lawOf(context.can, firstNormal(context));
   if (base.normal != NormalLaw::linear) context.skip("has no linear law");
   const ContactLaw law = withRolling(base, RollingLaw::spring);
-  const double most = law.muR * rollingLength(law, true) / smallRadius;
+  const double most = law.muR * rollingLength(law, smallPair(true)) / smallRadius;
   for (const double part : {holding, rolling}) {
     const double slope = std::atan(part * most);
     Scene scene = emptyScene(law, 100.0);
