@@ -10,8 +10,8 @@
 
 namespace crossgrain {
 
-/// The part of a law that options and constants belong to. Of rolling and cohesion they are told
-/// only where a law has that part.
+/// The part of a law that options and constants belong to. Those of rolling and cohesion are
+/// listed only where a law has that part.
 enum class LawPart { contact, rolling, cohesion };
 
 /// Whether the law has that part.

@@ -232,10 +232,10 @@ double rollingTorque(const SoftLaw& law, const PairMotion& motion, double load,
   const auto [length, stiffness] = rollingArms(law, motion);
   const double viscous = law.gr * length * length;
   if (law.rolling == Rolling::viscous) return -viscous * motion.spin;
-  const double carried = law.rollingLoad == RollingLoad::elastic     ? elasticForce(law, motion)
-                         : law.rollingLoad == RollingLoad::magnitude ? std::abs(load)
-                                                                     : load;
-  const double bound = law.muR * length * std::max(carried, 0.0);
+  const double pressing = law.rollingLoad == RollingLoad::elastic     ? elasticForce(law, motion)
+                          : law.rollingLoad == RollingLoad::magnitude ? std::abs(load)
+                                                                      : load;
+  const double bound = law.muR * length * std::max(pressing, 0.0);
   if (law.rolling == Rolling::viscousByLoad) return -bound * length * motion.spin;
   if (law.rolling == Rolling::constantTorque) return -bound * sign(motion.spin);
   const double gamma = law.rollingDamper == RollingDamper::critical

@@ -59,10 +59,10 @@ class ResistingCell : public testing::Test {
         const Identification seen =
             identified(flow, [&](ContactLaw& law) { setLawOption(law, name, value); });
         EXPECT_LT(seen.left, lockstepRounding) << name << " = " << value;
-        const auto told = std::ranges::find(seen.options, name, &FoundOption::name);
-        if (told == seen.options.end()) continue;  // it has no bearing on that law
-        EXPECT_TRUE(std::ranges::count(told->values, value)) << name << " = " << value;
-        (told->values.size() == 1 ? counts.first : counts.second) += 1;
+        const auto found = std::ranges::find(seen.options, name, &FoundOption::name);
+        if (found == seen.options.end()) continue;  // it has no bearing on that law
+        EXPECT_TRUE(std::ranges::count(found->values, value)) << name << " = " << value;
+        (found->values.size() == 1 ? counts.first : counts.second) += 1;
       }
     }
     return counts;
