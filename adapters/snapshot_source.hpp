@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "adapters/scene.hpp"
+#include "adapters/snapshot.hpp"
+
+namespace crossgrain {
+
+/// Snapshots that nobody runs: those of a file, one after the other, so that memory holds one at a
+/// time.
+class SnapshotSource {
+ public:
+  virtual ~SnapshotSource() = default;
+
+  /// Disks and walls under the law of the case. Places and velocities of disks are those of the
+  /// first snapshot.
+  virtual const Scene& scene() const = 0;
+  /// Who made them, as the file says, else its name.
+  virtual const std::string& engine() const = 0;
+  /// The next one, by time; absent after the last. It fits the scene and was found sound
+  /// (adapters/audit.hpp). @throws BadInput naming the file, the snapshot and what is wrong
+  virtual std::optional<Snapshot> next() = 0;
+  /// How far it has read, 0 … 1.
+  virtual double progress() const = 0;
+};
+
+}  // namespace crossgrain
