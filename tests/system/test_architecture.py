@@ -16,7 +16,7 @@ ORDER = [
     "support",
     "continuum",
     "engines/cpp", "engines/chipmunk", "engines/grain", "engines/box2d",
-    "adapters", "adapters/worker",
+    "adapters", "adapters/files", "adapters/worker",
     "oracle", "stability", "averaging", "cases", "results",
     "reports/common", "reports/render", "reports/lockstep", "reports/flow", "reports/regression", "reports/collide", "reports/conformance", "reports/effects", "reports/cost", "reports/scale", "reports/stability", "reports/thesis", "reports/site",
     "reports",
