@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -10,7 +11,8 @@
 
 namespace crossgrain {
 
-/// How to start an engine: in this process through `make`, or as a worker of its own.
+/// How to start an engine: in this process through `make`, or as a worker of its own; or the files
+/// that it left.
 struct EngineEntry {
   std::string name;
   std::string summary;  ///< one line for `crossgrain engines`
@@ -26,6 +28,12 @@ struct EngineEntry {
   std::vector<std::string> mirrorsNormal = {};
   /// What the engine's settings are where the case says nothing.
   Settings settings = {};
+  /// Files of an engine that somebody else has run, in place of all that starts one: run by run,
+  /// those of one run by time; and their format.
+  std::vector<std::vector<std::filesystem::path>> files = {};
+  std::string format = {};
+
+  bool ofFiles() const { return !files.empty(); }
 };
 
 }  // namespace crossgrain

@@ -13,24 +13,22 @@ namespace crossgrain::inline averaging {
 namespace {
 
 constexpr int fewestPackings = 4;
+constexpr double fewestDof = fewestPackings - 1;
 
-/// t of the upper tail `level`, P − 1 degrees of freedom.
-double upperQuantile(double level, int packings) {
-  return gsl_cdf_tdist_Qinv(level, packings - 1);
+/// t of the upper tail `level`.
+double upperQuantile(double level, double dof) {
+  return gsl_cdf_tdist_Qinv(level, dof);
 }
 
-std::vector<double> pairedDifferences(const PairedSample& sample) {
+std::vector<std::optional<double>> pairedDifferences(const PairedSample& sample) {
   if (sample.reference.size() != sample.other.size())
     throw std::invalid_argument(
         fmt::format("agreement: {} packings of the reference, {} of the other engine",
                     sample.reference.size(), sample.other.size()));
-  if (!(sample.margin >= 0.0))
-    throw std::invalid_argument(
-        fmt::format("agreement: the margin must be 0 or more, got {}", sample.margin));
-  std::vector<double> differences;
+  std::vector<std::optional<double>> differences;
   for (std::size_t k = 0; k < sample.reference.size(); ++k)
     if (sample.reference[k] && sample.other[k])
-      differences.push_back(*sample.other[k] - *sample.reference[k]);
+      differences.emplace_back(*sample.other[k] - *sample.reference[k]);
   return differences;
 }
 
@@ -40,10 +38,9 @@ bool anything(const PairedSample& sample) {
 }
 
 /// Largest chance, over all |µ| ≤ margin, of a mean difference as far out as this one.
-double pWithin(double difference, double standardError, double margin, int packings) {
+double pWithin(double difference, double standardError, double margin, double dof) {
   const double beyond = std::abs(difference) - margin;
   if (standardError == 0.0) return beyond > 0.0 ? 0.0 : 1.0;
-  const double dof = packings - 1;
   const double p = gsl_cdf_tdist_Q(beyond / standardError, dof) +
                    gsl_cdf_tdist_Q((std::abs(difference) + margin) / standardError, dof);
   return std::min(p, 1.0);
@@ -51,12 +48,12 @@ double pWithin(double difference, double standardError, double margin, int packi
 
 /// The smallest |difference| that pWithin() puts at the level or below. One tail of the two alone
 /// bounds it from below, both tails alike from above.
-double criticalDifference(double standardError, double margin, double level, int packings) {
-  double low = margin + upperQuantile(level, packings) * standardError;
-  double high = margin + upperQuantile(0.5 * level, packings) * standardError;
+double criticalDifference(double standardError, double margin, double level, double dof) {
+  double low = margin + upperQuantile(level, dof) * standardError;
+  double high = margin + upperQuantile(0.5 * level, dof) * standardError;
   for (int k = 0; k < 12; ++k) {
     const double middle = 0.5 * (low + high);
-    (pWithin(middle, standardError, margin, packings) <= level ? high : low) = middle;
+    (pWithin(middle, standardError, margin, dof) <= level ? high : low) = middle;
   }
   return high;
 }
@@ -75,23 +72,63 @@ std::optional<double> withinFractionOf(const PairedSample& sample, const Ensembl
   return std::min(sum / count / all, 1.0);
 }
 
-PairedComparison describe(const PairedSample& sample, double alpha) {
-  const std::vector<double> differences = pairedDifferences(sample);
-  PairedComparison result;
-  result.packings = static_cast<int>(differences.size());
-  std::vector<std::optional<double>> present(differences.begin(), differences.end());
-  const auto mean = ensembleMean(present);
-  if (!mean) return result;
+void describePairs(const PairedSample& sample, PairedComparison& result) {
+  const auto mean = ensembleMean(pairedDifferences(sample));
+  if (!mean) return;
+  result.packings = result.referencePackings = result.otherPackings = mean->packings;
   result.difference = mean->mean;
   result.standardError = mean->standardError;
+  result.dof = mean->packings - 1;
+  if (result.standardError) result.withinFraction = withinFractionOf(sample, *mean);
+}
+
+void describeSamples(const PairedSample& sample, PairedComparison& result) {
+  const auto a = ensembleMean(sample.reference), b = ensembleMean(sample.other);
+  result.referencePackings = a ? a->packings : 0;
+  result.otherPackings = b ? b->packings : 0;
+  result.packings = std::min(result.referencePackings, result.otherPackings);
+  if (!a || !b) return;
+  result.difference = b->mean - a->mean;
+  const double n = a->packings, m = b->packings;
+  const double aSquare = std::pow(a->standardError.value_or(0.0), 2);  // s²/n
+  const double bSquare = std::pow(b->standardError.value_or(0.0), 2);
+  if (result.packings >= fewestPackings) {
+    result.basis = Basis::independent;
+    const double sum = aSquare + bSquare;
+    result.standardError = std::sqrt(sum);
+    result.dof = sum > 0.0
+                     ? sum * sum / (aSquare * aSquare / (n - 1.0) + bSquare * bSquare / (m - 1.0))
+                     : n + m - 2.0;
+  } else if (n + m > 2.0) {
+    result.basis = Basis::oneScatter;
+    result.dof = n + m - 2.0;
+    const double scatter = ((n - 1.0) * n * aSquare + (m - 1.0) * m * bSquare) / result.dof;  // p²
+    result.standardError = std::sqrt(scatter * (1.0 / n + 1.0 / m));
+  } else {
+    result.basis = Basis::oneRunEach;
+    if (sample.withinVariance.empty() || !sample.withinVariance.front()) return;
+    if (sample.withinDof < 1.0) return;
+    result.dof = sample.withinDof;
+    result.standardError = std::sqrt(*sample.withinVariance.front());
+  }
+}
+
+PairedComparison describe(const PairedSample& sample, double alpha) {
+  if (!(sample.margin >= 0.0))
+    throw std::invalid_argument(
+        fmt::format("agreement: the margin must be 0 or more, got {}", sample.margin));
+  PairedComparison result;
+  if (sample.independent)
+    describeSamples(sample, result);
+  else
+    describePairs(sample, result);
   if (!result.standardError) return result;
-  const double half = upperQuantile(alpha, result.packings) * *result.standardError;
+  const double half = upperQuantile(alpha, result.dof) * *result.standardError;
   result.low = result.difference - half;
   result.high = result.difference + half;
-  result.withinFraction = withinFractionOf(sample, *mean);
-  if (result.packings >= fewestPackings)
-    result.pDisagree = pWithin(result.difference, *result.standardError,
-                               sample.margin + sample.bias, result.packings);
+  if (result.dof >= fewestDof)
+    result.pDisagree =
+        pWithin(result.difference, *result.standardError, sample.margin + sample.bias, result.dof);
   return result;
 }
 
@@ -138,7 +175,7 @@ std::vector<std::optional<PairedComparison>> comparePaired(std::span<const Paire
     if (!result[k]) continue;
     PairedComparison& c = *result[k];
     const double margin = family[k].margin - family[k].bias;
-    if (c.packings >= fewestPackings && *c.low >= -margin && *c.high <= margin)
+    if (c.pDisagree && *c.low >= -margin && *c.high <= margin)
       c.verdict = Verdict::pass;
     else if (c.pDisagree && *c.pDisagree <= alpha)
       c.verdict = Verdict::fail;
@@ -146,18 +183,17 @@ std::vector<std::optional<PairedComparison>> comparePaired(std::span<const Paire
   return result;
 }
 
-std::optional<double> smallestDetectable(double standardError, int packings, double margin,
+std::optional<double> smallestDetectable(double standardError, double dof, double margin,
                                          double level, double power) {
-  if (packings < fewestPackings) return std::nullopt;
+  if (dof < fewestDof) return std::nullopt;
   if (standardError == 0.0) return margin;
   // Equally likely values of the sample's standard error, and what is significant with each.
   constexpr int quantiles = 50;
-  const double dof = packings - 1;
   std::vector<double> critical;
   for (int k = 0; k < quantiles; ++k)
     critical.push_back(criticalDifference(
         standardError * std::sqrt(gsl_cdf_chisq_Pinv((k + 0.5) / quantiles, dof) / dof), margin,
-        level, packings));
+        level, dof));
   const auto detected = [&](double truth) {
     double sum = 0.0;
     for (const double bound : critical)
@@ -174,11 +210,11 @@ std::optional<double> smallestDetectable(double standardError, int packings, dou
   return high;
 }
 
-std::optional<double> smallestSignificant(double standardError, int packings, std::size_t tests,
+std::optional<double> smallestSignificant(double standardError, double dof, std::size_t tests,
                                           double confidence) {
-  if (packings < fewestPackings || tests == 0) return std::nullopt;
+  if (dof < fewestDof || tests == 0) return std::nullopt;
   const double tail = (1.0 - confidence) / 2.0 / static_cast<double>(tests);
-  return upperQuantile(tail, packings) * standardError;
+  return upperQuantile(tail, dof) * standardError;
 }
 
 FieldVerdict fieldVerdict(std::span<const std::optional<PairedComparison>> rings) {

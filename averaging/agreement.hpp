@@ -21,7 +21,15 @@ std::optional<EnsembleMean> ensembleMean(std::span<const std::optional<double>> 
 
 using support::Verdict;
 
-/// One ring of one field as two engines found it on the same packings.
+/// Where the error of a difference of means comes from.
+enum class Basis {
+  paired,       ///< the differences of packings
+  independent,  ///< each engine's own scatter over its packings (Welch)
+  oneScatter,   ///< one of the two has too few packings: both are taken to scatter alike
+  oneRunEach    ///< a single run of each: what their own series say of their errors
+};
+
+/// One ring of one field as two engines found it, on the same packings or each on its own.
 struct PairedSample {
   std::vector<std::optional<double>> reference;  ///< per packing
   std::vector<std::optional<double>> other;      ///< per packing, in the same order
@@ -32,16 +40,22 @@ struct PairedSample {
   /// Per packing the variance of other − reference that the two runs' finite length brings, the
   /// sum of their squared within-run errors; empty if nobody knows.
   std::vector<std::optional<double>> withinVariance;
+  /// Packings of the two are not the same ones, nor need they be as many.
+  bool independent = false;
+  double withinDof = 0.0;  ///< degrees of freedom of the first withinVariance; 0: not known
 };
 
-/// What the paired differences other − reference of one ring say.
+/// What the differences other − reference of one ring say.
 struct PairedComparison {
-  int packings = 0;         ///< P, those that both engines have
-  double difference = 0.0;  ///< mean over packings
+  int packings = 0;                              ///< P, those that both engines have
+  int referencePackings = 0, otherPackings = 0;  ///< with a value; both P where they are paired
+  Basis basis = Basis::paired;
+  double difference = 0.0;  ///< of the means over packings
   std::optional<double>
       standardError;                ///< of difference, sd/√P; absent for P < 2, like low and high
+  double dof = 0.0;                 ///< of Student's t for it; P − 1 where they are paired
   std::optional<double> low, high;  ///< (1 − 2α) confidence interval of the difference
-  std::optional<double> pDisagree;  ///< that |µ| ≤ margin, Holm-adjusted; absent for P < 4
+  std::optional<double> pDisagree;  ///< that |µ| ≤ margin, Holm-adjusted; absent for dof < 3
   Verdict verdict = Verdict::undecided;
   std::optional<double>
       withinFraction;  ///< of the differences' variance, due to finite runs, 0 … 1
@@ -53,24 +67,30 @@ struct PairedComparison {
 /// - disagree: |µ| ≤ margin is rejected by a t test under Holm's (1979) step-down procedure, so
 /// that
 ///   the chance of any false disagree in the family is at most α.
-/// - undecided: neither, and always with fewer than 4 packings.
+/// - undecided: neither, and always with fewer than 3 degrees of freedom: 4 packings.
+///
+/// Independent samples of n and m packings with variances s² and u² have SE² = s²/n + u²/m, with
+/// (s²/n + u²/m)²/((s²/n)²/(n − 1) + (u²/m)²/(m − 1)) degrees of freedom (Welch 1947). Where one of
+/// them has fewer than 4 packings its scatter is hardly known: both are taken to have the same,
+/// SE² = p² (1/n + 1/m), p² = ((n − 1) s² + (m − 1) u²)/(n + m − 2). A single run of each has
+/// withinVariance, which does not know how packings differ.
 /// A ring where neither engine has anything is absent; where only one has, it is undecided with
 /// P = 0.
-/// @throws std::invalid_argument for unequal numbers of packings or a negative margin
+/// @throws std::invalid_argument for unequal numbers of paired packings or a negative margin
 std::vector<std::optional<PairedComparison>> comparePaired(std::span<const PairedSample> family,
                                                            double confidence);
 
 /// The smallest true mean difference that a t test of |µ| ≤ margin at `level` rejects with this
-/// power: over the scatter of the sample's own standard deviation (χ² of P − 1) and mean, which for
-/// margin 0 is the noncentral t distribution. Absent for fewer than 4 packings.
+/// power: over the scatter of the sample's own standard deviation (χ² of dof) and mean, which for
+/// margin 0 is the noncentral t distribution. Absent for fewer than 3 degrees of freedom.
 /// @param standardError  σ/√P of the mean difference, taken for the true one
-std::optional<double> smallestDetectable(double standardError, int packings, double margin,
+std::optional<double> smallestDetectable(double standardError, double dof, double margin,
                                          double level, double power = 0.9);
 
 /// The smallest mean paired difference that would be significant in a family of that many two-sided
 /// tests whose false alarms are limited to 1 − confidence: Holm's step with so many tests left.
-/// Absent for fewer than 4 packings. @param standardError  of the mean difference over packings
-std::optional<double> smallestSignificant(double standardError, int packings, std::size_t tests,
+/// Absent for fewer than 3 degrees of freedom. @param standardError  of the mean difference
+std::optional<double> smallestSignificant(double standardError, double dof, std::size_t tests,
                                           double confidence);
 
 /// The verdict on a field from its rings.

@@ -13,7 +13,9 @@ namespace {
 
 constexpr int mostForecast = 10000;
 
+/// Of independent samples all are looked at.
 PairedSample firstOf(const PairedSample& sample, int packings) {
+  if (sample.independent) return sample;
   const auto cut = [&](const std::vector<std::optional<double>>& values) {
     const auto end = std::min(values.size(), static_cast<std::size_t>(packings));
     return std::vector(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(end));
@@ -29,9 +31,13 @@ bool isBorderline(const PairedComparison& found, const PairedSample& sample) {
   return near > 0.0 && near <= sample.margin && far >= sample.margin && far <= 2.0 * sample.margin;
 }
 
+/// @param looked  packings that could have a value, of both engines
 void describe(InterimAnswer& answer, const PairedComparison& found, std::size_t look, int looked) {
   answer.look = look;
   answer.packings = found.packings;
+  answer.referencePackings = found.referencePackings;
+  answer.otherPackings = found.otherPackings;
+  answer.basis = found.basis;
   answer.lost = looked - found.packings;
   answer.difference = found.difference;
   answer.standardError = found.standardError;
@@ -76,7 +82,9 @@ std::vector<std::optional<InterimAnswer>> answersAfterInterims(std::span<const P
     for (std::size_t k = 0; k < family.size(); ++k) {
       if (!found[k] || (answers[k] && isFinal(answers[k]->verdict))) continue;
       InterimAnswer& own = answers[k] ? *answers[k] : answers[k].emplace();
-      describe(own, *found[k], look, plan.packings[look]);
+      const auto both = std::min(seen[k].reference.size(), seen[k].other.size());
+      describe(own, *found[k], look,
+               seen[k].independent ? static_cast<int>(both) : plan.packings[look]);
       own.verdict = Verdict::undecided;
       if (found[k]->verdict == Verdict::pass)
         own.verdict = Verdict::pass;

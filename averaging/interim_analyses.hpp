@@ -34,7 +34,9 @@ struct InterimAnswer {
   Verdict verdict = Verdict::undecided;  ///< pass, borderline, undecided or fail
   std::size_t look = 0;                  ///< index of the look that gave it, or of the last one
   int packings = 0;                      ///< that both engines have, of those looked at
-  int lost = 0;                          ///< of those looked at, that one engine has no value on
+  int referencePackings = 0, otherPackings = 0;  ///< as of PairedComparison
+  Basis basis = Basis::paired;
+  int lost = 0;  ///< of those looked at, that one engine has no value on
   double difference = 0.0;
   std::optional<double> standardError;
   std::optional<double> low, high;  ///< (1 − 2α) interval, α that of *agree*

@@ -18,6 +18,14 @@ std::span<const double> flat(const std::vector<Moments>& moments) {
   return {moments.front().data(), moments.size() * momentCount};
 }
 
+std::vector<Moments> perSlot(const std::vector<double>& flat) {
+  std::vector<Moments> result(flat.size() / momentCount);
+  for (std::size_t slot = 0; slot < result.size(); ++slot)
+    std::copy_n(flat.begin() + static_cast<std::ptrdiff_t>(slot * momentCount), momentCount,
+                result[slot].begin());
+  return result;
+}
+
 /// Each index once.
 std::vector<std::pair<std::size_t, double>> collected(
     std::vector<std::pair<std::size_t, double>> slopes) {
@@ -64,29 +72,51 @@ void ProfileAccumulator::add(const Snapshot& snapshot) {
 }
 
 std::vector<Moments> ProfileAccumulator::meanMoments(std::size_t weight) const {
-  const std::vector<double> means = series_[weight].means();
-  std::vector<Moments> result(coordinates_->slots());
-  for (std::size_t slot = 0; slot < result.size(); ++slot)
-    std::copy_n(means.begin() + static_cast<std::ptrdiff_t>(slot * momentCount), momentCount,
-                result[slot].begin());
-  return result;
+  return perSlot(series_[weight].means());
 }
 
-std::vector<Profile> ProfileAccumulator::profiles() const {
+template <typename MeansOf>
+std::vector<Profile> ProfileAccumulator::profilesOf(MeansOf&& meansOf, bool errors) const {
   std::vector<Profile> result;
   if (snapshots_ == 0) return result;
   for (std::size_t weight = 0; weight < weights_.size(); ++weight) {
-    const std::vector<Moments> mean = meanMoments(weight);
-    for (const FieldSpec* field : fields_) result.push_back(profile(weight, *field, mean));
+    const std::vector<Moments> mean = meansOf(weight);
+    for (const FieldSpec* field : fields_) result.push_back(profile(weight, *field, mean, errors));
     if (!reportsHeat_ || lacksHeat_) continue;
     for (const FieldSpec& field : averaging::fieldsOf(*coordinates_))
-      if (field.needs == Needs::dissipation) result.push_back(profile(weight, field, mean));
+      if (field.needs == Needs::dissipation) result.push_back(profile(weight, field, mean, errors));
   }
   return result;
 }
 
+std::vector<Profile> ProfileAccumulator::profiles() const {
+  return profilesOf([this](std::size_t weight) { return meanMoments(weight); }, true);
+}
+
+std::optional<std::pair<std::size_t, std::size_t>> ProfileAccumulator::part(std::size_t k,
+                                                                            std::size_t n) const {
+  if (series_.empty() || series_.front().blocks() < n) return std::nullopt;
+  const std::size_t blocks = series_.front().blocks(), length = series_.front().blockLength();
+  return std::pair(k * blocks / n * length, (k + 1) * blocks / n * length);
+}
+
+std::vector<Profile> ProfileAccumulator::profilesWithout(std::size_t k, std::size_t n) const {
+  const auto [first, last] = *part(k, n);
+  return profilesOf(
+      [&](std::size_t weight) {
+        const BlockSeries& series = series_[weight];
+        std::vector<double> means = series.sums();
+        const std::size_t length = series.blockLength();
+        for (std::size_t b = first / length; b < last / length; ++b)
+          for (std::size_t m = 0; m < means.size(); ++m) means[m] -= series.sums(b)[m];
+        for (double& mean : means) mean /= static_cast<double>(series.samples() - (last - first));
+        return perSlot(means);
+      },
+      false);
+}
+
 Profile ProfileAccumulator::profile(std::size_t weight, const FieldSpec& field,
-                                    const std::vector<Moments>& mean) const {
+                                    const std::vector<Moments>& mean, bool errors) const {
   Profile result;
   result.method = toString(weights_[weight].method);
   result.field = field.name;
@@ -101,7 +131,7 @@ Profile ProfileAccumulator::profile(std::size_t weight, const FieldSpec& field,
     result.standardError.emplace_back();
     result.nEff.emplace_back();
     result.dof.emplace_back();
-    if (!value || residual.empty()) continue;
+    if (!errors || !value || residual.empty()) continue;
     const auto slopes = collected(value->slopes);
     for (std::size_t b = 0; b < residual.size(); ++b) {
       residual[b] = 0.0;

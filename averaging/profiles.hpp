@@ -58,12 +58,21 @@ class ProfileAccumulator {
   /// Every field that the snapshots have data for, method by method. Empty before the first add.
   std::vector<Profile> profiles() const;
 
+  /// Snapshots of part k of n equal parts of the run, as indices [first, last), whole blocks of
+  /// them; the last few may be of none. Absent where there are fewer blocks than parts.
+  std::optional<std::pair<std::size_t, std::size_t>> part(std::size_t k, std::size_t n) const;
+  /// Means alone, of the run without those snapshots. @pre part(k, n)
+  std::vector<Profile> profilesWithout(std::size_t k, std::size_t n) const;
+
   /// Time-mean moments per slot, overflow included, of the weight of that index.
   std::vector<Moments> meanMoments(std::size_t weight) const;
 
  private:
-  Profile profile(std::size_t weight, const FieldSpec& field,
-                  const std::vector<Moments>& mean) const;
+  /// Of every field and weight. @param meansOf  of a weight @param errors  whether they are wanted
+  template <typename MeansOf>
+  std::vector<Profile> profilesOf(MeansOf&& meansOf, bool errors) const;
+  Profile profile(std::size_t weight, const FieldSpec& field, const std::vector<Moments>& mean,
+                  bool errors) const;
 
   std::shared_ptr<const Coordinates> coordinates_;
   std::vector<Weight> weights_;

@@ -10,6 +10,7 @@
 #include "adapters/registry.hpp"
 #include "cases/engine_file.hpp"
 #include "studies/core/mirrors.hpp"
+#include "studies/flow/file_runs.hpp"
 #include "support/bad_input.hpp"
 #include "support/data_folder.hpp"
 #include "support/input_file.hpp"
@@ -48,6 +49,11 @@ void addNames(const std::string& list, std::vector<std::string>& names) {
     names.push_back(trimmed(name));
     if (names.back().empty())
       throw BadInput(fmt::format("--engines '{}': a name is empty; like grain,yade", list));
+    if (namesFiles(names.back())) {
+      addEngine(engineOfFiles(names.back()));
+      names.back() = engineRegistry().back().name;
+      continue;
+    }
     if (namesEngineFile(names.back()))
       names.back() = addExternalEngine(loadEngineFile(names.back()));
     addMirrorOfShelved(names.back());

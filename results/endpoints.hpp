@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "averaging/agreement.hpp"
 #include "results/agreement.hpp"
 #include "results/json_fields.hpp"
 
@@ -18,6 +19,24 @@ inline constexpr support::EnumNames<Verdict, 5> answerNames{{{Verdict::pass, "no
                                                              {Verdict::borderline, "borderline"},
                                                              {Verdict::fail, "disagree"},
                                                              {Verdict::undecided, "undecided"}}};
+
+/// What files call the basis of a verdict.
+inline constexpr support::EnumNames<Basis, 4> basisNames{{{Basis::paired, "paired"},
+                                                          {Basis::independent, "independent"},
+                                                          {Basis::oneScatter, "one_scatter"},
+                                                          {Basis::oneRunEach, "one_run_each"}}};
+
+/// Of two engines whose runs are not paired, as those of files.
+struct UnpairedRuns {
+  Basis basis = Basis::independent;
+  int a = 0, b = 0;  ///< runs with a value, of each
+
+  void fields(auto& io) {
+    io("basis", basis, basisNames);
+    io("a", a);
+    io("b", b);
+  }
+};
 
 /// One endpoint of two engines.
 struct EndpointRow {
@@ -33,9 +52,10 @@ struct EndpointRow {
   /// The difference in margins, with its interval: engines rank by it. With a bound the interval is
   /// wider by it.
   std::optional<double> distance, distanceLow, distanceHigh;
-  std::optional<int> look;  ///< that gave the answer, or the last, from 1
-  int packings = 0;         ///< that both have
-  int lost = 0;             ///< that one of both has no value on, of those looked at
+  std::optional<int> look;               ///< that gave the answer, or the last, from 1
+  int packings = 0;                      ///< that both have
+  int lost = 0;                          ///< that one of both has no value on, of those looked at
+  std::optional<UnpairedRuns> unpaired;  ///< absent: the same packings of both, one by one
   std::string reason;  ///< why a run has none, or the margin does not apply; empty: as it should be
   std::optional<int> needs;            ///< undecided: packings that decide with 90 % chance,
   std::optional<int> needsAtMost;      ///< and at most so many; absent: no telling
@@ -79,6 +99,7 @@ struct EndpointRow {
     io("look", look);
     io("packings", packings);
     io("lost", lost);
+    io.present("unpaired", unpaired);
     io.when(!reason.empty(), "reason", reason);
     io.present("needs", needs);
     io.present("needs_at_most", needsAtMost);

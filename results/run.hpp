@@ -39,6 +39,19 @@ void fields(auto& io, Distribution& distribution) {
 inline constexpr support::EnumNames<Status, 3> runStatusNames{
     {{Status::finished, "finished"}, {Status::failed, "failed"}, {Status::notRun, "missing"}}};
 
+/// How well one run knows an endpoint by itself: it says nothing of other packings.
+struct EndpointError {
+  std::string endpoint;
+  double standardError = 0.0;  ///< [unit of the endpoint]
+  double dof = 0.0;            ///< of Student's t
+
+  void fields(auto& io) {
+    io("endpoint", endpoint, aName);
+    io("stderr", standardError);
+    io("dof", dof);
+  }
+};
+
 /// One engine on one packing: what it used, what it cost and what its averages are. A run that did
 /// not finish has none.
 struct FlowRun {
@@ -58,7 +71,8 @@ struct FlowRun {
   /// Absent where a report does not show them; then it shows no distributions and picture either.
   std::optional<RunSeries> series;
   std::vector<Distribution> distributions;
-  std::optional<ScenePicture> picture;  ///< of the first packing
+  std::optional<ScenePicture> picture;        ///< of the first packing
+  std::vector<EndpointError> endpointErrors;  ///< where runs of files are compared
 
   bool finished() const { return status == Status::finished; }
 
@@ -79,6 +93,7 @@ struct FlowRun {
     io.present("series", series);
     io.when(series.has_value(), "distributions", distributions);
     io.when(effective && series, "picture", picture);
+    io.when(!endpointErrors.empty(), "endpoint_errors", endpointErrors);
   }
 };
 

@@ -123,13 +123,15 @@ Table ringTable(const CompareResults& results, const std::string& reference, con
 }
 
 List verdictReading(const CompareResults& results) {
+  const bool paired = std::ranges::none_of(
+      results.endpoints.rows, [](const EndpointRow& row) { return row.unpaired.has_value(); });
   return {
       {{"✓ agree",
-        fmt::format("the difference, paired over the same packings, lies within the margin "
+        fmt::format("the difference{} lies within the margin "
                     "(two one-sided t tests, {:.3g} % confidence over all interim analyses "
                     "together). No difference seen: its interval contains 0. Small difference: "
                     "it does not.",
-                    100.0 * results.averaging.confidence)},
+                    paired ? ", paired over the same packings," : "", 100.0 * results.averaging.confidence)},
        {"✗ disagree", "it exceeds the margin (Holm's procedure over the endpoints of the pair)."},
        {"≈ borderline",
         "a difference is shown, and that it is below twice the margin; the margin lies in "

@@ -121,8 +121,10 @@ void addPictures(Report& report, const CompareResults& results, const Engines& e
 
 std::string basisInWords(const CompareResults& results, const std::string& reference) {
   const std::string when = averagedRotations(results.averaging);
-  return fmt::format("Reference: {}. {}{}.", reference, counted(results.packings.size(), "packing"),
-                     when.empty() ? std::string() : "; averaged: " + when);
+  const bool runs = !results.packings.empty();
+  return fmt::format("Reference: {}. {}{}.", reference,
+                     runs ? counted(results.packings.size(), "packing") : "Nothing was run",
+                     when.empty() || !runs ? std::string() : "; averaged: " + when);
 }
 
 /// The error rates, and over how many pairs of engines that the user named.
@@ -160,7 +162,9 @@ std::vector<std::string> compareNotes(const CompareResults& results, const Engin
   if (results.lockstep) notes.push_back("Lockstep: " + leadOf(*results.lockstep));
   std::ranges::move(stateSentences(results, engines), std::back_inserter(notes));
   for (const EngineRuns& engine : engines) notes.push_back(troubleInWords(engine));
-  if (results.packings.size() < 4 && !peersOf(results.endpoints.rows, engines).empty())
+  const auto isPaired = [](const EndpointRow& row) { return !row.unpaired; };
+  if (results.packings.size() < 4 && std::ranges::all_of(results.endpoints.rows, isPaired) &&
+      !peersOf(results.endpoints.rows, engines).empty())
     notes.emplace_back(
         "Fewer than 4 packings: differences between engines cannot be distinguished from those "
         "between packings, so no general verdict is given.");
@@ -240,7 +244,7 @@ Report compareReport(const CompareResults& results) {
   addSeries(report, results, engines);
   addPictures(report, results, engines);
   addDetails(report, effectiveOf(results, engines));
-  addPackings(report, results.packings);
+  if (!results.packings.empty()) addPackings(report, results.packings);
   report.tables = averageTables(results);
   report.tables.emplace_back("endpoints.csv", endpointsCsv(results));
   report.tables.emplace_back("agreement.csv", agreementCsv(results));

@@ -160,6 +160,14 @@ const EndpointRow* nextToDecide(const CompareResults& results) {
   return next;
 }
 
+/// How many runs an engine has that nobody has run here; 0 of one that crossgrain runs.
+std::size_t runsFromFiles(const Engines& engines, const std::string& name) {
+  const auto engine = std::ranges::find(engines, name, &EngineRuns::name);
+  if (engine == engines.end() || engine->finished.empty() || engine->finished.front()->stats)
+    return 0;
+  return engine->finished.size();
+}
+
 std::string nextStep(const CompareResults& results, const Engines& engines) {
   if (results.nothingJudged)
     return fmt::format("Nothing was judged: {}.", results.nothingJudged->reason);
@@ -183,6 +191,9 @@ std::string nextStep(const CompareResults& results, const Engines& engines) {
       peersOf(results.endpoints.rows, engines).empty())
     return "Next: name two engines that run this scene.";
   if (const EndpointRow* const next = nextToDecide(results)) {
+    for (const std::string& name : {next->b, next->a})
+      if (const std::size_t runs = runsFromFiles(engines, name); runs > 0)
+        return fmt::format("Next: more runs of {}, whose files hold {}.", name, runs);
     const InterimFindings& looks = results.endpoints.looks;
     const bool planned = looks.taken < looks.planned.size();
     return fmt::format(

@@ -183,11 +183,12 @@ std::string endpointsCsv(const CompareResults& results) {
   std::string table =
       "a,b,kind,endpoint,unit,margin,answer,difference,low,high,distance,distance_low,"
       "distance_high,look,packings,lost,needs,needs_at_most,carrier_a,carrier_b,bound,"
-      "regimes_differ,reference,reason,reach\n";
+      "regimes_differ,reference,reason,reach,basis,packings_a,packings_b\n";
   for (const EndpointRow& entry : results.endpoints.rows) {
     const auto margin = entry.marginRelative && entry.reference
                             ? std::optional(entry.margin * std::abs(*entry.reference))
                             : std::optional(entry.margin);
+    const auto& runs = entry.unpaired;
     table += row(entry.a, entry.b, std::string(nameOf(entry.kind)), entry.endpoint, entry.unit,
                  margin, entry.answer(), entry.difference, entry.low, entry.high, entry.distance,
                  entry.distanceLow, entry.distanceHigh, std::optional<double>(entry.look),
@@ -195,7 +196,9 @@ std::string endpointsCsv(const CompareResults& results) {
                  std::optional<double>(entry.needs), std::optional<double>(entry.needsAtMost),
                  entry.surrogateA, entry.surrogateB, entry.bound,
                  regimesDiffer(results.regimes, entry.a, entry.b), entry.reference, entry.reason,
-                 entry.reach);
+                 entry.reach, std::string(nameOf(runs ? runs->basis : Basis::paired, basisNames)),
+                 runs ? std::optional<double>(runs->a) : std::nullopt,
+                 runs ? std::optional<double>(runs->b) : std::nullopt);
   }
   return table;
 }

@@ -92,6 +92,7 @@ std::string describeAnswer(const EndpointRow& row) {
     words += fmt::format(" with the closed form ({})", describeValue(row));
   if (const std::string distance = describeDistance(row); !distance.empty())
     words += ": " + distance;
+  if (row.unpaired) words += fmt::format(", {} against {} runs", row.unpaired->b, row.unpaired->a);
   if (row.lost > 0) words += fmt::format(", {} failed", counted(std::size_t(row.lost), "packing"));
   if (!row.reason.empty()) words += fmt::format(" ({})", row.reason);
   for (const std::string& more : {describeSurrogate(row), describeNeeds(row)})

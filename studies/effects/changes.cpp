@@ -104,7 +104,7 @@ void judge(RingChange& row, const TestedChange& ring, const PairedComparison& fo
   row.p = *found.pDisagree;
   row.resolved = resolved;
   const auto half =
-      smallestSignificant(*found.standardError, found.packings,
+      smallestSignificant(*found.standardError, found.dof,
                           family.tests - family.rejected + (resolved ? 1 : 0), family.confidence);
   row.low = inUnit(ring.test, found.difference - *half);
   row.high = inUnit(ring.test, found.difference + *half);

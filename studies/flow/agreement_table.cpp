@@ -33,7 +33,7 @@ AgreementRing ringRow(std::size_t index, const PairedTest& test, const PairedCom
   row.margin = marginOf(test, margin);
   if (found.standardError)
     if (const auto smallest =
-            smallestDetectable(*found.standardError, found.packings, test.sample.margin, level))
+            smallestDetectable(*found.standardError, found.dof, test.sample.margin, level))
       row.detects = std::abs(inUnit(test, test.sign * *smallest));
   row.withinFraction = found.withinFraction;
   row.scale = test.logarithmic ? TestScale::logarithmic : TestScale::linear;
@@ -62,20 +62,30 @@ struct RingFamily {
 };
 
 RingFamily ringFamilyOf(const Case& setup, const Runs& reference, const Runs& other,
-                        std::size_t packings) {
+                        bool independent) {
   const std::string& method = setup.averaging.methods.front();
+  std::size_t ourPackings = packingsOf(reference), theirPackings = packingsOf(other);
+  if (!independent) ourPackings = theirPackings = std::max(ourPackings, theirPackings);
   RingFamily family;
   for (const auto& [name, margin] : setup.averaging.margins) {
-    const auto ours = fieldByRing(reference, method, name, packings);
-    const auto theirs = fieldByRing(other, method, name, packings);
+    const auto ours = fieldByRing(reference, method, name, ourPackings);
+    const auto theirs = fieldByRing(other, method, name, theirPackings);
     const std::size_t rings = std::min(ours.size(), theirs.size());
     if (rings == 0) continue;
     family.fields.push_back({name, &margin, family.tested.size(), rings});
     const auto error = &Profile::standardError;
-    const auto ourError = fieldByRing(reference, method, name, packings, error);
-    const auto theirError = fieldByRing(other, method, name, packings, error);
+    const auto ourError = fieldByRing(reference, method, name, ourPackings, error);
+    const auto theirError = fieldByRing(other, method, name, theirPackings, error);
+    const auto dof = &Profile::dof;
+    const auto ourDof = fieldByRing(reference, method, name, ourPackings, dof);
+    const auto theirDof = fieldByRing(other, method, name, theirPackings, dof);
     for (std::size_t ring = 0; ring < rings; ++ring) {
       family.tested.push_back(testedRing(margin, ours[ring], theirs[ring]));
+      PairedSample& sample = family.tested.back().sample;
+      sample.independent = independent;
+      if (independent && ring < ourDof.size() && ring < theirDof.size())
+        sample.withinDof =
+            std::min(ourDof[ring].front().value_or(0.0), theirDof[ring].front().value_or(0.0));
       if (ring < ourError.size() && ring < theirError.size())
         addWithinVariance(family.tested.back(), ourError[ring], theirError[ring]);
     }
@@ -88,7 +98,8 @@ void addPair(std::vector<AgreementRow>& table, const Case& setup, std::span<cons
   const Runs reference = runsFor(runs, pair.a, surrogates);
   const Runs other = runsFor(runs, pair.b, surrogates, pair.without);
   if (reference.empty() || other.empty()) return;
-  const RingFamily family = ringFamilyOf(setup, reference, other, packingsOf(runs));
+  const RingFamily family =
+      ringFamilyOf(setup, reference, other, independentRuns(pair, reference, other));
   std::vector<PairedSample> samples;
   for (const PairedTest& ring : family.tested) samples.push_back(ring.sample);
   const auto results = comparePaired(samples, setup.averaging.confidence);

@@ -45,10 +45,23 @@ void addGlobalNumbers(RunSeries& rows, const Scene& scene, const Snapshot& now) 
   rows["energy_residual"].push_back(residual(*now.ledger));
 }
 
+std::optional<FlowRun> FlowAverages::without(std::size_t k, std::size_t n) const {
+  const auto part = profiles_.part(k, n);
+  if (!part) return std::nullopt;
+  FlowRun run;
+  run.profiles = profiles_.profilesWithout(k, n);
+  run.series = series_;
+  for (auto& [name, values] : *run.series)
+    values.erase(values.begin() + static_cast<std::ptrdiff_t>(part->first),
+                 values.begin() + static_cast<std::ptrdiff_t>(part->second));
+  run.head = {{"coordination", "-", meanOf(valuesOf(*run.series, "coordination")), {}, {}}};
+  return run;
+}
+
 CouetteAverages::CouetteAverages(const Case& setup, const Scene& scene)
-    : setup_(setup),
+    : FlowAverages({ringsOf(setup), weightsOf(setup, setup.averaging.methods), scene}),
+      setup_(setup),
       scene_(scene),
-      profiles_(ringsOf(setup), weightsOf(setup, setup.averaging.methods), scene),
       distributions_(ringsOf(setup), scene, distributionScales(setup)),
       spin_(ringsOf(setup), scene) {}
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "adapters/scene.hpp"
@@ -29,6 +31,18 @@ class FlowAverages {
   /// Puts them, and what follows from them, into a run: all but what it was run with and its
   /// picture.
   virtual void describe(const EffectiveParameters& effective, FlowRun& run) const = 0;
+
+  std::size_t snapshots() const { return profiles_.snapshots(); }
+
+  /// What endpoints are made of, of the run without part k of n of its snapshots: means, series and
+  /// the coordination. Absent where there are too few snapshots for so many parts.
+  std::optional<FlowRun> without(std::size_t k, std::size_t n) const;
+
+ protected:
+  explicit FlowAverages(ProfileAccumulator profiles) : profiles_(std::move(profiles)) {}
+
+  ProfileAccumulator profiles_;
+  RunSeries series_;
 };
 
 /// Adds the numbers that any scene has to series: the snapshot's time, kinetic energy, what
@@ -53,8 +67,6 @@ class CouetteAverages : public FlowAverages {
 
   const Case& setup_;
   const Scene& scene_;
-  ProfileAccumulator profiles_;
-  RunSeries series_;
   DistributionAccumulator distributions_;
   LayerSpin spin_;
   std::vector<WallBalance> wall_;  ///< one a snapshot that holds the walls and contacts
@@ -77,8 +89,6 @@ class RegionAverages : public FlowAverages {
   const Case& setup_;
   const Scene& scene_;
   std::shared_ptr<const Coordinates> bins_;
-  ProfileAccumulator profiles_;
-  RunSeries series_;
 };
 
 }  // namespace crossgrain::inline studies

@@ -14,6 +14,7 @@
 #include "cases/time_step.hpp"
 #include "results/run.hpp"
 #include "studies/core/engine_running.hpp"
+#include "studies/flow/file_runs.hpp"
 #include "studies/flow/frame.hpp"
 #include "studies/flow/run.hpp"
 #include "support/bad_input.hpp"
@@ -100,6 +101,12 @@ void Campaign::forEachEngine(const std::function<void(CampaignEngine&)>& work) {
 void Campaign::askEngines() {
   const Scene scene = unplacedScene(setup_, dt_);
   forEachEngine([&](CampaignEngine& own) {
+    if (own.entry.ofFiles()) {
+      own.version = own.entry.format;
+      for (std::size_t run = 0; run < own.entry.files.size(); ++run)
+        openRun(setup_, own.entry, run);
+      return;
+    }
     const auto engine =
         startEngine(own.entry, store_.scratch("ask-" + own.entry.name), setup_.run.timeout);
     const Capabilities can = engine->capabilities();
@@ -109,7 +116,27 @@ void Campaign::askEngines() {
   });
 }
 
+bool Campaign::hasFiles() const {
+  return std::ranges::any_of(engines(), &EngineEntry::ofFiles);
+}
+
+bool Campaign::runsEngines() const {
+  return std::ranges::any_of(engines_, [](const CampaignEngine& own) {
+    return !own.entry.ofFiles() && own.refusal.empty();
+  });
+}
+
+int Campaign::runsOf(std::size_t engine) const {
+  const EngineEntry& entry = engines_[engine].entry;
+  return static_cast<int>(entry.ofFiles() ? entry.files.size() : packings_.size());
+}
+
 void Campaign::preparePackings(int count) {
+  if (!runsEngines()) {
+    fileDisks_ = openRun(setup_, engines_.front().entry, 0)->scene().disks;
+    store_.begin();
+    return;
+  }
   const int there = static_cast<int>(packings_.size());
   if (count <= there) return;
   packings_.resize(static_cast<std::size_t>(count));
@@ -158,9 +185,11 @@ void Campaign::preparePackings(int count) {
 }
 
 void Campaign::timeEngines() {
+  if (!runsEngines()) return;
   const double end = flowDuration(setup_);
   const Scene scene = flowScene(setup_, packings_.front(), dt_);
   forEachEngine([&](CampaignEngine& own) {
+    if (own.entry.ofFiles()) return;
     const auto engine =
         startEngine(own.entry, store_.scratch("time-" + own.entry.name), setup_.run.timeout);
     const BriefTiming timing = briefTiming(*engine, own.entry, setup_, scene);
@@ -172,8 +201,13 @@ void Campaign::timeEngines() {
 }
 
 CaseKeys Campaign::keyOf(std::size_t engine, int packing, const std::string& part) const {
-  CaseKeys key = runKey(setup_, engines_[engine].entry.name, engines_[engine].version);
-  key["packing"] = packings_[static_cast<std::size_t>(packing)].hash;
+  const EngineEntry& entry = engines_[engine].entry;
+  CaseKeys key = runKey(setup_, entry.name, engines_[engine].version);
+  const auto k = static_cast<std::size_t>(packing);
+  if (entry.ofFiles())
+    key["files"] = fingerprintOf(entry, k);
+  else
+    key["packing"] = packings_[k].hash;
   if (!part.empty()) key["part"] = part;
   return key;
 }
@@ -200,9 +234,20 @@ std::string runName(const EngineEntry& entry, const Variant& variant, int packin
 
 }  // namespace
 
+FlowRun Campaign::runOfFiles(const EngineEntry& entry, int run,
+                             const std::function<void(double)>& progress) const {
+  const auto source = openRun(setup_, entry, static_cast<std::size_t>(run));
+  FlowRun averaged = averagedRun(setup_, *source, progress);
+  averaged.engine = entry.name;
+  averaged.packing = run;
+  return averaged;
+}
+
 CachedTask<FlowRun>::Outcome Campaign::runOne(const Variant& variant, int packing,
                                               const std::function<void(double)>& progress) const {
   const EngineEntry& entry = engines_[variant.engine].entry;
+  if (entry.ofFiles())  // what is wrong with a file is the user's to mend
+    return {runOfFiles(entry, packing, progress), true, "averaged"};
   const std::string name = runName(entry, variant, packing);
   FlowRun run;
   run.engine = entry.name;
@@ -289,7 +334,8 @@ std::vector<CachedTask<FlowRun>> Campaign::tasksOf(const PlannedRuns& list) cons
   std::vector<CachedTask<FlowRun>> tasks;
   for (const Variant& variant : list.variants) {
     const CampaignEngine& own = engines_[variant.engine];
-    for (int k = list.packings.from; k < list.packings.to; ++k)
+    const int to = own.entry.ofFiles() ? runsOf(variant.engine) : list.packings.to;
+    for (int k = list.packings.from; k < to; ++k)
       tasks.push_back({runName(own.entry, variant, k), labelOf(own.entry, variant, k),
                        keyOf(variant.engine, k, partOf(variant)), own.predicted,
                        [this, &variant, k](const std::function<void(double)>& progress) {
@@ -301,6 +347,7 @@ std::vector<CachedTask<FlowRun>> Campaign::tasksOf(const PlannedRuns& list) cons
 }
 
 void Campaign::lookForPackings() {
+  if (!runsEngines()) return;
   packings_.resize(static_cast<std::size_t>(packingCount()));
   for (std::size_t k = 0; k < packings_.size(); ++k) {
     const ExpectedPacking expected = expectedPacking(setup_, static_cast<int>(k), dt_);
@@ -346,8 +393,8 @@ std::vector<EngineRow> Campaign::engineRows() const {
 
 FlowStudy Campaign::study(std::string_view kind) const {
   FlowStudy study;
-  static_cast<FlowFrame&>(study) =
-      couetteFrame(kind, setup_, command_.commandLine, packings_.front().disks);
+  static_cast<FlowFrame&>(study) = couetteFrame(
+      kind, setup_, command_.commandLine, packings_.empty() ? fileDisks_ : packings_.front().disks);
   study.engines = engineRows();
   for (std::size_t k = 0; k < packings_.size(); ++k)
     study.packings.push_back(

@@ -94,6 +94,13 @@ class Campaign {
   void lookForPackings();
   /// What `run` would do, engine by engine, those that refuse too.
   std::vector<PlannedWork> plan(const std::vector<Variant>& variants) const;
+  /// Whether runs of files take part, which are what they are: no more of them can be asked for.
+  bool hasFiles() const;
+  /// Whether anything is to be run from the case's packings.
+  bool runsEngines() const;
+  /// Runs of the engine: as many as its files hold, or packings.
+  int runsOf(std::size_t engine) const;
+
   /// "compare of quick: 4 packings, 3 of them prepared already"
   std::string planHead() const;
 
@@ -125,6 +132,8 @@ class Campaign {
   /// first engine's
   void forEachEngine(const std::function<void(CampaignEngine&)>& work);
   std::vector<CachedTask<FlowRun>> tasksOf(const PlannedRuns& list) const;
+  FlowRun runOfFiles(const EngineEntry& entry, int run,
+                     const std::function<void(double)>& progress) const;
   CachedTask<FlowRun>::Outcome runOne(const Variant& variant, int packing,
                                       const std::function<void(double)>& progress) const;
   std::vector<EngineRow> engineRows() const;
@@ -137,6 +146,7 @@ class Campaign {
   Progress progress_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   std::vector<Packing> packings_;
+  Disks fileDisks_;                 ///< of the first run of files, where there are no packings
   std::vector<double> preparedIn_;  ///< of those that the cache did not have [s]
   std::vector<FlowRun> runs_;       ///< variant by variant, packing by packing
 };

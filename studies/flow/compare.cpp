@@ -22,7 +22,7 @@ namespace {
 
 /// Those whose implementation is in question: not what mirrors are made of, nor mirrors themselves.
 bool hasMirror(const EngineEntry& entry) {
-  return entry.mirrors.empty() && entry.name != engineRegistry().front().name;
+  return entry.mirrors.empty() && !entry.ofFiles() && entry.name != engineRegistry().front().name;
 }
 
 /// What nothing is left to be compared with is not run.
@@ -64,6 +64,13 @@ std::optional<NothingJudged> nothingJudged(const Case& setup, std::span<const En
     return NothingJudged{"no two engines finished a run that shows an endpoint with a margin"};
   if (most == 0) return NothingJudged{"no endpoint has a value on two engines"};
   if (most >= fewest) return std::nullopt;
+  const auto hasInterval = [](const EndpointRow& row) { return row.unpaired && row.low; };
+  if (std::ranges::any_of(rows, hasInterval)) return std::nullopt;
+  const auto single = [](const EndpointRow& row) {
+    return row.unpaired && row.unpaired->basis == Basis::oneRunEach;
+  };
+  if (std::ranges::any_of(rows, single))
+    return NothingJudged{"a single run of each is too short to know its own error"};
   return NothingJudged{fmt::format("{} packing{} of both engines, and a verdict needs at least {}",
                                    most, most == 1 ? "" : "s", fewest)};
 }
@@ -111,6 +118,7 @@ CompareResults compare(const StudyWork& work, const CompareOptions& own) {
       nothingJudged(setup, results.endpoints.rows, static_cast<std::size_t>(named));
   if (const auto& nothing = results.nothingJudged)
     results.notes.push_back(fmt::format("Nothing was judged: {}.", nothing->reason));
+  std::ranges::move(fileNotes(results), std::back_inserter(results.notes));
   std::ranges::move(velocityNotes(results), std::back_inserter(results.notes));
   std::ranges::move(contactNotes(results), std::back_inserter(results.notes));
   return results;

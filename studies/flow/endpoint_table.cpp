@@ -84,10 +84,16 @@ std::vector<EndpointTest> familyOf(const Case& setup, std::span<const FlowRun> r
              theirs = runsFor(runs, pair.b, known.surrogates);
   std::vector<EndpointTest> family;
   if (ours.empty() || theirs.empty()) return family;
+  const bool independent = independentRuns(pair, ours, theirs);
+  const auto valuesOf = [&](const EndpointSpec& endpoint, const Runs& of) {
+    return endpointByPacking(endpoint, setup, of, independent ? packingsOf(of) : packings);
+  };
   for (const EndpointSpec& endpoint : endpointsOf(setup)) {
     EndpointTest own =
-        testOf(setup, pair, endpoint, endpointByPacking(endpoint, setup, ours, packings),
-               endpointByPacking(endpoint, setup, theirs, packings));
+        testOf(setup, pair, endpoint, valuesOf(endpoint, ours), valuesOf(endpoint, theirs));
+    own.test.sample.independent = independent;
+    if (independent && ours.size() == 1 && theirs.size() == 1)
+      addOwnErrors(own.test, *ours.front(), *theirs.front(), endpoint.name);
     for (const Runs* engine : {&ours, &theirs})
       if (own.row.reason.empty()) own.row.reason = missingValueReason(endpoint, setup, *engine);
     // Without a bound nothing is known of the true difference: no verdict can stand on these runs.
@@ -117,6 +123,8 @@ void answer(EndpointTest& own, int looked) {
   row.look = static_cast<int>(found.look) + 1;
   row.packings = found.packings;
   row.lost = found.lost;
+  if (found.basis != Basis::paired)
+    row.unpaired = {found.basis, found.referencePackings, found.otherPackings};
   if (found.packings == 0) return;
   const double margin = own.test.sample.margin, bias = own.test.sample.bias;
   row.reference = own.test.reference;
@@ -154,7 +162,7 @@ Pooled chaosOf(const std::string& endpoint, const std::vector<EndpointResponse>&
 void addNeeds(std::vector<EndpointTest>& tests, const InterimPlan& plan) {
   std::map<std::string, Pooled> scatter;
   for (const EndpointTest& one : tests)
-    if (one.found && one.found->standardError) {
+    if (one.found && one.found->standardError && one.found->basis == Basis::paired) {
       Pooled& pooled = scatter[one.row.endpoint];
       const int dof = one.found->packings - 1;
       pooled.squares +=
@@ -164,6 +172,7 @@ void addNeeds(std::vector<EndpointTest>& tests, const InterimPlan& plan) {
   for (EndpointTest& one : tests) {
     const Pooled& pooled = scatter[one.row.endpoint];
     if (one.row.verdict != Verdict::undecided || !one.found || pooled.dof == 0) continue;
+    if (one.row.unpaired) continue;  // files are what they are
     const double margin = one.test.sample.margin, bias = one.test.sample.bias;
     const double distance = std::abs(one.found->difference);
     const bool toAgree = distance < margin - bias;
@@ -211,7 +220,10 @@ struct RepeatedValue {
 RepeatedValue repeatedValue(const EndpointSpec& endpoint, const Case& setup,
                             std::span<const FlowRun> runs, const std::string& engine) {
   const Runs own = finishedRuns(runs, engine);
-  const Numbers values = endpointByPacking(endpoint, setup, own, closedFormRuns);
+  // Of files there are as many as there are; an engine runs its start that often.
+  const bool ofFiles = !own.empty() && !own.front()->stats;
+  const Numbers values =
+      endpointByPacking(endpoint, setup, own, ofFiles ? own.size() : std::size_t{closedFormRuns});
   RepeatedValue found;
   for (const auto& value : values)
     if (!value)
@@ -285,7 +297,12 @@ std::vector<EndpointRow> endpointRows(const Case& setup, std::span<const FlowRun
                                       const EndpointFindings& known) {
   std::vector<EndpointTest> judged;
   for (const ComparedPair& pair : pairs)
-    judge(familyOf(setup, runs, pair, known), plan, available, judged);
+    if (pair.ofFiles) {  // all there are, whatever engines run
+      const int all = static_cast<int>(packingsOf(finishedRuns(runs, pair.b)));
+      judge(familyOf(setup, runs, pair, known),
+            interimPlanAt(all, 1, 1.0 - setup.averaging.confidence), all, judged);
+    } else
+      judge(familyOf(setup, runs, pair, known), plan, available, judged);
   return rowsOf(std::move(judged), plan);
 }
 
@@ -327,11 +344,12 @@ std::vector<SpotCheckNumber> spotCheckOf(const Case& setup, const FlowRun& engin
   for (const auto& [name, allowed] : setup.averaging.endpoints) {
     const EndpointSpec endpoint = endpointSpec(setup, name);
     SpotCheckNumber number{name, {}, {}, {}, {}};
-    const auto [reference, other, margin, bias, within] =
+    const PairedSample sample =
         testedEndpoint(endpoint, allowed, {endpointOf(endpoint, setup, mirror)},
                        {endpointOf(endpoint, setup, engine)})
             .sample;
-    if (reference[0] && other[0]) number.difference = (*other[0] - *reference[0]) / margin;
+    if (sample.reference[0] && sample.other[0])
+      number.difference = (*sample.other[0] - *sample.reference[0]) / sample.margin;
     const Pooled chaos = chaosOf(name, responses);
     if (chaos.dof > 0) number.floor = std::sqrt(chaos.squares / chaos.dof);
     const std::size_t tests = setup.averaging.endpoints.size();

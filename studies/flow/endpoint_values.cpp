@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "averaging/fields.hpp"
+#include "averaging/statistics.hpp"
 #include "studies/flow/averages.hpp"
 
 namespace crossgrain::inline studies {
@@ -73,6 +74,12 @@ const OwnEndpoint* ownEndpoint(const Case& setup, std::string_view name) {
   return found == endpoints.end() ? nullptr : &*found;
 }
 
+/// Of all snapshots alike.
+bool isMean(Reduction reduction) {
+  return reduction == Reduction::mean || reduction == Reduction::slope ||
+         reduction == Reduction::bin || reduction == Reduction::rate;
+}
+
 struct Formula {
   std::string_view endpoint;
   Value (*of)(const Case& setup, const FlowRun& run);
@@ -131,6 +138,35 @@ std::optional<double> endpointOf(const EndpointSpec& endpoint, const Case& setup
   for (const Formula& formula : formulas)
     if (formula.endpoint == endpoint.name) return finite(formula.of(setup, run));
   throw std::logic_error("no formula of endpoint " + std::string(endpoint.name));
+}
+
+std::vector<EndpointError> endpointErrors(const Case& setup, const FlowAverages& averages,
+                                          const FlowRun& run) {
+  constexpr std::size_t mostParts = 64, fewestParts = 16;
+  const std::size_t parts = std::min(mostParts, averages.snapshots());
+  std::vector<EndpointError> errors;
+  if (parts < fewestParts) return errors;
+  std::vector<FlowRun> without;
+  for (std::size_t k = 0; k < parts; ++k)
+    if (auto rest = averages.without(k, parts))
+      without.push_back(std::move(*rest));
+    else
+      return errors;
+  for (const EndpointSpec& endpoint : endpointsOf(setup)) {
+    if (const OwnEndpoint* own = ownEndpoint(setup, endpoint.name); own && !isMean(own->reduction))
+      continue;
+    const Value whole = endpointOf(endpoint, setup, run);
+    std::vector<double> pseudo;
+    for (const FlowRun& rest : without)
+      if (const Value value = endpointOf(endpoint, setup, rest); value && whole)
+        pseudo.push_back(static_cast<double>(parts) * *whole -
+                         static_cast<double>(parts - 1) * *value);
+    if (pseudo.size() < parts) continue;
+    const MeanEstimate found = estimateMean(pseudo);
+    if (found.standardError)
+      errors.push_back({std::string(endpoint.name), *found.standardError, found.dof});
+  }
+  return errors;
 }
 
 std::string missingValueReason(const EndpointSpec& endpoint, const Case& setup, const Runs& runs) {

@@ -7,6 +7,7 @@
 
 #include "cases/case.hpp"
 #include "cases/endpoints.hpp"
+#include "studies/flow/averages.hpp"
 #include "studies/flow/paired_runs.hpp"
 
 namespace crossgrain::inline studies {
@@ -23,6 +24,13 @@ std::string missingValueReason(const EndpointSpec& endpoint, const Case& setup, 
 /// Of one engine's finished runs, by packing index.
 Numbers endpointByPacking(const EndpointSpec& endpoint, const Case& setup, const Runs& runs,
                           std::size_t packings);
+
+/// The errors of a run's endpoints by the run alone. Of n = 16 to 64 parts of the run, each left
+/// out in turn, the pseudo-values n θ − (n − 1) θ_(k) (Tukey's jackknife) are a series in time
+/// whose mean is judged as any (averaging/statistics.hpp), so that correlations count. Endpoints of
+/// one instant and extremes have none, nor have runs of fewer than 16 snapshots.
+std::vector<EndpointError> endpointErrors(const Case& setup, const FlowAverages& averages,
+                                          const FlowRun& run);
 
 /// An endpoint that the case makes up itself, of one finished run. [unit of the endpoint]
 struct OwnValue {

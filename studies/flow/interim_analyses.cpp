@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "cases/flow.hpp"
 #include "studies/flow/endpoint_table.hpp"
 #include "studies/flow/lockstep_job.hpp"
 #include "studies/flow/surrogates.hpp"
@@ -18,11 +19,20 @@ bool isOpen(const EndpointRow& row) {
   return row.verdict == Verdict::undecided || row.verdict == Verdict::borderline;
 }
 
+/// Of files a further look would see the same again.
+InterimPlan planOf(const Case& setup, const Campaign& campaign) {
+  if (!campaign.hasFiles()) return interimPlanOf(setup);
+  int first = campaign.runsEngines() ? flowPackings(setup) : 1;
+  for (std::size_t e = 0; !campaign.runsEngines() && e < campaign.engines().size(); ++e)
+    first = std::max(first, campaign.runsOf(e));
+  return interimPlanAt(first, 1, 1.0 - setup.averaging.confidence);
+}
+
 /// Interim analyses in sequence, see runWithInterims().
 class Sequence {
  public:
   Sequence(const Case& setup, Campaign& campaign, const RunCommand& command, double budget)
-      : setup_(setup), campaign_(campaign), command_(command), plan_(interimPlanOf(setup)) {
+      : setup_(setup), campaign_(campaign), command_(command), plan_(planOf(setup, campaign)) {
     findings_.looks.budget = budget;
     findings_.looks.agreeAlpha = plan_.agreeAlpha;
     for (std::size_t k = 0; k < plan_.packings.size(); ++k)
@@ -177,6 +187,7 @@ class Sequence {
     const std::size_t taken = findings_.looks.taken;
     if (open_.empty()) return reasonNoneIsOpen();
     if (open_.size() < 2) return "no two engines are left that finish their runs";
+    if (campaign_.hasFiles()) return "files hold no further runs";
     if (taken == plan_.packings.size())
       return fmt::format("{} packings are the most", plan_.packings.back());
     if (campaign_.elapsed() + secondsOfNext() > findings_.looks.budget)
@@ -249,11 +260,14 @@ std::vector<ComparedPair> pairsOf(const Campaign& campaign, const std::vector<st
   const auto named = [&](const EngineEntry& entry) {
     return entry.mirrors.empty() || isNamed(names, entry);
   };
+  const auto ofFiles = [&](std::size_t a, std::size_t b) {
+    return engines[a].ofFiles() || engines[b].ofFiles();
+  };
   std::vector<ComparedPair> pairs;
   for (std::size_t a = 0; a < engines.size(); ++a)
     for (std::size_t b = a + 1; b < engines.size(); ++b)
       if (named(engines[a]) && named(engines[b]))
-        pairs.push_back({engines[a].name, engines[b].name});
+        pairs.push_back({engines[a].name, engines[b].name, PairKind::peer, {}, ofFiles(a, b)});
   for (const EngineEntry& mirror : engines) {
     if (named(mirror) || surrogateBy(surrogates, mirror.name)) continue;
     const std::string reference = engines.front().name;

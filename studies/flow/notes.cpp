@@ -46,7 +46,7 @@ void addFarEndpoints(const Case& setup, const CompareResults& results,
       alarms.push_back({row.a, row.b, row.kind, std::move(what)});
     };
     if (row.kind == PairKind::closedForm) continue;  // what is missing or far off is its answer
-    if (row.lost > row.packings && onlyOneHas(setup, results, row) > row.packings)
+    if (!row.unpaired && row.lost > row.packings && onlyOneHas(setup, results, row) > row.packings)
       alarm(fmt::format("{} is missing on {} of {} packings", words, row.lost,
                         row.lost + row.packings));
     else if (row.distance && std::abs(*row.distance) > farMargins && row.verdict != Verdict::fail)
@@ -101,6 +101,55 @@ std::optional<double> meanOf(const FlowStudy& study, const std::string& engine,
 }
 
 }  // namespace
+
+std::vector<std::string> fileNotes(const CompareResults& results) {
+  const auto runsOf = [&](const std::string& engine) {
+    return static_cast<int>(finishedRuns(results.runs, engine).size());
+  };
+  const auto ofFiles = [&](const std::string& engine) {
+    const Runs runs = finishedRuns(results.runs, engine);
+    return !runs.empty() && !runs.front()->stats;
+  };
+  const auto counted = [](int runs) { return fmt::format("{} run{}", runs, runs == 1 ? "" : "s"); };
+  std::map<std::pair<std::string, std::string>, Basis> pairs;
+  for (const EndpointRow& row : results.endpoints.rows)
+    if (row.kind == PairKind::peer && (ofFiles(row.a) || ofFiles(row.b)))
+      pairs.try_emplace({row.a, row.b}, row.unpaired ? row.unpaired->basis : Basis::paired);
+  std::vector<std::string> notes;
+  for (const auto& [pair, basis] : pairs) {
+    const auto& [a, b] = pair;
+    const int ours = runsOf(a), theirs = runsOf(b);
+    const std::string& fewer = ours < theirs ? a : b;
+    const std::string& more = ours < theirs ? b : a;
+    switch (basis) {
+      case Basis::paired:
+        notes.push_back(fmt::format(
+            "{} and {} have {} each: the first is compared with the first, and so on. Intervals "
+            "hold whether or not they began from the same packings; they are narrower if they did.",
+            a, b, counted(ours)));
+        break;
+      case Basis::independent:
+        notes.push_back(fmt::format(
+            "{} has {} and {} {}: they are compared as independent samples, each with its own "
+            "scatter over packings.",
+            a, counted(ours), b, theirs));
+        break;
+      case Basis::oneScatter:
+        notes.push_back(fmt::format(
+            "{} has {}, too few to know its scatter over packings: it is taken to scatter as {} "
+            "does.",
+            fewer, counted(std::min(ours, theirs)), more));
+        break;
+      case Basis::oneRunEach:
+        notes.push_back(fmt::format(
+            "{} and {} have one run each: intervals are those of the two runs' own series. They do "
+            "not see how packings differ, so a verdict is on these two packings only.",
+            a, b));
+        break;
+    }
+  }
+  return notes;
+}
 
 std::vector<std::string> contactNotes(const FlowStudy& study) {
   std::vector<std::string> differ, same;

@@ -38,6 +38,12 @@ std::size_t packingsOf(std::span<const FlowRun> runs) {
   return static_cast<std::size_t>(packings);
 }
 
+std::size_t packingsOf(const Runs& runs) {
+  int packings = 0;
+  for (const FlowRun* run : runs) packings = std::max(packings, run->packing + 1);
+  return static_cast<std::size_t>(packings);
+}
+
 std::vector<Numbers> fieldByRing(const Runs& runs, const std::string& method,
                                  const std::string& field, std::size_t packings,
                                  Numbers Profile::*what) {
@@ -91,6 +97,27 @@ PairedTest testedEndpoint(const EndpointSpec& endpoint, const Margin& margin,
   return test;
 }
 
+bool independentRuns(const ComparedPair& pair, const Runs& reference, const Runs& other) {
+  constexpr std::size_t fewest = 4;
+  return pair.ofFiles && (reference.size() != other.size() || other.size() < fewest);
+}
+
+void addOwnErrors(PairedTest& test, const FlowRun& reference, const FlowRun& other,
+                  std::string_view endpoint) {
+  double sum = 0.0, squares = 0.0;
+  for (const auto& [run, value] : {std::pair(&reference, test.sample.reference.front()),
+                                   std::pair(&other, test.sample.other.front())}) {
+    const auto own = std::ranges::find(run->endpointErrors, endpoint, &EndpointError::endpoint);
+    if (own == run->endpointErrors.end() || !value) return;
+    const double error =
+        test.logarithmic ? own->standardError / std::exp(test.sign * *value) : own->standardError;
+    sum += error * error;
+    squares += std::pow(error, 4) / own->dof;
+  }
+  test.sample.withinVariance = {sum};
+  test.sample.withinDof = squares > 0.0 ? sum * sum / squares : 0.0;
+}
+
 void addWithinVariance(PairedTest& test, const Numbers& referenceError, const Numbers& otherError) {
   const auto variance = [&](const std::optional<double>& value, const std::optional<double>& error,
                             double& sum) {
@@ -101,7 +128,7 @@ void addWithinVariance(PairedTest& test, const Numbers& referenceError, const Nu
   };
   PairedSample& sample = test.sample;
   sample.withinVariance.assign(sample.reference.size(), std::nullopt);
-  for (std::size_t k = 0; k < sample.reference.size(); ++k) {
+  for (std::size_t k = 0; k < std::min(sample.reference.size(), sample.other.size()); ++k) {
     double sum = 0.0;
     if (variance(sample.reference[k], referenceError[k], sum) &&
         variance(sample.other[k], otherError[k], sum))

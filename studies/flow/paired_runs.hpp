@@ -28,13 +28,21 @@ Runs runsFor(std::span<const FlowRun> runs, const std::string& engine,
 
 /// One more than the largest index of a packing.
 std::size_t packingsOf(std::span<const FlowRun> runs);
+std::size_t packingsOf(const Runs& runs);
 
 /// Two engines to compare, and why; or one and itself without an effect.
 struct ComparedPair {
   std::string a, b;  ///< the reference first
   PairKind kind = PairKind::peer;
   std::string without = {};  ///< what is switched off in the runs of `b`
+  /// One of them is files, whose runs are other packings than the other's, as far as anybody knows.
+  bool ofFiles = false;
 };
+
+/// Whether two engines' runs are independent samples: those of files, unless both are as many. Then
+/// they are paired one by one, which holds whether their packings are the same or not, and tells
+/// more where they are.
+bool independentRuns(const ComparedPair& pair, const Runs& reference, const Runs& other);
 
 /// One field in each ring, by packing index. @param what  of the profile
 std::vector<Numbers> fieldByRing(const Runs& runs, const std::string& method,
@@ -64,6 +72,10 @@ PairedTest testedEndpoint(const EndpointSpec& endpoint, const Margin& margin,
 /// Of the values of a reference, for a margin that is a share of |reference|: +1 or −1; 0 where
 /// both occur or none, as a share of what may be 0 is no margin.
 double signOf(const Numbers& values);
+
+/// Adds what a single run of each says of its own error of the endpoint, on the scale of the test.
+void addOwnErrors(PairedTest& test, const FlowRun& reference, const FlowRun& other,
+                  std::string_view endpoint);
 
 /// Adds what the two runs of every packing say of their own errors, on the scale of the test.
 void addWithinVariance(PairedTest& test, const Numbers& referenceError, const Numbers& otherError);

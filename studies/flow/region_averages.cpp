@@ -59,10 +59,10 @@ void RegionAverages::addMoments(const Snapshot& now) {
 }
 
 RegionAverages::RegionAverages(const Case& setup, const Scene& scene)
-    : setup_(setup),
+    : FlowAverages({binsOf(setup), weightsOf(setup, setup.averaging.methods), scene}),
+      setup_(setup),
       scene_(scene),
-      bins_(binsOf(setup)),
-      profiles_(bins_, weightsOf(setup, setup.averaging.methods), scene) {}
+      bins_(binsOf(setup)) {}
 
 void RegionAverages::add(const Snapshot& snapshot) {
   profiles_.add(snapshot);

@@ -302,7 +302,7 @@ std::vector<Rate> power(const Sample& sample, int group) {
   for (std::size_t k = 0; k < family.field.size(); ++k) {
     const PairedTest all = testedRing(family.margin[k], family.reference[k], family.other[k]);
     const double shift =
-        *smallestDetectable(deviationOf(all) / std::sqrt(group), group, all.sample.margin, level);
+        *smallestDetectable(deviationOf(all) / std::sqrt(group), group - 1, all.sample.margin, level);
     Tally tally;
     const int independent = forEachGroup(
         sample, "again", group, [&](const std::vector<std::size_t>& order, std::size_t first) {

@@ -93,7 +93,7 @@ TEST(AgreementRow, Undecided_HasDetectableSizeAndShareWithinRuns) {
       rowOf(1.0, false, {0.0, 100.0, 200.0, 300.0}, {1.0, 99.0, 201.0, 299.0}, 0.7);
   EXPECT_EQ(row.verdict, Verdict::undecided);
   EXPECT_NEAR(*row.rings[0].withinFraction, 0.98 / (4.0 / 3.0), 1e-12);
-  EXPECT_NEAR(*row.detects, *smallestDetectable(std::sqrt(1.0 / 3.0), 4, 1.0, 0.05), 1e-12);
+  EXPECT_NEAR(*row.detects, *smallestDetectable(std::sqrt(1.0 / 3.0), 3, 1.0, 0.05), 1e-12);
   EXPECT_EQ(row.detects, row.rings[0].detects);
 }
 

@@ -339,5 +339,70 @@ TEST(EndpointTable, Response_IsBoundedByItsInterval) {
   EXPECT_NEAR(*found.bound, 0.4 + 3.182446305284263 * 0.1 * std::sqrt(4.0 / 3.0) / 2.0 / 0.5, 1e-6);
 }
 
+std::vector<FlowRun> pressuresOf(const std::string& engine, const std::vector<double>& pressures) {
+  std::vector<FlowRun> runs;
+  for (std::size_t k = 0; k < pressures.size(); ++k)
+    runs.push_back(runOf(engine, static_cast<int>(k), pressures[k]));
+  return runs;
+}
+
+/// With a margin of 5 % of the pressure.
+EndpointRow judgedFiles(std::vector<FlowRun> ours, const std::vector<FlowRun>& theirs) {
+  ours.insert(ours.end(), theirs.begin(), theirs.end());
+  const Case setup = judging("pressure", {0.05, true, "", ""});
+  ComparedPair pair = plain;
+  pair.ofFiles = true;
+  return endpointRows(setup, ours, {pair}, interimPlanAt(4, 1, 0.05), 4, {}).front();
+}
+
+TEST(FileRuns, AsManyAsPackings_ArePairedInTheirOrder) {
+  // Packings differ by hundreds, pairs by one percent.
+  const auto row = judgedFiles(pressuresOf("a", {100, 200, 300, 400, 500}),
+                               pressuresOf("b", {101, 202, 303, 404, 505}));
+  EXPECT_FALSE(row.unpaired);
+  EXPECT_EQ(row.packings, 5);
+  EXPECT_EQ(row.verdict, Verdict::pass);
+}
+
+TEST(FileRuns, OtherNumbers_AreIndependentSamples) {
+  const auto row = judgedFiles(pressuresOf("a", {100, 101, 102, 103, 104}),
+                               pressuresOf("b", {101, 102, 103, 102, 101, 103, 102}));
+  ASSERT_TRUE(row.unpaired);
+  EXPECT_EQ(row.unpaired->basis, Basis::independent);
+  EXPECT_EQ(row.unpaired->a, 5);
+  EXPECT_EQ(row.unpaired->b, 7);
+  EXPECT_EQ(row.lost, 0);
+  EXPECT_EQ(row.verdict, Verdict::pass);
+  // The same files against ten times the scatter of packings: nothing can be said.
+  const auto open = judgedFiles(pressuresOf("a", {60, 80, 102, 125, 150}),
+                                pressuresOf("b", {101, 102, 103, 102, 101, 103, 102}));
+  EXPECT_EQ(open.verdict, Verdict::undecided);
+}
+
+TEST(FileRuns, OneAgainstMany_HasTheScatterOfTheMany) {
+  const auto row =
+      judgedFiles(pressuresOf("a", {100, 101, 102, 103, 104}), pressuresOf("b", {102}));
+  ASSERT_TRUE(row.unpaired);
+  EXPECT_EQ(row.unpaired->basis, Basis::oneScatter);
+  EXPECT_EQ(row.verdict, Verdict::pass);
+  EXPECT_EQ(
+      judgedFiles(pressuresOf("a", {100, 101, 102, 103, 104}), pressuresOf("b", {150})).verdict,
+      Verdict::fail);
+}
+
+TEST(FileRuns, OneOfEach_RestsOnTheirOwnErrors) {
+  auto ours = pressuresOf("a", {100}), theirs = pressuresOf("b", {101});
+  EXPECT_EQ(judgedFiles(ours, theirs).verdict, Verdict::undecided);
+  ours[0].endpointErrors = {{"pressure", 0.6, 8.0}};
+  theirs[0].endpointErrors = {{"pressure", 0.808, 8.0}};
+  const auto row = judgedFiles(ours, theirs);
+  ASSERT_TRUE(row.unpaired);
+  EXPECT_EQ(row.unpaired->basis, Basis::oneRunEach);
+  EXPECT_EQ(row.verdict, Verdict::pass);
+  // Relative errors .006 and .008 are .01 together, of 2·.01⁴/(.006⁴ + .008⁴)·4 = 14.84 degrees of
+  // freedom, whose 95 % point is 1.754.
+  EXPECT_NEAR(*row.high, 100.0 * (1.01 * std::exp(0.01754) - 1.0), 0.01);
+}
+
 }  // namespace
 }  // namespace crossgrain

@@ -19,6 +19,7 @@ inline FlowRun flowRun(const std::string& engine, int packing,
   run.engine = engine;
   run.packing = packing;
   run.profiles = profiles;
+  run.stats.emplace();
   return run;
 }
 

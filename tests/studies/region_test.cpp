@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "averaging/fields.hpp"
+#include "averaging/statistics.hpp"
 #include "cases/assembly_scene.hpp"
 #include "studies/flow/averages.hpp"
 #include "studies/flow/endpoint_values.hpp"
@@ -284,6 +285,47 @@ TEST(Region, EndpointsOfDisks_AreKeptWithTheLedger) {
   EXPECT_EQ(valuesOf(*run.series, "disk_2_y"), Numbers{1.0});
   EXPECT_EQ(valuesOf(*run.series, "disk_2_velocity_y"), Numbers{2.0});
   EXPECT_NEAR(*valuesOf(*run.series, "velocity_t_s").front(), -0.15, 1e-14);
+}
+
+/// Velocities of one disk alone, the mean over the box is their mean.
+TEST(Region, EndpointErrors_AreThoseOfTheSeriesOfAPlainMean) {
+  Case setup = threeDisks();
+  OwnEndpoint mean, last;
+  mean.name = "vy";
+  mean.quantity = "velocity_y";
+  last.name = "end";
+  last.quantity = "kinetic_energy";
+  last.reduction = Reduction::end;
+  setup.average->endpoints = {mean, last};
+  setup.averaging.endpoints["vy"] = setup.averaging.endpoints["end"] = {0.1, false, "", ""};
+  const Scene scene = assemblyScene(setup, assemblyDisks(setup, 0), 0.0, 1e-3);
+  RegionAverages averages(setup, scene);
+  Snapshot now = touching(scene);
+  std::vector<double> series;
+  double x = 0.0;
+  for (int t = 0; t < 192; ++t) {  // 64 parts of 3, correlated over some ten snapshots
+    x = 0.9 * x + std::sin(1.7 * t * t);
+    now.velocity = {{0.0, x}, {0.0, 0.0}, {0.0, 0.0}};
+    series.push_back(x / 3.0);
+    averages.add(now);
+  }
+  FlowRun run;
+  averages.describe({}, run);
+  const auto errors = endpointErrors(setup, averages, run);
+  ASSERT_EQ(errors.size(), 1u);  // the last value has no error of this kind
+  EXPECT_EQ(errors[0].endpoint, "vy");
+  std::vector<double> parts;
+  for (std::size_t k = 0; k < 64; ++k)
+    parts.push_back((series[3 * k] + series[3 * k + 1] + series[3 * k + 2]) / 3.0);
+  const MeanEstimate expected = estimateMean(parts);
+  EXPECT_NEAR(errors[0].standardError, *expected.standardError, 1e-12);
+  EXPECT_NEAR(errors[0].dof, expected.dof, 1e-12);
+  // One snapshot says nothing of its error.
+  RegionAverages one(setup, scene);
+  one.add(now);
+  FlowRun brief;
+  one.describe({}, brief);
+  EXPECT_TRUE(endpointErrors(setup, one, brief).empty());
 }
 
 }  // namespace

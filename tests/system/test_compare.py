@@ -14,6 +14,58 @@ SHORT = settings(averaging__rotations=0.02)
 SHEAR = CASES / "assembly/plane-shear.toml"
 
 
+class Files(SystemTest):
+    """compare of runs that are here as files."""
+
+    def setUp(self):
+        super().setUp()
+        done = self.compare(*settings(averaging__rotations=0.1, preparation__packings=4, looks__count=1, run__mirrors="false",
+                                      run__keep_snapshots=100000), engines="grain,lammps")  # fmt: skip
+        self.assert_status(done, HELD)
+        self.ran = self.rows("endpoints.csv")
+        self.kept = self.out / "snapshots"
+
+    def files(self, engines, *arguments, out="files"):
+        return self.run_program("compare", COUETTE, "--engines", engines, "--out", self.folder / out, "--quiet", *arguments)
+
+    def test_verdicts_of_files_are_those_of_the_runs(self):
+        self.assert_status(self.files(f"mine={self.kept}/grain-p*.h5,theirs={self.kept}/lammps-p?.h5"), HELD)
+        rows = self.rows("endpoints.csv", self.folder / "files")
+        self.assertEqual(9, len(rows))
+        for ran, read in zip(self.ran, rows, strict=True):
+            self.assertEqual(("mine", "theirs", "paired"), (read["a"], read["b"], read["basis"]))
+            for same in ("endpoint", "answer", "difference", "low", "high", "packings", "lost"):
+                self.assertEqual(ran[same], read[same], ran["endpoint"])
+        results = self.results(self.folder / "files")
+        self.assertEqual([], results["packings"])
+        self.assertNotIn("grain", {row["engine"] for row in results["runs"]})
+
+    def test_one_file_beside_an_engine_takes_its_scatter(self):
+        self.assert_status(self.files(f"grain,theirs={self.kept}/lammps-p2.h5", "--set=preparation.packings=5"), HELD)
+        rows = self.rows("endpoints.csv", self.folder / "files")
+        self.assertEqual({"one_scatter"}, {row["basis"] for row in rows})
+        self.assertEqual({("5", "1")}, {(row["packings_a"], row["packings_b"]) for row in rows})
+        self.assertIn("it is taken to scatter as grain does", " ".join(self.results(self.folder / "files")["notes"]))
+
+    def test_one_run_each_says_what_it_cannot_see(self):
+        self.assert_status(self.files(f"mine={self.kept}/grain-p0.h5,theirs={self.kept}/lammps-p1.h5"), HELD)
+        self.assertIn("do not see how packings differ", " ".join(self.results(self.folder / "files")["notes"]))
+        self.assertEqual({"one_run_each"}, {row["basis"] for row in self.rows("endpoints.csv", self.folder / "files")})
+
+    def test_what_is_no_run_is_refused_in_one_line(self):
+        cell = self.write("not.h5", "x")
+        for engines, words in (
+            ("grain,mine=nowhere/*.h5", ("no file matches",)),
+            (f"grain,lammps={self.kept}/grain-p0.h5", ("there is an engine 'lammps'",)),
+            (f"grain,={self.kept}/grain-p0.h5", ("a name, '='",)),
+            (f"grain,mine={cell}", ("not.h5",)),
+        ):
+            with self.subTest(engines):
+                self.assert_one_error(self.files(engines), BAD_INPUT, *words)
+        done = self.run_program("lockstep", COUETTE, "--engines", f"mine={self.kept}/grain-p0.h5", "--out", self.folder / "no")
+        self.assert_one_error(done, BAD_INPUT, "mine", "files")
+
+
 class Compare(SystemTest):
     def test_same_bits_however_many_jobs_and_from_the_case_in_the_results(self):
         """Whether the packings come from a cache, and however many runs are side by side."""
