@@ -179,6 +179,16 @@ std::vector<std::pair<std::string, std::string>> averageTables(const CompareResu
           {"distributions.csv", distributionsCsv(results)}};
 }
 
+namespace {
+
+/// Empty of what no test was made of: a closed form, or no value.
+std::string basisOf(const EndpointRow& row) {
+  if (row.kind == PairKind::closedForm || row.packings == 0) return {};
+  return std::string(nameOf(row.unpaired ? row.unpaired->basis : Basis::paired, basisNames));
+}
+
+}  // namespace
+
 std::string endpointsCsv(const CompareResults& results) {
   std::string table =
       "a,b,kind,endpoint,unit,margin,answer,difference,low,high,distance,distance_low,"
@@ -196,8 +206,7 @@ std::string endpointsCsv(const CompareResults& results) {
                  std::optional<double>(entry.needs), std::optional<double>(entry.needsAtMost),
                  entry.surrogateA, entry.surrogateB, entry.bound,
                  regimesDiffer(results.regimes, entry.a, entry.b), entry.reference, entry.reason,
-                 entry.reach, std::string(nameOf(runs ? runs->basis : Basis::paired, basisNames)),
-                 runs ? std::optional<double>(runs->a) : std::nullopt,
+                 entry.reach, basisOf(entry), runs ? std::optional<double>(runs->a) : std::nullopt,
                  runs ? std::optional<double>(runs->b) : std::nullopt);
   }
   return table;

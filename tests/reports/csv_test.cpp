@@ -109,10 +109,10 @@ TEST(Csv, Endpoints_HaveTheAnswerAndWhatItRestsOn) {
   const std::string head =
       "a,b,kind,endpoint,unit,margin,answer,difference,low,high,distance,distance_low,"
       "distance_high,look,packings,lost,needs,needs_at_most,carrier_a,carrier_b,bound,"
-      "regimes_differ,reference,reason,reach\n";
+      "regimes_differ,reference,reason,reach,basis,packings_a,packings_b\n";
   // Without a reference nobody knows what a quarter of it is: the fraction stands.
   EXPECT_EQ(endpointsCsv(results),
-            head + "one,two,peer,pressure,N/m²,0.25,undecided,,,,,,,,0,0,,,,,,,,,\n");
+            head + "one,two,peer,pressure,N/m²,0.25,undecided,,,,,,,,0,0,,,,,,,,,,,,\n");
   results.endpoints.rows[0].reference = 200.0;
   results.endpoints.rows[0].verdict = Verdict::pass;
   results.endpoints.rows[0].difference = 20.0;
@@ -128,7 +128,9 @@ TEST(Csv, Endpoints_HaveTheAnswerAndWhatItRestsOn) {
   EXPECT_EQ(endpointsCsv(results),
             head +
                 "one,two,peer,pressure,N/m²,50,small_difference,20,,,0.4,,,2,15,1,,,,mirror,"
-                "0.01,2,200,why one is lost,0.002\n");
+                "0.01,2,200,why one is lost,0.002,paired,,\n");
+  results.endpoints.rows[0].unpaired = {Basis::oneScatter, 15, 1};
+  EXPECT_TRUE(endpointsCsv(results).ends_with(",0.002,one_scatter,15,1\n"));
 }
 
 TEST(Csv, SweepWithoutPoints_IsOneRowWithItsStatus) {
