@@ -102,7 +102,7 @@ void Campaign::askEngines() {
   const Scene scene = unplacedScene(setup_, dt_);
   forEachEngine([&](CampaignEngine& own) {
     if (own.entry.ofFiles()) {
-      own.version = own.entry.format;
+      own.version = "files: " + own.entry.format;
       for (std::size_t run = 0; run < own.entry.files.size(); ++run)
         openRun(setup_, own.entry, run);
       return;
