@@ -105,7 +105,7 @@ void addEngines(CLI::App& app, CommandLine& line, const char* usual) {
       ->allow_extra_args(false);
   std::string what =
       "engines by name or by the TOML file of your own, separated by commas, or all; the first is "
-      "the reference";
+      "the reference; compare also takes runs that you have, NAME=FILES";
   if (usual) what += fmt::format(" (default: {})", usual);
   app.add_option_function<std::vector<std::string>>(
          "--engines",

@@ -322,8 +322,7 @@ Action declareIdentify(CLI::App& app, CommandLine& line) {
 
 extern const Command compareCommand = {
     "compare", "run, average, cross-check",
-    "crossgrain compare cases/couette/quick.toml --engines grain,yade --out out/compare\n"
-    "crossgrain compare CASE.toml --engines 'grain,mine=runs/*.h5' --out out/mine",
+    "crossgrain compare cases/couette/quick.toml --engines grain,yade --out out/compare",
     [](CLI::App& app, CommandLine& line) {
       return declareStudy(app, line, compareStudy, {compareText});
     }};
