@@ -16,7 +16,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-STEP = "grain::Core<{}>::step(bool)"  # counted while this function runs
+STEP = "grain::Core<{}>::step(bool*"  # counted while this function runs
 LINE = 64  # bytes
 
 
