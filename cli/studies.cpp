@@ -112,7 +112,7 @@ std::string compareText(const CompareResults& results) {
     if (row.kind != PairKind::peer && row.kind != PairKind::closedForm) continue;
     ++answers[row.verdict];
     if (row.kind == PairKind::closedForm ||
-        (row.a == results.engines.front().name && !results.nothingJudged))
+        (row.a == referenceOf(results) && !results.nothingJudged))
       add(fmt::format("{:<16} {:<26} {}", row.b, row.endpoint, reports::describeAnswer(row)));
   }
   for (const AlarmRow& alarm : results.endpoints.alarms) add("ALARM: " + reports::describe(alarm));

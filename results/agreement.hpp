@@ -26,6 +26,9 @@ constexpr auto namesOf(PairKind) {
 }
 /// `a` of such a pair.
 inline constexpr const char* closedFormName = "closed-form";
+/// `a` of an engine and the median of the others, packing by packing, where no engine is the
+/// reference.
+inline constexpr const char* medianName = "median";
 
 /// On which scale a ring was tested: of values, or of their ratios.
 enum class TestScale { linear, logarithmic };

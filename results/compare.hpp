@@ -55,6 +55,12 @@ struct CompareResults : FlowStudy {
   }
 };
 
+/// What engines are compared with: the first of them, or medianName. @pre there is an engine
+inline const std::string& referenceOf(const CompareResults& results) {
+  return results.endpoints.reference.empty() ? results.engines.front().name
+                                             : results.endpoints.reference;
+}
+
 Json toJson(const CompareResults& results);
 /// @throws FieldError
 CompareResults compareFromJson(const Json& json);

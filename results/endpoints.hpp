@@ -263,6 +263,7 @@ struct AlarmRow {
 };
 
 struct EndpointFindings {
+  std::string reference;  ///< medianName where no engine is it; empty: the first engine
   InterimFindings looks;
   std::vector<EndpointRow> rows;
   std::vector<AlarmRow> alarms;
@@ -270,6 +271,7 @@ struct EndpointFindings {
   std::vector<EndpointResponse> responses;
 
   void fields(auto& io) {
+    io.when(!reference.empty(), "reference", reference, aName);
     io("looks", looks);
     io("rows", rows);
     io("alarms", alarms);

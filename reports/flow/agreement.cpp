@@ -76,7 +76,9 @@ Table endpointPairTable(const CompareResults& results, bool peers) {
     table.columns.emplace_back(endpointSymbol(name, !results.region));
   std::vector<std::pair<std::string, std::string>> seen;
   for (const EndpointRow& row : results.endpoints.rows) {
-    if ((row.kind == PairKind::peer) != peers || row.kind == PairKind::closedForm) continue;
+    if ((row.kind == PairKind::peer) != peers || row.kind == PairKind::closedForm ||
+        row.a == medianName)
+      continue;
     const std::pair pair(row.a, row.b);
     if (std::ranges::find(seen, pair) != seen.end()) continue;
     seen.push_back(pair);
@@ -131,7 +133,8 @@ List verdictReading(const CompareResults& results) {
                     "(two one-sided t tests, {:.3g} % confidence over all interim analyses "
                     "together). No difference seen: its interval contains 0. Small difference: "
                     "it does not.",
-                    paired ? ", paired over the same packings," : "", 100.0 * results.averaging.confidence)},
+                    paired ? ", paired over the same packings," : "",
+                    100.0 * results.averaging.confidence)},
        {"✗ disagree", "it exceeds the margin (Holm's procedure over the endpoints of the pair)."},
        {"≈ borderline",
         "a difference is shown, and that it is below twice the margin; the margin lies in "
@@ -180,10 +183,12 @@ void addSurrogates(Blocks& blocks, const CompareResults& results) {
 void addAgreement(Report& report, const CompareResults& results,
                   const std::vector<EngineRuns>& engines) {
   const Endpoints& endpoints = results.endpoints.rows;
-  const std::string reference = engines.empty() ? std::string() : engines.front().name;
-  const Names peers = peersOf(endpoints, engines);
+  if (engines.empty()) return;
+  const std::string& reference = referenceOf(results);
+  const std::string called = referenceWords(results);
+  const Names peers = peersOf(results, engines);
   const double falseAlarm = 100.0 * (1.0 - results.averaging.confidence);
-  Blocks& blocks = report.section("agreement", "Agreement with " + reference, "Agreement").blocks;
+  Blocks& blocks = report.section("agreement", "Agreement with " + called, "Agreement").blocks;
   if (!endpoints.empty()) {
     addClosedForms(blocks, results);
     if (results.endpoints.looks.taken > 0)
@@ -193,12 +198,13 @@ void addAgreement(Report& report, const CompareResults& results,
         "A distance is the engine's value minus that of {}, in margins, with the interval that the "
         "verdict rests on. Agree is tested endpoint by endpoint, disagree over all endpoints of a "
         "pair: the chance of any false one is at most {:.3g} % for each pair.",
-        reference, falseAlarm);
+        called, falseAlarm);
     blocks.push_back(std::move(table));
     addSurrogates(blocks, results);
     blocks.push_back(Details{"How to read a verdict", {verdictReading(results)}});
   }
-  if (Table pairs = endpointPairTable(results, true); pairs.rows.size() > peers.size())
+  if (Table pairs = endpointPairTable(results, true);
+      pairs.rows.size() > peers.size() || reference == medianName)
     blocks.push_back(Details{"All pairs", {std::move(pairs)}});
   if (Table mirrors = endpointPairTable(results, false); !mirrors.rows.empty()) {
     blocks.push_back(Heading{"Model difference or implementation error?"});

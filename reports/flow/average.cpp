@@ -112,7 +112,8 @@ std::string averageNextStep(const CompareResults& results) {
   for (const EngineDrift& row : results.steadiness)
     if (row.drift.verdict == Drift::drifts)
       return "Next: average later snapshots; these are of a state that still changes.";
-  return "Next: compare them with another engine: crossgrain compare CASE --engines OTHER,mine=FILES.";
+  return "Next: compare them with another engine: crossgrain compare CASE --engines "
+         "OTHER,mine=FILES.";
 }
 
 /// Numbers that the thesis takes from its profiles.

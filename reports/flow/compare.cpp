@@ -156,7 +156,7 @@ std::vector<std::string> compareNotes(const CompareResults& results, const Engin
   std::vector<std::string> notes;
   for (const AlarmRow& alarm : results.endpoints.alarms)
     notes.push_back("Alarm. " + describe(alarm));
-  if (!engines.empty()) notes.push_back(basisInWords(results, engines.front().name));
+  if (!engines.empty()) notes.push_back(basisInWords(results, referenceWords(results)));
   if (results.endpoints.looks.taken > 0) notes.push_back(describe(results.endpoints.looks));
   notes.push_back(ratesInWords(results));
   if (results.lockstep) notes.push_back("Lockstep: " + leadOf(*results.lockstep));
@@ -164,7 +164,7 @@ std::vector<std::string> compareNotes(const CompareResults& results, const Engin
   for (const EngineRuns& engine : engines) notes.push_back(troubleInWords(engine));
   const auto isPaired = [](const EndpointRow& row) { return !row.unpaired; };
   if (results.packings.size() < 4 && std::ranges::all_of(results.endpoints.rows, isPaired) &&
-      !peersOf(results.endpoints.rows, engines).empty())
+      !peersOf(results, engines).empty())
     notes.emplace_back(
         "Fewer than 4 packings: differences between engines cannot be distinguished from those "
         "between packings, so no general verdict is given.");
@@ -174,17 +174,17 @@ std::vector<std::string> compareNotes(const CompareResults& results, const Engin
 
 }  // namespace
 
-void addProfiles(Report& report, const FlowFrame& frame, const Engines& engines) {
+void addProfiles(Report& report, const CompareResults& results, const Engines& engines) {
   Engines withData;
   for (const EngineRuns& engine : engines)
     if (!engine.finished.empty()) withData.push_back(engine);
   const std::string bars = describeBars(engines);
   const auto drawings = [&](const char* prefix) { return drawingsOf(report.figures, prefix); };
   Blocks& profiles = report.section("profiles", "Profiles").blocks;
-  profiles = {Paragraph{describeAverages(frame) + " " + bars}, drawings("profile_")};
+  profiles = {Paragraph{describeAverages(results) + " " + bars}, drawings("profile_")};
   if (Drawings differences = drawings("difference_"); !differences.names.empty()) {
     profiles.push_back(
-        Heading{"Differences from " + engines.front().name + ", in margins", "differences"});
+        Heading{"Differences from " + referenceWords(results) + ", in margins", "differences"});
     profiles.push_back(std::move(differences));
   }
   Table fits = fitTable(withData);

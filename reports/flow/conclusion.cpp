@@ -67,10 +67,9 @@ std::string whoAgrees(const CompareResults& results, const Engines& engines) {
   const Endpoints& rows = results.endpoints.rows;
   if (const Names judged = closedFormEngines(rows); !judged.empty())
     return agreementWith(results, closedFormName, "the closed forms", judged);
-  const Names peers = peersOf(rows, engines);
+  const Names peers = peersOf(results, engines);
   if (peers.empty()) return "No two engines could be compared.";
-  const std::string& reference = engines.front().name;
-  return agreementWith(results, reference, reference.c_str(), peers);
+  return agreementWith(results, referenceOf(results), referenceWords(results).c_str(), peers);
 }
 
 /// "normal" and "tangential" are laws; the others say what they are.
@@ -90,9 +89,8 @@ Names conventionsOf(const EngineRuns& engine) {
 }
 
 bool disagrees(const CompareResults& results, const EngineRuns& engine) {
-  return std::ranges::any_of(
-      rowsOf(results.endpoints.rows, results.engines.front().name, engine.name),
-      [](const EndpointRow* row) { return row->verdict == Verdict::fail; });
+  return std::ranges::any_of(rowsOf(results.endpoints.rows, referenceOf(results), engine.name),
+                             [](const EndpointRow* row) { return row->verdict == Verdict::fail; });
 }
 
 const LockstepRow* differingRow(const CompareResults& results, const std::string& engine) {
@@ -126,7 +124,7 @@ std::string causesOfDifferences(const CompareResults& results, const Engines& en
                                   listedShortly(words, mostNames)));
       continue;
     }
-    if (&engine == &engines.front() || !disagrees(results, engine)) continue;
+    if (engine.name == referenceOf(results) || !disagrees(results, engine)) continue;
     const Names conventions = conventionsOf(engine);
     if (!isModelDifference(results, engine))
       parts.push_back(
@@ -148,7 +146,7 @@ std::string causesOfDifferences(const CompareResults& results, const Engines& en
 /// Peers' undecided endpoint that takes the fewest packings, by the estimates of the rows: one
 /// against the reference, whose pairs the matrix shows, if any of them is open.
 const EndpointRow* nextToDecide(const CompareResults& results) {
-  const std::string& reference = results.engines.front().name;
+  const std::string& reference = referenceOf(results);
   const auto rank = [&](const EndpointRow& row) {
     return std::tuple(row.a != reference && row.b != reference, !row.needs, row.needs.value_or(0));
   };
@@ -187,8 +185,7 @@ std::string nextStep(const CompareResults& results, const Engines& engines) {
         (row.packings == 0 || row.kind == PairKind::closedForm))
       return fmt::format("Next: {} has no value to judge: {}.", endpointWords(row.endpoint),
                          row.reason);
-  if (closedFormEngines(results.endpoints.rows).empty() &&
-      peersOf(results.endpoints.rows, engines).empty())
+  if (closedFormEngines(results.endpoints.rows).empty() && peersOf(results, engines).empty())
     return "Next: name two engines that run this scene.";
   if (const EndpointRow* const next = nextToDecide(results)) {
     for (const std::string& name : {next->b, next->a})
@@ -199,7 +196,7 @@ std::string nextStep(const CompareResults& results, const Engines& engines) {
     return fmt::format(
         "Next: more packings{}; {}.",
         next->needs ? fmt::format(", about {} for the {} of {} against {}", *next->needs,
-                                  endpointWords(next->endpoint), next->b, next->a)
+                                  endpointWords(next->endpoint), next->b, called(next->a))
                     : "",
         planned ? "the same command with a larger --budget adds them"
                 : "the case plans no further interim analysis ([looks] in its file)");

@@ -80,7 +80,8 @@ std::vector<Figure> differenceFigures(const CompareResults& results,
                                       const std::vector<EngineRuns>& engines) {
   std::vector<Figure> figures;
   if (engines.empty()) return figures;
-  const std::string& reference = engines.front().name;
+  const std::string& reference = referenceOf(results);
+  const std::string called = referenceWords(results);
   for (const std::string& field : fieldsOf(results.agreement)) {
     Panel panel;
     for (const EngineRuns& engine : engines)
@@ -99,16 +100,16 @@ std::vector<Figure> differenceFigures(const CompareResults& results,
     std::string caption = capitalised(fmt::format(
         "{} minus that of {}, in the {}'s margin; blue: within it. Bars: ± half the interval "
         "that the {}'s colour rests on{}.",
-        fieldWords(field), reference, binWord(results), binWord(results),
+        fieldWords(field), called, binWord(results), binWord(results),
         panel.curves.size() > engineCurves
             ? fmt::format(". Triangles: beyond {:g} margins; the number is an engine's farthest",
                           mostMargins)
             : ""));
-    figures.push_back({"difference_" + field,
-                       fmt::format("Difference of the {} from that of {}, in margins",
-                                   fieldWords(field), reference),
-                       std::move(caption),
-                       {panel}});
+    figures.push_back(
+        {"difference_" + field,
+         fmt::format("Difference of the {} from that of {}, in margins", fieldWords(field), called),
+         std::move(caption),
+         {panel}});
   }
   return figures;
 }

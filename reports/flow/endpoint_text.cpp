@@ -132,7 +132,7 @@ std::string describe(const SurrogateEngine& own) {
 }
 
 std::string describe(const AlarmRow& alarm) {
-  return fmt::format("{} against {}: {}.", alarm.b, alarm.a, alarm.what);
+  return fmt::format("{} against {}: {}.", alarm.b, called(alarm.a), alarm.what);
 }
 
 std::string describe(const InterimFindings& looks) {
@@ -212,14 +212,23 @@ std::vector<std::string> closedFormEngines(const Endpoints& endpoints) {
   return differentOnes(rows, &EndpointRow::b);
 }
 
-std::vector<std::string> peersOf(const Endpoints& endpoints,
+std::string called(const std::string& engine) {
+  return engine == medianName ? "the median of the others" : engine;
+}
+
+std::string referenceWords(const CompareResults& results) {
+  return called(referenceOf(results));
+}
+
+std::vector<std::string> peersOf(const CompareResults& results,
                                  const std::vector<EngineRuns>& engines) {
   std::vector<std::string> peers;
-  for (std::size_t k = 1; k < engines.size(); ++k)
-    if (std::ranges::any_of(endpoints, [&](const EndpointRow& row) {
-          return row.kind == PairKind::peer && isOf(row, engines.front().name, engines[k].name);
+  for (const EngineRuns& engine : engines)
+    if (engine.name != referenceOf(results) &&
+        std::ranges::any_of(results.endpoints.rows, [&](const EndpointRow& row) {
+          return row.kind == PairKind::peer && isOf(row, referenceOf(results), engine.name);
         }))
-      peers.push_back(engines[k].name);
+      peers.push_back(engine.name);
   return peers;
 }
 

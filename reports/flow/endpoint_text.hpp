@@ -63,8 +63,12 @@ std::vector<const EndpointRow*> rowsOf(const Endpoints& endpoints, const std::st
 /// Engines that are compared with the case's expected values, in the order of the results.
 std::vector<std::string> closedFormEngines(const Endpoints& endpoints);
 
+/// An engine, or the median, as a sentence calls it; and the reference. @pre there is an engine
+std::string called(const std::string& engine);
+std::string referenceWords(const CompareResults& results);
+
 /// Engines that are compared with the reference in their own name.
-std::vector<std::string> peersOf(const Endpoints& endpoints,
+std::vector<std::string> peersOf(const CompareResults& results,
                                  const std::vector<EngineRuns>& engines);
 
 }  // namespace crossgrain::reports

@@ -35,7 +35,7 @@ std::size_t otherRegime(const CompareResults& results, const std::string& a, con
 }
 
 OverviewCell averagesOf(const CompareResults& results, const EngineRow& engine) {
-  const std::string& reference = results.engines.front().name;
+  const std::string& reference = referenceOf(results);
   const Endpoints& rows = results.endpoints.rows;
   if (const auto own = rowsOf(rows, closedFormName, engine.name); !own.empty()) {
     const EndpointRow* worst = worstOf(own);
@@ -130,8 +130,8 @@ OverviewCell endpointCell(const CompareResults& results, const EndpointRow& row)
   // Both sides have to be true to their laws: a fault of one of them is no model difference.
   const auto isTrue = [&](const std::string& name) {
     const auto engine = std::ranges::find(results.engines, name, &EngineRow::name);
-    if (engine == results.engines.end()) return false;
-    return engine == results.engines.begin() || isModelDifference(results, *engine);
+    if (engine == results.engines.end()) return name == medianName;
+    return name == referenceOf(results) || isModelDifference(results, *engine);
   };
   const bool isModel = row.kind != PairKind::mirrorImplementation && isTrue(row.a) && isTrue(row.b);
   OverviewCell cell = endpointCell(row, isModel);
@@ -165,7 +165,7 @@ bool isModelDifference(const CompareResults& results, const EngineRow& engine) {
           row.verdict != Equivalence::undecided)
         return row.verdict != Equivalence::differs;
   const Endpoints& endpoints = results.endpoints.rows;
-  const std::string& reference = results.engines.front().name;
+  const std::string& reference = referenceOf(results);
   for (const EngineRow& mirror : results.engines) {
     if (mirror.mirrors != engine.name) continue;
     bool disagrees = false;
@@ -183,14 +183,13 @@ bool isModelDifference(const CompareResults& results, const EngineRow& engine) {
 Overview compareOverview(const CompareResults& results) {
   Overview overview;
   if (results.engines.empty()) return overview;
-  const std::string& reference = results.engines.front().name;
   const bool closed = !closedFormEngines(results.endpoints.rows).empty();
   overview.columns = {
       {"law verified",
        "Does the engine have the law that it declares? Its difference from its mirror, step by "
        "step, in units of the limit.",
        results.lockstep ? "lockstep" : ""},
-      {closed ? "closed forms" : "largest difference from " + reference,
+      {closed ? "closed forms" : "largest difference from " + referenceWords(results),
        closed ? "The endpoint farthest from its expected value, in margins."
               : "The worst endpoint, as its distance from the reference in margins.",
        results.endpoints.rows.empty() ? "" : "agreement"},
@@ -209,7 +208,7 @@ Overview compareOverview(const CompareResults& results) {
 std::vector<DigestValue> compareValues(const CompareResults& results) {
   std::vector<DigestValue> values;
   if (results.engines.empty()) return values;
-  const std::string& reference = results.engines.front().name;
+  const std::string& reference = referenceOf(results);
   for (const EndpointRow& row : results.endpoints.rows) {
     const auto of = finite(row.reference), difference = finite(row.difference);
     if (row.a != reference || !of) continue;
@@ -217,7 +216,7 @@ std::vector<DigestValue> compareValues(const CompareResults& results) {
     const auto known = std::ranges::find_if(values, [&](const DigestValue& value) {
       return value.engine == reference && value.quantity == quantity;
     });
-    if (known == values.end())
+    if (known == values.end() && reference != medianName)
       values.push_back({reference, quantity, valueCell(*of, row.unit, std::nullopt)});
     const auto other = std::ranges::find(results.engines, row.b, &EngineRow::name);
     if (!difference || other == results.engines.end()) continue;

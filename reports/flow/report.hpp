@@ -33,7 +33,8 @@ std::vector<Picture> comparePictures(const CompareResults& results);
 void addAgreement(Report& report, const CompareResults& results,
                   const std::vector<EngineRuns>& engines);
 /// Profiles, fits, balance checks and distributions.
-void addProfiles(Report& report, const FlowFrame& frame, const std::vector<EngineRuns>& engines);
+void addProfiles(Report& report, const CompareResults& results,
+                 const std::vector<EngineRuns>& engines);
 /// Regimes, drifts and series.
 void addSeries(Report& report, const CompareResults& results,
                const std::vector<EngineRuns>& engines);

@@ -299,7 +299,7 @@ std::string averagedRotations(const FlowAveraging& averaging) {
 std::vector<std::string> stateSentences(const CompareResults& results, const Engines& engines) {
   Names sentences;
   addRegimes(sentences, engines);
-  if (!engines.empty()) addPairs(sentences, results, engines.front().name);
+  if (!engines.empty()) addPairs(sentences, results, referenceOf(results));
   addSteadiness(sentences, results, engines);
   return sentences;
 }

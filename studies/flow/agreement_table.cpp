@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace crossgrain::inline studies {
 
@@ -61,14 +62,37 @@ struct RingFamily {
   std::vector<PairedTest> tested;
 };
 
-RingFamily ringFamilyOf(const Case& setup, const Runs& reference, const Runs& other,
+/// Ring by ring the median of several engines; of one its own values.
+std::vector<Numbers> mediansByRing(const std::vector<Runs>& engines, const std::string& method,
+                                   const std::string& field, std::size_t packings) {
+  std::vector<std::vector<Numbers>> all;
+  std::size_t rings = SIZE_MAX;
+  for (const Runs& engine : engines) {
+    all.push_back(fieldByRing(engine, method, field, packings));
+    rings = std::min(rings, all.back().size());
+  }
+  if (all.size() == 1) return all.front();
+  std::vector<Numbers> medians;
+  for (std::size_t ring = 0; ring < rings; ++ring) {
+    std::vector<Numbers> values;
+    for (const auto& engine : all) values.push_back(engine[ring]);
+    medians.push_back(medianByPacking(values));
+  }
+  return medians;
+}
+
+/// @param references  those whose median is the reference, or it alone
+RingFamily ringFamilyOf(const Case& setup, const std::vector<Runs>& references, const Runs& other,
                         bool independent) {
   const std::string& method = setup.averaging.methods.front();
+  const Runs& reference = references.front();
   std::size_t ourPackings = packingsOf(reference), theirPackings = packingsOf(other);
-  if (!independent) ourPackings = theirPackings = std::max(ourPackings, theirPackings);
+  if (!independent)
+    for (const Runs& each : references)
+      ourPackings = theirPackings = std::max({ourPackings, theirPackings, packingsOf(each)});
   RingFamily family;
   for (const auto& [name, margin] : setup.averaging.margins) {
-    const auto ours = fieldByRing(reference, method, name, ourPackings);
+    const auto ours = mediansByRing(references, method, name, ourPackings);
     const auto theirs = fieldByRing(other, method, name, theirPackings);
     const std::size_t rings = std::min(ours.size(), theirs.size());
     if (rings == 0) continue;
@@ -86,7 +110,7 @@ RingFamily ringFamilyOf(const Case& setup, const Runs& reference, const Runs& ot
       if (independent && ring < ourDof.size() && ring < theirDof.size())
         sample.withinDof =
             std::min(ourDof[ring].front().value_or(0.0), theirDof[ring].front().value_or(0.0));
-      if (ring < ourError.size() && ring < theirError.size())
+      if (references.size() == 1 && ring < ourError.size() && ring < theirError.size())
         addWithinVariance(family.tested.back(), ourError[ring], theirError[ring]);
     }
   }
@@ -95,11 +119,16 @@ RingFamily ringFamilyOf(const Case& setup, const Runs& reference, const Runs& ot
 
 void addPair(std::vector<AgreementRow>& table, const Case& setup, std::span<const FlowRun> runs,
              const ComparedPair& pair, const std::vector<SurrogateEngine>& surrogates) {
-  const Runs reference = runsFor(runs, pair.a, surrogates);
+  std::vector<Runs> references;
+  if (pair.others.empty()) references.push_back(runsFor(runs, pair.a, surrogates));
+  for (const std::string& engine : pair.others)
+    references.push_back(runsFor(runs, engine, surrogates));
   const Runs other = runsFor(runs, pair.b, surrogates, pair.without);
-  if (reference.empty() || other.empty()) return;
-  const RingFamily family =
-      ringFamilyOf(setup, reference, other, independentRuns(pair, reference, other));
+  if (!pair.others.empty()) std::erase_if(references, [](const Runs& of) { return of.empty(); });
+  if (other.empty() || references.size() < (pair.others.empty() ? 1 : 2)) return;
+  if (references.front().empty()) return;
+  const bool independent = pair.others.empty() && independentRuns(pair, references.front(), other);
+  const RingFamily family = ringFamilyOf(setup, references, other, independent);
   std::vector<PairedSample> samples;
   for (const PairedTest& ring : family.tested) samples.push_back(ring.sample);
   const auto results = comparePaired(samples, setup.averaging.confidence);

@@ -101,6 +101,10 @@ class Campaign {
   /// Runs of the engine: as many as its files hold, or packings.
   int runsOf(std::size_t engine) const;
 
+  /// No engine is the reference: each is compared with the median of the others.
+  void beNeutral() { neutral_ = true; }
+  bool isNeutral() const { return neutral_; }
+
   /// "compare of quick: 4 packings, 3 of them prepared already"
   std::string planHead() const;
 
@@ -142,6 +146,7 @@ class Campaign {
   const RunCommand& command_;
   std::vector<CampaignEngine> engines_;
   double dt_;
+  bool neutral_ = false;
   RunStore& store_;
   Progress progress_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();

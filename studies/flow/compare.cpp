@@ -1,9 +1,11 @@
 #include "studies/flow/compare.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 
 #include "cases/flow.hpp"
 #include "results/schema.hpp"
@@ -77,24 +79,83 @@ std::optional<NothingJudged> nothingJudged(const Case& setup, std::span<const En
 
 namespace {
 
-std::string comparePlan(const StudyWork& work, const CompareOptions&) {
-  Campaign campaign(work.setup(), work.line.run, enginesFor(work.setup(), work.line.run.engines),
-                    work.store);
+constexpr const char* noReference = "none";
+
+/// The command with the reference first. @throws BadInput for one that is not among the engines
+RunCommand commandOf(const StudyWork& work, const CompareOptions& own) {
+  RunCommand command = work.line.run;
+  if (!own.reference || *own.reference == noReference) return command;
+  const auto found = std::ranges::find(command.engines, *own.reference);
+  if (found == command.engines.end())
+    throw BadInput(fmt::format("--reference {}: it is not among --engines {}; or none",
+                               *own.reference, fmt::join(command.engines, ",")));
+  std::rotate(command.engines.begin(), found, found + 1);
+  return command;
+}
+
+/// Each against the median of the others takes three, of as many runs each.
+void beNeutral(Campaign& campaign) {
+  std::size_t able = 0;
+  std::set<int> runs;
+  for (std::size_t e = 0; e < campaign.engines().size(); ++e) {
+    if (!campaign.refusal(e).empty()) continue;
+    ++able;
+    runs.insert(campaign.engines()[e].ofFiles() ? campaign.runsOf(e) : campaign.packingCount());
+  }
+  if (able < 3)
+    throw BadInput(fmt::format(
+        "--reference none: the median of the others takes three engines that can run the case, "
+        "here {}",
+        able == 1 ? "is one" : fmt::format("are {}", able)));
+  if (runs.size() > 1)
+    throw BadInput(fmt::format(
+        "--reference none: all must have as many runs, here are {}: set preparation.packings, or "
+        "name as many files of each",
+        fmt::join(runs, " and ")));
+  campaign.beNeutral();
+}
+
+/// Without a reference mirrors have no runs: they would give the in-house engine a say.
+std::vector<EngineEntry> enginesOf(const Case& setup, const RunCommand& command,
+                                   const CompareOptions& own) {
+  if (own.reference != noReference) return enginesFor(setup, command.engines);
+  checkEngineSections(setup);
+  return selectEngines(command.engines);
+}
+
+std::string comparePlan(const StudyWork& work, const CompareOptions& own) {
+  const RunCommand command = commandOf(work, own);
+  Campaign campaign(work.setup(), command, enginesOf(work.setup(), command, own), work.store);
   campaign.askEngines();
-  requireTwo(campaign, work.line.run.engines);
+  requireTwo(campaign, command.engines);
   campaign.lookForPackings();
   return describeDryRun(campaign.planHead(), campaign.plan(campaign.wholeCase()), work.store,
-                        work.line.run);
+                        command);
+}
+
+/// What no engine that takes part has made.
+std::string neutralNote(const Case& setup, const Campaign& campaign, bool lockstep) {
+  const std::string packings =
+      campaign.packings().empty() ? ""
+      : packingsAreFiles(setup)   ? "; packings are files"
+      : setup.average             ? "; packings are random, of the case's seeds"
+                                  : "; packings are made by " + (setup.preparation.engine.empty()
+                                                                     ? engineRegistry().front().name
+                                                                     : setup.preparation.engine);
+  return fmt::format(
+      "No engine is the reference: each is compared with the median of the others{}{}.", packings,
+      lockstep ? "; laws are verified by the in-house engine under each one's conventions" : "");
 }
 
 CompareResults compare(const StudyWork& work, const CompareOptions& own) {
   const Case& setup = work.setup();
-  const RunCommand& command = work.line.run;
+  const RunCommand command = commandOf(work, own);
   const std::size_t starts = work.line.quick ? quickLockstepStarts : lockstepStarts;
   const double budget = own.budget ? secondsOf(*own.budget) : setup.looks.budget;
-  Campaign campaign(setup, command, enginesFor(setup, command.engines), work.store);
+  Campaign campaign(setup, command, enginesOf(setup, command, own), work.store);
   campaign.askEngines();
   requireTwo(campaign, command.engines);
+  if (own.reference == noReference) beNeutral(campaign);
   campaign.preparePackings();
   LockstepFindings lockstep;
   if (setup.run.mirrors) lockstep = lockstepOf(campaign, setup, command, starts, hasMirror);
@@ -118,6 +179,10 @@ CompareResults compare(const StudyWork& work, const CompareOptions& own) {
       nothingJudged(setup, results.endpoints.rows, static_cast<std::size_t>(named));
   if (const auto& nothing = results.nothingJudged)
     results.notes.push_back(fmt::format("Nothing was judged: {}.", nothing->reason));
+  if (campaign.isNeutral()) {
+    results.endpoints.reference = medianName;
+    results.notes.push_back(neutralNote(setup, campaign, results.lockstep.has_value()));
+  }
   std::ranges::move(fileNotes(results), std::back_inserter(results.notes));
   std::ranges::move(velocityNotes(results), std::back_inserter(results.notes));
   std::ranges::move(contactNotes(results), std::back_inserter(results.notes));
@@ -178,6 +243,10 @@ const Study<CompareOptions, CompareResults> compareStudy = {
            "no interim analysis of more packings begins that would end later, e.g. 90s, 10m, 1h "
            "(default: looks.budget of the case)",
            &own.budget, "TIME"},
+          {"--reference",
+           "the engine that the others are compared with, or none: each with the median of the "
+           "others (default: the first)",
+           &own.reference, "NAME"},
           {"--strict",
            "undecided and borderline verdicts, engines that cannot run the case and nothing judged "
            "count as failed",

@@ -12,7 +12,8 @@ namespace crossgrain::inline studies {
 
 struct CompareOptions {
   bool strict = false;
-  std::optional<std::string> budget;  ///< absent: looks.budget of the case
+  std::optional<std::string> budget;     ///< absent: looks.budget of the case
+  std::optional<std::string> reference;  ///< absent: the first engine named; "none": the median
 };
 
 /// Prepares the case's packings, compares every engine with its mirror in lockstep, if the case

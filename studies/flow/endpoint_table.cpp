@@ -17,6 +17,8 @@ namespace {
 
 constexpr int fewestPackings = 4;  // of any verdict
 
+using Engines = std::vector<std::string>;
+
 /// An endpoint of two engines on its way to a verdict.
 struct EndpointTest {
   EndpointRow row;
@@ -62,49 +64,74 @@ EndpointTest testOf(const Case& setup, const ComparedPair& pair, const EndpointS
   return own;
 }
 
-/// Adds the bound of a mirror to the row of an engine that is evaluated through it. @returns
-/// whether there is one: not where a response or an equivalent change is not known
-bool addBound(EndpointRow& row, const SurrogateEngine& mirror,
-              const std::vector<EndpointResponse>& responses) {
-  const auto late = reachOf(row.endpoint, mirror.late, responses);
-  if (!late) return false;
+/// B of a mirror, in margins, and its part `reach`.
+struct MirrorBound {
+  double all = 0.0, reach = 0.0;
+};
+
+/// Absent where a response or an equivalent change is not known.
+std::optional<MirrorBound> boundOf(const std::string& endpoint, const SurrogateEngine& mirror,
+                                   const std::vector<EndpointResponse>& responses) {
+  const auto late = reachOf(endpoint, mirror.late, responses);
+  if (!late) return std::nullopt;
   double start = 0.0;
   for (const EndpointResponse& response : responses)
-    if (response.endpoint == row.endpoint && response.bound)
+    if (response.endpoint == endpoint && response.bound)
       start = std::max(start, mirror.equivalent / response.change * *response.bound);
-  row.bound = row.bound.value_or(0.0) + (start + *late);
-  row.reach = row.reach.value_or(0.0) + *late;
+  return MirrorBound{start + *late, *late};
+}
+
+/// Adds the bound of the mirrors that stand for an engine, or for those of a median, which differs
+/// by no more than the largest of its engines'. @returns whether there is one
+bool addBound(EndpointRow& row, std::string EndpointRow::*surrogate, const Engines& engines,
+              const EndpointFindings& known) {
+  MirrorBound largest;
+  for (const std::string& engine : engines) {
+    const SurrogateEngine* const by = surrogateOf(known.surrogates, engine);
+    if (!by) continue;
+    const auto bound = boundOf(row.endpoint, *by, known.responses);
+    if (!bound) return false;
+    (row.*surrogate) += ((row.*surrogate).empty() ? "" : " ") + by->mirror;
+    if (bound->all >= largest.all) largest = *bound;
+  }
+  if ((row.*surrogate).empty()) return true;
+  row.bound = row.bound.value_or(0.0) + largest.all;
+  row.reach = row.reach.value_or(0.0) + largest.reach;
   return true;
 }
 
 std::vector<EndpointTest> familyOf(const Case& setup, std::span<const FlowRun> runs,
                                    const ComparedPair& pair, const EndpointFindings& known) {
   const std::size_t packings = packingsOf(runs);
-  const Runs ours = runsFor(runs, pair.a, known.surrogates),
-             theirs = runsFor(runs, pair.b, known.surrogates);
+  const Engines first = pair.others.empty() ? Engines{pair.a} : pair.others;
+  std::vector<Runs> ours;
+  for (const std::string& engine : first) ours.push_back(runsFor(runs, engine, known.surrogates));
+  const Runs theirs = runsFor(runs, pair.b, known.surrogates);
   std::vector<EndpointTest> family;
-  if (ours.empty() || theirs.empty()) return family;
-  const bool independent = independentRuns(pair, ours, theirs);
+  if (!pair.others.empty()) std::erase_if(ours, [](const Runs& of) { return of.empty(); });
+  if (theirs.empty() || ours.size() < (pair.others.empty() ? 1 : 2)) return family;
+  if (ours.front().empty()) return family;
+  const bool independent = pair.others.empty() && independentRuns(pair, ours.front(), theirs);
   const auto valuesOf = [&](const EndpointSpec& endpoint, const Runs& of) {
     return endpointByPacking(endpoint, setup, of, independent ? packingsOf(of) : packings);
   };
   for (const EndpointSpec& endpoint : endpointsOf(setup)) {
-    EndpointTest own =
-        testOf(setup, pair, endpoint, valuesOf(endpoint, ours), valuesOf(endpoint, theirs));
+    std::vector<Numbers> values;
+    for (const Runs& of : ours) values.push_back(valuesOf(endpoint, of));
+    EndpointTest own = testOf(setup, pair, endpoint,
+                              pair.others.empty() ? values.front() : medianByPacking(values),
+                              valuesOf(endpoint, theirs));
     own.test.sample.independent = independent;
-    if (independent && ours.size() == 1 && theirs.size() == 1)
-      addOwnErrors(own.test, *ours.front(), *theirs.front(), endpoint.name);
-    for (const Runs* engine : {&ours, &theirs})
-      if (own.row.reason.empty()) own.row.reason = missingValueReason(endpoint, setup, *engine);
+    if (independent && ours.front().size() == 1 && theirs.size() == 1)
+      addOwnErrors(own.test, *ours.front().front(), *theirs.front(), endpoint.name);
+    ours.push_back(theirs);
+    for (const Runs& engine : ours)
+      if (own.row.reason.empty()) own.row.reason = missingValueReason(endpoint, setup, engine);
+    ours.pop_back();
     // Without a bound nothing is known of the true difference: no verdict can stand on these runs.
-    bool bounded = true;
-    for (const auto& [engine, mirror] :
-         {std::pair(&pair.a, &own.row.surrogateA), std::pair(&pair.b, &own.row.surrogateB)})
-      if (const SurrogateEngine* const by = surrogateOf(known.surrogates, *engine)) {
-        *mirror = by->mirror;
-        bounded = bounded && addBound(own.row, *by, known.responses);
-      }
-    if (!bounded) continue;
+    if (!addBound(own.row, &EndpointRow::surrogateA, first, known) ||
+        !addBound(own.row, &EndpointRow::surrogateB, {pair.b}, known))
+      continue;
     own.test.sample.bias = own.row.bound.value_or(0.0) * own.test.sample.margin;
     family.push_back(std::move(own));
   }

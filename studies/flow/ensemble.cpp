@@ -194,7 +194,7 @@ std::vector<RegimesOfPair> regimesOf(std::span<const FlowRun> runs,
                                      const std::vector<SurrogateEngine>& surrogates) {
   std::vector<RegimesOfPair> table;
   for (const ComparedPair& pair : pairs) {
-    if (pair.ofFiles) continue;  // whose packings are others
+    if (pair.ofFiles || !pair.others.empty()) continue;  // no packing's regime is theirs
     const auto ours = regimesByPacking(runsFor(runs, pair.a, surrogates));
     const auto theirs = regimesByPacking(runsFor(runs, pair.b, surrogates, pair.without));
     RegimesOfPair row{pair.a, pair.b, pair.kind, 0, {}};

@@ -175,6 +175,8 @@ class Sequence {
     std::set<std::string> wanted;
     for (const EndpointRow& row : findings_.rows)
       if (isOpen(row)) {
+        if (row.a == medianName)  // which takes all of them
+          for (const std::size_t e : open_) wanted.insert(nameOf(e));
         wanted.insert(row.surrogateA.empty() ? row.a : row.surrogateA);
         wanted.insert(row.surrogateB.empty() ? row.b : row.surrogateB);
       }
@@ -264,6 +266,14 @@ std::vector<ComparedPair> pairsOf(const Campaign& campaign, const std::vector<st
     return engines[a].ofFiles() || engines[b].ofFiles();
   };
   std::vector<ComparedPair> pairs;
+  if (campaign.isNeutral())
+    for (const EngineEntry& own : engines) {
+      if (!named(own)) continue;
+      ComparedPair pair{medianName, own.name};
+      for (const EngineEntry& other : engines)
+        if (named(other) && other.name != own.name) pair.others.push_back(other.name);
+      pairs.push_back(std::move(pair));
+    }
   for (std::size_t a = 0; a < engines.size(); ++a)
     for (std::size_t b = a + 1; b < engines.size(); ++b)
       if (named(engines[a]) && named(engines[b]))
@@ -271,7 +281,7 @@ std::vector<ComparedPair> pairsOf(const Campaign& campaign, const std::vector<st
   for (const EngineEntry& mirror : engines) {
     if (named(mirror) || surrogateBy(surrogates, mirror.name)) continue;
     const std::string reference = engines.front().name;
-    if (reference != mirror.mirrors)
+    if (!campaign.isNeutral() && reference != mirror.mirrors)
       pairs.push_back({reference, mirror.name, PairKind::mirrorModel});
     pairs.push_back({mirror.name, mirror.mirrors, PairKind::mirrorImplementation});
   }

@@ -22,7 +22,8 @@ EndpointFindings runWithInterims(const Case& setup, Campaign& campaign, const Ru
 
 /// All pairs of the engines named, in the order in which they were named. A mirror that came along
 /// stands between the reference and its peer; where the peer is evaluated through it, mirror and
-/// peer are lockstep's matter.
+/// peer are lockstep's matter. Of a neutral campaign first each of them against the median of the
+/// others.
 std::vector<ComparedPair> pairsOf(const Campaign& campaign, const std::vector<std::string>& names,
                                   const std::vector<SurrogateEngine>& surrogates);
 

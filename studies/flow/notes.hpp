@@ -26,7 +26,8 @@ std::vector<std::string> fileNotes(const CompareResults& results);
 /// Sentences for the head of the report on the shear band: does each engine's v_φ in rings 1 to 3
 /// lie within 15 % of the reference's, or within the bars that packings leave? Where it does not,
 /// what its mirror has to say: a mirror that follows the peer away from the reference shows that
-/// the model makes the difference, one that stays with the reference that it does not.
-std::vector<std::string> velocityNotes(const FlowStudy& study);
+/// the model makes the difference, one that stays with the reference that it does not. None where
+/// no engine is the reference.
+std::vector<std::string> velocityNotes(const CompareResults& results);
 
 }  // namespace crossgrain::inline studies

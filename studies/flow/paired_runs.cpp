@@ -38,6 +38,22 @@ std::size_t packingsOf(std::span<const FlowRun> runs) {
   return static_cast<std::size_t>(packings);
 }
 
+Numbers medianByPacking(const std::vector<Numbers>& engines) {
+  std::size_t packings = 0;
+  for (const Numbers& values : engines) packings = std::max(packings, values.size());
+  Numbers medians(packings);
+  for (std::size_t k = 0; k < packings; ++k) {
+    std::vector<double> values;
+    for (const Numbers& own : engines)
+      if (k < own.size() && own[k]) values.push_back(*own[k]);
+    if (values.size() < 2) continue;
+    std::ranges::sort(values);
+    const std::size_t half = values.size() / 2;
+    medians[k] = values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+  }
+  return medians;
+}
+
 std::size_t packingsOf(const Runs& runs) {
   int packings = 0;
   for (const FlowRun* run : runs) packings = std::max(packings, run->packing + 1);

@@ -37,7 +37,13 @@ struct ComparedPair {
   std::string without = {};  ///< what is switched off in the runs of `b`
   /// One of them is files, whose runs are other packings than the other's, as far as anybody knows.
   bool ofFiles = false;
+  /// Where `a` is medianName: those whose median it is, packing by packing.
+  std::vector<std::string> others = {};
 };
+
+/// The median of what several engines have on each packing; of those on which fewer than two have
+/// a value it has none.
+Numbers medianByPacking(const std::vector<Numbers>& engines);
 
 /// Whether two engines' runs are independent samples: those of files, unless both are as many. Then
 /// they are paired one by one, which holds whether their packings are the same or not, and tells

@@ -108,7 +108,7 @@ TEST(CouetteSummary, HeadNumbers_AreOfTheEnginesOwnStiffness) {
 }
 
 TEST(VelocityNotes, MirrorThatDiffersAlike_ExplainsTheDifference) {
-  FlowStudy results;
+  CompareResults results;
   results.averaging.method = "slicing";
   results.engines.resize(3);
   results.engines[0].name = "ours";
@@ -146,7 +146,7 @@ TEST(ContactNotes, PairsListedWithoutForce_AreReportedWhereTheyChangeTheCoordina
     run.series = RunSeries{{"coordination", coordination}, {"pairs_listed", listed}};
     return run;
   };
-  FlowStudy study;
+  CompareResults study;
   for (const char* name : {"blind", "soft", "rigid"}) study.engines.emplace_back().name = name;
   study.runs = {contacts("blind", {std::nullopt}, {std::nullopt})};
   EXPECT_TRUE(contactNotes(study).empty());

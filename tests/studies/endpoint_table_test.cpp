@@ -404,5 +404,53 @@ TEST(FileRuns, OneOfEach_RestsOnTheirOwnErrors) {
   EXPECT_NEAR(*row.high, 100.0 * (1.01 * std::exp(0.01754) - 1.0), 0.01);
 }
 
+TEST(Neutral, MedianIsOfTheOthersPackingByPacking) {
+  // Of 100, 104 and 90: 102 at the first packing of c, which has 101; so -1 %, and so on.
+  const std::vector<std::vector<double>> pressures = {
+      {100, 200, 300, 400}, {104, 208, 312, 416}, {102, 204, 306, 408}};
+  std::vector<FlowRun> runs;
+  const char* const names[] = {"a", "b", "c"};
+  for (std::size_t e = 0; e < 3; ++e)
+    for (FlowRun& run : pressuresOf(names[e], pressures[e])) runs.push_back(std::move(run));
+  const auto against = [&](const std::string& engine, const std::vector<std::string>& others) {
+    ComparedPair pair{medianName, engine};
+    pair.others = others;
+    const auto rows = endpointRows(judging("pressure", {0.05, true, "", ""}), runs, {pair},
+                                   interimPlanAt(4, 1, 0.05), 4, {});
+    return rows.empty() ? EndpointRow{} : rows.front();
+  };
+  const EndpointRow c = against("c", {"a", "b"});
+  EXPECT_EQ(c.a, "median");
+  EXPECT_EQ(c.packings, 4);
+  EXPECT_NEAR(*c.difference, 0.0, 1e-9);  // the mean of two others is their median
+  EXPECT_EQ(c.verdict, Verdict::pass);
+  const EndpointRow a = against("a", {"b", "c"});
+  EXPECT_NEAR(*a.difference / *a.reference, 100.0 / 103.0 - 1.0, 1e-9);
+  // One that finished nothing is no part of it, and one alone is no median.
+  EXPECT_NEAR(*against("a", {"b", "c", "none"}).difference, *a.difference, 1e-9);
+  EXPECT_TRUE(against("a", {"b", "none"}).a.empty());
+}
+
+TEST(Neutral, MedianByPacking) {
+  const std::vector<Numbers> three = {{1.0, 5.0, std::nullopt}, {2.0, 7.0, 3.0}, {9.0, 6.0, {}}};
+  EXPECT_EQ(medianByPacking(three), (Numbers{2.0, 6.0, std::nullopt}));
+}
+
+/// The median of n engines moves by no more than any of them did, so that B is the largest.
+TEST(Neutral, MirrorsBoundTheMedianByTheLargest) {
+  std::vector<FlowRun> runs;
+  for (const char* name : {"a", "mirror", "c"})
+    for (FlowRun& run : pressuresOf(name, {100, 200, 300, 400})) runs.push_back(std::move(run));
+  const std::vector<EndpointResponse> responses = {{"pressure", "kn", 0.1, 1.0, 2.0, 0.5, 4}};
+  EndpointFindings known = byMirror(0.01, {{"kn", 0.0}}, responses);
+  ComparedPair pair{medianName, "a"};
+  pair.others = {"b", "c"};
+  const auto rows = endpointRows(judging("pressure", {0.05, true, "", ""}), runs, {pair},
+                                 interimPlanAt(4, 1, 0.05), 4, known);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].surrogateA, "mirror");
+  EXPECT_NEAR(*rows[0].bound, 0.01 / 0.1 * 2.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace crossgrain

@@ -66,6 +66,40 @@ class Files(SystemTest):
         self.assert_one_error(done, BAD_INPUT, "mine", "files")
 
 
+class Reference(SystemTest):
+    """compare --reference"""
+
+    THREE = "grain,lammps,box2d-penalty"
+    FOUR = settings(averaging__rotations=0.02, preparation__packings=4, looks__count=1, run__mirrors="false")
+
+    def test_without_one_each_is_compared_with_the_median_of_the_others(self):
+        self.assert_status(self.compare(*self.FOUR, "--reference=none", engines=self.THREE), HELD, FELL_SHORT)
+        rows = [row for row in self.rows("endpoints.csv") if row["a"] == "median"]
+        self.assertEqual(set(self.THREE.split(",")), {row["b"] for row in rows})
+        self.assertEqual(27, len(rows))
+        # Worked out again from the series: coordination is the mean of its series, packing by packing.
+        means = {}
+        for row in self.rows("series.csv"):
+            means.setdefault((row["engine"], row["packing"]), []).append(float(row["coordination"]))
+        means = {run: sum(values) / len(values) for run, values in means.items()}
+        for row in rows:
+            if row["endpoint"] != "coordination":
+                continue
+            others = [name for name in self.THREE.split(",") if name != row["b"]]
+            differences = [means[row["b"], p] - sum(means[name, p] for name in others) / 2 for p in "0123"]
+            self.assertAlmostEqual(sum(differences) / 4, float(row["difference"]), delta=1e-9)
+        results = self.results()
+        self.assertEqual("median", results["endpoints"]["reference"])
+        self.assertIn("No engine is the reference", " ".join(results["notes"]))
+        self.assertEqual(self.THREE.split(","), [engine["name"] for engine in results["engines"]])
+
+    def test_any_engine_may_be_it(self):
+        self.assert_status(self.compare(*self.FOUR, "--reference=lammps", engines=self.THREE), HELD, FELL_SHORT)
+        self.assertEqual(["lammps", "grain", "box2d-penalty"], [engine["name"] for engine in self.results()["engines"]])
+        self.assert_one_error(self.compare(*self.FOUR, "--reference=yade", engines=self.THREE), BAD_INPUT, "--reference yade: it is not among")
+        self.assert_one_error(self.compare(*self.FOUR, "--reference=none", engines="grain,lammps"), BAD_INPUT, "takes three engines", "here are 2")
+
+
 class Compare(SystemTest):
     def test_same_bits_however_many_jobs_and_from_the_case_in_the_results(self):
         """Whether the packings come from a cache, and however many runs are side by side."""
