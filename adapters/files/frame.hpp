@@ -37,10 +37,10 @@ struct FileParticles {
 /// Contacts of one time, each once or twice as the file lists them. What it does not have is empty:
 /// each array but `first` and `second` is of all contacts or of none.
 struct FileContacts {
-  /// Ids of particles; a wall k is −k − 1, and always the second. A partner that is neither (a facet,
-  /// a fixed body that is no particle) counts as a wall.
+  /// Ids of particles; a wall k is −k − 1, and always the second. A partner that is neither (a
+  /// facet, a fixed body that is no particle) counts as a wall.
   std::vector<std::int64_t> first, second;
-  std::vector<Vec3> normal;                 ///< unit vector from second to first
+  std::vector<Vec3> normal;             ///< unit vector from second to first
   std::vector<Vec3> force;              ///< on the first, damping and attraction included [force]
   std::vector<double> normalForce;      ///< in place of `force`: > 0 pushes [force]
   std::vector<double> tangentialForce;  ///< in place of `force`: its size [force]
