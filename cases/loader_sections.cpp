@@ -297,7 +297,7 @@ std::vector<SectionInfo> cellSections() {
 std::vector<SectionInfo> runSections() {
   return {runKeys().info(),
           {.name = "engines.NAME",
-           .commands = runKeys().info().commands,
+           .commands = runKeys().info().commands + " average",
            .keys = {{"SETTING", "the setting's", "the engine's", "",
                      "of one engine: a boolean, a number or a string; `crossgrain engines` lists "
                      "each engine's, the engine checks them"}}},

@@ -35,7 +35,7 @@ foreach(page ${crossgrain_pages} reports/curated/cost/cost_collision.png reports
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
 endforeach()
 
-set(crossgrain_libraries crossgrain_options crossgrain_support crossgrain_continuum grain box2d_granular crossgrain_adapters
+set(crossgrain_libraries crossgrain_options crossgrain_support crossgrain_continuum grain box2d_granular crossgrain_adapters crossgrain_files
     crossgrain_worker crossgrain_engines crossgrain_oracle crossgrain_stability crossgrain_averaging
     crossgrain_cases crossgrain_results crossgrain_reports crossgrain_studies)
 install(TARGETS ${crossgrain_libraries} EXPORT crossgrain
