@@ -464,6 +464,14 @@ Content contentOfLammps(const fs::path& file) {
   text.fail("this is neither dump custom (ITEM: ATOMS) nor dump local (ITEM: ENTRIES)");
 }
 
+double firstTimeOfLammps(const fs::path& file) {
+  TextFile text(file);
+  while (text.next())
+    if (text.line().starts_with("ITEM: TIMESTEP"))
+      return numberOf(text, words(text.need("the step")).front(), "the step");
+  text.fail("ITEM: TIMESTEP is missing");
+}
+
 std::unique_ptr<FrameReader> openLammps(const Files& files, const FileOptions& options) {
   const auto columns = std::make_shared<const ColumnOptions>(options.columns);
   std::vector<std::unique_ptr<PartReader>> contacts;
