@@ -2,6 +2,7 @@
 #   bin/crossgrain                 the program; finds share/crossgrain beside its own folder, so a prefix can be moved
 #   share/crossgrain/cases, engines  what it reads at run time
 #   share/crossgrain/examples      engines of one's own to begin with; engines/python and engines/cpp are their helpers
+#   share/crossgrain/python        crossgrain.py reads results and snapshots
 #   share/bash-completion/completions
 #   lib, include/crossgrain        the libraries, for find_package(crossgrain)
 include(GNUInstallDirs)
@@ -22,6 +23,7 @@ install(FILES engines/chipmunk/chipmunk.toml
         DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines/chipmunk)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
         FILES_MATCHING PATTERN "*.py" PATTERN "*.cpp" PATTERN "*.toml")
+install(FILES python/crossgrain.py DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/python)
 install(FILES README.md LICENSE CHANGELOG.md adapters/worker/protocol.schema.json
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
