@@ -84,8 +84,11 @@ int exportSnapshots(const CommandLine& line, const std::string& format, const st
   }
   writer->close();
   progress.finish(0, out);
-  fmt::print("{}{}: {} snapshots of {}, t = {:g} to {:g} s\n", written.front().string(),
-             written.size() > 2 ? " …" : ", " + written.back().string(), reader.count(),
+  std::vector<std::string> names;
+  for (const std::filesystem::path& file : written) names.push_back(file.string());
+  constexpr std::size_t mostNames = 3;
+  if (names.size() > mostNames) names = {names.front() + " …"};
+  fmt::print("{}: {} snapshots of {}, t = {:g} to {:g} s\n", fmt::join(names, ", "), reader.count(),
              reader.engine(), first, reader.count() > 1 ? last : first);
   for (const std::string& what : writer->notWritten()) fmt::print("  not in them: {}\n", what);
   return exitPassed;

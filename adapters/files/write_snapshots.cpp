@@ -115,7 +115,7 @@ std::vector<std::filesystem::path> writtenFiles(std::string_view format,
                                                 const std::filesystem::path& out,
                                                 std::size_t snapshots) {
   const std::string name = out.string();
-  if (format == "mercurydpm") return {name + ".data", name + ".fstat"};
+  if (format == "mercurydpm") return {name + ".data", name + ".fstat", name + ".restart"};
   if (format == "lammps") return {name + ".dump", name + ".contacts"};
   std::vector<std::filesystem::path> files;
   for (std::size_t k = 0; k < snapshots; ++k)

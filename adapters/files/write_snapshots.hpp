@@ -37,7 +37,7 @@ class SnapshotWriter {
   virtual std::vector<std::string> notWritten() const = 0;
 };
 
-/// "mercurydpm": NAME.data and NAME.fstat, which MercuryCG averages.
+/// "mercurydpm": NAME.data, NAME.fstat and NAME.restart, which MercuryCG averages.
 /// "lammps": NAME.dump and NAME.contacts, as `dump custom` and `dump local` write them.
 /// "ondem": NAME-000.vtkhdf, -001, …, one a snapshot, in the layout that the Open Network on DEM
 /// decided on in October 2026, made for the VTKHDF reader of ParaView 5.13 and later.

@@ -3,6 +3,7 @@ gives the same numbers. tests/unit/write_snapshots_test.cpp has the formats by h
 averages them."""
 
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -48,12 +49,16 @@ class Export(OneRun):
         self.assert_status(done, HELD)
         self.assertIn("x.data", done.stdout)
         self.assertIn("3 snapshots of grain", done.stdout)
-        self.assertIn("not in them: masses", done.stdout)
+        self.assertIn("not in them: lengths of tangential springs", done.stdout)
         snapshots = self.snapshots()
         lines = (self.folder / "files/x.data").read_text(encoding="utf-8").splitlines()
         disks, rows = len(snapshots.radius), len(snapshots.radius) + len(snapshots.wall_radius)
         self.assertEqual(3 * (rows + 1), len(lines))
         forces = self.fstat(rows)
+        restart = (self.folder / "files/x.restart").read_text(encoding="utf-8")
+        density = np.array([float(d) for d in re.findall(r" density (\S+)", restart)])
+        self.assertEqual(2, len(density))
+        self.assertEqual(rows - disks, restart.count(" invMass 0 "))
         for k, snapshot in enumerate(snapshots):
             head = lines[k * (rows + 1)].split()
             self.assertEqual((rows, snapshot.time), (int(head[0]), float(head[1])))
@@ -62,6 +67,8 @@ class Export(OneRun):
             np.testing.assert_array_equal(snapshot.velocity, data[:disks, 3:5])
             np.testing.assert_array_equal(snapshot.spin, data[:disks, 12])
             np.testing.assert_array_equal(snapshots.radius, data[:disks, 6])
+            # As MercuryDPM makes masses of particles of two dimensions; small and large disks have a density each.
+            np.testing.assert_allclose(density[data[:disks, 13].astype(int)] * np.pi * snapshots.radius**2, snapshots.mass, rtol=1e-11)
             # The wheel's disks turn with it.
             wheel = disks + np.flatnonzero(snapshots.wall_body == 0)
             spin = snapshot.bodies["angular_velocity"][0]

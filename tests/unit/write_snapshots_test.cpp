@@ -72,11 +72,38 @@ TEST_F(WrittenSnapshots, MercuryDpmData_HasWallDisksAfterDisks) {
   EXPECT_EQ(written("mercurydpm", ".data"),
             "3 0.5 0 0 -0.25 4 4 0.25\n"
             "1 2 0 0.1 0 0 0.5 0 0 0 0 0 1 0\n"
-            "1.98 2 0 0 0 0 0.5 0 0 0 0 0 0 0\n"
+            "1.98 2 0 0 0 0 0.5 0 0 0 0 0 0 1\n"
             "1 1.25 0 0 2 0 0.25 0 0 0 0 0 2 0\n");
   EXPECT_NE(said_.find("velocities are of -0.25 s, contacts of +0 s from there"), std::string::npos)
       << said_;
-  EXPECT_NE(said_.find("NAME.restart"), std::string::npos) << said_;
+}
+
+/// Densities 2/(π/4) and 0.1/(π/4) kg/m², the wall disk fixed.
+TEST_F(WrittenSnapshots, MercuryDpmRestart_HasDensitiesAndFixedParticles) {
+  EXPECT_EQ(
+      written("mercurydpm", ".restart"),
+      "MercuryDPM 1.0 name run\n"
+      "dataFile    fileType ONE_FILE saveCount 1 counter 0\n"
+      "fStatFile   fileType ONE_FILE saveCount 1 counter 0\n"
+      "eneFile     fileType ONE_FILE saveCount 1 counter 0\n"
+      "restartFile fileType ONE_FILE saveCount 1 counter 0\n"
+      "statFile    fileType ONE_FILE saveCount 1 counter 0\n"
+      "interactionFile fileType NO_FILE saveCount 0 counter 0\n"
+      "xMin 0 xMax 4 yMin 0 yMax 4 zMin -0.25 zMax 0.25\n"
+      "timeStep 1 time 0.5 ntimeSteps 0 timeMax 0.5\n"
+      "systemDimensions 3 particleDimensions 2 gravity 0 0 0 backgroundDrag 0\n"
+      "Species 2\n"
+      "LinearViscoelasticSpecies id 0 density 2.5464790894703255 stiffness 1 dissipation 0\n"
+      "LinearViscoelasticSpecies id 1 density 0.12732395447351627 stiffness 1 dissipation 0\n"
+      "LinearViscoelasticMixedSpecies idA 1 idB 0 stiffness 1 dissipation 0\n"
+      "Walls 0\nBoundaries 0\nParticles 3\n"
+      "SphericalParticle id 0 indSpecies 0 position 1 2 0 orientation 1 0 0 0 velocity 0.1 0 0 "
+      "angularVelocity 0 0 1 force 0 0 0 torque 0 0 0 radius 0.5 invMass 0.5 timeStamp 0\n"
+      "SphericalParticle id 1 indSpecies 1 position 1.98 2 0 orientation 1 0 0 0 velocity 0 0 0 "
+      "angularVelocity 0 0 0 force 0 0 0 torque 0 0 0 radius 0.5 invMass 10 timeStamp 0\n"
+      "SphericalParticle id 2 indSpecies 0 position 1 1.25 0 orientation 1 0 0 0 velocity 0 2 0 "
+      "angularVelocity 0 0 2 force 0 0 0 torque 0 0 0 radius 0.25 invMass 0 timeStamp 0\n"
+      "Interactions 0\n");
 }
 
 /// Two lines of two free disks, one of a fixed partner, and of a wall n and t the other way round:
