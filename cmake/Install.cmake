@@ -2,6 +2,7 @@
 #   bin/crossgrain                 the program; finds share/crossgrain beside its own folder, so a prefix can be moved
 #   share/crossgrain/cases, engines  what it reads at run time
 #   share/crossgrain/examples      engines of one's own to begin with; engines/python and engines/cpp are their helpers
+#   share/crossgrain/python        crossgrain.py reads results and snapshots
 #   share/bash-completion/completions
 #   lib, include/crossgrain        the libraries, for find_package(crossgrain)
 include(GNUInstallDirs)
@@ -22,6 +23,7 @@ install(FILES engines/chipmunk/chipmunk.toml
         DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines/chipmunk)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
         FILES_MATCHING PATTERN "*.py" PATTERN "*.cpp" PATTERN "*.toml")
+install(FILES python/crossgrain.py DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/python)
 install(FILES README.md LICENSE CHANGELOG.md adapters/worker/protocol.schema.json
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
@@ -37,7 +39,7 @@ endforeach()
 
 set(crossgrain_libraries crossgrain_options crossgrain_support crossgrain_continuum grain box2d_granular crossgrain_adapters crossgrain_files
     crossgrain_worker crossgrain_engines crossgrain_oracle crossgrain_stability crossgrain_averaging
-    crossgrain_cases crossgrain_results crossgrain_reports crossgrain_studies)
+    crossgrain_cases crossgrain_results crossgrain_reports crossgrain_studies crossgrain_file_writers)
 install(TARGETS ${crossgrain_libraries} EXPORT crossgrain
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/crossgrain)
 foreach(folder support continuum adapters oracle stability averaging cases engines/grain engines/box2d results reports studies)

@@ -28,20 +28,7 @@ namespace {
 
 std::mutex libraryMutex;
 
-/// Closes an HDF5 handle of any kind at the end of the scope.
-class Handle {
- public:
-  explicit Handle(hid_t id) : id_(id) {}
-  ~Handle() {
-    if (id_ >= 0) H5Idec_ref(id_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }  // NOLINT: reads as the handle it is
-
- private:
-  hid_t id_;
-};
+using Handle = Hdf5Handle;
 
 /// Throws after clearing HDF5's own record of the error, of which it keeps one per thread: left
 /// there, it upsets the library's clean-up when the program ends.

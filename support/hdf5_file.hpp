@@ -14,6 +14,21 @@
 
 namespace crossgrain::inline support {
 
+/// Closes an HDF5 handle of any kind at the end of the scope.
+class Hdf5Handle {
+ public:
+  explicit Hdf5Handle(hid_t id) : id_(id) {}
+  ~Hdf5Handle() {
+    if (id_ >= 0) H5Idec_ref(id_);
+  }
+  Hdf5Handle(const Hdf5Handle&) = delete;
+  Hdf5Handle& operator=(const Hdf5Handle&) = delete;
+  operator hid_t() const { return id_; }  // NOLINT: reads as the handle it is
+
+ private:
+  hid_t id_;
+};
+
 /// An HDF5 file of arrays of doubles and 32-bit integers, with attributes. A new file is built in
 /// memory and written in one go by save(), so that a full disk leaves no half file; one that grows
 /// over a long run is on disk from the start.

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "adapters/files/write_snapshots.hpp"
+
+/// What the writers share.
+namespace crossgrain::files {
+
+/// A text file that grows in NAME.part, a megabyte at a time. One that is not closed is removed.
+class TextOutput {
+ public:
+  /// Makes the folder too. @throws OutputError
+  explicit TextOutput(std::filesystem::path file);
+  ~TextOutput();
+  TextOutput(const TextOutput&) = delete;
+  TextOutput& operator=(const TextOutput&) = delete;
+
+  /// @throws OutputError
+  template <class... Values>
+  void print(fmt::format_string<Values...> text, Values&&... values) {
+    fmt::format_to(std::back_inserter(buffer_), text, std::forward<Values>(values)...);
+    if (buffer_.size() >= fullBuffer) flush();
+  }
+
+  /// It gets its name. @throws OutputError
+  void close();
+
+ private:
+  static constexpr std::size_t fullBuffer = 1 << 20;
+  void flush();
+
+  std::filesystem::path file_, part_;
+  std::FILE* stream_;
+  fmt::memory_buffer buffer_;
+};
+
+/// A disk or a wall disk.
+struct WrittenParticle {
+  Vec2 position, velocity;     ///< [m], [m/s]
+  double radius = 0.0;         ///< [m]
+  double spin = 0.0;           ///< counter-clockwise positive [rad/s]
+  std::optional<double> mass;  ///< absent of wall disks, which are fixed [kg]
+  std::int32_t body = -1;      ///< wall body of a wall disk
+  std::int32_t material = 0;
+};
+
+/// The same, with 0 for −0.
+inline Vec2 unsignedZeros(const Vec2& v) {
+  return {v.x() + 0.0, v.y() + 0.0};
+}
+
+/// Disks, then wall disks, by the scene's ids.
+class WrittenParticles {
+ public:
+  explicit WrittenParticles(const Scene& scene);
+
+  std::size_t size() const { return radius_.size(); }
+  const std::vector<double>& radii() const { return radius_; }
+  WrittenParticle at(const Snapshot& now, std::size_t id) const;
+
+ private:
+  const Scene& scene_;
+  std::vector<double> radius_;
+  std::vector<std::int32_t> body_;  ///< of wall disks
+};
+
+/// A contact as files have it. Forces are on the first, which is never a wall.
+struct WrittenContact {
+  std::size_t first = 0, second = 0;  ///< ids; planes follow wall disks
+  Vec2 normal;                        ///< from the second to the first
+  Vec2 point;                         ///< half of the overlap inside of both [m]
+  double overlap = 0.0;               ///< [m]
+  double normalForce = 0.0;           ///< > 0 pushes [N]
+  double tangentialForce = 0.0;       ///< along z × normal [N]
+  double rollingTorque = 0.0;         ///< on the first [N m]
+
+  /// z × normal
+  Vec2 tangent() const { return perpendicular(normal); }
+};
+
+/// @param particles  those of the scene  @pre the snapshot holds contacts
+WrittenContact contactAt(const WrittenParticles& particles, const Snapshot& now, std::size_t k);
+
+/// SnapshotWriter::notWritten(), as far as it is the same for all formats.
+/// @param rolling  whether the format has a place for rolling torques
+std::vector<std::string> notInFormats(const Snapshot& now, bool rolling = false);
+
+std::unique_ptr<SnapshotWriter> openMercuryDpm(const std::filesystem::path& out, const Scene& scene,
+                                               const WrittenBox& box);
+std::unique_ptr<SnapshotWriter> openLammps(const std::filesystem::path& out, const Scene& scene,
+                                           const WrittenBox& box);
+std::unique_ptr<SnapshotWriter> openOnDem(const std::filesystem::path& out, const Scene& scene,
+                                          const WrittenBox& box);
+
+}  // namespace crossgrain::files

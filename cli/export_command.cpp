@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "adapters/files/write_snapshots.hpp"
+#include "cases/flow.hpp"
+#include "cases/loader.hpp"
+#include "cli/option_groups.hpp"
+#include "cli/outcome.hpp"
+#include "studies/core/executor.hpp"
+#include "studies/flow/snapshot_file.hpp"
+#include "support/bad_input.hpp"
+#include "support/files.hpp"
+#include "support/interrupt.hpp"
+
+namespace crossgrain::inline cli {
+namespace {
+
+/// The averaged box; of a Couette cell, and of rings, the square around the outermost.
+files::WrittenBox boxOf(const Case& setup) {
+  const auto around = [](double reach, double height) {
+    return files::WrittenBox{Vec2(-reach, -reach), Vec2(reach, reach), height};
+  };
+  if (!setup.average)
+    return around(setup.cell.outerRadius + setup.cell.wallRadius, setup.cell.height);
+  const Region& region = setup.average->region;
+  if (region.hasRings()) return around(region.outerRadius, region.height);
+  return {region.low, region.high, region.height};
+}
+
+Case flowCase(const CommandLine& line) {
+  const std::string file = line.inputs.front().string();
+  const std::vector<Case> cases = loadCase(file, line.overrides);
+  if (!hasFlow(cases.front()))
+    throw BadInput(fmt::format(
+        "{}: says no box that snapshots are of: export takes a cell, or an assembly with [average]",
+        file));
+  if (cases.size() > 1)
+    throw BadInput(fmt::format("{}: export takes a case without variants", file));
+  return cases.front();
+}
+
+void requireFormat(const std::string& format) {
+  const auto formats = files::writtenFormats();
+  if (std::ranges::find(formats, format) == formats.end())
+    throw BadInput(
+        fmt::format("format {}: there are {} to write", format, fmt::join(formats, ", ")));
+}
+
+/// Existing files are not replaced.
+void requireNew(const std::vector<std::filesystem::path>& written) {
+  for (const std::filesystem::path& file : written)
+    if (std::filesystem::exists(file))
+      throw BadInput(fmt::format("--out: {} is there already, and is not replaced: name others",
+                                 file.string()));
+}
+
+int exportSnapshots(const CommandLine& line, const std::string& format, const std::string& out) {
+  requireFormat(format);
+  const Case setup = flowCase(line);
+  if (const auto folder = std::filesystem::path(out).parent_path(); !folder.empty())
+    makeDirectory(folder);
+  requireReadable(line.snapshots, setup);
+  const SnapshotReader reader(line.snapshots, setup);
+  requireFit(reader, setup);
+  requireSound(reader, setup);
+  const auto written = files::writtenFiles(format, out, reader.count());
+  requireNew(written);
+
+  const auto writer = files::openWriter(format, out, reader.scene(), boxOf(setup));
+  Progress progress(line.run.quiet);
+  progress.begin("writing snapshots", {1.0});
+  double first = 0.0, last = 0.0;
+  for (std::size_t k = 0; k < reader.count(); ++k) {
+    throwIfInterrupted();
+    const Snapshot snapshot = reader.read(k);
+    (k == 0 ? first : last) = snapshot.positionTime;
+    writer->write(snapshot);
+    progress.update(0, out, static_cast<double>(k + 1) / static_cast<double>(reader.count()));
+  }
+  writer->close();
+  progress.finish(0, out);
+  std::vector<std::string> names;
+  for (const std::filesystem::path& file : written) names.push_back(file.string());
+  constexpr std::size_t mostNames = 3;
+  if (names.size() > mostNames) names = {names.front() + " …"};
+  fmt::print("{}: {} snapshots of {}, t = {:g} to {:g} s\n", fmt::join(names, ", "), reader.count(),
+             reader.engine(), first, reader.count() > 1 ? last : first);
+  for (const std::string& what : writer->notWritten()) fmt::print("  not in them: {}\n", what);
+  return exitPassed;
+}
+
+Action declareExport(CLI::App& app, CommandLine& line) {
+  const auto format = std::make_shared<std::string>(), out = std::make_shared<std::string>();
+  addArgument(app, "format", *format, "what to write", "mercurydpm|lammps|ondem");
+  const auto snapshots = std::make_shared<std::string>();
+  addArgument(app, "snapshots", *snapshots, "HDF5 file of snapshots that compare kept", "FILE");
+  addCase(app, line, "case file that they are of");
+  addArgument(app, "--out", *out, "name of the files, without an ending", "NAME");
+  addOverrides(app, line);
+  addQuiet(app, line);
+  return [&line, format, snapshots, out] {
+    line.snapshots = *snapshots;
+    return exportSnapshots(line, *format, *out);
+  };
+}
+
+}  // namespace
+
+extern const Command exportCommand = {
+    "export", "snapshots as MercuryDPM, LAMMPS or ON-DEM VTKHDF files",
+    "crossgrain export mercurydpm out/compare/snapshots/grain-p0.h5 cases/couette/quick.toml "
+    "--out out/grain",
+    declareExport};
+
+}  // namespace crossgrain::inline cli

@@ -1,0 +1,299 @@
+"""Reads what crossgrain writes: results folders and files of snapshots, as numpy arrays in SI units.
+
+    import crossgrain
+    results = crossgrain.Results("out/compare")
+    profile = results.profile("stress_rr", engine="grain")      # profile.r, profile.mean, profile.stderr
+    with crossgrain.Snapshots("out/compare/snapshots/grain-p0.h5") as snapshots:
+        for snapshot in snapshots:
+            snapshot.contacts.force                               # (contacts, 2), on disk i [N]
+
+Absent numbers are NaN. Tables are dicts of columns, all of one length: pandas.DataFrame(table) takes them.
+Needs numpy, and h5py for snapshots. docs/results.md and docs/files.md have the layouts.
+"""
+
+import csv
+import dataclasses
+import json
+import pathlib
+
+import numpy as np
+
+SCHEMA = "crossgrain-results-1"
+
+
+def _numbers(values):
+    """Numbers and nulls as doubles."""
+    return np.array([np.nan if value is None else value for value in values], dtype=float)
+
+
+def _column(values):
+    """Doubles where all values are numbers, booleans or null; else as they are."""
+    if all(value is None or isinstance(value, (int, float)) for value in values):
+        return _numbers(values)
+    return np.array(["" if value is None else value for value in values], dtype=object)
+
+
+def _table(rows):
+    """A dict of columns of dicts, in the order in which their names first come."""
+    names = dict.fromkeys(name for row in rows for name in row)
+    return {name: _column([row.get(name) for row in rows]) for name in names}
+
+
+def _one(found, what, names):
+    if not found:
+        raise KeyError(f"there is no {what}; there are {', '.join(sorted({str(name) for name in names}))}")
+    return found[0]
+
+
+@dataclasses.dataclass
+class Profile:
+    """One field in the bins of one engine: time means over a run, or over all of its packings."""
+
+    engine: str
+    packing: object  #: index of the packing, or "all": the mean over packings
+    method: str  #: of weighing disks: "slicing", "centre", …
+    field: str  #: as in profiles.csv: "volume_fraction", "stress_rr", …
+    unit: str  #: of mean and stderr
+    mean: np.ndarray  #: one number for each bin; NaN: nothing was there to measure
+    stderr: np.ndarray  #: standard error: within the run, or over packings
+    n_eff: np.ndarray  #: independent samples that the run is worth
+    r: np.ndarray  #: mean radius of each ring [m]; empty where bins are no rings
+    x: np.ndarray  #: middle of each bin [m]; empty of rings
+    y: np.ndarray  #: likewise [m]
+
+
+class Results:
+    """A results.json, of any command."""
+
+    def __init__(self, path):
+        """path: the folder of a command, or its results.json"""
+        path = pathlib.Path(path)
+        self.file = path / "results.json" if path.is_dir() else path
+        self.folder = self.file.parent
+        self.document = json.loads(self.file.read_text(encoding="utf-8"))  #: all of it, as docs/results.md has it
+        if self.document.get("schema") != SCHEMA:
+            raise ValueError(f'{self.file}: its schema is {self.document.get("schema")!r}, not {SCHEMA!r}')
+        self.kind = self.document["kind"]  #: "compare", "collide", "lockstep", …
+        self.case = self.document.get("case", {}).get("name")
+        self.engines = [engine["name"] for engine in self.document.get("engines", [])]  #: the reference first
+
+    def _require(self, member, what):
+        if member not in self.document:
+            raise KeyError(f"{self.file}: results of {self.kind} have no {what}")
+        return self.document[member]
+
+    def runs(self):
+        """Finished runs, as results.json has them: one for each engine and packing."""
+        return [run for run in self._require("runs", "runs") if run.get("status", "finished") == "finished"]
+
+    def _all_profiles(self):
+        rings, region = self.document.get("rings", {}), self.document.get("region", {})
+        places = {name: _numbers(given.get(name, [])) for name, given in (("r", rings), ("x", region), ("y", region))}
+        sources = [(run, run["packing"]) for run in self.runs()]
+        sources += [(ensemble, "all") for ensemble in self.document.get("ensemble", [])]
+        for source, packing in sources:
+            if source.get("without"):  # an effect was switched off
+                continue
+            for profile in source.get("profiles", []):
+                columns = {name: _numbers(profile.get(name, [])) for name in ("mean", "stderr", "n_eff")}
+                yield Profile(source["engine"], packing, profile["method"], profile["field"], profile["unit"], **columns, **places)
+
+    def profile(self, field, engine=None, packing=None, method=None):
+        """One Profile. engine: default the reference; packing: an index or "all", default the mean over packings
+        where there are several, else that run; method: default the first of the case, which verdicts are of."""
+        engine = engine or self.engines[0]
+        method = method or self.document.get("averaging", {}).get("method")
+        everything = list(self._all_profiles())
+        of_engine = [p for p in everything if p.engine == engine]
+        _one(of_engine, f"profile of {engine}", {p.engine for p in everything})
+        of_field = [p for p in of_engine if p.field == field and p.method == method]
+        _one(of_field, f"field {field} by {method}", {f"{p.field} by {p.method}" for p in of_engine})
+        if packing is None:
+            packing = "all" if sum(p.packing != "all" for p in of_field) > 1 else of_field[0].packing
+        return _one([p for p in of_field if p.packing == packing], f"packing {packing}", {p.packing for p in of_field})
+
+    def profiles(self):
+        """All profiles as a table, a row for each bin: engine, packing, method, field, bin (from 0), r or x and y [m],
+        mean, stderr, n_eff, unit."""
+        rows = []
+        for p in self._all_profiles():
+            for k in range(len(p.mean)):
+                row = {"engine": p.engine, "packing": str(p.packing), "method": p.method, "field": p.field, "bin": k}
+                row |= {name: places[k] for name, places in (("r", p.r), ("x", p.x), ("y", p.y)) if len(places)}
+                rows.append(row | {"mean": p.mean[k], "stderr": p.stderr[k], "n_eff": p.n_eff[k], "unit": p.unit})
+        return _table(rows)
+
+    def series(self, engine=None, packing=None):
+        """Series over time of one run: {"t_s": [s], "wheel_torque": [N m], "kinetic_energy": [J], …}; docs/results.md
+        has their units. packing: default the first that finished."""
+        engine = engine or self.engines[0]
+        runs = [run for run in self.runs() if run["engine"] == engine and not run.get("without")]
+        found = [run for run in runs if packing in (None, run["packing"]) and "series" in run]
+        run = _one(found, f"series of {engine}, packing {packing}", {(r["engine"], r["packing"]) for r in self.runs()})
+        return {name: _numbers(values) for name, values in run["series"].items()}
+
+    def endpoints(self):
+        """Verdicts on scalar outcome measures, a row for each pair of engines and endpoint: a, b, endpoint, unit,
+        margin (margin_relative 1: of the reference), answer, difference with low and high [unit], distance [margins], …"""
+        return _table([{k: v for k, v in row.items() if not isinstance(v, (list, dict))} for row in self._require("endpoints", "endpoints")["rows"]])
+
+    def collisions(self):
+        """Every collision of every engine, a row each: case, variant, engine, dt [s], psi_i, v_n [m/s], e_n, psi_f, … with
+        "…_reference" of the oracle, SI units."""
+        rows = []
+        for variant in self._require("variants", "collisions"):
+            reference = variant["reference"]
+            places = {point: k for k, point in enumerate(zip(reference["psi_i"], reference["v_n"]))}
+            for curve in variant["curves"]:
+                points = curve["points"]
+                for k, point in enumerate(zip(points.get("psi_i", []), points.get("v_n", []))):
+                    row = {"case": variant["case"], "variant": variant["variant"], "engine": curve["engine"], "dt": curve["dt"]}
+                    row |= {name: values[k] for name, values in points.items()}
+                    at = places.get(point)
+                    for name, values in reference.items():
+                        if name in points and name not in ("psi_i", "v_n", "status", "reason"):
+                            row[f"{name}_reference"] = None if at is None else values[at]
+                    rows.append(row)
+        return _table(rows)
+
+    def table(self, name):
+        """Any of the CSV files beside results.json, "claims" or "claims.csv", with its own columns."""
+        file = self.folder / (name if name.endswith(".csv") else f"{name}.csv")
+        if not file.exists():
+            raise KeyError(f"there is no {file}; there are {', '.join(sorted(p.name for p in self.folder.glob('*.csv')))}")
+
+        def value(text):
+            if text == "":
+                return None
+            try:
+                return float(text)
+            except ValueError:
+                return text
+
+        with open(file, encoding="utf-8", newline="") as lines:
+            return _table([{key: value(text) for key, text in row.items()} for row in csv.DictReader(lines)])
+
+
+@dataclasses.dataclass
+class Contacts:
+    """Contacts of one time: pairs that an engine lists, i < j. Ids: disks from 0, then wall disks, then planes."""
+
+    i: np.ndarray  #: id of the first, a disk
+    j: np.ndarray  #: id of the second
+    normal: np.ndarray  #: (contacts, 2): unit vector from j to i
+    overlap: np.ndarray  #: > 0 where they overlap [m]
+    normal_force: np.ndarray  #: on i along the normal, > 0 pushes [N]
+    tangential_force: np.ndarray  #: on i along z × normal [N]
+    sliding: np.ndarray = None  #: whether at the Coulomb bound; None: not known
+    rolling_torque: np.ndarray = None  #: of rolling resistance on i, the opposite on j [N m]; None: there is none
+    dissipation: np.ndarray = None  #: power turned into heat [W]; None: not known
+
+    def __len__(self):
+        return len(self.i)
+
+    @property
+    def tangent(self):
+        """(contacts, 2): z × normal, the normal turned counter-clockwise by 90°."""
+        return np.stack([-self.normal[:, 1], self.normal[:, 0]], axis=1)
+
+    @property
+    def force(self):
+        """(contacts, 2): on i; the opposite acts on j [N]."""
+        return self.normal_force[:, None] * self.normal + self.tangential_force[:, None] * self.tangent
+
+    @property
+    def transmits(self):
+        """Which of the pairs pass a force or torque on: contacts, as crossgrain counts them."""
+        carries = (self.normal_force != 0.0) | (self.tangential_force != 0.0)
+        return carries if self.rolling_torque is None else carries | (self.rolling_torque != 0.0)
+
+
+@dataclasses.dataclass
+class Snapshot:
+    """One instant. Engines stagger their arrays in time, so each has its own."""
+
+    time: float  #: of positions [s]
+    velocity_time: float  #: [s]
+    contact_time: float  #: of contacts and forces on walls [s]
+    contact_interval: float  #: > 0: forces are means over so long before contact_time [s]
+    position: np.ndarray  #: (disks, 2) [m]
+    velocity: np.ndarray  #: (disks, 2) [m/s]
+    spin: np.ndarray  #: counter-clockwise positive [rad/s]; None: nothing spins
+    wall_position: np.ndarray  #: (wall disks, 2) [m]
+    contacts: Contacts  #: None: the file has none
+    bodies: dict  #: centre [m], velocity [m/s], angle [rad], angular_velocity [rad/s], force [N], torque [N m] of wall bodies
+    energies: dict  #: kinetic and elastic [J]; empty: not known
+
+    def centres(self):
+        """(disks + wall disks, 2): centres by id [m]."""
+        return np.concatenate([self.position, self.wall_position])
+
+
+class Snapshots:
+    """A file of snapshots, read one by one: snapshots[k], or for snapshot in snapshots."""
+
+    def __init__(self, path):
+        import h5py  # of all that is here only snapshots need it
+
+        self._file = h5py.File(path, "r")
+        self.engine = self._file.attrs.get("engine", pathlib.Path(path).stem)  #: who made them
+        if isinstance(self.engine, bytes):
+            self.engine = self.engine.decode()
+        self.radius = self._file["disks/radius"][:]  #: of the disks [m]
+        self.mass = self._file["disks/mass"][:]  #: [kg]
+        self.inertia = self._optional("disks/inertia")  #: moments of inertia [kg m²]; None: not in the file
+        self.wall_radius = self._array("walls/radius")  #: of wall disks [m]
+        self.wall_body = self._array("walls/body").astype(int)  #: index of the wall body of each
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def close(self):
+        self._file.close()
+
+    def __len__(self):
+        return sum(1 for name in self._file if name.startswith("snapshot-"))
+
+    def __iter__(self):
+        return (self[k] for k in range(len(self)))
+
+    def _optional(self, path):
+        return self._file[path][:] if path in self._file else None
+
+    def _array(self, path):
+        values = self._optional(path)
+        return np.zeros(0) if values is None else values
+
+    def __getitem__(self, k):
+        if k < 0:
+            k += len(self)
+        at = f"snapshot-{k:03d}"
+        if at not in self._file:
+            raise IndexError(f"there is no snapshot {k} of {len(self)}")
+        group = self._file[at]
+        energies = self._optional(f"{at}/energies")
+        return Snapshot(
+            *(float(t) for t in group["time"][:]),
+            position=group["position"][:],
+            velocity=group["velocity"][:],
+            spin=self._optional(f"{at}/spin"),
+            wall_position=self._array(f"{at}/wall_position").reshape(-1, 2),
+            contacts=self._contacts(f"{at}/contacts"),
+            bodies={name: values[:] for name, values in group.get("bodies", {}).items()},
+            energies={} if energies is None else dict(zip(("kinetic", "elastic"), energies)),
+        )
+
+    def _contacts(self, at):
+        if f"{at}/i" not in self._file:
+            return None
+        names = ("i", "j", "normal", "overlap", "normal_force", "tangential_force")
+        optional = ("sliding", "rolling_torque", "dissipation")
+        columns = {name: self._file[f"{at}/{name}"][:] for name in names}
+        columns["normal"] = columns["normal"].reshape(-1, 2)
+        columns |= {name: self._optional(f"{at}/{name}") for name in optional}
+        if columns["sliding"] is not None:
+            columns["sliding"] = columns["sliding"] != 0
+        return Contacts(**columns)

@@ -1,0 +1,226 @@
+"""Snapshots as files of other programs, and results and snapshots by python/crossgrain.py: the same run read by every way
+gives the same numbers. tests/unit/write_snapshots_test.cpp has the formats by hand, tests/averaging/mercurycg_test.cpp
+averages them."""
+
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+
+from harness import BAD_INPUT, CASES, COLLISION, COUETTE, FELL_SHORT, HELD, HOME, PROGRAM, SystemTest, environment, settings
+
+sys.path.insert(0, str(HOME / "python"))
+import crossgrain  # noqa: E402
+
+SHORT = settings(averaging__rotations=0.05, averaging__settle_rotations=0.01, preparation__packings=1, run__keep_snapshots=3)
+
+
+class OneRun(SystemTest):
+    """A short run of the small cell, made once."""
+
+    @classmethod
+    def setUpClass(cls):
+        shared = tempfile.TemporaryDirectory(prefix="crossgrain-test-")
+        cls.addClassCleanup(shared.cleanup)
+        cls.ran = pathlib.Path(shared.name) / "run"
+        cls.file = cls.ran / "snapshots/grain-p0.h5"
+        subprocess.run(
+            [PROGRAM, "compare", COUETTE, "--engines", "grain,box2d-penalty", "--out", cls.ran, "--quick", "--set=run.mirrors=false", *SHORT],
+            env=environment(None), capture_output=True, check=False,
+        )  # fmt: skip
+
+    def export(self, form, *arguments, case=COUETTE, out=None):
+        return self.run_program("export", form, self.file, case, "--out", out or self.folder / "files/x", "--quiet", *arguments)
+
+    def snapshots(self):
+        snapshots = crossgrain.Snapshots(self.file)
+        self.addCleanup(snapshots.close)
+        return snapshots
+
+
+class Export(OneRun):
+    def test_mercurydpm_has_the_same_disks_and_forces(self):
+        done = self.export("mercurydpm")
+        self.assert_status(done, HELD)
+        self.assertIn("x.data", done.stdout)
+        self.assertIn("3 snapshots of grain", done.stdout)
+        self.assertIn("not in them: lengths of tangential springs", done.stdout)
+        snapshots = self.snapshots()
+        lines = (self.folder / "files/x.data").read_text(encoding="utf-8").splitlines()
+        disks, rows = len(snapshots.radius), len(snapshots.radius) + len(snapshots.wall_radius)
+        self.assertEqual(3 * (rows + 1), len(lines))
+        forces = self.fstat(rows)
+        restart = (self.folder / "files/x.restart").read_text(encoding="utf-8")
+        density = np.array([float(d) for d in re.findall(r" density (\S+)", restart)])
+        self.assertEqual(2, len(density))
+        self.assertEqual(rows - disks, restart.count(" invMass 0 "))
+        for k, snapshot in enumerate(snapshots):
+            head = lines[k * (rows + 1)].split()
+            self.assertEqual((rows, snapshot.time), (int(head[0]), float(head[1])))
+            data = np.loadtxt(lines[k * (rows + 1) + 1 : (k + 1) * (rows + 1)])
+            np.testing.assert_array_equal(snapshot.centres(), data[:, :2])
+            np.testing.assert_array_equal(snapshot.velocity, data[:disks, 3:5])
+            np.testing.assert_array_equal(snapshot.spin, data[:disks, 12])
+            np.testing.assert_array_equal(snapshots.radius, data[:disks, 6])
+            # As MercuryDPM makes masses of particles of two dimensions; small and large disks have a density each.
+            np.testing.assert_allclose(density[data[:disks, 13].astype(int)] * np.pi * snapshots.radius**2, snapshots.mass, rtol=1e-11)
+            # The wheel's disks turn with it.
+            wheel = disks + np.flatnonzero(snapshots.wall_body == 0)
+            spin = snapshot.bodies["angular_velocity"][0]
+            turned = spin * np.stack([-data[wheel, 1], data[wheel, 0]], axis=1)
+            np.testing.assert_allclose(data[wheel, 3:5], turned, atol=1e-15)
+            # Two lines of a pair of disks, one of a wall disk; forces add up to those of the snapshot on each disk.
+            contacts, rows_of = snapshot.contacts, forces[k]
+            pairs = contacts.j < disks
+            self.assertEqual(len(contacts) + np.count_nonzero(pairs), len(rows_of))
+            force = rows_of[:, 8:9] * rows_of[:, 10:12] + rows_of[:, 9:10] * rows_of[:, 13:15]
+            by_file, by_snapshot = np.zeros((disks, 2)), np.zeros((disks, 2))
+            np.add.at(by_file, rows_of[:, 1].astype(int), force)
+            np.add.at(by_snapshot, contacts.i, contacts.force)
+            np.add.at(by_snapshot, contacts.j[pairs], -contacts.force[pairs])
+            self.assertGreater(abs(by_snapshot).max(), 0.0)
+            np.testing.assert_allclose(by_file, by_snapshot, rtol=0, atol=1e-13 * abs(contacts.normal_force).max())
+
+    def fstat(self, rows):
+        found = []
+        for line in (self.folder / "files/x.fstat").read_text(encoding="utf-8").splitlines():
+            if line.startswith("#") and line.endswith(" 1"):
+                found.append([])
+            elif not line.startswith("#"):
+                found[-1].append([float(number) for number in line.split()])
+        for frame in found:
+            self.assertEqual({16}, {len(row) for row in frame})
+            self.assertLess(max(row[2] for row in frame), rows)
+        return [np.array(frame) for frame in found]
+
+    def test_lammps_has_the_same_disks_and_forces(self):
+        self.assert_status(self.export("lammps"), HELD)
+        snapshots = self.snapshots()
+        disks = len(snapshots.radius)
+        for k, snapshot in enumerate(snapshots):
+            text = (self.folder / "files/x.dump").read_text(encoding="utf-8").split("ITEM: TIME\n")[k + 1].split("ITEM: UNITS")[0]
+            head, _, body = text.partition("ITEM: ATOMS id type x y z radius mass vx vy vz omegax omegay omegaz\n")
+            self.assertEqual(snapshot.time, float(head.split()[0]))
+            data = np.loadtxt(body.splitlines())
+            np.testing.assert_array_equal(np.arange(1, len(data) + 1), data[:, 0])
+            np.testing.assert_array_equal(np.concatenate([np.full(disks, 1), 2 + snapshots.wall_body]), data[:, 1])
+            np.testing.assert_array_equal(snapshot.centres(), data[:, 2:4])
+            np.testing.assert_array_equal(snapshots.mass, data[:disks, 6])
+            local = (self.folder / "files/x.contacts").read_text(encoding="utf-8").split("ITEM: TIME\n")[k + 1]
+            rows = np.loadtxt(local.partition("ITEM: ENTRIES")[2].splitlines()[1:], ndmin=2)
+            contacts = snapshot.contacts
+            np.testing.assert_array_equal(np.stack([contacts.i, contacts.j], axis=1) + 1, rows[:, 1:3])
+            np.testing.assert_array_equal(contacts.normal_force, rows[:, 3])
+            tangential = contacts.tangential_force[:, None] * contacts.tangent
+            np.testing.assert_array_equal(tangential, rows[:, 4:6])
+            centres = snapshot.centres()
+            np.testing.assert_array_equal(centres[contacts.i] - centres[contacts.j], rows[:, 13:15])
+
+    def test_ondem_has_blocks_and_forces_on_the_second(self):
+        done = self.export("ondem")
+        self.assert_status(done, HELD)
+        snapshots = self.snapshots()
+        for k, snapshot in enumerate(snapshots):
+            with h5py.File(self.folder / f"files/x-{k:03d}.vtkhdf") as file:
+                self.assertEqual(b"MultiBlockDataSet", file["VTKHDF"].attrs["Type"])
+                self.assertEqual([2, 5], list(file["VTKHDF"].attrs["Version"]))
+                self.assertEqual({"Points", "Others", "Assembly"}, set(file["VTKHDF"]))
+                self.assertEqual(["Points", "Others"], list(file["VTKHDF/Assembly"]))
+                self.assertEqual(["Points", "Others"], [n.decode() for n in file["ONDEM/Scene/display_group_names"]])
+                self.assertEqual(snapshot.time, file["ONDEM/Scene"].attrs["time"])
+                points, others = file["VTKHDF/Assembly/Points"], file["VTKHDF/Assembly/Others"]
+                self.assertEqual(list(points["PointData"]), list(others["PointData"]))
+                self.assertEqual((0, 3), others["Points"].shape)
+                np.testing.assert_array_equal(snapshot.centres(), points["Points"][:, :2])
+                np.testing.assert_array_equal(np.arange(len(points["Points"])), points["PointData/body_id"])
+                self.assertEqual("wxyz", points["PointData/orientation"].attrs["order"].decode())
+                self.assertEqual(b"sphere", file["ONDEM/Scene/shape_names"][0])
+                group, contacts = file["ONDEM/Interactions/contact"], snapshot.contacts
+                self.assertEqual(len(contacts), group.attrs["count"])
+                force = -group["normal_force"][:][:, None] * group["normal"][:] + group["shear_force"][:]
+                np.testing.assert_allclose(force[:, :2], -contacts.force, rtol=0, atol=1e-15 * abs(contacts.normal_force).max())
+
+    def test_wrong_input_is_one_line(self):
+        self.assert_one_line(self.export("pdb"), BAD_INPUT, "format pdb", "mercurydpm, lammps, ondem")
+        self.assert_one_line(self.export("lammps", case=COLLISION), BAD_INPUT, "export takes a cell")
+        self.assert_one_line(self.export("lammps", case=CASES / "couette/nu-0.804.toml"), BAD_INPUT, "does not fit")
+        self.assert_status(self.export("lammps"), HELD)
+        before = (self.folder / "files/x.dump").read_bytes()
+        self.assert_one_line(self.export("lammps"), BAD_INPUT, "x.dump is there already")
+        self.assertEqual(before, (self.folder / "files/x.dump").read_bytes())
+        self.assertEqual({"x.dump", "x.contacts"}, {file.name for file in (self.folder / "files").iterdir()})
+
+
+class PythonReader(OneRun):
+    def test_tables_are_those_of_the_csv_files(self):
+        results = crossgrain.Results(self.ran)
+        self.assertEqual(("compare", ["grain", "box2d-penalty"]), (results.kind, results.engines))
+        ours, file = results.profiles(), results.table("profiles")
+        self.assertGreater(len(ours["mean"]), 500)
+        for name, column in (("mean", "mean"), ("stderr", "stderr"), ("n_eff", "n_eff"), ("r", "r_m")):
+            np.testing.assert_array_equal(ours[name], file[column], name)
+        self.assertEqual(list(ours["field"]), list(file["field"]))
+        profile = results.profile("stress_rr", engine="box2d-penalty")
+        chosen = (file["engine"] == "box2d-penalty") & (file["field"] == "stress_rr") & (file["packing"] == 0)
+        np.testing.assert_array_equal(profile.mean, file["mean"][chosen])
+        self.assertEqual((0, "slicing", "N/m²"), (profile.packing, profile.method, profile.unit))
+        ours, file = results.endpoints(), results.table("endpoints")
+        self.assertGreater(len(ours["endpoint"]), 3)
+        self.assertEqual(list(ours["endpoint"]), list(file["endpoint"]))
+        for name in ("difference", "low", "high", "distance"):
+            np.testing.assert_array_equal(ours[name], file[name], name)
+        series, file = results.series("grain"), results.table("series")
+        chosen = file["engine"] == "grain"
+        for name in ("t_s", "kinetic_energy", "wheel_torque"):
+            np.testing.assert_array_equal(series[name], file[name][chosen], name)
+
+    def test_what_is_not_there_is_said(self):
+        results = crossgrain.Results(self.ran)
+        for act, words in (
+            (lambda: results.profile("stress"), "stress_rr by slicing"),
+            (lambda: results.profile("spin", engine="yade"), "box2d-penalty"),
+            (results.collisions, "results of compare have no collisions"),
+            (lambda: results.table("claims"), "profiles.csv"),
+            (lambda: self.snapshots()[3], "no snapshot 3 of 3"),
+        ):
+            with self.assertRaises((KeyError, IndexError)) as caught:
+                act()
+            self.assertIn(words, str(caught.exception))
+
+    def test_snapshots_give_the_series(self):
+        """The kinetic energy of the last snapshot, worked out here, is the last of the series."""
+        snapshots = self.snapshots()
+        self.assertEqual("grain", snapshots.engine)
+        last = snapshots[-1]
+        energy = 0.5 * (snapshots.mass * (last.velocity**2).sum(axis=1) + snapshots.inertia * last.spin**2).sum()
+        series = crossgrain.Results(self.ran).series("grain")
+        self.assertEqual(series["t_s"][-1], last.time)
+        self.assertAlmostEqual(1.0, series["kinetic_energy"][-1] / energy, delta=1e-12)
+        touching = np.count_nonzero(last.contacts.transmits & (last.contacts.j < len(snapshots.radius)))
+        walls = np.count_nonzero(last.contacts.transmits) - touching
+        self.assertAlmostEqual(series["coordination"][-1], (2 * touching + walls) / len(snapshots.radius), delta=1e-12)
+
+    def test_collisions_have_their_reference(self):
+        quick = settings(collision__psi=[0.5, 2.0], collision__steps_per_contact=50, run__mirrors="false")
+        self.assert_status(self.run_program("collide", COLLISION, "--engines", "grain", "--out", self.out, *quick), HELD, FELL_SHORT)
+        results = crossgrain.Results(self.out / "results.json")
+        ours, file = results.collisions(), results.table("collisions")
+        self.assertEqual({0.5, 2.0}, set(ours["psi_i"]))
+        for name in ("psi_i", "v_n", "e_n", "psi_f", "psi_f_reference", "e_n_reference"):
+            np.testing.assert_array_equal(ours[name], file[name], name)
+        self.assertLess(np.nanmax(abs(ours["psi_f"] - ours["psi_f_reference"])), 0.05)
+
+    def test_example_runs(self):
+        done = self.call(sys.executable, HOME / "examples/python/read_results.py", self.ran)
+        self.assert_status(done, 0)
+        for words in ("volume_fraction", "box2d-penalty against grain", "snapshots of grain", "largest net force"):
+            self.assertIn(words, done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
