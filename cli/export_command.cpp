@@ -64,10 +64,9 @@ int exportSnapshots(const CommandLine& line, const std::string& format, const st
   const Case setup = flowCase(line);
   if (const auto folder = std::filesystem::path(out).parent_path(); !folder.empty())
     makeDirectory(folder);
-  requireReadable(line.snapshots, setup);
-  const SnapshotReader reader(line.snapshots, setup);
-  requireFit(reader, setup);
-  requireSound(reader, setup);
+  const auto source = openSnapshotFile(line.snapshots, setup);
+  const SnapshotReader& reader = *source;
+  for (std::size_t k = 0; k < reader.count(); ++k) reader.requireSound(reader.read(k), k);
   const auto written = files::writtenFiles(format, out, reader.count());
   requireNew(written);
 

@@ -73,6 +73,7 @@ struct FlowRun {
   std::vector<Distribution> distributions;
   std::optional<ScenePicture> picture;        ///< of the first packing
   std::vector<EndpointError> endpointErrors;  ///< where runs of files are compared
+  std::vector<std::string> remarks;  ///< of a run of files: what they lack and what that costs
 
   bool finished() const { return status == Status::finished; }
 
@@ -94,6 +95,7 @@ struct FlowRun {
     io.when(series.has_value(), "distributions", distributions);
     io.when(effective && series, "picture", picture);
     io.when(!endpointErrors.empty(), "endpoint_errors", endpointErrors);
+    io.when(!remarks.empty(), "remarks", remarks);
   }
 };
 

@@ -13,10 +13,9 @@
 #include "studies/flow/averages.hpp"
 #include "studies/flow/endpoint_values.hpp"
 #include "studies/flow/ensemble.hpp"
+#include "studies/flow/file_runs.hpp"
 #include "studies/flow/frame.hpp"
-#include "studies/flow/snapshot_sources.hpp"
 #include "support/bad_input.hpp"
-#include "support/interrupt.hpp"
 
 namespace crossgrain::inline studies {
 namespace {
@@ -31,57 +30,39 @@ void addOwnEndpoints(const Case& setup, FlowRun& run) {
   }
 }
 
-struct AveragedRun {
+struct NamedRun {
   FlowRun run;
   std::string name;  ///< of its file
   std::int64_t snapshots = 0;
   Disks disks;
-  std::vector<std::string> remarks;
 };
 
-AveragedRun averageRun(const Case& setup, const SnapshotRun& files, const std::string& name,
-                       int index, Progress& progress) {
+NamedRun averageRun(const Case& setup, const SnapshotRun& files, const std::string& name, int index,
+                    Progress& progress) {
   const auto source = openSnapshots(files, setup, name);
-  const auto averages = flowAverages(setup, source->scene());
-  AveragedRun averaged;
-  averaged.name = files.name();
-  averaged.disks = source->scene().disks;
-  while (const auto snapshot = source->next()) {
-    throwIfInterrupted();
-    try {
-      averages->add(*snapshot);
-    } catch (const std::invalid_argument& misfit) {
-      throw BadInput(
-          fmt::format("{}, snapshot {}: {}", averaged.name, averaged.snapshots, misfit.what()));
-    }
-    ++averaged.snapshots;
-    progress.update(static_cast<std::size_t>(index), averaged.name, source->progress());
-  }
-  FlowRun& run = averaged.run;
-  run.engine = source->engine();
-  run.packing = index;
-  averages->describe(EffectiveParameters{}, run);
-  addOwnEndpoints(setup, run);
-  averaged.remarks = source->remarks();
-  return averaged;
+  AveragedRun averaged = averagedRun(setup, *source, files.name(), [&](double fraction) {
+    progress.update(static_cast<std::size_t>(index), files.name(), fraction);
+  });
+  averaged.run.packing = index;
+  addOwnEndpoints(setup, averaged.run);
+  return {std::move(averaged.run), files.name(), averaged.snapshots, source->scene().disks};
 }
 
 /// Runs of one engine are replicates; those of two are to be compared.
-void requireOneEngine(const std::vector<AveragedRun>& all) {
-  for (const AveragedRun& other : all)
+void requireOneEngine(const std::vector<NamedRun>& all) {
+  for (const NamedRun& other : all)
     if (other.run.engine != all.front().run.engine)
       throw BadInput(fmt::format(
           "{} is of {}, {} is of {}: average takes runs of one engine, which differ by their start",
           all.front().name, all.front().run.engine, other.name, other.run.engine));
 }
 
-std::string describeSources(const std::vector<AveragedRun>& all) {
+std::string describeSources(const std::vector<NamedRun>& all) {
   if (all.size() == 1)
     return fmt::format("Averaged from the {} snapshots of {}; nothing was run.",
                        all.front().snapshots, all.front().name);
   std::vector<std::string> each;
-  for (const AveragedRun& one : all)
-    each.push_back(fmt::format("{} of {}", one.snapshots, one.name));
+  for (const NamedRun& one : all) each.push_back(fmt::format("{} of {}", one.snapshots, one.name));
   return fmt::format(
       "Averaged from the snapshots of {} runs, which count as replicates ({}); nothing was run.",
       all.size(), fmt::join(each, ", "));
@@ -95,7 +76,7 @@ CompareResults averageSnapshots(const Case& setup, const std::vector<std::filesy
   const std::vector<SnapshotRun> runs = snapshotRuns(files);
   Progress progress(quiet);
   progress.begin("averaging", std::vector<double>(runs.size(), 1.0));
-  std::vector<AveragedRun> all;
+  std::vector<NamedRun> all;
   for (const SnapshotRun& run : runs) {
     const auto index = all.size();
     all.push_back(averageRun(setup, run, options.name.value_or(defaultName(run.format)),
@@ -111,7 +92,7 @@ CompareResults averageSnapshots(const Case& setup, const std::vector<std::filesy
   FlowAveraging& averaging = results.averaging;
   averaging.settleRotations = averaging.rotations = averaging.fromRotation = averaging.toRotation =
       averaging.preparedRotations = std::nullopt;
-  averaging.snapshots = std::ranges::max(all, {}, &AveragedRun::snapshots).snapshots;
+  averaging.snapshots = std::ranges::max(all, {}, &NamedRun::snapshots).snapshots;
   const std::string engine = all.front().run.engine;
   results.engines = {{engine,
                       all.size() == 1
@@ -119,11 +100,11 @@ CompareResults averageSnapshots(const Case& setup, const std::vector<std::filesy
                           : fmt::format("snapshots of {} runs", all.size()),
                       "", "", Status::finished, ""}};
   results.notes = {describeSources(all)};
-  for (const AveragedRun& one : all)
-    for (const std::string& remark : one.remarks)
+  for (const NamedRun& one : all)
+    for (const std::string& remark : one.run.remarks)
       if (std::ranges::find(results.notes, remark) == results.notes.end())
         results.notes.push_back(remark);
-  for (AveragedRun& one : all) results.runs.push_back(std::move(one.run));
+  for (NamedRun& one : all) results.runs.push_back(std::move(one.run));
   results.steadiness = steadinessOf(results.runs, {engine}, setup.averaging.confidence);
   if (results.runs.size() > 1) results.ensemble = ensembleOf(results.runs, {engine});
   return results;

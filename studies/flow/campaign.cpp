@@ -14,6 +14,7 @@
 #include "cases/time_step.hpp"
 #include "results/run.hpp"
 #include "studies/core/engine_running.hpp"
+#include "studies/flow/endpoint_values.hpp"
 #include "studies/flow/file_runs.hpp"
 #include "studies/flow/frame.hpp"
 #include "studies/flow/run.hpp"
@@ -102,9 +103,9 @@ void Campaign::askEngines() {
   const Scene scene = unplacedScene(setup_, dt_);
   forEachEngine([&](CampaignEngine& own) {
     if (own.entry.ofFiles()) {
-      own.version = "files: " + own.entry.format;
+      own.version = "files" + (own.entry.format.empty() ? "" : ", " + own.entry.format);
       for (std::size_t run = 0; run < own.entry.files.size(); ++run)
-        openRun(setup_, own.entry, run);
+        openSnapshots(runOf(own.entry, run), setup_, own.entry.name);
       return;
     }
     const auto engine =
@@ -133,7 +134,8 @@ int Campaign::runsOf(std::size_t engine) const {
 
 void Campaign::preparePackings(int count) {
   if (!runsEngines()) {
-    fileDisks_ = openRun(setup_, engines_.front().entry, 0)->scene().disks;
+    const EngineEntry& first = engines_.front().entry;
+    fileDisks_ = openSnapshots(runOf(first, 0), setup_, first.name)->scene().disks;
     store_.begin();
     return;
   }
@@ -236,11 +238,13 @@ std::string runName(const EngineEntry& entry, const Variant& variant, int packin
 
 FlowRun Campaign::runOfFiles(const EngineEntry& entry, int run,
                              const std::function<void(double)>& progress) const {
-  const auto source = openRun(setup_, entry, static_cast<std::size_t>(run));
-  FlowRun averaged = averagedRun(setup_, *source, progress);
-  averaged.engine = entry.name;
-  averaged.packing = run;
-  return averaged;
+  const SnapshotRun files = runOf(entry, static_cast<std::size_t>(run));
+  const auto source = openSnapshots(files, setup_, entry.name);
+  AveragedRun averaged = averagedRun(setup_, *source, files.name(), progress);
+  averaged.run.endpointErrors = endpointErrors(setup_, *averaged.averages, averaged.run);
+  averaged.run.engine = entry.name;
+  averaged.run.packing = run;
+  return std::move(averaged.run);
 }
 
 CachedTask<FlowRun>::Outcome Campaign::runOne(const Variant& variant, int packing,

@@ -7,10 +7,6 @@
 #include <utility>
 
 #include "adapters/registry.hpp"
-#include "cases/flow.hpp"
-#include "studies/flow/averages.hpp"
-#include "studies/flow/endpoint_values.hpp"
-#include "studies/flow/snapshot_file.hpp"
 #include "support/bad_input.hpp"
 #include "support/fingerprint.hpp"
 #include "support/interrupt.hpp"
@@ -20,8 +16,6 @@ namespace crossgrain::inline studies {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr const char* ownFormat = "snapshots";
 
 std::vector<fs::path> filesMatching(const std::string& pattern) {
   glob_t found{};
@@ -35,34 +29,11 @@ std::vector<fs::path> filesMatching(const std::string& pattern) {
   return files;
 }
 
-/// A file of our own layout.
-class KeptSnapshots final : public SnapshotSource {
- public:
-  KeptSnapshots(const fs::path& file, const Case& setup) : reader_(file, setup) {
-    requireFit(reader_, setup);
-    requireSound(reader_, setup);
-  }
-  const Scene& scene() const override { return reader_.scene(); }
-  const std::string& engine() const override { return reader_.engine(); }
-  std::optional<Snapshot> next() override {
-    if (read_ == reader_.count()) return std::nullopt;
-    return reader_.read(read_++);
-  }
-  double progress() const override {
-    return static_cast<double>(read_) / static_cast<double>(reader_.count());
-  }
-
- private:
-  SnapshotReader reader_;
-  std::size_t read_ = 0;
-};
+std::string wordOf(const std::string& format) {
+  return format.empty() ? "a file of snapshots" : format;
+}
 
 }  // namespace
-
-std::unique_ptr<SnapshotSource> openRun(const Case& setup, const EngineEntry& entry,
-                                        std::size_t run) {
-  return std::make_unique<KeptSnapshots>(entry.files[run].front(), setup);
-}
 
 bool namesFiles(const std::string& text) {
   return text.find('=') != std::string::npos;
@@ -81,12 +52,24 @@ EngineEntry engineOfFiles(const std::string& text) {
         "--engines '{}': there is an engine '{}': give the files another name", text, entry.name));
   const std::vector<fs::path> files = filesMatching(pattern);
   if (files.empty()) throw BadInput(fmt::format("--engines '{}': no file matches it", text));
-  entry.format = ownFormat;
-  for (const fs::path& file : files) entry.files.push_back({file});
+  for (SnapshotRun& run : snapshotRuns(files)) {
+    if (!entry.files.empty() && run.format != entry.format)
+      throw BadInput(
+          fmt::format("--engines '{}': {} is {}, {} is {}: runs of one engine are of one "
+                      "format",
+                      text, entry.files.front().front().string(), wordOf(entry.format),
+                      run.files.front().string(), wordOf(run.format)));
+    entry.format = run.format;
+    entry.files.push_back(std::move(run.files));
+  }
   entry.summary = fmt::format("{} run{} from files: {}", entry.files.size(),
                               entry.files.size() == 1 ? "" : "s", pattern);
   entry.missing = [] { return "it is files, which only compare takes"; };
   return entry;
+}
+
+SnapshotRun runOf(const EngineEntry& entry, std::size_t run) {
+  return {entry.format, entry.files[run]};
 }
 
 std::string fingerprintOf(const EngineEntry& entry, std::size_t run) {
@@ -100,29 +83,24 @@ std::string fingerprintOf(const EngineEntry& entry, std::size_t run) {
   return fmt::format("{:016x}", fnv1a(text));
 }
 
-FlowRun averagedRun(const Case& setup, SnapshotSource& source,
-                    const std::function<void(double)>& progress) {
-  const auto averages = flowAverages(setup, source.scene());
-  const double from = setup.average ? flowTimes(setup).settled : -INFINITY;
-  double last = -INFINITY;
-  std::size_t averaged = 0;
+AveragedRun averagedRun(const Case& setup, SnapshotSource& source, const std::string& where,
+                        const std::function<void(double)>& progress) {
+  AveragedRun averaged;
+  averaged.averages = flowAverages(setup, source.scene());
   while (const auto snapshot = source.next()) {
     throwIfInterrupted();
-    last = snapshot->positionTime;
+    try {
+      averaged.averages->add(*snapshot);
+    } catch (const std::invalid_argument& misfit) {
+      throw BadInput(fmt::format("{}, snapshot {}: {}", where, averaged.snapshots, misfit.what()));
+    }
+    ++averaged.snapshots;
     progress(source.progress());
-    if (last <= from) continue;
-    averages->add(*snapshot);
-    ++averaged;
   }
-  if (averaged == 0)
-    throw BadInput(fmt::format(
-        "{}: its last snapshot is of {:g} s; averaged is what is later than average.from = {:g} s",
-        source.engine(), last, from));
-  FlowRun run;
-  run.engine = source.engine();
-  averages->describe(EffectiveParameters{}, run);
-  run.endpointErrors = endpointErrors(setup, *averages, run);
-  return run;
+  averaged.run.engine = source.engine();
+  averaged.averages->describe(EffectiveParameters{}, averaged.run);
+  averaged.run.remarks = source.remarks();
+  return averaged;
 }
 
 }  // namespace crossgrain::inline studies

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -8,6 +9,8 @@
 #include "adapters/snapshot_source.hpp"
 #include "cases/case.hpp"
 #include "results/run.hpp"
+#include "studies/flow/averages.hpp"
+#include "studies/flow/snapshot_sources.hpp"
 
 /// Runs that somebody else has done and that are here as files.
 namespace crossgrain::inline studies {
@@ -16,22 +19,27 @@ namespace crossgrain::inline studies {
 bool namesFiles(const std::string& text);
 
 /// The engine that such a text names: NAME, and its runs from all files that match the PATTERN of a
-/// shell (*, ?, [a-z]). @throws BadInput for a name that an engine has, a pattern that no file
-/// matches, files of several formats, or of none that is known
+/// shell (*, ?, [a-z]), sorted into runs as snapshotRuns() does. [engines.NAME] of a case has the
+/// settings of their format. @throws BadInput for a name that an engine has, a pattern that no file
+/// matches, or files of several formats
 EngineEntry engineOfFiles(const std::string& text);
 
-/// The snapshots of one of its runs. @throws BadInput naming the file and what does not fit
-std::unique_ptr<SnapshotSource> openRun(const Case& setup, const EngineEntry& entry,
-                                        std::size_t run);
+/// One of its runs.
+SnapshotRun runOf(const EngineEntry& entry, std::size_t run);
 
 /// What a run of files depends on: names, sizes and times of change of its files.
 std::string fingerprintOf(const EngineEntry& entry, std::size_t run);
 
-/// Averages a run of files as one of an engine: of an assembly what is later than average.from, of
-/// a cell, whose time nobody knows, all.
+/// Averages what a source holds as a run of an engine.
+struct AveragedRun {
+  FlowRun run;  ///< of the source's engine, packing 0; without errors of endpoints
+  std::int64_t snapshots = 0;
+  std::unique_ptr<FlowAverages> averages;
+};
 /// @param progress  called with the fraction done, 0 … 1
-/// @throws BadInput; Interrupted
-FlowRun averagedRun(const Case& setup, SnapshotSource& source,
-                    const std::function<void(double)>& progress);
+/// @param where     the files, for messages
+/// @throws BadInput naming the snapshot that does not fit those before it; Interrupted
+AveragedRun averagedRun(const Case& setup, SnapshotSource& source, const std::string& where,
+                        const std::function<void(double)>& progress);
 
 }  // namespace crossgrain::inline studies

@@ -116,6 +116,11 @@ std::vector<std::string> fileNotes(const CompareResults& results) {
     if (row.kind == PairKind::peer && (ofFiles(row.a) || ofFiles(row.b)))
       pairs.try_emplace({row.a, row.b}, row.unpaired ? row.unpaired->basis : Basis::paired);
   std::vector<std::string> notes;
+  for (const FlowRun& run : results.runs)
+    for (const std::string& remark : run.remarks)
+      if (std::string note = fmt::format("{}: {}", run.engine, remark);
+          std::ranges::find(notes, note) == notes.end())
+        notes.push_back(std::move(note));
   for (const auto& [pair, basis] : pairs) {
     const auto& [a, b] = pair;
     const int ours = runsOf(a), theirs = runsOf(b);

@@ -20,7 +20,8 @@ std::vector<AlarmRow> alarmsOf(const Case& setup, const CompareResults& results)
 /// One note, or none where no run shows contacts.
 std::vector<std::string> contactNotes(const FlowStudy& study);
 
-/// What the verdicts on runs of files rest on, pair by pair, and what that cannot see.
+/// What files lack, and what the verdicts on their runs rest on, pair by pair, and what that cannot
+/// see.
 std::vector<std::string> fileNotes(const CompareResults& results);
 
 /// Sentences for the head of the report on the shear band: does each engine's v_φ in rings 1 to 3
