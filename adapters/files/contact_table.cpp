@@ -13,8 +13,8 @@ namespace {
 
 /// Six digits of a unit vector's components.
 constexpr double unitTolerance = 1e-4;
-/// Torques that are printed with six digits are no better than this part of what was taken off.
-constexpr double sixDigits = 1e-5;
+/// Half of the last of six digits, of a number 1.
+constexpr double sixDigits = 5e-6;
 
 [[noreturn]] void fail(const std::string& where, const FileContacts& contacts, std::size_t k,
                        const std::string& what) {
@@ -78,15 +78,19 @@ void findNormals(ContactTable& table, const FileFrame& frame, const Partners& pa
 }
 
 /// What is left of a torque without that of the force itself, which acts at the middle of the
-/// overlap: −(R − δ/2) n × F.
+/// overlap: −(R − δ/2) n × F. With six digits of forces and places that difference of two torques
+/// is uncertain by R F (1 + |x| / R), each a few times the last digit; what is below is nothing.
 void takeOffLevers(ContactTable& table, const FileFrame& frame, const Partners& partners) {
   FileContacts& contacts = table.contacts;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
-    const double radius = frame.particles.radius[partners.first[k]];
+    const std::size_t i = partners.first[k];
+    const double radius = frame.particles.radius[i];
     const double overlap = contacts.overlap.empty() ? 0.0 : contacts.overlap[k];
     const Vec3 lever = -(radius - 0.5 * overlap) * contacts.normal[k].cross(contacts.force[k]);
     Vec3 rolling = table.torque[k] - lever;
-    if (rolling.norm() <= sixDigits * lever.norm()) rolling.setZero();
+    const double uncertain =
+        4.0 * sixDigits * contacts.force[k].norm() * (radius + frame.particles.position[i].norm());
+    if (rolling.norm() <= uncertain) rolling.setZero();
     contacts.torque.push_back(rolling);
   }
 }

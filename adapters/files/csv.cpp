@@ -99,8 +99,28 @@ Content contentOfCsv(const fs::path& file) {
   const auto has = [&](std::string_view name) {
     return std::ranges::find(names, name) != names.end();
   };
-  // Names of one's own: particles have places, contacts need not.
-  return has("first") || (!has("x") && !has("radius")) ? Content::contacts : Content::particles;
+  if (has("first") || has("second")) return Content::contacts;
+  if (has("x") || has("radius")) return Content::particles;
+  // Names of one's own: what the file's says.
+  const std::string name = file.filename().string();
+  for (const char* word : {"contact", "pair", "intr", "interaction"})
+    if (name.find(word) != std::string::npos) return Content::contacts;
+  return Content::particles;
+}
+
+double firstTimeOfCsv(const fs::path& file) {
+  TextFile text(file);
+  std::vector<std::string> names;
+  if (text.nextUncommented('#'))
+    for (const std::string_view name : commaWords(text.line())) names.emplace_back(name);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (meaningOf(names[k]) != Meaning::time && meaningOf(names[k]) != Meaning::step) continue;
+    const auto row =
+        text.nextUncommented('#') ? commaWords(text.line()) : std::vector<std::string_view>();
+    if (row.size() != names.size()) text.fail("there is no row below the column names");
+    return numberOf(text, row[k], names[k]);
+  }
+  return static_cast<double>(numberInName(file).value_or(0));
 }
 
 std::unique_ptr<FrameReader> openCsv(const Files& files, const FileOptions& options) {

@@ -21,15 +21,16 @@ using Open = std::unique_ptr<FrameReader> (*)(const Files&, const FileOptions&);
 struct Format {
   std::string_view name;
   Open open;
-  Content (*contentOf)(const fs::path&);  ///< null: particles and contacts are in one file
+  Content (*contentOf)(const fs::path&);   ///< null: particles and contacts are in one file
+  double (*firstTimeOf)(const fs::path&);  ///< of formats with any number of times a file
 };
 
-constexpr Format formats[] = {{"mercurydpm", openMercuryDpm, contentOfMercuryDpm},
-                              {"lammps", openLammps, contentOfLammps},
-                              {"yade-text", openYadeText, nullptr},
-                              {"vtk", openVtk, contentOfVtk},
-                              {"ondem", openOnDem, nullptr},
-                              {"csv", openCsv, contentOfCsv}};
+constexpr Format formats[] = {{"mercurydpm", openMercuryDpm, contentOfMercuryDpm, nullptr},
+                              {"lammps", openLammps, contentOfLammps, firstTimeOfLammps},
+                              {"yade-text", openYadeText, nullptr, nullptr},
+                              {"vtk", openVtk, contentOfVtk, nullptr},
+                              {"ondem", openOnDem, nullptr, nullptr},
+                              {"csv", openCsv, contentOfCsv, firstTimeOfCsv}};
 
 const Format& formatNamed(std::string_view name) {
   const auto* const found = std::ranges::find(formats, name, &Format::name);
@@ -108,6 +109,38 @@ struct Run {
   Files particles, contacts;
 };
 
+bool byName(const fs::path& a, const fs::path& b) {
+  return naturallyBefore(a.filename().string(), b.filename().string());
+}
+
+/// Files whose numbers rise while their times do not are of other runs each: run1.dump, run2.dump,
+/// which both begin at step 0.
+bool areRuns(const Format& format, const Files& files) {
+  if (!format.firstTimeOf || files.size() < 2) return false;
+  for (std::size_t k = 1; k < files.size(); ++k)
+    if (!(format.firstTimeOf(files[k - 1]) < format.firstTimeOf(files[k]))) return true;
+  return false;
+}
+
+/// A run for each number.
+std::vector<Run> split(const Run& whole) {
+  std::map<std::int64_t, Run> runs;
+  const auto add = [&](const Files& files, Files Run::*list) {
+    for (const fs::path& file : files) {
+      const std::int64_t number = numberInName(file).value_or(-1);
+      Run& run = runs[number];
+      run.folder = whole.folder;
+      run.name = fmt::format("{}{}", whole.name, number);
+      (run.*list).push_back(file);
+    }
+  };
+  add(whole.particles, &Run::particles);
+  add(whole.contacts, &Run::contacts);
+  std::vector<Run> list;
+  for (auto& [number, run] : runs) list.push_back(std::move(run));
+  return list;
+}
+
 }  // namespace
 
 Files filesOf(const Files& files, Content content, Content (*contentOf)(const fs::path&)) {
@@ -173,12 +206,15 @@ std::vector<Files> runsOf(std::string_view name, Files files) {
     (contentOf(format, file) == Content::particles ? run.particles : run.contacts)
         .push_back(std::move(file));
   }
-  // Contacts of another name are of the folder's only run.
-  std::vector<Run> whole;
-  for (auto& [key, run] : runs)
-    if (!run.particles.empty()) whole.push_back(std::move(run));
+  std::vector<Run> whole, contactsAlone;
   for (auto& [key, run] : runs) {
-    if (!run.particles.empty() || run.contacts.empty()) continue;
+    std::ranges::stable_sort(run.particles, byName);
+    std::ranges::stable_sort(run.contacts, byName);
+    for (Run& one : areRuns(format, run.particles) ? split(run) : std::vector<Run>{run})
+      (one.particles.empty() ? contactsAlone : whole).push_back(std::move(one));
+  }
+  // Contacts of another name are of the folder's only run.
+  for (const Run& run : contactsAlone) {
     const auto ofFolder = [&](const Run& one) { return one.folder == run.folder; };
     if (std::ranges::count_if(whole, ofFolder) != 1)
       throw BadInput(fmt::format(
@@ -194,11 +230,6 @@ std::vector<Files> runsOf(std::string_view name, Files files) {
   });
   std::vector<Files> sorted;
   for (Run& run : whole) {
-    const auto before = [](const fs::path& a, const fs::path& b) {
-      return naturallyBefore(a.filename().string(), b.filename().string());
-    };
-    std::ranges::stable_sort(run.particles, before);
-    std::ranges::stable_sort(run.contacts, before);
     Files& list = sorted.emplace_back(std::move(run.particles));
     list.insert(list.end(), run.contacts.begin(), run.contacts.end());
   }

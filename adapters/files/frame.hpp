@@ -66,7 +66,7 @@ struct FileOptions {
   /// What columns (or arrays) mean whose names their program does not fix, as
   /// "NAME=MEANING NAME=MEANING …": "c_q=normal_force,tx,ty,tz,- f_floor=wall v_m=mass". NAME alone
   /// is NAME[1], NAME[2], … in order; "-" is not read. Meanings are the names of columns of CSV
-  /// files (docs/import.md). Formats whose names are fixed take none.
+  /// files (docs/file-formats.md). Formats whose names are fixed take none.
   std::string columns;
 };
 
@@ -88,7 +88,8 @@ std::vector<std::string_view> fileFormats();
 std::optional<std::string_view> formatOf(const std::filesystem::path& file);
 
 /// Files of the same format, sorted into runs: files whose names differ by a number alone (their
-/// last one) are times of one run, other names and other folders are other runs. A file of contacts
+/// last one) are times of one run (unless their own first times do not rise with it: then each is a
+/// run), other names and other folders are other runs. A file of contacts
 /// goes with the particles of the same name, but for words such as "atoms", "contacts", "pairs",
 /// "spheres", "intrs" and the extension; or with those of its folder, if these are one run. In the
 /// format "mercurydpm" a number before ".data" names a run, one after it a time. Runs come in the

@@ -251,7 +251,7 @@ const std::vector<Keyword>& granKeywords(bool ofWalls) {
         {"torque_tangential", three},
         {"history", {}},
         {"contactArea", {none}},
-        {"delta", {isWall ? none : overlap}},
+        {"delta", {overlap}},
         {"heatFlux", {none}},
         {"contactPoint", isWall ? three : Meanings{px, py, pz}},
         {"ms_id", {none, none}}};
@@ -462,6 +462,14 @@ Content contentOfLammps(const fs::path& file) {
       return Content::contacts;
   }
   text.fail("this is neither dump custom (ITEM: ATOMS) nor dump local (ITEM: ENTRIES)");
+}
+
+double firstTimeOfLammps(const fs::path& file) {
+  TextFile text(file);
+  while (text.next())
+    if (text.line().starts_with("ITEM: TIMESTEP"))
+      return numberOf(text, words(text.need("the step")).front(), "the step");
+  text.fail("ITEM: TIMESTEP is missing");
 }
 
 std::unique_ptr<FrameReader> openLammps(const Files& files, const FileOptions& options) {

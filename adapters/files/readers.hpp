@@ -26,6 +26,10 @@ Content contentOfLammps(const std::filesystem::path& file);
 Content contentOfVtk(const std::filesystem::path& file);
 Content contentOfCsv(const std::filesystem::path& file);
 
+/// The first time or step that such a file has: what tells times of one run from other runs.
+double firstTimeOfLammps(const std::filesystem::path& file);
+double firstTimeOfCsv(const std::filesystem::path& file);
+
 /// Files of one content.
 Files filesOf(const Files& files, Content content,
               Content (*contentOf)(const std::filesystem::path&));

@@ -41,19 +41,19 @@ std::from_chars_result parse(const char* from, const char* to, double& value) {
 }  // namespace
 
 TextFile::TextFile(const std::filesystem::path& file)
-    : path_(file), file_(file), buffer_(bufferSize) {
+    : path_(file), file_(file), buffer_(std::make_unique_for_overwrite<char[]>(bufferSize)) {
   if (file_.state() == RegularFile::State::open) return;
   const std::string why = fileFault(file);
   throw BadInput(fmt::format("{}: {}", file.string(), why.empty() ? "cannot be read" : why));
 }
 
 bool TextFile::fill() {
-  std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+  std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
   offset_ += begin_;
   end_ -= begin_;
   begin_ = 0;
-  const std::size_t got =
-      file_.read(offset_ + end_, std::as_writable_bytes(std::span(buffer_).subspan(end_)));
+  const std::size_t got = file_.read(
+      offset_ + end_, std::as_writable_bytes(std::span(buffer_.get() + end_, bufferSize - end_)));
   end_ += got;
   return got > 0;
 }
@@ -62,10 +62,10 @@ bool TextFile::takeLine() {
   std::size_t seen = begin_;
   const char* stop = nullptr;
   for (;;) {
-    stop = static_cast<const char*>(std::memchr(buffer_.data() + seen, '\n', end_ - seen));
+    stop = static_cast<const char*>(std::memchr(buffer_.get() + seen, '\n', end_ - seen));
     if (stop) break;
     const std::size_t length = end_ - begin_;
-    if (length == buffer_.size()) {
+    if (length == bufferSize) {
       ++number_;
       fail("the line is longer than a megabyte: this is no text file");
     }
@@ -73,8 +73,8 @@ bool TextFile::takeLine() {
     seen = begin_ + length;
   }
   if (!stop && begin_ == end_) return false;
-  const char* const start = buffer_.data() + begin_;
-  const char* const until = stop ? stop : buffer_.data() + end_;
+  const char* const start = buffer_.get() + begin_;
+  const char* const until = stop ? stop : buffer_.get() + end_;
   line_ = {start, static_cast<std::size_t>(until - start)};
   begin_ += line_.size() + (stop ? 1 : 0);
   ++number_;

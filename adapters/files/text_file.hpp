@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -47,7 +48,7 @@ class TextFile {
 
   std::filesystem::path path_;
   RegularFile file_;
-  std::vector<char> buffer_;
+  std::unique_ptr<char[]> buffer_;   ///< not filled before it is read: small files touch little
   std::size_t begin_ = 0, end_ = 0;  ///< of what is left in the buffer
   std::size_t offset_ = 0;           ///< of the buffer in the file
   std::size_t number_ = 0;           ///< of the line

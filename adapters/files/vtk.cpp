@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "adapters/files/readers.hpp"
@@ -164,8 +165,7 @@ Part readContacts(const fs::path& file, const ColumnOptions& options) {
 }
 
 /// Ids of particles whose centres, rounded alike, the ends of the lines are.
-void findEnds(ContactTable& table, FileFrame& frame) {
-  if (table.ends.empty()) return;
+void findEnds(ContactTable& table, const FileFrame& frame) {
   const FileParticles& particles = frame.particles;
   const auto key = [](const Vec3& at) { return std::array{at.x(), at.y(), at.z()}; };
   std::vector<std::pair<std::array<double, 3>, std::int64_t>> centres;
@@ -178,14 +178,31 @@ void findEnds(ContactTable& table, FileFrame& frame) {
     if (found == centres.end() || found->first != key(at))
       throw BadInput(
           fmt::format("{}: a contact ends at ({}, {}, {}), which is no sphere's centre: a wall, or "
-                      "over a periodic edge? "
-                      "Export id1=i.id1 and id2=i.id2 by export.VTKExporter",
+                      "over a periodic edge? Export id1=i.id1 and id2=i.id2 by export.VTKExporter",
                       frame.where, at.x(), at.y(), at.z()));
     return found->second;
   };
   for (std::size_t k = 0; k < table.ends.size(); ++k) {
     table.contacts.first[k] = idAt(table.ends[k].first);
     table.contacts.second[k] = idAt(table.ends[k].second);
+  }
+}
+
+/// Bodies that are no spheres are not among the particles: walls, facets. As the first of a contact
+/// they become the second, which turns directions and forces.
+void findWalls(ContactTable& table, FileFrame& frame) {
+  if (!table.ends.empty()) return findEnds(table, frame);
+  const RowOfId rows(frame.particles.id, frame.where);
+  FileContacts& contacts = table.contacts;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    std::int64_t &first = contacts.first[k], &second = contacts.second[k];
+    if (rows[first] && !rows[second]) {
+      second = -second - 1;
+    } else if (rows[second] && !rows[first]) {
+      first = std::exchange(second, -first - 1);
+      for (std::vector<Vec3>* turned : {&contacts.normal, &contacts.force, &table.branch})
+        if (!turned->empty()) (*turned)[k] = -(*turned)[k];
+    }
   }
 }
 
@@ -221,7 +238,8 @@ std::unique_ptr<FrameReader> openVtk(const Files& files, const FileOptions& opti
   std::vector<std::unique_ptr<PartReader>> contacts;
   if (auto lines = reader(Content::contacts, readContacts); lines->bytes() > 0)
     contacts.push_back(std::move(lines));
-  return joinParts(reader(Content::particles, readSpheres), std::move(contacts), columns, findEnds);
+  return joinParts(reader(Content::particles, readSpheres), std::move(contacts), columns,
+                   findWalls);
 }
 
 }  // namespace crossgrain::files
