@@ -39,14 +39,13 @@ struct AveragedRun {
   std::vector<std::string> remarks;
 };
 
-AveragedRun averageRun(const Case& setup, const SnapshotRun& files, const std::string& name,
+AveragedRun averageRun(const Case& setup, const SnapshotRun& files, SnapshotSource& source,
                        int index, Progress& progress) {
-  const auto source = openSnapshots(files, setup, name);
-  const auto averages = flowAverages(setup, source->scene());
+  const auto averages = flowAverages(setup, source.scene());
   AveragedRun averaged;
   averaged.name = files.name();
-  averaged.disks = source->scene().disks;
-  while (const auto snapshot = source->next()) {
+  averaged.disks = source.scene().disks;
+  while (const auto snapshot = source.next()) {
     throwIfInterrupted();
     try {
       averages->add(*snapshot);
@@ -55,14 +54,14 @@ AveragedRun averageRun(const Case& setup, const SnapshotRun& files, const std::s
           fmt::format("{}, snapshot {}: {}", averaged.name, averaged.snapshots, misfit.what()));
     }
     ++averaged.snapshots;
-    progress.update(static_cast<std::size_t>(index), averaged.name, source->progress());
+    progress.update(static_cast<std::size_t>(index), averaged.name, source.progress());
   }
   FlowRun& run = averaged.run;
-  run.engine = source->engine();
+  run.engine = source.engine();
   run.packing = index;
   averages->describe(EffectiveParameters{}, run);
   addOwnEndpoints(setup, run);
-  averaged.remarks = source->remarks();
+  averaged.remarks = source.remarks();
   return averaged;
 }
 
@@ -94,12 +93,12 @@ CompareResults averageSnapshots(const Case& setup, const std::vector<std::filesy
                                 bool quiet) {
   const std::vector<SnapshotRun> runs = snapshotRuns(files);
   Progress progress(quiet);
-  progress.begin("averaging", std::vector<double>(runs.size(), 1.0));
   std::vector<AveragedRun> all;
   for (const SnapshotRun& run : runs) {
+    const auto source = openSnapshots(run, setup, options.name.value_or(defaultName(run.format)));
     const auto index = all.size();
-    all.push_back(averageRun(setup, run, options.name.value_or(defaultName(run.format)),
-                             static_cast<int>(index), progress));
+    if (index == 0) progress.begin("averaging", std::vector<double>(runs.size(), 1.0));
+    all.push_back(averageRun(setup, run, *source, static_cast<int>(index), progress));
     progress.finish(index, fmt::format("{}: {} snapshots", run.name(), all.back().snapshots));
   }
   requireOneEngine(all);
