@@ -158,7 +158,8 @@ const Section<Preparation>& preparationKeys() {
 
 const Section<Averaging>& averagingKeys() {
   constexpr const char* averaged = "compare plan effects cost average baseline";
-  constexpr const char* run = "compare plan lockstep identify baseline effects cost stability";
+  constexpr const char* run =
+      "compare plan lockstep identify baseline effects cost stability average";
   static const Section<Averaging> section(
       {.name = "averaging", .kinds = "couette"},
       {key("rings", &Averaging::rings, between(1, 10'000), "of equal width from R_i to R_o")

@@ -20,7 +20,7 @@ int importFiles(const CommandLine& line, const ImportOptions& options) {
 Action declareImport(CLI::App& app, CommandLine& line) {
   const auto options = std::make_shared<ImportOptions>();
   addArgument(app, "format", options->format,
-              "mercurydpm, lammps, yade-text, vtk, ondem or csv (docs/import.md)", "FORMAT");
+              "mercurydpm, lammps, yade-text, vtk, ondem or csv (docs/file-formats.md)", "FORMAT");
   addFilesAndCase(app, line, "result files of one run",
                   "case file: the scene, the law, what is averaged");
   addArgument(app, "--out", options->out,
@@ -36,10 +36,11 @@ Action declareImport(CLI::App& app, CommandLine& line) {
 
 extern const Command importCommand = {
     "import", "result files of another program as snapshots, to be averaged and compared",
-    "crossgrain import lammps out/atoms.dump out/contacts.dump cases/assembly/biaxial.toml --name "
-    "mine --set engines.mine.dt=1e-5 --out mine.h5\n"
-    "crossgrain import mercurydpm run.data run.fstat my.toml --out run.h5 --set "
-    "engines.mercurydpm.plane=xz",
+    "crossgrain import lammps atoms-1.dump pairs-1.dump examples/import/box.toml --name my-lammps "
+    "--out out/lammps-1.h5\n"
+    "crossgrain import mercurydpm run.data run.fstat my.toml --set engines.mercurydpm.plane=xz "
+    "--out "
+    "out/run.h5",
     declareImport};
 
 }  // namespace crossgrain::inline cli

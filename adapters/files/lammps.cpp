@@ -251,7 +251,7 @@ const std::vector<Keyword>& granKeywords(bool ofWalls) {
         {"torque_tangential", three},
         {"history", {}},
         {"contactArea", {none}},
-        {"delta", {isWall ? none : overlap}},
+        {"delta", {overlap}},
         {"heatFlux", {none}},
         {"contactPoint", isWall ? three : Meanings{px, py, pz}},
         {"ms_id", {none, none}}};

@@ -228,6 +228,10 @@ std::optional<Contacts> planeContacts(const FileFrame& frame, const PlaneUnits& 
     remarks.insert("no overlaps in the files: they follow from the positions");
   const std::vector<Line> lines = ContactReader(frame, units, ids, snapshot, basis).read();
   Contacts contacts;
+  for (auto* list : {&contacts.overlap, &contacts.normalForce, &contacts.tangentialForce})
+    list->reserve(lines.size());
+  for (auto* list : {&contacts.i, &contacts.j}) list->reserve(lines.size());
+  contacts.normal.reserve(lines.size());
   const bool rolls =
       std::ranges::any_of(lines, [](const Line& line) { return line.torque != 0.0; });
   for (const Line& line : lines) {

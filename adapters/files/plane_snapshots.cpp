@@ -53,7 +53,7 @@ std::vector<SettingSpec> planeSettings(std::string_view format) {
           {"columns",
            std::string(),
            "",
-           "what columns mean whose names are the user's own (docs/import.md)",
+           "what columns mean whose names are the user's own (docs/file-formats.md)",
            {}}};
 }
 

@@ -37,15 +37,14 @@ struct NamedRun {
   Disks disks;
 };
 
-NamedRun averageRun(const Case& setup, const SnapshotRun& files, const std::string& name, int index,
+NamedRun averageRun(const Case& setup, const SnapshotRun& files, SnapshotSource& source, int index,
                     Progress& progress) {
-  const auto source = openSnapshots(files, setup, name);
-  AveragedRun averaged = averagedRun(setup, *source, files.name(), [&](double fraction) {
+  AveragedRun averaged = averagedRun(setup, source, files.name(), [&](double fraction) {
     progress.update(static_cast<std::size_t>(index), files.name(), fraction);
   });
   averaged.run.packing = index;
   addOwnEndpoints(setup, averaged.run);
-  return {std::move(averaged.run), files.name(), averaged.snapshots, source->scene().disks};
+  return {std::move(averaged.run), files.name(), averaged.snapshots, source.scene().disks};
 }
 
 /// Runs of one engine are replicates; those of two are to be compared.
@@ -75,12 +74,12 @@ CompareResults averageSnapshots(const Case& setup, const std::vector<std::filesy
                                 bool quiet) {
   const std::vector<SnapshotRun> runs = snapshotRuns(files);
   Progress progress(quiet);
-  progress.begin("averaging", std::vector<double>(runs.size(), 1.0));
   std::vector<NamedRun> all;
   for (const SnapshotRun& run : runs) {
+    const auto source = openSnapshots(run, setup, options.name.value_or(defaultName(run.format)));
     const auto index = all.size();
-    all.push_back(averageRun(setup, run, options.name.value_or(defaultName(run.format)),
-                             static_cast<int>(index), progress));
+    if (index == 0) progress.begin("averaging", std::vector<double>(runs.size(), 1.0));
+    all.push_back(averageRun(setup, run, *source, static_cast<int>(index), progress));
     progress.finish(index, fmt::format("{}: {} snapshots", run.name(), all.back().snapshots));
   }
   requireOneEngine(all);

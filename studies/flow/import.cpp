@@ -10,6 +10,7 @@
 #include "studies/core/study_cases.hpp"
 #include "studies/flow/snapshot_file.hpp"
 #include "support/bad_input.hpp"
+#include "support/files.hpp"
 #include "support/hdf5_file.hpp"
 #include "support/interrupt.hpp"
 #include "support/nearest.hpp"
@@ -63,9 +64,10 @@ struct PartFile {
 
 Imported importSnapshots(const CommandLine& line, const ImportOptions& options) {
   checkFormat(options.format);
-  const Case setup = onlyFlow(line, "import");
   const fs::path out = fs::absolute(options.out);
+  makeDirectory(out.parent_path());  // before the work that it is to hold
   checkOut(out);
+  const Case setup = onlyFlow(line, "import");
   const SnapshotRun run = onlyRun(line, options.format);
   const std::string name = options.name.value_or(defaultName(options.format));
   const auto source = openSnapshots(run, setup, name);

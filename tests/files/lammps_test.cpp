@@ -71,6 +71,24 @@ TEST(Lammps, Liggghts_TorqueWithoutLeverIsRolling) {
   }
 }
 
+/// LAMMPS' own sums over contacts, of samples/granular.in: f and tq of both atoms. With equal radii
+/// the levers of one force give both the same torque, so that half the difference is rolling
+/// resistance. Dashpots of what is dumped use velocities half a step later than those that moved
+/// the atoms: the normal one 5 N s/m · 29 m/s² · 0.5 ms = 0.07 N, the rolling one 0.25 m · 2 N s/m
+/// · 6 m/s² · 0.5 ms = 1.5 mN m.
+TEST(Lammps, Granular_ForceAndRollingTorqueAreTheAtoms) {
+  const FileFrame frame =
+      programs().read("lammps", {"granular.5.dump", "granular.5.local"}).front();
+  const FileContacts& contacts = *frame.contacts;
+  ASSERT_EQ(contacts.first[0], 1);
+  expectNear(contacts.force[0], Vec3(-14.207400646455177, -3.8010239968894428, 1.5513708497147116),
+             0.1);
+  const Vec3 one(0.057212160055400266, -0.56076258873338702, -1.4549278362718421),
+      other(0.097963045849647032, -0.95995442944420117, -0.84990183004522768);
+  expectNear(contacts.torque[0], 0.5 * (one - other), 2e-3);
+  EXPECT_GT(contacts.torque[0].norm(), 0.3);
+}
+
 class LammpsText : public testing::Test {
  protected:
   TemporaryFolder folder_;
@@ -114,6 +132,11 @@ TEST_F(LammpsText, Columns_AsTheComputesSay) {
   EXPECT_EQ(contacts.normalForce[0], 20.0);
   EXPECT_TRUE(contacts.force.empty());
   EXPECT_EQ(contacts.normal[0], Vec3(-1, 0, 0));
+  // Or by the names of CSV columns.
+  EXPECT_EQ(samples_.read("lammps", {"a.dump", "a.local"}, {"c_i=first,second c_f=-,normal_force"})
+                .front()
+                .contacts->normalForce,
+            (std::vector<double>{20.0}));
   EXPECT_EQ(samples_.refusal("lammps", {"a.dump", "a.local"}),
             "a.local:9: what are its columns? say so by the computes' own keywords: columns = "
             "c_f=property/local,patom1,patom2 c_…=pair/local,force,p1,p2,p3,p4 (LAMMPS) or "
@@ -141,6 +164,26 @@ TEST_F(LammpsText, Scaled_Unsorted_Walls) {
             "a.dump:10: f_w[1] is 0.7, neither 0 nor 1: if f_w is no fix wall/gran … contacts, say "
             "columns = f_w=-");
   EXPECT_EQ(samples_.read("lammps", {"a.dump"}, {"f_w=-"}).size(), 1u);
+}
+
+/// A row of LIGGGHTS' wall/gran/local for a mesh, which it wrote for a sphere 0.02 deep in a floor.
+TEST_F(LammpsText, Liggghts_MeshWall) {
+  samples_.write("a.dump",
+                 head("ATOMS", 1) + "ITEM: ATOMS id x y z radius\n3 2.5 1.5 0.48016 0.5\n");
+  std::string names = "ITEM: ENTRIES";
+  for (int k = 1; k <= 13; ++k) names += " c_w[" + std::to_string(k) + "]";
+  samples_.write("a.local", head("ENTRIES", 1) + names +
+                                "\n2.5 1.5 0 2.5 1.5 0.48016 0 0 3 0 0 19.8402 0.0198402\n");
+  const FileContacts contacts =
+      *samples_.read("lammps", {"a.dump", "a.local"}, {"c_w=wall/gran/local,pos,id,force,delta"})
+           .front()
+           .contacts;
+  EXPECT_EQ(contacts.first[0], 3);
+  EXPECT_EQ(contacts.second[0], -1);
+  EXPECT_EQ(contacts.normal[0], Vec3(0, 0, 1));
+  EXPECT_EQ(contacts.force[0], Vec3(0, 0, 19.8402));
+  EXPECT_EQ(contacts.point[0], Vec3(2.5, 1.5, 0));
+  EXPECT_EQ(contacts.overlap[0], 0.0198402);
 }
 
 TEST_F(LammpsText, WhatCannotBe_IsRefusedByLine) {

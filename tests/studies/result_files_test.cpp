@@ -41,7 +41,7 @@ class FakeReader : public files::FrameReader {
 
 /// Three disks of radius 1 m and mass 2 kg: two overlap by 0.1 m side by side, the third is 0.02 m
 /// deep in the floor. k_n = 100 N/m: forces of 10 N and 2 N.
-Case floorOfThree() {
+Case restingDisks() {
   Case setup;
   setup.kind = CaseKind::assembly;
   setup.law.normal = NormalLaw::linear;
@@ -110,7 +110,7 @@ Snapshot firstOf(const std::function<void(FileFrame&)>& change = {},
   FileFrame frame = threeParticles();
   if (change) change(frame);
   PlaneSnapshots source(std::make_unique<FakeReader>(std::deque{frame}), units,
-                        targetOf(floorOfThree()));
+                        targetOf(restingDisks()));
   Snapshot now = source.next().value();
   EXPECT_FALSE(source.next());
   if (remarks) *remarks = source.remarks();
@@ -326,7 +326,7 @@ TEST(PlaneSnapshots, Times_AreThoseOfTheAveragedPart) {
     frame.step = step;
     return frame;
   };
-  files::PlaneScene target = targetOf(floorOfThree());
+  files::PlaneScene target = targetOf(restingDisks());
   target.from = 1.0;
   target.to = 3.0;
   PlaneSnapshots source(
@@ -395,7 +395,7 @@ TEST(PlaneSnapshots, WallDisksOfACell_AreFoundAtAnyAngle) {
 }
 
 TEST(PlaneSnapshots, WallDisksOfAnAssembly_AreAllThereOrNone) {
-  Case setup = floorOfThree();
+  Case setup = restingDisks();
   WallGroup row;
   row.position = {{-1.5, 5.0}, {0.5, 5.0}};
   row.radius = 0.5;
@@ -446,7 +446,7 @@ class AssemblyFiles : public testing::Test {
   }
 
   const TemporaryFolder folder_;
-  Case setup_ = floorOfThree();
+  Case setup_ = restingDisks();
 };
 
 TEST_F(AssemblyFiles, OneFile_HasTheVirialStress) {

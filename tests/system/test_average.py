@@ -10,6 +10,7 @@ import subprocess
 import unittest
 
 import h5py
+import numpy
 
 from harness import BAD_INPUT, CASES, COUETTE, HELD, HOME, SystemTest, settings
 
@@ -97,6 +98,45 @@ class ResultFiles(SystemTest):
         one, other = (self.rows("profiles.csv", self.folder / name) for name in ("one", "other"))
         self.assertGreater(len(one), 50)
         self.assertEqual(one, other)
+
+    def test_contacts_listed_from_both_sides_are_one(self):
+        """The same run as MercuryDPM would write it: each pair twice, walls with n and t the other way round."""
+        self.assert_status(self.import_files(), HELD)
+        data, fstat = [], []
+        with h5py.File(self.snapshots) as file:
+            radius = file["disks/radius"][:]
+            for name in ("snapshot-000", "snapshot-001", "snapshot-002"):
+                now = file[name]
+                t = now["time"][0]
+                data.append(f"{len(radius)} {t!r} 0 0 0 1 1 1")
+                for a, (x, y), (u, v), spin in zip(radius, now["position"][:], now["velocity"][:], now["spin"][:], strict=True):
+                    data.append(f"{x!r} {y!r} 0 {u!r} {v!r} 0 {a!r} 0 0 0 0 0 {spin!r} 0")
+                fstat += [f"# {t!r} 1", "# 0 0 0 1 1 1", f"# {radius[0]!r} {radius[0]!r} 0 0 0 0"]
+                rows = (now["contacts"][key][:] for key in ("i", "j", "normal", "overlap", "normal_force", "tangential_force"))
+                for i, j, (nx, ny), overlap, fn, ft in zip(*rows, strict=True):
+                    sense = math.copysign(1.0, ft)  # the tangent is along the force
+                    tx, ty = -sense * ny, sense * nx
+                    x, y = now["position"][i] - (radius[i] - overlap / 2) * numpy.array([nx, ny])
+                    line = f"{x!r} {y!r} 0 {overlap!r} 0 {fn!r} {abs(ft)!r}"
+                    there, back = f"{nx!r} {ny!r} 0 {tx!r} {ty!r} 0", f"{-nx!r} {-ny!r} 0 {-tx!r} {-ty!r} 0"
+                    if j < len(radius):
+                        fstat += [f"{t!r} {i} {j} {line} {there}", f"{t!r} {j} {i} {line} {back}"]
+                    else:
+                        fstat.append(f"{t!r} {i} {len(radius) - j - 1} {line} {back}")
+        files = [self.write(f"run.{name}", "\n".join(rows) + "\n") for name, rows in (("data", data), ("fstat", fstat))]
+        again = self.folder / "again.h5"
+        self.assert_status(self.run_program("import", "mercurydpm", *files, self.CASE, "--out", again), HELD)
+        with h5py.File(self.snapshots) as one, h5py.File(again) as other:
+            for name in ("i", "j", "normal", "overlap", "normal_force", "tangential_force"):
+                for k in range(3):
+                    a, b = (file[f"snapshot-00{k}/contacts/{name}"][:] for file in (one, other))
+                    self.assertEqual(a.shape, b.shape)
+                    self.assertLess(abs(a - b).max(), 1e-12, name)
+
+    def test_sections_of_files_are_no_slips_of_engines(self):
+        plan = ["compare", self.CASE, "--engines", "grain", "--dry-run", "--out", self.out]
+        self.assert_status(self.run_program(*plan), HELD)  # it has [engines.my-lammps]
+        self.assert_one_error(self.run_program(*plan, "--set=engines.yadee.dt=1e-5"), BAD_INPUT, "engines.yadee", "did you mean yade?")
 
     def test_wrong_settings_are_refused(self):
         for settings_, told in (
