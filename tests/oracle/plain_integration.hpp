@@ -264,7 +264,8 @@ class PlainIntegration {
     turns_ = c.spin == 0.0 ? 0.0 : -std::copysign(1.0, c.spin);
     if (!isSpring()) return;
     if (!touches_) s[7] = 0.0;
-    rolls_ = touches_ && std::abs(rollingTested(s, c)) > c.rollingBound;
+    const bool limited = how_.rollingLoad != RollingLoad::whileCompressed || c.rollingBound > 0.0;
+    rolls_ = touches_ && limited && std::abs(rollingTested(s, c)) > c.rollingBound;
     if (!rolls_) return;
     turns_ = std::copysign(1.0, rollingTested(s, c));
     const bool springOnly = how_.rollingReset == SpringReset::springOnly;
