@@ -146,6 +146,7 @@ class TwoBodyProblem {
   bool neverLoaded() const;
   double stiffest(const Kinematics& k) const;
   double cohesionGuard(const Kinematics& k) const;
+  bool onLimitBranch(double overlap) const;
   void chooseLine(State& s);
   void chooseNormal(State& s, bool anew);
   bool hasNoBound() const;
