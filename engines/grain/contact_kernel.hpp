@@ -57,7 +57,7 @@ GRAIN_INLINE void copy(const T* from, std::size_t count, T* to) {
 /// Velocities are gathered only for a law that has a use for them.
 template <class L>
 GRAIN_INLINE bool seesVelocities(const L& law) {
-  return law.normalDamping || law.tangential != Tangential::none;
+  return law.normalDamping || law.tangential != Tangential::none || remembersRest(law);
 }
 
 template <class L, class Real>

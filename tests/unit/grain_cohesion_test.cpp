@@ -293,6 +293,19 @@ TEST(ElastoPlastic, Restitution_IsThatOfTheAreas) {
   }
 }
 
+// Neither friction nor a dashpot asks for velocities, but the limit of its pull does: e² = k₁/k₂ −
+// k_c δ_min δ₀/(k₁ δ_max²) with δ_max = v √(m₁₂/k₁), k₂ = k₁ + 3 k₁ δ_max/δ*.
+TEST(ElastoPlastic, LaggedStiffness_PullsAtMostKcDelta) {
+  Law law = plasticLaw();
+  law.plasticDepth = 0.05;
+  law.cohesionConventions.unloading = UnloadingStiffness::lagged;
+  Simulation simulation(approaching(law, 0.05));
+  ASSERT_TRUE(partsAgain(simulation));
+  const double k2 = 1e3 + 3e3 * 0.1 * std::sqrt(0.5 / 1e3) * 30.0;
+  const double square = 1e3 / k2 - 500.0 * (k2 - 1e3) / (k2 + 500.0) * (1.0 - 1e3 / k2) / 1e3;
+  EXPECT_NEAR(relativeSpeed(simulation) / 0.1, std::sqrt(square), 1e-3);
+}
+
 TEST(CohesionLoads, InCoulombsBound_AreTheConventions) {
   // A pair at rest under DMT without load slips at nothing, at µ F_po, or at 2 µ F_po − µ F_po; in
   // the last its dashpot takes no part.
