@@ -64,6 +64,7 @@ double elastoPlasticRestitution(const ContactLaw& law, const CollidingPair& pair
   const double k2 = unloadingStiffness(law, radius, largest);
   const double least = (k2 - law.kn) / (k2 + law.kc);  // δ_min/δ_m
   const double square = law.kn / k2 - law.kc * least * (1.0 - law.kn / k2) / law.kn;
+  if (!beyond) return std::sqrt(std::max(square, 0.0));
   const double share = largest / reached;  // squared, of the energy that is spent up to δ*
   return std::sqrt(std::max(1.0 - share * share * (1.0 - square), 0.0));
 }

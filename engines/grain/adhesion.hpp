@@ -164,7 +164,8 @@ GRAIN_INLINE PlasticContact<Real> plasticContact(const L& law, const ContactMoti
 
 /// UnloadingStiffness::lagged, step by step as YADE's Law2_ScGeom_LudingPhys_Basic: k₂ is that of
 /// the δ_max that the step finds, `rest` the δ₀ of both when δ_max changed; the pull has its limit
-/// only while the bodies part. The first evaluation of all has no step before.
+/// only while the bodies part. The first evaluation of all has no step before: it loads by k_n,
+/// with the δ₀ of what it finds.
 template <class L, class Real>
 GRAIN_INLINE Real laggedPlasticForce(const L& law, const ContactMotion<Real>& contact,
                                      Real& largest, Real& rest) {
@@ -172,7 +173,8 @@ GRAIN_INLINE Real laggedPlasticForce(const L& law, const ContactMotion<Real>& co
   const PlasticConstants<Real> plastic(law, contact.radius);
   if (!(plastic.depth > Real(0))) return plasticContact(law, contact, largest).force;
   const Real limit = Real(2) * law.plasticDepth * contact.radius;  // δ₀ of δ*
-  const Real k2 = plastic.stiffness(law.halfStep > Real(0) ? largest : larger(largest, overlap));
+  const bool first = !(law.halfStep > Real(0));
+  const Real k2 = plastic.stiffness(first ? larger(largest, overlap) : largest);
   const auto remember = [&](Real newLargest) {
     largest = newLargest;
     rest = smaller((Real(1) - law.kn / k2) * newLargest, limit);
@@ -180,6 +182,7 @@ GRAIN_INLINE Real laggedPlasticForce(const L& law, const ContactMotion<Real>& co
   if (overlap > largest) remember(overlap);
   const Real unloading = k2 * (overlap - rest);
   const Real loading = law.kn * overlap, pull = -law.kc * overlap;
+  if (first) return loading;
   if (unloading >= loading) return overlap * plastic.most < plastic.depth ? loading : unloading;
   if (unloading > pull || !(contact.normalVelocity > Real(0))) return unloading;
   remember(overlap * (k2 + law.kc) / (k2 - law.kn));

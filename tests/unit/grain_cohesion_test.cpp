@@ -213,6 +213,13 @@ TEST(ElastoPlastic, LaggedStiffness_LeavesDeltaZeroAsItWas) {
   EXPECT_NEAR(f(0.003, 1.0), -1.5, 1e-12);
   EXPECT_NEAR(memory, 0.003 * 2400.0 / 900.0, 1e-15);
   EXPECT_NEAR(rest, (1.0 - 1.0 / 1.9) * memory, 1e-15);
+
+  // The first evaluation loads by k₁ even beyond δ*, and finds δ₀.
+  GeneralLaw<double> atStart = law;
+  atStart.halfStep = 0.0;
+  memory = rest = 0.0;
+  EXPECT_DOUBLE_EQ(laggedPlasticForce(atStart, at(0.05), memory, rest), 50.0);
+  EXPECT_NEAR(rest, 0.025, 1e-15);
 }
 
 /// Two disks of 1 kg that approach with v each.
