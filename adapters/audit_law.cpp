@@ -86,9 +86,12 @@ Attraction attraction(const ContactLaw& law, double overlap, double radius, doub
                                std::max(slope, 1e-3) * radius / (width * width);
       return {force, force, std::abs(stiffness), pull};
     }
-    case CohesionLaw::elastoPlastic: {  // between loading and the largest pull
-      const double depth = std::max(overlap, 0.0);
-      return {-(law.kc + law.kn) * depth, 0.0, law.kUnload + law.kc};
+    case CohesionLaw::elastoPlastic: {  // between loading, beyond δ* with kUnload, and the pull
+      const double depth = std::max(overlap, 0.0), most = law.kUnload - law.kn;
+      const double beyond = law.plasticDepth > 0.0
+                                ? most * depth - law.kUnload * law.plasticDepth * 2.0 * radius
+                                : 0.0;
+      return {-(law.kc + law.kn) * depth, std::max(beyond, 0.0), law.kUnload + law.kc};
     }
     case CohesionLaw::none:
       break;

@@ -31,7 +31,8 @@ class Box2dPenalty : public Engine {
                       {"velocity_arm", {"lever_arm"}},
                       {"plane_arm", {"surface"}},
                       {"damping_velocity", {"lagged"}},
-                      {"integrator", {"semi_implicit_euler"}}};
+                      {"integrator", {"semi_implicit_euler"}},
+                      {"unloading_stiffness", {"current"}}};
     can.precisions = {Precision::float64};
     can.slidingFlags = true;
     can.settings = {{"dt", 0.0, "s", "time step; 0: the case's"}, lengthUnitSetting()};
@@ -149,7 +150,8 @@ EngineEntry box2dPenaltyMirror() {
                       {"spring_update", {"after", "before"}},
                       {"lever_arm", {"radius", "contact_point"}},
                       {"velocity_arm", {"lever_arm"}},
-                      {"plane_arm", {"surface"}}});
+                      {"plane_arm", {"surface"}},
+                      {"unloading_stiffness", {"current"}}});
 }
 
 }  // namespace crossgrain

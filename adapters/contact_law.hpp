@@ -154,8 +154,9 @@ enum class CohesionLaw {
   dmt,           ///< f_el(δ) − F_po, F_po = 2π w R₁₂ (Derjaguin, Muller and Toporov 1975)
   jkr,           ///< in place of Hertz' force, from the first touch until the surfaces part beyond
                  ///< δ = 0; F_po = 3/2 π w R₁₂ (Johnson, Kendall and Roberts 1971)
-  elastoPlastic  ///< k_n δ on loading, k₂(δ_max) on unloading, pull up to k_c δ (Walton and Braun
-                 ///< 1986 with k_c = 0; Luding 2008, Eqs. 4 to 7)
+  elastoPlastic  ///< k_n δ on loading, k₂(δ_max) on unloading, pull up to k_c δ; from δ* on elastic
+                 ///< with k₂ at its limit (Walton and Braun 1986 with k_c = 0; Luding 2008, Eqs. 6
+                 ///< to 8, his limit branch as in Singh, Magnanimo and Luding 2015, section 2)
 };
 
 /// A of CohesionLaw::area.
@@ -163,6 +164,12 @@ enum class CohesionArea {
   lens,              ///< of two spheres at that distance (LIGGGHTS' sjkr)
   firstOrder,        ///< 2π R₁₂ δ, the lens to first order
   twiceBetweenDisks  ///< 4π R₁₂ δ, at a wall's plane 2π R₁₂ δ (LIGGGHTS' sjkr2)
+};
+
+/// Which δ_max an elasto-plastic contact takes its k₂ from.
+enum class UnloadingStiffness {
+  current,  ///< that of this step
+  lagged  ///< that of the step before; δ₀ is worked out from it when δ_max grows, and kept (YADE)
 };
 
 /// Until when parting surfaces pull under JKR.
@@ -206,6 +213,7 @@ struct LawConventions {
   CohesionArea cohesionArea = CohesionArea::lens;
   JkrEnd jkrEnd = JkrEnd::largestPull;
   CohesionLoad cohesionLoad = CohesionLoad::withoutPull;
+  UnloadingStiffness unloadingStiffness = UnloadingStiffness::current;
   Integrator integrator = Integrator::positionVerlet;
 
   /// The arm in v_t by its own name.
@@ -247,8 +255,8 @@ struct ContactLaw {
   double kc = 0.0;       ///< area: pull per area [Pa]; elastoPlastic: its stiffness [N/m]
   double w = 0.0;        ///< dmt, jkr: work of adhesion [J/m²]
   double kUnload = 0.0;  ///< elastoPlastic: the largest stiffness of unloading [N/m]
-  /// elastoPlastic: φ, the largest overlap in units of 2 R₁₂ at which unloading reaches kUnload,
-  /// counted at zero force [-]; 0: unloading has kUnload from the beginning
+  /// elastoPlastic: φ, the overlap at zero force in units of 2 R₁₂ after which unloading has
+  /// kUnload and no δ₀ grows [-]; 0: unloading has kUnload from the beginning, δ₀ grows on
   double plasticDepth = 0.0;
   LawConventions conventions;
 

@@ -65,7 +65,8 @@ grain::Law translate(const ContactLaw& law) {
   to.plasticDepth = law.plasticDepth;
   to.cohesionConventions = {static_cast<grain::CohesionArea>(how.cohesionArea),
                             static_cast<grain::JkrEnd>(how.jkrEnd),
-                            static_cast<grain::CohesionLoad>(how.cohesionLoad)};
+                            static_cast<grain::CohesionLoad>(how.cohesionLoad),
+                            static_cast<grain::UnloadingStiffness>(how.unloadingStiffness)};
   return to;
 }
 

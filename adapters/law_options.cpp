@@ -87,6 +87,8 @@ std::span<const LawOption> lawOptions() {
              {"net", "without_pull", "plus_twice_pull_off", "magnitude_plus_pull_off",
               "net_without_dashpot"},
              LawPart::cohesion),
+      option("unloading_stiffness", &LawConventions::unloadingStiffness, {"current", "lagged"},
+             LawPart::cohesion),
   };
   return options;
 }
@@ -144,6 +146,8 @@ bool rollingMatters(const ContactLaw& law, std::string_view name) {
 bool cohesionMatters(const ContactLaw& law, std::string_view name) {
   if (name == "cohesion_area") return law.cohesion == CohesionLaw::area;
   if (name == "jkr_end") return law.cohesion == CohesionLaw::jkr;
+  if (name == "unloading_stiffness")
+    return law.cohesion == CohesionLaw::elastoPlastic && law.plasticDepth > 0.0;
   if (name == "cohesion_load") return law.coheres() && (law.friction() || law.rolls());
   return law.coheres();
 }

@@ -49,7 +49,8 @@ EngineEntry yadeMirror() {
                       {"rolling_stiffness", {"constant", "radii"}},
                       {"rolling_load", {"while_compressed"}},
                       {"cohesion", {"dmt", "elasto_plastic"}},
-                      {"cohesion_load", {"magnitude_plus_pull_off"}}});
+                      {"cohesion_load", {"magnitude_plus_pull_off"}},
+                      {"unloading_stiffness", {"lagged"}}});
 }
 
 }  // namespace crossgrain

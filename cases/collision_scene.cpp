@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cases/materials.hpp"
+
 namespace crossgrain::inline cases {
 
 CollidingPair collidingPair(const Case& setup) {
@@ -96,18 +98,25 @@ Scene collisionScene(const Case& setup, const std::vector<CollisionStart>& start
 }
 
 std::vector<NamedPair> pairsOf(const Case& setup) {
-  if (setup.kind == CaseKind::collision) return {{"i-j", collidingPair(setup)}};
+  if (setup.kind == CaseKind::collision) return {{"i-j", collidingPair(setup), setup.law}};
   const Particles& p = setup.particles;
   struct Kind {
     const char* name;
     double radius, mass;
+    const MaterialName& material;
     double inertia(double factor) const { return factor * mass * radius * radius; }
   };
   std::vector<Kind> kinds;
-  if (p.small > 0 || p.file) kinds.push_back({"small", p.smallRadius, p.smallMass});
-  if (p.large > 0 || p.file) kinds.push_back({"large", p.largeRadius, p.largeMass});
+  if (p.small > 0 || p.file)
+    kinds.push_back({"small", p.smallRadius, p.smallMass, p.smallMaterial});
+  if (p.large > 0 || p.file)
+    kinds.push_back({"large", p.largeRadius, p.largeMass, p.largeMaterial});
   const std::size_t disks = kinds.size();
-  kinds.push_back({"wall", setup.cell.wallRadius, std::numeric_limits<double>::infinity()});
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const Cell& cell = setup.cell;
+  const bool alike = cell.wheelMaterial.name == cell.ringMaterial.name;
+  kinds.push_back({alike ? "wall" : "wheel", cell.wallRadius, infinite, cell.wheelMaterial});
+  if (!alike) kinds.push_back({"ring", cell.wallRadius, infinite, cell.ringMaterial});
   std::vector<NamedPair> pairs;
   for (std::size_t i = 0; i < disks; ++i)
     for (std::size_t j = i; j < kinds.size(); ++j) {
@@ -115,7 +124,8 @@ std::vector<NamedPair> pairsOf(const Case& setup) {
       pairs.push_back({fmt::format("{}-{}", one.name, two.name),
                        {{one.radius, two.radius},
                         {one.mass, two.mass},
-                        {one.inertia(p.inertiaFactor), two.inertia(p.inertiaFactor)}}});
+                        {one.inertia(p.inertiaFactor), two.inertia(p.inertiaFactor)}},
+                       lawOf(setup, one.material, two.material)});
     }
   return pairs;
 }

@@ -22,10 +22,12 @@ std::vector<CollisionStart> collisionStarts(const Case& setup);
 /// that all meet; the plane moves, and the disks move as said with respect to it.
 Scene collisionScene(const Case& setup, const std::vector<CollisionStart>& starts, double dt);
 
-/// A kind of pair that a case brings together: "small-large", "large-wall", "i-j".
+/// A kind of pair that a case brings together: "small-large", "large-wall", "i-j"; "large-wheel"
+/// and "large-ring" where these are of two materials.
 struct NamedPair {
   std::string name;
   CollidingPair bodies;
+  ContactLaw law;  ///< of their materials
 };
 
 /// Of a cell's disks with each other and with wall disks; of a collision its two bodies.

@@ -73,7 +73,9 @@ constexpr std::pair<const char*, const char*> optionMeanings[] = {
     {"cohesion_load",
      "what µ and µ_r multiply: f_n, f_n without the pull, f_n without its dashpot + 2 F_po, |f_n| "
      "+ "
-     "F_po, or f_n without its dashpot"}};
+     "F_po, or f_n without its dashpot"},
+    {"unloading_stiffness",
+     "k₂ of an elasto-plastic contact: of δ_max in this step, or in the step before"}};
 
 std::vector<Key<LawInput>> lawTable() {
   std::vector<Key<LawInput>> keys;

@@ -54,6 +54,11 @@ std::vector<ContactLaw> lawsOf(const Case& setup) {
   return setup.materials ? setup.materials->laws : std::vector{setup.law};
 }
 
+const ContactLaw& lawOf(const Case& setup, const MaterialName& one, const MaterialName& other) {
+  if (!setup.materials) return setup.law;
+  return setup.materials->law(indexOf(*setup.materials, one), indexOf(*setup.materials, other));
+}
+
 void settleMaterials(Case& setup) {
   if (!setup.materials) return;
   const Materials& materials = *setup.materials;

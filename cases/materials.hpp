@@ -10,6 +10,9 @@ namespace crossgrain::inline cases {
 /// Every law that two bodies of the case may have: that of [law], or of each two materials.
 std::vector<ContactLaw> lawsOf(const Case& setup);
 
+/// That of bodies of two materials of the case.
+const ContactLaw& lawOf(const Case& setup, const MaterialName& one, const MaterialName& other);
+
 /// Does the same to all of them.
 void changeLaws(Case& setup, auto&& change) {
   change(setup.law);

@@ -71,6 +71,40 @@ std::string remarks(const ContactLaw& law, const ImpliedImpact& is) {
   return text;
 }
 
+/// Constants that go with rolling resistance and cohesion, as far as the law has them.
+std::string resistanceText(const ContactLaw& law) {
+  const bool torque = law.conventions.rollingStiffness == RollingStiffness::constant;
+  const bool ratio =
+      law.rolling == RollingLaw::spring && law.conventions.rollingDamper == RollingDamper::critical;
+  const std::tuple<const char*, double, const char*> constants[] = {
+      {"mu_r", law.muR, law.rolling == RollingLaw::viscousByLoad ? "s/m" : "-"},
+      {"kr", law.kr, torque ? "N m" : "N/m"},
+      {"gr", law.gr, ratio ? "-, the damping ratio" : "kg/s"},
+      {"kc", law.kc, law.cohesion == CohesionLaw::area ? "Pa" : "N/m"},
+      {"w", law.w, "J/m^2"},
+      {"k_unload", law.kUnload, "N/m"},
+      {"plastic_depth", law.plasticDepth, "-"}};
+  std::string text;
+  for (const auto& [key, value, unit] : constants)
+    if (value != 0.0) text += constant(key, value, unit);
+  return text;
+}
+
+std::string constantsText(const ContactLaw& law, bool ofMaterials = false) {
+  const char* const damping = law.damper == Damper::constant       ? "kg/s"
+                              : law.damper == Damper::viscoelastic ? "s"
+                                                                   : "-";
+  std::string text = stiffnessText(law) + constant("gn", law.gn, damping);
+  if (law.tangential != TangentialLaw::none) {
+    text += law.mu > 0.0 || ofMaterials ? constant("mu", law.mu, "-")
+                                        : "# mu = …   a case needs it; not given\n";
+    if (law.kt > 0.0 && law.normal != NormalLaw::hertz) text += constant("kt", law.kt, "N/m");
+    if (law.gt > 0.0 || law.tangential == TangentialLaw::springDashpot)
+      text += constant("gt", law.gt, damping);
+  }
+  return text + resistanceText(law);
+}
+
 /// The law as a [law] table that a case can take, every line that is not TOML a comment.
 /// @param asked  what it was made from, for the head
 std::string lawText(const ContactLaw& law, const std::string& asked) {
@@ -83,15 +117,21 @@ std::string lawText(const ContactLaw& law, const std::string& asked) {
     if (mattersTo(law, option.name) && (always || !asLoaded))
       text += fmt::format("{} = \"{}\"\n", option.name, lawOptionValue(law, option.name));
   }
-  const char* const damping = law.damper == Damper::constant       ? "kg/s"
-                              : law.damper == Damper::viscoelastic ? "s"
-                                                                   : "-";
-  text += stiffnessText(law) + constant("gn", law.gn, damping);
-  if (law.tangential == TangentialLaw::none) return text;
-  text += law.mu > 0.0 ? constant("mu", law.mu, "-") : "# mu = …   a case needs it; not given\n";
-  if (law.kt > 0.0 && law.normal != NormalLaw::hertz) text += constant("kt", law.kt, "N/m");
-  if (law.gt > 0.0 || law.tangential == TangentialLaw::springDashpot)
-    text += constant("gt", law.gt, damping);
+  return text + constantsText(law);
+}
+
+/// The laws of materials that differ from [law], as tables likewise.
+std::string materialsText(const Case& setup) {
+  if (!setup.materials) return {};
+  const std::vector<std::string>& names = setup.materials->names;
+  std::string text;
+  for (std::size_t a = 0; a < names.size(); ++a)
+    for (std::size_t b = a; b < names.size(); ++b) {
+      const ContactLaw& law = setup.materials->laws[a * names.size() + b];
+      if (law == setup.law) continue;
+      text += fmt::format("[[law.pairs]]\nbetween = [\"{}\", \"{}\"]\n", names[a], names[b]) +
+              constantsText(law, true);
+    }
   return text;
 }
 
@@ -155,14 +195,13 @@ std::string decimals4(std::optional<double> value) {
 
 /// What a head-on impact does to each pair under a law that stiffens. @param speed  v_n [m/s]
 /// @throws std::invalid_argument where the pair does not part
-std::string stiffeningPairsText(const ContactLaw& law, const std::vector<NamedPair>& pairs,
-                                double speed) {
-  ContactLaw normal = law;
-  normal.tangential = TangentialLaw::none;
+std::string stiffeningPairsText(const std::vector<NamedPair>& pairs, double speed) {
   double largest = 0.0;
   std::vector<std::vector<std::string>> rows = {
       {"pair", "m12 [kg]", "K", "e_n", "t_c [s]", "t_c/50 [s]", "δ_max/a"}};
-  for (const auto& [name, bodies] : pairs) {
+  for (const auto& [name, bodies, law] : pairs) {
+    ContactLaw normal = law;
+    normal.tangential = TangentialLaw::none;
     const CollisionEnd end = oracleOutcome(normal, bodies, {0.0, speed});
     const ReducedPair two = reduced(bodies);
     const double overlap = *end.maxOverlap / smallerRadius(bodies);
@@ -176,13 +215,15 @@ std::string stiffeningPairsText(const ContactLaw& law, const std::vector<NamedPa
 }
 
 /// One row for each pair, of the linear law.
-std::string pairsText(const ContactLaw& law, const std::vector<NamedPair>& pairs,
-                      std::optional<double> vn) {
+std::string pairsText(const std::vector<NamedPair>& pairs, std::optional<double> vn) {
+  const ContactLaw& first = pairs.front().law;
+  const bool alike = std::ranges::all_of(
+      pairs, [&](const ContactLaw& law) { return law == first; }, &NamedPair::law);
   double largest = 0.0;
   std::vector<std::vector<std::string>> rows = {{"pair", "m12 [kg]", "K", "e_n allow", "e_n cut",
                                                  "t_c [s]", "e_t0", "sliding", "Ψ*", "t_c/50 [s]",
                                                  "δ_max/a"}};
-  for (const auto& [name, bodies] : pairs) {
+  for (const auto& [name, bodies, law] : pairs) {
     const ImpliedImpact is = impliedImpact(law, bodies);
     const ReducedPair two = reduced(bodies);
     const double overlap = vn.value_or(0.0) * is.overlapPerSpeed / smallerRadius(bodies);
@@ -195,10 +236,10 @@ std::string pairsText(const ContactLaw& law, const std::vector<NamedPair>& pairs
   std::vector<int> widths = {12, 11, 8, 9, 9, 11, 9, 9, 9, 11};
   if (vn) widths.push_back(9);
   return fmt::format("\n# implied (normal frozen: slow impacts){}\n",
-                     pairs.size() > 1 && law.gn > 0.0 && law.damper != Damper::critical
+                     pairs.size() > 1 && alike && first.gn > 0.0 && first.damper != Damper::critical
                          ? "; the constants are the same for all pairs, so restitutions are not"
                          : "") +
-         table(widths, rows) + remarks(law, impliedImpact(law, pairs.front().bodies)) +
+         table(widths, rows) + remarks(first, impliedImpact(first, pairs.front().bodies)) +
          softWarning(largest);
 }
 
@@ -388,10 +429,9 @@ std::string fromCase(const CommandLine& line, const Request& request) {
   for (const Case& setup : cases) {
     if (&setup != &cases.front()) text += '\n';
     if (cases.size() > 1) text += fmt::format("# variant {}\n", setup.variant);
-    text += lawText(setup.law, file.filename().string());
-    text += setup.law.stiffens()
-                ? stiffeningPairsText(setup.law, pairsOf(setup), speedOf(setup, request))
-                : pairsText(setup.law, pairsOf(setup), request.vn);
+    text += lawText(setup.law, file.filename().string()) + materialsText(setup);
+    text += setup.law.stiffens() ? stiffeningPairsText(pairsOf(setup), speedOf(setup, request))
+                                 : pairsText(pairsOf(setup), request.vn);
   }
   return text;
 }

@@ -76,12 +76,26 @@ AreaSlope<Real> cohesionArea(const ContactLaw& law, const CollidingPair& pair, R
           pi * (d - product / (square * d)) / Real(2)};
 }
 
-/// k₂(δ_max) = k_n + (k_unload − k_n) min(δ_max/δ*, 1), δ* = k_unload/(k_unload − k_n) φ 2 R₁₂
-/// (Luding 2008, Eqs. 5 and 6) [N/m].
+/// δ* = k_unload/(k_unload − k_n) φ 2 R₁₂, from which on an elasto-plastic contact is elastic on
+/// the line k_unload (δ − φ 2 R₁₂) (Luding 2008, Eq. 7; the branch: Singh, Magnanimo and Luding
+/// 2015, section 2) [m]; 0: there is none.
+template <class Real>
+Real plasticLimit(const ContactLaw& law, Real reducedRadius) {
+  const Real most = Real(law.kUnload) - Real(law.kn);
+  return Real(law.kUnload) / most * Real(law.plasticDepth) * Real(2) * reducedRadius;
+}
+
+/// Whether an overlap is beyond δ*.
+template <class Real>
+bool isBeyondPlasticLimit(const ContactLaw& law, Real reducedRadius, Real overlap) {
+  return law.plasticDepth > 0.0 && overlap >= plasticLimit(law, reducedRadius);
+}
+
+/// k₂(δ_max) = k_n + (k_unload − k_n) min(δ_max/δ*, 1) (Luding 2008, Eq. 8) [N/m].
 template <class Real>
 Real unloadingStiffness(const ContactLaw& law, Real reducedRadius, Real largest) {
   const Real most = Real(law.kUnload) - Real(law.kn);
-  const Real reach = Real(law.kUnload) / most * Real(law.plasticDepth) * Real(2) * reducedRadius;
+  const Real reach = plasticLimit(law, reducedRadius);
   return Real(law.kn) + (largest < reach ? most * largest / reach : most);
 }
 
@@ -90,7 +104,7 @@ Real unloadingStiffness(const ContactLaw& law, Real reducedRadius, Real largest)
 template <class Real>
 Real largestAtPull(const ContactLaw& law, Real reducedRadius, Real overlap) {
   const Real most = Real(law.kUnload) - Real(law.kn), kc = law.kc;
-  const Real reach = Real(law.kUnload) / most * Real(law.plasticDepth) * Real(2) * reducedRadius;
+  const Real reach = plasticLimit(law, reducedRadius);
   if (reach > Real(0)) {
     const Real half = overlap / Real(2);
     const Real root = half + std::sqrt(half * half + (Real(law.kn) + kc) * overlap * reach / most);

@@ -57,11 +57,16 @@ std::optional<double> closedRestitution(const ContactLaw& law, double reducedMas
 }
 
 double elastoPlasticRestitution(const ContactLaw& law, const CollidingPair& pair, double speed) {
-  const double largest = speed * std::sqrt(pair.reducedMass() / law.kn);
-  const double k2 = unloadingStiffness(law, pair.reducedRadius(), largest);
+  const double radius = pair.reducedRadius();
+  const double reached = speed * std::sqrt(pair.reducedMass() / law.kn);  // with k_n alone
+  const bool beyond = isBeyondPlasticLimit(law, radius, reached);
+  const double largest = beyond ? plasticLimit(law, radius) : reached;
+  const double k2 = unloadingStiffness(law, radius, largest);
   const double least = (k2 - law.kn) / (k2 + law.kc);  // δ_min/δ_m
   const double square = law.kn / k2 - law.kc * least * (1.0 - law.kn / k2) / law.kn;
-  return std::sqrt(std::max(square, 0.0));
+  if (!beyond) return std::sqrt(std::max(square, 0.0));
+  const double share = largest / reached;  // squared, of the energy that is spent up to δ*
+  return std::sqrt(std::max(1.0 - share * share * (1.0 - square), 0.0));
 }
 
 double jkrLossFactor(JkrEnd end) {

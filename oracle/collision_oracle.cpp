@@ -264,15 +264,9 @@ void requireContinuousLimit(const ContactLaw& law) {
       how.coulombBound == CoulombBound::signedForce)
     jumps = "coulomb_bound = \"signed\"";
   const bool rollingSpring = law.rolling == RollingLaw::spring;
-  if (rollingSpring && law.gr > 0.0 && how.rollingDashpot == Dashpot::outside) {
-    if (how.rollingReset == SpringReset::springOnly)
-      jumps = "rolling_dashpot = \"outside\" with rolling_reset = \"spring_only\"";
-    else if (how.springUpdate == SpringUpdate::after)
-      jumps = "rolling_dashpot = \"outside\" with spring_update = \"after\"";
-  }
-  if (rollingSpring && how.rollingLoad == RollingLoad::whileCompressed)
-    throw std::invalid_argument(
-        "rolling_load = \"while_compressed\": there is no oracle of a bound that comes and goes");
+  if (rollingSpring && law.gr > 0.0 && how.rollingDashpot == Dashpot::outside &&
+      how.rollingReset == SpringReset::total && how.springUpdate == SpringUpdate::after)
+    jumps = "rolling_dashpot = \"outside\" with spring_update = \"after\"";
   if (jumps)
     throw std::invalid_argument(std::string(jumps) +
                                 " has no limit of small time steps to score against");

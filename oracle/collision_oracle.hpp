@@ -51,7 +51,8 @@ std::optional<double> closedRestitution(const ContactLaw& law, double reducedMas
 /// e_n of an undamped elasto-plastic contact, head on at that speed: with the largest overlap
 /// δ_m = v √(m₁₂/k_n), k₂ of it, δ₀ = (1 − k_n/k₂) δ_m and δ_min = (k₂ − k_n) δ_m/(k₂ + k_c), from
 /// the areas under its lines, e² = k_n/k₂ − k_c δ_min δ₀/(k_n δ_m²); √(k_n/k₂) without a pull
-/// (Walton and Braun 1986). 0: it sticks.
+/// (Walton and Braun 1986). An impact beyond δ* is elastic from there on: it loses what one to δ*
+/// does, e² = 1 − (δ*/δ_m)² (1 − e*²). 0: it sticks.
 double elastoPlasticRestitution(const ContactLaw& law, const CollidingPair& pair, double speed);
 
 /// What a touch under JKR loses, from δ = 0 on approach to where the bond ends, in units of F_po

@@ -29,10 +29,11 @@ class NormalContact {
     const Extended overlap = -gap;
     touches_ = overlap > (touches_ ? -bondRange(law_, radius_) : Extended(0));
     if (!touches_) {
-      largest_ = 0;
+      largest_ = rest_ = 0;
       return 0;
     }
-    const Extended body = bodyForce(overlap), gn = damping(std::max(overlap, Extended(0)));
+    const Extended body = bodyForce(overlap, velocity > 0),
+                   gn = damping(std::max(overlap, Extended(0)));
     const Extended whole = (body - gn * velocity) / (1 + gn * compliance);
     if (!cutsTension_) return whole;
     return std::max(whole, law_.coheres() ? std::min(body, Extended(0)) : Extended(0));
@@ -58,7 +59,8 @@ class NormalContact {
     if (law_.damper == Damper::viscoelastic) return constant * stiffness;
     return constant * std::sqrt(mass_ * std::max(stiffness, Extended(0)));
   }
-  Extended bodyForce(Extended overlap) {
+  /// @param parts  whether the bodies separate
+  Extended bodyForce(Extended overlap, bool parts) {
     switch (law_.cohesion) {
       case CohesionLaw::none:
         break;
@@ -71,25 +73,46 @@ class NormalContact {
         return Extended(1.5L) * pi * Extended(law_.w) * radius_ * (cube - 2) * cube;
       }
       case CohesionLaw::elastoPlastic:
-        return yielding(overlap);
+        return law_.conventions.unloadingStiffness == UnloadingStiffness::lagged &&
+                       law_.plasticDepth > 0.0
+                   ? yieldingLate(overlap, parts)
+                   : yielding(overlap);
     }
     return elastic(overlap);
   }
-  /// min(k_n δ, k₂ (δ − δ₀)), where that is below −k_c δ this, with δ_max drawn back.
+  /// min(k_n δ, k₂ (δ − δ₀)), where that is below −k_c δ this, with δ_max drawn back; beyond δ*
+  /// k₂ (δ − δ₀).
   Extended yielding(Extended overlap) {
     largest_ = std::max(largest_, overlap);
+    if (isBeyondPlasticLimit(law_, radius_, largest_)) largest_ = plasticLimit(law_, radius_);
     const Extended k2 = unloadingStiffness(law_, radius_, largest_), kn = law_.kn;
     const Extended unloading = k2 * overlap - (k2 - kn) * largest_,
                    pull = -Extended(law_.kc) * overlap;
+    if (overlap > largest_) return unloading;
     if (unloading >= pull) return std::min(kn * overlap, unloading);
     largest_ = largestAtPull(law_, radius_, overlap);
     return pull;
   }
 
+  /// @see UnloadingStiffness::lagged; the pull is left where the bodies approach again.
+  Extended yieldingLate(Extended overlap, bool parts) {
+    const Extended k2 = unloadingStiffness(law_, radius_, largest_), kn = law_.kn, kc = law_.kc;
+    const auto remember = [&](Extended largest) {
+      largest_ = largest;
+      rest_ = std::min((1 - kn / k2) * largest, 2 * Extended(law_.plasticDepth) * radius_);
+    };
+    if (overlap > largest_) remember(overlap);
+    const Extended line = k2 * (overlap - rest_);
+    if (line >= kn * overlap && overlap < plasticLimit(law_, radius_)) return kn * overlap;
+    if (line > -kc * overlap || !parts) return line;
+    remember(overlap * (k2 + kc) / (k2 - kn));
+    return -kc * overlap;
+  }
+
   static constexpr Extended pi = std::numbers::pi_v<Extended>;
   const ContactLaw& law_;
   CollidingPair pair_;
-  Extended mass_, radius_ = 0, largest_ = 0;
+  Extended mass_, radius_ = 0, largest_ = 0, rest_ = 0;  ///< δ_max, δ₀
   bool cutsTension_, touches_ = false;
 };
 

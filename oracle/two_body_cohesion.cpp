@@ -120,9 +120,12 @@ double TwoBodyProblem::cohesionGuard(const Kinematics& k) const {
   if (law_.cohesion == CohesionLaw::elastoPlastic) {
     changesSign = phase_.line == Phase::Line::unloading;
     if (changesSign)
-      guard = std::min(k.largest - k.overlap, bodyForce(k) + law_.kc * k.overlap);
+      guard = std::min(onLimitBranch(k.largest) ? guard : k.largest - k.overlap,
+                       bodyForce(k) + law_.kc * k.overlap);
     else
       keeps(phase_.line == Phase::Line::pull, k.normalVelocity);
+    if (phase_.line == Phase::Line::loading && law_.plasticDepth > 0.0)
+      guard = std::min(guard, plasticLimit(law_, reducedRadius_) - k.overlap);
   }
   if (changesSign) keeps(!phase_.pulls, bodyForce(k), std::abs(cohesiveForce(k).rate) * rounding);
   if (law_.conventions.tension == Tension::cut && law_.gn > 0.0)
@@ -132,18 +135,25 @@ double TwoBodyProblem::cohesionGuard(const Kinematics& k) const {
   return guard;
 }
 
-/// Loading ends at the turning point, whose overlap is remembered; unloading at that overlap or at
-/// the limit of the pull; the pull where the bodies turn again.
+/// Whether an overlap, or a δ_max, is δ* or beyond.
+bool TwoBodyProblem::onLimitBranch(double overlap) const {
+  return isBeyondPlasticLimit(law_, reducedRadius_, overlap);
+}
+
+/// Loading ends at the turning point, whose overlap is remembered, or at δ*; unloading at that
+/// overlap unless it is δ*, or at the limit of the pull; the pull where the bodies turn again.
 void TwoBodyProblem::chooseLine(State& s) {
   const Kinematics k = kinematics(s);
   using enum Phase::Line;
-  if (phase_.line == loading && k.normalVelocity >= 0.0) {
-    s.largest = k.overlap;
+  const bool limit = onLimitBranch(k.overlap);
+  if (phase_.line == loading && (k.normalVelocity >= 0.0 || limit)) {
+    s.largest = limit ? plasticLimit(law_, reducedRadius_) : k.overlap;
     phase_.line = unloading;
   } else if (phase_.line == pull && k.normalVelocity <= 0.0) {
     s.largest = largestAtPull(law_, reducedRadius_, k.overlap);
     phase_.line = unloading;
-  } else if (phase_.line == unloading && k.normalVelocity < 0.0 && k.overlap >= k.largest) {
+  } else if (phase_.line == unloading && k.normalVelocity < 0.0 && k.overlap >= k.largest &&
+             !onLimitBranch(k.largest)) {
     phase_.line = loading;
   } else if (phase_.line == unloading && k.normalVelocity > 0.0 &&
              bodyForce(k) <= -law_.kc * k.overlap) {

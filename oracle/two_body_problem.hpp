@@ -146,6 +146,7 @@ class TwoBodyProblem {
   bool neverLoaded() const;
   double stiffest(const Kinematics& k) const;
   double cohesionGuard(const Kinematics& k) const;
+  bool onLimitBranch(double overlap) const;
   void chooseLine(State& s);
   void chooseNormal(State& s, bool anew);
   bool hasNoBound() const;
@@ -153,6 +154,7 @@ class TwoBodyProblem {
   // Rolling
   void setRollingConstants();
   double rollingLoad(const Kinematics& k) const;
+  bool rollingHasNoLimit() const;
   bool hasNoRollingBound() const;
   double rollingBound(const Kinematics& k) const {
     return law_.muR * rollingLength_ * std::max(rollingLoad(k), 0.0);
@@ -163,8 +165,10 @@ class TwoBodyProblem {
   double holdingTorque(const State& s, const Kinematics& k) const;
   double rollingBoundRate(const State& s, const Kinematics& k) const;
   double rollingDashpotRate(const State& s, const Kinematics& k) const;
+  double rollingStretching(const Kinematics& k) const;
   double rollingSlipGuard(const State& s, const Kinematics& k) const;
   double slippedAngle(const Kinematics& k) const;
+  double unseenBound(const Kinematics& k) const;
   double rollingGuard(const State& s, const Kinematics& k) const;
   void chooseRolling(State& s, bool anew);
   void chooseRollingSpring(State& s);

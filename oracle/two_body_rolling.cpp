@@ -28,8 +28,15 @@ double TwoBodyProblem::rollingLoad(const Kinematics& k) const {
   return phase_.loaded ? load(k) : 0.0;
 }
 
+/// RollingLoad::whileCompressed without a load: a spring sticks, whatever it carries.
+bool TwoBodyProblem::rollingHasNoLimit() const {
+  return law_.rolling == RollingLaw::spring && !phase_.loaded &&
+         law_.conventions.rollingLoad == RollingLoad::whileCompressed;
+}
+
 bool TwoBodyProblem::hasNoRollingBound() const {
   const RollingLoad of = law_.conventions.rollingLoad;
+  if (rollingHasNoLimit()) return false;
   if (of == RollingLoad::elastic) return phase_.beyond;
   return neverLoaded() || (!phase_.loaded && of != RollingLoad::magnitude);
 }
@@ -94,25 +101,43 @@ double TwoBodyProblem::slippedAngle(const Kinematics& k) const {
   return -(springOnly ? torque + rollingDamping_ * k.rollingSpin : torque) / rollingStiffness_;
 }
 
+/// By how much the spring's torque grows, towards its side [N m/s].
+double TwoBodyProblem::rollingStretching(const Kinematics& k) const {
+  return -rollingStiffness_ * k.rollingSpin * phase_.rollingSide;
+}
+
 /// As slipGuard(). With the dashpot outside the test and reset beside it the spring carries
-/// |bound − γ|ω_r|| after a slip, less than the bound, and sticks until it has grown to that again.
+/// |bound − γ|ω_r|| after a slip, less than the bound, and sticks until it has grown to that again;
+/// unless that is the bound itself, as where ω_r comes to rest, slip after slip in ever shorter
+/// times.
 double TwoBodyProblem::rollingSlipGuard(const State& s, const Kinematics& k) const {
   const bool outside = law_.conventions.rollingDashpot == Dashpot::outside;
   const bool springOnly = law_.conventions.rollingReset == SpringReset::springOnly;
   const double damping = rollingDamping_ * k.rollingSpin * phase_.rollingSide;
-  if (rollingDamping_ > 0.0 && outside == springOnly) return outside ? damping : -damping;
-  double stretching = -rollingStiffness_ * k.rollingSpin * phase_.rollingSide;
+  const bool negligible = outside && std::abs(damping) <= 1e-8 * rollingBound(k);
+  if (rollingDamping_ > 0.0 && outside == springOnly && !negligible)
+    return outside ? damping : -damping;
+  double stretching = rollingStretching(k);
   if (law_.conventions.springUpdate == SpringUpdate::after) stretching = std::max(stretching, 0.0);
   return stretching + (outside ? 0.0 : rollingDashpotRate(s, k)) - rollingBoundRate(s, k);
 }
 
+/// What a bound may lack where a contact begins: until positions resolve its overlap, it is as that
+/// of an overlap that they do [N m].
+double TwoBodyProblem::unseenBound(const Kinematics& k) const {
+  const double unseen = visibleLength() - k.overlap;
+  if (k.normalVelocity >= 0.0 || unseen <= 0.0) return 0.0;
+  return law_.muR * rollingLength_ * stiffest(k) * unseen;
+}
+
 double TwoBodyProblem::rollingGuard(const State& s, const Kinematics& k) const {
+  if (rollingHasNoLimit()) return 1.0;
   switch (phase_.rolling) {
     case Phase::Rolling::none:
     case Phase::Rolling::damped:
       return 1.0;
     case Phase::Rolling::stick:
-      return rollingBound(k) - std::abs(rollingTested(s, k));
+      return rollingBound(k) + unseenBound(k) - std::abs(rollingTested(s, k));
     case Phase::Rolling::hold:
       return rollingBound(k) - std::abs(holdingTorque(s, k));
     case Phase::Rolling::slip:
@@ -127,6 +152,11 @@ void TwoBodyProblem::chooseRolling(State& s, bool anew) {
   const Kinematics k = kinematics(s);
   if (law_.rolling == RollingLaw::viscous || law_.rolling == RollingLaw::viscousByLoad) {
     phase_.rolling = Phase::Rolling::damped;
+    return;
+  }
+  if (rollingHasNoLimit()) {
+    if (phase_.rolling == Phase::Rolling::slip) s.angle = slippedAngle(k);
+    phase_.rolling = Phase::Rolling::stick;
     return;
   }
   const bool none = hasNoRollingBound(), wasNone = phase_.rolling == Phase::Rolling::none;
@@ -171,11 +201,20 @@ void TwoBodyProblem::chooseRollingSpring(State& s) {
   phase_.rolling = Phase::Rolling::stick;
   const double tested = rollingTested(s, k);
   if (std::abs(tested) < rollingBound(k)) return;
-  phase_.rolling = Phase::Rolling::slip;
   phase_.rollingSide = sign(tested);
+  if (tested == 0.0) {  // relaxed, at a bound of 0: whichever of both grows faster
+    phase_.rollingSide = -sign(k.rollingSpin);
+    if (rollingStretching(k) <= rollingBoundRate(s, k)) return;
+  }
+  phase_.rolling = Phase::Rolling::slip;
   if (rollingSlipGuard(s, k) > 0.0) return;
   s.angle = slippedAngle(k);
   phase_.rolling = Phase::Rolling::stick;
+  // A dashpot beyond twice the bound leaves the spring beyond it on the other side: it slips there.
+  const double left = rollingTested(s, k);
+  if (std::abs(left) <= rollingBound(k) || sign(left) == phase_.rollingSide) return;
+  phase_.rolling = Phase::Rolling::slip;
+  phase_.rollingSide = sign(left);
 }
 
 }  // namespace crossgrain::inline oracle

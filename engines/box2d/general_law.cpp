@@ -98,13 +98,15 @@ double tangentialStiffness(const SoftLaw& law, const PairMotion& motion) {
 }
 
 /// Unloading by k₂(δ_max) = k_n + (k₂max − k_n) min(δ_max/δ*, 1) to δ₀ = (1 − k_n/k₂) δ_max, and on
-/// −k_c δ, where δ_max falls so that the line of unloading meets the present point (Luding 2008).
+/// −k_c δ, where δ_max falls so that the line of unloading meets the present point; beyond δ*
+/// loading is elastic on the line of δ_max = δ* (Luding 2008; Singh, Magnanimo and Luding 2015).
 double plasticForce(const SoftLaw& law, const PairMotion& motion, double& largest) {
   const double depth = std::max(motion.overlap, 0.0), more = law.kUnload - law.kn;
   const double full = law.kUnload / more * law.plasticDepth * 2.0 * motion.radius();  // δ*
   const auto rise = [&](double m) { return m < full ? more * m / full : more; };  // k₂ − k_n
-  largest = std::max(largest, depth);
+  largest = std::max(largest, full > 0.0 ? std::min(depth, full) : depth);
   const double unloading = (law.kn + rise(largest)) * depth - rise(largest) * largest;
+  if (depth > largest) return unloading;
   if (unloading >= -law.kc * depth) return std::min(unloading, law.kn * depth);
   // (k_n + r(m) + k_c) δ = r(m) m: of the limit's r, else a quadratic in m with r = more m/full.
   largest = (law.kUnload + law.kc) * depth / more;

@@ -110,24 +110,42 @@ struct PlasticContact {
   Real stiffness;  ///< k₂ of unloading [N/m]
 };
 
-/// δ_max grows with the overlap, and falls where the limit of the pull is reached, so that the line
-/// of unloading passes through (δ, −k_c δ) (Luding 2008, Eqs. 4 to 7):
-///   f = k_n δ where k₂ (δ − δ₀) >= k_n δ, −k_c δ where it is below that, else k₂ (δ − δ₀),
-///   δ₀ = (1 − k_n/k₂) δ_max, k₂ = k_n + (k₂max − k_n) min(δ_max/δ*, 1),
-///   δ* = k₂max/(k₂max − k_n) φ 2 R₁₂.
+/// k₂ = k_n + (k₂max − k_n) min(δ_max/δ*, 1), δ* = k₂max/(k₂max − k_n) φ 2 R₁₂ (Luding 2008, Eqs. 7
+/// and 8). φ = 0: k₂max, with no δ*.
+template <class Real>
+struct PlasticConstants {
+  Real kn, most;  ///< k_n, k₂max − k_n [N/m]
+  Real depth;     ///< δ* · most [N]; 0: there is no δ*
+
+  template <class L>
+  GRAIN_INLINE PlasticConstants(const L& law, Real radius)
+      : kn(law.kn), most(law.k2 - law.kn), depth(Real(2) * law.plasticDepth * radius * law.k2) {}
+  GRAIN_INLINE Real stiffness(Real largest) const {
+    return kn + (largest * most < depth ? most * (largest * most / depth) : most);
+  }
+  /// Whether an overlap is beyond δ*, on the limit branch.
+  GRAIN_INLINE bool isBeyond(Real overlap) const {
+    return depth > Real(0) && overlap * most > depth;
+  }
+};
+
+/// δ_max grows with the overlap up to δ*, beyond which the contact is elastic on its limit branch,
+/// k₂max (δ − δ₀) with the δ₀ of δ*; it falls where the limit of the pull is reached, so that the
+/// line of unloading passes through (δ, −k_c δ) (Luding 2008, Eqs. 6 to 8; the limit branch: Singh,
+/// Magnanimo and Luding 2015, section 2, and every implementation that was read):
+///   f = k_n δ where k₂ (δ − δ₀) >= k_n δ and δ <= δ*, −k_c δ where it is below that, else
+///   k₂ (δ − δ₀), δ₀ = (1 − k_n/k₂) δ_max.
 /// With k₂ = k_n + g δ_max, which changes with δ_max, the line through (δ, −k_c δ) is that of the
 /// root of g δ_max² − g δ δ_max − (k_n + k_c) δ = 0.
 template <class L, class Real>
 GRAIN_INLINE PlasticContact<Real> plasticContact(const L& law, const ContactMotion<Real>& contact,
                                                  Real& largest) {
   const Real overlap = larger(contact.overlap, Real(0));
+  const PlasticConstants<Real> plastic(law, contact.radius);
+  const Real most = plastic.most, depth = plastic.depth;
   largest = larger(largest, overlap);
-  const Real most = law.k2 - law.kn;
-  const Real depth = Real(2) * law.plasticDepth * contact.radius * law.k2;  // δ* · most
-  const auto stiffness = [&](Real m) {
-    return law.kn + (m * most < depth ? most * (m * most / depth) : most);
-  };
-  const Real k2 = stiffness(largest);
+  if (plastic.isBeyond(largest)) largest = depth / most;
+  const Real k2 = plastic.stiffness(largest);
   const Real unloading = k2 * overlap - (k2 - law.kn) * largest;
   const Real loading = law.kn * overlap, pull = -law.kc * overlap;
   if (unloading < pull) {
@@ -139,9 +157,36 @@ GRAIN_INLINE PlasticContact<Real> plasticContact(const L& law, const ContactMoti
             : Real(0);
     const bool grows = growth > Real(0) && root * most < depth;
     largest = grows ? root : (law.k2 + law.kc) * overlap / most;
-    return {pull, stiffness(largest)};
+    return {pull, plastic.stiffness(largest)};
   }
-  return {smaller(unloading, loading), k2};
+  return {overlap > largest ? unloading : smaller(unloading, loading), k2};
+}
+
+/// UnloadingStiffness::lagged, step by step as YADE's Law2_ScGeom_LudingPhys_Basic: k₂ is that of
+/// the δ_max that the step finds, `rest` the δ₀ of both when δ_max changed; the pull has its limit
+/// only while the bodies part. The first evaluation of all has no step before: it loads by k_n,
+/// with the δ₀ of what it finds.
+template <class L, class Real>
+GRAIN_INLINE Real laggedPlasticForce(const L& law, const ContactMotion<Real>& contact,
+                                     Real& largest, Real& rest) {
+  const Real overlap = larger(contact.overlap, Real(0));
+  const PlasticConstants<Real> plastic(law, contact.radius);
+  if (!(plastic.depth > Real(0))) return plasticContact(law, contact, largest).force;
+  const Real limit = Real(2) * law.plasticDepth * contact.radius;  // δ₀ of δ*
+  const bool first = !(law.halfStep > Real(0));
+  const Real k2 = plastic.stiffness(first ? larger(largest, overlap) : largest);
+  const auto remember = [&](Real newLargest) {
+    largest = newLargest;
+    rest = smaller((Real(1) - law.kn / k2) * newLargest, limit);
+  };
+  if (overlap > largest) remember(overlap);
+  const Real unloading = k2 * (overlap - rest);
+  const Real loading = law.kn * overlap, pull = -law.kc * overlap;
+  if (first) return loading;
+  if (unloading >= loading) return overlap * plastic.most < plastic.depth ? loading : unloading;
+  if (unloading > pull || !(contact.normalVelocity > Real(0))) return unloading;
+  remember(overlap * (k2 + law.kc) / (k2 - law.kn));
+  return pull;
 }
 
 /// The normal force without its dashpot. @param memory  the largest overlap of an elastoPlastic

@@ -96,11 +96,13 @@ GRAIN_INLINE ContactForce<Real> springForce(const L& law, const ContactMotion<Re
 }
 
 /// The force on i. `spring` is ξ, kept as long as the contact lasts, and so is `memory`, which only
-/// a law that remembers() looks at: > 0 while JKR's bond holds, or the largest overlap.
+/// a law that remembers() looks at: > 0 while JKR's bond holds, or the largest overlap. `rest` is
+/// δ₀ of one that remembersRest().
 template <class L, class Real>
 GRAIN_INLINE ContactForce<Real> contactForce(const L& law, const ContactMotion<Real>& contact,
-                                             Real& spring, Real& memory) {
-  const Real body = bodyForce(law, contact, memory);
+                                             Real& spring, Real& memory, Real& rest) {
+  const Real body = remembersRest(law) ? laggedPlasticForce(law, contact, memory, rest)
+                                       : bodyForce(law, contact, memory);
   const Real normal = normalForce(law, contact, body);
   const Real load = boundLoad(law, contact, normal, body);
   if (law.tangential == Tangential::none) return {normal, Real(0), Real(0), load};

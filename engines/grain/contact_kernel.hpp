@@ -57,7 +57,7 @@ GRAIN_INLINE void copy(const T* from, std::size_t count, T* to) {
 /// Velocities are gathered only for a law that has a use for them.
 template <class L>
 GRAIN_INLINE bool seesVelocities(const L& law) {
-  return law.normalDamping || law.tangential != Tangential::none;
+  return law.normalDamping || law.tangential != Tangential::none || remembersRest(law);
 }
 
 template <class L, class Real>
@@ -133,7 +133,9 @@ GRAIN_INLINE std::size_t applyLaw(const L& common, const Vec<Real>* shift,
     if (law.cohesion == Cohesion::jkr)
       touches = memory = isBonded(law, motion.overlap, motion.radius, memory);
     if (law.damper == Damper::critical) motion.mass = Real(1) / b.inverseMass[p];
-    if (law.normalDamping) motion.normalVelocity = b.velocity[p].x * nx + b.velocity[p].y * ny;
+    Real rest = remembersRest(law) ? kept.rest[p] : Real(0);
+    if (law.normalDamping || remembersRest(law))
+      motion.normalVelocity = b.velocity[p].x * nx + b.velocity[p].y * ny;
     if (seesCompliances(law)) motion.normalCompliance = law.halfStep * b.inverseMass[p];
     Real leverI = 0, leverJ = 0, armI = 0, armJ = 0;  // of the force, of the velocity
     if (friction) motion.tangentialVelocity = b.velocity[p].y * nx - b.velocity[p].x * ny;
@@ -152,11 +154,12 @@ GRAIN_INLINE std::size_t applyLaw(const L& common, const Vec<Real>* shift,
     }
 
     Real spring = history ? kept.spring[p] : Real(0);
-    const ContactForce<Real> force = contactForce(law, motion, spring, memory);
+    const ContactForce<Real> force = contactForce(law, motion, spring, memory, rest);
     const Real fn = touches * force.normal;
     const Real ft = touches * force.tangential;
     if (history) kept.spring[p] = touches * spring;
     if (remembers(law)) kept.memory[p] = touches * memory;
+    if (remembersRest(law)) kept.rest[p] = touches * rest;
     b.force[p].x = friction ? fn * nx - ft * ny : fn * nx;
     b.force[p].y = friction ? fn * ny + ft * nx : fn * ny;
     if (law.rotation) {

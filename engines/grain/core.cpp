@@ -132,7 +132,7 @@ Core<Real>::Core(Setup setup)
                                          : std::numeric_limits<double>::infinity()),
       lists_(moving_, partCount(setup),
              {setup.law.springs(), setup.rotation && setup.law.rollingSprings(),
-              setup.law.remembers()},
+              setup.law.remembers(), setup.law.remembersRest()},
              Skin(setup.skin, smallestRadius(setup.disks)), maxOverlap_,
              adhesionRange<Real>(setup)),
       team_(partCount(setup)),
@@ -190,7 +190,7 @@ void Core<Real>::buildWalls(std::vector<Wall> walls) {
     wallBegin_.push_back(next);
     next += wall.diskX.size();
     for (std::size_t member = 0; member < wall.planes.size(); ++member)
-      placedPlanes_.push_back({walls_.size(), member, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}});
+      placedPlanes_.push_back({walls_.size(), member, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}});
     walls_.emplace_back(std::move(wall));
   }
   wallBegin_.push_back(next);
@@ -200,6 +200,7 @@ void Core<Real>::buildWalls(std::vector<Wall> walls) {
     if (lists_.springs().sliding) placed.spring.assign(moving_, Real(0));
     if (lists_.springs().rolling) placed.angle.assign(moving_, Real(0));
     if (lists_.springs().memory) placed.memory.assign(moving_, Real(0));
+    if (lists_.springs().rest) placed.rest.assign(moving_, Real(0));
   }
 }
 
@@ -348,7 +349,8 @@ PlaneView<Real> Core<Real>::planeView(PlacedPlane& placed, bool record) {
       origin_.empty() ? nullptr : origin_.data(),
       {placed.spring.empty() ? nullptr : placed.spring.data(),
        placed.angle.empty() ? nullptr : placed.angle.data(),
-       placed.memory.empty() ? nullptr : placed.memory.data()},
+       placed.memory.empty() ? nullptr : placed.memory.data(),
+       placed.rest.empty() ? nullptr : placed.rest.data()},
       record ? placed.overlap.data() : nullptr,
       record ? placed.normal.data() : nullptr,
       record ? placed.tangential.data() : nullptr,

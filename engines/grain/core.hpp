@@ -72,7 +72,8 @@ class Core {
     std::size_t wall, member;
     Plane plane;  ///< as it stands now
     // By the disks' places.
-    Array<Real> spring, angle, memory, overlap, normal, tangential, sliding, rolling, rollingSlides;
+    Array<Real> spring, angle, memory, rest, overlap, normal, tangential, sliding, rolling,
+        rollingSlides;
   };
 
   // The step.
@@ -323,6 +324,7 @@ void Core<Real>::forDiskArrays(Visit&& visit) {
     visit(placed.spring);
     visit(placed.angle);
     visit(placed.memory);
+    visit(placed.rest);
   }
 }
 

@@ -45,6 +45,7 @@ void add(Fnv1a& to, const Law& law) {
   to.addAll(static_cast<int>(law.cohesion), law.kc, law.w, law.k2, law.plasticDepth,
             static_cast<int>(cohesion.area), static_cast<int>(cohesion.end),
             static_cast<int>(cohesion.load));
+  if (law.remembersRest()) to.addAll(static_cast<int>(cohesion.unloading));
 }
 
 void add(Fnv1a& to, const Wall& wall) {

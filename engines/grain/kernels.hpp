@@ -44,11 +44,11 @@ enum class AddTo { both, first, none };
 template <class Real>
 struct PairMemory {
   Real *spring, *angle;  ///< ξ, θ
-  Real* memory;
+  Real *memory, *rest;
 
   GRAIN_INLINE PairMemory from(std::size_t begin) const {
     const auto at = [begin](Real* all) { return all == nullptr ? nullptr : all + begin; };
-    return {at(spring), at(angle), at(memory)};
+    return {at(spring), at(angle), at(memory), at(rest)};
   }
 };
 

@@ -25,7 +25,7 @@ enum class Cohesion {
   /// adhesion.hpp): contacts last beyond their geometric end. F_po = 3/2 π w R₁₂.
   jkr,
   /// Piecewise linear, with memory: loading by k_n, unloading by k₂(δ_max) > k_n, pull up to k_c δ
-  /// (Walton and Braun 1986, k_c = 0; Luding 2008, Eqs. 4 to 7).
+  /// (Walton and Braun 1986, k_c = 0; Luding 2008, Eqs. 6 to 8; adhesion.hpp).
   elastoPlastic
 };
 /// A: the lens of two spheres at that distance, π (a² − h²) of a sphere at a plane; 2π R₁₂ δ, to
@@ -44,10 +44,15 @@ enum class CohesionLoad {
   netWithoutDashpot
 };
 
+/// k₂ of an elastoPlastic contact: of δ_max in this step; or of that in the step before, and δ₀ as
+/// it was worked out when δ_max changed last (YADE; laggedPlasticContact()).
+enum class UnloadingStiffness { current, lagged };
+
 struct CohesionConventions {
   CohesionArea area = CohesionArea::lens;
   JkrEnd end = JkrEnd::largestPull;
   CohesionLoad load = CohesionLoad::withoutPull;
+  UnloadingStiffness unloading = UnloadingStiffness::current;
 
   bool operator==(const CohesionConventions&) const = default;
 };
@@ -141,8 +146,8 @@ struct Law {
   double kc = 0.0;  ///< area: [Pa]; elastoPlastic: the stiffness of the pull [N/m]
   double w = 0.0;   ///< dmt, jkr [J/m²]
   double k2 = 0.0;  ///< elastoPlastic: the largest stiffness of unloading [N/m]
-  /// elastoPlastic: φ, at which δ_max/(2 R₁₂) the limit is reached, in terms of δ₀ [-]; 0: k₂ from
-  /// the beginning
+  /// elastoPlastic: φ, the largest δ₀/(2 R₁₂), from which on it is elastic with k₂ [-]; 0: k₂ from
+  /// the beginning, and no largest
   double plasticDepth = 0.0;
   CohesionConventions cohesionConventions;
   Rolling rolling = Rolling::none;
@@ -154,6 +159,11 @@ struct Law {
   /// Whether contacts remember more than their springs: a bond, or their largest overlap.
   bool remembers() const {
     return cohesion == Cohesion::jkr || cohesion == Cohesion::elastoPlastic;
+  }
+  /// Whether they remember δ₀ besides.
+  bool remembersRest() const {
+    return cohesion == Cohesion::elastoPlastic &&
+           cohesionConventions.unloading == UnloadingStiffness::lagged;
   }
   /// Whether any torque acts on disks.
   bool turnsDisks() const { return friction() || rolling != Rolling::none; }

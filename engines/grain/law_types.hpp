@@ -181,6 +181,13 @@ GRAIN_INLINE constexpr bool remembers(const L& law) {
   return law.cohesion == Cohesion::jkr || law.cohesion == Cohesion::elastoPlastic;
 }
 
+/// @see Law::remembersRest
+template <class L>
+GRAIN_INLINE constexpr bool remembersRest(const L& law) {
+  return law.cohesion == Cohesion::elastoPlastic &&
+         law.cohesionConventions.unloading == UnloadingStiffness::lagged;
+}
+
 /// Whether a law asks for the inertia of RollingMotion.
 template <class L>
 GRAIN_INLINE constexpr bool seesRollingInertia(const L& law) {

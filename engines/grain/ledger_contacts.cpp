@@ -236,7 +236,11 @@ void LedgerObserver<Real>::accountForces(const Contact& contact, const ContactKi
   const ContactMotion<Real> motion = core_.geometryOf(contact);
   const GeneralLaw<Real>& law = core_.lawOf(contact);
   Real memory = static_cast<Real>(contact.memory);
-  const auto body = static_cast<double>(bodyForce(law, motion, memory));
+  // A lagging k₂ is that of no δ_max that the contact still knows: undamped, the force itself is
+  // it.
+  const bool lags = remembersRest(law) && !law.normalDamping;
+  const auto body =
+      lags ? contact.normalForce : static_cast<double>(bodyForce(law, motion, memory));
   const auto energy = static_cast<double>(bodyEnergy(law, motion, memory));
   sums_.ledger.elasticNormal += energy;
   sums_.lose(&EnergyLedger::lostNormalDamping, times(contact.normalForce - body, touch.normal));

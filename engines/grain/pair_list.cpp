@@ -32,6 +32,7 @@ void forMemories(PairList<Real>& list, PairSprings springs, Visit&& visit) {
   if (springs.sliding) visit(list.spring, list.farSpring, &KeptSpring::spring);
   if (springs.rolling) visit(list.angle, list.farAngle, &KeptSpring::angle);
   if (springs.memory) visit(list.memory, list.farMemory, &KeptSpring::memory);
+  if (springs.rest) visit(list.rest, list.farRest, &KeptSpring::rest);
 }
 
 template <class Real>
@@ -140,7 +141,7 @@ PairView<Real> PairList<Real>::view(AddTo addTo, bool record, bool rotation, boo
           j.data(),
           shift.data(),
           {spring.empty() ? nullptr : spring.data(), angle.empty() ? nullptr : angle.data(),
-           memory.empty() ? nullptr : memory.data()},
+           memory.empty() ? nullptr : memory.data(), rest.empty() ? nullptr : rest.data()},
           record ? normal.data() : nullptr,
           record ? tangential.data() : nullptr,
           record ? sliding.data() : nullptr,

@@ -24,9 +24,9 @@ struct TooDeep {
 
 /// What pairs remember: springs of sliding and of rolling, and what their law does besides.
 struct PairSprings {
-  bool sliding = false, rolling = false, memory = false;
+  bool sliding = false, rolling = false, memory = false, rest = false;
 
-  bool any() const { return sliding || rolling || memory; }
+  bool any() const { return sliding || rolling || memory; }  // no rest without a memory
 };
 
 /// The same on its way from one list to the next.
@@ -35,6 +35,7 @@ struct KeptSpring {
   double spring;        ///< ξ
   double angle;         ///< θ
   double memory = 0.0;  ///< as of contactForce()
+  double rest = 0.0;    ///< likewise
 };
 
 /// ξ does not change with the order of the two disks: n and s turn round, v_t as well; but θ of j
@@ -50,11 +51,11 @@ inline void swapDisks(KeptSpring& kept) {
 template <class Real>
 struct PairList {
   std::vector<std::int32_t> farI, farJ;
-  std::vector<Real> farSpring, farAngle, farMemory;
+  std::vector<Real> farSpring, farAngle, farMemory, farRest;
   std::size_t count = 0;  ///< near pairs; the arrays below have room for all far ones
   std::vector<std::int32_t> i, j;
   std::vector<std::uint32_t> far;  ///< a near pair's place among the far ones
-  Array<Real> spring, angle, memory;
+  Array<Real> spring, angle, memory, rest;
   Array<Vec<Real>> shift;  ///< origin of i − origin of j, of local coordinates
   // The last step's results, where asked for.
   Array<Real> normal, tangential, sliding, rolling, rollingSlides;

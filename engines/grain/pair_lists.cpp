@@ -87,9 +87,12 @@ std::vector<KeptSpring> PairLists<Real>::stretched() const {
   for (const auto& part : lists_)
     for (const PairList<Real>& list : part)
       for (std::size_t k = 0; k < list.count; ++k) {
-        const KeptSpring pair{list.i[k], list.j[k], springs_.sliding ? list.spring[k] : Real(0),
+        const KeptSpring pair{list.i[k],
+                              list.j[k],
+                              springs_.sliding ? list.spring[k] : Real(0),
                               springs_.rolling ? list.angle[k] : Real(0),
-                              springs_.memory ? list.memory[k] : Real(0)};
+                              springs_.memory ? list.memory[k] : Real(0),
+                              springs_.rest ? list.rest[k] : Real(0)};
         if (pair.spring != 0.0 || pair.angle != 0.0 || pair.memory != 0.0) found.push_back(pair);
       }
   return found;

@@ -41,6 +41,7 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
     Real spring = plane.kept.spring == nullptr ? Real(0) : plane.kept.spring[i];
     Real angle = common.rolling == Rolling::spring ? plane.kept.angle[i] : Real(0);
     Real memory = remembers(common) ? plane.kept.memory[i] : Real(0);
+    Real rest = remembersRest(common) ? plane.kept.rest[i] : Real(0);
     bool touches = overlap > Real(0);
     if (common.cohesion == Cohesion::jkr) {
       memory = isBonded(lawAtPlane(common, disks, plane, i), overlap, disks.radius[i], memory);
@@ -70,7 +71,7 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
         if (law.rotation)
           motion.tangentialCompliance += law.halfStep * arm * lever * disks.inverseInertia[i];
       }
-      force = contactForce(law, motion, spring, memory);
+      force = contactForce(law, motion, spring, memory, rest);
       disks.force[i].x += force.normal * plane.nx - force.tangential * plane.ny;
       disks.force[i].y += force.normal * plane.ny + force.tangential * plane.nx;
       if (law.rotation) disks.torque[i] -= lever * force.tangential;
@@ -86,11 +87,12 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
       }
       ++touching;
     } else {
-      spring = angle = memory = Real(0);
+      spring = angle = memory = rest = Real(0);
     }
     if (plane.kept.spring != nullptr) plane.kept.spring[i] = spring;
     if (common.rolling == Rolling::spring) plane.kept.angle[i] = angle;
     if (remembers(common)) plane.kept.memory[i] = memory;
+    if (remembersRest(common)) plane.kept.rest[i] = rest;
     if (plane.normal != nullptr) {
       plane.overlap[i] = overlap;
       plane.normal[i] = force.normal;

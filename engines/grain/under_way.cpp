@@ -161,7 +161,7 @@ void Core<Real>::setSprings(const PairMap<Stretches>& springs) {
   if (!lists_.springs().any()) return;
   std::vector<KeptSpring> pairs;
   for (PlacedPlane& placed : placedPlanes_)
-    for (Array<Real>* array : {&placed.spring, &placed.angle, &placed.memory})
+    for (Array<Real>* array : {&placed.spring, &placed.angle, &placed.memory, &placed.rest})
       std::ranges::fill(*array, Real(0));
   for (const auto& [numbers, stretches] : springs) {
     const auto i = static_cast<std::int32_t>(placeOf(numbers.first));

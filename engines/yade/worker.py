@@ -82,6 +82,7 @@ class Yade:
                 "rolling_load": ["while_compressed"],
                 "cohesion": ["dmt", "elasto_plastic"],
                 "cohesion_load": ["magnitude_plus_pull_off"],
+                "unloading_stiffness": ["lagged"],
             },
             "plane_motions": ["fixed", "translating", "oscillating"],
             "plane_normals": "axis",

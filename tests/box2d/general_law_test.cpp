@@ -111,6 +111,9 @@ TEST(Box2dAdhesion, ElastoPlasticImpact_LosesTheLoopsArea) {
   law.plasticDepth = 0.01;
   const double deepest = 0.1 / std::sqrt(law.kn), full = 4.0 / 3.0 * 0.01 * 0.5;
   EXPECT_NEAR(restitution(law, 0.1), std::sqrt(law.kn / (law.kn + 3e4 * deepest / full)), 1e-3);
+  // Beyond δ* it is elastic: of the energy it loses what one to δ* does, ¾ of ½ k₁ δ*², δ* = δ_m/5.
+  law.plasticDepth = 3e-4;
+  EXPECT_NEAR(restitution(law, 0.1), std::sqrt(1.0 - 0.75 / 25.0), 1e-3);
 }
 
 TEST(Box2dRolling, Torques_ByHand) {

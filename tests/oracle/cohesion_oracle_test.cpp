@@ -141,7 +141,7 @@ TEST(CohesionOracle, ElastoPlastic_HasTheRestitutionOfItsAreas) {
   for (const double kc : {0.0, 500.0, 2e3})
     for (const double depth : {0.0, 0.05}) {
       const ContactLaw law = elastoPlastic(kc, depth);
-      for (const double speed : {0.2, 1.0, 4.0}) {
+      for (const double speed : {0.2, 1.0, 4.0, 8.0}) {  // δ* = 1/30 is reached at 4.7
         const CollisionEnd out = oracleOutcome(law, spheres(), {0.0, speed});
         const double expected = elastoPlasticRestitution(law, spheres(), speed);
         ASSERT_EQ(out.parted, expected > 0.0) << kc << " " << depth << " " << speed;
@@ -152,6 +152,20 @@ TEST(CohesionOracle, ElastoPlastic_HasTheRestitutionOfItsAreas) {
       }
     }
   EXPECT_DOUBLE_EQ(closedRestitution(elastoPlastic(0.0), 1.0).value(), 0.5);
+}
+
+/// Beyond δ* an impact is elastic: the energies at its deepest point are ½ k₁ δ*² and that under
+/// the line k₂max (δ − φ 2 R₁₂), φ 2 R₁₂ = 0.025, which begins at k₁ δ*.
+TEST(CohesionOracle, ElastoPlastic_BeyondItsLimit_IsElastic) {
+  const ContactLaw law = elastoPlastic(0.0, 0.05);
+  const double limit = 0.1 / 3.0, speed = 8.0;
+  const CollisionEnd out = oracleOutcome(law, spheres(), {0.0, speed});
+  const double force = law.kUnload * (*out.maxOverlap - 0.025);
+  const double work = 0.5 * law.kn * limit * limit +
+                      0.5 * (force * force - std::pow(law.kn * limit, 2)) / law.kUnload;
+  EXPECT_NEAR(work, out.energyBefore, 1e-8 * out.energyBefore);
+  // What it loses is the area between k₁ δ and k₂max (δ − 0.025) up to δ*.
+  EXPECT_NEAR(out.lost->plastic.value(), 0.5 * law.kn * limit * 0.025, 1e-8 * out.energyBefore);
 }
 
 /// k_c = 2e4: e² = 1/4 − 2 (½)(¾) < 0.
@@ -220,7 +234,7 @@ ContactLaw randomCohesion(Draw& draw, const CollidingPair& pair) {
                                TangentialLaw::springDashpot});
   if (law.tangential == TangentialLaw::viscous) law.gt = 0.3;
   law.kUnload = law.kn * draw.uniform(1.5, 6.0);
-  law.plasticDepth = draw.oneOf({0.0, 0.02});
+  law.plasticDepth = draw.oneOf({0.0, 0.02, 0.0, 1e-3});
   how.tension = draw.oneOf({Tension::allow, Tension::cut});
   how.springUpdate = SpringUpdate::midpoint;
   how.springReset = SpringReset::springOnly;

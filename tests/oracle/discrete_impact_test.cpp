@@ -171,9 +171,13 @@ TEST(DiscreteImpact, ARigidLawHasNone) {
 /// impact itself: e_n of the oracle in continuous time, at second order.
 TEST(DiscreteImpact, OfCohesion_TendsToTheImpactItself) {
   const CollidingPair pair{{0.5, 0.5}, {1.0, 1.0}, {0.1, 0.1}};
-  for (const CohesionLaw cohesion :
-       {CohesionLaw::area, CohesionLaw::dmt, CohesionLaw::jkr, CohesionLaw::elastoPlastic}) {
+  using enum UnloadingStiffness;
+  for (const auto& [cohesion, unloading] :
+       {std::pair(CohesionLaw::area, current), std::pair(CohesionLaw::dmt, current),
+        std::pair(CohesionLaw::jkr, current), std::pair(CohesionLaw::elastoPlastic, current),
+        std::pair(CohesionLaw::elastoPlastic, lagged)}) {
     ContactLaw law = unitLaw();
+    law.conventions.unloadingStiffness = unloading;
     law.normal = cohesion == CohesionLaw::jkr ? NormalLaw::hertz : NormalLaw::linear;
     law.cohesion = cohesion;
     law.kn = cohesion == CohesionLaw::jkr ? 4.0 / 3.0 * 5e4 : 1e4;

@@ -181,11 +181,14 @@ class PlainIntegration {
       case CohesionLaw::elastoPlastic:
         break;
     }
-    return std::max(std::min(elastic, unloading(d, largest)), -law_.kc * d);
+    const double line = unloading(d, largest);
+    const bool beyond = law_.plasticDepth > 0.0 && d > plasticReach();
+    return std::max(beyond ? line : std::min(elastic, line), -law_.kc * d);
   }
-  /// δ_max, at the limit of the pull by bisection.
+  /// δ_max, at most δ*; at the limit of the pull by bisection.
   double remembered(double d, double largest) const {
     largest = std::max(largest, d);
+    if (law_.plasticDepth > 0.0) largest = std::min(largest, plasticReach());
     if (unloading(d, largest) >= -law_.kc * d) return largest;
     double low = d, high = largest;
     for (int k = 0; k < 60; ++k) {
@@ -264,7 +267,8 @@ class PlainIntegration {
     turns_ = c.spin == 0.0 ? 0.0 : -std::copysign(1.0, c.spin);
     if (!isSpring()) return;
     if (!touches_) s[7] = 0.0;
-    rolls_ = touches_ && std::abs(rollingTested(s, c)) > c.rollingBound;
+    const bool limited = how_.rollingLoad != RollingLoad::whileCompressed || c.rollingBound > 0.0;
+    rolls_ = touches_ && limited && std::abs(rollingTested(s, c)) > c.rollingBound;
     if (!rolls_) return;
     turns_ = std::copysign(1.0, rollingTested(s, c));
     const bool springOnly = how_.rollingReset == SpringReset::springOnly;

@@ -151,6 +151,46 @@ TEST(RollingOracle, OutsideAfterTotal_HasNoLimitAndIsRefused) {
   EXPECT_NO_THROW(oracleOutcome(law, disk(), {1.0, speed, Approach::firstSpin}));
 }
 
+/// A bound that outruns the spring from the first touch on, where both are 0: it does not slip and
+/// turns as a damped oscillator, J ω′ = −K θ − C ω, over the contact.
+TEST(RollingOracle, OutsideWithSpringOnly_BeginsRelaxed) {
+  ContactLaw law = rolling(RollingLaw::spring);
+  law.kr = 1e3;
+  law.gr = 0.1;
+  law.muR = 1e9;
+  law.conventions.rollingDashpot = Dashpot::outside;
+  law.conventions.rollingReset = SpringReset::springOnly;
+  const CollidingPair pair = disk();
+  const double eta = 0.5 * 0.1 * 25e-6 / pair.inertia[0];
+  const double omega = std::sqrt(1e3 * 25e-6 / pair.inertia[0] - eta * eta);
+  const double turn = omega * contact, before = -speed / 5e-3;
+  for (const RollingLoad load :
+       {RollingLoad::compression, RollingLoad::elastic, RollingLoad::whileCompressed}) {
+    law.conventions.rollingLoad = load;
+    const CollisionEnd end = oracleOutcome(law, pair, {1.0, speed, Approach::firstSpin});
+    EXPECT_NEAR(end.spin[0],
+                before * std::exp(-eta * contact) * (std::cos(turn) - eta / omega * std::sin(turn)),
+                1e-7 * std::abs(before));
+  }
+}
+
+/// A spring that outruns its bound from the first touch on is reset to −γ_r L² ω, which is beyond
+/// the bound on the other side and stays there: the law turns the disk on, with all of the bound,
+/// µ_r L 2 m v/J in all.
+TEST(RollingOracle, OutsideWithSpringOnly_SpringFasterThanItsBound_TurnsTheDiskOn) {
+  ContactLaw law = rolling(RollingLaw::spring);
+  law.kr = 4e5;
+  law.muR = 0.02;
+  law.conventions.rollingDashpot = Dashpot::outside;
+  law.conventions.rollingReset = SpringReset::springOnly;
+  for (const double gr : {0.05, 0.5}) {
+    law.gr = gr;
+    const CollisionEnd end = oracleOutcome(law, disk(), {2.0, speed, Approach::firstSpin});
+    const double gained = law.muR * 5e-3 * impulse / disk().inertia[0];
+    EXPECT_NEAR(end.spin[0], -2.0 * speed / 5e-3 - gained, 1e-8 * gained);
+  }
+}
+
 /// The in-house engine in steps of t_c/2000, which hold a disk of type A at rest to a step's
 /// torque.
 TEST(RollingOracle, Engine_MeetsIt) {
@@ -209,11 +249,10 @@ ContactLaw randomRolling(Draw& draw, const CollidingPair& pair) {
   how.rollingStiffness = draw.oneOf(
       {RollingStiffness::lengthSquare, RollingStiffness::radii, RollingStiffness::constant});
   how.rollingDamper = draw.oneOf({RollingDamper::constant, RollingDamper::critical});
-  how.rollingLoad =
-      draw.oneOf({RollingLoad::compression, RollingLoad::magnitude, RollingLoad::elastic});
+  how.rollingLoad = draw.oneOf({RollingLoad::compression, RollingLoad::magnitude,
+                                RollingLoad::elastic, RollingLoad::whileCompressed});
   how.rollingDashpot = draw.oneOf({Dashpot::inside, Dashpot::inside, Dashpot::outside});
   how.rollingReset = draw.oneOf({SpringReset::total, SpringReset::springOnly});
-  if (how.rollingDashpot == Dashpot::outside) how.rollingReset = SpringReset::total;
   law.muR = draw.uniform(0.02, 0.6);
   if (law.rolling == RollingLaw::viscousByLoad) law.muR = draw.uniform(0.1, 5.0);
   const bool constant = how.rollingStiffness == RollingStiffness::constant;
@@ -251,7 +290,7 @@ TEST(RandomRolling, Oracle_ClosesTheAccountAndIsWhatSmallStepsGive) {
     EXPECT_GE(lost.rollingDamping.value_or(0.0), 0.0);
     noLimit += end.noLimit;
     if (end.noLimit) continue;
-    const auto plain = PlainIntegration::run(law, pair, start, time, 4000.0, 0.3);
+    const auto plain = PlainIntegration::run(law, pair, start, time, 8000.0, 0.3);
     EXPECT_NEAR(end.psi, plain.psi, 1e-2) << static_cast<int>(law.rolling);
     const double unit = start.vn / pair.radius[0];
     EXPECT_NEAR((end.spin[0] - end.spin[1]) / unit, plain.rollingSpin / unit, 1e-2)

@@ -198,6 +198,26 @@ class Calibrate(SystemTest):
                 self.assertAlmostEqual(wanted, printed, delta=6e-4)
         self.assertEqual(8, len(re.findall(r"(?m)^# variant ", self.calibrate(COLLISION))))
 
+    def test_pairs_of_materials(self):
+        """Each pair that differs from [law] as a table of its own, and each row with the law of its own bodies: a
+        stiffer pair touches for less time, one without friction has no sliding constant."""
+        pairs = (
+            "[[law.pairs]]\nbetween = ['glass', 'steel']\nkn = 500.0\nmu = 0.0\n"
+            "[[law.pairs]]\nbetween = ['glass', 'glass']\ngt = 0.3\n"
+        )
+        case = (
+            f"[case]\nname = 'two-materials'\nextends = '{COUETTE}'\n[cell]\nwheel_material = 'steel'\nring_material = 'glass'\n"
+            f"[particles]\nsmall_material = 'steel'\nlarge_material = 'glass'\n{pairs}"
+        )
+        text = self.calibrate(self.write("materials.toml", case))
+        tables = tomllib.loads(text)["law"]["pairs"]
+        found = [(table["between"], table["kn"], table["mu"], table["gt"]) for table in tables]
+        self.assertEqual([(["glass", "glass"], 352.1, 0.44, 0.3), (["glass", "steel"], 500, 0, 0.15)], found)
+        rows = {row[1]: row for row in (line.split() for line in text.splitlines()) if len(row) > 9}
+        self.assertLess(float(rows["small-ring"][6]), float(rows["small-wheel"][6]))  # the stiffer pair
+        self.assertEqual("-", rows["small-large"][8])
+        self.assertNotEqual("-", rows["large-ring"][8])
+
     def test_printed_law_loads_and_is_the_same(self):
         def law_and_rows(name, law):
             text = self.calibrate(self.write(name, COLLISION_OF_TWO.format(law=law)))

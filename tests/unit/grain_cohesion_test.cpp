@@ -172,6 +172,56 @@ TEST(ElastoPlastic, StiffnessThatGrows_KeepsItsLineThroughThePull) {
   EXPECT_NEAR(bodyForce(law, at(0.001), memory), pulled, 1e-12);
 }
 
+// δ* = 0.0333, δ₀ of it φ 2 R₁₂ = 0.025: from there on 4e3 (δ − 0.025), down to −k_c δ at δ_min =
+// 4e3 · 0.025/4500, and no further loading makes δ₀ grow.
+TEST(ElastoPlastic, BeyondTheLimit_IsElasticOnItsBranch) {
+  Law plain = plasticLaw();
+  plain.plasticDepth = 0.05;
+  const GeneralLaw<double> law = generalLaw<double>(plain, 1e-5, true);
+  double memory = 0.0;
+  const auto f = [&](double overlap) { return bodyForce(law, at(overlap), memory); };
+  EXPECT_NEAR(f(0.0333), 33.3, 1e-12);
+  for (const double overlap : {0.0334, 0.05, 0.06, 0.04, 0.025, 0.023, 0.05})
+    EXPECT_NEAR(f(overlap), 4e3 * (overlap - 0.025), 1e-11) << overlap;
+  EXPECT_NEAR(memory, 0.1 / 3.0, 1e-15);
+  EXPECT_NEAR(f(0.02), -10.0, 1e-12);
+  EXPECT_LT(memory, 0.0333);
+  const double left = memory;
+  EXPECT_NEAR(f(left), 1e3 * left, 1e-11);  // δ_max has fallen: it yields again
+}
+
+// A step late: the step that presses to 0.01 has the k₂ of 0.008, 1e3 + 3e3 · 0.24 = 1720, so that
+// δ₀ = (1 − 1/1.72) 0.01; the next one has k₂ of 0.01, 1900. Its pull has a limit on parting only.
+TEST(ElastoPlastic, LaggedStiffness_LeavesDeltaZeroAsItWas) {
+  Law plain = plasticLaw();
+  plain.plasticDepth = 0.05;
+  plain.cohesionConventions.unloading = UnloadingStiffness::lagged;
+  const GeneralLaw<double> law = generalLaw<double>(plain, 1e-5, true);
+  double memory = 0.0, rest = 0.0;
+  const auto f = [&](double overlap, double parting) {
+    ContactMotion<double> motion = at(overlap);
+    motion.normalVelocity = parting;
+    return laggedPlasticForce(law, motion, memory, rest);
+  };
+  EXPECT_DOUBLE_EQ(f(0.008, -1.0), 8.0);
+  EXPECT_EQ(rest, 0.0);
+  EXPECT_DOUBLE_EQ(f(0.01, -1.0), 10.0);
+  EXPECT_NEAR(rest, 0.0041860465, 1e-9);
+  EXPECT_DOUBLE_EQ(f(0.009, 1.0), 9.0);  // its line is above k₁ δ
+  EXPECT_NEAR(f(0.007, 1.0), 1900.0 * (0.007 - rest), 1e-12);
+  EXPECT_NEAR(f(0.003, -1.0), 1900.0 * (0.003 - rest), 1e-12);  // approaching: beyond −k_c δ
+  EXPECT_NEAR(f(0.003, 1.0), -1.5, 1e-12);
+  EXPECT_NEAR(memory, 0.003 * 2400.0 / 900.0, 1e-15);
+  EXPECT_NEAR(rest, (1.0 - 1.0 / 1.9) * memory, 1e-15);
+
+  // The first evaluation loads by k₁ even beyond δ*, and finds δ₀.
+  GeneralLaw<double> atStart = law;
+  atStart.halfStep = 0.0;
+  memory = rest = 0.0;
+  EXPECT_DOUBLE_EQ(laggedPlasticForce(atStart, at(0.05), memory, rest), 50.0);
+  EXPECT_NEAR(rest, 0.025, 1e-15);
+}
+
 /// Two disks of 1 kg that approach with v each.
 grain::Setup approaching(const Law& law, double v, double gap = 1e-9) {
   grain::Setup setup;
@@ -250,6 +300,19 @@ TEST(ElastoPlastic, Restitution_IsThatOfTheAreas) {
   }
 }
 
+// Neither friction nor a dashpot asks for velocities, but the limit of its pull does: e² = k₁/k₂ −
+// k_c δ_min δ₀/(k₁ δ_max²) with δ_max = v √(m₁₂/k₁), k₂ = k₁ + 3 k₁ δ_max/δ*.
+TEST(ElastoPlastic, LaggedStiffness_PullsAtMostKcDelta) {
+  Law law = plasticLaw();
+  law.plasticDepth = 0.05;
+  law.cohesionConventions.unloading = UnloadingStiffness::lagged;
+  Simulation simulation(approaching(law, 0.05));
+  ASSERT_TRUE(partsAgain(simulation));
+  const double k2 = 1e3 + 3e3 * 0.1 * std::sqrt(0.5 / 1e3) * 30.0;
+  const double square = 1e3 / k2 - 500.0 * (k2 - 1e3) / (k2 + 500.0) * (1.0 - 1e3 / k2) / 1e3;
+  EXPECT_NEAR(relativeSpeed(simulation) / 0.1, std::sqrt(square), 1e-3);
+}
+
 TEST(CohesionLoads, InCoulombsBound_AreTheConventions) {
   // A pair at rest under DMT without load slips at nothing, at µ F_po, or at 2 µ F_po − µ F_po; in
   // the last its dashpot takes no part.
@@ -264,8 +327,9 @@ TEST(CohesionLoads, InCoulombsBound_AreTheConventions) {
     ContactMotion<double> motion = at(overlap);
     motion.normalVelocity = approach;
     motion.tangentialVelocity = 1.0;
-    double spring = 0.0, memory = 0.0;
-    return -contactForce(generalLaw<double>(law, 1e-5, true), motion, spring, memory).tangential;
+    double spring = 0.0, memory = 0.0, rest = 0.0;
+    return -contactForce(generalLaw<double>(law, 1e-5, true), motion, spring, memory, rest)
+                .tangential;
   };
   const double rest = std::cbrt(std::pow(0.75 * pull / (5e4 * 0.5), 2.0));
   EXPECT_NEAR(bound(CohesionLoad::net, rest), 0.0, 1e-9);
@@ -292,8 +356,9 @@ TEST(Jkr, TangentialSpring_SeesItsContactRadius) {
   const double modulus = 0.75 * law.kn, radius = at(0.0).radius;
   const auto stiffness = [&](double overlap) {
     ContactMotion<double> motion = at(overlap);
-    double spring = 1e-6, memory = 1.0;
-    return -contactForce(generalLaw<double>(law, 1e-5, true), motion, spring, memory).tangential /
+    double spring = 1e-6, memory = 1.0, rest = 0.0;
+    return -contactForce(generalLaw<double>(law, 1e-5, true), motion, spring, memory, rest)
+                .tangential /
            1e-6;
   };
   const double peak = std::cbrt(9.0 * M_PI * law.w * radius * radius / (8.0 * modulus));
@@ -309,9 +374,9 @@ TEST(CutTension, OfACohesiveContact_CutsTheDashpotAlone) {
   law.gn = 1e4;
   ContactMotion<double> parting = at(1e-6);
   parting.normalVelocity = 1.0;
-  double spring = 0.0, memory = 0.0;
+  double spring = 0.0, memory = 0.0, rest = 0.0;
   const double f =
-      contactForce(generalLaw<double>(law, 1e-5, true), parting, spring, memory).normal;
+      contactForce(generalLaw<double>(law, 1e-5, true), parting, spring, memory, rest).normal;
   EXPECT_NEAR(f, force(law, 1e-6), 1e-9);
   EXPECT_LT(f, 0.0);
 }
@@ -329,7 +394,7 @@ Law lawOf(Cohesion cohesion) {
   if (cohesion == Cohesion::elastoPlastic) {
     law.k2 = 3.0 * law.kn;
     law.kc = 0.5 * law.kn;
-    law.plasticDepth = 1e-3;
+    law.plasticDepth = 0.02;  // or they are elastic on the limit branch
   }
   if (cohesion == Cohesion::dmt || cohesion == Cohesion::jkr) {
     law.normal = Normal::hertz;

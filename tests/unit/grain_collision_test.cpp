@@ -110,37 +110,37 @@ TEST(GrainCollision, TangentialLawsByHand) {
   const ContactMotion<double> slow{1e-4, 0.0, 0.01, 0.0, 0.0};
   const ContactMotion<double> fast{1e-4, 0.0, 1.0, 0.0, 0.0};
   const double bound = thesis.mu * 0.03521;
-  double spring = 0.0, memory = 0.0;
+  double spring = 0.0, memory = 0.0, rest = 0.0;
 
   law.tangential = Tangential::coulomb;
-  EXPECT_DOUBLE_EQ(contactForce(law, slow, spring, memory).tangential, -bound);
+  EXPECT_DOUBLE_EQ(contactForce(law, slow, spring, memory, rest).tangential, -bound);
   law.tangential = Tangential::viscous;
-  EXPECT_DOUBLE_EQ(contactForce(law, slow, spring, memory).tangential, -thesis.gt * 0.01);
-  EXPECT_DOUBLE_EQ(contactForce(law, fast, spring, memory).tangential, -bound);
+  EXPECT_DOUBLE_EQ(contactForce(law, slow, spring, memory, rest).tangential, -thesis.gt * 0.01);
+  EXPECT_DOUBLE_EQ(contactForce(law, fast, spring, memory, rest).tangential, -bound);
   EXPECT_EQ(spring, 0.0);
 
   law.tangential = Tangential::spring;
   spring = 2e-5;
-  EXPECT_DOUBLE_EQ(contactForce(law, slow, spring, memory).tangential, -thesis.kt * 2e-5);
+  EXPECT_DOUBLE_EQ(contactForce(law, slow, spring, memory, rest).tangential, -thesis.kt * 2e-5);
   EXPECT_DOUBLE_EQ(spring, 2e-5 + 0.01 * 1e-6);  // stretched after the force
   spring = 1e-4;                                 // 0.02671 N, beyond the bound
-  const ContactForce<double> slipping = contactForce(law, slow, spring, memory);
+  const ContactForce<double> slipping = contactForce(law, slow, spring, memory, rest);
   EXPECT_EQ(slipping.sliding, 1.0);
   EXPECT_DOUBLE_EQ(slipping.tangential, -bound);
   EXPECT_DOUBLE_EQ(spring, bound / thesis.kt);
 
   law.tangential = Tangential::springDashpot;
   spring = 2e-5;
-  EXPECT_DOUBLE_EQ(contactForce(law, slow, spring, memory).tangential,
+  EXPECT_DOUBLE_EQ(contactForce(law, slow, spring, memory, rest).tangential,
                    -thesis.kt * 2e-5 - thesis.gt * 0.01);
   law.resetSpringOnly = true;
   spring = 2e-5;
-  contactForce(law, fast, spring, memory);
+  contactForce(law, fast, spring, memory, rest);
   EXPECT_NEAR(-thesis.kt * spring - thesis.gt * 1.0, -bound,
               1e-16);  // together they carry the bound
   law.dashpotOutsideBound = true;
   spring = 2e-5;  // within the bound by itself, so the dashpot comes on top of it
-  EXPECT_DOUBLE_EQ(contactForce(law, fast, spring, memory).tangential,
+  EXPECT_DOUBLE_EQ(contactForce(law, fast, spring, memory, rest).tangential,
                    -thesis.kt * 2e-5 - thesis.gt * 1.0);
 }
 

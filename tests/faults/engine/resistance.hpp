@@ -65,7 +65,7 @@ inline double jkrReach(double kn, double w, double radius) {
   return width * width / (3.0 * radius);
 }
 
-/// Luding (2008), Eqs. 4 to 7: between k_n δ and −k_c δ along k₂ (δ − δ₀).
+/// Luding (2008), Eqs. 6 to 8: between k_n δ and −k_c δ along k₂ (δ − δ₀), elastic beyond δ*.
 inline double plasticForce(double kn, const Resistance& law, const Touching& pair,
                            double& deepest) {
   const double overlap = std::max(pair.overlap, 0.0), most = law.k2 - kn;
@@ -73,9 +73,10 @@ inline double plasticForce(double kn, const Resistance& law, const Touching& pai
   const auto unloading = [&](double largest) {
     return kn + most * (largest < limit ? largest / limit : 1.0);
   };
-  deepest = std::max(deepest, overlap);
+  deepest = std::max(deepest, limit > 0.0 ? std::min(overlap, limit) : overlap);
   const double k2 = unloading(deepest);
   const double force = k2 * overlap - (k2 - kn) * deepest;
+  if (overlap > deepest) return force;
   if (force >= -law.kc * overlap) return std::min(force, kn * overlap);
   // δ_max falls so that the line of unloading passes through (δ, −k_c δ).
   const double growth = limit > 0.0 ? most / limit : 0.0;
