@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "adapters/audit_geometry.hpp"
 #include "adapters/near_pairs.hpp"
@@ -77,19 +76,6 @@ double deepestOverlap(const Contacts& contacts, const AuditBasis& basis,
   return deepest;
 }
 
-/// How far apart the surfaces of a pair are when a bond of JKR's breaks, 0 of other laws [m]:
-/// a_p²/(3R) at the largest pull, 2.08 times that at the end of the branch, with
-/// a_p³ = 9π w R²/(8 E*), E* = 3/4 k_n (Johnson, Kendall and Roberts 1971).
-double bondReach(const AuditBasis& basis, std::size_t i, std::size_t j) {
-  const ContactLaw& law = basis.scene->lawOf(i, j);
-  if (law.cohesion != CohesionLaw::jkr) return 0.0;
-  const double a = basis.radius[i];
-  const double radius = j < basis.radius.size() ? a * basis.radius[j] / (a + basis.radius[j]) : a;
-  const double width = std::cbrt(1.5 * std::numbers::pi * law.w * radius * radius / law.kn);
-  const double end = law.conventions.jkrEnd == JkrEnd::branch ? std::cbrt(9.0) : 1.0;
-  return end / 3.0 * width * width / radius;
-}
-
 /// Each contact that is listed, where its two are.
 std::string whyMisplaced(const Contacts& contacts, const AuditBasis& basis,
                          const ContactPlaces& places) {
@@ -109,7 +95,8 @@ std::string whyMisplaced(const Contacts& contacts, const AuditBasis& basis,
                          contactName(contacts, k, *basis.scene), contacts.normal[k].x(),
                          contacts.normal[k].y(), place.normal.x(), place.normal.y());
     const bool pushes = contacts.normalForce[k] != 0.0 || contacts.tangentialForce[k] != 0.0;
-    if (pushes && place.overlap < -place.uncertain - bondReach(basis, i, j))
+    if (pushes && place.overlap < -place.uncertain - bondReach(basis.scene->lawOf(i, j),
+                                                               reducedRadius(basis, i, j)))
       return fmt::format("{}: a force of {:.3g} N passes a gap of {:.3g} m",
                          contactName(contacts, k, *basis.scene), contacts.normalForce[k],
                          -place.overlap);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace crossgrain {
 namespace {
@@ -116,6 +117,19 @@ PairPlace pairPlace(const ContactPlaces& places, const AuditBasis& basis, std::s
   if (places.drift > 0.0)
     pair.uncertain += places.drift * (places.velocity[i] - places.velocity[j]).norm();
   return pair;
+}
+
+double reducedRadius(const AuditBasis& basis, std::size_t i, std::size_t j) {
+  const double a = basis.radius[i];
+  return j < basis.radius.size() ? a * basis.radius[j] / (a + basis.radius[j]) : a;
+}
+
+double bondReach(const ContactLaw& law, double reducedRadius) {
+  if (law.cohesion != CohesionLaw::jkr) return 0.0;
+  const double width =
+      std::cbrt(1.5 * std::numbers::pi * law.w * reducedRadius * reducedRadius / law.kn);
+  const double end = law.conventions.jkrEnd == JkrEnd::branch ? std::cbrt(9.0) : 1.0;
+  return end / 3.0 * width * width / reducedRadius;
 }
 
 std::string contactName(const Contacts& contacts, std::size_t k, const Scene& scene) {

@@ -48,6 +48,14 @@ Vec2 velocityOfSecond(const ContactPlaces& places, const AuditBasis& basis, std:
 PairPlace pairPlace(const ContactPlaces& places, const AuditBasis& basis, std::size_t i,
                     std::size_t j);
 
+/// R₁₂ = a_i a_j/(a_i + a_j), of a plane a_i [m].
+double reducedRadius(const AuditBasis& basis, std::size_t i, std::size_t j);
+
+/// How far apart the surfaces of a pair are when a bond of JKR's breaks, 0 of other laws [m]:
+/// a_p²/(3 R₁₂) at the largest pull, 2.08 times that at the end of the branch, with
+/// a_p³ = 9π w R₁₂²/(8 E*), E* = 3/4 k_n (Johnson, Kendall and Roberts 1971).
+double bondReach(const ContactLaw& law, double reducedRadius);
+
 /// "contact 12 (disk 3 with wall disk 5)"
 std::string contactName(const Contacts& contacts, std::size_t k, const Scene& scene);
 

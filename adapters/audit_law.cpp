@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "adapters/audit_geometry.hpp"
 #include "adapters/law_options.hpp"
+#include "adapters/near_pairs.hpp"
 
 namespace crossgrain {
 namespace {
@@ -114,38 +116,119 @@ double acceleration(const Motion& motion, double arm) {
   return 0.0;
 }
 
+/// m₁₂, of a wall that of i [kg].
+double reducedMass(const Scene& scene, std::size_t i, std::size_t j) {
+  const double mass = scene.disks.mass[i];
+  return j < scene.disks.size() ? mass * scene.disks.mass[j] / (mass + scene.disks.mass[j]) : mass;
+}
+
+/// The law of that pair with the options of `law`, as the engine runs them.
+ContactLaw ownLaw(const AuditBasis& basis, std::size_t i, std::size_t j, const ContactLaw& law) {
+  if (!basis.scene->materials) return law;
+  ContactLaw own = basis.scene->lawOf(i, j);
+  for (const LawOption& option : lawOptions()) option.set(own, option.get(law));
+  return own;
+}
+
 constexpr double stepsOfDoubt = 1.5;
 
 /// How far the velocities of the law may be from those shown, by body [m/s]: of its centre, and of
 /// its rim by its spin. Schemes show velocities of up to a step and a half from those that dashpots
-/// see; forces change them by the sum on a disk meanwhile, and hardly change in a step themselves:
-/// a tenth of each, at 50 steps in a contact. Walls move as prescribed.
+/// see; forces change them by the sum on a disk meanwhile, and each force by a tenth, at 50 steps
+/// in a contact, or by what the overlap changed, where a pull leaves little of a large force. But a
+/// dashpot's force and a bond's begin and end with a jump: what began or ended meanwhile counts as
+/// a whole. Walls move as prescribed.
 struct VelocityDoubt {
   std::vector<double> centre, rim;
 
-  VelocityDoubt(const Snapshot& snapshot, const AuditBasis& basis)
-      : centre(basis.radius.size() + basis.scene->planeCount()), rim(centre.size()) {
+  VelocityDoubt(const Snapshot& snapshot, const AuditBasis& basis, const ContactPlaces& places,
+                const ContactLaw& law)
+      : centre(basis.radius.size() + basis.scene->planeCount()),
+        rim(centre.size()),
+        lapse_(stepsOfDoubt * basis.dt) {
     constexpr double change = 0.1;
     const Scene& scene = *basis.scene;
     const Contacts& contacts = *snapshot.contacts;
     std::vector<Vec2> sum(centre.size(), Vec2::Zero());
-    std::vector<double> sizes(centre.size());
+    std::vector<double> sizes(centre.size()), changes(centre.size());
+    std::set<std::pair<std::size_t, std::size_t>> shown;
     for (std::size_t k = 0; k < contacts.size(); ++k) {
+      const auto i = static_cast<std::size_t>(contacts.i[k]);
+      const auto j = static_cast<std::size_t>(contacts.j[k]);
+      shown.emplace(i, j);
       const Vec2 force = contacts.force(k);
-      for (const auto& [id, sign] : {std::pair(contacts.i[k], 1.0), {contacts.j[k], -1.0}}) {
-        sum[static_cast<std::size_t>(id)] += sign * force;
-        sizes[static_cast<std::size_t>(id)] += force.norm();
+      const double size = force.norm();
+      const bool began = isWithin(contacts.overlap[k], size, places, basis, i, j);
+      const double much =
+          began ? size
+                : std::max(change * size, changeWithin(ownLaw(basis, i, j, law),
+                                                       contacts.overlap[k], places, basis, i, j));
+      for (const auto& [id, sign] : {std::pair(i, 1.0), {j, -1.0}}) {
+        sum[id] += sign * force;
+        sizes[id] += size;
+        changes[id] += much;
       }
     }
+    const auto addEnded = [&](std::size_t i, std::size_t j) {
+      if (shown.contains({i, j})) return;
+      const double last = lastForce(ownLaw(basis, i, j, law), places, basis, i, j);
+      for (const std::size_t id : {i, j}) changes[id] += last;
+    };
+    const std::size_t disks = scene.disks.size(), round = basis.radius.size();
+    if (std::ranges::all_of(places.position, [](const Vec2& place) { return place.allFinite(); }))
+      nearPairs(places.position, basis.radius, disks, addEnded);
+    for (std::size_t p = 0; p < places.planes.size(); ++p)
+      for (std::size_t i = 0; i < disks && places.planes[p].known; ++i) addEnded(i, round + p);
+
     const double plate = scene.bottom ? scene.bottom->mu * scene.bottom->gravity : 0.0;
-    for (std::size_t i = 0; i < scene.disks.size(); ++i) {
+    for (std::size_t i = 0; i < disks; ++i) {
       const double radius = scene.disks.radius[i], mass = scene.disks.mass[i];
-      const double lapse = stepsOfDoubt * basis.dt;
-      centre[i] =
-          lapse * ((sum[i].norm() + change * sizes[i]) / mass + scene.gravity.norm() + plate);
-      rim[i] = lapse * sizes[i] * radius * radius / scene.disks.inertia[i];
+      centre[i] = lapse_ * ((sum[i].norm() + changes[i]) / mass + scene.gravity.norm() + plate);
+      rim[i] = lapse_ * sizes[i] * radius * radius / scene.disks.inertia[i];
     }
   }
+
+ private:
+  /// Whether two cover that way within the lapse, at the speed that they have or had before a force
+  /// of that size changed it.
+  bool isWithin(double way, double force, const ContactPlaces& places, const AuditBasis& basis,
+                std::size_t i, std::size_t j) const {
+    const Vec2 relative = places.velocity[i] - velocityOfSecond(places, basis, i, j);
+    const double speed = relative.norm() + lapse_ * force / reducedMass(*basis.scene, i, j);
+    return way >= 0.0 && way <= lapse_ * speed;
+  }
+
+  /// By how much the lapse changes an elastic force and a pull [N].
+  double changeWithin(const ContactLaw& law, double overlap, const ContactPlaces& places,
+                      const AuditBasis& basis, std::size_t i, std::size_t j) const {
+    const double radius = reducedRadius(basis, i, j);
+    const double reach = j < basis.radius.size() ? basis.radius[i] + basis.radius[j] : 0.0;
+    const Vec2 relative = places.velocity[i] - velocityOfSecond(places, basis, i, j);
+    return (elasticPart(law, overlap, radius).stiffness +
+            attraction(law, overlap, radius, reach).stiffness) *
+           relative.norm() * lapse_;
+  }
+
+  /// At most, of a contact of the two that ended within the lapse, 0 if none can have [N].
+  double lastForce(const ContactLaw& law, const ContactPlaces& places, const AuditBasis& basis,
+                   std::size_t i, std::size_t j) const {
+    const PairPlace place = pairPlace(places, basis, i, j);
+    const double radius = reducedRadius(basis, i, j);
+    const double separating =
+        (places.velocity[i] - velocityOfSecond(places, basis, i, j)).dot(place.normal);
+    const double reach = j < basis.radius.size() ? basis.radius[i] + basis.radius[j] : 0.0;
+    const double mass = reducedMass(*basis.scene, i, j);
+    const bool pulls = law.conventions.tension == Tension::allow;
+    const double dashpot =
+        pulls ? damping(law.damper, law.gn, elasticPart(law, 0.0, radius).stiffness, mass) : 0.0;
+    double last = dashpot * std::max(separating, 0.0);
+    if (law.coheres()) last += attraction(law, 0.0, radius, reach).pullOff;
+    last *= 1.0 + law.mu;
+    const double gap = -place.overlap - bondReach(law, radius);
+    return isWithin(gap + place.uncertain, last, places, basis, i, j) ? last : 0.0;
+  }
+
+  double lapse_;
 };
 
 /// Everything about one contact that its forces are compared with.
@@ -175,11 +258,10 @@ ContactKinematics kinematicsOf(const Snapshot& snapshot, const AuditBasis& basis
   const double own = basis.radius[i];
   touch.reach = j < round ? own + basis.radius[j] : 0.0;
   touch.smallerRadius = j < round ? std::min(own, basis.radius[j]) : own;
-  touch.radius = j < round ? own * basis.radius[j] / (own + basis.radius[j]) : own;
+  touch.radius = reducedRadius(basis, i, j);
   touch.elastic = elasticPart(law, touch.place.overlap, touch.radius);
   touch.pull = attraction(law, touch.place.overlap, touch.radius, touch.reach);
-  const double mass = scene.disks.mass[i];
-  touch.mass = j < disks ? mass * scene.disks.mass[j] / (mass + scene.disks.mass[j]) : mass;
+  touch.mass = reducedMass(scene, i, j);
   const Vec2 relative = places.velocity[i] - velocityOfSecond(places, basis, i, j);
   touch.approach = relative.dot(contacts.normal[k]);
   const auto rimSpeed = [&](std::size_t id) {
@@ -282,29 +364,20 @@ std::string rollingFault(double normal, double found, const ContactLaw& law,
                      std::abs(found), bound);
 }
 
-/// The law of contact k with the options of `law`, as the engine runs them.
-ContactLaw ownLaw(const AuditBasis& basis, const Contacts& contacts, std::size_t k,
-                  const ContactLaw& law) {
-  if (!basis.scene->materials) return law;
-  ContactLaw own = basis.scene->lawOf(static_cast<std::size_t>(contacts.i[k]),
-                                      static_cast<std::size_t>(contacts.j[k]));
-  for (const LawOption& option : lawOptions()) option.set(own, option.get(law));
-  return own;
-}
-
 }  // namespace
 
 std::string lawFault(const Snapshot& snapshot, const AuditBasis& basis, const ContactLaw& ofAll) {
   if (!snapshot.contacts || snapshot.contactInterval > 1.5 * basis.dt) return {};
   const Contacts& contacts = *snapshot.contacts;
   const ContactPlaces places = contactPlaces(snapshot, basis);
-  const VelocityDoubt doubts(snapshot, basis);
+  const VelocityDoubt doubts(snapshot, basis, places, ofAll);
   const double relative = basis.rounding > 1e-8 ? 1e-5 : 1e-9;  // of forces, by precision
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const double fn = contacts.normalForce[k], ft = contacts.tangentialForce[k];
+    const auto i = static_cast<std::size_t>(contacts.i[k]);
     const auto j = static_cast<std::size_t>(contacts.j[k]);
     if (j >= basis.radius.size() && !places.planes[j - basis.radius.size()].known) continue;
-    const ContactLaw law = ownLaw(basis, contacts, k, ofAll);
+    const ContactLaw law = ownLaw(basis, i, j, ofAll);
     std::string why;
     if (!law.soft()) {
       if (fn < 0.0) why = fmt::format("f_n is {:.6g} N: rigid disks do not pull", fn);

@@ -8,6 +8,7 @@ import argparse
 import json
 import pathlib
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -35,14 +36,19 @@ def results_of(kept):
     return json.loads(path.read_text()) if path.exists() else {}
 
 
+def seconds_of_children():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def run(options, spec, seconds, fault, command, kept):
     """One command on one fault; keeps its status, its time and its results."""
     out = options.out / "run"
     shutil.rmtree(out, ignore_errors=True)
     engine = engine_file(options.out / "engines", options.engine, fault)
-    words = [word.format(engine=engine, cell=fault.get("cell", "")) for word in spec]
+    words = [word.format(engine=engine, cell=fault.get("cell", ""), collision=fault.get("collision", "")) for word in spec]
     line = [str(options.crossgrain), command, *words, "--quiet", "--out", str(out)]
-    began = time.monotonic()
+    began, cpu = time.monotonic(), seconds_of_children()
     try:
         done = subprocess.run(line, cwd=project, capture_output=True, text=True, timeout=seconds)
         status, errors = done.returncode, done.stderr
@@ -53,14 +59,15 @@ def run(options, spec, seconds, fault, command, kept):
     results.unlink(missing_ok=True)
     if (out / "results.json").exists():
         shutil.copy(out / "results.json", results)
-    kept.write_text(json.dumps({"status": status, "seconds": took, "errors": errors}, ensure_ascii=False, indent=1))
+    record = {"status": status, "seconds": took, "cpu_seconds": round(seconds_of_children() - cpu, 1), "errors": errors}
+    kept.write_text(json.dumps(record, ensure_ascii=False, indent=1))
 
 
-def judged(command, fault, kept, right):
-    """What the kept results say. @param right  of `cost`: accuracies that the right engine reaches"""
+def judged(command, fault, kept, right, cpu):
+    """What the kept results say. @param right  of `cost`: accuracies that the right engine reaches; cpu: which seconds"""
     ran = json.loads(kept.read_text())
     results, name = results_of(kept), fault["name"]
-    record = {"fault": name, "command": command, "status": ran["status"], "seconds": ran["seconds"],
+    record = {"fault": name, "command": command, "status": ran["status"], "seconds": ran["cpu_seconds" if cpu else "seconds"],
               "version": results.get("version", ""), "found": reading.found(ran["status"])}
     lost = right - reading.good_columns(results, name) if command == "cost" and ran["status"] == 0 else set()
     record["found"] = record["found"] or bool(lost)
@@ -85,6 +92,7 @@ def main():
     parser.add_argument("--only", default="", help="faults whose names this regular expression matches, and the control")
     parser.add_argument("--commands", default="", help="some of them, separated by commas; all unless given")
     parser.add_argument("--again", action="store_true", help="run also what has a record")
+    parser.add_argument("--cpu", action="store_true", help="seconds are those of processors: for a machine with other work; none is stopped")
     parser.add_argument("--require", action="store_true", help="status 1 unless all are found by one of the commands, and the control by none")
     options = parser.parse_args()
     options.crossgrain, options.engine, options.out = (
@@ -108,10 +116,10 @@ def main():
             kept = options.out / "records" / f"{fault['name']}-{command}.json"
             fresh = options.again or not kept.exists()
             if fresh:
-                run(options, commands[command], most, fault, command, kept)
+                run(options, commands[command], None if options.cpu else most, fault, command, kept)
             if fault is control:
                 right = reading.good_columns(results_of(kept), "right")
-            record = judged(command, fault, kept, right)
+            record = judged(command, fault, kept, right, options.cpu)
             records.append(record)
             if not fresh:
                 continue

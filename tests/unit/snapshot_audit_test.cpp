@@ -310,6 +310,39 @@ TEST_F(Audit, DashpotsAreHeldToTheVelocitiesShown) {
   EXPECT_EQ(lawFaultOf(), "");
 }
 
+/// 0.8 m/s cover the overlap in 1.25 steps: the dashpot may have seen disk 0 without its forces,
+/// which are balanced now. 0.4 m/s take 2.5 steps.
+TEST_F(Audit, ForcesThatBeganWithinAStepAndAHalf_MayBeOfTheVelocitiesBefore) {
+  const auto beganAt = [this](double speed) {
+    shown_.velocity[0] = {-speed, 0.0};
+    shown_.velocity[1] = {-2.0 * speed, 0.0};
+    const double fn = scene_.law.kn * depth + scene_.law.gn * speed;
+    contacts().normalForce = {fn, fn + 1e-3};
+  };
+  beganAt(0.8);
+  EXPECT_EQ(lawFaultOf(), "");
+  beganAt(0.4);
+  expectSays(lawFaultOf(), "contact 1 (disk 0 with wall disk 0): f_n is");
+}
+
+/// Disk 2 leaves disk 0 at 0.5 m/s, where its dashpot pulled by 0.1 N and a bond by 0.1 N.
+TEST_F(Audit, ForcesThatEndedWithinAStepAndAHalf_MayBeOfTheVelocitiesBefore) {
+  shown_.velocity[2] = {0.0, 0.5};
+  contacts().normalForce[1] += 5e-4;
+  const auto gap = [this](double way) { shown_.position[2] = {0.0, 2.0 * smallRadius + way}; };
+  gap(1e-6);
+  EXPECT_EQ(lawFaultOf(), "");
+  gap(1e-5);
+  EXPECT_NE(lawFaultOf(), "") << "two steps ago";
+  gap(1e-6);
+  scene_.law.conventions.tension = Tension::cut;
+  EXPECT_NE(lawFaultOf(), "") << "that dashpot does not pull";
+  scene_.law.cohesion = CohesionLaw::dmt;
+  scene_.law.w = 0.1 / (std::numbers::pi * smallRadius);  // F_po = 2π w R₁₂ = 0.1 N
+  for (double& force : contacts().normalForce) force -= 0.1;
+  EXPECT_EQ(lawFaultOf(), "");
+}
+
 TEST_F(Audit, TangentialForces) {
   contacts().tangentialForce[1] = 1.01 * scene_.law.mu * contacts().normalForce[1];
   expectSays(lawFaultOf(), "|f_t| is");

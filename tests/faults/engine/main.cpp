@@ -41,6 +41,11 @@ Resistance resistanceOf(const Json& law, const Faults& faults) {
   own.rolling = static_cast<Rolling>(kindOf(law, "rolling", rollingKinds));
   own.cohesion = static_cast<Cohesion>(kindOf(law, "cohesion", cohesionKinds));
   const auto number = [&law](const char* name) { return law.value(name, 0.0); };
+  // Other conventions may differ; by these two the numbers k_r and γ_r have another unit.
+  for (const auto& [name, only] :
+       {std::pair("rolling_stiffness", "length_square"), {"rolling_damper", "constant"}})
+    if (const std::string wanted = law.value(name, only); wanted != only)
+      throw Unsupported(std::string("has ") + name + " = " + only + ", not " + wanted);
   own.kr = faults.kr * number("kr");
   own.gr = faults.gr * number("gr");
   own.muR = faults.muR * number("mu_r");
