@@ -299,7 +299,7 @@ class GrainEngine : public Engine {
       if (!contacts.rollingTorque.empty()) {
         forces[k].rollingTorque = contacts.rollingTorque[k];
         forces[k].rollingSlides =
-            std::abs(forces[k].rollingTorque) >= (1.0 - 1e-6) * rollingBound(contacts, k);
+            std::abs(forces[k].rollingTorque) >= (1.0 - 1e-6) * rollingBound(law, contacts, k);
       }
       if (bonds_) forces[k].memory = 1.0;  // listed: bonded
     }
@@ -323,21 +323,23 @@ class GrainEngine : public Engine {
     return found == settings.end() ? otherwise : std::get<double>(found->second);
   }
 
-  /// µ_r L N of a contact; infinite where N is not its normal force.
-  double rollingBound(const Contacts& contacts, std::size_t k) const {
-    const LawConventions& how = law_.conventions;
-    if (law_.coheres() || how.rollingLoad == RollingLoad::elastic)
+  /// µ_r L N of a contact; infinite where N is not its normal force, or limits nothing.
+  double rollingBound(const ContactLaw& law, const Contacts& contacts, std::size_t k) const {
+    const LawConventions& how = law.conventions;
+    const double force = contacts.normalForce[k];
+    if (law.coheres() || how.rollingLoad == RollingLoad::elastic ||
+        (how.rollingLoad == RollingLoad::whileCompressed && force <= 0.0))
       return std::numeric_limits<double>::infinity();
     const double own = radii_[static_cast<std::size_t>(contacts.i[k])];
     const auto j = static_cast<std::size_t>(contacts.j[k]);
     const bool plane = j >= radii_.size();
-    double length = plane ? own : own * radii_[j] / (own + radii_[j]);
+    const double other = plane ? own : radii_[j];
+    double length = plane ? own : own * other / (own + other);
     if (how.rollingLength == RollingLength::twiceEffective) length *= 2.0;
-    if (how.rollingLength == RollingLength::smallerRadius && !plane)
-      length = std::min(own, radii_[j]);
-    const double load = contacts.normalForce[k];
-    return law_.muR * length *
-           (how.rollingLoad == RollingLoad::magnitude ? std::abs(load) : std::max(load, 0.0));
+    if (how.rollingLength == RollingLength::smallerRadius) length = std::min(own, other);
+    if (how.rollingLength == RollingLength::meanRadius) length = 0.5 * (own + other);
+    return law.muR * length *
+           (how.rollingLoad == RollingLoad::magnitude ? std::abs(force) : std::max(force, 0.0));
   }
 
   Contacts contacts() const {

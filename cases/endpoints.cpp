@@ -60,7 +60,7 @@ EndpointSpec endpointSpec(const Case& setup, std::string_view name) {
 }
 
 std::span<const RegionNumber> regionNumbers() {
-  static constexpr std::array<RegionNumber, 11> numbers = {{
+  static constexpr std::array<RegionNumber, 12> numbers = {{
       {"kinetic_energy", "J", "Σ ½ m v² + ½ J ω² of all disks"},
       {"max_overlap", "m", "largest overlap of all contacts", true},
       {"mean_overlap", "m", "mean overlap of all contacts", true},
@@ -73,6 +73,9 @@ std::span<const RegionNumber> regionNumbers() {
       {"rms_y", "m", "their spread about it along y"},
       // A triangle of base 2W and height H has ȳ = H/3 and rms_x² = W²/6, so H/W = 3ȳ/(√6 rms_x).
       {"heap_slope", "-", "slope H/W = 3 ȳ/(√6 rms_x) of the triangle with their moments"},
+      {"flank_slope", "-",
+       "mean steepness of two straight lines, each through the highest centres in 8 equal strips "
+       "of a flank, from 0.1 to 0.5 of the way from the middle of the averaged part to its sides"},
   }};
   return numbers;
 }

@@ -1,4 +1,5 @@
-"""Writes sandpile.csv anew: 3000 disks poured into the hopper of sandpile.toml above its closed slot, at rest after 3.5 s.
+"""Writes sandpile.csv anew: 3000 disks poured into the hopper of sandpile.toml above its closed slot, at rest after 3.5 s;
+and sandpile-small.csv: the lowest 600 of them.
 
     python3 make_sandpile.py CROSSGRAIN [SEED]     (needs h5py; half a minute)
 """
@@ -54,9 +55,9 @@ def loose(seed):
         yield x, y, radius, DENSITY * 4.0 / 3.0 * math.pi * radius**3
 
 
-def write(file, rows):
+def write(file, rows, title):
     with open(file, "w", encoding="utf-8") as out:
-        out.write("# 3000 disks at rest in the hopper of sandpile.toml above its closed slot: made by make_sandpile.py\nx,y,radius,mass\n")
+        out.write(f"# {title}: made by make_sandpile.py\nx,y,radius,mass\n")
         for x, y, radius, mass in rows:
             out.write(f"{x:.6f},{y:.6f},{radius:.5f},{mass:.4e}\n")
 
@@ -64,13 +65,15 @@ def write(file, rows):
 def main(program, seed="1"):
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
-        write(folder / "loose.csv", loose(int(seed)))
+        write(folder / "loose.csv", loose(int(seed)), "Disks above the hopper")
         (folder / "filling.toml").write_text(FILLING.format(here=HERE), encoding="utf-8")
         subprocess.run([program, "compare", folder / "filling.toml", "--engines", "grain", "--out", folder / "out"], check=True)
         with h5py.File(folder / "out/snapshots/grain-p0.h5") as run:
             last = run[max(name for name in run if name.startswith("snapshot-"))]
             x, radius, mass = last["position"][:], run["disks/radius"][:], run["disks/mass"][:]
-    write(HERE / "sandpile.csv", zip(x[:, 0], x[:, 1], radius, mass))
+    rows = list(zip(x[:, 0], x[:, 1], radius, mass))
+    write(HERE / "sandpile.csv", rows, "3000 disks at rest in the hopper of sandpile.toml above its closed slot")
+    write(HERE / "sandpile-small.csv", sorted(rows, key=lambda row: row[1])[:600], "The lowest 600 disks of sandpile.csv")
 
 
 if __name__ == "__main__":

@@ -85,6 +85,7 @@ class RegionAverages : public FlowAverages {
  private:
   void addMoments(const Snapshot& now);
   void addDisks(const Snapshot& now);
+  void addFlanks(const Snapshot& now);
 
   const Case& setup_;
   const Scene& scene_;

@@ -1,6 +1,7 @@
 #include "studies/flow/averages.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <string>
@@ -58,6 +59,36 @@ void RegionAverages::addMoments(const Snapshot& now) {
   number("heap_slope", 3.0 * height / (std::sqrt(6.0) * rms.x()));
 }
 
+void RegionAverages::addFlanks(const Snapshot& now) {
+  // As Lethe measures the sandpile of Ai et al. (2011): eight tops from -0.5 to -0.1 m of a box of
+  // +-1 m; here of the right flank too, and in any box.
+  constexpr int strips = 8;
+  constexpr double nearest = 0.1, farthest = 0.5;
+  const auto& region = setup_.average->region;
+  const double middle = 0.5 * (region.low.x() + region.high.x());
+  const double half = 0.5 * (region.high.x() - region.low.x());
+  std::array<std::array<double, strips>, 2> tops;
+  for (auto& flank : tops) flank.fill(-INFINITY);
+  for (const Vec2& x : now.position) {
+    if (bins_->isOverflow(bins_->slotAt(x))) continue;
+    const double way = std::abs(x.x() - middle) / half;
+    const int strip = static_cast<int>(std::floor(strips * (way - nearest) / (farthest - nearest)));
+    if (strip < 0 || strip >= strips) continue;
+    double& top = tops[x.x() > middle][static_cast<std::size_t>(strip)];
+    top = std::max(top, x.y());
+  }
+  // Least squares over strips at k: slope = Σ (k − k̄) y / Σ (k − k̄)², per strip.
+  const double width = half * (farthest - nearest) / strips;
+  double moment = 0.0, square = 0.0;
+  for (int k = 0; k < strips; ++k) {
+    const double away = k - 0.5 * (strips - 1);
+    square += away * away;
+    for (const auto& flank : tops) moment -= away * flank[static_cast<std::size_t>(k)];
+  }
+  const double slope = moment / (2.0 * square * width);
+  series_["flank_slope"].push_back(std::isfinite(slope) ? std::optional(slope) : std::nullopt);
+}
+
 RegionAverages::RegionAverages(const Case& setup, const Scene& scene)
     : FlowAverages({binsOf(setup), weightsOf(setup, setup.averaging.methods), scene}),
       setup_(setup),
@@ -69,6 +100,10 @@ void RegionAverages::add(const Snapshot& snapshot) {
   addGlobalNumbers(series_, scene_, snapshot);
   addMoments(snapshot);
   addDisks(snapshot);
+  if (std::ranges::any_of(setup_.average->endpoints, [](const OwnEndpoint& own) {
+        return own.quantity == "flank_slope" || own.per == "flank_slope";
+      }))
+    addFlanks(snapshot);
 }
 
 void RegionAverages::describe(const EffectiveParameters& effective, FlowRun& run) const {

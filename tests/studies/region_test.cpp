@@ -112,6 +112,37 @@ TEST(Region, Disks_HaveMomentsInTheSeries) {
   EXPECT_NEAR(last("kinetic_energy"), 0.5 * 2.0 * (1.0 + 1.0 + 4.0), 1e-14);
 }
 
+TEST(Region, Heap_HasTheSlopeOfItsFlanks) {
+  // A box from -1 to 3 m, whose strips are 0.1 m wide and begin 0.2 m from the middle, 1 m. Its
+  // left flank falls by 0.3 a metre, its right one by 0.5; what lies deeper, nearer or farther is
+  // left out.
+  Case setup = threeDisks();
+  setup.average->region.low = {-1.0, 0.0};
+  setup.average->region.high = {3.0, 4.0};
+  setup.average->endpoints.emplace_back().quantity = "flank_slope";
+  std::vector<Vec2> heap = {{1.0, 3.0}, {2.05, 3.0}};
+  for (int k = 0; k < 8; ++k) {
+    const double away = 0.25 + 0.1 * k;
+    heap.emplace_back(1.0 - away, 1.0 - 0.3 * away);
+    heap.emplace_back(1.0 - away, 0.8 - 0.3 * away);
+    heap.emplace_back(1.0 + away, 1.0 - 0.5 * away);
+  }
+  setup.assembly.disks[0].places.resize(heap.size(), Vec2::Zero());
+  const auto slope = [&] {
+    const FlowRun run = averaged(setup, [&](Snapshot& now) {
+      now.position = heap;
+      now.velocity.assign(heap.size(), Vec2::Zero());
+      now.spin = std::vector<double>(heap.size(), 0.0);
+      now.contacts = Contacts{};
+    });
+    return valuesOf(*run.series, "flank_slope").back();
+  };
+  EXPECT_NEAR(slope().value(), 0.4, 1e-14);
+  heap.back() = heap.front();  // the outermost strip of the right flank is empty
+  EXPECT_FALSE(slope());
+  EXPECT_FALSE(averaged(threeDisks()).series->contains("flank_slope"));
+}
+
 TEST(Region, Slabs_ShareDisksAndContacts) {
   Case setup = threeDisks();
   setup.average->region.bins = BinKind::slabs;
