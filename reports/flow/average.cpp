@@ -152,12 +152,17 @@ std::string extentOf(const CompareResults& results, const Engines& engines) {
                      counted(results.rings.r.size(), results.region ? "bin" : "ring"));
 }
 
-/// "40 snapshots of grain averaged: 12 fields in 20 rings."
+/// "40 snapshots of grain averaged: 12 fields in 20 rings.", "4 runs of grain averaged, of 40
+/// snapshots each: …"
 std::string averageLead(const CompareResults& results, const Engines& engines) {
   if (engines.empty() || engines.front().finished.empty()) return "Nothing was averaged.";
-  return fmt::format("{} of {} averaged: {}.",
-                     counted(static_cast<std::size_t>(results.averaging.snapshots), "snapshot"),
-                     engines.front().name, extentOf(results, engines));
+  const std::string snapshots =
+      counted(static_cast<std::size_t>(results.averaging.snapshots), "snapshot");
+  const std::string& name = engines.front().name;
+  if (const std::size_t runs = engines.front().finished.size(); runs > 1)
+    return fmt::format("{} of {} averaged, of {} each: {}.", counted(runs, "run"), name, snapshots,
+                       extentOf(results, engines));
+  return fmt::format("{} of {} averaged: {}.", snapshots, name, extentOf(results, engines));
 }
 
 std::vector<std::string> averageNotes(const CompareResults& results, const Engines& engines) {
