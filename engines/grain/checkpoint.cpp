@@ -10,7 +10,7 @@
 namespace grain {
 namespace {
 
-constexpr std::uint64_t magic = 0x37'6e'69'61'72'67;  // "grain7"
+constexpr std::uint64_t magic = 0x38'6e'69'61'72'67;  // "grain8"
 
 template <class T>
 void write(std::ostream& out, const T& value) {
