@@ -10,6 +10,14 @@ from law import AT_THE_BOUND, Law
 
 class Luding(Law):
     cohesion = ("elasto_plastic",)
+    deviations = (
+        {
+            "name": "unloading_stiffness",
+            "value": 0.0,
+            "unit": "",
+            "note": "k₂ of elasto-plastic contacts is that of the largest overlap before the step: the law to first order in dt",
+        },
+    )
 
     def __init__(self, law):
         super().__init__(law)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string_view>
 
 #include "adapters/declared_law.hpp"
 #include "adapters/law_options.hpp"
@@ -22,6 +23,9 @@ std::string whyNone(const Case& setup) {
   if (setup.bottom) return "the plate under the disks has no discrete oracle";
   return {};
 }
+
+/// What a worker reports of a law that it steps to first order where the oracle is exact.
+constexpr std::string_view unloadingLags = "unloading_stiffness";
 
 /// The case with a single collision, head on.
 Case headOn(const Case& setup) {
@@ -125,6 +129,10 @@ SchemeScore schemeScore(Engine& engine, const EngineEntry& entry, const Case& se
     score.reason = "its law is another one";
   else if (!integrator)
     score.reason = fmt::format("there is no discrete oracle of its scheme, {}", score.scheme);
+  else if (const auto late =
+               std::ranges::find(effective.deviations, unloadingLags, &Deviation::name);
+           late != effective.deviations.end())
+    score.reason = "there is no discrete oracle of its scheme: " + late->note;
   if (!score.reason.empty()) return score;
   law->conventions.integrator = *integrator;
 

@@ -162,22 +162,35 @@ TEST(OwnScheme, HertzLaw_IsHeldToItsScheme) {
   EXPECT_LT(*score.velocity, 1e-12);
 }
 
-/// An engine of a scheme that nobody knows.
-class Unknown : public test::PlantedEngine {
+/// An engine that reports something of its scheme.
+class Reporting : public test::PlantedEngine {
  public:
-  Unknown() : PlantedEngine([](Scene&) {}) {}
+  explicit Reporting(std::function<void(EffectiveParameters&)> report)
+      : PlantedEngine([](Scene&) {}), report_(std::move(report)) {}
   EffectiveParameters load(const Scene& scene, const Settings& settings) override {
     EffectiveParameters effective = PlantedEngine::load(scene, settings);
-    effective.integrator = "gear_5";
+    report_(effective);
     return effective;
   }
+
+ private:
+  std::function<void(EffectiveParameters&)> report_;
 };
 
 TEST(OwnScheme, UnknownScheme_HasNoScore) {
-  Unknown engine;
+  Reporting engine([](EffectiveParameters& effective) { effective.integrator = "gear_5"; });
   const SchemeScore score = ownScheme(engine, test::smallPairCase());
   EXPECT_FALSE(score.position);
   EXPECT_NE(score.reason.find("gear_5"), std::string::npos);
+}
+
+TEST(OwnScheme, UnloadingStiffnessOfTheStepBefore_HasNoScore) {
+  Reporting engine([](EffectiveParameters& effective) {
+    effective.deviations.push_back({"unloading_stiffness", 0.0, "", "k₂ is a step old"});
+  });
+  const SchemeScore score = ownScheme(engine, test::smallPairCase());
+  EXPECT_FALSE(score.held);
+  EXPECT_NE(score.reason.find("k₂ is a step old"), std::string::npos);
 }
 
 }  // namespace
