@@ -128,6 +128,34 @@ NamedTerm tried(const Candidate& candidate, Engine& mirror, const TermSearch& se
   return best;
 }
 
+/// Of one constant, by amounts from a hundredth to the whole of it and then between them, at the
+/// last instant. To first order nothing is seen of a constant whose change makes contacts slip that
+/// stuck: a rolling spring takes its whole bound then.
+NamedTerm triedAtLarge(const MirrorChange& change, Engine& mirror, const TermSearch& search) {
+  const std::vector<double>& separation = search.instants.back().separation;
+  NamedTerm best{change.name, std::nullopt, 1.0};
+  const auto attempt = [&](double amount) {
+    const auto responses = responsesTo({change, amount}, mirror, search);
+    if (!responses || responses->back().size() != separation.size()) return false;
+    std::vector<double> rest = separation;
+    for (std::size_t k = 0; k < rest.size(); ++k) rest[k] -= responses->back()[k];
+    const double left = norm(rest) / norm(separation);
+    if (!(left < best.unexplained)) return false;
+    best.unexplained = left;
+    best.amount = amount;
+    return true;
+  };
+  for (const double size : {0.01, 0.03, 0.1, 0.3, 0.6, 1.0})
+    for (const double amount : {-size, size})
+      if (amount > -1.0) attempt(amount);
+  constexpr double worthRefining = 0.8;
+  if (!(best.unexplained < worthRefining)) return best;
+  for (double width = 0.5 * std::abs(*best.amount); width > 1e-3 * std::abs(*best.amount);
+       width *= 0.5)
+    if (const double amount = *best.amount; !attempt(amount + width)) attempt(amount - width);
+  return best;
+}
+
 }  // namespace
 
 std::optional<NamedTerm> closestTerm(Engine& mirror, const TermSearch& search) {
@@ -151,6 +179,11 @@ std::optional<NamedTerm> closestTerm(Engine& mirror, const TermSearch& search) {
   std::vector<NamedTerm> terms;
   for (const Candidate& one : candidates | std::views::take(mostTried))
     terms.push_back(one.change->isConstant ? tried(one, mirror, search) : one.term);
+  if (const auto named = bestTerm(terms)) return named;
+  terms.clear();
+  if (norm(search.instants.back().separation) < lockstepRounding) return std::nullopt;
+  for (const MirrorChange& change : changes)
+    if (change.isConstant) terms.push_back(triedAtLarge(change, mirror, search));
   return bestTerm(terms);
 }
 

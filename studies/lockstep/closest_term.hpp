@@ -62,8 +62,9 @@ struct TermSearch {
 };
 
 /// Tries every change of the mirror from every start, and those constants that explain most to
-/// first order with the amount that they would have. @returns the one that leaves least at one of
-/// the instants, in the mirror itself, if that is less than termUnexplained
+/// first order with the amount that they would have; where that names none, all constants by
+/// amounts of up to the whole of them. @returns the one that leaves least at one of the instants,
+/// in the mirror itself, if that is less than termUnexplained
 /// @throws Interrupted
 std::optional<NamedTerm> closestTerm(Engine& mirror, const TermSearch& search);
 

@@ -75,6 +75,11 @@ TEST_F(ResistingCell, RollingSpring_ConstantsAndConventionsAreFound) {
   for (const auto& [constant, name] :
        {std::pair(&ContactLaw::kr, "kr"), {&ContactLaw::gr, "gr"}, {&ContactLaw::muR, "mu_r"}})
     expectConstant(flow, constant, name);
+  // Contacts that slip at once under µ_r stick under 1.037 µ_r: nothing of first order.
+  const LockstepRow large = row(flow, [](ContactLaw& law) { law.muR *= 1.037; });
+  ASSERT_TRUE(large.term);
+  EXPECT_EQ(large.term->name, "mu_r");
+  EXPECT_NEAR(*large.term->amount, 0.037, 0.004);
   const auto [found, alike] = expectOptions(flow, LawPart::rolling);
   EXPECT_GE(found, 6);
   EXPECT_LE(alike, 2);
