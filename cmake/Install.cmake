@@ -22,7 +22,7 @@ install(DIRECTORY engines/lammps engines/yade engines/python engines/cpp engines
 install(FILES engines/chipmunk/chipmunk.toml
         DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines/chipmunk)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
-        FILES_MATCHING PATTERN "*.py" PATTERN "*.cpp" PATTERN "*.toml")
+        FILES_MATCHING PATTERN "*.py" PATTERN "*.cpp" PATTERN "*.toml" PATTERN "*.lmp")
 install(FILES python/crossgrain.py DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/python)
 install(FILES README.md LICENSE CHANGELOG.md adapters/worker/protocol.schema.json
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
