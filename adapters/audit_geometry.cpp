@@ -67,6 +67,18 @@ ContactPlaces contactPlaces(const Snapshot& snapshot, const AuditBasis& basis) {
   return places;
 }
 
+void placeWallsAsPrescribed(const Scene& scene, double t, Snapshot& snapshot) {
+  snapshot.wallPosition.clear();
+  snapshot.bodies.clear();
+  for (const WallBody& body : scene.bodies) {
+    const BodyState now = stateAt(body.motion, body.centre, t);
+    for (const Vec2& start : body.diskPosition)
+      snapshot.wallPosition.push_back(memberPosition(now, body.centre, start));
+    snapshot.bodies.push_back(
+        {now.centre, now.angle, now.velocity, now.angularVelocity, std::nullopt, std::nullopt});
+  }
+}
+
 Vec2 footOn(const Plane& plane, const Vec2& point) {
   return point - (point - plane.point).dot(plane.normal) * plane.normal;
 }

@@ -24,6 +24,10 @@ struct ContactPlaces {
 
 ContactPlaces contactPlaces(const Snapshot& snapshot, const AuditBasis& basis);
 
+/// Wall disks and bodies as the scene prescribes them at that time, without forces: what a snapshot
+/// of somebody else's need not say.
+void placeWallsAsPrescribed(const Scene& scene, double t, Snapshot& snapshot);
+
 /// How a pair lies there: n from j to i, δ > 0 where they overlap, and how far δ may be off.
 struct PairPlace {
   Vec2 normal;

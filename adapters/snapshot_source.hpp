@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "adapters/scene.hpp"
 #include "adapters/snapshot.hpp"
@@ -24,6 +25,8 @@ class SnapshotSource {
   virtual std::optional<Snapshot> next() = 0;
   /// How far it has read, 0 … 1.
   virtual double progress() const = 0;
+  /// What the files lack and what that costs, a sentence each; all of it after the last snapshot.
+  virtual std::vector<std::string> remarks() const { return {}; }
 };
 
 }  // namespace crossgrain

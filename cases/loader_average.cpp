@@ -26,7 +26,7 @@ const Section<AverageInput>& averageKeys() {
   static const Section<A> section(
       {.name = "average",
        .kinds = "assembly",
-       .commands = "compare plan lockstep",
+       .commands = "compare plan lockstep average",
        .note = "What `compare` averages: bins in a part of the plane that stays where it is while "
                "walls move. With it an assembly runs as long as it says, from each of "
                "`preparation.packings` packings."},
@@ -97,7 +97,7 @@ const Section<EndpointInput>& endpointsKeys() {
   static const Section<E> section(
       {.name = "endpoints",
        .kinds = "assembly",
-       .commands = "compare plan",
+       .commands = "compare plan average",
        .note = "The numbers of a run that carry verdicts, with `[average]`. One with a relative "
                "margin is compared by its ratio to the reference, whose values need one sign; any "
                "other by the difference.",

@@ -158,7 +158,8 @@ const Section<Preparation>& preparationKeys() {
 
 const Section<Averaging>& averagingKeys() {
   constexpr const char* averaged = "compare plan effects cost average baseline";
-  constexpr const char* run = "compare plan lockstep identify baseline effects cost stability";
+  constexpr const char* run =
+      "compare plan lockstep identify baseline effects cost stability average";
   static const Section<Averaging> section(
       {.name = "averaging", .kinds = "couette"},
       {key("rings", &Averaging::rings, between(1, 10'000), "of equal width from R_i to R_o")
@@ -297,7 +298,7 @@ std::vector<SectionInfo> cellSections() {
 std::vector<SectionInfo> runSections() {
   return {runKeys().info(),
           {.name = "engines.NAME",
-           .commands = runKeys().info().commands,
+           .commands = runKeys().info().commands + " average",
            .keys = {{"SETTING", "the setting's", "the engine's", "",
                      "of one engine: a boolean, a number or a string; `crossgrain engines` lists "
                      "each engine's, the engine checks them"}}},

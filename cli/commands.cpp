@@ -8,16 +8,17 @@ namespace crossgrain::inline cli {
 extern const Command enginesCommand, listCommand, checkCommand, collideCommand, conformanceCommand,
     lockstepCommand, identifyCommand, baselineCommand, diffCommand, recordCommand, replayCommand,
     compareCommand, effectsCommand, stabilityCommand, costCommand, scaleCommand, thesisCommand,
-    averageCommand, revCommand, exportCommand, calibrateCommand, reportCommand, planCommand,
-    helpCommand, serveCommand;
+    averageCommand, importCommand, exportCommand, revCommand, calibrateCommand, reportCommand,
+    planCommand, helpCommand, serveCommand;
 
 const std::vector<const Command*>& commands() {
   static const std::vector<const Command*> table = {
-      &enginesCommand,   &listCommand,     &checkCommand,    &collideCommand,   &conformanceCommand,
-      &lockstepCommand,  &identifyCommand, &baselineCommand, &diffCommand,      &recordCommand,
-      &replayCommand,    &compareCommand,  &effectsCommand,  &stabilityCommand, &costCommand,
-      &scaleCommand,     &thesisCommand,   &averageCommand,  &revCommand,       &exportCommand,
-      &calibrateCommand, &reportCommand,   &planCommand,     &helpCommand,      &serveCommand};
+      &enginesCommand,  &listCommand,      &checkCommand,    &collideCommand,   &conformanceCommand,
+      &lockstepCommand, &identifyCommand,  &baselineCommand, &diffCommand,      &recordCommand,
+      &replayCommand,   &compareCommand,   &effectsCommand,  &stabilityCommand, &costCommand,
+      &scaleCommand,    &thesisCommand,    &importCommand,   &exportCommand,    &averageCommand,
+      &revCommand,      &calibrateCommand, &reportCommand,   &planCommand,      &helpCommand,
+      &serveCommand};
   return table;
 }
 

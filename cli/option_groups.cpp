@@ -125,6 +125,21 @@ void addCase(CLI::App& app, CommandLine& line, const std::string& what) {
   addInputs(app, line, "case", what, 1, 1);
 }
 
+void addFilesAndCase(CLI::App& app, CommandLine& line, const std::string& files,
+                     const std::string& what) {
+  // CLI11 gives a list all that follows it: the case is the last of them.
+  app.add_option_function<std::vector<std::string>>(
+         "files",
+         [&line, what](const std::vector<std::string>& given) {
+           if (given.size() < 2) throw BadInput(fmt::format("case is missing ({})", what));
+           line.inputs = {hereOrInstalled(given.back())};
+           line.inputs.insert(line.inputs.end(), given.begin(), given.end() - 1);
+         },
+         fmt::format("{}; then the {}", files, what))
+      ->type_name("FILES … CASE")
+      ->required();
+}
+
 void addSelection(CLI::App& app, CommandLine& line) {
   addText(app, "-k", line.only,
           "only cases with this in their name or NAME/VARIANT; with * or ? a pattern of all of it",
@@ -184,6 +199,10 @@ void addStudy(CLI::App& app, CommandLine& line, const SharedOptions& takes,
         ->type_name("FILE")
         ->required();
     addCase(app, line, "case file: the cell, the law, how to average");
+    addResults(app, line);
+  }
+  if (takes.input == Input::files) {
+    addFilesAndCase(app, line, takes.inputIs, "case file: the scene, the law, how to average");
     addResults(app, line);
   }
   if (takes.input == Input::oneCase) addCase(app, line, takes.inputIs);

@@ -52,6 +52,10 @@ void addOverrides(CLI::App& app, CommandLine& line);
 /// Of all commands that take one case file.
 void addCase(CLI::App& app, CommandLine& line, const std::string& what = "case file");
 
+/// Files of results, and the case that they are of behind them.
+void addFilesAndCase(CLI::App& app, CommandLine& line, const std::string& files,
+                     const std::string& what);
+
 /// -k: which of the cases.
 void addSelection(CLI::App& app, CommandLine& line);
 

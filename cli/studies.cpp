@@ -392,8 +392,10 @@ extern const Command thesisCommand = {
     }};
 
 extern const Command averageCommand = {
-    "average", "average snapshots of a file, of a run or of any other source",
+    "average", "average snapshots, or result files of other programs, of one run or several",
     "crossgrain average out/compare/snapshots/grain-p0.h5 cases/couette/quick.toml --out "
+    "out/averaged\n"
+    "crossgrain average atoms-1.dump pairs-1.dump examples/import/box.toml --name my-lammps --out "
     "out/averaged",
     [](CLI::App& app, CommandLine& line) {
       return declareStudy(app, line, averageStudy, {averagedText<CompareResults>});

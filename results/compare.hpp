@@ -32,7 +32,8 @@ struct FlowStudy : FlowFrame {
   }
 };
 
-/// Kind "compare"; and kind "average", of one source and one packing, where nothing is compared.
+/// Kind "compare"; and kind "average", of one engine, where nothing is compared: of several runs it
+/// has their ensemble.
 struct CompareResults : FlowStudy {
   std::optional<LockstepFindings> lockstep;  ///< absent: nobody was compared with a mirror
   std::vector<RegimesOfPair> regimes;
@@ -48,7 +49,7 @@ struct CompareResults : FlowStudy {
     io.present("lockstep", lockstep);
     io.when(compared, "regimes", regimes);
     io("steadiness", steadiness);
-    io.when(compared, "ensemble", ensemble);
+    io.when(compared || runs.size() > 1, "ensemble", ensemble);
     io.when(compared, "agreement", agreement);
     io.when(compared, "endpoints", endpoints);
     io.present("nothing_judged", nothingJudged);

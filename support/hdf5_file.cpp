@@ -292,13 +292,26 @@ std::optional<std::vector<double>> Hdf5File::read(const std::string& path) const
 }
 
 std::optional<double> Hdf5File::readAttribute(const std::string& name) const {
-  if (H5Aexists(file_, name.c_str()) <= 0) return std::nullopt;
-  const Handle attribute(H5Aopen(file_, name.c_str(), H5P_DEFAULT));
+  return readAttribute(file_, name, name);
+}
+
+std::optional<double> Hdf5File::readAttributeOf(const std::string& path,
+                                                const std::string& name) const {
+  if (!holds(path)) return std::nullopt;
+  const Handle object(H5Oopen(file_, path.c_str(), H5P_DEFAULT));
+  if (object < 0) fail(name_, path + " cannot be opened");
+  return readAttribute(object, name, path + "/" + name);
+}
+
+std::optional<double> Hdf5File::readAttribute(hid_t of, const std::string& name,
+                                              const std::string& shown) const {
+  if (H5Aexists(of, name.c_str()) <= 0) return std::nullopt;
+  const Handle attribute(H5Aopen(of, name.c_str(), H5P_DEFAULT));
   double value = 0.0;
   if (!isOneValue(attribute) || !isOfNumbers(Handle(H5Aget_type(attribute))) ||
       H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) < 0)
-    fail(name_, name + " is not one number");
-  saw(name, bytesOf(&value, 1));
+    fail(name_, shown + " is not one number");
+  saw(shown, bytesOf(&value, 1));
   return value;
 }
 

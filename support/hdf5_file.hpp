@@ -75,6 +75,8 @@ class Hdf5File {
   /// kind of thing under that name
   std::optional<double> readAttribute(const std::string& name) const;
   std::optional<std::string> readTextAttribute(const std::string& name) const;
+  /// One value of a group or array instead of the file.
+  std::optional<double> readAttributeOf(const std::string& path, const std::string& name) const;
 
  private:
   enum class Place { memory, disk };
@@ -84,6 +86,8 @@ class Hdf5File {
   void check(herr_t status, const std::string& what) const;
   void saw(const std::string& name, std::string_view bytes) const;
   std::string checksum() const;
+  std::optional<double> readAttribute(hid_t of, const std::string& name,
+                                      const std::string& shown) const;
 
   std::unique_lock<std::mutex> lock_;
   hid_t file_;

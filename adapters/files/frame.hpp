@@ -34,10 +34,13 @@ struct FileParticles {
   std::size_t size() const { return position.size(); }
 };
 
-/// Contacts of one time, each once or twice as the file lists them. What it does not have is empty.
+/// Contacts of one time, each once or twice as the file lists them. What it does not have is empty:
+/// each array but `first` and `second` is of all contacts or of none.
 struct FileContacts {
-  std::vector<std::int64_t> first, second;  ///< ids of particles; a wall k is −k − 1
-  std::vector<Vec3> normal;                 ///< unit vector from second to first
+  /// Ids of particles; a wall k is −k − 1, and always the second. A partner that is neither (a
+  /// facet, a fixed body that is no particle) counts as a wall.
+  std::vector<std::int64_t> first, second;
+  std::vector<Vec3> normal;             ///< unit vector from second to first
   std::vector<Vec3> force;              ///< on the first, damping and attraction included [force]
   std::vector<double> normalForce;      ///< in place of `force`: > 0 pushes [force]
   std::vector<double> tangentialForce;  ///< in place of `force`: its size [force]
@@ -58,6 +61,15 @@ struct FileFrame {
   std::optional<FileContacts> contacts;
 };
 
+/// What a reader has to be told of a file.
+struct FileOptions {
+  /// What columns (or arrays) mean whose names their program does not fix, as
+  /// "NAME=MEANING NAME=MEANING …": "c_q=normal_force,tx,ty,tz,- f_floor=wall v_m=mass". NAME alone
+  /// is NAME[1], NAME[2], … in order; "-" is not read. Meanings are the names of columns of CSV
+  /// files (docs/file-formats.md). Formats whose names are fixed take none.
+  std::string columns;
+};
+
 /// The frames of one run, read one by one: memory holds one at a time.
 class FrameReader {
  public:
@@ -76,14 +88,19 @@ std::vector<std::string_view> fileFormats();
 std::optional<std::string_view> formatOf(const std::filesystem::path& file);
 
 /// Files of the same format, sorted into runs: files whose names differ by a number alone (their
-/// last one) are times of one run, other names and other folders are other runs; files of particles
-/// and of contacts of the same name go together. Runs come in the order of their names, numbers
-/// counted as numbers.
+/// last one) are times of one run (unless their own first times do not rise with it: then each is a
+/// run), other names and other folders are other runs. A file of contacts
+/// goes with the particles of the same name, but for words such as "atoms", "contacts", "pairs",
+/// "spheres", "intrs" and the extension; or with those of its folder, if these are one run. In the
+/// format "mercurydpm" a number before ".data" names a run, one after it a time. Runs come in the
+/// order of their names, times of a run by their number.
+/// @throws BadInput where contacts go with no particles
 std::vector<std::vector<std::filesystem::path>> runsOf(std::string_view format,
                                                        std::vector<std::filesystem::path> files);
 
 /// Opens the files of one run. @throws BadInput
 std::unique_ptr<FrameReader> openFrames(std::string_view format,
-                                        const std::vector<std::filesystem::path>& files);
+                                        const std::vector<std::filesystem::path>& files,
+                                        const FileOptions& options = {});
 
 }  // namespace crossgrain::files

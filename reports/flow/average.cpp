@@ -148,7 +148,7 @@ std::string extentOf(const CompareResults& results, const Engines& engines) {
   for (const EngineRuns& engine : engines)
     fields += std::ranges::count(engine.profiles(), results.averaging.method, &Profile::method);
   return fmt::format("{} in {}", counted(static_cast<std::size_t>(fields), "field"),
-                     counted(results.rings.r.size(), "ring"));
+                     counted(results.rings.r.size(), results.region ? "bin" : "ring"));
 }
 
 /// "40 snapshots of grain averaged: 12 fields in 20 rings."
@@ -165,9 +165,13 @@ std::vector<std::string> averageNotes(const CompareResults& results, const Engin
   if (const std::string times = timesOf(engines); !times.empty())
     sentences.push_back("The snapshots are of " + times + ".");
   for (const std::string& state : stateSentences(results, engines)) sentences.push_back(state);
-  sentences.emplace_back(
-      "Nothing was run and nothing compared: bars are those within these snapshots, and say "
-      "nothing about other packings.");
+  if (const std::size_t runs = engines.front().finished.size(); runs > 1)
+    sentences.push_back(fmt::format(
+        "Nothing was run and nothing compared: bars are one standard error over {} runs.", runs));
+  else
+    sentences.emplace_back(
+        "Nothing was run and nothing compared: bars are those within these snapshots, and say "
+        "nothing about other packings.");
   if (results.averaging.snapshots == 1)
     sentences.emplace_back("One snapshot is an instant, not an average over time.");
   const std::vector<FitRow>& fits = engines.front().fits();
@@ -180,10 +184,42 @@ std::vector<std::string> averageNotes(const CompareResults& results, const Engin
   return sentences;
 }
 
+/// Every number that a run of an assembly has, the case's endpoints among them.
+OverviewCell headCell(const HeadNumber& number) {
+  OverviewCell cell{Verdict::notMeasured, {}, {}, {}, {}, "engines"};
+  cell.value = finite(number.value);
+  if (!cell.value) return cell;
+  cell.verdict = std::nullopt;
+  if (number.unit != "-" && number.unit != "1") cell.unit = number.unit;
+  cell.shown =
+      readable(cell.value, number.standardError) + (cell.unit.empty() ? "" : " " + cell.unit);
+  return cell;
+}
+
+void addRegionColumns(Overview& overview, const Engines& engines) {
+  for (const EngineRuns& engine : engines) {
+    OverviewRow row{engine.name, true, {}};
+    for (const HeadNumber& number : engine.head()) {
+      if (!finite(number.value)) continue;
+      overview.columns.push_back({spaced(number.name), "", "engines"});
+      row.cells.push_back(headCell(number));
+    }
+    if (!row.cells.empty()) overview.rows.push_back(std::move(row));
+  }
+  overview.states = {{std::nullopt, "a number that nothing is judged by"}};
+}
+
 /// Whose snapshots: in which state, how steady, how well balanced, and what the fits give.
 Overview averageOverview(const CompareResults& results) {
   Overview overview;
   overview.rowsAre = "snapshots of";
+  const std::vector<EngineRuns> engines = engineRuns(results);
+  if (results.region) {
+    addRegionColumns(overview, engines);
+    if (!overview.rows.empty())
+      overview.conclusion = {averageLead(results, engines), averageNextStep(results)};
+    return overview;
+  }
   overview.columns = {
       {"regime", "In which state was the cell?", ""},
       {"change", "Was it steady? The largest change of a series while it was averaged.", ""},
@@ -194,7 +230,6 @@ Overview averageOverview(const CompareResults& results) {
                      {Verdict::borderline, "drifts"},
                      {Verdict::undecided, "cannot tell"},
                      {std::nullopt, "a number that nothing is judged by"}};
-  const std::vector<EngineRuns> engines = engineRuns(results);
   for (const EngineRuns& engine : engines) {
     if (engine.finished.empty()) continue;
     const FlowRun& run = *engine.finished.front();
@@ -215,11 +250,13 @@ Report averageReport(const CompareResults& results) {
   const Engines engines = engineRuns(results);
   Report report{{results.head, results.engines, averageOverview(results)}};
   report.elapsed = results.elapsed;
-  report.caseHeading = "The case: its cell, rings and weights";
+  report.caseHeading = results.region ? "The case: its averaged part and weights"
+                                      : "The case: its cell, rings and weights";
   report.notes = averageNotes(results, engines);
   report.figures = compareFigures(results);
   if (Table state = stateTable(engines); !state.rows.empty())
-    report.section("engines", "State of the cell", "State").blocks = {std::move(state)};
+    report.section("engines", results.region ? "Numbers" : "State of the cell", "State").blocks = {
+        std::move(state)};
   addProfiles(report, results, engines);
   addSeries(report, results, engines);
   report.tables = averageTables(results);

@@ -33,18 +33,19 @@ enum ExitStatus {
 /// The options that studies share; a study's own are its Options.
 struct CommandLine {
   RunCommand run;
-  std::vector<std::filesystem::path> inputs;  ///< case files, or result folders
-  std::filesystem::path snapshots;            ///< file to average
-  std::vector<std::string> overrides;         ///< --set, then what other options stand for
-  std::optional<std::int64_t> seed;           ///< --seed: preparation.seed
-  std::optional<std::string> only;            ///< -k: part of the cases
+  /// Case files, or result folders; of files that are averaged the case, then the files.
+  std::vector<std::filesystem::path> inputs;
+  std::filesystem::path snapshots;     ///< file to average
+  std::vector<std::string> overrides;  ///< --set, then what other options stand for
+  std::optional<std::int64_t> seed;    ///< --seed: preparation.seed
+  std::optional<std::string> only;     ///< -k: part of the cases
   bool quick = false;
   bool json = false;
 };
 
 /// Which of them a study takes.
 struct SharedOptions {
-  enum class Input { oneCase, anyCases, snapshots, none } input = Input::oneCase;
+  enum class Input { oneCase, anyCases, snapshots, none, files } input = Input::oneCase;
   const char* inputIs = "case file";
   bool selection = false;  ///< -k
   bool engines = true;     ///< --engines and what goes with running them
@@ -78,6 +79,11 @@ struct StudyWork {
 
   const Case& setup() const { return cases.front(); }
 };
+
+/// Input::files: all but the case.
+inline std::vector<std::filesystem::path> filesOf(const CommandLine& line) {
+  return {line.inputs.begin() + 1, line.inputs.end()};
+}
 
 /// What finished runs in a study's output folder depend on.
 enum class Keeps { nothing, oneCase, eachCase };

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 std::vector<std::string> keysWithoutUse(const Case& setup, std::string_view command) {
   std::vector<std::string> keys;
   for (const auto& [name, settings] : setup.engines)
-    if (!findEngine(name))
+    if (!findEngine(name) && command != "average")  // whose files may be of that name
       keys.push_back(fmt::format(
           "engines.{} (of no engine that is known here; --engines takes its file)", name));
   if (command == "check") return keys;
@@ -86,7 +86,8 @@ Case onlyFlow(const CommandLine& line, const char* command) {
   }
   if (cases.size() > 1)
     throw BadInput(fmt::format("{}: {} takes a case without variants", file.string(), command));
-  if (std::string_view(command) != "plan")  // whose every job is a compare
+  // Every job of a plan is a compare, and import takes a case as it is for what comes after.
+  if (std::string_view(command) != "plan" && std::string_view(command) != "import")
     reportKeysWithoutUse(cases.front(), command, line.json ? stderr : stdout);
   if (!line.quick) return cases.front();
   std::vector<std::string> overrides = quickOverrides(cases.front());

@@ -1,63 +1,150 @@
 #include "studies/flow/average.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <iterator>
+
+#include "cases/endpoints.hpp"
 #include "results/schema.hpp"
+#include "studies/core/executor.hpp"
 #include "studies/core/study_cases.hpp"
 #include "studies/flow/averages.hpp"
+#include "studies/flow/endpoint_values.hpp"
 #include "studies/flow/ensemble.hpp"
 #include "studies/flow/frame.hpp"
-#include "studies/flow/snapshot_file.hpp"
+#include "studies/flow/snapshot_sources.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline studies {
+namespace {
 
-CompareResults averageSnapshots(const Case& setup, const std::filesystem::path& file,
-                                const std::string& commandLine) {
-  requireReadable(file, setup);
-  const SnapshotReader reader(file, setup);
-  requireFit(reader, setup);
-  requireSound(reader, setup);
-  const Scene& scene = reader.scene();
-  CouetteAverages averages(setup, scene);
-  for (std::size_t k = 0; k < reader.count(); ++k) {
-    throwIfInterrupted();
-    const Snapshot snapshot = reader.read(k);
-    try {
-      averages.add(snapshot);
-    } catch (const std::invalid_argument& misfit) {
-      throw BadInput(fmt::format("{}, snapshot {}: {}", file.string(), k, misfit.what()));
-    }
+/// Endpoints that the case makes up itself, beside the other numbers of the run.
+void addOwnEndpoints(const Case& setup, FlowRun& run) {
+  if (!setup.average) return;
+  for (const OwnEndpoint& own : setup.average->endpoints) {
+    const OwnValue found = ownEndpointOf(own, setup, run);
+    std::erase_if(run.head, [&](const HeadNumber& number) { return number.name == own.name; });
+    run.head.push_back({own.name, own.unit, found.value, {}, {}});
   }
+}
+
+struct AveragedRun {
+  FlowRun run;
+  std::string name;  ///< of its file
+  std::int64_t snapshots = 0;
+  Disks disks;
+  std::vector<std::string> remarks;
+};
+
+AveragedRun averageRun(const Case& setup, const SnapshotRun& files, SnapshotSource& source,
+                       int index, Progress& progress) {
+  const auto averages = flowAverages(setup, source.scene());
+  AveragedRun averaged;
+  averaged.name = files.name();
+  averaged.disks = source.scene().disks;
+  while (const auto snapshot = source.next()) {
+    throwIfInterrupted();
+    try {
+      averages->add(*snapshot);
+    } catch (const std::invalid_argument& misfit) {
+      throw BadInput(
+          fmt::format("{}, snapshot {}: {}", averaged.name, averaged.snapshots, misfit.what()));
+    }
+    ++averaged.snapshots;
+    progress.update(static_cast<std::size_t>(index), averaged.name, source.progress());
+  }
+  FlowRun& run = averaged.run;
+  run.engine = source.engine();
+  run.packing = index;
+  averages->describe(EffectiveParameters{}, run);
+  addOwnEndpoints(setup, run);
+  averaged.remarks = source.remarks();
+  return averaged;
+}
+
+/// Runs of one engine are replicates; those of two are to be compared.
+void requireOneEngine(const std::vector<AveragedRun>& all) {
+  for (const AveragedRun& other : all)
+    if (other.run.engine != all.front().run.engine)
+      throw BadInput(fmt::format(
+          "{} is of {}, {} is of {}: average takes runs of one engine, which differ by their start",
+          all.front().name, all.front().run.engine, other.name, other.run.engine));
+}
+
+std::string describeSources(const std::vector<AveragedRun>& all) {
+  if (all.size() == 1)
+    return fmt::format("Averaged from the {} snapshots of {}; nothing was run.",
+                       all.front().snapshots, all.front().name);
+  std::vector<std::string> each;
+  for (const AveragedRun& one : all)
+    each.push_back(fmt::format("{} of {}", one.snapshots, one.name));
+  return fmt::format(
+      "Averaged from the snapshots of {} runs, which count as replicates ({}); nothing was run.",
+      all.size(), fmt::join(each, ", "));
+}
+
+}  // namespace
+
+CompareResults averageSnapshots(const Case& setup, const std::vector<std::filesystem::path>& files,
+                                const std::string& commandLine, const AverageOptions& options,
+                                bool quiet) {
+  const std::vector<SnapshotRun> runs = snapshotRuns(files);
+  Progress progress(quiet);
+  std::vector<AveragedRun> all;
+  for (const SnapshotRun& run : runs) {
+    const auto source = openSnapshots(run, setup, options.name.value_or(defaultName(run.format)));
+    const auto index = all.size();
+    if (index == 0) progress.begin("averaging", std::vector<double>(runs.size(), 1.0));
+    all.push_back(averageRun(setup, run, *source, static_cast<int>(index), progress));
+    progress.finish(index, fmt::format("{}: {} snapshots", run.name(), all.back().snapshots));
+  }
+  requireOneEngine(all);
 
   CompareResults results;
-  static_cast<FlowFrame&>(results) = couetteFrame(kindAverage, setup, commandLine, scene.disks);
+  static_cast<FlowFrame&>(results) =
+      couetteFrame(kindAverage, setup, commandLine, all.front().disks);
   // Of a file's snapshots nobody says from when to when they are.
   FlowAveraging& averaging = results.averaging;
   averaging.settleRotations = averaging.rotations = averaging.fromRotation = averaging.toRotation =
       averaging.preparedRotations = std::nullopt;
-  averaging.snapshots = static_cast<std::int64_t>(reader.count());
-  results.engines = {{reader.engine(), fmt::format("snapshots of {}", file.filename().string()), "",
-                      "", Status::finished, ""}};
-  FlowRun& run = results.runs.emplace_back();
-  run.engine = reader.engine();
-  averages.describe(EffectiveParameters{}, run);
-  results.steadiness = steadinessOf(results.runs, {reader.engine()}, setup.averaging.confidence);
-  results.notes = {fmt::format("Averaged from the {} snapshots of {}; nothing was run.",
-                               reader.count(), file.string())};
+  averaging.snapshots = std::ranges::max(all, {}, &AveragedRun::snapshots).snapshots;
+  const std::string engine = all.front().run.engine;
+  results.engines = {{engine,
+                      all.size() == 1
+                          ? fmt::format("snapshots of {}", files.front().filename().string())
+                          : fmt::format("snapshots of {} runs", all.size()),
+                      "", "", Status::finished, ""}};
+  results.notes = {describeSources(all)};
+  for (const AveragedRun& one : all)
+    for (const std::string& remark : one.remarks)
+      if (std::ranges::find(results.notes, remark) == results.notes.end())
+        results.notes.push_back(remark);
+  for (AveragedRun& one : all) results.runs.push_back(std::move(one.run));
+  results.steadiness = steadinessOf(results.runs, {engine}, setup.averaging.confidence);
+  if (results.runs.size() > 1) results.ensemble = ensembleOf(results.runs, {engine});
   return results;
 }
 
 const Study<AverageOptions, CompareResults> averageStudy = {
     "average",
-    {.input = SharedOptions::Input::snapshots, .engines = false},
+    {.input = SharedOptions::Input::files,
+     .inputIs = "snapshots: HDF5 files, or result files of other programs (docs/import.md)",
+     .engines = false},
     Keeps::nothing,
-    [](AverageOptions&, CommandLine&) { return std::vector<StudyOption>{}; },
-    [](const CommandLine& line, AverageOptions&) { return std::vector{onlyCase(line, "average")}; },
+    [](AverageOptions& own, CommandLine& line) {
+      return std::vector<StudyOption>{
+          {"--name", "what made the files: [engines.NAME] has their units (default: their format)",
+           &own.name},
+          {"--quiet", "no progress", &line.run.quiet}};
+    },
+    [](const CommandLine& line, AverageOptions&) { return std::vector{onlyFlow(line, "average")}; },
     nullptr,
-    [](const StudyWork& work, const AverageOptions&) {
-      return averageSnapshots(work.setup(), work.line.snapshots, work.line.run.commandLine);
+    [](const StudyWork& work, const AverageOptions& own) {
+      return averageSnapshots(work.setup(), filesOf(work.line), work.line.run.commandLine, own,
+                              work.line.run.quiet);
     },
     [](const CompareResults&, const CommandLine&, const AverageOptions&) { return Outcome(); }};
 

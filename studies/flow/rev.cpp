@@ -102,10 +102,9 @@ std::vector<RevMeeting> meetingsOf(const std::vector<RevCurve>& curves) {
 RevResults averagePerWidth(const StudyWork& work, const AverageOptions&) {
   const Case& setup = work.setup();
   const std::filesystem::path& file = work.line.snapshots;
-  requireReadable(file, setup);
-  const SnapshotReader reader(file, setup);
-  requireFit(reader, setup);
-  requireSound(reader, setup);
+  const auto opened = openSnapshotFile(file, setup);
+  while (opened->next()) throwIfInterrupted();  // sound to the end
+  const SnapshotReader& reader = *opened;
   Progress progress(work.line.run.quiet);
   const std::vector<double> all = widths();
   progress.begin("averaging", std::vector<double>(all.size(), 1.0));

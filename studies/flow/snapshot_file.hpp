@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "adapters/audit.hpp"
 #include "adapters/scene.hpp"
 #include "adapters/snapshot.hpp"
+#include "adapters/snapshot_source.hpp"
 #include "cases/case.hpp"
 #include "support/hdf5_file.hpp"
 
@@ -56,51 +59,40 @@ class SnapshotFile {
 /// @throws BadInput as SnapshotReader, or that the file is damaged
 void requireReadable(const std::filesystem::path& file, const Case& setup);
 
-/// Reads such a file, of a run or of any other source, one snapshot at a time.
-class SnapshotReader {
+/// Reads such a file, of a run or of any other source, one snapshot at a time. Between two of them
+/// the file is closed, so that other HDF5 files can be read and written meanwhile.
+class SnapshotReader : public SnapshotSource {
  public:
-  /// @param setup  what the file does not hold: the law, the walls' names
+  /// @param setup  what the file does not hold: the law, the walls of an assembly and how they move
   /// @throws BadInput naming the file and what it lacks
   SnapshotReader(const std::filesystem::path& file, const Case& setup);
+  SnapshotReader(const SnapshotReader&) = delete;  // basis_ points into it
+  SnapshotReader& operator=(const SnapshotReader&) = delete;
 
-  /// Disks and walls of the file under the law of the case.
-  const Scene& scene() const { return scene_; }
-  /// As the file says, else the file's name.
-  const std::string& engine() const { return engine_; }
+  const Scene& scene() const override { return scene_; }
+  const std::string& engine() const override { return engine_; }
+  std::optional<Snapshot> next() override;
+  double progress() const override;
+
   std::size_t count() const { return count_; }
   const std::filesystem::path& file() const { return name_; }
-  /// Whether a snapshot holds how the wheel and the ring move.
-  bool tellsMotion(std::size_t k) const;
 
+  /// The k-th, not yet found sound.
   /// @throws BadInput naming the dataset that is missing or does not fit
   Snapshot read(std::size_t k) const;
+  /// @throws BadInput naming what cannot be true of a snapshot
+  void requireSound(const Snapshot& snapshot, std::size_t k) const;
 
  private:
-  std::vector<double> numbers(const std::string& path, std::size_t length) const;
-  std::vector<Vec2> vectors(const std::string& path, std::size_t length) const;
-  void readScene(const Case& setup);
-  std::vector<BodySnapshot> readBodies(const std::string& group) const;
-  Contacts readContacts(const std::string& path) const;
-  [[noreturn]] void fail(const std::string& what) const;
-
   std::filesystem::path name_;
-  Hdf5File file_;
   Scene scene_;
   std::string engine_;
-  std::size_t count_ = 0;
+  std::size_t count_ = 0, next_ = 0;
+  AuditBasis basis_;
 };
 
-/// Snapshots of one cell averaged with the rings of another give numbers without meaning. Held
-/// against the case are what the file says of disks (how many of each radius, their masses; not
-/// where the case takes them from a packing file), wall disks (how many, radius, distance from the
-/// axis), the wheel's rate and where the disks' centres are. What the file does not hold is not
-/// asked for.
-/// @throws BadInput naming the file and all that does not fit, in one line
-void requireFit(const SnapshotReader& reader, const Case& setup);
-
-/// Every snapshot of the file can be true of its disks (adapters/audit.hpp), as far as a file says:
-/// not its time step, nor how walls were to move, and its numbers may be of single precision.
-/// @throws BadInput naming the file, the snapshot and what cannot be
-void requireSound(const SnapshotReader& reader, const Case& setup);
+/// Opens a file that is readable and fits the case. @throws BadInput
+std::unique_ptr<SnapshotReader> openSnapshotFile(const std::filesystem::path& file,
+                                                 const Case& setup);
 
 }  // namespace crossgrain::inline studies

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Reads a million generated inputs of each kind, some thousands at a time: README.md.
 
-    shards.py --inputs …/fuzz_input_tests --messages …/fuzz_tests --reports …/fuzz_report_tests --out out/fuzz --minutes 60
+    shards.py --inputs …/fuzz_input_tests --messages …/fuzz_tests --reports …/fuzz_report_tests --files …/fuzz_files_tests --out out/fuzz --minutes 60
 """
 
 import argparse
@@ -21,6 +21,12 @@ kinds = {
     "results": ("inputs", "FuzzedInput.ResultsAreReadOrRefusedInOneLine", 10000),
     "texts": ("reports", "HostileResults.RunNothingAndStayWithinTheirQuotes", 200),
     "reports": ("reports", "HostileResults.AreReportsOrRefusedInOneLine", 200),
+    "files-mercurydpm": ("files", "DamagedFiles.MercuryDpm", 20000),
+    "files-lammps": ("files", "DamagedFiles.Lammps", 20000),
+    "files-yade-text": ("files", "DamagedFiles.YadeText", 20000),
+    "files-vtk": ("files", "DamagedFiles.Vtk", 20000),
+    "files-csv": ("files", "DamagedFiles.Csv", 20000),
+    "files-ondem": ("files", "DamagedFiles.OnDem", 1000),
     "answers": ("messages", "Hostile.AnswersAreAValueOrOneLine", 20000),
     "recordings": ("messages", "Hostile.RecordingsAreExchangesOrBadInput", 20000),
 }
@@ -56,6 +62,7 @@ def main():
     parser.add_argument("--inputs", type=pathlib.Path, required=True, help="the program fuzz_input_tests")
     parser.add_argument("--messages", type=pathlib.Path, required=True, help="the program fuzz_tests")
     parser.add_argument("--reports", type=pathlib.Path, required=True, help="the program fuzz_report_tests")
+    parser.add_argument("--files", type=pathlib.Path, required=True, help="the program fuzz_files_tests")
     parser.add_argument("--out", type=pathlib.Path, required=True, help="which shards have been read; what is there is gone on with")
     parser.add_argument("--all", type=int, default=1000000, help="inputs of each kind")
     parser.add_argument("--kinds", default=",".join(kinds))

@@ -57,6 +57,15 @@ COMMANDS = {
         "compare {cell} --engines grain --out {first} --set=run.keep_snapshots=5 {short}",
         "average {first}/snapshots/grain-p0.h5 {cell} --set=averaging.rings=4 --out {out}",
     ],
+    "average-assembly": [
+        "compare cases/assembly/biaxial.toml --engines grain --quick --out {first}",
+        "average {first}/snapshots/grain-p0.h5 {first}/snapshots/grain-p1.h5 cases/assembly/biaxial.toml --out {out}",
+    ],
+    "import": [
+        "import lammps tests/studies/import/box-atoms.dump tests/studies/import/box-pairs.dump examples/import/box.toml"
+        " --name my-lammps --out {first}.h5",
+        "average {first}.h5 examples/import/box.toml --out {out}",
+    ],
     "rev": [
         "compare {cell} --engines grain --out {first} --set=run.keep_snapshots=5 {short}",
         "rev {first}/snapshots/grain-p0.h5 {cell} --set=averaging.rings=4 --out {out}",

@@ -9,6 +9,7 @@
 
 #include "cases/couette.hpp"
 #include "studies/flow/average.hpp"
+#include "studies/flow/snapshot_fit.hpp"
 #include "support/files.hpp"
 #include "tests/studies/quick_cell.hpp"
 #include "tests/support/refusal.hpp"
@@ -139,7 +140,7 @@ TEST_F(SnapshotFiles, FolderInItsPlace_ThrowsOutputError) {
 
 TEST_F(SnapshotFiles, FileWithoutSpinsAndContacts_HasNoAveragesOfThem) {
   writeBare(2, [](Hdf5File&) {});
-  const auto results = averageSnapshots(setup_, path_, "test");
+  const auto results = averageSnapshots(setup_, {path_}, "test");
   const std::vector<Profile>& profiles = results.runs[0].profiles;
   EXPECT_FALSE(profileOf(profiles, "spin"));
   EXPECT_FALSE(profileOf(profiles, "stress_rr"));
@@ -153,7 +154,7 @@ TEST_F(SnapshotFiles, FileWithoutSpinsAndContacts_HasNoAveragesOfThem) {
 
 TEST_F(SnapshotFiles, MalformedFile_ThrowsNamingTheData) {
   const auto expectRefusal = [&](const char* words) {
-    const std::string said = test::refusalOf([&] { averageSnapshots(setup_, path_, "test"); });
+    const std::string said = test::refusalOf([&] { averageSnapshots(setup_, {path_}, "test"); });
     EXPECT_NE(said.find(words), std::string::npos) << said;
   };
   writeFile(path_, "not HDF5");
@@ -194,7 +195,8 @@ TEST_F(SnapshotFiles, OtherCell_IsRefusedWithEveryMisfit) {
     Case other = own;
     change(other);
     const SnapshotReader reader(path_, other);
-    return test::refusalOf([&] { requireFit(reader, other); });
+    return test::refusalOf(
+        [&] { requireFit(reader.scene(), reader.read(0), other, {path_.string()}); });
   };
   EXPECT_EQ(misfit([](Case&) {}), "");
   EXPECT_EQ(misfit([](Case& c) {  // a packing file's disks are its own

@@ -10,6 +10,7 @@ import subprocess
 import unittest
 
 import h5py
+import numpy
 
 from harness import BAD_INPUT, CASES, COUETTE, HELD, HOME, SystemTest, settings
 
@@ -58,6 +59,115 @@ class Snapshots(SystemTest):
         for file in files:
             with self.subTest(file.name):
                 self.assert_one_error(self.average(file), BAD_INPUT, file.name)
+
+
+class ResultFiles(SystemTest):
+    """Files of a run that this program took no part in: lmp -in examples/import/box.lmp, its last three times."""
+
+    FILES = [HOME / f"tests/studies/import/box-{name}.dump" for name in ("atoms", "pairs")]
+    CASE = HOME / "examples/import/box.toml"
+
+    def setUp(self):
+        super().setUp()
+        self.snapshots = self.folder / "mine.h5"
+
+    def import_files(self, *arguments, files=FILES, name="my-lammps"):
+        return self.run_program("import", "lammps", *files, self.CASE, "--name", name, "--out", self.snapshots, *arguments)
+
+    def copies(self, change):
+        """The same files, with other contacts."""
+        texts = [file.read_text(encoding="utf-8") for file in self.FILES]
+        return [self.write(file.name, text) for file, text in zip(self.FILES, (texts[0], change(texts[1])), strict=True)]
+
+    def test_are_snapshots_that_are_averaged_as_the_files_themselves(self):
+        done = self.import_files()
+        self.assert_status(done, HELD)
+        self.assertIn("3 snapshots of 48 disks by my-lammps, t = 0.78 to 0.8 s", done.stdout)
+        with h5py.File(self.snapshots) as file:
+            group = file["snapshot-002"]
+            i, j, fn = (group["contacts"][name][:] for name in ("i", "j", "normal_force"))
+            self.assertTrue((i < j).all())
+            # 48 disks of 1 g at rest: the floor, id 48, bears their weight but for what hangs on the sides.
+            force = group["bodies/force"][:]
+            self.assertAlmostEqual(-force[0, 1], fn[j == 48].sum(), delta=1e-12)
+            self.assertAlmostEqual(-48e-3 * 9.81, force[:, 1].sum(), delta=2e-3 * 48e-3 * 9.81)
+            self.assertAlmostEqual(0.0, force[:, 0].sum(), delta=2e-3 * 48e-3 * 9.81)
+        for name, files in (("one", [self.snapshots]), ("other", self.FILES)):
+            done = self.run_program("average", *files, self.CASE, "--name", "my-lammps", "--out", self.folder / name)
+            self.assert_status(done, HELD)
+        one, other = (self.rows("profiles.csv", self.folder / name) for name in ("one", "other"))
+        self.assertGreater(len(one), 50)
+        self.assertEqual(one, other)
+
+    def test_contacts_listed_from_both_sides_are_one(self):
+        """The same run as MercuryDPM would write it: each pair twice, walls with n and t the other way round."""
+        self.assert_status(self.import_files(), HELD)
+        data, fstat = [], []
+        with h5py.File(self.snapshots) as file:
+            radius = file["disks/radius"][:]
+            for name in ("snapshot-000", "snapshot-001", "snapshot-002"):
+                now = file[name]
+                t = now["time"][0]
+                data.append(f"{len(radius)} {t!r} 0 0 0 1 1 1")
+                for a, (x, y), (u, v), spin in zip(radius, now["position"][:], now["velocity"][:], now["spin"][:], strict=True):
+                    data.append(f"{x!r} {y!r} 0 {u!r} {v!r} 0 {a!r} 0 0 0 0 0 {spin!r} 0")
+                fstat += [f"# {t!r} 1", "# 0 0 0 1 1 1", f"# {radius[0]!r} {radius[0]!r} 0 0 0 0"]
+                rows = (now["contacts"][key][:] for key in ("i", "j", "normal", "overlap", "normal_force", "tangential_force"))
+                for i, j, (nx, ny), overlap, fn, ft in zip(*rows, strict=True):
+                    sense = math.copysign(1.0, ft)  # the tangent is along the force
+                    tx, ty = -sense * ny, sense * nx
+                    x, y = now["position"][i] - (radius[i] - overlap / 2) * numpy.array([nx, ny])
+                    line = f"{x!r} {y!r} 0 {overlap!r} 0 {fn!r} {abs(ft)!r}"
+                    there, back = f"{nx!r} {ny!r} 0 {tx!r} {ty!r} 0", f"{-nx!r} {-ny!r} 0 {-tx!r} {-ty!r} 0"
+                    if j < len(radius):
+                        fstat += [f"{t!r} {i} {j} {line} {there}", f"{t!r} {j} {i} {line} {back}"]
+                    else:
+                        fstat.append(f"{t!r} {i} {len(radius) - j - 1} {line} {back}")
+        files = [self.write(f"run.{name}", "\n".join(rows) + "\n") for name, rows in (("data", data), ("fstat", fstat))]
+        again = self.folder / "again.h5"
+        self.assert_status(self.run_program("import", "mercurydpm", *files, self.CASE, "--out", again), HELD)
+        with h5py.File(self.snapshots) as one, h5py.File(again) as other:
+            for name in ("i", "j", "normal", "overlap", "normal_force", "tangential_force"):
+                for k in range(3):
+                    a, b = (file[f"snapshot-00{k}/contacts/{name}"][:] for file in (one, other))
+                    self.assertEqual(a.shape, b.shape)
+                    self.assertLess(abs(a - b).max(), 1e-12, name)
+
+    def test_sections_of_files_are_no_slips_of_engines(self):
+        plan = ["compare", self.CASE, "--engines", "grain", "--dry-run", "--out", self.out]
+        self.assert_status(self.run_program(*plan), HELD)  # it has [engines.my-lammps]
+        self.assert_one_error(self.run_program(*plan, "--set=engines.yadee.dt=1e-5"), BAD_INPUT, "engines.yadee", "did you mean yade?")
+
+    def test_wrong_settings_are_refused(self):
+        for settings_, told in (
+            (["length=1000"], ["say length = 1 in [engines.my-lammps]"]),
+            (["mass=0.001"], ["mass", "say mass = 1 in [engines.my-lammps]"]),
+            (["dt=0"], ["box-atoms.dump, step 78000", "say dt, the time step, in [engines.my-lammps]"]),
+            (["dt=1e-7"], ["no snapshot lies between 0.6 and 0.8 s", "0.008 s"]),
+            (["plane=xz"], ["nothing differs in z", 'plane = "xy"']),
+            (["plane=zx"], ["plane cannot be 'zx'", "xy, xz, yz"]),
+            (["lenght=1"], ["there is no setting 'lenght'", "length"]),
+        ):
+            with self.subTest(settings_):
+                done = self.import_files(*(f"--set=engines.my-lammps.{each}" for each in settings_))
+                self.assert_one_error(done, BAD_INPUT, *told)
+                self.assertEqual([], list(self.folder.glob("mine*")))
+
+    def test_faulty_files_are_refused(self):
+        def one_more(text):
+            """The first contact is listed from the other side, too, with twice the force."""
+            lines = text.split("\n")
+            number = lines.index("ITEM: NUMBER OF ENTRIES") + 1
+            row = next(k for k, line in enumerate(lines) if line.startswith("ITEM: ENTRIES")) + 1
+            first, second, force, *_ = lines[row].split()
+            lines.insert(row, f"{second} {first} {2 * float(force)} 0 0 0")
+            lines[number] = str(int(lines[number]) + 1)
+            return "\n".join(lines)
+
+        self.assert_one_error(self.import_files(files=self.copies(one_more)), BAD_INPUT, "listed twice with different forces")
+        self.assert_one_error(self.run_program("import", "mine", *self.FILES, self.CASE, "--out", self.snapshots), BAD_INPUT, "there is no format 'mine'")
+        self.snapshots.write_text("mine", encoding="utf-8")
+        self.assert_one_error(self.import_files(), BAD_INPUT, "mine.h5: is there, and is no file of snapshots")
 
 
 def ring_of_disks(count, radius=0.05):

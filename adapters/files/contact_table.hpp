@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "adapters/files/columns.hpp"
+#include "adapters/files/frame.hpp"
+
+namespace crossgrain::files {
+
+/// Contacts as rows of a file, with what can only be made sense of beside the particles: a force in
+/// parts, a normal that is where the centres are.
+struct ContactTable {
+  FileContacts contacts;
+  std::vector<Vec3> tangential;    ///< tangential force on the first, beside contacts.normalForce
+  std::vector<Vec3> branch;        ///< centre of the first − centre of the second
+  std::vector<Vec3> torque;        ///< all of it on the first, lever of the force included
+  std::vector<Vec3> rollingForce;  ///< rolling pseudo-force
+  std::vector<std::pair<Vec3, Vec3>> ends;  ///< centres of both, in place of ids
+};
+
+void reserve(ContactTable& table, const Columns& columns, std::size_t rows);
+/// Adds the row that was read; a wall that is the first becomes the second. @throws BadInput
+void addContact(ContactTable& table, const Columns& columns, const TextFile& text);
+/// Refuses columns of which no contact can be made. @throws BadInput saying what is missing
+void checkContactColumns(const Columns& columns, const TextFile& text);
+
+/// Where particles are by their ids.
+class RowOfId {
+ public:
+  /// @throws BadInput where two have one id
+  RowOfId(const std::vector<std::int64_t>& ids, const std::string& where);
+  std::optional<std::size_t> operator[](std::int64_t id) const;
+
+ private:
+  std::int64_t lowest_ = 0;
+  std::vector<std::uint32_t> dense_;                            ///< row by id − lowest_
+  std::vector<std::pair<std::int64_t, std::uint32_t>> sparse_;  ///< else, sorted
+};
+
+/// x − y, over the nearest edges of a periodic box.
+Vec3 nearestImage(Vec3 difference, const std::optional<FileBox>& box);
+
+/// The contacts of a table, all in the terms of FileContacts. Particles are those of their time.
+/// Normals are taken as given, else from the branch, else from the centres; force = f_n n + f_t;
+/// torque of rolling resistance = R* n × (pseudo-force) [LAMMPS, pair_granular.cpp: torroll], or
+/// what the whole torque has beyond −(R − δ/2) n × F.
+/// @param where  of the table, for messages  @throws BadInput
+FileContacts completed(ContactTable table, const FileFrame& particles, const std::string& where);
+
+/// Adds contacts; what one of both does not have is dropped. Points that pairs of spheres lack are
+/// worked out: x − n (R − δ/2), with δ of the centres.
+void append(FileContacts& contacts, FileContacts more, const FileFrame& particles);
+
+}  // namespace crossgrain::files

@@ -1,0 +1,136 @@
+/// CSV files of particles and of contacts, a line of column names before the rows. Comments begin
+/// with #. Rows of one time follow one another; a file without t is one time.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "adapters/files/readers.hpp"
+#include "adapters/files/series.hpp"
+#include "support/bad_input.hpp"
+#include "support/nearest.hpp"
+
+namespace crossgrain::files {
+namespace fs = std::filesystem;
+namespace {
+
+/// Columns of start files that say nothing of a time.
+bool isOfStartFiles(std::string_view name) {
+  return name == "inertia" || name == "fixed";
+}
+
+Columns columnsOf(TextFile& text, const ColumnOptions& options) {
+  if (!text.nextUncommented('#')) text.fail("there is no line of column names");
+  std::vector<Meaning> meanings;
+  for (const std::string_view name : commaWords(text.line())) {
+    const std::optional<Meaning> said = options.of(name);
+    meanings.push_back(said.value_or(meaningOf(name)));
+    if (!said && meanings.back() == Meaning::none && !isOfStartFiles(name))
+      text.fail(fmt::format("there is no column {}{}; columns = {}=- leaves it out", name,
+                            suggestion(name, meaningNames()), name));
+  }
+  Columns columns(std::move(meanings));
+  columns.checkDistinct(text);
+  return columns;
+}
+
+/// Rows up to the next time.
+class Csv : public TextParts {
+ public:
+  Csv(Files files, std::shared_ptr<const ColumnOptions> options, Content content)
+      : TextParts(std::move(files)), options_(std::move(options)), content_(content) {}
+
+ protected:
+  void begin(TextFile& text) override {
+    columns_ = columnsOf(text, *options_);
+    if (content_ == Content::contacts)
+      checkContactColumns(columns_, text);
+    else if (!columns_.has(Meaning::x) || !columns_.has(Meaning::y))
+      text.fail("the columns x and y are missing");
+    fromName_ = columns_.has(Meaning::time) || columns_.has(Meaning::step)
+                    ? std::nullopt
+                    : std::optional(numberInName(text.path()).value_or(0));
+    if (!text.nextUncommented('#')) text.fail("there are no rows below the column names");
+    text.back();
+  }
+
+  Part read(TextFile& text) override {
+    Part part;
+    FileFrame& frame = part.frame;
+    const bool timed = columns_.has(Meaning::time), stepped = columns_.has(Meaning::step);
+    if (content_ == Content::contacts) part.table.emplace();
+    bool first = true;
+    while (text.nextUncommented('#')) {
+      columns_.read(text, ',');
+      const bool isNext =
+          !first && ((timed && columns_[Meaning::time] != *frame.time) ||
+                     (stepped && columns_[Meaning::step] != static_cast<double>(*frame.step)));
+      if (isNext) {
+        text.back();
+        break;
+      }
+      if (first && timed) frame.time = columns_[Meaning::time];
+      if (first && stepped) frame.step = wholeNumber(text, columns_[Meaning::step], "step");
+      first = false;
+      if (part.table)
+        addContact(*part.table, columns_, text);
+      else
+        addParticle(frame.particles, columns_, text);
+    }
+    if (!timed && !stepped) frame.step = fromName_;
+    frame.where = timed ? fmt::format("{}, t = {}", text.path().string(), *frame.time)
+                        : fmt::format("{}, step {}", text.path().string(), *frame.step);
+    return part;
+  }
+
+ private:
+  std::shared_ptr<const ColumnOptions> options_;
+  Content content_;
+  Columns columns_;
+  std::optional<std::int64_t> fromName_;
+};
+
+}  // namespace
+
+Content contentOfCsv(const fs::path& file) {
+  TextFile text(file);
+  if (!text.nextUncommented('#')) text.fail("there is no line of column names");
+  const auto names = commaWords(text.line());
+  const auto has = [&](std::string_view name) {
+    return std::ranges::find(names, name) != names.end();
+  };
+  if (has("first") || has("second")) return Content::contacts;
+  if (has("x") || has("radius")) return Content::particles;
+  // Names of one's own: what the file's says.
+  const std::string name = file.filename().string();
+  for (const char* word : {"contact", "pair", "intr", "interaction"})
+    if (name.find(word) != std::string::npos) return Content::contacts;
+  return Content::particles;
+}
+
+double firstTimeOfCsv(const fs::path& file) {
+  TextFile text(file);
+  std::vector<std::string> names;
+  if (text.nextUncommented('#'))
+    for (const std::string_view name : commaWords(text.line())) names.emplace_back(name);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (meaningOf(names[k]) != Meaning::time && meaningOf(names[k]) != Meaning::step) continue;
+    const auto row =
+        text.nextUncommented('#') ? commaWords(text.line()) : std::vector<std::string_view>();
+    if (row.size() != names.size()) text.fail("there is no row below the column names");
+    return numberOf(text, row[k], names[k]);
+  }
+  return static_cast<double>(numberInName(file).value_or(0));
+}
+
+std::unique_ptr<FrameReader> openCsv(const Files& files, const FileOptions& options) {
+  const auto columns = std::make_shared<const ColumnOptions>(options.columns);
+  std::vector<std::unique_ptr<PartReader>> contacts;
+  for (Files& list : bySeries(filesOf(files, Content::contacts, contentOfCsv)))
+    contacts.push_back(std::make_unique<Csv>(std::move(list), columns, Content::contacts));
+  return joinParts(std::make_unique<Csv>(filesOf(files, Content::particles, contentOfCsv), columns,
+                                         Content::particles),
+                   std::move(contacts), columns);
+}
+
+}  // namespace crossgrain::files

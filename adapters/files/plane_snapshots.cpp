@@ -1,0 +1,535 @@
+#include "adapters/files/plane_snapshots.hpp"
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <utility>
+
+#include "adapters/audit_geometry.hpp"
+#include "support/bad_input.hpp"
+
+namespace crossgrain::files {
+namespace {
+
+/// What moves along the third axis, or lies beside the others there, in units of what is largest.
+constexpr double outOfPlane = 1e-6;
+
+/// A wall disk is found within this share of its radius, and what six digits leave of its place.
+constexpr double ofWallRadius = 1e-3, ofPlace = 1e-5;
+
+constexpr std::array<std::string_view, 3> planeNames = {"xy", "xz", "yz"};
+constexpr std::string_view axisNames = "xyz";
+
+/// YADE works its contacts out at the beginning of a step, and then moves on; all of these formats
+/// are its exports.
+bool isYades(std::string_view format) {
+  return format == "yade-text" || format == "vtk" || format == "ondem";
+}
+
+}  // namespace
+
+std::vector<SettingSpec> planeSettings(std::string_view format) {
+  const double behind = isYades(format) ? 1.0 : 0.0;
+  return {{"length", 1.0, "m", "unit of length of the files: 0.001 where they are in mm", {}},
+          {"time", 1.0, "s", "unit of time of the files", {}},
+          {"mass", 1.0, "kg", "unit of mass of the files", {}},
+          {"dt",
+           0.0,
+           "file's time",
+           "time step of files that count steps and have no times; 0: not said",
+           {}},
+          {"start", 0.0, "file's time", "when the case's t = 0 is", {}, -INFINITY},
+          {"contacts_behind", behind, "steps", "by which contacts are older than positions", {}},
+          {"plane",
+           std::string("xy"),
+           "",
+           "axes of the files that are x and y of the case",
+           {planeNames.begin(), planeNames.end()}},
+          {"columns",
+           std::string(),
+           "",
+           "what columns mean whose names are the user's own (docs/file-formats.md)",
+           {}}};
+}
+
+PlaneUnits planeUnits(std::string_view format, const Settings& settings) {
+  Settings all;
+  for (const SettingSpec& spec : planeSettings(format)) all[spec.name] = spec.defaultValue;
+  for (const auto& [name, value] : settings) all[name] = value;
+  const auto number = [&](const char* name) { return std::get<double>(all.at(name)); };
+  PlaneUnits units;
+  units.length = number("length");
+  units.time = number("time");
+  units.mass = number("mass");
+  for (const auto& [name, value] :
+       {std::pair("length", units.length), {"time", units.time}, {"mass", units.mass}})
+    if (!(value > 0.0)) throw BadInput(fmt::format("{} = {:g}: a unit must be > 0", name, value));
+  units.dt = number("dt");
+  units.start = number("start");
+  units.contactsBehind = number("contacts_behind");
+  // The third axis, seen so that the second is a quarter turn counter-clockwise from the first:
+  // z × x = y, y × z = x, but x × z = −y.
+  const std::string& plane = std::get<std::string>(all.at("plane"));
+  units.axes[0] = plane == "yz" ? 1 : 0;
+  units.axes[1] = plane == "xy" ? 1 : 2;
+  units.turn = plane == "xz" ? -1.0 : 1.0;
+  return units;
+}
+
+ParticleIds::ParticleIds(const std::vector<std::int64_t>& idOfRow,
+                         const std::vector<std::size_t>& walls)
+    : sorted_(idOfRow), ours_(idOfRow.size()), disks_(idOfRow.size() - walls.size()) {
+  std::ranges::sort(sorted_);
+  const auto placeOf = [&](std::size_t row) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(sorted_, idOfRow[row]) -
+                                    sorted_.begin());
+  };
+  std::vector<bool> isWall(sorted_.size(), false);
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    isWall[placeOf(walls[w])] = true;
+    ours_[placeOf(walls[w])] = disks_ + w;
+  }
+  std::size_t next = 0;
+  theirs_.resize(sorted_.size());
+  for (std::size_t k = 0; k < sorted_.size(); ++k) {
+    if (!isWall[k]) ours_[k] = next++;
+    theirs_[ours_[k]] = sorted_[k];
+  }
+}
+
+std::optional<std::size_t> ParticleIds::ourOf(std::int64_t id) const {
+  if (sorted_.empty() || id < sorted_.front() || id > sorted_.back()) return std::nullopt;
+  // Ids without gaps are where they are counted.
+  auto k = static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(sorted_.front());
+  if (k >= sorted_.size() || sorted_[k] != id) {
+    const auto found = std::ranges::lower_bound(sorted_, id);
+    if (*found != id) return std::nullopt;
+    k = static_cast<std::uint64_t>(found - sorted_.begin());
+  }
+  return ours_[k];
+}
+
+namespace {
+
+[[noreturn]] void fail(const FileFrame& frame, const std::string& what) {
+  throw BadInput(fmt::format("{}: {}", frame.where, what));
+}
+
+/// @throws BadInput  where something lies beside the others, or moves out of the plane
+void checkPlane(const FileFrame& frame, const PlaneUnits& units) {
+  const FileParticles& all = frame.particles;
+  const int third = units.third();
+  const Vec3& first = all.position.front();
+  Vec3 low = first, high = first;
+  for (const Vec3& x : all.position) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  const double extent = (high - low).maxCoeff();
+  if (high[third] - low[third] > outOfPlane * extent) {
+    std::string hint;
+    for (std::size_t k = 0; k < planeNames.size(); ++k)  // the plane without axis 2, 1, 0
+      if (const int other = 2 - static_cast<int>(k); (high - low)[other] <= outOfPlane * extent)
+        hint = fmt::format("; nothing differs in {}: say plane = \"{}\"",
+                           axisNames[static_cast<std::size_t>(other)], planeNames[k]);
+    fail(frame,
+         fmt::format("particles lie from {} = {:.6g} to {:.6g}: cases are plane{}",
+                     axisNames[static_cast<std::size_t>(third)], low[third], high[third], hint));
+  }
+  double speed = 0.0, spin = 0.0;
+  for (const Vec3& v : all.velocity) speed = std::max(speed, v.norm());
+  for (const Vec3& w : all.spin) spin = std::max(spin, w.norm());
+  for (std::size_t k = 0; k < all.velocity.size(); ++k)
+    if (std::abs(all.velocity[k][third]) > outOfPlane * speed)
+      fail(frame, fmt::format("particle {} moves along {}: cases are plane", all.id[k],
+                              axisNames[static_cast<std::size_t>(third)]));
+  for (std::size_t k = 0; k < all.spin.size(); ++k)
+    if (Vec3 w = all.spin[k]; w[third] = 0.0, w.norm() > outOfPlane * spin)
+      fail(frame, fmt::format("particle {} spins about an axis that lies in the plane", all.id[k]));
+}
+
+/// Whatever crosses a periodic edge has an image: cases know none.
+void checkEdges(const FileFrame& frame, const PlaneUnits& units) {
+  if (!frame.box) return;
+  const FileParticles& all = frame.particles;
+  for (const int axis : units.axes) {
+    if (!frame.box->periodic[axis]) continue;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const double x = all.position[k][axis], a = all.radius.empty() ? 0.0 : all.radius[k];
+      if (x - a < frame.box->low[axis] || x + a > frame.box->high[axis])
+        fail(frame,
+             fmt::format(
+                 "particle {} reaches over the periodic edge at {} = {:.6g}: cases have no "
+                 "periodic edges",
+                 all.id[k], axisNames[static_cast<std::size_t>(axis)],
+                 x - a < frame.box->low[axis] ? frame.box->low[axis] : frame.box->high[axis]));
+    }
+  }
+}
+
+/// Decimal digits that a number gets by with.
+int digitsOf(double x) {
+  const std::string text = fmt::format("{}", std::abs(x)),
+                    mantissa = text.substr(0, text.find('e'));
+  int digits = 0, zeros = 0;
+  for (const char c : mantissa) {
+    if (c == '.') continue;
+    if (c == '0') {
+      zeros += digits > 0;  // those in front do not count, those behind are not known yet
+      continue;
+    }
+    digits += zeros + 1;
+    zeros = 0;
+  }
+  return digits;
+}
+
+/// Relative rounding of coordinates: twice the last digit of files that write five to eight of
+/// them, as half of all coordinates then use the last two; else single precision's. Round numbers
+/// of a lattice are no sign of it.
+double roundingOf(const std::vector<Vec3>& position, const PlaneUnits& units) {
+  constexpr std::size_t most = 1000;
+  const std::size_t stride = std::max<std::size_t>(1, position.size() / most);
+  std::array<std::size_t, 20> count{};
+  std::size_t all = 0;
+  for (std::size_t k = 0; k < position.size(); k += stride)
+    for (const int axis : units.axes)
+      if (const double x = position[k][axis]; x != 0.0) {
+        ++count[static_cast<std::size_t>(std::min(digitsOf(x), 19))];
+        ++all;
+      }
+  std::size_t digits = count.size() - 1;
+  while (digits > 0 && count[digits] == 0) --digits;
+  if (digits < 5 || digits > 8 || 2 * (count[digits] + count[digits - 1]) < all) return 1e-6;
+  return 2.0 * std::pow(10.0, 1.0 - static_cast<double>(digits));
+}
+
+/// Rows of the particles that are a body's wall disks.
+class WallFinder {
+ public:
+  WallFinder(const FileFrame& frame, const PlaneUnits& units) {
+    const FileParticles& all = frame.particles;
+    for (const Vec3& x : all.position) place_.push_back(units.length * units.inPlane(x));
+    for (const double a : all.radius) radius_.push_back(units.length * a);
+    order_.resize(place_.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::ranges::sort(order_, {}, [&](std::size_t row) { return place_[row].x(); });
+  }
+
+  /// At these places. @returns in their order; rows that were not found are `none`
+  std::vector<std::size_t> at(const std::vector<Vec2>& places,
+                              const std::vector<double>& radii) const {
+    std::vector<std::size_t> rows;
+    for (std::size_t w = 0; w < places.size(); ++w) rows.push_back(nearest(places[w], radii[w]));
+    return rows;
+  }
+
+  /// On the circle about the body's centre, by their angle.
+  std::vector<std::size_t> onCircle(const WallBody& body) const {
+    std::vector<std::size_t> rows;
+    if (body.diskPosition.empty()) return rows;
+    const double wanted = (body.diskPosition.front() - body.centre).norm();
+    const double a = body.diskRadius.front();
+    for (std::size_t row = 0; row < place_.size(); ++row)
+      if (hasRadius(row, a) && std::abs((place_[row] - body.centre).norm() - wanted) <=
+                                   ofWallRadius * a + ofPlace * wanted)
+        rows.push_back(row);
+    std::ranges::sort(rows, {}, [&](std::size_t row) {
+      const Vec2 from = place_[row] - body.centre;
+      return std::atan2(from.y(), from.x());
+    });
+    return rows;
+  }
+
+  const Vec2& place(std::size_t row) const { return place_[row]; }
+
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+ private:
+  bool hasRadius(std::size_t row, double a) const {
+    return radius_.empty() || std::abs(radius_[row] - a) <= ofWallRadius * a;
+  }
+  std::size_t nearest(const Vec2& place, double a) const {
+    const double within = ofWallRadius * a + ofPlace * place.cwiseAbs().maxCoeff();
+    const auto xOf = [&](std::size_t row) { return place_[row].x(); };
+    for (auto k = std::ranges::lower_bound(order_, place.x() - within, {}, xOf);
+         k != order_.end() && xOf(*k) <= place.x() + within; ++k)
+      if (hasRadius(*k, a) && (place_[*k] - place).norm() <= within) return *k;
+    return none;
+  }
+
+  std::vector<Vec2> place_;     ///< [m]
+  std::vector<double> radius_;  ///< [m]
+  std::vector<std::size_t> order_;
+};
+
+/// The reference places of wall disks that lie on a circle, from where they are.
+void turnBack(WallBody& body, const std::vector<std::size_t>& rows, const WallFinder& walls,
+              double t) {
+  const BodyState now = stateAt(body.motion, body.centre, t);
+  const Eigen::Rotation2Dd back(-now.angle);
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    body.diskPosition[k] = body.centre + back * (walls.place(rows[k]) - now.centre);
+}
+
+/// All of the case's wall disks, in their order, or none. @throws BadInput for some of them
+std::vector<std::size_t> wallRows(const FileFrame& frame, const PlaneUnits& units,
+                                  PlaneScene& target, double t) {
+  std::vector<std::size_t> all;
+  std::size_t wanted = 0;
+  if (std::ranges::all_of(target.bodies, [](const WallBody& b) { return b.diskRadius.empty(); }))
+    return all;
+  const WallFinder walls(frame, units);
+  for (WallBody& body : target.bodies) {
+    const std::size_t count = body.diskRadius.size();
+    wanted += count;
+    std::vector<std::size_t> rows;
+    if (target.anyAngle) {
+      rows = walls.onCircle(body);
+      if (rows.size() == count) turnBack(body, rows, walls, t);
+    } else {
+      const BodyState now = stateAt(body.motion, body.centre, t);
+      std::vector<Vec2> places;
+      for (const Vec2& start : body.diskPosition)
+        places.push_back(memberPosition(now, body.centre, start));
+      rows = walls.at(places, body.diskRadius);
+      std::erase(rows, WallFinder::none);
+    }
+    if (!rows.empty() && rows.size() != count)
+      fail(frame, fmt::format("{} of the {} wall disks of {} are where the case has them at t = "
+                              "{:.6g} s",
+                              rows.size(), count, body.name, t));
+    all.insert(all.end(), rows.begin(), rows.end());
+  }
+  if (!all.empty() && all.size() != wanted)
+    fail(frame, fmt::format("{} of the case's {} wall disks are particles of the file, and the "
+                            "others are not",
+                            all.size(), wanted));
+  return all;
+}
+
+}  // namespace
+
+PlaneSnapshots::PlaneSnapshots(std::unique_ptr<FrameReader> reader, PlaneUnits units,
+                               PlaneScene target)
+    : reader_(std::move(reader)), units_(units), target_(std::move(target)) {
+  pending_ = readWithin();
+  if (!pending_) {
+    const std::string when =
+        last_ ? fmt::format(": the last is of t = {:.6g} s (is time, dt or start missing in {}?)",
+                            *last_, target_.where)
+              : std::string();
+    throw BadInput(fmt::format("{}: no snapshot lies between {:.6g} and {:.6g} s{}", target_.name,
+                               target_.from, target_.to, when));
+  }
+  recognise(*pending_);
+}
+
+double PlaneSnapshots::timeOf(const FileFrame& frame) const {
+  if (frame.time) return units_.time * (*frame.time - units_.start);
+  if (!frame.step) fail(frame, "it has neither a time nor a step");
+  if (units_.dt == 0.0)
+    fail(frame,
+         fmt::format("it has a step and no time: say dt, the time step, in {}", target_.where));
+  return units_.time * (static_cast<double>(*frame.step) * units_.dt - units_.start);
+}
+
+/// The next frame of the averaged time, which ends with a whole step.
+std::optional<FileFrame> PlaneSnapshots::readWithin() {
+  const double slack = 1e-6 * std::max(std::abs(target_.from), step());
+  while (auto frame = reader_->next()) {
+    const double t = timeOf(*frame);
+    if (last_ && !(t > *last_))
+      fail(*frame,
+           fmt::format("it is of t = {:.9g} s, not after the one before of {:.9g} s", t, *last_));
+    last_ = t;
+    if (t < target_.from - slack) {
+      ++early_;
+    } else if (t > target_.to + 0.5 * step()) {
+      ++late_;
+    } else {
+      return frame;
+    }
+  }
+  return std::nullopt;
+}
+
+void PlaneSnapshots::recognise(const FileFrame& frame) {
+  const FileParticles& all = frame.particles;
+  if (all.size() == 0) fail(frame, "it has no particles");
+  if (all.velocity.empty())
+    fail(frame, "there are no velocities in the files: nothing can be averaged without them");
+  checkPlane(frame, units_);
+  const std::vector<std::size_t> walls = wallRows(frame, units_, target_, timeOf(frame));
+  ids_.emplace(all.id, walls);
+  Disks disks;
+  const std::size_t count = ids_->disks();
+  disks.position.resize(count);
+  disks.velocity.resize(count);
+  disks.spin.assign(count, 0.0);
+  if (!all.radius.empty()) disks.radius.resize(count);
+  if (!all.mass.empty()) disks.mass.resize(count);
+  for (std::size_t row = 0; row < all.size(); ++row) {
+    const std::size_t k = *ids_->ourOf(all.id[row]);
+    if (k >= count) continue;
+    disks.position[k] = units_.length * units_.inPlane(all.position[row]);
+    disks.velocity[k] = units_.length / units_.time * units_.inPlane(all.velocity[row]);
+    if (!all.radius.empty()) disks.radius[k] = units_.length * all.radius[row];
+    if (!all.mass.empty()) disks.mass[k] = units_.mass * all.mass[row];
+  }
+  if (all.radius.empty()) remarks_.insert("no radii in the files: they are the case's");
+  if (all.mass.empty()) remarks_.insert("no masses in the files: they are the case's");
+  scene_ = target_.around(std::move(disks));
+  scene_.bodies = target_.bodies;
+  bare_ = scene_;
+  bare_.bodies.clear();
+  for (auto [basis, scene] : {std::pair(&basis_, &scene_), {&bareBasis_, &bare_}}) {
+    *basis = auditBasis(*scene);
+    basis->byOverlap = scene->law.soft();
+    basis->prescribed = true;
+  }
+}
+
+void PlaneSnapshots::allowForRounding(const FileFrame& frame) {
+  const double rounding = roundingOf(frame.particles.position, units_);
+  if (rounding <= basis_.rounding) return;
+  basis_.rounding = bareBasis_.rounding = rounding;
+  remarks_.insert(fmt::format(
+      "positions have few digits in the files: overlaps that follow from them are known to {:.2g} "
+      "m",
+      rounding * basis_.farthest));
+}
+
+Snapshot PlaneSnapshots::convert(const FileFrame& frame) {
+  const FileParticles& all = frame.particles;
+  if (all.size() != ids_->size())
+    fail(frame, fmt::format("{} particles, {} in the first snapshot", all.size(), ids_->size()));
+  checkPlane(frame, units_);
+  checkEdges(frame, units_);
+  allowForRounding(frame);
+  Snapshot now;
+  now.positionTime = now.velocityTime = now.contactTime = timeOf(frame);
+  if (frame.contacts) now.contactTime -= units_.contactsBehind * step();
+  const std::size_t count = ids_->disks();
+  now.position.resize(count);
+  now.velocity.resize(count);
+  if (scene_.rotation && !all.spin.empty()) now.spin.emplace(count);
+  if (scene_.rotation && all.spin.empty())
+    remarks_.insert("no spins in the files: spin and what follows from it are not available");
+  std::vector<bool> seen(ids_->size(), false);
+  const double speed = units_.length / units_.time;
+  for (std::size_t row = 0; row < all.size(); ++row) {
+    const auto k = ids_->ourOf(all.id[row]);
+    if (!k) fail(frame, fmt::format("particle {} is not in the first snapshot", all.id[row]));
+    if (seen[*k]) fail(frame, fmt::format("particle {} is there twice", all.id[row]));
+    seen[*k] = true;
+    if (*k >= count) continue;
+    now.position[*k] = units_.length * units_.inPlane(all.position[row]);
+    now.velocity[*k] = speed * units_.inPlane(all.velocity[row]);
+    if (now.spin) (*now.spin)[*k] = units_.aboutNormal(all.spin[row]) / units_.time;
+  }
+  placeWallsAsPrescribed(scene_, now.positionTime, now);
+  now.contacts = planeContacts(frame, units_, *ids_, now, basis_, remarks_);
+  return now;
+}
+
+namespace {
+
+/// Sums over contacts with each body: what the disks do to it, about its centre.
+void addWallForces(const Scene& scene, Snapshot& now) {
+  const std::size_t disks = scene.disks.size(), round = disks + scene.wallDiskCount();
+  std::vector<std::size_t> bodyOf(round + scene.planeCount());
+  std::size_t disk = disks, plane = round;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    for (std::size_t k = 0; k < scene.bodies[b].diskRadius.size(); ++k) bodyOf[disk++] = b;
+    for (std::size_t k = 0; k < scene.bodies[b].planes.size(); ++k) bodyOf[plane++] = b;
+    now.bodies[b].force = Vec2::Zero();
+    now.bodies[b].torque = 0.0;
+  }
+  const Contacts& contacts = *now.contacts;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto i = static_cast<std::size_t>(contacts.i[c]);
+    const auto j = static_cast<std::size_t>(contacts.j[c]);
+    if (j < disks) continue;
+    BodySnapshot& body = now.bodies[bodyOf[j]];
+    const Vec2 point =
+        now.position[i] - (scene.disks.radius[i] - 0.5 * contacts.overlap[c]) * contacts.normal[c];
+    const Vec2 force = -contacts.force(c);
+    *body.force += force;
+    *body.torque += cross(point - body.centre, force);
+    if (!contacts.rollingTorque.empty()) *body.torque -= contacts.rollingTorque[c];
+  }
+}
+
+/// Whether the forces have the signs of a law without attraction.
+std::string signFault(const Contacts& contacts, const Scene& scene) {
+  double sum = 0.0;
+  for (const double f : contacts.normalForce) sum += f;
+  if (!(sum < 0.0) || scene.law.coheres()) return {};
+  return fmt::format(
+      "normal forces attract, {:.4g} N over {} contacts, although the law has no cohesion; has "
+      "normal_force the other sign?",
+      sum, contacts.size());
+}
+
+}  // namespace
+
+void PlaneSnapshots::audit(const FileFrame& frame, Snapshot& snapshot) {
+  if (snapshot.contacts) {
+    if (const std::string why = signFault(*snapshot.contacts, scene_); !why.empty())
+      fail(frame, why);
+    wallContacts_ |= std::ranges::any_of(snapshot.contacts->j, [&](std::int32_t j) {
+      return static_cast<std::size_t>(j) >= scene_.disks.size();
+    });
+  }
+  std::string why = auditFault(snapshot, basis_);
+  if (!why.empty() && snapshot.contacts && !wallContacts_) {
+    // Of files without contacts of walls, all others are whole.
+    auto walls = std::exchange(snapshot.wallPosition, {});
+    auto bodies = std::exchange(snapshot.bodies, {});
+    why = auditFault(snapshot, bareBasis_);
+    snapshot.wallPosition = std::move(walls);
+    snapshot.bodies = std::move(bodies);
+    if (why.empty())
+      remarks_.insert(
+          "no contacts with walls in the files: stress, fabric and coordination lack them, and "
+          "forces on walls are not available");
+  }
+  if (!why.empty()) fail(frame, why);
+  if (!snapshot.contacts) return;
+  if (wallContacts_) addWallForces(scene_, snapshot);
+  if (lawDiffers_ || !scene_.law.soft()) return;
+  AuditBasis basis = basis_;
+  basis.dt = step();
+  const std::string differs = lawFault(snapshot, basis, scene_.law);
+  lawDiffers_ = !differs.empty();
+  if (lawDiffers_)
+    remarks_.insert(
+        fmt::format("{}: the forces are not those of the case's law: {}", frame.where, differs));
+}
+
+std::optional<Snapshot> PlaneSnapshots::next() {
+  std::optional<FileFrame> frame = pending_ ? std::exchange(pending_, std::nullopt) : readWithin();
+  if (!frame) return std::nullopt;
+  Snapshot snapshot = convert(*frame);
+  audit(*frame, snapshot);
+  return snapshot;
+}
+
+std::vector<std::string> PlaneSnapshots::remarks() const {
+  std::vector<std::string> all(remarks_.begin(), remarks_.end());
+  if (early_ + late_ > 0)
+    all.push_back(
+        fmt::format("{} snapshots before {:.6g} s and {} after {:.6g} s are left out: the case "
+                    "averages what is "
+                    "between",
+                    early_, target_.from, late_, target_.to));
+  return all;
+}
+
+}  // namespace crossgrain::files

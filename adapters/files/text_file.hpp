@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "support/regular_file.hpp"
+
+namespace crossgrain::files {
+
+/// A text file read line by line through one buffer, whatever its size.
+class TextFile {
+ public:
+  /// @throws BadInput where it is no file that can be read
+  explicit TextFile(const std::filesystem::path& file);
+
+  /// Goes on to the next line that is not blank; false after the last.
+  /// @throws BadInput where a line is longer than the buffer
+  bool next();
+  /// The same line once more at the next next().
+  void back() { again_ = true; }
+  /// Goes on to the next line that is not blank and not after `mark`, a comment.
+  bool nextUncommented(char mark);
+  /// The next line that is not blank. @throws BadInput after the last
+  std::string_view need(std::string_view what);
+
+  /// The present line, without its end; until the next next().
+  std::string_view line() const { return line_; }
+  const std::filesystem::path& path() const { return path_; }
+  /// Bytes of lines that were read.
+  std::size_t position() const { return offset_ + begin_; }
+  std::size_t size() const { return file_.size(); }
+  /// How many of `claimed` rows the rest of the file can hold, each of `columns` numbers: room is
+  /// taken for so many. @throws BadInput where they are fewer than claimed
+  std::size_t rows(std::int64_t claimed, std::size_t columns) const;
+
+  /// @throws BadInput "file:line: what"
+  [[noreturn]] void fail(const std::string& what) const;
+
+ private:
+  bool fill();
+  bool takeLine();
+
+  std::filesystem::path path_;
+  RegularFile file_;
+  std::unique_ptr<char[]> buffer_;   ///< not filled before it is read: small files touch little
+  std::size_t begin_ = 0, end_ = 0;  ///< of what is left in the buffer
+  std::size_t offset_ = 0;           ///< of the buffer in the file
+  std::size_t number_ = 0;           ///< of the line
+  std::string_view line_;
+  bool again_ = false;
+};
+
+/// Words of a line, which blanks part. @throws nothing
+std::vector<std::string_view> words(std::string_view line);
+
+/// Words of a line, which commas part; blanks around them and quotes do not count.
+std::vector<std::string_view> commaWords(std::string_view line);
+
+/// All of a word as a finite number. @throws BadInput naming the line
+double numberOf(const TextFile& text, std::string_view word, std::string_view what);
+std::int64_t countOf(const TextFile& text, std::string_view word, std::string_view what);
+
+/// Where a column that is not read goes.
+inline constexpr std::uint8_t unread = 255;
+
+/// The numbers of a row into their places: values[places[k]] is the k-th. Columns that are not read
+/// may hold anything.
+/// @param separator  ' ' for blanks and tabs, else this character
+/// @throws BadInput naming line and column where there are more or fewer columns, or no finite
+/// number
+void readRow(const TextFile& text, char separator, std::span<const std::uint8_t> places,
+             double* values);
+
+/// A whole number that a double holds to the last digit. @throws BadInput naming the line
+std::int64_t wholeNumber(const TextFile& text, double value, std::string_view what);
+
+}  // namespace crossgrain::files

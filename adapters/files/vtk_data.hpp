@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "adapters/files/frame.hpp"
+
+namespace crossgrain::files {
+
+/// A named array of VTK, row by row.
+struct VtkArray {
+  std::string name;
+  std::size_t components = 1;
+  std::vector<double> values;
+
+  std::size_t rows() const { return values.size() / components; }
+  Vec3 vector(std::size_t row) const {
+    return {values[3 * row], values[3 * row + 1], values[3 * row + 2]};
+  }
+};
+
+/// Points and lines between them, with arrays of both.
+struct VtkData {
+  std::vector<Vec3> points;
+  std::vector<std::pair<std::size_t, std::size_t>> lines;  ///< their points
+  std::vector<VtkArray> pointArrays, lineArrays;
+};
+
+/// .vtu and .vtp: numbers in text, in base64, or appended, raw or in base64, packed by zlib or not.
+/// @throws BadInput
+VtkData readVtkXml(const std::filesystem::path& file);
+/// The older format, in text. @throws BadInput
+VtkData readVtkLegacy(const std::filesystem::path& file);
+
+/// What both formats check of lines. @throws BadInput
+void addLine(VtkData& data, const std::string& where, double from, double to);
+
+}  // namespace crossgrain::files

@@ -1,0 +1,351 @@
+/// VTK's XML files, as vtkXMLDataParser reads them:
+/// https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cstring>
+#include <pugixml.hpp>
+
+#include "adapters/files/vtk_data.hpp"
+#include "support/bad_input.hpp"
+#include "support/files.hpp"
+#include "support/input_file.hpp"
+
+namespace crossgrain::files {
+namespace fs = std::filesystem;
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+/// Of base64, −1 for other characters.
+constexpr std::array<signed char, 256> sixBits = [] {
+  std::array<signed char, 256> table{};
+  for (auto& value : table) value = -1;
+  constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  for (signed char k = 0; k < 64; ++k) table[static_cast<unsigned char>(letters[k])] = k;
+  return table;
+}();
+
+constexpr std::size_t charactersOf(std::size_t bytes) {
+  return (bytes + 2) / 3 * 4;
+}
+
+/// A whole file, of which binary content is read without the parser.
+class XmlFile {
+ public:
+  explicit XmlFile(const fs::path& file);
+
+  VtkData data() const;
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw BadInput(fmt::format("{}: {}", file_.string(), what));
+  }
+  /// What is known of an array's numbers and where they are.
+  struct Source {
+    std::string_view name, text;
+    bool base64 = false;
+  };
+
+  VtkArray array(const pugi::xml_node& node, std::size_t rows) const;
+  std::vector<VtkArray> arrays(const pugi::xml_node& section, std::size_t rows) const;
+  Bytes bytes(Source source) const;
+  Bytes packedBytes(const Source& source) const;
+  Bytes take(const Source& source, std::size_t from, std::size_t count) const;
+  std::uint64_t header(const Bytes& bytes, std::size_t k) const;
+  template <typename T>
+  std::vector<double> numbers(const Bytes& bytes) const;
+  std::vector<double> numbersIn(std::string_view name, std::string_view text) const;
+  std::size_t countOf(const pugi::xml_node& node, const char* name) const;
+
+  fs::path file_;
+  std::string content_;
+  std::string_view appended_;
+  bool appendedBase64_ = false, packed_ = false, swapped_ = false;
+  std::size_t headerSize_ = 4;
+  pugi::xml_document document_;
+};
+
+XmlFile::XmlFile(const fs::path& file) : file_(file) {
+  if (const std::string why = fileFault(file); !why.empty()) fail(why);
+  constexpr std::size_t most = std::size_t{1} << 34;
+  content_ = readFile(file, most).value_or("");
+  // Raw bytes are no XML: they are cut out before it is parsed.
+  std::string xml;
+  if (const std::size_t tag = content_.find("<AppendedData"); tag != std::string::npos) {
+    const std::size_t start = content_.find('>', tag);
+    const std::size_t stop = content_.rfind("</AppendedData>");
+    const std::size_t mark = content_.find('_', start);
+    if (start == std::string::npos || stop == std::string::npos || mark == std::string::npos ||
+        mark > stop)
+      fail("the end of <AppendedData> is missing: the file was cut off");
+    appended_ = std::string_view(content_).substr(mark + 1, stop - mark - 1);
+    xml.assign(content_, 0, start + 1).append(content_, stop);
+  } else {
+    xml = content_;
+  }
+  const pugi::xml_parse_result result = document_.load_buffer(xml.data(), xml.size());
+  if (!result) fail(fmt::format("no XML at byte {}: {}", result.offset, result.description()));
+  const pugi::xml_node root = document_.child("VTKFile");
+  if (!root) fail("there is no <VTKFile>");
+  const std::string_view packing = root.attribute("compressor").value();
+  if (!packing.empty() && packing != "vtkZLibDataCompressor")
+    fail(fmt::format("it is packed by {}: vtkZLibDataCompressor is read", packing));
+  packed_ = !packing.empty();
+  const std::string_view order = root.attribute("byte_order").value();
+  swapped_ = (order == "BigEndian") != (std::endian::native == std::endian::big) && !order.empty();
+  headerSize_ = std::string_view(root.attribute("header_type").value()) == "UInt64" ? 8 : 4;
+  const std::string_view encoding = root.child("AppendedData").attribute("encoding").value();
+  if (!appended_.empty() && encoding != "base64" && encoding != "raw")
+    fail(fmt::format("AppendedData: encoding \"{}\" should be raw or base64", encoding));
+  appendedBase64_ = encoding == "base64";
+}
+
+std::size_t XmlFile::countOf(const pugi::xml_node& node, const char* name) const {
+  const std::string_view text = node.attribute(name).value();
+  std::size_t value = 0;
+  const std::size_t first = text.find_first_not_of(' ');
+  if (first == std::string_view::npos) return 0;
+  const auto [end, error] = std::from_chars(text.data() + first, text.data() + text.size(), value);
+  if (error != std::errc()) fail(fmt::format("{}=\"{}\" should be a number", name, text));
+  return value;
+}
+
+/// Bytes from a place on, which in base64 is the first character of what was encoded in one go.
+Bytes XmlFile::take(const Source& source, std::size_t from, std::size_t count) const {
+  const std::string_view& text = source.text;
+  const std::size_t length = source.base64 ? charactersOf(count) : count;
+  if (from > text.size() || count > text.size() || length > text.size() - from)
+    fail(fmt::format("{}: its data end too early: the file was cut off, or the size in it is wrong",
+                     source.name));
+  Bytes bytes;
+  bytes.reserve(count + 2);
+  if (!source.base64) {
+    bytes.assign(text.begin() + static_cast<long>(from),
+                 text.begin() + static_cast<long>(from + count));
+    return bytes;
+  }
+  for (std::size_t k = from; k < from + length; k += 4) {
+    std::uint32_t group = 0;
+    for (std::size_t l = k; l < k + 4; ++l) {
+      const signed char six = sixBits[static_cast<unsigned char>(text[l])];
+      if (six < 0 && text[l] != '=') fail(fmt::format("{}: its data are no base64", source.name));
+      group = group << 6 | static_cast<std::uint32_t>(six < 0 ? 0 : six);
+    }
+    for (const int shift : {16, 8, 0}) bytes.push_back(static_cast<unsigned char>(group >> shift));
+  }
+  bytes.resize(count);
+  return bytes;
+}
+
+std::uint64_t XmlFile::header(const Bytes& bytes, std::size_t k) const {
+  std::uint64_t value = 0;
+  for (std::size_t l = 0; l < headerSize_; ++l) {
+    const bool lowFirst = (std::endian::native == std::endian::little) != swapped_;
+    const std::size_t at = lowFirst ? headerSize_ - 1 - l : l;
+    value = value << 8 | bytes[k * headerSize_ + at];
+  }
+  return value;
+}
+
+/// A number of bytes, then these.
+Bytes XmlFile::bytes(Source source) const {
+  if (packed_) return packedBytes(source);
+  const std::uint64_t count = header(take(source, 0, headerSize_), 0);
+  const std::size_t headerLength = source.base64 ? charactersOf(headerSize_) : headerSize_;
+  if (count > source.text.size())
+    fail(fmt::format("{}: {} bytes of it are not there: the file was cut off", source.name, count));
+  // The head is encoded by itself, padded, or together with what follows.
+  if (!source.base64 || source.text[headerLength - 1] == '=')
+    return take(source, headerLength, static_cast<std::size_t>(count));
+  Bytes all = take(source, 0, headerSize_ + static_cast<std::size_t>(count));
+  all.erase(all.begin(), all.begin() + static_cast<long>(headerSize_));
+  return all;
+}
+
+/// Number of blocks, their size, size of the last (0: as the others), packed size of each; blocks.
+Bytes XmlFile::packedBytes(const Source& source) const {
+  const std::uint64_t blocks = header(take(source, 0, headerSize_), 0);
+  if (blocks > source.text.size() / headerSize_)
+    fail(fmt::format("{}: {} packed blocks are not there", source.name, blocks));
+  const std::size_t headerBytes = (3 + static_cast<std::size_t>(blocks)) * headerSize_;
+  const Bytes head = take(source, 0, blocks == 0 ? headerSize_ : headerBytes);
+  if (blocks == 0) return {};
+  const std::uint64_t size = header(head, 1), last = header(head, 2);
+  std::uint64_t packedSize = 0;
+  for (std::size_t k = 0; k < blocks; ++k) {
+    const std::uint64_t one = header(head, 3 + k);
+    if (one > source.text.size())
+      fail(fmt::format("{}: a packed block is larger than the file", source.name));
+    packedSize += one;
+  }
+  const std::size_t headerLength = source.base64 ? charactersOf(headerBytes) : headerBytes;
+  const Bytes packed = take(source, headerLength, static_cast<std::size_t>(packedSize));
+  Bytes out;
+  constexpr std::uint64_t mostPacked = 1032;  // zlib packs so many bytes into one
+  for (std::size_t k = 0, at = 0; k < blocks; ++k) {
+    const auto length = static_cast<std::size_t>(header(head, 3 + k));
+    const std::uint64_t whole = k + 1 == blocks && last != 0 ? last : size;
+    if (whole > mostPacked * length + 64)
+      fail(fmt::format("{}: a block of {} bytes cannot hold {}", source.name, length, whole));
+    const std::size_t before = out.size();
+    out.resize(before + static_cast<std::size_t>(whole));
+    uLongf got = static_cast<uLongf>(whole);
+    if (uncompress(out.data() + before, &got, packed.data() + at, length) != Z_OK || got != whole)
+      fail(fmt::format("{}: a packed block is damaged", source.name));
+    at += length;
+  }
+  return out;
+}
+
+template <typename T>
+std::vector<double> XmlFile::numbers(const Bytes& bytes) const {
+  std::vector<double> values(bytes.size() / sizeof(T));
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    std::array<unsigned char, sizeof(T)> raw;
+    std::memcpy(raw.data(), bytes.data() + k * sizeof(T), sizeof(T));
+    if (swapped_) std::ranges::reverse(raw);
+    values[k] = static_cast<double>(std::bit_cast<T>(raw));
+  }
+  return values;
+}
+
+std::vector<double> XmlFile::numbersIn(std::string_view name, std::string_view text) const {
+  std::vector<double> values;
+  constexpr const char* blanks = " \t\r\n";
+  for (std::size_t at = text.find_first_not_of(blanks); at != std::string_view::npos;
+       at = text.find_first_not_of(blanks, at)) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), value);
+    if (error != std::errc())
+      fail(fmt::format("{}: \"{}\" should be a number", name, text.substr(at, 20)));
+    values.push_back(value);
+    at = static_cast<std::size_t>(end - text.data());
+  }
+  return values;
+}
+
+/// @param rows  that it should have
+VtkArray XmlFile::array(const pugi::xml_node& node, std::size_t rows) const {
+  VtkArray found;
+  found.name = node.attribute("Name").value();
+  if (node.attribute("NumberOfComponents")) found.components = countOf(node, "NumberOfComponents");
+  if (found.components < 1 || found.components > 100)
+    fail(fmt::format("{}: {} components", found.name, found.components));
+  const std::string_view format = node.attribute("format").value(),
+                         type = node.attribute("type").value();
+  Source source{found.name, node.child_value(), true};
+  if (format == "ascii") {
+    found.values = numbersIn(found.name, source.text);
+  } else {
+    if (format == "appended") {
+      const std::size_t offset = countOf(node, "offset");
+      if (offset > appended_.size())
+        fail(fmt::format("{}: its data are not in the file", found.name));
+      source.text = appended_.substr(offset);
+      source.base64 = appendedBase64_;
+    } else if (format == "binary") {
+      const std::size_t first = source.text.find_first_not_of(" \t\r\n");
+      source.text.remove_prefix(std::min(first, source.text.size()));
+    } else {
+      fail(
+          fmt::format("{}: format \"{}\" should be ascii, binary or appended", found.name, format));
+    }
+    const Bytes raw = bytes(source);
+    if (type == "Float64")
+      found.values = numbers<double>(raw);
+    else if (type == "Float32")
+      found.values = numbers<float>(raw);
+    else if (type == "Int64")
+      found.values = numbers<std::int64_t>(raw);
+    else if (type == "UInt64")
+      found.values = numbers<std::uint64_t>(raw);
+    else if (type == "Int32")
+      found.values = numbers<std::int32_t>(raw);
+    else if (type == "UInt32")
+      found.values = numbers<std::uint32_t>(raw);
+    else if (type == "Int16")
+      found.values = numbers<std::int16_t>(raw);
+    else if (type == "UInt16")
+      found.values = numbers<std::uint16_t>(raw);
+    else if (type == "Int8")
+      found.values = numbers<std::int8_t>(raw);
+    else if (type == "UInt8")
+      found.values = numbers<std::uint8_t>(raw);
+    else
+      fail(fmt::format("{}: type \"{}\" is no number that is read", found.name, type));
+  }
+  if (found.values.size() % found.components != 0 || found.rows() != rows)
+    fail(fmt::format(
+        "{} has {} rows, there should be {}{}", found.name, found.rows(), rows,
+        found.name == "forceN"
+            ? " (contacts over a periodic edge? YADE's VTKRecorder writes them wrongly: "
+              "use export.VTKExporter)"
+            : ""));
+  return found;
+}
+
+std::vector<VtkArray> XmlFile::arrays(const pugi::xml_node& section, std::size_t rows) const {
+  std::vector<VtkArray> found;
+  for (const pugi::xml_node& node : section.children("DataArray"))
+    if (std::string_view(node.attribute("type").value()) != "String")
+      found.push_back(array(node, rows));
+  return found;
+}
+
+VtkData XmlFile::data() const {
+  const pugi::xml_node root = document_.child("VTKFile");
+  const std::string_view type = root.attribute("type").value();
+  if (type != "UnstructuredGrid" && type != "PolyData")
+    fail(fmt::format("VTKFile type \"{}\" should be UnstructuredGrid or PolyData", type));
+  const pugi::xml_node grid = root.child(root.attribute("type").value()),
+                       piece = grid.child("Piece");
+  if (!piece) fail("there is no <Piece>");
+  if (piece.next_sibling("Piece")) fail("there is more than one <Piece>: one is read");
+  VtkData data;
+  const std::size_t points = countOf(piece, "NumberOfPoints"),
+                    lines = countOf(piece, "NumberOfLines");
+  const pugi::xml_node place = piece.child("Points").child("DataArray");
+  if (!place) fail("<Points> are missing");
+  const VtkArray places = array(place, points);
+  if (places.components != 3) fail("Points should have 3 components");
+  data.points.reserve(points);
+  for (std::size_t k = 0; k < points; ++k) data.points.push_back(places.vector(k));
+  data.pointArrays = arrays(piece.child("PointData"), points);
+  if (type != "PolyData") return data;
+  if (lines > 0) {
+    const pugi::xml_node section = piece.child("Lines");
+    const VtkArray ends =
+        array(section.find_child_by_attribute("DataArray", "Name", "connectivity"), 2 * lines);
+    for (std::size_t k = 0; k < lines; ++k)
+      addLine(data, file_.string(), ends.values[2 * k], ends.values[2 * k + 1]);
+  }
+  // Cells of other kinds have rows, too: particles as vertices.
+  const pugi::xml_node cells = piece.child("CellData");
+  if (lines > 0 || cells.find_child_by_attribute("DataArray", "Name", "forceN"))
+    data.lineArrays = arrays(cells, lines);
+  return data;
+}
+
+}  // namespace
+
+VtkData readVtkXml(const fs::path& file) {
+  return XmlFile(file).data();
+}
+
+void addLine(VtkData& data, const std::string& where, double from, double to) {
+  const auto isPoint = [&](double k) {
+    return k >= 0.0 && k < static_cast<double>(data.points.size()) &&
+           k == static_cast<double>(static_cast<std::size_t>(k));
+  };
+  if (!isPoint(from) || !isPoint(to))
+    throw BadInput(fmt::format("{}: line {}: ends at a point that is not there", where,
+                               data.lines.size() + 1));
+  data.lines.emplace_back(static_cast<std::size_t>(from), static_cast<std::size_t>(to));
+}
+
+}  // namespace crossgrain::files

@@ -1,0 +1,46 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/option_groups.hpp"
+#include "studies/flow/import.hpp"
+
+namespace crossgrain::inline cli {
+
+namespace {
+
+int importFiles(const CommandLine& line, const ImportOptions& options) {
+  const Imported done = importSnapshots(line, options);
+  fmt::print("{} snapshots of {} disks by {}, t = {:.6g} to {:.6g} s: {}\n", done.snapshots,
+             done.disks, done.name, done.from, done.to, options.out);
+  for (const std::string& remark : done.remarks) fmt::print("note: {}\n", remark);
+  return exitPassed;
+}
+
+Action declareImport(CLI::App& app, CommandLine& line) {
+  const auto options = std::make_shared<ImportOptions>();
+  addArgument(app, "format", options->format,
+              "mercurydpm, lammps, yade-text, vtk, ondem or csv (docs/file-formats.md)", "FORMAT");
+  addFilesAndCase(app, line, "result files of one run",
+                  "case file: the scene, the law, what is averaged");
+  addArgument(app, "--out", options->out,
+              "HDF5 file to write; one of snapshots that is there is replaced", "RUN.h5");
+  addText(app, "--name", options->name,
+          "what made the files: [engines.NAME] has their units (default: the format)", "NAME");
+  addOverrides(app, line);
+  addQuiet(app, line);
+  return [&line, options] { return importFiles(line, *options); };
+}
+
+}  // namespace
+
+extern const Command importCommand = {
+    "import", "result files of another program as snapshots, to be averaged and compared",
+    "crossgrain import lammps atoms-1.dump pairs-1.dump examples/import/box.toml --name my-lammps "
+    "--out out/lammps-1.h5\n"
+    "crossgrain import mercurydpm run.data run.fstat my.toml --set engines.mercurydpm.plane=xz "
+    "--out "
+    "out/run.h5",
+    declareImport};
+
+}  // namespace crossgrain::inline cli

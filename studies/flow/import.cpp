@@ -1,0 +1,93 @@
+#include "studies/flow/import.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "adapters/files/frame.hpp"
+#include "studies/core/executor.hpp"
+#include "studies/core/study_cases.hpp"
+#include "studies/flow/snapshot_file.hpp"
+#include "support/bad_input.hpp"
+#include "support/files.hpp"
+#include "support/hdf5_file.hpp"
+#include "support/interrupt.hpp"
+#include "support/nearest.hpp"
+
+namespace crossgrain::inline studies {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void checkFormat(const std::string& format) {
+  const auto formats = files::fileFormats();
+  if (std::ranges::find(formats, format) != formats.end()) return;
+  const std::vector<std::string> known(formats.begin(), formats.end());
+  throw BadInput(fmt::format("there is no format '{}'{} (it is one of: {})", format,
+                             suggestion(format, known), fmt::join(known, ", ")));
+}
+
+/// Nobody's file but one of snapshots is written over.
+void checkOut(const fs::path& out) {
+  if (!fs::exists(out)) return;
+  bool snapshots = false;
+  try {
+    snapshots = Hdf5File::open(out).holds("/disks/radius");
+  } catch (const std::runtime_error&) {
+  }
+  if (!snapshots)
+    throw BadInput(fmt::format(
+        "--out {}: is there, and is no file of snapshots that could be replaced", out.string()));
+}
+
+SnapshotRun onlyRun(const CommandLine& line, const std::string& format) {
+  const std::vector<SnapshotRun> runs = snapshotRuns(filesOf(line), format);
+  if (runs.size() == 1) return runs.front();
+  std::vector<std::string> names;
+  for (const SnapshotRun& run : runs) names.push_back(run.name());
+  throw BadInput(fmt::format("import takes the files of one run, and these are of {}: {}",
+                             runs.size(), fmt::join(names, "; ")));
+}
+
+/// Gone unless the file is whole.
+struct PartFile {
+  fs::path path;
+  ~PartFile() {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+  }
+};
+
+}  // namespace
+
+Imported importSnapshots(const CommandLine& line, const ImportOptions& options) {
+  checkFormat(options.format);
+  const fs::path out = fs::absolute(options.out);
+  makeDirectory(out.parent_path());  // before the work that it is to hold
+  checkOut(out);
+  const Case setup = onlyFlow(line, "import");
+  const SnapshotRun run = onlyRun(line, options.format);
+  const std::string name = options.name.value_or(defaultName(options.format));
+  const auto source = openSnapshots(run, setup, name);
+  const PartFile part{out.string() + ".part"};
+  SnapshotFile file(out, source->engine(), source->scene(), 1, 1);  // one of each one: all
+  Progress progress(line.run.quiet);
+  progress.begin("import", {1.0});
+  Imported imported;
+  while (const auto snapshot = source->next()) {
+    throwIfInterrupted();
+    if (imported.snapshots == 0) imported.from = snapshot->positionTime;
+    imported.to = snapshot->positionTime;
+    file.offer(*snapshot, static_cast<int>(++imported.snapshots));
+    progress.update(0, fmt::format("snapshot {}", imported.snapshots), source->progress());
+  }
+  file.close();
+  imported.name = source->engine();
+  imported.disks = source->scene().disks.size();
+  imported.remarks = source->remarks();
+  return imported;
+}
+
+}  // namespace crossgrain::inline studies

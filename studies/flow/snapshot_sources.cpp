@@ -1,0 +1,165 @@
+#include "studies/flow/snapshot_sources.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "adapters/audit_geometry.hpp"
+#include "adapters/files/plane_snapshots.hpp"
+#include "adapters/registry.hpp"
+#include "cases/assembly_scene.hpp"
+#include "cases/couette.hpp"
+#include "cases/flow.hpp"
+#include "cases/time_step.hpp"
+#include "studies/core/engine_access.hpp"
+#include "studies/flow/snapshot_file.hpp"
+#include "studies/flow/snapshot_fit.hpp"
+#include "support/bad_input.hpp"
+
+namespace crossgrain::inline studies {
+
+namespace fs = std::filesystem;
+
+std::string SnapshotRun::name() const {
+  return files.size() == 1 ? files.front().string()
+                           : fmt::format("{} … ({} files)", files.front().string(), files.size());
+}
+
+namespace {
+
+/// Of a file that is none of other programs', HDF5 says what is wrong with it.
+std::string formatOfFile(const fs::path& file) {
+  if (!fs::is_regular_file(file)) return {};
+  const auto found = files::formatOf(file);
+  return found ? std::string(*found) : std::string();
+}
+
+}  // namespace
+
+std::vector<SnapshotRun> snapshotRuns(const std::vector<fs::path>& files,
+                                      const std::string& format) {
+  std::vector<SnapshotRun> runs;
+  std::vector<std::pair<std::string, std::vector<fs::path>>> byFormat;
+  for (const fs::path& file : files) {
+    const std::string own = format.empty() ? formatOfFile(file) : format;
+    if (own.empty()) {
+      runs.push_back({own, {file}});
+      continue;
+    }
+    auto group =
+        std::ranges::find(byFormat, own, &std::pair<std::string, std::vector<fs::path>>::first);
+    if (group == byFormat.end()) group = byFormat.insert(byFormat.end(), {own, {}});
+    group->second.push_back(file);
+  }
+  for (const auto& [own, group] : byFormat)
+    for (auto& run : files::runsOf(own, group)) runs.push_back({own, std::move(run)});
+  return runs;
+}
+
+std::string defaultName(const std::string& format) {
+  return findEngine(format) ? format + "-files" : format;  // that section is the engine's
+}
+
+namespace {
+
+/// Disks of files without radii have the case's, in its order.
+std::vector<double> radiiOf(const Case& setup, const SnapshotOrigin& origin) {
+  if (setup.kind == CaseKind::couette) return diskKinds(setup.particles).radius;
+  for (const DiskGroup& group : setup.assembly.disks)
+    if (group.radiusSpread > 0.0)
+      throw BadInput(fmt::format(
+          "{}: there are no radii in the files, and those of the case are drawn by chance",
+          origin.name));
+  return assemblyDisks(setup, 0).radius;
+}
+
+/// The largest disk of the case, and how far one lies from the origin at its start [m].
+std::pair<double, double> scalesOf(const Case& setup) {
+  if (setup.kind == CaseKind::couette)
+    return {std::max(setup.particles.smallRadius, setup.particles.largeRadius),
+            setup.cell.outerRadius};
+  const Disks disks = assemblyDisks(setup, 0);
+  double farthest = 0.0;
+  for (const Vec2& x : disks.position) farthest = std::max(farthest, x.norm());
+  return {std::ranges::max(disks.radius), farthest};
+}
+
+/// Ten times off is no motion but a unit.
+void checkLengths(const Case& setup, const Disks& disks, const SnapshotOrigin& origin) {
+  const auto [radius, farthest] = scalesOf(setup);
+  const auto check = [&](const char* what, double found, double target, double gross) {
+    if (found < gross * target && found > target / gross) return;
+    throw BadInput(fmt::format("{} does not fit {}: {} {:.4g} m, in the case {:.4g} m{}",
+                               origin.name, setup.file.string(), what, found, target,
+                               unitHint(found, target, "length", origin)));
+  };
+  if (disks.size() > 0) check("the largest radius is", std::ranges::max(disks.radius), radius, 5.0);
+  double reach = 0.0;
+  for (const Vec2& x : disks.position) reach = std::max(reach, x.norm());
+  // Of what lies about the origin nothing can be said; and disks may fly.
+  if (farthest > radius) check("disks lie up to", reach, farthest, 100.0);
+}
+
+/// Disks of the files in the scene of the case. Masses of six digits are the case's.
+Scene sceneOf(const Case& setup, Disks disks, const SnapshotOrigin& origin) {
+  constexpr double sameMass = 1e-4;
+  if (disks.radius.empty()) {
+    disks.radius = radiiOf(setup, origin);
+    disks.radius.resize(disks.position.size(), disks.radius.back());  // the number is checked below
+  }
+  checkLengths(setup, disks, origin);
+  const bool ownMasses = !disks.mass.empty() && setup.particles.file.has_value();
+  disks.mass.resize(disks.size(), 0.0);
+  for (std::size_t k = 0; k < disks.size(); ++k) {
+    const double mass = massOf(setup, k, disks.radius[k]);
+    double& found = disks.mass[k];
+    if (!ownMasses && (found == 0.0 || std::abs(found - mass) <= sameMass * mass)) found = mass;
+    const double factor = setup.kind == CaseKind::couette ? setup.particles.inertiaFactor
+                                                          : setup.assembly.inertiaFactor;
+    disks.inertia.push_back(factor * found * disks.radius[k] * disks.radius[k]);
+  }
+  Snapshot first;
+  first.position = disks.position;
+  Scene scene = sceneAround(setup, std::move(disks), origin);
+  placeWallsAsPrescribed(scene, 0.0, first);
+  requireFit(scene, first, setup, origin);
+  return scene;
+}
+
+double stepOf(const Case& setup) {
+  return setup.particles.file ? setup.run.dt.value_or(0.0) : timeStep(setup);
+}
+
+}  // namespace
+
+std::unique_ptr<SnapshotSource> openSnapshots(const SnapshotRun& run, const Case& setup,
+                                              const std::string& name) {
+  if (run.format.empty()) return openSnapshotFile(run.files.front(), setup);
+  Capabilities settable;
+  settable.settings = files::planeSettings(run.format);
+  const Settings settings = settingsFor(setup, name, settable);
+  files::FileOptions options;
+  if (const auto columns = settings.find("columns"); columns != settings.end())
+    options.columns = std::get<std::string>(columns->second);
+  const files::PlaneUnits units = files::planeUnits(run.format, settings);
+  const SnapshotOrigin origin{run.name(), fmt::format("[engines.{}]", name), units.length,
+                              units.mass};
+  const FlowTimes times = flowTimes(setup);
+  files::PlaneScene target;
+  target.name = name;
+  target.where = origin.settings;
+  target.bodies = setup.kind == CaseKind::couette ? couetteScene(setup, Packing(), 0.0).bodies
+                                                  : assemblyScene(setup, Disks(), 0.0, 0.0).bodies;
+  target.anyAngle = setup.kind == CaseKind::couette;
+  target.around = [setup, origin](Disks disks) { return sceneOf(setup, std::move(disks), origin); };
+  target.from = times.settled;
+  target.to = times.end();
+  target.dt = stepOf(setup);
+  return std::make_unique<files::PlaneSnapshots>(files::openFrames(run.format, run.files, options),
+                                                 units, std::move(target));
+}
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "adapters/snapshot_source.hpp"
+#include "cases/case.hpp"
+
+/// Snapshots from files, whoever wrote them: HDF5 files of our own layout (docs/files.md), or
+/// result files of other programs (docs/import.md).
+namespace crossgrain::inline studies {
+
+/// The files of one run.
+struct SnapshotRun {
+  std::string format;  ///< of adapters/files/frame.hpp; empty: HDF5 of our own
+  std::vector<std::filesystem::path> files;
+
+  std::string name() const;  ///< "out/run.data", "dumps/a.0 … (12 files)"
+};
+
+/// Sorts files into runs: each HDF5 file of our own is one.
+/// @param format  that all are of; empty: each is recognised by what it begins with
+/// @throws BadInput
+std::vector<SnapshotRun> snapshotRuns(const std::vector<std::filesystem::path>& files,
+                                      const std::string& format = {});
+
+/// What the files of a run are called where nobody says: their format, which is also the
+/// [engines.NAME] that has their settings.
+std::string defaultName(const std::string& format);
+
+/// Opens a run of which the files fit the case.
+/// @param name  of its settings, [engines.NAME], and of who made it where the files do not say
+/// @throws BadInput
+std::unique_ptr<SnapshotSource> openSnapshots(const SnapshotRun& run, const Case& setup,
+                                              const std::string& name);
+
+}  // namespace crossgrain::inline studies

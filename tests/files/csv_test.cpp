@@ -1,0 +1,87 @@
+#include <gtest/gtest.h>
+
+#include "tests/files/samples.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace {
+
+using namespace crossgrain::files;
+using namespace crossgrain::files::sampled;
+
+class Csv : public testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  Samples samples_{folder_.path()};
+};
+
+TEST_F(Csv, Times_RowsOfOneFollowOneAnother) {
+  samples_.write(
+      "particles.csv",
+      "# of a run\nt, id, x, y, radius, spin\n0,5,1,2,0.5,0\n0,6,1.98,2,0.5,0\n1,5,1,2,0.5,3\n"
+      "# later\n1,6,1.98,2,0.5,0\n");
+  samples_.write("contacts.csv",
+                 "t,first,second,normal_force,tx,ty\n0,5,6,20,0,-3\n0,-1,5,4,1,0\n");
+  EXPECT_EQ(samples_.refusal("csv", {"particles.csv", "contacts.csv"}),
+            "contacts.csv, t = 0: contact 2 (5 and -1): the direction of a contact with a wall is "
+            "missing (nx, ny, nz)");
+  samples_.write("contacts.csv",
+                 "t,first,second,nx,ny,normal_force,tx,ty\n0,5,6,-1,0,20,0,-3\n0,-1,5,0,-1,4,1,"
+                 "0\n1,5,6,-1,0,7,0,0\n");
+  const auto frames = samples_.read("csv", {"particles.csv", "contacts.csv"});
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[1].time, 1.0);
+  EXPECT_EQ(frames[1].particles.spin[0], Vec3(0, 0, 3));
+  EXPECT_EQ(frames[0].particles.id, (std::vector<std::int64_t>{5, 6}));
+  EXPECT_EQ(frames[0].contacts->force[0], Vec3(-20, -3, 0));
+  // Listed as the force on the wall, below: on the particle it is the reverse.
+  EXPECT_EQ(frames[0].contacts->first[1], 5);
+  EXPECT_EQ(frames[0].contacts->second[1], -1);
+  EXPECT_EQ(frames[0].contacts->normal[1], Vec3(0, 1, 0));
+  EXPECT_EQ(frames[0].contacts->force[1], Vec3(-1, 4, 0));
+  EXPECT_EQ(frames[1].contacts->force[0], Vec3(-7, 0, 0));
+}
+
+/// A start file is a time; ids are rows.
+TEST_F(Csv, StartFile) {
+  samples_.write("start.csv", "x,y,radius,vx,vy,spin,mass,inertia,fixed\n1,2,0.5,3,4,5,6,7,0\n");
+  const FileFrame frame = samples_.read("csv", {"start.csv"}).front();
+  EXPECT_EQ(frame.particles.id[0], 0);
+  EXPECT_EQ(frame.particles.velocity[0], Vec3(3, 4, 0));
+  EXPECT_EQ(frame.particles.mass[0], 6.0);
+  EXPECT_EQ(frame.step, 0);
+}
+
+TEST_F(Csv, Names_OfOnesOwn) {
+  samples_.write("p.csv", "nr,px,py,r\n1,1,2,0.5\n2,1.98,2,0.5\n");
+  samples_.write("contacts.csv", "a,b,push,junk\n1,2,20,x\n");
+  const FileFrame frame =
+      samples_
+          .read("csv", {"p.csv", "contacts.csv"},
+                {"nr=id px=x py=y r=radius a=first b=second push=normal_force junk=-"})
+          .front();
+  EXPECT_EQ(frame.contacts->normalForce[0], 20.0);
+  EXPECT_EQ(frame.particles.id[1], 2);
+}
+
+TEST_F(Csv, WhatCannotBe_IsRefusedByLine) {
+  const auto refusal = [&](const std::string& text) {
+    samples_.write("p.csv", text);
+    return samples_.refusal("csv", {"p.csv"});
+  };
+  EXPECT_EQ(
+      refusal("x,y,radus\n1,2,3\n"),
+      "p.csv:1: there is no column radus (did you mean radius?); columns = radus=- leaves it out");
+  EXPECT_EQ(refusal("x,y,radius\n1,,3\n"), "p.csv:2: column 2: \"\" should be a finite number");
+  EXPECT_EQ(refusal("x,y,radius\n1,2\n"), "p.csv:2: 2 columns, there should be 3");
+  EXPECT_EQ(refusal("x,y,radius\n1 2,3,4\n"), "p.csv:2: no ',' after column 1");
+  EXPECT_EQ(refusal("x,y,radius\n1,2,3,4\n"), "p.csv:2: more than 3 columns");
+  EXPECT_EQ(refusal("x,y,spin,spin_z\n1,2,3,4\n"),
+            "p.csv:1: columns 3 and 4 are the same thing: only one of them can be read");
+  EXPECT_EQ(refusal("x,y,id\n1,2,1.5\n"), "p.csv:2: id: 1.5 should be a whole number");
+  EXPECT_EQ(refusal("t,x,y\n1,2,3\n0,2,3\n"),
+            "p.csv, t = 0: comes after p.csv, t = 1: times of a run must rise; files of other runs "
+            "should be in folders of their own");
+  EXPECT_EQ(refusal("x,y\n"), "p.csv:1: there are no rows below the column names");
+}
+
+}  // namespace

@@ -1,0 +1,128 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/files/samples.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace {
+
+using namespace crossgrain::files;
+using namespace crossgrain::files::sampled;
+namespace fs = std::filesystem;
+
+class Formats : public testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  Samples samples_{folder_.path()};
+
+  /// Names of each run's files.
+  std::vector<std::vector<std::string>> runs(std::string_view format,
+                                             const std::vector<std::string>& names) {
+    std::vector<fs::path> files;
+    for (const std::string& name : names) files.push_back(folder_.path() / name);
+    std::vector<std::vector<std::string>> found;
+    for (const auto& run : runsOf(format, files)) {
+      found.emplace_back();
+      for (const fs::path& file : run)
+        found.back().push_back(fs::relative(file, folder_.path()).string());
+    }
+    return found;
+  }
+  using Runs = std::vector<std::vector<std::string>>;
+};
+
+TEST_F(Formats, KnownByTheirBeginning) {
+  const auto format = [&](std::string_view content) {
+    return formatOf(samples_.write("file", content));
+  };
+  EXPECT_EQ(format(pairData), "mercurydpm");
+  EXPECT_EQ(format(pairFstat), "mercurydpm");
+  EXPECT_EQ(format("0 0 0 0 1 1\n"), "mercurydpm");
+  EXPECT_EQ(format("ITEM: UNITS\nsi\n"), "lammps");
+  EXPECT_EQ(format("#format x_y_z_r\n1 2 3 4\n"), "yade-text");
+  EXPECT_EQ(format("# vtk DataFile Version 3.0.\n"), "vtk");
+  EXPECT_EQ(format("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">"), "vtk");
+  EXPECT_EQ(format("# mine\nx,y,radius\n1,2,3\n"), "csv");
+  EXPECT_EQ(format("#t 1\n"), std::nullopt);
+  EXPECT_EQ(format("\x89HDF\r\n\x1a\n"), std::nullopt);  // snapshots of ours
+  EXPECT_EQ(format("hello, world\n"), std::nullopt);
+  EXPECT_EQ(format(""), std::nullopt);
+  EXPECT_EQ(formatOf(folder_.path() / "none"), std::nullopt);
+  EXPECT_EQ(formatOf(fs::path(CROSSGRAIN_SAMPLES) / "yade-spheres.0.vtu"), "vtk");
+}
+
+TEST_F(Formats, Runs_MercuryDpm) {
+  for (const char* name : {"run10.data", "run2.data", "n.data.0010", "n.data.0009"})
+    samples_.write(name, pairData);
+  for (const char* name : {"run10.fstat", "n.fstat.0009"}) samples_.write(name, pairFstat);
+  EXPECT_EQ(runs("mercurydpm", {"run10.data", "run10.fstat", "run2.data", "n.data.0010",
+                                "n.data.0009", "n.fstat.0009"}),
+            (Runs{{"n.data.0009", "n.data.0010", "n.fstat.0009"},
+                  {"run2.data"},
+                  {"run10.data", "run10.fstat"}}));
+}
+
+TEST_F(Formats, Runs_Lammps_TimesOrReplicates) {
+  const auto dump = [](int step, const char* what) {
+    return "ITEM: TIMESTEP\n" + std::to_string(step) + "\nITEM: NUMBER OF " + what + "\n0\n";
+  };
+  for (int step : {5, 10, 100}) {
+    samples_.write("a." + std::to_string(step) + ".dump", dump(step, "ATOMS"));
+    samples_.write("a." + std::to_string(step) + ".local", dump(step, "ENTRIES"));
+  }
+  EXPECT_EQ(
+      runs("lammps",
+           {"a.10.dump", "a.10.local", "a.100.dump", "a.100.local", "a.5.dump", "a.5.local"}),
+      (Runs{{"a.5.dump", "a.10.dump", "a.100.dump", "a.5.local", "a.10.local", "a.100.local"}}));
+  // Files that all begin at the same step are runs.
+  for (const char* name : {"b1.dump", "b2.dump"}) samples_.write(name, dump(0, "ATOMS"));
+  for (const char* name : {"b1.local", "b2.local"}) samples_.write(name, dump(0, "ENTRIES"));
+  EXPECT_EQ(runs("lammps", {"b1.dump", "b2.dump", "b1.local", "b2.local"}),
+            (Runs{{"b1.dump", "b1.local"}, {"b2.dump", "b2.local"}}));
+  // Other names: a folder's only run.
+  fs::create_directory(folder_.path() / "c");
+  samples_.write("c/all.dump", dump(0, "ATOMS"));
+  samples_.write("c/forces.dump", dump(0, "ENTRIES"));
+  EXPECT_EQ(runs("lammps", {"c/forces.dump", "c/all.dump"}),
+            (Runs{{"c/all.dump", "c/forces.dump"}}));
+  EXPECT_EQ(crossgrain::test::refusalOf([&] {
+              runs("lammps", {"b1.dump", "b2.dump", "a.5.local"});
+            }),
+            (folder_.path() / "a.5.local").string() +
+                ": contacts of which run? the particles' files should have the same name, or a "
+                "folder should be of one run");
+}
+
+TEST_F(Formats, Runs_Vtk) {
+  std::vector<std::string> names{"yade-spheres.4.vtu",
+                                 "yade-spheres.0.vtu",
+                                 "yade-two-intrs.0.vtp",
+                                 "yade-two-spheres.0.vtu",
+                                 "yade-export-intrs-00000004.vtk",
+                                 "yade-export-spheres-00000004.vtk"};
+  std::vector<fs::path> files;
+  for (const std::string& name : names) files.push_back(fs::path(CROSSGRAIN_SAMPLES) / name);
+  const auto found = runsOf("vtk", files);
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_EQ(found[0].front().filename(), "yade-spheres.0.vtu");
+  EXPECT_EQ(found[1].size(), 2u);
+  EXPECT_EQ(found[2].size(), 2u);
+}
+
+TEST_F(Formats, WhatIsNoFile_IsRefused) {
+  EXPECT_EQ(samples_.refusal("lammps", {"none.dump"}), "none.dump: no such file");
+  EXPECT_EQ(samples_.refusal("lammps", {}), "no files: there is nothing to read");
+  EXPECT_EQ(
+      samples_.refusal("lamps", {}),
+      "lamps: there is no such format (there are: mercurydpm, lammps, yade-text, vtk, ondem, csv)");
+  samples_.write("p.csv", "x,y\n1,2\n");
+  EXPECT_EQ(
+      samples_.refusal("csv", {"p.csv"}, {"x"}),
+      "columns: \"x\" should be NAME=MEANING, or NAME=MEANING,MEANING,… of NAME[1], NAME[2], …");
+  EXPECT_EQ(samples_.refusal("csv", {"p.csv"}, {"x=y1"}),
+            "columns: x=y1: there is no such meaning (did you mean y?)");
+}
+
+}  // namespace

@@ -1,0 +1,164 @@
+/// What YADE's exporters write: samples/yade_export.py and yade_recorder.py are the scripts, which
+/// print YADE's own contacts.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "tests/files/samples.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace {
+
+using namespace crossgrain::files;
+using namespace crossgrain::files::sampled;
+
+void expectNear(const Vec3& a, const Vec3& b, double tolerance) {
+  EXPECT_LE((a - b).norm(), tolerance) << a.transpose() << " and " << b.transpose();
+}
+
+TEST(Yade, TextExt_IdsOfItsOwn) {
+  const FileFrame frame = programs().read("yade-text", {"yade.4.txt"}).front();
+  EXPECT_EQ(frame.step, 4);  // of its name
+  EXPECT_FALSE(frame.time);
+  EXPECT_EQ(frame.particles.id, (std::vector<std::int64_t>{0, 1, 2, 3}));
+  EXPECT_EQ(frame.particles.position[1], Vec3(3.40993, 2, 2));
+  EXPECT_EQ(frame.particles.radius[3], 0.5);
+  EXPECT_FALSE(frame.contacts);
+}
+
+TEST(Yade, TextExt_AttributesThatTheCommentNames) {
+  const FileFrame frame = programs().read("yade-text", {"yade-attrs.4.txt"}).front();
+  EXPECT_EQ(frame.particles.id[3], 3);
+  EXPECT_EQ(frame.particles.velocity[2], Vec3(0, -0.0956752, -0.196134));
+  EXPECT_EQ(frame.particles.spin[0], Vec3(0, 0, 0.00112227));
+}
+
+/// Printed: 2 and 3, n (0, .438424, .898768), F (0, 19.02, 38.991) on 3, overlap .0867653; 0 and 1
+/// over the edge, n (−1, −.0004, 0), F = (−4.95003, −.001997, 0) + (0, .0754350, 0) on 1.
+TEST(Yade, VtkExporter_NormalAndForceAreTurnedToTheFirst) {
+  const FileFrame frame =
+      programs()
+          .read("vtk", {"yade-export-spheres-00000004.vtk", "yade-export-intrs-00000004.vtk"})
+          .front();
+  EXPECT_EQ(frame.step, 4);
+  EXPECT_EQ(frame.particles.mass[0], 1.0);
+  const FileContacts& contacts = *frame.contacts;
+  ASSERT_EQ(contacts.size(), 2u);
+  EXPECT_EQ(contacts.first, (std::vector<std::int64_t>{2, 0}));
+  EXPECT_EQ(contacts.second, (std::vector<std::int64_t>{3, 1}));
+  expectNear(contacts.normal[0], Vec3(0, -0.438424, -0.898768), 1e-6);
+  expectNear(contacts.force[0], Vec3(0, -19.02, -38.991), 1e-4);
+  expectNear(contacts.force[1], Vec3(4.95006, -0.0734381, 0), 1e-4);
+  EXPECT_EQ(contacts.overlap[0], 0.0867653);
+  EXPECT_EQ(contacts.point[0], Vec3(2, 2.2, 0.89));
+}
+
+/// Packed by zlib, in base64: bits are YADE's own but for places, which are floats.
+TEST(Yade, VtkRecorder_Spheres) {
+  const auto frames = programs().read("vtk", {"yade-spheres.0.vtu", "yade-spheres.4.vtu"});
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[1].step, 4);
+  EXPECT_EQ(frames[0].particles.velocity[2], Vec3(0, -0.019211816010707206, -0.03938422282194979));
+  EXPECT_EQ(frames[0].particles.position[1].x(), double(3.4099950790405273f));
+  EXPECT_EQ(frames[0].particles.mass[3], 0.9999999999999998 + 2e-16);
+}
+
+/// 500 N/m · 0.02 m; the ends of the line are the spheres' centres, in floats too.
+TEST(Yade, VtkRecorder_ContactsByTheirEnds) {
+  const FileFrame frame =
+      programs().read("vtk", {"yade-two-spheres.0.vtu", "yade-two-intrs.0.vtp"}).front();
+  const FileContacts& contacts = *frame.contacts;
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_EQ(contacts.first[0], 0);
+  EXPECT_EQ(contacts.second[0], 1);
+  EXPECT_EQ(contacts.normal[0], Vec3(-1, 0, 0));
+  EXPECT_NEAR(contacts.normalForce[0], 10.0, 1e-12);
+  EXPECT_GT(contacts.tangentialForce[0], 0.0);
+  EXPECT_TRUE(contacts.force.empty());  // its direction is not there
+}
+
+class VtkText : public testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  Samples samples_{folder_.path()};
+  void writeXml(const std::string& name, const std::string& attributes, const std::string& radii,
+                const std::string& rest = "") {
+    samples_.write(
+        name,
+        "<VTKFile type=\"UnstructuredGrid\" " + attributes +
+            "><UnstructuredGrid><Piece NumberOfPoints=\"2\"><PointData><DataArray "
+            "Name=\"radii\" type=\"Float64\" " +
+            radii +
+            "</DataArray></PointData><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" "
+            "format=\"ascii\">1 2 3 4 5 6</DataArray></Points></Piece></UnstructuredGrid>" +
+            rest + "</VTKFile>\n");
+  }
+  std::vector<double> radii(const std::string& name) {
+    return samples_.read("vtk", {name}).front().particles.radius;
+  }
+  const std::vector<double> expected_{0.5, 0.25};
+};
+
+/// 16 bytes of 0.5 and 0.25, in each way that VTK writes them.
+TEST_F(VtkText, Xml_EachEncoding) {
+  writeXml("a.1.vtu", "", "format=\"ascii\"> 0.5\n 0.25 ");
+  EXPECT_EQ(radii("a.1.vtu"), expected_);
+  // The number of bytes by itself, or with what follows.
+  writeXml("a.2.vtu", "", "format=\"binary\">EAAAAA==AAAAAAAA4D8AAAAAAADQPw==");
+  EXPECT_EQ(radii("a.2.vtu"), expected_);
+  writeXml("a.3.vtu", "", "format=\"binary\">EAAAAAAAAAAAAOA/AAAAAAAA0D8=");
+  EXPECT_EQ(radii("a.3.vtu"), expected_);
+  writeXml("a.4.vtu", "byte_order=\"BigEndian\" header_type=\"UInt64\"",
+           "format=\"binary\">AAAAAAAAABA=P+AAAAAAAAA/0AAAAAAAAA==");
+  EXPECT_EQ(radii("a.4.vtu"), expected_);
+  using namespace std::string_literals;
+  const std::string raw = "\x10\0\0\0\0\0\0\0\0\0\xe0\x3f\0\0\0\0\0\0\xd0\x3f"s;
+  writeXml("a.5.vtu", "", "format=\"appended\" offset=\"0\">",
+           "<AppendedData encoding=\"raw\">\n_" + raw + "\n</AppendedData>");
+  EXPECT_EQ(radii("a.5.vtu"), expected_);
+}
+
+TEST_F(VtkText, WhatCannotBe_IsRefused) {
+  writeXml("a.1.vtu", "", "format=\"binary\">EAAAAA==AAAAAAAA4D8AAAAA");
+  EXPECT_EQ(
+      samples_.refusal("vtk", {"a.1.vtu"}),
+      "a.1.vtu: radii: its data end too early: the file was cut off, or the size in it is wrong");
+  writeXml("a.1.vtu", "", "format=\"ascii\">0.5 0.25 3");
+  EXPECT_EQ(samples_.refusal("vtk", {"a.1.vtu"}), "a.1.vtu: radii has 3 rows, there should be 2");
+  writeXml("a.1.vtu", "compressor=\"vtkLZ4DataCompressor\"", "format=\"ascii\">0.5 0.25");
+  EXPECT_EQ(samples_.refusal("vtk", {"a.1.vtu"}),
+            "a.1.vtu: it is packed by vtkLZ4DataCompressor: vtkZLibDataCompressor is read");
+  samples_.write("b.vtk", "# vtk DataFile Version 3.0\nx\nBINARY\n");
+  EXPECT_EQ(samples_.refusal("vtk", {"b.vtk"}),
+            "b.vtk:3: BINARY: older VTK files are read in text (ASCII) only");
+  samples_.write(
+      "b.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 1 double\n1 2 x\n");
+  EXPECT_EQ(samples_.refusal("vtk", {"b.vtk"}), "b.vtk:6: POINTS: \"x\" should be a finite number");
+  samples_.write("b.txt", "#format x_y_z_r_attrs\n1 2 3 4 5\n");
+  EXPECT_EQ(samples_.refusal("yade-text", {"b.txt"}),
+            "b.txt:2: 5 columns, which the comment line before them should name: # x y z r id vx "
+            "vy vz …");
+}
+
+/// Bodies that are no spheres: a wall 5 below sphere 0, named as the first.
+TEST_F(VtkText, Exporter_WallBecomesTheSecond) {
+  const std::string head = "# vtk DataFile Version 3.0.\ncomment\nASCII\n\nDATASET POLYDATA\n";
+  samples_.write("e-spheres-1.vtk", head +
+                                        "POINTS 1 double\n0 0 0.48\n\nPOINT_DATA 1\nSCALARS radius "
+                                        "double 1\nLOOKUP_TABLE default\n0.5\n");
+  samples_.write("e-intrs-1.vtk", head +
+                                      "POINTS 2 double\n0 0 0\n0 0 0.48\nLINES 1 2\n2 0 "
+                                      "1\n\nCELL_DATA 1\n\nSCALARS id1 double 1\n"
+                                      "LOOKUP_TABLE default\n5\n\nSCALARS id2 double "
+                                      "1\nLOOKUP_TABLE default\n0\n\nVECTORS n double\n0 0 1\n\n"
+                                      "VECTORS F double\n3 0 20\n");
+  const FileContacts contacts =
+      *samples_.read("vtk", {"e-spheres-1.vtk", "e-intrs-1.vtk"}).front().contacts;
+  EXPECT_EQ(contacts.first[0], 0);
+  EXPECT_EQ(contacts.second[0], -6);
+  EXPECT_EQ(contacts.normal[0], Vec3(0, 0, 1));
+  EXPECT_EQ(contacts.force[0], Vec3(3, 0, 20));
+}
+
+}  // namespace

@@ -1,0 +1,502 @@
+// From frames of other programs' files to snapshots, and from several files to one average, against
+// numbers by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <deque>
+#include <functional>
+#include <numbers>
+
+#include "adapters/files/plane_snapshots.hpp"
+#include "cases/assembly_scene.hpp"
+#include "cases/couette.hpp"
+#include "studies/flow/average.hpp"
+#include "studies/flow/snapshot_file.hpp"
+#include "studies/flow/snapshot_fit.hpp"
+#include "tests/studies/quick_cell.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace crossgrain {
+namespace {
+
+using files::FileFrame;
+using files::PlaneSnapshots;
+using files::Vec3;
+
+class FakeReader : public files::FrameReader {
+ public:
+  explicit FakeReader(std::deque<FileFrame> frames) : frames_(std::move(frames)) {}
+  std::optional<FileFrame> next() override {
+    if (frames_.empty()) return std::nullopt;
+    FileFrame frame = std::move(frames_.front());
+    frames_.pop_front();
+    return frame;
+  }
+  double progress() const override { return 0.0; }
+
+ private:
+  std::deque<FileFrame> frames_;
+};
+
+/// Three disks of radius 1 m and mass 2 kg: two overlap by 0.1 m side by side, the third is 0.02 m
+/// deep in the floor. k_n = 100 N/m: forces of 10 N and 2 N.
+Case restingDisks() {
+  Case setup;
+  setup.kind = CaseKind::assembly;
+  setup.law.normal = NormalLaw::linear;
+  setup.law.kn = 100.0;
+  setup.law.kt = 50.0;
+  setup.law.mu = 0.5;
+  DiskGroup group;
+  group.radius = 1.0;
+  group.mass = 2.0;
+  group.position = {0.0, 2.0};
+  group.places = {{0.0, 0.0}, {0.95, 0.0}, {2.0, -0.51}};  // in diameters
+  setup.assembly.disks = {group};
+  WallGroup floor;
+  floor.planes = {{Vec2::Zero(), Vec2::UnitY()}};
+  setup.assembly.walls = {floor};
+  setup.assembly.duration = 4.0;
+  setup.run.dt = 1e-3;
+  Average& average = setup.average.emplace();
+  average.region.low = {-2.0, 0.0};
+  average.region.high = {6.0, 4.0};
+  average.region.height = 0.5;
+  average.region.snapshots = 4;
+  return setup;
+}
+
+/// The three by ids 12, 5 and 9 out of order, with the contact of 5 and 9 listed from both sides
+/// and that of 12 with wall 0.
+FileFrame threeParticles(double time = 1.0) {
+  FileFrame frame;
+  frame.where = "mine.dump, step 7";
+  frame.time = time;
+  frame.particles.id = {12, 5, 9};
+  frame.particles.position = {{4.0, 0.98, 0.0}, {0.0, 2.0, 0.0}, {1.9, 2.0, 0.0}};
+  frame.particles.radius = {1.0, 1.0, 1.0};
+  frame.particles.velocity = std::vector<Vec3>(3, Vec3::Zero());
+  frame.particles.spin = {{0.0, 0.0, 3.0}, {0.0, 0.0, 1.0}, {0.0, 0.0, 2.0}};
+  auto& contacts = frame.contacts.emplace();
+  contacts.first = {9, 12, 5};
+  contacts.second = {5, -1, 9};
+  contacts.normal = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {-1.0, 0.0, 0.0}};
+  contacts.force = {{10.0, 0.4, 0.0}, {0.0, 2.0, 0.0}, {-10.0, -0.4, 0.0}};
+  contacts.overlap = {0.1, 0.02, 0.1};
+  return frame;
+}
+
+files::PlaneScene targetOf(const Case& setup) {
+  files::PlaneScene target;
+  target.name = "mine";
+  target.where = "[engines.mine]";
+  const bool cell = setup.kind == CaseKind::couette;
+  target.bodies = cell ? couetteScene(setup, Packing(), 0.0).bodies
+                       : assemblyScene(setup, Disks(), 0.0, 0.0).bodies;
+  target.anyAngle = cell;
+  target.around = [setup](Disks disks) {
+    disks.mass.assign(disks.size(), 2.0);
+    disks.inertia.assign(disks.size(), 1.0);
+    return sceneAround(setup, std::move(disks), {"mine.dump"});
+  };
+  target.dt = 1e-3;
+  return target;
+}
+
+/// The first snapshot of that frame, changed if need be.
+Snapshot firstOf(const std::function<void(FileFrame&)>& change = {},
+                 const files::PlaneUnits& units = {}, std::vector<std::string>* remarks = nullptr) {
+  FileFrame frame = threeParticles();
+  if (change) change(frame);
+  PlaneSnapshots source(std::make_unique<FakeReader>(std::deque{frame}), units,
+                        targetOf(restingDisks()));
+  Snapshot now = source.next().value();
+  EXPECT_FALSE(source.next());
+  if (remarks) *remarks = source.remarks();
+  return now;
+}
+
+std::string refusalOfFrame(const std::function<void(FileFrame&)>& change) {
+  return test::refusalOf([&] { firstOf(change); });
+}
+
+void expectSays(const std::string& said, const std::vector<const char*>& words) {
+  for (const char* const each : words) EXPECT_NE(said.find(each), std::string::npos) << said;
+}
+
+TEST(PlaneSnapshots, Frame_BecomesDisksByRisingIdAndContactsOnce) {
+  std::vector<std::string> remarks;
+  const Snapshot now = firstOf({}, {}, &remarks);
+  EXPECT_EQ(now.position, (std::vector<Vec2>{{0.0, 2.0}, {1.9, 2.0}, {4.0, 0.98}}));
+  EXPECT_EQ(*now.spin, (std::vector{1.0, 2.0, 3.0}));
+  const Contacts& contacts = now.contacts.value();
+  EXPECT_EQ(contacts.i, (std::vector<std::int32_t>{0, 2}));
+  EXPECT_EQ(contacts.j, (std::vector<std::int32_t>{1, 3}));  // 3: the floor
+  EXPECT_EQ(contacts.normal[0], Vec2(-1.0, 0.0));            // from 9 to 5
+  EXPECT_EQ(contacts.normalForce, (std::vector{10.0, 2.0}));
+  // On disk 0 acts (−10, −0.4), and z × n = (0, −1).
+  EXPECT_NEAR(contacts.tangentialForce[0], 0.4, 1e-15);
+  EXPECT_EQ(contacts.overlap, (std::vector{0.1, 0.02}));
+  EXPECT_TRUE(contacts.rollingTorque.empty());
+  // The floor bears 2 N, at x = 4 m from its centre at the origin.
+  EXPECT_EQ(*now.bodies[0].force, Vec2(0.0, -2.0));
+  EXPECT_NEAR(*now.bodies[0].torque, -8.0, 1e-12);
+  EXPECT_EQ(remarks, std::vector<std::string>{"no masses in the files: they are the case's"});
+}
+
+TEST(PlaneSnapshots, Units_ScaleLengthTimeAndMass) {
+  files::PlaneUnits units;
+  units.length = 1e-3;
+  units.time = 1e-3;
+  units.mass = 1e-3;
+  units.start = 500.0;
+  const Snapshot now = firstOf(
+      [](FileFrame& frame) {  // mm, ms, g: forces in g mm/ms² = N
+        frame.time = 1500.0;
+        for (Vec3& x : frame.particles.position) x *= 1e3;
+        for (double& a : frame.particles.radius) a *= 1e3;
+        frame.particles.velocity[1] = {2.0, 0.0, 0.0};  // mm/ms
+        for (double& d : frame.contacts->overlap) d *= 1e3;
+      },
+      units);
+  EXPECT_NEAR(now.positionTime, 1.0, 1e-12);
+  EXPECT_NEAR(now.position[1].x(), 1.9, 1e-12);
+  EXPECT_NEAR(now.velocity[0].x(), 2.0, 1e-12);
+  EXPECT_NEAR((*now.spin)[0], 1000.0, 1e-9);
+  EXPECT_NEAR(now.contacts->normalForce[0], 10.0, 1e-9);
+  EXPECT_NEAR(now.contacts->overlap[0], 0.1, 1e-12);
+}
+
+TEST(PlaneSnapshots, PlaneXz_TurnsSpinsWithTheRightHand) {
+  files::PlaneUnits units = files::planeUnits("csv", {{"plane", std::string("xz")}});
+  const auto upright = [](FileFrame& frame) {
+    const auto turn = [](std::vector<Vec3>& all) {
+      for (Vec3& v : all) v = Vec3(v.x(), 0.0, v.y());
+    };
+    turn(frame.particles.position);
+    turn(frame.contacts->normal);
+    turn(frame.contacts->force);
+    // ω = −e_y carries a point at +x towards +z: counter-clockwise in (x, z).
+    for (Vec3& w : frame.particles.spin) w = Vec3(0.0, -w.z(), 0.0);
+  };
+  const Snapshot now = firstOf(upright, units);
+  EXPECT_EQ(now.position[2], Vec2(4.0, 0.98));
+  EXPECT_EQ(*now.spin, (std::vector{1.0, 2.0, 3.0}));
+  EXPECT_NEAR(now.contacts->tangentialForce[0], 0.4, 1e-15);
+  expectSays(refusalOfFrame(upright),
+             {"mine.dump, step 7", "particles lie from z", "plane = \"xz\""});
+}
+
+TEST(PlaneSnapshots, OverlapsAndNormals_FollowFromPositionsWhereTheyAreMissing) {
+  std::vector<std::string> remarks;
+  const Snapshot now = firstOf(
+      [](FileFrame& frame) {
+        frame.contacts->overlap.clear();
+        frame.contacts->normal.clear();
+        frame.contacts->first.push_back(9);  // a pair that was only looked at
+        frame.contacts->second.push_back(12);
+        frame.contacts->force.push_back(Vec3::Zero());
+      },
+      {}, &remarks);
+  ASSERT_EQ(now.contacts->size(), 2u);
+  EXPECT_NEAR(now.contacts->overlap[0], 0.1, 1e-15);
+  EXPECT_NEAR(now.contacts->overlap[1], 0.02, 1e-15);
+  EXPECT_NEAR(now.contacts->normalForce[1], 2.0, 1e-15);
+  EXPECT_EQ(remarks.size(), 3u);
+}
+
+TEST(PlaneSnapshots, MissingColumns_AreRemarkedOrRefused) {
+  std::vector<std::string> remarks;
+  const Snapshot now = firstOf(
+      [](FileFrame& frame) {
+        frame.contacts.reset();
+        frame.particles.spin.clear();
+      },
+      {}, &remarks);
+  EXPECT_FALSE(now.contacts);
+  EXPECT_FALSE(now.spin);
+  ASSERT_EQ(remarks.size(), 3u);
+  expectSays(remarks[0], {"no contacts", "stress, fabric"});
+  expectSays(remarks[2], {"no spins"});
+  // A force without a direction is none, but where it is 0.
+  const auto sizes = [](double tangential) {
+    return [tangential](FileFrame& frame) {
+      frame.contacts->force.clear();
+      frame.contacts->normalForce = {10.0, 2.0, 10.0};
+      frame.contacts->tangentialForce.assign(3, tangential);
+    };
+  };
+  EXPECT_FALSE(firstOf(sizes(0.4), {}, &remarks).contacts);
+  expectSays(remarks[1], {"no direction"});
+  EXPECT_EQ(firstOf(sizes(0.0)).contacts->normalForce, (std::vector{10.0, 2.0}));
+  expectSays(refusalOfFrame([](FileFrame& frame) { frame.particles.velocity.clear(); }),
+             {"no velocities"});
+}
+
+TEST(PlaneSnapshots, FilesWithoutContactsOfWalls_HaveThoseOfPairs) {
+  std::vector<std::string> remarks;
+  const Snapshot now = firstOf(
+      [](FileFrame& frame) {
+        auto& contacts = *frame.contacts;
+        for (auto* list : {&contacts.first, &contacts.second}) list->erase(list->begin() + 1);
+        for (auto* list : {&contacts.normal, &contacts.force}) list->erase(list->begin() + 1);
+        contacts.overlap.erase(contacts.overlap.begin() + 1);
+      },
+      {}, &remarks);
+  EXPECT_EQ(now.contacts->size(), 1u);
+  EXPECT_FALSE(now.bodies[0].force);
+  expectSays(remarks.at(0), {"no contacts with walls"});
+}
+
+TEST(PlaneSnapshots, FaultyContacts_AreRefused) {
+  const std::pair<std::function<void(FileFrame&)>, std::vector<const char*>> faults[] = {
+      {[](FileFrame& f) { f.contacts->force[2] *= 1.01; },
+       {"contact 5–9 is listed twice with different forces"}},
+      {[](FileFrame& f) {
+         f.contacts->first[2] = 9;
+         f.contacts->second[2] = 5;
+         f.contacts->normal[2] *= -1.0;
+         f.contacts->force[2] *= -1.0;
+       },
+       {"contact 5–9 is listed twice from the same side"}},
+      {[](FileFrame& f) {
+         for (Vec3& force : f.contacts->force) force = -force;
+       },
+       {"normal forces attract", "-12 N over 2 contacts", "other sign?"}},
+      {[](FileFrame& f) {
+         for (Vec3& n : f.contacts->normal) n = -n;
+       },
+       {"contact 9–5", "normal points from the first to the second"}},
+      {[](FileFrame& f) { f.contacts->second[0] = 77; }, {"contact 9–77", "no particle 77"}},
+      {[](FileFrame& f) { f.contacts->overlap[1] = 0.03; }, {"overlaps by 0.03 m", "by 0.02 m"}},
+      {[](FileFrame& f) { f.contacts->normal[1] = Vec3(1.0, 0.0, 0.0); },
+       {"contact 12–wall 0", "no plane of the case touches disk 2", "normal of (1, 0)"}},
+      {[](FileFrame& f) { f.contacts->force[1] = Vec3(0.0, 2.0, 1.0); }, {"is not in the plane"}},
+      {[](FileFrame& f) {  // particle 12 with what is 4 m away
+         f.contacts->first[1] = 12;
+         f.contacts->second[1] = 5;
+       },
+       {"contact 12–5", "periodic edge?"}},
+      {[](FileFrame& f) {  // pairs that overlap are contacts
+         f.contacts->first = {12};
+         f.contacts->second = {-1};
+         f.contacts->normal = {Vec3::UnitY()};
+         f.contacts->force = {2.0 * Vec3::UnitY()};
+         f.contacts->overlap = {0.02};
+       },
+       {"no contact of disk 0 with disk 1", "0.1 m"}}};
+  for (const auto& [change, says] : faults) expectSays(refusalOfFrame(change), says);
+}
+
+TEST(PlaneSnapshots, FaultyParticles_AreRefused) {
+  const std::pair<std::function<void(FileFrame&)>, std::vector<const char*>> faults[] = {
+      {[](FileFrame& f) { f.particles.velocity[2].z() = 1.0; }, {"particle 9 moves along z"}},
+      {[](FileFrame& f) { f.particles.spin[0].x() = 1.0; }, {"particle 12 spins"}},
+      {[](FileFrame& f) { f.particles.id[2] = 5; }, {"particle 5 is there twice"}},
+      {[](FileFrame& f) { f.time.reset(); }, {"neither a time nor a step"}},
+      {[](FileFrame& f) {
+         f.time.reset();
+         f.step = 1000;
+       },
+       {"has a step and no time", "say dt", "[engines.mine]"}},
+      {[](FileFrame& f) {
+         f.box.emplace();
+         f.box->low = Vec3(-0.5, -1.0, -1.0);
+         f.box->high = Vec3(5.0, 5.0, 1.0);
+         f.box->periodic[0] = f.box->periodic[2] = true;
+       },
+       {"particle 5 reaches over the periodic edge at x = -0.5"}}};
+  for (const auto& [change, says] : faults) expectSays(refusalOfFrame(change), says);
+}
+
+TEST(PlaneSnapshots, ForcesOfAnotherLaw_AreRemarked) {
+  std::vector<std::string> remarks;
+  firstOf([](FileFrame& f) { f.contacts->force[0].y() = 7.0, f.contacts->force[2].y() = -7.0; }, {},
+          &remarks);
+  expectSays(remarks.at(0), {"not those of the case's law", "|f_t| is 7 N, the law allows 5 N"});
+}
+
+TEST(PlaneSnapshots, Times_AreThoseOfTheAveragedPart) {
+  files::PlaneUnits units;
+  units.dt = 0.01;
+  const auto at = [](std::int64_t step) {
+    FileFrame frame = threeParticles();
+    frame.time.reset();
+    frame.step = step;
+    return frame;
+  };
+  files::PlaneScene target = targetOf(restingDisks());
+  target.from = 1.0;
+  target.to = 3.0;
+  PlaneSnapshots source(
+      std::make_unique<FakeReader>(std::deque{at(0), at(100), at(200), at(300), at(400)}), units,
+      target);
+  std::vector<double> times;
+  while (const auto now = source.next()) times.push_back(now->positionTime);
+  EXPECT_EQ(times, (std::vector{1.0, 2.0, 3.0}));
+  expectSays(source.remarks().back(), {"1 snapshots before 1 s and 1 after 3 s are left out"});
+  const auto refused = [&](std::deque<FileFrame> frames) {
+    return test::refusalOf([&] {
+      PlaneSnapshots bad(std::make_unique<FakeReader>(std::move(frames)), units, target);
+      while (bad.next()) {
+      }
+    });
+  };
+  expectSays(refused({at(1), at(2)}), {"no snapshot lies between 1 and 3 s", "0.02 s"});
+  expectSays(refused({at(200), at(200)}), {"not after the one before"});
+}
+
+TEST(PlaneSnapshots, SixDigits_WidenWhatGeometryMayBeOffBy) {
+  const auto rounded = [](FileFrame& frame) {  // 1.9 + 1e-6 and its like are gone
+    for (Vec3& x : frame.particles.position) x += Vec3(0.123456, 0.0, 0.0);
+    frame.particles.position[2].x() -= 9e-6;
+    for (Vec3& x : frame.particles.position)
+      for (double& each : x) each = std::strtod(fmt::format("{:.6g}", each).c_str(), nullptr);
+  };
+  std::vector<std::string> remarks;
+  firstOf(rounded, {}, &remarks);
+  expectSays(remarks.back(), {"few digits", "m"});
+}
+
+/// Of the quick cell with one disk: a wheel that has turned by a third of its spacing.
+TEST(PlaneSnapshots, WallDisksOfACell_AreFoundAtAnyAngle) {
+  const Case setup = test::quickCell({"particles.small=1", "particles.large=0"});
+  FileFrame frame;
+  frame.where = "cell.dump, step 0";
+  frame.time = 0.5;
+  const double turned = 0.05 + 0.5 * setup.cell.omega;
+  std::int64_t id = 100;
+  const auto add = [&](const Vec2& x, double a) {
+    frame.particles.id.push_back(id--);
+    frame.particles.position.emplace_back(x.x(), x.y(), 0.0);
+    frame.particles.radius.push_back(a);
+    frame.particles.velocity.push_back(Vec3::Zero());
+  };
+  for (const auto& [radius, angle] :
+       {std::pair(setup.cell.innerRadius, turned), {setup.cell.outerRadius, 0.02}})
+    for (const Vec2& x : wallRing("", setup.cell, radius, angle).diskPosition)
+      add(x, setup.cell.wallRadius);
+  add({0.05, 0.0}, setup.particles.smallRadius);
+  FileFrame later = frame;
+  later.time = 0.75;
+  PlaneSnapshots source(std::make_unique<FakeReader>(std::deque{frame, later}), {},
+                        targetOf(setup));
+  EXPECT_EQ(source.scene().disks.size(), 1u);
+  const Snapshot first = source.next().value(), second = source.next().value();
+  EXPECT_EQ(first.position, (std::vector<Vec2>{{0.05, 0.0}}));
+  // Walls are where the case prescribes them, whatever a file makes of them.
+  const auto angleOf = [](const Vec2& x) { return std::atan2(x.y(), x.x()); };
+  const double spacing = 2.0 * std::numbers::pi / wallDiskCount(setup.cell, setup.cell.innerRadius);
+  EXPECT_NEAR(std::remainder(angleOf(first.wallPosition[0]) - turned, spacing), 0.0, 1e-12);
+  EXPECT_NEAR(angleOf(second.wallPosition[0]) - angleOf(first.wallPosition[0]),
+              0.25 * setup.cell.omega, 1e-12);
+  EXPECT_EQ(first.bodies[0].angularVelocity, setup.cell.omega);
+}
+
+TEST(PlaneSnapshots, WallDisksOfAnAssembly_AreAllThereOrNone) {
+  Case setup = restingDisks();
+  WallGroup row;
+  row.position = {{-1.5, 5.0}, {0.5, 5.0}};
+  row.radius = 0.5;
+  row.motion.kind = Motion::Kind::translating;
+  row.motion.velocity = {0.25, 0.0};
+  setup.assembly.walls.push_back(row);
+  const auto opened = [&](const std::vector<Vec3>& walls) {
+    FileFrame frame = threeParticles(2.0);
+    for (std::size_t k = 0; k < walls.size(); ++k) {
+      frame.particles.id.push_back(static_cast<std::int64_t>(1 + k));
+      frame.particles.position.push_back(walls[k]);
+      frame.particles.radius.push_back(0.5);
+      frame.particles.velocity.emplace_back(0.25, 0.0, 0.0);
+      frame.particles.spin.push_back(Vec3::Zero());
+    }
+    return PlaneSnapshots(std::make_unique<FakeReader>(std::deque{frame}), {}, targetOf(setup))
+        .next()
+        .value();
+  };
+  for (const auto& walls : {std::vector<Vec3>{}, {{1.0, 5.0, 0.0}, {-1.0, 5.0, 0.0}}}) {
+    const Snapshot now = opened(walls);  // both have moved by half a metre
+    EXPECT_EQ(now.position.size(), 3u);
+    EXPECT_EQ(now.wallPosition, (std::vector<Vec2>{{-1.0, 5.0}, {1.0, 5.0}}));
+    EXPECT_EQ(now.contacts->j, (std::vector<std::int32_t>{1, 5}));  // the floor, behind them
+  }
+  expectSays(test::refusalOf([&] {
+               opened({{1.0, 5.0, 0.0}, {-1.5, 5.0, 0.0}});
+             }),
+             {"1 of the 2 wall disks of wall-1"});
+}
+
+class AssemblyFiles : public testing::Test {
+ protected:
+  /// Snapshots of the three disks, k of them with forces of that size between the two.
+  std::filesystem::path write(const char* name, double force, const std::string& engine = "mine") {
+    const Scene scene = assemblyScene(setup_, assemblyDisks(setup_, 0), 0.0, 1e-3);
+    const std::filesystem::path path = folder_.path() / name;
+    SnapshotFile out(path, engine, scene, 1, 1);
+    PlaneSnapshots source(
+        std::make_unique<FakeReader>(std::deque{threeParticles(1.0), threeParticles(2.0)}), {},
+        targetOf(setup_));
+    for (int k = 1; auto now = source.next(); ++k) {
+      now->contacts->normalForce[0] = force;
+      out.offer(*now, k);
+    }
+    out.close();
+    return path;
+  }
+
+  const TemporaryFolder folder_;
+  Case setup_ = restingDisks();
+};
+
+TEST_F(AssemblyFiles, OneFile_HasTheVirialStress) {
+  const CompareResults results = averageSnapshots(setup_, {write("a.h5", 10.0)}, "test");
+  // Both disks of the pair have f_x l_x = −10 N · 1 m, in 16 m³.
+  const Profile* stress = profileOf(results.runs.at(0).profiles, "stress_xx");
+  ASSERT_TRUE(stress);
+  EXPECT_NEAR(stress->mean[0].value(), 20.0 / 16.0, 1e-14);
+  EXPECT_TRUE(results.ensemble.empty());
+  EXPECT_EQ(results.averaging.snapshots, 2);
+  EXPECT_EQ(results.engines[0].name, "mine");
+}
+
+TEST_F(AssemblyFiles, SeveralRuns_AreReplicates) {
+  const CompareResults results =
+      averageSnapshots(setup_, {write("a.h5", 10.0), write("b.h5", 13.0)}, "test");
+  ASSERT_EQ(results.ensemble.size(), 1u);
+  const Profile* stress = profileOf(results.ensemble[0].profiles, "stress_xx");
+  ASSERT_TRUE(stress);
+  // Of 20/16 and 26/16: the mean 23/16, its error |26 − 20|/16 / 2.
+  EXPECT_NEAR(stress->mean[0].value(), 23.0 / 16.0, 1e-14);
+  EXPECT_NEAR(stress->standardError[0].value(), 3.0 / 16.0, 1e-14);
+  const CompareResults back = compareFromJson(toJson(results));
+  EXPECT_EQ(back.ensemble.size(), 1u);
+  expectSays(
+      test::refusalOf([&] {
+        averageSnapshots(setup_, {write("a.h5", 10.0), write("c.h5", 10.0, "theirs")}, "test");
+      }),
+      {"a.h5 is of mine", "c.h5 is of theirs", "one engine"});
+}
+
+TEST_F(AssemblyFiles, OtherScene_IsRefused) {
+  const auto path = write("a.h5", 10.0);
+  const auto refused = [&](const std::function<void(Case&)>& change) {
+    Case other = setup_;
+    change(other);
+    return test::refusalOf([&] { averageSnapshots(other, {path}, "test"); });
+  };
+  expectSays(refused([](Case& c) { c.assembly.disks[0].places.pop_back(); }),
+             {"a.h5 does not fit", "3 disks, not 2"});
+  expectSays(refused([](Case& c) { c.assembly.disks[0].radius = 1e-3; }),
+             {"disk 0 of radius 1 m, not 0.001 m", "are lengths in mm?"});
+  expectSays(refused([](Case& c) { c.assembly.disks[0].mass = 2e-3; }),
+             {"disk 0 of mass 2 kg, not 0.002 kg", "are masses in g?"});
+  expectSays(refused([](Case& c) {
+               c.assembly.walls[0].planes[0].point = {0.0, 0.5};
+             }),
+             {"a.h5, snapshot 0", "from the positions"});
+  EXPECT_EQ(refused([](Case& c) { c.assembly.disks[0].radiusSpread = 0.2; }), "");
+}
+
+}  // namespace
+}  // namespace crossgrain
