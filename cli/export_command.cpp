@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "adapters/files/write_snapshots.hpp"
@@ -59,27 +60,27 @@ void requireNew(const std::vector<std::filesystem::path>& written) {
                                  file.string()));
 }
 
-int exportSnapshots(const CommandLine& line, const std::string& format, const std::string& out) {
+int exportSnapshots(const CommandLine& line, const std::string& format,
+                    const std::string& snapshots, const std::string& out) {
   requireFormat(format);
   const Case setup = flowCase(line);
   if (const auto folder = std::filesystem::path(out).parent_path(); !folder.empty())
     makeDirectory(folder);
-  const auto source = openSnapshotFile(line.snapshots, setup);
-  const SnapshotReader& reader = *source;
-  for (std::size_t k = 0; k < reader.count(); ++k) reader.requireSound(reader.read(k), k);
-  const auto written = files::writtenFiles(format, out, reader.count());
+  const auto reader = openSnapshotFile(snapshots, setup);
+  const auto written = files::writtenFiles(format, out, reader->count());
   requireNew(written);
 
-  const auto writer = files::openWriter(format, out, reader.scene(), boxOf(setup));
+  const auto writer = files::openWriter(format, out, reader->scene(), boxOf(setup));
   Progress progress(line.run.quiet);
   progress.begin("writing snapshots", {1.0});
-  double first = 0.0, last = 0.0;
-  for (std::size_t k = 0; k < reader.count(); ++k) {
+  std::optional<double> first;
+  double last = 0.0;
+  while (const auto snapshot = reader->next()) {
     throwIfInterrupted();
-    const Snapshot snapshot = reader.read(k);
-    (k == 0 ? first : last) = snapshot.positionTime;
-    writer->write(snapshot);
-    progress.update(0, out, static_cast<double>(k + 1) / static_cast<double>(reader.count()));
+    last = snapshot->positionTime;
+    if (!first) first = last;
+    writer->write(*snapshot);
+    progress.update(0, out, reader->progress());
   }
   writer->close();
   progress.finish(0, out);
@@ -87,8 +88,8 @@ int exportSnapshots(const CommandLine& line, const std::string& format, const st
   for (const std::filesystem::path& file : written) names.push_back(file.string());
   constexpr std::size_t mostNames = 3;
   if (names.size() > mostNames) names = {names.front() + " …"};
-  fmt::print("{}: {} snapshots of {}, t = {:g} to {:g} s\n", fmt::join(names, ", "), reader.count(),
-             reader.engine(), first, reader.count() > 1 ? last : first);
+  fmt::print("{}: {} snapshots of {}, t = {:g} to {:g} s\n", fmt::join(names, ", "),
+             reader->count(), reader->engine(), first.value_or(last), last);
   for (const std::string& what : writer->notWritten()) fmt::print("  not in them: {}\n", what);
   return exitPassed;
 }
@@ -97,15 +98,13 @@ Action declareExport(CLI::App& app, CommandLine& line) {
   const auto format = std::make_shared<std::string>(), out = std::make_shared<std::string>();
   addArgument(app, "format", *format, "what to write", "mercurydpm|lammps|ondem");
   const auto snapshots = std::make_shared<std::string>();
-  addArgument(app, "snapshots", *snapshots, "HDF5 file of snapshots that compare kept", "FILE");
+  addArgument(app, "snapshots", *snapshots, "HDF5 file of snapshots, of compare or import", "FILE");
   addCase(app, line, "case file that they are of");
   addArgument(app, "--out", *out, "name of the files, without an ending", "NAME");
   addOverrides(app, line);
   addQuiet(app, line);
-  return [&line, format, snapshots, out] {
-    line.snapshots = *snapshots;
-    return exportSnapshots(line, *format, *out);
-  };
+  return
+      [&line, format, snapshots, out] { return exportSnapshots(line, *format, *snapshots, *out); };
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ endforeach()
 
 set(crossgrain_libraries crossgrain_options crossgrain_support crossgrain_continuum grain box2d_granular crossgrain_adapters crossgrain_files
     crossgrain_worker crossgrain_engines crossgrain_oracle crossgrain_stability crossgrain_averaging
-    crossgrain_cases crossgrain_results crossgrain_reports crossgrain_studies crossgrain_file_writers)
+    crossgrain_cases crossgrain_results crossgrain_reports crossgrain_studies)
 install(TARGETS ${crossgrain_libraries} EXPORT crossgrain
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/crossgrain)
 foreach(folder support continuum adapters oracle stability averaging cases engines/grain engines/box2d results reports studies)

@@ -156,6 +156,67 @@ class Export(OneRun):
         self.assertEqual({"x.dump", "x.contacts"}, {file.name for file in (self.folder / "files").iterdir()})
 
 
+class RoundTrip(OneRun):
+    """export, then import: the same snapshots, but for what the files have no place for."""
+
+    def check_round_trip(self, form, *files, file=None, case=COUETTE, changes=SHORT[:2], tolerance=1e-13):
+        """@param changes  of the case: times of the run among them, as import leaves others out"""
+        file = file or self.file
+        self.assert_status(self.run_program("export", form, file, case, "--out", self.folder / "x", "--quiet", *changes), HELD)
+        again = self.folder / "again.h5"
+        named = [self.folder / f"x{ending}" for ending in files]
+        self.assert_status(self.run_program("import", form, *named, case, "--out", again, "--quiet", *changes), HELD)
+        before, after = crossgrain.Snapshots(file), crossgrain.Snapshots(again)
+        self.addCleanup(before.close), self.addCleanup(after.close)
+        self.assertEqual(len(before), len(after))
+        np.testing.assert_array_equal(before.radius, after.radius)
+        np.testing.assert_allclose(before.mass, after.mass, rtol=1e-12)
+        touching = 0
+        for a, b in zip(before, after):
+            self.assertEqual(a.time, b.time)
+            np.testing.assert_array_equal(a.position, b.position)
+            np.testing.assert_array_equal(a.velocity, b.velocity)
+            np.testing.assert_array_equal(a.spin, b.spin)
+            # Wall disks of a cell are counted from another place on their circle.
+            apart = np.linalg.norm(a.wall_position[:, None] - b.wall_position[None, :], axis=2)
+            ids = np.arange(len(before.radius) + len(a.wall_position) + 100)
+            if len(a.wall_position):
+                np.testing.assert_allclose(apart.min(axis=0), 0.0, atol=1e-12)
+                ids[len(before.radius) : len(before.radius) + len(a.wall_position)] = len(before.radius) + apart.argmin(axis=0)
+            b.contacts.j = ids[b.contacts.j]
+            order = [np.lexsort((c.j, c.i)) for c in (a.contacts, b.contacts)]
+            # Pairs without a force may be left out of either.
+            kept = [k[c.transmits[k]] for k, c in zip(order, (a.contacts, b.contacts))]
+            mine, theirs = kept
+            for name in ("i", "j"):
+                np.testing.assert_array_equal(getattr(a.contacts, name)[mine], getattr(b.contacts, name)[theirs])
+            np.testing.assert_allclose(a.contacts.normal[mine], b.contacts.normal[theirs], rtol=0, atol=1e-10)
+            largest = abs(a.contacts.normal_force).max(initial=0.0)
+            for name in ("normal_force", "tangential_force"):
+                np.testing.assert_allclose(
+                    getattr(a.contacts, name)[mine], getattr(b.contacts, name)[theirs], rtol=0, atol=tolerance * largest
+                )
+            np.testing.assert_allclose(a.contacts.overlap[mine], b.contacts.overlap[theirs], rtol=0, atol=1e-15)
+            touching += len(mine)
+        self.assertGreater(touching, 0)
+
+    def test_of_a_cell(self):
+        self.check_round_trip("mercurydpm", ".data", ".fstat")
+
+    def test_of_a_cell_by_lammps(self):
+        self.check_round_trip("lammps", ".dump", ".contacts", tolerance=1e-9)
+
+    def test_of_an_assembly_with_planes(self):
+        case = CASES / "assembly/biaxial.toml"
+        # Where tension is cut dump local has pairs without a force as if they did not touch.
+        changes = settings(law__tension="allow", average__snapshots=3)
+        self.compare(*changes, *settings(preparation__packings=1, run__keep_snapshots=3), case=case)
+        for form, *files in (("mercurydpm", ".data", ".fstat"), ("lammps", ".dump", ".contacts")):
+            with self.subTest(form):
+                file = self.out / "snapshots/grain-p0.h5"
+                self.check_round_trip(form, *files, file=file, case=case, changes=changes, tolerance=1e-9)
+
+
 class PythonReader(OneRun):
     def test_tables_are_those_of_the_csv_files(self):
         results = crossgrain.Results(self.ran)
