@@ -56,6 +56,8 @@ AveragedRun averageRun(const Case& setup, const SnapshotRun& files, SnapshotSour
     ++averaged.snapshots;
     progress.update(static_cast<std::size_t>(index), averaged.name, source.progress());
   }
+  if (averaged.snapshots == 0)
+    throw BadInput(fmt::format("{}: none of its snapshots is of the averaged time", averaged.name));
   FlowRun& run = averaged.run;
   run.engine = source.engine();
   run.packing = index;
