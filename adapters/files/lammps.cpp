@@ -433,10 +433,6 @@ class Entries : public TextParts {
             fmt::format("{} and {} should be the ids of two atoms; if the columns are others, say "
                         "which: columns = c_p=property/local,patom1,patom2 …",
                         one, other));
-      // Pairs that do not touch, where the cut-off is that of their types.
-      if (!columns.has(Meaning::fx) && columns[Meaning::normalForce] == 0.0 &&
-          columns.vector(Meaning::tx).isZero(0.0))
-        continue;
       if (entries.walls) {
         columns[Meaning::second] = -columns[Meaning::second] - 1.0;  // meshes count from 0
         table.branch.push_back(columns.vector(Meaning::x) - columns.vector(Meaning::px));

@@ -78,7 +78,6 @@ class ContactReader {
       line.turned = a > b;
     }
     const PairPlace place = pairPlace(places_, basis_, line.i, line.j);
-    checkDistance(c, line, place);
     const double side = line.turned ? -1.0 : 1.0;
     line.normal = in_.normal.empty() ? place.normal : side * normalOf(c);
     if (line.normal.dot(place.normal) < -0.5)
@@ -91,6 +90,7 @@ class ContactReader {
       line.torque = side * units_.force() * units_.length * units_.aboutNormal(in_.torque[c]);
     const bool nothing = line.force.isZero(0.0) && line.torque == 0.0;
     if (nothing && line.overlap <= 0.0) return std::nullopt;  // a pair that was only looked at
+    checkDistance(c, line, place);
     return line;
   }
 

@@ -97,6 +97,8 @@ AveragedRun averagedRun(const Case& setup, SnapshotSource& source, const std::st
     ++averaged.snapshots;
     progress(source.progress());
   }
+  if (averaged.snapshots == 0)
+    throw BadInput(fmt::format("{}: none of its snapshots is of the averaged time", where));
   averaged.run.engine = source.engine();
   averaged.averages->describe(EffectiveParameters{}, averaged.run);
   averaged.run.remarks = source.remarks();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -71,8 +72,10 @@ class SnapshotReader : public SnapshotSource {
 
   const Scene& scene() const override { return scene_; }
   const std::string& engine() const override { return engine_; }
+  /// Of an assembly, those of the averaged time alone.
   std::optional<Snapshot> next() override;
   double progress() const override;
+  std::vector<std::string> remarks() const override;
 
   std::size_t count() const { return count_; }
   const std::filesystem::path& file() const { return name_; }
@@ -87,7 +90,8 @@ class SnapshotReader : public SnapshotSource {
   std::filesystem::path name_;
   Scene scene_;
   std::string engine_;
-  std::size_t count_ = 0, next_ = 0;
+  std::size_t count_ = 0, next_ = 0, leftOut_ = 0;
+  double from_ = -INFINITY, to_ = INFINITY;  ///< averaged [s]
   AuditBasis basis_;
 };
 

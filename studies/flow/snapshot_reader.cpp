@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "adapters/audit_geometry.hpp"
+#include "cases/flow.hpp"
 #include "studies/flow/snapshot_file.hpp"
 #include "studies/flow/snapshot_fit.hpp"
 #include "support/bad_input.hpp"
@@ -259,6 +260,10 @@ SnapshotReader::SnapshotReader(const std::filesystem::path& file, const Case& se
   basis_ = auditBasis(scene_);
   basis_.byOverlap = setup.law.soft();
   basis_.prescribed = isAssembly;
+  if (!setup.average) return;
+  const FlowTimes times = flowTimes(setup);  // steps of an engine need not end with them
+  from_ = times.settled - 0.5 * times.interval;
+  to_ = times.end() + 0.5 * times.interval;
 }
 
 Snapshot SnapshotReader::read(std::size_t k) const {
@@ -271,11 +276,20 @@ void SnapshotReader::requireSound(const Snapshot& snapshot, std::size_t k) const
 }
 
 std::optional<Snapshot> SnapshotReader::next() {
-  if (next_ == count_) return std::nullopt;
-  Snapshot snapshot = read(next_);
-  requireSound(snapshot, next_);
-  ++next_;
-  return snapshot;
+  while (next_ < count_) {
+    const std::size_t k = next_++;
+    Snapshot snapshot = read(k);
+    requireSound(snapshot, k);
+    if (snapshot.positionTime >= from_ && snapshot.positionTime <= to_) return snapshot;
+    ++leftOut_;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> SnapshotReader::remarks() const {
+  if (leftOut_ == 0) return {};
+  return {fmt::format("{}: {} of {} snapshots are not of the averaged time and are left out",
+                      name_.string(), leftOut_, count_)};
 }
 
 double SnapshotReader::progress() const {

@@ -478,6 +478,17 @@ TEST_F(AssemblyFiles, SeveralRuns_AreReplicates) {
       {"a.h5 is of mine", "c.h5 is of theirs", "one engine"});
 }
 
+TEST_F(AssemblyFiles, SnapshotsOutsideOfTheAveragedTime_AreLeftOut) {
+  const auto path = write("a.h5", 10.0);  // of 1 s and of 2 s
+  setup_.average->region.from = 1.5;
+  const CompareResults results = averageSnapshots(setup_, {path}, "test");
+  EXPECT_EQ(results.averaging.snapshots, 1);
+  expectSays(results.notes.back(), {"1 of 2 snapshots", "left out"});
+  setup_.average->region.from = 3.0;
+  expectSays(test::refusalOf([&] { averageSnapshots(setup_, {path}, "test"); }),
+             {"a.h5", "none of its snapshots"});
+}
+
 TEST_F(AssemblyFiles, OtherScene_IsRefused) {
   const auto path = write("a.h5", 10.0);
   const auto refused = [&](const std::function<void(Case&)>& change) {
