@@ -1,5 +1,5 @@
-/// ON-DEM's VTKHDF (https://github.com/ON-DEM/ON-DEM-WG3-FileFormat, of June 2026), one time a
-/// file.
+/// ON-DEM's VTKHDF (https://github.com/ON-DEM/ON-DEM-WG3-FileFormat), one time a file, in its
+/// layouts of June 2026 (one body of points) and October 2026 (blocks of bodies).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,19 +15,35 @@ namespace crossgrain::files {
 namespace fs = std::filesystem;
 namespace {
 
-const std::string points = "/VTKHDF/Points", ofPoints = "/VTKHDF/PointData/",
-                  interactions = "/ONDEM/Interactions/";
+/// Where a file has what.
+struct Layout {
+  std::string points = "/VTKHDF/Points", ofPoints = "/VTKHDF/PointData/";
+  std::string interactions = "/ONDEM/Interactions/";
+  std::vector<std::string> walls = {"/ONDEM/Bodies/Walls/body_id", "/ONDEM/Bodies/Facets/body_id",
+                                    "/ONDEM/Bodies/Boxes/body_id"};
+  bool traction = false;  ///< normal_force > 0 pulls
+};
+const Layout ofJune;
+const Layout ofBlocks{"/VTKHDF/Points/Points",
+                      "/VTKHDF/Points/PointData/",
+                      "/ONDEM/Interactions/contact/",
+                      {"/VTKHDF/Others/PointData/body_id"},
+                      true};
 
 /// Arrays of a file, of the length that they should have.
 class Arrays {
  public:
   explicit Arrays(const fs::path& file) : file_(Hdf5File::open(file)), name_(file.string()) {}
 
-  /// Absent: empty. @throws BadInput
-  std::vector<double> numbers(const std::string& path, std::size_t rows,
-                              std::size_t columns = 1) const {
-    const std::optional<std::vector<double>> found = file_.read(path);
+  /// Absent: empty. @param missing  what stands for NaN, which then says that a body has none
+  /// @throws BadInput
+  std::vector<double> numbers(const std::string& path, std::size_t rows, std::size_t columns = 1,
+                              std::optional<double> missing = {}) const {
+    std::optional<std::vector<double>> found = file_.read(path);
     if (!found) return {};
+    if (missing)
+      for (double& value : *found)
+        if (std::isnan(value)) value = *missing;
     if (found->size() != rows * columns)
       fail(fmt::format("{} has {} numbers, there should be {}", path, found->size(),
                        rows * columns));
@@ -79,10 +95,9 @@ class Arrays {
 };
 
 /// Bodies that are no spheres and so no points.
-std::vector<std::int64_t> wallIds(const Arrays& arrays) {
+std::vector<std::int64_t> wallIds(const Arrays& arrays, const Layout& layout) {
   std::vector<std::int64_t> ids;
-  for (const char* group : {"Walls", "Facets", "Boxes"}) {
-    const std::string path = fmt::format("/ONDEM/Bodies/{}/body_id", group);
+  for (const std::string& path : layout.walls) {
     if (!arrays.holds(path)) continue;
     const auto own = arrays.wholeNumbers(path, arrays.length(path));
     ids.insert(ids.end(), own.begin(), own.end());
@@ -93,8 +108,9 @@ std::vector<std::int64_t> wallIds(const Arrays& arrays) {
 
 /// `normal` is from id1 to id2, normal_force n + shear_force acts on id2: so the exporter takes
 /// them from YADE, and so they are in the sample files, where normal_force > 0 pushes. The schema
-/// has it "positive in traction".
-void checkSign(const Arrays& arrays, const std::vector<double>& normalForce, std::size_t rows) {
+/// has it "positive in traction", and so have files of blocks.
+void checkSign(const Arrays& arrays, const std::string& interactions,
+               const std::vector<double>& normalForce, std::size_t rows) {
   const std::vector<double> overlap = arrays.numbers(interactions + "overlap", rows);
   double work = 0.0;
   for (std::size_t k = 0; k < overlap.size(); ++k) work += overlap[k] * normalForce[k];
@@ -105,10 +121,12 @@ void checkSign(const Arrays& arrays, const std::vector<double>& normalForce, std
         "exporter's files count pressure so; say columns = normal_force=traction");
 }
 
-std::optional<ContactTable> readInteractions(const Arrays& arrays, bool traction) {
+std::optional<ContactTable> readInteractions(const Arrays& arrays, const Layout& layout,
+                                             bool traction) {
+  const std::string& interactions = layout.interactions;
   if (!arrays.holds(interactions + "id1")) return std::nullopt;
   const std::size_t rows = arrays.length(interactions + "id1");
-  const std::vector<std::int64_t> walls = wallIds(arrays);
+  const std::vector<std::int64_t> walls = wallIds(arrays, layout);
   const auto id = [&](std::int64_t body) {
     return std::ranges::binary_search(walls, body) ? -body - 1 : body;
   };
@@ -118,7 +136,7 @@ std::optional<ContactTable> readInteractions(const Arrays& arrays, bool traction
   if (traction)
     for (double& force : normalForce) force = -force;
   else
-    checkSign(arrays, normalForce, rows);
+    checkSign(arrays, interactions, normalForce, rows);
   const auto first = arrays.wholeNumbers(interactions + "id1", rows),
              second = arrays.wholeNumbers(interactions + "id2", rows);
   const std::vector<Vec3> normal = arrays.vectors(interactions + "normal", rows),
@@ -154,13 +172,15 @@ Part readScene(const fs::path& file, bool traction) {
   part.frame.where = file.string();
   if (arrays.holds("/VTKHDF/Steps"))
     arrays.fail("/VTKHDF/Steps: several times in one file are not read");
-  const std::size_t rows = arrays.length(points) / 3;
+  const Layout& layout = arrays.holds(ofBlocks.points) ? ofBlocks : ofJune;
+  const std::string& ofPoints = layout.ofPoints;
+  const std::size_t rows = arrays.length(layout.points) / 3;
   FileParticles& particles = part.frame.particles;
-  particles.position = arrays.vectors(points, rows);
+  particles.position = arrays.vectors(layout.points, rows);
   arrays.need(ofPoints + "body_id");
   particles.id = arrays.wholeNumbers(ofPoints + "body_id", rows);
   particles.radius = arrays.needNumbers(ofPoints + "radius", rows);
-  particles.mass = arrays.numbers(ofPoints + "mass", rows);
+  particles.mass = arrays.numbers(ofPoints + "mass", rows, 1, 0.0);
   particles.velocity = arrays.vectors(ofPoints + "velocity", rows);
   particles.spin = arrays.vectors(ofPoints + "angular_velocity", rows);
   if (arrays.holds(ofPoints + "material_id"))
@@ -168,7 +188,7 @@ Part readScene(const fs::path& file, bool traction) {
   part.frame.time = arrays.attribute("/ONDEM/Scene", "time");
   if (part.frame.time && !std::isfinite(*part.frame.time))
     arrays.fail("/ONDEM/Scene/time is not finite");
-  part.table = readInteractions(arrays, traction);
+  part.table = readInteractions(arrays, layout, traction || layout.traction);
   return part;
 }
 

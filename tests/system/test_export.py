@@ -164,7 +164,7 @@ class RoundTrip(OneRun):
         file = file or self.file
         self.assert_status(self.run_program("export", form, file, case, "--out", self.folder / "x", "--quiet", *changes), HELD)
         again = self.folder / "again.h5"
-        named = [self.folder / f"x{ending}" for ending in files]
+        named = [self.folder / f"x{ending}" for ending in files] or sorted(self.folder.glob("x*.vtkhdf"))
         self.assert_status(self.run_program("import", form, *named, case, "--out", again, "--quiet", *changes), HELD)
         before, after = crossgrain.Snapshots(file), crossgrain.Snapshots(again)
         self.addCleanup(before.close), self.addCleanup(after.close)
@@ -208,10 +208,10 @@ class RoundTrip(OneRun):
 
     def test_of_an_assembly_with_planes(self):
         case = CASES / "assembly/biaxial.toml"
-        # Where tension is cut dump local has pairs without a force as if they did not touch.
-        changes = settings(law__tension="allow", average__snapshots=3)
+        # Some pairs overlap without a force: tension is cut. Contacts are as old as positions, not a step older as YADE's.
+        changes = settings(average__snapshots=3, engines__ondem__contacts_behind=0)
         self.compare(*changes, *settings(preparation__packings=1, run__keep_snapshots=3), case=case)
-        for form, *files in (("mercurydpm", ".data", ".fstat"), ("lammps", ".dump", ".contacts")):
+        for form, *files in (("mercurydpm", ".data", ".fstat"), ("lammps", ".dump", ".contacts"), ("ondem",)):
             with self.subTest(form):
                 file = self.out / "snapshots/grain-p0.h5"
                 self.check_round_trip(form, *files, file=file, case=case, changes=changes, tolerance=1e-9)
