@@ -255,7 +255,7 @@ void refuseAll(const Reader& in, std::initializer_list<std::pair<const char*, do
 /// k_r as it is, per k_t or per k_n µ_r².
 void setRollingStiffness(const Reader& in, LawInput& law) {
   const int given = in.has("kr") + in.has("kr_per_kt") + in.has("kr_factor");
-  in.check(given < 2, "kr", "one of kr, kr_per_kt and kr_factor");
+  in.check(given < 2, in.has("kr") ? "kr" : "kr_factor", "one of kr, kr_per_kt and kr_factor");
   if (given == 0) in.failMissing("kr", "a rolling spring needs it > 0, or kr_per_kt or kr_factor");
   for (const auto& [key, factor, of] : {std::tuple{"kr_per_kt", law.krPerKt, law.kt},
                                         {"kr_factor", law.krFactor, law.kn * law.muR * law.muR}}) {

@@ -270,7 +270,9 @@ void Reader::failMissing(std::string_view key, std::string_view reason) const {
 }
 
 void Reader::fail(std::string_view key, std::string_view message) const {
-  Value{*find(key), pathOf(key)}.fail(message);
+  const auto* const node = find(key);
+  if (!node) failMissing(key, message);  // nothing in the file to point at
+  Value{*node, pathOf(key)}.fail(message);
 }
 
 }  // namespace crossgrain::inline cases

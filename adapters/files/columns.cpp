@@ -172,6 +172,9 @@ bool Columns::hasVector(Meaning first) const {
 }
 
 void Columns::checkDistinct(const TextFile& text) const {
+  for (const auto& [first, names] : {std::pair(Meaning::x, "x, y"), {Meaning::vx, "vx, vy"}})
+    if (has(first) != has(following(first, 1)))
+      text.fail(fmt::format("one of {} is missing: a plane has two components", names));
   for (std::size_t k = 0; k < places_.size(); ++k)
     for (std::size_t l = 0; l < k; ++l)
       if (places_[k] == places_[l] && places_[k] != unread)

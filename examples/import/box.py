@@ -3,7 +3,7 @@ import random
 import sys
 
 SEED = int(sys.argv[1]) if len(sys.argv) > 1 else 1
-random.seed(SEED)
+rng = random.Random(SEED)  # sphere() seeds the global one anew, for its colour
 RADIUS, MASS = 0.005, 0.001
 
 # Of a pair kn = kn1 kn2/(kn1 + kn2), so that two of 2e4 make 1e4 N/m; likewise the others.
@@ -11,7 +11,7 @@ law = dict(kn=2e4, ks=1e4, cn=2.0, cs=1.0, frictionAngle=math.atan(0.4), density
 disks = O.materials.append(ViscElMat(label="disks", **law))
 for row in range(8):
     for column in range(6):
-        x, y = (0.00575 + 0.0115 * k + random.uniform(-0.0005, 0.0005) for k in (column, row))
+        x, y = (0.00575 + 0.0115 * k + rng.uniform(-0.0005, 0.0005) for k in (column, row))
         body = sphere((x, y, 0), RADIUS, material=disks)
         body.state.blockedDOFs = "zXY"
         O.bodies.append(body)

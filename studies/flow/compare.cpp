@@ -72,7 +72,7 @@ std::optional<NothingJudged> nothingJudged(const Case& setup, std::span<const En
     return row.unpaired && row.unpaired->basis == Basis::oneRunEach;
   };
   if (std::ranges::any_of(rows, single))
-    return NothingJudged{"a single run of each is too short to know its own error"};
+    return NothingJudged{"a single run of each has no error of its own: too short, or at rest"};
   return NothingJudged{fmt::format("{} packing{} of both engines, and a verdict needs at least {}",
                                    most, most == 1 ? "" : "s", fewest)};
 }

@@ -124,6 +124,9 @@ std::vector<EndpointTest> familyOf(const Case& setup, std::span<const FlowRun> r
     own.test.sample.independent = independent;
     if (independent && ours.front().size() == 1 && theirs.size() == 1)
       addOwnErrors(own.test, *ours.front().front(), *theirs.front(), endpoint.name);
+    if (independent && own.row.reason.empty() && own.test.sample.reference.size() == 1 &&
+        own.test.sample.other.size() == 1 && own.test.sample.withinVariance.empty())
+      own.row.reason = "a single run has no error of its own where it is short, or at rest";
     ours.push_back(theirs);
     for (const Runs& engine : ours)
       if (own.row.reason.empty()) own.row.reason = missingValueReason(endpoint, setup, engine);

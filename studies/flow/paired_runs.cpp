@@ -124,7 +124,8 @@ void addOwnErrors(PairedTest& test, const FlowRun& reference, const FlowRun& oth
   for (const auto& [run, value] : {std::pair(&reference, test.sample.reference.front()),
                                    std::pair(&other, test.sample.other.front())}) {
     const auto own = std::ranges::find(run->endpointErrors, endpoint, &EndpointError::endpoint);
-    if (own == run->endpointErrors.end() || !value) return;
+    // A run that never changes does not know how another one would differ.
+    if (own == run->endpointErrors.end() || !value || own->standardError == 0.0) return;
     const double error =
         test.logarithmic ? own->standardError / std::exp(test.sign * *value) : own->standardError;
     sum += error * error;

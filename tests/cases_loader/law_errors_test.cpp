@@ -127,6 +127,8 @@ TEST_F(LoaderErrors, Law_OfRolling_NeedsItsConstantsWithinTheirRanges) {
        "kr_factor"},
       {loneDisk + "rolling = \"spring\"\nmu_r = 0.1\nkr = 0\n",
        "case.toml:18:6: law.kr = 0: a rolling spring needs it > 0"},
+      {loneDisk + "rolling = \"spring\"\nmu_r = 0.1\nkr_factor = 3\nkr_per_kt = 1\n",
+       "case.toml:18:13: law.kr_factor = 3: one of kr, kr_per_kt and kr_factor"},
       {loneDisk + "rolling = \"spring\"\nmu_r = 0.1\nkr = 1\nkr_factor = 3\n",
        "case.toml:18:6: law.kr = 1: one of kr, kr_per_kt and kr_factor"},
       {loneDisk + "rolling = \"spring\"\nmu_r = 0.1\nkr_per_kt = 1\n",

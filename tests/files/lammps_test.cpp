@@ -117,6 +117,13 @@ TEST_F(LammpsText, Granular_RollingPseudoForce) {
   EXPECT_EQ(contacts.torque[0], Vec3(0, 0, -6.25));
 }
 
+/// Half a velocity is none: the other half would be 0 for all that anybody knows.
+TEST_F(LammpsText, HalfAVectorIsRefused) {
+  samples_.write("a.dump", head("ATOMS", 1) + "ITEM: ATOMS id x y radius vx vz\n1 1 2 0.5 3 0\n");
+  EXPECT_NE(samples_.refusal("lammps", {"a.dump"}).find("one of vx, vy is missing"),
+            std::string::npos);
+}
+
 TEST_F(LammpsText, Columns_AsTheComputesSay) {
   writeAtoms();
   samples_.write("a.local", head("ENTRIES", 2) +
