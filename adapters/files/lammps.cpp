@@ -473,9 +473,11 @@ std::unique_ptr<FrameReader> openLammps(const Files& files, const FileOptions& o
   std::vector<std::unique_ptr<PartReader>> contacts;
   for (Files& dump : bySeries(filesOf(files, Content::contacts, contentOfLammps)))
     contacts.push_back(std::make_unique<Entries>(std::move(dump), columns));
+  // What is said of columns of contacts is no slip where there are only atoms.
+  const auto checked = contacts.empty() ? nullptr : columns;
   return joinParts(
       std::make_unique<Atoms>(filesOf(files, Content::particles, contentOfLammps), columns),
-      std::move(contacts), columns);
+      std::move(contacts), checked);
 }
 
 }  // namespace crossgrain::files

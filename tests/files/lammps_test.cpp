@@ -117,6 +117,12 @@ TEST_F(LammpsText, Granular_RollingPseudoForce) {
   EXPECT_EQ(contacts.torque[0], Vec3(0, 0, -6.25));
 }
 
+/// A case that says what columns of contacts are may go with atoms alone.
+TEST_F(LammpsText, AtomsAlone_NeedNoColumnsOfContacts) {
+  writeAtoms();
+  EXPECT_FALSE(samples_.read("lammps", {"a.dump"}, {"c_e=first,second"}).front().contacts);
+}
+
 /// Half a velocity is none: the other half would be 0 for all that anybody knows.
 TEST_F(LammpsText, HalfAVectorIsRefused) {
   samples_.write("a.dump", head("ATOMS", 1) + "ITEM: ATOMS id x y radius vx vz\n1 1 2 0.5 3 0\n");
