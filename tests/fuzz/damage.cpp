@@ -1,5 +1,7 @@
 #include "tests/fuzz/damage.hpp"
 
+#include <sys/resource.h>
+
 #include <cctype>
 
 namespace crossgrain::test {
@@ -97,6 +99,12 @@ nlohmann::json damagedJson(const nlohmann::json& document, Draw& draw) {
   }
   *at = draw.oneOf(others);
   return damaged;
+}
+
+std::size_t mostMemory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) << 10;
 }
 
 }  // namespace crossgrain::test

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -16,5 +17,16 @@ std::string damagedBytes(std::string bytes, Draw& draw);
 
 /// A document of which one value, wherever it is, is another, gone, or of another type.
 nlohmann::json damagedJson(const nlohmann::json& document, Draw& draw);
+
+/// The most memory that this program has had in use so far [bytes].
+std::size_t mostMemory();
+
+/// What a damaged file of some kB may make a reader take besides what it has, buffers and what zlib
+/// unpacks among it [bytes]. Sanitizers keep what was given back for a while.
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr std::size_t modest = std::size_t{1} << 29;
+#else
+inline constexpr std::size_t modest = std::size_t{1} << 26;
+#endif
 
 }  // namespace crossgrain::test

@@ -2,8 +2,6 @@
 /// done to them.
 #include <gtest/gtest.h>
 
-#include <sys/resource.h>
-
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -62,21 +60,6 @@ void expectSound(const FileFrame& frame, std::uint64_t number) {
   for (const std::int64_t id : contacts.first) EXPECT_GE(id, 0) << number;
 }
 
-/// The most memory that this program has had in use so far [bytes].
-std::size_t mostMemory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) << 10;
-}
-
-/// What a file of some kB may make a reader take: a buffer of a megabyte for each, and what zlib
-/// may unpack from them. Sanitizers keep what was given back for a while.
-#ifdef __SANITIZE_ADDRESS__
-constexpr std::size_t modest = std::size_t{1} << 29;
-#else
-constexpr std::size_t modest = std::size_t{1} << 26;
-#endif
-
 /// A run of right files, of which one is damaged at a time.
 struct Corpus {
   std::string format;
@@ -88,7 +71,7 @@ struct Corpus {
 void readDamaged(const std::vector<Corpus>& corpora, std::uint64_t usual) {
   const TemporaryFolder folder;
   std::uint64_t taken = 0, refused = 0;
-  const std::size_t before = mostMemory();
+  const std::size_t before = test::mostMemory();
   const test::InputRange all = test::inputs(usual);
   for (std::uint64_t k = all.from; k < all.to && !testing::Test::HasFailure(); ++k) {
     test::Draw draw(k);
@@ -120,7 +103,7 @@ void readDamaged(const std::vector<Corpus>& corpora, std::uint64_t usual) {
       ADD_FAILURE() << "input " << k << ": neither taken nor refused: " << other.what();
     }
   }
-  EXPECT_LT(mostMemory() - before, modest);
+  EXPECT_LT(test::mostMemory() - before, test::modest);
   if (all.size() < 100) return;
   EXPECT_GT(taken, all.size() / 100);
   EXPECT_GT(refused, all.size() / 10);

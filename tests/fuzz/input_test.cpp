@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <hdf5.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -133,21 +132,6 @@ std::vector<fs::path> keptIn(const char* kind) {
   return files;
 }
 
-/// The most memory that this program has had in use so far [bytes].
-std::size_t mostMemory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) << 10;
-}
-
-/// What a file of some kB may make a reader take besides what it has [bytes]. Sanitizers keep what
-/// was given back for a while.
-#ifdef __SANITIZE_ADDRESS__
-constexpr std::size_t modest = std::size_t{1} << 29;
-#else
-constexpr std::size_t modest = std::size_t{1} << 26;
-#endif
-
 DiskDefaults defaults() {
   return {[](double radius) { return radius * radius; }, 0.5, 1000};
 }
@@ -181,25 +165,25 @@ TEST(FuzzedInput, PackingsAreSoundOrRefusedInOneLine) {
   packing.hash = "0123456789abcdef";
   writePacking(packing, file);
   const std::string whole = contentOf(file);
-  const std::size_t before = mostMemory();
+  const std::size_t before = test::mostMemory();
   readDamaged(
       file, 4'000, [&](test::Draw& draw) { return test::damagedBytes(whole, draw); },
       [&] { return readPacking(file, defaults()).disks; });
   // A handle left open would keep its file's content, damaged file by damaged file.
   EXPECT_EQ(H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL), 0);
-  EXPECT_LT(mostMemory() - before, modest);
+  EXPECT_LT(test::mostMemory() - before, test::modest);
 }
 
 /// Each was taken, or worse, before it was kept.
 TEST(FuzzedInput, WhatWasOnceReadWronglyIsRefused) {
   Reading reading;
   std::uint64_t number = 0;
-  const std::size_t before = mostMemory();
+  const std::size_t before = test::mostMemory();
   for (const fs::path& kept : keptIn("packings"))
     reading.read(number++, [&] { expectSound(readPacking(kept, defaults()).disks, number); });
   EXPECT_GT(number, 0u);
   EXPECT_EQ(reading.refused, number);
-  EXPECT_LT(mostMemory() - before, modest);
+  EXPECT_LT(test::mostMemory() - before, test::modest);
 }
 
 TEST(FuzzedInput, StartsAreSoundOrRefusedInOneLine) {
