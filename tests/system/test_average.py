@@ -139,7 +139,7 @@ class ResultFiles(SystemTest):
         self.assert_one_error(self.run_program(*plan, "--set=engines.yadee.dt=1e-5"), BAD_INPUT, "engines.yadee", "did you mean yade?")
 
     def test_wrong_settings_are_refused(self):
-        for settings_, told in (
+        for settings_, words in (
             (["length=1000"], ["say length = 1 in [engines.my-lammps]"]),
             (["mass=0.001"], ["mass", "say mass = 1 in [engines.my-lammps]"]),
             (["dt=0"], ["box-atoms.dump, step 78000", "say dt, the time step, in [engines.my-lammps]"]),
@@ -150,7 +150,7 @@ class ResultFiles(SystemTest):
         ):
             with self.subTest(settings_):
                 done = self.import_files(*(f"--set=engines.my-lammps.{each}" for each in settings_))
-                self.assert_one_error(done, BAD_INPUT, *told)
+                self.assert_one_error(done, BAD_INPUT, *words)
                 self.assertEqual([], list(self.folder.glob("mine*")))
 
     def test_faulty_files_are_refused(self):

@@ -3,14 +3,12 @@
 What they write is kept in tests/golden."""
 
 import json
-import pathlib
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 
-from harness import BAD_INPUT, CASES, COLLISION, COUETTE, FELL_SHORT, HARD_SPHERE, HELD, HOME, PROGRAM, SystemTest, settings
+from harness import BAD_INPUT, CASES, COLLISION, COUETTE, FELL_SHORT, HARD_SPHERE, HELD, HOME, SystemTest, settings
 
 SHORT = settings(averaging__rotations=0.02)
 SHEAR = CASES / "assembly/plane-shear.toml"
@@ -21,13 +19,9 @@ class Files(SystemTest):
 
     @classmethod
     def setUpClass(cls):
-        """Two engines' runs, made once."""
-        shared = tempfile.TemporaryDirectory(prefix="crossgrain-test-")
-        cls.addClassCleanup(shared.cleanup)
-        cls.out_of_runs = pathlib.Path(shared.name) / "run"
-        cls.kept = cls.out_of_runs / "snapshots"
-        short = settings(averaging__rotations=0.1, preparation__packings=4, looks__count=1, run__mirrors="false", run__keep_snapshots=100000)
-        subprocess.run([PROGRAM, "compare", COUETTE, "--engines", "grain,lammps", "--out", cls.out_of_runs, *short], capture_output=True, check=True)
+        short = settings(averaging__rotations=0.1, preparation__packings=4, looks__count=1, run__keep_snapshots=100000)
+        cls.ran = cls.compared_once("grain,lammps", *short)
+        cls.kept = cls.ran / "snapshots"
 
     def files(self, engines, *arguments, out="files"):
         return self.run_program("compare", COUETTE, "--engines", engines, "--out", self.folder / out, "--quiet", *arguments)
@@ -36,7 +30,7 @@ class Files(SystemTest):
         self.assert_status(self.files(f"mine={self.kept}/grain-p*.h5,theirs={self.kept}/lammps-p?.h5"), HELD)
         rows = self.rows("endpoints.csv", self.folder / "files")
         self.assertEqual(9, len(rows))
-        for ran, read in zip(self.rows("endpoints.csv", self.out_of_runs), rows, strict=True):
+        for ran, read in zip(self.rows("endpoints.csv", self.ran), rows, strict=True):
             self.assertEqual(("mine", "theirs", "paired"), (read["a"], read["b"], read["basis"]))
             for same in ("endpoint", "answer", "difference", "low", "high", "packings", "lost"):
                 self.assertEqual(ran[same], read[same], ran["endpoint"])

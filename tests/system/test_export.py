@@ -2,17 +2,14 @@
 gives the same numbers. tests/unit/write_snapshots_test.cpp has the formats by hand, tests/averaging/mercurycg_test.cpp
 averages them."""
 
-import pathlib
 import re
-import subprocess
 import sys
-import tempfile
 import unittest
 
 import h5py
 import numpy as np
 
-from harness import BAD_INPUT, CASES, COLLISION, COUETTE, FELL_SHORT, HELD, HOME, PROGRAM, SystemTest, environment, settings
+from harness import BAD_INPUT, CASES, COLLISION, COUETTE, FELL_SHORT, HELD, HOME, SystemTest, settings
 
 sys.path.insert(0, str(HOME / "python"))
 import crossgrain  # noqa: E402
@@ -25,14 +22,8 @@ class OneRun(SystemTest):
 
     @classmethod
     def setUpClass(cls):
-        shared = tempfile.TemporaryDirectory(prefix="crossgrain-test-")
-        cls.addClassCleanup(shared.cleanup)
-        cls.ran = pathlib.Path(shared.name) / "run"
+        cls.ran = cls.compared_once("grain,box2d-penalty", "--quick", *SHORT)
         cls.file = cls.ran / "snapshots/grain-p0.h5"
-        subprocess.run(
-            [PROGRAM, "compare", COUETTE, "--engines", "grain,box2d-penalty", "--out", cls.ran, "--quick", "--set=run.mirrors=false", *SHORT],
-            env=environment(None), capture_output=True, check=False,
-        )  # fmt: skip
 
     def export(self, form, *arguments, case=COUETTE, out=None):
         return self.run_program("export", form, self.file, case, "--out", out or self.folder / "files/x", "--quiet", *arguments)
