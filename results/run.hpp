@@ -76,6 +76,8 @@ struct FlowRun {
   std::vector<std::string> remarks;  ///< of a run of files: what they lack and what that costs
 
   bool finished() const { return status == Status::finished; }
+  /// Nobody ran it here: it is averaged from files.
+  bool ofFiles() const { return finished() && !stats; }
 
   void fields(auto& io) {
     io("engine", engine, aName);

@@ -61,7 +61,7 @@ struct FileFrame {
   std::optional<FileContacts> contacts;
 };
 
-/// What a reader has to be told of a file.
+/// What a file does not say of itself.
 struct FileOptions {
   /// What columns (or arrays) mean whose names their program does not fix, as
   /// "NAME=MEANING NAME=MEANING …": "c_q=normal_force,tx,ty,tz,- f_floor=wall v_m=mass". NAME alone

@@ -70,7 +70,7 @@ class ParticleIds {
 /// Contacts of a frame by our ids, i < j, each once.
 /// @param snapshot  all but its contacts; its planes follow from the basis
 /// @param remarks   what is missing and what that costs is added
-/// @returns absent where they cannot be told
+/// @returns absent where the files do not say them
 /// @throws BadInput naming the frame and the contact
 std::optional<Contacts> planeContacts(const FileFrame& frame, const PlaneUnits& units,
                                       const ParticleIds& ids, const Snapshot& snapshot,

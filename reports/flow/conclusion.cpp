@@ -161,7 +161,7 @@ const EndpointRow* nextToDecide(const CompareResults& results) {
 /// How many runs an engine has that nobody has run here; 0 of one that crossgrain runs.
 std::size_t runsFromFiles(const Engines& engines, const std::string& name) {
   const auto engine = std::ranges::find(engines, name, &EngineRuns::name);
-  if (engine == engines.end() || engine->finished.empty() || engine->finished.front()->stats)
+  if (engine == engines.end() || engine->finished.empty() || !engine->finished.front()->ofFiles())
     return 0;
   return engine->finished.size();
 }

@@ -118,7 +118,7 @@ void checkEngineSections(const Case& setup) {
   for (const auto& [name, settings] : setup.engines) {
     const auto near = nearest(name, knownEngines());
     if (findEngine(name) || !near) continue;
-    // "my-lammps" is no slip of the pen, but what files of a user's own LAMMPS are called.
+    // A name that holds an engine's is what files of a run of it may be called, and no slip.
     const bool holdsIt =
         name.find('-') != std::string::npos && name.find(*near) != std::string::npos;
     if (!holdsIt)

@@ -71,7 +71,6 @@ std::vector<Numbers> mediansByRing(const std::vector<Runs>& engines, const std::
     all.push_back(fieldByRing(engine, method, field, packings));
     rings = std::min(rings, all.back().size());
   }
-  if (all.size() == 1) return all.front();
   std::vector<Numbers> medians;
   for (std::size_t ring = 0; ring < rings; ++ring) {
     std::vector<Numbers> values;
@@ -119,16 +118,11 @@ RingFamily ringFamilyOf(const Case& setup, const std::vector<Runs>& references, 
 
 void addPair(std::vector<AgreementRow>& table, const Case& setup, std::span<const FlowRun> runs,
              const ComparedPair& pair, const std::vector<SurrogateEngine>& surrogates) {
-  std::vector<Runs> references;
-  if (pair.others.empty()) references.push_back(runsFor(runs, pair.a, surrogates));
-  for (const std::string& engine : pair.others)
-    references.push_back(runsFor(runs, engine, surrogates));
+  const std::vector<Runs> references = referenceRuns(runs, pair, surrogates);
   const Runs other = runsFor(runs, pair.b, surrogates, pair.without);
-  if (!pair.others.empty()) std::erase_if(references, [](const Runs& of) { return of.empty(); });
-  if (other.empty() || references.size() < (pair.others.empty() ? 1 : 2)) return;
-  if (references.front().empty()) return;
-  const bool independent = pair.others.empty() && independentRuns(pair, references.front(), other);
-  const RingFamily family = ringFamilyOf(setup, references, other, independent);
+  if (references.empty() || other.empty()) return;
+  const RingFamily family =
+      ringFamilyOf(setup, references, other, independentRuns(pair, references.front(), other));
   std::vector<PairedSample> samples;
   for (const PairedTest& ring : family.tested) samples.push_back(ring.sample);
   const auto results = comparePaired(samples, setup.averaging.confidence);

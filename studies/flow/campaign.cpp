@@ -105,7 +105,9 @@ void Campaign::askEngines() {
     if (own.entry.ofFiles()) {
       own.version = "files" + (own.entry.format.empty() ? "" : ", " + own.entry.format);
       for (std::size_t run = 0; run < own.entry.files.size(); ++run)
-        openSnapshots(runOf(own.entry, run), setup_, own.entry.name);
+        if (const auto source = openSnapshots(runOf(own.entry, run), setup_, own.entry.name);
+            run == 0)
+          own.disks = source->scene().disks;
       return;
     }
     const auto engine =
@@ -134,8 +136,6 @@ int Campaign::runsOf(std::size_t engine) const {
 
 void Campaign::preparePackings(int count) {
   if (!runsEngines()) {
-    const EngineEntry& first = engines_.front().entry;
-    fileDisks_ = openSnapshots(runOf(first, 0), setup_, first.name)->scene().disks;
     store_.begin();
     return;
   }
@@ -397,8 +397,9 @@ std::vector<EngineRow> Campaign::engineRows() const {
 
 FlowStudy Campaign::study(std::string_view kind) const {
   FlowStudy study;
-  static_cast<FlowFrame&>(study) = couetteFrame(
-      kind, setup_, command_.commandLine, packings_.empty() ? fileDisks_ : packings_.front().disks);
+  static_cast<FlowFrame&>(study) =
+      couetteFrame(kind, setup_, command_.commandLine,
+                   packings_.empty() ? engines_.front().disks : packings_.front().disks);
   study.engines = engineRows();
   for (std::size_t k = 0; k < packings_.size(); ++k)
     study.packings.push_back(

@@ -26,6 +26,7 @@ struct CampaignEngine {
   std::optional<Capabilities> can = {};  ///< what timeEngines() found; absent where it failed
   std::optional<EffectiveParameters> effective = {};  ///< likewise
   double predicted = 1.0;                             ///< seconds of one run
+  Disks disks = {};                                   ///< of its first run, where that is a file
 };
 
 /// One engine on every packing, with the case as it is or with something switched off.
@@ -151,7 +152,6 @@ class Campaign {
   Progress progress_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   std::vector<Packing> packings_;
-  Disks fileDisks_;                 ///< of the first run of files, where there are no packings
   std::vector<double> preparedIn_;  ///< of those that the cache did not have [s]
   std::vector<FlowRun> runs_;       ///< variant by variant, packing by packing
 };

@@ -17,8 +17,6 @@ namespace {
 
 constexpr int fewestPackings = 4;  // of any verdict
 
-using Engines = std::vector<std::string>;
-
 /// An endpoint of two engines on its way to a verdict.
 struct EndpointTest {
   EndpointRow row;
@@ -83,8 +81,8 @@ std::optional<MirrorBound> boundOf(const std::string& endpoint, const SurrogateE
 
 /// Adds the bound of the mirrors that stand for an engine, or for those of a median, which differs
 /// by no more than the largest of its engines'. @returns whether there is one
-bool addBound(EndpointRow& row, std::string EndpointRow::*surrogate, const Engines& engines,
-              const EndpointFindings& known) {
+bool addBound(EndpointRow& row, std::string EndpointRow::*surrogate,
+              const std::vector<std::string>& engines, const EndpointFindings& known) {
   MirrorBound largest;
   for (const std::string& engine : engines) {
     const SurrogateEngine* const by = surrogateOf(known.surrogates, engine);
@@ -103,36 +101,33 @@ bool addBound(EndpointRow& row, std::string EndpointRow::*surrogate, const Engin
 std::vector<EndpointTest> familyOf(const Case& setup, std::span<const FlowRun> runs,
                                    const ComparedPair& pair, const EndpointFindings& known) {
   const std::size_t packings = packingsOf(runs);
-  const Engines first = pair.others.empty() ? Engines{pair.a} : pair.others;
-  std::vector<Runs> ours;
-  for (const std::string& engine : first) ours.push_back(runsFor(runs, engine, known.surrogates));
+  const std::vector<Runs> ours = referenceRuns(runs, pair, known.surrogates);
   const Runs theirs = runsFor(runs, pair.b, known.surrogates);
   std::vector<EndpointTest> family;
-  if (!pair.others.empty()) std::erase_if(ours, [](const Runs& of) { return of.empty(); });
-  if (theirs.empty() || ours.size() < (pair.others.empty() ? 1 : 2)) return family;
-  if (ours.front().empty()) return family;
-  const bool independent = pair.others.empty() && independentRuns(pair, ours.front(), theirs);
+  if (ours.empty() || theirs.empty()) return family;
+  const bool independent = independentRuns(pair, ours.front(), theirs);
+  const bool oneRunEach = independent && ours.front().size() == 1 && theirs.size() == 1;
   const auto valuesOf = [&](const EndpointSpec& endpoint, const Runs& of) {
     return endpointByPacking(endpoint, setup, of, independent ? packingsOf(of) : packings);
   };
   for (const EndpointSpec& endpoint : endpointsOf(setup)) {
     std::vector<Numbers> values;
     for (const Runs& of : ours) values.push_back(valuesOf(endpoint, of));
-    EndpointTest own = testOf(setup, pair, endpoint,
-                              pair.others.empty() ? values.front() : medianByPacking(values),
-                              valuesOf(endpoint, theirs));
+    EndpointTest own =
+        testOf(setup, pair, endpoint, medianByPacking(values), valuesOf(endpoint, theirs));
     own.test.sample.independent = independent;
-    if (independent && ours.front().size() == 1 && theirs.size() == 1)
+    const auto addReason = [&own](const std::string& reason) {
+      if (own.row.reason.empty()) own.row.reason = reason;
+    };
+    if (oneRunEach) {
       addOwnErrors(own.test, *ours.front().front(), *theirs.front(), endpoint.name);
-    if (independent && own.row.reason.empty() && own.test.sample.reference.size() == 1 &&
-        own.test.sample.other.size() == 1 && own.test.sample.withinVariance.empty())
-      own.row.reason = "a single run has no error of its own where it is short, or at rest";
-    ours.push_back(theirs);
-    for (const Runs& engine : ours)
-      if (own.row.reason.empty()) own.row.reason = missingValueReason(endpoint, setup, engine);
-    ours.pop_back();
+      if (own.test.sample.withinVariance.empty())
+        addReason("a single run has no error of its own where it is short, or at rest");
+    }
+    for (const Runs& engine : ours) addReason(missingValueReason(endpoint, setup, engine));
+    addReason(missingValueReason(endpoint, setup, theirs));
     // Without a bound nothing is known of the true difference: no verdict can stand on these runs.
-    if (!addBound(own.row, &EndpointRow::surrogateA, first, known) ||
+    if (!addBound(own.row, &EndpointRow::surrogateA, pair.references(), known) ||
         !addBound(own.row, &EndpointRow::surrogateB, {pair.b}, known))
       continue;
     own.test.sample.bias = own.row.bound.value_or(0.0) * own.test.sample.margin;
@@ -251,7 +246,7 @@ RepeatedValue repeatedValue(const EndpointSpec& endpoint, const Case& setup,
                             std::span<const FlowRun> runs, const std::string& engine) {
   const Runs own = finishedRuns(runs, engine);
   // Of files there are as many as there are; an engine runs its start that often.
-  const bool ofFiles = !own.empty() && !own.front()->stats;
+  const bool ofFiles = !own.empty() && own.front()->ofFiles();
   const Numbers values =
       endpointByPacking(endpoint, setup, own, ofFiles ? own.size() : std::size_t{closedFormRuns});
   RepeatedValue found;

@@ -108,7 +108,7 @@ std::vector<std::string> fileNotes(const CompareResults& results) {
   };
   const auto ofFiles = [&](const std::string& engine) {
     const Runs runs = finishedRuns(results.runs, engine);
-    return !runs.empty() && !runs.front()->stats;
+    return !runs.empty() && runs.front()->ofFiles();
   };
   const auto counted = [](int runs) { return fmt::format("{} run{}", runs, runs == 1 ? "" : "s"); };
   std::map<std::pair<std::string, std::string>, Basis> pairs;

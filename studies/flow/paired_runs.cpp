@@ -38,7 +38,18 @@ std::size_t packingsOf(std::span<const FlowRun> runs) {
   return static_cast<std::size_t>(packings);
 }
 
+std::vector<Runs> referenceRuns(std::span<const FlowRun> runs, const ComparedPair& pair,
+                                const std::vector<SurrogateEngine>& surrogates) {
+  std::vector<Runs> references;
+  for (const std::string& engine : pair.references())
+    if (Runs own = runsFor(runs, engine, surrogates); !own.empty())
+      references.push_back(std::move(own));
+  if (references.size() < 2 && !pair.others.empty()) references.clear();
+  return references;
+}
+
 Numbers medianByPacking(const std::vector<Numbers>& engines) {
+  if (engines.size() == 1) return engines.front();
   std::size_t packings = 0;
   for (const Numbers& values : engines) packings = std::max(packings, values.size());
   Numbers medians(packings);
@@ -115,7 +126,8 @@ PairedTest testedEndpoint(const EndpointSpec& endpoint, const Margin& margin,
 
 bool independentRuns(const ComparedPair& pair, const Runs& reference, const Runs& other) {
   constexpr std::size_t fewest = 4;
-  return pair.ofFiles && (reference.size() != other.size() || other.size() < fewest);
+  return pair.ofFiles && pair.others.empty() &&
+         (reference.size() != other.size() || other.size() < fewest);
 }
 
 void addOwnErrors(PairedTest& test, const FlowRun& reference, const FlowRun& other,

@@ -39,14 +39,22 @@ struct ComparedPair {
   bool ofFiles = false;
   /// Where `a` is medianName: those whose median it is, packing by packing.
   std::vector<std::string> others = {};
+
+  /// Those whose runs the reference is made of: `a`, or the others.
+  std::vector<std::string> references() const { return others.empty() ? std::vector{a} : others; }
 };
 
-/// The median of what several engines have on each packing; of those on which fewer than two have
-/// a value it has none.
+/// Of each of references() the runs that verdicts rest on, if any finished. Empty where none did,
+/// or fewer than two of a median.
+std::vector<Runs> referenceRuns(std::span<const FlowRun> runs, const ComparedPair& pair,
+                                const std::vector<SurrogateEngine>& surrogates);
+
+/// The median of what several engines have on each packing; where fewer than two have a value there
+/// is none. Of one engine its own values.
 Numbers medianByPacking(const std::vector<Numbers>& engines);
 
 /// Whether two engines' runs are independent samples: those of files, unless both are as many. Then
-/// they are paired one by one, which holds whether their packings are the same or not, and tells
+/// they are paired one by one, which holds whether their packings are the same or not, and shows
 /// more where they are.
 bool independentRuns(const ComparedPair& pair, const Runs& reference, const Runs& other);
 

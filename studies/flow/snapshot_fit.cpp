@@ -223,7 +223,7 @@ Scene sceneAround(const Case& setup, Disks disks, const SnapshotOrigin& origin) 
     return assemblyScene(setup, std::move(disks), 0.0, 0.0);
   }
   Case own = setup;
-  own.particles.file = origin.name;  // small and large are told apart by their radii
+  own.particles.file = origin.name;  // small and large are known by their radii
   Packing packing;
   packing.disks = std::move(disks);
   return couetteScene(own, packing, 0.0);
