@@ -131,6 +131,13 @@ void setLawOption(ContactLaw& law, std::string_view name, std::string_view value
   entry.set(law, static_cast<std::size_t>(found - entry.values.begin()));
 }
 
+bool isConvention(std::string_view name) {
+  static constexpr std::array laws = {
+      "normal",         "damper",  "tangential", "rolling", "rolling_stiffness",
+      "rolling_damper", "cohesion"};
+  return std::ranges::find(laws, findOption(name).name) == laws.end();
+}
+
 namespace {
 
 bool rollingMatters(const ContactLaw& law, std::string_view name) {

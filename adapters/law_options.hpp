@@ -47,6 +47,10 @@ std::string lawOptionValue(const ContactLaw& law, std::string_view name);
 /// Sets an option by name. @throws std::invalid_argument saying which names or values there are
 void setLawOption(ContactLaw& law, std::string_view name, std::string_view value);
 
+/// Whether the option says how a law is worked out, not which law it is or what its constants mean:
+/// engines that differ in it have the same law.
+bool isConvention(std::string_view name);
+
 /// Whether the option has any bearing on this law: a frictionless law has no lever arm.
 bool mattersTo(const ContactLaw& law, std::string_view name);
 

@@ -117,10 +117,8 @@ Effects simulatedEffects(const Capabilities& can, const Scene& scene) {
 
 ContactLaw lawAsRun(const Capabilities& can, ContactLaw law) {
   for (const auto& [option, values] : can.lawOptions) {
-    // What the constants mean hangs on these: an engine that lacks the law converts it, or refuses.
-    if (option == "normal" || option == "tangential" || option == "damper" || option == "rolling" ||
-        option == "rolling_stiffness" || option == "rolling_damper" || option == "cohesion")
-      continue;
+    // An engine that lacks the law itself converts it, or refuses.
+    if (!isConvention(option)) continue;
     if (!values.empty() && !has(can, law, option)) setLawOption(law, option, values.front());
   }
   if (!can.tangentialRestitution && law.normal == NormalLaw::rigid) law.et0 = 0.0;

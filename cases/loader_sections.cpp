@@ -194,6 +194,8 @@ const Section<InterimSettings>& looksKeys() {
   return section;
 }
 
+constexpr const char* allConventions = "conventions";
+
 /// Everything an engine may do otherwise than the scene says.
 Names deviationNames() {
   Names names;
@@ -201,7 +203,16 @@ Names deviationNames() {
   names.emplace_back("rounding");
   names.emplace_back(tangentialRestitutionName);
   for (const Effect effect : allEffects) names.push_back(toString(effect));
+  names.emplace_back(allConventions);
   return names;
+}
+
+/// Puts their names in place of the word for all conventions.
+void nameConventions(Names& mayDiffer) {
+  if (std::erase(mayDiffer, allConventions) == 0) return;
+  for (const LawOption& option : lawOptions())
+    if (isConvention(option.name) && std::ranges::find(mayDiffer, option.name) == mayDiffer.end())
+      mayDiffer.emplace_back(option.name);
 }
 
 const Section<RunOptions>& runKeys() {
@@ -217,8 +228,13 @@ const Section<RunOptions>& runKeys() {
            "else dt = t_c of the lightest pair / this (a collision has its own)"),
        key("handover", &RunOptions::handover, Names{"cold", "warm"},
            "`cold` drops tangential and bottom springs; `warm` is not supported yet"),
-       key("may_differ", &RunOptions::mayDiffer, deviationNames(),
-           "what an engine may do otherwise or lack; each is noted beside its figures"),
+       special<RunOptions>({"may_differ", "", "[]", valuesOf(deviationNames()),
+                            "what an engine may do otherwise or lack; each is noted beside its "
+                            "figures. `conventions`: all that are no law of their own"},
+                           [](Reader& in, const std::string& key, RunOptions& run) {
+                             in.read(key, run.mayDiffer, deviationNames());
+                             nameConventions(run.mayDiffer);
+                           }),
        key("precision", &RunOptions::precision, Names(precisionNames.begin(), precisionNames.end()),
            "`float`: of engines that have it"),
        key("timeout", &RunOptions::timeout, timeouts, "longest wait for one answer of an engine"),

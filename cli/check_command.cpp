@@ -7,11 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/effect_switch.hpp"
+#include "cases/flow.hpp"
 #include "cases/loader.hpp"
 #include "cli/option_groups.hpp"
 #include "studies/check/case_check.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/executor.hpp"
+#include "studies/core/shared_conventions.hpp"
 #include "studies/core/study_cases.hpp"
 #include "support/scratch_folder.hpp"
 
@@ -98,6 +100,9 @@ void printChecked(const json& checked) {
     fmt::print("  {:.3g} steps in the shortest contact; dt may be at most {:.3g} s\n",
                number(checked, "steps_per_contact"), number(checked, "step_limit_s"));
   if (checked.contains("cell")) printCell(checked);
+  if (const auto shared = checked["shared_conventions"].get<std::vector<std::string>>();
+      !shared.empty())
+    fmt::print("  {}\n", describeShared(shared));
   for (const json& caution : checked["cautions"])
     fmt::print("  caution: {}\n", caution.get<std::string>());
   for (const json& row : checked["engines"]) printEngine(row);
@@ -119,10 +124,18 @@ void printMissing(const std::vector<std::string>& named) {
 }
 
 int checkCase(const CommandLine& line, const CheckOptions& options) {
-  const std::vector<Case> cases = loadCase(line.inputs.front(), line.overrides);
+  std::vector<Case> cases = loadCase(line.inputs.front(), line.overrides);
   if (options.resolved) {
     fmt::print("{}", resolvedFile(cases));
     return exitPassed;
+  }
+  std::vector<std::string> shared;  // as compare takes them
+  if (cases.size() == 1 && hasFlow(cases.front()))
+    shared = sharedConventionsOf(cases.front(), line.run.engines);
+  if (!shared.empty()) {
+    std::vector<std::string> overrides = line.overrides;
+    overrides.insert(overrides.end(), shared.begin(), shared.end());
+    cases = loadCase(line.inputs.front(), overrides);
   }
   reportKeysWithoutUse(cases, "check", line.json ? stderr : stdout);
   const ScratchFolder scratch;
@@ -131,6 +144,7 @@ int checkCase(const CommandLine& line, const CheckOptions& options) {
   json all = json::array();
   for (const Case& setup : cases) {
     all.push_back(checkedCase(setup, line.run.engines, !options.untimed, scratch.path, progress));
+    all.back()["shared_conventions"] = shared;
     if (line.json) continue;
     printChecked(all.back());
     printMissing(line.run.engines);

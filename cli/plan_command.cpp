@@ -10,6 +10,7 @@
 #include "cli/option_groups.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/mirrors.hpp"
+#include "studies/core/shared_conventions.hpp"
 #include "studies/core/study.hpp"
 #include "studies/core/study_cases.hpp"
 #include "studies/plan/job_plan.hpp"
@@ -61,6 +62,12 @@ int plan(const CommandLine& line, const PlanOptions& options) {
   request.file = fs::absolute(line.inputs.front()).lexically_normal();
   addEnginesOf(request, options.engines);
   request.overrides = line.overrides;
+  // Jobs have the conventions of a comparison of all of them.
+  std::vector<std::string> shared =
+      sharedConventionsOf(loadCase(line.inputs.front(), line.overrides).front(), request.engines);
+  if (!shared.empty())
+    fmt::print(stderr, "note: {}: {}\n", line.inputs.front().string(), describeShared(shared));
+  std::ranges::move(shared, std::back_inserter(request.overrides));
   request.sweeps = options.sweeps;
   if (options.seeds) request.seeds = seedsOf(*options.seeds);
   if (line.quick) request.others.push_back("--quick");

@@ -13,6 +13,7 @@
 #include "cases/time_step.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/mirrors.hpp"
+#include "studies/core/shared_conventions.hpp"
 #include "tests/studies/quick_cell.hpp"
 #include "tests/support/refusal.hpp"
 
@@ -32,6 +33,30 @@ TEST(SelectEngines, All_AddsEveryOtherInstalledEngineOnce) {
   const auto mirrors = mirrorsOf(selectEngines({"grain", "box2d-penalty"}));
   ASSERT_EQ(mirrors.size(), 1u);
   EXPECT_EQ(mirrors[0].mirrors, "box2d-penalty");
+}
+
+/// All have "cut", whose default is "allow"; the lever arms have nothing in common.
+TEST(SharedConventions, AreWhatAllHaveOfWhatTheCaseLeavesOpen) {
+  Capabilities any, cuts, rigid;
+  any.lawOptions = {
+      {"normal", {"linear"}}, {"tension", {"allow", "cut"}}, {"lever_arm", {"radius"}}};
+  cuts.lawOptions = {
+      {"normal", {"linear"}}, {"tension", {"cut"}}, {"lever_arm", {"contact_point"}}};
+  rigid.lawOptions = {{"normal", {"rigid"}}, {"tension", {}}};
+  Case setup;
+  setup.law.normal = NormalLaw::linear;
+  setup.law.tangential = TangentialLaw::springDashpot;
+  setup.law.kn = setup.law.kt = 1.0;
+  setup.law.gn = setup.law.mu = 0.1;
+  EXPECT_EQ(sharedConventions(setup, {any, cuts}), std::vector<std::string>{"law.tension=\"cut\""});
+  EXPECT_EQ(sharedConventions(setup, {any, cuts, rigid}), sharedConventions(setup, {any, cuts}))
+      << "an engine of another law has no say";
+  EXPECT_TRUE(sharedConventions(setup, {any, any}).empty()) << "all have the default";
+  setup.run.mayDiffer = {"tension"};
+  EXPECT_TRUE(sharedConventions(setup, {any, cuts}).empty()) << "the case lets it differ";
+  setup.run.mayDiffer.clear();
+  setup.resolvedToml = "[law]\ntension = \"allow\"\n";
+  EXPECT_TRUE(sharedConventions(setup, {any, cuts}).empty()) << "the case gives it";
 }
 
 TEST(SettingsFor, UnknownNameTypeRangeOrChoice_Throws) {

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adapters/engine.hpp"
+#include "cases/case.hpp"
+
+namespace crossgrain::inline studies {
+
+/// The conventions in which engines would differ from the defaults that the case leaves, and which
+/// all of them can share: those that the case neither gives nor lists in `may_differ`, of which an
+/// engine lacks the default, and of which all have one value, the first of the first engine's.
+/// Engines without the case's normal law have no say: they refuse it or convert it.
+/// @returns overrides, "law.tension=\"cut\"", in the order of lawOptions(); none where nothing has
+/// to be changed, or where engines share no value, which they then refuse in their own words
+std::vector<std::string> sharedConventions(const Case& setup, const std::vector<Capabilities>& all);
+
+/// The same of engines by the names that a user gave, two or more, which are started to be asked
+/// where the case leaves a convention open. One that does not start and runs that are files have no
+/// say; of "all" engines nothing is shared.
+std::vector<std::string> sharedConventionsOf(const Case& setup,
+                                             const std::vector<std::string>& engines);
+
+/// "conventions that all engines share: law.tension = cut, …", one line for people; empty: none.
+std::string describeShared(const std::vector<std::string>& overrides);
+
+}  // namespace crossgrain::inline studies
