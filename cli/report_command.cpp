@@ -4,15 +4,18 @@
 #include <spawn.h>
 #include <unistd.h>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
+#include "cases/case_keys.hpp"
 #include "cli/option_groups.hpp"
 #include "reports/report.hpp"
 #include "results/json_fields.hpp"
 #include "results/schema.hpp"
+#include "studies/core/run_store.hpp"
 #include "studies/plan/job_plan.hpp"
 #include "studies/thesis/thesis.hpp"
 #include "support/bad_input.hpp"
@@ -63,7 +66,7 @@ nlohmann::json concludedAnew(const nlohmann::json& results, const fs::path& fold
 
 struct ReportOptions {
   std::optional<std::string> reasons, site;
-  bool open = false;
+  bool open = false, changedCases = false;
 };
 
 std::optional<fs::path> pathOf(const std::optional<std::string>& text) {
@@ -108,6 +111,32 @@ bool addFolders(const fs::path& input, std::vector<fs::path>& folders) {
   return asPlanned;
 }
 
+/// What runs depend on, of a case; empty where results are of many.
+CaseKeys caseKeysOf(const nlohmann::json& results) {
+  return resultAffectingKeys(results.at("case").value("toml", std::string()));
+}
+
+/// Results made elsewhere are of the same case as those beside them that bear its name, or their
+/// figures would stand in one row without being comparable.
+/// @throws BadInput naming both folders and what differs
+void requireSameCases(const std::vector<std::pair<fs::path, nlohmann::json>>& results) {
+  std::map<std::string, const std::pair<fs::path, nlohmann::json>*> firsts;
+  for (const auto& one : results) {
+    const nlohmann::json& setup = one.second.at("case");
+    const std::string name =
+        fmt::format("{} {} {}", one.second.at("kind").get<std::string>(),
+                    setup.at("name").get<std::string>(), setup.value("variant", std::string()));
+    const auto [found, isFirst] = firsts.emplace(name, &one);
+    if (isFirst) continue;
+    const auto different = changes(caseKeysOf(found->second->second), caseKeysOf(one.second));
+    if (!different.empty())
+      throw BadInput(fmt::format(
+          "{} and {} are both {}, and the case is not the same: {}; give it another name, or "
+          "--changed-cases to have them side by side",
+          found->second->first.string(), one.first.string(), name, describeChanges(different)));
+  }
+}
+
 /// The folders stay as they are.
 int makeSite(const CommandLine& line, const ReportOptions& options) {
   const fs::path site = *options.site;
@@ -116,13 +145,17 @@ int makeSite(const CommandLine& line, const ReportOptions& options) {
         fmt::format("--out {}: holds results of its own; give a new folder, or that of "
                     "an earlier site",
                     site.string()));
-  bool asPlanned = true;
+  bool asPlanned = true, ofPlan = false;  // whose jobs may differ in what it sweeps
   std::vector<fs::path> folders;
-  for (const fs::path& input : line.inputs) asPlanned &= addFolders(input, folders);
+  for (const fs::path& input : line.inputs) {
+    asPlanned &= addFolders(input, folders);
+    ofPlan |= fs::exists(input / planFile);
+  }
   std::vector<std::pair<fs::path, nlohmann::json>> results;
   for (const fs::path& folder : folders)
     results.emplace_back(folder,
                          concludedAnew(readResults(folder), folder, pathOf(options.reasons)));
+  if (!options.changedCases && !ofPlan) requireSameCases(results);
   if (options.open) requireBrowser();
   makeDirectory(site);
   const FolderLock lock(site, "report");
@@ -143,6 +176,8 @@ Action declareReport(CLI::App& app, CommandLine& line) {
   addText(app, "--reasons", options->reasons,
           "of thesis: reasons found for refuted claims, in place of those that it was given",
           "FILE");
+  addFlag(app, "--changed-cases", options->changedCases,
+          "of a site: take results of cases of one name that differ");
   addFlag(app, "--open", options->open, "show them in the browser");
   return [&line, options] {
     return options->site ? makeSite(line, *options) : rebuildReports(line, *options);
@@ -155,7 +190,7 @@ extern const Command reportCommand = {
     "report", "rebuild reports from results.json, or make one site of several",
     "crossgrain report out/compare\n"
     "crossgrain report out/compare --open\n"
-    "crossgrain report out/compare out/collide --out out/site\n"
+    "crossgrain report out/compare out/collide --out out/site   # a page for each engine, too\n"
     "crossgrain report jobs --out out/jobs                      # the jobs of a plan",
     declareReport};
 

@@ -138,6 +138,7 @@ struct JUnitCase {
   std::string message = {};  ///< figure, limit and reason; why it is an error or was skipped
   double seconds = 0.0;      ///< wall time of the run; 0 where others of the same run have it
   bool broke = false;        ///< the engine did, so that nothing could be judged
+  std::string engine = {};   ///< that was judged
 };
 
 /// What a site keeps of a report.
@@ -146,6 +147,7 @@ struct ReportDigest {
   std::vector<EngineRow> engines;
   Overview overview = {};  ///< the matrix, and at most three sentences that follow from it
   std::vector<DigestValue> values = {};
+  std::optional<std::vector<JUnitCase>> checks = {};  ///< absent: nothing is judged
 };
 
 struct Report : ReportDigest {
@@ -155,7 +157,6 @@ struct Report : ReportDigest {
   std::vector<Figure> figures = {};
   std::vector<Picture> pictures = {};
   std::vector<std::pair<std::string, std::string>> tables = {};  ///< CSV: name of the file, content
-  std::optional<std::vector<JUnitCase>> checks = {};             ///< absent: nothing is judged
   bool wrapped = false;  ///< every cell of the matrix says its question: rows share few of them
   bool engineColours = true;  ///< plots have the engines' colours: a legend stays in sight
   std::string caseHeading = "The case as it was run";

@@ -78,7 +78,8 @@ std::vector<JUnitCase> conformanceChecks(const ConformanceResults& results) {
   std::vector<JUnitCase> cases;
   for (const ConformanceRow& row : results.rows)
     cases.push_back({results.engine.name + " " + row.part, row.name, row.outcome.verdict,
-                     row.detail, row.seconds, row.outcome.status == Status::failed});
+                     row.detail, row.seconds, row.outcome.status == Status::failed,
+                     results.engine.name});
   return cases;
 }
 

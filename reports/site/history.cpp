@@ -74,9 +74,16 @@ bool caseChanged(const History& history) {
 
 Table historyTable(const History& history) {
   Table table{{{"engine", Column::Kind::engines}, "question"}, {}};
-  for (const SiteReport* report : history.reports)
-    table.columns.emplace_back(
-        fmt::format("{}, {}", stampOf(report->digest.head), report->digest.head.started));
+  const bool ofOne = std::ranges::all_of(history.rows, [&](const HistoryRow& row) {
+    return row.engine == history.rows.front().engine;
+  });
+  for (const SiteReport* report : history.reports) {
+    const ResultsHead& head = report->digest.head;
+    const EngineRow* const own = ofOne ? engineIn(*report, history.rows.front().engine) : nullptr;
+    table.columns.emplace_back(own ? fmt::format("{} {}, by crossgrain {}, {}", own->name,
+                                                 own->version, stampOf(head), head.started)
+                                   : fmt::format("{}, {}", stampOf(head), head.started));
+  }
   table.columns.emplace_back("change");
   for (const HistoryRow& row : history.rows) {
     TableRow line{{row.engine, row.question}};
@@ -148,8 +155,12 @@ std::vector<std::string> sentencesOf(const History& history) {
   return sentences;
 }
 
-void addHistory(Report& index, const std::vector<SiteReport>& reports) {
-  const std::vector<History> histories = historiesOf(reports);
+void addHistory(Report& index, const std::vector<SiteReport>& reports, const std::string& engine) {
+  std::vector<History> histories = historiesOf(reports);
+  if (!engine.empty())
+    for (History& history : histories)
+      std::erase_if(history.rows, [&](const HistoryRow& row) { return row.engine != engine; });
+  std::erase_if(histories, [](const History& history) { return history.rows.empty(); });
   if (histories.empty()) return;
   Blocks& blocks = index.section("history", "History").blocks;
   blocks = {

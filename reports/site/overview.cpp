@@ -32,11 +32,6 @@ Names questionsWith(const Overview& overview, const OverviewRow& row, Verdict ve
   return names;
 }
 
-bool tookPart(const SiteReport& report, const std::string& engine) {
-  return std::ranges::find(report.digest.engines, engine, &EngineRow::name) !=
-         report.digest.engines.end();
-}
-
 /// A refuted claim is a finding about the thesis, not about the engine.
 OverviewCell claimsCell(OverviewCell cell, const Overview& overview, const OverviewRow& row) {
   const std::size_t reproduced = questionsWith(overview, row, Verdict::pass).size(),
@@ -51,7 +46,7 @@ OverviewCell cellOf(const SiteReport& report, const std::string& engine) {
   OverviewCell cell{Verdict::notApplicable, {}, "questions", {}, {}, {}};
   const Overview& overview = report.digest.overview;
   const OverviewRow* row = rowOf(overview, engine);
-  if (!row && !tookPart(report, engine)) return cell;
+  if (!row && !engineIn(report, engine)) return cell;
   cell.anchor = pageOf(report);
   cell.verdict = std::nullopt;
   if (!row) {
@@ -133,6 +128,12 @@ const OverviewRow* rowOf(const Overview& overview, const std::string& engine) {
   return found == overview.rows.end() ? nullptr : &*found;
 }
 
+const EngineRow* engineIn(const SiteReport& report, const std::string& engine) {
+  const auto& engines = report.digest.engines;
+  const auto found = std::ranges::find(engines, engine, &EngineRow::name);
+  return found == engines.end() ? nullptr : &*found;
+}
+
 std::string pageOf(const SiteReport& report) {
   return report.folder + "/report.html";
 }
@@ -174,10 +175,12 @@ Overview siteOverview(const std::vector<SiteReport>& reports) {
     overview.columns.push_back(
         {ownNameOf(report, reports), titleOf(report.digest.head), pageOf(report)});
   const std::vector<EngineRow> all = siteEngines(reports);
-  const std::vector<std::string> pages = enginePages(all);
+  const std::vector<EnginePage> pages = enginePages(reports);
   Names engines;
   for (std::size_t e = 0; e < all.size(); ++e) {
-    OverviewRow row{all[e].name, true, {}, pages[e]};
+    const auto newest = std::ranges::find(pages, all[e].name,
+                                          [](const EnginePage& page) { return page.engine.name; });
+    OverviewRow row{all[e].name, true, {}, newest->file};
     for (const SiteReport& report : reports) row.cells.push_back(cellOf(report, all[e].name));
     overview.rows.push_back(std::move(row));
     if (all[e].mirrors.empty()) engines.push_back(all[e].name);

@@ -29,13 +29,20 @@ std::string forAddress(const std::string& name) {
   return safe.empty() ? "report" : safe;
 }
 
+/// Where results were made, and with which program.
+std::string originOf(const ResultsHead& head) {
+  std::string origin = fmt::format("{} · crossgrain {}", head.started, stampOf(head));
+  for (const std::string& part : {head.machine.cpu, head.machine.os})
+    if (!part.empty()) origin += " · " + part;
+  return origin;
+}
+
 void addReports(Report& index, const std::vector<SiteReport>& reports) {
   Blocks& blocks = index.section("reports", "Reports").blocks;
   for (const SiteReport& report : reports) {
     const ResultsHead& head = report.digest.head;
     blocks.push_back(Heading{titleOf(head)});
-    blocks.push_back(Paragraph{fmt::format("{} · crossgrain {}", head.started, stampOf(head)),
-                               Paragraph::Style::small});
+    blocks.push_back(Paragraph{originOf(head), Paragraph::Style::small});
     for (const std::string& sentence : report.digest.overview.conclusion)
       blocks.push_back(Paragraph{sentence});
     Links links;
@@ -56,44 +63,124 @@ void addOnce(std::vector<std::string>& names, const std::string& name) {
   names.push_back(std::move(own));
 }
 
-/// "version 0.3.0 in compare quick and cost quick; version 0.2.0 in rev quick"
-std::string versionsOf(const std::vector<SiteReport>& reports, const EngineRow& engine) {
-  SaidOf said;
-  for (const SiteReport& report : reports) {
-    const auto& engines = report.digest.engines;
-    const auto own = std::ranges::find(engines, engine.name, &EngineRow::name);
-    if (own != engines.end() && !own->version.empty()) said.add(nameOfReport(report), own->version);
+/// "yade 2023.02a"
+std::string nameOf(const EngineRow& engine) {
+  return engine.version.empty() ? engine.name : engine.name + " " + engine.version;
+}
+
+/// What did not pass, the first of many; empty if all did.
+Table openChecks(const std::vector<JUnitCase>& checks, const std::string& engine,
+                 std::size_t most) {
+  Table table{{"case", "check", "answer", {"why", Column::Kind::remark}}, {}};
+  std::size_t left = 0;
+  for (const JUnitCase& one : checks) {
+    if (one.engine != engine || one.verdict == Verdict::pass) continue;
+    if (table.rows.size() == most) {
+      ++left;
+      continue;
+    }
+    std::string name = one.name;
+    if (name.starts_with(engine + ": ")) name.erase(0, engine.size() + 2);
+    table.rows.push_back(
+        {{one.group, name,
+          Cell{one.broke ? "engine broke down" : std::string(lookOf(one.verdict).words),
+               {},
+               one.verdict},
+          one.message}});
   }
-  std::string words;
-  for (const auto& [version, where] : said.all())
-    words += fmt::format("{}version {} in {}", words.empty() ? "" : "; ", version, listed(where));
-  return words;
+  if (left > 0) table.note = fmt::format("And {} more in the report.", counted(left, "check"));
+  return table;
+}
+
+/// Its numbers that the matrix does not have.
+Table valuesOf(const ReportDigest& digest, const std::string& engine) {
+  Table table{{"quantity", {"value", Column::Kind::number}}, {}};
+  for (const DigestValue& value : digest.values)
+    if (value.engine == engine) table.rows.push_back({{value.quantity, value.cell.shown}});
+  return table;
 }
 
 void writeEnginePages(const std::vector<SiteReport>& reports, const std::filesystem::path& site) {
-  const std::vector<EngineRow> engines = siteEngines(reports);
-  const std::vector<std::string> pages = enginePages(engines);
-  for (std::size_t e = 0; e < engines.size(); ++e) {
-    const EngineRow& engine = engines[e];
-    Report report{{{}, engines, engineOverview(reports, engine.name)}};
-    report.head.setup.name = "crossgrain: " + engine.name;
+  const std::vector<EnginePage> pages = enginePages(reports);
+  for (const EnginePage& page : pages) {
+    const EngineRow& engine = page.engine;
+    Report report{{{}, siteEngines(reports), engineOverview(page.reports, engine.name)}};
+    report.head.setup.name = "crossgrain: " + nameOf(engine);
     report.wrapped = true;
-    report.notes = nonEmpty(
-        {versionsOf(reports, engine), engine.summary,
-         engine.mirrors.empty()
-             ? ""
-             : "A mirror: the in-house engine with the conventions of " + engine.mirrors + "."});
-    report.section("reports", "Reports").blocks = {
+    report.notes =
+        nonEmpty({engine.summary, engine.mirrors.empty()
+                                      ? ""
+                                      : "A mirror: the in-house engine with the conventions of " +
+                                            engine.mirrors + "."});
+    Links links{{{"all engines", "index.html"}}};
+    for (const EnginePage& other : pages)
+      if (other.engine.name == engine.name && other.file != page.file)
+        links.links.emplace_back(nameOf(other.engine), other.file);
+    report.section("about", "About this page").blocks = {
         Paragraph{report.overview.rows.empty()
                       ? "It took part in these reports, and none has an answer of it."
                       : "Each cell links to the report that it is of; this page needs the folders "
                         "beside it."},
-        Links{{{"all engines", "index.html"}}}};
-    writeFile(site / pages[e], html(report, {}, {}));
+        std::move(links)};
+    addEngineReports(report, page);
+    addHistory(report, reports, engine.name);
+    writeFile(site / page.file, html(report, {}, {}));
   }
 }
 
 }  // namespace
+
+std::vector<EnginePage> enginePages(const std::vector<SiteReport>& reports) {
+  std::vector<EnginePage> pages;
+  std::vector<std::string> names;
+  for (const EngineRow& engine : siteEngines(reports)) {
+    std::vector<EnginePage> versions;
+    std::vector<SiteReport> latestFirst;
+    for (const SiteReport& report : reports)
+      if (engineIn(report, engine.name)) latestFirst.push_back(report);
+    std::ranges::stable_sort(latestFirst, std::ranges::greater(),
+                             [](const SiteReport& report) { return report.digest.head.started; });
+    for (const SiteReport& report : latestFirst) {
+      const EngineRow& own = *engineIn(report, engine.name);
+      auto found = std::ranges::find(versions, own.version,
+                                     [](const EnginePage& page) { return page.engine.version; });
+      if (found == versions.end()) found = versions.insert(versions.end(), {own, "", {}});
+      found->reports.push_back(report);
+    }
+    for (EnginePage& page : versions) {
+      addOnce(names,
+              "engine-" + forAddress(page.engine.name) +
+                  (page.engine.version.empty() ? "" : "-" + forAddress(page.engine.version)));
+      page.file = names.back() + ".html";
+      pages.push_back(std::move(page));
+    }
+  }
+  return pages;
+}
+
+void addEngineReports(Report& page, const EnginePage& engine) {
+  constexpr std::size_t most = 40;  // checks that a page shows of a report
+  const std::string& name = engine.engine.name;
+  for (const SiteReport& report : engine.reports) {
+    Blocks& blocks = page.section(report.folder, nameOfReport(report)).blocks;
+    blocks.push_back(Paragraph{originOf(report.digest.head), Paragraph::Style::small});
+    if (const EngineRow* const own = engineIn(report, name); own && own->status != Status::finished)
+      blocks.push_back(
+          Paragraph{std::string(nameOf(own->status, engineStatusNames)) + ": " + own->reason});
+    const auto& checks = report.digest.checks.value_or(std::vector<JUnitCase>{});
+    const auto count = [&](auto judged) {
+      return static_cast<std::size_t>(std::ranges::count_if(
+          checks, [&](const JUnitCase& one) { return one.engine == name && judged(one.verdict); }));
+    };
+    if (const std::size_t judged = count(isJudged); judged > 0)
+      blocks.push_back(Paragraph{fmt::format("{} of {} passed.",
+                                             count([](Verdict v) { return v == Verdict::pass; }),
+                                             counted(judged, "check"))});
+    for (Table table : {openChecks(checks, name, most), valuesOf(report.digest, name)})
+      if (!table.rows.empty()) blocks.push_back(std::move(table));
+    blocks.push_back(Links{{{"report", pageOf(report)}}});
+  }
+}
 
 std::vector<std::string> siteFolders(const std::vector<std::filesystem::path>& results) {
   std::vector<std::string> names;
@@ -103,13 +190,6 @@ std::vector<std::string> siteFolders(const std::vector<std::filesystem::path>& r
     addOnce(names,
             forAddress((plain.has_filename() ? plain : plain.parent_path()).filename().string()));
   }
-  return names;
-}
-
-std::vector<std::string> enginePages(const std::vector<EngineRow>& engines) {
-  std::vector<std::string> names;
-  for (const EngineRow& engine : engines) addOnce(names, "engine-" + forAddress(engine.name));
-  for (std::string& name : names) name += ".html";
   return names;
 }
 

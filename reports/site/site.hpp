@@ -25,6 +25,9 @@ std::string nameOfReport(const SiteReport& report);
 /// The engine's row; null where the matrix has none.
 const OverviewRow* rowOf(const Overview& overview, const std::string& engine);
 
+/// The engine as it took part in a report; null if it did not.
+const EngineRow* engineIn(const SiteReport& report, const std::string& engine);
+
 /// Of all reports, each once, so that its colour is that of its reports.
 std::vector<EngineRow> siteEngines(const std::vector<SiteReport>& reports);
 
@@ -35,11 +38,23 @@ Overview siteOverview(const std::vector<SiteReport>& reports);
 /// One engine's answers: reports × questions, each cell as its report has it.
 Overview engineOverview(const std::vector<SiteReport>& reports, const std::string& engine);
 
-/// Names of the engines' pages, "engine-NAME.html", in their order and each once.
-std::vector<std::string> enginePages(const std::vector<EngineRow>& engines);
+/// The page of one version of an engine.
+struct EnginePage {
+  EngineRow engine;
+  std::string file;                 ///< "engine-NAME-VERSION.html"
+  std::vector<SiteReport> reports;  ///< that version took part in
+};
 
-/// Writes index.html, a page for each engine, summary.md and, of all but the thesis, which judges
-/// no engine, junit.xml.
+/// Of all engines in the order of siteEngines(); of each its versions, the one of the latest report
+/// first.
+std::vector<EnginePage> enginePages(const std::vector<SiteReport>& reports);
+
+/// What page says of each report of its engine: where it was made, how many checks passed, which
+/// did not and why, and its numbers.
+void addEngineReports(Report& page, const EnginePage& engine);
+
+/// Writes index.html, a page for each engine and version, summary.md and, of all but the thesis,
+/// which judges no engine, junit.xml.
 /// @throws std::runtime_error where they cannot be written
 void writeIndex(const std::vector<SiteReport>& reports, const std::filesystem::path& site);
 
@@ -75,7 +90,9 @@ std::string changeOf(const HistoryRow& row);
 /// Which answers changed, and whether the case did, at most three sentences.
 std::vector<std::string> sentencesOf(const History& history);
 
-/// The section of the index; none where no case has several versions.
-void addHistory(Report& index, const std::vector<SiteReport>& reports);
+/// The section of the index, or of an engine's page; none where no case has several versions.
+/// @param engine  whose rows alone are shown; empty: all
+void addHistory(Report& index, const std::vector<SiteReport>& reports,
+                const std::string& engine = {});
 
 }  // namespace crossgrain::reports

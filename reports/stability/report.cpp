@@ -212,7 +212,7 @@ std::vector<JUnitCase> stabilityChecks(const StabilityResults& results) {
   for (const StabilityRun& run : results.runs) {
     JUnitCase one{
         junitGroup(run.name, run.variant), run.engine + ": " + run.measure, junitVerdict(run), "",
-        junitSeconds(run.stats),           run.status == Status::failed};
+        junitSeconds(run.stats),           run.status == Status::failed,    run.engine};
     if (one.broke || one.verdict == Verdict::notMeasured) {
       one.message = run.reason;
     } else if (run.verdict != Verdict::pass) {

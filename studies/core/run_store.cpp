@@ -225,7 +225,7 @@ std::string programOf(const fs::path& folder) {
   return markerIn(folder).program;
 }
 
-CaseKeys resultAffectingKeys(const Case& setup) {
+CaseKeys resultAffectingKeys(const std::string& resolvedToml) {
   // Which runs there are: more or fewer of them leave the others as they are. What a worker may
   // take, and what an engine may differ in, decides whether it runs, not what comes out.
   static const std::vector<std::string> which = {
@@ -236,7 +236,7 @@ CaseKeys resultAffectingKeys(const Case& setup) {
   // How they are judged, all together, when all are there.
   static const std::vector<std::string> judged = {"averaging.margins", "averaging.endpoints",
                                                   "averaging.confidence"};
-  CaseKeys keys = caseKeys(setup.resolvedToml);
+  CaseKeys keys = caseKeys(resolvedToml);
   std::erase_if(keys, [](const auto& entry) {
     const auto holds = [&](const std::string& section) { return isIn(section, entry.first); };
     return std::ranges::any_of(which, holds) || std::ranges::any_of(judged, holds) ||
@@ -246,12 +246,12 @@ CaseKeys resultAffectingKeys(const Case& setup) {
 }
 
 std::map<std::string, CaseKeys> soleCase(const Case& setup) {
-  return {{"", resultAffectingKeys(setup)}};
+  return {{"", resultAffectingKeys(setup.resolvedToml)}};
 }
 
 std::map<std::string, CaseKeys> keysOfEach(const std::vector<Case>& cases) {
   std::map<std::string, CaseKeys> keys;
-  for (const Case& setup : cases) keys[fullName(setup)] = resultAffectingKeys(setup);
+  for (const Case& setup : cases) keys[fullName(setup)] = resultAffectingKeys(setup.resolvedToml);
   return keys;
 }
 

@@ -99,7 +99,8 @@ std::string programOf(const std::filesystem::path& folder);
 
 /// The keys of a case that its runs depend on: not how many there are to be, nor how they are
 /// judged, nor which engines may take part. Settings of engines are left to runKey().
-CaseKeys resultAffectingKeys(const Case& setup);
+/// @param resolvedToml  of the case
+CaseKeys resultAffectingKeys(const std::string& resolvedToml);
 
 /// The case of a command that runs one: another one there is that case changed.
 std::map<std::string, CaseKeys> soleCase(const Case& setup);

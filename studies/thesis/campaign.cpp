@@ -49,7 +49,8 @@ Packing preparedPacking(const Case& setup, int index) {
 
 /// What a run depends on, as a fingerprint; not on which build of this program made it.
 std::string keyOfRun(const Case& setup, const CaseKeys& task) {
-  return fmt::format("{:016x}", fnv1a(Json(resultAffectingKeys(setup)).dump() + Json(task).dump()));
+  return fmt::format(
+      "{:016x}", fnv1a(Json(resultAffectingKeys(setup.resolvedToml)).dump() + Json(task).dump()));
 }
 
 std::string roughly(double seconds) {

@@ -186,9 +186,56 @@ TEST(History, HasTheMeansOfEndpoints) {
 }
 
 TEST(EnginePages, HaveNamesForAnAddressEachOnce) {
-  EXPECT_EQ(enginePages({engine("yade"), engine("my engine"), engine("my/engine")}),
-            (std::vector<std::string>{"engine-yade.html", "engine-my-engine.html",
-                                      "engine-my-engine-2.html"}));
+  SiteReport report = siteReportOf("collide", Verdict::pass, Verdict::pass);
+  report.digest.engines = {engine("yade"), engine("my engine"), engine("my/engine")};
+  std::vector<std::string> files;
+  for (const EnginePage& page : enginePages({report})) files.push_back(page.file);
+  EXPECT_EQ(files, (std::vector<std::string>{"engine-yade.html", "engine-my-engine.html",
+                                             "engine-my-engine-2.html"}));
+}
+
+TEST(EnginePages, AreOneForEachVersionTheLatestFirst) {
+  std::vector<SiteReport> reports = {madeBy("a", "2026-01-01", Verdict::fail, 2.0),
+                                     madeBy("b", "2026-02-01", Verdict::pass, 0.1),
+                                     madeBy("c", "2026-03-01", Verdict::pass, 0.1)};
+  for (std::size_t k = 0; k < 3; ++k)
+    reports[k].digest.engines = {engine("ours"), engine("theirs")};
+  reports[0].digest.engines[1].version = "1.0";
+  reports[1].digest.engines[1].version = reports[2].digest.engines[1].version = "2.0";
+  const std::vector<EnginePage> pages = enginePages(reports);
+  ASSERT_EQ(pages.size(), 3u);
+  EXPECT_EQ(pages[0].reports.size(), 3u);
+  EXPECT_EQ(pages[1].file, "engine-theirs-2.0.html");
+  EXPECT_EQ(pages[1].reports.size(), 2u);
+  EXPECT_EQ(pages[2].file, "engine-theirs-1.0.html");
+  EXPECT_EQ(pages[2].reports.front().folder, "made-by-a");
+  const Overview overview = siteOverview(reports);  // a row for each engine, to its latest version
+  ASSERT_EQ(overview.rows.size(), 2u);
+  EXPECT_EQ(overview.rows[1].anchor, "engine-theirs-2.0.html");
+}
+
+TEST(EnginePages, SayWhatDidNotPassAndWhereItWasFound) {
+  SiteReport report = siteReportOf("stability", Verdict::fail, Verdict::pass);
+  report.digest.head.machine = {"a processor", "an OS", 4};
+  report.digest.checks = {{"column", "ours: drift", Verdict::fail, "3 d", 0.0, false, "ours"},
+                          {"ball", "ours: drift", Verdict::pass, "", 0.0, false, "ours"},
+                          {"column", "theirs: drift", Verdict::fail, "4 d", 0.0, false, "theirs"}};
+  Report page;
+  addEngineReports(page, enginePages({report}).front());
+  ASSERT_EQ(page.sections.size(), 1u);
+  std::string words;
+  const Table* table = nullptr;
+  for (const Block& block : page.sections[0].blocks) {
+    if (const auto* text = std::get_if<Paragraph>(&block.content)) words += text->text + "\n";
+    if (const auto* found = std::get_if<Table>(&block.content)) table = found;
+  }
+  EXPECT_TRUE(has(words, "a processor"));
+  EXPECT_TRUE(has(words, "1 of 2 checks passed."));
+  ASSERT_NE(table, nullptr);
+  ASSERT_EQ(table->rows.size(), 1u) << "not the other engine's";
+  EXPECT_EQ(table->rows[0].cells[0].text, "column");
+  EXPECT_EQ(table->rows[0].cells[1].text, "drift");
+  EXPECT_EQ(table->rows[0].cells[3].text, "3 d");
 }
 
 TEST(SiteFolders, AreTheirsEachOnceAndFitForAnAddress) {
@@ -210,8 +257,9 @@ TEST(Site, HasAnIndexThatLeadsToEachReport) {
                     std::string("classname=\"") +
                         std::string(page).substr(0, std::string(page).find('/')) + "\""));
   }
-  const std::string engine = readFile(site / "engine-grain.html").value();
-  EXPECT_TRUE(has(index, "href=\"engine-grain.html\""));
+  const std::string file = "engine-grain-" + sample::stabilityResults().engines.front().version;
+  const std::string engine = readFile(site / (file + ".html")).value();
+  EXPECT_TRUE(has(index, "href=\"" + file + ".html\""));
   EXPECT_TRUE(has(engine, "href=\"one-2/report.html#"));
   EXPECT_FALSE(has(engine, "{{"));
   EXPECT_TRUE(has(index, "href=\"one-2/stability.csv\""));

@@ -91,6 +91,26 @@ class Check(SystemTest):
         self.assert_status(done, FELL_SHORT)
         self.assertRegex(done.stdout, r"(?m)^ *grain +can run it[\s\S]*^ *box2d-impulse +cannot: .*may_differ")
 
+    def test_engines_have_the_conventions_that_they_share_where_the_case_leaves_them_open(self):
+        squeeze = os.path.join(CASES, "assembly/squeeze.toml")
+        damped = settings(law__gn=0.3, run__may_differ=["damping_velocity", "integrator"])
+        done = self.check(squeeze, *damped, engines="grain,yade")
+        self.assert_status(done, HELD)
+        self.assertIn('share: law.tension="cut"', done.stdout)
+        self.assertNotIn("differs: has tension", done.stdout)
+        # What the case gives stays, and so does what it lets differ; one engine shares with nobody.
+        given = self.check(squeeze, *damped, "--set=law.tension=allow", engines="grain,yade")
+        self.assert_status(given, FELL_SHORT)
+        self.assertRegex(given.stdout, "yade +cannot: .*has tension = cut")
+        every = self.check(squeeze, "--set=law.gn=0.3", "--set=run.may_differ=conventions", engines="grain,yade")
+        self.assert_status(every, HELD)
+        self.assertRegex(every.stdout, "yade +can run it[^\n]*\n(    differs: .*\n)*    differs: has tension = cut")
+        self.assertNotIn("share", every.stdout + self.check(squeeze, *damped, "--set=law.tension=cut", engines="yade").stdout)
+        # compare does as check says, and its results have it.
+        done = self.run_program("compare", squeeze, *damped, "--engines", "grain,yade", "--out", self.out, "--quiet")
+        self.assertRegex(done.stderr, '(?m)^note: .*law.tension="cut"')
+        self.assertRegex(self.results()["case"]["toml"], r"tension = ['\"]cut['\"]")
+
     def test_json_and_resolved(self):
         (checked,) = json.loads(self.check(COUETTE, "--json").stdout)
         self.assertEqual((246, 39), (checked["disks"], checked["cell"]["wheel_disks"]))
@@ -361,6 +381,24 @@ class Report(SystemTest):
         for name in ("collisions.csv", "report.html"):
             self.assertTrue((self.out / name).exists(), name)
         self.assert_status(self.run_program("report", self.out), HELD)
+
+    def test_results_made_elsewhere_of_another_case_are_not_merged(self):
+        self.assert_status(self.collide("-k", "*/spring-cut"), HELD, FELL_SHORT)
+        theirs, site = self.folder / "theirs", self.folder / "site"
+        shutil.copytree(self.out, theirs)
+        kept = theirs / "results.json"
+        document = json.loads(kept.read_text(encoding="utf-8"))
+        document["machine"]["cpu"] = "their processor"
+        kept.write_text(json.dumps(document), encoding="utf-8")
+        self.assert_status(self.run_program("report", self.out, theirs, "--out", site), HELD)
+        self.assertIn("their processor", (site / "index.html").read_text(encoding="utf-8"))
+        self.assertRegex(document["case"]["toml"], r"mu = [0-9.]+")
+        document["case"]["toml"] = re.sub(r"mu = [0-9.]+", "mu = 0.123", document["case"]["toml"])
+        kept.write_text(json.dumps(document), encoding="utf-8")
+        refused = self.run_program("report", self.out, theirs, "--out", self.folder / "other")
+        self.assert_one_line(refused, BAD_INPUT, "law.mu", "0.123", "--changed-cases")
+        taken = self.run_program("report", self.out, theirs, "--out", self.folder / "other", "--changed-cases")
+        self.assert_status(taken, HELD)
 
     def test_several_reports_are_one_site(self):
         self.assert_status(self.collide(), HELD, FELL_SHORT)
