@@ -66,7 +66,7 @@ bool isUnit(std::string_view text) {
   constexpr std::size_t longest = 40;
   const auto allowed = [](unsigned char c) {
     return c >= 0x80 || std::isalnum(c) ||
-           std::string_view(" /^()%-.,_·").find(static_cast<char>(c)) != std::string_view::npos;
+           std::string_view(" /^()|+%-.,_·").find(static_cast<char>(c)) != std::string_view::npos;
   };
   return text.size() <= longest && std::ranges::all_of(text, allowed);
 }

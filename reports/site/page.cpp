@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <iterator>
 
 #include "reports/common/overview.hpp"
@@ -68,28 +69,32 @@ std::string nameOf(const EngineRow& engine) {
   return engine.version.empty() ? engine.name : engine.name + " " + engine.version;
 }
 
-/// What did not pass, the first of many; empty if all did.
-Table openChecks(const std::vector<JUnitCase>& checks, const std::string& engine,
-                 std::size_t most) {
+/// An engine's checks of a report with such answers, the first of many, without `most` all.
+Table checksOf(const std::vector<JUnitCase>& checks, const std::string& engine, std::size_t most,
+               bool (*wanted)(const JUnitCase&)) {
   Table table{{"case", "check", "answer", {"why", Column::Kind::remark}}, {}};
   std::size_t left = 0;
   for (const JUnitCase& one : checks) {
-    if (one.engine != engine || one.verdict == Verdict::pass) continue;
+    if (one.engine != engine || !wanted(one)) continue;
     if (table.rows.size() == most) {
       ++left;
       continue;
     }
     std::string name = one.name;
     if (name.starts_with(engine + ": ")) name.erase(0, engine.size() + 2);
-    table.rows.push_back(
-        {{one.group, name,
-          Cell{one.broke ? "engine broke down" : std::string(lookOf(one.verdict).words),
-               {},
-               one.verdict},
-          one.message}});
+    const std::string answer(one.broke ? "engine broke down" : lookOf(one.verdict).words);
+    table.rows.push_back({{one.group, name, Cell{answer, {}, one.verdict}, one.message}});
   }
   if (left > 0) table.note = fmt::format("And {} more in the report.", counted(left, "check"));
   return table;
+}
+
+bool showsNothing(const JUnitCase& one) {
+  return !one.broke && !isJudged(one.verdict);
+}
+
+bool isOpen(const JUnitCase& one) {
+  return !showsNothing(one) && one.verdict != Verdict::pass;
 }
 
 /// Its numbers that the matrix does not have.
@@ -140,8 +145,16 @@ std::vector<EnginePage> enginePages(const std::vector<SiteReport>& reports) {
       if (engineIn(report, engine.name)) latestFirst.push_back(report);
     std::ranges::stable_sort(latestFirst, std::ranges::greater(),
                              [](const SiteReport& report) { return report.digest.head.started; });
+    const auto versionIn = [&](const SiteReport& report) {
+      return engineIn(report, engine.name)->version;
+    };
+    // Where it was refused before it was asked for its version, the latest has its place.
+    const auto known = std::ranges::find_if(
+        latestFirst, [&](const SiteReport& report) { return !versionIn(report).empty(); });
     for (const SiteReport& report : latestFirst) {
-      const EngineRow& own = *engineIn(report, engine.name);
+      const SiteReport& named =
+          versionIn(report).empty() && known != latestFirst.end() ? *known : report;
+      const EngineRow& own = *engineIn(named, engine.name);
       auto found = std::ranges::find(versions, own.version,
                                      [](const EnginePage& page) { return page.engine.version; });
       if (found == versions.end()) found = versions.insert(versions.end(), {own, "", {}});
@@ -176,8 +189,12 @@ void addEngineReports(Report& page, const EnginePage& engine) {
       blocks.push_back(Paragraph{fmt::format("{} of {} passed.",
                                              count([](Verdict v) { return v == Verdict::pass; }),
                                              counted(judged, "check"))});
-    for (Table table : {openChecks(checks, name, most), valuesOf(report.digest, name)})
+    for (Table table : {checksOf(checks, name, most, isOpen), valuesOf(report.digest, name)})
       if (!table.rows.empty()) blocks.push_back(std::move(table));
+    if (Table without = checksOf(checks, name, most, showsNothing); !without.rows.empty())
+      blocks.push_back(Details{
+          counted(count(std::not_fn(isJudged)), "check") + " not measured or not applicable",
+          {std::move(without)}});
     blocks.push_back(Links{{{"report", pageOf(report)}}});
   }
 }

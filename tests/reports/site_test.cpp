@@ -209,6 +209,11 @@ TEST(EnginePages, AreOneForEachVersionTheLatestFirst) {
   EXPECT_EQ(pages[1].reports.size(), 2u);
   EXPECT_EQ(pages[2].file, "engine-theirs-1.0.html");
   EXPECT_EQ(pages[2].reports.front().folder, "made-by-a");
+  // Of a refusal no version is known: it stands with the latest.
+  std::vector<SiteReport> refused = reports;
+  refused[2].digest.engines[1].version = "";
+  ASSERT_EQ(enginePages(refused).size(), 3u);
+  EXPECT_EQ(enginePages(refused)[1].reports.size(), 2u);
   const Overview overview = siteOverview(reports);  // a row for each engine, to its latest version
   ASSERT_EQ(overview.rows.size(), 2u);
   EXPECT_EQ(overview.rows[1].anchor, "engine-theirs-2.0.html");

@@ -5,9 +5,12 @@
 #include <functional>
 #include <limits>
 
+#include "averaging/fields.hpp"
+#include "cases/endpoints.hpp"
 #include "results/collision.hpp"
 #include "results/json_fields.hpp"
 #include "results/run.hpp"
+#include "stability/measures.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/support/refusal.hpp"
 
@@ -144,6 +147,16 @@ TEST(CostPoint, OwnMeasure_IsPairedWithTheScenes) {
   EXPECT_EQ(withoutOwn("psi_f_own"), "psi_f");
   EXPECT_TRUE(isOwn("position_rms_own"));
   EXPECT_EQ(withoutOwn("position_rms_own"), "position_rms_own");
+}
+
+/// What a table of the program names, a file that it wrote must be read with.
+TEST(Documents, UnitsAndNamesOfAllTablesAreReadBack) {
+  const auto readable = [](std::string_view name, std::string_view unit) {
+    EXPECT_TRUE(isUnit(unit)) << name << ": " << unit;
+  };
+  for (const StabilityMeasure& each : stabilityMeasures()) readable(each.name, each.unit);
+  for (const FieldSpec& each : fieldTable()) readable(each.name, each.unit);
+  for (const EndpointSpec& each : endpointTable()) readable(each.name, each.unit);
 }
 
 }  // namespace
