@@ -195,12 +195,11 @@ void Space::afterSolving(cpArbiter* arbiter, cpSpace*, cpDataPointer self) {
 
 void Space::take(const cpArbiter* arbiter) {
   CP_ARBITER_GET_SHAPES(arbiter, a, b);
-  const std::int32_t i = idOf(a), j = idOf(b);
+  const Vector normal = -1.0 * fromChipmunk(cpArbiterGetNormal(arbiter));
   const Vector onA = fromChipmunk(cpArbiterTotalImpulse(arbiter));
-  const Vector rimOfA = fromChipmunk(cpArbiterGetPointA(arbiter, 0)),
-               rimOfB = fromChipmunk(cpArbiterGetPointB(arbiter, 0));
-  impulses_.push_back(i < j ? PairImpulse{i, j, onA, rimOfB}
-                            : PairImpulse{j, i, -1.0 * onA, rimOfA});
+  impulses_.push_back(PairImpulse::between(
+      idOf(a), idOf(b), normal, dot(onA, normal), dot(onA, turned(normal)),
+      fromChipmunk(cpArbiterGetPointA(arbiter, 0)), fromChipmunk(cpArbiterGetPointB(arbiter, 0))));
 }
 
 Vector Space::position(std::size_t disk) const {

@@ -20,8 +20,18 @@ struct Disk {
 /// What passed between two in a step. Ids: disks, then wall disks, then planes; i < j.
 struct PairImpulse {
   std::int32_t i, j;
-  Vector onFirst;  ///< [N s]
-  Vector place;    ///< where j takes it; needed of walls alone [m]
+  Vector normal;           ///< from j to i, as the engine had it
+  double pressing, along;  ///< on i: along the normal and along z × normal [N s]
+  Vector place;            ///< where j takes it; needed of walls alone [m]
+
+  Vector onFirst() const { return pressing * normal + along * turned(normal); }
+
+  /// Of any two; pressing and along are the same on both.
+  static PairImpulse between(std::int32_t a, std::int32_t b, Vector normalToA, double pressing,
+                             double along, Vector placeOnA, Vector placeOnB) {
+    return a < b ? PairImpulse{a, b, normalToA, pressing, along, placeOnB}
+                 : PairImpulse{b, a, -1.0 * normalToA, pressing, along, placeOnA};
+  }
 };
 
 /// What a space is made of.

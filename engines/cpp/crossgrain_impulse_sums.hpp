@@ -41,7 +41,10 @@ struct Geometry {
 
 /// Impulses since some step, and what walls got of them.
 struct ImpulseSums {
-  std::map<std::pair<std::int32_t, std::int32_t>, Vector> onFirst;  ///< [N s]
+  struct Impulse {
+    double pressing = 0.0, along = 0.0;  ///< as PairImpulse's; normals turn meanwhile [N s]
+  };
+  std::map<std::pair<std::int32_t, std::int32_t>, Impulse> onFirst;
   std::vector<Vector> onBody;
   std::vector<double> torqueOnBody;  ///< about the body's centre [N m s]
   long long steps = 0;
@@ -54,12 +57,13 @@ struct ImpulseSums {
   }
 
   void add(const PairImpulse& impulse, const WallIds& ids, const std::vector<Body>& bodies) {
-    Vector& sum = onFirst[{impulse.i, impulse.j}];
-    sum = sum + impulse.onFirst;
+    Impulse& sum = onFirst[{impulse.i, impulse.j}];
+    sum.pressing += impulse.pressing;
+    sum.along += impulse.along;
     const auto j = static_cast<std::size_t>(impulse.j);
     if (!ids.isWall(j)) return;
     const std::size_t b = ids.body(j);
-    const Vector on = -1.0 * impulse.onFirst;
+    const Vector on = -1.0 * impulse.onFirst();
     onBody[b] = onBody[b] + on;
     torqueOnBody[b] += cross(impulse.place - bodies[b].centre, on);
   }
@@ -76,15 +80,15 @@ void addContacts(ArrayFile& arrays, const ImpulseSums& sums, double interval,
                  const GeometryOf& geometry) {
   std::vector<std::int32_t> i, j;
   std::vector<double> normal, overlap, fn, ft;
-  for (const auto& [pair, onFirst] : sums.onFirst) {
+  for (const auto& [pair, impulse] : sums.onFirst) {
     const Geometry between =
         geometry(static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.second));
     i.push_back(pair.first);
     j.push_back(pair.second);
     append(normal, between.normal);
     overlap.push_back(between.overlap);
-    fn.push_back(dot(onFirst, between.normal) / interval);
-    ft.push_back(dot(onFirst, turned(between.normal)) / interval);
+    fn.push_back(impulse.pressing / interval);
+    ft.push_back(impulse.along / interval);
   }
   arrays.add("contacts.i", i);
   arrays.add("contacts.j", j);
