@@ -37,6 +37,8 @@ Space::Space(const ImpulseScene& scene)
   dWorldSetGravity(world_, scene.gravity.x, scene.gravity.y, 0.0);
   dWorldSetQuickStepNumIterations(world_, std::max(iterations_, 1));
   dWorldSetQuickStepW(world_, scene.setting("relaxation"));
+  if (scene.setting("correcting_speed") > 0.0)
+    dWorldSetContactMaxCorrectingVel(world_, scene.setting("correcting_speed"));
   // CFM / dt stands beside 1/m: ODE's own 1e-10 would make heavy disks soft.
   double lightest = 1.0;
   for (const Disk& disk : scene.disks)

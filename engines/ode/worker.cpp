@@ -25,6 +25,8 @@ int main() {
               2.0, false),
        within(setting("erp", 0.2, "-", "share of an overlap that a step pushes apart"), 0.0, 1.0,
               false),
+       setting("correcting_speed", 0.0, "m/s",
+               "the fastest that overlaps are pushed apart, a speed that stays; 0: no limit"),
        setting("restitution_threshold", 0.0, "m/s",
                "approaches slower than this give nothing back")}};
   return serve(ImpulseEngine(
