@@ -1,6 +1,8 @@
 // A worker of crossgrain that runs scenes on ODE; README.md of this folder says what ODE makes of
 // a scene.
 
+#include <cstdio>
+
 #include "crossgrain_impulse_engine.hpp"
 #include "space.hpp"
 
@@ -8,9 +10,13 @@ using namespace crossgrain_worker;
 
 int main() {
   dInitODE2(0);
+  if (!dCheckConfiguration("ODE_double_precision")) {  // as on Debian's armel
+    std::fputs("libode has single precision, its headers double\n", stderr);
+    return 1;
+  }
   const ImpulseAbout about{
       "ode",
-      CROSSGRAIN_ODE_VERSION,
+      dODE_VERSION,
       "semi_implicit_euler with sequential impulses",
       0.5,
       {{"lever_arm", {"overlap_middle"}},
