@@ -9,9 +9,13 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 install(TARGETS crossgrain RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-if(TARGET crossgrain-chipmunk)
-  install(TARGETS crossgrain-chipmunk RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-endif()
+foreach(engine bullet chipmunk ode)
+  if(TARGET crossgrain-${engine})
+    install(TARGETS crossgrain-${engine} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  endif()
+  install(FILES engines/${engine}/${engine}.toml
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines/${engine})
+endforeach()
 install(FILES cli/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME crossgrain)
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
         FILES_MATCHING PATTERN "*.toml" PATTERN "*.md" PATTERN "*.csv" PATTERN "*.py")
@@ -19,8 +23,6 @@ install(DIRECTORY engines/lammps engines/yade engines/python engines/cpp engines
         DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines
         FILES_MATCHING PATTERN "*.py" PATTERN "*.hpp" PATTERN "*.mjs" PATTERN "*.json" PATTERN "*.toml"
         PATTERN node_modules EXCLUDE)
-install(FILES engines/chipmunk/chipmunk.toml
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines/chipmunk)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
         FILES_MATCHING PATTERN "*.py" PATTERN "*.cpp" PATTERN "*.toml" PATTERN "*.lmp")
 install(FILES python/crossgrain.py DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/python)

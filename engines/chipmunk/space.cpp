@@ -42,15 +42,16 @@ double extentOf(const std::vector<Disk>& disks, const std::vector<Body>& walls) 
 
 }  // namespace
 
-Space::Space(const std::vector<Disk>& disks, std::vector<Body>& walls, SpaceOptions options)
-    : options_(std::move(options)),
-      walls_(walls),
+Space::Space(const ImpulseScene& scene)
+    : scene_(scene),
+      walls_(scene.walls),
+      slop_(scene.setting("slop") > 0.0 ? scene.setting("slop") : 1e-3 * scene.smallest),
       space_(cpSpaceNew()),
-      extent_(extentOf(disks, walls)) {
-  cpSpaceSetIterations(space_, options_.iterations);
-  cpSpaceSetGravity(space_, toChipmunk(options_.gravity));
-  cpSpaceSetCollisionSlop(space_, options_.slop);
-  cpSpaceSetCollisionBias(space_, options_.bias);
+      extent_(extentOf(scene.disks, scene.walls)) {
+  cpSpaceSetIterations(space_, static_cast<int>(scene.setting("iterations")));
+  cpSpaceSetGravity(space_, toChipmunk(scene.gravity));
+  cpSpaceSetCollisionSlop(space_, slop_);
+  cpSpaceSetCollisionBias(space_, scene.setting("bias"));
   // Of two that part and meet again Chipmunk takes up the old impulse as the sum of the new one,
   // without applying it; so it is to forget them at once.
   cpSpaceSetCollisionPersistence(space_, 1);
@@ -58,8 +59,8 @@ Space::Space(const std::vector<Disk>& disks, std::vector<Body>& walls, SpaceOpti
   handler->preSolveFunc = beforeSolving;
   handler->postSolveFunc = afterSolving;
   handler->userData = this;
-  for (const Disk& disk : disks) addDisk(disk);
-  for (Body& wall : walls) addWall(wall);
+  for (const Disk& disk : scene.disks) addDisk(disk);
+  for (Body& wall : walls_) addWall(wall);
   for (const WallShapes& shapes : shapes_)
     for (const PlaneShape& plane : shapes.planes)
       cpShapeSetUserData(plane.shape, reinterpret_cast<cpDataPointer>(nextId_++));
@@ -78,7 +79,7 @@ Space::~Space() {
 }
 
 void Space::add(cpShape* shape, bool wall) {
-  cpShapeSetFriction(shape, options_.friction);
+  cpShapeSetFriction(shape, scene_.friction);
   if (wall)
     cpShapeSetFilter(shape, cpShapeFilterNew(allWalls, CP_ALL_CATEGORIES, CP_ALL_CATEGORIES));
   allShapes_.push_back(cpSpaceAddShape(space_, shape));
@@ -136,7 +137,7 @@ void Space::cover(PlaneShape& shape, const crossgrain_worker::Plane& plane) cons
   const Vector along = crossgrain_worker::turned(plane.normal);
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   for (std::size_t i = 0; i < disks_.size(); ++i) {
-    const Vector from = position(i) + options_.dt * velocity(i) - shape.at;
+    const Vector from = position(i) + scene_.dt * velocity(i) - shape.at;
     if (dot(from, plane.normal) > 2.0 * radius_[i]) continue;
     lowest = std::min(lowest, dot(from, along) - 2.0 * radius_[i]);
     highest = std::max(highest, dot(from, along) + 2.0 * radius_[i]);
@@ -173,7 +174,7 @@ void Space::step(double next) {
   for (Body& wall : walls_) wall.at(next);
   placeWalls();
   impulses_.clear();
-  cpSpaceStep(space_, options_.dt);
+  cpSpaceStep(space_, scene_.dt);
   std::sort(impulses_.begin(), impulses_.end(), [](const PairImpulse& a, const PairImpulse& b) {
     return std::pair(a.i, a.j) < std::pair(b.i, b.j);
   });
@@ -182,9 +183,9 @@ void Space::step(double next) {
 /// Chipmunk multiplies the coefficients of two shapes; these are the pair's own.
 cpBool Space::beforeSolving(cpArbiter* arbiter, cpSpace*, cpDataPointer self) {
   CP_ARBITER_GET_SHAPES(arbiter, a, b);
-  const SpaceOptions& options = static_cast<Space*>(self)->options_;
-  cpArbiterSetRestitution(arbiter, options.restitution(idOf(a), idOf(b)));
-  cpArbiterSetFriction(arbiter, options.friction);
+  const ImpulseScene& scene = static_cast<Space*>(self)->scene_;
+  cpArbiterSetRestitution(arbiter, scene.restitution(idOf(a), idOf(b)));
+  cpArbiterSetFriction(arbiter, scene.friction);
   return cpTrue;
 }
 
@@ -194,9 +195,11 @@ void Space::afterSolving(cpArbiter* arbiter, cpSpace*, cpDataPointer self) {
 
 void Space::take(const cpArbiter* arbiter) {
   CP_ARBITER_GET_SHAPES(arbiter, a, b);
-  const std::int32_t i = idOf(a), j = idOf(b);
+  const Vector normal = -1.0 * fromChipmunk(cpArbiterGetNormal(arbiter));
   const Vector onA = fromChipmunk(cpArbiterTotalImpulse(arbiter));
-  impulses_.push_back(i < j ? PairImpulse{i, j, onA} : PairImpulse{j, i, -1.0 * onA});
+  impulses_.push_back(PairImpulse::between(
+      idOf(a), idOf(b), normal, dot(onA, normal), dot(onA, turned(normal)),
+      fromChipmunk(cpArbiterGetPointA(arbiter, 0)), fromChipmunk(cpArbiterGetPointB(arbiter, 0))));
 }
 
 Vector Space::position(std::size_t disk) const {
@@ -205,6 +208,13 @@ Vector Space::position(std::size_t disk) const {
 
 Vector Space::velocity(std::size_t disk) const {
   return fromChipmunk(cpBodyGetVelocity(disks_[disk]));
+}
+
+nlohmann::json Space::deviations() const {
+  return {{{"name", "slop"},
+           {"value", slop_},
+           {"unit", "m"},
+           {"note", "overlaps up to this are left standing"}}};
 }
 
 double Space::spin(std::size_t disk) const {

@@ -3,58 +3,33 @@
 #include <chipmunk/chipmunk.h>
 
 #include <cstdint>
-#include <functional>
-#include <memory>
 #include <vector>
 
-#include "crossgrain_walls.hpp"
+#include "crossgrain_impulse_space.hpp"
 
 namespace chipmunk_worker {
 
 using crossgrain_worker::Body;
+using crossgrain_worker::Disk;
+using crossgrain_worker::ImpulseScene;
+using crossgrain_worker::PairImpulse;
 using crossgrain_worker::Vector;
-
-struct Disk {
-  double radius, mass, inertia;  ///< [m], [kg], [kg m²]; inertia INFINITY: its spin stays
-  Vector position, velocity;
-  double spin;
-};
-
-/// What passed between two in a step. Ids: disks, then wall disks, then planes; i < j.
-struct PairImpulse {
-  std::int32_t i, j;
-  Vector onFirst;  ///< [N s]
-};
-
-struct SpaceOptions {
-  double dt;        ///< [s]
-  int iterations;   ///< of the solver
-  double slop;      ///< overlaps up to this are left standing [m]
-  double bias;      ///< what is left of a deeper overlap after a second
-  double friction;  ///< µ of all pairs
-  Vector gravity;   ///< [m/s²]
-  /// e_n of two ids.
-  std::function<double(std::int32_t, std::int32_t)> restitution;
-};
 
 /// Chipmunk's space, SI units, walls moved as prescribed. A step moves disks with the velocities
 /// that they have, then solves for new ones where they are by then.
-class Space {
+class Space : public crossgrain_worker::ImpulseSpace {
  public:
-  /// @param walls  at t = 0; outlives the space
-  Space(const std::vector<Disk>& disks, std::vector<Body>& walls, SpaceOptions options);
-  ~Space();
+  explicit Space(const ImpulseScene& scene);
+  ~Space() override;
   Space(const Space&) = delete;
   Space& operator=(const Space&) = delete;
 
-  /// @param next  time after the step [s]; the walls are left there
-  void step(double next);
-
-  Vector position(std::size_t disk) const;
-  Vector velocity(std::size_t disk) const;
-  double spin(std::size_t disk) const;
-  /// Of the last step, in ascending order of ids.
-  const std::vector<PairImpulse>& impulses() const { return impulses_; }
+  void step(double next) override;
+  Vector position(std::size_t disk) const override;
+  Vector velocity(std::size_t disk) const override;
+  double spin(std::size_t disk) const override;
+  const std::vector<PairImpulse>& impulses() const override { return impulses_; }
+  nlohmann::json deviations() const override;
 
  private:
   /// A segment that stays before the disks which could touch it, whatever the way that they or the
@@ -84,8 +59,9 @@ class Space {
   static cpBool beforeSolving(cpArbiter* arbiter, cpSpace*, cpDataPointer self);
   static void afterSolving(cpArbiter* arbiter, cpSpace*, cpDataPointer self);
 
-  SpaceOptions options_;
+  ImpulseScene scene_;
   std::vector<Body>& walls_;
+  double slop_;  ///< overlaps up to this are left standing [m]
   cpSpace* space_;
   std::vector<cpBody*> disks_;
   std::vector<double> radius_;

@@ -1,4 +1,4 @@
-"""Engines that are programs of their own, where they are installed: YADE, LAMMPS, LIGGGHTS, engines in Node, Chipmunk, Siconos.
+"""Engines that are programs of their own, where they are installed: YADE, LAMMPS, LIGGGHTS, engines in Node, Bullet, ODE, Chipmunk, Siconos.
 
 Each passes crossgrain's own conformance checks in tests/conformance; here: that it is its law along a flow, what is particular
 to it, and that it is refused with what to install where it is missing."""
@@ -474,6 +474,79 @@ class RigidEngine:
         )  # fmt: skip
         (run,) = self.results()["runs"]
         self.assertEqual(("refused", "does not show what the measure takes"), (run["verdict"], run["reason"]))
+
+
+class BuiltEngine(RigidEngine):
+    """An engine whose worker is built with the program, where its package is installed."""
+
+    def test_was_built(self):
+        self.assertTrue(worker_of(self.engine).exists(), f"lib{self.engine}-dev is installed, and the build did not find it")
+
+    def test_without_its_worker_it_is_refused_with_what_to_install(self):
+        alone = self.folder / "crossgrain"  # without workers beside it, or installed ones in PATH
+        shutil.copy(PROGRAM, alone)
+        done = self.run_program(
+            "check", HARD_SPHERE, "--engines", self.engine, executable=str(alone),
+            env={"CROSSGRAIN_DATA": str(HOME), "PATH": str(self.folder)},
+        )  # fmt: skip
+        self.assert_one_line(done, BAD_INPUT, f"{self.engine} is not available", f"lib{self.engine}-dev")
+
+    def head_on(self, **of_engine):
+        """e_n of two disks that meet at 0.01 m/s without slip; 0 where they do not part."""
+        changes = settings(collision__psi=[0.0]) + [f"--set=engines.{self.engine}.{name}={value}" for name, value in of_engine.items()]
+        self.run_program(
+            "collide", HARD_SPHERE, "--engines", self.engine, "-k", "*e_t0-0", "--out", self.out, "--quiet", "--fresh", *changes
+        )
+        return float(self.rows("collisions.csv")[0]["e_n"] or 0)
+
+    def test_slow_approaches_give_nothing_back_below_its_threshold(self):
+        self.assertAlmostEqual(EN, self.head_on(restitution_threshold=0.009), delta=1e-8)
+        self.assertLessEqual(self.head_on(restitution_threshold=0.011), 0.2)  # what pushes overlaps apart
+
+    def stability(self, case, **of_engine):
+        """Verdict and value of a quick case."""
+        changes = [f"--set=engines.{self.engine}.{name}={value}" for name, value in of_engine.items()]
+        self.run_program(
+            "stability", CASES / f"hard/{case}.toml", "--quick", "--engines", self.engine, "--out", self.out, "--quiet", "--fresh",
+            *changes,
+        )  # fmt: skip
+        (run,) = self.results()["runs"]
+        return run["verdict"], run["value"]
+
+
+def worker_of(engine):
+    return pathlib.Path(PROGRAM).with_name(f"crossgrain-{engine}")
+
+
+@unittest.skipUnless(worker_of("bullet").exists() or is_installed("libbullet-dev"), "libbullet-dev is not installed")
+class Bullet(BuiltEngine, Peer):
+    engine = "bullet"
+
+    def test_overlaps_are_pushed_apart_without_speed(self):
+        """An elastic start with deep overlaps; Bullet's own threshold would add a fifth of the overlap each step to the
+        velocities. What a stack gains is height: with nothing pushed, nothing."""
+        self.assertEqual("stable", self.stability("deep-start")[0])
+        self.assertEqual("stable", self.stability("warm-start", erp=0.0)[0])
+
+    def test_more_passes_make_up_for_the_missing_warm_start(self):
+        self.assertLess(0.05, self.stability("newtons-cradle")[1])
+        self.assertEqual("stable", self.stability("newtons-cradle", iterations=50)[0])
+
+
+@unittest.skipUnless(worker_of("ode").exists() or is_installed("libode-dev"), "libode-dev is not installed")
+class Ode(BuiltEngine, Peer):
+    engine = "ode"
+
+    def test_direct_solver_holds_what_relaxation_does_not(self):
+        """A disk of a hundredth of the mass between two heavy ones; rest under a load that oscillates."""
+        self.assertEqual("unstable", self.stability("mass-ratio")[0])
+        self.assertEqual("stable", self.stability("mass-ratio", iterations=0)[0])
+        self.assertEqual("stable", self.stability("column-heat", iterations=0)[0])
+
+    def test_what_pushes_overlaps_apart_stays_as_speed(self):
+        self.assertLess(100, self.stability("warm-start")[1])
+        self.assertGreater(1, self.stability("warm-start", correcting_speed=0.01)[1])
+        self.assertEqual("stable", self.stability("warm-start", erp=0.0)[0])
 
 
 @unittest.skipUnless(CHIPMUNK.exists() or is_installed("libchipmunk-dev"), "libchipmunk-dev is not installed")

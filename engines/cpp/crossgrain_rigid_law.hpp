@@ -9,7 +9,7 @@
 
 #include "crossgrain_worker.hpp"
 
-namespace chipmunk_worker {
+namespace crossgrain_worker {
 
 constexpr double pi = 3.14159265358979323846;
 
@@ -17,8 +17,7 @@ class RigidLaw {
  public:
   RigidLaw() = default;
   /// @throws Unsupported for laws whose restitution depends on speed
-  explicit RigidLaw(const crossgrain_worker::Json& law) {
-    using crossgrain_worker::Unsupported;
+  explicit RigidLaw(const Json& law) {
     const std::string normal = law.at("normal");
     soft_ = normal == "linear";
     if (!soft_ && normal != "rigid")
@@ -49,8 +48,7 @@ class RigidLaw {
     if (!soft_) return en_;
     const double beta = 0.5 * gn_ * inverseMass, squared = kn_ * inverseMass - beta * beta;
     if (!(squared > 0.0))
-      throw crossgrain_worker::Unsupported(
-          "has rigid contacts, which stand for no law that is overdamped");
+      throw Unsupported("has rigid contacts, which stand for no law that is overdamped");
     const double omega = std::sqrt(squared);
     const double phase = cut_ ? std::atan2(2.0 * beta * omega, beta * beta - squared) : pi;
     return std::exp(-beta * phase / omega);
@@ -61,4 +59,4 @@ class RigidLaw {
   double kn_ = 0.0, gn_ = 0.0, en_ = 1.0, friction_ = 0.0;
 };
 
-}  // namespace chipmunk_worker
+}  // namespace crossgrain_worker

@@ -1,0 +1,170 @@
+#include "space.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace bullet_worker {
+namespace {
+
+btVector3 toBullet(Vector v) {
+  return {v.x, v.y, 0.0};
+}
+
+Vector fromBullet(const btVector3& v) {
+  return {v.x(), v.y()};
+}
+
+/// How far apart a disk and a plane may be and be in contact, in smallest radii: far below what a
+/// disk moves in a step, and above rounding, by which Bullet would lose contacts that touch.
+constexpr double contactMargin = 1e-6;
+
+const Space& spaceOf(const btCollisionObject* object) {
+  return *static_cast<const Space*>(object->getUserPointer());
+}
+
+}  // namespace
+
+Space::Space(const ImpulseScene& scene) : scene_(scene) {
+  // Globals of Bullet. The margins are 0.02 m and 0.05 m otherwise: planes would act from afar, and
+  // all disks of a small scene be neighbours.
+  gContactBreakingThreshold = contactMargin * scene.smallest;
+  gDbvtMargin = 0.1 * scene.smallest;
+  gCalculateCombinedRestitutionCallback = pairRestitution;
+  gCalculateCombinedFrictionCallback = pairFriction;
+  dispatcher_.setDispatcherFlags(
+      dispatcher_.getDispatcherFlags() &
+      ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
+  world_.getDispatchInfo().m_deterministicOverlappingPairs = true;
+  world_.setForceUpdateAllAabbs(false);  // not of walls that rest
+  btContactSolverInfo& solver = world_.getSolverInfo();
+  solver.m_numIterations = static_cast<int>(scene.setting("iterations"));
+  solver.m_erp2 = scene.setting("erp");
+  solver.m_restitutionVelocityThreshold = scene.setting("restitution_threshold");
+  // Overlaps of any depth are pushed apart by velocities that are forgotten after the step. By
+  // Bullet's own threshold, 0.04 m, shallower ones would add to the velocities that stay.
+  solver.m_splitImpulsePenetrationThreshold = 0.0;
+  world_.setGravity(toBullet(scene.gravity));
+  for (const Disk& disk : scene.disks) addDisk(disk);
+  for (const Body& wall : scene.walls)
+    for (std::size_t k = 0; k < wall.radius.size(); ++k)
+      addWall(std::make_unique<btSphereShape>(wall.radius[k]), wall.position[k], wall.moves());
+  for (const Body& wall : scene.walls)
+    for (const auto& plane : wall.planes)
+      addWall(std::make_unique<btStaticPlaneShape>(toBullet(plane.normal), 0.0), plane.point,
+              wall.moves());
+}
+
+Space::~Space() {
+  for (auto& body : bodies_) world_.removeRigidBody(body.get());
+}
+
+btRigidBody& Space::add(std::unique_ptr<btCollisionShape> shape, double mass, double inertia,
+                        Vector place) {
+  btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape.get(),
+                                                {inertia, inertia, inertia});
+  info.m_startWorldTransform.setOrigin(toBullet(place));
+  shapes_.push_back(std::move(shape));
+  btRigidBody& body = *bodies_.emplace_back(std::make_unique<btRigidBody>(info));
+  body.setUserIndex(static_cast<int>(bodies_.size()) - 1);
+  body.setUserPointer(this);
+  return body;
+}
+
+void Space::addDisk(const Disk& disk) {
+  const double inertia =
+      std::isinf(disk.inertia) ? 0.0 : disk.inertia;  // Bullet's 0: none turns it
+  btRigidBody& body =
+      add(std::make_unique<btSphereShape>(disk.radius), disk.mass, inertia, disk.position);
+  body.setLinearFactor({1.0, 1.0, 0.0});
+  body.setAngularFactor({0.0, 0.0, 1.0});
+  body.setLinearVelocity(toBullet(disk.velocity));
+  body.setAngularVelocity({0.0, 0.0, disk.spin});
+  body.setActivationState(DISABLE_DEACTIVATION);
+  world_.addRigidBody(&body);
+}
+
+void Space::addWall(std::unique_ptr<btCollisionShape> shape, Vector place, bool moves) {
+  btRigidBody& body = add(std::move(shape), 0.0, 0.0, place);
+  if (moves) {
+    body.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+    body.setActivationState(DISABLE_DEACTIVATION);
+  }
+  world_.addRigidBody(&body);
+}
+
+template <typename Visit>
+void Space::forMovingWalls(const Visit& visit) {
+  auto body = bodies_.begin() + static_cast<long>(scene_.disks.size());
+  for (const Body& wall : scene_.walls)
+    for (std::size_t k = 0; k < wall.position.size(); ++k, ++body)
+      if (wall.moves()) visit(**body, wall, wall.position[k], wall.diskVelocity[k]);
+  for (const Body& wall : scene_.walls)
+    for (const auto& plane : wall.planes) {
+      if (wall.moves()) visit(**body, wall, plane.point, wall.velocityAt(plane.point));
+      ++body;
+    }
+}
+
+void Space::step(double next) {
+  // Walls: where they are as the step begins, at the velocity of its middle, which takes them to
+  // where they are at its end.
+  forMovingWalls([](btRigidBody& body, const Body& wall, Vector place, Vector) {
+    body.setWorldTransform(btTransform(btQuaternion({0.0, 0.0, 1.0}, wall.angle), toBullet(place)));
+  });
+  for (Body& wall : scene_.walls) wall.at(next - 0.5 * scene_.dt);
+  forMovingWalls([](btRigidBody& body, const Body& wall, Vector, Vector velocity) {
+    body.setLinearVelocity(toBullet(velocity));
+    body.setAngularVelocity({0.0, 0.0, wall.spin});
+  });
+  // Bullet forgets the contact points of two spheres before it looks for new ones, and keeps those
+  // of a plane for a warm start; up to four then stand for one contact.
+  for (int k = 0; k < dispatcher_.getNumManifolds(); ++k)
+    dispatcher_.getManifoldByIndexInternal(k)->clearManifold();
+  world_.stepSimulation(scene_.dt, 0);
+  for (Body& wall : scene_.walls) wall.at(next);
+  takeImpulses();
+}
+
+void Space::takeImpulses() {
+  impulses_.clear();
+  for (int k = 0; k < dispatcher_.getNumManifolds(); ++k) {
+    const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(k);
+    const int a = manifold.getBody0()->getUserIndex(), b = manifold.getBody1()->getUserIndex();
+    for (int c = 0; c < manifold.getNumContacts(); ++c) {
+      const btManifoldPoint& contact = manifold.getContactPoint(c);
+      const Vector normal = fromBullet(contact.m_normalWorldOnB),
+                   along = fromBullet(contact.m_lateralFrictionDir1);
+      impulses_.push_back(PairImpulse::between(
+          a, b, normal, contact.m_appliedImpulse,
+          contact.m_appliedImpulseLateral1 * dot(along, turned(normal)),
+          fromBullet(contact.getPositionWorldOnA()), fromBullet(contact.getPositionWorldOnB())));
+    }
+  }
+  std::sort(impulses_.begin(), impulses_.end(), [](const PairImpulse& a, const PairImpulse& b) {
+    return std::pair(a.i, a.j) < std::pair(b.i, b.j);
+  });
+}
+
+/// Bullet multiplies the coefficients of two bodies; these are the pair's own.
+btScalar Space::pairRestitution(const btCollisionObject* a, const btCollisionObject* b) {
+  return spaceOf(a).scene_.restitution(a->getUserIndex(), b->getUserIndex());
+}
+
+btScalar Space::pairFriction(const btCollisionObject* a, const btCollisionObject*) {
+  return spaceOf(a).scene_.friction;
+}
+
+Vector Space::position(std::size_t disk) const {
+  return fromBullet(bodies_[disk]->getWorldTransform().getOrigin());
+}
+
+Vector Space::velocity(std::size_t disk) const {
+  return fromBullet(bodies_[disk]->getLinearVelocity());
+}
+
+double Space::spin(std::size_t disk) const {
+  return bodies_[disk]->getAngularVelocity().z();
+}
+
+}  // namespace bullet_worker

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <memory>
+#include <vector>
+
+#include "crossgrain_impulse_space.hpp"
+
+namespace bullet_worker {
+
+using crossgrain_worker::Body;
+using crossgrain_worker::Disk;
+using crossgrain_worker::ImpulseScene;
+using crossgrain_worker::PairImpulse;
+using crossgrain_worker::Vector;
+
+/// Bullet's world of spheres whose centres stay in the plane z = 0, SI units, walls moved as
+/// prescribed. A step solves for new velocities where disks are, then moves them. Bullet keeps
+/// mixing rules and margins in globals, which the last space that was made has set.
+class Space : public crossgrain_worker::ImpulseSpace {
+ public:
+  explicit Space(const ImpulseScene& scene);
+  ~Space() override;
+  Space(const Space&) = delete;
+  Space& operator=(const Space&) = delete;
+
+  void step(double next) override;
+  Vector position(std::size_t disk) const override;
+  Vector velocity(std::size_t disk) const override;
+  double spin(std::size_t disk) const override;
+  const std::vector<PairImpulse>& impulses() const override { return impulses_; }
+
+ private:
+  /// Bullet works the velocity of a wall out from its poses; here it is prescribed, too.
+  class World : public btDiscreteDynamicsWorld {
+   public:
+    using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
+
+   private:
+    void saveKinematicState(btScalar) override {}
+  };
+
+  void addDisk(const Disk& disk);
+  void addWall(std::unique_ptr<btCollisionShape> shape, Vector place, bool moves);
+  btRigidBody& add(std::unique_ptr<btCollisionShape> shape, double mass, double inertia,
+                   Vector place);
+  /// @param visit  (body, wall, place, velocity) of each wall disk and plane that moves
+  template <typename Visit>
+  void forMovingWalls(const Visit& visit);
+  void takeImpulses();
+
+  static btScalar pairRestitution(const btCollisionObject* a, const btCollisionObject* b);
+  static btScalar pairFriction(const btCollisionObject* a, const btCollisionObject* b);
+
+  ImpulseScene scene_;
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  btDbvtBroadphase broadphase_;
+  btSequentialImpulseConstraintSolver solver_;
+  World world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+  std::vector<std::unique_ptr<btCollisionShape>> shapes_;
+  std::vector<std::unique_ptr<btRigidBody>> bodies_;  ///< by id: disks, wall disks, planes
+  std::vector<PairImpulse> impulses_;
+};
+
+}  // namespace bullet_worker

@@ -1,0 +1,310 @@
+#pragma once
+
+// All that a worker of rigid contacts and impulses answers, given a space that steps and reports
+// its impulses; engines/node/impulse_engine.mjs is the same in JavaScript.
+//
+//     serve(ImpulseEngine(about, [](const ImpulseScene& scene) {
+//       return std::make_unique<MySpace>(scene);
+//     }));
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "crossgrain_impulse_sums.hpp"
+#include "crossgrain_rigid_law.hpp"
+
+namespace crossgrain_worker {
+
+/// A number's entry in `settings`.
+inline Json setting(const char* name, double value, const char* unit, const char* doc) {
+  return {
+      {"name", name}, {"default", value}, {"unit", unit}, {"doc", doc}, {"choices", Json::array()}};
+}
+
+inline Json within(Json setting, double least, double most, bool whole) {
+  setting.update({{"least", least}, {"most", most}, {"whole", whole}});
+  return setting;
+}
+
+/// What an engine says of itself.
+struct ImpulseAbout {
+  std::string name, version, integrator;
+  /// By how many steps a velocity that is shown is later than the motion that had it: 1/2 where
+  /// velocities change first, −1/2 where positions do.
+  double lag;
+  Json lawOptions;  ///< where forces act: lever_arm, velocity_arm, plane_arm
+  Json settings;    ///< `dt` among them
+};
+
+class ImpulseEngine {
+ public:
+  using MakeSpace = std::function<std::unique_ptr<ImpulseSpace>(const ImpulseScene&)>;
+
+  ImpulseEngine(ImpulseAbout about, MakeSpace make)
+      : about_(std::move(about)), make_(std::move(make)) {}
+
+  Json capabilities() const {
+    Json effects;
+    for (const char* name : {"normal_damping", "friction", "rotation", "gravity", "moving_walls"})
+      effects[name] = "optional";
+    Json options = about_.lawOptions;
+    options["normal"] = {"rigid"};
+    return {{"version", about_.version},       {"effects", effects},
+            {"law_options", options},          {"precisions", {"double"}},
+            {"instant_contacts", true},        {"accumulated_contacts", true},
+            {"warm_handover", false},          {"sliding_flags", false},
+            {"tangential_restitution", false}, {"settings", about_.settings}};
+  }
+
+  Json load(const Json& scene, const Arrays& arrays, const Json& settings) {
+    if (scene.contains("bottom") && scene.at("bottom").at("mu") > 0.0)
+      throw Unsupported("has no bottom_friction");
+    law_ = RigidLaw(scene.at("law"));
+    const auto number = [this, settings](const char* name) {
+      for (const Json& each : about_.settings)
+        if (each.at("name") == name) return settings.value(name, each.at("default").get<double>());
+      throw std::logic_error(name);
+    };
+    dt_ = number("dt") > 0.0 ? number("dt") : scene.at("dt").get<double>();
+    steps_ = evaluations_ = 0;
+    wallSeconds_ = cpuSeconds_ = 0.0;
+    disks_ = scene.at("disks");
+    radius_ = arrays.at("disks.radius");
+    mass_ = arrays.at("disks.mass");
+    friction_ = law_.friction() > 0.0;
+    rotation_ = friction_ && scene.at("rotation").get<bool>();
+    space_.reset();
+    loadWalls(scene, arrays);
+    const auto end = radius_.begin() + static_cast<long>(disks_);
+    const double smallest = disks_ > 0 ? *std::min_element(radius_.begin(), end) : 1.0;
+    const Vector gravity{scene.at("gravity").at(0), scene.at("gravity").at(1)};
+    restitution_.clear();
+    requireRestitution();
+    const auto restitution = [this](std::int32_t i, std::int32_t j) {
+      return this->restitution(i, j);
+    };
+    space_ = make_(
+        {disksOf(arrays), bodies_, dt_, law_.friction(), gravity, smallest, restitution, number});
+    sums_.clear(bodies_.size());
+    last_.clear(bodies_.size());
+    const Json pairs = pairTable();
+    Json effects = Json::array();
+    for (const auto& [name, on] : {std::pair("normal_damping", law_.damps()),
+                                   {"friction", friction_},
+                                   {"rotation", rotation_},
+                                   {"gravity", gravity.x != 0.0 || gravity.y != 0.0},
+                                   {"moving_walls", moving_}})
+      if (on) effects.push_back(name);
+    return {{"engine", about_.name},
+            {"version", about_.version},
+            {"dt", dt_},
+            {"precision", "double"},
+            {"integrator", about_.integrator},
+            {"velocity_lag", about_.lag * dt_},
+            {"effects", effects},
+            {"pairs", pairs},
+            {"deviations", deviations(pairs)}};
+  }
+
+  double advance(double t) {
+    using Clock = std::chrono::steady_clock;
+    const auto wall = Clock::now();
+    const std::clock_t cpu = std::clock();
+    while (steps_ < std::llround(t / dt_)) step();
+    wallSeconds_ += std::chrono::duration<double>(Clock::now() - wall).count();
+    cpuSeconds_ += static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+    return now();
+  }
+
+  Json snapshot(const std::string& contacts, ArrayFile& arrays) {
+    std::vector<double> position, velocity, spin, walls;
+    for (std::size_t i = 0; i < disks_; ++i) {
+      append(position, space_->position(i));
+      append(velocity, space_->velocity(i));
+      spin.push_back(space_->spin(i));
+    }
+    for (const Body& body : bodies_)
+      for (const Vector& place : body.position) append(walls, place);
+    arrays.add("position", position);
+    arrays.add("velocity", velocity);
+    arrays.add("wall_position", walls);
+    if (friction_) arrays.add("spin", spin);
+    const bool accumulated = contacts == "accumulated";
+    ImpulseSums& shown = accumulated ? sums_ : last_;
+    const double interval = static_cast<double>(shown.steps) * dt_;
+    Json bodies = Json::array();
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const Body& body = bodies_[b];
+      bodies.push_back({{"centre", {body.centre.x, body.centre.y}},
+                        {"angle", body.angle},
+                        {"velocity", {body.velocity.x, body.velocity.y}},
+                        {"angular_velocity", body.spin}});
+      if (shown.steps == 0) continue;
+      const Vector force = (1.0 / interval) * shown.onBody[b];
+      bodies.back()["force"] = {force.x, force.y};
+      bodies.back()["torque"] = shown.torqueOnBody[b] / interval;
+    }
+    if (shown.steps > 0 && contacts != "none")
+      addContacts(arrays, shown, interval,
+                  [this](std::size_t i, std::size_t j) { return geometry(i, j); });
+    if (accumulated) sums_.clear(bodies_.size());
+    return {{"position_time", now()},
+            {"velocity_time", now()},
+            {"contact_time", now()},
+            {"contact_interval", interval},
+            {"bodies", bodies}};
+  }
+
+  Json stats() const {
+    return {{"steps", steps_},
+            {"contact_evaluations", evaluations_},
+            {"wall_seconds", wallSeconds_},
+            {"cpu_seconds", cpuSeconds_},
+            {"counters", Json::object()}};
+  }
+
+ private:
+  double now() const { return static_cast<double>(steps_) * dt_; }
+
+  void loadWalls(const Json& scene, const Arrays& arrays) {
+    bodies_.clear();
+    moving_ = false;
+    for (const Json& body : scene.at("bodies")) {
+      const std::string name = "bodies." + std::to_string(bodies_.size()) + ".disk_";
+      bodies_.emplace_back(body, arrays.at(name + "position"), arrays.at(name + "radius"));
+      moving_ = moving_ || bodies_.back().moves();
+    }
+    for (const Body& body : bodies_)
+      radius_.insert(radius_.end(), body.radius.begin(), body.radius.end());
+    ids_.emplace(disks_, bodies_);
+  }
+
+  std::vector<Disk> disksOf(const Arrays& arrays) const {
+    const auto vectorOf = [&](const char* name, std::size_t i) {
+      const std::vector<double>& numbers = arrays.at(name);
+      return Vector{numbers[2 * i], numbers[2 * i + 1]};
+    };
+    std::vector<Disk> disks;
+    for (std::size_t i = 0; i < disks_; ++i)
+      disks.push_back(
+          {radius_[i], mass_[i],
+           rotation_ ? arrays.at("disks.inertia")[i] : std::numeric_limits<double>::infinity(),
+           vectorOf("disks.position", i), vectorOf("disks.velocity", i),
+           friction_ ? arrays.at("disks.spin")[i] : 0.0});
+    return disks;
+  }
+
+  double inverseMass(std::size_t id) const { return id < disks_ ? 1.0 / mass_[id] : 0.0; }
+
+  /// Whether every pair has a restitution: asked in a step, a refusal would pass through the
+  /// engine's callbacks. The law is overdamped where γ_n² (1/m₁ + 1/m₂) ≥ 4 k_n, so the lightest
+  /// pair decides for all.
+  /// @throws Unsupported
+  void requireRestitution() const {
+    if (disks_ == 0) return;
+    std::vector<double> lightest(mass_);
+    const auto second = lightest.begin() + std::min<long>(1, static_cast<long>(disks_) - 1);
+    std::nth_element(lightest.begin(), second, lightest.end());
+    const double least = *std::min_element(lightest.begin(), lightest.end());
+    law_.restitution(1.0 / least + (disks_ > 1 ? 1.0 / *second : 0.0));
+  }
+
+  double restitution(std::int32_t i, std::int32_t j) {
+    const double inverse =
+        inverseMass(static_cast<std::size_t>(i)) + inverseMass(static_cast<std::size_t>(j));
+    const auto [known, isNew] = restitution_.try_emplace(inverse);
+    if (isNew) known->second = law_.restitution(inverse);
+    return known->second;
+  }
+
+  /// Of the first few kinds of disks. @throws Unsupported
+  Json pairTable() const {
+    std::map<double, double> kinds;  // mass → radius
+    for (std::size_t i = 0; i < disks_ && kinds.size() < 4; ++i)
+      kinds.emplace(mass_[i], radius_[i]);
+    Json pairs = Json::array();
+    const auto add = [&](double radius, const std::string& other, double inverse) {
+      char name[80];
+      std::snprintf(name, sizeof name, "%.3g mm with %s", 1e3 * radius, other.c_str());
+      pairs.push_back({{"pair", name}, {"en", law_.restitution(inverse)}});
+      if (friction_) pairs.back().update({{"mu", law_.friction()}, {"et0", 0.0}});
+    };
+    for (auto one = kinds.begin(); one != kinds.end(); ++one) {
+      for (auto two = one; two != kinds.end(); ++two) {
+        char other[40];
+        std::snprintf(other, sizeof other, "%.3g mm", 1e3 * two->second);
+        add(one->second, other, 1.0 / one->first + 1.0 / two->first);
+      }
+      if (!bodies_.empty()) add(one->second, "wall", 1.0 / one->first);
+    }
+    return pairs;
+  }
+
+  Json deviations(const Json& pairs) const {
+    Json list = space_->deviations();
+    if (!law_.soft() || pairs.empty()) return list;
+    list.push_back({{"name", "normal"},
+                    {"value", pairs.front().at("en")},
+                    {"unit", "-"},
+                    {"note", "rigid contacts with the soft law's e_n for each pair"}});
+    if (friction_)
+      list.push_back({{"name", "e_t0"},
+                      {"value", 0.0},
+                      {"unit", "-"},
+                      {"note", "contacts that stick give back nothing of the tangential speed"}});
+    return list;
+  }
+
+  void step() {
+    space_->step(static_cast<double>(steps_ + 1) * dt_);
+    ++steps_;
+    last_.clear(bodies_.size());
+    for (PairImpulse impulse : space_->impulses()) {
+      ++evaluations_;
+      // Without rotation friction has no arm, on a wall disk either.
+      const auto j = static_cast<std::size_t>(impulse.j);
+      if (!rotation_ && ids_->isWall(j) && !ids_->isPlane(j)) impulse.place = wallDisk(j);
+      for (ImpulseSums* sums : {&last_, &sums_}) sums->add(impulse, *ids_, bodies_);
+    }
+    ++last_.steps;
+    ++sums_.steps;
+  }
+
+  Vector wallDisk(std::size_t id) const { return bodies_[ids_->body(id)].position[ids_->part(id)]; }
+
+  Geometry geometry(std::size_t i, std::size_t j) const {
+    const Vector place = space_->position(i);
+    if (ids_->isPlane(j)) {
+      const Plane& plane = bodies_[ids_->body(j)].planes[ids_->part(j)];
+      return {plane.normal, radius_[i] - dot(place - plane.point, plane.normal)};
+    }
+    const Vector apart = place - (ids_->isWall(j) ? wallDisk(j) : space_->position(j));
+    const double distance = std::hypot(apart.x, apart.y);
+    return {(1.0 / distance) * apart, radius_[i] + radius_[j] - distance};
+  }
+
+  ImpulseAbout about_;
+  MakeSpace make_;
+  RigidLaw law_;
+  double dt_ = 0.0;
+  bool friction_ = false, rotation_ = false, moving_ = false;
+  std::size_t disks_ = 0;
+  std::vector<double> radius_;  ///< disks, then wall disks [m]
+  std::vector<double> mass_;    ///< disks [kg]
+  std::vector<Body> bodies_;
+  std::optional<WallIds> ids_;
+  std::map<double, double> restitution_;  ///< by 1/m₁₂ [1/kg]
+  std::unique_ptr<ImpulseSpace> space_;
+  ImpulseSums sums_, last_;
+  long long steps_ = 0;
+  unsigned long long evaluations_ = 0;
+  double wallSeconds_ = 0.0, cpuSeconds_ = 0.0;
+};
+
+}  // namespace crossgrain_worker

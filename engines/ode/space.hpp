@@ -1,0 +1,66 @@
+#pragma once
+
+#include <ode/ode.h>
+
+#include <vector>
+
+#include "crossgrain_impulse_space.hpp"
+
+namespace ode_worker {
+
+using crossgrain_worker::Body;
+using crossgrain_worker::Disk;
+using crossgrain_worker::ImpulseScene;
+using crossgrain_worker::PairImpulse;
+using crossgrain_worker::Vector;
+
+/// ODE's world of spheres whose centres stay in the plane z = 0, SI units, walls moved as
+/// prescribed. A step finds who overlaps, solves for the contact forces that give wanted
+/// velocities, and moves disks with these.
+class Space : public crossgrain_worker::ImpulseSpace {
+ public:
+  explicit Space(const ImpulseScene& scene);
+  ~Space() override;
+  Space(const Space&) = delete;
+  Space& operator=(const Space&) = delete;
+
+  void step(double next) override;
+  Vector position(std::size_t disk) const override;
+  Vector velocity(std::size_t disk) const override;
+  double spin(std::size_t disk) const override;
+  const std::vector<PairImpulse>& impulses() const override { return impulses_; }
+
+ private:
+  struct Touch {
+    std::int32_t i, j;
+    dContactGeom geometry;  ///< normal from j to i
+  };
+
+  void addDisk(const Disk& disk);
+  void addWall(dGeomID shape);
+  void placeWalls();
+  void findTouches();
+  dContact contactOf(const Touch& touch) const;
+  Vector wallVelocity(std::int32_t wall, Vector place) const;
+  void requirePlane() const;
+
+  static void near(void* space, dGeomID a, dGeomID b);
+
+  ImpulseScene scene_;
+  int iterations_;
+  double erp_, bounceThreshold_;
+  dWorldID world_;
+  dSpaceID shapes_;
+  dJointGroupID contacts_;
+  std::vector<dBodyID> disks_;
+  std::vector<bool> turns_;
+  std::vector<dGeomID> wallShapes_;  ///< wall disks, then planes
+  /// Of each of these: its body, and the number of the disk or plane in it.
+  std::vector<std::pair<const Body*, std::size_t>> wallParts_;
+  std::size_t wallDisks_ = 0;
+  std::vector<Touch> touches_;
+  std::vector<dJointFeedback> forces_;
+  std::vector<PairImpulse> impulses_;
+};
+
+}  // namespace ode_worker

@@ -1,0 +1,40 @@
+// A worker of crossgrain that runs scenes on ODE; README.md of this folder says what ODE makes of
+// a scene.
+
+#include <cstdio>
+
+#include "crossgrain_impulse_engine.hpp"
+#include "space.hpp"
+
+using namespace crossgrain_worker;
+
+int main() {
+  dInitODE2(0);
+  if (!dCheckConfiguration("ODE_double_precision")) {  // as on Debian's armel
+    std::fputs("libode has single precision, its headers double\n", stderr);
+    return 1;
+  }
+  const ImpulseAbout about{
+      "ode",
+      dODE_VERSION,
+      "semi_implicit_euler with sequential impulses",
+      0.5,
+      {{"lever_arm", {"overlap_middle"}},
+       {"velocity_arm", {"lever_arm"}},
+       {"plane_arm", {"radius"}}},
+      {setting("dt", 5e-4, "s", "time step; 0: the case's"),
+       within(setting("iterations", 20.0, "-",
+                      "of QuickStep; 0: dWorldStep, which solves directly, in a time that grows "
+                      "with the cube of the contacts"),
+              0.0, 1e6, true),
+       within(setting("relaxation", 1.3, "-", "of QuickStep's successive over-relaxation"), 0.0,
+              2.0, false),
+       within(setting("erp", 0.2, "-", "share of an overlap that a step pushes apart"), 0.0, 1.0,
+              false),
+       setting("correcting_speed", 0.0, "m/s",
+               "the fastest that overlaps are pushed apart, a speed that stays; 0: no limit"),
+       setting("restitution_threshold", 0.0, "m/s",
+               "approaches slower than this give nothing back")}};
+  return serve(ImpulseEngine(
+      about, [](const ImpulseScene& scene) { return std::make_unique<ode_worker::Space>(scene); }));
+}
