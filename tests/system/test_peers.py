@@ -364,12 +364,12 @@ class Liggghts(Peer):
         self.assert_status(done, HELD)
 
 
-def node_engines_are_installed():
-    there = subprocess.run([PROGRAM, "check", HARD_SPHERE, "--engines", "rapier"], capture_output=True, check=False)
+def node_engine_is_installed(engine):
+    there = subprocess.run([PROGRAM, "check", HARD_SPHERE, "--engines", engine], capture_output=True, check=False)
     return b"not available" not in there.stdout + there.stderr
 
 
-@unittest.skipUnless(node_engines_are_installed(), "node, or what engines/node needs, is not installed")
+@unittest.skipUnless(node_engine_is_installed("rapier"), "node, or what engines/node needs, is not installed")
 class NodeEngines(Peer):
     def test_what_a_sliding_impact_takes(self):
         """Ψ_i − Ψ_f = 3 (1 + e_n) µ by theory. The two of today bound friction by the impulse before its restitution, so
@@ -489,6 +489,21 @@ class Chipmunk(RigidEngine, Peer):
         done = self.run_program("check", case, "--engines", "chipmunk", "--set=run.may_differ=['normal']")
         self.assert_status(done, FELL_SHORT)
         self.assertRegex(done.stdout, "chipmunk +cannot: .*overdamped")
+
+
+@unittest.skipUnless(node_engine_is_installed("jolt"), "node, or what engines/node needs, is not installed")
+class Jolt(RigidEngine, Peer):
+    engine = "jolt"
+    skipped = RigidEngine.skipped | {"ShrinkingWallPushes", "ShrinkingWallStops"}
+
+    def test_speculative_contacts_push_across_gaps(self):
+        """As Jolt has them, up to a distance: disks that never touched part, which the audit refuses."""
+        done = self.run_program(
+            "collide", HARD_SPHERE, "--engines", "jolt", "-k", "*e_t0-0", "--out", self.out, "--quiet",
+            "--set=engines.jolt.speculative_distance=1e-3",
+        )  # fmt: skip
+        self.assert_status(done, ENGINE_FAILED)
+        self.assertRegex(done.stderr, "a force of .* passes a gap")
 
 
 @unittest.skipUnless(importlib.util.find_spec("siconos"), "python3-siconos is not installed")
