@@ -19,6 +19,11 @@ install(DIRECTORY engines/lammps engines/yade engines/python engines/cpp engines
         DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines
         FILES_MATCHING PATTERN "*.py" PATTERN "*.hpp" PATTERN "*.mjs" PATTERN "*.json" PATTERN "*.toml"
         PATTERN node_modules EXCLUDE)
+if(TARGET crossgrain-mujoco)
+  install(TARGETS crossgrain-mujoco RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+install(FILES engines/mujoco/mujoco.toml
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines/mujoco)
 install(FILES engines/chipmunk/chipmunk.toml
         DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines/chipmunk)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
