@@ -9,7 +9,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 install(TARGETS crossgrain RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-foreach(engine bullet chipmunk ode)
+foreach(engine bullet chipmunk mujoco ode)
   if(TARGET crossgrain-${engine})
     install(TARGETS crossgrain-${engine} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   endif()
@@ -19,7 +19,7 @@ endforeach()
 install(FILES cli/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME crossgrain)
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
         FILES_MATCHING PATTERN "*.toml" PATTERN "*.md" PATTERN "*.csv" PATTERN "*.py")
-install(DIRECTORY engines/lammps engines/yade engines/python engines/cpp engines/liggghts engines/siconos engines/node engines/rapier engines/box2d-v3
+install(DIRECTORY engines/lammps engines/yade engines/python engines/cpp engines/liggghts engines/siconos engines/node engines/rapier engines/box2d-v3 engines/jolt
         DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines
         FILES_MATCHING PATTERN "*.py" PATTERN "*.hpp" PATTERN "*.mjs" PATTERN "*.json" PATTERN "*.toml"
         PATTERN node_modules EXCLUDE)

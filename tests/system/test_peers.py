@@ -37,6 +37,7 @@ from harness import (
     wait_for,
 )
 
+MUJOCO = pathlib.Path(PROGRAM).with_name("crossgrain-mujoco")
 CHIPMUNK = pathlib.Path(PROGRAM).with_name("crossgrain-chipmunk")
 MU, EN = 0.44, 0.9  # of cases/collision/hard-sphere.toml
 
@@ -364,12 +365,12 @@ class Liggghts(Peer):
         self.assert_status(done, HELD)
 
 
-def node_engines_are_installed():
-    there = subprocess.run([PROGRAM, "check", HARD_SPHERE, "--engines", "rapier"], capture_output=True, check=False)
+def node_engine_is_installed(engine):
+    there = subprocess.run([PROGRAM, "check", HARD_SPHERE, "--engines", engine], capture_output=True, check=False)
     return b"not available" not in there.stdout + there.stderr
 
 
-@unittest.skipUnless(node_engines_are_installed(), "node, or what engines/node needs, is not installed")
+@unittest.skipUnless(node_engine_is_installed("rapier"), "node, or what engines/node needs, is not installed")
 class NodeEngines(Peer):
     def test_what_a_sliding_impact_takes(self):
         """Ψ_i − Ψ_f = 3 (1 + e_n) µ by theory. The two of today bound friction by the impulse before its restitution, so
@@ -564,10 +565,103 @@ class Chipmunk(RigidEngine, Peer):
         self.assertRegex(done.stdout, "chipmunk +cannot: .*overdamped")
 
 
+@unittest.skipUnless(node_engine_is_installed("jolt"), "node, or what engines/node needs, is not installed")
+class Jolt(RigidEngine, Peer):
+    engine = "jolt"
+    skipped = RigidEngine.skipped | {"ShrinkingWallPushes", "ShrinkingWallStops"}
+
+    def test_speculative_contacts_push_across_gaps(self):
+        """As Jolt has them, up to a distance: disks that never touched part, which the audit refuses."""
+        done = self.run_program(
+            "collide", HARD_SPHERE, "--engines", "jolt", "-k", "*e_t0-0", "--out", self.out, "--quiet",
+            "--set=engines.jolt.speculative_distance=1e-3",
+        )  # fmt: skip
+        self.assert_status(done, ENGINE_FAILED)
+        self.assertRegex(done.stderr, "a force of .* passes a gap")
+
+
 @unittest.skipUnless(importlib.util.find_spec("siconos"), "python3-siconos is not installed")
 class Siconos(RigidEngine, Peer):
     engine = "siconos"
     skipped = RigidEngine.skipped | {"TurningPlanePushes"}
+
+
+def projected_impact(psi, law, vn=0.01, a=3.7e-3, m=0.275e-3, q=0.5, dt=1e-6):
+    """Two equal disks with equal spins, whose contact force is the point of Coulomb's cone that is nearest to
+    (X, Y) = (k_n δ − γ_n δ̇', γ_t |v_t|) in the metric (1/γ_n, 1/γ_t): engines/mujoco/README.md.
+    @returns e_n, Ψ_f"""
+    kn, gn, gt, mu = law
+    (rx, ry), (vx, vy), spin = (2 * a, 0.0), (-vn, 0.0), -psi * vn / (2 * a)
+    while True:
+        apart = math.hypot(rx, ry)
+        nx, ny, overlap = rx / apart, ry / apart, 2 * a - apart
+        arm, rate = a - overlap / 2, vx * nx + vy * ny
+        slip = vy * nx - vx * ny - 2 * arm * spin
+        if overlap < 0:
+            return rate / vn, slip / vn
+        x, y = kn * overlap - gn * rate, gt * abs(slip)
+        if y <= mu * x:
+            fn, ft = x, y
+        elif x <= -mu * y * gn / gt:
+            fn = ft = 0.0
+        else:
+            fn = (x + mu * gn * abs(slip)) / (1 + mu**2 * gn / gt)
+            ft = mu * fn
+        ft = -math.copysign(ft, slip)
+        vx, vy = vx + 2 * dt * (fn * nx - ft * ny) / m, vy + 2 * dt * (fn * ny + ft * nx) / m
+        spin -= dt * arm * ft / (q * m * a**2)
+        rx, ry = rx + dt * vx, ry + dt * vy
+
+
+@unittest.skipUnless(MUJOCO.exists() or is_installed("libmujoco-dev"), "libmujoco-dev is not installed")
+class Mujoco(Peer):
+    FRICTIONLESS = settings(law__tangential="none", law__mu=0.0, law__kt=0.0, law__gt=0.0)
+
+    def test_was_built(self):
+        self.assertTrue(MUJOCO.exists(), "libmujoco-dev is installed, and the build did not find it")
+
+    def test_without_friction_it_is_the_law_that_it_declares_to_its_impedance(self):
+        row = self.lockstep("mujoco", *self.FRICTIONLESS)
+        self.assertEqual("same_law", row["verdict"])
+        self.assertLess(row["equivalent"], 2e-4)  # d = 1e-4, and as much for the spread of starts
+        done = self.run_program(
+            "lockstep", COUETTE, "--engines", "mujoco", "--out", self.folder / "hard", "--quick", "--quiet", "--starts=2",
+            *self.FRICTIONLESS, "--set=engines.mujoco.impedance=0.9",
+        )  # fmt: skip
+        self.assert_status(done, FELL_SHORT)
+
+    def test_sliding_impacts_are_the_projection_on_the_cone(self):
+        """At t_c/2000 schemes of first order err by 1/2000 of what a contact changes, 1e-3 of e_n and Ψ_f; the law as it
+        is declared, whose e_n does not depend on slip, is 0.2 off."""
+        psi = [0.5, 2.0, 4.0]
+        done = self.run_program(
+            "collide", COLLISION, "--engines", "mujoco", "--out", self.out, "--quiet", "-k", "viscous-cut",
+            *settings(collision__psi=psi, collision__steps_per_contact=2000),
+        )  # fmt: skip
+        self.assert_status(done, FELL_SHORT)
+        rows = [row for row in self.rows("collisions.csv") if row["engine"] == "mujoco"]
+        self.assertEqual(psi, [float(row["psi_i"]) for row in rows])
+        for row in rows:
+            en, psi_f = projected_impact(float(row["psi_i"]), (352.1, 0.19, 0.15, MU))
+            self.assertAlmostEqual(en, float(row["e_n"]), delta=1e-3)
+            self.assertAlmostEqual(psi_f, float(row["psi_f"]), delta=1e-3)
+        self.assertGreater(float(rows[-1]["e_n"]), 0.5)
+
+    def test_passes_its_checks(self):
+        """All those in which no contact slides, and of contacts that do, that the forces shown are those that act."""
+        for check in ("ContactForcesAreThoseThatAct", "WallLoadsAreThoseOfTheirContacts", "LoadingStartsAfresh", "Head"):
+            with self.subTest(check):
+                self.assert_status(self.run_program("conformance", "mujoco", "-k", check, "--quiet"), HELD)
+
+    def test_what_it_cannot_do_is_refused_by_name(self):
+        for case, law, reason in (
+            (HARD_SPHERE, [], "has normal = linear, not rigid"),
+            (CASES / "couette/nu-0.804.toml", [], "GB for so many disks"),
+            (COLLISION, ["--set=law.tangential=viscous", "--set=law.kt=0.0", "--set=law.gn=0.0"], "both must be > 0"),
+        ):
+            with self.subTest(reason):
+                done = self.run_program("check", case, "--no-timing", "--engines", "mujoco", *law)
+                self.assertIn(reason, done.stdout + done.stderr)
 
 
 class Absent(SystemTest):
@@ -583,9 +677,9 @@ class Absent(SystemTest):
         for engine, package, options in (
             ("rapier", "npm ci", {"env": {"CROSSGRAIN_DATA": str(data)}}),
             ("siconos", "python3-siconos", {"env": {"CROSSGRAIN_DATA": str(data)}}),
-            ("chipmunk", "libchipmunk-dev", {
+            *((name, f"lib{name}-dev", {
                 "executable": str(alone), "env": {"CROSSGRAIN_DATA": str(HOME), "PATH": str(self.folder)},
-            }),
+            }) for name in ("chipmunk", "mujoco")),
         ):  # fmt: skip
             done = self.run_program("check", HARD_SPHERE, "--engines", engine, **options)
             self.assert_one_line(done, BAD_INPUT, f"{engine} is not available", package)

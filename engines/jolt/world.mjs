@@ -1,0 +1,251 @@
+// The scene as bodies of Jolt Physics that keep to a plane: in single precision, and in a unit of length in which the smallest
+// disk has a radius of about one, since Jolt's tolerances are made for things of 0.1 to 10 m.
+
+import {readFileSync} from 'node:fs';
+import {Unsupported} from '../node/crossgrain_worker.mjs';
+
+const home = new URL('../node/node_modules/jolt-physics/', import.meta.url);
+const {default: makeJolt} = await import(new URL('dist/jolt-physics.wasm-compat.js', home));
+const J = await makeJolt();
+
+const MOST_CONTACTS = 10240;  // of a step: what JoltSettings has room for, beyond which Jolt drops contacts
+const MOST_BODIES = 10240;    // JoltSettings' own
+const HALF_PLANE = 1e6;       // units; it bounds a plane's box in the broad phase, nothing else
+const FIXED = 0, MOVING = 1;  // layers
+
+export const version = `jolt-physics ${JSON.parse(readFileSync(new URL('package.json', home))).version}`;
+
+/// What the binding makes lives until it is destroyed.
+function once(object, use) {
+  const result = use(object);
+  J.destroy(object);
+  return result;
+}
+
+/// Jolt's world with its two layers: what moves meets all, what is fixed meets what moves.
+function makeWorld() {
+  const pairs = new J.ObjectLayerPairFilterTable(2);
+  pairs.EnableCollision(FIXED, MOVING);
+  pairs.EnableCollision(MOVING, MOVING);
+  const layers = new J.BroadPhaseLayerInterfaceTable(2, 2);
+  for (const layer of [FIXED, MOVING]) once(new J.BroadPhaseLayer(layer), (own) => layers.MapObjectToBroadPhaseLayer(layer, own));
+  return once(new J.JoltSettings(), (how) => {
+    how.mMaxWorkerThreads = 0;
+    how.mMaxBodies = MOST_BODIES;
+    how.mMaxContactConstraints = MOST_CONTACTS;
+    how.mObjectLayerPairFilter = pairs;
+    how.mBroadPhaseLayerInterface = layers;
+    how.mObjectVsBroadPhaseLayerFilter = new J.ObjectVsBroadPhaseLayerFilterTable(layers, 2, pairs, 2);
+    return new J.JoltInterface(how);
+  });
+}
+
+/// Contacts of the last step with their impulses, out of the stream that PhysicsSystem::SaveState writes of them: the binding has
+/// no other way to impulses. The layout is that of ContactConstraintManager.cpp (Jolt 5.6), ManifoldCache::SaveState.
+class ContactStream {
+  constructor() {
+    this.bytes = new DataView(new ArrayBuffer(1 << 12));
+    this.recorder = new J.StateRecorderJS();
+    this.recorder.WriteBytes = (from, count) => this.write(from, count);
+    this.recorder.ReadBytes = () => {};
+    this.recorder.IsEOF = this.recorder.IsFailed = () => false;
+  }
+
+  write(from, count) {
+    if (this.size + count > this.bytes.byteLength) {
+      const larger = new Uint8Array(2 * this.bytes.byteLength);
+      larger.set(new Uint8Array(this.bytes.buffer));
+      this.bytes = new DataView(larger.buffer);
+    }
+    for (let k = 0; k < count; ++k) this.bytes.setUint8(this.size++, J.HEAPU8[from + k]);
+  }
+
+  /// @param visit  (lower body, other body, normal impulse, impulses along Jolt's two tangents)
+  read(system, visit) {
+    this.size = 0;
+    system.SaveState(this.recorder, J.EStateRecorderState_Contacts);
+    let at = 0;
+    const integer = () => this.bytes.getUint32((at += 4) - 4, true), real = () => this.bytes.getFloat32((at += 4) - 4, true);
+    at += 1;  // which parts of the state follow
+    for (let pairs = integer(); pairs > 0; --pairs) {
+      at += 8 + 24;  // the bodies; their change of position and rotation
+      for (let manifolds = integer(); manifolds > 0; --manifolds) {
+        const a = integer(), b = (at += 4, integer());
+        at += 4;
+        const points = this.bytes.getUint16((at += 2) - 2, true);
+        at += 12;  // the normal in the second body's axes
+        const tangential = [real(), real()];
+        at += 4;  // friction about the normal
+        let pressing = 0;
+        for (let k = 0; k < points; ++k) {
+          at += 24;  // its places in the two bodies
+          pressing += real();
+        }
+        visit(a, b, pressing, tangential);
+      }
+    }
+    if (at + 4 !== this.size) throw new Error(`Jolt wrote ${this.size} bytes of contacts where ${at + 4} were expected`);
+  }
+}
+
+export class JoltWorld {
+  constructor({disks, bodies, law, gravity, dt, rotation, number}) {
+    this.unit = 2 ** Math.round(Math.log2(Math.min(...disks.map((disk) => disk.radius))));
+    this.dt = dt;
+    this.count = disks.length;
+    this.law = law;
+    this.mass = disks.map((disk) => disk.mass);  // by id; beyond them, walls
+    this.jolt = makeWorld();
+    this.system = this.jolt.GetPhysicsSystem();
+    this.make = this.system.GetBodyInterface();
+    this.vector = new J.Vec3();
+    this.place = new J.RVec3();
+    this.turn = new J.Quat(0, 0, 0, 1);
+    this.system.SetGravity(this.vectorOf(gravity));
+    this.configure(number, Math.hypot(...gravity));
+    this.listen();
+    this.stream = new ContactStream();
+    this.bodies = [];  // by id
+    disks.forEach((disk) => this.disk_(disk, rotation));
+    this.moving = [];  // {b, id, offset} of wall disks and planes that move
+    bodies.forEach((body, b) => body.offset.forEach((offset, k) => this.wall(b, body, offset, new J.SphereShape(body.diskRadius[k] / this.unit))));
+    bodies.forEach((body, b) => body.planes.forEach((plane) => this.plane(b, body, plane)));
+    this.system.OptimizeBroadPhase();
+    this.describe(bodies.length > 0, number('slop'));
+  }
+
+  free() { J.destroy(this.jolt); }
+
+  vectorOf([x, y]) { return this.vector.Set(x / this.unit, y / this.unit, 0), this.vector; }
+  placeOf([x, y]) { return this.place.Set(x / this.unit, y / this.unit, 0), this.place; }
+  turnOf(angle) { return this.turn.Set(0, 0, Math.sin(angle / 2), Math.cos(angle / 2)), this.turn; }
+
+  configure(number, gravity) {
+    const how = this.system.GetPhysicsSettings(), radius = 1;
+    how.mNumVelocitySteps = number('velocity_iterations');
+    how.mNumPositionSteps = number('position_iterations');
+    how.mBaumgarte = number('baumgarte');
+    how.mPenetrationSlop = number('slop') * radius;
+    how.mSpeculativeContactDistance = number('speculative_distance') * radius;
+    // Slower impacts do not rebound: with 0 a column of disks under gravity never comes to rest.
+    how.mMinVelocityForRestitution = 2 * this.dt * gravity / this.unit;
+    // With it contacts of disks that moved by less than a thousandth of a radius are those of the step before.
+    how.mUseBodyPairContactCache = false;
+    how.mAllowSleeping = false;
+    this.system.SetPhysicsSettings(how);
+  }
+
+  /// Jolt asks about each contact in each step; it takes what is set there, not its own mixture of two bodies' coefficients.
+  listen() {
+    this.contacts = new Map();  // lower id · 2^20 + other id → {normal from lower to other, point [m]}
+    const set = (a, b, manifold, settings) => {
+      const i = J.wrapPointer(a, J.Body).GetID().GetIndex(), j = J.wrapPointer(b, J.Body).GetID().GetIndex();
+      const how = J.wrapPointer(settings, J.ContactSettings), found = J.wrapPointer(manifold, J.ContactManifold);
+      how.mCombinedFriction = this.law.friction;
+      how.mCombinedRestitution = this.law.restitution(this.mass[i] ?? Infinity, this.mass[j] ?? Infinity);
+      const {x, y} = {x: found.mWorldSpaceNormal.GetX(), y: found.mWorldSpaceNormal.GetY()};
+      const contact = {normal: [x, y]};
+      if (j >= this.count) {
+        const on1 = this.metres(found.GetWorldSpaceContactPointOn1(0)), on2 = this.metres(found.GetWorldSpaceContactPointOn2(0));
+        contact.point = [0, 1].map((k) => (on1[k] + on2[k]) / 2);
+      }
+      this.contacts.set(i * 2 ** 20 + j, contact);
+    };
+    this.listener = new J.ContactListenerJS();
+    this.listener.OnContactValidate = () => J.ValidateResult_AcceptAllContactsForThisBodyPair;
+    this.listener.OnContactAdded = this.listener.OnContactPersisted = set;
+    this.listener.OnContactRemoved = () => {};
+    this.system.SetContactListener(this.listener);
+  }
+
+  /// Jolt numbers bodies in the order in which they come: the protocol's ids.
+  body(shape, at, motion, more = () => {}) {
+    if (this.bodies.length === MOST_BODIES) throw new Unsupported(`has at most ${MOST_BODIES} disks, wall disks and planes`);
+    const layer = motion === J.EMotionType_Static ? FIXED : MOVING;
+    const body = once(new J.BodyCreationSettings(shape, this.placeOf(at), this.turnOf(0), motion, layer), (how) => {
+      how.mAllowSleeping = false;
+      how.mLinearDamping = how.mAngularDamping = 0;
+      how.mMaxLinearVelocity = how.mMaxAngularVelocity = 1e9;  // its own are 500 m/s and 47 /s
+      how.mOverrideMassProperties = J.EOverrideMassProperties_MassAndInertiaProvided;
+      how.mMassPropertiesOverride.mMass = 1;
+      more(how);
+      return this.make.CreateBody(how);
+    });
+    if (body.GetID().GetIndex() !== this.bodies.length) throw new Error('Jolt numbered its bodies otherwise than in their order');
+    this.bodies.push(body);
+    this.make.AddBody(body.GetID(), J.EActivation_Activate);
+    return body;
+  }
+
+  disk_(disk, rotation) {
+    const body = this.body(new J.SphereShape(disk.radius / this.unit), disk.position, J.EMotionType_Dynamic, (how) => {
+      how.mAllowedDOFs = rotation ? J.EAllowedDOFs_Plane2D : J.EAllowedDOFs_TranslationX | J.EAllowedDOFs_TranslationY;
+    });
+    const own = body.GetMotionProperties(), inertia = disk.inertia / this.unit ** 2;
+    own.SetInverseMass(1 / disk.mass);
+    if (rotation) own.SetInverseInertia((this.vector.Set(1 / inertia, 1 / inertia, 1 / inertia), this.vector), this.turnOf(0));
+    body.SetLinearVelocity(this.vectorOf(disk.velocity));
+    body.SetAngularVelocity((this.vector.Set(0, 0, disk.spin), this.vector));
+  }
+
+  /// A wall disk or a plane is a body of its own, which goes with the wall.
+  wall(b, body, offset, shape) {
+    const {centre, angle} = body.state(0);
+    if (body.moves) this.moving.push({b, id: this.bodies.length, offset});
+    this.body(shape, body.placed(offset, {centre, angle}), body.moves ? J.EMotionType_Kinematic : J.EMotionType_Static);
+  }
+
+  plane(b, body, {point, normal: [x, y]}) {
+    this.vector.Set(x, y, 0);
+    const plane = once(new J.Plane(this.vector, 0), (own) => new J.PlaneShape(own, null, HALF_PLANE));
+    this.wall(b, body, body.fromCentre(point), plane);
+  }
+
+  describe(walls, slop) {
+    const kinds = [...new Set(this.mass)].slice(0, 4), name = (mass) => `${(mass * 1e3).toPrecision(4)} g`;
+    const friction = this.law.friction > 0 ? {mu: this.law.friction} : {};
+    this.pairs = kinds.flatMap((mass, a) => [
+      ...kinds.slice(a).map((other) => ({pair: `${name(mass)} with ${name(other)}`, en: this.law.restitution(mass, other)})),
+      ...(walls ? [{pair: `${name(mass)} with wall`, en: this.law.restitution(mass, Infinity)}] : []),
+    ]).map((pair) => ({...pair, et0: 0, ...friction}));
+    this.deviations = [{name: 'slop', value: slop * this.unit, unit: 'm', note: 'overlaps up to this are left standing'}];
+  }
+
+  placeWalls(now, next) {
+    for (const {b, id, offset} of this.moving) {
+      const centre = [0, 1].map((k) => {
+        const c = Math.cos(next[b].angle), s = Math.sin(next[b].angle);
+        return next[b].centre[k] + (k ? s * offset[0] + c * offset[1] : c * offset[0] - s * offset[1]);
+      });
+      this.make.MoveKinematic(this.bodies[id].GetID(), this.placeOf(centre), this.turnOf(next[b].angle), this.dt);
+    }
+  }
+
+  step() {
+    this.contacts.clear();
+    this.jolt.Step(this.dt, 1);
+    if (this.contacts.size >= MOST_CONTACTS) throw new Error(`Jolt has room for ${MOST_CONTACTS} contacts, and these are more`);
+  }
+
+  metres(vector) { return [vector.GetX() * this.unit, vector.GetY() * this.unit]; }
+
+  disk(i) {
+    return {
+      position: this.metres(this.bodies[i].GetPosition()),
+      velocity: this.metres(this.bodies[i].GetLinearVelocity()),
+      spin: this.bodies[i].GetAngularVelocity().GetZ(),
+    };
+  }
+
+  /// Of the last step. With a normal n in the plane one of Jolt's tangents is ∓z (Vec3::GetNormalizedPerpendicular) and the other
+  /// s z × n, s the sign of the larger of n's components. Both disks of a pair see the same impulse along z × their own normal.
+  impulses(visit) {
+    this.stream.read(this.system, (a, b, pressing, [, second]) => {
+      const i = a & 0x7fffff, j = b & 0x7fffff;  // without Jolt's count of uses
+      if (pressing === 0 && second === 0) return;
+      const {normal: [x, y], point} = this.contacts.get(i * 2 ** 20 + j);
+      const sign = Math.abs(x) > Math.abs(y) ? Math.sign(x) : Math.sign(y);
+      visit(i, j, pressing * this.unit, sign * second * this.unit, () => ({normal: [-x, -y], point}));
+    });
+  }
+}
