@@ -292,9 +292,13 @@ Identification identify(Engine& engine, const EngineEntry& entry, const Case& se
 
   const Capabilities can = engine.capabilities();
   const Scene closest = search.closest();
-  for (const LawOption& option : lawOptions())
-    if (mattersTo(closest.law, option.name) && option.name != "normal" && option.name != "damper")
+  for (const LawOption& option : lawOptions()) {
+    const std::string_view name = option.name;
+    const bool bears =
+        name == "velocity_arm" ? mattersTo(closest.law, name) : bearsOnMirror(closest.law, name);
+    if (bears && name != "normal" && name != "damper")
       found.options.push_back(optionOf(search, option, can));
+  }
   found.missing = missingFrom(effectsOf(whole), effectsOf(closest));
   found.declaredMissing = missingFrom(effectsOf(whole), search.effective().effects);
   return found;
