@@ -84,8 +84,15 @@ std::vector<ContactLaw> withPart(const Capabilities& can, const ContactLaw& law,
   if (option.part == LawPart::rolling)
     for (const RollingLaw kind : rollingLaws(can)) laws.push_back(withRolling(law, kind));
   if (option.part == LawPart::cohesion)
-    for (const CohesionLaw kind : cohesionLaws(can))
-      if (goesWith(kind, law.normal)) laws.push_back(withCohesion(law, kind));
+    for (const CohesionLaw kind : cohesionLaws(can)) {
+      if (!goesWith(kind, law.normal)) continue;
+      laws.push_back(withCohesion(law, kind));
+      if (option.name == "cohesion_load") continue;
+      for (const std::string& load : valuesOf(can, law, "cohesion_load")) {  // it may have its own
+        laws.push_back(laws.back());
+        setLawOption(laws.back(), "cohesion_load", load);
+      }
+    }
   return laws;
 }
 
