@@ -107,6 +107,13 @@ double TwoBodyProblem::stiffest(const Kinematics& k) const {
   return std::max(stiffness(k.overlap).value, std::abs(cohesiveForce(k).rate));
 }
 
+/// What a load may lack of 0 on its side of it where that was chosen by its rate, as
+/// cohesionGuard() allows [N]. A bound of it holds what needs no force, as v_t = 0 on a plane.
+double TwoBodyProblem::unseenLoad(const Kinematics& k) const {
+  if (!law_.coheres()) return 0.0;
+  return 16.0 * std::numeric_limits<double>::epsilon() * reach_ * stiffest(k);
+}
+
 /// > 0 as long as the force is the same smooth function of the motion.
 double TwoBodyProblem::cohesionGuard(const Kinematics& k) const {
   double guard = std::numeric_limits<double>::infinity();
@@ -119,10 +126,11 @@ double TwoBodyProblem::cohesionGuard(const Kinematics& k) const {
   if (law_.cohesion == CohesionLaw::jkr) keeps(!phase_.beyond, k.overlap, rounding);
   if (law_.cohesion == CohesionLaw::elastoPlastic) {
     changesSign = phase_.line == Phase::Line::unloading;
-    if (changesSign)
-      guard = std::min(onLimitBranch(k.largest) ? guard : k.largest - k.overlap,
-                       bodyForce(k) + law_.kc * k.overlap);
-    else
+    if (changesSign) {  // towards loading at δ_max, or towards the pull at its limit
+      const double loads = onLimitBranch(k.largest) ? guard : k.largest - k.overlap;
+      guard = std::min({guard, std::max(loads, k.normalVelocity),
+                        std::max(bodyForce(k) + law_.kc * k.overlap, -k.normalVelocity)});
+    } else
       keeps(phase_.line == Phase::Line::pull, k.normalVelocity);
     if (phase_.line == Phase::Line::loading && law_.plasticDepth > 0.0)
       guard = std::min(guard, plasticLimit(law_, reducedRadius_) - k.overlap);

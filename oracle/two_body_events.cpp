@@ -86,9 +86,9 @@ double TwoBodyProblem::tangentialGuard(const State& s) const {
     case Phase::Tangential::damped:
       return limit - tangentialDamping(k.overlap).value * std::abs(k.tangentialVelocity);
     case Phase::Tangential::stick:
-      return limit - std::abs(testedForce(k, s.spring));
+      return limit + law_.mu * unseenLoad(k) - std::abs(testedForce(k, s.spring));
     case Phase::Tangential::hold:
-      return limit - std::abs(holdingForce(s, k));
+      return limit + law_.mu * unseenLoad(k) - std::abs(holdingForce(s, k));
     case Phase::Tangential::slip:
       break;
   }
@@ -212,11 +212,11 @@ void TwoBodyProblem::choosePhase(State& s) {
     // At rest to the last bit, else what is left of v_t would end the slip that may follow at once.
     s.spinI += slip / k.armI;
     const double hold = holdingForce(s, k);
-    const bool holds = std::abs(hold) <= limit;
+    const bool holds = std::abs(hold) <= limit + 0.5 * law_.mu * unseenLoad(k);
     phase_.tangential = holds ? Phase::Tangential::hold : Phase::Tangential::slip;
     phase_.side = sign(hold);
   } else if (law_.tangential == TangentialLaw::viscous &&
-             tangentialDamping(k.overlap).value * std::abs(slip) <= limit) {
+             tangentialDamping(k.overlap).value * std::abs(slip) < limit) {
     phase_.tangential = Phase::Tangential::damped;
   } else if (law_.tangential == TangentialLaw::coulomb ||
              law_.tangential == TangentialLaw::viscous || limit < 0.0) {

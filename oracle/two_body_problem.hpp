@@ -145,6 +145,7 @@ class TwoBodyProblem {
   double beyondPull(const Kinematics& k) const;
   bool neverLoaded() const;
   double stiffest(const Kinematics& k) const;
+  double unseenLoad(const Kinematics& k) const;
   double cohesionGuard(const Kinematics& k) const;
   bool onLimitBranch(double overlap) const;
   void chooseLine(State& s);

@@ -122,12 +122,12 @@ double TwoBodyProblem::rollingSlipGuard(const State& s, const Kinematics& k) con
   return stretching + (outside ? 0.0 : rollingDashpotRate(s, k)) - rollingBoundRate(s, k);
 }
 
-/// What a bound may lack where a contact begins: until positions resolve its overlap, it is as that
-/// of an overlap that they do [N m].
+/// What a bound may lack [N m]: where a contact begins, until positions resolve its overlap, it is
+/// as that of an overlap that they do; and unseenLoad().
 double TwoBodyProblem::unseenBound(const Kinematics& k) const {
-  const double unseen = visibleLength() - k.overlap;
-  if (k.normalVelocity >= 0.0 || unseen <= 0.0) return 0.0;
-  return law_.muR * rollingLength_ * stiffest(k) * unseen;
+  const double unseen = visibleLength() - k.overlap, factor = law_.muR * rollingLength_;
+  if (k.normalVelocity >= 0.0 || unseen <= 0.0) return factor * unseenLoad(k);
+  return factor * stiffest(k) * unseen;
 }
 
 double TwoBodyProblem::rollingGuard(const State& s, const Kinematics& k) const {
@@ -139,7 +139,8 @@ double TwoBodyProblem::rollingGuard(const State& s, const Kinematics& k) const {
     case Phase::Rolling::stick:
       return rollingBound(k) + unseenBound(k) - std::abs(rollingTested(s, k));
     case Phase::Rolling::hold:
-      return rollingBound(k) - std::abs(holdingTorque(s, k));
+      return rollingBound(k) + law_.muR * rollingLength_ * unseenLoad(k) -
+             std::abs(holdingTorque(s, k));
     case Phase::Rolling::slip:
       break;
   }

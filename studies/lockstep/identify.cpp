@@ -106,12 +106,21 @@ class Search {
     return changesOf(closest(), mirror_->capabilities());
   }
 
-  /// Root of the summed squares of all components [d]; absent where it cannot run like that.
-  std::optional<double> distanceWith(const std::vector<AppliedChange>& further) {
-    const auto runs = runsWithAlso(further);
-    if (!runs) return std::nullopt;
-    const std::vector<double> apart = separationFrom(*runs);
-    return std::sqrt(std::inner_product(apart.begin(), apart.end(), apart.begin(), 0.0));
+  /// Root of the summed squares of all components [d]; absent where it cannot run like that, or
+  /// where it exceeds `limit`: the sum grows start by start, and what exceeds it after some need
+  /// not run from the others.
+  std::optional<double> distanceWith(const std::vector<AppliedChange>& further,
+                                     double limit = std::numeric_limits<double>::infinity()) {
+    const std::vector<AppliedChange> all = appliedAnd(further);
+    double sum = 0.0;
+    for (std::size_t s = 0; s < scenes_.size(); ++s) {
+      const auto run = runsWith(*mirror_, {scenes_[s]}, all, {time()});
+      if (!run) return std::nullopt;
+      for (const double apart : separationVector(engine_[s][when_], run->front()[0], diameter_))
+        sum += apart * apart;
+      if (std::sqrt(sum) > limit) return std::nullopt;
+    }
+    return std::sqrt(sum);
   }
 
   /// The largest separation of a disk from the closest mirror [d].
@@ -130,7 +139,7 @@ class Search {
     double distance = best_ * (1.0 - alike);
     for (const MirrorChange& change : candidates()) {
       if (change.isConstant) continue;
-      const auto with = distanceWith({{change}});
+      const auto with = distanceWith({{change}}, distance);
       if (!with || !(*with < distance)) continue;
       distance = *with;
       best = change;
@@ -149,7 +158,7 @@ class Search {
     for (std::size_t b = 1; b < changes.size(); ++b)
       for (std::size_t a = 0; a < b; ++a) {
         if (optionNamed(changes[a]) == optionNamed(changes[b])) continue;
-        const auto with = distanceWith({{changes[a]}, {changes[b]}});
+        const auto with = distanceWith({{changes[a]}, {changes[b]}}, distance);
         if (!with || !(*with < distance)) continue;
         distance = *with;
         first = &changes[a];
@@ -211,10 +220,13 @@ class Search {
     best_ = distance;
   }
 
-  std::optional<RunsFromStarts> runsWithAlso(const std::vector<AppliedChange>& further) {
+  std::vector<AppliedChange> appliedAnd(const std::vector<AppliedChange>& further) const {
     std::vector<AppliedChange> all = applied_;
     all.insert(all.end(), further.begin(), further.end());
-    return runsWith(*mirror_, scenes_, all, {time()});
+    return all;
+  }
+  std::optional<RunsFromStarts> runsWithAlso(const std::vector<AppliedChange>& further) {
+    return runsWith(*mirror_, scenes_, appliedAnd(further), {time()});
   }
 
   std::vector<double> separationFrom(const RunsFromStarts& runs) const {
@@ -241,7 +253,7 @@ FoundOption optionOf(Search& search, const LawOption& option, const Capabilities
   for (const MirrorChange& change : search.candidates()) {
     const std::string prefix = name + " = ";
     if (change.isConstant || !change.name.starts_with(prefix)) continue;
-    const auto with = search.distanceWith({{change}});
+    const auto with = search.distanceWith({{change}}, limit);
     if (with && *with <= limit) found.values.push_back(change.name.substr(prefix.size()));
   }
   const auto declared = can.lawOptions.find(name);
@@ -292,9 +304,13 @@ Identification identify(Engine& engine, const EngineEntry& entry, const Case& se
 
   const Capabilities can = engine.capabilities();
   const Scene closest = search.closest();
-  for (const LawOption& option : lawOptions())
-    if (mattersTo(closest.law, option.name) && option.name != "normal" && option.name != "damper")
+  for (const LawOption& option : lawOptions()) {
+    const std::string_view name = option.name;
+    const bool bears =
+        name == "velocity_arm" ? mattersTo(closest.law, name) : bearsOnMirror(closest.law, name);
+    if (bears && name != "normal" && name != "damper")
       found.options.push_back(optionOf(search, option, can));
+  }
   found.missing = missingFrom(effectsOf(whole), effectsOf(closest));
   found.declaredMissing = missingFrom(effectsOf(whole), search.effective().effects);
   return found;

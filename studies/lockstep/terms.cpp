@@ -54,8 +54,7 @@ void addConventions(std::vector<MirrorChange>& changes, const Scene& scene,
                     const Capabilities& can) {
   for (const LawOption& option : lawOptions()) {
     const std::string name(option.name);
-    // An arm of v_t that is that of f_t can become another one wherever there are arms.
-    if (!mattersTo(scene.law, name == "velocity_arm" ? "lever_arm" : name)) continue;
+    if (!bearsOnMirror(scene.law, name)) continue;
     const auto values = can.lawOptions.find(name);
     if (values == can.lawOptions.end()) continue;
     for (const std::string& value : values->second)
@@ -83,6 +82,12 @@ double dot(const std::vector<double>& one, const std::vector<double>& other) {
 }
 
 }  // namespace
+
+bool bearsOnMirror(const ContactLaw& law, std::string_view option) {
+  if (option == "velocity_arm") return mattersTo(law, "lever_arm");
+  if (option == "damping_velocity" && law.soft() && (law.friction() || law.rolls())) return true;
+  return mattersTo(law, option);
+}
 
 bool constantsServe(const ContactLaw& law, std::string_view option, std::string_view value) {
   if (option == "normal" || option == "damper" || option == "rolling_damper") return false;

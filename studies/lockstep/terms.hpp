@@ -26,6 +26,12 @@ struct AppliedChange {
   double by = 0.0;  ///< of a constant
 };
 
+/// Whether a mirror may follow otherwise by another value of an option. More do than matter to the
+/// law: an arm of v_t that is that of f_t can become another one, and the velocity that dashpots
+/// see, of this instant or half a step before, is the one that stretches springs and turns
+/// friction.
+bool bearsOnMirror(const ContactLaw& law, std::string_view option);
+
 /// Whether the constants of a law mean the same under another value of an option: with another kind
 /// of damper, say, they would have another unit, and others would be missing. Where a law resists
 /// rolling or coheres, "none" is no such value: that is a missing effect.

@@ -100,6 +100,8 @@ INSTANTIATE_TEST_SUITE_P(
         resisting("weak_pull", "pull=0.98", "ConventionsAreThoseDeclared", "^(k_c|w) -(1\\.9|2)"),
         resisting("bond_let_go", "lets_go=1", "CohesionFollowsItsClosedForms",
                   "^contacts of JKR's law let go where surfaces just touch"),
+        resisting("unloading_stiffness", "lag_deepest=1", "ConventionsAreThoseDeclared",
+                  "^it has unloading_stiffness = lagged, and declares current"),
         resisting("deepest_forgotten", "forget_deepest=1", "CohesionFollowsItsClosedForms", ""),
         resisting("no_pull_at_walls", "pull_at_walls=0", "ForcesAreThoseOfTheLaw", "")),
     [](const auto& one) { return std::string(one.param.name); });

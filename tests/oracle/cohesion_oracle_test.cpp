@@ -174,6 +174,65 @@ TEST(CohesionOracle, ElastoPlastic_PullsTooMuch_Sticks) {
   EXPECT_FALSE(oracleOutcome(elastoPlastic(2e4), spheres(), {0.0, 1.0}).parted);
 }
 
+/// Without its pull the load of a parting JKR contact is Hertz' force, lost in the rounding of F_po
+/// before δ = 0, and a bound of |0| lay between holding v_t = 0 or θ = 0 and slipping. Normal
+/// motion on a plane is that of a frictionless contact, e² = 1 − (v_s/v)².
+TEST(CohesionOracle, LoadThatVanishesBeforeTheBodiesPart_DoesNotHaltIt) {
+  ContactLaw law = adhesive(CohesionLaw::jkr);
+  law.mu = 0.3;
+  law.muR = 0.2;
+  law.kr = 1e3;
+  law.conventions.coulombBound = CoulombBound::magnitude;
+  law.conventions.rollingLoad = RollingLoad::magnitude;
+  const CollidingPair pair = diskOnWall(0.5, 1.0, 0.1);
+  const double stick = stickingSpeed(law, pair).value();
+  for (const auto& [tangential, rolling] :
+       {std::pair{TangentialLaw::coulomb, RollingLaw::none},
+        std::pair{TangentialLaw::none, RollingLaw::spring},
+        std::pair{TangentialLaw::none, RollingLaw::constantTorque}}) {
+    law.tangential = tangential;
+    law.rolling = rolling;
+    for (int k = 0; k < 40; ++k) {
+      const double times = 1.5 + 0.1 * k;
+      CollisionEnd end;
+      ASSERT_NO_THROW(end = oracleOutcome(law, pair, {0.2, times * stick, Approach::oblique}))
+          << times;
+      EXPECT_NEAR(end.en * end.en, 1.0 - 1.0 / (times * times), 1e-8) << times;
+    }
+  }
+}
+
+/// Where γ_t |v_t| is the bound to the last bit, and the bound falls, a viscous contact slips. One
+/// of 4000 random laws that meets it.
+TEST(CohesionOracle, ViscousForceEqualToItsBound_Slips) {
+  ContactLaw law;
+  law.damper = Damper::critical;
+  law.kn = 8590.2109640893268;
+  law.kt = 8826.6961902222884;
+  law.tangential = TangentialLaw::viscous;
+  law.gt = 0.3;
+  law.mu = 0.17216828710882892;
+  law.cohesion = CohesionLaw::dmt;
+  law.w = 0.0093999113166184506;
+  law.rolling = RollingLaw::spring;
+  law.kr = 0.0048979289262101001;
+  law.gr = 0.43621753906041627;
+  law.muR = 0.53087143791277702;
+  LawConventions& how = law.conventions;
+  how.springUpdate = SpringUpdate::midpoint;
+  how.springReset = how.rollingReset = SpringReset::springOnly;
+  how.history = History::force;
+  how.cohesionLoad = CohesionLoad::magnitudePlusPullOff;
+  how.rollingDamper = RollingDamper::critical;
+  how.rollingStiffness = RollingStiffness::constant;
+  how.rollingLength = RollingLength::smallerRadius;
+  const CollidingPair pair = diskOnWall(0.0011227701338201465, 1e-4, 5.1312627379199425e-11);
+  const CollisionStart start{1.8006635992871836, 0.0016609285766284619};
+  CollisionEnd end;
+  ASSERT_NO_THROW(end = oracleOutcome(law, pair, start));
+  EXPECT_NEAR(end.en, 1.0, 1e-8);  // no dashpot along n; DMT's pull is conservative
+}
+
 /// The in-house engine in steps of t_c/4000. A pull that begins or ends with a jump acts up to half
 /// a step too long or too short at either end: F_po v dt of the energy, F_po dt/(m₁₂ v) of e. JKR's
 /// end is that of the bond, beyond δ = 0; what sticks has no end.

@@ -90,6 +90,24 @@ TEST_F(Identify, SeveralDifferences_AreFoundAtOnce) {
   EXPECT_NEAR(found.constants.front().change, 0.02, 1e-4);
 }
 
+/// Half a step before, or of this instant: the velocity that dashpots see stretches springs of a
+/// law that has none, too.
+TEST(IdentifyUndamped, VelocityThatStretchesSprings_IsFound) {
+  const test::QuickFlow flow(
+      3, {"preparation.rotations=0.2", "law.gn=0", "law.gt=0", "law.tangential=spring",
+          "law.rolling=spring", "law.kr=26.7", "law.mu_r=0.1"});
+  test::PlantedEngine engine([](Scene& scene) {
+    scene.law.conventions.dampingVelocity = DampingVelocity::lagged;
+    scene.law.conventions.springUpdate = SpringUpdate::before;
+  });
+  const Identification found =
+      identify(engine, test::inHouse, flow.setup, flow.states, flow.dt, [](double) {});
+  EXPECT_LT(found.left, lockstepRounding);
+  const auto seen = std::ranges::find(found.options, "damping_velocity", &FoundOption::name);
+  ASSERT_NE(seen, found.options.end());
+  EXPECT_EQ(seen->values.front(), "lagged");
+}
+
 /// 25 times as stiff, in steps of a fifth: that is no small change of anything.
 TEST_F(Identify, LawWithoutAMirror_IsNotCloseEnough) {
   const EngineEntry* const stiff = findEngine("grain-stiff");

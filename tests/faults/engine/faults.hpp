@@ -108,6 +108,7 @@ struct Faults {
   double keepOpenAngle = given("keep_open_angle", 0.0);  ///< a contact that opens keeps its θ
   double letsGo = given("lets_go", 0.0);  ///< JKR's contacts end where surfaces just touch
   double forgetDeepest = given("forget_deepest", 0.0);  ///< plastic contacts forget δ_max
+  double lagDeepest = given("lag_deepest", 0.0);        ///< their k₂ is of the step before
 
   // Right in one telling of a scene and wrong in another.
   double gravityX = given("gravity_x", 1.0);  ///< factor of gravity's x component

@@ -27,6 +27,7 @@ struct Memory {
   double spring = 0.0;   ///< ξ [m]
   double angle = 0.0;    ///< θ [rad]
   double deepest = 0.0;  ///< δ_max of a plastic contact [m]; of JKR's 1 while it is bonded
+  double rest = 0.0;     ///< δ₀ of a plastic contact whose k₂ lags [m]
 };
 
 /// A disk of radius a on one of radius b; b = 0: on a plane.
@@ -88,6 +89,24 @@ inline double plasticForce(double kn, const Resistance& law, const Touching& pai
   return -law.kc * overlap;
 }
 
+/// As plasticForce(), but k₂ is that of the δ_max before this step, and δ₀ what came of it then.
+inline double laggedPlasticForce(double kn, const Resistance& law, const Touching& pair,
+                                 Memory& kept) {
+  const double overlap = std::max(pair.overlap, 0.0), most = law.k2 - kn;
+  const double limit = law.k2 / most * law.depth * 2.0 * pair.radius();
+  const double k2 = kn + most * std::min(kept.deepest / limit, 1.0);
+  const auto remember = [&](double deepest) {
+    kept.deepest = deepest;
+    kept.rest = std::min((1.0 - kn / k2) * deepest, law.depth * 2.0 * pair.radius());
+  };
+  if (overlap > kept.deepest) remember(overlap);
+  const double unloads = k2 * (overlap - kept.rest), loads = kn * overlap;
+  if (unloads >= loads) return overlap < limit ? loads : unloads;
+  if (unloads > -law.kc * overlap) return unloads;
+  remember(overlap * (k2 + law.kc) / (k2 - kn));
+  return -law.kc * overlap;
+}
+
 /// Area of the lens of two spheres: π (a² − x²), x from the centre of the first to its plane [m²].
 inline double lensArea(const Touching& pair) {
   const double d = pair.a + pair.b - pair.overlap;
@@ -114,7 +133,8 @@ inline NormalParts normalParts(double kn, const Resistance& law, const Touching&
       return {elastic, jkrForce(kn, part * law.w, pair.radius(), pair.overlap)};
     case Cohesion::elastoPlastic:
       if (faults.forgetDeepest != 0.0) kept.deepest = 0.0;
-      return {elastic, plasticForce(kn, law, pair, kept.deepest)};
+      return {elastic, faults.lagDeepest != 0.0 ? laggedPlasticForce(kn, law, pair, kept)
+                                                : plasticForce(kn, law, pair, kept.deepest)};
     case Cohesion::none:
       break;
   }
