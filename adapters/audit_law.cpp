@@ -364,6 +364,35 @@ std::string rollingFault(double normal, double found, const ContactLaw& law,
                      std::abs(found), bound);
 }
 
+/// Forces of another unit are all off by the same power of ten: the median of f_n over that of the
+/// law shows it, as dashpots on the whole do not.
+std::string hintOfUnit(const Snapshot& snapshot, const AuditBasis& basis,
+                       const ContactPlaces& places, const VelocityDoubt& doubts,
+                       const ContactLaw& ofAll) {
+  const Contacts& contacts = *snapshot.contacts;
+  std::vector<double> ratios;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const auto i = static_cast<std::size_t>(contacts.i[k]);
+    const auto j = static_cast<std::size_t>(contacts.j[k]);
+    if (j >= basis.radius.size() && !places.planes[j - basis.radius.size()].known) continue;
+    const ContactLaw law = ownLaw(basis, i, j, ofAll);
+    if (!law.soft()) continue;
+    const ContactKinematics touch = kinematicsOf(snapshot, basis, places, doubts, k, law);
+    const double byLaw = touch.elastic.force + touch.pull.most;
+    if (byLaw > 10.0 * touch.elastic.stiffness * touch.place.uncertain)
+      ratios.push_back(contacts.normalForce[k] / byLaw);
+  }
+  if (ratios.empty()) return {};
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::ranges::nth_element(ratios, middle);
+  const double power = std::round(std::log10(*middle));
+  constexpr double within = 0.1;  // of a power of ten: what dashpots leave of the median
+  if (!(std::abs(*middle / std::pow(10.0, power) - 1.0) <= within) || power == 0.0) return {};
+  return fmt::format(
+      "; most normal forces are {:g} times those of the law: are they in another unit?",
+      std::pow(10.0, power));
+}
+
 }  // namespace
 
 std::string lawFault(const Snapshot& snapshot, const AuditBasis& basis, const ContactLaw& ofAll) {
@@ -388,7 +417,9 @@ std::string lawFault(const Snapshot& snapshot, const AuditBasis& basis, const Co
       if (why.empty() && !contacts.rollingTorque.empty())
         why = rollingFault(fn, contacts.rollingTorque[k], law, touch, relative);
     }
-    if (!why.empty()) return fmt::format("{}: {}", contactName(contacts, k, *basis.scene), why);
+    if (!why.empty())
+      return fmt::format("{}: {}{}", contactName(contacts, k, *basis.scene), why,
+                         hintOfUnit(snapshot, basis, places, doubts, ofAll));
   }
   return {};
 }

@@ -138,6 +138,7 @@ int checkCase(const CommandLine& line, const CheckOptions& options) {
     cases = loadCase(line.inputs.front(), overrides);
   }
   reportKeysWithoutUse(cases, "check", line.json ? stderr : stdout);
+  printNotes();
   const ScratchFolder scratch;
   // Its lines would stand beside the one of a mistake where they are not redrawn.
   Progress progress(line.json || options.untimed || ::isatty(STDERR_FILENO) == 0);

@@ -67,6 +67,7 @@ int exportSnapshots(const CommandLine& line, const std::string& format,
   if (const auto folder = std::filesystem::path(out).parent_path(); !folder.empty())
     makeDirectory(folder);
   const auto reader = openSnapshotFile(snapshots, setup);
+  reader->takeAll();
   const auto written = files::writtenFiles(format, out, reader->count());
   requireNew(written);
 

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstdlib>
 
+#include "adapters/files/frame.hpp"
 #include "adapters/registry.hpp"
 #include "cases/engine_file.hpp"
 #include "studies/core/mirrors.hpp"
@@ -58,6 +59,20 @@ void addNames(const std::string& list, std::vector<std::string>& names) {
       names.back() = addExternalEngine(loadEngineFile(names.back()));
     addMirrorOfShelved(names.back());
   }
+}
+
+/// @throws BadInput where the last of these, which is the case, is a result file, as the others are
+void requireCaseAtEnd(const std::vector<std::string>& given, const std::string& what) {
+  const std::filesystem::path last = given.back();
+  std::string found;
+  if (const auto format = files::formatOf(last); format && last.extension() != ".toml")
+    found = fmt::format(": {} is a result file ({})", last.string(), *format);
+  else if (last.extension() == ".h5")
+    found = fmt::format(": {} is a file of snapshots", last.string());
+  else if (given.size() > 1)
+    return;
+  throw BadInput(
+      fmt::format("the case, a TOML file, is missing behind the files{} ({})", found, what));
 }
 
 }  // namespace
@@ -137,7 +152,7 @@ void addFilesAndCase(CLI::App& app, CommandLine& line, const std::string& files,
   app.add_option_function<std::vector<std::string>>(
          "files",
          [&line, what](const std::vector<std::string>& given) {
-           if (given.size() < 2) throw BadInput(fmt::format("case is missing ({})", what));
+           requireCaseAtEnd(given, what);
            line.inputs = {hereOrInstalled(given.back())};
            line.inputs.insert(line.inputs.end(), given.begin(), given.end() - 1);
          },

@@ -18,6 +18,7 @@
 #include "cases/engine_file.hpp"
 #include "cli/command.hpp"
 #include "studies/core/run_store.hpp"
+#include "studies/core/study_cases.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "support/input_file.hpp"
@@ -208,7 +209,9 @@ int runProgram(int argc, char** argv) {
   if (line.seed) line.overrides.push_back(fmt::format("preparation.seed={}", *line.seed));
   const auto asked = std::ranges::find_if(
       commands(), [&](const Command* command) { return app.got_subcommand(command->name); });
-  return actions[static_cast<std::size_t>(asked - commands().begin())]();
+  const int status = actions[static_cast<std::size_t>(asked - commands().begin())]();
+  printNotes();
+  return status;
 }
 
 /// Where standard input, output or error is closed, the next file to be opened would take its

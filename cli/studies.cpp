@@ -60,7 +60,9 @@ int runStudy(const Study<Options, Results>& study, const CommandLine& line, Opti
                                                  : std::map<std::string, CaseKeys>());
   const StudyWork work{line, cases, store};
   if (line.run.dryRun) {
-    fmt::print("{}", study.plan(work, own));
+    const std::string plan = study.plan(work, own);
+    printNotes();
+    fmt::print("{}", plan);
     return exitPassed;
   }
   const Results results = study.run(work, own);
@@ -306,6 +308,7 @@ int identifyEngine(const CommandLine& line) {
     throw BadInput("identify takes one engine: --engines NAME");
   const Case setup = onlyCase(line, "identify");
   const Identification found = runIdentify(setup, line.run);
+  printNotes();
   print(line.run.engines.front(), found);
   return printOutcome(line, outcomeOf(found));
 }

@@ -202,6 +202,8 @@ void addParticle(FileParticles& particles, const Columns& columns, const TextFil
   particles.id.push_back(columns.has(Meaning::id) ? wholeNumber(text, columns[Meaning::id], "id")
                                                   : static_cast<std::int64_t>(row));
   if (particles.id.back() < 0) text.fail("id: should be 0 or more");
+  if (row == 0) particles.firstLine = text.number();
+  particles.lastLine = text.number();
   particles.position.push_back(columns.vector(Meaning::x));
   if (columns.has(Meaning::radius))
     particles.radius.push_back(columns[Meaning::radius]);

@@ -28,9 +28,17 @@ struct Partners {
 };
 constexpr std::uint32_t noRow = UINT32_MAX;
 
-Partners partnersOf(const FileContacts& contacts, const FileParticles& particles,
+/// " (run.dump, step 4: ids from 1 to 48)": where ids of contacts are others than those of the
+/// particles, as they are without a column of ids.
+std::string rangeOfIds(const FileFrame& frame) {
+  if (frame.particles.id.empty()) return {};
+  const auto [lowest, highest] = std::ranges::minmax(frame.particles.id);
+  return fmt::format(" ({}: ids from {} to {})", frame.where, lowest, highest);
+}
+
+Partners partnersOf(const FileContacts& contacts, const FileFrame& frame,
                     const std::string& where) {
-  const RowOfId rows(particles.id, where);
+  const RowOfId rows(frame);
   Partners partners;
   partners.first.reserve(contacts.size());
   partners.second.reserve(contacts.size());
@@ -40,8 +48,8 @@ Partners partnersOf(const FileContacts& contacts, const FileParticles& particles
         contacts.second[k] < 0 ? std::optional<std::size_t>(noRow) : rows[contacts.second[k]];
     if (!first || !second)
       fail(where, contacts, k,
-           fmt::format("there is no particle {} at that time",
-                       first ? contacts.second[k] : contacts.first[k]));
+           fmt::format("there is no particle {} at that time{}",
+                       first ? contacts.second[k] : contacts.first[k], rangeOfIds(frame)));
     if (first == second) fail(where, contacts, k, "a particle touches itself");
     partners.first.push_back(static_cast<std::uint32_t>(*first));
     partners.second.push_back(static_cast<std::uint32_t>(*second));
@@ -132,7 +140,7 @@ void findPoints(FileContacts& contacts, const FileFrame& frame) {
   const FileParticles& particles = frame.particles;
   if (!contacts.point.empty() || particles.radius.empty() || contacts.normal.empty()) return;
   if (std::ranges::any_of(contacts.second, [](std::int64_t id) { return id < 0; })) return;
-  const Partners partners = partnersOf(contacts, particles, frame.where);
+  const Partners partners = partnersOf(contacts, frame, frame.where);
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const std::size_t i = partners.first[k], j = partners.second[k];
     const double distance =
@@ -206,9 +214,23 @@ void addContact(ContactTable& table, const Columns& columns, const TextFile& tex
   add(table.rollingForce, Meaning::pseudoX, 1.0);
 }
 
-RowOfId::RowOfId(const std::vector<std::int64_t>& ids, const std::string& where) {
+std::string describeTwice(const FileParticles& particles, std::int64_t id) {
+  const std::string what = fmt::format("particle {} is there twice", id);
+  const auto& ids = particles.id;
+  if (particles.firstLine == 0 || particles.lastLine + 1 != particles.firstLine + ids.size())
+    return what;  // comments or empty lines are between them
+  const auto one = std::ranges::find(ids, id);
+  const auto lineOf = [&](auto row) {
+    return particles.firstLine + static_cast<std::size_t>(row - ids.begin());
+  };
+  return fmt::format("{} (lines {} and {})", what, lineOf(one),
+                     lineOf(std::find(one + 1, ids.end(), id)));
+}
+
+RowOfId::RowOfId(const FileFrame& frame) {
+  const std::vector<std::int64_t>& ids = frame.particles.id;
   const auto twice = [&](std::int64_t id) {
-    throw BadInput(fmt::format("{}: particle {} is there twice", where, id));
+    throw BadInput(fmt::format("{}: {}", frame.where, describeTwice(frame.particles, id)));
   };
   if (ids.empty()) return;
   const auto [lowest, highest] = std::ranges::minmax(ids);
@@ -255,7 +277,7 @@ Vec3 nearestImage(Vec3 difference, const std::optional<FileBox>& box) {
 
 FileContacts completed(ContactTable table, const FileFrame& frame, const std::string& where) {
   FileContacts& contacts = table.contacts;
-  const Partners partners = partnersOf(contacts, frame.particles, where);
+  const Partners partners = partnersOf(contacts, frame, where);
   findNormals(table, frame, partners, where);
   if (!table.tangential.empty()) {
     for (std::size_t k = 0; k < contacts.size(); ++k)

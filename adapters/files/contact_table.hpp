@@ -31,7 +31,7 @@ void checkContactColumns(const Columns& columns, const TextFile& text);
 class RowOfId {
  public:
   /// @throws BadInput where two have one id
-  RowOfId(const std::vector<std::int64_t>& ids, const std::string& where);
+  explicit RowOfId(const FileFrame& frame);
   std::optional<std::size_t> operator[](std::int64_t id) const;
 
  private:

@@ -195,6 +195,18 @@ std::optional<std::string_view> formatOf(const fs::path& file) {
   return std::nullopt;
 }
 
+bool isBesideResults(const fs::path& file, const Files& files) {
+  const fs::path name = numberInName(file) && seriesOf(file).ends_with('.') ? file.stem() : file;
+  constexpr std::string_view endings[] = {".restart", ".ene", ".xballs", ".stat", ".interaction"};
+  if (std::ranges::find(endings, name.extension().string()) == std::end(endings)) return false;
+  const std::string own = name.stem().string();
+  return std::ranges::any_of(files, [&](const fs::path& other) {
+    const std::string there = other.filename().string();
+    return other.parent_path() == file.parent_path() &&
+           (there.starts_with(own + ".data") || there.starts_with(own + ".fstat"));
+  });
+}
+
 std::vector<Files> runsOf(std::string_view name, Files files) {
   const Format& format = formatNamed(name);
   std::map<std::pair<fs::path, std::string>, Run> runs;
@@ -213,6 +225,9 @@ std::vector<Files> runsOf(std::string_view name, Files files) {
     for (Run& one : areRuns(format, run.particles) ? split(run) : std::vector<Run>{run})
       (one.particles.empty() ? contactsAlone : whole).push_back(std::move(one));
   }
+  if (whole.empty() && !contactsAlone.empty())
+    throw BadInput(fmt::format("{}: contacts alone: the file of the particles is missing before it",
+                               contactsAlone.front().contacts.front().string()));
   // Contacts of another name are of the folder's only run.
   for (const Run& run : contactsAlone) {
     const auto ofFolder = [&](const Run& one) { return one.folder == run.folder; };

@@ -30,9 +30,14 @@ struct FileParticles {
   std::vector<Vec3> spin;          ///< right-handed [1/time]
   std::vector<double> mass;        ///< [mass]
   std::vector<std::int64_t> kind;  ///< type, species or material number
+  /// Lines of the file that the first and the last of them are, one a line; 0: not text.
+  std::size_t firstLine = 0, lastLine = 0;
 
   std::size_t size() const { return position.size(); }
 };
+
+/// "particle 5 is there twice (lines 11 and 14)". @pre it is
+std::string describeTwice(const FileParticles& particles, std::int64_t id);
 
 /// Contacts of one time, each once or twice as the file lists them. What it does not have is empty:
 /// each array but `first` and `second` is of all contacts or of none.
@@ -59,6 +64,9 @@ struct FileFrame {
   std::optional<FileBox> box;
   FileParticles particles;
   std::optional<FileContacts> contacts;
+  /// Where there are files of contacts, but not of this time: what they have in its place, "the
+  /// last are of run.local, step 4000".
+  std::string contactsOfOtherTimes;
 };
 
 /// What a file does not say of itself.
@@ -86,6 +94,11 @@ std::vector<std::string_view> fileFormats();
 
 /// The format of a file, by what it begins with; absent: none that is known.
 std::optional<std::string_view> formatOf(const std::filesystem::path& file);
+
+/// Whether MercuryDPM wrote it beside a .data or .fstat that is among the files: NAME.restart,
+/// NAME.ene and others, which have nothing to be averaged.
+bool isBesideResults(const std::filesystem::path& file,
+                     const std::vector<std::filesystem::path>& files);
 
 /// Files of the same format, sorted into runs: files whose names differ by a number alone (their
 /// last one) are times of one run (unless their own first times do not rise with it: then each is a

@@ -158,6 +158,11 @@ AtomColumns atomColumns(const TextFile& text, const std::vector<std::string>& na
   const bool scaled = found.columns.has(Meaning::scaledX) && found.columns.has(Meaning::scaledY);
   if (!scaled && !(found.columns.has(Meaning::x) && found.columns.has(Meaning::y)))
     text.fail("the columns x y z are missing: dump … custom … id type x y z radius …");
+  // Rows come in any order, another one each time.
+  if (!found.columns.has(Meaning::id))
+    text.fail(
+        "the column id is missing, by which a particle is known from one time to the next and in "
+        "its contacts: dump … custom … id type x y z vx vy vz radius …");
   return found;
 }
 

@@ -153,7 +153,12 @@ void resolveGhosts(ContactTable& table, FileFrame& frame) {
 
 Content contentOfMercuryDpm(const fs::path& file) {
   TextFile text(file);
-  return text.next() && words(text.line()).front() == "#" ? Content::contacts : Content::particles;
+  if (!text.next()) return Content::particles;  // the reader says that it is empty
+  const auto head = words(text.line());
+  if (head.front() == "#") return Content::contacts;
+  if (head.front().find_first_not_of("0123456789") != std::string_view::npos)
+    text.fail("should be a .data, which begins with N t xmin …, or an .fstat, with # t 1");
+  return Content::particles;
 }
 
 std::unique_ptr<FrameReader> openMercuryDpm(const Files& files, const FileOptions& options) {

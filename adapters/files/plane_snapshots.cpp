@@ -317,7 +317,10 @@ std::vector<std::size_t> wallRows(const FileFrame& frame, const PlaneUnits& unit
 
 PlaneSnapshots::PlaneSnapshots(std::unique_ptr<FrameReader> reader, PlaneUnits units,
                                PlaneScene target)
-    : reader_(std::move(reader)), units_(units), target_(std::move(target)) {
+    : reader_(std::move(reader)),
+      units_(units),
+      target_(std::move(target)),
+      remarks_(target_.remarks.begin(), target_.remarks.end()) {
   pending_ = readWithin();
   if (!pending_) {
     const std::string when =
@@ -357,6 +360,15 @@ std::optional<FileFrame> PlaneSnapshots::readWithin() {
     }
   }
   return std::nullopt;
+}
+
+/// Some snapshots with contacts and some without make no average of either.
+void PlaneSnapshots::requireContacts(const FileFrame& frame) const {
+  if (frame.contacts || frame.contactsOfOtherTimes.empty()) return;
+  fail(frame,
+       fmt::format("there are no contacts of this time, {}: average a time that has them (now "
+                   "{:.6g} to {:.6g} s), or leave the files of contacts out to average without",
+                   frame.contactsOfOtherTimes, target_.from, target_.to));
 }
 
 void PlaneSnapshots::recognise(const FileFrame& frame) {
@@ -411,6 +423,7 @@ Snapshot PlaneSnapshots::convert(const FileFrame& frame) {
     fail(frame, fmt::format("{} particles, {} in the first snapshot", all.size(), ids_->size()));
   checkPlane(frame, units_);
   checkEdges(frame, units_);
+  requireContacts(frame);
   allowForRounding(frame);
   Snapshot now;
   now.positionTime = now.velocityTime = now.contactTime = timeOf(frame);
@@ -426,7 +439,7 @@ Snapshot PlaneSnapshots::convert(const FileFrame& frame) {
   for (std::size_t row = 0; row < all.size(); ++row) {
     const auto k = ids_->ourOf(all.id[row]);
     if (!k) fail(frame, fmt::format("particle {} is not in the first snapshot", all.id[row]));
-    if (seen[*k]) fail(frame, fmt::format("particle {} is there twice", all.id[row]));
+    if (seen[*k]) fail(frame, describeTwice(all, all.id[row]));
     seen[*k] = true;
     if (*k >= count) continue;
     now.position[*k] = units_.length * units_.inPlane(all.position[row]);
@@ -513,10 +526,33 @@ void PlaneSnapshots::audit(const FileFrame& frame, Snapshot& snapshot) {
         fmt::format("{}: the forces are not those of the case's law: {}", frame.where, differs));
 }
 
+/// Positions and velocities that do not belong together are of a wrong time step or unit.
+void PlaneSnapshots::checkMotion(const FileFrame& frame, const Snapshot& now) {
+  const Displacements::Finding found =
+      displacements_.compare(now, basis_.rounding * basis_.farthest);
+  const std::string remedy =
+      frame.time ? fmt::format("velocities should be in the files' length per the files' time")
+                 : fmt::format(
+                       "is dt = {:g} in {} the time step, and are velocities in the files' "
+                       "length per the files' time?",
+                       units_.dt, target_.where);
+  if (found.factor)
+    fail(frame,
+         fmt::format("{} disks that move have gone {:.4g} times as far since the snapshot before "
+                     "as their velocities say: {}",
+                     found.of, *found.factor, remedy));
+  if (found.rms && std::exchange(moves_, false))
+    remarks_.insert(
+        fmt::format("{}: disks have gone {:.3g} times as far since the snapshot before as their "
+                    "velocities say (root mean square): {}",
+                    frame.where, *found.rms, remedy));
+}
+
 std::optional<Snapshot> PlaneSnapshots::next() {
   std::optional<FileFrame> frame = pending_ ? std::exchange(pending_, std::nullopt) : readWithin();
   if (!frame) return std::nullopt;
   Snapshot snapshot = convert(*frame);
+  checkMotion(*frame, snapshot);
   audit(*frame, snapshot);
   return snapshot;
 }

@@ -9,6 +9,7 @@
 
 #include "adapters/audit.hpp"
 #include "adapters/engine.hpp"
+#include "adapters/files/displacements.hpp"
 #include "adapters/files/frame.hpp"
 #include "adapters/snapshot_source.hpp"
 
@@ -47,6 +48,7 @@ struct PlaneScene {
   std::function<Scene(Disks)> around;
   double from = 0.0, to = INFINITY;  ///< frames of other times are left out [s]
   double dt = 0.0;                   ///< of the case [s]
+  std::vector<std::string> remarks;  ///< on the files, before they are read
 };
 
 /// Which particle of the files is which disk: disks by rising id, wall disks by where they are.
@@ -96,9 +98,11 @@ class PlaneSnapshots : public SnapshotSource {
 
  private:
   std::optional<FileFrame> readWithin();
+  void requireContacts(const FileFrame& frame) const;
   void recognise(const FileFrame& frame);
   Snapshot convert(const FileFrame& frame);
   void allowForRounding(const FileFrame& frame);
+  void checkMotion(const FileFrame& frame, const Snapshot& now);
   void audit(const FileFrame& frame, Snapshot& snapshot);
   double timeOf(const FileFrame& frame) const;
   double step() const { return units_.dt > 0.0 ? units_.dt * units_.time : target_.dt; }
@@ -112,8 +116,9 @@ class PlaneSnapshots : public SnapshotSource {
   AuditBasis basis_, bareBasis_;
   std::optional<double> last_;  ///< time of the frame before [s]
   std::size_t early_ = 0, late_ = 0;
-  bool wallContacts_ = false;  ///< whether any was seen
-  bool lawDiffers_ = false;
+  bool wallContacts_ = false;               ///< whether any was seen
+  bool lawDiffers_ = false, moves_ = true;  ///< moves_: as velocities say, so far
+  Displacements displacements_;
   std::set<std::string> remarks_;
 };
 

@@ -95,15 +95,19 @@ class Joined : public FrameReader {
     if (!part) {
       if (!contacts_.empty() && !matched_ && frames_ > 0)
         throw BadInput(
-            fmt::format("{}: none of its times is one of {}", lastContacts_, lastFrame_));
+            fmt::format("{}: none of its times is one of {}", contacts_.front().last, lastFrame_));
       return {};
     }
     FileFrame& frame = part->frame;
     ++frames_;
     lastFrame_ = frame.where;
     std::vector<Part> parts;
-    for (Contacts& reader : contacts_)
-      if (advance(reader, frame)) parts.push_back(*std::exchange(reader.pending, std::nullopt));
+    for (Contacts& reader : contacts_) {
+      if (advance(reader, frame))
+        parts.push_back(*std::exchange(reader.pending, std::nullopt));
+      else if (frame.contactsOfOtherTimes.empty())
+        frame.contactsOfOtherTimes = describeTimes(reader);
+    }
     if (contacts_.empty() && part->table && !part->wallsAlone)
       frame.contacts = completed(std::move(*part->table), frame, frame.where);
     if (options_ && parts.size() == contacts_.size())
@@ -128,6 +132,7 @@ class Joined : public FrameReader {
     explicit Contacts(std::unique_ptr<PartReader> reader) : rising(std::move(reader)) {}
     Rising rising;
     std::optional<Part> pending;
+    std::string last = "contacts";  ///< where the last part that was read is
   };
 
   /// Whether `pending` is of the frame's time then.
@@ -135,11 +140,16 @@ class Joined : public FrameReader {
     for (;;) {
       if (!reader.pending) reader.pending = reader.rising.next();
       if (!reader.pending) return false;
-      lastContacts_ = reader.pending->frame.where;
+      reader.last = reader.pending->frame.where;
       const int later = order(reader.pending->frame, frame);
       if (later >= 0) return later == 0;
       reader.pending.reset();
     }
+  }
+
+  /// What there is in place of contacts of the time that was looked for.
+  static std::string describeTimes(const Contacts& reader) {
+    return fmt::format("the {} are of {}", reader.pending ? "next" : "last", reader.last);
   }
 
   void add(FileFrame& frame, std::vector<Part> parts, std::optional<ContactTable> walls) {
@@ -160,7 +170,7 @@ class Joined : public FrameReader {
   std::function<void(ContactTable&, FileFrame&)> prepare_;
   bool matched_ = false;
   std::size_t frames_ = 0;
-  std::string lastFrame_, lastContacts_ = "contacts";
+  std::string lastFrame_;
 };
 
 }  // namespace

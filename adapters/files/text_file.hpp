@@ -32,6 +32,8 @@ class TextFile {
   /// The present line, without its end; until the next next().
   std::string_view line() const { return line_; }
   const std::filesystem::path& path() const { return path_; }
+  /// Of the present line, from 1.
+  std::size_t number() const { return number_; }
   /// Bytes of lines that were read.
   std::size_t position() const { return offset_ + begin_; }
   std::size_t size() const { return file_.size(); }

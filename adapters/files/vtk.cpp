@@ -192,7 +192,7 @@ void findEnds(ContactTable& table, const FileFrame& frame) {
 /// they become the second, which turns directions and forces.
 void findWalls(ContactTable& table, FileFrame& frame) {
   if (!table.ends.empty()) return findEnds(table, frame);
-  const RowOfId rows(frame.particles.id, frame.where);
+  const RowOfId rows(frame);
   FileContacts& contacts = table.contacts;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     std::int64_t &first = contacts.first[k], &second = contacts.second[k];

@@ -302,6 +302,7 @@ CollideResults collideEngines(const std::vector<Case>& variants, const RunComman
   const VersionedEngines engines = enginesForAny(variants, command, store);
   Progress progress(command.quiet);
   store.begin();
+  printNotes();
   std::vector<CollisionCase> cases;
   for (const Case& setup : variants) {
     throwIfInterrupted();

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "adapters/registry.hpp"
 #include "cases/case_keys.hpp"
@@ -39,11 +40,20 @@ std::vector<std::string> keysWithoutUse(const Case& setup, std::string_view comm
   return keys;
 }
 
+namespace {
+std::vector<std::pair<std::FILE*, std::string>> heldNotes;
+}  // namespace
+
 void reportKeysWithoutUse(const Case& setup, std::string_view command, std::FILE* to) {
   const std::vector<std::string> keys = keysWithoutUse(setup, command);
   if (!keys.empty())
-    fmt::print(to, "{}{}: {} does not use {}\n",
-               to == stdout ? "# " : "note: ", setup.file.string(), command, fmt::join(keys, ", "));
+    heldNotes.emplace_back(to, fmt::format("{}{}: {} does not use {}\n",
+                                           to == stdout ? "# " : "note: ", setup.file.string(),
+                                           command, fmt::join(keys, ", ")));
+}
+
+void printNotes() {
+  for (const auto& [to, text] : std::exchange(heldNotes, {})) fmt::print(to, "{}", text);
 }
 
 void reportKeysWithoutUse(const std::vector<Case>& cases, std::string_view command, std::FILE* to) {

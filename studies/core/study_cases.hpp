@@ -32,10 +32,13 @@ std::vector<std::string> quickOverrides(const Case& setup, double rotations = 0.
 std::vector<std::string> keysWithoutUse(const Case& setup, std::string_view command);
 
 /// One line with them, if there are any: nothing that a user said is ignored in silence. On stdout
-/// a comment, so that what is printed to be pasted loads.
+/// a comment, so that what is printed to be pasted loads. It waits for printNotes().
 void reportKeysWithoutUse(const Case& setup, std::string_view command, std::FILE* to);
 /// The same of many cases, once for each file.
 void reportKeysWithoutUse(const std::vector<Case>& cases, std::string_view command, std::FILE* to);
+
+/// Prints those lines, once it is known that the command can begin: a refusal stands alone.
+void printNotes();
 
 /// What loads but is hardly meant, one line each on standard error.
 void printWarnings(const Case& setup);

@@ -14,6 +14,7 @@
 #include "cases/time_step.hpp"
 #include "results/run.hpp"
 #include "studies/core/engine_running.hpp"
+#include "studies/core/study_cases.hpp"
 #include "studies/flow/endpoint_values.hpp"
 #include "studies/flow/file_runs.hpp"
 #include "studies/flow/frame.hpp"
@@ -183,7 +184,9 @@ void Campaign::preparePackings(int count) {
   if (setup_.particles.file)  // its disks may be lighter than the case says
     for (const Packing& packing : packings_)
       requireStable(setup_, dt_, lightestPair(packing.disks, true));
-  if (there == 0) store_.begin();
+  if (there > 0) return;
+  store_.begin();
+  printNotes();
 }
 
 void Campaign::timeEngines() {

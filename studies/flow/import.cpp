@@ -25,8 +25,20 @@ void checkFormat(const std::string& format) {
   const auto formats = files::fileFormats();
   if (std::ranges::find(formats, format) != formats.end()) return;
   const std::vector<std::string> known(formats.begin(), formats.end());
-  throw BadInput(fmt::format("there is no format '{}'{} (it is one of: {})", format,
-                             suggestion(format, known), fmt::join(known, ", ")));
+  if (fs::exists(format))
+    throw BadInput(fmt::format(
+        "FORMAT is missing, {} comes in its place: crossgrain import {} FILES… CASE.toml --out "
+        "RUN.h5",
+        format, files::formatOf(format).value_or("FORMAT")));
+  throw BadInput(fmt::format("there is no format '{}'{}", format, suggestion(format, known)));
+}
+
+/// What a file begins with says of which format it is.
+void checkFormatOf(const std::vector<fs::path>& files, const std::string& format) {
+  for (const fs::path& file : files)
+    if (const auto own = files::formatOf(file); own && *own != format)
+      throw BadInput(fmt::format("{}: is of format {}, not {}: crossgrain import {} …",
+                                 file.string(), *own, format, *own));
 }
 
 /// Nobody's file but one of snapshots is written over.
@@ -43,6 +55,7 @@ void checkOut(const fs::path& out) {
 }
 
 SnapshotRun onlyRun(const CommandLine& line, const std::string& format) {
+  checkFormatOf(filesOf(line), format);
   const std::vector<SnapshotRun> runs = snapshotRuns(filesOf(line), format);
   if (runs.size() == 1) return runs.front();
   std::vector<std::string> names;

@@ -275,6 +275,11 @@ void SnapshotReader::requireSound(const Snapshot& snapshot, std::size_t k) const
     throw BadInput(fmt::format("{}, snapshot {}: {}", name_.string(), k, why));
 }
 
+void SnapshotReader::takeAll() {
+  from_ = -INFINITY;
+  to_ = INFINITY;
+}
+
 std::optional<Snapshot> SnapshotReader::next() {
   while (next_ < count_) {
     const std::size_t k = next_++;

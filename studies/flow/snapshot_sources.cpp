@@ -44,6 +44,7 @@ std::vector<SnapshotRun> snapshotRuns(const std::vector<fs::path>& files,
   std::vector<SnapshotRun> runs;
   std::vector<std::pair<std::string, std::vector<fs::path>>> byFormat;
   for (const fs::path& file : files) {
+    if (files::isBesideResults(file, files)) continue;
     const std::string own = format.empty() ? formatOfFile(file) : format;
     if (own.empty()) {
       runs.push_back({own, {file}});
@@ -56,6 +57,10 @@ std::vector<SnapshotRun> snapshotRuns(const std::vector<fs::path>& files,
   }
   for (const auto& [own, group] : byFormat)
     for (auto& run : files::runsOf(own, group)) runs.push_back({own, std::move(run)});
+  for (SnapshotRun& run : runs)
+    std::ranges::copy_if(files, std::back_inserter(run.besides), [&](const fs::path& file) {
+      return files::isBesideResults(file, run.files);
+    });
   return runs;
 }
 
@@ -158,6 +163,12 @@ std::unique_ptr<SnapshotSource> openSnapshots(const SnapshotRun& run, const Case
   target.from = times.settled;
   target.to = times.end();
   target.dt = stepOf(setup);
+  if (!run.besides.empty()) {
+    std::vector<std::string> names;
+    for (const fs::path& file : run.besides) names.push_back(file.filename().string());
+    target.remarks = {
+        fmt::format("not read, as nothing in them is averaged: {}", fmt::join(names, ", "))};
+  }
   return std::make_unique<files::PlaneSnapshots>(files::openFrames(run.format, run.files, options),
                                                  units, std::move(target));
 }

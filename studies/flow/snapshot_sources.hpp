@@ -16,6 +16,7 @@ namespace crossgrain::inline studies {
 struct SnapshotRun {
   std::string format;  ///< of adapters/files/frame.hpp; empty: HDF5 of our own
   std::vector<std::filesystem::path> files;
+  std::vector<std::filesystem::path> besides = {};  ///< that are not read: files::isBesideResults()
 
   std::string name() const;  ///< "out/run.data", "dumps/a.0 … (12 files)"
 };

@@ -107,6 +107,7 @@ void askEngines(Suite& suite) {
   for (const std::string& failure : failures)
     if (!failure.empty()) suite.progress.say(failure);
   suite.store.begin();
+  printNotes();
 }
 
 void preparePackings(Suite& suite) {

@@ -95,6 +95,27 @@ TEST_F(Formats, Runs_Lammps_TimesOrReplicates) {
                 "folder should be of one run");
 }
 
+TEST_F(Formats, ContactsAlone_AreRefused) {
+  samples_.write("a.local", "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n0\n");
+  EXPECT_EQ(crossgrain::test::refusalOf([&] { runs("lammps", {"a.local"}); }),
+            (folder_.path() / "a.local").string() +
+                ": contacts alone: the file of the particles is missing before it");
+}
+
+TEST_F(Formats, BesidesOfMercuryDpm_AreKnownBesideTheirResults) {
+  const std::vector<fs::path> all{"out/run.data", "out/run.fstat", "out/run.restart.0003", "out/run.ene"};
+  EXPECT_TRUE(isBesideResults("out/run.ene", all));
+  EXPECT_TRUE(isBesideResults("out/run.restart", all));
+  EXPECT_TRUE(isBesideResults("out/run.restart.0003", all));
+  EXPECT_FALSE(isBesideResults("out/run.data", all));
+  EXPECT_FALSE(isBesideResults("out/other.ene", all));
+  EXPECT_FALSE(isBesideResults("run.ene", all));
+  EXPECT_FALSE(isBesideResults("out/run.txt", all));
+  samples_.write("run.ene", "time kinetic\n0 1\n");
+  EXPECT_EQ(samples_.refusal("mercurydpm", {"run.ene"}),
+            "run.ene:1: should be a .data, which begins with N t xmin …, or an .fstat, with # t 1");
+}
+
 TEST_F(Formats, Runs_Vtk) {
   std::vector<std::string> names{"yade-spheres.4.vtu",
                                  "yade-spheres.0.vtu",

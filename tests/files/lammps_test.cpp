@@ -216,11 +216,15 @@ TEST_F(LammpsText, WhatCannotBe_IsRefusedByLine) {
   writeAtoms();
   samples_.write("b.local", head("ENTRIES", 1) + "ITEM: ENTRIES c_p[1] c_p[2] c_q[1]\n1 5 20\n");
   EXPECT_EQ(samples_.refusal("lammps", {"a.dump", "b.local"}),
-            "b.local, step 7: contact 1 (1 and 5): there is no particle 5 at that time");
+            "b.local, step 7: contact 1 (1 and 5): there is no particle 5 at that time (a.dump, "
+            "step 7: ids from 1 to 2)");
   samples_.write("c.dump",
                  head("ATOMS", 2) + "ITEM: ATOMS id x y z radius\n1 1.98 2 2 0.5\n1 1 2 2 0.5\n");
   EXPECT_EQ(samples_.refusal("lammps", {"c.dump", "b.local"}),
-            "b.local, step 7: particle 1 is there twice");
+            "c.dump, step 7: particle 1 is there twice (lines 10 and 11)");
+  EXPECT_EQ(refusal(head("ATOMS", 1) + "ITEM: ATOMS type x y z\n1 1 2 3\n"),
+            "b.dump:9: the column id is missing, by which a particle is known from one time to the "
+            "next and in its contacts: dump … custom … id type x y z vx vy vz radius …");
 }
 
 }  // namespace

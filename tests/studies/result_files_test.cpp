@@ -310,6 +310,78 @@ TEST(PlaneSnapshots, FaultyParticles_AreRefused) {
   for (const auto& [change, says] : faults) expectSays(refusalOfFrame(change), says);
 }
 
+TEST(PlaneSnapshots, ContactsOfOtherTimes_AreRefused) {
+  expectSays(refusalOfFrame([](FileFrame& frame) {
+               frame.contacts.reset();
+               frame.contactsOfOtherTimes = "the last are of mine.local, step 6";
+             }),
+             {"mine.dump, step 7: there are no contacts of this time",
+              "the last are of mine.local, step 6", "leave the files of contacts out"});
+}
+
+/// Three disks in flight: the first two falls of v Δt each, v = 1, 2, 3 m/s, and gravity between.
+std::string motionOf(const std::function<void(FileFrame&)>& change, std::size_t times,
+                     std::vector<std::string>* remarks = nullptr) {
+  std::deque<FileFrame> frames;
+  for (std::size_t k = 0; k < times; ++k) {
+    const double t = 0.1 * static_cast<double>(k);
+    FileFrame frame = threeParticles(1.0 + t);
+    frame.contacts.reset();
+    frame.particles.position = {{10.0, 30.0, 0.0}, {0.0, 40.0, 0.0}, {5.0, 50.0, 0.0}};
+    for (std::size_t p = 0; p < 3; ++p) {
+      const double v = 1.0 + static_cast<double>(p);
+      frame.particles.position[p].y() -= v * t + 5.0 * t * t;
+      frame.particles.velocity[p].y() = -v - 10.0 * t;
+    }
+    change(frame);
+    frames.push_back(frame);
+  }
+  return test::refusalOf([&] {
+    PlaneSnapshots source(std::make_unique<FakeReader>(frames), {}, targetOf(restingDisks()));
+    while (source.next()) {
+    }
+    if (remarks) *remarks = source.remarks();
+  });
+}
+
+TEST(PlaneSnapshots, WaysThatVelocitiesDoNotSay_AreRefusedWithTheirFactor) {
+  const auto times = [](double factor) {
+    return [factor](FileFrame& frame) {
+      for (Vec3& v : frame.particles.velocity) v *= factor;
+    };
+  };
+  std::vector<std::string> remarks;
+  EXPECT_EQ(motionOf(times(1.0), 3, &remarks), "");
+  EXPECT_EQ(remarks.size(), 2u);  // masses and contacts
+  expectSays(motionOf(times(1e3), 2),
+             {"3 disks that move have gone 0.001 times as far since the snapshot before",
+              "velocities should be in the files' length per the files' time"});
+  expectSays(motionOf(times(0.1), 2), {"gone 10 times as far"});
+  // Any other factor may be chance, once; not twice.
+  EXPECT_EQ(motionOf(times(0.25), 2, &remarks), "");
+  expectSays(remarks.at(0), {"gone 3.38 times as far", "(root mean square)"});
+  expectSays(motionOf(times(0.25), 3), {"gone 4 times as far"});
+  // One of three that stands, and says so of itself, is no factor of all.
+  EXPECT_EQ(motionOf(
+                [](FileFrame& frame) {
+                  for (std::size_t p = 0; p < 2; ++p) frame.particles.velocity[p] *= 1e-3;
+                },
+                3, &remarks),
+            "");
+}
+
+TEST(PlaneSnapshots, ForcesOfAnotherUnit_AreHintedAt) {
+  std::vector<std::string> remarks;
+  firstOf(
+      [](FileFrame& f) {
+        for (Vec3& force : f.contacts->force) force *= 1e6;
+      },
+      {}, &remarks);
+  expectSays(remarks.at(0), {"not those of the case's law",
+                             "most normal forces are 1e+06 times those of the law: are they in "
+                             "another unit?"});
+}
+
 TEST(PlaneSnapshots, ForcesOfAnotherLaw_AreRemarked) {
   std::vector<std::string> remarks;
   firstOf([](FileFrame& f) { f.contacts->force[0].y() = 7.0, f.contacts->force[2].y() = -7.0; }, {},

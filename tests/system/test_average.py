@@ -169,6 +169,55 @@ class ResultFiles(SystemTest):
         self.snapshots.write_text("mine", encoding="utf-8")
         self.assert_one_error(self.import_files(), BAD_INPUT, "mine.h5: is there, and is no file of snapshots")
 
+    def test_what_is_missing_on_the_command_line_is_named(self):
+        atoms, pairs = self.FILES
+        rest = [self.CASE, "--out", self.snapshots]
+        for arguments, words in (
+            (["lammps", pairs, *rest], ["box-pairs.dump: contacts alone: the file of the particles is missing"]),
+            (["lammps", atoms, pairs, *rest[1:]], ["the case, a TOML file, is missing behind the files", "box-pairs.dump is a result file (lammps)"]),
+            (["lammps", atoms, *rest[1:]], ["the case, a TOML file, is missing behind the files"]),
+            (["csv", atoms, pairs, *rest], ["box-atoms.dump: is of format lammps, not csv: crossgrain import lammps"]),
+            ([atoms, pairs, *rest], ["FORMAT is missing", "crossgrain import lammps FILES"]),
+        ):
+            with self.subTest(arguments):
+                self.assert_one_error(self.run_program("import", *arguments), BAD_INPUT, *words)
+        done = self.run_program("average", atoms, pairs, "--out", self.folder / "averaged")
+        self.assert_one_error(done, BAD_INPUT, "the case, a TOML file, is missing behind the files")
+
+    def test_contacts_that_end_early_are_refused_alone(self):
+        """Of three times the last has none; nothing stands beside the refusal."""
+        files = self.copies(lambda text: text[: text.rindex("ITEM: TIMESTEP")])
+        words = ["box-atoms.dump, step 80000: there are no contacts of this time, the last are of", "box-pairs.dump, step 79000"]
+        self.assert_one_error(self.import_files(files=files), BAD_INPUT, *words)
+        named = ["--name", "my-lammps", "--quiet"]
+        for command in (
+            ["average", *files, self.CASE, *named],
+            ["compare", self.CASE, "--engines", f"my-lammps={self.folder}/*.dump,other={self.folder}/*.dump", "--set=engines.other.dt=1e-5", "--quiet"],
+        ):
+            done = self.run_program(*command, "--out", self.folder / command[0])
+            self.assert_one_error(done, BAD_INPUT, *words)
+            self.assertEqual("", done.stdout)
+        self.assert_status(self.import_files(files=files[:1]), HELD)  # without contacts
+
+    def test_files_that_mercurydpm_writes_beside_are_left_out(self):
+        self.assert_status(self.import_files(), HELD)
+        self.assert_status(self.run_program("export", "mercurydpm", self.snapshots, self.CASE, "--out", self.folder / "run"), HELD)
+        self.write("run.ene", "time kinetic\n0 1\n")
+        files = sorted(self.folder.glob("run.*"))
+        self.assertEqual(["run.data", "run.ene", "run.fstat", "run.restart"], [file.name for file in files])
+        again = self.folder / "again.h5"
+        done = self.run_program("import", "mercurydpm", *files, self.CASE, "--out", again)
+        self.assert_status(done, HELD)
+        self.assertIn("not read, as nothing in them is averaged: run.ene, run.restart", done.stdout)
+
+    def test_export_writes_all_that_the_file_has(self):
+        """Whatever is averaged: three snapshots, of which the case's later start leaves one."""
+        self.assert_status(self.import_files(), HELD)
+        done = self.run_program("export", "lammps", self.snapshots, self.CASE, "--set=average.from=0.795", "--out", self.folder / "run")
+        self.assert_status(done, HELD)
+        self.assertIn("3 snapshots of my-lammps, t = 0.78 to 0.8 s", done.stdout)
+        self.assertEqual(3, (self.folder / "run.dump").read_text(encoding="utf-8").count("ITEM: TIMESTEP"))
+
 
 def ring_of_disks(count, radius=0.05):
     angles = [2 * math.pi * k / count for k in range(count)]

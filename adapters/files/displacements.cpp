@@ -1,0 +1,90 @@
+#include "adapters/files/displacements.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crossgrain::files {
+namespace {
+
+/// Ways below so many times what is uncertain of a position say nothing.
+constexpr double clear = 100.0;
+/// Fewer disks are no sample.
+constexpr std::size_t fewest = 3;
+constexpr double sameFactor = 0.05, mostDisks = 0.9, powerOfTen = 0.02;
+/// ½ to 3/2 is motion; the rest is room for what five in a hundred of it are.
+constexpr double leastOfMotion = 0.45, mostOfMotion = 1.6;
+constexpr double mostRms = 2.0, leastRms = 0.01;
+
+bool isSame(double a, double b, double within) {
+  return std::abs(a - b) <= within * std::abs(b);
+}
+
+bool isPowerOfTen(double factor) {
+  return isSame(factor, std::pow(10.0, std::round(std::log10(factor))), powerOfTen);
+}
+
+double rootOfSquares(const std::vector<Vec2>& list) {
+  double sum = 0.0;
+  for (const Vec2& one : list) sum += one.squaredNorm();
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+std::optional<double> Displacements::factorOf(const Snapshot& now, double uncertain,
+                                              Finding& finding) {
+  const double lapse = now.positionTime - time_;
+  std::vector<double> factors;
+  for (std::size_t k = 0; k < position_.size(); ++k) {
+    const Vec2 mean = 0.5 * (velocity_[k] + now.velocity[k]), way = lapse * mean;
+    if (!((now.velocity[k] - velocity_[k]).norm() <= mean.norm())) continue;
+    const Vec2 moved = now.position[k] - position_[k];
+    if (std::max(moved.norm(), way.norm()) <= clear * uncertain || way.isZero(0.0)) continue;
+    const double factor = moved.dot(way) / way.squaredNorm();
+    const bool straight = (moved - factor * way).norm() <= 0.1 * moved.norm();
+    factors.push_back(straight ? factor : 0.0);
+  }
+  finding.of = factors.size();
+  if (factors.size() < fewest) return std::nullopt;
+  const auto middle = factors.begin() + static_cast<std::ptrdiff_t>(factors.size() / 2);
+  std::ranges::nth_element(factors, middle);
+  const double median = *middle;
+  const auto alike =
+      std::ranges::count_if(factors, [&](double f) { return isSame(f, median, sameFactor); });
+  if (median <= 0.0 || static_cast<double>(alike) < mostDisks * static_cast<double>(finding.of) ||
+      (median >= leastOfMotion && median <= mostOfMotion))
+    return std::nullopt;
+  return median;
+}
+
+std::optional<double> Displacements::rmsOf(const Snapshot& now, double uncertain) const {
+  const double lapse = now.positionTime - time_;
+  std::vector<Vec2> moved;
+  for (std::size_t k = 0; k < position_.size(); ++k)
+    moved.push_back(now.position[k] - position_[k]);
+  const double way = rootOfSquares(moved), before = lapse * rootOfSquares(velocity_),
+               after = lapse * rootOfSquares(now.velocity);
+  const double noise = clear * uncertain * std::sqrt(static_cast<double>(moved.size()));
+  if (way > noise && way > mostRms * std::max(before, after)) return way / std::max(before, after);
+  if (std::min(before, after) > noise && way < leastRms * std::min(before, after))
+    return way / std::min(before, after);
+  return std::nullopt;
+}
+
+Displacements::Finding Displacements::compare(const Snapshot& now, double uncertain) {
+  Finding finding;
+  if (!position_.empty()) {
+    const auto factor = factorOf(now, uncertain, finding);
+    if (factor && (isPowerOfTen(*factor) || (factor_ && isSame(*factor, *factor_, sameFactor))))
+      finding.factor = factor;
+    else
+      finding.rms = rmsOf(now, uncertain);
+    factor_ = factor;
+  }
+  position_ = now.position;
+  velocity_ = now.velocity;
+  time_ = now.positionTime;
+  return finding;
+}
+
+}  // namespace crossgrain::files
