@@ -212,7 +212,8 @@ void TwoBodyProblem::choosePhase(State& s) {
     // At rest to the last bit, else what is left of v_t would end the slip that may follow at once.
     s.spinI += slip / k.armI;
     const double hold = holdingForce(s, k);
-    const bool holds = std::abs(hold) <= limit + 0.5 * law_.mu * unseenLoad(k);
+    // At its bound to the last bit it has just ceased to hold.
+    const bool holds = hold == 0.0 || std::abs(hold) < limit + 0.5 * law_.mu * unseenLoad(k);
     phase_.tangential = holds ? Phase::Tangential::hold : Phase::Tangential::slip;
     phase_.side = sign(hold);
   } else if (law_.tangential == TangentialLaw::viscous &&

@@ -183,7 +183,8 @@ void TwoBodyProblem::chooseRolling(State& s, bool anew) {
     still = along(s, -visibleLength() / k.normalVelocity);
   const Kinematics then = kinematics(still);
   const double hold = holdingTorque(still, then);
-  if (std::abs(hold) <= rollingBound(then)) return;
+  // At its bound to the last bit it has just ceased to hold.
+  if (hold == 0.0 || std::abs(hold) < rollingBound(then)) return;
   phase_.rolling = Phase::Rolling::slip;
   phase_.rollingSide = sign(hold);
 }
