@@ -38,8 +38,9 @@ struct ImpulseAbout {
   /// By how many steps a velocity that is shown is later than the motion that had it: 1/2 where
   /// velocities change first, −1/2 where positions do.
   double lag;
-  Json lawOptions;  ///< where forces act: lever_arm, velocity_arm, plane_arm
-  Json settings;    ///< `dt` among them
+  /// Where forces act: lever_arm, velocity_arm, plane_arm; and `rolling`, of those that have it.
+  Json lawOptions;
+  Json settings;  ///< `dt` among them
 };
 
 class ImpulseEngine {
@@ -53,6 +54,7 @@ class ImpulseEngine {
     Json effects;
     for (const char* name : {"normal_damping", "friction", "rotation", "gravity", "moving_walls"})
       effects[name] = "optional";
+    if (about_.lawOptions.contains("rolling")) effects["rolling_resistance"] = "optional";
     Json options = about_.lawOptions;
     options["normal"] = {"rigid"};
     return {{"version", about_.version},       {"effects", effects},
@@ -78,7 +80,8 @@ class ImpulseEngine {
     radius_ = arrays.at("disks.radius");
     mass_ = arrays.at("disks.mass");
     friction_ = law_.friction() > 0.0;
-    rotation_ = friction_ && scene.at("rotation").get<bool>();
+    rolls_ = law_.rolling() > 0.0 && scene.at("rotation").get<bool>();
+    rotation_ = (friction_ || rolls_) && scene.at("rotation").get<bool>();
     space_.reset();
     loadWalls(scene, arrays);
     const auto end = radius_.begin() + static_cast<long>(disks_);
@@ -86,11 +89,17 @@ class ImpulseEngine {
     const Vector gravity{scene.at("gravity").at(0), scene.at("gravity").at(1)};
     restitution_.clear();
     requireRestitution();
-    const auto restitution = [this](std::int32_t i, std::int32_t j) {
-      return this->restitution(i, j);
-    };
-    space_ = make_(
-        {disksOf(arrays), bodies_, dt_, law_.friction(), gravity, smallest, restitution, number});
+    ImpulseScene made{disksOf(arrays),
+                      bodies_,
+                      dt_,
+                      law_.friction(),
+                      gravity,
+                      smallest,
+                      [this](std::int32_t i, std::int32_t j) { return restitution(i, j); },
+                      {},
+                      number};
+    if (rolls_) made.rolling = [this](std::int32_t i, std::int32_t j) { return rolling(i, j); };
+    space_ = make_(made);
     sums_.clear(bodies_.size());
     last_.clear(bodies_.size());
     const Json pairs = pairTable();
@@ -98,6 +107,7 @@ class ImpulseEngine {
     for (const auto& [name, on] : {std::pair("normal_damping", law_.damps()),
                                    {"friction", friction_},
                                    {"rotation", rotation_},
+                                   {"rolling_resistance", rolls_},
                                    {"gravity", gravity.x != 0.0 || gravity.y != 0.0},
                                    {"moving_walls", moving_}})
       if (on) effects.push_back(name);
@@ -134,7 +144,7 @@ class ImpulseEngine {
     arrays.add("position", position);
     arrays.add("velocity", velocity);
     arrays.add("wall_position", walls);
-    if (friction_) arrays.add("spin", spin);
+    if (friction_ || rolls_) arrays.add("spin", spin);
     const bool accumulated = contacts == "accumulated";
     ImpulseSums& shown = accumulated ? sums_ : last_;
     const double interval = static_cast<double>(shown.steps) * dt_;
@@ -151,7 +161,7 @@ class ImpulseEngine {
       bodies.back()["torque"] = shown.torqueOnBody[b] / interval;
     }
     if (shown.steps > 0 && contacts != "none")
-      addContacts(arrays, shown, interval,
+      addContacts(arrays, shown, interval, rolls_,
                   [this](std::size_t i, std::size_t j) { return geometry(i, j); });
     if (accumulated) sums_.clear(bodies_.size());
     return {{"position_time", now()},
@@ -196,7 +206,7 @@ class ImpulseEngine {
           {radius_[i], mass_[i],
            rotation_ ? arrays.at("disks.inertia")[i] : std::numeric_limits<double>::infinity(),
            vectorOf("disks.position", i), vectorOf("disks.velocity", i),
-           friction_ ? arrays.at("disks.spin")[i] : 0.0});
+           friction_ || rolls_ ? arrays.at("disks.spin")[i] : 0.0});
     return disks;
   }
 
@@ -223,6 +233,15 @@ class ImpulseEngine {
     return known->second;
   }
 
+  double rolling(std::int32_t i, std::int32_t j) const {
+    const auto radius = [this](std::int32_t id) {
+      const auto k = static_cast<std::size_t>(id);
+      return ids_->isPlane(k) ? std::numeric_limits<double>::infinity() : radius_[k];
+    };
+    return law_.rolling() *
+           law_.rollingLength(std::min(radius(i), radius(j)), std::max(radius(i), radius(j)));
+  }
+
   /// Of the first few kinds of disks. @throws Unsupported
   Json pairTable() const {
     std::map<double, double> kinds;  // mass → radius
@@ -234,6 +253,7 @@ class ImpulseEngine {
       std::snprintf(name, sizeof name, "%.3g mm with %s", 1e3 * radius, other.c_str());
       pairs.push_back({{"pair", name}, {"en", law_.restitution(inverse)}});
       if (friction_) pairs.back().update({{"mu", law_.friction()}, {"et0", 0.0}});
+      if (rolls_) pairs.back()["mu_r"] = law_.rolling();
     };
     for (auto one = kinds.begin(); one != kinds.end(); ++one) {
       for (auto two = one; two != kinds.end(); ++two) {
@@ -293,7 +313,7 @@ class ImpulseEngine {
   MakeSpace make_;
   RigidLaw law_;
   double dt_ = 0.0;
-  bool friction_ = false, rotation_ = false, moving_ = false;
+  bool friction_ = false, rotation_ = false, rolls_ = false, moving_ = false;
   std::size_t disks_ = 0;
   std::vector<double> radius_;  ///< disks, then wall disks [m]
   std::vector<double> mass_;    ///< disks [kg]

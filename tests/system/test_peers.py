@@ -521,6 +521,22 @@ def worker_of(engine):
 @unittest.skipUnless(worker_of("bullet").exists() or is_installed("libbullet-dev"), "libbullet-dev is not installed")
 class Bullet(BuiltEngine, Peer):
     engine = "bullet"
+    skipped = RigidEngine.skipped - {"RollingFollowsItsClosedForms", "RollingTorquesAreThoseThatAct"} | {"FollowsItsMirrorRolling"}
+
+    def test_its_rolling_friction_is_a_constant_torque(self):
+        """A disk rolls to rest within (1 + q) v²/(2 µ_r g); a step of 0.5 ms errs by half of what it goes in one, 25 µm."""
+        lacking = "normal tangential_spring tangential_damping tension dashpot spring_reset spring_update coulomb_bound"
+        may = lacking.split() + ["lever_arm", "velocity_arm", "plane_arm", "damping_velocity", "integrator", "rolling_length"]
+        done = self.run_program(
+            "compare", CASES / "assembly/rolling/constant-torque.toml", "--engines", "bullet,grain", "--quiet", "--out", self.out,
+            *settings(run__may_differ=may),
+        )  # fmt: skip
+        self.assert_status(done, HELD)
+        rows = [row for row in self.rows("endpoints.csv") if (row["kind"], row["b"]) == ("closed_form", "bullet")]
+        error = {row["endpoint"]: abs(float(row["difference"])) for row in rows}
+        self.assertEqual({"speed", "distance", "rest"}, set(error))
+        self.assertLess(error["distance"], 26e-6)
+        self.assertLess(error["rest"], 1e-12)
 
     def test_overlaps_are_pushed_apart_without_speed(self):
         """An elastic start with deep overlaps; Bullet's own threshold would add a fifth of the overlap each step to the
