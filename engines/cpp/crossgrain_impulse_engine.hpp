@@ -12,12 +12,11 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
-#include <map>
 #include <memory>
 #include <optional>
 
 #include "crossgrain_impulse_sums.hpp"
-#include "crossgrain_rigid_law.hpp"
+#include "crossgrain_rigid_pairs.hpp"
 
 namespace crossgrain_worker {
 
@@ -67,7 +66,7 @@ class ImpulseEngine {
   Json load(const Json& scene, const Arrays& arrays, const Json& settings) {
     if (scene.contains("bottom") && scene.at("bottom").at("mu") > 0.0)
       throw Unsupported("has no bottom_friction");
-    law_ = RigidLaw(scene.at("law"));
+    const RigidLaw law(scene.at("law"));
     const auto number = [this, settings](const char* name) {
       for (const Json& each : about_.settings)
         if (each.at("name") == name) return settings.value(name, each.at("default").get<double>());
@@ -78,33 +77,29 @@ class ImpulseEngine {
     wallSeconds_ = cpuSeconds_ = 0.0;
     disks_ = scene.at("disks");
     radius_ = arrays.at("disks.radius");
-    mass_ = arrays.at("disks.mass");
-    friction_ = law_.friction() > 0.0;
-    rolls_ = law_.rolling() > 0.0 && scene.at("rotation").get<bool>();
+    friction_ = law.friction() > 0.0;
+    rolls_ = law.rolling() > 0.0 && scene.at("rotation").get<bool>();
     rotation_ = (friction_ || rolls_) && scene.at("rotation").get<bool>();
     space_.reset();
     loadWalls(scene, arrays);
+    pairs_ = RigidPairs(law, arrays.at("disks.mass"), radius_);
     const auto end = radius_.begin() + static_cast<long>(disks_);
     const double smallest = disks_ > 0 ? *std::min_element(radius_.begin(), end) : 1.0;
     const Vector gravity{scene.at("gravity").at(0), scene.at("gravity").at(1)};
-    restitution_.clear();
-    requireRestitution();
-    ImpulseScene made{disksOf(arrays),
-                      bodies_,
-                      dt_,
-                      law_.friction(),
-                      gravity,
-                      smallest,
-                      [this](std::int32_t i, std::int32_t j) { return restitution(i, j); },
-                      {},
-                      number};
-    if (rolls_) made.rolling = [this](std::int32_t i, std::int32_t j) { return rolling(i, j); };
+    const auto restitution = [this](std::int32_t i, std::int32_t j) {
+      return pairs_.restitution(i, j);
+    };
+    ImpulseScene made{disksOf(arrays), bodies_,     dt_, law.friction(), gravity,
+                      smallest,        restitution, {},  number};
+    if (rolls_)
+      made.rolling = [this](std::int32_t i, std::int32_t j) { return pairs_.rolling(i, j); };
     space_ = make_(made);
     sums_.clear(bodies_.size());
     last_.clear(bodies_.size());
-    const Json pairs = pairTable();
+    Json deviations = space_->deviations();
+    for (const Json& each : pairs_.deviations()) deviations.push_back(each);
     Json effects = Json::array();
-    for (const auto& [name, on] : {std::pair("normal_damping", law_.damps()),
+    for (const auto& [name, on] : {std::pair("normal_damping", law.damps()),
                                    {"friction", friction_},
                                    {"rotation", rotation_},
                                    {"rolling_resistance", rolls_},
@@ -118,8 +113,8 @@ class ImpulseEngine {
             {"integrator", about_.integrator},
             {"velocity_lag", about_.lag * dt_},
             {"effects", effects},
-            {"pairs", pairs},
-            {"deviations", deviations(pairs)}};
+            {"pairs", pairs_.table(!bodies_.empty(), rolls_)},
+            {"deviations", deviations}};
   }
 
   double advance(double t) {
@@ -203,82 +198,11 @@ class ImpulseEngine {
     std::vector<Disk> disks;
     for (std::size_t i = 0; i < disks_; ++i)
       disks.push_back(
-          {radius_[i], mass_[i],
+          {radius_[i], arrays.at("disks.mass")[i],
            rotation_ ? arrays.at("disks.inertia")[i] : std::numeric_limits<double>::infinity(),
            vectorOf("disks.position", i), vectorOf("disks.velocity", i),
            friction_ || rolls_ ? arrays.at("disks.spin")[i] : 0.0});
     return disks;
-  }
-
-  double inverseMass(std::size_t id) const { return id < disks_ ? 1.0 / mass_[id] : 0.0; }
-
-  /// Whether every pair has a restitution: asked in a step, a refusal would pass through the
-  /// engine's callbacks. The law is overdamped where γ_n² (1/m₁ + 1/m₂) ≥ 4 k_n, so the lightest
-  /// pair decides for all.
-  /// @throws Unsupported
-  void requireRestitution() const {
-    if (disks_ == 0) return;
-    std::vector<double> lightest(mass_);
-    const auto second = lightest.begin() + std::min<long>(1, static_cast<long>(disks_) - 1);
-    std::nth_element(lightest.begin(), second, lightest.end());
-    const double least = *std::min_element(lightest.begin(), lightest.end());
-    law_.restitution(1.0 / least + (disks_ > 1 ? 1.0 / *second : 0.0));
-  }
-
-  double restitution(std::int32_t i, std::int32_t j) {
-    const double inverse =
-        inverseMass(static_cast<std::size_t>(i)) + inverseMass(static_cast<std::size_t>(j));
-    const auto [known, isNew] = restitution_.try_emplace(inverse);
-    if (isNew) known->second = law_.restitution(inverse);
-    return known->second;
-  }
-
-  double rolling(std::int32_t i, std::int32_t j) const {
-    const auto radius = [this](std::int32_t id) {
-      const auto k = static_cast<std::size_t>(id);
-      return ids_->isPlane(k) ? std::numeric_limits<double>::infinity() : radius_[k];
-    };
-    return law_.rolling() *
-           law_.rollingLength(std::min(radius(i), radius(j)), std::max(radius(i), radius(j)));
-  }
-
-  /// Of the first few kinds of disks. @throws Unsupported
-  Json pairTable() const {
-    std::map<double, double> kinds;  // mass → radius
-    for (std::size_t i = 0; i < disks_ && kinds.size() < 4; ++i)
-      kinds.emplace(mass_[i], radius_[i]);
-    Json pairs = Json::array();
-    const auto add = [&](double radius, const std::string& other, double inverse) {
-      char name[80];
-      std::snprintf(name, sizeof name, "%.3g mm with %s", 1e3 * radius, other.c_str());
-      pairs.push_back({{"pair", name}, {"en", law_.restitution(inverse)}});
-      if (friction_) pairs.back().update({{"mu", law_.friction()}, {"et0", 0.0}});
-      if (rolls_) pairs.back()["mu_r"] = law_.rolling();
-    };
-    for (auto one = kinds.begin(); one != kinds.end(); ++one) {
-      for (auto two = one; two != kinds.end(); ++two) {
-        char other[40];
-        std::snprintf(other, sizeof other, "%.3g mm", 1e3 * two->second);
-        add(one->second, other, 1.0 / one->first + 1.0 / two->first);
-      }
-      if (!bodies_.empty()) add(one->second, "wall", 1.0 / one->first);
-    }
-    return pairs;
-  }
-
-  Json deviations(const Json& pairs) const {
-    Json list = space_->deviations();
-    if (!law_.soft() || pairs.empty()) return list;
-    list.push_back({{"name", "normal"},
-                    {"value", pairs.front().at("en")},
-                    {"unit", "-"},
-                    {"note", "rigid contacts with the soft law's e_n for each pair"}});
-    if (friction_)
-      list.push_back({{"name", "e_t0"},
-                      {"value", 0.0},
-                      {"unit", "-"},
-                      {"note", "contacts that stick give back nothing of the tangential speed"}});
-    return list;
   }
 
   void step() {
@@ -311,15 +235,13 @@ class ImpulseEngine {
 
   ImpulseAbout about_;
   MakeSpace make_;
-  RigidLaw law_;
+  RigidPairs pairs_;
   double dt_ = 0.0;
   bool friction_ = false, rotation_ = false, rolls_ = false, moving_ = false;
   std::size_t disks_ = 0;
   std::vector<double> radius_;  ///< disks, then wall disks [m]
-  std::vector<double> mass_;    ///< disks [kg]
   std::vector<Body> bodies_;
   std::optional<WallIds> ids_;
-  std::map<double, double> restitution_;  ///< by 1/m₁₂ [1/kg]
   std::unique_ptr<ImpulseSpace> space_;
   ImpulseSums sums_, last_;
   long long steps_ = 0;
