@@ -32,6 +32,7 @@ Space::Space(const ImpulseScene& scene) : scene_(scene) {
   gDbvtMargin = 0.1 * scene.smallest;
   gCalculateCombinedRestitutionCallback = pairRestitution;
   gCalculateCombinedFrictionCallback = pairFriction;
+  gCalculateCombinedRollingFrictionCallback = pairRolling;
   dispatcher_.setDispatcherFlags(
       dispatcher_.getDispatcherFlags() &
       ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
@@ -138,12 +139,26 @@ void Space::takeImpulses() {
       impulses_.push_back(PairImpulse::between(
           a, b, normal, contact.m_appliedImpulse,
           contact.m_appliedImpulseLateral1 * dot(along, turned(normal)),
-          fromBullet(contact.getPositionWorldOnA()), fromBullet(contact.getPositionWorldOnB())));
+          fromBullet(contact.getPositionWorldOnA()), fromBullet(contact.getPositionWorldOnB()),
+          contact.m_appliedImpulseLateral2));
     }
   }
   std::sort(impulses_.begin(), impulses_.end(), [](const PairImpulse& a, const PairImpulse& b) {
     return std::pair(a.i, a.j) < std::pair(b.i, b.j);
   });
+}
+
+/// In the place of the impulse along a second direction of friction, which there is none of.
+btScalar Space::Solver::solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int count,
+                                                      const btContactSolverInfo& info) {
+  for (int k = 0; k < m_tmpSolverContactRollingFrictionConstraintPool.size(); ++k) {
+    const btSolverConstraint& row = m_tmpSolverContactRollingFrictionConstraintPool[k];
+    void* const point =
+        m_tmpSolverContactConstraintPool[row.m_frictionIndex].m_originalContactPoint;
+    static_cast<btManifoldPoint*>(point)->m_appliedImpulseLateral2 +=
+        row.m_appliedImpulse * row.m_relpos1CrossNormal.z();
+  }
+  return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyFinish(bodies, count, info);
 }
 
 /// Bullet multiplies the coefficients of two bodies; these are the pair's own.
@@ -153,6 +168,11 @@ btScalar Space::pairRestitution(const btCollisionObject* a, const btCollisionObj
 
 btScalar Space::pairFriction(const btCollisionObject* a, const btCollisionObject*) {
   return spaceOf(a).scene_.friction;
+}
+
+btScalar Space::pairRolling(const btCollisionObject* a, const btCollisionObject* b) {
+  const auto& rolling = spaceOf(a).scene_.rolling;
+  return rolling ? rolling(a->getUserIndex(), b->getUserIndex()) : 0.0;
 }
 
 Vector Space::position(std::size_t disk) const {

@@ -41,6 +41,12 @@ class Space : public crossgrain_worker::ImpulseSpace {
     void saveKinematicState(btScalar) override {}
   };
 
+  /// Keeps what acted against rolling, too, which Bullet forgets.
+  class Solver : public btSequentialImpulseConstraintSolver {
+    btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int count,
+                                           const btContactSolverInfo& info) override;
+  };
+
   void addDisk(const Disk& disk);
   void addWall(std::unique_ptr<btCollisionShape> shape, Vector place, bool moves);
   btRigidBody& add(std::unique_ptr<btCollisionShape> shape, double mass, double inertia,
@@ -52,12 +58,13 @@ class Space : public crossgrain_worker::ImpulseSpace {
 
   static btScalar pairRestitution(const btCollisionObject* a, const btCollisionObject* b);
   static btScalar pairFriction(const btCollisionObject* a, const btCollisionObject* b);
+  static btScalar pairRolling(const btCollisionObject* a, const btCollisionObject* b);
 
   ImpulseScene scene_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
   btDbvtBroadphase broadphase_;
-  btSequentialImpulseConstraintSolver solver_;
+  Solver solver_;
   World world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btRigidBody>> bodies_;  ///< by id: disks, wall disks, planes

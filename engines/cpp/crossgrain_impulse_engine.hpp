@@ -12,12 +12,11 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
-#include <map>
 #include <memory>
 #include <optional>
 
 #include "crossgrain_impulse_sums.hpp"
-#include "crossgrain_rigid_law.hpp"
+#include "crossgrain_rigid_pairs.hpp"
 
 namespace crossgrain_worker {
 
@@ -38,8 +37,9 @@ struct ImpulseAbout {
   /// By how many steps a velocity that is shown is later than the motion that had it: 1/2 where
   /// velocities change first, −1/2 where positions do.
   double lag;
-  Json lawOptions;  ///< where forces act: lever_arm, velocity_arm, plane_arm
-  Json settings;    ///< `dt` among them
+  /// Where forces act: lever_arm, velocity_arm, plane_arm; and `rolling`, of those that have it.
+  Json lawOptions;
+  Json settings;  ///< `dt` among them
 };
 
 class ImpulseEngine {
@@ -53,6 +53,7 @@ class ImpulseEngine {
     Json effects;
     for (const char* name : {"normal_damping", "friction", "rotation", "gravity", "moving_walls"})
       effects[name] = "optional";
+    if (about_.lawOptions.contains("rolling")) effects["rolling_resistance"] = "optional";
     Json options = about_.lawOptions;
     options["normal"] = {"rigid"};
     return {{"version", about_.version},       {"effects", effects},
@@ -65,7 +66,7 @@ class ImpulseEngine {
   Json load(const Json& scene, const Arrays& arrays, const Json& settings) {
     if (scene.contains("bottom") && scene.at("bottom").at("mu") > 0.0)
       throw Unsupported("has no bottom_friction");
-    law_ = RigidLaw(scene.at("law"));
+    const RigidLaw law(scene.at("law"));
     const auto number = [this, settings](const char* name) {
       for (const Json& each : about_.settings)
         if (each.at("name") == name) return settings.value(name, each.at("default").get<double>());
@@ -76,28 +77,32 @@ class ImpulseEngine {
     wallSeconds_ = cpuSeconds_ = 0.0;
     disks_ = scene.at("disks");
     radius_ = arrays.at("disks.radius");
-    mass_ = arrays.at("disks.mass");
-    friction_ = law_.friction() > 0.0;
-    rotation_ = friction_ && scene.at("rotation").get<bool>();
+    friction_ = law.friction() > 0.0;
+    rolls_ = law.rolling() > 0.0 && scene.at("rotation").get<bool>();
+    rotation_ = (friction_ || rolls_) && scene.at("rotation").get<bool>();
     space_.reset();
     loadWalls(scene, arrays);
+    pairs_ = RigidPairs(law, arrays.at("disks.mass"), radius_);
     const auto end = radius_.begin() + static_cast<long>(disks_);
     const double smallest = disks_ > 0 ? *std::min_element(radius_.begin(), end) : 1.0;
     const Vector gravity{scene.at("gravity").at(0), scene.at("gravity").at(1)};
-    restitution_.clear();
-    requireRestitution();
     const auto restitution = [this](std::int32_t i, std::int32_t j) {
-      return this->restitution(i, j);
+      return pairs_.restitution(i, j);
     };
-    space_ = make_(
-        {disksOf(arrays), bodies_, dt_, law_.friction(), gravity, smallest, restitution, number});
+    ImpulseScene made{disksOf(arrays), bodies_,     dt_, law.friction(), gravity,
+                      smallest,        restitution, {},  number};
+    if (rolls_)
+      made.rolling = [this](std::int32_t i, std::int32_t j) { return pairs_.rolling(i, j); };
+    space_ = make_(made);
     sums_.clear(bodies_.size());
     last_.clear(bodies_.size());
-    const Json pairs = pairTable();
+    Json deviations = space_->deviations();
+    for (const Json& each : pairs_.deviations()) deviations.push_back(each);
     Json effects = Json::array();
-    for (const auto& [name, on] : {std::pair("normal_damping", law_.damps()),
+    for (const auto& [name, on] : {std::pair("normal_damping", law.damps()),
                                    {"friction", friction_},
                                    {"rotation", rotation_},
+                                   {"rolling_resistance", rolls_},
                                    {"gravity", gravity.x != 0.0 || gravity.y != 0.0},
                                    {"moving_walls", moving_}})
       if (on) effects.push_back(name);
@@ -108,8 +113,8 @@ class ImpulseEngine {
             {"integrator", about_.integrator},
             {"velocity_lag", about_.lag * dt_},
             {"effects", effects},
-            {"pairs", pairs},
-            {"deviations", deviations(pairs)}};
+            {"pairs", pairs_.table(!bodies_.empty(), rolls_)},
+            {"deviations", deviations}};
   }
 
   double advance(double t) {
@@ -134,7 +139,7 @@ class ImpulseEngine {
     arrays.add("position", position);
     arrays.add("velocity", velocity);
     arrays.add("wall_position", walls);
-    if (friction_) arrays.add("spin", spin);
+    if (friction_ || rolls_) arrays.add("spin", spin);
     const bool accumulated = contacts == "accumulated";
     ImpulseSums& shown = accumulated ? sums_ : last_;
     const double interval = static_cast<double>(shown.steps) * dt_;
@@ -151,7 +156,7 @@ class ImpulseEngine {
       bodies.back()["torque"] = shown.torqueOnBody[b] / interval;
     }
     if (shown.steps > 0 && contacts != "none")
-      addContacts(arrays, shown, interval,
+      addContacts(arrays, shown, interval, rolls_,
                   [this](std::size_t i, std::size_t j) { return geometry(i, j); });
     if (accumulated) sums_.clear(bodies_.size());
     return {{"position_time", now()},
@@ -193,72 +198,11 @@ class ImpulseEngine {
     std::vector<Disk> disks;
     for (std::size_t i = 0; i < disks_; ++i)
       disks.push_back(
-          {radius_[i], mass_[i],
+          {radius_[i], arrays.at("disks.mass")[i],
            rotation_ ? arrays.at("disks.inertia")[i] : std::numeric_limits<double>::infinity(),
            vectorOf("disks.position", i), vectorOf("disks.velocity", i),
-           friction_ ? arrays.at("disks.spin")[i] : 0.0});
+           friction_ || rolls_ ? arrays.at("disks.spin")[i] : 0.0});
     return disks;
-  }
-
-  double inverseMass(std::size_t id) const { return id < disks_ ? 1.0 / mass_[id] : 0.0; }
-
-  /// Whether every pair has a restitution: asked in a step, a refusal would pass through the
-  /// engine's callbacks. The law is overdamped where γ_n² (1/m₁ + 1/m₂) ≥ 4 k_n, so the lightest
-  /// pair decides for all.
-  /// @throws Unsupported
-  void requireRestitution() const {
-    if (disks_ == 0) return;
-    std::vector<double> lightest(mass_);
-    const auto second = lightest.begin() + std::min<long>(1, static_cast<long>(disks_) - 1);
-    std::nth_element(lightest.begin(), second, lightest.end());
-    const double least = *std::min_element(lightest.begin(), lightest.end());
-    law_.restitution(1.0 / least + (disks_ > 1 ? 1.0 / *second : 0.0));
-  }
-
-  double restitution(std::int32_t i, std::int32_t j) {
-    const double inverse =
-        inverseMass(static_cast<std::size_t>(i)) + inverseMass(static_cast<std::size_t>(j));
-    const auto [known, isNew] = restitution_.try_emplace(inverse);
-    if (isNew) known->second = law_.restitution(inverse);
-    return known->second;
-  }
-
-  /// Of the first few kinds of disks. @throws Unsupported
-  Json pairTable() const {
-    std::map<double, double> kinds;  // mass → radius
-    for (std::size_t i = 0; i < disks_ && kinds.size() < 4; ++i)
-      kinds.emplace(mass_[i], radius_[i]);
-    Json pairs = Json::array();
-    const auto add = [&](double radius, const std::string& other, double inverse) {
-      char name[80];
-      std::snprintf(name, sizeof name, "%.3g mm with %s", 1e3 * radius, other.c_str());
-      pairs.push_back({{"pair", name}, {"en", law_.restitution(inverse)}});
-      if (friction_) pairs.back().update({{"mu", law_.friction()}, {"et0", 0.0}});
-    };
-    for (auto one = kinds.begin(); one != kinds.end(); ++one) {
-      for (auto two = one; two != kinds.end(); ++two) {
-        char other[40];
-        std::snprintf(other, sizeof other, "%.3g mm", 1e3 * two->second);
-        add(one->second, other, 1.0 / one->first + 1.0 / two->first);
-      }
-      if (!bodies_.empty()) add(one->second, "wall", 1.0 / one->first);
-    }
-    return pairs;
-  }
-
-  Json deviations(const Json& pairs) const {
-    Json list = space_->deviations();
-    if (!law_.soft() || pairs.empty()) return list;
-    list.push_back({{"name", "normal"},
-                    {"value", pairs.front().at("en")},
-                    {"unit", "-"},
-                    {"note", "rigid contacts with the soft law's e_n for each pair"}});
-    if (friction_)
-      list.push_back({{"name", "e_t0"},
-                      {"value", 0.0},
-                      {"unit", "-"},
-                      {"note", "contacts that stick give back nothing of the tangential speed"}});
-    return list;
   }
 
   void step() {
@@ -291,15 +235,13 @@ class ImpulseEngine {
 
   ImpulseAbout about_;
   MakeSpace make_;
-  RigidLaw law_;
+  RigidPairs pairs_;
   double dt_ = 0.0;
-  bool friction_ = false, rotation_ = false, moving_ = false;
+  bool friction_ = false, rotation_ = false, rolls_ = false, moving_ = false;
   std::size_t disks_ = 0;
   std::vector<double> radius_;  ///< disks, then wall disks [m]
-  std::vector<double> mass_;    ///< disks [kg]
   std::vector<Body> bodies_;
   std::optional<WallIds> ids_;
-  std::map<double, double> restitution_;  ///< by 1/m₁₂ [1/kg]
   std::unique_ptr<ImpulseSpace> space_;
   ImpulseSums sums_, last_;
   long long steps_ = 0;

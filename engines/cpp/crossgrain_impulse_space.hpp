@@ -23,14 +23,16 @@ struct PairImpulse {
   Vector normal;           ///< from j to i, as the engine had it
   double pressing, along;  ///< on i: along the normal and along z × normal [N s]
   Vector place;            ///< where j takes it; needed of walls alone [m]
+  double rolling = 0.0;    ///< against rolling, on i; j takes as much the other way [N m s]
 
   Vector onFirst() const { return pressing * normal + along * turned(normal); }
 
   /// Of any two; pressing and along are the same on both.
   static PairImpulse between(std::int32_t a, std::int32_t b, Vector normalToA, double pressing,
-                             double along, Vector placeOnA, Vector placeOnB) {
-    return a < b ? PairImpulse{a, b, normalToA, pressing, along, placeOnB}
-                 : PairImpulse{b, a, -1.0 * normalToA, pressing, along, placeOnA};
+                             double along, Vector placeOnA, Vector placeOnB,
+                             double rollingOnA = 0.0) {
+    return a < b ? PairImpulse{a, b, normalToA, pressing, along, placeOnB, rollingOnA}
+                 : PairImpulse{b, a, -1.0 * normalToA, pressing, along, placeOnA, -rollingOnA};
   }
 };
 
@@ -44,6 +46,8 @@ struct ImpulseScene {
   double smallest;           ///< radius; 1 m where there is no disk
   /// e_n of two ids.
   std::function<double(std::int32_t, std::int32_t)> restitution;
+  /// µ_r L of two ids [m]; empty where nothing resists rolling.
+  std::function<double(std::int32_t, std::int32_t)> rolling;
   /// Value of a setting.
   std::function<double(const char*)> setting;
 };

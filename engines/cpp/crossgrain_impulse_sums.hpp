@@ -42,7 +42,8 @@ struct Geometry {
 /// Impulses since some step, and what walls got of them.
 struct ImpulseSums {
   struct Impulse {
-    double pressing = 0.0, along = 0.0;  ///< as PairImpulse's; normals turn meanwhile [N s]
+    double pressing = 0.0, along = 0.0,
+           rolling = 0.0;  ///< as PairImpulse's; normals turn meanwhile
   };
   std::map<std::pair<std::int32_t, std::int32_t>, Impulse> onFirst;
   std::vector<Vector> onBody;
@@ -60,12 +61,13 @@ struct ImpulseSums {
     Impulse& sum = onFirst[{impulse.i, impulse.j}];
     sum.pressing += impulse.pressing;
     sum.along += impulse.along;
+    sum.rolling += impulse.rolling;
     const auto j = static_cast<std::size_t>(impulse.j);
     if (!ids.isWall(j)) return;
     const std::size_t b = ids.body(j);
     const Vector on = -1.0 * impulse.onFirst();
     onBody[b] = onBody[b] + on;
-    torqueOnBody[b] += cross(impulse.place - bodies[b].centre, on);
+    torqueOnBody[b] += cross(impulse.place - bodies[b].centre, on) - impulse.rolling;
   }
 };
 
@@ -74,12 +76,13 @@ inline void append(std::vector<double>& numbers, Vector v) {
 }
 
 /// Mean forces over an interval [s].
+/// @param rolls  whether anything resists rolling
 /// @param geometry  of two ids as they are now
 template <typename GeometryOf>
-void addContacts(ArrayFile& arrays, const ImpulseSums& sums, double interval,
+void addContacts(ArrayFile& arrays, const ImpulseSums& sums, double interval, bool rolls,
                  const GeometryOf& geometry) {
   std::vector<std::int32_t> i, j;
-  std::vector<double> normal, overlap, fn, ft;
+  std::vector<double> normal, overlap, fn, ft, rolling;
   for (const auto& [pair, impulse] : sums.onFirst) {
     const Geometry between =
         geometry(static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.second));
@@ -89,6 +92,7 @@ void addContacts(ArrayFile& arrays, const ImpulseSums& sums, double interval,
     overlap.push_back(between.overlap);
     fn.push_back(impulse.pressing / interval);
     ft.push_back(impulse.along / interval);
+    rolling.push_back(impulse.rolling / interval);
   }
   arrays.add("contacts.i", i);
   arrays.add("contacts.j", j);
@@ -96,6 +100,7 @@ void addContacts(ArrayFile& arrays, const ImpulseSums& sums, double interval,
   arrays.add("contacts.overlap", overlap);
   arrays.add("contacts.normal_force", fn);
   arrays.add("contacts.tangential_force", ft);
+  if (rolls) arrays.add("contacts.rolling_torque", rolling);
 }
 
 }  // namespace crossgrain_worker

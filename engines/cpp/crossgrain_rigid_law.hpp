@@ -32,11 +32,24 @@ class RigidLaw {
       throw Unsupported("has no tangential restitution, so it needs et0 = 0");
     kn_ = law.at("kn");
     cut_ = law.at("tension") == "cut";
+    if (law.value("rolling", "none") == "constant_torque") {
+      rolling_ = law.at("mu_r");
+      rollingLength_ = law.value("rolling_length", "effective");
+    }
     friction_ = soft_ && law.at("tangential") == "none" ? 0.0 : law.at("mu").get<double>();
   }
 
   bool soft() const { return soft_; }
   double friction() const { return friction_; }
+  /// µ_r, of M = −µ_r L N sign(ω_r); of any other law that resists rolling 0.
+  double rolling() const { return rolling_; }
+  /// L of two radii, a plane's being infinite [m].
+  double rollingLength(double a, double b) const {
+    const double effective = std::isinf(b) ? a : a * b / (a + b);
+    if (rollingLength_ == "twice_effective") return 2.0 * effective;
+    if (rollingLength_ == "effective" || std::isinf(b)) return effective;
+    return rollingLength_ == "mean_radius" ? 0.5 * (a + b) : std::fmin(a, b);
+  }
   bool damps() const { return soft_ ? gn_ > 0.0 : en_ < 1.0; }
 
   /// @param inverseMass  1/m₁ + 1/m₂, a wall's being 0 [1/kg]
@@ -56,7 +69,8 @@ class RigidLaw {
 
  private:
   bool soft_ = false, cut_ = false;
-  double kn_ = 0.0, gn_ = 0.0, en_ = 1.0, friction_ = 0.0;
+  double kn_ = 0.0, gn_ = 0.0, en_ = 1.0, friction_ = 0.0, rolling_ = 0.0;
+  std::string rollingLength_;
 };
 
 }  // namespace crossgrain_worker

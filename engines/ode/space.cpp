@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "crossgrain_worker.hpp"
+
 namespace ode_worker {
 namespace {
 
@@ -23,10 +25,18 @@ void setId(dGeomID shape, std::size_t id) {
   dGeomSetData(shape, reinterpret_cast<void*>(static_cast<std::intptr_t>(id)));
 }
 
+/// ODE's rows against rolling bring spins to rest, not to that of a wall.
+const ImpulseScene& withoutTurningWalls(const ImpulseScene& scene) {
+  for (const Body& wall : scene.walls)
+    if (scene.rolling && wall.spin != 0.0)
+      throw crossgrain_worker::Unsupported("resists no rolling on walls that turn");
+  return scene;
+}
+
 }  // namespace
 
 Space::Space(const ImpulseScene& scene)
-    : scene_(scene),
+    : scene_(withoutTurningWalls(scene)),
       iterations_(static_cast<int>(scene.setting("iterations"))),
       erp_(scene.setting("erp")),
       bounceThreshold_(scene.setting("restitution_threshold")),
@@ -146,6 +156,13 @@ dContact Space::contactOf(const Touch& touch) const {
   surface.bounce = scene_.restitution(touch.i, touch.j);
   surface.bounce_vel = bounceThreshold_;
   surface.soft_erp = erp_;
+  if (scene_.rolling) {
+    // About all axes alike, of which the plane has one: with a coefficient of 0 for the others
+    // (dContactAxisDep) ODE 0.16 counts rows that it does not fill. A second direction of friction,
+    // across the plane, comes with it.
+    surface.mode = (surface.mode & ~dContactMu2) | dContactRolling | dContactApprox1;
+    surface.rho = scene_.rolling(touch.i, touch.j);
+  }
   if (static_cast<std::size_t>(touch.j) >= disks_.size()) {
     const Vector velocity = wallVelocity(touch.j, fromOde(touch.geometry.pos));
     surface.mode |= dContactMotionN | dContactMotion1;
@@ -161,6 +178,7 @@ void Space::step(double next) {
   // where they are at its end.
   for (Body& wall : scene_.walls) wall.at(next - 0.5 * scene_.dt);
   forces_.assign(touches_.size(), {});
+  std::vector<Vector> centres;  // of the first of each contact, before they move
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     const dContact contact = contactOf(touches_[k]);
     const dJointID joint = dJointCreateContact(world_, contacts_, &contact);
@@ -168,16 +186,19 @@ void Space::step(double next) {
     dJointAttach(joint, disks_[static_cast<std::size_t>(touches_[k].i)],
                  j < disks_.size() ? disks_[j] : nullptr);
     dJointSetFeedback(joint, &forces_[k]);
+    centres.push_back(position(static_cast<std::size_t>(touches_[k].i)));
   }
   if (!(iterations_ > 0 ? dWorldQuickStep(world_, scene_.dt) : dWorldStep(world_, scene_.dt)))
     throw std::runtime_error("ODE has no memory for its step");
   impulses_.clear();
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     const Vector normal = fromOde(touches_[k].geometry.normal), force = fromOde(forces_[k].f1);
+    const Vector place = fromOde(touches_[k].geometry.pos), arm = place - centres[k];
     // The solver's normal force is not negative; a product of rounded numbers could be.
     impulses_.push_back(
         {touches_[k].i, touches_[k].j, normal, std::max(0.0, scene_.dt * dot(force, normal)),
-         scene_.dt * dot(force, turned(normal)), fromOde(touches_[k].geometry.pos)});
+         scene_.dt * dot(force, turned(normal)), place,
+         scene_.rolling ? scene_.dt * (forces_[k].t1[2] - cross(arm, force)) : 0.0});
   }
   dJointGroupEmpty(contacts_);
   requirePlane();

@@ -21,7 +21,9 @@ int main() {
       0.5,
       {{"lever_arm", {"overlap_middle"}},
        {"velocity_arm", {"lever_arm"}},
-       {"plane_arm", {"radius"}}},
+       {"plane_arm", {"radius"}},
+       {"rolling", {"none", "constant_torque"}},
+       {"rolling_load", {"compression"}}},
       {setting("dt", 5e-4, "s", "time step; 0: the case's"),
        within(setting("iterations", 20.0, "-",
                       "of QuickStep; 0: dWorldStep, which solves directly, in a time that grows "

@@ -47,18 +47,20 @@ CollidingPair smallPair(bool plane) {
 
 // ---- rolling ------------------------------------------------------------------------------------
 
-/// ω_r after an impact by ω_r before it. J ω′ = ∓M of both; without dashpots the impulse of f_n is
-/// 2 m₁₂ v, the duration t_c. With 1/J the sum of both inverse moments of inertia:
-///   A  ω_r − µ_r L 2 m₁₂ v/J,   B  exp(−γ_r L² t_c/J),   by load  exp(−µ_r L² 2 m₁₂ v/J),
+/// ω_r after an impact by ω_r before it. J ω′ = ∓M of both; the impulse p of f_n is 2 m₁₂ v without
+/// dashpots, (1 + e_n) m₁₂ v of rigid disks, the duration t_c. With 1/J the sum of both inverse
+/// moments of inertia:
+///   A  ω_r − µ_r L p/J,   B  exp(−γ_r L² t_c/J),   by load  exp(−µ_r L² p/J),
 ///   C  cos(t_c √(k_r/J)) while its spring holds.
 double rollsOn(const ContactLaw& law, bool plane, double spin) {
   const double mass = plane ? smallMass : pairMass;
   const double inverse = (plane ? 1.0 : 2.0) / smallInertia;
   const CollidingPair pair = smallPair(plane);
   const double length = rollingLength(law, pair);
-  const double impulse = 2.0 * mass * Encounter::speed;
+  const double impulse = (law.soft() ? 2.0 : 1.0 + law.en) * mass * Encounter::speed;
   const double duration =
-      impactTime(law, {mass, plane ? smallRadius : pairRadius, Encounter::speed});
+      law.soft() ? impactTime(law, {mass, plane ? smallRadius : pairRadius, Encounter::speed})
+                 : 0.0;
   switch (law.rolling) {
     case RollingLaw::constantTorque:
       return spin - law.muR * length * impulse * inverse;
