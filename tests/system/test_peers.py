@@ -392,6 +392,15 @@ class NodeEngines(Peer):
         allowed = self.run_program(*variant, '--set=run.may_differ=["integrator", "rounding", "tangential_restitution"]')
         self.assertIn("can run it", allowed.stdout)
 
+    def test_cpu_time_is_not_that_of_the_clock(self):
+        """On a busy machine the clock goes on while a worker waits."""
+        recording = self.folder / "run.rec"
+        done = self.run_program("record", HARD_SPHERE, "-k", "e_t0-0", "--engines", "rapier", "--out", recording, "--time=0.1")
+        self.assert_status(done, HELD)
+        (stats,) = [answer["stats"] for request, answer, _ in recorded_exchanges(recording) if request["request"] == "stats"]
+        self.assertGreater(stats["cpu_seconds"], 0.0)
+        self.assertNotEqual(stats["cpu_seconds"], stats["wall_seconds"])
+
     def test_diff_tells_one_version_from_another(self):
         kept = self.folder / "before.h5"
         psi = "--set=collision.psi=[0.5, 4.0]"
