@@ -4,7 +4,7 @@
 import {readFileSync} from 'node:fs';
 import {Unsupported} from '../node/crossgrain_worker.mjs';
 
-const home = new URL('../node/node_modules/jolt-physics/', import.meta.url);
+const home = new URL(`../node/node_modules/${process.env.JOLT ?? 'jolt-physics'}/`, import.meta.url);
 const {default: makeJolt} = await import(new URL('dist/jolt-physics.wasm-compat.js', home));
 const J = await makeJolt();
 
@@ -13,7 +13,11 @@ const MOST_BODIES = 10240;    // JoltSettings' own
 const HALF_PLANE = 1e6;       // units; it bounds a plane's box in the broad phase, nothing else
 const FIXED = 0, MOVING = 1;  // layers
 
-export const version = `jolt-physics ${JSON.parse(readFileSync(new URL('package.json', home))).version}`;
+const {version: binding} = JSON.parse(readFileSync(new URL('package.json', home)));
+// Until Jolt 5.5, jolt-physics 1.0, each point of a contact had friction of its own; since 5.6 a contact has it once.
+const FRICTION_OF_POINTS = binding.startsWith('1.0.');
+
+export const version = `jolt-physics ${binding}`;
 
 /// What the binding makes lives until it is destroyed.
 function once(object, use) {
@@ -60,7 +64,7 @@ class ContactStream {
     for (let k = 0; k < count; ++k) this.bytes.setUint8(this.size++, J.HEAPU8[from + k]);
   }
 
-  /// @param visit  (lower body, other body, normal impulse, impulses along Jolt's two tangents)
+  /// @param visit  (lower body, other body, normal impulse, impulse along Jolt's second tangent, that in the plane)
   read(system, visit) {
     this.size = 0;
     system.SaveState(this.recorder, J.EStateRecorderState_Contacts);
@@ -74,14 +78,21 @@ class ContactStream {
         at += 4;
         const points = this.bytes.getUint16((at += 2) - 2, true);
         at += 12;  // the normal in the second body's axes
-        const tangential = [real(), real()];
-        at += 4;  // friction about the normal
-        let pressing = 0;
+        let pressing = 0, along = 0;
+        const friction = () => {
+          at += 4;  // along the tangent that leaves the plane
+          along += real();
+        };
+        if (!FRICTION_OF_POINTS) {
+          friction();
+          at += 4;  // about the normal
+        }
         for (let k = 0; k < points; ++k) {
           at += 24;  // its places in the two bodies
           pressing += real();
+          if (FRICTION_OF_POINTS) friction();
         }
-        visit(a, b, pressing, tangential);
+        visit(a, b, pressing, along);
       }
     }
     if (at + 4 !== this.size) throw new Error(`Jolt wrote ${this.size} bytes of contacts where ${at + 4} were expected`);
@@ -240,12 +251,12 @@ export class JoltWorld {
   /// Of the last step. With a normal n in the plane one of Jolt's tangents is ∓z (Vec3::GetNormalizedPerpendicular) and the other
   /// s z × n, s the sign of the larger of n's components. Both disks of a pair see the same impulse along z × their own normal.
   impulses(visit) {
-    this.stream.read(this.system, (a, b, pressing, [, second]) => {
+    this.stream.read(this.system, (a, b, pressing, along) => {
       const i = a & 0x7fffff, j = b & 0x7fffff;  // without Jolt's count of uses
-      if (pressing === 0 && second === 0) return;
+      if (pressing === 0 && along === 0) return;
       const {normal: [x, y], point} = this.contacts.get(i * 2 ** 20 + j);
       const sign = Math.abs(x) > Math.abs(y) ? Math.sign(x) : Math.sign(y);
-      visit(i, j, pressing * this.unit, sign * second * this.unit, () => ({normal: [-x, -y], point}));
+      visit(i, j, pressing * this.unit, sign * along * this.unit, () => ({normal: [-x, -y], point}));
     });
   }
 }

@@ -506,6 +506,13 @@ class Jolt(RigidEngine, Peer):
     engine = "jolt"
     skipped = RigidEngine.skipped | {"ShrinkingWallPushes", "ShrinkingWallStops"}
 
+    def test_older_version_turns_walls_at_a_wrong_speed(self):
+        """Jolt 5.5 takes a step's small angle from the arc cosine of a number near 1 (JoltPhysics#1893)."""
+        done = self.run_program("conformance", "jolt-before", "-k", "TurningPlanePushes", "--quiet")
+        self.assert_status(done, FELL_SHORT)
+        done = self.run_program("conformance", "jolt-before", "-k", "PlaneLoadsAreThoseOfTheirContacts", "--quiet")
+        self.assert_status(done, HELD)
+
     def test_speculative_contacts_push_across_gaps(self):
         """As Jolt has them, up to a distance: disks that never touched part, which the audit refuses."""
         done = self.run_program(
