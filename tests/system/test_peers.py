@@ -564,14 +564,12 @@ class Mujoco(Peer):
         self.assertTrue(MUJOCO.exists(), "libmujoco-dev is installed, and the build did not find it")
 
     def test_without_friction_it_is_the_law_that_it_declares_to_its_impedance(self):
-        row = self.lockstep("mujoco", *self.FRICTIONLESS)
+        """d is the part of what others do to a pair that a contact works against: ε_eq was 0.9 d at 10⁻⁴ and 10⁻²; by 2
+        either way for other starts."""
+        row = self.lockstep("mujoco", *self.FRICTIONLESS, "--set=engines.mujoco.impedance=4e-4")
         self.assertEqual("same_law", row["verdict"])
-        self.assertLess(row["equivalent"], 2e-4)  # d = 1e-4, and as much for the spread of starts
-        done = self.run_program(
-            "lockstep", COUETTE, "--engines", "mujoco", "--out", self.folder / "hard", "--quick", "--quiet", "--starts=2",
-            *self.FRICTIONLESS, "--set=engines.mujoco.impedance=0.9",
-        )  # fmt: skip
-        self.assert_status(done, FELL_SHORT)
+        self.assertLess(2e-4, row["equivalent"])
+        self.assertLess(row["equivalent"], 8e-4)
 
     def test_sliding_impacts_are_the_projection_on_the_cone(self):
         """At t_c/2000 schemes of first order err by 1/2000 of what a contact changes, 1e-3 of e_n and Ψ_f; the law as it
