@@ -8,7 +8,7 @@ const home = new URL(`../node/node_modules/${process.env.JOLT ?? 'jolt-physics'}
 const {default: makeJolt} = await import(new URL('dist/jolt-physics.wasm-compat.js', home));
 const J = await makeJolt();
 
-const MOST_CONTACTS = 10240;  // of a step: what JoltSettings has room for, beyond which Jolt drops contacts
+const MOST_CONTACTS = 10240;  // of a step: for more there is no room in what JoltInterface allocates for a step
 const MOST_BODIES = 10240;    // JoltSettings' own
 const HALF_PLANE = 1e6;       // units; it bounds a plane's box in the broad phase, nothing else
 const FIXED = 0, MOVING = 1;  // layers
@@ -27,7 +27,8 @@ function once(object, use) {
 }
 
 /// Jolt's world with its two layers: what moves meets all, what is fixed meets what moves.
-function makeWorld() {
+/// @param room  for contacts of a step, beyond which Jolt drops some
+function makeWorld(room) {
   const pairs = new J.ObjectLayerPairFilterTable(2);
   pairs.EnableCollision(FIXED, MOVING);
   pairs.EnableCollision(MOVING, MOVING);
@@ -36,7 +37,7 @@ function makeWorld() {
   return once(new J.JoltSettings(), (how) => {
     how.mMaxWorkerThreads = 0;
     how.mMaxBodies = MOST_BODIES;
-    how.mMaxContactConstraints = MOST_CONTACTS;
+    how.mMaxContactConstraints = room;
     how.mObjectLayerPairFilter = pairs;
     how.mBroadPhaseLayerInterface = layers;
     how.mObjectVsBroadPhaseLayerFilter = new J.ObjectVsBroadPhaseLayerFilterTable(layers, 2, pairs, 2);
@@ -106,7 +107,8 @@ export class JoltWorld {
     this.count = disks.length;
     this.law = law;
     this.mass = disks.map((disk) => disk.mass);  // by id; beyond them, walls
-    this.jolt = makeWorld();
+    this.room = Math.min(MOST_CONTACTS, 1024 + 8 * this.count);
+    this.jolt = makeWorld(this.room);
     this.system = this.jolt.GetPhysicsSystem();
     this.make = this.system.GetBodyInterface();
     this.vector = new J.Vec3();
@@ -125,7 +127,10 @@ export class JoltWorld {
     this.describe(bodies.length > 0, number('slop'));
   }
 
-  free() { J.destroy(this.jolt); }
+  /// All of it: a worker loads hundreds of scenes, and what is left behind of each splits the heap, of 128 MB, for the next.
+  free() {
+    for (const own of [this.jolt, this.listener, this.stream.recorder, this.vector, this.place, this.turn]) J.destroy(own);
+  }
 
   vectorOf([x, y]) { return this.vector.Set(x / this.unit, y / this.unit, 0), this.vector; }
   placeOf([x, y]) { return this.place.Set(x / this.unit, y / this.unit, 0), this.place; }
@@ -235,7 +240,7 @@ export class JoltWorld {
   step() {
     this.contacts.clear();
     this.jolt.Step(this.dt, 1);
-    if (this.contacts.size >= MOST_CONTACTS) throw new Error(`Jolt has room for ${MOST_CONTACTS} contacts, and these are more`);
+    if (this.contacts.size >= this.room) throw new Error(`Jolt has room for ${this.room} contacts, and these are more`);
   }
 
   metres(vector) { return [vector.GetX() * this.unit, vector.GetY() * this.unit]; }

@@ -506,6 +506,27 @@ class Jolt(RigidEngine, Peer):
     engine = "jolt"
     skipped = RigidEngine.skipped | {"ShrinkingWallPushes", "ShrinkingWallStops"}
 
+    def test_a_scene_leaves_nothing_behind_in_its_heap(self):
+        """Of 128 MB; what was left split it, and after some hundred scenes there was no room for another."""
+        script = """
+            const {JoltWorld} = await import(process.argv[1]);
+            const disks = [{position: [0, 0], velocity: [0, 0], spin: 0, radius: 0.0037, mass: 0.275e-3, inertia: 1.9e-9}];
+            const law = {friction: 0.44, restitution: () => 0.5};
+            const scene = {disks, bodies: [], law, gravity: [0, 0], dt: 5e-4, rotation: true, number: () => 10};
+            const free = [];
+            for (let load = 0; load < 20; ++load) {
+              const world = new JoltWorld(scene);
+              world.step();
+              world.impulses(() => {});
+              free.push(world.jolt.sGetFreeMemory());
+              world.free();
+            }
+            console.log(free[1] - free[19]);
+        """
+        command = ["node", "--input-type=module", "--eval", script, str(HOME / "engines/jolt/world.mjs")]
+        done = subprocess.run(command, capture_output=True, encoding="utf-8", check=False)
+        self.assertEqual(("0\n", ""), (done.stdout, done.stderr))
+
     def test_older_version_turns_walls_at_a_wrong_speed(self):
         """Jolt 5.5 takes a step's small angle from the arc cosine of a number near 1 (JoltPhysics#1893)."""
         done = self.run_program("conformance", "jolt-before", "-k", "TurningPlanePushes", "--quiet")
