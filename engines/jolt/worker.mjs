@@ -1,6 +1,6 @@
 // A worker of crossgrain that runs scenes on Jolt Physics:  node worker.mjs
 //
-// README.md of this folder says what Jolt makes of a scene.
+// README.md of this folder says what Jolt makes of a scene. JOLT in the environment is another version's package.
 
 import {serve} from '../node/crossgrain_worker.mjs';
 import {ImpulseEngine} from '../node/impulse_engine.mjs';

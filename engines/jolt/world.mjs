@@ -4,16 +4,20 @@
 import {readFileSync} from 'node:fs';
 import {Unsupported} from '../node/crossgrain_worker.mjs';
 
-const home = new URL('../node/node_modules/jolt-physics/', import.meta.url);
+const home = new URL(`../node/node_modules/${process.env.JOLT ?? 'jolt-physics'}/`, import.meta.url);
 const {default: makeJolt} = await import(new URL('dist/jolt-physics.wasm-compat.js', home));
 const J = await makeJolt();
 
-const MOST_CONTACTS = 10240;  // of a step: what JoltSettings has room for, beyond which Jolt drops contacts
+const MOST_CONTACTS = 10240;  // of a step: for more there is no room in what JoltInterface allocates for a step
 const MOST_BODIES = 10240;    // JoltSettings' own
 const HALF_PLANE = 1e6;       // units; it bounds a plane's box in the broad phase, nothing else
 const FIXED = 0, MOVING = 1;  // layers
 
-export const version = `jolt-physics ${JSON.parse(readFileSync(new URL('package.json', home))).version}`;
+const {version: binding} = JSON.parse(readFileSync(new URL('package.json', home)));
+// Until Jolt 5.5, jolt-physics 1.0, each point of a contact had friction of its own; since 5.6 a contact has it once.
+const FRICTION_OF_POINTS = binding.startsWith('1.0.');
+
+export const version = `jolt-physics ${binding}`;
 
 /// What the binding makes lives until it is destroyed.
 function once(object, use) {
@@ -23,7 +27,8 @@ function once(object, use) {
 }
 
 /// Jolt's world with its two layers: what moves meets all, what is fixed meets what moves.
-function makeWorld() {
+/// @param room  for contacts of a step, beyond which Jolt drops some
+function makeWorld(room) {
   const pairs = new J.ObjectLayerPairFilterTable(2);
   pairs.EnableCollision(FIXED, MOVING);
   pairs.EnableCollision(MOVING, MOVING);
@@ -32,7 +37,7 @@ function makeWorld() {
   return once(new J.JoltSettings(), (how) => {
     how.mMaxWorkerThreads = 0;
     how.mMaxBodies = MOST_BODIES;
-    how.mMaxContactConstraints = MOST_CONTACTS;
+    how.mMaxContactConstraints = room;
     how.mObjectLayerPairFilter = pairs;
     how.mBroadPhaseLayerInterface = layers;
     how.mObjectVsBroadPhaseLayerFilter = new J.ObjectVsBroadPhaseLayerFilterTable(layers, 2, pairs, 2);
@@ -60,7 +65,7 @@ class ContactStream {
     for (let k = 0; k < count; ++k) this.bytes.setUint8(this.size++, J.HEAPU8[from + k]);
   }
 
-  /// @param visit  (lower body, other body, normal impulse, impulses along Jolt's two tangents)
+  /// @param visit  (lower body, other body, normal impulse, impulse along Jolt's second tangent, that in the plane)
   read(system, visit) {
     this.size = 0;
     system.SaveState(this.recorder, J.EStateRecorderState_Contacts);
@@ -74,14 +79,21 @@ class ContactStream {
         at += 4;
         const points = this.bytes.getUint16((at += 2) - 2, true);
         at += 12;  // the normal in the second body's axes
-        const tangential = [real(), real()];
-        at += 4;  // friction about the normal
-        let pressing = 0;
+        let pressing = 0, along = 0;
+        const friction = () => {
+          at += 4;  // along the tangent that leaves the plane
+          along += real();
+        };
+        if (!FRICTION_OF_POINTS) {
+          friction();
+          at += 4;  // about the normal
+        }
         for (let k = 0; k < points; ++k) {
           at += 24;  // its places in the two bodies
           pressing += real();
+          if (FRICTION_OF_POINTS) friction();
         }
-        visit(a, b, pressing, tangential);
+        visit(a, b, pressing, along);
       }
     }
     if (at + 4 !== this.size) throw new Error(`Jolt wrote ${this.size} bytes of contacts where ${at + 4} were expected`);
@@ -95,7 +107,8 @@ export class JoltWorld {
     this.count = disks.length;
     this.law = law;
     this.mass = disks.map((disk) => disk.mass);  // by id; beyond them, walls
-    this.jolt = makeWorld();
+    this.room = Math.min(MOST_CONTACTS, 1024 + 8 * this.count);
+    this.jolt = makeWorld(this.room);
     this.system = this.jolt.GetPhysicsSystem();
     this.make = this.system.GetBodyInterface();
     this.vector = new J.Vec3();
@@ -114,7 +127,10 @@ export class JoltWorld {
     this.describe(bodies.length > 0, number('slop'));
   }
 
-  free() { J.destroy(this.jolt); }
+  /// All of it: a worker loads hundreds of scenes, and what is left behind of each splits the heap, of 128 MB, for the next.
+  free() {
+    for (const own of [this.jolt, this.listener, this.stream.recorder, this.vector, this.place, this.turn]) J.destroy(own);
+  }
 
   vectorOf([x, y]) { return this.vector.Set(x / this.unit, y / this.unit, 0), this.vector; }
   placeOf([x, y]) { return this.place.Set(x / this.unit, y / this.unit, 0), this.place; }
@@ -224,7 +240,7 @@ export class JoltWorld {
   step() {
     this.contacts.clear();
     this.jolt.Step(this.dt, 1);
-    if (this.contacts.size >= MOST_CONTACTS) throw new Error(`Jolt has room for ${MOST_CONTACTS} contacts, and these are more`);
+    if (this.contacts.size >= this.room) throw new Error(`Jolt has room for ${this.room} contacts, and these are more`);
   }
 
   metres(vector) { return [vector.GetX() * this.unit, vector.GetY() * this.unit]; }
@@ -240,12 +256,12 @@ export class JoltWorld {
   /// Of the last step. With a normal n in the plane one of Jolt's tangents is ∓z (Vec3::GetNormalizedPerpendicular) and the other
   /// s z × n, s the sign of the larger of n's components. Both disks of a pair see the same impulse along z × their own normal.
   impulses(visit) {
-    this.stream.read(this.system, (a, b, pressing, [, second]) => {
+    this.stream.read(this.system, (a, b, pressing, along) => {
       const i = a & 0x7fffff, j = b & 0x7fffff;  // without Jolt's count of uses
-      if (pressing === 0 && second === 0) return;
+      if (pressing === 0 && along === 0) return;
       const {normal: [x, y], point} = this.contacts.get(i * 2 ** 20 + j);
       const sign = Math.abs(x) > Math.abs(y) ? Math.sign(x) : Math.sign(y);
-      visit(i, j, pressing * this.unit, sign * second * this.unit, () => ({normal: [-x, -y], point}));
+      visit(i, j, pressing * this.unit, sign * along * this.unit, () => ({normal: [-x, -y], point}));
     });
   }
 }

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
+#include <mujoco/mujoco.h>
 #include "crossgrain_vector.hpp"
 #include "crossgrain_walls.hpp"
-#include "mujoco/mujoco.h"
 
 /// A scene of disks and walls as MuJoCo's model: spheres with two slides and a hinge, fixed planes.
 /// Outside of this class everything is in SI units and in the protocol's ids: disks, then wall

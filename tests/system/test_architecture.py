@@ -15,7 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 ORDER = [
     "support",
     "continuum",
-    "engines/cpp", "engines/bullet", "engines/chipmunk", "engines/ode", "engines/grain", "engines/box2d",
+    "engines/cpp", "engines/bullet", "engines/chipmunk", "engines/mujoco", "engines/ode", "engines/grain", "engines/box2d",
     "adapters", "adapters/files", "adapters/worker",
     "oracle", "stability", "averaging", "cases", "results",
     "reports/common", "reports/render", "reports/lockstep", "reports/flow", "reports/regression", "reports/collide", "reports/conformance", "reports/effects", "reports/cost", "reports/scale", "reports/stability", "reports/thesis", "reports/site",

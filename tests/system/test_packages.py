@@ -25,6 +25,8 @@ INSIDE_PROGRAMS = {"yade": "yade"}
 
 # Modules of optional engines: without them the engine is refused.
 OPTIONAL_MODULES = {"siconos"}
+# Packages of optional engines, by ./setup --engines all: without them the build leaves the engine out.
+OPTIONAL_PACKAGES = {"libmujoco-dev"}
 
 # Programs that are asked for before they are used.
 OPTIONAL_PROGRAMS = {"sudo", "ccache", "groff", "chromium", "node", "nodejs", "npm", "liggghts"}
@@ -99,7 +101,7 @@ class Packages(unittest.TestCase):
         missing = {
             (what, owner.get(canonical(path), f"{path}, of no package"))
             for what, path in paths.items()
-            if owner.get(canonical(path)) not in installed_with_packages_txt()
+            if owner.get(canonical(path)) not in installed_with_packages_txt() | OPTIONAL_PACKAGES
         }
         self.assertEqual(set(), missing, "needed, and not installed by packages.txt")
 

@@ -392,6 +392,15 @@ class NodeEngines(Peer):
         allowed = self.run_program(*variant, '--set=run.may_differ=["integrator", "rounding", "tangential_restitution"]')
         self.assertIn("can run it", allowed.stdout)
 
+    def test_cpu_time_is_not_that_of_the_clock(self):
+        """On a busy machine the clock goes on while a worker waits."""
+        recording = self.folder / "run.rec"
+        done = self.run_program("record", HARD_SPHERE, "-k", "e_t0-0", "--engines", "rapier", "--out", recording, "--time=0.1")
+        self.assert_status(done, HELD)
+        (stats,) = [answer["stats"] for request, answer, _ in recorded_exchanges(recording) if request["request"] == "stats"]
+        self.assertGreater(stats["cpu_seconds"], 0.0)
+        self.assertNotEqual(stats["cpu_seconds"], stats["wall_seconds"])
+
     def test_diff_tells_one_version_from_another(self):
         kept = self.folder / "before.h5"
         psi = "--set=collision.psi=[0.5, 4.0]"
@@ -592,6 +601,34 @@ class Jolt(RigidEngine, Peer):
     engine = "jolt"
     skipped = RigidEngine.skipped | {"ShrinkingWallPushes", "ShrinkingWallStops"}
 
+    def test_a_scene_leaves_nothing_behind_in_its_heap(self):
+        """Of 128 MB; what was left split it, and after some hundred scenes there was no room for another."""
+        script = """
+            const {JoltWorld} = await import(process.argv[1]);
+            const disks = [{position: [0, 0], velocity: [0, 0], spin: 0, radius: 0.0037, mass: 0.275e-3, inertia: 1.9e-9}];
+            const law = {friction: 0.44, restitution: () => 0.5};
+            const scene = {disks, bodies: [], law, gravity: [0, 0], dt: 5e-4, rotation: true, number: () => 10};
+            const free = [];
+            for (let load = 0; load < 20; ++load) {
+              const world = new JoltWorld(scene);
+              world.step();
+              world.impulses(() => {});
+              free.push(world.jolt.sGetFreeMemory());
+              world.free();
+            }
+            console.log(free[1] - free[19]);
+        """
+        command = ["node", "--input-type=module", "--eval", script, str(HOME / "engines/jolt/world.mjs")]
+        done = subprocess.run(command, capture_output=True, encoding="utf-8", check=False)
+        self.assertEqual(("0\n", ""), (done.stdout, done.stderr))
+
+    def test_older_version_turns_walls_at_a_wrong_speed(self):
+        """Jolt 5.5 takes a step's small angle from the arc cosine of a number near 1 (JoltPhysics#1893)."""
+        done = self.run_program("conformance", "jolt-before", "-k", "TurningPlanePushes", "--quiet")
+        self.assert_status(done, FELL_SHORT)
+        done = self.run_program("conformance", "jolt-before", "-k", "PlaneLoadsAreThoseOfTheirContacts", "--quiet")
+        self.assert_status(done, HELD)
+
     def test_speculative_contacts_push_across_gaps(self):
         """As Jolt has them, up to a distance: disks that never touched part, which the audit refuses."""
         done = self.run_program(
@@ -643,14 +680,12 @@ class Mujoco(Peer):
         self.assertTrue(MUJOCO.exists(), "libmujoco-dev is installed, and the build did not find it")
 
     def test_without_friction_it_is_the_law_that_it_declares_to_its_impedance(self):
-        row = self.lockstep("mujoco", *self.FRICTIONLESS)
+        """d is the part of what others do to a pair that a contact works against: ε_eq was 0.9 d at 10⁻⁴ and 10⁻²; by 2
+        either way for other starts."""
+        row = self.lockstep("mujoco", *self.FRICTIONLESS, "--set=engines.mujoco.impedance=4e-4")
         self.assertEqual("same_law", row["verdict"])
-        self.assertLess(row["equivalent"], 2e-4)  # d = 1e-4, and as much for the spread of starts
-        done = self.run_program(
-            "lockstep", COUETTE, "--engines", "mujoco", "--out", self.folder / "hard", "--quick", "--quiet", "--starts=2",
-            *self.FRICTIONLESS, "--set=engines.mujoco.impedance=0.9",
-        )  # fmt: skip
-        self.assert_status(done, FELL_SHORT)
+        self.assertLess(2e-4, row["equivalent"])
+        self.assertLess(row["equivalent"], 8e-4)
 
     def test_sliding_impacts_are_the_projection_on_the_cone(self):
         """At t_c/2000 schemes of first order err by 1/2000 of what a contact changes, 1e-3 of e_n and Ψ_f; the law as it
