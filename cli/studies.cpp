@@ -277,7 +277,7 @@ void printOption(const FoundOption& option) {
   const std::string declared = option.declared.empty()
                                    ? "does not declare this option"
                                    : fmt::format("declares {}", fmt::join(option.declared, " | "));
-  fmt::print("{:<17} {:<34} {}{}\n", option.name, found, declared,
+  fmt::print("{:<19} {:<34} {}{}\n", option.name, found, declared,
              option.contradicts() ? "   <- not what was found" : "");
 }
 
@@ -288,10 +288,10 @@ void print(const std::string& engine, const Identification& found) {
   if (found.closeEnough()) {
     for (const FoundOption& option : found.options) printOption(option);
     for (const FoundConstant& constant : found.constants)
-      fmt::print("{:<17} {:+.4g} % of the case's   <- not the case's\n", constant.name,
+      fmt::print("{:<19} {:+.4g} % of the case's   <- not the case's\n", constant.name,
                  100.0 * constant.change);
     if (!found.missing.empty() || !found.declaredMissing.empty())
-      fmt::print("{:<17} {:<34} {}{}\n", "does not simulate",
+      fmt::print("{:<19} {:<34} {}{}\n", "does not simulate",
                  orNone(found.missing, "(simulates all)"),
                  found.declaredMissing.empty()
                      ? "declares that it simulates all"

@@ -194,13 +194,43 @@ std::string constantOff(const Mirror& mirror, const ContactLaw& law, LawPart par
   return best;
 }
 
+/// The constant of that part without which the law does what was found, to within the limit; empty:
+/// there is none.
+std::string constantMissing(const Mirror& mirror, const ContactLaw& law, LawPart part,
+                            const std::vector<double>& found, double limit) {
+  for (const LawConstant& constant : lawConstants()) {
+    const bool stiffness = constant.value == &ContactLaw::kUnload;  // 0 of it is no law
+    if (constant.part != part || law.*constant.value == 0.0 || stiffness) continue;
+    if (farthest(found, mirror([&](ContactLaw& other) { other.*constant.value = 0.0; })) <= limit)
+      return text(results::constantSymbol(std::string(constant.name)), " -100 %");
+  }
+  return {};
+}
+
+/// Kinds of one part of the law that were asked for, and those under which the engine moves as
+/// without the part.
+struct Absence {
+  int kinds = 0, absent = 0;
+  std::string said;                      ///< of the first of these
+  std::function<std::string()> missing;  ///< finds the constant that is, of the first
+
+  /// What is missing: the part, or only a constant that is all there is of it under one kind.
+  std::string cause() const {
+    if (absent < kinds)
+      if (std::string constant = missing(); !constant.empty()) return constant;
+    return said;
+  }
+};
+
 /// What is loaded, under one value of a convention: the engine is compared with the in-house engine
 /// that has it, and with those that have each other value.
+/// @param absence  counts, where the convention is the kind of a part
 /// @param constant  gets what finds the constant that explains a difference, where no other value
 ///                  of this convention does
 /// @returns whether the law is known, so that it could be
 bool expectConvention(CheckContext& context, Engine& inHouse, const LawOption& option,
-                      const std::string& value, std::function<std::string()>& constant) {
+                      const std::string& value, Absence& absence,
+                      std::function<std::string()>& constant) {
   const std::string name(option.name);
   const std::string capability = text(name, " = ", value);
   const Scene ran = context.scene;
@@ -237,16 +267,25 @@ bool expectConvention(CheckContext& context, Engine& inHouse, const LawOption& o
     }
   }
   if (known) context.examine(capability);
+  ++absence.kinds;
   if (off <= limit) return true;
   context.fault(text("under ", capability, " it is off the in-house engine by ",
                      fmt::format("{:.3g} m/s, allowed {:.3g}", off, limit),
                      " (a thousandth of k_n)"));
-  if (!nearest.empty() && least <= limit)
-    context.suspect(text("it has ", name, " = ", nearest, ", and declares ", value));
-  else if (option.part != LawPart::contact && !constant)
+  const bool explained = !nearest.empty() && least <= limit;
+  std::string said = text("it has ", name, " = ", nearest, ", and declares ", value);
+  if (explained && nearest == "none" && absence.absent++ == 0) {
+    absence.said = std::move(said);
+    absence.missing = [with, law = *declared, part = option.part, found, limit] {
+      return constantMissing(with, law, part, found, limit);
+    };
+  } else if (explained && nearest != "none") {
+    context.suspect(std::move(said));
+  } else if (!explained && option.part != LawPart::contact && !constant) {
     constant = [with, law = *declared, part = option.part, found, limit] {
       return constantOff(with, law, part, found, limit);
     };
+  }
   return true;
 }
 
@@ -266,15 +305,17 @@ void conventionsAreThoseDeclared(CheckContext& context) {
     const auto values = context.can.lawOptions.find(name);
     if (std::ranges::count(oraclesOptions, name) > 0 || values == context.can.lawOptions.end())
       continue;
+    Absence absence;
     for (const std::string& value : values->second) {
       std::string why;
       if (loadedUnderAny(context, lawsFor(context.can, option, value), withPlane, stepsFor(option),
                          why)) {
-        any = expectConvention(context, *inHouse, option, value, constant) || any;
+        any = expectConvention(context, *inHouse, option, value, absence, constant) || any;
       } else if (!why.empty()) {
         context.couldNotExamine(text(name, " = ", value), why);
       }
     }
+    if (absence.absent > 0) context.suspect(absence.cause());
   }
   if (constant && !context.cause)
     if (std::string off = constant(); !off.empty()) context.suspect(std::move(off));

@@ -110,7 +110,8 @@ void rollingFollowsItsClosedForms(CheckContext& context) {
     const std::vector<double> spins = spinsOf(context.scene, context.at(Encounter::end));
     const double lost = pairSpin - 0.5 * rollsOn(own, false, 2.0 * pairSpin);
     const double first = pairSpin - spins[0], second = pairSpin + spins[1];
-    if (std::abs(first) > 0.1 * lost && std::abs(second) < 1e-3 * lost)
+    const bool resists = std::abs(first) > 0.1 * lost;
+    if (resists && std::abs(second) < 1e-3 * lost)
       context.suspect("the torque against rolling acts on the first of two disks alone");
     context.near(first, lost, firstOrderScheme,
                  name + ", the spin lost by the first of two disks [rad/s]");
@@ -120,7 +121,7 @@ void rollingFollowsItsClosedForms(CheckContext& context) {
     if (context.refusal(turningOnPlane(frictionless(law)))) continue;
     const double left = spinsOf(context.scene, context.at(Encounter::end))[0];
     const double lostOnPlane = pairSpin - rollsOn(own, true, pairSpin);
-    if (std::abs(pairSpin - left) < 1e-3 * lostOnPlane)
+    if (resists && std::abs(pairSpin - left) < 1e-3 * lostOnPlane)
       context.suspect("nothing resists rolling at planes");
     context.near(pairSpin - left, lostOnPlane, firstOrderScheme,
                  name + ", the spin lost on a plane [rad/s]");

@@ -116,7 +116,7 @@ def main():
             kept = options.out / "records" / f"{fault['name']}-{command}.json"
             fresh = options.again or not kept.exists()
             if fresh:
-                run(options, commands[command], None if options.cpu else most, fault, command, kept)
+                run(options, fault.get(command, commands[command]), None if options.cpu else most, fault, command, kept)
             if fault is control:
                 right = reading.good_columns(results_of(kept), "right")
             record = judged(command, fault, kept, right, options.cpu)

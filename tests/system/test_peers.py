@@ -65,7 +65,7 @@ class Yade(Peer):
         self.assertLess(row["equivalent"], 1e-3)
         done = self.run_program("identify", COUETTE, "--engines", "yade", "--quiet")
         self.assert_status(done, HELD)
-        for line in (r"tension +cut +declares cut", r"dashpot +outside +declares outside", "does not simulate bottom_friction"):
+        for line in (r"tension +cut +declares cut", r"dashpot +outside +declares outside", "does not simulate +bottom_friction"):
             self.assertRegex(done.stdout, rf"(?m)^{line}")
         self.assertNotIn("<-", done.stdout)
 
