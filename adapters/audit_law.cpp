@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
+#include <numeric>
 #include <utility>
 
 #include "adapters/audit_geometry.hpp"
@@ -130,6 +130,29 @@ ContactLaw ownLaw(const AuditBasis& basis, std::size_t i, std::size_t j, const C
   return own;
 }
 
+/// Pairs by their first: each has few, whose list is looked through faster than a tree.
+class ListedPairs {
+ public:
+  ListedPairs(const Contacts& contacts, std::size_t bodies)
+      : begin_(bodies + 1), second_(contacts.size()) {
+    for (const std::int32_t i : contacts.i) ++begin_[static_cast<std::size_t>(i) + 1];
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+      second_[next[static_cast<std::size_t>(contacts.i[k])]++] = contacts.j[k];
+  }
+  bool contains(std::size_t i, std::size_t j) const {
+    const auto at = [&](std::size_t k) {
+      return second_.begin() + static_cast<std::ptrdiff_t>(begin_[k]);
+    };
+    return std::find(at(i), at(i + 1), static_cast<std::int32_t>(j)) != at(i + 1);
+  }
+
+ private:
+  std::vector<std::size_t> begin_;
+  std::vector<std::int32_t> second_;
+};
+
 constexpr double stepsOfDoubt = 1.5;
 
 /// How far the velocities of the law may be from those shown, by body [m/s]: of its centre, and of
@@ -151,11 +174,10 @@ struct VelocityDoubt {
     const Contacts& contacts = *snapshot.contacts;
     std::vector<Vec2> sum(centre.size(), Vec2::Zero());
     std::vector<double> sizes(centre.size()), changes(centre.size());
-    std::set<std::pair<std::size_t, std::size_t>> shown;
+    const ListedPairs shown(contacts, centre.size());
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       const auto i = static_cast<std::size_t>(contacts.i[k]);
       const auto j = static_cast<std::size_t>(contacts.j[k]);
-      shown.emplace(i, j);
       const Vec2 force = contacts.force(k);
       const double size = force.norm();
       const bool began = isWithin(contacts.overlap[k], size, places, basis, i, j);
@@ -170,7 +192,7 @@ struct VelocityDoubt {
       }
     }
     const auto addEnded = [&](std::size_t i, std::size_t j) {
-      if (shown.contains({i, j})) return;
+      if (shown.contains(i, j)) return;
       const double last = lastForce(ownLaw(basis, i, j, law), places, basis, i, j);
       for (const std::size_t id : {i, j}) changes[id] += last;
     };

@@ -129,15 +129,18 @@ namespace {
 
 /// All that is not listed at once, so that nobody has to ask again and again.
 void refuseUnlisted(const std::vector<Mismatch>& all, const std::vector<std::string>& mayDiffer) {
-  std::vector<std::string> reasons, names;
+  std::vector<std::string> reasons, names, quoted;
   for (const Mismatch& mismatch : all) {
     if (std::ranges::find(mayDiffer, mismatch.name) != mayDiffer.end()) continue;
     reasons.push_back(mismatch.reason);
-    names.push_back('"' + mismatch.name + '"');
+    names.push_back(mismatch.name);
+    quoted.push_back('"' + mismatch.name + '"');
   }
   if (!names.empty())
-    throw UnsupportedScene(fmt::format("{}; list {} under [run] may_differ to run it all the same",
-                                       fmt::join(reasons, "; "), fmt::join(names, ", ")));
+    throw UnlistedDifferences(
+        fmt::format("{}; list {} under [run] may_differ to run it all the same",
+                    fmt::join(reasons, "; "), fmt::join(quoted, ", ")),
+        names);
 }
 
 }  // namespace

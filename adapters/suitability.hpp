@@ -14,6 +14,13 @@ struct Mismatch {
   bool effectMissing = false;  ///< an effect that the engine cannot simulate at all
 };
 
+/// Refused for mismatches that a case may allow.
+struct UnlistedDifferences : UnsupportedScene {
+  UnlistedDifferences(const std::string& what, std::vector<std::string> unlisted)
+      : UnsupportedScene(what), names(std::move(unlisted)) {}
+  std::vector<std::string> names;  ///< to be listed under [run] may_differ
+};
+
 /// In `[run] may_differ`: an engine of rigid contacts that has none runs a scene of e_t0 ≠ 0 with
 /// 0.
 inline constexpr const char* tangentialRestitutionName = "tangential_restitution";
@@ -41,8 +48,8 @@ struct Adapted {
   std::vector<Deviation> deviations;
 };
 
-/// @throws UnsupportedScene naming every mismatch that is not in mayDiffer, and where to list them;
-/// or what is then still beyond the engine's limits, which no case can have it run
+/// @throws UnlistedDifferences naming every mismatch that is not in mayDiffer, and where to list
+/// them; or what is then still beyond the engine's limits, which no case can have it run
 Adapted adaptScene(const Capabilities& can, const Scene& scene,
                    const std::vector<std::string>& mayDiffer);
 

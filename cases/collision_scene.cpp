@@ -97,15 +97,66 @@ Scene collisionScene(const Case& setup, const std::vector<CollisionStart>& start
   return scene;
 }
 
+namespace {
+
+/// Bodies that are alike.
+struct Kind {
+  std::string name;
+  double radius, mass;  ///< [m], 0 of a plane; [kg], inf of walls
+  const MaterialName& material;
+  double inertia(double factor) const { return factor * mass * radius * radius; }
+};
+
+/// Every disk with every other kind of disk and of wall.
+/// @param disks  how many of the kinds are disks, the first ones
+std::vector<NamedPair> pairsOfKinds(const Case& setup, const std::vector<Kind>& kinds,
+                                    std::size_t disks, double inertiaFactor) {
+  std::vector<NamedPair> pairs;
+  for (std::size_t i = 0; i < disks; ++i)
+    for (std::size_t j = i; j < kinds.size(); ++j) {
+      const Kind &one = kinds[i], &two = kinds[j];
+      const CollidingPair bodies =
+          two.radius == 0.0
+              ? diskOnWall(one.radius, one.mass, one.inertia(inertiaFactor))
+              : CollidingPair{{one.radius, two.radius},
+                              {one.mass, two.mass},
+                              {one.inertia(inertiaFactor), two.inertia(inertiaFactor)}};
+      pairs.push_back({fmt::format("{}-{}", one.name, two.name), bodies,
+                       lawOf(setup, one.material, two.material)});
+    }
+  return pairs;
+}
+
+/// Of an assembly: groups of equal disks are one kind, and so are walls.
+std::vector<NamedPair> pairsOfAssembly(const Case& setup) {
+  std::vector<Kind> kinds;
+  const auto add = [&](const char* name, double radius, double mass, const MaterialName& material) {
+    const auto same = [&](const Kind& kind) {
+      return kind.radius == radius && kind.mass == mass && kind.material.name == material.name;
+    };
+    if (std::ranges::any_of(kinds, same)) return;
+    kinds.push_back({fmt::format("{}{}", name, kinds.size() + 1), radius, mass, material});
+  };
+  const Assembly& assembly = setup.assembly;
+  for (const DiskGroup& group : assembly.disks)
+    add("disk", group.radius, group.mass, group.material);
+  const std::size_t disks = kinds.size();
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  for (const WallGroup& wall : assembly.walls) {
+    if (!wall.planes.empty()) add("plane", 0.0, infinite, wall.material);
+    if (!wall.position.empty() && wall.radii.empty())
+      add("wall", wall.radius, infinite, wall.material);
+    for (const double radius : wall.radii) add("wall", radius, infinite, wall.material);
+  }
+  return pairsOfKinds(setup, kinds, disks, assembly.inertiaFactor);
+}
+
+}  // namespace
+
 std::vector<NamedPair> pairsOf(const Case& setup) {
   if (setup.kind == CaseKind::collision) return {{"i-j", collidingPair(setup), setup.law}};
+  if (setup.kind == CaseKind::assembly) return pairsOfAssembly(setup);
   const Particles& p = setup.particles;
-  struct Kind {
-    const char* name;
-    double radius, mass;
-    const MaterialName& material;
-    double inertia(double factor) const { return factor * mass * radius * radius; }
-  };
   std::vector<Kind> kinds;
   if (p.small > 0 || p.file)
     kinds.push_back({"small", p.smallRadius, p.smallMass, p.smallMaterial});
@@ -117,17 +168,7 @@ std::vector<NamedPair> pairsOf(const Case& setup) {
   const bool alike = cell.wheelMaterial.name == cell.ringMaterial.name;
   kinds.push_back({alike ? "wall" : "wheel", cell.wallRadius, infinite, cell.wheelMaterial});
   if (!alike) kinds.push_back({"ring", cell.wallRadius, infinite, cell.ringMaterial});
-  std::vector<NamedPair> pairs;
-  for (std::size_t i = 0; i < disks; ++i)
-    for (std::size_t j = i; j < kinds.size(); ++j) {
-      const Kind &one = kinds[i], &two = kinds[j];
-      pairs.push_back({fmt::format("{}-{}", one.name, two.name),
-                       {{one.radius, two.radius},
-                        {one.mass, two.mass},
-                        {one.inertia(p.inertiaFactor), two.inertia(p.inertiaFactor)}},
-                       lawOf(setup, one.material, two.material)});
-    }
-  return pairs;
+  return pairsOfKinds(setup, kinds, disks, p.inertiaFactor);
 }
 
 }  // namespace crossgrain::inline cases

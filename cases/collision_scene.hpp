@@ -30,8 +30,8 @@ struct NamedPair {
   ContactLaw law;  ///< of their materials
 };
 
-/// Of a cell's disks with each other and with wall disks; of a collision its two bodies.
-/// @pre no assembly
+/// Of a cell's disks with each other and with wall disks; of a collision its two bodies; of an
+/// assembly "disk1-disk2", "disk1-plane3", disks by the radius of their group, none of start files.
 std::vector<NamedPair> pairsOf(const Case& setup);
 
 }  // namespace crossgrain::inline cases

@@ -404,6 +404,9 @@ std::string fromConstants(const Request& request) {
 /// Of an impact under a law that stiffens [m/s].
 double speedOf(const Case& setup, const Request& request) {
   if (request.vn) return *request.vn;
+  if (setup.kind == CaseKind::assembly)
+    throw BadInput(
+        "--vn is missing: the speed of impacts, on which this law's restitution depends");
   return setup.kind == CaseKind::collision ? setup.collision.vn.front()
                                            : std::abs(setup.cell.omega) * setup.cell.innerRadius;
 }
@@ -416,9 +419,11 @@ std::string fromCase(const CommandLine& line, const Request& request) {
     throw BadInput("--tension and --tangential: the case file says it; --set changes it");
   const auto& file = line.inputs.front();
   const std::vector<Case> cases = loadCase(file, line.overrides);
-  if (cases.front().kind == CaseKind::assembly)
-    throw BadInput(fmt::format("{}: an assembly has no kinds of disks: give the law's constants",
-                               file.string()));
+  if (cases.front().kind == CaseKind::assembly && cases.front().assembly.disks.empty())
+    throw BadInput(
+        fmt::format("{}: its disks are those of start files, of any radius: give the law's "
+                    "constants and a pair's masses, as --kn, --gn and --mass",
+                    file.string()));
   for (const Case& setup : cases)
     if (setup.law.normal == NormalLaw::rigid)
       throw BadInput(fmt::format("{}: its law is rigid, which is given by e_n and e_t0 themselves",

@@ -112,10 +112,11 @@ std::string compareText(const CompareResults& results) {
   std::map<Verdict, int> answers;
   for (const EndpointRow& row : results.endpoints.rows) {
     if (row.kind != PairKind::peer && row.kind != PairKind::closedForm) continue;
+    if (row.kind != PairKind::closedForm &&
+        (row.a != referenceOf(results) || results.nothingJudged))
+      continue;  // pairs of others are in the report
     ++answers[row.verdict];
-    if (row.kind == PairKind::closedForm ||
-        (row.a == referenceOf(results) && !results.nothingJudged))
-      add(fmt::format("{:<16} {:<26} {}", row.b, row.endpoint, reports::describeAnswer(row)));
+    add(fmt::format("{:<16} {:<26} {}", row.b, row.endpoint, reports::describeAnswer(row)));
   }
   for (const AlarmRow& alarm : results.endpoints.alarms) add("ALARM: " + reports::describe(alarm));
   if (const InterimFindings& looks = results.endpoints.looks; looks.taken > 0)
@@ -138,12 +139,13 @@ std::string collideText(const CollideResults& results) {
   std::string text;
   for (const auto& [engine, count] : refused)
     if (count > 0)
-      text += fmt::format("{} does not have the law of {} sweeps; the report says why\n", engine,
-                          count);
+      text += fmt::format("{} does not have the law of {} sweep{}; the report says why\n", engine,
+                          count, count == 1 ? "" : "s");
   const SweepCount count = countOf(results);
   return text +
-         fmt::format("{} curves passed, {} differ by their model, {} failed, {} not judged\n",
-                     count.held, count.modelDifference, count.beyondLimits, count.notJudged);
+         fmt::format("{} curve{} passed, {} differ by their model, {} failed, {} not judged\n",
+                     count.held, count.held == 1 ? "" : "s", count.modelDifference,
+                     count.beyondLimits, count.notJudged);
 }
 
 /// "grain  without friction  0.583 of the time per step, 21 of 42 rings changed"

@@ -41,7 +41,7 @@ def _table(rows):
 
 def _one(found, what, names):
     if not found:
-        raise KeyError(f"there is no {what}; there are {', '.join(sorted({str(name) for name in names}))}")
+        raise KeyError(f"there is no {what}; there are {', '.join(sorted({str(name) for name in names})) or 'none'}")
     return found[0]
 
 
@@ -79,8 +79,11 @@ class Results:
 
     def _require(self, member, what):
         if member not in self.document:
-            raise KeyError(f"{self.file}: results of {self.kind} have no {what}")
+            raise KeyError(f"{self.file}: results of {self.kind} have no {what}; there are {', '.join(self.document)}")
         return self.document[member]
+
+    def _reference(self):
+        return _one(self.engines, "engine", self.engines)
 
     def runs(self):
         """Finished runs, as results.json has them: one for each engine and packing."""
@@ -101,9 +104,9 @@ class Results:
     def profile(self, field, engine=None, packing=None, method=None):
         """One Profile. engine: default the reference; packing: an index or "all", default the mean over packings
         where there are several, else that run; method: default the first of the case, which verdicts are of."""
-        engine = engine or self.engines[0]
-        method = method or self.document.get("averaging", {}).get("method")
         everything = list(self._all_profiles())
+        engine = engine or self._reference()
+        method = method or self.document.get("averaging", {}).get("method")
         of_engine = [p for p in everything if p.engine == engine]
         _one(of_engine, f"profile of {engine}", {p.engine for p in everything})
         of_field = [p for p in of_engine if p.field == field and p.method == method]
@@ -126,7 +129,7 @@ class Results:
     def series(self, engine=None, packing=None):
         """Series over time of one run: {"t_s": [s], "wheel_torque": [N m], "kinetic_energy": [J], …}; docs/results.md
         has their units. packing: default the first that finished."""
-        engine = engine or self.engines[0]
+        engine = engine or self._reference()
         runs = [run for run in self.runs() if run["engine"] == engine and not run.get("without")]
         found = [run for run in runs if packing in (None, run["packing"]) and "series" in run]
         run = _one(found, f"series of {engine}, packing {packing}", {(r["engine"], r["packing"]) for r in self.runs()})
@@ -219,14 +222,15 @@ class Snapshot:
     position: np.ndarray  #: (disks, 2) [m]
     velocity: np.ndarray  #: (disks, 2) [m/s]
     spin: np.ndarray  #: counter-clockwise positive [rad/s]; None: nothing spins
-    wall_position: np.ndarray  #: (wall disks, 2) [m]
+    wall_position: np.ndarray  #: (wall disks, 2) [m]; None: the file has none
     contacts: Contacts  #: None: the file has none
-    bodies: dict  #: centre [m], velocity [m/s], angle [rad], angular_velocity [rad/s], force [N], torque [N m] of wall bodies
-    energies: dict  #: kinetic and elastic [J]; empty: not known
+    #: centre [m], velocity [m/s], angle [rad], angular_velocity [rad/s], force [N], torque [N m] of wall bodies; None: the file has none
+    bodies: dict
+    energies: dict  #: kinetic and elastic [J]; None: not known
 
     def centres(self):
         """(disks + wall disks, 2): centres by id [m]."""
-        return np.concatenate([self.position, self.wall_position])
+        return self.position if self.wall_position is None else np.concatenate([self.position, self.wall_position])
 
 
 class Snapshots:
@@ -274,16 +278,16 @@ class Snapshots:
         if at not in self._file:
             raise IndexError(f"there is no snapshot {k} of {len(self)}")
         group = self._file[at]
-        energies = self._optional(f"{at}/energies")
+        energies, walls = (self._optional(f"{at}/{name}") for name in ("energies", "wall_position"))
         return Snapshot(
             *(float(t) for t in group["time"][:]),
             position=group["position"][:],
             velocity=group["velocity"][:],
             spin=self._optional(f"{at}/spin"),
-            wall_position=self._array(f"{at}/wall_position").reshape(-1, 2),
+            wall_position=None if walls is None else walls.reshape(-1, 2),
             contacts=self._contacts(f"{at}/contacts"),
-            bodies={name: values[:] for name, values in group.get("bodies", {}).items()},
-            energies={} if energies is None else dict(zip(("kinetic", "elastic"), energies)),
+            bodies={name: values[:] for name, values in group["bodies"].items()} if "bodies" in group else None,
+            energies=None if energies is None else dict(zip(("kinetic", "elastic"), energies)),
         )
 
     def _contacts(self, at):

@@ -30,11 +30,15 @@ inline constexpr support::EnumNames<Basis, 4> basisNames{{{Basis::paired, "paire
 struct UnpairedRuns {
   Basis basis = Basis::independent;
   int a = 0, b = 0;  ///< runs with a value, of each
+  /// Share of the runs of a in the variance of the difference of means, 0 … 1: more than a half,
+  /// and more runs of a narrow the interval most. Absent of a single run each.
+  std::optional<double> shareOfA = {};
 
   void fields(auto& io) {
     io("basis", basis, basisNames);
     io("a", a);
     io("b", b);
+    io.present("share_of_a", shareOfA);
   }
 };
 

@@ -100,6 +100,23 @@ std::string_view TextFile::need(std::string_view what) {
   return line_;
 }
 
+void TextFile::take(std::span<std::byte> bytes) {
+  const std::size_t from = position();
+  skip(bytes.size());
+  if (file_.read(from, bytes) != bytes.size()) fail("the file was cut off while it was read");
+}
+
+void TextFile::skip(std::size_t bytes) {
+  if (bytes > size() - std::min(size(), position()))
+    fail(fmt::format("{} bytes should follow, the file has {}: it was cut off", bytes,
+                     size() - std::min(size(), position())));
+  const std::size_t there = std::min(bytes, end_ - begin_);
+  begin_ += there;
+  if (there == bytes) return;
+  offset_ += end_ + (bytes - there);
+  begin_ = end_ = 0;
+}
+
 std::size_t TextFile::rows(std::int64_t claimed, std::size_t columns) const {
   // A column is a digit and a blank at least.
   const std::size_t most =

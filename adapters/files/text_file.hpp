@@ -37,6 +37,11 @@ class TextFile {
   /// Bytes of lines that were read.
   std::size_t position() const { return offset_ + begin_; }
   std::size_t size() const { return file_.size(); }
+  /// The bytes behind the present line, whatever they are; the next line begins behind them.
+  /// @throws BadInput where the file ends before
+  void take(std::span<std::byte> bytes);
+  /// Goes on behind so many bytes. @throws BadInput likewise
+  void skip(std::size_t bytes);
   /// How many of `claimed` rows the rest of the file can hold, each of `columns` numbers: room is
   /// taken for so many. @throws BadInput where they are fewer than claimed
   std::size_t rows(std::int64_t claimed, std::size_t columns) const;

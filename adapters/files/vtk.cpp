@@ -221,11 +221,7 @@ Content contentOfVtk(const fs::path& file) {
     return hasLines || head.find("\"forceN\"") != std::string::npos ? Content::contacts
                                                                     : Content::particles;
   }
-  for (TextFile text(file); text.next();) {
-    if (text.line().starts_with("LINES ")) return Content::contacts;
-    if (text.line().starts_with("POINT_DATA") || text.line().starts_with("CELL_DATA")) break;
-  }
-  return Content::particles;
+  return legacyHasLines(file) ? Content::contacts : Content::particles;
 }
 
 std::unique_ptr<FrameReader> openVtk(const Files& files, const FileOptions& options) {

@@ -32,8 +32,10 @@ struct VtkData {
 /// .vtu and .vtp: numbers in text, in base64, or appended, raw or in base64, packed by zlib or not.
 /// @throws BadInput
 VtkData readVtkXml(const std::filesystem::path& file);
-/// The older format, in text. @throws BadInput
+/// The older format, in text or binary. @throws BadInput
 VtkData readVtkLegacy(const std::filesystem::path& file);
+/// Whether it has lines, which contacts are. @throws BadInput
+bool legacyHasLines(const std::filesystem::path& file);
 
 /// What both formats check of lines. @throws BadInput
 void addLine(VtkData& data, const std::string& where, double from, double to);

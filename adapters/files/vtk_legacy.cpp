@@ -1,8 +1,11 @@
-/// VTK's older format, "# vtk DataFile Version 3.0", in text: what YADE's export.VTKExporter
-/// writes.
+/// VTK's older format, "# vtk DataFile Version 3.0": in text, what YADE's export.VTKExporter
+/// writes, or with its numbers in binary, the highest byte first, each section behind its line:
+/// https://docs.vtk.org/en/latest/vtk_file_formats/vtk_legacy_file_format.html
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 
 #include "adapters/files/text_file.hpp"
 #include "adapters/files/vtk_data.hpp"
@@ -44,6 +47,9 @@ class Words {
   /// What follows is numbers.
   void skipLine() { at_ = words_.size(); }
   TextFile& text() { return text_; }
+  const TextFile& text() const { return text_; }
+
+  bool binary = false;
 
  private:
   TextFile text_;
@@ -51,8 +57,50 @@ class Words {
   std::size_t at_ = 0;
 };
 
-VtkArray readArray(Words& in, std::string name, std::size_t components, std::size_t rows) {
+template <typename T>
+std::vector<double> bigEndian(TextFile& text, std::size_t count) {
+  if (count > text.size()) text.fail(fmt::format("{} numbers are announced", count));
+  std::vector<std::byte> bytes(sizeof(T) * count);
+  text.take(bytes);
+  std::vector<double> values(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    std::array<std::byte, sizeof(T)> one;
+    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(k * sizeof(T)), sizeof(T), one.begin());
+    if (std::endian::native == std::endian::little) std::ranges::reverse(one);
+    values[k] = static_cast<double>(std::bit_cast<T>(one));
+  }
+  return values;
+}
+
+/// So many numbers of a type of VTK's, in binary.
+std::vector<double> binaryNumbers(TextFile& text, std::string_view type, std::size_t count) {
+  using Read = std::vector<double> (*)(TextFile&, std::size_t);
+  static constexpr std::pair<std::string_view, Read> types[] = {
+      {"double", bigEndian<double>},
+      {"float", bigEndian<float>},
+      {"int", bigEndian<std::int32_t>},
+      {"vtkIdType", bigEndian<std::int32_t>},
+      {"unsigned_int", bigEndian<std::uint32_t>},
+      {"long", bigEndian<std::int64_t>},
+      {"vtktypeint64", bigEndian<std::int64_t>},
+      {"unsigned_long", bigEndian<std::uint64_t>},
+      {"short", bigEndian<std::int16_t>},
+      {"unsigned_short", bigEndian<std::uint16_t>},
+      {"char", bigEndian<std::int8_t>},
+      {"unsigned_char", bigEndian<std::uint8_t>}};
+  for (const auto& [name, read] : types)
+    if (name == type) return read(text, count);
+  text.fail(fmt::format("{} is no type of number that is read in binary", type));
+}
+
+VtkArray readArray(Words& in, std::string name, std::size_t components, std::size_t rows,
+                   const std::string& type) {
   VtkArray array{std::move(name), components, {}};
+  if (in.binary) {
+    if (rows > in.text().size()) in.text().fail(fmt::format("{} rows are announced", rows));
+    array.values = binaryNumbers(in.text(), type, rows * components);
+    return array;
+  }
   const std::size_t count =
       in.text().rows(static_cast<std::int64_t>(rows), components) * components;
   array.values.reserve(count);
@@ -68,18 +116,18 @@ std::size_t rowsOf(Words& in, std::size_t word) {
 /// SCALARS name type [components]; LOOKUP_TABLE; values. VECTORS, NORMALS, TENSORS name type;
 /// values.
 VtkArray readAttribute(Words& in, std::size_t rows) {
-  const std::string name(in.word(1));
+  const std::string name(in.word(1)), type(in.word(2));
   if (in.keyword() != "SCALARS") {
     const std::size_t components = in.keyword() == "TENSORS" ? 9 : 3;
     in.skipLine();
-    return readArray(in, name, components, rows);
+    return readArray(in, name, components, rows, type);
   }
   const std::size_t components = in.all().size() > 3 ? rowsOf(in, 3) : 1;
   if (components < 1 || components > 4) in.text().fail("SCALARS have 1 to 4 components");
   if (!in.line() || in.keyword() != "LOOKUP_TABLE")
     in.text().fail("LOOKUP_TABLE should follow SCALARS");
   in.skipLine();
-  return readArray(in, name, components, rows);
+  return readArray(in, name, components, rows, type);
 }
 
 /// FIELD name n; of each array "name components rows type", values.
@@ -89,50 +137,76 @@ void readFields(Words& in, std::vector<VtkArray>& arrays) {
     if (!in.line()) in.text().fail("an array of FIELD is missing");
     const std::string name(in.word(0));
     const std::size_t components = rowsOf(in, 1), rows = rowsOf(in, 2);
+    const std::string type(in.word(3));
     if (components < 1 || components > 100)
       in.text().fail("an array of FIELD has 1 to 100 components");
     in.skipLine();
-    arrays.push_back(readArray(in, name, components, rows));
+    arrays.push_back(readArray(in, name, components, rows, type));
   }
 }
 
 void readLines(Words& in, VtkData& data) {
+  const std::string where = in.text().path().string();
+  if (in.binary) {
+    const std::size_t lines = rowsOf(in, 1);
+    if (rowsOf(in, 2) != 3 * lines) in.text().fail("a line that has not two points is no contact");
+    const std::vector<double> ends = binaryNumbers(in.text(), "int", 3 * lines);
+    for (std::size_t k = 0; k < lines; ++k) addLine(data, where, ends[3 * k + 1], ends[3 * k + 2]);
+    return;
+  }
   const std::size_t count = in.text().rows(static_cast<std::int64_t>(rowsOf(in, 1)), 3);
   in.skipLine();
   data.lines.reserve(count);
   for (std::size_t k = 0; k < count; ++k) {
     if (in.number("a line") != 2.0) in.text().fail("a line that has not two points is no contact");
     const double from = in.number("a line");
-    addLine(data, in.text().path().string(), from, in.number("a line"));
+    addLine(data, where, from, in.number("a line"));
   }
   in.endLine();
+}
+
+/// Of a binary file what follows a section's line goes with it: sections that say nothing of
+/// particles or contacts, whose numbers are 32-bit integers.
+void skipCells(Words& in) {
+  const std::string_view keyword = in.keyword();
+  if (keyword == "CELL_TYPES") return in.text().skip(4 * std::min(rowsOf(in, 1), in.text().size()));
+  for (const char* const cells : {"VERTICES", "CELLS", "POLYGONS", "TRIANGLE_STRIPS"})
+    if (keyword == cells) return in.text().skip(4 * std::min(rowsOf(in, 2), in.text().size()));
+}
+
+/// The first line and how numbers are written. Of version 5 cells are written in another way.
+void readHead(Words& in) {
+  if (!in.line() || !in.text().line().starts_with("# vtk DataFile"))
+    in.text().fail("should begin with # vtk DataFile");
+  const bool isNew = in.all().size() > 4 && in.word(4).starts_with('5');
+  for (bool comment = true; in.line(); comment = false) {
+    in.binary = in.keyword() == "BINARY";
+    if (in.binary && isNew)
+      in.text().fail("binary files are read of versions before 5: write version 4.2, or .vtp");
+    if (in.binary || in.keyword() == "ASCII") return;
+    if (!comment) break;
+  }
+  in.text().fail("ASCII is missing");
 }
 
 }  // namespace
 
 VtkData readVtkLegacy(const std::filesystem::path& file) {
   Words in(file);
-  if (!in.line() || !in.text().line().starts_with("# vtk DataFile"))
-    in.text().fail("should begin with # vtk DataFile");
-  bool comment = true, ascii = false;
+  readHead(in);
   VtkData data;
   std::vector<VtkArray>* arrays = nullptr;
   std::size_t rows = 0;
   while (in.line()) {
-    const std::string_view keyword = in.keyword();
-    if (keyword == "BINARY")
-      in.text().fail("BINARY: older VTK files are read in text (ASCII) only");
-    if (keyword == "ASCII") {
-      ascii = true;
-    } else if (!ascii) {
-      if (!std::exchange(comment, false)) in.text().fail("ASCII is missing");
-    } else if (keyword == "DATASET") {
+    const std::string keyword(in.keyword());
+    if (keyword == "DATASET") {
       if (in.word(1) != "POLYDATA" && in.word(1) != "UNSTRUCTURED_GRID")
         in.text().fail("DATASET should be POLYDATA or UNSTRUCTURED_GRID");
     } else if (keyword == "POINTS") {
       const std::size_t count = rowsOf(in, 1);
+      const std::string type(in.word(2));
       in.skipLine();
-      const VtkArray places = readArray(in, "POINTS", 3, count);
+      const VtkArray places = readArray(in, "POINTS", 3, count, type);
       for (std::size_t k = 0; k < places.rows(); ++k) data.points.push_back(places.vector(k));
     } else if (keyword == "LINES") {
       readLines(in, data);
@@ -148,12 +222,31 @@ VtkData readVtkLegacy(const std::filesystem::path& file) {
     } else if (keyword == "FIELD") {
       std::vector<VtkArray> ofFile;
       readFields(in, arrays ? *arrays : ofFile);
+    } else if (in.binary) {
+      skipCells(in);
     }
-    // Other sections (VERTICES, CELLS, CELL_TYPES, METADATA) say nothing of particles or contacts.
+    // Of text, other sections (VERTICES, CELLS, CELL_TYPES, METADATA) are lines that say nothing.
   }
   if (data.points.empty()) in.text().fail("POINTS are missing");
   if (data.lines.empty()) data.lineArrays.clear();
   return data;
+}
+
+bool legacyHasLines(const std::filesystem::path& file) {
+  Words in(file);
+  readHead(in);
+  while (in.line()) {
+    if (in.keyword() == "LINES") return true;
+    if (in.keyword() == "POINT_DATA" || in.keyword() == "CELL_DATA") return false;
+    if (!in.binary) continue;
+    if (in.keyword() == "POINTS") {
+      const std::string type(in.word(2));
+      readArray(in, "POINTS", 3, rowsOf(in, 1), type);
+    } else {
+      skipCells(in);
+    }
+  }
+  return false;
 }
 
 }  // namespace crossgrain::files

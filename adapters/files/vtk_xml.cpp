@@ -8,6 +8,7 @@
 #include <bit>
 #include <charconv>
 #include <cstring>
+#include <optional>
 #include <pugixml.hpp>
 
 #include "adapters/files/vtk_data.hpp"
@@ -39,7 +40,7 @@ class XmlFile {
  public:
   explicit XmlFile(const fs::path& file);
 
-  VtkData data() const;
+  VtkData data() const;  ///< of all pieces, one after the other
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
@@ -51,6 +52,8 @@ class XmlFile {
     bool base64 = false;
   };
 
+  VtkData piece(const pugi::xml_node& piece, bool isPolyData) const;
+  void append(std::vector<VtkArray>& arrays, std::vector<VtkArray> more) const;
   VtkArray array(const pugi::xml_node& node, std::size_t rows) const;
   std::vector<VtkArray> arrays(const pugi::xml_node& section, std::size_t rows) const;
   Bytes bytes(Source source) const;
@@ -297,15 +300,7 @@ std::vector<VtkArray> XmlFile::arrays(const pugi::xml_node& section, std::size_t
   return found;
 }
 
-VtkData XmlFile::data() const {
-  const pugi::xml_node root = document_.child("VTKFile");
-  const std::string_view type = root.attribute("type").value();
-  if (type != "UnstructuredGrid" && type != "PolyData")
-    fail(fmt::format("VTKFile type \"{}\" should be UnstructuredGrid or PolyData", type));
-  const pugi::xml_node grid = root.child(root.attribute("type").value()),
-                       piece = grid.child("Piece");
-  if (!piece) fail("there is no <Piece>");
-  if (piece.next_sibling("Piece")) fail("there is more than one <Piece>: one is read");
+VtkData XmlFile::piece(const pugi::xml_node& piece, bool isPolyData) const {
   VtkData data;
   const std::size_t points = countOf(piece, "NumberOfPoints"),
                     lines = countOf(piece, "NumberOfLines");
@@ -316,7 +311,7 @@ VtkData XmlFile::data() const {
   data.points.reserve(points);
   for (std::size_t k = 0; k < points; ++k) data.points.push_back(places.vector(k));
   data.pointArrays = arrays(piece.child("PointData"), points);
-  if (type != "PolyData") return data;
+  if (!isPolyData) return data;
   if (lines > 0) {
     const pugi::xml_node section = piece.child("Lines");
     const VtkArray ends =
@@ -329,6 +324,44 @@ VtkData XmlFile::data() const {
   if (lines > 0 || cells.find_child_by_attribute("DataArray", "Name", "forceN"))
     data.lineArrays = arrays(cells, lines);
   return data;
+}
+
+/// Those of the next piece, which has the same.
+void XmlFile::append(std::vector<VtkArray>& arrays, std::vector<VtkArray> more) const {
+  if (more.size() != arrays.size())
+    fail(fmt::format("a <Piece> has {} arrays, the one before {}", more.size(), arrays.size()));
+  for (std::size_t k = 0; k < more.size(); ++k) {
+    if (more[k].name != arrays[k].name || more[k].components != arrays[k].components)
+      fail(fmt::format("a <Piece> has {} where the one before has {}", more[k].name,
+                       arrays[k].name));
+    arrays[k].values.insert(arrays[k].values.end(), more[k].values.begin(), more[k].values.end());
+  }
+}
+
+VtkData XmlFile::data() const {
+  const pugi::xml_node root = document_.child("VTKFile");
+  const std::string_view type = root.attribute("type").value();
+  if (type != "UnstructuredGrid" && type != "PolyData")
+    fail(fmt::format("VTKFile type \"{}\" should be UnstructuredGrid or PolyData", type));
+  std::optional<VtkData> all;
+  for (const pugi::xml_node& node : root.child(root.attribute("type").value()).children("Piece")) {
+    VtkData next = piece(node, type == "PolyData");
+    if (next.points.empty() && next.lines.empty() && all) continue;
+    if (!all || all->points.empty()) {
+      all = std::move(next);
+      continue;
+    }
+    const std::size_t before = all->points.size();
+    for (const auto& [from, to] : next.lines) all->lines.emplace_back(before + from, before + to);
+    all->points.insert(all->points.end(), next.points.begin(), next.points.end());
+    append(all->pointArrays, std::move(next.pointArrays));
+    if (all->lineArrays.empty())
+      all->lineArrays = std::move(next.lineArrays);
+    else if (!next.lines.empty())
+      append(all->lineArrays, std::move(next.lineArrays));
+  }
+  if (!all) fail("there is no <Piece>");
+  return *std::move(all);
 }
 
 }  // namespace

@@ -326,7 +326,13 @@ std::string collideNextStep(const CollideResults& results) {
   if (count.beyondLimits > 0)
     return "Next: see whether the failures shrink with the time step; if not, they are a fault or "
            "another law.";
-  if (count.modelDifference == 0) return "All engines pass at these time steps.";
+  if (count.modelDifference == 0) {
+    const std::vector<EngineCount> tallies = countsOf(results);
+    return std::ranges::any_of(tallies, [](const EngineCount& one) { return one.refused > 0; })
+               ? "All sweeps that were judged pass at these time steps; engines without a sweep's "
+                 "law refused it."
+               : "All engines pass at these time steps.";
+  }
   const Names pass = passAll(countsOf(results));
   return fmt::format("Next: where the scene's own law is needed, take {}.",
                      pass.empty() ? "an engine that has it" : listedShortly(pass, mostEngines));

@@ -166,6 +166,26 @@ std::size_t runsFromFiles(const Engines& engines, const std::string& name) {
   return engine->finished.size();
 }
 
+/// Where runs that nobody has run here widen an interval most; empty where those are ours.
+std::string moreRunsOfFiles(const EndpointRow& row, const Engines& engines) {
+  const std::size_t a = runsFromFiles(engines, row.a), b = runsFromFiles(engines, row.b);
+  if (a == 0 && b == 0) return {};
+  const bool known = row.unpaired && row.unpaired->shareOfA;
+  if (!known && a > 0 && b > 0)
+    return fmt::format("Next: more runs of {} and of {}, whose files hold {} and {}.", row.b, row.a,
+                       b, a);
+  const double shareOfA = known ? row.unpaired->shareOfA.value_or(0.0) : a > 0 ? 1.0 : 0.0;
+  const bool isMedian = std::ranges::find(engines, row.a, &EngineRuns::name) == engines.end();
+  const bool ofA = !isMedian && shareOfA > 0.5;
+  if ((ofA ? a : b) == 0) return {};
+  const std::string why =
+      known ? fmt::format(": {:.0f} % of the variance of the difference in {} is theirs",
+                          100.0 * (ofA ? shareOfA : 1.0 - shareOfA), endpointWords(row.endpoint))
+            : "";
+  return fmt::format("Next: more runs of {}, whose files hold {}{}.", ofA ? row.a : row.b,
+                     ofA ? a : b, why);
+}
+
 std::string nextStep(const CompareResults& results, const Engines& engines) {
   if (results.nothingJudged)
     return fmt::format("Nothing was judged: {}.", results.nothingJudged->reason);
@@ -188,9 +208,7 @@ std::string nextStep(const CompareResults& results, const Engines& engines) {
   if (closedFormEngines(results.endpoints.rows).empty() && peersOf(results, engines).empty())
     return "Next: name two engines that run this scene.";
   if (const EndpointRow* const next = nextToDecide(results)) {
-    for (const std::string& name : {next->b, next->a})
-      if (const std::size_t runs = runsFromFiles(engines, name); runs > 0)
-        return fmt::format("Next: more runs of {}, whose files hold {}.", name, runs);
+    if (const std::string more = moreRunsOfFiles(*next, engines); !more.empty()) return more;
     const InterimFindings& looks = results.endpoints.looks;
     const bool planned = looks.taken < looks.planned.size();
     return fmt::format(

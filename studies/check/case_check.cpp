@@ -82,8 +82,7 @@ json suitability(const EngineEntry& entry, const Case& setup, const Scene& scene
       {"reason", ""},       {"deviations", json::array()}, {"not_simulated", json::array()}};
   try {
     const auto engine = startNew(entry, scratch, setup.run.timeout);
-    const Capabilities can = engine->capabilities();
-    checkSuitable(can, entry, setup, scene);
+    checkSuitable(*engine, entry, setup, scene);
     const Suitability found = suitabilityOf(*engine, entry, setup, scene);
     row["deviations"] = found.deviations;
     row["not_simulated"] = found.notSimulated;

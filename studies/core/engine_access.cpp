@@ -300,6 +300,41 @@ void checkSuitable(const Capabilities& can, const EngineEntry& entry, const Case
   checkOwnStep(can, entry, setup, adapted.scene, settingsFor(setup, entry.name, can));
 }
 
+namespace {
+
+/// sceneFor(), with advice that works: see checkSuitable().
+Adapted sceneWithAdvice(Engine& engine, const EngineEntry& entry, const Case& setup,
+                        const Scene& scene) {
+  const Capabilities can = engine.capabilities();
+  try {
+    return sceneFor(can, entry, setup, scene);
+  } catch (const UnlistedDifferences& advice) {
+    Case listed = setup;
+    auto& mayDiffer = listed.run.mayDiffer;
+    mayDiffer.insert(mayDiffer.end(), advice.names.begin(), advice.names.end());
+    std::string stillWhy;
+    try {
+      engine.load(sceneFor(can, entry, listed, scene).scene, settingsFor(setup, entry.name, can));
+    } catch (const UnsupportedScene& refusal) {
+      stillWhy = refusal.what();
+    } catch (const std::exception&) {
+      // What else is wrong is for the run to find out.
+    }
+    if (stillWhy.empty()) throw;
+    throw UnsupportedScene(stillWhy);
+  }
+}
+
+}  // namespace
+
+void checkSuitable(Engine& engine, const EngineEntry& entry, const Case& setup,
+                   const Scene& scene) {
+  const Adapted adapted =
+      namingRefusals(entry, setup, [&] { return sceneWithAdvice(engine, entry, setup, scene); });
+  const Capabilities can = engine.capabilities();
+  checkOwnStep(can, entry, setup, adapted.scene, settingsFor(setup, entry.name, can));
+}
+
 Adapted sceneFor(const Capabilities& can, const EngineEntry& entry, const Case& setup,
                  const Scene& scene) {
   if (entry.mirrors.empty()) return adaptScene(can, scene, setup.run.mayDiffer);
@@ -314,7 +349,7 @@ namespace {
 EffectiveParameters loadAdapted(Engine& engine, const EngineEntry& entry, const Case& setup,
                                 const Scene& scene) {
   const Capabilities can = engine.capabilities();
-  const Adapted adapted = sceneFor(can, entry, setup, scene);
+  const Adapted adapted = sceneWithAdvice(engine, entry, setup, scene);
   EffectiveParameters effective = engine.load(adapted.scene, settingsFor(setup, entry.name, can));
   effective.engine = entry.name;
   effective.version = can.version;

@@ -115,7 +115,7 @@ void Campaign::askEngines() {
         startEngine(own.entry, store_.scratch("ask-" + own.entry.name), setup_.run.timeout);
     const Capabilities can = engine->capabilities();
     own.version = can.version;
-    checkSuitable(can, own.entry, setup_, scene);
+    checkSuitable(*engine, own.entry, setup_, scene);
     if (command_.dryRun) own.can = can;
   });
 }

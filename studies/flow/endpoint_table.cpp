@@ -136,6 +136,19 @@ std::vector<EndpointTest> familyOf(const Case& setup, std::span<const FlowRun> r
   return family;
 }
 
+/// Share of the reference's runs in the variance of the difference, by the basis that it has.
+std::optional<double> shareOfReference(const PairedSample& sample, const InterimAnswer& found) {
+  if (found.basis == Basis::oneScatter && found.referencePackings > 0 && found.otherPackings > 0)
+    return static_cast<double>(found.otherPackings) /
+           static_cast<double>(found.otherPackings + found.referencePackings);
+  if (found.basis != Basis::independent) return std::nullopt;
+  const auto a = ensembleMean(sample.reference), b = ensembleMean(sample.other);
+  if (!a || !b || !a->standardError || !b->standardError) return std::nullopt;
+  const double ofA = *a->standardError * *a->standardError,
+               all = ofA + *b->standardError * *b->standardError;
+  return all > 0.0 ? std::optional(ofA / all) : std::nullopt;
+}
+
 /// @param looked  packings
 void answer(EndpointTest& own, int looked) {
   EndpointRow& row = own.row;
@@ -149,7 +162,8 @@ void answer(EndpointTest& own, int looked) {
   row.packings = found.packings;
   row.lost = found.lost;
   if (found.basis != Basis::paired)
-    row.unpaired = {found.basis, found.referencePackings, found.otherPackings};
+    row.unpaired = {found.basis, found.referencePackings, found.otherPackings,
+                    shareOfReference(own.test.sample, found)};
   if (found.packings == 0) return;
   const double margin = own.test.sample.margin, bias = own.test.sample.bias;
   row.reference = own.test.reference;

@@ -2,6 +2,10 @@
 /// print YADE's own contacts.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cstring>
+
 #include <fstream>
 #include <sstream>
 
@@ -129,9 +133,14 @@ TEST_F(VtkText, WhatCannotBe_IsRefused) {
   writeXml("a.1.vtu", "compressor=\"vtkLZ4DataCompressor\"", "format=\"ascii\">0.5 0.25");
   EXPECT_EQ(samples_.refusal("vtk", {"a.1.vtu"}),
             "a.1.vtu: it is packed by vtkLZ4DataCompressor: vtkZLibDataCompressor is read");
-  samples_.write("b.vtk", "# vtk DataFile Version 3.0\nx\nBINARY\n");
+  samples_.write("b.vtk", "# vtk DataFile Version 5.1\nx\nBINARY\n");
   EXPECT_EQ(samples_.refusal("vtk", {"b.vtk"}),
-            "b.vtk:3: BINARY: older VTK files are read in text (ASCII) only");
+            "b.vtk:3: binary files are read of versions before 5: write version 4.2, or .vtp");
+  samples_.write("b.vtk",
+                 "# vtk DataFile Version 3.0\nx\nBINARY\nDATASET POLYDATA\nPOINTS 1 "
+                 "double\n1234567");
+  EXPECT_EQ(samples_.refusal("vtk", {"b.vtk"}),
+            "b.vtk:5: 24 bytes should follow, the file has 7: it was cut off");
   samples_.write(
       "b.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 1 double\n1 2 x\n");
   EXPECT_EQ(samples_.refusal("vtk", {"b.vtk"}), "b.vtk:6: POINTS: \"x\" should be a finite number");
@@ -139,6 +148,85 @@ TEST_F(VtkText, WhatCannotBe_IsRefused) {
   EXPECT_EQ(samples_.refusal("yade-text", {"b.txt"}),
             "b.txt:2: 5 columns, which the comment line before them should name: # x y z r id vx "
             "vy vz …");
+}
+
+/// Numbers as VTK writes them in binary, the highest byte first.
+template <typename T>
+std::string bigEndian(std::initializer_list<T> numbers) {
+  std::string bytes;
+  for (const T number : numbers) {
+    std::array<char, sizeof(T)> one;
+    std::memcpy(one.data(), &number, sizeof(T));
+    std::ranges::reverse(one);
+    bytes.append(one.data(), one.size());
+  }
+  return bytes + "\n";
+}
+
+/// The same two spheres in contact as text would have them, with a line end among the numbers:
+/// 0x0A0A0A0A is 168430090.
+TEST_F(VtkText, Legacy_Binary) {
+  const std::string head = "# vtk DataFile Version 3.0\nx\nBINARY\nDATASET POLYDATA\n";
+  samples_.write("e-spheres-1.vtk",
+                 head + "POINTS 2 float\n" + bigEndian<float>({0, 0, 0, 1, 0, 0}) +
+                     "VERTICES 2 4\n" + bigEndian<std::int32_t>({1, 0, 1, 1}) +
+                     "POINT_DATA 2\nSCALARS radius double 1\nLOOKUP_TABLE default\n" +
+                     bigEndian<double>({0.5, 0.625}) + "SCALARS id int 1\nLOOKUP_TABLE default\n" +
+                     bigEndian<std::int32_t>({168430090, 7}) +
+                     "FIELD FieldData 1\nvelocity 3 2 "
+                     "float\n" +
+                     bigEndian<float>({1, 2, 3, 4, 5, 6}));
+  samples_.write("e-intrs-1.vtk", head + "POINTS 2 float\n" + bigEndian<float>({0, 0, 0, 1, 0, 0}) +
+                                      "LINES 1 3\n" + bigEndian<std::int32_t>({2, 0, 1}) +
+                                      "CELL_DATA 1\nSCALARS id1 int 1\nLOOKUP_TABLE default\n" +
+                                      bigEndian<std::int32_t>({168430090}) +
+                                      "SCALARS id2 int 1\nLOOKUP_TABLE default\n" +
+                                      bigEndian<std::int32_t>({7}) + "VECTORS n double\n" +
+                                      bigEndian<double>({1, 0, 0}) + "VECTORS F double\n" +
+                                      bigEndian<double>({20, 3, 0}));
+  const FileFrame frame = samples_.read("vtk", {"e-spheres-1.vtk", "e-intrs-1.vtk"}).front();
+  EXPECT_EQ(frame.particles.id, (std::vector<std::int64_t>{168430090, 7}));
+  EXPECT_EQ(frame.particles.radius, (std::vector{0.5, 0.625}));
+  EXPECT_EQ(frame.particles.velocity[1], Vec3(4, 5, 6));
+  EXPECT_EQ(frame.contacts->first, (std::vector<std::int64_t>{168430090}));
+  EXPECT_EQ(frame.contacts->second, (std::vector<std::int64_t>{7}));
+  EXPECT_EQ(frame.contacts->normal[0], Vec3(-1, 0, 0));
+  EXPECT_EQ(frame.contacts->force[0], Vec3(-20, -3, 0));
+}
+
+/// As each process of a parallel run writes one: a contact of each, its ends counted in its piece.
+TEST_F(VtkText, Xml_SeveralPieces) {
+  const auto piece = [](const char* x, const char* radius, const char* line, const char* force) {
+    return "<Piece NumberOfPoints=\"2\" NumberOfLines=\"1\"><PointData><DataArray Name=\"radii\" "
+           "type=\"Float64\" format=\"ascii\">" +
+           std::string(radius) +
+           "</DataArray></PointData><CellData><DataArray Name=\"normal_force\" type=\"Float64\" "
+           "format=\"ascii\">" +
+           force +
+           "</DataArray></CellData><Points><DataArray "
+           "type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">" +
+           x +
+           "</DataArray></Points><Lines><DataArray Name=\"connectivity\" type=\"Int32\" "
+           "format=\"ascii\">" +
+           line + "</DataArray></Lines></Piece>";
+  };
+  const auto file = [&](const char* first, const char* second) {
+    return "<VTKFile type=\"PolyData\"><PolyData>" + piece("0 0 0 1 0 0", first, "0 1", "20") +
+           piece("9 0 0 8 0 0", second, "1 0", "30") + "</PolyData></VTKFile>";
+  };
+  samples_.write(
+      "p-spheres.1.vtp",
+      "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid>"
+      "<Piece NumberOfPoints=\"4\"><PointData><DataArray Name=\"radii\" "
+      "type=\"Float64\" format=\"ascii\">1 2 3 4</DataArray></PointData><Points>"
+      "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 "
+      "9 0 0 8 0 0</DataArray></Points></Piece></UnstructuredGrid></VTKFile>");
+  samples_.write("p-intrs.1.vtp", file("1 2", "3 4"));
+  const FileContacts contacts =
+      *samples_.read("vtk", {"p-spheres.1.vtp", "p-intrs.1.vtp"}).front().contacts;
+  EXPECT_EQ(contacts.first, (std::vector<std::int64_t>{0, 3}));
+  EXPECT_EQ(contacts.second, (std::vector<std::int64_t>{1, 2}));
+  EXPECT_EQ(contacts.normalForce, (std::vector{20.0, 30.0}));
 }
 
 /// Bodies that are no spheres: a wall 5 below sphere 0, named as the first.

@@ -377,6 +377,8 @@ TEST(FileRuns, OtherNumbers_AreIndependentSamples) {
   const auto open = judgedFiles(pressuresOf("a", {60, 80, 102, 125, 150}),
                                 pressuresOf("b", {101, 102, 103, 102, 101, 103, 102}));
   EXPECT_EQ(open.verdict, Verdict::undecided);
+  // More runs of b would not narrow it: of a are nearly all of s²/n + u²/m.
+  EXPECT_GT(open.unpaired->shareOfA.value(), 0.98);
 }
 
 TEST(FileRuns, OneAgainstMany_HasTheScatterOfTheMany) {
@@ -384,6 +386,7 @@ TEST(FileRuns, OneAgainstMany_HasTheScatterOfTheMany) {
       judgedFiles(pressuresOf("a", {100, 101, 102, 103, 104}), pressuresOf("b", {102}));
   ASSERT_TRUE(row.unpaired);
   EXPECT_EQ(row.unpaired->basis, Basis::oneScatter);
+  EXPECT_NEAR(row.unpaired->shareOfA.value(), (1.0 / 5.0) / (1.0 / 5.0 + 1.0), 1e-15);
   EXPECT_EQ(row.verdict, Verdict::pass);
   EXPECT_EQ(
       judgedFiles(pressuresOf("a", {100, 101, 102, 103, 104}), pressuresOf("b", {150})).verdict,
@@ -398,6 +401,7 @@ TEST(FileRuns, OneOfEach_RestsOnTheirOwnErrors) {
   const auto row = judgedFiles(ours, theirs);
   ASSERT_TRUE(row.unpaired);
   EXPECT_EQ(row.unpaired->basis, Basis::oneRunEach);
+  EXPECT_FALSE(row.unpaired->shareOfA);
   EXPECT_EQ(row.verdict, Verdict::pass);
   // Relative errors .006 and .008 are .01 together, of 2·.01⁴/(.006⁴ + .008⁴)·4 = 14.84 degrees of
   // freedom, whose 95 % point is 1.754.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <set>
 
 #include "adapters/law_options.hpp"
@@ -134,6 +135,49 @@ TEST(LoadScene, Mirror_TakesItsPeersStep) {
       loadCase(file, {"engines.box2d-impulse.dt=2.5e-4", "engines.grain-as-box2d-impulse.dt=1e-4"})
           .front();
   EXPECT_EQ(stepOf("grain-as-box2d-impulse", own).dt, 1e-4);
+}
+
+/// What an engine is refused for in a case, or "" where it runs it.
+std::string refusalBy(const std::string& name, const Case& setup, const Scene& scene) {
+  const EngineEntry& entry = *findEngine(name);
+  const auto engine = entry.make();
+  return test::refusalOf<UnsupportedScene>([&] { loadScene(*engine, entry, setup, scene); });
+}
+
+/// Each engine that is built in, under laws of which none of Box2D's has all: after what it advises
+/// it runs the case. tests/system/test_refusals.py asks the others.
+TEST(LoadScene, AdviceOfARefusal_WorksWhereItIsFollowed) {
+  const std::string file = CROSSGRAIN_CASES "/collision/rolling.toml";
+  const std::vector<std::function<void(ContactLaw&)>> laws = {
+      [](ContactLaw&) {}, [](ContactLaw& law) { law.rolling = RollingLaw::viscous, law.gr = 0.5; },
+      [](ContactLaw& law) { law.rolling = RollingLaw::spring, law.kr = 2e3; },
+      [](ContactLaw& law) {
+        law.rolling = RollingLaw::none;
+        law.cohesion = CohesionLaw::dmt;
+        law.w = 0.05;
+      }};
+  int advised = 0;
+  for (const EngineEntry& entry : engineRegistry()) {
+    if (!entry.make || !entry.mirrors.empty() || (entry.missing && !entry.missing().empty()))
+      continue;
+    for (const auto& change : laws) {
+      Case setup = loadCase(file, {"run.may_differ=[]"}).front();
+      change(setup.law);
+      const Scene scene =
+          collisionScene(setup, collisionStarts(setup), collisionTimeSteps(setup).front());
+      const std::string why = refusalBy(entry.name, setup, scene);
+      const std::size_t list = why.find("; list ");
+      if (list == std::string::npos) continue;
+      ++advised;
+      for (std::size_t from = why.find('"', list); from != std::string::npos;) {
+        const std::size_t to = why.find('"', from + 1);
+        setup.run.mayDiffer.push_back(why.substr(from + 1, to - from - 1));
+        from = why.find('"', to + 1);
+      }
+      EXPECT_EQ(refusalBy(entry.name, setup, scene), "") << why;
+    }
+  }
+  EXPECT_GE(advised, 8);  // of Box2D's two
 }
 
 Scene sceneOf(const Case& setup, bool placed = true) {
