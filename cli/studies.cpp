@@ -226,7 +226,7 @@ std::string averagedText(const Results& results) {
 
 struct ConformanceOptions {
   std::string engine;
-  std::optional<std::string> out;
+  std::optional<std::string> out, budget;
 };
 
 EngineEntry entryOf(const std::string& engine) {
@@ -237,7 +237,7 @@ EngineEntry entryOf(const std::string& engine) {
 
 void print(const ConformanceResults& results) {
   fmt::print("{}\n", reports::conformanceLead(results));
-  for (const auto outcome : {checkBrokeDown, checkFailed, checkSkipped})
+  for (const auto outcome : {checkBrokeDown, checkFailed, checkUntried, checkSkipped})
     for (const ConformanceRow& row : results.rows)
       if (row.outcome == outcome) fmt::print("  {}\n", reports::conformanceSentence(row));
   for (const ConformanceRow& row : results.rows)
@@ -249,9 +249,10 @@ void print(const ConformanceResults& results) {
 
 int conformanceOf(const CommandLine& line, const ConformanceOptions& options) {
   const EngineEntry entry = entryOf(options.engine);
+  ConformanceTask task{entry, line.only, line.run.quiet, line.run.commandLine};
+  if (options.budget) task.budget = secondsOf(*options.budget);
   if (options.out) makeDirectory(*options.out);  // before minutes of work that it is to hold
-  const ConformanceResults results =
-      runConformance({entry, line.only, line.run.quiet, line.run.commandLine});
+  const ConformanceResults results = runConformance(task);
   if (options.out) writeReport(results, *options.out);
   if (line.json)
     fmt::print("{}\n", toJson(results).dump());
@@ -269,6 +270,9 @@ Action declareConformance(CLI::App& app, CommandLine& line) {
           "folder for results.json, junit.xml and report.html; what is there is written anew",
           "FOLDER");
   addText(app, "-k", line.only, "only checks with this in their name");
+  addText(app, "--budget", options->budget,
+          "try no further check after this time, as 90s or 10m; what was not tried is status 1",
+          "TIME");
   addFlag(app, "--json", line.json, "print results.json in place of words");
   addQuiet(app, line);
   return [&line, options] { return conformanceOf(line, *options); };
@@ -416,7 +420,8 @@ extern const Command revCommand = {
 extern const Command conformanceCommand = {
     "conformance", "whether one engine does what it declares: suite, lockstep, collisions",
     "crossgrain conformance examples/python/engine.toml --out out/conformance\n"
-    "crossgrain conformance yade -k Contacts",
+    "crossgrain conformance yade -k Contacts\n"
+    "crossgrain conformance yade --budget 10m --out out/yade     # on a build server",
     declareConformance};
 
 extern const Command identifyCommand = {

@@ -23,11 +23,14 @@ inline constexpr CheckOutcome checkPassed{Status::finished, Verdict::pass};
 inline constexpr CheckOutcome checkFailed{Status::finished, Verdict::fail};
 /// The engine does not declare what the check asks for, or cannot be asked.
 inline constexpr CheckOutcome checkSkipped{Status::notRun, Verdict::notApplicable};
+/// The time given was over: nobody knows.
+inline constexpr CheckOutcome checkUntried{Status::notRun, Verdict::notMeasured};
 /// It died, hung, or answered what is no answer.
 inline constexpr CheckOutcome checkBrokeDown{Status::failed, Verdict::fail};
-inline constexpr support::EnumNames<CheckOutcome, 4> checkNames{{{checkPassed, "passed"},
+inline constexpr support::EnumNames<CheckOutcome, 5> checkNames{{{checkPassed, "passed"},
                                                                  {checkFailed, "failed"},
                                                                  {checkSkipped, "skipped"},
+                                                                 {checkUntried, "not_tried"},
                                                                  {checkBrokeDown, "broke_down"}}};
 
 /// One check of one engine.

@@ -29,18 +29,26 @@ bool isFault(const ConformanceRow& row) {
 }
 
 OverviewCell partCell(const ConformanceResults& results, const CheckPart& part) {
-  std::size_t asked = 0, passes = 0;
+  std::size_t asked = 0, passes = 0, untried = 0;
   std::vector<std::string> faults;
   for (const ConformanceRow& row : results.rows) {
     if (row.part != part.name || row.outcome == checkSkipped) continue;
+    untried += row.outcome == checkUntried;
     ++asked;
     passes += row.outcome == checkPassed;
     if (isFault(row)) faults.push_back(row.name);
   }
   OverviewCell cell{Verdict::notMeasured, {}, "checks", {}, {}, ""};
-  if (asked == 0) return cell;
-  return {faults.empty() ? Verdict::pass : Verdict::fail, static_cast<double>(passes), "checks",
-          fmt::format("{} of {}", passes, asked),         listedShortly(faults, 3),    part.name};
+  if (asked == untried) return cell;
+  const Verdict verdict = !faults.empty() ? Verdict::fail
+                          : untried > 0   ? Verdict::undecided
+                                          : Verdict::pass;
+  return {verdict,
+          static_cast<double>(passes),
+          "checks",
+          fmt::format("{} of {}", passes, asked),
+          listedShortly(faults, 3),
+          part.name};
 }
 
 OverviewCell notExaminedCell(const ConformanceResults& results) {
@@ -93,6 +101,8 @@ std::string conformanceLead(const ConformanceResults& results) {
     lead += fmt::format(", {} failed", count);
   if (const std::size_t count = results.count(checkBrokeDown))
     lead += fmt::format(", it broke down in {}", count);
+  if (const std::size_t count = results.count(checkUntried))
+    lead += fmt::format(", {} not tried in the time given", count);
   if (const std::size_t count = results.count(checkSkipped))
     lead += fmt::format(", {} skipped", count);
   const std::size_t unseen = results.notExamined.size();

@@ -33,6 +33,12 @@ namespace {
 constexpr double timeout = 60.0;  // for one answer [s]
 constexpr int mostBreakdowns = 3;
 
+/// A row of what the budget had no time left for.
+ConformanceRow untriedRow(const std::string& part, const std::string& name,
+                          const std::string& what) {
+  return {part, name, what, checkUntried, "the time of --budget was over"};
+}
+
 void runOne(const Check& check, CheckContext context, ConformanceRow& row, CheckReport& result) {
   try {
     check.run(context);
@@ -72,7 +78,8 @@ std::vector<Check> checksOf(bool isMirror) {
 
 CheckReport runChecks(const EngineEntry& entry, const std::vector<Check>& checks,
                       const std::filesystem::path& scratch,
-                      const std::function<void(const std::string&, double)>& progress) {
+                      const std::function<void(const std::string&, double)>& progress,
+                      const std::function<bool()>& timeIsUp) {
   using Clock = std::chrono::steady_clock;
   int workers = 0;
   const CheckContext::Start start = [&](const EngineEntry& of) {
@@ -86,6 +93,10 @@ CheckReport runChecks(const EngineEntry& entry, const std::vector<Check>& checks
   for (const Check& check : checks) {
     throwIfInterrupted();
     progress(check.name, static_cast<double>(rows.size()) / static_cast<double>(checks.size()));
+    if (timeIsUp()) {
+      rows.push_back(untriedRow("suite", check.name, check.what));
+      continue;
+    }
     ConformanceRow& row = rows.emplace_back();
     row.part = "suite";
     row.name = check.name;
@@ -176,6 +187,9 @@ std::string causeOf(Engine& engine, const EngineEntry& entry, const Case& setup,
   return fmt::format("{}", fmt::join(causes, "; "));
 }
 
+constexpr const char* mirrorProperty =
+    "it does step by step what the in-house engine does with the conventions declared";
+
 /// @param name  of the row  @param part  how the law of the cell becomes the row's
 ConformanceRow lockstepRow(
     const EngineEntry& entry, const std::filesystem::path& scratch, const std::string& name,
@@ -186,7 +200,7 @@ ConformanceRow lockstepRow(
   ConformanceRow row;
   row.part = "lockstep";
   row.name = name;
-  row.what = "it does step by step what the in-house engine does with the conventions declared";
+  row.what = mirrorProperty;
   const auto engine = startNew(entry, scratch / name, setup.run.timeout);
   if (const std::string why = noMirrorReason(entry, engine->capabilities(), setup); !why.empty()) {
     row.outcome = checkSkipped;
@@ -213,10 +227,13 @@ ConformanceRow lockstepRow(
 /// beside it.
 std::vector<ConformanceRow> lockstepRows(const EngineEntry& entry, const Capabilities& can,
                                          const std::filesystem::path& scratch,
-                                         const std::function<bool(const std::string&)>& wanted) {
+                                         const std::function<bool(const std::string&)>& wanted,
+                                         const std::function<bool()>& timeIsUp) {
   std::vector<ConformanceRow> rows;
   const auto add = [&](const std::string& name, const auto& part) {
-    if (wanted(name)) rows.push_back(lockstepRow(entry, scratch, name, part));
+    if (wanted(name))
+      rows.push_back(timeIsUp() ? conformance::untriedRow("lockstep", name, mirrorProperty)
+                                : lockstepRow(entry, scratch, name, part));
   };
   add("FollowsItsMirror", [](ContactLaw&) {});
   const std::vector<RollingLaw> rolling = conformance::rollingLaws(can);
@@ -299,6 +316,10 @@ ConformanceResults runConformance(const ConformanceTask& task) {
   const auto began = std::chrono::steady_clock::now();
   const EngineEntry& entry = task.entry;
   const ScratchFolder scratch;
+  const auto timeIsUp = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count() >
+           task.budget;
+  };
   const auto wanted = [&](const std::string& name) {
     return !task.only || name.find(*task.only) != std::string::npos;
   };
@@ -317,17 +338,22 @@ ConformanceResults runConformance(const ConformanceTask& task) {
   progress.begin("conformance of " + entry.name, {2.0, 1.0, 1.0});
   conformance::CheckReport suite = conformance::runChecks(
       entry, checks, scratch.path,
-      [&](const std::string& check, double fraction) { progress.update(0, check, fraction); });
+      [&](const std::string& check, double fraction) { progress.update(0, check, fraction); },
+      timeIsUp);
   results.rows = std::move(suite.rows);
   progress.finish(0, fmt::format("suite: {} checks", results.rows.size()));
   const bool alive = results.count(checkBrokeDown) < 3;
   if (alive) {
-    std::ranges::move(lockstepRows(entry, can, scratch.path, wanted),
+    std::ranges::move(lockstepRows(entry, can, scratch.path, wanted, timeIsUp),
                       std::back_inserter(results.rows));
     progress.finish(1, "lockstep");
   }
   if (alive && wanted("collisions")) {
-    std::ranges::move(collisionRows(entry, can, scratch.path), std::back_inserter(results.rows));
+    if (timeIsUp())
+      results.rows.push_back(
+          conformance::untriedRow("collisions", "collisions", collisionsProperty));
+    else
+      std::ranges::move(collisionRows(entry, can, scratch.path), std::back_inserter(results.rows));
     progress.finish(2, "collisions");
   }
   if (results.rows.empty())
@@ -354,6 +380,10 @@ ConformanceResults runConformance(const ConformanceTask& task) {
 Outcome outcomeOf(const ConformanceResults& results) {
   if (results.count(checkBrokeDown) > 0) return {exitEngineFailed, {results.engine.reason}};
   if (results.count(checkFailed) > 0) return {exitFailed};
+  if (const std::size_t untried = results.count(checkUntried))
+    return {exitFailed,
+            {fmt::format("{} of {} checks were not tried: the time of --budget was over", untried,
+                         results.rows.size())}};
   return results.count(checkPassed) == 0 ? notJudged("every check was skipped") : Outcome();
 }
 

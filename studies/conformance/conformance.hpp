@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -30,12 +31,15 @@ std::vector<Check> checksOf(bool isMirror);
 /// Runs checks on one engine through its real worker, one row each. A worker that broke down is
 /// started again for the next check; after three of them the rest is not tried.
 /// @param scratch   folder for workers
+/// @param timeIsUp  from when on checks are not tried
 /// @param progress  gets the check that is run, and the fraction done
 /// @throws EngineFailure if it cannot be started at all; BadInput if it is not installed;
 ///         Interrupted
-CheckReport runChecks(const EngineEntry& entry, const std::vector<Check>& checks,
-                      const std::filesystem::path& scratch,
-                      const std::function<void(const std::string&, double)>& progress);
+CheckReport runChecks(
+    const EngineEntry& entry, const std::vector<Check>& checks,
+    const std::filesystem::path& scratch,
+    const std::function<void(const std::string&, double)>& progress,
+    const std::function<bool()>& timeIsUp = [] { return false; });
 
 }  // namespace crossgrain::conformance
 
@@ -45,15 +49,18 @@ struct ConformanceTask {
   EngineEntry entry;
   std::optional<std::string> only;  ///< checks with this in their name
   bool quiet = false;
-  std::string commandLine;  ///< for the report
+  std::string commandLine;                                  ///< for the report
+  double budget = std::numeric_limits<double>::infinity();  ///< [s]
 };
 
 /// The checks, lockstep with the mirror and collisions, one after the other, and the most likely
-/// cause of a failure. Nothing is kept.
+/// cause of a failure. Nothing is kept. What would begin after the budget is not tried; a check
+/// that runs is not cut short.
 /// @throws EngineFailure if it cannot be started; BadInput, Interrupted
 ConformanceResults runConformance(const ConformanceTask& task);
 
-/// An engine that broke down failed; a check that failed is a failure of what it declares.
+/// An engine that broke down failed; a check that failed is a failure of what it declares. What was
+/// not tried in the time given did not pass.
 Outcome outcomeOf(const ConformanceResults& results);
 
 }  // namespace crossgrain::inline studies

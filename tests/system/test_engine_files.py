@@ -71,6 +71,17 @@ class Conformance(SystemTest):
             "numpy: [settings] of its file: there is no setting 'loudnes' (did you mean loudness?)",
         )  # fmt: skip
 
+    def test_checks_beyond_the_time_given_are_not_tried_and_not_passed(self):
+        done = self.run_program("conformance", EXAMPLE, "--budget", "1s", "--out", self.out, "--quiet")
+        self.assert_status(done, FELL_SHORT)
+        rows = self.results()["rows"]
+        outcomes = [row["outcome"] for row in rows]
+        self.assertIn("passed", outcomes)
+        self.assertEqual("not_tried", outcomes[-1])
+        self.assertIn("lockstep", [row["part"] for row in rows if row["outcome"] == "not_tried"])
+        self.assertRegex(done.stderr, rf"{outcomes.count('not_tried')} of {len(rows)} checks were not tried")
+        self.assertIn("time of --budget", (self.out / "junit.xml").read_text(encoding="utf-8"))
+
     def test_engine_that_breaks_down_is_status_3(self):
         engine = self.changed_example("def advance(self, t):\n", "def advance(self, t):\n        raise SystemExit(3)\n")
         done = self.conformance(engine, "-k", "Flies")
