@@ -151,11 +151,21 @@ TEST(DamagedFiles, YadeText) {
               10'000);
 }
 
+/// Two spheres whose numbers are binary, the highest byte first: radii of 0.5, 1 m apart.
+std::string binarySpheres() {
+  using namespace std::string_literals;
+  return "# vtk DataFile Version 3.0\nx\nBINARY\nDATASET POLYDATA\nPOINTS 2 float\n"s +
+         "\0\0\0\0\0\0\0\0\0\0\0\0\x3f\x80\0\0\0\0\0\0\0\0\0\0\nVERTICES 2 4\n"s +
+         "\0\0\0\1\0\0\0\0\0\0\0\1\0\0\0\1\nPOINT_DATA 2\nSCALARS radius float 1\n"s +
+         "LOOKUP_TABLE default\n\x3f\0\0\0\x3f\0\0\0\n"s;
+}
+
 TEST(DamagedFiles, Vtk) {
   readDamaged(
       {samples("vtk", {"yade-export-spheres-00000004.vtk", "yade-export-intrs-00000004.vtk"}),
        samples("vtk", {"yade-two-spheres.0.vtu", "yade-two-intrs.0.vtp"}),
-       samples("vtk", {"yade-spheres.0.vtu"}, {}, true)},
+       samples("vtk", {"yade-spheres.0.vtu"}, {}, true),
+       {"vtk", {{"spheres.1.vtk", binarySpheres()}}, {}, true}},
       10'000);
 }
 
