@@ -139,6 +139,28 @@ TEST(RollingOracle, FrictionAndRollingBothHold_TheDiskRests) {
   EXPECT_NEAR(slides.centrePsi, 2.0 - 0.8, 1e-8);
 }
 
+/// A torque that holds until the bound falls to it: with the load of the spring alone both are
+/// equal to the last bit at a step's end, from where it slips. It turned for ever between both
+/// before.
+TEST(RollingOracle, HoldThatReachesItsBoundToTheLastBit_Slips) {
+  ContactLaw law = rolling(RollingLaw::constantTorque);
+  law.gn = 0.2;
+  law.tangential = TangentialLaw::spring;
+  law.kt = 3e3;
+  law.mu = 0.4;
+  law.muR = 0.1;
+  law.conventions.springUpdate = SpringUpdate::midpoint;
+  law.conventions.leverArm = LeverArm::contactPoint;
+  law.conventions.rollingLoad = RollingLoad::elastic;
+  const CollisionEnd left = oracleOutcome(law, disk(), {-0.2, speed, Approach::oblique});
+  const CollisionEnd right = oracleOutcome(law, disk(), {0.2, speed, Approach::oblique});
+  EXPECT_NEAR(left.psi, -right.psi, 1e-12);
+  EXPECT_NEAR(left.energyAfter, right.energyAfter, 1e-12 * left.energyBefore);
+  // As without the dashpot in the load, but for what that takes of it.
+  law.conventions.rollingLoad = RollingLoad::compression;
+  EXPECT_NEAR(oracleOutcome(law, disk(), {0.2, speed, Approach::oblique}).psi, right.psi, 0.02);
+}
+
 TEST(RollingOracle, OutsideAfterTotal_HasNoLimitAndIsRefused) {
   ContactLaw law = rolling(RollingLaw::spring);
   law.kr = 1e3;
