@@ -137,10 +137,10 @@ void refuseUnlisted(const std::vector<Mismatch>& all, const std::vector<std::str
     quoted.push_back('"' + mismatch.name + '"');
   }
   if (!names.empty())
-    throw UnlistedDifferences(
-        fmt::format("{}; list {} under [run] may_differ to run it all the same",
-                    fmt::join(reasons, "; "), fmt::join(quoted, ", ")),
-        names);
+    throw UnlistedDifferences(fmt::format("{}", fmt::join(reasons, "; ")),
+                              fmt::format("list {} under [run] may_differ to run it all the same",
+                                          fmt::join(quoted, ", ")),
+                              names);
 }
 
 }  // namespace

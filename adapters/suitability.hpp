@@ -16,8 +16,11 @@ struct Mismatch {
 
 /// Refused for mismatches that a case may allow.
 struct UnlistedDifferences : UnsupportedScene {
-  UnlistedDifferences(const std::string& what, std::vector<std::string> unlisted)
-      : UnsupportedScene(what), names(std::move(unlisted)) {}
+  UnlistedDifferences(std::string why, const std::string& advice, std::vector<std::string> unlisted)
+      : UnsupportedScene(why + "; " + advice),
+        reasons(std::move(why)),
+        names(std::move(unlisted)) {}
+  std::string reasons;             ///< without the advice
   std::vector<std::string> names;  ///< to be listed under [run] may_differ
 };
 

@@ -321,7 +321,8 @@ Adapted sceneWithAdvice(Engine& engine, const EngineEntry& entry, const Case& se
       // What else is wrong is for the run to find out.
     }
     if (stillWhy.empty()) throw;
-    throw UnsupportedScene(stillWhy);
+    throw UnsupportedScene(
+        fmt::format("{}; even if that may differ, it {}", advice.reasons, stillWhy));
   }
 }
 

@@ -91,7 +91,7 @@ Adapted sceneFor(const Capabilities& can, const EngineEntry& entry, const Case& 
 void checkSuitable(const Capabilities& can, const EngineEntry& entry, const Case& setup,
                    const Scene& scene);
 /// The same, where what may_differ could allow is refused with that advice only if the engine then
-/// runs the scene: it is loaded so. Else the refusal is what stands in the way even then.
+/// runs the scene: it is loaded so. Else the refusal adds what stands in the way even then.
 void checkSuitable(Engine& engine, const EngineEntry& entry, const Case& setup, const Scene& scene);
 
 /// An engine that has loaded a scene.
