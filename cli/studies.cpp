@@ -421,7 +421,7 @@ extern const Command conformanceCommand = {
     "conformance", "whether one engine does what it declares: suite, lockstep, collisions",
     "crossgrain conformance examples/python/engine.toml --out out/conformance\n"
     "crossgrain conformance yade -k Contacts\n"
-    "crossgrain conformance yade --budget 10m --out out/yade     # on a build server",
+    "crossgrain conformance yade --budget 10m --out out/law     # on a build server",
     declareConformance};
 
 extern const Command identifyCommand = {
