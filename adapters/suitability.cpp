@@ -95,7 +95,11 @@ std::vector<Mismatch> mismatches(const Capabilities& can, const Scene& scene) {
   }
   for (const auto& [name, values] : can.lawOptions) {
     if (!mattersTo(scene.law, name) || has(can, scene.law, name)) continue;
-    if (!sameLaw && name != "normal") continue;
+    // An engine with another law in its place still has, or lacks, each kind of the other parts.
+    const bool part =
+        (name == "rolling" && supportOf(can, Effect::rollingResistance) != Support::never) ||
+        (name == "cohesion" && supportOf(can, Effect::cohesion) != Support::never);
+    if (!sameLaw && name != "normal" && !part) continue;
     found.push_back({name, fmt::format("has {} = {}, not {}", name, fmt::join(values, " | "),
                                        lawOptionValue(scene.law, name))});
   }

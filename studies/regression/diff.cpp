@@ -333,7 +333,8 @@ Outcome outcomeOf(const DiffResults& results) {
   Outcome outcome;
   for (const DiffRow& row : results.rows) {
     judged |= row.verdict != Equivalence::notMeasured;
-    differs |= row.verdict == Equivalence::differs;
+    // What was not shown to be the same is not passed.
+    differs |= row.verdict == Equivalence::differs || row.verdict == Equivalence::undecided;
     if (!row.failure.empty()) outcome.failures.push_back(row.failure);
   }
   if (!outcome.failures.empty())

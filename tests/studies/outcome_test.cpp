@@ -178,6 +178,7 @@ TEST(LockstepOutcome, DiffersFailureAndNoMirror_Decide) {
   };
   EXPECT_EQ(status(Equivalence::sameLaw), exitPassed);
   EXPECT_EQ(status(Equivalence::differs), exitFailed);
+  EXPECT_EQ(status(Equivalence::undecided), exitFailed);
   EXPECT_EQ(status(Equivalence::undecided), exitPassed);
   EXPECT_EQ(status(Equivalence::undecided, "", true), exitFailed);
   EXPECT_EQ(status(Equivalence::notMeasured), exitFailed);

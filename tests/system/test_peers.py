@@ -475,6 +475,14 @@ class RigidEngine:
         self.assertAlmostEqual(EN, float(row["e_n"]), delta=1e-3)
         self.assertAlmostEqual(3 * (1 + EN) * MU, 4.0 - float(row["psi_f"]), delta=1e-3)
 
+    def test_a_soft_law_that_it_stands_for_is_a_model_difference(self):
+        """Its law is Walton's with the e_n that it reports and e_t0 = 0, which it meets, whatever it calls its pairs."""
+        done = self.run_program("collide", COLLISION, "--engines", self.engine, "-k", "viscous-cut", "--out", self.out, "--quiet")
+        self.assert_status(done, HELD)
+        (curve,) = self.results()["variants"][0]["curves"]
+        self.assertEqual(("oracle", "rigid"), (curve["declared"]["reference"], curve["declared"]["law"]["normal"]))
+        self.assertTrue(curve["declared"]["score"]["psi_f"]["held"])
+
     def test_disks_that_fall_on_planes(self):
         """It keeps no ledger, but every snapshot is audited: an impact worked out from the velocities before the last one
         was a force across a gap."""

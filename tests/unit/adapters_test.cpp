@@ -121,6 +121,22 @@ TEST(Suitability, ARefusalNamesAllThingsAndHowToAllowThem) {
   EXPECT_EQ(found[0].reason, "cannot do without gravity");
 }
 
+/// Rigid contacts stand for a soft law, and not for a kind of rolling resistance that they lack.
+TEST(Suitability, AnEngineOfAnotherLawHasItsOwnKindsOfRolling) {
+  Capabilities can = able();
+  can.lawOptions = {{"normal", {"rigid"}}, {"rolling", {"none", "constant_torque"}}};
+  can.effects[Effect::rollingResistance] = Support::optional;
+  Scene scene = oneDisk();
+  scene.law.rolling = RollingLaw::constantTorque;
+  scene.law.muR = 0.1;
+  EXPECT_EQ(refusalOf(can, scene, {"normal"}), "");
+  scene.law.rolling = RollingLaw::viscous;
+  scene.law.gr = 0.1;
+  EXPECT_EQ(refusalOf(can, scene, {"normal"}),
+            "has rolling = none | constant_torque, not viscous; list \"rolling\" under [run] "
+            "may_differ to run it all the same");
+}
+
 TEST(Suitability, ASceneBeyondTheLimitsIsRefusedWhateverMayDiffer) {
   Capabilities can = able();
   Scene scene = oneDisk();
