@@ -118,6 +118,8 @@ void checkEngineSections(const Case& setup) {
   for (const auto& [name, settings] : setup.engines) {
     const auto near = nearest(name, knownEngines());
     if (findEngine(name) || !near) continue;
+    // Of a short name little can be misspelt: "ondem" is no "ode".
+    if (editDistance(name, *near) > std::max<std::size_t>(1, near->size() / 3)) continue;
     // A name that holds an engine's is what files of a run of it may be called, and no slip.
     const bool holdsIt =
         name.find('-') != std::string::npos && name.find(*near) != std::string::npos;
