@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace bullet_worker {
+namespace crossgrain_worker::bullet {
 namespace {
 
 btVector3 toBullet(Vector v) {
@@ -187,4 +187,4 @@ double Space::spin(std::size_t disk) const {
   return bodies_[disk]->getAngularVelocity().z();
 }
 
-}  // namespace bullet_worker
+}  // namespace crossgrain_worker::bullet

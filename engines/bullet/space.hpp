@@ -7,29 +7,20 @@
 
 #include "crossgrain_impulse_space.hpp"
 
-namespace bullet_worker {
-
-using crossgrain_worker::Body;
-using crossgrain_worker::Disk;
-using crossgrain_worker::ImpulseScene;
-using crossgrain_worker::PairImpulse;
-using crossgrain_worker::Vector;
+namespace crossgrain_worker::bullet {
 
 /// Bullet's world of spheres whose centres stay in the plane z = 0, SI units, walls moved as
 /// prescribed. A step solves for new velocities where disks are, then moves them. Bullet keeps
 /// mixing rules and margins in globals, which the last space that was made has set.
-class Space : public crossgrain_worker::ImpulseSpace {
+class Space : public ImpulseSpace {
  public:
   explicit Space(const ImpulseScene& scene);
   ~Space() override;
-  Space(const Space&) = delete;
-  Space& operator=(const Space&) = delete;
 
   void step(double next) override;
   Vector position(std::size_t disk) const override;
   Vector velocity(std::size_t disk) const override;
   double spin(std::size_t disk) const override;
-  const std::vector<PairImpulse>& impulses() const override { return impulses_; }
 
  private:
   /// Bullet works the velocity of a wall out from its poses; here it is prescribed, too.
@@ -68,7 +59,6 @@ class Space : public crossgrain_worker::ImpulseSpace {
   World world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btRigidBody>> bodies_;  ///< by id: disks, wall disks, planes
-  std::vector<PairImpulse> impulses_;
 };
 
-}  // namespace bullet_worker
+}  // namespace crossgrain_worker::bullet

@@ -23,7 +23,6 @@ int main() {
               false),
        setting("restitution_threshold", 0.0, "m/s",
                "approaches slower than this give nothing back; Bullet's own is 0.2")}};
-  return serve(ImpulseEngine(about, [](const ImpulseScene& scene) {
-    return std::make_unique<bullet_worker::Space>(scene);
-  }));
+  return serve(ImpulseEngine(
+      about, [](const ImpulseScene& scene) { return std::make_unique<bullet::Space>(scene); }));
 }

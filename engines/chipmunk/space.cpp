@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-namespace chipmunk_worker {
+namespace crossgrain_worker::chipmunk {
 namespace {
 
 constexpr cpGroup allWalls = 1;  // shapes of one group do not meet
@@ -132,7 +132,7 @@ void Space::setEnds(const PlaneShape& plane) const {
 }
 
 /// As far as disks reach that could touch it after their next move.
-void Space::cover(PlaneShape& shape, const crossgrain_worker::Plane& plane) const {
+void Space::cover(PlaneShape& shape, const Plane& plane) const {
   shape.at = shape.at - dot(shape.at - plane.point, plane.normal) * plane.normal;
   const Vector along = crossgrain_worker::turned(plane.normal);
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
@@ -210,7 +210,7 @@ Vector Space::velocity(std::size_t disk) const {
   return fromChipmunk(cpBodyGetVelocity(disks_[disk]));
 }
 
-nlohmann::json Space::deviations() const {
+Json Space::deviations() const {
   return {{{"name", "slop"},
            {"value", slop_},
            {"unit", "m"},
@@ -221,4 +221,4 @@ double Space::spin(std::size_t disk) const {
   return cpBodyGetAngularVelocity(disks_[disk]);
 }
 
-}  // namespace chipmunk_worker
+}  // namespace crossgrain_worker::chipmunk

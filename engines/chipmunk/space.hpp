@@ -7,29 +7,20 @@
 
 #include "crossgrain_impulse_space.hpp"
 
-namespace chipmunk_worker {
-
-using crossgrain_worker::Body;
-using crossgrain_worker::Disk;
-using crossgrain_worker::ImpulseScene;
-using crossgrain_worker::PairImpulse;
-using crossgrain_worker::Vector;
+namespace crossgrain_worker::chipmunk {
 
 /// Chipmunk's space, SI units, walls moved as prescribed. A step moves disks with the velocities
 /// that they have, then solves for new ones where they are by then.
-class Space : public crossgrain_worker::ImpulseSpace {
+class Space : public ImpulseSpace {
  public:
   explicit Space(const ImpulseScene& scene);
   ~Space() override;
-  Space(const Space&) = delete;
-  Space& operator=(const Space&) = delete;
 
   void step(double next) override;
   Vector position(std::size_t disk) const override;
   Vector velocity(std::size_t disk) const override;
   double spin(std::size_t disk) const override;
-  const std::vector<PairImpulse>& impulses() const override { return impulses_; }
-  nlohmann::json deviations() const override;
+  Json deviations() const override;
 
  private:
   /// A segment that stays before the disks which could touch it, whatever the way that they or the
@@ -49,7 +40,7 @@ class Space : public crossgrain_worker::ImpulseSpace {
   void addDisk(const Disk& disk);
   void addWall(Body& wall);
   void setEnds(const PlaneShape& plane) const;
-  void cover(PlaneShape& shape, const crossgrain_worker::Plane& plane) const;
+  void cover(PlaneShape& shape, const Plane& plane) const;
   void add(cpShape* shape, bool wall);
   void placeWalls();
   cpBody* newWallBody(bool moves, Vector place);
@@ -70,7 +61,6 @@ class Space : public crossgrain_worker::ImpulseSpace {
   std::vector<cpBody*> allBodies_;
   std::vector<cpShape*> allShapes_;
   std::intptr_t nextId_ = 0;
-  std::vector<PairImpulse> impulses_;
 };
 
-}  // namespace chipmunk_worker
+}  // namespace crossgrain_worker::chipmunk

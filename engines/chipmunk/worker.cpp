@@ -22,7 +22,6 @@ int main() {
        within(setting("bias", std::pow(0.9, 60.0), "-",
                       "what is left after a second of an overlap beyond the slop"),
               0.0, 1.0, false)}};
-  return serve(ImpulseEngine(about, [](const ImpulseScene& scene) {
-    return std::make_unique<chipmunk_worker::Space>(scene);
-  }));
+  return serve(ImpulseEngine(
+      about, [](const ImpulseScene& scene) { return std::make_unique<chipmunk::Space>(scene); }));
 }

@@ -8,9 +8,7 @@
 //     }));
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -73,8 +71,8 @@ class ImpulseEngine {
       throw std::logic_error(name);
     };
     dt_ = number("dt") > 0.0 ? number("dt") : scene.at("dt").get<double>();
-    steps_ = evaluations_ = 0;
-    wallSeconds_ = cpuSeconds_ = 0.0;
+    steps_ = StepCount(dt_);
+    evaluations_ = 0;
     disks_ = scene.at("disks");
     radius_ = arrays.at("disks.radius");
     friction_ = law.friction() > 0.0;
@@ -89,8 +87,8 @@ class ImpulseEngine {
     const auto restitution = [this](std::int32_t i, std::int32_t j) {
       return pairs_.restitution(i, j);
     };
-    ImpulseScene made{disksOf(arrays), bodies_,     dt_, law.friction(), gravity,
-                      smallest,        restitution, {},  number};
+    ImpulseScene made{turningDisks(arrays), bodies_, dt_,   law.friction(), gravity, smallest,
+                      restitution,          {},      number};
     if (rolls_)
       made.rolling = [this](std::int32_t i, std::int32_t j) { return pairs_.rolling(i, j); };
     space_ = make_(made);
@@ -99,12 +97,14 @@ class ImpulseEngine {
     Json deviations = space_->deviations();
     for (const Json& each : pairs_.deviations()) deviations.push_back(each);
     Json effects = Json::array();
-    for (const auto& [name, on] : {std::pair("normal_damping", law.damps()),
-                                   {"friction", friction_},
-                                   {"rotation", rotation_},
-                                   {"rolling_resistance", rolls_},
-                                   {"gravity", gravity.x != 0.0 || gravity.y != 0.0},
-                                   {"moving_walls", moving_}})
+    for (const auto& [name, on] :
+         {std::pair("normal_damping", law.damps()),
+          {"friction", friction_},
+          {"rotation", rotation_},
+          {"rolling_resistance", rolls_},
+          {"gravity", gravity.x != 0.0 || gravity.y != 0.0},
+          {"moving_walls", std::any_of(bodies_.begin(), bodies_.end(),
+                                       [](const Body& body) { return body.moves(); })}})
       if (on) effects.push_back(name);
     return {{"engine", about_.name},
             {"version", about_.version},
@@ -118,13 +118,7 @@ class ImpulseEngine {
   }
 
   double advance(double t) {
-    using Clock = std::chrono::steady_clock;
-    const auto wall = Clock::now();
-    const std::clock_t cpu = std::clock();
-    while (steps_ < std::llround(t / dt_)) step();
-    wallSeconds_ += std::chrono::duration<double>(Clock::now() - wall).count();
-    cpuSeconds_ += static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
-    return now();
+    return steps_.advance(t, [this] { step(); });
   }
 
   Json snapshot(const std::string& contacts, ArrayFile& arrays) {
@@ -145,11 +139,7 @@ class ImpulseEngine {
     const double interval = static_cast<double>(shown.steps) * dt_;
     Json bodies = Json::array();
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      const Body& body = bodies_[b];
-      bodies.push_back({{"centre", {body.centre.x, body.centre.y}},
-                        {"angle", body.angle},
-                        {"velocity", {body.velocity.x, body.velocity.y}},
-                        {"angular_velocity", body.spin}});
+      bodies.push_back(bodies_[b].pose());
       if (shown.steps == 0) continue;
       const Vector force = (1.0 / interval) * shown.onBody[b];
       bodies.back()["force"] = {force.x, force.y};
@@ -159,55 +149,35 @@ class ImpulseEngine {
       addContacts(arrays, shown, interval, rolls_,
                   [this](std::size_t i, std::size_t j) { return geometry(i, j); });
     if (accumulated) sums_.clear(bodies_.size());
-    return {{"position_time", now()},
-            {"velocity_time", now()},
-            {"contact_time", now()},
+    return {{"position_time", steps_.now()},
+            {"velocity_time", steps_.now()},
+            {"contact_time", steps_.now()},
             {"contact_interval", interval},
             {"bodies", bodies}};
   }
 
-  Json stats() const {
-    return {{"steps", steps_},
-            {"contact_evaluations", evaluations_},
-            {"wall_seconds", wallSeconds_},
-            {"cpu_seconds", cpuSeconds_},
-            {"counters", Json::object()}};
-  }
+  Json stats() const { return steps_.stats(evaluations_); }
 
  private:
-  double now() const { return static_cast<double>(steps_) * dt_; }
-
   void loadWalls(const Json& scene, const Arrays& arrays) {
-    bodies_.clear();
-    moving_ = false;
-    for (const Json& body : scene.at("bodies")) {
-      const std::string name = "bodies." + std::to_string(bodies_.size()) + ".disk_";
-      bodies_.emplace_back(body, arrays.at(name + "position"), arrays.at(name + "radius"));
-      moving_ = moving_ || bodies_.back().moves();
-    }
+    bodies_ = bodiesOf(scene, arrays);
     for (const Body& body : bodies_)
       radius_.insert(radius_.end(), body.radius.begin(), body.radius.end());
     ids_.emplace(disks_, bodies_);
   }
 
-  std::vector<Disk> disksOf(const Arrays& arrays) const {
-    const auto vectorOf = [&](const char* name, std::size_t i) {
-      const std::vector<double>& numbers = arrays.at(name);
-      return Vector{numbers[2 * i], numbers[2 * i + 1]};
-    };
-    std::vector<Disk> disks;
-    for (std::size_t i = 0; i < disks_; ++i)
-      disks.push_back(
-          {radius_[i], arrays.at("disks.mass")[i],
-           rotation_ ? arrays.at("disks.inertia")[i] : std::numeric_limits<double>::infinity(),
-           vectorOf("disks.position", i), vectorOf("disks.velocity", i),
-           friction_ || rolls_ ? arrays.at("disks.spin")[i] : 0.0});
+  /// As they take part: what cannot turn has no moment of inertia, what nothing turns no spin.
+  std::vector<Disk> turningDisks(const Arrays& arrays) const {
+    std::vector<Disk> disks = disksOf(arrays);
+    for (Disk& disk : disks) {
+      if (!rotation_) disk.inertia = std::numeric_limits<double>::infinity();
+      if (!friction_ && !rolls_) disk.spin = 0.0;
+    }
     return disks;
   }
 
   void step() {
-    space_->step(static_cast<double>(steps_ + 1) * dt_);
-    ++steps_;
+    space_->step(steps_.now());
     last_.clear(bodies_.size());
     for (PairImpulse impulse : space_->impulses()) {
       ++evaluations_;
@@ -237,16 +207,15 @@ class ImpulseEngine {
   MakeSpace make_;
   RigidPairs pairs_;
   double dt_ = 0.0;
-  bool friction_ = false, rotation_ = false, rolls_ = false, moving_ = false;
+  bool friction_ = false, rotation_ = false, rolls_ = false;
   std::size_t disks_ = 0;
   std::vector<double> radius_;  ///< disks, then wall disks [m]
   std::vector<Body> bodies_;
   std::optional<WallIds> ids_;
   std::unique_ptr<ImpulseSpace> space_;
   ImpulseSums sums_, last_;
-  long long steps_ = 0;
+  StepCount steps_;
   unsigned long long evaluations_ = 0;
-  double wallSeconds_ = 0.0, cpuSeconds_ = 0.0;
 };
 
 }  // namespace crossgrain_worker

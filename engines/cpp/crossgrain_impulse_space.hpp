@@ -4,18 +4,11 @@
 
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <vector>
 
-#include "crossgrain_walls.hpp"
+#include "crossgrain_scene.hpp"
 
 namespace crossgrain_worker {
-
-struct Disk {
-  double radius, mass, inertia;  ///< [m], [kg], [kg m²]; inertia INFINITY: its spin stays
-  Vector position, velocity;
-  double spin;
-};
 
 /// What passed between two in a step. Ids: disks, then wall disks, then planes; i < j.
 struct PairImpulse {
@@ -55,6 +48,9 @@ struct ImpulseScene {
 /// Disks and walls in SI units.
 class ImpulseSpace {
  public:
+  ImpulseSpace() = default;
+  ImpulseSpace(const ImpulseSpace&) = delete;
+  ImpulseSpace& operator=(const ImpulseSpace&) = delete;
   virtual ~ImpulseSpace() = default;
 
   /// @param next  time after the step [s]; the walls are left there
@@ -64,9 +60,12 @@ class ImpulseSpace {
   virtual Vector velocity(std::size_t disk) const = 0;
   virtual double spin(std::size_t disk) const = 0;
   /// Of the last step, in ascending order of ids.
-  virtual const std::vector<PairImpulse>& impulses() const = 0;
+  const std::vector<PairImpulse>& impulses() const { return impulses_; }
   /// What Realised reports besides the law's own.
-  virtual nlohmann::json deviations() const { return nlohmann::json::array(); }
+  virtual Json deviations() const { return Json::array(); }
+
+ protected:
+  std::vector<PairImpulse> impulses_;  ///< which step() leaves
 };
 
 }  // namespace crossgrain_worker

@@ -6,32 +6,8 @@
 #include <utility>
 
 #include "crossgrain_impulse_space.hpp"
-#include "crossgrain_worker.hpp"
 
 namespace crossgrain_worker {
-
-/// Ids of walls: which body each wall disk and plane belongs to. Disks come first, then wall disks,
-/// then planes.
-class WallIds {
- public:
-  WallIds(std::size_t disks, const std::vector<Body>& bodies) : disks_(disks) {
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-      for (std::size_t k = 0; k < bodies[b].radius.size(); ++k) owner_.push_back({b, k});
-    planes_ = disks_ + owner_.size();
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-      for (std::size_t p = 0; p < bodies[b].planes.size(); ++p) owner_.push_back({b, p});
-  }
-
-  bool isWall(std::size_t id) const { return id >= disks_; }
-  bool isPlane(std::size_t id) const { return id >= planes_; }
-  std::size_t body(std::size_t wall) const { return owner_[wall - disks_].first; }
-  /// Number of a wall disk, or of a plane, in its body.
-  std::size_t part(std::size_t wall) const { return owner_[wall - disks_].second; }
-
- private:
-  std::size_t disks_, planes_;
-  std::vector<std::pair<std::size_t, std::size_t>> owner_;
-};
 
 /// n from the second to the first, and how deep they overlap [m].
 struct Geometry {
@@ -71,35 +47,22 @@ struct ImpulseSums {
   }
 };
 
-inline void append(std::vector<double>& numbers, Vector v) {
-  numbers.insert(numbers.end(), {v.x, v.y});
-}
-
 /// Mean forces over an interval [s].
 /// @param rolls  whether anything resists rolling
 /// @param geometry  of two ids as they are now
 template <typename GeometryOf>
 void addContacts(ArrayFile& arrays, const ImpulseSums& sums, double interval, bool rolls,
                  const GeometryOf& geometry) {
-  std::vector<std::int32_t> i, j;
-  std::vector<double> normal, overlap, fn, ft, rolling;
+  ContactColumns contacts;
+  std::vector<double> rolling;
   for (const auto& [pair, impulse] : sums.onFirst) {
     const Geometry between =
         geometry(static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.second));
-    i.push_back(pair.first);
-    j.push_back(pair.second);
-    append(normal, between.normal);
-    overlap.push_back(between.overlap);
-    fn.push_back(impulse.pressing / interval);
-    ft.push_back(impulse.along / interval);
+    contacts.add(pair.first, pair.second, between.normal, between.overlap,
+                 impulse.pressing / interval, impulse.along / interval);
     rolling.push_back(impulse.rolling / interval);
   }
-  arrays.add("contacts.i", i);
-  arrays.add("contacts.j", j);
-  arrays.add("contacts.normal", normal);
-  arrays.add("contacts.overlap", overlap);
-  arrays.add("contacts.normal_force", fn);
-  arrays.add("contacts.tangential_force", ft);
+  contacts.writeTo(arrays);
   if (rolls) arrays.add("contacts.rolling_torque", rolling);
 }
 

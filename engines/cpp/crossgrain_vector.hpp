@@ -3,6 +3,7 @@
 // Vectors in the plane of motion (SI units, laboratory frame), in plain C++17.
 
 #include <cmath>
+#include <vector>
 
 namespace crossgrain_worker {
 
@@ -33,6 +34,11 @@ inline Vector turned(Vector a) {
 inline Vector turned(double angle, Vector v) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
+/// Behind numbers of an array.
+inline void append(std::vector<double>& numbers, Vector v) {
+  numbers.insert(numbers.end(), {v.x, v.y});
 }
 
 }  // namespace crossgrain_worker

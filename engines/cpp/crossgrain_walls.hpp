@@ -76,6 +76,14 @@ class Body {
 
   bool moves() const { return kind_ != "fixed"; }
 
+  /// As an entry of a snapshot's `bodies`, without loads.
+  nlohmann::json pose() const {
+    return {{"centre", {centre.x, centre.y}},
+            {"angle", angle},
+            {"velocity", {velocity.x, velocity.y}},
+            {"angular_velocity", spin}};
+  }
+
  private:
   static Vector vectorOf(const nlohmann::json& pair) { return {pair.at(0), pair.at(1)}; }
 

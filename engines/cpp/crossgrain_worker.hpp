@@ -11,13 +11,17 @@
 //     Json stats();
 // Json objects are the protocol's; arrays go under the protocol's names.
 
+#include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace crossgrain_worker {
@@ -87,6 +91,43 @@ class ArrayFile {
   std::fstream file_;
   std::size_t offset_ = 0;
   Json entries_ = Json::array();
+};
+
+/// Steps done of a run and what they took, for `advance` and `stats`.
+class StepCount {
+ public:
+  StepCount() = default;
+  explicit StepCount(double dt) : dt_(dt) {}
+
+  double now() const { return static_cast<double>(steps_) * dt_; }
+
+  /// Has steps done until `time`; in each, now() is its end. @returns now()
+  template <typename Step>
+  double advance(double time, const Step& step) {
+    using Clock = std::chrono::steady_clock;
+    const auto wall = Clock::now();
+    const std::clock_t cpu = std::clock();
+    while (steps_ < std::llround(time / dt_)) {
+      ++steps_;
+      step();
+    }
+    wallSeconds_ += std::chrono::duration<double>(Clock::now() - wall).count();
+    cpuSeconds_ += static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+    return now();
+  }
+
+  Json stats(unsigned long long evaluations, Json counters = Json::object()) const {
+    return {{"steps", steps_},
+            {"contact_evaluations", evaluations},
+            {"wall_seconds", wallSeconds_},
+            {"cpu_seconds", cpuSeconds_},
+            {"counters", std::move(counters)}};
+  }
+
+ private:
+  double dt_ = 0.0;
+  long long steps_ = 0;
+  double wallSeconds_ = 0.0, cpuSeconds_ = 0.0;
 };
 
 template <typename Engine>

@@ -11,7 +11,7 @@
 
 #include "crossgrain_worker.hpp"
 
-namespace mujoco_worker {
+namespace crossgrain_worker::mujoco {
 namespace {
 
 /// Of a wall that moves, in disks' masses: what contacts change of its motion is below rounding,
@@ -62,7 +62,7 @@ void requireMemory(std::size_t rows, std::size_t freedoms) {
   std::snprintf(why, sizeof why,
                 "keeps matrices of all contacts, %.1f GB for so many disks, and has at most %.1f",
                 bytes / 1e9, MOST_MEMORY / 1e9);
-  throw crossgrain_worker::Unsupported(why);
+  throw Unsupported(why);
 }
 
 Vector inPlane(const mjtNum* v) {
@@ -293,4 +293,4 @@ double Model::spin(std::size_t disk) const {
   return options_.rotation ? data_->qvel[disk * static_cast<std::size_t>(freedoms_) + 2] : 0.0;
 }
 
-}  // namespace mujoco_worker
+}  // namespace crossgrain_worker::mujoco

@@ -6,22 +6,12 @@
 #include <vector>
 
 #include <mujoco/mujoco.h>
-#include "crossgrain_vector.hpp"
-#include "crossgrain_walls.hpp"
+#include "crossgrain_scene.hpp"
 
 /// A scene of disks and walls as MuJoCo's model: spheres with two slides and a hinge, fixed planes.
 /// Outside of this class everything is in SI units and in the protocol's ids: disks, then wall
 /// disks, then planes.
-namespace mujoco_worker {
-
-using crossgrain_worker::Body;
-using crossgrain_worker::Vector;
-
-struct Disk {
-  double radius, mass, inertia;  ///< [m], [kg], [kg m²]
-  Vector position, velocity;     ///< [m], [m/s]
-  double spin;                   ///< [rad/s]
-};
+namespace crossgrain_worker::mujoco {
 
 /// Pair law by which every contact is set: f_n = k_n δ − γ_n δ̇, f_t = −γ_t v_t within µ f_n.
 struct PairLaw {
@@ -94,4 +84,4 @@ class Model {
   long long iterations_ = 0;
 };
 
-}  // namespace mujoco_worker
+}  // namespace crossgrain_worker::mujoco

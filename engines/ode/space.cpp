@@ -8,7 +8,7 @@
 
 #include "crossgrain_worker.hpp"
 
-namespace ode_worker {
+namespace crossgrain_worker::ode {
 namespace {
 
 constexpr unsigned long diskBit = 1, wallBit = 2;
@@ -227,4 +227,4 @@ double Space::spin(std::size_t disk) const {
   return turns_[disk] ? dBodyGetAngularVel(disks_[disk])[2] : 0.0;
 }
 
-}  // namespace ode_worker
+}  // namespace crossgrain_worker::ode

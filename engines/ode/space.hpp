@@ -6,29 +6,20 @@
 
 #include "crossgrain_impulse_space.hpp"
 
-namespace ode_worker {
-
-using crossgrain_worker::Body;
-using crossgrain_worker::Disk;
-using crossgrain_worker::ImpulseScene;
-using crossgrain_worker::PairImpulse;
-using crossgrain_worker::Vector;
+namespace crossgrain_worker::ode {
 
 /// ODE's world of spheres whose centres stay in the plane z = 0, SI units, walls moved as
 /// prescribed. A step finds who overlaps, solves for the contact forces that give wanted
 /// velocities, and moves disks with these.
-class Space : public crossgrain_worker::ImpulseSpace {
+class Space : public ImpulseSpace {
  public:
   explicit Space(const ImpulseScene& scene);
   ~Space() override;
-  Space(const Space&) = delete;
-  Space& operator=(const Space&) = delete;
 
   void step(double next) override;
   Vector position(std::size_t disk) const override;
   Vector velocity(std::size_t disk) const override;
   double spin(std::size_t disk) const override;
-  const std::vector<PairImpulse>& impulses() const override { return impulses_; }
 
  private:
   struct Touch {
@@ -60,7 +51,6 @@ class Space : public crossgrain_worker::ImpulseSpace {
   std::size_t wallDisks_ = 0;
   std::vector<Touch> touches_;
   std::vector<dJointFeedback> forces_;
-  std::vector<PairImpulse> impulses_;
 };
 
-}  // namespace ode_worker
+}  // namespace crossgrain_worker::ode

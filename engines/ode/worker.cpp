@@ -38,5 +38,5 @@ int main() {
        setting("restitution_threshold", 0.0, "m/s",
                "approaches slower than this give nothing back")}};
   return serve(ImpulseEngine(
-      about, [](const ImpulseScene& scene) { return std::make_unique<ode_worker::Space>(scene); }));
+      about, [](const ImpulseScene& scene) { return std::make_unique<ode::Space>(scene); }));
 }

@@ -7,12 +7,10 @@
 // steps. Every formula is that of adapters/worker/README.md; disks first, then wall disks, then
 // planes.
 
-#include <chrono>
-#include <ctime>
+#include <map>
 #include <utility>
 
-#include "crossgrain_walls.hpp"
-#include "crossgrain_worker.hpp"
+#include "crossgrain_scene.hpp"
 
 using namespace crossgrain_worker;
 
@@ -64,6 +62,7 @@ class Engine {
     if (law.at("normal") != "linear") throw Unsupported("has only normal = linear");
     if (scene.contains("bottom")) throw Unsupported("has no bottom_friction");
     dt_ = scene.at("dt");
+    steps_ = StepCount(dt_);
     kn_ = law.at("kn");
     gn_ = law.at("gn");
     kt_ = law.at("kt");
@@ -80,15 +79,13 @@ class Engine {
     inertia_ = arrays.at("disks.inertia");
     spin_ = arrays.at("disks.spin");
     if (!turns_) spin_.assign(disks_, 0.0);
-    position_ = vectors(arrays.at("disks.position"));
-    velocity_ = vectors(arrays.at("disks.velocity"));
+    position_ = vectorsOf(arrays.at("disks.position"));
+    velocity_ = vectorsOf(arrays.at("disks.velocity"));
+    bodies_ = bodiesOf(scene, arrays);
     bool moving = false;
-    for (const Json& body : scene.at("bodies")) {
-      const std::string name = "bodies." + std::to_string(bodies_.size()) + ".disk_";
-      bodies_.emplace_back(body, arrays.at(name + "position"), arrays.at(name + "radius"));
-      const std::vector<double>& radii = bodies_.back().radius;
-      radius_.insert(radius_.end(), radii.begin(), radii.end());
-      moving = moving || bodies_.back().moves();
+    for (const Body& body : bodies_) {
+      radius_.insert(radius_.end(), body.radius.begin(), body.radius.end());
+      moving = moving || body.moves();
     }
     for (auto* each : {&position_, &velocity_}) each->resize(radius_.size());
     spin_.resize(radius_.size());
@@ -110,13 +107,7 @@ class Engine {
   }
 
   double advance(double t) {
-    using Clock = std::chrono::steady_clock;
-    const auto wall = Clock::now();
-    const std::clock_t cpu = std::clock();
-    while (steps_ < std::llround(t / dt_)) step();
-    wallSeconds_ += std::chrono::duration<double>(Clock::now() - wall).count();
-    cpuSeconds_ += static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
-    return now();
+    return steps_.advance(t, [this] { step(); });
   }
 
   Json snapshot(const std::string& contacts, ArrayFile& arrays) {
@@ -134,39 +125,26 @@ class Engine {
     if (contacts == "instant") addContacts(arrays);
     Json bodies = Json::array();
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      const Body& body = bodies_[b];
-      bodies.push_back({{"centre", {body.centre.x, body.centre.y}},
-                        {"angle", body.angle},
-                        {"velocity", {body.velocity.x, body.velocity.y}},
-                        {"angular_velocity", body.spin},
-                        {"force", {onBody_[b].x, onBody_[b].y}},
-                        {"torque", torqueOnBody_[b]}});
+      bodies.push_back(bodies_[b].pose());
+      bodies.back()["force"] = {onBody_[b].x, onBody_[b].y};
+      bodies.back()["torque"] = torqueOnBody_[b];
     }
-    return {{"position_time", now()},
-            {"velocity_time", now()},
-            {"contact_time", now()},
+    return {{"position_time", steps_.now()},
+            {"velocity_time", steps_.now()},
+            {"contact_time", steps_.now()},
             {"contact_interval", 0.0},
             {"bodies", bodies}};
   }
 
-  Json stats() const {
-    return {{"steps", steps_},
-            {"contact_evaluations", evaluations_},
-            {"wall_seconds", wallSeconds_},
-            {"cpu_seconds", cpuSeconds_},
-            {"counters", Json::object()}};
-  }
+  Json stats() const { return steps_.stats(evaluations_); }
 
  private:
-  double now() const { return static_cast<double>(steps_) * dt_; }
-
   void step() {
     for (std::size_t i = 0; i < disks_; ++i) {
       velocity_[i] = velocity_[i] + dt_ * ((1.0 / mass_[i]) * force_[i] + gravity_);
       if (turns_) spin_[i] += dt_ * torque_[i] / inertia_[i];
       position_[i] = position_[i] + dt_ * velocity_[i];
     }
-    ++steps_;
     moveWalls();
     addForces();
   }
@@ -174,7 +152,7 @@ class Engine {
   void moveWalls() {
     std::size_t id = disks_;
     for (Body& body : bodies_) {
-      body.at(now());
+      body.at(steps_.now());
       for (std::size_t k = 0; k < body.radius.size(); ++k, ++id) {
         position_[id] = body.position[k];
         velocity_[id] = body.diskVelocity[k];
@@ -263,36 +241,19 @@ class Engine {
   }
 
   void addContacts(ArrayFile& arrays) const {
-    std::vector<std::int32_t> i, j;
-    std::vector<double> normal, overlap, fn, ft;
+    ContactColumns columns;
     std::vector<std::uint8_t> sliding;
     for (const Contact& c : contacts_) {
-      i.push_back(c.i);
-      j.push_back(c.j);
-      normal.insert(normal.end(), {c.normal.x, c.normal.y});
-      overlap.push_back(c.overlap);
-      fn.push_back(c.fn);
-      ft.push_back(c.ft);
+      columns.add(c.i, c.j, c.normal, c.overlap, c.fn, c.ft);
       sliding.push_back(c.sliding);
     }
-    arrays.add("contacts.i", i);
-    arrays.add("contacts.j", j);
-    arrays.add("contacts.normal", normal);
-    arrays.add("contacts.overlap", overlap);
-    arrays.add("contacts.normal_force", fn);
-    arrays.add("contacts.tangential_force", ft);
+    columns.writeTo(arrays);
     arrays.add("contacts.sliding", sliding);
   }
 
-  static std::vector<Vector> vectors(const std::vector<double>& numbers) {
-    std::vector<Vector> list;
-    for (std::size_t k = 0; k + 1 < numbers.size(); k += 2)
-      list.push_back({numbers[k], numbers[k + 1]});
-    return list;
-  }
   static std::vector<double> flat(const std::vector<Vector>& list) {
     std::vector<double> numbers;
-    for (const Vector& v : list) numbers.insert(numbers.end(), {v.x, v.y});
+    for (const Vector& v : list) append(numbers, v);
     return numbers;
   }
 
@@ -305,9 +266,8 @@ class Engine {
   std::vector<Vector> position_, velocity_, force_, onBody_;
   std::vector<Contact> contacts_;
   std::map<std::pair<std::size_t, std::size_t>, double> spring_;  ///< ξ by pair [m]
-  long long steps_ = 0;
+  StepCount steps_;
   unsigned long long evaluations_ = 0;
-  double wallSeconds_ = 0.0, cpuSeconds_ = 0.0;
 };
 
 }  // namespace
