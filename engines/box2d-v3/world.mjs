@@ -35,7 +35,8 @@ export class Box2dWorld {
     bodies.forEach((body, b) => body.offset.forEach((at, k) => this.circle(this.walls[b], at, body.diskRadius[k], this.kinds.length)));
     this.planes = bodies.flatMap((body, b) => body.planes.map((plane) => this.plane(b, body.fromCentre(plane.point), plane.normal)));
     this.steps = 0;
-    this.describe(law, bodies.length > 0);
+    this.pairs = law.pairs(this.kinds, bodies.length > 0);
+    this.deviations = [{name: 'slop', value: 0.005 * this.unit, unit: 'm', note: 'overlaps up to this are left standing'}];
   }
 
   free() { b2.b2DestroyWorld(this.world); }
@@ -133,16 +134,6 @@ export class Box2dWorld {
       plane.half = Math.max(plane.half, 2 * (high - low));
       b2.b2Shape_SetPolygon(plane.shape, this.box(plane));
     }
-  }
-
-  describe(law, walls) {
-    const name = (mass) => `${(mass * 1e3).toPrecision(4)} g`, few = this.kinds.slice(0, 4);
-    const friction = law.friction > 0 ? {mu: law.friction} : {};
-    this.pairs = few.flatMap((mass, a) => [
-      ...few.slice(a).map((other) => ({pair: `${name(mass)} with ${name(other)}`, en: law.restitution(mass, other)})),
-      ...(walls ? [{pair: `${name(mass)} with wall`, en: law.restitution(mass, Infinity)}] : []),
-    ]).map((pair) => ({...pair, et0: 0, ...friction}));
-    this.deviations = [{name: 'slop', value: 0.005 * this.unit, unit: 'm', note: 'overlaps up to this are left standing'}];
   }
 
   placeWalls(now, next) {

@@ -120,11 +120,12 @@ export class JoltWorld {
     this.stream = new ContactStream();
     this.bodies = [];  // by id
     disks.forEach((disk) => this.disk_(disk, rotation));
-    this.moving = [];  // {b, id, offset} of wall disks and planes that move
+    this.moving = [];  // {b, body, id, offset} of wall disks and planes that move
     bodies.forEach((body, b) => body.offset.forEach((offset, k) => this.wall(b, body, offset, new J.SphereShape(body.diskRadius[k] / this.unit))));
     bodies.forEach((body, b) => body.planes.forEach((plane) => this.plane(b, body, plane)));
     this.system.OptimizeBroadPhase();
-    this.describe(bodies.length > 0, number('slop'));
+    this.pairs = law.pairs([...new Set(this.mass)], bodies.length > 0);
+    this.deviations = [{name: 'slop', value: number('slop') * this.unit, unit: 'm', note: 'overlaps up to this are left standing'}];
   }
 
   /// All of it: a worker loads hundreds of scenes, and what is left behind of each splits the heap, of 128 MB, for the next.
@@ -206,9 +207,8 @@ export class JoltWorld {
 
   /// A wall disk or a plane is a body of its own, which goes with the wall.
   wall(b, body, offset, shape) {
-    const {centre, angle} = body.state(0);
-    if (body.moves) this.moving.push({b, id: this.bodies.length, offset});
-    this.body(shape, body.placed(offset, {centre, angle}), body.moves ? J.EMotionType_Kinematic : J.EMotionType_Static);
+    if (body.moves) this.moving.push({b, body, id: this.bodies.length, offset});
+    this.body(shape, body.placed(offset, body.state(0)), body.moves ? J.EMotionType_Kinematic : J.EMotionType_Static);
   }
 
   plane(b, body, {point, normal: [x, y]}) {
@@ -217,24 +217,9 @@ export class JoltWorld {
     this.wall(b, body, body.fromCentre(point), plane);
   }
 
-  describe(walls, slop) {
-    const kinds = [...new Set(this.mass)].slice(0, 4), name = (mass) => `${(mass * 1e3).toPrecision(4)} g`;
-    const friction = this.law.friction > 0 ? {mu: this.law.friction} : {};
-    this.pairs = kinds.flatMap((mass, a) => [
-      ...kinds.slice(a).map((other) => ({pair: `${name(mass)} with ${name(other)}`, en: this.law.restitution(mass, other)})),
-      ...(walls ? [{pair: `${name(mass)} with wall`, en: this.law.restitution(mass, Infinity)}] : []),
-    ]).map((pair) => ({...pair, et0: 0, ...friction}));
-    this.deviations = [{name: 'slop', value: slop * this.unit, unit: 'm', note: 'overlaps up to this are left standing'}];
-  }
-
   placeWalls(now, next) {
-    for (const {b, id, offset} of this.moving) {
-      const centre = [0, 1].map((k) => {
-        const c = Math.cos(next[b].angle), s = Math.sin(next[b].angle);
-        return next[b].centre[k] + (k ? s * offset[0] + c * offset[1] : c * offset[0] - s * offset[1]);
-      });
-      this.make.MoveKinematic(this.bodies[id].GetID(), this.placeOf(centre), this.turnOf(next[b].angle), this.dt);
-    }
+    for (const {b, body, id, offset} of this.moving)
+      this.make.MoveKinematic(this.bodies[id].GetID(), this.placeOf(body.placed(offset, next[b])), this.turnOf(next[b].angle), this.dt);
   }
 
   step() {

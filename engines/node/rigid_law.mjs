@@ -37,6 +37,16 @@ export class RigidLaw {
     return this.known.get(reduced);
   }
 
+  /// Of `load`: what the law is between disks of the first few masses, and of these with walls.
+  pairs(masses, walls) {
+    const kinds = masses.slice(0, 4), name = (mass) => `${(mass * 1e3).toPrecision(4)} g`;
+    const friction = this.friction > 0 ? {mu: this.friction} : {};
+    return kinds.flatMap((mass, a) => [
+      ...kinds.slice(a).map((other) => ({pair: `${name(mass)} with ${name(other)}`, en: this.restitution(mass, other)})),
+      ...(walls ? [{pair: `${name(mass)} with wall`, en: this.restitution(mass, Infinity)}] : []),
+    ]).map((pair) => ({...pair, et0: 0, ...friction}));
+  }
+
   /// Of `load`: where these contacts are other than the scene's.
   deviations(restitutions) {
     const list = [];
