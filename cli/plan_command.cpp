@@ -63,11 +63,8 @@ int plan(const CommandLine& line, const PlanOptions& options) {
   addEnginesOf(request, options.engines);
   request.overrides = line.overrides;
   // Jobs have the conventions of a comparison of all of them.
-  std::vector<std::string> shared =
-      sharedConventionsOf(loadCase(line.inputs.front(), line.overrides).front(), request.engines);
-  if (!shared.empty())
-    fmt::print(stderr, "note: {}: {}\n", line.inputs.front().string(), describeShared(shared));
-  std::ranges::move(shared, std::back_inserter(request.overrides));
+  shareConventions(loadCase(line.inputs.front(), line.overrides).front(), request.engines,
+                   request.overrides);
   request.sweeps = options.sweeps;
   if (options.seeds) request.seeds = seedsOf(*options.seeds);
   if (line.quick) request.others.push_back("--quick");

@@ -54,12 +54,13 @@ std::vector<std::string> sharedConventions(const Case& setup,
   std::vector<Capabilities> soft;
   for (const Capabilities& can : all)
     if (hasNormalLaw(can, setup.law)) soft.push_back(can);
+  const std::vector<std::string> open = openConventions(setup);
   ContactLaw law = setup.law;
   std::vector<std::string> overrides;
   // What one convention is decides whether another matters: again until nothing changes.
   for (bool changed = true; changed;) {
     changed = false;
-    for (const std::string& option : openConventions(setup)) {
+    for (const std::string& option : open) {
       if (!mattersTo(law, option)) continue;
       const auto values = valuesOfAll(soft, option);
       if (!values || values->empty() ||
@@ -75,10 +76,10 @@ std::vector<std::string> sharedConventions(const Case& setup,
 
 std::vector<std::string> sharedConventionsOf(const Case& setup,
                                              const std::vector<std::string>& engines) {
-  const std::vector<std::string> open = openConventions(setup);
-  const bool asks = std::ranges::any_of(
-      open, [&](const std::string& option) { return mattersTo(setup.law, option); });
-  if (!asks || engines.size() < 2 || std::ranges::find(engines, "all") != engines.end()) return {};
+  if (engines.size() < 2 || std::ranges::find(engines, "all") != engines.end() ||
+      std::ranges::none_of(openConventions(setup),
+                           [&](const std::string& option) { return mattersTo(setup.law, option); }))
+    return {};
   const ScratchFolder scratch;
   std::vector<Capabilities> all;
   for (const EngineEntry& entry : selectEngines(engines)) {
@@ -91,12 +92,20 @@ std::vector<std::string> sharedConventionsOf(const Case& setup,
   return sharedConventions(setup, all);
 }
 
-std::string describeShared(const std::vector<std::string>& overrides) {
-  if (overrides.empty()) return {};
+std::string describeShared(const std::vector<std::string>& shared) {
   return fmt::format(
       "conventions that all engines named share: {} (give them, or list them in "
       "run.may_differ, to have others)",
-      fmt::join(overrides, ", "));
+      fmt::join(shared, ", "));
+}
+
+bool shareConventions(const Case& setup, const std::vector<std::string>& engines,
+                      std::vector<std::string>& overrides) {
+  const std::vector<std::string> shared = sharedConventionsOf(setup, engines);
+  if (shared.empty()) return false;
+  fmt::print(stderr, "note: {}: {}\n", setup.file.string(), describeShared(shared));
+  overrides.insert(overrides.end(), shared.begin(), shared.end());
+  return true;
 }
 
 }  // namespace crossgrain::inline studies

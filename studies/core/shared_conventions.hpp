@@ -22,7 +22,13 @@ std::vector<std::string> sharedConventions(const Case& setup, const std::vector<
 std::vector<std::string> sharedConventionsOf(const Case& setup,
                                              const std::vector<std::string>& engines);
 
-/// "conventions that all engines share: law.tension = cut, …", one line for people; empty: none.
-std::string describeShared(const std::vector<std::string>& overrides);
+/// "conventions that all engines named share: law.tension="cut", …", one line for people.
+/// @pre there are some
+std::string describeShared(const std::vector<std::string>& shared);
+
+/// Puts what engines share behind the overrides of a command, and says so in a line.
+/// @returns whether there was any, so that the case has to be loaded with it
+bool shareConventions(const Case& setup, const std::vector<std::string>& engines,
+                      std::vector<std::string>& overrides);
 
 }  // namespace crossgrain::inline studies

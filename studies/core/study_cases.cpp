@@ -85,24 +85,9 @@ Case onlyCase(const CommandLine& line, const char* command) {
   return onlyFlow(line, command);
 }
 
-namespace {
-
-/// What engines that are compared share, where the case leaves it open, becomes part of the case;
-/// one line says it.
-void shareConventions(const Case& setup, CommandLine& line, std::string_view command) {
-  if (command != "compare") return;
-  std::vector<std::string> shared = sharedConventionsOf(setup, line.run.engines);
-  if (shared.empty()) return;
-  fmt::print(stderr, "note: {}: {}\n", setup.file.string(), describeShared(shared));
-  std::ranges::move(shared, std::back_inserter(line.overrides));
-}
-
-}  // namespace
-
-Case onlyFlow(const CommandLine& given, const char* command) {
-  CommandLine line = given;
+Case onlyFlow(const CommandLine& line, const char* command) {
   const fs::path& file = line.inputs.front();
-  std::vector<Case> cases = loadCase(file, line.overrides);
+  const std::vector<Case> cases = loadCase(file, line.overrides);
   if (!hasFlow(cases.front())) {
     if (cases.front().kind != CaseKind::assembly) refuseKind(cases.front(), file, command);
     throw BadInput(fmt::format(
@@ -115,11 +100,12 @@ Case onlyFlow(const CommandLine& given, const char* command) {
   // Every job of a plan is a compare, and import takes a case as it is for what comes after.
   if (std::string_view(command) != "plan" && std::string_view(command) != "import")
     reportKeysWithoutUse(cases.front(), command, line.json ? stderr : stdout);
-  shareConventions(cases.front(), line, command);
-  if (!line.quick) return loadCase(file, line.overrides).front();
-  std::vector<std::string> overrides = quickOverrides(cases.front());
+  std::vector<std::string> overrides;
+  if (line.quick) overrides = quickOverrides(cases.front());
   overrides.insert(overrides.end(), line.overrides.begin(), line.overrides.end());
-  return loadCase(file, overrides).front();
+  const bool shares = std::string_view(command) == "compare" &&
+                      shareConventions(cases.front(), line.run.engines, overrides);
+  return shares || line.quick ? loadCase(file, overrides).front() : cases.front();
 }
 
 void refuseKind(const Case& setup, const fs::path& input, const char* command) {
