@@ -4,53 +4,32 @@
 #include <cmath>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "adapters/pair_table.hpp"
 #include "adapters/suitability.hpp"
 
 namespace crossgrain {
 namespace {
 
-/// Of the rows "3.7 mm with 2 mm", "… with wall", in an engine's own words, those of that kind of
-/// pair. @param wall  of a disk and a wall  @param alike  else of two disks that are alike
-std::vector<PairCoefficients> rowsOf(const EffectiveParameters& effective, bool wall, bool alike) {
+/// What the engine's table, in its own words, says of the first two bodies: its rows are named
+/// "A with B" or "A with wall". Absent where rows that can be theirs differ.
+/// @param reducedMass  of the two [kg]: the disk's beside a wall, half of it beside its equal
+std::optional<PairCoefficients> pairOf(const Scene& scene, const EffectiveParameters& effective,
+                                       double reducedMass) {
   constexpr std::string_view with = " with ";
-  std::vector<PairCoefficients> rows;
+  const auto is = [&](double mass) { return std::abs(mass - reducedMass) <= 1e-12 * reducedMass; };
+  const double mass = scene.disks.mass.front();
+  std::optional<PairCoefficients> found;
   for (const PairCoefficients& row : effective.pairs) {
     const std::size_t middle = row.pair.find(with);
     if (middle == std::string::npos) continue;
-    const std::string one = row.pair.substr(0, middle),
-                      other = row.pair.substr(middle + with.size());
-    const bool ofWall = other.starts_with("wall");
-    if (ofWall == wall && (wall || (one == other) == alike)) rows.push_back(row);
+    const std::string_view one = std::string_view(row.pair).substr(0, middle),
+                           other = std::string_view(row.pair).substr(middle + with.size());
+    if (other.starts_with("wall") != is(mass)) continue;
+    if (one == other && !is(0.5 * mass)) continue;
+    if (found && (found->en != row.en || found->et0 != row.et0 || found->mu != row.mu)) return {};
+    found = row;
   }
-  return rows;
-}
-
-/// The row of the engine's table that is about the first two bodies, of that reduced mass [kg]: the
-/// one of their name, or where the engine has other names all that can be theirs, if these say the
-/// same.
-std::optional<PairCoefficients> pairOf(const Scene& scene, const EffectiveParameters& effective,
-                                       double reducedMass) {
-  const auto massAsStiffness = [](double mass) {
-    PairCoefficients row;
-    row.kn = mass;
-    return row;
-  };
-  for (const PairCoefficients& kind : pairTable(scene, massAsStiffness)) {
-    if (std::abs(kind.kn - reducedMass) > 1e-12 * reducedMass) continue;
-    const auto row = std::ranges::find(effective.pairs, kind.pair, &PairCoefficients::pair);
-    if (row != effective.pairs.end()) return *row;
-  }
-  const Disks& disks = scene.disks;
-  const bool wall = !scene.bodies.empty(), two = disks.size() > 1;
-  const bool alike = two && disks.radius[0] == disks.radius[1] && disks.mass[0] == disks.mass[1];
-  const std::vector<PairCoefficients> rows = rowsOf(effective, wall, alike);
-  const bool same = std::ranges::all_of(rows, [&](const PairCoefficients& row) {
-    return row.en == rows.front().en && row.et0 == rows.front().et0 && row.mu == rows.front().mu;
-  });
-  return rows.empty() || !same ? std::nullopt : std::optional(rows.front());
+  return found;
 }
 
 }  // namespace
