@@ -12,7 +12,9 @@
 
 #include "cases/case_keys.hpp"
 #include "cli/option_groups.hpp"
+#include "reports/common/report.hpp"
 #include "reports/report.hpp"
+#include "results/head.hpp"
 #include "results/json_fields.hpp"
 #include "results/schema.hpp"
 #include "studies/core/run_store.hpp"
@@ -111,29 +113,22 @@ bool addFolders(const fs::path& input, std::vector<fs::path>& folders) {
   return asPlanned;
 }
 
-/// What runs depend on, of a case; empty where results are of many.
-CaseKeys caseKeysOf(const nlohmann::json& results) {
-  return resultAffectingKeys(results.at("case").value("toml", std::string()));
-}
-
 /// Results made elsewhere are of the same case as those beside them that bear its name, or their
 /// figures would stand in one row without being comparable.
 /// @throws BadInput naming both folders and what differs
 void requireSameCases(const std::vector<std::pair<fs::path, nlohmann::json>>& results) {
-  std::map<std::string, const std::pair<fs::path, nlohmann::json>*> firsts;
-  for (const auto& one : results) {
-    const nlohmann::json& setup = one.second.at("case");
-    const std::string name =
-        fmt::format("{} {} {}", one.second.at("kind").get<std::string>(),
-                    setup.at("name").get<std::string>(), setup.value("variant", std::string()));
-    const auto [found, isFirst] = firsts.emplace(name, &one);
-    if (isFirst) continue;
-    const auto different = changes(caseKeysOf(found->second->second), caseKeysOf(one.second));
-    if (!different.empty())
+  std::map<std::string, std::pair<fs::path, CaseKeys>> firsts;
+  for (const auto& [folder, document] : results) {
+    ResultsHead head;
+    understood(folder / "results.json", [&] { readFrom(document, head); });
+    const std::string name = reports::nameOf(head);
+    const CaseKeys keys = resultAffectingKeys(head.setup.toml);
+    const auto first = firsts.try_emplace(name, folder, keys).first;
+    if (const auto different = changes(first->second.second, keys); !different.empty())
       throw BadInput(fmt::format(
           "{} and {} are both {}, and the case is not the same: {}; give it another name, or "
           "--changed-cases to have them side by side",
-          found->second->first.string(), one.first.string(), name, describeChanges(different)));
+          first->second.first.string(), folder.string(), name, describeChanges(different)));
   }
 }
 

@@ -174,6 +174,9 @@ Drawings drawingsOf(const std::vector<Picture>& pictures, Picture::Shows shows);
 /// "Engine agreement: CASE, VARIANT"
 std::string titleOf(const ResultsHead& head);
 
+/// "compare CASE, VARIANT": results of one name are of one command and case.
+std::string nameOf(const ResultsHead& head);
+
 /// The matrix as tests, for studies that have no finer ones.
 std::vector<JUnitCase> matrixChecks(const Report& report);
 

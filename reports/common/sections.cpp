@@ -150,6 +150,21 @@ Drawings drawingsOf(const std::vector<Picture>& pictures, Picture::Shows shows) 
   return drawings;
 }
 
+namespace {
+
+/// "CASE, VARIANT"
+std::string caseOf(const ResultsHead& head) {
+  const CaseHead& setup = head.setup;
+  return setup.variant.empty() ? setup.name : setup.name + ", " + setup.variant;
+}
+
+}  // namespace
+
+std::string nameOf(const ResultsHead& head) {
+  const std::string name = caseOf(head);
+  return name.empty() ? head.kind : head.kind + " " + name;
+}
+
 std::string titleOf(const ResultsHead& head) {
   constexpr std::pair<std::string_view, std::string_view> titles[] = {
       {kindCompare, "Engine agreement"}, {kindAverage, "Averages"},
@@ -161,8 +176,7 @@ std::string titleOf(const ResultsHead& head) {
   const auto* const found =
       std::ranges::find(titles, head.kind, [](const auto& t) { return t.first; });
   std::string title(found == std::end(titles) ? std::string_view(head.kind) : found->second);
-  const CaseHead& setup = head.setup;
-  const std::string name = setup.variant.empty() ? setup.name : setup.name + ", " + setup.variant;
+  const std::string name = caseOf(head);
   if (title.empty() || name.empty()) return title + name;
   return title + ": " + name;
 }

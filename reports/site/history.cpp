@@ -110,7 +110,7 @@ std::string stampOf(const ResultsHead& head) {
 std::vector<History> historiesOf(const std::vector<SiteReport>& reports) {
   std::vector<History> histories;
   for (const SiteReport& report : reports) {
-    const std::string name = nameOfReport(report);
+    const std::string name = nameOf(report.digest.head);
     auto found = std::ranges::find(histories, name, &History::name);
     if (found == histories.end()) found = histories.insert(histories.end(), {name, {}, {}});
     found->reports.push_back(&report);

@@ -138,12 +138,6 @@ std::string pageOf(const SiteReport& report) {
   return report.folder + "/report.html";
 }
 
-std::string nameOfReport(const SiteReport& report) {
-  const CaseHead& setup = report.digest.head.setup;
-  const std::string name = setup.variant.empty() ? setup.name : setup.name + ", " + setup.variant;
-  return name.empty() ? report.digest.head.kind : report.digest.head.kind + " " + name;
-}
-
 std::vector<EngineRow> siteEngines(const std::vector<SiteReport>& reports) {
   std::vector<EngineRow> engines;
   for (const SiteReport& report : reports)
@@ -157,9 +151,9 @@ namespace {
 
 /// The report's name; with its folder's, "compare quick (old)", where another has the same.
 std::string ownNameOf(const SiteReport& report, const std::vector<SiteReport>& reports) {
-  const std::string name = nameOfReport(report);
+  const std::string name = nameOf(report.digest.head);
   const bool alone = std::ranges::count(reports, name, [](const SiteReport& one) {
-                       return nameOfReport(one);
+                       return nameOf(one.digest.head);
                      }) < 2;
   return alone ? name : fmt::format("{} ({})", name, report.folder);
 }

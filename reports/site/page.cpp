@@ -64,8 +64,8 @@ void addOnce(std::vector<std::string>& names, const std::string& name) {
   names.push_back(std::move(own));
 }
 
-/// "yade 2023.02a"
-std::string nameOf(const EngineRow& engine) {
+/// With its version.
+std::string versionedName(const EngineRow& engine) {
   return engine.version.empty() ? engine.name : engine.name + " " + engine.version;
 }
 
@@ -107,10 +107,11 @@ Table valuesOf(const ReportDigest& digest, const std::string& engine) {
 
 void writeEnginePages(const std::vector<SiteReport>& reports, const std::filesystem::path& site) {
   const std::vector<EnginePage> pages = enginePages(reports);
+  const std::vector<EngineRow> engines = siteEngines(reports);
   for (const EnginePage& page : pages) {
     const EngineRow& engine = page.engine;
-    Report report{{{}, siteEngines(reports), engineOverview(page.reports, engine.name)}};
-    report.head.setup.name = "crossgrain: " + nameOf(engine);
+    Report report{{{}, engines, engineOverview(page.reports, engine.name)}};
+    report.head.setup.name = "crossgrain: " + versionedName(engine);
     report.wrapped = true;
     report.notes =
         nonEmpty({engine.summary, engine.mirrors.empty()
@@ -120,7 +121,7 @@ void writeEnginePages(const std::vector<SiteReport>& reports, const std::filesys
     Links links{{{"all engines", "index.html"}}};
     for (const EnginePage& other : pages)
       if (other.engine.name == engine.name && other.file != page.file)
-        links.links.emplace_back(nameOf(other.engine), other.file);
+        links.links.emplace_back(versionedName(other.engine), other.file);
     report.section("about", "About this page").blocks = {
         Paragraph{report.overview.rows.empty()
                       ? "It took part in these reports, and none has an answer of it."
@@ -175,7 +176,7 @@ void addEngineReports(Report& page, const EnginePage& engine) {
   constexpr std::size_t most = 40;  // checks that a page shows of a report
   const std::string& name = engine.engine.name;
   for (const SiteReport& report : engine.reports) {
-    Blocks& blocks = page.section(report.folder, nameOfReport(report)).blocks;
+    Blocks& blocks = page.section(report.folder, nameOf(report.digest.head)).blocks;
     blocks.push_back(Paragraph{originOf(report.digest.head), Paragraph::Style::small});
     if (const EngineRow* const own = engineIn(report, name); own && own->status != Status::finished)
       blocks.push_back(

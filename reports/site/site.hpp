@@ -19,9 +19,6 @@ struct SiteReport {
 /// Where it is, from the site's own pages.
 std::string pageOf(const SiteReport& report);
 
-/// "compare quick"
-std::string nameOfReport(const SiteReport& report);
-
 /// The engine's row; null where the matrix has none.
 const OverviewRow* rowOf(const Overview& overview, const std::string& engine);
 
