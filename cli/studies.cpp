@@ -11,6 +11,7 @@
 #include "cases/engine_file.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
+#include "reports/common/sentences.hpp"
 #include "reports/conformance/report.hpp"
 #include "reports/cost/report.hpp"
 #include "reports/flow/endpoint_text.hpp"
@@ -139,13 +140,12 @@ std::string collideText(const CollideResults& results) {
   std::string text;
   for (const auto& [engine, count] : refused)
     if (count > 0)
-      text += fmt::format("{} does not have the law of {} sweep{}; the report says why\n", engine,
-                          count, count == 1 ? "" : "s");
+      text += fmt::format("{} does not have the law of {}; the report says why\n", engine,
+                          reports::counted(static_cast<std::size_t>(count), "sweep"));
   const SweepCount count = countOf(results);
-  return text +
-         fmt::format("{} curve{} passed, {} differ by their model, {} failed, {} not judged\n",
-                     count.held, count.held == 1 ? "" : "s", count.modelDifference,
-                     count.beyondLimits, count.notJudged);
+  return text + fmt::format("{} passed, {} differ by their model, {} failed, {} not judged\n",
+                            reports::counted(static_cast<std::size_t>(count.held), "curve"),
+                            count.modelDifference, count.beyondLimits, count.notJudged);
 }
 
 /// "grain  without friction  0.583 of the time per step, 21 of 42 rings changed"

@@ -33,10 +33,12 @@ namespace {
 constexpr double timeout = 60.0;  // for one answer [s]
 constexpr int mostBreakdowns = 3;
 
+constexpr const char* untriedReason = "the time of --budget was over";
+
 /// A row of what the budget had no time left for.
 ConformanceRow untriedRow(const std::string& part, const std::string& name,
                           const std::string& what) {
-  return {part, name, what, checkUntried, "the time of --budget was over"};
+  return {part, name, what, checkUntried, untriedReason};
 }
 
 void runOne(const Check& check, CheckContext context, ConformanceRow& row, CheckReport& result) {
@@ -316,10 +318,10 @@ ConformanceResults runConformance(const ConformanceTask& task) {
   const auto began = std::chrono::steady_clock::now();
   const EngineEntry& entry = task.entry;
   const ScratchFolder scratch;
-  const auto timeIsUp = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count() >
-           task.budget;
+  const auto elapsed = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   };
+  const auto timeIsUp = [&] { return elapsed() > task.budget; };
   const auto wanted = [&](const std::string& name) {
     return !task.only || name.find(*task.only) != std::string::npos;
   };
@@ -373,7 +375,7 @@ ConformanceResults runConformance(const ConformanceTask& task) {
       results.engine.status = Status::failed;
       results.engine.reason = row.detail;
     }
-  results.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  results.elapsed = elapsed();
   return results;
 }
 
@@ -382,8 +384,8 @@ Outcome outcomeOf(const ConformanceResults& results) {
   if (results.count(checkFailed) > 0) return {exitFailed};
   if (const std::size_t untried = results.count(checkUntried))
     return {exitFailed,
-            {fmt::format("{} of {} checks were not tried: the time of --budget was over", untried,
-                         results.rows.size())}};
+            {fmt::format("{} of {} checks were not tried: {}", untried, results.rows.size(),
+                         conformance::untriedReason)}};
   return results.count(checkPassed) == 0 ? notJudged("every check was skipped") : Outcome();
 }
 
