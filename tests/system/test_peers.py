@@ -613,8 +613,9 @@ class Jolt(RigidEngine, Peer):
         """Of 128 MB; what was left split it, and after some hundred scenes there was no room for another."""
         script = """
             const {JoltWorld} = await import(process.argv[1]);
+            const {RigidLaw} = await import(process.argv[2]);
             const disks = [{position: [0, 0], velocity: [0, 0], spin: 0, radius: 0.0037, mass: 0.275e-3, inertia: 1.9e-9}];
-            const law = {friction: 0.44, restitution: () => 0.5};
+            const law = new RigidLaw({normal: "rigid", en: 0.5, et0: 0, mu: 0.44});
             const scene = {disks, bodies: [], law, gravity: [0, 0], dt: 5e-4, rotation: true, number: () => 10};
             const free = [];
             for (let load = 0; load < 20; ++load) {
@@ -626,7 +627,8 @@ class Jolt(RigidEngine, Peer):
             }
             console.log(free[1] - free[19]);
         """
-        command = ["node", "--input-type=module", "--eval", script, str(HOME / "engines/jolt/world.mjs")]
+        modules = [str(HOME / "engines" / name) for name in ("jolt/world.mjs", "node/rigid_law.mjs")]
+        command = ["node", "--input-type=module", "--eval", script, *modules]
         done = subprocess.run(command, capture_output=True, encoding="utf-8", check=False)
         self.assertEqual(("0\n", ""), (done.stdout, done.stderr))
 
