@@ -163,6 +163,7 @@ std::unique_ptr<SnapshotSource> openSnapshots(const SnapshotRun& run, const Case
   target.from = times.settled;
   target.to = times.end();
   target.dt = stepOf(setup);
+  target.gravity = setup.assembly.gravity;
   if (!run.besides.empty()) {
     std::vector<std::string> names;
     for (const fs::path& file : run.besides) names.push_back(file.filename().string());

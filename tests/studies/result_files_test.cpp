@@ -370,6 +370,49 @@ TEST(PlaneSnapshots, WaysThatVelocitiesDoNotSay_AreRefusedWithTheirFactor) {
             "");
 }
 
+/// Half and twice the time step: disks in flight know the time that has passed from their way and,
+/// under the case's gravity, from their velocity.
+TEST(PlaneSnapshots, TimesOffByTwo_AreRefusedInFlightAndAtEvenSpeed) {
+  const auto flown = [](double stamps, double gravity, double from,
+                        const std::vector<double>& bounce, double drive = 0.0) {
+    std::deque<FileFrame> frames;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double t = 0.1 * static_cast<double>(k);
+      FileFrame frame = threeParticles(stamps * t);
+      frame.contacts.reset();
+      for (std::size_t p = 0; p < 3; ++p) {
+        const double v = 1.0 + static_cast<double>(p);
+        frame.particles.position[p] = {4.0 * static_cast<double>(p),
+                                       40.0 - v * t - 0.5 * gravity * t * t, 0.0};
+        if (!bounce.empty()) frame.particles.position[p].y() = 40.0 - bounce[k] * v;
+        frame.particles.velocity[p] = {0.0, -v - gravity * t, 0.0};
+      }
+      frames.push_back(frame);
+    }
+    files::PlaneScene target = targetOf(restingDisks());
+    target.gravity = {0.0, -gravity};
+    target.from = from;
+    for (WallBody& body : target.bodies) body.motion.frequency = drive;
+    return test::refusalOf([&] {
+      PlaneSnapshots source(std::make_unique<FakeReader>(frames), {}, target);
+      while (source.next()) {
+      }
+    });
+  };
+  for (const double gravity : {0.0, 10.0}) {
+    EXPECT_EQ(flown(1.0, gravity, 0.0, {}), "");
+    expectSays(flown(2.0, gravity, 0.0, {}), {"3 disks that move have gone 0.5 times as far"});
+    expectSays(flown(0.5, gravity, 0.0, {}), {"gone 2 times as far"});
+    // Also where the case averages only what comes later.
+    expectSays(flown(2.0, gravity, 0.5, {}), {"gone 0.5 times as far"});
+    EXPECT_EQ(flown(1.0, gravity, 0.25, {}), "");
+  }
+  // Once is chance; and walls may drive what is seen at one phase of theirs only.
+  EXPECT_EQ(flown(1.0, 0.0, 0.0, {0.0, 0.05, 0.13, 0.2}), "");
+  expectSays(flown(1.0, 0.0, 0.0, {0.0, 0.05, 0.1, 0.15}), {"gone 0.5 times as far"});
+  EXPECT_EQ(flown(1.0, 0.0, 0.0, {0.0, 0.05, 0.1, 0.15}, 60.0), "");
+}
+
 TEST(PlaneSnapshots, ForcesOfAnotherUnit_AreHintedAt) {
   std::vector<std::string> remarks;
   firstOf(
