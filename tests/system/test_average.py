@@ -167,7 +167,7 @@ class ResultFiles(SystemTest):
         self.assert_one_error(self.import_files(files=self.copies(one_more)), BAD_INPUT, "listed twice with different forces")
         self.assert_one_error(self.run_program("import", "mine", *self.FILES, self.CASE, "--out", self.snapshots), BAD_INPUT, "there is no format 'mine'")
         self.snapshots.write_text("mine", encoding="utf-8")
-        self.assert_one_error(self.import_files(), BAD_INPUT, "mine.h5: is there, and is no file of snapshots")
+        self.assert_one_error(self.import_files(), BAD_INPUT, "mine.h5: this file exists and holds no snapshots")
 
     def test_what_is_missing_on_the_command_line_is_named(self):
         atoms, pairs = self.FILES
@@ -176,7 +176,7 @@ class ResultFiles(SystemTest):
             (["lammps", pairs, *rest], ["box-pairs.dump: contacts alone: the file of the particles is missing"]),
             (["lammps", atoms, pairs, *rest[1:]], ["the case, a TOML file, is missing behind the files", "box-pairs.dump is a result file (lammps)"]),
             (["lammps", atoms, *rest[1:]], ["the case, a TOML file, is missing behind the files"]),
-            (["csv", atoms, pairs, *rest], ["box-atoms.dump: is of format lammps, not csv: crossgrain import lammps"]),
+            (["csv", atoms, pairs, *rest], ["box-atoms.dump: the file is of format lammps, not csv: crossgrain import lammps"]),
             ([atoms, pairs, *rest], ["FORMAT is missing", "crossgrain import lammps FILES"]),
         ):
             with self.subTest(arguments):
