@@ -15,6 +15,10 @@ constexpr double sameFactor = 0.05, mostDisks = 0.9, powerOfTen = 0.02;
 /// of it are.
 constexpr double leastOfMotion = 0.45, mostOfMotion = 1.6;
 constexpr double leastOfEven = 0.85, mostOfEven = 1.18;
+/// Disks that all bounce alike without loss are after n of their periods T as before. Snapshots nT
+/// + δ apart then show δ/(nT + δ) of the way, less than 1/3 where a flight holds two of them in a
+/// row.
+constexpr double mostOfBouncing = 0.4;
 /// Of a turn of what drives the scene between two snapshots [rad].
 constexpr double mostDriven = 0.5;
 constexpr double mostRms = 2.0, leastRms = 0.01;
@@ -93,7 +97,8 @@ Displacements::Finding Displacements::compare(const Snapshot& now, double uncert
   if (!position_.empty()) {
     const Factors factors = factorsOf(now, uncertain);
     const auto factor = commonFactor(factors.all, leastOfMotion, mostOfMotion);
-    const auto even = commonFactor(factors.even, leastOfEven, mostOfEven);
+    auto even = commonFactor(factors.even, leastOfEven, mostOfEven);
+    if (even && *even < mostOfBouncing) even.reset();
     const bool inPhase = drive_ * (now.positionTime - time_) > mostDriven;
     const auto again = [&](const std::optional<double>& found,
                            const std::optional<double>& before) {

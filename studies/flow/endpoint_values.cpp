@@ -180,7 +180,7 @@ std::string notInFiles(const EndpointSpec& endpoint, const Case& setup, const Fl
     if (!lack.empty()) return lack;
     const bool ofSliding = quantity == "sliding_fraction" && run.series;
     if (ofSliding && presentNumbers(valuesOf(*run.series, quantity)).empty())
-      return "not which contacts slide in its files";
+      return "no mark of sliding contacts in its files";
   }
   const OwnValue found = ownEndpointOf(*own, setup, run);
   return found.notCovered ? found.why + " in its files" : std::string();

@@ -187,6 +187,17 @@ double stepOf(const Case& setup) {
   return setup.particles.file ? setup.run.dt.value_or(0.0) : timeStep(setup);
 }
 
+/// "[engines.mine]", and where the case has no such section, which ones it has.
+std::string sectionWords(const Case& setup, const std::string& name) {
+  std::string words = fmt::format("[engines.{}]", name);
+  std::vector<std::string> others;
+  for (const auto& [other, settings] : setup.engines)
+    if (!findEngine(other)) others.push_back(other);
+  if (setup.engines.contains(name) || others.empty()) return words;
+  return fmt::format("{}, which the case does not have: it has settings of {}", words,
+                     fmt::join(others, ", "));
+}
+
 }  // namespace
 
 std::unique_ptr<SnapshotSource> openSnapshots(const SnapshotRun& run, const Case& setup,
@@ -204,7 +215,7 @@ std::unique_ptr<SnapshotSource> openSnapshots(const SnapshotRun& run, const Case
   const FlowTimes times = flowTimes(setup);
   files::PlaneScene target;
   target.name = name;
-  target.where = origin.settings;
+  target.where = sectionWords(setup, name);
   target.bodies = setup.kind == CaseKind::couette ? couetteScene(setup, Packing(), 0.0).bodies
                                                   : assemblyScene(setup, Disks(), 0.0, 0.0).bodies;
   target.anyAngle = setup.kind == CaseKind::couette;

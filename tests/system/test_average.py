@@ -152,6 +152,8 @@ class ResultFiles(SystemTest):
                 done = self.import_files(*(f"--set=engines.my-lammps.{each}" for each in settings_))
                 self.assert_one_error(done, BAD_INPUT, *words)
                 self.assertEqual([], list(self.folder.glob("mine*")))
+        misspelt = self.import_files(name="my-lamps")
+        self.assert_one_error(misspelt, BAD_INPUT, "in [engines.my-lamps], which the case does not have: it has settings of my-lammps, my-yade")
 
     def test_faulty_files_are_refused(self):
         def one_more(text):
