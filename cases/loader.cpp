@@ -154,7 +154,7 @@ void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
   if (c.run.dt || !c.particles.file) checkLength(cell, c);
 }
 
-void readAssemblyCase(Reader& root, Reader& law, Reader& run, Case& c) {
+void readAssemblyCase(Reader& root, Reader& law, Reader& run, Starts starts, Case& c) {
   Reader assembly = root.section("assembly");
   Reader preparation = root.section("preparation");
   Reader average = root.section("average");
@@ -167,7 +167,8 @@ void readAssemblyCase(Reader& root, Reader& law, Reader& run, Case& c) {
   std::vector<Reader> endpoints;
   if (root.has("average")) {
     endpoints = root.sections("endpoints");
-    readAverage(average, endpoints, preparation, c);
+    readAverage(average, endpoints, c);
+    checkVariety(average, endpoints, preparation, starts, c);
   }
   for (const char* const section : {"endpoints", "preparation", "looks"})
     root.check(c.average || !root.has(section), section, "is of no use without [average]");
@@ -212,7 +213,8 @@ void makeAbsolute(toml::table& root, const Case& c) {
     *node->as_string() = absolute(files.front());
 }
 
-Case readCase(const std::filesystem::path& file, CaseDocument& document) {
+Case readCase(const std::filesystem::path& file, CaseDocument& document,
+              Starts starts = Starts::made) {
   Case c;
   c.file = file;
   c.variant = document.variant;
@@ -236,10 +238,12 @@ Case readCase(const std::filesystem::path& file, CaseDocument& document) {
   readRun(run, c.run);
   readEngines(engines, c.engines);
   if (root.has("stability")) readStability(stability, c.stability.emplace());
-  const auto readKind = c.kind == CaseKind::couette     ? readCouette
-                        : c.kind == CaseKind::collision ? readCollisionCase
-                                                        : readAssemblyCase;
-  readKind(root, law, run, c);
+  if (c.kind == CaseKind::couette)
+    readCouette(root, law, run, c);
+  else if (c.kind == CaseKind::collision)
+    readCollisionCase(root, law, run, c);
+  else
+    readAssemblyCase(root, law, run, starts, c);
 
   document.root["case"].as_table()->insert("name", c.name);
   makeAbsolute(document.root, c);
@@ -269,12 +273,13 @@ void warnOfStep(Case& c, const std::filesystem::path& said) {
 }
 
 std::vector<Case> loadAll(const std::filesystem::path& file,
-                          const std::vector<std::string>& overrides, const std::string& fragment) {
+                          const std::vector<std::string>& overrides, const std::string& fragment,
+                          Starts starts) {
   std::vector<Case> cases;
   for (CaseDocument& document : readCaseDocuments(file, overrides, fragment)) {
     const toml::node* const step = document.root.at_path("run.dt").node();
     const auto said = step ? fileOf(step->source()) : std::nullopt;
-    Case& c = cases.emplace_back(readCase(file, document));
+    Case& c = cases.emplace_back(readCase(file, document, starts));
     c.overrides = overrides;
     if (said && c.run.dt) warnOfStep(c, *said);
   }
@@ -294,14 +299,15 @@ std::vector<SectionInfo> headerSections() {
 }
 
 std::vector<Case> loadCase(const std::filesystem::path& file,
-                           const std::vector<std::string>& overrides, const std::string& fragment) {
+                           const std::vector<std::string>& overrides, const std::string& fragment,
+                           Starts starts) {
   try {
-    return loadAll(file, overrides, fragment);
+    return loadAll(file, overrides, fragment, starts);
   } catch (const BadInput& error) {
     // What the command line broke is not the file's fault, wherever it shows.
     if (overrides.empty() || std::string_view(error.what()).starts_with("--set ")) throw;
     try {
-      loadAll(file, {}, fragment);
+      loadAll(file, {}, fragment, starts);
     } catch (const BadInput&) {
       throw error;
     }

@@ -9,6 +9,10 @@
 
 namespace crossgrain::inline cases {
 
+/// What is done with the starts of a case. Packings that are all the same are refused where several
+/// are to be made: they have no scatter. Where none is made nothing speaks against them.
+enum class Starts { made, notMade };
+
 /// Reads a case file (TOML, SI units; docs/cases.md has every key): resolves what it extends,
 /// expands its variants, applies the command line's changes, and checks everything, so that nothing
 /// that uses a Case has to check it again.
@@ -20,7 +24,7 @@ namespace crossgrain::inline cases {
 /// @throws BadInput  with one line: where, what is there, what would be right
 std::vector<Case> loadCase(const std::filesystem::path& file,
                            const std::vector<std::string>& overrides = {},
-                           const std::string& fragment = {});
+                           const std::string& fragment = {}, Starts starts = Starts::made);
 
 /// A case that was loaded, with a fragment of TOML merged in, as if it were a file that extends it.
 /// @throws BadInput for what makes no case

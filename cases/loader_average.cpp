@@ -313,33 +313,6 @@ bool startsDiffer(const Assembly& assembly) {
          std::ranges::any_of(assembly.disks, varies);
 }
 
-/// Packings that are all the same have no scatter to test with; a closed form is of one start.
-void checkVariety(const Reader& in, const std::vector<Reader>& endpoints, const Reader& preparation,
-                  const Case& c) {
-  const std::vector<OwnEndpoint>& own = c.average->endpoints;
-  const auto hasExpected = [](const OwnEndpoint& one) { return one.expected.has_value(); };
-  const auto first = std::ranges::find_if(own, hasExpected);
-  const bool differ = startsDiffer(c.assembly);
-  if (first == own.end()) {
-    if (differ || !c.assembly.starts.files.empty() || c.preparation.packings < 2) return;
-    in.fail("bins",
-            "no packing would differ from another: give assembly.disks a jitter, "
-            "radius_spread or velocity_rms, or preparation.packings = 1");
-  }
-  const Reader& one = endpoints[static_cast<std::size_t>(first - own.begin())];
-  one.check(!differ, "expected",
-            "is of one start, and here packings differ: several files, or a jitter, radius_spread "
-            "or velocity_rms");
-  if (preparation.has("packings"))
-    preparation.check(c.preparation.packings <= closedFormRuns, "packings",
-                      "no packing would differ from another, and endpoints with an expected value "
-                      "need one start: leave it out");
-  if (const auto without = std::ranges::find_if_not(own, hasExpected); without != own.end())
-    endpoints[static_cast<std::size_t>(without - own.begin())].failMissing(
-        "expected",
-        fmt::format("{} has one: in a scene of closed forms every endpoint does", first->name));
-}
-
 void checkSwings(const Reader& in, const Assembly& assembly) {
   std::set<double> frequencies;
   for (const WallGroup& wall : assembly.walls)
@@ -361,7 +334,7 @@ std::vector<SectionInfo> averageSections() {
           endpointsKeys().info()};
 }
 
-void readAverage(Reader& in, std::vector<Reader>& each, const Reader& preparation, Case& c) {
+void readAverage(Reader& in, std::vector<Reader>& each, Case& c) {
   c.average.emplace();
   const Reader margins = in.section("margins");
   readRegion(in, c);
@@ -374,7 +347,33 @@ void readAverage(Reader& in, std::vector<Reader>& each, const Reader& preparatio
               "two endpoints have this name");
     c.average->endpoints.push_back(std::move(endpoint));
   }
-  checkVariety(in, each, preparation, c);
+}
+
+void checkVariety(const Reader& in, const std::vector<Reader>& endpoints, const Reader& preparation,
+                  Starts starts, const Case& c) {
+  const std::vector<OwnEndpoint>& own = c.average->endpoints;
+  const auto hasExpected = [](const OwnEndpoint& one) { return one.expected.has_value(); };
+  const auto first = std::ranges::find_if(own, hasExpected);
+  const bool differ = startsDiffer(c.assembly);
+  if (first == own.end()) {
+    if (differ || starts == Starts::notMade) return;
+    if (!c.assembly.starts.files.empty() || c.preparation.packings < 2) return;
+    in.fail("bins",
+            "no packing would differ from another: give assembly.disks a jitter, "
+            "radius_spread or velocity_rms, or preparation.packings = 1");
+  }
+  const Reader& one = endpoints[static_cast<std::size_t>(first - own.begin())];
+  one.check(!differ, "expected",
+            "is of one start, and here packings differ: several files, or a jitter, radius_spread "
+            "or velocity_rms");
+  if (preparation.has("packings"))
+    preparation.check(c.preparation.packings <= closedFormRuns, "packings",
+                      "no packing would differ from another, and endpoints with an expected value "
+                      "need one start: leave it out");
+  if (const auto without = std::ranges::find_if_not(own, hasExpected); without != own.end())
+    endpoints[static_cast<std::size_t>(without - own.begin())].failMissing(
+        "expected",
+        fmt::format("{} has one: in a scene of closed forms every endpoint does", first->name));
 }
 
 void checkAveragedTime(const Reader& in, const std::vector<Reader>& endpoints, const Case& c) {

@@ -7,6 +7,7 @@
 
 #include "averaging/fields.hpp"
 #include "cases/case.hpp"
+#include "cases/loader.hpp"
 #include "cases/loader_reader.hpp"
 #include "cases/schema.hpp"
 
@@ -49,9 +50,12 @@ void readStability(Reader& in, Stability& stability);
 void readCost(Reader& in, Cost& cost);
 void readCollision(Reader& in, Collision& collision);
 void readAssembly(Reader& in, Assembly& assembly);
-/// [average] and [[endpoints]].
-/// @param c  whose [assembly] and [preparation], which is `preparation`, have been read
-void readAverage(Reader& in, std::vector<Reader>& endpoints, const Reader& preparation, Case& c);
+/// [average] and [[endpoints]]. @param c  whose [assembly] and [preparation] have been read
+void readAverage(Reader& in, std::vector<Reader>& endpoints, Case& c);
+/// Packings that are all the same have no scatter to test with; a closed form is of one start.
+/// @param starts  where none are made, none are the same
+void checkVariety(const Reader& in, const std::vector<Reader>& endpoints, const Reader& preparation,
+                  Starts starts, const Case& c);
 /// @param c  whose step is known
 void checkAveragedTime(const Reader& in, const std::vector<Reader>& endpoints, const Case& c);
 

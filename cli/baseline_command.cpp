@@ -38,8 +38,8 @@ int keep(const CommandLine& line, const KeepOptions& own) {
   // What an older version did cannot be made again.
   if (fs::exists(file))
     throw BadInput(fmt::format(
-        "--out {}: is there already, and a baseline is not replaced: name another file, or "
-        "remove it",
+        "--out {}: this file exists, and a baseline is not replaced: name another file, or remove "
+        "this one",
         out));
   std::vector<Case> cases = loadCase(line.inputs.front(), line.overrides);
   if (cases.front().kind == CaseKind::collision)
@@ -57,7 +57,7 @@ int keep(const CommandLine& line, const KeepOptions& own) {
   std::vector<std::string> names;
   for (const BaselineEngine& engine : baseline.engines)
     names.push_back(fmt::format("{} {}", engine.name, engine.version));
-  fmt::print("{}: kept of {}\n", out, fmt::join(names, ", "));
+  fmt::print("{}: baseline of {}\n", out, fmt::join(names, ", "));
   for (const std::string& refusal : refusals) printFailure(refusal);
   return exitPassed;
 }
@@ -83,11 +83,11 @@ Action declareBaseline(CLI::App& app, CommandLine& line) {
   addPackings(app, line);
   addQuiet(app, line);
   const auto own = std::make_shared<KeepOptions>();
-  addArgument(app, "--out", own->out, "file for it, which must not be there", "FILE");
+  addArgument(app, "--out", own->out, "file to write; it must not exist", "FILE");
   addNumber(app, "--starts", own->starts,
             "states of the flow to start from; 8 unless given, 4 with --quick");
   addFlag(app, "--endpoints", own->endpoints,
-          "also runs and averages from every start, as compare does, and keeps the endpoints");
+          "also averages a run from every start, as compare does, and keeps its endpoints");
   return [&line, own] { return keep(line, *own); };
 }
 
@@ -104,13 +104,13 @@ Action declareDiff(CLI::App& app, CommandLine& line) {
 }  // namespace
 
 extern const Command baselineCommand = {
-    "baseline", "keeps what engines do, to the bit, for diff",
+    "baseline", "records what engines do, bit by bit, for a later diff",
     "crossgrain baseline cases/couette/quick.toml --engines grain,yade --out before.baseline\n"
     "crossgrain baseline cases/collision/figure-4-3.toml --engines grain --out before.baseline",
     declareBaseline};
 
 extern const Command diffCommand = {
-    "diff", "what engines do otherwise than a baseline has it",
+    "diff", "compares what engines do with a baseline",
     "crossgrain diff before.baseline --engines yade\n"
     "crossgrain diff before.baseline --engines grain --set law.integrator=velocity_verlet",
     declareDiff};

@@ -24,9 +24,11 @@ Action declareImport(CLI::App& app, CommandLine& line) {
   addFilesAndCase(app, line, "result files of one run",
                   "case file: the scene, the law, what is averaged");
   addArgument(app, "--out", options->out,
-              "HDF5 file to write; one of snapshots that is there is replaced", "RUN.h5");
+              "HDF5 file to write; an older file of snapshots is replaced", "RUN.h5");
   addText(app, "--name", options->name,
-          "what made the files: [engines.NAME] has their units (default: the format)", "NAME");
+          "settings of the files: units and columns in [engines.NAME] of the case (default: the "
+          "format)",
+          "NAME");
   addOverrides(app, line);
   addQuiet(app, line);
   return [&line, options] { return importFiles(line, *options); };
@@ -35,7 +37,7 @@ Action declareImport(CLI::App& app, CommandLine& line) {
 }  // namespace
 
 extern const Command importCommand = {
-    "import", "result files of another program as snapshots, to be averaged and compared",
+    "import", "converts result files of another program to snapshots, and checks them",
     "crossgrain import lammps atoms-1.dump pairs-1.dump examples/import/box.toml --name my-lammps "
     "--out out/lammps-1.h5\n"
     "crossgrain import mercurydpm run.data run.fstat my.toml --set engines.mercurydpm.plane=xz "

@@ -40,7 +40,7 @@ int record(const CommandLine& line, const std::string& out, const std::optional<
   const std::filesystem::path file = out;
   if (std::filesystem::exists(file))
     throw BadInput(fmt::format(
-        "--out {}: is there already, and a recording is not replaced: name another file", out));
+        "--out {}: this file exists, and a recording is not replaced: name another file", out));
   std::vector<Case> cases = loadCase(line.inputs.front(), line.overrides);
   if (line.only) cases = selectedCases(cases, *line.only);
   const Case& setup = cases.front();

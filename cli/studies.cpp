@@ -123,9 +123,12 @@ std::string compareText(const CompareResults& results) {
   if (const InterimFindings& looks = results.endpoints.looks; looks.taken > 0)
     add(reports::describe(looks));
   if (!results.nothingJudged)
-    text += fmt::format("{} agree, {} borderline, {} disagree, {} undecided; ",
+    text += fmt::format("{} agree, {} borderline, {} disagree, {} undecided{}; ",
                         answers[Verdict::pass], answers[Verdict::borderline],
-                        answers[Verdict::fail], answers[Verdict::undecided]);
+                        answers[Verdict::fail], answers[Verdict::undecided],
+                        answers[Verdict::notMeasured] == 0
+                            ? std::string()
+                            : fmt::format(", {} absent", answers[Verdict::notMeasured]));
   add(fmt::format("{} of {} runs failed",
                   std::ranges::count(results.runs, Status::failed, &FlowRun::status),
                   results.runs.size()));

@@ -14,11 +14,12 @@ namespace crossgrain::inline results {
 
 /// What files call the verdict on an endpoint: an agreement has two names, see
 /// EndpointRow::answer().
-inline constexpr support::EnumNames<Verdict, 5> answerNames{{{Verdict::pass, "no_difference_seen"},
+inline constexpr support::EnumNames<Verdict, 6> answerNames{{{Verdict::pass, "no_difference_seen"},
                                                              {Verdict::pass, "small_difference"},
                                                              {Verdict::borderline, "borderline"},
                                                              {Verdict::fail, "disagree"},
-                                                             {Verdict::undecided, "undecided"}}};
+                                                             {Verdict::undecided, "undecided"},
+                                                             {Verdict::notMeasured, "absent"}}};
 
 /// What files call the basis of a verdict.
 inline constexpr support::EnumNames<Basis, 4> basisNames{{{Basis::paired, "paired"},
@@ -50,7 +51,7 @@ struct EndpointRow {
   double margin = 0.0;          ///< of the reference where marginRelative, else in the unit
   bool marginRelative = false;  ///< then engines are compared by their ratio
   std::string marginWhy;
-  Verdict verdict = Verdict::undecided;
+  Verdict verdict = Verdict::undecided;  ///< notMeasured: the files of one have no such number
   std::optional<double> reference;  ///< mean over the packings of a, or the expected value [unit]
   std::optional<double> difference, low, high;  ///< b − a, with the interval of the verdict [unit]
   /// The difference in margins, with its interval: engines rank by it. With a bound the interval is
@@ -60,7 +61,8 @@ struct EndpointRow {
   int packings = 0;                      ///< that both have
   int lost = 0;                          ///< that one of both has no value on, of those looked at
   std::optional<UnpairedRuns> unpaired;  ///< absent: the same packings of both, one by one
-  std::string reason;  ///< why a run has none, or the margin does not apply; empty: as it should be
+  /// Why a run has none, the margin does not apply or files decide nothing; empty: as it should be.
+  std::string reason;
   std::optional<int> needs;            ///< undecided: packings that decide with 90 % chance,
   std::optional<int> needsAtMost;      ///< and at most so many; absent: no telling
   std::string surrogateA, surrogateB;  ///< the mirror whose runs stand for a, for b; empty: its own

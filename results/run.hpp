@@ -73,7 +73,8 @@ struct FlowRun {
   std::vector<Distribution> distributions;
   std::optional<ScenePicture> picture;        ///< of the first packing
   std::vector<EndpointError> endpointErrors;  ///< where runs of files are compared
-  std::vector<std::string> remarks;  ///< of a run of files: what they lack and what that costs
+  std::string files;                          ///< of a run of files: their names
+  std::vector<std::string> remarks;           ///< likewise: what they lack and what that costs
 
   bool finished() const { return status == Status::finished; }
   /// Nobody ran it here: it is averaged from files.
@@ -97,6 +98,7 @@ struct FlowRun {
     io.when(series.has_value(), "distributions", distributions);
     io.when(effective && series, "picture", picture);
     io.when(!endpointErrors.empty(), "endpoint_errors", endpointErrors);
+    io.when(!files.empty(), "files", files);
     io.when(!remarks.empty(), "remarks", remarks);
   }
 };

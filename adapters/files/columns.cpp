@@ -106,7 +106,7 @@ ColumnOptions::ColumnOptions(const std::string& option) {
                       item));
     Given& given = given_.emplace_back();
     given.name = item.substr(0, equals);
-    for (const std::string_view word : commaWords(item.substr(equals + 1)))
+    for (const std::string_view word : separatedWords(item.substr(equals + 1)))
       given.words.emplace_back(word);
   }
 }

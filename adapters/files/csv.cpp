@@ -1,5 +1,6 @@
-/// CSV files of particles and of contacts, a line of column names before the rows. Comments begin
-/// with #. Rows of one time follow one another; a file without t is one time.
+/// CSV files of particles and of contacts, a line of column names before the rows. Columns are
+/// parted by commas, or by semicolons or tabs where their names are. Comments begin with #. Rows of
+/// one time follow one another; a file without t is one time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,10 +20,30 @@ bool isOfStartFiles(std::string_view name) {
   return name == "inertia" || name == "fixed";
 }
 
-Columns columnsOf(TextFile& text, const ColumnOptions& options) {
+/// The names of columns and what parts them.
+struct Header {
+  std::vector<std::string> names;
+  char separator = ',';
+};
+
+/// Goes on to the line of names. @throws BadInput
+Header headerOf(TextFile& text) {
   if (!text.nextUncommented('#')) text.fail("there is no line of column names");
+  Header header;
+  const auto separator = separatorOf(text.line());
+  const bool single =
+      words(text.line()).size() == 1 && text.line().find(',') == std::string_view::npos;
+  if (!separator && !single)
+    text.fail("commas, or semicolons, or tabs should part the names of columns");
+  header.separator = separator.value_or(',');
+  for (const std::string_view name : separatedWords(text.line(), header.separator))
+    header.names.emplace_back(name);
+  return header;
+}
+
+Columns columnsOf(const TextFile& text, const Header& header, const ColumnOptions& options) {
   std::vector<Meaning> meanings;
-  for (const std::string_view name : commaWords(text.line())) {
+  for (const std::string& name : header.names) {
     const std::optional<Meaning> said = options.of(name);
     meanings.push_back(said.value_or(meaningOf(name)));
     if (!said && meanings.back() == Meaning::none && !isOfStartFiles(name))
@@ -42,7 +63,9 @@ class Csv : public TextParts {
 
  protected:
   void begin(TextFile& text) override {
-    columns_ = columnsOf(text, *options_);
+    const Header header = headerOf(text);
+    columns_ = columnsOf(text, header, *options_);
+    separator_ = header.separator == '\t' ? ' ' : header.separator;  // as readRow() calls tabs
     if (content_ == Content::contacts)
       checkContactColumns(columns_, text);
     else if (!columns_.has(Meaning::x) || !columns_.has(Meaning::y))
@@ -61,7 +84,7 @@ class Csv : public TextParts {
     if (content_ == Content::contacts) part.table.emplace();
     bool first = true;
     while (text.nextUncommented('#')) {
-      columns_.read(text, ',');
+      columns_.read(text, separator_);
       const bool isNext =
           !first && ((timed && columns_[Meaning::time] != *frame.time) ||
                      (stepped && columns_[Meaning::step] != static_cast<double>(*frame.step)));
@@ -87,6 +110,7 @@ class Csv : public TextParts {
   std::shared_ptr<const ColumnOptions> options_;
   Content content_;
   Columns columns_;
+  char separator_ = ',';
   std::optional<std::int64_t> fromName_;
 };
 
@@ -94,8 +118,7 @@ class Csv : public TextParts {
 
 Content contentOfCsv(const fs::path& file) {
   TextFile text(file);
-  if (!text.nextUncommented('#')) text.fail("there is no line of column names");
-  const auto names = commaWords(text.line());
+  const auto names = headerOf(text).names;
   const auto has = [&](std::string_view name) {
     return std::ranges::find(names, name) != names.end();
   };
@@ -110,13 +133,11 @@ Content contentOfCsv(const fs::path& file) {
 
 double firstTimeOfCsv(const fs::path& file) {
   TextFile text(file);
-  std::vector<std::string> names;
-  if (text.nextUncommented('#'))
-    for (const std::string_view name : commaWords(text.line())) names.emplace_back(name);
+  const auto [names, separator] = headerOf(text);
   for (std::size_t k = 0; k < names.size(); ++k) {
     if (meaningOf(names[k]) != Meaning::time && meaningOf(names[k]) != Meaning::step) continue;
-    const auto row =
-        text.nextUncommented('#') ? commaWords(text.line()) : std::vector<std::string_view>();
+    const auto row = text.nextUncommented('#') ? separatedWords(text.line(), separator)
+                                               : std::vector<std::string_view>();
     if (row.size() != names.size()) text.fail("there is no row below the column names");
     return numberOf(text, row[k], names[k]);
   }

@@ -11,8 +11,16 @@ constexpr double clear = 100.0;
 /// Fewer disks are no sample.
 constexpr std::size_t fewest = 3;
 constexpr double sameFactor = 0.05, mostDisks = 0.9, powerOfTen = 0.02;
-/// ½ to 3/2 is motion; the rest is room for what five in a hundred of it are.
+/// ½ to 3/2 is motion, and of what is even 0.9 to 1.1; the rest is room for what five in a hundred
+/// of it are.
 constexpr double leastOfMotion = 0.45, mostOfMotion = 1.6;
+constexpr double leastOfEven = 0.85, mostOfEven = 1.18;
+/// Disks that all bounce alike without loss are after n of their periods T as before. Snapshots nT
+/// + δ apart then show δ/(nT + δ) of the way, less than 1/3 where a flight holds two of them in a
+/// row.
+constexpr double mostOfBouncing = 0.4;
+/// Of a turn of what drives the scene between two snapshots [rad].
+constexpr double mostDriven = 0.5;
 constexpr double mostRms = 2.0, leastRms = 0.01;
 
 bool isSame(double a, double b, double within) {
@@ -23,6 +31,21 @@ bool isPowerOfTen(double factor) {
   return isSame(factor, std::pow(10.0, std::round(std::log10(factor))), powerOfTen);
 }
 
+/// What nearly all of them are, unless it lies between the limits; absent also of too few.
+std::optional<double> commonFactor(std::vector<double> factors, double least, double most) {
+  if (factors.size() < fewest) return std::nullopt;
+  const auto middle = factors.begin() + static_cast<std::ptrdiff_t>(factors.size() / 2);
+  std::ranges::nth_element(factors, middle);
+  const double median = *middle;
+  const auto alike =
+      std::ranges::count_if(factors, [&](double f) { return isSame(f, median, sameFactor); });
+  if (median <= 0.0 ||
+      static_cast<double>(alike) < mostDisks * static_cast<double>(factors.size()) ||
+      (median >= least && median <= most))
+    return std::nullopt;
+  return median;
+}
+
 double rootOfSquares(const std::vector<Vec2>& list) {
   double sum = 0.0;
   for (const Vec2& one : list) sum += one.squaredNorm();
@@ -31,30 +54,28 @@ double rootOfSquares(const std::vector<Vec2>& list) {
 
 }  // namespace
 
-std::optional<double> Displacements::factorOf(const Snapshot& now, double uncertain,
-                                              Finding& finding) {
+double driveOf(const std::vector<WallBody>& bodies) {
+  double drive = 0.0;
+  for (const WallBody& body : bodies)
+    drive = std::max({drive, body.motion.frequency, std::abs(body.motion.angularVelocity)});
+  return drive;
+}
+
+Displacements::Factors Displacements::factorsOf(const Snapshot& now, double uncertain) const {
   const double lapse = now.positionTime - time_;
-  std::vector<double> factors;
+  Factors factors;
   for (std::size_t k = 0; k < position_.size(); ++k) {
     const Vec2 mean = 0.5 * (velocity_[k] + now.velocity[k]), way = lapse * mean;
-    if (!((now.velocity[k] - velocity_[k]).norm() <= mean.norm())) continue;
-    const Vec2 moved = now.position[k] - position_[k];
+    const Vec2 change = now.velocity[k] - velocity_[k], moved = now.position[k] - position_[k];
     if (std::max(moved.norm(), way.norm()) <= clear * uncertain || way.isZero(0.0)) continue;
     const double factor = moved.dot(way) / way.squaredNorm();
     const bool straight = (moved - factor * way).norm() <= 0.1 * moved.norm();
-    factors.push_back(straight ? factor : 0.0);
+    const bool even =
+        std::min(change.norm(), (change - factor * lapse * gravity_).norm()) <= 0.2 * mean.norm();
+    if (change.norm() <= mean.norm()) factors.all.push_back(straight ? factor : 0.0);
+    if (even) factors.even.push_back(straight ? factor : 0.0);
   }
-  finding.of = factors.size();
-  if (factors.size() < fewest) return std::nullopt;
-  const auto middle = factors.begin() + static_cast<std::ptrdiff_t>(factors.size() / 2);
-  std::ranges::nth_element(factors, middle);
-  const double median = *middle;
-  const auto alike =
-      std::ranges::count_if(factors, [&](double f) { return isSame(f, median, sameFactor); });
-  if (median <= 0.0 || static_cast<double>(alike) < mostDisks * static_cast<double>(finding.of) ||
-      (median >= leastOfMotion && median <= mostOfMotion))
-    return std::nullopt;
-  return median;
+  return factors;
 }
 
 std::optional<double> Displacements::rmsOf(const Snapshot& now, double uncertain) const {
@@ -74,12 +95,26 @@ std::optional<double> Displacements::rmsOf(const Snapshot& now, double uncertain
 Displacements::Finding Displacements::compare(const Snapshot& now, double uncertain) {
   Finding finding;
   if (!position_.empty()) {
-    const auto factor = factorOf(now, uncertain, finding);
-    if (factor && (isPowerOfTen(*factor) || (factor_ && isSame(*factor, *factor_, sameFactor))))
+    const Factors factors = factorsOf(now, uncertain);
+    const auto factor = commonFactor(factors.all, leastOfMotion, mostOfMotion);
+    auto even = commonFactor(factors.even, leastOfEven, mostOfEven);
+    if (even && *even < mostOfBouncing) even.reset();
+    const bool inPhase = drive_ * (now.positionTime - time_) > mostDriven;
+    const auto again = [&](const std::optional<double>& found,
+                           const std::optional<double>& before) {
+      return !inPhase && found && before && isSame(*found, *before, sameFactor);
+    };
+    finding.of = factors.all.size();
+    if (factor && (isPowerOfTen(*factor) || again(factor, factor_))) {
       finding.factor = factor;
-    else
+    } else if (again(even, even_)) {
+      finding.factor = even;
+      finding.of = factors.even.size();
+    } else {
       finding.rms = rmsOf(now, uncertain);
+    }
     factor_ = factor;
+    even_ = even;
   }
   position_ = now.position;
   velocity_ = now.velocity;

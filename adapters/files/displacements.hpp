@@ -4,9 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "adapters/scene.hpp"
 #include "adapters/snapshot.hpp"
 
 namespace crossgrain::files {
+
+/// The fastest angular frequency of walls that swing or turn [rad/s].
+double driveOf(const std::vector<WallBody>& bodies);
 
 /// Whether disks move from one snapshot to the next as far as their velocities say: of files whose
 /// time step or unit of velocities is another than was said, they do not.
@@ -14,13 +18,25 @@ namespace crossgrain::files {
 /// A disk is counted whose velocity changes from v₁ to v₂ by no more than its mean,
 /// |v₂ − v₁| ≤ |v₁ + v₂|/2. Without turning back meanwhile it covers ½ to 3/2 of the way
 /// (v₁ + v₂) Δt/2; in flight under gravity just that way.
+///
+/// Half or twice the time step shows in those alone of which more is known. A disk is even where
+/// v₂ − v₁, or v₂ − v₁ − g τ, is at most a fifth of its mean velocity; τ is the time that its way
+/// takes at that mean, whatever the files say of time. At an even speed, and in flight, τ is Δt.
+/// Of these alone less than 0.4 of the way is no finding: see mostOfBouncing.
 class Displacements {
  public:
+  /// @param gravity  g [m/s²]
+  /// @param drive    driveOf() the walls: snapshots further apart than half a radian of it may show
+  ///                 the same phase each time, and then only powers of ten are a finding [rad/s]
+  explicit Displacements(const Vec2& gravity = Vec2::Zero(), double drive = 0.0)
+      : gravity_(gravity), drive_(drive) {}
+
   struct Finding {
     /// Way covered/way by velocities, where it is the same to 5 % of nine in ten of the counted
-    /// disks, and is either a power of ten to 2 % or the same as since the snapshot before.
+    /// disks, or of the even ones, and is either a power of ten to 2 % or the same as since the
+    /// snapshot before.
     std::optional<double> factor;
-    std::size_t of = 0;  ///< counted disks
+    std::size_t of = 0;  ///< such disks
     /// Else: root of the mean square of displacements/that of velocities Δt, where that is more
     /// than 2 or less than 1/100. A steady flow has at most 1 (Minkowski's inequality); disks that
     /// vibrate or diffuse have less without a limit.
@@ -31,12 +47,18 @@ class Displacements {
   Finding compare(const Snapshot& now, double uncertain);
 
  private:
-  std::optional<double> factorOf(const Snapshot& now, double uncertain, Finding& finding);
+  /// Way covered/way by velocities of a disk; 0: by another way.
+  struct Factors {
+    std::vector<double> all, even;
+  };
+  Factors factorsOf(const Snapshot& now, double uncertain) const;
   std::optional<double> rmsOf(const Snapshot& now, double uncertain) const;
 
+  Vec2 gravity_;
+  double drive_;
   std::vector<Vec2> position_, velocity_;  ///< of the snapshot before
   double time_ = 0.0;
-  std::optional<double> factor_;  ///< since the one before that
+  std::optional<double> factor_, even_;  ///< since the one before that
 };
 
 }  // namespace crossgrain::files

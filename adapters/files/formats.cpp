@@ -160,6 +160,7 @@ std::optional<std::string_view> formatOf(const fs::path& file) {
   if (!fileFault(file).empty()) return std::nullopt;
   std::string head(std::size_t{1} << 14, '\0');
   head.resize(RegularFile(file).read(0, std::as_writable_bytes(std::span(head))));
+  if (head.starts_with(byteOrderMark)) head.erase(0, byteOrderMark.size());
   if (head.starts_with("\x89HDF")) {
     // Names of groups stand near the beginning.
     if (head.find("VTKHDF") != std::string::npos) return "ondem";
@@ -187,9 +188,9 @@ std::optional<std::string_view> formatOf(const fs::path& file) {
     if (parts.front() != "#" && (parts.size() == 6 || parts.size() == 8) && numbers)
       return "mercurydpm";
     if (line.front() == '#') continue;
-    for (const std::string_view name : commaWords(line))
-      if (meaningOf(name) != Meaning::none && line.find(',') != std::string_view::npos)
-        return "csv";
+    if (const auto separator = separatorOf(line))
+      for (const std::string_view name : separatedWords(line, *separator))
+        if (meaningOf(name) != Meaning::none) return "csv";
     return std::nullopt;
   }
   return std::nullopt;

@@ -1,7 +1,6 @@
 #include "adapters/files/plane_snapshots.hpp"
 
 #include <fmt/format.h>
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "adapters/audit_geometry.hpp"
+#include "adapters/files/wall_particles.hpp"
 #include "support/bad_input.hpp"
 
 namespace crossgrain::files {
@@ -18,9 +18,6 @@ namespace {
 
 /// What moves along the third axis, or lies beside the others there, in units of what is largest.
 constexpr double outOfPlane = 1e-6;
-
-/// A wall disk is found within this share of its radius, and what six digits leave of its place.
-constexpr double ofWallRadius = 1e-3, ofPlace = 1e-5;
 
 constexpr std::array<std::string_view, 3> planeNames = {"xy", "xz", "yz"};
 constexpr std::string_view axisNames = "xyz";
@@ -209,110 +206,6 @@ double roundingOf(const std::vector<Vec3>& position, const PlaneUnits& units) {
   return 2.0 * std::pow(10.0, 1.0 - static_cast<double>(digits));
 }
 
-/// Rows of the particles that are a body's wall disks.
-class WallFinder {
- public:
-  WallFinder(const FileFrame& frame, const PlaneUnits& units) {
-    const FileParticles& all = frame.particles;
-    for (const Vec3& x : all.position) place_.push_back(units.length * units.inPlane(x));
-    for (const double a : all.radius) radius_.push_back(units.length * a);
-    order_.resize(place_.size());
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
-    std::ranges::sort(order_, {}, [&](std::size_t row) { return place_[row].x(); });
-  }
-
-  /// At these places. @returns in their order; rows that were not found are `none`
-  std::vector<std::size_t> at(const std::vector<Vec2>& places,
-                              const std::vector<double>& radii) const {
-    std::vector<std::size_t> rows;
-    for (std::size_t w = 0; w < places.size(); ++w) rows.push_back(nearest(places[w], radii[w]));
-    return rows;
-  }
-
-  /// On the circle about the body's centre, by their angle.
-  std::vector<std::size_t> onCircle(const WallBody& body) const {
-    std::vector<std::size_t> rows;
-    if (body.diskPosition.empty()) return rows;
-    const double wanted = (body.diskPosition.front() - body.centre).norm();
-    const double a = body.diskRadius.front();
-    for (std::size_t row = 0; row < place_.size(); ++row)
-      if (hasRadius(row, a) && std::abs((place_[row] - body.centre).norm() - wanted) <=
-                                   ofWallRadius * a + ofPlace * wanted)
-        rows.push_back(row);
-    std::ranges::sort(rows, {}, [&](std::size_t row) {
-      const Vec2 from = place_[row] - body.centre;
-      return std::atan2(from.y(), from.x());
-    });
-    return rows;
-  }
-
-  const Vec2& place(std::size_t row) const { return place_[row]; }
-
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
-
- private:
-  bool hasRadius(std::size_t row, double a) const {
-    return radius_.empty() || std::abs(radius_[row] - a) <= ofWallRadius * a;
-  }
-  std::size_t nearest(const Vec2& place, double a) const {
-    const double within = ofWallRadius * a + ofPlace * place.cwiseAbs().maxCoeff();
-    const auto xOf = [&](std::size_t row) { return place_[row].x(); };
-    for (auto k = std::ranges::lower_bound(order_, place.x() - within, {}, xOf);
-         k != order_.end() && xOf(*k) <= place.x() + within; ++k)
-      if (hasRadius(*k, a) && (place_[*k] - place).norm() <= within) return *k;
-    return none;
-  }
-
-  std::vector<Vec2> place_;     ///< [m]
-  std::vector<double> radius_;  ///< [m]
-  std::vector<std::size_t> order_;
-};
-
-/// The reference places of wall disks that lie on a circle, from where they are.
-void turnBack(WallBody& body, const std::vector<std::size_t>& rows, const WallFinder& walls,
-              double t) {
-  const BodyState now = stateAt(body.motion, body.centre, t);
-  const Eigen::Rotation2Dd back(-now.angle);
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    body.diskPosition[k] = body.centre + back * (walls.place(rows[k]) - now.centre);
-}
-
-/// All of the case's wall disks, in their order, or none. @throws BadInput for some of them
-std::vector<std::size_t> wallRows(const FileFrame& frame, const PlaneUnits& units,
-                                  PlaneScene& target, double t) {
-  std::vector<std::size_t> all;
-  std::size_t wanted = 0;
-  if (std::ranges::all_of(target.bodies, [](const WallBody& b) { return b.diskRadius.empty(); }))
-    return all;
-  const WallFinder walls(frame, units);
-  for (WallBody& body : target.bodies) {
-    const std::size_t count = body.diskRadius.size();
-    wanted += count;
-    std::vector<std::size_t> rows;
-    if (target.anyAngle) {
-      rows = walls.onCircle(body);
-      if (rows.size() == count) turnBack(body, rows, walls, t);
-    } else {
-      const BodyState now = stateAt(body.motion, body.centre, t);
-      std::vector<Vec2> places;
-      for (const Vec2& start : body.diskPosition)
-        places.push_back(memberPosition(now, body.centre, start));
-      rows = walls.at(places, body.diskRadius);
-      std::erase(rows, WallFinder::none);
-    }
-    if (!rows.empty() && rows.size() != count)
-      fail(frame, fmt::format("{} of the {} wall disks of {} are where the case has them at t = "
-                              "{:.6g} s",
-                              rows.size(), count, body.name, t));
-    all.insert(all.end(), rows.begin(), rows.end());
-  }
-  if (!all.empty() && all.size() != wanted)
-    fail(frame, fmt::format("{} of the case's {} wall disks are particles of the file, and the "
-                            "others are not",
-                            all.size(), wanted));
-  return all;
-}
-
 }  // namespace
 
 PlaneSnapshots::PlaneSnapshots(std::unique_ptr<FrameReader> reader, PlaneUnits units,
@@ -320,12 +213,15 @@ PlaneSnapshots::PlaneSnapshots(std::unique_ptr<FrameReader> reader, PlaneUnits u
     : reader_(std::move(reader)),
       units_(units),
       target_(std::move(target)),
+      displacements_(target_.gravity, driveOf(target_.bodies)),
+      earlyDisplacements_(displacements_),
       remarks_(target_.remarks.begin(), target_.remarks.end()) {
   pending_ = readWithin();
   if (!pending_) {
     const std::string when =
-        last_ ? fmt::format(": the last is of t = {:.6g} s (is time, dt or start missing in {}?)",
-                            *last_, target_.where)
+        last_ ? fmt::format(
+                    ": the last, {}, is of t = {:.6g} s (is time, dt or start missing in {}?)",
+                    lastWhere_, *last_, target_.where)
               : std::string();
     throw BadInput(fmt::format("{}: no snapshot lies between {:.6g} and {:.6g} s{}", target_.name,
                                target_.from, target_.to, when));
@@ -351,8 +247,10 @@ std::optional<FileFrame> PlaneSnapshots::readWithin() {
       fail(*frame,
            fmt::format("it is of t = {:.9g} s, not after the one before of {:.9g} s", t, *last_));
     last_ = t;
+    lastWhere_ = frame->where;
     if (t < target_.from - slack) {
       ++early_;
+      checkEarlyMotion(*frame, t);
     } else if (t > target_.to + 0.5 * step()) {
       ++late_;
     } else {
@@ -526,26 +424,58 @@ void PlaneSnapshots::audit(const FileFrame& frame, Snapshot& snapshot) {
         fmt::format("{}: the forces are not those of the case's law: {}", frame.where, differs));
 }
 
+std::string PlaneSnapshots::remedyOfMotion(const FileFrame& frame) const {
+  if (frame.time) return "velocities should be in the files' length per the files' time";
+  return fmt::format(
+      "is dt = {:g} in {} the time step, and are velocities in the files' length per the files' "
+      "time?",
+      units_.dt, target_.where);
+}
+
+void PlaneSnapshots::refuseMotion(const FileFrame& frame,
+                                  const Displacements::Finding& found) const {
+  fail(frame,
+       fmt::format("{} disks that move have gone {:.4g} times as far since the snapshot before as "
+                   "their velocities say: {}",
+                   found.of, *found.factor, remedyOfMotion(frame)));
+}
+
 /// Positions and velocities that do not belong together are of a wrong time step or unit.
 void PlaneSnapshots::checkMotion(const FileFrame& frame, const Snapshot& now) {
   const Displacements::Finding found =
       displacements_.compare(now, basis_.rounding * basis_.farthest);
-  const std::string remedy =
-      frame.time ? fmt::format("velocities should be in the files' length per the files' time")
-                 : fmt::format(
-                       "is dt = {:g} in {} the time step, and are velocities in the files' "
-                       "length per the files' time?",
-                       units_.dt, target_.where);
-  if (found.factor)
-    fail(frame,
-         fmt::format("{} disks that move have gone {:.4g} times as far since the snapshot before "
-                     "as their velocities say: {}",
-                     found.of, *found.factor, remedy));
+  if (found.factor) refuseMotion(frame, found);
   if (found.rms && std::exchange(moves_, false))
     remarks_.insert(
         fmt::format("{}: disks have gone {:.3g} times as far since the snapshot before as their "
                     "velocities say (root mean square): {}",
-                    frame.where, *found.rms, remedy));
+                    frame.where, *found.rms, remedyOfMotion(frame)));
+}
+
+/// What is averaged is often at rest; what comes before shows whether times are right. Particles
+/// that are walls count as well.
+void PlaneSnapshots::checkEarlyMotion(const FileFrame& frame, double t) {
+  const FileParticles& all = frame.particles;
+  if (t < 0.0 || all.velocity.size() != all.size() || all.size() == 0) return;
+  std::vector<std::size_t> order(all.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (!std::ranges::is_sorted(all.id))
+    std::ranges::sort(order, {}, [&](std::size_t row) { return all.id[row]; });
+  Snapshot now;
+  now.positionTime = t;
+  std::vector<std::int64_t> ids;
+  double farthest = 0.0;
+  for (const std::size_t row : order) {
+    ids.push_back(all.id[row]);
+    now.position.push_back(units_.length * units_.inPlane(all.position[row]));
+    now.velocity.push_back(units_.length / units_.time * units_.inPlane(all.velocity[row]));
+    farthest = std::max(farthest, now.position.back().cwiseAbs().maxCoeff());
+  }
+  if (ids != earlyIds_) earlyDisplacements_ = displacements_;  // nothing to compare with
+  earlyIds_ = std::move(ids);
+  const Displacements::Finding found =
+      earlyDisplacements_.compare(now, roundingOf(all.position, units_) * farthest);
+  if (found.factor) refuseMotion(frame, found);
 }
 
 std::optional<Snapshot> PlaneSnapshots::next() {

@@ -48,6 +48,7 @@ struct PlaneScene {
   std::function<Scene(Disks)> around;
   double from = 0.0, to = INFINITY;  ///< frames of other times are left out [s]
   double dt = 0.0;                   ///< of the case [s]
+  Vec2 gravity = Vec2::Zero();       ///< of the case [m/s²]
   std::vector<std::string> remarks;  ///< on the files, before they are read
 };
 
@@ -103,6 +104,9 @@ class PlaneSnapshots : public SnapshotSource {
   Snapshot convert(const FileFrame& frame);
   void allowForRounding(const FileFrame& frame);
   void checkMotion(const FileFrame& frame, const Snapshot& now);
+  void checkEarlyMotion(const FileFrame& frame, double t);
+  [[noreturn]] void refuseMotion(const FileFrame& frame, const Displacements::Finding& found) const;
+  std::string remedyOfMotion(const FileFrame& frame) const;
   void audit(const FileFrame& frame, Snapshot& snapshot);
   double timeOf(const FileFrame& frame) const;
   double step() const { return units_.dt > 0.0 ? units_.dt * units_.time : target_.dt; }
@@ -115,10 +119,12 @@ class PlaneSnapshots : public SnapshotSource {
   std::optional<ParticleIds> ids_;
   AuditBasis basis_, bareBasis_;
   std::optional<double> last_;  ///< time of the frame before [s]
+  std::string lastWhere_;       ///< where that is
   std::size_t early_ = 0, late_ = 0;
   bool wallContacts_ = false;               ///< whether any was seen
   bool lawDiffers_ = false, moves_ = true;  ///< moves_: as velocities say, so far
-  Displacements displacements_;
+  Displacements displacements_, earlyDisplacements_;
+  std::vector<std::int64_t> earlyIds_;  ///< of the frame before, rising
   std::set<std::string> remarks_;
 };
 

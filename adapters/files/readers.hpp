@@ -26,7 +26,8 @@ Content contentOfLammps(const std::filesystem::path& file);
 Content contentOfVtk(const std::filesystem::path& file);
 Content contentOfCsv(const std::filesystem::path& file);
 
-/// The first time or step that such a file has: by which times of one run are known from other runs.
+/// The first time or step that such a file has: by which times of one run are known from other
+/// runs.
 double firstTimeOfLammps(const std::filesystem::path& file);
 double firstTimeOfCsv(const std::filesystem::path& file);
 

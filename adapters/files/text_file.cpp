@@ -77,7 +77,7 @@ bool TextFile::takeLine() {
   const char* const until = stop ? stop : buffer_.get() + end_;
   line_ = {start, static_cast<std::size_t>(until - start)};
   begin_ += line_.size() + (stop ? 1 : 0);
-  ++number_;
+  if (++number_ == 1 && line_.starts_with(byteOrderMark)) line_.remove_prefix(byteOrderMark.size());
   return true;
 }
 
@@ -142,17 +142,24 @@ std::vector<std::string_view> words(std::string_view line) {
   }
 }
 
-std::vector<std::string_view> commaWords(std::string_view line) {
+std::vector<std::string_view> separatedWords(std::string_view line, char separator) {
   std::vector<std::string_view> found;
-  for (std::size_t from = 0, comma = 0; comma != std::string_view::npos; from = comma + 1) {
-    comma = line.find(',', from);
+  for (std::size_t from = 0, end = 0; end != std::string_view::npos; from = end + 1) {
+    end = line.find(separator, from);
     std::string_view word =
-        trimmed(line.substr(from, comma == std::string_view::npos ? comma : comma - from));
+        trimmed(line.substr(from, end == std::string_view::npos ? end : end - from));
     if (word.size() > 1 && word.front() == '"' && word.back() == '"')
       word = trimmed(word.substr(1, word.size() - 2));
     found.push_back(word);
   }
   return found;
+}
+
+std::optional<char> separatorOf(std::string_view names) {
+  const auto has = [&](char c) { return names.find(c) != std::string_view::npos; };
+  if (has(',') || has(';'))
+    return has(',') && has(';') ? std::nullopt : std::optional(has(',') ? ',' : ';');
+  return has('\t') ? std::optional('\t') : std::nullopt;
 }
 
 double numberOf(const TextFile& text, std::string_view word, std::string_view what) {

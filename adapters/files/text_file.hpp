@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -66,8 +67,14 @@ class TextFile {
 /// Words of a line, which blanks part. @throws nothing
 std::vector<std::string_view> words(std::string_view line);
 
-/// Words of a line, which commas part; blanks around them and quotes do not count.
-std::vector<std::string_view> commaWords(std::string_view line);
+/// Words of a line, which commas (or what else) part; blanks around them and quotes do not count.
+std::vector<std::string_view> separatedWords(std::string_view line, char separator = ',');
+/// What parts the columns of a table, by its line of names: ',' or ';', blanks and tabs around them
+/// aside, else tabs; absent where it has both, or none of the three.
+std::optional<char> separatorOf(std::string_view names);
+
+/// What some programs put before the first line of UTF-8 text: it is no part of it.
+inline constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";
 
 /// All of a word as a finite number. @throws BadInput naming the line
 double numberOf(const TextFile& text, std::string_view word, std::string_view what);

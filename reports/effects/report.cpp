@@ -340,7 +340,8 @@ Report reportOf(const EffectsResults& results) {
   for (const SwitchRow& one : results.switches)
     switches.rows.push_back({{variantLabel(one.effect), one.what}});
   report.section("reading", "How to read it").blocks = {
-      effectsReading(results), Paragraph{describeAverages(results), Paragraph::Style::small},
+      effectsReading(results),
+      Paragraph{describeAverages(results, engines), Paragraph::Style::small},
       Heading{"What was switched"}, std::move(switches)};
   addEngineTable(report.section("engines", "Engines, with everything on", "Engines").blocks,
                  engines);

@@ -23,9 +23,10 @@ Cell answerCell(const CompareResults& results, const EndpointRow* row, bool brie
   const std::optional<Verdict> verdict = endpointCell(results, *row).verdict;
   std::string word = wordOf(*row);
   if (verdict == Verdict::modelDifference) word += " by the declared law";
-  if (verdict == Verdict::notMeasured) word = "not judged";
+  if (verdict == Verdict::notMeasured && row->verdict != verdict) word = "not judged";
   const std::string distance = describeDistance(*row);
-  if (brief) return {distance, {}, verdict, true};
+  if (brief)
+    return {row->verdict == Verdict::notMeasured ? absentText : distance, {}, verdict, true};
   std::vector<std::string> more = {describeSurrogate(*row), describeNeeds(*row)};
   if (row->lost > 0)
     more.push_back(counted(static_cast<std::size_t>(row->lost), "packing") + " failed");

@@ -156,8 +156,8 @@ std::string extentOf(const CompareResults& results, const Engines& engines) {
 /// snapshots each: …"
 std::string averageLead(const CompareResults& results, const Engines& engines) {
   if (engines.empty() || engines.front().finished.empty()) return "Nothing was averaged.";
-  const std::string snapshots =
-      counted(static_cast<std::size_t>(results.averaging.snapshots), "snapshot");
+  const std::string count = engines.front().snapshots();
+  const std::string snapshots = count + (count == "1" ? " snapshot" : " snapshots");
   const std::string& name = engines.front().name;
   if (const std::size_t runs = engines.front().finished.size(); runs > 1)
     return fmt::format("{} of {} averaged, of {} each: {}.", counted(runs, "run"), name, snapshots,

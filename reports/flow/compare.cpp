@@ -181,7 +181,7 @@ void addProfiles(Report& report, const CompareResults& results, const Engines& e
   const std::string bars = describeBars(engines);
   const auto drawings = [&](const char* prefix) { return drawingsOf(report.figures, prefix); };
   Blocks& profiles = report.section("profiles", "Profiles").blocks;
-  profiles = {Paragraph{describeAverages(results) + " " + bars}, drawings("profile_")};
+  profiles = {Paragraph{describeAverages(results, engines) + " " + bars}, drawings("profile_")};
   if (Drawings differences = drawings("difference_"); !differences.names.empty()) {
     profiles.push_back(
         Heading{"Differences from " + referenceWords(results) + ", in margins", "differences"});

@@ -33,8 +33,10 @@ Names endpointsWith(const std::vector<const EndpointRow*>& rows, Verdict verdict
 std::string relationOf(const std::vector<const EndpointRow*>& rows) {
   const Names disagree = endpointsWith(rows, Verdict::fail),
               borderline = endpointsWith(rows, Verdict::borderline),
-              undecided = endpointsWith(rows, Verdict::undecided);
-  const std::size_t agree = rows.size() - disagree.size() - borderline.size() - undecided.size();
+              undecided = endpointsWith(rows, Verdict::undecided),
+              absent = endpointsWith(rows, Verdict::notMeasured);
+  const std::size_t agree =
+      rows.size() - disagree.size() - borderline.size() - undecided.size() - absent.size();
   // The first count has the total.
   const auto some = [&](std::size_t count, bool first) {
     return count == rows.size() ? allOf(count, "endpoint")
@@ -48,6 +50,8 @@ std::string relationOf(const std::vector<const EndpointRow*>& rows) {
   if (agree > 0) parts.push_back("agreed on " + some(agree, true));
   if (!undecided.empty())
     parts.push_back(fmt::format("left {} undecided", some(undecided.size(), agree == 0)));
+  if (!absent.empty())
+    parts.push_back("could not be compared on " + listedShortly(absent, mostNames));
   return listed(parts);
 }
 

@@ -43,6 +43,7 @@ std::string endpointSymbol(const std::string& name, bool ofCell) {
 }
 
 std::string wordOf(const EndpointRow& row) {
+  if (row.verdict == Verdict::notMeasured) return absentText;
   return (row.verdict == Verdict::pass ? "agree, " : "") + spaced(row.answer());
 }
 

@@ -16,7 +16,8 @@ std::string endpointWords(const std::string& name);
 /// σ_rφ/σ_rr
 std::string endpointSymbol(const std::string& name, bool ofCell);
 
-/// "agree, no difference seen", "agree, small difference", "borderline", "disagree", "undecided".
+/// "agree, no difference seen", "agree, small difference", "borderline", "disagree", "undecided"; a
+/// dash where the files of one have no such number.
 std::string wordOf(const EndpointRow& row);
 
 /// "0.31 margins (0.05 to 0.57)"; empty where nothing was measured.

@@ -40,6 +40,19 @@ const EffectiveParameters* EngineRuns::effective() const {
   return nullptr;
 }
 
+std::string EngineRuns::snapshots() const {
+  std::optional<std::pair<std::size_t, std::size_t>> range;
+  for (const FlowRun* run : finished) {
+    const std::size_t count = run->series ? valuesOf(*run->series, "t_s").size() : 0;
+    if (count == 0) continue;
+    range = range ? std::pair(std::min(range->first, count), std::max(range->second, count))
+                  : std::pair(count, count);
+  }
+  if (!range) return {};
+  return range->first == range->second ? fmt::format("{}", range->first)
+                                       : fmt::format("{} to {}", range->first, range->second);
+}
+
 void EngineRuns::takeRuns(const std::vector<FlowRun>& all,
                           const std::vector<CouetteEnsemble>& ensembles, const std::string& engine,
                           const std::string& without) {

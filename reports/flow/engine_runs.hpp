@@ -25,6 +25,9 @@ struct EngineRuns : EngineRow {
   const std::vector<HeadNumber>& head() const;
   /// Of the first run that got as far as loading the scene, or null.
   const EffectiveParameters* effective() const;
+  /// How many snapshots each of its finished runs is averaged over: "21", "9 to 21"; empty where
+  /// their series are not here.
+  std::string snapshots() const;
 
   /// Sets runs, finished and ensemble: of that engine, with that effect switched off (empty: none).
   void takeRuns(const std::vector<FlowRun>& all, const std::vector<CouetteEnsemble>& ensembles,

@@ -8,6 +8,7 @@
 
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
+#include "reports/common/sentences.hpp"
 #include "results/json_fields.hpp"
 
 namespace crossgrain::reports {
@@ -16,6 +17,7 @@ namespace {
 
 using Engines = std::vector<EngineRuns>;
 using Rows = std::vector<TableRow>;
+using Names = std::vector<std::string>;
 using Text = std::function<std::string(const EngineRuns&)>;
 
 TableRow tableRow(const std::string& label, const std::string& unit, const Engines& engines,
@@ -173,6 +175,24 @@ std::string binsInWords(const FlowFrame& frame) {
                      region.along.empty() ? "" : " along " + region.along);
 }
 
+/// "20 snapshots a run", "20 snapshots a run, 9 to 21 of mine": files have their own.
+std::string snapshotsInWords(const FlowFrame& frame, const Engines& engines) {
+  const auto ofFiles = [](const EngineRuns& engine) {
+    return !engine.finished.empty() && engine.finished.front()->ofFiles() &&
+           !engine.snapshots().empty();
+  };
+  Names others;
+  for (const EngineRuns& engine : engines)
+    if (ofFiles(engine)) others.push_back(fmt::format("{} of {}", engine.snapshots(), engine.name));
+  if (engines.size() == 1 && !others.empty())
+    return engines.front().snapshots() + " snapshots a run";
+  const bool files = !others.empty() && std::ranges::all_of(engines, ofFiles);
+  if (files) return "snapshots a run: " + listed(others);
+  const std::string words = fmt::format(
+      "{} snapshots a run", readableCount(static_cast<double>(frame.averaging.snapshots)));
+  return others.empty() ? words : fmt::format("{}, {}", words, listed(others));
+}
+
 }  // namespace
 
 void addEngineTable(Blocks& blocks, const Engines& engines) {
@@ -198,16 +218,15 @@ Table stateTable(const Engines& engines) {
   return table;
 }
 
-std::string describeAverages(const FlowFrame& frame) {
+std::string describeAverages(const FlowFrame& frame, const Engines& engines) {
+  const std::string snapshots = snapshotsInWords(frame, engines);
   if (frame.region)
-    return fmt::format("{}, weights by {}, {} snapshots a run, {} to {} s after the start.",
-                       binsInWords(frame), frame.averaging.method,
-                       readableCount(static_cast<double>(frame.averaging.snapshots)),
-                       readableSetting(frame.region->from), readableSetting(frame.region->to));
+    return fmt::format("{}, weights by {}, {}, {} to {} s after the start.", binsInWords(frame),
+                       frame.averaging.method, snapshots, readableSetting(frame.region->from),
+                       readableSetting(frame.region->to));
   const std::string when = averagedRotations(frame.averaging);
-  return fmt::format("{} rings of width {} m, weights by {}, {} snapshots a run{}.",
-                     frame.rings.r.size(), readable(frame.rings.width), frame.averaging.method,
-                     readableCount(static_cast<double>(frame.averaging.snapshots)),
+  return fmt::format("{} rings of width {} m, weights by {}, {}{}.", frame.rings.r.size(),
+                     readable(frame.rings.width), frame.averaging.method, snapshots,
                      when.empty() ? std::string() : ", " + when);
 }
 

@@ -17,7 +17,8 @@ void addEngineTable(Blocks& blocks, const std::vector<EngineRuns>& engines);
 Table stateTable(const std::vector<EngineRuns>& engines);
 
 /// Rings, weights and snapshots that the profiles are means over.
-std::string describeAverages(const FlowFrame& frame);
+/// @param engines  of which files may have others than the case says
+std::string describeAverages(const FlowFrame& frame, const std::vector<EngineRuns>& engines);
 
 /// What the engines made of the case's scene.
 std::vector<EffectiveScene> effectiveOf(const FlowFrame& frame,

@@ -23,7 +23,11 @@ std::vector<std::string> keysWithoutUse(const Case& setup, std::string_view comm
   for (const auto& [name, settings] : setup.engines)
     if (!findEngine(name) && command != "average")  // whose files may be of that name
       keys.push_back(fmt::format(
-          "engines.{} (of no engine that is known here; --engines takes its file)", name));
+          "engines.{} (nothing of this name takes part: --engines names {})", name,
+          command == "compare" ? fmt::format("result files as {}=FILES, and a program of your "
+                                             "own by its file",
+                                             name)
+                               : "a program of your own by its file"));
   if (command == "check") return keys;
   for (const auto& [key, value] : caseKeys(setup.resolvedToml)) {
     const KeyUse* use = nullptr;  // the longest name that holds the key
@@ -85,9 +89,27 @@ Case onlyCase(const CommandLine& line, const char* command) {
   return onlyFlow(line, command);
 }
 
+namespace {
+
+/// `import` and `average` have files, and so has a comparison of nothing else.
+Starts startsOf(const CommandLine& line, std::string_view command) {
+  const auto isFiles = [](const std::string& name) {
+    const EngineEntry* const entry = findEngine(name);
+    return entry && entry->ofFiles();
+  };
+  const auto& engines = line.run.engines;
+  const bool filesAlone = !engines.empty() && std::ranges::all_of(engines, isFiles);
+  return command == "import" || command == "average" || (command == "compare" && filesAlone)
+             ? Starts::notMade
+             : Starts::made;
+}
+
+}  // namespace
+
 Case onlyFlow(const CommandLine& line, const char* command) {
   const fs::path& file = line.inputs.front();
-  const std::vector<Case> cases = loadCase(file, line.overrides);
+  const Starts starts = startsOf(line, command);
+  const std::vector<Case> cases = loadCase(file, line.overrides, {}, starts);
   if (!hasFlow(cases.front())) {
     if (cases.front().kind != CaseKind::assembly) refuseKind(cases.front(), file, command);
     throw BadInput(fmt::format(
@@ -105,7 +127,7 @@ Case onlyFlow(const CommandLine& line, const char* command) {
   overrides.insert(overrides.end(), line.overrides.begin(), line.overrides.end());
   const bool shares = std::string_view(command) == "compare" &&
                       shareConventions(cases.front(), line.run.engines, overrides);
-  return shares || line.quick ? loadCase(file, overrides).front() : cases.front();
+  return shares || line.quick ? loadCase(file, overrides, {}, starts).front() : cases.front();
 }
 
 void refuseKind(const Case& setup, const fs::path& input, const char* command) {

@@ -62,15 +62,18 @@ struct RingFamily {
   std::vector<PairedTest> tested;
 };
 
-/// Ring by ring the median of several engines; of one its own values.
+/// Ring by ring the median of those engines that have the field; of one its own values. Of several
+/// two must have it.
 std::vector<Numbers> mediansByRing(const std::vector<Runs>& engines, const std::string& method,
                                    const std::string& field, std::size_t packings) {
   std::vector<std::vector<Numbers>> all;
   std::size_t rings = SIZE_MAX;
-  for (const Runs& engine : engines) {
-    all.push_back(fieldByRing(engine, method, field, packings));
-    rings = std::min(rings, all.back().size());
-  }
+  for (const Runs& engine : engines)
+    if (auto values = fieldByRing(engine, method, field, packings); !values.empty()) {
+      rings = std::min(rings, values.size());
+      all.push_back(std::move(values));
+    }
+  if (all.size() < std::min<std::size_t>(engines.size(), 2)) return {};
   std::vector<Numbers> medians;
   for (std::size_t ring = 0; ring < rings; ++ring) {
     std::vector<Numbers> values;

@@ -15,6 +15,7 @@
 #include "studies/flow/ensemble.hpp"
 #include "studies/flow/file_runs.hpp"
 #include "studies/flow/frame.hpp"
+#include "studies/flow/notes.hpp"
 #include "support/bad_input.hpp"
 
 namespace crossgrain::inline studies {
@@ -39,7 +40,7 @@ struct NamedRun {
 
 NamedRun averageRun(const Case& setup, const SnapshotRun& files, SnapshotSource& source, int index,
                     Progress& progress) {
-  AveragedRun averaged = averagedRun(setup, source, files.name(), [&](double fraction) {
+  AveragedRun averaged = averagedRun(setup, files, source, [&](double fraction) {
     progress.update(static_cast<std::size_t>(index), files.name(), fraction);
   });
   averaged.run.packing = index;
@@ -99,11 +100,8 @@ CompareResults averageSnapshots(const Case& setup, const std::vector<std::filesy
                           : fmt::format("snapshots of {} runs", all.size()),
                       "", "", Status::finished, ""}};
   results.notes = {describeSources(all)};
-  for (const NamedRun& one : all)
-    for (const std::string& remark : one.run.remarks)
-      if (std::ranges::find(results.notes, remark) == results.notes.end())
-        results.notes.push_back(remark);
   for (NamedRun& one : all) results.runs.push_back(std::move(one.run));
+  std::ranges::move(remarkNotes(results.runs, false), std::back_inserter(results.notes));
   results.steadiness = steadinessOf(results.runs, {engine}, setup.averaging.confidence);
   if (results.runs.size() > 1) results.ensemble = ensembleOf(results.runs, {engine});
   return results;
@@ -117,7 +115,9 @@ const Study<AverageOptions, CompareResults> averageStudy = {
     Keeps::nothing,
     [](AverageOptions& own, CommandLine& line) {
       return std::vector<StudyOption>{
-          {"--name", "what made the files: [engines.NAME] has their units (default: their format)",
+          {"--name",
+           "settings of the files: units and columns in [engines.NAME] of the case (default: their "
+           "format)",
            &own.name},
           {"--quiet", "no progress", &line.run.quiet}};
     },

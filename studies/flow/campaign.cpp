@@ -102,13 +102,15 @@ void Campaign::forEachEngine(const std::function<void(CampaignEngine&)>& work) {
 
 void Campaign::askEngines() {
   const Scene scene = unplacedScene(setup_, dt_);
+  const bool enginesRun = runsEngines();
   forEachEngine([&](CampaignEngine& own) {
     if (own.entry.ofFiles()) {
       own.version = "files" + (own.entry.format.empty() ? "" : ", " + own.entry.format);
-      for (std::size_t run = 0; run < own.entry.files.size(); ++run)
-        if (const auto source = openSnapshots(runOf(own.entry, run), setup_, own.entry.name);
-            run == 0)
-          own.disks = source->scene().disks;
+      own.first = openSnapshots(runOf(own.entry, 0), setup_, own.entry.name);
+      own.disks = own.first->scene().disks;
+      // What is wrong with a file is said before engines run for hours.
+      for (std::size_t run = 1; enginesRun && run < own.entry.files.size(); ++run)
+        openSnapshots(runOf(own.entry, run), setup_, own.entry.name);
       return;
     }
     const auto engine =
@@ -239,11 +241,13 @@ std::string runName(const EngineEntry& entry, const Variant& variant, int packin
 
 }  // namespace
 
-FlowRun Campaign::runOfFiles(const EngineEntry& entry, int run,
+FlowRun Campaign::runOfFiles(const CampaignEngine& own, int run,
                              const std::function<void(double)>& progress) const {
+  const EngineEntry& entry = own.entry;
   const SnapshotRun files = runOf(entry, static_cast<std::size_t>(run));
-  const auto source = openSnapshots(files, setup_, entry.name);
-  AveragedRun averaged = averagedRun(setup_, *source, files.name(), progress);
+  auto source = run == 0 ? std::exchange(own.first, nullptr) : nullptr;
+  if (!source) source = openSnapshots(files, setup_, entry.name);
+  AveragedRun averaged = averagedRun(setup_, files, *source, progress);
   averaged.run.endpointErrors = endpointErrors(setup_, *averaged.averages, averaged.run);
   averaged.run.engine = entry.name;
   averaged.run.packing = run;
@@ -254,7 +258,7 @@ CachedTask<FlowRun>::Outcome Campaign::runOne(const Variant& variant, int packin
                                               const std::function<void(double)>& progress) const {
   const EngineEntry& entry = engines_[variant.engine].entry;
   if (entry.ofFiles())  // what is wrong with a file is the user's to mend
-    return {runOfFiles(entry, packing, progress), true, "averaged"};
+    return {runOfFiles(engines_[variant.engine], packing, progress), true, "averaged"};
   const std::string name = runName(entry, variant, packing);
   FlowRun run;
   run.engine = entry.name;

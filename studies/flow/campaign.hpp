@@ -3,12 +3,14 @@
 #include <chrono>
 #include <functional>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ranges>
 #include <string>
 #include <vector>
 
+#include "adapters/snapshot_source.hpp"
 #include "cases/case.hpp"
 #include "cases/flow.hpp"
 #include "results/compare.hpp"
@@ -27,6 +29,8 @@ struct CampaignEngine {
   std::optional<EffectiveParameters> effective = {};  ///< likewise
   double predicted = 1.0;                             ///< seconds of one run
   Disks disks = {};                                   ///< of its first run, where that is a file
+  /// That run, opened to be asked, until it is averaged: its beginning is read once.
+  mutable std::unique_ptr<SnapshotSource> first = {};
 };
 
 /// One engine on every packing, with the case as it is or with something switched off.
@@ -137,7 +141,7 @@ class Campaign {
   /// first engine's
   void forEachEngine(const std::function<void(CampaignEngine&)>& work);
   std::vector<CachedTask<FlowRun>> tasksOf(const PlannedRuns& list) const;
-  FlowRun runOfFiles(const EngineEntry& entry, int run,
+  FlowRun runOfFiles(const CampaignEngine& own, int run,
                      const std::function<void(double)>& progress) const;
   CachedTask<FlowRun>::Outcome runOne(const Variant& variant, int packing,
                                       const std::function<void(double)>& progress) const;

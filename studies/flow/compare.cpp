@@ -222,7 +222,8 @@ Outcome outcomeOfCompare(const CompareResults& results, const CommandLine& line,
   const bool disagree =
       any(Verdict::fail) || anyLockstep(Equivalence::differs) ||
       std::ranges::count(results.endpoints.alarms, PairKind::peer, &AlarmRow::kind) > 0;
-  const bool open = any(Verdict::undecided) || any(Verdict::borderline) || !refused.empty() ||
+  const bool open = any(Verdict::undecided) || any(Verdict::borderline) ||
+                    any(Verdict::notMeasured) || !refused.empty() ||
                     anyLockstep(Equivalence::undecided);
   if (failed)
     outcome.status = exitEngineFailed;

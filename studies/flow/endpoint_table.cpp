@@ -1,6 +1,7 @@
 #include "studies/flow/endpoint_table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +23,8 @@ struct EndpointTest {
   EndpointRow row;
   PairedTest test;
   std::optional<InterimAnswer> found = {};
+  bool ofFiles = false;  ///< of one of both: what they decide is all they will
+  int notInFiles = 0;    ///< packings that files of one of both have nothing on
 };
 
 /// Why some of the values cannot be tested by their ratio; empty: all can.
@@ -30,8 +33,9 @@ std::string whyNoRatio(const EndpointSpec& endpoint, const Numbers& reference,
   if (!endpoint.byRatio) return {};
   const double sign = signOf(reference);
   const auto has = [](const auto& value) { return value.has_value(); };
+  if (std::ranges::none_of(reference, has)) return {};
   const auto fails = [sign](const auto& value) { return value && !(sign * *value > 0.0); };
-  if (sign == 0.0 && std::ranges::any_of(reference, has))
+  if (sign == 0.0)
     return "a relative margin is a share of the reference's value, which is 0 or of both signs "
            "here: give absolute";
   if (std::ranges::any_of(reference, fails) || std::ranges::any_of(other, fails))
@@ -98,6 +102,41 @@ bool addBound(EndpointRow& row, std::string EndpointRow::*surrogate,
   return true;
 }
 
+/// What both of a pair can have of an endpoint.
+struct AblePair {
+  std::vector<Runs> ours;  ///< of each reference that has any
+  Runs theirs;
+  std::vector<std::string> lacks;
+  int notInFiles = 0;  ///< packings that a lack leaves without a value
+  bool none = false;   ///< too few are left for a comparison
+};
+
+AblePair ablePair(const EndpointSpec& endpoint, const Case& setup, const ComparedPair& pair,
+                  const std::vector<Runs>& ours, const Runs& theirs) {
+  AblePair able;
+  const auto add = [&](const Runs& all) {
+    AbleRuns own = ableRuns(endpoint, setup, all);
+    if (!own.lack.empty()) able.lacks.push_back(std::move(own.lack));
+    return std::move(own.runs);
+  };
+  for (const Runs& all : ours)
+    if (Runs own = add(all); !own.empty()) able.ours.push_back(std::move(own));
+  able.theirs = add(theirs);
+  const std::size_t fewest = pair.others.empty() ? 1 : 2;  // of a median
+  able.none = able.theirs.empty() || able.ours.size() < fewest;
+  const auto has = [](const Runs& runs, int packing) {
+    return std::ranges::find(runs, packing, &FlowRun::packing) != runs.end();
+  };
+  const auto enough = [&](const std::vector<Runs>& of, int k) {
+    return static_cast<std::size_t>(
+               std::ranges::count_if(of, [&](const Runs& runs) { return has(runs, k); })) >= fewest;
+  };
+  for (const FlowRun* run : theirs)
+    able.notInFiles += enough(ours, run->packing) &&
+                       (!has(able.theirs, run->packing) || !enough(able.ours, run->packing));
+  return able;
+}
+
 std::vector<EndpointTest> familyOf(const Case& setup, std::span<const FlowRun> runs,
                                    const ComparedPair& pair, const EndpointFindings& known) {
   const std::size_t packings = packingsOf(runs);
@@ -105,27 +144,40 @@ std::vector<EndpointTest> familyOf(const Case& setup, std::span<const FlowRun> r
   const Runs theirs = runsFor(runs, pair.b, known.surrogates);
   std::vector<EndpointTest> family;
   if (ours.empty() || theirs.empty()) return family;
-  const bool independent = independentRuns(pair, ours.front(), theirs);
-  const bool oneRunEach = independent && ours.front().size() == 1 && theirs.size() == 1;
-  const auto valuesOf = [&](const EndpointSpec& endpoint, const Runs& of) {
-    return endpointByPacking(endpoint, setup, of, independent ? packingsOf(of) : packings);
-  };
   for (const EndpointSpec& endpoint : endpointsOf(setup)) {
+    const AblePair able = ablePair(endpoint, setup, pair, ours, theirs);
+    if (able.none) {
+      EndpointTest absent = testOf(setup, pair, endpoint, {}, {});
+      absent.row.verdict = Verdict::notMeasured;
+      absent.row.reason = fmt::format("{}", fmt::join(able.lacks, "; "));
+      family.push_back(std::move(absent));
+      continue;
+    }
+    const bool independent = independentRuns(pair, able.ours.front(), able.theirs);
+    const auto valuesOf = [&](const Runs& of) {
+      if (!independent) return endpointByPacking(endpoint, setup, of, packings);
+      Numbers values;
+      for (const FlowRun* run : of) values.push_back(endpointOf(endpoint, setup, *run));
+      return values;
+    };
     std::vector<Numbers> values;
-    for (const Runs& of : ours) values.push_back(valuesOf(endpoint, of));
+    for (const Runs& of : able.ours) values.push_back(valuesOf(of));
     EndpointTest own =
-        testOf(setup, pair, endpoint, medianByPacking(values), valuesOf(endpoint, theirs));
+        testOf(setup, pair, endpoint, medianByPacking(values), valuesOf(able.theirs));
     own.test.sample.independent = independent;
+    own.ofFiles = pair.ofFiles;
+    own.notInFiles = independent ? 0 : able.notInFiles;
+    if (!able.lacks.empty()) own.row.reason = fmt::format("{}", fmt::join(able.lacks, "; "));
     const auto addReason = [&own](const std::string& reason) {
       if (own.row.reason.empty()) own.row.reason = reason;
     };
-    if (oneRunEach) {
-      addOwnErrors(own.test, *ours.front().front(), *theirs.front(), endpoint.name);
-      if (own.test.sample.withinVariance.empty())
-        addReason("a single run has no error of its own where it is short, or at rest");
+    if (independent && able.ours.front().size() == 1 && able.theirs.size() == 1) {
+      const FlowRun &a = *able.ours.front().front(), &b = *able.theirs.front();
+      if (const FlowRun* const without = addOwnErrors(own.test, a, b, endpoint.name))
+        addReason(whyNoOwnError(endpoint, setup, *without));
     }
-    for (const Runs& engine : ours) addReason(missingValueReason(endpoint, setup, engine));
-    addReason(missingValueReason(endpoint, setup, theirs));
+    for (const Runs& engine : able.ours) addReason(missingValueReason(endpoint, setup, engine));
+    addReason(missingValueReason(endpoint, setup, able.theirs));
     // Without a bound nothing is known of the true difference: no verdict can stand on these runs.
     if (!addBound(own.row, &EndpointRow::surrogateA, pair.references(), known) ||
         !addBound(own.row, &EndpointRow::surrogateB, {pair.b}, known))
@@ -134,6 +186,29 @@ std::vector<EndpointTest> familyOf(const Case& setup, std::span<const FlowRun> r
     family.push_back(std::move(own));
   }
   return family;
+}
+
+/// Why runs that nobody here can add to decide nothing.
+std::string whyUndecided(const EndpointTest& own) {
+  constexpr double fewestDof = fewestPackings - 1;
+  const InterimAnswer& found = *own.found;
+  const EndpointRow& row = own.row;
+  if (found.packings == 0) return {};
+  if (found.basis == Basis::oneRunEach && own.test.sample.withinVariance.empty()) return {};
+  if (found.basis == Basis::oneRunEach && own.test.sample.withinDof < fewestDof)
+    return fmt::format(
+        "each single run holds about {:.2g} independent values, and a verdict takes {}",
+        own.test.sample.withinDof + 1.0, fewestPackings);
+  if (found.basis == Basis::oneScatter &&
+      found.referencePackings + found.otherPackings - 2 < fewestPackings - 1)
+    return fmt::format("{} and {} runs, and a verdict takes {} together", found.otherPackings,
+                       found.referencePackings, fewestPackings + 1);
+  if (found.basis == Basis::paired && found.packings < fewestPackings)
+    return fmt::format("{} runs of both, and a verdict takes {}", found.packings, fewestPackings);
+  if (!row.distanceLow || !row.distanceHigh) return {};
+  const bool beyond = *row.distanceLow > 1.0 || *row.distanceHigh < -1.0;
+  return beyond ? "beyond the margin, but not for sure among all endpoints of the pair"
+                : "the interval reaches past the margin";
 }
 
 /// Share of the reference's runs in the variance of the difference, by the basis that it has.
@@ -152,6 +227,7 @@ std::optional<double> shareOfReference(const PairedSample& sample, const Interim
 /// @param looked  packings
 void answer(EndpointTest& own, int looked) {
   EndpointRow& row = own.row;
+  if (row.verdict == Verdict::notMeasured) return;
   if (!own.found) {
     row.lost = looked;  // neither has anything
     return;
@@ -160,7 +236,7 @@ void answer(EndpointTest& own, int looked) {
   row.verdict = found.verdict;
   row.look = static_cast<int>(found.look) + 1;
   row.packings = found.packings;
-  row.lost = found.lost;
+  row.lost = std::max(found.lost - own.notInFiles, 0);
   if (found.basis != Basis::paired)
     row.unpaired = {found.basis, found.referencePackings, found.otherPackings,
                     shareOfReference(own.test.sample, found)};
@@ -174,6 +250,12 @@ void answer(EndpointTest& own, int looked) {
   row.high = inUnit(own.test, *found.high + bias);
   row.distanceLow = (*found.low - bias) / margin;
   row.distanceHigh = (*found.high + bias) / margin;
+}
+
+void addWhyUndecided(EndpointTest& own) {
+  if (!own.ofFiles || !own.found || own.row.verdict != Verdict::undecided) return;
+  if (const std::string why = whyUndecided(own); !why.empty())
+    own.row.reason += (own.row.reason.empty() ? "" : "; ") + why;
 }
 
 /// Scatter of one paired difference on the scale of the test, of all pairs of an endpoint together.
@@ -238,6 +320,7 @@ void judge(std::vector<EndpointTest> family, const InterimPlan& plan, int availa
   for (std::size_t k = 0; k < family.size(); ++k) {
     family[k].found = found[k];
     answer(family[k], looked);
+    addWhyUndecided(family[k]);
     judged.push_back(std::move(family[k]));
   }
 }
@@ -301,6 +384,13 @@ std::vector<EndpointRow> closedFormRows(const Case& setup, std::span<const FlowR
     const EndpointSpec endpoint = endpointSpec(setup, own.name);
     const auto add = [&](const ComparedPair& pair, const RepeatedValue& first) {
       rows.push_back(emptyRow(pair, endpoint, setup.averaging.endpoints.at(own.name)));
+      for (const std::string& engine : {pair.a, pair.b})
+        if (const AbleRuns able = ableRuns(endpoint, setup, finishedRuns(runs, engine));
+            able.runs.empty() && !able.lack.empty()) {
+          rows.back().verdict = Verdict::notMeasured;
+          rows.back().reason = able.lack;
+          return;
+        }
       answerExactly(rows.back(), first, repeatedValue(endpoint, setup, runs, pair.b));
     };
     for (const std::string& engine : engines)

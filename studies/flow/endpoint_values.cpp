@@ -10,6 +10,7 @@
 #include "averaging/fields.hpp"
 #include "averaging/statistics.hpp"
 #include "studies/flow/averages.hpp"
+#include "studies/flow/summary.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -83,17 +84,48 @@ bool isMean(Reduction reduction) {
 struct Formula {
   std::string_view endpoint;
   Value (*of)(const Case& setup, const FlowRun& run);
+  Needs needs;
 };
 
-constexpr std::array<Formula, 9> formulas = {{{"pressure", pressure},
-                                              {"stress_ratio", stressRatio},
-                                              {"stress_anisotropy", stressAnisotropy},
-                                              {"coordination", coordination},
-                                              {"mean_velocity", meanVelocity},
-                                              {"mean_spin", meanSpin},
-                                              {"velocity_at_wheel", velocityAtWheel},
-                                              {"volume_fraction_at_wheel", volumeFractionAtWheel},
-                                              {"spin_at_wheel", spinAtWheel}}};
+constexpr std::array<Formula, 9> formulas = {
+    {{"pressure", pressure, Needs::contacts},
+     {"stress_ratio", stressRatio, Needs::contacts},
+     {"stress_anisotropy", stressAnisotropy, Needs::contacts},
+     {"coordination", coordination, Needs::contacts},
+     {"mean_velocity", meanVelocity, Needs::kinematics},
+     {"mean_spin", meanSpin, Needs::spin},
+     {"velocity_at_wheel", velocityAtWheel, Needs::kinematics},
+     {"volume_fraction_at_wheel", volumeFractionAtWheel, Needs::kinematics},
+     {"spin_at_wheel", spinAtWheel, Needs::spin}}};
+
+const Formula& formulaOf(std::string_view endpoint) {
+  const auto* const found = std::ranges::find(formulas, endpoint, &Formula::endpoint);
+  if (found == formulas.end())
+    throw std::logic_error("no formula of endpoint " + std::string(endpoint));
+  return *found;
+}
+
+/// What a field, or a number of regionNumbers() or diskNumbers(), is made of.
+Needs needsOf(const std::string& quantity, bool ofDisk) {
+  if (ofDisk) return quantity == "spin" ? Needs::spin : Needs::kinematics;
+  const auto numbers = regionNumbers();
+  const auto found = std::ranges::find(numbers, quantity, &RegionNumber::name);
+  if (found == numbers.end()) return fieldSpec(quantity).needs;
+  return found->ofContacts ? Needs::contacts : Needs::kinematics;
+}
+
+/// What the run's files lack of that; empty: nothing. What a law lacks no run has.
+std::string lackOf(Needs needs, const FlowRun& run) {
+  const auto has = [&](Needs what) {
+    return std::ranges::any_of(run.profiles, [&](const Profile& profile) {
+      return fieldSpec(profile.field).needs == what;
+    });
+  };
+  if (needs == Needs::kinematics || has(needs)) return {};
+  if (needs == Needs::spin) return "no spins in its files";
+  if (!has(Needs::contacts)) return "no contacts in its files";
+  return needs == Needs::dissipation ? "no heat of contacts in its files" : std::string();
+}
 
 }  // namespace
 
@@ -135,17 +167,46 @@ std::optional<double> endpointOf(const EndpointSpec& endpoint, const Case& setup
   };
   if (const OwnEndpoint* own = ownEndpoint(setup, endpoint.name))
     return finite(ownEndpointOf(*own, setup, run).value);
-  for (const Formula& formula : formulas)
-    if (formula.endpoint == endpoint.name) return finite(formula.of(setup, run));
-  throw std::logic_error("no formula of endpoint " + std::string(endpoint.name));
+  return finite(formulaOf(endpoint.name).of(setup, run));
+}
+
+std::string notInFiles(const EndpointSpec& endpoint, const Case& setup, const FlowRun& run) {
+  if (!run.ofFiles()) return {};
+  const OwnEndpoint* const own = ownEndpoint(setup, endpoint.name);
+  if (!own) return lackOf(formulaOf(endpoint.name).needs, run);
+  for (const std::string& quantity : {own->quantity, own->per}) {
+    if (quantity.empty()) continue;
+    std::string lack = lackOf(needsOf(quantity, own->disk.has_value()), run);
+    if (!lack.empty()) return lack;
+    const bool ofSliding = quantity == "sliding_fraction" && run.series;
+    if (ofSliding && presentNumbers(valuesOf(*run.series, quantity)).empty())
+      return "no mark of sliding contacts in its files";
+  }
+  const OwnValue found = ownEndpointOf(*own, setup, run);
+  return found.notCovered ? found.why + " in its files" : std::string();
+}
+
+AbleRuns ableRuns(const EndpointSpec& endpoint, const Case& setup, const Runs& all) {
+  AbleRuns able;
+  std::string lack;
+  for (const FlowRun* run : all)
+    if (std::string why = notInFiles(endpoint, setup, *run); why.empty())
+      able.runs.push_back(run);
+    else
+      lack = std::move(why);
+  if (lack.empty()) return able;
+  able.lack = fmt::format("{}: {}", all.front()->engine, lack);
+  if (!able.runs.empty())
+    able.lack += fmt::format(" of {} of {} runs", all.size() - able.runs.size(), all.size());
+  return able;
 }
 
 std::vector<EndpointError> endpointErrors(const Case& setup, const FlowAverages& averages,
                                           const FlowRun& run) {
-  constexpr std::size_t mostParts = 64, fewestParts = 16;
+  constexpr std::size_t mostParts = 64;
   const std::size_t parts = std::min(mostParts, averages.snapshots());
   std::vector<EndpointError> errors;
-  if (parts < fewestParts) return errors;
+  if (parts < fewestOfOwnError) return errors;
   std::vector<FlowRun> without;
   for (std::size_t k = 0; k < parts; ++k)
     if (auto rest = averages.without(k, parts))
@@ -167,6 +228,17 @@ std::vector<EndpointError> endpointErrors(const Case& setup, const FlowAverages&
       errors.push_back({std::string(endpoint.name), *found.standardError, found.dof});
   }
   return errors;
+}
+
+std::string whyNoOwnError(const EndpointSpec& endpoint, const Case& setup, const FlowRun& run) {
+  const OwnEndpoint* const own = ownEndpoint(setup, endpoint.name);
+  if (own && !isMean(own->reduction))
+    return "an endpoint of one time, or of an extreme, has no error within a single run";
+  const std::size_t snapshots = run.series ? valuesOf(*run.series, "t_s").size() : 0;
+  if (snapshots < fewestOfOwnError)
+    return fmt::format("{} has a single run of {} snapshots, whose own error takes {}", run.engine,
+                       snapshots, fewestOfOwnError);
+  return fmt::format("{} has a single run, at rest or too short to know its own error", run.engine);
 }
 
 std::string missingValueReason(const EndpointSpec& endpoint, const Case& setup, const Runs& runs) {

@@ -21,9 +21,26 @@ std::optional<double> endpointOf(const EndpointSpec& endpoint, const Case& setup
 /// nothing to measure: "mine, packing 3: no mean_x in 120 of 200 snapshots".
 std::string missingValueReason(const EndpointSpec& endpoint, const Case& setup, const Runs& runs);
 
+/// Why a run of files cannot have the endpoint, whatever happened in it: "no contacts in its
+/// files"; empty: it could, or somebody ran it here.
+std::string notInFiles(const EndpointSpec& endpoint, const Case& setup, const FlowRun& run);
+
+/// Runs of an engine that can have an endpoint, all but those of files without what it is made of.
+struct AbleRuns {
+  Runs runs;
+  std::string lack;  ///< of the others: "mine: no contacts in its files of 1 of 4 runs"
+};
+AbleRuns ableRuns(const EndpointSpec& endpoint, const Case& setup, const Runs& all);
+
 /// Of one engine's finished runs, by packing index.
 Numbers endpointByPacking(const EndpointSpec& endpoint, const Case& setup, const Runs& runs,
                           std::size_t packings);
+
+/// Snapshots of a run below which it says nothing of its own error.
+inline constexpr std::size_t fewestOfOwnError = 16;
+
+/// Why endpointErrors() have nothing on it that a test could be made with.
+std::string whyNoOwnError(const EndpointSpec& endpoint, const Case& setup, const FlowRun& run);
 
 /// The errors of a run's endpoints by the run alone. Of n = 16 to 64 parts of the run, each left
 /// out in turn, the pseudo-values n θ − (n − 1) θ_(k) (Tukey's jackknife) are a series in time
@@ -36,6 +53,7 @@ std::vector<EndpointError> endpointErrors(const Case& setup, const FlowAverages&
 struct OwnValue {
   std::optional<double> value;  ///< absent where there is nothing to measure
   std::string why;              ///< why it is absent, where more can be said of it
+  bool notCovered = false;      ///< the snapshots are of other times
 };
 
 /// A run that lacks more than mostMissing of the snapshots that a number is made of has no value: a

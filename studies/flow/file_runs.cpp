@@ -83,8 +83,10 @@ std::string fingerprintOf(const EngineEntry& entry, std::size_t run) {
   return fmt::format("{:016x}", fnv1a(text));
 }
 
-AveragedRun averagedRun(const Case& setup, SnapshotSource& source, const std::string& where,
+AveragedRun averagedRun(const Case& setup, const SnapshotRun& files, SnapshotSource& source,
                         const std::function<void(double)>& progress) {
+  const std::string where = files.name();
+  CoveredTime covered(flowTimes(setup));
   AveragedRun averaged;
   averaged.averages = flowAverages(setup, source.scene());
   while (const auto snapshot = source.next()) {
@@ -95,13 +97,19 @@ AveragedRun averagedRun(const Case& setup, SnapshotSource& source, const std::st
       throw BadInput(fmt::format("{}, snapshot {}: {}", where, averaged.snapshots, misfit.what()));
     }
     ++averaged.snapshots;
+    covered.add(snapshot->positionTime);
     progress(source.progress());
   }
   if (averaged.snapshots == 0)
     throw BadInput(fmt::format("{}: none of its snapshots is of the averaged time", where));
   averaged.run.engine = source.engine();
+  averaged.run.files = where;
   averaged.averages->describe(EffectiveParameters{}, averaged.run);
   averaged.run.remarks = source.remarks();
+  // Of our own files of a cell all snapshots are averaged, whenever they are.
+  const bool timed = setup.average || !files.format.empty();
+  if (std::string gap = covered.gap(); timed && !gap.empty())
+    averaged.run.remarks.push_back(std::move(gap));
   return averaged;
 }
 

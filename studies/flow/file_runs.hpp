@@ -36,10 +36,10 @@ struct AveragedRun {
   std::int64_t snapshots = 0;
   std::unique_ptr<FlowAverages> averages;
 };
+/// @param source    of `files`
 /// @param progress  called with the fraction done, 0 … 1
-/// @param where     the files, for messages
 /// @throws BadInput naming the snapshot that does not fit those before it; Interrupted
-AveragedRun averagedRun(const Case& setup, SnapshotSource& source, const std::string& where,
+AveragedRun averagedRun(const Case& setup, const SnapshotRun& files, SnapshotSource& source,
                         const std::function<void(double)>& progress);
 
 }  // namespace crossgrain::inline studies

@@ -27,9 +27,8 @@ void checkFormat(const std::string& format) {
   const std::vector<std::string> known(formats.begin(), formats.end());
   if (fs::exists(format))
     throw BadInput(fmt::format(
-        "FORMAT is missing, {} comes in its place: crossgrain import {} FILES… CASE.toml --out "
-        "RUN.h5",
-        format, files::formatOf(format).value_or("FORMAT")));
+        "FORMAT is missing before {}: crossgrain import {} FILES… CASE.toml --out RUN.h5", format,
+        files::formatOf(format).value_or("FORMAT")));
   throw BadInput(fmt::format("there is no format '{}'{}", format, suggestion(format, known)));
 }
 
@@ -37,11 +36,11 @@ void checkFormat(const std::string& format) {
 void checkFormatOf(const std::vector<fs::path>& files, const std::string& format) {
   for (const fs::path& file : files)
     if (const auto own = files::formatOf(file); own && *own != format)
-      throw BadInput(fmt::format("{}: is of format {}, not {}: crossgrain import {} …",
+      throw BadInput(fmt::format("{}: the file is of format {}, not {}: crossgrain import {} …",
                                  file.string(), *own, format, *own));
 }
 
-/// Nobody's file but one of snapshots is written over.
+/// Only a file of snapshots is written over.
 void checkOut(const fs::path& out) {
   if (!fs::exists(out)) return;
   bool snapshots = false;
@@ -51,7 +50,7 @@ void checkOut(const fs::path& out) {
   }
   if (!snapshots)
     throw BadInput(fmt::format(
-        "--out {}: is there, and is no file of snapshots that could be replaced", out.string()));
+        "--out {}: this file exists and holds no snapshots: name another file", out.string()));
 }
 
 SnapshotRun onlyRun(const CommandLine& line, const std::string& format) {
@@ -60,7 +59,7 @@ SnapshotRun onlyRun(const CommandLine& line, const std::string& format) {
   if (runs.size() == 1) return runs.front();
   std::vector<std::string> names;
   for (const SnapshotRun& run : runs) names.push_back(run.name());
-  throw BadInput(fmt::format("import takes the files of one run, and these are of {}: {}",
+  throw BadInput(fmt::format("import takes the files of one run; these are of {} runs: {}",
                              runs.size(), fmt::join(names, "; ")));
 }
 
@@ -89,10 +88,12 @@ Imported importSnapshots(const CommandLine& line, const ImportOptions& options) 
   Progress progress(line.run.quiet);
   progress.begin("import", {1.0});
   Imported imported;
+  CoveredTime covered(flowTimes(setup));
   while (const auto snapshot = source->next()) {
     throwIfInterrupted();
     if (imported.snapshots == 0) imported.from = snapshot->positionTime;
     imported.to = snapshot->positionTime;
+    covered.add(snapshot->positionTime);
     file.offer(*snapshot, static_cast<int>(++imported.snapshots));
     progress.update(0, fmt::format("snapshot {}", imported.snapshots), source->progress());
   }
@@ -100,6 +101,7 @@ Imported importSnapshots(const CommandLine& line, const ImportOptions& options) 
   imported.name = source->engine();
   imported.disks = source->scene().disks.size();
   imported.remarks = source->remarks();
+  if (std::string gap = covered.gap(); !gap.empty()) imported.remarks.push_back(std::move(gap));
   return imported;
 }
 

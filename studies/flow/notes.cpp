@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
 
 #include "averaging/agreement.hpp"
 #include "averaging/statistics.hpp"
@@ -45,7 +46,8 @@ void addFarEndpoints(const Case& setup, const CompareResults& results,
     const auto alarm = [&](std::string what) {
       alarms.push_back({row.a, row.b, row.kind, std::move(what)});
     };
-    if (row.kind == PairKind::closedForm) continue;  // what is missing or far off is its answer
+    if (row.verdict == Verdict::notMeasured) continue;  // its reason is in the files
+    if (row.kind == PairKind::closedForm) continue;     // what is missing or far off is its answer
     if (!row.unpaired && row.lost > row.packings && onlyOneHas(setup, results, row) > row.packings)
       alarm(fmt::format("{} is missing on {} of {} packings", words, row.lost,
                         row.lost + row.packings));
@@ -102,57 +104,101 @@ std::optional<double> meanOf(const FlowStudy& study, const std::string& engine,
 
 }  // namespace
 
+namespace {
+
+/// "a.dump, b.dump, c.dump and 4 more"
+std::string namesOf(const std::vector<std::string>& files) {
+  constexpr std::size_t most = 3;
+  if (files.size() <= most) return fmt::format("{}", fmt::join(files, ", "));
+  return fmt::format("{} and {} more", fmt::join(std::span(files).first(most), ", "),
+                     files.size() - most);
+}
+
+}  // namespace
+
+std::vector<std::string> remarkNotes(std::span<const FlowRun> runs, bool named) {
+  std::vector<std::string> notes;
+  for (const FlowRun& run : runs)
+    for (const std::string& remark : run.remarks) {
+      const Runs all = finishedRuns(runs, run.engine);
+      std::vector<std::string> files;
+      for (const FlowRun* other : all)
+        if (std::ranges::find(other->remarks, remark) != other->remarks.end())
+          files.push_back(other->files);
+      std::string who = named ? run.engine : "";
+      if (files.size() < all.size()) who += (named ? ", " : "") + namesOf(files);
+      std::string note = who.empty() ? remark : who + ": " + remark;
+      if (std::ranges::find(notes, note) == notes.end()) notes.push_back(std::move(note));
+    }
+  return notes;
+}
+
+namespace {
+
+/// What verdicts of a pair rest on, and of how many runs.
+struct PairBasis {
+  Basis basis = Basis::paired;
+  int a = 0, b = 0;
+  std::vector<std::string> endpoints;
+};
+
+std::string describe(const PairBasis& found, const std::string& a, const std::string& b) {
+  const auto counted = [](int runs) { return fmt::format("{} run{}", runs, runs == 1 ? "" : "s"); };
+  const std::string& fewer = found.a < found.b ? a : b;
+  const std::string& more = found.a < found.b ? b : a;
+  switch (found.basis) {
+    case Basis::paired:
+      return fmt::format(
+          "{} and {} have {} each: the first is compared with the first, and so on. Intervals "
+          "hold whether or not they began from the same packings; they are narrower if they did.",
+          a, b, counted(found.a));
+    case Basis::independent:
+      return fmt::format(
+          "{} has {} and {} {}: they are compared as independent samples, each with its own "
+          "scatter over packings.",
+          a, counted(found.a), b, found.b);
+    case Basis::oneScatter:
+      return fmt::format(
+          "{} has {}, too few to know its scatter over packings: it is taken to scatter as {} "
+          "does.",
+          fewer, counted(std::min(found.a, found.b)), more);
+    case Basis::oneRunEach:
+      return fmt::format(
+          "{} and {} have one run each: intervals are those of the two runs' own series. They do "
+          "not see how packings differ, so a verdict is on these two packings only.",
+          a, b);
+  }
+  throw std::logic_error("no basis");
+}
+
+}  // namespace
+
 std::vector<std::string> fileNotes(const CompareResults& results) {
-  const auto runsOf = [&](const std::string& engine) {
-    return static_cast<int>(finishedRuns(results.runs, engine).size());
-  };
   const auto ofFiles = [&](const std::string& engine) {
     const Runs runs = finishedRuns(results.runs, engine);
     return !runs.empty() && runs.front()->ofFiles();
   };
-  const auto counted = [](int runs) { return fmt::format("{} run{}", runs, runs == 1 ? "" : "s"); };
-  std::map<std::pair<std::string, std::string>, Basis> pairs;
-  for (const EndpointRow& row : results.endpoints.rows)
-    if (row.kind == PairKind::peer && (ofFiles(row.a) || ofFiles(row.b)))
-      pairs.try_emplace({row.a, row.b}, row.unpaired ? row.unpaired->basis : Basis::paired);
-  std::vector<std::string> notes;
-  for (const FlowRun& run : results.runs)
-    for (const std::string& remark : run.remarks)
-      if (std::string note = fmt::format("{}: {}", run.engine, remark);
-          std::ranges::find(notes, note) == notes.end())
-        notes.push_back(std::move(note));
-  for (const auto& [pair, basis] : pairs) {
-    const auto& [a, b] = pair;
-    const int ours = runsOf(a), theirs = runsOf(b);
-    const std::string& fewer = ours < theirs ? a : b;
-    const std::string& more = ours < theirs ? b : a;
-    switch (basis) {
-      case Basis::paired:
-        notes.push_back(fmt::format(
-            "{} and {} have {} each: the first is compared with the first, and so on. Intervals "
-            "hold whether or not they began from the same packings; they are narrower if they did.",
-            a, b, counted(ours)));
-        break;
-      case Basis::independent:
-        notes.push_back(fmt::format(
-            "{} has {} and {} {}: they are compared as independent samples, each with its own "
-            "scatter over packings.",
-            a, counted(ours), b, theirs));
-        break;
-      case Basis::oneScatter:
-        notes.push_back(fmt::format(
-            "{} has {}, too few to know its scatter over packings: it is taken to scatter as {} "
-            "does.",
-            fewer, counted(std::min(ours, theirs)), more));
-        break;
-      case Basis::oneRunEach:
-        notes.push_back(fmt::format(
-            "{} and {} have one run each: intervals are those of the two runs' own series. They do "
-            "not see how packings differ, so a verdict is on these two packings only.",
-            a, b));
-        break;
-    }
+  std::map<std::pair<std::string, std::string>, std::vector<PairBasis>> pairs;
+  for (const EndpointRow& row : results.endpoints.rows) {
+    if (row.kind != PairKind::peer || row.verdict == Verdict::notMeasured) continue;
+    if (!ofFiles(row.a) && !ofFiles(row.b)) continue;
+    PairBasis own;
+    own.a = static_cast<int>(finishedRuns(results.runs, row.a).size());
+    if (row.unpaired) own = {row.unpaired->basis, row.unpaired->a, row.unpaired->b, {}};
+    std::vector<PairBasis>& known = pairs[{row.a, row.b}];
+    auto place = std::ranges::find_if(known, [&](const PairBasis& one) {
+      return one.basis == own.basis && one.a == own.a && one.b == own.b;
+    });
+    if (place == known.end()) place = known.insert(known.end(), std::move(own));
+    place->endpoints.push_back(row.endpoint);
+    std::ranges::replace(place->endpoints.back(), '_', ' ');
   }
+  std::vector<std::string> notes = remarkNotes(results.runs, true);
+  for (const auto& [pair, all] : pairs)
+    for (const PairBasis& one : all)
+      notes.push_back(
+          (all.size() > 1 ? fmt::format("In {}: ", fmt::join(one.endpoints, ", ")) : "") +
+          describe(one, pair.first, pair.second));
   return notes;
 }
 

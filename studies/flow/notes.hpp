@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,11 @@ std::vector<AlarmRow> alarmsOf(const Case& setup, const CompareResults& results)
 /// One note, or none where no run shows contacts.
 std::vector<std::string> contactNotes(const FlowStudy& study);
 
-/// What files lack, and what the verdicts on their runs rest on, pair by pair, and what that cannot
+/// What files lack and what that costs, each once: of some of an engine's runs with their names.
+/// @param named  whether the engine is
+std::vector<std::string> remarkNotes(std::span<const FlowRun> runs, bool named);
+
+/// That, and what the verdicts on their runs rest on, pair by pair, and what that cannot
 /// see.
 std::vector<std::string> fileNotes(const CompareResults& results);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/flow.hpp"
 #include "studies/flow/frame.hpp"
 #include "studies/flow/summary.hpp"
 
@@ -98,7 +99,26 @@ std::string missing(const std::string& what, std::size_t count, std::size_t all)
   return fmt::format("{} in {} of {} snapshots", what, count, all);
 }
 
-OwnValue ofSeries(const std::string& quantity, const OwnEndpoint& how, const FlowRun& run) {
+/// The time of which no snapshot of the run is, so that there is no value of one time; absent:
+/// there is one. An engine's snapshots are at the end, and no further from any other time than they
+/// are apart; files may be of a part of the averaged time [s].
+std::optional<double> missedTime(const OwnEndpoint& how, const Case& setup,
+                                 const RunSeries& series) {
+  const bool atEnd = how.reduction == Reduction::end && !how.between;
+  if (!atEnd && how.reduction != Reduction::end && how.reduction != Reduction::time) return {};
+  const FlowTimes averaged = flowTimes(setup);
+  const double t = atEnd                              ? averaged.end()
+                   : how.reduction == Reduction::time ? how.level
+                                                      : how.between->second;
+  const double within = (atEnd ? 0.5 : 1.0) * averaged.interval * (1.0 + 1e-6);
+  const Numbers& times = valuesOf(series, "t_s");
+  const bool covered = !times.empty() && times.front() && times.back() &&
+                       t >= *times.front() - within && t <= *times.back() + within;
+  return covered ? std::nullopt : std::optional(t);
+}
+
+OwnValue ofSeries(const std::string& quantity, const OwnEndpoint& how, const Case& setup,
+                  const FlowRun& run) {
   if (!run.series) return {};
   const std::string name = how.disk ? how.series() : quantity;
   // A disk's velocity may be of another instant than its place.
@@ -117,7 +137,14 @@ OwnValue ofSeries(const std::string& quantity, const OwnEndpoint& how, const Flo
     points.t.push_back(*times[k]);
     points.y.push_back(*values[k]);
   }
-  if (all == 0) return {};
+  if (const auto t = missedTime(how, setup, *run.series))
+    return {{}, fmt::format("no snapshot near t = {:.6g} s", *t), true};
+  if (all == 0)
+    return {{},
+            how.between ? fmt::format("no snapshot from {:g} to {:g} s", how.between->first,
+                                      how.between->second)
+                        : "",
+            how.between.has_value()};
   const std::size_t absent = all - points.t.size();
   const bool extreme = how.reduction == Reduction::maximum || how.reduction == Reduction::minimum;
   const bool gap = static_cast<double>(absent) > mostMissing * static_cast<double>(all);
@@ -169,7 +196,7 @@ OwnValue reduced(const std::string& quantity, const OwnEndpoint& how, const Case
                  const FlowRun& run) {
   const auto numbers = regionNumbers();
   if (how.disk || std::ranges::find(numbers, quantity, &RegionNumber::name) != numbers.end())
-    return ofSeries(quantity, how, run);
+    return ofSeries(quantity, how, setup, run);
   return ofField(quantity, how, setup, run);
 }
 

@@ -126,18 +126,18 @@ PairedTest testedEndpoint(const EndpointSpec& endpoint, const Margin& margin,
 
 bool independentRuns(const ComparedPair& pair, const Runs& reference, const Runs& other) {
   constexpr std::size_t fewest = 4;
-  return pair.ofFiles && pair.others.empty() &&
-         (reference.size() != other.size() || other.size() < fewest);
+  const bool alike = std::ranges::equal(reference, other, {}, &FlowRun::packing, &FlowRun::packing);
+  return pair.ofFiles && pair.others.empty() && (!alike || other.size() < fewest);
 }
 
-void addOwnErrors(PairedTest& test, const FlowRun& reference, const FlowRun& other,
-                  std::string_view endpoint) {
+const FlowRun* addOwnErrors(PairedTest& test, const FlowRun& reference, const FlowRun& other,
+                            std::string_view endpoint) {
   double sum = 0.0, squares = 0.0;
   for (const auto& [run, value] : {std::pair(&reference, test.sample.reference.front()),
                                    std::pair(&other, test.sample.other.front())}) {
     const auto own = std::ranges::find(run->endpointErrors, endpoint, &EndpointError::endpoint);
     // A run that never changes does not know how another one would differ.
-    if (own == run->endpointErrors.end() || !value || own->standardError == 0.0) return;
+    if (own == run->endpointErrors.end() || !value || own->standardError == 0.0) return run;
     const double error =
         test.logarithmic ? own->standardError / std::exp(test.sign * *value) : own->standardError;
     sum += error * error;
@@ -145,6 +145,7 @@ void addOwnErrors(PairedTest& test, const FlowRun& reference, const FlowRun& oth
   }
   test.sample.withinVariance = {sum};
   test.sample.withinDof = squares > 0.0 ? sum * sum / squares : 0.0;
+  return nullptr;
 }
 
 void addWithinVariance(PairedTest& test, const Numbers& referenceError, const Numbers& otherError) {

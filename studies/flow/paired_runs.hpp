@@ -53,9 +53,9 @@ std::vector<Runs> referenceRuns(std::span<const FlowRun> runs, const ComparedPai
 /// is none. Of one engine its own values.
 Numbers medianByPacking(const std::vector<Numbers>& engines);
 
-/// Whether two engines' runs are independent samples: those of files, unless both are as many. Then
-/// they are paired one by one, which holds whether their packings are the same or not, and shows
-/// more where they are.
+/// Whether two engines' runs are independent samples: those of files, unless both are as many and
+/// of the same indices. Then they are paired one by one, which holds whether their packings are the
+/// same or not, and shows more where they are.
 bool independentRuns(const ComparedPair& pair, const Runs& reference, const Runs& other);
 
 /// One field in each ring, by packing index. @param what  of the profile
@@ -88,8 +88,9 @@ PairedTest testedEndpoint(const EndpointSpec& endpoint, const Margin& margin,
 double signOf(const Numbers& values);
 
 /// Adds what a single run of each says of its own error of the endpoint, on the scale of the test.
-void addOwnErrors(PairedTest& test, const FlowRun& reference, const FlowRun& other,
-                  std::string_view endpoint);
+/// @returns the first run that says nothing of it: then nothing is added; null: both do
+const FlowRun* addOwnErrors(PairedTest& test, const FlowRun& reference, const FlowRun& other,
+                            std::string_view endpoint);
 
 /// Adds what the two runs of every packing say of their own errors, on the scale of the test.
 void addWithinVariance(PairedTest& test, const Numbers& referenceError, const Numbers& otherError);

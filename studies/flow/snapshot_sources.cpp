@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "adapters/audit_geometry.hpp"
@@ -28,7 +30,53 @@ std::string SnapshotRun::name() const {
                            : fmt::format("{} … ({} files)", files.front().string(), files.size());
 }
 
+std::string CoveredTime::gap() const {
+  if (times_.empty()) return {};
+  constexpr double rounding = 1e-3;  // of the spacing, by which times of few digits are off
+  std::vector<double> apart;
+  for (std::size_t k = 1; k < times_.size(); ++k) apart.push_back(times_[k] - times_[k - 1]);
+  double due = wanted_.interval;
+  std::size_t widest = 0;
+  if (!apart.empty()) {
+    widest = static_cast<std::size_t>(std::ranges::max_element(apart) - apart.begin());
+    std::vector<double> sorted = apart;
+    std::ranges::nth_element(sorted,
+                             sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2));
+    due = std::max(due, sorted[sorted.size() / 2]);
+  }
+  const double first = times_.front(), last = times_.back();
+  const auto said = [&](const std::string& what) {
+    return fmt::format("{}; the case averages {:.6g} to {:.6g} s", what, wanted_.settled,
+                       wanted_.end());
+  };
+  // The first is due one interval after the beginning, the last at the end.
+  if (first - wanted_.settled > (1.0 + rounding) * due ||
+      wanted_.end() - last > (1.0 - rounding) * due)
+    return said(apart.empty() ? fmt::format("a single snapshot, of {:.6g} s", first)
+                              : fmt::format("{} snapshots cover {:.6g} to {:.6g} s", times_.size(),
+                                            first, last));
+  if (!apart.empty() && apart[widest] > 2.0 * (1.0 - rounding) * due)
+    return said(
+        fmt::format("no snapshot between {:.6g} and {:.6g} s", times_[widest], times_[widest + 1]));
+  return {};
+}
+
 namespace {
+
+/// A file that is read twice would count as two runs, or as two times of one.
+void requireDifferent(const std::vector<fs::path>& files) {
+  std::map<std::pair<dev_t, ino_t>, fs::path> seen;
+  for (const fs::path& file : files) {
+    struct stat there {};
+    if (::stat(file.c_str(), &there) != 0) continue;  // said where it is read
+    const auto [first, isNew] = seen.emplace(std::pair(there.st_dev, there.st_ino), file);
+    if (isNew) continue;
+    const fs::path& other = first->second;
+    throw BadInput(file == other
+                       ? fmt::format("{}: the file is named twice", file.string())
+                       : fmt::format("{} and {} are the same file", other.string(), file.string()));
+  }
+}
 
 /// Of a file that is none of other programs', HDF5 says what is wrong with it.
 std::string formatOfFile(const fs::path& file) {
@@ -41,6 +89,7 @@ std::string formatOfFile(const fs::path& file) {
 
 std::vector<SnapshotRun> snapshotRuns(const std::vector<fs::path>& files,
                                       const std::string& format) {
+  requireDifferent(files);
   std::vector<SnapshotRun> runs;
   std::vector<std::pair<std::string, std::vector<fs::path>>> byFormat;
   for (const fs::path& file : files) {
@@ -138,6 +187,17 @@ double stepOf(const Case& setup) {
   return setup.particles.file ? setup.run.dt.value_or(0.0) : timeStep(setup);
 }
 
+/// "[engines.mine]", and where the case has no such section, which ones it has.
+std::string sectionWords(const Case& setup, const std::string& name) {
+  std::string words = fmt::format("[engines.{}]", name);
+  std::vector<std::string> others;
+  for (const auto& [other, settings] : setup.engines)
+    if (!findEngine(other)) others.push_back(other);
+  if (setup.engines.contains(name) || others.empty()) return words;
+  return fmt::format("{}, which the case does not have: it has settings of {}", words,
+                     fmt::join(others, ", "));
+}
+
 }  // namespace
 
 std::unique_ptr<SnapshotSource> openSnapshots(const SnapshotRun& run, const Case& setup,
@@ -155,7 +215,7 @@ std::unique_ptr<SnapshotSource> openSnapshots(const SnapshotRun& run, const Case
   const FlowTimes times = flowTimes(setup);
   files::PlaneScene target;
   target.name = name;
-  target.where = origin.settings;
+  target.where = sectionWords(setup, name);
   target.bodies = setup.kind == CaseKind::couette ? couetteScene(setup, Packing(), 0.0).bodies
                                                   : assemblyScene(setup, Disks(), 0.0, 0.0).bodies;
   target.anyAngle = setup.kind == CaseKind::couette;
@@ -163,6 +223,7 @@ std::unique_ptr<SnapshotSource> openSnapshots(const SnapshotRun& run, const Case
   target.from = times.settled;
   target.to = times.end();
   target.dt = stepOf(setup);
+  target.gravity = setup.assembly.gravity;
   if (!run.besides.empty()) {
     std::vector<std::string> names;
     for (const fs::path& file : run.besides) names.push_back(file.filename().string());

@@ -7,6 +7,7 @@
 
 #include "adapters/snapshot_source.hpp"
 #include "cases/case.hpp"
+#include "cases/flow.hpp"
 
 /// Snapshots from files, whoever wrote them: HDF5 files of our own layout (docs/files.md), or
 /// result files of other programs (docs/import.md).
@@ -19,6 +20,23 @@ struct SnapshotRun {
   std::vector<std::filesystem::path> besides = {};  ///< that are not read: files::isBesideResults()
 
   std::string name() const;  ///< "out/run.data", "dumps/a.0 … (12 files)"
+};
+
+/// Which part of the averaged time the snapshots of a run are of.
+class CoveredTime {
+ public:
+  explicit CoveredTime(const FlowTimes& wanted) : wanted_(wanted) {}
+  /// Times must rise [s].
+  void add(double t) { times_.push_back(t); }
+
+  /// "9 snapshots cover 0.6 to 0.68 s; the case averages 0.6 to 0.8 s"; empty where none is
+  /// missing: by the files' own spacing, or the case's where that is wider, another one was due
+  /// before the first, after the last, or between two of them.
+  std::string gap() const;
+
+ private:
+  FlowTimes wanted_;
+  std::vector<double> times_;
 };
 
 /// Sorts files into runs: each HDF5 file of our own is one.

@@ -97,6 +97,9 @@ TEST_F(Average, BadInput_NamesTheKey) {
   expectMessage(scene + "[looks]\ncount = 2\n", "is of no use without [average]");
   expectMessage(scene + withLine(slabs, 7, "from = 3"), "average.from = 3: must be < 3 s");
   expectMessage(withLine(scene, 13, "") + slabs, "no packing would differ from another");
+  // Whoever has files makes none.
+  std::ofstream("case.toml") << withLine(scene, 13, "") + slabs;
+  EXPECT_EQ(loadCase("case.toml", {}, {}, Starts::notMade).size(), 1u);
   expectMessage(scene + slabs + "columns = 3\n",
                 "average.columns = 3: has no meaning with bins = \"slabs\"");
   expectMessage(scene + withLine(slabs, 3, ""), "average.along is missing");

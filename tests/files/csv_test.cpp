@@ -51,6 +51,21 @@ TEST_F(Csv, StartFile) {
   EXPECT_EQ(frame.step, 0);
 }
 
+/// Spreadsheets write semicolons and tabs, and a mark before the first line.
+TEST_F(Csv, Separators_AreThoseOfTheNames) {
+  const std::string same[] = {
+      "\xEF\xBB\xBFid,x,y,radius\n5,1,2,0.5\n", "id ; x;y; radius\r\n5;1 ; 2;0.5\r\n",
+      "id\tx\ty\tradius\n5\t1\t2\t0.5\n", "id,\tx,\ty, radius\n5,\t1,\t2,\t0.5\n"};
+  for (const std::string& text : same) {
+    const auto file = samples_.write("p.csv", text);
+    EXPECT_EQ(formatOf(file), "csv") << text;
+    const FileFrame frame = samples_.read("csv", {"p.csv"}).front();
+    EXPECT_EQ(frame.particles.id, (std::vector<std::int64_t>{5})) << text;
+    EXPECT_EQ(frame.particles.position[0], Vec3(1, 2, 0)) << text;
+    EXPECT_EQ(frame.particles.radius[0], 0.5) << text;
+  }
+}
+
 TEST_F(Csv, Names_OfOnesOwn) {
   samples_.write("p.csv", "nr,px,py,r\n1,1,2,0.5\n2,1.98,2,0.5\n");
   samples_.write("contacts.csv", "a,b,push,junk\n1,2,20,x\n");
@@ -81,6 +96,11 @@ TEST_F(Csv, WhatCannotBe_IsRefusedByLine) {
   EXPECT_EQ(refusal("t,x,y\n1,2,3\n0,2,3\n"),
             "p.csv, t = 0: comes after p.csv, t = 1: times of a run must rise; files of other runs "
             "should be in folders of their own");
+  const char* const unclear =
+      "p.csv:1: commas, or semicolons, or tabs should part the names of columns";
+  EXPECT_EQ(refusal("x y radius\n1 2 3\n"), unclear);
+  EXPECT_EQ(refusal("x;y,radius\n1;2,3\n"), unclear);
+  EXPECT_EQ(refusal("x;y\n1,5;2\n"), "p.csv:2: column 1: \"1,5\" should be a finite number");
   EXPECT_EQ(refusal("x,y\n"), "p.csv:1: there are no rows below the column names");
 }
 

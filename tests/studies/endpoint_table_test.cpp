@@ -408,6 +408,75 @@ TEST(FileRuns, OneOfEach_RestsOnTheirOwnErrors) {
   EXPECT_NEAR(*row.high, 100.0 * (1.01 * std::exp(0.01754) - 1.0), 0.01);
 }
 
+/// The same as files, some of which have no contacts.
+std::vector<FlowRun> filesOf(std::vector<FlowRun> runs, const std::vector<std::size_t>& bare) {
+  for (FlowRun& run : runs) run.stats.reset();
+  for (const std::size_t k : bare) {
+    runs[k].head.clear();
+    std::erase_if(runs[k].profiles,
+                  [](const Profile& profile) { return profile.field.starts_with("stress"); });
+  }
+  return runs;
+}
+
+TEST(FileRuns, WithoutContacts_HaveNoVerdictOnWhatIsMadeOfThem) {
+  const auto row = judgedFiles(pressuresOf("a", {100, 101, 102, 103}),
+                               filesOf(pressuresOf("b", {1, 1, 1, 1}), {0, 1, 2, 3}));
+  EXPECT_EQ(row.verdict, Verdict::notMeasured);
+  EXPECT_EQ(row.answer(), "absent");
+  EXPECT_EQ(row.reason, "b: no contacts in its files");
+  EXPECT_EQ(row.lost, 0);
+  EXPECT_FALSE(row.distance);
+}
+
+TEST(FileRuns, WithContactsInSome_AreJudgedByThose) {
+  // Without the second of b's runs the others are no longer the same ones as a's.
+  const auto row = judgedFiles(pressuresOf("a", {100, 101, 102, 103, 102}),
+                               filesOf(pressuresOf("b", {101, 7, 102, 103, 102}), {1}));
+  ASSERT_TRUE(row.unpaired);
+  EXPECT_EQ(row.unpaired->basis, Basis::independent);
+  EXPECT_EQ(row.unpaired->a, 5);
+  EXPECT_EQ(row.unpaired->b, 4);
+  EXPECT_EQ(row.lost, 0);
+  EXPECT_EQ(row.verdict, Verdict::pass);
+  EXPECT_EQ(row.reason, "b: no contacts in its files of 1 of 5 runs");
+}
+
+TEST(FileRuns, Undecided_SaysWhy) {
+  auto ours = pressuresOf("a", {100}), theirs = pressuresOf("b", {101});
+  EXPECT_EQ(judgedFiles(ours, theirs).reason,
+            "a has a single run of 0 snapshots, whose own error takes 16");
+  ours[0].endpointErrors = {{"pressure", 0.6, 0.8}};
+  theirs[0].endpointErrors = {{"pressure", 0.808, 0.8}};
+  EXPECT_EQ(judgedFiles(ours, theirs).reason,
+            "each single run holds about 2.5 independent values, and a verdict takes 4");
+  EXPECT_EQ(judgedFiles(pressuresOf("a", {100, 101}), pressuresOf("b", {101, 102})).reason,
+            "2 and 2 runs, and a verdict takes 5 together");
+  EXPECT_EQ(
+      judgedFiles(pressuresOf("a", {60, 80, 102, 125, 150}), pressuresOf("b", {101, 102})).reason,
+      "the interval reaches past the margin");
+}
+
+TEST(Neutral, FilesWithoutContacts_LeaveTheOthersToThemselves) {
+  std::vector<FlowRun> runs;
+  for (const char* name : {"a", "b", "c"}) append(runs, pressuresOf(name, {100, 101, 102, 103}));
+  append(runs, filesOf(pressuresOf("d", {7, 7, 7, 7}), {0, 1, 2, 3}));
+  const auto against = [&](const std::string& engine, const std::vector<std::string>& others) {
+    ComparedPair pair{medianName, engine};
+    pair.others = others;
+    return endpointRows(judging("pressure", {0.05, true, "", ""}), runs, {pair},
+                        interimPlanAt(4, 1, 0.05), 4, {})
+        .front();
+  };
+  EXPECT_EQ(against("d", {"a", "b", "c"}).verdict, Verdict::notMeasured);
+  const EndpointRow a = against("a", {"b", "c", "d"});
+  EXPECT_EQ(a.verdict, Verdict::pass);
+  EXPECT_EQ(a.lost, 0);
+  EXPECT_EQ(a.reason, "d: no contacts in its files");
+  // One other is no median.
+  EXPECT_EQ(against("a", {"b", "d"}).verdict, Verdict::notMeasured);
+}
+
 TEST(Neutral, MedianIsOfTheOthersPackingByPacking) {
   // Of 100, 104 and 90: 102 at the first packing of c, which has 101; so -1 %, and so on.
   const std::vector<std::vector<double>> pressures = {

@@ -286,6 +286,14 @@ TEST(OwnEndpoints, OneDisk_HasApexesTimesAndEvents) {
   // Between two snapshots a straight line: off by g τ²/8 over the speed.
   EXPECT_NEAR(*value(Reduction::reaches, 2.75), 0.5, 10.0 * 0.07 * 0.07 / 8.0 / 3.0);
   EXPECT_FALSE(value(Reduction::reaches, 4.0));
+  // Snapshots end at 0.7 s, and the case at 1 s: no other time stands in for it.
+  EXPECT_FALSE(value(Reduction::time, 0.9));
+  EXPECT_FALSE(value(Reduction::end));
+  EXPECT_EQ(ownEndpointOf(endpoint, setup, thrown()).why, "no snapshot near t = 1 s");
+  EXPECT_TRUE(ownEndpointOf(endpoint, setup, thrown()).notCovered);
+  endpoint.between = {0.8, 0.9};
+  EXPECT_FALSE(value(Reduction::maximum));
+  EXPECT_EQ(ownEndpointOf(endpoint, setup, thrown()).why, "no snapshot from 0.8 to 0.9 s");
   endpoint.between = {0.3, 0.7};
   EXPECT_NEAR(*value(Reduction::maximum), 3.0 + 2.0 * 0.35 - 5.0 * 0.35 * 0.35, 1e-12);
   EXPECT_NEAR(*value(Reduction::end), 3.0 + 1.4 - 5.0 * 0.49, 1e-12);

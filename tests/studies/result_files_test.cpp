@@ -6,6 +6,7 @@
 #include <deque>
 #include <functional>
 #include <numbers>
+#include <set>
 
 #include "adapters/files/plane_snapshots.hpp"
 #include "cases/assembly_scene.hpp"
@@ -13,6 +14,7 @@
 #include "studies/flow/average.hpp"
 #include "studies/flow/snapshot_file.hpp"
 #include "studies/flow/snapshot_fit.hpp"
+#include "studies/flow/snapshot_sources.hpp"
 #include "tests/studies/quick_cell.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -370,6 +372,49 @@ TEST(PlaneSnapshots, WaysThatVelocitiesDoNotSay_AreRefusedWithTheirFactor) {
             "");
 }
 
+/// Half and twice the time step: disks in flight know the time that has passed from their way and,
+/// under the case's gravity, from their velocity.
+TEST(PlaneSnapshots, TimesOffByTwo_AreRefusedInFlightAndAtEvenSpeed) {
+  const auto flown = [](double stamps, double gravity, double from,
+                        const std::vector<double>& bounce, double drive = 0.0) {
+    std::deque<FileFrame> frames;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double t = 0.1 * static_cast<double>(k);
+      FileFrame frame = threeParticles(stamps * t);
+      frame.contacts.reset();
+      for (std::size_t p = 0; p < 3; ++p) {
+        const double v = 1.0 + static_cast<double>(p);
+        frame.particles.position[p] = {4.0 * static_cast<double>(p),
+                                       40.0 - v * t - 0.5 * gravity * t * t, 0.0};
+        if (!bounce.empty()) frame.particles.position[p].y() = 40.0 - bounce[k] * v;
+        frame.particles.velocity[p] = {0.0, -v - gravity * t, 0.0};
+      }
+      frames.push_back(frame);
+    }
+    files::PlaneScene target = targetOf(restingDisks());
+    target.gravity = {0.0, -gravity};
+    target.from = from;
+    for (WallBody& body : target.bodies) body.motion.frequency = drive;
+    return test::refusalOf([&] {
+      PlaneSnapshots source(std::make_unique<FakeReader>(frames), {}, target);
+      while (source.next()) {
+      }
+    });
+  };
+  for (const double gravity : {0.0, 10.0}) {
+    EXPECT_EQ(flown(1.0, gravity, 0.0, {}), "");
+    expectSays(flown(2.0, gravity, 0.0, {}), {"3 disks that move have gone 0.5 times as far"});
+    expectSays(flown(0.5, gravity, 0.0, {}), {"gone 2 times as far"});
+    // Also where the case averages only what comes later.
+    expectSays(flown(2.0, gravity, 0.5, {}), {"gone 0.5 times as far"});
+    EXPECT_EQ(flown(1.0, gravity, 0.25, {}), "");
+  }
+  // Once is chance; and walls may drive what is seen at one phase of theirs only.
+  EXPECT_EQ(flown(1.0, 0.0, 0.0, {0.0, 0.05, 0.13, 0.2}), "");
+  expectSays(flown(1.0, 0.0, 0.0, {0.0, 0.05, 0.1, 0.15}), {"gone 0.5 times as far"});
+  EXPECT_EQ(flown(1.0, 0.0, 0.0, {0.0, 0.05, 0.1, 0.15}, 60.0), "");
+}
+
 TEST(PlaneSnapshots, ForcesOfAnotherUnit_AreHintedAt) {
   std::vector<std::string> remarks;
   firstOf(
@@ -499,6 +544,31 @@ TEST(PlaneSnapshots, WallDisksOfAnAssembly_AreAllThereOrNone) {
              {"1 of the 2 wall disks of wall-1"});
 }
 
+TEST(CoveredTime, Gap_IsWhereAnotherSnapshotWasDue) {
+  FlowTimes wanted;  // every 0.01 s from 0.61 to 0.8 s
+  wanted.settled = 0.6;
+  wanted.samples = 20;
+  wanted.interval = 0.01;
+  const auto gap = [&](double from, double to, double apart, const std::set<int>& without = {}) {
+    CoveredTime covered(wanted);
+    for (int k = 0; from + k * apart <= to + 1e-9; ++k)
+      if (!without.contains(k)) covered.add(from + k * apart);
+    return covered.gap();
+  };
+  for (const double apart : {0.01, 0.002, 0.04})
+    EXPECT_EQ(gap(0.6 + apart, 0.8, apart), "") << apart;
+  EXPECT_EQ(gap(0.6, 0.8, 0.01), "");
+  EXPECT_EQ(gap(0.605, 0.795, 0.001), "");  // nearer than the case asks for
+  EXPECT_EQ(gap(0.6, 0.78, 0.03), "");      // the next one is due at 0.81 s
+  EXPECT_EQ(gap(0.6, 0.68, 0.01),
+            "9 snapshots cover 0.6 to 0.68 s; the case averages 0.6 to 0.8 s");
+  EXPECT_EQ(gap(0.65, 0.8, 0.01),
+            "16 snapshots cover 0.65 to 0.8 s; the case averages 0.6 to 0.8 s");
+  EXPECT_EQ(gap(0.8, 0.8, 1.0), "a single snapshot, of 0.8 s; the case averages 0.6 to 0.8 s");
+  EXPECT_EQ(gap(0.61, 0.8, 0.01, {5, 6, 7}),
+            "no snapshot between 0.65 and 0.69 s; the case averages 0.6 to 0.8 s");
+}
+
 class AssemblyFiles : public testing::Test {
  protected:
   /// Snapshots of the three disks, k of them with forces of that size between the two.
@@ -529,6 +599,7 @@ TEST_F(AssemblyFiles, OneFile_HasTheVirialStress) {
   EXPECT_NEAR(stress->mean[0].value(), 20.0 / 16.0, 1e-14);
   EXPECT_TRUE(results.ensemble.empty());
   EXPECT_EQ(results.averaging.snapshots, 2);
+  expectSays(results.notes.back(), {"2 snapshots cover 1 to 2 s; the case averages 0 to 4 s"});
   EXPECT_EQ(results.engines[0].name, "mine");
 }
 
@@ -555,10 +626,24 @@ TEST_F(AssemblyFiles, SnapshotsOutsideOfTheAveragedTime_AreLeftOut) {
   setup_.average->region.from = 1.5;
   const CompareResults results = averageSnapshots(setup_, {path}, "test");
   EXPECT_EQ(results.averaging.snapshots, 1);
-  expectSays(results.notes.back(), {"1 of 2 snapshots", "left out"});
+  ASSERT_GE(results.notes.size(), 2u);
+  expectSays(results.notes.end()[-2], {"1 of 2 snapshots", "left out"});
+  expectSays(results.notes.back(), {"a single snapshot, of 2 s; the case averages 1.5 to 4 s"});
   setup_.average->region.from = 3.0;
   expectSays(test::refusalOf([&] { averageSnapshots(setup_, {path}, "test"); }),
              {"a.h5", "none of its snapshots"});
+}
+
+TEST_F(AssemblyFiles, SameFileTwice_IsRefused) {
+  const auto path = write("a.h5", 10.0);
+  const auto refused = [&](const std::filesystem::path& other) {
+    return test::refusalOf([&] { averageSnapshots(setup_, {path, other}, "test"); });
+  };
+  EXPECT_EQ(refused(path), path.string() + ": the file is named twice");
+  const auto link = folder_.path() / "b.h5";
+  std::filesystem::create_symlink(path, link);
+  EXPECT_EQ(refused(link), path.string() + " and " + link.string() + " are the same file");
+  expectSays(refused(folder_.path() / "." / "a.h5"), {"are the same file"});
 }
 
 TEST_F(AssemblyFiles, OtherScene_IsRefused) {

@@ -152,6 +152,8 @@ class ResultFiles(SystemTest):
                 done = self.import_files(*(f"--set=engines.my-lammps.{each}" for each in settings_))
                 self.assert_one_error(done, BAD_INPUT, *words)
                 self.assertEqual([], list(self.folder.glob("mine*")))
+        misspelt = self.import_files(name="my-lamps")
+        self.assert_one_error(misspelt, BAD_INPUT, "in [engines.my-lamps], which the case does not have: it has settings of my-lammps, my-yade")
 
     def test_faulty_files_are_refused(self):
         def one_more(text):
@@ -167,7 +169,7 @@ class ResultFiles(SystemTest):
         self.assert_one_error(self.import_files(files=self.copies(one_more)), BAD_INPUT, "listed twice with different forces")
         self.assert_one_error(self.run_program("import", "mine", *self.FILES, self.CASE, "--out", self.snapshots), BAD_INPUT, "there is no format 'mine'")
         self.snapshots.write_text("mine", encoding="utf-8")
-        self.assert_one_error(self.import_files(), BAD_INPUT, "mine.h5: is there, and is no file of snapshots")
+        self.assert_one_error(self.import_files(), BAD_INPUT, "mine.h5: this file exists and holds no snapshots")
 
     def test_what_is_missing_on_the_command_line_is_named(self):
         atoms, pairs = self.FILES
@@ -176,7 +178,7 @@ class ResultFiles(SystemTest):
             (["lammps", pairs, *rest], ["box-pairs.dump: contacts alone: the file of the particles is missing"]),
             (["lammps", atoms, pairs, *rest[1:]], ["the case, a TOML file, is missing behind the files", "box-pairs.dump is a result file (lammps)"]),
             (["lammps", atoms, *rest[1:]], ["the case, a TOML file, is missing behind the files"]),
-            (["csv", atoms, pairs, *rest], ["box-atoms.dump: is of format lammps, not csv: crossgrain import lammps"]),
+            (["csv", atoms, pairs, *rest], ["box-atoms.dump: the file is of format lammps, not csv: crossgrain import lammps"]),
             ([atoms, pairs, *rest], ["FORMAT is missing", "crossgrain import lammps FILES"]),
         ):
             with self.subTest(arguments):

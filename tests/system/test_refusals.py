@@ -135,7 +135,7 @@ VALUES = {
     f"plan {CELL} --engines all --slurm out": "one by one",
     "diff none.h5 --engines grain": "none.h5: no such file",
     "diff text.h5 --engines grain": "`crossgrain baseline CASE --out FILE` makes one",
-    f"baseline {CELL} --engines grain --out text.h5": "is there already, and a baseline is not replaced",
+    f"baseline {CELL} --engines grain --out text.h5": "this file exists, and a baseline is not replaced",
     f"record {PAIR} --engines grain --out text.h5": "is not replaced",
 }
 CALIBRATION = {

@@ -175,7 +175,7 @@ class Baseline(StudyTest):
 
     def test_engine_that_refuses_the_case_is_left_out(self):
         done = self.keep("grain,box2d-impulse", "--starts=1", '--set=run.may_differ=["rounding"]')
-        self.assertRegex(done.stdout, r"(?m)before.baseline: kept of grain \S+$")
+        self.assertRegex(done.stdout, r"(?m)before.baseline: baseline of grain \S+$")
         self.assertRegex(done.error_lines()[0], "^crossgrain: box2d-impulse cannot run ")
 
     def test_averages_are_compared_where_they_were_kept(self):
