@@ -17,6 +17,8 @@
 #include "adapters/registry.hpp"
 #include "cases/engine_file.hpp"
 #include "cli/command.hpp"
+#include "cli/outcome.hpp"
+#include "studies/core/engine_access.hpp"
 #include "studies/core/run_store.hpp"
 #include "studies/core/study_cases.hpp"
 #include "support/bad_input.hpp"
@@ -232,7 +234,7 @@ void flushOutput() {
 /// Every way to end, as one line on standard error and the status that goes with it.
 int runAndExplain(int argc, char** argv) {
   const auto explain = [](const std::exception& error, int status) {
-    fmt::print(stderr, "crossgrain: {}\n", BadInput(error.what()).what());  // in one line
+    printFailure(BadInput(error.what()).what());  // in one line
     return status;
   };
   try {
@@ -243,6 +245,9 @@ int runAndExplain(int argc, char** argv) {
     return explain(error, exitInterrupted);
   } catch (const BadInput& error) {
     return explain(error, exitBadInput);
+  } catch (const AllRefused& error) {
+    for (const std::string& line : error.lines) explain(BadInput(line), exitBadInput);
+    return exitBadInput;
   } catch (const UnsupportedScene& error) {
     return explain(error, exitBadInput);
   } catch (const EngineFailure& error) {

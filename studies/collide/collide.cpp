@@ -169,16 +169,16 @@ EngineRow rowOf(const EngineEntry& entry, const std::vector<Case>& variants,
 }
 
 /// Engines that were named and can run no variant at all were asked for in vain, all of them.
-/// @throws UnsupportedScene
+/// @throws AllRefused
 void requireAnyRun(const VersionedEngines& engines, const std::vector<EngineRow>& rows,
                    const std::vector<std::string>& named) {
-  std::string refusal;
+  std::vector<std::string> refusals;
   for (std::size_t e = 0; e < rows.size(); ++e) {
     if (!isNamed(named, engines[e].first)) continue;
     if (rows[e].status != Status::refused) return;
-    if (refusal.empty()) refusal = rows[e].reason;
+    refusals.push_back(rows[e].reason);
   }
-  if (!refusal.empty()) throw UnsupportedScene(refusal);
+  if (!refusals.empty()) throw AllRefused(std::move(refusals));
 }
 
 /// The oracle on a grid fine enough for a smooth line, about 80 points, at the first v_n.

@@ -270,6 +270,10 @@ template <typename Work>
 auto namingRefusals(const EngineEntry& entry, const Case& setup, Work&& work) {
   try {
     return work();
+  } catch (const UnlistedDifferences& refusal) {
+    throw UnlistedDifferences(
+        fmt::format("{} cannot run {}: {}", entry.name, setup.file.string(), refusal.reasons),
+        refusal.names);
   } catch (const UnsupportedScene& refusal) {
     throw UnsupportedScene(
         fmt::format("{} cannot run {}: {}", entry.name, setup.file.string(), refusal.what()));

@@ -22,23 +22,12 @@ namespace crossgrain::inline studies {
 
 namespace {
 
+/// One alone has nothing to be compared with, and is not run where others are refused.
+constexpr std::size_t fewestToCompare = 2;
+
 /// Those whose implementation is in question: not what mirrors are made of, nor mirrors themselves.
 bool hasMirror(const EngineEntry& entry) {
   return entry.mirrors.empty() && !entry.ofFiles() && entry.name != engineRegistry().front().name;
-}
-
-/// What nothing is left to be compared with is not run.
-/// @throws UnsupportedScene of an engine named that cannot run the case, where fewer than two can
-void requireTwo(const Campaign& campaign, const std::vector<std::string>& named) {
-  std::size_t able = 0;
-  std::string refusal;
-  for (std::size_t e = 0; e < campaign.engines().size(); ++e) {
-    const EngineEntry entry = campaign.engines()[e];
-    const bool asked = isNamed(named, entry);
-    able += (asked || entry.mirrors.empty()) && campaign.refusal(e).empty();
-    if (asked && refusal.empty()) refusal = campaign.refusal(e);
-  }
-  if (able < 2 && !refusal.empty()) throw UnsupportedScene(refusal);
 }
 
 }  // namespace
@@ -126,8 +115,7 @@ std::vector<EngineEntry> enginesOf(const Case& setup, const RunCommand& command,
 std::string comparePlan(const StudyWork& work, const CompareOptions& own) {
   const RunCommand command = commandOf(work, own);
   Campaign campaign(work.setup(), command, enginesOf(work.setup(), command, own), work.store);
-  campaign.askEngines();
-  requireTwo(campaign, command.engines);
+  campaign.askEngines(fewestToCompare);
   campaign.lookForPackings();
   return describeDryRun(campaign.planHead(), campaign.plan(campaign.wholeCase()), work.store,
                         command);
@@ -153,8 +141,7 @@ CompareResults compare(const StudyWork& work, const CompareOptions& own) {
   const std::size_t starts = work.line.quick ? quickLockstepStarts : lockstepStarts;
   const double budget = own.budget ? secondsOf(*own.budget) : setup.looks.budget;
   Campaign campaign(setup, command, enginesOf(setup, command, own), work.store);
-  campaign.askEngines();
-  requireTwo(campaign, command.engines);
+  campaign.askEngines(fewestToCompare);
   if (own.reference == noReference) beNeutral(campaign);
   campaign.preparePackings();
   LockstepFindings lockstep;

@@ -248,7 +248,8 @@ TEST(LoadScene, AdviceOfARefusal_WorksWhereItIsFollowed) {
       const std::size_t list = why.find("; list ");
       if (list == std::string::npos) continue;
       ++advised;
-      for (std::size_t from = why.find('"', list); from != std::string::npos;) {
+      const std::size_t end = why.find(" under [run]", list);
+      for (std::size_t from = why.find('"', list); from < end;) {
         const std::size_t to = why.find('"', from + 1);
         setup.run.mayDiffer.push_back(why.substr(from + 1, to - from - 1));
         from = why.find('"', to + 1);
