@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <random>
 #include <set>
@@ -11,6 +12,7 @@
 #include "adapters/law_options.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/couette.hpp"
+#include "cases/engine_file.hpp"
 #include "cases/loader.hpp"
 #include "cases/time_step.hpp"
 #include "studies/core/engine_access.hpp"
@@ -154,6 +156,57 @@ TEST(SettingsFor, UnknownNameTypeRangeOrChoice_Throws) {
   EXPECT_EQ(refused("dt", true), "case.toml: [engines.one] dt must be a number, not true or false");
   EXPECT_NE(refused("mode", std::string("c")).find("cannot be 'c'"), std::string::npos);
   EXPECT_NE(refused("td", 1.0).find("there is no setting 'td'"), std::string::npos);
+}
+
+/// Of every engine installed: what no solver can count to, a value below the least and one above
+/// the most are refused with the range.
+TEST(SettingsFor, EveryEnginesNumbers_AreRefusedBeyondTheirRange) {
+  std::vector<EngineEntry> engines = selectEngines({"all"});
+  for (const auto& file : installedEngineFiles()) engines.push_back(loadEngineFile(file));
+  int asked = 0;
+  for (const EngineEntry& entry : engines) {
+    if (entry.missing && !entry.missing().empty()) continue;
+    const auto can = capabilitiesOf(entry, 60.0);
+    ASSERT_TRUE(can) << entry.name;
+    for (const SettingSpec& spec : can->settings) {
+      if (!std::holds_alternative<double>(spec.defaultValue)) continue;
+      ++asked;
+      const std::string name = entry.name + "." + spec.name;
+      EXPECT_TRUE(!spec.whole || spec.most <= 1e6) << name;
+      const auto refused = [&](double value) {
+        Case setup;
+        setup.engines[entry.name][spec.name] = value;
+        return test::refusalOf([&] { settingsFor(setup, entry.name, *can); });
+      };
+      EXPECT_EQ(refused(std::get<double>(spec.defaultValue)), "") << name;
+      std::vector<double> beyond = {spec.least - 1.0, std::nextafter(spec.least, -1.0)};
+      if (std::isfinite(spec.most)) beyond.push_back(std::nextafter(spec.most, 1e300));
+      if (spec.whole) beyond.push_back(spec.least + 0.5);
+      for (const double value : beyond)
+        EXPECT_NE(refused(value).find(spec.name + " = "), std::string::npos) << name << value;
+    }
+  }
+  EXPECT_GE(asked, 15);
+}
+
+/// Neither a run that would not end nor one in which nothing moves.
+TEST(LoadScene, StepFarFromTheCases_IsBadInput) {
+  const std::string file = CROSSGRAIN_CASES "/collision/hard-sphere.toml";
+  const auto refused = [&](const std::string& setting) {
+    const Case setup = loadCase(file, {"engines.box2d-impulse." + setting}).front();
+    const EngineEntry& entry = *findEngine("box2d-impulse");
+    const auto engine = entry.make();
+    const Scene scene =
+        collisionScene(setup, collisionStarts(setup), collisionTimeSteps(setup).front());
+    return test::refusalOf<std::exception>([&] { loadScene(*engine, entry, setup, scene); });
+  };
+  EXPECT_EQ(refused("dt=1e-3"), "");
+  for (const char* step : {"dt=1e-300", "dt=1e300"})
+    EXPECT_NE(refused(step).find("must be 0, or from 5e-10 to 500 s"), std::string::npos)
+        << refused(step);
+  for (const char* unit : {"length_unit=1e-300", "length_unit=1e300"})
+    EXPECT_NE(refused(unit).find("takes length_unit = 0, or from "), std::string::npos)
+        << refused(unit);
 }
 
 /// What is said first counts: the engine's section, the case's explicit step, the engine's default.

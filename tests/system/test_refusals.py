@@ -115,6 +115,8 @@ VALUES = {
     f"check {CELL} --set=engines.grain.skim=0.1": ("[engines.grain]", "'skim'", "skin"),
     f"check {CELL} --set=engines.grain.skin=wide": ("[engines.grain]", "skin", "a number", "a string"),
     f"check {CELL} --set=engines.lammps.ranks=0": ("[engines.lammps]", "ranks", "must be"),
+    f"check {RIGID} --engines ode --set=engines.ode.relaxation=0.0": "[engines.ode] relaxation = 0 must be from 0.01 to 1.99",
+    f"check {RIGID} --engines bullet --set=engines.bullet.dt=1e-300": "[engines.bullet] dt = 1e-300 s must be 0, or from 5e-10 to 500 s",
     f"check {CELL} --engines grain --set=engines.grain.dt=0.01": "[engines.grain] dt = 0.01 s is beyond",
     f"compare {CELL} {RUN} --set=run.dt=1": "run.dt = 1 s is beyond 0.000572 s",
     f"cost {CASES / 'cost/quick.toml'} {RUN} --set=cost.omega=[2]": "is a key no more",
@@ -322,10 +324,10 @@ class Unsupported(SystemTest):
             "check", CELL, "--engines=yade,lammps", "--no-timing", *cut[1:], f"--set=run.may_differ={listed}"
         )
         self.assert_status(done, HELD)
-        for command in ("collide", "baseline"):
-            done = self.run_program(command, COLLISION, "--engines", "bullet,chipmunk", "--out", command, "--quiet", *cut[:1])
+        for engines, *rest in (("bullet,chipmunk", "collide", COLLISION, *cut[:1]), ("yade,lammps", "baseline", CELL, "--quick", *cut)):
+            done = self.run_program(*rest, "--engines", engines, "--out", rest[0], "--quiet")
             self.assert_status(done, BAD_INPUT)
-            self.assertEqual(["bullet", "chipmunk"], [line.split()[1] for line in done.error_lines()])
+            self.assertEqual(engines.split(","), [line.split()[1] for line in done.error_lines()])
 
     def test_engine_that_cannot_run_is_left_out_and_the_first_that_can_is_the_reference(self):
         allowed = ["damping_velocity", "integrator", "bottom_friction", "bottom_spin_friction", "rounding"]
