@@ -35,7 +35,7 @@ Action declareImport(CLI::App& app, CommandLine& line) {
 }  // namespace
 
 extern const Command importCommand = {
-    "import", "result files of another program as snapshots, to be averaged and compared",
+    "import", "convert result files of another program to snapshots, for average and compare",
     "crossgrain import lammps atoms-1.dump pairs-1.dump examples/import/box.toml --name my-lammps "
     "--out out/lammps-1.h5\n"
     "crossgrain import mercurydpm run.data run.fstat my.toml --set engines.mercurydpm.plane=xz "

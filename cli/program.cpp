@@ -118,11 +118,12 @@ struct Named {
 };
 
 constexpr Named exitStatuses[] = {
-    {"0", "passed; what is undecided is counted in the output"},
+    {"0",
+     "passed; undecided and borderline verdicts and refused engines are counted in the output"},
     {"1",
-     "engines disagree, or something failed or is unstable (an engine failed the law that it "
-     "declares; the scene's only under --strict)"},
-    {"2", "bad input: nothing was run"},
+     "engines disagree, a check failed, a run is unstable, or nothing was judged (one engine alone "
+     "and --quick: only with --strict)"},
+    {"2", "bad input, or no engine named can run the case; nothing was run"},
     {"3", "an engine failed, or the disk is full (outranks 1)"},
     {"130", "interrupted"}};
 

@@ -165,19 +165,18 @@ int makeSite(const CommandLine& line, const ReportOptions& options) {
 }
 
 Action declareReport(CLI::App& app, CommandLine& line) {
-  addInputs(app, line, "folder", "folders that hold a results.json, or a plan of jobs that did", 1,
+  addInputs(app, line, "folder", "folders with a results.json, or with a plan of jobs", 1,
             anyNumber);
   const auto options = std::make_shared<ReportOptions>();
   addText(app, "--out", options->site,
-          "write the reports there, in folders of their own, and an index.html of all: engines × "
-          "reports (default: each in its folder)",
+          "folder for a site: a copy of each report, a page for each engine, and an index.html "
+          "(default: each report is rebuilt in its own folder)",
           "SITE");
   addText(app, "--reasons", options->reasons,
-          "of thesis: reasons found for refuted claims, in place of those that it was given",
-          "FILE");
+          "for thesis: reasons for refuted claims, which replace the earlier ones", "FILE");
   addFlag(app, "--changed-cases", options->changedCases,
-          "of a site: take results of cases of one name that differ; its pages say how");
-  addFlag(app, "--open", options->open, "show them in the browser");
+          "for a site: accept cases of one name that differ; the pages say in what");
+  addFlag(app, "--open", options->open, "open the report or site in the browser");
   return [&line, options] {
     return options->site ? makeSite(line, *options) : rebuildReports(line, *options);
   };
@@ -186,7 +185,7 @@ Action declareReport(CLI::App& app, CommandLine& line) {
 }  // namespace
 
 extern const Command reportCommand = {
-    "report", "rebuild reports from results.json, or make one site of several",
+    "report", "rebuild reports from results.json, or make one site of several reports",
     "crossgrain report out/compare\n"
     "crossgrain report out/compare --open\n"
     "crossgrain report out/compare out/collide --out out/site   # a page for each engine, too\n"

@@ -179,9 +179,9 @@ void addHistory(Report& index, const std::vector<SiteReport>& reports, const std
   if (histories.empty()) return;
   Blocks& blocks = index.section("history", "History").blocks;
   blocks = {
-      Paragraph{"Reports of one command on one case by several versions of crossgrain or of an "
-                "engine, the oldest first. The last column: from the first to the last that "
-                "has the row."}};
+      Paragraph{"The same command and case with several versions of crossgrain or of an engine, "
+                "oldest first. The last column compares the first with the last report that has "
+                "the row."}};
   for (const History& history : histories) {
     blocks.push_back(Heading{history.name});
     for (std::string& sentence : sentencesOf(history)) blocks.push_back(Paragraph{sentence});

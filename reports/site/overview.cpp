@@ -95,7 +95,7 @@ std::vector<std::string> conclusionOf(const Overview& overview, const Names& eng
   std::vector<std::string> sentences;
   if (!clean.empty())
     sentences.push_back(
-        fmt::format("All passed or decided: {}.", listedShortly(clean, 2 * mostPlaces)));
+        fmt::format("Nothing failed or is open: {}.", listedShortly(clean, 2 * mostPlaces)));
   if (const std::string failed = whereWith(overview, engines, {Verdict::fail}); !failed.empty())
     sentences.push_back(fmt::format("Failed: {}.", failed));
   if (const std::string open =
@@ -172,9 +172,9 @@ std::string ownNameOf(const SiteReport& report, const std::vector<SiteReport>& r
 
 Overview siteOverview(const std::vector<SiteReport>& reports) {
   Overview overview;
-  overview.states = {{Verdict::pass, "all that is judged passed"},
-                     {std::nullopt, "took part; nothing is judged by engine"},
-                     {Verdict::notApplicable, "not in it"}};
+  overview.states = {{Verdict::pass, "every judged question passed"},
+                     {std::nullopt, "took part; the report judges no single engine"},
+                     {Verdict::notApplicable, "did not take part"}};
   for (const SiteReport& report : reports)
     overview.columns.push_back(
         {ownNameOf(report, reports), titleOf(report.digest.head), pageOf(report)});
@@ -227,10 +227,9 @@ Overview engineOverview(const std::vector<SiteReport>& reports, const std::strin
   };
   say("Failed", failed);
   say("Borderline or undecided", undecidedOnes);
-  say("Model difference: true to the law that it declares", differs);
+  say("Model difference (it follows the law that it declares)", differs);
   say("Passed", passed);
-  if (overview.conclusion.empty())
-    overview.conclusion.push_back("Nothing is judged of it in these reports.");
+  if (overview.conclusion.empty()) overview.conclusion.push_back("These reports do not judge it.");
   return overview;
 }
 

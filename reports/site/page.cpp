@@ -104,7 +104,7 @@ Table checksOf(const std::vector<JUnitCase>& checks, const std::string& engine, 
     const std::string answer(one.broke ? "engine broke down" : lookOf(one.verdict).words);
     table.rows.push_back({{one.group, name, Cell{answer, {}, one.verdict}, one.message}});
   }
-  if (left > 0) table.note = fmt::format("And {} more in the report.", counted(left, "check"));
+  if (left > 0) table.note = fmt::format("The report has {} more.", counted(left, "check"));
   return table;
 }
 
@@ -164,9 +164,9 @@ void writeEnginePages(const std::vector<SiteReport>& reports, const std::filesys
         links.links.emplace_back(versionedName(other.engine), other.file);
     report.section("about", "About this page").blocks = {
         Paragraph{report.overview.rows.empty()
-                      ? "It took part in these reports, and none has an answer of it."
-                      : "Each cell links to the report that it is of; this page needs the folders "
-                        "beside it."},
+                      ? "It took part in these reports, but none of them judges it."
+                      : "Each cell links to its report; the page needs the reports' folders beside "
+                        "it."},
         std::move(links)};
     addEngineReports(report, page);
     addHistory(report, reports, engine.name);
@@ -255,8 +255,8 @@ void writeIndex(const std::vector<SiteReport>& reports, const std::filesystem::p
   addHistory(index, reports);
   addReports(index, reports);
   index.section("files", "Files").blocks = {Paragraph{
-      "Each report is one file that opens offline; this page needs the folders beside it. "
-      "Columns of the tables: docs/results.md of crossgrain."}};
+      "Each report is one file that opens offline; this page needs the reports' folders beside it. "
+      "docs/results.md of crossgrain describes the columns of the tables."}};
   std::vector<JUnitCase> cases;
   for (const SiteReport& report : reports)
     if (report.digest.head.kind != kindThesis)

@@ -289,8 +289,15 @@ Outcome outcomeOfCollide(const CollideResults& results, const CommandLine&,
     return notJudged(nothingJudged(results));
   // An engine that is true to conventions which the case lets it have does what it says. Whether
   // that is the scene's law, too, is what --strict asks.
-  else if (count.beyondLimits > 0 || (options.strict && count.modelDifference > 0))
-    outcome.status = exitFailed;
+  if (count.beyondLimits > 0)
+    outcome.fails.push_back(
+        fmt::format("{} of {} curves beyond the limits of the law that their engine declares",
+                    count.beyondLimits, count.judged()));
+  if (options.strict && count.modelDifference > 0)
+    outcome.fails.push_back(
+        fmt::format("--strict: {} of {} curves beyond the limits of the scene's law",
+                    count.modelDifference, count.judged()));
+  if (outcome.status == exitPassed && !outcome.fails.empty()) outcome.status = exitFailed;
   return outcome;
 }
 
@@ -344,7 +351,8 @@ const Study<CollideOptions, CollideResults> collideStudy = {
     Keeps::eachCase,
     [](CollideOptions& own, CommandLine&) {
       return std::vector<StudyOption>{
-          {"--strict", "engines must follow the scene's law, not only the one that they declare",
+          {"--strict",
+           "status 1 also for an engine that follows the law it declares, but not the scene's",
            &own.strict}};
     },
     casesToCollide,

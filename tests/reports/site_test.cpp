@@ -64,7 +64,7 @@ TEST(SiteOverview, HasTheMostSevereAnswerOfEachReport) {
                 "Borderline or undecided: ours in compare quick and lockstep quick; each report "
                 "has what would decide."}));
   EXPECT_EQ(siteOverview({reports[2]}).conclusion,
-            std::vector<std::string>{"All passed or decided: ours."});
+            std::vector<std::string>{"Nothing failed or is open: ours."});
 }
 
 TEST(SiteOverview, TellsReportsOfOneNameApart) {
@@ -104,13 +104,12 @@ TEST(EngineOverview, HasTheAnswersOfEachReportWithTheWayToThem) {
       (std::vector<std::string>{
           "Failed: 1 question (collide quick).",
           "Borderline or undecided: 1 question (compare quick).",
-          "Model difference: true to the law that it declares: 1 question (compare quick)."}));
+          "Model difference (it follows the law that it declares): 1 question (compare quick)."}));
   EXPECT_EQ(engineOverview({siteReportOf("collide", pass, pass)}, "ours").conclusion,
             std::vector<std::string>{"Passed: 2 questions (collide quick)."});
   const Overview theirs = engineOverview(reports, "theirs");  // no row is its
   EXPECT_TRUE(theirs.rows.empty());
-  EXPECT_EQ(theirs.conclusion,
-            std::vector<std::string>{"Nothing is judged of it in these reports."});
+  EXPECT_EQ(theirs.conclusion, std::vector<std::string>{"These reports do not judge it."});
 }
 
 SiteReport madeBy(const char* build, const char* started, Verdict state, double margins) {
