@@ -89,6 +89,17 @@ box2d_granular::Model box2dModel(const Scene& scene, double dt, double lengthUni
   model.rotation = effectsOf(scene).contains(Effect::rotation);
   model.dt = dt;
   model.lengthUnit = lengthUnit > 0.0 ? lengthUnit : defaultLengthUnit(scene.disks);
+  // Far from a disk's size its constants, a slop of 0.005 units and no step longer than 2, mean
+  // nothing, and floats leave their range.
+  if (lengthUnit > 0.0 && scene.disks.size() > 0) {
+    const double radius = std::ranges::min(scene.disks.radius);
+    const double least = 1e-3 * radius, most = 1e3 * radius;
+    if (lengthUnit < least || lengthUnit > most)
+      throw UnsupportedScene(
+          fmt::format("takes length_unit = 0, or from {:.3g} to {:.3g} m here (0.001 to 1000 of "
+                      "the smallest radius), not {:g}",
+                      least, most, lengthUnit));
+  }
   return model;
 }
 

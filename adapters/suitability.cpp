@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 
 #include "adapters/law_options.hpp"
 
@@ -75,7 +76,36 @@ bool isPartOfSoftLaw(Effect effect) {
   return effect == Effect::tangentialSpring || effect == Effect::tangentialDamping;
 }
 
+bool isConventionName(const std::string& name) {
+  return std::ranges::find(lawOptions(), name, &LawOption::name) != lawOptions().end() &&
+         isConvention(name);
+}
+
+/// What is to be done about it.
+std::string adviceOn(const std::vector<std::string>& names) {
+  std::vector<std::string> quoted;
+  for (const std::string& name : names) quoted.push_back('"' + name + '"');
+  return fmt::format("list {} under [run] may_differ to run it all the same{}",
+                     fmt::join(quoted, ", "),
+                     std::ranges::count_if(names, isConventionName) < 2
+                         ? ""
+                         : fmt::format(" (\"{}\" lists all conventions)", allConventionsName));
+}
+
 }  // namespace
+
+UnlistedDifferences::UnlistedDifferences(std::string why, std::vector<std::string> unlisted)
+    : UnsupportedScene(why + "; " + adviceOn(unlisted)),
+      reasons(std::move(why)),
+      names(std::move(unlisted)) {}
+
+std::vector<std::string> briefly(const std::vector<std::string>& names) {
+  std::set<std::string> conventions, all;
+  for (const std::string& name : names) (isConventionName(name) ? conventions : all).insert(name);
+  if (conventions.size() > 1) conventions = {allConventionsName};
+  all.merge(conventions);
+  return {all.begin(), all.end()};
+}
 
 bool hasNormalLaw(const Capabilities& can, const ContactLaw& law) {
   return has(can, law, "normal");
@@ -133,18 +163,13 @@ namespace {
 
 /// All that is not listed at once, so that nobody has to ask again and again.
 void refuseUnlisted(const std::vector<Mismatch>& all, const std::vector<std::string>& mayDiffer) {
-  std::vector<std::string> reasons, names, quoted;
+  std::vector<std::string> reasons, names;
   for (const Mismatch& mismatch : all) {
     if (std::ranges::find(mayDiffer, mismatch.name) != mayDiffer.end()) continue;
     reasons.push_back(mismatch.reason);
     names.push_back(mismatch.name);
-    quoted.push_back('"' + mismatch.name + '"');
   }
-  if (!names.empty())
-    throw UnlistedDifferences(fmt::format("{}", fmt::join(reasons, "; ")),
-                              fmt::format("list {} under [run] may_differ to run it all the same",
-                                          fmt::join(quoted, ", ")),
-                              names);
+  if (!names.empty()) throw UnlistedDifferences(fmt::format("{}", fmt::join(reasons, "; ")), names);
 }
 
 }  // namespace

@@ -14,15 +14,18 @@ struct Mismatch {
   bool effectMissing = false;  ///< an effect that the engine cannot simulate at all
 };
 
-/// Refused for mismatches that a case may allow.
+/// Refused for mismatches that a case may allow. What it says ends with how.
 struct UnlistedDifferences : UnsupportedScene {
-  UnlistedDifferences(std::string why, const std::string& advice, std::vector<std::string> unlisted)
-      : UnsupportedScene(why + "; " + advice),
-        reasons(std::move(why)),
-        names(std::move(unlisted)) {}
+  UnlistedDifferences(std::string why, std::vector<std::string> unlisted);
   std::string reasons;             ///< without the advice
   std::vector<std::string> names;  ///< to be listed under [run] may_differ
 };
+
+/// Names for `[run] may_differ`, each once, of several conventions the word for all of them.
+std::vector<std::string> briefly(const std::vector<std::string>& names);
+
+/// In `[run] may_differ`: all conventions of the law.
+inline constexpr const char* allConventionsName = "conventions";
 
 /// In `[run] may_differ`: an engine of rigid contacts that has none runs a scene of e_t0 ≠ 0 with
 /// 0.

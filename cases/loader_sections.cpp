@@ -194,8 +194,6 @@ const Section<InterimSettings>& looksKeys() {
   return section;
 }
 
-constexpr const char* allConventions = "conventions";
-
 /// Everything an engine may do otherwise than the scene says.
 Names deviationNames() {
   Names names;
@@ -203,13 +201,13 @@ Names deviationNames() {
   names.emplace_back("rounding");
   names.emplace_back(tangentialRestitutionName);
   for (const Effect effect : allEffects) names.push_back(toString(effect));
-  names.emplace_back(allConventions);
+  names.emplace_back(allConventionsName);
   return names;
 }
 
 /// Puts their names in place of the word for all conventions.
 void nameConventions(Names& mayDiffer) {
-  if (std::erase(mayDiffer, allConventions) == 0) return;
+  if (std::erase(mayDiffer, allConventionsName) == 0) return;
   for (const LawOption& option : lawOptions())
     if (isConvention(option.name) && std::ranges::find(mayDiffer, option.name) == mayDiffer.end())
       mayDiffer.emplace_back(option.name);

@@ -104,13 +104,13 @@ Action declareDiff(CLI::App& app, CommandLine& line) {
 }  // namespace
 
 extern const Command baselineCommand = {
-    "baseline", "records what engines do, bit by bit, for a later diff",
+    "baseline", "keep what engines do, bit by bit, for diff",
     "crossgrain baseline cases/couette/quick.toml --engines grain,yade --out before.baseline\n"
     "crossgrain baseline cases/collision/figure-4-3.toml --engines grain --out before.baseline",
     declareBaseline};
 
 extern const Command diffCommand = {
-    "diff", "compares what engines do with a baseline",
+    "diff", "compare engines with a baseline: what differs, by how much, and why",
     "crossgrain diff before.baseline --engines yade\n"
     "crossgrain diff before.baseline --engines grain --set law.integrator=velocity_verlet",
     declareDiff};

@@ -272,7 +272,7 @@ Action declareCalibrate(CLI::App& app, CommandLine& line) {
 }  // namespace
 
 extern const Command calibrateCommand = {
-    "calibrate", "law constants from wanted restitution and contact time, and back",
+    "calibrate", "compute law constants from restitution and contact time, and back",
     "crossgrain calibrate --en 0.9 --et 0.5 --tc 1e-3 --mass 1e-3 --radius 5e-3 --mu 0.4\n"
     "crossgrain calibrate --en 0.9 --kn 1e4 --mass 1e-3 --radius 5e-3\n"
     "crossgrain calibrate --kn 352.1 --gn 0.19 --kt 267.1 --gt 0.15 --mu 0.44 --mass 0.275e-3 "

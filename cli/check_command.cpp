@@ -73,7 +73,10 @@ std::string listed(const json& names) {
 void printEngine(const json& row) {
   const std::string name = row["name"];
   if (row["can"] == false) {
-    fmt::print("  {:<16} cannot: {}\n", name, row["reason"].get<std::string>());
+    const std::string reason = row["reason"];  // "yade cannot run FILE: has no …"
+    const std::size_t why =
+        reason.starts_with(name + " cannot run ") ? reason.find(": ") : reason.npos;
+    fmt::print("  {:<16} cannot: {}\n", name, why == reason.npos ? reason : reason.substr(why + 2));
     return;
   }
   fmt::print("  {:<16} can run it{}\n", name,
@@ -109,7 +112,7 @@ void printChecked(const json& checked) {
   if (!checked.contains("prediction")) return;
   const json& prediction = checked["prediction"];
   fmt::print(
-      "  predicted for compare: {}, one after the other, {} of it preparing; steps were timed on "
+      "  predicted time of compare: {} on one core, {} of it for packings; steps were timed on "
       "{}\n",
       lasting(number(prediction, "total_s")), lasting(number(prediction, "preparing_s")),
       prediction["timed_on"].get<std::string>());
@@ -169,17 +172,17 @@ Action declareCheck(CLI::App& app, CommandLine& line) {
   addCase(app, line);
   addEngines(app, line, "all");
   addOverrides(app, line);
-  addFlag(app, "--json", line.json, "all of it as JSON");
+  addFlag(app, "--json", line.json, "print everything as JSON");
   addFlag(app, "--resolved", options->resolved,
-          "print the case with all layers merged, as a case file, and nothing else");
-  addFlag(app, "--no-timing", options->untimed, "time no steps and predict no times");
+          "print only the case, merged with those that it extends, as a case file");
+  addFlag(app, "--no-timing", options->untimed, "do not time steps or predict run times");
   return [&line, options] { return checkCase(line, *options); };
 }
 
 }  // namespace
 
 extern const Command checkCommand = {
-    "check", "who can run a case, what to expect of it, what it will take",
+    "check", "report which engines can run a case, what to expect of it, and how long it takes",
     "crossgrain check cases/couette/quick.toml --engines all\n"
     "  crossgrain check cases/couette/quick.toml --set cell.omega=0.1 --resolved",
     declareCheck};

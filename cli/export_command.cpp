@@ -111,7 +111,7 @@ Action declareExport(CLI::App& app, CommandLine& line) {
 }  // namespace
 
 extern const Command exportCommand = {
-    "export", "snapshots as MercuryDPM, LAMMPS or ON-DEM VTKHDF files",
+    "export", "write snapshots as MercuryDPM, LAMMPS or ON-DEM VTKHDF files",
     "crossgrain export mercurydpm out/compare/snapshots/grain-p0.h5 cases/couette/quick.toml "
     "--out out/grain",
     declareExport};

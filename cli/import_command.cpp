@@ -37,7 +37,7 @@ Action declareImport(CLI::App& app, CommandLine& line) {
 }  // namespace
 
 extern const Command importCommand = {
-    "import", "converts result files of another program to snapshots, and checks them",
+    "import", "convert result files of another program to snapshots, for average and compare",
     "crossgrain import lammps atoms-1.dump pairs-1.dump examples/import/box.toml --name my-lammps "
     "--out out/lammps-1.h5\n"
     "crossgrain import mercurydpm run.data run.fstat my.toml --set engines.mercurydpm.plane=xz "

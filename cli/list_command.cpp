@@ -157,7 +157,8 @@ Action declareList(CLI::App& app, CommandLine& line) {
 }  // namespace
 
 extern const Command listCommand = {
-    "list", "cases, fields of profiles.csv, endpoints, measures of hard cases, keys of case files",
+    "list",
+    "list cases, fields of profiles.csv, endpoints, measures of hard cases or keys of case files",
     "crossgrain list cases\n"
     "crossgrain list keys --json",
     declareList};

@@ -115,12 +115,15 @@ void addEngines(CLI::App& app, CommandLine& line, const char* usual) {
          [](const std::vector<std::string>& engines) {
            for (const std::string& text : engines) addExternalEngine(engineOfCommand(text));
          },
-         "an engine of your own that --engines then may name: its worker, no shell reads it")
+         "an engine of your own, which --engines can then name: the command of its worker, run "
+         "without a "
+         "shell")
       ->type_name("NAME='COMMAND …'")
       ->allow_extra_args(false);
   std::string what =
-      "engines by name or by the TOML file of your own, separated by commas, or all; the first is "
-      "the reference; compare also takes runs that you have, NAME=FILES";
+      "engines, separated by commas: names, engine files (TOML), or all; the first is the "
+      "reference; "
+      "compare also takes result files, NAME=FILES";
   if (usual) what += fmt::format(" (default: {})", usual);
   app.add_option_function<std::vector<std::string>>(
          "--engines",
@@ -138,7 +141,7 @@ void addEngines(CLI::App& app, CommandLine& line, const char* usual) {
 }
 
 void addOverrides(CLI::App& app, CommandLine& line) {
-  addTexts(app, "--set", line.overrides, "key=value: changes the case, e.g. averaging.rings=40",
+  addTexts(app, "--set", line.overrides, "change a key of the case, e.g. averaging.rings=40",
            "KEY=VALUE");
 }
 
@@ -163,19 +166,19 @@ void addFilesAndCase(CLI::App& app, CommandLine& line, const std::string& files,
 
 void addSelection(CLI::App& app, CommandLine& line) {
   addText(app, "-k", line.only,
-          "only cases with this in their name or NAME/VARIANT; with * or ? a pattern of all of it",
+          "only cases whose name or NAME/VARIANT contains this, or matches it where it has * or ?",
           "TEXT");
 }
 
 void addQuiet(CLI::App& app, CommandLine& line) {
-  app.add_flag("--quiet", line.run.quiet, "no progress");
+  app.add_flag("--quiet", line.run.quiet, "print no progress");
 }
 
 void addPackings(CLI::App& app, CommandLine& line) {
   app.add_option("--seed", line.seed, "preparation.seed of the case")
       ->type_name("N")
       ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()));
-  app.add_flag("--quick", line.quick, "a short version, to see that everything works");
+  app.add_flag("--quick", line.quick, "a short run, to see that everything works");
 }
 
 namespace {
@@ -183,14 +186,15 @@ namespace {
 /// Of all commands that leave results.
 void addResults(CLI::App& app, CommandLine& line) {
   addOverrides(app, line);
-  app.add_option("--out", line.run.out,
-                 "folder for results: new, or of the same command and case, which then goes on")
+  app.add_option(
+         "--out", line.run.out,
+         "folder for results: a new one, or one of the same command and case, which is continued")
       ->type_name("FOLDER")
       ->required()
       ->check([](const std::string& out) { return out.empty() ? "is empty" : ""; });
   app.add_flag("--fresh", line.run.fresh,
-               "begin anew; what is in --out is moved to earlier/ there");
-  app.add_flag("--json", line.json, "print the path of results.json only, for scripts");
+               "start anew; earlier results in --out are moved to its folder earlier/");
+  app.add_flag("--json", line.json, "print only the path of results.json, for scripts");
 }
 
 /// Of all commands that run engines. @param usual  engine where none is named; null: they must be
@@ -200,9 +204,9 @@ void addRun(CLI::App& app, CommandLine& line, const char* usual, bool jobs) {
   addResults(app, line);
   addQuiet(app, line);
   app.add_flag("--dry-run", line.run.dryRun,
-               "say what would run, and what is finished; compute and write nothing");
+               "print what would run and what is finished; compute and write nothing");
   app.add_flag_function(
-      "--resume", [](std::int64_t) {}, "load what is finished in --out: what happens anyway");
+      "--resume", [](std::int64_t) {}, "load finished runs from --out (the default)");
   if (!jobs) return;
   constexpr int mostJobs = 4096;
   app.add_option("--jobs", line.run.jobs, "engines side by side (default: one per core)")

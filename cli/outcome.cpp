@@ -1,6 +1,7 @@
 #include "cli/outcome.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -49,6 +50,9 @@ int printOutcome(const CommandLine& line, const Outcome& outcome) {
   if (outcome.nothingJudged)
     fmt::print(line.json ? stderr : stdout, "{}nothing was judged: {}\n",
                line.json ? "crossgrain: " : "", *outcome.nothingJudged);
+  if (outcome.status == exitFailed && !outcome.fails.empty())
+    fmt::print(line.json ? stderr : stdout, "{}status 1: {}\n", line.json ? "crossgrain: " : "",
+               fmt::join(outcome.fails, "; "));
   return outcome.status;
 }
 

@@ -21,8 +21,8 @@ void printOverview(const Overview& overview);
 void printResults(const CommandLine& line, const std::string& text, const Overview& overview,
                   bool timeSpent);
 
-/// Failures on standard error; "nothing was judged: …" on standard output, or on standard error
-/// where that holds a path alone. @returns the status
+/// Failures on standard error; "nothing was judged: …" and "status 1: …", which says what makes it
+/// so, on standard output, or on standard error where that holds a path alone. @returns the status
 int printOutcome(const CommandLine& line, const Outcome& outcome);
 
 }  // namespace crossgrain::inline cli

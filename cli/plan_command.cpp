@@ -110,7 +110,7 @@ Action declarePlan(CLI::App& app, CommandLine& line) {
 }  // namespace
 
 extern const Command planCommand = {
-    "plan", "comparisons of many seeds, settings and engines as an array of jobs",
+    "plan", "write comparisons of many seeds, settings and engines as an array of jobs",
     "crossgrain plan cases/couette/quick.toml --engines grain,yade,lammps --seeds 1,2,3 "
     "--sweep law.mu=0.2 --sweep law.mu=0.4 --slurm jobs\n"
     "jobs/submit --time=1:00:00     # runs them, then merges them into jobs/site",

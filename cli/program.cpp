@@ -17,6 +17,8 @@
 #include "adapters/registry.hpp"
 #include "cases/engine_file.hpp"
 #include "cli/command.hpp"
+#include "cli/outcome.hpp"
+#include "studies/core/engine_access.hpp"
 #include "studies/core/run_store.hpp"
 #include "studies/core/study_cases.hpp"
 #include "support/bad_input.hpp"
@@ -116,11 +118,12 @@ struct Named {
 };
 
 constexpr Named exitStatuses[] = {
-    {"0", "passed; what is undecided is counted in the output"},
+    {"0",
+     "passed; undecided and borderline verdicts and refused engines are counted in the output"},
     {"1",
-     "engines disagree, or something failed or is unstable (an engine failed the law that it "
-     "declares; the scene's only under --strict)"},
-    {"2", "bad input: nothing was run"},
+     "engines disagree, a check failed, a run is unstable, or nothing was judged (one engine alone "
+     "and --quick: only with --strict)"},
+    {"2", "bad input, or no engine named can run the case; nothing was run"},
     {"3", "an engine failed, or the disk is full (outranks 1)"},
     {"130", "interrupted"}};
 
@@ -232,7 +235,7 @@ void flushOutput() {
 /// Every way to end, as one line on standard error and the status that goes with it.
 int runAndExplain(int argc, char** argv) {
   const auto explain = [](const std::exception& error, int status) {
-    fmt::print(stderr, "crossgrain: {}\n", BadInput(error.what()).what());  // in one line
+    printFailure(BadInput(error.what()).what());  // in one line
     return status;
   };
   try {
@@ -243,6 +246,9 @@ int runAndExplain(int argc, char** argv) {
     return explain(error, exitInterrupted);
   } catch (const BadInput& error) {
     return explain(error, exitBadInput);
+  } catch (const AllRefused& error) {
+    for (const std::string& line : error.lines) explain(BadInput(line), exitBadInput);
+    return exitBadInput;
   } catch (const UnsupportedScene& error) {
     return explain(error, exitBadInput);
   } catch (const EngineFailure& error) {

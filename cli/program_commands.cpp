@@ -137,10 +137,11 @@ Action declareServe(CLI::App& app, CommandLine&) {
 
 }  // namespace
 
-extern const Command enginesCommand = {"engines", "engines found, what they can do, their settings",
-                                       "crossgrain engines", declareEngines};
+extern const Command enginesCommand = {
+    "engines", "list the engines found, what they can do, and their settings", "crossgrain engines",
+    declareEngines};
 
-extern const Command helpCommand = {"help", "the help of a command, as with --help",
+extern const Command helpCommand = {"help", "print the help of a command, as --help does",
                                     "crossgrain help compare", declareHelp};
 
 extern const Command serveCommand = {"__serve", "speak the worker protocol on descriptors 3 and 4",

@@ -96,14 +96,14 @@ Action declareReplay(CLI::App& app, CommandLine& line) {
 }  // namespace
 
 extern const Command recordCommand = {
-    "record", "one engine's requests and answers as one file, for replay and bug reports",
+    "record", "write one engine's requests and answers to a file, for replay and bug reports",
     "crossgrain record cases/couette/quick.toml --engines examples/python/engine.toml --out "
     "run.rec\n"
     "crossgrain record cases/hard/pile.toml --engines yade --time 0.5 --looks 50 --out run.rec",
     declareRecord};
 
 extern const Command replayCommand = {
-    "replay", "puts the requests of a recording to an engine: the first different answer",
+    "replay", "send the requests of a recording to an engine; report the first different answer",
     "crossgrain replay run.rec --engines examples/python/engine.toml\n"
     "crossgrain replay run.rec --engines examples/python/engine.toml --tolerance 1e-9 --json",
     declareReplay};

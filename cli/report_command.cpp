@@ -114,21 +114,25 @@ bool addFolders(const fs::path& input, std::vector<fs::path>& folders) {
 }
 
 /// Results made elsewhere are of the same case as those beside them that bear its name, or their
-/// figures would stand in one row without being comparable.
+/// figures would stand in one row without being comparable. Where it may differ, the entry says so.
 /// @throws BadInput naming both folders and what differs
-void requireSameCases(const std::vector<std::pair<fs::path, nlohmann::json>>& results) {
+void compareCases(std::vector<SiteEntry>& entries, bool mayDiffer) {
   std::map<std::string, std::pair<fs::path, CaseKeys>> firsts;
-  for (const auto& [folder, document] : results) {
+  for (SiteEntry& entry : entries) {
     ResultsHead head;
-    understood(folder / "results.json", [&] { readFrom(document, head); });
+    understood(entry.folder / "results.json", [&] { readFrom(entry.results, head); });
     const std::string name = reports::nameOf(head);
     const CaseKeys keys = resultAffectingKeys(head.setup.toml);
-    const auto first = firsts.try_emplace(name, folder, keys).first;
-    if (const auto different = changes(first->second.second, keys); !different.empty())
+    const auto& [folder, before] = firsts.try_emplace(name, entry.folder, keys).first->second;
+    const auto different = changes(before, keys);
+    if (different.empty()) continue;
+    if (!mayDiffer)
       throw BadInput(fmt::format(
           "{} and {} are both {}, and the case is not the same: {}; give it another name, or "
           "--changed-cases to have them side by side",
-          first->second.first.string(), folder.string(), name, describeChanges(different)));
+          folder.string(), entry.folder.string(), name, describeChanges(different)));
+    entry.changedCase =
+        fmt::format("{}, compared with {}", describeChanges(different), folder.string());
   }
 }
 
@@ -146,34 +150,33 @@ int makeSite(const CommandLine& line, const ReportOptions& options) {
     asPlanned &= addFolders(input, folders);
     ofPlan |= fs::exists(input / planFile);
   }
-  std::vector<std::pair<fs::path, nlohmann::json>> results;
+  std::vector<SiteEntry> entries;
   for (const fs::path& folder : folders)
-    results.emplace_back(folder,
-                         concludedAnew(readResults(folder), folder, pathOf(options.reasons)));
-  if (!options.changedCases && !ofPlan) requireSameCases(results);
+    entries.push_back(
+        {folder, concludedAnew(readResults(folder), folder, pathOf(options.reasons))});
+  compareCases(entries, options.changedCases || ofPlan);
   if (options.open) requireBrowser();
   makeDirectory(site);
   const FolderLock lock(site, "report");
-  writeSite(results, site);
+  writeSite(entries, site);
   fmt::print("site: {}\n", (site / "index.html").string());
   if (options.open) openPage(site / "index.html");
   return asPlanned ? exitPassed : exitFailed;
 }
 
 Action declareReport(CLI::App& app, CommandLine& line) {
-  addInputs(app, line, "folder", "folders that hold a results.json, or a plan of jobs that did", 1,
+  addInputs(app, line, "folder", "folders with a results.json, or with a plan of jobs", 1,
             anyNumber);
   const auto options = std::make_shared<ReportOptions>();
   addText(app, "--out", options->site,
-          "write the reports there, in folders of their own, and an index.html of all: engines × "
-          "reports (default: each in its folder)",
+          "folder for a site: a copy of each report, a page for each engine, and an index.html "
+          "(default: each report is rebuilt in its own folder)",
           "SITE");
   addText(app, "--reasons", options->reasons,
-          "of thesis: reasons found for refuted claims, in place of those that it was given",
-          "FILE");
+          "for thesis: reasons for refuted claims, which replace the earlier ones", "FILE");
   addFlag(app, "--changed-cases", options->changedCases,
-          "of a site: take results of cases of one name that differ");
-  addFlag(app, "--open", options->open, "show them in the browser");
+          "for a site: accept cases of one name that differ; the pages say in what");
+  addFlag(app, "--open", options->open, "open the report or site in the browser");
   return [&line, options] {
     return options->site ? makeSite(line, *options) : rebuildReports(line, *options);
   };
@@ -182,7 +185,7 @@ Action declareReport(CLI::App& app, CommandLine& line) {
 }  // namespace
 
 extern const Command reportCommand = {
-    "report", "rebuild reports from results.json, or make one site of several",
+    "report", "rebuild reports from results.json, or make one site of several reports",
     "crossgrain report out/compare\n"
     "crossgrain report out/compare --open\n"
     "crossgrain report out/compare out/collide --out out/site   # a page for each engine, too\n"

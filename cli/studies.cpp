@@ -273,10 +273,11 @@ Action declareConformance(CLI::App& app, CommandLine& line) {
           "folder for results.json, junit.xml and report.html; what is there is written anew",
           "FOLDER");
   addText(app, "-k", line.only, "only checks with this in their name");
-  addText(app, "--budget", options->budget,
-          "try no further check after this time, as 90s or 10m; what was not tried is status 1",
-          "TIME");
-  addFlag(app, "--json", line.json, "print results.json in place of words");
+  addText(
+      app, "--budget", options->budget,
+      "start no further check after this time, e.g. 90s or 10m; checks not started give status 1",
+      "TIME");
+  addFlag(app, "--json", line.json, "print results.json instead of text");
   addQuiet(app, line);
   return [&line, options] { return conformanceOf(line, *options); };
 }
@@ -333,14 +334,14 @@ Action declareIdentify(CLI::App& app, CommandLine& line) {
 }  // namespace
 
 extern const Command compareCommand = {
-    "compare", "run, average, cross-check",
+    "compare", "run a case on several engines, average the results and compare them",
     "crossgrain compare cases/couette/quick.toml --engines grain,yade --out out/compare",
     [](CLI::App& app, CommandLine& line) {
       return declareStudy(app, line, compareStudy, {compareText});
     }};
 
 extern const Command collideCommand = {
-    "collide", "two-particle sweeps against the oracle",
+    "collide", "compare two-particle collisions with a high-precision solution",
     "crossgrain collide cases/collision/figure-4-3.toml --engines grain,yade --out out/collide\n"
     "crossgrain collide cases/collision -k glass --engines grain --out out/glass",
     [](CLI::App& app, CommandLine& line) {
@@ -348,14 +349,14 @@ extern const Command collideCommand = {
     }};
 
 extern const Command effectsCommand = {
-    "effects", "what each effect of a case costs and changes",
+    "effects", "measure what each effect of a case costs and what it changes",
     "crossgrain effects cases/couette/quick.toml --engines grain --out out/effects",
     [](CLI::App& app, CommandLine& line) {
       return declareStudy(app, line, effectsStudy, {effectsText, true});
     }};
 
 extern const Command stabilityCommand = {
-    "stability", "hard cases: what stays stable on which engine, and what does not",
+    "stability", "run hard cases: which engines stay stable, and which do not",
     "crossgrain stability --engines all --out out/stability    # all of cases/hard\n"
     "crossgrain stability -k pile --engines grain --out out/pile\n"
     "crossgrain stability cases/hard/pile.toml --engines grain,yade --out out/piles\n"
@@ -368,14 +369,16 @@ extern const Command stabilityCommand = {
     }};
 
 extern const Command lockstepCommand = {
-    "lockstep", "whether engines are the laws that they declare, step by step from equal states",
+    "lockstep",
+    "check step by step, from equal states, that engines follow the laws that they declare",
     "crossgrain lockstep cases/couette/quick.toml --engines yade,box2d-penalty --out out/lockstep",
     [](CLI::App& app, CommandLine& line) {
       return declareStudy(app, line, lockstepStudy, {lockstepText});
     }};
 
 extern const Command costCommand = {
-    "cost", "error against time, for every engine and every setting that trades one for the other",
+    "cost",
+    "measure error against time, for each engine and each setting that trades one for the other",
     "crossgrain cost cases/cost/quick.toml --engines all --out out/cost --budget 10m\n"
     "crossgrain cost cases/cost/quick.toml --engines all --out out/cost --want 1%",
     [](CLI::App& app, CommandLine& line) {
@@ -383,7 +386,7 @@ extern const Command costCommand = {
     }};
 
 extern const Command scaleCommand = {
-    "scale", "what a step takes as the cell grows and threads or ranks share it",
+    "scale", "measure the time of a step as the cell grows and threads or ranks share it",
     "crossgrain scale --disks 1000,10000,100000 --out out/scale\n"
     "crossgrain scale --disks 100000,200000 --engines grain,lammps --threads 1,2 --out "
     "out/threads\n"
@@ -393,7 +396,7 @@ extern const Command scaleCommand = {
     }};
 
 extern const Command thesisCommand = {
-    "thesis", "the thesis' claims, one by one: reproduced or refuted, per engine, with a number",
+    "thesis", "test the thesis' claims one by one, per engine: reproduced or refuted",
     "crossgrain thesis --quick --out out/claims                       # minutes\n"
     "crossgrain thesis --budget 2h --out out/thesis                   # and again, until all is "
     "run\n"
@@ -414,21 +417,21 @@ extern const Command averageCommand = {
     }};
 
 extern const Command revCommand = {
-    "rev", "every field against ring width, under every weight",
+    "rev", "compute every field for several ring widths and weights",
     "crossgrain rev out/compare/snapshots/grain-p0.h5 cases/couette/quick.toml --out out/rev",
     [](CLI::App& app, CommandLine& line) {
       return declareStudy(app, line, revStudy, {averagedText<RevResults>});
     }};
 
 extern const Command conformanceCommand = {
-    "conformance", "whether one engine does what it declares: suite, lockstep, collisions",
+    "conformance", "check that one engine does what it declares: properties, lockstep, collisions",
     "crossgrain conformance examples/python/engine.toml --out out/conformance\n"
     "crossgrain conformance yade -k Contacts\n"
     "crossgrain conformance yade --budget 10m --out out/law     # on a build server",
     declareConformance};
 
 extern const Command identifyCommand = {
-    "identify", "which conventions and constants an engine really has, found from outside",
+    "identify", "find which conventions and constants an engine uses, without its declaration",
     "crossgrain identify cases/couette/quick.toml --engines yade", declareIdentify};
 
 }  // namespace crossgrain::inline cli

@@ -114,16 +114,17 @@ Report reportOf(const nlohmann::json& results) {
   return withResults(results, [](const auto& typed) { return reportOf(typed); });
 }
 
-void writeSite(const std::vector<std::pair<std::filesystem::path, nlohmann::json>>& results,
-               const std::filesystem::path& site) {
+void writeSite(const std::vector<SiteEntry>& entries, const std::filesystem::path& site) {
   makeDirectory(site);
   std::vector<std::filesystem::path> folders;
-  for (const auto& [folder, document] : results) folders.push_back(folder);
+  for (const SiteEntry& entry : entries) folders.push_back(entry.folder);
   const std::vector<std::string> names = siteFolders(folders);
   std::vector<SiteReport> reports;
-  for (std::size_t k = 0; k < results.size(); ++k) {
-    SiteReport report{
-        names[k], writeReport(results[k].second, site / names[k], results[k].first), {}};
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    SiteReport report{names[k],
+                      writeReport(entries[k].results, site / names[k], entries[k].folder),
+                      {},
+                      entries[k].changedCase};
     for (const auto& entry : std::filesystem::directory_iterator(site / names[k]))
       if (entry.path().extension() == ".csv")
         report.tables.push_back(entry.path().filename().string());

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <utility>
+#include <string>
 #include <vector>
 
 #include "reports/common/report.hpp"
@@ -31,11 +31,16 @@ reports::ReportDigest writeReport(const nlohmann::json& results, const std::file
 /// The report of a document, to be written or looked into.
 reports::Report reportOf(const nlohmann::json& results);
 
+/// Results that a site is made of.
+struct SiteEntry {
+  std::filesystem::path folder;  ///< that they were read from
+  nlohmann::json results;
+  std::string changedCase = {};  ///< how their case differs from another's of that name, if it does
+};
+
 /// Writes the reports of several results into folders of their own below `site`, named after
 /// theirs, and an index of all. @throws as writeReport()
-/// @param results  each with the folder that it was read from
-void writeSite(const std::vector<std::pair<std::filesystem::path, nlohmann::json>>& results,
-               const std::filesystem::path& site);
+void writeSite(const std::vector<SiteEntry>& entries, const std::filesystem::path& site);
 
 /// Reads dir/results.json back, to rebuild its report.
 /// @throws BadInput if there is none, it is not JSON, or its schema is not this version's

@@ -12,7 +12,7 @@ serve(new ImpulseEngine({
   integrator: 'semi_implicit_euler with sequential impulses',
   dt: 1.25e-4,
   settings: [
-    {name: 'contact_hertz', default: 30, unit: '1/s', doc: 'stiffness of what pushes overlaps apart', choices: []},
-    {name: 'contact_damping', default: 10, unit: '-', doc: 'its damping ratio', choices: []},
+    {name: 'contact_hertz', default: 30, unit: '1/s', doc: 'stiffness of what pushes overlaps apart', choices: [], least: 0, most: 1e6},
+    {name: 'contact_damping', default: 10, unit: '-', doc: 'its damping ratio', choices: [], least: 0, most: 1e6},
   ],
 }, Box2dWorld));

@@ -57,8 +57,8 @@ class Engine {
               {{"least", 1e-4}, {"most", 0.9999}}),
           setting("solver", "CG", "CG or Newton", {{"choices", {"CG", "Newton"}}}),
           setting("iterations", 100.0, "most of its solver in a step",
-                  {{"least", 1.0}, {"whole", true}}),
-          setting("tolerance", 1e-14, "of its solver", {{"least", 0.0}})}}};
+                  {{"least", 1.0}, {"most", 1e6}, {"whole", true}}),
+          setting("tolerance", 1e-14, "of its solver", {{"least", 0.0}, {"most", 1.0}})}}};
   }
 
   Json load(const Json& scene, const Arrays& arrays, const Json& settings) {

@@ -29,8 +29,9 @@ int main() {
                       "of QuickStep; 0: dWorldStep, which solves directly, in a time that grows "
                       "with the cube of the contacts"),
               0.0, 1e6, true),
-       within(setting("relaxation", 1.3, "-", "of QuickStep's successive over-relaxation"), 0.0,
-              2.0, false),
+       // It converges between 0 and 2 (Kahan 1958); at 0 no contact would act.
+       within(setting("relaxation", 1.3, "-", "of QuickStep's successive over-relaxation"), 0.01,
+              1.99, false),
        within(setting("erp", 0.2, "-", "share of an overlap that a step pushes apart"), 0.0, 1.0,
               false),
        setting("correcting_speed", 0.0, "m/s",

@@ -36,8 +36,8 @@ class Siconos:
             "tangential_restitution": False,
             "settings": [
                 setting("dt", 5e-4, "s", "time step; 0: the case's"),
-                setting("tolerance", 1e-6, "-", "of the friction-contact problem's residual"),
-                setting("iterations", 200.0, "-", "most of its solver, in a step", least=1.0, whole=True),
+                setting("tolerance", 1e-6, "-", "of the friction-contact problem's residual", least=1e-16, most=1.0),
+                setting("iterations", 200.0, "-", "most of its solver, in a step", least=1.0, most=1e6, whole=True),
             ],
         }
 

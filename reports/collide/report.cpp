@@ -176,7 +176,8 @@ std::vector<JUnitCase> judgedSweep(const CollisionCurve& curve, const std::strin
   if (!curve.declared) return {scene};
   const DeclaredScore& declared = *curve.declared;
   if (scene.verdict == Verdict::fail && isOfTheModel(declared, quantity)) {
-    scene.verdict = Verdict::notMeasured;
+    scene.verdict = Verdict::modelDifference;
+    scene.passes = false;
     scene.message = "model difference: " + scene.message;
   }
   if (declared.reference == DeclaredReference::itself) return {scene};

@@ -132,13 +132,14 @@ struct DigestValue {
 
 /// One thing that was judged, or that could not be.
 struct JUnitCase {
-  std::string group;  ///< case and variant: "classname"
-  std::string name;   ///< engine and what is judged
-  Verdict verdict = Verdict::pass;
-  std::string message = {};  ///< figure, limit and reason; why it is an error or was skipped
-  double seconds = 0.0;      ///< wall time of the run; 0 where others of the same run have it
-  bool broke = false;        ///< the engine did, so that nothing could be judged
-  std::string engine = {};   ///< that was judged
+  std::string group;                ///< case and variant: "classname"
+  std::string name;                 ///< engine and what is judged
+  Verdict verdict = Verdict::pass;  ///< as the matrix has it
+  std::string message = {};         ///< figure, limit and reason; why it is an error or was skipped
+  double seconds = 0.0;     ///< wall time of the run; 0 where others of the same run have it
+  bool broke = false;       ///< the engine did, so that nothing could be judged
+  std::string engine = {};  ///< that was judged
+  std::optional<bool> passes = {};  ///< for build servers, or else is skipped, whatever the verdict
 };
 
 /// What a site keeps of a report.

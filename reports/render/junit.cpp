@@ -45,7 +45,8 @@ std::string xmlText(const std::string& raw) {
 std::string_view tagOf(const JUnitCase& one) {
   if (one.broke) return "error";
   if (one.verdict == Verdict::fail) return "failure";
-  return one.verdict == Verdict::pass || one.verdict == Verdict::modelDifference ? "" : "skipped";
+  const bool passes = one.verdict == Verdict::pass || one.verdict == Verdict::modelDifference;
+  return one.passes.value_or(passes) ? "" : "skipped";
 }
 
 std::string counts(const std::vector<JUnitCase>& cases) {

@@ -66,24 +66,10 @@ bool answerChanged(const HistoryRow& row) {
   return first && first->verdict != last->verdict;
 }
 
-bool caseChanged(const History& history) {
-  return std::ranges::any_of(history.reports, [&](const SiteReport* report) {
-    return report->digest.head.setup.toml != history.reports.front()->digest.head.setup.toml;
-  });
-}
-
 Table historyTable(const History& history) {
   Table table{{{"engine", Column::Kind::engines}, "question"}, {}};
-  const bool ofOne = std::ranges::all_of(history.rows, [&](const HistoryRow& row) {
-    return row.engine == history.rows.front().engine;
-  });
-  for (const SiteReport* report : history.reports) {
-    const ResultsHead& head = report->digest.head;
-    const EngineRow* const own = ofOne ? engineIn(*report, history.rows.front().engine) : nullptr;
-    table.columns.emplace_back(own ? fmt::format("{} {}, by crossgrain {}, {}", own->name,
-                                                 own->version, stampOf(head), head.started)
-                                   : fmt::format("{}, {}", stampOf(head), head.started));
-  }
+  for (const SiteReport* report : history.reports)
+    table.columns.emplace_back(columnNameOf(history, *report));
   table.columns.emplace_back("change");
   for (const HistoryRow& row : history.rows) {
     TableRow line{{row.engine, row.question}};
@@ -105,6 +91,28 @@ Table historyTable(const History& history) {
 
 std::string stampOf(const ResultsHead& head) {
   return head.build.empty() ? head.version : fmt::format("{} ({})", head.version, head.build);
+}
+
+std::vector<std::string> changedEngines(const History& history) {
+  std::vector<std::string> names;
+  for (const SiteReport* report : history.reports)
+    for (const EngineRow& engine : report->digest.engines) {
+      const bool differs = std::ranges::any_of(history.reports, [&](const SiteReport* other) {
+        const EngineRow* const there = engineIn(*other, engine.name);
+        return there && there->version != engine.version;
+      });
+      if (differs && std::ranges::find(names, engine.name) == names.end())
+        names.push_back(engine.name);
+    }
+  return names;
+}
+
+std::string columnNameOf(const History& history, const SiteReport& report) {
+  std::string name = "crossgrain " + stampOf(report.digest.head);
+  for (const std::string& changed : changedEngines(history))
+    if (const EngineRow* const engine = engineIn(report, changed))
+      name += fmt::format(", {} {}", engine->name, engine->version);
+  return fmt::format("{}, {} ({})", name, report.digest.head.started, report.folder);
 }
 
 std::vector<History> historiesOf(const std::vector<SiteReport>& reports) {
@@ -150,8 +158,15 @@ std::vector<std::string> sentencesOf(const History& history) {
                                       : fmt::format("{} changed from the first to the last: {}.",
                                                     counted(changed.size(), "answer"),
                                                     listedShortly(changed, most)));
-  if (caseChanged(history))
-    sentences.push_back("The case is not the same in all of them: a change may be the case's.");
+  std::vector<std::string> changedCases;
+  for (const SiteReport* report : history.reports)
+    if (!report->changedCase.empty())
+      changedCases.push_back(fmt::format("{}: {}", report->folder, report->changedCase));
+  if (!changedCases.empty())
+    sentences.push_back(
+        fmt::format("The case is not the same in all of them ({}): an answer may have changed with "
+                    "the case.",
+                    listedShortly(changedCases, most)));
   return sentences;
 }
 
@@ -164,9 +179,9 @@ void addHistory(Report& index, const std::vector<SiteReport>& reports, const std
   if (histories.empty()) return;
   Blocks& blocks = index.section("history", "History").blocks;
   blocks = {
-      Paragraph{"Reports of one command on one case by several versions of crossgrain or of an "
-                "engine, the oldest first. The last column: from the first to the last that "
-                "has the row."}};
+      Paragraph{"The same command and case with several versions of crossgrain or of an engine, "
+                "oldest first. The last column compares the first with the last report that has "
+                "the row."}};
   for (const History& history : histories) {
     blocks.push_back(Heading{history.name});
     for (std::string& sentence : sentencesOf(history)) blocks.push_back(Paragraph{sentence});

@@ -24,18 +24,21 @@ std::optional<Verdict> mostSevere(const OverviewRow& row) {
   return worst;
 }
 
-/// Questions of a report that came out so for an engine.
-Names questionsWith(const Overview& overview, const OverviewRow& row, Verdict verdict) {
+/// Questions of a report that have one of these answers of an engine.
+Names questionsWith(const Overview& overview, const OverviewRow& row,
+                    std::initializer_list<Verdict> verdicts) {
   Names names;
   for (std::size_t k = 0; k < row.cells.size(); ++k)
-    if (row.cells[k].verdict == verdict) names.push_back(overview.columns[k].name);
+    if (row.cells[k].verdict &&
+        std::ranges::find(verdicts, *row.cells[k].verdict) != verdicts.end())
+      names.push_back(overview.columns[k].name);
   return names;
 }
 
 /// A refuted claim is a finding about the thesis, not about the engine.
 OverviewCell claimsCell(OverviewCell cell, const Overview& overview, const OverviewRow& row) {
-  const std::size_t reproduced = questionsWith(overview, row, Verdict::pass).size(),
-                    refuted = questionsWith(overview, row, Verdict::fail).size();
+  const std::size_t reproduced = questionsWith(overview, row, {Verdict::pass}).size(),
+                    refuted = questionsWith(overview, row, {Verdict::fail}).size();
   cell.value = static_cast<double>(reproduced);
   cell.shown = fmt::format("{} of {} reproduced", reproduced, reproduced + refuted);
   cell.words = "decided claims";
@@ -56,7 +59,7 @@ OverviewCell cellOf(const SiteReport& report, const std::string& engine) {
   if (report.digest.head.kind == kindThesis) return claimsCell(std::move(cell), overview, *row);
   cell.verdict = mostSevere(*row);
   if (!cell.verdict) return cell;
-  const Names names = questionsWith(overview, *row, *cell.verdict);
+  const Names names = questionsWith(overview, *row, {*cell.verdict});
   const auto answered = std::ranges::count_if(
       row->cells, [](const auto& one) { return one.verdict && isJudged(*one.verdict); });
   cell.value = static_cast<double>(names.size());
@@ -67,11 +70,12 @@ OverviewCell cellOf(const SiteReport& report, const std::string& engine) {
   return cell;
 }
 
-/// "ours and theirs in compare quick; …": rows with cells in that state.
-std::string whereWith(const Overview& overview, const Names& engines, Verdict verdict) {
+/// "ours and theirs in compare quick; …": rows with cells in one of these states.
+std::string whereWith(const Overview& overview, const Names& engines,
+                      std::initializer_list<Verdict> verdicts) {
   SaidOf said;
   for (const OverviewRow& row : overview.rows)
-    if (const Names where = questionsWith(overview, row, verdict);
+    if (const Names where = questionsWith(overview, row, verdicts);
         !where.empty() && std::ranges::find(engines, row.name) != engines.end())
       said.add(row.name, listedShortly(where, mostPlaces));
   std::string words;
@@ -91,11 +95,14 @@ std::vector<std::string> conclusionOf(const Overview& overview, const Names& eng
   std::vector<std::string> sentences;
   if (!clean.empty())
     sentences.push_back(
-        fmt::format("All passed or decided: {}.", listedShortly(clean, 2 * mostPlaces)));
-  if (const std::string failed = whereWith(overview, engines, Verdict::fail); !failed.empty())
+        fmt::format("Nothing failed or is open: {}.", listedShortly(clean, 2 * mostPlaces)));
+  if (const std::string failed = whereWith(overview, engines, {Verdict::fail}); !failed.empty())
     sentences.push_back(fmt::format("Failed: {}.", failed));
-  if (const std::string open = whereWith(overview, engines, Verdict::undecided); !open.empty())
-    sentences.push_back(fmt::format("Undecided: {}; each report has what would decide.", open));
+  if (const std::string open =
+          whereWith(overview, engines, {Verdict::borderline, Verdict::undecided});
+      !open.empty())
+    sentences.push_back(
+        fmt::format("Borderline or undecided: {}; each report has what would decide.", open));
   if (sentences.empty()) sentences.push_back("Nothing was judged in these reports.");
   return sentences;
 }
@@ -149,22 +156,25 @@ std::vector<EngineRow> siteEngines(const std::vector<SiteReport>& reports) {
 
 namespace {
 
-/// The report's name; with its folder's, "compare quick (old)", where another has the same.
+/// The report's name; with its folder's, "compare quick (old)", where another has the same, and
+/// that its case is another than theirs.
 std::string ownNameOf(const SiteReport& report, const std::vector<SiteReport>& reports) {
   const std::string name = nameOf(report.digest.head);
   const bool alone = std::ranges::count(reports, name, [](const SiteReport& one) {
                        return nameOf(one.digest.head);
                      }) < 2;
-  return alone ? name : fmt::format("{} ({})", name, report.folder);
+  if (alone) return name;
+  return fmt::format("{} ({}{})", name, report.folder,
+                     report.changedCase.empty() ? "" : ", changed case");
 }
 
 }  // namespace
 
 Overview siteOverview(const std::vector<SiteReport>& reports) {
   Overview overview;
-  overview.states = {{Verdict::pass, "all that is judged passed"},
-                     {std::nullopt, "took part; nothing is judged by engine"},
-                     {Verdict::notApplicable, "not in it"}};
+  overview.states = {{Verdict::pass, "every judged question passed"},
+                     {std::nullopt, "took part; the report judges no single engine"},
+                     {Verdict::notApplicable, "did not take part"}};
   for (const SiteReport& report : reports)
     overview.columns.push_back(
         {ownNameOf(report, reports), titleOf(report.digest.head), pageOf(report)});
@@ -217,10 +227,9 @@ Overview engineOverview(const std::vector<SiteReport>& reports, const std::strin
   };
   say("Failed", failed);
   say("Borderline or undecided", undecidedOnes);
-  say("Model difference: true to the law that it declares", differs);
+  say("Model difference (it follows the law that it declares)", differs);
   say("Passed", passed);
-  if (overview.conclusion.empty())
-    overview.conclusion.push_back("Nothing is judged of it in these reports.");
+  if (overview.conclusion.empty()) overview.conclusion.push_back("These reports do not judge it.");
   return overview;
 }
 

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <functional>
 #include <iterator>
+#include <map>
 
 #include "reports/common/overview.hpp"
 #include "reports/common/sentences.hpp"
@@ -38,12 +39,30 @@ std::string originOf(const ResultsHead& head) {
   return origin;
 }
 
+/// Where it was made, and whether of a changed case.
+void addOrigin(Blocks& blocks, const SiteReport& report) {
+  blocks.push_back(Paragraph{originOf(report.digest.head), Paragraph::Style::small});
+  if (!report.changedCase.empty())
+    blocks.push_back(
+        Paragraph{"Changed case: " + report.changedCase + ".", Paragraph::Style::warning});
+}
+
+/// Results of changed cases that a site shows beside others, one line each.
+std::vector<std::string> changedCaseNotes(const std::vector<SiteReport>& reports) {
+  std::vector<std::string> notes;
+  for (const SiteReport& report : reports)
+    if (!report.changedCase.empty())
+      notes.push_back(fmt::format("Changed case: {} ({}; {}): {}.", nameOf(report.digest.head),
+                                  report.folder, originOf(report.digest.head), report.changedCase));
+  return notes;
+}
+
 void addReports(Report& index, const std::vector<SiteReport>& reports) {
   Blocks& blocks = index.section("reports", "Reports").blocks;
   for (const SiteReport& report : reports) {
     const ResultsHead& head = report.digest.head;
     blocks.push_back(Heading{titleOf(head)});
-    blocks.push_back(Paragraph{originOf(head), Paragraph::Style::small});
+    addOrigin(blocks, report);
     for (const std::string& sentence : report.digest.overview.conclusion)
       blocks.push_back(Paragraph{sentence});
     Links links;
@@ -85,8 +104,28 @@ Table checksOf(const std::vector<JUnitCase>& checks, const std::string& engine, 
     const std::string answer(one.broke ? "engine broke down" : lookOf(one.verdict).words);
     table.rows.push_back({{one.group, name, Cell{answer, {}, one.verdict}, one.message}});
   }
-  if (left > 0) table.note = fmt::format("And {} more in the report.", counted(left, "check"));
+  if (left > 0) table.note = fmt::format("The report has {} more.", counted(left, "check"));
   return table;
+}
+
+/// "3 of 6 checks passed, 2 borderline; the engine broke down in 1."; empty: none is judged.
+std::string describeChecks(const std::vector<JUnitCase>& checks, const std::string& engine) {
+  std::map<Verdict, std::size_t> of;
+  std::size_t judged = 0, broke = 0;
+  for (const JUnitCase& one : checks) {
+    if (one.engine != engine || (!one.broke && !isJudged(one.verdict))) continue;
+    ++judged;
+    ++(one.broke ? broke : of[one.verdict]);
+  }
+  if (judged == 0) return {};
+  std::string words = fmt::format("{} of {} passed", of[Verdict::pass], counted(judged, "check"));
+  for (const auto& [verdict, count] : of)
+    if (verdict != Verdict::pass)
+      words += fmt::format(
+          ", {} {}", count,
+          verdict == Verdict::modelDifference ? "differ by their model" : lookOf(verdict).words);
+  if (broke > 0) words += fmt::format("; the engine broke down in {}", broke);
+  return words + ".";
 }
 
 bool showsNothing(const JUnitCase& one) {
@@ -118,15 +157,16 @@ void writeEnginePages(const std::vector<SiteReport>& reports, const std::filesys
                                       ? ""
                                       : "A mirror: the in-house engine with the conventions of " +
                                             engine.mirrors + "."});
+    std::ranges::move(changedCaseNotes(page.reports), std::back_inserter(report.notes));
     Links links{{{"all engines", "index.html"}}};
     for (const EnginePage& other : pages)
       if (other.engine.name == engine.name && other.file != page.file)
         links.links.emplace_back(versionedName(other.engine), other.file);
     report.section("about", "About this page").blocks = {
         Paragraph{report.overview.rows.empty()
-                      ? "It took part in these reports, and none has an answer of it."
-                      : "Each cell links to the report that it is of; this page needs the folders "
-                        "beside it."},
+                      ? "It took part in these reports, but none of them judges it."
+                      : "Each cell links to its report; the page needs the reports' folders beside "
+                        "it."},
         std::move(links)};
     addEngineReports(report, page);
     addHistory(report, reports, engine.name);
@@ -177,25 +217,22 @@ void addEngineReports(Report& page, const EnginePage& engine) {
   const std::string& name = engine.engine.name;
   for (const SiteReport& report : engine.reports) {
     Blocks& blocks = page.section(report.folder, nameOf(report.digest.head)).blocks;
-    blocks.push_back(Paragraph{originOf(report.digest.head), Paragraph::Style::small});
+    addOrigin(blocks, report);
     if (const EngineRow* const own = engineIn(report, name); own && own->status != Status::finished)
       blocks.push_back(
           Paragraph{std::string(nameOf(own->status, engineStatusNames)) + ": " + own->reason});
     const auto& checks = report.digest.checks.value_or(std::vector<JUnitCase>{});
-    const auto count = [&](auto judged) {
-      return static_cast<std::size_t>(std::ranges::count_if(
-          checks, [&](const JUnitCase& one) { return one.engine == name && judged(one.verdict); }));
-    };
-    if (const std::size_t judged = count(isJudged); judged > 0)
-      blocks.push_back(Paragraph{fmt::format("{} of {} passed.",
-                                             count([](Verdict v) { return v == Verdict::pass; }),
-                                             counted(judged, "check"))});
+    if (std::string words = describeChecks(checks, name); !words.empty())
+      blocks.push_back(Paragraph{std::move(words)});
     for (Table table : {checksOf(checks, name, most, isOpen), valuesOf(report.digest, name)})
       if (!table.rows.empty()) blocks.push_back(std::move(table));
-    if (Table without = checksOf(checks, name, most, showsNothing); !without.rows.empty())
+    if (Table without = checksOf(checks, name, most, showsNothing); !without.rows.empty()) {
+      const auto count = std::ranges::count_if(
+          checks, [&](const JUnitCase& one) { return one.engine == name && showsNothing(one); });
       blocks.push_back(Details{
-          counted(count(std::not_fn(isJudged)), "check") + " not measured or not applicable",
+          counted(static_cast<std::size_t>(count), "check") + " not measured or not applicable",
           {std::move(without)}});
+    }
     blocks.push_back(Links{{{"report", pageOf(report)}}});
   }
 }
@@ -214,11 +251,12 @@ std::vector<std::string> siteFolders(const std::vector<std::filesystem::path>& r
 void writeIndex(const std::vector<SiteReport>& reports, const std::filesystem::path& site) {
   Report index{{{}, siteEngines(reports), siteOverview(reports)}};
   index.head.setup.name = "crossgrain: " + counted(reports.size(), "report");
+  index.notes = changedCaseNotes(reports);
   addHistory(index, reports);
   addReports(index, reports);
   index.section("files", "Files").blocks = {Paragraph{
-      "Each report is one file that opens offline; this page needs the folders beside it. "
-      "Columns of the tables: docs/results.md of crossgrain."}};
+      "Each report is one file that opens offline; this page needs the reports' folders beside it. "
+      "docs/results.md of crossgrain describes the columns of the tables."}};
   std::vector<JUnitCase> cases;
   for (const SiteReport& report : reports)
     if (report.digest.head.kind != kindThesis)

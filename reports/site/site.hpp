@@ -14,6 +14,9 @@ struct SiteReport {
   std::string folder;  ///< in the site's, where its report.html is
   ReportDigest digest;
   std::vector<std::string> tables;  ///< names of its CSV files
+  /// How its case differs from an earlier report's of that name: "law.mu: 0.44 → 0.5, compared with
+  /// out/compare"; empty: it does not
+  std::string changedCase = {};
 };
 
 /// Where it is, from the site's own pages.
@@ -83,6 +86,13 @@ std::vector<History> historiesOf(const std::vector<SiteReport>& reports);
 /// Change from the first that has the row to the last: "passed → failed", "+1.2 %",
 /// "same"; empty where only one has it.
 std::string changeOf(const HistoryRow& row);
+
+/// Names of engines of whom reports of the history have different versions.
+std::vector<std::string> changedEngines(const History& history);
+
+/// "crossgrain 0.3.0 (7902f0e), yade 2023.02a, 2026-11-26T09:46:01Z (compare-2)": what
+/// distinguishes a report of the history from the others, where and when it was made.
+std::string columnNameOf(const History& history, const SiteReport& report);
 
 /// Which answers changed, and whether the case did, at most three sentences.
 std::vector<std::string> sentencesOf(const History& history);

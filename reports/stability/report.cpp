@@ -201,19 +201,15 @@ std::string limitInWords(const StabilityRun& run, const std::string& why) {
   return figure + (figure.empty() || run.reason.empty() ? "" : "; ") + run.reason;
 }
 
-/// A degraded run passes, and its message says so.
-Verdict junitVerdict(const StabilityRun& run) {
-  if (run.status == Status::failed || !isJudged(run.verdict)) return Verdict::notMeasured;
-  return run.verdict == Verdict::fail ? Verdict::fail : Verdict::pass;
-}
-
 std::vector<JUnitCase> stabilityChecks(const StabilityResults& results) {
   std::vector<JUnitCase> cases;
   for (const StabilityRun& run : results.runs) {
     JUnitCase one{
-        junitGroup(run.name, run.variant), run.engine + ": " + run.measure, junitVerdict(run), "",
+        junitGroup(run.name, run.variant), run.engine + ": " + run.measure, run.verdict, "",
         junitSeconds(run.stats),           run.status == Status::failed,    run.engine};
-    if (one.broke || one.verdict == Verdict::notMeasured) {
+    // A degraded run passes, and its message says so.
+    if (run.verdict == Verdict::borderline) one.passes = true;
+    if (one.broke || !isJudged(run.verdict)) {
       one.message = run.reason;
     } else if (run.verdict != Verdict::pass) {
       std::string why;

@@ -169,16 +169,16 @@ EngineRow rowOf(const EngineEntry& entry, const std::vector<Case>& variants,
 }
 
 /// Engines that were named and can run no variant at all were asked for in vain, all of them.
-/// @throws UnsupportedScene
+/// @throws AllRefused
 void requireAnyRun(const VersionedEngines& engines, const std::vector<EngineRow>& rows,
                    const std::vector<std::string>& named) {
-  std::string refusal;
+  std::vector<std::string> refusals;
   for (std::size_t e = 0; e < rows.size(); ++e) {
     if (!isNamed(named, engines[e].first)) continue;
     if (rows[e].status != Status::refused) return;
-    if (refusal.empty()) refusal = rows[e].reason;
+    refusals.push_back(rows[e].reason);
   }
-  if (!refusal.empty()) throw UnsupportedScene(refusal);
+  if (!refusals.empty()) throw AllRefused(std::move(refusals));
 }
 
 /// The oracle on a grid fine enough for a smooth line, about 80 points, at the first v_n.
@@ -289,8 +289,15 @@ Outcome outcomeOfCollide(const CollideResults& results, const CommandLine&,
     return notJudged(nothingJudged(results));
   // An engine that is true to conventions which the case lets it have does what it says. Whether
   // that is the scene's law, too, is what --strict asks.
-  else if (count.beyondLimits > 0 || (options.strict && count.modelDifference > 0))
-    outcome.status = exitFailed;
+  if (count.beyondLimits > 0)
+    outcome.fails.push_back(
+        fmt::format("{} of {} curves beyond the limits of the law that their engine declares",
+                    count.beyondLimits, count.judged()));
+  if (options.strict && count.modelDifference > 0)
+    outcome.fails.push_back(
+        fmt::format("--strict: {} of {} curves beyond the limits of the scene's law",
+                    count.modelDifference, count.judged()));
+  if (outcome.status == exitPassed && !outcome.fails.empty()) outcome.status = exitFailed;
   return outcome;
 }
 
@@ -344,7 +351,8 @@ const Study<CollideOptions, CollideResults> collideStudy = {
     Keeps::eachCase,
     [](CollideOptions& own, CommandLine&) {
       return std::vector<StudyOption>{
-          {"--strict", "engines must follow the scene's law, not only the one that they declare",
+          {"--strict",
+           "status 1 also for an engine that follows the law it declares, but not the scene's",
            &own.strict}};
     },
     casesToCollide,

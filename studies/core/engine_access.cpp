@@ -220,6 +220,11 @@ Settings withStep(Settings settings, const Case& setup, const Capabilities& can)
   return settings;
 }
 
+const double* stepIn(const Settings& settings) {
+  const auto found = settings.find("dt");
+  return found == settings.end() ? nullptr : std::get_if<double>(&found->second);
+}
+
 bool isWithin(const SettingSpec& spec, double number) {
   return std::isfinite(number) && spec.least <= number && number <= spec.most &&
          (!spec.whole || number == std::floor(number));
@@ -270,6 +275,10 @@ template <typename Work>
 auto namingRefusals(const EngineEntry& entry, const Case& setup, Work&& work) {
   try {
     return work();
+  } catch (const UnlistedDifferences& refusal) {
+    throw UnlistedDifferences(
+        fmt::format("{} cannot run {}: {}", entry.name, setup.file.string(), refusal.reasons),
+        refusal.names);
   } catch (const UnsupportedScene& refusal) {
     throw UnsupportedScene(
         fmt::format("{} cannot run {}: {}", entry.name, setup.file.string(), refusal.what()));
@@ -279,15 +288,14 @@ auto namingRefusals(const EngineEntry& entry, const Case& setup, Work&& work) {
 /// An engine's own time step, if it runs soft laws with it. @param scene  as it runs it
 void checkOwnStep(const Capabilities& can, const EngineEntry& entry, const Case& setup,
                   const Scene& scene, const Settings& settings) {
-  const auto step = settings.find("dt");
-  if (step == settings.end() || !std::holds_alternative<double>(step->second)) return;
+  const double* const step = stepIn(settings);
+  if (!step) return;
   const auto normal = can.lawOptions.find("normal");
   if (normal != can.lawOptions.end() && normal->second == std::vector<std::string>{"rigid"}) return;
   Case own = setup;
   own.law = scene.law;
   own.materials = scene.materials;
-  const std::string why = unstableStepFault(own, std::get<double>(step->second),
-                                            fmt::format("[engines.{}] dt", entry.name));
+  const std::string why = unstableStepFault(own, *step, fmt::format("[engines.{}] dt", entry.name));
   if (!why.empty())
     throw BadInput(
         fmt::format("{}: {}", whereSaid(setup, fmt::format("engines.{}.dt", entry.name)), why));
@@ -349,11 +357,27 @@ Adapted sceneFor(const Capabilities& can, const EngineEntry& entry, const Case& 
 
 namespace {
 
+/// Shorter, no run would end; longer, no engine would move.
+/// @throws BadInput for an engine's own step that is far from the scene's
+void checkSizeOfStep(const EngineEntry& entry, const Case& setup, const Scene& scene,
+                     const Settings& settings) {
+  constexpr double most = 1e6;
+  const double* const step = stepIn(settings);
+  if (!step || *step == 0.0 || (*step >= scene.dt / most && *step <= scene.dt * most)) return;
+  throw BadInput(fmt::format(
+      "{}: [engines.{}] dt = {:g} s must be 0, or from {:.3g} to {:.3g} s (10^-6 to 10^6 times the "
+      "case's step)",
+      whereSaid(setup, fmt::format("engines.{}.dt", entry.name)), entry.name, *step,
+      scene.dt / most, scene.dt * most));
+}
+
 EffectiveParameters loadAdapted(Engine& engine, const EngineEntry& entry, const Case& setup,
                                 const Scene& scene) {
   const Capabilities can = engine.capabilities();
   const Adapted adapted = sceneWithAdvice(engine, entry, setup, scene);
-  EffectiveParameters effective = engine.load(adapted.scene, settingsFor(setup, entry.name, can));
+  const Settings settings = settingsFor(setup, entry.name, can);
+  checkSizeOfStep(entry, setup, adapted.scene, settings);
+  EffectiveParameters effective = engine.load(adapted.scene, settings);
   effective.engine = entry.name;
   effective.version = can.version;
   effective.deviations.insert(effective.deviations.begin(), adapted.deviations.begin(),
@@ -387,15 +411,6 @@ LoadedEngine loadEngine(const EngineEntry& entry, const Case& setup, const Scene
   loaded.effective = loadScene(*loaded.engine, entry, setup, scene);
   return loaded;
 }
-
-namespace {
-
-const double* stepIn(const Settings& settings) {
-  const auto found = settings.find("dt");
-  return found == settings.end() ? nullptr : std::get_if<double>(&found->second);
-}
-
-}  // namespace
 
 std::optional<double> stepOfItsOwn(const Case& setup, const std::string& engine,
                                    const Capabilities& can) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <memory>
@@ -17,6 +18,13 @@
 #include "studies/core/executor.hpp"
 
 namespace crossgrain::inline studies {
+
+/// None of the engines that a command is for can do it: why, a line for each.
+struct AllRefused : UnsupportedScene {
+  explicit AllRefused(std::vector<std::string> why)
+      : UnsupportedScene(fmt::format("{}", fmt::join(why, "; "))), lines(std::move(why)) {}
+  std::vector<std::string> lines;
+};
 
 /// Engines by the names given on the command line, in that order; "all" is every installed engine
 /// that is not a mirror.

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "adapters/law_options.hpp"
 #include "adapters/suitability.hpp"
@@ -47,6 +49,43 @@ std::optional<std::vector<std::string>> valuesOfAll(const std::vector<Capabiliti
   return shared;
 }
 
+using Lacks = std::set<std::pair<std::size_t, std::string>>;
+
+/// What engines lack of a law that the case does not let differ, by engine.
+Lacks lacksOf(const std::vector<Capabilities>& all, const Case& setup, const ContactLaw& law) {
+  Scene scene;
+  scene.law = law;
+  Lacks lacks;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    for (const Mismatch& mismatch : mismatches(all[k], scene))
+      if (std::ranges::find(setup.run.mayDiffer, mismatch.name) == setup.run.mayDiffer.end())
+        lacks.emplace(k, mismatch.name);
+  return lacks;
+}
+
+/// The law with the open conventions shared; absent: an engine then lacks what it does not lack of
+/// the case's own law. What one convention is decides whether another matters, so that each value
+/// is tried with all that follows from it.
+std::optional<ContactLaw> sharedLaw(const Case& setup, const std::vector<Capabilities>& soft,
+                                    ContactLaw law, std::vector<std::string> open) {
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    const std::string option = open[k];
+    if (!mattersTo(law, option)) continue;
+    const auto values = valuesOfAll(soft, option);
+    if (!values || std::ranges::find(*values, lawOptionValue(law, option)) != values->end())
+      continue;
+    open.erase(open.begin() + static_cast<std::ptrdiff_t>(k));
+    for (const std::string& value : *values) {
+      ContactLaw changed = law;
+      setLawOption(changed, option, value);
+      if (auto shared = sharedLaw(setup, soft, changed, open)) return shared;
+    }
+    return sharedLaw(setup, soft, law, std::move(open));
+  }
+  const Lacks before = lacksOf(soft, setup, setup.law), now = lacksOf(soft, setup, law);
+  return std::ranges::includes(before, now) ? std::optional(law) : std::nullopt;
+}
+
 }  // namespace
 
 std::vector<std::string> sharedConventions(const Case& setup,
@@ -55,22 +94,12 @@ std::vector<std::string> sharedConventions(const Case& setup,
   for (const Capabilities& can : all)
     if (hasNormalLaw(can, setup.law)) soft.push_back(can);
   const std::vector<std::string> open = openConventions(setup);
-  ContactLaw law = setup.law;
+  const ContactLaw law = sharedLaw(setup, soft, setup.law, open).value_or(setup.law);
   std::vector<std::string> overrides;
-  // What one convention is decides whether another matters: again until nothing changes.
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const std::string& option : open) {
-      if (!mattersTo(law, option)) continue;
-      const auto values = valuesOfAll(soft, option);
-      if (!values || values->empty() ||
-          std::ranges::find(*values, lawOptionValue(law, option)) != values->end())
-        continue;
-      setLawOption(law, option, values->front());
-      overrides.push_back(fmt::format("law.{}=\"{}\"", option, values->front()));
-      changed = true;
-    }
-  }
+  for (const std::string& option : open)
+    if (const std::string value = lawOptionValue(law, option);
+        value != lawOptionValue(setup.law, option))
+      overrides.push_back(fmt::format("law.{}=\"{}\"", option, value));
   return overrides;
 }
 

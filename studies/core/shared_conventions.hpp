@@ -11,7 +11,9 @@ namespace crossgrain::inline studies {
 /// The conventions in which engines would differ from the defaults that the case leaves, and which
 /// all of them can share: those that the case neither gives nor lists in `may_differ`, of which an
 /// engine lacks the default, and of which all have one value, the first of the first engine's.
-/// Engines without the case's normal law have no say: they refuse it or convert it.
+/// Engines without the case's normal law have no say: they refuse it or convert it. A value of
+/// which an engine would lack something else, a lever arm that makes `plane_arm` matter, is not
+/// taken: who can run the case as it is can run it with what is shared.
 /// @returns overrides, "law.tension=\"cut\"", in the order of lawOptions(); none where nothing has
 /// to be changed, or where engines share no value, which they then refuse in their own words
 std::vector<std::string> sharedConventions(const Case& setup, const std::vector<Capabilities>& all);

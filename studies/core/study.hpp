@@ -69,6 +69,7 @@ struct Outcome {
   ExitStatus status = exitPassed;
   std::vector<std::string> failures = {};         ///< runs that failed, engines that refused
   std::optional<std::string> nothingJudged = {};  ///< why; absent: something was
+  std::vector<std::string> fails = {};            ///< what a status 1 follows from, a clause each
 };
 
 /// The cases of a study and where it keeps what is finished.

@@ -324,7 +324,8 @@ const Study<CostOptions, CostResults> costStudy = {
     Keeps::oneCase,
     [](CostOptions& own, CommandLine&) {
       return std::vector<StudyOption>{
-          {"--budget", "time that all may take, e.g. 90s, 10m, 1h (default: 12m)", &own.budget},
+          {"--budget", "the longest that the command may take, e.g. 90s, 10m, 1h (default: 12m)",
+           &own.budget},
           {"--want", "accuracy, e.g. 1% or 1e-3: prints the cheapest setting of each engine",
            &own.target}};
     },

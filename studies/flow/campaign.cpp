@@ -60,7 +60,28 @@ Campaign::Campaign(const Case& setup, const RunCommand& command, std::vector<Eng
   for (EngineEntry& entry : engines) engines_.push_back({std::move(entry)});
 }
 
-void Campaign::forEachEngine(const std::function<void(CampaignEngine&)>& work) {
+void Campaign::requireAble(std::size_t fewest) const {
+  std::size_t able = 0;
+  std::vector<std::string> refusals, lacks;
+  bool mayDiffer = true;
+  for (const CampaignEngine& own : engines_) {
+    if (!own.entry.mirrors.empty() && !isNamed(command_.engines, own.entry)) continue;
+    able += own.refusal.empty() ? 1 : 0;
+    if (own.refusal.empty()) continue;
+    refusals.push_back(own.refusal);
+    mayDiffer &= !own.lacks.empty();
+    lacks.insert(lacks.end(), own.lacks.begin(), own.lacks.end());
+  }
+  if (able >= fewest || refusals.empty()) return;
+  if (mayDiffer && refusals.size() > 1) {
+    lacks.insert(lacks.end(), setup_.run.mayDiffer.begin(), setup_.run.mayDiffer.end());
+    refusals.push_back(fmt::format("all of them run it with [run] may_differ = [\"{}\"]",
+                                   fmt::join(briefly(lacks), "\", \"")));
+  }
+  throw AllRefused(std::move(refusals));
+}
+
+void Campaign::forEachEngine(const std::function<void(CampaignEngine&)>& work, std::size_t fewest) {
   struct Ending {
     std::exception_ptr thrown;  ///< what the user is to resolve
     std::string failure;        ///< of it, or of an engine named that refuses
@@ -76,6 +97,9 @@ void Campaign::forEachEngine(const std::function<void(CampaignEngine&)>& work) {
                          work(own);
                        } catch (const UnsupportedScene& refusal) {
                          own.refusal = refusal.what();
+                         if (const auto* const some =
+                                 dynamic_cast<const UnlistedDifferences*>(&refusal))
+                           own.lacks = some->names;
                          if (isNamed(command_.engines, own.entry)) endings[e].failure = own.refusal;
                        } catch (const EngineFailure& failure) {
                          endings[e].failure = failure.what();  // its runs will tell, one by one
@@ -86,40 +110,35 @@ void Campaign::forEachEngine(const std::function<void(CampaignEngine&)>& work) {
   runTasks(tasks, command_.jobs);
   for (const Ending& ending : endings)
     if (ending.thrown) std::rethrow_exception(ending.thrown);
-  const auto takesPart = [](const CampaignEngine& own) { return own.refusal.empty(); };
-  const auto wanted = [&](const CampaignEngine& own) {
-    return own.entry.mirrors.empty() || isNamed(command_.engines, own.entry);
-  };
-  const auto inVain = std::ranges::find_if(engines_, wanted);
-  if (inVain != engines_.end() && std::ranges::none_of(engines_, [&](const auto& own) {
-        return wanted(own) && takesPart(own);
-      }))
-    throw UnsupportedScene(inVain->refusal);
+  requireAble(fewest);
   for (const Ending& ending : endings)
     if (!ending.failure.empty()) progress_.say(ending.failure);
-  std::ranges::stable_partition(engines_, takesPart);
+  std::ranges::stable_partition(engines_,
+                                [](const CampaignEngine& own) { return own.refusal.empty(); });
 }
 
-void Campaign::askEngines() {
+void Campaign::askEngines(std::size_t fewest) {
   const Scene scene = unplacedScene(setup_, dt_);
   const bool enginesRun = runsEngines();
-  forEachEngine([&](CampaignEngine& own) {
-    if (own.entry.ofFiles()) {
-      own.version = "files" + (own.entry.format.empty() ? "" : ", " + own.entry.format);
-      own.first = openSnapshots(runOf(own.entry, 0), setup_, own.entry.name);
-      own.disks = own.first->scene().disks;
-      // What is wrong with a file is said before engines run for hours.
-      for (std::size_t run = 1; enginesRun && run < own.entry.files.size(); ++run)
-        openSnapshots(runOf(own.entry, run), setup_, own.entry.name);
-      return;
-    }
-    const auto engine =
-        startEngine(own.entry, store_.scratch("ask-" + own.entry.name), setup_.run.timeout);
-    const Capabilities can = engine->capabilities();
-    own.version = can.version;
-    checkSuitable(*engine, own.entry, setup_, scene);
-    if (command_.dryRun) own.can = can;
-  });
+  forEachEngine(
+      [&](CampaignEngine& own) {
+        if (own.entry.ofFiles()) {
+          own.version = "files" + (own.entry.format.empty() ? "" : ", " + own.entry.format);
+          own.first = openSnapshots(runOf(own.entry, 0), setup_, own.entry.name);
+          own.disks = own.first->scene().disks;
+          // What is wrong with a file is said before engines run for hours.
+          for (std::size_t run = 1; enginesRun && run < own.entry.files.size(); ++run)
+            openSnapshots(runOf(own.entry, run), setup_, own.entry.name);
+          return;
+        }
+        const auto engine =
+            startEngine(own.entry, store_.scratch("ask-" + own.entry.name), setup_.run.timeout);
+        const Capabilities can = engine->capabilities();
+        own.version = can.version;
+        checkSuitable(*engine, own.entry, setup_, scene);
+        if (command_.dryRun) own.can = can;
+      },
+      fewest);
 }
 
 bool Campaign::hasFiles() const {

@@ -25,6 +25,7 @@ struct CampaignEngine {
   EngineEntry entry;
   std::string version = {};              ///< empty: it did not answer
   std::string refusal = {};              ///< why it does not take part, empty if it does
+  std::vector<std::string> lacks = {};   ///< what may_differ could allow it, if that is all
   std::optional<Capabilities> can = {};  ///< what timeEngines() found; absent where it failed
   std::optional<EffectiveParameters> effective = {};  ///< likewise
   double predicted = 1.0;                             ///< seconds of one run
@@ -69,8 +70,9 @@ class Campaign {
 
   /// Asks every engine, before anything is computed, whether it can run the case. One that cannot
   /// is refused for itself; the first that can is the first of engines() and so the reference.
-  /// @throws UnsupportedScene where none of those that are no mirrors can, or none of those named
-  void askEngines();
+  /// @throws AllRefused where fewer than `fewest` can of those that are no mirrors or are named,
+  /// and any is refused: why, and what would let all of them run
+  void askEngines(std::size_t fewest = 1);
   /// With the first of them, the campaign begins: its folder is its own. @throws BadInput
   void preparePackings() { preparePackings(packingCount()); }
   /// As many as are missing to that number of them.
@@ -137,9 +139,11 @@ class Campaign {
 
  private:
   /// Asks engines that have not refused, side by side, each for itself; refusals and failures are
-  /// reported in the order of engines. @throws UnsupportedScene as askEngines(), BadInput; the
+  /// reported in the order of engines. @throws AllRefused as askEngines(); BadInput, the
   /// first engine's
-  void forEachEngine(const std::function<void(CampaignEngine&)>& work);
+  void forEachEngine(const std::function<void(CampaignEngine&)>& work, std::size_t fewest = 1);
+  /// @throws AllRefused likewise
+  void requireAble(std::size_t fewest) const;
   std::vector<CachedTask<FlowRun>> tasksOf(const PlannedRuns& list) const;
   FlowRun runOfFiles(const CampaignEngine& own, int run,
                      const std::function<void(double)>& progress) const;

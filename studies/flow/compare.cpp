@@ -22,23 +22,12 @@ namespace crossgrain::inline studies {
 
 namespace {
 
+/// One alone has nothing to be compared with, and is not run where others are refused.
+constexpr std::size_t fewestToCompare = 2;
+
 /// Those whose implementation is in question: not what mirrors are made of, nor mirrors themselves.
 bool hasMirror(const EngineEntry& entry) {
   return entry.mirrors.empty() && !entry.ofFiles() && entry.name != engineRegistry().front().name;
-}
-
-/// What nothing is left to be compared with is not run.
-/// @throws UnsupportedScene of an engine named that cannot run the case, where fewer than two can
-void requireTwo(const Campaign& campaign, const std::vector<std::string>& named) {
-  std::size_t able = 0;
-  std::string refusal;
-  for (std::size_t e = 0; e < campaign.engines().size(); ++e) {
-    const EngineEntry entry = campaign.engines()[e];
-    const bool asked = isNamed(named, entry);
-    able += (asked || entry.mirrors.empty()) && campaign.refusal(e).empty();
-    if (asked && refusal.empty()) refusal = campaign.refusal(e);
-  }
-  if (able < 2 && !refusal.empty()) throw UnsupportedScene(refusal);
 }
 
 }  // namespace
@@ -126,8 +115,7 @@ std::vector<EngineEntry> enginesOf(const Case& setup, const RunCommand& command,
 std::string comparePlan(const StudyWork& work, const CompareOptions& own) {
   const RunCommand command = commandOf(work, own);
   Campaign campaign(work.setup(), command, enginesOf(work.setup(), command, own), work.store);
-  campaign.askEngines();
-  requireTwo(campaign, command.engines);
+  campaign.askEngines(fewestToCompare);
   campaign.lookForPackings();
   return describeDryRun(campaign.planHead(), campaign.plan(campaign.wholeCase()), work.store,
                         command);
@@ -153,8 +141,7 @@ CompareResults compare(const StudyWork& work, const CompareOptions& own) {
   const std::size_t starts = work.line.quick ? quickLockstepStarts : lockstepStarts;
   const double budget = own.budget ? secondsOf(*own.budget) : setup.looks.budget;
   Campaign campaign(setup, command, enginesOf(setup, command, own), work.store);
-  campaign.askEngines();
-  requireTwo(campaign, command.engines);
+  campaign.askEngines(fewestToCompare);
   if (own.reference == noReference) beNeutral(campaign);
   campaign.preparePackings();
   LockstepFindings lockstep;
@@ -196,20 +183,56 @@ std::vector<Case> caseToCompare(const CommandLine& line, CompareOptions& own) {
   return {setup};
 }
 
+/// "yade and lammps: pressure, spin": endpoints of engines that the user named with that verdict.
+std::vector<std::string> endpointsWith(const CompareResults& results, Verdict verdict) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> of;  // by pair
+  for (const EndpointRow& row : results.endpoints.rows) {
+    const bool expected = row.kind == PairKind::closedForm;
+    if (row.verdict != verdict || (row.kind != PairKind::peer && !expected)) continue;
+    const std::string pair =
+        expected ? row.b + " and the expected value" : fmt::format("{} and {}", row.a, row.b);
+    auto found = std::ranges::find(of, pair, [](const auto& entry) { return entry.first; });
+    if (found == of.end()) found = of.insert(of.end(), {pair, {}});
+    found->second.push_back(row.endpoint);
+  }
+  std::vector<std::string> clauses;
+  for (const auto& [pair, endpoints] : of)
+    clauses.push_back(fmt::format("{}: {}", pair, fmt::join(endpoints, ", ")));
+  return clauses;
+}
+
+/// What makes engines disagree, and with --strict what is left open. Another law than it declares
+/// is a disagreement, whatever averages make of it.
+std::vector<std::string> failsOf(const CompareResults& results, std::size_t refused, bool strict) {
+  std::vector<std::string> fails;
+  const auto add = [&](const char* what, const std::vector<std::string>& who) {
+    if (!who.empty()) fails.push_back(fmt::format("{} ({})", what, fmt::join(who, "; ")));
+  };
+  const auto lockstepWith = [&](Equivalence verdict) {
+    std::vector<std::string> names;
+    if (!results.lockstep) return names;
+    for (const LockstepRow& row : results.lockstep->rows)
+      if (row.verdict == verdict) names.push_back(row.engine);
+    return names;
+  };
+  std::vector<std::string> alarms;
+  for (const AlarmRow& alarm : results.endpoints.alarms)
+    if (alarm.kind == PairKind::peer) alarms.push_back(fmt::format("{} and {}", alarm.a, alarm.b));
+  add("engines disagree", endpointsWith(results, Verdict::fail));
+  add("an alarm: engines differ far beyond a margin", alarms);
+  add("an engine differs from the law that it declares", lockstepWith(Equivalence::differs));
+  if (!strict) return fails;
+  add("--strict: borderline", endpointsWith(results, Verdict::borderline));
+  add("--strict: undecided", endpointsWith(results, Verdict::undecided));
+  add("--strict: absent", endpointsWith(results, Verdict::notMeasured));
+  add("--strict: an engine's law is undecided", lockstepWith(Equivalence::undecided));
+  if (refused > 0) fails.push_back("--strict: an engine was refused");
+  return fails;
+}
+
 /// Only the verdicts on engines that the user named decide.
 Outcome outcomeOfCompare(const CompareResults& results, const CommandLine& line,
                          const CompareOptions& own) {
-  const auto any = [&](Verdict verdict) {
-    return std::ranges::any_of(results.endpoints.rows, [&](const EndpointRow& row) {
-      return row.verdict == verdict &&
-             (row.kind == PairKind::peer || row.kind == PairKind::closedForm);
-    });
-  };
-  const auto anyLockstep = [&](Equivalence verdict) {
-    return results.lockstep &&
-           std::ranges::find(results.lockstep->rows, verdict, &LockstepRow::verdict) !=
-               results.lockstep->rows.end();
-  };
   Outcome outcome;
   if (const auto& nothing = results.nothingJudged)
     outcome = notJudged(nothing->reason, (nothing->byRequest || line.quick) && !own.strict);
@@ -218,16 +241,10 @@ Outcome outcomeOfCompare(const CompareResults& results, const CommandLine& line,
   const bool failed = !outcome.failures.empty();
   const std::vector<std::string> refused = refusals(results.engines, line.run.engines);
   outcome.failures.insert(outcome.failures.end(), refused.begin(), refused.end());
-  // Another law than it declares is a disagreement, whatever averages make of it.
-  const bool disagree =
-      any(Verdict::fail) || anyLockstep(Equivalence::differs) ||
-      std::ranges::count(results.endpoints.alarms, PairKind::peer, &AlarmRow::kind) > 0;
-  const bool open = any(Verdict::undecided) || any(Verdict::borderline) ||
-                    any(Verdict::notMeasured) || !refused.empty() ||
-                    anyLockstep(Equivalence::undecided);
+  outcome.fails = failsOf(results, refused.size(), own.strict);
   if (failed)
     outcome.status = exitEngineFailed;
-  else if (disagree || (own.strict && open))
+  else if (!outcome.fails.empty())
     outcome.status = exitFailed;
   return outcome;
 }
@@ -241,7 +258,7 @@ const Study<CompareOptions, CompareResults> compareStudy = {
     [](CompareOptions& own, CommandLine&) {
       return std::vector<StudyOption>{
           {"--budget",
-           "no interim analysis of more packings begins that would end later, e.g. 90s, 10m, 1h "
+           "start no interim analysis that would end after this time, e.g. 90s, 10m, 1h "
            "(default: looks.budget of the case)",
            &own.budget, "TIME"},
           {"--reference",
@@ -249,8 +266,8 @@ const Study<CompareOptions, CompareResults> compareStudy = {
            "others (default: the first)",
            &own.reference, "NAME"},
           {"--strict",
-           "undecided and borderline verdicts, engines that cannot run the case and nothing judged "
-           "count as failed",
+           "status 1 also for undecided and borderline verdicts, for refused engines and where "
+           "nothing was judged",
            &own.strict}};
     },
     caseToCompare,

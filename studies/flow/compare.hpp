@@ -20,7 +20,7 @@ struct CompareOptions {
 /// wants mirrors; runs the engines on them, side by side where `jobs` allows, averages, and
 /// compares the engines with each other, one interim analysis after the other (looks.hpp). Every
 /// finished run is kept in the store at once; a failed one ends by itself and is reported.
-/// @throws BadInput, UnsupportedScene (an engine named cannot run the case), Interrupted
+/// @throws BadInput, AllRefused (where fewer than two can run the case), Interrupted
 extern const Study<CompareOptions, CompareResults> compareStudy;
 
 /// Of a comparison: fewer than two engines, no margins, no endpoint of two engines, or fewer

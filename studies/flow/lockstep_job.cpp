@@ -135,12 +135,14 @@ LockstepResults lockstep(const StudyWork& work, const LockstepOptions& own) {
 
 Outcome outcomeOfLockstep(const LockstepResults& results, const CommandLine& line,
                           const LockstepOptions& own) {
-  bool judged = false, differs = false, failed = false;
+  bool judged = false, failed = false;
   Outcome outcome{exitPassed, refusals(results.engines, line.run.engines)};
   for (const LockstepRow& row : results.lockstep.rows) {
     judged |= row.verdict != Equivalence::notMeasured;
-    differs |= row.verdict == Equivalence::differs ||
-               (own.strict && row.verdict == Equivalence::undecided);
+    if (row.verdict == Equivalence::differs)
+      outcome.fails.push_back(row.engine + " differs from the law that it declares");
+    if (own.strict && row.verdict == Equivalence::undecided)
+      outcome.fails.push_back("--strict: " + row.engine + " is undecided");
     if (row.failure.empty()) continue;
     outcome.failures.push_back(row.failure);
     failed = true;
@@ -150,7 +152,7 @@ Outcome outcomeOfLockstep(const LockstepResults& results, const CommandLine& lin
   else if (!judged) {
     outcome.status = exitFailed;
     outcome.nothingJudged = "no engine here has a mirror in this scene";
-  } else if (differs)
+  } else if (!outcome.fails.empty())
     outcome.status = exitFailed;
   return outcome;
 }
@@ -165,7 +167,7 @@ const Study<LockstepOptions, LockstepResults> lockstepStudy = {
       return std::vector<StudyOption>{
           {"--starts", "states of the flow to start from; 16 unless given, 4 with --quick",
            &own.starts},
-          {"--strict", "an engine that is undecided counts as one that differs", &own.strict}};
+          {"--strict", "status 1 also for an engine that is undecided", &own.strict}};
     },
     caseForLockstep,
     lockstepPlan,

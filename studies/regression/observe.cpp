@@ -166,6 +166,7 @@ Baseline keepBaseline(const std::vector<Case>& cases, const RunCommand& command,
   const std::vector<EngineEntry> engines = selectEngines(command.engines);
   Progress progress(command.quiet);
   Baseline baseline;
+  std::vector<std::string> reasons;
   baseline.version = programVersion;
   baseline.setup = {setup.name, setup.variant, setup.file.string(), resolvedFile(cases)};
   const double dt = setup.kind == CaseKind::couette ? timeStep(setup) : 0.0;
@@ -181,11 +182,12 @@ Baseline keepBaseline(const std::vector<Case>& cases, const RunCommand& command,
       baseline.engines.push_back(std::move(kept));
       progress.finish(e, engines[e].name + ": kept");
     } catch (const UnsupportedScene& refusal) {
-      if (baseline.engines.empty() && e + 1 == engines.size()) throw;
-      if (isNamed(command.engines, engines[e])) refusals.emplace_back(refusal.what());
+      reasons.emplace_back(refusal.what());
+      if (isNamed(command.engines, engines[e])) refusals.push_back(reasons.back());
       progress.finish(e, refusal.what());
     }
   }
+  if (baseline.engines.empty()) throw AllRefused(std::move(reasons));
   return baseline;
 }
 

@@ -48,7 +48,7 @@ BaselineEngine keepEngine(Engine& engine, const EngineEntry& entry, const std::v
 /// @param starts     along the flow of a Couette case
 /// @param endpoints  whether each start is also run and averaged
 /// @param refusals   becomes why engines refuse it that were asked for by name
-/// @throws as keepEngine(), UnsupportedScene where all refuse
+/// @throws as keepEngine(), AllRefused
 Baseline keepBaseline(const std::vector<Case>& cases, const RunCommand& command, std::size_t starts,
                       bool endpoints, std::vector<std::string>& refusals);
 

@@ -268,7 +268,10 @@ Outcome outcomeOfStability(const StabilityResults& results, const CommandLine&,
         fmt::format("all runs were refused, the first because it {}", results.runs.front().reason));
   if (refused + count(Verdict::notMeasured) == all)
     return notJudged("the budget ended before any run could be judged");
-  return {count(Verdict::fail) > 0 ? exitFailed : exitPassed};
+  const auto unstable = count(Verdict::fail);
+  if (unstable == 0) return {};
+  return {.status = exitFailed,
+          .fails = {fmt::format("{} of {} runs unstable", unstable, all - refused)}};
 }
 
 }  // namespace
@@ -316,11 +319,12 @@ const Study<StabilityOptions, StabilityResults> stabilityStudy = {
           {"--quick", "only cases marked as quick", &line.quick},
           {"--long", "also cases marked as long", &own.longCases},
           {"--transforms",
-           "whether any case, turned, mirrored, in other units, renumbered, restarted and in "
-           "one go, does the same",
+           "check that each case gives the same when turned, mirrored, in other units, renumbered, "
+           "restarted and without snapshots",
            &own.transforms},
           {"--budget",
-           "of --transforms: no run begins that would end later, e.g. 90s, 10m, 1h (default: none)",
+           "with --transforms: start no run that would end after this time, e.g. 90s, 10m, 1h "
+           "(default: no limit)",
            &own.budget, "TIME"}};
     },
     casesToTest,

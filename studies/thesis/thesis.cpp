@@ -99,13 +99,13 @@ const Study<ThesisOptions, ThesisResults> thesisStudy = {
     [](ThesisOptions& own, CommandLine&) {
       return std::vector<StudyOption>{
           {"--budget",
-           "no run begins that would end later, e.g. 90s, 10m, 2h (default: all are run)",
+           "start no run that would end after this time, e.g. 90s, 10m, 2h (default: no limit)",
            &own.budget, "TIME"},
           {"--from",
            "results.json of an earlier session: its finished runs are taken, whichever build made "
            "them",
            &own.earlier, "FILE"},
-          {"--strict", "a claim that is undecided counts as a failure", &own.strict}};
+          {"--strict", "status 1 also for a claim that is undecided", &own.strict}};
     },
     casesOfThesis,
     planOfThesis,

@@ -99,6 +99,17 @@ TEST(StabilityJunit, Failure_HasFigureLimitAndReason) {
       << xml;
 }
 
+/// A site counts what the matrix counts, whatever build servers are given.
+TEST(StabilityJunit, DegradedPassesWithAMessage_AndIsBorderlineInASite) {
+  StabilityResults results = hardResults(Status::finished, Verdict::borderline, "");
+  results.runs.front().value = 0.15;
+  const Report report = reportOf(results);
+  EXPECT_EQ(report.checks->front().verdict, Verdict::borderline);
+  EXPECT_NE(junitOf(report).find("<system-out>degraded: 0.15 d against a limit of 0.1"),
+            std::string::npos)
+      << junitOf(report);
+}
+
 TEST(StabilityJunit, BrokenDownIsAnError_RefusedIsSkipped) {
   EXPECT_NE(junitOfStability(hardResults(Status::failed, Verdict::fail, "failed: signal 11"))
                 .find("<error message=\"failed: signal 11\"/>"),

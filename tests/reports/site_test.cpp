@@ -39,9 +39,10 @@ TEST(SiteOverview, HasTheMostSevereAnswerOfEachReport) {
   using enum Verdict;
   const std::vector<SiteReport> reports = {
       siteReportOf("collide", pass, fail), siteReportOf("compare", undecided, modelDifference),
-      siteReportOf("stability", pass, notMeasured), siteReportOf("thesis", fail, pass)};
+      siteReportOf("stability", pass, notMeasured), siteReportOf("thesis", fail, pass),
+      siteReportOf("lockstep", borderline, pass)};
   const Overview overview = siteOverview(reports);
-  ASSERT_EQ(overview.columns.size(), 4u);
+  ASSERT_EQ(overview.columns.size(), 5u);
   EXPECT_EQ(overview.columns[0].name, "collide quick");
   EXPECT_EQ(overview.columns[0].anchor, "collide/report.html");
   ASSERT_EQ(overview.rows.size(), 3u);
@@ -60,9 +61,10 @@ TEST(SiteOverview, HasTheMostSevereAnswerOfEachReport) {
   EXPECT_EQ(overview.conclusion,
             (std::vector<std::string>{
                 "Failed: ours in collide quick.",
-                "Undecided: ours in compare quick; each report has what would decide."}));
+                "Borderline or undecided: ours in compare quick and lockstep quick; each report "
+                "has what would decide."}));
   EXPECT_EQ(siteOverview({reports[2]}).conclusion,
-            std::vector<std::string>{"All passed or decided: ours."});
+            std::vector<std::string>{"Nothing failed or is open: ours."});
 }
 
 TEST(SiteOverview, TellsReportsOfOneNameApart) {
@@ -102,13 +104,12 @@ TEST(EngineOverview, HasTheAnswersOfEachReportWithTheWayToThem) {
       (std::vector<std::string>{
           "Failed: 1 question (collide quick).",
           "Borderline or undecided: 1 question (compare quick).",
-          "Model difference: true to the law that it declares: 1 question (compare quick)."}));
+          "Model difference (it follows the law that it declares): 1 question (compare quick)."}));
   EXPECT_EQ(engineOverview({siteReportOf("collide", pass, pass)}, "ours").conclusion,
             std::vector<std::string>{"Passed: 2 questions (collide quick)."});
   const Overview theirs = engineOverview(reports, "theirs");  // no row is its
   EXPECT_TRUE(theirs.rows.empty());
-  EXPECT_EQ(theirs.conclusion,
-            std::vector<std::string>{"Nothing is judged of it in these reports."});
+  EXPECT_EQ(theirs.conclusion, std::vector<std::string>{"These reports do not judge it."});
 }
 
 SiteReport madeBy(const char* build, const char* started, Verdict state, double margins) {
@@ -146,13 +147,35 @@ TEST(History, FollowsACaseFromOneVersionToTheNext) {
             std::vector<std::string>{"2 answers changed from the first to the last: ours, slide "
                                      "(passed → failed) and mirror, slide (passed → failed)."});
   reports[0] = madeBy("new", "2026-02-01", pass, 0.5);
-  reports[0].digest.head.setup.toml = "other";
+  reports[0].changedCase = "law.mu: 0.44 → 0.5, compared with out/old";
   histories = historiesOf(reports);
   EXPECT_EQ(changeOf(histories[0].rows[0]), "same");
   EXPECT_EQ(sentencesOf(histories[0]),
             (std::vector<std::string>{
                 "No answer changed from the first to the last.",
-                "The case is not the same in all of them: a change may be the case's."}));
+                "The case is not the same in all of them (made-by-new: law.mu: 0.44 → 0.5, "
+                "compared with out/old): an answer may have changed with the case."}));
+}
+
+/// Two of one version of crossgrain are distinguished by what differs, and by when and where.
+TEST(History, ColumnsNameTheVersionsThatDifferTheTimeAndTheFolder) {
+  using enum Verdict;
+  std::vector<SiteReport> reports = {madeBy("one", "2026-01-01T08:00:00Z", pass, 1.0),
+                                     madeBy("one", "2026-01-01T09:00:00Z", pass, 1.0),
+                                     madeBy("one", "2026-01-01T09:00:00Z", pass, 1.0)};
+  for (SiteReport& report : reports) report.digest.engines[0].version = "7";
+  for (SiteReport& report : reports) report.digest.engines[1].version = "1";
+  reports[2].digest.engines[1].version = "2";
+  reports[2].folder = "again";
+  const History history = historiesOf(reports).at(0);
+  EXPECT_EQ(changedEngines(history), std::vector<std::string>{"theirs"});
+  std::vector<std::string> columns;
+  for (const SiteReport* report : history.reports)
+    columns.push_back(columnNameOf(history, *report));
+  EXPECT_EQ(columns, (std::vector<std::string>{
+                         "crossgrain 0.3.0 (one), theirs 1, 2026-01-01T08:00:00Z (made-by-one)",
+                         "crossgrain 0.3.0 (one), theirs 1, 2026-01-01T09:00:00Z (made-by-one)",
+                         "crossgrain 0.3.0 (one), theirs 2, 2026-01-01T09:00:00Z (again)"}));
 }
 
 TEST(History, IsOfSeveralVersionsOnly) {
@@ -224,6 +247,9 @@ TEST(EnginePages, SayWhatDidNotPassAndWhereItWasFound) {
   report.digest.head.machine = {"a processor", "an OS", 4};
   report.digest.checks = {{"column", "ours: drift", Verdict::fail, "3 d", 0.0, false, "ours"},
                           {"ball", "ours: drift", Verdict::pass, "", 0.0, false, "ours"},
+                          {"gas", "ours: drift", Verdict::borderline, "", 0.0, false, "ours", true},
+                          {"wedge", "ours: drift", Verdict::fail, "died", 0.0, true, "ours"},
+                          {"cell", "ours: drift", Verdict::notApplicable, "", 0.0, false, "ours"},
                           {"column", "theirs: drift", Verdict::fail, "4 d", 0.0, false, "theirs"}};
   Report page;
   addEngineReports(page, enginePages({report}).front());
@@ -235,9 +261,11 @@ TEST(EnginePages, SayWhatDidNotPassAndWhereItWasFound) {
     if (const auto* found = std::get_if<Table>(&block.content)) table = found;
   }
   EXPECT_TRUE(has(words, "a processor"));
-  EXPECT_TRUE(has(words, "1 of 2 checks passed."));
+  EXPECT_TRUE(
+      has(words, "1 of 4 checks passed, 1 borderline, 1 failed; the engine broke down in 1."))
+      << words;
   ASSERT_NE(table, nullptr);
-  ASSERT_EQ(table->rows.size(), 1u) << "not the other engine's";
+  ASSERT_EQ(table->rows.size(), 3u) << "not the other engine's, nor what passed";
   EXPECT_EQ(table->rows[0].cells[0].text, "column");
   EXPECT_EQ(table->rows[0].cells[1].text, "drift");
   EXPECT_EQ(table->rows[0].cells[3].text, "3 d");
@@ -271,6 +299,24 @@ TEST(Site, HasAnIndexThatLeadsToEachReport) {
   EXPECT_TRUE(std::filesystem::exists(site / "one-2/stability.csv"));
   EXPECT_FALSE(has(index, "{{"));
   EXPECT_TRUE(has(readFile(site / "summary.md").value(), "# crossgrain: 2 reports"));
+}
+
+TEST(Site, SaysWhichResultsAreOfAChangedCase) {
+  const TemporaryFolder folder;
+  const auto site = folder.path() / "site";
+  const StabilityResults before = sample::stabilityResults();
+  StabilityResults now = before;
+  now.head.machine.cpu = "their processor";
+  const std::string changed = "law.mu: 0.44 → 0.5, compared with a/ours";
+  writeSite({{"a/ours", toJson(before)}, {"b/theirs", toJson(now), changed}}, site);
+  const std::string index = readFile(site / "index.html").value();
+  EXPECT_TRUE(has(index, "Changed case: stability hard cases (theirs; "));
+  EXPECT_TRUE(has(index, "their processor): " + changed + "."));
+  EXPECT_TRUE(has(index, "(theirs, changed case)"));
+  EXPECT_FALSE(has(index, "(ours, changed case)"));
+  EXPECT_TRUE(has(readFile(site / "summary.md").value(), "(theirs, changed case)"));
+  const std::string file = "engine-grain-" + before.engines.front().version + ".html";
+  EXPECT_TRUE(has(readFile(site / file).value(), "Changed case: " + changed + "."));
 }
 
 TEST(Site, ShowsTheHistoryOfACase) {

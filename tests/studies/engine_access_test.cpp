@@ -4,12 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <random>
 #include <set>
 
 #include "adapters/law_options.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/couette.hpp"
+#include "cases/engine_file.hpp"
 #include "cases/loader.hpp"
 #include "cases/time_step.hpp"
 #include "studies/core/engine_access.hpp"
@@ -36,6 +39,16 @@ TEST(SelectEngines, All_AddsEveryOtherInstalledEngineOnce) {
   EXPECT_EQ(mirrors[0].mirrors, "box2d-penalty");
 }
 
+/// A law under which every convention of contacts may matter.
+Case springsAndDashpots() {
+  Case setup;
+  setup.law.normal = NormalLaw::linear;
+  setup.law.tangential = TangentialLaw::springDashpot;
+  setup.law.kn = setup.law.kt = 1.0;
+  setup.law.gn = setup.law.gt = setup.law.mu = 0.1;
+  return setup;
+}
+
 /// All have "cut", whose default is "allow"; the lever arms have nothing in common.
 TEST(SharedConventions, AreWhatAllHaveOfWhatTheCaseLeavesOpen) {
   Capabilities any, cuts, rigid;
@@ -44,11 +57,7 @@ TEST(SharedConventions, AreWhatAllHaveOfWhatTheCaseLeavesOpen) {
   cuts.lawOptions = {
       {"normal", {"linear"}}, {"tension", {"cut"}}, {"lever_arm", {"contact_point"}}};
   rigid.lawOptions = {{"normal", {"rigid"}}, {"tension", {}}};
-  Case setup;
-  setup.law.normal = NormalLaw::linear;
-  setup.law.tangential = TangentialLaw::springDashpot;
-  setup.law.kn = setup.law.kt = 1.0;
-  setup.law.gn = setup.law.mu = 0.1;
+  Case setup = springsAndDashpots();
   EXPECT_EQ(sharedConventions(setup, {any, cuts}), std::vector<std::string>{"law.tension=\"cut\""});
   EXPECT_EQ(sharedConventions(setup, {any, cuts, rigid}), sharedConventions(setup, {any, cuts}))
       << "an engine of another law has no say";
@@ -58,6 +67,78 @@ TEST(SharedConventions, AreWhatAllHaveOfWhatTheCaseLeavesOpen) {
   setup.run.mayDiffer.clear();
   setup.resolvedToml = "[law]\ntension = \"allow\"\n";
   EXPECT_TRUE(sharedConventions(setup, {any, cuts}).empty()) << "the case gives it";
+}
+
+/// With "contact_point", `plane_arm` matters, of which the two have nothing in common.
+TEST(SharedConventions, ValueThatMakesAnotherLackMatter_IsNotTaken) {
+  Capabilities both, one;
+  both.lawOptions = {{"lever_arm", {"radius", "contact_point", "overlap_middle"}},
+                     {"plane_arm", {"middle"}}};
+  one.lawOptions = {{"lever_arm", {"contact_point", "overlap_middle"}}, {"plane_arm", {"surface"}}};
+  EXPECT_TRUE(sharedConventions(springsAndDashpots(), {both, one}).empty());
+  one.lawOptions["plane_arm"] = {"surface", "middle"};
+  EXPECT_EQ(
+      sharedConventions(springsAndDashpots(), {both, one}),
+      (std::vector<std::string>{"law.lever_arm=\"contact_point\"", "law.plane_arm=\"middle\""}));
+}
+
+/// Conventions of a law that an engine lacks and the case does not list.
+std::set<std::string> lacking(const Capabilities& can, const Case& setup) {
+  Scene scene;
+  scene.law = setup.law;
+  std::set<std::string> names;
+  for (const Mismatch& mismatch : mismatches(can, scene)) names.insert(mismatch.name);
+  for (const std::string& name : setup.run.mayDiffer) names.erase(name);
+  return names;
+}
+
+/// What is shared leaves no engine that could run the law unable to.
+void expectNoNewRefusal(const Case& setup, const std::vector<Capabilities>& engines) {
+  Case shared = setup;
+  for (const std::string& change : sharedConventions(setup, engines)) {
+    const std::size_t equals = change.find('=');
+    setLawOption(shared.law, change.substr(4, equals - 4),
+                 change.substr(equals + 2, change.size() - equals - 3));
+  }
+  for (const Capabilities& can : engines)
+    if (lacking(can, setup).empty()) {
+      EXPECT_EQ(lacking(can, shared), std::set<std::string>{});
+    }
+}
+
+TEST(SharedConventions, AllPairsOfInstalledEngines_NoneRefusesWhatItRanBefore) {
+  std::vector<Capabilities> engines;
+  for (const EngineEntry& entry : selectEngines({"all"}))
+    if (const auto can = capabilitiesOf(entry, 60.0)) engines.push_back(*can);
+  ASSERT_GE(engines.size(), 3u);
+  std::vector<Case> cases = {springsAndDashpots()};
+  for (const char* file : {"/couette/quick.toml", "/assembly/hopper.toml",
+                           "/collision/rolling.toml", "/collision/cohesion.toml"})
+    cases.push_back(loadCase(CROSSGRAIN_CASES + std::string(file)).front());
+  for (Case& setup : cases)
+    for (const bool strict : {false, true}) {
+      if (strict) setup.run.mayDiffer.clear();
+      for (const Capabilities& a : engines)
+        for (const Capabilities& b : engines) expectNoNewRefusal(setup, {a, b});
+    }
+}
+
+/// Engines that list any of the values of any of the conventions, three at a time.
+TEST(SharedConventions, ArbitraryEngines_NoneRefusesWhatItRanBefore) {
+  std::mt19937 random(1);
+  const auto chance = [&](double p) { return std::bernoulli_distribution(p)(random); };
+  int shared = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    std::vector<Capabilities> engines(3);
+    for (Capabilities& can : engines)
+      for (const LawOption& option : lawOptions())
+        if (isConvention(option.name) && chance(0.8))
+          for (const std::string_view value : option.values)
+            if (chance(0.8)) can.lawOptions[std::string(option.name)].emplace_back(value);
+    shared += sharedConventions(springsAndDashpots(), engines).empty() ? 0 : 1;
+    expectNoNewRefusal(springsAndDashpots(), engines);
+  }
+  EXPECT_GT(shared, 200) << "else nothing is tested";
 }
 
 TEST(SettingsFor, UnknownNameTypeRangeOrChoice_Throws) {
@@ -75,6 +156,57 @@ TEST(SettingsFor, UnknownNameTypeRangeOrChoice_Throws) {
   EXPECT_EQ(refused("dt", true), "case.toml: [engines.one] dt must be a number, not true or false");
   EXPECT_NE(refused("mode", std::string("c")).find("cannot be 'c'"), std::string::npos);
   EXPECT_NE(refused("td", 1.0).find("there is no setting 'td'"), std::string::npos);
+}
+
+/// Of every engine installed: what no solver can count to, a value below the least and one above
+/// the most are refused with the range.
+TEST(SettingsFor, EveryEnginesNumbers_AreRefusedBeyondTheirRange) {
+  std::vector<EngineEntry> engines = selectEngines({"all"});
+  for (const auto& file : installedEngineFiles()) engines.push_back(loadEngineFile(file));
+  int asked = 0;
+  for (const EngineEntry& entry : engines) {
+    if (entry.missing && !entry.missing().empty()) continue;
+    const auto can = capabilitiesOf(entry, 60.0);
+    ASSERT_TRUE(can) << entry.name;
+    for (const SettingSpec& spec : can->settings) {
+      if (!std::holds_alternative<double>(spec.defaultValue)) continue;
+      ++asked;
+      const std::string name = entry.name + "." + spec.name;
+      EXPECT_TRUE(!spec.whole || spec.most <= 1e6) << name;
+      const auto refused = [&](double value) {
+        Case setup;
+        setup.engines[entry.name][spec.name] = value;
+        return test::refusalOf([&] { settingsFor(setup, entry.name, *can); });
+      };
+      EXPECT_EQ(refused(std::get<double>(spec.defaultValue)), "") << name;
+      std::vector<double> beyond = {spec.least - 1.0, std::nextafter(spec.least, -1.0)};
+      if (std::isfinite(spec.most)) beyond.push_back(std::nextafter(spec.most, 1e300));
+      if (spec.whole) beyond.push_back(spec.least + 0.5);
+      for (const double value : beyond)
+        EXPECT_NE(refused(value).find(spec.name + " = "), std::string::npos) << name << value;
+    }
+  }
+  EXPECT_GE(asked, 15);
+}
+
+/// Neither a run that would not end nor one in which nothing moves.
+TEST(LoadScene, StepFarFromTheCases_IsBadInput) {
+  const std::string file = CROSSGRAIN_CASES "/collision/hard-sphere.toml";
+  const auto refused = [&](const std::string& setting) {
+    const Case setup = loadCase(file, {"engines.box2d-impulse." + setting}).front();
+    const EngineEntry& entry = *findEngine("box2d-impulse");
+    const auto engine = entry.make();
+    const Scene scene =
+        collisionScene(setup, collisionStarts(setup), collisionTimeSteps(setup).front());
+    return test::refusalOf<std::exception>([&] { loadScene(*engine, entry, setup, scene); });
+  };
+  EXPECT_EQ(refused("dt=1e-3"), "");
+  for (const char* step : {"dt=1e-300", "dt=1e300"})
+    EXPECT_NE(refused(step).find("must be 0, or from 5e-10 to 500 s"), std::string::npos)
+        << refused(step);
+  for (const char* unit : {"length_unit=1e-300", "length_unit=1e300"})
+    EXPECT_NE(refused(unit).find("takes length_unit = 0, or from "), std::string::npos)
+        << refused(unit);
 }
 
 /// What is said first counts: the engine's section, the case's explicit step, the engine's default.
@@ -169,7 +301,8 @@ TEST(LoadScene, AdviceOfARefusal_WorksWhereItIsFollowed) {
       const std::size_t list = why.find("; list ");
       if (list == std::string::npos) continue;
       ++advised;
-      for (std::size_t from = why.find('"', list); from != std::string::npos;) {
+      const std::size_t end = why.find(" under [run]", list);
+      for (std::size_t from = why.find('"', list); from < end;) {
         const std::size_t to = why.find('"', from + 1);
         setup.run.mayDiffer.push_back(why.substr(from + 1, to - from - 1));
         from = why.find('"', to + 1);

@@ -113,6 +113,39 @@ TEST(CompareOutcome, LockstepAlarmsRefusalsAndFailures_Decide) {
             (std::vector<std::string>{"broke", "cannot"}));
 }
 
+/// A law that is only borderline, or not judged at all, and a status 1: the line names the rule.
+TEST(CompareOutcome, StatusOne_SaysWhichRuleMadeIt) {
+  CompareResults results;
+  const auto why = [&](bool strict) {
+    CommandLine line;
+    line.run.engines = {"a", "b"};
+    CompareOptions own;
+    own.strict = strict;
+    return compareStudy.outcome(results, line, own).fails;
+  };
+  using Lines = std::vector<std::string>;
+  for (const auto& [endpoint, verdict] : {std::pair("pressure", Verdict::fail),
+                                          {"spin", Verdict::fail},
+                                          {"slip", Verdict::borderline}}) {
+    results.endpoints.rows.push_back(row(PairKind::peer, 8, verdict));
+    results.endpoints.rows.back().a = "a";
+    results.endpoints.rows.back().b = "b";
+    results.endpoints.rows.back().endpoint = endpoint;
+  }
+  EXPECT_EQ(why(false), Lines{"engines disagree (a and b: pressure, spin)"});
+  EXPECT_EQ(why(true), (Lines{"engines disagree (a and b: pressure, spin)",
+                              "--strict: borderline (a and b: slip)"}));
+  results.endpoints.rows.erase(results.endpoints.rows.begin(), results.endpoints.rows.end() - 1);
+  EXPECT_EQ(why(false), Lines{});
+  results.endpoints.alarms = {{"a", "b", PairKind::peer, "pressure is 12 margins away"}};
+  LockstepRow law;
+  law.engine = "b";
+  law.verdict = Equivalence::differs;
+  results.lockstep.emplace().rows = {law};
+  EXPECT_EQ(why(false), (Lines{"an alarm: engines differ far beyond a margin (a and b)",
+                               "an engine differs from the law that it declares (b)"}));
+}
+
 TEST(CompareOutcome, NothingJudged_IsFailureUnlessAskedFor) {
   CompareResults results;
   results.nothingJudged = NothingJudged{"too few"};

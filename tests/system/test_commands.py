@@ -77,7 +77,7 @@ class Check(SystemTest):
             r"volume fraction 0\.7\d+, .*39 on the wheel, 98 on the ring",
             r"54\.4 steps in the shortest contact; .*at most 0\.000572 s",
             r"margin of field azimuthal_velocity: 0\.0015 m/s, a share of rim_speed",
-            r"predicted for compare: .* steps were timed on",
+            r"predicted time of compare: .* steps were timed on",
         ):  # fmt: skip
             self.assertRegex(done.stdout, line)
         # Of every engine that can run it, mirrors that would run along included.

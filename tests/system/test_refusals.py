@@ -115,6 +115,8 @@ VALUES = {
     f"check {CELL} --set=engines.grain.skim=0.1": ("[engines.grain]", "'skim'", "skin"),
     f"check {CELL} --set=engines.grain.skin=wide": ("[engines.grain]", "skin", "a number", "a string"),
     f"check {CELL} --set=engines.lammps.ranks=0": ("[engines.lammps]", "ranks", "must be"),
+    f"check {RIGID} --engines ode --set=engines.ode.relaxation=0.0": "[engines.ode] relaxation = 0 must be from 0.01 to 1.99",
+    f"check {RIGID} --engines bullet --set=engines.bullet.dt=1e-300": "[engines.bullet] dt = 1e-300 s must be 0, or from 5e-10 to 500 s",
     f"check {CELL} --engines grain --set=engines.grain.dt=0.01": "[engines.grain] dt = 0.01 s is beyond",
     f"compare {CELL} {RUN} --set=run.dt=1": "run.dt = 1 s is beyond 0.000572 s",
     f"cost {CASES / 'cost/quick.toml'} {RUN} --set=cost.omega=[2]": "is a key no more",
@@ -274,7 +276,7 @@ class Unsupported(SystemTest):
                 if row["can"]:
                     continue
                 refused += 1
-                listed = re.findall(r'"([^"]+)"', row["reason"].partition("; list ")[2])
+                listed = re.findall(r'"([^"]+)"', row["reason"].partition("; list ")[2].partition(" under [run]")[0])
                 if not listed:
                     continue
                 advised += 1
@@ -302,6 +304,30 @@ class Unsupported(SystemTest):
         # One packing has no verdict, but rigid disks hold twelve times the pressure.
         self.assert_status(done, FELL_SHORT)
         self.assertRegex(done.stdout, r"ALARM: box2d-impulse against grain: pressure is \d+ margins")
+
+    def test_all_refused_each_says_why_and_what_lets_all_run(self):
+        """Fewer than two engines can run the case: status 2, a line for each that cannot, and what to list."""
+        cut = settings(run__may_differ=[]) + ["--set=law.lever_arm=radius", "--set=law.tension=cut"]
+        for engines in ("yade,lammps", "grain,yade,lammps"):
+            for command in ("compare", "effects", "lockstep"):
+                if command != "compare" and "grain" in engines:
+                    continue  # one is enough for those
+                done = self.run_program(command, CELL, "--engines", engines, "--out", self.out, "--quiet", *cut)
+                self.assert_status(done, BAD_INPUT)
+                lines = done.error_lines()
+                self.assertEqual(3, len(lines), done)
+                for line, name in zip(lines, ("yade", "lammps")):
+                    self.assert_line(line, f"{name} cannot run", "has no bottom_friction", '("conventions" lists all conventions)')
+                listed = '["bottom_friction", "bottom_spin_friction", "conventions"]'
+                self.assertEqual(f"crossgrain: all of them run it with [run] may_differ = {listed}", lines[2])
+        done = self.run_program(
+            "check", CELL, "--engines=yade,lammps", "--no-timing", *cut[1:], f"--set=run.may_differ={listed}"
+        )
+        self.assert_status(done, HELD)
+        for engines, *rest in (("bullet,chipmunk", "collide", COLLISION, *cut[:1]), ("yade,lammps", "baseline", CELL, "--quick", *cut)):
+            done = self.run_program(*rest, "--engines", engines, "--out", rest[0], "--quiet")
+            self.assert_status(done, BAD_INPUT)
+            self.assertEqual(engines.split(","), [line.split()[1] for line in done.error_lines()])
 
     def test_engine_that_cannot_run_is_left_out_and_the_first_that_can_is_the_reference(self):
         allowed = ["damping_velocity", "integrator", "bottom_friction", "bottom_spin_friction", "rounding"]
