@@ -187,6 +187,22 @@ enum class CohesionLoad {
   netWithoutDashpot      ///< f_n without its dashpot (LAMMPS' dmt)
 };
 
+/// How a tangential spring, in space a vector, stays in the tangent plane when the normal turns
+/// from n to n′ within a step: before it is stretched by v_t dt. In the plane nothing has to be
+/// done.
+enum class SpringTurn {
+  rotated,  ///< by the smallest rotation that takes n to n′: |ξ| and angles stay
+  firstOrder,  ///< ξ − ξ × (n × n′): |ξ| grows by half the angle's square (YADE: ScGeom::rotate)
+  rescaled,  ///< ξ − (ξ·n′) n′, then to the old length (LAMMPS: pair_style granular)
+  projected  ///< ξ − (ξ·n′) n′, which is shorter (LAMMPS: gran/hooke/history, LIGGGHTS)
+};
+
+/// Whether the spring turns with a pair that turns about its own line of centres.
+enum class SpringTwist {
+  meanSpin,  ///< by ½(ω_i + ω_j)·n dt: a rigid turn of the pair turns its forces (YADE)
+  none       ///< it stays where it is in space (LAMMPS, LIGGGHTS, MercuryDPM)
+};
+
 enum class Integrator {
   positionVerlet,  ///< Störmer's scheme on positions: x(t+dt) = 2x(t) − x(t−dt) + a dt²
   velocityVerlet,
@@ -214,6 +230,8 @@ struct LawConventions {
   JkrEnd jkrEnd = JkrEnd::largestPull;
   CohesionLoad cohesionLoad = CohesionLoad::withoutPull;
   UnloadingStiffness unloadingStiffness = UnloadingStiffness::current;
+  SpringTurn springTurn = SpringTurn::rotated;
+  SpringTwist springTwist = SpringTwist::meanSpin;
   Integrator integrator = Integrator::positionVerlet;
 
   /// The arm in v_t by its own name.
@@ -259,6 +277,7 @@ struct ContactLaw {
   /// kUnload and no δ₀ grows [-]; 0: unloading has kUnload from the beginning, δ₀ grows on
   double plasticDepth = 0.0;
   LawConventions conventions;
+  int dimension = 2;  ///< of what moves by it: 3 in space, where tangential springs are vectors
 
   bool soft() const { return normal != NormalLaw::rigid; }
   /// Whether stiffness, and with it the contact time, depends on how deep an impact goes.
@@ -268,6 +287,7 @@ struct ContactLaw {
   }
   bool friction() const { return mu > 0.0 && (!soft() || tangential != TangentialLaw::none); }
   bool rolls() const { return rolling != RollingLaw::none; }
+  bool inSpace() const { return dimension == 3; }
   bool coheres() const { return cohesion != CohesionLaw::none; }
   bool dashpots() const {
     return tangential == TangentialLaw::viscous || tangential == TangentialLaw::springDashpot;

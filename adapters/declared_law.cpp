@@ -13,8 +13,9 @@ namespace {
 /// What the engine's table, in its own words, says of the first two bodies: its rows are named
 /// "A with B" or "A with wall". Absent where rows that can be theirs differ.
 /// @param reducedMass  of the two [kg]: the disk's beside a wall, half of it beside its equal
-std::optional<PairCoefficients> pairOf(const Scene& scene, const EffectiveParameters& effective,
-                                       double reducedMass) {
+template <int D>
+std::optional<PairCoefficients> pairOf(const SceneOf<D>& scene,
+                                       const EffectiveParameters& effective, double reducedMass) {
   constexpr std::string_view with = " with ";
   const auto is = [&](double mass) { return std::abs(mass - reducedMass) <= 1e-12 * reducedMass; };
   const double mass = scene.disks.mass.front();
@@ -56,7 +57,8 @@ ContactLaw stiffened(ContactLaw law, double factor) {
   return law;
 }
 
-std::optional<ContactLaw> declaredLaw(const Capabilities& can, const Scene& scene,
+template <int D>
+std::optional<ContactLaw> declaredLaw(const Capabilities& can, const SceneOf<D>& scene,
                                       const EffectiveParameters& effective, double reducedMass) {
   ContactLaw law = lawAsRun(can, scene.materials ? scene.lawOf(0, 1) : scene.law);
   const auto stiffness = std::ranges::find(effective.deviations, "stiffness", &Deviation::name);
@@ -71,5 +73,9 @@ std::optional<ContactLaw> declaredLaw(const Capabilities& can, const Scene& scen
   law.mu = pair->mu;
   return law;
 }
+template std::optional<ContactLaw> declaredLaw<2>(const Capabilities&, const Scene&,
+                                                  const EffectiveParameters&, double);
+template std::optional<ContactLaw> declaredLaw<3>(const Capabilities&, const SpaceScene&,
+                                                  const EffectiveParameters&, double);
 
 }  // namespace crossgrain

@@ -19,7 +19,8 @@ ContactLaw stiffened(ContactLaw law, double factor);
 /// Otherwise the constants are the scene's: an engine whose own differ is wrong, whatever it says.
 /// Absent where it has another law whose constants nobody knows.
 /// @param scene  as the case lets the engine run it
-std::optional<ContactLaw> declaredLaw(const Capabilities& can, const Scene& scene,
+template <int D>
+std::optional<ContactLaw> declaredLaw(const Capabilities& can, const SceneOf<D>& scene,
                                       const EffectiveParameters& effective, double reducedMass);
 
 }  // namespace crossgrain

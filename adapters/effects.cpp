@@ -8,7 +8,8 @@ std::string toString(Effect effect) {
   return std::string(effectNames[static_cast<std::size_t>(effect)]);
 }
 
-Effects effectsOf(const Scene& scene) {
+template <int D>
+Effects effectsOf(const SceneOf<D>& scene) {
   const ContactLaw& law = scene.law;
   Effects effects;
   const auto call = [&](bool called, Effect effect) {
@@ -37,11 +38,12 @@ Effects effectsOf(const Scene& scene) {
     call(scene.bottom->spin && effects.contains(Effect::rotation), Effect::bottomSpinFriction);
   }
   call(!scene.gravity.isZero(0.0), Effect::gravity);
-  call(std::ranges::any_of(
-           scene.bodies,
-           [](const WallBody& body) { return body.motion.kind != Motion::Kind::fixed; }),
+  call(std::ranges::any_of(scene.bodies,
+                           [](const auto& body) { return body.motion.kind != MotionKind::fixed; }),
        Effect::movingWalls);
   return effects;
 }
+template Effects effectsOf<2>(const Scene&);
+template Effects effectsOf<3>(const SpaceScene&);
 
 }  // namespace crossgrain

@@ -43,6 +43,7 @@ using Effects = std::set<Effect>;
 
 /// The effects a scene calls for. Where there is neither friction nor rolling resistance, or the
 /// case blocks spins, no rotation: nothing can change a spin there.
-Effects effectsOf(const Scene& scene);
+template <int D>
+Effects effectsOf(const SceneOf<D>& scene);
 
 }  // namespace crossgrain

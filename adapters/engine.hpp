@@ -35,6 +35,9 @@ struct SettingSpec {
 /// What an engine can do. Asked for, never assumed.
 struct Capabilities {
   std::string version;  ///< of the engine itself
+  /// Of the scenes that it takes: 2, disks in a plane; 3, spheres in space, where it has load() and
+  /// snapshot() of such.
+  std::vector<int> dimensions = {2};
   std::map<Effect, Support> effects;
   /// Law options by their case-file name ("tension", "dashpot", …) → values that the engine has.
   /// An option that is not listed does not matter to the engine's law.
@@ -131,6 +134,14 @@ class Engine {
   /// Does llround(t/dt) − (steps done) steps. @returns the time reached [s]
   virtual double advance(double t) = 0;
 
+  /// @name The same of a scene in space, where Capabilities::dimensions has 3
+  /// @{
+  virtual EffectiveParameters loadInSpace(const SpaceScene&, const Settings&) {
+    throw UnsupportedScene(planeOnly);
+  }
+  virtual SpaceSnapshot snapshotInSpace(ContactReport) { throw UnsupportedScene(planeOnly); }
+  /// @}
+
   /// Looking does not change the run.
   virtual Snapshot snapshot(ContactReport contacts) = 0;
 
@@ -144,6 +155,7 @@ class Engine {
   virtual void restore(const std::filesystem::path&) { throw EngineFailure(noCheckpoints); }
 
  private:
+  static constexpr const char* planeOnly = "has dimension = 2, not 3";
   static constexpr const char* noCheckpoints = "this engine has no checkpoints";
 };
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "adapters/declared_law.hpp"
+#include "adapters/grain_space.hpp"
 #include "adapters/law_options.hpp"
 #include "adapters/pair_table.hpp"
 #include "adapters/stopwatch.hpp"
@@ -17,10 +18,9 @@
 #include "support/busy_time.hpp"
 
 namespace crossgrain {
-namespace {
 
 // Both sides list the values of these options in the same order; a test holds them together.
-grain::Law translate(const ContactLaw& law) {
+grain::Law grainLawOf(const ContactLaw& law) {
   const LawConventions& how = law.conventions;
   grain::Law to;
   to.normal = static_cast<grain::Normal>(law.normal);
@@ -70,6 +70,8 @@ grain::Law translate(const ContactLaw& law) {
   return to;
 }
 
+namespace {
+
 grain::WallState translate(const BodyState& state) {
   return {state.centre.x(),   state.centre.y(),   state.angle,           state.radialShift,
           state.velocity.x(), state.velocity.y(), state.angularVelocity, state.radialVelocity};
@@ -106,11 +108,11 @@ grain::Setup setupOf(const Scene& scene) {
   setup.disks.mass = scene.disks.mass;
   setup.disks.inertia = scene.disks.inertia;
   for (const WallBody& body : scene.bodies) setup.walls.push_back(translate(body));
-  setup.law = translate(scene.law);
+  setup.law = grainLawOf(scene.law);
   if (const auto& materials = scene.materials) {
     setup.materials =
         grain::Materials{materials->ofDisk, materials->ofBody, materials->names.size(), {}};
-    for (const ContactLaw& law : materials->laws) setup.materials->laws.push_back(translate(law));
+    for (const ContactLaw& law : materials->laws) setup.materials->laws.push_back(grainLawOf(law));
   }
   if (scene.bottom && scene.bottom->mu > 0.0)
     setup.bottom = {scene.bottom->mu,   scene.bottom->kb,      scene.bottom->gb,
@@ -135,6 +137,7 @@ class GrainEngine : public Engine {
   Capabilities capabilities() const override {
     Capabilities can;
     can.version = "0.1.0";
+    can.dimensions = {2, 3};
     for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
     for (const LawOption& option : lawOptions())
       can.lawOptions[std::string(option.name)] = {option.values.begin(), option.values.end()};
@@ -172,22 +175,11 @@ class GrainEngine : public Engine {
   }
 
   EffectiveParameters load(const Scene& scene, const Settings& settings) override {
-    const bool rigid = rigid_ = !scene.law.soft();
-    const Capabilities can = capabilities();
-    const std::vector<std::string>& normals = can.lawOptions.at("normal");
-    if (std::ranges::find(normals, lawOptionValue(scene.law, "normal")) == normals.end())
-      throw UnsupportedScene(rigid ? "has no rigid contacts, only soft ones"
-                                   : "has rigid contacts only, normal = \"rigid\"");
     const double stiffness = setting(settings, "stiffness", stiffness_);
-    Scene& own = own_ = scene;
-    changeLaws(own, [&](ContactLaw& law) {
-      law = lawAsRun(can, law);
-      // An impulse is a force within one step of the scheme in which a kick precedes its drift.
-      if (rigid) law.conventions.integrator = Integrator::semiImplicitEuler;
-      law = stiffened(law, stiffness);
-    });
+    own_ = asRun(scene, stiffness);
+    const Scene& own = own_;
+    const bool rigid = rigid_ = !scene.law.soft();
     const ContactLaw& law = own.law;
-    own.dt = scene.dt / std::sqrt(stiffness);
     grain::Setup setup = setupOf(own);
     if (const double dt = setting(settings, "dt", 0.0); dt > 0.0) setup.dt = dt;
     setup.skin = setting(settings, "skin", 0.0);
@@ -199,6 +191,7 @@ class GrainEngine : public Engine {
     radii_ = scene.radii();
     spins_ = law.friction() || law.rolls();
     stopwatch_ = {};
+    spheres_.reset();
     simulation_.emplace(std::move(setup));
 
     EffectiveParameters effective;
@@ -217,21 +210,34 @@ class GrainEngine : public Engine {
     if (rigid && scene.law.conventions.integrator != Integrator::semiImplicitEuler)
       effective.deviations.push_back(
           {"integrator", 0.0, "", "impulses act at the beginning of semi-implicit Euler steps"});
-    if (stiffness != 1.0)
-      effective.deviations.push_back(
-          {"stiffness", stiffness, "-", "contacts are this many times as stiff as the case's"});
+    reportStiffness(effective, stiffness);
     effective.pairs =
         pairTable(own, [](const ContactLaw& of, double) { return coefficientsOf(of); });
     return effective;
   }
 
+  EffectiveParameters loadInSpace(const SpaceScene& scene, const Settings& settings) override {
+    const double stiffness = setting(settings, "stiffness", stiffness_);
+    SpaceScene own = asRun(scene, stiffness);
+    if (const double dt = setting(settings, "dt", 0.0); dt > 0.0) own.dt = dt;
+    if (setting(settings, "threads", 1.0) != 1.0)
+      throw UnsupportedScene("has threads = 1 in space");
+    spheres_.emplace(own, setting(settings, "skin", 0.0), setting(settings, "max_overlap", 1.0));
+    simulation_.reset();
+    stopwatch_ = {};
+    EffectiveParameters effective = spheres_->effective();
+    reportStiffness(effective, stiffness);
+    return effective;
+  }
+
+  SpaceSnapshot snapshotInSpace(ContactReport report) override {
+    return spheres_->snapshot(report);
+  }
+
   double advance(double t) override {
-    const auto wanted = std::llround(t / simulation_->dt());
     const Stopwatch::Lap lap(stopwatch_);
     const BusyTime::Piece stepping(steppingTime());
-    const auto done = static_cast<long long>(simulation_->steps());
-    if (wanted > done) simulation_->advance(static_cast<std::uint64_t>(wanted - done));
-    return simulation_->time();
+    return spheres_ ? advanceTo(spheres_->simulation(), t) : advanceTo(*simulation_, t);
   }
 
   Snapshot snapshot(ContactReport report) override {
@@ -267,6 +273,7 @@ class GrainEngine : public Engine {
   }
 
   void checkpoint(const std::filesystem::path& file) override {
+    if (spheres_) throw EngineFailure("has no checkpoints in space");
     std::ofstream out(file, std::ios::binary);
     simulation_->save(out);
     out.close();
@@ -274,6 +281,7 @@ class GrainEngine : public Engine {
   }
 
   void restore(const std::filesystem::path& file) override {
+    if (spheres_) throw EngineFailure("has no checkpoints in space");
     std::ifstream in(file, std::ios::binary);
     if (!in) throw EngineFailure(fmt::format("{}: cannot be read", file.string()));
     try {
@@ -307,6 +315,14 @@ class GrainEngine : public Engine {
   }
 
   Stats stats() const override {
+    if (spheres_) {
+      const grain::Spheres& now = spheres_->simulation();
+      return {now.steps(),
+              now.contactEvaluations(),
+              stopwatch_.wallSeconds,
+              stopwatch_.cpuSeconds,
+              {{"rebuilds", static_cast<double>(now.rebuilds())}}};
+    }
     Stats stats{simulation_->steps(),
                 simulation_->contactEvaluations(),
                 stopwatch_.wallSeconds,
@@ -318,6 +334,41 @@ class GrainEngine : public Engine {
   }
 
  private:
+  /// The scene with the engine's own conventions, contacts and time step.
+  /// @throws UnsupportedScene for a normal law that it does not have
+  template <int D>
+  SceneOf<D> asRun(const SceneOf<D>& scene, double stiffness) const {
+    const bool rigid = !scene.law.soft();
+    const Capabilities can = capabilities();
+    const std::vector<std::string>& normals = can.lawOptions.at("normal");
+    if (std::ranges::find(normals, lawOptionValue(scene.law, "normal")) == normals.end())
+      throw UnsupportedScene(rigid ? "has no rigid contacts, only soft ones"
+                                   : "has rigid contacts only, normal = \"rigid\"");
+    SceneOf<D> own = scene;
+    changeLaws(own, [&](ContactLaw& law) {
+      law = lawAsRun(can, law);
+      // An impulse is a force within one step of the scheme in which a kick precedes its drift.
+      if (rigid) law.conventions.integrator = Integrator::semiImplicitEuler;
+      law = stiffened(law, stiffness);
+    });
+    own.dt = scene.dt / std::sqrt(stiffness);
+    return own;
+  }
+
+  static void reportStiffness(EffectiveParameters& effective, double stiffness) {
+    if (stiffness != 1.0)
+      effective.deviations.push_back(
+          {"stiffness", stiffness, "-", "contacts are this many times as stiff as the case's"});
+  }
+
+  /// @returns the time reached [s]
+  static double advanceTo(auto& simulation, double t) {
+    const auto wanted = std::llround(t / simulation.dt());
+    const auto done = static_cast<long long>(simulation.steps());
+    if (wanted > done) simulation.advance(static_cast<std::uint64_t>(wanted - done));
+    return simulation.time();
+  }
+
   static double setting(const Settings& settings, const std::string& name, double otherwise) {
     const auto found = settings.find(name);
     return found == settings.end() ? otherwise : std::get<double>(found->second);
@@ -368,6 +419,7 @@ class GrainEngine : public Engine {
   bool bonds_ = false;         ///< whether contacts last beyond their overlap
   bool spins_ = false;         ///< whether snapshots have them; blocked ones are zero
   std::optional<grain::Simulation> simulation_;
+  std::optional<GrainSpheres> spheres_;  ///< instead, of a scene in space
   Stopwatch stopwatch_;
 };
 

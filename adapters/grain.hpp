@@ -14,6 +14,9 @@ namespace crossgrain {
 /// without an adapter. Its law is one that the engine has.
 grain::Setup setupOf(const Scene& scene);
 
+/// A law in the in-house engine's own terms.
+grain::Law grainLawOf(const ContactLaw& law);
+
 /// The in-house engine.
 std::unique_ptr<Engine> makeGrain();
 

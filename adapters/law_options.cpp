@@ -89,6 +89,9 @@ std::span<const LawOption> lawOptions() {
              LawPart::cohesion),
       option("unloading_stiffness", &LawConventions::unloadingStiffness, {"current", "lagged"},
              LawPart::cohesion),
+      option("spring_turn", &LawConventions::springTurn,
+             {"rotated", "first_order", "rescaled", "projected"}, LawPart::space),
+      option("spring_twist", &LawConventions::springTwist, {"mean_spin", "none"}, LawPart::space),
   };
   return options;
 }
@@ -114,7 +117,17 @@ std::span<const LawConstant> lawConstants() {
 }
 
 bool hasPart(const ContactLaw& law, LawPart part) {
-  return part == LawPart::contact || (part == LawPart::rolling ? law.rolls() : law.coheres());
+  switch (part) {
+    case LawPart::contact:
+      break;
+    case LawPart::rolling:
+      return law.rolls();
+    case LawPart::cohesion:
+      return law.coheres();
+    case LawPart::space:
+      return law.inSpace();
+  }
+  return true;
 }
 
 std::string lawOptionValue(const ContactLaw& law, std::string_view name) {
@@ -182,6 +195,8 @@ bool mattersTo(const ContactLaw& law, std::string_view name) {
   if (name == "history") return law.normal == NormalLaw::hertz && law.springs();
   if (findOption(name).part == LawPart::rolling) return rollingMatters(law, name);
   if (findOption(name).part == LawPart::cohesion) return cohesionMatters(law, name);
+  if (findOption(name).part == LawPart::space)
+    return law.inSpace() && law.friction() && law.springs();
   return true;
 }
 

@@ -10,9 +10,9 @@
 
 namespace crossgrain {
 
-/// The part of a law that options and constants belong to. Those of rolling and cohesion are
+/// The part of a law that options and constants belong to. Those of rolling, cohesion and space are
 /// listed only where a law has that part.
-enum class LawPart { contact, rolling, cohesion };
+enum class LawPart { contact, rolling, cohesion, space };
 
 /// Whether the law has that part.
 bool hasPart(const ContactLaw& law, LawPart part);
@@ -28,7 +28,8 @@ struct LawOption {
 
 /// Every option of the law: normal, damper, tangential, tension, coulomb_bound, dashpot,
 /// spring_reset, spring_update, lever_arm, velocity_arm, plane_arm, history, damping_velocity,
-/// integrator; rolling and its six conventions; cohesion and its three.
+/// integrator; rolling and its six conventions; cohesion and its four; spring_turn and spring_twist
+/// of a law in space.
 std::span<const LawOption> lawOptions();
 
 /// One constant of the law; case files and units: adapters/contact_law.hpp.

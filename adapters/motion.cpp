@@ -9,8 +9,10 @@ std::string toString(Motion::Kind kind) {
   return std::string(motionNames[static_cast<std::size_t>(kind)]);
 }
 
-BodyState stateAt(const Motion& motion, const Vec2& centre, double t) {
-  BodyState now;
+template <int D>
+BodyStateOf<D> stateAt(const MotionOf<D>& motion, const std::type_identity_t<VecOf<D>>& centre,
+                       double t) {
+  BodyStateOf<D> now;
   now.centre = centre;
   switch (motion.kind) {
     case Motion::Kind::fixed:
@@ -34,6 +36,8 @@ BodyState stateAt(const Motion& motion, const Vec2& centre, double t) {
   }
   return now;
 }
+template BodyState stateAt<2>(const Motion&, const Vec2&, double);
+template BodyStateOf<3> stateAt<3>(const MotionOf<3>&, const Vec3&, double);
 
 Vec2 memberPosition(const BodyState& now, const Vec2& referenceCentre, const Vec2& reference) {
   const Vec2 offset = reference - referenceCentre;

@@ -35,8 +35,9 @@ PairCoefficients coefficientsOf(const ContactLaw& law) {
   return row;
 }
 
+template <int D>
 std::vector<PairCoefficients> pairTable(
-    const Scene& scene,
+    const SceneOf<D>& scene,
     const std::function<PairCoefficients(const ContactLaw& law, double reducedMass)>&
         coefficients) {
   // A table of more kinds than this is of no use to a reader.
@@ -75,6 +76,9 @@ std::vector<PairCoefficients> pairTable(
   }
   return table;
 }
+using CoefficientsOf = std::function<PairCoefficients(const ContactLaw& law, double reducedMass)>;
+template std::vector<PairCoefficients> pairTable<2>(const Scene&, const CoefficientsOf&);
+template std::vector<PairCoefficients> pairTable<3>(const SpaceScene&, const CoefficientsOf&);
 
 std::vector<PairCoefficients> pairTable(
     const Scene& scene, const std::function<PairCoefficients(double reducedMass)>& coefficients) {

@@ -14,8 +14,9 @@ PairCoefficients coefficientsOf(const ContactLaw& law);
 /// One row for each kind of pair that the scene can bring together: each two of its distinct disks
 /// (radius, mass and material), and each of them with a wall, of each material that walls have.
 /// @param coefficients  of the pairs of that law and reduced mass [kg]; their name is set here
+template <int D>
 std::vector<PairCoefficients> pairTable(
-    const Scene& scene,
+    const SceneOf<D>& scene,
     const std::function<PairCoefficients(const ContactLaw& law, double reducedMass)>& coefficients);
 
 /// The same where the law makes no difference.

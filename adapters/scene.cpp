@@ -19,26 +19,30 @@ Plane planeAt(BodyState now, const Vec2& referenceCentre, const Plane& reference
           {c * n.x() - s * n.y(), s * n.x() + c * n.y()}};
 }
 
-std::size_t Scene::wallDiskCount() const {
+template <int D>
+std::size_t SceneOf<D>::wallDiskCount() const {
   std::size_t count = 0;
-  for (const WallBody& body : bodies) count += body.diskRadius.size();
+  for (const auto& body : bodies) count += body.diskRadius.size();
   return count;
 }
 
-std::size_t Scene::planeCount() const {
+template <int D>
+std::size_t SceneOf<D>::planeCount() const {
   std::size_t count = 0;
-  for (const WallBody& body : bodies) count += body.planes.size();
+  for (const auto& body : bodies) count += body.planes.size();
   return count;
 }
 
-std::vector<double> Scene::radii() const {
+template <int D>
+std::vector<double> SceneOf<D>::radii() const {
   std::vector<double> all = disks.radius;
-  for (const WallBody& body : bodies)
+  for (const auto& body : bodies)
     all.insert(all.end(), body.diskRadius.begin(), body.diskRadius.end());
   return all;
 }
 
-const ContactLaw& Scene::lawOf(std::size_t i, std::size_t j) const {
+template <int D>
+const ContactLaw& SceneOf<D>::lawOf(std::size_t i, std::size_t j) const {
   if (!materials) return law;
   const auto materialOf = [&](std::size_t id) {
     if (id < disks.size()) return materials->ofDisk[id];
@@ -52,6 +56,9 @@ const ContactLaw& Scene::lawOf(std::size_t i, std::size_t j) const {
   };
   return materials->law(materialOf(i), materialOf(j));
 }
+
+template struct SceneOf<2>;
+template struct SceneOf<3>;
 
 std::string nameOfId(const Scene& scene, std::size_t id) {
   const std::size_t disks = scene.disks.size();

@@ -13,37 +13,45 @@
 
 namespace crossgrain {
 
-/// The moving disks, structure of arrays, all of one length N; ids are 0 … N−1.
-struct Disks {
-  std::vector<double> radius;   ///< [m]
-  std::vector<double> mass;     ///< [kg]
-  std::vector<double> inertia;  ///< moment of inertia about the centre, q m a² [kg m²]
-  std::vector<Vec2> position;   ///< [m]
-  std::vector<Vec2> velocity;   ///< [m/s]
-  std::vector<double> spin;     ///< ω, counter-clockwise positive [rad/s]
+/// The moving disks, or spheres in space, structure of arrays, all of one length N; ids are 0 …
+/// N−1.
+template <int D>
+struct DisksOf {
+  std::vector<double> radius;      ///< [m]
+  std::vector<double> mass;        ///< [kg]
+  std::vector<double> inertia;     ///< moment of inertia about the centre, q m a² [kg m²]
+  std::vector<VecOf<D>> position;  ///< [m]
+  std::vector<VecOf<D>> velocity;  ///< [m/s]
+  std::vector<SpinOf<D>> spin;     ///< ω [rad/s]
 
   std::size_t size() const { return radius.size(); }
 };
+using Disks = DisksOf<2>;
 
-/// A straight wall: the half plane behind `point`, `normal` pointing into the free side.
-struct Plane {
-  Vec2 point = Vec2::Zero();  ///< [m]
-  Vec2 normal = Vec2::UnitY();
+/// A straight wall: the half plane, or half space, behind `point`; `normal` points into the free
+/// side.
+template <int D>
+struct PlaneOf {
+  VecOf<D> point = VecOf<D>::Zero();  ///< [m]
+  VecOf<D> normal = VecOf<D>::UnitY();
 };
+using Plane = PlaneOf<2>;
 
 /// Where a plane given at t = 0 is by now: it shifts and turns with its body, about the body's
 /// centre at t = 0. Those of radial bodies stay.
 Plane planeAt(BodyState now, const Vec2& referenceCentre, const Plane& reference);
 
 /// A rigid body of wall disks and plane walls that moves as prescribed, whatever pushes on it.
-struct WallBody {
-  std::string name;                ///< "wheel", "ring", …
-  Vec2 centre = Vec2::Zero();      ///< at t = 0; angle and torque are about it [m]
-  std::vector<Vec2> diskPosition;  ///< at t = 0 [m]
-  std::vector<double> diskRadius;  ///< [m]
-  std::vector<Plane> planes;
-  Motion motion;
+template <int D>
+struct WallBodyOf {
+  std::string name;                    ///< "wheel", "ring", …
+  VecOf<D> centre = VecOf<D>::Zero();  ///< at t = 0; angle and torque are about it [m]
+  std::vector<VecOf<D>> diskPosition;  ///< at t = 0 [m]
+  std::vector<double> diskRadius;      ///< [m]
+  std::vector<PlaneOf<D>> planes;
+  MotionOf<D> motion;
 };
+using WallBody = WallBodyOf<2>;
 
 /// The floating-point numbers that an engine steps with.
 enum class Precision { float64, float32 };
@@ -70,15 +78,16 @@ struct Materials {
 
 /// One granular scene: everything an engine needs, plain data in SI units, laboratory frame.
 /// Ids: disks 0 … N−1, then the wall disks body by body, then the planes body by body.
-struct Scene {
+template <int D>
+struct SceneOf {
   std::string name;
-  Disks disks;
-  std::vector<WallBody> bodies;
-  ContactLaw law;                      ///< of all pairs
-  std::optional<Materials> materials;  ///< instead, where pairs differ
-  std::optional<BottomPlate> bottom;
-  Vec2 gravity = Vec2::Zero();  ///< in the plane [m/s²]
-  bool rotation = true;         ///< false: friction acts, but no spin changes; all are zero
+  DisksOf<D> disks;
+  std::vector<WallBodyOf<D>> bodies;
+  ContactLaw law;                       ///< of all pairs
+  std::optional<Materials> materials;   ///< instead, where pairs differ
+  std::optional<BottomPlate> bottom;    ///< of the plane alone
+  VecOf<D> gravity = VecOf<D>::Zero();  ///< in the plane, or in space [m/s²]
+  bool rotation = true;                 ///< false: friction acts, but no spin changes; all are zero
   Precision precision = Precision::float64;
   double dt = 0.0;            ///< time step [s]
   bool energyLedger = false;  ///< whether engines that can are to keep Snapshot::ledger, at a cost
@@ -89,9 +98,12 @@ struct Scene {
   const ContactLaw& lawOf(std::size_t i, std::size_t j) const;
   std::vector<double> radii() const;  ///< of the disks, then of the wall disks [m]
 };
+using Scene = SceneOf<2>;
+using SpaceScene = SceneOf<3>;
 
 /// Does the same to the law of all pairs.
-void changeLaws(Scene& scene, auto&& change) {
+template <int D>
+void changeLaws(SceneOf<D>& scene, auto&& change) {
   change(scene.law);
   if (scene.materials)
     for (ContactLaw& law : scene.materials->laws) change(law);

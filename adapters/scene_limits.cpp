@@ -22,7 +22,8 @@ std::string describe(const std::vector<Motion::Kind>& kinds) {
 }
 
 /// The first of a scene that is none of them.
-std::optional<double> otherInertia(const std::vector<double>& allowed, const Disks& disks) {
+template <int D>
+std::optional<double> otherInertia(const std::vector<double>& allowed, const DisksOf<D>& disks) {
   constexpr double roundings = 1e-9;  // of J = q m a² and back
   for (std::size_t k = 0; k < disks.size(); ++k) {
     const double q = disks.inertia[k] / (disks.mass[k] * disks.radius[k] * disks.radius[k]);
@@ -33,7 +34,8 @@ std::optional<double> otherInertia(const std::vector<double>& allowed, const Dis
 }
 
 /// The first that is beyond, of a body's planes; empty: nothing.
-std::string beyondOfPlanes(const SceneLimits& limits, const WallBody& body) {
+template <int D>
+std::string beyondOfPlanes(const SceneLimits& limits, const WallBodyOf<D>& body) {
   if (body.planes.empty()) return {};
   const Motion::Kind kind = body.motion.kind;
   if (limits.planeMotions && limits.planeMotions->empty())
@@ -42,32 +44,37 @@ std::string beyondOfPlanes(const SceneLimits& limits, const WallBody& body) {
     return fmt::format("has planes that are {}, not {} as those of {} are",
                        describe(*limits.planeMotions), toString(kind), body.name);
   if (!limits.planesAlongAxes) return {};
-  for (const Plane& plane : body.planes)
-    if (plane.normal.x() != 0.0 && plane.normal.y() != 0.0)
-      return fmt::format(
-          "has planes along an axis only, not with the normal ({:.6g}, {:.6g}) of {}",
-          plane.normal.x(), plane.normal.y(), body.name);
+  for (const PlaneOf<D>& plane : body.planes)
+    if ((plane.normal.array() != 0.0).count() > 1) {
+      std::vector<std::string> normal;
+      for (const double component : plane.normal)
+        normal.push_back(fmt::format("{:.6g}", component));
+      return fmt::format("has planes along an axis only, not with the normal ({}) of {}",
+                         fmt::join(normal, ", "), body.name);
+    }
   if (kind == Motion::Kind::rotating)
     return fmt::format("has planes along an axis only, and those of {} turn", body.name);
   return {};
 }
 
 /// Whether contacts of this scene have several reduced masses.
-bool pairsDiffer(const Scene& scene) {
+template <int D>
+bool pairsDiffer(const SceneOf<D>& scene) {
   const auto [least, most] = std::ranges::minmax(scene.disks.mass);
   return least != most || scene.wallDiskCount() + scene.planeCount() > 0;
 }
 
 }  // namespace
 
-std::vector<std::string> beyondLimits(const SceneLimits& limits, const Scene& scene,
+template <int D>
+std::vector<std::string> beyondLimits(const SceneLimits& limits, const SceneOf<D>& scene,
                                       bool softLawStoodFor) {
   std::vector<std::string> reasons;
   if (limits.inertia && effectsOf(scene).contains(Effect::rotation))
     if (const auto q = otherInertia(*limits.inertia, scene.disks))
       reasons.push_back(fmt::format("has moments of inertia of {} m a², not {:.6g} m a²",
                                     fmt::join(*limits.inertia, " | "), *q));
-  for (const WallBody& body : scene.bodies) {
+  for (const auto& body : scene.bodies) {
     const std::string kind = toString(body.motion.kind);
     if (limits.wallMotions && !body.diskRadius.empty() &&
         !has(*limits.wallMotions, body.motion.kind))
@@ -82,6 +89,9 @@ std::vector<std::string> beyondLimits(const SceneLimits& limits, const Scene& sc
         "has one restitution for each body, and the soft law gives this scene's pairs several");
   return reasons;
 }
+
+template std::vector<std::string> beyondLimits<2>(const SceneLimits&, const Scene&, bool);
+template std::vector<std::string> beyondLimits<3>(const SceneLimits&, const SpaceScene&, bool);
 
 std::string beyondSinglePrecision(const Scene& scene) {
   // Squares of these, and products of a mass with one of them, are within 10^±38.

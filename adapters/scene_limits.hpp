@@ -15,7 +15,7 @@ struct SceneLimits {
   std::optional<std::vector<double>> inertia;             ///< q of J = q m a² that disks may have
   std::optional<std::vector<Motion::Kind>> wallMotions;   ///< of bodies with wall disks
   std::optional<std::vector<Motion::Kind>> planeMotions;  ///< of those with planes; empty: none
-  bool planesAlongAxes = false;  ///< planes have normals along ±x or ±y alone, to the bit
+  bool planesAlongAxes = false;  ///< planes have normals along axes (±x, ±y, ±z) alone, to the bit
   /// Of rigid contacts: each body has one restitution, so that a soft law, whose restitution
   /// depends on the masses of the pair, cannot be stood for where pairs differ.
   bool restitutionPerBody = false;
@@ -23,7 +23,8 @@ struct SceneLimits {
 
 /// What in a scene is beyond them, one clause each. Empty: nothing.
 /// @param softLawStoodFor  the engine has rigid contacts in place of the scene's law
-std::vector<std::string> beyondLimits(const SceneLimits& limits, const Scene& scene,
+template <int D>
+std::vector<std::string> beyondLimits(const SceneLimits& limits, const SceneOf<D>& scene,
                                       bool softLawStoodFor);
 
 /// The first number of a scene that single precision cannot hold, or square, in a unit of about the

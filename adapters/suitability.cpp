@@ -16,7 +16,8 @@ Support supportOf(const Capabilities& can, Effect effect) {
   return found == can.effects.end() ? Support::never : found->second;
 }
 
-void removeEffect(Scene& scene, Effect effect) {
+template <int D>
+void removeEffect(SceneOf<D>& scene, Effect effect) {
   switch (effect) {
     case Effect::normalDamping:
       changeLaws(scene, [](ContactLaw& law) {
@@ -26,7 +27,7 @@ void removeEffect(Scene& scene, Effect effect) {
       break;
     case Effect::rotation:
       scene.rotation = false;
-      std::ranges::fill(scene.disks.spin, 0.0);
+      std::ranges::fill(scene.disks.spin, noSpin<D>());
       break;
     case Effect::friction:
       changeLaws(scene, [](ContactLaw& law) {
@@ -47,10 +48,10 @@ void removeEffect(Scene& scene, Effect effect) {
       if (scene.bottom) scene.bottom->spin = false;
       break;
     case Effect::gravity:
-      scene.gravity = Vec2::Zero();
+      scene.gravity = VecOf<D>::Zero();
       break;
     case Effect::movingWalls:
-      for (WallBody& body : scene.bodies) body.motion = {};
+      for (auto& body : scene.bodies) body.motion = {};
       break;
     case Effect::rollingResistance:
       changeLaws(scene, [](ContactLaw& law) { law.rolling = RollingLaw::none; });
@@ -111,7 +112,8 @@ bool hasNormalLaw(const Capabilities& can, const ContactLaw& law) {
   return has(can, law, "normal");
 }
 
-std::vector<Mismatch> mismatches(const Capabilities& can, const Scene& scene) {
+template <int D>
+std::vector<Mismatch> mismatches(const Capabilities& can, const SceneOf<D>& scene) {
   std::vector<Mismatch> found;
   const Effects called = effectsOf(scene);
   const bool sameLaw = hasNormalLaw(can, scene.law);
@@ -143,11 +145,16 @@ std::vector<Mismatch> mismatches(const Capabilities& can, const Scene& scene) {
   return found;
 }
 
-Effects simulatedEffects(const Capabilities& can, const Scene& scene) {
+template std::vector<Mismatch> mismatches<2>(const Capabilities&, const Scene&);
+
+template <int D>
+Effects simulatedEffects(const Capabilities& can, const SceneOf<D>& scene) {
   Effects effects = effectsOf(scene);
   std::erase_if(effects, [&](Effect effect) { return supportOf(can, effect) == Support::never; });
   return effects;
 }
+template Effects simulatedEffects<2>(const Capabilities&, const Scene&);
+template Effects simulatedEffects<3>(const Capabilities&, const SpaceScene&);
 
 ContactLaw lawAsRun(const Capabilities& can, ContactLaw law) {
   for (const auto& [option, values] : can.lawOptions) {
@@ -174,9 +181,13 @@ void refuseUnlisted(const std::vector<Mismatch>& all, const std::vector<std::str
 
 }  // namespace
 
-Adapted adaptScene(const Capabilities& can, const Scene& scene,
-                   const std::vector<std::string>& mayDiffer) {
-  Adapted adapted{scene, {}};
+template <int D>
+AdaptedOf<D> adaptScene(const Capabilities& can, const SceneOf<D>& scene,
+                        const std::vector<std::string>& mayDiffer) {
+  if (std::ranges::find(can.dimensions, D) == can.dimensions.end())
+    throw UnsupportedScene(
+        fmt::format("has dimension = {}, not {}", fmt::join(can.dimensions, " | "), D));
+  AdaptedOf<D> adapted{scene, {}};
   const std::vector<Mismatch> all = mismatches(can, scene);
   refuseUnlisted(all, mayDiffer);
   for (const Mismatch& mismatch : all) {
@@ -200,10 +211,14 @@ Adapted adaptScene(const Capabilities& can, const Scene& scene,
            fmt::format("runs in {}, not {}", toString(can.precisions.front()),
                        toString(scene.precision))});
   }
-  if (adapted.scene.precision == Precision::float32)
-    if (const std::string why = beyondSinglePrecision(adapted.scene); !why.empty())
-      throw UnsupportedScene(why);
+  if constexpr (D == 2)  // no engine takes a scene in space in single precision
+    if (adapted.scene.precision == Precision::float32)
+      if (const std::string why = beyondSinglePrecision(adapted.scene); !why.empty())
+        throw UnsupportedScene(why);
   return adapted;
 }
+template Adapted adaptScene<2>(const Capabilities&, const Scene&, const std::vector<std::string>&);
+template AdaptedOf<3> adaptScene<3>(const Capabilities&, const SpaceScene&,
+                                    const std::vector<std::string>&);
 
 }  // namespace crossgrain

@@ -37,11 +37,13 @@ bool hasNormalLaw(const Capabilities& can, const ContactLaw& law);
 /// Everything in the scene that the engine cannot do as written. Empty: it can run it faithfully.
 /// Where the engine lacks the normal law that is one mismatch, "normal", for the law as a whole:
 /// its conventions, springs and dashpots have no meaning in the law that stands for it.
-std::vector<Mismatch> mismatches(const Capabilities& can, const Scene& scene);
+template <int D>
+std::vector<Mismatch> mismatches(const Capabilities& can, const SceneOf<D>& scene);
 
 /// The effects that the engine simulates in a scene: those called for, without those that it never
 /// does. EffectiveParameters::effects of an adapted scene is this set.
-Effects simulatedEffects(const Capabilities& can, const Scene& scene);
+template <int D>
+Effects simulatedEffects(const Capabilities& can, const SceneOf<D>& scene);
 
 /// The law with the conventions that the engine has in place of those it lacks: its first of each.
 ContactLaw lawAsRun(const Capabilities& can, ContactLaw law);
@@ -49,14 +51,18 @@ ContactLaw lawAsRun(const Capabilities& can, ContactLaw law);
 /// The scene as this engine may run it: what it cannot do, and `mayDiffer` lists, is changed to
 /// what the engine has, each change a deviation. A precision that the engine lacks is no reason to
 /// refuse: it runs in its own.
-struct Adapted {
-  Scene scene;
+template <int D>
+struct AdaptedOf {
+  SceneOf<D> scene;
   std::vector<Deviation> deviations;
 };
+using Adapted = AdaptedOf<2>;
 
-/// @throws UnlistedDifferences naming every mismatch that is not in mayDiffer, and where to list
-/// them; or what is then still beyond the engine's limits, which no case can have it run
-Adapted adaptScene(const Capabilities& can, const Scene& scene,
-                   const std::vector<std::string>& mayDiffer);
+/// @throws UnsupportedScene of a dimension that the engine does not have; UnlistedDifferences
+/// naming every mismatch that is not in mayDiffer, and where to list them; or what is then still
+/// beyond the engine's limits, which no case can have it run
+template <int D>
+AdaptedOf<D> adaptScene(const Capabilities& can, const SceneOf<D>& scene,
+                        const std::vector<std::string>& mayDiffer);
 
 }  // namespace crossgrain

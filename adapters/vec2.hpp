@@ -1,11 +1,33 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <type_traits>
 
 namespace crossgrain {
 
+/// A vector of a model of D dimensions, laboratory frame.
+template <int D>
+using VecOf = Eigen::Matrix<double, D, 1>;
+
 /// A vector in the plane of motion, laboratory frame, components (x, y).
-using Vec2 = Eigen::Vector2d;
+using Vec2 = VecOf<2>;
+
+/// A vector in space, components (x, y, z).
+using Vec3 = VecOf<3>;
+
+/// What turns: an angular velocity, an angle or a torque. In the plane it is about z, one number,
+/// counter-clockwise positive; in space a vector along its axis.
+template <int D>
+using SpinOf = std::conditional_t<D == 2, double, Vec3>;
+
+/// The zero of either.
+template <int D>
+SpinOf<D> noSpin() {
+  if constexpr (D == 2)
+    return 0.0;
+  else
+    return Vec3::Zero();
+}
 
 /// z × v: v turned by +90° (counter-clockwise).
 inline Vec2 perpendicular(const Vec2& v) {

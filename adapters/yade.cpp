@@ -23,7 +23,7 @@ EngineEntry yadeEngine() {
   return {.name = "yade",
           .summary =
               "YADE, its viscoelastic, cohesive-frictional, Luding and Hertz-Mindlin laws on "
-              "spheres kept in a plane",
+              "spheres kept in a plane, or in space",
           .command = yadeCommand,
           .missing = yadeMissing};
 }
@@ -50,7 +50,9 @@ EngineEntry yadeMirror() {
                       {"rolling_load", {"while_compressed"}},
                       {"cohesion", {"dmt", "elasto_plastic"}},
                       {"cohesion_load", {"magnitude_plus_pull_off"}},
-                      {"unloading_stiffness", {"lagged"}}});
+                      {"unloading_stiffness", {"lagged"}},
+                      {"spring_turn", {"first_order"}},
+                      {"spring_twist", {"mean_spin"}}});
 }
 
 }  // namespace crossgrain

@@ -118,7 +118,10 @@ struct Collision {
   double radius[2] = {0.0, 0.0};  ///< of a wall not used [m]
   double mass[2] = {0.0, 0.0};    ///< likewise [kg]
   double inertiaFactor = 0.5;
-  std::vector<double> stepsPerContact = {50.0};  ///< one sweep for each
+  std::vector<double> stepsPerContact = {50.0};           ///< one sweep for each
+  Vec2 spinOutOfPlane[2] = {Vec2::Zero(), Vec2::Zero()};  ///< CollisionStart's, in space [rad/s]
+  /// In space the whole scene is turned by that angle about that axis, through the origin [rad].
+  Vec3 turn = Vec3::Zero();
   double startPhase = 0.5;  ///< the disks touch this fraction of a step after a step, [0, 1)
   std::map<std::string, Margin> margins;    ///< "psi_f", "e_n": largest distance from the oracle
   std::vector<MaterialName> material = {};  ///< of the two, where [[law.pairs]] has them
@@ -274,6 +277,7 @@ struct Case {
   std::string name;
   std::string variant;  ///< empty for the case itself
   CaseKind kind = CaseKind::couette;
+  int dimension = 2;  ///< 3: spheres in space
   std::filesystem::path file;
   std::string resolvedToml;  ///< the merged document, printed: what was really run
   ContactLaw law;

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "cases/materials.hpp"
+#include "support/bad_input.hpp"
 
 namespace crossgrain::inline cases {
 
@@ -26,7 +28,12 @@ std::vector<CollisionStart> collisionStarts(const Case& setup) {
     for (const double speed : speeds)
       for (const double spin : c.counterSpin)
         for (const double psi : c.psi)
-          starts.push_back({psi, whole ? speed / std::hypot(1.0, psi) : speed, c.approach, spin});
+          starts.push_back({psi,
+                            whole ? speed / std::hypot(1.0, psi) : speed,
+                            c.approach,
+                            spin,
+                            0.0,
+                            {c.spinOutOfPlane[0], c.spinOutOfPlane[1]}});
   };
   c.vn.empty() ? add({c.speed}, true) : add(c.vn, false);
   return starts;
@@ -57,7 +64,10 @@ WallBody movingWall(const Vec2& velocity) {
 
 }  // namespace
 
-Scene collisionScene(const Case& setup, const std::vector<CollisionStart>& starts, double dt) {
+namespace {
+
+/// Whatever the case's dimension: in space it is turned afterwards.
+Scene planarScene(const Case& setup, const std::vector<CollisionStart>& starts, double dt) {
   const Collision& collision = setup.collision;
   const CollidingPair pair = collidingPair(setup);
   const double reach = pair.radius[0] + pair.radius[1];
@@ -93,6 +103,55 @@ Scene collisionScene(const Case& setup, const std::vector<CollisionStart>& start
       addDisk(scene.disks, pair, side, centre + fraction * apart, fraction * velocity,
               motion.spin[side]);
     }
+  }
+  return scene;
+}
+
+}  // namespace
+
+Scene collisionScene(const Case& setup, const std::vector<CollisionStart>& starts, double dt) {
+  if (setup.dimension != 2)
+    throw BadInput(
+        fmt::format("{}: collide and check alone know collisions in space "
+                    "(case.dimension = 3)",
+                    setup.file.string()));
+  return planarScene(setup, starts, dt);
+}
+
+Eigen::Matrix3d turnOf(const Case& setup) {
+  const Vec3& turn = setup.collision.turn;
+  if (turn.isZero(0.0)) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+}
+
+SpaceScene spaceCollisionScene(const Case& setup, const std::vector<CollisionStart>& starts,
+                               double dt) {
+  const Scene plane = planarScene(setup, starts, dt);
+  const Eigen::Matrix3d turn = turnOf(setup);
+  const auto placed = [&](const Vec2& v) -> Vec3 { return turn * Vec3(v.x(), v.y(), 0.0); };
+  const std::size_t spheres = plane.bodies.empty() ? 2 : 1;  // of each collision
+  SpaceScene scene;
+  scene.name = plane.name;
+  scene.law = plane.law;
+  scene.precision = plane.precision;
+  scene.energyLedger = plane.energyLedger;
+  scene.dt = plane.dt;
+  scene.disks.radius = plane.disks.radius;
+  scene.disks.mass = plane.disks.mass;
+  scene.disks.inertia = plane.disks.inertia;
+  for (std::size_t i = 0; i < plane.disks.size(); ++i) {
+    const Vec2& besides = starts[i / spheres].spinOutOfPlane[i % spheres];
+    scene.disks.position.push_back(placed(plane.disks.position[i]));
+    scene.disks.velocity.push_back(placed(plane.disks.velocity[i]));
+    scene.disks.spin.push_back(turn * Vec3(besides.x(), besides.y(), plane.disks.spin[i]));
+  }
+  for (const WallBody& body : plane.bodies) {
+    WallBodyOf<3>& wall = scene.bodies.emplace_back();
+    wall.name = body.name;
+    for (const Plane& each : body.planes)
+      wall.planes.push_back({placed(each.point), placed(each.normal)});
+    wall.motion.kind = body.motion.kind;
+    wall.motion.velocity = placed(body.motion.velocity);
   }
   return scene;
 }

@@ -20,7 +20,16 @@ std::vector<CollisionStart> collisionStarts(const Case& setup);
 /// They touch start_phase·dt after the start, then with their centres on a parallel to x and
 /// moving as motionBefore() says. With a wall disk k is on the right of the one plane, normal +x,
 /// that all meet; the plane moves, and the disks move as said with respect to it.
+/// @throws BadInput for a case in space
 Scene collisionScene(const Case& setup, const std::vector<CollisionStart>& starts, double dt);
+
+/// The same of spheres in space: x, y and z of the plane's scene are n, s and b of each collision,
+/// and all of it is turned as the case says.
+SpaceScene spaceCollisionScene(const Case& setup, const std::vector<CollisionStart>& starts,
+                               double dt);
+
+/// Columns are where n, s and b of the case's collisions are in its scene.
+Eigen::Matrix3d turnOf(const Case& setup);
 
 /// A kind of pair that a case brings together: "small-large", "large-wall", "i-j"; "large-wheel"
 /// and "large-ring" where these are of two materials.

@@ -25,6 +25,11 @@ const Section<Case>& headerKeys() {
       {key("name", &Case::name, any, "in reports and file names: letters, digits and `. _ - +`")
            .listed("the file's name"),
        need("kind", &Case::kind, caseKinds, ""),
+       special<Case>({"dimension", "", "2", "2, 3",
+                      "3: spheres in space, of collisions alone (docs/dimensions.md)"},
+                     [](Reader& in, const std::string& key, Case& c) {
+                       in.read(key, c.dimension, between(2, 3));
+                     }),
        special<Case>({"extends", "", "–", "",
                       "another case file, relative to this one; a name in `cases/` that does not "
                       "exist there is that of a case that came with the program"},
@@ -34,6 +39,8 @@ const Section<Case>& headerKeys() {
 
 void readHeader(Reader& in, Case& c) {
   headerKeys().read(in, c);
+  in.check(c.dimension == 2 || c.kind == CaseKind::collision, "dimension",
+           "only collisions are in space yet");
   if (usableName(c.name)) return;
   if (in.has("name")) in.fail("name", usableNameRule);
   in.failMissing("name", "the name of the file cannot stand in for it");
@@ -183,7 +190,7 @@ void readAssemblyCase(Reader& root, Reader& law, Reader& run, Starts starts, Cas
 
 void readCollisionCase(Reader& root, Reader& law, Reader& run, Case& c) {
   Reader collision = root.section("collision");
-  readCollision(collision, c.collision);
+  readCollision(collision, c.collision, c.dimension);
   settleMaterials(c);
   run.check(!run.has("steps_per_contact"), "steps_per_contact",
             "a collision takes collision.steps_per_contact");
@@ -233,6 +240,7 @@ Case readCase(const std::filesystem::path& file, CaseDocument& document,
   readHeader(header, c);
   refuseSections(root, c.kind);
   std::vector<Reader> pairs = law.sections("pairs");
+  c.law.dimension = c.dimension;
   readLaw(law, c.law, c.kind == CaseKind::collision);
   readPairLaws(law, pairs, c);
   readRun(run, c.run);

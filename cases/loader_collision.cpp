@@ -92,6 +92,22 @@ const Section<Collision>& collisionKeys() {
            }),
        key("inertia_factor", &Collision::inertiaFactor, aboveZeroTo(1.0), "as in `[particles]`")
            .usedBy(users),
+       keyOf<Collision>(
+           "first_spin", [](auto& c) -> auto& { return c.spinOutOfPlane[0]; }, anyNumber("rad/s"),
+           "in space, spin that the first body has besides: about the line of centres n, and about "
+           "the tangent s"),
+       keyOf<Collision>(
+           "second_spin", [](auto& c) -> auto& { return c.spinOutOfPlane[1]; }, anyNumber("rad/s"),
+           "the same of the second"),
+       special<Collision>({"turn", "degrees", "[0, 0, 0]", "",
+                           "in space, the scene is turned about this axis by its length: n, s and "
+                           "n × s are along x, y and z before"},
+                          [](Reader& in, const std::string& key, Collision& c) {
+                            std::vector<double> degrees(3);
+                            in.read(key, degrees, anyNumber());
+                            in.check(degrees.size() == 3, key, "must be [x, y, z] in degrees");
+                            c.turn = Vec3::Map(degrees.data()) * (std::numbers::pi / 180.0);
+                          }),
        key("steps_per_contact", &Collision::stepsPerContact, atLeast(2.0),
            "a number or a list; a rigid law takes `run.dt` instead"),
        key("start_phase", &Collision::startPhase,
@@ -125,7 +141,7 @@ std::vector<SectionInfo> collisionSections() {
               "QUANTITY", "how far from the oracle it may be", "of the oracle's curve", false)};
 }
 
-void readCollision(Reader& in, Collision& c) {
+void readCollision(Reader& in, Collision& c, int dimension) {
   const Reader margins = in.section("margins");
   collisionKeys().read(in, c);
   if (!in.has("psi") && !in.has("angle")) in.failMissing("psi");
@@ -134,6 +150,10 @@ void readCollision(Reader& in, Collision& c) {
   else if (!in.has("vn"))
     in.failMissing("vn");
   checkWall(in, c);
+  for (const char* const key : {"first_spin", "second_spin", "turn"})
+    in.check(dimension == 3 || !in.has(key), key,
+             "only collisions in space have it (case.dimension = 3)");
+  in.check(!c.wall || !in.has("second_spin"), "second_spin", "a wall does not turn");
   const auto starts = static_cast<double>(c.psi.size()) *
                       static_cast<double>(std::max<std::size_t>(1, c.vn.size())) *
                       static_cast<double>(c.counterSpin.size());

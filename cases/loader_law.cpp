@@ -75,7 +75,11 @@ constexpr std::pair<const char*, const char*> optionMeanings[] = {
      "+ "
      "F_po, or f_n without its dashpot"},
     {"unloading_stiffness",
-     "k₂ of an elasto-plastic contact: of δ_max in this step, or in the step before"}};
+     "k₂ of an elasto-plastic contact: of δ_max in this step, or in the step before"},
+    {"spring_turn",
+     "in space, how ξ follows n: by the smallest rotation, that to first order, or less its part "
+     "along n, to the old length or not (docs/dimensions.md)"},
+    {"spring_twist", "in space, whether ξ turns with a pair about n, by ½(ω_i + ω_j)·n dt"}};
 
 std::vector<Key<LawInput>> lawTable() {
   std::vector<Key<LawInput>> keys;
@@ -479,7 +483,12 @@ void readPairLaws(const Reader& law, std::vector<Reader>& pairs, Case& c) {
 
 void readLaw(Reader& in, ContactLaw& contact, bool ofTwoBodies) {
   LawInput input;
+  input.dimension = contact.dimension;
   settle(in, input, ofTwoBodies);
+  if (!input.inSpace())
+    for (const LawOption& option : lawOptions())
+      if (option.part == LawPart::space && in.has(option.name))
+        in.fail(option.name, "only a law in space has it (case.dimension = 3)");
   contact = input;
 }
 

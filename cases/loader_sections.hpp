@@ -26,6 +26,7 @@ std::vector<SectionInfo> averageSections();    ///< [average] …, [[endpoints]]
 // One function per section: reads every key, then checks what the section can tell alone. All throw
 // BadInput.
 
+/// @param law          its dimension is set
 /// @param ofTwoBodies  in a collision, whose bodies may be of two materials
 void readLaw(Reader& in, ContactLaw& law, bool ofTwoBodies);
 /// [[law.pairs]], into materials with their laws, of which law.law is that of all others.
@@ -48,7 +49,8 @@ void readEngines(Reader& in, std::map<std::string, Settings>& engines);
 Settings readSettings(Reader engine);
 void readStability(Reader& in, Stability& stability);
 void readCost(Reader& in, Cost& cost);
-void readCollision(Reader& in, Collision& collision);
+/// @param dimension  of the case: some keys are of collisions in space alone
+void readCollision(Reader& in, Collision& collision, int dimension);
 void readAssembly(Reader& in, Assembly& assembly);
 /// [average] and [[endpoints]]. @param c  whose [assembly] and [preparation] have been read
 void readAverage(Reader& in, std::vector<Reader>& endpoints, Case& c);

@@ -95,8 +95,9 @@ void printEngine(const json& row) {
 
 void printChecked(const json& checked) {
   const std::string variant = checked["variant"], name = checked["name"];
-  fmt::print("{}: {} disks, {} wall disks, dt {:.3g} s\n", variant.empty() ? name : variant,
-             number(checked, "disks"), number(checked, "wall_disks"), number(checked, "dt_s"));
+  fmt::print("{}: {} {}, {} wall disks, dt {:.3g} s\n", variant.empty() ? name : variant,
+             number(checked, "disks"), checked.contains("dimension") ? "spheres" : "disks",
+             number(checked, "wall_disks"), number(checked, "dt_s"));
   fmt::print("  effects called for: {}; left out: {}\n", listed(checked["effects"]),
              listed(checked["left_out"]));
   if (checked["steps_per_contact"].is_number())

@@ -1,5 +1,6 @@
 #include "oracle/collision_end.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 
@@ -58,6 +59,52 @@ double energyOf(const CollidingPair& pair, const PairMotion& motion) {
     if (motion.spin[side] != 0.0)  // a wall has none, and an infinite moment of inertia
       twice += pair.inertia[side] * motion.spin[side] * motion.spin[side];
   return 0.5 * twice;
+}
+
+SpaceMotion spaceMotionBefore(const CollidingPair& pair, const CollisionStart& start) {
+  const PairMotion plane = motionBefore(pair, start);
+  SpaceMotion motion;
+  motion.velocity = {plane.normal, plane.tangential, 0.0};
+  for (const int side : {0, 1}) {
+    const Vec2& besides = start.spinOutOfPlane[side];
+    motion.spin[side] = {besides.x(), besides.y(), plane.spin[side]};
+  }
+  return motion;
+}
+
+namespace {
+
+/// As that of the plane.
+double energyOf(const CollidingPair& pair, const SpaceMotion& motion) {
+  double twice = pair.reducedMass() * motion.velocity.squaredNorm();
+  for (const int side : {0, 1})
+    if (!motion.spin[side].isZero(0.0))  // a wall has none, and an infinite moment of inertia
+      twice += pair.inertia[side] * motion.spin[side].squaredNorm();
+  return 0.5 * twice;
+}
+
+}  // namespace
+
+CollisionEnd spaceEndOf(const CollidingPair& pair, const CollisionStart& start,
+                        const SpaceMotion& after) {
+  const auto turn = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), after.normal);
+  const Vec3 along = turn * Vec3::UnitY(), out = turn * Vec3::UnitZ();
+  CollisionEnd end = endOf(pair, start,
+                           {after.velocity.dot(after.normal),
+                            after.velocity.dot(along),
+                            {after.spin[0].dot(out), after.spin[1].dot(out)}});
+  // Of the slip v − (a_i ω_i + a_j ω_j) × n′ the part along b′ = n′ × s′, as ω × n′·b′ = −ω·s′.
+  const Vec3 turning = pair.radius[0] * after.spin[0] + pair.radius[1] * after.spin[1];
+  EndOutOfPlane& besides = end.outOfPlane.emplace();
+  besides.psi = (after.velocity.dot(out) + turning.dot(along)) / start.vn;
+  for (const int side : {0, 1}) {
+    besides.spinNormal[side] = after.spin[side].x();
+    besides.spinTangent[side] = after.spin[side].y();
+    end.spin[side] = after.spin[side].z();
+  }
+  end.energyBefore = energyOf(pair, spaceMotionBefore(pair, start));
+  end.energyAfter = energyOf(pair, after);
+  return end;
 }
 
 CollisionEnd endOf(const CollidingPair& pair, const CollisionStart& start,

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "adapters/contact_law.hpp"
+#include "adapters/vec2.hpp"
 
 namespace crossgrain::inline oracle {
 
@@ -45,6 +46,9 @@ struct CollisionStart {
   /// How long after the touch the law is evaluated first [s]: until then the disks fly on without a
   /// force, as in a step of that length. 0: the law in continuous time.
   double late = 0.0;
+  /// In space, spins that each body has besides, about the line of centres n and about the tangent
+  /// s: the first leave the slip as it is, the second give it a part along b = n × s [rad/s].
+  Vec2 spinOutOfPlane[2] = {Vec2::Zero(), Vec2::Zero()};
 };
 
 /// Motion of i against j, in the frame of the normal n (from j to i) and s = z × n.
@@ -81,6 +85,22 @@ struct EnergySplit {
   std::optional<double> detachment = {};
 };
 
+/// The same in space, with the two bodies on any line: components in any frame.
+struct SpaceMotion {
+  Vec3 normal = Vec3::UnitX();                  ///< from j to i, of length 1
+  Vec3 velocity = Vec3::Zero();                 ///< of i against j [m/s]
+  Vec3 spin[2] = {Vec3::Zero(), Vec3::Zero()};  ///< [rad/s]
+};
+
+/// What a collision in space has besides. The frame is that of the start: n, s and b = n × s.
+struct EndOutOfPlane {
+  /// v_t after along b′ / speed of approach; n′, s′ and b′ are n, s and b after the smallest
+  /// rotation that takes n to the normal at separation.
+  double psi = 0.0;
+  double spinNormal[2] = {};   ///< ω·n [rad/s]
+  double spinTangent[2] = {};  ///< ω·s [rad/s]
+};
+
 /// What is left after a collision, at the instant of separation and with that instant's normal.
 /// About the contact point: psi, beta. About the centres' relative motion: en, centrePsi, et,
 /// reboundAngle. The two kinds are different numbers: friction moves the contact point K = 1 + 1/q
@@ -92,10 +112,11 @@ struct CollisionEnd {
   double centrePsi = 0.0;      ///< centres' v_t after / speed of approach
   /// Centres' v_t after / before; absent where they had none: Approach::spin, Ψ_i = 0.
   std::optional<double> et;
-  double reboundAngle = 0.0;         ///< of the centres' velocity from n towards s [rad]
-  double spin[2] = {};               ///< ω_i, ω_j [rad/s]
-  double energyBefore = 0.0;         ///< of the relative motion and both spins [J]
-  double energyAfter = 0.0;          ///< [J]
+  double reboundAngle = 0.0;                ///< of the centres' velocity from n towards s [rad]
+  double spin[2] = {};                      ///< ω_i, ω_j; in space ω·b [rad/s]
+  std::optional<EndOutOfPlane> outOfPlane;  ///< of collisions in space
+  double energyBefore = 0.0;                ///< of the relative motion and both spins [J]
+  double energyAfter = 0.0;                 ///< [J]
   std::optional<double> duration;    ///< from the first touch to separation [s]; none if rigid
   std::optional<double> maxOverlap;  ///< [m]; none if rigid
   std::optional<EnergySplit> lost;
@@ -113,10 +134,17 @@ struct CollisionEnd {
 /// The motion when the disks touch first.
 PairMotion motionBefore(const CollidingPair& pair, const CollisionStart& start);
 
+/// The same in space: in components along n, s and b.
+SpaceMotion spaceMotionBefore(const CollidingPair& pair, const CollisionStart& start);
+
 /// m₁₂ v²/2 + Σ J ω²/2: kinetic energy in the frame of the pair's centre of mass [J].
 double energyOf(const CollidingPair& pair, const PairMotion& motion);
 
 /// All that follows from the motion when they part.
 CollisionEnd endOf(const CollidingPair& pair, const CollisionStart& start, const PairMotion& after);
+
+/// The same in space. @param after  in components along the start's n, s and b
+CollisionEnd spaceEndOf(const CollidingPair& pair, const CollisionStart& start,
+                        const SpaceMotion& after);
 
 }  // namespace crossgrain::inline oracle

@@ -7,8 +7,9 @@
 
 namespace crossgrain::inline oracle {
 
-CollidingPair pairOf(const Scene& scene, std::size_t pair) {
-  const Disks& disks = scene.disks;
+template <int D>
+CollidingPair pairOf(const SceneOf<D>& scene, std::size_t pair) {
+  const DisksOf<D>& disks = scene.disks;
   if (!scene.bodies.empty())
     return diskOnWall(disks.radius[pair], disks.mass[pair], disks.inertia[pair]);
   const std::size_t i = 2 * pair, j = i + 1;
@@ -16,13 +17,15 @@ CollidingPair pairOf(const Scene& scene, std::size_t pair) {
           {disks.mass[i], disks.mass[j]},
           {disks.inertia[i], disks.inertia[j]}};
 }
+template CollidingPair pairOf<2>(const Scene&, std::size_t);
+template CollidingPair pairOf<3>(const SpaceScene&, std::size_t);
 
 namespace {
 
 /// When a free flight from `apart` reached `reach` for the last time, ≤ 0 [s]. An engine that lets
 /// disks part a hair outside contact never had them at `reach`: then the closest approach of the
 /// flight line is the best instant there is.
-double timeOfParting(const Vec2& apart, const Vec2& velocity, double reach) {
+double timeOfParting(const auto& apart, const auto& velocity, double reach) {
   const double a = velocity.squaredNorm();
   const double b = apart.dot(velocity);
   const double c = apart.squaredNorm() - reach * reach;
@@ -75,6 +78,42 @@ std::optional<CollisionEnd> collisionEnd(const Scene& scene, const Snapshot& aft
                                       disks.velocity[j] - disks.velocity[i], reach);
   if (scene.law.soft()) parted.duration = after.positionTime + parting - touch;
   return parted;
+}
+
+std::optional<CollisionEnd> collisionEnd(const SpaceScene& scene, const SpaceSnapshot& after,
+                                         std::size_t pair, const CollisionStart& start,
+                                         const Eigen::Matrix3d& turn) {
+  const DisksOf<3>& spheres = scene.disks;
+  const CollidingPair bodies = pairOf(scene, pair);
+  const double reach = bodies.radius[0] + bodies.radius[1];
+  const std::size_t i = bodies.plane ? pair : 2 * pair, j = i + 1;
+  const Vec3 wall = bodies.plane ? scene.bodies.front().motion.velocity : Vec3::Zero();
+  /// Of i against j, or against the plane.
+  const auto between = [&](const std::vector<Vec3>& of, const Vec3& ofWall) -> Vec3 {
+    return turn.transpose() * (of[i] - (bodies.plane ? ofWall : of[j]));
+  };
+  const Vec3 apart = between(after.position, after.positionTime * wall);
+  const Vec3 before = between(spheres.position, Vec3::Zero());
+  const Vec3 velocity = between(after.velocity, wall), approach = between(spheres.velocity, wall);
+  SpaceMotion motion;
+  motion.velocity = velocity;
+  const std::vector<Vec3>& spin = after.spin ? *after.spin : spheres.spin;
+  motion.spin[0] = turn.transpose() * spin[i];
+  if (!bodies.plane) motion.spin[1] = turn.transpose() * spin[j];
+  double parting, touch;
+  if (bodies.plane) {
+    if (velocity.x() <= 0.0 || apart.x() < reach) return std::nullopt;
+    parting = (reach - apart.x()) / velocity.x();
+    touch = (reach - before.x()) / approach.x();
+  } else {
+    if (apart.dot(velocity) <= 0.0 || apart.norm() < reach) return std::nullopt;
+    parting = timeOfParting(apart, velocity, reach);
+    motion.normal = (apart + parting * velocity).normalized();
+    touch = -timeOfParting(before, Vec3(-approach), reach);
+  }
+  CollisionEnd end = spaceEndOf(bodies, start, motion);
+  end.duration = after.positionTime + parting - touch;
+  return end;
 }
 
 }  // namespace crossgrain::inline oracle

@@ -10,7 +10,8 @@ namespace crossgrain::inline oracle {
 
 /// Collisions side by side in one scene: disks 2k and 2k + 1 are pair k; where there is a wall,
 /// disk k and its one plane.
-CollidingPair pairOf(const Scene& scene, std::size_t pair);
+template <int D>
+CollidingPair pairOf(const SceneOf<D>& scene, std::size_t pair);
 
 /// Traces the free flight after the collision back to the instant when the disks parted, under JKR
 /// where the scene's law lets go. An end
@@ -19,5 +20,11 @@ CollidingPair pairOf(const Scene& scene, std::size_t pair);
 /// @returns none if they never met or still touch
 std::optional<CollisionEnd> collisionEnd(const Scene& scene, const Snapshot& after,
                                          std::size_t pair, const CollisionStart& start);
+
+/// The same in space, of a linear law.
+/// @param turn  takes n, s and b of the start to where they are in the scene: its columns
+std::optional<CollisionEnd> collisionEnd(const SpaceScene& scene, const SpaceSnapshot& after,
+                                         std::size_t pair, const CollisionStart& start,
+                                         const Eigen::Matrix3d& turn);
 
 }  // namespace crossgrain::inline oracle

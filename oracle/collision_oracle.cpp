@@ -301,6 +301,7 @@ bool hasSeveralOutcomes(const ContactLaw& law, const CollidingPair& pair,
 
 CollisionEnd oracleOutcome(const ContactLaw& law, const CollidingPair& pair,
                            const CollisionStart& start) {
+  if (law.inSpace()) return spaceOutcome(law, pair, start);
   if (!law.soft()) return rigidOutcome(law, pair, start);
   requireContinuousLimit(law);
   CollisionEnd end = TwoBodyProblem(law, pair).solve(start);
@@ -309,17 +310,31 @@ CollisionEnd oracleOutcome(const ContactLaw& law, const CollidingPair& pair,
   return end;
 }
 
+namespace {
+
+/// As fast a slip at the first touch, in the plane: what a law makes of that touch has no
+/// direction.
+CollisionStart inPlane(const CollidingPair& pair, CollisionStart start) {
+  const double out =
+      start.spinOutOfPlane[0].y() * pair.radius[0] + start.spinOutOfPlane[1].y() * pair.radius[1];
+  if (out != 0.0) start.psi = std::hypot(start.psi, out / start.vn);
+  return start;
+}
+
+}  // namespace
+
 bool jumpsAtTouch(const ContactLaw& law, const CollidingPair& pair, const CollisionStart& start) {
-  return law.soft() && TwoBodyProblem(law, pair).jumpsAtTouch(start);
+  return law.soft() && TwoBodyProblem(law, pair).jumpsAtTouch(inPlane(pair, start));
 }
 
 bool stepMissesSlip(const ContactLaw& law, const CollidingPair& pair, const CollisionStart& start,
                     double dt) {
   if (!law.soft()) return false;
   TwoBodyProblem problem(law, pair);
-  CollisionStart late = start;
+  const CollisionStart touch = inPlane(pair, start);
+  CollisionStart late = touch;
   late.late = dt;
-  return problem.hasJump() && problem.slipsAtFirst(start) && !problem.slipsAtFirst(late);
+  return problem.hasJump() && problem.slipsAtFirst(touch) && !problem.slipsAtFirst(late);
 }
 
 }  // namespace crossgrain::inline oracle

@@ -18,6 +18,14 @@ namespace crossgrain::inline oracle {
 CollisionEnd oracleOutcome(const ContactLaw& law, const CollidingPair& pair,
                            const CollisionStart& start);
 
+/// The same of two spheres, or of a sphere and a plane, in space: linear laws with constant
+/// dampers, without friction or with tangential springs, whose slip, force and ξ are vectors in the
+/// tangent plane (oracle/two_spheres.cpp; docs/dimensions.md has the equations). oracleOutcome() of
+/// a law in space. Energies lost are not told apart. @throws std::invalid_argument for any other
+/// law
+CollisionEnd spaceOutcome(const ContactLaw& law, const CollidingPair& pair,
+                          const CollisionStart& start);
+
 /// Whether the law jumps at this start: spring and dashpot at |Ψ_i| = µγ_n/γ_t, where the outcome
 /// is another on either side and rounding decides which one an engine finds
 /// (oracle/two_body_events.cpp has the derivation).

@@ -35,6 +35,17 @@ std::optional<double> own(const Outcome& outcome) {
   return outcome.end.*member;
 }
 
+std::optional<double> psiOut(const Outcome& outcome) {
+  const auto& out = outcome.end.outOfPlane;
+  return out ? std::optional(out->psi) : std::nullopt;
+}
+
+template <auto member, int side>
+std::optional<double> spinOut(const Outcome& outcome) {
+  const auto& out = outcome.end.outOfPlane;
+  return out ? std::optional(((*out).*member)[side]) : std::nullopt;
+}
+
 template <int side>
 std::optional<double> spin(const Outcome& outcome) {
   return outcome.end.spin[side];
@@ -49,6 +60,7 @@ using Scored = CollisionQuantity::Scored;
 using InFiles = CollisionQuantity::InFiles;
 using End = CollisionEnd;
 using Split = EnergySplit;
+using Out = EndOutOfPlane;
 constexpr auto asItIs = Scored::asItIs;
 constexpr auto fraction = Scored::energyFraction;
 
@@ -79,6 +91,15 @@ constexpr std::array<CollisionQuantity, quantityCount> quantities = {{
     {Id::lostPlastic, "lost_plastic", "yield", "J", 19, furtherLost<&Split::plastic>, fraction},
     {Id::lostDetachment, "lost_detachment", "detachment", "J", 20, furtherLost<&Split::detachment>,
      fraction},
+    {Id::psiFOut, "psi_f_out", "Ψ_f·b", "", 21, psiOut},
+    {Id::spinINormal, "spin_i_normal", "ω_i·n", "rad/s", 22, spinOut<&Out::spinNormal, 0>,
+     Scored::surfaceSpeedI},
+    {Id::spinITangent, "spin_i_tangent", "ω_i·s", "rad/s", 23, spinOut<&Out::spinTangent, 0>,
+     Scored::surfaceSpeedI},
+    {Id::spinJNormal, "spin_j_normal", "ω_j·n", "rad/s", 24, spinOut<&Out::spinNormal, 1>,
+     Scored::surfaceSpeedJ},
+    {Id::spinJTangent, "spin_j_tangent", "ω_j·s", "rad/s", 25, spinOut<&Out::spinTangent, 1>,
+     Scored::surfaceSpeedJ},
     {Id::energyBefore, "energy_before", "energy before", "J", 9, own<&End::energyBefore>,
      Scored::never},
     {Id::energyAfter, "energy_after", "energy after", "J", 10, own<&End::energyAfter>,

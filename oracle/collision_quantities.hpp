@@ -51,6 +51,11 @@ enum class QuantityId {
   lostRolling,
   lostPlastic,
   lostDetachment,
+  psiFOut,
+  spinINormal,
+  spinITangent,
+  spinJNormal,
+  spinJTangent,
   energyBefore,
   energyAfter
 };

@@ -107,6 +107,7 @@ struct CollisionVariant {
   std::optional<double> slidingConstant;  ///< Ψ_f = Ψ_i − it, while it slides
   CollisionTable oracle;                  ///< on a fine grid
   std::string oracleReason;               ///< why there is none
+  std::optional<std::string> space;       ///< of spheres in space: their spins and turn, in words
   CollisionTable reference;  ///< the oracle at the points of all curves, where it has a limit
   std::vector<NoLimitPoint> noLimit;
   std::vector<CollisionCurve> curves;
@@ -121,6 +122,7 @@ struct CollisionVariant {
     io("sliding_constant", slidingConstant);
     io("oracle", oracle);
     io("oracle_reason", oracleReason);
+    io.present("space", space);
     io("reference", reference);
     io("no_limit", noLimit);
     io("curves", curves);

@@ -234,10 +234,11 @@ struct IsVariant : std::false_type {};
 template <typename... T>
 struct IsVariant<std::variant<T...>> : std::true_type {};
 
-/// Of two numbers, x and y.
+/// Of so many numbers, x and y or x, y and z.
 template <typename T>
-concept PlaneVector = requires(T v) {
-  T(v.x(), v.y());
+concept FixedVector = requires(T v) {
+  T::SizeAtCompileTime;
+  v.x();
 };
 
 /// Those that stand in the struct, or beside one of a folder that knows no JSON.
@@ -288,7 +289,7 @@ void readVariant(const Json& json, std::variant<T...>& value) {
 }  // namespace detail
 
 /// A struct with fields(), an enumeration with namesOf(), a number, a text, a variant of these, a
-/// vector [x, y], or an optional, list, set or map of such.
+/// vector [x, y] or [x, y, z], or an optional, list, set or map of such.
 template <typename T>
 Json jsonOf(const T& value) {
   if constexpr (std::is_same_v<T, Json> || std::is_arithmetic_v<T> ||
@@ -298,8 +299,10 @@ Json jsonOf(const T& value) {
     return Json(std::string(nameOf(value)));
   } else if constexpr (detail::IsVariant<T>::value) {
     return std::visit([](const auto& held) { return jsonOf(held); }, value);
-  } else if constexpr (detail::PlaneVector<T>) {
-    return Json::array({value.x(), value.y()});
+  } else if constexpr (detail::FixedVector<T>) {
+    Json list = Json::array();
+    for (int k = 0; k < T::SizeAtCompileTime; ++k) list.push_back(value[k]);
+    return list;
   } else if constexpr (detail::IsOptional<T>::value) {
     return value ? jsonOf(*value) : Json(nullptr);
   } else if constexpr (detail::IsVector<T>::value || detail::IsArray<T>::value ||
@@ -332,10 +335,12 @@ void readFrom(const Json& json, T& value) {
     }
   } else if constexpr (detail::IsVariant<T>::value) {
     detail::readVariant(json, value);
-  } else if constexpr (detail::PlaneVector<T>) {
-    if (!json.is_array() || json.size() != 2 || !json[0].is_number() || !json[1].is_number())
-      detail::expected("[x, y]", json);
-    value = T(json[0].get<double>(), json[1].get<double>());
+  } else if constexpr (detail::FixedVector<T>) {
+    constexpr int size = T::SizeAtCompileTime;
+    const auto isNumber = [](const Json& each) { return each.is_number(); };
+    if (!json.is_array() || json.size() != size || !std::ranges::all_of(json, isNumber))
+      detail::expected(size == 2 ? "[x, y]" : "[x, y, z]", json);
+    for (int k = 0; k < size; ++k) value[k] = json[static_cast<std::size_t>(k)].get<double>();
   } else if constexpr (std::is_same_v<T, bool>) {
     if (!json.is_boolean()) detail::expected("true or false", json);
     value = json.get<bool>();

@@ -17,6 +17,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "array files are little-endian");
 static_assert(sizeof(Vec2) == 2 * sizeof(double), "a list of Vec2 is a list of doubles");
+static_assert(sizeof(Vec3) == 3 * sizeof(double), "a list of Vec3 is a list of doubles");
 
 std::size_t sizeOfType(const std::string& type) {
   if (type == "f64") return 8;
@@ -25,8 +26,9 @@ std::size_t sizeOfType(const std::string& type) {
   return 0;
 }
 
-std::span<const double> flat(std::span<const Vec2> values) {
-  return {reinterpret_cast<const double*>(values.data()), 2 * values.size()};
+template <int D>
+std::span<const double> flat(std::span<const VecOf<D>> values) {
+  return {reinterpret_cast<const double*>(values.data()), D * values.size()};
 }
 
 /// One that has grown beyond is made anew rather than spoiled [bytes].
@@ -69,7 +71,11 @@ void ArrayWriter::add(const std::string& name, std::span<const std::uint8_t> val
 }
 
 void ArrayWriter::add(const std::string& name, std::span<const Vec2> values) {
-  add(name, flat(values));
+  add(name, flat<2>(values));
+}
+
+void ArrayWriter::add(const std::string& name, std::span<const Vec3> values) {
+  add(name, flat<3>(values));
 }
 
 // A worker knows where the next file will be and may have put something there: opening a pipe would
@@ -176,6 +182,13 @@ std::vector<Vec2> ArrayReader::vec2(const std::string& name, std::size_t count) 
   const std::vector<double> numbers = f64(name, 2 * count);
   std::vector<Vec2> vectors(count);
   for (std::size_t k = 0; k < count; ++k) vectors[k] = {numbers[2 * k], numbers[2 * k + 1]};
+  return vectors;
+}
+
+std::vector<Vec3> ArrayReader::vec3(const std::string& name, std::size_t count) const {
+  const std::vector<double> numbers = f64(name, 3 * count);
+  std::vector<Vec3> vectors(count);
+  for (std::size_t k = 0; k < count; ++k) vectors[k] = Vec3::Map(&numbers[3 * k]);
   return vectors;
 }
 

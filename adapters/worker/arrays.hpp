@@ -17,7 +17,8 @@ namespace crossgrain {
 
 /// Array files: raw little-endian arrays one after the other. The JSON beside them lists, for each,
 /// its name, type ("f64" | "i32" | "u8"), count of elements and offset [bytes].
-/// A list of vectors in the plane is one f64 array x0 y0 x1 y1 … of twice as many elements.
+/// A list of vectors is one f64 array: x0 y0 x1 y1 … in the plane, of twice as many elements; x0 y0
+/// z0 x1 … in space.
 
 /// Collects arrays and writes them as one file.
 class ArrayWriter {
@@ -26,6 +27,7 @@ class ArrayWriter {
   void add(const std::string& name, std::span<const std::int32_t> values);
   void add(const std::string& name, std::span<const std::uint8_t> values);
   void add(const std::string& name, std::span<const Vec2> values);
+  void add(const std::string& name, std::span<const Vec3> values);
 
   /// Writes the file anew, whatever lies under its name. @returns the list that describes it
   /// @throws std::runtime_error naming the file
@@ -65,6 +67,7 @@ class ArrayReader {
   /// The array of that name with exactly `count` elements, all finite.
   std::vector<double> f64(const std::string& name, std::size_t count) const;
   std::vector<Vec2> vec2(const std::string& name, std::size_t count) const;
+  std::vector<Vec3> vec3(const std::string& name, std::size_t count) const;
   std::vector<std::int32_t> i32(const std::string& name, std::size_t count) const;
   std::vector<std::uint8_t> u8(const std::string& name, std::size_t count) const;
 

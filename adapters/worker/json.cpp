@@ -32,7 +32,8 @@ void fields(auto& io, ContactLaw& law) {
   }
 }
 
-void fields(auto& io, Motion& motion) {
+template <int D>
+void fields(auto& io, MotionOf<D>& motion) {
   io.required("kind", motion.kind);
   io.required("angular_velocity", motion.angularVelocity);
   io.required("velocity", motion.velocity);
@@ -51,12 +52,14 @@ void fields(auto& io, BottomPlate& plate) {
   io.required("spin", plate.spin);
 }
 
-void fields(auto& io, Plane& plane) {
+template <int D>
+void fields(auto& io, PlaneOf<D>& plane) {
   io.required("point", plane.point);
   io.required("normal", plane.normal);
 }
 
-void fields(auto& io, WallBody& body) {
+template <int D>
+void fields(auto& io, WallBodyOf<D>& body) {
   io.required("name", body.name);
   io.required("centre", body.centre);
   io.required("planes", body.planes);
@@ -69,7 +72,10 @@ void fields(auto& io, Materials& materials) {
   io.required("laws", materials.laws);
 }
 
-void fields(auto& io, Scene& scene) {
+template <int D>
+void fields(auto& io, SceneOf<D>& scene) {
+  int dimension = D;
+  io.when(D == 3, "dimension", dimension);
   io.required("name", scene.name);
   io.required("bodies", scene.bodies);
   io.required("law", scene.law);
@@ -82,7 +88,8 @@ void fields(auto& io, Scene& scene) {
   io("energy_ledger", scene.energyLedger);
 }
 
-void fields(auto& io, BodySnapshot& body) {
+template <int D>
+void fields(auto& io, BodySnapshotOf<D>& body) {
   io.required("centre", body.centre);
   io.required("angle", body.angle);
   io.required("velocity", body.velocity);
@@ -106,7 +113,8 @@ void fields(auto& io, EnergyLedger& ledger) {
   }
 }
 
-void fields(auto& io, Snapshot& snapshot) {
+template <int D>
+void fields(auto& io, SnapshotOf<D>& snapshot) {
   io.required("position_time", snapshot.positionTime);
   io.required("velocity_time", snapshot.velocityTime);
   io.required("contact_time", snapshot.contactTime);
@@ -138,6 +146,9 @@ struct ListReader {
   }
   void operator()(const std::string& name, std::vector<Vec2>& list, std::size_t count) const {
     list = arrays.vec2(name, count);
+  }
+  void operator()(const std::string& name, std::vector<Vec3>& list, std::size_t count) const {
+    list = arrays.vec3(name, count);
   }
   void operator()(const std::string& name, std::vector<std::int32_t>& list,
                   std::size_t count) const {
@@ -180,9 +191,10 @@ void contactLists(const auto& io, auto& contacts, std::size_t count) {
 }
 
 /// Lists of contacts that an engine need not have: empty without.
+template <int D>
 void optionalContactLists(const auto& visit) {
-  visit("contacts.rolling_torque", &Contacts::rollingTorque);
-  visit("contacts.dissipation", &Contacts::dissipation);
+  visit("contacts.rolling_torque", &ContactsOf<D>::rollingTorque);
+  visit("contacts.dissipation", &ContactsOf<D>::dissipation);
 }
 
 /// @throws std::runtime_error unless every body is of one of the materials, every two of which have
@@ -201,16 +213,18 @@ void checkMaterials(const Materials& materials, std::size_t bodies) {
                     count));
 }
 
-Contacts contactsFrom(const ArrayReader& arrays, std::size_t ids) {
+template <int D>
+ContactsOf<D> contactsFrom(const ArrayReader& arrays, std::size_t ids) {
   const std::size_t count = arrays.count("contacts.i"), most = mostContacts * ids;
   if (count > most)
     throw std::runtime_error(
         fmt::format("it lists {} contacts, more than {} of {} bodies", count, most, ids));
-  Contacts contacts;
-  contactLists(ListReader{arrays}, contacts, count);
+  ContactsOf<D> contacts;
+  const ListReader reader{arrays};
+  contactLists(reader, contacts, count);
   if (arrays.has("contacts.sliding")) contacts.sliding = arrays.u8("contacts.sliding", count);
-  optionalContactLists([&](const char* name, auto list) {
-    if (arrays.has(name)) contacts.*list = arrays.f64(name, count);
+  optionalContactLists<D>([&](const char* name, auto list) {
+    if (arrays.has(name)) reader(name, contacts.*list, count);
   });
   for (std::size_t k = 0; k < count; ++k)
     if (contacts.i[k] < 0 || contacts.i[k] >= contacts.j[k] ||
@@ -239,7 +253,8 @@ double secondsFrom(const Json& in, const char* key) {
 
 }  // namespace
 
-Json toJson(const Scene& scene, ArrayWriter& arrays) {
+template <int D>
+Json toJson(const SceneOf<D>& scene, ArrayWriter& arrays) {
   Json out = jsonOf(scene);
   const ListWriter writer{arrays};
   lists(writer, scene.disks, 0);
@@ -252,8 +267,20 @@ Json toJson(const Scene& scene, ArrayWriter& arrays) {
   return out;
 }
 
-Scene sceneFromJson(const Json& in, const ArrayReader& arrays) {
-  auto scene = readAs<Scene>(in);
+template Json toJson<2>(const Scene&, ArrayWriter&);
+template Json toJson<3>(const SpaceScene&, ArrayWriter&);
+
+int dimensionOf(const Json& in) {
+  const int dimension = in.contains("dimension") ? member<int>(in, "dimension") : 2;
+  if (dimension != 2 && dimension != 3)
+    throw FieldError(fmt::format("dimension is {}, not 2 or 3", dimension));
+  return dimension;
+}
+
+template <int D>
+SceneOf<D> sceneFromJson(const Json& in, const ArrayReader& arrays) {
+  auto scene = readAs<SceneOf<D>>(in);
+  changeLaws(scene, [](ContactLaw& law) { law.dimension = D; });
   const ListReader reader{arrays};
   const auto disks = member<std::size_t>(in, "disks");
   lists(reader, scene.disks, disks);
@@ -266,30 +293,41 @@ Scene sceneFromJson(const Json& in, const ArrayReader& arrays) {
   return scene;
 }
 
-Json toJson(const Snapshot& snapshot, ArrayWriter& arrays) {
+template Scene sceneFromJson<2>(const Json&, const ArrayReader&);
+template SpaceScene sceneFromJson<3>(const Json&, const ArrayReader&);
+
+template <int D>
+Json toJson(const SnapshotOf<D>& snapshot, ArrayWriter& arrays) {
   const ListWriter writer{arrays};
   snapshotLists(writer, snapshot, 0, 0);
   if (const auto& contacts = snapshot.contacts) {
     contactLists(writer, *contacts, 0);
     if (!contacts->sliding.empty()) arrays.add("contacts.sliding", contacts->sliding);
-    optionalContactLists([&](const char* name, auto list) {
+    optionalContactLists<D>([&](const char* name, auto list) {
       if (const auto& values = *contacts.*list; !values.empty()) arrays.add(name, values);
     });
   }
   return jsonOf(snapshot);
 }
 
-Snapshot snapshotFromJson(const Json& in, const ArrayReader& arrays, const Scene& scene) {
-  auto snapshot = readAs<Snapshot>(in);
+template Json toJson<2>(const Snapshot&, ArrayWriter&);
+template Json toJson<3>(const SpaceSnapshot&, ArrayWriter&);
+
+template <int D>
+SnapshotOf<D> snapshotFromJson(const Json& in, const ArrayReader& arrays, const SceneOf<D>& scene) {
+  auto snapshot = readAs<SnapshotOf<D>>(in);
   const std::size_t disks = scene.disks.size(), wallDisks = scene.wallDiskCount();
   snapshotLists(ListReader{arrays}, snapshot, disks, wallDisks);
   if (snapshot.bodies.size() != scene.bodies.size())
     throw std::runtime_error(fmt::format("it has {} wall bodies, the scene {}",
                                          snapshot.bodies.size(), scene.bodies.size()));
   if (arrays.has("contacts.i"))
-    snapshot.contacts = contactsFrom(arrays, disks + wallDisks + scene.planeCount());
+    snapshot.contacts = contactsFrom<D>(arrays, disks + wallDisks + scene.planeCount());
   return snapshot;
 }
+
+template Snapshot snapshotFromJson<2>(const Json&, const ArrayReader&, const Scene&);
+template SpaceSnapshot snapshotFromJson<3>(const Json&, const ArrayReader&, const SpaceScene&);
 
 void checkLawOptions(const Capabilities& can) {
   ContactLaw law;

@@ -18,14 +18,21 @@
 namespace crossgrain {
 
 /// Lists go to the array writer; the JSON holds the rest.
-nlohmann::json toJson(const Scene& scene, ArrayWriter& arrays);
-Scene sceneFromJson(const nlohmann::json& json, const ArrayReader& arrays);
+template <int D>
+nlohmann::json toJson(const SceneOf<D>& scene, ArrayWriter& arrays);
+template <int D = 2>
+SceneOf<D> sceneFromJson(const nlohmann::json& json, const ArrayReader& arrays);
 
-nlohmann::json toJson(const Snapshot& snapshot, ArrayWriter& arrays);
+/// Of a scene: 2, or 3 where it says so. @throws FieldError for another
+int dimensionOf(const nlohmann::json& scene);
+
+template <int D>
+nlohmann::json toJson(const SnapshotOf<D>& snapshot, ArrayWriter& arrays);
 
 /// Also checks the lists' lengths and the contacts' ids against the scene that was loaded.
-Snapshot snapshotFromJson(const nlohmann::json& json, const ArrayReader& arrays,
-                          const Scene& scene);
+template <int D>
+SnapshotOf<D> snapshotFromJson(const nlohmann::json& json, const ArrayReader& arrays,
+                               const SceneOf<D>& scene);
 
 nlohmann::json toJson(const Stats& stats);
 Stats statsFromJson(const nlohmann::json& json);
@@ -103,6 +110,7 @@ void fields(auto& io, Capabilities& can) {
   io.required("version", can.version);
   io.required("effects", effects);
   io.required("law_options", can.lawOptions);
+  io.when(can.dimensions != std::vector<int>{2}, "dimensions", can.dimensions);
   io.required("precisions", can.precisions);
   io.required("instant_contacts", can.instantContacts);
   io.required("accumulated_contacts", can.accumulatedContacts);

@@ -54,7 +54,8 @@ std::filesystem::path fileOf(const json& request) {
   return request.at("file").get<std::string>();
 }
 
-json answer(Engine& engine, const json& request) {
+/// @param dimension  of the scene that is loaded
+json answer(Engine& engine, int& dimension, const json& request) {
   const auto what = request.at("request").get<std::string>();
   if (what == "hello")
     return {{"protocol", protocolVersion},
@@ -62,14 +63,19 @@ json answer(Engine& engine, const json& request) {
             {"writes_over", true}};
   if (what == "load") {
     const ArrayReader arrays(fileOf(request), request.at("arrays"));
-    return {{"realised", jsonOf(engine.load(sceneFromJson(request.at("scene"), arrays),
-                                            readAs<Settings>(request.at("settings"))))}};
+    const json& scene = request.at("scene");
+    const auto settings = readAs<Settings>(request.at("settings"));
+    dimension = dimensionOf(scene);
+    return {{"realised",
+             jsonOf(dimension == 3 ? engine.loadInSpace(sceneFromJson<3>(scene, arrays), settings)
+                                   : engine.load(sceneFromJson(scene, arrays), settings))}};
   }
   if (what == "advance") return {{"time", engine.advance(request.at("time"))}};
   if (what == "snapshot") {
     ArrayWriter arrays;
-    json reply = {{"snapshot",
-                   toJson(engine.snapshot(readAs<ContactReport>(request.at("contacts"))), arrays)}};
+    const auto contacts = readAs<ContactReport>(request.at("contacts"));
+    json reply = {{"snapshot", dimension == 3 ? toJson(engine.snapshotInSpace(contacts), arrays)
+                                              : toJson(engine.snapshot(contacts), arrays)}};
     reply["arrays"] = arrays.writeOver(fileOf(request));
     return reply;
   }
@@ -93,12 +99,13 @@ json refusal(const char* kind, const std::exception& error) {
 
 int serve(Engine& engine) {
   std::string buffer;
+  int dimension = 2;
   while (const auto line = nextLine(buffer)) {
     json reply;
     bool last = false;
     try {
       const json request = json::parse(*line);
-      reply = answer(engine, request);
+      reply = answer(engine, dimension, request);
       reply["ok"] = true;
       last = request.at("request") == "quit";
     } catch (const UnsupportedScene& error) {

@@ -26,10 +26,9 @@ using namespace std::chrono_literals;
 /// spoiling it takes longer than making a new one.
 constexpr std::size_t mostBodiesOfKept = 10'000;
 
-std::size_t bodiesIn(const Scene& scene) {
-  std::size_t bodies = scene.disks.size();
-  for (const WallBody& body : scene.bodies) bodies += body.diskRadius.size() + body.planes.size();
-  return bodies;
+template <int D>
+std::size_t bodiesIn(const SceneOf<D>& scene) {
+  return scene.disks.size() + scene.wallDiskCount() + scene.planeCount();
 }
 
 /// The longest array file that a listener gets of an exchange [bytes]; of a longer one, and of what
@@ -145,6 +144,8 @@ bool WorkerEngine::isReady() const {
 
 void WorkerEngine::moveTo(const std::filesystem::path& scratch, double timeout) {
   shape_ = {};
+  shapeInSpace_ = {};
+  sceneName_.clear();
   time_ = 0.0;
   goodTime_.reset();
   scratch_ = std::filesystem::absolute(scratch);
@@ -162,6 +163,17 @@ void WorkerEngine::moveTo(const std::filesystem::path& scratch, double timeout) 
 
 EffectiveParameters WorkerEngine::load(const Scene& scene, const Settings& settings) {
   shape_ = scene;
+  return loadShape(scene, settings);
+}
+
+EffectiveParameters WorkerEngine::loadInSpace(const SpaceScene& scene, const Settings& settings) {
+  shapeInSpace_ = scene;
+  return loadShape(scene, settings);
+}
+
+template <int D>
+EffectiveParameters WorkerEngine::loadShape(const SceneOf<D>& scene, const Settings& settings) {
+  sceneName_ = scene.name;
   time_ = 0.0;
   goodTime_.reset();
   // Of a recording each exchange has its own, as one is kept that grew longer before.
@@ -196,6 +208,15 @@ double WorkerEngine::advance(double t) {
 }
 
 Snapshot WorkerEngine::snapshot(ContactReport contacts) {
+  return snapshotOf(shape_, contacts);
+}
+
+SpaceSnapshot WorkerEngine::snapshotInSpace(ContactReport contacts) {
+  return snapshotOf(shapeInSpace_, contacts);
+}
+
+template <int D>
+SnapshotOf<D> WorkerEngine::snapshotOf(const SceneOf<D>& shape, ContactReport contacts) {
   const Exchanging exchanging(*exchangeFile_);
   json request = {{"request", "snapshot"}, {"contacts", jsonOf(contacts)}};
   try {
@@ -204,8 +225,8 @@ Snapshot WorkerEngine::snapshot(ContactReport contacts) {
     fail(error.what());
   }
   const json reply = ask(request, "snapshot");
-  Snapshot snapshot = understand("snapshot", [&] {
-    return snapshotFromJson(reply.at("snapshot"), exchangeFile_->read(reply.at("arrays")), shape_);
+  SnapshotOf<D> snapshot = understand("snapshot", [&] {
+    return snapshotFromJson(reply.at("snapshot"), exchangeFile_->read(reply.at("arrays")), shape);
   });
   goodTime_ = snapshot.positionTime;
   return snapshot;
@@ -282,8 +303,8 @@ json WorkerEngine::answerTo(const json& request, const std::string& what) const 
 }
 
 std::string WorkerEngine::where() const {
-  if (shape_.name.empty()) return name_;
-  return fmt::format("{}, {} at t = {} s", name_, shape_.name, time_);
+  if (sceneName_.empty()) return name_;
+  return fmt::format("{}, {} at t = {} s", name_, sceneName_, time_);
 }
 
 std::string WorkerEngine::failure(const std::string& what) const {

@@ -50,6 +50,8 @@ class WorkerEngine final : public Engine {
   EffectiveParameters load(const Scene& scene, const Settings& settings) override;
   double advance(double t) override;
   Snapshot snapshot(ContactReport contacts) override;
+  EffectiveParameters loadInSpace(const SpaceScene& scene, const Settings& settings) override;
+  SpaceSnapshot snapshotInSpace(ContactReport contacts) override;
   Stats stats() const override;
   void checkpoint(const std::filesystem::path& file) override;
   void restore(const std::filesystem::path& file) override;
@@ -69,6 +71,10 @@ class WorkerEngine final : public Engine {
   pid_t pid() const { return process_ ? process_->pid() : -1; }
 
  private:
+  template <int D>
+  EffectiveParameters loadShape(const SceneOf<D>& scene, const Settings& settings);
+  template <int D>
+  SnapshotOf<D> snapshotOf(const SceneOf<D>& shape, ContactReport contacts);
   nlohmann::json ask(nlohmann::json request, const std::string& what) const;
   /// The answer, heard by the listener, too.
   nlohmann::json exchange(const nlohmann::json& request, const std::string& what) const;
@@ -92,7 +98,10 @@ class WorkerEngine final : public Engine {
   mutable std::unique_ptr<ChildProcess> process_;
   mutable std::string firstFailure_;
   Capabilities capabilities_;
-  Scene shape_;  ///< the loaded scene: what snapshots are checked against
+  /// The loaded scene: what snapshots are checked against. One of the two, of its dimension.
+  Scene shape_;
+  SpaceScene shapeInSpace_;
+  std::string sceneName_;
   double time_ = 0.0;
   std::optional<double> goodTime_;  ///< of the last snapshot of this scene
   std::unique_ptr<ExchangeFile> exchangeFile_;

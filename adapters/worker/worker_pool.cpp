@@ -166,6 +166,19 @@ EffectiveParameters PooledEngine::loadTried(const Scene& scene, const Settings& 
   return worker_->load(scene, settings);
 }
 
+/// Whether loads are afresh is tried in the plane alone: until then the worker of a scene in space
+/// is nobody else's.
+EffectiveParameters PooledEngine::loadInSpace(const SpaceScene& scene, const Settings& settings) {
+  return ask([&] {
+    loaded_ = true;
+    return worker_->loadInSpace(scene, settings);
+  });
+}
+
+SpaceSnapshot PooledEngine::snapshotInSpace(ContactReport contacts) {
+  return ask([&] { return worker_->snapshotInSpace(contacts); });
+}
+
 double PooledEngine::advance(double t) {
   return ask([&] { return worker_->advance(t); });
 }

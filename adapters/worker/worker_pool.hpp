@@ -98,6 +98,8 @@ class PooledEngine final : public Engine {
   EffectiveParameters load(const Scene& scene, const Settings& settings) override;
   double advance(double t) override;
   Snapshot snapshot(ContactReport contacts) override;
+  EffectiveParameters loadInSpace(const SpaceScene& scene, const Settings& settings) override;
+  SpaceSnapshot snapshotInSpace(ContactReport contacts) override;
   Stats stats() const override;
   void checkpoint(const std::filesystem::path& file) override;
   void restore(const std::filesystem::path& file) override;

@@ -65,7 +65,7 @@ def demand_tangential(law, kinds):
 
 
 def demand_plain_walls(scene, bodies):
-    """Of `load`: no plate below the disks, and planes along x or y only.
+    """Of `load`: no plate below the disks, and planes along axes only.
 
     @raise Unsupported"""
     bottom = scene.get("bottom")
@@ -73,9 +73,10 @@ def demand_plain_walls(scene, bodies):
         raise Unsupported("has no bottom_friction")
     for body in bodies:
         for plane in body.planes:
-            if sorted(map(abs, plane["normal"])) != [0, 1]:
+            *zeros, one = sorted(map(abs, plane["normal"]))
+            if any(zeros) or one != 1:
                 raise Unsupported(
-                    f"has planes along x or y only; one of {body.name} has the normal "
+                    f"has planes along axes only; one of {body.name} has the normal "
                     f"{tuple(plane['normal'])}"
                 )
 

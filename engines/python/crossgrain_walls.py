@@ -14,7 +14,8 @@ def bodies_of(scene, arrays):
 
 
 class Body:
-    """A rigid body of wall disks and planes at any time. Lists of vectors are (n, 2) arrays."""
+    """A rigid body of wall disks and planes at any time. Lists of vectors are (n, 2) arrays; in space
+    there are planes alone."""
 
     def __init__(self, description, disk_position, disk_radius):
         self.name = description["name"]
@@ -23,13 +24,13 @@ class Body:
         self.motion = description["motion"]
         self.kind = self.motion["kind"]
         self.disk_radius = disk_radius
-        self.disk_position = disk_position.reshape(-1, 2)
+        self.disk_position = disk_position.reshape(-1, len(self.centre))
         self.offset = self.disk_position - self.centre
         self.distance = np.hypot(self.offset[:, 0], self.offset[:, 1])
 
     def state(self, t):
         """Centre, velocity of the centre, angle and angular velocity at time t."""
-        motion, velocity = self.motion, np.zeros(2)
+        motion, velocity = self.motion, np.zeros(len(self.centre))
         if self.kind == "rotating":
             spin = motion["angular_velocity"]
             return self.centre, velocity, spin * t, spin

@@ -47,6 +47,27 @@ def place_disks(arrays, kinds, rotation, boxes):
         O.bodies.append(disk)
 
 
+def place_spheres(arrays, kinds, rotation):
+    """In space: nothing is held but, without rotation, spins."""
+    columns = (
+        kinds.of_disk,
+        *(arrays[f"disks.{name}"].tolist() for name in ("radius", "mass", "inertia")),
+        *(arrays[f"disks.{name}"].reshape(-1, 3).tolist() for name in ("position", "velocity", "spin")),
+    )
+    for kind, radius, mass, inertia, position, velocity, spin in zip(*columns):
+        sphere = utils.sphere(position, radius, color=WHITE, material=kind, mask=DISK_MASK)
+        state = sphere.state
+        state.mass, state.inertia = mass, (inertia, inertia, inertia)
+        state.vel, state.angVel = velocity, spin
+        state.blockedDOFs = "" if rotation else "XYZ"
+        O.bodies.append(sphere)
+
+
+def in_space(vector):
+    """Of the plane: with z = 0."""
+    return (*vector, 0)[:3]
+
+
 def place_walls(bodies, law):
     """Sets each body's disk_ids and plane_ids, in the order of the scene's planes, and for boxes,
     of which each plane has one for every kind of disks, how deep their centres lie."""
@@ -67,8 +88,8 @@ def place_walls(bodies, law):
 
 
 def wall_of(plane, kind, law):
-    axis = 0 if plane["normal"][0] else 1
-    point, sense = (*plane["point"], 0), int(plane["normal"][axis])
+    axis = next(k for k, component in enumerate(plane["normal"]) if component)
+    point, sense = in_space(plane["point"]), int(plane["normal"][axis])
     wall = utils.wall(point, axis, sense=sense, color=WHITE, material=kind)
     wall.mask = WALL_MASK
     return [wall]
@@ -100,11 +121,11 @@ def start_walls(bodies):
     """Velocities at t = 0; a rotating body becomes a clump, which YADE turns rigidly."""
     for body in bodies:
         _, velocity, _, spin = body.state(0.0)
-        for id_, (u, v) in zip(body.disk_ids, body.disk_states(0.0)[1].tolist()):
+        for id_, (u, v) in zip(body.disk_ids, body.disk_ids and body.disk_states(0.0)[1].tolist()):
             O.bodies[id_].state.vel = (u, v, 0)
             O.bodies[id_].state.angVel = (0, 0, spin)
         for id_ in body.plane_ids:
-            O.bodies[id_].state.vel = (*velocity.tolist(), 0)
+            O.bodies[id_].state.vel = in_space(velocity.tolist())
         if body.kind == "rotating" and body.disk_ids:
             clump_about(body.centre.tolist(), body.disk_ids, spin)
 
@@ -130,7 +151,7 @@ def oscillation(body, dt):
     def engine(factor, phase):
         return HarmonicMotionEngine(
             ids=body.disk_ids + body.plane_ids,
-            A=(*(factor * a for a in body.motion["amplitude"]), 0),
+            A=in_space([factor * a for a in body.motion["amplitude"]]),
             f=(w / (2 * math.pi),) * 3,
             fi=(phase - math.pi / 2,) * 3,  # YADE's velocity is −A w sin(wt + fi)
         )
@@ -147,7 +168,7 @@ def build_engines(law, bodies, dt, gravity, verlet_distance):
         and body.motion["frequency"]
         and body.disk_ids + body.plane_ids
     ]
-    newton = NewtonIntegrator(damping=0, gravity=(*gravity, 0))
+    newton = NewtonIntegrator(damping=0, gravity=in_space(gravity))
     constants, force = law.functors
     bounds, geometries = law.shapes()
     O.engines = [

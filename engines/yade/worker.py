@@ -1,7 +1,7 @@
 """A worker of crossgrain that runs scenes on YADE:  yade -n -x -j1 worker.py
 
-Disks are spheres kept in the plane z = 0, wall disks are spheres that move as prescribed, planes
-are YADE's axis-aligned walls. README.md of this folder says what YADE makes of a scene.
+Disks are spheres kept in the plane z = 0, or, of a scene in space, spheres; wall disks are spheres
+that move as prescribed, planes are YADE's axis-aligned walls. README.md of this folder says what YADE makes of a scene.
 """
 
 import gc
@@ -59,6 +59,7 @@ class Yade:
     def capabilities(self):
         return {
             "version": yade.config.version,
+            "dimensions": [2, 3],
             "effects": effects_without_bottom()
             | {name: "optional" for name in ("rolling_resistance", "cohesion", "pair_materials")},
             "law_options": {
@@ -83,6 +84,8 @@ class Yade:
                 "cohesion": ["dmt", "elasto_plastic"],
                 "cohesion_load": ["magnitude_plus_pull_off"],
                 "unloading_stiffness": ["lagged"],
+                "spring_turn": ["first_order"],
+                "spring_twist": ["mean_spin"],
             },
             "plane_motions": ["fixed", "translating", "oscillating"],
             "plane_normals": "axis",
@@ -104,6 +107,11 @@ class Yade:
 
     def load(self, scene, arrays, settings):
         self.law = law_of(scene["law"])
+        self.space = scene.get("dimension", 2) == 3
+        if self.space and type(self.law) is not Viscoelastic:
+            raise crossgrain_worker.Unsupported(
+                "has normal = linear without rolling resistance or cohesion in space"
+            )
         self.bodies = bodies_of(scene, arrays)
         demand_plain_walls(scene, self.bodies)
         self.law.demand_plane_arm(any(body.planes for body in self.bodies))
@@ -120,7 +128,10 @@ class Yade:
         self.spins = self.law.friction or self.law.rolls
         self.rotation = self.spins and scene["rotation"]
         boxes = self.law.boxes and bool(kinds.plane.any())
-        build.place_disks(arrays, kinds, self.rotation, boxes)
+        if self.space:
+            build.place_spheres(arrays, kinds, self.rotation)
+        else:
+            build.place_disks(arrays, kinds, self.rotation, boxes)
         build.place_walls(self.bodies, self.law)
         self.states = [body.state for body in O.bodies]
         self.first_plane = self.disks + sum(len(body.disk_ids) for body in self.bodies)
@@ -238,6 +249,10 @@ class Yade:
             "contact_time": time_ - self.dt if self.steps else 0.0,
             "contact_interval": 0.0,
         }
+        if self.space:
+            if report != "none":
+                raise ValueError("has no contacts in space")
+            return self.snapshot_in_space(snapshot | {"bodies": []})
         velocity = xy([state.vel for state in disks])
         spin = z([state.angVel for state in disks])
         arrays = {
@@ -258,6 +273,27 @@ class Yade:
                 )
         snapshot["bodies"] = [self.body_snapshot(body, time_, forces) for body in self.bodies]
         return snapshot, arrays
+
+    def snapshot_in_space(self, snapshot):
+        """Bodies without the forces on them, which YADE has in parts."""
+        disks = self.states[: self.disks]
+        arrays = {
+            name: ("f64", np.array([getattr(state, own) for state in disks], float).ravel())
+            for name, own in (("position", "pos"), ("velocity", "vel"), ("spin", "angVel"))
+            if name != "spin" or self.spins
+        }
+        none = [0.0, 0.0, 0.0]
+        for body in self.bodies:
+            centre, velocity, _, _ = body.state(snapshot["position_time"])
+            snapshot["bodies"].append(
+                {
+                    "centre": centre.tolist(),
+                    "angle": none,
+                    "velocity": velocity.tolist(),
+                    "angular_velocity": none,
+                }
+            )
+        return snapshot, arrays | {"wall_position": ("f64", [])}
 
     def forces(self, first):
         """Forces and torques of the last step by id; those of ids below `first` are left out."""

@@ -247,6 +247,20 @@ std::string lawOf(const CaseGroup& group) {
   return fmt::format("Law of all variants: {}.", fmt::join(shared, ", "));
 }
 
+/// Empty, or what collisions in space have besides, variant by variant.
+std::string spaceOf(const CaseGroup& group) {
+  std::vector<std::string> words;
+  for (const CollisionVariant* variant : group.variants)
+    if (variant->space) words.push_back(fmt::format("{}: {}", variant->variant, *variant->space));
+  if (words.empty()) return {};
+  return fmt::format(
+      "Spheres in space. {}. Spins besides are about n, which points from the second body to the "
+      "first at the first touch, and s, along which Ψ_i is; after a collision Ψ_f is along s "
+      "turned "
+      "with n, and Ψ_f·b along n × s.",
+      fmt::join(words, "; "));
+}
+
 /// Empty, or in what the laws that engines declare are others than the scene's, over all
 /// variants.
 std::string declaredOf(const CollideResults& results, const CaseGroup& group) {
@@ -334,8 +348,11 @@ void addCollisionCase(Report& report, const CollideResults& results, const CaseG
       if (one.name == name) drawings.names.push_back(name);
     return drawings;
   };
-  Blocks blocks = {Paragraph{lawOf(group), small}, Paragraph{declaredOf(results, group), small},
-                   Paragraph{limitsOf(group), small}, drawing(figure),
+  Blocks blocks = {Paragraph{lawOf(group), small},
+                   Paragraph{spaceOf(group), small},
+                   Paragraph{declaredOf(results, group), small},
+                   Paragraph{limitsOf(group), small},
+                   drawing(figure),
                    variantTable(results, group)};
   if (Table mirrors = mirrorTable(group, results.engines); !mirrors.rows.empty())
     blocks.push_back(Details{"Model or implementation?", {std::move(mirrors)}});

@@ -83,6 +83,16 @@ std::string quantityWords(const CollisionQuantity& quantity) {
       return "energy lost to sliding";
     case lostStored:
       return "energy left in the tangential spring";
+    case psiFOut:
+      return "tangential rebound out of the plane of impact Ψ_f·b";
+    case spinINormal:
+      return "spin of the first about the line of centres";
+    case spinITangent:
+      return "spin of the first about the tangent";
+    case spinJNormal:
+      return "spin of the second about the line of centres";
+    case spinJTangent:
+      return "spin of the second about the tangent";
     default:
       return std::string(quantity.label);
   }

@@ -75,7 +75,8 @@ int packingsOf(const Case& setup) {
   return setup.particles.file ? 1 : setup.preparation.packings;
 }
 
-json suitability(const EngineEntry& entry, const Case& setup, const Scene& scene, bool timed,
+template <int D>
+json suitability(const EngineEntry& entry, const Case& setup, const SceneOf<D>& scene, bool timed,
                  const std::filesystem::path& scratch) {
   json row = {
       {"name", entry.name}, {"mirrors", entry.mirrors},    {"can", true},
@@ -87,13 +88,15 @@ json suitability(const EngineEntry& entry, const Case& setup, const Scene& scene
     row["deviations"] = found.deviations;
     row["not_simulated"] = found.notSimulated;
     if (found.dt) row["dt_s"] = *found.dt;
-    if (!timed) return row;
-    const BriefTiming timing = briefTiming(*engine, entry, setup, scene);
-    row["dt_s"] = timing.effective.dt;
-    row["step_s"] = timing.secondsPerStep;
-    row["timed_steps"] = timing.steps;
-    row["memory_bytes"] = timing.memory ? json(*timing.memory) : json(nullptr);
-    row["run_s"] = timing.secondsPerStep * stepsOf(setup, timing.effective.dt);
+    if constexpr (D == 2) {
+      if (!timed) return row;
+      const BriefTiming timing = briefTiming(*engine, entry, setup, scene);
+      row["dt_s"] = timing.effective.dt;
+      row["step_s"] = timing.secondsPerStep;
+      row["timed_steps"] = timing.steps;
+      row["memory_bytes"] = timing.memory ? json(*timing.memory) : json(nullptr);
+      row["run_s"] = timing.secondsPerStep * stepsOf(setup, timing.effective.dt);
+    }
   } catch (const UnsupportedScene& refusal) {
     row["can"] = false;
     row["reason"] = refusal.what();
@@ -176,19 +179,13 @@ double volumeFractionOf(const Case& setup, const Scene& scene, bool madeUp) {
   return area / (cell.outerRadius * cell.outerRadius - cell.innerRadius * cell.innerRadius);
 }
 
-}  // namespace
-
-json checkedCase(const Case& setup, const std::vector<std::string>& names, bool timed,
-                 const std::filesystem::path& scratch, Progress& progress) {
-  checkEngineSections(setup);
-  if (setup.particles.file && !setup.run.dt)
-    throw BadInput(setup.file.string() + ": a packing file needs [run] dt, the time step in s");
-  const Probe probe = probeOf(setup);
-  const Scene& scene = probe.scene;
-  requireStableStep(setup, scene.disks);
+/// What is said of every kind of case.
+/// @param timed  engines take some steps, too; not in space
+template <int D>
+json checkedScene(const Case& setup, const SceneOf<D>& scene, double volumeFraction,
+                  const std::vector<std::string>& names, bool timed,
+                  const std::filesystem::path& scratch, Progress& progress) {
   const bool couette = setup.kind == CaseKind::couette;
-  const double fraction = couette ? volumeFractionOf(setup, scene, !setup.particles.file) : 0.0;
-
   json result = {{"name", setup.name},
                  {"variant", setup.variant},
                  {"kind", couette                             ? "couette"
@@ -200,7 +197,8 @@ json checkedCase(const Case& setup, const std::vector<std::string>& names, bool 
                  {"steps_per_contact", nullptr},
                  {"effects", json::array()},
                  {"left_out", json::array()},
-                 {"cautions", cautions(setup, fraction)}};
+                 {"cautions", cautions(setup, volumeFraction)}};
+  if (D == 3) result["dimension"] = D;
   if (const auto limit = pairStepLimit(setup)) {
     result["step_limit_s"] = limit->dt;
     if (const auto time = pairContactTime(setup)) result["steps_per_contact"] = *time / scene.dt;
@@ -215,9 +213,29 @@ json checkedCase(const Case& setup, const std::vector<std::string>& names, bool 
   for (std::size_t k = 0; k < entries.size(); ++k) {
     throwIfInterrupted();
     progress.update(k, entries[k].name, 0.0);
-    result["engines"].push_back(suitability(entries[k], setup, scene, timed && couette, scratch));
+    result["engines"].push_back(suitability(entries[k], setup, scene, timed, scratch));
     progress.finish(k, entries[k].name);
   }
+  return result;
+}
+
+}  // namespace
+
+json checkedCase(const Case& setup, const std::vector<std::string>& names, bool timed,
+                 const std::filesystem::path& scratch, Progress& progress) {
+  checkEngineSections(setup);
+  if (setup.particles.file && !setup.run.dt)
+    throw BadInput(setup.file.string() + ": a packing file needs [run] dt, the time step in s");
+  if (setup.dimension == 3)
+    return checkedScene(setup, spaceCollisionScene(setup, collisionStarts(setup), timeStep(setup)),
+                        0.0, names, false, scratch, progress);
+  const Probe probe = probeOf(setup);
+  const Scene& scene = probe.scene;
+  requireStableStep(setup, scene.disks);
+  const bool couette = setup.kind == CaseKind::couette;
+  const double fraction = couette ? volumeFractionOf(setup, scene, !setup.particles.file) : 0.0;
+
+  json result = checkedScene(setup, scene, fraction, names, timed && couette, scratch, progress);
   if (setup.average) {
     result["endpoints"] = marginsOf(endpointsOf(setup), setup.averaging.endpoints, "endpoint");
     result["margins"] = marginsOf(fieldsOf(*binsOf(setup)), setup.averaging.margins, "field");

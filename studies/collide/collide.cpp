@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <numbers>
 
 #include "cases/case_files.hpp"
 #include "cases/loader.hpp"
@@ -91,7 +92,8 @@ CachedTask<std::vector<CollisionCurve>>::Outcome sweepsOf(
       const bool largest = dt == std::ranges::max(each.steps);
       CollisionCurve curve =
           runSweep(*worker, entry, *each.setup, dt, each.starts, each.oracle, largest, &declared);
-      if (largest) curve.ownScheme = schemeScore(*worker, entry, *each.setup, dt);
+      if (largest && each.setup->dimension == 2)
+        curve.ownScheme = schemeScore(*worker, entry, *each.setup, dt);
       // An engine that keeps its own step has nothing new to say at another of the case's.
       if (std::ranges::find(curves, curve.dt, &CollisionCurve::dt) == curves.end())
         curves.push_back(std::move(curve));
@@ -198,6 +200,21 @@ CollisionTable fineOracle(const Case& setup) {
   return tableOf(starts, outcomesOf(oracleCurve(one, starts)));
 }
 
+/// What a case in space says besides: "J = 0.4 m a², first spin (2000, 200) rad/s".
+std::string describeSpace(const Collision& c) {
+  std::string words = fmt::format("J = {:g} m a²", c.inertiaFactor);
+  const char* const bodies[] = {"first", "second"};
+  for (const int side : {0, 1})
+    if (const Vec2& spin = c.spinOutOfPlane[side]; !spin.isZero(0.0))
+      words += fmt::format(", {} spin ({:g}, {:g}) rad/s", bodies[side], spin.x(), spin.y());
+  if (!c.turn.isZero(0.0)) {
+    const Vec3 axis = c.turn.normalized();
+    words += fmt::format(", turned by {:.4g}° about ({:.3g}, {:.3g}, {:.3g})",
+                         c.turn.norm() * 180.0 / std::numbers::pi, axis.x(), axis.y(), axis.z());
+  }
+  return words;
+}
+
 /// All but the engines' curves.
 CollisionVariant variantOf(const CollisionCase& sweep) {
   const Case& setup = *sweep.setup;
@@ -207,11 +224,18 @@ CollisionVariant variantOf(const CollisionCase& sweep) {
   variant.variant = setup.variant.empty() ? setup.name : setup.variant;
   variant.law = describeLaw(setup.law);
   variant.effects.emplace();
-  for (const Effect effect : effectsOf(collisionScene(setup, sweep.starts, sweep.steps.front())))
+  const double dt = sweep.steps.front();
+  for (const Effect effect : setup.dimension == 3
+                                 ? effectsOf(spaceCollisionScene(setup, sweep.starts, dt))
+                                 : effectsOf(collisionScene(setup, sweep.starts, dt)))
     variant.effects->push_back(toString(effect));
+  if (setup.dimension == 3) variant.space = describeSpace(setup.collision);
   variant.closedEn = closedRestitution(setup.law, pair.reducedMass());
   if (!setup.law.soft()) variant.sticking.et0 = setup.law.et0;
-  variant.slidingConstant = slidingConstant(setup.law, pair);
+  // Ψ_f = Ψ_i − it is of a slip along s alone.
+  const auto& besides = setup.collision.spinOutOfPlane;
+  if (besides[0].y() == 0.0 && besides[1].y() == 0.0)
+    variant.slidingConstant = slidingConstant(setup.law, pair);
   variant.oracle = fineOracle(setup);
   variant.oracleReason = sweep.oracle.reason;
   variant.reference = tableOf(sweep.starts, referenceOf(sweep.oracle));

@@ -210,6 +210,30 @@ Outcomes referenceOf(const OracleCurve& oracle) {
 
 namespace {
 
+template <int D>
+SceneOf<D> sceneOfSweep(const Case& setup, const std::vector<CollisionStart>& starts, double dt) {
+  if constexpr (D == 2)
+    return collisionScene(setup, starts, dt);
+  else
+    return spaceCollisionScene(setup, starts, dt);
+}
+
+/// The sweep's outcomes in space, from the flights after the collisions: contacts are not watched.
+Outcomes runOutcomes(Engine& engine, const Capabilities&, const Case& setup,
+                     const SpaceScene& scene, const ContactLaw&,
+                     const EffectiveParameters& effective,
+                     const std::vector<CollisionStart>& starts, bool) {
+  engine.advance(sweepEnd(setup, scene.dt, effective.dt));
+  const SpaceSnapshot after = engine.snapshotInSpace(ContactReport::none);
+  const Eigen::Matrix3d turn = turnOf(setup);
+  Outcomes outcomes;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    const auto parted = collisionEnd(scene, after, k, starts[k], turn);
+    outcomes.push_back(parted ? std::optional(CollisionOutcome{*parted, {}}) : std::nullopt);
+  }
+  return outcomes;
+}
+
 /// The sweep's outcomes; those of a run that is watched also with overlaps and work.
 /// @param law  as the engine runs it
 Outcomes runOutcomes(Engine& engine, const Capabilities& can, const Case& setup, const Scene& scene,
@@ -239,22 +263,28 @@ Outcomes runOutcomes(Engine& engine, const Capabilities& can, const Case& setup,
 
 /// What the in-house engine makes of the sweep under the law that another declares, at the step
 /// that it takes.
-Outcomes mirrorOutcomes(const Case& setup, const Scene& asRun, const ContactLaw& law, double dt,
-                        const std::vector<CollisionStart>& starts, bool watch) {
+template <int D>
+Outcomes mirrorOutcomes(const Case& setup, const SceneOf<D>& asRun, const ContactLaw& law,
+                        double dt, const std::vector<CollisionStart>& starts, bool watch) {
   const auto mirror = engineRegistry().front().make();
-  Scene scene = asRun;
+  SceneOf<D> scene = asRun;
   scene.law = law;
   scene.dt = dt;
   scene.precision = Precision::float64;
-  const EffectiveParameters effective = mirror->load(scene, {});
+  EffectiveParameters effective;
+  if constexpr (D == 2)
+    effective = mirror->load(scene, {});
+  else
+    effective = mirror->loadInSpace(scene, {});
   return runOutcomes(*mirror, mirror->capabilities(), setup, scene, law, effective, starts, watch);
 }
 
 /// One engine's curve and how it came about.
+template <int D>
 struct SweptCurve {
   const Case& setup;
   const std::vector<CollisionStart>& starts;
-  const Scene& asRun;
+  const SceneOf<D>& asRun;
   const EffectiveParameters& effective;
   const Outcomes& found;
   bool watch;
@@ -266,7 +296,8 @@ struct SweptCurve {
 /// solution in continuous time has, and others have no limit of small steps at all: where the curve
 /// is short of the oracle, or there is none, the in-house engine decides, with the same conventions
 /// at the same step. Absent where it is the scene's law.
-std::optional<DeclaredScore> scoreDeclared(const SweptCurve& swept, const EngineEntry& entry,
+template <int D>
+std::optional<DeclaredScore> scoreDeclared(const SweptCurve<D>& swept, const EngineEntry& entry,
                                            const std::optional<ContactLaw>& law,
                                            DeclaredOracles& oracles) {
   DeclaredScore score;
@@ -303,23 +334,14 @@ std::optional<DeclaredScore> scoreDeclared(const SweptCurve& swept, const Engine
   return score;
 }
 
-}  // namespace
-
-Outcomes sweepOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup,
-                       const Scene& scene, const EffectiveParameters& effective,
-                       const std::vector<CollisionStart>& starts, bool watch) {
-  const Capabilities can = engine.capabilities();
-  const ContactLaw law = sceneFor(can, entry, setup, scene).scene.law;
-  return runOutcomes(engine, can, setup, scene, law, effective, starts, watch);
-}
-
-CollisionCurve runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
-                        const std::vector<CollisionStart>& starts, const OracleCurve& limit,
-                        bool watch, DeclaredOracles* declared) {
-  const Scene scene = collisionScene(setup, starts, dt);
+template <int D>
+CollisionCurve sweepIn(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
+                       const std::vector<CollisionStart>& starts, const OracleCurve& limit,
+                       bool watch, DeclaredOracles* declared) {
+  const SceneOf<D> scene = sceneOfSweep<D>(setup, starts, dt);
   const EffectiveParameters effective = loadScene(engine, entry, setup, scene);
   const Capabilities can = engine.capabilities();
-  const Scene asRun = sceneFor(can, entry, setup, scene).scene;
+  const SceneOf<D> asRun = sceneFor(can, entry, setup, scene).scene;
   const Outcomes found =
       runOutcomes(engine, can, setup, scene, asRun.law, effective, starts, watch);
   CollisionCurve curve;
@@ -350,9 +372,26 @@ CollisionCurve runSweep(Engine& engine, const EngineEntry& entry, const Case& se
   curve.score = scoreSweep(setup, starts, found, reference);
   if (declared)
     curve.declared = scoreDeclared(
-        {setup, starts, asRun, effective, found, watch, step, curve.score}, entry,
+        SweptCurve<D>{setup, starts, asRun, effective, found, watch, step, curve.score}, entry,
         declaredLaw(can, asRun, effective, collidingPair(setup).reducedMass()), *declared);
   return curve;
+}
+
+}  // namespace
+
+Outcomes sweepOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup,
+                       const Scene& scene, const EffectiveParameters& effective,
+                       const std::vector<CollisionStart>& starts, bool watch) {
+  const Capabilities can = engine.capabilities();
+  const ContactLaw law = sceneFor(can, entry, setup, scene).scene.law;
+  return runOutcomes(engine, can, setup, scene, law, effective, starts, watch);
+}
+
+CollisionCurve runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
+                        const std::vector<CollisionStart>& starts, const OracleCurve& limit,
+                        bool watch, DeclaredOracles* declared) {
+  const auto sweep = setup.dimension == 3 ? sweepIn<3> : sweepIn<2>;
+  return sweep(engine, entry, setup, dt, starts, limit, watch, declared);
 }
 
 }  // namespace crossgrain::inline studies

@@ -66,7 +66,8 @@ Outcomes referenceOf(const OracleCurve& oracle);
 /// oracle's, `noLimit` marks points that have no limit of small time steps.
 CollisionTable tableOf(const std::vector<CollisionStart>& starts, const Outcomes& outcomes);
 
-/// What became of each collision of a scene of collisionScene() that the engine has just loaded.
+/// What became of each collision of a scene of collisionScene() that the engine has just loaded,
+/// in the plane.
 /// @param watch  the contacts, step by step: then also with overlaps and work
 Outcomes sweepOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup,
                        const Scene& scene, const EffectiveParameters& effective,

@@ -49,6 +49,14 @@ class AuditedEngine final : public Engine {
     }
     return seen;
   }
+  /// Snapshots in space are not compared with anything yet but for their lengths and that all is
+  /// finite, as the worker protocol has it.
+  EffectiveParameters loadInSpace(const SpaceScene& scene, const Settings& settings) override {
+    return engine_->loadInSpace(scene, settings);
+  }
+  SpaceSnapshot snapshotInSpace(ContactReport contacts) override {
+    return engine_->snapshotInSpace(contacts);
+  }
   Stats stats() const override { return engine_->stats(); }
   void checkpoint(const std::filesystem::path& file) override { engine_->checkpoint(file); }
   void restore(const std::filesystem::path& file) override {
@@ -286,8 +294,9 @@ auto namingRefusals(const EngineEntry& entry, const Case& setup, Work&& work) {
 }
 
 /// An engine's own time step, if it runs soft laws with it. @param scene  as it runs it
+template <int D>
 void checkOwnStep(const Capabilities& can, const EngineEntry& entry, const Case& setup,
-                  const Scene& scene, const Settings& settings) {
+                  const SceneOf<D>& scene, const Settings& settings) {
   const double* const step = stepIn(settings);
   if (!step) return;
   const auto normal = can.lawOptions.find("normal");
@@ -312,9 +321,26 @@ void checkSuitable(const Capabilities& can, const EngineEntry& entry, const Case
 
 namespace {
 
+EffectiveParameters loadInto(Engine& engine, const Scene& scene, const Settings& settings) {
+  return engine.load(scene, settings);
+}
+EffectiveParameters loadInto(Engine& engine, const SpaceScene& scene, const Settings& settings) {
+  return engine.loadInSpace(scene, settings);
+}
+
+/// What no engine can start from, in a clause; empty: nothing. In space a case's scenes are
+/// collisions, whose bodies begin apart.
+std::string faultOfStart(const Scene& scene) {
+  return startFault(scene);
+}
+std::string faultOfStart(const SpaceScene&) {
+  return {};
+}
+
 /// sceneFor(), with advice that works: see checkSuitable().
-Adapted sceneWithAdvice(Engine& engine, const EngineEntry& entry, const Case& setup,
-                        const Scene& scene) {
+template <int D>
+AdaptedOf<D> sceneWithAdvice(Engine& engine, const EngineEntry& entry, const Case& setup,
+                             const SceneOf<D>& scene) {
   const Capabilities can = engine.capabilities();
   try {
     return sceneFor(can, entry, setup, scene);
@@ -324,7 +350,8 @@ Adapted sceneWithAdvice(Engine& engine, const EngineEntry& entry, const Case& se
     mayDiffer.insert(mayDiffer.end(), advice.names.begin(), advice.names.end());
     std::string stillWhy;
     try {
-      engine.load(sceneFor(can, entry, listed, scene).scene, settingsFor(setup, entry.name, can));
+      loadInto(engine, sceneFor(can, entry, listed, scene).scene,
+               settingsFor(setup, entry.name, can));
     } catch (const UnsupportedScene& refusal) {
       stillWhy = refusal.what();
     } catch (const std::exception&) {
@@ -338,46 +365,56 @@ Adapted sceneWithAdvice(Engine& engine, const EngineEntry& entry, const Case& se
 
 }  // namespace
 
+template <int D>
 void checkSuitable(Engine& engine, const EngineEntry& entry, const Case& setup,
-                   const Scene& scene) {
-  const Adapted adapted =
+                   const SceneOf<D>& scene) {
+  const AdaptedOf<D> adapted =
       namingRefusals(entry, setup, [&] { return sceneWithAdvice(engine, entry, setup, scene); });
   const Capabilities can = engine.capabilities();
   checkOwnStep(can, entry, setup, adapted.scene, settingsFor(setup, entry.name, can));
 }
 
-Adapted sceneFor(const Capabilities& can, const EngineEntry& entry, const Case& setup,
-                 const Scene& scene) {
+template void checkSuitable<2>(Engine&, const EngineEntry&, const Case&, const Scene&);
+template void checkSuitable<3>(Engine&, const EngineEntry&, const Case&, const SpaceScene&);
+
+template <int D>
+AdaptedOf<D> sceneFor(const Capabilities& can, const EngineEntry& entry, const Case& setup,
+                      const SceneOf<D>& scene) {
   if (entry.mirrors.empty()) return adaptScene(can, scene, setup.run.mayDiffer);
-  Adapted theirs = sceneOfPeer(entry, setup, scene);
-  Adapted own = adaptScene(can, theirs.scene, setup.run.mayDiffer);
+  AdaptedOf<D> theirs = sceneOfPeer(entry, setup, scene);
+  AdaptedOf<D> own = adaptScene(can, theirs.scene, setup.run.mayDiffer);
   std::ranges::move(own.deviations, std::back_inserter(theirs.deviations));
   return {std::move(own.scene), std::move(theirs.deviations)};
 }
+template Adapted sceneFor<2>(const Capabilities&, const EngineEntry&, const Case&, const Scene&);
+template AdaptedOf<3> sceneFor<3>(const Capabilities&, const EngineEntry&, const Case&,
+                                  const SpaceScene&);
 
 namespace {
 
 /// Shorter, no run would end; longer, no engine would move.
-/// @throws BadInput for an engine's own step that is far from the scene's
-void checkSizeOfStep(const EngineEntry& entry, const Case& setup, const Scene& scene,
+/// @param dt  of the scene [s]
+/// @throws BadInput for an engine's own step that is far from it
+void checkSizeOfStep(const EngineEntry& entry, const Case& setup, double dt,
                      const Settings& settings) {
   constexpr double most = 1e6;
   const double* const step = stepIn(settings);
-  if (!step || *step == 0.0 || (*step >= scene.dt / most && *step <= scene.dt * most)) return;
+  if (!step || *step == 0.0 || (*step >= dt / most && *step <= dt * most)) return;
   throw BadInput(fmt::format(
       "{}: [engines.{}] dt = {:g} s must be 0, or from {:.3g} to {:.3g} s (10^-6 to 10^6 times the "
       "case's step)",
-      whereSaid(setup, fmt::format("engines.{}.dt", entry.name)), entry.name, *step,
-      scene.dt / most, scene.dt * most));
+      whereSaid(setup, fmt::format("engines.{}.dt", entry.name)), entry.name, *step, dt / most,
+      dt * most));
 }
 
+template <int D>
 EffectiveParameters loadAdapted(Engine& engine, const EngineEntry& entry, const Case& setup,
-                                const Scene& scene) {
+                                const SceneOf<D>& scene) {
   const Capabilities can = engine.capabilities();
-  const Adapted adapted = sceneWithAdvice(engine, entry, setup, scene);
+  const AdaptedOf<D> adapted = sceneWithAdvice(engine, entry, setup, scene);
   const Settings settings = settingsFor(setup, entry.name, can);
-  checkSizeOfStep(entry, setup, adapted.scene, settings);
-  EffectiveParameters effective = engine.load(adapted.scene, settings);
+  checkSizeOfStep(entry, setup, adapted.scene.dt, settings);
+  EffectiveParameters effective = loadInto(engine, adapted.scene, settings);
   effective.engine = entry.name;
   effective.version = can.version;
   effective.deviations.insert(effective.deviations.begin(), adapted.deviations.begin(),
@@ -389,12 +426,16 @@ EffectiveParameters loadAdapted(Engine& engine, const EngineEntry& entry, const 
 
 }  // namespace
 
+template <int D>
 EffectiveParameters loadScene(Engine& engine, const EngineEntry& entry, const Case& setup,
-                              const Scene& scene) {
-  if (const std::string why = startFault(scene); !why.empty())
+                              const SceneOf<D>& scene) {
+  if (const std::string why = faultOfStart(scene); !why.empty())
     throw BadInput(fmt::format("{}: {}", setup.file.string(), why));
   return namingRefusals(entry, setup, [&] { return loadAdapted(engine, entry, setup, scene); });
 }
+template EffectiveParameters loadScene<2>(Engine&, const EngineEntry&, const Case&, const Scene&);
+template EffectiveParameters loadScene<3>(Engine&, const EngineEntry&, const Case&,
+                                          const SpaceScene&);
 
 void requireSameStep(const EffectiveParameters& first, const EffectiveParameters& now) {
   if (now.dt != first.dt || now.precision != first.precision)
@@ -430,15 +471,16 @@ std::optional<Deviation> stepDeviation(double engineStep, double sceneStep) {
       fmt::format("takes steps of {:.4g} s, the case's are {:.4g} s", engineStep, sceneStep)};
 }
 
+template <int D>
 Suitability suitabilityOf(Engine& engine, const EngineEntry& entry, const Case& setup,
-                          const Scene& scene) {
+                          const SceneOf<D>& scene) {
   const Capabilities can = engine.capabilities();
   settingsFor(setup, entry.name, can);
-  const Adapted adapted = sceneFor(can, entry, setup, scene);
+  const AdaptedOf<D> adapted = sceneFor(can, entry, setup, scene);
   std::vector<Deviation> deviations = adapted.deviations;
   Effects effects = simulatedEffects(can, adapted.scene);
   Suitability found;
-  if (scene.disks.size() > 0 && startFault(scene).empty()) {
+  if (scene.disks.size() > 0 && faultOfStart(scene).empty()) {
     const EffectiveParameters effective = loadAdapted(engine, entry, setup, scene);
     deviations = effective.deviations;
     effects = effective.effects;
@@ -449,5 +491,7 @@ Suitability suitabilityOf(Engine& engine, const EngineEntry& entry, const Case& 
     if (!effects.contains(effect)) found.notSimulated.emplace_back(toString(effect));
   return found;
 }
+template Suitability suitabilityOf<2>(Engine&, const EngineEntry&, const Case&, const Scene&);
+template Suitability suitabilityOf<3>(Engine&, const EngineEntry&, const Case&, const SpaceScene&);
 
 }  // namespace crossgrain::inline studies

@@ -91,8 +91,9 @@ Settings settingsFor(const Case& setup, const std::string& engine, const Capabil
 
 /// The scene as the case lets this engine run it; of a mirror, as it lets its peer.
 /// @throws UnsupportedScene saying what it cannot do
-Adapted sceneFor(const Capabilities& can, const EngineEntry& entry, const Case& setup,
-                 const Scene& scene);
+template <int D>
+AdaptedOf<D> sceneFor(const Capabilities& can, const EngineEntry& entry, const Case& setup,
+                      const SceneOf<D>& scene);
 
 /// Whether an engine can run the scene with the settings and liberties of the case.
 /// @throws UnsupportedScene naming engine, case and what it cannot do; BadInput for a setting
@@ -100,7 +101,9 @@ void checkSuitable(const Capabilities& can, const EngineEntry& entry, const Case
                    const Scene& scene);
 /// The same, where what may_differ could allow is refused with that advice only if the engine then
 /// runs the scene: it is loaded so. Else the refusal adds what stands in the way even then.
-void checkSuitable(Engine& engine, const EngineEntry& entry, const Case& setup, const Scene& scene);
+template <int D>
+void checkSuitable(Engine& engine, const EngineEntry& entry, const Case& setup,
+                   const SceneOf<D>& scene);
 
 /// An engine that has loaded a scene.
 struct LoadedEngine {
@@ -118,8 +121,9 @@ LoadedEngine loadEngine(const EngineEntry& entry, const Case& setup, const Scene
 /// it then really does, with all deviations, its time step among them.
 /// @throws UnsupportedScene naming engine, case and what it cannot do; BadInput for a scene that no
 /// engine can start from (startFault())
+template <int D>
 EffectiveParameters loadScene(Engine& engine, const EngineEntry& entry, const Case& setup,
-                              const Scene& scene);
+                              const SceneOf<D>& scene);
 
 /// What is compared over several starts of a case has one step and one precision.
 /// @throws EngineFailure where the engine has others than from the first start
@@ -150,7 +154,8 @@ struct Suitability {
 /// and the reports of runs tell the same; of a scene that no engine can start from, it is what is
 /// known before.
 /// @throws UnsupportedScene in the engine's own words, BadInput for a setting
+template <int D>
 Suitability suitabilityOf(Engine& engine, const EngineEntry& entry, const Case& setup,
-                          const Scene& scene);
+                          const SceneOf<D>& scene);
 
 }  // namespace crossgrain::inline studies

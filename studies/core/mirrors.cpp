@@ -44,7 +44,8 @@ std::optional<Capabilities> capabilitiesOf(const EngineEntry& entry, double time
   return found->second;
 }
 
-Adapted sceneOfPeer(const EngineEntry& mirror, const Case& setup, const Scene& scene) {
+template <int D>
+AdaptedOf<D> sceneOfPeer(const EngineEntry& mirror, const Case& setup, const SceneOf<D>& scene) {
   const EngineEntry* peer = findEngine(mirror.mirrors);
   const auto can = peer ? capabilitiesOf(*peer, setup.run.timeout) : std::nullopt;
   if (!can)
@@ -53,7 +54,7 @@ Adapted sceneOfPeer(const EngineEntry& mirror, const Case& setup, const Scene& s
         {{"peer", 0.0, "",
           fmt::format("{} cannot be asked here: what it lacks is not left out", mirror.mirrors)}}};
   const bool sameLaw = hasNormalLaw(*can, scene.law);
-  Adapted adapted;
+  AdaptedOf<D> adapted;
   try {
     adapted = adaptScene(*can, scene, setup.run.mayDiffer);
   } catch (const UnsupportedScene& refusal) {
@@ -72,6 +73,8 @@ Adapted sceneOfPeer(const EngineEntry& mirror, const Case& setup, const Scene& s
   }
   return adapted;
 }
+template Adapted sceneOfPeer<2>(const EngineEntry&, const Case&, const Scene&);
+template AdaptedOf<3> sceneOfPeer<3>(const EngineEntry&, const Case&, const SpaceScene&);
 
 namespace {
 

@@ -24,7 +24,8 @@ std::optional<Capabilities> capabilitiesOf(const EngineEntry& entry, double time
 /// The mirror's precision stays its own: a peer's rounding is the peer's implementation.
 /// Deviations say what came from the peer, in the peer's words.
 /// @throws UnsupportedScene if the case does not let the peer run it
-Adapted sceneOfPeer(const EngineEntry& mirror, const Case& setup, const Scene& scene);
+template <int D>
+AdaptedOf<D> sceneOfPeer(const EngineEntry& mirror, const Case& setup, const SceneOf<D>& scene);
 
 /// Adds an engine of the user's own to the registry and, behind it, its mirror: the in-house engine
 /// with the conventions that the engine declares. The engine is started once to be asked; one that

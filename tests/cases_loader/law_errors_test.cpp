@@ -30,6 +30,17 @@ TEST_F(LoaderErrors, Law_NeedsWhatItUsesAndNothingElse) {
   });
 }
 
+TEST_F(LoaderErrors, ConventionsOfSpace_NeedACaseInSpace) {
+  expectMessages({
+      {collision(5, "gn = 0.19\nspring_twist = \"none\""),
+       "case.toml:6:16: law.spring_twist = \"none\": only a law in space has it (case.dimension = "
+       "3)"},
+      {withLine(collision(2, "kind = \"collision\"\ndimension = 3"), 6,
+                "gn = 0.19\nspring_twist = \"none\"\nspring_turn = \"projected\""),
+       ""},
+  });
+}
+
 TEST_F(LoaderErrors, TwoMaterials_OutsideACollision_AreRefused) {
   const std::string assembly =
       "[case]\nkind = \"assembly\"\n[assembly]\nduration = 1\n[[assembly.disks]]\n"

@@ -418,4 +418,23 @@ TEST(SceneOfPeer, PeerThatLacksEffectsRefusesOrIsUnknown_IsReported) {
   EXPECT_EQ(effectsOf(unknown.scene), effectsOf(scene));
 }
 
+TEST(EngineAccess, DimensionThatAnEngineDoesNotHave_IsRefusedInOneLine) {
+  const SpaceScene spheres;
+  const auto refusal = [&](const std::vector<int>& dimensions) {
+    Capabilities can;
+    can.dimensions = dimensions;
+    return test::refusalOf<UnsupportedScene>([&] { adaptScene(can, spheres, {"dimension"}); });
+  };
+  EXPECT_EQ(refusal({2}), "has dimension = 2, not 3");
+  EXPECT_EQ(refusal({2, 3}), "");
+  Capabilities spheresAlone;
+  spheresAlone.dimensions = {3};
+  EXPECT_EQ(test::refusalOf<UnsupportedScene>([&] { adaptScene(spheresAlone, Scene{}, {}); }),
+            "has dimension = 3, not 2");
+  // Every engine but those that say 3; their base class says so, too.
+  EXPECT_EQ(test::refusalOf<UnsupportedScene>(
+                [&] { findEngine("box2d-penalty")->make()->loadInSpace(spheres, {}); }),
+            "has dimension = 2, not 3");
+}
+
 }  // namespace

@@ -19,12 +19,12 @@ void expectNear(const Vec2& got, const Vec2& wanted) {
 TEST(Motion, OfEachKind) {
   const Vec2 start(1.0, 2.0);
   const BodyState turned =
-      stateAt({.kind = Motion::Kind::rotating, .angularVelocity = 3.0}, start, 2.0);
+      stateAt(Motion{.kind = Motion::Kind::rotating, .angularVelocity = 3.0}, start, 2.0);
   EXPECT_EQ(turned.angle, 6.0);
   EXPECT_EQ(turned.angularVelocity, 3.0);
   expectNear(turned.centre, start);
   const BodyState moved =
-      stateAt({.kind = Motion::Kind::translating, .velocity = Vec2(0.5, -1.0)}, start, 2.0);
+      stateAt(Motion{.kind = Motion::Kind::translating, .velocity = Vec2(0.5, -1.0)}, start, 2.0);
   expectNear(moved.centre, Vec2(2.0, 0.0));
   expectNear(moved.velocity, Vec2(0.5, -1.0));
   // A quarter of a period in, and at its end.

@@ -11,9 +11,11 @@ namespace crossgrain {
 namespace {
 
 /// Every option has its last value, and every constant one of its own.
-ContactLaw lawOfAllParts() {
+ContactLaw lawOfAllParts(int dimension = 2) {
   ContactLaw law;
-  for (const LawOption& option : lawOptions()) option.set(law, option.values.size() - 1);
+  law.dimension = dimension;
+  for (const LawOption& option : lawOptions())
+    if (option.part != LawPart::space || dimension == 3) option.set(law, option.values.size() - 1);
   double value = 0.1;
   for (const LawConstant& constant : lawConstants()) law.*constant.value = value += 1.0 / 3.0;
   return law;
@@ -42,7 +44,7 @@ void expectSameBits(const std::vector<Value>& a, const std::vector<Value>& b) {
 
 TEST(WorkerJson, Scene_KeepsEveryBit) {
   const Scene scene = test::toyScene();
-  const Scene back = roundTrip(scene, sceneFromJson);
+  const Scene back = roundTrip(scene, sceneFromJson<2>);
   EXPECT_EQ(back.name, scene.name);
   expectSameBits(back.disks.radius, scene.disks.radius);
   expectSameBits(back.disks.mass, scene.disks.mass);
@@ -91,14 +93,78 @@ TEST(WorkerJson, LawsOfMaterials_KeepEveryBit) {
   materials.laws[1].mu = materials.laws[2].mu = 0.7;
   materials.ofDisk.assign(scene.disks.size(), 1);
   materials.ofBody.assign(scene.bodies.size(), 0);
-  const Scene back = roundTrip(scene, sceneFromJson);
+  const Scene back = roundTrip(scene, sceneFromJson<2>);
   EXPECT_EQ(back.law, scene.law);
   EXPECT_EQ(back.materials, scene.materials);
   EXPECT_EQ(&back.lawOf(0, 1), &back.materials->law(1, 1));
   EXPECT_EQ(&back.lawOf(0, scene.disks.size()), &back.materials->law(1, 0));
 
   scene.materials->ofDisk.front() = 2;
-  EXPECT_THROW(roundTrip(scene, sceneFromJson), std::runtime_error);
+  EXPECT_THROW(roundTrip(scene, sceneFromJson<2>), std::runtime_error);
+}
+
+TEST(WorkerJson, SceneInSpace_KeepsEveryBitAndItsDimension) {
+  SpaceScene scene;
+  scene.name = "spheres";
+  scene.law = lawOfAllParts(3);
+  scene.gravity = {0.1, 1.0 / 3.0, -9.81};
+  scene.dt = 1e-6;
+  for (const double k : {1.0, 2.0}) {
+    scene.disks.radius.push_back(k / 7.0);
+    scene.disks.mass.push_back(k / 11.0);
+    scene.disks.inertia.push_back(k / 13.0);
+    scene.disks.position.emplace_back(k, 2.0 * k, 3.0 / k);
+    scene.disks.velocity.emplace_back(-k, 1.0 / k, 0.3);
+    scene.disks.spin.emplace_back(5.0 * k, 1.0 / (3.0 * k), -7.0);
+  }
+  WallBodyOf<3>& wall = scene.bodies.emplace_back();
+  wall.name = "wall";
+  wall.planes.push_back({{1.0, 2.0, 1.0 / 3.0}, {0.0, 0.0, -1.0}});
+  wall.motion.kind = MotionKind::translating;
+  wall.motion.velocity = {0.1, -0.2, 1.0 / 9.0};
+  ArrayWriter arrays;
+  EXPECT_EQ(dimensionOf(toJson(scene, arrays)), 3);
+  EXPECT_EQ(dimensionOf(toJson(test::toyScene(), arrays)), 2);
+  EXPECT_THROW(dimensionOf({{"dimension", 4}}), std::runtime_error);
+  const SpaceScene back = roundTrip(scene, sceneFromJson<3>);
+  EXPECT_EQ(back.law, scene.law);
+  EXPECT_EQ(back.gravity, scene.gravity);
+  expectSameBits(back.disks.position, scene.disks.position);
+  expectSameBits(back.disks.velocity, scene.disks.velocity);
+  expectSameBits(back.disks.spin, scene.disks.spin);
+  ASSERT_EQ(back.bodies.size(), 1u);
+  EXPECT_EQ(back.bodies[0].planes[0].point, wall.planes[0].point);
+  EXPECT_EQ(back.bodies[0].planes[0].normal, wall.planes[0].normal);
+  EXPECT_EQ(back.bodies[0].motion.velocity, wall.motion.velocity);
+}
+
+TEST(WorkerJson, SnapshotInSpace_KeepsEveryBit) {
+  SpaceScene scene;
+  scene.disks.radius = {0.1, 0.2};
+  SpaceSnapshot snapshot;
+  snapshot.positionTime = 1.0 / 3.0;
+  snapshot.position = {{1.0, 2.0, 1.0 / 3.0}, {4.0, 5.0, 6.0}};
+  snapshot.velocity = {{1.0 / 7.0, 0.0, 1.0}, {0.0, -1.0, 0.0}};
+  snapshot.spin = {{0.0, 0.0, 3.0}, {1.0 / 9.0, 2.0, 0.0}};
+  ContactsOf<3>& contacts = snapshot.contacts.emplace();
+  contacts.i = {0};
+  contacts.j = {1};
+  contacts.normal = {{0.6, 0.0, 0.8}};
+  contacts.overlap = {1e-5};
+  contacts.normalForce = {2.0};
+  contacts.tangentialForce = {{0.8, 1.0 / 3.0, -0.6}};
+  contacts.rollingTorque = {{1.0 / 13.0, 0.0, 0.0}};
+  const SpaceSnapshot back = roundTrip(snapshot, [&](const auto& json, const auto& arrays) {
+    return snapshotFromJson(json, arrays, scene);
+  });
+  EXPECT_EQ(back.positionTime, snapshot.positionTime);
+  expectSameBits(back.position, snapshot.position);
+  expectSameBits(back.velocity, snapshot.velocity);
+  expectSameBits(*back.spin, *snapshot.spin);
+  expectSameBits(back.contacts->normal, contacts.normal);
+  expectSameBits(back.contacts->tangentialForce, contacts.tangentialForce);
+  expectSameBits(back.contacts->rollingTorque, contacts.rollingTorque);
+  EXPECT_EQ(back.contacts->force(0), Vec3(2.0 * 0.6 + 0.8, 1.0 / 3.0, 2.0 * 0.8 - 0.6));
 }
 
 /// An older worker knows nothing of them, and finds nothing of them.

@@ -164,7 +164,7 @@ TEST_F(Worker, AnswerToHelloOrLoadThatCannotBe_IsRefused) {
                      "velocity_arm, plane_arm, history, damping_velocity, integrator, rolling, "
                      "rolling_length, rolling_stiffness, rolling_damper, rolling_load, "
                      "rolling_dashpot, rolling_reset, cohesion, cohesion_area, jkr_end, "
-                     "cohesion_load, unloading_stiffness)"),
+                     "cohesion_load, unloading_stiffness, spring_turn, spring_twist)"),
            {"value", "tension cannot be 'red' (it is one of: allow, cut)"},
            {"no value", "tension has no value"},
        })

@@ -9,6 +9,67 @@
 namespace crossgrain::test {
 namespace {
 
+/// Three spheres that meet each other and a floor that slides, not in one plane.
+SpaceScene spheresOnAFloor() {
+  SpaceScene scene;
+  scene.name = "yade in space";
+  scene.law = emptyScene().law;
+  scene.law.dimension = 3;
+  scene.law.tangential = TangentialLaw::spring;
+  scene.dt = 4e-5;
+  scene.gravity = {0.1, -9.81, 0.2};
+  const Vec3 places[] = {{0.0, 0.0, 0.0}, {2.0, 0.1, 0.2}, {1.0, 1.74, -0.1}};
+  for (int k = 0; k < 3; ++k) {
+    scene.disks.radius.push_back(smallRadius);
+    scene.disks.mass.push_back(smallMass);
+    scene.disks.inertia.push_back(0.4 * smallMass * smallRadius * smallRadius);
+    scene.disks.position.push_back(1.001 * smallRadius * places[k]);
+    scene.disks.velocity.emplace_back(0.02 - 0.03 * k, -0.05, 0.01 * k);
+    scene.disks.spin.emplace_back(20.0 * k, 30.0, -10.0);
+  }
+  WallBodyOf<3>& floor = scene.bodies.emplace_back();
+  floor.name = "floor";
+  floor.planes.push_back({{0.0, -1.001 * smallRadius, 0.0}, {0.0, 1.0, 0.0}});
+  floor.motion.kind = MotionKind::translating;
+  floor.motion.velocity = {0.02, 0.0, -0.01};
+  return scene;
+}
+
+TEST_F(YadeWorker, SpheresInSpace_MoveAsItsMirrorMovesThem) {
+  const auto mirror = findEngine("grain-as-yade")->make();
+  SpaceScene scene = spheresOnAFloor();
+  const EffectiveParameters effective = engine_->loadInSpace(scene, {});
+  EXPECT_EQ(effective.dt, scene.dt);
+  mirror->loadInSpace(scene, {});
+  for (const double t : {0.0, 0.001, 0.004, 0.012}) {
+    engine_->advance(t);
+    mirror->advance(t);
+    const SpaceSnapshot now = engine_->snapshotInSpace(ContactReport::none);
+    const SpaceSnapshot own = mirror->snapshotInSpace(ContactReport::none);
+    ASSERT_EQ(now.position.size(), 3u);
+    // Rounding of 300 steps and some ten contacts.
+    for (int k = 0; k < 3; ++k) EXPECT_LE((now.position[k] - own.position[k]).norm(), 1e-12 * t);
+    EXPECT_EQ(now.bodies[0].centre, Vec3(t * scene.bodies[0].motion.velocity));
+  }
+  EXPECT_GT(mirror->stats().contactEvaluations, 100u);
+}
+
+TEST_F(YadeWorker, LawsThatItDoesNotHaveInSpace_AreRefused) {
+  SpaceScene scene = spheresOnAFloor();
+  scene.law.normal = NormalLaw::hertz;
+  scene.law.damper = Damper::critical;
+  try {
+    engine_->loadInSpace(scene, {});
+    FAIL() << "ran";
+  } catch (const UnsupportedScene& error) {
+    EXPECT_STREQ(error.what(),
+                 "has normal = linear without rolling resistance or cohesion in space");
+  }
+  scene = spheresOnAFloor();
+  scene.bodies[0].planes[0].normal = Vec3(0.6, 0.8, 0.0);
+  EXPECT_THROW(engine_->loadInSpace(scene, {}), UnsupportedScene);
+}
+
 TEST_F(YadeWorker, Walls_MoveAsPrescribed) {
   Scene scene = emptyScene();
   scene.dt = 1e-4;
@@ -170,8 +231,7 @@ TEST_F(YadeWorker, SceneItCannotDo_IsRefused) {
   bottom.bottom = thesisBottom<BottomPlate>();
   EXPECT_EQ(refusal(bottom), "has no bottom_friction");
   tilted.bodies[1].planes[0].normal = {0.6, 0.8};
-  EXPECT_EQ(refusal(tilted),
-            "has planes along x or y only; one of floor has the normal (0.6, 0.8)");
+  EXPECT_EQ(refusal(tilted), "has planes along axes only; one of floor has the normal (0.6, 0.8)");
   ContactLaw viscous = thesisLaw(), constant = hertzLaw(), steep = hertzLaw(),
              critical = thesisLaw();
   viscous.tangential = TangentialLaw::viscous;

@@ -1,0 +1,367 @@
+// Spheres in space: the plane's own engine where all is in a plane, turned scenes, springs that
+// turn, and what every scheme keeps.
+#include "engines/grain/spheres.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "engines/grain/simulation.hpp"
+
+namespace {
+
+using namespace grain;
+using Vector = grain::Vec3<double>;
+
+constexpr double radius = 0.005, mass = 1.309e-3;
+constexpr double inertia = 0.4 * mass * radius * radius;
+
+Law springLaw() {
+  Law law;
+  law.kn = 1e5;
+  law.gn = 1.5;
+  law.kt = 2.857e4;
+  law.gt = 0.4;
+  law.mu = 0.3;
+  law.tangential = Tangential::springDashpot;
+  return law;
+}
+
+double contactTime() {
+  return M_PI * std::sqrt(0.5 * mass / 1e5);
+}
+
+void add(SpheresSetup& setup, const Vector& x, const Vector& v, const Vector& spin) {
+  setup.position.push_back(x);
+  setup.velocity.push_back(v);
+  setup.spin.push_back(spin);
+  setup.radius.push_back(radius);
+  setup.mass.push_back(mass);
+  setup.inertia.push_back(inertia);
+}
+
+/// Three spheres and a floor, all meeting at once.
+SpheresSetup meeting(const Law& law, bool planar) {
+  SpheresSetup setup;
+  setup.law = law;
+  setup.dt = contactTime() / 40.0;
+  const double out = planar ? 0.0 : 1.0;
+  add(setup, {0.0, radius + 1e-5, 0.0}, {0.3, -0.7, 0.2 * out}, {40.0 * out, -30.0 * out, 90.0});
+  add(setup, {2.0 * radius + 2e-5, radius + 3e-5, out * 1e-4}, {-0.8, -0.4, -0.3 * out},
+      {-200.0 * out, 70.0 * out, -50.0});
+  add(setup, {radius, radius + 1.733 * radius, -out * 2e-4}, {0.1, -1.1, 0.0},
+      {10.0 * out, 300.0 * out, 20.0});
+  SpaceWall floor;
+  floor.planes.push_back({{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}});
+  floor.motion = [out](double t) {
+    return SpaceWall::State{{0.2 * t, 0.05 * t, 0.1 * out * t}, {0.2, 0.05, 0.1 * out}};
+  };
+  setup.walls.push_back(floor);
+  return setup;
+}
+
+Setup inThePlane(const SpheresSetup& spheres) {
+  Setup setup;
+  for (std::size_t i = 0; i < spheres.radius.size(); ++i) {
+    setup.disks.x.push_back(spheres.position[i].x);
+    setup.disks.y.push_back(spheres.position[i].y);
+    setup.disks.vx.push_back(spheres.velocity[i].x);
+    setup.disks.vy.push_back(spheres.velocity[i].y);
+    setup.disks.spin.push_back(spheres.spin[i].z);
+  }
+  setup.disks.radius = spheres.radius;
+  setup.disks.mass = spheres.mass;
+  setup.disks.inertia = spheres.inertia;
+  Wall floor;
+  floor.planes.push_back({});
+  floor.motion = [](double t) {
+    WallState now;
+    now.x = 0.2 * t;
+    now.y = 0.05 * t;
+    now.vx = 0.2;
+    now.vy = 0.05;
+    return now;
+  };
+  setup.walls.push_back(floor);
+  setup.law = spheres.law;
+  setup.dt = spheres.dt;
+  setup.integrator = spheres.integrator;
+  return setup;
+}
+
+TEST(Spheres, AllInAPlane_MoveAsThePlanesEngineMovesThem) {
+  // Every convention that both have, each with the others as they are. 1e-12 of a radius and of
+  // 1 m/s is rounding of 120 steps, three contacts at a time.
+  std::vector<std::pair<std::string, SpheresSetup>> runs;
+  const auto with = [&](const std::string& name, auto&& change) {
+    SpheresSetup setup = meeting(springLaw(), true);
+    change(setup);
+    runs.emplace_back(name, std::move(setup));
+  };
+  with("as it is", [](auto&) {});
+  with("frictionless", [](auto& s) { s.law.tangential = Tangential::none; });
+  with("spring alone", [](auto& s) { s.law.tangential = Tangential::spring; });
+  with("cut", [](auto& s) { s.law.cutTension = true; });
+  for (const Bound bound : {Bound::magnitude, Bound::signedForce})
+    with("bound", [&](auto& s) { s.law.bound = bound; });
+  with("outside", [](auto& s) { s.law.dashpotOutsideBound = true; });
+  with("spring only", [](auto& s) { s.law.resetSpringOnly = true; });
+  for (const Stretch stretch : {Stretch::before, Stretch::midpoint})
+    with("stretch", [&](auto& s) { s.law.stretch = stretch; });
+  for (const Lever lever : {Lever::contactPoint, Lever::overlapMiddle})
+    for (const PlaneLever plane : {PlaneLever::surface, PlaneLever::middle, PlaneLever::radius})
+      with("levers", [&](auto& s) {
+        s.law.lever = lever;
+        s.law.planeLever = plane;
+      });
+  with("velocity lever", [](auto& s) {
+    s.law.lever = Lever::overlapMiddle;
+    s.law.velocityLever = Lever::radius;
+  });
+  for (const Damping damping : {Damping::lagged, Damping::implicit})
+    with("damping", [&](auto& s) { s.law.damping = damping; });
+  for (const Integrator integrator : {Integrator::velocityVerlet, Integrator::semiImplicitEuler})
+    with("integrator", [&](auto& s) { s.integrator = integrator; });
+  for (const SpringTurn turn : {SpringTurn::rescaled, SpringTurn::rotated})
+    with("turn", [&](auto& s) { s.conventions.turn = turn; });
+  for (auto& [name, setup] : runs) {
+    Simulation plane(inThePlane(setup));
+    Spheres space(setup);
+    for (int piece = 0; piece < 12; ++piece) {
+      plane.advance(10);
+      space.advance(10);
+      for (std::size_t i = 0; i < 3; ++i) {
+        SCOPED_TRACE(name + ", sphere " + std::to_string(i));
+        EXPECT_NEAR(space.position(i).x, plane.x(i), 1e-12 * radius);
+        EXPECT_NEAR(space.position(i).y, plane.y(i), 1e-12 * radius);
+        EXPECT_EQ(space.position(i).z, 0.0);
+        EXPECT_NEAR(space.velocity(i).x, plane.velocityX(i), 1e-12);
+        EXPECT_NEAR(space.velocity(i).y, plane.velocityY(i), 1e-12);
+        EXPECT_NEAR(radius * space.spin(i).z,
+                    radius * (plane.rotates() ? plane.spin(i) : setup.spin[i].z), 1e-12);
+        EXPECT_EQ(space.spin(i).x, 0.0);
+      }
+    }
+    const WallLoad load = plane.wallLoad(0);
+    const auto [force, torque] = space.wallLoad(0);
+    EXPECT_NEAR(force.x, load.fx, 1e-9) << name;
+    EXPECT_NEAR(force.y, load.fy, 1e-9) << name;
+    EXPECT_NEAR(torque.z, load.torque, 1e-12) << name;
+    EXPECT_EQ(space.contacts().size(), plane.contacts().size()) << name;
+    EXPECT_EQ(space.contactEvaluations(), plane.contactEvaluations()) << name;
+  }
+}
+
+/// A rotation.
+struct Turn {
+  std::array<Vector, 3> rows;
+  Vector operator()(const Vector& v) const {
+    return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)};
+  }
+};
+
+/// By an angle about an axis of length 1 (Rodrigues).
+Turn turnBy(const Vector& axis, double angle) {
+  Turn turn;
+  const double c = std::cos(angle), s = std::sin(angle);
+  const Vector units[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (int k = 0; k < 3; ++k)  // row k of the matrix is the inverse turn of unit k
+    turn.rows[k] =
+        c * units[k] - s * cross(axis, units[k]) + ((1.0 - c) * dot(axis, units[k])) * axis;
+  return turn;
+}
+
+SpheresSetup turned(SpheresSetup setup, const Turn& turn) {
+  for (auto* list : {&setup.position, &setup.velocity, &setup.spin})
+    for (Vector& v : *list) v = turn(v);
+  for (SpaceWall& wall : setup.walls) {
+    for (SpaceWall::Plane& plane : wall.planes) plane = {turn(plane.point), turn(plane.normal)};
+    wall.motion = [motion = wall.motion, turn](double t) {
+      const SpaceWall::State now = motion(t);
+      return SpaceWall::State{turn(now.centre), turn(now.velocity)};
+    };
+  }
+  setup.gravity = turn(setup.gravity);
+  return setup;
+}
+
+TEST(Spheres, TurnedScene_GivesTheTurnedMotion) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  for (const SpringTurn how :
+       {SpringTurn::rotated, SpringTurn::firstOrder, SpringTurn::rescaled, SpringTurn::projected})
+    for (const SpringTwist twist : {SpringTwist::meanSpin, SpringTwist::none}) {
+      SpheresSetup setup = meeting(springLaw(), false);
+      setup.conventions = {how, twist};
+      setup.gravity = {0.0, -9.81, 0.0};
+      Vector axis{normal(random), normal(random), normal(random)};
+      axis = (1.0 / length(axis)) * axis;
+      const Turn turn = turnBy(axis, 3.0 * normal(random));
+      Spheres own(setup), other(turned(setup, turn));
+      for (int piece = 0; piece < 12; ++piece) {
+        own.advance(10);
+        other.advance(10);
+        // The turned start is rounded itself; contacts amplify that by about ten.
+        for (std::size_t i = 0; i < own.size(); ++i) {
+          EXPECT_LT(length(turn(own.position(i)) - other.position(i)), 1e-12 * radius);
+          EXPECT_LT(length(turn(own.velocity(i)) - other.velocity(i)), 1e-11);
+          EXPECT_LT(radius * length(turn(own.spin(i)) - other.spin(i)), 1e-11);
+        }
+        const auto here = own.contacts(), there = other.contacts();
+        ASSERT_EQ(here.size(), there.size());
+        for (std::size_t k = 0; k < here.size(); ++k)
+          EXPECT_LT(length(turn(here[k].tangentialForce) - there[k].tangentialForce), 1e-8);
+      }
+      EXPECT_GT(own.contactEvaluations(), 60u);
+    }
+}
+
+/// ξ of length 1 at angle φ from the direction in which n turns, after a turn by `angle` in so many
+/// steps about a fixed axis.
+Vector tumbled(SpringTurn how, double angle, int steps, double phi) {
+  Vector n{1, 0, 0}, spring{0, std::cos(phi), std::sin(phi)};
+  for (int k = 1; k <= steps; ++k) {
+    const double a = angle * k / steps;
+    const Vector next{std::cos(a), std::sin(a), 0};
+    spring = turnedSpring(how, spring, n, next);
+    n = next;
+  }
+  return spring;
+}
+
+TEST(Spheres, SpringOfATumblingPair_ChangesAsItsConventionSays) {
+  const int steps = 400;
+  const double turn = 2.0 * M_PI, each = turn / steps;
+  for (const double phi : {0.0, 0.7, 1.5}) {
+    const double c2 = std::cos(phi) * std::cos(phi);
+    const Vector start{0, std::cos(phi), std::sin(phi)};
+    // A whole turn about the axis: parallel transport brings ξ back.
+    EXPECT_LT(length(tumbled(SpringTurn::rotated, turn, steps, phi) - start), 1e-13);
+    EXPECT_NEAR(length(tumbled(SpringTurn::rescaled, turn, steps, phi)), 1.0, 1e-13);
+    // In one step of `each`: docs/dimensions.md, section 4.
+    const double s2 = std::sin(each) * std::sin(each);
+    EXPECT_NEAR(length(tumbled(SpringTurn::firstOrder, each, 1, phi)), std::sqrt(1.0 + s2 * c2),
+                1e-15);
+    EXPECT_NEAR(length(tumbled(SpringTurn::projected, each, 1, phi)), std::sqrt(1.0 - s2 * c2),
+                1e-15);
+  }
+  // Over a turn Θ in steps of ΔΘ: exp(∓½ΘΔΘ), to the next order ΘΔΘ³/8.
+  const double projected = length(tumbled(SpringTurn::projected, turn, steps, 0.0));
+  EXPECT_NEAR(projected, std::exp(-0.5 * turn * each), 2e-5);
+  EXPECT_NEAR(projected, std::pow(std::cos(each), steps), 1e-13);
+  EXPECT_NEAR(length(tumbled(SpringTurn::firstOrder, turn, steps, 0.0)),
+              std::exp(0.5 * turn * each), 2e-5);
+}
+
+TEST(Spheres, SpringOfATwistedPair_TurnsByTheMeanSpin) {
+  const Vector n{0, 0, 1}, spring{1, 0, 0};
+  const Vector turned = twistedSpring(SpringTurn::rotated, spring, n, 0.3);
+  EXPECT_NEAR(turned.x, std::cos(0.3), 1e-15);
+  EXPECT_NEAR(turned.y, std::sin(0.3), 1e-15);
+  const Vector first = twistedSpring(SpringTurn::firstOrder, spring, n, 0.3);
+  EXPECT_EQ(first.x, 1.0);
+  EXPECT_EQ(first.y, 0.3);
+}
+
+TEST(Spheres, SlippingForce_IsAlongTheSpringAndAtTheBound) {
+  Law law = springLaw();
+  law.tangential = Tangential::spring;
+  const auto general = generalLaw<double>(law, 1e-6, true);
+  ContactMotion<double> contact{};
+  contact.overlap = 1e-5;  // f_n = 1 N, bound 0.3 N
+  Vector spring{0.0, 3e-5, 4e-5};
+  const SpaceForce<double> force = spaceForce(general, contact, {}, spring);
+  EXPECT_TRUE(force.sliding);
+  EXPECT_NEAR(force.tangential.y, -0.3 * 0.6, 1e-15);
+  EXPECT_NEAR(force.tangential.z, -0.3 * 0.8, 1e-15);
+  EXPECT_NEAR(spring.y, 0.3 * 0.6 / law.kt, 1e-20);
+}
+
+/// A cloud of spheres that fly towards its middle.
+SpheresSetup cloud() {
+  SpheresSetup setup;
+  setup.law = springLaw();
+  setup.law.lever = Lever::overlapMiddle;
+  setup.dt = contactTime() / 40.0;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z) {
+        const Vector at{2.2 * radius * x, 2.2 * radius * y, 2.2 * radius * z};
+        add(setup, at + Vector{1e-4 * uniform(random), 1e-4 * uniform(random), 0.0}, -100.0 * at,
+            {200.0 * uniform(random), 200.0 * uniform(random), 200.0 * uniform(random)});
+      }
+  return setup;
+}
+
+TEST(Spheres, AnySkin_GivesTheSameBits) {
+  std::vector<double> bits;
+  for (const double skin : {0.0, 1e-4, 3.0 * radius}) {
+    SpheresSetup setup = cloud();
+    setup.skin = skin;
+    Spheres spheres(setup);
+    spheres.advance(400);
+    std::vector<double> now;
+    for (std::size_t i = 0; i < spheres.size(); ++i)
+      for (const Vector& v : {spheres.position(i), spheres.velocity(i), spheres.spin(i)})
+        now.insert(now.end(), {v.x, v.y, v.z});
+    if (bits.empty()) bits = now;
+    EXPECT_EQ(now, bits);
+    EXPECT_GT(spheres.rebuilds(), skin == 1e-4 ? 10u : 0u);
+    EXPECT_GT(spheres.contactEvaluations(), 1000u);
+  }
+}
+
+TEST(Spheres, FreeCloud_KeepsItsMomentaWhereTheArmsMeet) {
+  Spheres spheres(cloud());
+  const auto momenta = [&] {
+    Vector linear{}, angular{};
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+      linear += mass * spheres.velocity(i);
+      angular += mass * cross(spheres.position(i), spheres.velocity(i)) + inertia * spheres.spin(i);
+    }
+    return std::pair(linear, angular);
+  };
+  const auto [linear, angular] = momenta();
+  spheres.advance(400);
+  const auto [later, turning] = momenta();
+  EXPECT_LT(length(later - linear), 1e-13 * 27.0 * mass);
+  // Positions and the velocities shown are of one time to second order, so x × mv is kept to the
+  // rounding of each step.
+  EXPECT_LT(length(turning - angular), 1e-12 * 27.0 * mass * radius);
+}
+
+TEST(Spheres, LawThatTheyDoNotHave_IsRefused) {
+  const auto why = [](auto&& change) -> std::string {
+    SpheresSetup setup = meeting(springLaw(), true);
+    change(setup);
+    try {
+      Spheres spheres(setup);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  EXPECT_EQ(why([](auto&) {}), "taken");
+  EXPECT_EQ(why([](auto& s) { s.law.normal = Normal::hertz; }),
+            "spheres have the linear law with constant dampers");
+  EXPECT_EQ(why([](auto& s) { s.law.tangential = Tangential::coulomb; }),
+            "spheres have tangential springs, or no friction");
+  EXPECT_EQ(why([](auto& s) { s.law.rolling = Rolling::viscous; }),
+            "spheres have no rolling resistance and no cohesion");
+  EXPECT_EQ(why([](auto& s) { s.dt = 0.0; }), "the time step must be > 0 s");
+}
+
+TEST(Spheres, SphereInASphere_EndsTheRun) {
+  SpheresSetup setup = meeting(springLaw(), true);
+  setup.walls.clear();
+  setup.velocity[0] = {500.0, 0.0, 0.0};
+  Spheres spheres(setup);
+  EXPECT_THROW(spheres.advance(100), std::runtime_error);
+}
+
+}  // namespace
