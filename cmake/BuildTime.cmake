@@ -15,6 +15,9 @@ function(compile_together target)
   set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${group})
 endfunction()
 
+# By itself GCC collects its garbage from 128 MB on, which takes a twentieth of its time. Results then take 1.2 GB, not 1.0.
+add_compile_options("$<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=1048576>")
+
 # One for the program, one for its tests. Every source still includes what it uses.
 option(CROSSGRAIN_PRECOMPILED_HEADERS "Read large headers of libraries once" ON)
 
