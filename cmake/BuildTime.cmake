@@ -6,6 +6,18 @@ option(CROSSGRAIN_UNITY_BUILD "Compile several sources of a library in one go" O
 set(CMAKE_UNITY_BUILD ${CROSSGRAIN_UNITY_BUILD})
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)
 
+# compile_together(TARGET SOURCES…): one go for these, where a target has helpers of equal names. Sources in no such
+# group are compiled alone.
+function(compile_together target)
+  list(GET ARGN 0 group)
+  cmake_path(GET group STEM group)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+  set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${group})
+endfunction()
+
+# By itself GCC collects its garbage from 128 MB on, which takes a twentieth of its time. Results then take 1.2 GB, not 1.0.
+add_compile_options("$<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=1048576>")
+
 # One for the program, one for its tests. Every source still includes what it uses.
 option(CROSSGRAIN_PRECOMPILED_HEADERS "Read large headers of libraries once" ON)
 

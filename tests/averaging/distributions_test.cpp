@@ -81,7 +81,8 @@ TEST(Distributions, DirectionsOfContactsAreOutwardAndTurnedWithTheDisk) {
   DistributionAccumulator sums(Rings(1.0, 3.0, 2, 1.0, 0.5), instant.scene, {2.0, 4.0});
   sums.add(instant.snapshot);
   const auto all = sums.distributions();
-  const double pi = std::numbers::pi, bin = pi / 18.0;
+  using std::numbers::pi;
+  const double bin = pi / 18.0;
   // Normals point from j to i along +x. Disk 0 at (0, 1.2) has its contact at −x, which is +φ
   // there; disk 1 at (1.8, 0) one at +x = r and, being i of the other, one at −x: π, counted as −π.
   // Disk 2 at (0, −2.5) has it at +x = φ.

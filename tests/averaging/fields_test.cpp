@@ -17,7 +17,7 @@ using test::Instant;
 using test::twoRings;
 using test::valueOf;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Disk 0 in ring 0 and disk 1 in ring 1, on the x axis, pushing on each other with 5 N; disk 1
 /// also pushes disk 0 along −y with 2 N. Radii differ: each disk has its own branch.

@@ -12,7 +12,7 @@
 namespace crossgrain {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct LawUnderTest {
   const char* name;

@@ -12,7 +12,7 @@ namespace {
 
 using test::Instant;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Two disks side by side between a wheel (wall disk 2) and a ring (wall disks 3 and 4, plane 5).
 Instant cell() {

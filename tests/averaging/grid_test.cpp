@@ -19,7 +19,7 @@ namespace {
 using test::fieldIn;
 using test::Instant;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(QuadrantArea, KnownValues) {
   EXPECT_DOUBLE_EQ(quadrantArea(2.0, 2.0), pi);

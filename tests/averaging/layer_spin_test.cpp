@@ -10,7 +10,7 @@
 namespace crossgrain {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(LayerSpin, ThreeRingsToADiameterAndByHand) {
   test::Instant instant;

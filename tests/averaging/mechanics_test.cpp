@@ -16,7 +16,7 @@ using test::Instant;
 using test::twoRings;
 using test::valueOf;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr SpringConstants springs{test::thesis.kn, test::thesis.kt};
 
 /// randomInstant with overlaps, undamped forces that belong to them, and springs.

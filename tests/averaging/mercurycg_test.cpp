@@ -30,7 +30,7 @@ namespace {
 using test::fieldIn;
 using test::Instant;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 /// Of a field's largest value: what the sums of a hundred numbers leave, with room to spare.
 constexpr double agreement = 1e-9;
 

@@ -18,7 +18,7 @@ namespace {
 using test::Instant;
 using test::wallRadius;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double innerRadius = 0.1032, outerRadius = 0.2524, height = 0.006, d = 0.0074;
 constexpr double a = 0.5 * d;
 

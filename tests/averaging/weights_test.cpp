@@ -17,7 +17,7 @@
 namespace crossgrain {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Disk {
   double r, a;

@@ -118,15 +118,6 @@ class Campaign:
         return failures
 
 
-def writes_of(campaign, out):
-    count = campaign.folder / "writes"
-    status, said = campaign.finish(out, LD_PRELOAD=campaign.mishaps, FULL_DISK_COUNT=str(count))
-    if status not in (HELD, FELL_SHORT):
-        sys.exit(f"the undisturbed campaign fails: status {status}, {said}")
-    campaign.clear(out)
-    return max(int(line) for line in count.read_text().splitlines())
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--crossgrain", type=pathlib.Path, required=True)
@@ -140,9 +131,9 @@ def main():
     campaign = Campaign(options)
     draw = random.Random(options.seed)
 
-    clean = campaign.folder / "undisturbed"
+    clean, count = campaign.folder / "undisturbed", campaign.folder / "writes"
     began = time.monotonic()
-    status, said = campaign.finish(clean)
+    status, said = campaign.finish(clean, LD_PRELOAD=campaign.mishaps, FULL_DISK_COUNT=str(count))
     seconds = time.monotonic() - began
     if status not in (HELD, FELL_SHORT):
         sys.exit(f"the undisturbed campaign fails: status {status}, {said}")
@@ -150,7 +141,7 @@ def main():
     runs = [run for run in expected["runs"] if run.get("status") == "finished"]
     if len(runs) < PACKINGS:
         sys.exit(f"the undisturbed campaign has {len(runs)} runs")
-    writes = writes_of(campaign, campaign.folder / "counted")
+    writes = max(int(line) for line in count.read_text().splitlines())
     print(f"undisturbed: {seconds:.1f} s, {len(runs)} runs, {writes} writes of the program", flush=True)
 
     failures = campaign.trials("killed", campaign.killed, [draw.uniform(0.0, seconds) for _ in range(options.kills)], expected)

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <optional>
 
 #include "studies/flow/interim_analyses.hpp"
 #include "studies/flow/lockstep_job.hpp"
@@ -13,10 +14,22 @@
 namespace crossgrain {
 namespace {
 
-/// The in-house engine, a peer that is right until that step of a run, and the peer's mirror.
-/// @param failing  the in-house engine ends its runs halfway, and another one is there
-EndpointFindings compared(const std::string& mischief, std::uint64_t step,
-                          LockstepFindings& lockstep, bool failing = false) {
+/// What the in-house engine and its mirror do is the same in all tests, and is done once.
+class SpotCheck : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { kept_.emplace(); }
+  static void TearDownTestSuite() { kept_.reset(); }
+
+  /// The in-house engine, a peer that is right until that step of a run, and the peer's mirror.
+  /// @param failing  the in-house engine ends its runs halfway, and another one is there
+  static EndpointFindings compared(const std::string& mischief, std::uint64_t step,
+                                   LockstepFindings& lockstep, bool failing = false);
+
+  static inline std::optional<TemporaryFolder> kept_;
+};
+
+EndpointFindings SpotCheck::compared(const std::string& mischief, std::uint64_t step,
+                                     LockstepFindings& lockstep, bool failing) {
   const Case setup = test::quickCell(
       {"preparation.packings=4", "preparation.shrink_time=0.3", "preparation.rotations=0.1",
        "averaging.settle_rotations=0.05", "averaging.rotations=0.25", "looks.count=1"});
@@ -33,8 +46,8 @@ EndpointFindings compared(const std::string& mischief, std::uint64_t step,
   if (failing) entries = {inHouse, another, peer, mirror};
   for (const EngineEntry& entry : entries)
     if (entry.mirrors.empty()) command.engines.push_back(entry.name);
-  const TemporaryFolder folder;
-  command.out = folder.path();
+  const TemporaryFolder own;
+  command.out = failing ? own.path() : kept_->path();
   command.quiet = true;
   command.jobs = 2;
   RunStore store(command, "compare", soleCase(setup));
@@ -47,7 +60,7 @@ EndpointFindings compared(const std::string& mischief, std::uint64_t step,
   return runWithInterims(setup, campaign, command, lockstep, 1e6);
 }
 
-TEST(SpotCheck, RightEngine_IsEvaluatedThroughItsMirror) {
+TEST_F(SpotCheck, RightEngine_IsEvaluatedThroughItsMirror) {
   LockstepFindings lockstep;
   const EndpointFindings found = compared("none", 0, lockstep);
   ASSERT_EQ(found.surrogates.size(), 1u);
@@ -68,7 +81,7 @@ TEST(SpotCheck, RightEngine_IsEvaluatedThroughItsMirror) {
   EXPECT_EQ(late.equivalents[1].constant, "mu");
 }
 
-TEST(SpotCheck, FirstEngineFails_TakesResponsesOfTheNext) {
+TEST_F(SpotCheck, FirstEngineFails_TakesResponsesOfTheNext) {
   LockstepFindings lockstep;
   const EndpointFindings found = compared("none", 0, lockstep, true);
   EXPECT_FALSE(found.responses.empty());
@@ -78,7 +91,7 @@ TEST(SpotCheck, FirstEngineFails_TakesResponsesOfTheNext) {
 }
 
 /// Chaos hides in an averaged run what 30 % of the friction do to a few rotations' averages.
-TEST(SpotCheck, FaultLateInTheRun_IsFoundByItsWindows) {
+TEST_F(SpotCheck, FaultLateInTheRun_IsFoundByItsWindows) {
   LockstepFindings lockstep;
   const EndpointFindings found = compared("worn", 25000, lockstep);
   ASSERT_EQ(lockstep.rows.size(), 1u);
@@ -98,7 +111,7 @@ TEST(SpotCheck, FaultLateInTheRun_IsFoundByItsWindows) {
   }
 }
 
-TEST(SpotCheck, FaultAfterLockstepsWindows_RunsAllPackings) {
+TEST_F(SpotCheck, FaultAfterLockstepsWindows_RunsAllPackings) {
   // 10 000 steps are four windows of 0.1 s, and a fifth of the run.
   LockstepFindings lockstep;
   const EndpointFindings found = compared("slippery", 10000, lockstep);
