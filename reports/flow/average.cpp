@@ -156,11 +156,14 @@ std::string extentOf(const CompareResults& results, const Engines& engines) {
 /// snapshots each: …"
 std::string averageLead(const CompareResults& results, const Engines& engines) {
   if (engines.empty() || engines.front().finished.empty()) return "Nothing was averaged.";
-  const std::string count = engines.front().snapshots();
-  const std::string snapshots = count + (count == "1" ? " snapshot" : " snapshots");
+  const std::string snapshots =
+      counted(static_cast<std::size_t>(results.averaging.snapshots), "snapshot");
   const std::string& name = engines.front().name;
+  const std::string range = engines.front().snapshots();  // of which the study has the most
+  const std::string several =
+      range.find(' ') == std::string::npos ? snapshots : range + " snapshots";
   if (const std::size_t runs = engines.front().finished.size(); runs > 1)
-    return fmt::format("{} of {} averaged, of {} each: {}.", counted(runs, "run"), name, snapshots,
+    return fmt::format("{} of {} averaged, of {} each: {}.", counted(runs, "run"), name, several,
                        extentOf(results, engines));
   return fmt::format("{} of {} averaged: {}.", snapshots, name, extentOf(results, engines));
 }

@@ -184,8 +184,8 @@ std::string snapshotsInWords(const FlowFrame& frame, const Engines& engines) {
   Names others;
   for (const EngineRuns& engine : engines)
     if (ofFiles(engine)) others.push_back(fmt::format("{} of {}", engine.snapshots(), engine.name));
-  if (engines.size() == 1 && !others.empty())
-    return engines.front().snapshots() + " snapshots a run";
+  if (engines.size() == 1 && engines.front().snapshots().find(' ') == std::string::npos)
+    others.clear();  // what was averaged alone has its number in the study
   const bool files = !others.empty() && std::ranges::all_of(engines, ofFiles);
   if (files) return "snapshots a run: " + listed(others);
   const std::string words = fmt::format(
