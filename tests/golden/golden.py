@@ -138,7 +138,7 @@ def lasting(file, folder):
             document = [item for item in document if item["name"] in BUILT_IN.split(",")]
         lines = [("/".join(path.split("/")[:3]), f"{path} {value}") for path, value in leaves(document)]
     else:
-        lines = [(line, line) for line in text.splitlines() if " a step:" not in line and "predicted for" not in line]
+        lines = [(line, line) for line in text.splitlines() if " a step:" not in line and "predicted time of" not in line]
     if sum(len(line) for _, line in lines) <= MOST_TEXT:
         return [line for _, line in lines]
     groups = {}
