@@ -22,6 +22,7 @@
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "support/json_text.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace crossgrain {
 
@@ -48,6 +49,19 @@ std::optional<std::string> draw(const Report& report, const std::filesystem::pat
   return std::nullopt;
 }
 
+/// Its tables and what it opens with.
+void writeTexts(const Report& report, const std::filesystem::path& dir) {
+  for (const auto& [name, table] : report.tables) writeFile(dir / name, table);
+  writeFile(dir / "summary.md", overviewMarkdown(report.overview, titleOf(report.head)));
+  if (report.checks) writeFile(dir / "junit.xml", junitXml(report.head.kind, *report.checks));
+}
+
+void writePage(const Report& report, const DrawnFigures& drawings,
+               const std::filesystem::path& dir) {
+  writeFile(dir / "report.html", html(report, drawings));
+  if (drawings.missing) throw std::runtime_error(*drawings.missing);
+}
+
 /// @param document  results.json
 template <typename Results>
 ReportDigest write(const Results& results, Json document, const std::filesystem::path& dir) {
@@ -55,14 +69,27 @@ ReportDigest write(const Results& results, Json document, const std::filesystem:
   makeDirectory(dir);
   document["overview"] = jsonOf(report.overview);
   writeFile(dir / "results.json", toText(document));
-  for (const auto& [name, table] : report.tables) writeFile(dir / name, table);
-  writeFile(dir / "summary.md", overviewMarkdown(report.overview, titleOf(report.head)));
-  if (report.checks) writeFile(dir / "junit.xml", junitXml(report.head.kind, *report.checks));
-
+  writeTexts(report, dir);
   const auto plots = dir / "plots";
-  const auto missing = draw(report, plots);
-  writeFile(dir / "report.html", html(report, plots, missing));
-  if (missing) throw std::runtime_error(*missing);
+  writePage(report, {plots, draw(report, plots)}, dir);
+  return report;
+}
+
+/// Of a site [bytes].
+constexpr std::size_t largestTable = 128 << 10;
+
+/// What a site has of a report: its page, drawings beside it, and no table that nobody reads there.
+ReportDigest writeForSite(Report report, const std::filesystem::path& dir) {
+  std::erase_if(report.tables,
+                [](const auto& table) { return table.second.size() > largestTable; });
+  makeDirectory(dir / "plots");
+  writeTexts(report, dir);
+  const ScratchFolder scratch;
+  const DrawnFigures drawings{dir / "plots", draw(report, scratch.path), true};
+  for (const auto& drawn : std::filesystem::directory_iterator(scratch.path))
+    if (drawn.path().extension() == ".svg")
+      writeFile(drawings.folder / drawn.path().filename(), readFile(drawn.path()).value());
+  writePage(report, drawings, dir);
   return report;
 }
 
@@ -121,11 +148,17 @@ void writeSite(const std::vector<SiteEntry>& entries, const std::filesystem::pat
   const std::vector<std::string> names = siteFolders(folders);
   std::vector<SiteReport> reports;
   for (std::size_t k = 0; k < entries.size(); ++k) {
-    SiteReport report{names[k],
-                      writeReport(entries[k].results, site / names[k], entries[k].folder),
-                      {},
-                      entries[k].changedCase};
-    for (const auto& entry : std::filesystem::directory_iterator(site / names[k]))
+    const std::filesystem::path& from = entries[k].folder;
+    const std::filesystem::path dir = site / names[k];
+    // Results that lie below the site stay whole.
+    const auto write = [&] {
+      return std::filesystem::exists(dir) && std::filesystem::equivalent(dir, from)
+                 ? writeReport(entries[k].results, dir, from)
+                 : understood(from / "results.json",
+                              [&] { return writeForSite(reportOf(entries[k].results), dir); });
+    };
+    SiteReport report{names[k], write(), {}, entries[k].changedCase};
+    for (const auto& entry : std::filesystem::directory_iterator(dir))
       if (entry.path().extension() == ".csv")
         report.tables.push_back(entry.path().filename().string());
     std::ranges::sort(report.tables);

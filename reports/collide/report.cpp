@@ -256,8 +256,7 @@ std::string spaceOf(const CaseGroup& group) {
   return fmt::format(
       "Spheres in space. {}. Spins besides are about n, which points from the second body to the "
       "first at the first touch, and s, along which Ψ_i is; after a collision Ψ_f is along s "
-      "turned "
-      "with n, and Ψ_f·b along n × s.",
+      "turned with n, and Ψ_f·b along n × s.",
       fmt::join(words, "; "));
 }
 
@@ -348,12 +347,11 @@ void addCollisionCase(Report& report, const CollideResults& results, const CaseG
       if (one.name == name) drawings.names.push_back(name);
     return drawings;
   };
-  Blocks blocks = {Paragraph{lawOf(group), small},
-                   Paragraph{spaceOf(group), small},
-                   Paragraph{declaredOf(results, group), small},
-                   Paragraph{limitsOf(group), small},
-                   drawing(figure),
+  Blocks blocks = {Paragraph{lawOf(group), small}, Paragraph{declaredOf(results, group), small},
+                   Paragraph{limitsOf(group), small}, drawing(figure),
                    variantTable(results, group)};
+  if (std::string space = spaceOf(group); !space.empty())
+    blocks.insert(blocks.begin() + 1, Paragraph{std::move(space), small});
   if (Table mirrors = mirrorTable(group, results.engines); !mirrors.rows.empty())
     blocks.push_back(Details{"Model or implementation?", {std::move(mirrors)}});
   if (Drawings energy = drawing(figure + "_energy"); !energy.names.empty())

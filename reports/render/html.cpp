@@ -21,7 +21,7 @@ namespace {
 
 /// One of its figures or pictures; empty where it was not drawn.
 std::string htmlDrawing(const Report& report, const std::string& name,
-                        const std::filesystem::path& plots);
+                        const DrawnFigures& drawings);
 
 /// "All pairs" → "all-pairs".
 std::string slugOf(const std::string& words) {
@@ -128,8 +128,8 @@ std::size_t mostLines(const std::vector<OverviewRow>& rows) {
 
 class Writer {
  public:
-  Writer(const Report& report, const std::filesystem::path& plots, bool drawn)
-      : report_(report), plots_(plots), drawn_(drawn), names_(report.engines) {
+  Writer(const Report& report, const DrawnFigures& drawings)
+      : report_(report), drawings_(drawings), names_(report.engines) {
     for (const Section& section : report.sections) taken_.insert(section.id);
   }
 
@@ -188,9 +188,9 @@ class Writer {
     out_ += "</details>\n";
   }
   void write(const Drawings& part) {
-    if (!drawn_) return;
+    if (drawings_.missing) return;
     std::string figures;
-    for (const std::string& name : part.names) figures += htmlDrawing(report_, name, plots_);
+    for (const std::string& name : part.names) figures += htmlDrawing(report_, name, drawings_);
     if (!figures.empty())
       out_ += part.side ? "<div class=\"figures\">\n" + figures + "</div>\n" : figures;
   }
@@ -246,8 +246,7 @@ class Writer {
   }
 
   const Report& report_;
-  const std::filesystem::path& plots_;
-  bool drawn_;
+  const DrawnFigures& drawings_;
   EngineNames names_;
   std::set<std::string> taken_;
   std::string out_;
@@ -283,8 +282,8 @@ std::string notesOf(const Report& report) {
 }
 
 /// "Beside this page: results.json (everything), cost.csv and junit.xml."
-std::string filesOf(const Report& report) {
-  std::vector<std::string> names = {"results.json (everything)"};
+std::string filesOf(const Report& report, bool ofSite) {
+  std::vector<std::string> names = {ofSite ? "summary.md" : "results.json (everything)"};
   for (const auto& [name, content] : report.tables) names.push_back(name);
   if (report.checks) names.emplace_back("junit.xml");
   return "Beside this page: " + listed(names) + ".";
@@ -371,8 +370,8 @@ std::string htmlLegend(const std::vector<EngineRow>& engines) {
 }
 
 std::string htmlDrawing(const Report& report, const std::string& name,
-                        const std::filesystem::path& plots) {
-  const auto svg = readFile(plots / (name + ".svg"));
+                        const DrawnFigures& drawings) {
+  const auto svg = readFile(drawings.folder / (name + ".svg"));
   if (!svg) return {};
   std::string title, caption, width;
   bool wide = false;
@@ -392,16 +391,18 @@ std::string htmlDrawing(const Report& report, const std::string& name,
     title = picture->title;
     caption = picture->engine + ". " + picture->scale;
   }
+  const std::string file = fmt::format("plots/{}.svg", escaped(name));
   return fmt::format(
-      "<figure{}>\n<div class=\"plot\"><img alt=\"{}\" "
-      "src=\"data:image/svg+xml;base64,{}\"{}></div>\n<figcaption>{} <span "
-      "class=\"file\">plots/{}.svg, .pdf</span></figcaption>\n</figure>\n",
-      wide ? " class=\"wide\"" : "", escaped(title), base64(*svg), width, mathHtml(caption),
-      escaped(name));
+      "<figure{}>\n<div class=\"plot\"><img alt=\"{}\" {}{}></div>\n<figcaption>{} <span "
+      "class=\"file\">{}{}</span></figcaption>\n</figure>\n",
+      wide ? " class=\"wide\"" : "", escaped(title),
+      drawings.ofSite ? fmt::format("loading=\"lazy\" src=\"{}\"", file)
+                      : fmt::format("src=\"data:image/svg+xml;base64,{}\"", base64(*svg)),
+      width, mathHtml(caption), file, drawings.ofSite ? "" : ", .pdf");
 }
 
 /// The case, the files, and how to make the page again, to the document's last line.
-std::string htmlFoot(const Report& report) {
+std::string htmlFoot(const Report& report, bool ofSite) {
   const CaseHead& setup = report.head.setup;
   std::string text;
   if (!setup.toml.empty())
@@ -412,8 +413,12 @@ std::string htmlFoot(const Report& report) {
         setup.file.empty() ? "" : fmt::format(", from <code>{}</code>", escaped(setup.file)),
         escaped(setup.toml));
   if (!report.head.kind.empty()) {
-    text += "<h2 id=\"rebuild\">Files and rebuilding</h2>\n<p>" + escaped(filesOf(report));
-    if (!report.figures.empty())
+    text += "<h2 id=\"rebuild\">Files and rebuilding</h2>\n<p>" + escaped(filesOf(report, ofSite));
+    if (ofSite)
+      text +=
+          " The results folder has all the rest: results.json (everything), larger tables, scripts "
+          "and data of the plots.";
+    else if (!report.figures.empty())
       text +=
           " Each plot's script and data are in <code>plots/</code> beside its SVG and PDF; "
           "<code>gnuplot NAME.gp</code> there redraws it.";
@@ -435,17 +440,17 @@ std::string htmlFoot(const Report& report) {
 
 }  // namespace
 
-std::string html(const Report& report, const std::filesystem::path& plots,
-                 const std::optional<std::string>& missing) {
+std::string html(const Report& report, const DrawnFigures& drawings) {
+  const auto& missing = drawings.missing;
   std::string text = htmlHead(report) +
                      htmlMatrix(report.overview, report.engines, report.wrapped) + notesOf(report);
   if (missing) text += "<p class=\"warning\">" + escaped(*missing) + "</p>\n";
   if (report.engineColours && !missing && !report.figures.empty() && report.engines.size() > 1)
     text += htmlLegend(report.engines);
   text += contentsOf(report);
-  Writer writer(report, plots, !missing);
+  Writer writer(report, drawings);
   for (const Section& section : report.sections) writer.section(section);
-  return text + writer.take() + htmlFoot(report);
+  return text + writer.take() + htmlFoot(report, drawings.ofSite);
 }
 
 }  // namespace crossgrain::reports

@@ -7,13 +7,18 @@
 
 #include "reports/common/report.hpp"
 
-/// A report as one HTML file that opens offline and prints.
+/// A report as an HTML file that opens offline and prints.
 namespace crossgrain::reports {
 
-/// @param plots  where its figures and pictures were drawn, NAME.svg each
-/// @param missing  why there are none; absent: there are
-std::string html(const Report& report, const std::filesystem::path& plots,
-                 const std::optional<std::string>& missing);
+/// A report's figures and pictures.
+struct DrawnFigures {
+  std::filesystem::path folder = {};        ///< where they are, NAME.svg each
+  std::optional<std::string> missing = {};  ///< why there are none; absent: there are
+  /// The page of a site shows them from plots/ beside it; else the page holds them itself.
+  bool ofSite = false;
+};
+
+std::string html(const Report& report, const DrawnFigures& drawings);
 
 /// Its matrix.
 /// @param wrapped  every cell has its question, and those without one are left out: for rows that

@@ -66,7 +66,7 @@ void addReports(Report& index, const std::vector<SiteReport>& reports) {
     for (const std::string& sentence : report.digest.overview.conclusion)
       blocks.push_back(Paragraph{sentence});
     Links links;
-    for (const char* name : {"report.html", "summary.md", "results.json"})
+    for (const char* name : {"report.html", "summary.md"})
       links.links.emplace_back(name, report.folder + "/" + name);
     for (const std::string& name : report.tables)
       links.links.emplace_back(name, report.folder + "/" + name);
@@ -170,7 +170,7 @@ void writeEnginePages(const std::vector<SiteReport>& reports, const std::filesys
         std::move(links)};
     addEngineReports(report, page);
     addHistory(report, reports, engine.name);
-    writeFile(site / page.file, html(report, {}, {}));
+    writeFile(site / page.file, html(report, {}));
   }
 }
 
@@ -255,8 +255,9 @@ void writeIndex(const std::vector<SiteReport>& reports, const std::filesystem::p
   addHistory(index, reports);
   addReports(index, reports);
   index.section("files", "Files").blocks = {Paragraph{
-      "Each report is one file that opens offline; this page needs the reports' folders beside it. "
-      "docs/results.md of crossgrain describes the columns of the tables."}};
+      "This page needs the reports' folders beside it. They have each report's page, drawings and "
+      "small tables, whose columns docs/results.md of crossgrain describes; results.json and what "
+      "else there is stay in the results folders."}};
   std::vector<JUnitCase> cases;
   for (const SiteReport& report : reports)
     if (report.digest.head.kind != kindThesis)
@@ -265,7 +266,7 @@ void writeIndex(const std::vector<SiteReport>& reports, const std::filesystem::p
   writeFile(site / "junit.xml", junitXml("reports", cases));
   writeFile(site / "summary.md", overviewMarkdown(index.overview, titleOf(index.head)));
   writeEnginePages(reports, site);
-  writeFile(site / "index.html", html(index, {}, {}));
+  writeFile(site / "index.html", html(index, {}));
 }
 
 }  // namespace crossgrain::reports

@@ -92,7 +92,7 @@ TEST(Html, EveryBlock_IsEscapedAndTypeset) {
   report.section("one", "O<ne").blocks = {
       Paragraph{"a<b, k_n"}, List{{{"le<ad", "t_c"}}},           std::move(table),
       Code{"c<d k_n"},       Details{"su<m", {Heading{"O<ne"}}}, Links{{{"l<k", "x\"y"}}}};
-  const std::string page = html(report, {}, {});
+  const std::string page = html(report, {});
   for (const char* words :
        {"<p>a&lt;b, k<sub>n</sub></p>", "<b>le&lt;ad</b>: t<sub>c</sub>", "</span>en&lt;g</th>",
         "σ<sub>rφ</sub></th>", "<pre>c&lt;d k_n</pre>", "<summary>su&lt;m</summary>",

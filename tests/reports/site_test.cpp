@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "reports/flow/endpoint_text.hpp"
 #include "reports/flow/overview.hpp"
 #include "reports/report.hpp"
@@ -299,6 +301,31 @@ TEST(Site, HasAnIndexThatLeadsToEachReport) {
   EXPECT_TRUE(std::filesystem::exists(site / "one-2/stability.csv"));
   EXPECT_FALSE(has(index, "{{"));
   EXPECT_TRUE(has(readFile(site / "summary.md").value(), "# crossgrain: 2 reports"));
+}
+
+TEST(Site, HasDrawingsBesideItsPagesAndNoCopyOfTheResults) {
+  const TemporaryFolder folder;
+  const auto site = folder.path() / "site", dir = site / "stability";
+  const auto results = toJson(sample::stabilityResults());
+  writeSite({{"a/stability", results}}, site);
+  std::set<std::string> kinds;
+  std::size_t shown = 0;
+  const std::string page = readFile(dir / "report.html").value();
+  for (const auto& drawn : std::filesystem::directory_iterator(dir / "plots")) {
+    kinds.insert(drawn.path().extension().string());
+    shown += has(page, "src=\"plots/" + drawn.path().filename().string() + "\"");
+  }
+  EXPECT_EQ(kinds, std::set<std::string>{".svg"});
+  EXPECT_GT(shown, 0u);
+  EXPECT_FALSE(has(page, "svg+xml;base64"));
+  EXPECT_FALSE(std::filesystem::exists(dir / "results.json"));
+
+  // Results that lie below the site are whole: nothing of them is replaced by less.
+  const auto own = site / "own";
+  writeReport(results, own);
+  writeSite({{own, results}}, site);
+  EXPECT_TRUE(std::filesystem::exists(own / "results.json"));
+  EXPECT_TRUE(has(readFile(own / "report.html").value(), "svg+xml;base64"));
 }
 
 TEST(Site, SaysWhichResultsAreOfAChangedCase) {

@@ -139,7 +139,7 @@ TEST(ThesisPage, SaysWhatWasFoundWhatItTookAndWhatNobodyRan) {
   ThesisResults results = twoClaims();
   results.claims.push_back(results.claims.front());
   results.claims.back().reasons.clear();
-  const std::string page = html(reportOf(results), "", std::nullopt);
+  const std::string page = html(reportOf(results), {});
   for (const char* words :
        {"✗ refuted", "✓ reproduced", "? undecided", "C⁻¹ = 9.00\u00a0±\u00a00.50 d [4 … 7]",
         "200 → 6.00", "nobody-ran-it: a packing", ">not run<", "<td class=\"n\">1</td>",
