@@ -168,6 +168,44 @@ std::string ownNameOf(const SiteReport& report, const std::vector<SiteReport>& r
                      report.changedCase.empty() ? "" : ", changed case");
 }
 
+/// Reports whose answers stand below one another.
+struct SiteColumn {
+  std::string name, title, anchor;
+  std::vector<const SiteReport*> reports;
+};
+
+/// One for each report; those of one engine each share one, as far as they are of different ones.
+std::vector<SiteColumn> columnsOf(const std::vector<SiteReport>& reports) {
+  std::vector<SiteColumn> columns;
+  SiteColumn shared{std::string(kindConformance), "Conformance, an engine a report", "reports", {}};
+  std::size_t place = 0;
+  for (const SiteReport& report : reports) {
+    const ResultsHead& head = report.digest.head;
+    const std::string name = ownNameOf(report, reports);
+    if (head.kind == kindConformance && name == nameOf(head)) {
+      if (shared.reports.empty()) place = columns.size();
+      shared.reports.push_back(&report);
+    } else {
+      columns.push_back({name, titleOf(head), pageOf(report), {&report}});
+    }
+  }
+  if (shared.reports.size() == 1) {
+    const SiteReport& report = *shared.reports.front();
+    shared = {nameOf(report.digest.head), titleOf(report.digest.head), pageOf(report), {&report}};
+  }
+  if (!shared.reports.empty())
+    columns.insert(columns.begin() + static_cast<std::ptrdiff_t>(place), std::move(shared));
+  return columns;
+}
+
+/// The engine's own report's, where it has one.
+OverviewCell cellOf(const SiteColumn& column, const std::string& engine) {
+  const auto own = std::ranges::find_if(column.reports, [&](const SiteReport* report) {
+    return engineIn(*report, engine) != nullptr;
+  });
+  return cellOf(own == column.reports.end() ? *column.reports.front() : **own, engine);
+}
+
 }  // namespace
 
 Overview siteOverview(const std::vector<SiteReport>& reports) {
@@ -175,9 +213,9 @@ Overview siteOverview(const std::vector<SiteReport>& reports) {
   overview.states = {{Verdict::pass, "every judged question passed"},
                      {std::nullopt, "took part; the report judges no single engine"},
                      {Verdict::notApplicable, "did not take part"}};
-  for (const SiteReport& report : reports)
-    overview.columns.push_back(
-        {ownNameOf(report, reports), titleOf(report.digest.head), pageOf(report)});
+  const std::vector<SiteColumn> columns = columnsOf(reports);
+  for (const SiteColumn& column : columns)
+    overview.columns.push_back({column.name, column.title, column.anchor});
   const std::vector<EngineRow> all = siteEngines(reports);
   const std::vector<EnginePage> pages = enginePages(reports);
   Names engines;
@@ -185,7 +223,7 @@ Overview siteOverview(const std::vector<SiteReport>& reports) {
     const auto newest = std::ranges::find(pages, all[e].name,
                                           [](const EnginePage& page) { return page.engine.name; });
     OverviewRow row{all[e].name, true, {}, newest->file};
-    for (const SiteReport& report : reports) row.cells.push_back(cellOf(report, all[e].name));
+    for (const SiteColumn& column : columns) row.cells.push_back(cellOf(column, all[e].name));
     overview.rows.push_back(std::move(row));
     if (all[e].mirrors.empty()) engines.push_back(all[e].name);
   }

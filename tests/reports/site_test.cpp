@@ -69,6 +69,34 @@ TEST(SiteOverview, HasTheMostSevereAnswerOfEachReport) {
             std::vector<std::string>{"Nothing failed or is open: ours."});
 }
 
+TEST(SiteOverview, HasReportsOfOneEngineEachInOneColumn) {
+  using enum Verdict;
+  const auto conformanceOf = [](const char* name, Verdict verdict) {
+    SiteReport report = siteReportOf("conformance", verdict, pass);
+    report.folder = name;
+    report.digest.head.setup.name = name;
+    report.digest.engines = {engine(name)};
+    report.digest.overview.rows = {{name, true, report.digest.overview.rows[0].cells}};
+    return report;
+  };
+  std::vector<SiteReport> reports = {siteReportOf("collide", pass, pass),
+                                     conformanceOf("ours", fail), siteReportOf("cost", pass, pass),
+                                     conformanceOf("theirs", pass)};
+  const Overview overview = siteOverview(reports);
+  ASSERT_EQ(overview.columns.size(), 3u);
+  EXPECT_EQ(overview.columns[1].name, "conformance");
+  ASSERT_EQ(overview.rows.size(), 3u);
+  EXPECT_EQ(overview.rows[0].cells[1].verdict, fail);
+  EXPECT_EQ(overview.rows[0].cells[1].anchor, "ours/report.html");
+  EXPECT_EQ(overview.rows[1].cells[1].verdict, pass);
+  EXPECT_EQ(overview.rows[1].cells[1].anchor, "theirs/report.html");
+  EXPECT_EQ(overview.rows[2].cells[1].verdict, notApplicable);
+  // Two of one engine are two columns, named by their folders.
+  reports.push_back(conformanceOf("theirs", fail));
+  reports.back().folder = "later";
+  EXPECT_EQ(siteOverview(reports).columns.size(), 5u);
+}
+
 TEST(SiteOverview, TellsReportsOfOneNameApart) {
   using enum Verdict;
   std::vector<SiteReport> reports = {siteReportOf("collide", pass, fail),
