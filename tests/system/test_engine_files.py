@@ -72,7 +72,7 @@ class Conformance(SystemTest):
         )  # fmt: skip
 
     def test_checks_beyond_the_time_given_are_not_tried_and_not_passed(self):
-        done = self.run_program("conformance", PYTHON, "--budget", "1s", "--out", self.out, "--quiet")
+        done = self.run_program("conformance", PYTHON, "--budget", "3s", "--out", self.out, "--quiet")
         self.assert_status(done, FELL_SHORT)
         rows = self.results()["checks"]
         outcomes = [row["outcome"] for row in rows]
