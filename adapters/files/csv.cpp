@@ -20,7 +20,7 @@ bool isOfStartFiles(std::string_view name) {
   return name == "inertia" || name == "fixed";
 }
 
-/// The names of columns and what parts them.
+/// The names of columns and their separator.
 struct Header {
   std::vector<std::string> names;
   char separator = ',';

@@ -69,8 +69,8 @@ std::vector<std::string_view> words(std::string_view line);
 
 /// Words of a line, which commas (or what else) part; blanks around them and quotes do not count.
 std::vector<std::string_view> separatedWords(std::string_view line, char separator = ',');
-/// What parts the columns of a table, by its line of names: ',' or ';', blanks and tabs around them
-/// aside, else tabs; absent where it has both, or none of the three.
+/// The separator of a table's columns, by its line of names: ',' or ';', blanks and tabs around
+/// them aside, else tabs; absent where it has both, or none of the three.
 std::optional<char> separatorOf(std::string_view names);
 
 /// What some programs put before the first line of UTF-8 text: it is no part of it.

@@ -90,7 +90,7 @@ std::string changeOf(const HistoryRow& row);
 /// Names of engines of whom reports of the history have different versions.
 std::vector<std::string> changedEngines(const History& history);
 
-/// "crossgrain 0.3.0 (7902f0e), yade 2023.02a, 2026-11-26T09:46:01Z (compare-2)": what
+/// "crossgrain 0.3.0 (7902f0e), theirs 2.1, 2026-11-26T09:46:01Z (compare-2)": what
 /// distinguishes a report of the history from the others, where and when it was made.
 std::string columnNameOf(const History& history, const SiteReport& report);
 

@@ -183,7 +183,7 @@ std::vector<Case> caseToCompare(const CommandLine& line, CompareOptions& own) {
   return {setup};
 }
 
-/// "yade and lammps: pressure, spin": endpoints of engines that the user named with that verdict.
+/// "ours and theirs: pressure, spin": endpoints of engines that the user named with that verdict.
 std::vector<std::string> endpointsWith(const CompareResults& results, Verdict verdict) {
   std::vector<std::pair<std::string, std::vector<std::string>>> of;  // by pair
   for (const EndpointRow& row : results.endpoints.rows) {

@@ -174,7 +174,7 @@ std::vector<EndpointTest> familyOf(const Case& setup, std::span<const FlowRun> r
     if (independent && able.ours.front().size() == 1 && able.theirs.size() == 1) {
       const FlowRun &a = *able.ours.front().front(), &b = *able.theirs.front();
       if (const FlowRun* const without = addOwnErrors(own.test, a, b, endpoint.name))
-        addReason(whyNoOwnError(endpoint, setup, *without));
+        addReason(missingErrorReason(endpoint, setup, *without));
     }
     for (const Runs& engine : able.ours) addReason(missingValueReason(endpoint, setup, engine));
     addReason(missingValueReason(endpoint, setup, able.theirs));

@@ -230,7 +230,8 @@ std::vector<EndpointError> endpointErrors(const Case& setup, const FlowAverages&
   return errors;
 }
 
-std::string whyNoOwnError(const EndpointSpec& endpoint, const Case& setup, const FlowRun& run) {
+std::string missingErrorReason(const EndpointSpec& endpoint, const Case& setup,
+                               const FlowRun& run) {
   const OwnEndpoint* const own = ownEndpoint(setup, endpoint.name);
   if (own && !isMean(own->reduction))
     return "an endpoint of one time, or of an extreme, has no error within a single run";

@@ -40,7 +40,7 @@ Numbers endpointByPacking(const EndpointSpec& endpoint, const Case& setup, const
 inline constexpr std::size_t fewestOfOwnError = 16;
 
 /// Why endpointErrors() have nothing on it that a test could be made with.
-std::string whyNoOwnError(const EndpointSpec& endpoint, const Case& setup, const FlowRun& run);
+std::string missingErrorReason(const EndpointSpec& endpoint, const Case& setup, const FlowRun& run);
 
 /// The errors of a run's endpoints by the run alone. Of n = 16 to 64 parts of the run, each left
 /// out in turn, the pseudo-values n θ − (n − 1) θ_(k) (Tukey's jackknife) are a series in time

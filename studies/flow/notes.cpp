@@ -102,10 +102,6 @@ std::optional<double> meanOf(const FlowStudy& study, const std::string& engine,
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-}  // namespace
-
-namespace {
-
 /// "a.dump, b.dump, c.dump and 4 more"
 std::string namesOf(const std::vector<std::string>& files) {
   constexpr std::size_t most = 3;
