@@ -38,6 +38,7 @@ struct Capabilities {
   /// Of the scenes that it takes: 2, disks in a plane; 3, spheres in space, where it has load() and
   /// snapshot() of such.
   std::vector<int> dimensions = {2};
+  bool periodic = false;  ///< that a scene's box may have periodic directions
   std::map<Effect, Support> effects;
   /// Law options by their case-file name ("tension", "dashpot", …) → values that the engine has.
   /// An option that is not listed does not matter to the engine's law.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -53,6 +54,32 @@ struct WallBodyOf {
 };
 using WallBody = WallBodyOf<2>;
 
+/// A cell that space is filled with: along each periodic direction everything is there again at
+/// every multiple of its length, and what leaves at one side comes in at the other. Along others it
+/// bounds nothing. A snapshot's positions need not be in it; engines leave paths whole.
+template <int D>
+struct BoxOf {
+  VecOf<D> low = VecOf<D>::Zero(), high = VecOf<D>::Zero();  ///< corners [m]
+  std::array<bool, D> periodic{};                            ///< along x, y (, z)
+
+  /// Of the images of a difference of two places, the shortest.
+  VecOf<D> nearest(VecOf<D> difference) const {
+    return shifted(difference, [](double of) { return std::round(of); });
+  }
+  /// Of the images of a place, that in the box.
+  VecOf<D> wrapped(const VecOf<D>& place) const {
+    return low + shifted(place - low, [](double of) { return std::floor(of); });
+  }
+
+ private:
+  VecOf<D> shifted(VecOf<D> x, auto&& images) const {
+    for (int k = 0; k < D; ++k)
+      if (periodic[static_cast<std::size_t>(k)])
+        x[k] -= (high[k] - low[k]) * images(x[k] / (high[k] - low[k]));
+    return x;
+  }
+};
+
 /// The floating-point numbers that an engine steps with.
 enum class Precision { float64, float32 };
 
@@ -86,6 +113,7 @@ struct SceneOf {
   ContactLaw law;                       ///< of all pairs
   std::optional<Materials> materials;   ///< instead, where pairs differ
   std::optional<BottomPlate> bottom;    ///< of the plane alone
+  std::optional<BoxOf<D>> box;          ///< absent: no direction is periodic
   VecOf<D> gravity = VecOf<D>::Zero();  ///< in the plane, or in space [m/s²]
   bool rotation = true;                 ///< false: friction acts, but no spin changes; all are zero
   Precision precision = Precision::float64;

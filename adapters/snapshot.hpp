@@ -73,7 +73,7 @@ struct SnapshotOf {
   double contactTime = 0.0;      ///< of contacts and wall forces [s]
   double contactInterval = 0.0;  ///< > 0: forces are means over this interval up to contactTime [s]
 
-  std::vector<VecOf<D>> position;              ///< disks [m]
+  std::vector<VecOf<D>> position;              ///< disks, of any image in a periodic box [m]
   std::vector<VecOf<D>> velocity;              ///< disks [m/s]
   std::optional<std::vector<SpinOf<D>>> spin;  ///< disks [rad/s]; absent where nothing spins
   std::vector<VecOf<D>> wallPosition;          ///< wall disks, body by body [m]

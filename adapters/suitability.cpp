@@ -187,6 +187,7 @@ AdaptedOf<D> adaptScene(const Capabilities& can, const SceneOf<D>& scene,
   if (std::ranges::find(can.dimensions, D) == can.dimensions.end())
     throw UnsupportedScene(
         fmt::format("has dimension = {}, not {}", fmt::join(can.dimensions, " | "), D));
+  if (scene.box && !can.periodic) throw UnsupportedScene("has no periodic directions");
   AdaptedOf<D> adapted{scene, {}};
   const std::vector<Mismatch> all = mismatches(can, scene);
   refuseUnlisted(all, mayDiffer);

@@ -58,9 +58,9 @@ struct AdaptedOf {
 };
 using Adapted = AdaptedOf<2>;
 
-/// @throws UnsupportedScene of a dimension that the engine does not have; UnlistedDifferences
-/// naming every mismatch that is not in mayDiffer, and where to list them; or what is then still
-/// beyond the engine's limits, which no case can have it run
+/// @throws UnsupportedScene of a dimension or periodic directions that the engine does not have;
+/// UnlistedDifferences naming every mismatch that is not in mayDiffer, and where to list them; or
+/// what is then still beyond the engine's limits, which no case can have it run
 template <int D>
 AdaptedOf<D> adaptScene(const Capabilities& can, const SceneOf<D>& scene,
                         const std::vector<std::string>& mayDiffer);

@@ -197,15 +197,17 @@ std::vector<Vec2> heapPlaces(int base, double spacing);
 enum class BinKind { rings, slabs, grid, whole };
 inline constexpr std::array<std::string_view, 4> binKindNames = {"rings", "slabs", "grid", "whole"};
 
-/// The part of the plane that is averaged, and the time of it. Rings lie about the origin; all
-/// others divide the box between two corners. It stays where it is while walls move.
+/// The part of the plane or of space that is averaged, and the time of it. Rings lie about the
+/// origin, in space about the z axis; all others divide the box between two corners. It stays where
+/// it is while walls move.
 struct Region {
   BinKind bins = BinKind::whole;
-  Vec2 low = Vec2::Zero(), high = Vec2::Zero();  ///< corners of the box [m]
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< corners of the box; in the plane z is 0 [m]
   double innerRadius = 0.0, outerRadius = 0.0;   ///< of rings [m]
-  int axis = 1;                                  ///< slabs lie one after the other along 0: x, 1: y
-  int count = 1;                                 ///< of rings or slabs
-  int columns = 1, rows = 1;                     ///< of a grid
+  int axis = 1;               ///< slabs lie one after the other along 0: x, 1: y, 2: z
+  int count = 1;              ///< of rings or slabs
+  int columns = 1, rows = 1;  ///< of a grid
+  int layers = 1;             ///< along z, of a grid or rings in space
   double height = 1.0;  ///< h of the disks, normal to the plane: with 1 m a stress in N/m² is the
                         ///< force per length in N/m [m]
   double from = 0.0;    ///< what comes before is not averaged [s]

@@ -18,6 +18,7 @@ namespace {
 /// The keys of [average].
 struct AverageInput : Region, Averaging {
   std::string along;
+  Vec2 lowCorner = Vec2::Zero(), highCorner = Vec2::Zero();
 };
 
 const Section<AverageInput>& averageKeys() {
@@ -32,9 +33,9 @@ const Section<AverageInput>& averageKeys() {
                "`preparation.packings` packings."},
       {need("bins", &A::bins, Names(binKindNames.begin(), binKindNames.end()),
             "fields of rings (about the origin) have directions r and φ, all others x and y"),
-       key("low", &A::low, anyNumber("m"), "[x, y] of the lower left corner")
+       key("low", &A::lowCorner, anyNumber("m"), "[x, y] of the lower left corner")
            .listed("required, not of rings"),
-       key("high", &A::high, anyNumber("m"), "[x, y] of the upper right corner")
+       key("high", &A::highCorner, anyNumber("m"), "[x, y] of the upper right corner")
            .listed("required, not of rings"),
        key("along", &A::along, Names{"x", "y"}, "the axis of slabs").listed("required of slabs"),
        key("count", &A::count, bins, "number of slabs or rings")
@@ -67,6 +68,8 @@ void readRegion(Reader& in, Case& c) {
   AverageInput input;
   averageKeys().read(in, input);
   region = input;
+  region.low.head<2>() = input.lowCorner;
+  region.high.head<2>() = input.highCorner;
   const std::string_view bins = binKindNames[static_cast<std::size_t>(region.bins)];
   for (const auto& [key, kinds] : keysOfBins) {
     const bool needed = kinds.find(bins) != std::string_view::npos;
@@ -82,7 +85,7 @@ void readRegion(Reader& in, Case& c) {
     in.check(region.outerRadius > region.innerRadius, "outer_radius",
              "must be > inner_radius = {} m", region.innerRadius);
   else
-    in.check((region.high - region.low).minCoeff() > 0.0, "high",
+    in.check((region.high - region.low).head<2>().minCoeff() > 0.0, "high",
              "must lie above and to the right of low");
 }
 

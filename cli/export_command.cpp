@@ -30,7 +30,7 @@ files::WrittenBox boxOf(const Case& setup) {
     return around(setup.cell.outerRadius + setup.cell.wallRadius, setup.cell.height);
   const Region& region = setup.average->region;
   if (region.hasRings()) return around(region.outerRadius, region.height);
-  return {region.low, region.high, region.height};
+  return {region.low.head<2>(), region.high.head<2>(), region.height};
 }
 
 Case flowCase(const CommandLine& line) {

@@ -66,6 +66,13 @@ void fields(auto& io, WallBodyOf<D>& body) {
   io.required("motion", body.motion);
 }
 
+template <int D>
+void fields(auto& io, BoxOf<D>& box) {
+  io.required("low", box.low);
+  io.required("high", box.high);
+  io.required("periodic", box.periodic);
+}
+
 void fields(auto& io, Materials& materials) {
   io.required("names", materials.names);
   io.required("of_body", materials.ofBody);
@@ -81,6 +88,7 @@ void fields(auto& io, SceneOf<D>& scene) {
   io.required("law", scene.law);
   io.present("materials", scene.materials);
   io.present("bottom", scene.bottom);
+  io.present("box", scene.box);
   io.required("gravity", scene.gravity);
   io.required("rotation", scene.rotation);
   io.required("precision", scene.precision);

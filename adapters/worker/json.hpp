@@ -111,6 +111,7 @@ void fields(auto& io, Capabilities& can) {
   io.required("effects", effects);
   io.required("law_options", can.lawOptions);
   io.when(can.dimensions != std::vector<int>{2}, "dimensions", can.dimensions);
+  io.when(can.periodic, "periodic", can.periodic);
   io.required("precisions", can.precisions);
   io.required("instant_contacts", can.instantContacts);
   io.required("accumulated_contacts", can.accumulatedContacts);

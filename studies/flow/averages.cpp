@@ -19,8 +19,8 @@ std::shared_ptr<const Coordinates> binsOf(const Case& setup) {
   if (region.hasRings())
     return std::make_shared<Rings>(region.innerRadius, region.outerRadius, region.count,
                                    region.height, flowDiameter(setup));
-  return std::make_shared<Grid>(region.low, region.high, region.columnCount(), region.rowCount(),
-                                region.height);
+  return std::make_shared<Grid>(region.low.head<2>(), region.high.head<2>(), region.columnCount(),
+                                region.rowCount(), region.height);
 }
 
 std::unique_ptr<FlowAverages> flowAverages(const Case& setup, const Scene& scene) {

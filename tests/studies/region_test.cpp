@@ -33,8 +33,8 @@ Case threeDisks() {
   setup.assembly.duration = 1.0;
   setup.run.dt = 1e-3;
   Average& average = setup.average.emplace();
-  average.region.low = {-2.0, 0.0};
-  average.region.high = {4.0, 4.0};
+  average.region.low = {-2.0, 0.0, 0.0};
+  average.region.high = {4.0, 4.0, 0.0};
   average.region.height = 0.5;
   return setup;
 }
@@ -117,8 +117,8 @@ TEST(Region, Heap_HasTheSlopeOfItsFlanks) {
   // left flank falls by 0.3 a metre, its right one by 0.5; what lies deeper, nearer or farther is
   // left out.
   Case setup = threeDisks();
-  setup.average->region.low = {-1.0, 0.0};
-  setup.average->region.high = {3.0, 4.0};
+  setup.average->region.low = {-1.0, 0.0, 0.0};
+  setup.average->region.high = {3.0, 4.0, 0.0};
   setup.average->endpoints.emplace_back().quantity = "flank_slope";
   std::vector<Vec2> heap = {{1.0, 3.0}, {2.05, 3.0}};
   for (int k = 0; k < 8; ++k) {

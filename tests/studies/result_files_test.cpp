@@ -62,8 +62,8 @@ Case restingDisks() {
   setup.assembly.duration = 4.0;
   setup.run.dt = 1e-3;
   Average& average = setup.average.emplace();
-  average.region.low = {-2.0, 0.0};
-  average.region.high = {6.0, 4.0};
+  average.region.low = {-2.0, 0.0, 0.0};
+  average.region.high = {6.0, 4.0, 0.0};
   average.region.height = 0.5;
   average.region.snapshots = 4;
   return setup;
