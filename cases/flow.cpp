@@ -160,18 +160,24 @@ double flowRestart(const Case& setup, double t) {
   return period > 0.0 ? period * std::floor(t / period) : t;
 }
 
-Packing packingAt(const Packing& from, const Scene& scene, const Snapshot& now) {
+template <int D>
+Packing packingAt(const Packing& from, const SceneOf<D>& scene, const SnapshotOf<D>& now) {
   Packing there = from;
-  there.disks.position = now.position;
-  there.disks.velocity = now.velocity;
-  if (now.spin) there.disks.spin = *now.spin;
-  const auto wheel = std::ranges::find(scene.bodies, wheelName, &WallBody::name);
-  if (wheel != scene.bodies.end())  // a cell's, whose other walls stand still
-    there.wheelAngle += now.bodies[static_cast<std::size_t>(wheel - scene.bodies.begin())].angle;
-  else
+  DisksOf<D>& disks = disksIn<D>(there);
+  disks.position = now.position;
+  disks.velocity = now.velocity;
+  if (now.spin) disks.spin = *now.spin;
+  const auto wheel = std::ranges::find(scene.bodies, wheelName, &WallBodyOf<D>::name);
+  if (D == 2 && wheel != scene.bodies.end()) {  // a cell's, whose other walls stand still
+    const auto& body = now.bodies[static_cast<std::size_t>(wheel - scene.bodies.begin())];
+    if constexpr (D == 2) there.wheelAngle += body.angle;
+  } else {
     there.wallTime += now.positionTime;
+  }
   there.hash = contentHash(there);
   return there;
 }
+template Packing packingAt<2>(const Packing&, const Scene&, const Snapshot&);
+template Packing packingAt<3>(const Packing&, const SpaceScene&, const SpaceSnapshot&);
 
 }  // namespace crossgrain::inline cases

@@ -73,6 +73,7 @@ double flowRestart(const Case& setup, double t);
 
 /// A run's state as a packing to start from, all springs relaxed.
 /// @param from  the packing that the run began with
-Packing packingAt(const Packing& from, const Scene& scene, const Snapshot& now);
+template <int D>
+Packing packingAt(const Packing& from, const SceneOf<D>& scene, const SnapshotOf<D>& now);
 
 }  // namespace crossgrain::inline cases

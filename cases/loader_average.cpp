@@ -22,6 +22,14 @@ struct AverageInput : Region, Averaging {
   double bottom = 0.0, top = 0.0;             ///< z of rings in space
 };
 
+/// Of the plane, and then what is of space alone.
+Names allWeightNames() {
+  Names names(weightNames.begin(), weightNames.end());
+  for (const std::string_view name : spaceWeightNames)
+    if (std::ranges::find(names, name) == names.end()) names.emplace_back(name);
+  return names;
+}
+
 const Section<AverageInput>& averageKeys() {
   using A = AverageInput;
   const Range bins = between(1, 10'000), columns = between(1, 1'000);
@@ -60,8 +68,10 @@ const Section<AverageInput>& averageKeys() {
        need("from", &A::from, atLeast(0.0, "s"), "what comes before is not averaged"),
        key("snapshots", &A::snapshots, between(1, 1'000'000),
            "evenly from there to the end, a time step or more apart"),
-       key("method", &A::methods, Names(weightNames.begin(), weightNames.end()),
-           "as in `[averaging]`"),
+       key("method", &A::methods, allWeightNames(),
+           "as in `[averaging]`; in space slicing, centre or, of slabs, the coarse-graining "
+           "functions "
+           "heaviside, lucy and gauss"),
        key("line_width", &A::lineWidth, positive("d"),
            "as in `[averaging]`, of the smallest disks"),
        key("confidence", &A::confidence, inside(0.0, 1.0), "as in `[averaging]`")});
@@ -130,6 +140,13 @@ void readRegion(Reader& in, Case& c) {
   c.averaging.lineWidth = input.lineWidth;
   c.averaging.confidence = input.confidence;
   in.check(!input.methods.empty(), "method", "must not be empty");
+  for (const std::string& method : input.methods) {
+    const auto known = weightNamesIn(dimension);
+    in.check(std::ranges::find(known, method) != known.end(), "method",
+             "where case.dimension = {} are {}", dimension, fmt::join(known, ", "));
+    in.check(region.bins == BinKind::slabs || !Weight(weightMethod(method), 1.0).isFunction(),
+             "method", "{} is of slabs", method);
+  }
   if (region.hasRings())
     in.check(region.outerRadius > region.innerRadius, "outer_radius",
              "must be > inner_radius = {} m", region.innerRadius);
@@ -188,8 +205,8 @@ const Section<EndpointInput>& endpointsKeys() {
   return section;
 }
 
-std::span<const FieldSpec> fieldsOf(const Region& region) {
-  return region.hasRings() ? fieldTable() : cartesianFieldTable();
+std::span<const FieldSpec> fieldsOf(const Case& setup) {
+  return fieldsIn(setup.dimension, setup.average->region.hasRings());
 }
 
 /// Where a quantity comes from, and its unit.
@@ -200,9 +217,9 @@ struct Quantity {
 
 /// @throws BadInput with the nearest name
 Quantity quantityOf(const Reader& in, std::string_view key, const std::string& name,
-                    const Region& region) {
+                    const Case& setup) {
   std::vector<std::string> known;
-  for (const FieldSpec& field : fieldsOf(region)) {
+  for (const FieldSpec& field : fieldsOf(setup)) {
     if (field.name == name) return {true, field.unit == "1" ? "-" : std::string(field.unit)};
     known.emplace_back(field.name);
   }
@@ -333,14 +350,14 @@ OwnEndpoint readEndpoint(Reader& in, const Case& c, Margin& margin) {
     in.check(*endpoint.disk <= last, "disk", "must be in [0, {}]", last);
   }
   const Quantity quantity = endpoint.disk ? quantityOfDisk(in, endpoint.quantity)
-                                          : quantityOf(in, "quantity", endpoint.quantity, region);
+                                          : quantityOf(in, "quantity", endpoint.quantity, c);
   setReduction(in, input, region, quantity.isField, endpoint);
   margin = marginOf(in, input, {endpoint.name, ""}, nullptr);
   in.check(usableName(endpoint.name), "name", "{}", usableNameRule);
   if (in.has("per")) {
     in.check(!endpoint.disk, "per", "is of the averaged part, and disk of one disk");
     in.check(endpoint.reduction != Reduction::reaches, "per", "not where reaches is");
-    const Quantity below = quantityOf(in, "per", endpoint.per, region);
+    const Quantity below = quantityOf(in, "per", endpoint.per, c);
     in.check(below.isField == quantity.isField, "per",
              "must be a field where quantity is one, and a series where that is one");
     in.check(below.unit == quantity.unit, "per",
@@ -402,7 +419,7 @@ void readAverage(Reader& in, std::vector<Reader>& each, Case& c) {
   c.average.emplace();
   const Reader margins = in.section("margins");
   readRegion(in, c);
-  c.averaging.margins = readMargins(margins, judgedFields(fieldsOf(c.average->region)));
+  c.averaging.margins = readMargins(margins, judgedFields(fieldsOf(c)));
   checkSwings(in, c);
   for (Reader& one : each) {
     Margin margin;
