@@ -138,6 +138,7 @@ class GrainEngine : public Engine {
     Capabilities can;
     can.version = "0.1.0";
     can.dimensions = {2, 3};
+    can.periodic = true;
     for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
     for (const LawOption& option : lawOptions())
       can.lawOptions[std::string(option.name)] = {option.values.begin(), option.values.end()};
@@ -175,6 +176,7 @@ class GrainEngine : public Engine {
   }
 
   EffectiveParameters load(const Scene& scene, const Settings& settings) override {
+    if (scene.box) return loadInSpace(inSpace(scene), settings);
     const double stiffness = setting(settings, "stiffness", stiffness_);
     own_ = asRun(scene, stiffness);
     const Scene& own = own_;
@@ -241,6 +243,7 @@ class GrainEngine : public Engine {
   }
 
   Snapshot snapshot(ContactReport report) override {
+    if (spheres_) return inPlane(spheres_->snapshot(report));  // of a periodic box
     const grain::Simulation& now = *simulation_;
     Snapshot snapshot;
     snapshot.positionTime = snapshot.velocityTime = snapshot.contactTime = now.time();
