@@ -276,19 +276,17 @@ class GrainEngine : public Engine {
   }
 
   void checkpoint(const std::filesystem::path& file) override {
-    if (spheres_) throw EngineFailure("has no checkpoints in space");
     std::ofstream out(file, std::ios::binary);
-    simulation_->save(out);
+    spheres_ ? spheres_->simulation().save(out) : simulation_->save(out);
     out.close();
     if (!out) throw EngineFailure(fmt::format("{}: cannot be written", file.string()));
   }
 
   void restore(const std::filesystem::path& file) override {
-    if (spheres_) throw EngineFailure("has no checkpoints in space");
     std::ifstream in(file, std::ios::binary);
     if (!in) throw EngineFailure(fmt::format("{}: cannot be read", file.string()));
     try {
-      simulation_->restore(in);
+      spheres_ ? spheres_->simulation().restore(in) : simulation_->restore(in);
     } catch (const std::runtime_error& error) {
       throw EngineFailure(fmt::format("{}: {}", file.string(), error.what()));
     }

@@ -36,25 +36,45 @@ SpaceLists::SpaceLists(std::size_t moving, const SpaceBox& box, Skin skin, doubl
 void SpaceLists::update(std::span<const Quad> position, std::span<const double> travel,
                         std::size_t stepsSince) {
   skin_.beginUpdate(stepsSince);
-  for (const Quad& place : position)
-    if (!std::isfinite(place.x + place.y + place.z))
-      throw NotFinite{static_cast<std::size_t>(&place - position.data())};
+  requireFinite(position);
   setAllowances(travel);
-  carried_.clear();
-  std::size_t touching = 0;
-  for (std::size_t p = 0; p < near_.size(); ++p)
-    if (touches_[p] != 0) carried_.push_back({i_[p], j_[p], kept_[p], results_[p]});
-  touching = carried_.size();
-  const double used = skinUsed(position);
-  if (!(used <= 0.5 * skin_.skin())) {
-    skin_.tune({touching, near_.size(), far_.size()}, used);
-    skin_.beginRebuild();
-    collect(position);
-    built_.assign(position.begin(), position.end());
-    skin_.endRebuild();
+  carried_ = touching();
+  const PairCounts counts{carried_.size(), near_.size(), far_.size()};
+  if (const double used = skinUsed(position); !(used <= 0.5 * skin_.skin())) {
+    skin_.tune(counts, used);
+    rebuild(position);
   }
   choose(position);
-  skin_.endRefresh({touching, near_.size(), far_.size()});
+  skin_.endRefresh({carried_.size(), near_.size(), far_.size()});
+}
+
+void SpaceLists::restore(std::vector<Kept> touching, std::span<const Quad> position,
+                         std::span<const double> travel) {
+  skin_.beginUpdate(0);
+  requireFinite(position);
+  setAllowances(travel);
+  carried_ = std::move(touching);
+  rebuild(position);
+  choose(position);
+}
+
+void SpaceLists::rebuild(std::span<const Quad> position) {
+  skin_.beginRebuild();
+  collect(position);
+  built_.assign(position.begin(), position.end());
+  skin_.endRebuild();
+}
+
+std::vector<SpaceLists::Kept> SpaceLists::touching() const {
+  std::vector<Kept> found;
+  for (std::size_t p = 0; p < near_.size(); ++p)
+    if (touches_[p] != 0) found.push_back({i_[p], j_[p], kept_[p], results_[p]});
+  return found;
+}
+
+void SpaceLists::requireFinite(std::span<const Quad> position) const {
+  for (std::size_t i = 0; i < position.size(); ++i)
+    if (!std::isfinite(position[i].x + position[i].y + position[i].z)) throw NotFinite{i};
 }
 
 /// As PairLists::setAllowances().

@@ -34,6 +34,18 @@ class SpaceLists {
   void update(std::span<const Quad> position, std::span<const double> travel,
               std::size_t stepsSince);
 
+  /// A pair that touches, on its way from one choice to the next.
+  struct Kept {
+    std::int32_t i, j;
+    SpaceMemory<double> memory;
+    SpaceResult result;
+  };
+  std::vector<Kept> touching() const;
+  /// Lists built anew, of pairs in ascending (i, j) that touch.
+  /// @throws NotFinite
+  void restore(std::vector<Kept> touching, std::span<const Quad> position,
+               std::span<const double> travel);
+
   /// How far each sphere may be from where it was at the last update [m].
   std::span<const double> allowances() const { return allowance_; }
   SpacePairs near();
@@ -46,19 +58,15 @@ class SpaceLists {
     std::int32_t i, j;
     Quad shift;
   };
-  /// A pair that touches, on its way from one choice to the next.
-  struct Kept {
-    std::int32_t i, j;
-    SpaceMemory<double> memory;
-    SpaceResult result;
-  };
   struct Cells {
     std::array<std::int32_t, 3> count{1, 1, 1};
     Vec3<double> low, size;
     std::vector<std::int32_t> begin, sorted;
   };
 
+  void requireFinite(std::span<const Quad> position) const;
   void setAllowances(std::span<const double> travel);
+  void rebuild(std::span<const Quad> position);
   double skinUsed(std::span<const Quad> position) const;
   void collect(std::span<const Quad> position);
   void sortIntoCells(std::span<const Quad> position, double reach);

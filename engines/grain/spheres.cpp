@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "engines/grain/fingerprint.hpp"
 #include "engines/grain/kernels.hpp"
 #include "engines/grain/pair_lists.hpp"
 
@@ -36,6 +37,7 @@ double rangeOf(const GeneralLaw<double>& law, const std::vector<double>& radius)
 
 Spheres::Spheres(SpheresSetup setup)
     : setup_(std::move(setup)),
+      fingerprint_(fingerprint(setup_)),
       law_(generalLaw<double>(setup_.law, setup_.dt, setup_.rotation)),
       kernels_(kernels<double>().space),
       range_(rangeOf(law_, setup_.radius)),
@@ -173,15 +175,23 @@ void Spheres::moveWalls() {
 }
 
 void Spheres::updateNeighbours() {
-  travel_.resize(position_.size());
-  for (std::size_t i = 0; i < position_.size(); ++i)
-    travel_[i] = setup_.dt * length(vectorOf(velocity_[i]));
+  findTravel();
   try {
     lists_.update(position_, travel_, steps_ - chosenAt_);
   } catch (const NotFinite& lost) {
     throw std::runtime_error("the position of sphere " + std::to_string(lost.disk) +
                              " is not finite at t = " + std::to_string(time()) + " s");
   }
+  rememberChoice();
+}
+
+void Spheres::findTravel() {
+  travel_.resize(position_.size());
+  for (std::size_t i = 0; i < position_.size(); ++i)
+    travel_[i] = setup_.dt * length(vectorOf(velocity_[i]));
+}
+
+void Spheres::rememberChoice() {
   chosen_ = position_;
   allowanceSquare_.resize(position_.size());
   for (std::size_t i = 0; i < position_.size(); ++i) {

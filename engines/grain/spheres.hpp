@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <iosfwd>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -86,6 +87,11 @@ class Spheres {
   std::uint64_t contactEvaluations() const { return evaluations_; }
   std::uint64_t rebuilds() const { return lists_.rebuilds(); }
 
+  /// All that the future depends on, and back to where it goes on to the bit.
+  /// @throws std::runtime_error for what is cut short, damaged or of another setup
+  void save(std::ostream& out) const;
+  void restore(std::istream& in);
+
   SpaceWall::State wallState(std::size_t w) const { return setup_.walls[w].motion(time()); }
   std::size_t wallSpheres() const { return position_.size() - size(); }
   Vec3<double> wallPosition(std::size_t k) const { return vectorOf(position_[size() + k]); }
@@ -103,17 +109,21 @@ class Spheres {
     Vec3<double> force{}, torque{};  ///< on it, about the wall's centre
   };
 
+  void forState(auto&& visit);
   SpaceMotionView motionView();
   void placeSpheres();
   void kick(double dt);
   void step();
   void moveWalls();
   void updateNeighbours();
+  void findTravel();
+  void rememberChoice();
   void addForces();
   void addPlane(PlacedPlane& plane);
   [[noreturn]] void reportDeep();
 
   SpheresSetup setup_;
+  std::uint64_t fingerprint_;
   GeneralLaw<double> law_;
   SpaceKernels kernels_;
   double halfKick_ = 0.0;  ///< by which velocities are behind positions [s]

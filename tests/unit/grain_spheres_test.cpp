@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <sstream>
 #include <string>
 
 #include "engines/grain/kernels.hpp"
@@ -493,6 +494,40 @@ TEST(Spheres, PairAcrossABorder_MeetsAsInTheMiddle) {
     // The same but for where it is: 0.0625 and its parts are exact, the rest rounds at 2⁻⁵⁷ m.
     EXPECT_LT(length(middle.velocity(i) - border.velocity(i)), 1e-11);
     EXPECT_LT(length(middle.spin(i) - border.spin(i)), 1e-8);
+  }
+}
+
+TEST(Spheres, RestoredRun_GoesOnToTheBit) {
+  SpheresSetup setup = meeting(springLaw(), false);
+  setup.law.rolling = Rolling::spring;
+  setup.law.kr = 1e4;
+  setup.law.gr = 0.05;
+  setup.law.muR = 0.1;
+  for (const Integrator integrator : {Integrator::positionVerlet, Integrator::velocityVerlet}) {
+    setup.integrator = integrator;
+    Spheres whole(setup), second(setup), other(boxed({}));
+    whole.advance(30);
+    ASSERT_GE(whole.contacts().size(), 3u);
+    std::stringstream file;
+    whole.save(file);
+    second.restore(file);
+    for (int piece = 0; piece < 2; ++piece) {
+      for (std::size_t i = 0; i < whole.size(); ++i) {
+        EXPECT_EQ(length(whole.position(i) - second.position(i)), 0.0);
+        EXPECT_EQ(length(whole.velocity(i) - second.velocity(i)), 0.0);
+        EXPECT_EQ(length(whole.spin(i) - second.spin(i)), 0.0);
+      }
+      EXPECT_EQ(whole.contacts().size(), second.contacts().size());
+      for (const std::size_t wall : {0u, 1u})
+        EXPECT_EQ(length(whole.wallLoad(wall).second - second.wallLoad(wall).second), 0.0);
+      whole.advance(20);
+      second.advance(20);
+    }
+    EXPECT_EQ(whole.contactEvaluations(), second.contactEvaluations());
+    file.seekg(0);
+    EXPECT_THROW(other.restore(file), std::runtime_error);
+    std::stringstream part(file.str().substr(0, file.str().size() / 2));
+    EXPECT_THROW(second.restore(part), std::runtime_error);
   }
 }
 
