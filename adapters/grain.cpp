@@ -138,6 +138,7 @@ class GrainEngine : public Engine {
     Capabilities can;
     can.version = "0.1.0";
     can.dimensions = {2, 3};
+    can.periodic = true;
     for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
     for (const LawOption& option : lawOptions())
       can.lawOptions[std::string(option.name)] = {option.values.begin(), option.values.end()};
@@ -175,6 +176,7 @@ class GrainEngine : public Engine {
   }
 
   EffectiveParameters load(const Scene& scene, const Settings& settings) override {
+    if (scene.box) return loadInSpace(inSpace(scene), settings);
     const double stiffness = setting(settings, "stiffness", stiffness_);
     own_ = asRun(scene, stiffness);
     const Scene& own = own_;
@@ -241,6 +243,7 @@ class GrainEngine : public Engine {
   }
 
   Snapshot snapshot(ContactReport report) override {
+    if (spheres_) return inPlane(spheres_->snapshot(report));  // of a periodic box
     const grain::Simulation& now = *simulation_;
     Snapshot snapshot;
     snapshot.positionTime = snapshot.velocityTime = snapshot.contactTime = now.time();
@@ -273,19 +276,17 @@ class GrainEngine : public Engine {
   }
 
   void checkpoint(const std::filesystem::path& file) override {
-    if (spheres_) throw EngineFailure("has no checkpoints in space");
     std::ofstream out(file, std::ios::binary);
-    simulation_->save(out);
+    spheres_ ? spheres_->simulation().save(out) : simulation_->save(out);
     out.close();
     if (!out) throw EngineFailure(fmt::format("{}: cannot be written", file.string()));
   }
 
   void restore(const std::filesystem::path& file) override {
-    if (spheres_) throw EngineFailure("has no checkpoints in space");
     std::ifstream in(file, std::ios::binary);
     if (!in) throw EngineFailure(fmt::format("{}: cannot be read", file.string()));
     try {
-      simulation_->restore(in);
+      spheres_ ? spheres_->simulation().restore(in) : simulation_->restore(in);
     } catch (const std::runtime_error& error) {
       throw EngineFailure(fmt::format("{}: {}", file.string(), error.what()));
     }

@@ -24,36 +24,25 @@ void demand(bool holds, const std::string& what) {
 
 /// @throws UnsupportedScene
 void requireSupported(const SpaceScene& scene) {
-  const ContactLaw& law = scene.law;
-  const auto option = [&](const char* name) { return lawOptionValue(law, name); };
-  demand(law.normal == NormalLaw::linear,
-         fmt::format("has normal = linear in space, not {}", option("normal")));
-  demand(law.damper == Damper::constant || (law.gn == 0.0 && law.gt == 0.0),
-         fmt::format("has damper = constant in space, not {}", option("damper")));
-  demand(!law.friction() || law.springs(),
-         fmt::format("has tangential = none | spring | spring_dashpot in space, not {}",
-                     option("tangential")));
-  demand(!law.rolls(), "has no rolling_resistance in space");
-  demand(!law.coheres(), "has no cohesion in space");
+  demand(scene.law.soft(), "has no rigid contacts in space");
   demand(!scene.materials, "has no pair_materials in space");
   demand(!scene.energyLedger, "has no energy_ledger in space");
   demand(scene.precision == Precision::float64, "has precision = double in space, not float");
-  for (const WallBodyOf<3>& body : scene.bodies) {
-    const MotionKind kind = body.motion.kind;
-    demand(body.diskRadius.empty(), "has walls of planes alone in space");
-    demand(kind != MotionKind::rotating && kind != MotionKind::radial,
-           fmt::format("has walls that are fixed | translating | oscillating in space, not {}",
-                       toString(kind)));
-  }
+  for (const WallBodyOf<3>& body : scene.bodies)
+    demand(body.motion.kind != MotionKind::radial,
+           fmt::format("has no walls that are {} in space", toString(body.motion.kind)));
 }
 
 grain::SpaceWall wallOf(const WallBodyOf<3>& body) {
   grain::SpaceWall wall;
   for (const PlaneOf<3>& plane : body.planes)
     wall.planes.push_back({of(plane.point), of(Vec3(plane.normal.normalized()))});
+  for (const Vec3& position : body.diskPosition) wall.position.push_back(of(position));
+  wall.radius = body.diskRadius;
   wall.motion = [motion = body.motion, centre = body.centre](double t) {
     const BodyStateOf<3> now = stateAt(motion, centre, t);
-    return grain::SpaceWall::State{of(now.centre), of(now.velocity)};
+    return grain::SpaceWall::State{of(now.centre), of(now.velocity), of(now.angle),
+                                   of(now.angularVelocity)};
   };
   return wall;
 }
@@ -71,6 +60,8 @@ grain::SpheresSetup setupOf(const SpaceScene& scene, double skin, double maxOver
   setup.mass = spheres.mass;
   setup.inertia = spheres.inertia;
   for (const WallBodyOf<3>& body : scene.bodies) setup.walls.push_back(wallOf(body));
+  if (const auto& box = scene.box)
+    setup.box = grain::SpaceBox{of(box->low), of(Vec3(box->high - box->low)), box->periodic};
   const LawConventions& how = scene.law.conventions;
   setup.law = grainLawOf(scene.law);
   // Both sides list the values of these in the same order, too.
@@ -85,7 +76,94 @@ grain::SpheresSetup setupOf(const SpaceScene& scene, double skin, double maxOver
   return setup;
 }
 
+Vec3 raised(const Vec2& v) {
+  return {v.x(), v.y(), 0.0};
+}
+Vec3 aboutZ(double spin) {
+  return {0.0, 0.0, spin};
+}
+
+template <class From, class Change>
+auto each(const std::vector<From>& list, const Change& change) {
+  std::vector<decltype(change(list[0]))> out;
+  for (const From& value : list) out.push_back(change(value));
+  return out;
+}
+
+MotionOf<3> inSpace(const Motion& motion) {
+  return {motion.kind,
+          aboutZ(motion.angularVelocity),
+          raised(motion.velocity),
+          raised(motion.amplitude),
+          motion.frequency,
+          motion.radialVelocity,
+          motion.radialEnd};
+}
+
 }  // namespace
+
+SpaceScene inSpace(const Scene& scene) {
+  demand(!scene.bottom, "has no bottom plate in a periodic box");
+  SpaceScene to;
+  to.name = scene.name;
+  to.disks = {scene.disks.radius,
+              scene.disks.mass,
+              scene.disks.inertia,
+              each(scene.disks.position, raised),
+              each(scene.disks.velocity, raised),
+              each(scene.disks.spin, aboutZ)};
+  for (const WallBody& body : scene.bodies)
+    to.bodies.push_back({body.name, raised(body.centre), each(body.diskPosition, raised),
+                         body.diskRadius,
+                         each(body.planes,
+                              [](const Plane& plane) {
+                                return PlaneOf<3>{raised(plane.point), raised(plane.normal)};
+                              }),
+                         inSpace(body.motion)});
+  to.law = scene.law;
+  to.materials = scene.materials;
+  if (const auto& box = scene.box)
+    to.box =
+        BoxOf<3>{raised(box->low), raised(box->high), {box->periodic[0], box->periodic[1], false}};
+  to.gravity = raised(scene.gravity);
+  to.rotation = scene.rotation;
+  to.precision = scene.precision;
+  to.dt = scene.dt;
+  to.energyLedger = scene.energyLedger;
+  changeLaws(to, [](ContactLaw& law) { law.dimension = 3; });
+  return to;
+}
+
+Snapshot inPlane(const SpaceSnapshot& snapshot) {
+  const auto flat = [](const Vec3& v) { return Vec2(v.head<2>()); };
+  const auto spin = [](const Vec3& v) { return v.z(); };
+  Snapshot to;
+  to.positionTime = snapshot.positionTime;
+  to.velocityTime = snapshot.velocityTime;
+  to.contactTime = snapshot.contactTime;
+  to.contactInterval = snapshot.contactInterval;
+  to.position = each(snapshot.position, flat);
+  to.velocity = each(snapshot.velocity, flat);
+  if (snapshot.spin) to.spin = each(*snapshot.spin, spin);
+  to.wallPosition = each(snapshot.wallPosition, flat);
+  for (const BodySnapshotOf<3>& body : snapshot.bodies)
+    to.bodies.push_back({flat(body.centre), spin(body.angle), flat(body.velocity),
+                         spin(body.angularVelocity), flat(*body.force), spin(*body.torque)});
+  if (!snapshot.contacts) return to;
+  const ContactsOf<3>& from = *snapshot.contacts;
+  Contacts& contacts = to.contacts.emplace();
+  contacts.i = from.i;
+  contacts.j = from.j;
+  contacts.normal = each(from.normal, flat);
+  contacts.overlap = from.overlap;
+  contacts.normalForce = from.normalForce;
+  for (std::size_t k = 0; k < from.size(); ++k)  // along z × n
+    contacts.tangentialForce.push_back(
+        flat(from.tangentialForce[k]).dot(perpendicular(contacts.normal[k])));
+  contacts.sliding = from.sliding;
+  contacts.rollingTorque = each(from.rollingTorque, spin);
+  return to;
+}
 
 GrainSpheres::GrainSpheres(const SpaceScene& scene, double skin, double maxOverlap)
     : scene_(scene), simulation_(setupOf(scene, skin, maxOverlap)) {}
@@ -103,7 +181,7 @@ EffectiveParameters GrainSpheres::effective() const {
   return effective;
 }
 
-SpaceSnapshot GrainSpheres::snapshot(ContactReport report) const {
+SpaceSnapshot GrainSpheres::snapshot(ContactReport report) {
   if (report == ContactReport::accumulated)
     throw std::invalid_argument("accumulated contacts: see Capabilities::accumulatedContacts");
   SpaceSnapshot snapshot;
@@ -112,16 +190,18 @@ SpaceSnapshot GrainSpheres::snapshot(ContactReport report) const {
     snapshot.position.push_back(of(simulation_.position(i)));
     snapshot.velocity.push_back(of(simulation_.velocity(i)));
   }
-  if (scene_.law.friction()) {
+  if (scene_.law.friction() || scene_.law.rolls()) {
     snapshot.spin.emplace();
     for (std::size_t i = 0; i < simulation_.size(); ++i)
       snapshot.spin->push_back(of(simulation_.spin(i)));
   }
+  for (std::size_t k = 0; k < simulation_.wallSpheres(); ++k)
+    snapshot.wallPosition.push_back(of(simulation_.wallPosition(k)));
   for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
     const grain::SpaceWall::State wall = simulation_.wallState(b);
     const auto [force, torque] = simulation_.wallLoad(b);
     snapshot.bodies.push_back(
-        {of(wall.centre), Vec3::Zero(), of(wall.velocity), Vec3::Zero(), of(force), of(torque)});
+        {of(wall.centre), of(wall.angle), of(wall.velocity), of(wall.spin), of(force), of(torque)});
   }
   if (report == ContactReport::none) return snapshot;
   ContactsOf<3>& contacts = snapshot.contacts.emplace();
@@ -133,6 +213,7 @@ SpaceSnapshot GrainSpheres::snapshot(ContactReport report) const {
     contacts.normalForce.push_back(contact.normalForce);
     contacts.tangentialForce.push_back(of(contact.tangentialForce));
     contacts.sliding.push_back(contact.sliding);
+    if (scene_.law.rolls()) contacts.rollingTorque.push_back(of(contact.rollingTorque));
   }
   return snapshot;
 }

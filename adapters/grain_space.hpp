@@ -5,6 +5,13 @@
 
 namespace crossgrain {
 
+/// A scene of the plane as one in space, at z = 0: its law has no twist there, and every equation
+/// is the plane's.
+/// @throws UnsupportedScene of a scene with a bottom plate
+SpaceScene inSpace(const Scene& scene);
+/// What it shows there, in the plane.
+Snapshot inPlane(const SpaceSnapshot& snapshot);
+
 /// A scene in space on the in-house engine.
 class GrainSpheres {
  public:
@@ -14,7 +21,7 @@ class GrainSpheres {
   GrainSpheres(const SpaceScene& scene, double skin, double maxOverlap);
 
   EffectiveParameters effective() const;
-  SpaceSnapshot snapshot(ContactReport report) const;
+  SpaceSnapshot snapshot(ContactReport report);
 
   grain::Spheres& simulation() { return simulation_; }
   const grain::Spheres& simulation() const { return simulation_; }

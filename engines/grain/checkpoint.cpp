@@ -6,11 +6,13 @@
 #include <type_traits>
 
 #include "engines/grain/core.hpp"
+#include "engines/grain/spheres.hpp"
 
 namespace grain {
 namespace {
 
-constexpr std::uint64_t magic = 0x38'6e'69'61'72'67;  // "grain8"
+constexpr std::uint64_t magic = 0x38'6e'69'61'72'67;       // "grain8"
+constexpr std::uint64_t spaceMagic = 0x53'6e'69'61'72'67;  // "grainS"
 
 template <class T>
 void write(std::ostream& out, const T& value) {
@@ -128,6 +130,51 @@ void Core<Real>::restore(std::istream& in) {
       *ledger_, [&](auto& sums) { read(in, sums); },
       [&](auto& all) { readAny(in, all, mostPairs); }, [&](auto& all) { readSame(in, all); });
   ledger_->placesRestored();
+}
+
+/// Walls, and what is worked out from positions, are not kept.
+void Spheres::forState(auto&& visit) {
+  for (auto* array : {&position_, &velocity_, &spin_, &force_, &torque_}) visit(*array);
+  for (PlacedPlane& plane : planes_) {
+    visit(plane.kept);
+    visit(plane.results);
+    visit(plane.touches);
+  }
+}
+
+void Spheres::save(std::ostream& out) const {
+  write(out, spaceMagic);
+  write(out, fingerprint_);
+  write(out, steps_);
+  write(out, evaluations_);
+  const_cast<Spheres*>(this)->forState([&](const auto& array) { writeAll(out, array); });
+  for (const PlacedPlane& plane : planes_) {
+    write(out, plane.force);
+    write(out, plane.torque);
+  }
+  writeAll(out, lists_.touching());
+}
+
+void Spheres::restore(std::istream& in) {
+  std::uint64_t number = 0;
+  read(in, number);
+  require(number == spaceMagic, "not one of this engine");
+  read(in, number);
+  require(number == fingerprint_, "of another setup");
+  read(in, steps_);
+  read(in, evaluations_);
+  // Walls are put where they are by now, and forces on them are the file's.
+  moveWalls();
+  forState([&](auto& array) { readSame(in, array); });
+  for (PlacedPlane& plane : planes_) {
+    read(in, plane.force);
+    read(in, plane.torque);
+  }
+  std::vector<SpaceLists::Kept> touching;
+  readAny(in, touching, 64 * position_.size());
+  findTravel();
+  lists_.restore(std::move(touching), position_, travel_);
+  rememberChoice();
 }
 
 }  // namespace grain

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "engines/grain/spheres.hpp"
+
 namespace grain {
 namespace {
 
@@ -20,6 +22,10 @@ class Fnv1a {
   void add(const std::vector<double>& values) {
     add(static_cast<std::uint64_t>(values.size()));
     for (const double value : values) add(value);
+  }
+  void add(const std::vector<Vec3<double>>& values) {
+    add(static_cast<std::uint64_t>(values.size()));
+    for (const Vec3<double>& v : values) addAll(v.x, v.y, v.z);
   }
   std::uint64_t hash() const { return hash_; }
 
@@ -76,6 +82,26 @@ std::uint64_t fingerprint(const Setup& setup) {
     to.addAll(plate->mu, plate->kb, plate->gb, plate->tauM, plate->gravity, plate->spin);
   to.addAll(setup.gravityX, setup.gravityY, setup.dt, static_cast<int>(setup.integrator),
             setup.rotation, static_cast<int>(setup.precision));
+  return to.hash();
+}
+
+std::uint64_t fingerprint(const SpheresSetup& setup) {
+  Fnv1a to;
+  for (const auto* values : {&setup.position, &setup.velocity, &setup.spin}) to.add(*values);
+  for (const auto* values : {&setup.radius, &setup.mass, &setup.inertia}) to.add(*values);
+  for (const SpaceWall& wall : setup.walls) {
+    to.add(wall.position);
+    to.add(wall.radius);
+    for (const SpaceWall::Plane& plane : wall.planes)
+      for (const Vec3<double>& v : {plane.point, plane.normal}) to.addAll(v.x, v.y, v.z);
+  }
+  add(to, setup.law);
+  to.addAll(static_cast<int>(setup.conventions.turn), static_cast<int>(setup.conventions.twist));
+  if (const auto& box = setup.box)
+    to.addAll(box->low.x, box->low.y, box->low.z, box->length.x, box->length.y, box->length.z,
+              box->periodic[0], box->periodic[1], box->periodic[2]);
+  to.addAll(setup.gravity.x, setup.gravity.y, setup.gravity.z, setup.dt,
+            static_cast<int>(setup.integrator), setup.rotation);
   return to.hash();
 }
 

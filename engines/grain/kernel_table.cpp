@@ -7,6 +7,7 @@
 #include "engines/grain/ledger_kernel.hpp"
 #include "engines/grain/motion_kernel.hpp"
 #include "engines/grain/plane_kernel.hpp"
+#include "engines/grain/space_kernel.hpp"
 
 #define GRAIN_TEXT_(name) #name
 #define GRAIN_TEXT(name) GRAIN_TEXT_(name)
@@ -62,6 +63,13 @@ constexpr std::size_t meaningful(std::size_t index) {
   return indexOf(e);
 }
 
+template <class Real>
+constexpr SpaceKernels spaceKernels() {
+  if constexpr (sizeof(Real) == sizeof(double))
+    return {&space::pairKernel<GeneralLaw<double>>, &space::motionKernel};
+  return {};
+}
+
 template <class Real, std::size_t... C, std::size_t... M, std::size_t... D>
 Kernels<Real> table(std::index_sequence<C...>, std::index_sequence<M...>,
                     std::index_sequence<D...>) {
@@ -76,7 +84,8 @@ Kernels<Real> table(std::index_sequence<C...>, std::index_sequence<M...>,
           &contactKernel<OfMaterials<GeneralLaw<Real>>, Real>,
           &planeKernel<OfMaterials<GeneralLaw<Real>>, Real>,
           {&ledgerDiskKernel<Real, D>...},
-          &ledgerPairKernel<Real>};
+          &ledgerPairKernel<Real>,
+          spaceKernels<Real>()};
 }
 
 }  // namespace

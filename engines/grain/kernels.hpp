@@ -7,6 +7,7 @@
 #include "engines/grain/bottom.hpp"
 #include "engines/grain/law_types.hpp"
 #include "engines/grain/ledger_views.hpp"
+#include "engines/grain/space_views.hpp"
 
 namespace grain {
 
@@ -175,6 +176,7 @@ struct Kernels {
   PlaneKernel<Real> materialPlanes;
   LedgerDiskKernel<Real> ledgerDisks[ledgerDiskVariants];
   LedgerPairKernel<Real> ledgerPairs;
+  SpaceKernels space;  ///< of double precision alone
 };
 
 /// The fastest set that this processor runs, or the one that GRAIN_INSTRUCTIONS names; all give the

@@ -9,23 +9,27 @@ template <class Real>
 struct Vec3 {
   Real x{}, y{}, z{};
 
-  Vec3& operator+=(const Vec3& b) { return *this = {x + b.x, y + b.y, z + b.z}; }
-  Vec3& operator-=(const Vec3& b) { return *this = {x - b.x, y - b.y, z - b.z}; }
-  friend Vec3 operator+(Vec3 a, const Vec3& b) { return a += b; }
-  friend Vec3 operator-(Vec3 a, const Vec3& b) { return a -= b; }
-  friend Vec3 operator*(Real s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
+  GRAIN_INLINE Vec3& operator+=(const Vec3& b) { return *this = {x + b.x, y + b.y, z + b.z}; }
+  GRAIN_INLINE Vec3& operator-=(const Vec3& b) { return *this = {x - b.x, y - b.y, z - b.z}; }
+  GRAIN_INLINE friend Vec3 operator+(Vec3 a, const Vec3& b) { return a += b; }
+  GRAIN_INLINE friend Vec3 operator-(Vec3 a, const Vec3& b) { return a -= b; }
+  GRAIN_INLINE friend Vec3 operator*(Real s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
 };
 template <class Real>
-Real dot(const Vec3<Real>& a, const Vec3<Real>& b) {
+GRAIN_INLINE Real dot(const Vec3<Real>& a, const Vec3<Real>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 template <class Real>
-Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
+GRAIN_INLINE Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 template <class Real>
-Real length(const Vec3<Real>& a) {
+GRAIN_INLINE Real length(const Vec3<Real>& a) {
   return squareRoot(dot(a, a));
+}
+template <class Real>
+GRAIN_INLINE Vec3<Real> chosen(bool first, const Vec3<Real>& a, const Vec3<Real>& b) {
+  return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
 }
 
 /// How ξ follows a normal that turned from n to n′, before it is stretched: by the smallest
@@ -43,8 +47,8 @@ struct SpaceConventions {
 
 /// ξ in the tangent plane of `now` that was in that of `before`, both of length 1.
 template <class Real>
-Vec3<Real> turnedSpring(SpringTurn how, const Vec3<Real>& spring, const Vec3<Real>& before,
-                        const Vec3<Real>& now) {
+GRAIN_INLINE Vec3<Real> turnedSpring(SpringTurn how, const Vec3<Real>& spring,
+                                     const Vec3<Real>& before, const Vec3<Real>& now) {
   const Vec3<Real> w = cross(before, now);
   if (how == SpringTurn::firstOrder) return spring + cross(w, spring);
   if (how == SpringTurn::rotated) {  // Rodrigues' formula, |w| = sin θ, n·n′ = cos θ
@@ -52,61 +56,228 @@ Vec3<Real> turnedSpring(SpringTurn how, const Vec3<Real>& spring, const Vec3<Rea
     return spring + first + (Real(1) / (Real(1) + dot(before, now))) * cross(w, first);
   }
   const Vec3<Real> inPlane = spring - dot(spring, now) * now;
+  if (how == SpringTurn::projected) return inPlane;
   const Real left = length(inPlane);
-  if (how == SpringTurn::projected || !(left > Real(0))) return inPlane;
-  return (length(spring) / left) * inPlane;
+  return (left > Real(0) ? length(spring) / left : Real(1)) * inPlane;
 }
 
-/// ξ turned by a small angle about the normal; with SpringTurn::firstOrder to first order, too.
+/// ξ turned by a small angle about the normal: by 2 arctan(angle/2), with which cos and sin are
+/// quotients (Cayley's form of a rotation) and ξ keeps its length; with SpringTurn::firstOrder to
+/// first order.
 template <class Real>
-Vec3<Real> twistedSpring(SpringTurn how, const Vec3<Real>& spring, const Vec3<Real>& normal,
-                         Real angle) {
+GRAIN_INLINE Vec3<Real> twistedSpring(SpringTurn how, const Vec3<Real>& spring,
+                                      const Vec3<Real>& normal, Real angle) {
   const Vec3<Real> aside = cross(normal, spring);
   if (how == SpringTurn::firstOrder) return spring + angle * aside;
-  return Real(__builtin_cos(angle)) * spring + Real(__builtin_sin(angle)) * aside;
+  const Real half = Real(0.5) * angle, square = half * half;
+  const Real whole = Real(1) / (Real(1) + square);
+  return ((Real(1) - square) * whole) * spring + (angle * whole) * aside;
 }
 
+/// What a contact remembers from step to step. Its vectors lie in the tangent plane of `normal`.
 template <class Real>
-struct SpaceForce {
-  Real normal;            ///< f_n [N]
-  Vec3<Real> tangential;  ///< f_t on i, in the tangent plane [N]
-  bool sliding;           ///< Coulomb's bound holds
+struct SpaceMemory {
+  Vec3<Real> normal{};           ///< of the last step in which it touched
+  Vec3<Real> spring{}, angle{};  ///< ξ, θ
+  Real memory{}, rest{};         ///< as of contactForce()
 };
 
-/// The force on i: springForce() of contact_force.hpp with directions in place of signs. The normal
-/// part, the bound and all conventions are those functions' own.
-/// @param contact  its tangentialVelocity is not read
-/// @param slip     v_t [m/s]
-/// @param spring   ξ, in the tangent plane of this instant; kept as long as the contact lasts [m]
-/// @pre a linear law with constant dampers, without friction or with springs
-template <class L, class Real>
-SpaceForce<Real> spaceForce(const L& law, const ContactMotion<Real>& contact,
-                            const Vec3<Real>& slip, Vec3<Real>& spring) {
-  const Real normal = normalForce(law, contact, elasticForce(law, contact));
-  if (law.tangential == Tangential::none) return {normal, {}, false};
-  const Real bound = coulombBound(law, normal);
-  const Vec3<Real> stretch = law.dt * slip;
-  const Real part = law.stretch == Stretch::after    ? Real(0)
-                    : law.stretch == Stretch::before ? Real(1)
-                                                     : Real(0.5);
-  const Vec3<Real> stretched = spring + part * stretch;
-  const Vec3<Real> elastic = -law.kt * stretched;
-  Vec3<Real> viscous{};
-  if (law.tangential == Tangential::springDashpot) viscous = -law.gt * slip;
-  Vec3<Real> trial = elastic + viscous;
-  if (law.implicitDamping && law.tangential == Tangential::springDashpot)
-    trial = (Real(1) / (Real(1) + law.gt * contact.tangentialCompliance)) * trial;
-  const Vec3<Real>& tested = law.dashpotOutsideBound ? elastic : trial;
-  const Real size = length(tested);
-  if (size <= bound) {
-    spring = stretched + (Real(1) - part) * stretch;
-    return {normal, trial, false};
+/// Two bodies that meet, or a sphere and a wall, for which what is j's is 0 but its velocity.
+template <class Real>
+struct Meeting {
+  Vec3<Real> normal;    ///< from j to i
+  Vec3<Real> velocity;  ///< of i relative to j, of the centres or of the wall's point [m/s]
+  Vec3<Real> spinI, spinJ;
+  Real overlap;
+  Real radiusI, radiusJ;  ///< a_j = 0: a wall
+  Real leverI, leverJ;    ///< arms of the force
+  Real armI, armJ;        ///< arms of the spins in v_t
+  Real inverseMass;       ///< the sum of both
+  Real inverseMassI, inverseMassJ, inverseInertiaI, inverseInertiaJ;
+};
+
+/// What it does to both: force on i, −force on j; torques on each about its own centre.
+template <class Real>
+struct MeetingForce {
+  Real normal;                     ///< f_n
+  Vec3<Real> tangential, rolling;  ///< f_t on i; M on i, −M on j
+  Vec3<Real> force, torqueI, torqueJ;
+  Real sliding;
+};
+
+/// f* within the bound, else bound·f*/|f*|; the spring is what is left of it: springForce() of
+/// contact_force.hpp with directions in place of signs.
+/// @param unit     force per spring  @param inverse 1/unit, or 0
+/// @param stretch  what the spring grows by in a step  @param outside the dashpot is not tested
+template <class Real>
+struct SpringLimit {
+  Stretch when;
+  Real unit, inverse, bound;
+  bool limited, outside, resetSpringOnly;
+  Real divisor;  ///< of implicit damping
+
+  GRAIN_INLINE Vec3<Real> force(Vec3<Real>& spring, const Vec3<Real>& stretch,
+                                const Vec3<Real>& viscous, Real& sliding) const {
+    const Real part = when == Stretch::after    ? Real(0)
+                      : when == Stretch::before ? Real(1)
+                                                : Real(0.5);
+    const Vec3<Real> stretched = spring + part * stretch;
+    const Vec3<Real> elastic = -unit * stretched;
+    const Vec3<Real> trial = (Real(1) / divisor) * (elastic + viscous);
+    const Vec3<Real> tested = chosen(outside, elastic, trial);
+    const Real size = length(tested);
+    const bool holds = !limited || size <= bound;
+    // A bound below zero turns the force round; of no force it has no direction.
+    const Vec3<Real> slipping = (size > Real(0) ? bound / size : Real(0)) * tested;
+    Vec3<Real> slipped = -inverse * (resetSpringOnly ? slipping - viscous : slipping);
+    if (when == Stretch::midpoint) slipped += Real(0.5) * stretch;
+    spring = chosen(holds, stretched + (Real(1) - part) * stretch, slipped);
+    sliding = holds ? Real(0) : Real(1);
+    return chosen(holds, trial, slipping);
   }
-  // A bound below zero turns the force round; of no force it has no direction.
-  const Vec3<Real> slipping = size > Real(0) ? (bound / size) * tested : Vec3<Real>{};
-  spring = -law.inverseKt * (law.resetSpringOnly ? slipping - viscous : slipping);
-  if (law.stretch == Stretch::midpoint) spring += Real(0.5) * stretch;
-  return {normal, slipping, true};
+};
+
+/// f_t on i. @param slip  v_t [m/s]
+template <class L, class Real>
+GRAIN_INLINE Vec3<Real> tangentialForce(const L& law, const ContactMotion<Real>& contact,
+                                        const Vec3<Real>& slip, Real load, Vec3<Real>& spring,
+                                        Real& sliding) {
+  const Real bound = coulombBound(law, load);
+  if (law.tangential == Tangential::coulomb || law.tangential == Tangential::viscous) {
+    const Real speed = length(slip);
+    Real size = bound;
+    sliding = Real(1);
+    if (law.tangential == Tangential::viscous) {
+      const Real gt = tangentialDamping(law, contact);
+      Real trial = gt * speed;
+      if (law.implicitDamping) trial /= Real(1) + gt * contact.tangentialCompliance;
+      size = smaller(trial, bound);
+      sliding = trial > bound ? Real(1) : Real(0);
+    }
+    return (speed > Real(0) ? -size / speed : Real(0)) * slip;
+  }
+  // With History::force the spring is the force itself: one unit of it per unit.
+  const bool force = law.history == History::force;
+  const Real stiffness = tangentialStiffness(law, contact);
+  Real inverse = law.inverseKt;
+  if (force) inverse = Real(1);
+  if (law.normal == Normal::hertz && !force)
+    inverse = stiffness > Real(0) ? Real(1) / stiffness : Real(0);
+  const Vec3<Real> stretch = (force ? stiffness * law.dt : law.dt) * slip;
+  Vec3<Real> viscous{};
+  Real divisor = Real(1);
+  if (law.tangential == Tangential::springDashpot) {
+    const Real gt = tangentialDamping(law, contact);
+    viscous = -gt * slip;
+    if (law.implicitDamping) divisor += gt * contact.tangentialCompliance;
+  }
+  const SpringLimit<Real> limit{law.stretch,
+                                force ? Real(1) : stiffness,
+                                inverse,
+                                bound,
+                                true,
+                                law.dashpotOutsideBound,
+                                law.resetSpringOnly,
+                                divisor};
+  return limit.force(spring, stretch, viscous, sliding);
+}
+
+/// M on i, of the relative spin that rolls: ω_i − ω_j less its part along n, which twists.
+/// rollingTorque() of contact_force.hpp with directions in place of signs.
+template <class L, class Real>
+GRAIN_INLINE Vec3<Real> rollingResistance(const L& law, const Meeting<Real>& meeting,
+                                          const ContactMotion<Real>& contact, Real load,
+                                          Vec3<Real>& angle) {
+  const Vec3<Real> relative = meeting.spinI - meeting.spinJ;
+  const Vec3<Real> spin = relative - dot(relative, meeting.normal) * meeting.normal;
+  RollingMotion<Real> motion = rollingMotion(law, meeting.radiusI, meeting.radiusJ, Real(0));
+  if (law.rolling == Rolling::viscous) return -law.gr * motion.length * motion.length * spin;
+  const Real bound = rollingBound(law, motion, contact, load);
+  if (law.rolling == Rolling::viscousByLoad) return -bound * motion.length * spin;
+  if (law.rolling == Rolling::constantTorque) {
+    const Real size = length(spin);
+    return (size > Real(0) ? -bound / size : Real(0)) * spin;
+  }
+  if (seesRollingInertia(law))
+    motion.inertia =
+        Real(1) /
+        (inverseRollingInertia(meeting.inverseMassI, meeting.inverseInertiaI, meeting.radiusI) +
+         inverseRollingInertia(meeting.inverseMassJ, meeting.inverseInertiaJ, meeting.radiusJ));
+  const RollingConventions c = law.rollingConventions;
+  const Real stiffness = law.kr * motion.square;
+  Real sliding;
+  const SpringLimit<Real> limit{law.stretch,
+                                stiffness,
+                                Real(1) / stiffness,
+                                bound,
+                                c.load != RollingLoad::whileCompressed || bound > Real(0),
+                                c.dashpotOutsideBound,
+                                c.resetSpringOnly,
+                                Real(1)};
+  return limit.force(angle, law.dt * spin, -rollingDamping(law, motion) * spin, sliding);
+}
+
+/// Springs of the last step in the tangent plane of this one.
+template <class L, class Real>
+GRAIN_INLINE void followNormal(const L& law, const SpaceConventions& how,
+                               const Meeting<Real>& meeting, SpaceMemory<Real>& kept) {
+  const Vec3<Real> before = kept.normal, now = meeting.normal;
+  const bool first = how.turn == SpringTurn::firstOrder;
+  const Vec3<Real> about = chosen(first, before, now);
+  const bool twists = how.twist == SpringTwist::meanSpin && law.rotation;
+  const Real twist =
+      twists ? Real(0.5) * law.dt * dot(meeting.spinI + meeting.spinJ, about) : Real(0);
+  const auto follow = [&](Vec3<Real>& spring) GRAIN_INLINE_LAMBDA {
+    spring = turnedSpring(how.turn, spring, before, now);
+    if (twists) spring = twistedSpring(how.turn, spring, about, twist);
+  };
+  follow(kept.spring);
+  if (law.rolling == Rolling::spring) follow(kept.angle);
+}
+
+/// The law in space, of a pair that touches. @param kept  zero when it begins to
+template <class L, class Real>
+GRAIN_INLINE MeetingForce<Real> meetingForce(const L& law, const SpaceConventions& how,
+                                             const Meeting<Real>& meeting,
+                                             SpaceMemory<Real>& kept) {
+  const Vec3<Real>& n = meeting.normal;
+  const bool friction = law.tangential != Tangential::none;
+  ContactMotion<Real> motion{};
+  motion.overlap = meeting.overlap;
+  const bool wall = !(meeting.radiusJ > Real(0));
+  motion.reach = wall ? Real(0) : meeting.radiusI + meeting.radiusJ;
+  motion.radius = wall ? meeting.radiusI : meeting.radiusI * meeting.radiusJ / motion.reach;
+  if (law.damper == Damper::critical) motion.mass = Real(1) / meeting.inverseMass;
+  motion.normalVelocity = dot(meeting.velocity, n);
+  motion.normalCompliance = law.halfStep * meeting.inverseMass;
+  motion.tangentialCompliance = motion.normalCompliance;
+  if (law.rotation)
+    motion.tangentialCompliance +=
+        law.halfStep * (meeting.armI * meeting.leverI * meeting.inverseInertiaI +
+                        meeting.armJ * meeting.leverJ * meeting.inverseInertiaJ);
+  if (friction) followNormal(law, how, meeting, kept);
+  kept.normal = n;
+
+  const Real body = remembersRest(law) ? laggedPlasticForce(law, motion, kept.memory, kept.rest)
+                                       : bodyForce(law, motion, kept.memory);
+  MeetingForce<Real> found{};
+  found.normal = normalForce(law, motion, body);
+  found.force = found.normal * n;
+  if (!friction) return found;
+  const Real load = boundLoad(law, motion, found.normal, body);
+  Vec3<Real> slip = meeting.velocity - motion.normalVelocity * n;
+  if (law.rotation) slip -= cross(meeting.armI * meeting.spinI + meeting.armJ * meeting.spinJ, n);
+  found.tangential = tangentialForce(law, motion, slip, load, kept.spring, found.sliding);
+  found.force += found.tangential;
+  if (!law.rotation) return found;
+  const Vec3<Real> couple = cross(n, found.tangential);
+  found.torqueI = -meeting.leverI * couple;
+  found.torqueJ = -meeting.leverJ * couple;
+  if (law.rolling == Rolling::none) return found;
+  found.rolling = rollingResistance(law, meeting, motion, load, kept.angle);
+  found.torqueI += found.rolling;
+  found.torqueJ -= found.rolling;
+  return found;
 }
 
 }  // namespace grain

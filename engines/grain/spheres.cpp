@@ -1,49 +1,56 @@
 #include "engines/grain/spheres.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <string>
-#include <tuple>
+
+#include "engines/grain/fingerprint.hpp"
+#include "engines/grain/kernels.hpp"
+#include "engines/grain/pair_lists.hpp"
 
 namespace grain {
 namespace {
+
+using Vector = Vec3<double>;
 
 void demand(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(what);
 }
 
-void requireSound(const Law& law) {
-  demand(law.normal == Normal::linear && law.damper == Damper::constant,
-         "spheres have the linear law with constant dampers");
-  demand(!law.friction() || law.springs(), "spheres have tangential springs, or no friction");
-  demand(law.rolling == Rolling::none && law.cohesion == Cohesion::none,
-         "spheres have no rolling resistance and no cohesion");
+/// v turned by an angle about its axis (Rodrigues' formula).
+Vector turnedBy(const Vector& angle, const Vector& v) {
+  const double size = length(angle);
+  if (size == 0.0) return v;
+  const Vector axis = (1.0 / size) * angle;
+  const double c = std::cos(size), s = std::sin(size);
+  return c * v + s * cross(axis, v) + ((1.0 - c) * dot(axis, v)) * axis;
+}
+
+double rangeOf(const GeneralLaw<double>& law, const std::vector<double>& radius) {
+  if (law.cohesion != Cohesion::jkr || radius.empty()) return 0.0;
+  return jkrRange(law, *std::ranges::max_element(radius));  // of a wall, the farthest
 }
 
 }  // namespace
 
 Spheres::Spheres(SpheresSetup setup)
     : setup_(std::move(setup)),
+      fingerprint_(fingerprint(setup_)),
       law_(generalLaw<double>(setup_.law, setup_.dt, setup_.rotation)),
-      predicts_(setup_.law.damping == Damping::predicted &&
-                setup_.integrator != Integrator::semiImplicitEuler) {
+      kernels_(kernels<double>().space),
+      range_(rangeOf(law_, setup_.radius)),
+      lists_(
+          setup_.mass.size(), setup_.box.value_or(SpaceBox{}),
+          Skin(setup_.skin, setup_.radius.empty() ? 1.0 : *std::ranges::min_element(setup_.radius)),
+          range_) {
   demand(setup_.dt > 0.0, "the time step must be > 0 s");
-  requireSound(setup_.law);
-  const std::size_t count = size();
-  if (setup_.skin == 0.0 && count > 0) setup_.skin = 0.5 * *std::ranges::min_element(setup_.radius);
-  force_.resize(count);
-  torque_.resize(count);
-  seenVelocity_.resize(count);
-  seenSpin_.resize(count);
-  for (std::size_t w = 0; w < setup_.walls.size(); ++w)
-    for (std::size_t member = 0; member < setup_.walls[w].planes.size(); ++member)
-      planes_.push_back({w, member, {}, setup_.walls[w].planes[member].normal, {}});
-  placePlanes();
-  listPairs();
+  demand(setup_.law.normal != Normal::impulse, "spheres have no impulses");
+  placeSpheres();
+  moveWalls();
+  updateNeighbours();
   // At t = 0 the velocities are given: nothing is predicted, and no damping is implicit.
-  seeVelocities(0.0);
   const double halfStep = std::exchange(law_.halfStep, 0.0);
   addForces();
   law_.halfStep = halfStep;
@@ -53,13 +60,46 @@ Spheres::Spheres(SpheresSetup setup)
   }
 }
 
-Vec3<double> Spheres::velocity(std::size_t i) const {
-  return setup_.velocity[i] + (halfKick_ / setup_.mass[i]) * force_[i];
+void Spheres::placeSpheres() {
+  const bool predicts = setup_.law.damping == Damping::predicted &&
+                        setup_.integrator != Integrator::semiImplicitEuler;
+  for (std::size_t i = 0; i < size(); ++i) {
+    position_.push_back(quadOf(setup_.position[i], setup_.radius[i]));
+    velocity_.push_back(quadOf(setup_.velocity[i]));
+    spin_.push_back(quadOf(setup_.spin[i]));
+    inverseMass_.push_back(1.0 / setup_.mass[i]);
+    inverseInertia_.push_back(1.0 / setup_.inertia[i]);
+  }
+  for (std::size_t w = 0; w < setup_.walls.size(); ++w) {
+    const SpaceWall& wall = setup_.walls[w];
+    wallBegin_.push_back(position_.size());
+    for (std::size_t k = 0; k < wall.radius.size(); ++k)
+      position_.push_back(quadOf(wall.position[k], wall.radius[k]));
+    for (std::size_t member = 0; member < wall.planes.size(); ++member) {
+      PlacedPlane& plane = planes_.emplace_back(PlacedPlane{w, member, {}, {}, {}, {}, {}});
+      plane.kept.resize(size());
+      plane.results.resize(size());
+      plane.touches.resize(size());
+    }
+  }
+  wallBegin_.push_back(position_.size());
+  for (auto* array : {&velocity_, &spin_, &force_, &torque_}) array->resize(position_.size());
+  inverseMass_.resize(position_.size());
+  inverseInertia_.resize(position_.size());
+  if (predicts) {
+    seenVelocity_ = velocity_;
+    seenSpin_ = spin_;
+  }
+  for (std::size_t i = 0; i < size(); ++i) force_[i] = quadOf(setup_.mass[i] * setup_.gravity);
 }
 
-Vec3<double> Spheres::spin(std::size_t i) const {
-  if (!law_.rotation) return setup_.spin[i];
-  return setup_.spin[i] + (halfKick_ / setup_.inertia[i]) * torque_[i];
+Vector Spheres::velocity(std::size_t i) const {
+  return vectorOf(velocity_[i]) + (halfKick_ * inverseMass_[i]) * vectorOf(force_[i]);
+}
+
+Vector Spheres::spin(std::size_t i) const {
+  if (!law_.rotation) return vectorOf(spin_[i]);
+  return vectorOf(spin_[i]) + (halfKick_ * inverseInertia_[i]) * vectorOf(torque_[i]);
 }
 
 void Spheres::advance(std::uint64_t steps) {
@@ -68,215 +108,208 @@ void Spheres::advance(std::uint64_t steps) {
 
 void Spheres::kick(double dt) {
   for (std::size_t i = 0; i < size(); ++i) {
-    setup_.velocity[i] += (dt / setup_.mass[i]) * force_[i];
-    if (law_.rotation) setup_.spin[i] += (dt / setup_.inertia[i]) * torque_[i];
+    add(velocity_[i], vectorOf(force_[i]), dt * inverseMass_[i]);
+    if (law_.rotation) add(spin_[i], vectorOf(torque_[i]), dt * inverseInertia_[i]);
   }
+}
+
+SpaceMotionView Spheres::motionView() {
+  const bool predicts = !seenVelocity_.empty();
+  return {position_.data(),
+          velocity_.data(),
+          law_.rotation ? spin_.data() : nullptr,
+          predicts ? seenVelocity_.data() : velocity_.data(),
+          predicts ? seenSpin_.data() : spin_.data(),
+          force_.data(),
+          torque_.data(),
+          inverseMass_.data(),
+          inverseInertia_.data(),
+          setup_.mass.data(),
+          chosen_.data(),
+          allowanceSquare_.data()};
 }
 
 void Spheres::step() {
   const double dt = setup_.dt;
   const bool verlet = setup_.integrator == Integrator::velocityVerlet;
-  kick(verlet ? 0.5 * dt : dt);
-  for (std::size_t i = 0; i < size(); ++i) setup_.position[i] += dt * setup_.velocity[i];
-  seeVelocities(predicts_ ? 0.5 * dt : 0.0);
+  const SpaceMotionReport moved =
+      kernels_.motion({verlet ? 0.5 * dt : dt, dt, 0.5 * dt, setup_.gravity}, motionView(), size());
+  outdated_ = !(moved.excess <= 0.0) || !std::isfinite(moved.squares);
   ++steps_;
-  placePlanes();
-  if (listIsOld()) listPairs();
+  moveWalls();
+  if (outdated_) updateNeighbours();
   addForces();
   if (verlet) kick(0.5 * dt);
 }
 
-/// What dashpots and springs see: v, or v + a·ahead with the acceleration of the last evaluation.
-void Spheres::seeVelocities(double ahead) {
-  for (std::size_t i = 0; i < size(); ++i) {
-    seenVelocity_[i] = setup_.velocity[i] + (ahead / setup_.mass[i]) * force_[i];
-    seenSpin_[i] = setup_.spin[i] + (ahead / setup_.inertia[i]) * torque_[i];
+void Spheres::moveWalls() {
+  auto plane = planes_.begin();
+  for (std::size_t w = 0; w < setup_.walls.size(); ++w) {
+    const SpaceWall& wall = setup_.walls[w];
+    const SpaceWall::State now = wall.motion(time()), start = wall.motion(0.0);
+    const auto place = [&](const Vector& point) {
+      return now.centre + turnedBy(now.angle, point - start.centre);
+    };
+    for (; plane != planes_.end() && plane->wall == w; ++plane) {
+      const SpaceWall::Plane& member = wall.planes[plane->member];
+      plane->point = place(member.point);
+      plane->normal = turnedBy(now.angle, member.normal);
+      plane->force = plane->torque = {};
+    }
+    for (std::size_t k = 0; k < wall.radius.size(); ++k) {
+      const std::size_t i = wallBegin_[w] + k;
+      const Vector at = place(wall.position[k]);
+      position_[i] = quadOf(at, wall.radius[k]);
+      velocity_[i] = quadOf(now.velocity + cross(now.spin, at - now.centre));
+      spin_[i] = quadOf(now.spin);
+      force_[i] = torque_[i] = {};
+      if (!seenVelocity_.empty()) {
+        seenVelocity_[i] = velocity_[i];
+        seenSpin_[i] = spin_[i];
+      }
+      if (i >= chosen_.size()) continue;
+      const Vector moved = at - vectorOf(chosen_[i]);
+      if (!(dot(moved, moved) <= allowanceSquare_[i])) outdated_ = true;
+    }
   }
 }
 
-void Spheres::placePlanes() {
-  for (PlacedPlane& placed : planes_) {
-    const SpaceWall& wall = setup_.walls[placed.wall];
-    const SpaceWall::State now = wall.motion(time());
-    placed.point = wall.planes[placed.member].point + (now.centre - wall.motion(0.0).centre);
-    placed.velocity = now.velocity;
+void Spheres::updateNeighbours() {
+  findTravel();
+  try {
+    lists_.update(position_, travel_, steps_ - chosenAt_);
+  } catch (const NotFinite& lost) {
+    throw std::runtime_error("the position of sphere " + std::to_string(lost.disk) +
+                             " is not finite at t = " + std::to_string(time()) + " s");
   }
+  rememberChoice();
+}
+
+void Spheres::findTravel() {
+  travel_.resize(position_.size());
+  for (std::size_t i = 0; i < position_.size(); ++i)
+    travel_[i] = setup_.dt * length(vectorOf(velocity_[i]));
+}
+
+void Spheres::rememberChoice() {
+  chosen_ = position_;
+  allowanceSquare_.resize(position_.size());
+  for (std::size_t i = 0; i < position_.size(); ++i) {
+    const double sure = 0.999 * lists_.allowances()[i];
+    allowanceSquare_[i] = sure * sure;
+  }
+  chosenAt_ = steps_;
+  outdated_ = sampled_ = false;
 }
 
 void Spheres::addForces() {
+  const bool predicts = !seenVelocity_.empty();
+  const SpaceView all{position_.data(),
+                      predicts ? seenVelocity_.data() : velocity_.data(),
+                      predicts ? seenSpin_.data() : spin_.data(),
+                      inverseMass_.data(),
+                      inverseInertia_.data(),
+                      force_.data(),
+                      torque_.data()};
+  const double most = setup_.maxOverlap > 0.0 ? setup_.maxOverlap : 1e300;
+  const auto begin = std::chrono::steady_clock::now();
+  const SpaceReport report =
+      kernels_.pairs(law_, setup_.conventions, all, lists_.near(), range_, most);
+  if (!std::exchange(sampled_, true))  // one step in some measures for the lists what a pair costs
+    lists_.pairsTook(
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  if (report.deep) reportDeep();
+  evaluations_ += report.touching;
+  for (PlacedPlane& plane : planes_) addPlane(plane);
+}
+
+void Spheres::addPlane(PlacedPlane& plane) {
+  const SpaceWall::State wall = wallState(plane.wall);
+  const bool predicts = !seenVelocity_.empty();
   for (std::size_t i = 0; i < size(); ++i) {
-    force_[i] = setup_.mass[i] * setup_.gravity;
-    torque_[i] = {};
-  }
-  for (Pair& pair : pairs_) addPair(pair);
-}
-
-Spheres::Meeting Spheres::meetSphere(const Pair& pair) const {
-  const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
-  const double a = setup_.radius[i], b = setup_.radius[j];
-  const Vec3<double> apart = setup_.position[i] - setup_.position[j];
-  const double distance = length(apart), overlap = a + b - distance;
-  return {(1.0 / distance) * apart,
-          seenVelocity_[i] - seenVelocity_[j],
-          overlap,
-          armOf(law_.lever, a, b, overlap),
-          armOf(law_.lever, b, a, overlap),
-          armOf(law_.velocityLever, a, b, overlap),
-          armOf(law_.velocityLever, b, a, overlap)};
-}
-
-Spheres::Meeting Spheres::meetPlane(Pair& pair) const {
-  const auto i = static_cast<std::size_t>(pair.i);
-  const PlacedPlane& plane = planes_[static_cast<std::size_t>(-1 - pair.j)];
-  const double a = setup_.radius[i];
-  const double height = dot(setup_.position[i] - plane.point, plane.normal);
-  pair.place = setup_.position[i] - planePoint(law_, a, height) * plane.normal;
-  return {plane.normal, seenVelocity_[i] - plane.velocity,
-          a - height,   planeArmOf(law_.lever, law_.planeLever, a, height),
-          0.0,          planeArmOf(law_.velocityLever, law_.planeLever, a, height),
-          0.0};
-}
-
-/// The law of space_law.hpp, and its equal and opposite force.
-void Spheres::addPair(Pair& pair) {
-  const bool plane = pair.j < 0;
-  const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
-  const Meeting meeting = plane ? meetPlane(pair) : meetSphere(pair);
-  const bool began = !pair.touches;
-  pair.overlap = meeting.overlap;
-  pair.touches = meeting.overlap > 0.0;
-  if (!pair.touches) {
-    pair.spring = {};
-    return;
-  }
-  requireShallow(pair);
-  ++evaluations_;
-  const Vec3<double>& n = meeting.normal;
-  const Vec3<double> spinJ = plane ? Vec3<double>{} : seenSpin_[j];
-  if (!began && law_.tangential != Tangential::none) {
-    const SpaceConventions& how = setup_.conventions;
-    pair.spring = turnedSpring(how.turn, pair.spring, pair.normal, n);
-    const Vec3<double>& about = how.turn == SpringTurn::firstOrder ? pair.normal : n;
-    if (how.twist == SpringTwist::meanSpin && law_.rotation)
-      pair.spring = twistedSpring(how.turn, pair.spring, about,
-                                  0.5 * setup_.dt * dot(seenSpin_[i] + spinJ, about));
-  }
-  pair.normal = n;
-
-  ContactMotion<double> motion{};
-  motion.overlap = meeting.overlap;
-  motion.normalVelocity = dot(meeting.velocity, n);
-  Vec3<double> slip = meeting.velocity - motion.normalVelocity * n;
-  if (law_.rotation) slip -= cross(meeting.armI * seenSpin_[i] + meeting.armJ * spinJ, n);
-  motion.normalCompliance = 1.0 / setup_.mass[i];
-  motion.tangentialCompliance = meeting.armI * meeting.leverI / setup_.inertia[i];
-  if (!plane) {
-    motion.normalCompliance += 1.0 / setup_.mass[j];
-    motion.tangentialCompliance += meeting.armJ * meeting.leverJ / setup_.inertia[j];
-  }
-  motion.normalCompliance *= law_.halfStep;
-  motion.tangentialCompliance =
-      motion.normalCompliance + (law_.rotation ? law_.halfStep * motion.tangentialCompliance : 0.0);
-
-  const SpaceForce<double> found = spaceForce(law_, motion, slip, pair.spring);
-  pair.normalForce = found.normal;
-  pair.tangential = found.tangential;
-  pair.sliding = found.sliding;
-  const Vec3<double> force = found.normal * n + found.tangential;
-  const Vec3<double> couple = cross(n, found.tangential);
-  force_[i] += force;
-  torque_[i] -= meeting.leverI * couple;
-  if (plane) return;
-  force_[j] -= force;
-  torque_[j] -= meeting.leverJ * couple;
-}
-
-void Spheres::requireShallow(const Pair& pair) const {
-  const auto i = static_cast<std::size_t>(pair.i);
-  double smaller = setup_.radius[i];
-  if (pair.j >= 0) smaller = std::min(smaller, setup_.radius[static_cast<std::size_t>(pair.j)]);
-  // Coincident centres have no normal.
-  const bool deep = setup_.maxOverlap > 0.0 && pair.overlap > setup_.maxOverlap * smaller;
-  if (!deep && std::isfinite(pair.overlap)) return;
-  const std::string partner =
-      pair.j >= 0 ? "sphere " + std::to_string(pair.j) : "plane " + std::to_string(-1 - pair.j);
-  throw std::runtime_error("sphere " + std::to_string(pair.i) + " and " + partner + " overlap by " +
-                           std::to_string(pair.overlap / smaller) +
-                           " of the smaller radius at t = " + std::to_string(time()) + " s");
-}
-
-bool Spheres::listIsOld() const {
-  const double sure = 0.499 * setup_.skin;
-  for (std::size_t i = 0; i < size(); ++i) {
-    const Vec3<double> moved = setup_.position[i] - positionsAtList_[i];
-    if (!(dot(moved, moved) < sure * sure)) return true;
-  }
-  return false;
-}
-
-/// All that are nearer than the skin, found by a sweep along x, and every sphere with every plane.
-void Spheres::listPairs() {
-  const std::vector<Pair> known = std::move(pairs_);
-  pairs_.clear();
-  std::vector<std::int32_t> order(size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto low = [&](std::int32_t i) {
-    return setup_.position[static_cast<std::size_t>(i)].x -
-           setup_.radius[static_cast<std::size_t>(i)];
-  };
-  for (std::size_t i = 0; i < size(); ++i)
-    if (!std::isfinite(dot(setup_.position[i], setup_.position[i])))
-      throw std::runtime_error("the position of sphere " + std::to_string(i) + " is not finite");
-  std::ranges::sort(order, {}, low);
-  const auto add = [&](std::int32_t i, std::int32_t j) {
-    Pair& pair = pairs_.emplace_back();
-    pair.i = i;
-    pair.j = j;
-  };
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const auto i = static_cast<std::size_t>(order[k]);
-    for (std::size_t next = k + 1; next < order.size(); ++next) {
-      const auto j = static_cast<std::size_t>(order[next]);
-      if (low(order[next]) > setup_.position[i].x + setup_.radius[i] + setup_.skin) break;
-      const Vec3<double> apart = setup_.position[i] - setup_.position[j];
-      const double near = setup_.radius[i] + setup_.radius[j] + setup_.skin;
-      if (dot(apart, apart) < near * near)
-        add(std::min(order[k], order[next]), std::max(order[k], order[next]));
+    const Vector x = vectorOf(position_[i]);
+    const double a = position_[i].w, height = dot(x - plane.point, plane.normal);
+    SpaceMemory<double>& kept = plane.kept[i];
+    bool touches = a - height > 0.0;
+    if (law_.cohesion == Cohesion::jkr) {
+      kept.memory = isBonded(law_, a - height, a, kept.memory);
+      touches = kept.memory > 0.0;
     }
-    for (std::size_t p = 0; p < planes_.size(); ++p)
-      add(order[k], -1 - static_cast<std::int32_t>(p));
+    if (!touches && plane.touches[i] != 0) kept = {};
+    plane.touches[i] = touches;
+    if (!touches) continue;
+    if (setup_.maxOverlap > 0.0 && !(a - height <= setup_.maxOverlap * a)) reportDeep();
+    ++evaluations_;
+    const Vector place = x - planePoint(law_, a, height) * plane.normal;
+    Meeting<double> meeting{};
+    meeting.normal = plane.normal;
+    meeting.velocity = vectorOf((predicts ? seenVelocity_ : velocity_)[i]) - wall.velocity -
+                       cross(wall.spin, place - wall.centre);
+    meeting.spinI = vectorOf((predicts ? seenSpin_ : spin_)[i]);
+    meeting.overlap = a - height;
+    meeting.radiusI = a;
+    meeting.leverI = planeArmOf(law_.lever, law_.planeLever, a, height);
+    meeting.armI = planeArmOf(law_.velocityLever, law_.planeLever, a, height);
+    meeting.inverseMass = meeting.inverseMassI = inverseMass_[i];
+    meeting.inverseInertiaI = inverseInertia_[i];
+    const MeetingForce<double> force = meetingForce(law_, setup_.conventions, meeting, kept);
+    plane.results[i] = {meeting.overlap, force.normal, force.sliding, force.tangential,
+                        force.rolling};
+    add(force_[i], force.force, 1.0);
+    if (law_.rotation) add(torque_[i], force.torqueI, 1.0);
+    plane.force -= force.force;
+    plane.torque -= cross(place - wall.centre, force.force) + force.rolling;
   }
-  const auto byNumbers = [](const Pair& pair) { return std::tuple(pair.i, pair.j); };
-  std::ranges::sort(pairs_, {}, byNumbers);
-  for (auto old = known.begin(); Pair & pair : pairs_) {
-    while (old != known.end() && byNumbers(*old) < byNumbers(pair)) ++old;
-    if (old != known.end() && byNumbers(*old) == byNumbers(pair)) pair = *old;
-  }
-  positionsAtList_ = setup_.position;
-  ++rebuilds_;
 }
 
-std::vector<SpaceContact> Spheres::contacts() const {
-  std::vector<SpaceContact> found;
-  for (const Pair& pair : pairs_) {
-    if (!pair.touches) continue;
-    const std::int32_t j = pair.j >= 0 ? pair.j : static_cast<std::int32_t>(size()) + (-1 - pair.j);
-    found.push_back(
-        {pair.i, j, pair.normal, pair.overlap, pair.normalForce, pair.tangential, pair.sliding});
+void Spheres::reportDeep() {
+  for (const SpaceContact& contact : contacts()) {
+    const auto i = static_cast<std::size_t>(contact.i), j = static_cast<std::size_t>(contact.j);
+    double smallest = position_[i].w;
+    if (j < position_.size()) smallest = std::min(smallest, position_[j].w);
+    if (contact.overlap <= setup_.maxOverlap * smallest) continue;
+    const std::string partner = j < size() ? "sphere " + std::to_string(j)
+                                : j < position_.size()
+                                    ? "wall sphere " + std::to_string(j - size())
+                                    : "plane " + std::to_string(j - position_.size());
+    throw std::runtime_error("sphere " + std::to_string(i) + " and " + partner + " overlap by " +
+                             std::to_string(contact.overlap / smallest) +
+                             " of the smaller radius at t = " + std::to_string(time()) + " s");
   }
-  std::ranges::sort(found, {}, [](const SpaceContact& c) { return std::tuple(c.i, c.j); });
+  throw std::runtime_error("two spheres have no distance at t = " + std::to_string(time()) + " s");
+}
+
+std::vector<SpaceContact> Spheres::contacts() {
+  std::vector<SpaceContact> found;
+  const auto add = [&](std::int32_t i, std::size_t j, const Vector& normal,
+                       const SpaceResult& result) {
+    found.push_back({i, static_cast<std::int32_t>(j), normal, result.overlap, result.normal,
+                     result.tangential, result.rolling, result.sliding > 0.0});
+  };
+  const SpacePairs pairs = lists_.near();
+  for (std::size_t p = 0; p < pairs.count; ++p)
+    if (pairs.touches[p] != 0)
+      add(pairs.i[p], static_cast<std::size_t>(pairs.j[p]), pairs.kept[p].normal, pairs.results[p]);
+  for (std::size_t p = 0; p < planes_.size(); ++p)
+    for (std::size_t i = 0; i < size(); ++i)
+      if (planes_[p].touches[i] != 0)
+        add(static_cast<std::int32_t>(i), position_.size() + p, planes_[p].normal,
+            planes_[p].results[i]);
+  std::ranges::sort(found, {}, [](const SpaceContact& c) { return std::pair(c.i, c.j); });
   return found;
 }
 
-std::pair<Vec3<double>, Vec3<double>> Spheres::wallLoad(std::size_t w) const {
-  const Vec3<double> centre = wallState(w).centre;
-  Vec3<double> force{}, torque{};
-  for (const Pair& pair : pairs_) {
-    if (pair.j >= 0 || !pair.touches || planes_[static_cast<std::size_t>(-1 - pair.j)].wall != w)
-      continue;
-    const Vec3<double> own = pair.normalForce * pair.normal + pair.tangential;
-    force -= own;
-    torque -= cross(pair.place - centre, own);
+std::pair<Vector, Vector> Spheres::wallLoad(std::size_t w) const {
+  const Vector centre = wallState(w).centre;
+  Vector force{}, torque{};
+  for (std::size_t i = wallBegin_[w]; i < wallBegin_[w + 1]; ++i) {
+    force += vectorOf(force_[i]);
+    torque += cross(vectorOf(position_[i]) - centre, vectorOf(force_[i])) + vectorOf(torque_[i]);
+  }
+  for (const PlacedPlane& plane : planes_) {
+    if (plane.wall != w) continue;
+    force += plane.force;
+    torque += plane.torque;
   }
   return {force, torque};
 }

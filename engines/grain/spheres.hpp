@@ -2,23 +2,27 @@
 
 #include <cstdint>
 #include <functional>
+#include <iosfwd>
+#include <optional>
 #include <utility>
 #include <vector>
 
-#include "engines/grain/law_types.hpp"
-#include "engines/grain/space_law.hpp"
+#include "engines/grain/space_lists.hpp"
 
 namespace grain {
 
-/// A plane wall in space that moves without turning.
+/// A rigid body of planes and spheres that moves as prescribed, whatever pushes on it.
 struct SpaceWall {
   struct Plane {
     Vec3<double> point, normal;  ///< at t = 0; of length 1, into the free side
   };
   struct State {
     Vec3<double> centre, velocity;
+    Vec3<double> angle{}, spin{};  ///< turned since t = 0, and its rate, about one axis
   };
   std::vector<Plane> planes;
+  std::vector<Vec3<double>> position;  ///< of spheres at t = 0
+  std::vector<double> radius;
   std::function<State(double t)> motion;
 };
 
@@ -27,24 +31,25 @@ struct SpheresSetup {
   std::vector<Vec3<double>> position, velocity, spin;
   std::vector<double> radius, mass, inertia;
   std::vector<SpaceWall> walls;
-  Law law;  ///< linear, constant dampers; frictionless or with springs
+  std::optional<SpaceBox> box;
+  Law law;  ///< no impulses
   SpaceConventions conventions;
   Vec3<double> gravity;
   double dt = 0.0;
   Integrator integrator = Integrator::positionVerlet;
   bool rotation = true;
-  double skin = 0.0;        ///< of the neighbour list [m]; 0: half the smallest radius
+  double skin = 0.0;        ///< of the neighbour list [m]; 0: tuned
   double maxOverlap = 1.0;  ///< as in Setup
 };
 
 /// One contact of the last force evaluation; the force acts on i, n points from j to i. Numbers:
-/// spheres, then planes wall by wall.
+/// spheres, then those of walls, then planes, each wall by wall.
 struct SpaceContact {
   std::int32_t i, j;
   Vec3<double> normal;
   double overlap;
   double normalForce;
-  Vec3<double> tangentialForce;
+  Vec3<double> tangentialForce, rollingTorque;
   bool sliding;
 };
 
@@ -53,11 +58,14 @@ struct SpaceContact {
 ///
 ///   kick: v += a dt   drift: x += v dt   move walls   forces: a(x, v)
 ///
-/// The same setup gives the same bits in every run and with any skin: forces are summed in the
-/// order of pairs, and a pair that does not touch adds nothing.
+/// The same setup gives the same bits in every run, with any skin and instruction set: forces are
+/// summed in the order of pairs, and a pair that does not touch adds nothing. A sphere that leaves
+/// a periodic box goes on; contacts are with the nearest images, so that nothing of it changes when
+/// it crosses a border.
 class Spheres {
  public:
-  /// @throws std::invalid_argument for a step that is not > 0, and for a law that it does not have
+  /// @throws std::invalid_argument for a step that is not > 0, and for a law or box that it does
+  /// not have
   explicit Spheres(SpheresSetup setup);
 
   /// @throws std::runtime_error naming a sphere whose position is not finite, or two that overlap
@@ -67,65 +75,67 @@ class Spheres {
   std::uint64_t steps() const { return steps_; }
   double time() const { return setup_.dt * static_cast<double>(steps_); }
   double dt() const { return setup_.dt; }
-  std::size_t size() const { return setup_.radius.size(); }
+  std::size_t size() const { return setup_.mass.size(); }
   bool rotates() const { return law_.rotation; }
 
-  const Vec3<double>& position(std::size_t i) const { return setup_.position[i]; }
+  Vec3<double> position(std::size_t i) const { return vectorOf(position_[i]); }
   Vec3<double> velocity(std::size_t i) const;  ///< at time()
   Vec3<double> spin(std::size_t i) const;      ///< at time()
 
   /// Of the last force evaluation, by ascending i, j.
-  std::vector<SpaceContact> contacts() const;
+  std::vector<SpaceContact> contacts();
   std::uint64_t contactEvaluations() const { return evaluations_; }
-  std::uint64_t rebuilds() const { return rebuilds_; }
+  std::uint64_t rebuilds() const { return lists_.rebuilds(); }
+
+  /// All that the future depends on, and back to where it goes on to the bit.
+  /// @throws std::runtime_error for what is cut short, damaged or of another setup
+  void save(std::ostream& out) const;
+  void restore(std::istream& in);
 
   SpaceWall::State wallState(std::size_t w) const { return setup_.walls[w].motion(time()); }
+  std::size_t wallSpheres() const { return position_.size() - size(); }
+  Vec3<double> wallPosition(std::size_t k) const { return vectorOf(position_[size() + k]); }
   /// On a wall: the force [N], and its torque about the wall's centre [N m].
   std::pair<Vec3<double>, Vec3<double>> wallLoad(std::size_t w) const;
 
  private:
-  /// Two bodies that are near each other, and what their contact remembers.
-  struct Pair {
-    std::int32_t i, j;  ///< j < 0: plane −1 − j
-    bool touches = false, sliding = false;
-    Vec3<double> normal;       ///< while it touches
-    Vec3<double> spring;       ///< ξ [m]
-    double overlap = 0.0;      ///< [m]
-    double normalForce = 0.0;  ///< [N]
-    Vec3<double> tangential;   ///< [N]
-    Vec3<double> place;        ///< where the force acts on a plane [m]
-  };
-  /// Where a contact is and how its bodies move.
-  struct Meeting {
-    Vec3<double> normal, velocity;
-    double overlap, leverI, leverJ, armI, armJ;
-  };
+  /// A plane at this instant, and what its contacts remember, one a sphere.
   struct PlacedPlane {
     std::size_t wall, member;
-    Vec3<double> point, normal, velocity;
+    Vec3<double> point, normal;
+    std::vector<SpaceMemory<double>> kept;
+    std::vector<SpaceResult> results;
+    std::vector<std::uint8_t> touches;
+    Vec3<double> force{}, torque{};  ///< on it, about the wall's centre
   };
 
+  void forState(auto&& visit);
+  SpaceMotionView motionView();
+  void placeSpheres();
   void kick(double dt);
   void step();
-  void seeVelocities(double ahead);
-  void placePlanes();
+  void moveWalls();
+  void updateNeighbours();
+  void findTravel();
+  void rememberChoice();
   void addForces();
-  void addPair(Pair& pair);
-  Meeting meetSphere(const Pair& pair) const;
-  Meeting meetPlane(Pair& pair) const;
-  void requireShallow(const Pair& pair) const;
-  bool listIsOld() const;
-  void listPairs();
+  void addPlane(PlacedPlane& plane);
+  [[noreturn]] void reportDeep();
 
   SpheresSetup setup_;
+  std::uint64_t fingerprint_;
   GeneralLaw<double> law_;
-  bool predicts_;
+  SpaceKernels kernels_;
   double halfKick_ = 0.0;  ///< by which velocities are behind positions [s]
-  std::uint64_t steps_ = 0, evaluations_ = 0, rebuilds_ = 0;
-  std::vector<Vec3<double>> force_, torque_, seenVelocity_, seenSpin_;
+  double range_;           ///< how far apart bodies may be in contact [m]
+  std::uint64_t steps_ = 0, chosenAt_ = 0, evaluations_ = 0;
+  bool outdated_ = true, sampled_ = false;
+  // The moving spheres, then those of walls.
+  Array<Quad> position_, velocity_, spin_, seenVelocity_, seenSpin_, force_, torque_, chosen_;
+  std::vector<double> inverseMass_, inverseInertia_, allowanceSquare_, travel_;
+  std::vector<std::size_t> wallBegin_;  ///< first sphere of each wall, and the end
   std::vector<PlacedPlane> planes_;
-  std::vector<Pair> pairs_;                    ///< by ascending i, j, planes first
-  std::vector<Vec3<double>> positionsAtList_;  ///< when the pairs were listed
+  SpaceLists lists_;
 };
 
 }  // namespace grain

@@ -1,0 +1,224 @@
+#include "engines/grain/space_lists.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "engines/grain/pair_lists.hpp"
+
+namespace grain {
+namespace {
+
+using Vector = Vec3<double>;
+
+/// Component by component; a Vec3 has no index.
+template <class Component>
+Vector each(const Component& component) {
+  return {component(0, &Vector::x), component(1, &Vector::y), component(2, &Vector::z)};
+}
+
+double square(const Vector& v) {
+  return dot(v, v);
+}
+
+}  // namespace
+
+Vec3<double> SpaceBox::shift(const Vector& apart) const {
+  return each([&](std::size_t k, auto axis) {
+    return periodic[k] ? length.*axis * std::round(apart.*axis / length.*axis) : 0.0;
+  });
+}
+
+SpaceLists::SpaceLists(std::size_t moving, const SpaceBox& box, Skin skin, double range)
+    : moving_(moving), box_(box), skin_(skin), range_(range) {}
+
+void SpaceLists::update(std::span<const Quad> position, std::span<const double> travel,
+                        std::size_t stepsSince) {
+  skin_.beginUpdate(stepsSince);
+  requireFinite(position);
+  setAllowances(travel);
+  carried_ = touching();
+  const PairCounts counts{carried_.size(), near_.size(), far_.size()};
+  if (const double used = skinUsed(position); !(used <= 0.5 * skin_.skin())) {
+    skin_.tune(counts, used);
+    rebuild(position);
+  }
+  choose(position);
+  skin_.endRefresh({carried_.size(), near_.size(), far_.size()});
+}
+
+void SpaceLists::restore(std::vector<Kept> touching, std::span<const Quad> position,
+                         std::span<const double> travel) {
+  skin_.beginUpdate(0);
+  requireFinite(position);
+  setAllowances(travel);
+  carried_ = std::move(touching);
+  rebuild(position);
+  choose(position);
+}
+
+void SpaceLists::rebuild(std::span<const Quad> position) {
+  skin_.beginRebuild();
+  collect(position);
+  built_.assign(position.begin(), position.end());
+  skin_.endRebuild();
+}
+
+std::vector<SpaceLists::Kept> SpaceLists::touching() const {
+  std::vector<Kept> found;
+  for (std::size_t p = 0; p < near_.size(); ++p)
+    if (touches_[p] != 0) found.push_back({i_[p], j_[p], kept_[p], results_[p]});
+  return found;
+}
+
+void SpaceLists::requireFinite(std::span<const Quad> position) const {
+  for (std::size_t i = 0; i < position.size(); ++i)
+    if (!std::isfinite(position[i].x + position[i].y + position[i].z)) throw NotFinite{i};
+}
+
+/// As PairLists::setAllowances().
+void SpaceLists::setAllowances(std::span<const double> travel) {
+  const double mean = std::accumulate(travel.begin(), travel.end(), 0.0) /
+                      static_cast<double>(std::max<std::size_t>(travel.size(), 1));
+  const double least = 1e-4 * skin_.smallestRadius(), most = 0.25 * skin_.skin();
+  allowance_.resize(travel.size());
+  for (std::size_t i = 0; i < travel.size(); ++i)
+    allowance_[i] =
+        std::min(std::max(skin_.horizon() * (1.25 * travel[i] + 0.25 * mean), least), most);
+}
+
+double SpaceLists::skinUsed(std::span<const Quad> position) const {
+  if (built_.size() != position.size()) return std::numeric_limits<double>::infinity();
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < built_.size(); ++i)
+    farthest =
+        std::max(farthest, length(vectorOf(position[i]) - vectorOf(built_[i])) + allowance_[i]);
+  return farthest;
+}
+
+/// Cells of at least `reach`, of the box along periodic directions, else of what the spheres take
+/// up.
+void SpaceLists::sortIntoCells(std::span<const Quad> position, double reach) {
+  Vector low = vectorOf(position[0]), high = low;
+  for (const Quad& place : position) {
+    low = {std::min(low.x, place.x), std::min(low.y, place.y), std::min(low.z, place.z)};
+    high = {std::max(high.x, place.x), std::max(high.y, place.y), std::max(high.z, place.z)};
+  }
+  // A sphere that flew far away must not blow the grid up: larger cells are slower, never wrong.
+  const double most = std::cbrt(16.0 + 4.0 * static_cast<double>(position.size()));
+  const auto along = [&](std::size_t k, auto axis) {
+    const double extent = box_.periodic[k] ? box_.length.*axis : high.*axis - low.*axis;
+    const double fits = std::clamp(std::floor(extent / reach), 1.0, std::max(most, 64.0));
+    cells_.count[k] = static_cast<std::int32_t>(fits);
+    return std::max(extent / fits, reach * 1e-9);
+  };
+  cells_.size = each(along);
+  cells_.low =
+      each([&](std::size_t k, auto axis) { return box_.periodic[k] ? box_.low.*axis : low.*axis; });
+  cellOf_.resize(position.size());
+  const std::size_t cells = static_cast<std::size_t>(cells_.count[0]) *
+                            static_cast<std::size_t>(cells_.count[1]) *
+                            static_cast<std::size_t>(cells_.count[2]);
+  cells_.begin.assign(cells + 1, 0);
+  cells_.sorted.resize(position.size());
+  const auto number = [&](const std::array<std::int32_t, 3>& cell) {
+    return static_cast<std::size_t>((cell[2] * cells_.count[1] + cell[1]) * cells_.count[0] +
+                                    cell[0]);
+  };
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    const Vector place = vectorOf(position[i]);
+    each([&](std::size_t k, auto axis) {
+      double from = (place.*axis - cells_.low.*axis) / cells_.size.*axis;
+      const double count = cells_.count[k];
+      if (box_.periodic[k]) from -= count * std::floor(from / count);
+      cellOf_[i][k] = static_cast<std::int32_t>(std::clamp(std::floor(from), 0.0, count - 1.0));
+      return 0.0;
+    });
+    ++cells_.begin[number(cellOf_[i]) + 1];
+  }
+  std::partial_sum(cells_.begin.begin(), cells_.begin.end(), cells_.begin.begin());
+  std::vector<std::int32_t> next(cells_.begin.begin(), cells_.begin.end() - 1);
+  for (std::size_t i = 0; i < position.size(); ++i)
+    cells_.sorted[static_cast<std::size_t>(next[number(cellOf_[i])]++)] =
+        static_cast<std::int32_t>(i);
+}
+
+void SpaceLists::collect(std::span<const Quad> position) {
+  far_.clear();
+  if (position.empty()) return;
+  double largest = 0.0;
+  for (const Quad& place : position) largest = std::max(largest, place.w);
+  sortIntoCells(position, 2.0 * largest + range_ + skin_.skin());
+  std::vector<Far> row;
+  for (std::size_t i = 0; i < moving_; ++i) {
+    row.clear();
+    // The cells around, each once, of a direction with few cells too.
+    std::array<std::array<std::int32_t, 3>, 3> around;
+    std::array<std::size_t, 3> ways{};
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::int32_t step = -1; step <= 1; ++step) {
+        std::int32_t at = cellOf_[i][k] + step;
+        const std::int32_t count = cells_.count[k];
+        if (box_.periodic[k]) at = (at + count) % count;
+        if (at < 0 || at >= count) continue;
+        const auto known = around[k].begin() + static_cast<std::ptrdiff_t>(ways[k]);
+        if (std::find(around[k].begin(), known, at) == known) around[k][ways[k]++] = at;
+      }
+    for (std::size_t z = 0; z < ways[2]; ++z)
+      for (std::size_t y = 0; y < ways[1]; ++y)
+        for (std::size_t x = 0; x < ways[0]; ++x) {
+          const auto cell = static_cast<std::size_t>(
+              (around[2][z] * cells_.count[1] + around[1][y]) * cells_.count[0] + around[0][x]);
+          for (std::int32_t at = cells_.begin[cell]; at < cells_.begin[cell + 1]; ++at) {
+            const std::int32_t j = cells_.sorted[static_cast<std::size_t>(at)];
+            if (j <= static_cast<std::int32_t>(i)) continue;
+            const Quad& b = position[static_cast<std::size_t>(j)];
+            const Vector apart = vectorOf(position[i]) - vectorOf(b);
+            const Vector shift = box_.shift(apart);
+            const double reach = position[i].w + b.w + range_ + skin_.skin();
+            if (square(apart - shift) < reach * reach)
+              row.push_back({static_cast<std::int32_t>(i), j, quadOf(shift)});
+          }
+        }
+    std::ranges::sort(row, {}, &Far::j);
+    far_.insert(far_.end(), row.begin(), row.end());
+  }
+}
+
+void SpaceLists::choose(std::span<const Quad> position) {
+  near_.clear();
+  for (std::size_t p = 0; p < far_.size(); ++p) {
+    const auto i = static_cast<std::size_t>(far_[p].i), j = static_cast<std::size_t>(far_[p].j);
+    const Vector apart = vectorOf(position[i]) - vectorOf(position[j]) - vectorOf(far_[p].shift);
+    const double within = position[i].w + position[j].w + range_ + allowance_[i] + allowance_[j];
+    if (square(apart) < within * within) near_.push_back(static_cast<std::uint32_t>(p));
+  }
+  i_.resize(near_.size());
+  j_.resize(near_.size());
+  shift_.resize(near_.size());
+  kept_.assign(near_.size(), {});
+  results_.resize(near_.size());
+  touches_.assign(near_.size(), 0);
+  // Both are in one order, so that one walk through both finds every pair that touches.
+  auto next = carried_.begin();
+  const auto numbers = [](const auto& pair) { return std::pair(pair.i, pair.j); };
+  for (std::size_t p = 0; p < near_.size(); ++p) {
+    const Far& pair = far_[near_[p]];
+    i_[p] = pair.i;
+    j_[p] = pair.j;
+    shift_[p] = pair.shift;
+    while (next != carried_.end() && numbers(*next) < numbers(pair)) ++next;
+    if (next == carried_.end() || numbers(*next) != numbers(pair)) continue;
+    kept_[p] = next->memory;
+    results_[p] = next->result;
+    touches_[p] = 1;
+  }
+}
+
+SpacePairs SpaceLists::near() {
+  return {near_.size(), i_.data(),       j_.data(),      shift_.data(),
+          kept_.data(), results_.data(), touches_.data()};
+}
+
+}  // namespace grain
