@@ -33,8 +33,6 @@ std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> na
   return weights;
 }
 
-namespace {
-
 /// In space none are kept yet.
 struct NoSnapshotFile {
   NoSnapshotFile(const std::filesystem::path&, const std::string&, const SpaceScene&, int, int) {}
@@ -43,8 +41,6 @@ struct NoSnapshotFile {
 };
 template <int D>
 using KeptSnapshots = std::conditional_t<D == 2, SnapshotFile, NoSnapshotFile>;
-
-}  // namespace
 
 template <int D>
 FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& progress,
