@@ -63,11 +63,11 @@ void cautionsOfVerdicts(const Case& setup, Lines& lines) {
                                 packingsAreFiles(setup) ? " (a file is one)" : "", fewest));
 }
 
-/// Grains are not as large as people; numbers in mm are.
+/// Grains are not as large as people; numbers in mm are. A diameter of just 1 is a scene's unit.
 void cautionsOfLengths(const Case& setup, Lines& lines) {
   constexpr double large = 1.0;      // of a disk's diameter [m]
   if (setup.particles.file) return;  // nobody knows yet
-  if (const double d = flowDiameter(setup); d >= large)
+  if (const double d = flowDiameter(setup); d > large)
     lines.push_back(fmt::format("the smallest disks are {:g} m across: are lengths in mm?", d));
 }
 

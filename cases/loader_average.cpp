@@ -345,6 +345,8 @@ OwnEndpoint readEndpoint(Reader& in, const Case& c, Margin& margin) {
   EndpointInput input;
   endpointsKeys().read(in, input);
   OwnEndpoint endpoint = input;
+  in.check(c.dimension == 2 || !endpoint.disk, "disk",
+           "is of the plane alone, and case.dimension = 3");
   if (endpoint.disk) {
     const auto last = static_cast<int>(disksOf(c)) - 1;
     in.check(*endpoint.disk <= last, "disk", "must be in [0, {}]", last);

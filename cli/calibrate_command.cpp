@@ -200,7 +200,9 @@ std::string fromCase(const CommandLine& line, const Request& request) {
     throw BadInput("--tension and --tangential: the case file says it; --set changes it");
   const auto& file = line.inputs.front();
   const std::vector<Case> cases = loadCase(file, line.overrides);
-  if (cases.front().kind == CaseKind::assembly && cases.front().assembly.disks.empty())
+  const bool ofFiles = withAssembly(
+      cases.front(), [](const auto& assembly) { return assembly.disks.empty(); });
+  if (cases.front().kind == CaseKind::assembly && ofFiles)
     throw BadInput(
         fmt::format("{}: its disks are those of start files, of any radius: give the law's "
                     "constants and a pair's masses, as --kn, --gn and --mass",

@@ -3,6 +3,7 @@
 What they write is kept in tests/golden."""
 
 import json
+import math
 import shutil
 import subprocess
 import sys
@@ -62,6 +63,42 @@ class Files(SystemTest):
                 self.assert_one_error(self.files(engines), BAD_INPUT, *words)
         done = self.run_program("lockstep", COUETTE, "--engines", f"mine={self.kept}/grain-p0.h5", "--out", self.folder / "no")
         self.assert_one_error(done, BAD_INPUT, "mine", "files")
+
+
+class Space(SystemTest):
+    """Spheres, and disks in a periodic cell."""
+
+    BUMPY = CASES / "space/shear-3d.toml"
+    SHORT = settings(assembly__duration=0.2, average__from=0.05, average__snapshots=30, preparation__packings=4, looks__count=1)
+
+    def test_spheres_between_sliding_walls(self):
+        command = ("compare", self.BUMPY, "--engines", "grain,grain-as-lammps", "--out", self.out, *self.SHORT)
+        self.assert_status(self.run_program(*command), HELD, FELL_SHORT)
+        results = self.results()
+        self.assertEqual([("grain", "finished")] * 4 + [("grain-as-lammps", "finished")] * 4,
+                         [(run["engine"], run["status"]) for run in results["runs"]])  # fmt: skip
+        self.assertEqual(4, len({packing["hash"] for packing in results["packings"]}))
+        self.assertEqual(8, len({row["endpoint"] for row in self.rows("endpoints.csv") if row["kind"] == "peer"}))
+        slabs = [row for row in self.rows("profiles.csv") if row["engine"] == "grain" and row["packing"] == "0"]
+        volume = sum(float(row["value"]) * 10 * 27**0.5 for row in slabs if row["field"] == "volume_fraction")
+        self.assertAlmostEqual(560 * math.pi / 6, volume, delta=560 * math.pi / 6 * 0.05)  # but for what is in the walls' hollows
+        kept = {file: file.stat().st_mtime_ns for file in (self.out / "runs").glob("*.json")}
+        self.assertEqual(8, len(kept))
+        self.assert_status(self.run_program(*command), HELD, FELL_SHORT)
+        self.assertEqual(kept, {file: file.stat().st_mtime_ns for file in kept})
+
+    def test_plan_and_dry_run(self):
+        done = self.run_program("compare", self.BUMPY, "--engines", "grain", "--out", self.out, "--dry-run", *self.SHORT)
+        self.assert_status(done, HELD)
+        self.assertIn("shear-3d: 4 packings, 4 of them prepared already", done.stdout)
+        self.assert_status(self.run_program("plan", self.BUMPY, "--engines", "grain", "--out", self.out, *self.SHORT), HELD)
+
+    def test_disks_in_a_periodic_cell(self):
+        case = CASES / "space/plane-shear.toml"
+        short = settings(assembly__duration=0.05, average__from=0.0, average__snapshots=20, preparation__packings=4, looks__count=1)
+        done = self.run_program("compare", case, "--engines", "grain", "--out", self.out, *short)
+        self.assert_status(done, HELD)
+        self.assertEqual(["finished"] * 4, [run["status"] for run in self.results()["runs"]])
 
 
 class Reference(SystemTest):
