@@ -104,9 +104,14 @@ int flowPackings(const Case& setup) {
   return isAssembly(setup) ? static_cast<int>(setup.assembly.starts.files.size()) : 1;
 }
 
-Scene flowScene(const Case& setup, const Packing& packing, double dt) {
+template <>
+Scene flowScene<2>(const Case& setup, const Packing& packing, double dt) {
   if (isAssembly(setup)) return assemblyScene(setup, packing.disks, packing.wallTime, dt);
   return couetteScene(setup, packing, dt);
+}
+template <>
+SpaceScene flowScene<3>(const Case&, const Packing&, double) {
+  return {};
 }
 
 Scene unplacedScene(const Case& setup, double dt) {
@@ -138,6 +143,11 @@ double flowRestart(const Case& setup, double t) {
   return period > 0.0 ? period * std::floor(t / period) : t;
 }
 
+template <>
+Packing packingAt(const Packing&, const SpaceScene&, const SpaceSnapshot&) {
+  return {};
+}
+template <>
 Packing packingAt(const Packing& from, const Scene& scene, const Snapshot& now) {
   Packing there = from;
   there.disks.position = now.position;

@@ -47,7 +47,8 @@ bool hasClosedForms(const Case& setup);
 int flowPackings(const Case& setup);
 
 /// The scene with that packing at t = 0.
-Scene flowScene(const Case& setup, const Packing& packing, double dt);
+template <int D = 2>
+SceneOf<D> flowScene(const Case& setup, const Packing& packing, double dt);
 
 /// Its disks wherever they are: a scene for engines to be asked about, not to be run.
 Scene unplacedScene(const Case& setup, double dt);
@@ -71,6 +72,7 @@ double flowRestart(const Case& setup, double t);
 
 /// A run's state as a packing to start from, all springs relaxed.
 /// @param from  the packing that the run began with
-Packing packingAt(const Packing& from, const Scene& scene, const Snapshot& now);
+template <int D>
+Packing packingAt(const Packing& from, const SceneOf<D>& scene, const SnapshotOf<D>& now);
 
 }  // namespace crossgrain::inline cases
