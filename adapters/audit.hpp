@@ -12,8 +12,9 @@
 namespace crossgrain {
 
 /// What the snapshots of one run are compared with: worked out once, so that an audit is cheap.
-struct AuditBasis {
-  const Scene* scene =
+template <int D>
+struct AuditBasisOf {
+  const SceneOf<D>* scene =
       nullptr;      ///< as the engine runs it; only its bodies and places are asked for
   double dt = 0.0;  ///< the engine's [s]; 0: not known, then times are not counted
   /// Whether a contact is a pair that overlaps at contactTime, as soft disks have it. Rigid disks
@@ -25,41 +26,49 @@ struct AuditBasis {
   /// roundings of double precision, 10 of single.
   double rounding = 1e-10;
 
-  std::vector<double> radius;  ///< disks, then wall disks [m]
-  Vec2 middle = Vec2::Zero();  ///< of everything at t = 0 [m]
-  double extent = 0.0;         ///< farthest from there that anything reaches at t = 0 [m]
-  double farthest = 0.0;       ///< from the origin, rounding's measure [m]
-  double fastest = 0.0;        ///< of what the scene starts or prescribes [m/s]
+  std::vector<double> radius;          ///< disks, then wall disks [m]
+  VecOf<D> middle = VecOf<D>::Zero();  ///< of everything at t = 0 [m]
+  double extent = 0.0;                 ///< farthest from there that anything reaches at t = 0 [m]
+  double farthest = 0.0;               ///< from the origin, rounding's measure [m]
+  double fastest = 0.0;                ///< of what the scene starts or prescribes [m/s]
 };
+using AuditBasis = AuditBasisOf<2>;
 
 /// Of an engine that has loaded the scene, which outlives it.
-AuditBasis auditBasis(const Scene& scene, const Capabilities& can,
-                      const EffectiveParameters& effective);
+template <int D>
+AuditBasisOf<D> auditBasis(const SceneOf<D>& scene, const Capabilities& can,
+                           const EffectiveParameters& effective);
 
 /// Of snapshots of unknown origin: soft, single precision, nothing known of step and walls' motion.
-AuditBasis auditBasis(const Scene& scene);
+template <int D>
+AuditBasisOf<D> auditBasis(const SceneOf<D>& scene);
 
 /// Times, places, and contacts worked out again from positions. Costs less than a third of
 /// averaging the same snapshot.
 /// @param reached  what advance() returned last [s]; absent: not known
-std::string auditFault(const Snapshot& snapshot, const AuditBasis& basis,
+template <int D>
+std::string auditFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis,
                        std::optional<double> reached = std::nullopt);
 
 /// Time of positions is a whole number of steps and the time reached; velocities and contacts are
 /// of within a step of it, as staggered schemes have them. A hundredth of a step is left to sums of
 /// 10⁷ steps in any order.
-std::string timeFault(const Snapshot& snapshot, const AuditBasis& basis,
+template <int D>
+std::string timeFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis,
                       std::optional<double> reached);
 
 /// No disk is farther off than it could have flown: a hundred times the scene's extent, and ten
 /// times what the fastest thing of the scene and its gravity cover (disks that overlap at the start
 /// drive each other apart; one that slipped out flies on). None crosses the scene in a step,
 /// unless the scene itself is as fast. Walls
-/// are where they are prescribed to be, to 10⁻⁶ of the extent.
-std::string positionFault(const Snapshot& snapshot, const AuditBasis& basis);
+/// are where they are prescribed to be, to 10⁻⁶ of the extent. In a periodic box positions may be
+/// of any image.
+template <int D>
+std::string positionFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis);
 
 /// Every contact: i < j, i a moving disk, no pair twice, |n| = 1. Forces of an instant also: normal
-/// and overlap are those of the positions at contactTime, no force passes a gap (but a bond of
+/// and overlap are those of the positions at contactTime, in a periodic box of the pair's nearest
+/// images, no force passes a gap (but a bond of
 /// JKR's, as far as that reaches), and no pair that overlaps is left out.
 ///
 /// What conventions leave open: contacts of another time than the positions are looked for where
@@ -68,13 +77,14 @@ std::string positionFault(const Snapshot& snapshot, const AuditBasis& basis);
 /// what solvers move disks apart that overlap (twice the deepest overlap shown), and whether a pair
 /// got an impulse is the solver's matter, so none is missed there. Means over more than a step
 /// belong to no positions.
-std::string contactFault(const Snapshot& snapshot, const AuditBasis& basis);
+template <int D>
+std::string contactFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis);
 
 /// The forces of every contact against the law: f_n from overlap and approach, |f_t| and the torque
 /// against rolling within their bounds by the law's conventions. An elasto-plastic law, whose
 /// memory nobody shows, has a range of f_n. Of instants of soft disks, and of rigid disks f_n ≥ 0
-/// alone. Velocities are known to what forces change of them in a step and a half, as schemes have
-/// their dashpots see velocities of up to that long before.
+/// alone; of the plane alone. Velocities are known to what forces change of them in a step and a
+/// half, as schemes have their dashpots see velocities of up to that long before.
 /// @param law  the one that the engine declares (adapters/declared_law.hpp)
 std::string lawFault(const Snapshot& snapshot, const AuditBasis& basis, const ContactLaw& law);
 

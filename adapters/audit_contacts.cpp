@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,9 @@ constexpr double meansOverSteps = 1.5;  // a mean over more belongs to no positi
 struct ByFirst {
   std::vector<std::size_t> begin, order;
 
-  ByFirst(const Contacts& contacts, std::size_t disks) : begin(disks + 1), order(contacts.size()) {
+  template <int D>
+  ByFirst(const ContactsOf<D>& contacts, std::size_t disks)
+      : begin(disks + 1), order(contacts.size()) {
     for (const std::int32_t i : contacts.i) ++begin[static_cast<std::size_t>(i) + 1];
     for (std::size_t i = 0; i < disks; ++i) begin[i + 1] += begin[i];
     std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
@@ -24,7 +27,8 @@ struct ByFirst {
   }
 
   /// How often the pair is there.
-  std::size_t count(const Contacts& contacts, std::size_t i, std::size_t j) const {
+  template <int D>
+  std::size_t count(const ContactsOf<D>& contacts, std::size_t i, std::size_t j) const {
     std::size_t found = 0;
     for (std::size_t k = begin[i]; k < begin[i + 1]; ++k)
       found += static_cast<std::size_t>(contacts.j[order[k]]) == j;
@@ -33,7 +37,9 @@ struct ByFirst {
 };
 
 /// Ids, pairs, normals: what needs no positions.
-std::string whyNoList(const Contacts& contacts, const AuditBasis& basis, const ByFirst& byFirst) {
+template <int D>
+std::string whyNoList(const ContactsOf<D>& contacts, const AuditBasisOf<D>& basis,
+                      const ByFirst& byFirst) {
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const double square = contacts.normal[k].squaredNorm();
     // Normals are rounded where they are made, whatever the coordinates are: 10⁻⁵ is ten times
@@ -48,7 +54,8 @@ std::string whyNoList(const Contacts& contacts, const AuditBasis& basis, const B
   return {};
 }
 
-std::string whyNoIds(const Contacts& contacts, const Scene& scene) {
+template <int D>
+std::string whyNoIds(const ContactsOf<D>& contacts, const SceneOf<D>& scene) {
   const auto disks = static_cast<std::int64_t>(scene.disks.size());
   const auto all = disks + static_cast<std::int64_t>(scene.wallDiskCount() + scene.planeCount());
   for (std::size_t k = 0; k < contacts.size(); ++k) {
@@ -63,8 +70,9 @@ std::string whyNoIds(const Contacts& contacts, const Scene& scene) {
 }
 
 /// Of the pairs listed, as they are placed [m].
-double deepestOverlap(const Contacts& contacts, const AuditBasis& basis,
-                      const ContactPlaces& places) {
+template <int D>
+double deepestOverlap(const ContactsOf<D>& contacts, const AuditBasisOf<D>& basis,
+                      const ContactPlacesOf<D>& places) {
   const std::size_t round = basis.radius.size();
   double deepest = 0.0;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
@@ -77,24 +85,26 @@ double deepestOverlap(const Contacts& contacts, const AuditBasis& basis,
 }
 
 /// Each contact that is listed, where its two are.
-std::string whyMisplaced(const Contacts& contacts, const AuditBasis& basis,
-                         const ContactPlaces& places) {
+template <int D>
+std::string whyMisplaced(const ContactsOf<D>& contacts, const AuditBasisOf<D>& basis,
+                         const ContactPlacesOf<D>& places) {
   const std::size_t round = basis.radius.size();
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const auto i = static_cast<std::size_t>(contacts.i[k]);
     const auto j = static_cast<std::size_t>(contacts.j[k]);
     if (j >= round && !places.planes[j - round].known) continue;
-    const PairPlace place = pairPlace(places, basis, i, j);
+    const PairPlaceOf<D> place = pairPlace(places, basis, i, j);
     if (!(std::abs(contacts.overlap[k] - place.overlap) <= place.uncertain))
       return fmt::format("{}: overlaps by {:.6g} m, from the positions by {:.6g} m",
                          contactName(contacts, k, *basis.scene), contacts.overlap[k],
                          place.overlap);
     const double turned = (contacts.normal[k] - place.normal).norm();
     if (!(turned * place.distance <= place.uncertain + 1e-5 * place.distance))
-      return fmt::format("{}: its normal is ({:.4f}, {:.4f}), from the positions ({:.4f}, {:.4f})",
-                         contactName(contacts, k, *basis.scene), contacts.normal[k].x(),
-                         contacts.normal[k].y(), place.normal.x(), place.normal.y());
-    const bool pushes = contacts.normalForce[k] != 0.0 || contacts.tangentialForce[k] != 0.0;
+      return fmt::format("{}: its normal is ({:.4f}), from the positions ({:.4f})",
+                         contactName(contacts, k, *basis.scene),
+                         fmt::join(contacts.normal[k], ", "), fmt::join(place.normal, ", "));
+    const bool pushes =
+        contacts.normalForce[k] != 0.0 || contacts.tangentialForce[k] != noSpin<D>();
     if (pushes && place.overlap < -place.uncertain - bondReach(basis.scene->lawOf(i, j),
                                                                reducedRadius(basis, i, j)))
       return fmt::format("{}: a force of {:.3g} N passes a gap of {:.3g} m",
@@ -105,19 +115,23 @@ std::string whyMisplaced(const Contacts& contacts, const AuditBasis& basis,
 }
 
 /// Pairs that overlap and are not listed.
-std::string incompleteReason(const Contacts& contacts, const AuditBasis& basis,
-                             const ContactPlaces& places, const ByFirst& byFirst) {
+template <int D>
+std::string incompleteReason(const ContactsOf<D>& contacts, const AuditBasisOf<D>& basis,
+                             const ContactPlacesOf<D>& places, const ByFirst& byFirst) {
   const std::size_t disks = basis.scene->disks.size(), round = basis.radius.size();
   std::string why;
   const auto require = [&](std::size_t i, std::size_t j) {
-    const PairPlace place = pairPlace(places, basis, i, j);
+    const PairPlaceOf<D> place = pairPlace(places, basis, i, j);
     if (place.overlap <= place.uncertain || byFirst.count(contacts, i, j) > 0) return;
     why = fmt::format("no contact of {} with {}, which overlap by {:.3g} m",
                       nameOfId(*basis.scene, i), nameOfId(*basis.scene, j), place.overlap);
   };
-  nearPairs(places.position, basis.radius, disks, [&](std::size_t i, std::size_t j) {
+  const auto& box = basis.scene->box;
+  nearPairs<D>(places.position, basis.radius, disks, box, [&](std::size_t i, std::size_t j) {
     const double reach = basis.radius[i] + basis.radius[j];
-    if ((places.position[i] - places.position[j]).squaredNorm() >= reach * reach) return;
+    VecOf<D> apart = places.position[i] - places.position[j];
+    if (box) apart = box->nearest(apart);
+    if (apart.squaredNorm() >= reach * reach) return;
     if (why.empty()) require(i, j);
   });
   for (std::size_t p = 0; p < places.planes.size() && why.empty(); ++p)
@@ -128,15 +142,16 @@ std::string incompleteReason(const Contacts& contacts, const AuditBasis& basis,
 
 }  // namespace
 
-std::string contactFault(const Snapshot& snapshot, const AuditBasis& basis) {
+template <int D>
+std::string contactFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis) {
   if (!snapshot.contacts) return {};
-  const Contacts& contacts = *snapshot.contacts;
+  const ContactsOf<D>& contacts = *snapshot.contacts;
   if (std::string why = whyNoIds(contacts, *basis.scene); !why.empty()) return why;
   const ByFirst byFirst(contacts, basis.scene->disks.size());
   if (std::string why = whyNoList(contacts, basis, byFirst); !why.empty()) return why;
   if (snapshot.contactInterval > meansOverSteps * basis.dt) return {};
   if (!basis.byOverlap && !(basis.dt > 0.0)) return {};  // moved on, nobody knows how far
-  ContactPlaces places = contactPlaces(snapshot, basis);
+  ContactPlacesOf<D> places = contactPlaces(snapshot, basis);
   // Both disks of a pair may have been moved out of others that deep.
   if (!basis.byOverlap) places.rounding += 2.0 * deepestOverlap(contacts, basis, places);
   if (std::string why = whyMisplaced(contacts, basis, places); !why.empty()) return why;
@@ -144,5 +159,7 @@ std::string contactFault(const Snapshot& snapshot, const AuditBasis& basis) {
              ? incompleteReason(contacts, basis, places, byFirst)
              : std::string();
 }
+template std::string contactFault<2>(const Snapshot&, const AuditBasis&);
+template std::string contactFault<3>(const SpaceSnapshot&, const AuditBasisOf<3>&);
 
 }  // namespace crossgrain

@@ -9,15 +9,17 @@ namespace crossgrain {
 namespace {
 
 /// The state of a body as a snapshot shows it; what widens it is the scene's matter.
-BodyState shownState(const WallBody& body, const BodySnapshot& shown, double t) {
-  BodyState state = stateAt(body.motion, body.centre, t);
+template <int D>
+BodyStateOf<D> shownState(const WallBodyOf<D>& body, const BodySnapshotOf<D>& shown, double t) {
+  BodyStateOf<D> state = stateAt(body.motion, body.centre, t);
   state.centre = shown.centre;
   state.velocity = shown.velocity;
   state.angularVelocity = shown.angularVelocity;
   return state;
 }
 
-void placeDisks(const Snapshot& snapshot, double lag, ContactPlaces& places) {
+template <int D>
+void placeDisks(const SnapshotOf<D>& snapshot, double lag, ContactPlacesOf<D>& places) {
   places.position = snapshot.position;
   places.velocity = snapshot.velocity;
   if (lag == 0.0) return;
@@ -25,37 +27,45 @@ void placeDisks(const Snapshot& snapshot, double lag, ContactPlaces& places) {
     places.position[i] -= lag * places.velocity[i];
 }
 
-void placeWalls(const Snapshot& snapshot, const AuditBasis& basis, double lag,
-                ContactPlaces& places) {
-  const Scene& scene = *basis.scene;
+template <int D>
+void placeWalls(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis, double lag,
+                ContactPlacesOf<D>& places) {
+  const SceneOf<D>& scene = *basis.scene;
   std::size_t k = 0;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const WallBody& body = scene.bodies[b];
+    const WallBodyOf<D>& body = scene.bodies[b];
     const bool shown = b < snapshot.bodies.size();
-    const BodyState now = stateAt(body.motion, body.centre, snapshot.positionTime);
-    const BodyState then = stateAt(body.motion, body.centre, snapshot.contactTime);
-    const BodyState seen =
+    const BodyStateOf<D> now = stateAt(body.motion, body.centre, snapshot.positionTime);
+    const BodyStateOf<D> then = stateAt(body.motion, body.centre, snapshot.contactTime);
+    const BodyStateOf<D> seen =
         shown ? shownState(body, snapshot.bodies[b], snapshot.positionTime) : now;
-    for (const Vec2& start : body.diskPosition) {
-      const Vec2& place = snapshot.wallPosition[k++];
-      const Vec2 velocity = memberVelocity(seen, place);
-      Vec2 moved = lag * velocity;
+    for (const VecOf<D>& start : body.diskPosition) {
+      VecOf<D> place = snapshot.wallPosition[k++];
+      if (scene.box) {  // a member turns with its body in that body's own image
+        const VecOf<D> own = memberPosition<D>(now, body.centre, start);
+        place = own + scene.box->nearest(place - own);
+      }
+      const VecOf<D> velocity = memberVelocity<D>(seen, place);
+      VecOf<D> moved = lag * velocity;
       if (basis.prescribed && lag != 0.0)
-        moved = memberPosition(now, body.centre, start) - memberPosition(then, body.centre, start);
+        moved = memberPosition<D>(now, body.centre, start) -
+                memberPosition<D>(then, body.centre, start);
       places.position.push_back(place - moved);
       places.velocity.push_back(velocity);
     }
-    const bool turns = body.motion.kind == Motion::Kind::rotating;
-    for (const Plane& plane : body.planes)
-      places.planes.push_back({planeAt(then, body.centre, {plane.point, plane.normal.normalized()}),
-                               &body, then, basis.prescribed || !turns});
+    const bool turns = body.motion.kind == MotionKind::rotating;
+    for (const PlaneOf<D>& plane : body.planes)
+      places.planes.push_back(
+          {planeAt<D>(then, body.centre, {plane.point, plane.normal.normalized()}), &body, then,
+           basis.prescribed || !turns});
   }
 }
 
 }  // namespace
 
-ContactPlaces contactPlaces(const Snapshot& snapshot, const AuditBasis& basis) {
-  ContactPlaces places;
+template <int D>
+ContactPlacesOf<D> contactPlaces(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis) {
+  ContactPlacesOf<D> places;
   places.rounding = basis.rounding * basis.farthest;
   const double lag = snapshot.positionTime - snapshot.contactTime;
   const double halfWay = snapshot.contactTime + 0.5 * lag;
@@ -67,6 +77,8 @@ ContactPlaces contactPlaces(const Snapshot& snapshot, const AuditBasis& basis) {
   placeWalls(snapshot, basis, lag, places);
   return places;
 }
+template ContactPlaces contactPlaces<2>(const Snapshot&, const AuditBasis&);
+template ContactPlacesOf<3> contactPlaces<3>(const SpaceSnapshot&, const AuditBasisOf<3>&);
 
 void placeWallsAsPrescribed(const Scene& scene, double t, Snapshot& snapshot) {
   snapshot.wallPosition.clear();
@@ -80,24 +92,30 @@ void placeWallsAsPrescribed(const Scene& scene, double t, Snapshot& snapshot) {
   }
 }
 
-Vec2 footOn(const Plane& plane, const Vec2& point) {
+template <int D>
+VecOf<D> footOn(const PlaneOf<D>& plane, const VecOf<D>& point) {
   return point - (point - plane.point).dot(plane.normal) * plane.normal;
 }
+template Vec2 footOn<2>(const Plane&, const Vec2&);
 
-Vec2 velocityOfSecond(const ContactPlaces& places, const AuditBasis& basis, std::size_t i,
-                      std::size_t j) {
+template <int D>
+VecOf<D> velocityOfSecond(const ContactPlacesOf<D>& places, const AuditBasisOf<D>& basis,
+                          std::size_t i, std::size_t j) {
   if (j < basis.radius.size()) return places.velocity[j];
-  const PlacedPlane& wall = places.planes[j - basis.radius.size()];
-  BodyState motion = wall.motion;
+  const PlacedPlaneOf<D>& wall = places.planes[j - basis.radius.size()];
+  BodyStateOf<D> motion = wall.motion;
   motion.radialVelocity = 0.0;  // planes of radial bodies stay
-  return memberVelocity(motion, footOn(wall.plane, places.position[i]));
+  return memberVelocity<D>(motion, footOn<D>(wall.plane, places.position[i]));
 }
+template Vec2 velocityOfSecond<2>(const ContactPlaces&, const AuditBasis&, std::size_t,
+                                  std::size_t);
 
-PairPlace pairPlace(const ContactPlaces& places, const AuditBasis& basis, std::size_t i,
-                    std::size_t j) {
-  PairPlace pair;
+template <int D>
+PairPlaceOf<D> pairPlace(const ContactPlacesOf<D>& places, const AuditBasisOf<D>& basis,
+                         std::size_t i, std::size_t j) {
+  PairPlaceOf<D> pair;
   if (j >= basis.radius.size()) {
-    const Plane& plane = places.planes[j - basis.radius.size()].plane;
+    const PlaneOf<D>& plane = places.planes[j - basis.radius.size()].plane;
     pair.distance = (places.position[i] - plane.point).dot(plane.normal);
     pair.normal = plane.normal;
     pair.overlap = basis.radius[i] - pair.distance;
@@ -109,7 +127,8 @@ PairPlace pairPlace(const ContactPlaces& places, const AuditBasis& basis, std::s
     pair.distance = basis.radius[i];
     return pair;
   }
-  const Vec2 apart = places.position[i] - places.position[j];
+  VecOf<D> apart = places.position[i] - places.position[j];
+  if (basis.scene->box) apart = basis.scene->box->nearest(apart);
   pair.distance = apart.norm();
   pair.normal = apart / pair.distance;
   pair.overlap = basis.radius[i] + basis.radius[j] - pair.distance;
@@ -118,11 +137,17 @@ PairPlace pairPlace(const ContactPlaces& places, const AuditBasis& basis, std::s
     pair.uncertain += places.drift * (places.velocity[i] - places.velocity[j]).norm();
   return pair;
 }
+template PairPlace pairPlace<2>(const ContactPlaces&, const AuditBasis&, std::size_t, std::size_t);
+template PairPlaceOf<3> pairPlace<3>(const ContactPlacesOf<3>&, const AuditBasisOf<3>&, std::size_t,
+                                     std::size_t);
 
-double reducedRadius(const AuditBasis& basis, std::size_t i, std::size_t j) {
+template <int D>
+double reducedRadius(const AuditBasisOf<D>& basis, std::size_t i, std::size_t j) {
   const double a = basis.radius[i];
   return j < basis.radius.size() ? a * basis.radius[j] / (a + basis.radius[j]) : a;
 }
+template double reducedRadius<2>(const AuditBasis&, std::size_t, std::size_t);
+template double reducedRadius<3>(const AuditBasisOf<3>&, std::size_t, std::size_t);
 
 double bondReach(const ContactLaw& law, double reducedRadius) {
   if (law.cohesion != CohesionLaw::jkr) return 0.0;
@@ -132,10 +157,13 @@ double bondReach(const ContactLaw& law, double reducedRadius) {
   return end / 3.0 * width * width / reducedRadius;
 }
 
-std::string contactName(const Contacts& contacts, std::size_t k, const Scene& scene) {
+template <int D>
+std::string contactName(const ContactsOf<D>& contacts, std::size_t k, const SceneOf<D>& scene) {
   return fmt::format("contact {} ({} with {})", k,
                      nameOfId(scene, static_cast<std::size_t>(contacts.i[k])),
                      nameOfId(scene, static_cast<std::size_t>(contacts.j[k])));
 }
+template std::string contactName<2>(const Contacts&, std::size_t, const Scene&);
+template std::string contactName<3>(const ContactsOf<3>&, std::size_t, const SpaceScene&);
 
 }  // namespace crossgrain

@@ -5,51 +5,62 @@
 namespace crossgrain {
 
 /// A plane at that time, and the body that moves it.
-struct PlacedPlane {
-  Plane plane;
-  const WallBody* body;
-  BodyState motion;  ///< of the body
-  bool known;        ///< false: it turned in ways that nobody prescribed
+template <int D>
+struct PlacedPlaneOf {
+  PlaneOf<D> plane;
+  const WallBodyOf<D>* body;
+  BodyStateOf<D> motion;  ///< of the body
+  bool known;             ///< false: it turned in ways that nobody prescribed
 };
 
 /// Where everything was when a snapshot's contacts were as it shows them, as well as is known.
-struct ContactPlaces {
-  std::vector<Vec2> position;  ///< disks, then wall disks [m]
-  std::vector<Vec2> velocity;  ///< likewise, as shown [m/s]
-  std::vector<PlacedPlane> planes;
+template <int D>
+struct ContactPlacesOf {
+  std::vector<VecOf<D>> position;  ///< disks, then wall disks [m]
+  std::vector<VecOf<D>> velocity;  ///< likewise, as shown [m/s]
+  std::vector<PlacedPlaneOf<D>> planes;
   /// What of two bodies' relative motion their places are uncertain by [s].
   double drift = 0.0;
   double rounding = 0.0;  ///< [m]
 };
+using ContactPlaces = ContactPlacesOf<2>;
 
-ContactPlaces contactPlaces(const Snapshot& snapshot, const AuditBasis& basis);
+template <int D>
+ContactPlacesOf<D> contactPlaces(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis);
 
 /// Wall disks and bodies as the scene prescribes them at that time, without forces: what a snapshot
 /// of somebody else's need not say.
 void placeWallsAsPrescribed(const Scene& scene, double t, Snapshot& snapshot);
 
-/// How a pair lies there: n from j to i, δ > 0 where they overlap, and how far δ may be off.
-struct PairPlace {
-  Vec2 normal;
+/// How a pair lies there, in a periodic box its nearest images: n from j to i, δ > 0 where they
+/// overlap, and how far δ may be off.
+template <int D>
+struct PairPlaceOf {
+  VecOf<D> normal;
   double overlap;    ///< δ [m]
   double uncertain;  ///< [m]
   double distance;   ///< between centres; to a plane from the disk's centre [m]
 };
+using PairPlace = PairPlaceOf<2>;
 
 /// The point of the plane that is nearest.
-Vec2 footOn(const Plane& plane, const Vec2& point);
+template <int D>
+VecOf<D> footOn(const PlaneOf<D>& plane, const VecOf<D>& point);
 
 /// Of the second of a pair: of a disk's centre; of a plane where the first's centre has its foot
 /// [m/s].
-Vec2 velocityOfSecond(const ContactPlaces& places, const AuditBasis& basis, std::size_t i,
-                      std::size_t j);
+template <int D>
+VecOf<D> velocityOfSecond(const ContactPlacesOf<D>& places, const AuditBasisOf<D>& basis,
+                          std::size_t i, std::size_t j);
 
 /// @pre ids are in range; the plane is known
-PairPlace pairPlace(const ContactPlaces& places, const AuditBasis& basis, std::size_t i,
-                    std::size_t j);
+template <int D>
+PairPlaceOf<D> pairPlace(const ContactPlacesOf<D>& places, const AuditBasisOf<D>& basis,
+                         std::size_t i, std::size_t j);
 
 /// R₁₂ = a_i a_j/(a_i + a_j), of a plane a_i [m].
-double reducedRadius(const AuditBasis& basis, std::size_t i, std::size_t j);
+template <int D>
+double reducedRadius(const AuditBasisOf<D>& basis, std::size_t i, std::size_t j);
 
 /// How far apart the surfaces of a pair are when a bond of JKR's breaks, 0 of other laws [m]:
 /// a_p²/(3 R₁₂) at the largest pull, 2.08 times that at the end of the branch, with
@@ -57,6 +68,7 @@ double reducedRadius(const AuditBasis& basis, std::size_t i, std::size_t j);
 double bondReach(const ContactLaw& law, double reducedRadius);
 
 /// "contact 12 (disk 3 with wall disk 5)"
-std::string contactName(const Contacts& contacts, std::size_t k, const Scene& scene);
+template <int D>
+std::string contactName(const ContactsOf<D>& contacts, std::size_t k, const SceneOf<D>& scene);
 
 }  // namespace crossgrain

@@ -198,7 +198,7 @@ struct VelocityDoubt {
     };
     const std::size_t disks = scene.disks.size(), round = basis.radius.size();
     if (std::ranges::all_of(places.position, [](const Vec2& place) { return place.allFinite(); }))
-      nearPairs(places.position, basis.radius, disks, addEnded);
+      nearPairs<2>(places.position, basis.radius, disks, scene.box, addEnded);
     for (std::size_t p = 0; p < places.planes.size(); ++p)
       for (std::size_t i = 0; i < disks && places.planes[p].known; ++i) addEnded(i, round + p);
 
@@ -293,8 +293,8 @@ ContactKinematics kinematicsOf(const Snapshot& snapshot, const AuditBasis& basis
   if (j >= disks && j < round) touch.slip += basis.fastest;  // rims of wall disks
   touch.doubt = doubts.centre[i] + doubts.centre[j];
   if (j >= round) {
-    const PlacedPlane& wall = places.planes[j - round];
-    const Vec2 arm = footOn(wall.plane, places.position[i]) - wall.motion.centre;
+    const PlacedPlaneOf<2>& wall = places.planes[j - round];
+    const Vec2 arm = footOn<2>(wall.plane, places.position[i]) - wall.motion.centre;
     touch.doubt += stepsOfDoubt * basis.dt * acceleration(wall.body->motion, arm.norm());
   }
   return touch;

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,36 +12,46 @@
 namespace crossgrain {
 namespace {
 
+double sizeOf(double spin) {
+  return std::abs(spin);
+}
+double sizeOf(const Vec3& spin) {
+  return spin.norm();
+}
+
 /// Fastest that a body's motion moves any of its members [m/s].
-double fastestOf(const WallBody& body) {
+template <int D>
+double fastestOf(const WallBodyOf<D>& body) {
   double arm = 0.0;
-  for (const Vec2& place : body.diskPosition) arm = std::max(arm, (place - body.centre).norm());
-  for (const Plane& plane : body.planes) arm = std::max(arm, (plane.point - body.centre).norm());
-  const Motion& motion = body.motion;
+  for (const VecOf<D>& place : body.diskPosition) arm = std::max(arm, (place - body.centre).norm());
+  for (const PlaneOf<D>& plane : body.planes)
+    arm = std::max(arm, (plane.point - body.centre).norm());
+  const MotionOf<D>& motion = body.motion;
   switch (motion.kind) {
-    case Motion::Kind::fixed:
+    case MotionKind::fixed:
       return 0.0;
-    case Motion::Kind::rotating:
-      return std::abs(motion.angularVelocity) * arm;
-    case Motion::Kind::translating:
+    case MotionKind::rotating:
+      return sizeOf(motion.angularVelocity) * arm;
+    case MotionKind::translating:
       return motion.velocity.norm();
-    case Motion::Kind::oscillating:
+    case MotionKind::oscillating:
       return std::abs(motion.frequency) * motion.amplitude.norm();
-    case Motion::Kind::radial:
+    case MotionKind::radial:
       return std::abs(motion.radialVelocity);
   }
   return 0.0;
 }
 
-void measurePlaces(const Scene& scene, AuditBasis& basis) {
-  std::vector<Vec2> places = scene.disks.position;
-  for (const WallBody& body : scene.bodies) {
+template <int D>
+void measurePlaces(const SceneOf<D>& scene, AuditBasisOf<D>& basis) {
+  std::vector<VecOf<D>> places = scene.disks.position;
+  for (const WallBodyOf<D>& body : scene.bodies) {
     places.insert(places.end(), body.diskPosition.begin(), body.diskPosition.end());
-    for (const Plane& plane : body.planes) places.push_back(plane.point);
+    for (const PlaneOf<D>& plane : body.planes) places.push_back(plane.point);
   }
   if (places.empty()) return;
-  Vec2 low = places.front(), high = places.front();
-  for (const Vec2& place : places) {
+  VecOf<D> low = places.front(), high = places.front();
+  for (const VecOf<D>& place : places) {
     low = low.cwiseMin(place);
     high = high.cwiseMax(place);
   }
@@ -59,29 +70,40 @@ bool within(double distance, double limit) {
   return std::abs(distance) <= limit;
 }
 
-std::string whyNoWalls(const Snapshot& snapshot, const AuditBasis& basis) {
-  const Scene& scene = *basis.scene;
+template <int D>
+std::string listed(const SpinOf<D>& angle) {
+  if constexpr (D == 2)
+    return fmt::format("{:.6g}", angle);
+  else
+    return fmt::format("({:.6g})", fmt::join(angle, ", "));
+}
+
+template <int D>
+std::string whyNoWalls(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis) {
+  const SceneOf<D>& scene = *basis.scene;
+  const auto apart = [&](VecOf<D> difference) {  // of the nearest images
+    return (scene.box ? scene.box->nearest(difference) : difference).norm();
+  };
   const double limit = wallTolerance * basis.extent;
   std::size_t k = 0;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const WallBody& body = scene.bodies[b];
-    const BodyState state = stateAt(body.motion, body.centre, snapshot.positionTime);
-    const BodySnapshot& shown = snapshot.bodies[b];
-    if (!within(shown.angle - state.angle, wallTolerance * std::max(1.0, std::abs(state.angle))))
-      return fmt::format("body {} has turned by {:.6g} rad, not by {:.6g} rad as prescribed",
-                         body.name, shown.angle, state.angle);
-    if (!within((shown.centre - state.centre).norm(), limit))
-      return fmt::format("body {} has its centre at ({:.6g}, {:.6g}) m, not at ({:.6g}, {:.6g}) m",
-                         body.name, shown.centre.x(), shown.centre.y(), state.centre.x(),
-                         state.centre.y());
-    for (const Vec2& start : body.diskPosition) {
-      const Vec2 place = memberPosition(state, body.centre, start);
-      const Vec2& found = snapshot.wallPosition[k];
-      if (!within((found - place).norm(), limit))
-        return fmt::format(
-            "wall disk {} is at ({:.6g}, {:.6g}) m, not at ({:.6g}, {:.6g}) m as "
-            "prescribed",
-            k, found.x(), found.y(), place.x(), place.y());
+    const WallBodyOf<D>& body = scene.bodies[b];
+    const BodyStateOf<D> state = stateAt(body.motion, body.centre, snapshot.positionTime);
+    const BodySnapshotOf<D>& shown = snapshot.bodies[b];
+    const double angle = sizeOf(state.angle);
+    if (!within(sizeOf(SpinOf<D>(shown.angle - state.angle)), wallTolerance * std::max(1.0, angle)))
+      return fmt::format("body {} has turned by {} rad, not by {} rad as prescribed", body.name,
+                         listed<D>(shown.angle), listed<D>(state.angle));
+    if (!within(apart(shown.centre - state.centre), limit))
+      return fmt::format("body {} has its centre at ({:.6g}) m, not at ({:.6g}) m", body.name,
+                         fmt::join(shown.centre, ", "), fmt::join(state.centre, ", "));
+    for (const VecOf<D>& start : body.diskPosition) {
+      const VecOf<D> place = memberPosition<D>(state, body.centre, start);
+      const VecOf<D>& found = snapshot.wallPosition[k];
+      if (!within(apart(found - place), limit))
+        return fmt::format("{} is at ({:.6g}) m, not at ({:.6g}) m as prescribed",
+                           nameOfId(scene, scene.disks.size() + k), fmt::join(found, ", "),
+                           fmt::join(place, ", "));
       ++k;
     }
   }
@@ -90,13 +112,14 @@ std::string whyNoWalls(const Snapshot& snapshot, const AuditBasis& basis) {
 
 }  // namespace
 
-AuditBasis auditBasis(const Scene& scene) {
-  AuditBasis basis;
+template <int D>
+AuditBasisOf<D> auditBasis(const SceneOf<D>& scene) {
+  AuditBasisOf<D> basis;
   basis.scene = &scene;
   basis.prescribed = false;
   basis.rounding = 1e-6;
   basis.radius = scene.radii();
-  for (const WallBody& body : scene.bodies)
+  for (const WallBodyOf<D>& body : scene.bodies)
     basis.fastest = std::max(basis.fastest, fastestOf(body));
   for (std::size_t i = 0; i < scene.disks.size(); ++i)
     basis.fastest = std::max(basis.fastest, scene.disks.velocity[i].norm());
@@ -104,9 +127,10 @@ AuditBasis auditBasis(const Scene& scene) {
   return basis;
 }
 
-AuditBasis auditBasis(const Scene& scene, const Capabilities& can,
-                      const EffectiveParameters& effective) {
-  AuditBasis basis = auditBasis(scene);
+template <int D>
+AuditBasisOf<D> auditBasis(const SceneOf<D>& scene, const Capabilities& can,
+                           const EffectiveParameters& effective) {
+  AuditBasisOf<D> basis = auditBasis(scene);
   basis.dt = effective.dt;
   basis.byOverlap = scene.law.soft() && hasNormalLaw(can, scene.law);
   basis.prescribed = true;
@@ -114,7 +138,8 @@ AuditBasis auditBasis(const Scene& scene, const Capabilities& can,
   return basis;
 }
 
-std::string timeFault(const Snapshot& snapshot, const AuditBasis& basis,
+template <int D>
+std::string timeFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis,
                       std::optional<double> reached) {
   const double now = snapshot.positionTime, dt = basis.dt;
   if (!(now >= 0.0)) return fmt::format("positions are of t = {:g} s, before the start", now);
@@ -142,32 +167,33 @@ std::string timeFault(const Snapshot& snapshot, const AuditBasis& basis,
   return {};
 }
 
-std::string positionFault(const Snapshot& snapshot, const AuditBasis& basis) {
-  const Scene& scene = *basis.scene;
+template <int D>
+std::string positionFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis) {
+  const SceneOf<D>& scene = *basis.scene;
   const double t = snapshot.positionTime;
   const double fastest = 10.0 * basis.fastest;
   const double reach = 100.0 * basis.extent + fastest * t + 5.0 * scene.gravity.norm() * t * t;
   for (std::size_t i = 0; i < snapshot.position.size(); ++i) {
-    const Vec2& place = snapshot.position[i];
-    if (!within((place - basis.middle).norm(), reach))
+    const VecOf<D>& place = snapshot.position[i];
+    VecOf<D> off = place - basis.middle;
+    if (scene.box) off = scene.box->nearest(off);
+    if (!within(off.norm(), reach))
       return fmt::format(
-          "disk {} is at ({:.3g}, {:.3g}) m, outside of the scene: at most {:.3g} m "
-          "from ({:.3g}, {:.3g}) m",
-          i, place.x(), place.y(), reach, basis.middle.x(), basis.middle.y());
+          "{} is at ({:.3g}) m, outside of the scene: at most {:.3g} m from ({:.3g}) m",
+          nameOfId(scene, i), fmt::join(place, ", "), reach, fmt::join(basis.middle, ", "));
     const double speed = snapshot.velocity[i].norm();
     if (basis.dt > 0.0 && !within(speed * basis.dt, fastest * basis.dt + basis.extent))
-      return fmt::format(
-          "disk {} moves at {:.3g} m/s, through the whole scene of {:.3g} m in a "
-          "step",
-          i, speed, basis.extent);
+      return fmt::format("{} moves at {:.3g} m/s, through the whole scene of {:.3g} m in a step",
+                         nameOfId(scene, i), speed, basis.extent);
   }
   return basis.prescribed ? whyNoWalls(snapshot, basis) : std::string();
 }
 
 namespace {
 
-std::string whyNoShape(const Snapshot& snapshot, const AuditBasis& basis) {
-  const Scene& scene = *basis.scene;
+template <int D>
+std::string whyNoShape(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis) {
+  const SceneOf<D>& scene = *basis.scene;
   const std::size_t disks = scene.disks.size();
   for (const auto& [what, found, wanted] :
        {std::tuple("positions", snapshot.position.size(), disks),
@@ -183,13 +209,24 @@ std::string whyNoShape(const Snapshot& snapshot, const AuditBasis& basis) {
 
 }  // namespace
 
-std::string auditFault(const Snapshot& snapshot, const AuditBasis& basis,
+template <int D>
+std::string auditFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis,
                        std::optional<double> reached) {
   if (std::string why = whyNoShape(snapshot, basis); !why.empty()) return why;
   if (std::string why = timeFault(snapshot, basis, reached); !why.empty()) return why;
   if (std::string why = positionFault(snapshot, basis); !why.empty()) return why;
   return contactFault(snapshot, basis);
 }
+
+template AuditBasis auditBasis<2>(const Scene&);
+template AuditBasis auditBasis<2>(const Scene&, const Capabilities&, const EffectiveParameters&);
+template std::string timeFault<2>(const Snapshot&, const AuditBasis&, std::optional<double>);
+template std::string positionFault<2>(const Snapshot&, const AuditBasis&);
+template std::string auditFault<2>(const Snapshot&, const AuditBasis&, std::optional<double>);
+template AuditBasisOf<3> auditBasis<3>(const SpaceScene&, const Capabilities&,
+                                       const EffectiveParameters&);
+template std::string auditFault<3>(const SpaceSnapshot&, const AuditBasisOf<3>&,
+                                   std::optional<double>);
 
 std::string statsFault(const Stats& stats, double dt, double reached) {
   const double steps = std::round(reached / dt);

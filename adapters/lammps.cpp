@@ -28,13 +28,14 @@ std::string lammpsMissing() {
 /// Python executes engines/lammps/worker.py, which calls LAMMPS' C library and speaks the worker
 /// protocol.
 EngineEntry lammpsEngine() {
-  return {.name = "lammps",
-          .summary = "LAMMPS, pair_style granular with Hooke's or Hertz' law, in two dimensions",
-          .command =
-              [] {
-                return ProgramCall({python(), workerScript("lammps").string()});
-              },
-          .missing = lammpsMissing};
+  return {
+      .name = "lammps",
+      .summary = "LAMMPS, pair_style granular with Hooke's or Hertz' law, in a plane or in space",
+      .command =
+          [] {
+            return ProgramCall({python(), workerScript("lammps").string()});
+          },
+      .missing = lammpsMissing};
 }
 
 /// pair_style granular with linear_history or mindlin, and fix nve/sphere
@@ -58,6 +59,8 @@ EngineEntry lammpsMirror() {
                       {"rolling_reset", {"spring_only"}},
                       {"jkr_end", {"largest_pull"}},
                       {"cohesion_load", {"plus_twice_pull_off", "net_without_dashpot"}},
+                      {"spring_turn", {"rescaled"}},
+                      {"spring_twist", {"none"}},
                       {"damping_velocity", {"lagged"}},
                       {"integrator", {"position_verlet"}}});
 }

@@ -1,5 +1,6 @@
 #include "adapters/motion.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -39,21 +40,49 @@ BodyStateOf<D> stateAt(const MotionOf<D>& motion, const std::type_identity_t<Vec
 template BodyState stateAt<2>(const Motion&, const Vec2&, double);
 template BodyStateOf<3> stateAt<3>(const MotionOf<3>&, const Vec3&, double);
 
-Vec2 memberPosition(const BodyState& now, const Vec2& referenceCentre, const Vec2& reference) {
-  const Vec2 offset = reference - referenceCentre;
+template <int D>
+VecOf<D> turnedBy(const SpinOf<D>& angle, const VecOf<D>& v) {
+  if constexpr (D == 2) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
+  } else {
+    return angle.isZero(0.0) ? v : Eigen::AngleAxisd(angle.norm(), angle.normalized()) * v;
+  }
+}
+template Vec2 turnedBy<2>(const double&, const Vec2&);
+template Vec3 turnedBy<3>(const Vec3&, const Vec3&);
+
+template <int D>
+VecOf<D> memberPosition(const BodyStateOf<D>& now,
+                        const std::type_identity_t<VecOf<D>>& referenceCentre,
+                        const std::type_identity_t<VecOf<D>>& reference) {
+  const VecOf<D> offset = reference - referenceCentre;
   const double distance = offset.norm();
   const double scale = distance > 0.0 ? 1.0 + now.radialShift / distance : 1.0;
-  const double c = std::cos(now.angle) * scale;
-  const double s = std::sin(now.angle) * scale;
-  return now.centre + Vec2(c * offset.x() - s * offset.y(), s * offset.x() + c * offset.y());
+  if constexpr (D == 2) {
+    const double c = std::cos(now.angle) * scale;
+    const double s = std::sin(now.angle) * scale;
+    return now.centre + Vec2(c * offset.x() - s * offset.y(), s * offset.x() + c * offset.y());
+  } else {
+    return now.centre + scale * turnedBy<3>(now.angle, offset);
+  }
 }
+template Vec2 memberPosition<2>(const BodyState&, const Vec2&, const Vec2&);
+template Vec3 memberPosition<3>(const BodyStateOf<3>&, const Vec3&, const Vec3&);
 
-Vec2 memberVelocity(const BodyState& now, const Vec2& position) {
-  const Vec2 offset = position - now.centre;
+template <int D>
+VecOf<D> memberVelocity(const BodyStateOf<D>& now, const std::type_identity_t<VecOf<D>>& position) {
+  const VecOf<D> offset = position - now.centre;
   const double distance = offset.norm();
-  Vec2 velocity = now.velocity + now.angularVelocity * perpendicular(offset);
+  VecOf<D> velocity = now.velocity;
+  if constexpr (D == 2)
+    velocity += now.angularVelocity * perpendicular(offset);
+  else
+    velocity += now.angularVelocity.cross(offset);
   if (distance > 0.0) velocity += offset * (now.radialVelocity / distance);
   return velocity;
 }
+template Vec2 memberVelocity<2>(const BodyState&, const Vec2&);
+template Vec3 memberVelocity<3>(const BodyStateOf<3>&, const Vec3&);
 
 }  // namespace crossgrain

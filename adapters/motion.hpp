@@ -52,9 +52,17 @@ BodyStateOf<D> stateAt(const MotionOf<D>& motion, const std::type_identity_t<Vec
                        double t);
 
 /// Position of a member whose reference position (t = 0) is `reference`.
-Vec2 memberPosition(const BodyState& now, const Vec2& referenceCentre, const Vec2& reference);
+template <int D = 2>
+VecOf<D> memberPosition(const BodyStateOf<D>& now,
+                        const std::type_identity_t<VecOf<D>>& referenceCentre,
+                        const std::type_identity_t<VecOf<D>>& reference);
 
 /// Velocity of the body's material point at `position`.
-Vec2 memberVelocity(const BodyState& now, const Vec2& position);
+template <int D = 2>
+VecOf<D> memberVelocity(const BodyStateOf<D>& now, const std::type_identity_t<VecOf<D>>& position);
+
+/// v turned by the angle; in space about its direction.
+template <int D = 2>
+VecOf<D> turnedBy(const SpinOf<D>& angle, const VecOf<D>& v);
 
 }  // namespace crossgrain

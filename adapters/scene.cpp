@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <stdexcept>
 
 namespace crossgrain {
@@ -11,13 +10,15 @@ std::string toString(Precision precision) {
   return std::string(precisionNames[static_cast<std::size_t>(precision)]);
 }
 
-Plane planeAt(BodyState now, const Vec2& referenceCentre, const Plane& reference) {
+template <int D>
+PlaneOf<D> planeAt(BodyStateOf<D> now, const std::type_identity_t<VecOf<D>>& referenceCentre,
+                   const std::type_identity_t<PlaneOf<D>>& reference) {
   now.radialShift = 0.0;
-  const double c = std::cos(now.angle), s = std::sin(now.angle);
-  const Vec2& n = reference.normal;
-  return {memberPosition(now, referenceCentre, reference.point),
-          {c * n.x() - s * n.y(), s * n.x() + c * n.y()}};
+  return {memberPosition<D>(now, referenceCentre, reference.point),
+          turnedBy<D>(now.angle, reference.normal)};
 }
+template Plane planeAt<2>(BodyState, const Vec2&, const Plane&);
+template PlaneOf<3> planeAt<3>(BodyStateOf<3>, const Vec3&, const PlaneOf<3>&);
 
 template <int D>
 std::size_t SceneOf<D>::wallDiskCount() const {
@@ -60,12 +61,16 @@ const ContactLaw& SceneOf<D>::lawOf(std::size_t i, std::size_t j) const {
 template struct SceneOf<2>;
 template struct SceneOf<3>;
 
-std::string nameOfId(const Scene& scene, std::size_t id) {
+template <int D>
+std::string nameOfId(const SceneOf<D>& scene, std::size_t id) {
+  const char* const round = D == 2 ? "disk" : "sphere";
   const std::size_t disks = scene.disks.size();
-  if (id < disks) return fmt::format("disk {}", id);
+  if (id < disks) return fmt::format("{} {}", round, id);
   const std::size_t walls = scene.wallDiskCount();
-  if (id < disks + walls) return fmt::format("wall disk {}", id - disks);
+  if (id < disks + walls) return fmt::format("wall {} {}", round, id - disks);
   return fmt::format("plane {}", id - disks - walls);
 }
+template std::string nameOfId<2>(const Scene&, std::size_t);
+template std::string nameOfId<3>(const SpaceScene&, std::size_t);
 
 }  // namespace crossgrain

@@ -40,7 +40,9 @@ using Plane = PlaneOf<2>;
 
 /// Where a plane given at t = 0 is by now: it shifts and turns with its body, about the body's
 /// centre at t = 0. Those of radial bodies stay.
-Plane planeAt(BodyState now, const Vec2& referenceCentre, const Plane& reference);
+template <int D>
+PlaneOf<D> planeAt(BodyStateOf<D> now, const std::type_identity_t<VecOf<D>>& referenceCentre,
+                   const std::type_identity_t<PlaneOf<D>>& reference);
 
 /// A rigid body of wall disks and plane walls that moves as prescribed, whatever pushes on it.
 template <int D>
@@ -137,7 +139,9 @@ void changeLaws(SceneOf<D>& scene, auto&& change) {
     for (ContactLaw& law : scene.materials->laws) change(law);
 }
 
-/// "disk 3", "wall disk 12", "plane 0": what an id is, each kind counted from 0.
-std::string nameOfId(const Scene& scene, std::size_t id);
+/// "disk 3", "wall disk 12", "plane 0": what an id is, each kind counted from 0; in space "sphere
+/// 3".
+template <int D>
+std::string nameOfId(const SceneOf<D>& scene, std::size_t id);
 
 }  // namespace crossgrain

@@ -1,36 +1,40 @@
 #include "adapters/start_check.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
-#include "adapters/sweep.hpp"
+#include "adapters/near_pairs.hpp"
 
 namespace crossgrain {
 namespace {
 
 /// Disks, then wall disks.
+template <int D>
 struct AllDisks {
-  std::vector<Vec2> position;
+  std::vector<VecOf<D>> position;
   std::vector<double> radius;
 
-  explicit AllDisks(const Scene& scene) : position(scene.disks.position), radius(scene.radii()) {
-    for (const WallBody& body : scene.bodies)
+  explicit AllDisks(const SceneOf<D>& scene)
+      : position(scene.disks.position), radius(scene.radii()) {
+    for (const auto& body : scene.bodies)
       position.insert(position.end(), body.diskPosition.begin(), body.diskPosition.end());
   }
 };
 
-std::optional<DeepStart> deepInPlane(const Scene& scene,
-                                     const std::function<double(double, double)>& limit) {
+template <int D>
+std::optional<DeepStartOf<D>> deepInPlane(const SceneOf<D>& scene,
+                                          const std::function<double(double, double)>& limit) {
   std::size_t id = scene.disks.size() + scene.wallDiskCount();
-  for (const WallBody& body : scene.bodies)
-    for (const Plane& plane : body.planes) {
+  for (const auto& body : scene.bodies)
+    for (const PlaneOf<D>& plane : body.planes) {
       for (std::size_t i = 0; i < scene.disks.size(); ++i) {
         const double radius = scene.disks.radius[i];
         const double overlap =
             radius - (scene.disks.position[i] - plane.point).dot(plane.normal.normalized());
         if (overlap > limit(radius, radius))
-          return DeepStart{i, id, scene.disks.position[i], overlap, false};
+          return DeepStartOf<D>{i, id, scene.disks.position[i], overlap, false};
       }
       ++id;
     }
@@ -39,43 +43,57 @@ std::optional<DeepStart> deepInPlane(const Scene& scene,
 
 }  // namespace
 
-std::optional<std::size_t> firstNotFinite(const Scene& scene) {
-  const AllDisks all(scene);
+template <int D>
+std::optional<std::size_t> firstNotFinite(const SceneOf<D>& scene) {
+  const AllDisks<D> all(scene);
   const auto lost =
-      std::ranges::find_if(all.position, [](const Vec2& p) { return !p.allFinite(); });
+      std::ranges::find_if(all.position, [](const VecOf<D>& p) { return !p.allFinite(); });
   if (lost == all.position.end()) return std::nullopt;
   return static_cast<std::size_t>(lost - all.position.begin());
 }
+template std::optional<std::size_t> firstNotFinite<2>(const Scene&);
+template std::optional<std::size_t> firstNotFinite<3>(const SpaceScene&);
 
-std::optional<DeepStart> deepStart(const Scene& scene,
-                                   const std::function<double(double, double)>& limit) {
-  const AllDisks all(scene);
-  const std::size_t disks = scene.disks.size();
-  std::optional<DeepStart> first;
-  sweepPairs(all.position, all.radius, disks, [&](std::size_t i, std::size_t j) {
+template <int D>
+std::optional<DeepStartOf<D>> deepStart(const SceneOf<D>& scene,
+                                        const std::function<double(double, double)>& limit) {
+  const AllDisks<D> all(scene);
+  const std::vector<VecOf<D>>& position = all.position;
+  const std::vector<double>& radius = all.radius;
+  std::optional<DeepStartOf<D>> first;
+  nearPairs<D>(position, radius, scene.disks.size(), scene.box, [&](std::size_t i, std::size_t j) {
     if (first) return;
-    const double distance = (all.position[i] - all.position[j]).norm();
-    const double overlap = all.radius[i] + all.radius[j] - distance;
-    if (distance == 0.0 || overlap > limit(all.radius[i], all.radius[j]))
-      first = {i, j, all.position[i], overlap, distance == 0.0};
+    VecOf<D> apart = position[i] - position[j];
+    if (scene.box) apart = scene.box->nearest(apart);
+    const double distance = apart.norm();
+    const double overlap = radius[i] + radius[j] - distance;
+    if (distance == 0.0 || overlap > limit(radius[i], radius[j]))
+      first = {i, j, position[i], overlap, distance == 0.0};
   });
   if (first) return first;
   return deepInPlane(scene, limit);
 }
+template std::optional<DeepStart> deepStart<2>(const Scene&,
+                                               const std::function<double(double, double)>&);
+template std::optional<DeepStartOf<3>> deepStart<3>(const SpaceScene&,
+                                                    const std::function<double(double, double)>&);
 
-std::string startFault(const Scene& scene) {
+template <int D>
+std::string startFault(const SceneOf<D>& scene) {
   if (const auto lost = firstNotFinite(scene))
     return fmt::format("the position of {} is not finite", nameOfId(scene, *lost));
-  const auto deep = deepStart(scene, [](double a, double b) { return std::min(a, b); });
+  const auto deep = deepStart<D>(scene, [](double a, double b) { return std::min(a, b); });
   if (!deep) return {};
   const std::string who =
       fmt::format("{} and {}", nameOfId(scene, deep->i), nameOfId(scene, deep->j));
-  const std::string where = fmt::format("({:g}, {:g}) m", deep->place.x(), deep->place.y());
+  const std::string where = fmt::format("({:g}) m", fmt::join(deep->place, ", "));
   if (deep->sameCentre) return fmt::format("{} have the same centre, {}", who, where);
   return fmt::format(
       "{} overlap by {:.3g} m at the start, near {}: more than the smaller radius, so that a "
       "centre lies inside",
       who, deep->overlap, where);
 }
+template std::string startFault<2>(const Scene&);
+template std::string startFault<3>(const SpaceScene&);
 
 }  // namespace crossgrain

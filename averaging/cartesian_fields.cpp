@@ -34,7 +34,7 @@ constexpr std::array inText = {Replacement{"V_ring", "V_bin"},
                                Replacement{"_r", "_x"},
                                Replacement{"_φ", "_y"}};
 
-/// ∂/∂r and v/r have no like in the plane (Grid::slope()).
+/// ∂/∂r and v/r have no like in the plane (grid.hpp).
 constexpr std::array<std::string_view, 4> ofRings = {"velocity_gradient", "shear_rate",
                                                      "continuum_rotation", "excess_rotation"};
 
@@ -78,10 +78,6 @@ std::vector<FieldSpec> makeCartesianTable() {
 std::span<const FieldSpec> cartesianFieldTable() {
   static const std::vector<FieldSpec> table = makeCartesianTable();
   return table;
-}
-
-std::span<const FieldSpec> fieldsOf(const Coordinates& coordinates) {
-  return coordinates.isCartesian() ? cartesianFieldTable() : fieldTable();
 }
 
 }  // namespace crossgrain::inline averaging

@@ -16,9 +16,11 @@ namespace crossgrain::inline averaging {
 /// is cut, a pair that parts overlaps for some steps while nothing passes. A pair held together by
 /// its dashpot (f_n < 0, tension allowed) does transmit, and counts. Engines list the pairs that
 /// they looked at; the averaging, and nobody else, decides.
-inline bool transmits(const Contacts& pairs, std::size_t k) {
-  return pairs.normalForce[k] != 0.0 || pairs.tangentialForce[k] != 0.0 ||
-         (!pairs.rollingTorque.empty() && pairs.rollingTorque[k] != 0.0);
+template <int D>
+bool transmits(const ContactsOf<D>& pairs, std::size_t k) {
+  const SpinOf<D> none = noSpin<D>();
+  return pairs.normalForce[k] != 0.0 || pairs.tangentialForce[k] != none ||
+         (!pairs.rollingTorque.empty() && pairs.rollingTorque[k] != none);
 }
 
 }  // namespace crossgrain::inline averaging

@@ -24,25 +24,31 @@ struct Slope {
   double radius;  ///< r of a ring's centre [m]
 };
 
-/// Where averages are taken: bins, and two directions at every point. Weights and fields know no
-/// more than this, so a new coordinate is a class of its own.
-///
-/// Bins are places ("slots") in an array. Some are overflow: with them nothing is lost, sums over
-/// all slots are sums over all disks.
-class Coordinates {
+/// Bins: places ("slots") in an array. Some are overflow: with them nothing is lost, sums over all
+/// slots are sums over all disks.
+class BinSet {
  public:
-  virtual ~Coordinates() = default;
+  virtual ~BinSet() = default;
 
+  virtual int dimension() const { return 2; }
   virtual std::size_t slots() const = 0;
   virtual bool isOverflow(std::size_t slot) const = 0;
-
-  /// Whether the directions are x and y everywhere.
-  virtual bool isCartesian() const { return false; }
-
-  /// h of the disks, normal to the plane [m]
-  virtual double height() const = 0;
   /// Of a bin that is no overflow [m³]
   virtual double volume(std::size_t slot) const = 0;
+
+  /// Whether the directions are x and y (and z) everywhere.
+  virtual bool isCartesian() const { return false; }
+
+  /// Absent where there is no derivative to offer.
+  virtual std::optional<Slope> slope(std::size_t) const { return std::nullopt; }
+};
+
+/// Where averages are taken in the plane: bins, and two directions at every point. Weights and
+/// fields know no more than this, so a new coordinate is a class of its own.
+class Coordinates : public BinSet {
+ public:
+  /// h of the disks, normal to the plane [m]
+  virtual double height() const = 0;
 
   virtual std::size_t slotAt(const Vec2& x) const = 0;
 
@@ -53,9 +59,6 @@ class Coordinates {
   /// to 1. Whatever was in `fractions` is dropped.
   virtual void discFractions(const Vec2& x, double a, Edges edges,
                              BinFractions& fractions) const = 0;
-
-  /// Absent where the coordinate has no derivative to offer.
-  virtual std::optional<Slope> slope(std::size_t slot) const = 0;
 };
 
 }  // namespace crossgrain::inline averaging

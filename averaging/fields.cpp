@@ -12,7 +12,8 @@
 
 namespace crossgrain::inline averaging {
 
-SpringConstants springConstants(const Scene& scene) {
+template <int D>
+SpringConstants springConstants(const SceneOf<D>& scene) {
   const ContactLaw& law = scene.law;
   SpringConstants springs;
   if (law.normal != NormalLaw::linear) return springs;
@@ -27,24 +28,27 @@ SpringConstants springConstants(const Scene& scene) {
   if (spring && common(&ContactLaw::kt)) springs.kt = law.kt;
   return springs;
 }
+template SpringConstants springConstants(const Scene&);
+template SpringConstants springConstants(const SpaceScene&);
 
-Linear BinView::operator[](Moment which) const {
-  Linear moment(at(means_[slot_], which));
-  moment.slopes = {{slot_ * momentCount + static_cast<std::size_t>(which), 1.0}};
+Linear BinView::moment(std::size_t which) const {
+  const std::size_t index = slot_ * perSlot_ + which;
+  Linear moment(means_[index]);
+  moment.slopes = {{index, 1.0}};
   return moment;
 }
 
 Linear BinView::slope(Linear (*field)(const BinView&)) const {
-  const auto slope = coordinates_.slope(slot_);
+  const auto slope = bins_.slope(slot_);
   if (!slope) return std::numeric_limits<double>::quiet_NaN();
   Linear sum;
   for (const auto& [slot, factor] : slope->terms)
-    sum = sum + factor * field(BinView(coordinates_, means_, slot, springs_));
+    sum = sum + factor * field(BinView(bins_, means_, perSlot_, slot, springs_));
   return sum;
 }
 
 Linear BinView::overRadius(const Linear& x) const {
-  const auto slope = coordinates_.slope(slot_);
+  const auto slope = bins_.slope(slot_);
   return x / (slope ? slope->radius : std::numeric_limits<double>::quiet_NaN());
 }
 
@@ -250,51 +254,80 @@ std::vector<FieldSpec> makeTable() {
   };
 }
 
-/// Whether f(2m) = 2 f(m), on moments with nothing special about them; ratios have f(2m) = f(m).
-bool growsWithContent(const FieldSpec& field) {
-  const Rings rings(1.0, 4.0, 3, 1.0, 1.0);
-  const auto valueAt = [&](double scale) {
-    std::vector<Moments> moments(rings.slots());
-    for (std::size_t slot = 0; slot < moments.size(); ++slot)
-      for (std::size_t q = 0; q < momentCount; ++q)
-        moments[slot][q] =
-            scale * (1.0 + std::fmod(static_cast<double>(slot * momentCount + q) * 0.618, 1.0));
-    return field.formula(BinView(rings, moments, rings.slot(1), {1.0, 1.0})).value;
-  };
-  const double once = valueAt(1.0);
-  return std::abs(valueAt(2.0) - 2.0 * once) < 1e-9 * std::abs(once);
-}
-
 bool measuresFilling(const FieldSpec& field) {
   return field.name == "volume_fraction" || field.name == "density";
 }
 
 }  // namespace
 
+bool growsWithContent(const FieldSpec& field, int dimension) {
+  const Rings rings(1.0, 4.0, 3, 1.0, 1.0);
+  const Cells cells(Vec3::Zero(), Vec3::Ones(), {2, 1, 1}, {});
+  const auto valueAt = [&](double scale) {
+    const auto filled = [&](auto moments) {
+      for (std::size_t slot = 0; slot < moments.size(); ++slot)
+        for (std::size_t q = 0; q < moments[slot].size(); ++q)
+          moments[slot][q] =
+              scale *
+              (1.0 + std::fmod(static_cast<double>(slot * moments[slot].size() + q) * 0.618, 1.0));
+      return moments;
+    };
+    if (dimension == 3) {
+      const auto moments = filled(std::vector<SpaceMoments>(cells.slots()));
+      return field.formula(BinView(cells, moments, 1)).value;
+    }
+    const auto moments = filled(std::vector<Moments>(rings.slots()));
+    return field.formula(BinView(rings, moments, rings.slot(1), {1.0, 1.0})).value;
+  };
+  const double once = valueAt(1.0);
+  return std::abs(valueAt(2.0) - 2.0 * once) < 1e-9 * std::abs(once);
+}
+
 std::span<const FieldSpec> fieldTable() {
   static const std::vector<FieldSpec> table = [] {
     std::vector<FieldSpec> fields = makeTable();
-    for (FieldSpec& field : fields) field.perVolume = growsWithContent(field);
+    for (FieldSpec& field : fields) field.perVolume = growsWithContent(field, 2);
     return fields;
   }();
   return table;
 }
 
+std::span<const FieldSpec> fieldsIn(int dimension, bool rings) {
+  if (dimension == 3) return spaceFieldTable(rings);
+  return rings ? fieldTable() : cartesianFieldTable();
+}
+
+std::span<const FieldSpec> fieldsOf(const BinSet& bins) {
+  return fieldsIn(bins.dimension(), !bins.isCartesian());
+}
+
+const FieldSpec* findField(std::string_view name) {
+  for (const int dimension : {2, 3})
+    for (const bool rings : {true, false}) {
+      const auto table = fieldsIn(dimension, rings);
+      if (const auto found = std::ranges::find(table, name, &FieldSpec::name); found != table.end())
+        return &*found;
+    }
+  return nullptr;
+}
+
 const FieldSpec& fieldSpec(std::string_view name) {
-  for (const auto& table : {fieldTable(), cartesianFieldTable()})
-    if (const auto found = std::ranges::find(table, name, &FieldSpec::name); found != table.end())
-      return *found;
+  if (const FieldSpec* const found = findField(name)) return *found;
   throw std::invalid_argument(fmt::format("averaging: there is no field \"{}\"", name));
 }
 
 std::optional<Linear> evaluate(const FieldSpec& field, const BinView& bin) {
-  if (bin.isEmpty() && !measuresFilling(field)) return std::nullopt;
+  // In space branches lie where no centre need be, and stress is there all the same.
+  const bool besideDisks = bin.dimension() == 3 && field.perVolume;
+  if (bin.isEmpty() && !measuresFilling(field) && !besideDisks) return std::nullopt;
   Linear result = field.formula(bin);
   if (!std::isfinite(result.value)) return std::nullopt;
   return result;
 }
 
-bool available(const FieldSpec& field, const Snapshot& snapshot, const SpringConstants& springs) {
+template <int D>
+bool available(const FieldSpec& field, const SnapshotOf<D>& snapshot,
+               const SpringConstants& springs) {
   switch (field.needs) {
     case Needs::kinematics:
       return true;
@@ -312,5 +345,7 @@ bool available(const FieldSpec& field, const Snapshot& snapshot, const SpringCon
   }
   throw std::invalid_argument("averaging: not a need");
 }
+template bool available(const FieldSpec&, const Snapshot&, const SpringConstants&);
+template bool available(const FieldSpec&, const SpaceSnapshot&, const SpringConstants&);
 
 }  // namespace crossgrain::inline averaging

@@ -11,6 +11,7 @@
 #include "averaging/coordinates.hpp"
 #include "averaging/linear.hpp"
 #include "averaging/moments.hpp"
+#include "averaging/space_moments.hpp"
 
 namespace crossgrain::inline averaging {
 
@@ -28,7 +29,8 @@ enum class Needs {
 struct SpringConstants {
   std::optional<double> kn, kt;  ///< [N/m]
 };
-SpringConstants springConstants(const Scene& scene);
+template <int D>
+SpringConstants springConstants(const SceneOf<D>& scene);
 
 /// One bin as its fields see it: moments of it and of its neighbours, and the scene's constants.
 class BinView {
@@ -36,17 +38,24 @@ class BinView {
   /// @param means  moments per slot  @pre slot is no overflow; the arguments outlive the view
   BinView(const Coordinates& coordinates, std::span<const Moments> means, std::size_t slot,
           SpringConstants springs = {})
-      : coordinates_(coordinates), means_(means), slot_(slot), springs_(springs) {}
+      : BinView(coordinates, means.front().data(), momentCount, slot, springs) {}
+  /// In space.
+  BinView(const SpaceBins& bins, std::span<const SpaceMoments> means, std::size_t slot,
+          SpringConstants springs = {})
+      : BinView(bins, means.front().data(), spaceMomentCount, slot, springs) {}
 
-  /// A moment; its index among all is slot · momentCount + moment.
-  Linear operator[](Moment which) const;
+  /// A moment; its index among all is slot · (moments per slot) + moment.
+  Linear operator[](Moment which) const { return moment(static_cast<std::size_t>(which)); }
+  Linear operator[](SpaceMoment which) const { return moment(static_cast<std::size_t>(which)); }
 
   /// Σ w Q / V
-  Linear perVolume(Moment which) const { return (*this)[which] / volume(); }
+  Linear perVolume(auto which) const { return (*this)[which] / volume(); }
 
   bool isEmpty() const { return !((*this)[Moment::volume].value > 0.0); }
-  double volume() const { return coordinates_.volume(slot_); }
-  double height() const { return coordinates_.height(); }
+  int dimension() const { return bins_.dimension(); }
+  double volume() const { return bins_.volume(slot_); }
+  /// @pre in the plane
+  double height() const { return static_cast<const Coordinates&>(bins_).height(); }
   double kn() const { return springs_.kn.value(); }
   double kt() const { return springs_.kt.value(); }
 
@@ -56,11 +65,18 @@ class BinView {
   Linear overRadius(const Linear& x) const;
 
  private:
-  const Coordinates& coordinates_;
-  std::span<const Moments> means_;
-  std::size_t slot_;
+  BinView(const BinSet& bins, const double* means, std::size_t perSlot, std::size_t slot,
+          SpringConstants springs)
+      : bins_(bins), means_(means), perSlot_(perSlot), slot_(slot), springs_(springs) {}
+  Linear moment(std::size_t which) const;
+
+  const BinSet& bins_;
+  const double* means_;  ///< slot by slot
+  std::size_t perSlot_, slot_;
   SpringConstants springs_;
 };
+static_assert(static_cast<std::size_t>(Moment::volume) == 0 &&
+              static_cast<std::size_t>(SpaceMoment::volume) == 0);
 
 /// One field: its name and unit as in profiles.csv, how people call and write it, its defining sum
 /// as text and as formula. Where there is nothing to measure the formula is not finite (0/0), and
@@ -79,6 +95,9 @@ struct FieldSpec {
   bool perVolume = false;
 };
 
+/// Whether f(2m) = 2 f(m), on moments m with nothing special about them; ratios have f(2m) = f(m).
+bool growsWithContent(const FieldSpec& field, int dimension);
+
 /// All fields of rings, in the order of profiles.csv.
 std::span<const FieldSpec> fieldTable();
 
@@ -86,10 +105,19 @@ std::span<const FieldSpec> fieldTable();
 /// without those that only rings have.
 std::span<const FieldSpec> cartesianFieldTable();
 
-/// Whichever of them is the coordinate's.
-std::span<const FieldSpec> fieldsOf(const Coordinates& coordinates);
+/// Those of bins in space: along x, y and z, or by the names of rings about the z axis
+/// ("stress_rz", "velocity_z").
+std::span<const FieldSpec> spaceFieldTable(bool rings);
 
-/// Of either table. @throws std::invalid_argument if there is no field of that name
+/// Whichever of the four tables is theirs.
+std::span<const FieldSpec> fieldsIn(int dimension, bool rings);
+std::span<const FieldSpec> fieldsOf(const BinSet& bins);
+
+/// Of any of them; null if there is no field of that name. What two tables have by one name has one
+/// unit and one meaning.
+const FieldSpec* findField(std::string_view name);
+
+/// @throws std::invalid_argument if there is no field of that name
 const FieldSpec& fieldSpec(std::string_view name);
 
 /// The field in a bin. Absent where there is nothing to measure: in a bin without disks everything
@@ -97,6 +125,8 @@ const FieldSpec& fieldSpec(std::string_view name);
 std::optional<Linear> evaluate(const FieldSpec& field, const BinView& bin);
 
 /// Whether the snapshot and the scene hold what the field needs.
-bool available(const FieldSpec& field, const Snapshot& snapshot, const SpringConstants& springs);
+template <int D>
+bool available(const FieldSpec& field, const SnapshotOf<D>& snapshot,
+               const SpringConstants& springs);
 
 }  // namespace crossgrain::inline averaging

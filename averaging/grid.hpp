@@ -4,8 +4,9 @@
 
 namespace crossgrain::inline averaging {
 
-/// A Cartesian grid of nx × ny equal cells; directions are x and y everywhere. One cell over
-/// everything gives whole-cell averages. Slot 0 is the overflow, cell (i, j) is slot 1 + i + nx j.
+/// A Cartesian grid of nx × ny equal cells; directions are x and y everywhere. It has no slope(): a
+/// gradient needs both directions, and fields know but the first. One cell over everything gives
+/// whole-cell averages. Slot 0 is the overflow, cell (i, j) is slot 1 + i + nx j.
 class Grid : public Coordinates {
  public:
   /// @param low, high  corners [m]  @param height h of the disks [m]
@@ -27,8 +28,6 @@ class Grid : public Coordinates {
   Vec2 firstDirection(const Vec2&) const override { return Vec2::UnitX(); }
   /// Straight edges are exact here: both kinds of cut are one.
   void discFractions(const Vec2& x, double a, Edges edges, BinFractions& fractions) const override;
-  /// Absent: a gradient in the plane needs both directions, and fields know but the first.
-  std::optional<Slope> slope(std::size_t) const override { return std::nullopt; }
 
  private:
   Vec2 low_, cell_;

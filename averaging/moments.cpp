@@ -54,19 +54,42 @@ void distribute(const Moments& moments, const BinFractions& fractions, std::vect
 
 }  // namespace
 
+template <int D>
+void SceneCounts::require(const SnapshotOf<D>& snapshot, bool walls) const {
+  requireLength("positions", snapshot.position.size(), disks);
+  requireLength("velocities", snapshot.velocity.size(), disks);
+  if (snapshot.spin) requireLength("spins", snapshot.spin->size(), disks);
+  if (walls) requireLength("wall positions", snapshot.wallPosition.size(), wallDisks);
+  if (!snapshot.contacts) return;
+  const ContactsOf<D>& contacts = *snapshot.contacts;
+  const std::size_t ids = disks + wallDisks + planes;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto i = contacts.i[c];
+    const auto j = contacts.j[c];
+    if (i < 0 || static_cast<std::size_t>(i) >= disks || j <= i ||
+        static_cast<std::size_t>(j) >= ids)
+      throw std::invalid_argument(
+          fmt::format("averaging: contact {} joins ids {} and {}; wanted is i < j, i a disk below "
+                      "{}, j below {}",
+                      c, i, j, disks, ids));
+  }
+}
+template void SceneCounts::require(const Snapshot&, bool) const;
+template void SceneCounts::require(const SpaceSnapshot&, bool) const;
+
 MomentSums::MomentSums(std::shared_ptr<const Coordinates> coordinates,
                        const std::vector<Weight>& weights, const Scene& scene, bool countWallDisks)
     : coordinates_(std::move(coordinates)),
       radius_(scene.radii()),
       mass_(scene.disks.mass),
       inertia_(scene.disks.inertia),
-      planes_(scene.planeCount()),
+      counts_(scene),
       countWallDisks_(countWallDisks) {
   for (const Weight& weight : weights) sharings_.emplace_back(*coordinates_, weight);
 }
 
 void MomentSums::compute(const Snapshot& snapshot, std::vector<std::vector<Moments>>& sums) {
-  check(snapshot);
+  counts_.require(snapshot, countWallDisks_ || snapshot.contacts);
   sums.resize(sharings_.size());
   for (std::vector<Moments>& bins : sums) bins.assign(coordinates_->slots(), Moments{});
   contactSums_.assign(radius_.size(), ContactSums{});
@@ -147,28 +170,6 @@ void MomentSums::addBranches(const Snapshot& snapshot, Partition& partition,
           addStress(forceNormal, er, a * part * fraction, wall ? ofWalls : ofDisks, sums[slot]);
       }
     }
-  }
-}
-
-void MomentSums::check(const Snapshot& snapshot) const {
-  const std::size_t disks = mass_.size();
-  requireLength("positions", snapshot.position.size(), disks);
-  requireLength("velocities", snapshot.velocity.size(), disks);
-  if (snapshot.spin) requireLength("spins", snapshot.spin->size(), disks);
-  if (countWallDisks_ || snapshot.contacts)
-    requireLength("wall positions", snapshot.wallPosition.size(), radius_.size() - disks);
-  if (!snapshot.contacts) return;
-  const Contacts& contacts = *snapshot.contacts;
-  const std::size_t ids = radius_.size() + planes_;
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const auto i = contacts.i[c];
-    const auto j = contacts.j[c];
-    if (i < 0 || static_cast<std::size_t>(i) >= disks || j <= i ||
-        static_cast<std::size_t>(j) >= ids)
-      throw std::invalid_argument(
-          fmt::format("averaging: contact {} joins ids {} and {}; wanted is i < j, i a disk below "
-                      "{}, j below {}",
-                      c, i, j, disks, ids));
   }
 }
 

@@ -66,6 +66,20 @@ inline double at(const Moments& moments, Moment which) {
   return moments[static_cast<std::size_t>(which)];
 }
 
+/// How many of what a scene has, for snapshots to be compared with.
+struct SceneCounts {
+  std::size_t disks, wallDisks, planes;
+
+  template <int D>
+  explicit SceneCounts(const SceneOf<D>& scene)
+      : disks(scene.disks.size()), wallDisks(scene.wallDiskCount()), planes(scene.planeCount()) {}
+
+  /// @param walls  whether their places are needed
+  /// @throws std::invalid_argument if the snapshot does not fit
+  template <int D>
+  void require(const SnapshotOf<D>& snapshot, bool walls) const;
+};
+
 /// Computes the moments of snapshots of one scene. In a contact of disk p, f is the force **on** p
 /// and l = a_p times the unit vector from p's centre to the contact, the whole radius as in the
 /// thesis (the overlap, 10⁻⁵ a, is not taken off). Both disks of a contact take part, each with its
@@ -111,7 +125,6 @@ class MomentSums {
     double heat = 0.0;  ///< [W]
   };
 
-  void check(const Snapshot& snapshot) const;
   void fetch(std::int32_t disk) const;
   void sumContacts(const Contacts& contacts);
   void addHeat(const Contacts& contacts, std::size_t c);
@@ -124,7 +137,7 @@ class MomentSums {
   std::vector<Partition> sharings_;
   std::vector<double> radius_;  ///< of moving disks, then of wall disks [m]
   std::vector<double> mass_, inertia_;
-  std::size_t planes_;
+  SceneCounts counts_;
   bool countWallDisks_;
   std::vector<ContactSums> contactSums_;
 };

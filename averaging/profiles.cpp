@@ -13,15 +13,18 @@ namespace crossgrain::inline averaging {
 namespace {
 
 /// All moments of all slots as one row of numbers, in the order of Linear's indices.
-std::span<const double> flat(const std::vector<Moments>& moments) {
-  static_assert(sizeof(Moments) == momentCount * sizeof(double));
-  return {moments.front().data(), moments.size() * momentCount};
+template <std::size_t Count>
+std::span<const double> flat(const std::vector<std::array<double, Count>>& moments) {
+  static_assert(sizeof(moments.front()) == Count * sizeof(double));
+  return {moments.front().data(), moments.size() * Count};
 }
 
+template <typename Moments>
 std::vector<Moments> perSlot(const std::vector<double>& flat) {
-  std::vector<Moments> result(flat.size() / momentCount);
+  constexpr std::size_t count = std::tuple_size_v<Moments>;
+  std::vector<Moments> result(flat.size() / count);
   for (std::size_t slot = 0; slot < result.size(); ++slot)
-    std::copy_n(flat.begin() + static_cast<std::ptrdiff_t>(slot * momentCount), momentCount,
+    std::copy_n(flat.begin() + static_cast<std::ptrdiff_t>(slot * count), count,
                 result[slot].begin());
   return result;
 }
@@ -41,16 +44,8 @@ std::vector<std::pair<std::size_t, double>> collected(
 
 }  // namespace
 
-ProfileAccumulator::ProfileAccumulator(std::shared_ptr<const Coordinates> coordinates,
-                                       std::vector<Weight> weights, const Scene& scene,
-                                       bool countWallDisks)
-    : coordinates_(std::move(coordinates)),
-      weights_(std::move(weights)),
-      springs_(springConstants(scene)),
-      sums_(coordinates_, weights_, scene, countWallDisks),
-      series_(weights_.size(), BlockSeries(coordinates_->slots() * momentCount)) {}
-
-void ProfileAccumulator::add(const Snapshot& snapshot) {
+template <int D>
+void ProfileAccumulatorOf<D>::add(const SnapshotOf<D>& snapshot) {
   std::vector<const FieldSpec*> fields;
   for (const FieldSpec& field : averaging::fieldsOf(*coordinates_))
     if (field.needs != Needs::dissipation && available(field, snapshot, springs_))
@@ -71,12 +66,14 @@ void ProfileAccumulator::add(const Snapshot& snapshot) {
   fields_ = std::move(fields);
 }
 
-std::vector<Moments> ProfileAccumulator::meanMoments(std::size_t weight) const {
-  return perSlot(series_[weight].means());
+template <int D>
+auto ProfileAccumulatorOf<D>::meanMoments(std::size_t weight) const -> std::vector<Moments> {
+  return perSlot<Moments>(series_[weight].means());
 }
 
+template <int D>
 template <typename MeansOf>
-std::vector<Profile> ProfileAccumulator::profilesOf(MeansOf&& meansOf, bool errors) const {
+std::vector<Profile> ProfileAccumulatorOf<D>::profilesOf(MeansOf&& meansOf, bool errors) const {
   std::vector<Profile> result;
   if (snapshots_ == 0) return result;
   for (std::size_t weight = 0; weight < weights_.size(); ++weight) {
@@ -89,18 +86,21 @@ std::vector<Profile> ProfileAccumulator::profilesOf(MeansOf&& meansOf, bool erro
   return result;
 }
 
-std::vector<Profile> ProfileAccumulator::profiles() const {
+template <int D>
+std::vector<Profile> ProfileAccumulatorOf<D>::profiles() const {
   return profilesOf([this](std::size_t weight) { return meanMoments(weight); }, true);
 }
 
-std::optional<std::pair<std::size_t, std::size_t>> ProfileAccumulator::part(std::size_t k,
-                                                                            std::size_t n) const {
+template <int D>
+std::optional<std::pair<std::size_t, std::size_t>> ProfileAccumulatorOf<D>::part(
+    std::size_t k, std::size_t n) const {
   if (series_.empty() || series_.front().blocks() < n) return std::nullopt;
   const std::size_t blocks = series_.front().blocks(), length = series_.front().blockLength();
   return std::pair(k * blocks / n * length, (k + 1) * blocks / n * length);
 }
 
-std::vector<Profile> ProfileAccumulator::profilesWithout(std::size_t k, std::size_t n) const {
+template <int D>
+std::vector<Profile> ProfileAccumulatorOf<D>::profilesWithout(std::size_t k, std::size_t n) const {
   const auto [first, last] = *part(k, n);
   return profilesOf(
       [&](std::size_t weight) {
@@ -110,13 +110,14 @@ std::vector<Profile> ProfileAccumulator::profilesWithout(std::size_t k, std::siz
         for (std::size_t b = first / length; b < last / length; ++b)
           for (std::size_t m = 0; m < means.size(); ++m) means[m] -= series.sums(b)[m];
         for (double& mean : means) mean /= static_cast<double>(series.samples() - (last - first));
-        return perSlot(means);
+        return perSlot<Moments>(means);
       },
       false);
 }
 
-Profile ProfileAccumulator::profile(std::size_t weight, const FieldSpec& field,
-                                    const std::vector<Moments>& mean, bool errors) const {
+template <int D>
+Profile ProfileAccumulatorOf<D>::profile(std::size_t weight, const FieldSpec& field,
+                                         const std::vector<Moments>& mean, bool errors) const {
   Profile result;
   result.method = toString(weights_[weight].method);
   result.field = field.name;
@@ -146,5 +147,8 @@ Profile ProfileAccumulator::profile(std::size_t weight, const FieldSpec& field,
   }
   return result;
 }
+
+template class ProfileAccumulatorOf<2>;
+template class ProfileAccumulatorOf<3>;
 
 }  // namespace crossgrain::inline averaging

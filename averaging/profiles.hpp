@@ -3,6 +3,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -36,22 +38,35 @@ struct Profile {
 /// the moments of all bins that the field is made of; for a ratio that is (numerator −
 /// mean·denominator)/⟨denominator⟩. Memory does not grow with the number of snapshots
 /// (BlockSeries).
-class ProfileAccumulator {
+template <int D>
+class ProfileAccumulatorOf {
  public:
+  using Coordinates = std::conditional_t<D == 2, averaging::Coordinates, SpaceBins>;
+  using Moments = std::conditional_t<D == 2, averaging::Moments, SpaceMoments>;
+  using Sums = std::conditional_t<D == 2, MomentSums, SpaceMomentSums>;
+
   /// @param countWallDisks adds the wall disks' area in the rings to volume_fraction; off in the
   ///        thesis' labels ν̄ (see MomentSums)
-  ProfileAccumulator(std::shared_ptr<const Coordinates> coordinates, std::vector<Weight> weights,
-                     const Scene& scene, bool countWallDisks = false);
+  ProfileAccumulatorOf(std::shared_ptr<const Coordinates> coordinates, std::vector<Weight> weights,
+                       const Scene& scene, bool countWallDisks = false) requires(D == 2)
+      : ProfileAccumulatorOf(coordinates, weights,
+                             MomentSums(coordinates, weights, scene, countWallDisks),
+                             springConstants(scene)) {}
 
   /// Over rings.
-  ProfileAccumulator(const Rings& rings, std::vector<Weight> weights, const Scene& scene,
-                     bool countWallDisks = false)
-      : ProfileAccumulator(std::make_shared<Rings>(rings), std::move(weights), scene,
-                           countWallDisks) {}
+  ProfileAccumulatorOf(const Rings& rings, std::vector<Weight> weights, const Scene& scene,
+                       bool countWallDisks = false) requires(D == 2)
+      : ProfileAccumulatorOf(std::make_shared<Rings>(rings), std::move(weights), scene,
+                             countWallDisks) {}
+
+  ProfileAccumulatorOf(std::shared_ptr<const SpaceBins> bins, std::vector<Weight> weights,
+                       const SpaceScene& scene) requires(D == 3)
+      : ProfileAccumulatorOf(bins, weights, SpaceMomentSums(bins, weights, scene),
+                             springConstants(scene)) {}
 
   /// @throws std::invalid_argument if the snapshot does not fit the scene, or has spin or contacts
   ///         where earlier ones had none (or the other way round)
-  void add(const Snapshot& snapshot);
+  void add(const SnapshotOf<D>& snapshot);
 
   std::size_t snapshots() const { return snapshots_; }
 
@@ -68,6 +83,14 @@ class ProfileAccumulator {
   std::vector<Moments> meanMoments(std::size_t weight) const;
 
  private:
+  ProfileAccumulatorOf(std::shared_ptr<const Coordinates> coordinates, std::vector<Weight> weights,
+                       Sums sums, SpringConstants springs)
+      : coordinates_(std::move(coordinates)),
+        weights_(std::move(weights)),
+        springs_(springs),
+        sums_(std::move(sums)),
+        series_(weights_.size(), BlockSeries(coordinates_->slots() * std::tuple_size_v<Moments>)) {}
+
   /// Of every field and weight. @param meansOf  of a weight @param errors  whether they are wanted
   template <typename MeansOf>
   std::vector<Profile> profilesOf(MeansOf&& meansOf, bool errors) const;
@@ -77,12 +100,13 @@ class ProfileAccumulator {
   std::shared_ptr<const Coordinates> coordinates_;
   std::vector<Weight> weights_;
   SpringConstants springs_;
-  MomentSums sums_;
+  Sums sums_;
   std::vector<BlockSeries> series_;              ///< per weight, of all moments of all slots
   std::vector<std::vector<Moments>> momentary_;  ///< of the last snapshot
   std::size_t snapshots_ = 0;
   std::vector<const FieldSpec*> fields_;          ///< those that the snapshots have data for
   bool reportsHeat_ = false, lacksHeat_ = false;  ///< whether snapshots have Contacts::dissipation
 };
+using ProfileAccumulator = ProfileAccumulatorOf<2>;
 
 }  // namespace crossgrain::inline averaging

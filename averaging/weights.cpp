@@ -26,22 +26,38 @@ std::vector<std::pair<double, double>> kernelDiscs(const Weight& weight) {
   return discs;
 }
 
+/// In enum order.
+constexpr auto allNames = [] {
+  std::array<std::string_view, 8> names{};
+  std::ranges::copy(weightNames, names.begin());
+  std::ranges::copy(std::span(spaceWeightNames).last(3), names.begin() + weightNames.size());
+  return names;
+}();
+
 }  // namespace
 
+std::span<const std::string_view> weightNamesIn(int dimension) {
+  if (dimension == 3) return spaceWeightNames;
+  return weightNames;
+}
+
 std::string_view toString(WeightMethod method) {
-  return weightNames.at(static_cast<std::size_t>(method));
+  return allNames.at(static_cast<std::size_t>(method));
 }
 
 WeightMethod weightMethod(std::string_view name) {
-  const auto found = std::ranges::find(weightNames, name);
-  if (found == weightNames.end())
+  const auto found = std::ranges::find(allNames, name);
+  if (found == allNames.end())
     throw std::invalid_argument(fmt::format("weights: unknown method \"{}\"; there are {}", name,
-                                            fmt::join(weightNames, ", ")));
-  return static_cast<WeightMethod>(found - weightNames.begin());
+                                            fmt::join(allNames, ", ")));
+  return static_cast<WeightMethod>(found - allNames.begin());
 }
 
 Partition::Partition(const Coordinates& coordinates, const Weight& weight)
     : coordinates_(coordinates), weight_(weight) {
+  if (weight.isFunction())
+    throw std::invalid_argument(
+        fmt::format("weights: {} is of slabs in space", toString(weight.method)));
   if (!weight.alongBranch()) return;
   if (!std::isfinite(weight.width) || !(weight.width > 0.0))
     throw std::invalid_argument(fmt::format("weights: {} needs a kernel width above 0, got {} m",

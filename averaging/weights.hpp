@@ -12,16 +12,23 @@ namespace crossgrain::inline averaging {
 
 /// How a disk, and the force along a branch, is divided among the bins.
 enum class WeightMethod {
-  slicing,       ///< exact area fraction of the disk
-  straightCut,   ///< area fraction with the bins' edges taken as straight (Lätzel 2003, Eq. 5.4)
-  centre,        ///< all to the bin that holds the centre (Lätzel 2003, Eq. 5.3)
-  lineGaussian,  ///< kernel about the centre, and stress along the branch (Goldhirsch 2010, Eq. 25)
-  lineHeaviside  ///< the same with another kernel
+  slicing,        ///< exact area fraction of the disk
+  straightCut,    ///< area fraction with the bins' edges taken as straight (Lätzel 2003, Eq. 5.4)
+  centre,         ///< all to the bin that holds the centre (Lätzel 2003, Eq. 5.3)
+  lineGaussian,   ///< kernel about the centre, stress along the branch (Goldhirsch 2010, Eq. 25)
+  lineHeaviside,  ///< the same with another kernel
+  heaviside,  ///< in space, of slabs: a coarse-graining function of one coordinate (kernels.hpp)
+  lucy,
+  gauss
 };
 
-/// The names used in case files and CSV, in enum order.
+/// The names used in case files and CSV: those of the plane, in enum order, and of space. In space
+/// stress lies along branches whatever the weight (space_moments.hpp).
 inline constexpr std::array<std::string_view, 5> weightNames = {"slicing", "straight_cut", "centre",
                                                                 "line_gaussian", "line_heaviside"};
+inline constexpr std::array<std::string_view, 5> spaceWeightNames = {"slicing", "centre",
+                                                                     "heaviside", "lucy", "gauss"};
+std::span<const std::string_view> weightNamesIn(int dimension);
 
 std::string_view toString(WeightMethod method);
 
@@ -32,7 +39,7 @@ WeightMethod weightMethod(std::string_view name);
 /// w over its area (Goldhirsch 2010, Granular Matter 12:239).
 struct Weight {
   WeightMethod method;
-  double width = 0.0;  ///< w of a line method's kernel [m]; the others have none
+  double width = 0.0;  ///< w of a line method's kernel, or a function's [m]; the others have none
 
   Weight(WeightMethod how, double w = 0.0) : method(how), width(w) {}
 
@@ -40,6 +47,8 @@ struct Weight {
   bool alongBranch() const {
     return method == WeightMethod::lineGaussian || method == WeightMethod::lineHeaviside;
   }
+  /// Whether it is a coarse-graining function of space.
+  bool isFunction() const { return method >= WeightMethod::heaviside; }
 };
 
 /// BinFractions out disks and branches of one coordinate by one weight; keeps its memory.
@@ -50,7 +59,7 @@ struct Weight {
 /// exact.
 class Partition {
  public:
-  /// @throws std::invalid_argument for a line method without a positive width
+  /// @throws std::invalid_argument for a line method without a positive width, or one of space
   Partition(const Coordinates& coordinates, const Weight& weight);
 
   const Weight& weight() const { return weight_; }

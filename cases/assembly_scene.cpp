@@ -2,15 +2,16 @@
 
 #include <fmt/format.h>
 #include <gsl/gsl_randist.h>
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "cases/couette.hpp"
 #include "cases/materials.hpp"
 #include "cases/time_step.hpp"
+#include "support/bad_input.hpp"
 #include "support/random.hpp"
 
 namespace crossgrain::inline cases {
@@ -26,48 +27,100 @@ double normal(gsl_rng* random, double rms) {
   return rms > 0.0 ? gsl_ran_gaussian(random, rms) : 0.0;
 }
 
-void addDisks(Disks& disks, const DiskGroup& group, const Assembly& assembly, gsl_rng* random) {
+/// Each coordinate anew, one after the other.
+template <int D>
+VecOf<D> each(auto&& draw) {
+  VecOf<D> drawn;
+  for (int k = 0; k < D; ++k) drawn[k] = draw();
+  return drawn;
+}
+
+/// Where the assembly is placed as a whole. In space it stays.
+template <int D>
+VecOf<D> placedAt(const AssemblyOf<D>& assembly, const VecOf<D>& point) {
+  if constexpr (D == 2)
+    return assembly.placement.offset + assembly.placement.turned(point);
+  else
+    return point;
+}
+
+template <int D>
+VecOf<D> turned(const AssemblyOf<D>& assembly, const VecOf<D>& direction) {
+  if constexpr (D == 2)
+    return assembly.placement.turned(direction);
+  else
+    return direction;
+}
+
+template <int D>
+VecOf<D> movingAt(const AssemblyOf<D>& assembly, const VecOf<D>& velocity) {
+  if constexpr (D == 2)
+    return assembly.placement.boost + assembly.placement.turned(velocity);
+  else
+    return velocity;
+}
+
+template <int D>
+SpinOf<D> spinningAt(const AssemblyOf<D>& assembly, const SpinOf<D>& spin) {
+  if (!assembly.rotation) return noSpin<D>();
+  return assembly.placement.mirror ? -spin : spin;
+}
+
+/// All places of a group, or so many of them, drawn without repeats.
+template <int D>
+std::vector<VecOf<D>> placesOf(const DiskGroupOf<D>& group, gsl_rng* random) {
+  if (group.choose == 0) return group.places;
+  std::vector<std::size_t> all(group.places.size()), chosen(group.count());
+  std::iota(all.begin(), all.end(), 0);
+  gsl_ran_choose(random, chosen.data(), chosen.size(), all.data(), all.size(), sizeof(std::size_t));
+  std::vector<VecOf<D>> places;
+  for (const std::size_t k : chosen) places.push_back(group.places[k]);
+  return places;
+}
+
+template <int D>
+void addDisks(DisksOf<D>& disks, const DiskGroupOf<D>& group, const AssemblyOf<D>& assembly,
+              gsl_rng* random) {
   const double diameter = 2.0 * group.radius;
-  for (const Vec2& place : group.places) {
+  for (const VecOf<D>& place : placesOf(group, random)) {
     const double scale = 1.0 + within(random, group.radiusSpread);
-    const double jitterX = within(random, group.jitter), jitterY = within(random, group.jitter);
-    const double extraX = normal(random, group.velocityRms);
-    const double extraY = normal(random, group.velocityRms);
-    const double radius = group.radius * scale, mass = group.mass * scale * scale;
-    const Vec2 position = group.position + diameter * (place + Vec2(jitterX, jitterY));
+    const VecOf<D> jitter = each<D>([&] { return within(random, group.jitter); });
+    const VecOf<D> extra = each<D>([&] { return normal(random, group.velocityRms); });
+    const double radius = group.radius * scale;
+    double mass = group.mass * scale * scale;
+    if (D == 3) mass *= scale;
+    const VecOf<D> position = group.position + diameter * (place + jitter);
     disks.radius.push_back(radius);
     disks.mass.push_back(mass);
     disks.inertia.push_back(assembly.inertiaFactor * mass * radius * radius);
-    disks.position.push_back(assembly.placement.offset + assembly.placement.turned(position));
-    disks.velocity.push_back(assembly.placement.boost +
-                             assembly.placement.turned(group.velocity + Vec2(extraX, extraY)));
-    disks.spin.push_back(!assembly.rotation          ? 0.0
-                         : assembly.placement.mirror ? -group.spin
-                                                     : group.spin);
+    disks.position.push_back(placedAt(assembly, position));
+    disks.velocity.push_back(movingAt<D>(assembly, group.velocity + extra));
+    disks.spin.push_back(spinningAt(assembly, group.spin));
   }
 }
 
 /// Walls that move in any other way cannot be boosted: the loader says so.
-Motion movedAlong(Motion motion, const Assembly& assembly) {
-  motion.velocity = assembly.placement.turned(motion.velocity);
-  motion.amplitude = assembly.placement.turned(motion.amplitude);
+template <int D>
+MotionOf<D> movedAlong(MotionOf<D> motion, const AssemblyOf<D>& assembly) {
+  motion.velocity = turned(assembly, motion.velocity);
+  motion.amplitude = turned(assembly, motion.amplitude);
   if (assembly.placement.mirror) motion.angularVelocity = -motion.angularVelocity;
   if (assembly.placement.boost.isZero(0.0)) return motion;
-  motion.kind = Motion::Kind::translating;
-  motion.velocity += assembly.placement.boost;
+  motion.kind = MotionKind::translating;
+  if constexpr (D == 2) motion.velocity += assembly.placement.boost;
   return motion;
 }
 
-WallBody bodyOf(const WallGroup& group, const Assembly& assembly, std::size_t index) {
-  const auto place = [&](const Vec2& point) -> Vec2 {
-    return assembly.placement.offset + assembly.placement.turned(point);
-  };
-  WallBody body;
+template <int D>
+WallBodyOf<D> bodyOf(const WallGroupOf<D>& group, const AssemblyOf<D>& assembly,
+                     std::size_t index) {
+  WallBodyOf<D> body;
   body.name = fmt::format("wall-{}", index);
-  body.centre = place(group.centre);
-  for (const Plane& plane : group.planes)
-    body.planes.push_back({place(plane.point), assembly.placement.turned(plane.normal)});
-  for (const Vec2& position : group.position) body.diskPosition.push_back(place(position));
+  body.centre = placedAt(assembly, group.centre);
+  for (const PlaneOf<D>& plane : group.planes)
+    body.planes.push_back({placedAt(assembly, plane.point), turned(assembly, plane.normal)});
+  for (const VecOf<D>& position : group.position)
+    body.diskPosition.push_back(placedAt(assembly, position));
   body.diskRadius = group.radii;
   if (group.radii.empty()) body.diskRadius.assign(group.position.size(), group.radius);
   body.motion = movedAlong(group.motion, assembly);
@@ -75,87 +128,107 @@ WallBody bodyOf(const WallGroup& group, const Assembly& assembly, std::size_t in
 }
 
 /// The body as a start that is so far along [s].
-void moveOn(WallBody& body, double time) {
+template <int D>
+void moveOn(WallBodyOf<D>& body, double time) {
   if (time == 0.0) return;
-  const BodyState now = stateAt(body.motion, body.centre, time);
-  const auto place = [&](const Vec2& point) { return memberPosition(now, body.centre, point); };
-  const Eigen::Rotation2Dd turn(now.angle);
-  for (Vec2& position : body.diskPosition) position = place(position);
-  for (Plane& plane : body.planes) plane = {place(plane.point), turn * plane.normal};
+  const BodyStateOf<D> now = stateAt(body.motion, body.centre, time);
+  for (VecOf<D>& position : body.diskPosition)
+    position = memberPosition<D>(now, body.centre, position);
+  for (PlaneOf<D>& plane : body.planes) plane = planeAt<D>(now, body.centre, plane);
   body.centre = now.centre;
 }
 
 /// A file's disks, placed as the assembly is, with this packing's velocities.
-Disks placed(Disks disks, const Assembly& assembly, gsl_rng* random) {
-  const Placement& placement = assembly.placement;
+template <int D>
+DisksOf<D> placed(DisksOf<D> disks, const AssemblyOf<D>& assembly, gsl_rng* random) {
   for (std::size_t i = 0; i < disks.size(); ++i) {
-    const double extraX = normal(random, assembly.starts.velocityRms);
-    const double extraY = normal(random, assembly.starts.velocityRms);
-    disks.position[i] = placement.offset + placement.turned(disks.position[i]);
-    disks.velocity[i] =
-        placement.boost + placement.turned(disks.velocity[i] + Vec2(extraX, extraY));
-    if (!assembly.rotation)
-      disks.spin[i] = 0.0;
-    else if (placement.mirror)
-      disks.spin[i] = -disks.spin[i];
+    const VecOf<D> extra = each<D>([&] { return normal(random, assembly.starts.velocityRms); });
+    disks.position[i] = placedAt(assembly, disks.position[i]);
+    disks.velocity[i] = movingAt<D>(assembly, disks.velocity[i] + extra);
+    disks.spin[i] = spinningAt(assembly, disks.spin[i]);
   }
   return disks;
 }
 
+/// @throws BadInput for a command that does not know the case's dimension
+template <int D>
+void requireDimension(const Case& setup) {
+  if (setup.dimension == D) return;
+  throw BadInput(
+      fmt::format("{}: only compare, plan and check run assemblies in space "
+                  "(case.dimension = 3)",
+                  setup.file.string()));
+}
+
 }  // namespace
 
-Disks assemblyDisks(const Case& setup, int packing) {
-  const Assembly& assembly = setup.assembly;
+template <int D>
+DisksOf<D> assemblyDisks(const Case& setup, int packing) {
+  requireDimension<D>(setup);
+  const AssemblyOf<D>& assembly = assemblyIn<D>(setup);
   const Random random = randomStream(assembly.seed, static_cast<std::uint64_t>(packing));
   const auto& starts = assembly.starts.disks;
   if (!starts.empty())
     return placed(starts[static_cast<std::size_t>(packing) % starts.size()], assembly,
                   random.get());
-  Disks disks;
-  for (const DiskGroup& group : assembly.disks) addDisks(disks, group, assembly, random.get());
+  DisksOf<D> disks;
+  for (const DiskGroupOf<D>& group : assembly.disks) addDisks(disks, group, assembly, random.get());
   return disks;
 }
+template Disks assemblyDisks<2>(const Case&, int);
+template DisksOf<3> assemblyDisks<3>(const Case&, int);
 
-Scene assemblyScene(const Case& setup, Disks disks, double wallTime, double dt) {
-  const Assembly& assembly = setup.assembly;
-  Scene scene;
+template <int D>
+SceneOf<D> assemblyScene(const Case& setup, DisksOf<D> disks, double wallTime, double dt) {
+  requireDimension<D>(setup);
+  const AssemblyOf<D>& assembly = assemblyIn<D>(setup);
+  SceneOf<D> scene;
   scene.name = setup.variant.empty() ? setup.name : setup.name + " " + setup.variant;
   scene.law = setup.law;
   scene.bottom = setup.bottom;
-  scene.gravity = assembly.placement.turned(assembly.gravity);
+  scene.box = assembly.box;
+  scene.gravity = turned(assembly, assembly.gravity);
   scene.rotation = assembly.rotation;
   scene.precision = setup.run.precision;
   scene.dt = dt;
   scene.energyLedger = setup.run.energyLedger;
   scene.disks = std::move(disks);
-  for (const WallGroup& group : assembly.walls) {
+  for (const WallGroupOf<D>& group : assembly.walls) {
     scene.bodies.push_back(bodyOf(group, assembly, scene.bodies.size()));
     moveOn(scene.bodies.back(), wallTime);
   }
-  addMaterials(scene, setup);
+  if constexpr (D == 2) addMaterials(scene, setup);  // the loader refuses them in space
   return scene;
 }
+template Scene assemblyScene<2>(const Case&, Disks, double, double);
+template SpaceScene assemblyScene<3>(const Case&, DisksOf<3>, double, double);
 
 namespace {
 
-Particles limitsOf(const Case& setup, const Scene& scene) {
+template <int D>
+Particles limitsOf(const Case& setup, const SceneOf<D>& scene) {
   Particles limits;
   limits.smallRadius = std::ranges::min(scene.disks.radius);
-  limits.maxOverlap = setup.assembly.maxOverlap;
+  limits.maxOverlap = assemblyIn<D>(setup).maxOverlap;
   limits.maxOverlapKey = "assembly.max_overlap";
   return limits;
 }
 
 }  // namespace
 
-void checkAssemblyStart(const Case& setup, const Scene& scene) {
+template <int D>
+void checkAssemblyStart(const Case& setup, const SceneOf<D>& scene) {
   checkStart(scene, limitsOf(setup, scene), setup.file.string());
 }
+template void checkAssemblyStart<2>(const Case&, const Scene&);
+template void checkAssemblyStart<3>(const Case&, const SpaceScene&);
 
+template <int D>
 void checkStartFiles(const Case& setup) {
-  const StartFiles& starts = setup.assembly.starts;
+  const StartFilesOf<D>& starts = assemblyIn<D>(setup).starts;
   for (std::size_t k = 0; k < starts.files.size(); ++k) {
-    const Scene scene = assemblyScene(setup, assemblyDisks(setup, static_cast<int>(k)), 0.0, 1.0);
+    const SceneOf<D> scene =
+        assemblyScene<D>(setup, assemblyDisks<D>(setup, static_cast<int>(k)), 0.0, 1.0);
     std::vector<int> lines = starts.lines[k];
     if (!lines.empty())  // fixed disks are the last body of the walls
       lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(scene.disks.size()),
@@ -163,18 +236,24 @@ void checkStartFiles(const Case& setup) {
     checkStart(scene, limitsOf(setup, scene), starts.files[k].string(), nullptr, lines);
   }
 }
+template void checkStartFiles<2>(const Case&);
+template void checkStartFiles<3>(const Case&);
 
-Scene assemblyScene(const Case& setup) {
-  Scene scene = assemblyScene(setup, assemblyDisks(setup, 0), 0.0, timeStep(setup));
+template <int D>
+SceneOf<D> assemblyScene(const Case& setup) {
+  SceneOf<D> scene = assemblyScene<D>(setup, assemblyDisks<D>(setup, 0), 0.0, timeStep(setup));
   checkAssemblyStart(setup, scene);
   return scene;
 }
+template Scene assemblyScene<2>(const Case&);
+template SpaceScene assemblyScene<3>(const Case&);
 
 double assemblyDuration(const Case& setup) {
-  const Assembly& assembly = setup.assembly;
-  if (assembly.duration) return *assembly.duration;
-  if (assembly.steps) return *assembly.steps * timeStep(setup);
-  return *assembly.contactTimes * shortestContact(setup);
+  return withAssembly(setup, [&](const auto& assembly) {
+    if (assembly.duration) return *assembly.duration;
+    if (assembly.steps) return *assembly.steps * timeStep(setup);
+    return *assembly.contactTimes * shortestContact(setup);
+  });
 }
 
 std::vector<Vec2> gridPlaces(int columns, int rows, const Vec2& spacing, bool triangular) {
@@ -192,6 +271,18 @@ std::vector<Vec2> heapPlaces(int base, double spacing) {
   for (int row = 0; row < base; ++row)
     for (int column = 0; column < base - row; ++column)
       places.emplace_back((column + 0.5 * row) * spacing, row * spacing * std::sqrt(0.75));
+  return places;
+}
+
+std::vector<Vec3> latticePlaces(const std::array<int, 3>& counts, const Vec3& spacing,
+                                bool closePacked) {
+  std::vector<Vec3> places;
+  for (int layer = 0; layer < counts[2]; ++layer) {
+    const Vec2 hollow = closePacked && layer % 2 == 1 ? Vec2(0.5 * spacing.x(), spacing.y() / 3.0)
+                                                      : Vec2(Vec2::Zero());
+    for (const Vec2& place : gridPlaces(counts[0], counts[1], spacing.head<2>(), closePacked))
+      places.emplace_back(place.x() + hollow.x(), place.y() + hollow.y(), layer * spacing.z());
+  }
   return places;
 }
 

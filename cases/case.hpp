@@ -127,63 +127,77 @@ struct Collision {
   std::vector<MaterialName> material = {};  ///< of the two, where [[law.pairs]] has them
 };
 
-/// Disks of one kind, each at `position` plus one of `places`.
-struct DiskGroup {
-  Vec2 position = Vec2::Zero();               ///< [m]
-  std::vector<Vec2> places = {Vec2::Zero()};  ///< in diameters of the group
-  Vec2 velocity = Vec2::Zero();               ///< [m/s]
-  double spin = 0.0;                          ///< [rad/s]
-  double radius = 0.0;                        ///< [m]
-  double mass = 0.0;                          ///< of a disk of `radius`; others as a² [kg]
+/// Disks, or spheres in space, of one kind, each at `position` plus one of `places`.
+template <int D>
+struct DiskGroupOf {
+  VecOf<D> position = VecOf<D>::Zero();               ///< [m]
+  std::vector<VecOf<D>> places = {VecOf<D>::Zero()};  ///< in diameters of the group
+  VecOf<D> velocity = VecOf<D>::Zero();               ///< [m/s]
+  SpinOf<D> spin = noSpin<D>();                       ///< [rad/s]
+  double radius = 0.0;                                ///< [m]
+  double mass = 0.0;          ///< of a disk of `radius`; others as a², spheres as a³ [kg]
   double jitter = 0.0;        ///< each coordinate is off by up to this, uniformly [diameters]
   double radiusSpread = 0.0;  ///< radii are off by up to this share, uniformly [-]
   double velocityRms = 0.0;   ///< of each component, normally distributed about `velocity` [m/s]
   MaterialName material = {};
+  int choose = 0;  ///< so many of the places, others in each packing; 0: all of them
+
+  std::size_t count() const {
+    return choose > 0 ? static_cast<std::size_t>(choose) : places.size();
+  }
 };
+using DiskGroup = DiskGroupOf<2>;
 
 /// A body of planes and wall disks that moves as prescribed.
-struct WallGroup {
-  Vec2 centre = Vec2::Zero();  ///< about which it rotates [m]
-  std::vector<Plane> planes;
-  std::vector<Vec2> position;  ///< of wall disks [m]
-  double radius = 0.0;         ///< of wall disks [m]
-  std::vector<double> radii;   ///< of each, where they are not all alike [m]
-  Motion motion;
+template <int D>
+struct WallGroupOf {
+  VecOf<D> centre = VecOf<D>::Zero();  ///< about which it rotates [m]
+  std::vector<PlaneOf<D>> planes;
+  std::vector<VecOf<D>> position;  ///< of wall disks [m]
+  double radius = 0.0;             ///< of wall disks [m]
+  std::vector<double> radii;       ///< of each, where they are not all alike [m]
+  MotionOf<D> motion;
   MaterialName material = {};
 };
+using WallGroup = WallGroupOf<2>;
 
 /// Starts of the user's own, in place of groups: each is a packing.
-struct StartFiles {
+template <int D>
+struct StartFilesOf {
   std::vector<std::filesystem::path> files;
-  std::vector<Disks> disks;  ///< of each
+  std::vector<DisksOf<D>> disks;  ///< of each
   /// Of each component, added to all velocities, other ones in each packing: so one file makes
   /// several packings [m/s].
   double velocityRms = 0.0;
-  std::vector<Vec2> fixedPosition = {};      ///< of disks that stand still, alike in all files [m]
+  std::vector<VecOf<D>> fixedPosition = {};  ///< of disks that stand still, alike in all files [m]
   std::vector<double> fixedRadius = {};      ///< [m]
   std::vector<std::vector<int>> lines = {};  ///< of each file, of its disks and then its fixed ones
   MaterialName material = {};
 };
+using StartFiles = StartFilesOf<2>;
 
-/// Disks and walls put together as a case file says, and then placed as a whole; gravity and walls
-/// go along.
-struct Assembly {
-  std::vector<DiskGroup> disks;
-  StartFiles starts;  ///< either these or `disks`
-  std::vector<WallGroup> walls;
-  Vec2 gravity = Vec2::Zero();  ///< [m/s²]
-  double inertiaFactor = 0.5;   ///< q in J = q m a²
-  bool rotation = true;         ///< false: friction acts, but no disk has a spin or gets one
-  double maxOverlap = 0.2;      ///< largest overlap of a start, in units of the smallest radius
-  std::uint64_t seed = 1;       ///< of jitter, radii and velocities
+/// Disks and walls put together as a case file says, and then, in the plane, placed as a whole;
+/// gravity and walls go along.
+template <int D>
+struct AssemblyOf {
+  std::vector<DiskGroupOf<D>> disks;
+  StartFilesOf<D> starts;  ///< either these or `disks`
+  std::vector<WallGroupOf<D>> walls;
+  std::optional<BoxOf<D>> box;                ///< with periodic directions
+  VecOf<D> gravity = VecOf<D>::Zero();        ///< [m/s²]
+  double inertiaFactor = D == 2 ? 0.5 : 0.4;  ///< q in J = q m a²
+  bool rotation = true;     ///< false: friction acts, but no disk has a spin or gets one
+  double maxOverlap = 0.2;  ///< largest overlap of a start, in units of the smallest radius
+  std::uint64_t seed = 1;   ///< of jitter, radii, velocities and chosen places
 
-  Placement placement;
+  Placement placement;  ///< of the plane alone
 
   /// How long it is watched: one of the three. Contact times are those of the lightest pair.
   std::optional<double> duration;      ///< [s]
   std::optional<double> contactTimes;  ///< [-]
   std::optional<double> steps;         ///< of the case's time step
 };
+using Assembly = AssemblyOf<2>;
 
 /// Places on a lattice, in diameters: row by row, from the origin to the right and upward.
 /// @param spacing     between columns and between rows
@@ -192,6 +206,13 @@ std::vector<Vec2> gridPlaces(int columns, int rows, const Vec2& spacing, bool tr
 
 /// A triangle of rows of base, base − 1, … 1 disks, each in the gaps of the one below.
 std::vector<Vec2> heapPlaces(int base, double spacing);
+
+/// Places on a lattice in space, in diameters: layer by layer along z, each as gridPlaces() has it.
+/// @param spacing      between columns, rows and layers
+/// @param closePacked  odd rows are shifted by half a column, and odd layers by half a column and a
+///                     third of a row: with spacing (1, √(3/4), √(2/3)) each sphere touches twelve
+std::vector<Vec3> latticePlaces(const std::array<int, 3>& counts, const Vec3& spacing,
+                                bool closePacked);
 
 /// How the averaged part of the plane is divided into bins.
 enum class BinKind { rings, slabs, grid, whole };
@@ -216,6 +237,8 @@ struct Region {
   bool hasRings() const { return bins == BinKind::rings; }
   int columnCount() const { return bins == BinKind::slabs && axis == 0 ? count : columns; }
   int rowCount() const { return bins == BinKind::slabs && axis == 1 ? count : rows; }
+  int layerCount() const { return bins == BinKind::slabs && axis == 2 ? count : layers; }
+  int binCount() const { return (hasRings() ? count : columnCount() * rowCount()) * layerCount(); }
 };
 
 /// What is made of a quantity to get one number of a run. A mean or slope over bins weighs them
@@ -294,7 +317,8 @@ struct Case {
   InterimSettings looks;
   RunOptions run;
   Collision collision;
-  Assembly assembly;
+  Assembly assembly;                   ///< in the plane
+  AssemblyOf<3> spaceAssembly;         ///< in space
   std::optional<Average> average;      ///< of an assembly that engines are compared on
   std::optional<Stability> stability;  ///< of a hard case
   Cost cost;
@@ -302,5 +326,24 @@ struct Case {
   std::vector<std::string> warnings;        ///< what loads, but is hardly meant; one line each
   std::vector<std::string> overrides;       ///< "key.path=value" each, as after `--set`
 };
+
+/// The case's assembly of that dimension.
+template <int D>
+const AssemblyOf<D>& assemblyIn(const Case& setup) {
+  if constexpr (D == 2)
+    return setup.assembly;
+  else
+    return setup.spaceAssembly;
+}
+
+/// Does the same to the assembly of the case's own dimension.
+decltype(auto) withAssembly(auto& setup, auto&& work) {
+  return setup.dimension == 3 ? work(setup.spaceAssembly) : work(setup.assembly);
+}
+
+/// Calls work.operator()<D>() with the case's dimension.
+decltype(auto) inDimensionOf(const Case& setup, auto&& work) {
+  return setup.dimension == 3 ? work.template operator()<3>() : work.template operator()<2>();
+}
 
 }  // namespace crossgrain::inline cases

@@ -196,18 +196,18 @@ std::vector<NamedPair> pairsOfAssembly(const Case& setup) {
     if (std::ranges::any_of(kinds, same)) return;
     kinds.push_back({fmt::format("{}{}", name, kinds.size() + 1), radius, mass, material});
   };
-  const Assembly& assembly = setup.assembly;
-  for (const DiskGroup& group : assembly.disks)
-    add("disk", group.radius, group.mass, group.material);
-  const std::size_t disks = kinds.size();
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  for (const WallGroup& wall : assembly.walls) {
-    if (!wall.planes.empty()) add("plane", 0.0, infinite, wall.material);
-    if (!wall.position.empty() && wall.radii.empty())
-      add("wall", wall.radius, infinite, wall.material);
-    for (const double radius : wall.radii) add("wall", radius, infinite, wall.material);
-  }
-  return pairsOfKinds(setup, kinds, disks, assembly.inertiaFactor);
+  return withAssembly(setup, [&](const auto& assembly) {
+    for (const auto& group : assembly.disks) add("disk", group.radius, group.mass, group.material);
+    const std::size_t disks = kinds.size();
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    for (const auto& wall : assembly.walls) {
+      if (!wall.planes.empty()) add("plane", 0.0, infinite, wall.material);
+      if (!wall.position.empty() && wall.radii.empty())
+        add("wall", wall.radius, infinite, wall.material);
+      for (const double radius : wall.radii) add("wall", radius, infinite, wall.material);
+    }
+    return pairsOfKinds(setup, kinds, disks, assembly.inertiaFactor);
+  });
 }
 
 }  // namespace

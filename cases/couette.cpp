@@ -109,31 +109,34 @@ void checkInCell(const Disks& disks, const Cell& cell, const std::string& where)
 
 /// Whether numbers in mm stand where m are meant: an overlap is gross, nearly all of both radii or
 /// more, and there is none where radii, or all lengths of the disks, are a thousandth.
-std::string unitHint(const Scene& scene, const DeepStart& deep, double limit) {
-  const Disks& disks = scene.disks;
+template <int D>
+std::string unitHint(const SceneOf<D>& scene, const DeepStartOf<D>& deep, double limit) {
+  const DisksOf<D>& disks = scene.disks;
   const double other = deep.j < disks.size() ? disks.radius[deep.j] : disks.radius[deep.i];
   constexpr double gross = 0.97;  // of touching radii in mm it is 0.999
   if (deep.overlap < gross * (disks.radius[deep.i] + other)) return {};
   constexpr double milli = 1e-3;
-  Scene scaled = scene;
+  SceneOf<D> scaled = scene;
   const auto sound = [&] {
-    return !deepStart(scaled, [=](double, double) { return milli * limit; });
+    return !deepStart<D>(scaled, [=](double, double) { return milli * limit; });
   };
   for (double& a : scaled.disks.radius) a *= milli;
   if (sound()) return "; are radii in mm?";
-  for (Vec2& x : scaled.disks.position) x *= milli;
+  for (VecOf<D>& x : scaled.disks.position) x *= milli;
   return sound() ? "; are the disks' lengths in mm?" : "";
 }
 
 }  // namespace
 
-void checkStart(const Scene& scene, const Particles& particles, const std::string& where,
+template <int D>
+void checkStart(const SceneOf<D>& scene, const Particles& particles, const std::string& where,
                 const Cell* cell, std::span<const int> lines) {
   if (const auto lost = firstNotFinite(scene))
     throw BadInput(fmt::format("{}: the position of disk {} is not finite", where, *lost));
-  if (cell) checkInCell(scene.disks, *cell, where);
+  if constexpr (D == 2)
+    if (cell) checkInCell(scene.disks, *cell, where);
   const double limit = particles.maxOverlap * particles.smallRadius;
-  const auto deep = deepStart(scene, [=](double, double) { return limit; });
+  const auto deep = deepStart<D>(scene, [=](double, double) { return limit; });
   if (!deep) return;
   const auto lineOf = [&](std::size_t id) { return id < lines.size() ? lines[id] : 0; };
   const auto nameOf = [&](std::size_t id) {
@@ -151,6 +154,10 @@ void checkStart(const Scene& scene, const Particles& particles, const std::strin
       place, who, deep->overlap, particles.maxOverlapKey, particles.maxOverlap, limit,
       unitHint(scene, *deep, limit)));
 }
+template void checkStart<2>(const Scene&, const Particles&, const std::string&, const Cell*,
+                            std::span<const int>);
+template void checkStart<3>(const SpaceScene&, const Particles&, const std::string&, const Cell*,
+                            std::span<const int>);
 
 namespace {
 

@@ -46,7 +46,8 @@ Disks spreadDisks(const Case& setup);
 /// @param lines  of the file `where` that disks and wall disks were read from, by id; 0 or missing:
 ///               nobody knows
 /// @throws BadInput naming the disks
-void checkStart(const Scene& scene, const Particles& particles, const std::string& where,
+template <int D>
+void checkStart(const SceneOf<D>& scene, const Particles& particles, const std::string& where,
                 const Cell* cell = nullptr, std::span<const int> lines = {});
 
 /// Global volume fraction ν̄ = Σ π a² / (π (R_o² − R_i²)): the whole area of the disks, without the

@@ -1,6 +1,7 @@
 #include "cases/flow.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,27 +22,30 @@ bool isAssembly(const Case& setup) {
 }
 
 /// Of the disks of a start file that stand still: its moving disks alone do not tell a scene.
-std::string fixedHash(const StartFiles& starts) {
+template <int D>
+std::string fixedHash(const StartFilesOf<D>& starts) {
   if (starts.fixedRadius.empty()) return {};
   std::string text;
   for (std::size_t k = 0; k < starts.fixedRadius.size(); ++k)
-    text += fmt::format("{} {} {};", starts.fixedPosition[k].x(), starts.fixedPosition[k].y(),
-                        starts.fixedRadius[k]);
+    text += fmt::format("{} {};", fmt::join(starts.fixedPosition[k], " "), starts.fixedRadius[k]);
   return fmt::format("{:016x}", fnv1a(text));
 }
 
 Packing assemblyPacking(const Case& setup, int index) {
   Packing packing;
-  packing.disks = assemblyDisks(setup, index);
-  packing.fixed = fixedHash(setup.assembly.starts);
+  inDimensionOf(setup, [&]<int D>() {
+    disksIn<D>(packing) = assemblyDisks<D>(setup, index);
+    packing.fixed = fixedHash(assemblyIn<D>(setup).starts);
+  });
   packing.hash = contentHash(packing);
   return packing;
 }
 
 /// Of walls that swing, which all do so alike (the loader sees to it); 0: none does [s].
-double swingPeriod(const Assembly& assembly) {
-  for (const WallGroup& wall : assembly.walls)
-    if (wall.motion.kind == Motion::Kind::oscillating)
+template <int D>
+double swingPeriod(const AssemblyOf<D>& assembly) {
+  for (const WallGroupOf<D>& wall : assembly.walls)
+    if (wall.motion.kind == MotionKind::oscillating)
       return 2.0 * std::numbers::pi / wall.motion.frequency;
   return 0.0;
 }
@@ -82,16 +86,19 @@ double flowUnit(const Case& setup) {
 double flowDiameter(const Case& setup) {
   if (!isAssembly(setup)) return 2.0 * setup.particles.smallRadius;
   double smallest = INFINITY;
-  for (const DiskGroup& group : setup.assembly.disks)
-    smallest = std::min(smallest, group.radius * (1.0 - group.radiusSpread));
-  for (const Disks& disks : setup.assembly.starts.disks)
-    smallest = std::min(smallest, std::ranges::min(disks.radius));
+  withAssembly(setup, [&](const auto& assembly) {
+    for (const auto& group : assembly.disks)
+      smallest = std::min(smallest, group.radius * (1.0 - group.radiusSpread));
+    for (const auto& disks : assembly.starts.disks)
+      smallest = std::min(smallest, std::ranges::min(disks.radius));
+  });
   return 2.0 * smallest;
 }
 
 bool packingsAreFiles(const Case& setup) {
-  const StartFiles& starts = setup.assembly.starts;
-  return setup.particles.file || (!starts.files.empty() && starts.velocityRms == 0.0);
+  return setup.particles.file || withAssembly(setup, [](const auto& assembly) {
+           return !assembly.starts.files.empty() && assembly.starts.velocityRms == 0.0;
+         });
 }
 
 bool hasClosedForms(const Case& setup) {
@@ -101,31 +108,38 @@ bool hasClosedForms(const Case& setup) {
 int flowPackings(const Case& setup) {
   if (hasClosedForms(setup)) return closedFormRuns;
   if (!packingsAreFiles(setup)) return setup.preparation.packings;
-  return isAssembly(setup) ? static_cast<int>(setup.assembly.starts.files.size()) : 1;
+  if (!isAssembly(setup)) return 1;
+  return withAssembly(
+      setup, [](const auto& assembly) { return static_cast<int>(assembly.starts.files.size()); });
 }
 
-template <>
-Scene flowScene<2>(const Case& setup, const Packing& packing, double dt) {
-  if (isAssembly(setup)) return assemblyScene(setup, packing.disks, packing.wallTime, dt);
-  return couetteScene(setup, packing, dt);
+template <int D>
+SceneOf<D> flowScene(const Case& setup, const Packing& packing, double dt) {
+  if constexpr (D == 2)
+    if (!isAssembly(setup)) return couetteScene(setup, packing, dt);
+  return assemblyScene<D>(setup, disksIn<D>(packing), packing.wallTime, dt);
 }
-template <>
-SpaceScene flowScene<3>(const Case&, const Packing&, double) {
-  return {};
-}
+template Scene flowScene<2>(const Case&, const Packing&, double);
+template SpaceScene flowScene<3>(const Case&, const Packing&, double);
 
-Scene unplacedScene(const Case& setup, double dt) {
-  if (isAssembly(setup)) return assemblyScene(setup, assemblyDisks(setup, 0), 0.0, dt);
+template <int D>
+SceneOf<D> unplacedScene(const Case& setup, double dt) {
   Packing unplaced;
-  unplaced.disks = diskKinds(setup.particles);
-  return couetteScene(setup, unplaced, dt);
+  if (isAssembly(setup))
+    disksIn<D>(unplaced) = assemblyDisks<D>(setup, 0);
+  else
+    unplaced.disks = diskKinds(setup.particles);
+  return flowScene<D>(setup, unplaced, dt);
 }
+template Scene unplacedScene<2>(const Case&, double);
+template SpaceScene unplacedScene<3>(const Case&, double);
 
 Packing flowPacking(const Case& setup, int index, double dt, Engine& engine,
                     const std::function<void(double)>& progress) {
   if (!isAssembly(setup)) return packingOf(setup, index, dt, engine, progress);
   Packing packing = assemblyPacking(setup, index);
-  checkAssemblyStart(setup, flowScene(setup, packing, dt));
+  inDimensionOf(setup,
+                [&]<int D>() { checkAssemblyStart<D>(setup, flowScene<D>(setup, packing, dt)); });
   return packing;
 }
 
@@ -139,27 +153,31 @@ ExpectedPacking expectedPacking(const Case& setup, int index, double dt) {
 }
 
 double flowRestart(const Case& setup, double t) {
-  const double period = isAssembly(setup) ? swingPeriod(setup.assembly) : 0.0;
+  const double period =
+      isAssembly(setup)
+          ? withAssembly(setup, [](const auto& assembly) { return swingPeriod(assembly); })
+          : 0.0;
   return period > 0.0 ? period * std::floor(t / period) : t;
 }
 
-template <>
-Packing packingAt(const Packing&, const SpaceScene&, const SpaceSnapshot&) {
-  return {};
-}
-template <>
-Packing packingAt(const Packing& from, const Scene& scene, const Snapshot& now) {
+template <int D>
+Packing packingAt(const Packing& from, const SceneOf<D>& scene, const SnapshotOf<D>& now) {
   Packing there = from;
-  there.disks.position = now.position;
-  there.disks.velocity = now.velocity;
-  if (now.spin) there.disks.spin = *now.spin;
-  const auto wheel = std::ranges::find(scene.bodies, wheelName, &WallBody::name);
-  if (wheel != scene.bodies.end())  // a cell's, whose other walls stand still
-    there.wheelAngle += now.bodies[static_cast<std::size_t>(wheel - scene.bodies.begin())].angle;
-  else
+  DisksOf<D>& disks = disksIn<D>(there);
+  disks.position = now.position;
+  disks.velocity = now.velocity;
+  if (now.spin) disks.spin = *now.spin;
+  const auto wheel = std::ranges::find(scene.bodies, wheelName, &WallBodyOf<D>::name);
+  if (D == 2 && wheel != scene.bodies.end()) {  // a cell's, whose other walls stand still
+    const auto& body = now.bodies[static_cast<std::size_t>(wheel - scene.bodies.begin())];
+    if constexpr (D == 2) there.wheelAngle += body.angle;
+  } else {
     there.wallTime += now.positionTime;
+  }
   there.hash = contentHash(there);
   return there;
 }
+template Packing packingAt<2>(const Packing&, const Scene&, const Snapshot&);
+template Packing packingAt<3>(const Packing&, const SpaceScene&, const SpaceSnapshot&);
 
 }  // namespace crossgrain::inline cases

@@ -51,7 +51,8 @@ template <int D = 2>
 SceneOf<D> flowScene(const Case& setup, const Packing& packing, double dt);
 
 /// Its disks wherever they are: a scene for engines to be asked about, not to be run.
-Scene unplacedScene(const Case& setup, double dt);
+template <int D = 2>
+SceneOf<D> unplacedScene(const Case& setup, double dt);
 
 /// A packing from the user's file, from what is kept of earlier times, or made anew.
 /// @param engine  the in-house one  @param progress  called with the fraction done, 0 … 1

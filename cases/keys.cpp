@@ -84,6 +84,10 @@ std::string printed(const Vec2& value) {
   return fmt::format("[{}, {}]", value.x(), value.y());
 }
 
+std::string printed(const Vec3& value) {
+  return fmt::format("[{}, {}, {}]", value.x(), value.y(), value.z());
+}
+
 std::string printed(const std::vector<double>& values) {
   return values.empty() ? "–" : fmt::format("{}", fmt::join(values, ", "));
 }

@@ -26,7 +26,7 @@ const Section<Case>& headerKeys() {
            .listed("the file's name"),
        need("kind", &Case::kind, caseKinds, ""),
        special<Case>({"dimension", "", "2", "2, 3",
-                      "3: spheres in space, of collisions alone (docs/dimensions.md)"},
+                      "3: spheres in space, of collisions and assemblies (docs/dimensions.md)"},
                      [](Reader& in, const std::string& key, Case& c) {
                        in.read(key, c.dimension, between(2, 3));
                      }),
@@ -39,8 +39,8 @@ const Section<Case>& headerKeys() {
 
 void readHeader(Reader& in, Case& c) {
   headerKeys().read(in, c);
-  in.check(c.dimension == 2 || c.kind == CaseKind::collision, "dimension",
-           "only collisions are in space yet");
+  in.check(c.dimension == 2 || c.kind != CaseKind::couette, "dimension",
+           "a couette cell is of the plane: collisions and assemblies are in space, too");
   if (usableName(c.name)) return;
   if (in.has("name")) in.fail("name", usableNameRule);
   in.failMissing("name", "the name of the file cannot stand in for it");
@@ -161,13 +161,21 @@ void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
   if (c.run.dt || !c.particles.file) checkLength(cell, c);
 }
 
+/// What cases in space do not have yet.
+void refusePlaneSections(const Reader& root, const Reader& law) {
+  for (const char* const section : {"bottom", "stability"})
+    root.check(!root.has(section), section, "is of the plane alone, and case.dimension = 3");
+  law.check(!law.has("pairs"), "pairs", "materials are of the plane alone, and case.dimension = 3");
+}
+
 void readAssemblyCase(Reader& root, Reader& law, Reader& run, Starts starts, Case& c) {
   Reader assembly = root.section("assembly");
   Reader preparation = root.section("preparation");
   Reader average = root.section("average");
   Reader looks = root.section("looks");
+  if (c.dimension == 3) refusePlaneSections(root, law);
   readBottom(root, c.bottom);
-  readAssembly(assembly, c.assembly);
+  withAssembly(c, [&](auto& target) { readAssembly(assembly, target); });
   settleMaterials(c);
   readPackings(preparation, c);
   readInterims(looks, c.looks);
@@ -180,12 +188,13 @@ void readAssemblyCase(Reader& root, Reader& law, Reader& run, Starts starts, Cas
   for (const char* const section : {"endpoints", "preparation", "looks"})
     root.check(c.average || !root.has(section), section, "is of no use without [average]");
   requireStep(run, c);
-  assembly.check(!c.assembly.contactTimes || c.law.normal == NormalLaw::linear, "contact_times",
+  const bool contactTimes = assembly.has("contact_times");
+  assembly.check(!contactTimes || c.law.normal == NormalLaw::linear, "contact_times",
                  "this law has no contact time: give duration or steps");
   // An overdamped contact has no t_c, but it is a scene.
-  if (!c.run.dt || c.assembly.contactTimes) checkDamping(law, c);
+  if (!c.run.dt || contactTimes) checkDamping(law, c);
   if (c.average) checkAveragedTime(average, endpoints, c);
-  checkStartFiles(c);
+  inDimensionOf(c, [&]<int D>() { checkStartFiles<D>(c); });
 }
 
 void readCollisionCase(Reader& root, Reader& law, Reader& run, Case& c) {
@@ -211,7 +220,8 @@ void makeAbsolute(toml::table& root, const Case& c) {
   };
   if (c.particles.file)
     *root.at_path("particles.file").node()->as_string() = absolute(*c.particles.file);
-  const auto& files = c.assembly.starts.files;
+  const auto& files = withAssembly(
+      c, [](const auto& assembly) -> const auto& { return assembly.starts.files; });
   if (files.empty()) return;
   toml::node* const node = root.at_path("assembly.start.file").node();
   if (toml::array* const list = node->as_array())

@@ -1,84 +1,120 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "cases/loader_sections.hpp"
-#include "cases/packing.hpp"
 
 namespace crossgrain::inline cases {
 namespace {
 
-/// One distance for both directions, or [between columns, between rows].
-Vec2 readSpacing(Reader& in) {
+/// One distance for all directions, or one for each: between columns, rows and, in space, layers.
+template <int D>
+VecOf<D> readSpacing(Reader& in) {
   std::vector<double> values = {1.0};
   in.read("spacing", values, positive("diameters"));
-  in.check(values.size() <= 2, "spacing", "must be one number or [columns, rows] in diameters");
-  return {values.front(), values.back()};
+  in.check(values.size() == 1 || values.size() == D, "spacing",
+           "must be one number or [columns, rows{}] in diameters", D == 2 ? "" : ", layers");
+  if (values.size() == 1) values.resize(D, values.front());
+  return VecOf<D>::Map(values.data());
 }
 
-std::vector<Vec2> readGrid(Reader in) {
-  int columns = 1, rows = 1;
+/// Columns, rows and layers are along x, y and z, or along the axes that the key of that name has.
+template <int D>
+std::vector<VecOf<D>> readGrid(Reader in) {
+  std::array<int, 3> counts = {1, 1, 1};
   bool triangular = false;
-  in.require("columns", columns, between(1, mostDisks));
-  in.require("rows", rows, between(1, mostDisks));
+  refuseKeysOf<D>(in, 2, {"layers", "axes"});
+  in.require("columns", counts[0], between(1, mostDisks));
+  in.require("rows", counts[1], between(1, mostDisks));
   in.read("triangular", triangular);
-  Vec2 spacing = readSpacing(in);
-  if (triangular && spacing.x() == spacing.y()) spacing.y() *= std::sqrt(0.75);
+  VecOf<D> spacing = readSpacing<D>(in);
+  std::string axes = "xyz";
+  if constexpr (D == 3) {
+    in.read("layers", counts[2], between(1, mostDisks));
+    in.read("axes", axes, Names{"xyz", "xzy", "yxz", "yzx", "zxy", "zyx"});
+  }
+  if (triangular && (spacing.array() == spacing[0]).all()) {
+    spacing[1] *= std::sqrt(0.75);
+    if constexpr (D == 3) spacing[2] *= std::sqrt(2.0 / 3.0);
+  }
   in.finish();
-  const double places = static_cast<double>(columns) * rows;
+  const double places = static_cast<double>(counts[0]) * counts[1] * counts[2];
   in.check(places <= mostDisks, "columns",
-           "times {} rows are {:.3g} disks: a case may have at most {}", rows, places, mostDisks);
-  return gridPlaces(columns, rows, spacing, triangular);
+           "times {} rows{} are {:.3g} disks: a case may have at most {}", counts[1],
+           D == 2 ? "" : fmt::format(" and {} layers", counts[2]), places, mostDisks);
+  if constexpr (D == 2) {
+    return gridPlaces(counts[0], counts[1], spacing, triangular);
+  } else {
+    std::vector<Vec3> found = latticePlaces(counts, spacing, triangular);
+    for (Vec3& place : found) {
+      const Vec3 before = place;
+      for (std::size_t k = 0; k < 3; ++k) place[axes[k] - 'x'] = before[static_cast<int>(k)];
+    }
+    return found;
+  }
 }
 
 /// A row, column or triangle. @param key  of the number of disks in it
 std::pair<int, double> readRow(Reader in, const char* key) {
   int count = 1;
   in.require(key, count, between(1, 1000));
-  const double spacing = readSpacing(in).x();
+  const double spacing = readSpacing<2>(in).x();
   in.finish();
   return {count, spacing};
 }
 
-std::vector<Vec2> readLine(Reader in) {
+template <int D>
+std::vector<VecOf<D>> readLine(Reader in) {
   int count = 1;
-  Vec2 step = Vec2::UnitX();
+  VecOf<D> step = VecOf<D>::UnitX();
   in.require("count", count, between(1, mostDisks));
   in.require("step", step, anyNumber("diameters"));
   in.finish();
-  std::vector<Vec2> places;
+  std::vector<VecOf<D>> places;
   for (int k = 0; k < count; ++k) places.emplace_back(k * step);
   return places;
 }
 
-constexpr std::pair<const char*, const char*> arrangements[] = {
-    {"grid", "`{ columns, rows, spacing = 1, triangular = false }`: to the right and upward"},
-    {"stack", "`{ count, spacing = 1 }`: upward"},
-    {"chain", "`{ count, spacing = 1 }`: to the right"},
-    {"heap", "`{ base, spacing = 1 }`: a triangle of rows of base, base − 1, … disks"},
-    {"line", "`{ count, step }`: each off by step, [x, y], from the one before"}};
+struct Arrangement {
+  const char *name, *meaning;
+  bool inSpace;
+};
+constexpr Arrangement arrangements[] = {
+    {"grid",
+     "`{ columns, rows, spacing = 1, triangular = false }`: to the right and upward. In space also "
+     "`layers = 1`, and `axes = \"xyz\"` says along which axes columns, rows and layers are; "
+     "triangular layers lie in the hollows of the ones below (close-packed)",
+     true},
+    {"stack", "`{ count, spacing = 1 }`: upward", false},
+    {"chain", "`{ count, spacing = 1 }`: to the right", true},
+    {"heap", "`{ base, spacing = 1 }`: a triangle of rows of base, base − 1, … disks", false},
+    {"line", "`{ count, step }`: each off by step, [x, y], from the one before", true}};
 
 /// Adds the keys of arrangements, of which one may be given.
-template <typename T>
+template <int D, typename T>
 std::vector<Key<T>> withArrangements(std::vector<Key<T>> keys) {
-  for (const auto& [name, meaning] : arrangements)
+  for (const auto& [name, meaning, inSpace] : arrangements) {
+    if (D == 3 && !inSpace) continue;
     keys.push_back(special<T>(
         {name, "", "–", "a table", meaning}, [](Reader& in, const std::string& key, T& target) {
           if (!in.has(key)) return static_cast<void>(in.take(key));
           Reader part = in.section(key);
-          std::vector<Vec2>& places = target.places;
+          std::vector<VecOf<D>>& places = target.places;
           if (key == "grid") {
-            places = readGrid(part);
+            places = readGrid<D>(part);
           } else if (key == "line") {
-            places = readLine(part);
+            places = readLine<D>(part);
           } else {
             const auto [count, space] = readRow(part, key == "heap" ? "base" : "count");
-            places = key == "heap"    ? heapPlaces(count, space)
-                     : key == "stack" ? gridPlaces(1, count, {space, space}, false)
-                                      : gridPlaces(count, 1, {space, space}, false);
+            if constexpr (D == 2)
+              places = key == "heap"    ? heapPlaces(count, space)
+                       : key == "stack" ? gridPlaces(1, count, {space, space}, false)
+                                        : gridPlaces(count, 1, {space, space}, false);
+            else
+              places = latticePlaces({count, 1, 1}, Vec3::Constant(space), false);
           }
         }));
+  }
   return keys;
 }
 
@@ -87,107 +123,140 @@ void checkArrangement(Reader& in) {
 }
 
 /// The keys of [[assembly.disks]].
-struct DisksInput : DiskGroup {
+template <int D>
+struct DisksInput : DiskGroupOf<D> {
   double density = 0.0;
 };
 
-const Section<DisksInput>& disksKeys() {
-  using D = DisksInput;
-  static const Section<D> section(
+template <int D>
+const Section<DisksInput<D>>& disksKeys() {
+  using I = DisksInput<D>;
+  static const Section<I> section(
       {.name = "assembly.disks",
        .kinds = "assembly",
-       .note = "One or more, unless the disks come from a file.",
+       .note = "One or more, unless the disks come from a file. In space, of spheres: vectors have "
+               "three numbers, `spin` too.",
        .isList = true},
-      withArrangements<D>(
-          {need("position", &D::position, anyNumber("m"), "[x, y] of the (first) disk"),
-           need("radius", &D::radius, positive("m"), ""),
-           key("mass", &D::mass, positive("kg"), "").listed("one of the two"),
-           key("density", &D::density, positive("kg/m^2"), "mass over area")
-               .listed("one of the two"),
-           key("velocity", &D::velocity, anyNumber("m/s"), ""),
-           key("spin", &D::spin, anyNumber("rad/s"), ""),
-           key("jitter", &D::jitter, atLeast(0.0, "diameters"),
+      withArrangements<D, I>(
+          {need("position", &I::position, anyNumber("m"), "[x, y] of the (first) disk"),
+           need("radius", &I::radius, positive("m"), ""),
+           key("mass", &I::mass, positive("kg"), "").listed("one of the two"),
+           key("density", &I::density, densities<D>(), densityMeaning).listed("one of the two"),
+           key("velocity", &I::velocity, anyNumber("m/s"), ""),
+           key("spin", &I::spin, anyNumber("rad/s"), ""),
+           key("choose", &I::choose, between(1, mostDisks),
+               "so many of the places, drawn by chance: other ones in each packing")
+               .listed("all"),
+           key("jitter", &I::jitter, atLeast(0.0, "diameters"),
                "each coordinate is off by up to this"),
-           key("radius_spread", &D::radiusSpread, between(0.0, 0.9),
-               "radii are off by up to this share, masses as their square"),
-           key("velocity_rms", &D::velocityRms, atLeast(0.0, "m/s"),
+           key("radius_spread", &I::radiusSpread, between(0.0, 0.9),
+               "radii are off by up to this share, masses as their square (in space their cube)"),
+           key("velocity_rms", &I::velocityRms, atLeast(0.0, "m/s"),
                "normally distributed, added to `velocity`"),
-           keyOf<D>(
-               "material", [](D& d) -> MaterialName& { return d.material; }, any,
+           keyOf<I>(
+               "material", [](I& d) -> MaterialName& { return d.material; }, any,
                "of `[[law.pairs]]`")}));
   return section;
 }
 
-DiskGroup readDisks(Reader in) {
-  DisksInput group;
-  disksKeys().read(in, group);
+template <int D>
+DiskGroupOf<D> readDisks(Reader in) {
+  DisksInput<D> group;
+  refuseKeysOf<D>(in, 3, {"stack", "heap"});
+  disksKeys<D>().read(in, group);
   checkArrangement(in);
+  in.check(group.count() <= group.places.size(), "choose", "must be at most {}, the places there",
+           group.places.size());
   in.check(!in.has("mass") || !in.has("density"), "density", "and mass: give one of them");
   if (!in.has("mass") && !in.has("density")) in.failMissing("mass", "or density");
-  if (in.has("density")) group.mass = massOf(in, group.density, group.radius, 1.0);
+  if (in.has("density")) group.mass = massOfOne<D>(in, group.density, group.radius);
   return group;
 }
 
 /// The keys of [[assembly.walls]].
-struct WallsInput : WallGroup, Plane, Motion {
-  Vec2 first = Vec2::Zero();  ///< position of the first wall disk
-  std::vector<Vec2> places = {Vec2::Zero()};
+template <int D>
+struct WallsInput : WallGroupOf<D>, PlaneOf<D>, MotionOf<D> {
+  VecOf<D> first = VecOf<D>::Zero();  ///< position of the first wall disk
+  std::vector<VecOf<D>> places = {VecOf<D>::Zero()};
   std::vector<double> box;
 };
 
-const Section<WallsInput>& wallsKeys() {
-  using W = WallsInput;
-  static const Section<W> section(
-      {.name = "assembly.walls",
-       .kinds = "assembly",
-       .note = "Each a body of its own.",
-       .isList = true},
-      withArrangements<W>(
-          {key("point", &Plane::point, anyNumber("m"), "of a plane").listed("–"),
-           key("normal", &Plane::normal, Range{}, "of a plane; it points to the free side")
-               .listed("–"),
-           key("box", &W::box, anyNumber("m"),
-               "[left, bottom, right, top]: four planes around a room"),
-           key("position", &W::first, anyNumber("m"), "[x, y] of the (first) wall disk")
-               .listed("–"),
-           key("radius", &W::radius, positive("m"), "of wall disks").listed("–"),
-           key("velocity", &Motion::velocity, anyNumber("m/s"), "it travels").listed("–"),
-           key("amplitude", &Motion::amplitude, anyNumber("m"),
-               "or it swings: amplitude [x, y] times sin(frequency t)")
-               .listed("–"),
-           key("frequency", &Motion::frequency, positive("rad/s"), "of that")
-               .listed("with `amplitude`"),
-           key("omega", &Motion::angularVelocity, anyNumber("rad/s"), "or it turns about a centre")
-               .listed("–"),
-           key("centre", &W::centre, anyNumber("m"), "of that"),
-           keyOf<W>(
-               "material", [](W& w) -> MaterialName& { return w.material; }, any,
-               "of `[[law.pairs]]`")}));
+template <int D>
+const Section<WallsInput<D>>& wallsKeys() {
+  using I = WallsInput<D>;
+  using Moved = MotionOf<D>;
+  static const Section<I> section = [] {
+    std::vector<Key<I>> keys = {
+        key("point", &PlaneOf<D>::point, anyNumber("m"), "of a plane").listed("–"),
+        key("normal", &PlaneOf<D>::normal, Range{}, "of a plane; it points to the free side")
+            .listed("–"),
+        key("box", &I::box, anyNumber("m"),
+            "[left, bottom, right, top]: four planes around a room; in space the lower corner and "
+            "the upper one, six planes"),
+        key("position", &I::first, anyNumber("m"), "[x, y] of the (first) wall disk").listed("–"),
+        key("radius", &I::radius, positive("m"), "of wall disks").listed("–"),
+        key("velocity", &Moved::velocity, anyNumber("m/s"), "it travels").listed("–"),
+        key("amplitude", &Moved::amplitude, anyNumber("m"),
+            "or it swings: amplitude [x, y] times sin(frequency t)")
+            .listed("–"),
+        key("frequency", &Moved::frequency, positive("rad/s"), "of that")
+            .listed("with `amplitude`")};
+    if constexpr (D == 2) {
+      keys.push_back(key("omega", &Moved::angularVelocity, anyNumber("rad/s"),
+                         "or it turns about a centre; of the plane alone")
+                         .listed("–"));
+      keys.push_back(key("centre", &I::centre, anyNumber("m"), "of that"));
+    }
+    keys.push_back(keyOf<I>(
+        "material", [](I& w) -> MaterialName& { return w.material; }, any, "of `[[law.pairs]]`"));
+    return Section<I>({.name = "assembly.walls",
+                       .kinds = "assembly",
+                       .note = "Each a body of its own.",
+                       .isList = true},
+                      withArrangements<D, I>(std::move(keys)));
+  }();
   return section;
 }
 
-void setMotion(Reader& in, Motion& motion) {
+template <int D>
+void setMotion(Reader& in, MotionOf<D>& motion) {
   const std::string way = in.onlyOne({"velocity", "amplitude", "omega"}, "a wall moves in one way");
-  if (way == "velocity") motion.kind = Motion::Kind::translating;
-  if (way == "amplitude") motion.kind = Motion::Kind::oscillating;
-  if (way == "omega") motion.kind = Motion::Kind::rotating;
+  if (way == "velocity") motion.kind = MotionKind::translating;
+  if (way == "amplitude") motion.kind = MotionKind::oscillating;
+  if (way == "omega") motion.kind = MotionKind::rotating;
   if (in.has("frequency"))
     in.check(in.has("amplitude"), "frequency", "needs an amplitude");
   else if (in.has("amplitude"))
     in.failMissing("frequency", "of the oscillation, in rad/s");
 }
 
-WallGroup readWalls(Reader in) {
-  WallsInput wall;
-  wallsKeys().read(in, wall);
+/// Around a room between two corners: first the planes of the lower one.
+template <int D>
+std::vector<PlaneOf<D>> planesAround(const VecOf<D>& low, const VecOf<D>& high) {
+  std::vector<PlaneOf<D>> planes;
+  for (const double inward : {1.0, -1.0})
+    for (int k = 0; k < D; ++k) {
+      planes.push_back({inward > 0.0 ? low : high, VecOf<D>::Zero()});
+      planes.back().normal[k] = inward;
+    }
+  return planes;
+}
+
+template <int D>
+WallGroupOf<D> readWalls(Reader in) {
+  WallsInput<D> wall;
+  refuseKeysOf<D>(in, 3, {"stack", "heap", "omega", "centre"});
+  wallsKeys<D>().read(in, wall);
   checkArrangement(in);
-  setMotion(in, wall);
+  setMotion<D>(in, wall);
   wall.motion = wall;
-  if (const std::vector<double>& box = wall.box; !box.empty()) {
-    in.check(box.size() == 4 && box[2] > box[0] && box[3] > box[1], "box",
-             "must be [left, bottom, right, top] in m");
-    const Vec2 low(box[0], box[1]), high(box[2], box[3]);
-    wall.planes = {{low, {1.0, 0.0}}, {low, {0.0, 1.0}}, {high, {-1.0, 0.0}}, {high, {0.0, -1.0}}};
+  if (std::vector<double>& box = wall.box; !box.empty()) {
+    const bool sized = box.size() == 2 * D;
+    if (!sized) box.assign(2 * D, 0.0);
+    const VecOf<D> low = VecOf<D>::Map(box.data()), high = VecOf<D>::Map(box.data() + D);
+    in.check(sized && ((high - low).array() > 0.0).all(), "box", "must be {} in m",
+             D == 2 ? "[left, bottom, right, top]" : "the lower [x, y, z] and the upper one");
+    wall.planes = planesAround<D>(low, high);
   }
   if (in.has("point") != in.has("normal"))
     in.failMissing(in.has("point") ? "normal" : "point", "a plane has both");
@@ -198,137 +267,76 @@ WallGroup readWalls(Reader in) {
   if (in.has("position") != in.has("radius"))
     in.failMissing(in.has("position") ? "radius" : "position", "wall disks have both");
   if (in.has("position"))
-    for (const Vec2& place : wall.places)
-      wall.position.push_back(wall.first + 2.0 * wall.radius * place);
-  if (wall.planes.empty() && wall.position.empty())
+    for (const VecOf<D>& place : wall.places)
+      wall.WallGroupOf<D>::position.push_back(wall.first + 2.0 * wall.radius * place);
+  if (wall.planes.empty() && wall.WallGroupOf<D>::position.empty())
     in.failMissing("point", "or box, or position: a wall of planes or disks");
   return wall;
 }
 
-/// The keys of [assembly.start].
-struct StartInput {
-  std::vector<std::filesystem::path> files;
-  double density = 0.0, velocityRms = 0.0;
-  MaterialName material, fixedMaterial;
-};
-
-const Section<StartInput>& startKeys() {
-  static const Section<StartInput> section(
-      {.name = "assembly.start",
-       .kinds = "assembly",
-       .note = "Disks of your own, in place of `[[assembly.disks]]`: "
-               "[how](../cases/assembly/README.md#a-start-of-your-own)."},
-      {need("file", &StartInput::files, ExistingFile{".csv"},
-            "one CSV or HDF5 file, or a list of different ones: each is a packing"),
-       key("density", &StartInput::density, positive("kg/m^2"), "mass over area")
-           .listed("required where a file has no masses"),
-       key("velocity_rms", &StartInput::velocityRms, atLeast(0.0, "m/s"),
-           "normally distributed, added: makes `preparation.packings` packings of the files in "
-           "turn"),
-       key("material", &StartInput::material, any, "of its disks, a name of `[[law.pairs]]`"),
-       key("fixed_material", &StartInput::fixedMaterial, any, "of those that stand still")});
-  return section;
-}
-
-/// One start that counts as two packings would make a scatter too small.
-void requireDifferent(const StartFiles& starts) {
-  std::map<std::string, std::size_t> seen;
-  for (std::size_t k = 0; k < starts.disks.size(); ++k) {
-    Packing packing;
-    packing.disks = starts.disks[k];
-    const auto [same, isNew] = seen.emplace(contentHash(packing), k);
-    if (!isNew)
-      throw BadInput(fmt::format("{}: its disks are those of {}: each file must be another start",
-                                 starts.files[k].string(), starts.files[same->second].string()));
-  }
-}
-
-void readStartFiles(Reader& in, Assembly& assembly) {
-  StartFiles& starts = assembly.starts;
-  StartInput input;
-  startKeys().read(in, input);
-  in.check(!input.files.empty(), "file", "must name one file or more");
-  starts.files = input.files;
-  starts.velocityRms = input.velocityRms;
-  starts.material = input.material;
-  for (const auto& file : starts.files) {
-    const auto mass = [&](double radius) {
-      if (input.density == 0.0)
-        throw BadInput(
-            fmt::format("{}: has no masses, and [assembly.start] no density", file.string()));
-      return massOf(in, input.density, radius, 1.0);
-    };
-    Start start = readStart(file, {mass, assembly.inertiaFactor});
-    if (starts.disks.empty()) {
-      starts.fixedPosition = start.fixedPosition;
-      starts.fixedRadius = start.fixedRadius;
+template <int D>
+const Section<AssemblyOf<D>>& assemblyKeys() {
+  using A = AssemblyOf<D>;
+  static const Section<A> section = [] {
+    std::vector<Key<A>> keys = {
+        key("duration", &A::duration, positive("s"), "how long it runs").listed("one of three"),
+        key("contact_times", &A::contactTimes, positive("t_c"),
+            "the same, in contact times of the lightest pair")
+            .listed("one of three"),
+        key("steps", &A::steps, positive(), "the same, in steps of the case's dt")
+            .listed("one of three"),
+        key("gravity", &A::gravity, anyNumber("m/s^2"), "in the plane"),
+        key("max_overlap", &A::maxOverlap, between(0.0, 2.0),
+            "largest overlap of a start, in units of the smallest radius"),
+        key("inertia_factor", &A::inertiaFactor, aboveZeroTo(1.0),
+            "as in `[particles]`; in space 0.4"),
+        key("rotation", &A::rotation, any, "as in `[particles]`"),
+        key("seed", &A::seed, between(0, mostSeed),
+            "of all that is random; `[preparation] seed` takes precedence")};
+    if constexpr (D == 2) {
+      keys.push_back(keyOf<A>(
+          "mirror", [](A& a) -> bool& { return a.placement.mirror; }, any,
+          "the whole scene mirrored at the y axis; this and what follows of the plane alone"));
+      keys.push_back(special<A>({"rotate", "degrees", "0", "", "then turned about the origin"},
+                                [](Reader& in, const std::string& key, A& a) {
+                                  double degrees = 0.0;
+                                  in.read(key, degrees, anyNumber("degrees"));
+                                  a.placement.turn = degrees * std::numbers::pi / 180.0;
+                                }));
+      keys.push_back(keyOf<A>(
+          "offset", [](A& a) -> Vec2& { return a.placement.offset; }, anyNumber("m"),
+          "then shifted"));
+      keys.push_back(keyOf<A>(
+          "boost", [](A& a) -> Vec2& { return a.placement.boost; }, anyNumber("m/s"),
+          "then with a velocity added to all, walls too"));
     }
-    if (start.fixedPosition != starts.fixedPosition || start.fixedRadius != starts.fixedRadius)
-      throw BadInput(fmt::format("{}: its fixed disks are not those of {}", file.string(),
-                                 starts.files.front().string()));
-    starts.disks.push_back(std::move(start.disks));
-    starts.lines.push_back(std::move(start.lines));
-    starts.lines.back().insert(starts.lines.back().end(), start.fixedLines.begin(),
-                               start.fixedLines.end());
-  }
-  requireDifferent(starts);
-  if (starts.fixedRadius.empty()) return;
-  WallGroup fixed;  // disks of the file that stand still, as one more body
-  fixed.position = starts.fixedPosition;
-  fixed.radii = starts.fixedRadius;
-  fixed.material = input.fixedMaterial;
-  assembly.walls.push_back(fixed);
-}
-
-const Section<Assembly>& assemblyKeys() {
-  using A = Assembly;
-  static const Section<A> section(
-      {.name = "assembly",
-       .kinds = "assembly",
-       .note = "Disks and walls put together from a few arrangements, for `crossgrain stability`, "
-               "or, with `[average]`, for `crossgrain compare` and `lockstep`. With `dt` given a "
-               "linear contact may be overdamped."},
-      {key("duration", &A::duration, positive("s"), "how long it runs").listed("one of three"),
-       key("contact_times", &A::contactTimes, positive("t_c"),
-           "the same, in contact times of the lightest pair")
-           .listed("one of three"),
-       key("steps", &A::steps, positive(), "the same, in steps of the case's dt")
-           .listed("one of three"),
-       key("gravity", &A::gravity, anyNumber("m/s^2"), "in the plane"),
-       key("max_overlap", &A::maxOverlap, between(0.0, 2.0),
-           "largest overlap of a start, in units of the smallest radius"),
-       key("inertia_factor", &A::inertiaFactor, aboveZeroTo(1.0), "as in `[particles]`"),
-       key("rotation", &A::rotation, any, "as in `[particles]`"),
-       key("seed", &A::seed, between(0, mostSeed),
-           "of all that is random; `[preparation] seed` takes precedence"),
-       keyOf<A>(
-           "mirror", [](A& a) -> bool& { return a.placement.mirror; }, any,
-           "the whole scene mirrored at the y axis"),
-       special<A>({"rotate", "degrees", "0", "", "then turned about the origin"},
-                  [](Reader& in, const std::string& key, A& a) {
-                    double degrees = 0.0;
-                    in.read(key, degrees, anyNumber("degrees"));
-                    a.placement.turn = degrees * std::numbers::pi / 180.0;
-                  }),
-       keyOf<A>(
-           "offset", [](A& a) -> Vec2& { return a.placement.offset; }, anyNumber("m"),
-           "then shifted"),
-       keyOf<A>(
-           "boost", [](A& a) -> Vec2& { return a.placement.boost; }, anyNumber("m/s"),
-           "then with a velocity added to all, walls too")});
+    return Section<A>(
+        {.name = "assembly",
+         .kinds = "assembly",
+         .note = "Disks, or spheres where `case.dimension` is 3, and walls put together from a few "
+                 "arrangements, for `crossgrain stability`, or, with `[average]`, for `crossgrain "
+                 "compare` and `lockstep`. With `dt` given a linear contact may be overdamped."},
+        std::move(keys));
+  }();
   return section;
 }
+
+constexpr std::initializer_list<const char*> placementKeys = {"mirror", "rotate", "offset",
+                                                              "boost"};
 
 }  // namespace
 
 std::vector<SectionInfo> assemblySections() {
-  return {assemblyKeys().info(), disksKeys().info(), wallsKeys().info(), startKeys().info()};
+  return {assemblyKeys<2>().info(), disksKeys<2>().info(), wallsKeys<2>().info(), boxSection(),
+          startSection()};
 }
 
-void readAssembly(Reader& in, Assembly& target) {
+template <int D>
+void readAssembly(Reader& in, AssemblyOf<D>& target) {
   std::vector<Reader> groups = in.sections("disks"), bodies = in.sections("walls");
-  Reader file = in.section("start");
-  assemblyKeys().read(in, target);
+  Reader file = in.section("start"), box = in.section("box");
+  refuseKeysOf<D>(in, 3, placementKeys);
+  assemblyKeys<D>().read(in, target);
   std::size_t sum = 0;
   const auto count = [&](const char* key, std::size_t more) {
     sum += more;
@@ -336,11 +344,11 @@ void readAssembly(Reader& in, Assembly& target) {
              "these are more than the {} disks that a case may have", mostDisks);
   };
   for (Reader& group : groups) {
-    target.disks.push_back(readDisks(std::move(group)));
-    count("disks", target.disks.back().places.size());
+    target.disks.push_back(readDisks<D>(std::move(group)));
+    count("disks", target.disks.back().count());
   }
   for (Reader& body : bodies) {
-    target.walls.push_back(readWalls(std::move(body)));
+    target.walls.push_back(readWalls<D>(std::move(body)));
     count("walls", target.walls.back().position.size());
   }
   if (in.has("start")) readStartFiles(file, target);
@@ -350,11 +358,18 @@ void readAssembly(Reader& in, Assembly& target) {
     in.failMissing("disks", "an assembly has [[assembly.disks]], or [assembly.start] with a file");
   if (!target.disks.empty() && in.has("start"))
     in.fail("start", "and [[assembly.disks]]: the disks come from one of the two");
-  const bool moved = std::ranges::any_of(target.walls, [](const WallGroup& wall) {
-    return wall.motion.kind != Motion::Kind::fixed && wall.motion.kind != Motion::Kind::translating;
+  if (in.has("box")) {
+    for (const char* const key : placementKeys)
+      in.check(!in.has(key), key, "not where assembly.box has periodic directions");
+    readBox(box, target);
+  }
+  const bool moved = std::ranges::any_of(target.walls, [](const WallGroupOf<D>& wall) {
+    return wall.motion.kind != MotionKind::fixed && wall.motion.kind != MotionKind::translating;
   });
   if (moved && !target.placement.boost.isZero(0.0))
     in.fail("boost", "not where a wall rotates or oscillates");
 }
+template void readAssembly<2>(Reader&, Assembly&);
+template void readAssembly<3>(Reader&, AssemblyOf<3>&);
 
 }  // namespace crossgrain::inline cases

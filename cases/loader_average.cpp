@@ -18,8 +18,17 @@ namespace {
 /// The keys of [average].
 struct AverageInput : Region, Averaging {
   std::string along;
-  Vec2 lowCorner = Vec2::Zero(), highCorner = Vec2::Zero();
+  std::vector<double> lowCorner, highCorner;  ///< two numbers or three
+  double bottom = 0.0, top = 0.0;             ///< z of rings in space
 };
+
+/// Of the plane, and then what is of space alone.
+Names allWeightNames() {
+  Names names(weightNames.begin(), weightNames.end());
+  for (const std::string_view name : spaceWeightNames)
+    if (std::ranges::find(names, name) == names.end()) names.emplace_back(name);
+  return names;
+}
 
 const Section<AverageInput>& averageKeys() {
   using A = AverageInput;
@@ -28,29 +37,41 @@ const Section<AverageInput>& averageKeys() {
       {.name = "average",
        .kinds = "assembly",
        .commands = "compare plan lockstep average",
-       .note = "What `compare` averages: bins in a part of the plane that stays where it is while "
-               "walls move. With it an assembly runs as long as it says, from each of "
-               "`preparation.packings` packings."},
-      {need("bins", &A::bins, Names(binKindNames.begin(), binKindNames.end()),
-            "fields of rings (about the origin) have directions r and φ, all others x and y"),
-       key("low", &A::lowCorner, anyNumber("m"), "[x, y] of the lower left corner")
+       .note =
+           "What `compare` averages: bins in a part of the plane, or of space, that stays where "
+           "it is while walls move. With it an assembly runs as long as it says, from each of "
+           "`preparation.packings` packings."},
+      {need(
+           "bins", &A::bins, Names(binKindNames.begin(), binKindNames.end()),
+           "fields of rings (about the origin, in space about the z axis) have directions r and φ, "
+           "all others x and y (and z)"),
+       key("low", &A::lowCorner, anyNumber("m"),
+           "[x, y] of the lower left corner; in space [x, y, z]")
            .listed("required, not of rings"),
-       key("high", &A::highCorner, anyNumber("m"), "[x, y] of the upper right corner")
+       key("high", &A::highCorner, anyNumber("m"), "of the upper right corner, likewise")
            .listed("required, not of rings"),
-       key("along", &A::along, Names{"x", "y"}, "the axis of slabs").listed("required of slabs"),
+       key("along", &A::along, Names{"x", "y", "z"}, "the axis of slabs")
+           .listed("required of slabs"),
        key("count", &A::count, bins, "number of slabs or rings")
            .listed("required of slabs and rings"),
        key("columns", &A::columns, columns, "along x; bin 1 is at the lower left corner")
            .listed("required of a grid"),
        key("rows", &A::rows, columns, "along y").listed("required of a grid"),
+       key("layers", &A::layers, columns, "along z, of a grid or rings in space"),
+       key("bottom", &A::bottom, anyNumber("m"), "lowest z of rings in space")
+           .listed("required of rings in space"),
+       key("top", &A::top, anyNumber("m"), "their highest").listed("required of rings in space"),
        key("inner_radius", &A::innerRadius, atLeast(0.0, "m"), "").listed("required of rings"),
        key("outer_radius", &A::outerRadius, positive("m"), "").listed("required of rings"),
-       key("height", &A::height, positive("m"), "h of the disks, normal to the plane"),
+       key("height", &A::height, positive("m"),
+           "h of the disks, normal to the plane; spheres have none"),
        need("from", &A::from, atLeast(0.0, "s"), "what comes before is not averaged"),
        key("snapshots", &A::snapshots, between(1, 1'000'000),
            "evenly from there to the end, a time step or more apart"),
-       key("method", &A::methods, Names(weightNames.begin(), weightNames.end()),
-           "as in `[averaging]`"),
+       key("method", &A::methods, allWeightNames(),
+           "as in `[averaging]`; in space slicing, centre or, of slabs, the coarse-graining "
+           "functions "
+           "heaviside, lucy and gauss"),
        key("line_width", &A::lineWidth, positive("d"),
            "as in `[averaging]`, of the smallest disks"),
        key("confidence", &A::confidence, inside(0.0, 1.0), "as in `[averaging]`")});
@@ -59,34 +80,85 @@ const Section<AverageInput>& averageKeys() {
 
 /// Keys that only some kinds of bins have, and must have.
 constexpr std::pair<const char*, std::string_view> keysOfBins[] = {
-    {"low", "slabs grid whole"}, {"high", "slabs grid whole"}, {"along", "slabs"},
-    {"count", "rings slabs"},    {"columns", "grid"},          {"rows", "grid"},
-    {"inner_radius", "rings"},   {"outer_radius", "rings"}};
+    {"low", "slabs grid whole"}, {"high", "slabs grid whole"},
+    {"along", "slabs"},          {"count", "rings slabs"},
+    {"columns", "grid"},         {"rows", "grid"},
+    {"inner_radius", "rings"},   {"outer_radius", "rings"},
+    {"bottom", "rings"},         {"top", "rings"}};
+
+/// @throws BadInput for keys that the bins of the case's dimension lack, or have not
+void checkKeysOfBins(const Reader& in, BinKind kind, int dimension) {
+  const std::string_view bins = binKindNames[static_cast<std::size_t>(kind)];
+  for (const char* const key : {"layers", "bottom", "top"})
+    in.check(dimension == 3 || !in.has(key), key, "is of space, and case.dimension = 2");
+  in.check(dimension == 2 || !in.has("height"), "height", "spheres have none: leave it out");
+  in.check(!in.has("layers") || kind == BinKind::grid || kind == BinKind::rings, "layers",
+           "has no meaning with bins = \"{}\"", bins);
+  for (const auto& [key, kinds] : keysOfBins) {
+    const bool needed = kinds.find(bins) != std::string_view::npos;
+    const bool ofSpace = std::string_view(key) == "bottom" || std::string_view(key) == "top";
+    if (needed && !in.has(key) && (dimension == 3 || !ofSpace)) in.failMissing(key);
+    in.check(needed || !in.has(key), key, "has no meaning with bins = \"{}\"", bins);
+  }
+}
+
+/// A region that reached out of the box would hold some places twice.
+void checkRegionInBox(const Reader& in, const Case& c) {
+  const Region& region = c.average->region;
+  withAssembly(c, [&]<int D>(const AssemblyOf<D>& assembly) {
+    for (int k = 0; assembly.box && k < D; ++k) {
+      const BoxOf<D>& box = *assembly.box;
+      if (!box.periodic[static_cast<std::size_t>(k)]) continue;
+      in.check(!region.hasRings() || k == 2, "bins",
+               "rings are of scenes that are not periodic along x and y");
+      in.check(region.low[k] >= box.low[k] && region.high[k] <= box.high[k],
+               region.hasRings() ? "top" : "high",
+               "the averaged part must lie in assembly.box along {}, from {:g} to {:g} m", "xyz"[k],
+               box.low[k], box.high[k]);
+    }
+  });
+}
 
 void readRegion(Reader& in, Case& c) {
   Region& region = c.average->region;
   AverageInput input;
   averageKeys().read(in, input);
   region = input;
-  region.low.head<2>() = input.lowCorner;
-  region.high.head<2>() = input.highCorner;
-  const std::string_view bins = binKindNames[static_cast<std::size_t>(region.bins)];
-  for (const auto& [key, kinds] : keysOfBins) {
-    const bool needed = kinds.find(bins) != std::string_view::npos;
-    if (needed && !in.has(key)) in.failMissing(key);
-    in.check(needed || !in.has(key), key, "has no meaning with bins = \"{}\"", bins);
-  }
-  if (region.bins == BinKind::slabs) region.axis = input.along == "x" ? 0 : 1;
+  const int dimension = c.dimension;
+  checkKeysOfBins(in, region.bins, dimension);
+  const auto corner = [&](const char* key, const std::vector<double>& values, Vec3& target) {
+    if (!in.has(key)) return;
+    in.check(values.size() == static_cast<std::size_t>(dimension), key, "must be {} in m",
+             dimension == 2 ? "[x, y]" : "[x, y, z]");
+    std::ranges::copy(values, target.data());
+  };
+  corner("low", input.lowCorner, region.low);
+  corner("high", input.highCorner, region.high);
+  if (region.bins == BinKind::slabs) region.axis = input.along[0] - 'x';
+  in.check(region.axis < dimension, "along", "must be \"x\" or \"y\": case.dimension = 2");
   c.averaging.methods = input.methods;
   c.averaging.lineWidth = input.lineWidth;
   c.averaging.confidence = input.confidence;
   in.check(!input.methods.empty(), "method", "must not be empty");
+  for (const std::string& method : input.methods) {
+    const auto known = weightNamesIn(dimension);
+    in.check(std::ranges::find(known, method) != known.end(), "method",
+             "where case.dimension = {} are {}", dimension, fmt::join(known, ", "));
+    in.check(region.bins == BinKind::slabs || !Weight(weightMethod(method), 1.0).isFunction(),
+             "method", "{} is of slabs", method);
+  }
   if (region.hasRings())
     in.check(region.outerRadius > region.innerRadius, "outer_radius",
              "must be > inner_radius = {} m", region.innerRadius);
   else
-    in.check((region.high - region.low).head<2>().minCoeff() > 0.0, "high",
-             "must lie above and to the right of low");
+    in.check((region.high - region.low).head(dimension).minCoeff() > 0.0, "high",
+             "must lie above and to the right of low{}", dimension == 2 ? "" : ", along z, too");
+  if (dimension == 3 && region.hasRings()) {
+    region.low.z() = input.bottom;
+    region.high.z() = input.top;
+    in.check(input.top > input.bottom, "top", "must be > bottom = {} m", input.bottom);
+  }
+  checkRegionInBox(in, c);
 }
 
 /// The keys of [[endpoints]].
@@ -133,8 +205,8 @@ const Section<EndpointInput>& endpointsKeys() {
   return section;
 }
 
-std::span<const FieldSpec> fieldsOf(const Region& region) {
-  return region.hasRings() ? fieldTable() : cartesianFieldTable();
+std::span<const FieldSpec> fieldsOf(const Case& setup) {
+  return fieldsIn(setup.dimension, setup.average->region.hasRings());
 }
 
 /// Where a quantity comes from, and its unit.
@@ -145,9 +217,9 @@ struct Quantity {
 
 /// @throws BadInput with the nearest name
 Quantity quantityOf(const Reader& in, std::string_view key, const std::string& name,
-                    const Region& region) {
+                    const Case& setup) {
   std::vector<std::string> known;
-  for (const FieldSpec& field : fieldsOf(region)) {
+  for (const FieldSpec& field : fieldsOf(setup)) {
     if (field.name == name) return {true, field.unit == "1" ? "-" : std::string(field.unit)};
     known.emplace_back(field.name);
   }
@@ -169,17 +241,18 @@ Quantity quantityOfDisk(const Reader& in, const std::string& name) {
 }
 
 /// Disks of each start.
-std::size_t disksOf(const Assembly& assembly) {
-  std::size_t count = assembly.starts.disks.empty() ? 0 : assembly.starts.disks.front().size();
-  for (const DiskGroup& group : assembly.disks) count += group.places.size();
-  return count;
+std::size_t disksOf(const Case& setup) {
+  return withAssembly(setup, [](const auto& assembly) {
+    std::size_t count = assembly.starts.disks.empty() ? 0 : assembly.starts.disks.front().size();
+    for (const auto& group : assembly.disks) count += group.count();
+    return count;
+  });
 }
 
 /// `at` in words or as the number of a bin, from 1; or `time`, or `reaches`; `between` of a series.
 void setReduction(Reader& in, const EndpointInput& input, const Region& region, bool isField,
                   OwnEndpoint& endpoint) {
-  const int bins =
-      region.columnCount() * region.rowCount() * (region.hasRings() ? region.count : 1);
+  const int bins = region.binCount();
   const std::string given = in.onlyOne({"at", "time", "reaches"});
   for (const char* const key : {"time", "reaches", "between"})
     if (isField && in.has(key)) in.fail(key, "is of a run over time, not of a field");
@@ -202,7 +275,7 @@ void setReduction(Reader& in, const EndpointInput& input, const Region& region, 
     endpoint.bin = number - 1;
     return;
   }
-  const bool inLine = region.hasRings() || region.bins == BinKind::slabs;
+  const bool inLine = (region.hasRings() && region.layers == 1) || region.bins == BinKind::slabs;
   std::vector<std::pair<std::string, Reduction>> words = {{"mean", Reduction::mean}};
   if (isField && inLine && bins > 2) words.emplace_back("slope", Reduction::slope);
   if (!isField)
@@ -273,18 +346,18 @@ OwnEndpoint readEndpoint(Reader& in, const Case& c, Margin& margin) {
   endpointsKeys().read(in, input);
   OwnEndpoint endpoint = input;
   if (endpoint.disk) {
-    const auto last = static_cast<int>(disksOf(c.assembly)) - 1;
+    const auto last = static_cast<int>(disksOf(c)) - 1;
     in.check(*endpoint.disk <= last, "disk", "must be in [0, {}]", last);
   }
   const Quantity quantity = endpoint.disk ? quantityOfDisk(in, endpoint.quantity)
-                                          : quantityOf(in, "quantity", endpoint.quantity, region);
+                                          : quantityOf(in, "quantity", endpoint.quantity, c);
   setReduction(in, input, region, quantity.isField, endpoint);
   margin = marginOf(in, input, {endpoint.name, ""}, nullptr);
   in.check(usableName(endpoint.name), "name", "{}", usableNameRule);
   if (in.has("per")) {
     in.check(!endpoint.disk, "per", "is of the averaged part, and disk of one disk");
     in.check(endpoint.reduction != Reduction::reaches, "per", "not where reaches is");
-    const Quantity below = quantityOf(in, "per", endpoint.per, region);
+    const Quantity below = quantityOf(in, "per", endpoint.per, c);
     in.check(below.isField == quantity.isField, "per",
              "must be a field where quantity is one, and a series where that is one");
     in.check(below.unit == quantity.unit, "per",
@@ -307,19 +380,24 @@ OwnEndpoint readEndpoint(Reader& in, const Case& c, Margin& margin) {
   return endpoint;
 }
 
-bool startsDiffer(const Assembly& assembly) {
-  const auto varies = [](const DiskGroup& group) {
-    return group.jitter > 0.0 || group.radiusSpread > 0.0 || group.velocityRms > 0.0;
+bool startsDiffer(const Case& setup) {
+  const auto varies = [](const auto& group) {
+    return group.jitter > 0.0 || group.radiusSpread > 0.0 || group.velocityRms > 0.0 ||
+           group.count() < group.places.size();
   };
-  const StartFiles& starts = assembly.starts;
-  return starts.files.size() > 1 || starts.velocityRms > 0.0 ||
-         std::ranges::any_of(assembly.disks, varies);
+  return withAssembly(setup, [&](const auto& assembly) {
+    const auto& starts = assembly.starts;
+    return starts.files.size() > 1 || starts.velocityRms > 0.0 ||
+           std::ranges::any_of(assembly.disks, varies);
+  });
 }
 
-void checkSwings(const Reader& in, const Assembly& assembly) {
+void checkSwings(const Reader& in, const Case& setup) {
   std::set<double> frequencies;
-  for (const WallGroup& wall : assembly.walls)
-    if (wall.motion.kind == Motion::Kind::oscillating) frequencies.insert(wall.motion.frequency);
+  withAssembly(setup, [&](const auto& assembly) {
+    for (const auto& wall : assembly.walls)
+      if (wall.motion.kind == MotionKind::oscillating) frequencies.insert(wall.motion.frequency);
+  });
   in.check(frequencies.size() < 2, "bins",
            "walls that swing must all have one frequency, as lockstep begins a run anew only after "
            "whole periods");
@@ -341,8 +419,8 @@ void readAverage(Reader& in, std::vector<Reader>& each, Case& c) {
   c.average.emplace();
   const Reader margins = in.section("margins");
   readRegion(in, c);
-  c.averaging.margins = readMargins(margins, judgedFields(fieldsOf(c.average->region)));
-  checkSwings(in, c.assembly);
+  c.averaging.margins = readMargins(margins, judgedFields(fieldsOf(c)));
+  checkSwings(in, c);
   for (Reader& one : each) {
     Margin margin;
     OwnEndpoint endpoint = readEndpoint(one, c, margin);
@@ -357,13 +435,13 @@ void checkVariety(const Reader& in, const std::vector<Reader>& endpoints, const 
   const std::vector<OwnEndpoint>& own = c.average->endpoints;
   const auto hasExpected = [](const OwnEndpoint& one) { return one.expected.has_value(); };
   const auto first = std::ranges::find_if(own, hasExpected);
-  const bool differ = startsDiffer(c.assembly);
+  const bool differ = startsDiffer(c);
   if (first == own.end()) {
     if (differ || starts == Starts::notMade) return;
-    if (!c.assembly.starts.files.empty() || c.preparation.packings < 2) return;
+    if (packingsAreFiles(c) || c.preparation.packings < 2) return;
     in.fail("bins",
             "no packing would differ from another: give assembly.disks a jitter, "
-            "radius_spread or velocity_rms, or preparation.packings = 1");
+            "radius_spread, velocity_rms or choose, or preparation.packings = 1");
   }
   const Reader& one = endpoints[static_cast<std::size_t>(first - own.begin())];
   one.check(!differ, "expected",

@@ -157,12 +157,26 @@ void convert(const Value& value, std::vector<std::filesystem::path>& target,
   convertList(value, target, wanted);
 }
 
-void convert(const Value& value, Vec2& target, const Range& range) {
+namespace {
+
+template <int D>
+void convertVector(const Value& value, VecOf<D>& target, const Range& range) {
   std::vector<double> values;
   convert(value, values, range);
-  if (values.size() != 2)
-    value.fail(fmt::format("must be [x, y]{}{}", range.unit.empty() ? "" : " in ", range.unit));
-  target = {values[0], values[1]};
+  if (values.size() != D)
+    value.fail(fmt::format("must be {}{}{}", D == 2 ? "[x, y]" : "[x, y, z]",
+                           range.unit.empty() ? "" : " in ", range.unit));
+  target = VecOf<D>::Map(values.data());
+}
+
+}  // namespace
+
+void convert(const Value& value, Vec2& target, const Range& range) {
+  convertVector<2>(value, target, range);
+}
+
+void convert(const Value& value, Vec3& target, const Range& range) {
+  convertVector<3>(value, target, range);
 }
 
 void convert(const Value& value, double (&target)[2], const Range& range) {

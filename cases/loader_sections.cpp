@@ -368,9 +368,11 @@ void readPreparation(Reader& in, Preparation& how) {
 }
 
 void readPackings(Reader& in, Case& c) {
-  c.preparation.seed = c.assembly.seed;
-  preparationKeys().read(in, c.preparation, {"packings", "seed"});
-  c.assembly.seed = c.preparation.seed;
+  withAssembly(c, [&](auto& assembly) {
+    c.preparation.seed = assembly.seed;
+    preparationKeys().read(in, c.preparation, {"packings", "seed"});
+    assembly.seed = c.preparation.seed;
+  });
 }
 
 void readAveraging(Reader& in, const Case& setup, Averaging& how) {

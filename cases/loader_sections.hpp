@@ -51,7 +51,15 @@ void readStability(Reader& in, Stability& stability);
 void readCost(Reader& in, Cost& cost);
 /// @param dimension  of the case: some keys are of collisions in space alone
 void readCollision(Reader& in, Collision& collision, int dimension);
-void readAssembly(Reader& in, Assembly& assembly);
+template <int D>
+void readAssembly(Reader& in, AssemblyOf<D>& assembly);
+/// [assembly.box] and [assembly.start]. @param assembly  whose disks and walls have been read
+template <int D>
+void readBox(Reader in, AssemblyOf<D>& assembly);
+template <int D>
+void readStartFiles(Reader in, AssemblyOf<D>& assembly);
+SectionInfo boxSection();
+SectionInfo startSection();
 /// [average] and [[endpoints]]. @param c  whose [assembly] and [preparation] have been read
 void readAverage(Reader& in, std::vector<Reader>& endpoints, Case& c);
 /// Packings that are all the same have no scatter to test with; a closed form is of one start.
@@ -64,6 +72,28 @@ void checkAveragedTime(const Reader& in, const std::vector<Reader>& endpoints, c
 /// Mass of a disk of the section's density: [kg/m³] and its height [m], or [kg/m²] and 1.
 /// @throws BadInput where that is nothing, or more than there are numbers
 double massOf(const Reader& in, double density, double radius, double height);
+
+/// Mass over area of disks, over volume of spheres.
+template <int D>
+Range densities() {
+  return positive(D == 2 ? "kg/m^2" : "kg/m^3");
+}
+inline constexpr const char* densityMeaning = "mass over area, in space over volume [kg/m³]";
+
+/// Of a disk 1 m high, or a sphere, as massOf() [kg].
+template <int D>
+double massOfOne(const Reader& in, double density, double radius) {
+  return D == 2 ? massOf(in, density, radius, 1.0)
+                : massOf(in, density, radius, 4.0 / 3.0 * radius);  // 4/3 π a³
+}
+
+/// Keys that the other dimension has. @throws BadInput for the first that is there
+template <int D>
+void refuseKeysOf(const Reader& in, int dimension, std::initializer_list<const char*> keys) {
+  for (const char* const key : keys)
+    in.check(D != dimension || !in.has(key), key, "is of {} alone, and case.dimension = {}",
+             dimension == 3 ? "the plane" : "space", dimension);
+}
 
 /// What a margin can be for.
 struct Judged {

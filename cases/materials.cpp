@@ -109,7 +109,7 @@ void addMaterials(Scene& scene, const Case& setup) {
   }
   const Assembly& assembly = setup.assembly;
   for (const DiskGroup& group : assembly.disks)
-    materials.ofDisk.insert(materials.ofDisk.end(), group.places.size(), index(group.material));
+    materials.ofDisk.insert(materials.ofDisk.end(), group.count(), index(group.material));
   if (!assembly.starts.disks.empty())
     materials.ofDisk.assign(scene.disks.size(), index(assembly.starts.material));
   for (const WallGroup& wall : assembly.walls) materials.ofBody.push_back(index(wall.material));

@@ -26,11 +26,21 @@ namespace crossgrain::inline cases {
 
 namespace {
 
-std::vector<Vec2> asVectors(const std::vector<double>& values) {
-  std::vector<Vec2> vectors;
-  for (std::size_t i = 0; i + 1 < values.size(); i += 2)
-    vectors.emplace_back(values[i], values[i + 1]);
+template <int D>
+std::vector<VecOf<D>> asVectors(const std::vector<double>& values) {
+  std::vector<VecOf<D>> vectors;
+  for (std::size_t i = 0; i + D <= values.size(); i += D)
+    vectors.emplace_back(VecOf<D>::Map(&values[i]));
   return vectors;
+}
+
+/// Angular velocities, one number or three each.
+template <int D>
+std::vector<SpinOf<D>> asSpins(std::vector<double> values) {
+  if constexpr (D == 2)
+    return values;
+  else
+    return asVectors<3>(values);
 }
 
 }  // namespace
@@ -45,6 +55,9 @@ std::string contentHash(const Packing& packing) {
   for (const auto* values : {&disks.radius, &disks.mass, &disks.inertia, &disks.spin}) add(*values);
   add(disks.position);
   add(disks.velocity);
+  const DisksOf<3>& spheres = packing.spheres;
+  for (const auto* values : {&spheres.radius, &spheres.mass, &spheres.inertia}) add(*values);
+  for (const auto* values : {&spheres.position, &spheres.velocity, &spheres.spin}) add(*values);
   std::string hash = fmt::format("{:016x} {}", fnv1a(bytes), packing.wheelAngle);
   if (packing.wallTime != 0.0) hash += fmt::format(" {}", packing.wallTime);
   if (!packing.fixed.empty()) hash += " fixed " + packing.fixed;
@@ -112,15 +125,17 @@ void writePacking(const Packing& packing, const std::filesystem::path& file) {
 
 namespace {
 
+template <int D>
 Packing readPackingFile(const std::filesystem::path& file, const DiskDefaults& defaults) {
+  constexpr unsigned vector = D, spins = D == 2 ? 1 : 3;  // columns
   const auto bad = [&](const std::string& what) {
     return BadInput(fmt::format("{}: {}", file.string(), what));
   };
   const Hdf5File in = Hdf5File::open(file);
   for (const auto& [name, columns] : {std::pair{"radius", 1u},
-                                      {"position", 2u},
-                                      {"velocity", 2u},
-                                      {"spin", 1u},
+                                      {"position", vector},
+                                      {"velocity", vector},
+                                      {"spin", spins},
                                       {"mass", 1u},
                                       {"inertia", 1u}})
     if (const auto count = in.length(name); count && *count > columns * defaults.most)
@@ -129,7 +144,7 @@ Packing readPackingFile(const std::filesystem::path& file, const DiskDefaults& d
   const auto radius = in.read("radius");
   const auto position = in.read("position");
   if (!radius || !position)
-    throw bad("a packing needs the datasets radius (N) and position (N x 2)");
+    throw bad(fmt::format("a packing needs the datasets radius (N) and position (N x {})", D));
   const std::size_t count = radius->size();
   if (count == 0) throw bad("the packing has no disks");
   const auto sized = [&](const char* name, std::size_t columns) {
@@ -152,13 +167,15 @@ Packing readPackingFile(const std::filesystem::path& file, const DiskDefaults& d
   };
 
   Packing packing;
-  Disks& disks = packing.disks;
+  DisksOf<D>& disks = disksIn<D>(packing);
   disks.radius = *sized("radius", 1);
   checkPositive(disks.radius, "radius", "m");
-  disks.position = asVectors(*sized("position", 2));
-  const auto velocity = sized("velocity", 2);
-  disks.velocity = velocity ? asVectors(*velocity) : std::vector<Vec2>(count, Vec2::Zero());
-  disks.spin = sized("spin", 1).value_or(std::vector<double>(count, 0.0));
+  const auto orZero = [&](const char* name, unsigned columns) {
+    return sized(name, columns).value_or(std::vector<double>(columns * count, 0.0));
+  };
+  disks.position = asVectors<D>(*sized("position", vector));
+  disks.velocity = asVectors<D>(orZero("velocity", vector));
+  disks.spin = asSpins<D>(orZero("spin", spins));
   if (auto mass = sized("mass", 1))
     disks.mass = std::move(*mass);
   else
@@ -204,26 +221,52 @@ std::optional<Packing> keptPacking(const std::filesystem::path& file, const std:
   return std::nullopt;
 }
 
+template <int D>
 Packing readPacking(const std::filesystem::path& file, const DiskDefaults& defaults) {
-  tryReading(file, [&] { readPackingFile(file, defaults); });
+  tryReading(file, [&] { readPackingFile<D>(file, defaults); });
   try {
-    return readPackingFile(file, defaults);
+    return readPackingFile<D>(file, defaults);
   } catch (const BadInput&) {
     throw;
   } catch (const std::exception& error) {  // what HDF5 makes of a damaged file
     throw BadInput(error.what());
   }
 }
+template Packing readPacking<2>(const std::filesystem::path&, const DiskDefaults&);
 
 namespace {
 
-struct Csv {
+/// Columns of a CSV file; vectors have one for each component, one after the other.
+template <int D>
+struct Csv;
+template <>
+struct Csv<2> {
   enum Column : std::size_t { x, y, radius, vx, vy, spin, mass, inertia, fixed, count };
+  static inline const std::array<std::string, count> names = {
+      "x", "y", "radius", "vx", "vy", "spin", "mass", "inertia", "fixed"};
 };
-using Column = Csv::Column;
-const std::array<std::string, Csv::count> columnNames = {"x",    "y",    "radius",  "vx",   "vy",
-                                                         "spin", "mass", "inertia", "fixed"};
-constexpr std::size_t neededColumns = 3;  // the first ones
+template <>
+struct Csv<3> {
+  enum Column : std::size_t {
+    x,
+    y,
+    z,
+    radius,
+    vx,
+    vy,
+    vz,
+    spin,
+    spin_y,
+    spin_z,
+    mass,
+    inertia,
+    fixed,
+    count
+  };
+  static inline const std::array<std::string, count> names = {
+      "x",      "y",      "z",      "radius", "vx",      "vy",   "vz",
+      "spin_x", "spin_y", "spin_z", "mass",   "inertia", "fixed"};
+};
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t\r";
@@ -256,81 +299,94 @@ struct CsvLine {
   }
 };
 
-std::vector<Column> readNames(const CsvLine& line, const std::vector<std::string_view>& names) {
-  std::vector<Column> columns;
+template <int D>
+std::vector<std::size_t> readNames(const CsvLine& line,
+                                   const std::vector<std::string_view>& names) {
+  const auto& known = Csv<D>::names;
+  std::vector<std::size_t> columns;
   for (const std::string_view name : names) {
-    const auto found = std::ranges::find(columnNames, name);
-    line.check(found != columnNames.end(), "\"{}\" is no column{}", name,
-               suggestion(name, columnNames));
-    const auto column = static_cast<Column>(found - columnNames.begin());
+    const auto found = std::ranges::find(known, name);
+    line.check(found != known.end(), "\"{}\" is no column{}", name, suggestion(name, known));
+    const auto column = static_cast<std::size_t>(found - known.begin());
     line.check(std::ranges::find(columns, column) == columns.end(), "two columns are called {}",
                name);
     columns.push_back(column);
   }
-  for (std::size_t need = 0; need < neededColumns; ++need)
+  for (std::size_t need = 0; need <= Csv<D>::radius; ++need)
     line.check(std::ranges::find(columns, need) != columns.end(), "there is no column {}",
-               columnNames[need]);
+               known[need]);
   return columns;
 }
 
-double readNumber(const CsvLine& line, std::string_view text, Column column) {
+double readNumber(const CsvLine& line, std::string_view text, const std::string& column) {
   double value = 0.0;
   // Tables have a plus sign where from_chars has none.
   const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
   const auto [end, error] =
       std::from_chars(text.data() + (plus ? 1 : 0), text.data() + text.size(), value);
   line.check(error == std::errc() && end == text.data() + text.size() && std::isfinite(value),
-             "{} = {}: must be a number", columnNames[column], text.empty() ? "nothing" : text);
+             "{} = {}: must be a number", column, text.empty() ? "nothing" : text);
   return value;
 }
 
-void readDisk(const CsvLine& line, const std::vector<Column>& columns,
+template <int D>
+void readDisk(const CsvLine& line, const std::vector<std::size_t>& columns,
               const std::vector<std::string_view>& cells, const DiskDefaults& defaults,
-              Start& start) {
+              StartOf<D>& start) {
+  using Columns = Csv<D>;
   line.check(cells.size() == columns.size(), "has {} values for {} columns", cells.size(),
              columns.size());
-  std::array<std::optional<double>, Csv::count> values;
+  std::array<std::optional<double>, Columns::count> values;
   for (std::size_t k = 0; k < cells.size(); ++k)
-    values[columns[k]] = readNumber(line, cells[k], columns[k]);
-  for (const Column column : {Csv::radius, Csv::mass, Csv::inertia})
+    values[columns[k]] = readNumber(line, cells[k], Columns::names[columns[k]]);
+  for (const auto column : {Columns::radius, Columns::mass, Columns::inertia})
     line.check(!values[column] || *values[column] > 0.0, "{} = {}: must be > 0",
-               columnNames[column], values[column].value_or(0));
-  const double isFixed = values[Csv::fixed].value_or(0.0);
+               Columns::names[column], values[column].value_or(0));
+  const double isFixed = values[Columns::fixed].value_or(0.0);
   line.check(isFixed == 0.0 || isFixed == 1.0, "fixed = {}: must be 0 or 1", isFixed);
   line.check(start.disks.size() + start.fixedRadius.size() < static_cast<std::size_t>(mostDisks),
              "these are more than the {} disks that a case may have", mostDisks);
-  const Vec2 position(*values[Csv::x], *values[Csv::y]);
-  const double a = *values[Csv::radius];
+  const auto vectorFrom = [&](std::size_t column) {
+    VecOf<D> v;
+    for (std::size_t k = 0; k < D; ++k) v[static_cast<int>(k)] = values[column + k].value_or(0.0);
+    return v;
+  };
+  const VecOf<D> position = vectorFrom(Columns::x);
+  const double a = *values[Columns::radius];
   if (isFixed == 1.0) {
     start.fixedPosition.push_back(position);
     start.fixedRadius.push_back(a);
     start.fixedLines.push_back(line.number);
     return;
   }
-  Disks& disks = start.disks;
-  const double m = values[Csv::mass] ? *values[Csv::mass] : defaults.mass(a);
+  DisksOf<D>& disks = start.disks;
+  const double m = values[Columns::mass] ? *values[Columns::mass] : defaults.mass(a);
   start.lines.push_back(line.number);
   disks.position.push_back(position);
   disks.radius.push_back(a);
-  disks.velocity.emplace_back(values[Csv::vx].value_or(0.0), values[Csv::vy].value_or(0.0));
-  disks.spin.push_back(values[Csv::spin].value_or(0.0));
+  disks.velocity.push_back(vectorFrom(Columns::vx));
+  if constexpr (D == 2)
+    disks.spin.push_back(values[Columns::spin].value_or(0.0));
+  else
+    disks.spin.push_back(vectorFrom(Columns::spin));
   disks.mass.push_back(m);
-  disks.inertia.push_back(values[Csv::inertia].value_or(defaults.inertiaFactor * m * a * a));
+  disks.inertia.push_back(values[Columns::inertia].value_or(defaults.inertiaFactor * m * a * a));
 }
 
-Start readCsv(const std::filesystem::path& file, std::string_view text,
-              const DiskDefaults& defaults) {
+template <int D>
+StartOf<D> readCsv(const std::filesystem::path& file, std::string_view text,
+                   const DiskDefaults& defaults) {
   constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";  // spreadsheets begin with it
   if (text.starts_with(byteOrderMark)) text.remove_prefix(byteOrderMark.size());
-  Start start;
-  std::vector<Column> columns;
+  StartOf<D> start;
+  std::vector<std::size_t> columns;
   CsvLine line{file, 0};
   for (const std::string_view content : split(text, '\n')) {
     ++line.number;
     if (content.empty() || content.front() == '#') continue;
     const auto cells = split(content, ',');
     if (columns.empty())
-      columns = readNames(line, cells);
+      columns = readNames<D>(line, cells);
     else
       readDisk(line, columns, cells, defaults, start);
   }
@@ -343,11 +399,17 @@ Start readCsv(const std::filesystem::path& file, std::string_view text,
 
 }  // namespace
 
-Start readStart(const std::filesystem::path& file, const DiskDefaults& defaults) {
-  if (file.extension() != ".csv") return {readPacking(file, defaults).disks, {}, {}};
+template <int D>
+StartOf<D> readStart(const std::filesystem::path& file, const DiskDefaults& defaults) {
+  if (file.extension() != ".csv") {
+    Packing packing = readPacking<D>(file, defaults);
+    return {std::move(disksIn<D>(packing)), {}, {}};
+  }
   const auto text = readFile(file);
   if (!text) throw BadInput(fmt::format("{}: {}", file.string(), noSuchFile));
-  return readCsv(file, *text, defaults);
+  return readCsv<D>(file, *text, defaults);
 }
+template StartOf<2> readStart<2>(const std::filesystem::path&, const DiskDefaults&);
+template StartOf<3> readStart<3>(const std::filesystem::path&, const DiskDefaults&);
 
 }  // namespace crossgrain::inline cases

@@ -12,9 +12,10 @@
 
 namespace crossgrain::inline cases {
 
-/// Disks in the cell, ready to be handed to an engine at t = 0.
+/// Disks in the cell, or spheres in space, ready to be handed to an engine at t = 0.
 struct Packing {
-  Disks disks;
+  Disks disks;              ///< of a case in the plane
+  DisksOf<3> spheres;       ///< of one in space
   double wheelAngle = 0.0;  ///< by which the wheel's disks have turned since it was built [rad]
   double wallTime = 0.0;    ///< for which the walls of an assembly have moved [s]
   std::string fixed;        ///< fingerprint of disks of its file that stand still; empty: none
@@ -24,6 +25,15 @@ struct Packing {
   std::string anew;  ///< why the one that was kept was not used; empty: there was none, or it was
   std::string notCached;  ///< why it could not be kept for next time; empty if it could
 };
+
+/// What it has of that dimension.
+template <int D, typename AnyPacking>
+auto& disksIn(AnyPacking& packing) {
+  if constexpr (D == 2)
+    return packing.disks;
+  else
+    return packing.spheres;
+}
 
 /// Fingerprint of everything that a prepared packing depends on, the engine that prepares it too.
 /// @throws as preparerKey()
@@ -56,12 +66,14 @@ struct DiskDefaults {
   std::size_t most = mostDisks;               ///< more in a file are refused
 };
 /// @throws likewise
+template <int D = 2>
 Packing readPacking(const std::filesystem::path& file, const DiskDefaults& defaults);
 
 /// The disks of a file of the user's own; those that do not move are walls.
-struct Start {
-  Disks disks;
-  std::vector<Vec2> fixedPosition;               ///< [m]
+template <int D>
+struct StartOf {
+  DisksOf<D> disks;
+  std::vector<VecOf<D>> fixedPosition;           ///< [m]
   std::vector<double> fixedRadius;               ///< [m]
   std::vector<int> lines = {}, fixedLines = {};  ///< of the file, of each; of HDF5 none
 };
@@ -70,8 +82,10 @@ struct Start {
 ///
 /// CSV: a line of column names, then one line a disk; commas between, and blanks or lines that
 /// begin with # where one likes. x, y, radius [m] are needed; vx, vy [m/s], spin [rad/s], mass
-/// [kg], inertia [kg m²] and fixed (0 or 1) may be there, in any order.
+/// [kg], inertia [kg m²] and fixed (0 or 1) may be there, in any order. In space also z, vz, and
+/// spin_x, spin_y, spin_z in place of spin; in HDF5 vectors have three columns.
 /// @throws BadInput "start.csv:12: radius = -0.1: must be > 0 m"
-Start readStart(const std::filesystem::path& file, const DiskDefaults& defaults);
+template <int D>
+StartOf<D> readStart(const std::filesystem::path& file, const DiskDefaults& defaults);
 
 }  // namespace crossgrain::inline cases

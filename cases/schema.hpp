@@ -19,6 +19,7 @@ namespace crossgrain::inline cases {
 std::string printed(double value);
 std::string printed(const std::string& value);
 std::string printed(const Vec2& value);
+std::string printed(const Vec3& value);
 std::string printed(const std::vector<double>& values);
 std::string printed(const Names& values);
 template <typename T, typename Allowed>

@@ -38,21 +38,25 @@ class Lightest {
   LargestTwo normal_, tangential_;
 };
 
-void add(Lightest& lightest, const Disks& disks, bool rotation) {
+template <int D>
+void add(Lightest& lightest, const DisksOf<D>& disks, bool rotation) {
   for (std::size_t i = 0; i < disks.size(); ++i)
     lightest.add(disks.mass[i], disks.radius[i], disks.inertia[i], rotation);
 }
 
-LightestPair lightestPair(const Assembly& assembly) {
+template <int D>
+LightestPair lightestPair(const AssemblyOf<D>& assembly) {
   Lightest lightest;
-  for (const DiskGroup& group : assembly.disks) {
+  for (const DiskGroupOf<D>& group : assembly.disks) {
     const double share = 1.0 - group.radiusSpread;
-    const double radius = group.radius * share, mass = group.mass * share * share;
-    for (std::size_t k = 0; k < std::min<std::size_t>(group.places.size(), 2); ++k)
+    const double radius = group.radius * share;
+    double mass = group.mass * share * share;
+    if (D == 3) mass *= share;
+    for (std::size_t k = 0; k < std::min<std::size_t>(group.count(), 2); ++k)
       lightest.add(mass, radius, assembly.inertiaFactor * mass * radius * radius,
                    assembly.rotation);
   }
-  for (const Disks& disks : assembly.starts.disks) add(lightest, disks, assembly.rotation);
+  for (const DisksOf<D>& disks : assembly.starts.disks) add(lightest, disks, assembly.rotation);
   return lightest.pair();
 }
 
@@ -69,7 +73,8 @@ LightestPair lightestPair(const Case& c) {
     const CollidingPair pair = collidingPair(c);
     return {pair.reducedMass(), 1.0 / pair.tangentialCompliance()};
   }
-  if (c.kind == CaseKind::assembly) return lightestPair(c.assembly);
+  if (c.kind == CaseKind::assembly)
+    return withAssembly(c, [](const auto& assembly) { return lightestPair(assembly); });
   // A single disk of a kind never meets its like, but a bound is all that is wanted.
   const Particles& p = c.particles;
   double mass = std::min(p.smallMass, p.largeMass);
@@ -214,16 +219,17 @@ Oscillator rollingOscillator(const ContactLaw& law, const LightestPair& pair, do
 }
 
 /// Of an assembly's start, the two fastest against each other [m/s].
-double startingSpeed(const Assembly& assembly) {
+template <int D>
+double startingSpeed(const AssemblyOf<D>& assembly) {
   double disk = 0.0, wall = 0.0, second = 0.0;
   const auto look = [&](double speed) {
     second = std::max(second, std::min(disk, speed));
     disk = std::max(disk, speed);
   };
-  for (const DiskGroup& group : assembly.disks) look(group.velocity.norm());
-  for (const Disks& disks : assembly.starts.disks)
-    for (const Vec2& velocity : disks.velocity) look(velocity.norm());
-  for (const WallGroup& walls : assembly.walls)
+  for (const DiskGroupOf<D>& group : assembly.disks) look(group.velocity.norm());
+  for (const DisksOf<D>& disks : assembly.starts.disks)
+    for (const VecOf<D>& velocity : disks.velocity) look(velocity.norm());
+  for (const WallGroupOf<D>& walls : assembly.walls)
     wall = std::max({wall, walls.motion.velocity.norm(),
                      walls.motion.amplitude.norm() * std::abs(walls.motion.frequency)});
   return disk + std::max(second, wall);
@@ -244,9 +250,10 @@ namespace {
 
 std::optional<PairStepLimit> pairStepLimit(const Case& setup, const ContactLaw& law,
                                            const LightestPair& pair) {
-  const double speed = setup.kind == CaseKind::couette
-                           ? std::abs(setup.cell.omega) * setup.cell.innerRadius
-                           : startingSpeed(setup.assembly);
+  const double speed =
+      setup.kind == CaseKind::couette
+          ? std::abs(setup.cell.omega) * setup.cell.innerRadius
+          : withAssembly(setup, [](const auto& assembly) { return startingSpeed(assembly); });
   Deepest stiffness{};
   try {
     stiffness = deepest(law, {pair.normal, flowDiameter(setup) / 4.0, speed});

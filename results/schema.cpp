@@ -57,9 +57,7 @@ bool isName(std::string_view text) {
 }
 
 bool isField(std::string_view text) {
-  for (const auto& table : {fieldTable(), cartesianFieldTable()})
-    if (std::ranges::find(table, text, &FieldSpec::name) != table.end()) return true;
-  return false;
+  return findField(text) != nullptr;
 }
 
 bool isUnit(std::string_view text) {

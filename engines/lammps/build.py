@@ -6,10 +6,11 @@ import math
 import jkr
 import numpy as np
 from crossgrain_answers import demand_plain_walls
+from crossgrain_walls import Box
 from crossgrain_worker import Unsupported
 
-AXES = {"x": np.array([1.0, 0.0]), "y": np.array([0.0, 1.0])}
 FEW = 50  # atoms: a box that small may have no room for bins
+MOST_BINS = 2e7  # above, spheres are few in a large space, and lists are made of all pairs
 IMMOVABLE = 1e30  # kg, of walls: nothing integrates them, and m₁₂ of a pair with one is the disk's mass to the last bit
 SHAPES = {0.5: "disc", 0.4: ""}  # J/(m a²) → what `fix nve/sphere` calls it
 
@@ -28,11 +29,28 @@ def check(scene, bodies, arrays):
     demand_plain_walls(scene, bodies)
     if scene["rotation"] and shape_of(arrays) is None:
         raise Unsupported("has moments of inertia of disks (m a²/2) or spheres (2/5 m a²) only")
+    if scene["rotation"] and scene.get("dimension", 2) == 3 and shape_of(arrays):
+        raise Unsupported("has moments of inertia of spheres (2/5 m a²) only in space")
+    periodic = Box(scene).periodic
+    for body in bodies:
+        if any(along and n for plane in body.planes for along, n in zip(periodic, plane["normal"])):
+            raise Unsupported(f"has no planes across periodic directions, and {body.name} has one")
+
+
+def with_z(vectors):
+    """Rows of x and y, or of x, y and z, as the latter."""
+    return np.column_stack([vectors, np.zeros(len(vectors))]) if vectors.shape[1] == 2 else vectors
+
+
+def axis_of(plane):
+    """0, 1 or 2: that which its normal is along."""
+    return next(k for k, n in enumerate(plane["normal"]) if n)
 
 
 class Scene:
     """A scene as LAMMPS has it. Sets each body's disk_ids and plane_numbers.
 
+    space  2, or 3 in space
     plane_arm, plane_point  what of the overlap the arm of f_t at a plane is shorter than a, and how much nearer to the
                             centre than a the force on the plane is taken to act"""
 
@@ -41,6 +59,7 @@ class Scene:
     def __init__(self, lammps, scene, arrays, bodies, laws, rotation):
         self.lammps, self.scene, self.arrays = lammps, scene, arrays
         self.bodies, self.laws, self.law, self.rotation = bodies, laws, laws.one, rotation
+        self.box, self.space = Box(scene), scene.get("dimension", 2)
         # Types: one of moving disks for each material from 1 on, then one for each wall body.
         self.materials_of_types = [*range(laws.count), *laws.of_body]
         self.first_body = 1 + laws.count
@@ -64,25 +83,26 @@ class Scene:
         """@param skin  in radii of the smallest disk"""
         arrays, bodies, n = self.arrays, self.bodies, self.scene["disks"]
         position = np.concatenate(
-            [arrays["disks.position"].reshape(-1, 2), *(b.disk_position for b in bodies)]
+            [arrays["disks.position"].reshape(-1, self.space), *(b.disk_position for b in bodies)]
         )
         starts = [body.disk_states(0.0)[1] for body in bodies]
-        velocity = np.concatenate([arrays["disks.velocity"].reshape(-1, 2), *starts])
-        turning = [np.full(len(b.disk_ids), b.state(0.0)[3]) for b in bodies]
-        spin = np.concatenate([arrays["disks.spin"], *turning])
+        velocity = np.concatenate([arrays["disks.velocity"].reshape(-1, self.space), *starts])
+        turning = [np.tile(b.state(0.0)[3], (len(b.disk_ids), 1)) for b in bodies]
+        spin = np.concatenate([arrays["disks.spin"].reshape(n, -1), *turning])
         kind = np.concatenate(
             [1 + self.laws.of_disk, *(np.full(len(b.disk_ids), k) for k, b in enumerate(bodies, self.first_body))]
         )
-        zero = np.zeros(len(kind))
         skin *= self.radius[:n].min()
         self.set_up(position, kind, skin)
-        self.lammps.create_atoms(kind, np.column_stack([position, zero]))
+        self.lammps.create_atoms(kind, with_z(self.box.wrapped(position)))
         self.lammps.scatter("radius", self.radius)
         mass = np.full(len(kind), IMMOVABLE)
         mass[:n] = arrays["disks.mass"]
         self.lammps.scatter("rmass", mass)
-        self.lammps.scatter("v", np.column_stack([velocity, zero]))
-        self.lammps.scatter("omega", np.column_stack([zero, zero, spin]))
+        self.lammps.scatter("v", with_z(velocity))
+        omega = np.zeros((len(kind), 3))
+        omega[:, -spin.shape[1] :] = spin
+        self.lammps.scatter("omega", omega)
         self.set_law(skin, dt)
         for k, body in enumerate(bodies, self.first_body):
             self.leave_out_pairs(k)
@@ -93,23 +113,33 @@ class Scene:
         for k, body in enumerate(bodies, self.first_body):
             self.move(k, body)
 
-    def extent(self, position):
-        """Half of the box along z, and along x and y [m]."""
+    def region(self, position):
+        """The ends of LAMMPS' box along x, y and z [m]. Sets how many bins that is at most."""
         depth = 2.0 * self.radius.max()
-        return depth, 2.0 * np.abs(position).max() + 4.0 * depth
+        reach = 2.0 * np.abs(position).max() + 4.0 * depth
+        ends = [[-reach, reach]] * self.space + [[-depth, depth]] * (3 - self.space)
+        for k in np.flatnonzero(self.box.periodic):
+            ends[k] = [float(self.box.low[k]), float(self.box.high[k])]
+        self.bins = math.prod((high - low) / depth for low, high in ends)
+        return " ".join(f"{low!r} {high!r}" for low, high in ends)
+
+    def boundary(self, open_end, across="p"):
+        """@param open_end  LAMMPS' word for a direction that is not periodic
+        @param across  that for the one across the plane"""
+        words = ["p" if along else open_end for along in self.box.periodic]
+        return " ".join(words + [across] * (3 - self.space))
 
     def set_up(self, position, kind, skin):
         """An empty box for atoms of that many types."""
-        depth, reach = self.extent(position)
         self.run(
             f"""units si
-            dimension 2
+            dimension {self.space}
             atom_style sphere
             atom_modify map array{self.order_of_atoms()}
-            boundary s s p
+            boundary {self.boundary("s")}
             newton off
             comm_modify vel yes
-            region everywhere block {-reach!r} {reach!r} {-reach!r} {reach!r} {-depth!r} {depth!r}
+            region everywhere block {self.region(position)}
             create_box {len(self.materials_of_types)} everywhere"""
         )
 
@@ -130,8 +160,11 @@ class Scene:
         """Of neighbours. They are those nearer than the skin, so that a bond which is longer is lost as lists are made anew."""
         if self.law.bonds:
             skin = max(skin, 1.01 * jkr.largest_range(self))
-        return f"""neighbor {skin!r} {"bin" if self.atoms > FEW else "nsq"}
+        return f"""neighbor {skin!r} {self.list_style()}
             neigh_modify delay 0 every 1 check yes"""
+
+    def list_style(self):
+        return "bin" if self.atoms > FEW and self.bins < MOST_BINS else "nsq"
 
     def law_lines(self):
         if self.laws.count == 1:
@@ -174,13 +207,14 @@ class Scene:
     def integrate(self):
         gravity = math.hypot(*self.scene["gravity"])
         if gravity > 0:
-            x, y = (g / gravity for g in self.scene["gravity"])
-            self.lammps.command(f"fix gravity disks gravity {gravity!r} vector {x!r} {y!r} 0")
+            x, y, z = *(g / gravity for g in self.scene["gravity"]), *[0] * (3 - self.space)
+            self.lammps.command(f"fix gravity disks gravity {gravity!r} vector {x!r} {y!r} {z!r}")
         self.lammps.command(f"fix motion disks {self.motion_style()}")
         self.keep_in_plane()
 
     def keep_in_plane(self):
-        self.lammps.command("fix plane all enforce2d")
+        if self.space == 2:
+            self.lammps.command("fix plane all enforce2d")
 
     def motion_style(self):
         # Without rotation torques are summed up and spin nothing.
@@ -206,24 +240,24 @@ class Scene:
             period, axis = 2.0 * math.pi / abs(speed), math.copysign(1, speed)
             words = f"rotate {x!r} {y!r} 0 0 0 {axis:g} {period!r}"
         elif body.kind == "translating":
-            words = "linear {!r} {!r} 0".format(*motion["velocity"])
+            words = "linear {!r} {!r} {!r}".format(*motion["velocity"], 0)
         else:
             if not motion["frequency"]:
                 return
-            x, y = motion["amplitude"]
-            words = f"wiggle {x!r} {y!r} 0 {2.0 * math.pi / motion['frequency']!r}"
+            x, y, z = [*motion["amplitude"], 0][:3]
+            words = f"wiggle {x!r} {y!r} {z!r} {2.0 * math.pi / motion['frequency']!r}"
         self.lammps.command(f"fix move{kind} {group} move {words}")
 
     def raise_plane(self, number, plane, kind):
         """A fix for each material of disks. @param kind  type of its body"""
-        axis = 0 if plane["normal"][0] else 1
+        axis = axis_of(plane)
         place = repr(float(plane["point"][axis]))
         ends = f"{place} NULL" if plane["normal"][axis] > 0 else f"NULL {place}"
         for name, group, of_disks in self.plane_fixes(number):
             if group != "disks":
                 self.lammps.command(f"group {group} type {1 + of_disks}")
             words = self.laws.between(of_disks, self.materials_of_types[kind - 1]).words(plane=True)
-            self.lammps.command(f"fix {name} {group} wall/gran granular {words} {'xy'[axis]}plane {ends} contacts")
+            self.lammps.command(f"fix {name} {group} wall/gran granular {words} {'xyz'[axis]}plane {ends} contacts")
 
     def plane_fixes(self, number):
         """Of one plane: the fix' name, its group, the material of that."""
@@ -232,8 +266,9 @@ class Scene:
         return [(f"plane{number}of{of}", f"disks{of}", of) for of in range(self.laws.count)]
 
     def forces_of_plane(self, number):
-        """On this rank's atoms, (n, 2)."""
-        return sum(self.lammps.fix_array(name, 4)[:, 1:3] for name, _, _ in self.plane_fixes(number))
+        """On this rank's atoms, (n, 2) or (n, 3)."""
+        columns = 1 + self.space
+        return sum(self.lammps.fix_array(name, columns)[:, 1:] for name, _, _ in self.plane_fixes(number))
 
     def radii(self, i, j):
         """R₁₂ and a_i + a_j of pairs; at a plane both a_i."""

@@ -20,8 +20,8 @@ def pair_geometry(rows, made, position):
     ids = rows[:, :2].astype(int) - 1
     sign = np.where(ids[:, 0] < ids[:, 1], 1.0, -1.0)
     i, j = ids.min(axis=1), ids.max(axis=1)
-    apart = position[i] - position[j]
-    distance = np.hypot(apart[:, 0], apart[:, 1])
+    apart = made.box.nearest(position[i] - position[j])
+    distance = np.hypot(apart[:, 0], apart[:, 1]) if made.space == 2 else np.linalg.norm(apart, axis=1)
     overlap = made.radius[i] + made.radius[j] - distance
     return i, j, apart / distance[:, None], overlap, sign
 
@@ -29,9 +29,11 @@ def pair_geometry(rows, made, position):
 def contacts_of_rows(rows, made, position):
     """Of two atoms: i < j, normal from j to i, overlap, forces on i, torque against rolling on i."""
     i, j, normal, overlap, sign = pair_geometry(rows, made, position)
-    force, x, y = rows[:, 2:5].T
     # LAMMPS' tangential force is that on the first of the two, and so is what it resists rolling with: R₁₂ times that
     # along the tangent as the first sees it.
+    if made.space == 3:
+        return i, j, normal, overlap, rows[:, 2], sign[:, None] * rows[:, 3:6], np.zeros(len(i))
+    force, x, y = rows[:, 2:5].T
     tangent = turned(normal)
     rolling = np.zeros(len(i))
     if made.law.rolls:
@@ -45,18 +47,19 @@ def read_plane_contacts(made, bodies, position, on_planes):
     for body in bodies:
         for number, plane in zip(body.plane_numbers, body.planes):
             normal = made.plane_normals[number]
+            # Across no periodic direction, so that any image of a disk is as far from it.
             overlap = made.radius[:n] - (position[:n] - plane["point"]) @ normal
             i = np.flatnonzero(overlap > 0)
             force = on_planes[number][i]
             normals = np.tile(normal, (len(i), 1))
-            tangent = turned(normals)
+            along = force @ normal
             yield (
                 i,
                 np.full(len(i), made.atoms + number),
                 normals,
                 overlap[i],
-                force @ normal,
-                (force * tangent).sum(axis=1),
+                along,
+                (force * turned(normals)).sum(axis=1) if made.space == 2 else force - along[:, None] * normal,
                 np.full(len(i), np.nan),  # the fix does not report it
             )
 

@@ -8,7 +8,7 @@ import numpy as np
 from build import Scene, check
 from contacts import contacts_of_rows, pair_rows, read_plane_contacts, torques_at_planes
 from crossgrain_answers import at, effects_called, effects_without_bottom, setting, stats
-from crossgrain_walls import bodies_of
+from crossgrain_walls import bodies_of, moments
 from law import COHESION, DAMPERS, KINDS, NORMALS, ROLLING, Law, Laws
 from library import Lammps
 
@@ -40,6 +40,7 @@ class Engine:
         "cohesion": list(COHESION),
         "jkr_end": ["largest_pull"],
         "cohesion_load": ["plus_twice_pull_off", "net_without_dashpot"],
+        "spring_turn": ["rescaled"],
     }
 
     limits = {
@@ -67,6 +68,8 @@ class Engine:
     def capabilities(self):
         return {
             "version": self.lammps.version(),
+            "dimensions": [2, 3],
+            "periodic": True,
             "effects": effects_without_bottom() | {name: "optional" for name in PARTS},
             "law_options": {
                 "normal": ["linear"],
@@ -79,6 +82,7 @@ class Engine:
                 "integrator": ["position_verlet"],
                 "rolling_length": ["effective"],
                 "rolling_stiffness": ["length_square"],
+                "spring_twist": ["none"],
                 **self.conventions,
             },
             **self.limits,
@@ -107,6 +111,8 @@ class Engine:
         self.dt = settings.get("dt", 0.0) or scene["dt"]
         self.gravity = np.array(scene["gravity"])
         self.disks = scene["disks"]
+        self.space = scene.get("dimension", 2)
+        self.turning = 2 if self.space == 2 else slice(3)  # components of spins and torques
         self.mass, self.inertia = arrays["disks.mass"], arrays["disks.inertia"]
         self.rotation = self.law.turns and scene["rotation"]
         self.made = self.Scene(self.lammps, scene, arrays, self.bodies, self.laws, self.rotation)
@@ -177,11 +183,11 @@ class Engine:
             raise ValueError("has no accumulated contacts")
         found = {
             "ids": self.lammps.ids(),
-            "position": self.lammps.own("x")[:, :2].copy(),
-            "velocity": self.lammps.own("v")[:, :2].copy(),
-            "spin": self.lammps.own("omega")[:, 2].copy(),
-            "force": self.lammps.own("f")[:, :2].copy(),
-            "torque": self.lammps.own("torque")[:, 2].copy(),
+            "position": self.lammps.own("x")[:, : self.space].copy(),
+            "velocity": self.lammps.own("v")[:, : self.space].copy(),
+            "spin": self.lammps.own("omega")[:, self.turning].copy(),
+            "force": self.lammps.own("f")[:, : self.space].copy(),
+            "torque": self.lammps.own("torque")[:, self.turning].copy(),
         }
         for k in range(self.made.planes):
             found[f"on_plane.{k}"] = self.made.forces_of_plane(k)
@@ -200,9 +206,9 @@ class Engine:
         kept = velocity.copy(), spin.copy()
         free = found["ids"] <= self.disks
         which = found["ids"][free] - 1
-        velocity[free, :2] -= 0.5 * self.dt * found["force"][free] / self.mass[which, None]
+        velocity[free, : self.space] -= 0.5 * self.dt * found["force"][free] / self.mass[which, None]
         if self.rotation:
-            spin[free, 2] -= 0.5 * self.dt * found["torque"][free] / self.inertia[which]
+            spin[free, self.turning] -= (0.5 * self.dt * found["torque"][free].T / self.inertia[which]).T
         rows = self.pair_rows()
         velocity[:], spin[:] = kept
         return rows
@@ -238,7 +244,8 @@ class Engine:
         columns = [of_pairs, *read_plane_contacts(self.made, self.bodies, position, on_planes)]
         columns = [np.concatenate(column) for column in zip(*columns)]
         i, j, normal, overlap, pressing, tangential, _ = columns
-        sliding = self.laws.of_pairs("sliding", i, j, pressing, tangential, overlap, *self.made.radii(i, j))
+        strength = tangential if self.space == 2 else np.linalg.norm(tangential, axis=1)
+        sliding = self.laws.of_pairs("sliding", i, j, pressing, strength, overlap, *self.made.radii(i, j))
         found = {
             "contacts.i": ("i32", i),
             "contacts.j": ("i32", j),
@@ -263,11 +270,12 @@ class Engine:
         return -rolling[np.isin(partner, self.made.atoms + np.asarray(body.plane_numbers))].sum()
 
     def body_snapshot(self, body, now, position, force, torque, on_planes, arrays):
-        centre, velocity, angle, spin = body.state(now)
+        centre = body.state(now)[0]
         members = body.disk_ids
         total = force[members].sum(axis=0)
-        arm = position[members] - centre
-        moment = (torque[members] + arm[:, 0] * force[members, 1] - arm[:, 1] * force[members, 0]).sum()
+        # Where LAMMPS moves them to another image their body goes on.
+        place = body.disk_states(now)[0] if any(self.made.box.periodic) else position[members]
+        moment = moments(place - centre, force[members], torque[members]).sum(axis=0)
         points, _ = body.plane_states(now)
         for k, point in zip(body.plane_numbers, points):
             on_plane = -on_planes[k][: self.disks]
@@ -278,16 +286,10 @@ class Engine:
             overlap = self.made.radius[: self.disks] - gap
             apart = gap + (1.0 - self.made.plane_point) * overlap
             arm = position[: self.disks] - apart[:, None] * normal - centre
-            moment += (arm[:, 0] * on_plane[:, 1] - arm[:, 1] * on_plane[:, 0]).sum()
-        shown = {
-            "centre": centre.tolist(),
-            "angle": angle,
-            "velocity": velocity.tolist(),
-            "angular_velocity": spin,
-            "force": total.tolist(),
-        }
+            moment += moments(arm, on_plane).sum(axis=0)
+        shown = body.shown(now) | {"force": total.tolist()}
         rolling = self.rolling_on_planes(body, arrays)
-        return shown if rolling is None else shown | {"torque": float(moment + rolling)}
+        return shown if rolling is None else shown | {"torque": (moment + rolling).tolist()}
 
     def stats(self):
         return stats(self.steps, self.evaluations, self.wall_seconds, self.cpu_seconds)

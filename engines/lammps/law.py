@@ -67,6 +67,8 @@ class Laws:
     def __init__(self, law, scene, arrays, bodies):
         """@param law  makes one of the protocol's"""
         self.one = law(scene["law"])
+        if scene.get("dimension", 2) == 3 and (self.one.rolls or self.one.cohesion != "none"):
+            raise Unsupported("has no rolling_resistance and no cohesion in space")
         materials = scene.get("materials")
         if materials:
             self.all = [law(each) for each in materials["laws"]]
@@ -113,6 +115,7 @@ class Law:
     def __init__(self, law):
         kind = law["tangential"]
         demand_law(law, NORMALS, DAMPERS, KINDS)
+        self.space = "spring_turn" in law
         self.rolls = demand_part(law, "rolling", ROLLING) != "none"
         if self.rolls:
             demand_spring_units(law, "constant")
@@ -189,6 +192,8 @@ class Law:
 
     def asked(self):
         """Of `compute pair/local`: the normal force, tangential force and, of rolling, that along x and y."""
+        if self.space:
+            return "force p1 p2 p3"
         return "force p1 p2 p5 p6" if self.rolls else "force p1 p2"
 
     def load(self, pressing, overlap, radius):

@@ -36,15 +36,18 @@ OPEN_MPI = {
     "OMPI_MCA_mpi_yield_when_idle": "1",
 }
 
-# Components of each of a rank's arrays; all others are of vectors in the plane.
+# Components of each of a rank's arrays in the plane; all others are of vectors.
 COLUMNS = {"ids": 1, "spin": 1, "torque": 1, "pairs": 5}
+COLUMNS_IN_SPACE = {"ids": 1, "pairs": 6}
 
 
-def part_of(arrays):
-    """What a rank saw (Engine.part), from the arrays that it answers with."""
+def part_of(arrays, space):
+    """What a rank saw (Engine.part), from the arrays that it answers with.
+
+    @param space  2, or 3 in space"""
     part = {}
     for name, values in arrays.items():
-        columns = COLUMNS.get(name, 2)
+        columns = (COLUMNS if space == 2 else COLUMNS_IN_SPACE).get(name, space)
         part[name] = np.reshape(values, (-1, columns)) if columns > 1 else values
     return part
 
@@ -249,7 +252,7 @@ class Front:
             replies = self.ranks.ask_all([request | {"file": file} for file in files])
             self.of_first(replies)
             parts = [
-                part_of(crossgrain_worker.read_arrays(file, reply["arrays"]))
+                part_of(crossgrain_worker.read_arrays(file, reply["arrays"]), self.engine.space)
                 for file, reply in zip(files, replies)
             ]
         finally:

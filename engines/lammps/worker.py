@@ -1,6 +1,6 @@
 """A worker of crossgrain that runs scenes on LAMMPS, through its C library:  python3 worker.py
 
-Disks and wall disks are atoms of style sphere in two dimensions, planes are `fix wall/gran`.
+Disks and wall disks are atoms of style sphere, planes are `fix wall/gran`.
 README.md of this folder says what LAMMPS makes of a scene.
 """
 

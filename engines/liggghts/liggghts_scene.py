@@ -51,22 +51,21 @@ class Scene(build.Scene):
 
     def dimension(self):
         """LIGGGHTS has J = m a²/2 in two dimensions and 2/5 m a² in three, where nothing leaves the plane either."""
-        return 3 if self.rotation and build.shape_of(self.arrays) == "" else 2
+        return 3 if self.space == 3 or self.rotation and build.shape_of(self.arrays) == "" else 2
 
     def set_up(self, position, kind, skin):
-        depth, reach = self.extent(position)
         kinds = len(self.materials_of_types)
         self.run(
             f"""units si
             dimension {self.dimension()}
             atom_style granular
             atom_modify map array sort 0 0
-            boundary f f {"f" if self.dimension() == 3 else "p"}
+            boundary {self.boundary("f", "f" if self.dimension() == 3 else "p")}
             newton off
             communicate single vel yes
-            region everywhere block {-reach!r} {reach!r} {-reach!r} {reach!r} {-depth!r} {depth!r} units box
+            region everywhere block {self.region(position)} units box
             create_box {kinds} everywhere
-            neighbor {skin!r} bin"""
+            neighbor {skin!r} {"bin" if self.bins < build.MOST_BINS else "nsq"}"""
         )
         of = self.materials_of_types
         laws = [self.laws.between(a, b) for a in of for b in of]
@@ -90,14 +89,14 @@ class Scene(build.Scene):
         )
 
     def raise_plane(self, number, plane, kind):
-        axis = 0 if plane["normal"][0] else 1
+        axis = build.axis_of(plane)
         place = repr(float(plane["point"][axis]))
         models, settings = self.law.model_words(), self.law.setting_words()
-        wall = f"primitive type {kind} {'xy'[axis]}plane {place} store_force yes"
+        wall = f"primitive type {kind} {'xyz'[axis]}plane {place} store_force yes"
         self.lammps.command(f"fix plane{number} disks wall/gran {models} {wall} {settings}")
 
     def forces_of_plane(self, number):
-        return self.lammps.fix_array(f"force_plane{number}", 3)[:, :2]
+        return self.lammps.fix_array(f"force_plane{number}", self.space)
 
     def stretch_springs(self):
         super().stretch_springs()
@@ -109,7 +108,7 @@ class Scene(build.Scene):
         says why). Those of the step that stretched the springs are the law's."""
         force, torque = self.first
         n = self.scene["disks"]
-        force[:n, :2] += self.arrays["disks.mass"][:, None] * self.scene["gravity"]
+        force[:n, : self.space] += self.arrays["disks.mass"][:, None] * self.scene["gravity"]
         self.lammps.scatter("f", force)
         self.lammps.scatter("torque", torque)
         for number, forces in enumerate(self.first_of_planes):
@@ -151,6 +150,21 @@ def rolling_torques(rows, made, i, j, normal, overlap, sign, pressing):
     return made.laws.of_pairs("rolling_torque", i, j, *columns)
 
 
+def contacts_in_space(rows, made, i, j, normal, overlap, sign):
+    """What contacts_of_rows returns, which says more."""
+    force = sign[:, None] * rows[:, 3:6]
+    pressing = (force * normal).sum(axis=1)
+    tangential = force - pressing[:, None] * normal
+    if made.law.friction:
+        spring = sign[:, None] * rows[:, 6:9]
+        stretch = np.linalg.norm(spring, axis=1)
+        of_spring = made.laws.of_pairs("spring_force", i, j, stretch)
+        sliding = made.laws.of_pairs("sliding", i, j, pressing, of_spring, overlap, *made.radii(i, j))
+        direction = spring / np.where(stretch > 0, stretch, 1.0)[:, None]
+        tangential = np.where(sliding[:, None] > 0, of_spring[:, None] * direction, tangential)
+    return i, j, normal, overlap, pressing, tangential, np.zeros(len(i))
+
+
 def contacts_of_rows(rows, made, position):
     """Of two atoms: i < j, normal from j to i, overlap, forces on i, torque against rolling on i.
 
@@ -158,6 +172,8 @@ def contacts_of_rows(rows, made, position):
     would show the dashpot beside it, which did not act: there the force is the spring's alone."""
     law = made.law
     i, j, normal, overlap, sign = pair_geometry(rows, made, position)
+    if made.space == 3:
+        return contacts_in_space(rows, made, i, j, normal, overlap, sign)
     force = rows[:, 3:5]  # on the first of the two
     tangent = turned(normal)
     pressing = sign * (force * normal).sum(axis=1)

@@ -34,6 +34,7 @@ class LiggghtsEngine(Engine):
         "cohesion": list(COHESION),
         "cohesion_area": list(AREAS),
         "cohesion_load": ["without_pull", "net"],
+        "spring_turn": ["projected"],
     }
 
     def deviations(self):

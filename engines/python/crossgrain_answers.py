@@ -11,6 +11,7 @@ EFFECTS = (
     "gravity",
     "moving_walls",
 )
+MOTIONS_IN_SPACE = ("fixed", "translating", "oscillating")
 
 
 def effects_without_bottom():
@@ -65,13 +66,16 @@ def demand_tangential(law, kinds):
 
 
 def demand_plain_walls(scene, bodies):
-    """Of `load`: no plate below the disks, and planes along axes only.
+    """Of `load`: no plate below the disks, planes along axes only and, in space, no body that turns.
 
     @raise Unsupported"""
     bottom = scene.get("bottom")
     if bottom and bottom["mu"] > 0:
         raise Unsupported("has no bottom_friction")
     for body in bodies:
+        if scene.get("dimension", 2) == 3 and body.kind not in MOTIONS_IN_SPACE:
+            had = " | ".join(MOTIONS_IN_SPACE)
+            raise Unsupported(f"has walls that are {had} in space, not {body.kind}")
         for plane in body.planes:
             *zeros, one = sorted(map(abs, plane["normal"]))
             if any(zeros) or one != 1:

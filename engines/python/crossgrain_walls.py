@@ -1,4 +1,4 @@
-"""Prescribed motion of wall bodies: the closed forms of adapters/motion.hpp."""
+"""Prescribed motion of wall bodies: the closed forms of adapters/motion.hpp; and periodic boxes."""
 
 import math
 
@@ -13,9 +13,43 @@ def bodies_of(scene, arrays):
     ]
 
 
+def moments(arm, force, torque=0.0):
+    """Of forces, one a row, at those arms: about z in the plane, vectors in space."""
+    if arm.shape[1] == 2:
+        return torque + arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0]
+    return torque + np.cross(arm, force)
+
+
+class Box:
+    """The scene's: which directions are periodic, and how long it is along these."""
+
+    def __init__(self, scene):
+        box = scene.get("box")
+        dimension = scene.get("dimension", 2)
+        self.periodic = box["periodic"] if box else [False] * dimension
+        self.low, self.high = (np.array(box[end] if box else [0.0] * dimension) for end in ("low", "high"))
+
+    def nearest(self, difference):
+        """Of the images of differences of two places, one a row, the shortest."""
+        return self.shifted(difference, 0.0, np.round)
+
+    def wrapped(self, place):
+        """Of the images of places, one a row, that in the box; what is in it keeps its bits."""
+        return self.shifted(place, self.low, np.floor)
+
+    def shifted(self, rows, origin, images):
+        along = np.flatnonzero(self.periodic)
+        if not along.size:
+            return rows
+        length = (self.high - self.low)[along]
+        moved = rows.copy()
+        moved[:, along] -= length * images((rows - origin)[:, along] / length)
+        return moved
+
+
 class Body:
-    """A rigid body of wall disks and planes at any time. Lists of vectors are (n, 2) arrays; in space
-    there are planes alone."""
+    """A rigid body of wall disks and planes at any time. Lists of vectors are (n, 2) arrays, in space
+    (n, 3), where no body turns."""
 
     def __init__(self, description, disk_position, disk_radius):
         self.name = description["name"]
@@ -31,17 +65,23 @@ class Body:
     def state(self, t):
         """Centre, velocity of the centre, angle and angular velocity at time t."""
         motion, velocity = self.motion, np.zeros(len(self.centre))
+        none = np.zeros(3) if len(self.centre) == 3 else 0.0
         if self.kind == "rotating":
             spin = motion["angular_velocity"]
             return self.centre, velocity, spin * t, spin
         if self.kind == "translating":
             velocity = np.array(motion["velocity"])
-            return self.centre + velocity * t, velocity, 0.0, 0.0
+            return self.centre + velocity * t, velocity, none, none
         if self.kind == "oscillating":
             w, amplitude = motion["frequency"], np.array(motion["amplitude"])
             centre = self.centre + amplitude * math.sin(w * t)
-            return centre, amplitude * (w * math.cos(w * t)), 0.0, 0.0
-        return self.centre, velocity, 0.0, 0.0
+            return centre, amplitude * (w * math.cos(w * t)), none, none
+        return self.centre, velocity, none, none
+
+    def shown(self, t):
+        """Of `snapshot`, without force and torque."""
+        names = ("centre", "velocity", "angle", "angular_velocity")
+        return {name: np.asarray(value).tolist() for name, value in zip(names, self.state(t))}
 
     def radial(self, t):
         """How far members have moved from the centre, and their outward velocity, at time t."""
@@ -53,6 +93,8 @@ class Body:
     def disk_states(self, t):
         """Positions and velocities of the wall disks at time t."""
         centre, velocity, angle, spin = self.state(t)
+        if len(centre) == 3:
+            return centre + self.offset, np.tile(velocity, (len(self.offset), 1))
         shift, outward = self.radial(t)
         apart = np.where(self.distance > 0, self.distance, 1.0)  # a disk at the centre stays there
         scale = 1.0 + shift / apart
@@ -69,12 +111,14 @@ class Body:
         """Points and normals of the planes at time t. They turn and shift with the body; in radial
         motion they stay."""
         centre, _, angle, _ = self.state(t)
-        cos, sin = math.cos(angle), math.sin(angle)
-        turn = np.array([[cos, sin], [-sin, cos]])  # of vectors in rows
         point, normal = (
-            np.array([plane[key] for plane in self.planes], float).reshape(-1, 2)
+            np.array([plane[key] for plane in self.planes], float).reshape(-1, len(centre))
             for key in ("point", "normal")
         )
+        if len(centre) == 3:
+            return centre + (point - self.centre), normal
+        cos, sin = math.cos(angle), math.sin(angle)
+        turn = np.array([[cos, sin], [-sin, cos]])  # of vectors in rows
         return centre + (point - self.centre) @ turn, normal @ turn
 
     def velocity_at(self, t, place):

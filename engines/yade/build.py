@@ -4,6 +4,8 @@ of YADE's own (hubs, clumps) come after them."""
 import math
 
 import numpy as np
+from crossgrain_walls import Box
+from crossgrain_worker import Unsupported
 from yade import (
     ForceResetter,
     FrictMat,
@@ -18,12 +20,33 @@ from yade import (
 
 DISK_MASK, WALL_MASK, HUB_MASK = 1, 3, 0  # two walls share all bits: the collider skips them
 BOX_REACH = 1e6  # half a box's length [m]
+FAR = 1e4  # extents of a scene: beyond that no image of it is met
 
 
 def kind_mask(kind):
     """The bit that disks of a kind share with the boxes that are planes to them alone."""
     return 4 << kind
 WHITE = (1, 1, 1)  # without a colour YADE reseeds Python's random numbers for one
+
+
+def set_cell(scene, arrays, bodies):
+    """YADE's cell is periodic in all directions: along others it is so long that nothing meets its image.
+
+    @raise Unsupported"""
+    periodic = Box(scene).periodic
+    O.periodic = any(periodic)
+    if not O.periodic:
+        return
+    if len(periodic) == 2:
+        periodic = [*periodic, False]
+    for body in bodies:
+        if body.planes:
+            raise Unsupported(f"has no planes in periodic scenes, and {body.name} has one")
+    places = [arrays["disks.position"], *(body.disk_position.ravel() for body in bodies)]
+    extent = np.abs(np.concatenate([*places, arrays["disks.radius"]])).max()
+    box = Box(scene)
+    lengths = [*(box.high - box.low).tolist(), 0.0][:3]
+    O.cell.setBox([length if along else FAR * extent for along, length in zip(periodic, lengths)])
 
 
 def place_disks(arrays, kinds, rotation, boxes):
@@ -74,8 +97,8 @@ def place_walls(bodies, law):
     kinds = law.kinds
     for body, of_disks in zip(bodies, kinds.of_wall):
         disks = [
-            utils.sphere((x, y, 0), radius, fixed=True, color=WHITE, material=kind, mask=WALL_MASK)
-            for (x, y), radius, kind in zip(
+            utils.sphere(in_space(place), radius, fixed=True, color=WHITE, material=kind, mask=WALL_MASK)
+            for place, radius, kind in zip(
                 body.disk_position.tolist(), body.disk_radius.tolist(), of_disks
             )
         ]
@@ -121,9 +144,9 @@ def start_walls(bodies):
     """Velocities at t = 0; a rotating body becomes a clump, which YADE turns rigidly."""
     for body in bodies:
         _, velocity, _, spin = body.state(0.0)
-        for id_, (u, v) in zip(body.disk_ids, body.disk_ids and body.disk_states(0.0)[1].tolist()):
-            O.bodies[id_].state.vel = (u, v, 0)
-            O.bodies[id_].state.angVel = (0, 0, spin)
+        for id_, of_disk in zip(body.disk_ids, body.disk_ids and body.disk_states(0.0)[1].tolist()):
+            O.bodies[id_].state.vel = in_space(of_disk)
+            O.bodies[id_].state.angVel = (0, 0, spin) if len(of_disk) == 2 else spin
         for id_ in body.plane_ids:
             O.bodies[id_].state.vel = in_space(velocity.tolist())
         if body.kind == "rotating" and body.disk_ids:

@@ -4,6 +4,11 @@ import numpy as np
 from yade import O
 
 
+def xyz(vectors):
+    """YADE's vectors, shape (n, 3)."""
+    return np.array([c for v in vectors for c in (v[0], v[1], v[2])], float).reshape(-1, 3)
+
+
 def xy(vectors):
     """x and y of YADE's vectors, shape (n, 2)."""
     return np.array([c for v in vectors for c in (v[0], v[1])], float).reshape(-1, 2)
@@ -14,7 +19,8 @@ def z(vectors):
 
 
 def dot(a, b):
-    return a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1]
+    products = a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1]
+    return products if a.shape[1] == 2 else products + a[:, 2] * b[:, 2]
 
 
 def turned(v):
@@ -30,20 +36,28 @@ def read_contacts(law, radius, first_plane, per_plane, velocity, spin):
     first = np.array([i.id1 for i in interactions], int)
     second = np.array([i.id2 for i in interactions], int)
     geoms = [i.geom for i in interactions]
-    normal = xy([g.normal for g in geoms])  # from the first to the second
+    space = velocity.shape[1] == 3
+    normal = (xyz if space else xy)([g.normal for g in geoms])  # from the first to the second
     overlap = np.array([g.penetrationDepth for g in geoms], float)
 
-    tangent = turned(normal)
     # Arms reach to the contact point: the middle of the overlap, with a plane the plane.
     at_plane = 0.5 if law.plane_arm == "middle" else 1.0
     depth = np.where((first < first_plane) & (second < first_plane), 0.5, at_plane) * overlap
-    slip = dot(velocity[first] - velocity[second], tangent)
-    slip += spin[first] * (radius[first] - depth) + spin[second] * (radius[second] - depth)
-    # Those on the second.
     physs = [i.phys for i in interactions]
-    pressing, tangential, sliding = law.forces(physs, normal, tangent, slip)
-
     forward = first < second
+    apart, arms = velocity[first] - velocity[second], (radius[first] - depth, radius[second] - depth)
+    # Forces on the second; in the plane along a tangent, which is z × n of either.
+    if space:
+        spins = arms[0][:, None] * spin[first] + arms[1][:, None] * spin[second]
+        slip = apart - dot(apart, normal)[:, None] * normal + np.cross(spins, normal)
+        pressing, tangential, sliding = law.forces_in_space(physs, normal, slip)
+        tangential *= np.where(forward, -1.0, 1.0)[:, None]
+    else:
+        tangent = turned(normal)
+        slip = dot(apart, tangent)
+        slip += spin[first] * arms[0] + spin[second] * arms[1]
+        pressing, tangential, sliding = law.forces(physs, normal, tangent, slip)
+
     last = np.maximum(first, second)
     planes = np.maximum(last - first_plane, 0)
     arrays = {

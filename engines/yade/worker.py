@@ -23,9 +23,9 @@ from yade import O, utils
 import build
 import crossgrain_worker
 from cohesive_frictional import CohesiveFrictional
-from contacts import read_contacts, xy, z
+from contacts import read_contacts, xy, xyz, z
 from crossgrain_answers import demand_plain_walls, effects_called, effects_without_bottom, setting, stats
-from crossgrain_walls import bodies_of
+from crossgrain_walls import bodies_of, moments
 from kinds import Kinds
 from law import representative_pairs
 from luding import Luding
@@ -60,6 +60,7 @@ class Yade:
         return {
             "version": yade.config.version,
             "dimensions": [2, 3],
+            "periodic": True,
             "effects": effects_without_bottom()
             | {name: "optional" for name in ("rolling_resistance", "cohesion", "pair_materials")},
             "law_options": {
@@ -124,6 +125,7 @@ class Yade:
 
         O.reset()
         O.dt = self.dt
+        build.set_cell(scene, arrays, self.bodies)
         O.materials.append(self.law.materials())
         self.spins = self.law.friction or self.law.rolls
         self.rotation = self.spins and scene["rotation"]
@@ -237,6 +239,12 @@ class Yade:
             for id_, (u, v) in zip(body.disk_ids, velocities.tolist()):
                 self.states[id_].vel = (share * u, share * v, 0)
 
+    def vectors(self, of_yade):
+        return (xyz if self.space else xy)(of_yade)
+
+    def spins_of(self, of_yade):
+        return (xyz if self.space else z)(of_yade)
+
     def snapshot(self, report):
         if report == "accumulated":
             raise ValueError("has no accumulated contacts")
@@ -249,16 +257,12 @@ class Yade:
             "contact_time": time_ - self.dt if self.steps else 0.0,
             "contact_interval": 0.0,
         }
-        if self.space:
-            if report != "none":
-                raise ValueError("has no contacts in space")
-            return self.snapshot_in_space(snapshot | {"bodies": []})
-        velocity = xy([state.vel for state in disks])
-        spin = z([state.angVel for state in disks])
+        velocity = self.vectors([state.vel for state in disks])
+        spin = self.spins_of([state.angVel for state in disks])
         arrays = {
-            "position": ("f64", xy([state.pos for state in disks])),
+            "position": ("f64", self.vectors([state.pos for state in disks])),
             "velocity": ("f64", velocity),
-            "wall_position": ("f64", xy([state.pos for state in walls])),
+            "wall_position": ("f64", self.vectors([state.pos for state in walls])),
         }
         if self.spins:
             arrays["spin"] = ("f64", spin)
@@ -274,43 +278,26 @@ class Yade:
         snapshot["bodies"] = [self.body_snapshot(body, time_, forces) for body in self.bodies]
         return snapshot, arrays
 
-    def snapshot_in_space(self, snapshot):
-        """Bodies without the forces on them, which YADE has in parts."""
-        disks = self.states[: self.disks]
-        arrays = {
-            name: ("f64", np.array([getattr(state, own) for state in disks], float).ravel())
-            for name, own in (("position", "pos"), ("velocity", "vel"), ("spin", "angVel"))
-            if name != "spin" or self.spins
-        }
-        none = [0.0, 0.0, 0.0]
-        for body in self.bodies:
-            centre, velocity, _, _ = body.state(snapshot["position_time"])
-            snapshot["bodies"].append(
-                {
-                    "centre": centre.tolist(),
-                    "angle": none,
-                    "velocity": velocity.tolist(),
-                    "angular_velocity": none,
-                }
-            )
-        return snapshot, arrays | {"wall_position": ("f64", [])}
-
     def forces(self, first):
         """Forces and torques of the last step by id; those of ids below `first` are left out."""
-        force, torque = np.zeros((len(self.states), 2)), np.zeros(len(self.states))
         of_yade, ids = O.forces, range(first, len(self.states))
-        force[first:] = xy([of_yade.f(i) for i in ids])
-        torque[first:] = z([of_yade.t(i) for i in ids])
-        return force, torque
+        force = self.vectors([of_yade.f(i) for i in ids])
+        torque = self.spins_of([of_yade.t(i) for i in ids])
+        return self.after(first, force), self.after(first, torque)
+
+    @staticmethod
+    def after(first, rows):
+        """The rows after so many of zeros."""
+        return np.concatenate([np.zeros((first, *rows.shape[1:])), rows])
 
     def seen_by_the_law(self, velocity, spin, force, torque):
         """Velocities and spins of all bodies as the forces of the last step saw them."""
         n = self.disks
-        all_velocity, all_spin = np.zeros((len(self.states), 2)), np.zeros(len(self.states))
+        all_velocity, all_spin = np.zeros_like(force), np.zeros_like(torque)
         all_velocity[:n] = velocity - self.kick * (force[:n] / self.mass[:, None] + self.gravity)
         all_spin[:n] = spin
         if self.rotation:
-            all_spin[:n] -= self.kick * torque[:n] / self.inertia
+            all_spin[:n] -= (self.kick * torque[:n].T / self.inertia).T
         then = (self.steps - 1) * self.dt
         for body in self.bodies:
             _, of_centre, _, body_spin = body.state(then)
@@ -320,13 +307,7 @@ class Yade:
         return all_velocity, all_spin
 
     def body_snapshot(self, body, time_, forces):
-        centre, velocity, angle, spin = body.state(time_)
-        snapshot = {
-            "centre": centre.tolist(),
-            "angle": angle,
-            "velocity": velocity.tolist(),
-            "angular_velocity": spin,
-        }
+        snapshot = body.shown(time_)
         if forces:
             then = time_ - self.dt
             ids = body.disk_ids + body.plane_ids
@@ -337,9 +318,7 @@ class Yade:
             points = np.concatenate([body.disk_states(then)[0], at])
             arm = points - body.state(then)[0]
             snapshot["force"] = force.sum(axis=0).tolist()
-            snapshot["torque"] = float(
-                torque.sum() + (arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0]).sum()
-            )
+            snapshot["torque"] = (torque.sum(axis=0) + moments(arm, force).sum(axis=0)).tolist()
         return snapshot
 
     def stats(self):

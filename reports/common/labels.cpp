@@ -32,10 +32,8 @@ constexpr std::array headLabels = {
 
 /// null where there is no such field, or none that people write in another way
 const FieldSpec* labelledField(std::string_view name) {
-  for (const auto& table : {fieldTable(), cartesianFieldTable()})
-    if (const auto found = std::ranges::find(table, name, &FieldSpec::name); found != table.end())
-      return found->words.empty() ? nullptr : &*found;
-  return nullptr;
+  const FieldSpec* const found = findField(name);
+  return found && !found->words.empty() ? found : nullptr;
 }
 
 /// How many bytes from there on belong to an index: of ASCII letters, digits, − and Greek letters.

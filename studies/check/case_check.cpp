@@ -58,10 +58,12 @@ Probe probeOf(const Case& setup) {
 }
 
 /// Beyond what a contact bears, as the commands refuse it; hard cases may go there.
-void requireStableStep(const Case& setup, const Disks& disks) {
+template <int D>
+void requireStableStep(const Case& setup, const DisksOf<D>& disks) {
   if (!hasFlow(setup)) return;
   std::optional<LightestPair> lightest;  // the disks of an assembly are all in its case
-  if (setup.kind == CaseKind::couette) lightest = lightestPair(disks, true);
+  if constexpr (D == 2)
+    if (setup.kind == CaseKind::couette) lightest = lightestPair(disks, true);
   const char* const key = setup.run.dt ? "run.dt" : "run.steps_per_contact";
   const std::string why = unstableStepFault(setup, timeStep(setup), key, lightest);
   if (!why.empty()) throw BadInput(fmt::format("{}: {}", whereSaid(setup, key), why));
@@ -226,9 +228,21 @@ json checkedCase(const Case& setup, const std::vector<std::string>& names, bool 
   checkEngineSections(setup);
   if (setup.particles.file && !setup.run.dt)
     throw BadInput(setup.file.string() + ": a packing file needs [run] dt, the time step in s");
-  if (setup.dimension == 3)
-    return checkedScene(setup, spaceCollisionScene(setup, collisionStarts(setup), timeStep(setup)),
-                        0.0, names, false, scratch, progress);
+  const auto addMargins = [&](json& result) {
+    result["endpoints"] = marginsOf(endpointsOf(setup), setup.averaging.endpoints, "endpoint");
+    result["margins"] = marginsOf(fieldsIn(setup.dimension, setup.average->region.hasRings()),
+                                  setup.averaging.margins, "field");
+  };
+  if (setup.dimension == 3) {
+    const SpaceScene spheres =
+        setup.kind == CaseKind::collision
+            ? spaceCollisionScene(setup, collisionStarts(setup), timeStep(setup))
+            : assemblyScene<3>(setup);
+    requireStableStep(setup, spheres.disks);
+    json result = checkedScene(setup, spheres, 0.0, names, false, scratch, progress);
+    if (setup.average) addMargins(result);
+    return result;
+  }
   const Probe probe = probeOf(setup);
   const Scene& scene = probe.scene;
   requireStableStep(setup, scene.disks);
@@ -236,10 +250,7 @@ json checkedCase(const Case& setup, const std::vector<std::string>& names, bool 
   const double fraction = couette ? volumeFractionOf(setup, scene, !setup.particles.file) : 0.0;
 
   json result = checkedScene(setup, scene, fraction, names, timed && couette, scratch, progress);
-  if (setup.average) {
-    result["endpoints"] = marginsOf(endpointsOf(setup), setup.averaging.endpoints, "endpoint");
-    result["margins"] = marginsOf(fieldsOf(*binsOf(setup)), setup.averaging.margins, "field");
-  }
+  if (setup.average) addMargins(result);
   if (!couette) return result;
   result["cell"] = cellFigures(setup, scene, fraction);
   result["endpoints"] = marginsOf(endpointTable(), setup.averaging.endpoints, "endpoint");

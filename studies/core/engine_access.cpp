@@ -29,11 +29,10 @@ class AuditedEngine final : public Engine {
 
   Capabilities capabilities() const override { return engine_->capabilities(); }
   EffectiveParameters load(const Scene& scene, const Settings& settings) override {
-    EffectiveParameters effective = engine_->load(scene, settings);
-    scene_ = scene;
-    basis_ = auditBasis(scene_, engine_->capabilities(), effective);
-    reached_ = 0.0;
-    return effective;
+    return begin(plane_, scene, engine_->load(scene, settings));
+  }
+  EffectiveParameters loadInSpace(const SpaceScene& scene, const Settings& settings) override {
+    return begin(space_, scene, engine_->loadInSpace(scene, settings));
   }
   double advance(double t) override {
     reached_ = engine_->advance(t);
@@ -41,21 +40,10 @@ class AuditedEngine final : public Engine {
   }
   /// @throws EngineFailure of one line: engine, scene, time, and what cannot be
   Snapshot snapshot(ContactReport contacts) override {
-    Snapshot seen = engine_->snapshot(contacts);
-    if (const std::string why = auditFault(seen, basis_, reached_); !why.empty()) {
-      discardWorker(*engine_);
-      throw EngineFailure(fmt::format("{}, {} at t = {:g} s: its snapshot cannot be: {}", name_,
-                                      scene_.name, reached_.value_or(seen.positionTime), why));
-    }
-    return seen;
-  }
-  /// Snapshots in space are not compared with anything yet but for their lengths and that all is
-  /// finite, as the worker protocol has it.
-  EffectiveParameters loadInSpace(const SpaceScene& scene, const Settings& settings) override {
-    return engine_->loadInSpace(scene, settings);
+    return checked(plane_, engine_->snapshot(contacts));
   }
   SpaceSnapshot snapshotInSpace(ContactReport contacts) override {
-    return engine_->snapshotInSpace(contacts);
+    return checked(space_, engine_->snapshotInSpace(contacts));
   }
   Stats stats() const override { return engine_->stats(); }
   void checkpoint(const std::filesystem::path& file) override { engine_->checkpoint(file); }
@@ -67,10 +55,35 @@ class AuditedEngine final : public Engine {
   Engine& inner() { return *engine_; }
 
  private:
+  template <int D>
+  struct Audited {
+    SceneOf<D> scene;  ///< as the engine was given it
+    AuditBasisOf<D> basis;
+  };
+
+  template <int D>
+  EffectiveParameters begin(Audited<D>& audited, const SceneOf<D>& scene,
+                            EffectiveParameters effective) {
+    audited.scene = scene;
+    audited.basis = auditBasis(audited.scene, engine_->capabilities(), effective);
+    reached_ = 0.0;
+    return effective;
+  }
+  template <int D>
+  SnapshotOf<D> checked(const Audited<D>& audited, SnapshotOf<D> seen) {
+    if (const std::string why = auditFault(seen, audited.basis, reached_); !why.empty()) {
+      discardWorker(*engine_);
+      throw EngineFailure(fmt::format("{}, {} at t = {:g} s: its snapshot cannot be: {}", name_,
+                                      audited.scene.name, reached_.value_or(seen.positionTime),
+                                      why));
+    }
+    return seen;
+  }
+
   std::string name_;
   std::unique_ptr<Engine> engine_;
-  Scene scene_;  ///< as the engine was given it
-  AuditBasis basis_;
+  Audited<2> plane_;
+  Audited<3> space_;
   std::optional<double> reached_;  ///< what advance() returned last; absent: not known [s]
 };
 
@@ -328,15 +341,6 @@ EffectiveParameters loadInto(Engine& engine, const SpaceScene& scene, const Sett
   return engine.loadInSpace(scene, settings);
 }
 
-/// What no engine can start from, in a clause; empty: nothing. In space a case's scenes are
-/// collisions, whose bodies begin apart.
-std::string faultOfStart(const Scene& scene) {
-  return startFault(scene);
-}
-std::string faultOfStart(const SpaceScene&) {
-  return {};
-}
-
 /// sceneFor(), with advice that works: see checkSuitable().
 template <int D>
 AdaptedOf<D> sceneWithAdvice(Engine& engine, const EngineEntry& entry, const Case& setup,
@@ -429,7 +433,7 @@ EffectiveParameters loadAdapted(Engine& engine, const EngineEntry& entry, const 
 template <int D>
 EffectiveParameters loadScene(Engine& engine, const EngineEntry& entry, const Case& setup,
                               const SceneOf<D>& scene) {
-  if (const std::string why = faultOfStart(scene); !why.empty())
+  if (const std::string why = startFault(scene); !why.empty())
     throw BadInput(fmt::format("{}: {}", setup.file.string(), why));
   return namingRefusals(entry, setup, [&] { return loadAdapted(engine, entry, setup, scene); });
 }
@@ -444,7 +448,8 @@ void requireSameStep(const EffectiveParameters& first, const EffectiveParameters
                     first.dt, first.precision, now.dt, now.precision));
 }
 
-LoadedEngine loadEngine(const EngineEntry& entry, const Case& setup, const Scene& scene,
+template <int D>
+LoadedEngine loadEngine(const EngineEntry& entry, const Case& setup, const SceneOf<D>& scene,
                         const std::filesystem::path& scratch) {
   LoadedEngine loaded;
   loaded.engine = startAudited(entry, scratch, setup.run.timeout);
@@ -452,6 +457,10 @@ LoadedEngine loadEngine(const EngineEntry& entry, const Case& setup, const Scene
   loaded.effective = loadScene(*loaded.engine, entry, setup, scene);
   return loaded;
 }
+template LoadedEngine loadEngine<2>(const EngineEntry&, const Case&, const Scene&,
+                                    const std::filesystem::path&);
+template LoadedEngine loadEngine<3>(const EngineEntry&, const Case&, const SpaceScene&,
+                                    const std::filesystem::path&);
 
 std::optional<double> stepOfItsOwn(const Case& setup, const std::string& engine,
                                    const Capabilities& can) {
@@ -480,7 +489,7 @@ Suitability suitabilityOf(Engine& engine, const EngineEntry& entry, const Case& 
   std::vector<Deviation> deviations = adapted.deviations;
   Effects effects = simulatedEffects(can, adapted.scene);
   Suitability found;
-  if (scene.disks.size() > 0 && faultOfStart(scene).empty()) {
+  if (scene.disks.size() > 0 && startFault(scene).empty()) {
     const EffectiveParameters effective = loadAdapted(engine, entry, setup, scene);
     deviations = effective.deviations;
     effects = effective.effects;

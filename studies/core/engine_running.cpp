@@ -35,8 +35,9 @@ double advanceInPieces(Engine& engine, const EffectiveParameters& effective, dou
   return reached;
 }
 
+template <int D>
 BriefTiming briefTiming(Engine& engine, const EngineEntry& entry, const Case& setup,
-                        const Scene& scene) {
+                        const SceneOf<D>& scene) {
   constexpr double enough = 0.1;  // s of steps
   constexpr int warmUp = 5, most = 2000;
   BriefTiming timing;
@@ -54,6 +55,8 @@ BriefTiming briefTiming(Engine& engine, const EngineEntry& entry, const Case& se
   timing.memory = mostMemoryOf(engine);
   return timing;
 }
+template BriefTiming briefTiming<2>(Engine&, const EngineEntry&, const Case&, const Scene&);
+template BriefTiming briefTiming<3>(Engine&, const EngineEntry&, const Case&, const SpaceScene&);
 
 namespace {
 

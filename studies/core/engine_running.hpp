@@ -26,8 +26,9 @@ struct BriefTiming {
 
 /// Loads the scene and does steps, about a tenth of a second of them after a few to warm up.
 /// @throws UnsupportedScene, EngineFailure, BadInput
+template <int D>
 BriefTiming briefTiming(Engine& engine, const EngineEntry& entry, const Case& setup,
-                        const Scene& scene);
+                        const SceneOf<D>& scene);
 
 /// The most that an engine's worker and what it has started held in memory so far: the sum of
 /// VmHWM of /proc/PID/status (proc(5)) over those that still run [bytes]. Pages that several share

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "adapters/registry.hpp"
@@ -106,6 +107,13 @@ Starts startsOf(const CommandLine& line, std::string_view command) {
 
 }  // namespace
 
+namespace {
+
+/// The others do not know spheres in space yet.
+constexpr std::array<std::string_view, 2> flowsInSpace = {"compare", "plan"};
+
+}  // namespace
+
 Case onlyFlow(const CommandLine& line, const char* command) {
   const fs::path& file = line.inputs.front();
   const Starts starts = startsOf(line, command);
@@ -117,6 +125,10 @@ Case onlyFlow(const CommandLine& line, const char* command) {
         "[[endpoints]]",
         file.string(), command));
   }
+  if (cases.front().dimension == 3 &&
+      std::ranges::find(flowsInSpace, command) == flowsInSpace.end())
+    throw BadInput(fmt::format("{}: {} knows no cases in space (case.dimension = 3) yet; {} do",
+                               file.string(), command, fmt::join(flowsInSpace, " and ")));
   if (cases.size() > 1)
     throw BadInput(fmt::format("{}: {} takes a case without variants", file.string(), command));
   // Every job of a plan is a compare, and import takes a case as it is for what comes after.

@@ -87,7 +87,7 @@ CompareResults averageSnapshots(const Case& setup, const std::vector<std::filesy
 
   CompareResults results;
   static_cast<FlowFrame&>(results) =
-      couetteFrame(kindAverage, setup, commandLine, all.front().disks);
+      couetteFrame(kindAverage, setup, commandLine, all.front().disks.radius);
   // Of a file's snapshots nobody says from when to when they are.
   FlowAveraging& averaging = results.averaging;
   averaging.settleRotations = averaging.rotations = averaging.fromRotation = averaging.toRotation =

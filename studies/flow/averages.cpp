@@ -10,6 +10,7 @@
 #include "cases/flow.hpp"
 #include "studies/flow/run.hpp"
 #include "studies/flow/summary.hpp"
+#include "support/bad_input.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -23,9 +24,15 @@ std::shared_ptr<const Coordinates> binsOf(const Case& setup) {
                                 region.rowCount(), region.height);
 }
 
+template <>
 std::unique_ptr<FlowAverages> flowAverages(const Case& setup, const Scene& scene) {
   if (setup.average) return std::make_unique<RegionAverages>(setup, scene);
   return std::make_unique<CouetteAverages>(setup, scene);
+}
+
+template <>
+std::unique_ptr<FlowAveragesOf<3>> flowAverages(const Case& setup, const SpaceScene&) {
+  throw BadInput(setup.file.string() + ": nothing is averaged in space yet");
 }
 
 void addGlobalNumbers(RunSeries& rows, const Scene& scene, const Snapshot& now) {
@@ -45,7 +52,7 @@ void addGlobalNumbers(RunSeries& rows, const Scene& scene, const Snapshot& now) 
   rows["energy_residual"].push_back(residual(*now.ledger));
 }
 
-std::optional<FlowRun> FlowAverages::without(std::size_t k, std::size_t n) const {
+std::optional<FlowRun> ProfileAverages::without(std::size_t k, std::size_t n) const {
   const auto part = profiles_.part(k, n);
   if (!part) return std::nullopt;
   FlowRun run;
@@ -59,7 +66,7 @@ std::optional<FlowRun> FlowAverages::without(std::size_t k, std::size_t n) const
 }
 
 CouetteAverages::CouetteAverages(const Case& setup, const Scene& scene)
-    : FlowAverages({ringsOf(setup), weightsOf(setup, setup.averaging.methods), scene}),
+    : ProfileAverages({ringsOf(setup), weightsOf(setup, setup.averaging.methods), scene}),
       setup_(setup),
       scene_(scene),
       distributions_(ringsOf(setup), scene, distributionScales(setup)),

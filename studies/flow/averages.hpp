@@ -21,40 +21,54 @@ namespace crossgrain::inline studies {
 std::shared_ptr<const Coordinates> binsOf(const Case& setup);
 
 /// All that is averaged over the snapshots of one run.
-class FlowAverages {
+class RunAverages {
  public:
-  virtual ~FlowAverages() = default;
-
-  /// @throws std::invalid_argument for a snapshot that does not fit the scene or those before it
-  virtual void add(const Snapshot& snapshot) = 0;
+  virtual ~RunAverages() = default;
 
   /// Puts them, and what follows from them, into a run: all but what it was run with and its
   /// picture.
   virtual void describe(const EffectiveParameters& effective, FlowRun& run) const = 0;
 
-  std::size_t snapshots() const { return profiles_.snapshots(); }
+  virtual std::size_t snapshots() const = 0;
 
   /// What endpoints are made of, of the run without part k of n of its snapshots: means, series and
   /// the coordination. Absent where there are too few snapshots for so many parts.
-  std::optional<FlowRun> without(std::size_t k, std::size_t n) const;
-
- protected:
-  explicit FlowAverages(ProfileAccumulator profiles) : profiles_(std::move(profiles)) {}
-
-  ProfileAccumulator profiles_;
-  RunSeries series_;
+  virtual std::optional<FlowRun> without(std::size_t k, std::size_t n) const = 0;
 };
+
+/// The same of a scene of that dimension, snapshot by snapshot.
+template <int D>
+class FlowAveragesOf : public RunAverages {
+ public:
+  /// @throws std::invalid_argument for a snapshot that does not fit the scene or those before it
+  virtual void add(const SnapshotOf<D>& snapshot) = 0;
+};
+using FlowAverages = FlowAveragesOf<2>;
+
+/// Those of the case's kind; in space of an assembly with [average]. Both arguments outlive them.
+template <int D>
+std::unique_ptr<FlowAveragesOf<D>> flowAverages(const Case& setup, const SceneOf<D>& scene);
 
 /// Adds the numbers that any scene has to series: the snapshot's time, kinetic energy, what
 /// contacts show and the engine's ledger, where it keeps one.
 void addGlobalNumbers(RunSeries& rows, const Scene& scene, const Snapshot& now);
 
-/// Those of the case's kind. Both arguments outlive them.
-std::unique_ptr<FlowAverages> flowAverages(const Case& setup, const Scene& scene);
+/// Profiles and series, which all averages have.
+class ProfileAverages : public FlowAverages {
+ public:
+  std::size_t snapshots() const override { return profiles_.snapshots(); }
+  std::optional<FlowRun> without(std::size_t k, std::size_t n) const override;
+
+ protected:
+  explicit ProfileAverages(ProfileAccumulator profiles) : profiles_(std::move(profiles)) {}
+
+  ProfileAccumulator profiles_;
+  RunSeries series_;
+};
 
 /// All that is averaged over the snapshots of a Couette cell, whether they come from an engine or
 /// from a file.
-class CouetteAverages : public FlowAverages {
+class CouetteAverages : public ProfileAverages {
  public:
   /// Both outlive it. The scene has the Couette cell's two bodies.
   CouetteAverages(const Case& setup, const Scene& scene);
@@ -74,7 +88,7 @@ class CouetteAverages : public FlowAverages {
 
 /// What is averaged of an assembly: profiles over the bins of its region; and series of the region,
 /// of the whole scene and of those disks that endpoints ask for (cases/case.hpp).
-class RegionAverages : public FlowAverages {
+class RegionAverages : public ProfileAverages {
  public:
   /// Both outlive it.
   RegionAverages(const Case& setup, const Scene& scene);

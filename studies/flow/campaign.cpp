@@ -118,7 +118,6 @@ void Campaign::forEachEngine(const std::function<void(CampaignEngine&)>& work, s
 }
 
 void Campaign::askEngines(std::size_t fewest) {
-  const Scene scene = unplacedScene(setup_, dt_);
   const bool enginesRun = runsEngines();
   forEachEngine(
       [&](CampaignEngine& own) {
@@ -135,7 +134,9 @@ void Campaign::askEngines(std::size_t fewest) {
             startEngine(own.entry, store_.scratch("ask-" + own.entry.name), setup_.run.timeout);
         const Capabilities can = engine->capabilities();
         own.version = can.version;
-        checkSuitable(*engine, own.entry, setup_, scene);
+        inDimensionOf(setup_, [&]<int D>() {
+          checkSuitable(*engine, own.entry, setup_, unplacedScene<D>(setup_, dt_));
+        });
         if (command_.dryRun) own.can = can;
       },
       fewest);
@@ -213,12 +214,13 @@ void Campaign::preparePackings(int count) {
 void Campaign::timeEngines() {
   if (!runsEngines()) return;
   const double end = flowDuration(setup_);
-  const Scene scene = flowScene(setup_, packings_.front(), dt_);
   forEachEngine([&](CampaignEngine& own) {
     if (own.entry.ofFiles()) return;
     const auto engine =
         startEngine(own.entry, store_.scratch("time-" + own.entry.name), setup_.run.timeout);
-    const BriefTiming timing = briefTiming(*engine, own.entry, setup_, scene);
+    const BriefTiming timing = inDimensionOf(setup_, [&]<int D>() {
+      return briefTiming(*engine, own.entry, setup_, flowScene<D>(setup_, packings_.front(), dt_));
+    });
     own.can = engine->capabilities();
     own.effective = timing.effective;
     own.predicted = timing.secondsPerStep * end / timing.effective.dt;
@@ -292,7 +294,7 @@ CachedTask<FlowRun>::Outcome Campaign::runOne(const Variant& variant, int packin
                            store_.snapshots(name),
                            store_.unfinished(name),
                            Json(keyOf(variant.engine, packing, partOf(variant))).dump()};
-    run = runCouette(task, progress);
+    run = inDimensionOf(setup_, [&]<int D>() { return runCouette<D>(task, progress); });
     run.without = variant.without;
     return {run, true, fmt::format("{:.1f} s", run.stats->wallSeconds)};
   } catch (const Interrupted&) {
@@ -421,11 +423,21 @@ std::vector<EngineRow> Campaign::engineRows() const {
   return rows;
 }
 
+namespace {
+
+/// Of the first packing; without any, of a run that is a file [m].
+const std::vector<double>& radiiOf(const std::vector<Packing>& packings, const Disks& ofFile) {
+  if (packings.empty()) return ofFile.radius;
+  const Packing& first = packings.front();
+  return first.spheres.size() > 0 ? first.spheres.radius : first.disks.radius;
+}
+
+}  // namespace
+
 FlowStudy Campaign::study(std::string_view kind) const {
   FlowStudy study;
   static_cast<FlowFrame&>(study) =
-      couetteFrame(kind, setup_, command_.commandLine,
-                   packings_.empty() ? engines_.front().disks : packings_.front().disks);
+      couetteFrame(kind, setup_, command_.commandLine, radiiOf(packings_, engines_.front().disks));
   study.engines = engineRows();
   for (std::size_t k = 0; k < packings_.size(); ++k)
     study.packings.push_back(

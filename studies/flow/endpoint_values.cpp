@@ -201,7 +201,7 @@ AbleRuns ableRuns(const EndpointSpec& endpoint, const Case& setup, const Runs& a
   return able;
 }
 
-std::vector<EndpointError> endpointErrors(const Case& setup, const FlowAverages& averages,
+std::vector<EndpointError> endpointErrors(const Case& setup, const RunAverages& averages,
                                           const FlowRun& run) {
   constexpr std::size_t mostParts = 64;
   const std::size_t parts = std::min(mostParts, averages.snapshots());

@@ -46,7 +46,7 @@ std::string missingErrorReason(const EndpointSpec& endpoint, const Case& setup, 
 /// out in turn, the pseudo-values n θ − (n − 1) θ_(k) (Tukey's jackknife) are a series in time
 /// whose mean is judged as any (averaging/statistics.hpp), so that correlations count. Endpoints of
 /// one instant and extremes have none, nor have runs of fewer than 16 snapshots.
-std::vector<EndpointError> endpointErrors(const Case& setup, const FlowAverages& averages,
+std::vector<EndpointError> endpointErrors(const Case& setup, const RunAverages& averages,
                                           const FlowRun& run);
 
 /// An endpoint that the case makes up itself, of one finished run. [unit of the endpoint]

@@ -14,12 +14,12 @@ namespace crossgrain::inline studies {
 
 namespace {
 
-CouetteCell cellOf(const Case& setup, const Disks& disks) {
+CouetteCell cellOf(const Case& setup, const std::vector<double>& radii) {
   const Cell& cell = setup.cell;
   const auto small =
-      static_cast<std::size_t>(std::ranges::count(disks.radius, setup.particles.smallRadius));
+      static_cast<std::size_t>(std::ranges::count(radii, setup.particles.smallRadius));
   double diskArea = 0.0;
-  for (const double a : disks.radius) diskArea += a * a;
+  for (const double a : radii) diskArea += a * a;
   const double cellArea = cell.outerRadius * cell.outerRadius - cell.innerRadius * cell.innerRadius;
   return {cell.innerRadius,
           cell.outerRadius,
@@ -28,21 +28,21 @@ CouetteCell cellOf(const Case& setup, const Disks& disks) {
           cell.height,
           cell.omega,
           small,
-          disks.size() - small,
+          radii.size() - small,
           setup.particles.smallRadius,
           setup.particles.largeRadius,
           diskArea / cellArea,
           2.0 * setup.particles.smallRadius};
 }
 
-RegionRow regionOf(const Case& setup, const Disks& disks) {
+RegionRow regionOf(const Case& setup, std::size_t disks) {
   const Region& region = setup.average->region;
   RegionRow row;
   row.bins = binKindNames[static_cast<std::size_t>(region.bins)];
   if (region.bins == BinKind::slabs) row.along = region.axis == 0 ? "x" : "y";
   row.height = region.height;
   row.diameter = flowDiameter(setup);
-  row.disks = disks.size();
+  row.disks = disks;
   if (const auto* grid = dynamic_cast<const Grid*>(binsOf(setup).get()))
     for (int cell = 0; cell < grid->cells(); ++cell) {
       row.x.push_back(grid->centre(cell).x());
@@ -101,13 +101,13 @@ RingPlaces placesOf(const Case& setup) {
 }
 
 FlowFrame couetteFrame(std::string_view kind, const Case& setup, const std::string& command,
-                       const Disks& disks) {
+                       const std::vector<double>& radii) {
   FlowFrame frame;
   frame.head = headOf(kind, setup, command);
   if (setup.average)
-    frame.region = regionOf(setup, disks);
+    frame.region = regionOf(setup, radii.size());
   else
-    frame.cell = cellOf(setup, disks);
+    frame.cell = cellOf(setup, radii);
   frame.averaging = averagingOf(setup);
   for (const Effect effect : effectsOf(setup)) frame.effects.emplace_back(toString(effect));
   frame.rings = placesOf(setup);

@@ -16,8 +16,8 @@ RingPlaces placesOf(const Rings& rings);
 RingPlaces placesOf(const Case& setup);
 
 /// What results say of a Couette case whatever is done with it.
-/// @param disks  of one packing
+/// @param radii  of the disks of one packing [m]
 FlowFrame couetteFrame(std::string_view kind, const Case& setup, const std::string& command,
-                       const Disks& disks);
+                       const std::vector<double>& radii);
 
 }  // namespace crossgrain::inline studies

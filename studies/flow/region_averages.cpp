@@ -90,7 +90,7 @@ void RegionAverages::addFlanks(const Snapshot& now) {
 }
 
 RegionAverages::RegionAverages(const Case& setup, const Scene& scene)
-    : FlowAverages({binsOf(setup), weightsOf(setup, setup.averaging.methods), scene}),
+    : ProfileAverages({binsOf(setup), weightsOf(setup, setup.averaging.methods), scene}),
       setup_(setup),
       scene_(scene),
       bins_(binsOf(setup)) {}

@@ -113,10 +113,11 @@ RevResults averagePerWidth(const StudyWork& work, const AverageOptions&) {
     addWidth(setup, reader, all[k], curves);
     progress.update(k, "ring widths", 1.0);
   }
-  RevResults results{couetteFrame(kindRev, setup, work.line.run.commandLine, reader.scene().disks),
-                     reader.engine(),
-                     {},
-                     {}};
+  RevResults results{
+      couetteFrame(kindRev, setup, work.line.run.commandLine, reader.scene().disks.radius),
+      reader.engine(),
+      {},
+      {}};
   results.averaging.snapshots = static_cast<std::int64_t>(reader.count());
   results.averaging.lineWidth = setup.averaging.lineWidth;
   results.notes = {fmt::format("Averaged from the {} snapshots of {}; nothing was run.",

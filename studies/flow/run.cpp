@@ -33,10 +33,24 @@ std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> na
   return weights;
 }
 
+namespace {
+
+/// In space none are kept yet.
+struct NoSnapshotFile {
+  NoSnapshotFile(const std::filesystem::path&, const std::string&, const SpaceScene&, int, int) {}
+  void offer(const SpaceSnapshot&, int) {}
+  void close() {}
+};
+template <int D>
+using KeptSnapshots = std::conditional_t<D == 2, SnapshotFile, NoSnapshotFile>;
+
+}  // namespace
+
+template <int D>
 FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& progress,
-                   const SnapshotObserver& watch) {
+                   const SnapshotObserverOf<D>& watch) {
   const Case& setup = *task.setup;
-  const Scene scene = flowScene(setup, *task.packing, task.dt);
+  const SceneOf<D> scene = flowScene<D>(setup, *task.packing, task.dt);
   LoadedEngine loaded = loadEngine(task.entry, setup, scene, task.scratch);
   Engine& engine = *loaded.engine;
   // Forces of one instant belong to the positions beside them; those summed over an interval do not
@@ -47,8 +61,8 @@ FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& p
   const FlowTimes times = flowTimes(setup);
   const auto [settled, interval, samples] = times;
   const double end = times.end();
-  UnfinishedRun unfinished(task.unfinished, task.key, scene,
-                           loaded.can.checkpoints && report == ContactReport::instant);
+  const bool resumable = D == 2 && loaded.can.checkpoints && report == ContactReport::instant;
+  UnfinishedRunOf<D> unfinished(task.unfinished, task.key, scene, resumable);
   const auto before = unfinished.resume(engine);
   // What the watch has seen of the settling; what it sees later is shown to it again.
   int settlingSeen = 0;
@@ -86,28 +100,30 @@ FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& p
   for (int k = 1; k <= settleSlices; ++k) {
     advanceTo(settled * k / settleSlices);
     if (k <= settlingSeen || k > watch.settlingSnapshots) continue;
-    watch.settling(engine.snapshot(report));
+    watch.settling(snapshotOf<D>(engine, report));
     settlingSeen = k;
   }
   if (watch.state) watched = watch.state();
-  if (report == ContactReport::accumulated) engine.snapshot(report);  // starts the first interval
+  if (report == ContactReport::accumulated)
+    snapshotOf<D>(engine, report);  // starts the first interval
 
   const auto averages = flowAverages(setup, scene);
-  SnapshotFile kept(task.snapshots, task.entry.name, scene, samples, setup.run.keepSnapshots);
+  KeptSnapshots<D> kept(task.snapshots, task.entry.name, scene, samples, setup.run.keepSnapshots);
   FlowRun run;
   const double pictureTime = std::min(0.5 * flowUnit(setup), end);
   int taken = 0;
-  const auto take = [&](const Snapshot& snapshot) {
+  const auto take = [&](const SnapshotOf<D>& snapshot) {
     averages->add(snapshot);
     if (watch.averaged) watch.averaged(snapshot);
     kept.offer(snapshot, ++taken);
-    if (task.packingIndex == 0 && !run.picture && snapshot.positionTime >= pictureTime - interval)
-      run.picture = scenePicture(scene, snapshot, snapshot.positionTime / flowUnit(setup));
+    if constexpr (D == 2)
+      if (task.packingIndex == 0 && !run.picture && snapshot.positionTime >= pictureTime - interval)
+        run.picture = scenePicture(scene, snapshot, snapshot.positionTime / flowUnit(setup));
   };
   for (std::size_t k = 0; before && k < before->snapshots; ++k) take(unfinished.snapshot(k));
   while (taken < samples) {
     advanceTo(settled + (taken + 1) * interval);
-    const Snapshot snapshot = engine.snapshot(report);
+    const SnapshotOf<D> snapshot = snapshotOf<D>(engine, report);
     take(snapshot);
     unfinished.took(snapshot);
   }
@@ -131,5 +147,9 @@ FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& p
   averages->describe(loaded.effective, run);
   return run;
 }
+template FlowRun runCouette<2>(const CouetteTask&, const std::function<void(double)>&,
+                               const SnapshotObserver&);
+template FlowRun runCouette<3>(const CouetteTask&, const std::function<void(double)>&,
+                               const SnapshotObserverOf<3>&);
 
 }  // namespace crossgrain::inline studies

@@ -36,18 +36,21 @@ struct CouetteTask {
 
 /// Somebody who looks on from the hand-over to the end, beside what is averaged. All or none of
 /// the functions are there.
-struct SnapshotObserver {
+template <int D>
+struct SnapshotObserverOf {
   int settlingSnapshots = 0;  ///< evenly over the time that is not averaged, its end included
-  std::function<void(const Snapshot&)> settling, averaged;
+  std::function<void(const SnapshotOf<D>&)> settling, averaged;
   /// All that the snapshots so far have left, so that an unfinished run goes on to the bit.
   std::function<nlohmann::json()> state;
   std::function<void(const nlohmann::json&)> restore;
 };
+using SnapshotObserver = SnapshotObserverOf<2>;
 
-/// Lets the packing settle and averages over the case's rotations.
+/// Lets the packing settle and averages over the case's rotations, or the time of its [average].
 /// @param progress  called with the fraction done, 0 … 1
 /// @throws EngineFailure, UnsupportedScene, BadInput, Interrupted
+template <int D = 2>
 FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& progress,
-                   const SnapshotObserver& watch = {});
+                   const SnapshotObserverOf<D>& watch = {});
 
 }  // namespace crossgrain::inline studies

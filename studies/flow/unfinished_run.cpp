@@ -38,14 +38,17 @@ double timeReached(const fs::path& folder, const std::string& key) {
              : 0.0;
 }
 
-UnfinishedRun::UnfinishedRun(fs::path folder, std::string key, const Scene& scene, bool possible)
+template <int D>
+UnfinishedRunOf<D>::UnfinishedRunOf(fs::path folder, std::string key, const SceneOf<D>& scene,
+                                    bool possible)
     : folder_(fs::absolute(folder)),
       key_(std::move(key)),
       scene_(scene),
       possible_(possible),
       keptAt_(std::chrono::steady_clock::now()) {}
 
-std::optional<UnfinishedRun::Before> UnfinishedRun::resume(Engine& engine) {
+template <int D>
+std::optional<typename UnfinishedRunOf<D>::Before> UnfinishedRunOf<D>::resume(Engine& engine) {
   if (!possible_) return std::nullopt;
   const json kept = keptUnder(folder_, key_);
   if (!kept.is_object()) {
@@ -70,7 +73,8 @@ std::optional<UnfinishedRun::Before> UnfinishedRun::resume(Engine& engine) {
   return before;
 }
 
-UnfinishedRun::Before UnfinishedRun::readBack(const json& kept) {
+template <int D>
+typename UnfinishedRunOf<D>::Before UnfinishedRunOf<D>::readBack(const json& kept) {
   Before before;
   before.time = kept.at("time");
   before.wallSeconds = earlierWall_ = kept.at("wall_s");
@@ -83,25 +87,29 @@ UnfinishedRun::Before UnfinishedRun::readBack(const json& kept) {
   return before;
 }
 
-Snapshot UnfinishedRun::snapshot(std::size_t k) const {
+template <int D>
+SnapshotOf<D> UnfinishedRunOf<D>::snapshot(std::size_t k) const {
   const json& entry = snapshots_.at(k);
   const fs::path file = folder_ / entry.at("file").get<std::string>();
   return snapshotFromJson(entry.at("snapshot"), ArrayReader(file, entry.at("arrays")), scene_);
 }
 
-void UnfinishedRun::took(const Snapshot& snapshot) {
+template <int D>
+void UnfinishedRunOf<D>::took(const SnapshotOf<D>& snapshot) {
   if (possible_) pending_.push_back(snapshot);
 }
 
-void UnfinishedRun::keepIfDue(Engine& engine, double time) {
+template <int D>
+void UnfinishedRunOf<D>::keepIfDue(Engine& engine, double time) {
   if (possible_ && std::chrono::steady_clock::now() - keptAt_ > interval) keep(engine, time);
 }
 
 /// The index is written last and in one piece: whatever happens before leaves the earlier one.
-void UnfinishedRun::keep(Engine& engine, double time) {
+template <int D>
+void UnfinishedRunOf<D>::keep(Engine& engine, double time) {
   if (!possible_) return;
   makeDirectory(folder_);
-  for (const Snapshot& snapshot : pending_) {
+  for (const SnapshotOf<D>& snapshot : pending_) {
     const std::string name = fmt::format("snapshot-{:05d}.bin", snapshots_.size());
     ArrayWriter arrays;
     json entry = {{"file", name}, {"snapshot", toJson(snapshot, arrays)}};
@@ -126,9 +134,13 @@ void UnfinishedRun::keep(Engine& engine, double time) {
   keptAt_ = std::chrono::steady_clock::now();
 }
 
-void UnfinishedRun::remove() {
+template <int D>
+void UnfinishedRunOf<D>::remove() {
   std::error_code ignored;
   fs::remove_all(folder_, ignored);
 }
+
+template class UnfinishedRunOf<2>;
+template class UnfinishedRunOf<3>;
 
 }  // namespace crossgrain::inline studies

@@ -14,11 +14,13 @@ namespace crossgrain::inline studies {
 
 /// What a long run has done so far, kept on disk now and then, so that --resume goes on in the
 /// middle of it: the engine's own checkpoint and the snapshots taken before. Engines without
-/// checkpoints keep nothing.
-class UnfinishedRun {
+/// checkpoints keep nothing, nor do any in space.
+template <int D>
+class UnfinishedRunOf {
  public:
   /// @param key  everything that the run depends on
-  UnfinishedRun(std::filesystem::path folder, std::string key, const Scene& scene, bool possible);
+  UnfinishedRunOf(std::filesystem::path folder, std::string key, const SceneOf<D>& scene,
+                  bool possible);
 
   struct Before {
     double time = 0.0;          ///< that the engine has reached [s]
@@ -33,9 +35,9 @@ class UnfinishedRun {
   std::optional<Before> resume(Engine& engine);
 
   /// The k-th of those taken before, from disk.
-  Snapshot snapshot(std::size_t k) const;
+  SnapshotOf<D> snapshot(std::size_t k) const;
 
-  void took(const Snapshot& snapshot);
+  void took(const SnapshotOf<D>& snapshot);
   /// Of what is to be kept beside it; asked whenever something is.
   void keepAside(std::function<nlohmann::json()> aside) { aside_ = std::move(aside); }
   /// @param time  that the engine has reached [s]
@@ -50,15 +52,16 @@ class UnfinishedRun {
 
   std::filesystem::path folder_;
   std::string key_;
-  const Scene& scene_;
+  const SceneOf<D>& scene_;
   bool possible_;
   nlohmann::json snapshots_ = nlohmann::json::array();  ///< on disk
-  std::vector<Snapshot> pending_;                       ///< not yet there
+  std::vector<SnapshotOf<D>> pending_;                  ///< not yet there
   double earlierWall_ = 0.0, earlierCpu_ = 0.0;
   int checkpoints_ = 0;
   std::function<nlohmann::json()> aside_;
   std::chrono::steady_clock::time_point keptAt_;
 };
+using UnfinishedRun = UnfinishedRunOf<2>;
 
 /// How far a run came that was kept in that folder under that key [s]; 0: there is none, or nobody
 /// can tell.

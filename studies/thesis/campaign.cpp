@@ -65,7 +65,7 @@ ThesisCase rowOf(const SweepCase& own) {
   row.purpose = own.purpose;
   row.file = setup.file.string();
   row.families = own.families;
-  row.cell = couetteFrame(kindThesis, setup, "", diskKinds(setup.particles)).cell;
+  row.cell = couetteFrame(kindThesis, setup, "", diskKinds(setup.particles).radius).cell;
   row.label = own.label;
   row.kn = setup.law.kn;
   row.mu = setup.law.mu;

@@ -97,4 +97,101 @@ TEST(AssemblyScene, CoincidentCentres_AreBadInput) {
   EXPECT_THROW(assemblyScene(setup), BadInput);
 }
 
+Case spheres() {
+  Case setup;
+  setup.kind = CaseKind::assembly;
+  setup.dimension = 3;
+  setup.run.dt = 1e-3;
+  setup.spaceAssembly.duration = 1.0;
+  DiskGroupOf<3> group;
+  group.radius = 0.5;
+  group.mass = 3.0;
+  group.position = {0.0, 0.0, 1.0};
+  group.places = latticePlaces({4, 4, 4}, Vec3(1.5, 1.5, 1.5), false);
+  group.spin = {1.0, 2.0, 3.0};
+  setup.spaceAssembly.disks.push_back(group);
+  return setup;
+}
+
+/// Conway and Sloane 1999: twelve touch each sphere of a close packing.
+TEST(Places, ClosePackedLattice_TwelveNeighboursTouch) {
+  const auto places =
+      latticePlaces({5, 5, 5}, Vec3(1.0, std::sqrt(0.75), std::sqrt(2.0 / 3.0)), true);
+  ASSERT_EQ(places.size(), 125u);
+  const Vec3 middle = places[2 * 25 + 2 * 5 + 2];
+  int touching = 0;
+  for (const Vec3& place : places) {
+    const double distance = (place - middle).norm();
+    EXPECT_TRUE(distance == 0.0 || distance > 1.0 - 1e-12);
+    touching += distance > 0.5 && distance < 1.0 + 1e-12;
+  }
+  EXPECT_EQ(touching, 12);
+}
+
+TEST(AssemblyScene, Spheres_MassAsCubeInertiaOfSpheres) {
+  Case setup = spheres();
+  setup.spaceAssembly.disks[0].radiusSpread = 0.2;
+  setup.spaceAssembly.disks[0].velocityRms = 0.5;
+  setup.spaceAssembly.gravity = {0.0, 0.0, -10.0};
+  setup.spaceAssembly.box = BoxOf<3>{Vec3::Zero(), Vec3::Constant(6.0), {true, true, false}};
+  const SpaceScene scene = assemblyScene<3>(setup);
+  ASSERT_EQ(scene.disks.size(), 64u);
+  EXPECT_EQ(scene.gravity.z(), -10.0);
+  EXPECT_TRUE(scene.box->periodic[1]);
+  for (std::size_t i = 0; i < 64; ++i) {
+    const double a = scene.disks.radius[i], m = scene.disks.mass[i];
+    EXPECT_NEAR(m, 3.0 * std::pow(a / 0.5, 3), 1e-14);
+    EXPECT_NEAR(scene.disks.inertia[i], 0.4 * m * a * a, 1e-14);
+    EXPECT_EQ(scene.disks.spin[i], Vec3(1.0, 2.0, 3.0));
+    EXPECT_NE(scene.disks.velocity[i].z(), 0.0);
+  }
+}
+
+TEST(AssemblyScene, ChosenPlaces_AreDifferentAndOthersInEachPacking) {
+  Case setup = spheres();
+  setup.spaceAssembly.disks[0].choose = 40;
+  const DisksOf<3> one = assemblyDisks<3>(setup, 0), other = assemblyDisks<3>(setup, 1);
+  ASSERT_EQ(one.size(), 40u);
+  EXPECT_EQ(one.position, assemblyDisks<3>(setup, 0).position);
+  EXPECT_NE(one.position, other.position);
+  for (std::size_t i = 0; i < 40; ++i)
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(one.position[i], one.position[j]);
+}
+
+TEST(AssemblyScene, WallSpheres_MoveOn) {
+  Case setup = spheres();
+  WallGroupOf<3> wall;
+  wall.position = {{0.0, 0.0, -0.5}, {1.0, 0.0, -0.5}};
+  wall.radius = 0.5;
+  wall.motion.kind = MotionKind::translating;
+  wall.motion.velocity = {0.0, 2.0, 0.0};
+  setup.spaceAssembly.walls.push_back(wall);
+  const SpaceScene scene = assemblyScene<3>(setup, assemblyDisks<3>(setup, 0), 0.25, 1e-3);
+  EXPECT_EQ(scene.bodies.at(0).diskPosition.at(1), Vec3(1.0, 0.5, -0.5));
+  EXPECT_EQ(scene.bodies[0].motion.velocity, Vec3(0.0, 2.0, 0.0));
+}
+
+/// Across the border of a box 6.01 m wide the first and the last of a row overlap by 0.49 m.
+TEST(AssemblyScene, StartThatOverlapsAcrossTheBorder_IsBadInput) {
+  Case setup = spheres();
+  setup.spaceAssembly.disks[0].places = {{0.1, 0.0, 0.0}, {5.6, 0.0, 0.0}};
+  EXPECT_NO_THROW(assemblyScene<3>(setup));
+  setup.spaceAssembly.box = BoxOf<3>{Vec3::Zero(), Vec3(6.01, 6.0, 6.0), {false, true, false}};
+  EXPECT_NO_THROW(assemblyScene<3>(setup));
+  setup.spaceAssembly.box->periodic = {true, false, false};
+  try {
+    assemblyScene<3>(setup);
+    FAIL();
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("sphere 0 and sphere 1 overlap by 0.49 m"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(AssemblyScene, OfAnotherDimension_IsBadInput) {
+  EXPECT_THROW(assemblyScene(spheres()), BadInput);
+  EXPECT_THROW(assemblyScene<3>(twoDisks()), BadInput);
+}
+
 }  // namespace

@@ -22,16 +22,6 @@ std::string endpoint(const std::string& keys) {
   return "[[endpoints]]\nname = \"one\"\n" + keys + "\nwhy = \"a reason\"\n";
 }
 
-std::string messageOfText(const std::string& text) {
-  std::ofstream("case.toml") << text;
-  return messageOf("case.toml");
-}
-
-void expectMessage(const std::string& text, const std::string& part) {
-  const std::string message = messageOfText(text);
-  EXPECT_NE(message.find(part), std::string::npos) << message << "\nis not: " << part;
-}
-
 TEST_F(Average, AssemblyDisks_GridByDensity) {
   std::ofstream("case.toml") << withLine(
       soundAssembly, 12,

@@ -232,7 +232,7 @@ TEST_F(LoaderErrors, Collision_OfAWall_HasNeitherItsSizeNorItsSpin) {
       {collision(12, "mass = 0.275e-3\nsecond = \"wall\"\nwall_velocity = 1"),
        "case.toml:14:17: collision.wall_velocity = 1: must be [along its normal, along it] in m/s"},
       {line(2, "kind = \"couette\"\ndimension = 3"),
-       "case.toml:3:13: case.dimension = 3: only collisions are in space yet"},
+       "case.toml:3:13: case.dimension = 3: a couette cell is of the plane: collisions and assemblies are in space, too"},
       {collision(2, "kind = \"collision\"\ndimension = 4"),
        "case.toml:3:13: case.dimension = 4: must be in [2, 3]"},
       {collision(12, "mass = 0.275e-3\nturn = [0, 0, 90]"),

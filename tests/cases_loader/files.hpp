@@ -111,6 +111,17 @@ inline std::string messageOf(const std::filesystem::path& file,
   return {};
 }
 
+/// Of a case file of that text.
+inline std::string messageOfText(const std::string& text) {
+  std::ofstream("case.toml") << text;
+  return messageOf("case.toml");
+}
+
+inline void expectMessage(const std::string& text, const std::string& part) {
+  const std::string message = messageOfText(text);
+  EXPECT_NE(message.find(part), std::string::npos) << message << "\nis not: " << part;
+}
+
 using LoaderErrors = InFolder;
 
 struct Bad {

@@ -195,7 +195,7 @@ TEST(FuzzedInput, StartsAreSoundOrRefusedInOneLine) {
       "0.6, 0.1, 0.15, 0, 0, 0, 1, 0.01, 1\n";
   readDamaged(
       file, 10'000, [&](test::Draw& draw) { return test::damagedText(whole, draw); },
-      [&] { return readStart(file, defaults()).disks; });
+      [&] { return readStart<2>(file, defaults()).disks; });
 }
 
 TEST(FuzzedInput, ResultsAreReadOrRefusedInOneLine) {

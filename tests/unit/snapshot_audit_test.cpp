@@ -206,6 +206,112 @@ TEST(NearPairs, AreAllThatTouch) {
   }
 }
 
+/// The same in space, in boxes with periodic directions: against the nearest image of every pair.
+TEST(NearPairs, AreAllThatTouchAcrossBorders) {
+  const Random random = randomStream(2, 0);
+  const auto number = [&](double most) { return most * gsl_rng_uniform(random.get()); };
+  for (int trial = 0; trial < 200; ++trial) {
+    const Vec3 low(-1.0, 2.0, 0.5), wide(4.5 + number(3.0), 4.5 + number(9.0), 5.0);
+    std::optional<BoxOf<3>> box = BoxOf<3>{low, low + wide, {}};
+    for (std::size_t k = 0; k < 3; ++k) box->periodic[k] = (trial >> k) % 2 == 1;
+    if (trial % 8 == 0) box.reset();
+    std::vector<Vec3> place;
+    std::vector<double> radius;
+    for (int k = 0; k < 1 + trial % 60; ++k) {
+      place.push_back(low + Vec3(number(1.0), number(1.0), number(1.0)).cwiseProduct(2.0 * wide));
+      radius.push_back(0.1 + number(0.9));
+    }
+    const std::size_t moving = place.size() / 2 + 1;
+    std::set<std::pair<std::size_t, std::size_t>> found, wanted;
+    const auto touch = [&](std::size_t i, std::size_t j) {
+      const Vec3 apart = place[i] - place[j];
+      return (box ? box->nearest(apart) : apart).norm() < radius[i] + radius[j];
+    };
+    nearPairs<3>(place, radius, moving, box, [&](std::size_t i, std::size_t j) {
+      EXPECT_LT(i, j);
+      if (touch(i, j)) found.emplace(i, j);
+    });
+    for (std::size_t i = 0; i < moving; ++i)
+      for (std::size_t j = i + 1; j < place.size(); ++j)
+        if (touch(i, j)) wanted.emplace(i, j);
+    EXPECT_EQ(found, wanted) << "trial " << trial;
+  }
+}
+
+/// Disk 1 is seen one box to the right, and the wall disk one box down: contacts stay as they are.
+TEST_F(Audit, PeriodicBox_PositionsOfAnyImage) {
+  const Vec2 wide(0.2, 0.3);
+  shown_.position[1].x() += wide.x();
+  shown_.wallPosition[0].y() -= wide.y();
+  expectSays(why(), "wall disk 0 is at");
+  scene_.box = BoxOf<2>{{-0.1, -0.1}, Vec2(-0.1, -0.1) + wide, {true, true}};
+  EXPECT_EQ(why(), "");
+  EXPECT_EQ(lawFaultOf(), "");
+  contacts().normal[0] = {1.0, 0.0};  // of the long way round
+  expectSays(why(), "contact 0 (disk 0 with disk 1): its normal is (1.0000, 0.0000)");
+  contacts().i.pop_back();
+  contacts().j.pop_back();
+  contacts().normal = {Vec2(-1.0, 0.0)};
+  contacts().overlap.pop_back();
+  contacts().normalForce.pop_back();
+  contacts().tangentialForce.pop_back();
+  expectSays(why(), "no contact of disk 0 with wall disk 0, which overlap by 1e-05 m");
+}
+
+/// A sphere between another, seen one box along z, and a wall sphere.
+TEST(AuditInSpace, ContactsThroughNearestImages) {
+  const double a = smallRadius, reach = 2.0 * a - depth;
+  SpaceScene scene;
+  scene.law = test::thesisLaw();
+  scene.law.dimension = 3;
+  scene.dt = dt;
+  for (const Vec3& place : {Vec3(0.0, 0.0, 0.0), Vec3(0.0, 0.0, reach)}) {
+    scene.disks.radius.push_back(a);
+    scene.disks.mass.push_back(smallMass);
+    scene.disks.inertia.push_back(0.4 * smallMass * a * a);
+    scene.disks.position.push_back(place);
+    scene.disks.velocity.push_back(Vec3::Zero());
+    scene.disks.spin.push_back(Vec3::Zero());
+  }
+  WallBodyOf<3> wall;
+  wall.name = "wall";
+  wall.diskPosition = {Vec3(0.0, -reach, 0.0)};
+  wall.diskRadius = {a};
+  scene.bodies = {wall};
+  scene.box = BoxOf<3>{Vec3::Constant(-0.05), Vec3::Constant(0.05), {true, false, true}};
+  Capabilities can;
+  can.lawOptions = {{"normal", {"linear"}}};
+  EffectiveParameters effective;
+  effective.dt = dt;
+  effective.precision = "double";
+  SpaceSnapshot shown;
+  shown.position = scene.disks.position;
+  shown.position[1].z() -= 0.1;
+  shown.velocity = scene.disks.velocity;
+  shown.wallPosition = wall.diskPosition;
+  shown.bodies.resize(1);
+  ContactsOf<3>& contacts = shown.contacts.emplace();
+  contacts.i = {0, 0};
+  contacts.j = {1, 2};
+  contacts.normal = {Vec3(0.0, 0.0, -1.0), Vec3(0.0, 1.0, 0.0)};
+  contacts.overlap = {depth, depth};
+  contacts.normalForce = {0.1, 0.1};
+  contacts.tangentialForce = {Vec3::Zero(), Vec3::Zero()};
+  const auto why = [&] { return auditFault(shown, auditBasis(scene, can, effective), 0.0); };
+  EXPECT_EQ(why(), "");
+  contacts.overlap[1] *= 0.9;
+  expectSays(why(), "contact 1 (sphere 0 with wall sphere 0): overlaps by 9e-06 m");
+  contacts.overlap[1] = depth;
+  contacts.normal[0].z() = 1.0;
+  expectSays(why(),
+             "its normal is (0.0000, 0.0000, 1.0000), from the positions (0.0000, 0.0000, -1");
+  contacts.normal[0].z() = -1.0;
+  contacts.j[0] = 2;
+  expectSays(why(), "is listed twice");
+  shown.wallPosition[0].x() += 1e-3;
+  expectSays(why(), "wall sphere 0 is at");
+}
+
 /// Planes are followed where they do not turn.
 TEST_F(Audit, Planes) {
   scene_.bodies.push_back(test::planeWall({0.0, -smallRadius + depth}, {0.0, 1.0}));

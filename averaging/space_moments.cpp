@@ -1,0 +1,132 @@
+#include "averaging/space_moments.hpp"
+
+#include <numbers>
+#include <utility>
+
+#include "averaging/contact_rule.hpp"
+
+namespace crossgrain::inline averaging {
+
+namespace {
+
+void add(SpaceMoments& moments, SpaceMoment first, const Vec3& vector, double weight) {
+  for (int k = 0; k < 3; ++k) at(moments, first + k) += weight * vector[k];
+}
+
+/// Weight · f⊗l, turned into the directions at its place.
+void addStress(SpaceMoments& moments, const Vec3& force, const Vec3& branch, double weight) {
+  for (int row = 0; row < 3; ++row)
+    add(moments, SpaceMoment::stress + 3 * row, branch, weight * force[row]);
+}
+
+}  // namespace
+
+SpaceMomentSums::SpaceMomentSums(std::shared_ptr<const SpaceBins> bins,
+                                 const std::vector<Weight>& weights, const SpaceScene& scene)
+    : bins_(std::move(bins)),
+      weights_(weights),
+      radius_(scene.radii()),
+      mass_(scene.disks.mass),
+      counts_(scene) {
+  for (const Weight& weight : weights_) bins_->require(weight);
+}
+
+void SpaceMomentSums::compute(const SpaceSnapshot& snapshot,
+                              std::vector<std::vector<SpaceMoments>>& sums) {
+  constexpr auto ofSpheres = static_cast<std::size_t>(SpaceMoment::stress);
+  counts_.require(snapshot, false);
+  sums.resize(weights_.size());
+  for (std::vector<SpaceMoments>& slots : sums) slots.assign(bins_->slots(), SpaceMoments{});
+  contactSums_.assign(mass_.size(), ContactSums{});
+  if (snapshot.contacts) sumContacts(*snapshot.contacts);
+
+  for (std::size_t p = 0; p < mass_.size(); ++p) {
+    const SpaceMoments moments = momentsOf(snapshot, p);
+    for (std::size_t k = 0; k < weights_.size(); ++k) {
+      bins_->sphereFractions(snapshot.position[p], radius_[p], weights_[k], fractions_);
+      for (const auto& [slot, w] : fractions_)
+        for (std::size_t q = 0; q < ofSpheres; ++q) sums[k][slot][q] += w * moments[q];
+    }
+  }
+  if (snapshot.contacts)
+    for (std::size_t k = 0; k < weights_.size(); ++k) addBranches(snapshot, weights_[k], sums[k]);
+}
+
+void SpaceMomentSums::sumContacts(const ContactsOf<3>& contacts) {
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (!transmits(contacts, c)) continue;
+    const Vec3& n = contacts.normal[c];
+    const bool pair = static_cast<std::size_t>(contacts.j[c]) < mass_.size();
+    for (const auto id : {contacts.i[c], contacts.j[c]}) {
+      const auto p = static_cast<std::size_t>(id);
+      if (p >= mass_.size()) continue;
+      ContactSums& sums = contactSums_[p];
+      for (std::size_t q = 0; q < symmetricComponents.size(); ++q) {
+        const auto& [a, b] = symmetricComponents[q];
+        sums.fabric[q] += n[a] * n[b];
+      }
+      sums.count += 1.0;
+      if (!contacts.dissipation.empty()) sums.heat += (pair ? 0.5 : 1.0) * contacts.dissipation[c];
+    }
+  }
+}
+
+SpaceMoments SpaceMomentSums::momentsOf(const SpaceSnapshot& snapshot, std::size_t p) const {
+  const double a = radius_[p], m = mass_[p];
+  const double V = 4.0 / 3.0 * std::numbers::pi * a * a * a;
+  const Eigen::Matrix3d turn = bins_->directions(snapshot.position[p]).transpose();
+  const Vec3 v = turn * snapshot.velocity[p];
+  const ContactSums& sums = contactSums_[p];
+
+  using enum SpaceMoment;
+  SpaceMoments moments{};
+  at(moments, volume) = V;
+  at(moments, mass) = m;
+  add(moments, momentum, v, m);
+  if (snapshot.spin) add(moments, spin, turn * (*snapshot.spin)[p], m);
+  Eigen::Matrix3d normals;
+  for (std::size_t q = 0; q < symmetricComponents.size(); ++q) {
+    const auto& [k, l] = symmetricComponents[q];
+    at(moments, dynamic + static_cast<int>(q)) = m * v[k] * v[l];
+    normals(k, l) = normals(l, k) = sums.fabric[q];
+  }
+  if (sums.count == 0.0) return moments;
+  normals = turn * normals * turn.transpose();
+  for (std::size_t q = 0; q < symmetricComponents.size(); ++q)
+    at(moments, fabric + static_cast<int>(q)) =
+        V * normals(symmetricComponents[q][0], symmetricComponents[q][1]);
+  at(moments, contacts) = V * sums.count;
+  if (sums.count >= fewestThatHold) {
+    at(moments, heldVolume) = V;
+    at(moments, heldContacts) = V * sums.count;
+  }
+  at(moments, heat) = sums.heat;
+  return moments;
+}
+
+void SpaceMomentSums::addBranches(const SpaceSnapshot& snapshot, const Weight& weight,
+                                  std::vector<SpaceMoments>& sums) {
+  const ContactsOf<3>& pairs = *snapshot.contacts;
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    if (!transmits(pairs, c)) continue;
+    const auto i = static_cast<std::size_t>(pairs.i[c]), j = static_cast<std::size_t>(pairs.j[c]);
+    const bool wall = j >= mass_.size();
+    const double beyond = !wall ? radius_[j] : j < radius_.size() ? 0.5 * pairs.overlap[c] : 0.0;
+    const double length = radius_[i] - pairs.overlap[c] + beyond;
+    const Vec3& x = snapshot.position[i];
+    const Vec3 branch = length * pairs.normal[c], force = pairs.force(c);
+    bins_->lineFractions(x, -branch, weight, along_);
+    for (const auto& [slot, w, place] : along_) {
+      const Eigen::Matrix3d turn = bins_->directions(place).transpose();
+      addStress(sums[slot], turn * force, turn * branch, w);
+      at(sums[slot], SpaceMoment::branches) += w;
+    }
+    if (!wall) continue;
+    const Vec3 end = x - branch;
+    bins_->sphereFractions(end, 0.0, weight, fractions_);
+    const Vec3 turned = bins_->directions(end).transpose() * force;
+    for (const auto& [slot, w] : fractions_) add(sums[slot], SpaceMoment::wallForce, turned, w);
+  }
+}
+
+}  // namespace crossgrain::inline averaging

@@ -1,0 +1,167 @@
+#include <algorithm>
+#include <map>
+
+#include "cases/loader_sections.hpp"
+#include "cases/packing.hpp"
+
+namespace crossgrain::inline cases {
+namespace {
+
+/// The keys of [assembly.box].
+template <int D>
+struct BoxInput : BoxOf<D> {
+  Names along;
+};
+
+template <int D>
+const Section<BoxInput<D>>& boxKeys() {
+  using I = BoxInput<D>;
+  static const Section<I> section(
+      {.name = "assembly.box",
+       .kinds = "assembly",
+       .note =
+           "A cell with periodic directions: what leaves at one side comes in at the other, and "
+           "contacts reach across. Along other directions it bounds nothing."},
+      {need("low", &I::low, anyNumber("m"), "[x, y] of one corner; in space [x, y, z]"),
+       need("high", &I::high, anyNumber("m"), "of the other, beyond it"),
+       need("periodic", &I::along, D == 2 ? Names{"x", "y"} : Names{"x", "y", "z"},
+            "one direction or several: `[\"x\"]`; in space z, too")});
+  return section;
+}
+
+/// a_i + a_j of the largest pair with a moving disk [m]
+template <int D>
+double largestReach(const AssemblyOf<D>& assembly) {
+  double disk = 0.0, wall = 0.0;
+  for (const DiskGroupOf<D>& group : assembly.disks)
+    disk = std::max(disk, group.radius * (1.0 + group.radiusSpread));
+  for (const DisksOf<D>& disks : assembly.starts.disks)
+    disk = std::max(disk, std::ranges::max(disks.radius));
+  for (const WallGroupOf<D>& group : assembly.walls) {
+    if (!group.position.empty()) wall = std::max(wall, group.radius);
+    for (const double radius : group.radii) wall = std::max(wall, radius);
+  }
+  return disk + std::max(disk, wall);
+}
+
+/// The keys of [assembly.start].
+struct StartInput {
+  std::vector<std::filesystem::path> files;
+  double density = 0.0, velocityRms = 0.0;
+  MaterialName material, fixedMaterial;
+};
+
+template <int D>
+const Section<StartInput>& startKeys() {
+  static const Section<StartInput> section(
+      {.name = "assembly.start",
+       .kinds = "assembly",
+       .note = "Disks of your own, in place of `[[assembly.disks]]`: "
+               "[how](../cases/assembly/README.md#a-start-of-your-own)."},
+      {need("file", &StartInput::files, ExistingFile{".csv"},
+            "one CSV or HDF5 file, or a list of different ones: each is a packing"),
+       key("density", &StartInput::density, densities<D>(), densityMeaning)
+           .listed("required where a file has no masses"),
+       key("velocity_rms", &StartInput::velocityRms, atLeast(0.0, "m/s"),
+           "normally distributed, added: makes `preparation.packings` packings of the files in "
+           "turn"),
+       key("material", &StartInput::material, any, "of its disks, a name of `[[law.pairs]]`"),
+       key("fixed_material", &StartInput::fixedMaterial, any, "of those that stand still")});
+  return section;
+}
+
+/// One start that counts as two packings would make a scatter too small.
+template <int D>
+void requireDifferent(const StartFilesOf<D>& starts) {
+  std::map<std::string, std::size_t> seen;
+  for (std::size_t k = 0; k < starts.disks.size(); ++k) {
+    Packing packing;
+    disksIn<D>(packing) = starts.disks[k];
+    const auto [same, isNew] = seen.emplace(contentHash(packing), k);
+    if (!isNew)
+      throw BadInput(fmt::format("{}: its disks are those of {}: each file must be another start",
+                                 starts.files[k].string(), starts.files[same->second].string()));
+  }
+}
+
+}  // namespace
+
+SectionInfo boxSection() {
+  return boxKeys<2>().info();
+}
+
+SectionInfo startSection() {
+  return startKeys<2>().info();
+}
+
+/// A pair touches through one image at most where the box is wider than two reaches.
+template <int D>
+void readBox(Reader in, AssemblyOf<D>& assembly) {
+  BoxInput<D> box;
+  const double reach = largestReach(assembly);
+  boxKeys<D>().read(in, box);
+  in.check(!box.along.empty(), "periodic", "must name a direction; a box without any is none");
+  in.check(((box.high - box.low).array() > 0.0).all(), "high", "must lie beyond low in all of {}",
+           D == 2 ? "x, y" : "x, y, z");
+  for (const std::string& name : box.along) {
+    const int k = name[0] - 'x';
+    box.periodic[static_cast<std::size_t>(k)] = true;
+    const double length = box.high[k] - box.low[k];
+    in.check(length > 2.0 * reach, "high",
+             "the box is {:g} m wide along {}, and must be wider than two reaches of its largest "
+             "pair, {:g} m",
+             length, name, 2.0 * reach);
+    for (std::size_t w = 0; w < assembly.walls.size(); ++w)
+      for (const PlaneOf<D>& plane : assembly.walls[w].planes)
+        in.check(
+            plane.normal[k] == 0.0, "periodic",
+            "assembly.walls[{}] has a plane across {}: what is periodic has no wall there, and "
+            "its planes are along it",
+            w, name);
+  }
+  assembly.box = box;
+}
+template void readBox<2>(Reader, Assembly&);
+template void readBox<3>(Reader, AssemblyOf<3>&);
+
+template <int D>
+void readStartFiles(Reader in, AssemblyOf<D>& assembly) {
+  StartFilesOf<D>& starts = assembly.starts;
+  StartInput input;
+  startKeys<D>().read(in, input);
+  in.check(!input.files.empty(), "file", "must name one file or more");
+  starts.files = input.files;
+  starts.velocityRms = input.velocityRms;
+  starts.material = input.material;
+  for (const auto& file : starts.files) {
+    const auto mass = [&in, &file, density = input.density](double radius) {
+      if (density == 0.0)
+        throw BadInput(
+            fmt::format("{}: has no masses, and [assembly.start] no density", file.string()));
+      return massOfOne<D>(in, density, radius);
+    };
+    StartOf<D> start = readStart<D>(file, {mass, assembly.inertiaFactor});
+    if (starts.disks.empty()) {
+      starts.fixedPosition = start.fixedPosition;
+      starts.fixedRadius = start.fixedRadius;
+    }
+    if (start.fixedPosition != starts.fixedPosition || start.fixedRadius != starts.fixedRadius)
+      throw BadInput(fmt::format("{}: its fixed disks are not those of {}", file.string(),
+                                 starts.files.front().string()));
+    starts.disks.push_back(std::move(start.disks));
+    starts.lines.push_back(std::move(start.lines));
+    starts.lines.back().insert(starts.lines.back().end(), start.fixedLines.begin(),
+                               start.fixedLines.end());
+  }
+  requireDifferent(starts);
+  if (starts.fixedRadius.empty()) return;
+  WallGroupOf<D> fixed;  // disks of the file that stand still, as one more body
+  fixed.position = starts.fixedPosition;
+  fixed.radii = starts.fixedRadius;
+  fixed.material = input.fixedMaterial;
+  assembly.walls.push_back(fixed);
+}
+template void readStartFiles<2>(Reader, Assembly&);
+template void readStartFiles<3>(Reader, AssemblyOf<3>&);
+
+}  // namespace crossgrain::inline cases

@@ -1,0 +1,154 @@
+// Assemblies in space and periodic boxes, and what is wrong with them in one line.
+#include "files.hpp"
+
+namespace crossgrain::test {
+namespace {
+
+using Space = InFolder;
+
+const std::string spheres = R"([case]
+kind = "assembly"
+dimension = 3
+[law]
+kn = 100.0
+gn = 0.0
+tangential = "none"
+[assembly]
+contact_times = 3
+gravity = [0, 0, -1]
+[assembly.box]
+low = [0, 0, 0]
+high = [5, 6, 1]
+periodic = ["x", "y"]
+[[assembly.disks]]
+position = [0.5, 0.5, 1.0]
+radius = 0.5
+density = 3.0
+grid = { columns = 4, rows = 3, layers = 2, triangular = true }
+choose = 20
+velocity_rms = 0.1
+spin = [1, 2, 3]
+[[assembly.walls]]
+position = [0, 0, -0.5]
+radius = 0.5
+grid = { columns = 5, rows = 6 }
+velocity = [-1, 0, 0]
+)";
+constexpr int highLine = 13, periodicLine = 14, positionLine = 16, gridLine = 19, chooseLine = 20;
+
+const std::string slabsAlongZ = R"([average]
+bins = "slabs"
+along = "z"
+low = [0, 0, 0]
+high = [5, 6, 4]
+count = 4
+from = 0.1
+snapshots = 10
+)";
+
+TEST_F(Space, Assembly_IsRead) {
+  std::ofstream("case.toml") << spheres + slabsAlongZ;
+  const Case c = loadCase("case.toml").front();
+  const AssemblyOf<3>& assembly = c.spaceAssembly;
+  EXPECT_EQ(assembly.gravity, Vec3(0.0, 0.0, -1.0));
+  EXPECT_EQ(assembly.inertiaFactor, 0.4);
+  ASSERT_TRUE(assembly.box);
+  EXPECT_EQ(assembly.box->periodic, (std::array<bool, 3>{true, true, false}));
+  const DiskGroupOf<3>& group = assembly.disks.at(0);
+  EXPECT_NEAR(group.mass, 3.0 * 3.14159265358979323846 / 6.0, 1e-15);
+  EXPECT_EQ(group.places.size(), 24u);
+  EXPECT_EQ(group.count(), 20u);
+  EXPECT_EQ(group.spin, Vec3(1.0, 2.0, 3.0));
+  EXPECT_EQ(assembly.walls.at(0).position.size(), 30u);
+  EXPECT_EQ(assembly.walls[0].position[6], Vec3(1.0, 1.0, -0.5));
+  EXPECT_EQ(assembly.walls[0].motion.velocity, Vec3(-1.0, 0.0, 0.0));
+  const Region& region = c.average->region;
+  EXPECT_EQ(region.axis, 2);
+  EXPECT_EQ(region.binCount(), 4);
+  EXPECT_EQ(region.high, Vec3(5.0, 6.0, 4.0));
+}
+
+TEST_F(Space, GridAlongOtherAxes) {
+  std::ofstream("case.toml") << withLine(
+      spheres, gridLine, "grid = { columns = 2, rows = 5, layers = 2, axes = \"xzy\" }");
+  const auto& places = loadCase("case.toml").front().spaceAssembly.disks.at(0).places;
+  ASSERT_EQ(places.size(), 20u);
+  EXPECT_EQ(places[2], Vec3(0.0, 0.0, 1.0));   // rows along z
+  EXPECT_EQ(places[10], Vec3(0.0, 1.0, 0.0));  // layers along y
+}
+
+TEST_F(Space, Box_Refusals) {
+  // Spheres reach 1 m: the box has to be wider than 2 m.
+  expectMessage(
+      withLine(spheres, highLine, "high = [5, 2, 1]"),
+      "assembly.box.high: the box is 2 m wide along y, and must be wider than two reaches "
+      "of its largest pair, 2 m");
+  expectMessage(withLine(spheres, highLine, "high = [5, 0, 1]"), "must lie beyond low in all of");
+  expectMessage(withLine(spheres, highLine, "high = [5, 6]"), "must be [x, y, z] in m");
+  expectMessage(withLine(spheres, periodicLine, "periodic = []"), "must name a direction");
+  expectMessage(withLine(spheres, periodicLine, "periodic = [\"w\"]"), "unknown name");
+  expectMessage(spheres + "[[assembly.walls]]\npoint = [0, 0, 0]\nnormal = [1, 0, 1]\n",
+                "assembly.box.periodic: assembly.walls[1] has a plane across x");
+  expectMessage(
+      withLine(spheres, gridLine, "grid = { columns = 1, rows = 1 }\nradius_spread = 0.8") +
+          slabsAlongZ,
+      "choose = 20: must be at most 1, the places there");
+}
+
+TEST_F(Space, OtherDimensionsKeys_Refused) {
+  for (const char* const key : {"mirror = true", "rotate = 90", "offset = [1, 0]"})
+    expectMessage(withLine(spheres, 9, std::string("contact_times = 3\n") + key),
+                  "is of the plane alone, and case.dimension = 3");
+  expectMessage(withLine(spheres, gridLine, "stack = { count = 3 }"), "is of the plane alone");
+  expectMessage(spheres + "omega = 1\n", "is of the plane alone");
+  expectMessage(withLine(spheres, positionLine, "position = [0, 1]"), "must be [x, y, z] in m");
+  expectMessage(
+      withLine(soundAssembly, 12, "mass = 1\ngrid = { columns = 1, rows = 1, layers = 2 }"),
+      "is of space alone, and case.dimension = 2");
+  expectMessage(spheres + "[bottom]\nmu = 0.1\n", "is of the plane alone, and case.dimension = 3");
+  expectMessage(withLine(soundCase, 2, "kind = \"couette\"\ndimension = 3"),
+                "a couette cell is of the plane");
+}
+
+TEST_F(Space, Average_Refusals) {
+  const auto with = [](int number, const char* text) {
+    return spheres + withLine(slabsAlongZ, number, text);
+  };
+  expectMessage(with(4, "low = [0, 0]"), "average.low: must be [x, y, z] in m");
+  expectMessage(with(5, "high = [5, 7, 4]"),
+                "average.high: the averaged part must lie in assembly.box along y, from 0 to 6 m");
+  expectMessage(with(7, "from = 0.1\nheight = 1"), "spheres have none");
+  expectMessage(with(7, "from = 0.1\nlayers = 2"), "has no meaning with bins = \"slabs\"");
+  expectMessage(withLine(soundAssembly, 8, "duration = 3") +
+                    withLine(withLine(slabsAlongZ, 4, "low = [0, 0]"), 5, "high = [5, 6]"),
+                "average.along = \"z\": must be \"x\" or \"y\"");
+  const std::string rings =
+      "[average]\nbins = \"rings\"\ninner_radius = 0\nouter_radius = 2\n"
+      "count = 2\nfrom = 0.1\nsnapshots = 10\n";
+  expectMessage(spheres + rings, "average.bottom is missing");
+  expectMessage(spheres + rings + "bottom = 0\ntop = 1\n",
+                "rings are of scenes that are not periodic");
+}
+
+TEST_F(Space, Start_IsReadWithItsThirdColumns) {
+  const std::string start =
+      withLine(spheres.substr(0, spheres.find("[[assembly.disks]]")), 9,
+               "contact_times = 3\nstart = { file = \"s.csv\", density = 3 }");
+  write("s.csv", "x,y,z,radius,vz,spin_x,spin_z,fixed\n1,2,3,0.5,4,5,6,0\n1,2,4,0.25,0,0,0,1\n");
+  std::ofstream("case.toml") << start;
+  const Case c = loadCase("case.toml").front();
+  const DisksOf<3>& disks = c.spaceAssembly.starts.disks.at(0);
+  ASSERT_EQ(disks.size(), 1u);
+  EXPECT_EQ(disks.position[0], Vec3(1.0, 2.0, 3.0));
+  EXPECT_EQ(disks.velocity[0], Vec3(0.0, 0.0, 4.0));
+  EXPECT_EQ(disks.spin[0], Vec3(5.0, 0.0, 6.0));
+  EXPECT_NEAR(disks.mass[0], 0.5 * 3.14159265358979323846, 1e-15);
+  EXPECT_EQ(c.spaceAssembly.walls.back().position.at(0), Vec3(1.0, 2.0, 4.0));
+  write("s.csv", "x,y,radius\n1,2,0.5\n");
+  expectMessage(start, "s.csv:1: there is no column z");
+  write("s.csv", "x,y,z,radius,spin\n1,2,3,0.5,1\n");
+  expectMessage(start, "\"spin\" is no column");
+}
+
+}  // namespace
+}  // namespace crossgrain::test

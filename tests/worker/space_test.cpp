@@ -1,0 +1,365 @@
+// YADE, LAMMPS and LIGGGHTS in space and in periodic boxes: scenes of many bodies, by symmetries,
+// sums and the in-house engine with each one's conventions.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+#include "adapters/registry.hpp"
+#include "adapters/suitability.hpp"
+#include "adapters/worker/worker_engine.hpp"
+#include "support/data_folder.hpp"
+#include "support/files.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace crossgrain::test {
+namespace {
+
+constexpr double radius = 0.005, mass = 1.309e-3;  // [m, kg]: 2500 kg/m³
+
+ContactLaw springLaw(int dimension) {
+  ContactLaw law;
+  law.dimension = dimension;
+  law.tangential = TangentialLaw::springDashpot;
+  law.kn = 1e5;
+  law.gn = 1.15;
+  law.kt = 2.857e4;
+  law.gt = 0.33;
+  law.mu = 0.3;
+  return law;
+}
+
+template <int D>
+SceneOf<D> emptyBox() {
+  SceneOf<D> scene;
+  scene.name = "space test";
+  scene.law = springLaw(D);
+  scene.dt = 4e-6;
+  return scene;
+}
+
+template <int D>
+void addBody(SceneOf<D>& scene, const VecOf<D>& place, const VecOf<D>& velocity,
+             const SpinOf<D>& spin) {
+  scene.disks.radius.push_back(radius);
+  scene.disks.mass.push_back(mass);
+  scene.disks.inertia.push_back((D == 2 ? 0.5 : 0.4) * mass * radius * radius);
+  scene.disks.position.push_back(place);
+  scene.disks.velocity.push_back(velocity);
+  scene.disks.spin.push_back(spin);
+}
+
+/// The same numbers again and again, between −1 and 1.
+struct Numbers {
+  unsigned state = 1;
+  double next() {
+    state = state * 1664525u + 1013904223u;
+    return state / 2147483648.0 - 1.0;
+  }
+  Vec3 vector() {
+    const double x = next(), y = next();
+    return {x, y, next()};
+  }
+};
+
+constexpr int columns = 6, rows = 5, layers = 3;
+
+/// A sheet of wall spheres, which touch each other.
+WallBodyOf<3> sheet(const char* name, double height, const Vec3& shift) {
+  WallBodyOf<3> wall;
+  wall.name = name;
+  wall.centre = shift + Vec3(0.01, 0.02, height);
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
+      wall.diskPosition.push_back(shift + Vec3((2 * x + 1) * radius, (2 * y + 1) * radius, height));
+      wall.diskRadius.push_back(radius);
+    }
+  return wall;
+}
+
+/// Spheres in contact between two sheets, one that slides and one that shakes; periodic along x and
+/// y. @param part  of the box by which all of it is moved
+SpaceScene shearedLayers(double part) {
+  SpaceScene scene = emptyBox<3>();
+  const Vec3 extent(2 * columns * radius, 2 * rows * radius, 0.1);
+  scene.box = BoxOf<3>{Vec3::Zero(), extent, {true, true, false}};
+  const Vec3 shift = part * Vec3(extent.x(), extent.y(), 0.0);
+  Numbers random;
+  for (int z = 0; z < layers; ++z)
+    for (int y = 0; y < rows; ++y)
+      for (int x = 0; x < columns; ++x) {
+        const Vec3 place =
+            1.98 * radius * Vec3(x, y, z) + Vec3(0.005, 0.005, 0.015) + 2e-4 * random.vector();
+        addBody<3>(scene, scene.box->wrapped(place + shift), 0.3 * random.vector(),
+                   50.0 * random.vector());
+      }
+  scene.bodies = {sheet("low", 0.006, shift), sheet("high", 0.044, shift)};
+  MotionOf<3>&slides = scene.bodies[0].motion, &shakes = scene.bodies[1].motion;
+  slides.kind = MotionKind::translating;
+  slides.velocity = {-0.3, 0.0, 0.0};
+  shakes.kind = MotionKind::oscillating;
+  shakes.amplitude = {1e-3, 0.0, 1e-4};
+  shakes.frequency = 300.0;
+  return scene;
+}
+
+/// Contacts by their pair.
+template <int D>
+std::map<std::pair<int, int>, std::size_t> byPair(const ContactsOf<D>& contacts) {
+  std::map<std::pair<int, int>, std::size_t> found;
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    EXPECT_TRUE(found.try_emplace({contacts.i[k], contacts.j[k]}, k).second) << "listed twice";
+  return found;
+}
+
+template <int D>
+EffectiveParameters loadInto(Engine& engine, const SceneOf<D>& scene) {
+  if constexpr (D == 2)
+    return engine.load(scene, {});
+  else
+    return engine.loadInSpace(scene, {});
+}
+
+template <int D>
+SnapshotOf<D> snapshotAt(Engine& engine, double t) {
+  engine.advance(t);
+  if constexpr (D == 2)
+    return engine.snapshot(ContactReport::instant);
+  else
+    return engine.snapshotInSpace(ContactReport::instant);
+}
+
+class Space : public ::testing::TestWithParam<const char*> {
+ protected:
+  static void TearDownTestSuite() { std::filesystem::remove_all(scratch()); }
+  void SetUp() override {
+    const std::string name = GetParam();
+    ProgramCall call({"/usr/bin/python3", workerScript(name).string()});
+    if (name == "yade") call = findEngine("yade")->command();
+    if (!isOnPath(name == "lammps" ? "lmp" : name)) GTEST_SKIP() << name << " is not installed";
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);  // as liggghts.toml does
+    engine_ = std::make_unique<WorkerEngine>(name, call, scratch() / name, 120.0);
+  }
+  static std::filesystem::path scratch() {
+    return std::filesystem::path(::testing::TempDir()) /
+           ("crossgrain-space-" + std::to_string(getpid()));
+  }
+  /// With the conventions that the engine has.
+  template <int D>
+  SceneOf<D> asRun(SceneOf<D> scene) const {
+    scene.law = lawAsRun(engine_->capabilities(), scene.law);
+    return scene;
+  }
+
+  template <int D>
+  void expectPairAcrossTheBorderAsInside();
+
+  std::unique_ptr<WorkerEngine> engine_;
+};
+
+TEST_P(Space, ThirdOfThePeriodicBox_ShiftsAllAndChangesNothing) {
+  // Rounding of places, 1e-17 m, grows by what collisions of 100 steps make of it.
+  const double t = 4e-4;
+  loadInto(*engine_, asRun(shearedLayers(0.0)));
+  const SpaceSnapshot own = snapshotAt<3>(*engine_, t);
+  const SpaceScene scene = asRun(shearedLayers(1.0 / 3.0));
+  loadInto(*engine_, scene);
+  const SpaceSnapshot moved = snapshotAt<3>(*engine_, t);
+  const Vec3 extent = scene.box->high - scene.box->low;
+  const Vec3 shift = Vec3(extent.x(), extent.y(), 0.0) / 3.0;
+  for (std::size_t k = 0; k < own.position.size(); ++k) {
+    const Vec3 apart = moved.position[k] - own.position[k] - shift;
+    EXPECT_LE(scene.box->nearest(apart).norm(), 1e-10 * radius);
+    EXPECT_LE((moved.velocity[k] - own.velocity[k]).norm(), 1e-10);
+    EXPECT_LE((moved.spin->at(k) - own.spin->at(k)).norm(), 1e-10 / radius);
+  }
+  const auto of = byPair(*own.contacts), there = byPair(*moved.contacts);
+  EXPECT_GT(of.size(), 200u);
+  ASSERT_EQ(of.size(), there.size());
+  for (const auto& [pair, k] : of) {
+    ASSERT_TRUE(there.contains(pair));
+    const std::size_t l = there.at(pair);
+    EXPECT_LE((own.contacts->normal[k] - moved.contacts->normal[l]).norm(), 1e-10);
+    EXPECT_LE((own.contacts->force(k) - moved.contacts->force(l)).norm(), 1e-8);
+  }
+  for (const int b : {0, 1})
+    EXPECT_LE((*own.bodies[b].force - *moved.bodies[b].force).norm(), 1e-7);  // of 1500 N
+}
+
+TEST_P(Space, WallBodies_MoveAsPrescribedAndFeelTheirContacts) {
+  const SpaceScene scene = asRun(shearedLayers(0.0));
+  const EffectiveParameters effective = loadInto(*engine_, scene);
+  EXPECT_TRUE(effective.effects.contains(Effect::movingWalls));
+  const SpaceSnapshot now = snapshotAt<3>(*engine_, 4e-4);
+  const ContactsOf<3>& contacts = *now.contacts;
+  const auto spheres = static_cast<int>(scene.disks.size());
+  ASSERT_EQ(now.wallPosition.size(), scene.wallDiskCount());
+  for (int b = 0, id = spheres; b < 2; ++b) {
+    const WallBodyOf<3>& body = scene.bodies[b];
+    const auto last = id + static_cast<int>(body.diskPosition.size());
+    const auto movedBy = [&](double t) -> Vec3 {
+      return stateAt(body.motion, body.centre, t).centre - body.centre;
+    };
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+      const int sphere = contacts.j[k];
+      if (sphere < id || sphere >= last) continue;
+      EXPECT_LT(contacts.i[k], spheres);  // walls do not meet each other
+      EXPECT_NEAR(contacts.normal[k].dot(contacts.tangentialForce[k]), 0.0, 1e-9);
+      const Vec3 onWall = -contacts.force(k);
+      const Vec3 arm = body.diskPosition[sphere - id] - body.centre;
+      force += onWall;
+      // To the middle of the overlap, n pointing from the wall sphere to the other.
+      torque += (arm + (radius - 0.5 * contacts.overlap[k]) * contacts.normal[k]).cross(onWall);
+    }
+    EXPECT_GT(force.norm(), 100.0);
+    EXPECT_LE((*now.bodies[b].force - force).norm(), 1e-9 * force.norm());
+    EXPECT_LE((*now.bodies[b].torque - torque).norm(), 1e-9 * force.norm() * 0.06);
+    EXPECT_LE((now.bodies[b].centre - body.centre - movedBy(now.positionTime)).norm(), 1e-15);
+    for (; id < last; ++id) {
+      const Vec3 apart = now.wallPosition[id - spheres] -
+                         body.diskPosition[body.diskPosition.size() - (last - id)];
+      EXPECT_LE(scene.box->nearest(apart - movedBy(now.positionTime)).norm(), 1e-15);
+    }
+  }
+}
+
+TEST_P(Space, NothingFromOutside_KeepsMomentum) {
+  SpaceScene scene = asRun(shearedLayers(0.0));
+  scene.bodies.clear();
+  scene.box->periodic = {true, true, true};
+  scene.box->high.z() = 2 * layers * radius;  // from the last layer to the first
+  for (Vec3& place : scene.disks.position) place = scene.box->wrapped(place);
+  loadInto(*engine_, scene);
+  const auto momentum = [&](const SpaceSnapshot& now) {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& velocity : now.velocity) sum += mass * velocity;
+    return sum;
+  };
+  const Vec3 start = momentum(snapshotAt<3>(*engine_, 0.0));
+  const SpaceSnapshot after = snapshotAt<3>(*engine_, 4e-4);
+  double part = 0.0;  // of one sphere
+  for (std::size_t k = 0; k < after.velocity.size(); ++k)
+    part = std::max(part, mass * (after.velocity[k] - scene.disks.velocity[k]).norm());
+  EXPECT_GT(part, 0.1 * mass);
+  EXPECT_LE((momentum(after) - start).norm(), 1e-12 * part);
+}
+
+/// Two that meet, and the same two half a box further on, on either side of its border.
+template <int D>
+void Space::expectPairAcrossTheBorderAsInside() {
+  SceneOf<D> scene = emptyBox<D>();
+  BoxOf<D>& box = scene.box.emplace();
+  box.high.setConstant(16 * radius);  // exact halves: both pairs are the same to rounding
+  box.periodic[0] = true;
+  const VecOf<D> middle = VecOf<D>::Constant(8 * radius);
+  VecOf<D> apart = VecOf<D>::Zero(), velocity = VecOf<D>::Zero();
+  apart[0] = 0.99 * radius;
+  apart[1] = 0.1 * radius;
+  velocity[0] = -0.2;
+  velocity[D - 1] += 0.1;
+  SpinOf<D> spin = noSpin<D>();
+  if constexpr (D == 2)
+    spin = 20.0;
+  else
+    spin = Vec3(20.0, -30.0, 10.0);
+  for (const double at : {0.0, 8.0})
+    for (const double side : {1.0, -1.0}) {
+      VecOf<D> place = middle + side * apart;
+      place[0] += at * radius;
+      addBody<D>(scene, box.wrapped(place), side * velocity, spin);
+    }
+  scene = asRun(scene);
+  loadInto(*engine_, scene);
+  // What differs is the rounding of places, 1e-17 m and as much of δ.
+  for (const double t : {4e-5, 1.2e-4, 1e-3}) {
+    const SnapshotOf<D> now = snapshotAt<D>(*engine_, t);
+    for (const int k : {0, 1}) {
+      EXPECT_LE((now.velocity[k] - now.velocity[k + 2]).norm(), 1e-11);
+      VecOf<D> moved = now.position[k + 2] - now.position[k];
+      moved[0] -= 8 * radius;
+      EXPECT_LE(box.nearest(moved).norm(), 1e-11 * radius);
+    }
+    if (t == 1e-3) continue;  // they have parted
+    ASSERT_EQ(now.contacts->size(), 2u);
+    const auto of = byPair(*now.contacts);
+    const std::size_t inside = of.at({0, 1}), across = of.at({2, 3});
+    EXPECT_GT(now.contacts->normal[inside][0], 0.9);
+    EXPECT_LE((now.contacts->normal[inside] - now.contacts->normal[across]).norm(), 1e-11);
+    EXPECT_NEAR(now.contacts->overlap[inside], now.contacts->overlap[across], 1e-11 * radius);
+    EXPECT_LE((now.contacts->force(inside) - now.contacts->force(across)).norm(), 1e-9);
+  }
+}
+
+TEST_P(Space, PairAcrossTheBorder_IsThePairInside) {
+  expectPairAcrossTheBorderAsInside<3>();
+}
+
+TEST_P(Space, PairAcrossTheBorderOfThePlane_IsThePairInside) {
+  expectPairAcrossTheBorderAsInside<2>();
+}
+
+TEST_P(Space, SpheresOnAFloor_MoveAndPushAsTheMirrorHasThem) {
+  SpaceScene scene = emptyBox<3>();
+  scene.gravity = {0.1, -9.81, 0.2};
+  const Vec3 places[] = {{0.0, 0.0, 0.0}, {1.99, 0.1, 0.2}, {1.0, 1.72, -0.1}};
+  for (int k = 0; k < 3; ++k)
+    addBody<3>(scene, radius * places[k], {0.02 - 0.03 * k, -0.05, 0.01 * k},
+               {20.0 * k, 30.0, -10.0});
+  WallBodyOf<3>& floor = scene.bodies.emplace_back();
+  floor.name = "floor";
+  floor.planes.push_back({{0.0, -0.999 * radius, 0.0}, {0.0, 1.0, 0.0}});
+  scene = asRun(scene);
+  const auto mirror = findEngine("grain")->make();
+  loadInto(*engine_, scene);
+  loadInto(*mirror, scene);
+  std::size_t compared = 0;
+  for (const double t : {4e-6, 4e-5, 8e-5, 1.2e-4, 1.6e-4, 2e-3}) {
+    const SpaceSnapshot now = snapshotAt<3>(*engine_, t);
+    const SpaceSnapshot then = snapshotAt<3>(*mirror, now.contactTime);
+    const SpaceSnapshot own = snapshotAt<3>(*mirror, t);
+    // Rounding of some 500 steps.
+    for (int k = 0; k < 3; ++k)
+      EXPECT_LE((now.position[k] - own.position[k]).norm(), 1e-11 * radius) << t;
+    const auto of = byPair(*now.contacts), there = byPair(*then.contacts);
+    for (const auto& [pair, k] : of) {
+      if (!there.contains(pair)) continue;  // an overlap that is 0 to rounding
+      const std::size_t l = there.at(pair);
+      EXPECT_LE((now.contacts->normal[k] - then.contacts->normal[l]).norm(), 1e-10);
+      EXPECT_NEAR(now.contacts->overlap[k], then.contacts->overlap[l], 1e-11 * radius);
+      EXPECT_LE((now.contacts->force(k) - then.contacts->force(l)).norm(), 1e-7)
+          << t << " " << pair.first << " " << pair.second << " "
+          << now.contacts->force(k).transpose() << "; " << then.contacts->force(l).transpose();
+      ++compared;
+    }
+    EXPECT_LE((*now.bodies[0].force - *then.bodies[0].force).norm(), 1e-7);
+    EXPECT_LE((*now.bodies[0].torque - *then.bodies[0].torque).norm(), 1e-9);
+  }
+  EXPECT_GE(compared, 10u);
+}
+
+TEST_P(Space, WhatItDoesNotHave_IsRefused) {
+  SpaceScene scene = shearedLayers(0.0);
+  scene.bodies[0].motion.kind = MotionKind::rotating;
+  scene.bodies[0].motion.angularVelocity = {0.0, 0.0, 1.0};
+  const auto refusal = [&] {
+    try {
+      engine_->loadInSpace(asRun(scene), {});
+    } catch (const UnsupportedScene& error) {
+      return std::string(error.what());
+    }
+    return std::string("ran");
+  };
+  EXPECT_EQ(refusal(),
+            "has walls that are fixed | translating | oscillating in space, not rotating");
+}
+
+INSTANTIATE_TEST_SUITE_P(Peers, Space, ::testing::Values("yade", "lammps", "liggghts"),
+                         [](const auto& each) { return std::string(each.param); });
+
+}  // namespace
+}  // namespace crossgrain::test
