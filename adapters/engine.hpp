@@ -160,4 +160,20 @@ class Engine {
   static constexpr const char* noCheckpoints = "this engine has no checkpoints";
 };
 
+/// load() or loadInSpace(), and snapshot() or snapshotInSpace(), for templates over the dimension.
+template <int D>
+EffectiveParameters loadOn(Engine& engine, const SceneOf<D>& scene, const Settings& settings) {
+  if constexpr (D == 2)
+    return engine.load(scene, settings);
+  else
+    return engine.loadInSpace(scene, settings);
+}
+template <int D>
+SnapshotOf<D> snapshotOf(Engine& engine, ContactReport contacts) {
+  if constexpr (D == 2)
+    return engine.snapshot(contacts);
+  else
+    return engine.snapshotInSpace(contacts);
+}
+
 }  // namespace crossgrain

@@ -96,7 +96,8 @@ SeparationAccount::SeparationAccount(double diameter, std::vector<double> times,
   row_.track.assign(times_.size(), 0.0);
 }
 
-void SeparationAccount::add(std::size_t start, const LockstepWindow& window,
+template <int D>
+void SeparationAccount::add(std::size_t start, const LockstepWindowOf<D>& window,
                             const Responses& responses, std::size_t wallFrom,
                             const std::vector<double>& limits) {
   std::vector<double>& track = tracks_.emplace_back();
@@ -212,5 +213,10 @@ LockstepRow SeparationAccount::row() const {
   if (row.verdict == Equivalence::sameToPrecision) row.resolution = resolution();
   return row;
 }
+
+template void SeparationAccount::add(std::size_t, const LockstepWindowOf<2>&, const Responses&,
+                                     std::size_t, const std::vector<double>&);
+template void SeparationAccount::add(std::size_t, const LockstepWindowOf<3>&, const Responses&,
+                                     std::size_t, const std::vector<double>&);
 
 }  // namespace crossgrain::inline studies

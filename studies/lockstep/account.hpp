@@ -27,7 +27,8 @@ class SeparationAccount {
   /// @param start     its index
   /// @param wallFrom  ids from here on are the walls'
   /// @param limits    what the declared precision explains, by frame [d]: precisionLimits()
-  void add(std::size_t start, const LockstepWindow& window, const Responses& responses,
+  template <int D>
+  void add(std::size_t start, const LockstepWindowOf<D>& window, const Responses& responses,
            std::size_t wallFrom, const std::vector<double>& limits = {});
 
   /// The verdict and what it rests on; neither the engine's name nor the term that is off.

@@ -12,60 +12,71 @@
 namespace crossgrain::inline studies {
 
 /// What runs do at some instants, by start and instant.
-using RunsFromStarts = std::vector<std::vector<LockstepFrame>>;
+template <int D>
+using RunsFromStartsOf = std::vector<std::vector<LockstepFrameOf<D>>>;
+using RunsFromStarts = RunsFromStartsOf<2>;
 
 /// What the mirror does from each start with these changes. Absent where it cannot run like that.
 /// @param scenes  the mirror's, by start
 /// @param times   of the frames, since the start [s]
 /// @throws Interrupted
-std::optional<RunsFromStarts> runsWith(Engine& mirror, const std::vector<Scene>& scenes,
-                                       const std::vector<AppliedChange>& changes,
-                                       const std::vector<double>& times);
+template <int D>
+std::optional<RunsFromStartsOf<D>> runsWith(Engine& mirror, const std::vector<SceneOf<D>>& scenes,
+                                            const std::vector<AppliedChangeOf<D>>& changes,
+                                            const std::vector<double>& times);
 
 /// Separations of all starts at one instant of each, one after the other: separationVector().
-std::vector<double> separationOfAll(const RunsFromStarts& one, std::size_t instant,
-                                    const RunsFromStarts& other, std::size_t otherInstant,
+template <int D>
+std::vector<double> separationOfAll(const RunsFromStartsOf<D>& one, std::size_t instant,
+                                    const RunsFromStartsOf<D>& other, std::size_t otherInstant,
                                     double diameter);
 
 /// How far apart two runs from each of some starts are at one instant.
-struct TermInstant {
+template <int D>
+struct TermInstantOf {
   double time = 0.0;               ///< since the start [s]
-  RunsFromStarts unchanged;        ///< what the mirror does, by start: one frame each
+  RunsFromStartsOf<D> unchanged;   ///< what the mirror does, by start: one frame each
   std::vector<double> separation;  ///< of all starts
 };
+using TermInstant = TermInstantOf<2>;
 
 /// What is kept of windows for the search: frames without contacts of an engine and of what it is
 /// compared with, all up to the first of those reported, and these.
-class TermFrames {
+template <int D>
+class TermFramesOf {
  public:
   /// @param reported  indices of a window's frames
-  void add(const LockstepWindow& window, const std::vector<std::size_t>& reported);
+  void add(const LockstepWindowOf<D>& window, const std::vector<std::size_t>& reported);
 
   /// From the first that shows what was first seen to the first of those reported, or else that one
   /// alone. The earlier the better: a contact made or broken at another step is no term's doing;
   /// but the first may hold little but what is beside the term. `unchanged` is what the engine is
   /// compared with.
-  std::vector<TermInstant> instants(const std::optional<FirstExceedance>& first,
-                                    double diameter) const;
+  std::vector<TermInstantOf<D>> instants(const std::optional<FirstExceedance>& first,
+                                         double diameter) const;
 
  private:
   std::size_t firstReported_ = 0;
-  RunsFromStarts engine_, other_;
+  RunsFromStartsOf<D> engine_, other_;
 };
+using TermFrames = TermFramesOf<2>;
 
 /// What is to be accounted for.
-struct TermSearch {
-  std::vector<Scene> scenes;            ///< the mirror's, by start
-  std::vector<TermInstant> instants;    ///< in order of time
-  double diameter = 0.0;                ///< [m]
-  std::vector<MirrorChange> more = {};  ///< to be tried besides changesOf()
+template <int D>
+struct TermSearchOf {
+  std::vector<SceneOf<D>> scenes;            ///< the mirror's, by start
+  std::vector<TermInstantOf<D>> instants;    ///< in order of time
+  double diameter = 0.0;                     ///< [m]
+  std::vector<MirrorChangeOf<D>> more = {};  ///< to be tried besides changesOf()
 };
+using TermSearch = TermSearchOf<2>;
 
 /// Tries every change of the mirror from every start, and those constants that explain most to
 /// first order with the amount that they would have; where that names none, all constants by
 /// amounts of up to the whole of them. @returns the one that leaves least at one of the instants,
 /// in the mirror itself, if that is less than termUnexplained
 /// @throws Interrupted
-std::optional<NamedTerm> closestTerm(Engine& mirror, const TermSearch& search);
+template <int D>
+std::optional<NamedTerm> closestTerm(Engine& mirror, const TermSearchOf<D>& search);
 
 }  // namespace crossgrain::inline studies

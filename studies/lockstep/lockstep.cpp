@@ -88,6 +88,7 @@ class PositionsFirst : public Engine {
 };
 
 /// One engine against its mirror from one state after the other.
+template <int D>
 class Comparison {
  public:
   Comparison(Engine& engine, const EngineEntry& entry, const Case& setup, double dt)
@@ -95,16 +96,16 @@ class Comparison {
 
   /// @throws EngineFailure, UnsupportedScene
   void follow(std::size_t start, const FlowState& state) {
-    const Scene scene = flowScene(setup_, state.packing, dt_);
+    const SceneOf<D> scene = flowScene<D>(setup_, state.packing, dt_);
     EffectiveParameters effective = loadScene(engine_, entry_, setup_, scene);
     if (effective_) requireSameStep(*effective_, effective);
     step_ = effective.dt;
     steps_ = lockstepSteps(step_);
-    const Scene mirrored = sceneOfMirror(can_, entry_, setup_, scene, effective);
+    const SceneOf<D> mirrored = sceneOfMirror(can_, entry_, setup_, scene, effective);
     if (!mirror_) mirror_ = mirrorOf(can_, entry_, setup_, scene, effective);
-    mirror_->load(mirrored, {});
-    const LockstepWindow window =
-        followBoth(engine_, *mirror_, step_, steps_, can_.instantContacts);
+    loadOn(*mirror_, mirrored, {});
+    const LockstepWindowOf<D> window =
+        followBoth<D>(engine_, *mirror_, step_, steps_, can_.instantContacts, 0.0, mirrored.box);
     if (!account_) account_.emplace(flowDiameter(setup_), timesOf(steps_, step_), reported());
     account_->add(start, window, responses(mirrored, window), mirrored.disks.size(),
                   precisionLimits(effective.precision, *mirror_, mirrored, window.mirror, steps_,
@@ -120,8 +121,8 @@ class Comparison {
       row = account_->row();
       if (hasTerm(row))
         row.term = closestTerm(
-            *mirror_,
-            {scenes_, frames_.instants(row.first, flowDiameter(setup_)), flowDiameter(setup_)});
+            *mirror_, TermSearchOf<D>{scenes_, frames_.instants(row.first, flowDiameter(setup_)),
+                                      flowDiameter(setup_)});
       // Of rigid disks: impulses of one step, most of them of nothing but rounding.
       if (!setup_.law.soft()) row.forces.reset();
       row.effective = effective_;
@@ -139,13 +140,13 @@ class Comparison {
   }
 
   /// What changes of the reference constant do to the mirror from here.
-  Responses responses(const Scene& mirrored, const LockstepWindow& window) {
-    std::vector<LockstepFrame> unchanged;
+  Responses responses(const SceneOf<D>& mirrored, const LockstepWindowOf<D>& window) {
+    std::vector<LockstepFrameOf<D>> unchanged;
     for (const std::size_t frame : reported()) unchanged.push_back(window.mirror[frame]);
     return referenceResponses(*mirror_, unchanged, flowDiameter(setup_), [&](double change) {
-      Scene changed = mirrored;
+      SceneOf<D> changed = mirrored;
       changeLaws(changed, [&](ContactLaw& law) { changeReference(law, change); });
-      mirror_->load(changed, {});
+      loadOn(*mirror_, changed, {});
       return step_;
     });
   }
@@ -159,30 +160,40 @@ class Comparison {
   double step_ = 0.0;  ///< the engine's [s]
   std::vector<std::uint64_t> steps_;
   std::optional<SeparationAccount> account_;
-  TermFrames frames_;
-  std::vector<Scene> scenes_;  ///< the mirror's, by start
+  TermFramesOf<D> frames_;
+  std::vector<SceneOf<D>> scenes_;  ///< the mirror's, by start
   std::optional<EffectiveParameters> effective_;
 };
 
 }  // namespace
 
-Scene sceneOfMirror(const Capabilities& can, const EngineEntry& entry, const Case& setup,
-                    const Scene& scene, const EffectiveParameters& effective) {
-  Scene theirs = sceneFor(can, entry, setup, scene).scene;
+template <int D>
+SceneOf<D> sceneOfMirror(const Capabilities& can, const EngineEntry& entry, const Case& setup,
+                         const SceneOf<D>& scene, const EffectiveParameters& effective) {
+  SceneOf<D> theirs = sceneFor(can, entry, setup, scene).scene;
   theirs.precision = Precision::float64;
   theirs.dt = effective.dt;
   const Integrator integrator = schemeOf(can, theirs.law, effective).integrator;
   changeLaws(theirs, [&](ContactLaw& law) { law.conventions.integrator = integrator; });
   return theirs;
 }
+template Scene sceneOfMirror(const Capabilities&, const EngineEntry&, const Case&, const Scene&,
+                             const EffectiveParameters&);
+template SpaceScene sceneOfMirror(const Capabilities&, const EngineEntry&, const Case&,
+                                  const SpaceScene&, const EffectiveParameters&);
 
+template <int D>
 std::unique_ptr<Engine> mirrorOf(const Capabilities& can, const EngineEntry& entry,
-                                 const Case& setup, const Scene& scene,
+                                 const Case& setup, const SceneOf<D>& scene,
                                  const EffectiveParameters& effective) {
   const ContactLaw law = sceneFor(can, entry, setup, scene).scene.law;
   if (schemeOf(can, law, effective).positionsFirst) return std::make_unique<PositionsFirst>();
   return engineRegistry().front().make();
 }
+template std::unique_ptr<Engine> mirrorOf(const Capabilities&, const EngineEntry&, const Case&,
+                                          const Scene&, const EffectiveParameters&);
+template std::unique_ptr<Engine> mirrorOf(const Capabilities&, const EngineEntry&, const Case&,
+                                          const SpaceScene&, const EffectiveParameters&);
 
 bool hasTerm(const LockstepRow& row) {
   const bool measured = row.verdict == Equivalence::sameLaw ||
@@ -193,11 +204,14 @@ bool hasTerm(const LockstepRow& row) {
          });
 }
 
-LockstepRow holdAgainstMirror(Engine& engine, const EngineEntry& entry, const Case& setup,
-                              const std::vector<FlowState>& states, double dt,
-                              const std::function<void(double)>& progress) {
+namespace {
+
+template <int D>
+LockstepRow holdIn(Engine& engine, const EngineEntry& entry, const Case& setup,
+                   const std::vector<FlowState>& states, double dt,
+                   const std::function<void(double)>& progress) {
   const auto began = std::chrono::steady_clock::now();
-  Comparison comparison(engine, entry, setup, dt);
+  Comparison<D> comparison(engine, entry, setup, dt);
   std::string failure, refusal;
   try {
     for (std::size_t s = 0; s < states.size(); ++s) {
@@ -214,6 +228,15 @@ LockstepRow holdAgainstMirror(Engine& engine, const EngineEntry& entry, const Ca
   if (row.starts == 0) row.reason = refusal.empty() ? failure : refusal;
   row.wallSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return row;
+}
+
+}  // namespace
+
+LockstepRow holdAgainstMirror(Engine& engine, const EngineEntry& entry, const Case& setup,
+                              const std::vector<FlowState>& states, double dt,
+                              const std::function<void(double)>& progress) {
+  return setup.dimension == 3 ? holdIn<3>(engine, entry, setup, states, dt, progress)
+                              : holdIn<2>(engine, entry, setup, states, dt, progress);
 }
 
 std::string noMirrorReason(const EngineEntry& entry, const Capabilities& can, const Case& setup) {

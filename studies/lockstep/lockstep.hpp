@@ -43,13 +43,15 @@ LockstepFindings holdAgainstMirrors(const std::vector<LockstepEngine>& engines, 
 /// effects, time step and time stepping as it declares them, in double precision.
 /// @param realised  of the engine, which has loaded the scene
 /// @throws UnsupportedScene where the in-house engine has no such time stepping
-Scene sceneOfMirror(const Capabilities& can, const EngineEntry& entry, const Case& setup,
-                    const Scene& scene, const EffectiveParameters& effective);
+template <int D>
+SceneOf<D> sceneOfMirror(const Capabilities& can, const EngineEntry& entry, const Case& setup,
+                         const SceneOf<D>& scene, const EffectiveParameters& effective);
 
 /// The in-house engine, for that scene: as it is, or moving disks before it kicks them where the
 /// engine declares that. @throws likewise
+template <int D>
 std::unique_ptr<Engine> mirrorOf(const Capabilities& can, const EngineEntry& entry,
-                                 const Case& setup, const Scene& scene,
+                                 const Case& setup, const SceneOf<D>& scene,
                                  const EffectiveParameters& effective);
 
 /// Whether a term may be named: something was read that is more than leastNamed.

@@ -13,31 +13,34 @@ namespace {
 
 /// Every value off by as much as rounding it may make, whatever unit an engine counts in.
 /// @param side  1: the one to which it rounds here, −1: the other
-Disks nudged(Disks disks, double side) {
+template <int D>
+DisksOf<D> nudged(DisksOf<D> disks, double side) {
   constexpr double half = 0.5 * std::numeric_limits<float>::epsilon();
   const auto nudge = [side](double& value) {
     const double rounding = static_cast<double>(static_cast<float>(value)) - value;
     value += side * std::copysign(half * value, rounding);
   };
   for (auto* vectors : {&disks.position, &disks.velocity})
-    for (Vec2& each : *vectors) {
-      nudge(each.x());
-      nudge(each.y());
-    }
-  std::ranges::for_each(disks.spin, nudge);
+    for (VecOf<D>& each : *vectors) std::ranges::for_each(each, nudge);
+  for (SpinOf<D>& spin : disks.spin)
+    if constexpr (D == 2)
+      nudge(spin);
+    else
+      std::ranges::for_each(spin, nudge);
   return disks;
 }
 
 }  // namespace
 
-Responses referenceResponses(Engine& engine, const std::vector<LockstepFrame>& unchanged,
+template <int D>
+Responses referenceResponses(Engine& engine, const std::vector<LockstepFrameOf<D>>& unchanged,
                              double diameter, const std::function<double(double)>& load) {
   Responses responses(unchanged.size());
   for (const double change : referencePerturbations) {
     const double step = load(change);
     std::vector<std::uint64_t> steps;
-    for (const LockstepFrame& frame : unchanged) steps.push_back(stepsUntil(frame.time, step));
-    const auto moved = follow(engine, step, steps);
+    for (const LockstepFrameOf<D>& frame : unchanged) steps.push_back(stepsUntil(frame.time, step));
+    const auto moved = follow<D>(engine, step, steps);
     for (std::size_t k = 0; k < unchanged.size(); ++k)
       std::ranges::copy(distances(moved[k], unchanged[k], diameter),
                         std::back_inserter(responses[k]));
@@ -45,16 +48,18 @@ Responses referenceResponses(Engine& engine, const std::vector<LockstepFrame>& u
   return responses;
 }
 
+template <int D>
 std::vector<double> precisionLimits(const std::string& precision, Engine& mirror,
-                                    const Scene& scene, const std::vector<LockstepFrame>& unchanged,
+                                    const SceneOf<D>& scene,
+                                    const std::vector<LockstepFrameOf<D>>& unchanged,
                                     const std::vector<std::uint64_t>& steps, double diameter) {
   if (precision != toString(Precision::float32)) return {};
   std::vector<double> limits(steps.size(), lockstepRounding);
   for (const double side : {1.0, -1.0}) {
-    Scene other = scene;
+    SceneOf<D> other = scene;
     other.disks = nudged(scene.disks, side);
-    mirror.load(other, {});
-    const std::vector<LockstepFrame> moved = follow(mirror, scene.dt, steps);
+    loadOn(mirror, other, {});
+    const std::vector<LockstepFrameOf<D>> moved = follow<D>(mirror, scene.dt, steps);
     double once = 0.0;
     for (std::size_t k = 0; k < steps.size(); ++k) {
       once = std::max(once, farthest(moved[k], unchanged[k], diameter).distance);
@@ -63,5 +68,16 @@ std::vector<double> precisionLimits(const std::string& precision, Engine& mirror
   }
   return limits;
 }
+
+template Responses referenceResponses(Engine&, const std::vector<LockstepFrameOf<2>>&, double,
+                                      const std::function<double(double)>&);
+template std::vector<double> precisionLimits(const std::string&, Engine&, const SceneOf<2>&,
+                                             const std::vector<LockstepFrameOf<2>>&,
+                                             const std::vector<std::uint64_t>&, double);
+template Responses referenceResponses(Engine&, const std::vector<LockstepFrameOf<3>>&, double,
+                                      const std::function<double(double)>&);
+template std::vector<double> precisionLimits(const std::string&, Engine&, const SceneOf<3>&,
+                                             const std::vector<LockstepFrameOf<3>>&,
+                                             const std::vector<std::uint64_t>&, double);
 
 }  // namespace crossgrain::inline studies

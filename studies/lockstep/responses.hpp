@@ -20,7 +20,8 @@ using Responses = std::vector<std::vector<double>>;
 /// part of
 ///                   itself; returns the engine's time step [s]
 /// @throws EngineFailure, Interrupted; what `load` throws
-Responses referenceResponses(Engine& engine, const std::vector<LockstepFrame>& unchanged,
+template <int D>
+Responses referenceResponses(Engine& engine, const std::vector<LockstepFrameOf<D>>& unchanged,
                              double diameter, const std::function<double(double)>& load);
 
 /// How far rounding alone may part an engine of a precision from its mirror, by frame [d]: an
@@ -31,8 +32,10 @@ Responses referenceResponses(Engine& engine, const std::vector<LockstepFrame>& u
 /// @param scene      the mirror's
 /// @param unchanged  what the mirror does, after those steps
 /// @returns empty of double precision, the mirror's own
+template <int D>
 std::vector<double> precisionLimits(const std::string& precision, Engine& mirror,
-                                    const Scene& scene, const std::vector<LockstepFrame>& unchanged,
+                                    const SceneOf<D>& scene,
+                                    const std::vector<LockstepFrameOf<D>>& unchanged,
                                     const std::vector<std::uint64_t>& steps, double diameter);
 
 }  // namespace crossgrain::inline studies

@@ -14,32 +14,42 @@ namespace {
 
 using Pair = std::pair<std::int32_t, std::int32_t>;
 
-std::map<Pair, std::size_t> byPair(const std::optional<Contacts>& contacts) {
+template <int D>
+std::map<Pair, std::size_t> byPair(const std::optional<ContactsOf<D>>& contacts) {
   std::map<Pair, std::size_t> found;
   if (contacts)
     for (std::size_t k = 0; k < contacts->size(); ++k) found[{contacts->i[k], contacts->j[k]}] = k;
   return found;
 }
 
-bool slides(const Contacts& contacts, std::size_t k) {
+template <int D>
+bool slides(const ContactsOf<D>& contacts, std::size_t k) {
   return k < contacts.sliding.size() && contacts.sliding[k] != 0;
 }
 
 /// Forces of a contact of the two, 0 where one of them does not have it [N].
+template <int D>
 struct PairForces {
-  double normal[2] = {0.0, 0.0}, tangential[2] = {0.0, 0.0};
-  double difference() const {
-    return std::hypot(normal[0] - normal[1], tangential[0] - tangential[1]);
+  double normal[2] = {0.0, 0.0};
+  SpinOf<D> tangential[2] = {noSpin<D>(), noSpin<D>()};
+  double tangentialDifference() const {
+    if constexpr (D == 2)
+      return std::abs(tangential[0] - tangential[1]);
+    else
+      return (tangential[0] - tangential[1]).norm();
   }
+  double difference() const { return std::hypot(normal[0] - normal[1], tangentialDifference()); }
 };
 
-std::map<Pair, PairForces> forcesOfBoth(const LockstepFrame& engine, const LockstepFrame& mirror) {
-  std::map<Pair, PairForces> forces;
-  const LockstepFrame* const frames[2] = {&engine, &mirror};
+template <int D>
+std::map<Pair, PairForces<D>> forcesOfBoth(const LockstepFrameOf<D>& engine,
+                                           const LockstepFrameOf<D>& mirror) {
+  std::map<Pair, PairForces<D>> forces;
+  const LockstepFrameOf<D>* const frames[2] = {&engine, &mirror};
   for (int side = 0; side < 2; ++side)
     if (const auto& contacts = frames[side]->contacts)
       for (std::size_t k = 0; k < contacts->size(); ++k) {
-        PairForces& both = forces[{contacts->i[k], contacts->j[k]}];
+        PairForces<D>& both = forces[{contacts->i[k], contacts->j[k]}];
         both.normal[side] = contacts->normalForce[k];
         both.tangential[side] = contacts->tangentialForce[k];
       }
@@ -47,8 +57,9 @@ std::map<Pair, PairForces> forcesOfBoth(const LockstepFrame& engine, const Locks
 }
 
 /// A contact of that disk in the mirror or the engine: the one whose forces differ most.
-std::optional<Pair> contactOf(std::size_t disk, const LockstepFrame& engine,
-                              const LockstepFrame& mirror) {
+template <int D>
+std::optional<Pair> contactOf(std::size_t disk, const LockstepFrameOf<D>& engine,
+                              const LockstepFrameOf<D>& mirror) {
   std::optional<Pair> worst;
   double most = -1.0;
   for (const auto& [pair, forces] : forcesOfBoth(engine, mirror)) {
@@ -62,7 +73,8 @@ std::optional<Pair> contactOf(std::size_t disk, const LockstepFrame& engine,
 }
 
 /// How many contacts the busier of the two disks has.
-std::size_t touching(const Pair& of, const LockstepFrame& frame, std::size_t wallFrom,
+template <int D>
+std::size_t touching(const Pair& of, const LockstepFrameOf<D>& frame, std::size_t wallFrom,
                      std::size_t most) {
   for (const std::int32_t id : {of.first, of.second}) {
     if (static_cast<std::size_t>(id) >= wallFrom) continue;
@@ -75,8 +87,9 @@ std::size_t touching(const Pair& of, const LockstepFrame& frame, std::size_t wal
 }
 
 /// "new, sliding, wall"
-std::string kindInWords(const Pair& pair, const LockstepFrame* before, const LockstepFrame& now,
-                        std::size_t wallFrom) {
+template <int D>
+std::string kindInWords(const Pair& pair, const LockstepFrameOf<D>* before,
+                        const LockstepFrameOf<D>& now, std::size_t wallFrom) {
   std::vector<std::string> words;
   const auto nowThere = byPair(now.contacts);
   const auto found = nowThere.find(pair);
@@ -94,7 +107,8 @@ std::string kindInWords(const Pair& pair, const LockstepFrame* before, const Loc
 
 }  // namespace
 
-std::vector<double> distances(const LockstepFrame& one, const LockstepFrame& other,
+template <int D>
+std::vector<double> distances(const LockstepFrameOf<D>& one, const LockstepFrameOf<D>& other,
                               double diameter) {
   std::vector<double> apart;
   for (std::size_t i = 0; i < std::min(one.position.size(), other.position.size()); ++i)
@@ -102,28 +116,36 @@ std::vector<double> distances(const LockstepFrame& one, const LockstepFrame& oth
   return apart;
 }
 
-Farthest farthest(const LockstepFrame& one, const LockstepFrame& other, double diameter) {
+template <int D>
+Farthest farthest(const LockstepFrameOf<D>& one, const LockstepFrameOf<D>& other, double diameter) {
   const std::vector<double> apart = distances(one, other, diameter);
   if (apart.empty()) return {};
   const auto worst = std::ranges::max_element(apart);
   return {static_cast<std::size_t>(worst - apart.begin()), *worst};
 }
 
-std::vector<double> separationVector(const LockstepFrame& one, const LockstepFrame& other,
+template <int D>
+std::vector<double> separationVector(const LockstepFrameOf<D>& one, const LockstepFrameOf<D>& other,
                                      double diameter) {
   std::vector<double> separation;
   for (std::size_t i = 0; i < std::min(one.position.size(), other.position.size()); ++i) {
-    const Vec2 apart = (one.position[i] - other.position[i]) / diameter;
-    separation.push_back(apart.x());
-    separation.push_back(apart.y());
+    const VecOf<D> apart = (one.position[i] - other.position[i]) / diameter;
+    separation.insert(separation.end(), apart.begin(), apart.end());
   }
   const bool spins = one.spin.size() == other.spin.size() && one.velocityTime == other.velocityTime;
-  for (std::size_t i = 0; i < one.spin.size(); ++i)
-    separation.push_back(spins ? 0.5 * (one.spin[i] - other.spin[i]) * one.time : 0.0);
+  for (std::size_t i = 0; i < one.spin.size(); ++i) {
+    const SpinOf<D> turn =
+        spins ? SpinOf<D>(0.5 * (one.spin[i] - other.spin[i]) * one.time) : noSpin<D>();
+    if constexpr (D == 2)
+      separation.push_back(turn);
+    else
+      separation.insert(separation.end(), turn.begin(), turn.end());
+  }
   return separation;
 }
 
-ContactKinds kindsVisited(const std::vector<LockstepFrame>& mirror, std::size_t wallFrom) {
+template <int D>
+ContactKinds kindsVisited(const std::vector<LockstepFrameOf<D>>& mirror, std::size_t wallFrom) {
   std::set<Pair> sticking, sliding, made, opened, wall;
   for (std::size_t k = 0; k < mirror.size(); ++k) {
     const auto now = byPair(mirror[k].contacts);
@@ -142,7 +164,8 @@ ContactKinds kindsVisited(const std::vector<LockstepFrame>& mirror, std::size_t 
   return {sticking.size(), sliding.size(), made.size(), opened.size(), wall.size()};
 }
 
-std::optional<LockstepForces> forcesOfFirstStep(const LockstepWindow& window) {
+template <int D>
+std::optional<LockstepForces> forcesOfFirstStep(const LockstepWindowOf<D>& window) {
   if (window.engine.empty() || !window.engine.front().contacts || !window.mirror.front().contacts)
     return std::nullopt;
   const auto theirs = byPair(window.engine.front().contacts);
@@ -157,8 +180,7 @@ std::optional<LockstepForces> forcesOfFirstStep(const LockstepWindow& window) {
   if (unit > 0.0)
     for (const auto& [pair, both] : forces) {
       found.normal = std::max(found.normal, std::abs(both.normal[0] - both.normal[1]) / unit);
-      found.tangential =
-          std::max(found.tangential, std::abs(both.tangential[0] - both.tangential[1]) / unit);
+      found.tangential = std::max(found.tangential, both.tangentialDifference() / unit);
     }
   return found;
 }
@@ -168,18 +190,19 @@ LockstepForces together(const LockstepForces& one, const LockstepForces& other) 
           std::max(one.normal, other.normal), std::max(one.tangential, other.tangential)};
 }
 
-std::optional<FirstExceedance> firstExceedance(const LockstepWindow& window, double diameter,
+template <int D>
+std::optional<FirstExceedance> firstExceedance(const LockstepWindowOf<D>& window, double diameter,
                                                const std::vector<double>& limits,
                                                std::size_t wallFrom) {
   for (std::size_t k = 0; k < window.engine.size(); ++k) {
-    const LockstepFrame &engine = window.engine[k], &mirror = window.mirror[k];
+    const LockstepFrameOf<D>&engine = window.engine[k], &mirror = window.mirror[k];
     const Farthest worst = farthest(engine, mirror, diameter);
     if (worst.distance <= limits[k]) continue;
     FirstExceedance first;
     first.after = k == 0 ? 0.0 : window.mirror[k - 1].time;
     first.until = mirror.time;
     first.disk = worst.disk;
-    const LockstepFrame* const before = k == 0 ? nullptr : &window.mirror[k - 1];
+    const LockstepFrameOf<D>* const before = k == 0 ? nullptr : &window.mirror[k - 1];
     auto contact = contactOf(worst.disk, engine, mirror);
     if (!contact && before) contact = contactOf(worst.disk, window.engine[k - 1], *before);
     if (contact) {
@@ -196,5 +219,24 @@ std::optional<FirstExceedance> firstExceedance(const LockstepWindow& window, dou
   }
   return std::nullopt;
 }
+
+template std::vector<double> distances(const LockstepFrameOf<2>&, const LockstepFrameOf<2>&,
+                                       double);
+template Farthest farthest(const LockstepFrameOf<2>&, const LockstepFrameOf<2>&, double);
+template std::vector<double> separationVector(const LockstepFrameOf<2>&, const LockstepFrameOf<2>&,
+                                              double);
+template ContactKinds kindsVisited(const std::vector<LockstepFrameOf<2>>&, std::size_t);
+template std::optional<LockstepForces> forcesOfFirstStep(const LockstepWindowOf<2>&);
+template std::optional<FirstExceedance> firstExceedance(const LockstepWindowOf<2>&, double,
+                                                        const std::vector<double>&, std::size_t);
+template std::vector<double> distances(const LockstepFrameOf<3>&, const LockstepFrameOf<3>&,
+                                       double);
+template Farthest farthest(const LockstepFrameOf<3>&, const LockstepFrameOf<3>&, double);
+template std::vector<double> separationVector(const LockstepFrameOf<3>&, const LockstepFrameOf<3>&,
+                                              double);
+template ContactKinds kindsVisited(const std::vector<LockstepFrameOf<3>>&, std::size_t);
+template std::optional<LockstepForces> forcesOfFirstStep(const LockstepWindowOf<3>&);
+template std::optional<FirstExceedance> firstExceedance(const LockstepWindowOf<3>&, double,
+                                                        const std::vector<double>&, std::size_t);
 
 }  // namespace crossgrain::inline studies

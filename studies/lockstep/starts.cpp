@@ -39,22 +39,21 @@ bool canDrawMore(const Case& setup) {
   return setup.kind == CaseKind::assembly && !packingsAreFiles(setup);
 }
 
-}  // namespace
-
-std::vector<FlowState> statesAlongTheFlow(const Case& setup, const std::vector<Packing>& packings,
-                                          double dt, std::size_t count,
-                                          const std::function<void(double)>& progress, int jobs) {
+template <int D>
+std::vector<FlowState> statesIn(const Case& setup, const std::vector<Packing>& packings, double dt,
+                                std::size_t count, const std::function<void(double)>& progress,
+                                int jobs) {
   const double span = std::min(flowDuration(setup), startSteps * dt);
   std::atomic<std::size_t> found = 0;
   const auto statesOf = [&](std::size_t p, const Packing& packing, std::size_t share) {
     std::vector<FlowState> states;
     const auto engine = engineRegistry().front().make();
-    const Scene scene = flowScene(setup, packing, dt);
-    engine->load(scene, {});
+    const SceneOf<D> scene = flowScene<D>(setup, packing, dt);
+    loadOn(*engine, scene, {});
     for (const double time : timesOf(setup, p, share, span)) {
       throwIfInterrupted();
       engine->advance(flowRestart(setup, time));
-      const Snapshot now = engine->snapshot(ContactReport::none);
+      const SnapshotOf<D> now = snapshotOf<D>(*engine, ContactReport::none);
       Packing there = packingAt(packing, scene, now);
       const LockstepStart start{p, now.positionTime, there.wheelAngle};
       states.push_back({start, std::move(there)});
@@ -87,6 +86,15 @@ std::vector<FlowState> statesAlongTheFlow(const Case& setup, const std::vector<P
     if (states.size() == before) break;
   }
   return states;
+}
+
+}  // namespace
+
+std::vector<FlowState> statesAlongTheFlow(const Case& setup, const std::vector<Packing>& packings,
+                                          double dt, std::size_t count,
+                                          const std::function<void(double)>& progress, int jobs) {
+  return setup.dimension == 3 ? statesIn<3>(setup, packings, dt, count, progress, jobs)
+                              : statesIn<2>(setup, packings, dt, count, progress, jobs);
 }
 
 }  // namespace crossgrain::inline studies

@@ -15,13 +15,14 @@
 namespace crossgrain::inline studies {
 namespace {
 
-void addConstants(std::vector<MirrorChange>& changes, const Scene& scene) {
-  const auto add = [&](std::string name, std::function<void(Scene&, double)> apply) {
+template <int D>
+void addConstants(std::vector<MirrorChangeOf<D>>& changes, const SceneOf<D>& scene) {
+  const auto add = [&](std::string name, std::function<void(SceneOf<D>&, double)> apply) {
     changes.push_back({std::move(name), true, std::move(apply)});
   };
   for (const LawConstant& constant : lawConstants())
     if (scene.law.*constant.value != 0.0 && hasPart(scene.law, constant.part))
-      add(std::string(constant.name), [value = constant.value](Scene& changed, double by) {
+      add(std::string(constant.name), [value = constant.value](SceneOf<D>& changed, double by) {
         changeLaws(changed, [&](ContactLaw& law) { law.*value *= 1.0 + by; });
       });
   const std::pair<const char*, double BottomPlate::*> plate[] = {
@@ -32,17 +33,18 @@ void addConstants(std::vector<MirrorChange>& changes, const Scene& scene) {
   if (scene.bottom)
     for (const auto& [name, value] : plate)
       if ((*scene.bottom).*value != 0.0)
-        add(name,
-            [value = value](Scene& changed, double by) { (*changed.bottom).*value *= 1.0 + by; });
-  add("mass", [](Scene& changed, double by) {
+        add(name, [value = value](SceneOf<D>& changed, double by) {
+          (*changed.bottom).*value *= 1.0 + by;
+        });
+  add("mass", [](SceneOf<D>& changed, double by) {
     for (double& mass : changed.disks.mass) mass *= 1.0 + by;
   });
   if (scene.rotation)
-    add("inertia", [](Scene& changed, double by) {
+    add("inertia", [](SceneOf<D>& changed, double by) {
       for (double& inertia : changed.disks.inertia) inertia *= 1.0 + by;
     });
-  add("velocity of walls", [](Scene& changed, double by) {
-    for (WallBody& body : changed.bodies) {
+  add("velocity of walls", [](SceneOf<D>& changed, double by) {
+    for (WallBodyOf<D>& body : changed.bodies) {
       body.motion.angularVelocity *= 1.0 + by;
       body.motion.velocity *= 1.0 + by;
       body.motion.frequency *= 1.0 + by;
@@ -50,7 +52,8 @@ void addConstants(std::vector<MirrorChange>& changes, const Scene& scene) {
   });
 }
 
-void addConventions(std::vector<MirrorChange>& changes, const Scene& scene,
+template <int D>
+void addConventions(std::vector<MirrorChangeOf<D>>& changes, const SceneOf<D>& scene,
                     const Capabilities& can) {
   for (const LawOption& option : lawOptions()) {
     const std::string name(option.name);
@@ -59,18 +62,21 @@ void addConventions(std::vector<MirrorChange>& changes, const Scene& scene,
     if (values == can.lawOptions.end()) continue;
     for (const std::string& value : values->second)
       if (value != lawOptionValue(scene.law, name) && constantsServe(scene.law, name, value))
-        changes.push_back(
-            {fmt::format("{} = {}", name, value), false, [name, value](Scene& changed, double) {
-               changeLaws(changed, [&](ContactLaw& law) { setLawOption(law, name, value); });
-             }});
+        changes.push_back({fmt::format("{} = {}", name, value), false,
+                           [name, value](SceneOf<D>& changed, double) {
+                             changeLaws(changed,
+                                        [&](ContactLaw& law) { setLawOption(law, name, value); });
+                           }});
   }
 }
 
-void addMissingEffects(std::vector<MirrorChange>& changes, const Scene& scene, Capabilities can) {
+template <int D>
+void addMissingEffects(std::vector<MirrorChangeOf<D>>& changes, const SceneOf<D>& scene,
+                       Capabilities can) {
   for (const Effect effect : effectsOf(scene)) {
     const std::string name = toString(effect);
     can.effects[effect] = Support::never;
-    changes.push_back({"without " + name, false, [can, name](Scene& changed, double) {
+    changes.push_back({"without " + name, false, [can, name](SceneOf<D>& changed, double) {
                          changed = adaptScene(can, changed, {name}).scene;
                        }});
     can.effects[effect] = Support::optional;
@@ -106,8 +112,9 @@ bool constantsServe(const ContactLaw& law, std::string_view option, std::string_
   return true;
 }
 
-std::vector<MirrorChange> changesOf(const Scene& scene, const Capabilities& can) {
-  std::vector<MirrorChange> changes;
+template <int D>
+std::vector<MirrorChangeOf<D>> changesOf(const SceneOf<D>& scene, const Capabilities& can) {
+  std::vector<MirrorChangeOf<D>> changes;
   addConstants(changes, scene);
   addConventions(changes, scene, can);
   addMissingEffects(changes, scene, can);
@@ -173,7 +180,8 @@ std::optional<double> equivalentChange(const std::vector<double>& apart,
   return std::sqrt(own / moved);
 }
 
-NamedTerm asTerm(const MirrorChange& change, const std::vector<double>& separation,
+template <int D>
+NamedTerm asTerm(const MirrorChangeOf<D>& change, const std::vector<double>& separation,
                  const std::vector<double>& response) {
   NamedTerm term{change.name, std::nullopt, 1.0};
   const double whole = dot(separation, separation), ofResponse = dot(response, response);
@@ -213,5 +221,12 @@ std::vector<ChangedCase> changedCases(const Case& setup) {
   }
   return cases;
 }
+
+template std::vector<MirrorChangeOf<2>> changesOf(const SceneOf<2>&, const Capabilities&);
+template NamedTerm asTerm(const MirrorChangeOf<2>&, const std::vector<double>&,
+                          const std::vector<double>&);
+template std::vector<MirrorChangeOf<3>> changesOf(const SceneOf<3>&, const Capabilities&);
+template NamedTerm asTerm(const MirrorChangeOf<3>&, const std::vector<double>&,
+                          const std::vector<double>&);
 
 }  // namespace crossgrain::inline studies

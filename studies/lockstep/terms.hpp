@@ -14,17 +14,21 @@ namespace crossgrain::inline studies {
 
 /// One thing in which a mirror could be otherwise: a constant a little larger, another convention,
 /// an effect less.
-struct MirrorChange {
+template <int D>
+struct MirrorChangeOf {
   std::string name;         ///< "kn", "tension = cut", "without gravity"
   bool isConstant = false;  ///< the response is linear in it: any amount can be given
   /// `by`: of a constant the relative change; no matter to others.
-  std::function<void(Scene&, double by)> apply;
+  std::function<void(SceneOf<D>&, double by)> apply;
 };
+using MirrorChange = MirrorChangeOf<2>;
 
-struct AppliedChange {
-  MirrorChange change;
+template <int D>
+struct AppliedChangeOf {
+  MirrorChangeOf<D> change;
   double by = 0.0;  ///< of a constant
 };
+using AppliedChange = AppliedChangeOf<2>;
 
 /// Whether a mirror may follow otherwise by another value of an option. More do than matter to the
 /// law: an arm of v_t that is that of f_t can become another one, and the velocity that dashpots
@@ -39,7 +43,8 @@ bool constantsServe(const ContactLaw& law, std::string_view option, std::string_
 
 /// All that could be otherwise in this scene.
 /// @param can  of the in-house engine
-std::vector<MirrorChange> changesOf(const Scene& scene, const Capabilities& can);
+template <int D>
+std::vector<MirrorChangeOf<D>> changesOf(const SceneOf<D>& scene, const Capabilities& can);
 
 /// The constant that deviations are expressed in: k_n, of rigid disks e_n.
 std::string referencePerturbationOf(const ContactLaw& law);
@@ -68,7 +73,8 @@ std::optional<double> equivalentChange(const std::vector<double>& apart,
 /// How much of a separation a change accounts for: for a constant the amount that fits best, in
 /// least squares; another convention or a missing effect as it is.
 /// @param separation, response  of all starts, one after the other; a constant's to termChange
-NamedTerm asTerm(const MirrorChange& change, const std::vector<double>& separation,
+template <int D>
+NamedTerm asTerm(const MirrorChangeOf<D>& change, const std::vector<double>& separation,
                  const std::vector<double>& response);
 
 /// The term that leaves least, if that is less than termUnexplained.

@@ -10,8 +10,9 @@
 namespace crossgrain::inline studies {
 namespace {
 
-LockstepFrame frameOf(Snapshot&& seen, double since = 0.0) {
-  LockstepFrame frame;
+template <int D>
+LockstepFrameOf<D> frameOf(SnapshotOf<D>&& seen, double since = 0.0) {
+  LockstepFrameOf<D> frame;
   frame.time = seen.positionTime - since;
   frame.velocityTime = seen.velocityTime - since;
   frame.position = std::move(seen.position);
@@ -41,8 +42,9 @@ void takeTo(Engine& engine, std::uint64_t steps, double dt, double since = 0.0) 
     throw EngineFailure("stopped at another time than it was asked for");
 }
 
-void requireFinite(const LockstepFrame& frame) {
-  for (const Vec2& place : frame.position)
+template <int D>
+void requireFinite(const LockstepFrameOf<D>& frame) {
+  for (const VecOf<D>& place : frame.position)
     if (!place.allFinite()) throw EngineFailure("a disk is at no finite place");
 }
 
@@ -78,44 +80,63 @@ std::size_t frameAt(const std::vector<std::uint64_t>& steps, double dt, double t
   return static_cast<std::size_t>(found - steps.begin());
 }
 
-LockstepWindow followBoth(Engine& engine, Engine& mirror, double dt,
-                          const std::vector<std::uint64_t>& steps, bool contacts, double since) {
-  LockstepWindow window;
+template <int D>
+LockstepWindowOf<D> followBoth(Engine& engine, Engine& mirror, double dt,
+                               const std::vector<std::uint64_t>& steps, bool contacts, double since,
+                               const std::optional<BoxOf<D>>& box) {
+  LockstepWindowOf<D> window;
   for (const std::uint64_t step : steps) {
     throwIfInterrupted();
     takeTo(engine, step, dt, since);
-    Snapshot theirs = engine.snapshot(contacts ? ContactReport::instant : ContactReport::none);
-    window.engine.push_back(frameOf(std::move(theirs), since));
+    auto theirs = snapshotOf<D>(engine, contacts ? ContactReport::instant : ContactReport::none);
+    window.engine.push_back(frameOf<D>(std::move(theirs), since));
     const auto stepOfForces =
         static_cast<std::uint64_t>(std::llround(window.engine.back().contactTime / dt));
     requireFinite(window.engine.back());
 
     // Forces of a step before are compared with those that the mirror had then.
-    std::optional<Contacts> before;
+    std::optional<ContactsOf<D>> before;
     if (contacts && stepOfForces < step) {
       takeTo(mirror, stepOfForces, dt);
-      before = mirror.snapshot(ContactReport::instant).contacts;
+      before = snapshotOf<D>(mirror, ContactReport::instant).contacts;
     }
     takeTo(mirror, step, dt);
-    window.mirror.push_back(frameOf(mirror.snapshot(ContactReport::instant)));
+    window.mirror.push_back(frameOf<D>(snapshotOf<D>(mirror, ContactReport::instant)));
     if (before) window.mirror.back().contacts = std::move(before);
+    if (!box) continue;
+    auto &own = window.engine.back().position, &places = window.mirror.back().position;
+    for (std::size_t i = 0; i < std::min(own.size(), places.size()); ++i)
+      own[i] = places[i] + box->nearest(own[i] - places[i]);
   }
   return window;
 }
+template LockstepWindowOf<2> followBoth<2>(Engine&, Engine&, double,
+                                           const std::vector<std::uint64_t>&, bool, double,
+                                           const std::optional<BoxOf<2>>&);
+template LockstepWindowOf<3> followBoth<3>(Engine&, Engine&, double,
+                                           const std::vector<std::uint64_t>&, bool, double,
+                                           const std::optional<BoxOf<3>>&);
 
-std::vector<LockstepFrame> follow(Engine& engine, double dt,
-                                  const std::vector<std::uint64_t>& steps, ContactReport contacts,
-                                  const std::function<void(std::uint64_t, std::uint64_t)>& before) {
-  std::vector<LockstepFrame> frames;
+template <int D>
+std::vector<LockstepFrameOf<D>> follow(
+    Engine& engine, double dt, const std::vector<std::uint64_t>& steps, ContactReport contacts,
+    const std::function<void(std::uint64_t, std::uint64_t)>& before) {
+  std::vector<LockstepFrameOf<D>> frames;
   std::uint64_t done = 0;
   for (const std::uint64_t step : steps) {
     throwIfInterrupted();
     if (before) before(std::exchange(done, step), step);
     takeTo(engine, step, dt);
-    frames.push_back(frameOf(engine.snapshot(contacts)));
+    frames.push_back(frameOf<D>(snapshotOf<D>(engine, contacts)));
     requireFinite(frames.back());
   }
   return frames;
 }
+template std::vector<LockstepFrameOf<2>> follow<2>(
+    Engine&, double, const std::vector<std::uint64_t>&, ContactReport,
+    const std::function<void(std::uint64_t, std::uint64_t)>&);
+template std::vector<LockstepFrameOf<3>> follow<3>(
+    Engine&, double, const std::vector<std::uint64_t>&, ContactReport,
+    const std::function<void(std::uint64_t, std::uint64_t)>&);
 
 }  // namespace crossgrain::inline studies

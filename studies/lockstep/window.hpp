@@ -11,20 +11,24 @@
 namespace crossgrain::inline studies {
 
 /// What is compared of an engine after so many steps.
-struct LockstepFrame {
-  double time = 0.0;           ///< of the positions, since the start [s]
-  double velocityTime = 0.0;   ///< since the start [s]
-  std::vector<Vec2> position;  ///< of the disks [m]
-  std::vector<double> spin;    ///< [rad/s]; empty: nothing spins
-  std::optional<Contacts> contacts;
+template <int D>
+struct LockstepFrameOf {
+  double time = 0.0;               ///< of the positions, since the start [s]
+  double velocityTime = 0.0;       ///< since the start [s]
+  std::vector<VecOf<D>> position;  ///< of the disks [m]
+  std::vector<SpinOf<D>> spin;     ///< [rad/s]; empty: nothing spins
+  std::optional<ContactsOf<D>> contacts;
   double contactTime = 0.0;  ///< of the contacts and of forces on walls, since the start [s]
-  std::vector<BodySnapshot> bodies = {};
+  std::vector<BodySnapshotOf<D>> bodies = {};
 };
+using LockstepFrame = LockstepFrameOf<2>;
 
 /// An engine and its mirror over one window, at the same steps; contacts are of the same instants.
-struct LockstepWindow {
-  std::vector<LockstepFrame> engine, mirror;
+template <int D>
+struct LockstepWindowOf {
+  std::vector<LockstepFrameOf<D>> engine, mirror;
 };
+using LockstepWindow = LockstepWindowOf<2>;
 
 /// The number of steps nearest to that time, one at least.
 std::uint64_t stepsUntil(double time, double dt);
@@ -46,15 +50,19 @@ std::size_t frameAt(const std::vector<std::uint64_t>& steps, double dt, double t
 /// @param contacts  whether the engine reports the forces of an instant
 /// @param since     the engine's time at the beginning [s]: it may be in the middle of a run, and
 ///                  up to a step ahead
+/// @param box       the scene's: the engine's places become those of the images nearest to the
+///                  mirror's
 /// @throws EngineFailure, Interrupted
-LockstepWindow followBoth(Engine& engine, Engine& mirror, double dt,
-                          const std::vector<std::uint64_t>& steps, bool contacts,
-                          double since = 0.0);
+template <int D = 2>
+LockstepWindowOf<D> followBoth(Engine& engine, Engine& mirror, double dt,
+                               const std::vector<std::uint64_t>& steps, bool contacts,
+                               double since = 0.0, const std::optional<BoxOf<D>>& box = {});
 
 /// One alone, loaded and not yet advanced, up to the last of the steps.
 /// @param before  called before each frame, with the steps done and those of the frame; may throw
 /// @throws EngineFailure, Interrupted
-std::vector<LockstepFrame> follow(
+template <int D = 2>
+std::vector<LockstepFrameOf<D>> follow(
     Engine& engine, double dt, const std::vector<std::uint64_t>& steps,
     ContactReport contacts = ContactReport::none,
     const std::function<void(std::uint64_t, std::uint64_t)>& before = {});

@@ -171,7 +171,7 @@ class WindowsDiff {
       if (!alike || now.contactTime != before.contactTime) continue;
       if (!forces_) forces_.emplace();
       ++forces_->frames;
-      if (const auto contacts = forcesOfFirstStep({{now}, {before}})) {
+      if (const auto contacts = forcesOfFirstStep(LockstepWindow{{now}, {before}})) {
         forces_->normal = std::max(forces_->normal, contacts->normal);
         forces_->tangential = std::max(forces_->tangential, contacts->tangential);
       }

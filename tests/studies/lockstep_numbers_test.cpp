@@ -204,7 +204,7 @@ TEST(Farthest, Distance_IsInDiameters) {
 TEST(KindsVisited, Contacts_CountOnceAKind) {
   const auto before = Row().with(0, 1, 1.0).with(2, 3, 1.0, 0.5, true).at(0.1);
   const auto after = Row().with(1, 2, 1.0).with(2, 3, 1.0, 0.5, true).at(0.2);
-  const ContactKinds kinds = kindsVisited({before, after, after}, 3);
+  const ContactKinds kinds = kindsVisited<2>({before, after, after}, 3);
   EXPECT_EQ(kinds.sticking, 2u);
   EXPECT_EQ(kinds.sliding, 1u);
   EXPECT_EQ(kinds.made, 1u);
