@@ -334,13 +334,6 @@ void checkSuitable(const Capabilities& can, const EngineEntry& entry, const Case
 
 namespace {
 
-EffectiveParameters loadInto(Engine& engine, const Scene& scene, const Settings& settings) {
-  return engine.load(scene, settings);
-}
-EffectiveParameters loadInto(Engine& engine, const SpaceScene& scene, const Settings& settings) {
-  return engine.loadInSpace(scene, settings);
-}
-
 /// sceneFor(), with advice that works: see checkSuitable().
 template <int D>
 AdaptedOf<D> sceneWithAdvice(Engine& engine, const EngineEntry& entry, const Case& setup,
@@ -354,8 +347,8 @@ AdaptedOf<D> sceneWithAdvice(Engine& engine, const EngineEntry& entry, const Cas
     mayDiffer.insert(mayDiffer.end(), advice.names.begin(), advice.names.end());
     std::string stillWhy;
     try {
-      loadInto(engine, sceneFor(can, entry, listed, scene).scene,
-               settingsFor(setup, entry.name, can));
+      loadOn(engine, sceneFor(can, entry, listed, scene).scene,
+             settingsFor(setup, entry.name, can));
     } catch (const UnsupportedScene& refusal) {
       stillWhy = refusal.what();
     } catch (const std::exception&) {
@@ -418,7 +411,7 @@ EffectiveParameters loadAdapted(Engine& engine, const EngineEntry& entry, const 
   const AdaptedOf<D> adapted = sceneWithAdvice(engine, entry, setup, scene);
   const Settings settings = settingsFor(setup, entry.name, can);
   checkSizeOfStep(entry, setup, adapted.scene.dt, settings);
-  EffectiveParameters effective = loadInto(engine, adapted.scene, settings);
+  EffectiveParameters effective = loadOn(engine, adapted.scene, settings);
   effective.engine = entry.name;
   effective.version = can.version;
   effective.deviations.insert(effective.deviations.begin(), adapted.deviations.begin(),

@@ -118,15 +118,6 @@ template <int D>
 LoadedEngine loadEngine(const EngineEntry& entry, const Case& setup, const SceneOf<D>& scene,
                         const std::filesystem::path& scratch);
 
-/// What the engine shows of the scene of that dimension that it has loaded.
-template <int D>
-SnapshotOf<D> snapshotOf(Engine& engine, ContactReport contacts) {
-  if constexpr (D == 2)
-    return engine.snapshot(contacts);
-  else
-    return engine.snapshotInSpace(contacts);
-}
-
 /// Has an engine load the scene as far as the case lets it differ, a mirror that of its peer. What
 /// it then really does, with all deviations, its time step among them.
 /// @throws UnsupportedScene naming engine, case and what it cannot do; BadInput for a scene that no
