@@ -293,6 +293,8 @@ class GrainEngine : public Engine {
   }
 
   void beginUnderWay(const Contacts& contacts) {
+    if (spheres_)
+      throw UnsupportedScene("in a periodic box no mirror begins in the middle of a run");
     std::vector<grain::Contact> forces(contacts.size());
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       forces[k].i = contacts.i[k];

@@ -145,8 +145,7 @@ CompareResults compare(const StudyWork& work, const CompareOptions& own) {
   if (own.reference == noReference) beNeutral(campaign);
   campaign.preparePackings();
   LockstepFindings lockstep;
-  if (setup.run.mirrors && setup.dimension == 2)  // in space mirrors only run beside
-    lockstep = lockstepOf(campaign, setup, command, starts, hasMirror);
+  if (setup.run.mirrors) lockstep = lockstepOf(campaign, setup, command, starts, hasMirror);
   campaign.timeEngines();
   EndpointFindings endpoints = runWithInterims(setup, campaign, command, lockstep, budget);
   CompareResults results{campaign.study(kindCompare), {}, {}, {}, {}, {}, {}, {}};
