@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "averaging/grid.hpp"
+#include "averaging/space_rings.hpp"
 #include "cases/effect_switch.hpp"
 #include "cases/flow.hpp"
 #include "studies/core/study.hpp"
@@ -14,12 +15,12 @@ namespace crossgrain::inline studies {
 
 namespace {
 
-CouetteCell cellOf(const Case& setup, const Disks& disks) {
+CouetteCell cellOf(const Case& setup, std::span<const double> radii) {
   const Cell& cell = setup.cell;
   const auto small =
-      static_cast<std::size_t>(std::ranges::count(disks.radius, setup.particles.smallRadius));
+      static_cast<std::size_t>(std::ranges::count(radii, setup.particles.smallRadius));
   double diskArea = 0.0;
-  for (const double a : disks.radius) diskArea += a * a;
+  for (const double a : radii) diskArea += a * a;
   const double cellArea = cell.outerRadius * cell.outerRadius - cell.innerRadius * cell.innerRadius;
   return {cell.innerRadius,
           cell.outerRadius,
@@ -28,26 +29,38 @@ CouetteCell cellOf(const Case& setup, const Disks& disks) {
           cell.height,
           cell.omega,
           small,
-          disks.size() - small,
+          radii.size() - small,
           setup.particles.smallRadius,
           setup.particles.largeRadius,
           diskArea / cellArea,
           2.0 * setup.particles.smallRadius};
 }
 
-RegionRow regionOf(const Case& setup, const Disks& disks) {
+RegionRow regionOf(const Case& setup, std::size_t disks) {
   const Region& region = setup.average->region;
   RegionRow row;
   row.bins = binKindNames[static_cast<std::size_t>(region.bins)];
-  if (region.bins == BinKind::slabs) row.along = region.axis == 0 ? "x" : "y";
+  if (region.bins == BinKind::slabs)
+    row.along = std::string_view("xyz").substr(static_cast<std::size_t>(region.axis), 1);
   row.height = region.height;
   row.diameter = flowDiameter(setup);
-  row.disks = disks.size();
-  if (const auto* grid = dynamic_cast<const Grid*>(binsOf(setup).get()))
+  row.disks = disks;
+  const auto bins = binsOf(setup);
+  if (const auto* grid = dynamic_cast<const Grid*>(bins.get()))
     for (int cell = 0; cell < grid->cells(); ++cell) {
       row.x.push_back(grid->centre(cell).x());
       row.y.push_back(grid->centre(cell).y());
     }
+  if (const auto* cells = dynamic_cast<const Cells*>(bins.get()))
+    for (int cell = 0; cell < cells->cells(); ++cell) {
+      const Vec3 centre = cells->centre(cell);
+      row.x.push_back(centre.x());
+      row.y.push_back(centre.y());
+      row.z.push_back(centre.z());
+    }
+  if (const auto* rings = dynamic_cast<const SpaceRings*>(bins.get()))
+    for (int bin = 0; bin < rings->rings().count() * rings->layers().count(); ++bin)
+      row.z.push_back(rings->layers().centre(bin / rings->rings().count()));
   const FlowTimes times = flowTimes(setup);
   row.from = times.settled;
   row.to = times.end();
@@ -84,30 +97,49 @@ RingPlaces placesOf(const Rings& rings) {
   return places;
 }
 
+namespace {
+
+/// Where bins lie one after the other: in space rings count layer by layer. NaN: in no line [m].
+std::vector<double> alongOf(const BinSet& bins, const Region& region) {
+  std::vector<double> along;
+  if (const auto* rings = dynamic_cast<const SpaceRings*>(&bins))
+    for (int bin = 0; bin < rings->rings().count() * rings->layers().count(); ++bin)
+      along.push_back(rings->rings().centre(bin % rings->rings().count()));
+  const bool inLine = region.bins == BinKind::slabs;
+  const auto add = [&](const auto& cells) {
+    for (int cell = 0; cell < cells.cells(); ++cell)
+      along.push_back(inLine ? cells.centre(cell)[region.axis] : NAN);
+  };
+  if (const auto* cells = dynamic_cast<const Cells*>(&bins)) add(*cells);
+  if (const auto* grid = dynamic_cast<const Grid*>(&bins)) add(*grid);
+  return along;
+}
+
+}  // namespace
+
 RingPlaces placesOf(const Case& setup) {
   if (!setup.average) return placesOf(ringsOf(setup));
   const Region& region = setup.average->region;
-  if (region.hasRings()) return placesOf(dynamic_cast<const Rings&>(*binsOf(setup)));
-  const Grid& grid = dynamic_cast<const Grid&>(*binsOf(setup));
-  const bool inLine = region.bins == BinKind::slabs;
+  const auto bins = binsOf(setup);
+  if (const auto* rings = dynamic_cast<const Rings*>(bins.get())) return placesOf(*rings);
+  const bool rings = region.hasRings(), inLine = region.bins == BinKind::slabs;
+  const double low = rings ? region.innerRadius : region.low[region.axis];
+  const double high = rings ? region.outerRadius : region.high[region.axis];
   RingPlaces places;
-  for (int cell = 0; cell < grid.cells(); ++cell) {
-    const double along = inLine ? grid.centre(cell)[region.axis] : NAN;
-    places.r.push_back(along);
-    places.rTilde.push_back((along - region.low[region.axis]) / flowDiameter(setup));
-  }
-  if (inLine) places.width = (region.high - region.low)[region.axis] / region.count;
+  places.r = alongOf(*bins, region);
+  for (const double place : places.r) places.rTilde.push_back((place - low) / flowDiameter(setup));
+  if (rings || inLine) places.width = (high - low) / region.count;
   return places;
 }
 
 FlowFrame couetteFrame(std::string_view kind, const Case& setup, const std::string& command,
-                       const Disks& disks) {
+                       std::span<const double> radii) {
   FlowFrame frame;
   frame.head = headOf(kind, setup, command);
   if (setup.average)
-    frame.region = regionOf(setup, disks);
+    frame.region = regionOf(setup, radii.size());
   else
-    frame.cell = cellOf(setup, disks);
+    frame.cell = cellOf(setup, radii);
   frame.averaging = averagingOf(setup);
   for (const Effect effect : effectsOf(setup)) frame.effects.emplace_back(toString(effect));
   frame.rings = placesOf(setup);
