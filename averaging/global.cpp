@@ -38,7 +38,8 @@ struct BodyIds {
   }
 };
 
-BodyIds idsOf(const Scene& scene, std::size_t index) {
+template <int D>
+BodyIds idsOf(const SceneOf<D>& scene, std::size_t index) {
   BodyIds ids{};
   ids.firstDisk = scene.disks.size();
   ids.firstPlane = scene.disks.size() + scene.wallDiskCount();
@@ -51,21 +52,29 @@ BodyIds idsOf(const Scene& scene, std::size_t index) {
   return ids;
 }
 
-double kineticEnergy(const Disks& disks, const Snapshot& snapshot) {
+template <int D>
+double kineticEnergy(const DisksOf<D>& disks, const SnapshotOf<D>& snapshot) {
   double energy = 0.0;
   for (std::size_t p = 0; p < disks.size(); ++p) {
     energy += 0.5 * disks.mass[p] * snapshot.velocity[p].squaredNorm();
-    if (snapshot.spin) energy += 0.5 * disks.inertia[p] * (*snapshot.spin)[p] * (*snapshot.spin)[p];
+    if (!snapshot.spin) continue;
+    const SpinOf<D>& spin = (*snapshot.spin)[p];
+    if constexpr (D == 2)
+      energy += 0.5 * disks.inertia[p] * spin * spin;
+    else
+      energy += 0.5 * disks.inertia[p] * spin.squaredNorm();
   }
   return energy;
 }
 
 /// How many of two disks a pair joins.
-std::size_t ends(const Contacts& pairs, std::size_t k, std::size_t disks) {
+template <int D>
+std::size_t ends(const ContactsOf<D>& pairs, std::size_t k, std::size_t disks) {
   return static_cast<std::size_t>(pairs.j[k]) < disks ? 2 : 1;
 }
 
-void addContactNumbers(const Contacts& pairs, std::size_t disks, GlobalNumbers& numbers) {
+template <int D>
+void addContactNumbers(const ContactsOf<D>& pairs, std::size_t disks, GlobalNumbers& numbers) {
   std::size_t listed = 0, carrying = 0, contacts = 0, sliding = 0;
   double overlaps = 0.0;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -87,9 +96,76 @@ void addContactNumbers(const Contacts& pairs, std::size_t disks, GlobalNumbers& 
   if (!pairs.sliding.empty()) numbers.slidingFraction = static_cast<double>(sliding) / count;
 }
 
+/// The lowest and the highest body of a cell between two walls, and the direction between them.
+struct TwoWalls {
+  int across;
+  std::size_t low, high;
+};
+
+template <int D>
+std::optional<TwoWalls> twoWalls(const SceneOf<D>& scene) {
+  if (!scene.box || std::ranges::count(scene.box->periodic, false) != 1) return std::nullopt;
+  TwoWalls walls{};
+  walls.across =
+      static_cast<int>(std::ranges::find(scene.box->periodic, false) - scene.box->periodic.begin());
+  std::optional<double> lowest, highest;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const auto& body = scene.bodies[b];
+    double sum = 0.0;
+    for (const auto& place : body.diskPosition) sum += place[walls.across];
+    for (const auto& plane : body.planes) sum += plane.point[walls.across];
+    const auto members = static_cast<double>(body.diskPosition.size() + body.planes.size());
+    if (members == 0.0) continue;
+    const double place = sum / members;
+    if (!lowest || place < *lowest) lowest = place, walls.low = b;
+    if (!highest || place > *highest) highest = place, walls.high = b;
+  }
+  if (!lowest || walls.low == walls.high) return std::nullopt;
+  return walls;
+}
+
+/// Of the disks on a body [N].
+template <int D>
+std::optional<VecOf<D>> forceOn(const SceneOf<D>& scene, const SnapshotOf<D>& snapshot,
+                                std::size_t body) {
+  if (body < snapshot.bodies.size() && snapshot.bodies[body].force)
+    return snapshot.bodies[body].force;
+  if (!snapshot.contacts) return std::nullopt;
+  const BodyIds ids = idsOf(scene, body);
+  VecOf<D> force = VecOf<D>::Zero();
+  for (std::size_t c = 0; c < snapshot.contacts->size(); ++c)
+    if (ids.contain(static_cast<std::size_t>(snapshot.contacts->j[c])))
+      force -= snapshot.contacts->force(c);
+  return force;
+}
+
 }  // namespace
 
-GlobalNumbers globalNumbers(const Scene& scene, const Snapshot& snapshot) {
+template <int D>
+bool hasTwoWalls(const SceneOf<D>& scene) {
+  return twoWalls(scene).has_value();
+}
+template bool hasTwoWalls(const Scene&);
+template bool hasTwoWalls(const SpaceScene&);
+
+template <int D>
+std::optional<WallStresses> wallStresses(const SceneOf<D>& scene, const SnapshotOf<D>& snapshot,
+                                         double height) {
+  const auto walls = twoWalls(scene);
+  if (!walls) return std::nullopt;
+  const auto low = forceOn(scene, snapshot, walls->low);
+  const auto high = forceOn(scene, snapshot, walls->high);
+  if (!low || !high) return std::nullopt;
+  VecOf<D> sides = scene.box->high - scene.box->low;
+  sides[walls->across] = D == 2 ? height : 1.0;
+  const VecOf<D> half = (*high - *low) / (2.0 * sides.prod());
+  return WallStresses{half[walls->across], -half[walls->across == 0 ? 1 : 0]};
+}
+template std::optional<WallStresses> wallStresses(const Scene&, const Snapshot&, double);
+template std::optional<WallStresses> wallStresses(const SpaceScene&, const SpaceSnapshot&, double);
+
+template <int D>
+GlobalNumbers globalNumbers(const SceneOf<D>& scene, const SnapshotOf<D>& snapshot) {
   const std::size_t disks = scene.disks.size();
   if (snapshot.velocity.size() != disks || (snapshot.spin && snapshot.spin->size() != disks))
     throw std::invalid_argument(
@@ -100,6 +176,8 @@ GlobalNumbers globalNumbers(const Scene& scene, const Snapshot& snapshot) {
   if (snapshot.contacts) addContactNumbers(*snapshot.contacts, disks, numbers);
   return numbers;
 }
+template GlobalNumbers globalNumbers(const Scene&, const Snapshot&);
+template GlobalNumbers globalNumbers(const SpaceScene&, const SpaceSnapshot&);
 
 std::optional<double> contactsOf(const Scene& scene, const Snapshot& snapshot,
                                  std::string_view body) {

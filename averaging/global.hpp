@@ -21,7 +21,8 @@ struct GlobalNumbers {
 };
 
 /// @throws std::invalid_argument if the snapshot does not fit the scene
-GlobalNumbers globalNumbers(const Scene& scene, const Snapshot& snapshot);
+template <int D>
+GlobalNumbers globalNumbers(const SceneOf<D>& scene, const SnapshotOf<D>& snapshot);
 
 /// Contacts of the named body's disks and planes with the moving disks. Absent without contacts in
 /// the snapshot and for a body of nothing (of another source's snapshots, say); with accumulated
@@ -44,5 +45,25 @@ std::optional<double> radialPressure(const Scene& scene, const Snapshot& snapsho
 /// @throws std::invalid_argument if the scene has no such body
 std::optional<double> drivingTorque(const Scene& scene, const Snapshot& snapshot,
                                     std::string_view body);
+
+/// Of a cell between two walls: a box that is periodic but for one direction n, and at least two
+/// bodies. F is the force on the lowest and the highest body along n, A the area across n: the
+/// box's, or its length times h in the plane. Stresses as in the bins next to the walls, where
+/// nothing accelerates: n is z (in space), t is x; else n is y and t is x, or n is x and t is y.
+struct WallStresses {
+  double normal = 0.0;  ///< (F_high − F_low)·n / 2A, > 0 pushes them apart [N/m²]
+  double shear = 0.0;  ///< (F_low − F_high)·t / 2A, > 0 where the high one drags along +t [N/m²]
+};
+
+/// Forces as the engine reports them, else the sum over contacts. Absent for any other scene and
+/// for a snapshot without either.
+/// @param height  h of the disks; 1 in space [m]
+template <int D>
+std::optional<WallStresses> wallStresses(const SceneOf<D>& scene, const SnapshotOf<D>& snapshot,
+                                         double height);
+
+/// Whether a scene is such a cell.
+template <int D>
+bool hasTwoWalls(const SceneOf<D>& scene);
 
 }  // namespace crossgrain::inline averaging

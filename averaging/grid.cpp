@@ -1,6 +1,7 @@
 #include "averaging/grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -9,7 +10,8 @@
 
 namespace crossgrain::inline averaging {
 
-Grid::Grid(const Vec2& low, const Vec2& high, int nx, int ny, double height)
+Grid::Grid(const Vec2& low, const Vec2& high, int nx, int ny, double height,
+           const std::optional<BoxOf<2>>& box)
     : low_(low), nx_(nx), ny_(ny), height_(height) {
   if (nx < 1 || ny < 1) throw std::invalid_argument("grid: at least one cell each way is needed");
   cell_ = (high - low).cwiseQuotient(Vec2(nx, ny));
@@ -17,16 +19,24 @@ Grid::Grid(const Vec2& low, const Vec2& high, int nx, int ny, double height)
     throw std::invalid_argument("grid: the high corner must lie above and right of the low one");
   if (!std::isfinite(height) || !(height > 0.0))
     throw std::invalid_argument("grid: the height must be positive");
+  for (int k = 0; box && k < 2; ++k) {
+    if (!box->periodic[static_cast<std::size_t>(k)]) continue;
+    period_[k] = box->high[k] - box->low[k];
+    if (high[k] - low[k] > period_[k] * (1.0 + 1e-9))
+      throw std::invalid_argument("grid: it is longer than the box along a periodic direction");
+  }
 }
 
 std::size_t Grid::slotAt(const Vec2& x) const {
-  const Vec2 place = (x - low_).cwiseQuotient(cell_);
+  Vec2 from = x - low_;
+  for (int k = 0; k < 2; ++k)
+    if (period_[k] > 0.0) from[k] -= period_[k] * std::floor(from[k] / period_[k]);
+  const Vec2 place = from.cwiseQuotient(cell_);
   const bool inside = place.minCoeff() >= 0.0 && place.x() < nx_ && place.y() < ny_;
   return inside ? slot(static_cast<int>(place.x()), static_cast<int>(place.y())) : 0;
 }
 
-void Grid::discFractions(const Vec2& x, double a, Edges, BinFractions& fractions) const {
-  fractions.assign(1, {0, 0.0});
+void Grid::addFractions(const Vec2& x, double a, BinFractions& fractions, double& rest) const {
   const Vec2 from = (x - Vec2(a, a) - low_).cwiseQuotient(cell_);
   const Vec2 to = (x + Vec2(a, a) - low_).cwiseQuotient(cell_);
   const auto first = [](double place) {
@@ -39,7 +49,6 @@ void Grid::discFractions(const Vec2& x, double a, Edges, BinFractions& fractions
     const Vec2 corner = (low_ + cell_.cwiseProduct(Vec2(i, j)) - x) / a;
     return quadrantArea(corner.x(), corner.y());
   };
-  double rest = 1.0;
   for (int j = first(from.y()); j <= last(to.y(), ny_); ++j)
     for (int i = first(from.x()); i <= last(to.x(), nx_); ++i) {
       const double area = within(i + 1, j + 1) - within(i, j + 1) - within(i + 1, j) + within(i, j);
@@ -47,6 +56,23 @@ void Grid::discFractions(const Vec2& x, double a, Edges, BinFractions& fractions
       fractions.push_back({slot(i, j), fraction});
       rest -= fraction;
     }
+}
+
+void Grid::discFractions(const Vec2& x, double a, Edges, BinFractions& fractions) const {
+  fractions.assign(1, {0, 0.0});
+  // The images that reach the grid; without a period the disk itself.
+  const Vec2 size = cell_.cwiseProduct(Vec2(nx_, ny_));
+  std::array<double, 2> first{}, last{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto d = static_cast<Eigen::Index>(k);
+    if (!(period_[d] > 0.0)) continue;
+    first[k] = std::ceil((low_[d] - a - x[d]) / period_[d]);
+    last[k] = std::floor((low_[d] + size[d] + a - x[d]) / period_[d]);
+  }
+  double rest = 1.0;
+  for (double j = first[1]; j <= last[1]; ++j)
+    for (double i = first[0]; i <= last[0]; ++i)
+      addFractions(x + period_.cwiseProduct(Vec2(i, j)), a, fractions, rest);
   fractions.front().fraction = std::max(rest, 0.0);
 }
 

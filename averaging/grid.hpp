@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "adapters/scene.hpp"
 #include "averaging/coordinates.hpp"
 
 namespace crossgrain::inline averaging {
@@ -10,8 +13,10 @@ namespace crossgrain::inline averaging {
 class Grid : public Coordinates {
  public:
   /// @param low, high  corners [m]  @param height h of the disks [m]
+  /// @param box  the scene's, if it has one: along its periodic directions places are of any image
   /// @throws std::invalid_argument naming the value that is out of range
-  Grid(const Vec2& low, const Vec2& high, int nx, int ny, double height);
+  Grid(const Vec2& low, const Vec2& high, int nx, int ny, double height,
+       const std::optional<BoxOf<2>>& box = {});
 
   std::size_t slot(int i, int j) const { return static_cast<std::size_t>(1 + i + nx_ * j); }
 
@@ -26,13 +31,18 @@ class Grid : public Coordinates {
   double volume(std::size_t) const override { return cell_.prod() * height_; }
   std::size_t slotAt(const Vec2& x) const override;
   Vec2 firstDirection(const Vec2&) const override { return Vec2::UnitX(); }
-  /// Straight edges are exact here: both kinds of cut are one.
+  /// Straight edges are exact here: both kinds of cut are one. What sticks out of a periodic side
+  /// counts inside the other.
   void discFractions(const Vec2& x, double a, Edges edges, BinFractions& fractions) const override;
 
  private:
+  /// Appends those of one image, and takes them off the rest.
+  void addFractions(const Vec2& x, double a, BinFractions& fractions, double& rest) const;
+
   Vec2 low_, cell_;
   int nx_, ny_;
   double height_;
+  Vec2 period_ = Vec2::Zero();  ///< 0 along what is not periodic [m]
 };
 
 }  // namespace crossgrain::inline averaging

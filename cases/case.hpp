@@ -283,10 +283,10 @@ struct RegionNumber {
 };
 
 /// Of disks with their centres in the averaged part, or, of contacts, of the whole scene.
-std::span<const RegionNumber> regionNumbers();
+std::span<const RegionNumber> regionNumbers(int dimension = 2);
 
 /// Of one disk, wherever it is.
-std::span<const RegionNumber> diskNumbers();
+std::span<const RegionNumber> diskNumbers(int dimension = 2);
 
 struct Average {
   Region region;

@@ -132,7 +132,7 @@ const std::array switchables = {
 }  // namespace
 
 Effects effectsOf(const Case& setup) {
-  return effectsOf(unplacedScene(setup, 0.0));
+  return inDimensionOf(setup, [&]<int D>() { return effectsOf(unplacedScene<D>(setup, 0.0)); });
 }
 
 std::vector<EffectSwitch> effectSwitches(const Case& setup) {

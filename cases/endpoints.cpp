@@ -59,35 +59,83 @@ EndpointSpec endpointSpec(const Case& setup, std::string_view name) {
   return endpointSpec(name);
 }
 
-std::span<const RegionNumber> regionNumbers() {
-  static constexpr std::array<RegionNumber, 12> numbers = {{
-      {"kinetic_energy", "J", "Σ ½ m v² + ½ J ω² of all disks"},
-      {"max_overlap", "m", "largest overlap of all contacts", true},
-      {"mean_overlap", "m", "mean overlap of all contacts", true},
-      {"sliding_fraction", "-", "share of all contacts at the Coulomb bound", true},
-      {"disks", "-", "disks with their centres in the averaged part"},
-      {"top", "m", "highest point of those disks above the lower edge of the averaged box"},
-      {"mean_x", "m", "x of their centre of mass"},
-      {"mean_y", "m", "y of their centre of mass above the lower edge of the averaged box"},
-      {"rms_x", "m", "their spread about it along x, √(Σ m (x − x̄)² / Σ m)"},
-      {"rms_y", "m", "their spread about it along y"},
+std::span<const RegionNumber> regionNumbers(int dimension) {
+  static constexpr RegionNumber energy = {"kinetic_energy", "J", "Σ ½ m v² + ½ J ω² of all disks"},
+                                largest = {"max_overlap", "m", "largest overlap of all contacts",
+                                           true},
+                                mean = {"mean_overlap", "m", "mean overlap of all contacts", true},
+                                sliding = {"sliding_fraction", "-",
+                                           "share of all contacts at the Coulomb bound", true},
+                                disks = {"disks", "-",
+                                         "disks with their centres in the averaged part"},
+                                top = {"top", "m",
+                                       "highest point of those disks above the lower edge of the "
+                                       "averaged box"},
+                                x = {"mean_x", "m", "x of their centre of mass"},
+                                spreadX = {"rms_x", "m",
+                                           "their spread about it along x, √(Σ m (x − x̄)² / Σ m)"},
+                                spreadY = {"rms_y", "m", "their spread about it along y"};
+  // Of two walls across the one direction in which a box is not periodic (averaging/global.hpp).
+  static constexpr RegionNumber normal = {"wall_normal_stress", "N/m²",
+                                          "force that pushes the lowest and the highest wall of a "
+                                          "periodic box apart, over their area"},
+                                shear = {
+                                    "wall_shear_stress", "N/m²",
+                                    "force along them with which they shear what is between, "
+                                    "over their area; above 0 where the high one goes forward"};
+  static constexpr std::array inPlane = {
+      energy, largest, mean, sliding, disks, top, x,
+      RegionNumber{"mean_y", "m",
+                   "y of their centre of mass above the lower edge of the averaged box"},
+      spreadX, spreadY,
       // A triangle of base 2W and height H has ȳ = H/3 and rms_x² = W²/6, so H/W = 3ȳ/(√6 rms_x).
-      {"heap_slope", "-", "slope H/W = 3 ȳ/(√6 rms_x) of the triangle with their moments"},
-      {"flank_slope", "-",
-       "mean steepness of two straight lines, each through the highest centres in 8 equal strips "
-       "of a flank, from 0.1 to 0.5 of the way from the middle of the averaged part to its sides"},
-  }};
-  return numbers;
+      RegionNumber{"heap_slope", "-",
+                   "slope H/W = 3 ȳ/(√6 rms_x) of the triangle with their moments"},
+      RegionNumber{
+          "flank_slope", "-",
+          "mean steepness of two straight lines, each through the highest centres in 8 equal "
+          "strips of a flank, from 0.1 to 0.5 of the way from the middle of the averaged part to "
+          "its sides"},
+      normal, shear};
+  static constexpr std::array inSpace = {
+      energy,
+      largest,
+      mean,
+      sliding,
+      disks,
+      top,
+      x,
+      RegionNumber{"mean_y", "m", "y of their centre of mass"},
+      RegionNumber{"mean_z", "m",
+                   "z of their centre of mass above the lower edge of the averaged part"},
+      spreadX,
+      spreadY,
+      RegionNumber{"rms_z", "m", "their spread about it along z"},
+      normal,
+      shear};
+  if (dimension == 3) return inSpace;
+  return inPlane;
 }
 
-std::span<const RegionNumber> diskNumbers() {
-  static constexpr std::array<RegionNumber, 5> numbers = {
-      {{"x", "m", "x of a disk's centre"},
-       {"y", "m", "y of a disk's centre"},
-       {"velocity_x", "m/s", "x of a disk's velocity"},
-       {"velocity_y", "m/s", "y of a disk's velocity"},
-       {"spin", "rad/s", "angular velocity of a disk, counter-clockwise"}}};
-  return numbers;
+std::span<const RegionNumber> diskNumbers(int dimension) {
+  static constexpr RegionNumber x = {"x", "m", "x of a disk's centre"},
+                                y = {"y", "m", "y of a disk's centre"},
+                                vx = {"velocity_x", "m/s", "x of a disk's velocity"},
+                                vy = {"velocity_y", "m/s", "y of a disk's velocity"};
+  static constexpr std::array inPlane = {
+      x, y, vx, vy, RegionNumber{"spin", "rad/s", "angular velocity of a disk, counter-clockwise"}};
+  static constexpr std::array inSpace = {
+      x,
+      y,
+      RegionNumber{"z", "m", "z of a sphere's centre"},
+      vx,
+      vy,
+      RegionNumber{"velocity_z", "m/s", "z of a sphere's velocity"},
+      RegionNumber{"spin_x", "rad/s", "x of a sphere's angular velocity"},
+      RegionNumber{"spin_y", "rad/s", "y of a sphere's angular velocity"},
+      RegionNumber{"spin_z", "rad/s", "z of a sphere's angular velocity"}};
+  if (dimension == 3) return inSpace;
+  return inPlane;
 }
 
 std::string OwnEndpoint::series() const {

@@ -223,7 +223,7 @@ Quantity quantityOf(const Reader& in, std::string_view key, const std::string& n
     if (field.name == name) return {true, field.unit == "1" ? "-" : std::string(field.unit)};
     known.emplace_back(field.name);
   }
-  for (const RegionNumber& number : regionNumbers()) {
+  for (const RegionNumber& number : regionNumbers(setup.dimension)) {
     if (number.name == name) return {false, std::string(number.unit)};
     known.emplace_back(number.name);
   }
@@ -231,9 +231,9 @@ Quantity quantityOf(const Reader& in, std::string_view key, const std::string& n
 }
 
 /// Of one disk.
-Quantity quantityOfDisk(const Reader& in, const std::string& name) {
+Quantity quantityOfDisk(const Reader& in, const std::string& name, int dimension) {
   std::vector<std::string> known;
-  for (const RegionNumber& number : diskNumbers()) {
+  for (const RegionNumber& number : diskNumbers(dimension)) {
     if (number.name == name) return {false, std::string(number.unit)};
     known.emplace_back(number.name);
   }
@@ -345,13 +345,11 @@ OwnEndpoint readEndpoint(Reader& in, const Case& c, Margin& margin) {
   EndpointInput input;
   endpointsKeys().read(in, input);
   OwnEndpoint endpoint = input;
-  in.check(c.dimension == 2 || !endpoint.disk, "disk",
-           "is of the plane alone, and case.dimension = 3");
   if (endpoint.disk) {
     const auto last = static_cast<int>(disksOf(c)) - 1;
     in.check(*endpoint.disk <= last, "disk", "must be in [0, {}]", last);
   }
-  const Quantity quantity = endpoint.disk ? quantityOfDisk(in, endpoint.quantity)
+  const Quantity quantity = endpoint.disk ? quantityOfDisk(in, endpoint.quantity, c.dimension)
                                           : quantityOf(in, "quantity", endpoint.quantity, c);
   setReduction(in, input, region, quantity.isField, endpoint);
   margin = marginOf(in, input, {endpoint.name, ""}, nullptr);

@@ -183,10 +183,10 @@ class Contacts:
 
     i: np.ndarray  #: id of the first, a disk
     j: np.ndarray  #: id of the second
-    normal: np.ndarray  #: (contacts, 2): unit vector from j to i
+    normal: np.ndarray  #: (contacts, 2), in space (contacts, 3): unit vector from j to i
     overlap: np.ndarray  #: > 0 where they overlap [m]
     normal_force: np.ndarray  #: on i along the normal, > 0 pushes [N]
-    tangential_force: np.ndarray  #: on i along z × normal [N]
+    tangential_force: np.ndarray  #: on i along z × normal; in space the vector, (contacts, 3) [N]
     sliding: np.ndarray = None  #: whether at the Coulomb bound; None: not known
     rolling_torque: np.ndarray = None  #: of rolling resistance on i, the opposite on j [N m]; None: there is none
     dissipation: np.ndarray = None  #: power turned into heat [W]; None: not known
@@ -196,19 +196,26 @@ class Contacts:
 
     @property
     def tangent(self):
-        """(contacts, 2): z × normal, the normal turned counter-clockwise by 90°."""
+        """(contacts, 2): z × normal, the normal turned counter-clockwise by 90°; of the plane alone."""
         return np.stack([-self.normal[:, 1], self.normal[:, 0]], axis=1)
 
     @property
     def force(self):
-        """(contacts, 2): on i; the opposite acts on j [N]."""
-        return self.normal_force[:, None] * self.normal + self.tangential_force[:, None] * self.tangent
+        """(contacts, 2 or 3): on i; the opposite acts on j [N]."""
+        along = self.normal_force[:, None] * self.normal
+        if self.normal.shape[1] == 3:
+            return along + self.tangential_force
+        return along + self.tangential_force[:, None] * self.tangent
 
     @property
     def transmits(self):
         """Which of the pairs pass a force or torque on: contacts, as crossgrain counts them."""
-        carries = (self.normal_force != 0.0) | (self.tangential_force != 0.0)
-        return carries if self.rolling_torque is None else carries | (self.rolling_torque != 0.0)
+
+        def some(values):
+            return (values != 0.0).reshape(len(self), -1).any(axis=1)
+
+        carries = some(self.normal_force) | some(self.tangential_force)
+        return carries if self.rolling_torque is None else carries | some(self.rolling_torque)
 
 
 @dataclasses.dataclass
@@ -219,17 +226,17 @@ class Snapshot:
     velocity_time: float  #: [s]
     contact_time: float  #: of contacts and forces on walls [s]
     contact_interval: float  #: > 0: forces are means over so long before contact_time [s]
-    position: np.ndarray  #: (disks, 2) [m]
-    velocity: np.ndarray  #: (disks, 2) [m/s]
-    spin: np.ndarray  #: counter-clockwise positive [rad/s]; None: nothing spins
-    wall_position: np.ndarray  #: (wall disks, 2) [m]; None: the file has none
+    position: np.ndarray  #: (disks, 2), in space (spheres, 3) [m]
+    velocity: np.ndarray  #: likewise [m/s]
+    spin: np.ndarray  #: counter-clockwise positive, in space (spheres, 3) [rad/s]; None: nothing spins
+    wall_position: np.ndarray  #: (wall disks, 2 or 3) [m]; None: the file has none
     contacts: Contacts  #: None: the file has none
     #: centre [m], velocity [m/s], angle [rad], angular_velocity [rad/s], force [N], torque [N m] of wall bodies; None: the file has none
     bodies: dict
     energies: dict  #: kinetic and elastic [J]; None: not known
 
     def centres(self):
-        """(disks + wall disks, 2): centres by id [m]."""
+        """(disks + wall disks, 2 or 3): centres by id [m]."""
         return self.position if self.wall_position is None else np.concatenate([self.position, self.wall_position])
 
 
@@ -243,6 +250,7 @@ class Snapshots:
         self.engine = self._file.attrs.get("engine", pathlib.Path(path).stem)  #: who made them
         if isinstance(self.engine, bytes):
             self.engine = self.engine.decode()
+        self.dimension = int(self._file.attrs.get("dimension", 2))  #: 3: spheres in space
         self.radius = self._file["disks/radius"][:]  #: of the disks [m]
         self.mass = self._file["disks/mass"][:]  #: [kg]
         self.inertia = self._optional("disks/inertia")  #: moments of inertia [kg m²]; None: not in the file
@@ -284,7 +292,7 @@ class Snapshots:
             position=group["position"][:],
             velocity=group["velocity"][:],
             spin=self._optional(f"{at}/spin"),
-            wall_position=None if walls is None else walls.reshape(-1, 2),
+            wall_position=None if walls is None else walls.reshape(-1, self.dimension),
             contacts=self._contacts(f"{at}/contacts"),
             bodies={name: values[:] for name, values in group["bodies"].items()} if "bodies" in group else None,
             energies=None if energies is None else dict(zip(("kinetic", "elastic"), energies)),
@@ -296,7 +304,7 @@ class Snapshots:
         names = ("i", "j", "normal", "overlap", "normal_force", "tangential_force")
         optional = ("sliding", "rolling_torque", "dissipation")
         columns = {name: self._file[f"{at}/{name}"][:] for name in names}
-        columns["normal"] = columns["normal"].reshape(-1, 2)
+        columns["normal"] = columns["normal"].reshape(-1, self.dimension)
         columns |= {name: self._optional(f"{at}/{name}") for name in optional}
         if columns["sliding"] is not None:
             columns["sliding"] = columns["sliding"] != 0

@@ -64,11 +64,12 @@ struct FlowAveraging {
 /// The averaged part of a case that is no Couette cell (cases/case.hpp).
 struct RegionRow {
   std::string bins;             ///< "rings", "slabs", "grid" or "whole"
-  std::string along;            ///< of slabs: "x" or "y"
+  std::string along;            ///< of slabs: "x", "y" or "z"
   double height = 1.0;          ///< of the disks [m]
   double diameter = 0.0;        ///< d, of the smallest disks [m]
   std::size_t disks = 0;        ///< in the scene
   std::vector<double> x, y;     ///< of the bins' centres; empty for rings [m]
+  std::vector<double> z;        ///< likewise, in space alone; also of rings
   double from = 0.0, to = 0.0;  ///< averaged [s]
 
   void fields(auto& io) {
@@ -79,6 +80,7 @@ struct RegionRow {
     io("disks", disks);
     io("x", x);
     io("y", y);
+    io.when(!z.empty(), "z", z);
     io("from_s", from);
     io("to_s", to);
   }

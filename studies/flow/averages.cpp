@@ -1,41 +1,64 @@
 #include "studies/flow/averages.hpp"
 
+#include <array>
 #include <span>
 
 #include "averaging/global.hpp"
 #include "averaging/grid.hpp"
 #include "averaging/regime.hpp"
 #include "averaging/rings.hpp"
+#include "averaging/space_rings.hpp"
 #include "cases/couette.hpp"
 #include "cases/flow.hpp"
 #include "studies/flow/run.hpp"
 #include "studies/flow/summary.hpp"
-#include "support/bad_input.hpp"
 
 namespace crossgrain::inline studies {
 
-std::shared_ptr<const Coordinates> binsOf(const Case& setup) {
+template <>
+std::shared_ptr<const Coordinates> coordinatesOf<2>(const Case& setup,
+                                                    const std::optional<BoxOf<2>>& box) {
   if (!setup.average) return std::make_shared<Rings>(ringsOf(setup));
   const Region& region = setup.average->region;
   if (region.hasRings())
     return std::make_shared<Rings>(region.innerRadius, region.outerRadius, region.count,
                                    region.height, flowDiameter(setup));
   return std::make_shared<Grid>(region.low.head<2>(), region.high.head<2>(), region.columnCount(),
-                                region.rowCount(), region.height);
+                                region.rowCount(), region.height, box);
+}
+
+template <>
+std::shared_ptr<const SpaceBins> coordinatesOf<3>(const Case& setup,
+                                                  const std::optional<BoxOf<3>>& box) {
+  const Region& region = setup.average.value().region;
+  if (region.hasRings())
+    return std::make_shared<SpaceRings>(region.innerRadius, region.outerRadius, region.count,
+                                        region.low.z(), region.high.z(), region.layers, box);
+  std::array<int, 3> count = {region.columns, region.rows, region.layers};
+  const bool inLine = region.bins == BinKind::slabs;
+  if (inLine) count[static_cast<std::size_t>(region.axis)] = region.count;
+  return std::make_shared<Cells>(region.low, region.high, count, box,
+                                 inLine ? std::optional(region.axis) : std::nullopt);
+}
+
+std::shared_ptr<const BinSet> binsOf(const Case& setup) {
+  if (setup.dimension == 3) return coordinatesOf<3>(setup);
+  return coordinatesOf<2>(setup);
 }
 
 template <>
 std::unique_ptr<FlowAverages> flowAverages(const Case& setup, const Scene& scene) {
-  if (setup.average) return std::make_unique<RegionAverages>(setup, scene);
+  if (setup.average) return std::make_unique<RegionAverages<2>>(setup, scene);
   return std::make_unique<CouetteAverages>(setup, scene);
 }
 
 template <>
-std::unique_ptr<FlowAveragesOf<3>> flowAverages(const Case& setup, const SpaceScene&) {
-  throw BadInput(setup.file.string() + ": nothing is averaged in space yet");
+std::unique_ptr<FlowAveragesOf<3>> flowAverages(const Case& setup, const SpaceScene& scene) {
+  return std::make_unique<RegionAverages<3>>(setup, scene);
 }
 
-void addGlobalNumbers(RunSeries& rows, const Scene& scene, const Snapshot& now) {
+template <int D>
+void addGlobalNumbers(RunSeries& rows, const SceneOf<D>& scene, const SnapshotOf<D>& now) {
   const GlobalNumbers numbers = globalNumbers(scene, now);
   rows["t_s"].push_back(now.positionTime);
   rows["kinetic_energy"].push_back(numbers.kineticEnergy);
@@ -51,8 +74,11 @@ void addGlobalNumbers(RunSeries& rows, const Scene& scene, const Snapshot& now) 
     rows["energy_" + std::string(term.name)].push_back(*now.ledger.*term.value);
   rows["energy_residual"].push_back(residual(*now.ledger));
 }
+template void addGlobalNumbers(RunSeries&, const Scene&, const Snapshot&);
+template void addGlobalNumbers(RunSeries&, const SpaceScene&, const SpaceSnapshot&);
 
-std::optional<FlowRun> ProfileAverages::without(std::size_t k, std::size_t n) const {
+template <int D>
+std::optional<FlowRun> ProfileAveragesOf<D>::without(std::size_t k, std::size_t n) const {
   const auto part = profiles_.part(k, n);
   if (!part) return std::nullopt;
   FlowRun run;
@@ -64,9 +90,11 @@ std::optional<FlowRun> ProfileAverages::without(std::size_t k, std::size_t n) co
   run.head = {{"coordination", "-", meanOf(valuesOf(*run.series, "coordination")), {}, {}}};
   return run;
 }
+template class ProfileAveragesOf<2>;
+template class ProfileAveragesOf<3>;
 
 CouetteAverages::CouetteAverages(const Case& setup, const Scene& scene)
-    : ProfileAverages({ringsOf(setup), weightsOf(setup, setup.averaging.methods), scene}),
+    : ProfileAveragesOf({ringsOf(setup), weightsOf(setup, setup.averaging.methods), scene}),
       setup_(setup),
       scene_(scene),
       distributions_(ringsOf(setup), scene, distributionScales(setup)),

@@ -18,7 +18,13 @@
 namespace crossgrain::inline studies {
 
 /// The bins that a case averages over: its rings, or what [average] says.
-std::shared_ptr<const Coordinates> binsOf(const Case& setup);
+/// @param box  the scene's; without it bins are the same but for what lies beyond periodic sides
+template <int D>
+std::shared_ptr<const typename ProfileAccumulatorOf<D>::Coordinates> coordinatesOf(
+    const Case& setup, const std::optional<BoxOf<D>>& box = {});
+
+/// Those of a case of either dimension: how many there are, and how large.
+std::shared_ptr<const BinSet> binsOf(const Case& setup);
 
 /// All that is averaged over the snapshots of one run.
 class RunAverages {
@@ -51,24 +57,26 @@ std::unique_ptr<FlowAveragesOf<D>> flowAverages(const Case& setup, const SceneOf
 
 /// Adds the numbers that any scene has to series: the snapshot's time, kinetic energy, what
 /// contacts show and the engine's ledger, where it keeps one.
-void addGlobalNumbers(RunSeries& rows, const Scene& scene, const Snapshot& now);
+template <int D>
+void addGlobalNumbers(RunSeries& rows, const SceneOf<D>& scene, const SnapshotOf<D>& now);
 
 /// Profiles and series, which all averages have.
-class ProfileAverages : public FlowAverages {
+template <int D>
+class ProfileAveragesOf : public FlowAveragesOf<D> {
  public:
   std::size_t snapshots() const override { return profiles_.snapshots(); }
   std::optional<FlowRun> without(std::size_t k, std::size_t n) const override;
 
  protected:
-  explicit ProfileAverages(ProfileAccumulator profiles) : profiles_(std::move(profiles)) {}
+  explicit ProfileAveragesOf(ProfileAccumulatorOf<D> profiles) : profiles_(std::move(profiles)) {}
 
-  ProfileAccumulator profiles_;
+  ProfileAccumulatorOf<D> profiles_;
   RunSeries series_;
 };
 
 /// All that is averaged over the snapshots of a Couette cell, whether they come from an engine or
 /// from a file.
-class CouetteAverages : public ProfileAverages {
+class CouetteAverages : public ProfileAveragesOf<2> {
  public:
   /// Both outlive it. The scene has the Couette cell's two bodies.
   CouetteAverages(const Case& setup, const Scene& scene);
@@ -87,23 +95,28 @@ class CouetteAverages : public ProfileAverages {
 };
 
 /// What is averaged of an assembly: profiles over the bins of its region; and series of the region,
-/// of the whole scene and of those disks that endpoints ask for (cases/case.hpp).
-class RegionAverages : public ProfileAverages {
+/// of the whole scene and of those disks that endpoints ask for (cases/case.hpp). Along a periodic
+/// direction nothing has a centre of mass.
+template <int D>
+class RegionAverages : public ProfileAveragesOf<D> {
  public:
   /// Both outlive it.
-  RegionAverages(const Case& setup, const Scene& scene);
+  RegionAverages(const Case& setup, const SceneOf<D>& scene);
 
-  void add(const Snapshot& snapshot) override;
+  void add(const SnapshotOf<D>& snapshot) override;
   void describe(const EffectiveParameters& effective, FlowRun& run) const override;
 
  private:
-  void addMoments(const Snapshot& now);
-  void addDisks(const Snapshot& now);
-  void addFlanks(const Snapshot& now);
+  void addMoments(const SnapshotOf<D>& now);
+  void addWalls(const SnapshotOf<D>& now);
+  void addDisks(const SnapshotOf<D>& now);
+  void addFlanks(const SnapshotOf<D>& now);
 
+  using ProfileAveragesOf<D>::profiles_;
+  using ProfileAveragesOf<D>::series_;
   const Case& setup_;
-  const Scene& scene_;
-  std::shared_ptr<const Coordinates> bins_;
+  const SceneOf<D>& scene_;
+  std::shared_ptr<const typename ProfileAccumulatorOf<D>::Coordinates> bins_;
 };
 
 }  // namespace crossgrain::inline studies

@@ -106,9 +106,9 @@ const Formula& formulaOf(std::string_view endpoint) {
 }
 
 /// What a field, or a number of regionNumbers() or diskNumbers(), is made of.
-Needs needsOf(const std::string& quantity, bool ofDisk) {
-  if (ofDisk) return quantity == "spin" ? Needs::spin : Needs::kinematics;
-  const auto numbers = regionNumbers();
+Needs needsOf(const std::string& quantity, bool ofDisk, int dimension) {
+  if (ofDisk) return quantity.starts_with("spin") ? Needs::spin : Needs::kinematics;
+  const auto numbers = regionNumbers(dimension);
   const auto found = std::ranges::find(numbers, quantity, &RegionNumber::name);
   if (found == numbers.end()) return fieldSpec(quantity).needs;
   return found->ofContacts ? Needs::contacts : Needs::kinematics;
@@ -176,7 +176,7 @@ std::string notInFiles(const EndpointSpec& endpoint, const Case& setup, const Fl
   if (!own) return lackOf(formulaOf(endpoint.name).needs, run);
   for (const std::string& quantity : {own->quantity, own->per}) {
     if (quantity.empty()) continue;
-    std::string lack = lackOf(needsOf(quantity, own->disk.has_value()), run);
+    std::string lack = lackOf(needsOf(quantity, own->disk.has_value(), setup.dimension), run);
     if (!lack.empty()) return lack;
     const bool ofSliding = quantity == "sliding_fraction" && run.series;
     if (ofSliding && presentNumbers(valuesOf(*run.series, quantity)).empty())

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "averaging/grid.hpp"
+#include "averaging/space_rings.hpp"
 #include "cases/effect_switch.hpp"
 #include "cases/flow.hpp"
 #include "studies/core/study.hpp"
@@ -14,7 +15,7 @@ namespace crossgrain::inline studies {
 
 namespace {
 
-CouetteCell cellOf(const Case& setup, const std::vector<double>& radii) {
+CouetteCell cellOf(const Case& setup, std::span<const double> radii) {
   const Cell& cell = setup.cell;
   const auto small =
       static_cast<std::size_t>(std::ranges::count(radii, setup.particles.smallRadius));
@@ -39,15 +40,27 @@ RegionRow regionOf(const Case& setup, std::size_t disks) {
   const Region& region = setup.average->region;
   RegionRow row;
   row.bins = binKindNames[static_cast<std::size_t>(region.bins)];
-  if (region.bins == BinKind::slabs) row.along = region.axis == 0 ? "x" : "y";
+  if (region.bins == BinKind::slabs)
+    row.along = std::string_view("xyz").substr(static_cast<std::size_t>(region.axis), 1);
   row.height = region.height;
   row.diameter = flowDiameter(setup);
   row.disks = disks;
-  if (const auto* grid = dynamic_cast<const Grid*>(binsOf(setup).get()))
+  const auto bins = binsOf(setup);
+  if (const auto* grid = dynamic_cast<const Grid*>(bins.get()))
     for (int cell = 0; cell < grid->cells(); ++cell) {
       row.x.push_back(grid->centre(cell).x());
       row.y.push_back(grid->centre(cell).y());
     }
+  if (const auto* cells = dynamic_cast<const Cells*>(bins.get()))
+    for (int cell = 0; cell < cells->cells(); ++cell) {
+      const Vec3 centre = cells->centre(cell);
+      row.x.push_back(centre.x());
+      row.y.push_back(centre.y());
+      row.z.push_back(centre.z());
+    }
+  if (const auto* rings = dynamic_cast<const SpaceRings*>(bins.get()))
+    for (int bin = 0; bin < rings->rings().count() * rings->layers().count(); ++bin)
+      row.z.push_back(rings->layers().centre(bin / rings->rings().count()));
   const FlowTimes times = flowTimes(setup);
   row.from = times.settled;
   row.to = times.end();
@@ -84,24 +97,43 @@ RingPlaces placesOf(const Rings& rings) {
   return places;
 }
 
+namespace {
+
+/// Where bins lie one after the other: in space rings count layer by layer. NaN: in no line [m].
+std::vector<double> alongOf(const BinSet& bins, const Region& region) {
+  std::vector<double> along;
+  if (const auto* rings = dynamic_cast<const SpaceRings*>(&bins))
+    for (int bin = 0; bin < rings->rings().count() * rings->layers().count(); ++bin)
+      along.push_back(rings->rings().centre(bin % rings->rings().count()));
+  const bool inLine = region.bins == BinKind::slabs;
+  const auto add = [&](const auto& cells) {
+    for (int cell = 0; cell < cells.cells(); ++cell)
+      along.push_back(inLine ? cells.centre(cell)[region.axis] : NAN);
+  };
+  if (const auto* cells = dynamic_cast<const Cells*>(&bins)) add(*cells);
+  if (const auto* grid = dynamic_cast<const Grid*>(&bins)) add(*grid);
+  return along;
+}
+
+}  // namespace
+
 RingPlaces placesOf(const Case& setup) {
   if (!setup.average) return placesOf(ringsOf(setup));
   const Region& region = setup.average->region;
-  if (region.hasRings()) return placesOf(dynamic_cast<const Rings&>(*binsOf(setup)));
-  const Grid& grid = dynamic_cast<const Grid&>(*binsOf(setup));
-  const bool inLine = region.bins == BinKind::slabs;
+  const auto bins = binsOf(setup);
+  if (const auto* rings = dynamic_cast<const Rings*>(bins.get())) return placesOf(*rings);
+  const bool rings = region.hasRings(), inLine = region.bins == BinKind::slabs;
+  const double low = rings ? region.innerRadius : region.low[region.axis];
+  const double high = rings ? region.outerRadius : region.high[region.axis];
   RingPlaces places;
-  for (int cell = 0; cell < grid.cells(); ++cell) {
-    const double along = inLine ? grid.centre(cell)[region.axis] : NAN;
-    places.r.push_back(along);
-    places.rTilde.push_back((along - region.low[region.axis]) / flowDiameter(setup));
-  }
-  if (inLine) places.width = (region.high - region.low)[region.axis] / region.count;
+  places.r = alongOf(*bins, region);
+  for (const double place : places.r) places.rTilde.push_back((place - low) / flowDiameter(setup));
+  if (rings || inLine) places.width = (high - low) / region.count;
   return places;
 }
 
 FlowFrame couetteFrame(std::string_view kind, const Case& setup, const std::string& command,
-                       const std::vector<double>& radii) {
+                       std::span<const double> radii) {
   FlowFrame frame;
   frame.head = headOf(kind, setup, command);
   if (setup.average)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -15,9 +16,15 @@ RingPlaces placesOf(const Rings& rings);
 /// Of the case's bins: of slabs the coordinate along which they lie, and of a grid none.
 RingPlaces placesOf(const Case& setup);
 
-/// What results say of a Couette case whatever is done with it.
-/// @param radii  of the disks of one packing [m]
+/// What results say of a case whatever is done with it.
+/// @param radii  of one packing's disks
 FlowFrame couetteFrame(std::string_view kind, const Case& setup, const std::string& command,
-                       const std::vector<double>& radii);
+                       std::span<const double> radii);
+
+template <int D>
+FlowFrame couetteFrame(std::string_view kind, const Case& setup, const std::string& command,
+                       const DisksOf<D>& disks) {
+  return couetteFrame(kind, setup, command, disks.radius);
+}
 
 }  // namespace crossgrain::inline studies

@@ -89,8 +89,8 @@ Value whenAt(const Points& points, double level) {
   return {};
 }
 
-bool isOfContacts(const std::string& quantity) {
-  const auto numbers = regionNumbers();
+bool isOfContacts(const std::string& quantity, int dimension) {
+  const auto numbers = regionNumbers(dimension);
   const auto found = std::ranges::find(numbers, quantity, &RegionNumber::name);
   return found != numbers.end() && found->ofContacts;
 }
@@ -122,7 +122,7 @@ OwnValue ofSeries(const std::string& quantity, const OwnEndpoint& how, const Cas
   if (!run.series) return {};
   const std::string name = how.disk ? how.series() : quantity;
   // A disk's velocity may be of another instant than its place.
-  const bool ofVelocity = how.disk && quantity != "x" && quantity != "y";
+  const bool ofVelocity = how.disk && quantity != "x" && quantity != "y" && quantity != "z";
   const Numbers& values = valuesOf(*run.series, name);
   const Numbers& times = valuesOf(*run.series, ofVelocity ? "velocity_t_s" : "t_s");
   Points points;
@@ -148,8 +148,8 @@ OwnValue ofSeries(const std::string& quantity, const OwnEndpoint& how, const Cas
   const std::size_t absent = all - points.t.size();
   const bool extreme = how.reduction == Reduction::maximum || how.reduction == Reduction::minimum;
   const bool gap = static_cast<double>(absent) > mostMissing * static_cast<double>(all);
-  if (points.t.empty() ||
-      (gap && !(extreme && isOfContacts(quantity)) && how.reduction != Reduction::end))
+  if (points.t.empty() || (gap && !(extreme && isOfContacts(quantity, setup.dimension)) &&
+                           how.reduction != Reduction::end))
     return {{}, missing("no " + name, absent, all)};
   switch (how.reduction) {
     case Reduction::end:
@@ -194,7 +194,7 @@ OwnValue ofField(const std::string& field, const OwnEndpoint& how, const Case& s
 
 OwnValue reduced(const std::string& quantity, const OwnEndpoint& how, const Case& setup,
                  const FlowRun& run) {
-  const auto numbers = regionNumbers();
+  const auto numbers = regionNumbers(setup.dimension);
   if (how.disk || std::ranges::find(numbers, quantity, &RegionNumber::name) != numbers.end())
     return ofSeries(quantity, how, setup, run);
   return ofField(quantity, how, setup, run);

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <string_view>
 
+#include "averaging/global.hpp"
 #include "cases/flow.hpp"
 #include "cases/time_step.hpp"
 #include "studies/flow/run.hpp"
@@ -13,53 +15,88 @@
 
 namespace crossgrain::inline studies {
 
-void RegionAverages::addDisks(const Snapshot& now) {
+namespace {
+
+constexpr std::string_view axes = "xyz";
+
+/// "y" or "velocity_y": the component that a name ends in.
+Eigen::Index componentOf(std::string_view name) {
+  return static_cast<Eigen::Index>(axes.find(name.back()));
+}
+
+}  // namespace
+
+template <int D>
+void RegionAverages<D>::addDisks(const SnapshotOf<D>& now) {
   std::set<std::string> added;  // two endpoints may share a column
   for (const OwnEndpoint& own : setup_.average->endpoints) {
     if (!own.disk || !added.insert(own.series()).second) continue;
     const auto i = static_cast<std::size_t>(*own.disk);
     Numbers& row = series_[own.series()];
-    if (own.quantity == "spin")
-      row.push_back(now.spin ? std::optional((*now.spin)[i]) : std::nullopt);
-    else {
-      const Vec2& pair = own.quantity.starts_with("velocity") ? now.velocity[i] : now.position[i];
-      row.push_back(own.quantity.ends_with("y") ? pair.y() : pair.x());
+    if (own.quantity.starts_with("spin")) {
+      if (!now.spin)
+        row.emplace_back();
+      else if constexpr (D == 2)
+        row.push_back((*now.spin)[i]);
+      else
+        row.push_back((*now.spin)[i][componentOf(own.quantity)]);
+    } else {
+      const auto& vector = own.quantity.starts_with("velocity") ? now.velocity[i] : now.position[i];
+      row.push_back(vector[componentOf(own.quantity)]);
     }
   }
   if (!added.empty()) series_["velocity_t_s"].push_back(now.velocityTime);
 }
 
-void RegionAverages::addMoments(const Snapshot& now) {
+template <int D>
+void RegionAverages<D>::addMoments(const SnapshotOf<D>& now) {
+  constexpr Eigen::Index up = D - 1;
+  using Vec = VecOf<D>;
   std::vector<std::size_t> inside;
   double mass = 0.0, top = -INFINITY;
-  Vec2 first = Vec2::Zero(), second = Vec2::Zero();
+  Vec first = Vec::Zero(), second = Vec::Zero();
   for (std::size_t i = 0; i < now.position.size(); ++i) {
-    const Vec2& x = now.position[i];
+    const Vec& x = now.position[i];
     if (bins_->isOverflow(bins_->slotAt(x))) continue;
     inside.push_back(i);
     mass += scene_.disks.mass[i];
     first += scene_.disks.mass[i] * x;
-    top = std::max(top, x.y() + scene_.disks.radius[i]);
+    top = std::max(top, x[up] + scene_.disks.radius[i]);
   }
   const bool any = !inside.empty();
-  const Vec2 centre = any ? Vec2(first / mass) : Vec2::Zero();
+  const Vec centre = any ? Vec(first / mass) : Vec::Zero();
   for (const std::size_t i : inside)
     second += scene_.disks.mass[i] * (now.position[i] - centre).cwiseAbs2();
-  const Vec2 rms = any ? Vec2((second / mass).cwiseSqrt()) : Vec2::Zero();
-  const double height = centre.y() - setup_.average->region.low.y();
-  const auto number = [&](const char* name, double value) {
-    series_[name].push_back(any && std::isfinite(value) ? std::optional(value) : std::nullopt);
+  const Vec rms = any ? Vec((second / mass).cwiseSqrt()) : Vec::Zero();
+  const double low = setup_.average->region.low[up];
+  const double height = centre[up] - low;
+  const auto number = [&](const std::string& name, double value, Eigen::Index along) {
+    const bool repeats = scene_.box && scene_.box->periodic[static_cast<std::size_t>(along)];
+    series_[name].push_back(any && !repeats && std::isfinite(value) ? std::optional(value)
+                                                                    : std::nullopt);
   };
   series_["disks"].push_back(static_cast<double>(inside.size()));
-  number("top", top - setup_.average->region.low.y());
-  number("mean_x", centre.x());
-  number("mean_y", height);
-  number("rms_x", rms.x());
-  number("rms_y", rms.y());
-  number("heap_slope", 3.0 * height / (std::sqrt(6.0) * rms.x()));
+  number("top", top - low, up);
+  for (Eigen::Index k = 0; k < D; ++k) {
+    const std::string axis(1, axes[static_cast<std::size_t>(k)]);
+    number("mean_" + axis, k == up ? height : centre[k], k);
+    number("rms_" + axis, rms[k], k);
+  }
+  if constexpr (D == 2) number("heap_slope", 3.0 * height / (std::sqrt(6.0) * rms.x()), 0);
 }
 
-void RegionAverages::addFlanks(const Snapshot& now) {
+template <int D>
+void RegionAverages<D>::addWalls(const SnapshotOf<D>& now) {
+  if (!hasTwoWalls(scene_)) return;
+  const double height = D == 2 ? setup_.average->region.height : 1.0;
+  const auto stresses = wallStresses(scene_, now, height);
+  series_["wall_normal_stress"].push_back(stresses ? std::optional(stresses->normal)
+                                                   : std::nullopt);
+  series_["wall_shear_stress"].push_back(stresses ? std::optional(stresses->shear) : std::nullopt);
+}
+
+template <int D>
+void RegionAverages<D>::addFlanks(const SnapshotOf<D>& now) {
   // As Lethe measures the sandpile of Ai et al. (2011): eight tops from -0.5 to -0.1 m of a box of
   // +-1 m; here of the right flank too, and in any box.
   constexpr int strips = 8;
@@ -69,7 +106,7 @@ void RegionAverages::addFlanks(const Snapshot& now) {
   const double half = 0.5 * (region.high.x() - region.low.x());
   std::array<std::array<double, strips>, 2> tops;
   for (auto& flank : tops) flank.fill(-INFINITY);
-  for (const Vec2& x : now.position) {
+  for (const auto& x : now.position) {
     if (bins_->isOverflow(bins_->slotAt(x))) continue;
     const double way = std::abs(x.x() - middle) / half;
     const int strip = static_cast<int>(std::floor(strips * (way - nearest) / (farthest - nearest)));
@@ -89,16 +126,20 @@ void RegionAverages::addFlanks(const Snapshot& now) {
   series_["flank_slope"].push_back(std::isfinite(slope) ? std::optional(slope) : std::nullopt);
 }
 
-RegionAverages::RegionAverages(const Case& setup, const Scene& scene)
-    : ProfileAverages({binsOf(setup), weightsOf(setup, setup.averaging.methods), scene}),
+template <int D>
+RegionAverages<D>::RegionAverages(const Case& setup, const SceneOf<D>& scene)
+    : ProfileAveragesOf<D>(
+          {coordinatesOf<D>(setup, scene.box), weightsOf(setup, setup.averaging.methods), scene}),
       setup_(setup),
       scene_(scene),
-      bins_(binsOf(setup)) {}
+      bins_(coordinatesOf<D>(setup, scene.box)) {}
 
-void RegionAverages::add(const Snapshot& snapshot) {
+template <int D>
+void RegionAverages<D>::add(const SnapshotOf<D>& snapshot) {
   profiles_.add(snapshot);
   addGlobalNumbers(series_, scene_, snapshot);
   addMoments(snapshot);
+  addWalls(snapshot);
   addDisks(snapshot);
   if (std::ranges::any_of(setup_.average->endpoints, [](const OwnEndpoint& own) {
         return own.quantity == "flank_slope" || own.per == "flank_slope";
@@ -106,7 +147,8 @@ void RegionAverages::add(const Snapshot& snapshot) {
     addFlanks(snapshot);
 }
 
-void RegionAverages::describe(const EffectiveParameters& effective, FlowRun& run) const {
+template <int D>
+void RegionAverages<D>::describe(const EffectiveParameters& effective, FlowRun& run) const {
   run.profiles = profiles_.profiles();
   run.series = series_;
   if (const auto times = run.series->find("velocity_t_s"); times != run.series->end())
@@ -126,5 +168,8 @@ void RegionAverages::describe(const EffectiveParameters& effective, FlowRun& run
   if (const auto contact = pairContactTime(setup_); contact && effective.dt > 0.0)
     add("dt_over_tc", effective.dt / *contact);
 }
+
+template class RegionAverages<2>;
+template class RegionAverages<3>;
 
 }  // namespace crossgrain::inline studies

@@ -33,15 +33,6 @@ std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> na
   return weights;
 }
 
-/// In space none are kept yet.
-struct NoSnapshotFile {
-  NoSnapshotFile(const std::filesystem::path&, const std::string&, const SpaceScene&, int, int) {}
-  void offer(const SpaceSnapshot&, int) {}
-  void close() {}
-};
-template <int D>
-using KeptSnapshots = std::conditional_t<D == 2, SnapshotFile, NoSnapshotFile>;
-
 template <int D>
 FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& progress,
                    const SnapshotObserverOf<D>& watch) {
@@ -104,7 +95,7 @@ FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& p
     snapshotOf<D>(engine, report);  // starts the first interval
 
   const auto averages = flowAverages(setup, scene);
-  KeptSnapshots<D> kept(task.snapshots, task.entry.name, scene, samples, setup.run.keepSnapshots);
+  SnapshotFileOf<D> kept(task.snapshots, task.entry.name, scene, samples, setup.run.keepSnapshots);
   FlowRun run;
   const double pictureTime = std::min(0.5 * flowUnit(setup), end);
   int taken = 0;

@@ -10,29 +10,43 @@
 namespace crossgrain::inline studies {
 namespace {
 
-void writeVectors(Hdf5File& out, const std::string& path, const std::vector<Vec2>& values) {
-  out.write(path, values.empty() ? nullptr : values.front().data(), values.size(), 2);
+template <int D>
+void writeVectors(Hdf5File& out, const std::string& path, const std::vector<VecOf<D>>& values) {
+  out.write(path, values.empty() ? nullptr : values.front().data(), values.size(), D);
 }
 
-void writeContacts(Hdf5File& out, const std::string& path, const Contacts& contacts) {
+/// What is about the normal of the plane, a number each, or a vector each.
+template <int D>
+void writeSpins(Hdf5File& out, const std::string& path, const std::vector<SpinOf<D>>& values) {
+  if constexpr (D == 2)
+    out.write(path, values);
+  else
+    writeVectors<D>(out, path, values);
+}
+
+template <int D>
+void writeContacts(Hdf5File& out, const std::string& path, const ContactsOf<D>& contacts) {
   out.write(path + "/i", contacts.i);
   out.write(path + "/j", contacts.j);
-  writeVectors(out, path + "/normal", contacts.normal);
+  writeVectors<D>(out, path + "/normal", contacts.normal);
   out.write(path + "/overlap", contacts.overlap);
   out.write(path + "/normal_force", contacts.normalForce);
-  out.write(path + "/tangential_force", contacts.tangentialForce);
+  writeSpins<D>(out, path + "/tangential_force", contacts.tangentialForce);
   if (!contacts.sliding.empty())
     out.write(path + "/sliding",
               std::vector<std::int32_t>(contacts.sliding.begin(), contacts.sliding.end()));
-  if (!contacts.rollingTorque.empty()) out.write(path + "/rolling_torque", contacts.rollingTorque);
+  if (!contacts.rollingTorque.empty())
+    writeSpins<D>(out, path + "/rolling_torque", contacts.rollingTorque);
   if (!contacts.dissipation.empty()) out.write(path + "/dissipation", contacts.dissipation);
 }
 
 /// One row per body; force and torque where every body has them.
-void writeBodies(Hdf5File& out, const std::string& path, const std::vector<BodySnapshot>& bodies) {
-  std::vector<Vec2> centre, velocity, force;
-  std::vector<double> angle, spin, torque;
-  for (const BodySnapshot& body : bodies) {
+template <int D>
+void writeBodies(Hdf5File& out, const std::string& path,
+                 const std::vector<BodySnapshotOf<D>>& bodies) {
+  std::vector<VecOf<D>> centre, velocity, force;
+  std::vector<SpinOf<D>> angle, spin, torque;
+  for (const auto& body : bodies) {
     centre.push_back(body.centre);
     velocity.push_back(body.velocity);
     angle.push_back(body.angle);
@@ -40,21 +54,22 @@ void writeBodies(Hdf5File& out, const std::string& path, const std::vector<BodyS
     if (body.force) force.push_back(*body.force);
     if (body.torque) torque.push_back(*body.torque);
   }
-  writeVectors(out, path + "/centre", centre);
-  out.write(path + "/angle", angle);
-  writeVectors(out, path + "/velocity", velocity);
-  out.write(path + "/angular_velocity", spin);
-  if (force.size() == bodies.size()) writeVectors(out, path + "/force", force);
-  if (torque.size() == bodies.size()) out.write(path + "/torque", torque);
+  writeVectors<D>(out, path + "/centre", centre);
+  writeSpins<D>(out, path + "/angle", angle);
+  writeVectors<D>(out, path + "/velocity", velocity);
+  writeSpins<D>(out, path + "/angular_velocity", spin);
+  if (force.size() == bodies.size()) writeVectors<D>(out, path + "/force", force);
+  if (torque.size() == bodies.size()) writeSpins<D>(out, path + "/torque", torque);
 }
 
-void writeSnapshot(Hdf5File& out, const std::string& group, const Snapshot& now) {
+template <int D>
+void writeSnapshot(Hdf5File& out, const std::string& group, const SnapshotOf<D>& now) {
   out.write(group + "/time",
             std::vector{now.positionTime, now.velocityTime, now.contactTime, now.contactInterval});
-  writeVectors(out, group + "/position", now.position);
-  writeVectors(out, group + "/velocity", now.velocity);
-  if (now.spin) out.write(group + "/spin", *now.spin);
-  writeVectors(out, group + "/wall_position", now.wallPosition);
+  writeVectors<D>(out, group + "/position", now.position);
+  writeVectors<D>(out, group + "/velocity", now.velocity);
+  if (now.spin) writeSpins<D>(out, group + "/spin", *now.spin);
+  writeVectors<D>(out, group + "/wall_position", now.wallPosition);
   if (!now.bodies.empty()) writeBodies(out, group + "/bodies", now.bodies);
   if (now.energies)
     out.write(group + "/energies", std::vector{now.energies->kinetic, now.energies->elastic});
@@ -70,7 +85,9 @@ std::vector<std::int32_t> countedUp(std::size_t count) {
 /// References into one HDF5 file.
 class Items {
  public:
-  explicit Items(const std::string& file) : file_(file) {}
+  Items(const std::string& file, int dimension) : file_(file), dimension_(dimension) {}
+
+  std::string vectors(std::size_t count) const { return fmt::format("{} {}", count, dimension_); }
 
   std::string numbers(const std::string& path, const std::string& size) const {
     return fmt::format(
@@ -84,9 +101,9 @@ class Items {
         R"(          <Topology TopologyType="Polyvertex" NumberOfElements="{0}" NodesPerElement="1">)"
         R"(<DataItem Dimensions="{0} 1" NumberType="Int" Precision="4" Format="HDF">{1}:{2}/index</DataItem></Topology>)"
         "\n"
-        R"(          <Geometry GeometryType="XY">{3}</Geometry>)"
+        R"(          <Geometry GeometryType="{4}">{3}</Geometry>)"
         "\n",
-        count, file_, group, numbers(path, fmt::format("{} 2", count)));
+        count, file_, group, numbers(path, vectors(count)), dimension_ == 3 ? "XYZ" : "XY");
   }
   std::string attribute(const char* name, const char* type, const std::string& path,
                         const std::string& size) const {
@@ -96,8 +113,14 @@ class Items {
         name, type, numbers(path, size));
   }
 
+  /// ParaView has vectors of three numbers alone.
+  std::string vectorAttribute(const char* name, const std::string& path, std::size_t count) const {
+    return attribute(name, dimension_ == 3 ? "Vector" : "Matrix", path, vectors(count));
+  }
+
  private:
   const std::string& file_;
+  int dimension_;
 };
 
 std::string grid(const char* name, const std::string& body) {
@@ -105,12 +128,15 @@ std::string grid(const char* name, const std::string& body) {
                      body);
 }
 
+template <int D>
 std::string disksOf(const Items& items, const std::string& group, std::size_t count, bool spins) {
-  const std::string scalars = fmt::format("{}", count), vectors = fmt::format("{} 2", count);
+  const std::string scalars = fmt::format("{}", count);
   std::string text = items.points("/disks", group + "/position", count);
   text += items.attribute("radius", "Scalar", "/disks/radius", scalars);
-  text += items.attribute("velocity", "Matrix", group + "/velocity", vectors);
-  if (spins) text += items.attribute("spin", "Scalar", group + "/spin", scalars);
+  text += items.vectorAttribute("velocity", group + "/velocity", count);
+  if (spins)
+    text += D == 3 ? items.vectorAttribute("spin", group + "/spin", count)
+                   : items.attribute("spin", "Scalar", group + "/spin", scalars);
   return grid("disks", text);
 }
 
@@ -122,8 +148,9 @@ std::string wallsOf(const Items& items, const std::string& group, std::size_t co
 
 }  // namespace
 
-SnapshotFile::SnapshotFile(std::filesystem::path file, std::string engine, const Scene& scene,
-                           int samples, int keep)
+template <int D>
+SnapshotFileOf<D>::SnapshotFileOf(std::filesystem::path file, std::string engine,
+                                  const SceneOf<D>& scene, int samples, int keep)
     : file_(std::move(file)),
       part_(file_.string() + ".part"),
       engine_(std::move(engine)),
@@ -131,7 +158,8 @@ SnapshotFile::SnapshotFile(std::filesystem::path file, std::string engine, const
       samples_(samples),
       keep_(keep) {}
 
-void SnapshotFile::offer(const Snapshot& snapshot, int k) {
+template <int D>
+void SnapshotFileOf<D>::offer(const SnapshotOf<D>& snapshot, int k) {
   // Kept are those with which ⌊k·keep/samples⌋ grows: evenly spaced, the last one among them.
   const auto count = [&](long long n) { return n * keep_ / samples_; };
   if (count(k) == count(k - 1)) return;
@@ -148,11 +176,13 @@ void SnapshotFile::offer(const Snapshot& snapshot, int k) {
   kept_.push_back({snapshot.positionTime, snapshot.spin.has_value()});
 }
 
-void SnapshotFile::begin() {
+template <int D>
+void SnapshotFileOf<D>::begin() {
   makeDirectory(part_.parent_path());
   std::filesystem::remove(part_);  // of a run that was broken off
   Hdf5File out = Hdf5File::append(part_);
   out.writeAttribute("engine", engine_);
+  if (D == 3) out.writeAttribute("dimension", 3.0);
   out.write("/disks/index", countedUp(scene_.disks.size()));
   out.write("/disks/radius", scene_.disks.radius);
   out.write("/disks/mass", scene_.disks.mass);
@@ -172,9 +202,10 @@ void SnapshotFile::begin() {
 
 /// The XDMF 3 text that describes an HDF5 file of snapshots to ParaView: over time, points with
 /// radius, velocity and spin ("disks") and those of the wall disks ("walls").
-std::string SnapshotFile::xdmf() const {
+template <int D>
+std::string SnapshotFileOf<D>::xdmf() const {
   const std::string file = file_.filename().string();
-  const Items items(file);
+  const Items items(file, D);
   std::string text =
       "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
       "    <Grid Name=\"snapshots\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
@@ -184,14 +215,15 @@ std::string SnapshotFile::xdmf() const {
         "      <Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n"
         "        <Time Value=\"{}\"/>\n",
         group.substr(1), kept_[k].time);
-    text += disksOf(items, group, scene_.disks.size(), kept_[k].spins);
+    text += disksOf<D>(items, group, scene_.disks.size(), kept_[k].spins);
     if (scene_.wallDiskCount() > 0) text += wallsOf(items, group, scene_.wallDiskCount());
     text += "      </Grid>\n";
   }
   return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";
 }
 
-void SnapshotFile::close() {
+template <int D>
+void SnapshotFileOf<D>::close() {
   if (kept_.empty()) return;
   std::error_code error;
   std::filesystem::rename(part_, file_, error);
@@ -199,5 +231,8 @@ void SnapshotFile::close() {
   std::filesystem::path beside = file_;
   writeFile(beside.replace_extension(".xdmf"), xdmf());
 }
+
+template class SnapshotFileOf<2>;
+template class SnapshotFileOf<3>;
 
 }  // namespace crossgrain::inline studies

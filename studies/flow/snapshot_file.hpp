@@ -24,17 +24,18 @@ inline std::string snapshotGroup(std::size_t k) {
 }
 
 /// Writes a few evenly spaced snapshots of a run as HDF5, with an XDMF file beside it that ParaView
-/// opens. They go to NAME.part one by one, which gets its name when the run is over. README.md has
-/// the layout.
-class SnapshotFile {
+/// opens. They go to NAME.part one by one, which gets its name when the run is over. docs/files.md
+/// has the layout; in space vectors and spins have three columns.
+template <int D>
+class SnapshotFileOf {
  public:
   /// @param engine  whose snapshots they are  @param samples  snapshots that will be offered
   /// @param keep  how many of them to keep
-  SnapshotFile(std::filesystem::path file, std::string engine, const Scene& scene, int samples,
-               int keep);
+  SnapshotFileOf(std::filesystem::path file, std::string engine, const SceneOf<D>& scene,
+                 int samples, int keep);
 
   /// The k-th of all samples, k = 1 … samples. @throws OutputError
-  void offer(const Snapshot& snapshot, int k);
+  void offer(const SnapshotOf<D>& snapshot, int k);
 
   /// The file is whole, if anything was to be kept. @throws OutputError
   void close();
@@ -50,10 +51,11 @@ class SnapshotFile {
 
   std::filesystem::path file_, part_;
   std::string engine_;
-  const Scene& scene_;
+  const SceneOf<D>& scene_;
   int samples_, keep_;
   std::vector<KeptSnapshot> kept_;
 };
+using SnapshotFile = SnapshotFileOf<2>;
 
 /// All of such a file can be read: HDF5 itself does not get over every damaged one
 /// (support/hdf5_file.hpp). To be asked before a file of anybody's is opened.

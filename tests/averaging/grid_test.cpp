@@ -72,6 +72,28 @@ TEST(Grid, RefusesWhatIsNoGrid) {
   EXPECT_THROW(Grid({0, 0}, {1, 1}, 2, 2, 0.0), std::invalid_argument);
 }
 
+TEST(Grid, WhatSticksOutOfAPeriodicSideCountsInsideTheOther) {
+  // A box of 3 m × 2 m that is periodic along x; two slabs. The disk lies half out of the left
+  // side.
+  const Grid slabs({0.0, 0.0}, {3.0, 2.0}, 2, 1, 1.0,
+                   BoxOf<2>{Vec2(0.0, 0.0), Vec2(3.0, 2.0), {true, false}});
+  BinFractions fractions;
+  for (const double image : {0.0, 3.0, -6.0}) {
+    slabs.discFractions({image, 1.0}, 0.5, Edges::exact, fractions);
+    std::vector<double> found(slabs.slots(), 0.0);
+    for (const auto& [slot, fraction] : fractions) found[slot] += fraction;
+    EXPECT_NEAR(found[0], 0.0, 1e-15);
+    EXPECT_NEAR(found[1], 0.5, 1e-15);
+    EXPECT_NEAR(found[2], 0.5, 1e-15);
+  }
+  EXPECT_EQ(slabs.slotAt({-0.1, 1.0}), slabs.slot(1, 0));
+  EXPECT_EQ(slabs.slotAt({3.1, 1.0}), slabs.slot(0, 0));
+  EXPECT_EQ(slabs.slotAt({3.1, 2.1}), 0U);
+  EXPECT_THROW(Grid({0.0, 0.0}, {3.1, 2.0}, 1, 1, 1.0,
+                    BoxOf<2>{Vec2(0.0, 0.0), Vec2(3.0, 2.0), {true, false}}),
+               std::invalid_argument);
+}
+
 TEST(Grid, SquareLatticeUnderUnequalForcesKeepsItsDirections) {
   // Cells of whole lattice constants: σ_xx = f_x/(2ah) and σ_yy = f_y/(2ah) to rounding, which
   // rings average away.

@@ -52,6 +52,43 @@ Scene sceneOf(std::size_t disks) {
   return scene;
 }
 
+TEST_F(SnapshotFiles, InSpace_VectorsAndSpinsHaveThreeColumns) {
+  SpaceScene scene;
+  scene.disks.radius = {0.5, 0.25};
+  scene.disks.mass = scene.disks.inertia = {1.0, 2.0};
+  scene.bodies.emplace_back().diskRadius = {0.1};
+  SpaceSnapshot now;
+  now.positionTime = 1.5;
+  now.position = {Vec3(1, 2, 3), Vec3(4, 5, 6)};
+  now.velocity = {Vec3(7, 8, 9), Vec3(10, 11, 12)};
+  now.spin = std::vector<Vec3>{Vec3(-1, -2, -3), Vec3(-4, -5, -6)};
+  now.wallPosition = {Vec3(0, 0, -1)};
+  now.bodies.resize(1);
+  now.bodies[0].force = Vec3(0.5, 0.0, -2.0);
+  auto& contacts = now.contacts.emplace();
+  contacts.i = {0};
+  contacts.j = {1};
+  contacts.normal = {Vec3::UnitZ()};
+  contacts.overlap = {0.01};
+  contacts.normalForce = {3.0};
+  contacts.tangentialForce = {Vec3(0.1, 0.2, 0.0)};
+  SnapshotFileOf<3> out(path_, "someone", scene, 1, 1);
+  out.offer(now, 1);
+  out.close();
+
+  const Hdf5File in = Hdf5File::open(path_);
+  using Row = std::vector<double>;
+  EXPECT_EQ(in.readAttribute("dimension"), 3.0);
+  EXPECT_EQ(in.read("/snapshot-000/position"), (Row{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(in.read("/snapshot-000/spin"), (Row{-1, -2, -3, -4, -5, -6}));
+  EXPECT_EQ(in.read("/snapshot-000/wall_position"), (Row{0, 0, -1}));
+  EXPECT_EQ(in.read("/snapshot-000/bodies/force"), (Row{0.5, 0.0, -2.0}));
+  EXPECT_EQ(in.read("/snapshot-000/contacts/tangential_force"), (Row{0.1, 0.2, 0.0}));
+  const std::string xdmf = readFile(fs::path(path_).replace_extension(".xdmf")).value();
+  EXPECT_NE(xdmf.find("GeometryType=\"XYZ\""), std::string::npos);
+  EXPECT_NE(xdmf.find("Name=\"spin\" AttributeType=\"Vector\""), std::string::npos);
+}
+
 TEST_F(SnapshotFiles, Snapshots_WrittenAndRead_AreTheSame) {
   Scene scene = sceneOf(2);
   for (const char* name : {"wheel", "ring"}) {

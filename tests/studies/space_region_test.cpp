@@ -1,0 +1,176 @@
+// Averages over a region of a scene of spheres, against sums by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "averaging/statistics.hpp"
+#include "studies/flow/averages.hpp"
+#include "studies/flow/endpoint_values.hpp"
+#include "studies/flow/frame.hpp"
+#include "tests/studies/flow_runs.hpp"
+
+namespace crossgrain {
+namespace {
+
+/// Four slabs along z of a cell of 2 m × 3 m, periodic along x and y, between walls 4 m apart.
+Case slabsOfACell() {
+  Case setup;
+  setup.kind = CaseKind::assembly;
+  setup.dimension = 3;
+  DiskGroup group;
+  group.radius = 0.5;
+  setup.assembly.disks = {group};
+  setup.assembly.duration = 1.0;
+  setup.run.dt = 1e-3;
+  Region& region = setup.average.emplace().region;
+  region.bins = BinKind::slabs;
+  region.axis = 2;
+  region.count = 4;
+  region.high = {2.0, 3.0, 4.0};
+  return setup;
+}
+
+/// A sphere on each of two planes; the box's low end is the lower one.
+struct Cell3d {
+  SpaceScene scene;
+  SpaceSnapshot now;
+
+  Cell3d() {
+    scene.box = BoxOf<3>{Vec3::Zero(), Vec3(2.0, 3.0, 4.0), {true, true, false}};
+    for (const double z : {4.0, 0.0}) {  // the higher one first
+      auto& wall = scene.bodies.emplace_back();
+      wall.planes.push_back({Vec3(0.0, 0.0, z), z > 0.0 ? Vec3(-Vec3::UnitZ()) : Vec3::UnitZ()});
+    }
+    scene.disks.radius = {0.5, 0.5};
+    scene.disks.mass = {1.0, 3.0};
+    scene.disks.inertia = {0.1, 0.1};
+    now.position = {Vec3(0.1, 1.0, 0.5), Vec3(5.0, 1.0, 3.5)};
+    now.velocity = {Vec3(-1.0, 0.0, 0.0), Vec3(1.0, 0.0, 0.0)};
+    now.spin = std::vector<Vec3>{Vec3(0.0, 2.0, 0.0), Vec3::Zero()};
+    auto& contacts = now.contacts.emplace();
+    contacts.i = {0, 1};
+    contacts.j = {3, 2};  // planes: 2 the high one, 3 the low one
+    contacts.normal = {Vec3::UnitZ(), -Vec3::UnitZ()};
+    contacts.overlap = {0.0, 0.0};
+    contacts.normalForce = {6.0, 12.0};
+    contacts.tangentialForce = {Vec3(-3.0, 0.0, 0.0), Vec3(3.0, 0.0, 0.0)};
+  }
+};
+
+double seriesEnd(const FlowRun& run, const char* name) {
+  return valuesOf(*run.series, name).back().value_or(NAN);
+}
+
+TEST(SpaceRegion, HasProfilesOverSlabsAndTheStressesOfItsWalls) {
+  const Case setup = slabsOfACell();
+  const Cell3d cell;
+  const auto averages = flowAverages(setup, cell.scene);
+  averages->add(cell.now);
+  EXPECT_EQ(averages->snapshots(), 1U);
+  FlowRun run;
+  averages->describe({}, run);
+
+  const auto profile = [&](const char* field, std::size_t bin) {
+    const Profile* found = profileOf(run.profiles, "slicing", field);
+    return found ? found->mean.at(bin).value_or(NAN) : NAN;
+  };
+  // Branches of half a metre in slabs of 6 m³; nothing in the middle.
+  EXPECT_NEAR(profile("stress_zz", 0), 6.0 * 0.5 / 6.0, 1e-15);
+  EXPECT_NEAR(profile("stress_zz", 3), 12.0 * 0.5 / 6.0, 1e-15);
+  EXPECT_NEAR(profile("stress_xz", 3), -3.0 * 0.5 / 6.0, 1e-15);
+  EXPECT_EQ(profile("stress_zz", 1), 0.0);
+  EXPECT_NEAR(profile("velocity_x", 3), 1.0, 1e-15);
+  EXPECT_TRUE(std::isnan(profile("velocity_x", 2)));
+  EXPECT_NEAR(profile("volume_fraction", 0), std::acos(-1.0) / 6.0 / 6.0, 1e-15);
+
+  // Over 6 m²: pushed apart by 6 and 12 N; the high wall drags its sphere along +x by 3 N, the low
+  // one along −x.
+  EXPECT_NEAR(seriesEnd(run, "wall_normal_stress"), (6.0 + 12.0) / 2.0 / 6.0, 1e-15);
+  EXPECT_NEAR(seriesEnd(run, "wall_shear_stress"), 3.0 / 6.0, 1e-15);
+  EXPECT_EQ(seriesEnd(run, "disks"), 2.0);
+  EXPECT_NEAR(seriesEnd(run, "mean_z"), (0.5 + 3.0 * 3.5) / 4.0, 1e-15);
+  EXPECT_NEAR(seriesEnd(run, "top"), 4.0, 1e-15);
+  EXPECT_TRUE(std::isnan(seriesEnd(run, "mean_x"))) << "along a periodic direction";
+  EXPECT_FALSE(run.series->contains("heap_slope"));
+  EXPECT_NEAR(seriesEnd(run, "kinetic_energy"), 0.5 + 1.5 + 0.5 * 0.1 * 4.0, 1e-15);
+  EXPECT_NEAR(seriesEnd(run, "coordination"), 1.0, 1e-15);
+
+  OwnEndpoint ratio;
+  ratio.quantity = "wall_shear_stress";
+  ratio.per = "wall_normal_stress";
+  EXPECT_NEAR(ownEndpointOf(ratio, setup, run).value.value(), 1.0 / 3.0, 1e-15);
+  OwnEndpoint middle;
+  middle.quantity = "stress_zz";
+  middle.reduction = Reduction::mean;
+  EXPECT_NEAR(ownEndpointOf(middle, setup, run).value.value(), (0.5 + 0.0 + 0.0 + 1.0) / 4.0,
+              1e-15);
+}
+
+TEST(SpaceRegion, ForcesThatTheEngineReportsCountForWalls) {
+  const Case setup = slabsOfACell();
+  Cell3d cell;
+  cell.now.bodies.resize(2);
+  cell.now.bodies[0].force = Vec3(-6.0, 0.0, 24.0);
+  cell.now.bodies[1].force = Vec3(6.0, 0.0, -24.0);
+  const auto averages = flowAverages(setup, cell.scene);
+  averages->add(cell.now);
+  FlowRun run;
+  averages->describe({}, run);
+  EXPECT_NEAR(seriesEnd(run, "wall_normal_stress"), 4.0, 1e-15);
+  EXPECT_NEAR(seriesEnd(run, "wall_shear_stress"), 1.0, 1e-15);
+}
+
+TEST(SpaceRegion, PlacesAreAlongTheAxisOfSlabsAndOfRingsLayerByLayer) {
+  Case setup = slabsOfACell();
+  EXPECT_EQ(placesOf(setup).r, (std::vector<double>{0.5, 1.5, 2.5, 3.5}));
+  EXPECT_EQ(placesOf(setup).rTilde.back(), 3.5);
+  EXPECT_EQ(placesOf(setup).width, 1.0);
+  const std::vector<double> radii(2, 0.5);
+  const FlowFrame frame = couetteFrame("compare", setup, "", radii);
+  EXPECT_EQ(frame.region->along, "z");
+  EXPECT_EQ(frame.region->z, (std::vector<double>{0.5, 1.5, 2.5, 3.5}));
+  EXPECT_EQ(frame.region->disks, 2U);
+
+  Region& region = setup.average->region;
+  region.bins = BinKind::rings;
+  region.innerRadius = 1.0;
+  region.outerRadius = 3.0;
+  region.count = 2;
+  region.layers = 2;
+  EXPECT_EQ(placesOf(setup).r, (std::vector<double>{1.5, 2.5, 1.5, 2.5}));
+  EXPECT_EQ(couetteFrame("compare", setup, "", radii).region->z,
+            (std::vector<double>{1.0, 1.0, 3.0, 3.0}));
+}
+
+TEST(SpaceRegion, PeriodicPlaneHasStressesOfItsWallsToo) {
+  Case setup = slabsOfACell();
+  setup.dimension = 2;
+  setup.average->region.axis = 1;
+  setup.average->region.high = {2.0, 3.0, 0.0};
+  setup.average->region.height = 0.5;
+  Scene scene;
+  scene.box = BoxOf<2>{Vec2::Zero(), Vec2(2.0, 3.0), {true, false}};
+  for (const double y : {0.0, 3.0}) {
+    auto& wall = scene.bodies.emplace_back();
+    wall.planes.push_back({Vec2(0.0, y), y > 0.0 ? Vec2(-Vec2::UnitY()) : Vec2::UnitY()});
+  }
+  Snapshot now;
+  now.bodies.resize(2);
+  now.bodies[0].force = Vec2(0.5, -2.0);
+  now.bodies[1].force = Vec2(-0.5, 2.0);
+  const auto averages = flowAverages(setup, scene);
+  averages->add(now);
+  FlowRun run;
+  averages->describe({}, run);
+  EXPECT_NEAR(seriesEnd(run, "wall_normal_stress"), 2.0 / (2.0 * 0.5), 1e-15);
+  EXPECT_NEAR(seriesEnd(run, "wall_shear_stress"), 0.5 / (2.0 * 0.5), 1e-15);
+  scene.box.reset();
+  const auto unbounded = flowAverages(setup, scene);
+  unbounded->add(now);
+  FlowRun other;
+  unbounded->describe({}, other);
+  EXPECT_FALSE(other.series->contains("wall_normal_stress")) << "no cell between two walls";
+}
+
+}  // namespace
+}  // namespace crossgrain
