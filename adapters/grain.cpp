@@ -292,9 +292,10 @@ class GrainEngine : public Engine {
     }
   }
 
+  void beginUnderWay(const ContactsOf<3>& contacts) { spheres_->beginUnderWay(contacts); }
+
   void beginUnderWay(const Contacts& contacts) {
-    if (spheres_)
-      throw UnsupportedScene("in a periodic box no mirror begins in the middle of a run");
+    if (spheres_) return beginUnderWay(inSpace(contacts));  // in a periodic box
     std::vector<grain::Contact> forces(contacts.size());
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       forces[k].i = contacts.i[k];
@@ -449,12 +450,15 @@ std::unique_ptr<Engine> makeStiffGrain(double factor) {
   return std::make_unique<GrainEngine>(LawConventionSets{}, factor);
 }
 
-void beginUnderWay(Engine& inHouse, const Contacts& contacts) {
+template <int D>
+void beginUnderWay(Engine& inHouse, const ContactsOf<D>& contacts) {
   auto* const own = dynamic_cast<GrainEngine*>(&inHouse);
   if (!own)
     throw UnsupportedScene("no mirror with its time stepping begins in the middle of a run");
   own->beginUnderWay(contacts);
 }
+template void beginUnderWay(Engine&, const Contacts&);
+template void beginUnderWay(Engine&, const ContactsOf<3>&);
 
 EngineEntry grainEngine() {
   return {"grain", "in-house: soft disks, every convention an option", makeGrain};

@@ -43,6 +43,7 @@ std::unique_ptr<Engine> makeStiffGrain(double factor);
 /// there are contacts, and velocities within a step. Largest overlaps of plastic contacts, which
 /// nobody reports, are those of the instant. See grain::Simulation::beginUnderWay(). @throws
 /// UnsupportedScene of any other engine
-void beginUnderWay(Engine& inHouse, const Contacts& contacts);
+template <int D>
+void beginUnderWay(Engine& inHouse, const ContactsOf<D>& contacts);
 
 }  // namespace crossgrain

@@ -134,6 +134,21 @@ SpaceScene inSpace(const Scene& scene) {
   return to;
 }
 
+ContactsOf<3> inSpace(const Contacts& contacts) {
+  ContactsOf<3> to;
+  to.i = contacts.i;
+  to.j = contacts.j;
+  to.normal = each(contacts.normal, raised);
+  to.overlap = contacts.overlap;
+  to.normalForce = contacts.normalForce;
+  for (std::size_t k = 0; k < contacts.size(); ++k)  // along z × n
+    to.tangentialForce.push_back(
+        raised(contacts.tangentialForce[k] * perpendicular(contacts.normal[k])));
+  to.sliding = contacts.sliding;
+  to.rollingTorque = each(contacts.rollingTorque, aboutZ);
+  return to;
+}
+
 Snapshot inPlane(const SpaceSnapshot& snapshot) {
   const auto flat = [](const Vec3& v) { return Vec2(v.head<2>()); };
   const auto spin = [](const Vec3& v) { return v.z(); };
@@ -216,6 +231,23 @@ SpaceSnapshot GrainSpheres::snapshot(ContactReport report) {
     if (scene_.law.rolls()) contacts.rollingTorque.push_back(of(contact.rollingTorque));
   }
   return snapshot;
+}
+
+void GrainSpheres::beginUnderWay(const ContactsOf<3>& contacts) {
+  std::vector<grain::SpaceContact> forces;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const double size = contacts.tangentialForce[k].norm();
+    // Without flags: at the bound to what an engine's own rounding may leave of it.
+    const bool slides = contacts.sliding.empty() ? size >= (1.0 - 1e-6) * scene_.law.mu *
+                                                               std::abs(contacts.normalForce[k])
+                                                 : contacts.sliding[k] != 0;
+    forces.push_back(
+        {contacts.i[k], contacts.j[k], of(contacts.normal[k]), contacts.overlap[k],
+         contacts.normalForce[k], of(contacts.tangentialForce[k]),
+         contacts.rollingTorque.empty() ? grain::Vec3<double>{} : of(contacts.rollingTorque[k]),
+         slides});
+  }
+  simulation_.beginUnderWay(forces);
 }
 
 }  // namespace crossgrain

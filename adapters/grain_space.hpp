@@ -9,6 +9,7 @@ namespace crossgrain {
 /// is the plane's.
 /// @throws UnsupportedScene of a scene with a bottom plate
 SpaceScene inSpace(const Scene& scene);
+ContactsOf<3> inSpace(const Contacts& contacts);
 /// What it shows there, in the plane.
 Snapshot inPlane(const SpaceSnapshot& snapshot);
 
@@ -22,6 +23,8 @@ class GrainSpheres {
 
   EffectiveParameters effective() const;
   SpaceSnapshot snapshot(ContactReport report);
+  /// As beginUnderWay() of adapters/grain.hpp.
+  void beginUnderWay(const ContactsOf<3>& contacts);
 
   grain::Spheres& simulation() { return simulation_; }
   const grain::Spheres& simulation() const { return simulation_; }

@@ -235,6 +235,15 @@ GRAIN_INLINE void followNormal(const L& law, const SpaceConventions& how,
   if (law.rolling == Rolling::spring) follow(kept.angle);
 }
 
+/// v_t
+template <class L, class Real>
+GRAIN_INLINE Vec3<Real> slipOf(const L& law, const Meeting<Real>& meeting) {
+  const Vec3<Real>& n = meeting.normal;
+  Vec3<Real> slip = meeting.velocity - dot(meeting.velocity, n) * n;
+  if (law.rotation) slip -= cross(meeting.armI * meeting.spinI + meeting.armJ * meeting.spinJ, n);
+  return slip;
+}
+
 /// The law in space, of a pair that touches. @param kept  zero when it begins to
 template <class L, class Real>
 GRAIN_INLINE MeetingForce<Real> meetingForce(const L& law, const SpaceConventions& how,
@@ -265,8 +274,7 @@ GRAIN_INLINE MeetingForce<Real> meetingForce(const L& law, const SpaceConvention
   found.force = found.normal * n;
   if (!friction) return found;
   const Real load = boundLoad(law, motion, found.normal, body);
-  Vec3<Real> slip = meeting.velocity - motion.normalVelocity * n;
-  if (law.rotation) slip -= cross(meeting.armI * meeting.spinI + meeting.armJ * meeting.spinJ, n);
+  const Vec3<Real> slip = slipOf(law, meeting);
   found.tangential = tangentialForce(law, motion, slip, load, kept.spring, found.sliding);
   found.force += found.tangential;
   if (!law.rotation) return found;

@@ -90,7 +90,16 @@ void Spheres::placeSpheres() {
     seenVelocity_ = velocity_;
     seenSpin_ = spin_;
   }
-  for (std::size_t i = 0; i < size(); ++i) force_[i] = quadOf(setup_.mass[i] * setup_.gravity);
+  beginForces();
+}
+
+/// With gravity; the motion kernel does so in every step.
+void Spheres::beginForces() {
+  for (std::size_t i = 0; i < position_.size(); ++i) {
+    force_[i] = i < size() ? quadOf(setup_.mass[i] * setup_.gravity) : Quad{};
+    torque_[i] = {};
+  }
+  for (PlacedPlane& plane : planes_) plane.force = plane.torque = {};
 }
 
 Vector Spheres::velocity(std::size_t i) const {
@@ -243,8 +252,8 @@ void Spheres::addPlane(PlacedPlane& plane) {
     const Vector place = x - planePoint(law_, a, height) * plane.normal;
     Meeting<double> meeting{};
     meeting.normal = plane.normal;
-    meeting.velocity = vectorOf((predicts ? seenVelocity_ : velocity_)[i]) - wall.velocity -
-                       cross(wall.spin, place - wall.centre);
+    meeting.velocity = vectorOf((predicts ? seenVelocity_ : velocity_)[i]) -
+                       velocityOfPlane(plane.wall, i, plane.normal, height);
     meeting.spinI = vectorOf((predicts ? seenSpin_ : spin_)[i]);
     meeting.overlap = a - height;
     meeting.radiusI = a;
@@ -260,6 +269,13 @@ void Spheres::addPlane(PlacedPlane& plane) {
     plane.force -= force.force;
     plane.torque -= cross(place - wall.centre, force.force) + force.rolling;
   }
+}
+
+Vector Spheres::velocityOfPlane(std::size_t wall, std::size_t i, const Vector& normal,
+                                double height) const {
+  const SpaceWall::State now = wallState(wall);
+  const Vector place = vectorOf(position_[i]) - planePoint(law_, position_[i].w, height) * normal;
+  return now.velocity + cross(now.spin, place - now.centre);
 }
 
 void Spheres::reportDeep() {

@@ -92,6 +92,10 @@ class Spheres {
   void save(std::ostream& out) const;
   void restore(std::istream& in);
 
+  /// As Simulation::beginUnderWay(): with springs stretched for these forces.
+  /// @throws std::logic_error after the first step
+  void beginUnderWay(const std::vector<SpaceContact>& forces);
+
   SpaceWall::State wallState(std::size_t w) const { return setup_.walls[w].motion(time()); }
   std::size_t wallSpheres() const { return position_.size() - size(); }
   Vec3<double> wallPosition(std::size_t k) const { return vectorOf(position_[size() + k]); }
@@ -118,7 +122,17 @@ class Spheres {
   void updateNeighbours();
   void findTravel();
   void rememberChoice();
+  void beginForces();
   void addForces();
+  void addLacking(const SpaceContact& contact, const Vec3<double>& force,
+                  const Vec3<double>& torque);
+  std::pair<double, double> radiiOf(const SpaceContact& contact) const;
+  std::pair<double, double> loadPerStretch(const SpaceContact& contact) const;
+  Vec3<double> slippingSpring(const SpaceContact& contact, const Vec3<double>& force,
+                              double unit) const;
+  /// Of the wall, where sphere i meets it.
+  Vec3<double> velocityOfPlane(std::size_t wall, std::size_t i, const Vec3<double>& normal,
+                               double height) const;
   void addPlane(PlacedPlane& plane);
   [[noreturn]] void reportDeep();
 

@@ -126,6 +126,7 @@ class Scene(build.Scene):
 def pair_rows(lammps, law):
     """What the law asks for, and the spin of the first less that of the second."""
     rows = lammps.local_compute("pairs", 6 + 3 * (law.rolling_model == "cdt") + law.history())
+    rows = rows[rows[:, 0] > 0]  # before the first step there are empty ones of neighbours that do not touch
     spin = lammps.gather("omega", 3)[:, 2]
     first, second = rows[:, :2].astype(int).T - 1
     return np.column_stack([rows, spin[first] - spin[second]])

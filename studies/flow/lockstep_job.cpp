@@ -44,11 +44,6 @@ std::vector<LateWindows> lateWindowsOf(Campaign& campaign, const Case& setup,
     task.key = campaign.keyOf(e, packing, "late windows");
     task.work = [&campaign, &setup, &entry, packing](const std::function<void(double)>& progress) {
       LateWindows found;
-      found.packing = packing;
-      if (setup.dimension == 3) {
-        found.failure = "in space no mirror begins in the middle of a run";
-        return CachedTask<LateWindows>::Outcome{found, false, found.failure};
-      }
       try {
         const auto worker =
             startAudited(entry, campaign.store().scratch("late-" + entry.name), setup.run.timeout);

@@ -25,14 +25,15 @@ namespace {
 
 /// Positions, velocities and, if asked for, contacts of one instant, whatever an engine staggers.
 /// It may be a step further afterwards. @throws EngineFailure
-Snapshot stateOf(Engine& engine, double dt, bool springs) {
+template <int D>
+SnapshotOf<D> stateOf(Engine& engine, double dt, bool springs) {
   const ContactReport report = springs ? ContactReport::instant : ContactReport::none;
-  Snapshot now = engine.snapshot(report);
+  SnapshotOf<D> now = snapshotOf<D>(engine, report);
   const double t = now.positionTime;
   const auto isNow = [&](double time) { return std::abs(time - t) < 0.01 * dt; };
   if (isNow(now.velocityTime) && (!springs || isNow(now.contactTime))) return now;
   engine.advance(t + dt);
-  Snapshot next = engine.snapshot(report);
+  SnapshotOf<D> next = snapshotOf<D>(engine, report);
   if (!isNow(now.velocityTime)) {
     const double part = (t - now.velocityTime) / (next.velocityTime - now.velocityTime);
     for (std::size_t i = 0; i < now.velocity.size(); ++i)
@@ -48,6 +49,7 @@ Snapshot stateOf(Engine& engine, double dt, bool springs) {
   return now;
 }
 
+template <int D>
 class LateComparison {
  public:
   LateComparison(Engine& engine, const EngineEntry& entry, const Case& setup,
@@ -56,7 +58,7 @@ class LateComparison {
         entry_(entry),
         setup_(setup),
         packing_(packing),
-        scene_(flowScene(setup, packing, dt)),
+        scene_(flowScene<D>(setup, packing, dt)),
         can_(engine.capabilities()),
         effective_(loadScene(engine, entry, setup, scene_)),
         mirror_(mirrorOf(can_, entry, setup, scene_, effective_)) {
@@ -90,21 +92,22 @@ class LateComparison {
     if (springs_ && !can_.instantContacts)
       throw EngineFailure("it has no contact forces of an instant, from which springs could go on");
     engine_.advance(t);
-    const Snapshot now = stateOf(engine_, effective_.dt, springs_);
-    Scene mirrored =
-        sceneOfMirror(can_, entry_, setup_,
-                      flowScene(setup_, packingAt(packing_, scene_, now), scene_.dt), effective_);
+    const SnapshotOf<D> now = stateOf<D>(engine_, effective_.dt, springs_);
+    SceneOf<D> mirrored = sceneOfMirror(
+        can_, entry_, setup_, flowScene<D>(setup_, packingAt(packing_, scene_, now), scene_.dt),
+        effective_);
     mirrored.energyLedger = false;
-    const auto begin = [&](const Scene& scene) {
-      mirror_->load(scene, {});
+    const auto begin = [&](const SceneOf<D>& scene) {
+      loadOn(*mirror_, scene, {});
       // As the case begins, no spring is stretched and no step is under way.
       if (scene.law.soft() && now.positionTime > 0.0)
-        beginUnderWay(*mirror_, springs_ ? *now.contacts : Contacts());
+        beginUnderWay(*mirror_, springs_ ? *now.contacts : ContactsOf<D>());
       return effective_.dt;
     };
     begin(mirrored);
-    const LockstepWindow window = followBoth(engine_, *mirror_, effective_.dt, steps_,
-                                             can_.instantContacts, now.positionTime);
+    const LockstepWindowOf<D> window =
+        followBoth<D>(engine_, *mirror_, effective_.dt, steps_, can_.instantContacts,
+                      now.positionTime, scene_.box);
     reached_ = now.positionTime + length();
     bool same = true;
     for (std::size_t k = 0; k < steps_.size(); ++k)
@@ -118,7 +121,7 @@ class LateComparison {
       accounts_[c].add(alike_.size(), window,
                        referenceResponses(*mirror_, window.mirror, flowDiameter(setup_),
                                           [&](double change) {
-                                            Scene changed = mirrored;
+                                            SceneOf<D> changed = mirrored;
                                             changeLaws(changed, [&](ContactLaw& law) {
                                               changeConstant(law, constants_[c], change);
                                             });
@@ -168,7 +171,7 @@ class LateComparison {
   const EngineEntry& entry_;
   const Case& setup_;
   const Packing& packing_;
-  Scene scene_;  ///< the case's, as the run begins
+  SceneOf<D> scene_;  ///< the case's, as the run begins
   Capabilities can_;
   EffectiveParameters effective_;
   std::unique_ptr<Engine> mirror_;
@@ -181,15 +184,14 @@ class LateComparison {
   std::size_t unmeasured_ = 0;               ///< windows that are not, as they are alike
 };
 
-}  // namespace
-
-LateWindows followLate(Engine& engine, const EngineEntry& entry, const Case& setup,
-                       const Packing& packing, int index, double dt, std::size_t measured,
-                       const std::function<void(double)>& progress) {
+template <int D>
+LateWindows followIn(Engine& engine, const EngineEntry& entry, const Case& setup,
+                     const Packing& packing, int index, double dt, std::size_t measured,
+                     const std::function<void(double)>& progress) {
   LateWindows found;
   found.packing = index;
   try {
-    LateComparison comparison(engine, entry, setup, packing, dt);
+    LateComparison<D> comparison(engine, entry, setup, packing, dt);
     found.length = comparison.length();
     const auto room = static_cast<std::size_t>(
         std::max(1.0, std::floor(flowDuration(setup) / found.length + 1e-6)));
@@ -210,6 +212,16 @@ LateWindows followLate(Engine& engine, const EngineEntry& entry, const Case& set
     found.failure = refusal.what();
   }
   return found;
+}
+
+}  // namespace
+
+LateWindows followLate(Engine& engine, const EngineEntry& entry, const Case& setup,
+                       const Packing& packing, int index, double dt, std::size_t measured,
+                       const std::function<void(double)>& progress) {
+  return inDimensionOf(setup, [&]<int D>() {
+    return followIn<D>(engine, entry, setup, packing, index, dt, measured, progress);
+  });
 }
 
 }  // namespace crossgrain::inline studies

@@ -531,6 +531,64 @@ TEST(Spheres, RestoredRun_GoesOnToTheBit) {
   }
 }
 
+TEST(Spheres, RunThatBeginsUnderWay_GoesOnAsTheOneItIsOf) {
+  std::vector<std::pair<std::string, SpheresSetup>> runs;
+  const auto with = [&](const std::string& name, auto&& change) {
+    SpheresSetup setup = meeting(springLaw(), false);
+    setup.walls.resize(1);
+    setup.law.damping = Damping::lagged;  // predicted velocities need the forces of a step before
+    change(setup);
+    runs.emplace_back(name, std::move(setup));
+  };
+  with("as it is", [](auto&) {});
+  with("before", [](auto& s) { s.law.stretch = Stretch::before; });
+  with("outside", [](auto& s) { s.law.dashpotOutsideBound = true; });
+  with("spring only", [](auto& s) { s.law.resetSpringOnly = true; });
+  with("no twist", [](auto& s) { s.conventions.twist = SpringTwist::none; });
+  with("rough", [](auto& s) { s.law.mu = 5.0; });
+  for (const Integrator integrator : {Integrator::velocityVerlet, Integrator::semiImplicitEuler})
+    with("integrator", [&](auto& s) { s.integrator = integrator; });
+  with("rolling", [](auto& s) {
+    s.law.mu = 5.0;
+    s.law.rolling = Rolling::spring;
+    s.law.kr = 1e4;
+    s.law.gr = 0.05;
+    s.law.muR = 5.0;
+  });
+  for (auto& [name, setup] : runs) {
+    Spheres whole(setup);
+    whole.advance(30);
+    const auto contacts = whole.contacts();
+    ASSERT_GE(contacts.size(), 3u) << name;
+    SpheresSetup later = setup;
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      later.position[i] = whole.position(i);
+      later.velocity[i] = whole.velocity(i);
+      later.spin[i] = whole.spin(i);
+    }
+    for (SpaceWall& wall : later.walls) {
+      const double since = whole.time();
+      const Vector shift = wall.motion(since).centre - wall.motion(0.0).centre;
+      for (SpaceWall::Plane& plane : wall.planes) plane.point += shift;
+      wall.motion = [motion = wall.motion, since](double t) { return motion(since + t); };
+    }
+    Spheres begun(later);
+    begun.beginUnderWay(contacts);
+    EXPECT_EQ(begun.contactEvaluations(), Spheres(later).contactEvaluations());
+    for (const int steps : {0, 1, 20}) {
+      whole.advance(static_cast<std::uint64_t>(steps));
+      begun.advance(static_cast<std::uint64_t>(steps));
+      SCOPED_TRACE(name + ", " + std::to_string(steps));
+      for (std::size_t i = 0; i < whole.size(); ++i) {
+        EXPECT_LT(length(whole.position(i) - begun.position(i)), 1e-10 * radius);
+        EXPECT_LT(length(whole.velocity(i) - begun.velocity(i)), 1e-9);
+        EXPECT_LT(radius * length(whole.spin(i) - begun.spin(i)), 1e-9);
+      }
+    }
+    EXPECT_THROW(begun.beginUnderWay(contacts), std::logic_error);
+  }
+}
+
 TEST(Spheres, EveryInstructionSet_GivesTheSameBits) {
   std::vector<std::vector<double>> bits;
   for (const char* set : instructionSets()) {

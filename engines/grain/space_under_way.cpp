@@ -1,0 +1,202 @@
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "engines/grain/spheres.hpp"
+
+/// A run in space that begins as one that has come so far: as Core::beginUnderWay(), with vectors.
+namespace grain {
+namespace {
+
+using Vector = Vec3<double>;
+
+/// What a spring carries, or is to carry: a force, or a torque.
+struct SpringLoad {
+  Vector value;
+  bool slides;
+};
+
+/// Brings a spring nearer to its wanted load. While it sticks, one step of Newton's method is
+/// exact. Where it slips only the direction is the spring's: from `slipping` on, by which f* is
+/// twice the bound and along the load but for how the pair turns, the same step for that. It slips
+/// where it is said to, and where the wanted load cannot be had otherwise: the sum of a spring at
+/// its bound and a dashpot outside of it.
+/// @param slips  whether it was begun from `slipping`
+/// @return whether it has it
+bool stretched(const SpringLoad& now, const SpringLoad& want, double unit, const Vector& slipping,
+               bool& slips, Vector& spring) {
+  if (!(unit > 0.0)) return true;
+  const Vector off = now.value - want.value;
+  const double scale = length(want.value) + unit * length(spring);
+  if (now.slides >= want.slides && length(off) <= 1e-12 * scale) return true;
+  if (!want.slides && !now.slides) {
+    spring += (1.0 / unit) * off;
+    return false;
+  }
+  constexpr double least = 1e-30;  // [m]: of a load of nothing any direction will do
+  if (!std::exchange(slips, true))
+    spring = dot(slipping, slipping) > 0.0 ? slipping : Vector{least, least, least};
+  else if (!now.slides)
+    spring = 2.0 * spring;
+  else
+    spring += (2.0 / unit) * off;
+  return false;
+}
+
+}  // namespace
+
+void Spheres::beginUnderWay(const std::vector<SpaceContact>& forces) {
+  if (steps_ > 0) throw std::logic_error("a run begins as one under way at its start");
+  using Numbers = std::pair<std::int32_t, std::int32_t>;
+  std::map<Numbers, const SpaceContact*> wanted;
+  std::map<Numbers, SpaceMemory<double>> springs;
+  std::map<Numbers, bool> slips;
+  for (const SpaceContact& contact : forces) {
+    wanted[{contact.i, contact.j}] = &contact;
+    if (law_.cohesion == Cohesion::jkr) springs[{contact.i, contact.j}].memory = 1.0;
+  }
+  const bool lags = setup_.integrator != Integrator::semiImplicitEuler && seenVelocity_.empty();
+  const std::uint64_t evaluations = evaluations_;
+  kick(halfKick_);
+  const auto velocity = velocity_, spin = spin_;  // of the start
+  const auto goBack = [&](double by) {
+    velocity_ = velocity;
+    spin_ = spin;
+    kick(-by);
+  };
+  const auto evaluate = [&] {
+    const auto remember = [&](const Numbers& pair, SpaceMemory<double>& kept) {
+      const Vector normal = kept.normal;
+      const auto found = springs.find(pair);
+      kept = found == springs.end() ? SpaceMemory<double>{} : found->second;
+      kept.normal = normal;
+    };
+    const SpacePairs pairs = lists_.near();
+    for (std::size_t p = 0; p < pairs.count; ++p) remember({pairs.i[p], pairs.j[p]}, pairs.kept[p]);
+    for (std::size_t p = 0; p < planes_.size(); ++p)
+      for (std::size_t i = 0; i < size(); ++i)
+        remember({static_cast<std::int32_t>(i), static_cast<std::int32_t>(position_.size() + p)},
+                 planes_[p].kept[i]);
+    beginForces();
+    if (!seenVelocity_.empty()) {
+      seenVelocity_ = velocity_;
+      seenSpin_ = spin_;
+    }
+    const double halfStep = std::exchange(law_.halfStep, lags ? law_.halfStep : 0.0);
+    addForces();
+    law_.halfStep = halfStep;
+  };
+  const auto forWanted = [&](auto&& visit) {
+    for (const SpaceContact& contact : contacts())
+      if (const auto found = wanted.find({contact.i, contact.j}); found != wanted.end())
+        visit(contact, *found->second);
+  };
+  constexpr int roundsOfVelocities = 20, mostOfSprings = 60;
+  for (int round = 0; lags && round < roundsOfVelocities; ++round) {
+    forWanted([&](const SpaceContact& now, const SpaceContact& want) {
+      addLacking(now, want.tangentialForce - now.tangentialForce,
+                 want.rollingTorque - now.rollingTorque);
+    });
+    goBack(0.5 * setup_.dt);
+    evaluate();
+  }
+  const bool history =
+      law_.tangential == Tangential::spring || law_.tangential == Tangential::springDashpot;
+  for (int round = 0; history && round < mostOfSprings; ++round) {
+    bool settled = true;
+    forWanted([&](const SpaceContact& now, const SpaceContact& want) {
+      SpaceMemory<double>& own = springs[{now.i, now.j}];
+      const auto [sliding, rolling] = loadPerStretch(now);
+      settled &= stretched({now.tangentialForce, now.sliding}, {want.tangentialForce, want.sliding},
+                           sliding, slippingSpring(now, want.tangentialForce, sliding),
+                           slips[{now.i, now.j}], own.spring);
+      bool rolls = false;  // at its bound nothing is known of the angle's direction
+      if (law_.rolling == Rolling::spring)
+        settled &= stretched({now.rollingTorque, false}, {want.rollingTorque, false}, rolling, {},
+                             rolls, own.angle);
+    });
+    if (settled) break;
+    evaluate();
+  }
+  evaluations_ = evaluations;
+  if (!lags || setup_.integrator == Integrator::velocityVerlet) goBack(halfKick_);
+}
+
+/// Radius of i, and of j; 0 of a plane.
+std::pair<double, double> Spheres::radiiOf(const SpaceContact& contact) const {
+  const auto j = static_cast<std::size_t>(contact.j);
+  return {position_[static_cast<std::size_t>(contact.i)].w,
+          j < position_.size() ? position_[j].w : 0.0};
+}
+
+/// Adds a tangential force and a torque against rolling to those of a contact.
+void Spheres::addLacking(const SpaceContact& contact, const Vector& force, const Vector& torque) {
+  const auto [a, b] = radiiOf(contact);
+  const Vector couple = cross(contact.normal, force);
+  const auto apply = [&](std::int32_t number, double sign, double arm) {
+    const auto n = static_cast<std::size_t>(number);
+    if (n >= size()) return;
+    add(force_[n], force, sign);
+    if (!law_.rotation) return;
+    add(torque_[n], couple, -arm);
+    add(torque_[n], torque, sign);
+  };
+  if (b > 0.0) {
+    apply(contact.i, 1.0, armOf(law_.lever, a, b, contact.overlap));
+    apply(contact.j, -1.0, armOf(law_.lever, b, a, contact.overlap));
+  } else {
+    apply(contact.i, 1.0, planeArmOf(law_.lever, law_.planeLever, a, a - contact.overlap));
+  }
+}
+
+/// By how much f_t falls for each unit of ξ [N/m], of a remembered force 1; and M for each of θ.
+std::pair<double, double> Spheres::loadPerStretch(const SpaceContact& contact) const {
+  const auto [a, b] = radiiOf(contact);
+  ContactMotion<double> motion{};
+  motion.overlap = contact.overlap;
+  motion.radius = b > 0.0 ? a * b / (a + b) : a;
+  const double sliding = law_.history == History::force ? 1.0 : tangentialStiffness(law_, motion);
+  return {sliding, law_.kr * rollingMotion(law_, a, b, 0.0).square};
+}
+
+/// A spring by which a contact slips with that force: what is held against the bound, f* of
+/// tangentialForce(), is along the force and twice as large.
+Vector Spheres::slippingSpring(const SpaceContact& contact, const Vector& force,
+                               double unit) const {
+  const auto i = static_cast<std::size_t>(contact.i), j = static_cast<std::size_t>(contact.j);
+  const auto [a, b] = radiiOf(contact);
+  const bool plane = j >= position_.size();
+  const auto& velocities = seenVelocity_.empty() ? velocity_ : seenVelocity_;
+  const auto& spins = seenVelocity_.empty() ? spin_ : seenSpin_;
+  Meeting<double> meeting{};
+  meeting.normal = contact.normal;
+  meeting.spinI = vectorOf(spins[i]);
+  if (plane) {
+    const double height = a - contact.overlap;
+    const std::size_t wall = planes_[j - position_.size()].wall;
+    meeting.velocity = vectorOf(velocities[i]) - velocityOfPlane(wall, i, contact.normal, height);
+    meeting.armI = planeArmOf(law_.velocityLever, law_.planeLever, a, height);
+  } else {
+    meeting.velocity = vectorOf(velocities[i]) - vectorOf(velocities[j]);
+    meeting.spinJ = vectorOf(spins[j]);
+    meeting.armI = armOf(law_.velocityLever, a, b, contact.overlap);
+    meeting.armJ = armOf(law_.velocityLever, b, a, contact.overlap);
+  }
+  const Vector slip = slipOf(law_, meeting);
+  ContactMotion<double> motion{};
+  motion.overlap = contact.overlap;
+  motion.radius = b > 0.0 ? a * b / (a + b) : a;
+  motion.mass = 1.0 / (inverseMass_[i] + (plane ? 0.0 : inverseMass_[j]));
+  Vector viscous{};
+  if (law_.tangential == Tangential::springDashpot)
+    viscous = -tangentialDamping(law_, motion) * slip;
+  const Vector tested = law_.dashpotOutsideBound ? 2.0 * (force - viscous) : 2.0 * force - viscous;
+  const double part = law_.stretch == Stretch::after    ? 0.0
+                      : law_.stretch == Stretch::before ? 1.0
+                                                        : 0.5;
+  const double growth = law_.history == History::force ? tangentialStiffness(law_, motion) : 1.0;
+  return (-1.0 / unit) * tested - (part * growth * law_.dt) * slip;
+}
+
+}  // namespace grain
