@@ -18,29 +18,25 @@ struct SpringLoad {
 };
 
 /// Brings a spring nearer to its wanted load. While it sticks, one step of Newton's method is
-/// exact. Where it slips only the direction is the spring's: from `slipping` on, by which f* is
-/// twice the bound and along the load but for how the pair turns, the same step for that. It slips
-/// where it is said to, and where the wanted load cannot be had otherwise: the sum of a spring at
-/// its bound and a dashpot outside of it.
-/// @param slips  whether it was begun from `slipping`
+/// exact. Where it slips only the direction is the spring's: about twice the bound, the same step
+/// turns it by twice what it is off.
+/// @param guess  where to begin, for all but how the pair turns  @param begun  whether it has
 /// @return whether it has it
-bool stretched(const SpringLoad& now, const SpringLoad& want, double unit, const Vector& slipping,
-               bool& slips, Vector& spring) {
+bool stretched(const SpringLoad& now, const SpringLoad& want, double unit, const Vector& guess,
+               bool& begun, Vector& spring) {
   if (!(unit > 0.0)) return true;
   const Vector off = now.value - want.value;
   const double scale = length(want.value) + unit * length(spring);
   if (now.slides >= want.slides && length(off) <= 1e-12 * scale) return true;
-  if (!want.slides && !now.slides) {
-    spring += (1.0 / unit) * off;
-    return false;
-  }
   constexpr double least = 1e-30;  // [m]: of a load of nothing any direction will do
-  if (!std::exchange(slips, true))
-    spring = dot(slipping, slipping) > 0.0 ? slipping : Vector{least, least, least};
-  else if (!now.slides)
+  if (!std::exchange(begun, true))
+    spring = dot(guess, guess) > 0.0 ? guess : Vector{least, least, least};
+  else if (now.slides)
+    spring += (2.0 / unit) * off;
+  else if (want.slides)
     spring = 2.0 * spring;
   else
-    spring += (2.0 / unit) * off;
+    spring += (1.0 / unit) * off;
   return false;
 }
 
@@ -51,7 +47,7 @@ void Spheres::beginUnderWay(const std::vector<SpaceContact>& forces) {
   using Numbers = std::pair<std::int32_t, std::int32_t>;
   std::map<Numbers, const SpaceContact*> wanted;
   std::map<Numbers, SpaceMemory<double>> springs;
-  std::map<Numbers, bool> slips;
+  std::map<Numbers, bool> begun;
   for (const SpaceContact& contact : forces) {
     wanted[{contact.i, contact.j}] = &contact;
     if (law_.cohesion == Cohesion::jkr) springs[{contact.i, contact.j}].memory = 1.0;
@@ -108,13 +104,13 @@ void Spheres::beginUnderWay(const std::vector<SpaceContact>& forces) {
     forWanted([&](const SpaceContact& now, const SpaceContact& want) {
       SpaceMemory<double>& own = springs[{now.i, now.j}];
       const auto [sliding, rolling] = loadPerStretch(now);
+      const Vector guess = springFor(now, want, sliding);
       settled &= stretched({now.tangentialForce, now.sliding}, {want.tangentialForce, want.sliding},
-                           sliding, slippingSpring(now, want.tangentialForce, sliding),
-                           slips[{now.i, now.j}], own.spring);
-      bool rolls = false;  // at its bound nothing is known of the angle's direction
-      if (law_.rolling == Rolling::spring)
-        settled &= stretched({now.rollingTorque, false}, {want.rollingTorque, false}, rolling, {},
-                             rolls, own.angle);
+                           sliding, guess, begun[{now.i, now.j}], own.spring);
+      if (law_.rolling != Rolling::spring) return;
+      bool always = true;  // at its bound nothing is known of the angle's direction
+      settled &= stretched({now.rollingTorque, false}, {want.rollingTorque, false}, rolling, {},
+                           always, own.angle);
     });
     if (settled) break;
     evaluate();
@@ -160,10 +156,10 @@ std::pair<double, double> Spheres::loadPerStretch(const SpaceContact& contact) c
   return {sliding, law_.kr * rollingMotion(law_, a, b, 0.0).square};
 }
 
-/// A spring by which a contact slips with that force: what is held against the bound, f* of
-/// tangentialForce(), is along the force and twice as large.
-Vector Spheres::slippingSpring(const SpaceContact& contact, const Vector& force,
-                               double unit) const {
+/// A spring by which a contact has a wanted force, but for how the pair turns in the step; where it
+/// slips, by which what is held against the bound is along the force and twice as large.
+Vector Spheres::springFor(const SpaceContact& contact, const SpaceContact& want,
+                          double unit) const {
   const auto i = static_cast<std::size_t>(contact.i), j = static_cast<std::size_t>(contact.j);
   const auto [a, b] = radiiOf(contact);
   const bool plane = j >= position_.size();
@@ -191,12 +187,14 @@ Vector Spheres::slippingSpring(const SpaceContact& contact, const Vector& force,
   Vector viscous{};
   if (law_.tangential == Tangential::springDashpot)
     viscous = -tangentialDamping(law_, motion) * slip;
-  const Vector tested = law_.dashpotOutsideBound ? 2.0 * (force - viscous) : 2.0 * force - viscous;
+  const Vector& force = want.tangentialForce;
+  const bool alone = want.sliding && law_.dashpotOutsideBound;  // the dashpot has no part
+  const Vector elastic = (want.sliding ? 2.0 : 1.0) * force - (alone ? Vector{} : viscous);
   const double part = law_.stretch == Stretch::after    ? 0.0
                       : law_.stretch == Stretch::before ? 1.0
                                                         : 0.5;
   const double growth = law_.history == History::force ? tangentialStiffness(law_, motion) : 1.0;
-  return (-1.0 / unit) * tested - (part * growth * law_.dt) * slip;
+  return (-1.0 / unit) * elastic - (part * growth * law_.dt) * slip;
 }
 
 }  // namespace grain

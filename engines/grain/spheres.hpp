@@ -128,8 +128,7 @@ class Spheres {
                   const Vec3<double>& torque);
   std::pair<double, double> radiiOf(const SpaceContact& contact) const;
   std::pair<double, double> loadPerStretch(const SpaceContact& contact) const;
-  Vec3<double> slippingSpring(const SpaceContact& contact, const Vec3<double>& force,
-                              double unit) const;
+  Vec3<double> springFor(const SpaceContact& contact, const SpaceContact& want, double unit) const;
   /// Of the wall, where sphere i meets it.
   Vec3<double> velocityOfPlane(std::size_t wall, std::size_t i, const Vec3<double>& normal,
                                double height) const;
