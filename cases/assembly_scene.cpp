@@ -155,7 +155,7 @@ template <int D>
 void requireDimension(const Case& setup) {
   if (setup.dimension == D) return;
   throw BadInput(
-      fmt::format("{}: only compare, plan and check run assemblies in space "
+      fmt::format("{}: only compare, plan, lockstep and check run assemblies in space "
                   "(case.dimension = 3)",
                   setup.file.string()));
 }

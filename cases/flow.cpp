@@ -167,12 +167,13 @@ Packing packingAt(const Packing& from, const SceneOf<D>& scene, const SnapshotOf
   disks.position = now.position;
   disks.velocity = now.velocity;
   if (now.spin) disks.spin = *now.spin;
-  const auto wheel = std::ranges::find(scene.bodies, wheelName, &WallBodyOf<D>::name);
-  if (D == 2 && wheel != scene.bodies.end()) {  // a cell's, whose other walls stand still
-    const auto& body = now.bodies[static_cast<std::size_t>(wheel - scene.bodies.begin())];
-    if constexpr (D == 2) there.wheelAngle += body.angle;
-  } else {
-    there.wallTime += now.positionTime;
+  there.wallTime += now.positionTime;
+  if constexpr (D == 2) {  // a cell's wheel turns, and its other walls stand still
+    const auto wheel = std::ranges::find(scene.bodies, wheelName, &WallBody::name);
+    if (wheel != scene.bodies.end()) {
+      there.wallTime = from.wallTime;
+      there.wheelAngle += now.bodies[static_cast<std::size_t>(wheel - scene.bodies.begin())].angle;
+    }
   }
   there.hash = contentHash(there);
   return there;

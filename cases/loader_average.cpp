@@ -143,7 +143,7 @@ void readRegion(Reader& in, Case& c) {
   for (const std::string& method : input.methods) {
     const auto known = weightNamesIn(dimension);
     in.check(std::ranges::find(known, method) != known.end(), "method",
-             "where case.dimension = {} are {}", dimension, fmt::join(known, ", "));
+             "with case.dimension = {} methods are {}", dimension, fmt::join(known, ", "));
     in.check(region.bins == BinKind::slabs || !Weight(weightMethod(method), 1.0).isFunction(),
              "method", "{} is of slabs", method);
   }

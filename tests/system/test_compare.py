@@ -78,9 +78,9 @@ class Space(SystemTest):
         self.assertEqual([("grain", "finished")] * 4 + [("grain-as-lammps", "finished")] * 4,
                          [(run["engine"], run["status"]) for run in results["runs"]])  # fmt: skip
         self.assertEqual(4, len({packing["hash"] for packing in results["packings"]}))
-        self.assertEqual(8, len({row["endpoint"] for row in self.rows("endpoints.csv") if row["kind"] == "peer"}))
+        self.assertEqual(9, len({row["endpoint"] for row in self.rows("endpoints.csv") if row["kind"] == "peer"}))
         slabs = [row for row in self.rows("profiles.csv") if row["engine"] == "grain" and row["packing"] == "0"]
-        volume = sum(float(row["value"]) * 10 * 27**0.5 for row in slabs if row["field"] == "volume_fraction")
+        volume = sum(float(row["mean"]) * 10 * 27**0.5 for row in slabs if row["field"] == "volume_fraction")
         self.assertAlmostEqual(560 * math.pi / 6, volume, delta=560 * math.pi / 6 * 0.05)  # but for what is in the walls' hollows
         kept = {file: file.stat().st_mtime_ns for file in (self.out / "runs").glob("*.json")}
         self.assertEqual(8, len(kept))
@@ -91,7 +91,7 @@ class Space(SystemTest):
         done = self.run_program("compare", self.BUMPY, "--engines", "grain", "--out", self.out, "--dry-run", *self.SHORT)
         self.assert_status(done, HELD)
         self.assertIn("shear-3d: 4 packings, 4 of them prepared already", done.stdout)
-        self.assert_status(self.run_program("plan", self.BUMPY, "--engines", "grain", "--out", self.out, *self.SHORT), HELD)
+        self.assert_status(self.run_program("plan", self.BUMPY, "--engines", "grain,lammps", "--slurm", self.folder / "jobs"), HELD)
 
     def test_disks_in_a_periodic_cell(self):
         case = CASES / "space/plane-shear.toml"

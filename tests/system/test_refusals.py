@@ -140,6 +140,16 @@ VALUES = {
     f"baseline {CELL} --engines grain --out text.h5": "this file exists, and a baseline is not replaced",
     f"record {PAIR} --engines grain --out text.h5": "is not replaced",
 }
+SPHERES = CASES / "space/shear-3d.toml"
+IN_SPACE = {  # what knows no assembly of spheres
+    f"record {SPHERES} --engines grain --time 0.1 --out r.rec": "only compare, plan, lockstep and check run assemblies in space",
+    f"average none.h5 {SPHERES} --out out": "average knows no cases in space",
+    f"stability {SPHERES} {RUN}": "has no [stability]",
+    f"baseline {SPHERES} --engines grain --out b.baseline": "baseline cannot run a case of this kind",
+    f"compare {SPHERES} --engines bullet --out out": "has dimension = 2, not 3",
+    f"compare {SPHERES} {RUN} --set=case.dimension=2": "must be [x, y] in m",
+    f"compare {SPHERES} {RUN} --set=assembly.box.high=[10,1.9,12]": "must be wider than two reaches",
+}
 CALIBRATION = {
     "": "one of",
     f"--en=0.9 {CELL}": "one of",
@@ -190,6 +200,9 @@ class Refusals(SystemTest):
     def test_values(self):
         self.write("text.h5", "{}")
         self.refuse_all(VALUES)
+
+    def test_spheres(self):
+        self.refuse_all(IN_SPACE)
 
     def test_calibrate(self):
         self.refuse_all(CALIBRATION, "calibrate")
