@@ -70,6 +70,23 @@ TEST(MovedPairs, TwistingPair_HasASpringThatIsAChordOfItsTurn) {
   EXPECT_NEAR(lastForce(pair, law).norm(), straight, 1e-4 * straight);
 }
 
+TEST(MovedPairs, ArmsThatAreTheRadii_StretchATurningPairsSpringByItsOverlap) {
+  // Two of the same spin ω that turn by ω t: v_t by arms that add up to a_i + a_j is larger by δ ω
+  // than by arms that add up to the distance, so that F_t differs by k_t δ Θ.
+  const MovedPair pair = twistingPair();
+  ContactLaw law = movedLaw();
+  law.conventions.springTwist = SpringTwist::none;
+  law.conventions.springUpdate = SpringUpdate::before;
+  const Vec3 meet = lastForce(pair, law, movedSteps);
+  law.conventions.velocityArm = VelocityArm::radius;
+  const Vec3 radii = lastForce(pair, law, movedSteps);
+  const Vec3 n = pair.apart(0.0).normalized();
+  const double overlap = pair.reach() - pair.apart(0.0).norm();
+  const double turn = (pair.spin[0] - pair.spin[0].dot(n) * n).norm() * movedTime *
+                      (movedSteps + 1.0) / movedSteps;  // a stretch at 0 s, too
+  EXPECT_NEAR((radii - meet).norm(), law.kt * overlap * turn, 1e-9 * radii.norm());
+}
+
 TEST(MovedPairs, FirstOrderAndProjection_GrowAndShrinkAsMuch) {
   // exp(±½ Σ ΔΘ²) of a spring that turns by Θ: opposite, to the order of ΔΘ².
   const MovedPair pair = passingPair();

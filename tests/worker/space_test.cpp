@@ -395,6 +395,55 @@ TEST_P(Space, SpheresOnAFloor_MoveAndPushAsTheMirrorHasThem) {
   EXPECT_GE(compared, 10u);
 }
 
+/// Two spheres that meet in the plane z = 0, turned by `frame`; or disks with a sphere's J.
+template <int D>
+SceneOf<D> planarImpact(const ContactLaw& law, const Eigen::Matrix3d& frame) {
+  SceneOf<D> scene = emptyBox<D>();
+  scene.law = law;
+  scene.law.dimension = D;
+  const auto placed = [&](double x, double y, double z = 0.0) -> VecOf<D> {
+    const Vec3 place = frame * Vec3(x, y, z);
+    return place.template head<D>();
+  };
+  for (const double side : {1.0, -1.0}) {
+    SpinOf<D> spin = noSpin<D>();
+    if constexpr (D == 2)
+      spin = 30.0 + 10.0 * side;
+    else
+      spin = placed(0.0, 0.0, 30.0 + 10.0 * side);
+    addBody<D>(scene, placed(side * 1.001 * radius, 0.0), placed(-0.1 * side, 0.15 * side), spin);
+  }
+  for (double& inertia : scene.disks.inertia) inertia = 0.4 * mass * radius * radius;
+  return scene;
+}
+
+TEST_P(Space, PlanarImpactInAnyFrame_IsThePlanes) {
+  const Eigen::Matrix3d frame =
+      Eigen::AngleAxisd(2.0, Vec3(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
+  const auto laws = engine_->capabilities().lawOptions.at("normal");
+  for (const NormalLaw normal : {NormalLaw::linear, NormalLaw::hertz}) {
+    const bool hertz = normal == NormalLaw::hertz;
+    if (hertz && (std::ranges::count(laws, "hertz") == 0 || GetParam() == std::string("yade")))
+      continue;  // it has it in the plane alone
+    ContactLaw law = springLaw(2);
+    law.normal = normal;
+    if (hertz) law.kn = 5e7;
+    if (hertz) law.kt = 5e7;
+    loadInto(*engine_, asRun(planarImpact<2>(law, Eigen::Matrix3d::Identity())));
+    const Snapshot plane = snapshotAt<2>(*engine_, 1e-3);
+    const SpaceScene scene = asRun(planarImpact<3>(law, frame));
+    loadInto(*engine_, scene);
+    const SpaceSnapshot space = snapshotAt<3>(*engine_, 1e-3);
+    for (const int k : {0, 1}) {
+      const Vec3 velocity = frame * Vec3(plane.velocity[k].x(), plane.velocity[k].y(), 0.0);
+      EXPECT_GT((velocity - scene.disks.velocity[k]).norm(), 0.1);
+      // Springs that are turned to first order, or shortened, by 1e-3 rad a step at most.
+      EXPECT_LE((space.velocity[k] - velocity).norm(), 1e-6 * 0.2);
+      EXPECT_LE((space.spin->at(k) - plane.spin->at(k) * frame.col(2)).norm(), 1e-6 * 40.0);
+    }
+  }
+}
+
 TEST_P(Space, WhatItDoesNotHave_IsRefused) {
   SpaceScene scene = shearedLayers(0.0);
   scene.bodies[0].motion.kind = MotionKind::radial;
