@@ -87,7 +87,8 @@ using SpaceSnapshot = SnapshotOf<3>;
 
 /// When the motion had the velocities that a snapshot shows [s].
 /// @param lag  EffectiveParameters::velocityLag; a scene's own velocities at t = 0 have none
-inline double timeOfVelocities(const Snapshot& snapshot, double lag) {
+template <int D>
+double timeOfVelocities(const SnapshotOf<D>& snapshot, double lag) {
   return snapshot.velocityTime - (snapshot.positionTime > 0.0 ? lag : 0.0);
 }
 

@@ -244,7 +244,7 @@ void print(const ConformanceResults& results) {
     for (const ConformanceRow& row : results.rows)
       if (row.outcome == outcome) fmt::print("  {}\n", reports::conformanceSentence(row));
   for (const ConformanceRow& row : results.rows)
-    if (row.part == "lockstep" && row.outcome == checkPassed) fmt::print("  {}\n", row.detail);
+    if (row.outcome == checkPassed && !row.detail.empty()) fmt::print("  {}\n", row.detail);
   for (const std::string& line :
        {reports::conformanceNotExamined(results), reports::conformanceCause(results)})
     if (!line.empty()) fmt::print("{}\n", line);

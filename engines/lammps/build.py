@@ -233,12 +233,13 @@ class Scene:
         self.lammps.command(f"group {group} type {kind}")
         motion = body.motion
         if body.kind == "rotating":
-            speed = motion["angular_velocity"]
+            speed = np.linalg.norm(motion["angular_velocity"])
             if speed == 0:
                 return
-            x, y = body.centre
-            period, axis = 2.0 * math.pi / abs(speed), math.copysign(1, speed)
-            words = f"rotate {x!r} {y!r} 0 0 0 {axis:g} {period!r}"
+            x, y, z = [*body.centre.tolist(), 0][:3]
+            spin = motion["angular_velocity"] if self.space == 3 else [0, 0, motion["angular_velocity"]]
+            axis = " ".join(repr(float(component / speed)) for component in spin)
+            words = f"rotate {x!r} {y!r} {z!r} {axis} {2.0 * math.pi / speed!r}"
         elif body.kind == "translating":
             words = "linear {!r} {!r} {!r}".format(*motion["velocity"], 0)
         else:

@@ -11,7 +11,7 @@ EFFECTS = (
     "gravity",
     "moving_walls",
 )
-MOTIONS_IN_SPACE = ("fixed", "translating", "oscillating")
+MOTIONS_IN_SPACE = ("fixed", "rotating", "translating", "oscillating")
 
 
 def effects_without_bottom():
@@ -66,7 +66,7 @@ def demand_tangential(law, kinds):
 
 
 def demand_plain_walls(scene, bodies):
-    """Of `load`: no plate below the disks, planes along axes only and, in space, no body that turns.
+    """Of `load`: no plate below the disks, planes along axes only and, in space, no ring that shrinks.
 
     @raise Unsupported"""
     bottom = scene.get("bottom")

@@ -47,9 +47,19 @@ class Box:
         return moved
 
 
+def turned(angle, vectors):
+    """Vectors, one a row, by an angle about its direction (Rodrigues' formula)."""
+    size = np.linalg.norm(angle)
+    if size == 0:
+        return vectors
+    axis = angle / size
+    aside = np.cross(axis, vectors)
+    return vectors + math.sin(size) * aside + (1.0 - math.cos(size)) * np.cross(axis, aside)
+
+
 class Body:
     """A rigid body of wall disks and planes at any time. Lists of vectors are (n, 2) arrays, in space
-    (n, 3), where no body turns."""
+    (n, 3), where angles and spins are vectors."""
 
     def __init__(self, description, disk_position, disk_radius):
         self.name = description["name"]
@@ -67,7 +77,7 @@ class Body:
         motion, velocity = self.motion, np.zeros(len(self.centre))
         none = np.zeros(3) if len(self.centre) == 3 else 0.0
         if self.kind == "rotating":
-            spin = motion["angular_velocity"]
+            spin = motion["angular_velocity"] + none
             return self.centre, velocity, spin * t, spin
         if self.kind == "translating":
             velocity = np.array(motion["velocity"])
@@ -94,7 +104,8 @@ class Body:
         """Positions and velocities of the wall disks at time t."""
         centre, velocity, angle, spin = self.state(t)
         if len(centre) == 3:
-            return centre + self.offset, np.tile(velocity, (len(self.offset), 1))
+            arm = turned(angle, self.offset)
+            return centre + arm, velocity + np.cross(spin, arm)
         shift, outward = self.radial(t)
         apart = np.where(self.distance > 0, self.distance, 1.0)  # a disk at the centre stays there
         scale = 1.0 + shift / apart
@@ -116,7 +127,7 @@ class Body:
             for key in ("point", "normal")
         )
         if len(centre) == 3:
-            return centre + (point - self.centre), normal
+            return centre + turned(angle, point - self.centre), turned(angle, normal)
         cos, sin = math.cos(angle), math.sin(angle)
         turn = np.array([[cos, sin], [-sin, cos]])  # of vectors in rows
         return centre + (point - self.centre) @ turn, normal @ turn

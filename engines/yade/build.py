@@ -91,6 +91,11 @@ def in_space(vector):
     return (*vector, 0)[:3]
 
 
+def about(spin):
+    """Of the plane: about z."""
+    return spin if np.ndim(spin) else (0, 0, spin)
+
+
 def place_walls(bodies, law):
     """Sets each body's disk_ids and plane_ids, in the order of the scene's planes, and for boxes,
     of which each plane has one for every kind of disks, how deep their centres lie."""
@@ -146,7 +151,7 @@ def start_walls(bodies):
         _, velocity, _, spin = body.state(0.0)
         for id_, of_disk in zip(body.disk_ids, body.disk_ids and body.disk_states(0.0)[1].tolist()):
             O.bodies[id_].state.vel = in_space(of_disk)
-            O.bodies[id_].state.angVel = (0, 0, spin) if len(of_disk) == 2 else spin
+            O.bodies[id_].state.angVel = about(spin)
         for id_ in body.plane_ids:
             O.bodies[id_].state.vel = in_space(velocity.tolist())
         if body.kind == "rotating" and body.disk_ids:
@@ -156,12 +161,12 @@ def start_walls(bodies):
 def clump_about(centre, ids, spin):
     # A clump turns about its centre of mass: a hub that outweighs all else puts it at the centre.
     heavy = O.materials.append(FrictMat(density=1e40))
-    hub = utils.sphere((*centre, 0), 1e-3, fixed=True, color=WHITE, material=heavy, mask=HUB_MASK)
+    hub = utils.sphere(in_space(centre), 1e-3, fixed=True, color=WHITE, material=heavy, mask=HUB_MASK)
     hub.bounded = False
     clump = O.bodies[O.bodies.clump([*ids, O.bodies.append(hub)], discretization=0)]
     clump.state.blockedDOFs = "xyzXYZ"
     clump.state.vel = (0, 0, 0)
-    clump.state.angVel = (0, 0, spin)
+    clump.state.angVel = about(spin)
 
 
 def oscillation(body, dt):

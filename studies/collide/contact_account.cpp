@@ -1,5 +1,6 @@
 #include "studies/collide/contact_account.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -10,20 +11,29 @@ namespace crossgrain::inline studies {
 
 namespace {
 
+/// Of two along tangents, which are numbers in the plane.
+double product(double a, double b) {
+  return a * b;
+}
+double product(const Vec3& a, const Vec3& b) {
+  return a.dot(b);
+}
+
 /// Velocities and spins at one time, straight between those of two snapshots.
+template <int D>
 class Motions {
  public:
-  void add(double time, const Snapshot& snapshot, const std::vector<double>& spinAtStart) {
+  void add(double time, const SnapshotOf<D>& snapshot, const std::vector<SpinOf<D>>& spinAtStart) {
     before_ = std::move(now_);
     now_ = {time, snapshot.velocity, snapshot.spin.value_or(spinAtStart)};
   }
   double latest() const { return now_.time; }
-  Vec2 velocity(std::size_t disk, double time) const {
+  VecOf<D> velocity(std::size_t disk, double time) const {
     const double weight = weightOfNow(time);
     if (weight == 1.0) return now_.velocity[disk];
     return weight * now_.velocity[disk] + (1.0 - weight) * before_.velocity[disk];
   }
-  double spin(std::size_t disk, double time) const {
+  SpinOf<D> spin(std::size_t disk, double time) const {
     const double weight = weightOfNow(time);
     if (weight == 1.0) return now_.spin[disk];
     return weight * now_.spin[disk] + (1.0 - weight) * before_.spin[disk];
@@ -32,8 +42,8 @@ class Motions {
  private:
   struct Known {
     double time = 0.0;
-    std::vector<Vec2> velocity;
-    std::vector<double> spin;
+    std::vector<VecOf<D>> velocity;
+    std::vector<SpinOf<D>> spin;
   };
   double weightOfNow(double time) const {
     if (time == now_.time || before_.velocity.empty() || before_.time == now_.time) return 1.0;
@@ -43,38 +53,51 @@ class Motions {
 };
 
 /// One contact at one time.
+template <int D>
 struct ContactKinematics {
-  double normalForce, tangentialForce, normalVelocity;
-  double worked;  ///< the tangential velocity that f_t does work on
-  double slip;    ///< v_t of the law
+  double normalForce;
+  SpinOf<D> tangentialForce;
+  double normalVelocity;
+  SpinOf<D> worked;  ///< the tangential velocity that f_t does work on
+  SpinOf<D> slip;    ///< v_t of the law
   bool slides;
-  double torque = 0.0, rollingSpin = 0.0;  ///< M, and ω_r that it does work on
+  SpinOf<D> torque, rollingSpin;  ///< M, and ω_r that it does work on
 };
 
-ContactKinematics touchAt(const Contacts& contacts, std::size_t c, const ContactRecording& run,
-                          const Motions& motions, double time) {
+template <int D>
+ContactKinematics<D> touchAt(const ContactsOf<D>& contacts, std::size_t c,
+                             const ContactRecording<D>& run, const Motions<D>& motions,
+                             double time) {
   const auto i = static_cast<std::size_t>(contacts.i[c]);
   const auto j = static_cast<std::size_t>(contacts.j[c]);
   const bool wall = run.pair.plane;
-  const Vec2 velocity = motions.velocity(i, time) - (wall ? run.scene.bodies.front().motion.velocity
-                                                          : motions.velocity(j, time));
+  const VecOf<D> velocity =
+      motions.velocity(i, time) -
+      (wall ? run.scene.bodies.front().motion.velocity : motions.velocity(j, time));
   const LawConventions& how = run.law.conventions;
-  const auto turning = [&](LeverArm arm) {
+  const VecOf<D>& normal = contacts.normal[c];
+  const SpinOf<D> none = noSpin<D>(), spinI = motions.spin(i, time);
+  const SpinOf<D> spinJ = wall ? none : motions.spin(j, time);
+  /// Along the tangents, of surfaces that the spins turn at those arms.
+  const auto along = [&](LeverArm arm) -> SpinOf<D> {
     const auto of = [&](int side) {
       return run.pair.radius[side] -
              leverFraction(arm, how.planeArm, run.pair, side) * contacts.overlap[c];
     };
-    return of(0) * motions.spin(i, time) + (wall ? 0.0 : of(1) * motions.spin(j, time));
+    const SpinOf<D> turning = of(0) * spinI + (wall ? none : SpinOf<D>(of(1) * spinJ));
+    if constexpr (D == 2)
+      return velocity.dot(perpendicular(normal)) - turning;
+    else
+      return velocity - velocity.dot(normal) * normal - turning.cross(normal);
   };
-  const Vec2& normal = contacts.normal[c];
   return {contacts.normalForce[c],
           contacts.tangentialForce[c],
           velocity.dot(normal),
-          velocity.dot(perpendicular(normal)) - turning(how.leverArm),
-          velocity.dot(perpendicular(normal)) - turning(how.armOfVelocity()),
+          along(how.leverArm),
+          along(how.armOfVelocity()),
           !contacts.sliding.empty() && contacts.sliding[c] != 0,
-          contacts.rollingTorque.empty() ? 0.0 : contacts.rollingTorque[c],
-          motions.spin(i, time) - (wall ? 0.0 : motions.spin(j, time))};
+          contacts.rollingTorque.empty() ? none : contacts.rollingTorque[c],
+          spinI - spinJ};
 }
 
 /// The parts of a law's rolling resistance and cohesion that its forces tell: of a rolling spring
@@ -94,24 +117,27 @@ EnergySplit partsOf(const ContactLaw& law) {
 }
 
 /// In the tangential spring, as far as the force tells [J].
+template <int D>
 double storedEnergy(const ContactLaw& law, const PairCoefficients& pair,
-                    const ContactKinematics& touch) {
+                    const ContactKinematics<D>& touch) {
   const bool dashpot = law.tangential == TangentialLaw::springDashpot;
   if (!(pair.kt > 0.0) || (!dashpot && law.tangential != TangentialLaw::spring)) return 0.0;
   const bool dashpotActs =
       dashpot && (!touch.slides || law.conventions.springReset == SpringReset::springOnly);
-  const double force = touch.tangentialForce + (dashpotActs ? pair.gt * touch.slip : 0.0);
-  return 0.5 * force * force / pair.kt;
+  const SpinOf<D> force =
+      touch.tangentialForce + (dashpotActs ? SpinOf<D>(pair.gt * touch.slip) : noSpin<D>());
+  return 0.5 * product(force, force) / pair.kt;
 }
 
-void addStep(ContactAccount& account, const ContactLaw& law, const ContactKinematics& touch,
+template <int D>
+void addStep(ContactAccount& account, const ContactLaw& law, const ContactKinematics<D>& touch,
              double stored, double dt) {
   double normal = -touch.normalForce * touch.normalVelocity * dt;
-  const double tangential = -touch.tangentialForce * touch.worked * dt;
+  const double tangential = -product(touch.tangentialForce, touch.worked) * dt;
   account.work.normal += normal;
   account.work.tangential += tangential;
   if (!account.split) return;
-  const double rolling = -touch.torque * touch.rollingSpin * dt;
+  const double rolling = -product(touch.torque, touch.rollingSpin) * dt;
   if (account.split->rolling) *account.split->rolling += rolling;
   if (account.split->rollingDamping) *account.split->rollingDamping += rolling;
   for (auto* body : {&account.split->plastic, &account.split->detachment})
@@ -127,16 +153,17 @@ void addStep(ContactAccount& account, const ContactLaw& law, const ContactKinema
 }
 
 /// Sums what the contacts of one step did into the accounts.
+template <int D>
 class ContactWork {
  public:
-  explicit ContactWork(const ContactRecording& run)
+  explicit ContactWork(const ContactRecording<D>& run)
       : run_(run), accounts(run.scene.disks.size() / (run.pair.plane ? 1 : 2)) {
     if (!run.effective.pairs.empty()) pair_ = run.effective.pairs.front();
   }
 
   /// Contacts are summed when the velocities of their time are known.
   /// @returns how many pairs touch
-  std::size_t add(const Snapshot& now) {
+  std::size_t add(const SnapshotOf<D>& now) {
     motions_.add(timeOfVelocities(now, run_.effective.velocityLag), now, run_.scene.disks.spin);
     if (pending_ && motions_.latest() >= pendingTime_) sumPending();
     pending_ = now.contacts;
@@ -176,16 +203,16 @@ class ContactWork {
         if (run_.slidingFlags && tells) account->split = partsOf(run_.law);
       }
       account->maxOverlap = std::max(account->maxOverlap, pending_->overlap[c]);
-      const ContactKinematics touch = touchAt(*pending_, c, run_, motions_, pendingTime_);
+      const ContactKinematics<D> touch = touchAt(*pending_, c, run_, motions_, pendingTime_);
       addStep(*account, run_.law, touch, storedEnergy(run_.law, pair_, touch), run_.effective.dt);
     }
     pending_.reset();
   }
 
-  const ContactRecording& run_;
+  const ContactRecording<D>& run_;
   PairCoefficients pair_;
-  Motions motions_;
-  std::optional<Contacts> pending_;
+  Motions<D> motions_;
+  std::optional<ContactsOf<D>> pending_;
   double pendingTime_ = 0.0;
   /// How far beyond δ = 0 a contact that the engine shows may be a bond [m].
   double range_ = bondRange(run_.law, run_.pair.reducedRadius());
@@ -194,24 +221,40 @@ class ContactWork {
   std::vector<std::optional<ContactAccount>> accounts;
 };
 
+template <int D>
+SnapshotOf<D> shown(Engine& engine, ContactReport contacts) {
+  if constexpr (D == 2)
+    return engine.snapshot(contacts);
+  else
+    return engine.snapshotInSpace(contacts);
+}
+
 }  // namespace
 
+template <int D>
 std::vector<std::optional<ContactAccount>> recordContacts(Engine& engine,
-                                                          const ContactRecording& run, double end) {
+                                                          const ContactRecording<D>& run,
+                                                          double end) {
   const double dt = run.effective.dt;
-  ContactWork work(run);
-  work.add(engine.snapshot(ContactReport::none));
+  ContactWork<D> work(run);
+  work.add(shown<D>(engine, ContactReport::none));
   const auto steps = std::llround(end / dt);
   bool over = false;
   for (long long step = 1; step <= steps && !over; ++step) {
     throwIfInterrupted();
     engine.advance(static_cast<double>(step) * dt);
-    const Snapshot now = engine.snapshot(ContactReport::instant);
+    const SnapshotOf<D> now = shown<D>(engine, ContactReport::instant);
     if (now.contactInterval > 0.0) break;  // means over a step: no forces of one instant
     over = work.add(now) == 0 && work.allMet();
   }
   engine.advance(end);
   return work.accounts;
 }
+template std::vector<std::optional<ContactAccount>> recordContacts<2>(Engine&,
+                                                                      const ContactRecording<2>&,
+                                                                      double);
+template std::vector<std::optional<ContactAccount>> recordContacts<3>(Engine&,
+                                                                      const ContactRecording<3>&,
+                                                                      double);
 
 }  // namespace crossgrain::inline studies

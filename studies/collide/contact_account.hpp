@@ -18,9 +18,11 @@ struct ContactAccount {
 };
 
 /// How an engine runs a sweep: what is needed to read its contacts.
+template <int D>
 struct ContactRecording {
-  const Scene&
-      scene;  ///< of collisionScene(): pair k is disks 2k and 2k + 1, or disk k and the wall
+  /// Of collisionScene() or spaceCollisionScene(): pair k is disks 2k and 2k + 1, or disk k and the
+  /// wall.
+  const SceneOf<D>& scene;
   CollidingPair pair;  ///< that all of them are
   ContactLaw law;      ///< with the engine's own conventions
   const EffectiveParameters& effective;
@@ -38,7 +40,9 @@ struct ContactRecording {
 /// at the later one.
 /// @returns one account per pair; absent for one that was not seen to touch, and for all where
 ///          forces are means over a step, those of impulses
+template <int D>
 std::vector<std::optional<ContactAccount>> recordContacts(Engine& engine,
-                                                          const ContactRecording& run, double end);
+                                                          const ContactRecording<D>& run,
+                                                          double end);
 
 }  // namespace crossgrain::inline studies

@@ -218,40 +218,42 @@ SceneOf<D> sceneOfSweep(const Case& setup, const std::vector<CollisionStart>& st
     return spaceCollisionScene(setup, starts, dt);
 }
 
-/// The sweep's outcomes in space, from the flights after the collisions: contacts are not watched.
-Outcomes runOutcomes(Engine& engine, const Capabilities&, const Case& setup,
-                     const SpaceScene& scene, const ContactLaw&,
-                     const EffectiveParameters& effective,
-                     const std::vector<CollisionStart>& starts, bool) {
-  engine.advance(sweepEnd(setup, scene.dt, effective.dt));
-  const SpaceSnapshot after = engine.snapshotInSpace(ContactReport::none);
-  const Eigen::Matrix3d turn = turnOf(setup);
-  Outcomes outcomes;
-  for (std::size_t k = 0; k < starts.size(); ++k) {
-    const auto parted = collisionEnd(scene, after, k, starts[k], turn);
-    outcomes.push_back(parted ? std::optional(CollisionOutcome{*parted, {}}) : std::nullopt);
-  }
-  return outcomes;
+/// What a pair's flight after the collision tells. @param under  the scene with the engine's own
+/// law: where a bond lets go is a convention
+std::optional<CollisionEnd> endOfPair(const Case&, const Scene& under, const Snapshot& after,
+                                      std::size_t pair, const CollisionStart& start) {
+  return collisionEnd(under, after, pair, start);
+}
+std::optional<CollisionEnd> endOfPair(const Case& setup, const SpaceScene& under,
+                                      const SpaceSnapshot& after, std::size_t pair,
+                                      const CollisionStart& start) {
+  return collisionEnd(under, after, pair, start, turnOf(setup));
 }
 
 /// The sweep's outcomes; those of a run that is watched also with overlaps and work.
 /// @param law  as the engine runs it
-Outcomes runOutcomes(Engine& engine, const Capabilities& can, const Case& setup, const Scene& scene,
-                     const ContactLaw& law, const EffectiveParameters& effective,
+template <int D>
+Outcomes runOutcomes(Engine& engine, const Capabilities& can, const Case& setup,
+                     const SceneOf<D>& scene, const ContactLaw& law,
+                     const EffectiveParameters& effective,
                      const std::vector<CollisionStart>& starts, bool watch) {
   const double end = sweepEnd(setup, scene.dt, effective.dt);
-  const ContactRecording watched{scene, collidingPair(setup), law, effective, can.slidingFlags};
+  const ContactRecording<D> watched{scene, collidingPair(setup), law, effective, can.slidingFlags};
   std::vector<std::optional<ContactAccount>> accounts(starts.size());
   if (watch && can.instantContacts)
     accounts = recordContacts(engine, watched, end);
   else
     engine.advance(end);
-  const Snapshot after = engine.snapshot(ContactReport::none);
-  Scene under = scene;  // where a bond lets go is a convention
+  SceneOf<D> under = scene;
   under.law = law;
+  SnapshotOf<D> after;
+  if constexpr (D == 2)
+    after = engine.snapshot(ContactReport::none);
+  else
+    after = engine.snapshotInSpace(ContactReport::none);
   Outcomes outcomes;
   for (std::size_t k = 0; k < starts.size(); ++k) {
-    const auto parted = collisionEnd(under, after, k, starts[k]);
+    const auto parted = endOfPair(setup, under, after, k, starts[k]);
     outcomes.push_back(parted ? std::optional(CollisionOutcome{*parted, {}}) : std::nullopt);
     if (!parted || !accounts[k]) continue;
     outcomes[k]->end.maxOverlap = accounts[k]->maxOverlap;

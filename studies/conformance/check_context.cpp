@@ -35,11 +35,6 @@ bool sameBody(const BodySnapshot& a, const BodySnapshot& b) {
          a.angularVelocity == b.angularVelocity && a.force == b.force && a.torque == b.torque;
 }
 
-bool simulates(const Capabilities& can, Effect effect) {
-  const auto found = can.effects.find(effect);
-  return found != can.effects.end() && found->second != Support::never;
-}
-
 /// Whether the option, at that value, has a bearing on any law that the engine declares.
 bool hasBearing(const Capabilities& can, const std::string& option, const std::string& value) {
   const auto candidates = [&](const std::string& name) {
@@ -47,6 +42,7 @@ bool hasBearing(const Capabilities& can, const std::string& option, const std::s
   };
   ContactLaw law;
   law.gn = law.gt = law.mu = 1.0;
+  if (contains(can.dimensions, 3)) law.dimension = 3;
   // An arm of v_t that is that of f_t could be another one wherever there are arms.
   const std::string asked = option == "velocity_arm" ? "lever_arm" : option;
   const auto known = std::ranges::find(lawOptions(), option, &LawOption::name);
@@ -73,6 +69,11 @@ bool hasBearing(const Capabilities& can, const std::string& option, const std::s
 }
 
 }  // namespace
+
+bool simulates(const Capabilities& can, Effect effect) {
+  const auto found = can.effects.find(effect);
+  return found != can.effects.end() && found->second != Support::never;
+}
 
 Comparison close(double actual, double expected, const Tolerance& allowed) {
   return within(std::abs(actual - expected), std::abs(expected), allowed,
@@ -177,6 +178,8 @@ std::vector<std::string> declaredBy(const Capabilities& can) {
         {can.accumulatedContacts, accumulatedContacts},
         {can.warmHandover, "warm hand-over"},
         {can.energyLedger, energyLedger},
+        {contains(can.dimensions, 3), spheresInSpace},
+        {can.periodic, periodicDirections},
         {true, severalSizes},
         {true, manyDisks},
         {true, farPlaces},

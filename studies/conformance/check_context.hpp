@@ -67,6 +67,8 @@ inline const std::string severalSizes = "several sizes";
 inline const std::string manyDisks = "many disks";
 inline const std::string farPlaces = "places far from the origin";
 inline const std::string lateTimes = "late times";
+inline const std::string spheresInSpace = "spheres in space";
+inline const std::string periodicDirections = "periodic directions";
 std::string planeMotion(Motion::Kind kind);  ///< "planes: rotating"
 std::string wallMotion(Motion::Kind kind);   ///< "walls: rotating"
 std::string precisionNamed(Precision precision);
@@ -75,6 +77,8 @@ std::string precisionNamed(Precision precision);
 /// observables, precisions, settings; and what every engine must have: several sizes, many disks,
 /// places far off and late times. What limits do not exclude is declared.
 std::vector<std::string> declaredBy(const Capabilities& can);
+
+bool simulates(const Capabilities& can, Effect effect);
 
 /// The values that the engine declares of an option; of one that it does not list, the law's own.
 std::vector<std::string> valuesOf(const Capabilities& can, const ContactLaw& law,
@@ -118,6 +122,7 @@ class CheckContext {
   std::set<std::string> examined;              ///< capabilities in which a fault would be found
   std::map<std::string, std::string> refused;  ///< capabilities that could not be examined, and why
   std::optional<std::string> cause;            ///< of the faults; empty: none that was tried fits
+  std::vector<std::string> notes;  ///< of a check without faults: what follows from conventions
 
   /// Single precision by default.
   bool single() const;
@@ -207,6 +212,7 @@ struct Check {
   const char* name;            ///< "HeadOnCollision"
   const char* what;            ///< the property
   void (*run)(CheckContext&);  ///< finds faults, or throws Skipped
+  int dimension = 2;           ///< of its scenes
 };
 
 using Checks = std::span<const Check>;
@@ -221,6 +227,7 @@ Checks symmetryChecks();
 Checks wallChecks();
 Checks contactChecks();
 Checks reachChecks();
+Checks spaceChecks();
 Checks refusalChecks();
 Checks mirrorChecks();
 

@@ -43,6 +43,9 @@ ConformanceRow untriedRow(const std::string& part, const std::string& name,
 
 void runOne(const Check& check, CheckContext context, ConformanceRow& row, CheckReport& result) {
   try {
+    const std::vector<int>& had = context.can.dimensions;
+    if (std::ranges::find(had, check.dimension) == had.end())
+      context.skip("declares no " + (check.dimension == 3 ? spheresInSpace : "disks in a plane"));
     check.run(context);
   } catch (const Skipped& skip) {
     row.outcome = checkSkipped;
@@ -60,7 +63,10 @@ void runOne(const Check& check, CheckContext context, ConformanceRow& row, Check
   result.refused.merge(context.refused);
   if (row.outcome == checkBrokeDown) return;
   result.examined.merge(context.examined);
-  if (context.faults.empty()) return;
+  if (context.faults.empty()) {
+    if (row.outcome == checkPassed) row.detail = fmt::format("{}", fmt::join(context.notes, "; "));
+    return;
+  }
   row.outcome = checkFailed;
   row.detail = context.faults.front();
   row.cause = context.cause.value_or("");
@@ -73,7 +79,7 @@ std::vector<Check> checksOf(bool isMirror) {
   for (const Checks& part :
        {capabilityChecks(), lifecycleChecks(), freeMotionChecks(), collisionChecks(), lawChecks(),
         conventionChecks(), resistanceChecks(), symmetryChecks(), wallChecks(), contactChecks(),
-        reachChecks(), refusalChecks(), isMirror ? mirrorChecks() : Checks{}})
+        reachChecks(), spaceChecks(), refusalChecks(), isMirror ? mirrorChecks() : Checks{}})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

@@ -21,12 +21,13 @@ struct Planted {
 };
 
 /// tests/faults/engine with one of its numbers changed.
-EngineEntry plantedEntry(const std::string& name, const std::string& fault) {
+EngineEntry plantedEntry(const std::string& name, const std::string& fault,
+                         const char* program = CROSSGRAIN_PLANTED) {
   EngineEntry entry;
   entry.name = name;
   entry.summary = "has a planted fault";
   entry.command = [=] {
-    std::vector<std::string> call = {CROSSGRAIN_PLANTED};
+    std::vector<std::string> call = {program};
     if (!fault.empty()) call.push_back(fault);
     return call;
   };
@@ -55,9 +56,15 @@ std::string faultsOf(const std::vector<ConformanceRow>& rows) {
   return text;
 }
 
+/// A fault of spheres in space; the right engine without one.
+Planted inSpace(const char* name, const char* fault, const char* check, const char* cause) {
+  return {name, plantedEntry("spheres", fault, CROSSGRAIN_PLANTED_SPHERES), check, cause};
+}
+
 TEST(PlantedFaults, RightEngine_AllChecks_FindNoFault) {
   EXPECT_EQ("", faultsOf(rowsOf(plantedEntry("right", ""))));
   EXPECT_EQ("", faultsOf(rowsOf(mischiefOf("none"))));
+  EXPECT_EQ("", faultsOf(rowsOf(inSpace("", "", "", "").entry)));
 }
 
 class PlantedFault : public testing::TestWithParam<Planted> {};
@@ -108,6 +115,28 @@ INSTANTIATE_TEST_SUITE_P(
                   "^it has unloading_stiffness = lagged, and declares current"),
         resisting("deepest_forgotten", "forget_deepest=1", "CohesionFollowsItsClosedForms", ""),
         resisting("no_pull_at_walls", "pull_at_walls=0", "ForcesAreThoseOfTheLaw", "")),
+    [](const auto& one) { return std::string(one.param.name); });
+
+INSTANTIATE_TEST_SUITE_P(
+    InSpace, PlantedFault,
+    testing::Values(inSpace("spring_not_turned", "spring_turn=0", "SpringsOfMovedPairs",
+                            "^its spring does not follow n .*along n$"),
+                    inSpace("spring_projected", "spring_shrinks=1", "SpringsOfMovedPairs",
+                            "^it has spring_turn = projected, and declares rotated$"),
+                    inSpace("spring_not_twisted", "spring_twist=0", "SpringsOfMovedPairs",
+                            "^it has spring_twist = none, and declares mean_spin$"),
+                    inSpace("spring_twisted_twice", "spring_twist=2", "SpringsOfMovedPairs",
+                            "^its spring turns about n by 2 times"),
+                    inSpace("spring_twisted_back", "spring_twist=-1", "SpringsOfMovedPairs",
+                            "^its spring turns about n against"),
+                    inSpace("no_images", "images=0", "PairsAcrossBordersInSpace",
+                            "do not meet each other's images"),
+                    inSpace("wrong_image", "wrong_image=1", "PairsAcrossBordersInSpace",
+                            "wrong image"),
+                    inSpace("torque_axis", "torque_axis=1", "TorqueTurnsSpheres",
+                            "^the torque is about the wrong axis"),
+                    inSpace("inertia_of_disks", "inertia=1.25", "TorqueTurnsSpheres",
+                            "^J is 0\\.5 m a², .*that of a disk")),
     [](const auto& one) { return std::string(one.param.name); });
 
 INSTANTIATE_TEST_SUITE_P(

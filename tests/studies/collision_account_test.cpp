@@ -107,9 +107,9 @@ TEST(ContactAccount, WithoutSlidingFlags_HasOnlyTheSum) {
   for (const bool flags : {false, true}) {
     const auto engine = makeGrain();
     const EffectiveParameters effective = engine->load(scene, {});
-    for (const auto& account :
-         recordContacts(*engine, {scene, collidingPair(setup), scene.law, effective, flags},
-                        2.0 * test::smallContactTime)) {
+    for (const auto& account : recordContacts(
+             *engine, ContactRecording<2>{scene, collidingPair(setup), scene.law, effective, flags},
+             2.0 * test::smallContactTime)) {
       ASSERT_TRUE(account);
       EXPECT_EQ(account->split.has_value(), flags);
       sums[flags ? 1 : 0].push_back(account->work.tangential);

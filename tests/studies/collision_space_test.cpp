@@ -105,6 +105,27 @@ TEST(CollisionInSpace, InertiaOfADisk_IsFound) {
   EXPECT_EQ(curve.score.verdict, Verdict::fail);
 }
 
+TEST(CollisionInSpace, WatchedContacts_TellOverlapAndWhereTheEnergyGoes) {
+  // What a leapfrog scheme's forces take out of its motion is Σ f·v dt with velocities of the time
+  // of the force, here interpolated between snapshots: of second order in t_c/200, as the overlap
+  // is.
+  for (const char* const name : {"in-plane", "out-of-plane", "twist", "wall"}) {
+    SCOPED_TRACE(name);
+    const Case setup = variantOf(name);
+    const double dt = impactTimes(setup).shortest / 200.0;
+    const CollisionCurve curve = test::swept(setup, dt, true);
+    ASSERT_TRUE(curve.score.of[QuantityId::maxOverlap]);
+    EXPECT_LT(curve.score.of[QuantityId::maxOverlap]->max, 1e-3);
+    for (std::size_t k = 0; k < 26; ++k) {
+      const auto of = [&](QuantityId id) { return curve.points.at(id, k).value(); };
+      const double before = of(QuantityId::energyBefore);
+      const double lost = before - of(QuantityId::energyAfter);
+      const double worked = of(QuantityId::lostNormalDamping) + of(QuantityId::lostTangential);
+      EXPECT_NEAR(worked, lost, 1e-3 * before) << k;
+    }
+  }
+}
+
 TEST(CollisionInSpace, OtherCommands_RefuseIt) {
   const Case setup = variantOf("in-plane");
   EXPECT_NE(test::refusalOf<BadInput>([&] {

@@ -228,6 +228,59 @@ TEST_P(Space, WallBodies_MoveAsPrescribedAndFeelTheirContacts) {
   }
 }
 
+TEST_P(Space, TurningBody_IsWhereItTurnsToAndPushesAsItsSpheresMove) {
+  // A sphere meets one of the body's, or one as heavy as nothing moves it that has its velocity and
+  // spin. Meanwhile the former leaves the latter's straight path by ½ Ω² r t² = 3e-9 m, and the
+  // overlap is 1.6e-5 m.
+  const Vec3 spin = 4.0 * Vec3(0.3, -0.5, 0.8).normalized(), centre(0.01, 0.02, -0.03);
+  const Vec3 arm = 0.03 * spin.cross(Vec3::UnitX()).normalized();
+  const Vec3 n = Vec3(1.0, 1.0, 0.2).normalized();
+  Vec3 velocity[2], turning[2];
+  for (const bool free : {false, true}) {
+    SpaceScene scene = emptyBox<3>();
+    addBody<3>(scene, centre + arm + 2.0005 * radius * n, -0.2 * n, {10.0, -5.0, 3.0});
+    if (free) {
+      addBody<3>(scene, centre + arm, spin.cross(arm), spin);
+      scene.disks.mass[1] = 1e12;
+      scene.disks.inertia[1] = 0.4e12 * radius * radius;
+    } else {
+      WallBodyOf<3>& body = scene.bodies.emplace_back();
+      body.name = "drum";
+      body.centre = centre;
+      body.diskPosition = {centre + arm, centre - arm};
+      body.diskRadius = {radius, radius};
+      body.motion.kind = MotionKind::rotating;
+      body.motion.angularVelocity = spin;
+    }
+    scene = asRun(scene);
+    loadInto(*engine_, scene);
+    const SpaceSnapshot during = snapshotAt<3>(*engine_, 1.2e-4);
+    ASSERT_EQ(during.contacts->size(), 1u);
+    if (!free) {
+      const BodySnapshotOf<3>& body = during.bodies[0];
+      EXPECT_LE((body.angle - during.positionTime * spin).norm(), 1e-15);
+      EXPECT_LE((body.angularVelocity - spin).norm(), 1e-15);
+      const Vec3 force = -during.contacts->force(0);
+      EXPECT_LE((*body.force - force).norm(), 1e-9 * force.norm());
+      const Eigen::AngleAxisd turn(4.0 * during.contactTime, spin.normalized());
+      const Vec3 contact =
+          turn * arm + (radius - 0.5 * during.contacts->overlap[0]) * during.contacts->normal[0];
+      EXPECT_LE((*body.torque - contact.cross(force)).norm(), 1e-9 * force.norm() * 0.04);
+    }
+    const SpaceSnapshot after = snapshotAt<3>(*engine_, 1e-2);
+    velocity[free] = after.velocity[0];
+    turning[free] = after.spin->at(0);
+    if (free) continue;
+    const Eigen::AngleAxisd turn(4e-2, spin.normalized());
+    for (const int side : {0, 1})
+      EXPECT_LE((after.wallPosition[side] - centre - (side == 0 ? 1 : -1) * (turn * arm)).norm(),
+                1e-15);
+  }
+  EXPECT_GT((velocity[0] + 0.2 * n).norm(), 0.2);
+  EXPECT_LE((velocity[0] - velocity[1]).norm(), 1e-3 * 0.2);
+  EXPECT_LE((turning[0] - turning[1]).norm(), 1e-3 * 0.2 / radius);
+}
+
 TEST_P(Space, NothingFromOutside_KeepsMomentum) {
   SpaceScene scene = asRun(shearedLayers(0.0));
   scene.bodies.clear();
@@ -342,10 +395,58 @@ TEST_P(Space, SpheresOnAFloor_MoveAndPushAsTheMirrorHasThem) {
   EXPECT_GE(compared, 10u);
 }
 
+/// Two spheres that meet in the plane z = 0, turned by `frame`; or disks with a sphere's J.
+template <int D>
+SceneOf<D> planarImpact(const ContactLaw& law, const Eigen::Matrix3d& frame) {
+  SceneOf<D> scene = emptyBox<D>();
+  scene.law = law;
+  scene.law.dimension = D;
+  const auto placed = [&](double x, double y, double z = 0.0) -> VecOf<D> {
+    const Vec3 place = frame * Vec3(x, y, z);
+    return place.template head<D>();
+  };
+  for (const double side : {1.0, -1.0}) {
+    SpinOf<D> spin = noSpin<D>();
+    if constexpr (D == 2)
+      spin = 30.0 + 10.0 * side;
+    else
+      spin = placed(0.0, 0.0, 30.0 + 10.0 * side);
+    addBody<D>(scene, placed(side * 1.001 * radius, 0.0), placed(-0.1 * side, 0.15 * side), spin);
+  }
+  for (double& inertia : scene.disks.inertia) inertia = 0.4 * mass * radius * radius;
+  return scene;
+}
+
+TEST_P(Space, PlanarImpactInAnyFrame_IsThePlanes) {
+  const Eigen::Matrix3d frame =
+      Eigen::AngleAxisd(2.0, Vec3(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
+  const auto laws = engine_->capabilities().lawOptions.at("normal");
+  for (const NormalLaw normal : {NormalLaw::linear, NormalLaw::hertz}) {
+    const bool hertz = normal == NormalLaw::hertz;
+    if (hertz && (std::ranges::count(laws, "hertz") == 0 || GetParam() == std::string("yade")))
+      continue;  // it has it in the plane alone
+    ContactLaw law = springLaw(2);
+    law.normal = normal;
+    if (hertz) law.kn = 5e7;
+    if (hertz) law.kt = 5e7;
+    loadInto(*engine_, asRun(planarImpact<2>(law, Eigen::Matrix3d::Identity())));
+    const Snapshot plane = snapshotAt<2>(*engine_, 1e-3);
+    const SpaceScene scene = asRun(planarImpact<3>(law, frame));
+    loadInto(*engine_, scene);
+    const SpaceSnapshot space = snapshotAt<3>(*engine_, 1e-3);
+    for (const int k : {0, 1}) {
+      const Vec3 velocity = frame * Vec3(plane.velocity[k].x(), plane.velocity[k].y(), 0.0);
+      EXPECT_GT((velocity - scene.disks.velocity[k]).norm(), 0.1);
+      // Springs that are turned to first order, or shortened, by 1e-3 rad a step at most.
+      EXPECT_LE((space.velocity[k] - velocity).norm(), 1e-6 * 0.2);
+      EXPECT_LE((space.spin->at(k) - plane.spin->at(k) * frame.col(2)).norm(), 1e-6 * 40.0);
+    }
+  }
+}
+
 TEST_P(Space, WhatItDoesNotHave_IsRefused) {
   SpaceScene scene = shearedLayers(0.0);
-  scene.bodies[0].motion.kind = MotionKind::rotating;
-  scene.bodies[0].motion.angularVelocity = {0.0, 0.0, 1.0};
+  scene.bodies[0].motion.kind = MotionKind::radial;
   const auto refusal = [&] {
     try {
       engine_->loadInSpace(asRun(scene), {});
@@ -355,8 +456,32 @@ TEST_P(Space, WhatItDoesNotHave_IsRefused) {
     return std::string("ran");
   };
   EXPECT_EQ(refusal(),
-            "has walls that are fixed | translating | oscillating in space, not rotating");
+            "has walls that are fixed | rotating | translating | oscillating in space, not radial");
 }
+
+using LammpsInSpace = Space;
+
+TEST_P(LammpsInSpace, TwoRanks_MoveAndPushAsOne) {
+  if (!isOnPath("mpirun")) GTEST_SKIP() << "mpirun is not installed";
+  const SpaceScene scene = asRun(shearedLayers(0.0));
+  SpaceSnapshot seen[2];
+  for (const int more : {0, 1}) {
+    engine_->loadInSpace(scene, {{"ranks", 1.0 + more}});
+    seen[more] = snapshotAt<3>(*engine_, 4e-4);
+  }
+  // Sums in another order, as in the test of a third of the box.
+  for (std::size_t k = 0; k < scene.disks.size(); ++k) {
+    const Vec3 apart = seen[1].position[k] - seen[0].position[k];
+    EXPECT_LE(scene.box->nearest(apart).norm(), 1e-10 * radius);
+    EXPECT_LE((seen[1].spin->at(k) - seen[0].spin->at(k)).norm(), 1e-10 / radius);
+  }
+  EXPECT_EQ(byPair(*seen[0].contacts).size(), byPair(*seen[1].contacts).size());
+  for (const int b : {0, 1})
+    EXPECT_LE((*seen[0].bodies[b].torque - *seen[1].bodies[b].torque).norm(), 1e-8);
+}
+
+INSTANTIATE_TEST_SUITE_P(Lammps, LammpsInSpace, ::testing::Values("lammps"),
+                         [](const auto& each) { return std::string(each.param); });
 
 INSTANTIATE_TEST_SUITE_P(Peers, Space, ::testing::Values("yade", "lammps", "liggghts"),
                          [](const auto& each) { return std::string(each.param); });

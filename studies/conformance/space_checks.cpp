@@ -1,0 +1,287 @@
+// Spheres in space, and boxes with periodic directions: springs of pairs that are moved as
+// prescribed, torques, images.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "adapters/declared_law.hpp"
+#include "adapters/law_options.hpp"
+#include "adapters/suitability.hpp"
+#include "studies/conformance/check_context.hpp"
+#include "studies/conformance/moved_pairs.hpp"
+
+namespace crossgrain::conformance {
+namespace {
+
+/// Has the engine load a scene of D dimensions. @returns the scene as it runs it  @throws Skipped
+template <int D>
+SceneOf<D> loaded(CheckContext& c, const SceneOf<D>& wanted) {
+  try {
+    const SceneOf<D> scene = adaptScene(c.can, wanted, {}).scene;
+    if constexpr (D == 2)
+      c.effective = c.engine.load(scene, c.entry.settings);
+    else
+      c.effective = c.engine.loadInSpace(scene, c.entry.settings);
+    return scene;
+  } catch (const UnsupportedScene& unsupported) {
+    c.skip(unsupported.what());
+  }
+}
+
+template <int D>
+SnapshotOf<D> shown(CheckContext& c, double t) {
+  c.engine.advance(t);
+  if constexpr (D == 2)
+    return c.engine.snapshot(c.contactReport());
+  else
+    return c.engine.snapshotInSpace(c.contactReport());
+}
+
+// ---- springs ------------------------------------------------------------------------------------
+
+/// F_t on the first of the pair, normal to n, and the step that it is of.
+struct SeenForce {
+  Vec3 force;
+  int step;
+};
+
+std::vector<SeenForce> forcesOf(CheckContext& c, const MovedPair& pair) {
+  const double dt = c.effective.dt;
+  std::vector<SeenForce> seen;
+  for (const int step : {2, 30, 60, movedSteps}) {
+    const SpaceSnapshot now = shown<3>(c, step * dt);
+    c.require(now.contacts && now.contacts->size() == 1,
+              text("shows ", now.contacts ? now.contacts->size() : 0, " contacts of ", pair.name,
+                   " after ", step, " steps, not 1"));
+    const Vec3 force = now.contacts->tangentialForce[0], n = now.contacts->normal[0];
+    const double along = force.dot(n);
+    c.near(along, 0.0,
+           {1e-4 * force.norm(), 0.0, "what is turned to first order leaves the plane by ½ ΔΘ³"},
+           text("F_t·n [N] of ", pair.name, " after ", step, " steps"));
+    seen.push_back({force - along * n, static_cast<int>(std::llround(now.contactTime / dt))});
+  }
+  return seen;
+}
+
+/// Of what a spring would have done, the largest difference from what was seen, by the largest
+/// force.
+double distance(const std::vector<SeenForce>& seen, const std::vector<Vec3>& wanted) {
+  double most = 0.0, size = 0.0;
+  for (const auto& [force, step] : seen) {
+    const Vec3& other = wanted[static_cast<std::size_t>(step)];
+    most = std::max(most, (force - other).norm());
+    size = std::max(size, other.norm());
+  }
+  return most / size;
+}
+
+void springsOfMovedPairs(CheckContext& c) {
+  if (!c.can.instantContacts) c.skip("shows no contacts of one instant");
+  const ContactLaw law = followed(c.can, movedLaw());
+  if (law.normal != NormalLaw::linear || law.tangential != TangentialLaw::spring)
+    c.skip("has no linear law with a tangential spring");
+  const MovedPair pairs[] = {passingPair(), twistingPair()};
+  std::vector<std::vector<SeenForce>> seen;
+  ContactLaw declared;
+  for (const MovedPair& pair : pairs) {
+    const SpaceScene scene = loaded(c, movedScene(pair, law));
+    declared = declaredLaw(c.can, scene, c.effective, 0.5 * scene.disks.mass[0]).value();
+    seen.push_back(forcesOf(c, pair));
+  }
+  const auto farthest = [&](const SpringMotion& motion) {
+    double most = 0.0;
+    for (std::size_t k = 0; k < seen.size(); ++k)
+      most = std::max(
+          most, distance(seen[k], springForces(pairs[k], motion, c.effective.dt, movedSteps)));
+    return most;
+  };
+  // Rounding of a hundred steps; what conventions of a turn differ by is 1e-3.
+  const Tolerance rounding =
+      c.byPrecision(1e-9, 1e-4, "the same sums in another order, motion as prescribed");
+  for (std::size_t k = 0; k < seen.size(); ++k)
+    c.near(distance(seen[k], springForces(pairs[k], {declared}, c.effective.dt, movedSteps)), 0.0,
+           rounding, text("F_t of ", pairs[k].name, ", off by a part of it"));
+  for (const char* const option : {"spring_turn", "spring_twist"})
+    c.examine(text(option, " = ", lawOptionValue(declared, option)));
+  c.examine(spheresInSpace);
+  if (c.faults.empty()) {
+    c.notes = frameDependence(declared);
+    return;
+  }
+  for (const SpringMotion& motion : springMotions(declared))
+    if (farthest(motion) <= rounding.absolute) return c.suspect(motion.differenceFrom(declared));
+}
+
+// ---- torques ------------------------------------------------------------------------------------
+
+constexpr double radius = 0.005, mass = 1.309e-3;  ///< [m, kg]
+
+ContactLaw dampedLaw(int dimension) {
+  ContactLaw law;
+  law.dimension = dimension;
+  law.kn = 1e5;
+  law.gn = 1.15;
+  law.kt = 2e5 / 7.0;
+  law.gt = 0.33;
+  law.mu = 0.5;
+  law.en = 0.8;
+  law.conventions.leverArm = LeverArm::overlapMiddle;
+  return law;
+}
+
+template <int D>
+void addBody(SceneOf<D>& scene, const VecOf<D>& place, const VecOf<D>& velocity,
+             const SpinOf<D>& spin) {
+  DisksOf<D>& disks = scene.disks;
+  disks.radius.push_back(radius);
+  disks.mass.push_back(mass);
+  disks.inertia.push_back((D == 2 ? 0.5 : 0.4) * mass * radius * radius);
+  disks.position.push_back(place);
+  disks.velocity.push_back(velocity);
+  disks.spin.push_back(spin);
+}
+
+/// What turned a sphere by Δω that should be turned by `wanted`.
+std::string causeOfTurn(const Vec3& found, const Vec3& wanted, const Vec3& n) {
+  const double size = wanted.norm();
+  const Vec3 axis = wanted / size;
+  const double part = found.dot(axis) / size;
+  if (found.norm() < 0.02 * size) return "no torque turns spheres";
+  if ((found - part * wanted).norm() < 0.05 * found.norm()) {
+    const double inertia = 0.4 / part;
+    if (part < 0.0) return "the torque turns spheres the other way round";
+    return fmt::format("J is {:.2g} m a², not 2/5 m a²{}, or the torque is off as much", inertia,
+                       std::abs(inertia - 0.5) < 0.02 ? ": that of a disk" : "");
+  }
+  const Vec3 along = n.cross(axis);  // f_t
+  const double of[] = {std::abs(part), std::abs(found.dot(along)) / size,
+                       std::abs(found.dot(n)) / size};
+  return fmt::format(
+      "the torque is about the wrong axis: not about n × f_t alone ({:.2g} of it), but {:.2g} "
+      "about "
+      "f_t and {:.2g} about n",
+      of[0], of[1], of[2]);
+}
+
+/// Two spheres meet while they slide. Of each J Δω = −l ∫ n × f_t dt and m Δv = ∫ f dt, so that
+/// Δω = −(l m/J) n × Δv with n from the other to it: n turns by 2e-3 rad meanwhile.
+void torqueTurnsSpheres(CheckContext& c) {
+  c.needs(toString(Effect::rotation));
+  SpaceScene scene;
+  scene.name = "spheres that meet";
+  scene.law = followed(c.can, dampedLaw(3));
+  scene.dt = 4e-6;
+  const Eigen::Matrix3d frame =
+      Eigen::AngleAxisd(-0.8, Vec3(2.0, -1.0, 1.0).normalized()).toRotationMatrix();
+  const Vec3 n = frame.col(0), slip = frame * Vec3(0.0, 0.03, 0.04);
+  constexpr double approach = 0.05;
+  for (const double side : {1.0, -1.0})
+    addBody<3>(scene, side * (radius + approach * 5.0 * scene.dt) * n,
+               0.5 * side * (slip - 2.0 * approach * n), frame * Vec3(6.0 * side, 2.0, 1.0));
+  scene = loaded(c, scene);
+  const SpaceSnapshot after = shown<3>(c, 1e-3);
+  c.require(after.spin.has_value(), "shows no spins");
+  for (const int k : {0, 1}) {
+    const Vec3 change = after.velocity[k] - scene.disks.velocity[k];
+    const Vec3 outward = k == 0 ? n : Vec3(-n);
+    const Vec3 wanted = -2.5 / radius * outward.cross(change);
+    const Vec3 found = (*after.spin)[k] - scene.disks.spin[k];
+    c.require(wanted.norm() * radius > 0.1 * approach,
+              "spheres that slide as they meet do not "
+              "change their velocity along each other");
+    const double off = (found - wanted).norm() / wanted.norm();
+    const std::size_t before = c.faults.size();
+    c.near(off, 0.0,
+           {0.03, 0.0, "n turns by 2e-3 rad while Δv_n is seven times Δv_t; arms are a to 1e-3"},
+           text("Δω of sphere ", k, ", off from (m a/J) times n × Δv by a part of it"));
+    if (c.faults.size() > before) c.suspect(causeOfTurn(found, wanted, outward));
+  }
+}
+
+// ---- images -------------------------------------------------------------------------------------
+
+/// Two that meet, and the same two half a box further on, on either side of its border.
+template <int D>
+void pairsAcrossBorders(CheckContext& c) {
+  c.needs(periodicDirections);
+  SceneOf<D> scene;
+  scene.name = "pairs across a border";
+  scene.law = followed(c.can, dampedLaw(D));
+  scene.dt = 4e-6;
+  BoxOf<D>& box = scene.box.emplace();
+  box.high.setConstant(16 * radius);
+  box.periodic[0] = true;
+  VecOf<D> apart = VecOf<D>::Zero(), velocity = VecOf<D>::Zero();
+  apart[0] = 0.99 * radius;
+  apart[1] = 0.1 * radius;
+  velocity[0] = -0.2;
+  velocity[D - 1] += 0.1;
+  SpinOf<D> spin = noSpin<D>();
+  if constexpr (D == 2)
+    spin = 20.0;
+  else
+    spin = Vec3(20.0, -30.0, 10.0);
+  for (const double at : {8.0, 16.0})
+    for (const double side : {1.0, -1.0}) {
+      VecOf<D> place = VecOf<D>::Constant(8 * radius) + side * apart;
+      place[0] = at * radius + side * apart[0];
+      addBody<D>(scene, box.wrapped(place), side * velocity, spin);
+    }
+  if (!simulates(c.can, Effect::rotation)) std::ranges::fill(scene.disks.spin, noSpin<D>());
+  scene = loaded(c, scene);
+  c.examine(periodicDirections);
+  const Tolerance rounding =
+      c.byPrecision(1e-9, 1e-4, "the same sums of places that are rounded in another way");
+  const SnapshotOf<D> during = shown<D>(c, 4e-5), after = shown<D>(c, 1e-3);
+  VecOf<D> changes[2];
+  for (const int side : {0, 1}) {
+    for (const int pair : {0, 1})
+      changes[pair] = after.velocity[2 * pair + side] - scene.disks.velocity[2 * pair + side];
+    c.require(changes[0].norm() > 0.1, "two in the middle of the box do not bounce off each other");
+    c.near((changes[1] - changes[0]).norm() / changes[0].norm(), 0.0, rounding,
+           text("Δv of ", side,
+                " of two across the border, off from that of the same two inside by a part of it"));
+  }
+  if (changes[1].norm() < 1e-3 * changes[0].norm())
+    c.suspect("bodies do not meet each other's images across the border");
+  else if (changes[1].dot(changes[0]) < 0.0)
+    c.suspect("the force across a border is that of the wrong image: it has the other sign");
+  if (!during.contacts) return;
+  c.equal(during.contacts->size(), std::size_t{2}, "contacts of two pairs, one across the border");
+  for (std::size_t k = 0; k < during.contacts->size(); ++k) {
+    VecOf<D> line = during.position[static_cast<std::size_t>(during.contacts->i[k])] -
+                    during.position[static_cast<std::size_t>(during.contacts->j[k])];
+    line = box.nearest(line);
+    const double off = (during.contacts->normal[k] - line.normalized()).norm();
+    // Contacts may be a step older than positions.
+    c.near(off, 0.0, {1e-2, 0.0, "n turns by 1e-3 in a step"},
+           text("n of a contact of ", during.contacts->i[k], " and ", during.contacts->j[k],
+                ", off from the line to the nearest image"));
+    if (off > 1.0)
+      c.suspect("the normal of a contact across the border is that to the wrong image");
+  }
+}
+
+}  // namespace
+
+Checks spaceChecks() {
+  static constexpr Check list[] = {
+      {"SpringsOfMovedPairs",
+       "tangential springs of spheres that pass, turn and twist are those of the declared law, "
+       "step "
+       "by step",
+       springsOfMovedPairs, 3},
+      {"TorqueTurnsSpheres", "f_t turns spheres about n × f_t, with 2/5 m a²", torqueTurnsSpheres,
+       3},
+      {"PairsAcrossBorders", "two disks across a periodic border are the same two inside",
+       pairsAcrossBorders<2>},
+      {"PairsAcrossBordersInSpace", "two spheres across a periodic border are the same two inside",
+       pairsAcrossBorders<3>, 3},
+  };
+  return list;
+}
+
+}  // namespace crossgrain::conformance

@@ -1,0 +1,303 @@
+// The same in space: a worker of soft spheres in a box, periodic where it is to be, that is right
+// but for what is planted.
+//
+//     planted_spheres [NAME=VALUE …]      names: SpaceFaults
+
+#include <Eigen/Geometry>
+#include <cstdio>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "crossgrain_worker.hpp"
+#include "faults.hpp"
+
+namespace crossgrain::planted {
+namespace {
+
+using crossgrain_worker::ArrayFile;
+using crossgrain_worker::Arrays;
+using crossgrain_worker::Json;
+using crossgrain_worker::StepCount;
+using Vec3 = Eigen::Vector3d;
+
+/// 1 is right, of what is named by a factor.
+struct SpaceFaults {
+  Words given;
+
+  double springTurn = given("spring_turn", 1.0);    ///< 0: ξ does not follow a normal that turns
+  double springTwist = given("spring_twist", 1.0);  ///< part of the mean spin that ξ turns by
+  double springShrinks = given("spring_shrinks", 0.0);  ///< 1: ξ loses its part along n alone
+  double images = given("images", 1.0);                 ///< 0: no sphere meets another's image
+  double wrongImage = given("wrong_image", 0.0);  ///< 1: n across a border is to the other one
+  double torqueAxis = given("torque_axis", 0.0);  ///< 1: the torque is along f_t
+  double inertia = given("inertia", 1.0);         ///< 1.25: J = m a²/2
+};
+
+class Spheres {
+ public:
+  Spheres(const Json& scene, const Arrays& arrays, const SpaceFaults& faults) : faults_(faults) {
+    const auto vectors = [&](const char* name) {
+      const std::vector<double>& numbers = arrays.at(name);
+      std::vector<Vec3> list;
+      for (std::size_t k = 0; k + 2 < numbers.size(); k += 3)
+        list.emplace_back(numbers[k], numbers[k + 1], numbers[k + 2]);
+      return list;
+    };
+    radius_ = arrays.at("disks.radius");
+    mass_ = arrays.at("disks.mass");
+    inertia_ = arrays.at("disks.inertia");
+    position = vectors("disks.position");
+    velocity_ = vectors("disks.velocity");
+    spin_ = vectors("disks.spin");
+    const Json& law = scene.at("law");
+    kn_ = law.at("kn");
+    gn_ = law.at("gn");
+    kt_ = law.at("kt");
+    gt_ = law.at("tangential") == "spring_dashpot" ? law.at("gt").get<double>() : 0.0;
+    mu_ = law.at("mu");
+    dt_ = scene.at("dt");
+    if (scene.contains("box"))
+      for (int k = 0; k < 3; ++k)
+        if (scene.at("box").at("periodic").at(k))
+          length_[k] = scene.at("box").at("high").at(k).get<double>() -
+                       scene.at("box").at("low").at(k).get<double>();
+    for (int k = 0; k < 3; ++k) gravity_[k] = scene.at("gravity").at(k);
+    for (auto* sum : {&force_, &torque_}) sum->resize(position.size());
+    addForces();
+    kick(-0.5 * dt_);  // velocities live half a step before positions from here on
+  }
+
+  void step() {
+    kick(dt_);
+    for (std::size_t i = 0; i < position.size(); ++i) position[i] += dt_ * velocity_[i];
+    addForces();
+  }
+
+  struct Contact {
+    std::int32_t i, j;
+    Vec3 normal, tangential;
+    double overlap, force;
+    std::uint8_t sliding;
+  };
+
+  std::vector<Vec3> position;
+  std::vector<Contact> contacts;
+
+  Vec3 velocity(std::size_t i) const { return velocity_[i] + 0.5 * dt_ / mass_[i] * force_[i]; }
+  Vec3 spin(std::size_t i) const {
+    return spin_[i] + 0.5 * dt_ / (faults_.inertia * inertia_[i]) * torque_[i];
+  }
+
+ private:
+  void kick(double dt) {
+    for (std::size_t i = 0; i < position.size(); ++i) {
+      velocity_[i] += dt / mass_[i] * force_[i];
+      spin_[i] += dt / (faults_.inertia * inertia_[i]) * torque_[i];
+    }
+  }
+
+  Vec3 apart(std::size_t i, std::size_t j) const {
+    Vec3 line = position[i] - position[j];
+    for (int k = 0; k < 3; ++k)
+      if (length_[k] > 0.0)
+        line[k] -= faults_.images * length_[k] * std::round(line[k] / length_[k]);
+    return line;
+  }
+
+  void addForces() {
+    for (std::size_t i = 0; i < position.size(); ++i) force_[i] = mass_[i] * gravity_;
+    for (Vec3& torque : torque_) torque.setZero();
+    contacts.clear();
+    for (std::size_t i = 0; i < position.size(); ++i)
+      for (std::size_t j = i + 1; j < position.size(); ++j) meet(i, j);
+  }
+
+  struct Spring {
+    Vec3 stretch = Vec3::Zero(), normal = Vec3::Zero();
+  };
+
+  /// ξ as n turned to the new one and the pair about it (docs/dimensions.md, section 4).
+  void follow(Spring& spring, const Vec3& n, const Vec3& meanSpin) const {
+    Vec3& xi = spring.stretch;
+    if (spring.normal.isZero(0.0) || faults_.springTurn == 0.0) return;
+    if (faults_.springShrinks != 0.0)
+      xi -= xi.dot(n) * n;
+    else
+      xi = Eigen::Quaterniond::FromTwoVectors(spring.normal, n) * xi;
+    xi = Eigen::AngleAxisd(faults_.springTwist * dt_ * meanSpin.dot(n), n) * xi;
+  }
+
+  void meet(std::size_t i, std::size_t j) {
+    const Vec3 line = apart(i, j);
+    const double distance = line.norm(), overlap = radius_[i] + radius_[j] - distance;
+    if (!(overlap > 0.0)) {
+      springs_.erase({i, j});
+      return;
+    }
+    Vec3 n = line / distance;
+    if (faults_.wrongImage != 0.0 && (position[i] - position[j]).dot(n) < 0.0) n = -n;
+    const double armI = radius_[i] - 0.5 * overlap, armJ = radius_[j] - 0.5 * overlap;
+    const Vec3 relative = velocity_[i] - velocity_[j];
+    const Vec3 slip = relative - relative.dot(n) * n - (armI * spin_[i] + armJ * spin_[j]).cross(n);
+    Spring& spring = springs_[{i, j}];
+    follow(spring, n, 0.5 * (spin_[i] + spin_[j]));
+    spring.normal = n;
+    spring.stretch += dt_ * slip;
+    const double normal = kn_ * overlap - gn_ * relative.dot(n);
+    Vec3 tangential = -kt_ * spring.stretch - gt_ * slip;
+    const double bound = mu_ * std::max(normal, 0.0);
+    const bool sliding = tangential.norm() > bound;
+    if (sliding) {
+      tangential *= bound / tangential.norm();
+      spring.stretch = -tangential / kt_;
+    }
+    const Vec3 force = normal * n + tangential;
+    const Vec3 couple = faults_.torqueAxis != 0.0 ? tangential : n.cross(tangential);
+    force_[i] += force;
+    force_[j] -= force;
+    torque_[i] -= armI * couple;
+    torque_[j] -= armJ * couple;
+    contacts.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(j), n, tangential,
+                        overlap, normal, sliding});
+  }
+
+  SpaceFaults faults_;
+  double kn_, gn_, kt_, gt_, mu_, dt_;
+  Vec3 gravity_ = Vec3::Zero(), length_ = Vec3::Zero();  ///< of the box where it is periodic
+  std::vector<double> radius_, mass_, inertia_;
+  std::vector<Vec3> velocity_, spin_, force_, torque_;
+  std::map<std::pair<std::size_t, std::size_t>, Spring> springs_;
+};
+
+class PlantedSpheres {
+ public:
+  explicit PlantedSpheres(const SpaceFaults& faults) : faults_(faults) {}
+
+  static Json capabilities() {
+    Json effects;
+    for (const char* name : {"normal_damping", "friction", "tangential_spring",
+                             "tangential_damping", "rotation", "gravity"})
+      effects[name] = "optional";
+    const auto only = [](const char* value) { return Json::array({value}); };
+    return {{"version", "1"},
+            {"dimensions", {3}},
+            {"periodic", true},
+            {"effects", effects},
+            {"law_options",
+             {{"normal", only("linear")},
+              {"damper", only("constant")},
+              {"tangential", {"spring", "spring_dashpot"}},
+              {"tension", only("allow")},
+              {"coulomb_bound", only("compression")},
+              {"dashpot", only("inside")},
+              {"spring_reset", only("total")},
+              {"spring_update", only("before")},
+              {"lever_arm", only("overlap_middle")},
+              {"velocity_arm", only("lever_arm")},
+              {"damping_velocity", only("lagged")},
+              {"integrator", only("position_verlet")},
+              {"spring_turn", only("rotated")},
+              {"spring_twist", only("mean_spin")}}},
+            {"wall_motions", Json::array()},
+            {"plane_motions", Json::array()},
+            {"precisions", only("double")},
+            {"instant_contacts", true},
+            {"accumulated_contacts", false},
+            {"warm_handover", false},
+            {"sliding_flags", true},
+            {"settings", Json::array()}};
+  }
+
+  Json load(const Json& scene, const Arrays& arrays, const Json&) {
+    spheres_.assign(1, Spheres(scene, arrays, faults_));
+    count_ = StepCount(scene.at("dt"));
+    const Json& law = scene.at("law");
+    Json effects = {"friction", "tangential_spring"};
+    if (law.at("gn") > 0.0) effects.push_back("normal_damping");
+    if (law.at("tangential") == "spring_dashpot" && law.at("gt") > 0.0)
+      effects.push_back("tangential_damping");
+    if (scene.at("rotation")) effects.push_back("rotation");
+    for (const Json& component : scene.at("gravity"))
+      if (component != 0.0 && effects.back() != "gravity") effects.push_back("gravity");
+    return {{"engine", "planted_spheres"}, {"version", "1"},
+            {"dt", scene.at("dt")},        {"precision", "double"},
+            {"effects", effects},          {"integrator", "position_verlet"},
+            {"pairs", Json::array()},      {"deviations", Json::array()}};
+  }
+
+  double advance(double t) {
+    return count_.advance(t, [&] {
+      spheres_[0].step();
+      evaluations_ += spheres_[0].contacts.size();
+    });
+  }
+
+  Json snapshot(const std::string& contacts, ArrayFile& arrays) const {
+    const Spheres& spheres = spheres_[0];
+    std::vector<double> position, velocity, spin;
+    const auto add = [](std::vector<double>& to, const Vec3& v) {
+      to.insert(to.end(), {v.x(), v.y(), v.z()});
+    };
+    for (std::size_t i = 0; i < spheres.position.size(); ++i) {
+      add(position, spheres.position[i]);
+      add(velocity, spheres.velocity(i));
+      add(spin, spheres.spin(i));
+    }
+    arrays.add("position", position);
+    arrays.add("velocity", velocity);
+    arrays.add("spin", spin);
+    arrays.add("wall_position", std::vector<double>{});
+    if (contacts == "instant") addContacts(arrays, spheres);
+    const double now = count_.now();
+    return {{"position_time", now},
+            {"velocity_time", now},
+            {"contact_time", now},
+            {"contact_interval", 0.0},
+            {"bodies", Json::array()}};
+  }
+
+  Json stats() const { return count_.stats(evaluations_); }
+
+ private:
+  static void addContacts(ArrayFile& arrays, const Spheres& spheres) {
+    std::vector<std::int32_t> i, j;
+    std::vector<double> normal, overlap, force, tangential;
+    std::vector<std::uint8_t> sliding;
+    for (const Spheres::Contact& c : spheres.contacts) {
+      i.push_back(c.i);
+      j.push_back(c.j);
+      for (const double x : c.normal) normal.push_back(x);
+      overlap.push_back(c.overlap);
+      force.push_back(c.force);
+      for (const double x : c.tangential) tangential.push_back(x);
+      sliding.push_back(c.sliding);
+    }
+    arrays.add("contacts.i", i);
+    arrays.add("contacts.j", j);
+    arrays.add("contacts.normal", normal);
+    arrays.add("contacts.overlap", overlap);
+    arrays.add("contacts.normal_force", force);
+    arrays.add("contacts.tangential_force", tangential);
+    arrays.add("contacts.sliding", sliding);
+  }
+
+  SpaceFaults faults_;
+  std::vector<Spheres> spheres_;  ///< one, once a scene is loaded
+  StepCount count_;
+  unsigned long long evaluations_ = 0;
+};
+
+}  // namespace
+}  // namespace crossgrain::planted
+
+int main(int argc, char** argv) {
+  try {
+    const crossgrain::planted::SpaceFaults faults{{argc - 1, argv + 1}};
+    faults.given.requireAllKnown();
+    return crossgrain_worker::serve(crossgrain::planted::PlantedSpheres(faults));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "planted_spheres: %s\n", error.what());
+    return 2;
+  }
+}
