@@ -28,8 +28,8 @@ GRAIN_INLINE Real length(const Vec3<Real>& a) {
   return squareRoot(dot(a, a));
 }
 template <class Real>
-GRAIN_INLINE Vec3<Real> chosen(bool first, const Vec3<Real>& a, const Vec3<Real>& b) {
-  return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
+GRAIN_INLINE bool isZero(const Vec3<Real>& a) {
+  return a.x == Real(0) && a.y == Real(0) && a.z == Real(0);
 }
 
 /// How ξ follows a normal that turned from n to n′, before it is stretched: by the smallest
@@ -123,17 +123,21 @@ struct SpringLimit {
                                                 : Real(0.5);
     const Vec3<Real> stretched = spring + part * stretch;
     const Vec3<Real> elastic = -unit * stretched;
-    const Vec3<Real> trial = (Real(1) / divisor) * (elastic + viscous);
-    const Vec3<Real> tested = chosen(outside, elastic, trial);
+    Vec3<Real> trial = elastic + viscous;
+    if (divisor != Real(1)) trial = (Real(1) / divisor) * trial;
+    const Vec3<Real>& tested = outside ? elastic : trial;
     const Real size = length(tested);
-    const bool holds = !limited || size <= bound;
+    sliding = Real(0);
+    if (!limited || size <= bound) {
+      spring = stretched + (Real(1) - part) * stretch;
+      return trial;
+    }
     // A bound below zero turns the force round; of no force it has no direction.
     const Vec3<Real> slipping = (size > Real(0) ? bound / size : Real(0)) * tested;
-    Vec3<Real> slipped = -inverse * (resetSpringOnly ? slipping - viscous : slipping);
-    if (when == Stretch::midpoint) slipped += Real(0.5) * stretch;
-    spring = chosen(holds, stretched + (Real(1) - part) * stretch, slipped);
-    sliding = holds ? Real(0) : Real(1);
-    return chosen(holds, trial, slipping);
+    spring = -inverse * (resetSpringOnly ? slipping - viscous : slipping);
+    if (when == Stretch::midpoint) spring += Real(0.5) * stretch;
+    sliding = Real(1);
+    return slipping;
   }
 };
 
@@ -223,11 +227,12 @@ GRAIN_INLINE void followNormal(const L& law, const SpaceConventions& how,
                                const Meeting<Real>& meeting, SpaceMemory<Real>& kept) {
   const Vec3<Real> before = kept.normal, now = meeting.normal;
   const bool first = how.turn == SpringTurn::firstOrder;
-  const Vec3<Real> about = chosen(first, before, now);
+  const Vec3<Real>& about = first ? before : now;
   const bool twists = how.twist == SpringTwist::meanSpin && law.rotation;
   const Real twist =
       twists ? Real(0.5) * law.dt * dot(meeting.spinI + meeting.spinJ, about) : Real(0);
   const auto follow = [&](Vec3<Real>& spring) GRAIN_INLINE_LAMBDA {
+    if (isZero(spring)) return;
     spring = turnedSpring(how.turn, spring, before, now);
     if (twists) spring = twistedSpring(how.turn, spring, about, twist);
   };

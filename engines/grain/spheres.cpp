@@ -73,6 +73,7 @@ void Spheres::placeSpheres() {
   for (std::size_t w = 0; w < setup_.walls.size(); ++w) {
     const SpaceWall& wall = setup_.walls[w];
     wallBegin_.push_back(position_.size());
+    wallCentre_.push_back(wall.motion(0.0).centre);
     for (std::size_t k = 0; k < wall.radius.size(); ++k)
       position_.push_back(quadOf(wall.position[k], wall.radius[k]));
     for (std::size_t member = 0; member < wall.planes.size(); ++member) {
@@ -155,9 +156,11 @@ void Spheres::moveWalls() {
   auto plane = planes_.begin();
   for (std::size_t w = 0; w < setup_.walls.size(); ++w) {
     const SpaceWall& wall = setup_.walls[w];
-    const SpaceWall::State now = wall.motion(time()), start = wall.motion(0.0);
+    const SpaceWall::State now = wall.motion(time());
+    const Vector centre = wallCentre_[w];
+    const bool turns = !isZero(now.angle);
     const auto place = [&](const Vector& point) {
-      return now.centre + turnedBy(now.angle, point - start.centre);
+      return now.centre + (turns ? turnedBy(now.angle, point - centre) : point - centre);
     };
     for (; plane != planes_.end() && plane->wall == w; ++plane) {
       const SpaceWall::Plane& member = wall.planes[plane->member];
@@ -169,7 +172,8 @@ void Spheres::moveWalls() {
       const std::size_t i = wallBegin_[w] + k;
       const Vector at = place(wall.position[k]);
       position_[i] = quadOf(at, wall.radius[k]);
-      velocity_[i] = quadOf(now.velocity + cross(now.spin, at - now.centre));
+      velocity_[i] =
+          quadOf(isZero(now.spin) ? now.velocity : now.velocity + cross(now.spin, at - now.centre));
       spin_[i] = quadOf(now.spin);
       force_[i] = torque_[i] = {};
       if (!seenVelocity_.empty()) {

@@ -146,7 +146,8 @@ class Spheres {
   // The moving spheres, then those of walls.
   Array<Quad> position_, velocity_, spin_, seenVelocity_, seenSpin_, force_, torque_, chosen_;
   std::vector<double> inverseMass_, inverseInertia_, allowanceSquare_, travel_;
-  std::vector<std::size_t> wallBegin_;  ///< first sphere of each wall, and the end
+  std::vector<Vec3<double>> wallCentre_;  ///< at t = 0
+  std::vector<std::size_t> wallBegin_;    ///< first sphere of each wall, and the end
   std::vector<PlacedPlane> planes_;
   SpaceLists lists_;
 };
