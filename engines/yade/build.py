@@ -33,20 +33,17 @@ def set_cell(scene, arrays, bodies):
     """YADE's cell is periodic in all directions: along others it is so long that nothing meets its image.
 
     @raise Unsupported"""
-    periodic = Box(scene).periodic
-    O.periodic = any(periodic)
+    box = Box(scene)
+    O.periodic = any(box.periodic)
     if not O.periodic:
         return
-    if len(periodic) == 2:
-        periodic = [*periodic, False]
     for body in bodies:
         if body.planes:
             raise Unsupported(f"has no planes in periodic scenes, and {body.name} has one")
     places = [arrays["disks.position"], *(body.disk_position.ravel() for body in bodies)]
-    extent = np.abs(np.concatenate([*places, arrays["disks.radius"]])).max()
-    box = Box(scene)
-    lengths = [*(box.high - box.low).tolist(), 0.0][:3]
-    O.cell.setBox([length if along else FAR * extent for along, length in zip(periodic, lengths)])
+    far = FAR * np.abs(np.concatenate([*places, arrays["disks.radius"]])).max()
+    lengths = np.where(box.periodic, box.high - box.low, far).tolist()
+    O.cell.setBox([*lengths, far][:3])
 
 
 def place_disks(arrays, kinds, rotation, boxes):
@@ -102,7 +99,9 @@ def place_walls(bodies, law):
     kinds = law.kinds
     for body, of_disks in zip(bodies, kinds.of_wall):
         disks = [
-            utils.sphere(in_space(place), radius, fixed=True, color=WHITE, material=kind, mask=WALL_MASK)
+            utils.sphere(
+                in_space(place), radius, fixed=True, color=WHITE, material=kind, mask=WALL_MASK
+            )
             for place, radius, kind in zip(
                 body.disk_position.tolist(), body.disk_radius.tolist(), of_disks
             )
