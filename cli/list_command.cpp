@@ -39,10 +39,12 @@ json listCases(const fs::path& folder) {
 json listFields(const fs::path&) {
   json rows = json::array();
   std::set<std::string_view> listed;
-  for (const auto& table : {fieldTable(), cartesianFieldTable()})
-    for (const FieldSpec& field : table)
-      if (listed.insert(field.name).second)
-        rows.push_back(row(field.name, field.unit, field.definition));
+  for (const int dimension : {2, 3})
+    for (const bool rings : {true, false})
+      for (const FieldSpec& field : fieldsIn(dimension, rings))
+        if (listed.insert(field.name).second)
+          rows.push_back(row(field.name, field.unit,
+                             std::string(field.definition) + (dimension == 3 ? "; in space" : "")));
   return rows;
 }
 
@@ -50,9 +52,14 @@ json listEndpoints(const fs::path&) {
   json rows = json::array();
   for (const EndpointSpec& endpoint : endpointTable())
     rows.push_back(row(endpoint.name, endpoint.unit, endpoint.definition));
-  for (const RegionNumber& number : regionNumbers())
-    rows.push_back(row(number.name, number.unit,
-                       std::string(number.definition) + "; a quantity for [[endpoints]]"));
+  std::set<std::string_view> listed;
+  for (const int dimension : {2, 3})
+    for (const RegionNumber& number : regionNumbers(dimension))
+      if (listed.insert(number.name).second)
+        rows.push_back(row(number.name, number.unit,
+                           std::string(number.definition) +
+                               (dimension == 3 ? "; a quantity for [[endpoints]] in space"
+                                               : "; a quantity for [[endpoints]]")));
   return rows;
 }
 

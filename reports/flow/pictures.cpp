@@ -44,9 +44,12 @@ std::vector<Picture> comparePictures(const CompareResults& results) {
     const ScenePicture* picture = firstPicture(engine);
     if (!picture || picture->x.empty()) continue;
     const std::string word = fmt::format("{}_{}", origins.size() + 1, fileWord(engine.name));
+    const bool inSpace = results.region && !results.region->z.empty();
     origins.push_back(
-        {"origins_" + word, engine.name, engine.name + ": disks coloured by where they started", "",
-         Picture::Shows::origins,
+        {"origins_" + word, engine.name,
+         engine.name + (inSpace ? ": spheres cut along x and z, coloured by where they started"
+                                : ": disks coloured by where they started"),
+         "", Picture::Shows::origins,
          originsDrawing(*picture, results.cell.innerRadius,
                         results.region ? results.region->diameter : results.cell.diameter)});
     halfWidth = std::max(halfWidth, origins.back().drawing.halfWidth);

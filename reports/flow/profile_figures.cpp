@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
@@ -42,6 +43,26 @@ const std::vector<ProfilePlot>& regionPlots() {
       {"stress_xy", "stress_xy", "", false, false, {}},
       {"coordination", "coordination", "", false, false, {}},
   };
+  return plots;
+}
+
+/// The direction that is sheared where slabs lie along this one.
+std::string shearedAlong(const std::string& along) {
+  return along == "x" ? "y" : "x";
+}
+
+/// Of slabs in space along x, y or z: the components across them, and what shears.
+const std::vector<ProfilePlot>& spacePlots(const std::string& along) {
+  static std::map<std::string, std::vector<ProfilePlot>> plotsOf;
+  std::vector<ProfilePlot>& plots = plotsOf[along];
+  if (!plots.empty()) return plots;
+  const std::string sheared = shearedAlong(along);
+  for (const std::string& field :
+       {std::string("volume_fraction"), "velocity_" + sheared, std::string("granular_temperature"),
+        "stress_" + along + along, "stress_" + sheared + along, std::string("coordination")})
+    plots.push_back({field, field, "", false, false, {}});
+  plots.push_back(
+      {"granular_temperature_log", "granular_temperature", ", log axis", false, true, {}});
   return plots;
 }
 
@@ -144,7 +165,9 @@ Panel profilePanel(const FlowFrame& frame, const std::vector<EngineRuns>& engine
 }
 
 const std::vector<ProfilePlot>& plotsOf(const FlowFrame& frame) {
-  return frame.region && frame.region->bins != "rings" ? regionPlots() : profilePlots();
+  if (!frame.region || frame.region->bins == "rings") return profilePlots();
+  const bool ofSpace = !frame.region->z.empty() && !frame.region->along.empty();
+  return ofSpace ? spacePlots(frame.region->along) : regionPlots();
 }
 
 /// Velocity twice, shear stress and volume fraction: a comparison at one glance.
@@ -162,10 +185,16 @@ Figure overview(const FlowFrame& frame, const std::vector<EngineRuns>& engines,
   figure.panelWidth = 480;
   figure.panelHeight = 330;
   figure.png = true;
-  const std::vector<std::string> shown =
+  std::vector<std::string> shown =
       rings ? std::vector<std::string>{"azimuthal_velocity", "azimuthal_velocity_log", "stress_rp",
                                        "volume_fraction"}
             : std::vector<std::string>{"velocity_x", "stress_xy", "stress_yy", "volume_fraction"};
+  if (!rings && &plots != &regionPlots()) {
+    const std::string& along = frame.region->along;
+    figure.title = "Velocity, temperature, stress and volume fraction of all engines";
+    shown = {"velocity_" + shearedAlong(along), "granular_temperature_log",
+             "stress_" + along + along, "volume_fraction"};
+  }
   for (const std::string& name : shown) {
     const auto plot = std::ranges::find(plots, name, &ProfilePlot::name);
     Panel panel = profilePanel(frame, engines, *plot, faint);

@@ -39,6 +39,47 @@ ScenePicture scenePicture(const Scene& scene, const Snapshot& now, double rotati
   return picture;
 }
 
+ScenePicture scenePicture(const SpaceScene& scene, const SpaceSnapshot& now, double rotation) {
+  const auto wrapped = [&](const Vec3& x) { return scene.box ? scene.box->wrapped(x) : x; };
+  Vec3 cut = Vec3::Zero();
+  if (scene.box) {
+    cut = 0.5 * (scene.box->low + scene.box->high);
+  } else if (!now.position.empty()) {
+    const auto [left, right] =
+        std::ranges::minmax(now.position, {}, [](const Vec3& x) { return x.y(); });
+    cut = 0.5 * (left + right);
+  }
+  // Radius of the disc that is cut out of a sphere; absent beside it.
+  const auto cutRadius = [&](const Vec3& x, double a) -> std::optional<double> {
+    const Vec3 away = scene.box ? scene.box->nearest(x - cut) : Vec3(x - cut);
+    const double square = a * a - away.y() * away.y();
+    return square > 0.0 ? std::optional(std::sqrt(square)) : std::nullopt;
+  };
+  ScenePicture picture;
+  for (std::size_t i = 0; i < scene.disks.size(); ++i) {
+    const auto radius = cutRadius(now.position[i], scene.disks.radius[i]);
+    if (!radius) continue;
+    const Vec3 x = wrapped(now.position[i]), start = wrapped(scene.disks.position[i]);
+    picture.radius.push_back(*radius);
+    picture.x.push_back(x.x());
+    picture.y.push_back(x.z());
+    picture.startR.push_back(std::hypot(start.x(), start.z()));
+    picture.startPhi.push_back(std::atan2(start.z(), start.x()));
+  }
+  const std::vector<double> radii = scene.radii();
+  for (std::size_t w = 0; w < now.wallPosition.size(); ++w) {
+    const auto radius = cutRadius(now.wallPosition[w], radii[scene.disks.size() + w]);
+    if (!radius) continue;
+    const Vec3 x = wrapped(now.wallPosition[w]);
+    picture.wallX.push_back(x.x());
+    picture.wallY.push_back(x.z());
+    picture.wallRadius.push_back(*radius);
+  }
+  picture.time = now.positionTime;
+  picture.rotation = rotation;
+  return picture;
+}
+
 int resumably(const RunCommand& command, const std::function<int()>& work) {
   const std::string same =
       fmt::format("the same command{} goes on from there", command.fresh ? " without --fresh" : "");

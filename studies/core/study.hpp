@@ -145,4 +145,9 @@ ResultsHead headOf(std::string_view kind, const Case& setup, const std::string& 
 /// (scene) and contacts with their normal force. @param rotation  of the wheel so far
 ScenePicture scenePicture(const Scene& scene, const Snapshot& now, double rotation);
 
+/// The same in space, of a cut along x and z through the middle of the box, or of all spheres:
+/// discs of √(a² − (y − y_cut)²), in the box. Which contacts lie in a cut nobody can say: there are
+/// none.
+ScenePicture scenePicture(const SpaceScene& scene, const SpaceSnapshot& now, double rotation);
+
 }  // namespace crossgrain::inline studies

@@ -103,9 +103,8 @@ FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& p
     averages->add(snapshot);
     if (watch.averaged) watch.averaged(snapshot);
     kept.offer(snapshot, ++taken);
-    if constexpr (D == 2)
-      if (task.packingIndex == 0 && !run.picture && snapshot.positionTime >= pictureTime - interval)
-        run.picture = scenePicture(scene, snapshot, snapshot.positionTime / flowUnit(setup));
+    if (task.packingIndex == 0 && !run.picture && snapshot.positionTime >= pictureTime - interval)
+      run.picture = scenePicture(scene, snapshot, snapshot.positionTime / flowUnit(setup));
   };
   for (std::size_t k = 0; before && k < before->snapshots; ++k) take(unfinished.snapshot(k));
   while (taken < samples) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "averaging/statistics.hpp"
+#include "studies/core/study.hpp"
 #include "studies/flow/averages.hpp"
 #include "studies/flow/endpoint_values.hpp"
 #include "studies/flow/frame.hpp"
@@ -140,6 +141,22 @@ TEST(SpaceRegion, PlacesAreAlongTheAxisOfSlabsAndOfRingsLayerByLayer) {
   EXPECT_EQ(placesOf(setup).r, (std::vector<double>{1.5, 2.5, 1.5, 2.5}));
   EXPECT_EQ(couetteFrame("compare", setup, "", radii).region->z,
             (std::vector<double>{1.0, 1.0, 3.0, 3.0}));
+}
+
+TEST(SpaceRegion, PictureIsACutThroughTheMiddleOfTheBox) {
+  // y = 1.5 m: spheres at y = 1 and, by another image, 1.8 m; the third lies beside it.
+  Cell3d cell;
+  cell.scene.disks.radius = {0.7, 0.5, 0.4};
+  cell.scene.disks.position = {Vec3(0.0, 0.0, 3.0), Vec3::Zero(), Vec3::Zero()};
+  cell.now.position = {Vec3(0.1, 1.0, 0.5), Vec3(5.0, -1.2, 3.5), Vec3(0.0, 2.0, 0.0)};
+  const ScenePicture picture = scenePicture(cell.scene, cell.now, 0.25);
+  ASSERT_EQ(picture.x.size(), 2U);
+  EXPECT_NEAR(picture.radius[0], std::sqrt(0.49 - 0.25), 1e-15);
+  EXPECT_NEAR(picture.radius[1], 0.4, 1e-15);
+  EXPECT_NEAR(picture.x[1], 1.0, 1e-15);
+  EXPECT_NEAR(picture.y[1], 3.5, 1e-15);
+  EXPECT_NEAR(picture.startR[0], 3.0, 1e-15);
+  EXPECT_FALSE(picture.contactI);
 }
 
 TEST(SpaceRegion, PeriodicPlaneHasStressesOfItsWallsToo) {
