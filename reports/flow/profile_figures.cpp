@@ -53,8 +53,8 @@ std::string shearedAlong(const std::string& along) {
 
 /// Of slabs in space along x, y or z: the components across them, and what shears.
 const std::vector<ProfilePlot>& spacePlots(const std::string& along) {
-  static std::map<std::string, std::vector<ProfilePlot>> plotsOf;
-  std::vector<ProfilePlot>& plots = plotsOf[along];
+  static std::map<std::string, std::vector<ProfilePlot>> made;
+  std::vector<ProfilePlot>& plots = made[along];
   if (!plots.empty()) return plots;
   const std::string sheared = shearedAlong(along);
   for (const std::string& field :

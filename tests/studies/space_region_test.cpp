@@ -18,10 +18,10 @@ Case slabsOfACell() {
   Case setup;
   setup.kind = CaseKind::assembly;
   setup.dimension = 3;
-  DiskGroup group;
+  DiskGroupOf<3> group;
   group.radius = 0.5;
-  setup.assembly.disks = {group};
-  setup.assembly.duration = 1.0;
+  setup.spaceAssembly.disks = {group};
+  setup.spaceAssembly.duration = 1.0;
   setup.run.dt = 1e-3;
   Region& region = setup.average.emplace().region;
   region.bins = BinKind::slabs;
@@ -162,6 +162,8 @@ TEST(SpaceRegion, PictureIsACutThroughTheMiddleOfTheBox) {
 TEST(SpaceRegion, PeriodicPlaneHasStressesOfItsWallsToo) {
   Case setup = slabsOfACell();
   setup.dimension = 2;
+  setup.assembly.disks.emplace_back().radius = 0.5;
+  setup.assembly.duration = 1.0;
   setup.average->region.axis = 1;
   setup.average->region.high = {2.0, 3.0, 0.0};
   setup.average->region.height = 0.5;
