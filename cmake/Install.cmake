@@ -34,7 +34,8 @@ file(GLOB_RECURSE crossgrain_pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_D
      adapters/*.md averaging/*.md cases/*.md engines/*.md oracle/*.md reports/curated/*.md tests/*.md)
 list(FILTER crossgrain_pages EXCLUDE REGEX node_modules)
 foreach(page ${crossgrain_pages} reports/curated/cost/cost_collision.png reports/curated/effects/effects_1_cost.png
-        reports/curated/full/overview.png reports/curated/stability/stability_map.png examples/import/box.toml)
+        reports/curated/full/overview.png reports/curated/stability/stability_map.png examples/import/box.toml
+        examples/starts/on-dem.toml)
   cmake_path(GET page PARENT_PATH folder)
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
 endforeach()

@@ -457,7 +457,8 @@ class RigidEngine:
         "BottomPlateBrakesADisk", "SlidingFlagsMarkTheBound", "FollowsItsMirror", "e_t0-0.5",
         "CheckpointsGoOnToTheBit", "ConventionsAreThoseDeclared", "EnergyLedgerIsClosed", "SpringsHoldWhileAnotherFalls",
         "RollingFollowsItsClosedForms", "RollingHoldsASlope", "RollingTorquesAreThoseThatAct", "CohesionFollowsItsClosedForms",
-        "MemoriesHoldWhileAnotherFliesBy", "MaterialsHaveTheirOwnLaws",
+        "MemoriesHoldWhileAnotherFliesBy", "MaterialsHaveTheirOwnLaws", "SpringsOfMovedPairs", "TorqueTurnsSpheres",
+        "PairsAcrossBorders", "PairsAcrossBordersInSpace",
     }  # fmt: skip
 
     def test_passes_its_checks(self):
