@@ -11,6 +11,7 @@ struct Vec3 {
 
   GRAIN_INLINE Vec3& operator+=(const Vec3& b) { return *this = {x + b.x, y + b.y, z + b.z}; }
   GRAIN_INLINE Vec3& operator-=(const Vec3& b) { return *this = {x - b.x, y - b.y, z - b.z}; }
+  bool operator==(const Vec3&) const = default;
   GRAIN_INLINE friend Vec3 operator+(Vec3 a, const Vec3& b) { return a += b; }
   GRAIN_INLINE friend Vec3 operator-(Vec3 a, const Vec3& b) { return a -= b; }
   GRAIN_INLINE friend Vec3 operator*(Real s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }

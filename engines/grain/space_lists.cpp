@@ -26,7 +26,10 @@ double square(const Vector& v) {
 
 Vec3<double> SpaceBox::shift(const Vector& apart) const {
   return each([&](std::size_t k, auto axis) {
-    return periodic[k] ? length.*axis * std::round(apart.*axis / length.*axis) : 0.0;
+    const double side = length.*axis, along = apart.*axis;
+    // Most pairs are nearest as they are.
+    if (!periodic[k] || std::abs(along) < 0.5 * side) return 0.0;
+    return side * std::round(along / side);
   });
 }
 

@@ -172,9 +172,11 @@ void Spheres::moveWalls() {
       const std::size_t i = wallBegin_[w] + k;
       const Vector at = place(wall.position[k]);
       position_[i] = quadOf(at, wall.radius[k]);
-      velocity_[i] =
-          quadOf(isZero(now.spin) ? now.velocity : now.velocity + cross(now.spin, at - now.centre));
-      spin_[i] = quadOf(now.spin);
+      if (!isZero(now.spin) || vectorOf(velocity_[i]) != now.velocity ||
+          !isZero(vectorOf(spin_[i]))) {
+        velocity_[i] = quadOf(now.velocity + cross(now.spin, at - now.centre));
+        spin_[i] = quadOf(now.spin);
+      }
       force_[i] = torque_[i] = {};
       if (!seenVelocity_.empty()) {
         seenVelocity_[i] = velocity_[i];
