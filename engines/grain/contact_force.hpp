@@ -70,9 +70,7 @@ GRAIN_INLINE ContactForce<Real> springForce(const L& law, const ContactMotion<Re
     inverse = stiffness > Real(0) ? Real(1) / stiffness : Real(0);
   Real stretch = contact.tangentialVelocity * law.dt;
   if (force) stretch *= stiffness;
-  const Real part = law.stretch == Stretch::after    ? Real(0)
-                    : law.stretch == Stretch::before ? Real(1)
-                                                     : Real(0.5);
+  const Real part = partBefore<Real>(law.stretch);
   const Real stretched = law.stretch == Stretch::after ? spring : spring + part * stretch;
   const Real elastic = -unit * stretched;
   Real viscous = Real(0), gt = Real(0);
@@ -180,9 +178,7 @@ GRAIN_INLINE RollingTorque<Real> rollingTorque(const L& law, const RollingMotion
   const RollingConventions c = law.rollingConventions;
   const Real stiffness = law.kr * motion.square;
   const Real stretch = motion.spin * law.dt;
-  const Real part = law.stretch == Stretch::after    ? Real(0)
-                    : law.stretch == Stretch::before ? Real(1)
-                                                     : Real(0.5);
+  const Real part = partBefore<Real>(law.stretch);
   const Real stretched = law.stretch == Stretch::after ? angle : angle + part * stretch;
   const Real spring = -stiffness * stretched;
   const Real viscous = -rollingDamping(law, motion) * motion.spin;

@@ -80,6 +80,11 @@ enum class Lever {
 enum class PlaneLever { surface, middle, radius };
 enum class Damping { lagged, predicted, implicit };
 enum class Stretch { after, before, midpoint };  ///< when ξ += v_t dt, relative to the force
+/// The part of v_t dt that ξ has grown by when the force is evaluated.
+template <class Real>
+GRAIN_INLINE constexpr Real partBefore(Stretch when) {
+  return when == Stretch::after ? Real(0) : when == Stretch::before ? Real(1) : Real(0.5);
+}
 /// Resistance of a contact against the relative spin ω_r = ω_i − ω_j of its bodies: a torque M on i
 /// and −M on j (the types of Ai et al. 2011). L is a length, N a load. @see RollingConventions
 enum class Rolling {

@@ -126,9 +126,7 @@ struct SpringLimit {
 
   GRAIN_INLINE Vec3<Real> force(Vec3<Real>& spring, const Vec3<Real>& stretch,
                                 const Vec3<Real>& viscous, Real& sliding) const {
-    const Real part = when == Stretch::after    ? Real(0)
-                      : when == Stretch::before ? Real(1)
-                                                : Real(0.5);
+    const Real part = partBefore<Real>(when);
     const Vec3<Real> stretched = spring + part * stretch;
     const Vec3<Real> elastic = -unit * stretched;
     Vec3<Real> trial = elastic + viscous;

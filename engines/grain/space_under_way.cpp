@@ -190,9 +190,7 @@ Vector Spheres::springFor(const SpaceContact& contact, const SpaceContact& want,
   const Vector& force = want.tangentialForce;
   const bool alone = want.sliding && law_.dashpotOutsideBound;  // the dashpot has no part
   const Vector elastic = (want.sliding ? 2.0 : 1.0) * force - (alone ? Vector{} : viscous);
-  const double part = law_.stretch == Stretch::after    ? 0.0
-                      : law_.stretch == Stretch::before ? 1.0
-                                                        : 0.5;
+  const double part = partBefore<double>(law_.stretch);
   const double growth = law_.history == History::force ? tangentialStiffness(law_, motion) : 1.0;
   return (-1.0 / unit) * elastic - (part * growth * law_.dt) * slip;
 }
