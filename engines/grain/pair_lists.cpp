@@ -49,7 +49,7 @@ template <class Real>
 void PairLists<Real>::update(const Places& now, std::span<const double> travel,
                              std::size_t stepsSince, ThreadTeam& team) {
   skin_.beginUpdate(stepsSince);
-  setAllowances(travel);
+  skin_.allow(travel, allowance_);
   const double used = skinUsed(now);
   for (auto& part : lists_)
     for (PairList<Real>& list : part)
@@ -112,7 +112,7 @@ void PairLists<Real>::restoreSprings(std::vector<KeptSpring> springs, const Plac
     list(part, sort).kept.push_back(spring);
   }
   skin_.beginUpdate(0);
-  setAllowances(travel);
+  skin_.allow(travel, allowance_);
   collect(now, team);
   refresh(now, team);
 }
@@ -122,21 +122,6 @@ std::size_t PairLists<Real>::partOf(std::int32_t disk) const {
   std::size_t part = parts() - 1;
   while (static_cast<std::size_t>(disk) < partBegin(part)) --part;
   return part;
-}
-
-/// What a disk would travel within the horizon, with room for it to become faster. A quarter of the
-/// skin is the most that a list just built could grant.
-template <class Real>
-void PairLists<Real>::setAllowances(std::span<const double> travel) {
-  const double mean = std::accumulate(travel.begin(), travel.end(), 0.0) /
-                      static_cast<double>(std::max<std::size_t>(travel.size(), 1));
-  const double least = 1e-4 * skin_.smallestRadius();
-  const double most = 0.25 * skin_.skin();
-  allowance_.resize(travel.size());
-  for (std::size_t i = 0; i < travel.size(); ++i) {
-    const double wanted = skin_.horizon() * (1.25 * travel[i] + 0.25 * mean);
-    allowance_[i] = std::min(std::max(wanted, least), most);
-  }
 }
 
 /// The skin is used up by how far a disk has come since the rebuild and how far it may go on: two

@@ -77,7 +77,6 @@ class PairLists {
                       std::span<const double> travel, ThreadTeam& team);
 
  private:
-  void setAllowances(std::span<const double> travel);
   double skinUsed(const Places& now) const;
   void carrySprings();
   void collect(const Places& now, ThreadTeam& team);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace grain {
 namespace {
@@ -64,6 +65,18 @@ void Skin::tune(const PairCounts& pairs, double used) {
                          (static_cast<double>(pairs.far - pairs.near) / skin_);
   const double best = std::sqrt(rebuildTime_ * path * horizon_ / farCost);
   nextSkin_ = std::clamp(towards(skin_, best), 0.01 * radius_, 2.0 * radius_);
+}
+
+void Skin::allow(std::span<const double> travel, std::vector<double>& allowance) const {
+  const double mean = std::accumulate(travel.begin(), travel.end(), 0.0) /
+                      static_cast<double>(std::max<std::size_t>(travel.size(), 1));
+  const double least = 1e-4 * radius_;
+  const double most = 0.25 * skin_;
+  allowance.resize(travel.size());
+  for (std::size_t i = 0; i < travel.size(); ++i) {
+    const double wanted = horizon_ * (1.25 * travel[i] + 0.25 * mean);
+    allowance[i] = std::min(std::max(wanted, least), most);
+  }
 }
 
 }  // namespace grain

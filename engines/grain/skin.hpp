@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <cstddef>
+#include <span>
+#include <vector>
 
 namespace grain {
 
@@ -24,7 +26,6 @@ class Skin {
   Skin(double skin, double smallestRadius);
 
   double skin() const { return skin_; }
-  double smallestRadius() const { return radius_; }
   double horizon() const { return horizon_; }  ///< K [steps]
   std::size_t rebuilds() const { return rebuilds_; }
   std::size_t refreshes() const { return refreshes_; }
@@ -35,6 +36,11 @@ class Skin {
   void endRebuild();
   void endRefresh(const PairCounts& pairs);
   void pairsTook(double seconds, std::size_t pairs);
+
+  /// How far each body may be from where near pairs were chosen: what it would travel within the
+  /// horizon, with room for it to become faster. A quarter of the skin is the most that a list just
+  /// built could grant. @param travel  of each in a step [m]
+  void allow(std::span<const double> travel, std::vector<double>& allowance) const;
 
   /// @param used  of the skin since the rebuild [m]
   void tune(const PairCounts& pairs, double used);

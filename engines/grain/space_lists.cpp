@@ -40,22 +40,22 @@ void SpaceLists::update(std::span<const Quad> position, std::span<const double> 
                         std::size_t stepsSince) {
   skin_.beginUpdate(stepsSince);
   requireFinite(position);
-  setAllowances(travel);
+  skin_.allow(travel, allowance_);
   carried_ = touching();
-  const PairCounts counts{carried_.size(), near_.size(), far_.size()};
+  const PairCounts counts{carried_.size(), i_.size(), far_.size()};
   if (const double used = skinUsed(position); !(used <= 0.5 * skin_.skin())) {
     skin_.tune(counts, used);
     rebuild(position);
   }
   choose(position);
-  skin_.endRefresh({carried_.size(), near_.size(), far_.size()});
+  skin_.endRefresh({carried_.size(), i_.size(), far_.size()});
 }
 
 void SpaceLists::restore(std::vector<Kept> touching, std::span<const Quad> position,
                          std::span<const double> travel) {
   skin_.beginUpdate(0);
   requireFinite(position);
-  setAllowances(travel);
+  skin_.allow(travel, allowance_);
   carried_ = std::move(touching);
   rebuild(position);
   choose(position);
@@ -70,7 +70,7 @@ void SpaceLists::rebuild(std::span<const Quad> position) {
 
 std::vector<SpaceLists::Kept> SpaceLists::touching() const {
   std::vector<Kept> found;
-  for (std::size_t p = 0; p < near_.size(); ++p)
+  for (std::size_t p = 0; p < i_.size(); ++p)
     if (touches_[p] != 0) found.push_back({i_[p], j_[p], kept_[p], results_[p]});
   return found;
 }
@@ -78,17 +78,6 @@ std::vector<SpaceLists::Kept> SpaceLists::touching() const {
 void SpaceLists::requireFinite(std::span<const Quad> position) const {
   for (std::size_t i = 0; i < position.size(); ++i)
     if (!std::isfinite(position[i].x + position[i].y + position[i].z)) throw NotFinite{i};
-}
-
-/// As PairLists::setAllowances().
-void SpaceLists::setAllowances(std::span<const double> travel) {
-  const double mean = std::accumulate(travel.begin(), travel.end(), 0.0) /
-                      static_cast<double>(std::max<std::size_t>(travel.size(), 1));
-  const double least = 1e-4 * skin_.smallestRadius(), most = 0.25 * skin_.skin();
-  allowance_.resize(travel.size());
-  for (std::size_t i = 0; i < travel.size(); ++i)
-    allowance_[i] =
-        std::min(std::max(skin_.horizon() * (1.25 * travel[i] + 0.25 * mean), least), most);
 }
 
 double SpaceLists::skinUsed(std::span<const Quad> position) const {
@@ -108,15 +97,17 @@ void SpaceLists::sortIntoCells(std::span<const Quad> position, double reach) {
     low = {std::min(low.x, place.x), std::min(low.y, place.y), std::min(low.z, place.z)};
     high = {std::max(high.x, place.x), std::max(high.y, place.y), std::max(high.z, place.z)};
   }
+  const Vector extent = each([&](std::size_t k, auto axis) {
+    return box_.periodic[k] ? box_.length.*axis : high.*axis - low.*axis;
+  });
+  const auto fits = [&](double along) { return std::max(1.0, std::floor(along / reach)); };
   // A sphere that flew far away must not blow the grid up: larger cells are slower, never wrong.
-  const double most = std::cbrt(16.0 + 4.0 * static_cast<double>(position.size()));
-  const auto along = [&](std::size_t k, auto axis) {
-    const double extent = box_.periodic[k] ? box_.length.*axis : high.*axis - low.*axis;
-    const double fits = std::clamp(std::floor(extent / reach), 1.0, std::max(most, 64.0));
-    cells_.count[k] = static_cast<std::int32_t>(fits);
-    return std::max(extent / fits, reach * 1e-9);
-  };
-  cells_.size = each(along);
+  const double most = 16.0 + 4.0 * static_cast<double>(position.size());
+  while (fits(extent.x) * fits(extent.y) * fits(extent.z) > most) reach *= 1.5;
+  cells_.size = each([&](std::size_t k, auto axis) {
+    cells_.count[k] = static_cast<std::int32_t>(fits(extent.*axis));
+    return std::max(extent.*axis / fits(extent.*axis), reach * 1e-9);
+  });
   cells_.low =
       each([&](std::size_t k, auto axis) { return box_.periodic[k] ? box_.low.*axis : low.*axis; });
   cellOf_.resize(position.size());
@@ -190,37 +181,34 @@ void SpaceLists::collect(std::span<const Quad> position) {
 }
 
 void SpaceLists::choose(std::span<const Quad> position) {
-  near_.clear();
-  for (std::size_t p = 0; p < far_.size(); ++p) {
-    const auto i = static_cast<std::size_t>(far_[p].i), j = static_cast<std::size_t>(far_[p].j);
-    const Vector apart = vectorOf(position[i]) - vectorOf(position[j]) - vectorOf(far_[p].shift);
-    const double within = position[i].w + position[j].w + range_ + allowance_[i] + allowance_[j];
-    if (square(apart) < within * within) near_.push_back(static_cast<std::uint32_t>(p));
-  }
-  i_.resize(near_.size());
-  j_.resize(near_.size());
-  shift_.resize(near_.size());
-  kept_.assign(near_.size(), {});
-  results_.resize(near_.size());
-  touches_.assign(near_.size(), 0);
+  i_.clear();
+  j_.clear();
+  shift_.clear();
+  kept_.clear();
+  results_.clear();
+  touches_.clear();
   // Both are in one order, so that one walk through both finds every pair that touches.
   auto next = carried_.begin();
   const auto numbers = [](const auto& pair) { return std::pair(pair.i, pair.j); };
-  for (std::size_t p = 0; p < near_.size(); ++p) {
-    const Far& pair = far_[near_[p]];
-    i_[p] = pair.i;
-    j_[p] = pair.j;
-    shift_[p] = pair.shift;
+  for (const Far& pair : far_) {
+    const Quad &a = position[static_cast<std::size_t>(pair.i)],
+               &b = position[static_cast<std::size_t>(pair.j)];
+    const double within = a.w + b.w + range_ + allowance_[static_cast<std::size_t>(pair.i)] +
+                          allowance_[static_cast<std::size_t>(pair.j)];
+    if (!(square(vectorOf(a) - vectorOf(b) - vectorOf(pair.shift)) < within * within)) continue;
     while (next != carried_.end() && numbers(*next) < numbers(pair)) ++next;
-    if (next == carried_.end() || numbers(*next) != numbers(pair)) continue;
-    kept_[p] = next->memory;
-    results_[p] = next->result;
-    touches_[p] = 1;
+    const bool touched = next != carried_.end() && numbers(*next) == numbers(pair);
+    i_.push_back(pair.i);
+    j_.push_back(pair.j);
+    shift_.push_back(pair.shift);
+    kept_.push_back(touched ? next->memory : SpaceMemory<double>{});
+    results_.push_back(touched ? next->result : SpaceResult{});
+    touches_.push_back(touched);
   }
 }
 
 SpacePairs SpaceLists::near() {
-  return {near_.size(), i_.data(),       j_.data(),      shift_.data(),
+  return {i_.size(),    i_.data(),       j_.data(),      shift_.data(),
           kept_.data(), results_.data(), touches_.data()};
 }
 

@@ -49,9 +49,8 @@ class SpaceLists {
   /// How far each sphere may be from where it was at the last update [m].
   std::span<const double> allowances() const { return allowance_; }
   SpacePairs near();
-  std::size_t nearCount() const { return near_.size(); }
   std::size_t rebuilds() const { return skin_.rebuilds(); }
-  void pairsTook(double seconds) { skin_.pairsTook(seconds, near_.size()); }
+  void pairsTook(double seconds) { skin_.pairsTook(seconds, i_.size()); }
 
  private:
   struct Far {
@@ -65,7 +64,6 @@ class SpaceLists {
   };
 
   void requireFinite(std::span<const Quad> position) const;
-  void setAllowances(std::span<const double> travel);
   void rebuild(std::span<const Quad> position);
   double skinUsed(std::span<const Quad> position) const;
   void collect(std::span<const Quad> position);
@@ -79,8 +77,7 @@ class SpaceLists {
   Cells cells_;
   std::vector<std::array<std::int32_t, 3>> cellOf_;
   std::vector<Far> far_;
-  std::vector<std::uint32_t> near_;  ///< places among the far ones
-  std::vector<std::int32_t> i_, j_;
+  std::vector<std::int32_t> i_, j_;  ///< of the near ones, as what follows
   Array<Quad> shift_;
   std::vector<SpaceMemory<double>> kept_;
   std::vector<SpaceResult> results_;
