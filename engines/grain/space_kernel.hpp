@@ -6,32 +6,6 @@ namespace grain::space {
 
 inline constexpr std::size_t blockSize = 128;
 
-/// Two spheres, d = x_i − x_j of the nearest image, of length `distance`.
-template <class L>
-GRAIN_INLINE Meeting<double> meetingOf(const L& law, const SpaceView& all, std::size_t i,
-                                       std::size_t j, const Vec3<double>& d, double distance) {
-  const double a = all.position[i].w, b = all.position[j].w, overlap = a + b - distance;
-  Meeting<double> meeting{};
-  meeting.normal = (1.0 / distance) * d;
-  meeting.velocity = vectorOf(all.velocity[i]) - vectorOf(all.velocity[j]);
-  meeting.overlap = overlap;
-  meeting.radiusI = a;
-  meeting.radiusJ = b;
-  meeting.inverseMassI = all.inverseMass[i];
-  meeting.inverseMassJ = all.inverseMass[j];
-  meeting.inverseMass = meeting.inverseMassI + meeting.inverseMassJ;
-  if (!law.rotation) return meeting;
-  meeting.spinI = vectorOf(all.spin[i]);
-  meeting.spinJ = vectorOf(all.spin[j]);
-  meeting.leverI = armOf(law.lever, a, b, overlap);
-  meeting.leverJ = armOf(law.lever, b, a, overlap);
-  meeting.armI = armOf(law.velocityLever, a, b, overlap);
-  meeting.armJ = armOf(law.velocityLever, b, a, overlap);
-  meeting.inverseInertiaI = all.inverseInertia[i];
-  meeting.inverseInertiaJ = all.inverseInertia[j];
-  return meeting;
-}
-
 /// Pairs that do not touch add nothing. Those that do are found first, a block at a time, since
 /// they are few in a flow that is not dense.
 template <class L>
@@ -67,7 +41,8 @@ static SpaceReport pairKernel(const GeneralLaw<double>& general, const SpaceConv
       const Vec3<double> d =
           vectorOf(all.position[i]) - vectorOf(all.position[j]) - vectorOf(pairs.shift[p]);
       const double distance = length(d);
-      const Meeting<double> meeting = meetingOf(law, all, i, j, d, distance);
+      const double overlap = all.position[i].w + all.position[j].w - distance;
+      const Meeting<double> meeting = meetingOf(law, all, i, j, (1.0 / distance) * d, overlap);
       SpaceMemory<double>& kept = pairs.kept[p];
       bool touches = meeting.overlap > 0.0;
       if (law.cohesion == Cohesion::jkr) {
@@ -104,7 +79,7 @@ static inline SpaceMotionReport motionKernel(const SpaceMotionConstants& constan
   const SpaceMotionView s = view;
   const Lanes gravity(quadOf(c.gravity));
   SpaceMotionReport report;
-  const bool predicts = s.seenVelocity != s.velocity;
+  const bool predicts = s.seenVelocity != nullptr;
   for (std::size_t i = 0; i < count; ++i) {
     Lanes a(s.force[i]), v(s.velocity[i]), x(s.position[i]), moved(s.chosen[i]), force = gravity;
     a.v *= s.inverseMass[i];

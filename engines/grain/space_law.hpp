@@ -255,6 +255,25 @@ GRAIN_INLINE Vec3<Real> slipOf(const L& law, const Meeting<Real>& meeting) {
   return slip;
 }
 
+/// What the scalar parts of the law see of it.
+template <class L, class Real>
+GRAIN_INLINE ContactMotion<Real> motionOf(const L& law, const Meeting<Real>& meeting) {
+  ContactMotion<Real> motion{};
+  motion.overlap = meeting.overlap;
+  const bool wall = !(meeting.radiusJ > Real(0));
+  motion.reach = wall ? Real(0) : meeting.radiusI + meeting.radiusJ;
+  motion.radius = wall ? meeting.radiusI : meeting.radiusI * meeting.radiusJ / motion.reach;
+  if (law.damper == Damper::critical) motion.mass = Real(1) / meeting.inverseMass;
+  motion.normalVelocity = dot(meeting.velocity, meeting.normal);
+  motion.normalCompliance = law.halfStep * meeting.inverseMass;
+  motion.tangentialCompliance = motion.normalCompliance;
+  if (law.rotation)
+    motion.tangentialCompliance +=
+        law.halfStep * (meeting.armI * meeting.leverI * meeting.inverseInertiaI +
+                        meeting.armJ * meeting.leverJ * meeting.inverseInertiaJ);
+  return motion;
+}
+
 /// The law in space, of a pair that touches. @param kept  zero when it begins to
 template <class L, class Real>
 GRAIN_INLINE MeetingForce<Real> meetingForce(const L& law, const SpaceConventions& how,
@@ -262,19 +281,7 @@ GRAIN_INLINE MeetingForce<Real> meetingForce(const L& law, const SpaceConvention
                                              SpaceMemory<Real>& kept) {
   const Vec3<Real>& n = meeting.normal;
   const bool friction = law.tangential != Tangential::none;
-  ContactMotion<Real> motion{};
-  motion.overlap = meeting.overlap;
-  const bool wall = !(meeting.radiusJ > Real(0));
-  motion.reach = wall ? Real(0) : meeting.radiusI + meeting.radiusJ;
-  motion.radius = wall ? meeting.radiusI : meeting.radiusI * meeting.radiusJ / motion.reach;
-  if (law.damper == Damper::critical) motion.mass = Real(1) / meeting.inverseMass;
-  motion.normalVelocity = dot(meeting.velocity, n);
-  motion.normalCompliance = law.halfStep * meeting.inverseMass;
-  motion.tangentialCompliance = motion.normalCompliance;
-  if (law.rotation)
-    motion.tangentialCompliance +=
-        law.halfStep * (meeting.armI * meeting.leverI * meeting.inverseInertiaI +
-                        meeting.armJ * meeting.leverJ * meeting.inverseInertiaJ);
+  const ContactMotion<Real> motion = motionOf(law, meeting);
   if (friction) followNormal(law, how, meeting, kept);
   kept.normal = n;
 

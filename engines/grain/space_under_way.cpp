@@ -103,8 +103,9 @@ void Spheres::beginUnderWay(const std::vector<SpaceContact>& forces) {
     bool settled = true;
     forWanted([&](const SpaceContact& now, const SpaceContact& want) {
       SpaceMemory<double>& own = springs[{now.i, now.j}];
-      const auto [sliding, rolling] = loadPerStretch(now);
-      const Vector guess = springFor(now, want, sliding);
+      const Meeting<double> meeting = meetingOf(now);
+      const auto [sliding, rolling] = loadPerStretch(meeting);
+      const Vector guess = springFor(meeting, want, sliding);
       settled &= stretched({now.tangentialForce, now.sliding}, {want.tangentialForce, want.sliding},
                            sliding, guess, begun[{now.i, now.j}], own.spring);
       if (law_.rolling != Rolling::spring) return;
@@ -119,80 +120,50 @@ void Spheres::beginUnderWay(const std::vector<SpaceContact>& forces) {
   if (!lags || setup_.integrator == Integrator::velocityVerlet) goBack(halfKick_);
 }
 
-/// Radius of i, and of j; 0 of a plane.
-std::pair<double, double> Spheres::radiiOf(const SpaceContact& contact) const {
-  const auto j = static_cast<std::size_t>(contact.j);
-  return {position_[static_cast<std::size_t>(contact.i)].w,
-          j < position_.size() ? position_[j].w : 0.0};
+Meeting<double> Spheres::meetingOf(const SpaceContact& contact) {
+  const auto i = static_cast<std::size_t>(contact.i), j = static_cast<std::size_t>(contact.j);
+  if (j < position_.size())
+    return grain::meetingOf(law_, view(), i, j, contact.normal, contact.overlap);
+  return meetingOn(planes_[j - position_.size()], i, position_[i].w - contact.overlap);
 }
 
 /// Adds a tangential force and a torque against rolling to those of a contact.
 void Spheres::addLacking(const SpaceContact& contact, const Vector& force, const Vector& torque) {
-  const auto [a, b] = radiiOf(contact);
+  const Meeting<double> meeting = meetingOf(contact);
   const Vector couple = cross(contact.normal, force);
-  const auto apply = [&](std::int32_t number, double sign, double arm) {
+  const auto apply = [&](std::int32_t number, double sign, double lever) {
     const auto n = static_cast<std::size_t>(number);
     if (n >= size()) return;
     add(force_[n], force, sign);
     if (!law_.rotation) return;
-    add(torque_[n], couple, -arm);
+    add(torque_[n], couple, -lever);
     add(torque_[n], torque, sign);
   };
-  if (b > 0.0) {
-    apply(contact.i, 1.0, armOf(law_.lever, a, b, contact.overlap));
-    apply(contact.j, -1.0, armOf(law_.lever, b, a, contact.overlap));
-  } else {
-    apply(contact.i, 1.0, planeArmOf(law_.lever, law_.planeLever, a, a - contact.overlap));
-  }
+  apply(contact.i, 1.0, meeting.leverI);
+  apply(contact.j, -1.0, meeting.leverJ);
 }
 
 /// By how much f_t falls for each unit of ξ [N/m], of a remembered force 1; and M for each of θ.
-std::pair<double, double> Spheres::loadPerStretch(const SpaceContact& contact) const {
-  const auto [a, b] = radiiOf(contact);
-  ContactMotion<double> motion{};
-  motion.overlap = contact.overlap;
-  motion.radius = b > 0.0 ? a * b / (a + b) : a;
-  const double sliding = law_.history == History::force ? 1.0 : tangentialStiffness(law_, motion);
-  return {sliding, law_.kr * rollingMotion(law_, a, b, 0.0).square};
+std::pair<double, double> Spheres::loadPerStretch(const Meeting<double>& meeting) const {
+  const double sliding =
+      law_.history == History::force ? 1.0 : tangentialStiffness(law_, motionOf(law_, meeting));
+  return {sliding, law_.kr * rollingMotion(law_, meeting.radiusI, meeting.radiusJ, 0.0).square};
 }
 
 /// A spring by which a contact has a wanted force, but for how the pair turns in the step; where it
-/// slips, by which what is held against the bound is along the force and twice as large.
-Vector Spheres::springFor(const SpaceContact& contact, const SpaceContact& want,
+/// slips, by which what is compared with the bound is along the force and twice as large.
+Vector Spheres::springFor(const Meeting<double>& meeting, const SpaceContact& want,
                           double unit) const {
-  const auto i = static_cast<std::size_t>(contact.i), j = static_cast<std::size_t>(contact.j);
-  const auto [a, b] = radiiOf(contact);
-  const bool plane = j >= position_.size();
-  const auto& velocities = seenVelocity_.empty() ? velocity_ : seenVelocity_;
-  const auto& spins = seenVelocity_.empty() ? spin_ : seenSpin_;
-  Meeting<double> meeting{};
-  meeting.normal = contact.normal;
-  meeting.spinI = vectorOf(spins[i]);
-  if (plane) {
-    const double height = a - contact.overlap;
-    const std::size_t wall = planes_[j - position_.size()].wall;
-    meeting.velocity = vectorOf(velocities[i]) - velocityOfPlane(wall, i, contact.normal, height);
-    meeting.armI = planeArmOf(law_.velocityLever, law_.planeLever, a, height);
-  } else {
-    meeting.velocity = vectorOf(velocities[i]) - vectorOf(velocities[j]);
-    meeting.spinJ = vectorOf(spins[j]);
-    meeting.armI = armOf(law_.velocityLever, a, b, contact.overlap);
-    meeting.armJ = armOf(law_.velocityLever, b, a, contact.overlap);
-  }
+  const ContactMotion<double> motion = motionOf(law_, meeting);
   const Vector slip = slipOf(law_, meeting);
-  ContactMotion<double> motion{};
-  motion.overlap = contact.overlap;
-  motion.radius = b > 0.0 ? a * b / (a + b) : a;
-  motion.mass = 1.0 / (inverseMass_[i] + (plane ? 0.0 : inverseMass_[j]));
   Vector viscous{};
   if (law_.tangential == Tangential::springDashpot)
     viscous = -tangentialDamping(law_, motion) * slip;
   const Vector& force = want.tangentialForce;
   const bool alone = want.sliding && law_.dashpotOutsideBound;  // the dashpot has no part
   const Vector elastic = (want.sliding ? 2.0 : 1.0) * force - (alone ? Vector{} : viscous);
-  const double part = partBefore<double>(law_.stretch);
   const double growth = law_.history == History::force ? tangentialStiffness(law_, motion) : 1.0;
-  return (-1.0 / unit) * elastic - (part * growth * law_.dt) * slip;
+  return (-1.0 / unit) * elastic - (partBefore<double>(law_.stretch) * growth * law_.dt) * slip;
 }
 
 }  // namespace grain

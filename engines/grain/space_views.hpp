@@ -45,6 +45,32 @@ struct SpaceView {
   Quad *force, *torque;
 };
 
+/// Two spheres. @param normal  from j, or its image, to i
+template <class L>
+GRAIN_INLINE Meeting<double> meetingOf(const L& law, const SpaceView& all, std::size_t i,
+                                       std::size_t j, const Vec3<double>& normal, double overlap) {
+  const double a = all.position[i].w, b = all.position[j].w;
+  Meeting<double> meeting{};
+  meeting.normal = normal;
+  meeting.velocity = vectorOf(all.velocity[i]) - vectorOf(all.velocity[j]);
+  meeting.overlap = overlap;
+  meeting.radiusI = a;
+  meeting.radiusJ = b;
+  meeting.inverseMassI = all.inverseMass[i];
+  meeting.inverseMassJ = all.inverseMass[j];
+  meeting.inverseMass = meeting.inverseMassI + meeting.inverseMassJ;
+  if (!law.rotation) return meeting;
+  meeting.spinI = vectorOf(all.spin[i]);
+  meeting.spinJ = vectorOf(all.spin[j]);
+  meeting.leverI = armOf(law.lever, a, b, overlap);
+  meeting.leverJ = armOf(law.lever, b, a, overlap);
+  meeting.armI = armOf(law.velocityLever, a, b, overlap);
+  meeting.armJ = armOf(law.velocityLever, b, a, overlap);
+  meeting.inverseInertiaI = all.inverseInertia[i];
+  meeting.inverseInertiaJ = all.inverseInertia[j];
+  return meeting;
+}
+
 /// The last step's results for a pair that touched.
 struct SpaceResult {
   double overlap = 0.0, normal = 0.0, sliding = 0.0;
@@ -75,7 +101,7 @@ using SpacePairKernel = SpaceReport (*)(const GeneralLaw<double>&, const SpaceCo
 /// The moving spheres as their motion sees them. Without rotation spins and torques are null.
 struct SpaceMotionView {
   Quad *position, *velocity, *spin;
-  Quad *seenVelocity, *seenSpin;  ///< the velocities themselves unless predicted
+  Quad *seenVelocity, *seenSpin;  ///< to be predicted; null: nothing is
   Quad *force, *torque;
   const double *inverseMass, *inverseInertia, *mass;
   const Quad* chosen;       ///< where the near pairs were chosen

@@ -77,7 +77,7 @@ void Spheres::placeSpheres() {
     for (std::size_t k = 0; k < wall.radius.size(); ++k)
       position_.push_back(quadOf(wall.position[k], wall.radius[k]));
     for (std::size_t member = 0; member < wall.planes.size(); ++member) {
-      PlacedPlane& plane = planes_.emplace_back(PlacedPlane{w, member, {}, {}, {}, {}, {}});
+      PlacedPlane& plane = planes_.emplace_back(PlacedPlane{w, member, {}, {}, {}, {}, {}, {}});
       plane.kept.resize(size());
       plane.results.resize(size());
       plane.touches.resize(size());
@@ -124,12 +124,11 @@ void Spheres::kick(double dt) {
 }
 
 SpaceMotionView Spheres::motionView() {
-  const bool predicts = !seenVelocity_.empty();
   return {position_.data(),
           velocity_.data(),
           law_.rotation ? spin_.data() : nullptr,
-          predicts ? seenVelocity_.data() : velocity_.data(),
-          predicts ? seenSpin_.data() : spin_.data(),
+          seenVelocity_.empty() ? nullptr : seenVelocity_.data(),
+          seenSpin_.empty() ? nullptr : seenSpin_.data(),
           force_.data(),
           torque_.data(),
           inverseMass_.data(),
@@ -164,6 +163,7 @@ void Spheres::moveWalls() {
     };
     for (; plane != planes_.end() && plane->wall == w; ++plane) {
       const SpaceWall::Plane& member = wall.planes[plane->member];
+      plane->now = now;
       plane->point = place(member.point);
       plane->normal = turnedBy(now.angle, member.normal);
       plane->force = plane->torque = {};
@@ -217,19 +217,16 @@ void Spheres::rememberChoice() {
   outdated_ = sampled_ = false;
 }
 
+SpaceView Spheres::view() {
+  return {position_.data(),       seenVelocities().data(), seenSpins().data(), inverseMass_.data(),
+          inverseInertia_.data(), force_.data(),           torque_.data()};
+}
+
 void Spheres::addForces() {
-  const bool predicts = !seenVelocity_.empty();
-  const SpaceView all{position_.data(),
-                      predicts ? seenVelocity_.data() : velocity_.data(),
-                      predicts ? seenSpin_.data() : spin_.data(),
-                      inverseMass_.data(),
-                      inverseInertia_.data(),
-                      force_.data(),
-                      torque_.data()};
   const double most = setup_.maxOverlap > 0.0 ? setup_.maxOverlap : 1e300;
   const auto begin = std::chrono::steady_clock::now();
   const SpaceReport report =
-      kernels_.pairs(law_, setup_.conventions, all, lists_.near(), range_, most);
+      kernels_.pairs(law_, setup_.conventions, view(), lists_.near(), range_, most);
   if (!std::exchange(sampled_, true))  // one step in some measures for the lists what a pair costs
     lists_.pairsTook(
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
@@ -239,11 +236,9 @@ void Spheres::addForces() {
 }
 
 void Spheres::addPlane(PlacedPlane& plane) {
-  const SpaceWall::State wall = wallState(plane.wall);
-  const bool predicts = !seenVelocity_.empty();
   for (std::size_t i = 0; i < size(); ++i) {
-    const Vector x = vectorOf(position_[i]);
-    const double a = position_[i].w, height = dot(x - plane.point, plane.normal);
+    const double a = position_[i].w,
+                 height = dot(vectorOf(position_[i]) - plane.point, plane.normal);
     SpaceMemory<double>& kept = plane.kept[i];
     bool touches = a - height > 0.0;
     if (law_.cohesion == Cohesion::jkr) {
@@ -255,33 +250,37 @@ void Spheres::addPlane(PlacedPlane& plane) {
     if (!touches) continue;
     if (setup_.maxOverlap > 0.0 && !(a - height <= setup_.maxOverlap * a)) reportDeep();
     ++evaluations_;
-    const Vector place = x - planePoint(law_, a, height) * plane.normal;
-    Meeting<double> meeting{};
-    meeting.normal = plane.normal;
-    meeting.velocity = vectorOf((predicts ? seenVelocity_ : velocity_)[i]) -
-                       velocityOfPlane(plane.wall, i, plane.normal, height);
-    meeting.spinI = vectorOf((predicts ? seenSpin_ : spin_)[i]);
-    meeting.overlap = a - height;
-    meeting.radiusI = a;
-    meeting.leverI = planeArmOf(law_.lever, law_.planeLever, a, height);
-    meeting.armI = planeArmOf(law_.velocityLever, law_.planeLever, a, height);
-    meeting.inverseMass = meeting.inverseMassI = inverseMass_[i];
-    meeting.inverseInertiaI = inverseInertia_[i];
+    const Meeting<double> meeting = meetingOn(plane, i, height);
     const MeetingForce<double> force = meetingForce(law_, setup_.conventions, meeting, kept);
     plane.results[i] = {meeting.overlap, force.normal, force.sliding, force.tangential,
                         force.rolling};
     add(force_[i], force.force, 1.0);
     if (law_.rotation) add(torque_[i], force.torqueI, 1.0);
     plane.force -= force.force;
-    plane.torque -= cross(place - wall.centre, force.force) + force.rolling;
+    plane.torque -= cross(armOn(plane, i, height), force.force) + force.rolling;
   }
 }
 
-Vector Spheres::velocityOfPlane(std::size_t wall, std::size_t i, const Vector& normal,
-                                double height) const {
-  const SpaceWall::State now = wallState(wall);
-  const Vector place = vectorOf(position_[i]) - planePoint(law_, position_[i].w, height) * normal;
-  return now.velocity + cross(now.spin, place - now.centre);
+/// From the centre of the plane's wall to where it meets sphere i, `height` above it [m].
+Vector Spheres::armOn(const PlacedPlane& plane, std::size_t i, double height) const {
+  const double away = planePoint(law_, position_[i].w, height);
+  return vectorOf(position_[i]) - away * plane.normal - plane.now.centre;
+}
+
+Meeting<double> Spheres::meetingOn(const PlacedPlane& plane, std::size_t i, double height) const {
+  const double a = position_[i].w;
+  Meeting<double> meeting{};
+  meeting.normal = plane.normal;
+  meeting.velocity = vectorOf(seenVelocities()[i]) -
+                     (plane.now.velocity + cross(plane.now.spin, armOn(plane, i, height)));
+  meeting.spinI = vectorOf(seenSpins()[i]);
+  meeting.overlap = a - height;
+  meeting.radiusI = a;
+  meeting.leverI = planeArmOf(law_.lever, law_.planeLever, a, height);
+  meeting.armI = planeArmOf(law_.velocityLever, law_.planeLever, a, height);
+  meeting.inverseMass = meeting.inverseMassI = inverseMass_[i];
+  meeting.inverseInertiaI = inverseInertia_[i];
+  return meeting;
 }
 
 void Spheres::reportDeep() {

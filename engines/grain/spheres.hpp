@@ -106,6 +106,7 @@ class Spheres {
   /// A plane at this instant, and what its contacts remember, one a sphere.
   struct PlacedPlane {
     std::size_t wall, member;
+    SpaceWall::State now;  ///< of the wall
     Vec3<double> point, normal;
     std::vector<SpaceMemory<double>> kept;
     std::vector<SpaceResult> results;
@@ -114,7 +115,13 @@ class Spheres {
   };
 
   void forState(auto&& visit);
+  /// What dashpots see: the velocities themselves unless predicted.
+  const Array<Quad>& seenVelocities() const {
+    return seenVelocity_.empty() ? velocity_ : seenVelocity_;
+  }
+  const Array<Quad>& seenSpins() const { return seenSpin_.empty() ? spin_ : seenSpin_; }
   SpaceMotionView motionView();
+  SpaceView view();
   void placeSpheres();
   void kick(double dt);
   void step();
@@ -124,14 +131,14 @@ class Spheres {
   void rememberChoice();
   void beginForces();
   void addForces();
+  Meeting<double> meetingOn(const PlacedPlane& plane, std::size_t i, double height) const;
+  Vec3<double> armOn(const PlacedPlane& plane, std::size_t i, double height) const;
+  Meeting<double> meetingOf(const SpaceContact& contact);
   void addLacking(const SpaceContact& contact, const Vec3<double>& force,
                   const Vec3<double>& torque);
-  std::pair<double, double> radiiOf(const SpaceContact& contact) const;
-  std::pair<double, double> loadPerStretch(const SpaceContact& contact) const;
-  Vec3<double> springFor(const SpaceContact& contact, const SpaceContact& want, double unit) const;
-  /// Of the wall, where sphere i meets it.
-  Vec3<double> velocityOfPlane(std::size_t wall, std::size_t i, const Vec3<double>& normal,
-                               double height) const;
+  std::pair<double, double> loadPerStretch(const Meeting<double>& meeting) const;
+  Vec3<double> springFor(const Meeting<double>& meeting, const SpaceContact& want,
+                         double unit) const;
   void addPlane(PlacedPlane& plane);
   [[noreturn]] void reportDeep();
 
