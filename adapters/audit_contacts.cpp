@@ -38,7 +38,7 @@ struct ByFirst {
 
 /// Ids, pairs, normals: what needs no positions.
 template <int D>
-std::string whyNoList(const ContactsOf<D>& contacts, const AuditBasisOf<D>& basis,
+std::string listFault(const ContactsOf<D>& contacts, const AuditBasisOf<D>& basis,
                       const ByFirst& byFirst) {
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const double square = contacts.normal[k].squaredNorm();
@@ -55,7 +55,7 @@ std::string whyNoList(const ContactsOf<D>& contacts, const AuditBasisOf<D>& basi
 }
 
 template <int D>
-std::string whyNoIds(const ContactsOf<D>& contacts, const SceneOf<D>& scene) {
+std::string idsFault(const ContactsOf<D>& contacts, const SceneOf<D>& scene) {
   const auto disks = static_cast<std::int64_t>(scene.disks.size());
   const auto all = disks + static_cast<std::int64_t>(scene.wallDiskCount() + scene.planeCount());
   for (std::size_t k = 0; k < contacts.size(); ++k) {
@@ -86,8 +86,8 @@ double deepestOverlap(const ContactsOf<D>& contacts, const AuditBasisOf<D>& basi
 
 /// Each contact that is listed, where its two are.
 template <int D>
-std::string whyMisplaced(const ContactsOf<D>& contacts, const AuditBasisOf<D>& basis,
-                         const ContactPlacesOf<D>& places) {
+std::string placeFault(const ContactsOf<D>& contacts, const AuditBasisOf<D>& basis,
+                       const ContactPlacesOf<D>& places) {
   const std::size_t round = basis.radius.size();
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const auto i = static_cast<std::size_t>(contacts.i[k]);
@@ -146,15 +146,15 @@ template <int D>
 std::string contactFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis) {
   if (!snapshot.contacts) return {};
   const ContactsOf<D>& contacts = *snapshot.contacts;
-  if (std::string why = whyNoIds(contacts, *basis.scene); !why.empty()) return why;
+  if (std::string why = idsFault(contacts, *basis.scene); !why.empty()) return why;
   const ByFirst byFirst(contacts, basis.scene->disks.size());
-  if (std::string why = whyNoList(contacts, basis, byFirst); !why.empty()) return why;
+  if (std::string why = listFault(contacts, basis, byFirst); !why.empty()) return why;
   if (snapshot.contactInterval > meansOverSteps * basis.dt) return {};
   if (!basis.byOverlap && !(basis.dt > 0.0)) return {};  // moved on, nobody knows how far
   ContactPlacesOf<D> places = contactPlaces(snapshot, basis);
   // Both disks of a pair may have been moved out of others that deep.
   if (!basis.byOverlap) places.rounding += 2.0 * deepestOverlap(contacts, basis, places);
-  if (std::string why = whyMisplaced(contacts, basis, places); !why.empty()) return why;
+  if (std::string why = placeFault(contacts, basis, places); !why.empty()) return why;
   return basis.byOverlap && snapshot.contactInterval == 0.0
              ? incompleteReason(contacts, basis, places, byFirst)
              : std::string();

@@ -79,7 +79,7 @@ std::string listed(const SpinOf<D>& angle) {
 }
 
 template <int D>
-std::string whyNoWalls(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis) {
+std::string wallFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis) {
   const SceneOf<D>& scene = *basis.scene;
   const auto apart = [&](VecOf<D> difference) {  // of the nearest images
     return (scene.box ? scene.box->nearest(difference) : difference).norm();
@@ -186,13 +186,13 @@ std::string positionFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& 
       return fmt::format("{} moves at {:.3g} m/s, through the whole scene of {:.3g} m in a step",
                          nameOfId(scene, i), speed, basis.extent);
   }
-  return basis.prescribed ? whyNoWalls(snapshot, basis) : std::string();
+  return basis.prescribed ? wallFault(snapshot, basis) : std::string();
 }
 
 namespace {
 
 template <int D>
-std::string whyNoShape(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis) {
+std::string shapeFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis) {
   const SceneOf<D>& scene = *basis.scene;
   const std::size_t disks = scene.disks.size();
   for (const auto& [what, found, wanted] :
@@ -212,7 +212,7 @@ std::string whyNoShape(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& bas
 template <int D>
 std::string auditFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis,
                        std::optional<double> reached) {
-  if (std::string why = whyNoShape(snapshot, basis); !why.empty()) return why;
+  if (std::string why = shapeFault(snapshot, basis); !why.empty()) return why;
   if (std::string why = timeFault(snapshot, basis, reached); !why.empty()) return why;
   if (std::string why = positionFault(snapshot, basis); !why.empty()) return why;
   return contactFault(snapshot, basis);

@@ -116,7 +116,7 @@ EnergySplit partsOf(const ContactLaw& law) {
   return split;
 }
 
-/// In the tangential spring, as far as the force tells [J].
+/// In the tangential spring, as far as the force shows it [J].
 template <int D>
 double storedEnergy(const ContactLaw& law, const PairCoefficients& pair,
                     const ContactKinematics<D>& touch) {
@@ -199,8 +199,8 @@ class ContactWork {
       auto& account = accounts[pairOf(c)];
       if (!account) {
         account.emplace();
-        const bool tells = !run_.law.stiffens() || (run_.law.coheres() && !run_.law.springs());
-        if (run_.slidingFlags && tells) account->split = partsOf(run_.law);
+        const bool shown = !run_.law.stiffens() || (run_.law.coheres() && !run_.law.springs());
+        if (run_.slidingFlags && shown) account->split = partsOf(run_.law);
       }
       account->maxOverlap = std::max(account->maxOverlap, pending_->overlap[c]);
       const ContactKinematics<D> touch = touchAt(*pending_, c, run_, motions_, pendingTime_);

@@ -128,7 +128,7 @@ Case onlyFlow(const CommandLine& line, const char* command) {
   if (cases.front().dimension == 3 &&
       std::ranges::find(flowsInSpace, command) == flowsInSpace.end())
     throw BadInput(fmt::format("{}: {} knows no cases in space (case.dimension = 3) yet; {} do",
-                               file.string(), command, fmt::join(flowsInSpace, " and ")));
+                               file.string(), command, fmt::join(flowsInSpace, ", ")));
   if (cases.size() > 1)
     throw BadInput(fmt::format("{}: {} takes a case without variants", file.string(), command));
   // Every job of a plan is a compare, and import takes a case as it is for what comes after.
