@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
-#include "adapters/sweep.hpp"
 #include "stability/recording.hpp"
 
 namespace crossgrain::inline stability {
@@ -30,6 +30,22 @@ std::vector<Vec2> wallDisksAt(const Scene& scene, double t) {
 }
 
 namespace {
+
+/// Calls visit(i, j), i < j, for every two discs whose extents in x overlap, at least one of them
+/// among the first `moving`: those of walls may overlap each other.
+template <class Visit>
+void sweepPairs(const std::vector<Vec2>& position, const std::vector<double>& radius,
+                std::size_t moving, Visit&& visit) {
+  const auto left = [&](std::size_t i) { return position[i].x() - radius[i]; };
+  std::vector<std::size_t> order(position.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, left);
+  for (std::size_t a = 0; a < order.size(); ++a) {
+    const double right = position[order[a]].x() + radius[order[a]];
+    for (std::size_t b = a + 1; b < order.size() && left(order[b]) <= right; ++b)
+      if (const auto [i, j] = std::minmax(order[a], order[b]); i < moving) visit(i, j);
+  }
+}
 
 void addPlaneOverlaps(const Scene& scene, const std::vector<Vec2>& position, double t,
                       std::vector<Overlap>& found) {
