@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstdio>
 #include <map>
 #include <stdexcept>
 #include <string>
+
+#include "crossgrain_worker.hpp"
 
 namespace crossgrain::planted {
 
@@ -35,6 +38,19 @@ class Words {
  private:
   std::map<std::string, double> values_;
 };
+
+/// A worker's main(): an engine with the faults of the command line.
+template <class Engine, class Faults>
+int servePlanted(const char* name, int argc, char** argv) {
+  try {
+    const Faults faults{{argc - 1, argv + 1}};
+    faults.given.requireAllKnown();
+    return crossgrain_worker::serve(Engine(faults));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", name, error.what());
+    return 2;
+  }
+}
 
 /// What is wrong with the engine: numbers, each neutral as it stands. All of them neutral make the
 /// right engine; a planted fault is one or two of them changed by its name (../faults.toml).

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <ctime>
 #include <map>
 #include <memory>
@@ -365,12 +364,6 @@ class PlantedEngine {
 }  // namespace crossgrain::planted
 
 int main(int argc, char** argv) {
-  try {
-    const crossgrain::planted::Faults faults{{argc - 1, argv + 1}};
-    faults.given.requireAllKnown();
-    return crossgrain_worker::serve(crossgrain::planted::PlantedEngine(faults));
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "planted_engine: %s\n", error.what());
-    return 2;
-  }
+  using namespace crossgrain::planted;
+  return servePlanted<PlantedEngine, Faults>("planted_engine", argc, argv);
 }

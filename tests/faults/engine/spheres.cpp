@@ -4,7 +4,6 @@
 //     planted_spheres [NAME=VALUE …]      names: SpaceFaults
 
 #include <Eigen/Geometry>
-#include <cstdio>
 #include <map>
 #include <utility>
 #include <vector>
@@ -292,12 +291,6 @@ class PlantedSpheres {
 }  // namespace crossgrain::planted
 
 int main(int argc, char** argv) {
-  try {
-    const crossgrain::planted::SpaceFaults faults{{argc - 1, argv + 1}};
-    faults.given.requireAllKnown();
-    return crossgrain_worker::serve(crossgrain::planted::PlantedSpheres(faults));
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "planted_spheres: %s\n", error.what());
-    return 2;
-  }
+  using namespace crossgrain::planted;
+  return servePlanted<PlantedSpheres, SpaceFaults>("planted_spheres", argc, argv);
 }
