@@ -102,7 +102,8 @@ struct RunOptions {
   Precision precision = Precision::float64;  ///< of engines that can choose
   bool mirrors = true;                       ///< also run the in-house mirrors of the engines named
   bool energyLedger = false;  ///< engines that can account for their energy, term by term
-  int keepSnapshots = 20;     ///< snapshots kept per run in HDF5
+  int keepSnapshots = 20;     ///< snapshots kept of a run in HDF5
+  int keepSnapshotsOf = 1;    ///< packings, from the first, whose runs keep theirs
 };
 
 /// Two-body collisions: disks that meet each other, or a wall, with v_t = Ψ_i v_n.

@@ -244,6 +244,9 @@ const Section<RunOptions>& runKeys() {
            "field `dissipation`")
            .usedBy("compare plan record stability effects cost scale"),
        key("keep_snapshots", &RunOptions::keepSnapshots, between(0, 1'000'000), "per run, in HDF5")
+           .usedBy("compare plan effects cost"),
+       key("keep_snapshots_of", &RunOptions::keepSnapshotsOf, between(1, 1'000'000),
+           "packings, from the first, whose snapshots are kept")
            .usedBy("compare plan effects cost")});
   return section;
 }

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -116,6 +117,47 @@ bool readPieces(const std::filesystem::path& file, std::size_t most,
 std::optional<std::string> readFile(const std::filesystem::path& file, std::size_t most) {
   std::string text;
   if (!readPieces(file, most, [&](std::string_view piece) { text += piece; })) return std::nullopt;
+  return text;
+}
+
+namespace {
+
+constexpr int gzipFormat = 15 + 16;  ///< zlib's largest window, and gzip's head and checksum
+
+}  // namespace
+
+std::string packed(std::string_view text) {
+  z_stream stream{};
+  if (::deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, gzipFormat, 8,
+                     Z_DEFAULT_STRATEGY) != Z_OK)
+    throw std::bad_alloc();
+  std::string content(::deflateBound(&stream, text.size()), '\0');
+  // zlib does not write to what it reads.
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  stream.avail_in = static_cast<uInt>(text.size());
+  stream.next_out = reinterpret_cast<Bytef*>(content.data());
+  stream.avail_out = static_cast<uInt>(content.size());
+  ::deflate(&stream, Z_FINISH);
+  content.resize(stream.total_out);
+  ::deflateEnd(&stream);
+  return content;
+}
+
+std::optional<std::string> unpacked(std::string_view content, std::size_t most) {
+  z_stream stream{};
+  if (::inflateInit2(&stream, gzipFormat) != Z_OK) throw std::bad_alloc();
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(content.data()));
+  stream.avail_in = static_cast<uInt>(content.size());
+  std::string text, piece(std::size_t{1} << 20, '\0');
+  int state = Z_OK;
+  while (state == Z_OK && text.size() <= most) {
+    stream.next_out = reinterpret_cast<Bytef*>(piece.data());
+    stream.avail_out = static_cast<uInt>(piece.size());
+    state = ::inflate(&stream, Z_NO_FLUSH);
+    text.append(piece, 0, piece.size() - stream.avail_out);
+  }
+  ::inflateEnd(&stream);
+  if (state != Z_STREAM_END || text.size() > most) return std::nullopt;
   return text;
 }
 

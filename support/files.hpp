@@ -53,6 +53,13 @@ bool readPieces(const std::filesystem::path& file, std::size_t most,
 std::optional<std::string> readFile(const std::filesystem::path& file,
                                     std::size_t most = longestText);
 
+/// In gzip's format (RFC 1952), the same bytes for the same text on every machine.
+std::string packed(std::string_view text);
+
+/// What packed() or gzip made of a text; absent where it is no such thing, damaged or cut off.
+/// @param most  of the text [bytes]: what would be longer counts as damaged
+std::optional<std::string> unpacked(std::string_view content, std::size_t most = longestText);
+
 /// Whether a file is there that this user may execute.
 bool isProgram(const std::filesystem::path& path);
 

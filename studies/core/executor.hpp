@@ -107,7 +107,10 @@ std::vector<Result> runOrLoad(const std::vector<CachedTask<Result>>& tasks, cons
     open.push_back({task.priority.value_or(task.weight), [&, k] {
                       const auto& own = tasks[k];
                       auto outcome = own.work([&](double f) { progress.update(k, own.label, f); });
-                      if (outcome.finished) store.keep(own.name, own.key, jsonOf(outcome.result));
+                      if (outcome.finished)
+                        store.keep(own.name, own.key, jsonOf(outcome.result));
+                      else
+                        store.failed(own.name);
                       results[k] = std::move(outcome.result);
                       progress.finish(k, own.label + ": " + outcome.line);
                     }});

@@ -93,8 +93,14 @@ RunStore::RunStore(const RunCommand& command, std::string name,
 }
 
 RunStore::~RunStore() {
-  if (begun_ || !made_) return;
   std::error_code ignored;
+  if (begun_) {
+    for (const auto& entry : fs::directory_iterator(out_ / "scratch", ignored))
+      if (!failed_.contains(entry.path().filename().string()))
+        fs::remove_all(entry.path(), ignored);
+    if (failed_.empty()) fs::remove(out_ / "scratch", ignored);
+  }
+  if (begun_ || !made_) return;
   for (const char* own : {"scratch", marker}) fs::remove_all(out_ / own, ignored);
   lock_.reset();
   fs::remove(out_, ignored);
@@ -178,13 +184,14 @@ void RunStore::setAside() {
 
 std::optional<json> RunStore::find(const std::string& name, const CaseKeys& key) const {
   if (dry_ && fresh_) return std::nullopt;
-  const auto text = readFile(file(name));
-  if (!text) return std::nullopt;
+  const auto content = readFile(file(name));
+  const auto text = content ? unpacked(*content) : std::nullopt;
+  if (!text) return std::nullopt;  // half a file, too: the run is done again
   KeptRun stored;
   try {
     stored = understood(file(name), [&] { return readAs<KeptRun>(parseJson(*text)); });
   } catch (const NotJson&) {
-    // Half a file: the run is done again.
+    // As of half a file.
   }
   if (!stored.run) return std::nullopt;
   CaseKeys before = stored.key, now = key;
@@ -200,9 +207,14 @@ std::optional<json> RunStore::find(const std::string& name, const CaseKeys& key)
 
 void RunStore::keep(const std::string& name, const CaseKeys& key, const json& run) const {
   makeDirectory(out_ / "runs");
-  writeFile(file(name), toText({{"key", key}, {"run", run}}));
+  writeFile(file(name), packed(toText({{"key", key}, {"run", run}})));
   std::error_code ignored;
   fs::remove_all(unfinished(name), ignored);
+}
+
+void RunStore::failed(const std::string& name) const {
+  const std::scoped_lock lock(mutex_);
+  failed_.insert(name);
 }
 
 fs::path RunStore::scratch(const std::string& name) const {
@@ -218,7 +230,7 @@ fs::path RunStore::unfinished(const std::string& name) const {
 }
 
 fs::path RunStore::file(const std::string& name) const {
-  return out_ / "runs" / (name + ".json");
+  return out_ / "runs" / (name + ".json.gz");
 }
 
 std::string programOf(const fs::path& folder) {

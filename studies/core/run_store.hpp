@@ -2,8 +2,10 @@
 
 #include <filesystem>
 #include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -51,7 +53,8 @@ class RunStore {
   ///         of another build or of cases that have changed; if another process holds it; if it
   ///         holds files of others. `command.fresh` lifts the first two.
   RunStore(const RunCommand& command, std::string name, std::map<std::string, CaseKeys> cases);
-  /// A folder that was made for a command that could not begin goes with it.
+  /// Scratch files go but for those of failed(). A folder that was made for a command that could
+  /// not begin goes with it.
   ~RunStore();
 
   /// Called once it is known that the command can begin; by each of its parts. Sets aside what an
@@ -72,7 +75,9 @@ class RunStore {
   void keep(const std::string& name, const CaseKeys& key, const nlohmann::json& run) const;
 
   const std::filesystem::path& folder() const { return out_; }
-  /// Of a worker; gone when the next command begins, or with the store of a dry run.
+  /// The run of that name failed: what its engine wrote stays until the next command begins.
+  void failed(const std::string& name) const;
+  /// Of a worker; gone with the store, but for those of failed().
   std::filesystem::path scratch(const std::string& name) const;
   std::filesystem::path snapshots(const std::string& name) const;
   /// What a run that is under way keeps; gone once it is finished.
@@ -90,6 +95,8 @@ class RunStore {
   std::string name_;
   std::map<std::string, CaseKeys> cases_;
   bool dry_, fresh_, made_ = false, begun_ = false;
+  mutable std::mutex mutex_;
+  mutable std::set<std::string> failed_;
   std::optional<FolderLock> lock_;
   std::optional<ScratchFolder> elsewhere_;  ///< scratch of a dry run
 };

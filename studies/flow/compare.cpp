@@ -157,6 +157,9 @@ CompareResults compare(const StudyWork& work, const CompareOptions& own) {
   results.agreement = agreementOf(setup, results.runs, pairs, endpoints.surrogates);
   results.steadiness = steadinessOf(results.runs, names, setup.averaging.confidence);
   results.ensemble = ensembleOf(results.runs, names);
+  if (campaign.packings().size() > 1)  // the report shows means; runs/ has each packing's
+    for (FlowRun& run : results.runs)
+      if (!run.ofFiles()) run.distributions.clear();
   results.endpoints = std::move(endpoints);
   results.endpoints.alarms = alarmsOf(setup, results);
   const auto named = std::ranges::count_if(campaign.engines(), [&](const EngineEntry& entry) {

@@ -95,7 +95,9 @@ FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& p
     snapshotOf<D>(engine, report);  // starts the first interval
 
   const auto averages = flowAverages(setup, scene);
-  SnapshotFileOf<D> kept(task.snapshots, task.entry.name, scene, samples, setup.run.keepSnapshots);
+  SnapshotFileOf<D> kept(
+      task.snapshots, task.entry.name, scene, samples,
+      task.packingIndex < setup.run.keepSnapshotsOf ? setup.run.keepSnapshots : 0);
   FlowRun run;
   const double pictureTime = std::min(0.5 * flowUnit(setup), end);
   int taken = 0;

@@ -38,7 +38,7 @@ class RunStoreTest : public testing::Test {
     return test::refusalOf([&] { const RunStore store(command_, name, cases); });
   }
 
-  bool isFinished() { return fs::exists(command_.out / "runs" / "a-p0.json"); }
+  bool isFinished() { return fs::exists(command_.out / "runs" / "a-p0.json.gz"); }
 
   const TemporaryFolder folder_;
   RunCommand command_;
@@ -139,7 +139,7 @@ TEST_F(RunStoreTest, Fresh_SetsAsideWhatIsThere) {
     EXPECT_EQ(testing::internal::GetCapturedStderr(),
               "what was there is now in " + aside.string() + "\n");
     EXPECT_FALSE(store.find("a-p0", key));
-    EXPECT_TRUE(fs::exists(aside / "runs" / "a-p0.json"));
+    EXPECT_TRUE(fs::exists(aside / "runs" / "a-p0.json.gz"));
     store.keep("a-p0", key, {{"value", 0.2}});
   }
   // What was set aside is a folder like any other.
@@ -165,13 +165,20 @@ TEST_F(RunStoreTest, FolderOfOthers_ThrowsEvenWithFresh) {
 /// What is of another type is named with its file; what might never end is not opened.
 TEST_F(RunStoreTest, MalformedFile_ThrowsNamingFileAndMember) {
   finish();
-  const fs::path run = command_.out / "runs" / "a-p0.json", marker = command_.out / ".crossgrain";
+  const fs::path run = command_.out / "runs" / "a-p0.json.gz",
+                 marker = command_.out / ".crossgrain";
   const auto find = [&] { RunStore(command_, "compare", rings20).find("a-p0", key); };
-  std::ofstream(run) << R"({"key": {"engine": "a"}, )";
-  EXPECT_FALSE(RunStore(command_, "compare", rings20).find("a-p0", key));  // run anew
-  std::ofstream(run) << R"({"key": {"engine": 7}, "run": {}})";
+  const std::string whole = *readFile(run);
+  // Half a file is run anew.
+  for (const std::string& half :
+       {whole.substr(0, whole.size() / 2), packed(R"({"key": {"engine": "a"}, )")}) {
+    writeFile(run, half);
+    EXPECT_FALSE(RunStore(command_, "compare", rings20).find("a-p0", key));
+  }
+  writeFile(run, packed(R"({"key": {"engine": 7}, "run": {}})"));
   EXPECT_EQ(test::refusalOf(find), run.string() + ": key.engine: is number, not a text");
-  std::ofstream(run) << R"({"key": {"engine": "a", "engine version": "1"}, "run": {"value": "a"}})";
+  writeFile(run,
+            packed(R"({"key": {"engine": "a", "engine version": "1"}, "run": {"value": "a"}})"));
   EXPECT_NE(
       test::refusalOf([&] {
         RunStore(command_, "compare", rings20).findAs<std::map<std::string, double>>("a-p0", key);
@@ -185,6 +192,38 @@ TEST_F(RunStoreTest, MalformedFile_ThrowsNamingFileAndMember) {
   fs::remove(marker);
   ASSERT_EQ(::mkfifo(marker.c_str(), 0600), 0);
   EXPECT_EQ(refusal("compare", rings20), marker.string() + ": is a named pipe, not a file");
+}
+
+TEST_F(RunStoreTest, Scratch_GoesWithTheStoreButForWhatFailed) {
+  for (const bool fails : {true, false}) {
+    {
+      RunStore store(command_, "compare", rings20);
+      store.begin();
+      for (const char* name : {"ask-a", "a-p0", "a-p1"})
+        fs::create_directories(store.scratch(name));
+      if (fails) store.failed("a-p1");
+    }
+    EXPECT_EQ(fs::exists(command_.out / "scratch"), fails);
+    EXPECT_EQ(fs::exists(command_.out / "scratch" / "a-p1"), fails);
+    EXPECT_FALSE(fs::exists(command_.out / "scratch" / "ask-a"));
+  }
+}
+
+/// That it is gzip's, Python's library sees (tests/system/test_thesis.py).
+TEST(Files, PackedText_IsReadBackWholeOrNotAtAll) {
+  std::string text;
+  for (int k = 0; k < 300'000; ++k) text += fmt::format("{},", k * 0.1);
+  ASSERT_GT(text.size(), std::size_t{1} << 20);
+  const std::string content = packed(text);
+  EXPECT_LT(content.size(), text.size() / 2);
+  EXPECT_EQ(unpacked(content), text);
+  EXPECT_EQ(unpacked(packed("")), "");
+  EXPECT_FALSE(unpacked(content, text.size() - 1));
+  EXPECT_FALSE(unpacked(content.substr(0, content.size() - 1)));
+  std::string damaged = content;
+  damaged[damaged.size() / 2] ^= 1;
+  EXPECT_FALSE(unpacked(damaged));
+  EXPECT_FALSE(unpacked("no such thing"));
 }
 
 TEST(Files, FileBeyondItsBoundOrNone_Throws) {
@@ -217,14 +256,11 @@ TEST(JsonText, TooDeepOrMalformed_Throws) {
 
 TEST_F(RunStoreTest, DryRun_WritesNothing) {
   command_.dryRun = true;
-  fs::path scratch;
   {
     RunStore store(command_, "compare", rings20);
     store.begin();
-    scratch = store.scratch("a");
-    EXPECT_FALSE(fs::exists(command_.out));
   }
-  EXPECT_FALSE(fs::exists(scratch.parent_path()));
+  EXPECT_FALSE(fs::exists(command_.out));
   command_.dryRun = false;
   finish();
   command_.dryRun = true;

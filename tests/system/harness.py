@@ -320,5 +320,5 @@ class SystemTest(unittest.TestCase):
     def finished_runs(self):
         """Run files by name, with the time of their last change [ns]."""
         return {
-            file.stem: file.stat().st_mtime_ns for file in (self.out / "runs").glob("*.json")
+            file.name.split(".")[0]: file.stat().st_mtime_ns for file in (self.out / "runs").glob("*.json.gz")
         }

@@ -290,6 +290,7 @@ class KeysWithoutUse(SystemTest):
         "cost": "cost",
         "run.mirrors": "compare",
         "run.keep_snapshots": "compare effects cost",
+        "run.keep_snapshots_of": "compare effects cost",
         "run.energy_ledger": "compare effects cost stability",
     }
 

@@ -20,7 +20,8 @@ class Files(SystemTest):
 
     @classmethod
     def setUpClass(cls):
-        short = settings(averaging__rotations=0.1, preparation__packings=4, looks__count=1, run__keep_snapshots=100000)
+        short = settings(averaging__rotations=0.1, preparation__packings=4, looks__count=1, run__keep_snapshots=100000,
+                         run__keep_snapshots_of=4)  # fmt: skip
         cls.ran = cls.compared_once("grain,lammps", *short)
         cls.kept = cls.ran / "snapshots"
 
@@ -82,7 +83,7 @@ class Space(SystemTest):
         slabs = [row for row in self.rows("profiles.csv") if row["engine"] == "grain" and row["packing"] == "0"]
         volume = sum(float(row["mean"]) * 10 * 27**0.5 for row in slabs if row["field"] == "volume_fraction")
         self.assertAlmostEqual(560 * math.pi / 6, volume, delta=560 * math.pi / 6 * 0.05)  # but for what is in the walls' hollows
-        kept = {file: file.stat().st_mtime_ns for file in (self.out / "runs").glob("*.json")}
+        kept = {file: file.stat().st_mtime_ns for file in (self.out / "runs").glob("*.json.gz")}
         self.assertEqual(8, len(kept))
         self.assert_status(self.run_program(*command), HELD, FELL_SHORT)
         self.assertEqual(kept, {file: file.stat().st_mtime_ns for file in kept})
@@ -215,6 +216,11 @@ class InterimAnalyses(SystemTest):
         self.assertRegex(second.stdout, r"Analysed after 4, 8, 12 packings \(3 of 3 interim analyses\), .*; 5 of 5 %")
         now = self.finished_runs()
         self.assertEqual(runs, {name: now[name] for name in runs})
+        # What is big is there once: distributions of a packing are in its run, snapshots of the first packing.
+        self.assertFalse((self.out / "scratch").exists())
+        self.assertTrue(all(not run["distributions"] for run in self.results()["runs"]))
+        self.assertEqual({"all"}, {row["packing"] for row in self.rows("distributions.csv")})
+        self.assertTrue(all(file.stem.endswith("-p0") for file in (self.out / "snapshots").iterdir()))
         for row in self.rows("endpoints.csv"):
             if row["endpoint"] in decided:
                 self.assertEqual((decided[row["endpoint"]], "1"), (row["answer"], row["look"]))

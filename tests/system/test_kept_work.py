@@ -112,7 +112,7 @@ class EveryCommand(SystemTest):
 
     def test_damaged_run_is_run_again_to_the_same_bits(self):
         self.assert_status(self.compare(*SHORT), HELD)
-        damaged = self.out / "runs/grain-p0.json"
+        damaged = self.out / "runs/grain-p0.json.gz"
         profiles = (self.out / "profiles.csv").read_bytes()
         os.truncate(damaged, damaged.stat().st_size // 2)
         done = self.compare(*SHORT)

@@ -248,9 +248,9 @@ class Refusals(SystemTest):
 
     def test_refused_command_leaves_earlier_runs_alone(self):
         (self.out / "runs").mkdir(parents=True)
-        self.write("out/runs/grain-p0.json", "{}")
+        self.write("out/runs/grain-p0.json.gz", "{}")
         self.assert_status(self.compare("--quiet", engines="grian"), BAD_INPUT)
-        self.assertEqual(["grain-p0.json"], [file.name for file in (self.out / "runs").iterdir()])
+        self.assertEqual(["grain-p0.json.gz"], [file.name for file in (self.out / "runs").iterdir()])
 
     def test_results_are_looked_for_where_they_were_named_only(self):
         (self.folder / "data/out").mkdir(parents=True)

@@ -1,6 +1,7 @@
 """crossgrain thesis runs a sweep of cases, keeps what is finished, goes on to the bit, and judges; kept reports of the claims
 follow from their results to the bit, and say why a claim is refuted."""
 
+import gzip
 import json
 import os
 import shutil
@@ -22,10 +23,10 @@ class Thesis(SystemTest):
     def all_but_time(self, out):
         """Every run without what it took."""
         runs = {}
-        for file in (out / "runs").glob("tiny*.json"):
-            run = json.loads(file.read_text(encoding="utf-8"))
+        for file in (out / "runs").glob("tiny*.json.gz"):
+            run = json.loads(gzip.decompress(file.read_bytes()))
             run["run"]["run"].pop("stats")
-            runs[file.stem] = run
+            runs[file.name] = run
         return runs
 
     def test_report_is_rebuilt_to_the_bit_also_from_whole_runs(self):
@@ -43,8 +44,8 @@ class Thesis(SystemTest):
             self.assertEqual({}, run["run"]["series"])
             self.assertEqual([18] if run["leg"] == "tiny" else [], [finer["count"] for finer in run["finer"]])
             self.assertEqual([(0, 1), (1, 1.5), (1.5, 2.5)], [(span["from"], span["to"]) for span in run["history"]])
-            name = f"{run['leg']}-{run['engine']}-p{run['packing']}.json"
-            whole = json.loads((self.out / "runs" / name).read_text(encoding="utf-8"))["run"]
+            name = f"{run['leg']}-{run['engine']}-p{run['packing']}.json.gz"
+            whole = json.loads(gzip.decompress((self.out / "runs" / name).read_bytes()))["run"]
             self.assertLess(10 * len(json.dumps(run)), 2 * len(json.dumps(whole)))
             # Both are means over the same snapshots.
             pressures = whole["run"]["series"]["outer_pressure"]
