@@ -84,7 +84,9 @@ json suitability(const EngineEntry& entry, const Case& setup, const SceneOf<D>& 
       {"name", entry.name}, {"mirrors", entry.mirrors},    {"can", true},
       {"reason", ""},       {"deviations", json::array()}, {"not_simulated", json::array()}};
   try {
-    const auto engine = startNew(entry, scratch, setup.run.timeout);
+    // Times and memory are those of a process that does nothing else.
+    const auto engine = timed ? startNew(entry, scratch, setup.run.timeout)
+                              : startEngine(entry, scratch, setup.run.timeout);
     checkSuitable(*engine, entry, setup, scene);
     const Suitability found = suitabilityOf(*engine, entry, setup, scene);
     row["deviations"] = found.deviations;

@@ -23,9 +23,10 @@ namespace {
 
 std::optional<Capabilities> ask(const EngineEntry& entry, double timeout) {
   if (entry.make) return entry.make()->capabilities();
-  const ScratchFolder scratch;
+  // Kept until this process ends: a worker whose folder has gone is of no use to the next run.
+  static const ScratchFolder folder;
   try {
-    return startEngine(entry, scratch.path, timeout)->capabilities();
+    return startEngine(entry, folder.path / entry.name, timeout)->capabilities();
   } catch (const Interrupted&) {
     throw;
   } catch (const std::exception&) {

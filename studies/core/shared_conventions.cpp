@@ -12,7 +12,7 @@
 #include "adapters/suitability.hpp"
 #include "cases/case_keys.hpp"
 #include "studies/core/engine_access.hpp"
-#include "support/scratch_folder.hpp"
+#include "studies/core/mirrors.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -109,14 +109,11 @@ std::vector<std::string> sharedConventionsOf(const Case& setup,
       std::ranges::none_of(openConventions(setup),
                            [&](const std::string& option) { return mattersTo(setup.law, option); }))
     return {};
-  const ScratchFolder scratch;
   std::vector<Capabilities> all;
   for (const EngineEntry& entry : selectEngines(engines)) {
     if (entry.ofFiles() || (entry.missing && !entry.missing().empty())) continue;
-    try {
-      all.push_back(startEngine(entry, scratch.path, setup.run.timeout)->capabilities());
-    } catch (const EngineFailure&) {  // what is wrong is said where the engine is to run
-    }
+    // What is wrong with one that does not answer is said where it is to run.
+    if (auto can = capabilitiesOf(entry, setup.run.timeout)) all.push_back(std::move(*can));
   }
   return sharedConventions(setup, all);
 }
