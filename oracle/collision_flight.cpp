@@ -112,7 +112,7 @@ std::optional<CollisionEnd> collisionEnd(const SpaceScene& scene, const SpaceSna
     touch = -timeOfParting(before, Vec3(-approach), reach);
   }
   CollisionEnd end = spaceEndOf(bodies, start, motion);
-  end.duration = after.positionTime + parting - touch;
+  if (scene.law.soft()) end.duration = after.positionTime + parting - touch;
   return end;
 }
 

@@ -9,11 +9,19 @@
 /// Closed forms, with the normal frozen.
 namespace crossgrain::inline oracle {
 
+namespace {
+
+/// Ψ_f of Walton's law for Ψ_i ≥ 0.
+double slipAfterRigid(const ContactLaw& law, const CollidingPair& pair, double psi) {
+  const double sliding = pair.tangentialCompliance() * pair.reducedMass() * (1.0 + law.en) * law.mu;
+  return std::max(-law.et0 * psi, psi - sliding);
+}
+
+}  // namespace
+
 CollisionEnd rigidOutcome(const ContactLaw& law, const CollidingPair& pair,
                           const CollisionStart& start) {
-  const double sliding = pair.tangentialCompliance() * pair.reducedMass() * (1.0 + law.en) * law.mu;
-  const double magnitude = std::max(-law.et0 * std::abs(start.psi), std::abs(start.psi) - sliding);
-  const double psi = std::copysign(1.0, start.psi) * magnitude;
+  const double psi = std::copysign(1.0, start.psi) * slipAfterRigid(law, pair, std::abs(start.psi));
   const double impulse = (psi - start.psi) * start.vn / pair.tangentialCompliance();
   PairMotion after = motionBefore(pair, start);
   after.normal *= -law.en;
@@ -21,6 +29,24 @@ CollisionEnd rigidOutcome(const ContactLaw& law, const CollidingPair& pair,
   for (const int side : {0, 1})
     after.spin[side] -= pair.radius[side] * impulse / pair.inertia[side];
   return endOf(pair, start, after);
+}
+
+CollisionEnd rigidOutcomeInSpace(const ContactLaw& law, const CollidingPair& pair,
+                                 const CollisionStart& start) {
+  SpaceMotion after = spaceMotionBefore(pair, start);
+  const Vec3 turning = pair.radius[0] * after.spin[0] + pair.radius[1] * after.spin[1];
+  const Vec3 aside(0.0, after.velocity.y(), after.velocity.z());
+  const Vec3 slip = aside - turning.cross(after.normal);
+  const double speed = slip.norm();
+  Vec3 impulse = Vec3::Zero();
+  if (speed > 0.0)
+    impulse = (start.vn * slipAfterRigid(law, pair, speed / start.vn) - speed) /
+              pair.tangentialCompliance() * (slip / speed);
+  after.velocity.x() *= -law.en;
+  after.velocity += impulse / pair.reducedMass();
+  for (const int side : {0, 1})
+    after.spin[side] -= pair.radius[side] / pair.inertia[side] * after.normal.cross(impulse);
+  return spaceEndOf(pair, start, after);
 }
 
 double restitutionOfLinearLaw(const ContactLaw& law, double reducedMass) {

@@ -18,11 +18,11 @@ namespace crossgrain::inline oracle {
 CollisionEnd oracleOutcome(const ContactLaw& law, const CollidingPair& pair,
                            const CollisionStart& start);
 
-/// The same of two spheres, or of a sphere and a plane, in space: linear laws with constant
-/// dampers, without friction or with tangential springs, whose slip, force and ξ are vectors in the
-/// tangent plane (oracle/two_spheres.cpp; docs/dimensions.md has the equations). oracleOutcome() of
-/// a law in space. Energies lost are not told apart. @throws std::invalid_argument for any other
-/// law
+/// The same of two spheres, or of a sphere and a plane, in space: rigid laws
+/// (rigidOutcomeInSpace()), and linear ones with constant dampers, without friction or with
+/// tangential springs, whose slip, force and ξ are vectors in the tangent plane
+/// (oracle/two_spheres.cpp; docs/dimensions.md has the equations). oracleOutcome() of a law in
+/// space. Energies lost are not told apart. @throws std::invalid_argument for any other law
 CollisionEnd spaceOutcome(const ContactLaw& law, const CollidingPair& pair,
                           const CollisionStart& start);
 
@@ -45,6 +45,13 @@ bool stepMissesSlip(const ContactLaw& law, const CollidingPair& pair, const Coll
 /// has no duration, no overlap, and does not separate sticking's loss from sliding's.
 CollisionEnd rigidOutcome(const ContactLaw& law, const CollidingPair& pair,
                           const CollisionStart& start);
+
+/// The same of spheres in space, whose slip is a vector v_t: Σ(1/m + a²/J) is the same in all
+/// directions of the tangent plane, so the impulse P_t lies along −v_t, v_t keeps its line, and
+/// with Ψ_i = |v_t|/v_n the impact is the plane's. ω′ = ω − (a/J) n × P_t of both, so that ω·n
+/// stays.
+CollisionEnd rigidOutcomeInSpace(const ContactLaw& law, const CollidingPair& pair,
+                                 const CollisionStart& start);
 
 /// e_n of the linear law with frozen normal (Lätzel 2003, section 4.1): exp(−η π/ω) where tension
 /// is allowed, exp(−(η/ω)(π − atan2(2ηω, ω² − η²))) where it is cut.

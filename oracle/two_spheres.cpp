@@ -408,6 +408,7 @@ void requireKnown(const ContactLaw& law) {
 
 CollisionEnd spaceOutcome(const ContactLaw& law, const CollidingPair& pair,
                           const CollisionStart& start) {
+  if (!law.soft()) return rigidOutcomeInSpace(law, pair, start);
   requireKnown(law);
   return TwoSpheres(law, pair).solve(start);
 }

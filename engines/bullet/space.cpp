@@ -11,21 +11,44 @@ btVector3 toBullet(Vector v) {
   return {v.x, v.y, 0.0};
 }
 
-Vector fromBullet(const btVector3& v) {
-  return {v.x(), v.y()};
+btVector3 toBullet(Vector3 v) {
+  return {v.x, v.y, v.z};
+}
+
+btVector3 toBullet(double spin) {
+  return {0.0, 0.0, spin};
+}
+
+template <int D>
+VectorOf<D> fromBullet(const btVector3& v) {
+  if constexpr (D == 2)
+    return {v.x(), v.y()};
+  else
+    return {v.x(), v.y(), v.z()};
+}
+
+btQuaternion turnOf(double angle) {
+  return {{0.0, 0.0, 1.0}, angle};
+}
+
+btQuaternion turnOf(Vector3 angle) {
+  const double size = norm(angle);
+  return size > 0.0 ? btQuaternion(toBullet(angle), size) : btQuaternion::getIdentity();
 }
 
 /// How far apart a disk and a plane may be and be in contact, in smallest radii: far below what a
 /// disk moves in a step, and above rounding, by which Bullet would lose contacts that touch.
 constexpr double contactMargin = 1e-6;
 
-const Space& spaceOf(const btCollisionObject* object) {
-  return *static_cast<const Space*>(object->getUserPointer());
+template <int D>
+const Space<D>& spaceOf(const btCollisionObject* object) {
+  return *static_cast<const Space<D>*>(object->getUserPointer());
 }
 
 }  // namespace
 
-Space::Space(const ImpulseScene& scene) : scene_(scene) {
+template <int D>
+Space<D>::Space(const ImpulseSceneOf<D>& scene) : scene_(scene) {
   // Globals of Bullet. The margins are 0.02 m and 0.05 m otherwise: planes would act from afar, and
   // all disks of a small scene be neighbours.
   gContactBreakingThreshold = contactMargin * scene.smallest;
@@ -45,23 +68,27 @@ Space::Space(const ImpulseScene& scene) : scene_(scene) {
   // Overlaps of any depth are pushed apart by velocities that are forgotten after the step. By
   // Bullet's own threshold, 0.04 m, shallower ones would add to the velocities that stay.
   solver.m_splitImpulsePenetrationThreshold = 0.0;
+  if (D == 3 && scene.setting("friction_directions") == 2.0)
+    solver.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
   world_.setGravity(toBullet(scene.gravity));
-  for (const Disk& disk : scene.disks) addDisk(disk);
-  for (const Body& wall : scene.walls)
+  for (const DiskOf<D>& disk : scene.disks) addDisk(disk);
+  for (const BodyOf<D>& wall : scene.walls)
     for (std::size_t k = 0; k < wall.radius.size(); ++k)
       addWall(std::make_unique<btSphereShape>(wall.radius[k]), wall.position[k], wall.moves());
-  for (const Body& wall : scene.walls)
+  for (const BodyOf<D>& wall : scene.walls)
     for (const auto& plane : wall.planes)
       addWall(std::make_unique<btStaticPlaneShape>(toBullet(plane.normal), 0.0), plane.point,
               wall.moves());
 }
 
-Space::~Space() {
+template <int D>
+Space<D>::~Space() {
   for (auto& body : bodies_) world_.removeRigidBody(body.get());
 }
 
-btRigidBody& Space::add(std::unique_ptr<btCollisionShape> shape, double mass, double inertia,
-                        Vector place) {
+template <int D>
+btRigidBody& Space<D>::add(std::unique_ptr<btCollisionShape> shape, double mass, double inertia,
+                           Vector place) {
   btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape.get(),
                                                 {inertia, inertia, inertia});
   info.m_startWorldTransform.setOrigin(toBullet(place));
@@ -72,20 +99,24 @@ btRigidBody& Space::add(std::unique_ptr<btCollisionShape> shape, double mass, do
   return body;
 }
 
-void Space::addDisk(const Disk& disk) {
+template <int D>
+void Space<D>::addDisk(const DiskOf<D>& disk) {
   const double inertia =
       std::isinf(disk.inertia) ? 0.0 : disk.inertia;  // Bullet's 0: none turns it
   btRigidBody& body =
       add(std::make_unique<btSphereShape>(disk.radius), disk.mass, inertia, disk.position);
-  body.setLinearFactor({1.0, 1.0, 0.0});
-  body.setAngularFactor({0.0, 0.0, 1.0});
+  if (D == 2) {
+    body.setLinearFactor({1.0, 1.0, 0.0});
+    body.setAngularFactor({0.0, 0.0, 1.0});
+  }
   body.setLinearVelocity(toBullet(disk.velocity));
-  body.setAngularVelocity({0.0, 0.0, disk.spin});
+  body.setAngularVelocity(toBullet(disk.spin));
   body.setActivationState(DISABLE_DEACTIVATION);
   world_.addRigidBody(&body);
 }
 
-void Space::addWall(std::unique_ptr<btCollisionShape> shape, Vector place, bool moves) {
+template <int D>
+void Space<D>::addWall(std::unique_ptr<btCollisionShape> shape, Vector place, bool moves) {
   btRigidBody& body = add(std::move(shape), 0.0, 0.0, place);
   if (moves) {
     body.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
@@ -94,64 +125,77 @@ void Space::addWall(std::unique_ptr<btCollisionShape> shape, Vector place, bool 
   world_.addRigidBody(&body);
 }
 
+template <int D>
 template <typename Visit>
-void Space::forMovingWalls(const Visit& visit) {
+void Space<D>::forMovingWalls(const Visit& visit) {
   auto body = bodies_.begin() + static_cast<long>(scene_.disks.size());
-  for (const Body& wall : scene_.walls)
+  for (const BodyOf<D>& wall : scene_.walls)
     for (std::size_t k = 0; k < wall.position.size(); ++k, ++body)
       if (wall.moves()) visit(**body, wall, wall.position[k], wall.diskVelocity[k]);
-  for (const Body& wall : scene_.walls)
+  for (const BodyOf<D>& wall : scene_.walls)
     for (const auto& plane : wall.planes) {
       if (wall.moves()) visit(**body, wall, plane.point, wall.velocityAt(plane.point));
       ++body;
     }
 }
 
-void Space::step(double next) {
+template <int D>
+void Space<D>::step(double next) {
   // Walls: where they are as the step begins, at the velocity of its middle, which takes them to
   // where they are at its end.
-  forMovingWalls([](btRigidBody& body, const Body& wall, Vector place, Vector) {
-    body.setWorldTransform(btTransform(btQuaternion({0.0, 0.0, 1.0}, wall.angle), toBullet(place)));
+  forMovingWalls([](btRigidBody& body, const BodyOf<D>& wall, Vector place, Vector) {
+    body.setWorldTransform(btTransform(turnOf(wall.angle), toBullet(place)));
   });
-  for (Body& wall : scene_.walls) wall.at(next - 0.5 * scene_.dt);
-  forMovingWalls([](btRigidBody& body, const Body& wall, Vector, Vector velocity) {
+  for (BodyOf<D>& wall : scene_.walls) wall.at(next - 0.5 * scene_.dt);
+  forMovingWalls([](btRigidBody& body, const BodyOf<D>& wall, Vector, Vector velocity) {
     body.setLinearVelocity(toBullet(velocity));
-    body.setAngularVelocity({0.0, 0.0, wall.spin});
+    body.setAngularVelocity(toBullet(wall.spin));
   });
   // Bullet forgets the contact points of two spheres before it looks for new ones, and keeps those
   // of a plane for a warm start; up to four then stand for one contact.
   for (int k = 0; k < dispatcher_.getNumManifolds(); ++k)
     dispatcher_.getManifoldByIndexInternal(k)->clearManifold();
   world_.stepSimulation(scene_.dt, 0);
-  for (Body& wall : scene_.walls) wall.at(next);
+  for (BodyOf<D>& wall : scene_.walls) wall.at(next);
   takeImpulses();
 }
 
-void Space::takeImpulses() {
-  impulses_.clear();
+template <int D>
+void Space<D>::takeImpulses() {
+  auto& impulses = this->impulses_;
+  impulses.clear();
   for (int k = 0; k < dispatcher_.getNumManifolds(); ++k) {
     const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(k);
     const int a = manifold.getBody0()->getUserIndex(), b = manifold.getBody1()->getUserIndex();
     for (int c = 0; c < manifold.getNumContacts(); ++c) {
       const btManifoldPoint& contact = manifold.getContactPoint(c);
-      const Vector normal = fromBullet(contact.m_normalWorldOnB),
-                   along = fromBullet(contact.m_lateralFrictionDir1);
-      impulses_.push_back(PairImpulse::between(
-          a, b, normal, contact.m_appliedImpulse,
-          contact.m_appliedImpulseLateral1 * dot(along, turned(normal)),
-          fromBullet(contact.getPositionWorldOnA()), fromBullet(contact.getPositionWorldOnB()),
-          contact.m_appliedImpulseLateral2));
+      const Vector normal = fromBullet<D>(contact.m_normalWorldOnB),
+                   along = fromBullet<D>(contact.m_lateralFrictionDir1);
+      TangentOf<D> tangential;
+      SpinOf<D> rolling{};
+      if constexpr (D == 2) {
+        tangential = contact.m_appliedImpulseLateral1 * dot(along, turned(normal));
+        rolling = contact.m_appliedImpulseLateral2;
+      } else {
+        tangential =
+            contact.m_appliedImpulseLateral1 * along +
+            contact.m_appliedImpulseLateral2 * fromBullet<D>(contact.m_lateralFrictionDir2);
+      }
+      impulses.push_back(
+          PairImpulseOf<D>::between(a, b, normal, contact.m_appliedImpulse, tangential,
+                                    fromBullet<D>(contact.getPositionWorldOnA()),
+                                    fromBullet<D>(contact.getPositionWorldOnB()), rolling));
     }
   }
-  std::sort(impulses_.begin(), impulses_.end(), [](const PairImpulse& a, const PairImpulse& b) {
-    return std::pair(a.i, a.j) < std::pair(b.i, b.j);
-  });
+  std::sort(impulses.begin(), impulses.end(),
+            [](const auto& a, const auto& b) { return std::pair(a.i, a.j) < std::pair(b.i, b.j); });
 }
 
 /// In the place of the impulse along a second direction of friction, which there is none of.
-btScalar Space::Solver::solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int count,
-                                                      const btContactSolverInfo& info) {
-  for (int k = 0; k < m_tmpSolverContactRollingFrictionConstraintPool.size(); ++k) {
+template <int D>
+btScalar Space<D>::Solver::solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int count,
+                                                         const btContactSolverInfo& info) {
+  for (int k = 0; D == 2 && k < m_tmpSolverContactRollingFrictionConstraintPool.size(); ++k) {
     const btSolverConstraint& row = m_tmpSolverContactRollingFrictionConstraintPool[k];
     void* const point =
         m_tmpSolverContactConstraintPool[row.m_frictionIndex].m_originalContactPoint;
@@ -162,29 +206,42 @@ btScalar Space::Solver::solveGroupCacheFriendlyFinish(btCollisionObject** bodies
 }
 
 /// Bullet multiplies the coefficients of two bodies; these are the pair's own.
-btScalar Space::pairRestitution(const btCollisionObject* a, const btCollisionObject* b) {
-  return spaceOf(a).scene_.restitution(a->getUserIndex(), b->getUserIndex());
+template <int D>
+btScalar Space<D>::pairRestitution(const btCollisionObject* a, const btCollisionObject* b) {
+  return spaceOf<D>(a).scene_.restitution(a->getUserIndex(), b->getUserIndex());
 }
 
-btScalar Space::pairFriction(const btCollisionObject* a, const btCollisionObject*) {
-  return spaceOf(a).scene_.friction;
+template <int D>
+btScalar Space<D>::pairFriction(const btCollisionObject* a, const btCollisionObject*) {
+  return spaceOf<D>(a).scene_.friction;
 }
 
-btScalar Space::pairRolling(const btCollisionObject* a, const btCollisionObject* b) {
-  const auto& rolling = spaceOf(a).scene_.rolling;
+template <int D>
+btScalar Space<D>::pairRolling(const btCollisionObject* a, const btCollisionObject* b) {
+  const auto& rolling = spaceOf<D>(a).scene_.rolling;
   return rolling ? rolling(a->getUserIndex(), b->getUserIndex()) : 0.0;
 }
 
-Vector Space::position(std::size_t disk) const {
-  return fromBullet(bodies_[disk]->getWorldTransform().getOrigin());
+template <int D>
+VectorOf<D> Space<D>::position(std::size_t disk) const {
+  return fromBullet<D>(bodies_[disk]->getWorldTransform().getOrigin());
 }
 
-Vector Space::velocity(std::size_t disk) const {
-  return fromBullet(bodies_[disk]->getLinearVelocity());
+template <int D>
+VectorOf<D> Space<D>::velocity(std::size_t disk) const {
+  return fromBullet<D>(bodies_[disk]->getLinearVelocity());
 }
 
-double Space::spin(std::size_t disk) const {
-  return bodies_[disk]->getAngularVelocity().z();
+template <int D>
+SpinOf<D> Space<D>::spin(std::size_t disk) const {
+  const btVector3& spin = bodies_[disk]->getAngularVelocity();
+  if constexpr (D == 2)
+    return spin.z();
+  else
+    return fromBullet<D>(spin);
 }
+
+template class Space<2>;
+template class Space<3>;
 
 }  // namespace crossgrain_worker::bullet

@@ -9,20 +9,23 @@
 
 namespace crossgrain_worker::bullet {
 
-/// Bullet's world of spheres whose centres stay in the plane z = 0, SI units, walls moved as
+/// Bullet's world of spheres, in the plane their centres stay at z = 0; SI units, walls moved as
 /// prescribed. A step solves for new velocities where disks are, then moves them. Bullet keeps
 /// mixing rules and margins in globals, which the last space that was made has set.
-class Space : public ImpulseSpace {
+template <int D>
+class Space : public ImpulseSpaceOf<D> {
  public:
-  explicit Space(const ImpulseScene& scene);
+  explicit Space(const ImpulseSceneOf<D>& scene);
   ~Space() override;
 
   void step(double next) override;
-  Vector position(std::size_t disk) const override;
-  Vector velocity(std::size_t disk) const override;
-  double spin(std::size_t disk) const override;
+  VectorOf<D> position(std::size_t disk) const override;
+  VectorOf<D> velocity(std::size_t disk) const override;
+  SpinOf<D> spin(std::size_t disk) const override;
 
  private:
+  using Vector = VectorOf<D>;
+
   /// Bullet works the velocity of a wall out from its poses; here it is prescribed, too.
   class World : public btDiscreteDynamicsWorld {
    public:
@@ -32,13 +35,13 @@ class Space : public ImpulseSpace {
     void saveKinematicState(btScalar) override {}
   };
 
-  /// Keeps what acted against rolling, too, which Bullet forgets.
+  /// Keeps what acted against rolling in the plane, too, which Bullet forgets.
   class Solver : public btSequentialImpulseConstraintSolver {
     btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int count,
                                            const btContactSolverInfo& info) override;
   };
 
-  void addDisk(const Disk& disk);
+  void addDisk(const DiskOf<D>& disk);
   void addWall(std::unique_ptr<btCollisionShape> shape, Vector place, bool moves);
   btRigidBody& add(std::unique_ptr<btCollisionShape> shape, double mass, double inertia,
                    Vector place);
@@ -51,7 +54,7 @@ class Space : public ImpulseSpace {
   static btScalar pairFriction(const btCollisionObject* a, const btCollisionObject* b);
   static btScalar pairRolling(const btCollisionObject* a, const btCollisionObject* b);
 
-  ImpulseScene scene_;
+  ImpulseSceneOf<D> scene_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
   btDbvtBroadphase broadphase_;

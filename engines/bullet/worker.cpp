@@ -18,11 +18,15 @@ int main() {
        {"rolling", {"none", "constant_torque"}},
        {"rolling_load", {"compression"}}},
       {setting("dt", 5e-4, "s", "time step; 0: the case's"),
+       within(
+           setting("friction_directions", 2.0, "-",
+                   "in space, of a contact: along its slip, or across it, too; Bullet's own is 1"),
+           1.0, 2.0, true),
        within(setting("iterations", 10.0, "-", "of the solver"), 1.0, 1e6, true),
        within(setting("erp", 0.2, "-", "share of an overlap that a step pushes apart"), 0.0, 1.0,
               false),
        setting("restitution_threshold", 0.0, "m/s",
                "approaches slower than this give nothing back; Bullet's own is 0.2")}};
-  return serve(ImpulseEngine(
-      about, [](const ImpulseScene& scene) { return std::make_unique<bullet::Space>(scene); }));
+  const auto make = [](const auto& scene) { return spaceFor<bullet::Space>(scene); };
+  return serve(ImpulseEngine(about, make, make));
 }

@@ -6,6 +6,8 @@
 //     serve(ImpulseEngine(about, [](const ImpulseScene& scene) {
 //       return std::make_unique<MySpace>(scene);
 //     }));
+//
+// A second function, of const ImpulseSceneOf<3>&, makes spaces of spheres.
 
 #include <algorithm>
 #include <cmath>
@@ -40,28 +42,38 @@ struct ImpulseAbout {
   Json settings;  ///< `dt` among them
 };
 
-class ImpulseEngine {
+template <int D>
+using MakeSpaceOf = std::function<std::unique_ptr<ImpulseSpaceOf<D>>(const ImpulseSceneOf<D>&)>;
+
+/// A Space<D> of a scene, for both functions of ImpulseEngine.
+template <template <int> class Space, int D>
+std::unique_ptr<ImpulseSpaceOf<D>> spaceFor(const ImpulseSceneOf<D>& scene) {
+  return std::make_unique<Space<D>>(scene);
+}
+
+/// A scene as it runs.
+class ImpulseRun {
  public:
-  using MakeSpace = std::function<std::unique_ptr<ImpulseSpace>(const ImpulseScene&)>;
+  ImpulseRun() = default;
+  ImpulseRun(const ImpulseRun&) = delete;
+  ImpulseRun& operator=(const ImpulseRun&) = delete;
+  virtual ~ImpulseRun() = default;
 
-  ImpulseEngine(ImpulseAbout about, MakeSpace make)
-      : about_(std::move(about)), make_(std::move(make)) {}
+  virtual Json load(const Json& scene, const Arrays& arrays, const Json& settings) = 0;
+  virtual double advance(double t) = 0;
+  virtual Json snapshot(const std::string& contacts, ArrayFile& arrays) = 0;
+  virtual Json stats() const = 0;
+};
 
-  Json capabilities() const {
-    Json effects;
-    for (const char* name : {"normal_damping", "friction", "rotation", "gravity", "moving_walls"})
-      effects[name] = "optional";
-    if (about_.lawOptions.contains("rolling")) effects["rolling_resistance"] = "optional";
-    Json options = about_.lawOptions;
-    options["normal"] = {"rigid"};
-    return {{"version", about_.version},       {"effects", effects},
-            {"law_options", options},          {"precisions", {"double"}},
-            {"instant_contacts", true},        {"accumulated_contacts", true},
-            {"warm_handover", false},          {"sliding_flags", false},
-            {"tangential_restitution", false}, {"settings", about_.settings}};
-  }
+template <int D>
+class ImpulseRunOf : public ImpulseRun {
+ public:
+  using Vector = VectorOf<D>;
 
-  Json load(const Json& scene, const Arrays& arrays, const Json& settings) {
+  ImpulseRunOf(const ImpulseAbout& about, const MakeSpaceOf<D>& make)
+      : about_(about), make_(make) {}
+
+  Json load(const Json& scene, const Arrays& arrays, const Json& settings) override {
     if (scene.contains("bottom") && scene.at("bottom").at("mu") > 0.0)
       throw Unsupported("has no bottom_friction");
     const RigidLaw law(scene.at("law"));
@@ -72,23 +84,22 @@ class ImpulseEngine {
     };
     dt_ = number("dt") > 0.0 ? number("dt") : scene.at("dt").get<double>();
     steps_ = StepCount(dt_);
-    evaluations_ = 0;
     disks_ = scene.at("disks");
     radius_ = arrays.at("disks.radius");
     friction_ = law.friction() > 0.0;
     rolls_ = law.rolling() > 0.0 && scene.at("rotation").get<bool>();
     rotation_ = (friction_ || rolls_) && scene.at("rotation").get<bool>();
-    space_.reset();
+    if (D == 3 && rolls_) throw Unsupported("resists no rolling in space");
     loadWalls(scene, arrays);
     pairs_ = RigidPairs(law, arrays.at("disks.mass"), radius_);
     const auto end = radius_.begin() + static_cast<long>(disks_);
     const double smallest = disks_ > 0 ? *std::min_element(radius_.begin(), end) : 1.0;
-    const Vector gravity{scene.at("gravity").at(0), scene.at("gravity").at(1)};
+    const Vector gravity = scene.at("gravity").get<Vector>();
     const auto restitution = [this](std::int32_t i, std::int32_t j) {
       return pairs_.restitution(i, j);
     };
-    ImpulseScene made{turningDisks(arrays), bodies_, dt_,   law.friction(), gravity, smallest,
-                      restitution,          {},      number};
+    ImpulseSceneOf<D> made{turningDisks(arrays), bodies_, dt_,   law.friction(), gravity, smallest,
+                           restitution,          {},      number};
     if (rolls_)
       made.rolling = [this](std::int32_t i, std::int32_t j) { return pairs_.rolling(i, j); };
     space_ = make_(made);
@@ -102,9 +113,9 @@ class ImpulseEngine {
           {"friction", friction_},
           {"rotation", rotation_},
           {"rolling_resistance", rolls_},
-          {"gravity", gravity.x != 0.0 || gravity.y != 0.0},
+          {"gravity", !isZero(gravity)},
           {"moving_walls", std::any_of(bodies_.begin(), bodies_.end(),
-                                       [](const Body& body) { return body.moves(); })}})
+                                       [](const BodyOf<D>& body) { return body.moves(); })}})
       if (on) effects.push_back(name);
     return {{"engine", about_.name},
             {"version", about_.version},
@@ -117,33 +128,33 @@ class ImpulseEngine {
             {"deviations", deviations}};
   }
 
-  double advance(double t) {
+  double advance(double t) override {
     return steps_.advance(t, [this] { step(); });
   }
 
-  Json snapshot(const std::string& contacts, ArrayFile& arrays) {
+  Json snapshot(const std::string& contacts, ArrayFile& arrays) override {
     std::vector<double> position, velocity, spin, walls;
     for (std::size_t i = 0; i < disks_; ++i) {
       append(position, space_->position(i));
       append(velocity, space_->velocity(i));
-      spin.push_back(space_->spin(i));
+      append(spin, space_->spin(i));
     }
-    for (const Body& body : bodies_)
+    for (const BodyOf<D>& body : bodies_)
       for (const Vector& place : body.position) append(walls, place);
     arrays.add("position", position);
     arrays.add("velocity", velocity);
     arrays.add("wall_position", walls);
     if (friction_ || rolls_) arrays.add("spin", spin);
     const bool accumulated = contacts == "accumulated";
-    ImpulseSums& shown = accumulated ? sums_ : last_;
+    ImpulseSumsOf<D>& shown = accumulated ? sums_ : last_;
     const double interval = static_cast<double>(shown.steps) * dt_;
     Json bodies = Json::array();
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       bodies.push_back(bodies_[b].pose());
       if (shown.steps == 0) continue;
       const Vector force = (1.0 / interval) * shown.onBody[b];
-      bodies.back()["force"] = {force.x, force.y};
-      bodies.back()["torque"] = shown.torqueOnBody[b] / interval;
+      bodies.back()["force"] = toJson(force);
+      bodies.back()["torque"] = toJson(meanOf(shown.torqueOnBody[b], interval));
     }
     if (shown.steps > 0 && contacts != "none")
       addContacts(arrays, shown, interval, rolls_,
@@ -156,22 +167,22 @@ class ImpulseEngine {
             {"bodies", bodies}};
   }
 
-  Json stats() const { return steps_.stats(evaluations_); }
+  Json stats() const override { return steps_.stats(evaluations_); }
 
  private:
   void loadWalls(const Json& scene, const Arrays& arrays) {
-    bodies_ = bodiesOf(scene, arrays);
-    for (const Body& body : bodies_)
+    bodies_ = bodiesOf<D>(scene, arrays);
+    for (const BodyOf<D>& body : bodies_)
       radius_.insert(radius_.end(), body.radius.begin(), body.radius.end());
     ids_.emplace(disks_, bodies_);
   }
 
   /// As they take part: what cannot turn has no moment of inertia, what nothing turns no spin.
-  std::vector<Disk> turningDisks(const Arrays& arrays) const {
-    std::vector<Disk> disks = disksOf(arrays);
-    for (Disk& disk : disks) {
+  std::vector<DiskOf<D>> turningDisks(const Arrays& arrays) const {
+    std::vector<DiskOf<D>> disks = disksOf<D>(arrays);
+    for (DiskOf<D>& disk : disks) {
       if (!rotation_) disk.inertia = std::numeric_limits<double>::infinity();
-      if (!friction_ && !rolls_) disk.spin = 0.0;
+      if (!friction_ && !rolls_) disk.spin = {};
     }
     return disks;
   }
@@ -179,12 +190,12 @@ class ImpulseEngine {
   void step() {
     space_->step(steps_.now());
     last_.clear(bodies_.size());
-    for (PairImpulse impulse : space_->impulses()) {
+    for (PairImpulseOf<D> impulse : space_->impulses()) {
       ++evaluations_;
       // Without rotation friction has no arm, on a wall disk either.
       const auto j = static_cast<std::size_t>(impulse.j);
       if (!rotation_ && ids_->isWall(j) && !ids_->isPlane(j)) impulse.place = wallDisk(j);
-      for (ImpulseSums* sums : {&last_, &sums_}) sums->add(impulse, *ids_, bodies_);
+      for (ImpulseSumsOf<D>* sums : {&last_, &sums_}) sums->add(impulse, *ids_, bodies_);
     }
     ++last_.steps;
     ++sums_.steps;
@@ -192,30 +203,73 @@ class ImpulseEngine {
 
   Vector wallDisk(std::size_t id) const { return bodies_[ids_->body(id)].position[ids_->part(id)]; }
 
-  Geometry geometry(std::size_t i, std::size_t j) const {
+  GeometryOf<D> geometry(std::size_t i, std::size_t j) const {
     const Vector place = space_->position(i);
     if (ids_->isPlane(j)) {
-      const Plane& plane = bodies_[ids_->body(j)].planes[ids_->part(j)];
+      const PlaneOf<D>& plane = bodies_[ids_->body(j)].planes[ids_->part(j)];
       return {plane.normal, radius_[i] - dot(place - plane.point, plane.normal)};
     }
     const Vector apart = place - (ids_->isWall(j) ? wallDisk(j) : space_->position(j));
-    const double distance = std::hypot(apart.x, apart.y);
+    const double distance = norm(apart);
     return {(1.0 / distance) * apart, radius_[i] + radius_[j] - distance};
   }
 
-  ImpulseAbout about_;
-  MakeSpace make_;
+  const ImpulseAbout& about_;
+  const MakeSpaceOf<D>& make_;
   RigidPairs pairs_;
   double dt_ = 0.0;
   bool friction_ = false, rotation_ = false, rolls_ = false;
   std::size_t disks_ = 0;
   std::vector<double> radius_;  ///< disks, then wall disks [m]
-  std::vector<Body> bodies_;
+  std::vector<BodyOf<D>> bodies_;
   std::optional<WallIds> ids_;
-  std::unique_ptr<ImpulseSpace> space_;
-  ImpulseSums sums_, last_;
+  std::unique_ptr<ImpulseSpaceOf<D>> space_;
+  ImpulseSumsOf<D> sums_, last_;
   StepCount steps_;
   unsigned long long evaluations_ = 0;
+};
+
+class ImpulseEngine {
+ public:
+  ImpulseEngine(ImpulseAbout about, MakeSpaceOf<2> inPlane, MakeSpaceOf<3> inSpace = {})
+      : about_(std::move(about)), inPlane_(std::move(inPlane)), inSpace_(std::move(inSpace)) {}
+
+  Json capabilities() const {
+    Json effects;
+    for (const char* name : {"normal_damping", "friction", "rotation", "gravity", "moving_walls"})
+      effects[name] = "optional";
+    if (about_.lawOptions.contains("rolling")) effects["rolling_resistance"] = "optional";
+    Json options = about_.lawOptions;
+    options["normal"] = {"rigid"};
+    Json can = {{"version", about_.version},       {"effects", effects},
+                {"law_options", options},          {"precisions", {"double"}},
+                {"instant_contacts", true},        {"accumulated_contacts", true},
+                {"warm_handover", false},          {"sliding_flags", false},
+                {"tangential_restitution", false}, {"settings", about_.settings}};
+    if (inSpace_) can["dimensions"] = {2, 3};
+    return can;
+  }
+
+  Json load(const Json& scene, const Arrays& arrays, const Json& settings) {
+    run_.reset();
+    if (scene.value("dimension", 2) == 3)
+      run_ = std::make_unique<ImpulseRunOf<3>>(about_, inSpace_);
+    else
+      run_ = std::make_unique<ImpulseRunOf<2>>(about_, inPlane_);
+    return run_->load(scene, arrays, settings);
+  }
+
+  double advance(double t) { return run_->advance(t); }
+  Json snapshot(const std::string& contacts, ArrayFile& arrays) {
+    return run_->snapshot(contacts, arrays);
+  }
+  Json stats() const { return run_->stats(); }
+
+ private:
+  ImpulseAbout about_;
+  MakeSpaceOf<2> inPlane_;
+  MakeSpaceOf<3> inSpace_;
+  std::unique_ptr<ImpulseRun> run_;
 };
 
 }  // namespace crossgrain_worker

@@ -11,32 +11,39 @@
 namespace crossgrain_worker {
 
 /// What passed between two in a step. Ids: disks, then wall disks, then planes; i < j.
-struct PairImpulse {
+template <int D>
+struct PairImpulseOf {
+  using Vector = VectorOf<D>;
+
   std::int32_t i, j;
   Vector normal;           ///< from j to i, as the engine had it
-  double pressing, along;  ///< on i: along the normal and along z × normal [N s]
+  double pressing;         ///< on i, along the normal [N s]
+  TangentOf<D> along;      ///< on i, along z × normal, or normal to it in space [N s]
   Vector place;            ///< where j takes it; needed of walls alone [m]
-  double rolling = 0.0;    ///< against rolling, on i; j takes as much the other way [N m s]
+  SpinOf<D> rolling = {};  ///< against rolling, on i; j takes as much the other way [N m s]
 
-  Vector onFirst() const { return pressing * normal + along * turned(normal); }
+  Vector onFirst() const { return pressing * normal + alongTangent(along, normal); }
 
-  /// Of any two; pressing and along are the same on both.
-  static PairImpulse between(std::int32_t a, std::int32_t b, Vector normalToA, double pressing,
-                             double along, Vector placeOnA, Vector placeOnB,
-                             double rollingOnA = 0.0) {
-    return a < b ? PairImpulse{a, b, normalToA, pressing, along, placeOnB, rollingOnA}
-                 : PairImpulse{b, a, -1.0 * normalToA, pressing, along, placeOnA, -rollingOnA};
+  /// Of any two; pressing is the same on both, and so is what is along z × their own normal.
+  static PairImpulseOf between(std::int32_t a, std::int32_t b, Vector normalToA, double pressing,
+                               TangentOf<D> alongOnA, Vector placeOnA, Vector placeOnB,
+                               SpinOf<D> rollingOnA = {}) {
+    if (a < b) return {a, b, normalToA, pressing, alongOnA, placeOnB, rollingOnA};
+    if constexpr (D == 3) alongOnA = -1.0 * alongOnA;
+    return {b, a, -1.0 * normalToA, pressing, alongOnA, placeOnA, -1.0 * rollingOnA};
   }
 };
+using PairImpulse = PairImpulseOf<2>;
 
 /// What a space is made of.
-struct ImpulseScene {
-  std::vector<Disk> disks;
-  std::vector<Body>& walls;  ///< at t = 0; they outlive the space, which moves them
-  double dt;                 ///< [s]
-  double friction;           ///< µ of all pairs
-  Vector gravity;            ///< [m/s²]
-  double smallest;           ///< radius; 1 m where there is no disk
+template <int D>
+struct ImpulseSceneOf {
+  std::vector<DiskOf<D>> disks;
+  std::vector<BodyOf<D>>& walls;  ///< at t = 0; they outlive the space, which moves them
+  double dt;                      ///< [s]
+  double friction;                ///< µ of all pairs
+  VectorOf<D> gravity;            ///< [m/s²]
+  double smallest;                ///< radius; 1 m where there is no disk
   /// e_n of two ids.
   std::function<double(std::int32_t, std::int32_t)> restitution;
   /// µ_r L of two ids [m]; empty where nothing resists rolling.
@@ -44,28 +51,31 @@ struct ImpulseScene {
   /// Value of a setting.
   std::function<double(const char*)> setting;
 };
+using ImpulseScene = ImpulseSceneOf<2>;
 
-/// Disks and walls in SI units.
-class ImpulseSpace {
+/// Disks, or spheres, and walls in SI units.
+template <int D>
+class ImpulseSpaceOf {
  public:
-  ImpulseSpace() = default;
-  ImpulseSpace(const ImpulseSpace&) = delete;
-  ImpulseSpace& operator=(const ImpulseSpace&) = delete;
-  virtual ~ImpulseSpace() = default;
+  ImpulseSpaceOf() = default;
+  ImpulseSpaceOf(const ImpulseSpaceOf&) = delete;
+  ImpulseSpaceOf& operator=(const ImpulseSpaceOf&) = delete;
+  virtual ~ImpulseSpaceOf() = default;
 
   /// @param next  time after the step [s]; the walls are left there
   virtual void step(double next) = 0;
 
-  virtual Vector position(std::size_t disk) const = 0;
-  virtual Vector velocity(std::size_t disk) const = 0;
-  virtual double spin(std::size_t disk) const = 0;
+  virtual VectorOf<D> position(std::size_t disk) const = 0;
+  virtual VectorOf<D> velocity(std::size_t disk) const = 0;
+  virtual SpinOf<D> spin(std::size_t disk) const = 0;
   /// Of the last step, in ascending order of ids.
-  const std::vector<PairImpulse>& impulses() const { return impulses_; }
+  const std::vector<PairImpulseOf<D>>& impulses() const { return impulses_; }
   /// What Realised reports besides the law's own.
   virtual Json deviations() const { return Json::array(); }
 
  protected:
-  std::vector<PairImpulse> impulses_;  ///< which step() leaves
+  std::vector<PairImpulseOf<D>> impulses_;  ///< which step() leaves
 };
+using ImpulseSpace = ImpulseSpaceOf<2>;
 
 }  // namespace crossgrain_worker

@@ -10,57 +10,74 @@
 namespace crossgrain_worker {
 
 /// n from the second to the first, and how deep they overlap [m].
-struct Geometry {
-  Vector normal;
+template <int D>
+struct GeometryOf {
+  VectorOf<D> normal;
   double overlap;
 };
 
 /// Impulses since some step, and what walls got of them.
-struct ImpulseSums {
+template <int D>
+struct ImpulseSumsOf {
+  /// As PairImpulse's; normals turn meanwhile, and what is along them with them.
   struct Impulse {
-    double pressing = 0.0, along = 0.0,
-           rolling = 0.0;  ///< as PairImpulse's; normals turn meanwhile
+    double pressing = 0.0;
+    TangentOf<D> along = {};
+    SpinOf<D> rolling = {};
+    VectorOf<D> normal;  ///< of the last
   };
   std::map<std::pair<std::int32_t, std::int32_t>, Impulse> onFirst;
-  std::vector<Vector> onBody;
-  std::vector<double> torqueOnBody;  ///< about the body's centre [N m s]
+  std::vector<VectorOf<D>> onBody;
+  std::vector<SpinOf<D>> torqueOnBody;  ///< about the body's centre [N m s]
   long long steps = 0;
 
   void clear(std::size_t bodies) {
     onFirst.clear();
     onBody.assign(bodies, {});
-    torqueOnBody.assign(bodies, 0.0);
+    torqueOnBody.assign(bodies, {});
     steps = 0;
   }
 
-  void add(const PairImpulse& impulse, const WallIds& ids, const std::vector<Body>& bodies) {
-    Impulse& sum = onFirst[{impulse.i, impulse.j}];
+  void add(const PairImpulseOf<D>& impulse, const WallIds& ids,
+           const std::vector<BodyOf<D>>& bodies) {
+    const auto [known, isNew] = onFirst.try_emplace({impulse.i, impulse.j});
+    Impulse& sum = known->second;
+    if (!isNew) sum.along = carriedAlong(sum.along, sum.normal, impulse.normal);
+    sum.normal = impulse.normal;
     sum.pressing += impulse.pressing;
     sum.along += impulse.along;
     sum.rolling += impulse.rolling;
     const auto j = static_cast<std::size_t>(impulse.j);
     if (!ids.isWall(j)) return;
     const std::size_t b = ids.body(j);
-    const Vector on = -1.0 * impulse.onFirst();
+    const VectorOf<D> on = -1.0 * impulse.onFirst();
     onBody[b] = onBody[b] + on;
     torqueOnBody[b] += cross(impulse.place - bodies[b].centre, on) - impulse.rolling;
   }
 };
 
+inline double meanOf(double sum, double interval) {
+  return sum / interval;
+}
+inline Vector3 meanOf(Vector3 sum, double interval) {
+  return (1.0 / interval) * sum;
+}
+
 /// Mean forces over an interval [s].
 /// @param rolls  whether anything resists rolling
 /// @param geometry  of two ids as they are now
-template <typename GeometryOf>
-void addContacts(ArrayFile& arrays, const ImpulseSums& sums, double interval, bool rolls,
-                 const GeometryOf& geometry) {
-  ContactColumns contacts;
+template <int D, typename GeometryOfIds>
+void addContacts(ArrayFile& arrays, const ImpulseSumsOf<D>& sums, double interval, bool rolls,
+                 const GeometryOfIds& geometry) {
+  ContactColumnsOf<D> contacts;
   std::vector<double> rolling;
   for (const auto& [pair, impulse] : sums.onFirst) {
-    const Geometry between =
+    const GeometryOf<D> between =
         geometry(static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.second));
     contacts.add(pair.first, pair.second, between.normal, between.overlap,
-                 impulse.pressing / interval, impulse.along / interval);
-    rolling.push_back(impulse.rolling / interval);
+                 impulse.pressing / interval,
+                 meanOf(carriedAlong(impulse.along, impulse.normal, between.normal), interval));
+    append(rolling, meanOf(impulse.rolling, interval));
   }
   contacts.writeTo(arrays);
   if (rolls) arrays.add("contacts.rolling_torque", rolling);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Disks, walls and contacts as the protocol has them, for engines in C++17.
+// Disks or spheres, walls and contacts as the protocol has them, for engines in C++17.
 
 #include <cstdint>
 #include <string>
@@ -12,33 +12,33 @@
 
 namespace crossgrain_worker {
 
-struct Disk {
-  double radius, mass, inertia;  ///< [m], [kg], [kg m²]; inertia INFINITY: its spin stays
-  Vector position, velocity;     ///< [m], [m/s]
-  double spin;                   ///< [rad/s]
+template <int D>
+struct DiskOf {
+  double radius, mass, inertia;    ///< [m], [kg], [kg m²]; inertia INFINITY: its spin stays
+  VectorOf<D> position, velocity;  ///< [m], [m/s]
+  SpinOf<D> spin;                  ///< [rad/s]
 };
+using Disk = DiskOf<2>;
 
-/// The vectors of an array.
-inline std::vector<Vector> vectorsOf(const std::vector<double>& numbers) {
-  std::vector<Vector> list;
-  for (std::size_t k = 0; k + 1 < numbers.size(); k += 2)
-    list.push_back({numbers[k], numbers[k + 1]});
-  return list;
-}
-
-inline std::vector<Disk> disksOf(const Arrays& arrays) {
-  const std::vector<Vector> position = vectorsOf(arrays.at("disks.position")),
-                            velocity = vectorsOf(arrays.at("disks.velocity"));
-  std::vector<Disk> disks;
+template <int D = 2>
+std::vector<DiskOf<D>> disksOf(const Arrays& arrays) {
+  const auto position = vectorsOf<D>(arrays.at("disks.position")),
+             velocity = vectorsOf<D>(arrays.at("disks.velocity"));
+  std::vector<SpinOf<D>> spin;
+  if constexpr (D == 2)
+    spin = arrays.at("disks.spin");
+  else
+    spin = vectorsOf<D>(arrays.at("disks.spin"));
+  std::vector<DiskOf<D>> disks;
   for (std::size_t i = 0; i < position.size(); ++i)
     disks.push_back({arrays.at("disks.radius")[i], arrays.at("disks.mass")[i],
-                     arrays.at("disks.inertia")[i], position[i], velocity[i],
-                     arrays.at("disks.spin")[i]});
+                     arrays.at("disks.inertia")[i], position[i], velocity[i], spin[i]});
   return disks;
 }
 
-inline std::vector<Body> bodiesOf(const Json& scene, const Arrays& arrays) {
-  std::vector<Body> bodies;
+template <int D = 2>
+std::vector<BodyOf<D>> bodiesOf(const Json& scene, const Arrays& arrays) {
+  std::vector<BodyOf<D>> bodies;
   for (const Json& body : scene.at("bodies")) {
     const std::string name = "bodies." + std::to_string(bodies.size()) + ".disk_";
     bodies.emplace_back(body, arrays.at(name + "position"), arrays.at(name + "radius"));
@@ -50,7 +50,8 @@ inline std::vector<Body> bodiesOf(const Json& scene, const Arrays& arrays) {
 /// then planes.
 class WallIds {
  public:
-  WallIds(std::size_t disks, const std::vector<Body>& bodies) : disks_(disks) {
+  template <int D>
+  WallIds(std::size_t disks, const std::vector<BodyOf<D>>& bodies) : disks_(disks) {
     for (std::size_t b = 0; b < bodies.size(); ++b)
       for (std::size_t k = 0; k < bodies[b].radius.size(); ++k) owner_.push_back({b, k});
     planes_ = disks_ + owner_.size();
@@ -70,17 +71,19 @@ class WallIds {
 };
 
 /// Contacts of a snapshot, one after the other: the arrays that all of them have.
-class ContactColumns {
+template <int D>
+class ContactColumnsOf {
  public:
   /// @param normal  from j to i  @param overlap  [m]
-  /// @param fn, ft  on i along the normal and along z × normal [N]
-  void add(std::int32_t i, std::int32_t j, Vector normal, double overlap, double fn, double ft) {
+  /// @param fn, ft  on i along the normal and along z × normal, or normal to it in space [N]
+  void add(std::int32_t i, std::int32_t j, VectorOf<D> normal, double overlap, double fn,
+           TangentOf<D> ft) {
     i_.push_back(i);
     j_.push_back(j);
     append(normal_, normal);
     overlap_.push_back(overlap);
     fn_.push_back(fn);
-    ft_.push_back(ft);
+    append(ft_, ft);
   }
 
   void writeTo(ArrayFile& arrays) const {
@@ -96,5 +99,6 @@ class ContactColumns {
   std::vector<std::int32_t> i_, j_;
   std::vector<double> normal_, overlap_, fn_, ft_;
 };
+using ContactColumns = ContactColumnsOf<2>;
 
 }  // namespace crossgrain_worker

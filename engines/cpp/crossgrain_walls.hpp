@@ -12,39 +12,75 @@
 
 namespace crossgrain_worker {
 
-struct Plane {
-  Vector point, normal;
-};
+/// As the protocol has numbers and vectors.
+inline double toJson(double x) {
+  return x;
+}
+inline nlohmann::json toJson(Vector v) {
+  return {v.x, v.y};
+}
+inline nlohmann::json toJson(Vector3 v) {
+  return {v.x, v.y, v.z};
+}
+inline void from_json(const nlohmann::json& list, Vector& v) {
+  v = {list.at(0), list.at(1)};
+}
+inline void from_json(const nlohmann::json& list, Vector3& v) {
+  v = {list.at(0), list.at(1), list.at(2)};
+}
 
-/// A rigid body of wall disks and planes at any time.
-class Body {
+/// The vectors of an array.
+template <int D = 2>
+std::vector<VectorOf<D>> vectorsOf(const std::vector<double>& numbers) {
+  std::vector<VectorOf<D>> list;
+  for (std::size_t k = 0; k + D <= numbers.size(); k += D) {
+    if constexpr (D == 2)
+      list.push_back({numbers[k], numbers[k + 1]});
+    else
+      list.push_back({numbers[k], numbers[k + 1], numbers[k + 2]});
+  }
+  return list;
+}
+
+template <int D>
+struct PlaneOf {
+  VectorOf<D> point, normal;
+};
+using Plane = PlaneOf<2>;
+
+/// A rigid body of wall disks, or spheres, and planes at any time.
+template <int D>
+class BodyOf {
  public:
-  Body(const nlohmann::json& description, const std::vector<double>& diskPosition,
-       std::vector<double> diskRadius)
+  using Vector = VectorOf<D>;
+  using Spin = SpinOf<D>;
+
+  BodyOf(const nlohmann::json& description, const std::vector<double>& diskPosition,
+         std::vector<double> diskRadius)
       : motion_(description.at("motion")),
         kind_(motion_.at("kind")),
-        start_(vectorOf(description.at("centre"))),
+        start_(description.at("centre").get<Vector>()),
         radius(std::move(diskRadius)) {
-    for (std::size_t k = 0; k < radius.size(); ++k)
-      offset_.push_back(Vector{diskPosition[2 * k], diskPosition[2 * k + 1]} - start_);
+    for (const Vector& place : vectorsOf<D>(diskPosition)) offset_.push_back(place - start_);
     for (const auto& plane : description.at("planes"))
-      planesAtStart_.push_back({vectorOf(plane.at("point")), vectorOf(plane.at("normal"))});
+      planesAtStart_.push_back({plane.at("point").get<Vector>(), plane.at("normal").get<Vector>()});
     at(0.0);
   }
 
   /// Puts everything where it is at time t.
   void at(double t) {
-    const double w = motion_.at("frequency"), rate = motion_.at("angular_velocity");
-    const Vector amplitude = vectorOf(motion_.at("amplitude"));
+    const double w = motion_.at("frequency");
+    const Spin rate = motion_.at("angular_velocity").get<Spin>();
+    const Vector amplitude = motion_.at("amplitude").get<Vector>();
     centre = start_;
     velocity = {};
-    angle = spin = 0.0;
+    angle = spin = {};
     double shift = 0.0, outward = 0.0;
     if (kind_ == "rotating") {
-      angle = rate * t;
+      angle = t * rate;
       spin = rate;
     } else if (kind_ == "translating") {
-      velocity = vectorOf(motion_.at("velocity"));
+      velocity = motion_.at("velocity").get<Vector>();
       centre = start_ + t * velocity;
     } else if (kind_ == "oscillating") {
       centre = start_ + std::sin(w * t) * amplitude;
@@ -54,52 +90,50 @@ class Body {
       shift = speed * std::min(t, end);
       outward = t < end ? speed : 0.0;
     }
-    const double c = std::cos(angle), s = std::sin(angle);
-    const auto turn = [&](Vector a) { return Vector{c * a.x - s * a.y, s * a.x + c * a.y}; };
+    const TurnOf<D> turn(angle);
     position.clear();
     diskVelocity.clear();
     planes.clear();
     for (const Vector& start : offset_) {
-      const double apart = std::hypot(start.x, start.y);
+      const double apart = norm(start);
       const double scale = apart > 0.0 ? 1.0 + shift / apart : 1.0;
       const Vector arm = scale * turn(start);
       const double stretch = apart > 0.0 ? outward / (scale * apart) : 0.0;
       position.push_back(centre + arm);
-      diskVelocity.push_back(velocity + stretch * arm + spin * turned(arm));
+      diskVelocity.push_back(velocity + stretch * arm + cross(spin, arm));
     }
-    for (const Plane& plane : planesAtStart_)
+    for (const PlaneOf<D>& plane : planesAtStart_)
       planes.push_back({centre + turn(plane.point - start_), turn(plane.normal)});
   }
 
   /// Velocity of the body's material at a place, as planes have it.
-  Vector velocityAt(Vector place) const { return velocity + spin * turned(place - centre); }
+  Vector velocityAt(Vector place) const { return velocity + cross(spin, place - centre); }
 
   bool moves() const { return kind_ != "fixed"; }
 
   /// As an entry of a snapshot's `bodies`, without loads.
   nlohmann::json pose() const {
-    return {{"centre", {centre.x, centre.y}},
-            {"angle", angle},
-            {"velocity", {velocity.x, velocity.y}},
-            {"angular_velocity", spin}};
+    return {{"centre", toJson(centre)},
+            {"angle", toJson(angle)},
+            {"velocity", toJson(velocity)},
+            {"angular_velocity", toJson(spin)}};
   }
 
  private:
-  static Vector vectorOf(const nlohmann::json& pair) { return {pair.at(0), pair.at(1)}; }
-
   nlohmann::json motion_;
   std::string kind_;
   Vector start_;
   std::vector<Vector> offset_;
-  std::vector<Plane> planesAtStart_;
+  std::vector<PlaneOf<D>> planesAtStart_;
 
  public:
   Vector centre, velocity;
-  double angle = 0.0, spin = 0.0;
+  Spin angle = {}, spin = {};
   std::vector<double> radius;                  ///< of the wall disks [m]
   std::vector<Vector> position, diskVelocity;  ///< of the wall disks
   /// They turn and shift with the body; in radial motion they stay.
-  std::vector<Plane> planes;
+  std::vector<PlaneOf<D>> planes;
 };
+using Body = BodyOf<2>;
 
 }  // namespace crossgrain_worker

@@ -10,6 +10,7 @@ const share = {unit: '-', choices: []};
 serve(new ImpulseEngine({
   name: 'jolt',
   version,
+  dimensions: [2, 3],
   integrator: 'semi_implicit_euler with sequential impulses',
   dt: 5e-4,
   settings: [

@@ -1,7 +1,8 @@
-// The scene as bodies of Jolt Physics that keep to a plane: in single precision, and in a unit of length in which the smallest
-// disk has a radius of about one, since Jolt's tolerances are made for things of 0.1 to 10 m.
+// The scene as bodies of Jolt Physics; disks keep to a plane. In single precision, and in a unit of length in which the smallest disk
+// has a radius of about one, since Jolt's tolerances are made for things of 0.1 to 10 m.
 
 import {readFileSync} from 'node:fs';
+import {cross, noSpin, plus, scaled} from '../node/crossgrain_vector.mjs';
 import {Unsupported} from '../node/crossgrain_worker.mjs';
 
 const home = new URL(`../node/node_modules/${process.env.JOLT ?? 'jolt-physics'}/`, import.meta.url);
@@ -65,7 +66,7 @@ class ContactStream {
     for (let k = 0; k < count; ++k) this.bytes.setUint8(this.size++, J.HEAPU8[from + k]);
   }
 
-  /// @param visit  (lower body, other body, normal impulse, impulse along Jolt's second tangent, that in the plane)
+  /// @param visit  (lower body, other body, normal impulse, impulses along Jolt's two tangents)
   read(system, visit) {
     this.size = 0;
     system.SaveState(this.recorder, J.EStateRecorderState_Contacts);
@@ -79,10 +80,11 @@ class ContactStream {
         at += 4;
         const points = this.bytes.getUint16((at += 2) - 2, true);
         at += 12;  // the normal in the second body's axes
-        let pressing = 0, along = 0;
+        let pressing = 0;
+        const along = [0, 0];
         const friction = () => {
-          at += 4;  // along the tangent that leaves the plane
-          along += real();
+          along[0] += real();
+          along[1] += real();
         };
         if (!FRICTION_OF_POINTS) {
           friction();
@@ -102,6 +104,8 @@ class ContactStream {
 
 export class JoltWorld {
   constructor({disks, bodies, law, gravity, dt, rotation, number}) {
+    this.inSpace = gravity.length === 3;
+    this.unturned = noSpin(gravity.length);
     this.unit = 2 ** Math.round(Math.log2(Math.min(...disks.map((disk) => disk.radius))));
     this.dt = dt;
     this.count = disks.length;
@@ -133,9 +137,13 @@ export class JoltWorld {
     for (const own of [this.jolt, this.listener, this.stream.recorder, this.vector, this.place, this.turn]) J.destroy(own);
   }
 
-  vectorOf([x, y]) { return this.vector.Set(x / this.unit, y / this.unit, 0), this.vector; }
-  placeOf([x, y]) { return this.place.Set(x / this.unit, y / this.unit, 0), this.place; }
-  turnOf(angle) { return this.turn.Set(0, 0, Math.sin(angle / 2), Math.cos(angle / 2)), this.turn; }
+  vectorOf([x, y, z = 0]) { return this.vector.Set(x / this.unit, y / this.unit, z / this.unit), this.vector; }
+  placeOf([x, y, z = 0]) { return this.place.Set(x / this.unit, y / this.unit, z / this.unit), this.place; }
+  spinOf(spin) { return this.vector.Set(...(this.inSpace ? spin : [0, 0, spin])), this.vector; }
+  turnOf(angle) {
+    const size = this.inSpace ? Math.hypot(...angle) : angle, axis = this.inSpace && size > 0 ? scaled(1 / size, angle) : [0, 0, 1];
+    return this.turn.Set(...scaled(Math.sin(size / 2), axis), Math.cos(size / 2)), this.turn;
+  }
 
   configure(number, gravity) {
     const how = this.system.GetPhysicsSettings(), radius = 1;
@@ -160,11 +168,10 @@ export class JoltWorld {
       const how = J.wrapPointer(settings, J.ContactSettings), found = J.wrapPointer(manifold, J.ContactManifold);
       how.mCombinedFriction = this.law.friction;
       how.mCombinedRestitution = this.law.restitution(this.mass[i] ?? Infinity, this.mass[j] ?? Infinity);
-      const {x, y} = {x: found.mWorldSpaceNormal.GetX(), y: found.mWorldSpaceNormal.GetY()};
-      const contact = {normal: [x, y]};
+      const contact = {normal: this.components(found.mWorldSpaceNormal)};
       if (j >= this.count) {
         const on1 = this.metres(found.GetWorldSpaceContactPointOn1(0)), on2 = this.metres(found.GetWorldSpaceContactPointOn2(0));
-        contact.point = [0, 1].map((k) => (on1[k] + on2[k]) / 2);
+        contact.point = on1.map((x, k) => (x + on2[k]) / 2);
       }
       this.contacts.set(i * 2 ** 20 + j, contact);
     };
@@ -179,7 +186,7 @@ export class JoltWorld {
   body(shape, at, motion, more = () => {}) {
     if (this.bodies.length === MOST_BODIES) throw new Unsupported(`has at most ${MOST_BODIES} disks, wall disks and planes`);
     const layer = motion === J.EMotionType_Static ? FIXED : MOVING;
-    const body = once(new J.BodyCreationSettings(shape, this.placeOf(at), this.turnOf(0), motion, layer), (how) => {
+    const body = once(new J.BodyCreationSettings(shape, this.placeOf(at), this.turnOf(this.unturned), motion, layer), (how) => {
       how.mAllowSleeping = false;
       how.mLinearDamping = how.mAngularDamping = 0;
       how.mMaxLinearVelocity = how.mMaxAngularVelocity = 1e9;  // its own are 500 m/s and 47 /s
@@ -196,13 +203,16 @@ export class JoltWorld {
 
   disk_(disk, rotation) {
     const body = this.body(new J.SphereShape(disk.radius / this.unit), disk.position, J.EMotionType_Dynamic, (how) => {
-      how.mAllowedDOFs = rotation ? J.EAllowedDOFs_Plane2D : J.EAllowedDOFs_TranslationX | J.EAllowedDOFs_TranslationY;
+      const moves = J.EAllowedDOFs_TranslationX | J.EAllowedDOFs_TranslationY;
+      if (this.inSpace) how.mAllowedDOFs = rotation ? J.EAllowedDOFs_All : moves | J.EAllowedDOFs_TranslationZ;
+      else how.mAllowedDOFs = rotation ? J.EAllowedDOFs_Plane2D : moves;
     });
     const own = body.GetMotionProperties(), inertia = disk.inertia / this.unit ** 2;
     own.SetInverseMass(1 / disk.mass);
-    if (rotation) own.SetInverseInertia((this.vector.Set(1 / inertia, 1 / inertia, 1 / inertia), this.vector), this.turnOf(0));
+    if (rotation)
+      own.SetInverseInertia((this.vector.Set(1 / inertia, 1 / inertia, 1 / inertia), this.vector), this.turnOf(this.unturned));
     body.SetLinearVelocity(this.vectorOf(disk.velocity));
-    body.SetAngularVelocity((this.vector.Set(0, 0, disk.spin), this.vector));
+    body.SetAngularVelocity(this.spinOf(disk.spin));
   }
 
   /// A wall disk or a plane is a body of its own, which goes with the wall.
@@ -211,8 +221,8 @@ export class JoltWorld {
     this.body(shape, body.placed(offset, body.state(0)), body.moves ? J.EMotionType_Kinematic : J.EMotionType_Static);
   }
 
-  plane(b, body, {point, normal: [x, y]}) {
-    this.vector.Set(x, y, 0);
+  plane(b, body, {point, normal: [x, y, z = 0]}) {
+    this.vector.Set(x, y, z);
     const plane = once(new J.Plane(this.vector, 0), (own) => new J.PlaneShape(own, null, HALF_PLANE));
     this.wall(b, body, body.fromCentre(point), plane);
   }
@@ -228,25 +238,41 @@ export class JoltWorld {
     if (this.contacts.size >= this.room) throw new Error(`Jolt has room for ${this.room} contacts, and these are more`);
   }
 
-  metres(vector) { return [vector.GetX() * this.unit, vector.GetY() * this.unit]; }
+  components(vector) {
+    const inPlane = [vector.GetX(), vector.GetY()];
+    return this.inSpace ? [...inPlane, vector.GetZ()] : inPlane;
+  }
+  metres(vector) { return scaled(this.unit, this.components(vector)); }
 
   disk(i) {
     return {
       position: this.metres(this.bodies[i].GetPosition()),
       velocity: this.metres(this.bodies[i].GetLinearVelocity()),
-      spin: this.bodies[i].GetAngularVelocity().GetZ(),
+      spin: this.inSpace ? this.components(this.bodies[i].GetAngularVelocity()) : this.bodies[i].GetAngularVelocity().GetZ(),
     };
   }
 
-  /// Of the last step. With a normal n in the plane one of Jolt's tangents is ∓z (Vec3::GetNormalizedPerpendicular) and the other
-  /// s z × n, s the sign of the larger of n's components. Both disks of a pair see the same impulse along z × their own normal.
+  /// Of the last step.
   impulses(visit) {
     this.stream.read(this.system, (a, b, pressing, along) => {
       const i = a & 0x7fffff, j = b & 0x7fffff;  // without Jolt's count of uses
-      if (pressing === 0 && along === 0) return;
-      const {normal: [x, y], point} = this.contacts.get(i * 2 ** 20 + j);
-      const sign = Math.abs(x) > Math.abs(y) ? Math.sign(x) : Math.sign(y);
-      visit(i, j, pressing * this.unit, sign * along * this.unit, () => ({normal: [-x, -y], point}));
+      if (pressing === 0 && along.every((impulse) => impulse === 0)) return;
+      const {normal, point} = this.contacts.get(i * 2 ** 20 + j);
+      const tangential = this.inSpace ? alongTangents(normal, along) : alongTangentInPlane(normal, along);
+      visit(i, j, pressing * this.unit, scaled(this.unit, tangential), () => ({normal: normal.map((x) => -x), point}));
     });
   }
+}
+
+/// On the lower body, in space: Jolt's tangents of a normal n from it to the other are p, n turned in the plane of its larger one of
+/// x, y and of z (Vec3::GetNormalizedPerpendicular), and n × p; what acts along them acts on the other.
+function alongTangents([x, y, z], [first, second]) {
+  const perpendicular = Math.abs(x) > Math.abs(y) ? scaled(1 / Math.hypot(x, z), [z, 0, -x]) : scaled(1 / Math.hypot(y, z), [0, z, -y]);
+  return scaled(-1, plus(scaled(first, perpendicular), scaled(second, cross([x, y, z], perpendicular))));
+}
+
+/// In the plane p is ∓z and n × p is s z × n, s the sign of the larger of n's components. Both disks of a pair see the same impulse
+/// along z × their own normal.
+function alongTangentInPlane([x, y], [, second]) {
+  return (Math.abs(x) > Math.abs(y) ? Math.sign(x) : Math.sign(y)) * second;
 }

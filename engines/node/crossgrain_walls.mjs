@@ -1,6 +1,8 @@
 // Prescribed motion of wall bodies: the closed forms of adapters/motion.hpp, for those that stay rigid.
 
-/// A rigid body of wall disks and planes at any time. Vectors are [x, y].
+import {minus, noSpin, plus, scaled, turned} from './crossgrain_vector.mjs';
+
+/// A rigid body of wall disks and planes at any time.
 export class Body {
   constructor(description, diskPosition, diskRadius) {
     this.motion = description.motion;
@@ -8,29 +10,31 @@ export class Body {
     this.diskRadius = diskRadius;
     this.planes = description.planes;
     /// Of the wall disks, from the centre, at t = 0.
-    this.offset = Array.from(diskRadius, (_, k) => this.fromCentre([diskPosition[2 * k], diskPosition[2 * k + 1]]));
+    const dimension = this.start.length;
+    this.offset = Array.from(diskRadius, (_, k) =>
+      this.fromCentre([...diskPosition.slice(dimension * k, dimension * (k + 1))]));
   }
 
-  fromCentre(point) { return [point[0] - this.start[0], point[1] - this.start[1]]; }
+  fromCentre(point) { return minus(point, this.start); }
 
   get moves() { return this.motion.kind !== 'fixed'; }
 
   /// Centre, velocity of the centre, angle and angular velocity at time t.
   state(t) {
-    const {kind, velocity, amplitude, frequency, angular_velocity: spin} = this.motion, [x, y] = this.start;
-    if (kind === 'rotating') return {centre: [x, y], velocity: [0, 0], angle: spin * t, spin};
-    if (kind === 'translating')
-      return {centre: [x + velocity[0] * t, y + velocity[1] * t], velocity, angle: 0, spin: 0};
-    if (kind === 'oscillating') {
-      const s = Math.sin(frequency * t), c = frequency * Math.cos(frequency * t);
-      return {centre: [x + amplitude[0] * s, y + amplitude[1] * s], velocity: [amplitude[0] * c, amplitude[1] * c],
-              angle: 0, spin: 0};
-    }
-    return {centre: [x, y], velocity: [0, 0], angle: 0, spin: 0};
+    const {kind, velocity, amplitude, frequency, angular_velocity: spin} = this.motion;
+    const dimension = this.start.length, none = noSpin(dimension);
+    const still = {centre: this.start, velocity: Array(dimension).fill(0), angle: none, spin: none};
+    if (kind === 'rotating') return {...still, angle: scaled(t, spin), spin};
+    if (kind === 'translating') return {...still, centre: plus(this.start, scaled(t, velocity)), velocity};
+    if (kind === 'oscillating')
+      return {...still, centre: plus(this.start, scaled(Math.sin(frequency * t), amplitude)),
+              velocity: scaled(frequency * Math.cos(frequency * t), amplitude)};
+    return still;
   }
 
   /// Where something is at time t that lies there, seen from the centre, at t = 0.
   placed(offset, {centre, angle}) {
+    if (offset.length === 3) return plus(centre, turned(angle, offset));
     const c = Math.cos(angle), s = Math.sin(angle);
     return [centre[0] + c * offset[0] - s * offset[1], centre[1] + s * offset[0] + c * offset[1]];
   }

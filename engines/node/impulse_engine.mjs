@@ -7,12 +7,14 @@
 //     world.placeWalls(states, next)   where each body is now and after the next step
 //     world.step()
 //     world.disk(i) → {position, velocity, spin}
-//     world.impulses(visit)            visit(i, j, normal impulse ≥ 0, tangential along z × normal, place), i < j, of those
-//                                      that are not 0; place() → {normal towards i, point}
+//     world.impulses(visit)            visit(i, j, normal impulse ≥ 0, tangential, place), i < j, of those that are not 0; what
+//                                      is tangential is a number along z × normal, or a vector on i in space;
+//                                      place() → {normal towards i, point}
 //     world.pairs, world.deviations, world.gap   what the engine makes of the law; how far apart it lets disks touch
 //
-// in SI units, ids as the protocol's: disks, then wall disks, then planes.
+// in SI units, ids as the protocol's: disks, or spheres, then wall disks, then planes. Vectors are those of crossgrain_vector.mjs.
 
+import {carriedAlong, cross, dot, isZero, minus, noSpin, plus, scaled, turned} from './crossgrain_vector.mjs';
 import {Body} from './crossgrain_walls.mjs';
 import {Unsupported} from './crossgrain_worker.mjs';
 import {RigidLaw} from './rigid_law.mjs';
@@ -20,23 +22,30 @@ import {RigidLaw} from './rigid_law.mjs';
 const EFFECTS = ['normal_damping', 'friction', 'rotation', 'gravity', 'moving_walls'];
 const MOTIONS = ['fixed', 'rotating', 'translating', 'oscillating'];
 
+/// A sum over an interval [s].
+const mean = (sum, interval) => (Array.isArray(sum) ? sum.map((x) => x / interval) : sum / interval);
+
 export class ImpulseEngine {
-  /// @param about  {name, version, integrator, dt: its usual step [s], settings}
+  /// @param about  {name, version, integrator, dt: its usual step [s], settings; dimensions: [2] where absent; contacts: false
+  ///                where its contacts cannot be read}
   constructor(about, World) {
     this.about = about;
+    this.showsContacts = about.contacts ?? true;
     this.World = World;
   }
 
   capabilities() {
+    const {dimensions} = this.about;
     return {
       version: this.about.version,
+      ...(dimensions && {dimensions}),
       effects: Object.fromEntries(EFFECTS.map((name) => [name, 'optional'])),
       law_options: {normal: ['rigid'], lever_arm: ['overlap_middle'], velocity_arm: ['lever_arm'], plane_arm: ['middle']},
       wall_motions: MOTIONS,
       plane_motions: MOTIONS,
       precisions: ['float'],
-      instant_contacts: true,
-      accumulated_contacts: true,
+      instant_contacts: this.showsContacts,
+      accumulated_contacts: this.showsContacts,
       warm_handover: false,
       sliding_flags: false,
       tangential_restitution: false,
@@ -51,6 +60,7 @@ export class ImpulseEngine {
     const number = (name) => settings[name] ?? defaults[name];
     this.dt = number('dt') || scene.dt;
     this.disks = scene.disks;
+    const dimension = this.dimension = scene.dimension ?? 2;
     this.law = new RigidLaw(scene.law);
     this.friction = this.law.friction > 0;
     const rotation = this.friction && scene.rotation;
@@ -59,10 +69,12 @@ export class ImpulseEngine {
     this.owner = [...this.bodies.flatMap((body, b) => Array.from(body.diskRadius, () => b)),
                   ...this.bodies.flatMap((body, b) => body.planes.map(() => b))];
     this.radius = [...arrays['disks.radius'], ...this.bodies.flatMap((body) => [...body.diskRadius])];
+    const vector = (name, i) => [...arrays[name].slice(dimension * i, dimension * (i + 1))];
+    const spinOf = dimension === 3 ? (i) => vector('disks.spin', i) : (i) => arrays['disks.spin'][i];
     const disks = Array.from({length: this.disks}, (_, i) => ({
-      position: [arrays['disks.position'][2 * i], arrays['disks.position'][2 * i + 1]],
-      velocity: [arrays['disks.velocity'][2 * i], arrays['disks.velocity'][2 * i + 1]],
-      spin: rotation ? arrays['disks.spin'][i] : 0,
+      position: vector('disks.position', i),
+      velocity: vector('disks.velocity', i),
+      spin: rotation ? spinOf(i) : noSpin(dimension),
       radius: arrays['disks.radius'][i],
       mass: arrays['disks.mass'][i],
       inertia: arrays['disks.inertia'][i],
@@ -77,7 +89,7 @@ export class ImpulseEngine {
       normal_damping: scene.law.normal === 'rigid' ? scene.law.en < 1 : scene.law.gn > 0,
       friction: this.friction,
       rotation,
-      gravity: scene.gravity.some((g) => g !== 0),
+      gravity: !isZero(scene.gravity),
       moving_walls: this.bodies.some((body) => body.moves),
     };
     const {pairs, deviations} = this.world;
@@ -90,9 +102,13 @@ export class ImpulseEngine {
   }
 
   clearSums() {
-    this.sums = new Map();  // i · (number of ids) + j → {normal, tangential}: impulses [N s]
-    this.onBodies = this.bodies.map(() => ({force: [0, 0], torque: 0}));
+    this.sums = new Map();  // i · (number of ids) + j → impulses, pressing and along [N s], and the normal that they are of
+    this.onBodies = this.noLoads();
     this.summed = 0;
+  }
+
+  noLoads() {
+    return this.bodies.map(() => ({force: Array(this.dimension).fill(0), torque: noSpin(this.dimension)}));
   }
 
   advance(t) {
@@ -102,7 +118,7 @@ export class ImpulseEngine {
       const next = this.bodies.map((body) => body.state((this.steps + 1) * this.dt));
       this.world.placeWalls(now, next);
       this.world.step();
-      this.add(next);
+      if (this.showsContacts) this.add(next);
     }
     this.seconds += (performance.now() - began) / 1e3;
     const {user, system} = process.cpuUsage(before);
@@ -114,24 +130,26 @@ export class ImpulseEngine {
   add(states) {
     const ids = this.radius.length + this.owner.length;
     this.last = new Map();
-    this.lastOnBodies = this.bodies.map(() => ({force: [0, 0], torque: 0}));
+    this.lastOnBodies = this.noLoads();
+    const space = this.dimension === 3, add = space ? plus : (a, b) => a + b;
     this.world.impulses((i, j, pressing, along, place) => {
       ++this.evaluations;
-      const key = i * ids + j;
+      const key = i * ids + j, wall = j >= this.disks;
+      const {normal, point} = space || wall ? place() : {};
       for (const list of [this.last, this.sums]) {
-        const sum = list.get(key) ?? {i, j, pressing: 0, along: 0};
+        const sum = list.get(key) ?? {i, j, pressing: 0, along: noSpin(this.dimension), normal};
         sum.pressing += pressing;
-        sum.along += along;
+        sum.along = add(space ? carriedAlong(sum.along, sum.normal, normal) : sum.along, along);
+        sum.normal = normal;
         list.set(key, sum);
       }
-      if (j < this.disks) return;
-      const {normal, point} = place();
-      const b = this.owner[j - this.disks], {centre} = states[b], arm = [point[0] - centre[0], point[1] - centre[1]];
-      const push = [-(pressing * normal[0] - along * normal[1]), -(pressing * normal[1] + along * normal[0])];
+      if (!wall) return;
+      const b = this.owner[j - this.disks], arm = minus(point, states[b].centre);
+      const push = space ? scaled(-1, plus(scaled(pressing, normal), along))
+        : [-(pressing * normal[0] - along * normal[1]), -(pressing * normal[1] + along * normal[0])];
       for (const on of [this.lastOnBodies[b], this.onBodies[b]]) {
-        on.force[0] += push[0];
-        on.force[1] += push[1];
-        on.torque += arm[0] * push[1] - arm[1] * push[0];
+        on.force = plus(on.force, push);
+        on.torque = add(on.torque, cross(arm, push));
       }
     });
     ++this.summed;
@@ -147,13 +165,13 @@ export class ImpulseEngine {
       velocity: ['f64', disks.flatMap((disk) => disk.velocity)],
       wall_position: ['f64', wallDisks.flat()],
     };
-    if (this.friction) arrays.spin = ['f64', disks.map((disk) => disk.spin)];
-    const steps = accumulated ? this.summed : Math.min(1, this.steps), interval = steps * this.dt;
+    if (this.friction) arrays.spin = ['f64', disks.flatMap((disk) => disk.spin)];
+    const steps = accumulated ? this.summed : Math.min(this.showsContacts ? 1 : 0, this.steps), interval = steps * this.dt;
     const snapshot = {position_time: t, velocity_time: t, contact_time: t, contact_interval: interval};
     const onBodies = accumulated ? this.onBodies : this.lastOnBodies;
     snapshot.bodies = states.map(({centre, velocity, angle, spin}, b) => ({
       centre, velocity, angle, angular_velocity: spin,
-      ...(steps > 0 && {force: onBodies[b].force.map((f) => f / interval), torque: onBodies[b].torque / interval}),
+      ...(steps > 0 && {force: mean(onBodies[b].force, interval), torque: mean(onBodies[b].torque, interval)}),
     }));
     if (steps > 0 && report !== 'none') {
       const positions = [...disks.map((disk) => disk.position), ...wallDisks];
@@ -173,21 +191,21 @@ export class ImpulseEngine {
     arrays['contacts.normal'] = ['f64', geometry.flatMap((g) => g.normal)];
     arrays['contacts.overlap'] = ['f64', geometry.map((g) => g.overlap)];
     arrays['contacts.normal_force'] = ['f64', list.map((c) => c.pressing / interval)];
-    arrays['contacts.tangential_force'] = ['f64', list.map((c) => c.along / interval)];
+    const tangential = list.map((c, k) => mean(carriedAlong(c.along, c.normal ?? [0, 0], geometry[k].normal), interval));
+    arrays['contacts.tangential_force'] = ['f64', tangential.flat()];
   }
 
   ofDisks(i, j, positions) {
-    const apart = [positions[i][0] - positions[j][0], positions[i][1] - positions[j][1]], distance = Math.hypot(...apart);
+    const apart = minus(positions[i], positions[j]), distance = Math.hypot(...apart);
     return {normal: apart.map((x) => x / distance), overlap: this.radius[i] + this.radius[j] - distance};
   }
 
   ofPlane(i, plane, positions, states) {
     const b = this.owner[this.owner.length - this.bodies.reduce((n, body) => n + body.planes.length, 0) + plane];
     const before = this.bodies.slice(0, b).reduce((n, body) => n + body.planes.length, 0), body = this.bodies[b];
-    const {point, normal} = body.planes[plane - before], still = {centre: [0, 0], angle: states[b].angle};
-    const foot = body.placed(body.fromCentre(point), states[b]), turned = body.placed(normal, still);
-    const gap = (positions[i][0] - foot[0]) * turned[0] + (positions[i][1] - foot[1]) * turned[1];
-    return {normal: turned, overlap: this.radius[i] - gap};
+    const {point, normal} = body.planes[plane - before], now = turned(states[b].angle, normal);
+    const foot = body.placed(body.fromCentre(point), states[b]);
+    return {normal: now, overlap: this.radius[i] - dot(minus(positions[i], foot), now)};
   }
 
   stats() {

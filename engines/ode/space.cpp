@@ -13,8 +13,28 @@ namespace {
 
 constexpr unsigned long diskBit = 1, wallBit = 2;
 
-Vector fromOde(const dReal* v) {
-  return {v[0], v[1]};
+template <int D>
+VectorOf<D> fromOde(const dReal* v) {
+  if constexpr (D == 2)
+    return {v[0], v[1]};
+  else
+    return {v[0], v[1], v[2]};
+}
+
+Vector3 inSpace(Vector v) {
+  return {v.x, v.y, 0.0};
+}
+Vector3 inSpace(Vector3 v) {
+  return v;
+}
+Vector3 inSpace(double spin) {
+  return {0.0, 0.0, spin};
+}
+
+void toOde(Vector3 v, dReal* to) {
+  to[0] = v.x;
+  to[1] = v.y;
+  to[2] = v.z;
 }
 
 std::int32_t idOf(dGeomID shape) {
@@ -26,42 +46,46 @@ void setId(dGeomID shape, std::size_t id) {
 }
 
 /// ODE's rows against rolling bring spins to rest, not to that of a wall.
-const ImpulseScene& withoutTurningWalls(const ImpulseScene& scene) {
-  for (const Body& wall : scene.walls)
-    if (scene.rolling && wall.spin != 0.0)
+template <int D>
+const ImpulseSceneOf<D>& withoutTurningWalls(const ImpulseSceneOf<D>& scene) {
+  for (const BodyOf<D>& wall : scene.walls)
+    if (scene.rolling && !isZero(wall.spin))
       throw crossgrain_worker::Unsupported("resists no rolling on walls that turn");
   return scene;
 }
 
 }  // namespace
 
-Space::Space(const ImpulseScene& scene)
+template <int D>
+Space<D>::Space(const ImpulseSceneOf<D>& scene)
     : scene_(withoutTurningWalls(scene)),
       iterations_(static_cast<int>(scene.setting("iterations"))),
       erp_(scene.setting("erp")),
+      alongSlip_(scene.setting("friction_along_slip") != 0.0),
       bounceThreshold_(scene.setting("restitution_threshold")),
       world_(dWorldCreate()),
       shapes_(dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ)),
       contacts_(dJointGroupCreate(0)) {
   dRandSetSeed(0);  // QuickStep changes the order of its rows by chance
-  dWorldSetGravity(world_, scene.gravity.x, scene.gravity.y, 0.0);
+  const Vector3 gravity = inSpace(scene.gravity);
+  dWorldSetGravity(world_, gravity.x, gravity.y, gravity.z);
   dWorldSetQuickStepNumIterations(world_, std::max(iterations_, 1));
   dWorldSetQuickStepW(world_, scene.setting("relaxation"));
   if (scene.setting("correcting_speed") > 0.0)
     dWorldSetContactMaxCorrectingVel(world_, scene.setting("correcting_speed"));
   // CFM / dt stands beside 1/m: ODE's own 1e-10 would make heavy disks soft.
   double lightest = 1.0;
-  for (const Disk& disk : scene.disks)
+  for (const DiskOf<D>& disk : scene.disks)
     lightest = &disk == scene.disks.data() ? disk.mass : std::min(lightest, disk.mass);
   dWorldSetCFM(world_, 1e-10 * scene.dt / lightest);
-  for (const Disk& disk : scene.disks) addDisk(disk);
-  for (const Body& wall : scene_.walls)
+  for (const DiskOf<D>& disk : scene.disks) addDisk(disk);
+  for (const BodyOf<D>& wall : scene_.walls)
     for (std::size_t k = 0; k < wall.radius.size(); ++k) {
       wallParts_.emplace_back(&wall, k);
       addWall(dCreateSphere(shapes_, wall.radius[k]));
     }
   wallDisks_ = wallParts_.size();
-  for (const Body& wall : scene_.walls)
+  for (const BodyOf<D>& wall : scene_.walls)
     for (std::size_t p = 0; p < wall.planes.size(); ++p) {
       wallParts_.emplace_back(&wall, p);
       addWall(dCreatePlane(shapes_, 0.0, 1.0, 0.0, 0.0));
@@ -69,13 +93,15 @@ Space::Space(const ImpulseScene& scene)
   placeWalls();
 }
 
-Space::~Space() {
+template <int D>
+Space<D>::~Space() {
   dJointGroupDestroy(contacts_);
   dSpaceDestroy(shapes_);
   dWorldDestroy(world_);
 }
 
-void Space::addDisk(const Disk& disk) {
+template <int D>
+void Space<D>::addDisk(const DiskOf<D>& disk) {
   const dBodyID body = dBodyCreate(world_);
   // ODE inverts the inertia, and has none that is infinite: 1e30 times a disk's is none to it.
   turns_.push_back(std::isfinite(disk.inertia));
@@ -85,9 +111,11 @@ void Space::addDisk(const Disk& disk) {
   dMassSetParameters(&mass, disk.mass, 0.0, 0.0, 0.0, inertia, inertia, inertia, 0.0, 0.0, 0.0);
   dBodySetMass(body, &mass);
   dBodySetGyroscopicMode(body, 0);
-  dBodySetPosition(body, disk.position.x, disk.position.y, 0.0);
-  dBodySetLinearVel(body, disk.velocity.x, disk.velocity.y, 0.0);
-  dBodySetAngularVel(body, 0.0, 0.0, disk.spin);
+  const Vector3 place = inSpace(disk.position), velocity = inSpace(disk.velocity),
+                spin = inSpace(disk.spin);
+  dBodySetPosition(body, place.x, place.y, place.z);
+  dBodySetLinearVel(body, velocity.x, velocity.y, velocity.z);
+  dBodySetAngularVel(body, spin.x, spin.y, spin.z);
   const dGeomID shape = dCreateSphere(shapes_, disk.radius);
   dGeomSetBody(shape, body);
   dGeomSetCategoryBits(shape, diskBit);
@@ -97,35 +125,40 @@ void Space::addDisk(const Disk& disk) {
 }
 
 /// Walls are shapes without bodies, which are put where they are; contacts have their velocity.
-void Space::addWall(dGeomID shape) {
+template <int D>
+void Space<D>::addWall(dGeomID shape) {
   dGeomSetCategoryBits(shape, wallBit);
   dGeomSetCollideBits(shape, diskBit);
   setId(shape, disks_.size() + wallShapes_.size());
   wallShapes_.push_back(shape);
 }
 
-void Space::placeWalls() {
+template <int D>
+void Space<D>::placeWalls() {
   for (std::size_t w = 0; w < wallShapes_.size(); ++w) {
     const auto [wall, part] = wallParts_[w];
     if (w < wallDisks_) {
-      const Vector at = wall->position[part];
-      dGeomSetPosition(wallShapes_[w], at.x, at.y, 0.0);
+      const Vector3 at = inSpace(wall->position[part]);
+      dGeomSetPosition(wallShapes_[w], at.x, at.y, at.z);
     } else {
       const auto& plane = wall->planes[part];
-      dGeomPlaneSetParams(wallShapes_[w], plane.normal.x, plane.normal.y, 0.0,
+      const Vector3 normal = inSpace(plane.normal);
+      dGeomPlaneSetParams(wallShapes_[w], normal.x, normal.y, normal.z,
                           dot(plane.normal, plane.point));
     }
   }
 }
 
-void Space::near(void* space, dGeomID a, dGeomID b) {
+template <int D>
+void Space<D>::near(void* space, dGeomID a, dGeomID b) {
   if (idOf(a) > idOf(b)) std::swap(a, b);
   Touch touch{idOf(a), idOf(b), {}};
   if (dCollide(a, b, 1, &touch.geometry, sizeof(dContactGeom)) > 0)
     static_cast<Space*>(space)->touches_.push_back(touch);
 }
 
-void Space::findTouches() {
+template <int D>
+void Space<D>::findTouches() {
   touches_.clear();
   dSpaceCollide(shapes_, this, near);
   // In one order, however the shapes' list came about.
@@ -134,25 +167,52 @@ void Space::findTouches() {
   });
 }
 
-Vector Space::wallVelocity(std::int32_t id, Vector place) const {
+template <int D>
+VectorOf<D> Space<D>::wallVelocity(std::int32_t id, Vector place) const {
   const std::size_t w = static_cast<std::size_t>(id) - disks_.size();
   const auto [wall, part] = wallParts_[w];
   if (w >= wallDisks_) return wall->velocityAt(place);
-  return wall->diskVelocity[part] + wall->spin * turned(place - wall->position[part]);
+  return wall->diskVelocity[part] + cross(wall->spin, place - wall->position[part]);
 }
 
-dContact Space::contactOf(const Touch& touch) const {
+/// Of friction in space, each bounded by itself: along the slip that the step finds, and across it;
+/// where there is none, or `friction_along_slip` is 0, as ODE chooses them, by the normal alone.
+template <int D>
+void Space<D>::setDirections(const Touch& touch, dContact& contact) const {
+  const dReal* const n = touch.geometry.normal;
+  const Vector normal = fromOde<D>(n);
+  if constexpr (D == 2) {
+    toOde(inSpace(turned(normal)), contact.fdir1);
+  } else {
+    dVector3 across;
+    dPlaneSpace(n, contact.fdir1, across);
+    if (!alongSlip_) return;
+    const Vector place = fromOde<D>(touch.geometry.pos);
+    const auto velocityAt = [&](std::int32_t id) {
+      if (static_cast<std::size_t>(id) >= disks_.size()) return wallVelocity(id, place);
+      dVector3 velocity;
+      dBodyGetPointVel(disks_[static_cast<std::size_t>(id)], place.x, place.y, place.z, velocity);
+      return fromOde<D>(velocity);
+    };
+    const Vector relative = velocityAt(touch.i) - velocityAt(touch.j),
+                 slip = relative - dot(relative, normal) * normal;
+    const double speed = norm(slip);
+    if (speed > 1e-9 * norm(relative)) toOde((1.0 / speed) * slip, contact.fdir1);
+  }
+}
+
+template <int D>
+dContact Space<D>::contactOf(const Touch& touch) const {
   dContact contact{};
   contact.geom = touch.geometry;
-  const Vector normal = fromOde(touch.geometry.normal), along = turned(normal);
-  contact.fdir1[0] = along.x;
-  contact.fdir1[1] = along.y;
   dSurfaceParameters& surface = contact.surface;
-  // Friction along one direction, bounded by µ times the normal force; without Approx1 µ would be
-  // a force.
+  // Friction bounded by µ times the normal force, in the plane along one direction; without Approx1
+  // µ would be a force.
   surface.mode = dContactFDir1 | dContactMu2 | dContactApprox1_1 | dContactBounce | dContactSoftERP;
+  if (D == 3) surface.mode |= dContactApprox1_2;
   surface.mu = scene_.friction;
-  surface.mu2 = 0.0;
+  surface.mu2 = D == 2 ? 0.0 : scene_.friction;
+  setDirections(touch, contact);
   surface.bounce = scene_.restitution(touch.i, touch.j);
   surface.bounce_vel = bounceThreshold_;
   surface.soft_erp = erp_;
@@ -164,19 +224,25 @@ dContact Space::contactOf(const Touch& touch) const {
     surface.rho = scene_.rolling(touch.i, touch.j);
   }
   if (static_cast<std::size_t>(touch.j) >= disks_.size()) {
-    const Vector velocity = wallVelocity(touch.j, fromOde(touch.geometry.pos));
+    const Vector velocity = wallVelocity(touch.j, fromOde<D>(touch.geometry.pos));
+    const Vector normal = fromOde<D>(touch.geometry.normal), along = fromOde<D>(contact.fdir1);
     surface.mode |= dContactMotionN | dContactMotion1;
     surface.motionN = dot(velocity, normal);
     surface.motion1 = dot(velocity, along);
+    if constexpr (D == 3) {
+      surface.mode |= dContactMotion2;
+      surface.motion2 = dot(velocity, cross(normal, along));
+    }
   }
   return contact;
 }
 
-void Space::step(double next) {
+template <int D>
+void Space<D>::step(double next) {
   findTouches();
   // Walls stand where the step began, and have the velocity of its middle, which takes them to
   // where they are at its end.
-  for (Body& wall : scene_.walls) wall.at(next - 0.5 * scene_.dt);
+  for (BodyOf<D>& wall : scene_.walls) wall.at(next - 0.5 * scene_.dt);
   forces_.assign(touches_.size(), {});
   std::vector<Vector> centres;  // of the first of each contact, before they move
   for (std::size_t k = 0; k < touches_.size(); ++k) {
@@ -190,24 +256,34 @@ void Space::step(double next) {
   }
   if (!(iterations_ > 0 ? dWorldQuickStep(world_, scene_.dt) : dWorldStep(world_, scene_.dt)))
     throw std::runtime_error("ODE has no memory for its step");
-  impulses_.clear();
+  auto& impulses = this->impulses_;
+  impulses.clear();
   for (std::size_t k = 0; k < touches_.size(); ++k) {
-    const Vector normal = fromOde(touches_[k].geometry.normal), force = fromOde(forces_[k].f1);
-    const Vector place = fromOde(touches_[k].geometry.pos), arm = place - centres[k];
+    const Vector normal = fromOde<D>(touches_[k].geometry.normal),
+                 force = fromOde<D>(forces_[k].f1), place = fromOde<D>(touches_[k].geometry.pos);
+    const double pressing = dot(force, normal);
+    TangentOf<D> along;
+    SpinOf<D> rolling{};
+    if constexpr (D == 2) {
+      along = scene_.dt * dot(force, turned(normal));
+      if (scene_.rolling)
+        rolling = scene_.dt * (forces_[k].t1[2] - cross(place - centres[k], force));
+    } else {
+      along = scene_.dt * (force - pressing * normal);
+    }
     // The solver's normal force is not negative; a product of rounded numbers could be.
-    impulses_.push_back(
-        {touches_[k].i, touches_[k].j, normal, std::max(0.0, scene_.dt * dot(force, normal)),
-         scene_.dt * dot(force, turned(normal)), place,
-         scene_.rolling ? scene_.dt * (forces_[k].t1[2] - cross(arm, force)) : 0.0});
+    impulses.push_back({touches_[k].i, touches_[k].j, normal, std::max(0.0, scene_.dt * pressing),
+                        along, place, rolling});
   }
   dJointGroupEmpty(contacts_);
-  requirePlane();
-  for (Body& wall : scene_.walls) wall.at(next);
+  if (D == 2) requirePlane();
+  for (BodyOf<D>& wall : scene_.walls) wall.at(next);
   placeWalls();
 }
 
 /// No constraint holds disks in the plane; nothing pushes them out of it, to the bit.
-void Space::requirePlane() const {
+template <int D>
+void Space<D>::requirePlane() const {
   for (const dBodyID body : disks_) {
     const dReal* const spin = dBodyGetAngularVel(body);
     if (dBodyGetPosition(body)[2] != 0.0 || spin[0] != 0.0 || spin[1] != 0.0)
@@ -215,16 +291,27 @@ void Space::requirePlane() const {
   }
 }
 
-Vector Space::position(std::size_t disk) const {
-  return fromOde(dBodyGetPosition(disks_[disk]));
+template <int D>
+VectorOf<D> Space<D>::position(std::size_t disk) const {
+  return fromOde<D>(dBodyGetPosition(disks_[disk]));
 }
 
-Vector Space::velocity(std::size_t disk) const {
-  return fromOde(dBodyGetLinearVel(disks_[disk]));
+template <int D>
+VectorOf<D> Space<D>::velocity(std::size_t disk) const {
+  return fromOde<D>(dBodyGetLinearVel(disks_[disk]));
 }
 
-double Space::spin(std::size_t disk) const {
-  return turns_[disk] ? dBodyGetAngularVel(disks_[disk])[2] : 0.0;
+template <int D>
+SpinOf<D> Space<D>::spin(std::size_t disk) const {
+  if (!turns_[disk]) return {};
+  const dReal* const spin = dBodyGetAngularVel(disks_[disk]);
+  if constexpr (D == 2)
+    return spin[2];
+  else
+    return fromOde<D>(spin);
 }
+
+template class Space<2>;
+template class Space<3>;
 
 }  // namespace crossgrain_worker::ode

@@ -8,38 +8,44 @@
 
 namespace crossgrain_worker::ode {
 
-/// ODE's world of spheres whose centres stay in the plane z = 0, SI units, walls moved as
+/// ODE's world of spheres, whose centres stay at z = 0 in the plane; SI units, walls moved as
 /// prescribed. A step finds who overlaps, solves for the contact forces that give wanted
 /// velocities, and moves disks with these.
-class Space : public ImpulseSpace {
+template <int D>
+class Space : public ImpulseSpaceOf<D> {
  public:
-  explicit Space(const ImpulseScene& scene);
+  explicit Space(const ImpulseSceneOf<D>& scene);
   ~Space() override;
 
   void step(double next) override;
-  Vector position(std::size_t disk) const override;
-  Vector velocity(std::size_t disk) const override;
-  double spin(std::size_t disk) const override;
+  VectorOf<D> position(std::size_t disk) const override;
+  VectorOf<D> velocity(std::size_t disk) const override;
+  SpinOf<D> spin(std::size_t disk) const override;
 
  private:
+  using Vector = VectorOf<D>;
+
   struct Touch {
     std::int32_t i, j;
     dContactGeom geometry;  ///< normal from j to i
   };
 
-  void addDisk(const Disk& disk);
+  void addDisk(const DiskOf<D>& disk);
   void addWall(dGeomID shape);
   void placeWalls();
   void findTouches();
+  void setDirections(const Touch& touch, dContact& contact) const;
   dContact contactOf(const Touch& touch) const;
   Vector wallVelocity(std::int32_t wall, Vector place) const;
   void requirePlane() const;
 
   static void near(void* space, dGeomID a, dGeomID b);
 
-  ImpulseScene scene_;
+  ImpulseSceneOf<D> scene_;
   int iterations_;
-  double erp_, bounceThreshold_;
+  double erp_;
+  bool alongSlip_;
+  double bounceThreshold_;
   dWorldID world_;
   dSpaceID shapes_;
   dJointGroupID contacts_;
@@ -47,7 +53,7 @@ class Space : public ImpulseSpace {
   std::vector<bool> turns_;
   std::vector<dGeomID> wallShapes_;  ///< wall disks, then planes
   /// Of each of these: its body, and the number of the disk or plane in it.
-  std::vector<std::pair<const Body*, std::size_t>> wallParts_;
+  std::vector<std::pair<const BodyOf<D>*, std::size_t>> wallParts_;
   std::size_t wallDisks_ = 0;
   std::vector<Touch> touches_;
   std::vector<dJointFeedback> forces_;

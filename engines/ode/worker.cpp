@@ -34,10 +34,14 @@ int main() {
               1.99, false),
        within(setting("erp", 0.2, "-", "share of an overlap that a step pushes apart"), 0.0, 1.0,
               false),
+       within(setting("friction_along_slip", 1.0, "-",
+                      "in space, of the first of two directions that are bounded each by itself; "
+                      "0: ODE's choice, by the normal alone"),
+              0.0, 1.0, true),
        setting("correcting_speed", 0.0, "m/s",
                "the fastest that overlaps are pushed apart, a speed that stays; 0: no limit"),
        setting("restitution_threshold", 0.0, "m/s",
                "approaches slower than this give nothing back")}};
-  return serve(ImpulseEngine(
-      about, [](const ImpulseScene& scene) { return std::make_unique<ode::Space>(scene); }));
+  const auto make = [](const auto& scene) { return spaceFor<ode::Space>(scene); };
+  return serve(ImpulseEngine(about, make, make));
 }

@@ -1,14 +1,16 @@
 // A worker of crossgrain that runs scenes on Rapier:  node worker.mjs
 //
-// README.md of this folder says what Rapier makes of a scene. RAPIER in the environment is another version's package.
+// README.md of this folder says what Rapier makes of a scene. RAPIER in the environment is another version's package, or that of
+// three dimensions.
 
 import {ImpulseEngine} from '../node/impulse_engine.mjs';
 import {serve} from '../node/crossgrain_worker.mjs';
-import {RapierWorld, version} from './world.mjs';
+import {inSpace, RapierWorld, version} from './world.mjs';
 
 serve(new ImpulseEngine({
-  name: 'rapier',
+  name: inSpace ? 'rapier3d' : 'rapier',
   version,
+  ...(inSpace && {dimensions: [3], contacts: false}),
   integrator: 'semi_implicit_euler with sequential impulses',
   dt: 5e-4,
   settings: [

@@ -1,16 +1,29 @@
 // The scene as Rapier's rigid bodies and colliders, in SI units and single precision.
 
 import {createRequire} from 'node:module';
+import {scaled} from '../node/crossgrain_vector.mjs';
 
 const require = createRequire(new URL('../node/', import.meta.url));
 const RAPIER = require(process.env.RAPIER ?? '@dimforge/rapier2d-compat');
 await RAPIER.init();
 
+export const inSpace = RAPIER.Quaternion !== undefined;
+
+const vectorOf = ([x, y, z]) => (inSpace ? {x, y, z} : {x, y});
+const componentsOf = ({x, y, z}) => (inSpace ? [x, y, z] : [x, y]);
+
+/// A turn as Rapier takes it.
+function turnOf(angle) {
+  if (!inSpace) return angle;
+  const size = Math.hypot(...angle), [x, y, z] = scaled(size > 0 ? Math.sin(size / 2) / size : 0.5, angle);
+  return {x, y, z, w: Math.cos(size / 2)};
+}
+
 export const version = RAPIER.version();
 
 export class RapierWorld {
   constructor({disks, bodies, law, gravity, dt, rotation, number}) {
-    this.world = new RAPIER.World({x: gravity[0], y: gravity[1]});
+    this.world = new RAPIER.World(vectorOf(gravity));
     this.world.timestep = dt;
     // What Rapier takes as small is a share of this.
     this.world.lengthUnit = 2 * Math.min(...disks.map((disk) => disk.radius));
@@ -27,7 +40,7 @@ export class RapierWorld {
       this.add(RAPIER.ColliderDesc.ball(body.diskRadius[k]).setTranslation(...offset), this.ofWalls, this.walls[b])));
     bodies.forEach((body, b) => body.planes.forEach(({point, normal}) => {
       const at = body.fromCentre(point);
-      const plane = RAPIER.ColliderDesc.halfspace({x: normal[0], y: normal[1]}).setTranslation(...at);
+      const plane = new RAPIER.ColliderDesc(new RAPIER.HalfSpace(vectorOf(normal))).setTranslation(...at);
       this.add(plane, this.ofWalls, this.walls[b]);
     }));
   }
@@ -54,10 +67,11 @@ export class RapierWorld {
   placeDisks(disks, rotation) {
     this.disks = disks.map((disk) => {
       const body = RAPIER.RigidBodyDesc.dynamic().setTranslation(...disk.position).setLinvel(...disk.velocity)
-                     .setAngvel(disk.spin).setCanSleep(false);
+                     .setAngvel(inSpace ? vectorOf(disk.spin) : disk.spin).setCanSleep(false);
       const own = this.world.createRigidBody(rotation ? body : body.lockRotations());
       this.add(RAPIER.ColliderDesc.ball(disk.radius), this.ofMass.get(disk.mass), own);
-      own.setAdditionalMassProperties(disk.mass, {x: 0, y: 0}, disk.inertia, true);
+      const inertia = inSpace ? [vectorOf(Array(3).fill(disk.inertia)), turnOf([0, 0, 0])] : [disk.inertia];
+      own.setAdditionalMassProperties(disk.mass, vectorOf([0, 0, 0]), ...inertia, true);
       return own;
     });
   }
@@ -78,20 +92,24 @@ export class RapierWorld {
   placeWalls(now, next) {
     this.walls.forEach((wall, b) => {
       if (!wall.isKinematic()) return;
-      wall.setNextKinematicTranslation({x: next[b].centre[0], y: next[b].centre[1]});
-      wall.setNextKinematicRotation(next[b].angle);
+      wall.setNextKinematicTranslation(vectorOf(next[b].centre));
+      wall.setNextKinematicRotation(turnOf(next[b].angle));
     });
   }
 
   step() { this.world.step(); }
 
   disk(i) {
-    const position = this.disks[i].translation(), velocity = this.disks[i].linvel();
-    return {position: [position.x, position.y], velocity: [velocity.x, velocity.y], spin: this.disks[i].angvel()};
+    const spin = this.disks[i].angvel();
+    return {
+      position: componentsOf(this.disks[i].translation()),
+      velocity: componentsOf(this.disks[i].linvel()),
+      spin: inSpace ? componentsOf(spin) : spin,
+    };
   }
 
-  /// Of the last step. Rapier's normals point from the first collider to the second, its tangents along
-  /// −z × normal; its points are where it found them before it moved the disks.
+  /// Of the last step, in the plane: in space Rapier has friction once for each pair, and does not show it. Its normals point from
+  /// the first collider to the second, its tangents along −z × normal; its points are where it found them before it moved the disks.
   impulses(visit) {
     const {narrowPhase, bodies} = this.world;
     const before = narrowPhase.contactPair.length < 4;  // 0.19 does not ask for the bodies

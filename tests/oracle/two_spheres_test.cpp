@@ -296,6 +296,83 @@ TEST(TwoSpheres, AnyImpact_IsThatOfEqualStepsByAnotherRoute) {
   }
 }
 
+ContactLaw rigidLaw(int dimension = 3) {
+  ContactLaw law;
+  law.dimension = dimension;
+  law.normal = NormalLaw::rigid;
+  law.tangential = TangentialLaw::coulomb;
+  law.en = 0.7;
+  law.et0 = 0.4;
+  law.mu = 0.25;
+  return law;
+}
+
+TEST(RigidSpheres, SpinsAlongOneAxis_AreThePlanesImpact) {
+  for (const CollidingPair& pair : {spheres(), sphereOnWall()})
+    for (const Approach approach : {Approach::spin, Approach::firstSpin, Approach::oblique})
+      for (const double psi : {0.0, 0.3, 0.9, -1.7, 4.0}) {
+        const CollisionStart start{psi, 0.8, approach, pair.plane ? 0.0 : 40.0};
+        const CollisionEnd plane = oracleOutcome(rigidLaw(2), pair, start),
+                           space = oracleOutcome(rigidLaw(), pair, start);
+        EXPECT_NEAR(space.en, plane.en, 1e-12);
+        EXPECT_NEAR(space.psi, plane.psi, 1e-12);
+        EXPECT_NEAR(space.centrePsi, plane.centrePsi, 1e-12);
+        EXPECT_NEAR(space.outOfPlane->psi, 0.0, 1e-12);
+        EXPECT_NEAR(space.energyAfter, plane.energyAfter, 1e-12 * plane.energyBefore);
+        for (const int side : {0, 1}) {
+          EXPECT_NEAR(space.spin[side] * pair.radius[side], plane.spin[side] * pair.radius[side],
+                      1e-12);
+          EXPECT_NEAR(space.outOfPlane->spinNormal[side], 0.0, 1e-12);
+          EXPECT_NEAR(space.outOfPlane->spinTangent[side] * pair.radius[side], 0.0, 1e-12);
+        }
+        EXPECT_FALSE(space.duration);
+      }
+}
+
+/// A start whose slip, of size psi·v_n, lies at an angle from s towards b = n × s.
+CollisionStart slipAt(const CollidingPair& pair, double psi, double vn, double angle) {
+  CollisionStart start{psi * std::cos(angle), vn, Approach::firstSpin};
+  start.spinOutOfPlane[0] = {1000.0, psi * std::sin(angle) * vn / pair.radius[0]};
+  return start;
+}
+
+TEST(RigidSpheres, SlipInAnyDirection_KeepsItsLineAndLeavesSpinsAboutTheNormal) {
+  for (const CollidingPair& pair : {spheres(), sphereOnWall()})
+    for (const double psi : {0.5, 2.0, 5.0}) {
+      const CollisionEnd plane = oracleOutcome(rigidLaw(2), pair, {psi, 0.8, Approach::firstSpin});
+      for (const double angle : {0.4, 1.3, 2.8, 4.0}) {
+        const CollisionEnd space = oracleOutcome(rigidLaw(), pair, slipAt(pair, psi, 0.8, angle));
+        EXPECT_NEAR(space.en, plane.en, 1e-12);
+        EXPECT_NEAR(space.psi, plane.psi * std::cos(angle), 1e-12);
+        EXPECT_NEAR(space.outOfPlane->psi, plane.psi * std::sin(angle), 1e-12);
+        EXPECT_EQ(space.outOfPlane->spinNormal[0], 1000.0);
+        EXPECT_EQ(space.outOfPlane->spinNormal[1], 0.0);
+      }
+    }
+}
+
+TEST(RigidSpheres, ChungAndOoisTests_AreWaltonsLaw) {
+  // By hand with K = 7/2: test 4 slides beyond 7/2 · 0.092 · 1.98 = 0.63756, tan 32.52°; test 5 and
+  // 6 beyond 2.1. A slip that goes on changes a ω by 5/2 µ (1 + e) v_n: 5/2 · 0.4 · 1.5 · 0.2 = 0.3
+  // m/s in test 6, whose centre gets 0.12 m/s.
+  ContactLaw law = rigidLaw();
+  law.et0 = 0.0;
+  law.mu = 0.092;
+  law.en = 0.98;
+  const CollidingPair wall = diskOnWall(0.0025, 2.618e-4, 0.4 * 2.618e-4 * 0.0025 * 0.0025);
+  EXPECT_NEAR(oracleOutcome(law, wall, slipAt(wall, 0.63756, 3.0, 1.0)).psi, 0.0, 1e-12);
+  EXPECT_NEAR(oracleOutcome(law, wall, {0.73756, 3.0, Approach::oblique}).psi, 0.1, 1e-12);
+  law.mu = 0.4;
+  law.en = 0.5;
+  const double vn = 0.2, spin = 3.0 * vn / wall.radius[0];
+  CollisionStart start{0.0, vn, Approach::firstSpin};
+  start.spinOutOfPlane[0] = {0.0, spin};
+  const CollisionEnd end = oracleOutcome(law, wall, start);
+  EXPECT_NEAR((spin - end.outOfPlane->spinTangent[0]) * wall.radius[0], 0.3, 1e-12);
+  EXPECT_NEAR(end.outOfPlane->psi * vn - end.outOfPlane->spinTangent[0] * wall.radius[0], -0.12,
+              1e-12);
+}
+
 TEST(TwoSpheres, LawsWithoutAnOracleInSpace_AreNamed) {
   const auto why = [](auto&& change) -> std::string {
     ContactLaw law = dashpotLaw();

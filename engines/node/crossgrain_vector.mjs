@@ -1,0 +1,34 @@
+// Vectors in the plane, [x, y], or in space, [x, y, z]. What is one number about z in the plane (spin, angle, torque, and what
+// acts along z × n) is a vector in space.
+
+export const plus = (a, b) => a.map((x, k) => x + b[k]);
+export const minus = (a, b) => a.map((x, k) => x - b[k]);
+export const scaled = (s, a) => (Array.isArray(a) ? a.map((x) => s * x) : s * a);
+export const dot = (a, b) => a.reduce((sum, x, k) => sum + x * b[k], 0);
+export const isZero = (a) => (Array.isArray(a) ? a.every((x) => x === 0) : a === 0);
+export const noSpin = (dimension) => (dimension === 3 ? [0, 0, 0] : 0);
+
+/// a × b; of vectors in the plane its z component.
+export function cross(a, b) {
+  if (a.length === 2) return a[0] * b[1] - a[1] * b[0];
+  return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+}
+
+/// a turned by an angle; in space by Rodrigues' formula.
+export function turned(angle, a) {
+  if (a.length === 2) {
+    const c = Math.cos(angle), s = Math.sin(angle);
+    return [c * a[0] - s * a[1], s * a[0] + c * a[1]];
+  }
+  const size = Math.hypot(...angle);
+  if (size === 0) return a;
+  const axis = scaled(1 / size, angle), along = (1 - Math.cos(size)) * dot(axis, a);
+  return plus(plus(scaled(Math.cos(size), a), scaled(Math.sin(size), cross(axis, a))), scaled(along, axis));
+}
+
+/// What acts across n, as n turns to m by the smallest turn.
+export function carriedAlong(along, n, m) {
+  if (n.length === 2) return along;
+  const w = cross(n, m), across = cross(w, along);
+  return plus(plus(along, across), scaled(1 / (1 + dot(n, m)), cross(w, across)));
+}
