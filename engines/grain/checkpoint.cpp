@@ -12,7 +12,7 @@ namespace grain {
 namespace {
 
 constexpr std::uint64_t magic = 0x38'6e'69'61'72'67;       // "grain8"
-constexpr std::uint64_t spaceMagic = 0x53'6e'69'61'72'67;  // "grainS"
+constexpr std::uint64_t spaceMagic = 0x54'6e'69'61'72'67;  // "grainT"
 
 template <class T>
 void write(std::ostream& out, const T& value) {
@@ -132,16 +132,6 @@ void Core<Real>::restore(std::istream& in) {
   ledger_->placesRestored();
 }
 
-/// Walls, and what is worked out from positions, are not kept.
-void Spheres::forState(auto&& visit) {
-  for (auto* array : {&position_, &velocity_, &spin_, &force_, &torque_}) visit(*array);
-  for (PlacedPlane& plane : planes_) {
-    visit(plane.kept);
-    visit(plane.results);
-    visit(plane.touches);
-  }
-}
-
 void Spheres::save(std::ostream& out) const {
   write(out, spaceMagic);
   write(out, fingerprint_);
@@ -163,18 +153,25 @@ void Spheres::restore(std::istream& in) {
   require(number == fingerprint_, "of another setup");
   read(in, steps_);
   read(in, evaluations_);
-  // Walls are put where they are by now, and forces on them are the file's.
   moveWalls();
   forState([&](auto& array) { readSame(in, array); });
+  std::vector<std::int32_t> ids = idAtIndex_;
+  std::ranges::sort(ids);
+  for (std::size_t k = 0; k < ids.size(); ++k)
+    require(ids[k] == static_cast<std::int32_t>(k), "damaged");
+  std::fill(mark_.begin() + static_cast<std::ptrdiff_t>(size()), mark_.end(), std::uint8_t{2});
+  followNumbers();
+  if (!seenVelocity_.empty()) {  // of those that are pushed the next step predicts them
+    seenVelocity_ = velocity_;
+    seenSpin_ = spin_;
+  }
   for (PlacedPlane& plane : planes_) {
     read(in, plane.force);
     read(in, plane.torque);
   }
   std::vector<SpaceLists::Kept> touching;
   readAny(in, touching, 64 * position_.size());
-  findTravel();
-  lists_.restore(std::move(touching), position_, travel_);
-  rememberChoice();
+  list([&] { lists_.restore(std::move(touching), position_, travel_); });
 }
 
 }  // namespace grain

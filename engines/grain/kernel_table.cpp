@@ -66,7 +66,8 @@ constexpr std::size_t meaningful(std::size_t index) {
 template <class Real>
 constexpr SpaceKernels spaceKernels() {
   if constexpr (sizeof(Real) == sizeof(double))
-    return {&space::pairKernel<GeneralLaw<double>>, &space::motionKernel};
+    return {&space::pairKernel<GeneralLaw<double>>, &space::pairKernel<space::EverydayLaw>,
+            &space::motionKernel, &space::neighbourKernel, &space::chooseKernel};
   return {};
 }
 

@@ -9,6 +9,10 @@
 
 namespace grain {
 
+/// Steps between two renumberings of the bodies by place. A fixed number, as it decides in which
+/// order forces are summed up.
+inline constexpr std::uint64_t renumberingInterval = 8192;
+
 /// The first elements of the array by their order: array[k] becomes what was array[order[k]].
 /// @param scratch  room, kept from call to call
 template <class Array>

@@ -11,9 +11,10 @@ double seconds(auto duration) {
   return std::chrono::duration<double>(duration).count();
 }
 
-/// Three quarters of the old figure, one quarter of the new one.
+/// Three quarters of the old figure, one quarter of the new one, of which a machine that does
+/// something else meanwhile does not make more than twice the old.
 void follow(double& figure, double now) {
-  figure = figure > 0.0 ? 0.75 * figure + 0.25 * now : now;
+  figure = figure > 0.0 ? 0.75 * figure + 0.25 * std::min(now, 2.0 * figure) : now;
 }
 
 double towards(double from, double to) {

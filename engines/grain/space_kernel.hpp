@@ -6,6 +6,21 @@ namespace grain::space {
 
 inline constexpr std::size_t blockSize = 128;
 
+/// The linear law with a spring and dashpots, the everyday one, under any conventions: what else a
+/// law may have is not compiled.
+struct EverydayLaw : LawConstants<double>, Conventions {
+  static constexpr Normal normal = Normal::linear;
+  static constexpr Damper damper = Damper::constant;
+  static constexpr Tangential tangential = Tangential::springDashpot;
+  static constexpr bool normalDamping = true, rotation = true;
+  static constexpr Rolling rolling = Rolling::none;
+  static constexpr Cohesion cohesion = Cohesion::none;
+  bool cutTension;
+
+  explicit EverydayLaw(const GeneralLaw<double>& law)
+      : LawConstants(law), Conventions(law), cutTension(law.cutTension) {}
+};
+
 /// Pairs that do not touch add nothing. Those that do are found first, a block at a time, since
 /// they are few in a flow that is not dense.
 template <class L>
@@ -14,6 +29,7 @@ static SpaceReport pairKernel(const GeneralLaw<double>& general, const SpaceConv
                               double maxOverlap) {
   const L law(general);
   const SpaceView all = view;  // copies that no store through a pointer can change
+  ActiveSpheres active = view.active;
   const SpacePairs pairs = list;
   SpaceReport report;
   std::size_t near[blockSize];
@@ -30,9 +46,9 @@ static SpaceReport pairKernel(const GeneralLaw<double>& general, const SpaceConv
       const double reach = a.w + b.w + range;
       // Those that touched before are looked at once more, to forget it. A place that is no number
       // is not skipped.
-      const bool apart = d.v[0] + d.v[1] + d.v[2] >= reach * reach;
+      const int meets = !(d.v[0] + d.v[1] + d.v[2] >= reach * reach);
       near[found] = p;
-      found += !apart || pairs.touches[p] != 0;
+      found += static_cast<std::size_t>(meets | pairs.touches[p]);  // no branch: few do
     }
     for (std::size_t k = 0; k < found; ++k) {
       const std::size_t p = near[k];
@@ -44,6 +60,7 @@ static SpaceReport pairKernel(const GeneralLaw<double>& general, const SpaceConv
       const double overlap = all.position[i].w + all.position[j].w - distance;
       const Meeting<double> meeting = meetingOf(law, all, i, j, (1.0 / distance) * d, overlap);
       SpaceMemory<double>& kept = pairs.kept[p];
+      if (pairs.touches[p] == 0) kept = {};
       bool touches = meeting.overlap > 0.0;
       if (law.cohesion == Cohesion::jkr) {
         const double radius =
@@ -54,14 +71,13 @@ static SpaceReport pairKernel(const GeneralLaw<double>& general, const SpaceConv
       const double smallest = smaller(meeting.radiusI, meeting.radiusJ);
       if (!(meeting.overlap <= maxOverlap * smallest) || !(distance > 0.0)) report.deep = true;
       pairs.touches[p] = touches;
-      if (!touches) {
-        kept = {};
-        continue;
-      }
+      if (!touches) continue;
       ++report.touching;
       const MeetingForce<double> force = meetingForce(law, how, meeting, kept);
       pairs.results[p] = {meeting.overlap, force.normal, force.sliding, force.tangential,
                           force.rolling};
+      active.push(i);
+      active.push(j);
       add(all.force[i], force.force, 1.0);
       add(all.force[j], force.force, -1.0);
       if (!law.rotation) continue;
@@ -69,36 +85,34 @@ static SpaceReport pairKernel(const GeneralLaw<double>& general, const SpaceConv
       add(all.torque[j], force.torqueJ, 1.0);
     }
   }
+  report.active = active.count;
   return report;
 }
 
-/// v += kick·a, x += drift·v, u = v + ahead·a; then the new forces begin with gravity.
-static inline SpaceMotionReport motionKernel(const SpaceMotionConstants& constants,
-                                             const SpaceMotionView& view, std::size_t count) {
-  const SpaceMotionConstants c = constants;
-  const SpaceMotionView s = view;
-  const Lanes gravity(quadOf(c.gravity));
-  SpaceMotionReport report;
-  const bool predicts = s.seenVelocity != nullptr;
-  for (std::size_t i = 0; i < count; ++i) {
-    Lanes a(s.force[i]), v(s.velocity[i]), x(s.position[i]), moved(s.chosen[i]), force = gravity;
+GRAIN_INLINE double sumOfThree(const Lanes& lanes) {
+  return lanes.v[0] + lanes.v[1] + lanes.v[2];
+}
+
+/// The step of motion of one sphere, in parts.
+struct Mover {
+  const SpaceMotionConstants c;
+  const SpaceMotionView s;
+  SpaceMotionReport report{};
+
+  /// v += kick·a, u = v + ahead·a; then the new force begins with gravity.
+  GRAIN_INLINE void kick(std::size_t i) const {
+    Lanes a(s.force[i]), v(s.velocity[i]), force(c.gravity);
+    const bool predicts = s.seenVelocity != nullptr;
     a.v *= s.inverseMass[i];
     v.v += c.kick * a.v;
     v.store(s.velocity[i]);
-    x.v += c.drift * v.v;
-    x.store(s.position[i]);
-    moved.v -= x.v;
-    moved.v *= moved.v;
-    const double square = moved.v[0] + moved.v[1] + moved.v[2];
-    report.excess = larger(report.excess, square - s.allowance[i]);
-    report.squares += square;
     if (predicts) {
       v.v += c.ahead * a.v;
       v.store(s.seenVelocity[i]);
     }
     force.v *= s.mass[i];
     force.store(s.force[i]);
-    if (s.spin == nullptr) continue;
+    if (s.spin == nullptr) return;
     Lanes spinUp(s.torque[i]), spin(s.spin[i]);
     spinUp.v *= s.inverseInertia[i];
     spin.v += c.kick * spinUp.v;
@@ -109,7 +123,125 @@ static inline SpaceMotionReport motionKernel(const SpaceMotionConstants& constan
     }
     s.torque[i] = {};
   }
-  return report;
+  /// x += drift·v
+  GRAIN_INLINE void drift(std::size_t i) const {
+    Lanes x(s.position[i]), v(s.velocity[i]);
+    x.v += c.drift * v.v;
+    x.store(s.position[i]);
+  }
+  /// @return how far it is from where pairs were chosen, squared [m²]
+  GRAIN_INLINE double look(std::size_t i) {
+    Lanes moved(s.chosen[i]);
+    moved -= Lanes(s.position[i]);
+    moved.v *= moved.v;
+    const double square = sumOfThree(moved);
+    report.excess = larger(report.excess, square - s.allowance[i] * s.allowance[i]);
+    report.squares += square;
+    return square;
+  }
+  GRAIN_INLINE void release(std::size_t i, double square) {
+    Lanes way(s.velocity[i]);
+    way.v *= way.v;
+    const double step = c.drift * squareRoot(sumOfThree(way));
+    const double left = s.allowance[i] - squareRoot(square);
+    if (left < report.freeSteps * step) report.freeSteps = left / step;
+  }
+};
+
+/// Spheres that nothing pushes fly straight on, which takes neither forces nor a look at how far
+/// they came.
+static inline SpaceMotionReport motionKernel(const SpaceMotionConstants& constants,
+                                             const SpaceMotionView& view, std::size_t count) {
+  Mover mover{constants, view};
+  if (view.everyone) {
+    for (std::size_t i = 0; i < count; ++i) {
+      mover.kick(i);
+      mover.drift(i);
+      mover.look(i);
+    }
+    mover.report.active = count;
+    return mover.report;
+  }
+  const ActiveSpheres active = view.active;
+  for (std::size_t k = 0; k < active.count; ++k)
+    mover.kick(static_cast<std::size_t>(active.list[k]));
+  for (std::size_t i = 0; i < count; ++i) mover.drift(i);
+  std::size_t left = 0;
+  for (std::size_t k = 0; k < active.count; ++k) {
+    const auto i = static_cast<std::size_t>(active.list[k]);
+    const double square = mover.look(i);
+    active.list[left] = active.list[k];
+    left += --active.mark[i] != 0;
+    if (active.mark[i] == 0) mover.release(i, square);
+  }
+  mover.report.active = left;
+  return mover.report;
+}
+
+/// Which components of x_i − x_j are beyond half a box, up or down.
+struct Images {
+  typedef std::int64_t Whole __attribute__((vector_size(32)));
+  Whole up, down;
+
+  GRAIN_INLINE Images(const Lanes& apart, const Lanes& half)
+      : up(apart.v > half.v), down(apart.v < -half.v) {}
+  /// x_i − x_j − shift to the nearest image.
+  GRAIN_INLINE void reduce(Lanes& apart, const Lanes& length) const {
+    const Whole sides = reinterpret_cast<Whole>(length.v);
+    apart.v -= reinterpret_cast<Lanes::Four>(up & sides);
+    apart.v += reinterpret_cast<Lanes::Four>(down & sides);
+  }
+  GRAIN_INLINE std::int32_t number() const {
+    const Whole weights{1, 3, 9, 0}, each = (up & weights) - (down & weights);
+    return static_cast<std::int32_t>(13 + each[0] + each[1] + each[2]);
+  }
+};
+
+static inline std::size_t neighbourKernel(const SpaceCellsView& view, const Quad& mine,
+                                          std::int32_t i, std::size_t begin, std::size_t end,
+                                          double reach, SpaceNeighbour* found) {
+  const SpaceCellsView cells = view;
+  const Lanes own(mine), length(cells.length), half(cells.half);
+  std::size_t count = 0;
+  for (std::size_t k = begin; k < end; ++k) {
+    const Quad& other = cells.place[k];
+    Lanes apart = own;
+    apart -= Lanes(other);
+    const Images images(apart, half);
+    images.reduce(apart, length);
+    apart.v *= apart.v;
+    const double within = mine.w + other.w + reach;
+    found[count].j = static_cast<std::int32_t>(k);
+    count += sumOfThree(apart) < within * within && cells.sorted[k] > i;
+  }
+  for (std::size_t n = 0; n < count; ++n) {
+    const auto k = static_cast<std::size_t>(found[n].j);
+    Lanes apart = own;
+    apart -= Lanes(cells.place[k]);
+    found[n] = {cells.sorted[k], Images(apart, half).number()};
+  }
+  return count;
+}
+
+static inline std::size_t chooseKernel(const SpaceFarPairs& view, SpaceChoice* found) {
+  const SpaceFarPairs far = view;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < far.spheres; ++i) {
+    const Lanes own(far.place[i]);
+    const double reach = far.place[i].w;
+    for (std::int32_t k = far.begin[i]; k < far.begin[i + 1]; ++k) {
+      const SpaceNeighbour& pair = far.pairs[k];
+      const Quad& other = far.place[pair.j];
+      Lanes apart = own;
+      apart -= Lanes(other);
+      apart -= Lanes(far.image[pair.image]);
+      apart.v *= apart.v;
+      const double within = reach + other.w;
+      found[count] = {static_cast<std::int32_t>(i), k};
+      count += sumOfThree(apart) < within * within;
+    }
+  }
+  return count;
 }
 
 }  // namespace grain::space

@@ -62,24 +62,20 @@ GRAIN_INLINE Vec3<Real> turnedSpring(SpringTurn how, const Vec3<Real>& spring,
   return (left > Real(0) ? length(spring) / left : Real(1)) * inPlane;
 }
 
-/// tan(v) of small v, within 1e-12 of itself up to 0.15: the fourth convergent of Lambert's
-/// continued fraction, by products and a quotient alone: the same bits everywhere.
-template <class Real>
-GRAIN_INLINE Real tangent(Real v) {
-  const Real square = v * v;
-  return v * (Real(105) - Real(10) * square) / (Real(105) - Real(45) * square + square * square);
-}
-
-/// ξ turned by a small angle about the normal, with cos and sin as quotients of tan(angle/2), so
-/// that ξ keeps its length; with SpringTurn::firstOrder to first order.
+/// ξ turned by a small angle about the normal; with SpringTurn::firstOrder to first order. Of
+/// tan(angle/2) = p/q, the fourth convergent of Lambert's continued fraction, within 1e-12 of
+/// itself up to 0.15, cos = (q² − p²)/(q² + p²) and sin = 2 p q/(q² + p²): ξ keeps its length, and
+/// products and a quotient are the same bits everywhere.
 template <class Real>
 GRAIN_INLINE Vec3<Real> twistedSpring(SpringTurn how, const Vec3<Real>& spring,
                                       const Vec3<Real>& normal, Real angle) {
   const Vec3<Real> aside = cross(normal, spring);
   if (how == SpringTurn::firstOrder) return spring + angle * aside;
-  const Real half = tangent(Real(0.5) * angle), square = half * half;
-  const Real whole = Real(1) / (Real(1) + square);
-  return ((Real(1) - square) * whole) * spring + (Real(2) * half * whole) * aside;
+  const Real half = Real(0.5) * angle, square = half * half;
+  const Real p = half * (Real(105) - Real(10) * square);
+  const Real q = Real(105) - Real(45) * square + square * square;
+  const Real whole = Real(1) / (q * q + p * p);
+  return ((q * q - p * p) * whole) * spring + (Real(2) * p * q * whole) * aside;
 }
 
 /// What a contact remembers from step to step. Its vectors lie in the tangent plane of `normal`.

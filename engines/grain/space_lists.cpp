@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <utility>
 
 #include "engines/grain/pair_lists.hpp"
 
@@ -12,29 +12,35 @@ namespace {
 
 using Vector = Vec3<double>;
 
-/// Component by component; a Vec3 has no index.
-template <class Component>
-Vector each(const Component& component) {
-  return {component(0, &Vector::x), component(1, &Vector::y), component(2, &Vector::z)};
+constexpr std::size_t imageCount = 27;
+
+/// By how many boxes an image is shifted along each direction. @see SpaceNeighbour
+Quad boxesOf(std::int32_t image) {
+  return {image % 3 - 1.0, image / 3 % 3 - 1.0, image / 9 - 1.0, 0.0};
 }
 
-double square(const Vector& v) {
-  return dot(v, v);
+/// The same pair, seen from j.
+SpaceLists::Kept swapped(SpaceLists::Kept pair) {
+  std::swap(pair.i, pair.j);
+  for (Vector* of : {&pair.memory.normal, &pair.memory.spring, &pair.memory.angle,
+                     &pair.result.tangential, &pair.result.rolling})
+    *of = -1.0 * *of;
+  return pair;
+}
+
+template <class A, class B>
+bool earlier(const A& a, const B& b) {
+  return a.i < b.i || (a.i == b.i && a.j < b.j);
 }
 
 }  // namespace
 
-Vec3<double> SpaceBox::shift(const Vector& apart) const {
-  return each([&](std::size_t k, auto axis) {
-    const double side = length.*axis, along = apart.*axis;
-    // Most pairs are nearest as they are.
-    if (!periodic[k] || std::abs(along) < 0.5 * side) return 0.0;
-    return side * std::round(along / side);
-  });
+SpaceLists::SpaceLists(std::size_t moving, const SpaceBox& box, Skin skin, double range,
+                       const SpaceKernels& kernels)
+    : moving_(moving), skin_(skin), range_(range), kernels_(kernels), cells_(box) {
+  for (std::size_t image = 0; image < imageCount; ++image)
+    image_.push_back(cells_.boxes(boxesOf(static_cast<std::int32_t>(image))));
 }
-
-SpaceLists::SpaceLists(std::size_t moving, const SpaceBox& box, Skin skin, double range)
-    : moving_(moving), box_(box), skin_(skin), range_(range) {}
 
 void SpaceLists::update(std::span<const Quad> position, std::span<const double> travel,
                         std::size_t stepsSince) {
@@ -42,13 +48,12 @@ void SpaceLists::update(std::span<const Quad> position, std::span<const double> 
   requireFinite(position);
   skin_.allow(travel, allowance_);
   carried_ = touching();
-  const PairCounts counts{carried_.size(), i_.size(), far_.size()};
   if (const double used = skinUsed(position); !(used <= 0.5 * skin_.skin())) {
-    skin_.tune(counts, used);
+    skin_.tune(counts(), used);
     rebuild(position);
   }
   choose(position);
-  skin_.endRefresh({carried_.size(), i_.size(), far_.size()});
+  skin_.endRefresh(counts());
 }
 
 void SpaceLists::restore(std::vector<Kept> touching, std::span<const Quad> position,
@@ -59,6 +64,19 @@ void SpaceLists::restore(std::vector<Kept> touching, std::span<const Quad> posit
   carried_ = std::move(touching);
   rebuild(position);
   choose(position);
+}
+
+void SpaceLists::renumber(std::span<const std::int32_t> newNumber, std::span<const Quad> position,
+                          std::span<const double> travel) {
+  std::vector<Kept> kept = touching();
+  for (Kept& pair : kept) {
+    pair.i = newNumber[static_cast<std::size_t>(pair.i)];
+    if (pair.j < static_cast<std::int32_t>(moving_))
+      pair.j = newNumber[static_cast<std::size_t>(pair.j)];
+    if (pair.j < pair.i) pair = swapped(pair);
+  }
+  std::ranges::sort(kept, [](const Kept& a, const Kept& b) { return earlier(a, b); });
+  restore(std::move(kept), position, travel);
 }
 
 void SpaceLists::rebuild(std::span<const Quad> position) {
@@ -89,122 +107,72 @@ double SpaceLists::skinUsed(std::span<const Quad> position) const {
   return farthest;
 }
 
-/// Cells of at least `reach`, of the box along periodic directions, else of what the spheres take
-/// up.
-void SpaceLists::sortIntoCells(std::span<const Quad> position, double reach) {
-  Vector low = vectorOf(position[0]), high = low;
-  for (const Quad& place : position) {
-    low = {std::min(low.x, place.x), std::min(low.y, place.y), std::min(low.z, place.z)};
-    high = {std::max(high.x, place.x), std::max(high.y, place.y), std::max(high.z, place.z)};
-  }
-  const Vector extent = each([&](std::size_t k, auto axis) {
-    return box_.periodic[k] ? box_.length.*axis : high.*axis - low.*axis;
-  });
-  const auto fits = [&](double along) { return std::max(1.0, std::floor(along / reach)); };
-  // A sphere that flew far away must not blow the grid up: larger cells are slower, never wrong.
-  const double most = 16.0 + 4.0 * static_cast<double>(position.size());
-  while (fits(extent.x) * fits(extent.y) * fits(extent.z) > most) reach *= 1.5;
-  cells_.size = each([&](std::size_t k, auto axis) {
-    cells_.count[k] = static_cast<std::int32_t>(fits(extent.*axis));
-    return std::max(extent.*axis / fits(extent.*axis), reach * 1e-9);
-  });
-  cells_.low =
-      each([&](std::size_t k, auto axis) { return box_.periodic[k] ? box_.low.*axis : low.*axis; });
-  cellOf_.resize(position.size());
-  const std::size_t cells = static_cast<std::size_t>(cells_.count[0]) *
-                            static_cast<std::size_t>(cells_.count[1]) *
-                            static_cast<std::size_t>(cells_.count[2]);
-  cells_.begin.assign(cells + 1, 0);
-  cells_.sorted.resize(position.size());
-  const auto number = [&](const std::array<std::int32_t, 3>& cell) {
-    return static_cast<std::size_t>((cell[2] * cells_.count[1] + cell[1]) * cells_.count[0] +
-                                    cell[0]);
-  };
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    const Vector place = vectorOf(position[i]);
-    each([&](std::size_t k, auto axis) {
-      double from = (place.*axis - cells_.low.*axis) / cells_.size.*axis;
-      const double count = cells_.count[k];
-      if (box_.periodic[k]) from -= count * std::floor(from / count);
-      cellOf_[i][k] = static_cast<std::int32_t>(std::clamp(std::floor(from), 0.0, count - 1.0));
-      return 0.0;
-    });
-    ++cells_.begin[number(cellOf_[i]) + 1];
-  }
-  std::partial_sum(cells_.begin.begin(), cells_.begin.end(), cells_.begin.begin());
-  std::vector<std::int32_t> next(cells_.begin.begin(), cells_.begin.end() - 1);
-  for (std::size_t i = 0; i < position.size(); ++i)
-    cells_.sorted[static_cast<std::size_t>(next[number(cellOf_[i])]++)] =
-        static_cast<std::int32_t>(i);
-}
-
 void SpaceLists::collect(std::span<const Quad> position) {
   far_.clear();
-  if (position.empty()) return;
+  farBegin_.assign(1, 0);
+  row_.resize(position.size() + 1);
   double largest = 0.0;
   for (const Quad& place : position) largest = std::max(largest, place.w);
-  sortIntoCells(position, 2.0 * largest + range_ + skin_.skin());
-  std::vector<Far> row;
+  const double reach = range_ + skin_.skin();
+  cells_.sort(position, 2.0 * largest + reach);
+  const SpaceCellsView view = cells_.view();
   for (std::size_t i = 0; i < moving_; ++i) {
-    row.clear();
-    // The cells around, each once, of a direction with few cells too.
-    std::array<std::array<std::int32_t, 3>, 3> around;
-    std::array<std::size_t, 3> ways{};
-    for (std::size_t k = 0; k < 3; ++k)
-      for (std::int32_t step = -1; step <= 1; ++step) {
-        std::int32_t at = cellOf_[i][k] + step;
-        const std::int32_t count = cells_.count[k];
-        if (box_.periodic[k]) at = (at + count) % count;
-        if (at < 0 || at >= count) continue;
-        const auto known = around[k].begin() + static_cast<std::ptrdiff_t>(ways[k]);
-        if (std::find(around[k].begin(), known, at) == known) around[k][ways[k]++] = at;
-      }
-    for (std::size_t z = 0; z < ways[2]; ++z)
-      for (std::size_t y = 0; y < ways[1]; ++y)
-        for (std::size_t x = 0; x < ways[0]; ++x) {
-          const auto cell = static_cast<std::size_t>(
-              (around[2][z] * cells_.count[1] + around[1][y]) * cells_.count[0] + around[0][x]);
-          for (std::int32_t at = cells_.begin[cell]; at < cells_.begin[cell + 1]; ++at) {
-            const std::int32_t j = cells_.sorted[static_cast<std::size_t>(at)];
-            if (j <= static_cast<std::int32_t>(i)) continue;
-            const Quad& b = position[static_cast<std::size_t>(j)];
-            const Vector apart = vectorOf(position[i]) - vectorOf(b);
-            const Vector shift = box_.shift(apart);
-            const double reach = position[i].w + b.w + range_ + skin_.skin();
-            if (square(apart - shift) < reach * reach)
-              row.push_back({static_cast<std::int32_t>(i), j, quadOf(shift)});
-          }
-        }
-    std::ranges::sort(row, {}, &Far::j);
-    far_.insert(far_.end(), row.begin(), row.end());
+    const Quad mine = cells_.inBox(i, position[i]);
+    std::size_t found = 0;
+    cells_.around(i, [&](std::size_t begin, std::size_t end) {
+      found += kernels_.neighbours(view, mine, static_cast<std::int32_t>(i), begin, end, reach,
+                                   row_.data() + found);
+    });
+    far_.insert(far_.end(), row_.begin(), row_.begin() + static_cast<std::ptrdiff_t>(found));
+    farBegin_.push_back(static_cast<std::int32_t>(far_.size()));
   }
 }
 
 void SpaceLists::choose(std::span<const Quad> position) {
-  i_.clear();
-  j_.clear();
-  shift_.clear();
-  kept_.clear();
-  results_.clear();
-  touches_.clear();
+  place_.resize(position.size());
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    place_[i] = cells_.inBox(i, position[i]);
+    place_[i].w += allowance_[i] + 0.5 * range_;
+  }
+  chosen_.resize(far_.size() + 1);
+  const std::size_t count = kernels_.choose(
+      {moving_, farBegin_.data(), far_.data(), place_.data(), image_.data()}, chosen_.data());
+  sortChosen(count);
+  i_.resize(count);
+  j_.resize(count);
+  shift_.resize(count);
+  touches_.resize(count);
+  if (kept_.size() < count) {
+    kept_.resize(count);
+    results_.resize(count);
+  }
   // Both are in one order, so that one walk through both finds every pair that touches.
   auto next = carried_.begin();
-  const auto numbers = [](const auto& pair) { return std::pair(pair.i, pair.j); };
-  for (const Far& pair : far_) {
-    const Quad &a = position[static_cast<std::size_t>(pair.i)],
-               &b = position[static_cast<std::size_t>(pair.j)];
-    const double within = a.w + b.w + range_ + allowance_[static_cast<std::size_t>(pair.i)] +
-                          allowance_[static_cast<std::size_t>(pair.j)];
-    if (!(square(vectorOf(a) - vectorOf(b) - vectorOf(pair.shift)) < within * within)) continue;
-    while (next != carried_.end() && numbers(*next) < numbers(pair)) ++next;
-    const bool touched = next != carried_.end() && numbers(*next) == numbers(pair);
-    i_.push_back(pair.i);
-    j_.push_back(pair.j);
-    shift_.push_back(pair.shift);
-    kept_.push_back(touched ? next->memory : SpaceMemory<double>{});
-    results_.push_back(touched ? next->result : SpaceResult{});
-    touches_.push_back(touched);
+  for (std::size_t p = 0; p < count; ++p) {
+    const SpaceNeighbour& pair = far_[static_cast<std::size_t>(chosen_[p].pair)];
+    i_[p] = chosen_[p].i;
+    j_[p] = pair.j;
+    const Quad &a = cells_.winding(static_cast<std::size_t>(i_[p])),
+               &b = cells_.winding(static_cast<std::size_t>(j_[p])), image = boxesOf(pair.image);
+    shift_[p] = cells_.boxes({a.x - b.x + image.x, a.y - b.y + image.y, a.z - b.z + image.z, 0.0});
+    const struct { std::int32_t i, j; } here{i_[p], j_[p]};
+    while (next != carried_.end() && earlier(*next, here)) ++next;
+    touches_[p] = next != carried_.end() && !earlier(here, *next);
+    if (touches_[p] == 0) continue;
+    kept_[p] = next->memory;
+    results_[p] = next->result;
   }
+}
+
+/// Into ascending j: those of one i are together, and few.
+void SpaceLists::sortChosen(std::size_t count) {
+  const auto partner = [&](std::size_t at) {
+    return far_[static_cast<std::size_t>(chosen_[at].pair)].j;
+  };
+  for (std::size_t p = 1; p < count; ++p)
+    for (std::size_t at = p;
+         at > 0 && chosen_[at - 1].i == chosen_[at].i && partner(at) < partner(at - 1); --at)
+      std::swap(chosen_[at], chosen_[at - 1]);
 }
 
 SpacePairs SpaceLists::near() {

@@ -1,23 +1,13 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "engines/grain/skin.hpp"
-#include "engines/grain/space_views.hpp"
+#include "engines/grain/space_cells.hpp"
 
 namespace grain {
-
-/// A cell that is repeated along its periodic directions.
-struct SpaceBox {
-  Vec3<double> low, length;  ///< [m]
-  std::array<bool, 3> periodic{};
-
-  /// Where the image of j is, from j, that is nearest to i; `apart` is x_i − x_j.
-  Vec3<double> shift(const Vec3<double>& apart) const;
-};
 
 /// Verlet lists of two levels, as PairLists of the plane: near pairs for as long as every sphere
 /// stays within its allowance, chosen from far ones, which a cell grid collects when the skin is
@@ -26,7 +16,8 @@ class SpaceLists {
  public:
   /// @param moving   spheres 0 … moving−1 move; those after belong to walls and never meet
   /// @param range    how far apart bodies may be in contact [m]
-  SpaceLists(std::size_t moving, const SpaceBox& box, Skin skin, double range);
+  SpaceLists(std::size_t moving, const SpaceBox& box, Skin skin, double range,
+             const SpaceKernels& kernels);
 
   /// Chooses the near pairs anew, and collects the far ones where the skin does not last.
   /// @param position  w: radius  @param travel  of each in a step [m]
@@ -46,45 +37,46 @@ class SpaceLists {
   void restore(std::vector<Kept> touching, std::span<const Quad> position,
                std::span<const double> travel);
 
+  /// The same for spheres that have other numbers now. @param newNumber  old → new
+  void renumber(std::span<const std::int32_t> newNumber, std::span<const Quad> position,
+                std::span<const double> travel);
+
   /// How far each sphere may be from where it was at the last update [m].
   std::span<const double> allowances() const { return allowance_; }
   SpacePairs near();
   std::size_t rebuilds() const { return skin_.rebuilds(); }
-  void pairsTook(double seconds) { skin_.pairsTook(seconds, i_.size()); }
+  /// A pair that touches costs as much as some thirty that are only looked at.
+  void pairsTook(double seconds, std::size_t touching) {
+    skin_.pairsTook(seconds, i_.size() + 30 * touching);
+  }
 
  private:
-  struct Far {
-    std::int32_t i, j;
-    Quad shift;
-  };
-  struct Cells {
-    std::array<std::int32_t, 3> count{1, 1, 1};
-    Vec3<double> low, size;
-    std::vector<std::int32_t> begin, sorted;
-  };
-
   void requireFinite(std::span<const Quad> position) const;
   void rebuild(std::span<const Quad> position);
   double skinUsed(std::span<const Quad> position) const;
   void collect(std::span<const Quad> position);
-  void sortIntoCells(std::span<const Quad> position, double reach);
   void choose(std::span<const Quad> position);
+  void sortChosen(std::size_t count);
+  PairCounts counts() const { return {carried_.size(), i_.size(), far_.size()}; }
 
   std::size_t moving_;
-  SpaceBox box_;
   Skin skin_;
   double range_;
-  Cells cells_;
-  std::vector<std::array<std::int32_t, 3>> cellOf_;
-  std::vector<Far> far_;
+  SpaceKernels kernels_;
+  SpaceCells cells_;
+  // The far pairs, and what choosing from them needs. The images are those of the 27 numbers.
+  std::vector<SpaceNeighbour> far_, row_;
+  std::vector<std::int32_t> farBegin_;
+  Array<Quad> place_, image_;
+  std::vector<SpaceChoice> chosen_;
   std::vector<std::int32_t> i_, j_;  ///< of the near ones, as what follows
   Array<Quad> shift_;
-  std::vector<SpaceMemory<double>> kept_;
+  std::vector<SpaceMemory<double>> kept_;  ///< with room to spare, as results
   std::vector<SpaceResult> results_;
   std::vector<std::uint8_t> touches_;
   std::vector<Kept> carried_;
   std::vector<double> allowance_;
-  std::vector<Quad> built_;  ///< places at the last rebuild
+  Array<Quad> built_;  ///< places at the last rebuild
 };
 
 }  // namespace grain

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -62,18 +63,25 @@ void Spheres::beginUnderWay(const std::vector<SpaceContact>& forces) {
     kick(-by);
   };
   const auto evaluate = [&] {
-    const auto remember = [&](const Numbers& pair, SpaceMemory<double>& kept) {
-      const Vector normal = kept.normal;
-      const auto found = springs.find(pair);
+    const auto remember = [&](std::int32_t i, std::size_t j, SpaceMemory<double>& kept,
+                              std::uint8_t& touches) {
+      const std::int32_t a = idOf(i), b = idOf(static_cast<std::int32_t>(j));
+      const auto found = springs.find({std::min(a, b), std::max(a, b)});
+      const Vector normal = touches != 0 ? kept.normal : Vector{};
       kept = found == springs.end() ? SpaceMemory<double>{} : found->second;
       kept.normal = normal;
+      if (found != springs.end()) touches = 1;  // what it has is kept
+      if (a < b) return;
+      kept.spring = -1.0 * kept.spring;
+      kept.angle = -1.0 * kept.angle;
     };
     const SpacePairs pairs = lists_.near();
-    for (std::size_t p = 0; p < pairs.count; ++p) remember({pairs.i[p], pairs.j[p]}, pairs.kept[p]);
+    for (std::size_t p = 0; p < pairs.count; ++p)
+      remember(pairs.i[p], static_cast<std::size_t>(pairs.j[p]), pairs.kept[p], pairs.touches[p]);
     for (std::size_t p = 0; p < planes_.size(); ++p)
       for (std::size_t i = 0; i < size(); ++i)
-        remember({static_cast<std::int32_t>(i), static_cast<std::int32_t>(position_.size() + p)},
-                 planes_[p].kept[i]);
+        remember(static_cast<std::int32_t>(i), position_.size() + p, planes_[p].kept[i],
+                 planes_[p].touches[i]);
     beginForces();
     if (!seenVelocity_.empty()) {
       seenVelocity_ = velocity_;
@@ -121,7 +129,8 @@ void Spheres::beginUnderWay(const std::vector<SpaceContact>& forces) {
 }
 
 Meeting<double> Spheres::meetingOf(const SpaceContact& contact) {
-  const auto i = static_cast<std::size_t>(contact.i), j = static_cast<std::size_t>(contact.j);
+  const std::size_t i = indexOf(static_cast<std::size_t>(contact.i)),
+                    j = indexOf(static_cast<std::size_t>(contact.j));
   if (j < position_.size())
     return grain::meetingOf(law_, view(), i, j, contact.normal, contact.overlap);
   return meetingOn(planes_[j - position_.size()], i, position_[i].w - contact.overlap);
@@ -132,7 +141,7 @@ void Spheres::addLacking(const SpaceContact& contact, const Vector& force, const
   const Meeting<double> meeting = meetingOf(contact);
   const Vector couple = cross(contact.normal, force);
   const auto apply = [&](std::int32_t number, double sign, double lever) {
-    const auto n = static_cast<std::size_t>(number);
+    const std::size_t n = indexOf(static_cast<std::size_t>(number));
     if (n >= size()) return;
     add(force_[n], force, sign);
     if (!law_.rotation) return;

@@ -19,6 +19,8 @@ struct Lanes {
   Four v;
 
   GRAIN_INLINE explicit Lanes(const Quad& quad) { __builtin_memcpy(&v, &quad, sizeof v); }
+  /// In registers: by way of memory three numbers would have to be there before one load of all.
+  GRAIN_INLINE explicit Lanes(const Vec3<double>& a) : v{a.x, a.y, a.z, 0.0} {}
   GRAIN_INLINE void store(Quad& quad) const { __builtin_memcpy(&quad, &v, sizeof v); }
   GRAIN_INLINE void operator+=(const Lanes& b) { v += b.v; }
   GRAIN_INLINE void operator-=(const Lanes& b) { v -= b.v; }
@@ -31,11 +33,25 @@ GRAIN_INLINE Quad quadOf(const Vec3<double>& v, double w = 0.0) {
   return {v.x, v.y, v.z, w};
 }
 GRAIN_INLINE void add(Quad& quad, const Vec3<double>& v, double factor) {
-  Lanes sum(quad), part(quadOf(v));
+  Lanes sum(quad), part(v);
   part.v *= factor;
   sum += part;
   sum.store(quad);
 }
+
+/// The moving spheres that contacts push: forces on all others are 0, so that they fly straight on.
+struct ActiveSpheres {
+  std::int32_t* list;  ///< in any order, with room for one more than there are
+  std::size_t count;
+  std::uint8_t* mark;  ///< pushed in this step: 2; in the one before: 1; neither, not listed: 0
+
+  /// @pre a sphere of a wall has a mark > 0, so that it is never listed
+  GRAIN_INLINE void push(std::size_t i) {
+    list[count] = static_cast<std::int32_t>(i);
+    count += mark[i] == 0;
+    mark[i] = 2;
+  }
+};
 
 /// What contacts read of the spheres (moving, then those of walls) and add to.
 struct SpaceView {
@@ -43,6 +59,7 @@ struct SpaceView {
   const Quad *velocity, *spin;                 ///< what dashpots see; spin: null without rotation
   const double *inverseMass, *inverseInertia;  ///< 0 of walls
   Quad *force, *torque;
+  ActiveSpheres active;
 };
 
 /// Two spheres. @param normal  from j, or its image, to i
@@ -81,15 +98,15 @@ struct SpaceResult {
 struct SpacePairs {
   std::size_t count;
   const std::int32_t *i, *j;
-  const Quad* shift;  ///< where the image of j is that i is near to, from j
-  SpaceMemory<double>* kept;
+  const Quad* shift;          ///< where the image of j is that i is near to, from j
+  SpaceMemory<double>* kept;  ///< of those that touch, as results; of others anything
   SpaceResult* results;
   std::uint8_t* touches;  ///< whether it did in the last step
 };
 
 struct SpaceReport {
-  std::size_t touching = 0;
-  bool deep = false;  ///< some overlap is beyond what is allowed, or no number
+  std::size_t touching = 0, active = 0;  ///< pairs; spheres listed by now
+  bool deep = false;                     ///< some overlap is beyond what is allowed, or no number
 };
 
 /// @param range       how far apart bodies may be in contact [m]
@@ -105,7 +122,9 @@ struct SpaceMotionView {
   Quad *force, *torque;
   const double *inverseMass, *inverseInertia, *mass;
   const Quad* chosen;       ///< where the near pairs were chosen
-  const double* allowance;  ///< the square of how far a sphere may be from there [m²]
+  const double* allowance;  ///< how far a sphere may be from there [m]
+  ActiveSpheres active;
+  bool everyone;  ///< is active, whatever touches: something else pushes
 };
 
 struct SpaceMotionConstants {
@@ -116,15 +135,53 @@ struct SpaceMotionConstants {
 
 /// What a motion kernel saw on its way.
 struct SpaceMotionReport {
-  double excess = -1.0;  ///< > 0 if some sphere is beyond its allowance [m²]
-  double squares = 0.0;  ///< not finite if some velocity or place is not
+  double excess = -1.0;    ///< > 0 if some sphere is beyond its allowance [m²]
+  double squares = 0.0;    ///< not finite if some velocity or place is not
+  double freeSteps = 1e9;  ///< for so many those that fly straight from here on have allowance left
+  std::size_t active = 0;  ///< spheres listed by now
 };
 
 using SpaceMotionKernel = SpaceMotionReport (*)(const SpaceMotionConstants&, const SpaceMotionView&,
                                                 std::size_t count);
 
+/// Spheres sorted by cells, inside the box.
+struct SpaceCellsView {
+  const Quad* place;  ///< w: the radius
+  const std::int32_t* sorted;
+  Quad length, half;  ///< of the box; 0 and infinite where it is not periodic
+};
+
+/// A neighbour, and by which image of it: (x + 1) + 3 (y + 1) + 9 (z + 1) of −1, 0 or 1 box each.
+struct SpaceNeighbour {
+  std::int32_t j, image;
+};
+
+/// Lists those of the sorted begin … end−1 that have numbers beyond i and the nearest image within
+/// a_i + a_j + reach. @param found  with room for one more
+using SpaceNeighbourKernel = std::size_t (*)(const SpaceCellsView&, const Quad& mine,
+                                             std::int32_t i, std::size_t begin, std::size_t end,
+                                             double reach, SpaceNeighbour* found);
+
+/// Far pairs; those of sphere i are begin[i] … begin[i + 1]−1.
+struct SpaceFarPairs {
+  std::size_t spheres;
+  const std::int32_t* begin;
+  const SpaceNeighbour* pairs;
+  const Quad* place;  ///< in the box, but for what they moved since; w: how far they reach
+  const Quad* image;  ///< of the 27
+};
+
+struct SpaceChoice {
+  std::int32_t i, pair;
+};
+
+/// Lists the far pairs that reach each other. @param found  with room for one more
+using SpaceChoiceKernel = std::size_t (*)(const SpaceFarPairs&, SpaceChoice* found);
+
 struct SpaceKernels {
-  SpacePairKernel pairs;
+  SpacePairKernel pairs, everydayPairs;  ///< of any law; of EverydayLaw
   SpaceMotionKernel motion;
+  SpaceNeighbourKernel neighbours;
+  SpaceChoiceKernel choose;
 };
 }  // namespace grain

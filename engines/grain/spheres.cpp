@@ -9,6 +9,7 @@
 #include "engines/grain/fingerprint.hpp"
 #include "engines/grain/kernels.hpp"
 #include "engines/grain/pair_lists.hpp"
+#include "engines/grain/reorder.hpp"
 
 namespace grain {
 namespace {
@@ -17,6 +18,18 @@ using Vector = Vec3<double>;
 
 void demand(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(what);
+}
+
+/// Whether it has the kernel of EverydayLaw.
+bool isEveryday(const GeneralLaw<double>& law) {
+  return law.normal == Normal::linear && law.damper == Damper::constant && law.normalDamping &&
+         law.tangential == Tangential::springDashpot && law.rotation &&
+         law.rolling == Rolling::none && law.cohesion == Cohesion::none;
+}
+
+bool pushesMoreThanPairs(const SpheresSetup& setup) {
+  return !isZero(setup.gravity) ||
+         std::ranges::any_of(setup.walls, [](const SpaceWall& w) { return !w.planes.empty(); });
 }
 
 /// v turned by an angle about its axis (Rodrigues' formula).
@@ -41,15 +54,18 @@ Spheres::Spheres(SpheresSetup setup)
       law_(generalLaw<double>(setup_.law, setup_.dt, setup_.rotation)),
       kernels_(kernels<double>().space),
       range_(rangeOf(law_, setup_.radius)),
+      everyone_(pushesMoreThanPairs(setup_)),
       lists_(
           setup_.mass.size(), setup_.box.value_or(SpaceBox{}),
           Skin(setup_.skin, setup_.radius.empty() ? 1.0 : *std::ranges::min_element(setup_.radius)),
-          range_) {
+          range_, kernels_) {
   demand(setup_.dt > 0.0, "the time step must be > 0 s");
   demand(setup_.law.normal != Normal::impulse, "spheres have no impulses");
+  if (isEveryday(law_)) kernels_.pairs = kernels_.everydayPairs;
   placeSpheres();
   moveWalls();
   updateNeighbours();
+  renumber();
   // At t = 0 the velocities are given: nothing is predicted, and no damping is implicit.
   const double halfStep = std::exchange(law_.halfStep, 0.0);
   addForces();
@@ -67,15 +83,19 @@ void Spheres::placeSpheres() {
     position_.push_back(quadOf(setup_.position[i], setup_.radius[i]));
     velocity_.push_back(quadOf(setup_.velocity[i]));
     spin_.push_back(quadOf(setup_.spin[i]));
-    inverseMass_.push_back(1.0 / setup_.mass[i]);
-    inverseInertia_.push_back(1.0 / setup_.inertia[i]);
+    idAtIndex_.push_back(static_cast<std::int32_t>(i));
   }
   for (std::size_t w = 0; w < setup_.walls.size(); ++w) {
     const SpaceWall& wall = setup_.walls[w];
     wallBegin_.push_back(position_.size());
-    wallCentre_.push_back(wall.motion(0.0).centre);
-    for (std::size_t k = 0; k < wall.radius.size(); ++k)
+    wallNow_.push_back(wall.motion(0.0));
+    wallCentre_.push_back(wallNow_[w].centre);
+    double arm = 0.0;
+    for (std::size_t k = 0; k < wall.radius.size(); ++k) {
       position_.push_back(quadOf(wall.position[k], wall.radius[k]));
+      arm = std::max(arm, length(wall.position[k] - wallCentre_[w]));
+    }
+    wallArm_.push_back(arm);
     for (std::size_t member = 0; member < wall.planes.size(); ++member) {
       PlacedPlane& plane = planes_.emplace_back(PlacedPlane{w, member, {}, {}, {}, {}, {}, {}});
       plane.kept.resize(size());
@@ -84,30 +104,68 @@ void Spheres::placeSpheres() {
     }
   }
   wallBegin_.push_back(position_.size());
+  wallPath_.resize(setup_.walls.size());
   for (auto* array : {&velocity_, &spin_, &force_, &torque_}) array->resize(position_.size());
   inverseMass_.resize(position_.size());
   inverseInertia_.resize(position_.size());
+  mass_.resize(size());
+  indexOfId_.resize(size());
+  activeList_.resize(size() + 1);
+  mark_.assign(position_.size(), 2);
   if (predicts) {
     seenVelocity_ = velocity_;
     seenSpin_ = spin_;
   }
+  followNumbers();
   beginForces();
+}
+
+/// What follows from which sphere is where.
+void Spheres::followNumbers() {
+  active_ = {activeList_.data(), 0, mark_.data()};
+  for (std::size_t i = 0; i < size(); ++i) {
+    const auto id = static_cast<std::size_t>(idAtIndex_[i]);
+    indexOfId_[id] = static_cast<std::int32_t>(i);
+    mass_[i] = setup_.mass[id];
+    inverseMass_[i] = 1.0 / setup_.mass[id];
+    inverseInertia_[i] = 1.0 / setup_.inertia[id];
+    if (mark_[i] != 0) activeList_[active_.count++] = static_cast<std::int32_t>(i);
+  }
+}
+
+/// Gives spheres numbers anew by their place, so that neighbours are near in memory.
+void Spheres::renumber() {
+  SpaceCells cells(setup_.box.value_or(SpaceBox{}));
+  const double largest = setup_.radius.empty() ? 1.0 : *std::ranges::max_element(setup_.radius);
+  cells.sort(std::span(position_).first(size()), 2.0 * largest);
+  const std::span<const std::int32_t> order = cells.sorted();
+  std::vector<std::byte> scratch;
+  forState([&](auto& array) { reorder(array, order, scratch); });
+  for (auto* array : {&seenVelocity_, &seenSpin_})
+    if (!array->empty()) reorder(*array, order, scratch);
+  followNumbers();
+  std::vector<std::int32_t> newNumber(size());
+  for (std::size_t i = 0; i < size(); ++i)
+    newNumber[static_cast<std::size_t>(order[i])] = static_cast<std::int32_t>(i);
+  list([&] { lists_.renumber(newNumber, position_, travel_); });
 }
 
 /// With gravity; the motion kernel does so in every step.
 void Spheres::beginForces() {
   for (std::size_t i = 0; i < position_.size(); ++i) {
-    force_[i] = i < size() ? quadOf(setup_.mass[i] * setup_.gravity) : Quad{};
+    force_[i] = i < size() ? quadOf(mass_[i] * setup_.gravity) : Quad{};
     torque_[i] = {};
   }
   for (PlacedPlane& plane : planes_) plane.force = plane.torque = {};
 }
 
-Vector Spheres::velocity(std::size_t i) const {
+Vector Spheres::velocity(std::size_t id) const {
+  const std::size_t i = indexOf(id);
   return vectorOf(velocity_[i]) + (halfKick_ * inverseMass_[i]) * vectorOf(force_[i]);
 }
 
-Vector Spheres::spin(std::size_t i) const {
+Vector Spheres::spin(std::size_t id) const {
+  const std::size_t i = indexOf(id);
   if (!law_.rotation) return vectorOf(spin_[i]);
   return vectorOf(spin_[i]) + (halfKick_ * inverseInertia_[i]) * vectorOf(torque_[i]);
 }
@@ -117,7 +175,8 @@ void Spheres::advance(std::uint64_t steps) {
 }
 
 void Spheres::kick(double dt) {
-  for (std::size_t i = 0; i < size(); ++i) {
+  for (std::size_t k = 0; k < active_.count; ++k) {
+    const auto i = static_cast<std::size_t>(active_.list[k]);
     add(velocity_[i], vectorOf(force_[i]), dt * inverseMass_[i]);
     if (law_.rotation) add(spin_[i], vectorOf(torque_[i]), dt * inverseInertia_[i]);
   }
@@ -133,9 +192,11 @@ SpaceMotionView Spheres::motionView() {
           torque_.data(),
           inverseMass_.data(),
           inverseInertia_.data(),
-          setup_.mass.data(),
+          mass_.data(),
           chosen_.data(),
-          allowanceSquare_.data()};
+          allowance_.data(),
+          active_,
+          everyone_};
 }
 
 void Spheres::step() {
@@ -143,10 +204,14 @@ void Spheres::step() {
   const bool verlet = setup_.integrator == Integrator::velocityVerlet;
   const SpaceMotionReport moved =
       kernels_.motion({verlet ? 0.5 * dt : dt, dt, 0.5 * dt, setup_.gravity}, motionView(), size());
-  outdated_ = !(moved.excess <= 0.0) || !std::isfinite(moved.squares);
+  active_.count = moved.active;
   ++steps_;
+  const auto now = static_cast<double>(steps_);
+  freeUntil_ = std::min(freeUntil_, now + std::floor(moved.freeSteps));
+  outdated_ = !(moved.excess <= 0.0) || !std::isfinite(moved.squares) || now > freeUntil_;
   moveWalls();
   if (outdated_) updateNeighbours();
+  if (steps_ % renumberingInterval == 0) renumber();
   addForces();
   if (verlet) kick(0.5 * dt);
 }
@@ -156,45 +221,73 @@ void Spheres::moveWalls() {
   for (std::size_t w = 0; w < setup_.walls.size(); ++w) {
     const SpaceWall& wall = setup_.walls[w];
     const SpaceWall::State now = wall.motion(time());
-    const Vector centre = wallCentre_[w];
-    const bool turns = !isZero(now.angle);
-    const auto place = [&](const Vector& point) {
-      return now.centre + (turns ? turnedBy(now.angle, point - centre) : point - centre);
-    };
+    wallPath_[w] += length(now.centre - wallNow_[w].centre) +
+                    wallArm_[w] * length(now.angle - wallNow_[w].angle);
+    wallNow_[w] = now;
+    if (wallBegin_[w] < std::min(wallBegin_[w + 1], allowance_.size()) &&
+        !(wallPath_[w] <= allowance_[wallBegin_[w]]))
+      outdated_ = true;
     for (; plane != planes_.end() && plane->wall == w; ++plane) {
       const SpaceWall::Plane& member = wall.planes[plane->member];
       plane->now = now;
-      plane->point = place(member.point);
+      plane->point = wallPlace(w, member.point);
       plane->normal = turnedBy(now.angle, member.normal);
       plane->force = plane->torque = {};
     }
-    for (std::size_t k = 0; k < wall.radius.size(); ++k) {
-      const std::size_t i = wallBegin_[w] + k;
-      const Vector at = place(wall.position[k]);
-      position_[i] = quadOf(at, wall.radius[k]);
-      if (!isZero(now.spin) || vectorOf(velocity_[i]) != now.velocity ||
-          !isZero(vectorOf(spin_[i]))) {
-        velocity_[i] = quadOf(now.velocity + cross(now.spin, at - now.centre));
-        spin_[i] = quadOf(now.spin);
-      }
-      force_[i] = torque_[i] = {};
-      if (!seenVelocity_.empty()) {
-        seenVelocity_[i] = velocity_[i];
-        seenSpin_[i] = spin_[i];
-      }
-      if (i >= chosen_.size()) continue;
-      const Vector moved = at - vectorOf(chosen_[i]);
-      if (!(dot(moved, moved) <= allowanceSquare_[i])) outdated_ = true;
-    }
+  }
+  std::size_t w = 0;
+  for (const std::int32_t index : reached_) {
+    const auto i = static_cast<std::size_t>(index);
+    while (i >= wallBegin_[w + 1]) ++w;
+    placeWallSphere(w, i);
+    force_[i] = torque_[i] = {};
   }
 }
 
+/// Where a point of a wall at t = 0 is by now.
+Vector Spheres::wallPlace(std::size_t w, const Vector& point) const {
+  const SpaceWall::State& now = wallNow_[w];
+  const Vector arm = point - wallCentre_[w];
+  return now.centre + (isZero(now.angle) ? arm : turnedBy(now.angle, arm));
+}
+
+void Spheres::placeWallSphere(std::size_t w, std::size_t i) {
+  const SpaceWall& wall = setup_.walls[w];
+  const SpaceWall::State& now = wallNow_[w];
+  const std::size_t k = i - wallBegin_[w];
+  const Vector at = wallPlace(w, wall.position[k]);
+  position_[i] = quadOf(at, wall.radius[k]);
+  if (isZero(now.spin) && vectorOf(velocity_[i]) == now.velocity && isZero(vectorOf(spin_[i])))
+    return;
+  velocity_[i] = quadOf(now.velocity + cross(now.spin, at - now.centre));
+  spin_[i] = quadOf(now.spin);
+  if (seenVelocity_.empty()) return;
+  seenVelocity_[i] = velocity_[i];
+  seenSpin_[i] = spin_[i];
+}
+
+Vector Spheres::wallPosition(std::size_t k) const {
+  const std::size_t i = size() + k;
+  const auto w =
+      static_cast<std::size_t>(std::ranges::upper_bound(wallBegin_, i) - wallBegin_.begin() - 1);
+  return wallPlace(w, setup_.walls[w].position[i - wallBegin_[w]]);
+}
+
 void Spheres::updateNeighbours() {
+  list([&] { lists_.update(position_, travel_, steps_ - chosenAt_); });
+}
+
+/// Lists pairs: all spheres of walls are where they belong, and afterwards those in no pair are
+/// left behind.
+void Spheres::list(const std::function<void()>& pairs) {
+  for (std::size_t w = 0; w < setup_.walls.size(); ++w)
+    for (std::size_t i = wallBegin_[w]; i < wallBegin_[w + 1]; ++i) placeWallSphere(w, i);
   findTravel();
   try {
-    lists_.update(position_, travel_, steps_ - chosenAt_);
+    pairs();
   } catch (const NotFinite& lost) {
-    throw std::runtime_error("the position of sphere " + std::to_string(lost.disk) +
+    throw std::runtime_error("the position of sphere " +
+                             std::to_string(idOf(static_cast<std::int32_t>(lost.disk))) +
                              " is not finite at t = " + std::to_string(time()) + " s");
   }
   rememberChoice();
@@ -202,24 +295,36 @@ void Spheres::updateNeighbours() {
 
 void Spheres::findTravel() {
   travel_.resize(position_.size());
-  for (std::size_t i = 0; i < position_.size(); ++i)
-    travel_[i] = setup_.dt * length(vectorOf(velocity_[i]));
+  for (std::size_t i = 0; i < size(); ++i) travel_[i] = setup_.dt * length(vectorOf(velocity_[i]));
+  for (std::size_t w = 0; w < setup_.walls.size(); ++w)
+    std::fill(travel_.begin() + static_cast<std::ptrdiff_t>(wallBegin_[w]),
+              travel_.begin() + static_cast<std::ptrdiff_t>(wallBegin_[w + 1]),
+              setup_.dt * (length(wallNow_[w].velocity) + wallArm_[w] * length(wallNow_[w].spin)));
 }
 
 void Spheres::rememberChoice() {
   chosen_ = position_;
-  allowanceSquare_.resize(position_.size());
-  for (std::size_t i = 0; i < position_.size(); ++i) {
-    const double sure = 0.999 * lists_.allowances()[i];
-    allowanceSquare_[i] = sure * sure;
+  allowance_.assign(lists_.allowances().begin(), lists_.allowances().end());
+  double steps = 1e9;
+  for (std::size_t i = 0; i < allowance_.size(); ++i) {
+    allowance_[i] *= 0.999;  // of sums of steps
+    if (mark_[i] == 0 && allowance_[i] < steps * travel_[i]) steps = allowance_[i] / travel_[i];
   }
+  freeUntil_ = static_cast<double>(steps_) + std::floor(steps);
+  wallPath_.assign(setup_.walls.size(), 0.0);
+  reached_.clear();
+  const SpacePairs pairs = lists_.near();
+  for (std::size_t p = 0; p < pairs.count; ++p)
+    if (static_cast<std::size_t>(pairs.j[p]) >= size()) reached_.push_back(pairs.j[p]);
+  std::ranges::sort(reached_);
+  reached_.erase(std::unique(reached_.begin(), reached_.end()), reached_.end());
   chosenAt_ = steps_;
   outdated_ = sampled_ = false;
 }
 
 SpaceView Spheres::view() {
   return {position_.data(),       seenVelocities().data(), seenSpins().data(), inverseMass_.data(),
-          inverseInertia_.data(), force_.data(),           torque_.data()};
+          inverseInertia_.data(), force_.data(),           torque_.data(),     active_};
 }
 
 void Spheres::addForces() {
@@ -229,7 +334,9 @@ void Spheres::addForces() {
       kernels_.pairs(law_, setup_.conventions, view(), lists_.near(), range_, most);
   if (!std::exchange(sampled_, true))  // one step in some measures for the lists what a pair costs
     lists_.pairsTook(
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+        report.touching);
+  active_.count = report.active;
   if (report.deep) reportDeep();
   evaluations_ += report.touching;
   for (PlacedPlane& plane : planes_) addPlane(plane);
@@ -286,8 +393,8 @@ Meeting<double> Spheres::meetingOn(const PlacedPlane& plane, std::size_t i, doub
 void Spheres::reportDeep() {
   for (const SpaceContact& contact : contacts()) {
     const auto i = static_cast<std::size_t>(contact.i), j = static_cast<std::size_t>(contact.j);
-    double smallest = position_[i].w;
-    if (j < position_.size()) smallest = std::min(smallest, position_[j].w);
+    double smallest = setup_.radius[i];
+    if (j < position_.size()) smallest = std::min(smallest, position_[indexOf(j)].w);
     if (contact.overlap <= setup_.maxOverlap * smallest) continue;
     const std::string partner = j < size() ? "sphere " + std::to_string(j)
                                 : j < position_.size()
@@ -304,8 +411,14 @@ std::vector<SpaceContact> Spheres::contacts() {
   std::vector<SpaceContact> found;
   const auto add = [&](std::int32_t i, std::size_t j, const Vector& normal,
                        const SpaceResult& result) {
-    found.push_back({i, static_cast<std::int32_t>(j), normal, result.overlap, result.normal,
-                     result.tangential, result.rolling, result.sliding > 0.0});
+    std::int32_t a = idOf(i), b = idOf(static_cast<std::int32_t>(j));
+    double sign = 1.0;
+    if (b < a) {
+      std::swap(a, b);
+      sign = -1.0;
+    }
+    found.push_back({a, b, sign * normal, result.overlap, result.normal, sign * result.tangential,
+                     sign * result.rolling, result.sliding > 0.0});
   };
   const SpacePairs pairs = lists_.near();
   for (std::size_t p = 0; p < pairs.count; ++p)

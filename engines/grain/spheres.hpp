@@ -59,9 +59,10 @@ struct SpaceContact {
 ///   kick: v += a dt   drift: x += v dt   move walls   forces: a(x, v)
 ///
 /// The same setup gives the same bits in every run, with any skin and instruction set: forces are
-/// summed in the order of pairs, and a pair that does not touch adds nothing. A sphere that leaves
-/// a periodic box goes on; contacts are with the nearest images, so that nothing of it changes when
-/// it crosses a border.
+/// summed in the order of pairs, and a pair that does not touch adds nothing. Spheres are numbered
+/// anew by place at fixed steps; what goes in and out has the setup's numbers, their ids. A sphere
+/// that leaves a periodic box goes on; contacts are with the nearest images, so that nothing of it
+/// changes when it crosses a border.
 class Spheres {
  public:
   /// @throws std::invalid_argument for a step that is not > 0, and for a law or box that it does
@@ -78,9 +79,10 @@ class Spheres {
   std::size_t size() const { return setup_.mass.size(); }
   bool rotates() const { return law_.rotation; }
 
-  Vec3<double> position(std::size_t i) const { return vectorOf(position_[i]); }
-  Vec3<double> velocity(std::size_t i) const;  ///< at time()
-  Vec3<double> spin(std::size_t i) const;      ///< at time()
+  // By the setup's numbers.
+  Vec3<double> position(std::size_t id) const { return vectorOf(position_[indexOf(id)]); }
+  Vec3<double> velocity(std::size_t id) const;  ///< at time()
+  Vec3<double> spin(std::size_t id) const;      ///< at time()
 
   /// Of the last force evaluation, by ascending i, j.
   std::vector<SpaceContact> contacts();
@@ -98,7 +100,7 @@ class Spheres {
 
   SpaceWall::State wallState(std::size_t w) const { return setup_.walls[w].motion(time()); }
   std::size_t wallSpheres() const { return position_.size() - size(); }
-  Vec3<double> wallPosition(std::size_t k) const { return vectorOf(position_[size() + k]); }
+  Vec3<double> wallPosition(std::size_t k) const;
   /// On a wall: the force [N], and its torque about the wall's centre [N m].
   std::pair<Vec3<double>, Vec3<double>> wallLoad(std::size_t w) const;
 
@@ -114,7 +116,24 @@ class Spheres {
     Vec3<double> force{}, torque{};  ///< on it, about the wall's centre
   };
 
-  void forState(auto&& visit);
+  std::size_t indexOf(std::size_t id) const {
+    return id < size() ? static_cast<std::size_t>(indexOfId_[id]) : id;
+  }
+  std::int32_t idOf(std::int32_t index) const {
+    const auto i = static_cast<std::size_t>(index);
+    return i < size() ? idAtIndex_[i] : index;
+  }
+  /// Arrays with an entry a sphere; walls, and what is worked out from these, are not kept.
+  void forState(auto&& visit) {
+    visit(idAtIndex_);
+    visit(mark_);
+    for (auto* array : {&position_, &velocity_, &spin_, &force_, &torque_}) visit(*array);
+    for (PlacedPlane& plane : planes_) {
+      visit(plane.kept);
+      visit(plane.results);
+      visit(plane.touches);
+    }
+  }
   /// What dashpots see: the velocities themselves unless predicted.
   const Array<Quad>& seenVelocities() const {
     return seenVelocity_.empty() ? velocity_ : seenVelocity_;
@@ -123,10 +142,15 @@ class Spheres {
   SpaceMotionView motionView();
   SpaceView view();
   void placeSpheres();
+  void renumber();
+  void followNumbers();
   void kick(double dt);
   void step();
   void moveWalls();
+  Vec3<double> wallPlace(std::size_t w, const Vec3<double>& point) const;
+  void placeWallSphere(std::size_t w, std::size_t i);
   void updateNeighbours();
+  void list(const std::function<void()>& pairs);
   void findTravel();
   void rememberChoice();
   void beginForces();
@@ -150,11 +174,22 @@ class Spheres {
   double range_;           ///< how far apart bodies may be in contact [m]
   std::uint64_t steps_ = 0, chosenAt_ = 0, evaluations_ = 0;
   bool outdated_ = true, sampled_ = false;
-  // The moving spheres, then those of walls.
+  /// Something besides pairs pushes: gravity, or a plane.
+  bool everyone_;
+  double freeUntil_ = 0.0;  ///< the last step for which spheres that nothing pushes have allowance
+  // By index, from place to place: the moving spheres, then those of walls.
+  std::vector<std::int32_t> idAtIndex_, indexOfId_;
   Array<Quad> position_, velocity_, spin_, seenVelocity_, seenSpin_, force_, torque_, chosen_;
-  std::vector<double> inverseMass_, inverseInertia_, allowanceSquare_, travel_;
+  std::vector<double> mass_, inverseMass_, inverseInertia_, allowance_, travel_;
+  ActiveSpheres active_{};
+  std::vector<std::int32_t> activeList_;
+  std::vector<std::uint8_t> mark_;
   std::vector<Vec3<double>> wallCentre_;  ///< at t = 0
   std::vector<std::size_t> wallBegin_;    ///< first sphere of each wall, and the end
+  std::vector<SpaceWall::State> wallNow_;
+  std::vector<double> wallArm_;        ///< from the centre to the farthest of its spheres [m]
+  std::vector<double> wallPath_;       ///< of that one, at most, since pairs were chosen [m]
+  std::vector<std::int32_t> reached_;  ///< spheres of walls that are in a near pair
   std::vector<PlacedPlane> planes_;
   SpaceLists lists_;
 };

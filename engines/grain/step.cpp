@@ -10,14 +10,6 @@
 #include "engines/grain/reorder.hpp"
 
 namespace grain {
-namespace {
-
-/// Steps between two renumberings of the disks. A fixed number, as it decides in which order forces
-/// are summed up.
-constexpr std::uint64_t renumberingInterval = 8192;
-
-}  // namespace
-
 ///   kick: v += a dt   drift: x += v dt   move walls   forces: a(x, v)
 template <class Real>
 void Core<Real>::step(bool record, bool tally) {
