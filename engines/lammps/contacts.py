@@ -32,7 +32,10 @@ def contacts_of_rows(rows, made, position):
     # LAMMPS' tangential force is that on the first of the two, and so is what it resists rolling with: R₁₂ times that
     # along the tangent as the first sees it.
     if made.space == 3:
-        return i, j, normal, overlap, rows[:, 2], sign[:, None] * rows[:, 3:6], np.zeros(len(i))
+        rolling = np.zeros((len(i), 3))
+        if made.law.rolls:
+            rolling = made.radii(i, j)[0][:, None] * np.cross(normal, rows[:, 6:9])
+        return i, j, normal, overlap, rows[:, 2], sign[:, None] * rows[:, 3:6], rolling
     force, x, y = rows[:, 2:5].T
     tangent = turned(normal)
     rolling = np.zeros(len(i))
@@ -60,23 +63,28 @@ def read_plane_contacts(made, bodies, position, on_planes):
                 overlap[i],
                 along,
                 (force * turned(normals)).sum(axis=1) if made.space == 2 else force - along[:, None] * normal,
-                np.full(len(i), np.nan),  # the fix does not report it
+                np.full((len(i), 3)[: made.space - 1], np.nan),  # the fix does not report it
             )
 
 
 def torques_at_planes(made, columns, torque):
     """Torques against rolling of the contacts in `columns`, those at planes from what is left of each disk's torque.
     None where a disk touches several planes: it does not say whose it is."""
-    i, j, _, overlap, _, tangential, rolling = columns
-    unknown = np.isnan(rolling)
+    i, j, normal, overlap, _, tangential, rolling = columns
+    unknown = np.isnan(rolling if made.space == 2 else rolling[:, 0])
     touched, counts = np.unique(i[unknown], return_counts=True)
     if (counts > 1).any():
         return None
     left = torque.copy()
     radius = np.concatenate([made.radius, np.zeros(made.planes)])
-    known = np.where(unknown, 0.0, rolling)
+    known = np.where(unknown, 0.0, rolling.T).T
     at_plane = j >= made.atoms
-    np.add.at(left, i, (radius[i] - np.where(at_plane, made.plane_arm, 0.5) * overlap) * tangential - known)
+    couple = tangential if made.space == 2 else np.cross(normal, tangential)  # n × f_t, in the plane about z
+
+    def moment(of, part):
+        return ((radius[of] - part * overlap) * couple.T).T
+
+    np.add.at(left, i, moment(i, np.where(at_plane, made.plane_arm, 0.5)) - known)
     pair = ~at_plane
-    np.add.at(left, j[pair], ((radius[j] - 0.5 * overlap) * tangential + known)[pair])
-    return np.where(unknown, left[i], rolling)
+    np.add.at(left, j[pair], (moment(j, 0.5) + known)[pair])
+    return np.where(unknown, left[i].T, rolling.T).T

@@ -144,7 +144,13 @@ class Engine:
         }
 
     def deviations(self):
-        return []
+        if not (self.law.rolls and any(self.made.box.periodic)):
+            return []
+        note = (
+            "where a pair in contact goes over a periodic border LAMMPS reverses the rolling spring on the side of the "
+            "second (README.md of engines/lammps)"
+        )
+        return [{"name": "rolling_spring_at_borders", "value": 0.0, "unit": "", "note": note}]
 
     def effects(self, scene):
         """Those that the scene calls for."""
@@ -267,7 +273,7 @@ class Engine:
         if "contacts.rolling_torque" not in arrays:
             return None
         partner, rolling = arrays["contacts.j"][1], arrays["contacts.rolling_torque"][1]
-        return -rolling[np.isin(partner, self.made.atoms + np.asarray(body.plane_numbers))].sum()
+        return -rolling[np.isin(partner, self.made.atoms + np.asarray(body.plane_numbers))].sum(axis=0)
 
     def body_snapshot(self, body, now, position, force, torque, on_planes, arrays):
         centre = body.state(now)[0]

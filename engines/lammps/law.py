@@ -5,6 +5,7 @@ import math
 import jkr
 import numpy as np
 from crossgrain_answers import demand_law
+from crossgrain_walls import Box
 from crossgrain_worker import Unsupported
 
 NORMALS = ("linear", "hertz")
@@ -67,8 +68,8 @@ class Laws:
     def __init__(self, law, scene, arrays, bodies):
         """@param law  makes one of the protocol's"""
         self.one = law(scene["law"])
-        if scene.get("dimension", 2) == 3 and (self.one.rolls or self.one.cohesion != "none"):
-            raise Unsupported("has no rolling_resistance and no cohesion in space")
+        if self.one.cohesion == "jkr" and (scene.get("dimension", 2) == 3 or any(Box(scene).periodic)):
+            raise Unsupported('has cohesion = "jkr" in the plane and without periodic directions alone')
         materials = scene.get("materials")
         if materials:
             self.all = [law(each) for each in materials["laws"]]
@@ -86,10 +87,12 @@ class Laws:
         """That of two materials."""
         return self.all[a * self.count + b]
 
-    def of_pairs(self, name, i, j, *columns):
-        """What the method `name` of their own law makes of the columns of each pair (i, j)."""
+    def of_pairs(self, name, i, j, *columns, of_each=()):
+        """What the method `name` of their own law makes of the columns of each pair (i, j).
+
+        @param of_each  shape of that: a number, or (3,)"""
         which = self.of_id[i] * self.count + self.of_id[j]
-        found = np.zeros(len(which))
+        found = np.zeros((len(which), *of_each))
         for k in np.unique(which):
             rows = which == k
             found[rows] = getattr(self.all[k], name)(*(column[rows] for column in columns))
@@ -191,10 +194,12 @@ class Law:
         return f"{normal} damping {damping} tangential {self.tangential()}{rolling}"
 
     def asked(self):
-        """Of `compute pair/local`: the normal force, tangential force and, of rolling, that along x and y."""
-        if self.space:
-            return "force p1 p2 p3"
-        return "force p1 p2 p5 p6" if self.rolls else "force p1 p2"
+        """Of `compute pair/local`: the normal force and, along x, y and in space z, the tangential force and that of
+        rolling."""
+        words = "force p1 p2 p3" if self.space else "force p1 p2"
+        if self.rolls:
+            words += " p5 p6 p7" if self.space else " p5 p6"
+        return words
 
     def load(self, pressing, overlap, radius):
         """What µ multiplies: f_n, or of a law that coheres f_n without its dashpot, under JKR with 2 F_po besides.

@@ -22,6 +22,7 @@ class Law:
     def __init__(self, law):
         kind = law["tangential"]
         demand_linear(law, KINDS)
+        self.space = "spring_turn" in law
         self.friction = kind != "none" and law["mu"] > 0
         self.kn, self.gn = law["kn"], law["gn"]
         self.mu = law["mu"] if self.friction else 0.0
@@ -130,12 +131,13 @@ class Law:
     def rolling_torque(self, spring, spin, pressing, overlap, radius, reach, inertia):
         """On the first of two disks.
 
-        @param spring   torque of the spring on it [N m]
-        @param spin     ω of the first less that of the second [rad/s]
+        @param spring   torque of the spring on it, in the plane about z [N m]
+        @param spin     ω of the first less that of the second, as far as it rolls [rad/s]
         @param inertia  of 1/I = Σ 1/(J + m a²) [kg m²]"""
         bound = self.mu_r * radius * np.abs(self.load(pressing, overlap, radius, reach))
-        dashpot = -2.0 * self.gr * np.sqrt(inertia * self.kr) * radius * spin
-        return np.where(np.abs(spring) < AT_THE_BOUND * bound, spring + dashpot, spring)
+        dashpot = (-2.0 * self.gr * np.sqrt(inertia * self.kr) * radius * spin.T).T
+        size = np.abs(spring) if spring.ndim == 1 else np.linalg.norm(spring, axis=1)
+        return np.where(size < AT_THE_BOUND * bound, (spring + dashpot).T, spring.T).T
 
     def asked(self):
         """Of each contact: 2 ids and a flag, 3 components of the force, and what the law has: of the torque, of the

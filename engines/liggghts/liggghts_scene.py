@@ -127,7 +127,7 @@ def pair_rows(lammps, law):
     """What the law asks for, and the spin of the first less that of the second."""
     rows = lammps.local_compute("pairs", 6 + 3 * (law.rolling_model == "cdt") + law.history())
     rows = rows[rows[:, 0] > 0]  # before the first step there are empty ones of neighbours that do not touch
-    spin = lammps.gather("omega", 3)[:, 2]
+    spin = lammps.gather("omega", 3)[:, 0 if law.space else 2 :]
     first, second = rows[:, :2].astype(int).T - 1
     return np.column_stack([rows, spin[first] - spin[second]])
 
@@ -137,18 +137,25 @@ def rolling_torques(rows, made, i, j, normal, overlap, sign, pressing):
     torque on the second, that with the dashpot."""
     law = made.law
     if not law.rolls:
-        return np.zeros(len(i))
+        return np.zeros((len(i), 3)[: made.space - 1])
     radius, reach = made.radii(i, j)
     if law.rolling_model == "cdt":
         first = rows[:, 0].astype(int) - 1
-        tangential = (rows[:, 3:5] * turned(normal)).sum(axis=1) * sign
-        return sign * rows[:, 8] + (made.radius[first] - 0.5 * overlap) * tangential * sign
+        arm = sign * (made.radius[first] - 0.5 * overlap)
+        if made.space == 3:
+            return sign[:, None] * rows[:, 6:9] + arm[:, None] * np.cross(normal, sign[:, None] * rows[:, 3:6])
+        return sign * rows[:, 8] + arm * (rows[:, 3:5] * turned(normal)).sum(axis=1) * sign
     mass = np.full(made.atoms, build.IMMOVABLE)
     mass[: made.scene["disks"]] = made.arrays["disks.mass"]
     of_i, of_j = mass[i] * made.radius[i] ** 2, mass[j] * made.radius[j] ** 2
     inertia = (1.5 if made.dimension() == 2 else 1.4) * of_i * of_j / (of_i + of_j)
-    columns = -sign * rows[:, -2], sign * rows[:, -1], pressing, overlap, radius, reach, inertia
-    return made.laws.of_pairs("rolling_torque", i, j, *columns)
+    if made.space == 3:
+        spring, spin = -sign[:, None] * rows[:, -6:-3], sign[:, None] * rows[:, -3:]
+        spin -= (spin * normal).sum(axis=1)[:, None] * normal
+    else:
+        spring, spin = -sign * rows[:, -2], sign * rows[:, -1]
+    columns = spring, spin, pressing, overlap, radius, reach, inertia
+    return made.laws.of_pairs("rolling_torque", i, j, *columns, of_each=spring.shape[1:])
 
 
 def contacts_in_space(rows, made, i, j, normal, overlap, sign):
@@ -157,13 +164,15 @@ def contacts_in_space(rows, made, i, j, normal, overlap, sign):
     pressing = (force * normal).sum(axis=1)
     tangential = force - pressing[:, None] * normal
     if made.law.friction:
-        spring = sign[:, None] * rows[:, 6:9]
+        at = 6 + 3 * (made.law.rolling_model == "cdt")
+        spring = sign[:, None] * rows[:, at : at + 3]
         stretch = np.linalg.norm(spring, axis=1)
         of_spring = made.laws.of_pairs("spring_force", i, j, stretch)
         sliding = made.laws.of_pairs("sliding", i, j, pressing, of_spring, overlap, *made.radii(i, j))
         direction = spring / np.where(stretch > 0, stretch, 1.0)[:, None]
         tangential = np.where(sliding[:, None] > 0, of_spring[:, None] * direction, tangential)
-    return i, j, normal, overlap, pressing, tangential, np.zeros(len(i))
+    rolling = rolling_torques(rows, made, i, j, normal, overlap, sign, pressing)
+    return i, j, normal, overlap, pressing, tangential, rolling
 
 
 def contacts_of_rows(rows, made, position):

@@ -67,7 +67,7 @@ def place_disks(arrays, kinds, rotation, boxes):
         O.bodies.append(disk)
 
 
-def place_spheres(arrays, kinds, rotation):
+def place_spheres(arrays, kinds, rotation, boxes):
     """In space: nothing is held but, without rotation, spins."""
     columns = (
         kinds.of_disk,
@@ -75,7 +75,8 @@ def place_spheres(arrays, kinds, rotation):
         *(arrays[f"disks.{name}"].reshape(-1, 3).tolist() for name in ("position", "velocity", "spin")),
     )
     for kind, radius, mass, inertia, position, velocity, spin in zip(*columns):
-        sphere = utils.sphere(position, radius, color=WHITE, material=kind, mask=DISK_MASK)
+        mask = DISK_MASK | kind_mask(kind) if boxes else DISK_MASK
+        sphere = utils.sphere(position, radius, color=WHITE, material=kind, mask=mask)
         state = sphere.state
         state.mass, state.inertia = mass, (inertia, inertia, inertia)
         state.vel, state.angVel = velocity, spin
@@ -125,10 +126,10 @@ def wall_of(plane, kind, law):
 def boxes_of(plane, kind, law):
     """Of each kind of disks one, whose constants depend on their radius."""
     depth = box_depth(law.kinds)
-    axis = 0 if plane["normal"][0] else 1
+    axis = next(k for k, component in enumerate(plane["normal"]) if component)
     extents = [BOX_REACH, BOX_REACH, BOX_REACH]
     extents[axis] = depth
-    centre = Vector3(*plane["point"], 0) - depth * Vector3(*plane["normal"], 0)
+    centre = Vector3(*in_space(plane["point"])) - depth * Vector3(*in_space(plane["normal"]))
     boxes = []
     for disks in np.flatnonzero(~law.kinds.wall).tolist():
         material = O.materials.append(law.material(kind, float(law.kinds.radius[disks])))

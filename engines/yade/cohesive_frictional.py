@@ -114,6 +114,9 @@ class CohesiveFrictional(Law):
         sliding = np.hypot(shear[:, 0], shear[:, 1]) >= mu * pressure * AT_THE_BOUND
         return pressure + dot(shear, normal), dot(shear, tangent), sliding
 
+    def forces_in_space(self, physs, normal, slip):
+        return self.elastic_forces(physs, normal, lambda pressure: pressure)
+
     @staticmethod
     def moment(phys):
         return phys.moment_bending

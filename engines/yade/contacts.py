@@ -23,6 +23,12 @@ def dot(a, b):
     return products if a.shape[1] == 2 else products + a[:, 2] * b[:, 2]
 
 
+def in_normal_and_tangential(force, normal):
+    """Its size along n, and what is left of it."""
+    along = dot(force, normal)
+    return along, force - along[:, None] * normal
+
+
 def turned(v):
     """z × v of every row."""
     return np.column_stack([-v[:, 1], v[:, 0]])
@@ -71,5 +77,5 @@ def read_contacts(law, radius, first_plane, per_plane, velocity, spin):
     }
     if law.rolls:
         torque = law.torques(physs, pressing, spin[first] - spin[second])
-        arrays["contacts.rolling_torque"] = ("f64", np.where(forward, -1.0, 1.0) * torque)
+        arrays["contacts.rolling_torque"] = ("f64", (np.where(forward, -1.0, 1.0) * torque.T).T)
     return arrays

@@ -13,7 +13,7 @@ from yade import (
     MatchMaker,
 )
 
-from contacts import z
+from contacts import dot, in_normal_and_tangential, xyz, z
 
 MOST_KINDS = 4  # of disks in the table of pairs: a longer one is of no use to a reader
 AT_THE_BOUND = 1 - 1e-12  # a slipping contact's spring is scaled to the bound, up to rounding
@@ -26,14 +26,15 @@ class Law:
     materials()     of the kinds of bodies
     coefficients()  what YADE made of a pair's constants, in the scene's terms
     forces()        those of contacts
-    torques()       of contacts that resist rolling, on the second
+    forces_in_space()  the same in space
+    torques()       of contacts that resist rolling, on the second, in the plane about z
     """
 
     rolls = coheres = False
     by_plane = False  # whether planes need a material of their own
     boxes = False  # whether planes are boxes, one for each kind of disks
     plane_arm = "surface"
-    deviations = ()
+    deviations = deviations_in_space = ()
     rolling, cohesion = ("none",), ("none",)  # what a class has
 
     def __init__(self, law):
@@ -117,7 +118,16 @@ class Law:
 
     def torques(self, physs, pressure, rolling):
         """@param rolling  the first's spin less the second's"""
-        return z([self.moment(p) for p in physs])
+        return (z if rolling.ndim == 1 else xyz)([self.moment(p) for p in physs])
+
+    def elastic_forces(self, physs, normal, bound):
+        """In space, of a law without dashpots: pressure, f_t, whether it slides.
+
+        @param bound  makes that of f_t of the pressure"""
+        pressure, shear = dot(xyz([p.normalForce for p in physs]), normal), xyz([p.shearForce for p in physs])
+        mu = self.of_each(physs, "tangensOfFrictionAngle", self.mu)
+        sliding = np.linalg.norm(shear, axis=1) >= mu * bound(pressure) * AT_THE_BOUND
+        return *in_normal_and_tangential(pressure[:, None] * normal + shear, normal), sliding
 
     def without_absent(self, constants):
         """Those that contacts have: without friction no tangential one, of a spring no dashpot."""

@@ -77,3 +77,6 @@ class Luding(Law):
         mu = self.of_each(physs, "tangensOfFrictionAngle", self.mu)
         sliding = np.hypot(shear[:, 0], shear[:, 1]) >= mu * np.abs(pressure) * AT_THE_BOUND
         return pressure + dot(shear, normal), dot(shear, tangent), sliding
+
+    def forces_in_space(self, physs, normal, slip):
+        return self.elastic_forces(physs, normal, np.abs)

@@ -3,9 +3,17 @@
 import numpy as np
 from yade import Ip2_ViscElMat_ViscElMat_ViscElPhys, Law2_ScGeom_ViscElPhys_Basic, ViscElMat
 
-from contacts import dot, xy, xyz
+from contacts import dot, in_normal_and_tangential, xy, xyz
 from kinds import lengths
 from law import AT_THE_BOUND, Law
+
+
+TWIST_RESISTED = {
+    "name": "twist_resisted",
+    "value": 1.0,
+    "unit": "-",
+    "note": "M is along ω_i − ω_j with its part along n, which the law leaves out: YADE resists twisting as rolling",
+}
 
 
 class Viscoelastic(Law):
@@ -15,6 +23,8 @@ class Viscoelastic(Law):
         super().__init__(law)
         self.demand_damper(law, "constant")
         self.by_plane = self.rolls
+        if self.rolls:
+            self.deviations_in_space = (TWIST_RESISTED,)
         self.functors = Ip2_ViscElMat_ViscElMat_ViscElPhys(), Law2_ScGeom_ViscElPhys_Basic()
 
     def materials(self):
@@ -69,8 +79,8 @@ class Viscoelastic(Law):
         spring = xyz([p.shearForce for p in physs])
         sliding = self.sliding(physs, np.linalg.norm(spring, axis=1), pressure)
         dashpot = np.where(sliding, 0.0, self.of_each(physs, "cs", self.gt))[:, None] * slip
-        along = dot(spring, normal)
-        return pressure + along, spring - along[:, None] * normal + dashpot, sliding
+        along, tangential = in_normal_and_tangential(spring, normal)
+        return pressure + along, tangential + dashpot, sliding
 
     def sliding(self, physs, spring, pressure):
         """@param spring  its force's magnitude"""
@@ -78,4 +88,4 @@ class Viscoelastic(Law):
         return spring >= mu * pressure * AT_THE_BOUND
 
     def torques(self, physs, pressure, rolling):
-        return np.array([p.mR for p in physs], float) * pressure * rolling
+        return (np.array([p.mR for p in physs], float) * pressure * rolling.T).T

@@ -109,10 +109,6 @@ class Yade:
     def load(self, scene, arrays, settings):
         self.law = law_of(scene["law"])
         self.space = scene.get("dimension", 2) == 3
-        if self.space and type(self.law) is not Viscoelastic:
-            raise crossgrain_worker.Unsupported(
-                "has normal = linear without rolling resistance or cohesion in space"
-            )
         self.bodies = bodies_of(scene, arrays)
         demand_plain_walls(scene, self.bodies)
         self.law.demand_plane_arm(any(body.planes for body in self.bodies))
@@ -131,7 +127,7 @@ class Yade:
         self.rotation = self.spins and scene["rotation"]
         boxes = self.law.boxes and bool(kinds.plane.any())
         if self.space:
-            build.place_spheres(arrays, kinds, self.rotation)
+            build.place_spheres(arrays, kinds, self.rotation, boxes)
         else:
             build.place_disks(arrays, kinds, self.rotation, boxes)
         build.place_walls(self.bodies, self.law)
@@ -183,7 +179,7 @@ class Yade:
             "velocity_lag": 0.0,
             "effects": self.effects(scene),
             "pairs": pairs,
-            "deviations": list(self.law.deviations),
+            "deviations": [*self.law.deviations, *(self.law.deviations_in_space if self.space else ())],
         }
 
     def effects(self, scene):

@@ -51,6 +51,46 @@ double armOf(const ContactLaw& law, double own, double other, double overlap) {
   return own - 0.5 * overlap;
 }
 
+/// A spring of the step before as it is in the one with normal n.
+Vec3 turnedWithPair(const Vec3& spring, const MovedPair& pair, const SpringMotion& motion,
+                    double dt, const Vec3& before, const Vec3& n) {
+  const LawConventions& how = motion.law.conventions;
+  if (motion.staysInSpace) return spring;
+  Vec3 now = turnedSpring(how.springTurn, spring, before, n);
+  if (how.springTwist != SpringTwist::meanSpin) return now;
+  // Turned and twisted at once in first order, one after the other else.
+  const bool toFirstOrder = how.springTurn == SpringTurn::firstOrder;
+  const Vec3& about = toFirstOrder ? before : n;
+  const double angle = motion.twistBy * 0.5 * dt * about.dot(pair.spin[0] + pair.spin[1]);
+  if (toFirstOrder) return now + angle * about.cross(now);
+  return Eigen::AngleAxisd(angle, about) * now;
+}
+
+/// The part of a step that a spring is stretched by before its force.
+double partBefore(const ContactLaw& law) {
+  switch (law.conventions.springUpdate) {
+    case SpringUpdate::before:
+      return 1.0;
+    case SpringUpdate::after:
+      return 0.0;
+    case SpringUpdate::midpoint:
+      break;
+  }
+  return 0.5;
+}
+
+/// What `kr` is multiplied with [m² or 1].
+double rollingSquare(const MovedPair& pair, const LawConventions& how) {
+  const double a = pair.radii[0], b = pair.radii[1], effective = a * b / (a + b);
+  if (how.rollingStiffness == RollingStiffness::radii) return a * b;
+  if (how.rollingStiffness == RollingStiffness::constant) return 1.0;
+  const double length = how.rollingLength == RollingLength::effective        ? effective
+                        : how.rollingLength == RollingLength::twiceEffective ? 2.0 * effective
+                        : how.rollingLength == RollingLength::smallerRadius  ? std::min(a, b)
+                                                                             : 0.5 * (a + b);
+  return length * length;
+}
+
 /// Those that springs of moved pairs depend on.
 constexpr const char* movedOptions[] = {"spring_turn", "spring_twist", "velocity_arm",
                                         "spring_update"};
@@ -79,6 +119,23 @@ MovedPair twistingPair() {
   for (const int side : {0, 1})
     pair.spin[side] = (side == 0 ? 1.5 : 0.5) / movedTime * Vec3::UnitX() + 100.0 * Vec3::UnitZ();
   return turned(pair);
+}
+
+MovedPair rollingPair() {
+  MovedPair pair = twistingPair();
+  pair.name = "a pair that rolls while it turns about its n";
+  const Vec3 across = pair.apart(0.0).unitOrthogonal();
+  for (const int side : {0, 1}) pair.spin[side] += (side == 0 ? 300.0 : -300.0) * across;
+  return pair;
+}
+
+ContactLaw rollingLaw(ContactLaw law) {
+  law.rolling = RollingLaw::spring;
+  law.kr = law.kt;
+  if (law.conventions.rollingStiffness == RollingStiffness::constant)
+    law.kr *= large * small;  // [N m]
+  law.muR = law.mu;
+  return law;
 }
 
 ContactLaw movedLaw() {
@@ -110,25 +167,12 @@ SpaceScene movedScene(const MovedPair& pair, const ContactLaw& law) {
 
 std::vector<Vec3> springForces(const MovedPair& pair, const SpringMotion& motion, double dt,
                                int steps) {
-  const LawConventions& how = motion.law.conventions;
-  const double part = how.springUpdate == SpringUpdate::before  ? 1.0
-                      : how.springUpdate == SpringUpdate::after ? 0.0
-                                                                : 0.5;
+  const double part = partBefore(motion.law);
   std::vector<Vec3> forces;
   Vec3 spring = Vec3::Zero(), before = Vec3::Zero();
   for (int k = 0; k <= steps; ++k) {
     const Vec3 apart = pair.apart(k * dt), n = apart.normalized();
-    if (k > 0 && !motion.staysInSpace) {
-      spring = turnedSpring(how.springTurn, spring, before, n);
-      // Turned and twisted at once in first order, one after the other else.
-      const bool firstOrder = how.springTurn == SpringTurn::firstOrder;
-      const Vec3& about = firstOrder ? before : n;
-      const double angle = motion.twistBy * 0.5 * dt * about.dot(pair.spin[0] + pair.spin[1]);
-      if (how.springTwist == SpringTwist::meanSpin && firstOrder)
-        spring += angle * about.cross(spring);
-      else if (how.springTwist == SpringTwist::meanSpin)
-        spring = Eigen::AngleAxisd(angle, about) * spring;
-    }
+    if (k > 0) spring = turnedWithPair(spring, pair, motion, dt, before, n);
     const double overlap = pair.reach() - apart.norm();
     const Vec3 rims = armOf(motion.law, pair.radii[0], pair.radii[1], overlap) * pair.spin[0] +
                       armOf(motion.law, pair.radii[1], pair.radii[0], overlap) * pair.spin[1];
@@ -140,6 +184,27 @@ std::vector<Vec3> springForces(const MovedPair& pair, const SpringMotion& motion
     before = n;
   }
   return forces;
+}
+
+std::vector<Vec3> rollingTorques(const MovedPair& pair, const SpringMotion& motion, double dt,
+                                 int steps) {
+  const double part = partBefore(motion.law);
+  const double stiffness = motion.law.kr * rollingSquare(pair, motion.law.conventions);
+  const Vec3 spin = pair.spin[0] - pair.spin[1];
+  std::vector<Vec3> torques;
+  Vec3 spring = Vec3::Zero(), before = Vec3::Zero();
+  for (int k = 0; k <= steps; ++k) {
+    const Vec3 n = pair.apart(k * dt).normalized();
+    if (k > 0) spring = turnedWithPair(spring, pair, motion, dt, before, n);
+    Vec3 rolled = spin - spin.dot(n) * n;
+    if (motion.asDisplacement) rolled = rolled.cross(n);
+    spring += part * dt * rolled;
+    const Vec3 turn = motion.asDisplacement ? n.cross(spring) : Vec3(spring - spring.dot(n) * n);
+    torques.emplace_back(-stiffness * turn);
+    spring += (1.0 - part) * dt * rolled;
+    before = n;
+  }
+  return torques;
 }
 
 std::string SpringMotion::differenceFrom(const ContactLaw& declared) const {

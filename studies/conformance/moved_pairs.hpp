@@ -29,16 +29,23 @@ MovedPair twistingPair();
 inline constexpr double movedTime = 1e-3;  ///< that a pair is moved for [s]
 inline constexpr int movedSteps = 100;
 
+/// The same pair, whose spins roll it besides, evenly.
+MovedPair rollingPair();
+
 /// The linear law with a spring, undamped, that nothing lets slip.
 ContactLaw movedLaw();
+/// That law with a rolling spring as stiff, k_r = k_t, which nothing lets slip either.
+/// @param law  with the conventions that the engine has
+ContactLaw rollingLaw(ContactLaw law);
 SpaceScene movedScene(const MovedPair& pair, const ContactLaw& law);
 
 /// What a spring does with its pair's motion from step to step.
 struct SpringMotion {
-  ContactLaw law;             ///< its conventions; k_t
-  bool staysInSpace = false;  ///< ξ does not follow n at all
-  double twistBy = 1.0;       ///< part of ½(ω_i + ω_j)·n that it turns by, where it twists
-  double spinsOfSlip = 1.0;   ///< what spins are multiplied with in v_t
+  ContactLaw law;               ///< its conventions; k_t
+  bool staysInSpace = false;    ///< ξ does not follow n at all
+  double twistBy = 1.0;         ///< part of ½(ω_i + ω_j)·n that it turns by, where it twists
+  double spinsOfSlip = 1.0;     ///< what spins are multiplied with in v_t
+  bool asDisplacement = false;  ///< a rolling spring is θ × n and not θ, and turns as that
 
   /// How it is other than what is declared: empty where it is not.
   std::string differenceFrom(const ContactLaw& declared) const;
@@ -48,6 +55,11 @@ struct SpringMotion {
 /// docs/dimensions.md, section 4, step by step [N].
 std::vector<Vec3> springForces(const MovedPair& pair, const SpringMotion& motion, double dt,
                                int steps);
+
+/// M on the first at each step from 0 on, its part normal to n, of a rolling spring that nothing
+/// lets slip [N m].
+std::vector<Vec3> rollingTorques(const MovedPair& pair, const SpringMotion& motion, double dt,
+                                 int steps);
 
 /// All that are tried, those with the fewest differences from what is declared first.
 std::vector<SpringMotion> springMotions(const ContactLaw& declared);

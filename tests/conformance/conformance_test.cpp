@@ -65,9 +65,13 @@ constexpr std::array expectedSkips = {
                  "lets contacts collide one by one"},
     ExpectedSkip{"grain-as-box2d-impulse", "SpringsOfMovedPairs",
                  "no linear law with a tangential spring"},
+    ExpectedSkip{"grain-as-box2d-impulse", "RollingSpringsOfMovedPairs",
+                 "no linear law with a rolling spring"},
     ExpectedSkip{"grain-as-box2d-impulse", "TorqueTurnsSpheres", "in space"},
     ExpectedSkip{"grain-as-box2d-impulse", "PairsAcrossBorders", "no rigid contacts"},
     ExpectedSkip{"grain-as-box2d-impulse", "PairsAcrossBordersInSpace", "no rigid contacts"},
+    ExpectedSkip{"grain-as-box2d-impulse", "PairsThatCrossBorders", "no rigid contacts"},
+    ExpectedSkip{"grain-as-box2d-impulse", "PairsThatCrossBordersInSpace", "no rigid contacts"},
     ExpectedSkip{"grain", "ConventionsAreThoseDeclared", "is the in-house engine"},
     ExpectedSkip{"grain-as-yade", "ConventionsAreThoseDeclared", "is the in-house engine"},
     ExpectedSkip{"grain-as-lammps", "ConventionsAreThoseDeclared", "is the in-house engine"},
@@ -75,6 +79,17 @@ constexpr std::array expectedSkips = {
     ExpectedSkip{"grain-as-box2d-impulse", "ConventionsAreThoseDeclared", "is the in-house engine"},
     ExpectedSkip{"grain-stiff", "ConventionsAreThoseDeclared", "is the in-house engine"},
     ExpectedSkip{"box2d-impulse", "ConventionsAreThoseDeclared", "no convention of a soft law"},
+};
+
+/// What an engine of others does wrong: it is found, and named by the same cause, as long as it is.
+struct KnownFault {
+  std::string_view engine, check;
+  const char* cause;  ///< part of it
+};
+
+constexpr KnownFault knownFaults[] = {
+    {"lammps", "PairsThatCrossBorders", "the spring of rolling resistance is reversed"},
+    {"lammps", "PairsThatCrossBordersInSpace", "the spring of rolling resistance is reversed"},
 };
 
 /// An engine's name as googletest can have it: letters, digits and underscores.
@@ -108,6 +123,14 @@ TEST_P(Conformance, Engine_AllChecks_PassOrSkipAsExpected) {
     if (row.outcome == checkSkipped && row.detail.starts_with(undeclared) &&
         std::ranges::count(done.declared, row.detail.substr(undeclared.size())) == 0)
       continue;
+    const auto fault = std::ranges::find_if(knownFaults, [&](const KnownFault& one) {
+      return one.engine == entry.name && one.check == row.name;
+    });
+    if (fault != std::end(knownFaults)) {
+      EXPECT_EQ(row.outcome, checkFailed) << row.name << ": " << row.detail;
+      EXPECT_NE(row.cause.find(fault->cause), std::string::npos) << row.cause;
+      continue;
+    }
     const auto known = expected.find(row.name);
     if (known != expected.end()) {
       EXPECT_EQ(row.outcome, checkSkipped) << row.name << ": " << row.detail;

@@ -100,6 +100,44 @@ TEST(MovedPairs, FirstOrderAndProjection_GrowAndShrinkAsMuch) {
   EXPECT_NEAR(grown, shrunk, 0.02 * grown);
 }
 
+TEST(MovedPairs, RollingPair_HasASpringThatIsAChordOfItsTurn) {
+  // dθ/dt = ω_r + Ω n × θ with constant ω_r ⟂ n, as ξ of the twisting pair: M = k_r R₁₂² 2 (ω_r/Ω)
+  // sin(Ω t/2), R₁₂ = 2.4 mm. n stays, so that θ × n is turned with it.
+  const MovedPair pair = rollingPair();
+  ContactLaw law = rollingLaw(movedLaw());
+  const Vec3 n = pair.apart(0.0).normalized(), relative = pair.spin[0] - pair.spin[1];
+  const double turn = 0.5 * (pair.spin[0] + pair.spin[1]).dot(n);
+  const double rolls = (relative - relative.dot(n) * n).norm();
+  EXPECT_NEAR(rolls, 600.0, 1e-9);
+  const double angle = 2.0 * rolls / turn * std::sin(0.5 * turn * movedTime);
+  const double wanted = law.kr * 0.0024 * 0.0024 * angle;
+  for (const bool asDisplacement : {false, true}) {
+    SpringMotion motion{law};
+    motion.asDisplacement = asDisplacement;
+    const Vec3 torque = rollingTorques(pair, motion, movedTime / many, many).back();
+    EXPECT_NEAR(torque.norm(), wanted, 1e-4 * wanted);
+    EXPECT_NEAR(torque.dot(n), 0.0, 1e-9 * wanted);
+  }
+}
+
+TEST(MovedPairs, RollingSpringAsDisplacement_TurnsAsTheAngleToSecondOrder) {
+  // Where |ξ| is kept by its length alone, θ and θ × n leave the plane of n's turn by other parts:
+  // ½ ΔΘ² of each step, Σ ½ ΔΘ² = ½ Θ ΔΘ in all at most.
+  const MovedPair pair = passingPair();
+  SpringMotion motion{rollingLaw(movedLaw())};
+  motion.law.conventions.springTurn = SpringTurn::rescaled;
+  for (const int steps : {movedSteps, 10 * movedSteps}) {
+    const double dt = movedTime / steps;
+    motion.asDisplacement = false;
+    const Vec3 angle = rollingTorques(pair, motion, dt, steps).back();
+    motion.asDisplacement = true;
+    const Vec3 displacement = rollingTorques(pair, motion, dt, steps).back();
+    const double turn = 0.76, part = (angle - displacement).norm() / angle.norm();
+    EXPECT_GT(part, 1e-2 * turn * turn / steps);
+    EXPECT_LT(part, turn * turn / steps);
+  }
+}
+
 TEST(MovedPairs, Motions_BeginWithWhatIsDeclared) {
   const std::vector<SpringMotion> motions = springMotions(movedLaw());
   EXPECT_EQ(motions.front().differenceFrom(movedLaw()), "");

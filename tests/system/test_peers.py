@@ -458,7 +458,8 @@ class RigidEngine:
         "CheckpointsGoOnToTheBit", "ConventionsAreThoseDeclared", "EnergyLedgerIsClosed", "SpringsHoldWhileAnotherFalls",
         "RollingFollowsItsClosedForms", "RollingHoldsASlope", "RollingTorquesAreThoseThatAct", "CohesionFollowsItsClosedForms",
         "MemoriesHoldWhileAnotherFliesBy", "MaterialsHaveTheirOwnLaws", "SpringsOfMovedPairs", "TorqueTurnsSpheres",
-        "PairsAcrossBorders", "PairsAcrossBordersInSpace",
+        "PairsAcrossBorders", "PairsAcrossBordersInSpace", "RollingSpringsOfMovedPairs", "PairsThatCrossBorders",
+        "PairsThatCrossBordersInSpace",
     }  # fmt: skip
 
     def test_passes_its_checks(self):

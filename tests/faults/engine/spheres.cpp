@@ -31,6 +31,9 @@ struct SpaceFaults {
   double wrongImage = given("wrong_image", 0.0);  ///< 1: n across a border is to the other one
   double torqueAxis = given("torque_axis", 0.0);  ///< 1: the torque is along f_t
   double inertia = given("inertia", 1.0);         ///< 1.25: J = m a²/2
+  double rollTurn = given("roll_turn", 1.0);      ///< 0: θ does not follow a normal that turns
+  /// 1: θ is reversed where one of its pair comes to another image; 0.5: lost
+  double rollReversed = given("roll_reversed", 0.0);
 };
 
 class Spheres {
@@ -55,6 +58,9 @@ class Spheres {
     kt_ = law.at("kt");
     gt_ = law.at("tangential") == "spring_dashpot" ? law.at("gt").get<double>() : 0.0;
     mu_ = law.at("mu");
+    kr_ = law.value("rolling", "none") == "spring" ? law.at("kr").get<double>() : 0.0;
+    gr_ = kr_ > 0.0 ? law.at("gr").get<double>() : 0.0;
+    muR_ = kr_ > 0.0 ? law.at("mu_r").get<double>() : 0.0;
     dt_ = scene.at("dt");
     if (scene.contains("box"))
       for (int k = 0; k < 3; ++k)
@@ -75,7 +81,7 @@ class Spheres {
 
   struct Contact {
     std::int32_t i, j;
-    Vec3 normal, tangential;
+    Vec3 normal, tangential, rolling;
     double overlap, force;
     std::uint8_t sliding;
   };
@@ -83,6 +89,7 @@ class Spheres {
   std::vector<Vec3> position;
   std::vector<Contact> contacts;
 
+  bool rolls() const { return kr_ > 0.0; }
   Vec3 velocity(std::size_t i) const { return velocity_[i] + 0.5 * dt_ / mass_[i] * force_[i]; }
   Vec3 spin(std::size_t i) const {
     return spin_[i] + 0.5 * dt_ / (faults_.inertia * inertia_[i]) * torque_[i];
@@ -113,18 +120,42 @@ class Spheres {
   }
 
   struct Spring {
-    Vec3 stretch = Vec3::Zero(), normal = Vec3::Zero();
+    Vec3 stretch = Vec3::Zero(), angle = Vec3::Zero(), normal = Vec3::Zero();
+    Eigen::Vector3d images = Eigen::Vector3d::Zero();  ///< boxes between the two
   };
 
-  /// ξ as n turned to the new one and the pair about it (docs/dimensions.md, section 4).
-  void follow(Spring& spring, const Vec3& n, const Vec3& meanSpin) const {
-    Vec3& xi = spring.stretch;
-    if (spring.normal.isZero(0.0) || faults_.springTurn == 0.0) return;
+  /// ξ or θ as n turned to the new one and the pair about it (docs/dimensions.md, section 4).
+  void follow(Vec3& xi, const Vec3& before, const Vec3& n, const Vec3& meanSpin) const {
+    if (before.isZero(0.0)) return;
     if (faults_.springShrinks != 0.0)
       xi -= xi.dot(n) * n;
     else
-      xi = Eigen::Quaterniond::FromTwoVectors(spring.normal, n) * xi;
+      xi = Eigen::Quaterniond::FromTwoVectors(before, n) * xi;
     xi = Eigen::AngleAxisd(faults_.springTwist * dt_ * meanSpin.dot(n), n) * xi;
+  }
+
+  /// M on i: θ and dashpot within µ_r R₁₂ N.
+  Vec3 rolling(Spring& spring, std::size_t i, std::size_t j, const Vec3& n, double load) {
+    if (kr_ == 0.0) return Vec3::Zero();
+    Eigen::Vector3d images = Eigen::Vector3d::Zero();
+    for (int k = 0; k < 3; ++k)
+      if (length_[k] > 0.0)
+        images[k] =
+            std::floor(position[i][k] / length_[k]) - std::floor(position[j][k] / length_[k]);
+    if (!spring.normal.isZero(0.0) && images != spring.images)
+      spring.angle *= 1.0 - 2.0 * faults_.rollReversed;
+    spring.images = images;
+    const double length = radius_[i] * radius_[j] / (radius_[i] + radius_[j]);
+    const Vec3 relative = spin_[i] - spin_[j], spin = relative - relative.dot(n) * n;
+    spring.angle += dt_ * spin;
+    const double stiffness = kr_ * length * length, damping = gr_ * length * length;
+    Vec3 torque = -stiffness * spring.angle - damping * spin;
+    const double bound = muR_ * length * std::max(load, 0.0);
+    if (torque.norm() > bound) {
+      torque *= bound / torque.norm();
+      spring.angle = -torque / stiffness;
+    }
+    return torque;
   }
 
   void meet(std::size_t i, std::size_t j) {
@@ -140,10 +171,13 @@ class Spheres {
     const Vec3 relative = velocity_[i] - velocity_[j];
     const Vec3 slip = relative - relative.dot(n) * n - (armI * spin_[i] + armJ * spin_[j]).cross(n);
     Spring& spring = springs_[{i, j}];
-    follow(spring, n, 0.5 * (spin_[i] + spin_[j]));
+    const Vec3 meanSpin = 0.5 * (spin_[i] + spin_[j]);
+    if (faults_.springTurn != 0.0) follow(spring.stretch, spring.normal, n, meanSpin);
+    if (faults_.rollTurn != 0.0) follow(spring.angle, spring.normal, n, meanSpin);
+    const double normal = kn_ * overlap - gn_ * relative.dot(n);
+    const Vec3 rollingTorque = rolling(spring, i, j, n, normal);
     spring.normal = n;
     spring.stretch += dt_ * slip;
-    const double normal = kn_ * overlap - gn_ * relative.dot(n);
     Vec3 tangential = -kt_ * spring.stretch - gt_ * slip;
     const double bound = mu_ * std::max(normal, 0.0);
     const bool sliding = tangential.norm() > bound;
@@ -155,14 +189,14 @@ class Spheres {
     const Vec3 couple = faults_.torqueAxis != 0.0 ? tangential : n.cross(tangential);
     force_[i] += force;
     force_[j] -= force;
-    torque_[i] -= armI * couple;
-    torque_[j] -= armJ * couple;
+    torque_[i] += rollingTorque - armI * couple;
+    torque_[j] -= rollingTorque + armJ * couple;
     contacts.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(j), n, tangential,
-                        overlap, normal, sliding});
+                        rollingTorque, overlap, normal, sliding});
   }
 
   SpaceFaults faults_;
-  double kn_, gn_, kt_, gt_, mu_, dt_;
+  double kn_, gn_, kt_, gt_, mu_, kr_, gr_, muR_, dt_;
   Vec3 gravity_ = Vec3::Zero(), length_ = Vec3::Zero();  ///< of the box where it is periodic
   std::vector<double> radius_, mass_, inertia_;
   std::vector<Vec3> velocity_, spin_, force_, torque_;
@@ -176,7 +210,7 @@ class PlantedSpheres {
   static Json capabilities() {
     Json effects;
     for (const char* name : {"normal_damping", "friction", "tangential_spring",
-                             "tangential_damping", "rotation", "gravity"})
+                             "tangential_damping", "rotation", "gravity", "rolling_resistance"})
       effects[name] = "optional";
     const auto only = [](const char* value) { return Json::array({value}); };
     return {{"version", "1"},
@@ -196,6 +230,13 @@ class PlantedSpheres {
               {"velocity_arm", only("lever_arm")},
               {"damping_velocity", only("lagged")},
               {"integrator", only("position_verlet")},
+              {"rolling", {"none", "spring"}},
+              {"rolling_length", only("effective")},
+              {"rolling_stiffness", only("length_square")},
+              {"rolling_damper", only("constant")},
+              {"rolling_load", only("compression")},
+              {"rolling_dashpot", only("inside")},
+              {"rolling_reset", only("total")},
               {"spring_turn", only("rotated")},
               {"spring_twist", only("mean_spin")}}},
             {"wall_motions", Json::array()},
@@ -217,6 +258,7 @@ class PlantedSpheres {
     if (law.at("tangential") == "spring_dashpot" && law.at("gt") > 0.0)
       effects.push_back("tangential_damping");
     if (scene.at("rotation")) effects.push_back("rotation");
+    if (law.value("rolling", "none") != "none") effects.push_back("rolling_resistance");
     for (const Json& component : scene.at("gravity"))
       if (component != 0.0 && effects.back() != "gravity") effects.push_back("gravity");
     return {{"engine", "planted_spheres"}, {"version", "1"},
@@ -261,7 +303,7 @@ class PlantedSpheres {
  private:
   static void addContacts(ArrayFile& arrays, const Spheres& spheres) {
     std::vector<std::int32_t> i, j;
-    std::vector<double> normal, overlap, force, tangential;
+    std::vector<double> normal, overlap, force, tangential, rolling;
     std::vector<std::uint8_t> sliding;
     for (const Spheres::Contact& c : spheres.contacts) {
       i.push_back(c.i);
@@ -270,6 +312,7 @@ class PlantedSpheres {
       overlap.push_back(c.overlap);
       force.push_back(c.force);
       for (const double x : c.tangential) tangential.push_back(x);
+      for (const double x : c.rolling) rolling.push_back(x);
       sliding.push_back(c.sliding);
     }
     arrays.add("contacts.i", i);
@@ -279,6 +322,7 @@ class PlantedSpheres {
     arrays.add("contacts.normal_force", force);
     arrays.add("contacts.tangential_force", tangential);
     arrays.add("contacts.sliding", sliding);
+    if (spheres.rolls()) arrays.add("contacts.rolling_torque", rolling);
   }
 
   SpaceFaults faults_;
