@@ -48,6 +48,7 @@ class Liggghts(Lammps):
 
 class Scene(build.Scene):
     plane_arm, plane_point = 0.5, 0.5
+    other_speed = 0.0  # by what share a turning cylinder is too fast or too slow for some sphere
 
     def dimension(self):
         """LIGGGHTS has J = m a²/2 in two dimensions and 2/5 m a² in three, where nothing leaves the plane either."""
@@ -89,11 +90,28 @@ class Scene(build.Scene):
         )
 
     def raise_plane(self, number, plane, kind):
-        axis = build.axis_of(plane)
-        place = repr(float(plane["point"][axis]))
+        axis = build.axis_of(plane.normal)
+        self.raise_primitive(number, kind, f"{'xyz'[axis]}plane {float(plane.point[axis])!r}")
+
+    def raise_primitive(self, number, kind, shape, motion=""):
         models, settings = self.law.model_words(), self.law.setting_words()
-        wall = f"primitive type {kind} {'xyz'[axis]}plane {place} store_force yes"
+        wall = f"primitive type {kind} {shape} {motion} store_force yes"
         self.lammps.command(f"fix plane{number} disks wall/gran {models} {wall} {settings}")
+
+    def raise_cylinder(self, number, cylinder, body, kind):
+        """The wall's velocity is taken at a sphere's centre, R − a + δ from the axis: it turns faster by R/(R − a) of the
+        mean radius, and other_speed is what is left for others. Along y LIGGGHTS confuses x and z of it."""
+        axis = build.axis_of(cylinder.axis)
+        first, second = (repr(float(cylinder.point[(axis + k) % 3])) for k in (1, 2))
+        omega = float(body.state(0.0)[3][axis])
+        motion = ""
+        if omega:
+            if axis == 1:
+                raise Unsupported("has cylinders that turn about x or z, not about y (README.md of engines/liggghts)")
+            arms = cylinder.radius - self.radius[: self.scene["disks"]]
+            motion = f"shear {'yzx'[axis]} {omega * cylinder.radius / arms.mean()!r}"
+            self.other_speed = max(self.other_speed, float(np.abs(arms / arms.mean() - 1.0).max()))
+        self.raise_primitive(number, kind, f"{'xyz'[axis]}cylinder {cylinder.radius!r} {first} {second}", motion)
 
     def forces_of_plane(self, number):
         return self.lammps.fix_array(f"force_plane{number}", self.space)

@@ -38,11 +38,14 @@ class LiggghtsEngine(Engine):
     }
 
     def deviations(self):
-        if not (self.made.planes and self.law.kr > 0):
-            return []
-        note = "at a plane LIGGGHTS takes ω (a − δ/2)/(a − δ) for ω in rolling springs and their dashpots"
-        return [{"name": "rolling_velocity_at_planes", "value": 0.0, "unit": "", "note": note}]
-
+        found = []
+        if self.made.planes and self.law.kr > 0:
+            note = "at a plane LIGGGHTS takes ω (a − δ/2)/(a − δ) for ω in rolling springs and their dashpots"
+            found.append({"name": "rolling_velocity_at_planes", "value": 0.0, "unit": "", "note": note})
+        if speed := self.made.other_speed:
+            note = "a cylinder's speed is taken at spheres' centres: right for the mean radius, off by this for the others"
+            found.append({"name": "speed_of_cylinders", "value": speed, "unit": "", "note": note})
+        return found
 
     def pair_rows(self):
         return pair_rows(self.lammps, self.law)
