@@ -234,6 +234,7 @@ TEST(WorkerJson, Snapshot_KeepsEveryBitAndWhatIsAbsent) {
 TEST(WorkerJson, CapabilitiesSettingsParametersStats_ComeBack) {
   test::ToyEngine engine;
   Capabilities can = engine.capabilities();
+  can.limits.cylinders = false;
   const Capabilities without = readAs<Capabilities>(nlohmann::json::parse(jsonOf(can).dump()));
   EXPECT_FALSE(without.limits.cylinders);
   can.limits.cylinders = true;

@@ -465,6 +465,36 @@ TEST_P(Space, SpheresInACylinder_MoveAndPushAsTheMirrorHasThem) {
   }
 }
 
+TEST_P(Space, TurningCylinder_SpinsASphereUpUntilItRolls) {
+  const std::string name = GetParam();
+  if (name == "yade") GTEST_SKIP() << "has no cylinders";
+  const double omega = 3.0;
+  for (const int axis : {0, 1, 2}) {
+    SCOPED_TRACE(axis);
+    SpaceScene scene = spheresInACylinder(axis, omega);
+    scene.gravity *= 10.0;  // so that friction is soon done
+    if (name == "liggghts" && axis == 1) {
+      EXPECT_THROW(engine_->loadInSpace(asRun(scene), {}), UnsupportedScene);
+      continue;
+    }
+    if (name == "lammps")
+      expectAsTheMirrorHasIt(asRun(scene), {4e-6, 4e-5, 8e-5, 1.2e-4, 1.6e-4, 2e-3});
+    for (auto* list : {&scene.disks.position, &scene.disks.velocity, &scene.disks.spin})
+      list->resize(1);
+    for (auto* list : {&scene.disks.radius, &scene.disks.mass, &scene.disks.inertia})
+      list->resize(1);
+    loadInto(*engine_, asRun(scene));
+    const SpaceSnapshot now = snapshotAt<3>(*engine_, 0.1);
+    // At the wall the sphere's surface moves as the wall does, at Ω R, as nothing resists rolling.
+    const Cylinder& drum = scene.bodies[0].cylinders[0];
+    const Vec3 inward = tangentPlane(drum, now.position[0]).normal;
+    const Vec3 slip = now.velocity[0] - radius * now.spin->at(0).cross(inward) +
+                      omega * drum.radius * drum.axis.cross(inward);
+    const Vec3 along = slip - slip.dot(inward) * inward;
+    EXPECT_LE(along.norm(), 1e-3 * omega * drum.radius) << along.transpose();
+  }
+}
+
 /// Two spheres that meet in the plane z = 0, turned by `frame`; or disks with a sphere's J.
 template <int D>
 SceneOf<D> planarImpact(const ContactLaw& law, const Eigen::Matrix3d& frame) {
@@ -527,6 +557,13 @@ TEST_P(Space, WhatItDoesNotHave_IsRefused) {
   };
   EXPECT_EQ(refusal(),
             "has walls that are fixed | rotating | translating | oscillating in space, not radial");
+  scene = spheresInACylinder(2, 0.0);
+  scene.bodies[0].cylinders[0].axis = {0.0, 0.6, 0.8};
+  if (GetParam() == std::string("yade"))
+    EXPECT_EQ(beyondLimits(engine_->capabilities().limits, scene, false),
+              std::vector<std::string>{"has no cylinders, as drum has"});
+  else
+    EXPECT_EQ(refusal(), "has cylinders along axes only; that of drum is along (0.0, 0.6, 0.8)");
 }
 
 using LammpsInSpace = Space;
