@@ -57,7 +57,7 @@ std::string listFault(const ContactsOf<D>& contacts, const AuditBasisOf<D>& basi
 template <int D>
 std::string idsFault(const ContactsOf<D>& contacts, const SceneOf<D>& scene) {
   const auto disks = static_cast<std::int64_t>(scene.disks.size());
-  const auto all = disks + static_cast<std::int64_t>(scene.wallDiskCount() + scene.planeCount());
+  const auto all = static_cast<std::int64_t>(scene.idCount());
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const std::int64_t i = contacts.i[k], j = contacts.j[k];
     if (i < 0 || i >= disks || j <= i || j >= all)

@@ -59,6 +59,10 @@ void placeWalls(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis, dou
           {planeAt<D>(then, body.centre, {plane.point, plane.normal.normalized()}), &body, then,
            basis.prescribed || !turns});
   }
+  for (const WallBodyOf<D>& body : scene.bodies)
+    for (const Cylinder& cylinder : body.cylinders)
+      places.planes.push_back(
+          {{}, &body, stateAt(body.motion, body.centre, snapshot.contactTime), true, &cylinder});
 }
 
 }  // namespace
@@ -105,7 +109,8 @@ VecOf<D> velocityOfSecond(const ContactPlacesOf<D>& places, const AuditBasisOf<D
   const PlacedPlaneOf<D>& wall = places.planes[j - basis.radius.size()];
   BodyStateOf<D> motion = wall.motion;
   motion.radialVelocity = 0.0;  // planes of radial bodies stay
-  return memberVelocity<D>(motion, footOn<D>(wall.plane, places.position[i]));
+  const VecOf<D>& place = places.position[i];
+  return memberVelocity<D>(motion, footOn<D>(wall.under(place), place));
 }
 template Vec2 velocityOfSecond<2>(const ContactPlaces&, const AuditBasis&, std::size_t,
                                   std::size_t);
@@ -115,7 +120,7 @@ PairPlaceOf<D> pairPlace(const ContactPlacesOf<D>& places, const AuditBasisOf<D>
                          std::size_t i, std::size_t j) {
   PairPlaceOf<D> pair;
   if (j >= basis.radius.size()) {
-    const PlaneOf<D>& plane = places.planes[j - basis.radius.size()].plane;
+    const PlaneOf<D> plane = places.planes[j - basis.radius.size()].under(places.position[i]);
     pair.distance = (places.position[i] - plane.point).dot(plane.normal);
     pair.normal = plane.normal;
     pair.overlap = basis.radius[i] - pair.distance;

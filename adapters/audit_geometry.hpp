@@ -4,21 +4,29 @@
 
 namespace crossgrain {
 
-/// A plane at that time, and the body that moves it.
+/// A plane or a cylinder at that time, and the body that moves it.
 template <int D>
 struct PlacedPlaneOf {
-  PlaneOf<D> plane;
+  PlaneOf<D> plane;  ///< not of a cylinder
   const WallBodyOf<D>* body;
   BodyStateOf<D> motion;  ///< of the body
   bool known;             ///< false: it turned in ways that nobody prescribed
+  const Cylinder* cylinder = nullptr;
+
+  /// What a disk there meets: the plane, or that which touches the cylinder.
+  PlaneOf<D> under(const VecOf<D>& place) const {
+    if constexpr (D == 3)
+      if (cylinder) return tangentPlane(*cylinder, place);
+    return plane;
+  }
 };
 
 /// Where everything was when a snapshot's contacts were as it shows them, as well as is known.
 template <int D>
 struct ContactPlacesOf {
-  std::vector<VecOf<D>> position;  ///< disks, then wall disks [m]
-  std::vector<VecOf<D>> velocity;  ///< likewise, as shown [m/s]
-  std::vector<PlacedPlaneOf<D>> planes;
+  std::vector<VecOf<D>> position;        ///< disks, then wall disks [m]
+  std::vector<VecOf<D>> velocity;        ///< likewise, as shown [m/s]
+  std::vector<PlacedPlaneOf<D>> planes;  ///< then cylinders
   /// What of two bodies' relative motion their places are uncertain by [s].
   double drift = 0.0;
   double rounding = 0.0;  ///< [m]

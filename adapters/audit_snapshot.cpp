@@ -26,6 +26,7 @@ double fastestOf(const WallBodyOf<D>& body) {
   for (const VecOf<D>& place : body.diskPosition) arm = std::max(arm, (place - body.centre).norm());
   for (const PlaneOf<D>& plane : body.planes)
     arm = std::max(arm, (plane.point - body.centre).norm());
+  for (const Cylinder& cylinder : body.cylinders) arm = std::max(arm, cylinder.radius);
   const MotionOf<D>& motion = body.motion;
   switch (motion.kind) {
     case MotionKind::fixed:
@@ -48,6 +49,10 @@ void measurePlaces(const SceneOf<D>& scene, AuditBasisOf<D>& basis) {
   for (const WallBodyOf<D>& body : scene.bodies) {
     places.insert(places.end(), body.diskPosition.begin(), body.diskPosition.end());
     for (const PlaneOf<D>& plane : body.planes) places.push_back(plane.point);
+    if constexpr (D == 3)
+      for (const Cylinder& cylinder : body.cylinders)
+        for (const double radius : {-cylinder.radius, cylinder.radius})
+          places.emplace_back(cylinder.point + Vec3::Constant(radius));
   }
   if (places.empty()) return;
   VecOf<D> low = places.front(), high = places.front();

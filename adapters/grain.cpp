@@ -139,6 +139,7 @@ class GrainEngine : public Engine {
     can.version = "0.1.0";
     can.dimensions = {2, 3};
     can.periodic = true;
+    can.limits.cylinders = true;
     for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
     for (const LawOption& option : lawOptions())
       can.lawOptions[std::string(option.name)] = {option.values.begin(), option.values.end()};

@@ -37,6 +37,8 @@ grain::SpaceWall wallOf(const WallBodyOf<3>& body) {
   grain::SpaceWall wall;
   for (const PlaneOf<3>& plane : body.planes)
     wall.planes.push_back({of(plane.point), of(Vec3(plane.normal.normalized()))});
+  for (const Cylinder& each : body.cylinders)
+    wall.cylinders.push_back({of(each.point), of(Vec3(each.axis.normalized())), each.radius});
   for (const Vec3& position : body.diskPosition) wall.position.push_back(of(position));
   wall.radius = body.diskRadius;
   wall.motion = [motion = body.motion, centre = body.centre](double t) {

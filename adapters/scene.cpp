@@ -20,18 +20,44 @@ PlaneOf<D> planeAt(BodyStateOf<D> now, const std::type_identity_t<VecOf<D>>& ref
 template Plane planeAt<2>(BodyState, const Vec2&, const Plane&);
 template PlaneOf<3> planeAt<3>(BodyStateOf<3>, const Vec3&, const PlaneOf<3>&);
 
+PlaneOf<3> tangentPlane(const Cylinder& cylinder, const Vec3& place) {
+  const Vec3 axis = cylinder.axis.normalized(), from = place - cylinder.point;
+  const Vec3 aside = from - from.dot(axis) * axis;
+  const double distance = aside.norm();
+  const Vec3 outward = distance > 0.0 ? Vec3(aside / distance) : axis.unitOrthogonal();
+  return {place - aside + cylinder.radius * outward, -outward};
+}
+
+namespace {
+
+/// The number of members of a kind that all bodies have together.
+template <int D>
+std::size_t countOf(const SceneOf<D>& scene, auto WallBodyOf<D>::*members) {
+  std::size_t count = 0;
+  for (const WallBodyOf<D>& body : scene.bodies) count += (body.*members).size();
+  return count;
+}
+
+}  // namespace
+
 template <int D>
 std::size_t SceneOf<D>::wallDiskCount() const {
-  std::size_t count = 0;
-  for (const auto& body : bodies) count += body.diskRadius.size();
-  return count;
+  return countOf(*this, &WallBodyOf<D>::diskRadius);
 }
 
 template <int D>
 std::size_t SceneOf<D>::planeCount() const {
-  std::size_t count = 0;
-  for (const auto& body : bodies) count += body.planes.size();
-  return count;
+  return countOf(*this, &WallBodyOf<D>::planes);
+}
+
+template <int D>
+std::size_t SceneOf<D>::cylinderCount() const {
+  return countOf(*this, &WallBodyOf<D>::cylinders);
+}
+
+template <int D>
+std::size_t SceneOf<D>::idCount() const {
+  return disks.size() + wallDiskCount() + planeCount() + cylinderCount();
 }
 
 template <int D>
@@ -47,10 +73,12 @@ const ContactLaw& SceneOf<D>::lawOf(std::size_t i, std::size_t j) const {
   if (!materials) return law;
   const auto materialOf = [&](std::size_t id) {
     if (id < disks.size()) return materials->ofDisk[id];
-    std::size_t first = disks.size();  // wall disks body by body, then planes body by body
-    for (const bool planes : {false, true})
+    std::size_t first = disks.size();  // of the next member of a body
+    for (const int kind : {0, 1, 2})
       for (std::size_t b = 0; b < bodies.size(); ++b) {
-        first += planes ? bodies[b].planes.size() : bodies[b].diskRadius.size();
+        first += kind == 0   ? bodies[b].diskRadius.size()
+                 : kind == 1 ? bodies[b].planes.size()
+                             : bodies[b].cylinders.size();
         if (id < first) return materials->ofBody[b];
       }
     throw std::out_of_range("an id that the scene does not have");
@@ -66,9 +94,10 @@ std::string nameOfId(const SceneOf<D>& scene, std::size_t id) {
   const char* const round = D == 2 ? "disk" : "sphere";
   const std::size_t disks = scene.disks.size();
   if (id < disks) return fmt::format("{} {}", round, id);
-  const std::size_t walls = scene.wallDiskCount();
-  if (id < disks + walls) return fmt::format("wall {} {}", round, id - disks);
-  return fmt::format("plane {}", id - disks - walls);
+  const std::size_t walls = disks + scene.wallDiskCount(), planes = walls + scene.planeCount();
+  if (id < walls) return fmt::format("wall {} {}", round, id - disks);
+  return id < planes ? fmt::format("plane {}", id - walls)
+                     : fmt::format("cylinder {}", id - planes);
 }
 template std::string nameOfId<2>(const Scene&, std::size_t);
 template std::string nameOfId<3>(const SpaceScene&, std::size_t);

@@ -44,7 +44,20 @@ template <int D>
 PlaneOf<D> planeAt(BodyStateOf<D> now, const std::type_identity_t<VecOf<D>>& referenceCentre,
                    const std::type_identity_t<PlaneOf<D>>& reference);
 
-/// A rigid body of wall disks and plane walls that moves as prescribed, whatever pushes on it.
+/// A hollow circular cylinder without ends, in space: spheres are inside. Its body stands still or
+/// turns about its axis, so that the surface stays where it is and only its velocity is ω × r.
+struct Cylinder {
+  Vec3 point = Vec3::Zero();  ///< of its axis [m]
+  Vec3 axis = Vec3::UnitZ();  ///< along it, of length 1
+  double radius = 0.0;        ///< [m]
+};
+
+/// The plane that touches a cylinder where it is nearest to a place. A sphere with its centre there
+/// meets both alike: n points to the axis, and δ = a − (R − s) with s the distance from the axis.
+PlaneOf<3> tangentPlane(const Cylinder& cylinder, const Vec3& place);
+
+/// A rigid body of wall disks, plane walls and cylinders that moves as prescribed, whatever pushes
+/// on it.
 template <int D>
 struct WallBodyOf {
   std::string name;                    ///< "wheel", "ring", …
@@ -53,6 +66,7 @@ struct WallBodyOf {
   std::vector<double> diskRadius;      ///< [m]
   std::vector<PlaneOf<D>> planes;
   MotionOf<D> motion;
+  std::vector<Cylinder> cylinders = {};  ///< of space alone
 };
 using WallBody = WallBodyOf<2>;
 
@@ -93,7 +107,7 @@ std::string toString(Precision precision);
 struct Materials {
   std::vector<std::string> names;    ///< "glass", "steel", …
   std::vector<std::int32_t> ofDisk;  ///< index into names, of each disk
-  std::vector<std::int32_t> ofBody;  ///< of each wall body: its disks and planes
+  std::vector<std::int32_t> ofBody;  ///< of each wall body: its disks, planes and cylinders
   /// Of materials a and b at a · (number of materials) + b; symmetric. They differ in constants
   /// alone: options, conventions and the effects that they call for are those of Scene::law.
   std::vector<ContactLaw> laws;
@@ -106,7 +120,7 @@ struct Materials {
 };
 
 /// One granular scene: everything an engine needs, plain data in SI units, laboratory frame.
-/// Ids: disks 0 … N−1, then the wall disks body by body, then the planes body by body.
+/// Ids: disks 0 … N−1, then the wall disks body by body, then the planes, then the cylinders.
 template <int D>
 struct SceneOf {
   std::string name;
@@ -124,6 +138,8 @@ struct SceneOf {
 
   std::size_t wallDiskCount() const;
   std::size_t planeCount() const;
+  std::size_t cylinderCount() const;
+  std::size_t idCount() const;  ///< of all that contacts can be of
   /// Of a pair by their ids; what `law` is where all pairs are alike.
   const ContactLaw& lawOf(std::size_t i, std::size_t j) const;
   std::vector<double> radii() const;  ///< of the disks, then of the wall disks [m]
@@ -139,8 +155,8 @@ void changeLaws(SceneOf<D>& scene, auto&& change) {
     for (ContactLaw& law : scene.materials->laws) change(law);
 }
 
-/// "disk 3", "wall disk 12", "plane 0": what an id is, each kind counted from 0; in space "sphere
-/// 3".
+/// "disk 3", "wall disk 12", "plane 0", "cylinder 0": what an id is, each kind counted from 0; in
+/// space "sphere 3".
 template <int D>
 std::string nameOfId(const SceneOf<D>& scene, std::size_t id);
 

@@ -57,11 +57,36 @@ std::string beyondOfPlanes(const SceneLimits& limits, const WallBodyOf<D>& body)
   return {};
 }
 
+/// Whether its cylinders stay where they are: it stands still, or turns about the axis of each.
+bool keepsCylinders(const WallBodyOf<3>& body) {
+  if (body.motion.kind == MotionKind::fixed) return true;
+  constexpr double roundings = 1e-9;
+  return body.motion.kind == MotionKind::rotating &&
+         std::ranges::all_of(body.cylinders, [&](const Cylinder& cylinder) {
+           const Vec3 axis = cylinder.axis.normalized(), &spin = body.motion.angularVelocity;
+           return axis.cross(spin).norm() <= roundings * spin.norm() &&
+                  axis.cross(body.centre - cylinder.point).norm() <= roundings * cylinder.radius;
+         });
+}
+
+/// The first that is beyond, of a body's cylinders; empty: nothing.
+template <int D>
+std::string beyondOfCylinders(const SceneLimits& limits, const WallBodyOf<D>& body) {
+  if constexpr (D == 3) {
+    if (!body.cylinders.empty() && !limits.cylinders)
+      return fmt::format("has no cylinders, as {} has", body.name);
+    if (!keepsCylinders(body) && !body.cylinders.empty())
+      return fmt::format("has cylinders that stand still or turn about their axis, not as {} does",
+                         body.name);
+  }
+  return {};
+}
+
 /// Whether contacts of this scene have several reduced masses.
 template <int D>
 bool pairsDiffer(const SceneOf<D>& scene) {
   const auto [least, most] = std::ranges::minmax(scene.disks.mass);
-  return least != most || scene.wallDiskCount() + scene.planeCount() > 0;
+  return least != most || scene.idCount() > scene.disks.size();
 }
 
 }  // namespace
@@ -80,8 +105,8 @@ std::vector<std::string> beyondLimits(const SceneLimits& limits, const SceneOf<D
         !has(*limits.wallMotions, body.motion.kind))
       reasons.push_back(fmt::format("has walls that are {}, not {} as {} is",
                                     describe(*limits.wallMotions), kind, body.name));
-    if (std::string why = beyondOfPlanes(limits, body); !why.empty())
-      reasons.push_back(std::move(why));
+    for (std::string why : {beyondOfPlanes(limits, body), beyondOfCylinders(limits, body)})
+      if (!why.empty()) reasons.push_back(std::move(why));
   }
   if (limits.restitutionPerBody && softLawStoodFor && scene.law.gn > 0.0 &&
       !scene.disks.mass.empty() && pairsDiffer(scene))

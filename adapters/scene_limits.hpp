@@ -15,6 +15,7 @@ struct SceneLimits {
   std::optional<std::vector<double>> inertia;             ///< q of J = q m a² that disks may have
   std::optional<std::vector<Motion::Kind>> wallMotions;   ///< of bodies with wall disks
   std::optional<std::vector<Motion::Kind>> planeMotions;  ///< of those with planes; empty: none
+  bool cylinders = false;                                 ///< bodies may have cylinders
   bool planesAlongAxes = false;  ///< planes have normals along axes (±x, ±y, ±z) alone, to the bit
   /// Of rigid contacts: each body has one restitution, so that a soft law, whose restitution
   /// depends on the masses of the pair, cannot be stood for where pairs differ.

@@ -24,21 +24,28 @@ struct AllDisks {
 };
 
 template <int D>
-std::optional<DeepStartOf<D>> deepInPlane(const SceneOf<D>& scene,
-                                          const std::function<double(double, double)>& limit) {
+std::optional<DeepStartOf<D>> deepInWall(const SceneOf<D>& scene,
+                                         const std::function<double(double, double)>& limit) {
   std::size_t id = scene.disks.size() + scene.wallDiskCount();
-  for (const auto& body : scene.bodies)
-    for (const PlaneOf<D>& plane : body.planes) {
-      for (std::size_t i = 0; i < scene.disks.size(); ++i) {
-        const double radius = scene.disks.radius[i];
-        const double overlap =
-            radius - (scene.disks.position[i] - plane.point).dot(plane.normal.normalized());
-        if (overlap > limit(radius, radius))
-          return DeepStartOf<D>{i, id, scene.disks.position[i], overlap, false};
-      }
-      ++id;
+  std::optional<DeepStartOf<D>> found;
+  /// @param planeFor  what a disk at a place meets
+  const auto check = [&](auto&& planeFor) {
+    for (std::size_t i = 0; i < scene.disks.size() && !found; ++i) {
+      const double radius = scene.disks.radius[i];
+      const PlaneOf<D> plane = planeFor(scene.disks.position[i]);
+      const double overlap =
+          radius - (scene.disks.position[i] - plane.point).dot(plane.normal.normalized());
+      if (overlap > limit(radius, radius)) found = {i, id, scene.disks.position[i], overlap, false};
     }
-  return std::nullopt;
+    ++id;
+  };
+  for (const auto& body : scene.bodies)
+    for (const PlaneOf<D>& plane : body.planes) check([&](const auto&) { return plane; });
+  if constexpr (D == 3)
+    for (const auto& body : scene.bodies)
+      for (const Cylinder& cylinder : body.cylinders)
+        check([&](const Vec3& place) { return tangentPlane(cylinder, place); });
+  return found;
 }
 
 }  // namespace
@@ -71,7 +78,7 @@ std::optional<DeepStartOf<D>> deepStart(const SceneOf<D>& scene,
       first = {i, j, position[i], overlap, distance == 0.0};
   });
   if (first) return first;
-  return deepInPlane(scene, limit);
+  return deepInWall(scene, limit);
 }
 template std::optional<DeepStart> deepStart<2>(const Scene&,
                                                const std::function<double(double, double)>&);

@@ -8,7 +8,7 @@
 
 namespace crossgrain {
 
-/// A disk, and what it overlaps at the start: another, a wall disk or a plane.
+/// A disk, and what it overlaps at the start: another, a wall disk, a plane or a cylinder.
 template <int D>
 struct DeepStartOf {
   std::size_t i, j;  ///< ids, as nameOfId() takes them

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
@@ -29,26 +30,32 @@ const BodySnapshot& bodyState(const Snapshot& snapshot, std::size_t index) {
   return snapshot.bodies[index];
 }
 
-/// Which ids belong to a body: first its disks, and after all bodies' disks its planes.
+/// Which ids belong to a body: its disks, after all bodies' disks its planes, then its cylinders.
 struct BodyIds {
-  std::size_t firstDisk, endDisk, firstPlane, endPlane;
+  struct Range {
+    std::size_t first, end;
+  };
+  std::array<Range, 3> ranges;
 
   bool contain(std::size_t id) const {
-    return (id >= firstDisk && id < endDisk) || (id >= firstPlane && id < endPlane);
+    return std::ranges::any_of(ranges, [&](const Range& r) { return id >= r.first && id < r.end; });
   }
 };
 
 template <int D>
 BodyIds idsOf(const SceneOf<D>& scene, std::size_t index) {
   BodyIds ids{};
-  ids.firstDisk = scene.disks.size();
-  ids.firstPlane = scene.disks.size() + scene.wallDiskCount();
-  for (std::size_t b = 0; b < index; ++b) {
-    ids.firstDisk += scene.bodies[b].diskRadius.size();
-    ids.firstPlane += scene.bodies[b].planes.size();
-  }
-  ids.endDisk = ids.firstDisk + scene.bodies[index].diskRadius.size();
-  ids.endPlane = ids.firstPlane + scene.bodies[index].planes.size();
+  std::size_t next = scene.disks.size();
+  const auto count = [&](BodyIds::Range& range, auto WallBodyOf<D>::*members) {
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+      const std::size_t size = (scene.bodies[b].*members).size();
+      if (b == index) range = {next, next + size};
+      next += size;
+    }
+  };
+  count(ids.ranges[0], &WallBodyOf<D>::diskRadius);
+  count(ids.ranges[1], &WallBodyOf<D>::planes);
+  count(ids.ranges[2], &WallBodyOf<D>::cylinders);
   return ids;
 }
 
@@ -182,7 +189,8 @@ template GlobalNumbers globalNumbers(const SpaceScene&, const SpaceSnapshot&);
 std::optional<double> contactsOf(const Scene& scene, const Snapshot& snapshot,
                                  std::string_view body) {
   const BodyIds ids = idsOf(scene, bodyIndex(scene, body));
-  const bool nothing = ids.firstDisk == ids.endDisk && ids.firstPlane == ids.endPlane;
+  const bool nothing = std::ranges::all_of(
+      ids.ranges, [](const BodyIds::Range& range) { return range.first == range.end; });
   if (!snapshot.contacts || nothing) return std::nullopt;
   const Contacts& pairs = *snapshot.contacts;
   double count = 0.0;

@@ -62,7 +62,6 @@ void SceneCounts::require(const SnapshotOf<D>& snapshot, bool walls) const {
   if (walls) requireLength("wall positions", snapshot.wallPosition.size(), wallDisks);
   if (!snapshot.contacts) return;
   const ContactsOf<D>& contacts = *snapshot.contacts;
-  const std::size_t ids = disks + wallDisks + planes;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto i = contacts.i[c];
     const auto j = contacts.j[c];

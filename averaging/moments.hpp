@@ -68,11 +68,11 @@ inline double at(const Moments& moments, Moment which) {
 
 /// How many of what a scene has, for snapshots to be compared with.
 struct SceneCounts {
-  std::size_t disks, wallDisks, planes;
+  std::size_t disks, wallDisks, ids;
 
   template <int D>
   explicit SceneCounts(const SceneOf<D>& scene)
-      : disks(scene.disks.size()), wallDisks(scene.wallDiskCount()), planes(scene.planeCount()) {}
+      : disks(scene.disks.size()), wallDisks(scene.wallDiskCount()), ids(scene.idCount()) {}
 
   /// @param walls  whether their places are needed
   /// @throws std::invalid_argument if the snapshot does not fit

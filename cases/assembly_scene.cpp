@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -124,6 +125,7 @@ WallBodyOf<D> bodyOf(const WallGroupOf<D>& group, const AssemblyOf<D>& assembly,
   body.diskRadius = group.radii;
   if (group.radii.empty()) body.diskRadius.assign(group.position.size(), group.radius);
   body.motion = movedAlong(group.motion, assembly);
+  body.cylinders = group.cylinders;  // nothing turns or shifts an assembly in space
   return body;
 }
 
@@ -283,6 +285,24 @@ std::vector<Vec3> latticePlaces(const std::array<int, 3>& counts, const Vec3& sp
     for (const Vec2& place : gridPlaces(counts[0], counts[1], spacing.head<2>(), closePacked))
       places.emplace_back(place.x() + hollow.x(), place.y() + hollow.y(), layer * spacing.z());
   }
+  return places;
+}
+
+std::vector<Vec3> circlePlaces(double inner, double outer, double spacing, int layers,
+                               double rise) {
+  constexpr double roundings = 1e-9;
+  std::vector<Vec3> places;
+  for (int layer = 0; layer < layers; ++layer)
+    for (double r = inner; r <= outer * (1.0 + roundings); r += spacing) {
+      // Neighbours on a circle are a chord apart: 2 r sin(π/n) ≥ spacing.
+      const double half = 0.5 * spacing / std::max(r, 0.5 * spacing);
+      const auto count =
+          r < 0.5 * spacing ? 1.0 : std::floor(std::numbers::pi / std::asin(half) + roundings);
+      for (double k = 0.0; k < count; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / count;
+        places.emplace_back(r * std::cos(angle), r * std::sin(angle), layer * rise);
+      }
+    }
   return places;
 }
 

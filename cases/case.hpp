@@ -149,7 +149,7 @@ struct DiskGroupOf {
 };
 using DiskGroup = DiskGroupOf<2>;
 
-/// A body of planes and wall disks that moves as prescribed.
+/// A body of planes, cylinders and wall disks that moves as prescribed.
 template <int D>
 struct WallGroupOf {
   VecOf<D> centre = VecOf<D>::Zero();  ///< about which it rotates [m]
@@ -159,6 +159,7 @@ struct WallGroupOf {
   std::vector<double> radii;       ///< of each, where they are not all alike [m]
   MotionOf<D> motion;
   MaterialName material = {};
+  std::vector<Cylinder> cylinders = {};  ///< of space alone
 };
 using WallGroup = WallGroupOf<2>;
 
@@ -214,6 +215,11 @@ std::vector<Vec2> heapPlaces(int base, double spacing);
 ///                     third of a row: with spacing (1, √(3/4), √(2/3)) each sphere touches twelve
 std::vector<Vec3> latticePlaces(const std::array<int, 3>& counts, const Vec3& spacing,
                                 bool closePacked);
+
+/// Places on circles about the z axis, in diameters, layer by layer along z: of radii inner,
+/// inner + spacing … up to outer, on each as many as fit at that spacing.
+/// @param layers  how many  @param rise  from one to the next
+std::vector<Vec3> circlePlaces(double inner, double outer, double spacing, int layers, double rise);
 
 /// How the averaged part of the plane is divided into bins.
 enum class BinKind { rings, slabs, grid, whole };

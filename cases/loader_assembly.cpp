@@ -75,6 +75,29 @@ std::vector<VecOf<D>> readLine(Reader in) {
   return places;
 }
 
+std::vector<Vec3> readCircles(Reader in) {
+  double inner = 0.0, outer = 0.0, spacing = 1.0;
+  int layers = 1;
+  std::string axis = "z";
+  in.read("inner", inner, atLeast(0.0, "diameters"));
+  in.require("outer", outer, positive("diameters"));
+  in.read("spacing", spacing, positive("diameters"));
+  double rise = spacing;
+  in.read("layers", layers, between(1, mostDisks));
+  in.read("rise", rise, positive("diameters"));
+  in.read("axis", axis, Names{"x", "y", "z"});
+  in.finish();
+  in.check(outer >= inner, "outer", "must be at least inner, {:g} diameters", inner);
+  const double most = std::numbers::pi * std::pow(outer / spacing + 1.0, 2) * layers;
+  in.check(most <= mostDisks, "outer",
+           "and layers are about {:.3g} disks: a case may have at most {}", most, mostDisks);
+  std::vector<Vec3> places = circlePlaces(inner, outer, spacing, layers, rise);
+  for (Vec3& place : places)
+    for (char to = axis[0]; to != 'z'; to = to == 'x' ? 'y' : 'z')
+      place = Vec3(place.y(), place.z(), place.x());  // what was along z is along y, then along x
+  return places;
+}
+
 struct Arrangement {
   const char *name, *meaning;
   bool inSpace;
@@ -88,7 +111,12 @@ constexpr Arrangement arrangements[] = {
     {"stack", "`{ count, spacing = 1 }`: upward", false},
     {"chain", "`{ count, spacing = 1 }`: to the right", true},
     {"heap", "`{ base, spacing = 1 }`: a triangle of rows of base, base − 1, … disks", false},
-    {"line", "`{ count, step }`: each off by step, [x, y], from the one before", true}};
+    {"line", "`{ count, step }`: each off by step, [x, y], from the one before", true},
+    {"circles",
+     "in space: `{ inner = 0, outer, spacing = 1, layers = 1, rise = spacing, axis = \"z\" }`: on "
+     "circles about `position`, of radii inner, inner + spacing … up to outer, as many on each as "
+     "fit; layers along the axis. A bottom with an orifice, or what fills a cylinder",
+     true}};
 
 /// Adds the keys of arrangements, of which one may be given.
 template <int D, typename T>
@@ -104,6 +132,8 @@ std::vector<Key<T>> withArrangements(std::vector<Key<T>> keys) {
             places = readGrid<D>(part);
           } else if (key == "line") {
             places = readLine<D>(part);
+          } else if (key == "circles") {
+            if constexpr (D == 3) places = readCircles(part);
           } else {
             const auto [count, space] = readRow(part, key == "heap" ? "base" : "count");
             if constexpr (D == 2)
@@ -119,7 +149,7 @@ std::vector<Key<T>> withArrangements(std::vector<Key<T>> keys) {
 }
 
 void checkArrangement(Reader& in) {
-  in.onlyOne({"grid", "stack", "chain", "line", "heap"});
+  in.onlyOne({"grid", "stack", "chain", "line", "heap", "circles"});
 }
 
 /// The keys of [[assembly.disks]].
@@ -163,6 +193,7 @@ template <int D>
 DiskGroupOf<D> readDisks(Reader in) {
   DisksInput<D> group;
   refuseKeysOf<D>(in, 3, {"stack", "heap"});
+  refuseKeysOf<D>(in, 2, {"circles"});
   disksKeys<D>().read(in, group);
   checkArrangement(in);
   in.check(group.count() <= group.places.size(), "choose", "must be at most {}, the places there",
@@ -171,6 +202,23 @@ DiskGroupOf<D> readDisks(Reader in) {
   if (!in.has("mass") && !in.has("density")) in.failMissing("mass", "or density");
   if (in.has("density")) group.mass = massOfOne<D>(in, group.density, group.radius);
   return group;
+}
+
+/// Into a body with a cylinder, which turns about its axis or stands still.
+void readCylinder(Reader in, WallGroupOf<3>& wall) {
+  Cylinder& cylinder = wall.cylinders.emplace_back();
+  double omega = 0.0;
+  in.read("point", cylinder.point, anyNumber("m"));
+  in.require("axis", cylinder.axis, Range{});
+  in.require("radius", cylinder.radius, positive("m"));
+  in.read("omega", omega, anyNumber("rad/s"));
+  in.finish();
+  in.check(!cylinder.axis.isZero(0.0), "axis", "must not be zero");
+  cylinder.axis.normalize();
+  if (omega == 0.0) return;
+  wall.centre = cylinder.point;
+  wall.motion.kind = MotionKind::rotating;
+  wall.motion.angularVelocity = omega * cylinder.axis;
 }
 
 /// The keys of [[assembly.walls]].
@@ -193,6 +241,16 @@ const Section<WallsInput<D>>& wallsKeys() {
         key("box", &I::box, anyNumber("m"),
             "[left, bottom, right, top]: four planes around a room; in space the lower corner and "
             "the upper one, six planes"),
+        special<I>(
+            {"cylinder", "", "–", "a table",
+             "in space: `{ point = [0, 0, 0], axis, radius, omega = 0 }`: hollow and without "
+             "ends, spheres inside, through a point [m], along a direction, of a radius [m]. "
+             "With its other members it stands still, or turns about the axis at omega "
+             "[rad/s]"},
+            [](Reader& in, const std::string& name, I& wall) {
+              if (!in.has(name)) return static_cast<void>(in.take(name));
+              if constexpr (D == 3) readCylinder(in.section(name), wall);
+            }),
         key("position", &I::first, anyNumber("m"), "[x, y] of the (first) wall disk").listed("–"),
         key("radius", &I::radius, positive("m"), "of wall disks").listed("–"),
         key("velocity", &Moved::velocity, anyNumber("m/s"), "it travels").listed("–"),
@@ -246,10 +304,14 @@ template <int D>
 WallGroupOf<D> readWalls(Reader in) {
   WallsInput<D> wall;
   refuseKeysOf<D>(in, 3, {"stack", "heap", "omega", "centre"});
+  refuseKeysOf<D>(in, 2, {"circles", "cylinder"});
   wallsKeys<D>().read(in, wall);
   checkArrangement(in);
   setMotion<D>(in, wall);
-  wall.motion = wall;
+  for (const char* const way : {"velocity", "amplitude"})
+    in.check(!in.has(way) || wall.cylinders.empty(), way,
+             "is not of a wall with a cylinder, which stands still or turns about its axis");
+  if (wall.cylinders.empty()) wall.motion = wall;
   if (std::vector<double>& box = wall.box; !box.empty()) {
     const bool sized = box.size() == 2 * D;
     if (!sized) box.assign(2 * D, 0.0);
@@ -269,8 +331,9 @@ WallGroupOf<D> readWalls(Reader in) {
   if (in.has("position"))
     for (const VecOf<D>& place : wall.places)
       wall.WallGroupOf<D>::position.push_back(wall.first + 2.0 * wall.radius * place);
-  if (wall.planes.empty() && wall.WallGroupOf<D>::position.empty())
-    in.failMissing("point", "or box, or position: a wall of planes or disks");
+  if (wall.planes.empty() && wall.cylinders.empty() && wall.WallGroupOf<D>::position.empty())
+    in.failMissing("point", D == 2 ? "or box, or position: a wall of planes or disks"
+                                   : "or box, cylinder or position: a wall of planes or spheres");
   return wall;
 }
 

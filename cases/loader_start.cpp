@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "cases/loader_sections.hpp"
@@ -111,13 +112,19 @@ void readBox(Reader in, AssemblyOf<D>& assembly) {
              "the box is {:g} m wide along {}, and must be wider than two reaches of its largest "
              "pair, {:g} m",
              length, name, 2.0 * reach);
-    for (std::size_t w = 0; w < assembly.walls.size(); ++w)
+    for (std::size_t w = 0; w < assembly.walls.size(); ++w) {
       for (const PlaneOf<D>& plane : assembly.walls[w].planes)
         in.check(
             plane.normal[k] == 0.0, "periodic",
             "assembly.walls[{}] has a plane across {}: what is periodic has no wall there, and "
             "its planes are along it",
             w, name);
+      for (const Cylinder& cylinder : assembly.walls[w].cylinders)
+        in.check(std::abs(cylinder.axis[k]) == 1.0, "periodic",
+                 "assembly.walls[{}] has a cylinder that is not along {}: what is periodic has no "
+                 "wall there",
+                 w, name);
+    }
   }
   assembly.box = box;
 }

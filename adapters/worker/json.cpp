@@ -58,11 +58,18 @@ void fields(auto& io, PlaneOf<D>& plane) {
   io.required("normal", plane.normal);
 }
 
+void fields(auto& io, Cylinder& cylinder) {
+  io.required("point", cylinder.point);
+  io.required("axis", cylinder.axis);
+  io.required("radius", cylinder.radius);
+}
+
 template <int D>
 void fields(auto& io, WallBodyOf<D>& body) {
   io.required("name", body.name);
   io.required("centre", body.centre);
   io.required("planes", body.planes);
+  io.when(!body.cylinders.empty(), "cylinders", body.cylinders);
   io.required("motion", body.motion);
 }
 
@@ -329,8 +336,7 @@ SnapshotOf<D> snapshotFromJson(const Json& in, const ArrayReader& arrays, const 
   if (snapshot.bodies.size() != scene.bodies.size())
     throw std::runtime_error(fmt::format("it has {} wall bodies, the scene {}",
                                          snapshot.bodies.size(), scene.bodies.size()));
-  if (arrays.has("contacts.i"))
-    snapshot.contacts = contactsFrom<D>(arrays, disks + wallDisks + scene.planeCount());
+  if (arrays.has("contacts.i")) snapshot.contacts = contactsFrom<D>(arrays, scene.idCount());
   return snapshot;
 }
 

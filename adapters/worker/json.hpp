@@ -94,6 +94,7 @@ void fields(auto& io, SceneLimits& limits) {
   io.present("wall_motions", limits.wallMotions);
   io.present("plane_motions", limits.planeMotions);
   io.present("plane_normals", normals);
+  io.when(limits.cylinders, "cylinders", limits.cylinders);
   io.present("restitution", restitution);
   if (io.reading) {
     limits.planesAlongAxes = normals == PlaneNormals::axis;

@@ -22,14 +22,9 @@ namespace {
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-/// Disks, wall disks and planes of a scene whose array file is kept: of larger ones it is long, and
-/// spoiling it takes longer than making a new one.
+/// Ids of a scene whose array file is kept: of larger ones it is long, and spoiling it takes longer
+/// than making a new one.
 constexpr std::size_t mostBodiesOfKept = 10'000;
-
-template <int D>
-std::size_t bodiesIn(const SceneOf<D>& scene) {
-  return scene.disks.size() + scene.wallDiskCount() + scene.planeCount();
-}
 
 /// The longest array file that a listener gets of an exchange [bytes]; of a longer one, and of what
 /// is no regular file, it gets nothing.
@@ -177,7 +172,7 @@ EffectiveParameters WorkerEngine::loadShape(const SceneOf<D>& scene, const Setti
   time_ = 0.0;
   goodTime_.reset();
   // Of a recording each exchange has its own, as one is kept that grew longer before.
-  keepsFile_ = writesOver_ && !listener_ && bodiesIn(scene) <= mostBodiesOfKept;
+  keepsFile_ = writesOver_ && !listener_ && scene.idCount() <= mostBodiesOfKept;
   const Exchanging exchanging(*exchangeFile_);
   ArrayWriter arrays;
   json request = {

@@ -94,6 +94,10 @@ std::uint64_t fingerprint(const SpheresSetup& setup) {
     to.add(wall.radius);
     for (const SpaceWall::Plane& plane : wall.planes)
       for (const Vec3<double>& v : {plane.point, plane.normal}) to.addAll(v.x, v.y, v.z);
+    for (const SpaceWall::Cylinder& each : wall.cylinders) {
+      for (const Vec3<double>& v : {each.point, each.axis}) to.addAll(v.x, v.y, v.z);
+      to.addAll(each.radius);
+    }
   }
   add(to, setup.law);
   to.addAll(static_cast<int>(setup.conventions.turn), static_cast<int>(setup.conventions.twist));

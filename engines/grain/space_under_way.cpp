@@ -133,7 +133,8 @@ Meeting<double> Spheres::meetingOf(const SpaceContact& contact) {
                     j = indexOf(static_cast<std::size_t>(contact.j));
   if (j < position_.size())
     return grain::meetingOf(law_, view(), i, j, contact.normal, contact.overlap);
-  return meetingOn(planes_[j - position_.size()], i, position_[i].w - contact.overlap);
+  return meetingOn(planes_[j - position_.size()], i,
+                   {contact.normal, position_[i].w - contact.overlap});
 }
 
 /// Adds a tangential force and a torque against rolling to those of a contact.

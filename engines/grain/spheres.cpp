@@ -28,8 +28,9 @@ bool isEveryday(const GeneralLaw<double>& law) {
 }
 
 bool pushesMoreThanPairs(const SpheresSetup& setup) {
-  return !isZero(setup.gravity) ||
-         std::ranges::any_of(setup.walls, [](const SpaceWall& w) { return !w.planes.empty(); });
+  return !isZero(setup.gravity) || std::ranges::any_of(setup.walls, [](const SpaceWall& w) {
+    return !w.planes.empty() || !w.cylinders.empty();
+  });
 }
 
 /// v turned by an angle about its axis (Rodrigues' formula).
@@ -96,12 +97,16 @@ void Spheres::placeSpheres() {
       arm = std::max(arm, length(wall.position[k] - wallCentre_[w]));
     }
     wallArm_.push_back(arm);
-    for (std::size_t member = 0; member < wall.planes.size(); ++member) {
-      PlacedPlane& plane = planes_.emplace_back(PlacedPlane{w, member, {}, {}, {}, {}, {}, {}});
-      plane.kept.resize(size());
-      plane.results.resize(size());
-      plane.touches.resize(size());
-    }
+    for (std::size_t member = 0; member < wall.planes.size(); ++member)
+      planes_.push_back({w, member, 0.0, {}, {}, {}, {}, {}, {}});
+  }
+  for (std::size_t w = 0; w < setup_.walls.size(); ++w)
+    for (const SpaceWall::Cylinder& each : setup_.walls[w].cylinders)
+      planes_.push_back({w, 0, each.radius, {}, each.point, each.axis, {}, {}, {}});
+  for (PlacedPlane& plane : planes_) {
+    plane.kept.resize(size());
+    plane.results.resize(size());
+    plane.touches.resize(size());
   }
   wallBegin_.push_back(position_.size());
   wallPath_.resize(setup_.walls.size());
@@ -217,7 +222,8 @@ void Spheres::step() {
 }
 
 void Spheres::moveWalls() {
-  auto plane = planes_.begin();
+  const auto cylinders = std::ranges::find_if(planes_, &PlacedPlane::isCylinder);
+  auto plane = planes_.begin(), cylinder = cylinders;
   for (std::size_t w = 0; w < setup_.walls.size(); ++w) {
     const SpaceWall& wall = setup_.walls[w];
     const SpaceWall::State now = wall.motion(time());
@@ -227,7 +233,11 @@ void Spheres::moveWalls() {
     if (wallBegin_[w] < std::min(wallBegin_[w + 1], allowance_.size()) &&
         !(wallPath_[w] <= allowance_[wallBegin_[w]]))
       outdated_ = true;
-    for (; plane != planes_.end() && plane->wall == w; ++plane) {
+    for (; cylinder != planes_.end() && cylinder->wall == w; ++cylinder) {
+      cylinder->now = now;
+      cylinder->force = cylinder->torque = {};
+    }
+    for (; plane != cylinders && plane->wall == w; ++plane) {
       const SpaceWall::Plane& member = wall.planes[plane->member];
       plane->now = now;
       plane->point = wallPlace(w, member.point);
@@ -344,8 +354,8 @@ void Spheres::addForces() {
 
 void Spheres::addPlane(PlacedPlane& plane) {
   for (std::size_t i = 0; i < size(); ++i) {
-    const double a = position_[i].w,
-                 height = dot(vectorOf(position_[i]) - plane.point, plane.normal);
+    const Place place = placeOn(plane, i);
+    const double a = position_[i].w, height = place.height;
     SpaceMemory<double>& kept = plane.kept[i];
     bool touches = a - height > 0.0;
     if (law_.cohesion == Cohesion::jkr) {
@@ -355,31 +365,45 @@ void Spheres::addPlane(PlacedPlane& plane) {
     if (!touches && plane.touches[i] != 0) kept = {};
     plane.touches[i] = touches;
     if (!touches) continue;
-    if (setup_.maxOverlap > 0.0 && !(a - height <= setup_.maxOverlap * a)) reportDeep();
+    if (setup_.maxOverlap > 0.0 && !(a - height <= setup_.maxOverlap * a)) {
+      plane.results[i].overlap = a - height;
+      reportDeep();
+    }
     ++evaluations_;
-    const Meeting<double> meeting = meetingOn(plane, i, height);
+    const Meeting<double> meeting = meetingOn(plane, i, place);
     const MeetingForce<double> force = meetingForce(law_, setup_.conventions, meeting, kept);
     plane.results[i] = {meeting.overlap, force.normal, force.sliding, force.tangential,
                         force.rolling};
     add(force_[i], force.force, 1.0);
     if (law_.rotation) add(torque_[i], force.torqueI, 1.0);
     plane.force -= force.force;
-    plane.torque -= cross(armOn(plane, i, height), force.force) + force.rolling;
+    plane.torque -= cross(armOn(plane, i, place), force.force) + force.rolling;
   }
 }
 
-/// From the centre of the plane's wall to where it meets sphere i, `height` above it [m].
-Vector Spheres::armOn(const PlacedPlane& plane, std::size_t i, double height) const {
-  const double away = planePoint(law_, position_[i].w, height);
-  return vectorOf(position_[i]) - away * plane.normal - plane.now.centre;
+Spheres::Place Spheres::placeOn(const PlacedPlane& plane, std::size_t i) const {
+  const Vector from = vectorOf(position_[i]) - plane.point;
+  const double along = dot(from, plane.normal);
+  if (!plane.isCylinder()) return {plane.normal, along};
+  const Vector aside = from - along * plane.normal;
+  const double distance = length(aside);
+  // On the axis there is no normal, and contact only of a sphere as large as the cylinder.
+  return {distance > 0.0 ? (-1.0 / distance) * aside : Vector{}, plane.radius - distance};
 }
 
-Meeting<double> Spheres::meetingOn(const PlacedPlane& plane, std::size_t i, double height) const {
-  const double a = position_[i].w;
+/// From the centre of the plane's wall to where it meets sphere i [m].
+Vector Spheres::armOn(const PlacedPlane& plane, std::size_t i, const Place& place) const {
+  const double away = planePoint(law_, position_[i].w, place.height);
+  return vectorOf(position_[i]) - away * place.normal - plane.now.centre;
+}
+
+Meeting<double> Spheres::meetingOn(const PlacedPlane& plane, std::size_t i,
+                                   const Place& place) const {
+  const double a = position_[i].w, height = place.height;
   Meeting<double> meeting{};
-  meeting.normal = plane.normal;
+  meeting.normal = place.normal;
   meeting.velocity = vectorOf(seenVelocities()[i]) -
-                     (plane.now.velocity + cross(plane.now.spin, armOn(plane, i, height)));
+                     (plane.now.velocity + cross(plane.now.spin, armOn(plane, i, place)));
   meeting.spinI = vectorOf(seenSpins()[i]);
   meeting.overlap = a - height;
   meeting.radiusI = a;
@@ -390,16 +414,21 @@ Meeting<double> Spheres::meetingOn(const PlacedPlane& plane, std::size_t i, doub
   return meeting;
 }
 
+std::string Spheres::nameOfPlane(std::size_t p) const {
+  const auto first = std::ranges::find_if(planes_, &PlacedPlane::isCylinder) - planes_.begin();
+  const auto flat = static_cast<std::size_t>(first);
+  return p < flat ? "plane " + std::to_string(p) : "cylinder " + std::to_string(p - flat);
+}
+
 void Spheres::reportDeep() {
   for (const SpaceContact& contact : contacts()) {
     const auto i = static_cast<std::size_t>(contact.i), j = static_cast<std::size_t>(contact.j);
     double smallest = setup_.radius[i];
     if (j < position_.size()) smallest = std::min(smallest, position_[indexOf(j)].w);
     if (contact.overlap <= setup_.maxOverlap * smallest) continue;
-    const std::string partner = j < size() ? "sphere " + std::to_string(j)
-                                : j < position_.size()
-                                    ? "wall sphere " + std::to_string(j - size())
-                                    : "plane " + std::to_string(j - position_.size());
+    const std::string partner = j < size()             ? "sphere " + std::to_string(j)
+                                : j < position_.size() ? "wall sphere " + std::to_string(j - size())
+                                                       : nameOfPlane(j - position_.size());
     throw std::runtime_error("sphere " + std::to_string(i) + " and " + partner + " overlap by " +
                              std::to_string(contact.overlap / smallest) +
                              " of the smaller radius at t = " + std::to_string(time()) + " s");
@@ -427,7 +456,7 @@ std::vector<SpaceContact> Spheres::contacts() {
   for (std::size_t p = 0; p < planes_.size(); ++p)
     for (std::size_t i = 0; i < size(); ++i)
       if (planes_[p].touches[i] != 0)
-        add(static_cast<std::int32_t>(i), position_.size() + p, planes_[p].normal,
+        add(static_cast<std::int32_t>(i), position_.size() + p, planes_[p].kept[i].normal,
             planes_[p].results[i]);
   std::ranges::sort(found, {}, [](const SpaceContact& c) { return std::pair(c.i, c.j); });
   return found;

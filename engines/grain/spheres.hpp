@@ -4,6 +4,7 @@
 #include <functional>
 #include <iosfwd>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -11,16 +12,22 @@
 
 namespace grain {
 
-/// A rigid body of planes and spheres that moves as prescribed, whatever pushes on it.
+/// A rigid body of planes, cylinders and spheres that moves as prescribed, whatever pushes on it.
 struct SpaceWall {
   struct Plane {
     Vec3<double> point, normal;  ///< at t = 0; of length 1, into the free side
+  };
+  /// Hollow, with the spheres inside. Its body stands still or turns about its axis.
+  struct Cylinder {
+    Vec3<double> point, axis;  ///< of length 1
+    double radius;
   };
   struct State {
     Vec3<double> centre, velocity;
     Vec3<double> angle{}, spin{};  ///< turned since t = 0, and its rate, about one axis
   };
   std::vector<Plane> planes;
+  std::vector<Cylinder> cylinders;
   std::vector<Vec3<double>> position;  ///< of spheres at t = 0
   std::vector<double> radius;
   std::function<State(double t)> motion;
@@ -43,7 +50,7 @@ struct SpheresSetup {
 };
 
 /// One contact of the last force evaluation; the force acts on i, n points from j to i. Numbers:
-/// spheres, then those of walls, then planes, each wall by wall.
+/// spheres, then those of walls, then planes, then cylinders, each wall by wall.
 struct SpaceContact {
   std::int32_t i, j;
   Vec3<double> normal;
@@ -105,15 +112,18 @@ class Spheres {
   std::pair<Vec3<double>, Vec3<double>> wallLoad(std::size_t w) const;
 
  private:
-  /// A plane at this instant, and what its contacts remember, one a sphere.
+  /// A plane or a cylinder at this instant, and what its contacts remember, one a sphere.
   struct PlacedPlane {
     std::size_t wall, member;
-    SpaceWall::State now;  ///< of the wall
-    Vec3<double> point, normal;
+    double radius;               ///< of a cylinder; 0: a plane
+    SpaceWall::State now;        ///< of the wall
+    Vec3<double> point, normal;  ///< of a cylinder a point of the axis, and its direction
     std::vector<SpaceMemory<double>> kept;
     std::vector<SpaceResult> results;
     std::vector<std::uint8_t> touches;
     Vec3<double> force{}, torque{};  ///< on it, about the wall's centre
+
+    bool isCylinder() const { return radius > 0.0; }
   };
 
   std::size_t indexOf(std::size_t id) const {
@@ -155,8 +165,14 @@ class Spheres {
   void rememberChoice();
   void beginForces();
   void addForces();
-  Meeting<double> meetingOn(const PlacedPlane& plane, std::size_t i, double height) const;
-  Vec3<double> armOn(const PlacedPlane& plane, std::size_t i, double height) const;
+  /// How a sphere lies to it: of a cylinder the normal to the axis, the height R − s.
+  struct Place {
+    Vec3<double> normal;
+    double height;
+  };
+  Place placeOn(const PlacedPlane& plane, std::size_t i) const;
+  Meeting<double> meetingOn(const PlacedPlane& plane, std::size_t i, const Place& place) const;
+  Vec3<double> armOn(const PlacedPlane& plane, std::size_t i, const Place& place) const;
   Meeting<double> meetingOf(const SpaceContact& contact);
   void addLacking(const SpaceContact& contact, const Vec3<double>& force,
                   const Vec3<double>& torque);
@@ -164,6 +180,7 @@ class Spheres {
   Vec3<double> springFor(const Meeting<double>& meeting, const SpaceContact& want,
                          double unit) const;
   void addPlane(PlacedPlane& plane);
+  std::string nameOfPlane(std::size_t p) const;  ///< "cylinder 0"
   [[noreturn]] void reportDeep();
 
   SpheresSetup setup_;
@@ -174,7 +191,7 @@ class Spheres {
   double range_;           ///< how far apart bodies may be in contact [m]
   std::uint64_t steps_ = 0, chosenAt_ = 0, evaluations_ = 0;
   bool outdated_ = true, sampled_ = false;
-  /// Something besides pairs pushes: gravity, or a plane.
+  /// Something besides pairs pushes: gravity, a plane or a cylinder.
   bool everyone_;
   double freeUntil_ = 0.0;  ///< the last step for which spheres that nothing pushes have allowance
   // By index, from place to place: the moving spheres, then those of walls.
@@ -190,7 +207,7 @@ class Spheres {
   std::vector<double> wallArm_;        ///< from the centre to the farthest of its spheres [m]
   std::vector<double> wallPath_;       ///< of that one, at most, since pairs were chosen [m]
   std::vector<std::int32_t> reached_;  ///< spheres of walls that are in a near pair
-  std::vector<PlacedPlane> planes_;
+  std::vector<PlacedPlane> planes_;    ///< then the cylinders
   SpaceLists lists_;
 };
 

@@ -1,12 +1,12 @@
-"""Puts a scene into LAMMPS. Atom ids are the scene's plus one: disks, then wall disks by body; a plane
-is a fix of its own."""
+"""Puts a scene into LAMMPS. Atom ids are the scene's plus one: disks, then wall disks by body; a plane,
+and a cylinder, is a fix of its own."""
 
 import math
 
 import jkr
 import numpy as np
 from crossgrain_answers import demand_plain_walls
-from crossgrain_walls import Box
+from crossgrain_walls import Box, Cylinder, Plane
 from crossgrain_worker import Unsupported
 
 FEW = 50  # atoms: a box that small may have no room for bins
@@ -35,6 +35,10 @@ def check(scene, bodies, arrays):
     for body in bodies:
         if any(along and n for plane in body.planes for along, n in zip(periodic, plane["normal"])):
             raise Unsupported(f"has no planes across periodic directions, and {body.name} has one")
+        for cylinder in body.cylinders:
+            if sorted(map(abs, cylinder["axis"])) != [0, 0, 1]:
+                axis = tuple(round(component, 6) for component in cylinder["axis"])
+                raise Unsupported(f"has cylinders along axes only; that of {body.name} is along {axis}")
 
 
 def with_z(vectors):
@@ -42,15 +46,16 @@ def with_z(vectors):
     return np.column_stack([vectors, np.zeros(len(vectors))]) if vectors.shape[1] == 2 else vectors
 
 
-def axis_of(plane):
-    """0, 1 or 2: that which its normal is along."""
-    return next(k for k, n in enumerate(plane["normal"]) if n)
+def axis_of(vector):
+    """0, 1 or 2: that which it is along."""
+    return next(k for k, component in enumerate(vector) if component)
 
 
 class Scene:
-    """A scene as LAMMPS has it. Sets each body's disk_ids and plane_numbers.
+    """A scene as LAMMPS has it. Sets each body's disk_ids and plane_numbers, of its planes and then its cylinders.
 
     space  2, or 3 in space
+    planes, surfaces  how many planes and cylinders, and what they are: all planes, then all cylinders
     plane_arm, plane_point  what of the overlap the arm of f_t at a plane is shorter than a, and how much nearer to the
                             centre than a the force on the plane is taken to act"""
 
@@ -64,20 +69,23 @@ class Scene:
         self.materials_of_types = [*range(laws.count), *laws.of_body]
         self.first_body = 1 + laws.count
         self.disk_types = " ".join(map(str, range(1, self.first_body)))
-        self.planes = 0
-        self.plane_normals = []
         next_id = scene["disks"]
         for body in bodies:
             body.disk_ids = list(range(next_id, next_id + len(body.disk_radius)))
             next_id += len(body.disk_radius)
+            body.plane_numbers = []
         self.atoms = next_id
-        for body in bodies:
-            body.plane_numbers = list(range(self.planes, self.planes + len(body.planes)))
-            self.planes += len(body.planes)
-            self.plane_normals += [np.array(plane["normal"], float) for plane in body.planes]
+        self.surfaces = []
+        for kind, make in (("planes", Plane), ("cylinders", Cylinder)):
+            for body in bodies:
+                for description in getattr(body, kind):
+                    body.plane_numbers.append(len(self.surfaces))
+                    self.surfaces.append(make(description))
+        self.planes = len(self.surfaces)
         self.radius = np.concatenate(
             [arrays["disks.radius"], *(body.disk_radius for body in bodies)]
         )
+        self.turning_regions = {}  # of cylinders, by name: what follows the name
 
     def place(self, skin, dt):
         """@param skin  in radii of the smallest disk"""
@@ -106,8 +114,12 @@ class Scene:
         self.set_law(skin, dt)
         for k, body in enumerate(bodies, self.first_body):
             self.leave_out_pairs(k)
-            for number, plane in zip(body.plane_numbers, body.planes):
-                self.raise_plane(number, plane, k)
+            for number in body.plane_numbers:
+                surface = self.surfaces[number]
+                if isinstance(surface, Plane):
+                    self.raise_plane(number, surface, k)
+                else:
+                    self.raise_cylinder(number, surface, body, k)
         self.stretch_springs()
         self.integrate()
         for k, body in enumerate(bodies, self.first_body):
@@ -196,10 +208,12 @@ class Scene:
         """LAMMPS stretches no spring in the forces that it starts from; spring_update = "before" means
         that they are stretched by then. In a step that nothing integrates they are, and nothing else
         happens."""
-        self.run(
-            """run 1 post no
-            reset_timestep 0"""
-        )
+        self.lammps.command("run 1 post no")
+        for name, words in self.turning_regions.items():
+            self.lammps.command(f"region {name} delete")
+            self.lammps.command(f"region {name} {words}")
+        if not self.turning_regions:
+            self.lammps.command("reset_timestep 0")
 
     def put_first_forces(self):
         """Where those that a run is set up with are not the law's."""
@@ -250,15 +264,38 @@ class Scene:
         self.lammps.command(f"fix move{kind} {group} move {words}")
 
     def raise_plane(self, number, plane, kind):
-        """A fix for each material of disks. @param kind  type of its body"""
-        axis = axis_of(plane)
-        place = repr(float(plane["point"][axis]))
-        ends = f"{place} NULL" if plane["normal"][axis] > 0 else f"NULL {place}"
+        """@param kind  type of its body"""
+        axis = axis_of(plane.normal)
+        place = repr(float(plane.point[axis]))
+        ends = f"{place} NULL" if plane.normal[axis] > 0 else f"NULL {place}"
+        self.raise_wall(number, kind, "wall/gran", f"{'xyz'[axis]}plane {ends}")
+
+    def raise_cylinder(self, number, cylinder, body, kind):
+        """A region, which turns by a variable. Its velocity is what it turned since the step before, so that at step 0 it
+        has none: stretch_springs() ends with a region that is new at step 1."""
+        if self.law.normal != "linear":
+            raise Unsupported('has cylinders with normal = "linear" alone: its Hertz\' law has their curvature in it')
+        axis = axis_of(cylinder.axis)
+        across = [k for k in range(3) if k != axis]
+        x, y = (repr(float(cylinder.point[k])) for k in across)
+        words = f"cylinder {'xyz'[axis]} {x} {y} {cylinder.radius!r} INF INF side in units box"
+        omega = float(body.state(0.0)[3][axis])
+        if omega:
+            self.lammps.command(f"variable turn{number} equal {omega!r}*step*dt")
+            centre = " ".join(repr(float(component)) for component in cylinder.point)
+            direction = " ".join("1" if k == axis else "0" for k in range(3))
+            words += f" rotate v_turn{number} {centre} {direction}"
+            self.turning_regions[f"cylinder{number}"] = words
+        self.lammps.command(f"region cylinder{number} {words}")
+        self.raise_wall(number, kind, "wall/gran/region", f"region cylinder{number}")
+
+    def raise_wall(self, number, kind, style, words):
+        """A fix for each material of disks."""
         for name, group, of_disks in self.plane_fixes(number):
             if group != "disks":
                 self.lammps.command(f"group {group} type {1 + of_disks}")
-            words = self.laws.between(of_disks, self.materials_of_types[kind - 1]).words(plane=True)
-            self.lammps.command(f"fix {name} {group} wall/gran granular {words} {'xyz'[axis]}plane {ends} contacts")
+            law = self.laws.between(of_disks, self.materials_of_types[kind - 1]).words(plane=True)
+            self.lammps.command(f"fix {name} {group} {style} granular {law} {words} contacts")
 
     def plane_fixes(self, number):
         """Of one plane: the fix' name, its group, the material of that."""

@@ -44,27 +44,26 @@ def contacts_of_rows(rows, made, position):
     return i, j, normal, overlap, force, sign * (x * tangent[:, 0] + y * tangent[:, 1]), rolling
 
 
-def read_plane_contacts(made, bodies, position, on_planes):
-    """The same of disks with planes, plane by plane, the torque unknown. on_planes: force on each atom by each."""
+def read_plane_contacts(made, position, on_planes):
+    """The same of disks with planes and cylinders, one after the other, the torque unknown. on_planes: force on each atom
+    by each."""
     n = made.scene["disks"]
-    for body in bodies:
-        for number, plane in zip(body.plane_numbers, body.planes):
-            normal = made.plane_normals[number]
-            # Across no periodic direction, so that any image of a disk is as far from it.
-            overlap = made.radius[:n] - (position[:n] - plane["point"]) @ normal
-            i = np.flatnonzero(overlap > 0)
-            force = on_planes[number][i]
-            normals = np.tile(normal, (len(i), 1))
-            along = force @ normal
-            yield (
-                i,
-                np.full(len(i), made.atoms + number),
-                normals,
-                overlap[i],
-                along,
-                (force * turned(normals)).sum(axis=1) if made.space == 2 else force - along[:, None] * normal,
-                np.full((len(i), 3)[: made.space - 1], np.nan),  # the fix does not report it
-            )
+    for number, surface in enumerate(made.surfaces):
+        # Across no periodic direction, so that any image of a disk is as far from it.
+        normals, gap = surface.facing(position[:n])
+        overlap = made.radius[:n] - gap
+        i = np.flatnonzero(overlap > 0)
+        force, normals = on_planes[number][i], normals[i]
+        along = (force * normals).sum(axis=1)
+        yield (
+            i,
+            np.full(len(i), made.atoms + number),
+            normals,
+            overlap[i],
+            along,
+            (force * turned(normals)).sum(axis=1) if made.space == 2 else force - along[:, None] * normals,
+            np.full((len(i), 3)[: made.space - 1], np.nan),  # the fix does not report it
+        )
 
 
 def torques_at_planes(made, columns, torque):

@@ -48,6 +48,7 @@ class Engine:
         "wall_motions": ["fixed", "rotating", "translating", "oscillating"],
         "plane_motions": ["fixed"],
         "plane_normals": "axis",
+        "cylinders": True,
     }
 
     bonds = None  # under JKR, in the process that runs it
@@ -247,7 +248,7 @@ class Engine:
 
     def contacts(self, rows, position, on_planes, torque):
         of_pairs = self.contacts_of_rows(rows, position)
-        columns = [of_pairs, *read_plane_contacts(self.made, self.bodies, position, on_planes)]
+        columns = [of_pairs, *read_plane_contacts(self.made, position, on_planes)]
         columns = [np.concatenate(column) for column in zip(*columns)]
         i, j, normal, overlap, pressing, tangential, _ = columns
         strength = tangential if self.space == 2 else np.linalg.norm(tangential, axis=1)
@@ -282,16 +283,14 @@ class Engine:
         # Where LAMMPS moves them to another image their body goes on.
         place = body.disk_states(now)[0] if any(self.made.box.periodic) else position[members]
         moment = moments(place - centre, force[members], torque[members]).sum(axis=0)
-        points, _ = body.plane_states(now)
-        for k, point in zip(body.plane_numbers, points):
+        for k in body.plane_numbers:
             on_plane = -on_planes[k][: self.disks]
             total = total + on_plane.sum(axis=0)
-            # On the line from a disk's centre to its projection onto the plane.
-            normal = self.made.plane_normals[k]
-            gap = (position[: self.disks] - point) @ normal
+            # On the line from a disk's centre to its projection onto the surface.
+            normals, gap = self.made.surfaces[k].facing(position[: self.disks])
             overlap = self.made.radius[: self.disks] - gap
             apart = gap + (1.0 - self.made.plane_point) * overlap
-            arm = position[: self.disks] - apart[:, None] * normal - centre
+            arm = position[: self.disks] - apart[:, None] * normals - centre
             moment += moments(arm, on_plane).sum(axis=0)
         shown = body.shown(now) | {"force": total.tolist()}
         rolling = self.rolling_on_planes(body, arrays)

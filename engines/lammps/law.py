@@ -80,7 +80,7 @@ class Laws:
             self.all, self.count = [self.one], 1
             self.of_disk, self.of_body = np.zeros(scene["disks"], int), [0] * len(bodies)
         of_walls = [np.full(len(body.disk_radius), of) for body, of in zip(bodies, self.of_body)]
-        of_planes = [np.full(len(body.planes), of) for body, of in zip(bodies, self.of_body)]
+        of_planes = [np.full(len(body.planes) + len(body.cylinders), of) for body, of in zip(bodies, self.of_body)]
         self.of_id = np.concatenate([self.of_disk, *of_walls, *of_planes]).astype(int)
 
     def between(self, a, b):

@@ -12,6 +12,7 @@ SHARED = "libliggghts.so.3"
 # Pairs nearer than so many sums of their radii are looked at, and those that do not touch lose their spring. With 1.0,
 # LIGGGHTS' own, a contact that opens and closes again before the lists are made anew goes on from its old spring.
 FORGETS = 1.01
+MOST_RADII = 8  # of spheres in a cylinder that turns, each with a wall of its own
 VERSION = "3.8.0"  # of Debian's package; the library does not say it
 
 
@@ -48,6 +49,11 @@ class Liggghts(Lammps):
 
 class Scene(build.Scene):
     plane_arm, plane_point = 0.5, 0.5
+
+    def __init__(self, *arguments):
+        super().__init__(*arguments)
+        self.fixes_of_walls = {}  # names, by the plane's or cylinder's number
+        self.other_speed = 0.0  # by what share a turning cylinder is too fast or too slow for some sphere
 
     def dimension(self):
         """LIGGGHTS has J = m a²/2 in two dimensions and 2/5 m a² in three, where nothing leaves the plane either."""
@@ -89,19 +95,52 @@ class Scene(build.Scene):
         )
 
     def raise_plane(self, number, plane, kind):
-        axis = build.axis_of(plane)
-        place = repr(float(plane["point"][axis]))
+        axis = build.axis_of(plane.normal)
+        self.raise_primitive(number, kind, f"{'xyz'[axis]}plane {float(plane.point[axis])!r}")
+
+    def raise_primitive(self, number, kind, shape, group="disks", motion=""):
+        fixes = self.fixes_of_walls.setdefault(number, [])
+        fixes.append(f"plane{number}of{len(fixes)}")
         models, settings = self.law.model_words(), self.law.setting_words()
-        wall = f"primitive type {kind} {'xyz'[axis]}plane {place} store_force yes"
-        self.lammps.command(f"fix plane{number} disks wall/gran {models} {wall} {settings}")
+        wall = f"primitive type {kind} {shape} {motion} store_force yes"
+        self.lammps.command(f"fix {fixes[-1]} {group} wall/gran {models} {wall} {settings}")
+
+    def raise_cylinder(self, number, cylinder, body, kind):
+        """The wall's velocity is taken at a sphere's centre, R − a + δ from the axis: for each radius, if these are few, it
+        turns faster by R/(R − a), else by that of the mean, and other_speed is what is left for others."""
+        axis = build.axis_of(cylinder.axis)
+        first, second = (repr(float(cylinder.point[(axis + k) % 3])) for k in (1, 2))
+        shape = f"{'xyz'[axis]}cylinder {cylinder.radius!r} {first} {second}"
+        omega = float(body.state(0.0)[3][axis])
+        if not omega:
+            return self.raise_primitive(number, kind, shape)
+        if axis == 1:  # there LIGGGHTS confuses x and z
+            raise Unsupported("has cylinders that turn about x or z, not about y (README.md of engines/liggghts)")
+        radii = self.radius[: self.scene["disks"]]
+        groups = {"disks": radii.mean()}
+        if len(np.unique(radii)) <= MOST_RADII:
+            groups = {f"radius{k}": radius for k, radius in enumerate(np.unique(radii))}
+            for name, radius in groups.items():
+                self.group(name, np.flatnonzero(radii == radius))
+        else:
+            self.other_speed = float(np.abs((cylinder.radius - radii) / (cylinder.radius - radii.mean()) - 1.0).max())
+        for name, radius in groups.items():
+            speed = omega * cylinder.radius / float(cylinder.radius - radius)
+            self.raise_primitive(number, kind, shape, name, f"shear {'yzx'[axis]} {speed!r}")
+
+    def group(self, name, disks):
+        """@param disks  their numbers, rising; those that follow each other are one word"""
+        for part in np.split(disks + 1, np.flatnonzero(np.diff(disks) > 1) + 1):
+            self.lammps.command(f"group {name} id {part[0]}:{part[-1]}")
 
     def forces_of_plane(self, number):
-        return self.lammps.fix_array(f"force_plane{number}", self.space)
+        return sum(self.lammps.fix_array(f"force_{name}", self.space) for name in self.fixes_of_walls[number])
 
     def stretch_springs(self):
         super().stretch_springs()
         self.first = self.lammps.gather("f", 3), self.lammps.gather("torque", 3)
-        self.first_of_planes = [self.forces_of_plane(number) for number in range(self.planes)]
+        names = [f"force_{name}" for fixes in self.fixes_of_walls.values() for name in fixes]
+        self.first_of_walls = {name: self.lammps.fix_array(name, self.space) for name in names}
 
     def put_first_forces(self):
         """A run is set up by evaluating the law once more, which shows sliding contacts with a dashpot (read_contacts
@@ -111,8 +150,8 @@ class Scene(build.Scene):
         force[:n, : self.space] += self.arrays["disks.mass"][:, None] * self.scene["gravity"]
         self.lammps.scatter("f", force)
         self.lammps.scatter("torque", torque)
-        for number, forces in enumerate(self.first_of_planes):
-            self.lammps.set_fix_array(f"force_plane{number}", forces)
+        for name, forces in self.first_of_walls.items():
+            self.lammps.set_fix_array(name, forces)
 
     def keep_in_plane(self):
         if self.dimension() == 2:

@@ -41,15 +41,19 @@ class LiggghtsEngine(Engine):
         notes = {}
         if self.made.planes and self.law.kr > 0:
             notes["rolling_velocity_at_planes"] = (
-                "at a plane LIGGGHTS takes ω (a − δ/2)/(a − δ) for ω in rolling springs and their dashpots"
+                0.0, "at a plane LIGGGHTS takes ω (a − δ/2)/(a − δ) for ω in rolling springs and their dashpots"
             )
         if self.space == 3 and self.law.kr > 0:
-            notes["rolling_spring_stays"] = "the torque of a rolling spring does not follow a normal that turns"
+            notes["rolling_spring_stays"] = 0.0, "the torque of a rolling spring does not follow a normal that turns"
         if self.space == 3 and self.law.rolling_model == "cdt":
             notes["rolling_torque_by_twist"] = (
-                "|M| is the law's times |ω_r|/|ω_i − ω_j|, ω_r being the part normal to n: less where a pair twists"
+                0.0, "|M| is the law's times |ω_r|/|ω_i − ω_j|, ω_r being the part normal to n: less where a pair twists"
             )
-        return [{"name": name, "value": 0.0, "unit": "", "note": note} for name, note in notes.items()]
+        if speed := self.made.other_speed:
+            notes["speed_of_cylinders"] = (
+                speed, "a cylinder's speed is taken at spheres' centres: right for the mean radius, off by this for the others"
+            )
+        return [{"name": name, "value": value, "unit": "", "note": note} for name, (value, note) in notes.items()]
 
     def pair_rows(self):
         return pair_rows(self.lammps, self.law)

@@ -57,14 +57,41 @@ def turned(angle, vectors):
     return vectors + math.sin(size) * aside + (1.0 - math.cos(size)) * np.cross(axis, aside)
 
 
+class Plane:
+    """One that stays where it is."""
+
+    def __init__(self, description):
+        self.point, self.normal = (np.array(description[key], float) for key in ("point", "normal"))
+
+    def facing(self, places):
+        """Normals into the free side, one a row, and how far the places are from the surface."""
+        return np.tile(self.normal, (len(places), 1)), (places - self.point) @ self.normal
+
+
+class Cylinder:
+    """Hollow, with spheres inside; its body stands still or turns about its axis."""
+
+    def __init__(self, description):
+        self.point, self.axis = (np.array(description[key], float) for key in ("point", "axis"))
+        self.radius = description["radius"]
+
+    def facing(self, places):
+        """As Plane.facing: normals to the axis. On the axis itself there is none."""
+        apart = places - self.point
+        aside = apart - np.outer(apart @ self.axis, self.axis)
+        distance = np.linalg.norm(aside, axis=1)
+        return -aside / np.where(distance > 0, distance, 1.0)[:, None], self.radius - distance
+
+
 class Body:
-    """A rigid body of wall disks and planes at any time. Lists of vectors are (n, 2) arrays, in space
+    """A rigid body of wall disks, planes and cylinders at any time. Lists of vectors are (n, 2) arrays, in space
     (n, 3), where angles and spins are vectors."""
 
     def __init__(self, description, disk_position, disk_radius):
         self.name = description["name"]
         self.centre = np.array(description["centre"])
         self.planes = description["planes"]
+        self.cylinders = description.get("cylinders", [])
         self.motion = description["motion"]
         self.kind = self.motion["kind"]
         self.disk_radius = disk_radius

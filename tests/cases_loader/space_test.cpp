@@ -71,10 +71,74 @@ TEST_F(Space, Assembly_IsRead) {
 TEST_F(Space, GridAlongOtherAxes) {
   std::ofstream("case.toml") << withLine(
       spheres, gridLine, "grid = { columns = 2, rows = 5, layers = 2, axes = \"xzy\" }");
-  const auto& places = loadCase("case.toml").front().spaceAssembly.disks.at(0).places;
+  const auto places = loadCase("case.toml").front().spaceAssembly.disks.at(0).places;
   ASSERT_EQ(places.size(), 20u);
   EXPECT_EQ(places[2], Vec3(0.0, 0.0, 1.0));   // rows along z
   EXPECT_EQ(places[10], Vec3(0.0, 1.0, 0.0));  // layers along y
+}
+
+TEST_F(Space, Cylinder_IsReadAndTurnsItsBody) {
+  std::ofstream("case.toml") << withLine(spheres, periodicLine, "periodic = [\"y\"]") +
+                                    R"([[assembly.walls]]
+cylinder = { point = [1, 2, 3], axis = [0, -2, 0], radius = 40, omega = 5 }
+position = [1, 2, 30]
+radius = 0.5
+[[assembly.walls]]
+cylinder = { axis = [0, 1, 0], radius = 50 }
+)";
+  const auto walls = loadCase("case.toml").front().spaceAssembly.walls;
+  ASSERT_EQ(walls.size(), 3u);
+  ASSERT_EQ(walls[1].cylinders.size(), 1u);
+  EXPECT_EQ(walls[1].cylinders[0].point, Vec3(1.0, 2.0, 3.0));
+  EXPECT_EQ(walls[1].cylinders[0].axis, Vec3(0.0, -1.0, 0.0));
+  EXPECT_EQ(walls[1].cylinders[0].radius, 40.0);
+  EXPECT_EQ(walls[1].position.size(), 1u);  // it turns with the cylinder
+  EXPECT_EQ(walls[1].centre, Vec3(1.0, 2.0, 3.0));
+  EXPECT_EQ(walls[1].motion.kind, MotionKind::rotating);
+  EXPECT_EQ(walls[1].motion.angularVelocity, Vec3(0.0, -5.0, 0.0));
+  EXPECT_EQ(walls[2].motion.kind, MotionKind::fixed);
+}
+
+TEST_F(Space, Cylinder_Refusals) {
+  const auto with = [](const std::string& table, const char* more = "") {
+    return spheres + "[[assembly.walls]]\ncylinder = { " + table + " }\n" + more;
+  };
+  expectMessage(with("axis = [0, 1, 0]"), "assembly.walls[1].cylinder.radius");
+  expectMessage(with("axis = [0, 1, 0], radius = 0"), "radius = 0: must be > 0");
+  expectMessage(with("axis = [0, 0, 0], radius = 9"), "axis: must not be zero");
+  expectMessage(
+      with("axis = [0, 1, 0], radius = 9", "velocity = [0, 1, 0]\n"),
+      "velocity: is not of a wall with a cylinder, which stands still or turns about its");
+  expectMessage(with("axis = [0, 1, 0.1], radius = 9"),
+                "assembly.walls[1] has a cylinder that is not along x: what is periodic has no");
+  expectMessage(with("axis = [1, 0, 0], radius = 9"), "a cylinder that is not along y");
+  expectMessage(soundAssembly + "[[assembly.walls]]\ncylinder = { axis = [0, 1], radius = 9 }\n",
+                "is of space alone, and case.dimension = 2");
+}
+
+TEST_F(Space, Circles_AreFilledFromTheInnerToTheOuter) {
+  const auto places = [](const std::string& table) {
+    std::ofstream("case.toml") << withLine(
+        withLine(spheres, gridLine, "circles = { " + table + " }"), chooseLine, "");
+    return loadCase("case.toml").front().spaceAssembly.disks.at(0).places;
+  };
+  // 1 in the middle, 6 at one diameter, 12 at two: their chords 2 r sin(π/n) are 1 and 1.04.
+  const auto disk = places("outer = 2, layers = 2, rise = 1.5");
+  ASSERT_EQ(disk.size(), 2u * 19u);
+  EXPECT_EQ(disk[0], Vec3(0.0, 0.0, 0.0));
+  EXPECT_EQ(disk[19], Vec3(0.0, 0.0, 1.5));
+  for (std::size_t i = 0; i < disk.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) EXPECT_GT((disk[i] - disk[j]).norm(), 1.0 - 1e-12);
+  EXPECT_EQ(places("inner = 2, outer = 2.9").size(), 12u);
+  // The first lies along x of the circles; that is z where they are about y, y about x.
+  EXPECT_EQ(places("inner = 2, outer = 2, axis = \"y\"")[0], Vec3(0.0, 0.0, 2.0));
+  EXPECT_EQ(places("inner = 2, outer = 2, axis = \"x\"")[0], Vec3(0.0, 2.0, 0.0));
+  expectMessage(withLine(spheres, gridLine, "circles = { inner = 3, outer = 2 }"),
+                "outer = 2: must be at least inner, 3 diameters");
+  expectMessage(withLine(spheres, gridLine, "circles = { outer = 1e6 }"),
+                "a case may have at most");
+  expectMessage(withLine(soundAssembly, 12, "mass = 1\ncircles = { outer = 2 }"),
+                "is of space alone, and case.dimension = 2");
 }
 
 TEST_F(Space, Box_Refusals) {

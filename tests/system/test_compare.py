@@ -94,6 +94,13 @@ class Space(SystemTest):
         self.assertIn("shear-3d: 4 packings, 4 of them prepared already", done.stdout)
         self.assert_status(self.run_program("plan", self.BUMPY, "--engines", "grain,lammps", "--slurm", self.folder / "jobs"), HELD)
 
+    def test_spheres_in_cylinders(self):
+        for name in ("silo", "silo-large", "drum"):
+            short = settings(assembly__duration=0.01, average__from=0.0, average__snapshots=10, preparation__packings=4, looks__count=1)
+            out = self.folder / name
+            self.assert_status(self.run_program("compare", CASES / f"space/{name}.toml", "--engines", "grain", "--out", out, *short), HELD)
+            self.assertEqual(["finished"] * 4, [run["status"] for run in self.results(out)["runs"]])
+
     def test_disks_in_a_periodic_cell(self):
         case = CASES / "space/plane-shear.toml"
         short = settings(assembly__duration=0.05, average__from=0.0, average__snapshots=20, preparation__packings=4, looks__count=1)

@@ -147,6 +147,7 @@ IN_SPACE = {  # what knows no assembly of spheres
     f"stability {SPHERES} {RUN}": "has no [stability]",
     f"baseline {SPHERES} --engines grain --out b.baseline": "baseline cannot run a case of this kind",
     f"compare {SPHERES} --engines bullet --out out": "has dimension = 2, not 3",
+    f"compare {CASES / 'space/drum.toml'} --engines yade --out out": "has no cylinders, as wall-0 has",
     f"compare {SPHERES} {RUN} --set=case.dimension=2": "must be [x, y] in m",
     f"compare {SPHERES} {RUN} --set=assembly.box.high=[10,1.9,12]": "must be wider than two reaches",
 }

@@ -117,11 +117,14 @@ TEST(WorkerJson, SceneInSpace_KeepsEveryBitAndItsDimension) {
     scene.disks.velocity.emplace_back(-k, 1.0 / k, 0.3);
     scene.disks.spin.emplace_back(5.0 * k, 1.0 / (3.0 * k), -7.0);
   }
-  WallBodyOf<3>& wall = scene.bodies.emplace_back();
+  WallBodyOf<3> wall;
   wall.name = "wall";
   wall.planes.push_back({{1.0, 2.0, 1.0 / 3.0}, {0.0, 0.0, -1.0}});
+  wall.cylinders.push_back({{1.0 / 3.0, 0.1, 7.0}, {0.0, 0.6, 0.8}, 1.0 / 7.0});
   wall.motion.kind = MotionKind::translating;
   wall.motion.velocity = {0.1, -0.2, 1.0 / 9.0};
+  scene.bodies = {wall, wall};
+  scene.bodies[1].cylinders.clear();
   ArrayWriter arrays;
   EXPECT_EQ(dimensionOf(toJson(scene, arrays)), 3);
   EXPECT_EQ(dimensionOf(toJson(test::toyScene(), arrays)), 2);
@@ -132,7 +135,12 @@ TEST(WorkerJson, SceneInSpace_KeepsEveryBitAndItsDimension) {
   expectSameBits(back.disks.position, scene.disks.position);
   expectSameBits(back.disks.velocity, scene.disks.velocity);
   expectSameBits(back.disks.spin, scene.disks.spin);
-  ASSERT_EQ(back.bodies.size(), 1u);
+  ASSERT_EQ(back.bodies.size(), 2u);
+  ASSERT_EQ(back.bodies[0].cylinders.size(), 1u);
+  EXPECT_EQ(back.bodies[0].cylinders[0].point, wall.cylinders[0].point);
+  EXPECT_EQ(back.bodies[0].cylinders[0].axis, wall.cylinders[0].axis);
+  EXPECT_EQ(back.bodies[0].cylinders[0].radius, 1.0 / 7.0);
+  EXPECT_TRUE(back.bodies[1].cylinders.empty());
   EXPECT_EQ(back.bodies[0].planes[0].point, wall.planes[0].point);
   EXPECT_EQ(back.bodies[0].planes[0].normal, wall.planes[0].normal);
   EXPECT_EQ(back.bodies[0].motion.velocity, wall.motion.velocity);
@@ -225,8 +233,13 @@ TEST(WorkerJson, Snapshot_KeepsEveryBitAndWhatIsAbsent) {
 
 TEST(WorkerJson, CapabilitiesSettingsParametersStats_ComeBack) {
   test::ToyEngine engine;
-  const Capabilities can = engine.capabilities();
+  Capabilities can = engine.capabilities();
+  can.limits.cylinders = false;
+  const Capabilities without = readAs<Capabilities>(nlohmann::json::parse(jsonOf(can).dump()));
+  EXPECT_FALSE(without.limits.cylinders);
+  can.limits.cylinders = true;
   const Capabilities back = readAs<Capabilities>(nlohmann::json::parse(jsonOf(can).dump()));
+  EXPECT_TRUE(back.limits.cylinders);
   EXPECT_EQ(back.version, can.version);
   std::map<Effect, Support> told;
   for (const Effect effect : allEffects) told[effect] = Support::never;  // what is missing

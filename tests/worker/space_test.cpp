@@ -159,6 +159,7 @@ class Space : public ::testing::TestWithParam<const char*> {
   void expectPairAcrossTheBorderAsInside();
   /// All but a pair at an overlap of 0.
   void expectAsTheMirrorHasThem(const SpaceScene& scene);
+  void expectAsTheMirrorHasIt(const SpaceScene& scene, const std::vector<double>& times);
 
   std::unique_ptr<WorkerEngine> engine_;
 };
@@ -488,27 +489,18 @@ TEST_P(Space, PairAcrossTheBorderOfThePlane_IsThePairInside) {
   expectPairAcrossTheBorderAsInside<2>();
 }
 
-TEST_P(Space, SpheresOnAFloor_MoveAndPushAsTheMirrorHasThem) {
-  SpaceScene scene = emptyBox<3>();
-  scene.gravity = {0.1, -9.81, 0.2};
-  const Vec3 places[] = {{0.0, 0.0, 0.0}, {1.99, 0.1, 0.2}, {1.0, 1.72, -0.1}};
-  for (int k = 0; k < 3; ++k)
-    addBody<3>(scene, radius * places[k], {0.02 - 0.03 * k, -0.05, 0.01 * k},
-               {20.0 * k, 30.0, -10.0});
-  WallBodyOf<3>& floor = scene.bodies.emplace_back();
-  floor.name = "floor";
-  floor.planes.push_back({{0.0, -0.999 * radius, 0.0}, {0.0, 1.0, 0.0}});
-  scene = asRun(scene);
+/// Places, contacts and the load of the first body, at these times.
+void Space::expectAsTheMirrorHasIt(const SpaceScene& scene, const std::vector<double>& times) {
   const auto mirror = findEngine("grain")->make();
   loadInto(*engine_, scene);
   loadInto(*mirror, scene);
   std::size_t compared = 0;
-  for (const double t : {4e-6, 4e-5, 8e-5, 1.2e-4, 1.6e-4, 2e-3}) {
+  for (const double t : times) {
     const SpaceSnapshot now = snapshotAt<3>(*engine_, t);
     const SpaceSnapshot then = snapshotAt<3>(*mirror, now.contactTime);
     const SpaceSnapshot own = snapshotAt<3>(*mirror, t);
     // Rounding of some 500 steps.
-    for (int k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < scene.disks.size(); ++k)
       EXPECT_LE((now.position[k] - own.position[k]).norm(), 1e-11 * radius) << t;
     const auto of = byPair(*now.contacts), there = byPair(*then.contacts);
     for (const auto& [pair, k] : of) {
@@ -525,6 +517,84 @@ TEST_P(Space, SpheresOnAFloor_MoveAndPushAsTheMirrorHasThem) {
     EXPECT_LE((*now.bodies[0].torque - *then.bodies[0].torque).norm(), 1e-9);
   }
   EXPECT_GE(compared, 10u);
+}
+
+TEST_P(Space, SpheresOnAFloor_MoveAndPushAsTheMirrorHasThem) {
+  SpaceScene scene = emptyBox<3>();
+  scene.gravity = {0.1, -9.81, 0.2};
+  const Vec3 places[] = {{0.0, 0.0, 0.0}, {1.99, 0.1, 0.2}, {1.0, 1.72, -0.1}};
+  for (int k = 0; k < 3; ++k)
+    addBody<3>(scene, radius * places[k], {0.02 - 0.03 * k, -0.05, 0.01 * k},
+               {20.0 * k, 30.0, -10.0});
+  WallBodyOf<3>& floor = scene.bodies.emplace_back();
+  floor.name = "floor";
+  floor.planes.push_back({{0.0, -0.999 * radius, 0.0}, {0.0, 1.0, 0.0}});
+  expectAsTheMirrorHasIt(asRun(scene), {4e-6, 4e-5, 8e-5, 1.2e-4, 1.6e-4, 2e-3});
+}
+
+/// Three spheres that lie at the bottom of a cylinder along one of the axes.
+SpaceScene spheresInACylinder(int axis, double omega) {
+  SpaceScene scene = emptyBox<3>();
+  const double bore = 0.03;
+  const Vec3 centre(0.01, -0.02, 0.005);
+  // x, y, z of a drum along z are y, z, x and z, x, y of those along x and y.
+  const auto placed = [axis](const Vec3& v) {
+    Vec3 found;
+    for (int k = 0; k < 3; ++k) found[(axis + 1 + k) % 3] = v[k];
+    return found;
+  };
+  scene.gravity = placed({0.1, -9.81, 0.2});
+  for (int k = 0; k < 3; ++k) {
+    const double angle = -1.8 + 0.404 * k, arm = bore - 0.999 * radius;
+    addBody<3>(scene, centre + placed({arm * std::cos(angle), arm * std::sin(angle), 1e-3 * k}),
+               placed({0.02 - 0.03 * k, -0.05, 0.01 * k}), placed({20.0 * k, 30.0, -10.0}));
+  }
+  WallBodyOf<3>& drum = scene.bodies.emplace_back();
+  drum.name = "drum";
+  drum.centre = centre;
+  drum.cylinders.push_back({centre, Vec3::Unit(axis), bore});
+  if (omega != 0.0) drum.motion.kind = MotionKind::rotating;
+  drum.motion.angularVelocity = omega * Vec3::Unit(axis);
+  return scene;
+}
+
+TEST_P(Space, SpheresInACylinder_MoveAndPushAsTheMirrorHasThem) {
+  if (GetParam() == std::string("yade")) GTEST_SKIP() << "has no cylinders";
+  for (const int axis : {0, 1, 2}) {
+    SCOPED_TRACE(axis);
+    expectAsTheMirrorHasIt(asRun(spheresInACylinder(axis, 0.0)),
+                           {4e-6, 4e-5, 8e-5, 1.2e-4, 1.6e-4, 2e-3});
+  }
+}
+
+TEST_P(Space, TurningCylinder_SpinsASphereUpUntilItRolls) {
+  const std::string name = GetParam();
+  if (name == "yade") GTEST_SKIP() << "has no cylinders";
+  const double omega = 3.0;
+  for (const int axis : {0, 1, 2}) {
+    SCOPED_TRACE(axis);
+    SpaceScene scene = spheresInACylinder(axis, omega);
+    scene.gravity *= 10.0;  // so that friction is soon done
+    if (name == "liggghts" && axis == 1) {
+      EXPECT_THROW(engine_->loadInSpace(asRun(scene), {}), UnsupportedScene);
+      continue;
+    }
+    if (name == "lammps")
+      expectAsTheMirrorHasIt(asRun(scene), {4e-6, 4e-5, 8e-5, 1.2e-4, 1.6e-4, 2e-3});
+    for (auto* list : {&scene.disks.position, &scene.disks.velocity, &scene.disks.spin})
+      list->resize(1);
+    for (auto* list : {&scene.disks.radius, &scene.disks.mass, &scene.disks.inertia})
+      list->resize(1);
+    loadInto(*engine_, asRun(scene));
+    const SpaceSnapshot now = snapshotAt<3>(*engine_, 0.1);
+    // At the wall the sphere's surface moves as the wall does, at Ω R, as nothing resists rolling.
+    const Cylinder& drum = scene.bodies[0].cylinders[0];
+    const Vec3 inward = tangentPlane(drum, now.position[0]).normal;
+    const Vec3 slip = now.velocity[0] - radius * now.spin->at(0).cross(inward) +
+                      omega * drum.radius * drum.axis.cross(inward);
+    const Vec3 along = slip - slip.dot(inward) * inward;
+    EXPECT_LE(along.norm(), 1e-3 * omega * drum.radius) << along.transpose();
+  }
 }
 
 /// Two spheres that meet in the plane z = 0, turned by `frame`; or disks with a sphere's J.
@@ -585,6 +655,13 @@ TEST_P(Space, WhatItDoesNotHave_IsRefused) {
   };
   EXPECT_EQ(refusal(),
             "has walls that are fixed | rotating | translating | oscillating in space, not radial");
+  scene = spheresInACylinder(2, 0.0);
+  scene.bodies[0].cylinders[0].axis = {0.0, 0.6, 0.8};
+  if (GetParam() == std::string("yade"))
+    EXPECT_EQ(beyondLimits(engine_->capabilities().limits, scene, false),
+              std::vector<std::string>{"has no cylinders, as drum has"});
+  else
+    EXPECT_EQ(refusal(), "has cylinders along axes only; that of drum is along (0.0, 0.6, 0.8)");
 }
 
 using LammpsInSpace = Space;
