@@ -133,6 +133,8 @@ INSTANTIATE_TEST_SUITE_P(
                             "do not meet each other's images"),
                     inSpace("wrong_image", "wrong_image=1", "PairsAcrossBordersInSpace",
                             "wrong image"),
+                    inSpace("pyramid", "pyramid=1", "TurnedImpactsAreTurnedAlike",
+                            "a pyramid in place of Coulomb's cone"),
                     inSpace("torque_axis", "torque_axis=1", "TorqueTurnsSpheres",
                             "^the torque is about the wrong axis"),
                     inSpace("inertia_of_disks", "inertia=1.25", "TorqueTurnsSpheres",

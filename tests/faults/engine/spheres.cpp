@@ -4,6 +4,7 @@
 //     planted_spheres [NAME=VALUE …]      names: SpaceFaults
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <map>
 #include <utility>
 #include <vector>
@@ -31,6 +32,7 @@ struct SpaceFaults {
   double wrongImage = given("wrong_image", 0.0);  ///< 1: n across a border is to the other one
   double torqueAxis = given("torque_axis", 0.0);  ///< 1: the torque is along f_t
   double inertia = given("inertia", 1.0);         ///< 1.25: J = m a²/2
+  double pyramid = given("pyramid", 0.0);         ///< 1: the bound is that of each of two axes
 };
 
 class Spheres {
@@ -147,7 +149,12 @@ class Spheres {
     Vec3 tangential = -kt_ * spring.stretch - gt_ * slip;
     const double bound = mu_ * std::max(normal, 0.0);
     const bool sliding = tangential.norm() > bound;
-    if (sliding) {
+    if (sliding && faults_.pyramid != 0.0) {
+      const Vec3 p = n.unitOrthogonal(), q = n.cross(p);
+      tangential = std::clamp(tangential.dot(p), -bound, bound) * p +
+                   std::clamp(tangential.dot(q), -bound, bound) * q;
+      spring.stretch = -tangential / kt_;
+    } else if (sliding) {
       tangential *= bound / tangential.norm();
       spring.stretch = -tangential / kt_;
     }
