@@ -691,7 +691,8 @@ class Rapier3d(InSpace, Peer):
 
     def test_impacts_in_space_are_waltons_along_their_slip(self):
         """But for friction, which is bounded by µ times the impulse that stops the approach, as in the plane: K e_n µ = 0.945 of Ψ_f
-        are missing where it slides."""
+        are missing where it slides. To a hundredth: contacts act from a gap of 0.004 a on, with arms that are longer by half of it, and n turns
+        in that time."""
         done, curves = self.impacts("-k", "*any-slip*")
         self.assert_status(done, FELL_SHORT)
         for curve in curves:
@@ -700,7 +701,7 @@ class Rapier3d(InSpace, Peer):
         for row in slid:
             before = math.hypot(float(row["psi_i"]), 1.5)
             after = math.hypot(float(row["psi_f"]), float(row["psi_f_out"]))
-            self.assertAlmostEqual(3.5 * 0.3, before - after, delta=5e-3)
+            self.assertAlmostEqual(3.5 * 0.3, before - after, delta=0.01 * 3.5 * 0.3)
         self.assertLess(20, len(slid))
 
     def test_its_friction_has_no_preferred_direction(self):
