@@ -130,7 +130,8 @@ inline double carriedAlong(double along, Vector, Vector) {
 }
 inline Vector3 carriedAlong(Vector3 along, Vector3 n, Vector3 m) {
   const Vector3 w = cross(n, m), across = cross(w, along);
-  return along + across + (1.0 / (1.0 + dot(n, m))) * cross(w, across);
+  const double share = 1.0 + dot(n, m);  // 0: any turn by 180° is as small
+  return share > 0.0 ? along + across + (1.0 / share) * cross(w, across) : along;
 }
 inline Vector3& operator+=(Vector3& a, Vector3 b) {
   return a = a + b;

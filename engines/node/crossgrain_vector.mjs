@@ -29,6 +29,6 @@ export function turned(angle, a) {
 /// What acts across n, as n turns to m by the smallest turn.
 export function carriedAlong(along, n, m) {
   if (n.length === 2) return along;
-  const w = cross(n, m), across = cross(w, along);
-  return plus(plus(along, across), scaled(1 / (1 + dot(n, m)), cross(w, across)));
+  const w = cross(n, m), across = cross(w, along), share = 1 + dot(n, m);  // 0: any turn by 180° is as small
+  return share > 0 ? plus(plus(along, across), scaled(1 / share, cross(w, across))) : along;
 }

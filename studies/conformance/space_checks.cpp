@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <span>
 
 #include "adapters/declared_law.hpp"
@@ -273,6 +274,147 @@ void torqueTurnsSpheres(CheckContext& c) {
   }
 }
 
+// ---- frames -------------------------------------------------------------------------------------
+
+/// Of n, s and b = n × s: about n, and about other axes.
+std::vector<Eigen::Matrix3d> framesAllRound() {
+  std::vector<Eigen::Matrix3d> frames;
+  const auto add = [&](const Vec3& axis, double degrees) {
+    frames.push_back(Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, axis.normalized())
+                         .toRotationMatrix());
+  };
+  for (const double degrees : {0.0, 12.0, 30.0, 45.0, 63.0, 90.0, 130.0, 200.0})
+    add(Vec3::UnitX(), degrees);
+  for (const Vec3& axis : {Vec3(2, -1, 1), Vec3(0, 1, 0), Vec3(1, 1, 1), Vec3(-1, 3, 2)})
+    for (const double degrees : {45.0, 110.0}) add(axis, degrees);
+  return frames;
+}
+
+constexpr double speedAlong = 0.3;  ///< of two that slide past each other as they meet [m/s]
+
+/// In each frame two spheres that meet at 0.05 m/s, far from the others. K µ (1 + e_n) v_n is 0.16
+/// m/s: they slide throughout.
+SpaceScene turnedImpacts(const CheckContext& c, const std::vector<Eigen::Matrix3d>& frames) {
+  SpaceScene scene;
+  scene.name = "an impact in turned frames";
+  scene.law = followed(c.can, dampedLaw(3));
+  scene.dt = 4e-6;
+  constexpr double approach = 0.05;
+  for (std::size_t k = 0; k < frames.size(); ++k)
+    for (const double side : {1.0, -1.0})
+      addBody<3>(scene,
+                 12.0 * static_cast<double>(k) * radius * Vec3::UnitY() +
+                     frames[k] * (side * (radius + 2.75 * approach * scene.dt) * Vec3::UnitX()),
+                 frames[k] * (0.5 * side * Vec3(-approach, speedAlong, 0.0)),
+                 frames[k] * Vec3(6.0 * side, 2.0, 1.0));
+  return scene;
+}
+
+void turnedImpactsAreTurnedAlike(CheckContext& c) {
+  c.needs(toString(Effect::friction));
+  const std::vector<Eigen::Matrix3d> frames = framesAllRound();
+  SpaceScene scene = turnedImpacts(c, frames);
+  if (!simulates(c.can, Effect::rotation)) std::ranges::fill(scene.disks.spin, noSpin<3>());
+  scene = loaded(c, scene);
+  const SpaceSnapshot after = shown<3>(c, std::max(2e-3, 6.0 * c.effective.dt));
+  std::vector<Vec3> changes;
+  for (std::size_t k = 0; k < frames.size(); ++k)
+    changes.push_back(frames[k].transpose() *
+                      (after.velocity[2 * k] - scene.disks.velocity[2 * k]));
+  c.require(changes[0].norm() > 0.01, "two spheres that meet do not bounce off each other");
+  const Tolerance rounding =
+      c.byPrecision(1e-6, 1e-2, "overlaps of 1e-5 radii of places up to 200 radii off");
+  double least = speedAlong, most = 0.0;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    c.near((changes[k] - changes[0]).norm() / changes[0].norm(), 0.0, rounding,
+           text("Δv of an impact in frame ", k, ", off from that in frame 0 by a part of it"));
+    const double aside = changes[k].tail<2>().norm();
+    least = std::min(least, aside);
+    most = std::max(most, aside);
+  }
+  c.examine(toString(Effect::friction));
+  c.examine(spheresInSpace);
+  if (most > 1.1 * least && most < 1.45 * least)
+    c.suspect(
+        fmt::format("friction is up to {:.2f} times as large in some directions: it is bounded "
+                    "along each of two by itself, a pyramid in place of Coulomb's cone",
+                    most / least));
+}
+
+/// Σ f dt over the steps, of instants or of means over a step, is m Δv of each sphere.
+void contactForcesInSpaceAct(CheckContext& c) {
+  if (!c.can.instantContacts) c.skip("shows no contacts of one instant");
+  const std::vector<Eigen::Matrix3d> frames = framesAllRound();
+  const SpaceScene scene = loaded(c, turnedImpacts(c, frames));
+  const double dt = c.effective.dt;
+  std::vector<Vec3> impulse(scene.disks.size(), Vec3::Zero());
+  const auto steps = static_cast<int>(std::ceil(std::max(1e-3 / dt, 6.0)));
+  SpaceSnapshot now;
+  for (int step = 1; step <= steps; ++step) {
+    now = shown<3>(c, step * dt);
+    c.require(now.contacts.has_value(), "shows no contacts");
+    for (std::size_t k = 0; k < now.contacts->size(); ++k) {
+      const Vec3 force = now.contacts->force(k);
+      impulse[static_cast<std::size_t>(now.contacts->i[k])] += dt * force;
+      impulse[static_cast<std::size_t>(now.contacts->j[k])] -= dt * force;
+    }
+  }
+  for (std::size_t i = 0; i < impulse.size(); ++i) {
+    const Vec3 change = now.velocity[i] - scene.disks.velocity[i];
+    c.near((impulse[i] / scene.disks.mass[i] - change).norm() / change.norm(), 0.0,
+           {0.02, 0.0,
+            "n turns by v_t dt/(2a), 0.015 at 0.5 ms, in the step that finds rigid spheres; a soft "
+            "contact has some sixty steps"},
+           text("Σ f dt/m of sphere ", i, ", off from Δv by a part of it"));
+  }
+}
+
+// ---- walls --------------------------------------------------------------------------------------
+
+/// A wall sphere on an arm of 4 a, which turns about the body's centre, runs into a sphere at rest.
+/// What the body takes is what the sphere does not get: −Σ F dt = m v, −Σ T dt = m x × v + J ω.
+void turningWallPushesSpheres(CheckContext& c) {
+  c.needs(toString(Effect::movingWalls));
+  SpaceScene scene;
+  scene.name = "a sphere and a wall sphere that turns";
+  scene.law = followed(c.can, dampedLaw(3));
+  scene.dt = 4e-6;
+  const Eigen::Matrix3d frame =
+      Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
+  constexpr double rate = 5.0;  // rad/s: 0.1 m/s
+  WallBodyOf<3>& wall = scene.bodies.emplace_back();
+  wall.name = "arm";
+  wall.diskPosition.push_back(frame * Vec3(4.0 * radius, 0.0, 0.0));
+  wall.diskRadius.push_back(radius);
+  wall.motion.kind = Motion::Kind::rotating;
+  wall.motion.angularVelocity = rate * frame.col(2);
+  addBody<3>(scene, frame * Vec3(4.0 * radius, 2.02 * radius, 0.4 * radius), Vec3::Zero(),
+             Vec3::Zero());
+  scene = loaded(c, scene);
+  const double dt = c.effective.dt;
+  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+  SpaceSnapshot now;
+  for (int step = 1; step <= std::ceil(4e-3 / dt); ++step) {
+    now = shown<3>(c, step * dt);
+    const BodySnapshotOf<3>& body = now.bodies.at(0);
+    force += dt * body.force.value_or(Vec3::Zero());
+    torque += dt * body.torque.value_or(Vec3::Zero());
+  }
+  const Vec3 gained = mass * now.velocity[0];
+  const double speed = (frame.transpose() * now.velocity[0]).y(), met = 4.0 * radius * rate;
+  c.expect(speed > met && speed < 2.0 * met,
+           text("a sphere that a wall runs into at ", met, " m/s leaves at ", speed, " m/s"));
+  c.examine(wallMotion(Motion::Kind::rotating));
+  if (!now.bodies[0].force || !now.bodies[0].torque) return;
+  const Tolerance tolerance{0.03, 0.0, "both turn on by 0.01 in a step of 0.5 ms"};
+  c.near((force + gained).norm() / gained.norm(), 0.0, tolerance,
+         "Σ F dt on the wall, off from −m v of the sphere by a part of it");
+  Vec3 turning = now.position[0].cross(gained);
+  if (now.spin) turning += scene.disks.inertia[0] * (*now.spin)[0];
+  c.near((torque + turning).norm() / turning.norm(), 0.0, tolerance,
+         "Σ T dt on the wall, off from the sphere's angular momentum by a part of it");
+}
+
 // ---- images -------------------------------------------------------------------------------------
 
 /// Two that meet, and the same two elsewhere in a box 16 radii wide, periodic along x.
@@ -446,6 +588,15 @@ Checks spaceChecks() {
        rollingSpringsOfMovedPairs, 3},
       {"TorqueTurnsSpheres", "f_t turns spheres about n × f_t, with 2/5 m a²", torqueTurnsSpheres,
        3},
+      {"TurnedImpactsAreTurnedAlike",
+       "an impact in another frame, its slip in any direction, is the same, turned",
+       turnedImpactsAreTurnedAlike, 3},
+      {"ContactForcesInSpaceAct",
+       "forces of contacts between spheres, summed over steps, are what changes their velocities",
+       contactForcesInSpaceAct, 3},
+      {"TurningWallPushesSpheres",
+       "a wall that turns in space pushes spheres, and bears the force and torque of that",
+       turningWallPushesSpheres, 3},
       {"PairsAcrossBorders", "two disks across a periodic border are the same two inside",
        pairsAcrossBorders<2>},
       {"PairsAcrossBordersInSpace", "two spheres across a periodic border are the same two inside",

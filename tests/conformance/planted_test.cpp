@@ -139,6 +139,8 @@ INSTANTIATE_TEST_SUITE_P(
                             "^the spring of rolling resistance is reversed"),
                     inSpace("rolling_lost", "roll_reversed=0.5", "PairsThatCrossBordersInSpace",
                             "^the spring of rolling resistance is lost"),
+                    inSpace("pyramid", "pyramid=1", "TurnedImpactsAreTurnedAlike",
+                            "a pyramid in place of Coulomb's cone"),
                     inSpace("torque_axis", "torque_axis=1", "TorqueTurnsSpheres",
                             "^the torque is about the wrong axis"),
                     inSpace("inertia_of_disks", "inertia=1.25", "TorqueTurnsSpheres",

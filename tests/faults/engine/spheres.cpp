@@ -4,6 +4,7 @@
 //     planted_spheres [NAME=VALUE …]      names: SpaceFaults
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <map>
 #include <utility>
 #include <vector>
@@ -34,6 +35,7 @@ struct SpaceFaults {
   double rollTurn = given("roll_turn", 1.0);      ///< 0: θ does not follow a normal that turns
   /// 1: θ is reversed where one of its pair comes to another image; 0.5: lost
   double rollReversed = given("roll_reversed", 0.0);
+  double pyramid = given("pyramid", 0.0);  ///< 1: the bound is that of each of two axes
 };
 
 class Spheres {
@@ -181,7 +183,12 @@ class Spheres {
     Vec3 tangential = -kt_ * spring.stretch - gt_ * slip;
     const double bound = mu_ * std::max(normal, 0.0);
     const bool sliding = tangential.norm() > bound;
-    if (sliding) {
+    if (sliding && faults_.pyramid != 0.0) {
+      const Vec3 p = n.unitOrthogonal(), q = n.cross(p);
+      tangential = std::clamp(tangential.dot(p), -bound, bound) * p +
+                   std::clamp(tangential.dot(q), -bound, bound) * q;
+      spring.stretch = -tangential / kt_;
+    } else if (sliding) {
       tangential *= bound / tangential.norm();
       spring.stretch = -tangential / kt_;
     }
