@@ -63,11 +63,22 @@ constexpr std::size_t meaningful(std::size_t index) {
   return indexOf(e);
 }
 
+template <std::size_t Index>
+constexpr SpacePairKernel sideBySideAt() {
+  constexpr ContactEffects effects{Tangential::springDashpot, Index % 2 == 1, true, true};
+  using L = EffectsLaw<double, effects, sideBySideConventions(Index / 2 == 1)>;
+  return &space::sideBySideKernel<L, SpringTurn::rotated, SpringTwist::meanSpin>;
+}
+
 template <class Real>
 constexpr SpaceKernels spaceKernels() {
   if constexpr (sizeof(Real) == sizeof(double))
-    return {&space::pairKernel<GeneralLaw<double>>, &space::pairKernel<space::EverydayLaw>,
-            &space::motionKernel, &space::neighbourKernel, &space::chooseKernel};
+    return {&space::pairKernel<GeneralLaw<double>>,
+            &space::pairKernel<space::EverydayLaw>,
+            {sideBySideAt<0>(), sideBySideAt<1>(), sideBySideAt<2>(), sideBySideAt<3>()},
+            &space::motionKernel,
+            &space::neighbourKernel,
+            &space::chooseKernel};
   return {};
 }
 

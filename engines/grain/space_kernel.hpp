@@ -5,6 +5,9 @@
 namespace grain::space {
 
 inline constexpr std::size_t blockSize = 128;
+/// Of those that meet: what numbers of one kind are kept next to each other, and how many at least
+/// go through the law side by side.
+inline constexpr std::size_t meetingBlock = 64, lookedAt = 32, width = 8;
 
 /// The linear law with a spring and dashpots, the everyday one, under any conventions: what else a
 /// law may have is not compiled.
@@ -21,35 +24,58 @@ struct EverydayLaw : LawConstants<double>, Conventions {
       : LawConstants(law), Conventions(law), cutTension(law.cutTension) {}
 };
 
-/// Pairs that do not touch add nothing. Those that do are found first, a block at a time, since
-/// they are few in a flow that is not dense.
+GRAIN_INLINE double sumOfThree(const Lanes& lanes) {
+  return lanes.v[0] + lanes.v[1] + lanes.v[2];
+}
+
+/// Finds the pairs of begin … end−1 that meet: they are few in a flow that is not dense. Those that
+/// touched before are looked at once more, to forget it. A place that is no number is not skipped.
+GRAIN_INLINE std::size_t findMeeting(const SpaceView& all, const SpacePairs& pairs,
+                                     std::size_t begin, std::size_t end, double range,
+                                     std::size_t* meeting) {
+  std::size_t found = 0;
+  for (std::size_t p = begin; p < end; ++p) {
+    const Quad& a = all.position[static_cast<std::size_t>(pairs.i[p])];
+    const Quad& b = all.position[static_cast<std::size_t>(pairs.j[p])];
+    Lanes d(a);
+    d -= Lanes(b);
+    d -= Lanes(pairs.shift[p]);
+    d.v *= d.v;
+    const double reach = a.w + b.w + range;
+    const int meets = !(sumOfThree(d) >= reach * reach);
+    meeting[found] = p;
+    found += static_cast<std::size_t>(meets | pairs.touches[p]);  // no branch
+  }
+  return found;
+}
+
+/// What a pair does to its spheres.
+template <class L>
+GRAIN_INLINE void push(const L& law, const SpaceView& all, ActiveSpheres& active, std::size_t i,
+                       std::size_t j, const MeetingForce<double>& force) {
+  active.push(i);
+  active.push(j);
+  add(all.force[i], force.force, 1.0);
+  add(all.force[j], force.force, -1.0);
+  if (!law.rotation) return;
+  add(all.torque[i], force.torqueI, 1.0);
+  add(all.torque[j], force.torqueJ, 1.0);
+}
+
+/// Of any law, pair by pair. Pairs that do not touch add nothing.
 template <class L>
 static SpaceReport pairKernel(const GeneralLaw<double>& general, const SpaceConventions& how,
                               const SpaceView& view, const SpacePairs& list, double range,
                               double maxOverlap) {
   const L law(general);
   const SpaceView all = view;  // copies that no store through a pointer can change
-  ActiveSpheres active = view.active;
   const SpacePairs pairs = list;
+  ActiveSpheres active = view.active;
   SpaceReport report;
   std::size_t near[blockSize];
   for (std::size_t begin = 0; begin < pairs.count; begin += blockSize) {
-    const std::size_t end = begin + blockSize < pairs.count ? begin + blockSize : pairs.count;
-    std::size_t found = 0;
-    for (std::size_t p = begin; p < end; ++p) {
-      const Quad& a = all.position[static_cast<std::size_t>(pairs.i[p])];
-      const Quad& b = all.position[static_cast<std::size_t>(pairs.j[p])];
-      Lanes d(a);
-      d -= Lanes(b);
-      d -= Lanes(pairs.shift[p]);
-      d.v *= d.v;
-      const double reach = a.w + b.w + range;
-      // Those that touched before are looked at once more, to forget it. A place that is no number
-      // is not skipped.
-      const int meets = !(d.v[0] + d.v[1] + d.v[2] >= reach * reach);
-      near[found] = p;
-      found += static_cast<std::size_t>(meets | pairs.touches[p]);  // no branch: few do
-    }
+    const std::size_t end = smaller(begin + blockSize, pairs.count);
+    const std::size_t found = findMeeting(all, pairs, begin, end, range, near);
     for (std::size_t k = 0; k < found; ++k) {
       const std::size_t p = near[k];
       const auto i = static_cast<std::size_t>(pairs.i[p]);
@@ -76,21 +102,133 @@ static SpaceReport pairKernel(const GeneralLaw<double>& general, const SpaceConv
       const MeetingForce<double> force = meetingForce(law, how, meeting, kept);
       pairs.results[p] = {meeting.overlap, force.normal, force.sliding, force.tangential,
                           force.rolling};
-      active.push(i);
-      active.push(j);
-      add(all.force[i], force.force, 1.0);
-      add(all.force[j], force.force, -1.0);
-      if (!law.rotation) continue;
-      add(all.torque[i], force.torqueI, 1.0);
-      add(all.torque[j], force.torqueJ, 1.0);
+      push(law, all, active, i, j, force);
     }
   }
   report.active = active.count;
   return report;
 }
 
-GRAIN_INLINE double sumOfThree(const Lanes& lanes) {
-  return lanes.v[0] + lanes.v[1] + lanes.v[2];
+/// Vectors of a few pairs, component by component.
+struct Column {
+  double x[meetingBlock], y[meetingBlock], z[meetingBlock];
+
+  GRAIN_INLINE void set(std::size_t k, const Vec3<double>& v) {
+    x[k] = v.x;
+    y[k] = v.y;
+    z[k] = v.z;
+  }
+  GRAIN_INLINE Vec3<double> at(std::size_t k) const { return {x[k], y[k], z[k]}; }
+};
+
+/// Pairs that meet, on their way through the law.
+struct alignas(64) MeetingBlock {
+  Column apart, velocity, spinI, spinJ, normal, spring;
+  double radiusI[meetingBlock], radiusJ[meetingBlock];
+  double inverseMassI[meetingBlock], inverseMassJ[meetingBlock];
+  double inverseInertiaI[meetingBlock], inverseInertiaJ[meetingBlock];
+  Column force, tangential, torqueI, torqueJ;
+  double overlap[meetingBlock], normalForce[meetingBlock], sliding[meetingBlock];
+};
+
+/// The same of a law with the effects of EverydayLaw that knows its conventions, so that pairs are
+/// taken side by side: the same arithmetic, to the bit.
+template <class L, SpringTurn Turn, SpringTwist Twist>
+static SpaceReport sideBySideKernel(const GeneralLaw<double>& general, const SpaceConventions&,
+                                    const SpaceView& view, const SpacePairs& list, double range,
+                                    double maxOverlap) {
+  const L law(general);
+  const SpaceView all = view;  // copies that no store through a pointer can change
+  const SpacePairs pairs = list;
+  ActiveSpheres active = view.active;
+  SpaceReport report;
+  std::size_t near[meetingBlock + width];
+  MeetingBlock b;
+  std::size_t found = 0;
+  for (std::size_t begin = 0; begin < pairs.count; begin += lookedAt) {
+    const bool last = begin + lookedAt >= pairs.count;
+    found +=
+        findMeeting(all, pairs, begin, last ? pairs.count : begin + lookedAt, range, near + found);
+    if (found == 0 || (!last && found + lookedAt <= meetingBlock)) continue;
+    const std::size_t full = (found + width - 1) / width * width;
+    for (std::size_t k = found; k < full; ++k) near[k] = near[found - 1];
+    for (std::size_t k = 0; k < full; ++k) {
+      const std::size_t p = near[k];
+      const auto i = static_cast<std::size_t>(pairs.i[p]);
+      const auto j = static_cast<std::size_t>(pairs.j[p]);
+      b.apart.set(k,
+                  vectorOf(all.position[i]) - vectorOf(all.position[j]) - vectorOf(pairs.shift[p]));
+      b.velocity.set(k, vectorOf(all.velocity[i]) - vectorOf(all.velocity[j]));
+      b.spinI.set(k, vectorOf(all.spin[i]));
+      b.spinJ.set(k, vectorOf(all.spin[j]));
+      b.radiusI[k] = all.position[i].w;
+      b.radiusJ[k] = all.position[j].w;
+      if (law.implicitDamping) {
+        b.inverseMassI[k] = all.inverseMass[i];
+        b.inverseMassJ[k] = all.inverseMass[j];
+        b.inverseInertiaI[k] = all.inverseInertia[i];
+        b.inverseInertiaJ[k] = all.inverseInertia[j];
+      }
+      const bool touched = pairs.touches[p] != 0;
+      b.normal.set(k, touched ? pairs.kept[p].normal : Vec3<double>{});
+      b.spring.set(k, touched ? pairs.kept[p].spring : Vec3<double>{});
+    }
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < full; ++k) {
+      const Vec3<double> apart = b.apart.at(k);
+      const double distance = length(apart);
+      Meeting<double> meeting{};
+      meeting.normal = (1.0 / distance) * apart;
+      meeting.velocity = b.velocity.at(k);
+      meeting.spinI = b.spinI.at(k);
+      meeting.spinJ = b.spinJ.at(k);
+      meeting.radiusI = b.radiusI[k];
+      meeting.radiusJ = b.radiusJ[k];
+      meeting.overlap = meeting.radiusI + meeting.radiusJ - distance;
+      meeting.leverI = armOf(law.lever, meeting.radiusI, meeting.radiusJ, meeting.overlap);
+      meeting.leverJ = armOf(law.lever, meeting.radiusJ, meeting.radiusI, meeting.overlap);
+      meeting.armI = armOf(law.velocityLever, meeting.radiusI, meeting.radiusJ, meeting.overlap);
+      meeting.armJ = armOf(law.velocityLever, meeting.radiusJ, meeting.radiusI, meeting.overlap);
+      if (law.implicitDamping) {
+        meeting.inverseMass = b.inverseMassI[k] + b.inverseMassJ[k];
+        meeting.inverseInertiaI = b.inverseInertiaI[k];
+        meeting.inverseInertiaJ = b.inverseInertiaJ[k];
+      }
+      SpaceMemory<double> kept{};
+      kept.normal = b.normal.at(k);
+      kept.spring = b.spring.at(k);
+      const MeetingForce<double> force = meetingForce(law, {Turn, Twist}, meeting, kept);
+      b.normal.set(k, kept.normal);
+      b.spring.set(k, kept.spring);
+      b.force.set(k, force.force);
+      b.tangential.set(k, force.tangential);
+      b.torqueI.set(k, force.torqueI);
+      b.torqueJ.set(k, force.torqueJ);
+      b.overlap[k] = meeting.overlap;
+      b.normalForce[k] = force.normal;
+      b.sliding[k] = force.sliding;
+    }
+    for (std::size_t k = 0; k < found; ++k) {
+      const std::size_t p = near[k];
+      const double smallest = smaller(b.radiusI[k], b.radiusJ[k]);
+      if (!(b.overlap[k] <= maxOverlap * smallest) || !(b.overlap[k] < b.radiusI[k] + b.radiusJ[k]))
+        report.deep = true;
+      pairs.touches[p] = b.overlap[k] > 0.0;
+      if (!(b.overlap[k] > 0.0)) continue;
+      ++report.touching;
+      pairs.kept[p] = {b.normal.at(k), b.spring.at(k), {}, 0.0, 0.0};
+      pairs.results[p] = {b.overlap[k], b.normalForce[k], b.sliding[k], b.tangential.at(k), {}};
+      MeetingForce<double> force{};
+      force.force = b.force.at(k);
+      force.torqueI = b.torqueI.at(k);
+      force.torqueJ = b.torqueJ.at(k);
+      push(law, all, active, static_cast<std::size_t>(pairs.i[p]),
+           static_cast<std::size_t>(pairs.j[p]), force);
+    }
+    found = 0;
+  }
+  report.active = active.count;
+  return report;
 }
 
 /// The step of motion of one sphere, in parts.

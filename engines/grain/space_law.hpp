@@ -33,6 +33,11 @@ GRAIN_INLINE bool isZero(const Vec3<Real>& a) {
   return a.x == Real(0) && a.y == Real(0) && a.z == Real(0);
 }
 
+template <class Real>
+GRAIN_INLINE Vec3<Real> either(bool first, const Vec3<Real>& a, const Vec3<Real>& b) {
+  return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
+}
+
 /// How ξ follows a normal that turned from n to n′, before it is stretched: by the smallest
 /// rotation from n to n′; by that to first order (YADE: ScGeom::rotate); less its part along n′,
 /// and then to the old length (LAMMPS' pair_style granular) or not (gran/hooke/history).
@@ -127,19 +132,17 @@ struct SpringLimit {
     const Vec3<Real> elastic = -unit * stretched;
     Vec3<Real> trial = elastic + viscous;
     if (divisor != Real(1)) trial = (Real(1) / divisor) * trial;
-    const Vec3<Real>& tested = outside ? elastic : trial;
+    const Vec3<Real> tested = either(outside, elastic, trial);
     const Real size = length(tested);
-    sliding = Real(0);
-    if (!limited || size <= bound) {
-      spring = stretched + (Real(1) - part) * stretch;
-      return trial;
-    }
+    // Choices of numbers and not of ways to go, so that contacts can be taken side by side.
+    const bool holds = !limited || size <= bound;
     // A bound below zero turns the force round; of no force it has no direction.
     const Vec3<Real> slipping = (size > Real(0) ? bound / size : Real(0)) * tested;
-    spring = -inverse * (resetSpringOnly ? slipping - viscous : slipping);
-    if (when == Stretch::midpoint) spring += Real(0.5) * stretch;
-    sliding = Real(1);
-    return slipping;
+    Vec3<Real> slipped = -inverse * either(resetSpringOnly, slipping - viscous, slipping);
+    if (when == Stretch::midpoint) slipped += Real(0.5) * stretch;
+    spring = either(holds, stretched + (Real(1) - part) * stretch, slipped);
+    sliding = holds ? Real(0) : Real(1);
+    return either(holds, trial, slipping);
   }
 };
 
@@ -234,7 +237,6 @@ GRAIN_INLINE void followNormal(const L& law, const SpaceConventions& how,
   const Real twist =
       twists ? Real(0.5) * law.dt * dot(meeting.spinI + meeting.spinJ, about) : Real(0);
   const auto follow = [&](Vec3<Real>& spring) GRAIN_INLINE_LAMBDA {
-    if (isZero(spring)) return;
     spring = turnedSpring(how.turn, spring, before, now);
     if (twists) spring = twistedSpring(how.turn, spring, about, twist);
   };

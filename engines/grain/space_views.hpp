@@ -178,8 +178,19 @@ struct SpaceChoice {
 /// Lists the far pairs that reach each other. @param found  with room for one more
 using SpaceChoiceKernel = std::size_t (*)(const SpaceFarPairs&, SpaceChoice* found);
 
+/// The law of EverydayLaw under conventions of springs that follow any rotation: by bound of
+/// compression or of magnitude, tension or not.
+inline constexpr std::size_t sideBySideVariants = 4;
+constexpr Conventions sideBySideConventions(bool magnitude) {
+  return {.bound = magnitude ? Bound::magnitude : Bound::compression};
+}
+constexpr std::size_t sideBySideIndex(bool magnitude, bool cutTension) {
+  return 2u * magnitude + cutTension;
+}
+
 struct SpaceKernels {
   SpacePairKernel pairs, everydayPairs;  ///< of any law; of EverydayLaw
+  SpacePairKernel sideBySide[sideBySideVariants];
   SpaceMotionKernel motion;
   SpaceNeighbourKernel neighbours;
   SpaceChoiceKernel choose;

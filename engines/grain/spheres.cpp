@@ -20,11 +20,19 @@ void demand(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(what);
 }
 
-/// Whether it has the kernel of EverydayLaw.
-bool isEveryday(const GeneralLaw<double>& law) {
-  return law.normal == Normal::linear && law.damper == Damper::constant && law.normalDamping &&
-         law.tangential == Tangential::springDashpot && law.rotation &&
-         law.rolling == Rolling::none && law.cohesion == Cohesion::none;
+/// The fastest that a law has.
+SpacePairKernel pairKernelOf(const SpaceKernels& all, const GeneralLaw<double>& law,
+                             const SpaceConventions& how) {
+  const bool everyday = law.normal == Normal::linear && law.damper == Damper::constant &&
+                        law.normalDamping && law.tangential == Tangential::springDashpot &&
+                        law.rotation && law.rolling == Rolling::none &&
+                        law.cohesion == Cohesion::none;
+  if (!everyday) return all.pairs;
+  const bool magnitude = law.bound == Bound::magnitude;
+  if (how.turn != SpringTurn::rotated || how.twist != SpringTwist::meanSpin ||
+      static_cast<const Conventions&>(law) != sideBySideConventions(magnitude))
+    return all.everydayPairs;
+  return all.sideBySide[sideBySideIndex(magnitude, law.cutTension)];
 }
 
 bool pushesMoreThanPairs(const SpheresSetup& setup) {
@@ -62,7 +70,7 @@ Spheres::Spheres(SpheresSetup setup)
           range_, kernels_) {
   demand(setup_.dt > 0.0, "the time step must be > 0 s");
   demand(setup_.law.normal != Normal::impulse, "spheres have no impulses");
-  if (isEveryday(law_)) kernels_.pairs = kernels_.everydayPairs;
+  kernels_.pairs = pairKernelOf(kernels_, law_, setup_.conventions);
   placeSpheres();
   moveWalls();
   updateNeighbours();
@@ -94,9 +102,10 @@ void Spheres::placeSpheres() {
     double arm = 0.0;
     for (std::size_t k = 0; k < wall.radius.size(); ++k) {
       position_.push_back(quadOf(wall.position[k], wall.radius[k]));
-      arm = std::max(arm, length(wall.position[k] - wallCentre_[w]));
+      wallArms_.push_back(quadOf(wall.position[k] - wallCentre_[w], wall.radius[k]));
+      arm = std::max(arm, length(vectorOf(wallArms_.back())));
     }
-    wallArm_.push_back(arm);
+    wallReach_.push_back(arm);
     for (std::size_t member = 0; member < wall.planes.size(); ++member)
       planes_.push_back({w, member, 0.0, {}, {}, {}, {}, {}, {}});
   }
@@ -110,6 +119,7 @@ void Spheres::placeSpheres() {
   }
   wallBegin_.push_back(position_.size());
   wallPath_.resize(setup_.walls.size());
+  wallSteady_.resize(setup_.walls.size());
   for (auto* array : {&velocity_, &spin_, &force_, &torque_}) array->resize(position_.size());
   inverseMass_.resize(position_.size());
   inverseInertia_.resize(position_.size());
@@ -228,7 +238,9 @@ void Spheres::moveWalls() {
     const SpaceWall& wall = setup_.walls[w];
     const SpaceWall::State now = wall.motion(time());
     wallPath_[w] += length(now.centre - wallNow_[w].centre) +
-                    wallArm_[w] * length(now.angle - wallNow_[w].angle);
+                    wallReach_[w] * length(now.angle - wallNow_[w].angle);
+    wallSteady_[w] =
+        isZero(now.spin) && isZero(wallNow_[w].spin) && now.velocity == wallNow_[w].velocity;
     wallNow_[w] = now;
     if (wallBegin_[w] < std::min(wallBegin_[w + 1], allowance_.size()) &&
         !(wallPath_[w] <= allowance_[wallBegin_[w]]))
@@ -249,7 +261,7 @@ void Spheres::moveWalls() {
   for (const std::int32_t index : reached_) {
     const auto i = static_cast<std::size_t>(index);
     while (i >= wallBegin_[w + 1]) ++w;
-    placeWallSphere(w, i);
+    placeWallSphere(w, i, wallSteady_[w]);
     force_[i] = torque_[i] = {};
   }
 }
@@ -261,15 +273,19 @@ Vector Spheres::wallPlace(std::size_t w, const Vector& point) const {
   return now.centre + (isZero(now.angle) ? arm : turnedBy(now.angle, arm));
 }
 
-void Spheres::placeWallSphere(std::size_t w, std::size_t i) {
-  const SpaceWall& wall = setup_.walls[w];
+/// @param steady  its velocities are as they were
+void Spheres::placeWallSphere(std::size_t w, std::size_t i, bool steady) {
   const SpaceWall::State& now = wallNow_[w];
-  const std::size_t k = i - wallBegin_[w];
-  const Vector at = wallPlace(w, wall.position[k]);
-  position_[i] = quadOf(at, wall.radius[k]);
-  if (isZero(now.spin) && vectorOf(velocity_[i]) == now.velocity && isZero(vectorOf(spin_[i])))
-    return;
-  velocity_[i] = quadOf(now.velocity + cross(now.spin, at - now.centre));
+  const Quad& arm = wallArms_[i - size()];
+  if (isZero(now.angle)) {
+    Lanes at(arm);
+    at += Lanes(now.centre);
+    at.store(position_[i]);
+  } else {
+    position_[i] = quadOf(now.centre + turnedBy(now.angle, vectorOf(arm)), arm.w);
+  }
+  if (steady) return;
+  velocity_[i] = quadOf(now.velocity + cross(now.spin, vectorOf(position_[i]) - now.centre));
   spin_[i] = quadOf(now.spin);
   if (seenVelocity_.empty()) return;
   seenVelocity_[i] = velocity_[i];
@@ -291,7 +307,7 @@ void Spheres::updateNeighbours() {
 /// left behind.
 void Spheres::list(const std::function<void()>& pairs) {
   for (std::size_t w = 0; w < setup_.walls.size(); ++w)
-    for (std::size_t i = wallBegin_[w]; i < wallBegin_[w + 1]; ++i) placeWallSphere(w, i);
+    for (std::size_t i = wallBegin_[w]; i < wallBegin_[w + 1]; ++i) placeWallSphere(w, i, false);
   findTravel();
   try {
     pairs();
@@ -307,9 +323,10 @@ void Spheres::findTravel() {
   travel_.resize(position_.size());
   for (std::size_t i = 0; i < size(); ++i) travel_[i] = setup_.dt * length(vectorOf(velocity_[i]));
   for (std::size_t w = 0; w < setup_.walls.size(); ++w)
-    std::fill(travel_.begin() + static_cast<std::ptrdiff_t>(wallBegin_[w]),
-              travel_.begin() + static_cast<std::ptrdiff_t>(wallBegin_[w + 1]),
-              setup_.dt * (length(wallNow_[w].velocity) + wallArm_[w] * length(wallNow_[w].spin)));
+    std::fill(
+        travel_.begin() + static_cast<std::ptrdiff_t>(wallBegin_[w]),
+        travel_.begin() + static_cast<std::ptrdiff_t>(wallBegin_[w + 1]),
+        setup_.dt * (length(wallNow_[w].velocity) + wallReach_[w] * length(wallNow_[w].spin)));
 }
 
 void Spheres::rememberChoice() {

@@ -158,7 +158,7 @@ class Spheres {
   void step();
   void moveWalls();
   Vec3<double> wallPlace(std::size_t w, const Vec3<double>& point) const;
-  void placeWallSphere(std::size_t w, std::size_t i);
+  void placeWallSphere(std::size_t w, std::size_t i, bool steady);
   void updateNeighbours();
   void list(const std::function<void()>& pairs);
   void findTravel();
@@ -204,7 +204,9 @@ class Spheres {
   std::vector<Vec3<double>> wallCentre_;  ///< at t = 0
   std::vector<std::size_t> wallBegin_;    ///< first sphere of each wall, and the end
   std::vector<SpaceWall::State> wallNow_;
-  std::vector<double> wallArm_;        ///< from the centre to the farthest of its spheres [m]
+  Array<Quad> wallArms_;               ///< of spheres of walls from the centre at t = 0; w: radius
+  std::vector<double> wallReach_;      ///< from the centre to the farthest of its spheres [m]
+  std::vector<char> wallSteady_;       ///< moves on as in the step before
   std::vector<double> wallPath_;       ///< of that one, at most, since pairs were chosen [m]
   std::vector<std::int32_t> reached_;  ///< spheres of walls that are in a near pair
   std::vector<PlacedPlane> planes_;    ///< then the cylinders
