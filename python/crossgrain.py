@@ -179,7 +179,7 @@ class Results:
 
 @dataclasses.dataclass
 class Contacts:
-    """Contacts of one time: pairs that an engine lists, i < j. Ids: disks from 0, then wall disks, then planes."""
+    """Contacts of one time: pairs that an engine lists, i < j. Ids: disks from 0, then wall disks, then planes, then cylinders."""
 
     i: np.ndarray  #: id of the first, a disk
     j: np.ndarray  #: id of the second
