@@ -459,7 +459,7 @@ class RigidEngine:
         "RollingFollowsItsClosedForms", "RollingHoldsASlope", "RollingTorquesAreThoseThatAct", "CohesionFollowsItsClosedForms",
         "MemoriesHoldWhileAnotherFliesBy", "MaterialsHaveTheirOwnLaws", "SpringsOfMovedPairs", "TorqueTurnsSpheres",
         "PairsAcrossBorders", "PairsAcrossBordersInSpace", "RollingSpringsOfMovedPairs", "PairsThatCrossBorders",
-        "PairsThatCrossBordersInSpace",
+        "PairsThatCrossBordersInSpace", "ForcesInSpaceAreThoseOfTheLaw",
     }  # fmt: skip
 
     def test_passes_its_checks(self):
