@@ -83,10 +83,12 @@ std::string contactFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& b
 /// The forces of every contact against the law: f_n from overlap and approach, |f_t| and the torque
 /// against rolling within their bounds by the law's conventions. An elasto-plastic law, whose
 /// memory nobody shows, has a range of f_n. Of instants of soft disks, and of rigid disks f_n ≥ 0
-/// alone; of the plane alone. Velocities are known to what forces change of them in a step and a
+/// alone. Velocities are known to what forces change of them in a step and a
 /// half, as schemes have their dashpots see velocities of up to that long before.
 /// @param law  the one that the engine declares (adapters/declared_law.hpp)
-std::string lawFault(const Snapshot& snapshot, const AuditBasis& basis, const ContactLaw& law);
+template <int D>
+std::string lawFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis,
+                     const ContactLaw& law);
 
 /// Cost counted as advance() was asked: steps done so far, seconds that can be.
 std::string statsFault(const Stats& stats, double dt, double reached);

@@ -84,17 +84,20 @@ ContactPlacesOf<D> contactPlaces(const SnapshotOf<D>& snapshot, const AuditBasis
 template ContactPlaces contactPlaces<2>(const Snapshot&, const AuditBasis&);
 template ContactPlacesOf<3> contactPlaces<3>(const SpaceSnapshot&, const AuditBasisOf<3>&);
 
-void placeWallsAsPrescribed(const Scene& scene, double t, Snapshot& snapshot) {
+template <int D>
+void placeWallsAsPrescribed(const SceneOf<D>& scene, double t, SnapshotOf<D>& snapshot) {
   snapshot.wallPosition.clear();
   snapshot.bodies.clear();
-  for (const WallBody& body : scene.bodies) {
-    const BodyState now = stateAt(body.motion, body.centre, t);
-    for (const Vec2& start : body.diskPosition)
-      snapshot.wallPosition.push_back(memberPosition(now, body.centre, start));
+  for (const WallBodyOf<D>& body : scene.bodies) {
+    const BodyStateOf<D> now = stateAt<D>(body.motion, body.centre, t);
+    for (const VecOf<D>& start : body.diskPosition)
+      snapshot.wallPosition.push_back(memberPosition<D>(now, body.centre, start));
     snapshot.bodies.push_back(
         {now.centre, now.angle, now.velocity, now.angularVelocity, std::nullopt, std::nullopt});
   }
 }
+template void placeWallsAsPrescribed(const Scene&, double, Snapshot&);
+template void placeWallsAsPrescribed(const SpaceScene&, double, SpaceSnapshot&);
 
 template <int D>
 VecOf<D> footOn(const PlaneOf<D>& plane, const VecOf<D>& point) {

@@ -1,8 +1,18 @@
 #pragma once
 
+#include <cmath>
+
 #include "adapters/audit.hpp"
 
 namespace crossgrain {
+
+/// Of a spin, an angle, a torque or a tangential force: in the plane a number.
+inline double sizeOf(double aboutNormal) {
+  return std::abs(aboutNormal);
+}
+inline double sizeOf(const Vec3& vector) {
+  return vector.norm();
+}
 
 /// A plane or a cylinder at that time, and the body that moves it.
 template <int D>
@@ -38,7 +48,8 @@ ContactPlacesOf<D> contactPlaces(const SnapshotOf<D>& snapshot, const AuditBasis
 
 /// Wall disks and bodies as the scene prescribes them at that time, without forces: what a snapshot
 /// of somebody else's need not say.
-void placeWallsAsPrescribed(const Scene& scene, double t, Snapshot& snapshot);
+template <int D>
+void placeWallsAsPrescribed(const SceneOf<D>& scene, double t, SnapshotOf<D>& snapshot);
 
 /// How a pair lies there, in a periodic box its nearest images: n from j to i, δ > 0 where they
 /// overlap, and how far δ may be off.

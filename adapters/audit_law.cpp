@@ -108,22 +108,26 @@ double damping(Damper damper, double constant, double stiffness, double reducedM
 }
 
 /// At most, of a body's point that far from its centre [m/s²].
-double acceleration(const Motion& motion, double arm) {
-  if (motion.kind == Motion::Kind::rotating)
-    return motion.angularVelocity * motion.angularVelocity * arm;
-  if (motion.kind == Motion::Kind::oscillating)
+template <int D>
+double acceleration(const MotionOf<D>& motion, double arm) {
+  if (motion.kind == MotionKind::rotating)
+    return sizeOf(motion.angularVelocity) * sizeOf(motion.angularVelocity) * arm;
+  if (motion.kind == MotionKind::oscillating)
     return motion.frequency * motion.frequency * motion.amplitude.norm();
   return 0.0;
 }
 
 /// m₁₂, of a wall that of i [kg].
-double reducedMass(const Scene& scene, std::size_t i, std::size_t j) {
+template <int D>
+double reducedMass(const SceneOf<D>& scene, std::size_t i, std::size_t j) {
   const double mass = scene.disks.mass[i];
   return j < scene.disks.size() ? mass * scene.disks.mass[j] / (mass + scene.disks.mass[j]) : mass;
 }
 
 /// The law of that pair with the options of `law`, as the engine runs them.
-ContactLaw ownLaw(const AuditBasis& basis, std::size_t i, std::size_t j, const ContactLaw& law) {
+template <int D>
+ContactLaw ownLaw(const AuditBasisOf<D>& basis, std::size_t i, std::size_t j,
+                  const ContactLaw& law) {
   if (!basis.scene->materials) return law;
   ContactLaw own = basis.scene->lawOf(i, j);
   for (const LawOption& option : lawOptions()) option.set(own, option.get(law));
@@ -133,7 +137,8 @@ ContactLaw ownLaw(const AuditBasis& basis, std::size_t i, std::size_t j, const C
 /// Pairs by their first: each has few, whose list is looked through faster than a tree.
 class ListedPairs {
  public:
-  ListedPairs(const Contacts& contacts, std::size_t bodies)
+  template <int D>
+  ListedPairs(const ContactsOf<D>& contacts, std::size_t bodies)
       : begin_(bodies + 1), second_(contacts.size()) {
     for (const std::int32_t i : contacts.i) ++begin_[static_cast<std::size_t>(i) + 1];
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
@@ -161,24 +166,25 @@ constexpr double stepsOfDoubt = 1.5;
 /// in a contact, or by what the overlap changed, where a pull leaves little of a large force. But a
 /// dashpot's force and a bond's begin and end with a jump: what began or ended meanwhile counts as
 /// a whole. Walls move as prescribed.
+template <int D>
 struct VelocityDoubt {
   std::vector<double> centre, rim;
 
-  VelocityDoubt(const Snapshot& snapshot, const AuditBasis& basis, const ContactPlaces& places,
-                const ContactLaw& law)
+  VelocityDoubt(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis,
+                const ContactPlacesOf<D>& places, const ContactLaw& law)
       : centre(basis.radius.size() + basis.scene->planeCount()),
         rim(centre.size()),
         lapse_(stepsOfDoubt * basis.dt) {
     constexpr double change = 0.1;
-    const Scene& scene = *basis.scene;
-    const Contacts& contacts = *snapshot.contacts;
-    std::vector<Vec2> sum(centre.size(), Vec2::Zero());
+    const SceneOf<D>& scene = *basis.scene;
+    const ContactsOf<D>& contacts = *snapshot.contacts;
+    std::vector<VecOf<D>> sum(centre.size(), VecOf<D>::Zero());
     std::vector<double> sizes(centre.size()), changes(centre.size());
     const ListedPairs shown(contacts, centre.size());
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       const auto i = static_cast<std::size_t>(contacts.i[k]);
       const auto j = static_cast<std::size_t>(contacts.j[k]);
-      const Vec2 force = contacts.force(k);
+      const VecOf<D> force = contacts.force(k);
       const double size = force.norm();
       const bool began = isWithin(contacts.overlap[k], size, places, basis, i, j);
       const double much =
@@ -197,12 +203,15 @@ struct VelocityDoubt {
       for (const std::size_t id : {i, j}) changes[id] += last;
     };
     const std::size_t disks = scene.disks.size(), round = basis.radius.size();
-    if (std::ranges::all_of(places.position, [](const Vec2& place) { return place.allFinite(); }))
-      nearPairs<2>(places.position, basis.radius, disks, scene.box, addEnded);
+    if (std::ranges::all_of(places.position,
+                            [](const VecOf<D>& place) { return place.allFinite(); }))
+      nearPairs<D>(places.position, basis.radius, disks, scene.box, addEnded);
     for (std::size_t p = 0; p < places.planes.size(); ++p)
       for (std::size_t i = 0; i < disks && places.planes[p].known; ++i) addEnded(i, round + p);
 
-    const double plate = scene.bottom ? scene.bottom->mu * scene.bottom->gravity : 0.0;
+    double plate = 0.0;
+    if constexpr (D == 2)
+      if (scene.bottom) plate = scene.bottom->mu * scene.bottom->gravity;
     for (std::size_t i = 0; i < disks; ++i) {
       const double radius = scene.disks.radius[i], mass = scene.disks.mass[i];
       centre[i] = lapse_ * ((sum[i].norm() + changes[i]) / mass + scene.gravity.norm() + plate);
@@ -213,31 +222,31 @@ struct VelocityDoubt {
  private:
   /// Whether two cover that way within the lapse, at the speed that they have or had before a force
   /// of that size changed it.
-  bool isWithin(double way, double force, const ContactPlaces& places, const AuditBasis& basis,
-                std::size_t i, std::size_t j) const {
-    const Vec2 relative = places.velocity[i] - velocityOfSecond(places, basis, i, j);
+  bool isWithin(double way, double force, const ContactPlacesOf<D>& places,
+                const AuditBasisOf<D>& basis, std::size_t i, std::size_t j) const {
+    const VecOf<D> relative = places.velocity[i] - velocityOfSecond<D>(places, basis, i, j);
     const double speed = relative.norm() + lapse_ * force / reducedMass(*basis.scene, i, j);
     return way >= 0.0 && way <= lapse_ * speed;
   }
 
   /// By how much the lapse changes an elastic force and a pull [N].
-  double changeWithin(const ContactLaw& law, double overlap, const ContactPlaces& places,
-                      const AuditBasis& basis, std::size_t i, std::size_t j) const {
-    const double radius = reducedRadius(basis, i, j);
+  double changeWithin(const ContactLaw& law, double overlap, const ContactPlacesOf<D>& places,
+                      const AuditBasisOf<D>& basis, std::size_t i, std::size_t j) const {
+    const double radius = reducedRadius<D>(basis, i, j);
     const double reach = j < basis.radius.size() ? basis.radius[i] + basis.radius[j] : 0.0;
-    const Vec2 relative = places.velocity[i] - velocityOfSecond(places, basis, i, j);
+    const VecOf<D> relative = places.velocity[i] - velocityOfSecond<D>(places, basis, i, j);
     return (elasticPart(law, overlap, radius).stiffness +
             attraction(law, overlap, radius, reach).stiffness) *
            relative.norm() * lapse_;
   }
 
   /// At most, of a contact of the two that ended within the lapse, 0 if none can have [N].
-  double lastForce(const ContactLaw& law, const ContactPlaces& places, const AuditBasis& basis,
-                   std::size_t i, std::size_t j) const {
-    const PairPlace place = pairPlace(places, basis, i, j);
-    const double radius = reducedRadius(basis, i, j);
+  double lastForce(const ContactLaw& law, const ContactPlacesOf<D>& places,
+                   const AuditBasisOf<D>& basis, std::size_t i, std::size_t j) const {
+    const PairPlaceOf<D> place = pairPlace<D>(places, basis, i, j);
+    const double radius = reducedRadius<D>(basis, i, j);
     const double separating =
-        (places.velocity[i] - velocityOfSecond(places, basis, i, j)).dot(place.normal);
+        (places.velocity[i] - velocityOfSecond<D>(places, basis, i, j)).dot(place.normal);
     const double reach = j < basis.radius.size() ? basis.radius[i] + basis.radius[j] : 0.0;
     const double mass = reducedMass(*basis.scene, i, j);
     const bool pulls = law.conventions.tension == Tension::allow;
@@ -255,7 +264,8 @@ struct VelocityDoubt {
 
 /// Everything about one contact that its forces are compared with.
 struct ContactKinematics {
-  PairPlace place;
+  double overlap;        ///< δ worked out from places [m]
+  double uncertain;      ///< how far that may be off [m]
   double radius;         ///< R₁₂ [m]
   double reach;          ///< a_i + a_j, at a plane 0 [m]
   double smallerRadius;  ///< [m]
@@ -267,35 +277,38 @@ struct ContactKinematics {
   Attraction pull;
 };
 
-ContactKinematics kinematicsOf(const Snapshot& snapshot, const AuditBasis& basis,
-                               const ContactPlaces& places, const VelocityDoubt& doubts,
+template <int D>
+ContactKinematics kinematicsOf(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis,
+                               const ContactPlacesOf<D>& places, const VelocityDoubt<D>& doubts,
                                std::size_t k, const ContactLaw& law) {
-  const Scene& scene = *basis.scene;
-  const Contacts& contacts = *snapshot.contacts;
+  const SceneOf<D>& scene = *basis.scene;
+  const ContactsOf<D>& contacts = *snapshot.contacts;
   const auto i = static_cast<std::size_t>(contacts.i[k]);
   const auto j = static_cast<std::size_t>(contacts.j[k]);
   const std::size_t disks = scene.disks.size(), round = basis.radius.size();
   ContactKinematics touch{};
-  touch.place = pairPlace(places, basis, i, j);
+  const PairPlaceOf<D> place = pairPlace<D>(places, basis, i, j);
+  touch.overlap = place.overlap;
+  touch.uncertain = place.uncertain;
   const double own = basis.radius[i];
   touch.reach = j < round ? own + basis.radius[j] : 0.0;
   touch.smallerRadius = j < round ? std::min(own, basis.radius[j]) : own;
-  touch.radius = reducedRadius(basis, i, j);
-  touch.elastic = elasticPart(law, touch.place.overlap, touch.radius);
-  touch.pull = attraction(law, touch.place.overlap, touch.radius, touch.reach);
+  touch.radius = reducedRadius<D>(basis, i, j);
+  touch.elastic = elasticPart(law, touch.overlap, touch.radius);
+  touch.pull = attraction(law, touch.overlap, touch.radius, touch.reach);
   touch.mass = reducedMass(scene, i, j);
-  const Vec2 relative = places.velocity[i] - velocityOfSecond(places, basis, i, j);
+  const VecOf<D> relative = places.velocity[i] - velocityOfSecond<D>(places, basis, i, j);
   touch.approach = relative.dot(contacts.normal[k]);
   const auto rimSpeed = [&](std::size_t id) {
-    return snapshot.spin && id < disks ? std::abs((*snapshot.spin)[id]) * basis.radius[id] : 0.0;
+    return snapshot.spin && id < disks ? sizeOf((*snapshot.spin)[id]) * basis.radius[id] : 0.0;
   };
   touch.slip = relative.norm() + rimSpeed(i) + rimSpeed(j) + doubts.rim[i] + doubts.rim[j];
   if (j >= disks && j < round) touch.slip += basis.fastest;  // rims of wall disks
   touch.doubt = doubts.centre[i] + doubts.centre[j];
   if (j >= round) {
-    const PlacedPlaneOf<2>& wall = places.planes[j - round];
-    const Vec2 arm = footOn<2>(wall.plane, places.position[i]) - wall.motion.centre;
-    touch.doubt += stepsOfDoubt * basis.dt * acceleration(wall.body->motion, arm.norm());
+    const PlacedPlaneOf<D>& wall = places.planes[j - round];
+    const VecOf<D> arm = footOn<D>(wall.plane, places.position[i]) - wall.motion.centre;
+    touch.doubt += stepsOfDoubt * basis.dt * acceleration<D>(wall.body->motion, arm.norm());
   }
   return touch;
 }
@@ -312,12 +325,12 @@ std::string normalFault(double found, const ContactLaw& law, const ContactKinema
   const double least = forceAt(pull.least), most = forceAt(pull.most);
   const double allowed =
       relative * (std::abs(elastic.force) + std::abs(pull.least) + gn * std::abs(touch.approach)) +
-      (elastic.stiffness + pull.stiffness) * touch.place.uncertain + gn * touch.doubt;
+      (elastic.stiffness + pull.stiffness) * touch.uncertain + gn * touch.doubt;
   if (found >= least - allowed && found <= most + allowed) return {};
   return fmt::format(
       "f_n is {:.6g} N, by the law {:.6g} N from an overlap of {:.3g} m (to within "
       "{:.2g} N)",
-      found, found < least ? least : most, touch.place.overlap, allowed);
+      found, found < least ? least : most, touch.overlap, allowed);
 }
 
 /// What stands for f_n in the bounds of sliding and rolling, at most [N].
@@ -352,10 +365,10 @@ std::string tangentialFault(double normal, double found, const ContactLaw& law,
   double allowed =
       bound * (1.0 + relative) + relative * (std::abs(elastic.force) + std::abs(normal));
   if (friction && law.coheres())  // what an uncertain overlap leaves open of the pull
-    allowed += law.mu * touch.pull.stiffness * touch.place.uncertain;
-  if (std::abs(found) <= allowed) return {};
-  return fmt::format("|f_t| is {:.6g} N, the law allows {:.6g} N at f_n = {:.6g} N",
-                     std::abs(found), bound, normal);
+    allowed += law.mu * touch.pull.stiffness * touch.uncertain;
+  if (found <= allowed) return {};
+  return fmt::format("|f_t| is {:.6g} N, the law allows {:.6g} N at f_n = {:.6g} N", found, bound,
+                     normal);
 }
 
 /// Of laws that limit the torque: constant, and a spring that holds its dashpot to the bound too.
@@ -378,20 +391,21 @@ std::string rollingFault(double normal, double found, const ContactLaw& law,
                                                                   : std::max(load, 0.0);
   if (how.rollingLoad == RollingLoad::whileCompressed && most <= 0.0) return {};
   const double bound = law.rolls() ? law.muR * length * most : 0.0;
-  const double unsure = (elastic.stiffness + touch.pull.stiffness) * touch.place.uncertain;
+  const double unsure = (elastic.stiffness + touch.pull.stiffness) * touch.uncertain;
   const double allowed =
       bound * (1.0 + relative) + law.muR * length * (relative * std::abs(normal) + unsure);
-  if (std::abs(found) <= allowed) return {};
-  return fmt::format("the torque against rolling is {:.6g} N m, the law allows {:.6g} N m",
-                     std::abs(found), bound);
+  if (found <= allowed) return {};
+  return fmt::format("the torque against rolling is {:.6g} N m, the law allows {:.6g} N m", found,
+                     bound);
 }
 
 /// Forces of another unit are all off by the same power of ten: the median of f_n over that of the
 /// law shows it, as dashpots on the whole do not.
-std::string hintOfUnit(const Snapshot& snapshot, const AuditBasis& basis,
-                       const ContactPlaces& places, const VelocityDoubt& doubts,
+template <int D>
+std::string hintOfUnit(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis,
+                       const ContactPlacesOf<D>& places, const VelocityDoubt<D>& doubts,
                        const ContactLaw& ofAll) {
-  const Contacts& contacts = *snapshot.contacts;
+  const ContactsOf<D>& contacts = *snapshot.contacts;
   std::vector<double> ratios;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const auto i = static_cast<std::size_t>(contacts.i[k]);
@@ -401,7 +415,7 @@ std::string hintOfUnit(const Snapshot& snapshot, const AuditBasis& basis,
     if (!law.soft()) continue;
     const ContactKinematics touch = kinematicsOf(snapshot, basis, places, doubts, k, law);
     const double byLaw = touch.elastic.force + touch.pull.most;
-    if (byLaw > 10.0 * touch.elastic.stiffness * touch.place.uncertain)
+    if (byLaw > 10.0 * touch.elastic.stiffness * touch.uncertain)
       ratios.push_back(contacts.normalForce[k] / byLaw);
   }
   if (ratios.empty()) return {};
@@ -417,14 +431,16 @@ std::string hintOfUnit(const Snapshot& snapshot, const AuditBasis& basis,
 
 }  // namespace
 
-std::string lawFault(const Snapshot& snapshot, const AuditBasis& basis, const ContactLaw& ofAll) {
+template <int D>
+std::string lawFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis,
+                     const ContactLaw& ofAll) {
   if (!snapshot.contacts || snapshot.contactInterval > 1.5 * basis.dt) return {};
-  const Contacts& contacts = *snapshot.contacts;
-  const ContactPlaces places = contactPlaces(snapshot, basis);
-  const VelocityDoubt doubts(snapshot, basis, places, ofAll);
+  const ContactsOf<D>& contacts = *snapshot.contacts;
+  const ContactPlacesOf<D> places = contactPlaces<D>(snapshot, basis);
+  const VelocityDoubt<D> doubts(snapshot, basis, places, ofAll);
   const double relative = basis.rounding > 1e-8 ? 1e-5 : 1e-9;  // of forces, by precision
   for (std::size_t k = 0; k < contacts.size(); ++k) {
-    const double fn = contacts.normalForce[k], ft = contacts.tangentialForce[k];
+    const double fn = contacts.normalForce[k], ft = sizeOf(contacts.tangentialForce[k]);
     const auto i = static_cast<std::size_t>(contacts.i[k]);
     const auto j = static_cast<std::size_t>(contacts.j[k]);
     if (j >= basis.radius.size() && !places.planes[j - basis.radius.size()].known) continue;
@@ -437,7 +453,7 @@ std::string lawFault(const Snapshot& snapshot, const AuditBasis& basis, const Co
       why = normalFault(fn, law, touch, relative);
       if (why.empty()) why = tangentialFault(fn, ft, law, touch, relative);
       if (why.empty() && !contacts.rollingTorque.empty())
-        why = rollingFault(fn, contacts.rollingTorque[k], law, touch, relative);
+        why = rollingFault(fn, sizeOf(contacts.rollingTorque[k]), law, touch, relative);
     }
     if (!why.empty())
       return fmt::format("{}: {}{}", contactName(contacts, k, *basis.scene), why,
@@ -445,5 +461,7 @@ std::string lawFault(const Snapshot& snapshot, const AuditBasis& basis, const Co
   }
   return {};
 }
+template std::string lawFault(const Snapshot&, const AuditBasis&, const ContactLaw&);
+template std::string lawFault(const SpaceSnapshot&, const AuditBasisOf<3>&, const ContactLaw&);
 
 }  // namespace crossgrain

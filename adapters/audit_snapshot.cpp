@@ -6,18 +6,11 @@
 #include <tuple>
 #include <utility>
 
-#include "adapters/audit.hpp"
+#include "adapters/audit_geometry.hpp"
 #include "adapters/suitability.hpp"
 
 namespace crossgrain {
 namespace {
-
-double sizeOf(double spin) {
-  return std::abs(spin);
-}
-double sizeOf(const Vec3& spin) {
-  return spin.norm();
-}
 
 /// Fastest that a body's motion moves any of its members [m/s].
 template <int D>

@@ -163,9 +163,13 @@ Snapshot inPlane(const SpaceSnapshot& snapshot) {
   to.velocity = each(snapshot.velocity, flat);
   if (snapshot.spin) to.spin = each(*snapshot.spin, spin);
   to.wallPosition = each(snapshot.wallPosition, flat);
-  for (const BodySnapshotOf<3>& body : snapshot.bodies)
-    to.bodies.push_back({flat(body.centre), spin(body.angle), flat(body.velocity),
-                         spin(body.angularVelocity), flat(*body.force), spin(*body.torque)});
+  for (const BodySnapshotOf<3>& body : snapshot.bodies) {
+    BodySnapshot& wall = to.bodies.emplace_back();
+    wall = {flat(body.centre),          spin(body.angle), flat(body.velocity),
+            spin(body.angularVelocity), std::nullopt,     std::nullopt};
+    if (body.force) wall.force = flat(*body.force);
+    if (body.torque) wall.torque = spin(*body.torque);
+  }
   if (!snapshot.contacts) return to;
   const ContactsOf<3>& from = *snapshot.contacts;
   Contacts& contacts = to.contacts.emplace();

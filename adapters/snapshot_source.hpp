@@ -11,22 +11,24 @@ namespace crossgrain {
 
 /// Snapshots that nobody runs: those of a file, one after the other, so that memory holds one at a
 /// time.
-class SnapshotSource {
+template <int D>
+class SnapshotSourceOf {
  public:
-  virtual ~SnapshotSource() = default;
+  virtual ~SnapshotSourceOf() = default;
 
   /// Disks and walls under the law of the case. Places and velocities of disks are those of the
   /// first snapshot.
-  virtual const Scene& scene() const = 0;
+  virtual const SceneOf<D>& scene() const = 0;
   /// Who made them, as the file says, else its name.
   virtual const std::string& engine() const = 0;
   /// The next one, by time; absent after the last. It fits the scene and was found sound
   /// (adapters/audit.hpp). @throws BadInput naming the file, the snapshot and what is wrong
-  virtual std::optional<Snapshot> next() = 0;
+  virtual std::optional<SnapshotOf<D>> next() = 0;
   /// How far it has read, 0 … 1.
   virtual double progress() const = 0;
   /// What the files lack and what that costs, a sentence each; all of it after the last snapshot.
   virtual std::vector<std::string> remarks() const { return {}; }
 };
+using SnapshotSource = SnapshotSourceOf<2>;
 
 }  // namespace crossgrain

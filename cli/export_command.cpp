@@ -60,18 +60,24 @@ void requireNew(const std::vector<std::filesystem::path>& written) {
                                  file.string()));
 }
 
-int exportSnapshots(const CommandLine& line, const std::string& format,
+auto writerOf(const std::string& format, const std::string& out, const Scene& scene,
+              const Case& setup) {
+  return files::openWriter(format, out, scene, boxOf(setup));
+}
+auto writerOf(const std::string& format, const std::string& out, const SpaceScene& scene,
+              const Case&) {
+  return files::openWriter(format, out, scene);
+}
+
+template <int D>
+int exportSnapshots(const CommandLine& line, const Case& setup, const std::string& format,
                     const std::string& snapshots, const std::string& out) {
-  requireFormat(format);
-  const Case setup = flowCase(line);
-  if (const auto folder = std::filesystem::path(out).parent_path(); !folder.empty())
-    makeDirectory(folder);
-  const auto reader = openSnapshotFile(snapshots, setup);
+  const auto reader = openSnapshotFile<D>(snapshots, setup);
   reader->takeAll();
   const auto written = files::writtenFiles(format, out, reader->count());
   requireNew(written);
 
-  const auto writer = files::openWriter(format, out, reader->scene(), boxOf(setup));
+  const auto writer = writerOf(format, out, reader->scene(), setup);
   Progress progress(line.run.quiet);
   progress.begin("writing snapshots", {1.0});
   std::optional<double> first;
@@ -93,6 +99,16 @@ int exportSnapshots(const CommandLine& line, const std::string& format,
              reader->count(), reader->engine(), first.value_or(last), last);
   for (const std::string& what : writer->notWritten()) fmt::print("  not in them: {}\n", what);
   return exitPassed;
+}
+
+int exportSnapshots(const CommandLine& line, const std::string& format,
+                    const std::string& snapshots, const std::string& out) {
+  requireFormat(format);
+  const Case setup = flowCase(line);
+  if (const auto folder = std::filesystem::path(out).parent_path(); !folder.empty())
+    makeDirectory(folder);
+  return inDimensionOf(
+      setup, [&]<int D>() { return exportSnapshots<D>(line, setup, format, snapshots, out); });
 }
 
 Action declareExport(CLI::App& app, CommandLine& line) {

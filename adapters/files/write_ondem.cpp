@@ -131,6 +131,20 @@ class MemoryFile {
 void append(Doubles& to, const Vec2& v) {
   to.insert(to.end(), {v.x(), v.y(), 0.0});
 }
+void append(Doubles& to, const Vec3& v) {
+  to.insert(to.end(), {v.x(), v.y(), v.z()});
+}
+/// A spin of the plane, about z.
+void append(Doubles& to, double aboutZ) {
+  to.insert(to.end(), {0.0, 0.0, aboutZ});
+}
+
+Vec2 shearForce(const WrittenContact& contact) {
+  return contact.tangentialForce * contact.tangent();
+}
+Vec3 shearForce(const WrittenContactOf<3>& contact) {
+  return contact.tangentialForce;
+}
 
 /// BodyColumns of one block: every body has a value in each.
 struct BodyColumns {
@@ -143,12 +157,13 @@ constexpr std::int64_t sphereShape = 0, planeShape = 1;
 /// Bits 0 to 2 are the translations along x, y and z, 3 to 5 the rotations about them.
 constexpr std::int64_t planarDofs = 0b011100, fixedDofs = 0b111111;
 
-class OnDemWriter : public SnapshotWriter {
+template <int D>
+class OnDemWriter : public SnapshotWriterOf<D> {
  public:
-  OnDemWriter(const std::filesystem::path& out, const Scene& scene, const WrittenBox& box)
-      : out_(out), scene_(scene), particles_(scene), box_(box) {}
+  OnDemWriter(const std::filesystem::path& out, const SceneOf<D>& scene, double height)
+      : out_(out), scene_(scene), particles_(scene), height_(height) {}
 
-  void write(const Snapshot& now) override {
+  void write(const SnapshotOf<D>& now) override {
     if (count_ == 0) notWritten_ = notInFormats(now);
     MemoryFile file(writtenFiles("ondem", out_, count_ + 1).back());
     file.attribute("/", "file_format", "ON-DEM VTKHDF");
@@ -171,10 +186,12 @@ class OnDemWriter : public SnapshotWriter {
 
   std::vector<std::string> notWritten() const override {
     std::vector<std::string> lines = notWritten_;
-    lines.emplace_back(
-        "disks: the format has none; they are spheres with the mass, volume and moment of inertia "
-        "of the disks");
-    lines.emplace_back("angles of disks: the snapshots have none; files have 0");
+    if (D == 2)
+      lines.emplace_back(
+          "disks: the format has none; they are spheres with the mass, volume and moment of "
+          "inertia of the disks");
+    lines.emplace_back(D == 2 ? "angles of disks: the snapshots have none; files have 0"
+                              : "orientations: the snapshots have none; files have the identity");
     lines.emplace_back("the contact law: classes of materials are not decided in the format");
     if (scene_.planeCount() > 0)
       lines.emplace_back("planes: the format has none yet; they are points with a plane_normal");
@@ -182,51 +199,56 @@ class OnDemWriter : public SnapshotWriter {
   }
 
  private:
-  void addBody(BodyColumns& columns, std::int64_t shape, const WrittenParticle& p) const {
+  double volumeOf(double radius) const {
+    const double disk = std::numbers::pi * radius * radius;
+    return D == 2 ? disk * height_ : 4.0 / 3.0 * disk * radius;
+  }
+
+  void addBody(BodyColumns& columns, std::int64_t shape, const WrittenParticleOf<D>& p) const {
     columns.id.push_back(static_cast<std::int64_t>(columns.id.size()));
     columns.shape.push_back(shape);
     columns.material.push_back(p.material);
     columns.clump.push_back(-1);
-    columns.blocked.push_back(p.mass ? planarDofs : fixedDofs);
+    columns.blocked.push_back(p.mass ? (D == 2 ? planarDofs : 0) : fixedDofs);
     append(columns.position, p.position);
     append(columns.velocity, p.velocity);
-    columns.angularVelocity.insert(columns.angularVelocity.end(), {0.0, 0.0, p.spin});
+    append(columns.angularVelocity, p.spin);
     columns.orientation.insert(columns.orientation.end(), {1.0, 0.0, 0.0, 0.0});
     columns.mass.push_back(p.mass.value_or(notApplicable));
   }
 
-  BodyColumns particleColumns(const Snapshot& now) const {
+  BodyColumns particleColumns(const SnapshotOf<D>& now) const {
     BodyColumns columns;
     for (std::size_t id = 0; id < particles_.size(); ++id) {
-      const WrittenParticle p = particles_.at(now, id);
+      const WrittenParticleOf<D> p = particles_.at(now, id);
       addBody(columns, sphereShape, p);
       columns.radius.push_back(p.radius);
-      columns.volume.push_back(std::numbers::pi * p.radius * p.radius * box_.height);
-      // A disk turns about z alone.
-      const double aboutZ = p.mass ? scene_.disks.inertia[id] : notApplicable;
+      columns.volume.push_back(volumeOf(p.radius));
+      const double inertia = p.mass ? scene_.disks.inertia[id] : notApplicable;
+      const double across = D == 2 ? notApplicable : inertia;  // a disk turns about z alone
       columns.inertia.insert(columns.inertia.end(),
-                             {notApplicable, 0.0, 0.0, 0.0, notApplicable, 0.0, 0.0, 0.0, aboutZ});
+                             {across, 0.0, 0.0, 0.0, across, 0.0, 0.0, 0.0, inertia});
       columns.normal.insert(columns.normal.end(), {notApplicable, notApplicable, notApplicable});
     }
     return columns;
   }
 
-  BodyColumns planeColumns(const Snapshot& now) const {
+  BodyColumns planeColumns(const SnapshotOf<D>& now) const {
     BodyColumns columns;
     for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
-      const WallBody& body = scene_.bodies[b];
-      BodyState state{.centre = body.centre};
+      const WallBodyOf<D>& body = scene_.bodies[b];
+      BodyStateOf<D> state{.centre = body.centre};
       if (b < now.bodies.size()) {
         state.centre = now.bodies[b].centre;
         state.angle = now.bodies[b].angle;
         state.velocity = now.bodies[b].velocity;
         state.angularVelocity = now.bodies[b].angularVelocity;
       }
-      for (const Plane& reference : body.planes) {
-        const Plane plane = planeAt(state, body.centre, reference);
-        WrittenParticle p;
+      for (const PlaneOf<D>& reference : body.planes) {
+        const PlaneOf<D> plane = planeAt<D>(state, body.centre, reference);
+        WrittenParticleOf<D> p;
         p.position = plane.point;
-        p.velocity = memberVelocity(state, plane.point);
+        p.velocity = memberVelocity<D>(state, plane.point);
         p.spin = state.angularVelocity;
         if (scene_.materials) p.material = scene_.materials->ofBody[b];
         addBody(columns, planeShape, p);
@@ -278,7 +300,7 @@ class OnDemWriter : public SnapshotWriter {
     file.link("/VTKHDF/Assembly/" + name, at);
   }
 
-  void writeScene(MemoryFile& file, const Snapshot& now) const {
+  void writeScene(MemoryFile& file, const SnapshotOf<D>& now) const {
     const std::string at = "/ONDEM/Scene";
     file.group(at, false);
     file.attribute(at, "time", now.positionTime);
@@ -286,7 +308,9 @@ class OnDemWriter : public SnapshotWriter {
     file.attribute(at, "contact_time", now.contactTime);
     file.attribute(at, "timestep", scene_.dt > 0.0 ? scene_.dt : notApplicable);
     file.attribute(at, "iteration", std::int64_t{-1});
-    file.array(at + "/gravity", Doubles{scene_.gravity.x(), scene_.gravity.y(), 0.0});
+    Doubles gravity;
+    append(gravity, scene_.gravity);
+    file.array(at + "/gravity", gravity);
     file.texts(at + "/units", {"second", "meter", "kilogram"});
     file.texts(at + "/display_group_names", {"Points", "Others"});
     file.texts(at + "/shape_names", {"sphere", "plane"});
@@ -301,7 +325,7 @@ class OnDemWriter : public SnapshotWriter {
     for (std::size_t i = 0; i < scene_.disks.size(); ++i) {
       auto& [mass, volume] = sums[scene_.materials ? scene_.materials->ofDisk[i] : 0];
       mass += scene_.disks.mass[i];
-      volume += std::numbers::pi * scene_.disks.radius[i] * scene_.disks.radius[i] * box_.height;
+      volume += volumeOf(scene_.disks.radius[i]);
     }
     for (const auto& [id, sum] : sums) {
       const std::string at = fmt::format("/ONDEM/Materials/{}", id);
@@ -315,17 +339,17 @@ class OnDemWriter : public SnapshotWriter {
 
   /// The normal is from id1 to id2, the force on id2 −normal_force · normal + shear_force:
   /// normal_force is positive in traction.
-  void writeContacts(MemoryFile& file, const Snapshot& now) const {
+  void writeContacts(MemoryFile& file, const SnapshotOf<D>& now) const {
     const std::string at = "/ONDEM/Interactions/contact";
     Int64s first, second;
-    Doubles normal, normalForce, shearForce, point, overlap;
+    Doubles normal, normalForce, shear, point, overlap;
     for (std::size_t k = 0; k < now.contacts->size(); ++k) {
-      const WrittenContact contact = contactAt(particles_, now, k);
+      const WrittenContactOf<D> contact = contactAt(particles_, now, k);
       first.push_back(static_cast<std::int64_t>(contact.first));
       second.push_back(static_cast<std::int64_t>(contact.second));
-      append(normal, -contact.normal);
+      append(normal, VecOf<D>(-contact.normal));
       normalForce.push_back(-contact.normalForce);
-      append(shearForce, -contact.tangentialForce * contact.tangent());
+      append(shear, VecOf<D>(-shearForce(contact)));
       append(point, contact.point);
       overlap.push_back(contact.overlap);
     }
@@ -335,24 +359,29 @@ class OnDemWriter : public SnapshotWriter {
     file.array(at + "/id2", second);
     file.array(at + "/normal", normal, 3);
     file.array(at + "/normal_force", normalForce);
-    file.array(at + "/shear_force", shearForce, 3);
+    file.array(at + "/shear_force", shear, 3);
     file.array(at + "/contact_point", point, 3);
     file.array(at + "/overlap", overlap);
   }
 
   std::filesystem::path out_;
-  const Scene& scene_;
-  WrittenParticles particles_;
-  WrittenBox box_;
+  const SceneOf<D>& scene_;
+  WrittenParticlesOf<D> particles_;
+  double height_;  ///< of disks [m]
   std::size_t count_ = 0;
   std::vector<std::string> notWritten_;
 };
 
 }  // namespace
 
-std::unique_ptr<SnapshotWriter> openOnDem(const std::filesystem::path& out, const Scene& scene,
-                                          const WrittenBox& box) {
-  return std::make_unique<OnDemWriter>(out, scene, box);
+template <int D>
+std::unique_ptr<SnapshotWriterOf<D>> openOnDem(const std::filesystem::path& out,
+                                               const SceneOf<D>& scene, double height) {
+  return std::make_unique<OnDemWriter<D>>(out, scene, height);
 }
+template std::unique_ptr<SnapshotWriter> openOnDem(const std::filesystem::path&, const Scene&,
+                                                   double);
+template std::unique_ptr<SnapshotWriterOf<3>> openOnDem(const std::filesystem::path&,
+                                                        const SpaceScene&, double);
 
 }  // namespace crossgrain::files

@@ -47,14 +47,16 @@ class TextOutput {
 };
 
 /// A disk or a wall disk.
-struct WrittenParticle {
-  Vec2 position, velocity;     ///< [m], [m/s]
-  double radius = 0.0;         ///< [m]
-  double spin = 0.0;           ///< counter-clockwise positive [rad/s]
-  std::optional<double> mass;  ///< absent of wall disks, which are fixed [kg]
-  std::int32_t body = -1;      ///< wall body of a wall disk
+template <int D>
+struct WrittenParticleOf {
+  VecOf<D> position, velocity;   ///< [m], [m/s]
+  double radius = 0.0;           ///< [m]
+  SpinOf<D> spin = noSpin<D>();  ///< in the plane counter-clockwise positive [rad/s]
+  std::optional<double> mass;    ///< absent of wall disks, which are fixed [kg]
+  std::int32_t body = -1;        ///< wall body of a wall disk
   std::int32_t material = 0;
 };
+using WrittenParticle = WrittenParticleOf<2>;
 
 /// The same, with 0 for −0.
 inline Vec2 unsignedZeros(const Vec2& v) {
@@ -62,46 +64,55 @@ inline Vec2 unsignedZeros(const Vec2& v) {
 }
 
 /// Disks, then wall disks, by the scene's ids.
-class WrittenParticles {
+template <int D>
+class WrittenParticlesOf {
  public:
-  explicit WrittenParticles(const Scene& scene);
+  explicit WrittenParticlesOf(const SceneOf<D>& scene);
 
   std::size_t size() const { return radius_.size(); }
   const std::vector<double>& radii() const { return radius_; }
-  WrittenParticle at(const Snapshot& now, std::size_t id) const;
+  WrittenParticleOf<D> at(const SnapshotOf<D>& now, std::size_t id) const;
 
  private:
-  const Scene& scene_;
+  const SceneOf<D>& scene_;
   std::vector<double> radius_;
   std::vector<std::int32_t> body_;  ///< of wall disks
 };
+using WrittenParticles = WrittenParticlesOf<2>;
 
 /// A contact as files have it. Forces are on the first, which is never a wall.
-struct WrittenContact {
-  std::size_t first = 0, second = 0;  ///< ids; planes follow wall disks
-  Vec2 normal;                        ///< from the second to the first
-  Vec2 point;                         ///< half of the overlap inside of both [m]
-  double overlap = 0.0;               ///< [m]
-  double normalForce = 0.0;           ///< > 0 pushes [N]
-  double tangentialForce = 0.0;       ///< along z × normal [N]
-  double rollingTorque = 0.0;         ///< on the first [N m]
+template <int D>
+struct WrittenContactOf {
+  std::size_t first = 0, second = 0;        ///< ids; planes follow wall disks
+  VecOf<D> normal;                          ///< from the second to the first
+  VecOf<D> point;                           ///< half of the overlap inside of both [m]
+  double overlap = 0.0;                     ///< [m]
+  double normalForce = 0.0;                 ///< > 0 pushes [N]
+  SpinOf<D> tangentialForce = noSpin<D>();  ///< in the plane along z × normal [N]
+  SpinOf<D> rollingTorque = noSpin<D>();    ///< on the first [N m]
 
   /// z × normal
-  Vec2 tangent() const { return perpendicular(normal); }
+  Vec2 tangent() const requires(D == 2) { return perpendicular(normal); }
 };
+using WrittenContact = WrittenContactOf<2>;
 
 /// @param particles  those of the scene  @pre the snapshot holds contacts
-WrittenContact contactAt(const WrittenParticles& particles, const Snapshot& now, std::size_t k);
+template <int D>
+WrittenContactOf<D> contactAt(const WrittenParticlesOf<D>& particles, const SnapshotOf<D>& now,
+                              std::size_t k);
 
 /// SnapshotWriter::notWritten(), as far as it is the same for all formats.
 /// @param rolling  whether the format has a place for rolling torques
-std::vector<std::string> notInFormats(const Snapshot& now, bool rolling = false);
+template <int D>
+std::vector<std::string> notInFormats(const SnapshotOf<D>& now, bool rolling = false);
 
 std::unique_ptr<SnapshotWriter> openMercuryDpm(const std::filesystem::path& out, const Scene& scene,
                                                const WrittenBox& box);
 std::unique_ptr<SnapshotWriter> openLammps(const std::filesystem::path& out, const Scene& scene,
                                            const WrittenBox& box);
-std::unique_ptr<SnapshotWriter> openOnDem(const std::filesystem::path& out, const Scene& scene,
-                                          const WrittenBox& box);
+/// @param height  of disks [m]
+template <int D>
+std::unique_ptr<SnapshotWriterOf<D>> openOnDem(const std::filesystem::path& out,
+                                               const SceneOf<D>& scene, double height);
 
 }  // namespace crossgrain::files

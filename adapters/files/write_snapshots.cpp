@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Geometry>
 #include <cerrno>
 
 #include "adapters/files/write_parts.hpp"
@@ -39,14 +40,17 @@ void TextOutput::close() {
   if (error) throw OutputError(file_, error.value());
 }
 
-WrittenParticles::WrittenParticles(const Scene& scene) : scene_(scene), radius_(scene.radii()) {
+template <int D>
+WrittenParticlesOf<D>::WrittenParticlesOf(const SceneOf<D>& scene)
+    : scene_(scene), radius_(scene.radii()) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     body_.insert(body_.end(), scene.bodies[b].diskRadius.size(), static_cast<std::int32_t>(b));
 }
 
-WrittenParticle WrittenParticles::at(const Snapshot& now, std::size_t id) const {
+template <int D>
+WrittenParticleOf<D> WrittenParticlesOf<D>::at(const SnapshotOf<D>& now, std::size_t id) const {
   const std::size_t disks = scene_.disks.size();
-  WrittenParticle particle;
+  WrittenParticleOf<D> particle;
   particle.radius = radius_[id];
   if (id < disks) {
     particle.position = now.position[id];
@@ -59,20 +63,27 @@ WrittenParticle WrittenParticles::at(const Snapshot& now, std::size_t id) const 
   particle.body = body_[id - disks];
   const auto b = static_cast<std::size_t>(particle.body);
   particle.position = now.wallPosition[id - disks];
-  particle.velocity = Vec2::Zero();
+  particle.velocity = VecOf<D>::Zero();
   if (b < now.bodies.size()) {
-    const BodySnapshot& body = now.bodies[b];
+    const BodySnapshotOf<D>& body = now.bodies[b];
+    const VecOf<D> arm = particle.position - body.centre;
     particle.spin = body.angularVelocity;
-    particle.velocity =
-        body.velocity + body.angularVelocity * perpendicular(particle.position - body.centre);
+    if constexpr (D == 2)
+      particle.velocity = body.velocity + body.angularVelocity * perpendicular(arm);
+    else
+      particle.velocity = body.velocity + body.angularVelocity.cross(arm);
   }
   if (scene_.materials) particle.material = scene_.materials->ofBody[b];
   return particle;
 }
+template class WrittenParticlesOf<2>;
+template class WrittenParticlesOf<3>;
 
-WrittenContact contactAt(const WrittenParticles& particles, const Snapshot& now, std::size_t k) {
-  const Contacts& contacts = *now.contacts;
-  WrittenContact contact;
+template <int D>
+WrittenContactOf<D> contactAt(const WrittenParticlesOf<D>& particles, const SnapshotOf<D>& now,
+                              std::size_t k) {
+  const ContactsOf<D>& contacts = *now.contacts;
+  WrittenContactOf<D> contact;
   contact.first = static_cast<std::size_t>(contacts.i[k]);
   contact.second = static_cast<std::size_t>(contacts.j[k]);
   contact.normal = contacts.normal[k];
@@ -84,8 +95,12 @@ WrittenContact contactAt(const WrittenParticles& particles, const Snapshot& now,
                   (particles.radii()[contact.first] - 0.5 * contact.overlap) * contact.normal;
   return contact;
 }
+template WrittenContactOf<2> contactAt(const WrittenParticles&, const Snapshot&, std::size_t);
+template WrittenContactOf<3> contactAt(const WrittenParticlesOf<3>&, const SpaceSnapshot&,
+                                       std::size_t);
 
-std::vector<std::string> notInFormats(const Snapshot& now, bool rolling) {
+template <int D>
+std::vector<std::string> notInFormats(const SnapshotOf<D>& now, bool rolling) {
   std::vector<std::string> lines;
   if (now.velocityTime != now.positionTime || now.contactTime != now.positionTime)
     lines.push_back(
@@ -106,6 +121,8 @@ std::vector<std::string> notInFormats(const Snapshot& now, bool rolling) {
     lines.emplace_back("dissipation of contacts: no place for it");
   return lines;
 }
+template std::vector<std::string> notInFormats(const Snapshot&, bool);
+template std::vector<std::string> notInFormats(const SpaceSnapshot&, bool);
 
 std::vector<std::string_view> writtenFormats() {
   return {"mercurydpm", "lammps", "ondem"};
@@ -128,9 +145,17 @@ std::unique_ptr<SnapshotWriter> openWriter(std::string_view format,
                                            const WrittenBox& box) {
   if (format == "mercurydpm") return openMercuryDpm(out, scene, box);
   if (format == "lammps") return openLammps(out, scene, box);
-  if (format == "ondem") return openOnDem(out, scene, box);
+  if (format == "ondem") return openOnDem<2>(out, scene, box.height);
   throw BadInput(fmt::format("there is no format \"{}\" to write; there are {}", format,
                              fmt::join(writtenFormats(), ", ")));
+}
+
+std::unique_ptr<SnapshotWriterOf<3>> openWriter(std::string_view format,
+                                                const std::filesystem::path& out,
+                                                const SpaceScene& scene) {
+  if (format == "ondem") return openOnDem<3>(out, scene, 0.0);
+  throw BadInput(fmt::format(
+      "format {}: snapshots in space (case.dimension = 3) are written as ondem alone", format));
 }
 
 }  // namespace crossgrain::files

@@ -13,8 +13,8 @@
 /// numbers are the shortest that read back as the same double.
 namespace crossgrain::files {
 
-/// The box that the files state. With its thickness the sums per volume that other programs make
-/// are ours: N/m² is then N/m².
+/// The box that the files of snapshots of the plane state. With its thickness the sums per volume
+/// that other programs make are ours: N/m² is then N/m².
 struct WrittenBox {
   Vec2 low = Vec2::Zero(), high = Vec2::Zero();  ///< [m]
   double height = 1.0;                           ///< along z, half of it on either side of 0 [m]
@@ -22,12 +22,13 @@ struct WrittenBox {
 
 /// Writes snapshots one after the other: memory holds the one that is being written. Files have
 /// their names once close() has been called; what is left before that is removed.
-class SnapshotWriter {
+template <int D>
+class SnapshotWriterOf {
  public:
-  virtual ~SnapshotWriter() = default;
+  virtual ~SnapshotWriterOf() = default;
 
   /// @pre it is of the writer's scene  @throws OutputError
-  virtual void write(const Snapshot& now) = 0;
+  virtual void write(const SnapshotOf<D>& now) = 0;
 
   /// @throws OutputError
   virtual void close() = 0;
@@ -36,11 +37,13 @@ class SnapshotWriter {
   /// do not have: each a line.
   virtual std::vector<std::string> notWritten() const = 0;
 };
+using SnapshotWriter = SnapshotWriterOf<2>;
 
 /// "mercurydpm": NAME.data, NAME.fstat and NAME.restart, which MercuryCG averages.
 /// "lammps": NAME.dump and NAME.contacts, as `dump custom` and `dump local` write them.
 /// "ondem": NAME-000.vtkhdf, -001, …, one a snapshot, in the layout that the Open Network on DEM
-/// decided on in October 2026, made for the VTKHDF reader of ParaView 5.13 and later.
+/// decided on in October 2026, made for the VTKHDF reader of ParaView 5.13 and later; the one that
+/// there is of snapshots in space.
 std::vector<std::string_view> writtenFormats();
 
 /// The files that a format makes of so many snapshots.
@@ -55,5 +58,10 @@ std::vector<std::filesystem::path> writtenFiles(std::string_view format,
 std::unique_ptr<SnapshotWriter> openWriter(std::string_view format,
                                            const std::filesystem::path& out, const Scene& scene,
                                            const WrittenBox& box);
+/// The same in space, with what a box is for left out. @throws BadInput of another format than
+/// ondem
+std::unique_ptr<SnapshotWriterOf<3>> openWriter(std::string_view format,
+                                                const std::filesystem::path& out,
+                                                const SpaceScene& scene);
 
 }  // namespace crossgrain::files

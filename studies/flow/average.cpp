@@ -35,17 +35,20 @@ struct NamedRun {
   FlowRun run;
   std::string name;  ///< of its file
   std::int64_t snapshots = 0;
-  Disks disks;
+  std::vector<double> radius;  ///< of its disks [m]
 };
 
-NamedRun averageRun(const Case& setup, const SnapshotRun& files, SnapshotSource& source, int index,
+template <int D>
+NamedRun averageRun(const Case& setup, const SnapshotRun& files, const std::string& name, int index,
                     Progress& progress) {
+  const auto opened = openSnapshots<D>(files, setup, name);
+  SnapshotSourceOf<D>& source = *opened;
   AveragedRun averaged = averagedRun(setup, files, source, [&](double fraction) {
     progress.update(static_cast<std::size_t>(index), files.name(), fraction);
   });
   averaged.run.packing = index;
   addOwnEndpoints(setup, averaged.run);
-  return {std::move(averaged.run), files.name(), averaged.snapshots, source.scene().disks};
+  return {std::move(averaged.run), files.name(), averaged.snapshots, source.scene().disks.radius};
 }
 
 /// Runs of one engine are replicates; those of two are to be compared.
@@ -77,17 +80,19 @@ CompareResults averageSnapshots(const Case& setup, const std::vector<std::filesy
   Progress progress(quiet);
   std::vector<NamedRun> all;
   for (const SnapshotRun& run : runs) {
-    const auto source = openSnapshots(run, setup, options.name.value_or(defaultName(run.format)));
     const auto index = all.size();
     if (index == 0) progress.begin("averaging", std::vector<double>(runs.size(), 1.0));
-    all.push_back(averageRun(setup, run, *source, static_cast<int>(index), progress));
+    const std::string name = options.name.value_or(defaultName(run.format));
+    all.push_back(inDimensionOf(setup, [&]<int D>() {
+      return averageRun<D>(setup, run, name, static_cast<int>(index), progress);
+    }));
     progress.finish(index, fmt::format("{}: {} snapshots", run.name(), all.back().snapshots));
   }
   requireOneEngine(all);
 
   CompareResults results;
   static_cast<FlowFrame&>(results) =
-      couetteFrame(kindAverage, setup, commandLine, all.front().disks.radius);
+      couetteFrame(kindAverage, setup, commandLine, all.front().radius);
   // Of a file's snapshots nobody says from when to when they are.
   FlowAveraging& averaging = results.averaging;
   averaging.settleRotations = averaging.rotations = averaging.fromRotation = averaging.toRotation =

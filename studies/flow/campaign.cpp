@@ -122,12 +122,17 @@ void Campaign::askEngines(std::size_t fewest) {
   forEachEngine(
       [&](CampaignEngine& own) {
         if (own.entry.ofFiles()) {
+          if (setup_.dimension == 3)
+            throw BadInput(
+                fmt::format("--engines {}: files of snapshots are compared in the plane alone, and "
+                            "case.dimension = 3: `average` takes them",
+                            own.entry.name));
           own.version = "files" + (own.entry.format.empty() ? "" : ", " + own.entry.format);
-          own.first = openSnapshots(runOf(own.entry, 0), setup_, own.entry.name);
+          own.first = openSnapshots<2>(runOf(own.entry, 0), setup_, own.entry.name);
           own.disks = own.first->scene().disks;
           // What is wrong with a file is said before engines run for hours.
           for (std::size_t run = 1; enginesRun && run < own.entry.files.size(); ++run)
-            openSnapshots(runOf(own.entry, run), setup_, own.entry.name);
+            openSnapshots<2>(runOf(own.entry, run), setup_, own.entry.name);
           return;
         }
         const auto engine =
@@ -267,7 +272,7 @@ FlowRun Campaign::runOfFiles(const CampaignEngine& own, int run,
   const EngineEntry& entry = own.entry;
   const SnapshotRun files = runOf(entry, static_cast<std::size_t>(run));
   auto source = run == 0 ? std::exchange(own.first, nullptr) : nullptr;
-  if (!source) source = openSnapshots(files, setup_, entry.name);
+  if (!source) source = openSnapshots<2>(files, setup_, entry.name);
   AveragedRun averaged = averagedRun(setup_, files, *source, progress);
   averaged.run.endpointErrors = endpointErrors(setup_, *averaged.averages, averaged.run);
   averaged.run.engine = entry.name;

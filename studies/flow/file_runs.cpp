@@ -83,16 +83,17 @@ std::string fingerprintOf(const EngineEntry& entry, std::size_t run) {
   return fmt::format("{:016x}", fnv1a(text));
 }
 
-AveragedRun averagedRun(const Case& setup, const SnapshotRun& files, SnapshotSource& source,
+template <int D>
+AveragedRun averagedRun(const Case& setup, const SnapshotRun& files, SnapshotSourceOf<D>& source,
                         const std::function<void(double)>& progress) {
   const std::string where = files.name();
   CoveredTime covered(flowTimes(setup));
   AveragedRun averaged;
-  averaged.averages = flowAverages(setup, source.scene());
+  auto averages = flowAverages<D>(setup, source.scene());
   while (const auto snapshot = source.next()) {
     throwIfInterrupted();
     try {
-      averaged.averages->add(*snapshot);
+      averages->add(*snapshot);
     } catch (const std::invalid_argument& misfit) {
       throw BadInput(fmt::format("{}, snapshot {}: {}", where, averaged.snapshots, misfit.what()));
     }
@@ -104,7 +105,8 @@ AveragedRun averagedRun(const Case& setup, const SnapshotRun& files, SnapshotSou
     throw BadInput(fmt::format("{}: none of its snapshots is of the averaged time", where));
   averaged.run.engine = source.engine();
   averaged.run.files = where;
-  averaged.averages->describe(EffectiveParameters{}, averaged.run);
+  averages->describe(EffectiveParameters{}, averaged.run);
+  averaged.averages = std::move(averages);
   averaged.run.remarks = source.remarks();
   // Of our own files of a cell all snapshots are averaged, whenever they are.
   const bool timed = setup.average || !files.format.empty();
@@ -112,5 +114,9 @@ AveragedRun averagedRun(const Case& setup, const SnapshotRun& files, SnapshotSou
     averaged.run.remarks.push_back(std::move(gap));
   return averaged;
 }
+template AveragedRun averagedRun(const Case&, const SnapshotRun&, SnapshotSource&,
+                                 const std::function<void(double)>&);
+template AveragedRun averagedRun(const Case&, const SnapshotRun&, SnapshotSourceOf<3>&,
+                                 const std::function<void(double)>&);
 
 }  // namespace crossgrain::inline studies

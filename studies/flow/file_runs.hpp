@@ -34,12 +34,13 @@ std::string fingerprintOf(const EngineEntry& entry, std::size_t run);
 struct AveragedRun {
   FlowRun run;  ///< of the source's engine, packing 0; without errors of endpoints
   std::int64_t snapshots = 0;
-  std::unique_ptr<FlowAverages> averages;
+  std::unique_ptr<RunAverages> averages;
 };
 /// @param source    of `files`
 /// @param progress  called with the fraction done, 0 … 1
 /// @throws BadInput naming the snapshot that does not fit those before it; Interrupted
-AveragedRun averagedRun(const Case& setup, const SnapshotRun& files, SnapshotSource& source,
+template <int D>
+AveragedRun averagedRun(const Case& setup, const SnapshotRun& files, SnapshotSourceOf<D>& source,
                         const std::function<void(double)>& progress);
 
 }  // namespace crossgrain::inline studies

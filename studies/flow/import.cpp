@@ -82,7 +82,7 @@ Imported importSnapshots(const CommandLine& line, const ImportOptions& options) 
   const Case setup = onlyFlow(line, "import");
   const SnapshotRun run = onlyRun(line, options.format);
   const std::string name = options.name.value_or(defaultName(options.format));
-  const auto source = openSnapshots(run, setup, name);
+  const auto source = openSnapshots<2>(run, setup, name);
   const PartFile part{out.string() + ".part"};
   SnapshotFile file(out, source->engine(), source->scene(), 1, 1);  // one of each one: all
   Progress progress(line.run.quiet);

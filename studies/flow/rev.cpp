@@ -102,7 +102,7 @@ std::vector<RevMeeting> meetingsOf(const std::vector<RevCurve>& curves) {
 RevResults averagePerWidth(const StudyWork& work, const AverageOptions&) {
   const Case& setup = work.setup();
   const std::filesystem::path& file = work.line.snapshots;
-  const auto opened = openSnapshotFile(file, setup);
+  const auto opened = openSnapshotFile<2>(file, setup);
   while (opened->next()) throwIfInterrupted();  // sound to the end
   const SnapshotReader& reader = *opened;
   Progress progress(work.line.run.quiet);

@@ -60,22 +60,24 @@ using SnapshotFile = SnapshotFileOf<2>;
 /// All of such a file can be read: HDF5 itself does not get over every damaged one
 /// (support/hdf5_file.hpp). To be asked before a file of anybody's is opened.
 /// @throws BadInput as SnapshotReader, or that the file is damaged
+template <int D>
 void requireReadable(const std::filesystem::path& file, const Case& setup);
 
 /// Reads such a file, of a run or of any other source, one snapshot at a time. Between two of them
 /// the file is closed, so that other HDF5 files can be read and written meanwhile.
-class SnapshotReader : public SnapshotSource {
+template <int D>
+class SnapshotReaderOf : public SnapshotSourceOf<D> {
  public:
   /// @param setup  what the file does not hold: the law, the walls of an assembly and how they move
   /// @throws BadInput naming the file and what it lacks
-  SnapshotReader(const std::filesystem::path& file, const Case& setup);
-  SnapshotReader(const SnapshotReader&) = delete;  // basis_ points into it
-  SnapshotReader& operator=(const SnapshotReader&) = delete;
+  SnapshotReaderOf(const std::filesystem::path& file, const Case& setup);
+  SnapshotReaderOf(const SnapshotReaderOf&) = delete;  // basis_ points into it
+  SnapshotReaderOf& operator=(const SnapshotReaderOf&) = delete;
 
-  const Scene& scene() const override { return scene_; }
+  const SceneOf<D>& scene() const override { return scene_; }
   const std::string& engine() const override { return engine_; }
   /// Of an assembly, those of the averaged time alone, but for takeAll().
-  std::optional<Snapshot> next() override;
+  std::optional<SnapshotOf<D>> next() override;
   /// next() leaves out none, whatever is averaged.
   void takeAll();
   double progress() const override;
@@ -86,21 +88,23 @@ class SnapshotReader : public SnapshotSource {
 
   /// The k-th, not yet found sound.
   /// @throws BadInput naming the dataset that is missing or does not fit
-  Snapshot read(std::size_t k) const;
+  SnapshotOf<D> read(std::size_t k) const;
   /// @throws BadInput naming what cannot be true of a snapshot
-  void requireSound(const Snapshot& snapshot, std::size_t k) const;
+  void requireSound(const SnapshotOf<D>& snapshot, std::size_t k) const;
 
  private:
   std::filesystem::path name_;
-  Scene scene_;
+  SceneOf<D> scene_;
   std::string engine_;
   std::size_t count_ = 0, next_ = 0, leftOut_ = 0;
   double from_ = -INFINITY, to_ = INFINITY;  ///< averaged [s]
-  AuditBasis basis_;
+  AuditBasisOf<D> basis_;
 };
+using SnapshotReader = SnapshotReaderOf<2>;
 
 /// Opens a file that is readable and fits the case. @throws BadInput
-std::unique_ptr<SnapshotReader> openSnapshotFile(const std::filesystem::path& file,
-                                                 const Case& setup);
+template <int D>
+std::unique_ptr<SnapshotReaderOf<D>> openSnapshotFile(const std::filesystem::path& file,
+                                                      const Case& setup);
 
 }  // namespace crossgrain::inline studies

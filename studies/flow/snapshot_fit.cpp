@@ -105,23 +105,30 @@ void comparePlaces(const Snapshot& first, const Cell& cell, Misfits& misfits) {
 
 /// The range of radii that the case allows for disk k of an assembly of groups.
 struct GroupDisk {
-  double least, most;    ///< radius [m]
-  double massPerSquare;  ///< mass/radius² [kg/m²]
+  double least, most;  ///< radius [m]
+  double massPerSize;  ///< mass/radius², in space mass/radius³ [kg/m², kg/m³]
 };
 
-std::vector<GroupDisk> groupDisks(const Assembly& assembly) {
+/// a², in space a³.
+template <int D>
+double sizeOf(double radius) {
+  return D == 2 ? radius * radius : radius * radius * radius;
+}
+
+template <int D>
+std::vector<GroupDisk> groupDisks(const AssemblyOf<D>& assembly) {
   std::vector<GroupDisk> all;
-  for (const DiskGroup& group : assembly.disks)
-    all.insert(
-        all.end(), group.places.size(),
-        {group.radius * (1.0 - group.radiusSpread), group.radius * (1.0 + group.radiusSpread),
-         group.mass / (group.radius * group.radius)});
+  for (const DiskGroupOf<D>& group : assembly.disks)
+    all.insert(all.end(), group.count(),
+               {group.radius * (1.0 - group.radiusSpread),
+                group.radius * (1.0 + group.radiusSpread), group.mass / sizeOf<D>(group.radius)});
   return all;
 }
 
-void compareGroups(const Disks& disks, const Assembly& assembly, const SnapshotOrigin& origin,
-                   Misfits& misfits) {
-  const std::vector<GroupDisk> groups = groupDisks(assembly);
+template <int D>
+void compareGroups(const DisksOf<D>& disks, const AssemblyOf<D>& assembly,
+                   const SnapshotOrigin& origin, Misfits& misfits) {
+  const std::vector<GroupDisk> groups = groupDisks<D>(assembly);
   for (std::size_t k = 0; k < disks.size(); ++k) {
     const GroupDisk& own = groups[k];
     const double a = disks.radius[k];
@@ -132,16 +139,17 @@ void compareGroups(const Disks& disks, const Assembly& assembly, const SnapshotO
       return misfits.add(fmt::format("disk {} of radius {:.4g} m, not {} m{}", k, a, target,
                                      unitHint(a, own.most, "length", origin)));
     }
-    if (const double mass = own.massPerSquare * a * a; !same(disks.mass[k], mass))
+    if (const double mass = own.massPerSize * sizeOf<D>(a); !same(disks.mass[k], mass))
       return misfits.add(fmt::format("disk {} of mass {:.4g} kg, not {:.4g} kg{}", k, disks.mass[k],
                                      mass, unitHint(disks.mass[k], mass, "mass", origin)));
   }
 }
 
 /// Any of the case's start files may be the one that they began from.
-void compareStarts(const Disks& disks, const StartFiles& starts, const SnapshotOrigin& origin,
-                   Misfits& misfits) {
-  const auto firstOther = [&](const Disks& start) {
+template <int D>
+void compareStarts(const DisksOf<D>& disks, const StartFilesOf<D>& starts,
+                   const SnapshotOrigin& origin, Misfits& misfits) {
+  const auto firstOther = [&](const DisksOf<D>& start) {
     std::size_t k = 0;
     while (k < disks.size() && k < start.size() && same(disks.radius[k], start.radius[k]) &&
            same(disks.mass[k], start.mass[k]))
@@ -155,7 +163,7 @@ void compareStarts(const Disks& disks, const StartFiles& starts, const SnapshotO
     if (k == disks.size()) return;
     if (k >= best) std::tie(best, bestFile) = std::pair(k, f);
   }
-  const Disks& target = starts.disks[bestFile];
+  const DisksOf<D>& target = starts.disks[bestFile];
   misfits.add(
       fmt::format("disk {} of radius {:.4g} m and mass {:.4g} kg, not {:.4g} m and {:.4g} "
                   "kg as in {}{}",
@@ -172,12 +180,39 @@ void throwIfAny(const Misfits& misfits, const Case& setup, const SnapshotOrigin&
 }
 
 /// Of an assembly; any start file's number will do.
-void compareNumber(std::size_t found, const Assembly& assembly, Misfits& misfits) {
+template <int D>
+void compareNumber(std::size_t found, const AssemblyOf<D>& assembly, Misfits& misfits) {
   if (assembly.starts.disks.empty())
-    return misfits.number("disks", found, groupDisks(assembly).size());
-  const bool known = std::ranges::any_of(assembly.starts.disks,
-                                         [&](const Disks& start) { return start.size() == found; });
+    return misfits.number("disks", found, groupDisks<D>(assembly).size());
+  const bool known = std::ranges::any_of(
+      assembly.starts.disks, [&](const DisksOf<D>& start) { return start.size() == found; });
   if (!known) misfits.number("disks", found, assembly.starts.disks.front().size());
+}
+
+/// Disks of a file in a Couette cell.
+Scene cellAround(const Case& setup, Disks disks, const SnapshotOrigin& origin) {
+  Case own = setup;
+  own.particles.file = origin.name;  // small and large are known by their radii
+  Packing packing;
+  packing.disks = std::move(disks);
+  return couetteScene(own, packing, 0.0);
+}
+
+/// requireFit() of a Couette cell.
+void requireCellFit(const Scene& scene, const Snapshot& first, const Case& setup,
+                    const SnapshotOrigin& origin) {
+  Misfits misfits;
+  if (!setup.particles.file) compareDisks(scene.disks, setup.particles, misfits);
+  compareWalls(scene, first, setup, misfits);
+  if (!first.bodies.empty())
+    misfits.size("a wheel that turns at", first.bodies.front().angularVelocity, setup.cell.omega,
+                 "rad/s");
+  comparePlaces(first, setup.cell, misfits);
+  const std::string hint = setup.particles.file || scene.disks.size() == 0
+                               ? ""
+                               : unitHint(std::ranges::max(scene.disks.radius),
+                                          setup.particles.largeRadius, "length", origin);
+  throwIfAny(misfits, setup, origin, hint);
 }
 
 }  // namespace
@@ -208,48 +243,40 @@ double massOf(const Case& setup, std::size_t k, double radius) {
   for (const Disks& start : setup.assembly.starts.disks)
     if (k < start.size() && same(start.radius[k], radius)) return start.mass[k];
   for (const DiskGroup& group : setup.assembly.disks) {
-    if (k < group.places.size())
+    if (k < group.count())
       return group.mass * radius * radius / (group.radius * group.radius);
-    k -= group.places.size();
+    k -= group.count();
   }
   return NAN;
 }
 
-Scene sceneAround(const Case& setup, Disks disks, const SnapshotOrigin& origin) {
-  if (setup.kind != CaseKind::couette) {
-    Misfits misfits;
-    compareNumber(disks.size(), setup.assembly, misfits);
-    throwIfAny(misfits, setup, origin);
-    return assemblyScene(setup, std::move(disks), 0.0, 0.0);
-  }
-  Case own = setup;
-  own.particles.file = origin.name;  // small and large are known by their radii
-  Packing packing;
-  packing.disks = std::move(disks);
-  return couetteScene(own, packing, 0.0);
-}
-
-void requireFit(const Scene& scene, const Snapshot& first, const Case& setup,
-                const SnapshotOrigin& origin) {
+template <int D>
+SceneOf<D> sceneAround(const Case& setup, DisksOf<D> disks, const SnapshotOrigin& origin) {
+  if constexpr (D == 2)
+    if (setup.kind == CaseKind::couette) return cellAround(setup, std::move(disks), origin);
   Misfits misfits;
-  if (setup.kind != CaseKind::couette) {
-    if (setup.assembly.starts.disks.empty())
-      compareGroups(scene.disks, setup.assembly, origin, misfits);
-    else
-      compareStarts(scene.disks, setup.assembly.starts, origin, misfits);
-    return throwIfAny(misfits, setup, origin);
-  }
-  if (!setup.particles.file) compareDisks(scene.disks, setup.particles, misfits);
-  compareWalls(scene, first, setup, misfits);
-  if (!first.bodies.empty())
-    misfits.size("a wheel that turns at", first.bodies.front().angularVelocity, setup.cell.omega,
-                 "rad/s");
-  comparePlaces(first, setup.cell, misfits);
-  const std::string hint = setup.particles.file || scene.disks.size() == 0
-                               ? ""
-                               : unitHint(std::ranges::max(scene.disks.radius),
-                                          setup.particles.largeRadius, "length", origin);
-  throwIfAny(misfits, setup, origin, hint);
+  compareNumber<D>(disks.size(), assemblyIn<D>(setup), misfits);
+  throwIfAny(misfits, setup, origin);
+  return assemblyScene<D>(setup, std::move(disks), 0.0, 0.0);
 }
+template Scene sceneAround<2>(const Case&, Disks, const SnapshotOrigin&);
+template SpaceScene sceneAround<3>(const Case&, DisksOf<3>, const SnapshotOrigin&);
+
+template <int D>
+void requireFit(const SceneOf<D>& scene, const SnapshotOf<D>& first, const Case& setup,
+                const SnapshotOrigin& origin) {
+  if constexpr (D == 2)
+    if (setup.kind == CaseKind::couette) return requireCellFit(scene, first, setup, origin);
+  Misfits misfits;
+  const AssemblyOf<D>& assembly = assemblyIn<D>(setup);
+  if (assembly.starts.disks.empty())
+    compareGroups<D>(scene.disks, assembly, origin, misfits);
+  else
+    compareStarts<D>(scene.disks, assembly.starts, origin, misfits);
+  throwIfAny(misfits, setup, origin);
+}
+template void requireFit<2>(const Scene&, const Snapshot&, const Case&, const SnapshotOrigin&);
+template void requireFit<3>(const SpaceScene&, const SpaceSnapshot&, const Case&,
+                            const SnapshotOrigin&);
 
 }  // namespace crossgrain::inline studies

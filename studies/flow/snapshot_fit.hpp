@@ -27,7 +27,8 @@ std::string unitHint(double found, double target, std::string_view key,
 /// Disks of a file between the case's walls, which are where they are at t = 0. Of an assembly the
 /// disks' order is that of its groups.
 /// @throws BadInput for another number of disks than the case has
-Scene sceneAround(const Case& setup, Disks disks, const SnapshotOrigin& origin);
+template <int D>
+SceneOf<D> sceneAround(const Case& setup, DisksOf<D> disks, const SnapshotOrigin& origin);
 
 /// What the case has for a disk of that radius, disk k of an assembly [kg].
 double massOf(const Case& setup, std::size_t k, double radius);
@@ -37,7 +38,8 @@ double massOf(const Case& setup, std::size_t k, double radius);
 /// from the axis), the wheel's rate and where the disks' centres are. Walls of an assembly are the
 /// case's own.
 /// @throws BadInput naming the origin and all that does not fit, in one line
-void requireFit(const Scene& scene, const Snapshot& first, const Case& setup,
+template <int D>
+void requireFit(const SceneOf<D>& scene, const SnapshotOf<D>& first, const Case& setup,
                 const SnapshotOrigin& origin);
 
 }  // namespace crossgrain::inline studies

@@ -36,6 +36,12 @@ class SnapshotDatasets {
   std::optional<std::size_t> length(const std::string& path) const {
     return described([&] { return file_.length(path); });
   }
+  /// @throws BadInput  of snapshots of the plane for a case in space, and the other way round
+  void requireDimension(int wanted) const {
+    const auto held = described([&] { return file_.readAttribute("dimension"); }).value_or(2.0);
+    if (held != wanted)
+      fail(fmt::format("its snapshots have dimension {:g}, the case has {}", held, wanted));
+  }
   std::optional<std::string> engine() const {
     return described([&] { return file_.readTextAttribute("engine"); });
   }
@@ -52,12 +58,22 @@ class SnapshotDatasets {
     return *std::move(values);
   }
 
-  std::vector<Vec2> vectors(const std::string& path, std::size_t wanted) const {
-    const std::vector<double> flat = numbers(path, 2 * wanted);
-    std::vector<Vec2> result;
+  template <int D>
+  std::vector<VecOf<D>> vectors(const std::string& path, std::size_t wanted) const {
+    const std::vector<double> flat = numbers(path, D * wanted);
+    std::vector<VecOf<D>> result;
     result.reserve(wanted);
-    for (std::size_t k = 0; k < wanted; ++k) result.emplace_back(flat[2 * k], flat[2 * k + 1]);
+    for (std::size_t k = 0; k < wanted; ++k) result.emplace_back(flat.data() + D * k);
     return result;
+  }
+
+  /// What is about the normal of the plane, or in space a vector.
+  template <int D>
+  std::vector<SpinOf<D>> spins(const std::string& path, std::size_t wanted) const {
+    if constexpr (D == 2)
+      return numbers(path, wanted);
+    else
+      return vectors<D>(path, wanted);
   }
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -78,23 +94,24 @@ std::size_t diskCount(const SnapshotDatasets& in) {
   return *count;
 }
 
-Disks readDisks(const SnapshotDatasets& in, const Case& setup) {
+template <int D>
+DisksOf<D> readDisks(const SnapshotDatasets& in, const Case& setup) {
   const std::size_t count = diskCount(in);
-  Disks disks;
+  DisksOf<D> disks;
   disks.radius = in.numbers("/disks/radius", count);
   if (!std::ranges::all_of(disks.radius, [](double a) { return a > 0.0; }))
     in.fail("/disks/radius holds a radius that is not above 0");
   disks.mass = in.numbers("/disks/mass", count);
   const double factor = setup.kind == CaseKind::couette ? setup.particles.inertiaFactor
-                                                        : setup.assembly.inertiaFactor;
+                                                        : assemblyIn<D>(setup).inertiaFactor;
   if (in.holds("/disks/inertia"))
     disks.inertia = in.numbers("/disks/inertia", count);
   else
     for (std::size_t p = 0; p < count; ++p)
       disks.inertia.push_back(factor * disks.mass[p] * disks.radius[p] * disks.radius[p]);
-  disks.position.assign(count, Vec2::Zero());
-  disks.velocity.assign(count, Vec2::Zero());
-  disks.spin.assign(count, 0.0);
+  disks.position.assign(count, VecOf<D>::Zero());
+  disks.velocity.assign(count, VecOf<D>::Zero());
+  disks.spin.assign(count, noSpin<D>());
   return disks;
 }
 
@@ -121,7 +138,8 @@ void readCellWalls(const SnapshotDatasets& in, Scene& scene) {
 }
 
 /// Those of an assembly are the case's, and a file that has them must have the same.
-void compareWalls(const SnapshotDatasets& in, const Scene& scene) {
+template <int D>
+void compareWalls(const SnapshotDatasets& in, const SceneOf<D>& scene) {
   const std::size_t count = in.length("/walls/radius").value_or(0);
   if (count == 0) return;
   const std::vector<double> radius = in.numbers("/walls/radius", scene.wallDiskCount());
@@ -138,8 +156,10 @@ void compareWalls(const SnapshotDatasets& in, const Scene& scene) {
     }
 }
 
-Contacts readContacts(const SnapshotDatasets& in, const std::string& path, const Scene& scene) {
-  Contacts contacts;
+template <int D>
+ContactsOf<D> readContacts(const SnapshotDatasets& in, const std::string& path,
+                           const SceneOf<D>& scene) {
+  ContactsOf<D> contacts;
   const auto length = in.length(path + "/i");
   if (!length) in.fail(fmt::format("there is no {}/i in it", path));
   const std::size_t count = *length;
@@ -160,58 +180,61 @@ Contacts readContacts(const SnapshotDatasets& in, const std::string& path, const
   };
   contacts.i = readIds("/i");
   contacts.j = readIds("/j");
-  contacts.normal = in.vectors(path + "/normal", count);
+  contacts.normal = in.vectors<D>(path + "/normal", count);
   contacts.overlap = in.numbers(path + "/overlap", count);
   contacts.normalForce = in.numbers(path + "/normal_force", count);
-  contacts.tangentialForce = in.numbers(path + "/tangential_force", count);
+  contacts.tangentialForce = in.spins<D>(path + "/tangential_force", count);
   if (in.holds(path + "/sliding"))
     for (const double slides : in.numbers(path + "/sliding", count))
       contacts.sliding.push_back(slides != 0.0 ? 1 : 0);
-  for (const auto& [name, list] : {std::pair{"/rolling_torque", &contacts.rollingTorque},
-                                   {"/dissipation", &contacts.dissipation}})
-    if (in.holds(path + name)) *list = in.numbers(path + name, count);
+  if (in.holds(path + "/rolling_torque"))
+    contacts.rollingTorque = in.spins<D>(path + "/rolling_torque", count);
+  if (in.holds(path + "/dissipation"))
+    contacts.dissipation = in.numbers(path + "/dissipation", count);
   return contacts;
 }
 
-std::vector<BodySnapshot> readBodies(const SnapshotDatasets& in, const std::string& path,
-                                     std::size_t count) {
-  const auto centre = in.vectors(path + "/centre", count);
-  const auto velocity = in.vectors(path + "/velocity", count);
-  const auto angle = in.numbers(path + "/angle", count);
-  const auto spin = in.numbers(path + "/angular_velocity", count);
-  std::vector<BodySnapshot> bodies(count);
+template <int D>
+std::vector<BodySnapshotOf<D>> readBodies(const SnapshotDatasets& in, const std::string& path,
+                                          std::size_t count) {
+  const auto centre = in.vectors<D>(path + "/centre", count);
+  const auto velocity = in.vectors<D>(path + "/velocity", count);
+  const auto angle = in.spins<D>(path + "/angle", count);
+  const auto spin = in.spins<D>(path + "/angular_velocity", count);
+  std::vector<BodySnapshotOf<D>> bodies(count);
   for (std::size_t b = 0; b < count; ++b)
     bodies[b] = {centre[b], angle[b], velocity[b], spin[b], std::nullopt, std::nullopt};
   if (in.holds(path + "/force")) {
-    const auto force = in.vectors(path + "/force", count);
+    const auto force = in.vectors<D>(path + "/force", count);
     for (std::size_t b = 0; b < count; ++b) bodies[b].force = force[b];
   }
   if (in.holds(path + "/torque")) {
-    const auto torque = in.numbers(path + "/torque", count);
+    const auto torque = in.spins<D>(path + "/torque", count);
     for (std::size_t b = 0; b < count; ++b) bodies[b].torque = torque[b];
   }
   return bodies;
 }
 
 /// Walls of which the file says nothing are as the case prescribes them.
-Snapshot readSnapshot(const SnapshotDatasets& in, std::size_t k, const Scene& scene,
-                      bool isAssembly) {
+template <int D>
+SnapshotOf<D> readSnapshot(const SnapshotDatasets& in, std::size_t k, const SceneOf<D>& scene,
+                           bool isAssembly) {
   const std::string group = snapshotGroup(k);
   const std::size_t disks = scene.disks.size(), walls = scene.wallDiskCount();
-  Snapshot snapshot;
+  SnapshotOf<D> snapshot;
   const std::vector<double> time = in.numbers(group + "/time", 4);
   snapshot.positionTime = time[0];
   snapshot.velocityTime = time[1];
   snapshot.contactTime = time[2];
   snapshot.contactInterval = time[3];
-  snapshot.position = in.vectors(group + "/position", disks);
-  snapshot.velocity = in.vectors(group + "/velocity", disks);
-  if (in.holds(group + "/spin")) snapshot.spin = in.numbers(group + "/spin", disks);
+  snapshot.position = in.vectors<D>(group + "/position", disks);
+  snapshot.velocity = in.vectors<D>(group + "/velocity", disks);
+  if (in.holds(group + "/spin")) snapshot.spin = in.spins<D>(group + "/spin", disks);
   placeWallsAsPrescribed(scene, snapshot.positionTime, snapshot);
   if (walls > 0 && (!isAssembly || in.holds(group + "/wall_position")))
-    snapshot.wallPosition = in.vectors(group + "/wall_position", walls);
+    snapshot.wallPosition = in.vectors<D>(group + "/wall_position", walls);
   if (!scene.bodies.empty() && in.holds(group + "/bodies/centre"))
-    snapshot.bodies = readBodies(in, group + "/bodies", scene.bodies.size());
+    snapshot.bodies = readBodies<D>(in, group + "/bodies", scene.bodies.size());
   if (in.holds(group + "/energies")) {
     const auto energies = in.numbers(group + "/energies", 2);
     snapshot.energies = Energies{energies[0], energies[1]};
@@ -235,28 +258,32 @@ void placeCellWalls(const Snapshot& first, Scene& scene) {
 
 }  // namespace
 
+template <int D>
 void requireReadable(const std::filesystem::path& file, const Case& setup) {
   tryReading(file, [&] {
-    const SnapshotReader reader(file, setup);
+    const SnapshotReaderOf<D> reader(file, setup);
     for (std::size_t k = 0; k < reader.count(); ++k) reader.read(k);
   });
 }
 
-SnapshotReader::SnapshotReader(const std::filesystem::path& file, const Case& setup) : name_(file) {
+template <int D>
+SnapshotReaderOf<D>::SnapshotReaderOf(const std::filesystem::path& file, const Case& setup)
+    : name_(file) {
   const bool isAssembly = setup.kind != CaseKind::couette;
   const SnapshotDatasets in(file);
-  scene_ = sceneAround(setup, readDisks(in, setup), {file.string()});
-  if (isAssembly)
-    compareWalls(in, scene_);
-  else
-    readCellWalls(in, scene_);
+  in.requireDimension(D);
+  scene_ = sceneAround<D>(setup, readDisks<D>(in, setup), {file.string()});
+  if (isAssembly) compareWalls(in, scene_);
+  if constexpr (D == 2)
+    if (!isAssembly) readCellWalls(in, scene_);
   engine_ = in.engine().value_or(file.stem().string());
   while (in.holds(snapshotGroup(count_) + "/position")) ++count_;
   if (count_ == 0) in.fail(fmt::format("there is no {}/position in it", snapshotGroup(0)));
-  const Snapshot first = readSnapshot(in, 0, scene_, isAssembly);
+  const SnapshotOf<D> first = readSnapshot<D>(in, 0, scene_, isAssembly);
   scene_.disks.position = first.position;
   scene_.disks.velocity = first.velocity;
-  if (!isAssembly) placeCellWalls(first, scene_);
+  if constexpr (D == 2)
+    if (!isAssembly) placeCellWalls(first, scene_);
   basis_ = auditBasis(scene_);
   basis_.byOverlap = setup.law.soft();
   basis_.prescribed = isAssembly;
@@ -266,24 +293,28 @@ SnapshotReader::SnapshotReader(const std::filesystem::path& file, const Case& se
   to_ = times.end() + 0.5 * times.interval;
 }
 
-Snapshot SnapshotReader::read(std::size_t k) const {
-  return readSnapshot(SnapshotDatasets(name_), k, scene_, basis_.prescribed);
+template <int D>
+SnapshotOf<D> SnapshotReaderOf<D>::read(std::size_t k) const {
+  return readSnapshot<D>(SnapshotDatasets(name_), k, scene_, basis_.prescribed);
 }
 
-void SnapshotReader::requireSound(const Snapshot& snapshot, std::size_t k) const {
+template <int D>
+void SnapshotReaderOf<D>::requireSound(const SnapshotOf<D>& snapshot, std::size_t k) const {
   if (const std::string why = auditFault(snapshot, basis_); !why.empty())
     throw BadInput(fmt::format("{}, snapshot {}: {}", name_.string(), k, why));
 }
 
-void SnapshotReader::takeAll() {
+template <int D>
+void SnapshotReaderOf<D>::takeAll() {
   from_ = -INFINITY;
   to_ = INFINITY;
 }
 
-std::optional<Snapshot> SnapshotReader::next() {
+template <int D>
+std::optional<SnapshotOf<D>> SnapshotReaderOf<D>::next() {
   while (next_ < count_) {
     const std::size_t k = next_++;
-    Snapshot snapshot = read(k);
+    SnapshotOf<D> snapshot = read(k);
     requireSound(snapshot, k);
     if (snapshot.positionTime >= from_ && snapshot.positionTime <= to_) return snapshot;
     ++leftOut_;
@@ -291,22 +322,34 @@ std::optional<Snapshot> SnapshotReader::next() {
   return std::nullopt;
 }
 
-std::vector<std::string> SnapshotReader::remarks() const {
+template <int D>
+std::vector<std::string> SnapshotReaderOf<D>::remarks() const {
   if (leftOut_ == 0) return {};
   return {fmt::format("{}: {} of {} snapshots are not of the averaged time and are left out",
                       name_.string(), leftOut_, count_)};
 }
 
-double SnapshotReader::progress() const {
+template <int D>
+double SnapshotReaderOf<D>::progress() const {
   return static_cast<double>(next_) / static_cast<double>(count_);
 }
 
-std::unique_ptr<SnapshotReader> openSnapshotFile(const std::filesystem::path& file,
-                                                 const Case& setup) {
-  requireReadable(file, setup);
-  auto reader = std::make_unique<SnapshotReader>(file, setup);
-  requireFit(reader->scene(), reader->read(0), setup, {file.string()});
+template <int D>
+std::unique_ptr<SnapshotReaderOf<D>> openSnapshotFile(const std::filesystem::path& file,
+                                                      const Case& setup) {
+  requireReadable<D>(file, setup);
+  auto reader = std::make_unique<SnapshotReaderOf<D>>(file, setup);
+  requireFit<D>(reader->scene(), reader->read(0), setup, {file.string()});
   return reader;
 }
+
+template void requireReadable<2>(const std::filesystem::path&, const Case&);
+template void requireReadable<3>(const std::filesystem::path&, const Case&);
+template class SnapshotReaderOf<2>;
+template class SnapshotReaderOf<3>;
+template std::unique_ptr<SnapshotReaderOf<2>> openSnapshotFile(const std::filesystem::path&,
+                                                               const Case&);
+template std::unique_ptr<SnapshotReaderOf<3>> openSnapshotFile(const std::filesystem::path&,
+                                                               const Case&);
 
 }  // namespace crossgrain::inline studies

@@ -200,9 +200,21 @@ std::string sectionWords(const Case& setup, const std::string& name) {
 
 }  // namespace
 
+template <>
+std::unique_ptr<SnapshotSourceOf<3>> openSnapshots(const SnapshotRun& run, const Case& setup,
+                                                   const std::string&) {
+  if (!run.format.empty())
+    throw BadInput(fmt::format(
+        "{}: result files of other programs ({}) are read in the plane alone, and case.dimension = "
+        "3: in space take HDF5 files of snapshots",
+        run.name(), run.format));
+  return openSnapshotFile<3>(run.files.front(), setup);
+}
+
+template <>
 std::unique_ptr<SnapshotSource> openSnapshots(const SnapshotRun& run, const Case& setup,
                                               const std::string& name) {
-  if (run.format.empty()) return openSnapshotFile(run.files.front(), setup);
+  if (run.format.empty()) return openSnapshotFile<2>(run.files.front(), setup);
   Capabilities settable;
   settable.settings = files::planeSettings(run.format);
   const Settings settings = settingsFor(setup, name, settable);

@@ -37,18 +37,25 @@ constexpr double timeOfCell = 0.1;
 /// Where the recording does not say [s].
 constexpr double usualTimeout = 120.0;
 
-Scene sceneOf(const Case& setup) {
-  if (setup.kind == CaseKind::collision)
-    return collisionScene(setup, collisionStarts(setup), collisionTimeSteps(setup).front());
-  if (setup.kind == CaseKind::assembly) return assemblyScene(setup);
-  const double dt = timeStep(setup);
-  const auto engine = engineRegistry().front().make();
-  return couetteScene(setup, packingOf(setup, 0, dt, *engine, [](double) { throwIfInterrupted(); }),
-                      dt);
+template <int D>
+SceneOf<D> sceneOf(const Case& setup) {
+  if (setup.kind == CaseKind::assembly) return assemblyScene<D>(setup);
+  const double step =
+      setup.kind == CaseKind::collision ? collisionTimeSteps(setup).front() : timeStep(setup);
+  if constexpr (D == 3) {
+    return spaceCollisionScene(setup, collisionStarts(setup), step);
+  } else {
+    if (setup.kind == CaseKind::collision)
+      return collisionScene(setup, collisionStarts(setup), step);
+    const auto engine = engineRegistry().front().make();
+    return couetteScene(
+        setup, packingOf(setup, 0, step, *engine, [](double) { throwIfInterrupted(); }), step);
+  }
 }
 
-double timeOf(const Case& setup, const Scene& scene, const EffectiveParameters& effective) {
-  if (setup.kind == CaseKind::collision) return sweepEnd(setup, scene.dt, effective.dt);
+/// @param dt  the scene's
+double timeOf(const Case& setup, double dt, const EffectiveParameters& effective) {
+  if (setup.kind == CaseKind::collision) return sweepEnd(setup, dt, effective.dt);
   return setup.kind == CaseKind::assembly ? assemblyDuration(setup) : timeOfCell;
 }
 
@@ -64,16 +71,26 @@ std::string describe(const json& request) {
   return what;
 }
 
+template <int D>
+void askToLoad(Engine& engine, const Exchange& before) {
+  const json& request = before.request;
+  const ArrayReader arrays(before.sent, "its array file", request.at("arrays"));
+  loadOn<D>(engine, sceneFromJson<D>(request.at("scene"), arrays),
+            readAs<Settings>(request.at("settings")));
+}
+
 /// Puts a request again; the listener gets the answer.
-void ask(Engine& engine, const Exchange& before) {
+/// @param dimension  of the scene that was loaded last, which a load sets
+void ask(Engine& engine, const Exchange& before, int& dimension) {
   const json& request = before.request;
   const auto what = request.at("request").get<std::string>();
-  if (what == "load")
-    engine.load(sceneFromJson(request.at("scene"),
-                              ArrayReader(before.sent, "its array file", request.at("arrays"))),
-                readAs<Settings>(request.at("settings")));
-  else if (what == "advance")
+  if (what == "load") {
+    dimension = request.at("scene").value("dimension", 2);
+    dimension == 3 ? askToLoad<3>(engine, before) : askToLoad<2>(engine, before);
+  } else if (what == "advance")
     engine.advance(request.at("time"));
+  else if (what == "snapshot" && dimension == 3)
+    engine.snapshotInSpace(readAs<ContactReport>(request.at("contacts")));
   else if (what == "snapshot")
     engine.snapshot(readAs<ContactReport>(request.at("contacts")));
   else if (what == "stats")
@@ -125,10 +142,13 @@ Exchange exchangeOf(Record record) {
   return exchange;
 }
 
-Recorded recordRun(const EngineEntry& entry, const Case& setup, const std::filesystem::path& file,
-                   const RecordOptions& options) {
+namespace {
+
+template <int D>
+Recorded recordRunIn(const EngineEntry& entry, const Case& setup, const std::filesystem::path& file,
+                     const RecordOptions& options) {
   checkEngineSections(setup);
-  const Scene scene = sceneOf(setup);
+  const SceneOf<D> scene = sceneOf<D>(setup);
   const ScratchFolder scratch;
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
   const auto write = [&](const std::string& text) {
@@ -156,12 +176,12 @@ Recorded recordRun(const EngineEntry& entry, const Case& setup, const std::files
     const Capabilities can = engine->capabilities();
     recorded.version = can.version;
     const EffectiveParameters effective = loadScene(*engine, entry, setup, scene);
-    const double end = options.time.value_or(timeOf(setup, scene, effective));
-    engine->snapshot(contactsOf(can));
+    const double end = options.time.value_or(timeOf(setup, scene.dt, effective));
+    snapshotOf<D>(*engine, contactsOf(can));
     for (std::size_t k = 1; k <= options.snapshots; ++k) {
       const double next = end * static_cast<double>(k) / static_cast<double>(options.snapshots);
       advanceInPieces(*engine, effective, recorded.time, next);
-      engine->snapshot(contactsOf(can));
+      snapshotOf<D>(*engine, contactsOf(can));
       recorded.time = next;
     }
     engine->stats();
@@ -177,6 +197,13 @@ Recorded recordRun(const EngineEntry& entry, const Case& setup, const std::files
   return recorded;
 }
 
+}  // namespace
+
+Recorded recordRun(const EngineEntry& entry, const Case& setup, const std::filesystem::path& file,
+                   const RecordOptions& options) {
+  return inDimensionOf(setup, [&]<int D>() { return recordRunIn<D>(entry, setup, file, options); });
+}
+
 ReplayResults replayRun(const std::filesystem::path& recording, const EngineEntry& entry,
                         double tolerance) {
   RecordReader reader(recording, recordingFormat);
@@ -189,6 +216,7 @@ ReplayResults replayRun(const std::filesystem::path& recording, const EngineEntr
   const ScratchFolder scratch;
   std::optional<Exchange> now;
   std::unique_ptr<Engine> engine;
+  int dimension = 2;
   const auto refuse = [&](const std::string& what) {
     throw BadInput(fmt::format("{}: request {}{}", recording.string(), reader.count(), what));
   };
@@ -213,7 +241,7 @@ ReplayResults replayRun(const std::filesystem::path& recording, const EngineEntr
                           [&](const Exchange& exchange) { now = exchange; });
         results.version = engine->capabilities().version;
       } else {
-        ask(*engine, before);
+        ask(*engine, before, dimension);
       }
     } catch (const UnsupportedScene&) {
       // An answer as any other.

@@ -19,6 +19,7 @@
 #include "studies/core/engine_running.hpp"
 #include "studies/core/study.hpp"
 #include "studies/flow/run.hpp"
+#include "studies/stability/in_space.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
 
@@ -77,6 +78,18 @@ Recording record(Engine& engine, const EngineEntry& entry, const HardScene& hard
 }
 
 namespace {
+
+/// The scene of a case as the task has it.
+HardScene sceneOf(const StabilityTask& task, const Case& setup) {
+  HardScene hard = hardScene(setup, *task.packing);
+  if (task.inSpace) hard.scene = ofSpheres(std::move(hard.scene));
+  return hard;
+}
+
+/// A worker of the task's engine. @param engine  one that has begun
+std::unique_ptr<Engine> asTaskHasIt(const StabilityTask& task, std::unique_ptr<Engine> engine) {
+  return task.inSpace ? runInSpace(std::move(engine)) : std::move(engine);
+}
 
 StabilityRun rowOf(const StabilityTask& task) {
   const Stability& hard = *task.setup->stability;
@@ -170,7 +183,7 @@ void judgeRun(StabilityRun& row, const StabilityTask& task, const HardScene& har
   std::optional<Recording> original;
   HardScene originalScene;
   if (measure.protocol == StabilityProtocol::againstOriginal) {
-    originalScene = hardScene(*task.original, *task.packing);
+    originalScene = sceneOf(task, *task.original);
     original = record(engine, task.entry, originalScene, [&](double f) { progress(0.5 * f); });
     if (!original->failure.empty()) return judgeFailure(row, *original);
   }
@@ -195,8 +208,9 @@ void judgeRestart(StabilityRun& row, const StabilityTask& task, const HardScene&
   advanceInPieces(engine, effective, middle, hard.duration);
   const Snapshot whole = engine.snapshot(ContactReport::none);
 
-  const auto second = audited(
-      task.entry.name, startNew(task.entry, task.scratch / "second", task.setup->run.timeout));
+  const auto second = asTaskHasIt(
+      task, audited(task.entry.name,
+                    startNew(task.entry, task.scratch / "second", task.setup->run.timeout)));
   const EffectiveParameters again = loadScene(*second, task.entry, *task.setup, hard.scene);
   second->restore(file);
   advanceInPieces(*second, again, middle, hard.duration);
@@ -252,7 +266,7 @@ void judgeStepLimit(StabilityRun& row, const StabilityTask& task, const HardScen
 void judgeAcceptance(StabilityRun& row, const StabilityTask& task, Engine& engine,
                      const std::function<void(double)>& progress) {
   try {
-    const HardScene hard = hardScene(*task.setup, *task.packing);
+    const HardScene hard = sceneOf(task, *task.setup);
     const Recording run = record(engine, task.entry, hard, progress);
     if (!run.failure.empty()) return judgeFailure(row, run);
     judgeNumber(row, *task.setup->stability, 1.0);
@@ -271,7 +285,7 @@ void judge(StabilityRun& row, const StabilityTask& task, Engine& engine,
   const StabilityProtocol protocol = stabilityMeasure(task.setup->stability->measure).protocol;
   if (protocol == StabilityProtocol::acceptance)
     return judgeAcceptance(row, task, engine, progress);
-  const HardScene hard = hardScene(*task.setup, *task.packing);
+  const HardScene hard = sceneOf(task, *task.setup);
   switch (protocol) {
     case StabilityProtocol::restart:
       return judgeRestart(row, task, hard, engine);
@@ -307,7 +321,8 @@ StabilityRun runStability(const StabilityTask& task, const std::function<void(do
   judged(row, [&] {
     if (!task.unprepared.empty())
       throw BadInput(task.unprepared);  // nobody's failure: it never ran
-    const auto engine = startAudited(task.entry, task.scratch, task.setup->run.timeout);
+    const auto engine =
+        asTaskHasIt(task, startAudited(task.entry, task.scratch, task.setup->run.timeout));
     judge(row, task, *engine, progress);
   });
   return row;

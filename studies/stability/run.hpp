@@ -20,6 +20,7 @@ struct StabilityTask {
   const Packing* packing;         ///< of a Couette case
   std::filesystem::path scratch;  ///< the worker's
   std::string unprepared = {};    ///< why there is no packing, empty: there is
+  bool inSpace = false;           ///< in a plane of space, its disks as spheres: in_space.hpp
 };
 
 /// What was not run for want of time: no verdict on anybody.

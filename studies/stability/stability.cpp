@@ -81,6 +81,7 @@ struct Suite {
   std::vector<Packing> packings = {};        ///< of cases that are Couette cells
   std::vector<std::string> unprepared = {};  ///< why they have none
   TimeBudget* budget = nullptr;              ///< of transforms
+  bool inSpace = false;                      ///< StabilityTask::inSpace
 };
 
 void askEngines(Suite& suite) {
@@ -181,6 +182,7 @@ CachedTask<Rows> taskOf(const Suite& suite, std::size_t c, std::size_t e) {
   if (const std::string& hash = suite.packings[c].hash; !hash.empty()) task.key["packing"] = hash;
   if (!setup.assembly.starts.files.empty())  // the case has their paths only
     task.key["packing"] = expectedPacking(setup, 0, timeStep(setup)).hash;
+  if (suite.inSpace) task.key["in space"] = true;
   task.weight = predicted(setup, entry);
   if (transforms) {
     task.name += "-transforms";
@@ -190,8 +192,8 @@ CachedTask<Rows> taskOf(const Suite& suite, std::size_t c, std::size_t e) {
   }
   task.work = [&suite, &setup, &original, &entry, c, transforms,
                scratch = suite.store.scratch(task.name)](const auto& progress) {
-    const StabilityTask own{&setup,  &original,          entry, &suite.packings[c],
-                            scratch, suite.unprepared[c]};
+    const StabilityTask own{&setup,  &original,           entry,        &suite.packings[c],
+                            scratch, suite.unprepared[c], suite.inSpace};
     return transforms ? transformsOf(own, *suite.budget, progress) : limitsOf(own, progress);
   };
   return task;
@@ -231,12 +233,15 @@ std::vector<Case> casesToTest(const CommandLine& line, StabilityOptions& own) {
   }
   if (line.only) cases = selectedCases(cases, *line.only);
   reportKeysWithoutUse(cases, "stability", line.json ? stderr : stdout);
+  for (Case& setup : cases)
+    if (own.inSpace) setup.variant += setup.variant.empty() ? "in space" : ", in space";
   return cases;
 }
 
 std::string stabilityPlan(const StudyWork& work, const StabilityOptions& own) {
   const std::vector<EngineEntry> engines = selectEngines(work.line.run.engines);
   Suite suite{work.cases, engines, work.line.run, work.store, own.asks()};
+  suite.inSpace = own.inSpace;
   suite.packings.resize(work.cases.size());
   suite.unprepared.resize(work.cases.size());
   askEngines(suite);
@@ -254,7 +259,7 @@ std::string stabilityPlan(const StudyWork& work, const StabilityOptions& own) {
 StabilityResults stability(const StudyWork& work, const StabilityOptions& own) {
   return testStability(
       work.cases, selectEngines(work.line.run.engines), work.line.run, work.store, own.asks(),
-      own.budget ? secondsOf(*own.budget) : std::numeric_limits<double>::infinity());
+      own.budget ? secondsOf(*own.budget) : std::numeric_limits<double>::infinity(), own.inSpace);
 }
 
 Outcome outcomeOfStability(const StabilityResults& results, const CommandLine&,
@@ -278,11 +283,12 @@ Outcome outcomeOfStability(const StabilityResults& results, const CommandLine&,
 
 StabilityResults testStability(const std::vector<Case>& cases,
                                const std::vector<EngineEntry>& engines, const RunCommand& command,
-                               RunStore& store, SuiteAsks asks, double seconds) {
+                               RunStore& store, SuiteAsks asks, double seconds, bool inSpace) {
   const auto started = std::chrono::steady_clock::now();
   TimeBudget budget(seconds, cases.size() * engines.size(), command.jobs);
   Suite suite{cases, engines, command, store, asks};
   suite.budget = &budget;
+  suite.inSpace = inSpace;
   suite.packings.resize(cases.size());
   suite.unprepared.resize(cases.size());
   askEngines(suite);
@@ -322,6 +328,9 @@ const Study<StabilityOptions, StabilityResults> stabilityStudy = {
            "check that each case gives the same when turned, mirrored, in other units, renumbered, "
            "restarted and without snapshots",
            &own.transforms},
+          {"--in-space",
+           "each case in a plane of space, its disks as spheres; refused once they leave it",
+           &own.inSpace},
           {"--budget",
            "with --transforms: start no run that would end after this time, e.g. 90s, 10m, 1h "
            "(default: no limit)",
@@ -331,6 +340,9 @@ const Study<StabilityOptions, StabilityResults> stabilityStudy = {
     stabilityPlan,
     stability,
     outcomeOfStability,
-    {{"--quick", "--long"}, {"--transforms", "--quick"}, {"--transforms", "--long"}}};
+    {{"--quick", "--long"},
+     {"--transforms", "--quick"},
+     {"--transforms", "--long"},
+     {"--transforms", "--in-space"}}};
 
 }  // namespace crossgrain::inline studies

@@ -23,6 +23,7 @@ enum class SuiteAsks {
 
 struct StabilityOptions {
   bool longCases = false, transforms = false;
+  bool inSpace = false;  ///< each case in a plane of space, its disks as spheres
   std::optional<std::string> budget;
 
   SuiteAsks asks() const { return transforms ? SuiteAsks::transforms : SuiteAsks::limits; }
@@ -45,6 +46,7 @@ std::vector<Case> hardCases(const std::vector<std::filesystem::path>& inputs,
 StabilityResults testStability(const std::vector<Case>& cases,
                                const std::vector<EngineEntry>& engines, const RunCommand& command,
                                RunStore& store, SuiteAsks asks = SuiteAsks::limits,
-                               double budget = std::numeric_limits<double>::infinity());
+                               double budget = std::numeric_limits<double>::infinity(),
+                               bool inSpace = false);
 
 }  // namespace crossgrain::inline studies

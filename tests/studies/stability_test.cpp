@@ -11,8 +11,11 @@
 #include "results/stability.hpp"
 #include "stability/verdict.hpp"
 #include "studies/core/engine_access.hpp"
+#include "studies/stability/in_space.hpp"
 #include "support/bad_input.hpp"
 #include "tests/misbehaving/entries.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace {
@@ -120,6 +123,68 @@ TEST(HardCases, Repository_AllLoadWithReasons) {
   const std::vector<Case> cases = hardCases({CROSSGRAIN_CASES "/hard"}, {}, SuitePart::withLong);
   EXPECT_GE(cases.size(), 60u);
   for (const Case& c : cases) EXPECT_GT(c.stability->why.size(), 20u) << c.name;
+}
+
+using conformance::smallMass, conformance::smallRadius;
+
+/// Three that fall obliquely onto a plane that slides, and spin: J = 2/5 m a² in both.
+Scene fallingSpheres() {
+  Scene scene;
+  scene.law = test::thesisLaw();
+  scene.gravity = {0.3, -9.81};
+  scene.dt = 1e-5;
+  for (const double x : {0.0, 7.35e-3, 16e-3})
+    test::addDisk(scene, smallRadius, smallMass, {x, 3.6e-3 + 0.01 * x}, {0.1 - 20.0 * x, -0.2},
+                  30.0 - 2e3 * x);
+  scene.bodies = {test::planeWall({0.0, 0.0}, {0.0, 1.0})};
+  scene.bodies[0].motion.kind = MotionKind::translating;
+  scene.bodies[0].motion.velocity = {0.05, 0.0};
+  return ofSpheres(scene);
+}
+
+TEST(RunInSpace, PlaneAcrossTheAxes_IsThePlane) {
+  const Scene scene = fallingSpheres();
+  const auto plane = findEngine("grain")->make();
+  const auto space = runInSpace(findEngine("grain")->make());
+  plane->load(scene, {});
+  space->load(scene, {});
+  std::size_t touching = 0;
+  for (const double t : {0.0, 1e-3, 3e-3, 1e-2}) {
+    for (Engine* const each : {plane.get(), space.get()}) each->advance(t);
+    const Snapshot own = plane->snapshot(ContactReport::instant),
+                   there = space->snapshot(ContactReport::instant);
+    // Rounding of a thousand steps, more of it by turned coordinates.
+    for (std::size_t k = 0; k < scene.disks.size(); ++k) {
+      EXPECT_LE((own.position[k] - there.position[k]).norm(), 1e-10 * smallRadius);
+      EXPECT_NEAR(own.spin->at(k), there.spin->at(k), 1e-9);
+    }
+    EXPECT_LE((own.bodies[0].centre - there.bodies[0].centre).norm(), 1e-15);
+    EXPECT_LE((*own.bodies[0].force - *there.bodies[0].force).norm(), 1e-9);
+    ASSERT_EQ(own.contacts->j, there.contacts->j);
+    for (std::size_t k = 0; k < own.contacts->size(); ++k)
+      EXPECT_LE((own.contacts->force(k) - there.contacts->force(k)).norm(), 1e-9);
+    touching += own.contacts->size();
+  }
+  EXPECT_GE(touching, 4u);
+}
+
+TEST(RunInSpace, ColumnThatBuckles_IsRefusedOnceItHasLeftItsPlane) {
+  // Spheres one upon the other fall over like exp(t √(g/d)), 36 /s, from a rounding.
+  Scene scene;
+  scene.law = test::thesisLaw();
+  scene.gravity = {0.0, -9.81};
+  scene.dt = 4e-5;
+  for (int k = 0; k < 4; ++k)
+    test::addDisk(scene, smallRadius, smallMass, {0.0, (2 * k + 1) * smallRadius}, Vec2::Zero());
+  scene.bodies = {test::planeWall({0.0, 0.0}, {0.0, 1.0})};
+  const auto engine = runInSpace(findEngine("grain")->make());
+  engine->load(ofSpheres(scene), {});
+  engine->advance(0.1);
+  EXPECT_NO_THROW(engine->snapshot(ContactReport::none));
+  engine->advance(3.0);
+  const std::string said =
+      test::refusalOf<UnsupportedScene>([&] { engine->snapshot(ContactReport::none); });
+  EXPECT_NE(said.find("off its plane by"), std::string::npos) << said;
 }
 
 }  // namespace

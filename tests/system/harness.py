@@ -215,13 +215,13 @@ class SystemTest(unittest.TestCase):
         self.out = self.folder / "out"
 
     @classmethod
-    def compared_once(cls, engines, *arguments):
-        """The folder of one compare of the small cell, for setUpClass: all tests of a class read it."""
+    def compared_once(cls, engines, *arguments, case=COUETTE):
+        """The folder of one compare, of the small cell unless another is named, for setUpClass: all tests of a class read it."""
         shared = tempfile.TemporaryDirectory(prefix="crossgrain-test-")
         cls.addClassCleanup(shared.cleanup)
         out = pathlib.Path(shared.name) / "run"
         done = subprocess.run(
-            [PROGRAM, "compare", COUETTE, "--engines", engines, "--out", out, "--set=run.mirrors=false", *arguments],
+            [PROGRAM, "compare", case, "--engines", engines, "--out", out, "--set=run.mirrors=false", *arguments],
             env=environment(None), capture_output=True, encoding="utf-8", check=False,
         )  # fmt: skip
         if done.returncode not in (HELD, FELL_SHORT):

@@ -147,6 +147,58 @@ class Export(OneRun):
         self.assertEqual({"x.dump", "x.contacts"}, {file.name for file in (self.folder / "files").iterdir()})
 
 
+class InSpace(SystemTest):
+    """Snapshot files of spheres between sliding walls."""
+
+    BUMPY = CASES / "space/shear-3d.toml"
+    SHORT = settings(
+        assembly__duration=0.2, average__from=0.05, average__snapshots=5, preparation__packings=1, run__keep_snapshots=5, looks__count=1
+    )
+
+    @classmethod
+    def setUpClass(cls):
+        cls.ran = cls.compared_once("grain", *cls.SHORT, case=cls.BUMPY)
+        cls.file = cls.ran / "snapshots/grain-p0.h5"
+
+    def test_average_is_that_of_the_run(self):
+        again = self.folder / "again"
+        self.assert_status(self.run_program("average", self.file, self.BUMPY, "--out", again, "--quiet", *self.SHORT), HELD)
+        run, other = (self.rows("profiles.csv", folder) for folder in (self.ran, again))
+        self.assertEqual([row for row in run if row["packing"] == "0"], [row for row in other if row["packing"] == "0"])
+        self.assertIn("stress_xz", {row["field"] for row in other})
+        done = self.run_program("average", self.file, CASES / "space/plane-shear.toml", "--out", self.folder / "no", "--quiet")
+        self.assert_one_line(done, BAD_INPUT, "its snapshots have dimension 3, the case has 2")
+        done = self.run_program("compare", self.BUMPY, "--engines", f"grain,mine={self.file}", "--out", self.folder / "no", *self.SHORT)
+        self.assert_one_error(done, BAD_INPUT, "in the plane alone", "average")
+
+    def test_ondem_has_spheres_and_their_forces(self):
+        out = self.folder / "x"
+        self.assert_status(self.run_program("export", "ondem", self.file, self.BUMPY, "--out", out, "--quiet", *self.SHORT), HELD)
+        snapshots = crossgrain.Snapshots(self.file)
+        self.addCleanup(snapshots.close)
+        spheres, touching = len(snapshots.radius), 0
+        for k, snapshot in enumerate(snapshots):
+            with h5py.File(self.folder / f"x-{k:03d}.vtkhdf") as file:
+                points, contacts = file["VTKHDF/Assembly/Points"], snapshot.contacts
+                np.testing.assert_array_equal(snapshot.centres(), points["Points"][:])
+                data = points["PointData"]
+                for name, own in (("velocity", snapshot.velocity), ("angular_velocity", snapshot.spin)):
+                    np.testing.assert_array_equal(own, data[name][:spheres])
+                self.assertEqual({0.0}, set(data["blocked_dofs"][:spheres]))
+                np.testing.assert_allclose(4 / 3 * np.pi * snapshots.radius**3, data["volume"][:spheres], rtol=1e-15)
+                inertia = 0.4 * snapshots.mass * snapshots.radius**2
+                np.testing.assert_allclose(inertia[:, None, None] * np.eye(3), data["inertia"][:spheres].reshape(-1, 3, 3), rtol=1e-15)
+                walls = np.where(snapshots.wall_body[:, None] == 0, [-1.0, 0, 0], [1.0, 0, 0])
+                np.testing.assert_array_equal(walls, data["velocity"][spheres:])
+                group = file["ONDEM/Interactions/contact"]
+                force = -group["normal_force"][:][:, None] * group["normal"][:] + group["shear_force"][:]
+                np.testing.assert_allclose(force, -contacts.force, rtol=0, atol=1e-15 * abs(contacts.normal_force).max(initial=0.0))
+                touching += len(contacts)
+        self.assertGreater(touching, 100)
+        done = self.run_program("export", "lammps", self.file, self.BUMPY, "--out", self.folder / "y", *self.SHORT)
+        self.assert_one_line(done, BAD_INPUT, "format lammps", "ondem alone")
+
+
 class RoundTrip(OneRun):
     """export, then import: the same snapshots, but for what the files have no place for."""
 

@@ -462,7 +462,7 @@ class RigidEngine:
         "RollingFollowsItsClosedForms", "RollingHoldsASlope", "RollingTorquesAreThoseThatAct", "CohesionFollowsItsClosedForms",
         "MemoriesHoldWhileAnotherFliesBy", "MaterialsHaveTheirOwnLaws", "SpringsOfMovedPairs",
         "PairsAcrossBorders", "PairsAcrossBordersInSpace", "RollingSpringsOfMovedPairs", "PairsThatCrossBorders",
-        "PairsThatCrossBordersInSpace",
+        "PairsThatCrossBordersInSpace", "ForcesInSpaceAreThoseOfTheLaw",
     }  # fmt: skip
 
     def test_passes_its_checks(self):

@@ -299,6 +299,24 @@ TEST(AuditInSpace, ContactsThroughNearestImages) {
   contacts.tangentialForce = {Vec3::Zero(), Vec3::Zero()};
   const auto why = [&] { return auditFault(shown, auditBasis(scene, can, effective), 0.0); };
   EXPECT_EQ(why(), "");
+
+  // Forces: f_n = k_n δ of what rests; f_t and M are vectors within their bounds.
+  const auto byLaw = [&] { return lawFault(shown, auditBasis(scene, can, effective), scene.law); };
+  expectSays(byLaw(), "contact 0 (sphere 0 with sphere 1): f_n is 0.1 N");
+  scene.law.gn = 0.0;
+  scene.law.rolling = RollingLaw::constantTorque;
+  scene.law.muR = 0.2;
+  const double fn = scene.law.kn * depth, bound = scene.law.muR * 0.5 * a * fn;
+  contacts.normalForce = {fn, fn};
+  const Vec3 across = Vec3(0.6, 0.0, 0.8);  // to the normal of contact 1
+  contacts.tangentialForce[1] = 0.999 * scene.law.mu * fn * across;
+  contacts.rollingTorque = {Vec3::Zero(), -bound * across};
+  EXPECT_EQ(byLaw(), "");
+  contacts.rollingTorque[1] *= 1.001;
+  expectSays(byLaw(), "contact 1 (sphere 0 with wall sphere 0): the torque against rolling is");
+  contacts.tangentialForce[1] *= 1.002;
+  expectSays(byLaw(), "|f_t| is");
+
   contacts.overlap[1] *= 0.9;
   expectSays(why(), "contact 1 (sphere 0 with wall sphere 0): overlaps by 9e-06 m");
   contacts.overlap[1] = depth;
