@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "adapters/registry.hpp"
+#include "adapters/suitability.hpp"
 #include "studies/conformance/conformance_scenes.hpp"
 
 /// What a check works with: the engine, what it declares, comparisons with tolerances, and the
@@ -207,6 +208,25 @@ class CheckContext {
   }
 };
 
+/// Has the engine load a scene of D dimensions, which may differ from what it has in conventions.
+/// @returns the scene as it runs it  @throws Skipped
+template <int D>
+SceneOf<D> loaded(CheckContext& c, const SceneOf<D>& wanted) {
+  try {
+    const SceneOf<D> scene = adaptScene(c.can, wanted, {}).scene;
+    c.effective = loadOn<D>(c.engine, scene, c.entry.settings);
+    return scene;
+  } catch (const UnsupportedScene& unsupported) {
+    c.skip(unsupported.what());
+  }
+}
+
+template <int D>
+SnapshotOf<D> shown(CheckContext& c, double t) {
+  c.engine.advance(t);
+  return snapshotOf<D>(c.engine, c.contactReport());
+}
+
 /// A property that holds for any engine.
 struct Check {
   const char* name;            ///< "HeadOnCollision"
@@ -227,6 +247,7 @@ Checks symmetryChecks();
 Checks wallChecks();
 Checks contactChecks();
 Checks reachChecks();
+Checks springChecks();
 Checks spaceChecks();
 Checks refusalChecks();
 Checks mirrorChecks();

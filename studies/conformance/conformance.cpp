@@ -79,7 +79,8 @@ std::vector<Check> checksOf(bool isMirror) {
   for (const Checks& part :
        {capabilityChecks(), lifecycleChecks(), freeMotionChecks(), collisionChecks(), lawChecks(),
         conventionChecks(), resistanceChecks(), symmetryChecks(), wallChecks(), contactChecks(),
-        reachChecks(), spaceChecks(), refusalChecks(), isMirror ? mirrorChecks() : Checks{}})
+        reachChecks(), springChecks(), spaceChecks(), refusalChecks(),
+        isMirror ? mirrorChecks() : Checks{}})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

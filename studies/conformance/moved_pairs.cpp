@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "adapters/law_options.hpp"
+#include "studies/conformance/check_context.hpp"
+#include "studies/conformance/declared_laws.hpp"
 
 namespace crossgrain::conformance {
 namespace {
@@ -147,6 +149,14 @@ ContactLaw movedLaw() {
   law.mu = 100.0;
   law.conventions.leverArm = LeverArm::overlapMiddle;
   return law;
+}
+
+ContactLaw rollingLawOf(const Capabilities& can, int dimension) {
+  ContactLaw law = movedLaw();
+  law.dimension = dimension;
+  if (std::ranges::count(rollingLaws(can), RollingLaw::spring) == 0) return followed(can, law);
+  law.rolling = RollingLaw::spring;
+  return rollingLaw(followed(can, law));
 }
 
 SpaceScene movedScene(const MovedPair& pair, const ContactLaw& law) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "adapters/contact_law.hpp"
+#include "adapters/engine.hpp"
 #include "adapters/scene.hpp"
 
 namespace crossgrain::conformance {
@@ -37,6 +38,8 @@ ContactLaw movedLaw();
 /// That law with a rolling spring as stiff, k_r = k_t, which nothing lets slip either.
 /// @param law  with the conventions that the engine has
 ContactLaw rollingLaw(ContactLaw law);
+/// movedLaw() with a rolling spring where the engine has one, and its conventions.
+ContactLaw rollingLawOf(const Capabilities& can, int dimension);
 SpaceScene movedScene(const MovedPair& pair, const ContactLaw& law);
 
 /// What a spring does with its pair's motion from step to step.

@@ -1,5 +1,5 @@
-// Spheres in space, and boxes with periodic directions: springs of pairs that are moved as
-// prescribed, torques, images.
+// Spheres in space, and boxes with periodic directions: torques, impacts in turned frames, walls,
+// images.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -20,168 +20,6 @@
 
 namespace crossgrain::conformance {
 namespace {
-
-/// Has the engine load a scene of D dimensions. @returns the scene as it runs it  @throws Skipped
-template <int D>
-SceneOf<D> loaded(CheckContext& c, const SceneOf<D>& wanted) {
-  try {
-    const SceneOf<D> scene = adaptScene(c.can, wanted, {}).scene;
-    c.effective = loadOn<D>(c.engine, scene, c.entry.settings);
-    return scene;
-  } catch (const UnsupportedScene& unsupported) {
-    c.skip(unsupported.what());
-  }
-}
-
-template <int D>
-SnapshotOf<D> shown(CheckContext& c, double t) {
-  c.engine.advance(t);
-  return snapshotOf<D>(c.engine, c.contactReport());
-}
-
-// ---- springs ------------------------------------------------------------------------------------
-
-/// F_t or M on the first of the pair, normal to n, and the step that it is of.
-struct SeenForce {
-  Vec3 force;
-  int step;
-};
-
-/// @param list  of contacts, which has it
-std::vector<SeenForce> seenOf(CheckContext& c, const MovedPair& pair,
-                              std::vector<Vec3> ContactsOf<3>::*list, const char* name) {
-  const double dt = c.effective.dt;
-  std::vector<SeenForce> seen;
-  for (const int step : {2, 30, 60, movedSteps}) {
-    const SpaceSnapshot now = shown<3>(c, step * dt);
-    c.require(now.contacts && now.contacts->size() == 1,
-              text("shows ", now.contacts ? now.contacts->size() : 0, " contacts of ", pair.name,
-                   " after ", step, " steps, not 1"));
-    c.require(!((*now.contacts).*list).empty(), text("shows no ", name, " of its contacts"));
-    const Vec3 force = ((*now.contacts).*list)[0], n = now.contacts->normal[0];
-    const double along = force.dot(n);
-    c.near(along, 0.0,
-           {1e-4 * force.norm(), 0.0, "what is turned to first order leaves the plane by ½ ΔΘ³"},
-           text(name, "·n of ", pair.name, " after ", step, " steps"));
-    seen.push_back({force - along * n, static_cast<int>(std::llround(now.contactTime / dt))});
-  }
-  return seen;
-}
-
-/// Of what a spring would have done, the largest difference from what was seen, by the largest
-/// force.
-double distance(const std::vector<SeenForce>& seen, const std::vector<Vec3>& wanted) {
-  double most = 0.0, size = 0.0;
-  for (const auto& [force, step] : seen) {
-    const Vec3& other = wanted[static_cast<std::size_t>(step)];
-    most = std::max(most, (force - other).norm());
-    size = std::max(size, other.norm());
-  }
-  return most / size;
-}
-
-// Rounding of a hundred steps; what conventions of a turn differ by is 1e-3.
-Tolerance movedRounding(const CheckContext& c) {
-  return c.byPrecision(1e-9, 1e-4, "the same sums in another order, motion as prescribed");
-}
-
-/// Loads each pair and sees what its spring does. @param declared  becomes the law as declared
-std::vector<std::vector<SeenForce>> seenOfPairs(CheckContext& c, std::span<const MovedPair> pairs,
-                                                const ContactLaw& law, ContactLaw& declared,
-                                                std::vector<Vec3> ContactsOf<3>::*list,
-                                                const char* name) {
-  std::vector<std::vector<SeenForce>> seen;
-  for (const MovedPair& pair : pairs) {
-    const SpaceScene scene = loaded(c, movedScene(pair, law));
-    declared = declaredLaw(c.can, scene, c.effective, 0.5 * scene.disks.mass[0]).value();
-    seen.push_back(seenOf(c, pair, list, name));
-  }
-  return seen;
-}
-
-/// That of moved pairs, with a rolling spring where the engine has one.
-ContactLaw rollingLawOf(const CheckContext& c, int dimension) {
-  ContactLaw law = movedLaw();
-  law.dimension = dimension;
-  if (std::ranges::count(rollingLaws(c.can), RollingLaw::spring) == 0) return followed(c.can, law);
-  law.rolling = RollingLaw::spring;
-  return rollingLaw(followed(c.can, law));
-}
-
-/// Of rolling springs the equations say how θ follows n; that θ × n follows it likewise is as good.
-void rollingSpringsOfMovedPairs(CheckContext& c) {
-  if (!c.can.instantContacts) c.skip("shows no contacts of one instant");
-  ContactLaw law = rollingLawOf(c, 3);
-  if (law.normal != NormalLaw::linear || law.rolling != RollingLaw::spring)
-    c.skip("has no linear law with a rolling spring");
-  const MovedPair pairs[] = {passingPair(), rollingPair()};
-  ContactLaw declared;
-  std::vector<std::vector<SeenForce>> seen;
-  std::vector<std::string> lengths = valuesOf(c.can, law, "rolling_length");
-  while (seen.empty()) try {  // not every one of them need go with the linear law
-      setLawOption(law, "rolling_length", lengths.back());
-      lengths.pop_back();
-      seen = seenOfPairs(c, pairs, law, declared, &ContactsOf<3>::rollingTorque, "rolling torque");
-    } catch (const Skipped&) {
-      if (lengths.empty()) throw;
-    }
-  const double dt = c.effective.dt;
-  const auto off = [&](std::size_t k, const SpringMotion& motion) {
-    return distance(seen[k], rollingTorques(pairs[k], motion, dt, movedSteps));
-  };
-  const auto farthest = [&](const SpringMotion& motion) {
-    return std::max(off(0, motion), off(1, motion));
-  };
-  const Tolerance rounding = movedRounding(c);
-  SpringMotion own{declared}, displaced{declared};
-  displaced.asDisplacement = true;
-  const bool asDisplacement = farthest(displaced) < farthest(own);
-  const SpringMotion& closer = asDisplacement ? displaced : own;
-  for (const std::size_t k : {0u, 1u})
-    c.near(off(k, closer), 0.0, rounding,
-           text("rolling torque of ", pairs[k].name, ", off by a part of it"));
-  if (c.faults.empty()) {
-    if (asDisplacement)
-      c.notes.push_back(
-          fmt::format("its rolling spring is θ × n, and follows n as that: to second order of a "
-                      "step's turn another than θ (here {:.2g} of M)",
-                      farthest(own)));
-    return;
-  }
-  for (const SpringMotion& motion : springMotions(declared))
-    if (farthest(motion) <= rounding.absolute)
-      return c.suspect("rolling: " + motion.differenceFrom(declared));
-}
-
-void springsOfMovedPairs(CheckContext& c) {
-  if (!c.can.instantContacts) c.skip("shows no contacts of one instant");
-  const ContactLaw law = followed(c.can, movedLaw());
-  if (law.normal != NormalLaw::linear || law.tangential != TangentialLaw::spring)
-    c.skip("has no linear law with a tangential spring");
-  const MovedPair pairs[] = {passingPair(), twistingPair()};
-  ContactLaw declared;
-  const auto seen = seenOfPairs(c, pairs, law, declared, &ContactsOf<3>::tangentialForce, "F_t");
-  const auto farthest = [&](const SpringMotion& motion) {
-    double most = 0.0;
-    for (std::size_t k = 0; k < seen.size(); ++k)
-      most = std::max(
-          most, distance(seen[k], springForces(pairs[k], motion, c.effective.dt, movedSteps)));
-    return most;
-  };
-  const Tolerance rounding = movedRounding(c);
-  for (std::size_t k = 0; k < seen.size(); ++k)
-    c.near(distance(seen[k], springForces(pairs[k], {declared}, c.effective.dt, movedSteps)), 0.0,
-           rounding, text("F_t of ", pairs[k].name, ", off by a part of it"));
-  for (const char* const option : {"spring_turn", "spring_twist"})
-    c.examine(text(option, " = ", lawOptionValue(declared, option)));
-  c.examine(spheresInSpace);
-  if (c.faults.empty()) {
-    c.notes = frameDependence(declared);
-    return;
-  }
-  for (const SpringMotion& motion : springMotions(declared))
-    if (farthest(motion) <= rounding.absolute) return c.suspect(motion.differenceFrom(declared));
-}
 
 // ---- torques ------------------------------------------------------------------------------------
 
@@ -410,74 +248,6 @@ void turningWallPushesSpheres(CheckContext& c) {
          "Σ T dt on the wall, off from the sphere's angular momentum by a part of it");
 }
 
-// ---- forces by the law ----------------------------------------------------------------------
-
-constexpr double cloudEnd = 0.01;  ///< [s]
-
-/// 27 spheres that fly into each other and spin: they touch within 1.2 ms, and many still do at
-/// cloudEnd.
-SpaceScene cloudScene(const ContactLaw& law) {
-  SpaceScene scene;
-  scene.name = "a cloud of spheres";
-  scene.law = law;
-  scene.dt = emptyScene(law, coarseSteps).dt;
-  const Eigen::Matrix3d frame =
-      Eigen::AngleAxisd(0.7, Vec3(1.0, -1.0, 2.0).normalized()).toRotationMatrix();
-  for (int k = 0; k < 27; ++k) {
-    const Vec3 at(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
-    const Vec3 place = 2.02 * smallRadius * (frame * at);
-    scene.disks.radius.push_back(smallRadius);
-    scene.disks.mass.push_back(smallMass);
-    scene.disks.inertia.push_back(0.4 * smallMass * smallRadius * smallRadius);
-    scene.disks.position.push_back(place);
-    scene.disks.velocity.push_back(-8.0 * place + Vec3(0.0, 4.0, 2.0).cross(place));
-    scene.disks.spin.push_back(Vec3(5 * at.y(), 10 - 3 * k, 7 * at.x()));
-  }
-  return scene;
-}
-
-/// The laws of the plane's checks in space: every normal law, and what resists rolling or coheres.
-std::vector<ContactLaw> lawsInSpace(const Capabilities& can) {
-  std::vector<ContactLaw> laws;
-  for (const std::string& normal : valuesOf(can, followed(can, fullLaw()), "normal"))
-    laws.push_back(lawOf(can, normal));
-  std::ranges::copy(resistingLaws(can), std::back_inserter(laws));
-  for (ContactLaw& law : laws) {
-    law.dimension = 3;
-    law = followed(can, law);
-  }
-  return laws;
-}
-
-void forcesInSpaceAreThoseOfTheLaw(CheckContext& c) {
-  if (!c.can.instantContacts) c.skip("shows no contacts of one instant");
-  std::string refused = "declares no law with known constants";
-  std::size_t seen = 0;
-  for (const ContactLaw& law : lawsInSpace(c.can)) {
-    std::optional<SpaceScene> scene;
-    try {
-      scene = loaded(c, cloudScene(law));
-    } catch (const Skipped& skip) {  // not every part need go with every law
-      refused = skip.reason;
-      continue;
-    }
-    const auto declared = declaredLaw(c.can, *scene, c.effective, 0.5 * smallMass);
-    if (!declared) continue;
-    const AuditBasisOf<3> basis = auditBasis(*scene, c.can, c.effective);
-    const auto last = std::llround(cloudEnd / c.effective.dt);
-    for (long long step = 0; step <= last; ++step) {
-      const SpaceSnapshot now = shown<3>(c, static_cast<double>(step) * c.effective.dt);
-      seen += now.contacts ? now.contacts->size() : 0;
-      for (const std::string& why : {contactFault(now, basis), lawFault(now, basis, *declared)})
-        if (!why.empty())
-          c.fault(text("at t = ", now.contactTime,
-                       " s of a law with rolling = ", lawOptionValue(law, "rolling"),
-                       " and cohesion = ", lawOptionValue(law, "cohesion"), ": ", why));
-    }
-  }
-  if (seen == 0 && c.faults.empty()) c.skip(refused);
-}
-
 // ---- images -------------------------------------------------------------------------------------
 
 /// Two that meet, and the same two elsewhere in a box 16 radii wide, periodic along x.
@@ -568,7 +338,8 @@ template <int D>
 void pairsThatCrossBorders(CheckContext& c) {
   c.needs(periodicDirections);
   constexpr int steps = 60;
-  const SceneOf<D> scene = loadedPairs(c, twoPairs<D>(rollingLawOf(c, D), {4.0, 14.8}, 50.0, -2.0));
+  const SceneOf<D> scene =
+      loadedPairs(c, twoPairs<D>(rollingLawOf(c.can, D), {4.0, 14.8}, 50.0, -2.0));
   c.examine(periodicDirections);
   const Tolerance rounding =
       c.byPrecision(1e-9, 1e-4, "the same sums of places that are rounded in another way");
@@ -640,15 +411,6 @@ void pairsAcrossBorders(CheckContext& c) {
 
 Checks spaceChecks() {
   static constexpr Check list[] = {
-      {"SpringsOfMovedPairs",
-       "tangential springs of spheres that pass, turn and twist are those of the declared law, "
-       "step "
-       "by step",
-       springsOfMovedPairs, 3},
-      {"RollingSpringsOfMovedPairs",
-       "springs of rolling resistance of spheres that pass, turn and twist are those of the "
-       "declared law, step by step",
-       rollingSpringsOfMovedPairs, 3},
       {"TorqueTurnsSpheres", "f_t turns spheres about n × f_t, with 2/5 m a²", torqueTurnsSpheres,
        3},
       {"TurnedImpactsAreTurnedAlike",
@@ -660,9 +422,6 @@ Checks spaceChecks() {
       {"TurningWallPushesSpheres",
        "a wall that turns in space pushes spheres, and bears the force and torque of that",
        turningWallPushesSpheres, 3},
-      {"ForcesInSpaceAreThoseOfTheLaw",
-       "forces of spheres are those of the declared law, each contact's within its bounds",
-       forcesInSpaceAreThoseOfTheLaw, 3},
       {"PairsAcrossBorders", "two disks across a periodic border are the same two inside",
        pairsAcrossBorders<2>},
       {"PairsAcrossBordersInSpace", "two spheres across a periodic border are the same two inside",
