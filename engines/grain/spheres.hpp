@@ -75,6 +75,7 @@ class Spheres {
   /// @throws std::invalid_argument for a step that is not > 0, and for a law or box that it does
   /// not have
   explicit Spheres(SpheresSetup setup);
+  Spheres(Spheres&&) = default;  // not copied: active_ points into it
 
   /// @throws std::runtime_error naming a sphere whose position is not finite, or two that overlap
   /// too much
