@@ -58,7 +58,7 @@ COMMANDS = {
         "average {first}/snapshots/grain-p0.h5 {cell} --set=averaging.rings=4 --out {out}",
     ],
     "average-assembly": [
-        "compare cases/assembly/biaxial.toml --engines grain --quick --out {first}",
+        "compare cases/assembly/biaxial.toml --engines grain --quick --out {first} --set=run.keep_snapshots_of=2",
         "average {first}/snapshots/grain-p0.h5 {first}/snapshots/grain-p1.h5 cases/assembly/biaxial.toml --out {out}",
     ],
     "import": [
