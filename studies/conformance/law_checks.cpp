@@ -325,6 +325,9 @@ Checks lawChecks() {
        planesFollowTheOracle},
       {"MovingPlanesFollowTheOracle", "and on a plane that moves along itself, towards it or away",
        movingPlanesFollowTheOracle},
+      {"ForcesInSpaceAreThoseOfTheLaw",
+       "forces of spheres are those of the declared law, each contact's within its bounds",
+       forcesInSpaceAreThoseOfTheLaw, 3},
   };
   return list;
 }
@@ -338,9 +341,6 @@ Checks mirrorChecks() {
       {"FollowsItsPeerOnAPlane", "a mirror follows its peer on a plane", followsItsPeerOnAPlane},
       {"FollowsItsPeerByHertzLaw", "a mirror follows its peer by Hertz' law",
        followsItsPeerByHertzLaw},
-      {"ForcesInSpaceAreThoseOfTheLaw",
-       "forces of spheres are those of the declared law, each contact's within its bounds",
-       forcesInSpaceAreThoseOfTheLaw, 3},
   };
   return list;
 }

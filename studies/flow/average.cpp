@@ -40,9 +40,11 @@ struct NamedRun {
 
 template <int D>
 NamedRun averageRun(const Case& setup, const SnapshotRun& files, const std::string& name, int index,
-                    Progress& progress) {
+                    std::size_t count, Progress& progress) {
   const auto opened = openSnapshots<D>(files, setup, name);
   SnapshotSourceOf<D>& source = *opened;
+  // Begun once the first is open: a file that cannot be read is refused in one line.
+  if (index == 0) progress.begin("averaging", std::vector<double>(count, 1.0));
   AveragedRun averaged = averagedRun(setup, files, source, [&](double fraction) {
     progress.update(static_cast<std::size_t>(index), files.name(), fraction);
   });
@@ -81,10 +83,9 @@ CompareResults averageSnapshots(const Case& setup, const std::vector<std::filesy
   std::vector<NamedRun> all;
   for (const SnapshotRun& run : runs) {
     const auto index = all.size();
-    if (index == 0) progress.begin("averaging", std::vector<double>(runs.size(), 1.0));
     const std::string name = options.name.value_or(defaultName(run.format));
     all.push_back(inDimensionOf(setup, [&]<int D>() {
-      return averageRun<D>(setup, run, name, static_cast<int>(index), progress);
+      return averageRun<D>(setup, run, name, static_cast<int>(index), runs.size(), progress);
     }));
     progress.finish(index, fmt::format("{}: {} snapshots", run.name(), all.back().snapshots));
   }

@@ -302,7 +302,7 @@ class KeysWithoutUse(SystemTest):
     def test_of_a_cell_every_key_is_used_or_named(self):
         every = self.write(
             "every.toml",
-            f'[case]\nextends = "{COUETTE}"\n[run]\nmirrors = false\nkeep_snapshots = 3\nenergy_ledger = true\n'
+            f'[case]\nextends = "{COUETTE}"\n[run]\nmirrors = false\nkeep_snapshots = 3\nkeep_snapshots_of = 2\nenergy_ledger = true\n'
             "[cost]\nrepeats = 3\n[averaging]\nmethod = \"slicing\"\n[engines.mine]\nblur = 1\n",
         )
         for command in ("compare", "lockstep", "effects", "cost", "stability"):

@@ -279,7 +279,7 @@ class Interrupted(FailureTest):
 class Disk(SystemTest):
     """Not written (status 2) or full (status 3): the system's own reason, and how to go on."""
 
-    SHORT = settings(averaging__rotations=0.02, preparation__rotations=0.0)
+    SHORT = settings(averaging__rotations=0.02, preparation__rotations=0.0, run__keep_snapshots_of=3)
     ROOM = "what is finished is kept: make room, and the same command goes on"
 
     def test_folder_that_cannot_be_made(self):
