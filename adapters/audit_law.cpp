@@ -172,9 +172,7 @@ struct VelocityDoubt {
 
   VelocityDoubt(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis,
                 const ContactPlacesOf<D>& places, const ContactLaw& law)
-      : centre(basis.radius.size() + basis.scene->planeCount()),
-        rim(centre.size()),
-        lapse_(stepsOfDoubt * basis.dt) {
+      : centre(basis.scene->idCount()), rim(centre.size()), lapse_(stepsOfDoubt * basis.dt) {
     constexpr double change = 0.1;
     const SceneOf<D>& scene = *basis.scene;
     const ContactsOf<D>& contacts = *snapshot.contacts;

@@ -153,6 +153,11 @@ std::unique_ptr<SnapshotWriter> openWriter(std::string_view format,
 std::unique_ptr<SnapshotWriterOf<3>> openWriter(std::string_view format,
                                                 const std::filesystem::path& out,
                                                 const SpaceScene& scene) {
+  if (scene.cylinderCount() > 0)
+    throw BadInput(
+        fmt::format("format {}: has no cylinders, as the walls of {} are; the snapshots "
+                    "themselves are HDF5, docs/files.md",
+                    format, scene.name));
   if (format == "ondem") return openOnDem<3>(out, scene, 0.0);
   throw BadInput(fmt::format(
       "format {}: snapshots in space (case.dimension = 3) are written as ondem alone", format));

@@ -163,8 +163,7 @@ ContactsOf<D> readContacts(const SnapshotDatasets& in, const std::string& path,
   const auto length = in.length(path + "/i");
   if (!length) in.fail(fmt::format("there is no {}/i in it", path));
   const std::size_t count = *length;
-  const auto ids =
-      static_cast<double>(scene.disks.size() + scene.wallDiskCount() + scene.planeCount());
+  const auto ids = static_cast<double>(scene.idCount());
   const auto readIds = [&](const char* name) {
     std::vector<std::int32_t> result;
     result.reserve(count);
@@ -172,8 +171,9 @@ ContactsOf<D> readContacts(const SnapshotDatasets& in, const std::string& path,
       if (id < 0.0 || id >= ids || id != std::floor(id))
         in.fail(
             fmt::format("{}{} holds {}; wanted are whole numbers from 0 to {}, disks first, then "
-                        "wall disks{}",
-                        path, name, id, ids - 1.0, scene.planeCount() > 0 ? ", then planes" : ""));
+                        "wall disks{}{}",
+                        path, name, id, ids - 1.0, scene.planeCount() > 0 ? ", then planes" : "",
+                        scene.cylinderCount() > 0 ? ", then cylinders" : ""));
       result.push_back(static_cast<std::int32_t>(id));
     }
     return result;

@@ -270,7 +270,7 @@ Outcome outcomeOfStability(const StabilityResults& results, const CommandLine&,
   const auto all = std::ssize(results.runs), refused = count(Verdict::notApplicable);
   if (refused == all)
     return notJudged(
-        fmt::format("all runs were refused, the first because it {}", results.runs.front().reason));
+        fmt::format("all runs were refused; of the first: {}", results.runs.front().reason));
   if (refused + count(Verdict::notMeasured) == all)
     return notJudged("the budget ended before any run could be judged");
   const auto unstable = count(Verdict::fail);

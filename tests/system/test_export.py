@@ -171,6 +171,23 @@ class InSpace(SystemTest):
         done = self.run_program("compare", self.BUMPY, "--engines", f"grain,mine={self.file}", "--out", self.folder / "no", *self.SHORT)
         self.assert_one_error(done, BAD_INPUT, "in the plane alone", "average")
 
+    def test_contacts_with_a_cylinder_are_read_and_not_exported(self):
+        drum = CASES / "space/drum.toml"
+        short = [each for each in self.SHORT if "duration" not in each and "from" not in each]
+        short += settings(assembly__duration=0.16, average__from=0.1, run__mirrors="false")
+        self.assert_status(self.compare("--quick", *short, engines="grain", case=drum), HELD)
+        file = self.out / "snapshots/grain-p0.h5"
+        snapshots = crossgrain.Snapshots(file)
+        self.addCleanup(snapshots.close)
+        spheres = len(snapshots.radius)
+        self.assertIn(spheres, {id for snapshot in snapshots for id in snapshot.contacts.j}, "on the drum")
+        again = self.folder / "again"
+        self.assert_status(self.run_program("average", file, drum, "--out", again, "--quiet", *short), HELD)
+        run, other = (self.rows("profiles.csv", folder) for folder in (self.out, again))
+        self.assertEqual([row for row in run if row["packing"] == "0"], [row for row in other if row["packing"] == "0"])
+        done = self.run_program("export", "ondem", file, drum, "--out", self.folder / "x", "--quiet", *short)
+        self.assert_one_line(done, BAD_INPUT, "format ondem: has no cylinders")
+
     def test_ondem_has_spheres_and_their_forces(self):
         out = self.folder / "x"
         self.assert_status(self.run_program("export", "ondem", self.file, self.BUMPY, "--out", out, "--quiet", *self.SHORT), HELD)
