@@ -23,7 +23,7 @@ struct PlacedPlaneOf {
   bool known;             ///< false: it turned in ways that nobody prescribed
   const Cylinder* cylinder = nullptr;
 
-  /// What a disk there meets: the plane, or that which touches the cylinder.
+  /// What a disk there meets: the plane, or the one that touches the cylinder.
   PlaneOf<D> under(const VecOf<D>& place) const {
     if constexpr (D == 3)
       if (cylinder) return tangentPlane(*cylinder, place);

@@ -305,7 +305,8 @@ ContactKinematics kinematicsOf(const SnapshotOf<D>& snapshot, const AuditBasisOf
   touch.doubt = doubts.centre[i] + doubts.centre[j];
   if (j >= round) {
     const PlacedPlaneOf<D>& wall = places.planes[j - round];
-    const VecOf<D> arm = footOn<D>(wall.plane, places.position[i]) - wall.motion.centre;
+    const VecOf<D>& at = places.position[i];
+    const VecOf<D> arm = footOn<D>(wall.under(at), at) - wall.motion.centre;
     touch.doubt += stepsOfDoubt * basis.dt * acceleration<D>(wall.body->motion, arm.norm());
   }
   return touch;

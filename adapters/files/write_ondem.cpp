@@ -238,12 +238,7 @@ class OnDemWriter : public SnapshotWriterOf<D> {
     for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
       const WallBodyOf<D>& body = scene_.bodies[b];
       BodyStateOf<D> state{.centre = body.centre};
-      if (b < now.bodies.size()) {
-        state.centre = now.bodies[b].centre;
-        state.angle = now.bodies[b].angle;
-        state.velocity = now.bodies[b].velocity;
-        state.angularVelocity = now.bodies[b].angularVelocity;
-      }
+      if (b < now.bodies.size()) state = stateOf(now.bodies[b]);
       for (const PlaneOf<D>& reference : body.planes) {
         const PlaneOf<D> plane = planeAt<D>(state, body.centre, reference);
         WrittenParticleOf<D> p;

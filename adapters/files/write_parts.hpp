@@ -63,6 +63,15 @@ inline Vec2 unsignedZeros(const Vec2& v) {
   return {v.x() + 0.0, v.y() + 0.0};
 }
 
+/// A wall body as a snapshot shows it.
+template <int D>
+BodyStateOf<D> stateOf(const BodySnapshotOf<D>& shown) {
+  return {.centre = shown.centre,
+          .angle = shown.angle,
+          .velocity = shown.velocity,
+          .angularVelocity = shown.angularVelocity};
+}
+
 /// Disks, then wall disks, by the scene's ids.
 template <int D>
 class WrittenParticlesOf {

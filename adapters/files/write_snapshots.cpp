@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Geometry>
 #include <cerrno>
 
 #include "adapters/files/write_parts.hpp"
@@ -65,13 +64,8 @@ WrittenParticleOf<D> WrittenParticlesOf<D>::at(const SnapshotOf<D>& now, std::si
   particle.position = now.wallPosition[id - disks];
   particle.velocity = VecOf<D>::Zero();
   if (b < now.bodies.size()) {
-    const BodySnapshotOf<D>& body = now.bodies[b];
-    const VecOf<D> arm = particle.position - body.centre;
-    particle.spin = body.angularVelocity;
-    if constexpr (D == 2)
-      particle.velocity = body.velocity + body.angularVelocity * perpendicular(arm);
-    else
-      particle.velocity = body.velocity + body.angularVelocity.cross(arm);
+    particle.spin = now.bodies[b].angularVelocity;
+    particle.velocity = memberVelocity<D>(stateOf(now.bodies[b]), particle.position);
   }
   if (scene_.materials) particle.material = scene_.materials->ofBody[b];
   return particle;

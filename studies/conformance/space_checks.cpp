@@ -1,21 +1,15 @@
 // Spheres in space, and boxes with periodic directions: torques, impacts in turned frames, walls,
 // images.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <span>
 
-#include "adapters/audit.hpp"
-#include "adapters/declared_law.hpp"
-#include "adapters/law_options.hpp"
 #include "adapters/suitability.hpp"
 #include "studies/conformance/check_context.hpp"
-#include "studies/conformance/declared_laws.hpp"
 #include "studies/conformance/moved_pairs.hpp"
 
 namespace crossgrain::conformance {
@@ -36,6 +30,14 @@ ContactLaw dampedLaw(int dimension) {
   law.en = 0.8;
   law.conventions.leverArm = LeverArm::overlapMiddle;
   return law;
+}
+
+SpaceScene emptySpace(const CheckContext& c, const char* name) {
+  SpaceScene scene;
+  scene.name = name;
+  scene.law = followed(c.can, dampedLaw(3));
+  scene.dt = 4e-6;
+  return scene;
 }
 
 template <int D>
@@ -76,10 +78,7 @@ std::string causeOfTurn(const Vec3& found, const Vec3& wanted, const Vec3& n) {
 /// Δω = −(l m/J) n × Δv with n from the other to it: n turns by 2e-3 rad meanwhile.
 void torqueTurnsSpheres(CheckContext& c) {
   c.needs(toString(Effect::rotation));
-  SpaceScene scene;
-  scene.name = "spheres that meet";
-  scene.law = followed(c.can, dampedLaw(3));
-  scene.dt = 4e-6;
+  SpaceScene scene = emptySpace(c, "spheres that meet");
   const Eigen::Matrix3d frame =
       Eigen::AngleAxisd(-0.8, Vec3(2.0, -1.0, 1.0).normalized()).toRotationMatrix();
   const Vec3 n = frame.col(0), slip = frame * Vec3(0.0, 0.03, 0.04);
@@ -128,10 +127,7 @@ constexpr double speedAlong = 0.3;  ///< of two that slide past each other as th
 /// In each frame two spheres that meet at 0.05 m/s, far from the others. K µ (1 + e_n) v_n is 0.16
 /// m/s: they slide throughout.
 SpaceScene turnedImpacts(const CheckContext& c, const std::vector<Eigen::Matrix3d>& frames) {
-  SpaceScene scene;
-  scene.name = "an impact in turned frames";
-  scene.law = followed(c.can, dampedLaw(3));
-  scene.dt = 4e-6;
+  SpaceScene scene = emptySpace(c, "an impact in turned frames");
   constexpr double approach = 0.05;
   for (std::size_t k = 0; k < frames.size(); ++k)
     for (const double side : {1.0, -1.0})
@@ -208,10 +204,7 @@ void contactForcesInSpaceAct(CheckContext& c) {
 /// What the body takes is what the sphere does not get: −Σ F dt = m v, −Σ T dt = m x × v + J ω.
 void turningWallPushesSpheres(CheckContext& c) {
   c.needs(toString(Effect::movingWalls));
-  SpaceScene scene;
-  scene.name = "a sphere and a wall sphere that turns";
-  scene.law = followed(c.can, dampedLaw(3));
-  scene.dt = 4e-6;
+  SpaceScene scene = emptySpace(c, "a sphere and a wall sphere that turns");
   const Eigen::Matrix3d frame =
       Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
   constexpr double rate = 5.0;  // rad/s: 0.1 m/s

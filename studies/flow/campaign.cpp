@@ -87,8 +87,10 @@ void Campaign::forEachEngine(const std::function<void(CampaignEngine&)>& work, s
     std::string failure;        ///< of it, or of an engine named that refuses
   };
   std::vector<Ending> endings(engines_.size());
-  std::vector<Task> tasks;
-  for (std::size_t e = 0; e < engines_.size(); ++e)
+  // A mirror asks what its peer can do: the peer's worker waits by then, and no other is started.
+  std::vector<Task> ofPeers, ofMirrors;
+  for (std::size_t e = 0; e < engines_.size(); ++e) {
+    std::vector<Task>& tasks = engines_[e].entry.mirrors.empty() ? ofPeers : ofMirrors;
     tasks.push_back({1.0, [this, e, &endings, &work] {
                        throwIfInterrupted();
                        CampaignEngine& own = engines_[e];
@@ -107,7 +109,9 @@ void Campaign::forEachEngine(const std::function<void(CampaignEngine&)>& work, s
                          endings[e].thrown = std::current_exception();
                        }
                      }});
-  runTasks(tasks, command_.jobs);
+  }
+  runTasks(ofPeers, command_.jobs);
+  runTasks(ofMirrors, command_.jobs);
   for (const Ending& ending : endings)
     if (ending.thrown) std::rethrow_exception(ending.thrown);
   requireAble(fewest);
