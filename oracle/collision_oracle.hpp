@@ -22,7 +22,8 @@ CollisionEnd oracleOutcome(const ContactLaw& law, const CollidingPair& pair,
 /// (rigidOutcomeInSpace()), and linear ones with constant dampers, without friction or with
 /// tangential springs, whose slip, force and ξ are vectors in the tangent plane
 /// (oracle/two_spheres.cpp; docs/dimensions.md has the equations). oracleOutcome() of a law in
-/// space. Energies lost are not told apart. @throws std::invalid_argument for any other law
+/// space. Parts of the energy lost are not distinguished. @throws std::invalid_argument for any
+/// other law
 CollisionEnd spaceOutcome(const ContactLaw& law, const CollidingPair& pair,
                           const CollisionStart& start);
 
