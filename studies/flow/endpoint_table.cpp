@@ -24,7 +24,7 @@ struct EndpointTest {
   PairedTest test;
   std::optional<InterimAnswer> found = {};
   bool ofFiles = false;  ///< of one of both: what they decide is all they will
-  int notInFiles = 0;    ///< packings that files of one of both have nothing on
+  int notShown = 0;      ///< packings that a lack of one of both leaves without a value
 };
 
 /// Why some of the values cannot be tested by their ratio; empty: all can.
@@ -107,8 +107,8 @@ struct AblePair {
   std::vector<Runs> ours;  ///< of each reference that has any
   Runs theirs;
   std::vector<std::string> lacks;
-  int notInFiles = 0;  ///< packings that a lack leaves without a value
-  bool none = false;   ///< too few are left for a comparison
+  int notShown = 0;   ///< packings that a lack leaves without a value
+  bool none = false;  ///< too few are left for a comparison
 };
 
 AblePair ablePair(const EndpointSpec& endpoint, const Case& setup, const ComparedPair& pair,
@@ -132,8 +132,8 @@ AblePair ablePair(const EndpointSpec& endpoint, const Case& setup, const Compare
                std::ranges::count_if(of, [&](const Runs& runs) { return has(runs, k); })) >= fewest;
   };
   for (const FlowRun* run : theirs)
-    able.notInFiles += enough(ours, run->packing) &&
-                       (!has(able.theirs, run->packing) || !enough(able.ours, run->packing));
+    able.notShown += enough(ours, run->packing) &&
+                     (!has(able.theirs, run->packing) || !enough(able.ours, run->packing));
   return able;
 }
 
@@ -166,7 +166,7 @@ std::vector<EndpointTest> familyOf(const Case& setup, std::span<const FlowRun> r
         testOf(setup, pair, endpoint, medianByPacking(values), valuesOf(able.theirs));
     own.test.sample.independent = independent;
     own.ofFiles = pair.ofFiles;
-    own.notInFiles = independent ? 0 : able.notInFiles;
+    own.notShown = independent ? 0 : able.notShown;
     if (!able.lacks.empty()) own.row.reason = fmt::format("{}", fmt::join(able.lacks, "; "));
     const auto addReason = [&own](const std::string& reason) {
       if (own.row.reason.empty()) own.row.reason = reason;
@@ -236,7 +236,7 @@ void answer(EndpointTest& own, int looked) {
   row.verdict = found.verdict;
   row.look = static_cast<int>(found.look) + 1;
   row.packings = found.packings;
-  row.lost = std::max(found.lost - own.notInFiles, 0);
+  row.lost = std::max(found.lost - own.notShown, 0);
   if (found.basis != Basis::paired)
     row.unpaired = {found.basis, found.referencePackings, found.otherPackings,
                     shareOfReference(own.test.sample, found)};

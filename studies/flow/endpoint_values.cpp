@@ -114,7 +114,13 @@ Needs needsOf(const std::string& quantity, bool ofDisk, int dimension) {
   return found->ofContacts ? Needs::contacts : Needs::kinematics;
 }
 
-/// What the run's files lack of that; empty: nothing. What a law lacks no run has.
+/// "no spins in its files", "it reports no spins"
+std::string lacks(const FlowRun& run, const char* what) {
+  return run.ofFiles() ? fmt::format("no {} in its files", what)
+                       : fmt::format("it reports no {}", what);
+}
+
+/// What the run does not show of that; empty: nothing. What a law lacks no run has.
 std::string lackOf(Needs needs, const FlowRun& run) {
   const auto has = [&](Needs what) {
     return std::ranges::any_of(run.profiles, [&](const Profile& profile) {
@@ -122,9 +128,9 @@ std::string lackOf(Needs needs, const FlowRun& run) {
     });
   };
   if (needs == Needs::kinematics || has(needs)) return {};
-  if (needs == Needs::spin) return "no spins in its files";
-  if (!has(Needs::contacts)) return "no contacts in its files";
-  return needs == Needs::dissipation ? "no heat of contacts in its files" : std::string();
+  if (needs == Needs::spin) return lacks(run, "spins");
+  if (!has(Needs::contacts)) return lacks(run, "contacts");
+  return needs == Needs::dissipation ? lacks(run, "heat of contacts") : std::string();
 }
 
 }  // namespace
@@ -170,8 +176,7 @@ std::optional<double> endpointOf(const EndpointSpec& endpoint, const Case& setup
   return finite(formulaOf(endpoint.name).of(setup, run));
 }
 
-std::string notInFiles(const EndpointSpec& endpoint, const Case& setup, const FlowRun& run) {
-  if (!run.ofFiles()) return {};
+std::string notShown(const EndpointSpec& endpoint, const Case& setup, const FlowRun& run) {
   const OwnEndpoint* const own = ownEndpoint(setup, endpoint.name);
   if (!own) return lackOf(formulaOf(endpoint.name).needs, run);
   for (const std::string& quantity : {own->quantity, own->per}) {
@@ -179,18 +184,18 @@ std::string notInFiles(const EndpointSpec& endpoint, const Case& setup, const Fl
     std::string lack = lackOf(needsOf(quantity, own->disk.has_value(), setup.dimension), run);
     if (!lack.empty()) return lack;
     const bool ofSliding = quantity == "sliding_fraction" && run.series;
-    if (ofSliding && presentNumbers(valuesOf(*run.series, quantity)).empty())
+    if (run.ofFiles() && ofSliding && presentNumbers(valuesOf(*run.series, quantity)).empty())
       return "no mark of sliding contacts in its files";
   }
   const OwnValue found = ownEndpointOf(*own, setup, run);
-  return found.notCovered ? found.why + " in its files" : std::string();
+  return run.ofFiles() && found.notCovered ? found.why + " in its files" : std::string();
 }
 
 AbleRuns ableRuns(const EndpointSpec& endpoint, const Case& setup, const Runs& all) {
   AbleRuns able;
   std::string lack;
   for (const FlowRun* run : all)
-    if (std::string why = notInFiles(endpoint, setup, *run); why.empty())
+    if (std::string why = notShown(endpoint, setup, *run); why.empty())
       able.runs.push_back(run);
     else
       lack = std::move(why);

@@ -21,11 +21,11 @@ std::optional<double> endpointOf(const EndpointSpec& endpoint, const Case& setup
 /// nothing to measure: "mine, packing 3: no mean_x in 120 of 200 snapshots".
 std::string missingValueReason(const EndpointSpec& endpoint, const Case& setup, const Runs& runs);
 
-/// Why a run of files cannot have the endpoint, whatever happened in it: "no contacts in its
-/// files"; empty: it could, or somebody ran it here.
-std::string notInFiles(const EndpointSpec& endpoint, const Case& setup, const FlowRun& run);
+/// Why a run cannot have the endpoint, whatever happened in it: "no contacts in its files", "it
+/// reports no contacts"; empty: it could.
+std::string notShown(const EndpointSpec& endpoint, const Case& setup, const FlowRun& run);
 
-/// Runs of an engine that can have an endpoint, all but those of files without what it is made of.
+/// Runs of an engine that can have an endpoint, all but those that do not show what it is made of.
 struct AbleRuns {
   Runs runs;
   std::string lack;  ///< of the others: "mine: no contacts in its files of 1 of 4 runs"

@@ -44,6 +44,7 @@ std::vector<LateWindows> lateWindowsOf(Campaign& campaign, const Case& setup,
     task.key = campaign.keyOf(e, packing, "late windows");
     task.work = [&campaign, &setup, &entry, packing](const std::function<void(double)>& progress) {
       LateWindows found;
+      bool finished = true;
       try {
         const auto worker =
             startAudited(entry, campaign.store().scratch("late-" + entry.name), setup.run.timeout);
@@ -52,10 +53,12 @@ std::vector<LateWindows> lateWindowsOf(Campaign& campaign, const Case& setup,
                            campaign.dt(), lateWindowsMeasured, progress);
       } catch (const EngineFailure& failure) {
         found.failure = failure.what();
+        found.packing = packing;
+        finished = false;
       }
-      const bool finished = found.failure.empty();
-      const std::string line =
-          finished ? fmt::format("{} windows", found.times.size()) : found.failure;
+      const std::string line = found.failure.empty()
+                                   ? fmt::format("{} windows", found.times.size())
+                                   : found.failure;
       return CachedTask<LateWindows>::Outcome{std::move(found), finished, line};
     };
     tasks.push_back(std::move(task));

@@ -1,5 +1,7 @@
 #include "studies/lockstep/late_windows.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -132,20 +134,26 @@ class LateComparison {
     return now.positionTime;
   }
 
-  /// Of constants that move anything. Empty where the reference constant does not, or where engine
-  /// and mirror part in a window in which it does not.
-  std::vector<EquivalentChange> equivalents() const {
-    std::vector<EquivalentChange> found;
+  /// What constants that move anything would have to be changed by; or why that says nothing:
+  /// engine and mirror part in a window in which the reference constant moves nothing, or it moves
+  /// nothing in any.
+  void conclude(LateWindows& found) const {
     for (std::size_t c = 0; c < constants_.size(); ++c) {
       const std::vector<StartReading> readings = accounts_[c].row().readings;
       const auto mean = meanOf(readings);
       const bool parts = std::ranges::any_of(readings, [](const StartReading& reading) {
         return reading.beyond && !reading.equivalent;
       });
-      if (c == 0 && (parts || !mean)) return {};
-      if (mean) found.push_back({constants_[c], *mean});
+      if (c == 0 && parts)
+        found.failure = "it parts from its mirror where no change of a constant moves anything";
+      else if (c == 0 && !mean)
+        found.failure = fmt::format(
+            "in its {} windows no change of a constant moves anything, so they say nothing of its "
+            "law: a longer run would",
+            found.times.size());
+      if (!found.failure.empty()) return;
+      if (mean) found.equivalents.push_back({constants_[c], *mean});
     }
-    return found;
   }
 
  private:
@@ -203,11 +211,7 @@ LateWindows followIn(Engine& engine, const EngineEntry& entry, const Case& setup
       found.times.push_back(comparison.window(t, k % stride == 0));
       progress(static_cast<double>(k + 1) / static_cast<double>(room));
     }
-    found.equivalents = comparison.equivalents();
-    if (found.equivalents.empty())
-      found.failure = "no change of a constant accounts for what it differs by";
-  } catch (const EngineFailure& failure) {
-    found.failure = failure.what();
+    comparison.conclude(found);
   } catch (const UnsupportedScene& refusal) {
     found.failure = refusal.what();
   }

@@ -32,7 +32,7 @@ namespace crossgrain::inline studies {
 /// @param measured  windows that reference perturbations are applied to at least; those that differ
 /// by more
 ///                  than rounding all are
-/// @throws Interrupted, BadInput
+/// @throws EngineFailure, Interrupted, BadInput
 LateWindows followLate(Engine& engine, const EngineEntry& entry, const Case& setup,
                        const Packing& packing, int index, double dt, std::size_t measured,
                        const std::function<void(double)>& progress);

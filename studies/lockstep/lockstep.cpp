@@ -255,19 +255,33 @@ std::string describe(Equivalence verdict) {
   return words;
 }
 
+/// The states of a flow, as their packings, their number and the case determine them: not made
+/// again where all that starts from them is there.
+struct KeptStarts {
+  std::vector<LockstepStart> starts;
+
+  void fields(auto& io) { io("starts", starts); }
+};
+
+CaseKeys keyOf(const Case& setup, const LockstepEngine& engine, const LockstepPlan& plan) {
+  CaseKeys key = runKey(setup, engine.entry.name, engine.version);
+  std::string from = std::to_string(plan.starts);
+  for (const Packing& packing : plan.packings) from += " " + packing.hash;
+  key["starts"] = from;
+  return key;
+}
+
 CachedTask<LockstepRow> taskOf(const LockstepEngine& engine, const Case& setup,
-                               const std::vector<FlowState>& states, double dt,
+                               const LockstepPlan& plan, const std::vector<FlowState>& states,
                                const RunStore& store) {
   const EngineEntry& entry = engine.entry;
-  std::string from;
-  for (const FlowState& state : states) from += (from.empty() ? "" : " ") + state.packing.hash;
   CachedTask<LockstepRow> task;
   task.name = "lockstep-" + entry.name;
   task.label = entry.name;
-  task.key = runKey(setup, entry.name, engine.version);
-  task.key["starts"] = from;
+  task.key = keyOf(setup, engine, plan);
   task.weight = entry.command ? 10.0 : 1.0;
-  task.work = [&entry, &setup, &states, &store, dt](const std::function<void(double)>& progress) {
+  task.work = [&entry, &setup, &states, &store,
+               dt = plan.dt](const std::function<void(double)>& progress) {
     LockstepRow row;
     row.engine = entry.name;
     try {
@@ -292,19 +306,30 @@ CachedTask<LockstepRow> taskOf(const LockstepEngine& engine, const Case& setup,
 LockstepFindings holdAgainstMirrors(const std::vector<LockstepEngine>& engines, const Case& setup,
                                     const LockstepPlan& plan, const RunStore& store,
                                     Progress& progress) {
-  progress.begin("finding states of the flow", {1.0});
-  const std::vector<FlowState> states = statesAlongTheFlow(
-      setup, plan.packings, plan.dt, plan.starts,
-      [&](double fraction) { progress.update(0, "states", fraction); }, plan.jobs);
-  if (states.size() < plan.starts)
-    progress.say(fmt::format("{} different starts along the flow, of the {} asked for",
-                             states.size(), plan.starts));
+  std::vector<FlowState> states;
   std::vector<CachedTask<LockstepRow>> tasks;
   for (const LockstepEngine& engine : engines)
-    tasks.push_back(taskOf(engine, setup, states, plan.dt, store));
+    tasks.push_back(taskOf(engine, setup, plan, states, store));
+  const std::string name = "starts-of-lockstep";
+  const CaseKeys key = keyOf(setup, {engineRegistry().front(), {}}, plan);
+  auto kept = store.findAs<KeptStarts>(name, key);
+  if (!kept || !std::ranges::all_of(tasks, [&](const auto& task) {
+        return store.find(task.name, task.key).has_value();
+      })) {
+    progress.begin("finding states of the flow", {1.0});
+    states = statesAlongTheFlow(
+        setup, plan.packings, plan.dt, plan.starts,
+        [&](double fraction) { progress.update(0, "states", fraction); }, plan.jobs);
+    kept.emplace();
+    for (const FlowState& state : states) kept->starts.push_back(state.start);
+    store.keep(name, key, jsonOf(*kept));
+  }
+  if (kept->starts.size() < plan.starts)
+    progress.say(fmt::format("{} different starts along the flow, of the {} asked for",
+                             kept->starts.size(), plan.starts));
   LockstepFindings findings;
   findings.rules = lockstepRules(setup.law);
-  for (const FlowState& state : states) findings.starts.push_back(state.start);
+  findings.starts = std::move(kept->starts);
   findings.rows = runOrLoad(tasks, store, progress, "lockstep", plan.jobs);
   return findings;
 }

@@ -15,6 +15,7 @@
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
 #include "results/lockstep_text.hpp"
+#include "studies/lockstep/late_windows.hpp"
 #include "studies/lockstep/lockstep.hpp"
 #include "studies/lockstep/rules.hpp"
 #include "tests/studies/planted_engine.hpp"
@@ -307,6 +308,21 @@ TEST_F(Lockstep, EngineThatDies_KeepsTheStartsBefore) {
   EXPECT_EQ(row.starts, 2u);
   EXPECT_EQ(row.failure, "gone");
   EXPECT_EQ(row.verdict, Equivalence::sameToRounding);
+}
+
+/// A disk that meets nothing does what any law says: that neither clears nor accuses an engine.
+TEST(LateWindows, RunInWhichNoConstantActs_SaysNothingOfTheLaw) {
+  const Case setup = test::quickCell(
+      {"bottom.mu=0", "averaging.settle_rotations=0.01", "averaging.rotations=0.02"});
+  const double x = 0.5 * (setup.cell.innerRadius + setup.cell.outerRadius);
+  Packing packing;
+  packing.disks = {{setup.particles.smallRadius}, {1e-4}, {1e-9}, {{x, 0.0}}, {{0.0, 0.0}}, {0.0}};
+  const auto engine = makeGrain();
+  const LateWindows late = followLate(*engine, test::inHouse, setup, packing, 0, timeStep(setup), 4,
+                                      [](double) {});
+  EXPECT_FALSE(late.times.empty());
+  EXPECT_TRUE(late.equivalents.empty());
+  EXPECT_NE(late.failure.find("say nothing of its law"), std::string::npos) << late.failure;
 }
 
 }  // namespace
