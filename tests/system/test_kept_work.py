@@ -188,7 +188,7 @@ class WorkerDies(FailureTest):
     def test_killed_worker_of_collide(self):
         arguments = [
             "collide", COLLISION, "--engines", BOTH, "--out", self.out, "-k", "*cut", *settings(
-                run__mirrors="false", collision__psi="{ from = 0.0, to = 4.0, count = 200 }", collision__steps_per_contact=1000
+                run__mirrors="false", collision__psi="{ from = 0.0, to = 4.0, count = 50 }", collision__steps_per_contact=1000
             ),
         ]  # fmt: skip
         running = self.start(*arguments)

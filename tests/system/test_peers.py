@@ -418,13 +418,12 @@ class NodeEngines(Peer):
                 done = self.run_program("conformance", engine, "-k", "ContactsSayWhereTheyAre", "--quiet")
                 self.assert_status(done, HELD)
         for engine in ("rapier", "box2d-v3"):
-            done = self.run_program("conformance", engine, "--quiet", "--json")
-            rows = {row["check"]: row["outcome"] for row in json.loads(done.stdout)["checks"]}
             for check in (
-                "ContactForcesAreThoseThatAct", "WallLoadsAreThoseOfTheirContacts", "PlaneLoadsAreThoseOfTheirContacts",
-                "HeadOnCollision", "RotatingWallPushes", "ForcesPointWhereTheySay", "WorkersAgreeBitForBit",
+                "ContactForcesAreThoseThatAct", "LoadsAreThoseOfTheirContacts", "HeadOnCollision", "RotatingWallPushes",
+                "ForcesPointWhereTheySay", "WorkersAgreeBitForBit",
             ):  # fmt: skip
-                self.assertEqual("passed", rows[check], f"{engine}: {check}")
+                with self.subTest(engine=engine, check=check):
+                    self.assert_status(self.run_program("conformance", engine, "-k", check, "--quiet"), HELD)
 
 
 # Four kinds of disks, and one that is light enough for the law to be overdamped, γ_n² (1/m₁ + 1/m₂) ≥ 4 k_n = 1408 N/m:
