@@ -92,15 +92,17 @@ constexpr Task tasks[] = {
      }},
 };
 
-double processorTime() {
+/// On one thread the processor's, which other programs do not disturb, else wall time [s].
+double timeOn(int threads) {
   timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  clock_gettime(threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 /// Running on and on, rebuilds counted in, after the lattice has melted. Time is that of 200 steps.
-void step(benchmark::State& state, std::size_t spheres, const Task& task) {
+void step(benchmark::State& state, std::size_t spheres, const Task& task, int threads) {
   SpheresSetup setup = shearCell(spheres);
+  setup.threads = threads;
   task.change(setup);
   grain::Spheres simulation(setup);
   simulation.advance(spheres > 30000 ? 2000 : 10000);
@@ -109,9 +111,9 @@ void step(benchmark::State& state, std::size_t spheres, const Task& task) {
   const std::uint64_t rebuilds = simulation.rebuilds();
   double seconds = 0.0;
   for (auto _ : state) {
-    const double start = processorTime();
+    const double start = timeOn(threads);
     simulation.advance(stretch);
-    const double taken = processorTime() - start;
+    const double taken = timeOn(threads) - start;
     state.SetIterationTime(taken);
     seconds += taken;
   }
@@ -121,7 +123,9 @@ void step(benchmark::State& state, std::size_t spheres, const Task& task) {
   };
   state.counters["us_step"] = 1e6 * seconds / steps;
   state.counters["ns_sphere"] = 1e9 * seconds / steps / static_cast<double>(simulation.size());
-  state.counters["contacts"] = perStep(simulation.contactEvaluations(), contacts);
+  const double touching = perStep(simulation.contactEvaluations(), contacts);
+  state.counters["ns_contact"] = 1e9 * seconds / steps / touching;
+  state.counters["contacts"] = touching;
   state.counters["rebuilds_per_1000"] = 1e3 * perStep(simulation.rebuilds(), rebuilds);
 }
 
@@ -132,12 +136,14 @@ int main(int argc, char** argv) {
   using namespace crossgrain::bench;
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  for (const std::size_t spheres : {500, 3000, 20000, 100000})
+  for (const std::size_t spheres : {500, 3000, 20000, 100000, 1000000})
     for (const Task& task : tasks)
-      benchmark::RegisterBenchmark(fmt::format("spheres/{}/{}", spheres, task.name).c_str(),
-                                   [=, &task](auto& state) { step(state, spheres, task); })
-          ->UseManualTime()
-          ->Unit(benchmark::kMicrosecond);
+      for (const int threads : {1, 2})
+        benchmark::RegisterBenchmark(
+            fmt::format("spheres/{}/{}/{}", spheres, task.name, threads).c_str(),
+            [=, &task](auto& state) { step(state, spheres, task, threads); })
+            ->UseManualTime()
+            ->Unit(benchmark::kMicrosecond);
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }
