@@ -223,9 +223,8 @@ class GrainEngine : public Engine {
     const double stiffness = setting(settings, "stiffness", stiffness_);
     SpaceScene own = asRun(scene, stiffness);
     if (const double dt = setting(settings, "dt", 0.0); dt > 0.0) own.dt = dt;
-    if (setting(settings, "threads", 1.0) != 1.0)
-      throw UnsupportedScene("has threads = 1 in space");
-    spheres_.emplace(own, setting(settings, "skin", 0.0), setting(settings, "max_overlap", 1.0));
+    spheres_.emplace(own, setting(settings, "skin", 0.0), setting(settings, "max_overlap", 1.0),
+                     static_cast<int>(setting(settings, "threads", 1.0)));
     simulation_.reset();
     stopwatch_ = {};
     EffectiveParameters effective = spheres_->effective();

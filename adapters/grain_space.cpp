@@ -49,7 +49,7 @@ grain::SpaceWall wallOf(const WallBodyOf<3>& body) {
   return wall;
 }
 
-grain::SpheresSetup setupOf(const SpaceScene& scene, double skin, double maxOverlap) {
+grain::SpheresSetup setupOf(const SpaceScene& scene, double skin, double maxOverlap, int threads) {
   requireSupported(scene);
   const DisksOf<3>& spheres = scene.disks;
   grain::SpheresSetup setup;
@@ -75,6 +75,7 @@ grain::SpheresSetup setupOf(const SpaceScene& scene, double skin, double maxOver
   setup.rotation = scene.rotation;
   setup.skin = skin;
   setup.maxOverlap = maxOverlap;
+  setup.threads = threads;
   return setup;
 }
 
@@ -186,8 +187,8 @@ Snapshot inPlane(const SpaceSnapshot& snapshot) {
   return to;
 }
 
-GrainSpheres::GrainSpheres(const SpaceScene& scene, double skin, double maxOverlap)
-    : scene_(scene), simulation_(setupOf(scene, skin, maxOverlap)) {}
+GrainSpheres::GrainSpheres(const SpaceScene& scene, double skin, double maxOverlap, int threads)
+    : scene_(scene), simulation_(setupOf(scene, skin, maxOverlap, threads)) {}
 
 EffectiveParameters GrainSpheres::effective() const {
   EffectiveParameters effective;

@@ -17,9 +17,9 @@ Snapshot inPlane(const SpaceSnapshot& snapshot);
 class GrainSpheres {
  public:
   /// @param scene  as it is run, with the engine's own conventions
-  /// @param skin, maxOverlap  the engine's settings
+  /// @param skin, maxOverlap, threads  the engine's settings
   /// @throws UnsupportedScene naming the first thing that it does not have in space
-  GrainSpheres(const SpaceScene& scene, double skin, double maxOverlap);
+  GrainSpheres(const SpaceScene& scene, double skin, double maxOverlap, int threads);
 
   EffectiveParameters effective() const;
   SpaceSnapshot snapshot(ContactReport report);

@@ -12,7 +12,7 @@ namespace grain {
 namespace {
 
 constexpr std::uint64_t magic = 0x38'6e'69'61'72'67;       // "grain8"
-constexpr std::uint64_t spaceMagic = 0x54'6e'69'61'72'67;  // "grainT"
+constexpr std::uint64_t spaceMagic = 0x55'6e'69'61'72'67;  // "grainU"
 
 template <class T>
 void write(std::ostream& out, const T& value) {
@@ -138,10 +138,6 @@ void Spheres::save(std::ostream& out) const {
   write(out, steps_);
   write(out, evaluations_);
   const_cast<Spheres*>(this)->forState([&](const auto& array) { writeAll(out, array); });
-  for (const PlacedPlane& plane : planes_) {
-    write(out, plane.force);
-    write(out, plane.torque);
-  }
   writeAll(out, lists_.touching());
 }
 
@@ -165,13 +161,9 @@ void Spheres::restore(std::istream& in) {
     seenVelocity_ = velocity_;
     seenSpin_ = spin_;
   }
-  for (PlacedPlane& plane : planes_) {
-    read(in, plane.force);
-    read(in, plane.torque);
-  }
   std::vector<SpaceLists::Kept> touching;
   readAny(in, touching, 64 * position_.size());
-  list([&] { lists_.restore(std::move(touching), position_, travel_); });
+  list([&] { lists_.restore(std::move(touching), position_, travel_, *team_); });
 }
 
 }  // namespace grain

@@ -91,12 +91,6 @@ Law lawOfPair(Law law) {
   return law;
 }
 
-std::size_t partCount(const Setup& setup) {
-  // A part with no disk would be of no use.
-  const std::size_t most = std::max<std::size_t>(setup.disks.size(), 1);
-  return std::min(static_cast<std::size_t>(std::max(setup.threads, 1)), most);
-}
-
 MotionEffects motionEffects(const Setup& setup) {
   MotionEffects effects;
   effects.rotation = setup.law.turnsDisks() && setup.rotation;
@@ -130,14 +124,14 @@ Core<Real>::Core(Setup setup)
       kernels_(kernels<Real>()),
       maxOverlap_(setup.maxOverlap > 0.0 ? setup.maxOverlap
                                          : std::numeric_limits<double>::infinity()),
-      lists_(moving_, partCount(setup),
+      lists_(moving_, partCount(setup.threads, moving_),
              {setup.law.springs(), setup.rotation && setup.law.rollingSprings(),
               setup.law.remembers(), setup.law.remembersRest()},
              Skin(setup.skin, smallestRadius(setup.disks)), maxOverlap_,
              adhesionRange<Real>(setup)),
-      team_(partCount(setup)),
-      reports_(partCount(setup)),
-      touching_(partCount(setup)),
+      team_(partCount(setup.threads, moving_)),
+      reports_(partCount(setup.threads, moving_)),
+      touching_(partCount(setup.threads, moving_)),
       impactLaw_{setup.law.en, setup.law.et0, setup.law.friction() ? setup.law.mu : 0.0} {
   if (!(dt_ > 0.0)) throw std::invalid_argument("the time step must be > 0 s");
   if (law_.normal == Normal::impulse && integrator_ != Integrator::semiImplicitEuler)

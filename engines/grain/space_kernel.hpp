@@ -49,10 +49,15 @@ GRAIN_INLINE std::size_t findMeeting(const SpaceView& all, const SpacePairs& pai
   return found;
 }
 
-/// What a pair does to its spheres.
+/// What pair p does to its spheres.
 template <class L>
-GRAIN_INLINE void push(const L& law, const SpaceView& all, ActiveSpheres& active, std::size_t i,
-                       std::size_t j, const MeetingForce<double>& force) {
+GRAIN_INLINE void push(const L& law, const SpaceView& all, ActiveSpheres& active,
+                       const SpacePairs& pairs, std::size_t p, const SpacePush& force) {
+  if (pairs.pushes != nullptr) {
+    pairs.pushes[p] = force;
+    return;
+  }
+  const auto i = static_cast<std::size_t>(pairs.i[p]), j = static_cast<std::size_t>(pairs.j[p]);
   active.push(i);
   active.push(j);
   add(all.force[i], force.force, 1.0);
@@ -102,7 +107,7 @@ static SpaceReport pairKernel(const GeneralLaw<double>& general, const SpaceConv
       const MeetingForce<double> force = meetingForce(law, how, meeting, kept);
       pairs.results[p] = {meeting.overlap, force.normal, force.sliding, force.tangential,
                           force.rolling};
-      push(law, all, active, i, j, force);
+      push(law, all, active, pairs, p, {force.force, force.torqueI, force.torqueJ});
     }
   }
   report.active = active.count;
@@ -218,12 +223,7 @@ static SpaceReport sideBySideKernel(const GeneralLaw<double>& general, const Spa
       ++report.touching;
       pairs.kept[p] = {b.normal.at(k), b.spring.at(k), {}, 0.0, 0.0};
       pairs.results[p] = {b.overlap[k], b.normalForce[k], b.sliding[k], b.tangential.at(k), {}};
-      MeetingForce<double> force{};
-      force.force = b.force.at(k);
-      force.torqueI = b.torqueI.at(k);
-      force.torqueJ = b.torqueJ.at(k);
-      push(law, all, active, static_cast<std::size_t>(pairs.i[p]),
-           static_cast<std::size_t>(pairs.j[p]), force);
+      push(law, all, active, pairs, p, {b.force.at(k), b.torqueI.at(k), b.torqueJ.at(k)});
     }
     found = 0;
   }
@@ -289,21 +289,22 @@ struct Mover {
 /// Spheres that nothing pushes fly straight on, which takes neither forces nor a look at how far
 /// they came.
 static inline SpaceMotionReport motionKernel(const SpaceMotionConstants& constants,
-                                             const SpaceMotionView& view, std::size_t count) {
+                                             const SpaceMotionView& view, std::size_t begin,
+                                             std::size_t end) {
   Mover mover{constants, view};
   if (view.everyone) {
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = begin; i < end; ++i) {
       mover.kick(i);
       mover.drift(i);
       mover.look(i);
     }
-    mover.report.active = count;
+    mover.report.active = view.active.count;
     return mover.report;
   }
   const ActiveSpheres active = view.active;
   for (std::size_t k = 0; k < active.count; ++k)
     mover.kick(static_cast<std::size_t>(active.list[k]));
-  for (std::size_t i = 0; i < count; ++i) mover.drift(i);
+  for (std::size_t i = begin; i < end; ++i) mover.drift(i);
   std::size_t left = 0;
   for (std::size_t k = 0; k < active.count; ++k) {
     const auto i = static_cast<std::size_t>(active.list[k]);
@@ -364,10 +365,11 @@ static inline std::size_t neighbourKernel(const SpaceCellsView& view, const Quad
 static inline std::size_t chooseKernel(const SpaceFarPairs& view, SpaceChoice* found) {
   const SpaceFarPairs far = view;
   std::size_t count = 0;
-  for (std::size_t i = 0; i < far.spheres; ++i) {
+  for (std::size_t row = 0; row < far.count; ++row) {
+    const std::size_t i = far.first + row;
     const Lanes own(far.place[i]);
     const double reach = far.place[i].w;
-    for (std::int32_t k = far.begin[i]; k < far.begin[i + 1]; ++k) {
+    for (std::int32_t k = far.begin[row]; k < far.begin[row + 1]; ++k) {
       const SpaceNeighbour& pair = far.pairs[k];
       const Quad& other = far.place[pair.j];
       Lanes apart = own;

@@ -35,39 +35,54 @@ bool earlier(const A& a, const B& b) {
 
 }  // namespace
 
-SpaceLists::SpaceLists(std::size_t moving, const SpaceBox& box, Skin skin, double range,
-                       const SpaceKernels& kernels)
-    : moving_(moving), skin_(skin), range_(range), kernels_(kernels), cells_(box) {
+SpaceLists::SpaceLists(std::size_t moving, std::size_t parts, const SpaceBox& box, Skin skin,
+                       double range, const SpaceKernels& kernels)
+    : moving_(moving), skin_(skin), range_(range), kernels_(kernels), cells_(box), parts_(parts) {
   for (std::size_t image = 0; image < imageCount; ++image)
     image_.push_back(cells_.boxes(boxesOf(static_cast<std::int32_t>(image))));
 }
 
 void SpaceLists::update(std::span<const Quad> position, std::span<const double> travel,
-                        std::size_t stepsSince) {
+                        std::size_t stepsSince, ThreadTeam& team) {
   skin_.beginUpdate(stepsSince);
   requireFinite(position);
   skin_.allow(travel, allowance_);
-  carried_ = touching();
-  if (const double used = skinUsed(position); !(used <= 0.5 * skin_.skin())) {
+  team.run([&](std::size_t part) {
+    for (NearPairs& pairs : parts_[part].near) {
+      pairs.carried.clear();
+      pairs.collectTouching(pairs.carried);
+    }
+    parts_[part].skinUsed = skinUsed(part, position);
+  });
+  double used = 0.0;
+  for (const Part& part : parts_) used = std::max(used, part.skinUsed);
+  if (!(used <= 0.5 * skin_.skin())) {
     skin_.tune(counts(), used);
-    rebuild(position);
+    rebuild(position, team);
   }
-  choose(position);
+  choose(position, team);
   skin_.endRefresh(counts());
 }
 
 void SpaceLists::restore(std::vector<Kept> touching, std::span<const Quad> position,
-                         std::span<const double> travel) {
+                         std::span<const double> travel, ThreadTeam& team) {
   skin_.beginUpdate(0);
   requireFinite(position);
   skin_.allow(travel, allowance_);
-  carried_ = std::move(touching);
-  rebuild(position);
-  choose(position);
+  std::ranges::sort(touching, [](const Kept& a, const Kept& b) { return earlier(a, b); });
+  for (Part& part : parts_)
+    for (NearPairs& pairs : part.near) pairs.carried.clear();
+  for (std::size_t part = 0; const Kept& pair : touching) {
+    while (!isUpTo(part, static_cast<std::size_t>(pair.i))) ++part;
+    const bool inside = isUpTo(part, static_cast<std::size_t>(pair.j));
+    parts_[part].near[inside ? 0 : 1].carried.push_back(pair);
+  }
+  rebuild(position, team);
+  choose(position, team);
 }
 
 void SpaceLists::renumber(std::span<const std::int32_t> newNumber, std::span<const Quad> position,
-                          std::span<const double> travel) {
+                          std::span<const double> travel, ThreadTeam& team) {
   std::vector<Kept> kept = touching();
   for (Kept& pair : kept) {
     pair.i = newNumber[static_cast<std::size_t>(pair.i)];
@@ -75,22 +90,37 @@ void SpaceLists::renumber(std::span<const std::int32_t> newNumber, std::span<con
       pair.j = newNumber[static_cast<std::size_t>(pair.j)];
     if (pair.j < pair.i) pair = swapped(pair);
   }
-  std::ranges::sort(kept, [](const Kept& a, const Kept& b) { return earlier(a, b); });
-  restore(std::move(kept), position, travel);
+  restore(std::move(kept), position, travel, team);
 }
 
-void SpaceLists::rebuild(std::span<const Quad> position) {
+void SpaceLists::rebuild(std::span<const Quad> position, ThreadTeam& team) {
   skin_.beginRebuild();
-  collect(position);
+  double largest = 0.0;
+  for (const Quad& place : position) largest = std::max(largest, place.w);
+  cells_.sort(position, 2.0 * largest + range_ + skin_.skin());
+  team.run([&](std::size_t part) { collect(part, position); });
   built_.assign(position.begin(), position.end());
   skin_.endRebuild();
 }
 
 std::vector<SpaceLists::Kept> SpaceLists::touching() const {
   std::vector<Kept> found;
-  for (std::size_t p = 0; p < i_.size(); ++p)
-    if (touches_[p] != 0) found.push_back({i_[p], j_[p], kept_[p], results_[p]});
+  for (const Part& part : parts_)
+    for (const NearPairs& pairs : part.near) pairs.collectTouching(found);
+  std::ranges::sort(found, [](const Kept& a, const Kept& b) { return earlier(a, b); });
   return found;
+}
+
+PairCounts SpaceLists::counts() const {
+  PairCounts counts;
+  for (const Part& part : parts_) {
+    counts.far += part.far.size();
+    for (const NearPairs& pairs : part.near) {
+      counts.touching += pairs.carried.size();
+      counts.near += pairs.i.size();
+    }
+  }
+  return counts;
 }
 
 void SpaceLists::requireFinite(std::span<const Quad> position) const {
@@ -98,86 +128,125 @@ void SpaceLists::requireFinite(std::span<const Quad> position) const {
     if (!std::isfinite(position[i].x + position[i].y + position[i].z)) throw NotFinite{i};
 }
 
-double SpaceLists::skinUsed(std::span<const Quad> position) const {
+double SpaceLists::skinUsed(std::size_t part, std::span<const Quad> position) const {
   if (built_.size() != position.size()) return std::numeric_limits<double>::infinity();
   double farthest = 0.0;
-  for (std::size_t i = 0; i < built_.size(); ++i)
+  const auto [begin, end] = members(part, position.size());
+  for (std::size_t i = begin; i < end; ++i)
     farthest =
         std::max(farthest, length(vectorOf(position[i]) - vectorOf(built_[i])) + allowance_[i]);
   return farthest;
 }
 
-void SpaceLists::collect(std::span<const Quad> position) {
-  far_.clear();
-  farBegin_.assign(1, 0);
-  row_.resize(position.size() + 1);
-  double largest = 0.0;
-  for (const Quad& place : position) largest = std::max(largest, place.w);
+/// The far pairs of a part.
+void SpaceLists::collect(std::size_t part, std::span<const Quad> position) {
+  auto& [far, row, farBegin, chosen, near, used] = parts_[part];
+  far.clear();
+  farBegin.assign(1, 0);
+  row.resize(position.size() + 1);
   const double reach = range_ + skin_.skin();
-  cells_.sort(position, 2.0 * largest + reach);
   const SpaceCellsView view = cells_.view();
-  for (std::size_t i = 0; i < moving_; ++i) {
+  for (std::size_t i = partBegin(part); i < partBegin(part + 1); ++i) {
     const Quad mine = cells_.inBox(i, position[i]);
     std::size_t found = 0;
     cells_.around(i, [&](std::size_t begin, std::size_t end) {
       found += kernels_.neighbours(view, mine, static_cast<std::int32_t>(i), begin, end, reach,
-                                   row_.data() + found);
+                                   row.data() + found);
     });
-    far_.insert(far_.end(), row_.begin(), row_.begin() + static_cast<std::ptrdiff_t>(found));
-    farBegin_.push_back(static_cast<std::int32_t>(far_.size()));
+    far.insert(far.end(), row.begin(), row.begin() + static_cast<std::ptrdiff_t>(found));
+    farBegin.push_back(static_cast<std::int32_t>(far.size()));
   }
 }
 
-void SpaceLists::choose(std::span<const Quad> position) {
+void SpaceLists::choose(std::span<const Quad> position, ThreadTeam& team) {
   place_.resize(position.size());
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    place_[i] = cells_.inBox(i, position[i]);
-    place_[i].w += allowance_[i] + 0.5 * range_;
-  }
-  chosen_.resize(far_.size() + 1);
-  const std::size_t count = kernels_.choose(
-      {moving_, farBegin_.data(), far_.data(), place_.data(), image_.data()}, chosen_.data());
-  sortChosen(count);
-  i_.resize(count);
-  j_.resize(count);
-  shift_.resize(count);
-  touches_.resize(count);
-  if (kept_.size() < count) {
-    kept_.resize(count);
-    results_.resize(count);
-  }
+  team.run([&](std::size_t part) {
+    const auto [begin, end] = members(part, position.size());
+    for (std::size_t i = begin; i < end; ++i) {
+      place_[i] = cells_.inBox(i, position[i]);
+      place_[i].w += allowance_[i] + 0.5 * range_;
+    }
+  });
+  team.run([&](std::size_t part) { choose(part); });
+}
+
+/// The near pairs of a part.
+void SpaceLists::choose(std::size_t number) {
+  Part& part = parts_[number];
+  const std::size_t first = partBegin(number);
+  part.chosen.resize(part.far.size() + 1);
+  const std::size_t count =
+      kernels_.choose({first, partBegin(number + 1) - first, part.farBegin.data(), part.far.data(),
+                       place_.data(), image_.data()},
+                      part.chosen.data());
+  sortChosen(part, count);
+  std::size_t across = 0;
+  const auto farPair = [&](std::size_t p) -> const SpaceNeighbour& {
+    return part.far[static_cast<std::size_t>(part.chosen[p].pair)];
+  };
+  const auto isAcross = [&](std::size_t p) {
+    return !isUpTo(number, static_cast<std::size_t>(farPair(p).j));
+  };
+  if (parts() > 1)
+    for (std::size_t p = 0; p < count; ++p) across += isAcross(p);
+  part.near[0].makeRoom(count - across, false);
+  part.near[1].makeRoom(across, true);
+  std::array<std::size_t, 2> at{};
   // Both are in one order, so that one walk through both finds every pair that touches.
-  auto next = carried_.begin();
+  std::array<const Kept*, 2> next{part.near[0].carried.data(), part.near[1].carried.data()};
   for (std::size_t p = 0; p < count; ++p) {
-    const SpaceNeighbour& pair = far_[static_cast<std::size_t>(chosen_[p].pair)];
-    i_[p] = chosen_[p].i;
-    j_[p] = pair.j;
-    const Quad &a = cells_.winding(static_cast<std::size_t>(i_[p])),
-               &b = cells_.winding(static_cast<std::size_t>(j_[p])), image = boxesOf(pair.image);
-    shift_[p] = cells_.boxes({a.x - b.x + image.x, a.y - b.y + image.y, a.z - b.z + image.z, 0.0});
-    const struct { std::int32_t i, j; } here{i_[p], j_[p]};
-    while (next != carried_.end() && earlier(*next, here)) ++next;
-    touches_[p] = next != carried_.end() && !earlier(here, *next);
-    if (touches_[p] == 0) continue;
-    kept_[p] = next->memory;
-    results_[p] = next->result;
+    const std::size_t list = across > 0 && isAcross(p) ? 1 : 0, n = at[list]++;
+    NearPairs& near = part.near[list];
+    const SpaceNeighbour& pair = farPair(p);
+    near.i[n] = part.chosen[p].i;
+    near.j[n] = pair.j;
+    const Quad &a = cells_.winding(static_cast<std::size_t>(near.i[n])),
+               &b = cells_.winding(static_cast<std::size_t>(pair.j)), image = boxesOf(pair.image);
+    near.shift[n] =
+        cells_.boxes({a.x - b.x + image.x, a.y - b.y + image.y, a.z - b.z + image.z, 0.0});
+    const struct { std::int32_t i, j; } here{near.i[n], near.j[n]};
+    const Kept *const last = near.carried.data() + near.carried.size(), *&kept = next[list];
+    while (kept != last && earlier(*kept, here)) ++kept;
+    near.touches[n] = kept != last && !earlier(here, *kept);
+    if (near.touches[n] == 0) continue;
+    near.kept[n] = kept->memory;
+    near.results[n] = kept->result;
   }
 }
 
 /// Into ascending j: those of one i are together, and few.
-void SpaceLists::sortChosen(std::size_t count) {
+void SpaceLists::sortChosen(Part& part, std::size_t count) {
+  std::vector<SpaceChoice>& chosen = part.chosen;
   const auto partner = [&](std::size_t at) {
-    return far_[static_cast<std::size_t>(chosen_[at].pair)].j;
+    return part.far[static_cast<std::size_t>(chosen[at].pair)].j;
   };
   for (std::size_t p = 1; p < count; ++p)
     for (std::size_t at = p;
-         at > 0 && chosen_[at - 1].i == chosen_[at].i && partner(at) < partner(at - 1); --at)
-      std::swap(chosen_[at], chosen_[at - 1]);
+         at > 0 && chosen[at - 1].i == chosen[at].i && partner(at) < partner(at - 1); --at)
+      std::swap(chosen[at], chosen[at - 1]);
 }
 
-SpacePairs SpaceLists::near() {
-  return {i_.size(),    i_.data(),       j_.data(),      shift_.data(),
-          kept_.data(), results_.data(), touches_.data()};
+SpacePairs SpaceLists::NearPairs::view() {
+  return {i.size(),    i.data(),       j.data(),       shift.data(),
+          kept.data(), results.data(), touches.data(), pushes.empty() ? nullptr : pushes.data()};
+}
+
+void SpaceLists::NearPairs::collectTouching(std::vector<Kept>& found) const {
+  for (std::size_t p = 0; p < i.size(); ++p)
+    if (touches[p] != 0) found.push_back({i[p], j[p], kept[p], results[p]});
+}
+
+/// @param apart  what pairs do is left to others
+void SpaceLists::NearPairs::makeRoom(std::size_t count, bool apart) {
+  i.resize(count);
+  j.resize(count);
+  shift.resize(count);
+  touches.resize(count);
+  if (kept.size() < count) {
+    kept.resize(count);
+    results.resize(count);
+    if (apart) pushes.resize(count);
+  }
 }
 
 }  // namespace grain

@@ -1,29 +1,42 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "engines/grain/skin.hpp"
 #include "engines/grain/space_cells.hpp"
+#include "engines/grain/thread_team.hpp"
 
 namespace grain {
 
 /// Verlet lists of two levels, as PairLists of the plane: near pairs for as long as every sphere
 /// stays within its allowance, chosen from far ones, which a cell grid collects when the skin is
 /// used up. Pairs are in ascending (i, j), whatever the skin; i moves, j moves or is of a wall.
+///
+/// The spheres are cut into as many parts as there are threads; those of walls are the last part's.
+/// A pair is listed with the part of its i: inside, or across if j is another part's.
 class SpaceLists {
  public:
   /// @param moving   spheres 0 … moving−1 move; those after belong to walls and never meet
   /// @param range    how far apart bodies may be in contact [m]
-  SpaceLists(std::size_t moving, const SpaceBox& box, Skin skin, double range,
+  SpaceLists(std::size_t moving, std::size_t parts, const SpaceBox& box, Skin skin, double range,
              const SpaceKernels& kernels);
+
+  std::size_t parts() const { return parts_.size(); }
+  /// The first moving sphere of a part; of part parts() their end.
+  std::size_t partBegin(std::size_t part) const { return moving_ * part / parts(); }
+  /// Whether a sphere, of a wall or not, is of this part or one before.
+  bool isUpTo(std::size_t part, std::size_t sphere) const {
+    return part + 1 == parts() || sphere < partBegin(part + 1);
+  }
 
   /// Chooses the near pairs anew, and collects the far ones where the skin does not last.
   /// @param position  w: radius  @param travel  of each in a step [m]
   /// @throws NotFinite
   void update(std::span<const Quad> position, std::span<const double> travel,
-              std::size_t stepsSince);
+              std::size_t stepsSince, ThreadTeam& team);
 
   /// A pair that touches, on its way from one choice to the next.
   struct Kept {
@@ -31,50 +44,75 @@ class SpaceLists {
     SpaceMemory<double> memory;
     SpaceResult result;
   };
+  /// In ascending (i, j).
   std::vector<Kept> touching() const;
-  /// Lists built anew, of pairs in ascending (i, j) that touch.
+  /// Lists built anew, of pairs that touch.
   /// @throws NotFinite
   void restore(std::vector<Kept> touching, std::span<const Quad> position,
-               std::span<const double> travel);
+               std::span<const double> travel, ThreadTeam& team);
 
   /// The same for spheres that have other numbers now. @param newNumber  old → new
   void renumber(std::span<const std::int32_t> newNumber, std::span<const Quad> position,
-                std::span<const double> travel);
+                std::span<const double> travel, ThreadTeam& team);
 
   /// How far each sphere may be from where it was at the last update [m].
   std::span<const double> allowances() const { return allowance_; }
-  SpacePairs near();
+  SpacePairs inside(std::size_t part) { return parts_[part].near[0].view(); }
+  SpacePairs across(std::size_t part) { return parts_[part].near[1].view(); }
+  /// Calls visit(pairs) for each list of near pairs.
+  void forNear(auto&& visit) {
+    for (Part& part : parts_)
+      for (NearPairs& pairs : part.near) visit(pairs.view());
+  }
   std::size_t rebuilds() const { return skin_.rebuilds(); }
   /// A pair that touches costs as much as some thirty that are only looked at.
   void pairsTook(double seconds, std::size_t touching) {
-    skin_.pairsTook(seconds, i_.size() + 30 * touching);
+    skin_.pairsTook(seconds, counts().near + 30 * touching);
   }
 
  private:
+  struct NearPairs {
+    std::vector<std::int32_t> i, j;
+    Array<Quad> shift;
+    std::vector<SpaceMemory<double>> kept;  ///< with room to spare, as results and pushes
+    std::vector<SpaceResult> results;
+    std::vector<std::uint8_t> touches;
+    std::vector<SpacePush> pushes;  ///< of pairs across
+    std::vector<Kept> carried;      ///< of the choice before, in ascending (i, j)
+
+    SpacePairs view();
+    void collectTouching(std::vector<Kept>& found) const;
+    void makeRoom(std::size_t count, bool apart);
+  };
+  struct Part {
+    std::vector<SpaceNeighbour> far, row;
+    std::vector<std::int32_t> farBegin;
+    std::vector<SpaceChoice> chosen;
+    std::array<NearPairs, 2> near;  ///< inside, across
+    double skinUsed;                ///< [m]
+  };
+
   void requireFinite(std::span<const Quad> position) const;
-  void rebuild(std::span<const Quad> position);
-  double skinUsed(std::span<const Quad> position) const;
-  void collect(std::span<const Quad> position);
-  void choose(std::span<const Quad> position);
-  void sortChosen(std::size_t count);
-  PairCounts counts() const { return {carried_.size(), i_.size(), far_.size()}; }
+  void rebuild(std::span<const Quad> position, ThreadTeam& team);
+  double skinUsed(std::size_t part, std::span<const Quad> position) const;
+  void collect(std::size_t part, std::span<const Quad> position);
+  void choose(std::span<const Quad> position, ThreadTeam& team);
+  void choose(std::size_t part);
+  static void sortChosen(Part& part, std::size_t count);
+  PairCounts counts() const;
+  /// Spheres of a part among `all`, those of walls too.
+  std::array<std::size_t, 2> members(std::size_t part, std::size_t all) const {
+    return {partBegin(part), part + 1 == parts() ? all : partBegin(part + 1)};
+  }
 
   std::size_t moving_;
   Skin skin_;
   double range_;
   SpaceKernels kernels_;
   SpaceCells cells_;
-  // The far pairs, and what choosing from them needs. The images are those of the 27 numbers.
-  std::vector<SpaceNeighbour> far_, row_;
-  std::vector<std::int32_t> farBegin_;
+  std::vector<Part> parts_;
+  // What choosing from far pairs needs. The images are those of the 27 numbers.
   Array<Quad> place_, image_;
-  std::vector<SpaceChoice> chosen_;
-  std::vector<std::int32_t> i_, j_;  ///< of the near ones, as what follows
-  Array<Quad> shift_;
-  std::vector<SpaceMemory<double>> kept_;  ///< with room to spare, as results
-  std::vector<SpaceResult> results_;
-  std::vector<std::uint8_t> touches_;
-  std::vector<Kept> carried_;
   std::vector<double> allowance_;
   Array<Quad> built_;  ///< places at the last rebuild
 };

@@ -75,9 +75,10 @@ void Spheres::beginUnderWay(const std::vector<SpaceContact>& forces) {
       kept.spring = -1.0 * kept.spring;
       kept.angle = -1.0 * kept.angle;
     };
-    const SpacePairs pairs = lists_.near();
-    for (std::size_t p = 0; p < pairs.count; ++p)
-      remember(pairs.i[p], static_cast<std::size_t>(pairs.j[p]), pairs.kept[p], pairs.touches[p]);
+    lists_.forNear([&](const SpacePairs& pairs) {
+      for (std::size_t p = 0; p < pairs.count; ++p)
+        remember(pairs.i[p], static_cast<std::size_t>(pairs.j[p]), pairs.kept[p], pairs.touches[p]);
+    });
     for (std::size_t p = 0; p < planes_.size(); ++p)
       for (std::size_t i = 0; i < size(); ++i)
         remember(static_cast<std::int32_t>(i), position_.size() + p, planes_[p].kept[i],
@@ -132,7 +133,7 @@ Meeting<double> Spheres::meetingOf(const SpaceContact& contact) {
   const std::size_t i = indexOf(static_cast<std::size_t>(contact.i)),
                     j = indexOf(static_cast<std::size_t>(contact.j));
   if (j < position_.size())
-    return grain::meetingOf(law_, view(), i, j, contact.normal, contact.overlap);
+    return grain::meetingOf(law_, view(shares_[0].active), i, j, contact.normal, contact.overlap);
   return meetingOn(planes_[j - position_.size()], i,
                    {contact.normal, position_[i].w - contact.overlap});
 }

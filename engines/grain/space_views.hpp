@@ -94,6 +94,11 @@ struct SpaceResult {
   Vec3<double> tangential, rolling;
 };
 
+/// What a pair does to its spheres: the force on i, and torques about their own centres.
+struct SpacePush {
+  Vec3<double> force, torqueI, torqueJ;
+};
+
 /// A list of pairs, one entry each.
 struct SpacePairs {
   std::size_t count;
@@ -102,6 +107,8 @@ struct SpacePairs {
   SpaceMemory<double>* kept;  ///< of those that touch, as results; of others anything
   SpaceResult* results;
   std::uint8_t* touches;  ///< whether it did in the last step
+  /// Where a pair that touches leaves what it does, for others to add; null: it is added to both.
+  SpacePush* pushes = nullptr;
 };
 
 struct SpaceReport {
@@ -115,7 +122,7 @@ using SpacePairKernel = SpaceReport (*)(const GeneralLaw<double>&, const SpaceCo
                                         const SpaceView&, const SpacePairs&, double range,
                                         double maxOverlap);
 
-/// The moving spheres as their motion sees them. Without rotation spins and torques are null.
+/// The spheres as their motion sees them. Without rotation spins and torques are null.
 struct SpaceMotionView {
   Quad *position, *velocity, *spin;
   Quad *seenVelocity, *seenSpin;  ///< to be predicted; null: nothing is
@@ -141,8 +148,9 @@ struct SpaceMotionReport {
   std::size_t active = 0;  ///< spheres listed by now
 };
 
+/// Moves spheres begin … end−1, of which the active ones are listed.
 using SpaceMotionKernel = SpaceMotionReport (*)(const SpaceMotionConstants&, const SpaceMotionView&,
-                                                std::size_t count);
+                                                std::size_t begin, std::size_t end);
 
 /// Spheres sorted by cells, inside the box.
 struct SpaceCellsView {
@@ -162,9 +170,10 @@ using SpaceNeighbourKernel = std::size_t (*)(const SpaceCellsView&, const Quad& 
                                              std::int32_t i, std::size_t begin, std::size_t end,
                                              double reach, SpaceNeighbour* found);
 
-/// Far pairs; those of sphere i are begin[i] … begin[i + 1]−1.
+/// Far pairs of spheres first … first + count − 1; those of first + k are begin[k] … begin[k +
+/// 1]−1.
 struct SpaceFarPairs {
-  std::size_t spheres;
+  std::size_t first, count;
   const std::int32_t* begin;
   const SpaceNeighbour* pairs;
   const Quad* place;  ///< in the box, but for what they moved since; w: how far they reach

@@ -64,10 +64,12 @@ Spheres::Spheres(SpheresSetup setup)
       kernels_(kernels<double>().space),
       range_(rangeOf(law_, setup_.radius)),
       everyone_(pushesMoreThanPairs(setup_)),
+      shares_(partCount(setup_.threads, setup_.mass.size())),
       lists_(
-          setup_.mass.size(), setup_.box.value_or(SpaceBox{}),
+          setup_.mass.size(), shares_.size(), setup_.box.value_or(SpaceBox{}),
           Skin(setup_.skin, setup_.radius.empty() ? 1.0 : *std::ranges::min_element(setup_.radius)),
-          range_, kernels_) {
+          range_, kernels_),
+      team_(std::make_unique<ThreadTeam>(shares_.size())) {
   demand(setup_.dt > 0.0, "the time step must be > 0 s");
   demand(setup_.law.normal != Normal::impulse, "spheres have no impulses");
   kernels_.pairs = pairKernelOf(kernels_, law_, setup_.conventions);
@@ -125,7 +127,7 @@ void Spheres::placeSpheres() {
   inverseInertia_.resize(position_.size());
   mass_.resize(size());
   indexOfId_.resize(size());
-  activeList_.resize(size() + 1);
+  activeList_.resize(size() + shares_.size());
   mark_.assign(position_.size(), 2);
   if (predicts) {
     seenVelocity_ = velocity_;
@@ -137,14 +139,18 @@ void Spheres::placeSpheres() {
 
 /// What follows from which sphere is where.
 void Spheres::followNumbers() {
-  active_ = {activeList_.data(), 0, mark_.data()};
+  for (std::size_t part = 0; part < shares_.size(); ++part)
+    shares_[part].active = {activeList_.data() + lists_.partBegin(part) + part, 0, mark_.data()};
+  together([&](Share& share, std::size_t i, std::size_t end) {
+    for (; i < end; ++i)
+      if (mark_[i] != 0) share.active.list[share.active.count++] = static_cast<std::int32_t>(i);
+  });
   for (std::size_t i = 0; i < size(); ++i) {
     const auto id = static_cast<std::size_t>(idAtIndex_[i]);
     indexOfId_[id] = static_cast<std::int32_t>(i);
     mass_[i] = setup_.mass[id];
     inverseMass_[i] = 1.0 / setup_.mass[id];
     inverseInertia_[i] = 1.0 / setup_.inertia[id];
-    if (mark_[i] != 0) activeList_[active_.count++] = static_cast<std::int32_t>(i);
   }
 }
 
@@ -162,7 +168,7 @@ void Spheres::renumber() {
   std::vector<std::int32_t> newNumber(size());
   for (std::size_t i = 0; i < size(); ++i)
     newNumber[static_cast<std::size_t>(order[i])] = static_cast<std::int32_t>(i);
-  list([&] { lists_.renumber(newNumber, position_, travel_); });
+  list([&] { lists_.renumber(newNumber, position_, travel_, *team_); });
 }
 
 /// With gravity; the motion kernel does so in every step.
@@ -171,7 +177,6 @@ void Spheres::beginForces() {
     force_[i] = i < size() ? quadOf(mass_[i] * setup_.gravity) : Quad{};
     torque_[i] = {};
   }
-  for (PlacedPlane& plane : planes_) plane.force = plane.torque = {};
 }
 
 Vector Spheres::velocity(std::size_t id) const {
@@ -190,14 +195,16 @@ void Spheres::advance(std::uint64_t steps) {
 }
 
 void Spheres::kick(double dt) {
-  for (std::size_t k = 0; k < active_.count; ++k) {
-    const auto i = static_cast<std::size_t>(active_.list[k]);
-    add(velocity_[i], vectorOf(force_[i]), dt * inverseMass_[i]);
-    if (law_.rotation) add(spin_[i], vectorOf(torque_[i]), dt * inverseInertia_[i]);
-  }
+  together([&](Share& share, std::size_t, std::size_t) {
+    for (std::size_t k = 0; k < share.active.count; ++k) {
+      const auto i = static_cast<std::size_t>(share.active.list[k]);
+      add(velocity_[i], vectorOf(force_[i]), dt * inverseMass_[i]);
+      if (law_.rotation) add(spin_[i], vectorOf(torque_[i]), dt * inverseInertia_[i]);
+    }
+  });
 }
 
-SpaceMotionView Spheres::motionView() {
+SpaceMotionView Spheres::motionView(const ActiveSpheres& active) {
   return {position_.data(),
           velocity_.data(),
           law_.rotation ? spin_.data() : nullptr,
@@ -210,20 +217,26 @@ SpaceMotionView Spheres::motionView() {
           mass_.data(),
           chosen_.data(),
           allowance_.data(),
-          active_,
+          active,
           everyone_};
 }
 
 void Spheres::step() {
   const double dt = setup_.dt;
   const bool verlet = setup_.integrator == Integrator::velocityVerlet;
-  const SpaceMotionReport moved =
-      kernels_.motion({verlet ? 0.5 * dt : dt, dt, 0.5 * dt, setup_.gravity}, motionView(), size());
-  active_.count = moved.active;
+  const SpaceMotionConstants constants{verlet ? 0.5 * dt : dt, dt, 0.5 * dt, setup_.gravity};
+  together([&](Share& share, std::size_t begin, std::size_t end) {
+    share.moved = kernels_.motion(constants, motionView(share.active), begin, end);
+    share.active.count = share.moved.active;
+  });
   ++steps_;
   const auto now = static_cast<double>(steps_);
-  freeUntil_ = std::min(freeUntil_, now + std::floor(moved.freeSteps));
-  outdated_ = !(moved.excess <= 0.0) || !std::isfinite(moved.squares) || now > freeUntil_;
+  outdated_ = false;
+  for (const Share& share : shares_) {
+    freeUntil_ = std::min(freeUntil_, now + std::floor(share.moved.freeSteps));
+    if (!(share.moved.excess <= 0.0) || !std::isfinite(share.moved.squares)) outdated_ = true;
+  }
+  if (now > freeUntil_) outdated_ = true;
   moveWalls();
   if (outdated_) updateNeighbours();
   if (steps_ % renumberingInterval == 0) renumber();
@@ -245,16 +258,12 @@ void Spheres::moveWalls() {
     if (wallBegin_[w] < std::min(wallBegin_[w + 1], allowance_.size()) &&
         !(wallPath_[w] <= allowance_[wallBegin_[w]]))
       outdated_ = true;
-    for (; cylinder != planes_.end() && cylinder->wall == w; ++cylinder) {
-      cylinder->now = now;
-      cylinder->force = cylinder->torque = {};
-    }
+    for (; cylinder != planes_.end() && cylinder->wall == w; ++cylinder) cylinder->now = now;
     for (; plane != cylinders && plane->wall == w; ++plane) {
       const SpaceWall::Plane& member = wall.planes[plane->member];
       plane->now = now;
       plane->point = wallPlace(w, member.point);
       plane->normal = turnedBy(now.angle, member.normal);
-      plane->force = plane->torque = {};
     }
   }
   std::size_t w = 0;
@@ -300,7 +309,7 @@ Vector Spheres::wallPosition(std::size_t k) const {
 }
 
 void Spheres::updateNeighbours() {
-  list([&] { lists_.update(position_, travel_, steps_ - chosenAt_); });
+  list([&] { lists_.update(position_, travel_, steps_ - chosenAt_, *team_); });
 }
 
 /// Lists pairs: all spheres of walls are where they belong, and afterwards those in no pair are
@@ -340,37 +349,92 @@ void Spheres::rememberChoice() {
   freeUntil_ = static_cast<double>(steps_) + std::floor(steps);
   wallPath_.assign(setup_.walls.size(), 0.0);
   reached_.clear();
-  const SpacePairs pairs = lists_.near();
-  for (std::size_t p = 0; p < pairs.count; ++p)
-    if (static_cast<std::size_t>(pairs.j[p]) >= size()) reached_.push_back(pairs.j[p]);
+  lists_.forNear([&](const SpacePairs& pairs) {
+    for (std::size_t p = 0; p < pairs.count; ++p)
+      if (static_cast<std::size_t>(pairs.j[p]) >= size()) reached_.push_back(pairs.j[p]);
+  });
   std::ranges::sort(reached_);
   reached_.erase(std::unique(reached_.begin(), reached_.end()), reached_.end());
   chosenAt_ = steps_;
   outdated_ = sampled_ = false;
 }
 
-SpaceView Spheres::view() {
+SpaceView Spheres::view(const ActiveSpheres& active) {
   return {position_.data(),       seenVelocities().data(), seenSpins().data(), inverseMass_.data(),
-          inverseInertia_.data(), force_.data(),           torque_.data(),     active_};
+          inverseInertia_.data(), force_.data(),           torque_.data(),     active};
 }
 
+/// Contacts add to the spheres' forces in one order, whatever the number of threads: those with
+/// spheres of lower parts, those inside the part, those with spheres of higher parts, planes. That
+/// is the order of one list of all pairs, since parts are consecutive.
 void Spheres::addForces() {
-  const double most = setup_.maxOverlap > 0.0 ? setup_.maxOverlap : 1e300;
+  for (Share& share : shares_) {
+    share.touching = 0;
+    share.deep = false;
+  }
   const auto begin = std::chrono::steady_clock::now();
-  const SpaceReport report =
-      kernels_.pairs(law_, setup_.conventions, view(), lists_.near(), range_, most);
+  if (shares_.size() > 1)
+    team_->run([&](std::size_t part) { addPairs(shares_[part], lists_.across(part)); });
+  team_->run([&](std::size_t part) {
+    addFromLowerParts(part);
+    addPairs(shares_[part], lists_.inside(part));
+    addFromHigherParts(part);
+  });
+  std::size_t touching = 0;
+  for (const Share& share : shares_) touching += share.touching;
   if (!std::exchange(sampled_, true))  // one step in some measures for the lists what a pair costs
     lists_.pairsTook(
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-        report.touching);
-  active_.count = report.active;
-  if (report.deep) reportDeep();
-  evaluations_ += report.touching;
-  for (PlacedPlane& plane : planes_) addPlane(plane);
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), touching);
+  evaluations_ += touching;
+  if (!planes_.empty())
+    together([&](Share& share, std::size_t first, std::size_t end) {
+      share.touching = 0;
+      for (PlacedPlane& plane : planes_) addPlane(plane, share, first, end);
+    });
+  for (const Share& share : shares_) {
+    if (!planes_.empty()) evaluations_ += share.touching;
+    if (share.deep) reportDeep();
+  }
 }
 
-void Spheres::addPlane(PlacedPlane& plane) {
-  for (std::size_t i = 0; i < size(); ++i) {
+void Spheres::addPairs(Share& share, const SpacePairs& pairs) {
+  const double most = setup_.maxOverlap > 0.0 ? setup_.maxOverlap : 1e300;
+  const SpaceReport report =
+      kernels_.pairs(law_, setup_.conventions, view(share.active), pairs, range_, most);
+  share.active.count = report.active;
+  share.touching += report.touching;
+  share.deep |= report.deep;
+}
+
+void Spheres::addFromLowerParts(std::size_t part) {
+  ActiveSpheres& active = shares_[part].active;
+  for (std::size_t lower = 0; lower < part; ++lower) {
+    const SpacePairs pairs = lists_.across(lower);
+    for (std::size_t p = 0; p < pairs.count; ++p) {
+      const auto j = static_cast<std::size_t>(pairs.j[p]);
+      if (pairs.touches[p] == 0 || j < lists_.partBegin(part) || !lists_.isUpTo(part, j)) continue;
+      active.push(j);
+      add(force_[j], pairs.pushes[p].force, -1.0);
+      if (law_.rotation) add(torque_[j], pairs.pushes[p].torqueJ, 1.0);
+    }
+  }
+}
+
+void Spheres::addFromHigherParts(std::size_t part) {
+  ActiveSpheres& active = shares_[part].active;
+  const SpacePairs pairs = lists_.across(part);
+  for (std::size_t p = 0; p < pairs.count; ++p) {
+    if (pairs.touches[p] == 0) continue;
+    const auto i = static_cast<std::size_t>(pairs.i[p]);
+    active.push(i);
+    add(force_[i], pairs.pushes[p].force, 1.0);
+    if (law_.rotation) add(torque_[i], pairs.pushes[p].torqueI, 1.0);
+  }
+}
+
+/// Contacts of spheres begin … end−1.
+void Spheres::addPlane(PlacedPlane& plane, Share& share, std::size_t begin, std::size_t end) {
+  for (std::size_t i = begin; i < end; ++i) {
     const Place place = placeOn(plane, i);
     const double a = position_[i].w, height = place.height;
     SpaceMemory<double>& kept = plane.kept[i];
@@ -382,19 +446,14 @@ void Spheres::addPlane(PlacedPlane& plane) {
     if (!touches && plane.touches[i] != 0) kept = {};
     plane.touches[i] = touches;
     if (!touches) continue;
-    if (setup_.maxOverlap > 0.0 && !(a - height <= setup_.maxOverlap * a)) {
-      plane.results[i].overlap = a - height;
-      reportDeep();
-    }
-    ++evaluations_;
+    if (setup_.maxOverlap > 0.0 && !(a - height <= setup_.maxOverlap * a)) share.deep = true;
+    ++share.touching;
     const Meeting<double> meeting = meetingOn(plane, i, place);
     const MeetingForce<double> force = meetingForce(law_, setup_.conventions, meeting, kept);
     plane.results[i] = {meeting.overlap, force.normal, force.sliding, force.tangential,
                         force.rolling};
     add(force_[i], force.force, 1.0);
     if (law_.rotation) add(torque_[i], force.torqueI, 1.0);
-    plane.force -= force.force;
-    plane.torque -= cross(armOn(plane, i, place), force.force) + force.rolling;
   }
 }
 
@@ -466,10 +525,12 @@ std::vector<SpaceContact> Spheres::contacts() {
     found.push_back({a, b, sign * normal, result.overlap, result.normal, sign * result.tangential,
                      sign * result.rolling, result.sliding > 0.0});
   };
-  const SpacePairs pairs = lists_.near();
-  for (std::size_t p = 0; p < pairs.count; ++p)
-    if (pairs.touches[p] != 0)
-      add(pairs.i[p], static_cast<std::size_t>(pairs.j[p]), pairs.kept[p].normal, pairs.results[p]);
+  lists_.forNear([&](const SpacePairs& pairs) {
+    for (std::size_t p = 0; p < pairs.count; ++p)
+      if (pairs.touches[p] != 0)
+        add(pairs.i[p], static_cast<std::size_t>(pairs.j[p]), pairs.kept[p].normal,
+            pairs.results[p]);
+  });
   for (std::size_t p = 0; p < planes_.size(); ++p)
     for (std::size_t i = 0; i < size(); ++i)
       if (planes_[p].touches[i] != 0)
@@ -486,11 +547,14 @@ std::pair<Vector, Vector> Spheres::wallLoad(std::size_t w) const {
     force += vectorOf(force_[i]);
     torque += cross(vectorOf(position_[i]) - centre, vectorOf(force_[i])) + vectorOf(torque_[i]);
   }
-  for (const PlacedPlane& plane : planes_) {
-    if (plane.wall != w) continue;
-    force += plane.force;
-    torque += plane.torque;
-  }
+  for (const PlacedPlane& plane : planes_)
+    for (std::size_t i = 0; plane.wall == w && i < size(); ++i) {
+      if (plane.touches[i] == 0) continue;
+      const SpaceResult& result = plane.results[i];
+      const Vector push = result.normal * plane.kept[i].normal + result.tangential;
+      force -= push;
+      torque -= cross(armOn(plane, i, placeOn(plane, i)), push) + result.rolling;
+    }
   return {force, torque};
 }
 

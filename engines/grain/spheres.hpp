@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -47,6 +48,7 @@ struct SpheresSetup {
   bool rotation = true;
   double skin = 0.0;        ///< of the neighbour list [m]; 0: tuned
   double maxOverlap = 1.0;  ///< as in Setup
+  int threads = 1;
 };
 
 /// One contact of the last force evaluation; the force acts on i, n points from j to i. Numbers:
@@ -60,13 +62,13 @@ struct SpaceContact {
   bool sliding;
 };
 
-/// Spheres that touch softly, in space: the scheme of Simulation with vectors, in double precision
-/// and on one thread.
+/// Spheres that touch softly, in space: the scheme of Simulation with vectors, in double precision.
 ///
 ///   kick: v += a dt   drift: x += v dt   move walls   forces: a(x, v)
 ///
-/// The same setup gives the same bits in every run, with any skin and instruction set: forces are
-/// summed in the order of pairs, and a pair that does not touch adds nothing. Spheres are numbered
+/// The same setup gives the same bits in every run, on any number of threads, with any skin and
+/// instruction set: forces are summed in the order of pairs, and a pair that does not touch adds
+/// nothing. Spheres are numbered
 /// anew by place at fixed steps; what goes in and out has the setup's numbers, their ids. A sphere
 /// that leaves a periodic box goes on; contacts are with the nearest images, so that nothing of it
 /// changes when it crosses a border.
@@ -75,7 +77,7 @@ class Spheres {
   /// @throws std::invalid_argument for a step that is not > 0, and for a law or box that it does
   /// not have
   explicit Spheres(SpheresSetup setup);
-  Spheres(Spheres&&) = default;  // not copied: active_ points into it
+  Spheres(Spheres&&) = default;  // not copied: its shares point into it
 
   /// @throws std::runtime_error naming a sphere whose position is not finite, or two that overlap
   /// too much
@@ -113,6 +115,13 @@ class Spheres {
   std::pair<Vec3<double>, Vec3<double>> wallLoad(std::size_t w) const;
 
  private:
+  /// What one thread has, on a cache line of its own.
+  struct alignas(64) Share {
+    ActiveSpheres active{};
+    SpaceMotionReport moved;
+    std::size_t touching = 0;  ///< in this step
+    bool deep = false;         ///< some overlap is beyond what is allowed
+  };
   /// A plane or a cylinder at this instant, and what its contacts remember, one a sphere.
   struct PlacedPlane {
     std::size_t wall, member;
@@ -122,7 +131,6 @@ class Spheres {
     std::vector<SpaceMemory<double>> kept;
     std::vector<SpaceResult> results;
     std::vector<std::uint8_t> touches;
-    Vec3<double> force{}, torque{};  ///< on it, about the wall's centre
 
     bool isCylinder() const { return radius > 0.0; }
   };
@@ -150,8 +158,14 @@ class Spheres {
     return seenVelocity_.empty() ? velocity_ : seenVelocity_;
   }
   const Array<Quad>& seenSpins() const { return seenSpin_.empty() ? spin_ : seenSpin_; }
-  SpaceMotionView motionView();
-  SpaceView view();
+  /// Calls work(share, first, end) for the moving spheres of each part.
+  void together(auto&& work) {
+    team_->run([&](std::size_t part) {
+      work(shares_[part], lists_.partBegin(part), lists_.partBegin(part + 1));
+    });
+  }
+  SpaceMotionView motionView(const ActiveSpheres& active);
+  SpaceView view(const ActiveSpheres& active);
   void placeSpheres();
   void renumber();
   void followNumbers();
@@ -166,6 +180,9 @@ class Spheres {
   void rememberChoice();
   void beginForces();
   void addForces();
+  void addPairs(Share& share, const SpacePairs& pairs);
+  void addFromLowerParts(std::size_t part);
+  void addFromHigherParts(std::size_t part);
   /// How a sphere lies to it: of a cylinder the normal to the axis, the height R − s.
   struct Place {
     Vec3<double> normal;
@@ -180,7 +197,7 @@ class Spheres {
   std::pair<double, double> loadPerStretch(const Meeting<double>& meeting) const;
   Vec3<double> springFor(const Meeting<double>& meeting, const SpaceContact& want,
                          double unit) const;
-  void addPlane(PlacedPlane& plane);
+  void addPlane(PlacedPlane& plane, Share& share, std::size_t begin, std::size_t end);
   std::string nameOfPlane(std::size_t p) const;  ///< "cylinder 0"
   [[noreturn]] void reportDeep();
 
@@ -199,8 +216,8 @@ class Spheres {
   std::vector<std::int32_t> idAtIndex_, indexOfId_;
   Array<Quad> position_, velocity_, spin_, seenVelocity_, seenSpin_, force_, torque_, chosen_;
   std::vector<double> mass_, inverseMass_, inverseInertia_, allowance_, travel_;
-  ActiveSpheres active_{};
-  std::vector<std::int32_t> activeList_;
+  std::vector<Share> shares_;             ///< by part
+  std::vector<std::int32_t> activeList_;  ///< each part's with room for one more
   std::vector<std::uint8_t> mark_;
   std::vector<Vec3<double>> wallCentre_;  ///< at t = 0
   std::vector<std::size_t> wallBegin_;    ///< first sphere of each wall, and the end
@@ -212,6 +229,7 @@ class Spheres {
   std::vector<std::int32_t> reached_;  ///< spheres of walls that are in a near pair
   std::vector<PlacedPlane> planes_;    ///< then the cylinders
   SpaceLists lists_;
+  std::unique_ptr<ThreadTeam> team_;
 };
 
 }  // namespace grain

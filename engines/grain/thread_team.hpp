@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +9,12 @@
 #include <vector>
 
 namespace grain {
+
+/// Into how many parts bodies are cut for so many threads: one with no body would be of no use.
+inline std::size_t partCount(int threads, std::size_t bodies) {
+  return std::clamp<std::size_t>(static_cast<std::size_t>(std::max(threads, 1)), 1,
+                                 std::max<std::size_t>(bodies, 1));
+}
 
 /// Threads that do one thing together, part by part, again and again. They spin for a while between
 /// two calls, as steps follow each other within microseconds, then give way to others, then sleep.

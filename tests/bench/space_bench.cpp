@@ -17,34 +17,44 @@ namespace {
 using grain::SpheresSetup;
 using Vector = grain::Vec3<double>;
 
-constexpr double height = 21.0, fraction = 0.36;  // between the walls' centres, d; ν̄
+/// Unit spheres between two walls of touching ones that slide: some places of a lattice.
+struct Cell {
+  const char* name;
+  double height;    ///< between the walls' centres [d]
+  double fraction;  ///< of that room which spheres fill
+  int layers;
+  double speed;  ///< at the start: root mean square of each component
+};
+/// As cases/space/on-dem-shear.toml and shear-3d.toml, but for the area.
+constexpr Cell dilute{"dilute", 21.0, 0.36, 24, 0.3}, dense{"dense", 11.0, 0.513, 12, 0.3};
 
-/// The cell of cases/space/on-dem-shear.toml with another area: unit spheres between two walls of
-/// touching ones that slide, half of a lattice's places.
-SpheresSetup shearCell(std::size_t spheres) {
+SpheresSetup shearCell(const Cell& cell, std::size_t spheres) {
   const double rowDistance = std::sqrt(3.0) / 2.0;
-  const double area = static_cast<double>(spheres) * std::numbers::pi / (6.0 * fraction * height);
-  const int columns = static_cast<int>(std::lround(std::sqrt(area)));
+  const double area =
+      static_cast<double>(spheres) * std::numbers::pi / (6.0 * cell.fraction * cell.height);
+  // Twenty by twelve places in a layer of 3000 spheres, ten by six in one of 560, as in the cases.
+  const int columns = static_cast<int>(std::lround(std::sqrt(2.0 * area)));
   const int rows = 2 * static_cast<int>(std::lround(area / columns / rowDistance / 2.0));
   SpheresSetup setup;
   setup.box = grain::SpaceBox{
       {0.0, 0.0, 0.0}, {1.0 * columns, rows * rowDistance, 1.0}, {true, true, false}};
-  const auto layer = [&](double z, double shift) {
+  // Odd layers lie in the hollows of even ones.
+  const auto layer = [&](int number, double z) {
+    const Vector first = number % 2 * Vector{0.5, std::sqrt(3.0) / 6.0, 0.0};
     std::vector<Vector> places;
     for (int y = 0; y < rows; ++y)
       for (int x = 0; x < columns; ++x)
-        places.push_back({x + shift + 0.5 * (y % 2), rowDistance * (y + shift), z});
+        places.push_back(first + Vector{x + 0.5 * (y % 2), rowDistance * y, z});
     return places;
   };
-  constexpr int layers = 24;
   std::vector<Vector> places;
-  for (int z = 1; z <= layers; ++z)
-    for (const Vector& place : layer(z * height / (layers + 1), 0.3 * (z % 2)))
+  for (int n = 1; n <= cell.layers; ++n)
+    for (const Vector& place : layer(n, n * cell.height / (cell.layers + 1)))
       places.push_back(place);
   std::mt19937_64 random(1);
   std::ranges::shuffle(places, random);
   places.resize(std::min(places.size(), spheres));
-  std::normal_distribution<double> speed(0.0, 0.3);
+  std::normal_distribution<double> speed(0.0, cell.speed);
   const double mass = std::numbers::pi / 6.0;
   for (const Vector& place : places) {
     setup.position.push_back(place);
@@ -56,7 +66,7 @@ SpheresSetup shearCell(std::size_t spheres) {
   setup.inertia.assign(places.size(), 0.1 * mass);
   for (const double side : {-1.0, 1.0}) {
     grain::SpaceWall wall;
-    wall.position = layer(side > 0.0 ? height : 0.0, 0.0);
+    wall.position = side > 0.0 ? layer(cell.layers + 1, cell.height) : layer(0, 0.0);
     wall.radius.assign(wall.position.size(), 0.5);
     wall.motion = [side](double t) {
       return grain::SpaceWall::State{{side * t, 0.0, 0.0}, {side, 0.0, 0.0}};
@@ -92,26 +102,29 @@ constexpr Task tasks[] = {
      }},
 };
 
-double processorTime() {
+/// On one thread the processor's, which other programs do not disturb, else wall time [s].
+double timeOn(int threads) {
   timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  clock_gettime(threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 /// Running on and on, rebuilds counted in, after the lattice has melted. Time is that of 200 steps.
-void step(benchmark::State& state, std::size_t spheres, const Task& task) {
-  SpheresSetup setup = shearCell(spheres);
+void step(benchmark::State& state, const Cell& cell, std::size_t spheres, const Task& task,
+          int threads) {
+  SpheresSetup setup = shearCell(cell, spheres);
+  setup.threads = threads;
   task.change(setup);
   grain::Spheres simulation(setup);
-  simulation.advance(spheres > 30000 ? 2000 : 10000);
+  simulation.advance(spheres > 100000 ? 2000 : spheres > 1000 ? 10000 : 40000);
   constexpr std::uint64_t stretch = 200;
   const std::uint64_t contacts = simulation.contactEvaluations();
   const std::uint64_t rebuilds = simulation.rebuilds();
   double seconds = 0.0;
   for (auto _ : state) {
-    const double start = processorTime();
+    const double start = timeOn(threads);
     simulation.advance(stretch);
-    const double taken = processorTime() - start;
+    const double taken = timeOn(threads) - start;
     state.SetIterationTime(taken);
     seconds += taken;
   }
@@ -121,7 +134,9 @@ void step(benchmark::State& state, std::size_t spheres, const Task& task) {
   };
   state.counters["us_step"] = 1e6 * seconds / steps;
   state.counters["ns_sphere"] = 1e9 * seconds / steps / static_cast<double>(simulation.size());
-  state.counters["contacts"] = perStep(simulation.contactEvaluations(), contacts);
+  const double touching = perStep(simulation.contactEvaluations(), contacts);
+  state.counters["ns_contact"] = 1e9 * seconds / steps / touching;
+  state.counters["contacts"] = touching;
   state.counters["rebuilds_per_1000"] = 1e3 * perStep(simulation.rebuilds(), rebuilds);
 }
 
@@ -132,12 +147,17 @@ int main(int argc, char** argv) {
   using namespace crossgrain::bench;
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  for (const std::size_t spheres : {500, 3000, 20000, 100000})
+  const auto add = [](const Cell& cell, std::size_t spheres) {
     for (const Task& task : tasks)
-      benchmark::RegisterBenchmark(fmt::format("spheres/{}/{}", spheres, task.name).c_str(),
-                                   [=, &task](auto& state) { step(state, spheres, task); })
-          ->UseManualTime()
-          ->Unit(benchmark::kMicrosecond);
+      for (const int threads : {1, 2})
+        benchmark::RegisterBenchmark(
+            fmt::format("{}/{}/{}/{}", cell.name, spheres, task.name, threads).c_str(),
+            [=, &cell, &task](auto& state) { step(state, cell, spheres, task, threads); })
+            ->UseManualTime()
+            ->Unit(benchmark::kMicrosecond);
+  };
+  for (const std::size_t spheres : {500, 3000, 20000, 100000, 1000000}) add(dilute, spheres);
+  for (const std::size_t spheres : {560, 20000}) add(dense, spheres);
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }

@@ -1,0 +1,231 @@
+// Spheres on several threads: the bits of one, whatever the law, the walls, the box and the lists.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "engines/grain/spheres.hpp"
+
+namespace {
+
+using namespace grain;
+using Vector = Vec3<double>;
+
+constexpr double radius = 0.005, density = 2500.0;
+
+Law springLaw() {
+  Law law;
+  law.kn = 1e5;
+  law.gn = 1.5;
+  law.kt = 2.857e4;
+  law.gt = 0.4;
+  law.mu = 0.3;
+  law.tangential = Tangential::springDashpot;
+  law.bound = Bound::magnitude;
+  return law;
+}
+
+/// A lattice of loose spheres of up to 1.05 g, and a step of which their contacts take some thirty.
+void place(SpheresSetup& setup, int along, int up, const Vector& first) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int z = 0; z < up; ++z)
+    for (int y = 0; y < along; ++y)
+      for (int x = 0; x < along; ++x) {
+        const double a = radius * (0.9 + 0.1 * uniform(random));
+        const double mass = 4.0 / 3.0 * M_PI * a * a * a * density;
+        setup.position.push_back(first + 2.0 * radius * Vector{1.0 * x, 1.0 * y, 1.0 * z});
+        setup.velocity.push_back(0.8 * Vector{uniform(random), uniform(random), uniform(random)});
+        setup.spin.push_back(100.0 * Vector{uniform(random), uniform(random), uniform(random)});
+        setup.radius.push_back(a);
+        setup.mass.push_back(mass);
+        setup.inertia.push_back(0.4 * mass * a * a);
+      }
+  setup.dt = M_PI * std::sqrt(0.5 * 1.05e-3 / setup.law.kn) / 30.0;
+}
+
+/// 245 spheres between two walls of spheres that slide and swing, periodic along x and y.
+SpheresSetup sheared(const Law& law = springLaw()) {
+  constexpr int along = 7, up = 5;
+  constexpr double side = 2.0 * radius * along;
+  SpheresSetup setup;
+  setup.law = law;
+  place(setup, along, up, {0.3 * radius, 0.7 * radius, 2.0 * radius});
+  setup.box = SpaceBox{{}, {side, side, 1.0}, {true, true, false}};
+  for (const double sign : {-1.0, 1.0}) {
+    SpaceWall wall;
+    for (int n = 0; n < along * along; ++n) {
+      wall.position.push_back({2.0 * radius * (n % along), 2.0 * radius * (n / along),
+                               sign > 0.0 ? 2.0 * radius * (up + 0.9) : 0.1 * radius});
+      wall.radius.push_back(radius);
+    }
+    wall.motion = [sign](double t) {
+      return SpaceWall::State{{0.5 * sign * t, 0.0, 1e-4 * std::sin(500.0 * t)},
+                              {0.5 * sign, 0.0, 0.05 * std::cos(500.0 * t)}};
+    };
+    setup.walls.push_back(wall);
+  }
+  return setup;
+}
+
+/// 108 spheres that fall in a turning drum with two lids.
+SpheresSetup drum() {
+  SpheresSetup setup;
+  setup.law = springLaw();
+  place(setup, 6, 3, Vector{-5.0 * radius, -5.0 * radius, 1.1 * radius});
+  setup.gravity = {0.0, -9.81, 0.0};
+  SpaceWall wall;
+  wall.cylinders.push_back({{}, {0.0, 0.0, 1.0}, 8.5 * radius});
+  wall.planes.push_back({{}, {0.0, 0.0, 1.0}});
+  wall.planes.push_back({{0.0, 0.0, 6.2 * radius}, {0.0, 0.0, -1.0}});
+  wall.motion = [](double t) {
+    return SpaceWall::State{{}, {}, {0.0, 0.0, 20.0 * t}, {0.0, 0.0, 20.0}};
+  };
+  setup.walls.push_back(wall);
+  return setup;
+}
+
+/// All that can be seen of it.
+std::vector<double> bitsOf(Spheres& spheres, std::size_t walls) {
+  std::vector<double> bits{static_cast<double>(spheres.contactEvaluations())};
+  const auto put = [&](const Vector& v) { bits.insert(bits.end(), {v.x, v.y, v.z}); };
+  for (std::size_t i = 0; i < spheres.size(); ++i)
+    for (const Vector& v : {spheres.position(i), spheres.velocity(i), spheres.spin(i)}) put(v);
+  for (const SpaceContact& c : spheres.contacts()) {
+    bits.insert(bits.end(), {1.0 * c.i, 1.0 * c.j, c.overlap, c.normalForce, 1.0 * c.sliding});
+    for (const Vector& v : {c.normal, c.tangentialForce, c.rollingTorque}) put(v);
+  }
+  for (std::size_t w = 0; w < walls; ++w) {
+    put(spheres.wallLoad(w).first);
+    put(spheres.wallLoad(w).second);
+  }
+  return bits;
+}
+
+/// @return how many contacts it evaluated on its way
+std::uint64_t expectTheSameBits(SpheresSetup setup, std::uint64_t steps,
+                                std::initializer_list<int> counts = {2, 3}) {
+  const std::size_t walls = setup.walls.size();
+  Spheres one(setup);
+  one.advance(steps);
+  const std::vector<double> bits = bitsOf(one, walls);
+  for (const int threads : counts) {
+    setup.threads = threads;
+    Spheres several(setup);
+    several.advance(steps);
+    EXPECT_TRUE(bitsOf(several, walls) == bits) << threads << " threads";
+  }
+  EXPECT_GT(one.rebuilds(), 1u);
+  return one.contactEvaluations();
+}
+
+TEST(SpaceThreads, AnyNumber_GivesTheSameBits) {
+  EXPECT_GT(expectTheSameBits(sheared(), 200, {2, 3, 5}), 4000u);
+  EXPECT_GT(expectTheSameBits(drum(), 200, {2, 3, 5}), 1000u);
+  SpheresSetup few = sheared();
+  for (auto* list : {&few.position, &few.velocity, &few.spin}) list->resize(2);
+  for (auto* list : {&few.radius, &few.mass, &few.inertia}) list->resize(2);
+  expectTheSameBits(few, 100, {2, 4});  // more threads than spheres
+}
+
+TEST(SpaceThreads, EveryLawAndIntegrator_GivesTheSameBits) {
+  const auto with = [](auto&& change) {
+    SpheresSetup setup = sheared();
+    change(setup);
+    EXPECT_GT(expectTheSameBits(setup, 100), 1500u);
+  };
+  for (const Integrator integrator : {Integrator::velocityVerlet, Integrator::semiImplicitEuler})
+    with([&](auto& s) { s.integrator = integrator; });
+  for (const Tangential tangential : {Tangential::none, Tangential::coulomb, Tangential::viscous})
+    with([&](auto& s) { s.law.tangential = tangential; });
+  with([](auto& s) { s.rotation = false; });
+  with([](auto& s) { s.law.cutTension = true; });
+  with([](auto& s) { s.conventions = {SpringTurn::rescaled, SpringTwist::none}; });
+  with([](auto& s) {  // rolling springs: the general kernel, torques that are not along f_t
+    s.law.rolling = Rolling::spring;
+    s.law.kr = 1e4;
+    s.law.gr = 0.05;
+    s.law.muR = 0.1;
+  });
+  with([](auto& s) {  // pairs that pull before and after they touch
+    s.law.normal = Normal::hertz;
+    s.law.kn = 2e8;
+    s.law.kt = 3e8;
+    s.law.gn = s.law.gt = 0.2;
+    s.law.damper = Damper::critical;
+    s.law.cohesion = Cohesion::jkr;
+    s.law.w = 2.0;
+  });
+  with([](auto& s) { s.skin = 2e-4; });  // rebuilds all the time
+}
+
+TEST(SpaceThreads, RunRestoredOnOtherNumbers_GoesOnToTheBitAcrossARenumbering) {
+  for (const bool drums : {false, true}) {
+    SpheresSetup setup = drums ? drum() : sheared();
+    const std::size_t walls = setup.walls.size();
+    Spheres one(setup);
+    one.advance(8180);
+    std::stringstream saved;
+    one.save(saved);
+    const std::uint64_t before = one.contactEvaluations();
+    one.advance(40);                       // spheres are numbered anew at step 8192
+    for (const int threads : {2, 3, 1}) {  // from each to the next
+      setup.threads = threads;
+      Spheres several(setup);
+      several.restore(saved);
+      saved = {};
+      several.save(saved);
+      several.advance(40);
+      EXPECT_TRUE(bitsOf(several, walls) == bitsOf(one, walls)) << threads << " threads";
+    }
+    EXPECT_GT(one.contactEvaluations(), before + 100u);
+  }
+}
+
+TEST(SpaceThreads, RunThatBeginsUnderWay_GivesTheSameBits) {
+  SpheresSetup setup = sheared();
+  setup.law.damping = Damping::lagged;
+  Spheres before(setup);
+  before.advance(100);
+  const auto contacts = before.contacts();
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    setup.position[i] = before.position(i);
+    setup.velocity[i] = before.velocity(i);
+    setup.spin[i] = before.spin(i);
+  }
+  std::vector<double> bits;
+  for (const int threads : {1, 3}) {
+    setup.threads = threads;
+    Spheres begun(setup);
+    begun.beginUnderWay(contacts);
+    begun.advance(20);
+    if (threads == 1) bits = bitsOf(begun, 2);
+    EXPECT_TRUE(bitsOf(begun, 2) == bits);
+  }
+}
+
+TEST(SpaceThreads, WhatGoesWrong_IsPassedOn) {
+  const auto why = [](SpheresSetup setup) -> std::string {
+    setup.threads = 3;
+    Spheres spheres(setup);
+    try {
+      spheres.advance(2000);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "it ran";
+  };
+  SpheresSetup lost = sheared(), deep = sheared(), through = drum();
+  lost.velocity[200].x = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(why(lost).find("the position of sphere 200 is not finite"), 0u);
+  deep.velocity[100] = {0.0, 0.0, 300.0};
+  EXPECT_NE(why(deep).find("of the smaller radius"), std::string::npos);
+  through.velocity[50] = {0.0, 0.0, 300.0};
+  EXPECT_NE(why(through).find("of the smaller radius"), std::string::npos);
+}
+
+}  // namespace
