@@ -63,8 +63,7 @@ class Space : public ImpulseSpaceOf<D> {
   Solver solver_;
   World world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
-  std::vector<std::unique_ptr<btRigidBody>>
-      bodies_;  ///< by id: disks, wall disks, planes, cylinders
+  std::vector<std::unique_ptr<btRigidBody>> bodies_;  ///< by id: disks, then walls
 };
 
 }  // namespace crossgrain_worker::bullet

@@ -12,7 +12,8 @@
 //                                      place() → {normal towards i, point}
 //     world.pairs, world.deviations, world.gap   what the engine makes of the law; how far apart it lets disks touch
 //
-// in SI units, ids as the protocol's: disks, or spheres, then wall disks, then planes, then cylinders. Vectors are those of crossgrain_vector.mjs.
+// in SI units, ids as the protocol's: disks, or spheres, then wall disks, then planes, then cylinders. Vectors are those of
+// crossgrain_vector.mjs.
 
 import {carriedAlong, cross, dot, isZero, minus, noSpin, plus, scaled, turned} from './crossgrain_vector.mjs';
 import {Body, facing} from './crossgrain_walls.mjs';
