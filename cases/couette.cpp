@@ -126,6 +126,22 @@ std::string unitHint(const SceneOf<D>& scene, const DeepStartOf<D>& deep, double
   return sound() ? "; are the disks' lengths in mm?" : "";
 }
 
+/// Where a sphere has its centre outside of the cylinder that it meets; empty: it is no such start.
+template <int D>
+std::string outsideCylinder(const SceneOf<D>& scene, const DeepStartOf<D>& deep) {
+  std::size_t id = scene.idCount() - scene.cylinderCount();
+  for (const WallBodyOf<D>& body : scene.bodies)
+    for (const Cylinder& cylinder : body.cylinders) {
+      if (id++ != deep.j) continue;
+      const double apart = cylinder.radius + deep.overlap - scene.disks.radius[deep.i];
+      if (apart < cylinder.radius) return {};
+      return fmt::format("lies outside {}: {:.4g} m from its axis, with a radius of {:g} m{}",
+                         nameOfId(scene, deep.j), apart, cylinder.radius,
+                         apart > 100.0 * cylinder.radius ? "; are lengths in mm?" : "");
+    }
+  return {};
+}
+
 }  // namespace
 
 template <int D>
@@ -148,6 +164,8 @@ void checkStart(const SceneOf<D>& scene, const Particles& particles, const std::
   const std::string place = line > 0 ? fmt::format("{}:{}", where, line) : where;
   const std::string who = fmt::format("{} and {}", nameOf(deep->i), nameOf(deep->j));
   if (deep->sameCentre) throw BadInput(fmt::format("{}: {} have the same centre", place, who));
+  if (const std::string why = outsideCylinder(scene, *deep); !why.empty())
+    throw BadInput(fmt::format("{}: {} {}", place, nameOf(deep->i), why));
   throw BadInput(fmt::format(
       "{}: {} overlap by {:.3g} m at the start, more than {} = {:g} of the small radius allows "
       "({:.3g} m){}",

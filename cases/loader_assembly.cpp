@@ -204,6 +204,14 @@ DiskGroupOf<D> readDisks(Reader in) {
   return group;
 }
 
+/// Makes a direction one of length 1. The square of what is shorter than this is no number.
+void normalise(const Reader& in, const char* key, auto& direction) {
+  constexpr double shortest = 1e-100;
+  in.check(direction.norm() > shortest, key, "must not be zero, or of a length below {:g}",
+           shortest);
+  direction.normalize();
+}
+
 /// Into a body with a cylinder, which turns about its axis or stands still.
 void readCylinder(Reader in, WallGroupOf<3>& wall) {
   Cylinder& cylinder = wall.cylinders.emplace_back();
@@ -213,8 +221,7 @@ void readCylinder(Reader in, WallGroupOf<3>& wall) {
   in.require("radius", cylinder.radius, positive("m"));
   in.read("omega", omega, anyNumber("rad/s"));
   in.finish();
-  in.check(!cylinder.axis.isZero(0.0), "axis", "must not be zero");
-  cylinder.axis.normalize();
+  normalise(in, "axis", cylinder.axis);
   if (omega == 0.0) return;
   wall.centre = cylinder.point;
   wall.motion.kind = MotionKind::rotating;
@@ -323,8 +330,8 @@ WallGroupOf<D> readWalls(Reader in) {
   if (in.has("point") != in.has("normal"))
     in.failMissing(in.has("point") ? "normal" : "point", "a plane has both");
   if (in.has("normal")) {
-    in.check(!wall.normal.isZero(0.0), "normal", "must not be zero");
-    wall.planes.push_back({wall.point, wall.normal.normalized()});
+    normalise(in, "normal", wall.normal);
+    wall.planes.push_back({wall.point, wall.normal});
   }
   if (in.has("position") != in.has("radius"))
     in.failMissing(in.has("position") ? "radius" : "position", "wall disks have both");
@@ -415,6 +422,7 @@ void readAssembly(Reader& in, AssemblyOf<D>& target) {
     count("walls", target.walls.back().position.size());
   }
   if (in.has("start")) readStartFiles(file, target);
+  checkCylinders(in, target);
   if (in.onlyOne({"duration", "contact_times", "steps"}).empty())
     in.failMissing("duration", "or contact_times, or steps");
   if (target.disks.empty() && !in.has("start"))

@@ -162,7 +162,7 @@ namespace {
 template <int D>
 void convertVector(const Value& value, VecOf<D>& target, const Range& range) {
   std::vector<double> values;
-  convert(value, values, range);
+  if (value.node.is_array()) convert(value, values, range);
   if (values.size() != D)
     value.fail(fmt::format("must be {}{}{}", D == 2 ? "[x, y]" : "[x, y, z]",
                            range.unit.empty() ? "" : " in ", range.unit));

@@ -56,6 +56,9 @@ void readAssembly(Reader& in, AssemblyOf<D>& assembly);
 /// [assembly.box] and [assembly.start]. @param assembly  whose disks and walls have been read
 template <int D>
 void readBox(Reader in, AssemblyOf<D>& assembly);
+/// @param assembly  whose disks, also of files, and walls have been read
+template <int D>
+void checkCylinders(const Reader& in, const AssemblyOf<D>& assembly);
 template <int D>
 void readStartFiles(Reader in, AssemblyOf<D>& assembly);
 SectionInfo boxSection();

@@ -30,14 +30,22 @@ const Section<BoxInput<D>>& boxKeys() {
   return section;
 }
 
-/// a_i + a_j of the largest pair with a moving disk [m]
+/// Of the moving disks [m]
 template <int D>
-double largestReach(const AssemblyOf<D>& assembly) {
-  double disk = 0.0, wall = 0.0;
+double largestRadius(const AssemblyOf<D>& assembly) {
+  double disk = 0.0;
   for (const DiskGroupOf<D>& group : assembly.disks)
     disk = std::max(disk, group.radius * (1.0 + group.radiusSpread));
   for (const DisksOf<D>& disks : assembly.starts.disks)
     disk = std::max(disk, std::ranges::max(disks.radius));
+  return disk;
+}
+
+/// a_i + a_j of the largest pair with a moving disk [m]
+template <int D>
+double largestReach(const AssemblyOf<D>& assembly) {
+  const double disk = largestRadius(assembly);
+  double wall = 0.0;
   for (const WallGroupOf<D>& group : assembly.walls) {
     if (!group.position.empty()) wall = std::max(wall, group.radius);
     for (const double radius : group.radii) wall = std::max(wall, radius);
@@ -96,6 +104,19 @@ SectionInfo startSection() {
 }
 
 /// A pair touches through one image at most where the box is wider than two reaches.
+template <int D>
+void checkCylinders(const Reader& in, const AssemblyOf<D>& assembly) {
+  const double disk = largestRadius(assembly);
+  for (std::size_t w = 0; w < assembly.walls.size(); ++w)
+    for (const Cylinder& cylinder : assembly.walls[w].cylinders)
+      in.check(cylinder.radius > disk, "walls",
+               "[{}] has a cylinder with a radius of {:g} m; the largest sphere, of {:g} m, must "
+               "fit in",
+               w, cylinder.radius, disk);
+}
+template void checkCylinders<2>(const Reader&, const Assembly&);
+template void checkCylinders<3>(const Reader&, const AssemblyOf<3>&);
+
 template <int D>
 void readBox(Reader in, AssemblyOf<D>& assembly) {
   BoxInput<D> box;

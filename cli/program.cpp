@@ -96,6 +96,12 @@ std::string reason(const CLI::ParseError& error, const CLI::App& command) {
   if (dynamic_cast<const CLI::RequiredError*>(&error)) return missing(command);
   if (option && dynamic_cast<const CLI::ArgumentMismatch*>(&error))
     return wrongCount(*option, command);
+  if (dynamic_cast<const CLI::ExcludesError*>(&error)) {  // "--long excludes --quick"
+    const std::string text = error.what(), between = " excludes ";
+    const std::size_t at = text.find(between);
+    return fmt::format("{} and {} do not go together", text.substr(0, at),
+                       text.substr(at + between.size()));
+  }
   if (option && option->get_expected_max() == 0) return option->get_name() + " takes no value";
   return error.what();
 }

@@ -59,6 +59,9 @@ Space<D>::Space(const ImpulseSceneOf<D>& scene) : scene_(scene) {
   dispatcher_.setDispatcherFlags(
       dispatcher_.getDispatcherFlags() &
       ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
+  for (const auto& [one, other] : {std::pair(SPHERE_SHAPE_PROXYTYPE, CUSTOM_CONCAVE_SHAPE_TYPE),
+                                   {CUSTOM_CONCAVE_SHAPE_TYPE, SPHERE_SHAPE_PROXYTYPE}})
+    dispatcher_.registerCollisionCreateFunc(one, other, &sphereInCylinder_);
   world_.getDispatchInfo().m_deterministicOverlappingPairs = true;
   world_.setForceUpdateAllAabbs(false);  // not of walls that rest
   btContactSolverInfo& solver = world_.getSolverInfo();
@@ -79,6 +82,11 @@ Space<D>::Space(const ImpulseSceneOf<D>& scene) : scene_(scene) {
     for (const auto& plane : wall.planes)
       addWall(std::make_unique<btStaticPlaneShape>(toBullet(plane.normal), 0.0), plane.point,
               wall.moves());
+  if constexpr (D == 3)
+    for (const BodyOf<D>& wall : scene.walls)
+      for (const auto& cylinder : wall.cylinders)
+        addWall(std::make_unique<HollowCylinderShape>(cylinder.axis, cylinder.radius),
+                cylinder.point, wall.moves());
 }
 
 template <int D>
@@ -135,6 +143,11 @@ void Space<D>::forMovingWalls(const Visit& visit) {
   for (const BodyOf<D>& wall : scene_.walls)
     for (const auto& plane : wall.planes) {
       if (wall.moves()) visit(**body, wall, plane.point, wall.velocityAt(plane.point));
+      ++body;
+    }
+  for (const BodyOf<D>& wall : scene_.walls)
+    for (const auto& cylinder : wall.cylinders) {
+      if (wall.moves()) visit(**body, wall, cylinder.point, wall.velocityAt(cylinder.point));
       ++body;
     }
 }

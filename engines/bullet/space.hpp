@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "crossgrain_impulse_space.hpp"
+#include "cylinder.hpp"
 
 namespace crossgrain_worker::bullet {
 
@@ -45,7 +46,7 @@ class Space : public ImpulseSpaceOf<D> {
   void addWall(std::unique_ptr<btCollisionShape> shape, Vector place, bool moves);
   btRigidBody& add(std::unique_ptr<btCollisionShape> shape, double mass, double inertia,
                    Vector place);
-  /// @param visit  (body, wall, place, velocity) of each wall disk and plane that moves
+  /// @param visit  (body, wall, place, velocity) of each wall disk, plane and cylinder that moves
   template <typename Visit>
   void forMovingWalls(const Visit& visit);
   void takeImpulses();
@@ -56,12 +57,13 @@ class Space : public ImpulseSpaceOf<D> {
 
   ImpulseSceneOf<D> scene_;
   btDefaultCollisionConfiguration configuration_;
+  SphereInCylinder::Create sphereInCylinder_;
   btCollisionDispatcher dispatcher_{&configuration_};
   btDbvtBroadphase broadphase_;
   Solver solver_;
   World world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
-  std::vector<std::unique_ptr<btRigidBody>> bodies_;  ///< by id: disks, wall disks, planes
+  std::vector<std::unique_ptr<btRigidBody>> bodies_;  ///< by id: disks, then walls
 };
 
 }  // namespace crossgrain_worker::bullet

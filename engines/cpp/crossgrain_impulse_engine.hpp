@@ -7,7 +7,8 @@
 //       return std::make_unique<MySpace>(scene);
 //     }));
 //
-// A second function, of const ImpulseSceneOf<3>&, makes spaces of spheres.
+// A second function, of const ImpulseSceneOf<3>&, makes spaces of spheres, whose walls may have
+// cylinders.
 
 #include <algorithm>
 #include <cmath>
@@ -194,7 +195,7 @@ class ImpulseRunOf : public ImpulseRun {
       ++evaluations_;
       // Without rotation friction has no arm, on a wall disk either.
       const auto j = static_cast<std::size_t>(impulse.j);
-      if (!rotation_ && ids_->isWall(j) && !ids_->isPlane(j)) impulse.place = wallDisk(j);
+      if (!rotation_ && ids_->isWallDisk(j)) impulse.place = wallDisk(j);
       for (ImpulseSumsOf<D>* sums : {&last_, &sums_}) sums->add(impulse, *ids_, bodies_);
     }
     ++last_.steps;
@@ -205,6 +206,10 @@ class ImpulseRunOf : public ImpulseRun {
 
   GeometryOf<D> geometry(std::size_t i, std::size_t j) const {
     const Vector place = space_->position(i);
+    if (ids_->isCylinder(j)) {
+      const auto [normal, distance] = bodies_[ids_->body(j)].cylinders[ids_->part(j)].facing(place);
+      return {normal, radius_[i] - distance};
+    }
     if (ids_->isPlane(j)) {
       const PlaneOf<D>& plane = bodies_[ids_->body(j)].planes[ids_->part(j)];
       return {plane.normal, radius_[i] - dot(place - plane.point, plane.normal)};
@@ -246,13 +251,18 @@ class ImpulseEngine {
                 {"instant_contacts", true},        {"accumulated_contacts", true},
                 {"warm_handover", false},          {"sliding_flags", false},
                 {"tangential_restitution", false}, {"settings", about_.settings}};
-    if (inSpace_) can["dimensions"] = {2, 3};
+    if (inSpace_) {
+      can["dimensions"] = {2, 3};
+      can["cylinders"] = true;
+    }
     return can;
   }
 
   Json load(const Json& scene, const Arrays& arrays, const Json& settings) {
     run_.reset();
-    if (scene.value("dimension", 2) == 3)
+    const bool space = scene.value("dimension", 2) == 3;
+    if (space && !inSpace_) throw Unsupported("has dimension = 2, not 3");
+    if (space)
       run_ = std::make_unique<ImpulseRunOf<3>>(about_, inSpace_);
     else
       run_ = std::make_unique<ImpulseRunOf<2>>(about_, inPlane_);

@@ -10,7 +10,8 @@
 
 namespace crossgrain_worker {
 
-/// What passed between two in a step. Ids: disks, then wall disks, then planes; i < j.
+/// What passed between two in a step. Ids: disks, then wall disks, then planes, then
+/// cylinders; i < j.
 template <int D>
 struct PairImpulseOf {
   using Vector = VectorOf<D>;

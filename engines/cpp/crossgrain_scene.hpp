@@ -46,8 +46,8 @@ std::vector<BodyOf<D>> bodiesOf(const Json& scene, const Arrays& arrays) {
   return bodies;
 }
 
-/// Ids of walls: which body each wall disk and plane belongs to. Disks come first, then wall disks,
-/// then planes.
+/// Ids of walls: which body each wall disk, plane and cylinder belongs to. Disks come first, then
+/// wall disks, then planes, then cylinders.
 class WallIds {
  public:
   template <int D>
@@ -57,16 +57,21 @@ class WallIds {
     planes_ = disks_ + owner_.size();
     for (std::size_t b = 0; b < bodies.size(); ++b)
       for (std::size_t p = 0; p < bodies[b].planes.size(); ++p) owner_.push_back({b, p});
+    cylinders_ = disks_ + owner_.size();
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      for (std::size_t c = 0; c < bodies[b].cylinders.size(); ++c) owner_.push_back({b, c});
   }
 
   bool isWall(std::size_t id) const { return id >= disks_; }
-  bool isPlane(std::size_t id) const { return id >= planes_; }
+  bool isWallDisk(std::size_t id) const { return isWall(id) && id < planes_; }
+  bool isPlane(std::size_t id) const { return id >= planes_ && id < cylinders_; }
+  bool isCylinder(std::size_t id) const { return id >= cylinders_; }
   std::size_t body(std::size_t wall) const { return owner_[wall - disks_].first; }
-  /// Number of a wall disk, or of a plane, in its body.
+  /// Number of a wall disk, plane or cylinder in its body.
   std::size_t part(std::size_t wall) const { return owner_[wall - disks_].second; }
 
  private:
-  std::size_t disks_, planes_;
+  std::size_t disks_, planes_, cylinders_;
   std::vector<std::pair<std::size_t, std::size_t>> owner_;
 };
 

@@ -48,7 +48,24 @@ struct PlaneOf {
 };
 using Plane = PlaneOf<2>;
 
-/// A rigid body of wall disks, or spheres, and planes at any time.
+/// Hollow, with spheres inside, of space alone; its body stands still or turns about its axis.
+template <int D>
+struct CylinderOf {
+  VectorOf<D> point, axis;  ///< of length 1
+  double radius;            ///< [m]
+
+  struct Facing {
+    VectorOf<D> normal;  ///< to the axis; on the axis itself there is none
+    double distance;     ///< from the surface, R − s [m]
+  };
+  Facing facing(VectorOf<D> place) const {
+    const VectorOf<D> apart = place - point, aside = apart - dot(apart, axis) * axis;
+    const double s = norm(aside);
+    return {s > 0.0 ? (-1.0 / s) * aside : VectorOf<D>{}, radius - s};
+  }
+};
+
+/// A rigid body of wall disks, or spheres, planes and cylinders at any time.
 template <int D>
 class BodyOf {
  public:
@@ -64,6 +81,10 @@ class BodyOf {
     for (const Vector& place : vectorsOf<D>(diskPosition)) offset_.push_back(place - start_);
     for (const auto& plane : description.at("planes"))
       planesAtStart_.push_back({plane.at("point").get<Vector>(), plane.at("normal").get<Vector>()});
+    if (description.contains("cylinders"))
+      for (const auto& cylinder : description.at("cylinders"))
+        cylinders.push_back({cylinder.at("point").get<Vector>(), cylinder.at("axis").get<Vector>(),
+                             cylinder.at("radius")});
     at(0.0);
   }
 
@@ -106,7 +127,7 @@ class BodyOf {
       planes.push_back({centre + turn(plane.point - start_), turn(plane.normal)});
   }
 
-  /// Velocity of the body's material at a place, as planes have it.
+  /// Velocity of the body's material at a place, as planes and cylinders have it.
   Vector velocityAt(Vector place) const { return velocity + cross(spin, place - centre); }
 
   bool moves() const { return kind_ != "fixed"; }
@@ -133,6 +154,7 @@ class BodyOf {
   std::vector<Vector> position, diskVelocity;  ///< of the wall disks
   /// They turn and shift with the body; in radial motion they stay.
   std::vector<PlaneOf<D>> planes;
+  std::vector<CylinderOf<D>> cylinders;  ///< they stay where they are
 };
 using Body = BodyOf<2>;
 

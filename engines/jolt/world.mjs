@@ -3,6 +3,7 @@
 
 import {readFileSync} from 'node:fs';
 import {cross, noSpin, plus, scaled} from '../node/crossgrain_vector.mjs';
+import {ballsOf, placeBalls} from '../node/cylinder_balls.mjs';
 import {Unsupported} from '../node/crossgrain_worker.mjs';
 
 const home = new URL(`../node/node_modules/${process.env.JOLT ?? 'jolt-physics'}/`, import.meta.url);
@@ -127,6 +128,9 @@ export class JoltWorld {
     this.moving = [];  // {b, body, id, offset} of wall disks and planes that move
     bodies.forEach((body, b) => body.offset.forEach((offset, k) => this.wall(b, body, offset, new J.SphereShape(body.diskRadius[k] / this.unit))));
     bodies.forEach((body, b) => body.planes.forEach((plane) => this.plane(b, body, plane)));
+    this.firstBall = this.bodies.length;  // the id of the first cylinder
+    this.balls = ballsOf(bodies, disks);
+    this.balls.forEach((ball) => this.ball(ball));
     this.system.OptimizeBroadPhase();
     this.pairs = law.pairs([...new Set(this.mass)], bodies.length > 0);
     this.deviations = [{name: 'slop', value: number('slop') * this.unit, unit: 'm', note: 'overlaps up to this are left standing'}];
@@ -183,9 +187,9 @@ export class JoltWorld {
   }
 
   /// Jolt numbers bodies in the order in which they come: the protocol's ids.
-  body(shape, at, motion, more = () => {}) {
-    if (this.bodies.length === MOST_BODIES) throw new Unsupported(`has at most ${MOST_BODIES} disks, wall disks and planes`);
-    const layer = motion === J.EMotionType_Static ? FIXED : MOVING;
+  body(shape, at, motion, more = () => {}, layer = motion === J.EMotionType_Static ? FIXED : MOVING) {
+    if (this.bodies.length === MOST_BODIES)
+      throw new Unsupported(`has at most ${MOST_BODIES} disks, wall disks, planes, and spheres times cylinders`);
     const body = once(new J.BodyCreationSettings(shape, this.placeOf(at), this.turnOf(this.unturned), motion, layer), (how) => {
       how.mAllowSleeping = false;
       how.mLinearDamping = how.mAngularDamping = 0;
@@ -227,7 +231,17 @@ export class JoltWorld {
     this.wall(b, body, body.fromCentre(point), plane);
   }
 
+  /// In the layer of what is fixed, since balls meet spheres alone; where it is to be it is put before the first step.
+  ball({cylinder, radius}) {
+    this.body(new J.SphereShape(radius / this.unit), cylinder.point, J.EMotionType_Kinematic, () => {}, FIXED);
+  }
+
   placeWalls(now, next) {
+    placeBalls(this.balls, (sphere) => this.metres(this.bodies[sphere].GetPosition()), now, (ball, k, centre, velocity) => {
+      const own = this.bodies[this.firstBall + k];
+      this.make.SetPosition(own.GetID(), this.placeOf(centre), J.EActivation_Activate);
+      own.SetLinearVelocity(this.vectorOf(velocity));
+    });
     for (const {b, body, id, offset} of this.moving)
       this.make.MoveKinematic(this.bodies[id].GetID(), this.placeOf(body.placed(offset, next[b])), this.turnOf(next[b].angle), this.dt);
   }
@@ -252,14 +266,19 @@ export class JoltWorld {
     };
   }
 
+  /// Of a body by its number: a ball is its cylinder.
+  idOf(body) {
+    return body < this.firstBall ? body : this.firstBall + Math.floor((body - this.firstBall) / this.count);
+  }
+
   /// Of the last step.
   impulses(visit) {
     this.stream.read(this.system, (a, b, pressing, along) => {
       const i = a & 0x7fffff, j = b & 0x7fffff;  // without Jolt's count of uses
       if (pressing === 0 && along.every((impulse) => impulse === 0)) return;
-      const {normal, point} = this.contacts.get(i * 2 ** 20 + j);
+      const {normal, point} = this.contacts.get(i * 2 ** 20 + j), id = this.idOf(j);
       const tangential = this.inSpace ? alongTangents(normal, along) : alongTangentInPlane(normal, along);
-      visit(i, j, pressing * this.unit, scaled(this.unit, tangential), () => ({normal: normal.map((x) => -x), point}));
+      visit(i, id, pressing * this.unit, scaled(this.unit, tangential), () => ({normal: normal.map((x) => -x), point}));
     });
   }
 }

@@ -1,14 +1,29 @@
 // Prescribed motion of wall bodies: the closed forms of adapters/motion.hpp, for those that stay rigid.
 
-import {minus, noSpin, plus, scaled, turned} from './crossgrain_vector.mjs';
+import {cross, dot, minus, noSpin, plus, scaled, turned} from './crossgrain_vector.mjs';
 
-/// A rigid body of wall disks and planes at any time.
+/// How a place faces a hollow cylinder, with spheres inside: the normal to the axis (on the axis itself any across it), and the
+/// distance from the surface.
+export function facing({point, axis, radius}, place) {
+  const apart = minus(place, point), aside = minus(apart, scaled(dot(apart, axis), axis)), s = Math.hypot(...aside);
+  return {normal: s > 0 ? scaled(-1 / s, aside) : across(axis), distance: radius - s};
+}
+
+/// A direction at right angles to another.
+function across(axis) {
+  const direction = cross(axis, Math.abs(axis[0]) < 0.6 ? [1, 0, 0] : [0, 1, 0]);
+  return scaled(1 / Math.hypot(...direction), direction);
+}
+
+/// A rigid body of wall disks, planes and cylinders at any time. Cylinders stay where they are: it stands still or turns about
+/// their axis.
 export class Body {
   constructor(description, diskPosition, diskRadius) {
     this.motion = description.motion;
     this.start = description.centre;
     this.diskRadius = diskRadius;
     this.planes = description.planes;
+    this.cylinders = description.cylinders ?? [];
     /// Of the wall disks, from the centre, at t = 0.
     const dimension = this.start.length;
     this.offset = Array.from(diskRadius, (_, k) =>
@@ -31,6 +46,9 @@ export class Body {
               velocity: scaled(frequency * Math.cos(frequency * t), amplitude)};
     return still;
   }
+
+  /// Velocity of its material at a place, in such a state; in space.
+  velocityAt(place, {centre, velocity, spin}) { return plus(velocity, cross(spin, minus(place, centre))); }
 
   /// Where something is at time t that lies there, seen from the centre, at t = 0.
   placed(offset, {centre, angle}) {

@@ -12,10 +12,11 @@
 //                                      place() → {normal towards i, point}
 //     world.pairs, world.deviations, world.gap   what the engine makes of the law; how far apart it lets disks touch
 //
-// in SI units, ids as the protocol's: disks, or spheres, then wall disks, then planes. Vectors are those of crossgrain_vector.mjs.
+// in SI units, ids as the protocol's: disks, or spheres, then wall disks, then planes, then cylinders. Vectors are those of
+// crossgrain_vector.mjs.
 
 import {carriedAlong, cross, dot, isZero, minus, noSpin, plus, scaled, turned} from './crossgrain_vector.mjs';
-import {Body} from './crossgrain_walls.mjs';
+import {Body, facing} from './crossgrain_walls.mjs';
 import {Unsupported} from './crossgrain_worker.mjs';
 import {RigidLaw} from './rigid_law.mjs';
 
@@ -38,7 +39,7 @@ export class ImpulseEngine {
     const {dimensions} = this.about;
     return {
       version: this.about.version,
-      ...(dimensions && {dimensions}),
+      ...(dimensions && {dimensions, cylinders: true}),
       effects: Object.fromEntries(EFFECTS.map((name) => [name, 'optional'])),
       law_options: {normal: ['rigid'], lever_arm: ['overlap_middle'], velocity_arm: ['lever_arm'], plane_arm: ['middle']},
       wall_motions: MOTIONS,
@@ -66,8 +67,10 @@ export class ImpulseEngine {
     const rotation = this.friction && scene.rotation;
     this.bodies = scene.bodies.map((body, b) =>
       new Body(body, arrays[`bodies.${b}.disk_position`], arrays[`bodies.${b}.disk_radius`]));
+    this.surfaces = [...this.bodies.flatMap((body, b) => body.planes.map((plane) => ({b, plane}))),
+                     ...this.bodies.flatMap((body, b) => body.cylinders.map((cylinder) => ({b, cylinder})))];
     this.owner = [...this.bodies.flatMap((body, b) => Array.from(body.diskRadius, () => b)),
-                  ...this.bodies.flatMap((body, b) => body.planes.map(() => b))];
+                  ...this.surfaces.map(({b}) => b)];
     this.radius = [...arrays['disks.radius'], ...this.bodies.flatMap((body) => [...body.diskRadius])];
     const vector = (name, i) => [...arrays[name].slice(dimension * i, dimension * (i + 1))];
     const spinOf = dimension === 3 ? (i) => vector('disks.spin', i) : (i) => arrays['disks.spin'][i];
@@ -185,7 +188,8 @@ export class ImpulseEngine {
   addContacts(arrays, impulses, interval, positions, states) {
     const list = [...impulses.values()].sort((a, b) => a.i - b.i || a.j - b.j);
     const geometry = list.map(({i, j}) =>
-      j < positions.length ? this.ofDisks(i, j, positions) : this.ofPlane(i, j - positions.length, positions, states));
+      j < positions.length ? this.ofDisks(i, j, positions)
+                           : this.ofSurface(i, this.surfaces[j - positions.length], positions, states));
     arrays['contacts.i'] = ['i32', list.map((c) => c.i)];
     arrays['contacts.j'] = ['i32', list.map((c) => c.j)];
     arrays['contacts.normal'] = ['f64', geometry.flatMap((g) => g.normal)];
@@ -200,11 +204,13 @@ export class ImpulseEngine {
     return {normal: apart.map((x) => x / distance), overlap: this.radius[i] + this.radius[j] - distance};
   }
 
-  ofPlane(i, plane, positions, states) {
-    const b = this.owner[this.owner.length - this.bodies.reduce((n, body) => n + body.planes.length, 0) + plane];
-    const before = this.bodies.slice(0, b).reduce((n, body) => n + body.planes.length, 0), body = this.bodies[b];
-    const {point, normal} = body.planes[plane - before], now = turned(states[b].angle, normal);
-    const foot = body.placed(body.fromCentre(point), states[b]);
+  ofSurface(i, {b, plane, cylinder}, positions, states) {
+    if (cylinder) {
+      const {normal, distance} = facing(cylinder, positions[i]);
+      return {normal, overlap: this.radius[i] - distance};
+    }
+    const body = this.bodies[b], now = turned(states[b].angle, plane.normal);
+    const foot = body.placed(body.fromCentre(plane.point), states[b]);
     return {normal: now, overlap: this.radius[i] - dot(minus(positions[i], foot), now)};
   }
 

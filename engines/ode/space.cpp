@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -43,6 +44,40 @@ std::int32_t idOf(dGeomID shape) {
 
 void setId(dGeomID shape, std::size_t id) {
   dGeomSetData(shape, reinterpret_cast<void*>(static_cast<std::intptr_t>(id)));
+}
+
+// Hollow cylinders, a class of shapes beside ODE's own, which are solid.
+
+using Cylinder = CylinderOf<3>;
+
+/// A sphere meets the plane that touches there, as dCollideSpherePlane has it; the normal is for
+/// the cylinder.
+int collideWithSphere(dGeomID cylinder, dGeomID sphere, int, dContactGeom* contact, int) {
+  const dReal* const at = dGeomGetPosition(sphere);
+  const Vector3 centre{at[0], at[1], at[2]};
+  const auto [normal, distance] =
+      static_cast<const Cylinder*>(dGeomGetClassData(cylinder))->facing(centre);
+  const double radius = dGeomSphereGetRadius(sphere);
+  contact->depth = radius - distance;
+  if (contact->depth < 0.0) return 0;
+  toOde(centre - radius * normal, contact->pos);
+  toOde(-1.0 * normal, contact->normal);
+  contact->g1 = cylinder;
+  contact->g2 = sphere;
+  contact->side1 = contact->side2 = -1;
+  return 1;
+}
+
+dColliderFn* colliderOf(int other) {
+  return other == dSphereClass ? collideWithSphere : nullptr;
+}
+
+dGeomID createCylinder(const Cylinder& cylinder) {
+  static const dGeomClass about{sizeof(Cylinder), colliderOf, dInfiniteAABB, nullptr, nullptr};
+  static const int number = dCreateGeomClass(&about);
+  const dGeomID shape = dCreateGeom(number);
+  new (dGeomGetClassData(shape)) Cylinder(cylinder);
+  return shape;
 }
 
 /// ODE's rows against rolling bring spins to rest, not to that of a wall.
@@ -90,6 +125,14 @@ Space<D>::Space(const ImpulseSceneOf<D>& scene)
       wallParts_.emplace_back(&wall, p);
       addWall(dCreatePlane(shapes_, 0.0, 1.0, 0.0, 0.0));
     }
+  planesEnd_ = wallParts_.size();
+  if constexpr (D == 3)
+    for (const BodyOf<D>& wall : scene_.walls)
+      for (std::size_t c = 0; c < wall.cylinders.size(); ++c) {
+        wallParts_.emplace_back(&wall, c);
+        addWall(createCylinder(wall.cylinders[c]));
+        dSpaceAdd(shapes_, wallShapes_.back());
+      }
   placeWalls();
 }
 
@@ -135,7 +178,7 @@ void Space<D>::addWall(dGeomID shape) {
 
 template <int D>
 void Space<D>::placeWalls() {
-  for (std::size_t w = 0; w < wallShapes_.size(); ++w) {
+  for (std::size_t w = 0; w < planesEnd_; ++w) {  // cylinders stay where they are
     const auto [wall, part] = wallParts_[w];
     if (w < wallDisks_) {
       const Vector3 at = inSpace(wall->position[part]);

@@ -51,10 +51,10 @@ class Space : public ImpulseSpaceOf<D> {
   dJointGroupID contacts_;
   std::vector<dBodyID> disks_;
   std::vector<bool> turns_;
-  std::vector<dGeomID> wallShapes_;  ///< wall disks, then planes
-  /// Of each of these: its body, and the number of the disk or plane in it.
+  std::vector<dGeomID> wallShapes_;  ///< wall disks, then planes, then cylinders
+  /// Of each of these: its body, and its number among the body's disks, planes or cylinders.
   std::vector<std::pair<const BodyOf<D>*, std::size_t>> wallParts_;
-  std::size_t wallDisks_ = 0;
+  std::size_t wallDisks_ = 0, planesEnd_ = 0;
   std::vector<Touch> touches_;
   std::vector<dJointFeedback> forces_;
 };

@@ -2,6 +2,7 @@
 
 import {createRequire} from 'node:module';
 import {scaled} from '../node/crossgrain_vector.mjs';
+import {ballsOf, placeBalls} from '../node/cylinder_balls.mjs';
 
 const require = createRequire(new URL('../node/', import.meta.url));
 const RAPIER = require(process.env.RAPIER ?? '@dimforge/rapier2d-compat');
@@ -43,6 +44,11 @@ export class RapierWorld {
       const plane = new RAPIER.ColliderDesc(new RAPIER.HalfSpace(vectorOf(normal))).setTranslation(...at);
       this.add(plane, this.ofWalls, this.walls[b]);
     }));
+    this.balls = ballsOf(bodies, disks).map((ball) => {
+      const own = this.world.createRigidBody(
+        ball.body.moves ? RAPIER.RigidBodyDesc.kinematicVelocityBased() : RAPIER.RigidBodyDesc.fixed());
+      return {...ball, own, collider: this.collider(RAPIER.ColliderDesc.ball(ball.radius), this.ofWalls, own)};
+    });
   }
 
   free() { this.world.free(); }
@@ -82,9 +88,13 @@ export class RapierWorld {
     return this.world.createRigidBody(kind.setTranslation(...centre));
   }
 
-  add(shape, restitution, body) {
-    const collider = this.world.createCollider(
+  collider(shape, restitution, body) {
+    return this.world.createCollider(
       shape.setDensity(0).setFriction(this.law.friction).setRestitution(restitution), body);
+  }
+
+  add(shape, restitution, body) {
+    const collider = this.collider(shape, restitution, body);
     this.idOf.set(collider.handle, this.colliders.length);
     this.colliders.push(collider.handle);
   }
@@ -94,6 +104,13 @@ export class RapierWorld {
       if (!wall.isKinematic()) return;
       wall.setNextKinematicTranslation(vectorOf(next[b].centre));
       wall.setNextKinematicRotation(turnOf(next[b].angle));
+    });
+    const positionOf = (sphere) => componentsOf(this.disks[sphere].translation());
+    placeBalls(this.balls, positionOf, now, ({own, collider, body, radius}, _, centre, velocity) => {
+      own.setTranslation(vectorOf(centre), true);
+      if (body.moves) own.setLinvel(vectorOf(velocity), true);
+      // Rapier keeps a contact's normal until the two have turned about each other by a degree or so, unless a shape is new.
+      collider.setRadius(radius);
     });
   }
 

@@ -111,6 +111,9 @@ class Yade:
         self.space = scene.get("dimension", 2) == 3
         self.bodies = bodies_of(scene, arrays)
         demand_plain_walls(scene, self.bodies)
+        for body in self.bodies:
+            if body.cylinders:
+                raise crossgrain_worker.Unsupported(f"has no cylinders, as {body.name} has")
         self.law.demand_plane_arm(any(body.planes for body in self.bodies))
         kinds = Kinds(scene, arrays, self.bodies, self.law.by_radius, self.law.by_plane)
         self.law.set_kinds(kinds)

@@ -180,6 +180,7 @@ std::vector<std::string> declaredBy(const Capabilities& can) {
         {can.energyLedger, energyLedger},
         {contains(can.dimensions, 3), spheresInSpace},
         {can.periodic, periodicDirections},
+        {limits.cylinders, cylinders},
         {true, severalSizes},
         {true, manyDisks},
         {true, farPlaces},

@@ -70,6 +70,7 @@ inline const std::string farPlaces = "places far from the origin";
 inline const std::string lateTimes = "late times";
 inline const std::string spheresInSpace = "spheres in space";
 inline const std::string periodicDirections = "periodic directions";
+inline const std::string cylinders = "cylinders";
 std::string planeMotion(Motion::Kind kind);  ///< "planes: rotating"
 std::string wallMotion(Motion::Kind kind);   ///< "walls: rotating"
 std::string precisionNamed(Precision precision);
@@ -249,6 +250,7 @@ Checks contactChecks();
 Checks reachChecks();
 Checks springChecks();
 Checks spaceChecks();
+Checks cylinderChecks();
 Checks refusalChecks();
 Checks mirrorChecks();
 

@@ -11,46 +11,12 @@
 #include "adapters/suitability.hpp"
 #include "studies/conformance/check_context.hpp"
 #include "studies/conformance/moved_pairs.hpp"
+#include "studies/conformance/space_scenes.hpp"
 
 namespace crossgrain::conformance {
 namespace {
 
 // ---- torques ------------------------------------------------------------------------------------
-
-constexpr double radius = 0.005, mass = 1.309e-3;  ///< [m, kg]
-
-ContactLaw dampedLaw(int dimension) {
-  ContactLaw law;
-  law.dimension = dimension;
-  law.kn = 1e5;
-  law.gn = 1.15;
-  law.kt = 2e5 / 7.0;
-  law.gt = 0.33;
-  law.mu = 0.5;
-  law.en = 0.8;
-  law.conventions.leverArm = LeverArm::overlapMiddle;
-  return law;
-}
-
-SpaceScene emptySpace(const CheckContext& c, const char* name) {
-  SpaceScene scene;
-  scene.name = name;
-  scene.law = followed(c.can, dampedLaw(3));
-  scene.dt = 4e-6;
-  return scene;
-}
-
-template <int D>
-void addBody(SceneOf<D>& scene, const VecOf<D>& place, const VecOf<D>& velocity,
-             const SpinOf<D>& spin) {
-  DisksOf<D>& disks = scene.disks;
-  disks.radius.push_back(radius);
-  disks.mass.push_back(mass);
-  disks.inertia.push_back((D == 2 ? 0.5 : 0.4) * mass * radius * radius);
-  disks.position.push_back(place);
-  disks.velocity.push_back(velocity);
-  disks.spin.push_back(spin);
-}
 
 /// What turned a sphere by Δω that should be turned by `wanted`.
 std::string causeOfTurn(const Vec3& found, const Vec3& wanted, const Vec3& n) {

@@ -171,4 +171,32 @@ TEST(Couette, BadStart_NamesTheDisks) {
   EXPECT_THROW(preparePacking(crowded, 0, 4e-5, *makeGrain(), [](double) {}), BadInput);
 }
 
+TEST(CheckStart, SphereOutsideACylinder_IsNamedWithItsDistance) {
+  SpaceScene scene;
+  scene.disks.radius = {0.002};
+  scene.disks.mass = scene.disks.inertia = {1.0};
+  scene.disks.position = {Vec3(0.0, 0.027, 0.036)};
+  scene.disks.velocity = scene.disks.spin = {Vec3::Zero()};
+  WallBodyOf<3>& drum = scene.bodies.emplace_back();
+  drum.planes.push_back({{0.0, 0.0, -1.0}, {0.0, 0.0, 1.0}});
+  drum.cylinders.push_back({Vec3::Zero(), {1.0, 0.0, 0.0}, 0.04});
+  Particles particles;
+  particles.smallRadius = 0.002;
+  const auto message = [&] {
+    try {
+      checkStart(scene, particles, "my.toml");
+    } catch (const BadInput& bad) {
+      return std::string(bad.what());
+    }
+    return std::string("accepted");
+  };
+  const std::string outside = "my.toml: sphere 0 lies outside cylinder 0: ";
+  EXPECT_EQ(message(), outside + "0.045 m from its axis, with a radius of 0.04 m");
+  scene.disks.position[0] *= 1e3;
+  EXPECT_EQ(message(), outside + "45 m from its axis, with a radius of 0.04 m; are lengths in mm?");
+  scene.disks.position[0] = Vec3(0.0, 0.0, 0.0395);  // too near, and inside
+  EXPECT_EQ(message().find("my.toml: sphere 0 and cylinder 0 overlap by 0.0015 m at the start"),
+            0u);
+}
+
 }  // namespace

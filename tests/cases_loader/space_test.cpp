@@ -106,6 +106,9 @@ TEST_F(Space, Cylinder_Refusals) {
   expectMessage(with("axis = [0, 1, 0]"), "assembly.walls[1].cylinder.radius");
   expectMessage(with("axis = [0, 1, 0], radius = 0"), "radius = 0: must be > 0");
   expectMessage(with("axis = [0, 0, 0], radius = 9"), "axis: must not be zero");
+  expectMessage(with("axis = [0, 1e-200, 0], radius = 9"), "or of a length below 1e-100");
+  expectMessage(with("axis = 'z', radius = 9"), "must be [x, y, z]");
+  expectMessage(with("axis = [0, 1, 0], radius = 0.4"), "m, must fit in");
   expectMessage(
       with("axis = [0, 1, 0], radius = 9", "velocity = [0, 1, 0]\n"),
       "velocity: is not of a wall with a cylinder, which stands still or turns about its");

@@ -453,7 +453,7 @@ def is_installed(package):
 
 IN_SPACE = {
     "TorqueTurnsSpheres", "TurnedImpactsAreTurnedAlike", "ContactForcesInSpaceAct", "TurningWallPushesSpheres",
-    "ForcesInSpaceAreThoseOfTheLaw",
+    "ForcesInSpaceAreThoseOfTheLaw", "CylinderIsMetAsAPlane", "TurningCylinderDrivesSpheres",
 }  # fmt: skip
 
 

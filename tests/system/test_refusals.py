@@ -36,6 +36,7 @@ COMMAND_LINE = {
     "engines grain": "'grain' is one argument too many: engines takes none",
     f"compare {CELL} {RUN} --out b": "--out is given twice",
     f"compare {CELL} {RUN} --json=maybe": "--json takes no value",
+    f"stability {RUN} --transforms --in-space": "--transforms and --in-space do not go together",
     f"compare {CELL} {RUN} --jobs=0": ("--jobs: ", "from 1 to 4096", "'0'", "see crossgrain compare --help"),
     f"compare {CELL} {RUN} --jobs=1.5": ("--jobs: ", "must be a whole number"),
     f"compare {CELL} {RUN} --jobs=99999999999999999999": "from 1 to 4096",

@@ -1,5 +1,5 @@
-// The same in space: a worker of soft spheres in a box, periodic where it is to be, that is right
-// but for what is planted.
+// The same in space: a worker of soft spheres in a box, periodic where it is to be, and between
+// planes and cylinders, that is right but for what is planted.
 //
 //     planted_spheres [NAME=VALUE …]      names: SpaceFaults
 
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "crossgrain_worker.hpp"
+#include "crossgrain_scene.hpp"
 #include "faults.hpp"
 
 namespace crossgrain::planted {
@@ -36,6 +36,10 @@ struct SpaceFaults {
   /// 1: θ is reversed where one of its pair comes to another image; 0.5: lost
   double rollReversed = given("roll_reversed", 0.0);
   double pyramid = given("pyramid", 0.0);  ///< 1: the bound is that of each of two axes
+  double cylinderNormal = given("cylinder_normal", 1.0);  ///< −1: n of cylinders points outward
+  /// 1: δ at a cylinder is of the distance from a plane through its axis
+  double cylinderPlane = given("cylinder_plane", 0.0);
+  double cylinderTurns = given("cylinder_turns", 1.0);  ///< 0: a cylinder's surface stands still
 };
 
 class Spheres {
@@ -70,6 +74,7 @@ class Spheres {
           length_[k] = scene.at("box").at("high").at(k).get<double>() -
                        scene.at("box").at("low").at(k).get<double>();
     for (int k = 0; k < 3; ++k) gravity_[k] = scene.at("gravity").at(k);
+    walls_ = crossgrain_worker::bodiesOf<3>(scene, arrays);
     for (auto* sum : {&force_, &torque_}) sum->resize(position.size());
     addForces();
     kick(-0.5 * dt_);  // velocities live half a step before positions from here on
@@ -78,6 +83,8 @@ class Spheres {
   void step() {
     kick(dt_);
     for (std::size_t i = 0; i < position.size(); ++i) position[i] += dt_ * velocity_[i];
+    time_ += dt_;
+    for (auto& wall : walls_) wall.at(time_);
     addForces();
   }
 
@@ -90,6 +97,18 @@ class Spheres {
 
   std::vector<Vec3> position;
   std::vector<Contact> contacts;
+
+  /// As a snapshot has them.
+  Json bodies() const {
+    Json list = Json::array();
+    for (std::size_t b = 0; b < walls_.size(); ++b) {
+      list.push_back(walls_[b].pose());
+      for (const auto& [name, load] :
+           {std::pair("force", wallForce_[b]), {"torque", wallTorque_[b]}})
+        list.back()[name] = {load.x(), load.y(), load.z()};
+    }
+    return list;
+  }
 
   bool rolls() const { return kr_ > 0.0; }
   Vec3 velocity(std::size_t i) const { return velocity_[i] + 0.5 * dt_ / mass_[i] * force_[i]; }
@@ -116,9 +135,61 @@ class Spheres {
   void addForces() {
     for (std::size_t i = 0; i < position.size(); ++i) force_[i] = mass_[i] * gravity_;
     for (Vec3& torque : torque_) torque.setZero();
+    for (auto* sum : {&wallForce_, &wallTorque_}) sum->assign(walls_.size(), Vec3::Zero());
     contacts.clear();
     for (std::size_t i = 0; i < position.size(); ++i)
       for (std::size_t j = i + 1; j < position.size(); ++j) meet(i, j);
+    std::size_t id = position.size();
+    for (std::size_t b = 0; b < walls_.size(); ++b)
+      for (const auto& plane : walls_[b].planes) {
+        for (std::size_t i = 0; i < position.size(); ++i) {
+          const Vec3 n = of(plane.normal);
+          meetWall(i, id, b, n, (position[i] - of(plane.point)).dot(n));
+        }
+        ++id;
+      }
+    for (std::size_t b = 0; b < walls_.size(); ++b)
+      for (const auto& cylinder : walls_[b].cylinders) {
+        for (std::size_t i = 0; i < position.size(); ++i) {
+          const auto [n, distance] =
+              cylinder.facing({position[i].x(), position[i].y(), position[i].z()});
+          const double apart = cylinder.radius - distance;
+          const double from = faults_.cylinderPlane == 0.0
+                                  ? apart
+                                  : apart * std::abs(of(n).dot(of(cylinder.axis).unitOrthogonal()));
+          meetWall(i, id, b, faults_.cylinderNormal * of(n), cylinder.radius - from);
+        }
+        ++id;
+      }
+  }
+
+  static Vec3 of(const crossgrain_worker::Vector3& v) { return {v.x, v.y, v.z}; }
+
+  /// @param wall      its number
+  /// @param distance  of the sphere's centre from the surface [m]
+  void meetWall(std::size_t i, std::size_t id, std::size_t wall, const Vec3& n, double distance) {
+    const double overlap = radius_[i] - distance, arm = radius_[i] - 0.5 * overlap;
+    if (!(overlap > 0.0)) {
+      springs_.erase({i, id});
+      return;
+    }
+    const auto& body = walls_[wall];
+    const Vec3 place = position[i] - arm * n, fromCentre = place - of(body.centre);
+    const Vec3 turning = faults_.cylinderTurns * of(body.spin);
+    const Vec3 relative = velocity_[i] - of(body.velocity) - turning.cross(fromCentre);
+    const Vec3 slip = relative - relative.dot(n) * n - arm * spin_[i].cross(n);
+    const Vec3 force = push(i, id, n, overlap, relative.dot(n), slip, 0.5 * (spin_[i] + turning),
+                            [](Spring&, double) { return Vec3(Vec3::Zero()); });
+    force_[i] += force;
+    torque_[i] -= arm * couple(n, force);
+    wallForce_[wall] -= force;
+    wallTorque_[wall] -= fromCentre.cross(force);
+  }
+
+  /// n × f_t.
+  Vec3 couple(const Vec3& n, const Vec3& force) const {
+    const Vec3 tangential = force - force.dot(n) * n;
+    return faults_.torqueAxis != 0.0 ? tangential : n.cross(tangential);
   }
 
   struct Spring {
@@ -172,12 +243,27 @@ class Spheres {
     const double armI = radius_[i] - 0.5 * overlap, armJ = radius_[j] - 0.5 * overlap;
     const Vec3 relative = velocity_[i] - velocity_[j];
     const Vec3 slip = relative - relative.dot(n) * n - (armI * spin_[i] + armJ * spin_[j]).cross(n);
+    Vec3 rollingTorque;
+    const Vec3 force = push(i, j, n, overlap, relative.dot(n), slip, 0.5 * (spin_[i] + spin_[j]),
+                            [&](Spring& spring, double load) {
+                              return rollingTorque = rolling(spring, i, j, n, load);
+                            });
+    force_[i] += force;
+    force_[j] -= force;
+    torque_[i] += rollingTorque - armI * couple(n, force);
+    torque_[j] -= rollingTorque + armJ * couple(n, force);
+  }
+
+  /// Force of a contact on i; adds the contact.
+  /// @param approach  v_n  @param roll  (spring, normal force) → M on i
+  template <typename Roll>
+  Vec3 push(std::size_t i, std::size_t j, const Vec3& n, double overlap, double approach,
+            const Vec3& slip, const Vec3& meanSpin, const Roll& roll) {
     Spring& spring = springs_[{i, j}];
-    const Vec3 meanSpin = 0.5 * (spin_[i] + spin_[j]);
     if (faults_.springTurn != 0.0) follow(spring.stretch, spring.normal, n, meanSpin);
     if (faults_.rollTurn != 0.0) follow(spring.angle, spring.normal, n, meanSpin);
-    const double normal = kn_ * overlap - gn_ * relative.dot(n);
-    const Vec3 rollingTorque = rolling(spring, i, j, n, normal);
+    const double normal = kn_ * overlap - gn_ * approach;
+    const Vec3 rollingTorque = roll(spring, normal);
     spring.normal = n;
     spring.stretch += dt_ * slip;
     Vec3 tangential = -kt_ * spring.stretch - gt_ * slip;
@@ -192,21 +278,18 @@ class Spheres {
       tangential *= bound / tangential.norm();
       spring.stretch = -tangential / kt_;
     }
-    const Vec3 force = normal * n + tangential;
-    const Vec3 couple = faults_.torqueAxis != 0.0 ? tangential : n.cross(tangential);
-    force_[i] += force;
-    force_[j] -= force;
-    torque_[i] += rollingTorque - armI * couple;
-    torque_[j] -= rollingTorque + armJ * couple;
     contacts.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(j), n, tangential,
                         rollingTorque, overlap, normal, sliding});
+    return normal * n + tangential;
   }
 
   SpaceFaults faults_;
-  double kn_, gn_, kt_, gt_, mu_, kr_, gr_, muR_, dt_;
+  double kn_, gn_, kt_, gt_, mu_, kr_, gr_, muR_, dt_, time_ = 0.0;
   Vec3 gravity_ = Vec3::Zero(), length_ = Vec3::Zero();  ///< of the box where it is periodic
   std::vector<double> radius_, mass_, inertia_;
   std::vector<Vec3> velocity_, spin_, force_, torque_;
+  std::vector<crossgrain_worker::BodyOf<3>> walls_;
+  std::vector<Vec3> wallForce_, wallTorque_;  ///< on each, about its centre
   std::map<std::pair<std::size_t, std::size_t>, Spring> springs_;
 };
 
@@ -216,8 +299,9 @@ class PlantedSpheres {
 
   static Json capabilities() {
     Json effects;
-    for (const char* name : {"normal_damping", "friction", "tangential_spring",
-                             "tangential_damping", "rotation", "gravity", "rolling_resistance"})
+    for (const char* name :
+         {"normal_damping", "friction", "tangential_spring", "tangential_damping", "rotation",
+          "gravity", "rolling_resistance", "moving_walls"})
       effects[name] = "optional";
     const auto only = [](const char* value) { return Json::array({value}); };
     return {{"version", "1"},
@@ -247,7 +331,8 @@ class PlantedSpheres {
               {"spring_turn", only("rotated")},
               {"spring_twist", only("mean_spin")}}},
             {"wall_motions", Json::array()},
-            {"plane_motions", Json::array()},
+            {"plane_motions", {"fixed"}},
+            {"cylinders", true},
             {"precisions", only("double")},
             {"instant_contacts", true},
             {"accumulated_contacts", false},
@@ -268,6 +353,8 @@ class PlantedSpheres {
     if (law.value("rolling", "none") != "none") effects.push_back("rolling_resistance");
     for (const Json& component : scene.at("gravity"))
       if (component != 0.0 && effects.back() != "gravity") effects.push_back("gravity");
+    for (const Json& body : scene.at("bodies"))
+      if (body.at("motion").at("kind") != "fixed") effects.push_back("moving_walls");
     return {{"engine", "planted_spheres"}, {"version", "1"},
             {"dt", scene.at("dt")},        {"precision", "double"},
             {"effects", effects},          {"integrator", "position_verlet"},
@@ -302,7 +389,7 @@ class PlantedSpheres {
             {"velocity_time", now},
             {"contact_time", now},
             {"contact_interval", 0.0},
-            {"bodies", Json::array()}};
+            {"bodies", spheres.bodies()}};
   }
 
   Json stats() const { return count_.stats(evaluations_); }

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "studies/conformance/check_context.hpp"
+
+/// What scenes of equal bodies, most of them spheres in space, are made of.
+namespace crossgrain::conformance {
+
+inline constexpr double radius = 0.005, mass = 1.309e-3;  ///< [m, kg]
+
+/// Linear, with a spring and dampers; e_n = 0.8.
+inline ContactLaw dampedLaw(int dimension) {
+  ContactLaw law;
+  law.dimension = dimension;
+  law.kn = 1e5;
+  law.gn = 1.15;
+  law.kt = 2e5 / 7.0;
+  law.gt = 0.33;
+  law.mu = 0.5;
+  law.en = 0.8;
+  law.conventions.leverArm = LeverArm::overlapMiddle;
+  return law;
+}
+
+/// A scene without bodies, its law as the engine has it.
+inline SpaceScene emptySpace(const CheckContext& c, const char* name) {
+  SpaceScene scene;
+  scene.name = name;
+  scene.law = followed(c.can, dampedLaw(3));
+  scene.dt = 4e-6;
+  return scene;
+}
+
+/// A solid disk or sphere.
+template <int D>
+void addBody(SceneOf<D>& scene, const VecOf<D>& place, const VecOf<D>& velocity,
+             const SpinOf<D>& spin) {
+  DisksOf<D>& disks = scene.disks;
+  disks.radius.push_back(radius);
+  disks.mass.push_back(mass);
+  disks.inertia.push_back((D == 2 ? 0.5 : 0.4) * mass * radius * radius);
+  disks.position.push_back(place);
+  disks.velocity.push_back(velocity);
+  disks.spin.push_back(spin);
+}
+
+}  // namespace crossgrain::conformance
