@@ -219,8 +219,8 @@ class InSpace(SystemTest):
                 np.testing.assert_allclose(force, -contacts.force, rtol=0, atol=1e-15 * abs(contacts.normal_force).max(initial=0.0))
                 touching += len(contacts)
         self.assertGreater(touching, 100)
-        done = self.run_program("export", "lammps", self.file, self.BUMPY, "--out", self.folder / "y", *self.SHORT)
-        self.assert_one_line(done, BAD_INPUT, "format lammps", "ondem alone")
+        done = self.run_program("export", "mercurydpm", self.file, self.BUMPY, "--out", self.folder / "y", *self.SHORT)
+        self.assert_one_line(done, BAD_INPUT, "format mercurydpm", "lammps and ondem alone")
 
 
 class RoundTrip(OneRun):
