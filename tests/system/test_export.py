@@ -178,6 +178,30 @@ class InSpace(SystemTest):
         self.assertEqual(means["grain"], means["mine"])
         self.assertEqual({0.0}, {float(row["difference"] or 0.0) for row in self.rows("endpoints.csv", self.folder / "both")})
 
+    def test_exported_files_have_the_averages_of_the_run(self):
+        own = {(r["field"], r["r_m"]): r for r in self.rows("profiles.csv", self.ran) if r["packing"] == "0"}
+        changes = [*self.SHORT, *settings(engines__mine__contacts_behind=0)]
+        for form, pattern in (("lammps", "lammps.[dc]*"), ("ondem", "ondem-*.vtkhdf")):
+            with self.subTest(form):
+                out = self.folder / form
+                self.assert_status(self.run_program("export", form, self.file, self.BUMPY, "--out", out, "--quiet", *self.SHORT), HELD)
+                files = sorted(self.folder.glob(pattern))
+                again = self.folder / f"{form}.h5"
+                done = self.run_program("import", form, *files, self.BUMPY, "--name", "mine", "--out", again, "--quiet", *changes)
+                self.assert_status(done, HELD)
+                for made in (files, [again]):
+                    folder = self.folder / f"{form}-{len(made)}"
+                    done = self.run_program("average", *made, self.BUMPY, "--name", "mine", "--out", folder, "--quiet", *changes)
+                    self.assert_status(done, HELD)
+                    rows = self.rows("profiles.csv", folder)
+                    self.assertEqual(len(own), len(rows))
+                    for row in rows:
+                        wanted = own[row["field"], row["r_m"]]["mean"]
+                        if wanted == "":
+                            self.assertEqual("", row["mean"])
+                        else:
+                            self.assertAlmostEqual(float(wanted), float(row["mean"]), delta=1e-9 * (1 + abs(float(wanted))))
+
     def test_contacts_with_a_cylinder_are_read_and_not_exported(self):
         drum = CASES / "space/drum.toml"
         short = [each for each in self.SHORT if "duration" not in each and "from" not in each]
