@@ -134,15 +134,28 @@ std::vector<std::filesystem::path> writtenFiles(std::string_view format,
   return files;
 }
 
+namespace {
+
+/// Periodic along z, as LAMMPS' own boxes of two dimensions are.
+FileBox dumpedBox(const Scene& scene, const WrittenBox& box) {
+  FileBox made{{box.low.x(), box.low.y(), -0.5 * box.height},
+               {box.high.x(), box.high.y(), 0.5 * box.height},
+               {false, false, true}};
+  for (int k = 0; scene.box && k < 2; ++k) {
+    made.low[k] = scene.box->low[k];
+    made.high[k] = scene.box->high[k];
+    made.periodic[k] = scene.box->periodic[static_cast<std::size_t>(k)];
+  }
+  return made;
+}
+
+}  // namespace
+
 std::unique_ptr<SnapshotWriter> openWriter(std::string_view format,
                                            const std::filesystem::path& out, const Scene& scene,
                                            const WrittenBox& box) {
   if (format == "mercurydpm") return openMercuryDpm(out, scene, box);
-  if (format == "lammps")
-    return openLammps<2>(out, scene,
-                         {{box.low.x(), box.low.y(), -0.5 * box.height},
-                          {box.high.x(), box.high.y(), 0.5 * box.height},
-                          {false, false, true}});
+  if (format == "lammps") return openLammps<2>(out, scene, dumpedBox(scene, box));
   if (format == "ondem") return openOnDem<2>(out, scene, box.height);
   throw BadInput(fmt::format("there is no format \"{}\" to write; there are {}", format,
                              fmt::join(writtenFormats(), ", ")));

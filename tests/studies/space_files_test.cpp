@@ -7,6 +7,8 @@
 // and moves at 1 m/s along x is at (4.2, 1, 2.9) by then, 0.1 m deep in the first from above.
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <map>
 
@@ -266,6 +268,38 @@ TEST_F(SpaceFiles, Average_HasTheShortBranchOverTheBorder) {
     EXPECT_NEAR(stress("stress_xx"), 90.0 / 48.0, 1e-12);
     EXPECT_NEAR(stress("stress_yx"), 5.0 * 0.9 / 48.0, 1e-12);
     EXPECT_NEAR(stress("stress_xy"), 0.0, 1e-12);
+  }
+}
+
+/// What Debian's programs wrote of tests/files/samples/lammps.in and liggghts.in: a pair over the
+/// edge x = 4 with 1000 N/m · 0.01 m on a branch of 0.99 m, in 64 m³; and a sphere 0.02 m deep in a
+/// floor, whose contact LIGGGHTS' dump does not have. Numbers have six digits.
+TEST_F(SpaceFiles, DumpsOfBothPrograms_HaveTheStressOverTheBorder) {
+  AssemblyOf<3>& assembly = setup_.spaceAssembly;
+  assembly.disks[0].mass = 1.0;
+  assembly.disks[0].places = {{0.4, 2.0, 2.0}, {3.41, 2.0, 2.0}, {2.0, 2.0, 0.48}};
+  assembly.walls.resize(1);
+  for (Vec3* high : {&assembly.box->high, &setup_.average->region.high}) *high = {4.0, 4.0, 4.0};
+  struct Program {
+    const char* name;
+    Settings settings;
+    double floor;
+  };
+  for (const Program& program :
+       {Program{"lammps", {}, 20.0 * 0.48 / 64.0},
+        {"liggghts",
+         {{"dt", 1e-3},
+          {"columns", std::string("c_c=pair/gran/local,pos,id,force,force_normal,force_tangential,"
+                                  "torque,history,delta,contactPoint")}},
+         0.0}}) {
+    SCOPED_TRACE(program.name);
+    setup_.engines["lammps-files"] = program.settings;
+    const std::string name = fmt::format("{}/files/samples/{}.0.", CROSSGRAIN_TESTS, program.name);
+    const CompareResults results =
+        averageSnapshots(setup_, {name + "dump", name + "local"}, "test");
+    const std::vector<Profile>& profiles = results.runs.at(0).profiles;
+    EXPECT_NEAR(profileOf(profiles, "stress_xx")->mean[0].value(), 10.0 * 0.99 / 64.0, 1e-5);
+    EXPECT_NEAR(profileOf(profiles, "stress_zz")->mean[0].value(), program.floor, 1e-5);
   }
 }
 

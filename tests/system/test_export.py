@@ -178,20 +178,21 @@ class InSpace(SystemTest):
         self.assertEqual(means["grain"], means["mine"])
         self.assertEqual({0.0}, {float(row["difference"] or 0.0) for row in self.rows("endpoints.csv", self.folder / "both")})
 
-    def test_exported_files_have_the_averages_of_the_run(self):
-        own = {(r["field"], r["r_m"]): r for r in self.rows("profiles.csv", self.ran) if r["packing"] == "0"}
-        changes = [*self.SHORT, *settings(engines__mine__contacts_behind=0)]
-        for form, pattern in (("lammps", "lammps.[dc]*"), ("ondem", "ondem-*.vtkhdf")):
+    def check_averages_of_exports(self, ran, case, changes, forms):
+        """Of files of each form, and of what import makes of them, the profiles are those of the run."""
+        own = {(r["field"], r["r_m"]): r for r in self.rows("profiles.csv", ran) if r["packing"] == "0"}
+        settled = [*changes, *settings(engines__mine__contacts_behind=0)]
+        for form, pattern in forms.items():
             with self.subTest(form):
-                out = self.folder / form
-                self.assert_status(self.run_program("export", form, self.file, self.BUMPY, "--out", out, "--quiet", *self.SHORT), HELD)
-                files = sorted(self.folder.glob(pattern))
+                file, out = ran / "snapshots/grain-p0.h5", self.folder / form
+                self.assert_status(self.run_program("export", form, file, case, "--out", out, "--quiet", *changes), HELD)
+                files = sorted(self.folder.glob(form + pattern))
                 again = self.folder / f"{form}.h5"
-                done = self.run_program("import", form, *files, self.BUMPY, "--name", "mine", "--out", again, "--quiet", *changes)
+                done = self.run_program("import", form, *files, case, "--name", "mine", "--out", again, "--quiet", *settled)
                 self.assert_status(done, HELD)
                 for made in (files, [again]):
                     folder = self.folder / f"{form}-{len(made)}"
-                    done = self.run_program("average", *made, self.BUMPY, "--name", "mine", "--out", folder, "--quiet", *changes)
+                    done = self.run_program("average", *made, case, "--name", "mine", "--out", folder, "--quiet", *settled)
                     self.assert_status(done, HELD)
                     rows = self.rows("profiles.csv", folder)
                     self.assertEqual(len(own), len(rows))
@@ -201,6 +202,21 @@ class InSpace(SystemTest):
                             self.assertEqual("", row["mean"])
                         else:
                             self.assertAlmostEqual(float(wanted), float(row["mean"]), delta=1e-9 * (1 + abs(float(wanted))))
+
+    def test_exported_files_have_the_averages_of_the_run(self):
+        forms = {"lammps": ".[dc]*", "ondem": "-*.vtkhdf"}
+        self.check_averages_of_exports(self.ran, self.BUMPY, self.SHORT, forms)
+
+    def test_exported_files_of_a_periodic_plane_have_the_averages_of_the_run(self):
+        case = CASES / "space/plane-shear.toml"
+        changes = settings(
+            assembly__duration=0.8, average__snapshots=3, preparation__packings=1, run__keep_snapshots=3, looks__count=1
+        )
+        ran = self.compared_once("grain", *changes, case=case)
+        forms = {"lammps": ".[dc]*", "mercurydpm": ".[df]*", "ondem": "-*.vtkhdf"}
+        self.check_averages_of_exports(ran, case, changes, forms)
+        head = (self.folder / "lammps.dump").read_text(encoding="utf-8")[:200]
+        self.assertIn("ITEM: BOX BOUNDS pp ff pp\n0 0.148\n", head)
 
     def test_contacts_with_a_cylinder_are_read_and_not_exported(self):
         drum = CASES / "space/drum.toml"
