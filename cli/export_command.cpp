@@ -33,6 +33,13 @@ files::WrittenBox boxOf(const Case& setup) {
   return {region.low.head<2>(), region.high.head<2>(), region.height};
 }
 
+/// What is averaged lies in it.
+BoxOf<3> boxInSpace(const Region& region) {
+  if (!region.hasRings()) return {region.low, region.high};
+  const double reach = region.outerRadius;
+  return {{-reach, -reach, region.low.z()}, {reach, reach, region.high.z()}};
+}
+
 Case flowCase(const CommandLine& line) {
   const std::string file = line.inputs.front().string();
   const std::vector<Case> cases = loadCase(file, line.overrides);
@@ -65,8 +72,9 @@ auto writerOf(const std::string& format, const std::string& out, const Scene& sc
   return files::openWriter(format, out, scene, boxOf(setup));
 }
 auto writerOf(const std::string& format, const std::string& out, const SpaceScene& scene,
-              const Case&) {
-  return files::openWriter(format, out, scene);
+              const Case& setup) {
+  return files::openWriter(format, out, scene,
+                           scene.box.value_or(boxInSpace(setup.average->region)));
 }
 
 template <int D>

@@ -58,8 +58,12 @@ Columns columnsOf(const TextFile& text, const Header& header, const ColumnOption
 /// Rows up to the next time.
 class Csv : public TextParts {
  public:
-  Csv(Files files, std::shared_ptr<const ColumnOptions> options, Content content)
-      : TextParts(std::move(files)), options_(std::move(options)), content_(content) {}
+  Csv(Files files, std::shared_ptr<const ColumnOptions> columns, Content content,
+      std::optional<FileBox> box = {})
+      : TextParts(std::move(files)),
+        options_(std::move(columns)),
+        content_(content),
+        box_(std::move(box)) {}
 
  protected:
   void begin(TextFile& text) override {
@@ -80,6 +84,7 @@ class Csv : public TextParts {
   Part read(TextFile& text) override {
     Part part;
     FileFrame& frame = part.frame;
+    frame.box = box_;
     const bool timed = columns_.has(Meaning::time), stepped = columns_.has(Meaning::step);
     if (content_ == Content::contacts) part.table.emplace();
     bool first = true;
@@ -109,6 +114,7 @@ class Csv : public TextParts {
  private:
   std::shared_ptr<const ColumnOptions> options_;
   Content content_;
+  std::optional<FileBox> box_;
   Columns columns_;
   char separator_ = ',';
   std::optional<std::int64_t> fromName_;
@@ -150,7 +156,7 @@ std::unique_ptr<FrameReader> openCsv(const Files& files, const FileOptions& opti
   for (Files& list : bySeries(filesOf(files, Content::contacts, contentOfCsv)))
     contacts.push_back(std::make_unique<Csv>(std::move(list), columns, Content::contacts));
   return joinParts(std::make_unique<Csv>(filesOf(files, Content::particles, contentOfCsv), columns,
-                                         Content::particles),
+                                         Content::particles, options.box),
                    std::move(contacts), columns);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/audit_geometry.hpp"
+
 namespace crossgrain::files {
 namespace {
 
@@ -46,27 +48,37 @@ std::optional<double> commonFactor(std::vector<double> factors, double least, do
   return median;
 }
 
-double rootOfSquares(const std::vector<Vec2>& list) {
-  double sum = 0.0;
-  for (const Vec2& one : list) sum += one.squaredNorm();
-  return std::sqrt(sum);
-}
-
 }  // namespace
 
-double driveOf(const std::vector<WallBody>& bodies) {
+template <int D>
+double driveOf(const std::vector<WallBodyOf<D>>& bodies) {
   double drive = 0.0;
-  for (const WallBody& body : bodies)
-    drive = std::max({drive, body.motion.frequency, std::abs(body.motion.angularVelocity)});
+  for (const WallBodyOf<D>& body : bodies)
+    drive = std::max({drive, body.motion.frequency, sizeOf(body.motion.angularVelocity)});
   return drive;
 }
+template double driveOf(const std::vector<WallBody>&);
+template double driveOf(const std::vector<WallBodyOf<3>>&);
 
-Displacements::Factors Displacements::factorsOf(const Snapshot& now, double uncertain) const {
+template <int D>
+std::optional<VecOf<D>> DisplacementsOf<D>::movedOf(const SnapshotOf<D>& now, std::size_t k) const {
+  const VecOf<D> moved = now.position[k] - position_[k];
+  if (!box_) return moved;
+  const VecOf<D> way = 0.5 * (now.positionTime - time_) * (velocity_[k] + now.velocity[k]);
+  if (box_->nearest(way) != way) return std::nullopt;
+  return box_->nearest(moved);
+}
+
+template <int D>
+DisplacementsOf<D>::Factors DisplacementsOf<D>::factorsOf(const SnapshotOf<D>& now,
+                                                          double uncertain) const {
   const double lapse = now.positionTime - time_;
   Factors factors;
   for (std::size_t k = 0; k < position_.size(); ++k) {
-    const Vec2 mean = 0.5 * (velocity_[k] + now.velocity[k]), way = lapse * mean;
-    const Vec2 change = now.velocity[k] - velocity_[k], moved = now.position[k] - position_[k];
+    const VecOf<D> mean = 0.5 * (velocity_[k] + now.velocity[k]), way = lapse * mean;
+    const auto shown = movedOf(now, k);
+    if (!shown) continue;
+    const VecOf<D> change = now.velocity[k] - velocity_[k], &moved = *shown;
     if (std::max(moved.norm(), way.norm()) <= clear * uncertain || way.isZero(0.0)) continue;
     const double factor = moved.dot(way) / way.squaredNorm();
     const bool straight = (moved - factor * way).norm() <= 0.1 * moved.norm();
@@ -78,22 +90,31 @@ Displacements::Factors Displacements::factorsOf(const Snapshot& now, double unce
   return factors;
 }
 
-std::optional<double> Displacements::rmsOf(const Snapshot& now, double uncertain) const {
+template <int D>
+std::optional<double> DisplacementsOf<D>::rmsOf(const SnapshotOf<D>& now, double uncertain) const {
   const double lapse = now.positionTime - time_;
-  std::vector<Vec2> moved;
-  for (std::size_t k = 0; k < position_.size(); ++k)
-    moved.push_back(now.position[k] - position_[k]);
-  const double way = rootOfSquares(moved), before = lapse * rootOfSquares(velocity_),
-               after = lapse * rootOfSquares(now.velocity);
-  const double noise = clear * uncertain * std::sqrt(static_cast<double>(moved.size()));
+  double moved = 0.0, earlier = 0.0, later = 0.0;  // sums of squares
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < position_.size(); ++k) {
+    const auto shown = movedOf(now, k);
+    if (!shown) continue;
+    ++count;
+    moved += shown->squaredNorm();
+    earlier += velocity_[k].squaredNorm();
+    later += now.velocity[k].squaredNorm();
+  }
+  const double way = std::sqrt(moved), before = lapse * std::sqrt(earlier),
+               after = lapse * std::sqrt(later);
+  const double noise = clear * uncertain * std::sqrt(static_cast<double>(count));
   if (way > noise && way > mostRms * std::max(before, after)) return way / std::max(before, after);
   if (std::min(before, after) > noise && way < leastRms * std::min(before, after))
     return way / std::min(before, after);
   return std::nullopt;
 }
 
-Displacements::Finding Displacements::compare(const Snapshot& now, double uncertain) {
-  Finding finding;
+template <int D>
+MotionFinding DisplacementsOf<D>::compare(const SnapshotOf<D>& now, double uncertain) {
+  MotionFinding finding;
   if (!position_.empty()) {
     const Factors factors = factorsOf(now, uncertain);
     const auto factor = commonFactor(factors.all, leastOfMotion, mostOfMotion);
@@ -121,5 +142,8 @@ Displacements::Finding Displacements::compare(const Snapshot& now, double uncert
   time_ = now.positionTime;
   return finding;
 }
+
+template class DisplacementsOf<2>;
+template class DisplacementsOf<3>;
 
 }  // namespace crossgrain::files

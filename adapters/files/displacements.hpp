@@ -10,7 +10,21 @@
 namespace crossgrain::files {
 
 /// The fastest angular frequency of walls that swing or turn [rad/s].
-double driveOf(const std::vector<WallBody>& bodies);
+template <int D>
+double driveOf(const std::vector<WallBodyOf<D>>& bodies);
+
+/// What DisplacementsOf finds of two snapshots.
+struct MotionFinding {
+  /// Way covered/way by velocities, where it is the same to 5 % of nine in ten of the counted
+  /// disks, or of the even ones, and is either a power of ten to 2 % or the same as since the
+  /// snapshot before.
+  std::optional<double> factor;
+  std::size_t of = 0;  ///< such disks
+  /// Else: root of the mean square of displacements/that of velocities Δt, where that is more
+  /// than 2 or less than 1/100. A steady flow has at most 1 (Minkowski's inequality); disks that
+  /// vibrate or diffuse have less without a limit.
+  std::optional<double> rms;
+};
 
 /// Whether disks move from one snapshot to the next as far as their velocities say: of files whose
 /// time step or unit of velocities is another than was said, they do not.
@@ -23,40 +37,37 @@ double driveOf(const std::vector<WallBody>& bodies);
 /// v₂ − v₁, or v₂ − v₁ − g τ, is at most a fifth of its mean velocity; τ is the time that its way
 /// takes at that mean, whatever the files say of time. At an even speed, and in flight, τ is Δt.
 /// Of these alone less than 0.4 of the way is no finding: see mostOfBouncing.
-class Displacements {
+///
+/// In a periodic box the way is that to the nearest image, since files may wrap places. Left out
+/// are disks that by their velocities have gone more than half of a period: which image is theirs
+/// then, nobody knows.
+template <int D>
+class DisplacementsOf {
  public:
   /// @param gravity  g [m/s²]
   /// @param drive    driveOf() the walls: snapshots further apart than half a radian of it may show
   ///                 the same phase each time, and then only powers of ten are a finding [rad/s]
-  explicit Displacements(const Vec2& gravity = Vec2::Zero(), double drive = 0.0)
-      : gravity_(gravity), drive_(drive) {}
-
-  struct Finding {
-    /// Way covered/way by velocities, where it is the same to 5 % of nine in ten of the counted
-    /// disks, or of the even ones, and is either a power of ten to 2 % or the same as since the
-    /// snapshot before.
-    std::optional<double> factor;
-    std::size_t of = 0;  ///< such disks
-    /// Else: root of the mean square of displacements/that of velocities Δt, where that is more
-    /// than 2 or less than 1/100. A steady flow has at most 1 (Minkowski's inequality); disks that
-    /// vibrate or diffuse have less without a limit.
-    std::optional<double> rms;
-  };
+  explicit DisplacementsOf(const VecOf<D>& gravity = VecOf<D>::Zero(), double drive = 0.0,
+                           const std::optional<BoxOf<D>>& box = {})
+      : gravity_(gravity), drive_(drive), box_(box) {}
 
   /// Compares with the snapshot before. @param uncertain  how far positions may be off [m]
-  Finding compare(const Snapshot& now, double uncertain);
+  MotionFinding compare(const SnapshotOf<D>& now, double uncertain);
 
  private:
   /// Way covered/way by velocities of a disk; 0: by another way.
   struct Factors {
     std::vector<double> all, even;
   };
-  Factors factorsOf(const Snapshot& now, double uncertain) const;
-  std::optional<double> rmsOf(const Snapshot& now, double uncertain) const;
+  Factors factorsOf(const SnapshotOf<D>& now, double uncertain) const;
+  std::optional<double> rmsOf(const SnapshotOf<D>& now, double uncertain) const;
+  /// Of disk k since the snapshot before; absent: not known [m].
+  std::optional<VecOf<D>> movedOf(const SnapshotOf<D>& now, std::size_t k) const;
 
-  Vec2 gravity_;
+  VecOf<D> gravity_;
   double drive_;
-  std::vector<Vec2> position_, velocity_;  ///< of the snapshot before
+  std::optional<BoxOf<D>> box_;
+  std::vector<VecOf<D>> position_, velocity_;  ///< of the snapshot before
   double time_ = 0.0;
   std::optional<double> factor_, even_;  ///< since the one before that
 };

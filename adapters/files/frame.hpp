@@ -76,6 +76,8 @@ struct FileOptions {
   /// is NAME[1], NAME[2], … in order; "-" is not read. Meanings are the names of columns of CSV
   /// files (docs/file-formats.md). Formats whose names are fixed take none.
   std::string columns;
+  /// The case's periodic box, of files that say none [length].
+  std::optional<FileBox> box = {};
 };
 
 /// The frames of one run, read one by one: memory holds one at a time.

@@ -111,16 +111,34 @@ class FStat : public TextParts {
   }
 };
 
+/// Of a contact with a ghost, the particle that is there in the box's nearest image: its centre is
+/// R − δ/2 behind the point.
+std::optional<std::int64_t> particleBehind(const FileContacts& contacts, std::size_t k,
+                                           const FileFrame& frame) {
+  constexpr double samePlace = 1e-4;  // of a radius: points have six digits
+  const FileParticles& all = frame.particles;
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    const double arm = all.radius[j] - 0.5 * contacts.overlap[k];
+    const Vec3 centre = contacts.point[k] - arm * contacts.normal[k];
+    if (nearestImage(all.position[j] - centre, frame.box).norm() <= samePlace * all.radius[j])
+      return all.id[j];
+  }
+  return std::nullopt;
+}
+
 /// Over a periodic edge the partner is a ghost, a row that .data does not have. The same contact is
 /// listed from the other side, too, with the same overlap and force and the reverse normal; that
-/// line's particle is the one meant.
-void resolveGhosts(ContactTable& table, FileFrame& frame) {
+/// line's particle is the one meant. Of a fixed particle's ghost there is no such line: it is the
+/// one at its place, where the case's box is known.
+/// @param box  the case's, since that of .data is the one that is drawn
+void resolveGhosts(ContactTable& table, FileFrame& frame, const std::optional<FileBox>& box) {
   FileContacts& contacts = table.contacts;
   const auto rows = static_cast<std::int64_t>(frame.particles.size());
   std::vector<std::size_t> ghosts;
   for (std::size_t k = 0; k < contacts.size(); ++k)
     if (contacts.second[k] >= rows) ghosts.push_back(k);
   std::ranges::sort(ghosts, {}, [&](std::size_t k) { return contacts.overlap[k]; });
+  if (box) frame.box = box;
   constexpr double tenDigits = 1e-9;
   const auto mirrors = [&](std::size_t a, std::size_t b) {
     const double size = contacts.force[a].norm();
@@ -135,11 +153,14 @@ void resolveGhosts(ContactTable& table, FileFrame& frame) {
       partner[a] = contacts.first[ghosts[b]];
       partner[b] = contacts.first[ghosts[a]];
       const Vec3 shift = contacts.point[ghosts[a]] - contacts.point[ghosts[b]];
-      for (int axis = 0; frame.box && axis < 3; ++axis) {
+      for (int axis = 0; !box && frame.box && axis < 3; ++axis) {
         const double length = frame.box->high[axis] - frame.box->low[axis];
         if (std::abs(shift[axis]) > 0.5 * length && length > 0.0) frame.box->periodic[axis] = true;
       }
     }
+    if (const auto behind =
+            partner[a] < 0 && box ? particleBehind(contacts, ghosts[a], frame) : std::nullopt)
+      partner[a] = *behind;
     if (partner[a] < 0)
       throw BadInput(fmt::format(
           "{}: particle {} touches {}, but there are {} particles, from 0: if that is the ghost of "
@@ -167,7 +188,10 @@ std::unique_ptr<FrameReader> openMercuryDpm(const Files& files, const FileOption
   if (Files fstat = filesOf(files, Content::contacts, contentOfMercuryDpm); !fstat.empty())
     contacts.push_back(std::make_unique<FStat>(std::move(fstat)));
   return joinParts(std::make_unique<Data>(filesOf(files, Content::particles, contentOfMercuryDpm)),
-                   std::move(contacts), nullptr, resolveGhosts);
+                   std::move(contacts), nullptr,
+                   [box = options.box](ContactTable& table, FileFrame& frame) {
+                     resolveGhosts(table, frame, box);
+                   });
 }
 
 }  // namespace crossgrain::files

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "adapters/files/frame.hpp"
 #include "adapters/files/write_snapshots.hpp"
 
 /// What the writers share.
@@ -117,8 +118,9 @@ std::vector<std::string> notInFormats(const SnapshotOf<D>& now, bool rolling = f
 
 std::unique_ptr<SnapshotWriter> openMercuryDpm(const std::filesystem::path& out, const Scene& scene,
                                                const WrittenBox& box);
-std::unique_ptr<SnapshotWriter> openLammps(const std::filesystem::path& out, const Scene& scene,
-                                           const WrittenBox& box);
+template <int D>
+std::unique_ptr<SnapshotWriterOf<D>> openLammps(const std::filesystem::path& out,
+                                                const SceneOf<D>& scene, const FileBox& box);
 /// @param height  of disks [m]
 template <int D>
 std::unique_ptr<SnapshotWriterOf<D>> openOnDem(const std::filesystem::path& out,

@@ -134,11 +134,28 @@ std::vector<std::filesystem::path> writtenFiles(std::string_view format,
   return files;
 }
 
+namespace {
+
+/// Periodic along z, as LAMMPS' own boxes of two dimensions are.
+FileBox dumpedBox(const Scene& scene, const WrittenBox& box) {
+  FileBox made{{box.low.x(), box.low.y(), -0.5 * box.height},
+               {box.high.x(), box.high.y(), 0.5 * box.height},
+               {false, false, true}};
+  for (int k = 0; scene.box && k < 2; ++k) {
+    made.low[k] = scene.box->low[k];
+    made.high[k] = scene.box->high[k];
+    made.periodic[k] = scene.box->periodic[static_cast<std::size_t>(k)];
+  }
+  return made;
+}
+
+}  // namespace
+
 std::unique_ptr<SnapshotWriter> openWriter(std::string_view format,
                                            const std::filesystem::path& out, const Scene& scene,
                                            const WrittenBox& box) {
   if (format == "mercurydpm") return openMercuryDpm(out, scene, box);
-  if (format == "lammps") return openLammps(out, scene, box);
+  if (format == "lammps") return openLammps<2>(out, scene, dumpedBox(scene, box));
   if (format == "ondem") return openOnDem<2>(out, scene, box.height);
   throw BadInput(fmt::format("there is no format \"{}\" to write; there are {}", format,
                              fmt::join(writtenFormats(), ", ")));
@@ -146,15 +163,19 @@ std::unique_ptr<SnapshotWriter> openWriter(std::string_view format,
 
 std::unique_ptr<SnapshotWriterOf<3>> openWriter(std::string_view format,
                                                 const std::filesystem::path& out,
-                                                const SpaceScene& scene) {
+                                                const SpaceScene& scene, const BoxOf<3>& box) {
   if (scene.cylinderCount() > 0)
     throw BadInput(
         fmt::format("format {}: has no cylinders, as the walls of {} are; the snapshots "
                     "themselves are HDF5, docs/files.md",
                     format, scene.name));
   if (format == "ondem") return openOnDem<3>(out, scene, 0.0);
+  if (format == "lammps")
+    return openLammps<3>(out, scene,
+                         {box.low, box.high, {box.periodic[0], box.periodic[1], box.periodic[2]}});
   throw BadInput(fmt::format(
-      "format {}: snapshots in space (case.dimension = 3) are written as ondem alone", format));
+      "format {}: snapshots in space (case.dimension = 3) are written as lammps and ondem alone",
+      format));
 }
 
 }  // namespace crossgrain::files

@@ -42,8 +42,7 @@ using SnapshotWriter = SnapshotWriterOf<2>;
 /// "mercurydpm": NAME.data, NAME.fstat and NAME.restart, which MercuryCG averages.
 /// "lammps": NAME.dump and NAME.contacts, as `dump custom` and `dump local` write them.
 /// "ondem": NAME-000.vtkhdf, -001, …, one a snapshot, in the layout that the Open Network on DEM
-/// decided on in October 2026, made for the VTKHDF reader of ParaView 5.13 and later; the one that
-/// there is of snapshots in space.
+/// decided on in October 2026, made for the VTKHDF reader of ParaView 5.13 and later.
 std::vector<std::string_view> writtenFormats();
 
 /// The files that a format makes of so many snapshots.
@@ -58,10 +57,11 @@ std::vector<std::filesystem::path> writtenFiles(std::string_view format,
 std::unique_ptr<SnapshotWriter> openWriter(std::string_view format,
                                            const std::filesystem::path& out, const Scene& scene,
                                            const WrittenBox& box);
-/// The same in space, with what a box is for left out. @throws BadInput of another format than
-/// ondem
+/// The same in space.
+/// @param box  that files state, if their format has one
+/// @throws BadInput of mercurydpm, and of walls that the format does not have
 std::unique_ptr<SnapshotWriterOf<3>> openWriter(std::string_view format,
                                                 const std::filesystem::path& out,
-                                                const SpaceScene& scene);
+                                                const SpaceScene& scene, const BoxOf<3>& box);
 
 }  // namespace crossgrain::files

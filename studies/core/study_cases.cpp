@@ -110,7 +110,8 @@ Starts startsOf(const CommandLine& line, std::string_view command) {
 namespace {
 
 /// The others do not know spheres in space yet.
-constexpr std::array<std::string_view, 4> flowsInSpace = {"compare", "lockstep", "plan", "average"};
+constexpr std::array<std::string_view, 5> flowsInSpace = {"compare", "lockstep", "plan", "average",
+                                                          "import"};
 
 }  // namespace
 

@@ -38,19 +38,17 @@ struct NamedRun {
   std::vector<double> radius;  ///< of its disks [m]
 };
 
-template <int D>
 NamedRun averageRun(const Case& setup, const SnapshotRun& files, const std::string& name, int index,
                     std::size_t count, Progress& progress) {
-  const auto opened = openSnapshots<D>(files, setup, name);
-  SnapshotSourceOf<D>& source = *opened;
+  const OpenRun opened = openRun(files, setup, name);
   // Begun once the first is open: a file that cannot be read is refused in one line.
   if (index == 0) progress.begin("averaging", std::vector<double>(count, 1.0));
-  AveragedRun averaged = averagedRun(setup, files, source, [&](double fraction) {
+  AveragedRun averaged = opened.average([&](double fraction) {
     progress.update(static_cast<std::size_t>(index), files.name(), fraction);
   });
   averaged.run.packing = index;
   addOwnEndpoints(setup, averaged.run);
-  return {std::move(averaged.run), files.name(), averaged.snapshots, source.scene().disks.radius};
+  return {std::move(averaged.run), files.name(), averaged.snapshots, opened.radius};
 }
 
 /// Runs of one engine are replicates; those of two are to be compared.
@@ -84,9 +82,7 @@ CompareResults averageSnapshots(const Case& setup, const std::vector<std::filesy
   for (const SnapshotRun& run : runs) {
     const auto index = all.size();
     const std::string name = options.name.value_or(defaultName(run.format));
-    all.push_back(inDimensionOf(setup, [&]<int D>() {
-      return averageRun<D>(setup, run, name, static_cast<int>(index), runs.size(), progress);
-    }));
+    all.push_back(averageRun(setup, run, name, static_cast<int>(index), runs.size(), progress));
     progress.finish(index, fmt::format("{}: {} snapshots", run.name(), all.back().snapshots));
   }
   requireOneEngine(all);

@@ -16,7 +16,6 @@
 #include "studies/core/engine_running.hpp"
 #include "studies/core/study_cases.hpp"
 #include "studies/flow/endpoint_values.hpp"
-#include "studies/flow/file_runs.hpp"
 #include "studies/flow/frame.hpp"
 #include "studies/flow/run.hpp"
 #include "support/bad_input.hpp"
@@ -126,17 +125,12 @@ void Campaign::askEngines(std::size_t fewest) {
   forEachEngine(
       [&](CampaignEngine& own) {
         if (own.entry.ofFiles()) {
-          if (setup_.dimension == 3)
-            throw BadInput(
-                fmt::format("--engines {}: files of snapshots are compared in the plane alone, and "
-                            "case.dimension = 3: `average` takes them",
-                            own.entry.name));
           own.version = "files" + (own.entry.format.empty() ? "" : ", " + own.entry.format);
-          own.first = openSnapshots<2>(runOf(own.entry, 0), setup_, own.entry.name);
-          own.disks = own.first->scene().disks;
+          own.first = openRun(runOf(own.entry, 0), setup_, own.entry.name);
+          own.radii = own.first->radius;
           // What is wrong with a file is said before engines run for hours.
           for (std::size_t run = 1; enginesRun && run < own.entry.files.size(); ++run)
-            openSnapshots<2>(runOf(own.entry, run), setup_, own.entry.name);
+            openRun(runOf(own.entry, run), setup_, own.entry.name);
           return;
         }
         const auto engine =
@@ -275,9 +269,9 @@ FlowRun Campaign::runOfFiles(const CampaignEngine& own, int run,
                              const std::function<void(double)>& progress) const {
   const EngineEntry& entry = own.entry;
   const SnapshotRun files = runOf(entry, static_cast<std::size_t>(run));
-  auto source = run == 0 ? std::exchange(own.first, nullptr) : nullptr;
-  if (!source) source = openSnapshots<2>(files, setup_, entry.name);
-  AveragedRun averaged = averagedRun(setup_, files, *source, progress);
+  auto opened = run == 0 ? std::exchange(own.first, std::nullopt) : std::nullopt;
+  if (!opened) opened = openRun(files, setup_, entry.name);
+  AveragedRun averaged = opened->average(progress);
   averaged.run.endpointErrors = endpointErrors(setup_, *averaged.averages, averaged.run);
   averaged.run.engine = entry.name;
   averaged.run.packing = run;
@@ -435,8 +429,9 @@ std::vector<EngineRow> Campaign::engineRows() const {
 namespace {
 
 /// Of the first packing; without any, of a run that is a file [m].
-const std::vector<double>& radiiOf(const std::vector<Packing>& packings, const Disks& ofFile) {
-  if (packings.empty()) return ofFile.radius;
+const std::vector<double>& radiiOf(const std::vector<Packing>& packings,
+                                   const std::vector<double>& ofFile) {
+  if (packings.empty()) return ofFile;
   const Packing& first = packings.front();
   return first.spheres.size() > 0 ? first.spheres.radius : first.disks.radius;
 }
@@ -446,7 +441,7 @@ const std::vector<double>& radiiOf(const std::vector<Packing>& packings, const D
 FlowStudy Campaign::study(std::string_view kind) const {
   FlowStudy study;
   static_cast<FlowFrame&>(study) =
-      couetteFrame(kind, setup_, command_.commandLine, radiiOf(packings_, engines_.front().disks));
+      couetteFrame(kind, setup_, command_.commandLine, radiiOf(packings_, engines_.front().radii));
   study.engines = engineRows();
   for (std::size_t k = 0; k < packings_.size(); ++k)
     study.packings.push_back(

@@ -3,20 +3,19 @@
 #include <chrono>
 #include <functional>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ranges>
 #include <string>
 #include <vector>
 
-#include "adapters/snapshot_source.hpp"
 #include "cases/case.hpp"
 #include "cases/flow.hpp"
 #include "results/compare.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/executor.hpp"
 #include "studies/core/run_store.hpp"
+#include "studies/flow/file_runs.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -29,9 +28,10 @@ struct CampaignEngine {
   std::optional<Capabilities> can = {};  ///< what timeEngines() found; absent where it failed
   std::optional<EffectiveParameters> effective = {};  ///< likewise
   double predicted = 1.0;                             ///< seconds of one run
-  Disks disks = {};                                   ///< of its first run, where that is a file
+  /// Of its first run, where that is a file, the disks' [m].
+  std::vector<double> radii = {};
   /// That run, opened to be asked, until it is averaged: its beginning is read once.
-  mutable std::unique_ptr<SnapshotSource> first = {};
+  mutable std::optional<OpenRun> first = {};
 };
 
 /// One engine on every packing, with the case as it is or with something switched off.

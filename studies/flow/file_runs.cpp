@@ -83,6 +83,8 @@ std::string fingerprintOf(const EngineEntry& entry, std::size_t run) {
   return fmt::format("{:016x}", fnv1a(text));
 }
 
+namespace {
+
 template <int D>
 AveragedRun averagedRun(const Case& setup, const SnapshotRun& files, SnapshotSourceOf<D>& source,
                         const std::function<void(double)>& progress) {
@@ -114,9 +116,18 @@ AveragedRun averagedRun(const Case& setup, const SnapshotRun& files, SnapshotSou
     averaged.run.remarks.push_back(std::move(gap));
   return averaged;
 }
-template AveragedRun averagedRun(const Case&, const SnapshotRun&, SnapshotSource&,
-                                 const std::function<void(double)>&);
-template AveragedRun averagedRun(const Case&, const SnapshotRun&, SnapshotSourceOf<3>&,
-                                 const std::function<void(double)>&);
+
+}  // namespace
+
+OpenRun openRun(const SnapshotRun& files, const Case& setup, const std::string& name) {
+  return inDimensionOf(setup, [&]<int D>() {
+    // std::function is copied.
+    const std::shared_ptr<SnapshotSourceOf<D>> source = openSnapshots<D>(files, setup, name);
+    return OpenRun{source->scene().disks.radius,
+                   [&setup, files, source](const std::function<void(double)>& progress) {
+                     return averagedRun<D>(setup, files, *source, progress);
+                   }};
+  });
+}
 
 }  // namespace crossgrain::inline studies

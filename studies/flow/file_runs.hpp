@@ -4,9 +4,9 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "adapters/engine_entry.hpp"
-#include "adapters/snapshot_source.hpp"
 #include "cases/case.hpp"
 #include "results/run.hpp"
 #include "studies/flow/averages.hpp"
@@ -30,17 +30,22 @@ SnapshotRun runOf(const EngineEntry& entry, std::size_t run);
 /// What a run of files depends on: names, sizes and times of change of its files.
 std::string fingerprintOf(const EngineEntry& entry, std::size_t run);
 
-/// Averages what a source holds as a run of an engine.
+/// What files hold, averaged as a run of an engine.
 struct AveragedRun {
   FlowRun run;  ///< of the source's engine, packing 0; without errors of endpoints
   std::int64_t snapshots = 0;
   std::unique_ptr<RunAverages> averages;
 };
-/// @param source    of `files`
-/// @param progress  called with the fraction done, 0 … 1
-/// @throws BadInput naming the snapshot that does not fit those before it; Interrupted
-template <int D>
-AveragedRun averagedRun(const Case& setup, const SnapshotRun& files, SnapshotSourceOf<D>& source,
-                        const std::function<void(double)>& progress);
+
+/// A run of files that is open, of either dimension.
+struct OpenRun {
+  std::vector<double> radius;  ///< of its disks, or spheres [m]
+  /// Reads on to the end, once. @param progress  called with the fraction done, 0 … 1
+  /// @throws BadInput naming the snapshot that does not fit those before it; Interrupted
+  std::function<AveragedRun(const std::function<void(double)>& progress)> average;
+};
+/// Opens one whose files fit the case, which outlives it.
+/// @param name  as openSnapshots()  @throws BadInput
+OpenRun openRun(const SnapshotRun& files, const Case& setup, const std::string& name);
 
 }  // namespace crossgrain::inline studies

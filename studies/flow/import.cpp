@@ -72,20 +72,13 @@ struct PartFile {
   }
 };
 
-}  // namespace
-
-Imported importSnapshots(const CommandLine& line, const ImportOptions& options) {
-  checkFormat(options.format);
-  const fs::path out = fs::absolute(options.out);
-  makeDirectory(out.parent_path());  // before the work that it is to hold
-  checkOut(out);
-  const Case setup = onlyFlow(line, "import");
-  const SnapshotRun run = onlyRun(line, options.format);
-  const std::string name = options.name.value_or(defaultName(options.format));
-  const auto source = openSnapshots<2>(run, setup, name);
+template <int D>
+Imported importRun(const SnapshotRun& run, const Case& setup, const std::string& name,
+                   const fs::path& out, bool quiet) {
+  const auto source = openSnapshots<D>(run, setup, name);
   const PartFile part{out.string() + ".part"};
-  SnapshotFile file(out, source->engine(), source->scene(), 1, 1);  // one of each one: all
-  Progress progress(line.run.quiet);
+  SnapshotFileOf<D> file(out, source->engine(), source->scene(), 1, 1);  // one of each one: all
+  Progress progress(quiet);
   progress.begin("import", {1.0});
   Imported imported;
   CoveredTime covered(flowTimes(setup));
@@ -103,6 +96,20 @@ Imported importSnapshots(const CommandLine& line, const ImportOptions& options) 
   imported.remarks = source->remarks();
   if (std::string gap = covered.gap(); !gap.empty()) imported.remarks.push_back(std::move(gap));
   return imported;
+}
+
+}  // namespace
+
+Imported importSnapshots(const CommandLine& line, const ImportOptions& options) {
+  checkFormat(options.format);
+  const fs::path out = fs::absolute(options.out);
+  makeDirectory(out.parent_path());  // before the work that it is to hold
+  checkOut(out);
+  const Case setup = onlyFlow(line, "import");
+  const SnapshotRun run = onlyRun(line, options.format);
+  const std::string name = options.name.value_or(defaultName(options.format));
+  return inDimensionOf(
+      setup, [&]<int D>() { return importRun<D>(run, setup, name, out, line.run.quiet); });
 }
 
 }  // namespace crossgrain::inline studies

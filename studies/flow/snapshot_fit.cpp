@@ -234,21 +234,25 @@ std::string unitHint(double found, double target, std::string_view key,
   return hint;
 }
 
+template <int D>
 double massOf(const Case& setup, std::size_t k, double radius) {
   if (setup.kind == CaseKind::couette) {
     const Particles& p = setup.particles;
     const bool small = std::abs(radius - p.smallRadius) <= std::abs(radius - p.largeRadius);
     return small ? p.smallMass : p.largeMass;
   }
-  for (const Disks& start : setup.assembly.starts.disks)
+  for (const DisksOf<D>& start : assemblyIn<D>(setup).starts.disks)
     if (k < start.size() && same(start.radius[k], radius)) return start.mass[k];
-  for (const DiskGroup& group : setup.assembly.disks) {
+  for (const DiskGroupOf<D>& group : assemblyIn<D>(setup).disks) {
     if (k < group.count())
-      return group.mass * radius * radius / (group.radius * group.radius);
+      return group.mass * (D == 3 ? radius / group.radius : 1.0) * radius * radius /
+             (group.radius * group.radius);
     k -= group.count();
   }
   return NAN;
 }
+template double massOf<2>(const Case&, std::size_t, double);
+template double massOf<3>(const Case&, std::size_t, double);
 
 template <int D>
 SceneOf<D> sceneAround(const Case& setup, DisksOf<D> disks, const SnapshotOrigin& origin) {

@@ -30,7 +30,8 @@ std::string unitHint(double found, double target, std::string_view key,
 template <int D>
 SceneOf<D> sceneAround(const Case& setup, DisksOf<D> disks, const SnapshotOrigin& origin);
 
-/// What the case has for a disk of that radius, disk k of an assembly [kg].
+/// What the case has for a disk, or sphere, of that radius, number k of an assembly [kg].
+template <int D>
 double massOf(const Case& setup, std::size_t k, double radius);
 
 /// Compared with the case are disks (how many of each radius, their masses; not where the case

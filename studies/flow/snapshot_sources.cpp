@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "adapters/audit_geometry.hpp"
-#include "adapters/files/plane_snapshots.hpp"
+#include "adapters/files/file_snapshots.hpp"
 #include "adapters/registry.hpp"
 #include "cases/assembly_scene.hpp"
 #include "cases/couette.hpp"
@@ -120,30 +120,33 @@ std::string defaultName(const std::string& format) {
 namespace {
 
 /// Disks of files without radii have the case's, in its order.
+template <int D>
 std::vector<double> radiiOf(const Case& setup, const SnapshotOrigin& origin) {
   if (setup.kind == CaseKind::couette) return diskKinds(setup.particles).radius;
-  for (const DiskGroup& group : setup.assembly.disks)
+  for (const DiskGroupOf<D>& group : assemblyIn<D>(setup).disks)
     if (group.radiusSpread > 0.0)
       throw BadInput(fmt::format(
           "{}: there are no radii in the files, and those of the case are drawn by chance",
           origin.name));
-  return assemblyDisks(setup, 0).radius;
+  return assemblyDisks<D>(setup, 0).radius;
 }
 
 /// The largest disk of the case, and how far one lies from the origin at its start [m].
+template <int D>
 std::pair<double, double> scalesOf(const Case& setup) {
   if (setup.kind == CaseKind::couette)
     return {std::max(setup.particles.smallRadius, setup.particles.largeRadius),
             setup.cell.outerRadius};
-  const Disks disks = assemblyDisks(setup, 0);
+  const DisksOf<D> disks = assemblyDisks<D>(setup, 0);
   double farthest = 0.0;
-  for (const Vec2& x : disks.position) farthest = std::max(farthest, x.norm());
+  for (const VecOf<D>& x : disks.position) farthest = std::max(farthest, x.norm());
   return {std::ranges::max(disks.radius), farthest};
 }
 
 /// Ten times off is no motion but a unit.
-void checkLengths(const Case& setup, const Disks& disks, const SnapshotOrigin& origin) {
-  const auto [radius, farthest] = scalesOf(setup);
+template <int D>
+void checkLengths(const Case& setup, const DisksOf<D>& disks, const SnapshotOrigin& origin) {
+  const auto [radius, farthest] = scalesOf<D>(setup);
   const auto check = [&](const char* what, double found, double target, double gross) {
     if (found < gross * target && found > target / gross) return;
     throw BadInput(fmt::format("{} does not fit {}: {} {:.4g} m, in the case {:.4g} m{}",
@@ -152,35 +155,44 @@ void checkLengths(const Case& setup, const Disks& disks, const SnapshotOrigin& o
   };
   if (disks.size() > 0) check("the largest radius is", std::ranges::max(disks.radius), radius, 5.0);
   double reach = 0.0;
-  for (const Vec2& x : disks.position) reach = std::max(reach, x.norm());
+  for (const VecOf<D>& x : disks.position) reach = std::max(reach, x.norm());
   // Of what lies about the origin nothing can be said; and disks may fly.
   if (farthest > radius) check("disks lie up to", reach, farthest, 100.0);
 }
 
 /// Disks of the files in the scene of the case. Masses of six digits are the case's.
-Scene sceneOf(const Case& setup, Disks disks, const SnapshotOrigin& origin) {
+template <int D>
+SceneOf<D> sceneOf(const Case& setup, DisksOf<D> disks, const SnapshotOrigin& origin) {
   constexpr double sameMass = 1e-4;
   if (disks.radius.empty()) {
-    disks.radius = radiiOf(setup, origin);
+    disks.radius = radiiOf<D>(setup, origin);
     disks.radius.resize(disks.position.size(), disks.radius.back());  // the number is checked below
   }
   checkLengths(setup, disks, origin);
   const bool ownMasses = !disks.mass.empty() && setup.particles.file.has_value();
   disks.mass.resize(disks.size(), 0.0);
   for (std::size_t k = 0; k < disks.size(); ++k) {
-    const double mass = massOf(setup, k, disks.radius[k]);
+    const double mass = massOf<D>(setup, k, disks.radius[k]);
     double& found = disks.mass[k];
     if (!ownMasses && (found == 0.0 || std::abs(found - mass) <= sameMass * mass)) found = mass;
     const double factor = setup.kind == CaseKind::couette ? setup.particles.inertiaFactor
-                                                          : setup.assembly.inertiaFactor;
+                                                          : assemblyIn<D>(setup).inertiaFactor;
     disks.inertia.push_back(factor * found * disks.radius[k] * disks.radius[k]);
   }
-  Snapshot first;
+  SnapshotOf<D> first;
   first.position = disks.position;
-  Scene scene = sceneAround(setup, std::move(disks), origin);
+  SceneOf<D> scene = sceneAround<D>(setup, std::move(disks), origin);
   placeWallsAsPrescribed(scene, 0.0, first);
-  requireFit(scene, first, setup, origin);
+  requireFit<D>(scene, first, setup, origin);
   return scene;
+}
+
+/// The case's scene without disks.
+template <int D>
+SceneOf<D> wallsOf(const Case& setup) {
+  if constexpr (D == 2)
+    if (setup.kind == CaseKind::couette) return couetteScene(setup, Packing(), 0.0);
+  return assemblyScene<D>(setup, DisksOf<D>(), 0.0, 0.0);
 }
 
 double stepOf(const Case& setup) {
@@ -200,50 +212,47 @@ std::string sectionWords(const Case& setup, const std::string& name) {
 
 }  // namespace
 
-template <>
-std::unique_ptr<SnapshotSourceOf<3>> openSnapshots(const SnapshotRun& run, const Case& setup,
-                                                   const std::string&) {
-  if (!run.format.empty())
-    throw BadInput(fmt::format(
-        "{}: result files of other programs ({}) are read in the plane alone, and case.dimension = "
-        "3: in space take HDF5 files of snapshots",
-        run.name(), run.format));
-  return openSnapshotFile<3>(run.files.front(), setup);
-}
-
-template <>
-std::unique_ptr<SnapshotSource> openSnapshots(const SnapshotRun& run, const Case& setup,
-                                              const std::string& name) {
-  if (run.format.empty()) return openSnapshotFile<2>(run.files.front(), setup);
+template <int D>
+std::unique_ptr<SnapshotSourceOf<D>> openSnapshots(const SnapshotRun& run, const Case& setup,
+                                                   const std::string& name) {
+  if (run.format.empty()) return openSnapshotFile<D>(run.files.front(), setup);
   Capabilities settable;
-  settable.settings = files::planeSettings(run.format);
+  settable.settings = files::fileSettings(run.format, D);
   const Settings settings = settingsFor(setup, name, settable);
   files::FileOptions options;
   if (const auto columns = settings.find("columns"); columns != settings.end())
     options.columns = std::get<std::string>(columns->second);
-  const files::PlaneUnits units = files::planeUnits(run.format, settings);
+  const files::FileUnits units = files::fileUnits(run.format, settings);
   const SnapshotOrigin origin{run.name(), fmt::format("[engines.{}]", name), units.length,
                               units.mass};
   const FlowTimes times = flowTimes(setup);
-  files::PlaneScene target;
+  files::FileSceneOf<D> target;
   target.name = name;
   target.where = sectionWords(setup, name);
-  target.bodies = setup.kind == CaseKind::couette ? couetteScene(setup, Packing(), 0.0).bodies
-                                                  : assemblyScene(setup, Disks(), 0.0, 0.0).bodies;
+  const SceneOf<D> walls = wallsOf<D>(setup);
+  target.bodies = walls.bodies;
+  target.box = walls.box;
   target.anyAngle = setup.kind == CaseKind::couette;
-  target.around = [setup, origin](Disks disks) { return sceneOf(setup, std::move(disks), origin); };
+  target.around = [setup, origin](DisksOf<D> disks) {
+    return sceneOf<D>(setup, std::move(disks), origin);
+  };
   target.from = times.settled;
   target.to = times.end();
   target.dt = stepOf(setup);
-  target.gravity = setup.assembly.gravity;
+  target.gravity = assemblyIn<D>(setup).gravity;
   if (!run.besides.empty()) {
     std::vector<std::string> names;
     for (const fs::path& file : run.besides) names.push_back(file.filename().string());
     target.remarks = {
         fmt::format("not read, as nothing in them is averaged: {}", fmt::join(names, ", "))};
   }
-  return std::make_unique<files::PlaneSnapshots>(files::openFrames(run.format, run.files, options),
-                                                 units, std::move(target));
+  if (target.box) options.box = files::boxInFiles(*target.box, units);
+  return std::make_unique<files::FileSnapshotsOf<D>>(
+      files::openFrames(run.format, run.files, options), units, std::move(target));
 }
+template std::unique_ptr<SnapshotSource> openSnapshots(const SnapshotRun&, const Case&,
+                                                       const std::string&);
+template std::unique_ptr<SnapshotSourceOf<3>> openSnapshots(const SnapshotRun&, const Case&,
+                                                            const std::string&);
 
 }  // namespace crossgrain::inline studies

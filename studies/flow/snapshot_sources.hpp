@@ -49,17 +49,11 @@ std::vector<SnapshotRun> snapshotRuns(const std::vector<std::filesystem::path>& 
 /// [engines.NAME] that has their settings.
 std::string defaultName(const std::string& format);
 
-/// Opens a run of which the files fit the case, in space one of our own.
+/// Opens a run of which the files fit the case.
 /// @param name  of its settings, [engines.NAME], and of who made it where the files do not say
 /// @throws BadInput
 template <int D>
 std::unique_ptr<SnapshotSourceOf<D>> openSnapshots(const SnapshotRun& run, const Case& setup,
-                                                   const std::string& name);
-template <>
-std::unique_ptr<SnapshotSource> openSnapshots(const SnapshotRun& run, const Case& setup,
-                                              const std::string& name);
-template <>
-std::unique_ptr<SnapshotSourceOf<3>> openSnapshots(const SnapshotRun& run, const Case& setup,
                                                    const std::string& name);
 
 }  // namespace crossgrain::inline studies

@@ -88,6 +88,13 @@ TEST_F(MercuryDpm, Ghosts_AreTheParticlesOfTheMirroredLine) {
       samples_.refusal("mercurydpm", {"a.data", "a.fstat"}),
       "a.data, time 0: particle 1 touches 2, but there are 2 particles, from 0: if that is the "
       "ghost of one, its own contact over the periodic edge should be listed, too");
+  // A fixed particle's contact is listed from one side; with the case's box it is found by place.
+  const FileFrame placed =
+      samples_
+          .read("mercurydpm", {"a.data", "a.fstat"},
+                {.columns = {}, .box = FileBox{{0, 0, 0}, {4, 4, 4}, {true, true, false}}})
+          .front();
+  EXPECT_EQ(placed.contacts->second, (std::vector<std::int64_t>{0}));
 }
 
 /// Files may be numbered, and contacts be saved at other times.

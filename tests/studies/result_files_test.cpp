@@ -8,7 +8,7 @@
 #include <numbers>
 #include <set>
 
-#include "adapters/files/plane_snapshots.hpp"
+#include "adapters/files/file_snapshots.hpp"
 #include "cases/assembly_scene.hpp"
 #include "cases/couette.hpp"
 #include "studies/flow/average.hpp"
@@ -23,7 +23,7 @@ namespace crossgrain {
 namespace {
 
 using files::FileFrame;
-using files::PlaneSnapshots;
+using PlaneSnapshots = files::FileSnapshotsOf<2>;
 using files::Vec3;
 
 class FakeReader : public files::FrameReader {
@@ -89,8 +89,8 @@ FileFrame threeParticles(double time = 1.0) {
   return frame;
 }
 
-files::PlaneScene targetOf(const Case& setup) {
-  files::PlaneScene target;
+files::FileSceneOf<2> targetOf(const Case& setup) {
+  files::FileSceneOf<2> target;
   target.name = "mine";
   target.where = "[engines.mine]";
   const bool cell = setup.kind == CaseKind::couette;
@@ -108,7 +108,7 @@ files::PlaneScene targetOf(const Case& setup) {
 
 /// The first snapshot of that frame, changed if need be.
 Snapshot firstOf(const std::function<void(FileFrame&)>& change = {},
-                 const files::PlaneUnits& units = {}, std::vector<std::string>* remarks = nullptr) {
+                 const files::FileUnits& units = {}, std::vector<std::string>* remarks = nullptr) {
   FileFrame frame = threeParticles();
   if (change) change(frame);
   PlaneSnapshots source(std::make_unique<FakeReader>(std::deque{frame}), units,
@@ -148,7 +148,7 @@ TEST(PlaneSnapshots, Frame_BecomesDisksByRisingIdAndContactsOnce) {
 }
 
 TEST(PlaneSnapshots, Units_ScaleLengthTimeAndMass) {
-  files::PlaneUnits units;
+  files::FileUnits units;
   units.length = 1e-3;
   units.time = 1e-3;
   units.mass = 1e-3;
@@ -171,7 +171,7 @@ TEST(PlaneSnapshots, Units_ScaleLengthTimeAndMass) {
 }
 
 TEST(PlaneSnapshots, PlaneXz_TurnsSpinsWithTheRightHand) {
-  files::PlaneUnits units = files::planeUnits("csv", {{"plane", std::string("xz")}});
+  files::FileUnits units = files::fileUnits("csv", {{"plane", std::string("xz")}});
   const auto upright = [](FileFrame& frame) {
     const auto turn = [](std::vector<Vec3>& all) {
       for (Vec3& v : all) v = Vec3(v.x(), 0.0, v.y());
@@ -391,7 +391,7 @@ TEST(PlaneSnapshots, TimesOffByTwo_AreRefusedInFlightAndAtEvenSpeed) {
       }
       frames.push_back(frame);
     }
-    files::PlaneScene target = targetOf(restingDisks());
+    files::FileSceneOf<2> target = targetOf(restingDisks());
     target.gravity = {0.0, -gravity};
     target.from = from;
     for (WallBody& body : target.bodies) body.motion.frequency = drive;
@@ -435,7 +435,7 @@ TEST(PlaneSnapshots, ForcesOfAnotherLaw_AreRemarked) {
 }
 
 TEST(PlaneSnapshots, Times_AreThoseOfTheAveragedPart) {
-  files::PlaneUnits units;
+  files::FileUnits units;
   units.dt = 0.01;
   const auto at = [](std::int64_t step) {
     FileFrame frame = threeParticles();
@@ -443,7 +443,7 @@ TEST(PlaneSnapshots, Times_AreThoseOfTheAveragedPart) {
     frame.step = step;
     return frame;
   };
-  files::PlaneScene target = targetOf(restingDisks());
+  files::FileSceneOf<2> target = targetOf(restingDisks());
   target.from = 1.0;
   target.to = 3.0;
   PlaneSnapshots source(

@@ -168,8 +168,55 @@ class InSpace(SystemTest):
         self.assertIn("stress_xz", {row["field"] for row in other})
         done = self.run_program("average", self.file, CASES / "space/plane-shear.toml", "--out", self.folder / "no", "--quiet")
         self.assert_one_line(done, BAD_INPUT, "its snapshots have dimension 3, the case has 2")
-        done = self.run_program("compare", self.BUMPY, "--engines", f"grain,mine={self.file}", "--out", self.folder / "no", *self.SHORT)
-        self.assert_one_error(done, BAD_INPUT, "in the plane alone", "average")
+
+    def test_files_are_compared_as_the_run_that_they_are_of(self):
+        done = self.run_program("compare", self.BUMPY, "--engines", f"grain,mine={self.file}", "--out", self.folder / "both", *self.SHORT)
+        self.assert_status(done, HELD, FELL_SHORT)  # one packing settles nothing
+        rows = self.rows("profiles.csv", self.folder / "both")
+        means = {name: [row["mean"] for row in rows if row["engine"] == name] for name in ("grain", "mine")}
+        self.assertGreater(len(means["mine"]), 100)
+        self.assertEqual(means["grain"], means["mine"])
+        self.assertEqual({0.0}, {float(row["difference"] or 0.0) for row in self.rows("endpoints.csv", self.folder / "both")})
+
+    def check_averages_of_exports(self, ran, case, changes, forms):
+        """Of files of each form, and of what import makes of them, the profiles are those of the run."""
+        own = {(r["field"], r["r_m"]): r for r in self.rows("profiles.csv", ran) if r["packing"] == "0"}
+        settled = [*changes, *settings(engines__mine__contacts_behind=0)]
+        for form, pattern in forms.items():
+            with self.subTest(form):
+                file, out = ran / "snapshots/grain-p0.h5", self.folder / form
+                self.assert_status(self.run_program("export", form, file, case, "--out", out, "--quiet", *changes), HELD)
+                files = sorted(self.folder.glob(form + pattern))
+                again = self.folder / f"{form}.h5"
+                done = self.run_program("import", form, *files, case, "--name", "mine", "--out", again, "--quiet", *settled)
+                self.assert_status(done, HELD)
+                for made in (files, [again]):
+                    folder = self.folder / f"{form}-{len(made)}"
+                    done = self.run_program("average", *made, case, "--name", "mine", "--out", folder, "--quiet", *settled)
+                    self.assert_status(done, HELD)
+                    rows = self.rows("profiles.csv", folder)
+                    self.assertEqual(len(own), len(rows))
+                    for row in rows:
+                        wanted = own[row["field"], row["r_m"]]["mean"]
+                        if wanted == "":
+                            self.assertEqual("", row["mean"])
+                        else:
+                            self.assertAlmostEqual(float(wanted), float(row["mean"]), delta=1e-9 * (1 + abs(float(wanted))))
+
+    def test_exported_files_have_the_averages_of_the_run(self):
+        forms = {"lammps": ".[dc]*", "ondem": "-*.vtkhdf"}
+        self.check_averages_of_exports(self.ran, self.BUMPY, self.SHORT, forms)
+
+    def test_exported_files_of_a_periodic_plane_have_the_averages_of_the_run(self):
+        case = CASES / "space/plane-shear.toml"
+        changes = settings(
+            assembly__duration=0.8, average__snapshots=3, preparation__packings=1, run__keep_snapshots=3, looks__count=1
+        )
+        ran = self.compared_once("grain", *changes, case=case)
+        forms = {"lammps": ".[dc]*", "mercurydpm": ".[df]*", "ondem": "-*.vtkhdf"}
+        self.check_averages_of_exports(ran, case, changes, forms)
+        head = (self.folder / "lammps.dump").read_text(encoding="utf-8")[:200]
+        self.assertIn("ITEM: BOX BOUNDS pp ff pp\n0 0.148\n", head)
 
     def test_contacts_with_a_cylinder_are_read_and_not_exported(self):
         drum = CASES / "space/drum.toml"
@@ -212,8 +259,8 @@ class InSpace(SystemTest):
                 np.testing.assert_allclose(force, -contacts.force, rtol=0, atol=1e-15 * abs(contacts.normal_force).max(initial=0.0))
                 touching += len(contacts)
         self.assertGreater(touching, 100)
-        done = self.run_program("export", "lammps", self.file, self.BUMPY, "--out", self.folder / "y", *self.SHORT)
-        self.assert_one_line(done, BAD_INPUT, "format lammps", "ondem alone")
+        done = self.run_program("export", "mercurydpm", self.file, self.BUMPY, "--out", self.folder / "y", *self.SHORT)
+        self.assert_one_line(done, BAD_INPUT, "format mercurydpm", "lammps and ondem alone")
 
 
 class RoundTrip(OneRun):

@@ -1,4 +1,7 @@
+#include "adapters/files/frame_contacts.hpp"
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +9,6 @@
 #include <utility>
 
 #include "adapters/audit_geometry.hpp"
-#include "adapters/files/plane_snapshots.hpp"
 #include "support/bad_input.hpp"
 
 namespace crossgrain::files {
@@ -20,17 +22,22 @@ constexpr double mirrored = 2e-5;
 constexpr double farthestPair = 1.5;
 
 /// A contact by our ids, i < j.
-struct Line {
+template <int D>
+struct LineOf {
   std::size_t i = 0, j = 0;
   bool turned = false;  ///< the file's first is j
-  Vec2 normal = Vec2::Zero(), force = Vec2::Zero();
-  double overlap = 0.0, torque = 0.0;
+  VecOf<D> normal = VecOf<D>::Zero(), force = VecOf<D>::Zero();
+  double overlap = 0.0;
+  SpinOf<D> torque = noSpin<D>();
 };
 
+template <int D>
 class ContactReader {
  public:
-  ContactReader(const FileFrame& frame, const PlaneUnits& units, const ParticleIds& ids,
-                const Snapshot& snapshot, const AuditBasis& basis)
+  using Line = LineOf<D>;
+
+  ContactReader(const FileFrame& frame, const FileUnits& units, const ParticleIds& ids,
+                const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis)
       : frame_(frame),
         in_(*frame.contacts),
         units_(units),
@@ -77,64 +84,69 @@ class ContactReader {
       std::tie(line.i, line.j) = std::minmax(a, b);
       line.turned = a > b;
     }
-    const PairPlace place = pairPlace(places_, basis_, line.i, line.j);
+    const PairPlaceOf<D> place = pairPlace(places_, basis_, line.i, line.j);
     const double side = line.turned ? -1.0 : 1.0;
-    line.normal = in_.normal.empty() ? place.normal : side * normalOf(c);
+    line.normal = place.normal;
+    if (!in_.normal.empty()) line.normal = side * normalOf(c);
     if (line.normal.dot(place.normal) < -0.5)
       fail(
           fmt::format("{}: its normal points from the first to the second; wanted is the other way",
                       nameOf(c)));
-    line.force = in_.force.empty() ? scalarForce(c) * line.normal : side * forceOf(c);
+    line.force = scalarForce(c) * line.normal;
+    if (!in_.force.empty()) line.force = side * forceOf(c);
     line.overlap = in_.overlap.empty() ? place.overlap : units_.length * in_.overlap[c];
     if (!in_.torque.empty())
-      line.torque = side * units_.force() * units_.length * units_.aboutNormal(in_.torque[c]);
-    const bool nothing = line.force.isZero(0.0) && line.torque == 0.0;
+      line.torque = side * units_.force() * units_.length * units_.about<D>(in_.torque[c]);
+    const bool nothing = line.force.isZero(0.0) && line.torque == noSpin<D>();
     if (nothing && line.overlap <= 0.0) return std::nullopt;  // a pair that was only looked at
     checkDistance(c, line, place);
     return line;
   }
 
   /// Over a periodic edge, the other is somebody's image.
-  void checkDistance(std::size_t c, const Line& line, const PairPlace& place) const {
+  void checkDistance(std::size_t c, const Line& line, const PairPlaceOf<D>& place) const {
     if (line.j >= basis_.radius.size()) return;
     const double reach = basis_.radius[line.i] + basis_.radius[line.j];
     if (place.distance > farthestPair * reach)
       fail(fmt::format(
           "{}: their centres are {:.3g} m apart, {:.3g} times the sum of their radii (a contact "
-          "over a periodic edge? cases have none)",
-          nameOf(c), place.distance, place.distance / reach));
+          "over a periodic edge? {})",
+          nameOf(c), place.distance, place.distance / reach,
+          basis_.scene->box ? "the case's box is periodic along other directions, or longer"
+                            : "the case has no periodic box"));
   }
 
-  Vec2 normalOf(std::size_t c) const {
+  VecOf<D> normalOf(std::size_t c) const {
     const Vec3& n = in_.normal[c];
     if (!(std::abs(n.norm() - 1.0) <= outOfPlane))
       fail(fmt::format("{}: its normal has length {:.6g}, not 1", nameOf(c), n.norm()));
-    if (!(std::abs(n[units_.third()]) <= outOfPlane))
+    if (D == 2 && !(std::abs(n[units_.third()]) <= outOfPlane))
       fail(fmt::format("{}: its normal ({:.4g}, {:.4g}, {:.4g}) is not in the plane", nameOf(c),
                        n.x(), n.y(), n.z()));
-    return units_.inPlane(n).normalized();
+    return units_.along<D>(n).normalized();
   }
 
-  Vec2 forceOf(std::size_t c) const {
+  VecOf<D> forceOf(std::size_t c) const {
     const Vec3& f = in_.force[c];
-    if (!(std::abs(f[units_.third()]) <= outOfPlane * f.norm()))
+    if (D == 2 && !(std::abs(f[units_.third()]) <= outOfPlane * f.norm()))
       fail(fmt::format("{}: its force ({:.4g}, {:.4g}, {:.4g}) is not in the plane", nameOf(c),
                        f.x(), f.y(), f.z()));
-    return units_.force() * units_.inPlane(f);
+    return units_.force() * units_.along<D>(f);
   }
 
   double scalarForce(std::size_t c) const {
     return in_.normalForce.empty() ? 0.0 : units_.force() * in_.normalForce[c];
   }
 
-  /// The plane of the case that a wall of the file is, for the disk that touches it: of those with
+  /// The plane or cylinder of the case that a wall of the file is, for the disk that touches it: of
+  /// those with
   /// the contact's normal the one whose distance from the centre is nearest to the radius.
   std::size_t planeOf(std::size_t c, std::size_t disk) const {
     std::optional<std::size_t> best;
     double nearest = 0.5 * basis_.radius[disk];
     for (std::size_t p = 0; p < places_.planes.size(); ++p) {
-      const Plane& plane = places_.planes[p].plane;
-      if (!in_.normal.empty() && plane.normal.dot(units_.inPlane(in_.normal[c])) < 0.99) continue;
+      const PlaneOf<D> plane = places_.planes[p].under(places_.position[disk]);
+      if (!in_.normal.empty() && plane.normal.dot(units_.along<D>(in_.normal[c])) < 0.99) continue;
       const double distance = (places_.position[disk] - plane.point).dot(plane.normal);
       const double off = std::abs(distance - basis_.radius[disk]);
       if (off > nearest) continue;
@@ -142,12 +154,12 @@ class ContactReader {
       best = p;
     }
     if (!best)
-      fail(fmt::format("{}: no plane of the case touches disk {} at ({:.6g}, {:.6g}) m{}",
-                       nameOf(c), disk, places_.position[disk].x(), places_.position[disk].y(),
-                       in_.normal.empty() ? ""
-                                          : fmt::format(" with a normal of ({:.3g}, {:.3g})",
-                                                        units_.inPlane(in_.normal[c]).x(),
-                                                        units_.inPlane(in_.normal[c]).y())));
+      fail(fmt::format("{}: no plane of the case touches {} at ({:.6g}) m{}", nameOf(c),
+                       nameOfId(*basis_.scene, disk), fmt::join(places_.position[disk], ", "),
+                       in_.normal.empty()
+                           ? ""
+                           : fmt::format(" with a normal of ({:.3g})",
+                                         fmt::join(units_.along<D>(in_.normal[c]), ", "))));
     return basis_.radius.size() + *best;
   }
 
@@ -170,22 +182,22 @@ class ContactReader {
       }
       if (lines[k - 1].turned == line.turned)
         fail(fmt::format("{} is listed twice from the same side", nameOf(line)));
-      const Vec2& before = result.back().force;
+      const VecOf<D>& before = result.back().force;
       if (!((before - line.force).norm() <= mirrored * before.norm()))
         fail(fmt::format(
-            "{} is listed twice with different forces: ({:.6g}, {:.6g}) N on the one, ({:.6g}, "
-            "{:.6g}) N on the other",
-            nameOf(line), before.x(), before.y(), -line.force.x(), -line.force.y()));
+            "{} is listed twice with different forces: ({:.6g}) N on the one, ({:.6g}) N on the "
+            "other",
+            nameOf(line), fmt::join(before, ", "), fmt::join(VecOf<D>(-line.force), ", ")));
     }
     return result;
   }
 
   const FileFrame& frame_;
   const FileContacts& in_;
-  const PlaneUnits& units_;
+  const FileUnits& units_;
   const ParticleIds& ids_;
-  const AuditBasis& basis_;
-  ContactPlaces places_;
+  const AuditBasisOf<D>& basis_;
+  ContactPlacesOf<D> places_;
 };
 
 /// Sizes of tangential forces without a direction say nothing unless they are 0.
@@ -199,9 +211,44 @@ bool lacksDirection(const FileContacts& contacts) {
 
 }  // namespace
 
-std::optional<Contacts> planeContacts(const FileFrame& frame, const PlaneUnits& units,
-                                      const ParticleIds& ids, const Snapshot& snapshot,
-                                      const AuditBasis& basis, std::set<std::string>& remarks) {
+ParticleIds::ParticleIds(const std::vector<std::int64_t>& idOfRow,
+                         const std::vector<std::size_t>& walls)
+    : sorted_(idOfRow), ours_(idOfRow.size()), disks_(idOfRow.size() - walls.size()) {
+  std::ranges::sort(sorted_);
+  const auto placeOf = [&](std::size_t row) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(sorted_, idOfRow[row]) -
+                                    sorted_.begin());
+  };
+  std::vector<bool> isWall(sorted_.size(), false);
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    isWall[placeOf(walls[w])] = true;
+    ours_[placeOf(walls[w])] = disks_ + w;
+  }
+  std::size_t next = 0;
+  theirs_.resize(sorted_.size());
+  for (std::size_t k = 0; k < sorted_.size(); ++k) {
+    if (!isWall[k]) ours_[k] = next++;
+    theirs_[ours_[k]] = sorted_[k];
+  }
+}
+
+std::optional<std::size_t> ParticleIds::ourOf(std::int64_t id) const {
+  if (sorted_.empty() || id < sorted_.front() || id > sorted_.back()) return std::nullopt;
+  // Ids without gaps are where they are counted.
+  auto k = static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(sorted_.front());
+  if (k >= sorted_.size() || sorted_[k] != id) {
+    const auto found = std::ranges::lower_bound(sorted_, id);
+    if (*found != id) return std::nullopt;
+    k = static_cast<std::uint64_t>(found - sorted_.begin());
+  }
+  return ours_[k];
+}
+
+template <int D>
+std::optional<ContactsOf<D>> frameContacts(const FileFrame& frame, const FileUnits& units,
+                                           const ParticleIds& ids, const SnapshotOf<D>& snapshot,
+                                           const AuditBasisOf<D>& basis,
+                                           std::set<std::string>& remarks) {
   if (!frame.contacts) {
     remarks.insert(
         "no contacts in the files: stress, fabric, coordination and forces on walls are not "
@@ -226,25 +273,35 @@ std::optional<Contacts> planeContacts(const FileFrame& frame, const PlaneUnits& 
     remarks.insert("no normals in the files: they follow from the positions");
   if (in.size() > 0 && in.overlap.empty())
     remarks.insert("no overlaps in the files: they follow from the positions");
-  const std::vector<Line> lines = ContactReader(frame, units, ids, snapshot, basis).read();
-  Contacts contacts;
-  for (auto* list : {&contacts.overlap, &contacts.normalForce, &contacts.tangentialForce})
-    list->reserve(lines.size());
+  using Line = LineOf<D>;
+  const std::vector<Line> lines = ContactReader<D>(frame, units, ids, snapshot, basis).read();
+  ContactsOf<D> contacts;
+  for (auto* list : {&contacts.overlap, &contacts.normalForce}) list->reserve(lines.size());
+  contacts.tangentialForce.reserve(lines.size());
   for (auto* list : {&contacts.i, &contacts.j}) list->reserve(lines.size());
   contacts.normal.reserve(lines.size());
   const bool rolls =
-      std::ranges::any_of(lines, [](const Line& line) { return line.torque != 0.0; });
+      std::ranges::any_of(lines, [](const Line& line) { return line.torque != noSpin<D>(); });
   for (const Line& line : lines) {
     contacts.i.push_back(static_cast<std::int32_t>(line.i));
     contacts.j.push_back(static_cast<std::int32_t>(line.j));
     contacts.normal.push_back(line.normal);
     contacts.overlap.push_back(line.overlap);
     contacts.normalForce.push_back(line.force.dot(line.normal));
-    contacts.tangentialForce.push_back(line.force.dot(perpendicular(line.normal)));
+    if constexpr (D == 2)
+      contacts.tangentialForce.push_back(line.force.dot(perpendicular(line.normal)));
+    else
+      contacts.tangentialForce.push_back(line.force - line.force.dot(line.normal) * line.normal);
     if (rolls || (basis.scene->law.rolls() && !in.torque.empty()))
       contacts.rollingTorque.push_back(line.torque);
   }
   return contacts;
 }
+template std::optional<Contacts> frameContacts(const FileFrame&, const FileUnits&,
+                                               const ParticleIds&, const Snapshot&,
+                                               const AuditBasis&, std::set<std::string>&);
+template std::optional<ContactsOf<3>> frameContacts(const FileFrame&, const FileUnits&,
+                                                    const ParticleIds&, const SpaceSnapshot&,
+                                                    const AuditBasisOf<3>&, std::set<std::string>&);
 
 }  // namespace crossgrain::files

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "adapters/audit.hpp"
+#include "adapters/files/displacements.hpp"
+#include "adapters/files/file_units.hpp"
+#include "adapters/files/frame_contacts.hpp"
+#include "adapters/snapshot_source.hpp"
+
+/// From result files of other programs to snapshots of a scene.
+namespace crossgrain::files {
+
+/// The scene that files are to be of.
+template <int D>
+struct FileSceneOf {
+  std::string name;                   ///< engine()
+  std::string where;                  ///< "[engines.mine]", for messages
+  std::vector<WallBodyOf<D>> bodies;  ///< of the case, at t = 0
+  std::optional<BoxOf<D>> box;        ///< of the case
+  /// In the plane wall disks may be anywhere on the circle about their body's centre, as in a cell
+  /// whose wheel has turned before.
+  bool anyAngle = false;
+  /// The scene with those disks, radii and masses empty where the files have none. @throws BadInput
+  std::function<SceneOf<D>(DisksOf<D>)> around;
+  double from = 0.0, to = INFINITY;     ///< frames of other times are left out [s]
+  double dt = 0.0;                      ///< of the case [s]
+  VecOf<D> gravity = VecOf<D>::Zero();  ///< of the case [m/s²]
+  std::vector<std::string> remarks;     ///< on the files, before they are read
+};
+
+/// Frames as snapshots, one at a time: in SI units, along the scene's axes, audited.
+///
+/// Wall disks that are particles of the files are found by where they are, and all walls are where
+/// the case prescribes them; forces on walls are the sums over their contacts. In a periodic box
+/// files may wrap places or leave paths whole.
+template <int D>
+class FileSnapshotsOf : public SnapshotSourceOf<D> {
+ public:
+  /// Reads the first frame that is not left out.
+  /// @throws BadInput naming the frame and what is wrong
+  FileSnapshotsOf(std::unique_ptr<FrameReader> reader, FileUnits units, FileSceneOf<D> target);
+  FileSnapshotsOf(const FileSnapshotsOf&) = delete;  // basis_ points into it
+  FileSnapshotsOf& operator=(const FileSnapshotsOf&) = delete;
+
+  const SceneOf<D>& scene() const override { return scene_; }
+  const std::string& engine() const override { return target_.name; }
+  std::optional<SnapshotOf<D>> next() override;
+  double progress() const override { return reader_->progress(); }
+  std::vector<std::string> remarks() const override;
+
+ private:
+  std::optional<FileFrame> readWithin();
+  void requireContacts(const FileFrame& frame) const;
+  void recognise(const FileFrame& frame);
+  SnapshotOf<D> convert(const FileFrame& frame);
+  void allowForRounding(const FileFrame& frame);
+  void checkMotion(const FileFrame& frame, const SnapshotOf<D>& now);
+  void checkEarlyMotion(const FileFrame& frame, double t);
+  [[noreturn]] void refuseMotion(const FileFrame& frame, const MotionFinding& found) const;
+  std::string remedyOfMotion(const FileFrame& frame) const;
+  void audit(const FileFrame& frame, SnapshotOf<D>& snapshot);
+  double timeOf(const FileFrame& frame) const;
+  double step() const { return units_.dt > 0.0 ? units_.dt * units_.time : target_.dt; }
+
+  std::unique_ptr<FrameReader> reader_;
+  FileUnits units_;
+  FileSceneOf<D> target_;
+  std::optional<FileFrame> pending_;  ///< the first, until it is asked for
+  SceneOf<D> scene_, bare_;           ///< with walls, and without
+  std::optional<ParticleIds> ids_;
+  AuditBasisOf<D> basis_, bareBasis_;
+  std::optional<double> last_;  ///< time of the frame before [s]
+  std::string lastWhere_;       ///< where that is
+  std::size_t early_ = 0, late_ = 0;
+  bool wallContacts_ = false;               ///< whether any was seen
+  bool lawDiffers_ = false, moves_ = true;  ///< moves_: as velocities say, so far
+  DisplacementsOf<D> displacements_, earlyDisplacements_;
+  std::vector<std::int64_t> earlyIds_;  ///< of the frame before, rising
+  std::set<std::string> remarks_;
+};
+
+}  // namespace crossgrain::files

@@ -1,0 +1,215 @@
+#include "adapters/files/file_units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "support/bad_input.hpp"
+
+namespace crossgrain::files {
+namespace {
+
+/// What moves along the third axis, or lies beside the others there, in units of what is largest.
+constexpr double outOfPlane = 1e-6;
+
+constexpr std::array<std::string_view, 3> planeNames = {"xy", "xz", "yz"};
+constexpr std::string_view axisNames = "xyz";
+
+/// YADE works its contacts out at the beginning of a step, and then moves on; all of these formats
+/// are its exports.
+bool isYades(std::string_view format) {
+  return format == "yade-text" || format == "vtk" || format == "ondem";
+}
+
+}  // namespace
+
+std::vector<SettingSpec> fileSettings(std::string_view format, int dimension) {
+  const double behind = isYades(format) ? 1.0 : 0.0;
+  std::vector<SettingSpec> settings = {
+      {"length", 1.0, "m", "unit of length of the files: 0.001 where they are in mm", {}},
+      {"time", 1.0, "s", "unit of time of the files", {}},
+      {"mass", 1.0, "kg", "unit of mass of the files", {}},
+      {"dt",
+       0.0,
+       "file's time",
+       "time step of files that count steps and have no times; 0: not said",
+       {}},
+      {"start", 0.0, "file's time", "when the case's t = 0 is", {}, -INFINITY},
+      {"contacts_behind", behind, "steps", "by which contacts are older than positions", {}},
+      {"plane",
+       std::string("xy"),
+       "",
+       "axes of the files that are x and y of the case",
+       {planeNames.begin(), planeNames.end()}},
+      {"columns",
+       std::string(),
+       "",
+       "what columns mean whose names are the user's own (docs/file-formats.md)",
+       {}}};
+  if (dimension == 3)
+    std::erase_if(settings, [](const SettingSpec& spec) { return spec.name == "plane"; });
+  return settings;
+}
+
+FileUnits fileUnits(std::string_view format, const Settings& settings) {
+  Settings all;
+  for (const SettingSpec& spec : fileSettings(format, 2)) all[spec.name] = spec.defaultValue;
+  for (const auto& [name, value] : settings) all[name] = value;
+  const auto number = [&](const char* name) { return std::get<double>(all.at(name)); };
+  FileUnits units;
+  units.length = number("length");
+  units.time = number("time");
+  units.mass = number("mass");
+  for (const auto& [name, value] :
+       {std::pair("length", units.length), {"time", units.time}, {"mass", units.mass}})
+    if (!(value > 0.0)) throw BadInput(fmt::format("{} = {:g}: a unit must be > 0", name, value));
+  units.dt = number("dt");
+  units.start = number("start");
+  units.contactsBehind = number("contacts_behind");
+  // The third axis, seen so that the second is a quarter turn counter-clockwise from the first:
+  // z × x = y, y × z = x, but x × z = −y.
+  const std::string& plane = std::get<std::string>(all.at("plane"));
+  units.axes[0] = plane == "yz" ? 1 : 0;
+  units.axes[1] = plane == "xy" ? 1 : 2;
+  units.axes[2] = units.third();
+  units.turn = plane == "xz" ? -1.0 : 1.0;
+  return units;
+}
+
+namespace {
+
+[[noreturn]] void fail(const FileFrame& frame, const std::string& what) {
+  throw BadInput(fmt::format("{}: {}", frame.where, what));
+}
+
+/// Refuses what lies beside the others, or moves out of the plane.
+void checkPlane(const FileFrame& frame, const FileUnits& units) {
+  const FileParticles& all = frame.particles;
+  const int third = units.third();
+  const Vec3& first = all.position.front();
+  Vec3 low = first, high = first;
+  for (const Vec3& x : all.position) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  const double extent = (high - low).maxCoeff();
+  if (high[third] - low[third] > outOfPlane * extent) {
+    std::string hint = ", in space it has dimension = 3";
+    for (std::size_t k = 0; k < planeNames.size(); ++k)  // the plane without axis 2, 1, 0
+      if (const int other = 2 - static_cast<int>(k); (high - low)[other] <= outOfPlane * extent)
+        hint = fmt::format("; nothing differs in {}: say plane = \"{}\"",
+                           axisNames[static_cast<std::size_t>(other)], planeNames[k]);
+    fail(frame,
+         fmt::format("particles lie from {} = {:.6g} to {:.6g}: the case is plane{}",
+                     axisNames[static_cast<std::size_t>(third)], low[third], high[third], hint));
+  }
+  double speed = 0.0, spin = 0.0;
+  for (const Vec3& v : all.velocity) speed = std::max(speed, v.norm());
+  for (const Vec3& w : all.spin) spin = std::max(spin, w.norm());
+  for (std::size_t k = 0; k < all.velocity.size(); ++k)
+    if (std::abs(all.velocity[k][third]) > outOfPlane * speed)
+      fail(frame, fmt::format("particle {} moves along {}: the case is plane", all.id[k],
+                              axisNames[static_cast<std::size_t>(third)]));
+  for (std::size_t k = 0; k < all.spin.size(); ++k)
+    if (Vec3 w = all.spin[k]; w[third] = 0.0, w.norm() > outOfPlane * spin)
+      fail(frame, fmt::format("particle {} spins about an axis that lies in the plane", all.id[k]));
+}
+
+/// Of an edge that the case does not have, whatever crosses it has an image there that the case
+/// does not know.
+void checkEdge(const FileFrame& frame, int axis) {
+  const FileParticles& all = frame.particles;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const double x = all.position[k][axis], a = all.radius.empty() ? 0.0 : all.radius[k];
+    if (x - a < frame.box->low[axis] || x + a > frame.box->high[axis])
+      fail(frame, fmt::format(
+                      "particle {} reaches over the periodic edge at {} = {:.6g}: the case has no "
+                      "periodic edge there",
+                      all.id[k], axisNames[static_cast<std::size_t>(axis)],
+                      x - a < frame.box->low[axis] ? frame.box->low[axis] : frame.box->high[axis]));
+  }
+}
+
+/// Periods of six digits are the case's.
+void checkPeriod(const FileFrame& frame, int axis, double found, double wanted) {
+  constexpr double samePeriod = 1e-5;
+  if (std::abs(found - wanted) > samePeriod * wanted)
+    fail(frame, fmt::format("its box is periodic along {} over {:.7g} m, the case's over {:.7g} m",
+                            axisNames[static_cast<std::size_t>(axis)], found, wanted));
+}
+
+/// Decimal digits that a number gets by with.
+int digitsOf(double x) {
+  const std::string text = fmt::format("{}", std::abs(x)),
+                    mantissa = text.substr(0, text.find('e'));
+  int digits = 0, zeros = 0;
+  for (const char c : mantissa) {
+    if (c == '.') continue;
+    if (c == '0') {
+      zeros += digits > 0;  // those in front do not count, those behind are not known yet
+      continue;
+    }
+    digits += zeros + 1;
+    zeros = 0;
+  }
+  return digits;
+}
+
+}  // namespace
+
+template <int D>
+FileBox boxInFiles(const BoxOf<D>& box, const FileUnits& units) {
+  FileBox made;
+  for (int k = 0; k < D; ++k) {
+    const int axis = units.axes[k];
+    made.low[axis] = box.low[k] / units.length;
+    made.high[axis] = box.high[k] / units.length;
+    made.periodic[axis] = box.periodic[static_cast<std::size_t>(k)];
+  }
+  return made;
+}
+template FileBox boxInFiles(const BoxOf<2>&, const FileUnits&);
+template FileBox boxInFiles(const BoxOf<3>&, const FileUnits&);
+
+template <int D>
+void checkParticles(const FileFrame& frame, const FileUnits& units,
+                    const std::optional<BoxOf<D>>& box) {
+  if (D == 2) checkPlane(frame, units);
+  if (!frame.box) return;
+  for (int k = 0; k < D; ++k) {
+    const int axis = units.axes[k];
+    if (!frame.box->periodic[axis]) continue;
+    if (box && box->periodic[static_cast<std::size_t>(k)])
+      checkPeriod(frame, axis, units.length * (frame.box->high[axis] - frame.box->low[axis]),
+                  box->high[k] - box->low[k]);
+    else
+      checkEdge(frame, axis);
+  }
+}
+template void checkParticles(const FileFrame&, const FileUnits&, const std::optional<BoxOf<2>>&);
+template void checkParticles(const FileFrame&, const FileUnits&, const std::optional<BoxOf<3>>&);
+
+template <int D>
+double roundingOf(const std::vector<Vec3>& position, const FileUnits& units) {
+  constexpr std::size_t most = 1000;
+  const std::size_t stride = std::max<std::size_t>(1, position.size() / most);
+  std::array<std::size_t, 20> count{};
+  std::size_t all = 0;
+  for (std::size_t k = 0; k < position.size(); k += stride)
+    for (int axis = 0; axis < D; ++axis)
+      if (const double x = position[k][units.axes[axis]]; x != 0.0) {
+        ++count[static_cast<std::size_t>(std::min(digitsOf(x), 19))];
+        ++all;
+      }
+  std::size_t digits = count.size() - 1;
+  while (digits > 0 && count[digits] == 0) --digits;
+  if (digits < 5 || digits > 8 || 2 * (count[digits] + count[digits - 1]) < all) return 1e-6;
+  return 2.0 * std::pow(10.0, 1.0 - static_cast<double>(digits));
+}
+template double roundingOf<2>(const std::vector<Vec3>&, const FileUnits&);
+template double roundingOf<3>(const std::vector<Vec3>&, const FileUnits&);
+
+}  // namespace crossgrain::files
