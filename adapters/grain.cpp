@@ -70,6 +70,13 @@ grain::Law grainLawOf(const ContactLaw& law) {
   return to;
 }
 
+std::optional<grain::Materials> grainMaterialsOf(const std::optional<Materials>& materials) {
+  if (!materials) return std::nullopt;
+  grain::Materials to{materials->ofDisk, materials->ofBody, materials->names.size(), {}};
+  for (const ContactLaw& law : materials->laws) to.laws.push_back(grainLawOf(law));
+  return to;
+}
+
 namespace {
 
 grain::WallState translate(const BodyState& state) {
@@ -109,11 +116,7 @@ grain::Setup setupOf(const Scene& scene) {
   setup.disks.inertia = scene.disks.inertia;
   for (const WallBody& body : scene.bodies) setup.walls.push_back(translate(body));
   setup.law = grainLawOf(scene.law);
-  if (const auto& materials = scene.materials) {
-    setup.materials =
-        grain::Materials{materials->ofDisk, materials->ofBody, materials->names.size(), {}};
-    for (const ContactLaw& law : materials->laws) setup.materials->laws.push_back(grainLawOf(law));
-  }
+  setup.materials = grainMaterialsOf(scene.materials);
   if (scene.bottom && scene.bottom->mu > 0.0)
     setup.bottom = {scene.bottom->mu,   scene.bottom->kb,      scene.bottom->gb,
                     scene.bottom->tauM, scene.bottom->gravity, scene.bottom->spin};

@@ -16,6 +16,7 @@ grain::Setup setupOf(const Scene& scene);
 
 /// A law in the in-house engine's own terms.
 grain::Law grainLawOf(const ContactLaw& law);
+std::optional<grain::Materials> grainMaterialsOf(const std::optional<Materials>& materials);
 
 /// The in-house engine.
 std::unique_ptr<Engine> makeGrain();

@@ -25,7 +25,6 @@ void demand(bool holds, const std::string& what) {
 /// @throws UnsupportedScene
 void requireSupported(const SpaceScene& scene) {
   demand(scene.law.soft(), "has no rigid contacts in space");
-  demand(!scene.materials, "has no pair_materials in space");
   demand(!scene.energyLedger, "has no energy_ledger in space");
   demand(scene.precision == Precision::float64, "has precision = double in space, not float");
   for (const WallBodyOf<3>& body : scene.bodies)
@@ -66,6 +65,7 @@ grain::SpheresSetup setupOf(const SpaceScene& scene, double skin, double maxOver
     setup.box = grain::SpaceBox{of(box->low), of(Vec3(box->high - box->low)), box->periodic};
   const LawConventions& how = scene.law.conventions;
   setup.law = grainLawOf(scene.law);
+  setup.materials = grainMaterialsOf(scene.materials);
   // Both sides list the values of these in the same order, too.
   setup.conventions = {static_cast<grain::SpringTurn>(how.springTurn),
                        static_cast<grain::SpringTwist>(how.springTwist)};

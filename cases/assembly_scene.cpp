@@ -199,7 +199,7 @@ SceneOf<D> assemblyScene(const Case& setup, DisksOf<D> disks, double wallTime, d
     scene.bodies.push_back(bodyOf(group, assembly, scene.bodies.size()));
     moveOn(scene.bodies.back(), wallTime);
   }
-  if constexpr (D == 2) addMaterials(scene, setup);  // the loader refuses them in space
+  addMaterials(scene, setup);
   return scene;
 }
 template Scene assemblyScene<2>(const Case&, Disks, double, double);

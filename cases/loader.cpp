@@ -162,10 +162,9 @@ void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
 }
 
 /// What cases in space do not have yet.
-void refusePlaneSections(const Reader& root, const Reader& law) {
+void refusePlaneSections(const Reader& root) {
   for (const char* const section : {"bottom", "stability"})
     root.check(!root.has(section), section, "is of the plane alone, and case.dimension = 3");
-  law.check(!law.has("pairs"), "pairs", "materials are of the plane alone, and case.dimension = 3");
 }
 
 void readAssemblyCase(Reader& root, Reader& law, Reader& run, Starts starts, Case& c) {
@@ -173,7 +172,7 @@ void readAssemblyCase(Reader& root, Reader& law, Reader& run, Starts starts, Cas
   Reader preparation = root.section("preparation");
   Reader average = root.section("average");
   Reader looks = root.section("looks");
-  if (c.dimension == 3) refusePlaneSections(root, law);
+  if (c.dimension == 3) refusePlaneSections(root);
   readBottom(root, c.bottom);
   withAssembly(c, [&](auto& target) { readAssembly(assembly, target); });
   settleMaterials(c);

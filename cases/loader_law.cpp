@@ -460,6 +460,7 @@ void readPairLaws(const Reader& law, std::vector<Reader>& pairs, Case& c) {
     for (const auto& [others, theirs] : found)
       pair.check(!std::ranges::is_permutation(others, between), "between", "is there twice");
     LawInput input;
+    input.dimension = c.law.dimension;
     input.ofPair = true;
     input.krOfLaw = c.law.kr;
     Reader both = pair.above(law, replaced(pair));

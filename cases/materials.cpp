@@ -33,13 +33,14 @@ std::vector<Body> bodiesOf(const Case& setup) {
     bodies.push_back({"[cell] ring", &setup.cell.ringMaterial});
     return bodies;
   }
-  const Assembly& assembly = setup.assembly;
-  for (std::size_t k = 0; k < assembly.disks.size(); ++k)
-    bodies.push_back({fmt::format("assembly.disks[{}]", k), &assembly.disks[k].material});
-  if (!assembly.starts.disks.empty())
-    bodies.push_back({"[assembly.start]", &assembly.starts.material});
-  for (std::size_t k = 0; k < assembly.walls.size(); ++k)
-    bodies.push_back({fmt::format("assembly.walls[{}]", k), &assembly.walls[k].material});
+  withAssembly(setup, [&](const auto& assembly) {
+    for (std::size_t k = 0; k < assembly.disks.size(); ++k)
+      bodies.push_back({fmt::format("assembly.disks[{}]", k), &assembly.disks[k].material});
+    if (!assembly.starts.disks.empty())
+      bodies.push_back({"[assembly.start]", &assembly.starts.material});
+    for (std::size_t k = 0; k < assembly.walls.size(); ++k)
+      bodies.push_back({fmt::format("assembly.walls[{}]", k), &assembly.walls[k].material});
+  });
   return bodies;
 }
 
@@ -92,7 +93,8 @@ void settleMaterials(Case& setup) {
   }
 }
 
-void addMaterials(Scene& scene, const Case& setup) {
+template <int D>
+void addMaterials(SceneOf<D>& scene, const Case& setup) {
   if (!setup.materials) return;
   Materials& materials = scene.materials.emplace(*setup.materials);
   const auto index = [&](const MaterialName& material) { return indexOf(materials, material); };
@@ -107,12 +109,15 @@ void addMaterials(Scene& scene, const Case& setup) {
     materials.ofBody = {index(setup.cell.wheelMaterial), index(setup.cell.ringMaterial)};
     return;
   }
-  const Assembly& assembly = setup.assembly;
-  for (const DiskGroup& group : assembly.disks)
+  const AssemblyOf<D>& assembly = assemblyIn<D>(setup);
+  for (const DiskGroupOf<D>& group : assembly.disks)
     materials.ofDisk.insert(materials.ofDisk.end(), group.count(), index(group.material));
   if (!assembly.starts.disks.empty())
     materials.ofDisk.assign(scene.disks.size(), index(assembly.starts.material));
-  for (const WallGroup& wall : assembly.walls) materials.ofBody.push_back(index(wall.material));
+  for (const WallGroupOf<D>& wall : assembly.walls)
+    materials.ofBody.push_back(index(wall.material));
 }
+template void addMaterials(Scene&, const Case&);
+template void addMaterials(SpaceScene&, const Case&);
 
 }  // namespace crossgrain::inline cases

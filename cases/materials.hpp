@@ -24,7 +24,8 @@ void changeLaws(Case& setup, auto&& change) {
 /// number, in a packing file by the nearer of the two radii; those of an assembly by their group,
 /// and all of a start file are alike.
 /// @param scene  disks in the order in which the case has them, and its bodies
-void addMaterials(Scene& scene, const Case& setup);
+template <int D>
+void addMaterials(SceneOf<D>& scene, const Case& setup);
 
 /// What is wrong with the materials that a case names, at the place that says it; of a collision
 /// the law of its two becomes the case's.

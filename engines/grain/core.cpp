@@ -85,12 +85,6 @@ void requireSound(const Materials& materials, const Setup& setup) {
   }
 }
 
-/// Of two materials: without friction no spring and no dashpot acts along the tangent.
-Law lawOfPair(Law law) {
-  if (!(law.mu > 0.0)) law.kt = law.gt = 0.0;
-  return law;
-}
-
 MotionEffects motionEffects(const Setup& setup) {
   MotionEffects effects;
   effects.rotation = setup.law.turnsDisks() && setup.rotation;

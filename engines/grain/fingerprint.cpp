@@ -61,6 +61,14 @@ void add(Fnv1a& to, const Wall& wall) {
   to.addAll(wall.moves);
 }
 
+void addLaws(Fnv1a& to, const Law& common, const std::optional<Materials>& materials) {
+  add(to, common);
+  if (!materials) return;
+  for (const Law& law : materials->laws) add(to, law);
+  for (const auto* list : {&materials->ofDisk, &materials->ofWall})
+    for (const std::int32_t material : *list) to.addAll(material);
+}
+
 }  // namespace
 
 std::uint64_t fingerprint(const Setup& setup) {
@@ -71,12 +79,7 @@ std::uint64_t fingerprint(const Setup& setup) {
     to.add(*values);
   to.add(static_cast<std::uint64_t>(setup.walls.size()));
   for (const Wall& wall : setup.walls) add(to, wall);
-  add(to, setup.law);
-  if (const auto& materials = setup.materials) {
-    for (const Law& law : materials->laws) add(to, law);
-    for (const auto* list : {&materials->ofDisk, &materials->ofWall})
-      for (const std::int32_t material : *list) to.addAll(material);
-  }
+  addLaws(to, setup.law, setup.materials);
   to.addAll(setup.bottom.has_value());
   if (const auto& plate = setup.bottom)
     to.addAll(plate->mu, plate->kb, plate->gb, plate->tauM, plate->gravity, plate->spin);
@@ -99,7 +102,7 @@ std::uint64_t fingerprint(const SpheresSetup& setup) {
       to.addAll(each.radius);
     }
   }
-  add(to, setup.law);
+  addLaws(to, setup.law, setup.materials);
   to.addAll(static_cast<int>(setup.conventions.turn), static_cast<int>(setup.conventions.twist));
   if (const auto& box = setup.box)
     to.addAll(box->low.x, box->low.y, box->low.z, box->length.x, box->length.y, box->length.z,

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "engines/grain/real.hpp"
 
@@ -216,5 +219,20 @@ struct ContactForce {
   Real sliding;     ///< 1 where the Coulomb bound holds, else 0
   Real load;        ///< what stands for f_n in bounds [N]
 };
+
+/// Bodies of several materials: the law of each two of them.
+struct Materials {
+  std::vector<std::int32_t> ofDisk, ofWall;  ///< of each disk, and of each wall with all it has
+  std::size_t count = 0;
+  /// Of a and b at a · count + b; symmetric. They have Setup::law's options and no effect that it
+  /// has not; other constants.
+  std::vector<Law> laws;
+};
+
+/// Of two materials: without friction no spring and no dashpot acts along the tangent.
+inline Law lawOfPair(Law law) {
+  if (!(law.mu > 0.0)) law.kt = law.gt = 0.0;
+  return law;
+}
 
 }  // namespace grain

@@ -20,15 +20,6 @@ struct Disks {
 
 enum class Precision { float64, float32 };
 
-/// Bodies of several materials: the law of each two of them.
-struct Materials {
-  std::vector<std::int32_t> ofDisk, ofWall;  ///< of each disk, and of each wall with all it has
-  std::size_t count = 0;
-  /// Of a and b at a · count + b; symmetric. They have Setup::law's options and no effect that it
-  /// has not; other constants.
-  std::vector<Law> laws;
-};
-
 /// Everything a simulation starts from.
 struct Setup {
   Disks disks;

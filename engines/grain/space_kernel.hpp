@@ -67,12 +67,23 @@ GRAIN_INLINE void push(const L& law, const SpaceView& all, ActiveSpheres& active
   add(all.torque[j], force.torqueJ, 1.0);
 }
 
+/// The law of two spheres: of several materials theirs.
+GRAIN_INLINE const GeneralLaw<double>& lawOfPair(const GeneralLaw<double>& common,
+                                                 const SpaceView& all, std::size_t i,
+                                                 std::size_t j) {
+  return all.laws == nullptr ? common : all.lawOf(i, j);
+}
+GRAIN_INLINE const EverydayLaw& lawOfPair(const EverydayLaw& common, const SpaceView&, std::size_t,
+                                          std::size_t) {
+  return common;
+}
+
 /// Of any law, pair by pair. Pairs that do not touch add nothing.
 template <class L>
 static SpaceReport pairKernel(const GeneralLaw<double>& general, const SpaceConventions& how,
                               const SpaceView& view, const SpacePairs& list, double range,
                               double maxOverlap) {
-  const L law(general);
+  const L common(general);
   const SpaceView all = view;  // copies that no store through a pointer can change
   const SpacePairs pairs = list;
   ActiveSpheres active = view.active;
@@ -85,6 +96,7 @@ static SpaceReport pairKernel(const GeneralLaw<double>& general, const SpaceConv
       const std::size_t p = near[k];
       const auto i = static_cast<std::size_t>(pairs.i[p]);
       const auto j = static_cast<std::size_t>(pairs.j[p]);
+      const L& law = lawOfPair(common, all, i, j);
       const Vec3<double> d =
           vectorOf(all.position[i]) - vectorOf(all.position[j]) - vectorOf(pairs.shift[p]);
       const double distance = length(d);

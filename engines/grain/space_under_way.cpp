@@ -88,9 +88,7 @@ void Spheres::beginUnderWay(const std::vector<SpaceContact>& forces) {
       seenVelocity_ = velocity_;
       seenSpin_ = spin_;
     }
-    const double halfStep = std::exchange(law_.halfStep, lags ? law_.halfStep : 0.0);
-    addForces();
-    law_.halfStep = halfStep;
+    addForcesAfter(lags ? law_.halfStep : 0.0);
   };
   const auto forWanted = [&](auto&& visit) {
     for (const SpaceContact& contact : contacts())
@@ -113,8 +111,9 @@ void Spheres::beginUnderWay(const std::vector<SpaceContact>& forces) {
     forWanted([&](const SpaceContact& now, const SpaceContact& want) {
       SpaceMemory<double>& own = springs[{now.i, now.j}];
       const Meeting<double> meeting = meetingOf(now);
-      const auto [sliding, rolling] = loadPerStretch(meeting);
-      const Vector guess = springFor(meeting, want, sliding);
+      const GeneralLaw<double>& law = lawOf(now);
+      const auto [sliding, rolling] = loadPerStretch(law, meeting);
+      const Vector guess = springFor(law, meeting, want, sliding);
       settled &= stretched({now.tangentialForce, now.sliding}, {want.tangentialForce, want.sliding},
                            sliding, guess, begun[{now.i, now.j}], own.spring);
       if (law_.rolling != Rolling::spring) return;
@@ -155,26 +154,26 @@ void Spheres::addLacking(const SpaceContact& contact, const Vector& force, const
 }
 
 /// By how much f_t falls for each unit of ξ [N/m], of a remembered force 1; and M for each of θ.
-std::pair<double, double> Spheres::loadPerStretch(const Meeting<double>& meeting) const {
+std::pair<double, double> Spheres::loadPerStretch(const GeneralLaw<double>& law,
+                                                  const Meeting<double>& meeting) const {
   const double sliding =
-      law_.history == History::force ? 1.0 : tangentialStiffness(law_, motionOf(law_, meeting));
-  return {sliding, law_.kr * rollingMotion(law_, meeting.radiusI, meeting.radiusJ, 0.0).square};
+      law.history == History::force ? 1.0 : tangentialStiffness(law, motionOf(law, meeting));
+  return {sliding, law.kr * rollingMotion(law, meeting.radiusI, meeting.radiusJ, 0.0).square};
 }
 
 /// A spring by which a contact has a wanted force, but for how the pair turns in the step; where it
 /// slips, by which what is compared with the bound is along the force and twice as large.
-Vector Spheres::springFor(const Meeting<double>& meeting, const SpaceContact& want,
-                          double unit) const {
-  const ContactMotion<double> motion = motionOf(law_, meeting);
-  const Vector slip = slipOf(law_, meeting);
+Vector Spheres::springFor(const GeneralLaw<double>& law, const Meeting<double>& meeting,
+                          const SpaceContact& want, double unit) const {
+  const ContactMotion<double> motion = motionOf(law, meeting);
+  const Vector slip = slipOf(law, meeting);
   Vector viscous{};
-  if (law_.tangential == Tangential::springDashpot)
-    viscous = -tangentialDamping(law_, motion) * slip;
+  if (law.tangential == Tangential::springDashpot) viscous = -tangentialDamping(law, motion) * slip;
   const Vector& force = want.tangentialForce;
-  const bool alone = want.sliding && law_.dashpotOutsideBound;  // the dashpot has no part
+  const bool alone = want.sliding && law.dashpotOutsideBound;  // the dashpot has no part
   const Vector elastic = (want.sliding ? 2.0 : 1.0) * force - (alone ? Vector{} : viscous);
-  const double growth = law_.history == History::force ? tangentialStiffness(law_, motion) : 1.0;
-  return (-1.0 / unit) * elastic - (partBefore<double>(law_.stretch) * growth * law_.dt) * slip;
+  const double growth = law.history == History::force ? tangentialStiffness(law, motion) : 1.0;
+  return (-1.0 / unit) * elastic - (partBefore<double>(law.stretch) * growth * law.dt) * slip;
 }
 
 }  // namespace grain

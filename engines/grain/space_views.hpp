@@ -60,6 +60,14 @@ struct SpaceView {
   const double *inverseMass, *inverseInertia;  ///< 0 of walls
   Quad *force, *torque;
   ActiveSpheres active;
+  /// Where there are several: the material of each, and the laws by two of them.
+  const std::int32_t* material = nullptr;
+  const GeneralLaw<double>* laws = nullptr;
+  std::int32_t materials = 0;
+
+  GRAIN_INLINE const GeneralLaw<double>& lawOf(std::size_t i, std::size_t j) const {
+    return laws[material[i] * materials + material[j]];
+  }
 };
 
 /// Two spheres. @param normal  from j, or its image, to i

@@ -50,9 +50,23 @@ Vector turnedBy(const Vector& angle, const Vector& v) {
   return c * v + s * cross(axis, v) + ((1.0 - c) * dot(axis, v)) * axis;
 }
 
-double rangeOf(const GeneralLaw<double>& law, const std::vector<double>& radius) {
+/// Of each two materials; none where all bodies are of one.
+std::vector<GeneralLaw<double>> lawsOf(const SpheresSetup& setup) {
+  std::vector<GeneralLaw<double>> laws;
+  if (setup.materials)
+    for (const Law& law : setup.materials->laws)
+      laws.push_back(generalLaw<double>(lawOfPair(law), setup.dt, setup.rotation));
+  return laws;
+}
+
+double rangeOf(const GeneralLaw<double>& law, const std::vector<GeneralLaw<double>>& laws,
+               const std::vector<double>& radius) {
   if (law.cohesion != Cohesion::jkr || radius.empty()) return 0.0;
-  return jkrRange(law, *std::ranges::max_element(radius));  // of a wall, the farthest
+  const double largest = *std::ranges::max_element(radius);
+  if (laws.empty()) return jkrRange(law, largest);  // of a wall, the farthest
+  double range = 0.0;
+  for (const GeneralLaw<double>& each : laws) range = std::max(range, jkrRange(each, largest));
+  return range;
 }
 
 }  // namespace
@@ -61,8 +75,9 @@ Spheres::Spheres(SpheresSetup setup)
     : setup_(std::move(setup)),
       fingerprint_(fingerprint(setup_)),
       law_(generalLaw<double>(setup_.law, setup_.dt, setup_.rotation)),
+      laws_(lawsOf(setup_)),
       kernels_(kernels<double>().space),
-      range_(rangeOf(law_, setup_.radius)),
+      range_(rangeOf(law_, laws_, setup_.radius)),
       everyone_(pushesMoreThanPairs(setup_)),
       shares_(partCount(setup_.threads, setup_.mass.size())),
       lists_(
@@ -72,19 +87,24 @@ Spheres::Spheres(SpheresSetup setup)
       team_(std::make_unique<ThreadTeam>(shares_.size())) {
   demand(setup_.dt > 0.0, "the time step must be > 0 s");
   demand(setup_.law.normal != Normal::impulse, "spheres have no impulses");
-  kernels_.pairs = pairKernelOf(kernels_, law_, setup_.conventions);
+  if (laws_.empty()) kernels_.pairs = pairKernelOf(kernels_, law_, setup_.conventions);
   placeSpheres();
   moveWalls();
   updateNeighbours();
   renumber();
   // At t = 0 the velocities are given: nothing is predicted, and no damping is implicit.
-  const double halfStep = std::exchange(law_.halfStep, 0.0);
-  addForces();
-  law_.halfStep = halfStep;
+  addForcesAfter(0.0);
   if (setup_.integrator == Integrator::positionVerlet) {
     halfKick_ = 0.5 * setup_.dt;  // from here on velocities live half a step before positions
     kick(-halfKick_);
   }
+}
+
+void Spheres::addForcesAfter(double halfStep) {
+  const double usual = law_.halfStep;
+  forLaws([halfStep](GeneralLaw<double>& law) { law.halfStep = halfStep; });
+  addForces();
+  forLaws([usual](GeneralLaw<double>& law) { law.halfStep = usual; });
 }
 
 void Spheres::placeSpheres() {
@@ -126,6 +146,13 @@ void Spheres::placeSpheres() {
   inverseMass_.resize(position_.size());
   inverseInertia_.resize(position_.size());
   mass_.resize(size());
+  if (setup_.materials) {
+    material_.resize(size());
+    for (std::size_t w = 0; w < setup_.walls.size(); ++w)
+      material_.insert(material_.end(), setup_.walls[w].radius.size(), setup_.materials->ofWall[w]);
+    for (const PlacedPlane& plane : planes_)
+      material_.push_back(setup_.materials->ofWall[plane.wall]);
+  }
   indexOfId_.resize(size());
   activeList_.resize(size() + shares_.size());
   mark_.assign(position_.size(), 2);
@@ -151,6 +178,7 @@ void Spheres::followNumbers() {
     mass_[i] = setup_.mass[id];
     inverseMass_[i] = 1.0 / setup_.mass[id];
     inverseInertia_[i] = 1.0 / setup_.inertia[id];
+    if (setup_.materials) material_[i] = setup_.materials->ofDisk[id];
   }
 }
 
@@ -360,8 +388,17 @@ void Spheres::rememberChoice() {
 }
 
 SpaceView Spheres::view(const ActiveSpheres& active) {
-  return {position_.data(),       seenVelocities().data(), seenSpins().data(), inverseMass_.data(),
-          inverseInertia_.data(), force_.data(),           torque_.data(),     active};
+  return {position_.data(),
+          seenVelocities().data(),
+          seenSpins().data(),
+          inverseMass_.data(),
+          inverseInertia_.data(),
+          force_.data(),
+          torque_.data(),
+          active,
+          material_.empty() ? nullptr : material_.data(),
+          laws_.empty() ? nullptr : laws_.data(),
+          setup_.materials ? static_cast<std::int32_t>(setup_.materials->count) : 0};
 }
 
 /// Contacts add to the spheres' forces in one order, whatever the number of threads: those with
@@ -437,10 +474,11 @@ void Spheres::addPlane(PlacedPlane& plane, Share& share, std::size_t begin, std:
   for (std::size_t i = begin; i < end; ++i) {
     const Place place = placeOn(plane, i);
     const double a = position_[i].w, height = place.height;
+    const GeneralLaw<double>& law = lawOf(plane, i);
     SpaceMemory<double>& kept = plane.kept[i];
     bool touches = a - height > 0.0;
-    if (law_.cohesion == Cohesion::jkr) {
-      kept.memory = isBonded(law_, a - height, a, kept.memory);
+    if (law.cohesion == Cohesion::jkr) {
+      kept.memory = isBonded(law, a - height, a, kept.memory);
       touches = kept.memory > 0.0;
     }
     if (!touches && plane.touches[i] != 0) kept = {};
@@ -449,7 +487,7 @@ void Spheres::addPlane(PlacedPlane& plane, Share& share, std::size_t begin, std:
     if (setup_.maxOverlap > 0.0 && !(a - height <= setup_.maxOverlap * a)) share.deep = true;
     ++share.touching;
     const Meeting<double> meeting = meetingOn(plane, i, place);
-    const MeetingForce<double> force = meetingForce(law_, setup_.conventions, meeting, kept);
+    const MeetingForce<double> force = meetingForce(law, setup_.conventions, meeting, kept);
     plane.results[i] = {meeting.overlap, force.normal, force.sliding, force.tangential,
                         force.rolling};
     add(force_[i], force.force, 1.0);

@@ -40,7 +40,8 @@ struct SpheresSetup {
   std::vector<double> radius, mass, inertia;
   std::vector<SpaceWall> walls;
   std::optional<SpaceBox> box;
-  Law law;  ///< no impulses
+  Law law;                             ///< no impulses
+  std::optional<Materials> materials;  ///< where pairs differ: then `law` is of none
   SpaceConventions conventions;
   Vec3<double> gravity;
   double dt = 0.0;
@@ -158,6 +159,22 @@ class Spheres {
     return seenVelocity_.empty() ? velocity_ : seenVelocity_;
   }
   const Array<Quad>& seenSpins() const { return seenSpin_.empty() ? spin_ : seenSpin_; }
+  /// @param body  a sphere's index, or beyond them a plane's or cylinder's
+  const GeneralLaw<double>& lawOf(std::size_t i, std::size_t body) const {
+    if (laws_.empty()) return law_;
+    const std::size_t count = setup_.materials->count;
+    return laws_[static_cast<std::size_t>(material_[i]) * count +
+                 static_cast<std::size_t>(material_[body])];
+  }
+  const GeneralLaw<double>& lawOf(const PlacedPlane& plane, std::size_t i) const {
+    return lawOf(i, position_.size() + static_cast<std::size_t>(&plane - planes_.data()));
+  }
+  void forLaws(auto&& visit) {
+    visit(law_);
+    for (GeneralLaw<double>& law : laws_) visit(law);
+  }
+  /// Evaluates forces while another part of a step is left for implicit damping [s].
+  void addForcesAfter(double halfStep);
   /// Calls work(share, first, end) for the moving spheres of each part.
   void together(auto&& work) {
     team_->run([&](std::size_t part) {
@@ -194,16 +211,23 @@ class Spheres {
   Meeting<double> meetingOf(const SpaceContact& contact);
   void addLacking(const SpaceContact& contact, const Vec3<double>& force,
                   const Vec3<double>& torque);
-  std::pair<double, double> loadPerStretch(const Meeting<double>& meeting) const;
-  Vec3<double> springFor(const Meeting<double>& meeting, const SpaceContact& want,
-                         double unit) const;
+  const GeneralLaw<double>& lawOf(const SpaceContact& contact) const {
+    return lawOf(indexOf(static_cast<std::size_t>(contact.i)),
+                 indexOf(static_cast<std::size_t>(contact.j)));
+  }
+  std::pair<double, double> loadPerStretch(const GeneralLaw<double>& law,
+                                           const Meeting<double>& meeting) const;
+  Vec3<double> springFor(const GeneralLaw<double>& law, const Meeting<double>& meeting,
+                         const SpaceContact& want, double unit) const;
   void addPlane(PlacedPlane& plane, Share& share, std::size_t begin, std::size_t end);
   std::string nameOfPlane(std::size_t p) const;  ///< "cylinder 0"
   [[noreturn]] void reportDeep();
 
   SpheresSetup setup_;
   std::uint64_t fingerprint_;
-  GeneralLaw<double> law_;
+  GeneralLaw<double> law_;                ///< of materials, what they have in common
+  std::vector<GeneralLaw<double>> laws_;  ///< of two materials each; empty: law_ is that of all
+  std::vector<std::int32_t> material_;    ///< by index, then of planes and cylinders
   SpaceKernels kernels_;
   double halfKick_ = 0.0;  ///< by which velocities are behind positions [s]
   double range_;           ///< how far apart bodies may be in contact [m]

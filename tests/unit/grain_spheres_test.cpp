@@ -73,6 +73,19 @@ SpheresSetup meeting(const Law& law, bool planar) {
   return setup;
 }
 
+/// Of two materials, in turn; every constant differs, and two of the second do not rub.
+void mix(SpheresSetup& setup) {
+  const auto changed = [&](double by, double friction) {
+    Law law = setup.law;
+    for (double* constant : {&law.kn, &law.gn, &law.kt, &law.gt, &law.w, &law.kr, &law.gr})
+      *constant *= by;
+    law.mu *= friction;
+    return law;
+  };
+  const Law both = changed(0.6, 0.5);
+  setup.materials = Materials{{0, 1, 0}, {1, 0}, 2, {setup.law, both, both, changed(0.3, 0.0)}};
+}
+
 Setup inThePlane(const SpheresSetup& spheres) {
   Setup setup;
   for (std::size_t i = 0; i < spheres.radius.size(); ++i) {
@@ -110,6 +123,7 @@ Setup inThePlane(const SpheresSetup& spheres) {
   };
   setup.walls.push_back(lid);
   setup.law = spheres.law;
+  setup.materials = spheres.materials;
   setup.dt = spheres.dt;
   setup.integrator = spheres.integrator;
   return setup;
@@ -202,6 +216,17 @@ TEST(Spheres, AllInAPlane_MoveAsThePlanesEngineMovesThem) {
     hertz(s);
     s.law.cohesion = Cohesion::jkr;
     s.law.w = 20.0;
+  });
+  with("materials", mix);
+  with("materials, implicit", [](auto& s) {
+    s.law.damping = Damping::implicit;
+    mix(s);
+  });
+  with("materials, jkr", [&](auto& s) {
+    hertz(s);
+    s.law.cohesion = Cohesion::jkr;
+    s.law.w = 20.0;
+    mix(s);
   });
   for (const SpringTurn turn : {SpringTurn::rescaled, SpringTurn::rotated})
     with("turn", [&](auto& s) { s.conventions.turn = turn; });
@@ -627,6 +652,10 @@ TEST(Spheres, RunThatBeginsUnderWay_GoesOnAsTheOneItIsOf) {
   with("spring only", [](auto& s) { s.law.resetSpringOnly = true; });
   with("no twist", [](auto& s) { s.conventions.twist = SpringTwist::none; });
   with("rough", [](auto& s) { s.law.mu = 5.0; });
+  with("materials", [](auto& s) {
+    mix(s);
+    s.materials->ofWall.pop_back();
+  });
   for (const Integrator integrator : {Integrator::velocityVerlet, Integrator::semiImplicitEuler})
     with("integrator", [&](auto& s) { s.integrator = integrator; });
   with("rolling", [](auto& s) {
