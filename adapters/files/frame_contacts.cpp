@@ -139,8 +139,8 @@ class ContactReader {
   }
 
   /// The plane or cylinder of the case that a wall of the file is, for the disk that touches it: of
-  /// those with
-  /// the contact's normal the one whose distance from the centre is nearest to the radius.
+  /// those with the contact's normal the one whose distance from the centre is nearest to the
+  /// radius.
   std::size_t planeOf(std::size_t c, std::size_t disk) const {
     std::optional<std::size_t> best;
     double nearest = 0.5 * basis_.radius[disk];

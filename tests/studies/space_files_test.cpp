@@ -319,6 +319,32 @@ TEST_F(SpaceFiles, WaysOverTheBorder_AreThoseOfTheVelocities) {
   EXPECT_NE(said.find("3 spheres that move have gone 10 times as far"), std::string::npos) << said;
 }
 
+/// Dashpots that may pull do so as two part: one such contact is no sign of wrong signs, twenty
+/// are.
+TEST_F(SpaceFiles, ForcesThatAttract_AreRefusedWhereDashpotsDoNotExplainThem) {
+  setup_.law.gn = 10.0;
+  AssemblyOf<3>& assembly = setup_.spaceAssembly;
+  assembly.walls.clear();
+  assembly.box.reset();
+  const auto chain = [&](int spheres, double force) {
+    Texts texts = {{"a.csv", "t,id,x,y,z,radius,vx,vy,vz\n"},
+                   {"a-contacts.csv", "t,first,second,normal_force,tx,ty,tz\n"}};
+    assembly.disks[0].places.assign(static_cast<std::size_t>(spheres), Vec3::Zero());
+    for (int k = 0; k < spheres; ++k) {
+      assembly.disks[0].places[static_cast<std::size_t>(k)].x() = 0.99 * k;
+      texts["a.csv"] += fmt::format("1,{},{},1,2,0.5,0,0,0\n", k, 0.99 * k);
+      if (k > 0) texts["a-contacts.csv"] += fmt::format("1,{},{},{},0,0,0\n", k - 1, k, force);
+    }
+    return refusal(texts);
+  };
+  EXPECT_EQ(chain(2, -1.0), "");
+  EXPECT_EQ(chain(21, 1.0), "");
+  EXPECT_NE(chain(21, -1.0).find("normal forces attract, -20 N over 20 contacts"),
+            std::string::npos);
+  setup_.law.conventions.tension = Tension::cut;
+  EXPECT_NE(chain(2, -1.0).find("normal forces attract"), std::string::npos);
+}
+
 TEST_F(SpaceFiles, WhatDoesNotFit_IsRefusedInOneLine) {
   const auto changed = [](Sample sample, const char* file, const std::string& from,
                           const std::string& to) {
