@@ -3,7 +3,7 @@
 
 import {readFileSync} from 'node:fs';
 import {cross, noSpin, plus, scaled} from '../node/crossgrain_vector.mjs';
-import {ballsOf, placeBalls} from '../node/cylinder_balls.mjs';
+import {ballsOf, placeBalls} from '../node/crossgrain_walls.mjs';
 import {Unsupported} from '../node/crossgrain_worker.mjs';
 
 const home = new URL(`../node/node_modules/${process.env.JOLT ?? 'jolt-physics'}/`, import.meta.url);

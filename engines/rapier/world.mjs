@@ -2,7 +2,7 @@
 
 import {createRequire} from 'node:module';
 import {scaled} from '../node/crossgrain_vector.mjs';
-import {ballsOf, placeBalls} from '../node/cylinder_balls.mjs';
+import {ballsOf, placeBalls} from '../node/crossgrain_walls.mjs';
 
 const require = createRequire(new URL('../node/', import.meta.url));
 const RAPIER = require(process.env.RAPIER ?? '@dimforge/rapier2d-compat');
