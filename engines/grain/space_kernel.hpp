@@ -28,23 +28,18 @@ GRAIN_INLINE double sumOfThree(const Lanes& lanes) {
   return lanes.v[0] + lanes.v[1] + lanes.v[2];
 }
 
-/// Finds the pairs of begin … end−1 that meet: they are few in a flow that is not dense. Those that
-/// touched before are looked at once more, to forget it. A place that is no number is not skipped.
+/// Finds the pairs of begin … end−1 that meet or touched before: they are few in a flow that is not
+/// dense. A place that is no number is not skipped.
 GRAIN_INLINE std::size_t findMeeting(const SpaceView& all, const SpacePairs& pairs,
-                                     std::size_t begin, std::size_t end, double range,
-                                     std::size_t* meeting) {
+                                     std::size_t begin, std::size_t end, std::size_t* meeting) {
   std::size_t found = 0;
   for (std::size_t p = begin; p < end; ++p) {
-    const Quad& a = all.position[static_cast<std::size_t>(pairs.i[p])];
-    const Quad& b = all.position[static_cast<std::size_t>(pairs.j[p])];
-    Lanes d(a);
-    d -= Lanes(b);
-    d -= Lanes(pairs.shift[p]);
+    Lanes d(all.position[static_cast<std::size_t>(pairs.i[p])]);
+    d -= Lanes(all.position[static_cast<std::size_t>(pairs.j[p])]);
+    d -= Lanes(pairs.shift(p));
     d.v *= d.v;
-    const double reach = a.w + b.w + range;
-    const int meets = !(sumOfThree(d) >= reach * reach);
     meeting[found] = p;
-    found += static_cast<std::size_t>(meets | pairs.touches[p]);  // no branch
+    found += !(sumOfThree(d) >= pairs.within[p]);  // no branch
   }
   return found;
 }
@@ -91,14 +86,14 @@ static SpaceReport pairKernel(const GeneralLaw<double>& general, const SpaceConv
   std::size_t near[blockSize];
   for (std::size_t begin = 0; begin < pairs.count; begin += blockSize) {
     const std::size_t end = smaller(begin + blockSize, pairs.count);
-    const std::size_t found = findMeeting(all, pairs, begin, end, range, near);
+    const std::size_t found = findMeeting(all, pairs, begin, end, near);
     for (std::size_t k = 0; k < found; ++k) {
       const std::size_t p = near[k];
       const auto i = static_cast<std::size_t>(pairs.i[p]);
       const auto j = static_cast<std::size_t>(pairs.j[p]);
       const L& law = lawOfPair(common, all, i, j);
       const Vec3<double> d =
-          vectorOf(all.position[i]) - vectorOf(all.position[j]) - vectorOf(pairs.shift[p]);
+          vectorOf(all.position[i]) - vectorOf(all.position[j]) - vectorOf(pairs.shift(p));
       const double distance = length(d);
       const double overlap = all.position[i].w + all.position[j].w - distance;
       const Meeting<double> meeting = meetingOf(law, all, i, j, (1.0 / distance) * d, overlap);
@@ -113,7 +108,7 @@ static SpaceReport pairKernel(const GeneralLaw<double>& general, const SpaceConv
       }
       const double smallest = smaller(meeting.radiusI, meeting.radiusJ);
       if (!(meeting.overlap <= maxOverlap * smallest) || !(distance > 0.0)) report.deep = true;
-      pairs.touches[p] = touches;
+      pairs.setTouches(p, touches, meeting.radiusI + meeting.radiusJ + range);
       if (!touches) continue;
       ++report.touching;
       const MeetingForce<double> force = meetingForce(law, how, meeting, kept);
@@ -164,8 +159,7 @@ static SpaceReport sideBySideKernel(const GeneralLaw<double>& general, const Spa
   std::size_t found = 0;
   for (std::size_t begin = 0; begin < pairs.count; begin += lookedAt) {
     const bool last = begin + lookedAt >= pairs.count;
-    found +=
-        findMeeting(all, pairs, begin, last ? pairs.count : begin + lookedAt, range, near + found);
+    found += findMeeting(all, pairs, begin, last ? pairs.count : begin + lookedAt, near + found);
     if (found == 0 || (!last && found + lookedAt <= meetingBlock)) continue;
     const std::size_t full = (found + width - 1) / width * width;
     for (std::size_t k = found; k < full; ++k) near[k] = near[found - 1];
@@ -174,7 +168,7 @@ static SpaceReport sideBySideKernel(const GeneralLaw<double>& general, const Spa
       const auto i = static_cast<std::size_t>(pairs.i[p]);
       const auto j = static_cast<std::size_t>(pairs.j[p]);
       b.apart.set(k,
-                  vectorOf(all.position[i]) - vectorOf(all.position[j]) - vectorOf(pairs.shift[p]));
+                  vectorOf(all.position[i]) - vectorOf(all.position[j]) - vectorOf(pairs.shift(p)));
       b.velocity.set(k, vectorOf(all.velocity[i]) - vectorOf(all.velocity[j]));
       b.spinI.set(k, vectorOf(all.spin[i]));
       b.spinJ.set(k, vectorOf(all.spin[j]));
@@ -230,7 +224,7 @@ static SpaceReport sideBySideKernel(const GeneralLaw<double>& general, const Spa
       const double smallest = smaller(b.radiusI[k], b.radiusJ[k]);
       if (!(b.overlap[k] <= maxOverlap * smallest) || !(b.overlap[k] < b.radiusI[k] + b.radiusJ[k]))
         report.deep = true;
-      pairs.touches[p] = b.overlap[k] > 0.0;
+      pairs.setTouches(p, b.overlap[k] > 0.0, b.radiusI[k] + b.radiusJ[k] + range);
       if (!(b.overlap[k] > 0.0)) continue;
       ++report.touching;
       pairs.kept[p] = {b.normal.at(k), b.spring.at(k), {}, 0.0, 0.0};

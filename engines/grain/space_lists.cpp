@@ -167,11 +167,11 @@ void SpaceLists::choose(std::span<const Quad> position, ThreadTeam& team) {
       place_[i].w += allowance_[i] + 0.5 * range_;
     }
   });
-  team.run([&](std::size_t part) { choose(part); });
+  team.run([&](std::size_t part) { chooseNear(part, position); });
 }
 
 /// The near pairs of a part.
-void SpaceLists::choose(std::size_t number) {
+void SpaceLists::chooseNear(std::size_t number, std::span<const Quad> position) {
   Part& part = parts_[number];
   const std::size_t first = partBegin(number);
   part.chosen.resize(part.far.size() + 1);
@@ -202,12 +202,18 @@ void SpaceLists::choose(std::size_t number) {
     near.j[n] = pair.j;
     const Quad &a = cells_.winding(static_cast<std::size_t>(near.i[n])),
                &b = cells_.winding(static_cast<std::size_t>(pair.j)), image = boxesOf(pair.image);
-    near.shift[n] =
-        cells_.boxes({a.x - b.x + image.x, a.y - b.y + image.y, a.z - b.z + image.z, 0.0});
+    const Quad boxes{a.x - b.x + image.x, a.y - b.y + image.y, a.z - b.z + image.z, 0.0};
+    near.shiftOf[n] = 0;
+    if (!isZero(vectorOf(boxes))) {
+      near.shiftOf[n] = static_cast<std::int32_t>(near.shifts.size());
+      near.shifts.push_back(cells_.boxes(boxes));
+    }
     const struct { std::int32_t i, j; } here{near.i[n], near.j[n]};
     const Kept *const last = near.carried.data() + near.carried.size(), *&kept = next[list];
     while (kept != last && earlier(*kept, here)) ++kept;
-    near.touches[n] = kept != last && !earlier(here, *kept);
+    const double reach = position[static_cast<std::size_t>(here.i)].w +
+                         position[static_cast<std::size_t>(here.j)].w + range_;
+    near.view().setTouches(n, kept != last && !earlier(here, *kept), reach);
     if (near.touches[n] == 0) continue;
     near.kept[n] = kept->memory;
     near.results[n] = kept->result;
@@ -227,8 +233,11 @@ void SpaceLists::sortChosen(Part& part, std::size_t count) {
 }
 
 SpacePairs SpaceLists::NearPairs::view() {
-  return {i.size(),    i.data(),       j.data(),       shift.data(),
-          kept.data(), results.data(), touches.data(), pushes.empty() ? nullptr : pushes.data()};
+  return {i.size(),       i.data(),
+          j.data(),       shifts.data(),
+          shiftOf.data(), within.data(),
+          kept.data(),    results.data(),
+          touches.data(), pushes.empty() ? nullptr : pushes.data()};
 }
 
 void SpaceLists::NearPairs::collectTouching(std::vector<Kept>& found) const {
@@ -240,7 +249,9 @@ void SpaceLists::NearPairs::collectTouching(std::vector<Kept>& found) const {
 void SpaceLists::NearPairs::makeRoom(std::size_t count, bool apart) {
   i.resize(count);
   j.resize(count);
-  shift.resize(count);
+  shifts.assign(1, Quad{});
+  shiftOf.resize(count);
+  within.resize(count);
   touches.resize(count);
   if (kept.size() < count) {
     kept.resize(count);

@@ -73,7 +73,9 @@ class SpaceLists {
  private:
   struct NearPairs {
     std::vector<std::int32_t> i, j;
-    Array<Quad> shift;
+    Array<Quad> shifts;  ///< none, then those of pairs across a border
+    std::vector<std::int32_t> shiftOf;
+    std::vector<double> within;
     std::vector<SpaceMemory<double>> kept;  ///< with room to spare, as results and pushes
     std::vector<SpaceResult> results;
     std::vector<std::uint8_t> touches;
@@ -97,7 +99,7 @@ class SpaceLists {
   double skinUsed(std::size_t part, std::span<const Quad> position) const;
   void collect(std::size_t part, std::span<const Quad> position);
   void choose(std::span<const Quad> position, ThreadTeam& team);
-  void choose(std::size_t part);
+  void chooseNear(std::size_t part, std::span<const Quad> position);
   static void sortChosen(Part& part, std::size_t count);
   PairCounts counts() const;
   /// Spheres of a part among `all`, those of walls too.

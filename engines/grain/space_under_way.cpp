@@ -76,8 +76,10 @@ void Spheres::beginUnderWay(const std::vector<SpaceContact>& forces) {
       kept.angle = -1.0 * kept.angle;
     };
     lists_.forNear([&](const SpacePairs& pairs) {
-      for (std::size_t p = 0; p < pairs.count; ++p)
+      for (std::size_t p = 0; p < pairs.count; ++p) {
         remember(pairs.i[p], static_cast<std::size_t>(pairs.j[p]), pairs.kept[p], pairs.touches[p]);
+        if (pairs.touches[p] != 0) pairs.setTouches(p, true, 0.0);  // so that it is looked at
+      }
     });
     for (std::size_t p = 0; p < planes_.size(); ++p)
       for (std::size_t i = 0; i < size(); ++i)

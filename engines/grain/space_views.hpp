@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "engines/grain/law_types.hpp"
 #include "engines/grain/space_law.hpp"
@@ -111,12 +112,25 @@ struct SpacePush {
 struct SpacePairs {
   std::size_t count;
   const std::int32_t *i, *j;
-  const Quad* shift;          ///< where the image of j is that i is near to, from j
+  const Quad* shifts;           ///< where images of j are that some i are near to, from j
+  const std::int32_t* shiftOf;  ///< the entry of a pair
+  /// The square of the distance within which it is looked at. One that touched is until that is
+  /// over.
+  double* within;
   SpaceMemory<double>* kept;  ///< of those that touch, as results; of others anything
   SpaceResult* results;
   std::uint8_t* touches;  ///< whether it did in the last step
   /// Where a pair that touches leaves what it does, for others to add; null: it is added to both.
   SpacePush* pushes = nullptr;
+
+  GRAIN_INLINE const Quad& shift(std::size_t p) const {
+    return shifts[static_cast<std::size_t>(shiftOf[p])];
+  }
+  /// @param reach  how far apart the centres may be in contact [m]
+  GRAIN_INLINE void setTouches(std::size_t p, bool now, double reach) const {
+    touches[p] = now;
+    within[p] = now ? std::numeric_limits<double>::infinity() : reach * reach;
+  }
 };
 
 struct SpaceReport {

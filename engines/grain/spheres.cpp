@@ -294,12 +294,23 @@ void Spheres::moveWalls() {
       plane->normal = turnedBy(now.angle, member.normal);
     }
   }
-  std::size_t w = 0;
-  for (const std::int32_t index : reached_) {
-    const auto i = static_cast<std::size_t>(index);
-    while (i >= wallBegin_[w + 1]) ++w;
-    placeWallSphere(w, i, wallSteady_[w]);
-    force_[i] = torque_[i] = {};
+  auto index = reached_.begin();
+  for (std::size_t w = 0; w < setup_.walls.size(); ++w) {
+    const auto end =
+        std::lower_bound(index, reached_.end(), static_cast<std::int32_t>(wallBegin_[w + 1]));
+    const bool slides = wallSteady_[w] && isZero(wallNow_[w].angle);
+    const Lanes centre(wallNow_[w].centre);
+    for (; index != end; ++index) {
+      const auto i = static_cast<std::size_t>(*index);
+      if (slides) {
+        Lanes at(wallArms_[i - size()]);
+        at += centre;
+        at.store(position_[i]);
+      } else {
+        placeWallSphere(w, i, wallSteady_[w]);
+      }
+      force_[i] = torque_[i] = {};
+    }
   }
 }
 

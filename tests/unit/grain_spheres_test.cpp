@@ -718,7 +718,9 @@ struct Heap {
   std::vector<double> inverseMass, inverseInertia;
   std::vector<std::int32_t> i, j, active;
   std::vector<std::uint8_t> mark, touches;
-  Array<Quad> shift;
+  Array<Quad> shifts{Quad{}};
+  std::vector<std::int32_t> shiftOf;
+  std::vector<double> within;
   std::vector<SpaceMemory<double>> kept;
   std::vector<SpaceResult> results;
 
@@ -745,7 +747,11 @@ struct Heap {
         i.push_back(static_cast<std::int32_t>(a));
         j.push_back(static_cast<std::int32_t>(b));
       }
-    shift.resize(i.size());
+    for (std::size_t p = 0; p < i.size(); ++p)
+      within.push_back(std::pow(
+          position[static_cast<std::size_t>(i[p])].w + position[static_cast<std::size_t>(j[p])].w,
+          2));
+    shiftOf.resize(i.size());
     kept.resize(i.size());
     results.resize(i.size());
     touches.resize(i.size());
@@ -759,8 +765,9 @@ struct Heap {
       const SpaceView view{
           position.data(),       velocity.data(), spin.data(),   inverseMass.data(),
           inverseInertia.data(), force.data(),    torque.data(), {active.data(), 0, mark.data()}};
-      const SpacePairs pairs{i.size(),    i.data(),       j.data(),      shift.data(),
-                             kept.data(), results.data(), touches.data()};
+      const SpacePairs pairs{i.size(),      i.data(),       j.data(),
+                             shifts.data(), shiftOf.data(), within.data(),
+                             kept.data(),   results.data(), touches.data()};
       found[0] += kernel(general, {}, view, pairs, 0.0, 1e300).touching;
       for (std::size_t p = 0; p < i.size(); ++p) found[1] += touches[p] && results[p].sliding > 0.0;
       for (std::size_t k = 0; k < count; ++k) add(position[k], vectorOf(velocity[k]), 1e-5);
