@@ -73,8 +73,10 @@ constexpr SpacePairKernel sideBySideAt() {
 template <class Real>
 constexpr SpaceKernels spaceKernels() {
   if constexpr (sizeof(Real) == sizeof(double))
-    return {&space::pairKernel<GeneralLaw<double>>,
-            &space::pairKernel<space::EverydayLaw>,
+    return {&space::pairKernel<GeneralLaw<double>, false>,
+            &space::pairKernel<space::EverydayLaw, false>,
+            &space::pairKernel<GeneralLaw<double>, true>,
+            &space::pairKernel<space::EverydayLaw, true>,
             {sideBySideAt<0>(), sideBySideAt<1>(), sideBySideAt<2>(), sideBySideAt<3>()},
             &space::motionKernel,
             &space::neighbourKernel,

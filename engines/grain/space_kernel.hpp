@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "engines/grain/kernels.hpp"
 
 namespace grain::space {
@@ -63,18 +65,19 @@ GRAIN_INLINE void push(const L& law, const SpaceView& all, ActiveSpheres& active
 }
 
 /// The law of two spheres: of several materials theirs.
-GRAIN_INLINE const GeneralLaw<double>& lawOfPair(const GeneralLaw<double>& common,
-                                                 const SpaceView& all, std::size_t i,
-                                                 std::size_t j) {
-  return all.laws == nullptr ? common : all.lawOf(i, j);
-}
-GRAIN_INLINE const EverydayLaw& lawOfPair(const EverydayLaw& common, const SpaceView&, std::size_t,
-                                          std::size_t) {
-  return common;
+template <class L, bool OfMaterials>
+GRAIN_INLINE std::conditional_t<OfMaterials, L, const L&> lawOfPair(const L& common,
+                                                                    const SpaceView& all,
+                                                                    std::size_t i, std::size_t j) {
+  if constexpr (OfMaterials)
+    return L(all.lawOf(i, j));
+  else
+    return common;
 }
 
 /// Of any law, pair by pair. Pairs that do not touch add nothing.
-template <class L>
+/// @tparam OfMaterials  each two spheres have a law of their own
+template <class L, bool OfMaterials>
 static SpaceReport pairKernel(const GeneralLaw<double>& general, const SpaceConventions& how,
                               const SpaceView& view, const SpacePairs& list, double range,
                               double maxOverlap) {
@@ -91,7 +94,7 @@ static SpaceReport pairKernel(const GeneralLaw<double>& general, const SpaceConv
       const std::size_t p = near[k];
       const auto i = static_cast<std::size_t>(pairs.i[p]);
       const auto j = static_cast<std::size_t>(pairs.j[p]);
-      const L& law = lawOfPair(common, all, i, j);
+      const L& law = lawOfPair<L, OfMaterials>(common, all, i, j);
       const Vec3<double> d =
           vectorOf(all.position[i]) - vectorOf(all.position[j]) - vectorOf(pairs.shift(p));
       const double distance = length(d);

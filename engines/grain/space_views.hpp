@@ -220,7 +220,8 @@ constexpr std::size_t sideBySideIndex(bool magnitude, bool cutTension) {
 }
 
 struct SpaceKernels {
-  SpacePairKernel pairs, everydayPairs;  ///< of any law; of EverydayLaw
+  SpacePairKernel pairs, everydayPairs;                   ///< of any law; of EverydayLaw
+  SpacePairKernel pairsOfMaterials, everydayOfMaterials;  ///< likewise
   SpacePairKernel sideBySide[sideBySideVariants];
   SpaceMotionKernel motion;
   SpaceNeighbourKernel neighbours;

@@ -20,13 +20,14 @@ void demand(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(what);
 }
 
-/// The fastest that a law has.
-SpacePairKernel pairKernelOf(const SpaceKernels& all, const GeneralLaw<double>& law,
+/// The fastest that a law has. @param several  laws, of materials
+SpacePairKernel pairKernelOf(const SpaceKernels& all, const GeneralLaw<double>& law, bool several,
                              const SpaceConventions& how) {
   const bool everyday = law.normal == Normal::linear && law.damper == Damper::constant &&
                         law.normalDamping && law.tangential == Tangential::springDashpot &&
                         law.rotation && law.rolling == Rolling::none &&
                         law.cohesion == Cohesion::none;
+  if (several) return everyday ? all.everydayOfMaterials : all.pairsOfMaterials;
   if (!everyday) return all.pairs;
   const bool magnitude = law.bound == Bound::magnitude;
   if (how.turn != SpringTurn::rotated || how.twist != SpringTwist::meanSpin ||
@@ -78,7 +79,7 @@ Spheres::Spheres(SpheresSetup setup)
       team_(std::make_unique<ThreadTeam>(shares_.size())) {
   demand(setup_.dt > 0.0, "the time step must be > 0 s");
   demand(setup_.law.normal != Normal::impulse, "spheres have no impulses");
-  if (laws_.empty()) kernels_.pairs = pairKernelOf(kernels_, law_, setup_.conventions);
+  kernels_.pairs = pairKernelOf(kernels_, law_, !laws_.empty(), setup_.conventions);
   placeSpheres();
   moveWalls();
   updateNeighbours();
