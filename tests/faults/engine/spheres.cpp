@@ -35,6 +35,8 @@ struct SpaceFaults {
   double rollTurn = given("roll_turn", 1.0);      ///< 0: θ does not follow a normal that turns
   /// 1: θ is reversed where one of its pair comes to another image; 0.5: lost
   double rollReversed = given("roll_reversed", 0.0);
+  double boxFromOrigin = given("box_from_origin", 0.0);  ///< 1: the box begins at 0, not at `low`
+  double imagesOfFirst = given("images_of_first", 0.0);  ///< 1: of the first direction alone
   double pyramid = given("pyramid", 0.0);  ///< 1: the bound is that of each of two axes
 };
 
@@ -66,9 +68,9 @@ class Spheres {
     dt_ = scene.at("dt");
     if (scene.contains("box"))
       for (int k = 0; k < 3; ++k)
-        if (scene.at("box").at("periodic").at(k))
+        if (scene.at("box").at("periodic").at(k) && !(k > 0 && faults.imagesOfFirst != 0.0))
           length_[k] = scene.at("box").at("high").at(k).get<double>() -
-                       scene.at("box").at("low").at(k).get<double>();
+                       (1.0 - faults.boxFromOrigin) * scene.at("box").at("low").at(k).get<double>();
     for (int k = 0; k < 3; ++k) gravity_[k] = scene.at("gravity").at(k);
     for (auto* sum : {&force_, &torque_}) sum->resize(position.size());
     addForces();
