@@ -68,9 +68,10 @@ class Spheres {
     dt_ = scene.at("dt");
     if (scene.contains("box"))
       for (int k = 0; k < 3; ++k)
-        if (scene.at("box").at("periodic").at(k) && !(k > 0 && faults.imagesOfFirst != 0.0))
-          length_[k] = scene.at("box").at("high").at(k).get<double>() -
-                       (1.0 - faults.boxFromOrigin) * scene.at("box").at("low").at(k).get<double>();
+        if (scene.at("box").at("periodic").at(k) && !(k > 0 && faults.imagesOfFirst != 0.0)) {
+          if (faults.boxFromOrigin == 0.0) low_[k] = scene.at("box").at("low").at(k);
+          length_[k] = scene.at("box").at("high").at(k).get<double>() - low_[k];
+        }
     for (int k = 0; k < 3; ++k) gravity_[k] = scene.at("gravity").at(k);
     for (auto* sum : {&force_, &torque_}) sum->resize(position.size());
     addForces();
@@ -144,8 +145,8 @@ class Spheres {
     Eigen::Vector3d images = Eigen::Vector3d::Zero();
     for (int k = 0; k < 3; ++k)
       if (length_[k] > 0.0)
-        images[k] =
-            std::floor(position[i][k] / length_[k]) - std::floor(position[j][k] / length_[k]);
+        images[k] = std::floor((position[i][k] - low_[k]) / length_[k]) -
+                    std::floor((position[j][k] - low_[k]) / length_[k]);
     if (!spring.normal.isZero(0.0) && images != spring.images)
       spring.angle *= 1.0 - 2.0 * faults_.rollReversed;
     spring.images = images;
@@ -206,7 +207,8 @@ class Spheres {
 
   SpaceFaults faults_;
   double kn_, gn_, kt_, gt_, mu_, kr_, gr_, muR_, dt_;
-  Vec3 gravity_ = Vec3::Zero(), length_ = Vec3::Zero();  ///< of the box where it is periodic
+  Vec3 gravity_ = Vec3::Zero();
+  Vec3 low_ = Vec3::Zero(), length_ = Vec3::Zero();  ///< of the box where it is periodic
   std::vector<double> radius_, mass_, inertia_;
   std::vector<Vec3> velocity_, spin_, force_, torque_;
   std::map<std::pair<std::size_t, std::size_t>, Spring> springs_;
