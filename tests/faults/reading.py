@@ -52,10 +52,10 @@ def failures(command, results, engine, errors):
 def _statements(cause):
     """(name, relative change or None) of each statement of a "most likely" sentence."""
     for statement in cause.split("; "):
-        statement = statement.split(": ", 1)[-1] if ": " in statement else statement
+        statement = re.sub(r"^(lockstep's closest term|found from outside|rolling): ", "", statement)
         statement = statement.removeprefix("its ").removeprefix("it has ")
         statement = re.sub(r" \(leaves .*|, and declares .*| off the case's$", "", statement)
-        statement = re.sub(r"(%), (?:at|of) .*", r"\1", statement)  # the place
+        statement = re.sub(r"(%), (?:at|of|[\d.]+ s after) .*", r"\1", statement)  # the place
         change = re.search(r"(?: is)? ([+−-])([\d.]+)(?:×10([⁻⁰¹²³⁴-⁹]+))? %$", statement)
         if not change:
             yield statement, None
@@ -88,6 +88,8 @@ def failed_checks(results):
 
 def _is_term(fault, term):
     name, change = term
+    if "later_term" in fault and re.search(fault["later_term"], name):
+        return True
     if not re.search(rf"(?:^|\b|without )(?:{fault['term']})\b" if fault["term"][-1].isalnum() else fault["term"], name):
         return False
     low, high = fault.get("amount", (None, None))
