@@ -75,6 +75,12 @@ bool simulates(const Capabilities& can, Effect effect) {
   return found != can.effects.end() && found->second != Support::never;
 }
 
+std::string percentOf(double change) {
+  const double percent = 100.0 * change;
+  return std::abs(percent) < 99.5 ? fmt::format(" {:+.2g} %", percent)
+                                  : fmt::format(" {:+.0f} %", percent);
+}
+
 Comparison close(double actual, double expected, const Tolerance& allowed) {
   return within(std::abs(actual - expected), std::abs(expected), allowed,
                 fmt::format("{:.8g}, not {:.8g}", actual, expected));

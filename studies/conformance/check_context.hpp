@@ -35,6 +35,9 @@ struct Comparison {
 Comparison close(double actual, double expected, const Tolerance& allowed);
 Comparison close(const Vec2& actual, const Vec2& expected, const Tolerance& allowed);
 
+/// " -30 %", " -100 %": two figures, and none of them an exponent.
+std::string percentOf(double change);
+
 /// Whether two snapshots have the same bits.
 Comparison sameBits(const Snapshot& a, const Snapshot& b);
 

@@ -94,10 +94,36 @@ void wallDiskDoesNotYield(CheckContext& context) {
   expectRebound(context, Vec2::UnitY());
 }
 
+/// Near its point and far from it: planes have no ends.
 void planeDoesNotYield(CheckContext& context) {
-  const WallBody plane = planeWall({0.5, 0.0}, Vec2::UnitY());
-  context.load(thrownAt(plane, context.law(), {0.001, smallRadius}, Vec2::UnitY()));
-  expectRebound(context, Vec2::UnitY());
+  for (const double point : {0.5, -30.0}) {
+    const WallBody plane = planeWall({point, 0.0}, Vec2::UnitY());
+    context.load(thrownAt(plane, context.law(), {0.001, smallRadius}, Vec2::UnitY()));
+    const std::size_t before = context.faults.size();
+    expectRebound(context, Vec2::UnitY());
+    if (context.faults.size() > before && before == 0 && point < 0.0)
+      context.suspect(text("planes end within ", -point, " m of their point"));
+  }
+}
+
+/// A disk that flies into a corner touches both of its planes at once, whichever comes first.
+void cornersHaveNoFirstPlane(CheckContext& context) {
+  context.needs(planes);
+  if (context.rigid()) context.skip("lets contacts collide one after the other");
+  std::vector<DiskState> states;
+  for (const bool swapped : {false, true}) {
+    Scene scene = emptyScene(context.law(), coarseSteps);
+    const Vec2 axes[] = {Vec2::UnitX(), Vec2::UnitY()};
+    scene.bodies = {planeWall(Vec2::Zero(), axes[swapped ? 1 : 0])};
+    scene.bodies[0].planes.push_back({Vec2::Zero(), axes[swapped ? 0 : 1]});
+    const double place = smallRadius + Encounter::gap;
+    addDisk(scene, smallRadius, smallMass, {place, place},
+            {-Encounter::speed, -0.9 * Encounter::speed}, 20.0);
+    states.push_back(statesOf(scene, context.run(scene, Encounter::end))[0]);
+  }
+  context.sameState(states[1], states[0],
+                    context.byPrecision(1e-9, 1e-4, "sums in another order, magnified"),
+                    ", of a corner whose planes come in the other order");
 }
 
 void slantingPlaneDoesNotYield(CheckContext& context) {
@@ -353,7 +379,9 @@ Checks collisionChecks() {
   static constexpr Check list[] = {
       {"HeadOnCollision", "two disks head on: momentum, energy, restitution", headOnCollision},
       {"WallDiskDoesNotYield", "a wall disk does not yield", wallDiskDoesNotYield},
-      {"PlaneDoesNotYield", "a plane does not yield", planeDoesNotYield},
+      {"PlaneDoesNotYield", "a plane does not yield, and has no ends", planeDoesNotYield},
+      {"CornersHaveNoFirstPlane", "both planes of a corner act, whichever comes first",
+       cornersHaveNoFirstPlane},
       {"SlantingPlaneDoesNotYield", "nor does one along no axis", slantingPlaneDoesNotYield},
       {"EnergyIsNotGained", "no collision gains energy", energyIsNotGained},
       {"FrictionlessDisksKeepTheirSpins", "without friction spins stay",

@@ -114,6 +114,22 @@ void unequalDisksFollowTheOracle(CheckContext& context) {
   context.examine(severalSizes);
 }
 
+/// A ring's, and a sphere's: what a scene says, and not what a disk of that mass and radius has.
+void inertiaIsTheScenes(CheckContext& context) {
+  bool any = false;
+  for (const double factor : {0.4, 1.0}) {
+    const auto& allowed = context.can.limits.inertia;
+    if (allowed &&
+        std::ranges::none_of(*allowed, [&](double q) { return std::abs(q - factor) < 1e-6; }))
+      continue;
+    any = compared(context, {.law = context.law(),
+                             .inertiaFactor = factor,
+                             .starts = startsOf(Approach::spin)}) ||
+          any;
+  }
+  if (!any) context.skip("declares no other moments of inertia than those of disks");
+}
+
 void wallDisksFollowTheOracle(CheckContext& context) {
   followTheOracle(context, {.partner = Partner::wallDisk, .starts = allWays()});
   context.examine(wallMotion(Motion::Kind::fixed));
@@ -320,6 +336,7 @@ Checks lawChecks() {
        frictionFollowsTheOracle},
       {"UnequalDisksFollowTheOracle", "so do disks of two sizes and masses",
        unequalDisksFollowTheOracle},
+      {"InertiaIsTheScenes", "moments of inertia are those of the scene", inertiaIsTheScenes},
       {"WallDisksFollowTheOracle", "so does a disk on a wall disk", wallDisksFollowTheOracle},
       {"PlanesFollowTheOracle", "so does a disk on a plane, spinning and obliquely",
        planesFollowTheOracle},

@@ -16,13 +16,6 @@
 namespace crossgrain::conformance {
 namespace {
 
-/// " -30 %", " -100 %": two figures, and none of them an exponent.
-std::string percentOf(double change) {
-  const double percent = 100.0 * change;
-  return std::abs(percent) < 99.5 ? fmt::format(" {:+.2g} %", percent)
-                                  : fmt::format(" {:+.0f} %", percent);
-}
-
 constexpr double heavy = 1e9;  // times as heavy as the disk: a wall to nine digits
 
 Case setupOf(const Meeting& meeting) {
@@ -38,6 +31,7 @@ Case setupOf(const Meeting& meeting) {
   collision.mass[0] = smallMass;
   collision.mass[1] = wallDisk ? heavy * smallMass : meeting.mass;
   collision.startPhase = meeting.flight;
+  collision.inertiaFactor = meeting.inertiaFactor;
   return setup;
 }
 

@@ -17,6 +17,7 @@ struct Meeting {
   ContactLaw law = {};
   Partner partner = Partner::disk;
   double radius = smallRadius, mass = smallMass;  ///< of the partner, of a disk [m, kg]
+  double inertiaFactor = 0.5;                     ///< q of J = q m a², of disks
   std::vector<CollisionStart> starts = {};
   Vec2 wallVelocity = Vec2::Zero();  ///< of a plane, (along its normal, along it) [m/s]
   double steps = fineSteps;          ///< in a contact of two small disks

@@ -260,6 +260,8 @@ void lookingChangesNothing(CheckContext& context) {
 /// The heap, and heaps under laws whose contacts remember other things, where the engine has such.
 std::vector<Scene> heaps(CheckContext& context) {
   std::vector<Scene> scenes = {context.busy()};
+  const Scene plate = context.simplified(plateScene(context.law()));
+  if (plate.bottom) scenes.push_back(plate);
   for (const ContactLaw& law : resistingLaws(context.can)) {
     Scene scene = context.simplified(busyScene(law));
     if (!context.refusal(scene)) scenes.push_back(std::move(scene));

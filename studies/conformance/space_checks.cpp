@@ -209,18 +209,22 @@ void turningWallPushesSpheres(CheckContext& c) {
 
 // ---- images -------------------------------------------------------------------------------------
 
-/// Two that meet, and the same two elsewhere in a box 16 radii wide, periodic along x.
+/// Two that meet, and the same two elsewhere in a box 16 radii wide that does not begin at the
+/// origin, periodic along x or along all directions.
 /// @param at     of both pairs along x [radius]
 /// @param speed  that all have along x besides [m/s]
+/// @param all    whether it is periodic along all directions, and the second pair at a corner
 /// @param rolls  what the second's spin is times the first's
 template <int D>
-SceneOf<D> twoPairs(const ContactLaw& law, std::array<double, 2> at, double speed, double rolls) {
+SceneOf<D> twoPairs(const ContactLaw& law, std::array<double, 2> at, double speed, double rolls,
+                    bool all = false) {
   SceneOf<D> scene;
   scene.law = law;
   scene.dt = 4e-6;
   BoxOf<D>& box = scene.box.emplace();
-  box.high.setConstant(16 * radius);
-  box.periodic[0] = true;
+  for (int k = 0; k < D; ++k) box.low[k] = (k == 0 ? -3.0 : 2.0) * radius;
+  box.high = box.low + VecOf<D>::Constant(16 * radius);
+  for (int k = 0; k < D; ++k) box.periodic[k] = k == 0 || all;
   VecOf<D> apart = VecOf<D>::Zero(), velocity = VecOf<D>::Zero();
   apart[0] = 0.99 * radius;
   apart[1] = 0.1 * radius;
@@ -233,8 +237,10 @@ SceneOf<D> twoPairs(const ContactLaw& law, std::array<double, 2> at, double spee
     spin = Vec3(20.0, -30.0, 10.0);
   for (const double middle : at)
     for (const double side : {1.0, -1.0}) {
-      VecOf<D> place = VecOf<D>::Constant(8 * radius) + side * apart, moving = side * velocity;
-      place[0] = middle * radius + side * apart[0];
+      VecOf<D> place = box.low + VecOf<D>::Constant(8 * radius), moving = side * velocity;
+      for (int k = 0; k < D; ++k)
+        if (k == 0 || all) place[k] = box.low[k] + middle * radius;
+      place += side * apart;
       moving[0] += speed;
       addBody<D>(scene, box.wrapped(place), moving, side > 0.0 ? spin : SpinOf<D>(rolls * spin));
     }
@@ -323,12 +329,12 @@ void pairsThatCrossBorders(CheckContext& c) {
   }
 }
 
-/// Two that meet, and the same two half a box further on, on either side of its border.
+/// Two that meet, and the same two half a box further on, on either side of its border, or at a
+/// corner.
 template <int D>
-void pairsAcrossBorders(CheckContext& c) {
-  c.needs(periodicDirections);
+void expectPairsAcross(CheckContext& c, bool corner) {
   const SceneOf<D> scene =
-      loadedPairs(c, twoPairs<D>(followed(c.can, dampedLaw(D)), {8.0, 16.0}, 0.0, 1.0));
+      loadedPairs(c, twoPairs<D>(followed(c.can, dampedLaw(D)), {8.0, 16.0}, 0.0, 1.0, corner));
   const BoxOf<D>& box = *scene.box;
   c.examine(periodicDirections);
   const Tolerance rounding =
@@ -364,6 +370,12 @@ void pairsAcrossBorders(CheckContext& c) {
     if (off > 1.0)
       c.suspect("the normal of a contact across the border is that to the wrong image");
   }
+}
+
+template <int D>
+void pairsAcrossBorders(CheckContext& c) {
+  c.needs(periodicDirections);
+  for (const bool corner : {false, true}) expectPairsAcross<D>(c, corner);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 import re
 
+naming = ("lockstep", "compare", "conformance", "diff")  # commands that name causes
+
 
 def found(status):
     """Whether a user's script sees it."""
@@ -18,7 +20,7 @@ def blame(command, status, results, engine):
     if command == "conformance":
         bad = any(row["outcome"] in ("failed", "broke_down") for row in results.get("checks", []))
         return "implementation" if bad else ""
-    if command in ("stability", "cost"):  # they say what broke, not why
+    if command in ("stability", "cost", "diff"):  # they say what broke, not why
         return ""
     states = {cell["state"] for cell in _cells(results, engine)}
     if status == 3 or "bad" in states:
@@ -50,10 +52,10 @@ def failures(command, results, engine, errors):
 def _statements(cause):
     """(name, relative change or None) of each statement of a "most likely" sentence."""
     for statement in cause.split("; "):
-        statement = statement.split(": ", 1)[-1] if ": " in statement else statement
+        statement = re.sub(r"^(lockstep's closest term|found from outside|rolling): ", "", statement)
         statement = statement.removeprefix("its ").removeprefix("it has ")
         statement = re.sub(r" \(leaves .*|, and declares .*| off the case's$", "", statement)
-        statement = re.sub(r"(%), (?:at|of) .*", r"\1", statement)  # the place
+        statement = re.sub(r"(%), (?:at|of|[\d.]+ s after) .*", r"\1", statement)  # the place
         change = re.search(r"(?: is)? ([+−-])([\d.]+)(?:×10([⁻⁰¹²³⁴-⁹]+))? %$", statement)
         if not change:
             yield statement, None
@@ -71,7 +73,10 @@ def term_of(command, results, engine):
     """The first term that is named, with its change; None: none is."""
     if command == "conformance":
         return next(_statements(results["cause"]), None) if results.get("cause") else None
-    for row in (results.get("lockstep") or {}).get("rows", []):
+    rows = (results.get("lockstep") or {}).get("rows", [])
+    if command == "diff":
+        rows = [row["windows"] for row in results.get("engines", [])]
+    for row in rows:
         if row["engine"] == engine and row.get("term"):
             return row["term"]["name"], row["term"].get("amount")
     return None
@@ -83,6 +88,8 @@ def failed_checks(results):
 
 def _is_term(fault, term):
     name, change = term
+    if "later_term" in fault and re.search(fault["later_term"], name):
+        return True
     if not re.search(rf"(?:^|\b|without )(?:{fault['term']})\b" if fault["term"][-1].isalnum() else fault["term"], name):
         return False
     low, high = fault.get("amount", (None, None))
@@ -91,7 +98,7 @@ def _is_term(fault, term):
 
 def named(command, results, engine, fault, errors):
     """ "rightly", "wrongly", "" (nothing is named)."""
-    if command not in ("lockstep", "compare", "conformance"):
+    if command not in naming:
         return ""
     term = term_of(command, results, engine)
     if term is not None:

@@ -2,6 +2,8 @@
 
 import csv
 
+import reading
+
 deciding = ("compare", "conformance")  # a user's two commands, by which the aim is set
 
 
@@ -49,7 +51,7 @@ def write(out, faults, commands, records):
     lines = ["| command | finds | median time | put down to the implementation | named rightly | named wrongly |",
              "|---|---|---|---|---|---|"]
     for command, hit, ran, seconds, blamed, rightly, wrongly in _counts(names, commands, of):
-        names_things = command in ("lockstep", "compare", "conformance")
+        names_things = command in reading.naming
         lines.append(f"| `{command}` | {hit} of {ran} | {seconds:.0f} s | {blamed or '–'} | "
                      f"{rightly if names_things else '–'} | {wrongly if names_things else '–'} |")
 

@@ -49,6 +49,9 @@ class Named(unittest.TestCase):
 
     def test_a_place_is_no_part_of_a_term_and_torque_is_inertia(self):
         self.assertEqual([("k_n", 0.01)], list(reading._statements("k_n +1 %, at planes, 2 s after load")))
+        self.assertEqual([("gravity", -0.05)], list(reading._statements("gravity -5 %, 2 s after load")))
+        said = "rolling: its spring does not follow n as that turns: nothing takes out its part along n"
+        self.assertEqual([("spring does not follow n as that turns: nothing takes out its part along n", None)], list(reading._statements(said)))
         self.assertEqual([("inertia", 1.0)], list(reading._statements("torque -50 %, of two disks")))
 
     def test_what_is_said_of_a_run_that_broke_down_counts(self):

@@ -18,6 +18,11 @@ double signedLike(double size, double like) {
   return like > 0.0 ? size : like < 0.0 ? -size : 0.0;
 }
 
+/// Whether a place is where nothing is looked for; a grid of no extent has no end.
+bool beyondGrid(Vector place, double grid) {
+  return grid > 0.0 && std::max(std::abs(place.x), std::abs(place.y)) > grid;
+}
+
 }  // namespace
 
 Simulation::Simulation(World world, const Faults& faults)
@@ -27,6 +32,7 @@ Simulation::Simulation(World world, const Faults& faults)
     for (std::size_t k = 0; k < world_.bodies[b].planes.size(); ++k)
       planeMemory_.emplace_back(world_.disks);
   }
+  if (world_.disks > 0) heaviest_ = *std::max_element(world_.mass.begin(), world_.mass.end());
   if (world_.disks > 0)
     smallest_ = *std::min_element(world_.radius.begin(),
                                   world_.radius.begin() + static_cast<long>(world_.disks));
@@ -79,8 +85,8 @@ void Simulation::moveWalls() {
     body.at(now());
     for (std::size_t k = 0; k < body.radius.size(); ++k, ++id) {
       world_.position[id] = body.position[k];
-      world_.velocity[id] = seenOfWall(body.diskVelocity[k]);
-      world_.spin[id] = world_.turns ? faults_.wallSpin * body.spin : 0.0;
+      world_.velocity[id] = seenOfWall(body, body.diskVelocity[k]);
+      world_.spin[id] = world_.turns ? seenSpinOfWall(body) : 0.0;
     }
   }
 }
@@ -99,13 +105,15 @@ void Simulation::addForces(double ahead) {
   for (std::size_t i = 0; i < w.disks; ++i) {
     force_[i] = (faults_.gravity * w.mass[i]) * w.gravity;
     force_[i].x *= faults_.gravityX;
+    if (w.mass[i] == heaviest_) force_[i] = faults_.gravityLarge * force_[i];
+    if (late()) force_[i] = faults_.gravityLate * force_[i];
     if (w.plate.present) addPlate(i);
   }
   onBody_.assign(w.bodies.size(), {});
   torqueOnBody_.assign(w.bodies.size(), 0.0);
   contacts_.clear();
-  touching_.assign(w.disks, 0);
-  neighbours_.update(w.position, w.radius, w.disks, faults_);
+  for (std::vector<int>* count : {&touching_, &planesTouched_}) count->assign(w.disks, 0);
+  neighbours_.update(w.position, w.radius, w.disks, faults_, late());
   addPairs();
   addPlanes();
   evaluations_ += contacts_.size();
@@ -114,7 +122,8 @@ void Simulation::addForces(double ahead) {
 /// Lätzel 2003, Eqs. 4.27–4.29, the torque's sign such that it brakes.
 void Simulation::addPlate(std::size_t i) {
   const Plate& plate = world_.plate;
-  const double bound = faults_.plateMu * plate.mu * plate.gravity * world_.mass[i];
+  const double mu = plate.mu * faults_.plateMu * (late() ? faults_.plateMuLate : 1.0);
+  const double bound = mu * plate.gravity * world_.mass[i];
   const Vector trial = -plate.kb * plateSpring_[i] - plate.gb * dashpotVelocity_[i];
   const double size = std::sqrt(dot(trial, trial));
   const bool holds = size <= bound;
@@ -137,6 +146,7 @@ void Simulation::addPairs() {
     const Vector apart = w.position[i] - w.position[j];
     const double reach = w.radius[i] + w.radius[j], distance = std::sqrt(dot(apart, apart));
     const double overlap = reach - distance;
+    if (beyondGrid(w.position[i], faults_.farGrid)) continue;
     if (!holds({w.radius[i], w.radius[j], overlap}, pair.kept)) continue;
     const bool wall = j >= w.disks;
     const bool flipped = wall && faults_.flippedWalls == static_cast<double>(i + 1);
@@ -165,17 +175,20 @@ void Simulation::addPlanes() {
         Memory& kept = (*memories)[i];
         const double height = dot(w.position[i] - plane.point, plane.normal);
         const double overlap = w.radius[i] - height;
-        if (!holds({w.radius[i], 0.0, overlap}, kept)) continue;
         const Vector foot = w.position[i] - height * plane.normal;
+        if (beyondGrid(w.position[i], faults_.farGrid)) continue;
+        if (faults_.planeEnds > 0.0 && norm(foot - plane.point) > faults_.planeEnds) continue;
+        if (!holds({w.radius[i], 0.0, overlap}, kept)) continue;
+        ++planesTouched_[i];
         const bool flipped = faults_.flippedWalls == static_cast<double>(i + 1);
-        Vector wall = seenOfWall(w.bodies[b].velocityAt(foot));
+        Vector wall = seenOfWall(w.bodies[b], w.bodies[b].velocityAt(foot));
         const double along = dot(wall, turned(plane.normal));
         wall = wall + ((faults_.planeBelt - 1.0) * along) * turned(plane.normal);
         const double lever = faults_.leverMiddle != 0.0 ? height : w.radius[i];
         const Contact c =
             contact(i, id, (flipped ? -1.0 : 1.0) * plane.normal, overlap,
                     dashpotVelocity_[i] - wall, faults_.planeSpin * lever * seenSpin_[i],
-                    w.turns ? faults_.wallSpin * w.bodies[b].spin : 0.0, kept);
+                    w.turns ? seenSpinOfWall(w.bodies[b]) : 0.0, kept);
         push(b, foot, c, 0.0);
       }
       ++memories;
@@ -183,10 +196,16 @@ void Simulation::addPlanes() {
     }
 }
 
-Vector Simulation::seenOfWall(Vector velocity) const {
-  velocity = faults_.wallVelocity * velocity;
+/// @param velocity  of the body at the place of the contact
+Vector Simulation::seenOfWall(const Body& body, Vector velocity) const {
+  if (faults_.wheelAboutOrigin != 0.0) velocity = velocity + cross(body.spin, body.centre);
+  velocity = (faults_.wallVelocity * (late() ? faults_.wallVelocityLate : 1.0)) * velocity;
   velocity.y *= faults_.wallVelocityY;
   return velocity;
+}
+
+double Simulation::seenSpinOfWall(const Body& body) const {
+  return faults_.wallSpin * (late() ? faults_.wallVelocityLate : 1.0) * body.spin;
 }
 
 double Simulation::arm(std::size_t k, double overlap) const {
@@ -214,7 +233,9 @@ Contact Simulation::contact(std::size_t i, std::size_t j, Vector n, double overl
   double mu = law.mu * (wall ? faults_.wallMu : 1.0);
   if (i % 2 == 1) mu *= faults_.muOdd;
   if (dot(world_.position[i], world_.position[i]) > 1.0) mu *= faults_.muFar;
-  if (now() > 1.0) mu *= faults_.muLate;
+  if (late()) mu *= faults_.muLate;
+  if (i >= world_.rough || (!wall && j >= world_.rough)) mu = 0.0;
+  if (j >= world_.radius.size() && planesTouched_[i] > 1) mu *= faults_.cornerMu;
   const double gn = law.gn * (wall ? faults_.wallGn : 1.0);
   const double slip = dot(relative, turned(n)) - rim;
   if (slip > 0.0) mu *= faults_.muAnticlockwise;
@@ -224,11 +245,14 @@ Contact Simulation::contact(std::size_t i, std::size_t j, Vector n, double overl
   double elastic = body.whole;
   if (faults_.mostOverlap > 0.0)
     elastic = std::min(elastic, law.kn * faults_.mostOverlap * smallest_);
+  double damped = dot(relative, n);
+  if (faults_.mostDamped > 0.0)
+    damped = std::clamp(damped, -faults_.mostDamped, faults_.mostDamped);
   Contact c{static_cast<std::int32_t>(i),
             static_cast<std::int32_t>(j),
             n,
             overlap,
-            elastic - gn * dot(relative, n),
+            elastic - gn * damped,
             0.0,
             elastic,
             false};
@@ -272,9 +296,9 @@ Contact Simulation::contact(std::size_t i, std::size_t j, Vector n, double overl
       (faults_.leastOverlap > 0.0 && overlap < faults_.leastOverlap))
     c.fn = c.ft = c.elastic = 0.0;
   if (world_.turns)
-    c.rolling = (wall ? faults_.rollAtWalls : 1.0) * rollingTorque(law.more, pair, load,
-                                                                   seenSpin_[i] - spinOfOther,
-                                                                   world_.dt, faults_, kept.angle);
+    c.rolling = (wall ? faults_.rollAtWalls : 1.0) * (late() ? faults_.rollLate : 1.0) *
+                rollingTorque(law.more, pair, load, seenSpin_[i] - spinOfOther, world_.dt, faults_,
+                              kept.angle);
   force_[i] = force_[i] + c.fn * n + c.ft * turned(n);
   const double lever = !wall || j < world_.radius.size()
                            ? arm(i, overlap)
@@ -293,6 +317,11 @@ void Simulation::push(std::size_t body, Vector place, const Contact& c, double a
 
 void Simulation::forgetSprings() {
   for (Pair& pair : neighbours_.pairs) pair.kept = {};
+}
+
+void Simulation::restored() {
+  moveWalls();
+  if (faults_.restoreWithoutPlate != 0.0) plateSpring_.assign(world_.disks, {});
 }
 
 void Simulation::takeSprings(const Simulation& other) {

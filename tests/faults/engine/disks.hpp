@@ -40,9 +40,10 @@ struct World {
   Vector gravity;
   bool turns = false;
   std::vector<Body> bodies;
-  std::vector<double> mass, inertia;       ///< disks
-  std::vector<double> radius, spin;        ///< disks, wall disks
-  std::vector<Vector> position, velocity;  ///< disks, wall disks
+  std::vector<double> mass, inertia;                 ///< disks
+  std::vector<double> radius, spin;                  ///< disks, wall disks
+  std::vector<Vector> position, velocity;            ///< disks, wall disks
+  std::size_t rough = static_cast<std::size_t>(-1);  ///< disks from this number on have no friction
 };
 
 /// Soft disks in Störmer's scheme: velocities and spins live half a step before positions, and
@@ -54,6 +55,19 @@ class Simulation {
 
   void step();
   void forgetSprings();
+  /// Everything that its future depends on, one after the other, given to `each`.
+  void parts(const auto& each) {
+    each(steps_);
+    each(evaluations_);
+    for (auto* list : {&world_.position, &world_.velocity, &plateSpring_, &force_, &onBody_})
+      each(*list);
+    for (auto* list : {&world_.spin, &torque_, &torqueOnBody_}) each(*list);
+    for (std::vector<Memory>& memories : planeMemory_) each(memories);
+    each(contacts_);
+    neighbours_.parts(each);
+  }
+  /// Parts are those of another run of the same scene.
+  void restored();
   /// Springs of another run, those that there are a list entry for.
   void takeSprings(const Simulation& other);
 
@@ -76,6 +90,7 @@ class Simulation {
   void drift(double dt);
   void moveWalls();
   void addForces(double ahead);
+  bool late() const { return now() > 1.0; }
   void addPlate(std::size_t i);
   void addPairs();
   void addPlanes();
@@ -84,7 +99,8 @@ class Simulation {
   bool holds(const Touching& pair, Memory& kept) const;
   void push(std::size_t body, Vector place, const Contact& c, double arm);
   double arm(std::size_t i, double overlap) const;
-  Vector seenOfWall(Vector velocity) const;
+  Vector seenOfWall(const Body& body, Vector velocity) const;
+  double seenSpinOfWall(const Body& body) const;
 
   World world_;
   Faults faults_;
@@ -95,9 +111,11 @@ class Simulation {
   std::vector<Vector> force_, dashpotVelocity_, onBody_;
   std::vector<double> torque_, seenSpin_, torqueOnBody_;
   std::vector<Contact> contacts_;
-  std::vector<int> touching_;  ///< contacts of each disk in this step
+  std::vector<int> touching_;       ///< contacts of each disk in this step
+  std::vector<int> planesTouched_;  ///< by each disk in this step
   double halfKick_ = 0.0;
   double smallest_ = 0.0;  ///< radius of the smallest disk [m]
+  double heaviest_ = 0.0;  ///< mass of the heaviest [kg]
   unsigned long long steps_ = 0, evaluations_ = 0;
 };
 

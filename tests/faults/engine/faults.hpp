@@ -133,9 +133,31 @@ struct Faults {
   double muOdd = given("mu_odd", 1.0);  ///< of contacts of disks with odd numbers
   double muAnticlockwise = given("mu_anticlockwise", 1.0);  ///< of contacts with positive slip
 
-  // Right here and soon.
+  // Right here and soon; late is more than 1 s after load.
   double muFar = given("mu_far", 1.0);    ///< of contacts of disks farther than 1 m from the origin
   double muLate = given("mu_late", 1.0);  ///< of contacts later than 1 s after load
+  double gravityLate = given("gravity_late", 1.0);
+  double wallVelocityLate = given("wall_velocity_late", 1.0);  ///< and spin, that contacts see
+  double plateMuLate = given("plate_mu_late", 1.0);
+  double rollLate = given("roll_late", 1.0);                 ///< of the torque against rolling
+  double historyLostLate = given("history_lost_late", 0.0);  ///< at every list
+  double farGrid =
+      given("far_grid", 0.0);  ///< [m] nothing touches beyond it, along x or y from the origin
+
+  // Right of one and wrong of another, of a kind that few scenes have.
+  double gravityLarge = given("gravity_large", 1.0);  ///< of disks of the largest mass
+  double wheelAboutOrigin =
+      given("wheel_about_origin", 0.0);  ///< contacts see ω × x of walls, not ω × (x − centre)
+  double planeEnds = given("plane_ends", 0.0);  ///< [m] from their point
+  double cornerMu = given("corner_mu", 1.0);    ///< at the second plane that a disk touches
+  double hertzPlaneRadius = given("hertz_plane_radius", 1.0);  ///< of R₁₂ at planes in Hertz' law
+  double pullForgets =
+      given("pull_forgets", 0.0);  ///< plastic contacts that pull forget their largest overlap
+  double mostDamped = given("most_damped", 0.0);  ///< [m/s] what the normal dashpot sees at most
+  double listLookEvery =
+      given("list_look_every", 0.0);  ///< n: whether lists still hold is asked every n-th step
+  double inertiaAssumed = given("inertia_assumed", 0.0);  ///< J = m a²/2, whatever is read
+  double plateColumn = given("plate_column", 0.0);        ///< τ_m of the plate is read as its µ_b
 
   // What is answered; the motion is right.
   double showFloat = given("show_float", 0.0);  ///< positions rounded to float32
@@ -160,6 +182,10 @@ struct Faults {
   double lookForgets = given("look_forgets", 0.0);  ///< a snapshot empties all springs
   double loadRemembers =
       given("load_remembers", 0.0);  ///< springs of the scene before are there in the next
+  double restoreWithoutPlate =
+      given("restore_without_plate", 0.0);  ///< what is restored has no springs of the plate
+  double loadGrows =
+      given("load_grows", 0.0);  ///< no friction of disks that the scene before did not have
   double shortAdvanceEvery = given(
       "short_advance_every", 0.0);  ///< n: every n-th advance lacks its last step, and does not say
 };

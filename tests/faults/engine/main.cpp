@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 #include "crossgrain_worker.hpp"
@@ -74,11 +76,12 @@ Law lawOf(const Json& law, const Faults& faults) {
   return own;
 }
 
-Plate plateOf(const Json& scene) {
+Plate plateOf(const Json& scene, const Faults& faults) {
   if (!scene.contains("bottom")) return {};
   const Json& bottom = scene.at("bottom");
-  return {bottom.at("mu"),    bottom.at("kb"),      bottom.at("gb"),
-          bottom.at("tau_m"), bottom.at("gravity"), true,
+  const char* const tau = faults.plateColumn != 0.0 ? "mu" : "tau_m";
+  return {bottom.at("mu"),  bottom.at("kb"),      bottom.at("gb"),
+          bottom.at(tau),   bottom.at("gravity"), true,
           bottom.at("spin")};
 }
 
@@ -94,7 +97,7 @@ World worldOf(const Json& scene, const Arrays& arrays, const Faults& faults) {
   w.disks = scene.at("disks");
   w.dt = scene.at("dt");
   w.law = lawOf(scene.at("law"), faults);
-  w.plate = plateOf(scene);
+  w.plate = plateOf(scene, faults);
   w.gravity = {scene.at("gravity").at(0), scene.at("gravity").at(1)};
   const bool torques = w.law.friction || w.law.more.rolling != Rolling::none;
   w.turns = torques && scene.at("rotation").get<bool>();
@@ -109,6 +112,7 @@ World worldOf(const Json& scene, const Arrays& arrays, const Faults& faults) {
     const double small = *std::min_element(w.radius.begin(), w.radius.end());
     const double heavy = *std::max_element(w.mass.begin(), w.mass.end());
     for (std::size_t i = 0; i < w.disks; ++i) {
+      if (faults.inertiaAssumed != 0.0) w.inertia[i] = 0.5 * w.mass[i] * w.radius[i] * w.radius[i];
       if (w.radius[i] == small) w.radius[i] *= faults.radiusSmall;
       if (w.mass[i] == heavy) w.mass[i] *= faults.massLarge;
       w.inertia[i] *= faults.inertia;
@@ -276,12 +280,15 @@ class PlantedEngine {
             {"instant_contacts", true},
             {"accumulated_contacts", false},
             {"warm_handover", false},
+            {"checkpoints", true},
             {"sliding_flags", true},
             {"settings", Json::array()}};
   }
 
   Json load(const Json& scene, const Arrays& arrays, const Json&) {
-    auto next = std::make_unique<Simulation>(worldOf(scene, arrays, faults_), faults_);
+    World loaded = worldOf(scene, arrays, faults_);
+    if (simulation_ && faults_.loadGrows != 0.0) loaded.rough = simulation_->world().disks;
+    auto next = std::make_unique<Simulation>(std::move(loaded), faults_);
     if (simulation_ && faults_.loadRemembers != 0.0) next->takeSprings(*simulation_);
     simulation_ = std::move(next);
     before_ = loadsOf(*simulation_);
@@ -343,6 +350,43 @@ class PlantedEngine {
             {"bodies", bodies}};
   }
 
+  void checkpoint(const std::string& path) {
+    std::ofstream file(path, std::ios::binary);
+    simulation_->parts([&](const auto& part) {
+      using Part = std::decay_t<decltype(part)>;
+      if constexpr (std::is_arithmetic_v<Part>) {
+        file.write(reinterpret_cast<const char*>(&part), sizeof part);
+      } else {
+        const std::size_t size = part.size();
+        file.write(reinterpret_cast<const char*>(&size), sizeof size);
+        file.write(reinterpret_cast<const char*>(part.data()),
+                   static_cast<std::streamsize>(size * sizeof part[0]));
+      }
+    });
+    if (!file.flush()) throw std::runtime_error(path + " cannot be written");
+  }
+
+  /// What checkpoint() of the same scene wrote.
+  void restore(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    simulation_->parts([&](auto& part) {
+      using Part = std::decay_t<decltype(part)>;
+      if constexpr (std::is_arithmetic_v<Part>) {
+        file.read(reinterpret_cast<char*>(&part), sizeof part);
+      } else {
+        std::size_t size = 0;
+        file.read(reinterpret_cast<char*>(&size), sizeof size);
+        if (!file) throw std::runtime_error(path + " is too short");
+        part.resize(size);
+        file.read(reinterpret_cast<char*>(part.data()),
+                  static_cast<std::streamsize>(size * sizeof part[0]));
+      }
+    });
+    if (!file) throw std::runtime_error(path + " is too short");
+    simulation_->restored();
+    before_ = loadsOf(*simulation_);
+  }
+
   Json stats() const {
     return {{"steps", simulation_->steps()},
             {"contact_evaluations", simulation_->evaluations()},
@@ -359,6 +403,18 @@ class PlantedEngine {
   double shown_ = 0.0;  ///< the time that was said to be reached [s]
   double wallSeconds_ = 0.0, cpuSeconds_ = 0.0;
 };
+
+/// Found by crossgrain_worker::serve() in place of its own, which knows no checkpoints.
+Json answer(PlantedEngine& engine, const Json& request) {
+  const std::string what = request.at("request");
+  if (what == "checkpoint")
+    engine.checkpoint(request.at("file"));
+  else if (what == "restore")
+    engine.restore(request.at("file"));
+  else
+    return crossgrain_worker::answer<PlantedEngine>(engine, request);
+  return Json::object();
+}
 
 }  // namespace
 }  // namespace crossgrain::planted

@@ -29,15 +29,18 @@ class Neighbours {
   std::vector<Pair> pairs;
 
   /// @param disks  how many of the places move by themselves; the others are wall disks
+  /// @param late   whether faults act that begin late
   void update(const std::vector<Vector>& position, const std::vector<double>& radius,
-              std::size_t disks, const Faults& faults) {
-    if (valid(position, faults)) return;
+              std::size_t disks, const Faults& faults, bool late) {
+    const bool looks = faults.listLookEvery == 0.0 || everyNth(faults.listLookEvery, updates_++);
+    if (!looks || valid(position, faults)) return;
     std::vector<Pair> before;
     before.swap(pairs);
     positionsAtListBuild_ = position;
     find(position, radius, disks);
     ++lists_;
-    const bool lost = everyNth(faults.historyLostEvery, lists_);
+    const bool lost =
+        everyNth(faults.historyLostEvery, lists_) || (late && faults.historyLostLate != 0.0);
     auto old = before.begin();
     for (Pair& pair : pairs) {
       while (old != before.end() && old->before(pair)) ++old;
@@ -45,6 +48,15 @@ class Neighbours {
         pair.kept = old->kept;
       if (faults.rollTurnedByList != 0.0) pair.kept.angle = -pair.kept.angle;
     }
+  }
+
+  /// Everything that it holds, one after the other, given to `each`.
+  void parts(const auto& each) {
+    each(pairs);
+    each(positionsAtListBuild_);
+    each(skin_);
+    each(lists_);
+    each(updates_);
   }
 
  private:
@@ -76,7 +88,7 @@ class Neighbours {
 
   std::vector<Vector> positionsAtListBuild_;  ///< where everything was when the list was made
   double skin_ = 0.0;
-  unsigned long long lists_ = 0;
+  unsigned long long lists_ = 0, updates_ = 0;
 };
 
 }  // namespace crossgrain::planted

@@ -121,7 +121,8 @@ struct NormalParts {
 
 inline NormalParts normalParts(double kn, const Resistance& law, const Touching& pair, bool wall,
                                const Faults& faults, Memory& kept) {
-  const double root = std::sqrt(pair.radius() * std::max(pair.overlap, 0.0));
+  const double radius = pair.radius() * (pair.b > 0.0 ? 1.0 : faults.hertzPlaneRadius);
+  const double root = std::sqrt(radius * std::max(pair.overlap, 0.0));
   const double elastic = law.hertz ? kn * root * pair.overlap : kn * pair.overlap;
   const double part = faults.pull * (wall ? faults.pullAtWalls : 1.0);
   switch (part > 0.0 ? law.cohesion : Cohesion::none) {
@@ -131,10 +132,13 @@ inline NormalParts normalParts(double kn, const Resistance& law, const Touching&
       return {elastic, elastic - part * 2.0 * std::numbers::pi * law.w * pair.radius()};
     case Cohesion::jkr:
       return {elastic, jkrForce(kn, part * law.w, pair.radius(), pair.overlap)};
-    case Cohesion::elastoPlastic:
+    case Cohesion::elastoPlastic: {
       if (faults.forgetDeepest != 0.0) kept.deepest = 0.0;
-      return {elastic, faults.lagDeepest != 0.0 ? laggedPlasticForce(kn, law, pair, kept)
-                                                : plasticForce(kn, law, pair, kept.deepest)};
+      const double force = faults.lagDeepest != 0.0 ? laggedPlasticForce(kn, law, pair, kept)
+                                                    : plasticForce(kn, law, pair, kept.deepest);
+      if (faults.pullForgets != 0.0 && force < 0.0) kept.deepest = 0.0;
+      return {elastic, force};
+    }
     case Cohesion::none:
       break;
   }

@@ -35,6 +35,8 @@ struct SpaceFaults {
   double rollTurn = given("roll_turn", 1.0);      ///< 0: θ does not follow a normal that turns
   /// 1: θ is reversed where one of its pair comes to another image; 0.5: lost
   double rollReversed = given("roll_reversed", 0.0);
+  double boxFromOrigin = given("box_from_origin", 0.0);  ///< 1: the box begins at 0, not at `low`
+  double imagesOfFirst = given("images_of_first", 0.0);  ///< 1: of the first direction alone
   double pyramid = given("pyramid", 0.0);  ///< 1: the bound is that of each of two axes
   double cylinderNormal = given("cylinder_normal", 1.0);  ///< −1: n of cylinders points outward
   /// 1: δ at a cylinder is of the distance from a plane through its axis
@@ -70,9 +72,10 @@ class Spheres {
     dt_ = scene.at("dt");
     if (scene.contains("box"))
       for (int k = 0; k < 3; ++k)
-        if (scene.at("box").at("periodic").at(k))
-          length_[k] = scene.at("box").at("high").at(k).get<double>() -
-                       scene.at("box").at("low").at(k).get<double>();
+        if (scene.at("box").at("periodic").at(k) && !(k > 0 && faults.imagesOfFirst != 0.0)) {
+          if (faults.boxFromOrigin == 0.0) low_[k] = scene.at("box").at("low").at(k);
+          length_[k] = scene.at("box").at("high").at(k).get<double>() - low_[k];
+        }
     for (int k = 0; k < 3; ++k) gravity_[k] = scene.at("gravity").at(k);
     walls_ = crossgrain_worker::bodiesOf<3>(scene, arrays);
     for (auto* sum : {&force_, &torque_}) sum->resize(position.size());
@@ -213,8 +216,8 @@ class Spheres {
     Eigen::Vector3d images = Eigen::Vector3d::Zero();
     for (int k = 0; k < 3; ++k)
       if (length_[k] > 0.0)
-        images[k] =
-            std::floor(position[i][k] / length_[k]) - std::floor(position[j][k] / length_[k]);
+        images[k] = std::floor((position[i][k] - low_[k]) / length_[k]) -
+                    std::floor((position[j][k] - low_[k]) / length_[k]);
     if (!spring.normal.isZero(0.0) && images != spring.images)
       spring.angle *= 1.0 - 2.0 * faults_.rollReversed;
     spring.images = images;
@@ -285,7 +288,8 @@ class Spheres {
 
   SpaceFaults faults_;
   double kn_, gn_, kt_, gt_, mu_, kr_, gr_, muR_, dt_, time_ = 0.0;
-  Vec3 gravity_ = Vec3::Zero(), length_ = Vec3::Zero();  ///< of the box where it is periodic
+  Vec3 gravity_ = Vec3::Zero();
+  Vec3 low_ = Vec3::Zero(), length_ = Vec3::Zero();  ///< of the box where it is periodic
   std::vector<double> radius_, mass_, inertia_;
   std::vector<Vec3> velocity_, spin_, force_, torque_;
   std::vector<crossgrain_worker::BodyOf<3>> walls_;

@@ -1,0 +1,282 @@
+// What holds anywhere and at any time: collisions far from the origin, late, fast and of many disks
+// compared with the same near it, soon, slow and of two; and scenes that go on as they are.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "adapters/audit.hpp"
+#include "oracle/collision_oracle.hpp"
+#include "studies/conformance/check_context.hpp"
+#include "studies/conformance/declared_laws.hpp"
+#include "studies/conformance/meeting.hpp"
+
+namespace crossgrain::conformance {
+namespace {
+
+/// A disk slips on a plane, on a wall disk and on another disk, wherever the engine has that.
+/// @param change  makes a meeting the other one
+void expectTheSameElsewhere(CheckContext& context, const ContactLaw& law, double speed,
+                            const Tolerance& psi, const std::string& when,
+                            const std::function<void(Meeting&)>& change) {
+  // Fractions of a step at which they touch. Single precision does not keep the phase over a long
+  // flight, and what impulses do may depend on it: then any of several will do.
+  const std::vector<double> phases =
+      context.single() ? std::vector{0.1, 0.3, 0.5, 0.7, 0.9} : std::vector{0.5};
+  int count = 0;
+  std::string why;
+  for (const Partner partner : {Partner::plane, Partner::wallDisk, Partner::disk}) {
+    Meeting here;
+    here.law = law;
+    here.partner = partner;
+    here.steps = coarseSteps;
+    here.starts = {{3.0, speed}};
+    std::vector<MeetingResult> wanted;
+    for (const double phase : phases) {
+      here.flight = phase;
+      if (const auto one = meet(context, here, &why); one && one->ends.front())
+        wanted.push_back(*one);
+    }
+    if (wanted.empty()) continue;
+    Meeting there = here;
+    change(there);
+    const auto found = meet(context, there, &why);
+    context.require(found.has_value(), text("refuses", when, " what it runs elsewhere: ", why));
+    const auto distance = [&](const MeetingResult& one) {
+      const auto &is = found->ends.front(), &was = one.ends.front();
+      return is ? std::abs(is->psi - was->psi) : 0.0;
+    };
+    const MeetingResult& nearest = *std::ranges::min_element(wanted, {}, distance);
+    Tolerance allowed = psi;
+    for (const MeetingResult& one : wanted)
+      allowed.absolute =
+          std::max(allowed.absolute, std::abs(one.ends.front()->psi - nearest.ends.front()->psi));
+    expectTheSame(context, there, *found, nearest, allowed, when);
+    ++count;
+  }
+  if (count == 0) context.skip(why.empty() ? "none of these collisions ends" : why);
+}
+
+/// Rounding of a place x to ε x moves a contact that is 70 µm deep by that part of it in each of
+/// fifty steps, which a slip magnifies a few times.
+void farIsAsNear(CheckContext& context) {
+  const double place = context.single() ? 1.0 : 10.0;  // [m]
+  expectTheSameElsewhere(
+      context, context.law(), Encounter::speed,
+      context.byPrecision(1e-6, 0.1, "rounding of places so far from the origin"),
+      text(", ", place, " m from the origin"), [&](Meeting& there) {
+        there.place = {place, -0.7 * place};
+      });
+  context.examine(farPlaces);
+}
+
+/// A twenty-fifth as stiff with the same restitution, so that a step is five times as long.
+ContactLaw softer(ContactLaw law) {
+  for (double* constant : {&law.kn, &law.kt, &law.kr}) *constant /= 25.0;
+  for (double* constant : {&law.gn, &law.gt}) {
+    if (law.damper == Damper::constant) *constant /= 5.0;
+    if (law.damper == Damper::viscoelastic) *constant *= 5.0;
+  }
+  return law;
+}
+
+/// Two seconds of flight before the same collision.
+void lateIsAsEarly(CheckContext& context) {
+  constexpr double late = 2.0;  // [s]
+  const ContactLaw soft = softer(context.law());
+  const double dt = emptyScene(soft, coarseSteps).dt;
+  expectTheSameElsewhere(context, soft, 0.01,
+                         context.byPrecision(1e-6, 0.1, "a flight of 2 cm, rounded in every step"),
+                         text(", ", late, " s after load"),
+                         // At the same phase of a step: of the engine's own, where it has one.
+                         [&](Meeting& there) {
+                           const double step = context.effective.dt;
+                           there.flight += std::round(late / step) * step / dt;
+                         });
+  context.examine(lateTimes);
+}
+
+/// Besides rollers.
+enum class Beside { nothing, plate, rolling };
+
+/// A small disk and a large one, each on two rollers that turn and turn it: once they have settled
+/// nothing changes any more. What acts then is in balance: weights with f_n, what plate and rolling
+/// take of the spin with f_t.
+Scene rollers(const CheckContext& context, Beside what) {
+  ContactLaw law = context.law();
+  if (what == Beside::rolling) law = withRolling(law, rollingLaws(context.can).back());
+  law = softer(law);
+  Scene scene = emptyScene(law, coarseSteps);
+  scene.gravity = {0.0, -9.81};
+  if (what == Beside::plate) scene.bottom = thesisBottom<BottomPlate>(0.05);
+  constexpr double rate = 10.0;  // rad/s
+  for (const bool isLarge : {false, true}) {
+    const double radius = isLarge ? largeRadius : smallRadius, reach = radius + smallRadius;
+    const Vec2 middle(isLarge ? 8.0 * largeRadius : 0.0, 0.0);
+    for (const double side : {-0.6, 0.6}) {
+      const Vec2 centre = middle + Vec2(side * reach, 0.0);
+      scene.bodies.push_back(
+          wallOf(text("roller", scene.bodies.size()), centre, {centre}, rotating(rate)));
+    }
+    addDisk(scene, radius, isLarge ? largeMass : smallMass, middle + Vec2(0.0, 0.8 * reach),
+            Vec2::Zero(), -rate * smallRadius / radius);
+  }
+  return scene;
+}
+
+/// What moved in the second half of two seconds of what had come to rest, or to a steady spin,
+/// before.
+template <Beside what>
+void rollersGoOn(CheckContext& context) {
+  context.needs(toString(Effect::movingWalls));
+  context.needs(toString(Effect::rotation));
+  if (what == Beside::plate) context.needs(toString(Effect::bottomSpinFriction));
+  if (what == Beside::rolling) context.needs(toString(Effect::rollingResistance));
+  constexpr double early = 0.9, late = 2.0;  // [s]; e-folding times are some 10 ms
+  const Scene scene = context.simplified(rollers(context, what));
+  const std::vector<DiskState> was = statesOf(scene, context.run(scene, early));
+  const std::vector<DiskState> now = statesOf(scene, context.at(late));
+  const Tolerance part =
+      context.rigid()
+          ? Tolerance{0.05, 0.0, "impulses hold disks to within the engine's own slop"}
+          : context.byPrecision(1e-6, 1e-2, "what the beginning has left, and roundings");
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    context.above(-was[i].spin, 0.5 * -scene.disks.spin[i], "the spin that rollers keep up");
+    context.sameState(
+        now[i], was[i], part,
+        text(" of disk ", i, " on rollers, ", late, " s after load and ", early, " s"));
+  }
+  context.examine(lateTimes);
+}
+
+/// The same law in another unit of time: a hundred times as fast, ten thousand times as stiff.
+void fastIsAsSlow(CheckContext& context) {
+  if (context.rigid()) context.skip("has no stiffness that a unit of time could change");
+  constexpr double times = 100.0;
+  const Scene slow = encounterScene(crookedEncounter(), context.law(), coarseSteps);
+  Scene fast = slow;
+  for (double* constant : {&fast.law.kn, &fast.law.kn3, &fast.law.kt}) *constant *= times * times;
+  for (double* constant : {&fast.law.gn, &fast.law.gt}) {
+    if (fast.law.damper == Damper::constant) *constant *= times;
+    if (fast.law.damper == Damper::viscoelastic) *constant /= times;
+  }
+  fast.dt /= times;
+  for (Vec2& velocity : fast.disks.velocity) velocity *= times;
+  for (double& spin : fast.disks.spin) spin *= times;
+  const std::vector<DiskState> wanted = statesOf(slow, context.run(slow, Encounter::end));
+  std::vector<DiskState> found = statesOf(fast, context.run(fast, Encounter::end / times));
+  const Tolerance part = context.byPrecision(1e-9, 1e-4, "roundings of another unit of time");
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    found[i].velocity /= times;
+    found[i].spin /= times;
+    context.sameState(found[i], wanted[i], part, text(" of disk ", i, ", 100 times as fast"));
+  }
+}
+
+/// Flights of some hundred steps, in each of which a disk goes further than lists of neighbours are
+/// wide within twenty.
+void fastDisksAreNotMissed(CheckContext& context) {
+  if (context.rigid()) context.skip("finds rigid disks that overlap by what they go in a step");
+  for (const double steps : {200.0, 207.0, 214.0})
+    expectTheSameElsewhere(context, context.law(), 2.0,
+                           context.byPrecision(1e-6, 0.1, "rounding of places"),
+                           text(", after a flight of ", steps, " steps at 2 m/s"),
+                           [&](Meeting& there) { there.flight += steps; });
+}
+
+/// 150 pairs, far apart: every one does what one alone does, and a snapshot in the midst of it has
+/// all contacts.
+void manyAreAsFew(CheckContext& context) {
+  const Scene one = encounterScene(crookedEncounter(), context.law(), coarseSteps);
+  const std::vector<DiskState> alone = statesOf(one, context.run(one, Encounter::end));
+  Scene many = emptyScene(context.law(), coarseSteps);
+  constexpr int columns = 15, rows = 10;
+  constexpr double apart = 8.0 * largeRadius;
+  for (int k = 0; k < columns * rows; ++k)
+    for (const int i : {0, 1})
+      addDisk(many, one.disks.radius[i], one.disks.mass[i],
+              one.disks.position[i] + Vec2(apart * (k % columns), apart * (k / columns)),
+              one.disks.velocity[i], one.disks.spin[i]);
+  context.load(many);
+  const double touch = Encounter::gap / Encounter::speed;
+  const Snapshot middle = context.at(touch + 0.4 * smallContactTime);
+  if (context.contactReport() != ContactReport::none) {
+    const AuditBasis basis = auditBasis(context.scene, context.can, context.effective);
+    const std::string why = auditFault(middle, basis, middle.positionTime);
+    context.expect(why.empty(), why);
+  }
+  const std::vector<DiskState> states = statesOf(many, context.at(Encounter::end));
+  context.requireEqual(states.size(), many.disks.size(), "positions shown");
+  const Tolerance part = context.byPrecision(1e-6, 0.1, "rounding of places");
+  const double wanted = (alone[0].position - alone[1].position).norm();
+  for (std::size_t k = 0; k < states.size(); k += 2) {
+    const std::string which = text(" of pair ", k / 2, " of ", states.size() / 2);
+    context.near((states[k].position - states[k + 1].position).norm(), wanted,
+                 {part.absolute * smallRadius, 0.0, part.why}, "the distance [m]" + which);
+    for (const std::size_t i : {0, 1}) context.sameMotion(states[k + i], alone[i], part, which);
+  }
+  context.examine(manyDisks);
+}
+
+/// Pressed between two posts, a disk hangs on its two tangential springs, ξ = m g/(2 k_t) from
+/// where they were relaxed. Another falls past it, or is thrown up and comes back, through more
+/// than a hundred lists of neighbours: none may lose the springs' state, and no step the other's
+/// velocity.
+void expectSpringsToHold(CheckContext& context, const ContactLaw& law, double gravity, double speed,
+                         double end) {
+  constexpr double depth = 0.02 * smallRadius, post = 2.0 * smallRadius - depth;
+  Scene scene = emptyScene(law, coarseSteps);
+  scene.gravity = {gravity, 0.0};
+  scene.bodies = {wallOf("posts", Vec2::Zero(), {{0.0, post}, {0.0, -post}})};
+  addDisk(scene, smallRadius, smallMass, {0.0, 20.0 * smallRadius}, {-speed, 0.0});
+  addDisk(scene, smallRadius, smallMass, Vec2::Zero(), Vec2::Zero());
+  context.load(scene);
+  const double stretch = smallMass * gravity / (2.0 * law.kt);
+  for (const double t : {0.25 * end, 0.5 * end, 0.75 * end, end}) {
+    const Snapshot now = context.at(t);
+    const std::string when = text(" after ", context.engine.stats().steps, " steps");
+    // Rounded posts and arms that follow the overlap make two per cent.
+    context.atMost(now.position[1].x() / stretch, 1.2,
+                   "sag of a disk that springs hold, in m g/(2 k_t)," + when);
+    const double past = now.positionTime;
+    const double fallen = 0.5 * gravity * past * past - speed * past;
+    const Tolerance scheme = {0.51 * gravity * past * context.effective.dt + 1e-5 * speed * past,
+                              1e-5, "first order, or single precision"};
+    context.near(now.position[0].x(), fallen, scheme, "the way fallen [m]" + when);
+  }
+}
+
+/// For 2700 steps and 70 mm; and for two seconds and 20 cm, in longer steps.
+void springsHoldWhileAnotherFalls(CheckContext& context) {
+  const ContactLaw law = context.law();
+  if (law.normal != NormalLaw::linear || law.tangential != TangentialLaw::springDashpot)
+    context.skip("has no linear law with tangential spring and dashpot");
+  expectSpringsToHold(context, law, 9.81, 0.0, 0.12);
+  expectSpringsToHold(context, softer(law), 0.2, 0.2, 2.0);
+  context.examine(toString(Effect::tangentialSpring));
+}
+
+}  // namespace
+
+Checks reachChecks() {
+  static constexpr Check list[] = {
+      {"FarIsAsNear", "a collision far from the origin is as one near it", farIsAsNear},
+      {"LateIsAsEarly", "a collision two seconds after load is as one at once", lateIsAsEarly},
+      {"RollersGoOn", "disks that rollers turn still do after two seconds what they did before",
+       rollersGoOn<Beside::nothing>},
+      {"RollersGoOnOnThePlate", "so do disks that the bottom plate brakes",
+       rollersGoOn<Beside::plate>},
+      {"RollersGoOnAgainstRolling", "so do disks whose rolling is resisted",
+       rollersGoOn<Beside::rolling>},
+      {"FastIsAsSlow", "a collision a hundred times as fast is the same in another unit of time",
+       fastIsAsSlow},
+      {"FastDisksAreNotMissed", "a disk that comes from afar and fast meets what it would meet",
+       fastDisksAreNotMissed},
+      {"ManyAreAsFew", "each of 150 pairs does what one alone does", manyAreAsFew},
+      {"SpringsHoldWhileAnotherFalls",
+       "springs hold a disk while another falls past it, for two seconds",
+       springsHoldWhileAnotherFalls},
+  };
+  return list;
+}
+
+}  // namespace crossgrain::conformance
