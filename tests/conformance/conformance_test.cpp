@@ -66,7 +66,6 @@ constexpr std::array expectedSkips = {
     ExpectedSkip{"grain-stiff", "FollowsItsPeerByHertzLaw", "its peer has another normal law"},
     ExpectedSkip{"grain-stiff", "RollingHoldsASlope", "contacts are stiffer"},
     ExpectedSkip{"yade", "RollingHoldsASlope", "has no rolling dashpot"},
-    ExpectedSkip{"yade", "RollersGoOnAgainstRolling", "has no rolling dashpot"},
     ExpectedSkip{"yade", "MaterialsHaveTheirOwnLaws",
                  "its materials combine like springs in series"},
     ExpectedSkip{"grain-as-box2d-impulse", "FollowsItsPeerByHertzLaw",

@@ -126,8 +126,6 @@ INSTANTIATE_TEST_SUITE_P(
         resisting("gravity_of_large", "gravity_large=2", "FallsFreely",
                   "^gravity \\+100 %, of large disks"),
         resisting("late_walls", "wall_velocity_late=0", "RollersGoOn", ""),
-        resisting("late_plate", "plate_mu_late=0", "RollersGoOnOnThePlate", ""),
-        resisting("late_rolling", "roll_late=0.5", "RollersGoOnAgainstRolling", ""),
         resisting("late_lists", "history_lost_late=1", "SpringsHoldWhileAnotherFalls", ""),
         resisting("plane_ends", "plane_ends=1", "PlaneDoesNotYield",
                   "^planes end within 30 m of their point"),
