@@ -1,6 +1,7 @@
 #include "cases/materials.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -66,12 +67,14 @@ void settleMaterials(Case& setup) {
   std::vector<bool> used(materials.names.size(), false);
   const std::vector<Body> bodies = bodiesOf(setup);
   if (bodies.empty())
-    throw BadInput(fmt::format("{}: [collision] has no material, and [[law.pairs]] of two",
-                               setup.file.string()));
+    throw BadInput(
+        fmt::format("{}: [collision] has no material: with [[law.pairs]] it has two, of {}",
+                    setup.file.string(), fmt::join(materials.names, ", ")));
   for (const auto& [who, material] : bodies) {
     if (material->name.empty())
-      throw BadInput(fmt::format("{}: {} has no material, and [[law.pairs]] of some",
-                                 setup.file.string(), who));
+      throw BadInput(
+          fmt::format("{}: {} has no material: with [[law.pairs]] every body has one, of {}",
+                      setup.file.string(), who, fmt::join(materials.names, ", ")));
     const auto index = static_cast<std::size_t>(indexOf(materials, *material));
     if (index == used.size())
       throw BadInput(fmt::format("{} = \"{}\": no [[law.pairs]] has that material{}",

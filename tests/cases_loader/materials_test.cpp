@@ -154,9 +154,10 @@ TEST_F(LoaderErrors, Pairs_OfMaterials) {
       {cell(pair(glassSteel, "kn = 400") + pair(R"("glass", "oak")", "kn = 300")),
        "case.toml: [[law.pairs]] has a material that nobody is made of, \"oak\""},
       {soundCase + pair(glassSteel, "kn = 400"),
-       "case.toml: [particles] small has no material, and [[law.pairs]] of some"},
+       "case.toml: [particles] small has no material: with [[law.pairs]] every body has one, of "
+       "glass, steel"},
       {soundCollision + pair(glassSteel, "kn = 400"),
-       "case.toml: [collision] has no material, and [[law.pairs]] of two"},
+       "case.toml: [collision] has no material: with [[law.pairs]] it has two, of glass, steel"},
       {cell(pair(glassSteel, "gn = 30")),
        "case.toml:28:1: law.pairs: gn of glass with steel overdamps the lightest pair: must be < "
        "0.4401"},
