@@ -18,10 +18,6 @@ namespace {
 template <int D>
 constexpr const char* movers = D == 3 ? "spheres" : "disks";
 
-[[noreturn]] void fail(const FileFrame& frame, const std::string& what) {
-  throw BadInput(fmt::format("{}: {}", frame.where, what));
-}
-
 }  // namespace
 
 template <int D>

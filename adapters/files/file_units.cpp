@@ -26,6 +26,10 @@ bool isYades(std::string_view format) {
 
 }  // namespace
 
+void fail(const FileFrame& frame, const std::string& what) {
+  throw BadInput(fmt::format("{}: {}", frame.where, what));
+}
+
 std::vector<SettingSpec> fileSettings(std::string_view format, int dimension) {
   const double behind = isYades(format) ? 1.0 : 0.0;
   std::vector<SettingSpec> settings = {
@@ -80,10 +84,6 @@ FileUnits fileUnits(std::string_view format, const Settings& settings) {
 }
 
 namespace {
-
-[[noreturn]] void fail(const FileFrame& frame, const std::string& what) {
-  throw BadInput(fmt::format("{}: {}", frame.where, what));
-}
 
 /// Refuses what lies beside the others, or moves out of the plane.
 void checkPlane(const FileFrame& frame, const FileUnits& units) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -10,6 +11,9 @@
 
 /// Units and axes of other programs' files, and what their particles have to be for a case.
 namespace crossgrain::files {
+
+/// @throws BadInput naming the frame
+[[noreturn]] void fail(const FileFrame& frame, const std::string& what);
 
 /// What no file says of itself: [engines.NAME] of a case.
 struct FileUnits {
@@ -47,7 +51,7 @@ std::vector<SettingSpec> fileSettings(std::string_view format, int dimension);
 /// @param settings  of fileSettings(); what is missing has its default  @throws BadInput
 FileUnits fileUnits(std::string_view format, const Settings& settings);
 
-/// The periodic box of a case as a file would have it. @pre a direction of it is periodic
+/// The box of a case as a file would have it.
 template <int D>
 FileBox boxInFiles(const BoxOf<D>& box, const FileUnits& units);
 

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "support/bad_input.hpp"
-
 namespace crossgrain::files {
 namespace {
 
@@ -97,10 +95,6 @@ void turnBack(WallBody& body, const std::vector<std::size_t>& rows, const WallFi
   const Eigen::Rotation2Dd back(-now.angle);
   for (std::size_t k = 0; k < rows.size(); ++k)
     body.diskPosition[k] = body.centre + back * (walls.place(rows[k]) - now.centre);
-}
-
-[[noreturn]] void fail(const FileFrame& frame, const std::string& what) {
-  throw BadInput(fmt::format("{}: {}", frame.where, what));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <cerrno>
 
+#include "adapters/files/file_units.hpp"
 #include "adapters/files/write_parts.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
@@ -170,9 +171,7 @@ std::unique_ptr<SnapshotWriterOf<3>> openWriter(std::string_view format,
                     "themselves are HDF5, docs/files.md",
                     format, scene.name));
   if (format == "ondem") return openOnDem<3>(out, scene, 0.0);
-  if (format == "lammps")
-    return openLammps<3>(out, scene,
-                         {box.low, box.high, {box.periodic[0], box.periodic[1], box.periodic[2]}});
+  if (format == "lammps") return openLammps<3>(out, scene, boxInFiles(box, {}));
   throw BadInput(fmt::format(
       "format {}: snapshots in space (case.dimension = 3) are written as lammps and ondem alone",
       format));

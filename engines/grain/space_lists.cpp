@@ -49,8 +49,8 @@ void SpaceLists::update(std::span<const Quad> position, std::span<const double> 
   skin_.allow(travel, allowance_);
   team.run([&](std::size_t part) {
     for (NearPairs& pairs : parts_[part].near) {
-      pairs.carried.clear();
-      pairs.collectTouching(pairs.carried);
+      pairs.before.clear();
+      pairs.collectTouching(pairs.before);
     }
     parts_[part].skinUsed = skinUsed(part, position);
   });
@@ -71,11 +71,11 @@ void SpaceLists::restore(std::vector<Kept> touching, std::span<const Quad> posit
   skin_.allow(travel, allowance_);
   std::ranges::sort(touching, [](const Kept& a, const Kept& b) { return earlier(a, b); });
   for (Part& part : parts_)
-    for (NearPairs& pairs : part.near) pairs.carried.clear();
+    for (NearPairs& pairs : part.near) pairs.before.clear();
   for (std::size_t part = 0; const Kept& pair : touching) {
     while (!isUpTo(part, static_cast<std::size_t>(pair.i))) ++part;
     const bool inside = isUpTo(part, static_cast<std::size_t>(pair.j));
-    parts_[part].near[inside ? 0 : 1].carried.push_back(pair);
+    parts_[part].near[inside ? 0 : 1].before.push_back(pair);
   }
   rebuild(position, team);
   choose(position, team);
@@ -116,7 +116,7 @@ PairCounts SpaceLists::counts() const {
   for (const Part& part : parts_) {
     counts.far += part.far.size();
     for (const NearPairs& pairs : part.near) {
-      counts.touching += pairs.carried.size();
+      counts.touching += pairs.before.size();
       counts.near += pairs.i.size();
     }
   }
@@ -191,9 +191,10 @@ void SpaceLists::chooseNear(std::size_t number, std::span<const Quad> position) 
     for (std::size_t p = 0; p < count; ++p) across += isAcross(p);
   part.near[0].makeRoom(count - across, false);
   part.near[1].makeRoom(across, true);
+  const std::array<SpacePairs, 2> listed{part.near[0].view(), part.near[1].view()};
   std::array<std::size_t, 2> at{};
   // Both are in one order, so that one walk through both finds every pair that touches.
-  std::array<const Kept*, 2> next{part.near[0].carried.data(), part.near[1].carried.data()};
+  std::array<const Kept*, 2> next{part.near[0].before.data(), part.near[1].before.data()};
   for (std::size_t p = 0; p < count; ++p) {
     const std::size_t list = across > 0 && isAcross(p) ? 1 : 0, n = at[list]++;
     NearPairs& near = part.near[list];
@@ -209,11 +210,11 @@ void SpaceLists::chooseNear(std::size_t number, std::span<const Quad> position) 
       near.shifts.push_back(cells_.boxes(boxes));
     }
     const struct { std::int32_t i, j; } here{near.i[n], near.j[n]};
-    const Kept *const last = near.carried.data() + near.carried.size(), *&kept = next[list];
+    const Kept *const last = near.before.data() + near.before.size(), *&kept = next[list];
     while (kept != last && earlier(*kept, here)) ++kept;
     const double reach = position[static_cast<std::size_t>(here.i)].w +
                          position[static_cast<std::size_t>(here.j)].w + range_;
-    near.view().setTouches(n, kept != last && !earlier(here, *kept), reach);
+    listed[list].setTouches(n, kept != last && !earlier(here, *kept), reach);
     if (near.touches[n] == 0) continue;
     near.kept[n] = kept->memory;
     near.results[n] = kept->result;

@@ -80,7 +80,7 @@ class SpaceLists {
     std::vector<SpaceResult> results;
     std::vector<std::uint8_t> touches;
     std::vector<SpacePush> pushes;  ///< of pairs across
-    std::vector<Kept> carried;      ///< of the choice before, in ascending (i, j)
+    std::vector<Kept> before;  ///< those that touched at the choice before, in ascending (i, j)
 
     SpacePairs view();
     void collectTouching(std::vector<Kept>& found) const;

@@ -36,6 +36,18 @@ inline grain::Law thesisLaw() {
   return law;
 }
 
+/// Of spheres of some grams.
+inline grain::Law sphereLaw() {
+  grain::Law law;
+  law.kn = 1e5;
+  law.gn = 1.5;
+  law.kt = 2.857e4;
+  law.gt = 0.4;
+  law.mu = 0.3;
+  law.tangential = grain::Tangential::springDashpot;
+  return law;
+}
+
 /// t_c = π/ω of two small disks [s].
 inline double contactTime() {
   const double reduced = 0.5 * smallMass, eta = thesis.gn / (2.0 * reduced);

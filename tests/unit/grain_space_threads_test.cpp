@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engines/grain/spheres.hpp"
+#include "tests/unit/grain_scenes.hpp"
 
 namespace {
 
@@ -18,13 +19,7 @@ using Vector = Vec3<double>;
 constexpr double radius = 0.005, density = 2500.0;
 
 Law springLaw() {
-  Law law;
-  law.kn = 1e5;
-  law.gn = 1.5;
-  law.kt = 2.857e4;
-  law.gt = 0.4;
-  law.mu = 0.3;
-  law.tangential = Tangential::springDashpot;
+  Law law = crossgrain::test::sphereLaw();
   law.bound = Bound::magnitude;
   return law;
 }

@@ -12,6 +12,7 @@
 
 #include "engines/grain/kernels.hpp"
 #include "engines/grain/simulation.hpp"
+#include "tests/unit/grain_scenes.hpp"
 
 namespace {
 
@@ -22,14 +23,7 @@ constexpr double radius = 0.005, mass = 1.309e-3;
 constexpr double inertia = 0.4 * mass * radius * radius;
 
 Law springLaw() {
-  Law law;
-  law.kn = 1e5;
-  law.gn = 1.5;
-  law.kt = 2.857e4;
-  law.gt = 0.4;
-  law.mu = 0.3;
-  law.tangential = Tangential::springDashpot;
-  return law;
+  return crossgrain::test::sphereLaw();
 }
 
 double contactTime() {
