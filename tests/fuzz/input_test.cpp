@@ -167,7 +167,7 @@ TEST(FuzzedInput, PackingsAreSoundOrRefusedInOneLine) {
   const std::string whole = contentOf(file);
   const std::size_t before = test::mostMemory();
   readDamaged(
-      file, 4'000, [&](test::Draw& draw) { return test::damagedBytes(whole, draw); },
+      file, 1'000, [&](test::Draw& draw) { return test::damagedBytes(whole, draw); },
       [&] { return readPacking(file, defaults()).disks; });
   // A handle left open would keep its file's content, damaged file by damaged file.
   EXPECT_EQ(H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL), 0);

@@ -41,7 +41,7 @@ SHORT = ["--set=averaging.rings=4", "--set=averaging.rotations=0.05", "--set=pre
 COMMANDS = {
     "compare": ["compare {cell} --engines grain --set=preparation.packings=2 --out {out}"],
     "compare-engines": ["compare {cell} --engines {built_in} --out {out} {short}"],
-    "compare-assembly": ["compare cases/assembly/hopper.toml --engines grain,box2d-penalty --quick --out {out}"],
+    "compare-assembly": ["compare cases/assembly/pile.toml --engines grain,box2d-penalty --quick --out {out}"],
     "compare-closed-form": ["compare cases/assembly/squeeze.toml --engines grain,box2d-penalty --out {out}"],
     "collide": ["collide cases/collision --engines {built_in} --out {out}"],
     "collide-external": ["collide cases/collision/figure-4-3.toml --engines examples/python/engine.toml --out {out}"],

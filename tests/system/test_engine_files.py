@@ -45,7 +45,7 @@ class Conformance(SystemTest):
         self.assertEqual([], results["not_examined"])
         suite = xml.etree.ElementTree.parse(self.out / "junit.xml").getroot()
         self.assertEqual(("0", "0"), (suite.get("failures"), suite.get("errors")))
-        for check in ("FollowsItsMirror", "FollowTheOracle", "Pushes", "ThoseThatAct", "Wheel", "Sound"):
+        for check in ("FollowsItsMirror", "Pushes", "ThoseThatAct", "Sound"):
             done = self.conformance(PYTHON, "-k", check)
             self.assert_status(done, HELD)
             self.assertIn("numpy: identical to rounding over 4 starts" if "Mirror" in check else "passed", done.stdout)

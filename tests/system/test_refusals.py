@@ -323,7 +323,7 @@ class Unsupported(SystemTest):
         """Fewer than two engines can run the case: status 2, a line for each that cannot, and what to list."""
         cut = settings(run__may_differ=[]) + ["--set=law.lever_arm=radius", "--set=law.tension=cut"]
         # One that can is enough for all but `compare`.
-        for command, engines in (("compare", "grain,yade,lammps"), ("effects", "yade,lammps"), ("lockstep", "yade,lammps")):
+        for command, engines in (("compare", "grain,yade,lammps"), ("lockstep", "yade,lammps")):
             done = self.run_program(command, CELL, "--engines", engines, "--out", self.out, "--quiet", *cut)
             self.assert_status(done, BAD_INPUT)
             lines = done.error_lines()
