@@ -277,11 +277,14 @@ Snapshot CheckContext::run(const Scene& wanted, double t) {
   return at(t);
 }
 
-std::vector<Snapshot> CheckContext::watch(double t) {
+std::vector<Snapshot> CheckContext::watch(
+    double t, const std::function<bool(const std::vector<Snapshot>&)>& enough) {
   std::vector<Snapshot> seen;
   const auto steps = std::llround(t / effective.dt);
-  for (long long step = 0; step <= steps; ++step)
+  for (long long step = 0; step <= steps; ++step) {
     seen.push_back(at(static_cast<double>(step) * effective.dt));
+    if (enough && enough(seen)) break;
+  }
   return seen;
 }
 

@@ -158,7 +158,9 @@ class CheckContext {
   Snapshot at(double t);                        ///< advances to t; a snapshot with contacts
   Snapshot run(const Scene& wanted, double t);  ///< loads it and goes there. @throws Skipped
   /// Snapshots after every step from 0 to t; the first is the start.
-  std::vector<Snapshot> watch(double t);
+  /// @param enough  whether what has been seen will do: no step is taken then
+  std::vector<Snapshot> watch(double t,
+                              const std::function<bool(const std::vector<Snapshot>&)>& enough = {});
 
   [[noreturn]] void skip(std::string reason) const { throw Skipped{std::move(reason)}; }
   /// A skip unless the engine declares it. @throws Skipped
