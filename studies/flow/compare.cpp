@@ -8,6 +8,7 @@
 #include <set>
 
 #include "cases/flow.hpp"
+#include "results/lockstep_text.hpp"
 #include "results/schema.hpp"
 #include "studies/core/study_cases.hpp"
 #include "studies/flow/agreement_table.hpp"
@@ -146,6 +147,8 @@ CompareResults compare(const StudyWork& work, const CompareOptions& own) {
   campaign.preparePackings();
   LockstepFindings lockstep;
   if (setup.run.mirrors) lockstep = lockstepOf(campaign, setup, command, starts, hasMirror);
+  for (const LockstepRow& row : lockstep.rows)  // the first verdicts; runs take longer
+    campaign.progress().say("lockstep: " + describe(row, lockstep.rules));
   campaign.timeEngines();
   EndpointFindings endpoints = runWithInterims(setup, campaign, command, lockstep, budget);
   CompareResults results{campaign.study(kindCompare), {}, {}, {}, {}, {}, {}, {}};

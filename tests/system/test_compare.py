@@ -206,6 +206,8 @@ class InterimAnalyses(SystemTest):
         self.assertEqual(1, [run["engine"] for run in self.results()["runs"]].count("box2d-penalty"))
         self.assertIn("box2d-penalty: evaluated through its mirror grain-as-box2d-penalty", done.stdout)
         self.assertIn("16 equal windows leave at most 19 % of states different", done.stdout)
+        # The first verdict is there before the first run.
+        self.assertRegex(done.stderr, r"(?s)\nlockstep: box2d-penalty: identical to rounding over 16 starts[^\n]*\n.*running engines")
 
     def test_next_analysis_goes_on_where_the_budget_ended(self):
         engines = "grain,box2d-impulse"
