@@ -42,6 +42,16 @@ TEST(Alarms, BeyondTenMarginsWithoutDisagreement_IsOne) {
   EXPECT_EQ(alarmsAt({}, {pressure(99.0, Verdict::fail)}), Alarms{});
 }
 
+TEST(Alarms, BeyondTenMarginsByChanceAlone_IsNone) {
+  EndpointRow row = pressure(12.0, Verdict::undecided);
+  row.distanceLow = -3.0;
+  row.distanceHigh = 27.0;
+  EXPECT_EQ(alarmsAt({}, {row}), Alarms{});
+  row.distanceLow = 0.5;
+  EXPECT_EQ(alarmsAt({}, {row}),
+            Alarms{"pressure is 12 margins off, which 8 packings cannot prove"});
+}
+
 /// Eight packings of a and b, of which the first ones have a pressure.
 CompareResults withPressure(int ofA, int ofB) {
   CompareResults results;
