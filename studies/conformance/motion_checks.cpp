@@ -88,13 +88,16 @@ void fallsFreely(CheckContext& context) {
 }
 
 /// Everything slides at once, γ_b v > µ_b m g: the disk loses µ_b g t of its speed and, where the
-/// plate brakes spins, µ_b m g (2/3) a / (½ m a²) · t = (4/3)(µ_b g/a) t of its spin.
+/// plate brakes spins, µ_b m g (2/3) a / (½ m a²) · t = (4/3)(µ_b g/a) t of its spin. Once more
+/// under a plate that takes two seconds for it.
 void bottomPlateBrakesADisk(CheckContext& context) {
-  for (const bool spin : {false, true}) {
+  constexpr double soon = 0.02, late = 2.0;
+  for (const auto& [spin, end] : {std::pair(false, soon), {true, soon}, {false, late}}) {
     Scene scene = oneDisk(context.law());
     scene.disks.spin[0] = 30.0;
     scene.bottom = thesisBottom<BottomPlate>(0.05, spin);
-    const Snapshot after = context.run(scene, 0.02);
+    scene.bottom->gravity *= soon / end;
+    const Snapshot after = context.run(scene, end);
     context.examine(toString(spin ? Effect::bottomSpinFriction : Effect::bottomFriction));
     const double deceleration = scene.bottom->mu * scene.bottom->gravity;
     const double lost = deceleration * after.velocityTime;
@@ -102,7 +105,11 @@ void bottomPlateBrakesADisk(CheckContext& context) {
     const Vec2 expected = velocity * (1.0 - lost / velocity.norm());
     const Tolerance step = {deceleration * context.effective.dt, 0.0,
                             "whether the plate acts in the first half step"};
-    context.near(after.velocity[0], expected, step, "the velocity [m/s]");
+    const bool held = context.faults.empty();
+    context.near(after.velocity[0], expected, step,
+                 text("the velocity [m/s]", end == late ? ", 2 s after load" : ""));
+    if (end == late && held && !context.faults.empty())
+      context.suspect("the bottom plate brakes otherwise late after load");
     const double slower = spin ? 4.0 / 3.0 * lost / smallRadius : 0.0;
     const Tolerance turn = {4.0 / 3.0 * step.absolute / smallRadius, 0.0, step.why};
     context.near(spinsOf(scene, after)[0], 30.0 - slower, turn, "the spin [rad/s]");

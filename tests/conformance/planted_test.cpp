@@ -123,6 +123,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         resisting("late_gravity", "gravity_late=0.95", "FallsFreely",
                   "^gravity -(4\\.|5).*2 s after load"),
+        resisting("late_plate", "plate_mu_late=0", "BottomPlateBrakesADisk",
+                  "^the bottom plate brakes otherwise late"),
+        resisting("late_rolling", "roll_late=0.5", "RollingHoldsASlope",
+                  "^the torque against rolling is another one late"),
         resisting("gravity_of_large", "gravity_large=2", "FallsFreely",
                   "^gravity \\+100 %, of large disks"),
         resisting("late_walls", "wall_velocity_late=0", "RollersGoOn", ""),
