@@ -126,10 +126,12 @@ class Scene:
             self.move(k, body)
 
     def region(self, position):
-        """The ends of LAMMPS' box along x, y and z [m]. Sets how many bins that is at most."""
+        """The ends of LAMMPS' box along x, y and z [m], around what is there, wherever that is: with empty room as far as
+        the origin there are more bins than it can count. Sets how many bins that is at most."""
         depth = 2.0 * self.radius.max()
-        reach = 2.0 * np.abs(position).max() + 4.0 * depth
-        ends = [[-reach, reach]] * self.space + [[-depth, depth]] * (3 - self.space)
+        low, high = (end(position, axis=0)[: self.space] for end in (np.min, np.max))
+        centre, reach = 0.5 * (low + high), (high - low).max() + 4.0 * depth
+        ends = [[float(x - reach), float(x + reach)] for x in centre] + [[-depth, depth]] * (3 - self.space)
         for k in np.flatnonzero(self.box.periodic):
             ends[k] = [float(self.box.low[k]), float(self.box.high[k])]
         self.bins = math.prod((high - low) / depth for low, high in ends)

@@ -58,7 +58,7 @@ void expectTheSameElsewhere(CheckContext& context, const ContactLaw& law, double
 /// Rounding of a place x to ε x moves a contact that is 70 µm deep by that part of it in each of
 /// fifty steps, which a slip magnifies a few times.
 void farIsAsNear(CheckContext& context) {
-  const double place = context.single() ? 1.0 : 10.0;  // [m]
+  const double place = context.single() ? 1.0 : 60.0;  // [m]
   expectTheSameElsewhere(
       context, context.law(), Encounter::speed,
       context.byPrecision(1e-6, 0.1, "rounding of places so far from the origin"),

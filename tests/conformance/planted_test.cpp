@@ -123,6 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         resisting("late_gravity", "gravity_late=0.95", "FallsFreely",
                   "^gravity -(4\\.|5).*2 s after load"),
+        resisting("far_grid", "far_grid=50", "FarIsAsNear", ""),
         resisting("late_plate", "plate_mu_late=0", "BottomPlateBrakesADisk",
                   "^the bottom plate brakes otherwise late"),
         resisting("late_rolling", "roll_late=0.5", "RollingHoldsASlope",
