@@ -19,6 +19,7 @@
 #include "studies/core/study_cases.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
+#include "support/task_pool.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -335,12 +336,13 @@ CollideResults collideEngines(const std::vector<Case>& variants, const RunComman
   store.begin();
   printNotes();
   std::vector<CollisionCase> cases;
-  for (const Case& setup : variants) {
-    throwIfInterrupted();
-    CollisionCase each{&setup, collisionTimeSteps(setup), collisionStarts(setup)};
-    each.oracle = oracleCurve(setup, each.starts);
-    cases.push_back(std::move(each));
-  }
+  for (const Case& setup : variants)
+    cases.push_back({&setup, collisionTimeSteps(setup), collisionStarts(setup)});
+  std::vector<Task> oracles;
+  for (CollisionCase& each : cases)
+    oracles.push_back({static_cast<double>(each.starts.size()),
+                       [&each] { each.oracle = oracleCurve(*each.setup, each.starts); }});
+  runTasks(oracles, command.jobs);
   const auto tasks = tasksOf(cases, engines, command.engines, store);
   const CollisionCurves curves =
       byId(tasks, runOrLoad(tasks, store, progress, "collisions", command.jobs));
