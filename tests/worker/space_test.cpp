@@ -135,14 +135,19 @@ SnapshotOf<D> snapshotAt(Engine& engine, double t) {
 
 class Space : public ::testing::TestWithParam<const char*> {
  protected:
-  static void TearDownTestSuite() { std::filesystem::remove_all(scratch()); }
+  static void TearDownTestSuite() {
+    started_.clear();
+    std::filesystem::remove_all(scratch());
+  }
   void SetUp() override {
     const std::string name = GetParam();
     ProgramCall call({"/usr/bin/python3", workerScript(name).string()});
     if (name == "yade") call = findEngine("yade")->command();
     if (!isOnPath(name == "lammps" ? "lmp" : name)) GTEST_SKIP() << name << " is not installed";
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);  // as liggghts.toml does
-    engine_ = std::make_unique<WorkerEngine>(name, call, scratch() / name, 120.0);
+    std::unique_ptr<WorkerEngine>& engine = started_[name];
+    if (!engine) engine = std::make_unique<WorkerEngine>(name, call, scratch() / name, 120.0);
+    engine_ = engine.get();
   }
   static std::filesystem::path scratch() {
     return std::filesystem::path(::testing::TempDir()) /
@@ -161,7 +166,9 @@ class Space : public ::testing::TestWithParam<const char*> {
   void expectAsTheMirrorHasThem(const SpaceScene& scene);
   void expectAsTheMirrorHasIt(const SpaceScene& scene, const std::vector<double>& times);
 
-  std::unique_ptr<WorkerEngine> engine_;
+  /// One start serves all tests of an engine.
+  static inline std::map<std::string, std::unique_ptr<WorkerEngine>> started_;
+  WorkerEngine* engine_ = nullptr;
 };
 
 TEST_P(Space, ThirdOfThePeriodicBox_ShiftsAllAndChangesNothing) {
