@@ -48,8 +48,9 @@ void requireLength(const char* what, std::size_t got, std::size_t wanted) {
 }
 
 void distribute(const Moments& moments, const BinFractions& fractions, std::vector<Moments>& sums) {
+  using All = Eigen::Array<double, momentCount, 1>;  // side by side, which the loop is not
   for (const auto& [slot, w] : fractions)
-    for (std::size_t q = 0; q < momentCount; ++q) sums[slot][q] += w * moments[q];
+    All::Map(sums[slot].data()) += w * All::Map(moments.data());
 }
 
 }  // namespace
@@ -91,18 +92,20 @@ void MomentSums::compute(const Snapshot& snapshot, std::vector<std::vector<Momen
   counts_.require(snapshot, countWallDisks_ || snapshot.contacts);
   sums.resize(sharings_.size());
   for (std::vector<Moments>& bins : sums) bins.assign(coordinates_->slots(), Moments{});
-  contactSums_.assign(radius_.size(), ContactSums{});
+  contactSums_.resize(radius_.size());
+  for (ContactSums& zero : contactSums_) zero = ContactSums{};  // assign() copies a zero to each
   if (snapshot.contacts) sumContacts(*snapshot.contacts);
 
   for (std::size_t p = 0; p < mass_.size(); ++p) {
     const Vec2& x = snapshot.position[p];
     const Vec2 er = coordinates_->firstDirection(x);
-    const Moments moments = momentsOf(snapshot, p, er);
-    Moments withStress = moments;
-    addStress(contactSums_[p].stress, er, 1.0, ofDisks, withStress);
-    for (std::size_t k = 0; k < sharings_.size(); ++k)
-      distribute(sharings_[k].weight().alongBranch() ? moments : withStress,
-                 sharings_[k].ofDisk(x, radius_[p]), sums[k]);
+    Moments moments = momentsOf(snapshot, p, er);
+    for (const bool alongBranch : {true, false}) {  // those have their stress from addBranches()
+      if (!alongBranch) addStress(contactSums_[p].stress, er, 1.0, ofDisks, moments);
+      for (std::size_t k = 0; k < sharings_.size(); ++k)
+        if (sharings_[k].weight().alongBranch() == alongBranch)
+          distribute(moments, sharings_[k].ofDisk(x, radius_[p]), sums[k]);
+    }
   }
   for (std::size_t k = 0; k < sharings_.size(); ++k) {
     addWalls(snapshot, sharings_[k], sums[k]);

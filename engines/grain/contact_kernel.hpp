@@ -17,7 +17,7 @@ inline constexpr std::size_t blockSize = 128;
 template <class Real>
 struct alignas(64) ContactBlock {
   Vec<Real> distance[blockSize], velocity[blockSize];  ///< of i relative to j
-  Real radiusI[blockSize], radiusJ[blockSize], spinI[blockSize], spinJ[blockSize];
+  Real spinI[blockSize], spinJ[blockSize];
   Real inverseMass[blockSize], inverseInertiaI[blockSize], inverseInertiaJ[blockSize];
   Real inverseRollingI[blockSize], inverseRollingJ[blockSize];  ///< 1/(J + m a²)
   Vec<Real> force[blockSize];
@@ -67,8 +67,6 @@ GRAIN_INLINE void gather(const L& law, const ContactView<Real>& disks, const std
     const auto i = static_cast<std::size_t>(pairI[p]);
     const auto j = static_cast<std::size_t>(pairJ[p]);
     b.distance[p] = disks.position[i] - disks.position[j];
-    b.radiusI[p] = disks.radius[i];
-    b.radiusJ[p] = disks.radius[j];
     if (seesVelocities(law)) b.velocity[p] = disks.velocity[i] - disks.velocity[j];
     if (law.rotation) {
       b.spinI[p] = disks.spin[i];
@@ -99,9 +97,11 @@ GRAIN_INLINE void gather(const L& law, const ContactView<Real>& disks, const std
 /// part with no force.
 /// Writes the block, and each pair its own springs: the loop may be taken side by side.
 template <class L, class Real>
-GRAIN_INLINE std::size_t applyLaw(const L& common, const Vec<Real>* shift,
-                                  const PairMemory<Real>& kept, std::size_t count,
-                                  BlockOf<L, Real>& b) {
+GRAIN_INLINE std::size_t applyLaw(const L& common, const PairView<Real>& pairs, std::size_t begin,
+                                  std::size_t count, BlockOf<L, Real>& b) {
+  const Real *const radiusI = pairs.radiusI + begin, *const radiusJ = pairs.radiusJ + begin;
+  const Vec<Real>* const shift = hasLocalCoordinates<Real> ? pairs.shift + begin : nullptr;
+  const PairMemory<Real> kept = pairs.kept.from(begin);
   const bool friction = common.tangential != Tangential::none;
   const bool history =
       common.tangential == Tangential::spring || common.tangential == Tangential::springDashpot;
@@ -109,7 +109,7 @@ GRAIN_INLINE std::size_t applyLaw(const L& common, const Vec<Real>* shift,
 #pragma omp simd reduction(+ : touching)
   for (std::size_t p = 0; p < count; ++p) {
     const L& law = lawOfPair(common, b, p);
-    const Real reach = b.radiusI[p] + b.radiusJ[p];
+    const Real reach = radiusI[p] + radiusJ[p];
     Real dx = b.distance[p].x, dy = b.distance[p].y;
     if constexpr (hasLocalCoordinates<Real>) {
       dx += shift[p].x;
@@ -127,7 +127,7 @@ GRAIN_INLINE std::size_t applyLaw(const L& common, const Vec<Real>* shift,
     ContactMotion<Real> motion{};
     motion.overlap = reach - distance;
     if (law.normal == Normal::hertz || law.cohesion != Cohesion::none)
-      motion.radius = b.radiusI[p] * b.radiusJ[p] / reach;
+      motion.radius = radiusI[p] * radiusJ[p] / reach;
     if (law.cohesion == Cohesion::area) motion.reach = reach;
     Real memory = remembers(law) ? kept.memory[p] : Real(0);
     if (law.cohesion == Cohesion::jkr)
@@ -140,10 +140,10 @@ GRAIN_INLINE std::size_t applyLaw(const L& common, const Vec<Real>* shift,
     Real leverI = 0, leverJ = 0, armI = 0, armJ = 0;  // of the force, of the velocity
     if (friction) motion.tangentialVelocity = b.velocity[p].y * nx - b.velocity[p].x * ny;
     if (law.rotation) {
-      leverI = armOf(law.lever, b.radiusI[p], b.radiusJ[p], motion.overlap);
-      leverJ = armOf(law.lever, b.radiusJ[p], b.radiusI[p], motion.overlap);
-      armI = armOf(law.velocityLever, b.radiusI[p], b.radiusJ[p], motion.overlap);
-      armJ = armOf(law.velocityLever, b.radiusJ[p], b.radiusI[p], motion.overlap);
+      leverI = armOf(law.lever, radiusI[p], radiusJ[p], motion.overlap);
+      leverJ = armOf(law.lever, radiusJ[p], radiusI[p], motion.overlap);
+      armI = armOf(law.velocityLever, radiusI[p], radiusJ[p], motion.overlap);
+      armJ = armOf(law.velocityLever, radiusJ[p], radiusI[p], motion.overlap);
       motion.tangentialVelocity -= armI * b.spinI[p] + armJ * b.spinJ[p];
     }
     if (seesCompliances(law)) {
@@ -168,7 +168,7 @@ GRAIN_INLINE std::size_t applyLaw(const L& common, const Vec<Real>* shift,
     }
     if (law.rolling != Rolling::none) {
       RollingMotion<Real> rolling =
-          rollingMotion(law, b.radiusI[p], b.radiusJ[p], b.spinI[p] - b.spinJ[p]);
+          rollingMotion(law, radiusI[p], radiusJ[p], b.spinI[p] - b.spinJ[p]);
       if (seesRollingInertia(law))
         rolling.inertia = Real(1) / (b.inverseRollingI[p] + b.inverseRollingJ[p]);
       Real angle = law.rolling == Rolling::spring ? kept.angle[p] : Real(0);
@@ -215,8 +215,7 @@ static std::size_t contactKernel(const GeneralLaw<Real>& general, const ContactV
     const std::int32_t* i = pairs.i + begin;
     const std::int32_t* j = pairs.j + begin;
     gather(law, disks, i, j, count, b);
-    touching += applyLaw(law, hasLocalCoordinates<Real> ? pairs.shift + begin : nullptr,
-                         pairs.kept.from(begin), count, b);
+    touching += applyLaw(law, pairs, begin, count, b);
     if (pairs.normal != nullptr) {
       copy(b.normal, count, pairs.normal + begin);
       copy(b.tangential, count, pairs.tangential + begin);

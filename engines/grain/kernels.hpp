@@ -57,7 +57,8 @@ template <class Real>
 struct PairView {
   std::size_t count;
   const std::int32_t *i, *j;
-  const Vec<Real>* shift;  ///< origin of i − origin of j, of local coordinates
+  const Real *radiusI, *radiusJ;  ///< [m]
+  const Vec<Real>* shift;         ///< origin of i − origin of j, of local coordinates
   PairMemory<Real> kept;
   Real *normal, *tangential, *sliding;  ///< the law's results; null: nobody asked
   Real *rolling, *rollingSlides;        ///< likewise; null without rolling resistance

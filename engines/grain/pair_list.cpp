@@ -90,6 +90,8 @@ std::size_t PairList<Real>::chooseNear(const Places& now, std::span<const double
   for (auto* ids : {&i, &j})
     if (ids->size() < room) ids->resize(room);
   if (far.size() < room) far.resize(room);
+  for (auto* radii : {&radiusI, &radiusJ})
+    if (radii->size() < room) radii->resize(room);
   forMemories(*this, springs, [room](auto& near, const auto&, auto) {
     if (near.size() < room) near.resize(room);
   });
@@ -104,6 +106,8 @@ std::size_t PairList<Real>::chooseNear(const Places& now, std::span<const double
     i[n] = farI[p];
     j[n] = farJ[p];
     far[n] = static_cast<std::uint32_t>(p);
+    radiusI[n] = static_cast<Real>(now.radius[a]);
+    radiusJ[n] = static_cast<Real>(now.radius[b]);
     const double within = reach + range + allowance[a] + allowance[b];
     n += distance2 < within * within;
     touching += distance2 < reach * reach;
@@ -139,6 +143,8 @@ PairView<Real> PairList<Real>::view(AddTo addTo, bool record, bool rotation, boo
   return {count,
           i.data(),
           j.data(),
+          radiusI.data(),
+          radiusJ.data(),
           shift.data(),
           {spring.empty() ? nullptr : spring.data(), angle.empty() ? nullptr : angle.data(),
            memory.empty() ? nullptr : memory.data(), rest.empty() ? nullptr : rest.data()},

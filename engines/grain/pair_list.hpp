@@ -55,6 +55,7 @@ struct PairList {
   std::size_t count = 0;  ///< near pairs; the arrays below have room for all far ones
   std::vector<std::int32_t> i, j;
   std::vector<std::uint32_t> far;  ///< a near pair's place among the far ones
+  Array<Real> radiusI, radiusJ;    ///< beside the pair, as they last for as long as it does [m]
   Array<Real> spring, angle, memory, rest;
   Array<Vec<Real>> shift;  ///< origin of i − origin of j, of local coordinates
   // The last step's results, where asked for.

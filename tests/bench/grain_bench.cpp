@@ -93,10 +93,10 @@ Traffic stepTraffic(const Setup& setup) {
   if (predict) disk(0, 2);              //         → u
   if (spins) disk(3, predict ? 3 : 2);  //         ω, M, 1/J → ω, M, u_ω
   if (setup.bottom) disk(4, 2);         //         plate: m, a, ξ_b → ξ_b
-  disk(5, 2);                           // pairs: x, a, f → f
+  disk(4, 2);                           // pairs: x, f → f
   if (velocities) disk(2, 0);           //        u
   if (spins) disk(2, 1);                //        u_ω, M → M
-  traffic.perPair += 8;                 //        i, j
+  traffic.perPair += 8 + 2 * real;      //        i, j, a of both
   if (setup.law.springs()) traffic.perPair += 2 * real;  // ξ → ξ
   if (single) traffic.perPair += 8;                      //        origin of i − origin of j
   return traffic;
