@@ -10,6 +10,17 @@ def found(status):
     return status in (1, 3)
 
 
+def accused(command, status, results, engine, own_law=True):
+    """Whether an engine that is right is found at fault (false_alarms.toml, other_engines.toml). @param own_law  whether the case has the law that it declares"""
+    if command == "compare" and not own_law:
+        return status == 3 or blame(command, status, results, engine) == "implementation"
+    runs = results.get("runs", []) if command == "stability" else []
+    if status != 1 or not any(run["engine"] == "grain" for run in runs):
+        return status in (1, 3)
+    unstable = {(run["engine"], run["case"], run.get("variant")) for run in runs if run["verdict"] == "unstable"}
+    return any(name == engine and ("grain", *run) not in unstable for name, *run in unstable)
+
+
 def _cells(results, engine):
     rows = (results.get("overview") or {}).get("rows", [])
     return [cell for row in rows if row["name"] == engine for cell in row["cells"]]
