@@ -55,11 +55,14 @@ def disguise_of(draw, kinds):
             return words
 
 
-def declared_of(draw, kinds):
+def declared_of(draw, kinds, not_both):
     """Words for the engine, and changes that make a case's law its own: of one kind, or each with an even chance."""
     ways = [(name, value) for name, values in kinds.items() for value in values]
     alone = draw.choice(ways) if draw.random() < 0.5 else None
     chosen = dict(way for way in ways if (way == alone if alone else draw.random() < 0.5))
+    for one, other in not_both:
+        if one in chosen:
+            chosen.pop(other, None)
     law = [change for name, value in chosen.items() for change in kinds[name][value]]
     return ["declares=1", *(f"{name}={value}" for name, value in chosen.items())], law
 
@@ -78,7 +81,7 @@ def engine_of(options, rules, command, number, draw):
         return written(path, "disguised", words, options.engine), words, draw.choice(asked["scenes"]), [], True
     scene = draw.choice([scene for scene in asked["scenes"] if not scene.get("disguise")])
     rolling = rules["declared_rolling"] if scene.get("rolls") else {}
-    words, law = declared_of(draw, {**rules["declared"], **rolling})
+    words, law = declared_of(draw, {**rules["declared"], **rolling}, rules["not_both"])
     own = draw.random() < 0.5 or asked.get("law") == "own"
     changes = [word for change in law for word in ("--set", change)] if own else []
     return written(path, "declared", words, options.engine.with_name("planted_engine")), words, scene, changes, own
@@ -143,7 +146,7 @@ def rates(records, rules):
 
 
 def commands_of(rules):
-    return [name for name, asked in rules.items() if "promised" in asked]
+    return [name for name, asked in rules.items() if isinstance(asked, dict) and "promised" in asked]
 
 
 def cpu_of_children():
