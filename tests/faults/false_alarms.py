@@ -83,7 +83,7 @@ def engine_of(options, rules, command, number, draw):
     rolling = rules["declared_rolling"] if scene.get("rolls") else {}
     words, law = declared_of(draw, {**rules["declared"], **rolling}, rules["not_both"])
     own = draw.random() < 0.5 or asked.get("law") == "own"
-    changes = [word for change in law for word in ("--set", change)] if own else []
+    changes = [word for change in law for word in ("--set", change)] if own and asked.get("law") != "none" else []
     return written(path, "declared", words, options.engine.with_name("planted_engine")), words, scene, changes, own
 
 
@@ -104,7 +104,7 @@ def asked_of(options, rules, command, number, scene, law, engine, draw):
 
 
 def trial(options, rules, command, number):
-    """One command on one engine; the same number is the same trial."""
+    """One command on one engine; the same number is the same trial. None: it cannot be asked."""
     draw = random.Random(f"{command} {number}")
     engine, words, scene, law, own = engine_of(options, rules, command, number, draw)
     arguments = asked_of(options, rules, command, number, scene, law, engine, draw)
@@ -113,6 +113,9 @@ def trial(options, rules, command, number):
     began = time.monotonic()
     answers = ["--json"] if command == "diff" else ["--out", str(out)]
     done = subprocess.run([str(options.crossgrain), command, *arguments, "--quiet", *answers], cwd=project, capture_output=True, text=True, check=False)
+    if done.returncode == 2 and "declared" in rules:
+        print(f"no trial: {command} {number}: {done.stderr.strip()}", flush=True)
+        return None
     if done.returncode not in (0, 1, 3):
         sys.exit(f"{command} {number} {arguments}: status {done.returncode}: {done.stderr}")
     results = json.loads((out / "results.json").read_text()) if (out / "results.json").exists() else {}
@@ -186,6 +189,8 @@ def main():
                 continue
             before = cpu_of_children()
             record = trial(options, rules, command, number)
+            if record is None:
+                continue
             record["cpu"] = round(cpu_of_children() - before, 2)
             used += record["cpu"]
             records.append(record)

@@ -86,7 +86,8 @@ TEST_F(ResistingCell, RollingSpring_ConstantsAndConventionsAreFound) {
   EXPECT_LE(alike, 2);
   test::expectDeclaredOrNamed(flow, {{"roll_length=2", "rolling_length = twice_effective"},
                                      {"roll_dashpot_outside=1", "rolling_dashpot = outside"},
-                                     {"roll_spring_only=1", "rolling_reset = spring_only"}});
+                                     {"roll_spring_only=1", "rolling_reset = spring_only"},
+                                     {"spring_before=1", "spring_update = before"}});
   const Identification without =
       identified(flow, [](ContactLaw& law) { law.rolling = RollingLaw::none; });
   EXPECT_EQ(without.missing, std::vector<std::string>{"rolling_resistance"});
