@@ -9,7 +9,13 @@
 #include <utility>
 
 #include "adapters/grain.hpp"
+#include "cases/flow.hpp"
+#include "cases/loader.hpp"
+#include "cases/time_step.hpp"
+#include "results/lockstep_text.hpp"
 #include "studies/conformance/conformance_scenes.hpp"
+#include "studies/lockstep/lockstep.hpp"
+#include "studies/lockstep/terms.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace {
@@ -70,6 +76,28 @@ TEST(DisguisedEngine, DoesTheSameButForRounding) {
       EXPECT_NEAR(theirs.at(pair)[k], force[k], k == 4 ? 1e-10 : 1e-7)
           << pair.first << " " << pair.second;
   EXPECT_EQ(disguised.stats().steps, grain->stats().steps);
+}
+
+/// Turned, it has its disks in another order, and of those that touch several at once others come
+/// first. Two of three that touch at the start are apart a step later.
+TEST(DisguisedEngine, OrderOfCollisions_IsNoOtherLaw) {
+  const Case setup =
+      loadCase(CROSSGRAIN_TESTS "/coverage/rigid-gas.toml", {"preparation.seed=4"}).front();
+  const double dt = timeStep(setup);
+  const auto none = std::unique_ptr<Engine>();
+  const auto nobody = [](double) {};
+  std::vector<Packing> packings;
+  for (int p = 0; p < setup.preparation.packings; ++p)
+    packings.push_back(flowPacking(setup, p, dt, *none, nobody));
+  const auto states = statesAlongTheFlow(setup, packings, dt, 16, nobody);
+  test::Disguise turned;
+  turned.transform.placement.turn = 2.88;
+  const TemporaryFolder folder;
+  test::DisguisedEngine engine(turned, folder.path());
+  const LockstepRow row =
+      holdAgainstMirror(engine, {"grain", "", makeGrain, {}, {}, ""}, setup, states, dt, nobody);
+  EXPECT_EQ(row.verdict, Equivalence::differs);
+  EXPECT_NE(openInLaw(row, lockstepRules(setup.law)), "");
 }
 
 }  // namespace
