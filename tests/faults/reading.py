@@ -2,7 +2,7 @@
 
 import re
 
-naming = ("lockstep", "compare", "conformance", "diff")  # commands that name causes
+from table import naming
 
 
 def found(status):
@@ -108,7 +108,7 @@ def _is_term(fault, term):
 
 
 def named(command, results, engine, fault, errors):
-    """ "rightly", "wrongly", "" (nothing is named)."""
+    """ "rightly", "wrongly", "by check" (no cause is given, and a check fails that is for the fault), "" (nothing is named)."""
     if command not in naming:
         return ""
     term = term_of(command, results, engine)
@@ -118,7 +118,7 @@ def named(command, results, engine, fault, errors):
     if broken and "says" in fault and any(re.search(fault["says"], what) for what in broken):
         return "rightly"
     if command == "conformance" and set(failed_checks(results)) & {*fault.get("checks", []), *fault.get("later", [])}:
-        return "rightly"
+        return "by check"
     return ""
 
 
