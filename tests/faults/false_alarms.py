@@ -81,7 +81,8 @@ def engine_of(options, rules, command, number, draw):
         return written(path, "disguised", words, options.engine), words, draw.choice(asked["scenes"]), [], True
     scene = draw.choice([scene for scene in asked["scenes"] if not scene.get("disguise")])
     rolling = rules["declared_rolling"] if scene.get("rolls") else {}
-    words, law = declared_of(draw, {**rules["declared"], **rolling}, rules["not_both"])
+    kinds = {name: values for name, values in {**rules["declared"], **rolling}.items() if name not in asked.get("without", [])}
+    words, law = declared_of(draw, kinds, rules["not_both"])
     own = draw.random() < 0.5 or asked.get("law") == "own"
     changes = [word for change in law for word in ("--set", change)] if own and asked.get("law") != "none" else []
     return written(path, "declared", words, options.engine.with_name("planted_engine")), words, scene, changes, own
