@@ -193,7 +193,7 @@ struct LockstepRow {
   std::size_t read = 0;                ///< of those, that can be read
   std::size_t beyond = 0;              ///< of those read, beyond the rule
   /// Of differs: all starts but a share within chance first part where a disk touches several at
-  /// once.
+  /// once, or may have.
   bool severalAtOnce = false;
   /// Upper bound of the share of all states that are beyond the rule, at 95 %.
   std::optional<double> shareHigh;

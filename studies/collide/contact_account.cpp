@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/pair_table.hpp"
 #include "oracle/cohesion.hpp"
 #include "support/interrupt.hpp"
 
@@ -158,7 +159,9 @@ class ContactWork {
  public:
   explicit ContactWork(const ContactRecording<D>& run)
       : run_(run), accounts(run.scene.disks.size() / (run.pair.plane ? 1 : 2)) {
-    if (!run.effective.pairs.empty()) pair_ = run.effective.pairs.front();
+    // Constants that an engine does not report are the law's.
+    const std::vector<PairCoefficients>& pairs = run.effective.pairs;
+    pair_ = pairs.empty() ? coefficientsOf(run.law) : pairs.front();
   }
 
   /// Contacts are summed when the velocities of their time are known.

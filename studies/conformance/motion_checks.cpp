@@ -48,6 +48,15 @@ std::string gravityOff(const Scene& scene, std::size_t i, const Snapshot& was,
   return text("gravity", percentOf(part), i == 0 ? "" : ", of large disks");
 }
 
+/// Whether a disk went from one snapshot to the next as under one constant force: at its mean
+/// velocity. Only then is a wrong velocity gravity's doing.
+bool fellEvenly(std::size_t i, const Snapshot& was, const Snapshot& now, const Tolerance& allowed) {
+  const double time = now.positionTime - was.positionTime;
+  const Vec2 way = now.position[i] - was.position[i];
+  const Vec2 even = 0.5 * time * (was.velocity[i] + now.velocity[i]);
+  return (way - even).norm() <= allowed.absolute + allowed.relative * even.norm();
+}
+
 /// Two disks of an age of `end` are where a constant force takes them.
 /// @param part  of speeds and gravity: as far as bodies get, some engines have a box
 /// @param from  gravity is worked out from what they gain since then [s]
@@ -69,11 +78,12 @@ void expectFall(CheckContext& context, double part, double from, double end,
       scheme.absolute =
           std::max(rounding.absolute, 0.5001 * scene.gravity.norm() * t * context.effective.dt);
     const std::string which = i == 0 ? when : ", of a large disk" + when;
-    const std::size_t before = context.faults.size();
     context.near(after.position[i], expected, scheme, "the position [m]" + which);
+    const std::size_t before = context.faults.size();
     context.near(after.velocity[i], Vec2(velocity + after.velocityTime * scene.gravity), rounding,
                  "the velocity [m/s]" + which);
-    if (context.faults.size() > before) context.suspect(gravityOff(scene, i, was, after) + when);
+    if (context.faults.size() > before && fellEvenly(i, was, after, scheme))
+      context.suspect(gravityOff(scene, i, was, after) + when);
     context.near(spinsOf(scene, after)[i], 5.0, rounding, "the spin [rad/s]" + which);
   }
 }

@@ -214,11 +214,14 @@ std::vector<std::string> failsOf(const CompareResults& results, std::size_t refu
   const auto add = [&](const char* what, const std::vector<std::string>& who) {
     if (!who.empty()) fails.push_back(fmt::format("{} ({})", what, fmt::join(who, "; ")));
   };
-  const auto lockstepWith = [&](Equivalence verdict) {
+  // Where a law leaves open what parts an engine from its mirror, that is borderline.
+  const auto lockstepWith = [&](Equivalence verdict, bool openToo) {
     std::vector<std::string> names;
     if (!results.lockstep) return names;
-    for (const LockstepRow& row : results.lockstep->rows)
-      if (row.verdict == verdict) names.push_back(row.engine);
+    for (const LockstepRow& row : results.lockstep->rows) {
+      const bool open = !openInLaw(row, results.lockstep->rules).empty();
+      if (open ? openToo : row.verdict == verdict) names.push_back(row.engine);
+    }
     return names;
   };
   std::vector<std::string> alarms;
@@ -226,12 +229,12 @@ std::vector<std::string> failsOf(const CompareResults& results, std::size_t refu
     if (alarm.kind == PairKind::peer) alarms.push_back(fmt::format("{} and {}", alarm.a, alarm.b));
   add("engines disagree", endpointsWith(results, Verdict::fail));
   add("an alarm: engines differ far beyond a margin", alarms);
-  add("an engine differs from the law that it declares", lockstepWith(Equivalence::differs));
+  add("an engine differs from the law that it declares", lockstepWith(Equivalence::differs, false));
   if (!strict) return fails;
   add("--strict: borderline", endpointsWith(results, Verdict::borderline));
   add("--strict: undecided", endpointsWith(results, Verdict::undecided));
   add("--strict: absent", endpointsWith(results, Verdict::notMeasured));
-  add("--strict: an engine's law is undecided", lockstepWith(Equivalence::undecided));
+  add("--strict: an engine's law is undecided", lockstepWith(Equivalence::undecided, true));
   if (refused > 0) fails.push_back("--strict: an engine was refused");
   return fails;
 }

@@ -41,6 +41,12 @@ void readMedian(LockstepRow& row) {
   row.equivalentHigh = values[high];
 }
 
+/// Whether frames have what touched when the two first parted: none has the contacts of the start,
+/// nor those of steps that no frame is of. @param step  the first frame's time [s]
+bool isSeen(const FirstExceedance& first, double step) {
+  return first.after > 0.0 && first.until - first.after < 1.5 * step;
+}
+
 /// Whether so many of the starts read are shown to be a larger share than chance may part.
 bool exceedsStrayShare(std::size_t count, std::size_t read) {
   return count > 1 && gsl_cdf_binomial_Q(static_cast<unsigned>(count - 1), strayShare,
@@ -122,11 +128,11 @@ void SeparationAccount::add(std::size_t start, const LockstepWindowOf<D>& window
   row_.kinds.wall += kinds.wall;
 
   const std::vector<double> rounding(times_.size(), lockstepRounding);
-  touching_.push_back(0);
+  alone_.push_back(false);
   if (auto first =
           firstExceedance(window, diameter_, limits.empty() ? rounding : limits, wallFrom)) {
     first->start = start;
-    touching_.back() = first->touching;
+    alone_.back() = first->touching < 2 && isSeen(*first, times_.front());
     if (!row_.first || first->until < row_.first->until) row_.first = std::move(first);
   }
   if (const auto forces = forcesOfFirstStep(window))
@@ -203,7 +209,7 @@ LockstepRow SeparationAccount::row() const {
   std::size_t alone = 0;
   for (std::size_t s = 0; s < tracks_.size(); ++s) {
     row.readings.push_back(readingOf(s));
-    alone += row.readings[s].beyond && touching_[s] < 2;
+    alone += row.readings[s].beyond && alone_[s];
   }
   bool moved = false;
   for (const Responses& responses : responses_)

@@ -13,8 +13,8 @@ namespace crossgrain::inline studies {
 /// The verdict and what it rests on, from readings and what else a row has: track, kinds, starts,
 /// precise.
 /// @param moved  whether the reference constant moves anything from any start
-/// @param alone  of the starts beyond the rule, how many first part at two disks that touch nothing
-///               else, or at one that touches nothing
+/// @param alone  of the starts beyond the rule, how many are seen to part first at two disks that
+///               touch nothing else, or at one that touches nothing
 void judge(LockstepRow& row, bool moved, std::size_t alone);
 
 /// Adds up what windows show of an engine and of what it is compared with, start by start.
@@ -46,7 +46,9 @@ class SeparationAccount {
   std::vector<double> times_;
   std::vector<std::size_t> reported_;
   std::vector<std::vector<double>> tracks_;  ///< by start and frame [d]
-  std::vector<std::size_t> touching_;        ///< by start, FirstExceedance::touching; 0 without one
+  /// By start: whether it is seen to part first at two disks that touch nothing else, or at one
+  /// that touches nothing.
+  std::vector<bool> alone_;
   /// By start, time reported and disk [d].
   std::vector<std::vector<std::vector<double>>> apart_;
   std::vector<Responses> responses_;         ///< by start

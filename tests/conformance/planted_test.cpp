@@ -67,6 +67,18 @@ TEST(PlantedFaults, RightEngine_AllChecks_FindNoFault) {
   EXPECT_EQ("", faultsOf(rowsOf(inSpace("", "", "", "").entry)));
 }
 
+/// Places that are shown wrongly, a speed that is cut off and a velocity that is lost are nobody's
+/// gravity.
+TEST(PlantedFaults, FallThatIsNotEven_IsNotNamedGravity) {
+  for (const char* fault : {"show_swapped_places=1", "show_earlier=4e-5", "show_float=1",
+                            "float_state=1", "most_speed=0.5", "heal_every=1000"}) {
+    const std::vector<ConformanceRow> rows = rowsOf(plantedEntry("falls", fault), "FallsFreely");
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows.front().outcome, checkFailed) << fault;
+    EXPECT_EQ(rows.front().cause, "") << fault;
+  }
+}
+
 class PlantedFault : public testing::TestWithParam<Planted> {};
 
 TEST_P(PlantedFault, PlantedEngine_Check_FailsAndNamesCause) {
@@ -121,6 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Elsewhere, PlantedFault,
     testing::Values(
+        resisting("gravity_x", "gravity_x=0.98", "FallsFreely", "^gravity -"),
         resisting("late_gravity", "gravity_late=0.95", "FallsFreely",
                   "^gravity -(4\\.|5).*2 s after load"),
         resisting("far_grid", "far_grid=50", "FarIsAsNear", ""),

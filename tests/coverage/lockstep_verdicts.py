@@ -6,12 +6,14 @@
 
 One run holds the verdicts of fewer starts: those of every second, fourth and eighth start, which lie along the flow
 as a run of that many has them. `--steps` are factors of the case's own time step. Finished runs are kept in OUT.
+An engine with a = in it is words for --program, "declares=1 lagged=1" for tests/faults/engine.
 Status 1 where a verdict turns into its opposite, from same to differs or back."""
 
 import argparse
 import json
 import math
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -51,15 +53,27 @@ def step_of(crossgrain, scene, engine):
     return rows[0]["dt_s"] if rows else known and known["dt_s"]
 
 
+def engine_file(arguments, words):
+    """The engine's file, of words for the program."""
+    name = re.sub("[^a-z0-9]+", "-", words)
+    path = arguments.out / "engines" / f"{name}.toml"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(f'name = "{name}"\ncommand = {json.dumps([str(arguments.program.resolve()), *words.split()])}\n', encoding="utf-8")
+    return path
+
+
 def row_of(arguments, scene, engine, factor):
     """A row of lockstep's results and the rules that it was judged by."""
-    out = arguments.out / f"{scene.stem}-{engine}-{factor:g}"
-    dt = step_of(arguments.crossgrain, scene, engine)
+    given = engine_file(arguments, engine) if "=" in engine else engine
+    out = arguments.out / f"{scene.stem}-{pathlib.Path(given).stem}-{factor:g}"
+    dt = step_of(arguments.crossgrain, scene, given)
     settings = []
     if factor != 1.0 and dt:
-        settings = ["--set", f"run.dt={factor * dt:.6g}", "--set", f"engines.{engine}.dt={factor * dt:.6g}"]
+        settings = ["--set", f"run.dt={factor * dt:.6g}"]
+        if given == engine:
+            settings += ["--set", f"engines.{engine}.dt={factor * dt:.6g}"]
     done = subprocess.run(
-        [arguments.crossgrain, "lockstep", scene, "--engines", engine, "--starts", str(arguments.starts), "--quiet", "--out", out,
+        [arguments.crossgrain, "lockstep", scene, "--engines", given, "--starts", str(arguments.starts), "--quiet", "--out", out,
          *settings],
         capture_output=True, text=True, check=False,
     )  # fmt: skip
@@ -81,10 +95,12 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, required=True)
     parser.add_argument("--scenes", required=True)
     parser.add_argument("--engines", required=True)
+    parser.add_argument("--program", type=pathlib.Path, help="of engines that are words")
     parser.add_argument("--starts", type=int, default=64)
+    parser.add_argument("--halved", type=int, default=3, help="how many times fewer starts are counted, by half each")
     parser.add_argument("--steps", default="1,0.5")
     arguments = parser.parse_args()
-    counts = [arguments.starts // part for part in (8, 4, 2, 1)]
+    counts = [arguments.starts // 2**part for part in range(arguments.halved, -1, -1)]
     print("| scene | dt [s] | engine | " + " | ".join(f"{count}" for count in counts) + " | read, beyond | ε_eq (95 %) |")
     print("|---" * (5 + len(counts)) + "|")
     turned = 0

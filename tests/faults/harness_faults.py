@@ -100,7 +100,7 @@ def main():
     chosen = [fault for fault in faults if re.search(options.only, fault["name"])]
     controls = [{"name": f"none_in_{part}", "part": part, "environment": {}, "what": f"{part}: nothing, the control", "tests": "never"}
                 for part in sorted({fault["part"] for fault in chosen})]
-    engine = planted_faults.engine_file(options.out / "engines", options.programs / "planted_engine", planted_faults.control)
+    engine = planted_faults.engine_file(options.out / "engines" / "right.toml", options.programs / "planted_engine", planted_faults.control, "right")
     rows = []
     for fault in [*controls, *chosen]:
         for row in rows_of(options, fault, commands, engine):

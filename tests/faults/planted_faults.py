@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs crossgrain's commands on engines with planted faults and writes what they found: README.md.
+"""Runs crossgrain's commands on engines with planted faults and keeps what they found: README.md.
 
     planted_faults.py --crossgrain build/full/cli/crossgrain --engine build/full/tests/faults/planted_engine --out out/trust
 """
@@ -89,7 +89,7 @@ def run(options, work):
     kept.write_text(json.dumps(record, ensure_ascii=False, indent=1))
 
 
-def works_of(path, options):
+def works_of(path, out, only=""):
     """What a file of faults asks for: each command on each of its faults, its controls first."""
     given = tomllib.loads(path.read_text())
     if "commands" in given:
@@ -100,29 +100,50 @@ def works_of(path, options):
         commands = {name: spec["arguments"] for name, spec in commands.items()}
     program = given.get("program", "planted_engine")
     faults = given["fault"] if any(not fault["patch"] for fault in given["fault"]) else [control, *given["fault"]]
-    return [{"fault": fault, "command": command, "program": program, "most_seconds": most,
-             "arguments": fault.get(command, commands[command]), "kept": options.out / "records" / f"{fault['name']}-{command}.json"}
-            for command in commands for fault in faults if not fault["patch"] or re.search(options.only, fault["name"])]
+    return [{"list": path.stem, "fault": fault, "command": command, "program": program, "most_seconds": most,
+             "arguments": fault.get(command, commands[command]), "kept": out / "records" / f"{fault['name']}-{command}.json"}
+            for command in commands for fault in faults if not fault["patch"] or re.search(only, fault["name"])]
 
 
-def judged(command, fault, kept, right, cpu):
-    """What the kept results say. @param right  of `cost`: accuracies that the right engine reaches; cpu: which seconds"""
-    ran = json.loads(kept.read_text())
-    results, name = results_of(kept), fault["name"]
-    record = {"fault": name, "command": command, "status": ran["status"], "seconds": ran["cpu_seconds" if cpu else "seconds"],
-              "version": results.get("version", ""), "found": reading.found(ran["status"])}
+def works_of_lists(paths, out, only=""):
+    """Those of all; a control of several lists once."""
+    works = {}
+    for path in paths:
+        for work in works_of(path, out, only):
+            works.setdefault(work["kept"], work)
+    return list(works.values())
+
+
+def judged(work, right):
+    """A row of the table: what the kept results say. @param right  of `cost`: accuracies that the right engine reaches"""
+    fault, command = work["fault"], work["command"]
+    row = dict.fromkeys(table.columns, "") | {"list": work["list"], "fault": fault["name"], "control": "" if fault["patch"] else "yes",
+                                               "what": fault["what"], "command": command}
+    if not work["kept"].exists():
+        return row | {"status": table.not_run}
+    ran, results, name = json.loads(work["kept"].read_text()), results_of(work["kept"]), fault["name"]
     lost = right - reading.good_columns(results, name) if command == "cost" and ran["status"] == 0 else set()
-    record["found"] = record["found"] or bool(lost)
-    record["blame"] = reading.blame(command, ran["status"], results, name)
-    record["named"] = reading.named(command, results, name, fault, ran["errors"]) if record["found"] else ""
-    record["term"] = reading.term_of(command, results, name)
+    found = reading.found(ran["status"]) or bool(lost)
     if lost:
-        record["sentence"] = "does not reach " + ", ".join(sorted(lost))
-    elif record["found"]:
-        record["sentence"] = reading.sentence(command, results, name, ran["errors"])
+        sentence = "does not reach " + ", ".join(sorted(lost))
+    elif found:
+        sentence = reading.sentence(command, results, name, ran["errors"])
     else:
-        record["sentence"] = ran["errors"].strip() if ran["status"] else ""
-    return record
+        sentence = ran["errors"].strip() if ran["status"] else ""
+    return row | {
+        "status": "timeout" if ran["status"] is None else ran["status"], "found": "yes" if found else "no",
+        "cpu_s": ran["cpu_seconds"], "put_down_to": reading.blame(command, ran["status"], results, name),
+        "named": reading.named(command, results, name, fault, ran["errors"]) if found else "",
+        "build": " ".join(filter(None, (results.get("version"), results.get("build")))), "sentence": sentence}
+
+
+def rows_of(works):
+    """The table."""
+    right = set()
+    for work in works:
+        if work["command"] == "cost" and work["fault"] is control:
+            right = reading.good_columns(results_of(work["kept"]), "right")
+    return [judged(work, right) for work in works]
 
 
 def main():
@@ -135,55 +156,34 @@ def main():
     parser.add_argument("--commands", default="", help="some of them, separated by commas; all unless given")
     parser.add_argument("--jobs", type=int, default=1, help="so many side by side")
     parser.add_argument("--again", action="store_true", help="run also what has a record")
-    parser.add_argument("--cpu", action="store_true", help="seconds are those of processors: for a machine with other work; none is stopped")
+    parser.add_argument("--cpu", action="store_true", help="for a machine with other work: none is stopped after so many seconds")
     parser.add_argument("--require", action="store_true", help="status 1 unless all are found by one of the commands, and the control by none")
     options = parser.parse_args()
     options.crossgrain, options.engine, options.out = (
         path.resolve() for path in (options.crossgrain, options.engine, options.out))
     for folder in ("records", "engines"):
         (options.out / folder).mkdir(parents=True, exist_ok=True)
-    works = {work["kept"]: work for path in options.faults for work in works_of(path, options)}  # controls of several lists once
-    commands = list(dict.fromkeys(work["command"] for work in works.values()))
+    works = works_of_lists(options.faults, options.out, options.only)
+    commands = list(dict.fromkeys(work["command"] for work in works))
     wanted = options.commands.split(",") if options.commands else commands
     if "diff" in wanted:
         baseline_of_right(options)
-    chosen = {work["fault"]["name"]: work["fault"] for work in works.values()}
-    missing = {kept for kept, work in works.items() if work["command"] in wanted and (options.again or not kept.exists())}
-    right = set()
-    records = []
-
-    def report(work):
-        nonlocal right
-        kept, fault, command = work["kept"], work["fault"], work["command"]
-        if fault is control:
-            right = reading.good_columns(results_of(kept), "right") if command == "cost" else right
-        record = judged(command, fault, kept, right, options.cpu)
-        if kept in missing:
-            print(f"{fault['name']:<26} {command:<12} {'found' if record['found'] else '–':<6} {record['seconds']:>6} s  "
-                  f"{record['named']:<8} {record['sentence'][:90]}", flush=True)
-        records.append(record)
-
+    missing = [work for command in wanted for work in works if work["command"] == command and (options.again or not work["kept"].exists())]
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        for command in wanted:
-            own = [work for work in works.values() if work["command"] == command]
-            running = {work["kept"]: pool.submit(run, options, work) for work in own if work["kept"] in missing}
-            for work in own:
-                if work["kept"] in running:
-                    running[work["kept"]].result()
-                report(work)
-    # What other calls have kept of other commands.
-    for work in works.values():
-        if work["command"] not in wanted and work["kept"].exists():
-            records.append(judged(work["command"], work["fault"], work["kept"], right, options.cpu))
-    table.write(options.out, list(chosen.values()), commands, records)
-    print((options.out / "totals.md").read_text())
+        for work, running in [(work, pool.submit(run, options, work)) for work in missing]:
+            running.result()
+            row = judged(work, set())
+            print(f"{row['fault']:<26} {row['command']:<12} {'found' if row['found'] == 'yes' else '–':<6} {row['cpu_s']:>6} s  "
+                  f"{row['named']:<8} {row['sentence'][:90]}", flush=True)
+    rows = rows_of(works)
+    table.write(options.out / "table.csv", rows)
+    print(table.totals(rows))
     if not options.require:
         return 0
-    seen = {record["fault"] for record in records if record["found"]}
-    missed = [fault["name"] for fault in chosen.values() if fault["patch"] and fault["name"] not in seen]
-    for name in missed:
-        print(f"not found: {name}")
-    accused = [fault["name"] for fault in chosen.values() if not fault["patch"] and fault["name"] in seen]
+    missed = [what for missed in table.escapes(rows).values() for what in missed]
+    for what in missed:
+        print(f"not found: {what}")
+    accused = table.found(table.of(rows, control=True))
     if accused:
         print("the right engine was found at fault")
     return 1 if missed or accused else 0

@@ -2,12 +2,23 @@
 
 import re
 
-naming = ("lockstep", "compare", "conformance", "diff")  # commands that name causes
+from table import naming
 
 
 def found(status):
     """Whether a user's script sees it."""
     return status in (1, 3)
+
+
+def accused(command, status, results, engine, own_law=True):
+    """Whether an engine that is right is found at fault (false_alarms.toml, other_engines.toml). @param own_law  whether the case has the law that it declares"""
+    if command == "compare" and not own_law:
+        return status == 3 or blame(command, status, results, engine) == "implementation"
+    runs = results.get("runs", []) if command == "stability" else []
+    if status != 1 or not any(run["engine"] == "grain" for run in runs):
+        return status in (1, 3)
+    unstable = {(run["engine"], run["case"], run.get("variant")) for run in runs if run["verdict"] == "unstable"}
+    return any(name == engine and ("grain", *run) not in unstable for name, *run in unstable)
 
 
 def _cells(results, engine):
@@ -97,7 +108,7 @@ def _is_term(fault, term):
 
 
 def named(command, results, engine, fault, errors):
-    """ "rightly", "wrongly", "" (nothing is named)."""
+    """ "rightly", "wrongly", "by check" (no cause is given, and a check fails that is for the fault), "" (nothing is named)."""
     if command not in naming:
         return ""
     term = term_of(command, results, engine)
@@ -107,7 +118,7 @@ def named(command, results, engine, fault, errors):
     if broken and "says" in fault and any(re.search(fault["says"], what) for what in broken):
         return "rightly"
     if command == "conformance" and set(failed_checks(results)) & {*fault.get("checks", []), *fault.get("later", [])}:
-        return "rightly"
+        return "by check"
     return ""
 
 

@@ -1,75 +1,97 @@
-"""The table of planted faults: table.csv, README.md's rows, totals."""
+"""The table of planted faults, of what every command made of every fault: table.csv, totals, rows, sentences."""
 
 import csv
 
-import reading
+naming = ("lockstep", "compare", "conformance", "diff")  # commands that name causes
+columns = ["list", "fault", "control", "what", "command", "status", "found", "cpu_s", "put_down_to", "named", "build", "sentence"]
+not_run = "not run"
+named = {"rightly": "✓ named", "by check": "✓ by check", "wrongly": "✓ misnamed", "": "✓"}
 
-deciding = ("compare", "conformance")  # a user's two commands, by which the aim is set
+
+def write(path, records):
+    with path.open("w", newline="") as file:
+        writer = csv.DictWriter(file, columns, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(records)
 
 
-def _mark(record):
-    if record is None:
+def read(path):
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def commands_of(rows):
+    return list(dict.fromkeys(row["command"] for row in rows))
+
+
+def lists_of(rows):
+    return list(dict.fromkeys(row["list"] for row in rows))
+
+
+def builds_of(rows):
+    return sorted({row["build"] for row in rows if row["build"]})
+
+
+def ran(rows):
+    return [row for row in rows if row["status"] != not_run]
+
+
+def of(rows, control=False, **wanted):
+    """What has been run, of faults or of right engines."""
+    return [row for row in ran(rows) if (row["control"] == "yes") == control and all(row[key] == value for key, value in wanted.items())]
+
+
+def found(rows):
+    return [row for row in rows if row["found"] == "yes"]
+
+
+def count(rows, how):
+    return sum(row["named"] == how for row in found(rows))
+
+
+def markdown(lines):
+    return "".join("| " + " | ".join(map(str, line)) + " |\n" for line in [lines[0], ["---"] * len(lines[0]), *lines[1:]])
+
+
+def totals(rows):
+    """Command by command: what is found of each list and of all, what is named how, after which time; the controls."""
+    lists = lists_of(rows)
+    lines = [["command", *(f"`{name}`" for name in lists), "all", "named rightly", "by the check that fails", "wrongly", "not named", "median time",
+              "right engines at fault"]]
+    for command in commands_of(rows):
+        faults = of(rows, command=command)
+        hits = found(faults)
+
+        def share(part):
+            return f"{len(found(part))} of {len(part)}" if part else "–"
+
+        how = [count(faults, name) if faults and command in naming else "–" for name in ("rightly", "by check", "wrongly", "")]
+        seconds = sorted(float(row["cpu_s"]) for row in hits)
+        lines.append([f"`{command}`", *(share(of(rows, command=command, list=name)) for name in lists), share(faults), *how,
+                      f"{seconds[len(seconds) // 2]:.1f} s" if seconds else "–", share(of(rows, True, command=command))])
+    return markdown(lines)
+
+
+def _mark(row):
+    if row is None or row["status"] == not_run:
         return "–"
-    if record["status"] is None:
+    if row["status"] == "timeout":
         return "not in time"
-    if not record["found"]:
-        return "·"
-    mark = {"rightly": "✓ named", "wrongly": "✓ misnamed", "": "✓"}[record["named"]]
-    return f"{mark} {record['seconds']:.0f} s"
+    return f"{named[row['named']]} {float(row['cpu_s']):.0f} s" if row["found"] == "yes" else "·"
 
 
-def _counts(faults, commands, of):
-    lines = []
-    for command in commands:
-        ran = [of[fault, command] for fault in faults if (fault, command) in of]
-        if not ran:
-            continue
-        hit = [record for record in ran if record["found"]]
-        blamed = sum(record["blame"] == "implementation" for record in hit)
-        rightly = sum(record["named"] == "rightly" for record in hit)
-        wrongly = sum(record["named"] == "wrongly" for record in hit)
-        seconds = sorted(record["seconds"] for record in hit) or [0.0]
-        lines.append((command, len(hit), len(ran), seconds[len(seconds) // 2], blamed, rightly, wrongly))
-    return lines
+def by_fault(rows, name):
+    """Fault by fault of one list."""
+    own, commands = [row for row in rows if row["list"] == name], commands_of(rows)
+    cells = {(row["fault"], row["command"]): row for row in own}
+    lines = [["fault", *(f"`{command}`" for command in commands)]]
+    for fault, what, control in dict.fromkeys((row["fault"], row["what"], row["control"]) for row in own):
+        lines.append([f"{what} (`{fault}`)" if control else what, *(_mark(cells.get((fault, command))) for command in commands)])
+    return markdown(lines)
 
 
-def write(out, faults, commands, records):
-    of = {(record["fault"], record["command"]): record for record in records}
-    with (out / "table.csv").open("w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["fault", "what", "command", "status", "found", "seconds", "put_down_to", "named", "sentence"])
-        for fault in faults:
-            for command in commands:
-                record = of.get((fault["name"], command))
-                if record is None:
-                    continue
-                writer.writerow([fault["name"], fault["what"], command,
-                                 "timeout" if record["status"] is None else record["status"],
-                                 "yes" if record["found"] else "no", record["seconds"], record["blame"],
-                                 record["named"], record["sentence"]])
-    names = [fault["name"] for fault in faults if fault["patch"]]
-    lines = ["| command | finds | median time | put down to the implementation | named rightly | named wrongly |",
-             "|---|---|---|---|---|---|"]
-    for command, hit, ran, seconds, blamed, rightly, wrongly in _counts(names, commands, of):
-        names_things = command in reading.naming
-        lines.append(f"| `{command}` | {hit} of {ran} | {seconds:.0f} s | {blamed or '–'} | "
-                     f"{rightly if names_things else '–'} | {wrongly if names_things else '–'} |")
-
-    def by_either(test):
-        return [name for name in names
-                if any((name, command) in of and test(of[name, command]) for command in deciding)]
-
-    both = [name for name in names if all((name, command) in of for command in deciding)]
-    hit = by_either(lambda record: record["found"])
-    rightly = by_either(lambda record: record["named"] == "rightly")
-    lines.append(f"\n`compare` or `conformance` finds {len(hit)} of {len(names)} within two minutes and names {len(rightly)} of them rightly."
-                 if len(both) == len(names) else "\nNot every fault was run by both of `compare` and `conformance`.")
-    missed = [name for name in names if name not in hit]
-    if missed and len(both) == len(names):
-        lines.append("Escapes of both: " + ", ".join(missed) + ".")
-    (out / "totals.md").write_text("\n".join(lines) + "\n")
-    rows = ["| fault | " + " | ".join(f"`{command}`" for command in commands) + " |", "|---" * (len(commands) + 1) + "|"]
-    for fault in faults:
-        cells = " | ".join(_mark(of.get((fault["name"], command))) for command in commands)
-        rows.append(f"| {fault['what']} | {cells} |")
-    (out / "table.md").write_text("\n".join(rows) + "\n")
+def escapes(rows):
+    """Faults that no command found of those that were run, by list: what each is."""
+    seen = {row["fault"] for row in found(rows)}
+    missed = {(row["list"], row["fault"]): row["what"] for row in of(rows) if row["fault"] not in seen}
+    return {name: [what for (of_list, _), what in missed.items() if of_list == name] for name in lists_of(rows)}

@@ -5,6 +5,7 @@ import unittest
 import false_alarms
 import publish
 import reading
+import table
 
 KN = {"term": "kn|k_n", "amount": [0.008, 0.0125], "checks": ["HeadOnCollision"]}
 CUT = {"term": "tension = cut"}
@@ -44,7 +45,7 @@ class Named(unittest.TestCase):
     def test_the_first_statement_decides_and_checks_where_there_is_none(self):
         wrong = "lockstep's closest term: inertia +228 % (leaves 28.8 % of the separation); found from outside: its k_n is +1 % off the case's"
         self.assertEqual("wrongly", self.named("conformance", conformance(wrong, "HeadOnCollision"), KN))
-        self.assertEqual("rightly", self.named("conformance", conformance("", "HeadOnCollision"), KN))
+        self.assertEqual("by check", self.named("conformance", conformance("", "HeadOnCollision"), KN))
         self.assertEqual("", self.named("conformance", conformance("", "FliesStraight"), KN))
 
     def test_a_place_is_no_part_of_a_term_and_torque_is_inertia(self):
@@ -75,6 +76,40 @@ class Found(unittest.TestCase):
         self.assertEqual("", reading.blame("collide", 0, results("good"), "mine"))
 
 
+class Table(unittest.TestCase):
+    """Six runs of three faults and a right engine, and one that has not been."""
+
+    def row(self, fault, command, found="no", named="", status="0", control=""):
+        return {"list": "faults", "fault": fault, "control": control, "what": f"{fault} is off", "command": command, "status": status,
+                "found": found, "cpu_s": "2.0", "put_down_to": "", "named": named, "build": "1", "sentence": ""}
+
+    def setUp(self):
+        self.rows = [self.row("right", "conformance", control="yes"), self.row("kn", "conformance", "yes", "rightly"),
+                     self.row("mu", "conformance", "yes", "by check"), self.row("gn", "conformance"),
+                     self.row("kn", "collide"), self.row("mu", "collide", "yes"), self.row("gn", "collide", status=table.not_run)]
+
+    def test_totals_count_what_was_run(self):
+        lines = table.totals(self.rows).splitlines()
+        self.assertEqual("| `conformance` | 2 of 3 | 2 of 3 | 1 | 1 | 0 | 0 | 2.0 s | 0 of 1 |", lines[2])
+        self.assertEqual("| `collide` | 1 of 2 | 1 of 2 | – | – | – | – | 2.0 s | – |", lines[3])
+
+    def test_what_no_command_finds_escapes(self):
+        self.assertEqual({"faults": ["gn is off"]}, table.escapes(self.rows))
+
+    def test_each_fault_has_a_mark_for_each_command(self):
+        self.assertEqual(["| right is off (`right`) | · | – |", "| kn is off | ✓ named 2 s | · |", "| mu is off | ✓ by check 2 s | ✓ 2 s |", "| gn is off | · | – |"],
+                         table.by_fault(self.rows, "faults").splitlines()[2:])
+
+    def test_what_an_unstable_run_says_of_an_engine_is_what_it_says_beside_the_in_house_engine(self):
+        def results(**verdicts):
+            return {"runs": [{"engine": engine, "case": "pile", "variant": "a", "verdict": verdict} for engine, verdict in verdicts.items()]}
+
+        self.assertTrue(reading.accused("stability", 1, results(grain="stable", mine="unstable"), "mine"))
+        self.assertFalse(reading.accused("stability", 1, results(grain="unstable", mine="unstable"), "mine"))
+        self.assertTrue(reading.accused("stability", 1, results(mine="unstable"), "mine"))
+        self.assertTrue(reading.accused("stability", 3, results(grain="unstable", mine="unstable"), "mine"))
+
+
 class FalseAlarms(unittest.TestCase):
     def test_the_interval_is_that_of_clopper_and_pearson(self):
         """Closed forms without alarms and with nothing else; a value of their table between."""
@@ -86,9 +121,12 @@ class FalseAlarms(unittest.TestCase):
         self.assertAlmostEqual(0.0025, low, 4)
         self.assertAlmostEqual(0.4450, high, 4)
 
-    def test_the_curated_page_says_what_its_table_says(self):
-        trust = false_alarms.project / "reports/curated/trust"
-        self.assertIn(publish.false_alarms(trust / "false-alarms.csv"), (trust / "README.md").read_text())
+    def test_pages_say_what_the_tables_say(self):
+        same = publish.sections(publish.trust) in (publish.trust / "README.md").read_text()
+        self.assertTrue(same, "reports/curated/trust/README.md is not what publish.py makes of the tables beside it")
+        for name, marks in publish.sentences(publish.trust).items():
+            for mark, sentence in marks.items():
+                self.assertEqual(sentence, publish.marked((false_alarms.project / name).read_text(), mark))
 
     def test_alarms_are_counted_for_each_command(self):
         rules = {"collide": {"promised": 0.0}, "compare": {"promised": 0.05}, "disguise": {}}

@@ -118,6 +118,28 @@ TEST(ContactAccount, WithoutSlidingFlags_HasOnlyTheSum) {
   EXPECT_EQ(sums[0], sums[1]);
 }
 
+/// Constants that an engine does not report are the scene's.
+TEST(ContactAccount, WithoutReportedPairs_HasTheSameParts) {
+  const Case setup = sweepCase();
+  const double dt = test::smallContactTime / 50.0;
+  const Scene scene = collisionScene(setup, collisionStarts(setup), dt);
+  std::vector<double> sliding[2], sticking[2];
+  for (const bool reported : {false, true}) {
+    const auto engine = makeGrain();
+    EffectiveParameters effective = engine->load(scene, {});
+    if (!reported) effective.pairs.clear();
+    for (const auto& account : recordContacts(
+             *engine, ContactRecording<2>{scene, collidingPair(setup), scene.law, effective, true},
+             2.0 * test::smallContactTime)) {
+      ASSERT_TRUE(account && account->split);
+      sliding[reported].push_back(account->split->sliding);
+      sticking[reported].push_back(account->split->tangentialDamping);
+    }
+  }
+  EXPECT_EQ(sliding[0], sliding[1]);
+  EXPECT_EQ(sticking[0], sticking[1]);
+}
+
 TEST(ContactAccount, OfImpulses_IsAbsent) {
   Case setup = sweepCase();
   setup.run.mayDiffer = {

@@ -19,6 +19,7 @@
 #include "studies/lockstep/lockstep.hpp"
 #include "studies/lockstep/rules.hpp"
 #include "tests/studies/planted_engine.hpp"
+#include "tests/studies/planted_program.hpp"
 #include "tests/studies/quick_cell.hpp"
 #include "tests/support/two_disks.hpp"
 
@@ -189,6 +190,30 @@ TEST_F(Lockstep, SinglePrecision_IsNoOtherLaw) {
   EXPECT_EQ(wrong.term->name, "kn");
 }
 
+/// A dashpot outside the bound and a spring reset without it drive each other: not both at once.
+TEST_F(Lockstep, ConventionOfAnotherProgram_DeclaredIsItsLaw_ElseItIsNamed) {
+  test::expectDeclaredOrNamed(*flow_, {{"integrator=2", "integrator = semi_implicit_euler"},
+                                       {"spring_before=1", "spring_update = before"},
+                                       {"spring_only=1", "spring_reset = spring_only"},
+                                       {"lever_middle=1", "lever_arm = overlap_middle"},
+                                       {"cut_tension=1", "tension = cut"}});
+  test::expectDeclaredOrNamed(*flow_, {{"lagged=1", "damping_velocity = lagged"},
+                                       {"dashpot_outside=1", "dashpot = outside"}});
+}
+
+/// Both Verlet schemes are one motion, whichever an engine declares.
+TEST_F(Lockstep, VelocityVerletOfAnotherProgram_IsPositionVerlet) {
+  for (const bool declares : {true, false})
+    EXPECT_EQ(test::rowOfProgram(*flow_, {"integrator=1"}, declares).verdict,
+              Equivalence::sameToRounding);
+}
+
+TEST_F(Lockstep, SinglePrecisionOfAnotherProgram_IsItsPrecisionWhereItDeclaresThat) {
+  EXPECT_EQ(test::rowOfProgram(*flow_, {"float_state=2"}, true).verdict,
+            Equivalence::sameToPrecision);
+  EXPECT_EQ(test::rowOfProgram(*flow_, {"float_state=2"}, false).verdict, Equivalence::differs);
+}
+
 TEST_F(Lockstep, MissingContact_IsFoundAtItsDisk) {
   // A disk of the first start that touches one other is a little smaller there: it lets go.
   const std::size_t lonely = diskWithOneContact(flow_->states.front());
@@ -318,8 +343,8 @@ TEST(LateWindows, RunInWhichNoConstantActs_SaysNothingOfTheLaw) {
   Packing packing;
   packing.disks = {{setup.particles.smallRadius}, {1e-4}, {1e-9}, {{x, 0.0}}, {{0.0, 0.0}}, {0.0}};
   const auto engine = makeGrain();
-  const LateWindows late = followLate(*engine, test::inHouse, setup, packing, 0, timeStep(setup), 4,
-                                      [](double) {});
+  const LateWindows late =
+      followLate(*engine, test::inHouse, setup, packing, 0, timeStep(setup), 4, [](double) {});
   EXPECT_FALSE(late.times.empty());
   EXPECT_TRUE(late.equivalents.empty());
   EXPECT_NE(late.failure.find("say nothing of its law"), std::string::npos) << late.failure;

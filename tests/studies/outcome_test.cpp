@@ -217,6 +217,34 @@ TEST(LockstepOutcome, DiffersFailureAndNoMirror_Decide) {
   EXPECT_EQ(status(Equivalence::notMeasured, "broke"), exitEngineFailed);
 }
 
+/// Which of several collisions of rigid disks comes first their law leaves open: borderline, as the
+/// reports have it.
+TEST(LockstepOutcome, DifferenceThatTheLawLeavesOpen_IsNoOtherLaw) {
+  LockstepFindings findings;
+  findings.rules.referencePerturbation = "en";
+  LockstepRow& row = findings.rows.emplace_back();
+  row.engine = "b";
+  row.verdict = Equivalence::differs;
+  const auto statuses = [&](bool strict) {
+    LockstepResults alone;
+    alone.lockstep = findings;
+    LockstepOptions own;
+    own.strict = strict;
+    CompareResults compared;
+    compared.lockstep = findings;
+    CompareOptions options;
+    options.strict = strict;
+    return std::pair(lockstepStudy.outcome(alone, {}, own).status,
+                     compareStudy.outcome(compared, {}, options).status);
+  };
+  EXPECT_EQ(statuses(false), std::pair(exitFailed, exitFailed));
+  row.severalAtOnce = true;
+  EXPECT_EQ(statuses(false), std::pair(exitPassed, exitPassed));
+  EXPECT_EQ(statuses(true), std::pair(exitFailed, exitFailed));
+  findings.rules.referencePerturbation = "kn";  // of soft disks nothing is open
+  EXPECT_EQ(statuses(false), std::pair(exitFailed, exitFailed));
+}
+
 TEST(ScaleEffectsAndConformanceOutcome, Failures_AreEngineFailures) {
   ScaleResults scaled;
   scaled.points.emplace_back().status = Status::finished;

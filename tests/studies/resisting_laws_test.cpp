@@ -12,6 +12,7 @@
 #include "studies/lockstep/rules.hpp"
 #include "studies/lockstep/terms.hpp"
 #include "tests/studies/planted_engine.hpp"
+#include "tests/studies/planted_program.hpp"
 #include "tests/studies/quick_cell.hpp"
 
 namespace {
@@ -71,7 +72,7 @@ class ResistingCell : public testing::Test {
 
 TEST_F(ResistingCell, RollingSpring_ConstantsAndConventionsAreFound) {
   const test::QuickFlow flow(3, {"preparation.rotations=0.2", "law.rolling=spring", "law.kr=26.7",
-                                 "law.gr=0.015", "law.mu_r=0.1"});
+                                 "law.gr=0.015", "law.mu_r=0.1", "run.may_differ=conventions"});
   for (const auto& [constant, name] :
        {std::pair(&ContactLaw::kr, "kr"), {&ContactLaw::gr, "gr"}, {&ContactLaw::muR, "mu_r"}})
     expectConstant(flow, constant, name);
@@ -83,6 +84,10 @@ TEST_F(ResistingCell, RollingSpring_ConstantsAndConventionsAreFound) {
   const auto [found, alike] = expectOptions(flow, LawPart::rolling);
   EXPECT_GE(found, 6);
   EXPECT_LE(alike, 2);
+  test::expectDeclaredOrNamed(flow, {{"roll_length=2", "rolling_length = twice_effective"},
+                                     {"roll_dashpot_outside=1", "rolling_dashpot = outside"},
+                                     {"roll_spring_only=1", "rolling_reset = spring_only"},
+                                     {"spring_before=1", "spring_update = before"}});
   const Identification without =
       identified(flow, [](ContactLaw& law) { law.rolling = RollingLaw::none; });
   EXPECT_EQ(without.missing, std::vector<std::string>{"rolling_resistance"});

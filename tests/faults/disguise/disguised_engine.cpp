@@ -13,6 +13,7 @@ DisguisedEngine::DisguisedEngine(const Disguise& disguise, std::filesystem::path
 Capabilities DisguisedEngine::capabilities() const {
   Capabilities can = engine_->capabilities();
   can.checkpoints = false;
+  can.periodic = false;  // no Transform turns a box
   can.energyLedger = false;
   can.settings.clear();
   return can;
@@ -69,7 +70,8 @@ Stats DisguisedEngine::stats() const {
 
 namespace {
 
-void tellBack(Contacts& contacts, const Transform& by, std::size_t disks, double force) {
+void tellBack(Contacts& contacts, const Transform& by, std::size_t disks) {
+  const double force = by.units.of(1, 1, -2), energy = by.units.of(2, 1, -2);
   const double handed = by.placement.mirror ? -1.0 : 1.0;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     for (std::int32_t* id : {&contacts.i[c], &contacts.j[c]})
@@ -79,9 +81,11 @@ void tellBack(Contacts& contacts, const Transform& by, std::size_t disks, double
     contacts.overlap[c] /= by.units.length;
     contacts.normalForce[c] /= force;
     contacts.tangentialForce[c] *= handed / force;
+    if (!contacts.rollingTorque.empty()) contacts.rollingTorque[c] *= handed / energy;
     if (contacts.i[c] < contacts.j[c]) continue;
     std::swap(contacts.i[c], contacts.j[c]);  // the force on the other along the other normal
     contacts.normal[c] = -contacts.normal[c];
+    if (!contacts.rollingTorque.empty()) contacts.rollingTorque[c] = -contacts.rollingTorque[c];
   }
 }
 
@@ -111,7 +115,7 @@ Snapshot transformedBack(Snapshot now, const Transform& by) {
     if (body.force) body.force = Vec2(by.placement.turnedBack(*body.force) / force);
     if (body.torque) *body.torque *= handed / energy;
   }
-  if (now.contacts) tellBack(*now.contacts, by, now.position.size(), force);
+  if (now.contacts) tellBack(*now.contacts, by, now.position.size());
   if (now.energies) {
     now.energies->kinetic /= energy;
     now.energies->elastic /= energy;

@@ -18,6 +18,9 @@ double signedLike(double size, double like) {
   return like > 0.0 ? size : like < 0.0 ? -size : 0.0;
 }
 
+/// Values of Faults::integrator.
+constexpr double stoermer = 0.0, velocityVerlet = 1.0, semiImplicitEuler = 2.0;
+
 /// Whether a place is where nothing is looked for; a grid of no extent has no end.
 bool beyondGrid(Vector place, double grid) {
   return grid > 0.0 && std::max(std::abs(place.x), std::abs(place.y)) > grid;
@@ -41,11 +44,9 @@ Simulation::Simulation(World world, const Faults& faults)
   torque_.resize(world_.disks);
   moveWalls();
   addForces(0.0);
+  if (faults_.integrator != stoermer) return;
   halfKick_ = 0.5 * world_.dt;  // velocities live half a step before positions from here on
-  for (std::size_t i = 0; i < world_.disks; ++i) {
-    world_.velocity[i] = world_.velocity[i] - (halfKick_ / world_.mass[i]) * force_[i];
-    if (world_.turns) world_.spin[i] -= halfKick_ * torque_[i] / world_.inertia[i];
-  }
+  kick(-halfKick_);
 }
 
 void Simulation::step() {
@@ -53,20 +54,38 @@ void Simulation::step() {
   const auto stride = static_cast<unsigned long long>(std::max(1.0, faults_.stride));
   if (steps_ % stride != 0) return;
   const double dt = static_cast<double>(stride) * world_.dt;
+  const bool twoKicks = faults_.integrator == velocityVerlet;
+  kick(twoKicks ? 0.5 * dt : dt);
   drift(dt);
   moveWalls();
-  addForces(0.5 * dt);
+  addForces(faults_.integrator == semiImplicitEuler ? 0.0 : 0.5 * dt);
+  if (twoKicks) kick(0.5 * dt);
 }
 
-/// v += a dt, x += v dt.
+/// v += a dt.
+void Simulation::kick(double dt) {
+  for (std::size_t i = 0; i < world_.disks; ++i) {
+    world_.velocity[i] = stored(world_.velocity[i] + (dt / world_.mass[i]) * force_[i]);
+    if (world_.turns) world_.spin[i] = stored(world_.spin[i] + dt * torque_[i] / world_.inertia[i]);
+  }
+}
+
+/// A number of the state but a position, as it is kept.
+double Simulation::stored(double number) const {
+  return faults_.floatState > 1.0 ? static_cast<float>(number) : number;
+}
+
+Vector Simulation::stored(Vector vector) const {
+  return {stored(vector.x), stored(vector.y)};
+}
+
+/// x += v dt.
 void Simulation::drift(double dt) {
   bool turnedOnce = false;
   for (const Body& body : world_.bodies)
     turnedOnce = turnedOnce || std::abs(body.angle) > 2.0 * std::numbers::pi;
   for (std::size_t i = 0; i < world_.disks; ++i) {
     Vector& v = world_.velocity[i];
-    v = v + (dt / world_.mass[i]) * force_[i];
-    if (world_.turns) world_.spin[i] += dt * torque_[i] / world_.inertia[i];
     if (everyNth(faults_.healEvery, steps_) && i == steps_ % world_.disks)
       v.x = std::numeric_limits<double>::quiet_NaN();
     if (faults_.healEvery > 0.0 && !std::isfinite(v.x)) v = {};
@@ -132,6 +151,7 @@ void Simulation::addPlate(std::size_t i) {
     plateSpring_[i] = plateSpring_[i] + world_.dt * dashpotVelocity_[i];
   else
     plateSpring_[i] = (plate.kb > 0.0 ? -1.0 / plate.kb : 0.0) * force;
+  plateSpring_[i] = stored(plateSpring_[i]);
   force_[i] = force_[i] + force;
   if (!world_.turns || !plate.spin) return;
   const double spin = seenSpin_[i], radius = world_.radius[i];
@@ -256,7 +276,7 @@ Contact Simulation::contact(std::size_t i, std::size_t j, Vector n, double overl
             0.0,
             elastic,
             false};
-  if (faults_.cutTension != 0.0) c.fn = std::max(c.fn, 0.0);
+  if (faults_.cutTension != 0.0) c.fn = std::max(c.fn, std::min(elastic, 0.0));  // a pull stays
   // Bounds are those of the force without the pull.
   double load = c.fn;
   if (law.more.cohesion == Cohesion::elastoPlastic)
@@ -281,6 +301,7 @@ Contact Simulation::contact(std::size_t i, std::size_t j, Vector n, double overl
         spring = faults_.springBefore != 0.0 ? stretched : spring + stretch;
       else
         spring = kt > 0.0 ? -(faults_.springOnly != 0.0 ? c.ft - viscous : c.ft) / kt : 0.0;
+      spring = stored(spring);
     } else if (law.dashpot) {
       c.sliding = std::abs(viscous) > bound;
       c.ft = signedLike(std::min(std::abs(viscous), bound), viscous);

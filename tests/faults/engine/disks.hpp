@@ -48,7 +48,9 @@ struct World {
 
 /// Soft disks in Störmer's scheme: velocities and spins live half a step before positions, and
 /// contacts see them brought on by the last acceleration. With neutral faults it is the in-house
-/// engine's motion under the thesis' conventions.
+/// engine's motion under the thesis' conventions. The other schemes differ in when velocities are
+/// kicked: twice by half a step around the drift (velocity Verlet), or whole steps from the start's
+/// velocities on, which are seen as they are (semi-implicit Euler).
 class Simulation {
  public:
   Simulation(World world, const Faults& faults);
@@ -78,7 +80,7 @@ class Simulation {
   const std::vector<Contact>& contacts() const { return contacts_; }
   const std::vector<Vector>& forceOnBodies() const { return onBody_; }
   const std::vector<double>& torqueOnBodies() const { return torqueOnBody_; }
-  /// Of disk i at the time of positions.
+  /// Of disk i at the time of positions, but that semi-implicit Euler's are half a step older.
   Vector velocity(std::size_t i) const {
     return world_.velocity[i] + (halfKick_ / world_.mass[i]) * force_[i];
   }
@@ -88,6 +90,9 @@ class Simulation {
 
  private:
   void drift(double dt);
+  void kick(double dt);
+  double stored(double number) const;
+  Vector stored(Vector vector) const;
   void moveWalls();
   void addForces(double ahead);
   bool late() const { return now() > 1.0; }

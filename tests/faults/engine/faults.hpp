@@ -57,6 +57,10 @@ int servePlanted(const char* name, int argc, char** argv) {
 struct Faults {
   Words given;
 
+  /// 1: conventions, integrator and precision that are changed below are those that it declares, so
+  /// that it is right, and steps otherwise (../other_engines.toml).
+  double declares = given("declares", 0.0);
+
   // Factors of what the scene says.
   double kn = given("kn", 1.0), gn = given("gn", 1.0), kt = given("kt", 1.0), gt = given("gt", 1.0),
          mu = given("mu", 1.0);
@@ -98,8 +102,9 @@ struct Faults {
   double dropEvery = given("drop_every", 0.0);  ///< n: every n-th contact evaluated has no force
   double healEvery =
       given("heal_every", 0.0);  ///< n: every n-th step a velocity that is no number becomes 0
-  double floatState =
-      given("float_state", 0.0);  ///< positions are rounded to float32 after every step
+  double floatState = given("float_state", 0.0);  ///< positions are rounded to float32 after every
+                                                  ///< step; 2: velocities, spins and springs too
+  double integrator = given("integrator", 0.0);   ///< 1: velocity Verlet; 2: semi-implicit Euler
   double flippedWalls =
       given("flipped_walls", 0.0);  ///< n: disk n−1 sees walls with their normals turned round
   double driftAfterTurn =

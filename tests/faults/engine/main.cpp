@@ -240,7 +240,7 @@ class PlantedEngine {
  public:
   explicit PlantedEngine(const Faults& faults) : faults_(faults) {}
 
-  static Json capabilities() {
+  Json capabilities() const {
     Json effects;
     for (const char* name :
          {"normal_damping", "friction", "tangential_spring", "tangential_damping", "rotation",
@@ -248,41 +248,40 @@ class PlantedEngine {
           "rolling_resistance", "cohesion"})
       effects[name] = "optional";
     const auto only = [](const char* value) { return Json::array({value}); };
-    return {{"version", "1"},
-            {"effects", effects},
-            {"law_options",
-             {{"normal", {"linear", "hertz"}},
-              {"damper", only("constant")},
-              {"tangential", {"none", "coulomb", "viscous", "spring", "spring_dashpot"}},
-              {"tension", only("allow")},
-              {"coulomb_bound", only("compression")},
-              {"dashpot", only("inside")},
-              {"spring_reset", only("total")},
-              {"spring_update", only("after")},
-              {"lever_arm", only("radius")},
-              {"velocity_arm", only("lever_arm")},
-              {"history", only("displacement")},
-              {"damping_velocity", only("predicted")},
-              {"integrator", only("position_verlet")},
-              {"rolling", rollingKinds},
-              {"rolling_length", only("effective")},
-              {"rolling_stiffness", only("length_square")},
-              {"rolling_damper", only("constant")},
-              {"rolling_load", only("compression")},
-              {"rolling_dashpot", only("inside")},
-              {"rolling_reset", only("total")},
-              {"cohesion", cohesionKinds},
-              {"cohesion_area", only("lens")},
-              {"jkr_end", only("largest_pull")},
-              {"cohesion_load", only("without_pull")},
-              {"unloading_stiffness", only("current")}}},
-            {"precisions", only("double")},
-            {"instant_contacts", true},
-            {"accumulated_contacts", false},
-            {"warm_handover", false},
-            {"checkpoints", true},
-            {"sliding_flags", true},
-            {"settings", Json::array()}};
+    const Faults& f = faults_;
+    Json options = {
+        {"normal", {"linear", "hertz"}},
+        {"damper", only("constant")},
+        {"tangential", {"none", "coulomb", "viscous", "spring", "spring_dashpot"}},
+        {"tension", only(declared(f.cutTension, "allow", "cut"))},
+        {"coulomb_bound", only("compression")},
+        {"dashpot", only(declared(f.dashpotOutside, "inside", "outside"))},
+        {"spring_reset", only(declared(f.springOnly, "total", "spring_only"))},
+        {"spring_update", only(declared(f.springBefore, "after", "before"))},
+        {"lever_arm", only(declared(f.leverMiddle, "radius", "overlap_middle"))},
+        {"velocity_arm", only("lever_arm")},
+        {"history", only("displacement")},
+        {"damping_velocity", only(declared(f.lagged, "predicted", "lagged"))},
+        {"integrator", only(declaredIntegrator())},
+        {"rolling", rollingKinds},
+        {"rolling_length", only(declared(f.rollLength - 1.0, "effective", "twice_effective"))},
+        {"rolling_stiffness", only("length_square")},
+        {"rolling_damper", only("constant")},
+        {"rolling_load", only("compression")},
+        {"rolling_dashpot", only(declared(f.rollDashpotOutside, "inside", "outside"))},
+        {"rolling_reset", only(declared(f.rollSpringOnly, "total", "spring_only"))},
+        {"cohesion", cohesionKinds},
+        {"cohesion_area", only("lens")},
+        {"jkr_end", only("largest_pull")},
+        {"cohesion_load", only("without_pull")},
+        {"unloading_stiffness", only(declared(f.lagDeepest, "current", "lagged"))}};
+    if (f.leverMiddle != 0.0 && f.declares != 0.0) options["plane_arm"] = only("surface");
+    return {
+        {"version", "1"},           {"effects", effects},
+        {"law_options", options},   {"precisions", only(declared(f.floatState, "double", "float"))},
+        {"instant_contacts", true}, {"accumulated_contacts", false},
+        {"warm_handover", false},   {"checkpoints", true},
+        {"sliding_flags", true},    {"settings", Json::array()}};
   }
 
   Json load(const Json& scene, const Arrays& arrays, const Json&) {
@@ -313,10 +312,15 @@ class PlantedEngine {
           {"rolling_resistance", law.more.rolling != Rolling::none},
           {"cohesion", law.more.cohesion != Cohesion::none}})
       if (on) effects.push_back(name);
-    return {{"engine", "planted"},    {"version", "1"},
-            {"dt", world.dt},         {"precision", "double"},
-            {"effects", effects},     {"integrator", "position_verlet"},
-            {"pairs", Json::array()}, {"deviations", Json::array()}};
+    return {{"engine", "planted"},
+            {"version", "1"},
+            {"dt", world.dt},
+            {"precision", declared(faults_.floatState, "double", "float")},
+            {"effects", effects},
+            {"integrator", declaredIntegrator()},
+            {"pairs", Json::array()},
+            {"deviations", Json::array()},
+            {"velocity_lag", declaresEuler() ? 0.5 * world.dt : 0.0}};
   }
 
   double advance(double t) {
@@ -396,6 +400,17 @@ class PlantedEngine {
   }
 
  private:
+  /// What it says of something that is changed: what the right engine has, or what it does.
+  const char* declared(double changed, const char* right, const char* done) const {
+    return changed != 0.0 && faults_.declares != 0.0 ? done : right;
+  }
+  const char* declaredIntegrator() const {
+    const char* const other = faults_.integrator == 1.0 ? "velocity_verlet" : "semi_implicit_euler";
+    return declared(faults_.integrator, "position_verlet", other);
+  }
+  /// Its velocities are then half a step older than its positions.
+  bool declaresEuler() const { return std::string(declaredIntegrator()) == "semi_implicit_euler"; }
+
   Faults faults_;
   std::unique_ptr<Simulation> simulation_;
   Loads before_;

@@ -163,12 +163,15 @@ inline double rollingTorque(const Resistance& law, const Touching& pair, double 
   const double bound = law.muR * length * std::max(load, 0.0);
   const auto bounded = [bound](double torque) { return std::clamp(torque, -bound, bound); };
   if (law.rolling == Rolling::constantTorque) return spin > 0.0 ? -bound : spin < 0.0 ? bound : 0.0;
-  const double stiffness = law.kr * length * length, elastic = -stiffness * angle;
+  const bool before = faults.springBefore != 0.0;
+  const double stretched = angle + dt * spin;
+  const double stiffness = law.kr * length * length;
+  const double elastic = -stiffness * (before ? stretched : angle);
   const double trial = elastic + viscous;
   const bool holds = std::abs(faults.rollDashpotOutside != 0.0 ? elastic : trial) <= bound;
   const double torque = holds ? trial : bounded(faults.rollDashpotOutside != 0.0 ? elastic : trial);
   if (holds)
-    angle += dt * spin;
+    angle = stretched;
   else
     angle = -(faults.rollSpringOnly != 0.0 ? torque - viscous : torque) / stiffness;
   return torque;
