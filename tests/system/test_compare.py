@@ -213,7 +213,7 @@ class InterimAnalyses(SystemTest):
         engines = "grain,box2d-impulse"
         stiff = '--set=averaging.endpoints.mean_spin={ absolute = 1e-9, why = "never" }'
         first = self.compare_short(engines, "--budget=0.1s", stiff)
-        self.assert_status(first, FELL_SHORT)
+        self.assert_status(first, HELD)  # 10⁷ such margins are within chance: no alarm
         self.assertRegex(first.stdout, r"Analysed after 4 packings \(1 of 3 interim analyses\), agree tested at 2\.3\d % in each; 1\.25 of 5 %")
         self.assertRegex(first.stderr, r"the first analysis, at 4 packings, is likely to end after \S+ s, .* beyond the budget of 0\.1 s")
         decided = {
