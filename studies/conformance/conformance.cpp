@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ranges>
 
 #include "adapters/suitability.hpp"
 #include "cases/loader.hpp"
@@ -319,6 +320,15 @@ std::vector<ConformanceRow> collisionRows(const EngineEntry& entry, const Capabi
   return rows;
 }
 
+/// What stands between commas.
+std::vector<std::string> wordsOf(const std::optional<std::string>& list) {
+  std::vector<std::string> words;
+  if (!list) return words;
+  for (const auto word : std::views::split(*list, ','))
+    words.emplace_back(word.begin(), word.end());
+  return words;
+}
+
 }  // namespace
 
 ConformanceResults runConformance(const ConformanceTask& task) {
@@ -329,8 +339,11 @@ ConformanceResults runConformance(const ConformanceTask& task) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   };
   const auto timeIsUp = [&] { return elapsed() > task.budget; };
+  const std::vector<std::string> words = wordsOf(task.only);
   const auto wanted = [&](const std::string& name) {
-    return !task.only || name.find(*task.only) != std::string::npos;
+    return !task.only || std::ranges::any_of(words, [&](const std::string& word) {
+      return name.find(word) != std::string::npos;
+    });
   };
   std::vector<conformance::Check> checks = conformance::checksOf(!entry.mirrors.empty());
   std::erase_if(checks, [&](const conformance::Check& check) { return !wanted(check.name); });
@@ -365,8 +378,12 @@ ConformanceResults runConformance(const ConformanceTask& task) {
       std::ranges::move(collisionRows(entry, can, scratch.path), std::back_inserter(results.rows));
     progress.finish(2, "collisions");
   }
-  if (results.rows.empty())
-    throw BadInput(fmt::format("-k '{}': no check has that in its name", *task.only));
+  for (const std::string& word : words)
+    if (std::ranges::none_of(results.rows, [&](const ConformanceRow& row) {
+          return row.name.find(word) != std::string::npos ||
+                 row.part.find(word) != std::string::npos;
+        }))
+      throw BadInput(fmt::format("-k '{}': no check has that in its name", word));
   results.cause = causesOf(results.rows);
   if (!task.only) {
     results.declared = suite.declared.size();

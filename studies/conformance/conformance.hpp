@@ -47,7 +47,7 @@ namespace crossgrain::inline studies {
 
 struct ConformanceTask {
   EngineEntry entry;
-  std::optional<std::string> only;  ///< checks with this in their name
+  std::optional<std::string> only;  ///< checks with one of these in their name, by commas
   bool quiet = false;
   std::string commandLine;                                  ///< for the report
   double budget = std::numeric_limits<double>::infinity();  ///< [s]

@@ -413,17 +413,18 @@ class NodeEngines(Peer):
     def test_contacts_are_what_acts(self):
         """Means over the time between two snapshots: what the ring's disks bear is what its contacts add up to. Of every
         version: what reads contacts is called by the engine, which is silent about what goes wrong there."""
-        for engine in ("rapier", "rapier-before", "box2d-v3"):
+        more = (
+            "ContactForcesAreThoseThatAct", "LoadsAreThoseOfTheirContacts", "HeadOnCollision", "RotatingWallPushes",
+            "ForcesPointWhereTheySay", "WorkersAgreeBitForBit",
+        )  # fmt: skip
+        for engine, others in (("rapier", more), ("rapier-before", ()), ("box2d-v3", more)):
             with self.subTest(engine):
-                done = self.run_program("conformance", engine, "-k", "ContactsSayWhereTheyAre", "--quiet")
+                checks = ",".join(("ContactsSayWhereTheyAre", *others))
+                done = self.run_program("conformance", engine, "-k", checks, "--out", self.folder / engine, "--quiet")
                 self.assert_status(done, HELD)
-        for engine in ("rapier", "box2d-v3"):
-            for check in (
-                "ContactForcesAreThoseThatAct", "LoadsAreThoseOfTheirContacts", "HeadOnCollision", "RotatingWallPushes",
-                "ForcesPointWhereTheySay", "WorkersAgreeBitForBit",
-            ):  # fmt: skip
-                with self.subTest(engine=engine, check=check):
-                    self.assert_status(self.run_program("conformance", engine, "-k", check, "--quiet"), HELD)
+                self.out = self.folder / engine
+                outcomes = {row["check"]: row["outcome"] for row in self.results()["checks"]}
+                self.assertEqual({"passed"}, set(outcomes.values()) - {"skipped"}, outcomes)
 
 
 # Four kinds of disks, and one that is light enough for the law to be overdamped, γ_n² (1/m₁ + 1/m₂) ≥ 4 k_n = 1408 N/m:
