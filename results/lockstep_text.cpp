@@ -163,7 +163,7 @@ std::string describe(const LockstepRow& row, const LockstepRules& rules) {
     words += fmt::format("; first seen {}", describeFirst(row));
   if (const std::string open = openInLaw(row, rules);
       row.verdict == Equivalence::differs && !open.empty())
-    words += fmt::format("; {}", open);
+    words += fmt::format("; borderline: {}", open);
   if (!row.failure.empty()) words += fmt::format("; then it failed: {}", row.failure);
   return words + '.';
 }

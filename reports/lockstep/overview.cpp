@@ -74,8 +74,8 @@ std::string nextOf(const LockstepFindings& findings) {
     if (row.verdict == Equivalence::notMeasured) unmeasured.push_back(row.engine);
   }
   if (!differ.empty())
-    return fmt::format("Next: see the first contact at which {} differ, in the table below.",
-                       listed(differ));
+    return fmt::format("Next: see the first contact at which {} {}, in the table below.",
+                       listed(differ), differ.size() == 1 ? "differs" : "differ");
   if (!undecided.empty())
     return fmt::format("Next: more starts for {}, e.g. --starts {}.", listed(undecided),
                        4 * findings.starts.size());

@@ -145,7 +145,8 @@ Outcome outcomeOfLockstep(const LockstepResults& results, const CommandLine& lin
     const bool open = !openInLaw(row, results.lockstep.rules).empty();
     if (row.verdict == Equivalence::differs && !open)
       outcome.fails.push_back(row.engine + " differs from the law that it declares");
-    if (own.strict && (row.verdict == Equivalence::undecided || open))
+    if (own.strict && open) outcome.fails.push_back("--strict: " + row.engine + " is borderline");
+    if (own.strict && row.verdict == Equivalence::undecided)
       outcome.fails.push_back("--strict: " + row.engine + " is undecided");
     if (row.failure.empty()) continue;
     outcome.failures.push_back(row.failure);
@@ -171,7 +172,7 @@ const Study<LockstepOptions, LockstepResults> lockstepStudy = {
       return std::vector<StudyOption>{
           {"--starts", "states of the flow to start from; 16 unless given, 4 with --quick",
            &own.starts},
-          {"--strict", "status 1 also for an engine that is undecided", &own.strict}};
+          {"--strict", "status 1 also for an engine that is undecided or borderline", &own.strict}};
     },
     caseForLockstep,
     lockstepPlan,

@@ -1,6 +1,7 @@
 // What results come to: the exit status of every study, from results made by hand.
 #include <gtest/gtest.h>
 
+#include "results/lockstep_text.hpp"
 #include "studies/collide/collide.hpp"
 #include "studies/conformance/conformance.hpp"
 #include "studies/effects/effects.hpp"
@@ -225,7 +226,7 @@ TEST(LockstepOutcome, DifferenceThatTheLawLeavesOpen_IsNoOtherLaw) {
   LockstepRow& row = findings.rows.emplace_back();
   row.engine = "b";
   row.verdict = Equivalence::differs;
-  const auto statuses = [&](bool strict) {
+  const auto outcomes = [&](bool strict) {
     LockstepResults alone;
     alone.lockstep = findings;
     LockstepOptions own;
@@ -234,13 +235,24 @@ TEST(LockstepOutcome, DifferenceThatTheLawLeavesOpen_IsNoOtherLaw) {
     compared.lockstep = findings;
     CompareOptions options;
     options.strict = strict;
-    return std::pair(lockstepStudy.outcome(alone, {}, own).status,
-                     compareStudy.outcome(compared, {}, options).status);
+    return std::pair(lockstepStudy.outcome(alone, {}, own),
+                     compareStudy.outcome(compared, {}, options));
+  };
+  const auto statuses = [&](bool strict) {
+    const auto [alone, compared] = outcomes(strict);
+    return std::pair(alone.status, compared.status);
   };
   EXPECT_EQ(statuses(false), std::pair(exitFailed, exitFailed));
   row.severalAtOnce = true;
   EXPECT_EQ(statuses(false), std::pair(exitPassed, exitPassed));
   EXPECT_EQ(statuses(true), std::pair(exitFailed, exitFailed));
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(outcomes(true).first.fails, Lines{"--strict: b is borderline"});
+  EXPECT_EQ(
+      outcomes(true).second.fails,
+      Lines{"--strict: an engine's law is borderline: the law of rigid disks leaves open what "
+            "parts it from its mirror (b)"});
+  EXPECT_NE(results::describe(row, findings.rules).find("; borderline: "), std::string::npos);
   findings.rules.referencePerturbation = "kn";  // of soft disks nothing is open
   EXPECT_EQ(statuses(false), std::pair(exitFailed, exitFailed));
 }
