@@ -117,6 +117,8 @@ VecOf<D> velocityOfSecond(const ContactPlacesOf<D>& places, const AuditBasisOf<D
 }
 template Vec2 velocityOfSecond<2>(const ContactPlaces&, const AuditBasis&, std::size_t,
                                   std::size_t);
+template Vec3 velocityOfSecond<3>(const ContactPlacesOf<3>&, const AuditBasisOf<3>&, std::size_t,
+                                  std::size_t);
 
 template <int D>
 PairPlaceOf<D> pairPlace(const ContactPlacesOf<D>& places, const AuditBasisOf<D>& basis,
