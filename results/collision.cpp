@@ -100,15 +100,20 @@ SweepCount countOf(const CollideResults& results) {
 
 std::string nothingJudged(const CollideResults& results) {
   if (countOf(results).judged() > 0) return {};
-  bool measured = false, noLimit = false;
+  bool measured = false, noLimit = false, rounded = false;
   std::string noOracle;
   for (const CollisionVariant& variant : results.variants) {
     if (noOracle.empty()) noOracle = variant.oracleReason;
     noLimit = noLimit || !variant.noLimit.empty();
-    for (const CollisionCurve& curve : variant.curves)
+    for (const CollisionCurve& curve : variant.curves) {
+      rounded = rounded || curve.score.isRounded();
       for (const CollisionQuantity& quantity : scoredQuantities())
         measured = measured || curve.score.of[quantity.id];
+    }
   }
+  if (rounded)
+    return "what is beyond a limit single precision can do by rounding places; a faster approach "
+           "or a larger time step is needed to tell";
   if (measured) return "the case has no [collision.margins] for what was measured";
   if (!noOracle.empty()) return "there is no oracle to judge by: " + noOracle;
   if (noLimit) return "the law has no limit of small time steps at any point of the sweep";

@@ -28,8 +28,9 @@ struct QuantityScore {
   double max = 0.0, rms = 0.0;  ///< in units of `unit`
   double unit = 1.0;            ///< in the quantity's own unit
   ErrorUnitKind unitIs = ErrorUnitKind::range;
-  std::optional<double> limit;     ///< of max; absent: the case has none
-  std::optional<bool> held;        ///< within the limit; absent without one
+  std::optional<double> limit;  ///< of max; absent: the case has none
+  /// Within the limit; absent without one, and where it is beyond it by no more than rounding is.
+  std::optional<bool> held;
   std::optional<std::string> why;  ///< of the limit
 
   void fields(auto& io) {
@@ -51,6 +52,12 @@ inline constexpr support::EnumNames<Verdict, 3> curveVerdictNames{
 struct CurveScore {
   Verdict verdict = Verdict::notMeasured;
   PerQuantity<QuantityScore> of;  ///< those that engine and oracle both have
+  /// How far rounding of places alone can take outcomes, by the speed of approach [-]; absent where
+  /// no margin is as small, as in double precision.
+  std::optional<double> rounding;
+
+  /// Whether what is beyond a limit is not judged, as rounding can take it there.
+  bool isRounded() const { return verdict == Verdict::notMeasured && rounding.has_value(); }
 
   /// The errors of Ψ_f, and e_n's in its own unit, stand there twice: so they are found at once.
   void fields(auto& io) {
@@ -67,6 +74,7 @@ struct CurveScore {
     io("rms_error", rms);
     io("limit", limit);
     io("e_n_error", enError);
+    io.present("rounding", rounding);
   }
 };
 

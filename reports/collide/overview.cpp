@@ -328,10 +328,11 @@ std::string collideNextStep(const CollideResults& results) {
            "another law.";
   if (count.modelDifference == 0) {
     const std::vector<EngineCount> tallies = countsOf(results);
-    return std::ranges::any_of(tallies, [](const EngineCount& one) { return one.refused > 0; })
-               ? "All sweeps that were judged pass at these time steps; engines without a sweep's "
-                 "law refused it."
-               : "All engines pass at these time steps.";
+    if (std::ranges::any_of(tallies, [](const EngineCount& one) { return one.refused > 0; }))
+      return "All sweeps that were judged pass at these time steps; engines without a sweep's law "
+             "refused it.";
+    return count.notJudged > 0 ? "All sweeps that were judged pass at these time steps."
+                               : "All engines pass at these time steps.";
   }
   const Names pass = passAll(countsOf(results));
   return fmt::format("Next: where the scene's own law is needed, take {}.",

@@ -156,7 +156,8 @@ JUnitCase judged(const std::string& name, const std::optional<QuantityScore>& sc
     if (one.verdict == Verdict::fail) one.message = errorOf(*score);
   } else {
     one.verdict = Verdict::notMeasured;
-    one.message = "not measured, or not known of the reference";
+    one.message = score && score->limit ? errorOf(*score) + ", which rounding of places can do"
+                                        : "not measured, or not known of the reference";
   }
   return one;
 }
@@ -211,7 +212,8 @@ std::vector<JUnitCase> sweepCases(const CollisionVariant& variant, const Collisi
     std::ranges::move(judgedSweep(curve, sweep, quantity), std::back_inserter(cases));
   if (ownDeviation(curve)) cases.push_back(judgedScheme(*curve.ownScheme, sweep));
   if (!curve.allParted())
-    cases.push_back({"", sweep + ": all pairs part", Verdict::fail, curve.reason});
+    cases.push_back({"", sweep + ": all pairs part",
+                     curve.score.isRounded() ? Verdict::notMeasured : Verdict::fail, curve.reason});
   if (cases.empty())
     cases.push_back({"", sweep, Verdict::notMeasured, "not judged: the case has no limits"});
   cases.front().seconds = junitSeconds(curve.stats);

@@ -33,10 +33,14 @@ bool mostAreKnown(const Outcomes& outcomes);
 /// where every quantity with a margin does and all pairs parted but those that stick by the oracle.
 /// Where the oracle lacks more than half of the collisions nothing is judged: the range of what is
 /// left is no unit either.
-/// @param units  a score whose units are taken, where it has them: margins are of the scene's curve
+/// @param units     a score whose units are taken, where it has them: margins are of the scene's
+///                  curve
+/// @param rounding  how far rounding of places can take an outcome, by the speed of approach [-]:
+///                  what is beyond a margin by no more is not judged. Absent: not at all
 CurveScore scoreSweep(const Case& setup, const std::vector<CollisionStart>& starts,
                       const Outcomes& found, const Outcomes& oracle,
-                      const CurveScore* units = nullptr);
+                      const CurveScore* units = nullptr,
+                      std::optional<double> rounding = std::nullopt);
 
 /// The order of convergence p of each quantity's rms error ∝ dt^p, from two or more time steps;
 /// absent where there is none. Case and variant are left to be filled in.

@@ -84,6 +84,27 @@ TEST(Score, MostReferencesMissing_NothingIsJudged) {
   EXPECT_FALSE(score.of[QuantityId::psiF].value().held);
 }
 
+TEST(Score, WhatIsBeyondALimitByNoMoreThanRounding_IsNotJudged) {
+  Case setup = test::smallPairCase();
+  setup.collision.margins["psi_f"] = {0.1, false, "in its own unit", ""};
+  setup.collision.margins["max_overlap"] = {0.1, true, "a tenth of the largest", ""};
+  const std::vector<CollisionStart> starts(2, {1.0, 0.1, Approach::spin});
+  const Outcomes oracle = outcomes({0.0, 2.0}, 1e-6);
+  const auto verdict = [&](double psi, double overlap, double rounding) {
+    return scoreSweep(setup, starts, outcomes({0.0, psi}, overlap), oracle, nullptr, rounding)
+        .verdict;
+  };
+  EXPECT_EQ(verdict(2.05, 1.05e-6, 0.5), Verdict::pass);  // within its limits: rounding or not
+  EXPECT_EQ(verdict(2.55, 1.05e-6, 0.5), Verdict::notMeasured);
+  EXPECT_EQ(verdict(2.65, 1.05e-6, 0.5), Verdict::fail);
+  EXPECT_EQ(verdict(2.05, 1.55e-6, 0.5), Verdict::notMeasured);
+  EXPECT_EQ(verdict(2.55, 1.65e-6, 0.5), Verdict::fail);  // one is enough
+  Outcomes held = oracle;
+  held[1].reset();
+  EXPECT_EQ(scoreSweep(setup, starts, held, oracle, nullptr, 0.9).verdict, Verdict::fail);
+  EXPECT_EQ(scoreSweep(setup, starts, held, oracle, nullptr, 1.1).verdict, Verdict::notMeasured);
+}
+
 CollisionCurve curve(double dt, double psi, double en) {
   CollisionCurve curve;
   curve.engine = "a";

@@ -97,6 +97,29 @@ TEST(DeclaredScore, LawWithoutALimit_IsComparedWithTheMirror) {
   EXPECT_NE(verdictOf(itself), Verdict::fail);
 }
 
+/// At 10 mm/s and t_c/2000 a step's way is less than what single precision rounds places by; at 1
+/// m/s and t_c/50 it is three thousand times as long.
+TEST(DeclaredScore, SinglePrecision_IsJudgedWhereRoundingOfPlacesLeavesTheOutcome) {
+  Case setup = variantOf("figure-4-3.toml", "spring_dashpot-tension");
+  test::PlantedEngine right([](Scene& scene) { scene.precision = Precision::float32; });
+  test::PlantedEngine wrong([](Scene& scene) {
+    scene.precision = Precision::float32;
+    scene.law.kn *= 1.2;
+  });
+  setup.collision.stepsPerContact = {2000.0};
+  const CollisionCurve slow = firstSweep(right, setup);
+  EXPECT_GT(slow.score.of[QuantityId::duration]->max, *slow.score.of[QuantityId::duration]->limit);
+  EXPECT_GT(slow.score.rounding.value(), 1.0);
+  EXPECT_EQ(verdictOf(slow), Verdict::notMeasured);
+  EXPECT_NE(slow.reason.find("float precision"), std::string::npos) << slow.reason;
+  setup.collision.stepsPerContact = {50.0};
+  setup.collision.vn = {1.0};
+  EXPECT_EQ(verdictOf(firstSweep(right, setup)), Verdict::pass);
+  EXPECT_EQ(verdictOf(firstSweep(wrong, setup)), Verdict::fail);
+  test::PlantedEngine inDouble([](Scene&) {});
+  EXPECT_FALSE(firstSweep(inDouble, setup).score.rounding);
+}
+
 /// Nothing known of the declared law is no excuse.
 TEST(DeclaredScore, UnknownLaw_IsComparedWithTheScenes) {
   CollisionCurve curve;
