@@ -125,12 +125,13 @@ class Scene:
         for k, body in enumerate(bodies, self.first_body):
             self.move(k, body)
 
-    def region(self, position):
+    def region(self, position, room=4.0):
         """The ends of LAMMPS' box along x, y and z [m], around what is there, wherever that is: with empty room as far as
-        the origin there are more bins than it can count. Sets how many bins that is at most."""
+        the origin there are more bins than it can count. Sets how many bins that is at the start.
+        @param room  beside what is there, in diameters of the largest disk"""
         depth = 2.0 * self.radius.max()
         low, high = (end(position, axis=0)[: self.space] for end in (np.min, np.max))
-        centre, reach = 0.5 * (low + high), (high - low).max() + 4.0 * depth
+        centre, reach = 0.5 * (low + high), (high - low).max() + room * depth
         ends = [[float(x - reach), float(x + reach)] for x in centre] + [[-depth, depth]] * (3 - self.space)
         for k in np.flatnonzero(self.box.periodic):
             ends[k] = [float(self.box.low[k]), float(self.box.high[k])]

@@ -69,7 +69,7 @@ class Scene(build.Scene):
             boundary {self.boundary("f", "f" if self.dimension() == 3 else "p")}
             newton off
             communicate single vel yes
-            region everywhere block {self.region(position)} units box
+            region everywhere block {self.region(position, room=40.0)} units box
             create_box {kinds} everywhere
             neighbor {skin!r} {"bin" if self.bins < build.MOST_BINS else "nsq"}"""
         )
