@@ -130,6 +130,12 @@ double kineticEnergy(const Scene& scene, const Snapshot& now) {
   return sum;
 }
 
+double farthest(const std::vector<double>& one, const std::vector<double>& other) {
+  double most = 0.0;
+  for (std::size_t k = 0; k < one.size(); ++k) most = std::max(most, std::abs(one[k] - other[k]));
+  return most;
+}
+
 Vec2 forceOf(const Contacts& contacts, std::size_t c) {
   return contacts.normalForce[c] * contacts.normal[c] +
          contacts.tangentialForce[c] * perpendicular(contacts.normal[c]);

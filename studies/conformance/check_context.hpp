@@ -53,6 +53,9 @@ std::vector<DiskState> statesOf(const Scene& scene, const Snapshot& snapshot);
 /// The sum over disks of ½ m v² + ½ J ω² [J].
 double kineticEnergy(const Scene& scene, const Snapshot& now);
 
+/// The largest difference between two lists of equal length.
+double farthest(const std::vector<double>& one, const std::vector<double>& other);
+
 /// Normal and tangential force of one contact on disk i [N].
 Vec2 forceOf(const Contacts& contacts, std::size_t c);
 
@@ -253,6 +256,7 @@ Checks symmetryChecks();
 Checks wallChecks();
 Checks contactChecks();
 Checks reachChecks();
+Checks sceneChecks();
 Checks springChecks();
 Checks spaceChecks();
 Checks cylinderChecks();

@@ -80,8 +80,8 @@ std::vector<Check> checksOf(bool isMirror) {
   for (const Checks& part :
        {capabilityChecks(), lifecycleChecks(), freeMotionChecks(), collisionChecks(), lawChecks(),
         conventionChecks(), resistanceChecks(), symmetryChecks(), wallChecks(), contactChecks(),
-        reachChecks(), springChecks(), spaceChecks(), cylinderChecks(), refusalChecks(),
-        isMirror ? mirrorChecks() : Checks{}})
+        reachChecks(), sceneChecks(), springChecks(), spaceChecks(), cylinderChecks(),
+        refusalChecks(), isMirror ? mirrorChecks() : Checks{}})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

@@ -69,12 +69,6 @@ std::vector<double> motionAt(Engine& engine, const Scene& scene, double t) {
   return motion;
 }
 
-double farthest(const std::vector<double>& one, const std::vector<double>& other) {
-  double most = 0.0;
-  for (std::size_t k = 0; k < one.size(); ++k) most = std::max(most, std::abs(one[k] - other[k]));
-  return most;
-}
-
 /// The law with the part that an option belongs to, in each way that the engine declares; as it is
 /// where that is no part that a scene need not have.
 std::vector<ContactLaw> withPart(const Capabilities& can, const ContactLaw& law,

@@ -285,19 +285,27 @@ void oscillatingPlanePushes(CheckContext& context) {
   expectPush(context);
 }
 
-/// A gap wider than a disk, and nothing but the plane moves: neighbour lists have to see planes
-/// come.
-void planeComesFromAfar(CheckContext& context) {
+/// A gap wider than a disk, and nothing but the wall moves: neighbour lists have to see walls come.
+void expectPushFromAfar(CheckContext& context, Scene scene) {
   constexpr double speed = 5.0 * push, gap = 2.5 * smallRadius;
-  Scene scene = pushingPlane(context.law(), Motion::Kind::translating, 0.0, gap);
   scene.bodies[0].motion.velocity = {0.0, speed};
+  scene.disks.position[0].y() += gap - Encounter::gap;
   context.loadWithinLimits(scene);
   context.equal(context.at(0.9 * gap / speed).velocity[0].norm(), 0.0,
-                "its speed before the plane is there");
+                "its speed before the wall is there");
   const Snapshot after = context.at(gap / speed + pushEnd);
   const double expected = (1.0 + closedRestitution(scene.law, smallMass).value()) * speed;
   context.near(after.velocity[0].y(), expected, {0.0, 0.02, "a first-order scheme"},
                "the speed of the disk that was pushed [m/s]");
+}
+
+void planeComesFromAfar(CheckContext& context) {
+  expectPushFromAfar(context,
+                     pushingPlane(context.law(), Motion::Kind::translating, 0.0, Encounter::gap));
+}
+
+void wallDiskComesFromAfar(CheckContext& context) {
+  expectPushFromAfar(context, pushingWall(context.law(), Motion::Kind::translating));
 }
 
 /// A disk that falls straight onto a turning wheel is taken along and turned the other way; so it
@@ -374,6 +382,7 @@ Checks wallChecks() {
        oscillatingPlanePushes},
       {"PlaneComesFromAfar", "a plane that comes from afar pushes a disk at rest",
        planeComesFromAfar},
+      {"WallDiskComesFromAfar", "so does a wall disk", wallDiskComesFromAfar},
       {"TurningWheelDragsADisk", "a turning wheel drags a disk along, wherever it is",
        turningWheelDragsADisk},
       {"WallsSpinIsFelt", "the law feels a wall's spin as a disk's", wallsSpinIsFelt},

@@ -346,6 +346,21 @@ void expectResumed(CheckContext& context, double middle, double end) {
         "does");
 }
 
+/// Pairs that approach from gaps of a tenth of a radius to three: whatever the skin of lists is,
+/// some are met too late by a list that takes the place where it was taken up for the one where it
+/// was made.
+Scene approachScene(const ContactLaw& law) {
+  Scene scene = emptyScene(law, coarseSteps);
+  for (int k = 0; k < 30; ++k) {
+    const Vec2 place(0.0, 6.0 * smallRadius * k);
+    const double apart = smallRadius * (2.0 + 0.1 * (k + 1));
+    for (const double side : {-0.5, 0.5})
+      addDisk(scene, smallRadius, smallMass, place + Vec2(side * apart, 0.0),
+              {-side * Encounter::speed, 0.0});
+  }
+  return scene;
+}
+
 void checkpointsGoOnToTheBit(CheckContext& context) {
   context.needs(checkpoints);
   context.examine(checkpoints);
@@ -357,6 +372,9 @@ void checkpointsGoOnToTheBit(CheckContext& context) {
     context.load(scene);
     expectResumed(context, 0.5 * busyEnd, busyEnd);
   }
+  context.load(context.simplified(approachScene(context.law())));
+  expectResumed(context, 0.146 * smallRadius / Encounter::speed,
+                4.0 * smallRadius / Encounter::speed);
 }
 
 }  // namespace

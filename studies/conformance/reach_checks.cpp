@@ -173,13 +173,13 @@ void fastDisksAreNotMissed(CheckContext& context) {
                            [&](Meeting& there) { there.flight += steps; });
 }
 
-/// 150 pairs, far apart: every one does what one alone does, and a snapshot in the midst of it has
+/// 520 pairs, far apart: every one does what one alone does, and a snapshot in the midst of it has
 /// all contacts.
 void manyAreAsFew(CheckContext& context) {
   const Scene one = encounterScene(crookedEncounter(), context.law(), coarseSteps);
   const std::vector<DiskState> alone = statesOf(one, context.run(one, Encounter::end));
   Scene many = emptyScene(context.law(), coarseSteps);
-  constexpr int columns = 15, rows = 10;
+  constexpr int columns = 26, rows = 20;
   constexpr double apart = 8.0 * largeRadius;
   for (int k = 0; k < columns * rows; ++k)
     for (const int i : {0, 1})
@@ -257,7 +257,7 @@ Checks reachChecks() {
        fastIsAsSlow},
       {"FastDisksAreNotMissed", "a disk that comes from afar and fast meets what it would meet",
        fastDisksAreNotMissed},
-      {"ManyAreAsFew", "each of 150 pairs does what one alone does", manyAreAsFew},
+      {"ManyAreAsFew", "each of 520 pairs does what one alone does", manyAreAsFew},
       {"SpringsHoldWhileAnotherFalls",
        "springs hold a disk while another falls past it, for two seconds",
        springsHoldWhileAnotherFalls},

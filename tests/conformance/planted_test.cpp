@@ -129,6 +129,29 @@ INSTANTIATE_TEST_SUITE_P(
         resisting("no_pull_at_walls", "pull_at_walls=0", "ForcesAreThoseOfTheLaw", "")),
     [](const auto& one) { return std::string(one.param.name); });
 
+// Faults of what several bodies do at once, of walls under way and of the plate:
+// tests/faults/audit.toml.
+INSTANTIATE_TEST_SUITE_P(
+    Together, PlantedFault,
+    testing::Values(
+        resisting("walls_unlisted", "list_of_disks=1", "WallDiskComesFromAfar", ""),
+        resisting("stopped_wall_moves", "stopped_wall_moves=1", "WallsUnderWayAct", ""),
+        resisting("plane_at_centre", "plane_at_centre=1", "WallsUnderWayAct", ""),
+        resisting("one_plane", "one_plane=1", "SeveralActAtOnce", ""),
+        resisting("one_spring", "one_spring=1", "SeveralActAtOnce", ""),
+        resisting("mass_scaled", "mass_scaled=0.05", "SeveralActAtOnce", ""),
+        resisting("starts_box", "starts_box=1", "SeveralActAtOnce", ""),
+        resisting("mean_cells", "mean_cells=1.5", "SeveralActAtOnce", ""),
+        resisting("plate_mean_mass", "plate_mean_mass=1", "PlateBrakesEachByItself", ""),
+        resisting("plate_winds", "plate_winds=1", "PlateBrakesEachByItself", ""),
+        resisting("plate_forgets", "plate_forgets=1", "PlateBrakesEachByItself", ""),
+        resisting("plate_torque_bounded", "plate_torque_bounded=1", "PlateBrakesEachByItself", ""),
+        resisting("asleep", "asleep=1e-6", "SlowIsNotAtRest", ""),
+        resisting("slight_dropped", "least_overlap=1e-9", "SlowIsNotAtRest", ""),
+        resisting("most_springs", "most_springs=1000", "ManyAreAsFew", ""),
+        resisting("restored_list", "restore_list=1", "CheckpointsGoOnToTheBit", "")),
+    [](const auto& one) { return std::string(one.param.name); });
+
 // Faults that act late, far, fast, in corners or in second loads: tests/faults/elsewhere.toml.
 INSTANTIATE_TEST_SUITE_P(
     Elsewhere, PlantedFault,

@@ -21,7 +21,7 @@ import table
 
 here = pathlib.Path(__file__).resolve().parent
 project = here.parent.parent
-lists = ("faults", "elsewhere", "resistance", "space")
+lists = ("faults", "elsewhere", "audit", "resistance", "space")
 control = {"name": "right", "patch": {}, "what": "nothing: the control", "term": "never"}
 
 

@@ -466,7 +466,8 @@ class RigidEngine:
         "MemoriesHoldWhileAnotherFliesBy", "MaterialsHaveTheirOwnLaws", "SpringsOfMovedPairs",
         "PairsAcrossBorders", "PairsAcrossBordersInSpace", "RollingSpringsOfMovedPairs", "PairsThatCrossBorders",
         "PairsThatCrossBordersInSpace", "BottomPlateHoldsASlowDisk", "CornersHaveNoFirstPlane",
-        "FastIsAsSlow", "FastDisksAreNotMissed",
+        "FastIsAsSlow", "FastDisksAreNotMissed", "SeveralActAtOnce", "WallsUnderWayAct",
+        "PlateBrakesEachByItself", "SlowIsNotAtRest",
     }  # fmt: skip
 
     def test_passes_its_checks(self):

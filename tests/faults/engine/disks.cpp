@@ -39,6 +39,13 @@ Simulation::Simulation(World world, const Faults& faults)
   if (world_.disks > 0)
     smallest_ = *std::min_element(world_.radius.begin(),
                                   world_.radius.begin() + static_cast<long>(world_.disks));
+  for (std::size_t i = 0; i < world_.disks; ++i) {
+    const Vector& x = world_.position[i];
+    meanMass_ += world_.mass[i] / static_cast<double>(world_.disks);
+    startLow_ = {std::min(startLow_.x, x.x), std::min(startLow_.y, x.y)};
+    startHigh_ = {std::max(startHigh_.x, x.x), std::max(startHigh_.y, x.y)};
+  }
+  touching_.assign(world_.disks, 0);
   plateSpring_.resize(world_.disks);
   force_.resize(world_.disks);
   torque_.resize(world_.disks);
@@ -90,6 +97,7 @@ void Simulation::drift(double dt) {
       v.x = std::numeric_limits<double>::quiet_NaN();
     if (faults_.healEvery > 0.0 && !std::isfinite(v.x)) v = {};
     const double speed = std::sqrt(dot(v, v));
+    if (speed < faults_.asleep && touching_[i] > 0) v = {};
     if (faults_.mostSpeed > 0.0 && speed > faults_.mostSpeed) v = (faults_.mostSpeed / speed) * v;
     Vector& x = world_.position[i];
     x = x + dt * v;
@@ -104,7 +112,8 @@ void Simulation::moveWalls() {
     body.at(now());
     for (std::size_t k = 0; k < body.radius.size(); ++k, ++id) {
       world_.position[id] = body.position[k];
-      world_.velocity[id] = seenOfWall(body, body.diskVelocity[k]);
+      const Vector seen = seenOfWall(body, body.diskVelocity[k]);
+      if (faults_.stoppedWallMoves == 0.0 || dot(seen, seen) > 0.0) world_.velocity[id] = seen;
       world_.spin[id] = world_.turns ? seenSpinOfWall(body) : 0.0;
     }
   }
@@ -132,7 +141,9 @@ void Simulation::addForces(double ahead) {
   torqueOnBody_.assign(w.bodies.size(), 0.0);
   contacts_.clear();
   for (std::vector<int>* count : {&touching_, &planesTouched_}) count->assign(w.disks, 0);
+  const auto lists = neighbours_.made();
   neighbours_.update(w.position, w.radius, w.disks, faults_, late());
+  if (faults_.plateForgets != 0.0 && neighbours_.made() > lists) plateSpring_.assign(w.disks, {});
   addPairs();
   addPlanes();
   evaluations_ += contacts_.size();
@@ -142,12 +153,13 @@ void Simulation::addForces(double ahead) {
 void Simulation::addPlate(std::size_t i) {
   const Plate& plate = world_.plate;
   const double mu = plate.mu * faults_.plateMu * (late() ? faults_.plateMuLate : 1.0);
-  const double bound = mu * plate.gravity * world_.mass[i];
+  const double mass = faults_.plateMeanMass != 0.0 ? meanMass_ : world_.mass[i];
+  const double bound = mu * plate.gravity * mass;
   const Vector trial = -plate.kb * plateSpring_[i] - plate.gb * dashpotVelocity_[i];
   const double size = std::sqrt(dot(trial, trial));
   const bool holds = size <= bound;
   const Vector force = (holds ? 1.0 : bound / size) * trial;
-  if (holds)
+  if (holds || faults_.plateWinds != 0.0)
     plateSpring_[i] = plateSpring_[i] + world_.dt * dashpotVelocity_[i];
   else
     plateSpring_[i] = (plate.kb > 0.0 ? -1.0 / plate.kb : 0.0) * force;
@@ -155,7 +167,8 @@ void Simulation::addPlate(std::size_t i) {
   force_[i] = force_[i] + force;
   if (!world_.turns || !plate.spin) return;
   const double spin = seenSpin_[i], radius = world_.radius[i];
-  const double brake = std::min(bound, plate.tauM * size + plate.gb * std::abs(spin) * radius);
+  const double acting = faults_.plateTorqueBounded != 0.0 ? std::min(size, bound) : size;
+  const double brake = std::min(bound, plate.tauM * acting + plate.gb * std::abs(spin) * radius);
   torque_[i] -= faults_.plateSpin * signedLike(brake, spin) * (2.0 / 3.0) * radius;
 }
 
@@ -166,7 +179,7 @@ void Simulation::addPairs() {
     const Vector apart = w.position[i] - w.position[j];
     const double reach = w.radius[i] + w.radius[j], distance = std::sqrt(dot(apart, apart));
     const double overlap = reach - distance;
-    if (beyondGrid(w.position[i], faults_.farGrid)) continue;
+    if (beyondGrid(w.position[i], faults_.farGrid) || outsideStart(w.position[i])) continue;
     if (!holds({w.radius[i], w.radius[j], overlap}, pair.kept)) continue;
     const bool wall = j >= w.disks;
     const bool flipped = wall && faults_.flippedWalls == static_cast<double>(i + 1);
@@ -192,16 +205,17 @@ void Simulation::addPlanes() {
   for (std::size_t b = 0; b < w.bodies.size(); ++b)
     for (const Plane& plane : w.bodies[b].planes) {
       for (std::size_t i = 0; i < w.disks; ++i) {
-        Memory& kept = (*memories)[i];
+        Memory& kept = (faults_.oneSpring != 0.0 ? planeMemory_.front() : *memories)[i];
         const double height = dot(w.position[i] - plane.point, plane.normal);
         const double overlap = w.radius[i] - height;
         const Vector foot = w.position[i] - height * plane.normal;
         if (beyondGrid(w.position[i], faults_.farGrid)) continue;
         if (faults_.planeEnds > 0.0 && norm(foot - plane.point) > faults_.planeEnds) continue;
         if (!holds({w.radius[i], 0.0, overlap}, kept)) continue;
-        ++planesTouched_[i];
+        if (planesTouched_[i]++ > 0 && faults_.onePlane != 0.0) continue;
         const bool flipped = faults_.flippedWalls == static_cast<double>(i + 1);
-        Vector wall = seenOfWall(w.bodies[b], w.bodies[b].velocityAt(foot));
+        const Vector met = faults_.planeAtCentre != 0.0 ? w.position[i] : foot;
+        Vector wall = seenOfWall(w.bodies[b], w.bodies[b].velocityAt(met));
         const double along = dot(wall, turned(plane.normal));
         wall = wall + ((faults_.planeBelt - 1.0) * along) * turned(plane.normal);
         const double lever = faults_.leverMiddle != 0.0 ? height : w.radius[i];
@@ -214,6 +228,13 @@ void Simulation::addPlanes() {
       ++memories;
       ++id;
     }
+}
+
+/// Whether it is farther than a diameter outside of where disks were at the start.
+bool Simulation::outsideStart(Vector x) const {
+  const double room = 2.0 * smallest_;
+  return faults_.startsBox != 0.0 && (x.x < startLow_.x - room || x.x > startHigh_.x + room ||
+                                      x.y < startLow_.y - room || x.y > startHigh_.y + room);
 }
 
 /// @param velocity  of the body at the place of the contact
@@ -302,6 +323,7 @@ Contact Simulation::contact(std::size_t i, std::size_t j, Vector n, double overl
       else
         spring = kt > 0.0 ? -(faults_.springOnly != 0.0 ? c.ft - viscous : c.ft) / kt : 0.0;
       spring = stored(spring);
+      if (faults_.mostSprings > 0.0 && static_cast<double>(i) >= faults_.mostSprings) spring = 0.0;
     } else if (law.dashpot) {
       c.sliding = std::abs(viscous) > bound;
       c.ft = signedLike(std::min(std::abs(viscous), bound), viscous);
@@ -342,6 +364,7 @@ void Simulation::forgetSprings() {
 
 void Simulation::restored() {
   moveWalls();
+  if (faults_.restoreList != 0.0) neighbours_.madeAt(world_.position);
   if (faults_.restoreWithoutPlate != 0.0) plateSpring_.assign(world_.disks, {});
 }
 

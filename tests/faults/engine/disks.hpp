@@ -89,6 +89,8 @@ class Simulation {
   }
 
  private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
   void drift(double dt);
   void kick(double dt);
   double stored(double number) const;
@@ -104,6 +106,7 @@ class Simulation {
   bool holds(const Touching& pair, Memory& kept) const;
   void push(std::size_t body, Vector place, const Contact& c, double arm);
   double arm(std::size_t i, double overlap) const;
+  bool outsideStart(Vector x) const;
   Vector seenOfWall(const Body& body, Vector velocity) const;
   double seenSpinOfWall(const Body& body) const;
 
@@ -121,6 +124,8 @@ class Simulation {
   double halfKick_ = 0.0;
   double smallest_ = 0.0;  ///< radius of the smallest disk [m]
   double heaviest_ = 0.0;  ///< mass of the heaviest [kg]
+  double meanMass_ = 0.0;  ///< [kg]
+  Vector startLow_{infinity, infinity}, startHigh_{-infinity, -infinity};  ///< where disks were [m]
   unsigned long long steps_ = 0, evaluations_ = 0;
 };
 

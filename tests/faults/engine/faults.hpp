@@ -164,6 +164,27 @@ struct Faults {
   double inertiaAssumed = given("inertia_assumed", 0.0);  ///< J = m a²/2, whatever is read
   double plateColumn = given("plate_column", 0.0);        ///< τ_m of the plate is read as its µ_b
 
+  // Of what several bodies do at once, of walls under way and of the plate (../audit.toml).
+  double listOfDisks = given("list_of_disks", 0.0);  ///< lists hold on while walls alone move
+  double stoppedWallMoves =
+      given("stopped_wall_moves", 0.0);  ///< contacts see the velocity that it had last
+  double planeAtCentre =
+      given("plane_at_centre", 0.0);  ///< contacts see a plane's velocity at the disk's centre
+  double onePlane = given("one_plane", 0.0);             ///< a disk touches the first plane alone
+  double oneSpring = given("one_spring", 0.0);           ///< all planes share a disk's spring
+  double massScaled = given("mass_scaled", 0.0);         ///< x: masses are k_n dt²/x at least
+  double plateMeanMass = given("plate_mean_mass", 0.0);  ///< presses all disks on the plate
+  double plateWinds = given("plate_winds", 0.0);         ///< its springs grow on while disks slip
+  double plateForgets = given("plate_forgets", 0.0);     ///< they are lost with each list
+  double plateTorqueBounded =
+      given("plate_torque_bounded", 0.0);  ///< τ_m is of the force that acts, not of the trial
+  double asleep = given("asleep", 0.0);    ///< [m/s] what touches and is slower stops
+  double mostSprings = given("most_springs", 0.0);  ///< n: disks of higher number have none
+  double startsBox =
+      given("starts_box", 0.0);  ///< outside the box of the start, and a diameter, nothing touches
+  double meanCells =
+      given("mean_cells", 0.0);  ///< [mean diameters] pairs of a longer distance are not found
+
   // What is answered; the motion is right.
   double showFloat = given("show_float", 0.0);  ///< positions rounded to float32
   double showLate = given("show_late", 0.0);    ///< contacts and loads on walls of the step before
@@ -189,6 +210,8 @@ struct Faults {
       given("load_remembers", 0.0);  ///< springs of the scene before are there in the next
   double restoreWithoutPlate =
       given("restore_without_plate", 0.0);  ///< what is restored has no springs of the plate
+  double restoreList =
+      given("restore_list", 0.0);  ///< a list that is restored holds as long as one made anew
   double loadGrows =
       given("load_grows", 0.0);  ///< no friction of disks that the scene before did not have
   double shortAdvanceEvery = given(

@@ -115,6 +115,8 @@ World worldOf(const Json& scene, const Arrays& arrays, const Faults& faults) {
       if (faults.inertiaAssumed != 0.0) w.inertia[i] = 0.5 * w.mass[i] * w.radius[i] * w.radius[i];
       if (w.radius[i] == small) w.radius[i] *= faults.radiusSmall;
       if (w.mass[i] == heavy) w.mass[i] *= faults.massLarge;
+      if (faults.massScaled > 0.0)
+        w.mass[i] = std::max(w.mass[i], w.law.kn * w.dt * w.dt / faults.massScaled);
       w.inertia[i] *= faults.inertia;
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -33,11 +34,12 @@ class Neighbours {
   void update(const std::vector<Vector>& position, const std::vector<double>& radius,
               std::size_t disks, const Faults& faults, bool late) {
     const bool looks = faults.listLookEvery == 0.0 || everyNth(faults.listLookEvery, updates_++);
-    if (!looks || valid(position, faults)) return;
+    const std::size_t watched = faults.listOfDisks != 0.0 ? disks : position.size();
+    if (!looks || valid(position, watched, faults)) return;
     std::vector<Pair> before;
     before.swap(pairs);
     positionsAtListBuild_ = position;
-    find(position, radius, disks);
+    find(position, radius, disks, faults);
     ++lists_;
     const bool lost =
         everyNth(faults.historyLostEvery, lists_) || (late && faults.historyLostLate != 0.0);
@@ -50,6 +52,10 @@ class Neighbours {
     }
   }
 
+  unsigned long long made() const { return lists_; }
+  /// As if the list had been made here.
+  void madeAt(const std::vector<Vector>& position) { positionsAtListBuild_ = position; }
+
   /// Everything that it holds, one after the other, given to `each`.
   void parts(const auto& each) {
     each(pairs);
@@ -60,10 +66,10 @@ class Neighbours {
   }
 
  private:
-  bool valid(const std::vector<Vector>& position, const Faults& faults) const {
+  bool valid(const std::vector<Vector>& position, std::size_t watched, const Faults& faults) const {
     if (positionsAtListBuild_.size() != position.size()) return false;
     const double most = 0.5 * skin_ * faults.listReach;
-    for (std::size_t k = 0; k < position.size(); ++k) {
+    for (std::size_t k = 0; k < watched; ++k) {
       const Vector gone = position[k] - positionsAtListBuild_[k];
       if (!(dot(gone, gone) <= most * most)) return false;
     }
@@ -72,17 +78,22 @@ class Neighbours {
 
   /// Every disk with all that follow it: the list is made anew every fifty steps or so.
   void find(const std::vector<Vector>& position, const std::vector<double>& radius,
-            std::size_t disks) {
+            std::size_t disks, const Faults& faults) {
     if (position.empty()) return;
     for (const Vector& x : position)
       if (!std::isfinite(x.x) || !std::isfinite(x.y))
         throw std::runtime_error("the position of a disk is not a number");
     skin_ = 0.3 * *std::min_element(radius.begin(), radius.end());
+    double mean = 0.0;
+    for (const double each : radius) mean += 2.0 * each / static_cast<double>(radius.size());
+    const double cell =
+        faults.meanCells > 0.0 ? faults.meanCells * mean : std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < disks; ++i)
       for (std::size_t j = i + 1; j < position.size(); ++j) {
         const Vector apart = position[i] - position[j];
         const double reach = radius[i] + radius[j] + skin_;
-        if (dot(apart, apart) < reach * reach) pairs.push_back({i, j});
+        const double near = std::min(reach, cell);
+        if (dot(apart, apart) < near * near) pairs.push_back({i, j});
       }
   }
 

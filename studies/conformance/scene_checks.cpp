@@ -1,0 +1,328 @@
+// Scenes of a few bodies, each of a kind that engines are known to get wrong in one line: the
+// in-house engine, with the law that the engine declares and at its time step, does the same.
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "adapters/declared_law.hpp"
+#include "studies/conformance/check_context.hpp"
+#include "studies/lockstep/rules.hpp"
+#include "studies/lockstep/terms.hpp"
+
+namespace crossgrain::conformance {
+namespace {
+
+/// Where each disk is at one time after the other, by t_c [m/s].
+using Places = std::vector<std::vector<double>>;
+
+/// Velocity and rim's speed of each disk [m/s].
+using Motions = std::vector<std::vector<double>>;
+
+struct Course {
+  Places places;
+  Motions last;  ///< at the last time
+};
+
+Course courseOf(Engine& engine, const Scene& scene, const std::vector<double>& times) {
+  Course course{Places(scene.disks.size()), {}};
+  for (const double t : times) {
+    engine.advance(t);
+    course.last.clear();
+    const std::vector<DiskState> now = statesOf(scene, engine.snapshot(ContactReport::none));
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      const Vec2 place = now[i].position / smallContactTime;
+      course.places[i].insert(course.places[i].end(), {place.x(), place.y()});
+      course.last.push_back(
+          {now[i].velocity.x(), now[i].velocity.y(), now[i].spin * scene.disks.radius[i]});
+    }
+  }
+  return course;
+}
+
+double farthestOfAll(const std::vector<std::vector<double>>& one,
+                     const std::vector<std::vector<double>>& other) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < one.size(); ++i) most = std::max(most, farthest(one[i], other[i]));
+  return most;
+}
+
+/// A disk that is elsewhere, or in the end moves otherwise, than under the in-house engine by more
+/// than a thousandth of k_n moves any (lockstep's rule for one law) is a fault. Velocities of half
+/// a step before are compared of disks that nothing pushes in the end.
+/// @param times  when they are compared [s]
+/// @param which  "in a corner"
+void expectAsInHouse(CheckContext& context, const Scene& wanted, const std::vector<double>& times,
+                     const std::string& which) {
+  if (context.inHouse())
+    context.skip("it is the in-house engine, and would be compared with itself");
+  try {
+    context.load(context.simplified(wanted));
+  } catch (const UnsupportedScene& unsupported) {
+    context.skip(unsupported.what());
+  }
+  const Scene& ran = context.scene;
+  const double dt = context.effective.dt;
+  const auto law = declaredLaw(context.can, ran, context.effective, 0.5 * smallMass);
+  if (!law || !law->soft()) context.skip("the in-house engine does not have its law");
+  const Course found = courseOf(context.engine, ran, times);
+  const auto inHouse = engineRegistry().front().make();
+  const auto mirrored = [&](double stiffer, const std::vector<double>& when) {
+    Scene scene = ran;
+    scene.law = *law;
+    changeReference(scene.law, stiffer);
+    scene.dt = dt;
+    scene.precision = Precision::float64;
+    inHouse->load(scene, {});
+    return courseOf(*inHouse, scene, when);
+  };
+  const Course same = mirrored(0.0, times), stiffer = mirrored(lockstepSameLaw, times);
+  const Motions before = mirrored(0.0, {times.back() - dt}).last;
+  const double limit = std::max({context.byPrecision(1e-9, 1e-3, "").relative * Encounter::speed,
+                                 farthestOfAll(stiffer.places, same.places),
+                                 farthestOfAll(stiffer.last, same.last)});
+  for (std::size_t i = 0; i < same.last.size(); ++i) {
+    double off = farthest(found.places[i], same.places[i]);
+    if (context.effective.velocityLag == 0.0 || farthest(before[i], same.last[i]) <= 0.1 * limit)
+      off = std::max(off, farthest(found.last[i], same.last[i]));
+    context.expect(off <= limit, text(which, ": disk ", i,
+                                      " is off the in-house engine with its "
+                                      "law by ",
+                                      fmt::format("{:.3g} m/s, allowed {:.3g}", off, limit),
+                                      " (a thousandth of k_n)"));
+  }
+}
+
+/// What several scenes have: those that the engine refuses are left out, unless it refuses all.
+class Several {
+ public:
+  explicit Several(CheckContext& context) : context_(context) {}
+  void expect(const Scene& scene, const std::vector<double>& times, const std::string& which) {
+    try {
+      expectAsInHouse(context_, scene, times, which);
+      any_ = true;
+    } catch (const Skipped& skipped) {
+      reason_ = skipped.reason;
+    }
+  }
+  /// @throws Skipped
+  void end() const {
+    if (!any_) context_.skip(reason_);
+  }
+
+ private:
+  CheckContext& context_;
+  bool any_ = false;
+  std::string reason_;
+};
+
+constexpr double pace = Encounter::speed, ahead = Encounter::gap;
+
+// ---- several at once ----------------------------------------------------------------------------
+
+/// A disk that slips into a corner of two bodies, or of two planes of one, and touches both at
+/// once: each acts, and each contact has a spring of its own.
+Scene cornerScene(const ContactLaw& law, std::vector<WallBody> bodies) {
+  Scene scene = emptyScene(law, coarseSteps);
+  scene.bodies = std::move(bodies);
+  const double place = smallRadius + ahead;
+  addDisk(scene, smallRadius, smallMass, {place, place}, {-pace, -0.9 * pace}, 20.0);
+  return scene;
+}
+
+/// Six disks close in on one.
+Scene cagedScene(const ContactLaw& law) {
+  Scene scene = emptyScene(law, coarseSteps);
+  addDisk(scene, smallRadius, smallMass, Vec2::Zero(), {0.02, -0.01}, 7.0);
+  for (int k = 0; k < 6; ++k) {
+    const Vec2 out(std::cos(k * M_PI / 3.0), std::sin(k * M_PI / 3.0));
+    addDisk(scene, smallRadius, smallMass, (2.0 * smallRadius + ahead * (1.0 + 0.1 * k)) * out,
+            -pace * out + 0.3 * pace * perpendicular(out), 5.0 * k);
+  }
+  return scene;
+}
+
+/// A disk of a hundredth of the mass of the one that it meets, five steps a contact. With as little
+/// of the dashpots, so that these do not overshoot.
+Scene lightScene(ContactLaw law) {
+  if (law.damper == Damper::constant)
+    for (double* constant : {&law.gn, &law.gt}) *constant *= 0.1;
+  Encounter pair = crookedEncounter();
+  pair.masses[0] = 0.01 * smallMass;
+  return encounterScene(pair, law, coarseSteps);
+}
+
+/// Two disks that are ten times as large as forty around them meet.
+Scene largeAmongSmallScene(const ContactLaw& law) {
+  constexpr double times = 10.0;
+  Scene scene = emptyScene(law, coarseSteps);
+  for (int k = 0; k < 40; ++k)
+    addDisk(scene, smallRadius, smallMass,
+            {(k % 8 - 20.0) * 3.0 * smallRadius, (k / 8 + 20.0) * 3.0 * smallRadius}, Vec2::Zero());
+  const double reach = times * smallRadius;
+  for (const double side : {-1.0, 1.0})
+    addDisk(scene, reach, times * times * smallMass,
+            {side * (reach + 0.5 * ahead), 0.1 * side * smallRadius}, {-0.5 * side * pace, 0.0},
+            1.0);
+  return scene;
+}
+
+/// One disk catches up with another twelve radii outside of where any was at the start.
+Scene outsideScene(const ContactLaw& law) {
+  constexpr double fast = 10.0 * pace;
+  Scene scene = emptyScene(law, coarseSteps);
+  addDisk(scene, smallRadius, smallMass, Vec2::Zero(), {fast, 0.0}, 3.0);
+  addDisk(scene, smallRadius, smallMass, {-14.0 * smallRadius, 0.5 * smallRadius},
+          {2.0 * fast, 0.0}, -4.0);
+  return scene;
+}
+
+/// A disk squeezed between two planes slides and swings from one to the other, so fast that the
+/// dashpot of the first pulls it, γ_n v = 1.3 k_n δ, while they still overlap: where the bound is 0
+/// no spring grows.
+Scene squeezedScene(const ContactLaw& law) {
+  constexpr double squeezed = 2e-5;  // [m]
+  Scene scene = emptyScene(law, coarseSteps);
+  scene.bodies = {planeWall(Vec2::Zero(), {0.0, 1.0}),
+                  planeWall({0.0, 2.0 * (smallRadius - squeezed)}, {0.0, -1.0})};
+  scene.bodies[1].name = "ceiling";
+  const double swing = 1.3 * thesis.kn * squeezed / thesis.gn;
+  addDisk(scene, smallRadius, smallMass, {0.0, smallRadius - squeezed}, {0.2 * pace, swing}, 10.0);
+  return scene;
+}
+
+void severalActAtOnce(CheckContext& context) {
+  const ContactLaw law = context.law();
+  Several scenes(context);
+  const std::vector<double> soon = {0.3 * Encounter::end, Encounter::end};
+  const auto plane = [](const Vec2& normal) { return planeWall(Vec2::Zero(), normal); };
+  WallBody both = plane(Vec2::UnitX());
+  both.planes.push_back({Vec2::Zero(), Vec2::UnitY()});
+  const auto post = [](const char* name, const Vec2& place) {
+    return wallOf(name, place, {place});
+  };
+  const WallBody left = post("left", {-smallRadius, smallRadius}),
+                 below = post("below", {smallRadius, -smallRadius});
+  WallBody floor = plane(Vec2::UnitY());
+  floor.name = "floor";
+  scenes.expect(cornerScene(law, {both}), soon, "in a corner of two planes of one body");
+  scenes.expect(cornerScene(law, {plane(Vec2::UnitX()), floor}), soon,
+                "in a corner of two bodies' planes");
+  scenes.expect(cornerScene(law, {left, floor}), soon, "between a wall disk and a plane");
+  scenes.expect(cornerScene(law, {left, below}), soon, "between the wall disks of two bodies");
+  scenes.expect(cagedScene(law), soon, "one disk that six others touch");
+  scenes.expect(lightScene(law), soon, "a disk a hundred times as light as the other");
+  scenes.expect(largeAmongSmallScene(law), {0.01, 0.04},
+                "two large disks that meet among small ones");
+  scenes.expect(outsideScene(law), {0.03, 0.06}, "two disks that meet outside of the start's box");
+  scenes.expect(squeezedScene(law), soon, "squeezed between planes of which one pulls");
+  scenes.end();
+}
+
+// ---- walls under way ----------------------------------------------------------------------------
+
+/// A disk falls onto a plane that turns quickly: what touches it is the plane's point under it, not
+/// under its centre.
+Scene turningPlaneScene(const ContactLaw& law) {
+  Scene scene = emptyScene(law, coarseSteps);
+  scene.bodies = {planeWall(Vec2::Zero(), {0.0, 1.0})};
+  scene.bodies[0].motion = rotating(20.0);
+  addDisk(scene, smallRadius, smallMass, {1.5 * smallRadius, smallRadius + ahead}, {0.0, -pace});
+  return scene;
+}
+
+/// A disk runs into a wall disk that has stopped a moment ago.
+Scene stoppedWallScene(const ContactLaw& law) {
+  constexpr double ring = 0.1, shrinks = 0.004;  // [m, s]
+  Scene scene = emptyScene(law, coarseSteps);
+  scene.bodies = {wallOf("ring", Vec2::Zero(), {Vec2(ring, 0.0), Vec2(-0.03, 0.04)})};
+  scene.bodies[0].motion.kind = Motion::Kind::radial;
+  scene.bodies[0].motion.radialVelocity = -pace;
+  scene.bodies[0].motion.radialEnd = shrinks;
+  const double reach = 2.0 * smallRadius + 2.0 * pace * shrinks + 2.0 * ahead;
+  addDisk(scene, smallRadius, smallMass, {ring - reach, 0.0}, {pace, 0.3 * pace}, 8.0);
+  return scene;
+}
+
+void wallsUnderWayAct(CheckContext& context) {
+  Several scenes(context);
+  scenes.expect(turningPlaneScene(context.law()), {0.003, 0.01}, "on a plane that turns");
+  scenes.expect(stoppedWallScene(context.law()), {0.008, 0.016},
+                "at a wall that has stopped shrinking");
+  scenes.end();
+}
+
+// ---- the bottom plate ---------------------------------------------------------------------------
+
+/// Two disks of different masses that slide until they rest, one of them turning, and one that the
+/// plate holds on a slope; two fast ones fly apart meanwhile, so that lists of neighbours are made
+/// anew. The later in the list the farther left.
+void plateBrakesEachByItself(CheckContext& context) {
+  constexpr double mu = 0.2, apart = 6.0 * largeRadius, fast = 20.0 * pace;
+  Scene scene = emptyScene(context.law(), coarseSteps);
+  scene.bottom = thesisBottom<BottomPlate>(mu);
+  scene.bottom->tauM = 0.01;
+  scene.gravity = {0.0, -0.3 * mu * scene.bottom->gravity};
+  addDisk(scene, largeRadius, largeMass, {2.0 * apart, 0.0}, {pace, 0.0});
+  addDisk(scene, smallRadius, smallMass, {apart, 0.0}, {pace, 0.0}, 30.0);
+  addDisk(scene, smallRadius, smallMass, {0.0, 0.0}, Vec2::Zero());
+  addDisk(scene, smallRadius, smallMass, {-apart, 0.0}, {0.0, fast});
+  addDisk(scene, smallRadius, smallMass, {-2.0 * apart, 0.0}, {0.0, -fast});
+  if (const auto why = context.refusal(scene)) context.skip(*why);
+  expectAsInHouse(context, scene, {0.02, 0.06, 0.12}, "on the bottom plate");
+  scene.disks.spin.assign(scene.disks.size(), 0.1);  // τ_m |F| brakes it, F as large as if it held
+  expectAsInHouse(context, scene, {1e-3}, "on the bottom plate, where disks slide and hardly turn");
+}
+
+// ---- slow ---------------------------------------------------------------------------------------
+
+/// A disk that has rested on a plane for long rises with it, and one that comes so slowly that it
+/// dips in by less than an atom leaves as others do: nothing is frozen, and no overlap too small.
+void slowIsNotAtRest(CheckContext& context) {
+  if (context.rigid()) context.skip("holds rigid disks to within its own slop");
+  if (context.single()) context.skip("single precision rounds what is so slow away");
+  constexpr double slow = 1e-7;  // [m/s]
+  const ContactLaw law = context.law();
+  const Tolerance scheme = {0.0, 0.02, "a first-order scheme, and where in a step it touches"};
+  Scene touch = emptyScene(law, 4.0 * coarseSteps);
+  touch.bodies = {wallOf("post", Vec2::Zero(), {Vec2::Zero()})};
+  const double place = 2.0 * smallRadius + 0.5 * touch.dt * slow;
+  addDisk(touch, smallRadius, smallMass, {place, 0.0}, {-slow, 0.0});
+  if (const auto restitution = closedRestitution(law, smallMass)) {
+    const Snapshot after = context.run(touch, 3.0 * smallContactTime);
+    context.near(after.velocity[0].x(), *restitution * slow, scheme,
+                 "the speed at which a disk leaves that came at 0.1 µm/s [m/s]");
+  }
+  Scene rest = emptyScene(law, coarseSteps);
+  rest.gravity = {0.0, -9.81};
+  rest.bodies = {planeWall(Vec2::Zero(), {0.0, 1.0})};
+  rest.bodies[0].motion.kind = Motion::Kind::translating;
+  rest.bodies[0].motion.velocity = {0.0, slow};
+  addDisk(rest, smallRadius, smallMass, {0.0, smallRadius}, Vec2::Zero());
+  if (!simulates(context.can, Effect::gravity) || context.refusal(rest)) return;
+  const double later = 0.25, end = 0.5;  // [s]; e-folding times are some 4 ms
+  const double was = context.at(later).position[0].y(), now = context.at(end).position[0].y();
+  context.near((now - was) / (end - later), slow, scheme,
+               "the speed of a disk on a plane that rises at 0.1 µm/s [m/s]");
+}
+
+}  // namespace
+
+Checks sceneChecks() {
+  static constexpr Check list[] = {
+      {"SeveralActAtOnce",
+       "what touches a disk at once acts at once, whatever it is: the in-house engine does the "
+       "same",
+       severalActAtOnce},
+      {"WallsUnderWayAct", "walls that turn or have stopped act with the velocity that they have",
+       wallsUnderWayAct},
+      {"PlateBrakesEachByItself",
+       "the bottom plate brakes each disk by its own weight, until it rests and from then on",
+       plateBrakesEachByItself},
+      {"SlowIsNotAtRest", "nothing is too slow or too slight to be felt", slowIsNotAtRest},
+  };
+  return list;
+}
+
+}  // namespace crossgrain::conformance
