@@ -194,20 +194,28 @@ TEST(InterimSettings, FindTwoMargins) {
   EXPECT_GE(found, 0.98 * trials);
 }
 
-TEST(InterimSettings, ForecastPackingsThatDecideWithTheChanceAskedFor) {
-  const auto packings = packingsFor(0.3, 1.5, 1.0, 0.025);
-  ASSERT_TRUE(packings);
+/// How often so many packings of a standard deviation of 1.5 come to that answer.
+double shareDecided(int packings, double difference, Verdict answer) {
   std::mt19937_64 generator(9);
   std::normal_distribution<double> normal;
-  const InterimPlan plan{{*packings}, {0.025}, 0.025};
+  const InterimPlan plan{{packings}, {0.025}, 0.025};
   int decided = 0;
   constexpr int trials = 2000;
   for (int t = 0; t < trials; ++t) {
     std::vector<double> differences;
-    for (int k = 0; k < *packings; ++k) differences.push_back(0.3 + 1.5 * normal(generator));
-    decided += answerOf(differing(differences), plan, *packings).verdict == Verdict::pass;
+    for (int k = 0; k < packings; ++k) differences.push_back(difference + 1.5 * normal(generator));
+    decided += answerOf(differing(differences), plan, packings).verdict == answer;
   }
-  EXPECT_NEAR(decided / static_cast<double>(trials), 0.9, 0.025);
+  return decided / static_cast<double>(trials);
+}
+
+TEST(InterimSettings, ForecastPackingsThatDecideWithTheChanceAskedFor) {
+  const auto packings = packingsFor(0.3, 1.5, 1.0, 0.025);
+  ASSERT_TRUE(packings);
+  EXPECT_NEAR(shareDecided(*packings, 0.3, Verdict::pass), 0.9, 0.025);
+  const auto apart = packingsFor(2.0, 1.5, 1.0, 0.025);
+  ASSERT_TRUE(apart);
+  EXPECT_NEAR(shareDecided(*apart, 2.0, Verdict::fail), 0.9, 0.025);
   EXPECT_FALSE(packingsFor(1.0, 1.5, 1.0, 0.025));  // on the margin no number decides
   const auto range = packingsFor(0.3, 1.5, 30, 1.0, 0.025);
   ASSERT_TRUE(range);

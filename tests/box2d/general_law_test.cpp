@@ -116,6 +116,19 @@ TEST(Box2dAdhesion, ElastoPlasticImpact_LosesTheLoopsArea) {
   EXPECT_NEAR(restitution(law, 0.1), std::sqrt(1.0 - 0.75 / 25.0), 1e-3);
 }
 
+// What a yielding contact gives back is ½ f²/k₂; half way to δ*, k₂ is half way from k₁ to k₂max.
+TEST(Box2dAdhesion, ElastoPlasticEnergy_IsTheTriangleOfUnloading) {
+  box::SoftLaw law;
+  law.kn = 1e4;
+  law.kUnload = 4e4;
+  law.plasticDepth = 0.01;
+  law.cohesion = box::Cohesion::elastoPlastic;
+  const double depth = 0.5 * 4.0 / 3.0 * 0.01 * 0.5, force = law.kn * depth;
+  box::PairMemory memory;
+  EXPECT_NEAR(pairForce(law, at(depth), memory).normal, force, 1e-12 * force);
+  EXPECT_NEAR(storedEnergy(law, at(depth), memory), 0.5 * force * force / 2.5e4, 1e-12);
+}
+
 TEST(Box2dRolling, Torques_ByHand) {
   box::PairMotion pair = at(0.01);
   pair.a = 0.2;

@@ -203,6 +203,20 @@ TEST(StabilityMeasures, GoingThroughIsToldFromBouncing) {
   EXPECT_EQ(past.last("tunnelled"), 0.0);
 }
 
+TEST(StabilityMeasures, OneDiskGoesThroughAWallDisk) {
+  Series at;
+  at.run.scene.disks.radius.pop_back();
+  WallBody wall;
+  wall.diskPosition = {{5.0, 0.0}};
+  wall.diskRadius = {1.0};
+  at.run.scene.bodies.push_back(wall);
+  for (Snapshot& now : at.run.snapshots) now.position.pop_back();
+  at.look(1.0, {4.5, 0.0}, {}).position.pop_back();
+  EXPECT_EQ(at.last("tunnelled"), 0.0);
+  at.look(2.0, {5.5, 0.1}, {}).position.pop_back();
+  EXPECT_EQ(at.last("tunnelled"), 1.0);
+}
+
 TEST(StabilityMeasures, BehindAWallIsThroughItAndOutside) {
   Series at;
   at.addPlane();

@@ -193,6 +193,9 @@ TEST(Transform, FarthestIsADisksRimOrAWallsPoint) {
   EXPECT_DOUBLE_EQ(extentOf(scene), std::hypot(7.0, 1.0));  // the plane's, beyond 5 + 2
   scene.bodies.clear();
   EXPECT_DOUBLE_EQ(extentOf(scene), 7.0);
+  scene.disks.radius = {0.125};
+  scene.disks.position = {{0.25, 0.0}};
+  EXPECT_DOUBLE_EQ(extentOf(scene), 0.375);
 }
 
 }  // namespace
