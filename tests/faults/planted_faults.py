@@ -114,19 +114,16 @@ def works_of_lists(paths, out, only=""):
     return list(works.values())
 
 
-def judged(work, right):
-    """A row of the table: what the kept results say. @param right  of `cost`: accuracies that the right engine reaches"""
+def judged(work):
+    """A row of the table: what the kept results say."""
     fault, command = work["fault"], work["command"]
     row = dict.fromkeys(table.columns, "") | {"list": work["list"], "fault": fault["name"], "control": "" if fault["patch"] else "yes",
                                                "what": fault["what"], "command": command}
     if not work["kept"].exists():
         return row | {"status": table.not_run}
     ran, results, name = json.loads(work["kept"].read_text()), results_of(work["kept"]), fault["name"]
-    lost = right - reading.good_columns(results, name) if command == "cost" and ran["status"] == 0 else set()
-    found = reading.found(ran["status"]) or bool(lost)
-    if lost:
-        sentence = "does not reach " + ", ".join(sorted(lost))
-    elif found:
+    found = reading.found(ran["status"])
+    if found:
         sentence = reading.sentence(command, results, name, ran["errors"])
     else:
         sentence = ran["errors"].strip() if ran["status"] else ""
@@ -139,11 +136,7 @@ def judged(work, right):
 
 def rows_of(works):
     """The table."""
-    right = set()
-    for work in works:
-        if work["command"] == "cost" and work["fault"] is control:
-            right = reading.good_columns(results_of(work["kept"]), "right")
-    return [judged(work, right) for work in works]
+    return [judged(work) for work in works]
 
 
 def main():
@@ -172,7 +165,7 @@ def main():
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         for work, running in [(work, pool.submit(run, options, work)) for work in missing]:
             running.result()
-            row = judged(work, set())
+            row = judged(work)
             print(f"{row['fault']:<26} {row['command']:<12} {'found' if row['found'] == 'yes' else '–':<6} {row['cpu_s']:>6} s  "
                   f"{row['named']:<8} {row['sentence'][:90]}", flush=True)
     rows = rows_of(works)

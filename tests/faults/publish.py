@@ -61,14 +61,22 @@ def machine_of(records):
     return "a machine that is not known"
 
 
+def builds_in_words(rows):
+    """ "one build, 0.3.0 1234abcd"; of several, which commands each has run."""
+    builds = table.builds_of(rows)
+    if len(builds) == 1:
+        return f"one build, {next(iter(builds))}"
+    return "builds " + " and ".join(f"{build} ({', '.join(f'`{command}`' for command in commands)})" for build, commands in builds.items())
+
+
 def planted(rows):
     """The section on faults in engines."""
     faults, rights = (len({row["fault"] for row in rows if row["control"] == control}) for control in ("", "yes"))
-    text = f"## In engines\n\nOne build, {', '.join(table.builds_of(rows))}: {faults} faults of {len(table.lists_of(rows))} lists and {rights} right engines, their controls. Seconds are those of a processor, of the whole command.\n"
+    text = f"## In engines\n\nBy {builds_in_words(rows)}: {faults} faults of {len(table.lists_of(rows))} lists and {rights} right engines, their controls. Seconds are those of a processor, of the whole command.\n"
     text += "" if table.ran(rows) == rows else f"**Not all of it has been run yet: {len(table.ran(rows))} of {len(rows)} runs.**\n"
     text += "\n"
     text += table.totals(rows) + "\n"
-    text += "*By the check that fails*: no cause is given, and a check fails that is for the fault. `collide` and `stability` name no causes; `cost` has no verdict of its own (an accuracy that the right engine reaches is no longer reached).\n\n"
+    text += "*By the check that fails*: no cause is given, and a check fails that is for the fault. `collide` and `stability` name no causes.\n\n"
     missed = {name: what for name, what in table.escapes(rows).items() if what}
     text += "Found by no command that was run: " + ("; ".join(f"`{name}`: {', '.join(what)}" for name, what in missed.items()) or "none") + ".\n\n"
     text += limits + "\n✓ found, · not found, – not run. `table.csv` has the sentence that each report says.\n"
@@ -150,7 +158,7 @@ def sentences(folder):
     ran = table.of(rows, command="conformance")
     how = f"{table.count(ran, 'rightly')} by their cause and {table.count(ran, 'by check')} by the check that fails, {table.count(ran, 'wrongly')} wrongly"
     finds = f"Of {len(ran)} faults planted in engines that are otherwise right, `conformance` finds {len(table.found(ran))} and names {how}"
-    others = ", ".join(f"`{command}` {of(command)}" for command in table.commands_of(table.ran(rows)) if command not in ("conformance", "cost"))
+    others = ", ".join(f"`{command}` {of(command)}" for command in table.commands_of(table.ran(rows)) if command != "conformance")
     right = {row["fault"] for row in table.of(rows, control=True)}
     accused = {row["fault"] for row in table.found(table.of(rows, control=True))}
     disguised, kinds = read(folder, "false-alarms.csv"), read(folder, "other-engines.csv")
@@ -166,7 +174,7 @@ def sentences(folder):
                           "For many of these faults checks were made once they were known; of others it finds less ([tables, limits](reports/curated/trust/README.md))."},
         "docs/validation.md": {
             "": f"{finds}. The other commands find: {others}. Right engines, controls of the lists, found at fault: {len(accused)} of {len(right)}. "
-                "All by one build ([table, limits](../reports/curated/trust/README.md)).",
+                f"By {builds_in_words(rows)} ([table, limits](../reports/curated/trust/README.md)).",
             " false alarms": f"Right engines raised false alarms in {raised}, of {asked} commands ([rates, with what is promised](../reports/curated/trust/README.md#false-alarms)).",
         },
     }
@@ -189,9 +197,9 @@ def main():
     source, to = options.source.resolve(), options.to.resolve()
     to.mkdir(parents=True, exist_ok=True)
     rows = planted_faults.rows_of(planted_faults.works_of_lists([planted_faults.here / f"{name}.toml" for name in planted_faults.lists], source))
-    builds = table.builds_of(rows)
-    if len(builds) != 1:
-        sys.exit(f"{source}: records of {len(builds)} builds: {', '.join(builds)}")
+    run = [command for commands in table.builds_of(rows).values() for command in commands]
+    if len(run) != len(set(run)):
+        sys.exit(f"{source}: some command has records of several builds: {builds_in_words(rows)}")
     table.write(to / "table.csv", rows)
     for name in ("harness.csv", "false-alarms.csv", "other-engines.csv"):
         if (source / name).exists() and source != to:

@@ -29,7 +29,12 @@ def lists_of(rows):
 
 
 def builds_of(rows):
-    return sorted({row["build"] for row in rows if row["build"]})
+    """By build, which commands have rows of it, those with the most first."""
+    builds = {}
+    for row in rows:
+        if row["build"]:
+            builds.setdefault(row["build"], []).append(row["command"])
+    return {build: list(dict.fromkeys(builds[build])) for build in sorted(builds, key=lambda build: -len(builds[build]))}
 
 
 def ran(rows):
