@@ -398,8 +398,8 @@ CollisionCurve sweepIn(Engine& engine, const EngineEntry& entry, const Case& set
                            roundingOfPlaces<D>(scene, effective, starts, reference));
   if (curve.score.isRounded())
     curve.reason += fmt::format(
-        "{}not judged: beyond a limit, but in {} precision the rounding of places alone can move "
-        "outcomes by {:.2g} of the speed of approach",
+        "{}beyond a limit by no more than {} precision can do by rounding places: {:.2g} of the "
+        "speed of approach",
         curve.reason.empty() ? "" : "; ", effective.precision, *curve.score.rounding);
   if (declared)
     curve.declared = scoreDeclared(
