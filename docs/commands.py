@@ -25,7 +25,7 @@ def commands_of(program):
 def row_of(program, command):
     text = help_of(program, command)
     usage = re.search(r"(?m)^Usage: crossgrain (.*)$", text).group(1).replace(" [OPTIONS]", "")
-    options = re.findall(r"(?m)^  (?:-\w,)?(--[\w-]+)(?: ([^\s'=]+\S*))?(?:(?: \.\.\.)? (REQUIRED))?", text)
+    options = re.findall(r"(?m)^  (?:-\w,)?(--[\w-]+|-\w(?= ))(?: ([^\s'=]+\S*))?(?:(?: \.\.\.)? (REQUIRED))?", text)
     usage += "".join(f" {name} {value}" for name, value, required in options if required)
     others = ", ".join(f"`{name}`" for name, value, required in options if not required and name != "--help")
     cells = [f"`{usage}`", text.splitlines()[0], others]

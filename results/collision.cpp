@@ -68,6 +68,7 @@ void WorstQuantity::take(const CurveScore& score) {
 }
 
 std::string WorstQuantity::words() const {
+  if (times == 0.0) return {};
   return fmt::format("{} {} × its limit", symbol, shortly(times));
 }
 

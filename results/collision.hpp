@@ -155,7 +155,7 @@ struct WorstQuantity {
   std::string_view symbol;  ///< the quantity's
 
   void take(const CurveScore& score);
-  std::string words() const;  ///< "Ψ_f 3.1 × its limit"
+  std::string words() const;  ///< "Ψ_f 3.1 × its limit"; empty where none is beyond
 };
 
 /// A mirror that runs because its peer does.

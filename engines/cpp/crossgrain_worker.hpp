@@ -9,6 +9,9 @@
 //     double advance(double time);
 //     Json snapshot(const std::string& contacts, ArrayFile& arrays);
 //     Json stats();
+// and, of an engine with the capability `checkpoints`, all that its future depends on:
+//     void checkpoint(const std::string& file);
+//     void restore(const std::string& file);  after a load of the same scene
 // Json objects are the protocol's; arrays go under the protocol's names.
 
 #include <chrono>
@@ -21,6 +24,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -130,6 +134,13 @@ class StepCount {
   double wallSeconds_ = 0.0, cpuSeconds_ = 0.0;
 };
 
+template <typename Engine, typename = void>
+struct HasCheckpoints : std::false_type {};
+template <typename Engine>
+struct HasCheckpoints<Engine,
+                      std::void_t<decltype(&Engine::checkpoint), decltype(&Engine::restore)>>
+    : std::true_type {};
+
 template <typename Engine>
 Json answer(Engine& engine, const Json& request) {
   const std::string what = request.at("request");
@@ -147,6 +158,11 @@ Json answer(Engine& engine, const Json& request) {
   }
   if (what == "stats") return {{"stats", engine.stats()}};
   if (what == "quit") return Json::object();
+  if constexpr (HasCheckpoints<Engine>::value) {
+    const std::string file = request.value("file", "");
+    if (what == "checkpoint") return engine.checkpoint(file), Json::object();
+    if (what == "restore") return engine.restore(file), Json::object();
+  }
   throw std::runtime_error("no request '" + what + "'");
 }
 

@@ -235,6 +235,7 @@ void contactForcesAreThoseThatAct(CheckContext& context) {
     for (std::size_t k = 1; k < seen.size(); ++k) {
       const Snapshot &was = seen[k - 1], &now = seen[k];
       const double lapse = now.velocityTime - was.velocityTime;
+      context.require(lapse > 0.0, "velocities of two steps are said to be of one time");
       const Vec2 acting = scene.disks.mass[id] / lapse * (now.velocity[id] - was.velocity[id]);
       const Vec2 before = forceOn(was, id), after = forceOn(now, id);
       for (const int axis : {0, 1}) {

@@ -421,18 +421,6 @@ class PlantedEngine {
   double wallSeconds_ = 0.0, cpuSeconds_ = 0.0;
 };
 
-/// Found by crossgrain_worker::serve() in place of its own, which knows no checkpoints.
-Json answer(PlantedEngine& engine, const Json& request) {
-  const std::string what = request.at("request");
-  if (what == "checkpoint")
-    engine.checkpoint(request.at("file"));
-  else if (what == "restore")
-    engine.restore(request.at("file"));
-  else
-    return crossgrain_worker::answer<PlantedEngine>(engine, request);
-  return Json::object();
-}
-
 }  // namespace
 }  // namespace crossgrain::planted
 
