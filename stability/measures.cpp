@@ -283,7 +283,7 @@ Curve escaped(const Recording& run) {
 }
 
 /// Of one collision case: |e_n − oracle's of the law that the engine runs|, known once the disks
-/// have parted; 1 where they do not.
+/// have parted; e_n is 0 of those that do not (nearly critical dampers take for ever).
 Curve restitutionError(const Recording& run) {
   if (run.collisions.empty()) return {};
   Curve curve(run.snapshots.size(), 0.0);
@@ -291,7 +291,7 @@ Curve restitutionError(const Recording& run) {
     const CollisionStart& start = run.collisions[k];
     const double expected = oracleOutcome(run.law, pairOf(run.scene, k), start).en;
     const auto end = collisionEnd(run.scene, run.snapshots.back(), k, start);
-    curve.back() = std::max(curve.back(), end ? std::abs(end->en - expected) : 1.0);
+    curve.back() = std::max(curve.back(), std::abs((end ? end->en : 0.0) - expected));
   }
   return curve;
 }

@@ -203,6 +203,20 @@ TEST(StabilityMeasures, GoingThroughIsToldFromBouncing) {
   EXPECT_EQ(past.last("tunnelled"), 0.0);
 }
 
+/// Disks that stay together have e_n = 0: far from an elastic law's 1, and next to nothing from that
+/// of dampers at 0.95 of critical, exp(−π 0.95/√(1 − 0.95²)).
+TEST(StabilityMeasures, RestitutionOfDisksThatDoNotPartIsZero) {
+  Series at;
+  at.run.collisions = {{0.0, 2.0, Approach::spin}};
+  at.look(1.0, {0, 0}, {1.9, 0}, {0, 0}, {0, 0});
+  at.run.law = at.run.scene.law;
+  at.run.law.gn = 0.0;
+  EXPECT_NEAR(at.last("restitution_error"), 1.0, 1e-9);
+  at.run.law.gn = 0.95 * 2.0 * std::sqrt(100.0 * 1.0);  // k_n = 100 N/m, m₁₂ = 1 kg
+  const double damped = std::exp(-std::numbers::pi * 0.95 / std::sqrt(1.0 - 0.95 * 0.95));
+  EXPECT_NEAR(at.last("restitution_error"), damped, 1e-3 * damped);
+}
+
 TEST(StabilityMeasures, OneDiskGoesThroughAWallDisk) {
   Series at;
   at.run.scene.disks.radius.pop_back();
