@@ -246,6 +246,17 @@ TEST(FirstExceedance, ContactWithTheLargestDifference_IsNamed) {
   EXPECT_FALSE(firstExceedance(window, 2.0, {1e-10, 1e-6}, 3));
 }
 
+TEST(FirstExceedance, ContactThatLasts_IsNeitherNewNorOpening) {
+  LockstepWindow window;
+  const auto met = Row().with(0, 1, 1.0);
+  window.mirror = {Row(met).at(0.1), Row(met).at(0.2)};
+  window.engine = {Row(met).at(0.1), Row().with(0, 1, 2.0).at(0.2)};
+  window.engine[1].position[0].x() += 1e-6;
+  const auto first = firstExceedance(window, 2.0, {1e-10, 1e-10}, 3);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->contact, "sticking");
+}
+
 /// Impulses show in the positions of the next step, when the disks that met have parted.
 TEST(FirstExceedance, ContactsOfTheStepBefore_Count) {
   LockstepWindow window;

@@ -58,6 +58,7 @@ TEST(Motion, MembersTurnAndSpreadAboutTheCentre) {
   expectNear(memberPosition(now, Vec2(1.0, 1.0), Vec2(1.0, 1.0)), now.centre);
   now.angle = 0.0;
   expectNear(memberPosition(now, Vec2(1.0, 1.0), Vec2(3.0, 1.0)), Vec2(13.0, 20.0));
+  expectNear(memberPosition(now, Vec2(1.0, 1.0), Vec2(1.5, 1.0)), Vec2(11.5, 20.0));
 }
 
 /// v + ω × l, and away from the centre as fast wherever it is.
