@@ -81,6 +81,15 @@ std::string percentOf(double change) {
                                   : fmt::format(" {:+.0f} %", percent);
 }
 
+bool oneCause(const std::vector<SubjectCause>& causes) {
+  return std::ranges::all_of(causes, [&](const SubjectCause& one) {
+    const SubjectCause& first = causes.front();
+    const double largest = std::max(std::abs(one.change), std::abs(first.change));
+    return one.name == first.name &&
+           std::abs(one.change - first.change) <= explainedLeaves * largest;
+  });
+}
+
 Comparison close(double actual, double expected, const Tolerance& allowed) {
   return within(std::abs(actual - expected), std::abs(expected), allowed,
                 fmt::format("{:.8g}, not {:.8g}", actual, expected));

@@ -92,6 +92,21 @@ std::vector<std::string> valuesOf(const Capabilities& can, const ContactLaw& law
 /// The law with each option that the engine lacks set to one that it has.
 ContactLaw followed(const Capabilities& can, ContactLaw law);
 
+/// A cause stands where it leaves less than this part of what it is to explain, as a term of
+/// lockstep's (studies/lockstep/rules.hpp), besides less than is allowed: of what is hardly beyond
+/// a tolerance nearly any constant leaves less than that.
+inline constexpr double explainedLeaves = 0.2;
+
+/// What explains the collisions of a disk with partners of one kind.
+struct SubjectCause {
+  std::string name;     ///< "µ"
+  double change = 0.0;  ///< of a constant [-]
+};
+
+/// Whether one and the same thing explains what different partners show: it is not another one
+/// here and there, nor are amounts of it further apart than a fifth of the larger.
+bool oneCause(const std::vector<SubjectCause>& causes);
+
 /// Ends a check: the engine does not declare what it needs, or refuses the scene. No fault.
 struct Skipped {
   std::string reason;
@@ -127,6 +142,8 @@ class CheckContext {
   std::set<std::string> examined;              ///< capabilities in which a fault would be found
   std::map<std::string, std::string> refused;  ///< capabilities that could not be examined, and why
   std::optional<std::string> cause;            ///< of the faults; empty: none that was tried fits
+  std::vector<SubjectCause> subjectCauses;     ///< of partners whose collisions are explained
+  bool lawIsOff = false;  ///< the law without rolling resistance and cohesion was found wrong
   std::vector<std::string> notes;  ///< of a check without faults: what follows from conventions
 
   /// Single precision by default.
@@ -212,6 +229,10 @@ class CheckContext {
   void suspect(std::string what) {
     if (!cause) cause = std::move(what);
   }
+  /// The same of a part of the law: nobody knows while the law without it is wrong.
+  void suspectPart(std::string what) {
+    if (!lawIsOff) suspect(std::move(what));
+  }
 };
 
 /// Has the engine load a scene of D dimensions, which may differ from what it has in conventions.
@@ -239,6 +260,7 @@ struct Check {
   const char* what;            ///< the property
   void (*run)(CheckContext&);  ///< finds faults, or throws Skipped
   int dimension = 2;           ///< of its scenes
+  bool basis = false;  ///< it needs no law: others see their scenes through what it examines
 };
 
 using Checks = std::span<const Check>;

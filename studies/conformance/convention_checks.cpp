@@ -269,21 +269,24 @@ bool expectConvention(CheckContext& context, Engine& inHouse, const LawOption& o
   if (known) context.examine(capability);
   ++absence.kinds;
   if (off <= limit) return true;
+  if (option.part == LawPart::contact) context.lawIsOff = true;
   context.fault(text("under ", capability, " it is off the in-house engine by ",
                      fmt::format("{:.3g} m/s, allowed {:.3g}", off, limit),
                      " (a thousandth of k_n)"));
-  const bool explained = !nearest.empty() && least <= limit;
+  const double leaves = std::min(limit, explainedLeaves * off);
+  const bool explained = !nearest.empty() && least <= leaves;
   std::string said = text("it has ", name, " = ", nearest, ", and declares ", value);
   if (explained && nearest == "none" && absence.absent++ == 0) {
     absence.said = std::move(said);
-    absence.missing = [with, law = *declared, part = option.part, found, limit] {
-      return constantMissing(with, law, part, found, limit);
+    absence.missing = [with, law = *declared, part = option.part, found, leaves] {
+      return constantMissing(with, law, part, found, leaves);
     };
   } else if (explained && nearest != "none") {
-    context.suspect(std::move(said));
+    option.part == LawPart::contact ? context.suspect(std::move(said))
+                                    : context.suspectPart(std::move(said));
   } else if (!explained && option.part != LawPart::contact && !constant) {
-    constant = [with, law = *declared, part = option.part, found, limit] {
-      return constantOff(with, law, part, found, limit);
+    constant = [with, law = *declared, part = option.part, found, leaves] {
+      return constantOff(with, law, part, found, leaves);
     };
   }
   return true;
@@ -315,10 +318,10 @@ void conventionsAreThoseDeclared(CheckContext& context) {
         context.couldNotExamine(text(name, " = ", value), why);
       }
     }
-    if (absence.absent > 0) context.suspect(absence.cause());
+    if (absence.absent > 0) context.suspectPart(absence.cause());
   }
   if (constant && !context.cause)
-    if (std::string off = constant(); !off.empty()) context.suspect(std::move(off));
+    if (std::string off = constant(); !off.empty()) context.suspectPart(std::move(off));
   if (!any) context.skip("it declares no convention of a soft law, or refuses the scenes");
 }
 

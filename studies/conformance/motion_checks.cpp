@@ -345,8 +345,8 @@ void wallsSpinIsFelt(CheckContext& context) {
 
 Checks freeMotionChecks() {
   static constexpr Check list[] = {
-      {"FliesStraight", "a disk alone flies straight", fliesStraight},
-      {"FallsFreely", "disks of two sizes fall freely, for two seconds", fallsFreely},
+      {"FliesStraight", "a disk alone flies straight", fliesStraight, 2, true},
+      {"FallsFreely", "disks of two sizes fall freely, for two seconds", fallsFreely, 2, true},
       {"BottomPlateBrakesADisk", "the bottom plate brakes a disk", bottomPlateBrakesADisk},
       {"BottomPlateHoldsASlowDisk",
        "where nothing slides the bottom plate acts as its equations say",
