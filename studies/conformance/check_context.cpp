@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "adapters/law_options.hpp"
 #include "adapters/suitability.hpp"
@@ -73,6 +74,18 @@ bool hasBearing(const Capabilities& can, const std::string& option, const std::s
 bool simulates(const Capabilities& can, Effect effect) {
   const auto found = can.effects.find(effect);
   return found != can.effects.end() && found->second != Support::never;
+}
+
+bool single(const Capabilities& can) {
+  return !can.precisions.empty() && can.precisions.front() == Precision::float32;
+}
+
+double roundedInFlight(const Capabilities& can, double place, double steps) {
+  return single(can) ? 0.5 * std::numeric_limits<float>::epsilon() * place * steps : 0.0;
+}
+
+double roundedInContact(const Capabilities& can, double place, double steps) {
+  return single(can) ? std::numeric_limits<float>::epsilon() * place * std::sqrt(steps) : 0.0;
 }
 
 std::string percentOf(double change) {
@@ -222,10 +235,6 @@ ContactLaw followed(const Capabilities& can, ContactLaw law) {
   }
   if (!can.tangentialRestitution) law.et0 = 0.0;
   return law;
-}
-
-bool CheckContext::single() const {
-  return !can.precisions.empty() && can.precisions.front() == Precision::float32;
 }
 
 bool CheckContext::inHouse() const {

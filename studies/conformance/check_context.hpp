@@ -85,6 +85,22 @@ std::vector<std::string> declaredBy(const Capabilities& can);
 
 bool simulates(const Capabilities& can, Effect effect);
 
+/// Single precision by default.
+bool single(const Capabilities& can);
+
+// Single precision rounds a place x to ε|x|, ε = 2⁻²³, in every step, and so by half of that at
+// most; in double nothing of it is seen, and both are 0. A velocity is rounded to ε|v|, which is
+// nothing against a tolerance of a thousandth in ten thousand steps. [m]
+
+/// In n steps of free flight: each adds the same v dt, so that rounding adds the same, ½ ε|x| at
+/// most, which grows linearly. It is a velocity that is off by ½ ε|x|/dt.
+double roundedInFlight(const Capabilities& can, double place, double steps);
+/// In n steps of a contact: v dt is another part of ε|x| in each, so that roundings are
+/// independent, evenly distributed within ½ ε|x|, and walk: ε|x| √(n/12), here 3.5 times that.
+/// By Σ f δx they change the energy that a contact gives back: of two bodies, relative speeds by
+/// this over the largest overlap (f = m₁₂ ω² δ, its mean square half of the largest; δ_max = v/ω).
+double roundedInContact(const Capabilities& can, double place, double steps);
+
 /// The values that the engine declares of an option; of one that it does not list, the law's own.
 std::vector<std::string> valuesOf(const Capabilities& can, const ContactLaw& law,
                                   const std::string& option);
@@ -147,7 +163,7 @@ class CheckContext {
   std::vector<std::string> notes;  ///< of a check without faults: what follows from conventions
 
   /// Single precision by default.
-  bool single() const;
+  bool single() const { return conformance::single(can); }
   /// The thesis' law with the engine's own conventions where it lacks the thesis' ones.
   ContactLaw law() const { return followed(can, fullLaw()); }
   /// Rigid disks have no duration of contact, and no oracle of the soft law applies to them.

@@ -105,6 +105,7 @@ struct Quantity {
   const char* name;
   std::optional<double> (*of)(const CollisionEnd&);
   Tolerance allowed;
+  bool isTime = false;
 };
 
 // Friction is first order where it starts to slip; a rigid engine acts half a step's overlap inside
@@ -112,13 +113,26 @@ struct Quantity {
 const Tolerance friction = {0.03, 0.01, "slip begins within a step"};
 const Tolerance firstOrder = {0.0, 0.02, "a first-order scheme at t_c/400"};
 
+Tolerance wider(Tolerance allowed, double by, double size) {
+  const double limit = std::max(allowed.absolute, allowed.relative * size);
+  return {limit + by, 0.0, allowed.why};
+}
+
+/// How far single precision takes the numbers of an outcome (check_context.hpp): speeds by that
+/// part of the speed of approach in the contact, the duration in the flight that follows, from
+/// which the instant of separation is worked out.
+struct Rounded {
+  double speeds = 0.0;  ///< [-]
+  double way = 0.0;     ///< of both bodies in the flight until the snapshot [m]
+};
+
 std::vector<Quantity> quantities(const Tolerance& psi, const Tolerance& others) {
-  return {
-      {"e_n", [](const CollisionEnd& end) { return std::optional(end.en); }, others},
-      {"psi_f", [](const CollisionEnd& end) { return std::optional(end.psi); }, psi},
-      {"the centre's v_t/v_n", [](const CollisionEnd& end) { return std::optional(end.centrePsi); },
-       psi},
-      {"the contact's duration [s]", [](const CollisionEnd& end) { return end.duration; }, others}};
+  return {{"e_n", [](const CollisionEnd& end) { return std::optional(end.en); }, others},
+          {"psi_f", [](const CollisionEnd& end) { return std::optional(end.psi); }, psi},
+          {"the centre's v_t/v_n",
+           [](const CollisionEnd& end) { return std::optional(end.centrePsi); }, psi},
+          {"the contact's duration [s]", [](const CollisionEnd& end) { return end.duration; },
+           others, true}};
 }
 
 /// The largest error of one outcome's numbers, in units of what is allowed; infinite without a
@@ -346,7 +360,8 @@ std::string placeOf(const Meeting& meeting) {
 
 /// @returns whether there was any reference
 bool expectEnds(CheckContext& context, const Meeting& meeting, const MeetingResult& outcome,
-                const Ends& wanted, const std::vector<Quantity>& all, const std::string& name) {
+                const Ends& wanted, const std::vector<Quantity>& all, const std::string& name,
+                const Rounded& rounded = {}) {
   bool any = false;
   for (std::size_t k = 0; k < wanted.size(); ++k) {
     if (!wanted[k]) continue;
@@ -359,7 +374,11 @@ bool expectEnds(CheckContext& context, const Meeting& meeting, const MeetingResu
     if (!outcome.ends[k]) continue;
     for (const Quantity& quantity : all) {
       const auto is = quantity.of(*outcome.ends[k]), should = quantity.of(*wanted[k]);
-      if (is && should) context.near(*is, *should, quantity.allowed, where + quantity.name);
+      if (!is || !should) continue;
+      const double apart = std::max(wanted[k]->en, 1e-3) * start.vn;  // slow ones fly for long
+      const double by = quantity.isTime ? rounded.way / apart : rounded.speeds;
+      context.near(*is, *should, wider(quantity.allowed, by, std::abs(*should)),
+                   where + quantity.name);
     }
   }
   return any;
@@ -422,6 +441,28 @@ std::optional<MeetingResult> meet(CheckContext& context, const Meeting& meeting,
   return outcome;
 }
 
+namespace {
+
+Rounded roundedOf(const CheckContext& context, const Meeting& meeting,
+                  const MeetingResult& outcome) {
+  Rounded rounded;
+  if (!context.single() || !outcome.law.soft()) return rounded;
+  double place = 0.0;
+  for (const Vec2& x : context.scene.disks.position) place = std::max(place, x.norm());
+  const double dt = context.effective.dt;
+  for (const CollisionStart& start : meeting.starts) {
+    const Impact impact{outcome.pair.reducedMass(), outcome.pair.reducedRadius(), start.vn};
+    const double contact = impactTime(outcome.law, impact);
+    const double walk = roundedInContact(context.can, place, contact / dt);
+    rounded.speeds = std::max(rounded.speeds, walk / deepestOverlap(outcome.law, impact));
+    rounded.way = std::max(
+        rounded.way, 2.0 * roundedInFlight(context.can, place, (outcome.time - contact) / dt));
+  }
+  return rounded;
+}
+
+}  // namespace
+
 bool Evidence::expectTheOracle(CheckContext& context, const Meeting& meeting,
                                const MeetingResult& outcome, const std::string& name) {
   Ends wanted = oracleEnds(outcome.law, outcome.pair, meeting.starts);
@@ -438,8 +479,8 @@ bool Evidence::expectTheOracle(CheckContext& context, const Meeting& meeting,
       if (!wanted[k]) wanted[k] = theirs[k];
   }
   const std::size_t before = context.faults.size();
-  const bool any =
-      expectEnds(context, meeting, outcome, wanted, quantities(friction, firstOrder), name);
+  const bool any = expectEnds(context, meeting, outcome, wanted, quantities(friction, firstOrder),
+                              name, roundedOf(context, meeting, outcome));
   if (context.faults.size() > before && !firstWrong_) firstWrong_ = all_.size();
   all_.push_back({meeting, outcome, std::move(mirrored)});
   return any;

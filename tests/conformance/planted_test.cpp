@@ -126,6 +126,19 @@ TEST(PlantedFaults, WhatNoConstantExplains_HasNoCause) {
   }
 }
 
+/// Rounding of single precision is no fault, and hides none.
+TEST(PlantedFaults, SinglePrecision_Declared_IsRightAndItsFaultsAreFound) {
+  for (const std::string how : {"", " integrator=2 spring_only=1", " lagged=1 spring_before=1",
+                                " dashpot_outside=1 lever_middle=1 cut_tension=1"}) {
+    const std::string single = "declares=1 float_state=2" + how;
+    EXPECT_EQ("", faultsOf(rowsOf(plantedEntry("single", single)))) << single;
+    for (const char* fault : {" kn=1.05", " mu=0.9", " gn=1.1"})
+      EXPECT_NE("", faultsOf(rowsOf(plantedEntry("single", single + fault),
+                                    {"ConventionsAreThoseDeclared"})))
+          << single << fault;
+  }
+}
+
 class PlantedFault : public testing::TestWithParam<Planted> {};
 
 TEST_P(PlantedFault, PlantedEngine_Check_FailsAndNamesCause) {
