@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "adapters/law_options.hpp"
 #include "adapters/suitability.hpp"
@@ -75,10 +76,31 @@ bool simulates(const Capabilities& can, Effect effect) {
   return found != can.effects.end() && found->second != Support::never;
 }
 
+bool single(const Capabilities& can) {
+  return !can.precisions.empty() && can.precisions.front() == Precision::float32;
+}
+
+double roundedInFlight(const Capabilities& can, double place, double steps) {
+  return single(can) ? 0.5 * std::numeric_limits<float>::epsilon() * place * steps : 0.0;
+}
+
+double roundedInContact(const Capabilities& can, double place, double steps) {
+  return single(can) ? std::numeric_limits<float>::epsilon() * place * std::sqrt(steps) : 0.0;
+}
+
 std::string percentOf(double change) {
   const double percent = 100.0 * change;
   return std::abs(percent) < 99.5 ? fmt::format(" {:+.2g} %", percent)
                                   : fmt::format(" {:+.0f} %", percent);
+}
+
+bool oneCause(const std::vector<SubjectCause>& causes) {
+  return std::ranges::all_of(causes, [&](const SubjectCause& one) {
+    const SubjectCause& first = causes.front();
+    const double largest = std::max(std::abs(one.change), std::abs(first.change));
+    return one.name == first.name &&
+           std::abs(one.change - first.change) <= explainedLeaves * largest;
+  });
 }
 
 Comparison close(double actual, double expected, const Tolerance& allowed) {
@@ -219,10 +241,6 @@ ContactLaw followed(const Capabilities& can, ContactLaw law) {
   }
   if (!can.tangentialRestitution) law.et0 = 0.0;
   return law;
-}
-
-bool CheckContext::single() const {
-  return !can.precisions.empty() && can.precisions.front() == Precision::float32;
 }
 
 bool CheckContext::inHouse() const {

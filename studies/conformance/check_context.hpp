@@ -88,12 +88,43 @@ std::vector<std::string> declaredBy(const Capabilities& can);
 
 bool simulates(const Capabilities& can, Effect effect);
 
+/// Single precision by default.
+bool single(const Capabilities& can);
+
+// Single precision rounds a place x to ε|x|, ε = 2⁻²³, in every step, and so by half of that at
+// most; in double nothing of it is seen, and both are 0. A velocity is rounded to ε|v|, which is
+// nothing against a tolerance of a thousandth in ten thousand steps. [m]
+
+/// In n steps of free flight: each adds the same v dt, so that rounding adds the same, ½ ε|x| at
+/// most, which grows linearly. It is a velocity that is off by ½ ε|x|/dt.
+double roundedInFlight(const Capabilities& can, double place, double steps);
+/// In n steps of a contact: v dt is another part of ε|x| in each, so that roundings are
+/// independent, evenly distributed within ½ ε|x|, and walk: ε|x| √(n/12), here 3.5 times that.
+/// By Σ f δx they change the energy that a contact gives back: of two bodies, relative speeds by
+/// this over the largest overlap (f = m₁₂ ω² δ, its mean square half of the largest; δ_max = v/ω).
+double roundedInContact(const Capabilities& can, double place, double steps);
+
 /// The values that the engine declares of an option; of one that it does not list, the law's own.
 std::vector<std::string> valuesOf(const Capabilities& can, const ContactLaw& law,
                                   const std::string& option);
 
 /// The law with each option that the engine lacks set to one that it has.
 ContactLaw followed(const Capabilities& can, ContactLaw law);
+
+/// A cause stands where it leaves less than this part of what it is to explain, as a term of
+/// lockstep's (studies/lockstep/rules.hpp), besides less than is allowed: of what is hardly beyond
+/// a tolerance nearly any constant leaves less than that.
+inline constexpr double explainedLeaves = 0.2;
+
+/// What explains the collisions of a disk with partners of one kind.
+struct SubjectCause {
+  std::string name;     ///< "µ"
+  double change = 0.0;  ///< of a constant [-]
+};
+
+/// Whether one and the same thing explains what different partners show: it is not another one
+/// here and there, nor are amounts of it further apart than a fifth of the larger.
+bool oneCause(const std::vector<SubjectCause>& causes);
 
 /// Ends a check: the engine does not declare what it needs, or refuses the scene. No fault.
 struct Skipped {
@@ -130,10 +161,12 @@ class CheckContext {
   std::set<std::string> examined;              ///< capabilities in which a fault would be found
   std::map<std::string, std::string> refused;  ///< capabilities that could not be examined, and why
   std::optional<std::string> cause;            ///< of the faults; empty: none that was tried fits
+  std::vector<SubjectCause> subjectCauses;     ///< of partners whose collisions are explained
+  bool lawIsOff = false;  ///< the law without rolling resistance and cohesion was found wrong
   std::vector<std::string> notes;  ///< of a check without faults: what follows from conventions
 
   /// Single precision by default.
-  bool single() const;
+  bool single() const { return conformance::single(can); }
   /// The thesis' law with the engine's own conventions where it lacks the thesis' ones.
   ContactLaw law() const { return followed(can, fullLaw()); }
   /// Rigid disks have no duration of contact, and no oracle of the soft law applies to them.
@@ -215,6 +248,10 @@ class CheckContext {
   void suspect(std::string what) {
     if (!cause) cause = std::move(what);
   }
+  /// The same of a part of the law: nobody knows while the law without it is wrong.
+  void suspectPart(std::string what) {
+    if (!lawIsOff) suspect(std::move(what));
+  }
 };
 
 /// Has the engine load a scene of D dimensions, which may differ from what it has in conventions.
@@ -242,6 +279,7 @@ struct Check {
   const char* what;            ///< the property
   void (*run)(CheckContext&);  ///< finds faults, or throws Skipped
   int dimension = 2;           ///< of its scenes
+  bool basis = false;  ///< it needs no law: others see their scenes through what it examines
 };
 
 using Checks = std::span<const Check>;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <string>
 
 #include "adapters/audit.hpp"
@@ -46,8 +47,8 @@ std::string nameOf(const ContactLaw& law) {
                          : "");
 }
 
-/// @returns whether there was a reference
-bool compared(CheckContext& context, Meeting meeting) {
+/// @param evidence  gets what came of it  @returns whether there was a reference
+bool compared(CheckContext& context, Meeting meeting, Evidence& evidence) {
   const ContactLaw& law = meeting.law;
   if (!law.soft()) {
     // An impact acts at the end of a step in which an oblique disk has gone on, v_t dt, round the
@@ -60,7 +61,7 @@ bool compared(CheckContext& context, Meeting meeting) {
   }
   std::string why;
   const auto result = meet(context, meeting, &why);
-  const bool known = result && expectTheOracle(context, meeting, *result, nameOf(law));
+  const bool known = result && evidence.expectTheOracle(context, meeting, *result, nameOf(law));
   if (why.empty()) why = "there is no reference for " + nameOf(law);
   for (const char* option : {"normal", "damper", "tangential", "tension"}) {
     const std::string capability = text(option, " = ", lawOptionValue(law, option));
@@ -78,10 +79,12 @@ bool compared(CheckContext& context, Meeting meeting) {
 /// Every law that the engine declares, between a small disk and that partner.
 void followTheOracle(CheckContext& context, Meeting meeting) {
   bool any = false;
+  std::map<NormalLaw, Evidence> evidence;
   for (const ContactLaw& law : declaredLaws(context.can)) {
     meeting.law = law;
-    any = compared(context, meeting) || any;
+    any = compared(context, meeting, evidence[law.normal]) || any;
   }
+  for (const auto& [normal, one] : evidence) one.explain(context);
   if (!any) context.skip("it refuses all of its laws here, or there is no reference for them");
 }
 
@@ -117,16 +120,19 @@ void unequalDisksFollowTheOracle(CheckContext& context) {
 /// A ring's, and a sphere's: what a scene says, and not what a disk of that mass and radius has.
 void inertiaIsTheScenes(CheckContext& context) {
   bool any = false;
+  Evidence evidence;
   for (const double factor : {0.4, 1.0}) {
     const auto& allowed = context.can.limits.inertia;
     if (allowed &&
         std::ranges::none_of(*allowed, [&](double q) { return std::abs(q - factor) < 1e-6; }))
       continue;
-    any = compared(context, {.law = context.law(),
-                             .inertiaFactor = factor,
-                             .starts = startsOf(Approach::spin)}) ||
+    any = compared(
+              context,
+              {.law = context.law(), .inertiaFactor = factor, .starts = startsOf(Approach::spin)},
+              evidence) ||
           any;
   }
+  evidence.explain(context);
   if (!any) context.skip("declares no other moments of inertia than those of disks");
 }
 
@@ -146,13 +152,18 @@ void planesFollowTheOracle(CheckContext& context) {
 void movingPlanesFollowTheOracle(CheckContext& context) {
   context.needs(planeMotion(Motion::Kind::translating));
   bool any = false;
-  for (const std::string& normal : valuesOf(context.can, context.law(), "normal"))
+  for (const std::string& normal : valuesOf(context.can, context.law(), "normal")) {
+    Evidence evidence;
     for (const Vec2& velocity : {Vec2(0.0, 1.5), Vec2(0.5, 0.0), Vec2(-0.5, 0.0)})
-      any = compared(context, {.law = lawOf(context.can, normal),
-                               .partner = Partner::plane,
-                               .starts = allWays(),
-                               .wallVelocity = Encounter::speed * velocity}) ||
+      any = compared(context,
+                     {.law = lawOf(context.can, normal),
+                      .partner = Partner::plane,
+                      .starts = allWays(),
+                      .wallVelocity = Encounter::speed * velocity},
+                     evidence) ||
             any;
+    evidence.explain(context);
+  }
   if (!any) context.skip("it refuses planes that move, or there is no reference for its laws");
   context.examine(planeMotion(Motion::Kind::translating));
   context.examine(planesAlongThemselves);

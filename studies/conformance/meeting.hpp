@@ -38,11 +38,27 @@ struct MeetingResult {
 std::optional<MeetingResult> meet(CheckContext& context, const Meeting& meeting,
                                   std::string* why = nullptr);
 
-/// A fault for each number that is not the oracle's, and the most likely cause. Where the
-/// law has no limit of small steps the in-house engine with its conventions stands for the oracle.
-/// @returns whether there was any reference
-bool expectTheOracle(CheckContext& context, const Meeting& meeting, const MeetingResult& outcome,
-                     const std::string& name);
+/// Collisions with partners of one kind under laws of one kind: what is off has to explain all of
+/// them with one amount, those that came out right included.
+class Evidence {
+ public:
+  /// A fault for each number that is not the oracle's. Where the law has no limit of small steps
+  /// the in-house engine with its conventions stands for the oracle.
+  /// @returns whether there was any reference
+  bool expectTheOracle(CheckContext& context, const Meeting& meeting, const MeetingResult& outcome,
+                       const std::string& name);
+  /// The most likely cause of the faults, of none if there were none.
+  void explain(CheckContext& context) const;
+
+ private:
+  struct One {
+    Meeting meeting;
+    MeetingResult outcome;
+    Scene mirrored;  ///< as the in-house engine would have it
+  };
+  std::vector<One> all_;
+  std::optional<std::size_t> firstWrong_;
+};
 
 /// The same against what the same engine did elsewhere: Ψ_f to within `psi`, e_n and duration to
 /// that part.

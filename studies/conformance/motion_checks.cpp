@@ -113,10 +113,8 @@ void bottomPlateBrakesADisk(CheckContext& context) {
     const double lost = deceleration * after.velocityTime;
     const Vec2& velocity = scene.disks.velocity[0];
     const Vec2 expected = velocity * (1.0 - lost / velocity.norm());
-    // In single precision a place that is rounded in every step is a velocity that is.
     const double dt = context.effective.dt, way = after.velocityTime * velocity.norm();
-    const double rounded =
-        context.single() ? std::numeric_limits<float>::epsilon() * way / dt : 0.0;
+    const double rounded = 2.0 * roundedInFlight(context.can, way, 1.0) / dt;
     const Tolerance step = {deceleration * dt + rounded, 0.0,
                             "whether the plate acts in the first half step"};
     const bool held = context.faults.empty();
@@ -262,7 +260,7 @@ void wheelKeepsItsAngle(CheckContext& context) {
     const auto steps = static_cast<double>(context.engine.stats().steps);
     const Tolerance rounding = context.byPrecision(
         0.5 * std::numeric_limits<double>::epsilon() * steps,
-        0.5 * std::numeric_limits<float>::epsilon() * steps, "half a bit of every addition");
+        roundedInFlight(context.can, 1.0, steps), "half a bit of every addition");
     context.near(now.position[0],
                  Vec2(scene.disks.position[0] + now.positionTime * scene.disks.velocity[0]),
                  rounding, "the position of a disk that nothing touches [m]");
@@ -353,8 +351,8 @@ void wallsSpinIsFelt(CheckContext& context) {
 
 Checks freeMotionChecks() {
   static constexpr Check list[] = {
-      {"FliesStraight", "a disk alone flies straight", fliesStraight},
-      {"FallsFreely", "disks of two sizes fall freely, for two seconds", fallsFreely},
+      {"FliesStraight", "a disk alone flies straight", fliesStraight, 2, true},
+      {"FallsFreely", "disks of two sizes fall freely, for two seconds", fallsFreely, 2, true},
       {"BottomPlateBrakesADisk", "the bottom plate brakes a disk", bottomPlateBrakesADisk},
       {"BottomPlateHoldsASlowDisk",
        "where nothing slides the bottom plate acts as its equations say",

@@ -400,14 +400,18 @@ Checks capabilityChecks() {
 
 Checks lifecycleChecks() {
   static constexpr Check list[] = {
-      {"AdvancesByWholeSteps", "it advances by whole steps and counts them", advancesByWholeSteps},
-      {"StartIsTheScene", "it starts from the scene's own state", startIsTheScene},
-      {"HalfwayStopsChangeNothing", "stops half way change nothing", halfwayStopsChangeNothing},
-      {"LookingChangesNothing", "looking changes nothing", lookingChangesNothing},
-      {"LoadingStartsAfresh", "loading again starts afresh, to the bit", loadingStartsAfresh},
+      {"AdvancesByWholeSteps", "it advances by whole steps and counts them", advancesByWholeSteps,
+       2, true},
+      {"StartIsTheScene", "it starts from the scene's own state", startIsTheScene, 2, true},
+      {"HalfwayStopsChangeNothing", "stops half way change nothing", halfwayStopsChangeNothing, 2,
+       true},
+      {"LookingChangesNothing", "looking changes nothing", lookingChangesNothing, 2, true},
+      {"LoadingStartsAfresh", "loading again starts afresh, to the bit", loadingStartsAfresh, 2,
+       true},
       {"CheckpointsGoOnToTheBit", "a run taken up from a checkpoint goes on to the bit",
        checkpointsGoOnToTheBit},
-      {"WorkersAgreeBitForBit", "two workers do the same, to the bit", workersAgreeBitForBit},
+      {"WorkersAgreeBitForBit", "two workers do the same, to the bit", workersAgreeBitForBit, 2,
+       true},
   };
   return list;
 }

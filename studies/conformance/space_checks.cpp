@@ -337,6 +337,7 @@ void expectPairsAcross(CheckContext& c, bool corner) {
       loadedPairs(c, twoPairs<D>(followed(c.can, dampedLaw(D)), {8.0, 16.0}, 0.0, 1.0, corner));
   const BoxOf<D>& box = *scene.box;
   c.examine(periodicDirections);
+  const bool held = c.faults.empty();  // at a border: else a corner says nothing more
   const Tolerance rounding =
       c.byPrecision(1e-9, 1e-4, "the same sums of places that are rounded in another way");
   const SnapshotOf<D> during = shown<D>(c, 4e-5), after = shown<D>(c, 1e-3);
@@ -349,9 +350,9 @@ void expectPairsAcross(CheckContext& c, bool corner) {
            text("Δv of ", side,
                 " of two across the border, off from that of the same two inside by a part of it"));
   }
-  if (changes[1].norm() < 1e-3 * changes[0].norm())
+  if (held && changes[1].norm() < 1e-3 * changes[0].norm())
     c.suspect("bodies do not meet each other's images across the border");
-  else if (changes[1].dot(changes[0]) < 0.0)
+  else if (held && changes[1].dot(changes[0]) < 0.0)
     c.suspect("the force across a border is that of the wrong image: it has the other sign");
   if (!during.contacts) return;
   const auto contactsOf = [&](std::int32_t first) {
@@ -362,12 +363,14 @@ void expectPairsAcross(CheckContext& c, bool corner) {
     VecOf<D> line = during.position[static_cast<std::size_t>(during.contacts->i[k])] -
                     during.position[static_cast<std::size_t>(during.contacts->j[k])];
     line = box.nearest(line);
+    const double deep = during.contacts->overlap[k] - (2.0 * radius - line.norm());
     const double off = (during.contacts->normal[k] - line.normalized()).norm();
     // Contacts may be a step older than positions.
     c.near(off, 0.0, {1e-2, 0.0, "n turns by 1e-3 in a step"},
            text("n of a contact of ", during.contacts->i[k], " and ", during.contacts->j[k],
                 ", off from the line to the nearest image"));
-    if (off > 1.0)
+    // Of a box of another period the overlap would be another one, too.
+    if (held && off > 1.0 && std::abs(deep) < 0.1 * radius)
       c.suspect("the normal of a contact across the border is that to the wrong image");
   }
 }

@@ -97,9 +97,10 @@ def failed_checks(results):
     return [row["check"] for row in results.get("checks", []) if row["outcome"] in ("failed", "broke_down")]
 
 
-def _is_term(fault, term):
+def _is_term(fault, term, whole):
+    """@param whole  the statement with its amount and its place"""
     name, change = term
-    if "later_term" in fault and re.search(fault["later_term"], name):
+    if "later_term" in fault and re.search(fault["later_term"], whole):
         return True
     if not re.search(rf"(?:^|\b|without )(?:{fault['term']})\b" if fault["term"][-1].isalnum() else fault["term"], name):
         return False
@@ -113,7 +114,8 @@ def named(command, results, engine, fault, errors):
         return ""
     term = term_of(command, results, engine)
     if term is not None:
-        return "rightly" if _is_term(fault, term) else "wrongly"
+        whole = results["cause"].split("; ")[0] if command == "conformance" else term[0]
+        return "rightly" if _is_term(fault, term, whole) else "wrongly"
     broken = failures(command, results, engine, errors)
     if broken and "says" in fault and any(re.search(fault["says"], what) for what in broken):
         return "rightly"

@@ -55,6 +55,12 @@ class Named(unittest.TestCase):
         self.assertEqual([("spring does not follow n as that turns: nothing takes out its part along n", None)], list(reading._statements(said)))
         self.assertEqual([("inertia", 1.0)], list(reading._statements("torque -50 %, of two disks")))
 
+    def test_a_later_term_may_ask_for_amount_and_place(self):
+        fault = {"term": "never", "later_term": "^µ -100 %, at (wall disks|planes)"}
+        self.assertEqual("rightly", self.named("conformance", conformance("µ -100 %, at planes; k_t -10 %"), fault))
+        self.assertEqual("wrongly", self.named("conformance", conformance("µ -100 %, of two disks"), fault))
+        self.assertEqual("wrongly", self.named("conformance", conformance("k_t -10 %; µ -100 %, at planes"), fault))
+
     def test_what_is_said_of_a_run_that_broke_down_counts(self):
         self.assertEqual("rightly", self.named("lockstep", lockstep(None, failure="contact 0 is not there"), LOST))
         self.assertEqual("", self.named("lockstep", lockstep(None, failure="it died"), LOST))
