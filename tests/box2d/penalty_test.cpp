@@ -28,6 +28,21 @@ TEST(Box2dPenalty, RestitutionWithTensionAndCut) {
   }
 }
 
+/// Without dashpots and sliding all that the motion lacks is in the two springs.
+TEST(Box2dPenalty, EnergyIsInMotionAndSprings) {
+  ContactLaw law = box2dLaw(TangentialLaw::spring);
+  law.gn = law.gt = 0.0;
+  law.mu = 100.0;
+  const Scene scene = onePair(law, 1.0, fine);
+  const auto engine = makeBox2dPenalty();
+  const auto sum = [](const Snapshot& at) { return at.energies->kinetic + at.energies->elastic; };
+  const Snapshot before = runTo(*engine, scene, 0.0);
+  engine->advance(0.25 * smallContactTime);
+  const Snapshot within = engine->snapshot(ContactReport::instant);
+  EXPECT_LT(within.energies->kinetic, 0.8 * before.energies->kinetic);
+  EXPECT_NEAR(sum(within), sum(before), 5e-3 * sum(before));
+}
+
 TEST(Box2dPenalty, KeepsMomentumAndWithContactPointArmsAngularMomentum) {
   Scene scene;
   scene.law = box2dLaw();

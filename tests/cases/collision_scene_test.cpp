@@ -34,6 +34,19 @@ TEST(CollisionScene, Pairs_HeadOn_WithPsi) {
   }
 }
 
+/// One disk of a kind is enough for the kind.
+TEST(PairsOf, CellOfOneSmallAndNoLargeDisk_HasThatKindAndTheWall) {
+  Case setup = test::smallPairCase();
+  setup.kind = CaseKind::couette;
+  setup.particles.small = 1;
+  setup.particles.large = 0;
+  setup.particles.smallRadius = setup.cell.wallRadius = test::smallRadius;
+  setup.particles.smallMass = test::smallMass;
+  std::vector<std::string> names;
+  for (const NamedPair& pair : pairsOf(setup)) names.push_back(pair.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"small-small", "small-wall"}));
+}
+
 TEST(CollisionScene, Oblique_NoSpin_TouchesOnTheAxis) {
   Case setup = test::smallPairCase();
   setup.collision.mass[1] = 8.0 * test::smallMass;

@@ -79,6 +79,8 @@ TEST(CollisionOracle, ConventionsWithoutALimitAreRefused) {
   ContactLaw law = thesisLaw();
   law.conventions.dashpot = Dashpot::outside;
   EXPECT_THROW(oracleOutcome(law, smallPair(), {1.0, 0.1}), std::invalid_argument);
+  law.tangential = TangentialLaw::viscous;  // has no spring that the dashpot could be outside with
+  EXPECT_NO_THROW(oracleOutcome(law, smallPair(), {1.0, 0.1}));
   law = thesisLaw();
   law.gn = 2.0;
   EXPECT_THROW(oracleOutcome(law, smallPair(), {1.0, 0.1}), std::invalid_argument);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "averaging/agreement.hpp"
 #include "studies/flow/ensemble.hpp"
@@ -46,6 +47,19 @@ TEST(Ensemble, Packings_HaveMeanAndStandardError) {
   EXPECT_NEAR(*profile.standardError[0], std::sqrt(5.0 / 3.0) / 2.0, 1e-14);
   EXPECT_EQ(profile.nEff[0], 4.0);
   EXPECT_DOUBLE_EQ(*ensemble[0].fits[0].value, 11.5);
+}
+
+/// 3 and −3 rad are 0.28 rad apart, on either side of π.
+TEST(Ensemble, Angles_HaveTheirMeanAcrossTheTurn) {
+  std::vector<FlowRun> runs;
+  for (const double angle : {3.0, -3.0}) {
+    runs.push_back(test::flowRun("a", static_cast<int>(runs.size()), {test::sliced("f", {1.0})}));
+    FitRow& fit = runs.back().fits.emplace_back();
+    fit.name = "angle";
+    fit.value = angle;
+    fit.period = 2.0 * std::numbers::pi;
+  }
+  EXPECT_NEAR(*ensembleOf(runs, {"a"}).at(0).fits[0].value, std::numbers::pi, 1e-12);
 }
 
 TEST(AgreementRow, AbsoluteMargin_TestsDifferencesOfPackings) {
