@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "reports/common/sentences.hpp"
 #include "results/json_fields.hpp"
 
@@ -120,8 +122,11 @@ std::string conformanceNotExamined(const ConformanceResults& results) {
 
 std::string conformanceCause(const ConformanceResults& results) {
   if (!results.cause.empty()) return "most likely: " + results.cause;
-  if (results.count(checkFailed) == 0) return {};
-  return "most likely: no single cause of those tried explains it";
+  const auto first = std::ranges::find(results.rows, checkFailed, &ConformanceRow::outcome);
+  if (first == results.rows.end()) return {};
+  return fmt::format(
+      "no single cause of those tried explains it; see to {} first: later checks ask for more",
+      first->name);
 }
 
 std::string conformanceSentence(const ConformanceRow& row) {

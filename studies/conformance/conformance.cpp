@@ -9,16 +9,12 @@
 #include <ranges>
 
 #include "adapters/suitability.hpp"
-#include "cases/collision_scene.hpp"
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
-#include "oracle/collision_oracle.hpp"
-#include "oracle/impact.hpp"
 #include "results/lockstep_text.hpp"
 #include "results/schema.hpp"
 #include "studies/collide/collide.hpp"
-#include "studies/collide/sweep.hpp"
 #include "studies/conformance/declared_laws.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/executor.hpp"
@@ -171,30 +167,6 @@ namespace crossgrain::inline studies {
 
 namespace {
 
-/// Margins of what single precision rounds (conformance/check_context.hpp): overlaps and speeds in
-/// the contact, the duration in the flight that follows, from which the instant of separation is
-/// worked out.
-void allowForRounding(const Capabilities& can, Case& setup) {
-  if (!conformance::single(can) || !setup.law.soft()) return;
-  const std::vector<CollisionStart> starts = collisionStarts(setup);
-  const double dt = timeStep(setup), contact = impactTimes(setup).longest;
-  double place = 0.0, slowest = std::numeric_limits<double>::infinity();
-  for (const Vec2& x : collisionScene(setup, starts, dt).disks.position)
-    place = std::max(place, x.norm());
-  for (const CollisionStart& start : starts) slowest = std::min(slowest, start.vn);
-  const CollidingPair pair = collidingPair(setup);
-  const double speeds =
-      conformance::roundedInContact(can, place, contact / dt) /
-      deepestOverlap(setup.law, {pair.reducedMass(), pair.reducedRadius(), slowest});
-  const double flight = sweepEnd(setup, dt, dt) - contact;
-  const double way = 2.0 * conformance::roundedInFlight(can, place, flight / dt);
-  const double apart = closedRestitution(setup.law, pair.reducedMass()).value_or(1.0) * slowest;
-  for (auto& [name, margin] : setup.collision.margins) {
-    margin.value += name == "duration" ? way / apart / contact : speeds;
-    margin.why += "; single precision";
-  }
-}
-
 /// Collisions of the laws of Lätzel's figure 4.3, or of rigid disks, at 50 steps a contact: whether
 /// they converge is the business of `collide`. Without the pure spring, which has two limits of
 /// small steps (README.md, known limits): no single oracle says which an engine is to reach.
@@ -209,7 +181,6 @@ std::vector<Case> collisionCases(const Capabilities& can) {
   std::erase_if(cases, [](const Case& each) {
     return each.law.soft() && each.law.tangential == TangentialLaw::spring;
   });
-  for (Case& each : cases) allowForRounding(can, each);
   return cases;
 }
 

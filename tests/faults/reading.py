@@ -14,6 +14,8 @@ def accused(command, status, results, engine, own_law=True):
     """Whether an engine that is right is found at fault (false_alarms.toml, other_engines.toml). @param own_law  whether the case has the law that it declares"""
     if command == "compare" and not own_law:
         return status == 3 or blame(command, status, results, engine) == "implementation"
+    if command == "collide" and status == 1:  # where nothing can be judged, which is said, no fault is found
+        return blame(command, status, results, engine) == "implementation"
     runs = results.get("runs", []) if command == "stability" else []
     if status != 1 or not any(run["engine"] == "grain" for run in runs):
         return status in (1, 3)
@@ -31,19 +33,12 @@ def blame(command, status, results, engine):
     if command == "conformance":
         bad = any(row["outcome"] in ("failed", "broke_down") for row in results.get("checks", []))
         return "implementation" if bad else ""
-    if command in ("stability", "cost", "diff"):  # they say what broke, not why
+    if command in ("stability", "diff"):  # they say what broke, not why
         return ""
     states = {cell["state"] for cell in _cells(results, engine)}
     if status == 3 or "bad" in states:
         return "implementation"
     return "model" if "model_difference" in states else ""
-
-
-def good_columns(results, engine):
-    """Accuracies of collisions and of the trajectory that the engine reaches; averages of two packings are never decided."""
-    columns = [column["name"] for column in (results.get("overview") or {}).get("columns", [])]
-    reached = zip(columns, _cells(results, engine))
-    return {name for name, cell in reached if cell["state"] == "good" and not name.startswith("averages")}
 
 
 def failures(command, results, engine, errors):

@@ -115,6 +115,14 @@ class Table(unittest.TestCase):
         self.assertTrue(reading.accused("stability", 1, results(mine="unstable"), "mine"))
         self.assertTrue(reading.accused("stability", 3, results(grain="unstable", mine="unstable"), "mine"))
 
+    def test_collisions_that_nobody_can_judge_accuse_nobody(self):
+        def results(*states):
+            return {"overview": {"rows": [{"name": "mine", "cells": [{"state": state} for state in states]}]}}
+
+        self.assertFalse(reading.accused("collide", 1, results("good", "not_measured"), "mine"))
+        self.assertTrue(reading.accused("collide", 1, results("good", "bad"), "mine"))
+        self.assertTrue(reading.accused("collide", 3, {}, "mine"))
+
 
 class FalseAlarms(unittest.TestCase):
     def test_the_interval_is_that_of_clopper_and_pearson(self):
