@@ -27,8 +27,9 @@ std::string CollisionCurve::statusName() const {
 }
 
 const CurveScore& declaredScore(const CollisionCurve& curve) {
-  const bool known = curve.declared && curve.declared->score.verdict != Verdict::notMeasured;
-  return known ? curve.declared->score : curve.score;
+  if (!curve.declared) return curve.score;
+  const CurveScore& own = curve.declared->score;
+  return own.verdict != Verdict::notMeasured || own.isRounded() ? own : curve.score;
 }
 
 std::optional<double> ownDeviation(const CollisionCurve& curve) {

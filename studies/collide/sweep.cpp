@@ -281,6 +281,9 @@ Outcomes mirrorOutcomes(const Case& setup, const SceneOf<D>& asRun, const Contac
   return runOutcomes(*mirror, mirror->capabilities(), setup, scene, law, effective, starts, watch);
 }
 
+/// More than any outcome differs by, of the speed of approach; files have no infinity.
+constexpr double anything = 1e9;
+
 /// Places x that are kept in single precision are rounded by u |x| in each step, u = 2⁻²⁴, and what
 /// moves at one velocity always to one side. The two of a pair then part from their velocities by
 /// w = 2 u |x|/dt at most, which e_n v_n is slowest to outweigh: e_n is off by (1 + e_n) w/v_n, Ψ_f
@@ -349,10 +352,12 @@ std::optional<DeclaredScore> scoreDeclared(const SweptCurve<D>& swept, const Eng
     return score;
   }
   if (!law->soft()) return score;
+  // A force that jumps between steps has no limit, and rounding decides where it jumps.
+  const bool jumps = !known && swept.score.rounding;
   CurveScore beside = scoreSweep(
       declared, swept.starts, swept.found,
       mirrorOutcomes(declared, swept.asRun, *law, swept.effective.dt, swept.starts, swept.watch),
-      &swept.score, swept.score.rounding);
+      &swept.score, jumps ? anything : swept.score.rounding);
   if (known && beside.verdict != Verdict::pass) return score;
   score.reference = DeclaredReference::mirror;
   score.score = std::move(beside);
@@ -396,15 +401,17 @@ CollisionCurve sweepIn(Engine& engine, const EngineEntry& entry, const Case& set
                                 unknown, reference.size());
   curve.score = scoreSweep(setup, starts, found, reference, nullptr,
                            roundingOfPlaces<D>(scene, effective, starts, reference));
-  if (curve.score.isRounded())
-    curve.reason += fmt::format(
-        "{}beyond a limit by no more than {} precision can do by rounding places: {:.2g} of the "
-        "speed of approach",
-        curve.reason.empty() ? "" : "; ", effective.precision, *curve.score.rounding);
   if (declared)
     curve.declared = scoreDeclared(
         SweptCurve<D>{setup, starts, asRun, effective, found, watch, step, curve.score}, entry,
         declaredLaw(can, asRun, effective, collidingPair(setup).reducedMass()), *declared);
+  if (const CurveScore& judged = declaredScore(curve); judged.isRounded())
+    curve.reason +=
+        fmt::format("{}beyond a limit by no more than {} precision can do by rounding places{}",
+                    curve.reason.empty() ? "" : "; ", effective.precision,
+                    *judged.rounding < anything
+                        ? fmt::format(": {:.2g} of the speed of approach", *judged.rounding)
+                        : ", which decide where the force of its law jumps between steps");
   return curve;
 }
 

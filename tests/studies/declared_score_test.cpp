@@ -120,6 +120,21 @@ TEST(DeclaredScore, SinglePrecision_IsJudgedWhereRoundingOfPlacesLeavesTheOutcom
   EXPECT_FALSE(firstSweep(inDouble, setup).score.rounding);
 }
 
+/// A dashpot outside the bound jumps between steps, and where rounding decides: at a speed that
+/// single precision resolves otherwise, too.
+TEST(DeclaredScore, SinglePrecisionUnderALawWithoutALimit_IsNotJudgedWhereItFallsShort) {
+  Case setup = variantOf("figure-4-3.toml", "spring_dashpot-cut");
+  setup.collision.vn = {0.3};
+  Declares single({{"dashpot", {"outside"}}}, [](Scene& scene) {
+    scene.precision = Precision::float32;
+    scene.law.gt *= 1.5;  // stands for what other roundings do
+  });
+  const CollisionCurve curve = firstSweep(single, setup);
+  EXPECT_EQ(curve.declared->reference, DeclaredReference::mirror);
+  EXPECT_EQ(verdictOf(curve), Verdict::notMeasured);
+  EXPECT_NE(curve.reason.find("jumps between steps"), std::string::npos) << curve.reason;
+}
+
 /// Nothing known of the declared law is no excuse.
 TEST(DeclaredScore, UnknownLaw_IsComparedWithTheScenes) {
   CollisionCurve curve;
