@@ -35,7 +35,7 @@ TEST(CollisionScene, Pairs_HeadOn_WithPsi) {
 }
 
 /// One disk of a kind is enough for the kind.
-TEST(PairsOf, CellOfOneSmallAndNoLargeDisk_HasThatKindAndTheWall) {
+TEST(PairsOf, CellOfOneDisk_HasThatKindAndTheWall) {
   Case setup = test::smallPairCase();
   setup.kind = CaseKind::couette;
   setup.particles.small = 1;
@@ -45,6 +45,8 @@ TEST(PairsOf, CellOfOneSmallAndNoLargeDisk_HasThatKindAndTheWall) {
   std::vector<std::string> names;
   for (const NamedPair& pair : pairsOf(setup)) names.push_back(pair.name);
   EXPECT_EQ(names, (std::vector<std::string>{"small-small", "small-wall"}));
+  std::swap(setup.particles.small, setup.particles.large);
+  EXPECT_EQ(pairsOf(setup).front().name, "large-large");
 }
 
 TEST(CollisionScene, Oblique_NoSpin_TouchesOnTheAxis) {
