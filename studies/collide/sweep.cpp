@@ -289,14 +289,13 @@ constexpr double anything = 1e9;
 /// w = 2 u |x|/dt at most, which e_n v_n is slowest to outweigh: e_n is off by (1 + e_n) w/v_n, Ψ_f
 /// by K µ times that (K µ = 1.3 for the thesis' disks), and a duration, which is known from 2.5 t_c
 /// of flight, by 2.5 w/(e_n v_n) of t_c. 4 w/(e_n v_n) has room for all of these.
-/// @returns it [-]; absent in double precision, and for rigid disks, whose velocities no place
-/// enters
+/// @returns it [-]; absent in double precision
 template <int D>
 std::optional<double> roundingOfPlaces(const SceneOf<D>& scene,
                                        const EffectiveParameters& effective,
                                        const std::vector<CollisionStart>& starts,
                                        const Outcomes& oracle) {
-  if (effective.precision != toString(Precision::float32) || !scene.law.soft()) return std::nullopt;
+  if (effective.precision != toString(Precision::float32)) return std::nullopt;
   double farthest = 0.0, slowest = std::numeric_limits<double>::infinity();
   for (const auto& place : scene.disks.position)
     farthest = std::max(farthest, place.template lpNorm<Eigen::Infinity>());
@@ -399,12 +398,15 @@ CollisionCurve sweepIn(Engine& engine, const EngineEntry& entry, const Case& set
       unknown > 0)
     curve.reason += fmt::format("{}{} of {} points have no reference", missing > 0 ? "; " : "",
                                 unknown, reference.size());
-  curve.score = scoreSweep(setup, starts, found, reference, nullptr,
-                           roundingOfPlaces<D>(scene, effective, starts, reference));
+  const auto law = declaredLaw(can, asRun, effective, collidingPair(setup).reducedMass());
+  const bool soft = law && law->soft();  // no place enters an impulse
+  curve.score =
+      scoreSweep(setup, starts, found, reference, nullptr,
+                 soft ? roundingOfPlaces<D>(scene, effective, starts, reference) : std::nullopt);
   if (declared)
     curve.declared = scoreDeclared(
-        SweptCurve<D>{setup, starts, asRun, effective, found, watch, step, curve.score}, entry,
-        declaredLaw(can, asRun, effective, collidingPair(setup).reducedMass()), *declared);
+        SweptCurve<D>{setup, starts, asRun, effective, found, watch, step, curve.score}, entry, law,
+        *declared);
   if (const CurveScore& judged = declaredScore(curve); judged.isRounded())
     curve.reason +=
         fmt::format("{}beyond a limit by no more than {} precision can do by rounding places{}",
