@@ -29,12 +29,21 @@ def lists_of(rows):
 
 
 def builds_of(rows):
-    """By build, which commands have rows of it, those with the most first."""
-    builds = {}
-    for row in rows:
-        if row["build"]:
-            builds.setdefault(row["build"], []).append(row["command"])
-    return {build: list(dict.fromkeys(builds[build])) for build in sorted(builds, key=lambda build: -len(builds[build]))}
+    """By build, those with the most rows first, what it has run: commands, with lists where another build has others of theirs."""
+    own = [row for row in rows if row["build"]]
+
+    def ran_by(build):
+        words = {}
+        for row in own:
+            if row["build"] != build:
+                continue
+            of_command = [other for other in own if other["command"] == row["command"]]
+            whole = all(other["build"] == build for other in of_command)
+            words[f"`{row['command']}`" + ("" if whole else f" of `{row['list']}`")] = None
+        return list(words)
+
+    counts = {build: sum(row["build"] == build for row in own) for build in dict.fromkeys(row["build"] for row in own)}
+    return {build: ran_by(build) for build in sorted(counts, key=lambda build: -counts[build])}
 
 
 def ran(rows):
