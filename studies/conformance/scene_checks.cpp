@@ -2,7 +2,7 @@
 // in-house engine, with the law that the engine declares and at its time step, does the same.
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -142,7 +142,8 @@ Scene cagedScene(const ContactLaw& law) {
   Scene scene = emptyScene(law, coarseSteps);
   addDisk(scene, smallRadius, smallMass, Vec2::Zero(), {0.02, -0.01}, 7.0);
   for (int k = 0; k < 6; ++k) {
-    const Vec2 out(std::cos(k * M_PI / 3.0), std::sin(k * M_PI / 3.0));
+    const double angle = k * std::numbers::pi / 3.0;
+    const Vec2 out(std::cos(angle), std::sin(angle));
     addDisk(scene, smallRadius, smallMass, (2.0 * smallRadius + ahead * (1.0 + 0.1 * k)) * out,
             -pace * out + 0.3 * pace * perpendicular(out), 5.0 * k);
   }

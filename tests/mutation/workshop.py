@@ -29,7 +29,7 @@ programs = {
     "oracle": ("oracle/oracle_tests", "*"),
     "averaging": ("averaging/averaging_tests", "*"),
     "studies": ("studies/studies_tests", f"-{fixtures}"),
-    "conformance": ("conformance/conformance_tests", "*/grain:*/box2d_penalty:*/box2d_impulse:*PlantedFault*"),
+    "conformance": ("conformance/conformance_tests", "*/grain:*/box2d_penalty:*/box2d_impulse:*/PlantedFault.*"),
     "cells": ("studies/studies_tests", fixtures),
 }
 # The tests of the folder that a mutant is in, first.
