@@ -29,7 +29,8 @@ struct QuantityScore {
   double unit = 1.0;            ///< in the quantity's own unit
   ErrorUnitKind unitIs = ErrorUnitKind::range;
   std::optional<double> limit;  ///< of max; absent: the case has none
-  /// Within the limit; absent without one, and where it is beyond it by no more than rounding is.
+  /// Within the limit; absent without one, and where it is beyond it by no more than rounding is or
+  /// the time step makes of anybody.
   std::optional<bool> held;
   std::optional<std::string> why;  ///< of the limit
 

@@ -299,12 +299,15 @@ std::string joinedParts(const std::vector<std::pair<std::string_view, std::strin
 std::string whoPasses(const CollideResults& results) {
   const std::vector<EngineCount> tallies = countsOf(results);
   Names ownLaw, unjudged;
+  bool inPart = false;
   for (const EngineCount& one : tallies) {
+    inPart = inPart || (one.judged() > 0 && one.notJudged > 0);
     if (one.modelDifference > 0 && one.beyondLimits == 0) ownLaw.push_back(one.engine);
     if (one.judged() == 0) unjudged.push_back(one.engine);
   }
   const std::string sentence = joinedParts(
-      {{"passed every sweep", listedShortly(passAll(tallies), mostEngines)},
+      {{inPart ? "passed every sweep that was judged" : "passed every sweep",
+        listedShortly(passAll(tallies), mostEngines)},
        {"model difference: true to the law that they declare", listedShortly(ownLaw, mostEngines)},
        {"failed", failedInWords(tallies)},
        {"not judged", listedShortly(unjudged, mostEngines)}});

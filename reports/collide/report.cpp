@@ -148,15 +148,16 @@ std::string errorOf(const QuantityScore& score) {
       score.limit.value_or(0.0), why.empty() ? "" : " (" + why + ")");
 }
 
-/// One quantity against one law.
-JUnitCase judged(const std::string& name, const std::optional<QuantityScore>& score) {
+/// One quantity against one law. @param why  it was not judged, if it was not
+JUnitCase judged(const std::string& name, const std::optional<QuantityScore>& score,
+                 const std::string& why) {
   JUnitCase one{"", name};
   if (score && score->held) {
     one.verdict = *score->held ? Verdict::pass : Verdict::fail;
     if (one.verdict == Verdict::fail) one.message = errorOf(*score);
   } else {
     one.verdict = Verdict::notMeasured;
-    one.message = score && score->limit ? errorOf(*score) + ", which rounding of places can do"
+    one.message = score && score->limit ? fmt::format("{}, not judged: {}", errorOf(*score), why)
                                         : "not measured, or not known of the reference";
   }
   return one;
@@ -173,7 +174,7 @@ bool isOfTheModel(const DeclaredScore& declared, QuantityId quantity) {
 std::vector<JUnitCase> judgedSweep(const CollisionCurve& curve, const std::string& sweep,
                                    QuantityId quantity) {
   const std::string name = fmt::format("{}: {}", sweep, collisionQuantity(quantity).name);
-  JUnitCase scene = judged(name, curve.score.of[quantity]);
+  JUnitCase scene = judged(name, curve.score.of[quantity], curve.reason);
   if (!curve.declared) return {scene};
   const DeclaredScore& declared = *curve.declared;
   if (scene.verdict == Verdict::fail && isOfTheModel(declared, quantity)) {
@@ -182,7 +183,7 @@ std::vector<JUnitCase> judgedSweep(const CollisionCurve& curve, const std::strin
     scene.message = "model difference: " + scene.message;
   }
   if (declared.reference == DeclaredReference::itself) return {scene};
-  return {scene, judged(name + ", declared law", declared.score.of[quantity])};
+  return {scene, judged(name + ", declared law", declared.score.of[quantity], curve.reason)};
 }
 
 JUnitCase judgedScheme(const SchemeScore& own, const std::string& sweep) {

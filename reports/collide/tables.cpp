@@ -177,6 +177,7 @@ std::string headline(const Tally& tally) {
   std::string words = fmt::format("{} of {} passed", tally.held, tally.judged());
   if (tally.modelDifference > 0) words += fmt::format(", {} ≠", tally.modelDifference);
   if (tally.beyondLimits > 0) words += fmt::format(", {} ✗", tally.beyondLimits);
+  if (tally.notJudged > 0) words += fmt::format(", {} not judged", tally.notJudged);
   return words;
 }
 

@@ -85,19 +85,24 @@ CachedTask<std::vector<CollisionCurve>>::Outcome sweepsOf(
   DeclaredOracles declared;
   std::unique_ptr<Engine> worker;
   bool failed = false;
-  for (std::size_t k = 0; k < each.steps.size(); ++k) {
+  // The smallest first: whether it passes has a bearing on what larger ones are beyond limits by.
+  std::vector<double> steps = each.steps;
+  std::ranges::sort(steps);
+  for (std::size_t k = 0; k < steps.size(); ++k) {
     throwIfInterrupted();
-    const double dt = each.steps[k];
+    const double dt = steps[k];
     try {
       if (!worker) worker = startAudited(entry, scratch, each.setup->run.timeout);
-      const bool largest = dt == std::ranges::max(each.steps);
-      CollisionCurve curve =
-          runSweep(*worker, entry, *each.setup, dt, each.starts, each.oracle, largest, &declared);
+      const bool largest = dt == steps.back();
+      const bool passesFiner = !curves.empty() && verdictOf(curves.front()) == Verdict::pass;
+      CollisionCurve curve = runSweep(*worker, entry, *each.setup, dt, each.starts, each.oracle,
+                                      largest, &declared, passesFiner);
       if (largest && each.setup->dimension == 2)
         curve.ownScheme = schemeScore(*worker, entry, *each.setup, dt);
-      // An engine that keeps its own step has nothing new to say at another of the case's.
-      if (std::ranges::find(curves, curve.dt, &CollisionCurve::dt) == curves.end())
-        curves.push_back(std::move(curve));
+      // An engine that keeps its own step says the same at each of the case's, and most at the
+      // last.
+      std::erase_if(curves, [&](const auto& other) { return other.dt == curve.dt; });
+      curves.push_back(std::move(curve));
     } catch (const Interrupted&) {
       throw;
     } catch (const BadInput&) {
@@ -106,7 +111,7 @@ CachedTask<std::vector<CollisionCurve>>::Outcome sweepsOf(
       const bool refused = dynamic_cast<const UnsupportedScene*>(&error) != nullptr;
       CollisionCurve& none = curves.emplace_back();
       none.engine = entry.name;
-      none.dt = dt;
+      none.dt = refused ? each.steps.front() : dt;
       none.status = refused ? Status::refused : Status::failed;
       none.reason = error.what();
       // What a law lacks, it lacks at every time step.
@@ -114,8 +119,9 @@ CachedTask<std::vector<CollisionCurve>>::Outcome sweepsOf(
       worker.reset();
       failed = true;
     }
-    progress(static_cast<double>(k + 1) / static_cast<double>(each.steps.size()));
+    progress(static_cast<double>(k + 1) / static_cast<double>(steps.size()));
   }
+  std::ranges::sort(curves, std::greater{}, &CollisionCurve::dt);
   return {std::move(curves), !failed, "done"};
 }
 

@@ -363,10 +363,33 @@ std::optional<DeclaredScore> scoreDeclared(const SweptCurve<D>& swept, const Eng
   return score;
 }
 
+/// Of a curve that falls short at this step and not at a smaller one: quantities in which the
+/// in-house engine is beyond the limit too, under the same law in the same steps, and the engine
+/// within it of that one, are not judged. @returns whether that leaves nothing beyond a limit
+template <int D>
+bool leavesItToTheStep(const SweptCurve<D>& swept, const Outcomes& reference, CurveScore& score) {
+  const Outcomes mirror = mirrorOutcomes(swept.setup, swept.asRun, swept.asRun.law,
+                                         swept.effective.dt, swept.starts, swept.watch);
+  const CurveScore ofMirror = scoreSweep(swept.setup, swept.starts, mirror, reference, &score);
+  const CurveScore beside = scoreSweep(swept.setup, swept.starts, swept.found, mirror, &score);
+  bool beyond = false;
+  for (const CollisionQuantity& quantity : scoredQuantities()) {
+    auto& one = score.of[quantity.id];
+    if (!one || one->held != false) continue;
+    const auto &steps = ofMirror.of[quantity.id], &left = beside.of[quantity.id];
+    if (steps && steps->held == false && left && left->held == true)
+      one->held.reset();
+    else
+      beyond = true;
+  }
+  if (!beyond) score.verdict = Verdict::notMeasured;
+  return !beyond;
+}
+
 template <int D>
 CollisionCurve sweepIn(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
                        const std::vector<CollisionStart>& starts, const OracleCurve& limit,
-                       bool watch, DeclaredOracles* declared) {
+                       bool watch, DeclaredOracles* declared, bool passesFiner) {
   const SceneOf<D> scene = sceneOfSweep<D>(setup, starts, dt);
   const EffectiveParameters effective = loadScene(engine, entry, setup, scene);
   const Capabilities can = engine.capabilities();
@@ -403,10 +426,14 @@ CollisionCurve sweepIn(Engine& engine, const EngineEntry& entry, const Case& set
   curve.score =
       scoreSweep(setup, starts, found, reference, nullptr,
                  soft ? roundingOfPlaces<D>(scene, effective, starts, reference) : std::nullopt);
-  if (declared)
-    curve.declared = scoreDeclared(
-        SweptCurve<D>{setup, starts, asRun, effective, found, watch, step, curve.score}, entry, law,
-        *declared);
+  const SweptCurve<D> swept{setup, starts, asRun, effective, found, watch, step, curve.score};
+  if (declared) curve.declared = scoreDeclared(swept, entry, law, *declared);
+  if (passesFiner && soft && !curve.declared && missing == 0 &&
+      curve.score.verdict == Verdict::fail && leavesItToTheStep(swept, reference, curve.score))
+    curve.reason += fmt::format(
+        "{}beyond a limit at this time step, as the in-house engine is under this law, "
+        "and within it at a smaller one",
+        curve.reason.empty() ? "" : "; ");
   if (const CurveScore& judged = declaredScore(curve); judged.isRounded())
     curve.reason +=
         fmt::format("{}beyond a limit by no more than {} precision can do by rounding places{}",
@@ -429,9 +456,9 @@ Outcomes sweepOutcomes(Engine& engine, const EngineEntry& entry, const Case& set
 
 CollisionCurve runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
                         const std::vector<CollisionStart>& starts, const OracleCurve& limit,
-                        bool watch, DeclaredOracles* declared) {
+                        bool watch, DeclaredOracles* declared, bool passesFiner) {
   const auto sweep = setup.dimension == 3 ? sweepIn<3> : sweepIn<2>;
-  return sweep(engine, entry, setup, dt, starts, limit, watch, declared);
+  return sweep(engine, entry, setup, dt, starts, limit, watch, declared, passesFiner);
 }
 
 }  // namespace crossgrain::inline studies

@@ -77,9 +77,12 @@ Outcomes sweepOutcomes(Engine& engine, const EngineEntry& entry, const Case& set
 /// @param watch  the contacts, step by step, for the largest overlap and the energy's whereabouts,
 ///               where the engine shows them; the outcome is the same
 /// @param declared  to score the curve against the law that the engine declares, too; null: not
+/// @param passesFiner  whether the engine's sweep at a smaller time step passes: what this one then
+///                     is beyond a limit by together with the in-house engine, under the same law
+///                     at the same step, is the step's doing and not judged
 /// @throws EngineFailure, UnsupportedScene, BadInput
 CollisionCurve runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
                         const std::vector<CollisionStart>& starts, const OracleCurve& oracle,
-                        bool watch, DeclaredOracles* declared = nullptr);
+                        bool watch, DeclaredOracles* declared = nullptr, bool passesFiner = false);
 
 }  // namespace crossgrain::inline studies
