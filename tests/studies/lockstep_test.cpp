@@ -1,7 +1,9 @@
 // Engines that are right but for one planted thing, compared with their mirrors.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -199,6 +201,22 @@ TEST_F(Lockstep, ConventionOfAnotherProgram_DeclaredIsItsLaw_ElseItIsNamed) {
                                        {"cut_tension=1", "tension = cut"}});
   test::expectDeclaredOrNamed(*flow_, {{"lagged=1", "damping_velocity = lagged"},
                                        {"dashpot_outside=1", "dashpot = outside"}});
+}
+
+/// All laws that the program can declare, but for the other name of its first integrator.
+TEST(LockstepOfDeclaredLaws, EveryCombinationOfConventions_IsTheLawThatItDeclares) {
+  const test::QuickFlow flow(1);
+  const std::array conventions = {"integrator=2", "lagged=1", "spring_before=1", "lever_middle=1",
+                                  "cut_tension=1"};
+  for (unsigned chosen = 0; chosen < 1u << conventions.size(); ++chosen)
+    for (const char* notBoth : {"spring_only=0", "spring_only=1", "dashpot_outside=1"}) {
+      std::vector<std::string> words = {notBoth};
+      for (std::size_t k = 0; k < conventions.size(); ++k)
+        if (chosen >> k & 1u) words.emplace_back(conventions[k]);
+      const LockstepRow row = test::rowOfProgram(flow, words, true);
+      EXPECT_EQ(row.verdict, Equivalence::sameToRounding)
+          << fmt::format("{}: {}", fmt::join(words, " "), row.reason);
+    }
 }
 
 /// Both Verlet schemes are one motion, whichever an engine declares.
