@@ -234,6 +234,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "^the velocity of walls is about the origin"),
         resisting("corner", "corner_mu=0", "CornersHaveNoFirstPlane", ""),
         resisting("fast_disks", "list_look_every=20", "FastDisksAreNotMissed", ""),
+        resisting("glancing_disks", "list_look_every=8", "FastDisksAreNotMissed", ""),
         resisting("saturated_dashpot", "most_damped=1", "FastIsAsSlow", ""),
         resisting("restart_without_plate", "restore_without_plate=1", "CheckpointsGoOnToTheBit",
                   ""),
