@@ -101,7 +101,10 @@ class ArrayFile {
 class StepCount {
  public:
   StepCount() = default;
-  explicit StepCount(double dt) : dt_(dt) {}
+  /// @param steps  done before, of a run that is restored
+  explicit StepCount(double dt, long long steps = 0) : dt_(dt), steps_(steps) {}
+
+  long long steps() const { return steps_; }
 
   double now() const { return static_cast<double>(steps_) * dt_; }
 

@@ -279,7 +279,7 @@ struct Check {
   const char* what;            ///< the property
   void (*run)(CheckContext&);  ///< finds faults, or throws Skipped
   int dimension = 2;           ///< of its scenes
-  bool basis = false;  ///< it needs no law: others see their scenes through what it examines
+  bool basis = false;  ///< no law enters it: others see their scenes through what it examines
 };
 
 using Checks = std::span<const Check>;

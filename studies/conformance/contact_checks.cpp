@@ -185,22 +185,36 @@ void slidingFlagsMarkTheBound(CheckContext& context) {
   Encounter pair = crookedEncounter();
   const Tolerance rounding = context.byPrecision(1e-12, 1e-5, "roundings");
   int sliding = 0, sticking = 0;
-  for (const bool slippery : {false, true}) {
+  enum class Slip { little, much, thenNone };
+  for (const Slip slip : {Slip::little, Slip::much, Slip::thenNone}) {
     // A rigid impact slides or sticks, as a whole; and a spring alone, bounded by µ |f_n|, hardly
     // slides.
-    if (slippery && context.rigid()) pair.spins[0] = 100.0;
-    if (slippery && !context.rigid()) cut.mu *= 0.1;
+    if (slip == Slip::much && context.rigid()) pair.spins[0] = 100.0;
+    if (slip == Slip::much && !context.rigid()) cut.mu *= 0.1;
+    if (slip == Slip::thenNone) {
+      if (context.rigid()) continue;
+      cut.mu = fullLaw().mu;
+      pair = {};
+      for (double& spin : pair.spins) spin = 12.0;  // Ψ = 0.9
+    }
     const ContactLaw law = followed(context.can, cut);
     context.load(encounterScene(pair, law, coarseSteps));
+    Vec2 before = Vec2::Zero();
     for (const Snapshot& now : context.watch(Encounter::end)) {
       if (!now.contacts || now.contacts->size() == 0) continue;
+      // What was at its bound along the tangent of a step before is shorter by 1 − cos Δφ along
+      // this one.
+      const Vec2 normal = (now.position[1] - now.position[0]).normalized();
+      const double turn = before.isZero(0.0) ? 0.0 : (normal - before).squaredNorm();
+      before = normal;
       context.requireEqual(now.contacts->sliding.size(), 1u, "sliding flags of one contact");
       const double ft = std::abs(now.contacts->tangentialForce[0]);
       const double fn = now.contacts->normalForce[0];
       const bool pushed = law.conventions.coulombBound == CoulombBound::compression;
       const double bound = law.mu * (pushed ? std::max(fn, 0.0) : std::abs(fn));
       if (now.contacts->sliding[0]) {
-        context.near(ft, bound, {0.0, rounding.relative, rounding.why},
+        context.near(ft, bound,
+                     {0.0, rounding.relative + turn, "roundings, and a normal that turns"},
                      "|f_t| of a contact that slides [N]");
       } else if (law.conventions.dashpot == Dashpot::inside) {
         context.atMost(ft, bound * (1.0 + rounding.relative), "|f_t| of a contact that sticks");

@@ -177,6 +177,19 @@ void effectsAreThoseThatItsCapabilitiesSay(CheckContext& context) {
 
 // ---- life cycle ---------------------------------------------------------------------------------
 
+/// A disk alone, so many steps in one advance.
+void longAdvancesAreWhole(CheckContext& context) {
+  constexpr double steps = 5000.0;
+  Scene scene = emptyScene(context.law(), coarseSteps);
+  addDisk(scene, smallRadius, smallMass, Vec2::Zero(), {0.01, 0.0});
+  context.load(scene);
+  const Snapshot there = context.at(steps * context.effective.dt);
+  const Tolerance rounding = context.byPrecision(1e-9, 1e-3, "a flight, rounded in every step");
+  context.near(there.position[0].x(), steps * context.effective.dt * scene.disks.velocity[0].x(),
+               {0.0, rounding.absolute, rounding.why},
+               text("the way flown in ", steps, " steps at once [m]"));
+}
+
 void advancesByWholeSteps(CheckContext& context) {
   context.load(context.busy());
   const double dt = context.effective.dt;
@@ -200,6 +213,7 @@ void advancesByWholeSteps(CheckContext& context) {
   context.above(stats.contactEvaluations, 0u, "contact_evaluations");
   context.above(stats.wallSeconds, 0.0, "wall_seconds");
   context.above(stats.cpuSeconds, 0.0, "cpu_seconds");
+  longAdvancesAreWhole(context);
 }
 
 void startIsTheScene(CheckContext& context) {
@@ -285,8 +299,27 @@ void expectAFreshStart(CheckContext& context, const Scene& scene) {
                  "loaded a third time, at once, and the second");
 }
 
+/// In a new worker, after a scene of as many bodies that has other constants: nothing may stay of
+/// these.
+void expectNothingOfAnother(CheckContext& context, const Scene& scene) {
+  const Snapshot wanted = context.run(scene, busyEnd);
+  Scene other = scene;
+  for (double* constant : {&other.law.kn, &other.law.gn, &other.law.mu}) *constant *= 0.8;
+  for (double& mass : other.disks.mass) mass *= 1.1;
+  for (double& inertia : other.disks.inertia) inertia *= 1.1;
+  if (context.refusal(other)) return;
+  const auto worker = context.start(context.entry);
+  for (const Scene& each : {other, scene}) {
+    worker->load(each, context.entry.settings);
+    worker->advance(busyEnd);
+  }
+  context.expect(sameBits(worker->snapshot(context.contactReport()), wanted),
+                 "loaded after a scene with other constants, and without");
+}
+
 void loadingStartsAfresh(CheckContext& context) {
   for (const Scene& scene : heaps(context)) expectAFreshStart(context, scene);
+  expectNothingOfAnother(context, context.busy());
 }
 
 void workersAgreeBitForBit(CheckContext& context) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "adapters/audit.hpp"
 #include "adapters/declared_law.hpp"
 #include "oracle/impact.hpp"
 #include "studies/conformance/check_context.hpp"
@@ -68,6 +69,13 @@ void expectAsInHouse(CheckContext& context, const Scene& wanted, const std::vect
   const auto law = declaredLaw(context.can, ran, context.effective, 0.5 * smallMass);
   if (!law || !law->soft()) context.skip("the in-house engine does not have its law");
   const Course found = courseOf(context.engine, ran, times);
+  if (context.contactReport() != ContactReport::none) {
+    context.load(context.simplified(wanted));
+    const Snapshot shown = context.at(times.front());
+    const std::string why =
+        auditFault(shown, auditBasis(ran, context.can, context.effective), shown.positionTime);
+    context.expect(why.empty(), text(which, ": ", why));
+  }
   const auto inHouse = engineRegistry().front().make();
   const auto mirrored = [&](double stiffer, const std::vector<double>& when) {
     Scene scene = ran;
@@ -137,16 +145,29 @@ Scene cornerScene(const ContactLaw& law, std::vector<WallBody> bodies) {
   return scene;
 }
 
-/// Six disks close in on one.
-Scene cagedScene(const ContactLaw& law) {
+/// So many disks close in on one that is so many times as large as they are.
+Scene cagedScene(const ContactLaw& law, int count, double times) {
   Scene scene = emptyScene(law, coarseSteps);
-  addDisk(scene, smallRadius, smallMass, Vec2::Zero(), {0.02, -0.01}, 7.0);
-  for (int k = 0; k < 6; ++k) {
-    const double angle = k * std::numbers::pi / 3.0;
+  addDisk(scene, times * smallRadius, times * smallMass, Vec2::Zero(), {0.02, -0.01}, 7.0);
+  for (int k = 0; k < count; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / count;
     const Vec2 out(std::cos(angle), std::sin(angle));
-    addDisk(scene, smallRadius, smallMass, (2.0 * smallRadius + ahead * (1.0 + 0.1 * k)) * out,
+    addDisk(scene, smallRadius, smallMass,
+            ((times + 1.0) * smallRadius + ahead * (1.0 + 0.1 * k)) * out,
             -pace * out + 0.3 * pace * perpendicular(out), 5.0 * k);
   }
+  return scene;
+}
+
+/// A disk meets a ring, and another the larger of a wall's two disks.
+Scene mixedScene(const ContactLaw& law) {
+  Scene scene = encounterScene(crookedEncounter(), law, coarseSteps);
+  scene.disks.inertia[1] *= 2.0;
+  const Vec2 place(0.1, 0.0), larger = place + Vec2(0.05, 0.0);
+  scene.bodies = {wallOf("posts", place, {place, larger})};
+  scene.bodies[0].diskRadius[1] = largeRadius;
+  addDisk(scene, smallRadius, smallMass, larger + Vec2(0.0, largeRadius + smallRadius + ahead),
+          {0.5 * pace, -pace}, 10.0);
   return scene;
 }
 
@@ -216,9 +237,12 @@ void severalActAtOnce(CheckContext& context) {
   scenes.expect(cornerScene(law, {both}), soon, "in a corner of two planes of one body");
   scenes.expect(cornerScene(law, {plane(Vec2::UnitX()), floor}), soon,
                 "in a corner of two bodies' planes");
-  scenes.expect(cornerScene(law, {left, floor}), soon, "between a wall disk and a plane");
+  scenes.expect(cornerScene(law, {floor, left}), soon, "between a plane and a wall disk");
   scenes.expect(cornerScene(law, {left, below}), soon, "between the wall disks of two bodies");
-  scenes.expect(cagedScene(law), soon, "one disk that six others touch");
+  scenes.expect(cagedScene(law, 6, 1.0), soon, "one disk that six others touch");
+  scenes.expect(cagedScene(law, 12, 3.5), soon, "a large disk that twelve small ones touch");
+  scenes.expect(mixedScene(law), soon,
+                "a ring that a disk meets, and the larger of a wall's two disks");
   scenes.expect(lightScene(law), soon, "a disk a hundred times as light as the other");
   scenes.expect(largeAmongSmallScene(law), {0.01, 0.04},
                 "two large disks that meet among small ones");
@@ -239,32 +263,47 @@ Scene turningPlaneScene(const ContactLaw& law) {
   return scene;
 }
 
-/// A disk runs into a wall disk that has stopped a moment ago.
-Scene stoppedWallScene(const ContactLaw& law) {
-  constexpr double ring = 0.1, shrinks = 0.004;  // [m, s]
+/// A disk falls onto a post that turns clockwise, and not about the origin.
+Scene turningPostScene(const ContactLaw& law) {
+  const Vec2 centre(0.3, -0.2);
   Scene scene = emptyScene(law, coarseSteps);
-  scene.bodies = {wallOf("ring", Vec2::Zero(), {Vec2(ring, 0.0), Vec2(-0.03, 0.04)})};
+  scene.bodies = {wallOf("post", centre, {centre}, rotating(-20.0))};
+  addDisk(scene, smallRadius, smallMass, centre + Vec2(2.0 * smallRadius + ahead, 0.0),
+          {-pace, 0.0});
+  return scene;
+}
+
+/// A ring about another place than the origin shrinks: one of its disks pushes a disk, and another
+/// runs into one that has stopped a moment ago.
+Scene shrinkingRingScene(const ContactLaw& law) {
+  constexpr double ring = 0.1, shrinks = 0.004;  // [m, s]
+  const Vec2 pushing(-0.03, 0.04), inwards = -pushing.normalized();
+  Scene scene = emptyScene(law, coarseSteps);
+  scene.bodies = {wallOf("ring", Vec2::Zero(), {Vec2(ring, 0.0), pushing})};
   scene.bodies[0].motion.kind = Motion::Kind::radial;
   scene.bodies[0].motion.radialVelocity = -pace;
   scene.bodies[0].motion.radialEnd = shrinks;
   const double reach = 2.0 * smallRadius + 2.0 * pace * shrinks + 2.0 * ahead;
   addDisk(scene, smallRadius, smallMass, {ring - reach, 0.0}, {pace, 0.3 * pace}, 8.0);
-  return scene;
+  addDisk(scene, smallRadius, smallMass, pushing + (2.0 * smallRadius + ahead) * inwards,
+          0.2 * pace * perpendicular(inwards));
+  return shifted(scene, {0.3, -0.2});
 }
 
 void wallsUnderWayAct(CheckContext& context) {
   Several scenes(context);
   scenes.expect(turningPlaneScene(context.law()), {0.003, 0.01}, "on a plane that turns");
-  scenes.expect(stoppedWallScene(context.law()), {0.008, 0.016},
-                "at a wall that has stopped shrinking");
+  scenes.expect(turningPostScene(context.law()), {0.003, 0.01}, "on a post that turns clockwise");
+  scenes.expect(shrinkingRingScene(context.law()), {0.003, 0.008, 0.016},
+                "at a ring that shrinks, and has stopped");
   scenes.end();
 }
 
 // ---- the bottom plate ---------------------------------------------------------------------------
 
 /// Two disks of different masses that slide until they rest, one of them turning, and one that the
-/// plate holds on a slope; two fast ones fly apart meanwhile, so that lists of neighbours are made
-/// anew. The later in the list the farther left.
+/// plate holds on a slope; two that touch slide together; two fast ones fly apart meanwhile, so
+/// that lists of neighbours are made anew. The later in the list the farther left.
 void plateBrakesEachByItself(CheckContext& context) {
   constexpr double mu = 0.2, apart = 6.0 * largeRadius, fast = 20.0 * pace;
   Scene scene = emptyScene(context.law(), coarseSteps);
@@ -274,6 +313,8 @@ void plateBrakesEachByItself(CheckContext& context) {
   addDisk(scene, largeRadius, largeMass, {2.0 * apart, 0.0}, {pace, 0.0});
   addDisk(scene, smallRadius, smallMass, {apart, 0.0}, {pace, 0.0}, 30.0);
   addDisk(scene, smallRadius, smallMass, {0.0, 0.0}, Vec2::Zero());
+  for (const double side : {1.0, -1.0})
+    addDisk(scene, smallRadius, smallMass, {-0.5 * apart, 0.99 * side * smallRadius}, {pace, 0.0});
   addDisk(scene, smallRadius, smallMass, {-apart, 0.0}, {0.0, fast});
   addDisk(scene, smallRadius, smallMass, {-2.0 * apart, 0.0}, {0.0, -fast});
   if (const auto why = context.refusal(scene)) context.skip(*why);

@@ -212,11 +212,31 @@ INSTANTIATE_TEST_SUITE_P(
         resisting("restored_list", "restore_list=1", "CheckpointsGoOnToTheBit", "")),
     [](const auto& one) { return std::string(one.param.name); });
 
+// Faults of kinds that a second audit planted.
+INSTANTIATE_TEST_SUITE_P(
+    SecondAudit, PlantedFault,
+    testing::Values(resisting("eight_contacts", "most_contacts=8", "SeveralActAtOnce", ""),
+                    resisting("wall_radius", "wall_radius_of_first=1", "SeveralActAtOnce", ""),
+                    resisting("inertia", "inertia_of_first=1", "SeveralActAtOnce", ""),
+                    resisting("planes_first", "show_planes_first=1", "SeveralActAtOnce", ""),
+                    resisting("wall_spin", "wall_spin_size=1", "WallsUnderWayAct", ""),
+                    resisting("plate_skips", "plate_skips=1", "PlateBrakesEachByItself", ""),
+                    resisting("plate_gravity", "plate_knows_gravity=1", "BottomPlateBrakesADisk",
+                              "^the bottom plate has another gravity"),
+                    resisting("spring_age", "spring_age=65536", "SpringsHoldWhileAnotherFalls", ""),
+                    resisting("flags_stay", "flags_stay=1", "SlidingFlagsMarkTheBound", ""),
+                    resisting("load_keeps", "load_keeps=1", "LoadingStartsAfresh", ""),
+                    resisting("most_steps", "most_steps=1000", "AdvancesByWholeSteps", ""),
+                    resisting("lists_lose", "history_lost_every=1",
+                              "MemoriesHoldWhileAnotherFliesBy",
+                              "^springs are lost or turned round where lists")),
+    [](const auto& one) { return std::string(one.param.name); });
+
 // Faults that act late, far, fast, in corners or in second loads: tests/faults/elsewhere.toml.
 INSTANTIATE_TEST_SUITE_P(
     Elsewhere, PlantedFault,
     testing::Values(
-        resisting("gravity_x", "gravity_x=0.98", "FallsFreely", "^gravity -"),
+        resisting("gravity_x", "gravity_x=0.98", "FallsFreely", "^gravity has another direction$"),
         resisting("late_gravity", "gravity_late=0.95", "FallsFreely",
                   "^gravity -(4\\.|5).*2 s after load"),
         resisting("far_grid", "far_grid=50", "FarIsAsNear", ""),

@@ -152,6 +152,7 @@ void Simulation::addForces(double ahead) {
 /// Lätzel 2003, Eqs. 4.27–4.29, the torque's sign such that it brakes.
 void Simulation::addPlate(std::size_t i) {
   const Plate& plate = world_.plate;
+  if (faults_.plateSkips != 0.0 && touching_[i] > 0) return;
   const double mu = plate.mu * faults_.plateMu * (late() ? faults_.plateMuLate : 1.0);
   const double mass = faults_.plateMeanMass != 0.0 ? meanMass_ : world_.mass[i];
   const double bound = mu * plate.gravity * mass;
@@ -246,7 +247,8 @@ Vector Simulation::seenOfWall(const Body& body, Vector velocity) const {
 }
 
 double Simulation::seenSpinOfWall(const Body& body) const {
-  return faults_.wallSpin * (late() ? faults_.wallVelocityLate : 1.0) * body.spin;
+  const double spin = faults_.wallSpinSize != 0.0 ? std::abs(body.spin) : body.spin;
+  return faults_.wallSpin * (late() ? faults_.wallVelocityLate : 1.0) * spin;
 }
 
 double Simulation::arm(std::size_t k, double overlap) const {
@@ -260,7 +262,7 @@ bool Simulation::holds(const Touching& pair, Memory& kept) const {
   if (touching) return true;
   if (faults_.keepOpenSpring == 0.0) kept.spring = 0.0;
   if (faults_.keepOpenAngle == 0.0) kept.angle = 0.0;
-  kept.deepest = 0.0;
+  kept.deepest = kept.age = kept.slid = 0.0;
   return false;
 }
 
@@ -323,6 +325,7 @@ Contact Simulation::contact(std::size_t i, std::size_t j, Vector n, double overl
       else
         spring = kt > 0.0 ? -(faults_.springOnly != 0.0 ? c.ft - viscous : c.ft) / kt : 0.0;
       spring = stored(spring);
+      if (everyNth(faults_.springAge, static_cast<unsigned long long>(++kept.age))) spring = 0.0;
       if (faults_.mostSprings > 0.0 && static_cast<double>(i) >= faults_.mostSprings) spring = 0.0;
     } else if (law.dashpot) {
       c.sliding = std::abs(viscous) > bound;
@@ -332,6 +335,8 @@ Contact Simulation::contact(std::size_t i, std::size_t j, Vector n, double overl
       c.ft = -signedLike(bound, slip);
     }
   }
+  if (c.sliding) kept.slid = 1.0;
+  if (faults_.flagsStay != 0.0) c.sliding = kept.slid != 0.0;
   ++touching_[i];
   const bool tooMany =
       faults_.mostContacts > 0.0 && touching_[i] > static_cast<int>(faults_.mostContacts);

@@ -185,6 +185,23 @@ struct Faults {
   double meanCells =
       given("mean_cells", 0.0);  ///< [mean diameters] pairs of a longer distance are not found
 
+  // Of a second audit: README.md.
+  double wallSpinSize =
+      given("wall_spin_size", 0.0);  ///< contacts see a wall's spin without its sign
+  double wallRadiusOfFirst =
+      given("wall_radius_of_first", 0.0);  ///< all disks of a wall are as large as its first
+  double inertiaOfFirst = given("inertia_of_first", 0.0);  ///< J = q m a² of all with q of disk 0
+  double plateSkips = given("plate_skips", 0.0);  ///< the plate does not act on what touches a disk
+  double plateKnowsGravity = given("plate_knows_gravity", 0.0);  ///< its g is 9.81 m/s²
+  double springAge = given("spring_age", 0.0);  ///< n: a spring is emptied after n steps
+  double flagsStay =
+      given("flags_stay", 0.0);  ///< a contact that has slid is shown to go on sliding
+  double showPlanesFirst =
+      given("show_planes_first", 0.0);  ///< numbers of planes, then of wall disks
+  double loadKeeps =
+      given("load_keeps", 0.0);  ///< the law stays that of the first scene of as many disks
+  double mostSteps = given("most_steps", 0.0);  ///< n: an advance takes no more, and does not say
+
   // What is answered; the motion is right.
   double showFloat = given("show_float", 0.0);  ///< positions rounded to float32
   double showLate = given("show_late", 0.0);    ///< contacts and loads on walls of the step before

@@ -80,8 +80,9 @@ Plate plateOf(const Json& scene, const Faults& faults) {
   if (!scene.contains("bottom")) return {};
   const Json& bottom = scene.at("bottom");
   const char* const tau = faults.plateColumn != 0.0 ? "mu" : "tau_m";
-  return {bottom.at("mu"),  bottom.at("kb"),      bottom.at("gb"),
-          bottom.at(tau),   bottom.at("gravity"), true,
+  const double gravity =
+      faults.plateKnowsGravity != 0.0 ? 9.81 : bottom.at("gravity").get<double>();
+  return {bottom.at("mu"),  bottom.at("kb"), bottom.at("gb"), bottom.at(tau), gravity, true,
           bottom.at("spin")};
 }
 
@@ -97,6 +98,8 @@ World worldOf(const Json& scene, const Arrays& arrays, const Faults& faults) {
   w.disks = scene.at("disks");
   w.dt = scene.at("dt");
   w.law = lawOf(scene.at("law"), faults);
+  static std::map<std::size_t, Law> first;
+  if (faults.loadKeeps != 0.0) w.law = first.try_emplace(w.disks, w.law).first->second;
   w.plate = plateOf(scene, faults);
   w.gravity = {scene.at("gravity").at(0), scene.at("gravity").at(1)};
   const bool torques = w.law.friction || w.law.more.rolling != Rolling::none;
@@ -118,12 +121,16 @@ World worldOf(const Json& scene, const Arrays& arrays, const Faults& faults) {
       if (faults.massScaled > 0.0)
         w.mass[i] = std::max(w.mass[i], w.law.kn * w.dt * w.dt / faults.massScaled);
       w.inertia[i] *= faults.inertia;
+      if (faults.inertiaOfFirst != 0.0)
+        w.inertia[i] =
+            w.inertia[0] * w.mass[i] / w.mass[0] * std::pow(w.radius[i] / w.radius[0], 2);
     }
   }
   for (const Json& body : scene.at("bodies")) {
     const std::string name = "bodies." + std::to_string(w.bodies.size()) + ".disk_";
     std::vector<double> radius = arrays.at(name + "radius");
     for (double& each : radius) each *= faults.radiusWall;
+    if (faults.wallRadiusOfFirst != 0.0 && !radius.empty()) radius.assign(radius.size(), radius[0]);
     w.bodies.emplace_back(body, arrays.at(name + "position"), radius);
     w.radius.insert(w.radius.end(), radius.begin(), radius.end());
   }
@@ -202,6 +209,13 @@ void addContacts(ArrayFile& arrays, const Simulation& simulation, const Loads& l
       n = -1.0 * n;
     }
     if (wall && faults.showFlippedWalls == static_cast<double>(c.i + 1)) n = -1.0 * n;
+    if (wall && faults.showPlanesFirst != 0.0) {
+      const auto disks = static_cast<std::int32_t>(world.radius.size() - world.disks);
+      std::int32_t planes = 0;
+      for (const Body& body : world.bodies) planes += static_cast<std::int32_t>(body.planes.size());
+      const bool plane = static_cast<std::size_t>(c.j) >= world.radius.size();
+      other += plane ? -disks : planes;
+    }
     i.push_back(one);
     j.push_back(other);
     normal.insert(normal.end(), {n.x, n.y});
@@ -332,6 +346,8 @@ class PlantedEngine {
     long long until = std::llround(t / simulation_->world().dt);
     const double reached = static_cast<double>(until) * simulation_->world().dt;
     if (everyNth(faults_.shortAdvanceEvery, ++advances_)) --until;
+    if (faults_.mostSteps > 0.0)
+      until = std::min(until, static_cast<long long>(simulation_->steps() + faults_.mostSteps));
     while (static_cast<long long>(simulation_->steps()) < until) {
       if (faults_.showLate != 0.0) before_ = loadsOf(*simulation_);
       simulation_->step();

@@ -28,6 +28,8 @@ struct Memory {
   double angle = 0.0;    ///< θ [rad]
   double deepest = 0.0;  ///< δ_max of a plastic contact [m]; of JKR's 1 while it is bonded
   double rest = 0.0;     ///< δ₀ of a plastic contact whose k₂ lags [m]
+  double age = 0.0;      ///< steps since it began
+  double slid = 0.0;     ///< 1 once it has
 };
 
 /// A disk of radius a on one of radius b; b = 0: on a plane.
