@@ -61,7 +61,7 @@ void measurePlaces(const SceneOf<D>& scene, AuditBasisOf<D>& basis) {
 }
 
 constexpr double stepTolerance = 0.01;  // of a step
-constexpr double wallTolerance = 1e-6;  // of the scene's extent
+constexpr double wallTolerance = 1e-6;  // of the scene's extent, besides rounding
 
 /// Negated so that a NaN is off.
 bool within(double distance, double limit) {
@@ -82,7 +82,7 @@ std::string wallFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basi
   const auto apart = [&](VecOf<D> difference) {  // of the nearest images
     return (scene.box ? scene.box->nearest(difference) : difference).norm();
   };
-  const double limit = wallTolerance * basis.extent;
+  const double limit = wallTolerance * basis.extent + basis.rounding * basis.farthest;
   std::size_t k = 0;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const WallBodyOf<D>& body = scene.bodies[b];

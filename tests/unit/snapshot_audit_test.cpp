@@ -421,6 +421,22 @@ TEST_F(Audit, SinglePrecisionIsRounded) {
   EXPECT_EQ(why(), "");
 }
 
+/// Hundreds of extents from the origin a place has fewer digits than a millionth of the extent.
+TEST_F(Audit, SinglePrecisionFarFromTheOrigin_RoundsWalls) {
+  const Vec2 far(30.0, -20.0);
+  for (auto* places : {&scene_.disks.position, &shown_.position, &shown_.wallPosition})
+    for (Vec2& place : *places) place += far;
+  WallBody& wall = scene_.bodies[0];
+  wall.diskPosition[0] += far;
+  wall.centre += far;
+  shown_.bodies[0].centre = wall.centre;
+  shown_.contacts.reset();
+  shown_.wallPosition[0] = shown_.wallPosition[0].cast<float>().cast<double>();
+  EXPECT_NE(why(), "");
+  effective_.precision = "float";
+  EXPECT_EQ(why(), "");
+}
+
 TEST_F(Audit, NormalForces) {
   contacts().normalForce[1] *= 1.02;
   expectSays(lawFaultOf(), "contact 1 (disk 0 with wall disk 0): f_n is");
