@@ -104,15 +104,27 @@ class Comparison {
     const SceneOf<D> mirrored = sceneOfMirror(can_, entry_, setup_, scene, effective);
     if (!mirror_) mirror_ = mirrorOf(can_, entry_, setup_, scene, effective);
     loadOn(*mirror_, mirrored, {});
+    begun_ = mirrored;
     const LockstepWindowOf<D> window =
         followBoth<D>(engine_, *mirror_, step_, steps_, can_.instantContacts, 0.0, mirrored.box);
     if (!account_) account_.emplace(flowDiameter(setup_), timesOf(steps_, step_), reported());
-    account_->add(start, window, responses(mirrored, window), mirrored.disks.size(),
-                  precisionLimits(effective.precision, *mirror_, mirrored, window.mirror, steps_,
-                                  flowDiameter(setup_)));
+    const Responses moved = byMirror([&] { return responses(mirrored, window); });
+    const std::vector<double> limits = byMirror([&] {
+      return precisionLimits(effective.precision, *mirror_, mirrored, window.mirror, steps_,
+                             flowDiameter(setup_));
+    });
+    account_->add(start, window, moved, mirrored.disks.size(), limits);
     frames_.add(window, reported());
     scenes_.push_back(mirrored);
     if (!effective_) effective_ = std::move(effective);
+  }
+
+  /// Where the engine has failed: nothing, unless the in-house engine fails from that start, too.
+  /// @throws UnsupportedScene
+  void followMirrorAlone() {
+    if (!begun_) return;
+    loadOn(*mirror_, *begun_, {});
+    byMirror([&] { return crossgrain::studies::follow<D>(*mirror_, step_, steps_); });
   }
 
   LockstepRow result() {
@@ -161,7 +173,8 @@ class Comparison {
   std::vector<std::uint64_t> steps_;
   std::optional<SeparationAccount> account_;
   TermFramesOf<D> frames_;
-  std::vector<SceneOf<D>> scenes_;  ///< the mirror's, by start
+  std::vector<SceneOf<D>> scenes_;   ///< the mirror's, by start
+  std::optional<SceneOf<D>> begun_;  ///< the last that it was loaded with
   std::optional<EffectiveParameters> effective_;
 };
 
@@ -214,12 +227,15 @@ LockstepRow holdIn(Engine& engine, const EngineEntry& entry, const Case& setup,
   Comparison<D> comparison(engine, entry, setup, dt);
   std::string failure, refusal;
   try {
-    for (std::size_t s = 0; s < states.size(); ++s) {
-      comparison.follow(s, states[s]);
-      progress(static_cast<double>(s + 1) / static_cast<double>(states.size()));
+    try {
+      for (std::size_t s = 0; s < states.size(); ++s) {
+        comparison.follow(s, states[s]);
+        progress(static_cast<double>(s + 1) / static_cast<double>(states.size()));
+      }
+    } catch (const EngineFailure& error) {
+      comparison.followMirrorAlone();
+      failure = error.what();
     }
-  } catch (const EngineFailure& error) {
-    failure = error.what();
   } catch (const UnsupportedScene& error) {
     refusal = error.what();
   }

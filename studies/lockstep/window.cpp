@@ -97,10 +97,10 @@ LockstepWindowOf<D> followBoth(Engine& engine, Engine& mirror, double dt,
     // Forces of a step before are compared with those that the mirror had then.
     std::optional<ContactsOf<D>> before;
     if (contacts && stepOfForces < step) {
-      takeTo(mirror, stepOfForces, dt);
+      byMirror([&] { takeTo(mirror, stepOfForces, dt); });
       before = snapshotOf<D>(mirror, ContactReport::instant).contacts;
     }
-    takeTo(mirror, step, dt);
+    byMirror([&] { takeTo(mirror, step, dt); });
     window.mirror.push_back(frameOf<D>(snapshotOf<D>(mirror, ContactReport::instant)));
     if (before) window.mirror.back().contacts = std::move(before);
     if (!box) continue;

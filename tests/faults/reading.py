@@ -16,6 +16,8 @@ def accused(command, status, results, engine, own_law=True):
         return status == 3 or blame(command, status, results, engine) == "implementation"
     if command == "collide" and status == 1:  # where nothing can be judged, which is said, no fault is found
         return blame(command, status, results, engine) == "implementation"
+    if command == "lockstep" and status == 1:  # likewise
+        return blame(command, status, results, engine) != ""
     runs = results.get("runs", []) if command == "stability" else []
     if status != 1 or not any(run["engine"] == "grain" for run in runs):
         return status in (1, 3)

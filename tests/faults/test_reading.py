@@ -122,6 +122,10 @@ class Table(unittest.TestCase):
         self.assertFalse(reading.accused("collide", 1, results("good", "not_measured"), "mine"))
         self.assertTrue(reading.accused("collide", 1, results("good", "bad"), "mine"))
         self.assertTrue(reading.accused("collide", 3, {}, "mine"))
+        self.assertFalse(reading.accused("lockstep", 1, results("not_measured"), "mine"))
+        for state in ("bad", "model_difference"):
+            self.assertTrue(reading.accused("lockstep", 1, results(state), "mine"))
+        self.assertTrue(reading.accused("lockstep", 3, {}, "mine"))
 
 
 class FalseAlarms(unittest.TestCase):

@@ -257,6 +257,22 @@ TEST_F(Lockstep, EngineThatBlowsUp_IsNotMeasured) {
   EXPECT_EQ(row.reason, row.failure);
 }
 
+/// Two disks that meet so fast that their centres pass: by the law, which is nobody's failure.
+TEST(LockstepOfDeclaredLaws, LawThatBlowsUp_IsNobodysFailure) {
+  Case setup = test::twoDisks();
+  setup.average.emplace();
+  const auto none = std::unique_ptr<Engine>();
+  const double dt = 1e-5;
+  FlowState state = {{}, flowPacking(setup, 0, dt, *none, [](double) {})};
+  state.packing.disks.velocity = {{100.0, 0.0}, {-100.0, 0.0}};
+  test::PlantedEngine right([](Scene&) {});
+  const LockstepRow row =
+      holdAgainstMirror(right, test::inHouse, setup, {state}, dt, [](double) {});
+  EXPECT_EQ(row.verdict, Equivalence::notMeasured);
+  EXPECT_EQ(row.failure, "");
+  EXPECT_NE(row.reason.find("does not come through"), std::string::npos) << row.reason;
+}
+
 /// What k_n does not explain has no equivalent in it, and no term that only resembles it is named.
 TEST_F(Lockstep, TermThatOnlyResembles_IsNotNamed) {
   const LockstepRow hot = rowOf([](Scene& scene) {
