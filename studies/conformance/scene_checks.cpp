@@ -301,9 +301,19 @@ void wallsUnderWayAct(CheckContext& context) {
 
 // ---- the bottom plate ---------------------------------------------------------------------------
 
+/// Two that touch slide together, on a plate without torques: about a spin of 0 their signs would
+/// be roundings'.
+Scene touchingOnPlate(const ContactLaw& law, double mu) {
+  Scene scene = emptyScene(law, coarseSteps);
+  scene.bottom = thesisBottom<BottomPlate>(mu, false);
+  for (const double side : {1.0, -1.0})
+    addDisk(scene, smallRadius, smallMass, {0.0, 0.99 * side * smallRadius}, {pace, 0.0});
+  return scene;
+}
+
 /// Two disks of different masses that slide until they rest, one of them turning, and one that the
-/// plate holds on a slope; two that touch slide together; two fast ones fly apart meanwhile, so
-/// that lists of neighbours are made anew. The later in the list the farther left.
+/// plate holds on a slope; two fast ones fly apart meanwhile, so that lists of neighbours are made
+/// anew. The later in the list the farther left.
 void plateBrakesEachByItself(CheckContext& context) {
   constexpr double mu = 0.2, apart = 6.0 * largeRadius, fast = 20.0 * pace;
   Scene scene = emptyScene(context.law(), coarseSteps);
@@ -313,14 +323,14 @@ void plateBrakesEachByItself(CheckContext& context) {
   addDisk(scene, largeRadius, largeMass, {2.0 * apart, 0.0}, {pace, 0.0});
   addDisk(scene, smallRadius, smallMass, {apart, 0.0}, {pace, 0.0}, 30.0);
   addDisk(scene, smallRadius, smallMass, {0.0, 0.0}, Vec2::Zero());
-  for (const double side : {1.0, -1.0})
-    addDisk(scene, smallRadius, smallMass, {-0.5 * apart, 0.99 * side * smallRadius}, {pace, 0.0});
   addDisk(scene, smallRadius, smallMass, {-apart, 0.0}, {0.0, fast});
   addDisk(scene, smallRadius, smallMass, {-2.0 * apart, 0.0}, {0.0, -fast});
   if (const auto why = context.refusal(scene)) context.skip(*why);
   expectAsInHouse(context, scene, {0.02, 0.06, 0.12}, "on the bottom plate");
   scene.disks.spin.assign(scene.disks.size(), 0.1);  // τ_m |F| brakes it, F as large as if it held
   expectAsInHouse(context, scene, {1e-3}, "on the bottom plate, where disks slide and hardly turn");
+  expectAsInHouse(context, touchingOnPlate(context.law(), mu), {1e-3, 0.02},
+                  "two that touch on the bottom plate");
 }
 
 // ---- slow ---------------------------------------------------------------------------------------
