@@ -23,7 +23,7 @@ import reading
 
 here = pathlib.Path(__file__).resolve().parent
 project = here.parent.parent
-COLUMNS = ["command", "promised", "trials", "alarms", "rate", "low", "high", "cpu_s"]
+COLUMNS = ["command", "promised", "trials", "alarms", "rate", "low", "high", "cpu_s", "build"]
 
 
 def interval(alarms, trials, confidence=0.95):
@@ -124,7 +124,8 @@ def trial(options, rules, command, number):
         results = json.loads(done.stdout or "{}")
     name = engine_name(engine)
     alarm = reading.accused(command, done.returncode, results, name, own)
-    return {"command": command, "trial": number, "disguise": words, "arguments": [word for word in arguments if word != str(engine)],
+    build = " ".join(filter(None, (results.get("version"), results.get("build"))))
+    return {"command": command, "trial": number, "build": build, "disguise": words, "arguments": [word for word in arguments if word != str(engine)],
             "status": done.returncode, "alarm": alarm, "seconds": round(time.monotonic() - began, 2),
             "sentence": reading.sentence(command, results, name, done.stderr) if alarm else "",
             "printed": (done.stdout[-600:] + done.stderr[-600:]) if alarm else ""}
@@ -145,7 +146,8 @@ def rates(records, rules):
         low, high = interval(alarms, len(own))
         rows.append({"command": command, "promised": rules[command]["promised"], "trials": len(own), "alarms": alarms,
                      "rate": f"{alarms / len(own):.4f}", "low": f"{low:.4f}", "high": f"{high:.4f}",
-                     "cpu_s": f"{sum(record['cpu'] for record in own):.0f}"})
+                     "cpu_s": f"{sum(record['cpu'] for record in own):.0f}",
+                     "build": " and ".join(sorted({record["build"] for record in own if record.get("build")}))})
     return rows
 
 
