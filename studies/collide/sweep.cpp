@@ -363,7 +363,7 @@ std::optional<DeclaredScore> scoreDeclared(const SweptCurve<D>& swept, const Eng
   return score;
 }
 
-/// Of a curve that falls short at this step and not at a smaller one: quantities in which the
+/// Of a curve that fails at this step and not at a smaller one: quantities in which the
 /// in-house engine is beyond the limit too, under the same law in the same steps, and the engine
 /// within it of that one, are not judged. @returns whether that leaves nothing beyond a limit
 template <int D>

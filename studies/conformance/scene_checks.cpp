@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,15 +25,20 @@ using Motions = std::vector<std::vector<double>>;
 
 struct Course {
   Places places;
-  Motions last;  ///< at the last time
+  Motions last;                   ///< at the last time
+  std::optional<Snapshot> first;  ///< at the first, as it was asked for
 };
 
-Course courseOf(Engine& engine, const Scene& scene, const std::vector<double>& times) {
-  Course course{Places(scene.disks.size()), {}};
+/// @param report  contacts that the first snapshot has
+Course courseOf(Engine& engine, const Scene& scene, const std::vector<double>& times,
+                ContactReport report = ContactReport::none) {
+  Course course{Places(scene.disks.size()), {}, {}};
   for (const double t : times) {
     engine.advance(t);
     course.last.clear();
-    const std::vector<DiskState> now = statesOf(scene, engine.snapshot(ContactReport::none));
+    const Snapshot shown = engine.snapshot(course.first ? ContactReport::none : report);
+    if (!course.first) course.first = shown;
+    const std::vector<DiskState> now = statesOf(scene, shown);
     for (std::size_t i = 0; i < now.size(); ++i) {
       const Vec2 place = now[i].position / smallContactTime;
       course.places[i].insert(course.places[i].end(), {place.x(), place.y()});
@@ -68,12 +74,10 @@ void expectAsInHouse(CheckContext& context, const Scene& wanted, const std::vect
   const double dt = context.effective.dt;
   const auto law = declaredLaw(context.can, ran, context.effective, 0.5 * smallMass);
   if (!law || !law->soft()) context.skip("the in-house engine does not have its law");
-  const Course found = courseOf(context.engine, ran, times);
-  if (context.contactReport() != ContactReport::none) {
-    context.load(context.simplified(wanted));
-    const Snapshot shown = context.at(times.front());
-    const std::string why =
-        auditFault(shown, auditBasis(ran, context.can, context.effective), shown.positionTime);
+  const Course found = courseOf(context.engine, ran, times, context.contactReport());
+  if (found.first->contacts) {
+    const std::string why = auditFault(
+        *found.first, auditBasis(ran, context.can, context.effective), found.first->positionTime);
     context.expect(why.empty(), text(which, ": ", why));
   }
   const auto inHouse = engineRegistry().front().make();

@@ -104,9 +104,7 @@ class Comparison {
     const SceneOf<D> mirrored = sceneOfMirror(can_, entry_, setup_, scene, effective);
     if (!mirror_) mirror_ = mirrorOf(can_, entry_, setup_, scene, effective);
     loadOn(*mirror_, mirrored, {});
-    begun_ = mirrored;
-    const LockstepWindowOf<D> window =
-        followBoth<D>(engine_, *mirror_, step_, steps_, can_.instantContacts, 0.0, mirrored.box);
+    const LockstepWindowOf<D> window = windowFrom(mirrored);
     if (!account_) account_.emplace(flowDiameter(setup_), timesOf(steps_, step_), reported());
     const Responses moved = byMirror([&] { return responses(mirrored, window); });
     const std::vector<double> limits = byMirror([&] {
@@ -117,14 +115,6 @@ class Comparison {
     frames_.add(window, reported());
     scenes_.push_back(mirrored);
     if (!effective_) effective_ = std::move(effective);
-  }
-
-  /// Where the engine has failed: nothing, unless the in-house engine fails from that start, too.
-  /// @throws UnsupportedScene
-  void followMirrorAlone() {
-    if (!begun_) return;
-    loadOn(*mirror_, *begun_, {});
-    byMirror([&] { return crossgrain::studies::follow<D>(*mirror_, step_, steps_); });
   }
 
   LockstepRow result() {
@@ -151,6 +141,19 @@ class Comparison {
     return frames;
   }
 
+  /// Both from the scene that they have been loaded with.
+  /// @throws EngineFailure, UnsupportedScene where the in-house engine fails from there, too
+  LockstepWindowOf<D> windowFrom(const SceneOf<D>& mirrored) {
+    try {
+      return followBoth<D>(engine_, *mirror_, step_, steps_, can_.instantContacts, 0.0,
+                           mirrored.box);
+    } catch (const EngineFailure&) {
+      loadOn(*mirror_, mirrored, {});
+      byMirror([&] { return crossgrain::follow<D>(*mirror_, step_, steps_); });
+      throw;
+    }
+  }
+
   /// What changes of the reference constant do to the mirror from here.
   Responses responses(const SceneOf<D>& mirrored, const LockstepWindowOf<D>& window) {
     std::vector<LockstepFrameOf<D>> unchanged;
@@ -173,8 +176,7 @@ class Comparison {
   std::vector<std::uint64_t> steps_;
   std::optional<SeparationAccount> account_;
   TermFramesOf<D> frames_;
-  std::vector<SceneOf<D>> scenes_;   ///< the mirror's, by start
-  std::optional<SceneOf<D>> begun_;  ///< the last that it was loaded with
+  std::vector<SceneOf<D>> scenes_;  ///< the mirror's, by start
   std::optional<EffectiveParameters> effective_;
 };
 
@@ -227,15 +229,12 @@ LockstepRow holdIn(Engine& engine, const EngineEntry& entry, const Case& setup,
   Comparison<D> comparison(engine, entry, setup, dt);
   std::string failure, refusal;
   try {
-    try {
-      for (std::size_t s = 0; s < states.size(); ++s) {
-        comparison.follow(s, states[s]);
-        progress(static_cast<double>(s + 1) / static_cast<double>(states.size()));
-      }
-    } catch (const EngineFailure& error) {
-      comparison.followMirrorAlone();
-      failure = error.what();
+    for (std::size_t s = 0; s < states.size(); ++s) {
+      comparison.follow(s, states[s]);
+      progress(static_cast<double>(s + 1) / static_cast<double>(states.size()));
     }
+  } catch (const EngineFailure& error) {
+    failure = error.what();
   } catch (const UnsupportedScene& error) {
     refusal = error.what();
   }

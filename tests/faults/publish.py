@@ -105,16 +105,6 @@ def harness(rows):
     return "## In the harness itself, on the right engine\n\nBy 0.3.0 of 23 November 2026.\n\n" + table.markdown(lines)
 
 
-def builds_of_trials(rows):
-    """ "one build, 0.3.0 1234abcd"; of several, what each has been asked by."""
-    builds = {}
-    for row in rows:
-        builds.setdefault(row["build"], []).append(f"`{row['command']}`")
-    if len(builds) == 1:
-        return f"one build, {next(iter(builds))}"
-    return "builds " + " and ".join(f"{build} ({', '.join(commands)})" for build, commands in builds.items())
-
-
 def rates(rows):
     def share(row, name):
         return f"{100.0 * float(row[name]):.1f} %"
@@ -130,10 +120,10 @@ def false_alarms(disguised, others):
     """The section on false alarms, of false_alarms.py's tables."""
     text = "## False alarms\n\nRates with their 95 % intervals after Clopper and Pearson; *promised* is what a command's own rules allow. [tests/faults](../../../tests/faults/README.md#false-alarms) says what is asked.\n"
     if disguised:
-        text += f"\n**In disguise**: the in-house engine, turned, mirrored, in other units, renumbered, nudged by a rounding, taken up again and again, drawn anew for each trial. By {builds_of_trials(disguised)}.\n\n" + rates(disguised)
+        text += f"\n**In disguise**: the in-house engine, turned, mirrored, in other units, renumbered, nudged by a rounding, taken up again and again, drawn anew for each trial. By {builds_in_words(disguised)}.\n\n" + rates(disguised)
         text += "\n```\ncmake --build build/release --target false_alarms    # an hour and more\n```\n"
     if others:
-        text += f"\n**Of other kinds**: that engine, or one that declares another integrator, single precision, lagged velocities or other conventions and has them, in the quick cell, the thesis' cell, a hopper, plane shear, a biaxial box, a pile, a sandpile, a fast gas and with rigid disks. By {builds_of_trials(others)} ([alarms of earlier builds and their causes](../../../tests/faults/README.md#false-alarms)).\n\n" + rates(others)
+        text += f"\n**Of other kinds**: that engine, or one that declares another integrator, single precision, lagged velocities or other conventions and has them, in the quick cell, the thesis' cell, a hopper, plane shear, a biaxial box, a pile, a sandpile, a fast gas and with rigid disks. By {builds_in_words(others)} ([alarms of earlier builds and their causes](../../../tests/faults/README.md#false-alarms)).\n\n" + rates(others)
         text += "\n```\ntests/faults/false_alarms.py --crossgrain build/release/cli/crossgrain --engine build/release/tests/faults/disguised_engine \\\n    --rules tests/faults/other_engines.toml --out out/others\n```\n"
     return text
 
