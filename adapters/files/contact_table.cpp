@@ -81,6 +81,7 @@ void findNormals(ContactTable& table, const FileFrame& frame, const Partners& pa
       fail(where, contacts, k,
            fmt::format("its normal has the length {:.6g}, it should be a unit vector", length));
     if (!(length > 0.0)) fail(where, contacts, k, "both centres are the same point");
+    if (!std::isfinite(length)) fail(where, contacts, k, "its centres are too far apart");
     normal /= length;
   }
 }

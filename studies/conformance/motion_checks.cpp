@@ -247,12 +247,22 @@ void expectPush(CheckContext& context) {
                "the speed of the disk that was pushed [m/s]");
 }
 
+/// The same a second and more after load, with the disk out of the way: nothing that repeats itself
+/// does so with the second.
+void expectPrescribedLate(CheckContext& context, Scene scene) {
+  scene.disks.position[0] = {1.0, 1.0};
+  context.loadWithinLimits(scene);
+  expectPrescribed(context, context.at(1.23));
+}
+
 template <Motion::Kind kind>
 void wallPushes(CheckContext& context) {
   context.load(pushingWall(context.law(), kind));
   context.examine(wallMotion(kind));
   context.examine(toString(Effect::movingWalls));
   expectPush(context);
+  if constexpr (kind == Motion::Kind::oscillating)
+    expectPrescribedLate(context, pushingWall(context.law(), kind));
 }
 
 void shrinkingWallStops(CheckContext& context) {
@@ -295,10 +305,11 @@ void turningPlanePushes(CheckContext& context) {
 
 void oscillatingPlanePushes(CheckContext& context) {
   context.needs(planeMotion(Motion::Kind::oscillating));
-  context.loadWithinLimits(
-      pushingPlane(context.law(), Motion::Kind::oscillating, 0.0, Encounter::gap));
+  const Scene scene = pushingPlane(context.law(), Motion::Kind::oscillating, 0.0, Encounter::gap);
+  context.loadWithinLimits(scene);
   context.examine(planeMotion(Motion::Kind::oscillating));
   expectPush(context);
+  expectPrescribedLate(context, scene);
 }
 
 /// A gap wider than a disk, and nothing but the wall moves: neighbour lists have to see walls come.

@@ -267,6 +267,18 @@ Scene turningPlaneScene(const ContactLaw& law) {
   return scene;
 }
 
+/// A disk flies to a plane that turns about another point than its own: by then both the normal and
+/// the point have turned by more than a radian.
+Scene turnedPlaneScene(const ContactLaw& law) {
+  constexpr double omega = 20.0, meets = 0.06;  // [rad/s, s]
+  const Vec2 away(std::sin(omega * meets), -std::cos(omega * meets));
+  Scene scene = emptyScene(law, coarseSteps);
+  scene.bodies = {planeWall({0.0, -smallRadius - pace * meets}, {0.0, 1.0})};
+  scene.bodies[0].motion = rotating(omega);
+  addDisk(scene, smallRadius, smallMass, Vec2::Zero(), pace * away);
+  return shifted(scene, {0.3, -0.2});
+}
+
 /// A disk falls onto a post that turns clockwise, and not about the origin.
 Scene turningPostScene(const ContactLaw& law) {
   const Vec2 centre(0.3, -0.2);
@@ -297,6 +309,7 @@ Scene shrinkingRingScene(const ContactLaw& law) {
 void wallsUnderWayAct(CheckContext& context) {
   Several scenes(context);
   scenes.expect(turningPlaneScene(context.law()), {0.003, 0.01}, "on a plane that turns");
+  scenes.expect(turnedPlaneScene(context.law()), {0.062, 0.07}, "on a plane that has turned");
   scenes.expect(turningPostScene(context.law()), {0.003, 0.01}, "on a post that turns clockwise");
   scenes.expect(shrinkingRingScene(context.law()), {0.003, 0.008, 0.016},
                 "at a ring that shrinks, and has stopped");

@@ -41,6 +41,17 @@ TEST_F(Csv, Times_RowsOfOneFollowOneAnother) {
   EXPECT_EQ(frames[1].contacts->force[0], Vec3(-7, 0, 0));
 }
 
+/// The square of such a distance has no room in a double.
+TEST_F(Csv, Normals_AreUnitVectorsOrRefused) {
+  samples_.write("contacts.csv", "first,second,normal_force\n1,2,20\n");
+  samples_.write("p.csv", "id,x,y,radius\n1,0,0,1\n2,-4e100,0,1\n");
+  const FileFrame frame = samples_.read("csv", {"p.csv", "contacts.csv"}).front();
+  EXPECT_EQ(frame.contacts->normal[0], Vec3(1, 0, 0));
+  samples_.write("p.csv", "id,x,y,radius\n1,0,0,1\n2,-4e200,0,1\n");
+  EXPECT_EQ(samples_.refusal("csv", {"p.csv", "contacts.csv"}),
+            "contacts.csv, step 0: contact 1 (1 and 2): its centres are too far apart");
+}
+
 /// A start file is a time; ids are rows.
 TEST_F(Csv, StartFile) {
   samples_.write("start.csv", "x,y,radius,vx,vy,spin,mass,inertia,fixed\n1,2,0.5,3,4,5,6,7,0\n");

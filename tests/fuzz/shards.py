@@ -28,7 +28,6 @@ kinds = {
     "files-csv": ("files", "DamagedFiles.Csv", 20000),
     "files-ondem": ("files", "DamagedFiles.OnDem", 1000),
     "answers": ("messages", "Hostile.AnswersAreAValueOrOneLine", 20000),
-    "recordings": ("messages", "Hostile.RecordingsAreExchangesOrBadInput", 20000),
 }
 # Inputs are written before they are read: to memory, where there is a folder of that.
 MEMORY = pathlib.Path("/dev/shm")

@@ -32,8 +32,10 @@ Simulation::Simulation(World world, const Faults& faults)
     : world_(std::move(world)), faults_(faults) {
   for (std::size_t b = 0; b < world_.bodies.size(); ++b) {
     bodyOf_.insert(bodyOf_.end(), world_.bodies[b].radius.size(), b);
-    for (std::size_t k = 0; k < world_.bodies[b].planes.size(); ++k)
+    for (const Plane& plane : world_.bodies[b].planes) {
       planeMemory_.emplace_back(world_.disks);
+      planePoint_.push_back(plane.point);
+    }
   }
   if (world_.disks > 0) heaviest_ = *std::max_element(world_.mass.begin(), world_.mass.end());
   if (world_.disks > 0)
@@ -108,8 +110,11 @@ void Simulation::drift(double dt) {
 
 void Simulation::moveWalls() {
   std::size_t id = world_.disks;
+  auto point = planePoint_.begin();
   for (Body& body : world_.bodies) {
-    body.at(now());
+    body.at(faults_.wallClockWraps != 0.0 ? std::fmod(now(), 1.0) : now());
+    if (faults_.planePointStays != 0.0)
+      for (Plane& plane : body.planes) plane.point = *point++;
     for (std::size_t k = 0; k < body.radius.size(); ++k, ++id) {
       world_.position[id] = body.position[k];
       const Vector seen = seenOfWall(body, body.diskVelocity[k]);

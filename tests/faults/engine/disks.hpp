@@ -115,6 +115,7 @@ class Simulation {
   Neighbours neighbours_;
   std::vector<std::size_t> bodyOf_;               ///< of each wall disk
   std::vector<std::vector<Memory>> planeMemory_;  ///< by plane and disk
+  std::vector<Vector> planePoint_;                ///< at the start
   std::vector<Vector> plateSpring_;
   std::vector<Vector> force_, dashpotVelocity_, onBody_;
   std::vector<double> torque_, seenSpin_, torqueOnBody_;

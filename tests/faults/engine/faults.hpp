@@ -185,7 +185,9 @@ struct Faults {
   double meanCells =
       given("mean_cells", 0.0);  ///< [mean diameters] pairs of a longer distance are not found
 
-  // Of a second audit: README.md.
+  // Of a third audit and a second: README.md.
+  double wallClockWraps = given("wall_clock_wraps", 0.0);    ///< walls move by t mod 1 s
+  double planePointStays = given("plane_point_stays", 0.0);  ///< of planes the normal alone turns
   double wallSpinSize =
       given("wall_spin_size", 0.0);  ///< contacts see a wall's spin without its sign
   double wallRadiusOfFirst =
