@@ -149,6 +149,16 @@ Scene cornerScene(const ContactLaw& law, std::vector<WallBody> bodies) {
   return scene;
 }
 
+/// A disk that spins on one wall disk of a body as it meets another of it: each has a spring of its
+/// own.
+Scene notchScene(const ContactLaw& law) {
+  const Vec2 first(-1.2 * smallRadius, 0.0), second(1.2 * smallRadius, -0.4 * ahead);
+  Scene scene = emptyScene(law, coarseSteps);
+  scene.bodies = {wallOf("notch", Vec2::Zero(), {first, second})};
+  addDisk(scene, smallRadius, smallMass, {0.0, 1.6 * smallRadius + ahead}, {0.0, -pace}, 20.0);
+  return scene;
+}
+
 /// So many disks close in on one that is so many times as large as they are.
 Scene cagedScene(const ContactLaw& law, int count, double times) {
   Scene scene = emptyScene(law, coarseSteps);
@@ -243,6 +253,7 @@ void severalActAtOnce(CheckContext& context) {
                 "in a corner of two bodies' planes");
   scenes.expect(cornerScene(law, {floor, left}), soon, "between a plane and a wall disk");
   scenes.expect(cornerScene(law, {left, below}), soon, "between the wall disks of two bodies");
+  scenes.expect(notchScene(law), soon, "between two wall disks of one body");
   scenes.expect(cagedScene(law, 6, 1.0), soon, "one disk that six others touch");
   scenes.expect(cagedScene(law, 12, 3.5), soon, "a large disk that twelve small ones touch");
   scenes.expect(mixedScene(law), soon,

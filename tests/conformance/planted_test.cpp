@@ -233,12 +233,13 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& one) { return std::string(one.param.name); });
 
 // The same, of a third.
-INSTANTIATE_TEST_SUITE_P(ThirdAudit, PlantedFault,
-                         testing::Values(resisting("wall_clock_wraps", "wall_clock_wraps=1",
-                                                   "OscillatingWallPushes", ""),
-                                         resisting("plane_point_stays", "plane_point_stays=1",
-                                                   "WallsUnderWayAct", "")),
-                         [](const auto& one) { return std::string(one.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    ThirdAudit, PlantedFault,
+    testing::Values(resisting("wall_clock_wraps", "wall_clock_wraps=1", "OscillatingWallPushes",
+                              ""),
+                    resisting("one_wall_spring", "one_wall_spring=1", "SeveralActAtOnce", ""),
+                    resisting("plane_point_stays", "plane_point_stays=1", "WallsUnderWayAct", "")),
+    [](const auto& one) { return std::string(one.param.name); });
 
 // Faults that act late, far, fast, in corners or in second loads: tests/faults/elsewhere.toml.
 INSTANTIATE_TEST_SUITE_P(

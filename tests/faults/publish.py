@@ -34,7 +34,7 @@ titles = {
     "space": "`space`: spheres and periodic boxes",
 }
 limits = """**What these figures are not.** They are shares of faults that were thought of. The rules of what counts were written before any fault was run, but checks were not: of `faults`, checks came from what had escaped (`later` in `faults.toml`); of `elsewhere` and the last two of
-`space`, written before there were checks for their kinds, `conformance` found 5 of 20 then; checks for the first thirteen of `space` were made with them; `audit` has faults that `conformance` had not found (48 of 70 of an independent audit it had, [which](../../../tests/faults/README.md#an-independent-audit)), with checks made since. **Of 48 faults of a [second audit](../../../tests/faults/README.md#a-second-audit), planted blind in an engine of its own, the build of this table found 43 by `conformance`**, 33 by name or by a check that is for the fault; the twelve checks and scenes made since are not in this table. What no scene of a command excites no command finds. Commands that were not run for a list have no figure there (–).
+`space`, written before there were checks for their kinds, `conformance` found 5 of 20 then; checks for the first thirteen of `space` were made with them; `audit` has faults that `conformance` had not found (48 of 70 of an independent audit it had, [which](../../../tests/faults/README.md#an-independent-audit)), with checks made since. **Of 48 faults of a [second audit](../../../tests/faults/README.md#a-second-audit), planted blind in an engine of its own, the build of this table found 43 by `conformance`**, 33 by name or by a check that is for the fault; the checks and scenes made since are not in this table. **Of 48 of a [third](../../../tests/faults/README.md#a-third-audit) a build with these found 45, 41 by name or by a check** (and 46 with `stability`). What no scene of a command excites no command finds. Commands that were not run for a list have no figure there (–).
 """
 
 
@@ -171,7 +171,7 @@ def sentences(folder):
     asked = len({row["command"] for row in disguised + kinds})
     return {
         "README.md": {"": f"{finds}; right engines gave {alarms(disguised + kinds)[0]} false alarms in {alarms(disguised + kinds)[1]} trials. "
-                          "For many of these faults checks were made once they were known; of 48 that an independent audit then planted in an engine of its own it found 43, of these 33 by their cause or a check that is for them ([tables, limits](reports/curated/trust/README.md))."},
+                          "For many of these faults checks were made once they were known; of 96 that two independent audits then planted in engines of their own it found 88, of these 74 by their cause or a check that is for them ([tables, limits](reports/curated/trust/README.md))."},
         "docs/validation.md": {
             "": f"{finds}. The other commands find: {others}. Right engines, controls of the lists, found at fault: {len(accused)} of {len(right)}. "
                 f"By {builds_in_words(rows)} ([table, limits](../reports/curated/trust/README.md)).",

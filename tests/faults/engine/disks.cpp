@@ -178,21 +178,31 @@ void Simulation::addPlate(std::size_t i) {
   torque_[i] -= faults_.plateSpin * signedLike(brake, spin) * (2.0 / 3.0) * radius;
 }
 
+Memory& Simulation::memoryOf(Pair& pair) {
+  const auto bodyOf = [&](std::size_t j) { return bodyOf_[j - world_.disks]; };
+  if (faults_.oneWallSpring == 0.0 || pair.j < world_.disks) return pair.kept;
+  const auto first = std::ranges::find_if(neighbours_.pairs, [&](const Pair& other) {
+    return other.i == pair.i && other.j >= world_.disks && bodyOf(other.j) == bodyOf(pair.j);
+  });
+  return first->kept;
+}
+
 void Simulation::addPairs() {
   const World& w = world_;
   for (Pair& pair : neighbours_.pairs) {
+    Memory& kept = memoryOf(pair);
     const auto [i, j] = std::pair(pair.i, pair.j);
     const Vector apart = w.position[i] - w.position[j];
     const double reach = w.radius[i] + w.radius[j], distance = std::sqrt(dot(apart, apart));
     const double overlap = reach - distance;
     if (beyondGrid(w.position[i], faults_.farGrid) || outsideStart(w.position[i])) continue;
-    if (!holds({w.radius[i], w.radius[j], overlap}, pair.kept)) continue;
+    if (!holds({w.radius[i], w.radius[j], overlap}, kept)) continue;
     const bool wall = j >= w.disks;
     const bool flipped = wall && faults_.flippedWalls == static_cast<double>(i + 1);
     const Vector n = ((flipped ? -1.0 : 1.0) / distance) * apart;
     const double rim = arm(i, overlap) * seenSpin_[i] + arm(j, overlap) * seenSpin_[j];
     Contact c = contact(i, j, n, overlap, dashpotVelocity_[i] - dashpotVelocity_[j], rim,
-                        seenSpin_[j], pair.kept);
+                        seenSpin_[j], kept);
     if (wall) {
       push(bodyOf_[j - w.disks], w.position[j], c, arm(j, overlap));
     } else {

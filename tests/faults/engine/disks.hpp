@@ -100,6 +100,7 @@ class Simulation {
   bool late() const { return now() > 1.0; }
   void addPlate(std::size_t i);
   void addPairs();
+  Memory& memoryOf(Pair& pair);
   void addPlanes();
   Contact contact(std::size_t i, std::size_t j, Vector n, double overlap, Vector relative,
                   double rim, double spinOfOther, Memory& kept);

@@ -187,6 +187,7 @@ struct Faults {
 
   // Of a third audit and a second: README.md.
   double wallClockWraps = given("wall_clock_wraps", 0.0);    ///< walls move by t mod 1 s
+  double oneWallSpring = given("one_wall_spring", 0.0);      ///< of a disk at all disks of a body
   double planePointStays = given("plane_point_stays", 0.0);  ///< of planes the normal alone turns
   double wallSpinSize =
       given("wall_spin_size", 0.0);  ///< contacts see a wall's spin without its sign
