@@ -66,10 +66,11 @@ std::string timeFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basi
 template <int D>
 std::string positionFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis);
 
-/// Every contact: i < j, i a moving disk, no pair twice, |n| = 1. Forces of an instant also: normal
-/// and overlap are those of the positions at contactTime, in a periodic box of the pair's nearest
-/// images, no force passes a gap (but a bond of
-/// JKR's, as far as that reaches), and no pair that overlaps is left out.
+/// Every contact: i < j, i a moving disk, no pair twice, |n| = 1. Forces of a step also: f_t across
+/// n, none so large that it would throw all disks out of the scene. Forces of an instant also:
+/// normal and overlap are those of the positions at contactTime, in a periodic box of the pair's
+/// nearest images, no force passes a gap (but a bond of JKR's, as far as that reaches), and no pair
+/// that overlaps is left out.
 ///
 /// What conventions leave open: contacts of another time than the positions are looked for where
 /// disks were then, half of what two disks moved meanwhile being left to schemes whose velocities

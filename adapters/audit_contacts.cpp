@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "adapters/audit_geometry.hpp"
 #include "adapters/near_pairs.hpp"
@@ -50,6 +51,33 @@ std::string listFault(const ContactsOf<D>& contacts, const AuditBasisOf<D>& basi
     const auto i = static_cast<std::size_t>(contacts.i[k]);
     if (byFirst.count(contacts, i, static_cast<std::size_t>(contacts.j[k])) > 1)
       return fmt::format("{} is listed twice", contactName(contacts, k, *basis.scene));
+  }
+  return {};
+}
+
+/// Forces that can be: f_t is across the normal, and no force moves the mass of all disks together
+/// by a hundred times the scene's extent within a step. Stable soft contacts move a disk of mass m
+/// by f dt²/m ≤ 4 δ, impulses by what the fastest cover.
+template <int D>
+std::string forceFault(const ContactsOf<D>& contacts, const AuditBasisOf<D>& basis) {
+  const std::vector<double>& masses = basis.scene->disks.mass;
+  const double mass = std::accumulate(masses.begin(), masses.end(), 0.0);
+  const double most =
+      100.0 * mass * (basis.extent + basis.fastest * basis.dt) / (basis.dt * basis.dt);
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const auto name = [&] { return contactName(contacts, k, *basis.scene); };
+    const double along = contacts.normalForce[k], across = sizeOf(contacts.tangentialForce[k]);
+    if constexpr (D == 3) {
+      // Of schemes that show f_t across the normal of a step before; 10⁻⁵ of f_n is single
+      // precision's.
+      const double lengthwise = contacts.tangentialForce[k].dot(contacts.normal[k]);
+      if (!(std::abs(lengthwise) <= 1e-2 * across + 1e-5 * std::abs(along)))
+        return fmt::format("{}: {:.3g} N of its tangential force of {:.3g} N are along the normal",
+                           name(), lengthwise, across);
+    }
+    if (basis.dt > 0.0 && !(std::abs(along) + across <= most))
+      return fmt::format("{}: a force of {:.3g} N would throw all disks out of the scene in a step",
+                         name(), std::max(std::abs(along), across));
   }
   return {};
 }
@@ -150,6 +178,7 @@ std::string contactFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& b
   const ByFirst byFirst(contacts, basis.scene->disks.size());
   if (std::string why = listFault(contacts, basis, byFirst); !why.empty()) return why;
   if (snapshot.contactInterval > meansOverSteps * basis.dt) return {};
+  if (std::string why = forceFault(contacts, basis); !why.empty()) return why;
   if (!basis.byOverlap && !(basis.dt > 0.0)) return {};  // moved on, nobody knows how far
   ContactPlacesOf<D> places = contactPlaces(snapshot, basis);
   // Both disks of a pair may have been moved out of others that deep.

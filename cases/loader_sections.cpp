@@ -235,7 +235,9 @@ const Section<RunOptions>& runKeys() {
                            }),
        key("precision", &RunOptions::precision, Names(precisionNames.begin(), precisionNames.end()),
            "`float`: of engines that have it"),
-       key("timeout", &RunOptions::timeout, timeouts, "longest wait for one answer of an engine"),
+       key("timeout", &RunOptions::timeout, timeouts,
+           "longest wait for one answer of an engine; one that computes meanwhile gets as much "
+           "processor time again"),
        key("mirrors", &RunOptions::mirrors, any,
            "also run the in-house engine under each peer's conventions")
            .usedBy("compare plan collide"),

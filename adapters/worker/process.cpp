@@ -6,7 +6,6 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,70 +16,24 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <mutex>
 #include <semaphore>
 #include <string_view>
 #include <system_error>
 #include <thread>
 
+#include "adapters/worker/processes.hpp"
 #include "support/descriptor.hpp"
 
 namespace crossgrain {
 namespace {
 
-/// The variable in a worker's environment, and so in that of all that it starts, by which they are
-/// found again in whatever process group, session or parent they are.
-inline constexpr const char* workerMark = "CROSSGRAIN_WORKER";
-
-/// Whether that is in its environment as it was started.
-bool hasVariable(const std::filesystem::path& process, const std::string& variable) {
-  std::ifstream in(process / "environ", std::ios::binary);
-  const std::string all{std::istreambuf_iterator<char>(in), {}};
-  for (std::size_t at = all.find(variable); at != std::string::npos;
-       at = all.find(variable, at + 1)) {
-    const std::size_t end = at + variable.size();
-    if ((at == 0 || all[at - 1] == '\0') && (end == all.size() || all[end] == '\0')) return true;
-  }
-  return false;
-}
-
-/// @returns whether any was found
-bool killOnce(const std::string& variable) {
-  bool found = false;
-  std::error_code gone;
-  for (std::filesystem::directory_iterator each("/proc", gone), end; !gone && each != end;
-       each.increment(gone)) {
-    const std::string name = each->path().filename().string();
-    if (!std::ranges::all_of(name, [](char c) { return c >= '0' && c <= '9'; })) continue;
-    const pid_t pid = std::atoi(name.c_str());
-    if (pid == ::getpid()) continue;
-    // Opened before its environment is read: its number may pass to another process, the
-    // descriptor does not.
-    const Descriptor process(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
-    if (process.get() < 0 || !hasVariable(each->path(), variable)) continue;
-    found |= ::syscall(SYS_pidfd_send_signal, process.get(), SIGKILL, nullptr, 0) == 0;
-  }
-  return found;
-}
-
-/// A value of it that no other worker has.
+/// A value of workerMark that no other worker has.
 std::string newWorkerMark() {
   static std::atomic<unsigned> count{0};
   return fmt::format("{}-{}-{}", ::getpid(), ++count,
                      std::chrono::system_clock::now().time_since_epoch().count());
-}
-
-/// Kills every process that has this mark. What has started with an environment of its own making,
-/// or belongs to another user, is not found; nor is anything where there is no /proc.
-void killMarkedProcesses(const std::string& mark) {
-  const std::string variable = fmt::format("{}={}", workerMark, mark);
-  // One that was being forked meanwhile is found the next time.
-  constexpr int rounds = 10;
-  for (int k = 0; k < rounds && killOnce(variable); ++k) {
-  }
 }
 
 class Launcher {

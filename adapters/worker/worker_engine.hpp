@@ -39,7 +39,7 @@ class WorkerEngine final : public Engine {
   /// Starts the worker and asks what it can do.
   /// @param call     the program; its stamp becomes part of the version
   /// @param scratch  directory for array files and the log NAME.log; made if there is none
-  /// @param timeout  longest wait for one answer [s]
+  /// @param timeout  longest wait for one answer [s]; longer for a worker that computes meanwhile
   /// @param listener gets every exchange, hello too
   /// @throws EngineFailure
   WorkerEngine(std::string name, const ProgramCall& call, std::filesystem::path scratch,
@@ -79,6 +79,9 @@ class WorkerEngine final : public Engine {
   /// The answer, heard by the listener, too.
   nlohmann::json exchange(const nlohmann::json& request, const std::string& what) const;
   nlohmann::json answerTo(const nlohmann::json& request, const std::string& what) const;
+  /// Its line. A worker that is late and computes is waited for until it has had as much processor
+  /// time again as the time-out, so that none fails for what else the machine does.
+  std::string receive(ChildProcess::Clock::time_point deadline) const;
   /// Ends the worker and throws.
   [[noreturn]] void fail(const std::string& what) const;
   /// Runs `read` on a reply; what it throws becomes an EngineFailure that says which reply.

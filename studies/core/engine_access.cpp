@@ -111,6 +111,7 @@ std::string ownProgram() {
 }
 
 std::vector<EngineEntry> selectEngines(const std::vector<std::string>& names) {
+  addMirrors();
   std::vector<EngineEntry> engines;
   for (const std::string& name : names) {
     if (name == "all") {

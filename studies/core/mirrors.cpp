@@ -10,6 +10,7 @@
 #include <mutex>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "adapters/law_options.hpp"
 #include "adapters/registry.hpp"
@@ -79,8 +80,8 @@ template AdaptedOf<3> sceneOfPeer<3>(const EngineEntry&, const Case&, const Spac
 
 namespace {
 
-/// Longest wait for the first answer of an engine that nobody has seen yet [s].
-constexpr double patience = 60.0;
+/// Engines whose mirrors are not made yet, in the order of their names on the command line.
+std::vector<std::string> withoutMirror;
 
 /// As conventionsFromWords() reads them.
 std::vector<std::string> describeConventions(const LawConventionSets& conventions) {
@@ -116,11 +117,6 @@ std::optional<EngineEntry> mirrorOf(const std::string& name, const Capabilities&
   return mirror;
 }
 
-void addMirror(const EngineEntry& entry) {
-  if (const auto can = capabilitiesOf(entry, patience))
-    if (auto mirror = mirrorOf(entry.name, *can)) addEngine(std::move(*mirror));
-}
-
 }  // namespace
 
 LawConventionSets conventionsFromWords(const std::vector<std::string>& words) {
@@ -137,7 +133,7 @@ LawConventionSets conventionsFromWords(const std::vector<std::string>& words) {
 std::string addExternalEngine(EngineEntry entry) {
   const std::string name = entry.name;
   addEngine(std::move(entry));
-  addMirror(*findEngine(name));
+  withoutMirror.push_back(name);
   return name;
 }
 
@@ -148,9 +144,16 @@ void addMirrorOfShelved(const std::string& name) {
     const bool hasOne = std::ranges::find(engineRegistry(), entry.name, &EngineEntry::mirrors) !=
                         engineRegistry().end();
     if ((entry.name == name || name == "all") && entry.mirrors.empty() && !hasOne &&
-        entry.missing().empty())
-      addMirror(entry);
+        entry.missing().empty() &&
+        std::ranges::find(withoutMirror, entry.name) == withoutMirror.end())
+      withoutMirror.push_back(entry.name);
   }
+}
+
+void addMirrors(double timeout) {
+  for (const std::string& name : std::exchange(withoutMirror, {}))
+    if (const auto can = capabilitiesOf(*findEngine(name), timeout))
+      if (auto mirror = mirrorOf(name, *can)) addEngine(std::move(*mirror));
 }
 
 }  // namespace crossgrain::inline studies

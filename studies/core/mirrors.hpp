@@ -27,15 +27,19 @@ std::optional<Capabilities> capabilitiesOf(const EngineEntry& entry, double time
 template <int D>
 AdaptedOf<D> sceneOfPeer(const EngineEntry& mirror, const Case& setup, const SceneOf<D>& scene);
 
-/// Adds an engine of the user's own to the registry and, behind it, its mirror: the in-house engine
-/// with the conventions that the engine declares. The engine is started once to be asked; one that
-/// does not start, or has no soft law, gets no mirror, and says so itself where it is used.
+/// Adds an engine of the user's own to the registry. addMirrors() adds its mirror: the in-house
+/// engine with the conventions that the engine declares.
 /// @returns its name
 std::string addExternalEngine(EngineEntry entry);
 
-/// The same mirror for an engine that came with the program as a file, unless it has one; for
-/// "all", for each of them that can be started.
+/// The same for an engine that came with the program as a file, unless it has a mirror; for "all",
+/// for each of them that can be started.
 void addMirrorOfShelved(const std::string& name);
+
+/// Adds the mirrors that are missing. Each engine is started once to be asked; one that does not
+/// answer, or has no soft law, gets no mirror, and reports that itself where it is used.
+/// @param timeout  longest wait for an answer [s]: the case's, where there is one
+void addMirrors(double timeout = 60.0);
 
 /// Conventions from the command line of such a mirror's worker, "lever_arm=radius,contact_point".
 LawConventionSets conventionsFromWords(const std::vector<std::string>& words);

@@ -105,6 +105,7 @@ std::vector<std::string> sharedConventions(const Case& setup,
 
 std::vector<std::string> sharedConventionsOf(const Case& setup,
                                              const std::vector<std::string>& engines) {
+  addMirrors(setup.run.timeout);
   if (engines.size() < 2 || std::ranges::find(engines, "all") != engines.end() ||
       std::ranges::none_of(openConventions(setup),
                            [&](const std::string& option) { return mattersTo(setup.law, option); }))

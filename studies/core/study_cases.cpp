@@ -12,6 +12,7 @@
 #include "cases/flow.hpp"
 #include "cases/keys.hpp"
 #include "cases/loader.hpp"
+#include "studies/core/mirrors.hpp"
 #include "studies/core/shared_conventions.hpp"
 #include "support/bad_input.hpp"
 
@@ -20,6 +21,7 @@ namespace crossgrain::inline studies {
 namespace fs = std::filesystem;
 
 std::vector<std::string> keysWithoutUse(const Case& setup, std::string_view command) {
+  addMirrors(setup.run.timeout);  // sections may be theirs
   std::vector<std::string> keys;
   for (const auto& [name, settings] : setup.engines)
     if (!findEngine(name) && command != "average")  // whose files may be of that name

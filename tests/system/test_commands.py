@@ -439,7 +439,7 @@ class Surroundings(SystemTest):
     def shell(self, command):
         return subprocess.run(
             ["bash", "-c", command, "bash", PROGRAM], capture_output=True, encoding="utf-8",
-            cwd=self.folder, timeout=100, check=False, env=environment(None),
+            cwd=self.folder, timeout=PATIENCE, check=False, env=environment(None),
         )  # fmt: skip
 
     def test_output_that_cannot_be_written(self):

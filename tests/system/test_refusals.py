@@ -189,7 +189,7 @@ class Refusals(SystemTest):
         before = self.names()
         for line, fragments in table.items():
             with self.subTest(line):
-                done = self.run_program(*first, *shlex.split(line), timeout=60)
+                done = self.run_program(*first, *shlex.split(line))
                 self.assert_one_line(done, BAD_INPUT, *([fragments] if isinstance(fragments, str) else fragments))
                 self.assertLess(len(done.stderr), 700)
                 self.assertEqual(before, self.names(), "nothing is written")

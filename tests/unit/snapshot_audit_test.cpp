@@ -300,6 +300,18 @@ TEST(AuditInSpace, ContactsThroughNearestImages) {
   const auto why = [&] { return auditFault(shown, auditBasis(scene, can, effective), 0.0); };
   EXPECT_EQ(why(), "");
 
+  // What is no tangential force changes σ_zz, as if it were a part of f_n.
+  contacts.tangentialForce[0] = Vec3(0.0, 0.0, 0.01);
+  expectSays(why(),
+             "contact 0 (sphere 0 with sphere 1): -0.01 N of its tangential force of 0.01 N are "
+             "along the normal");
+  contacts.tangentialForce[0] = Vec3(0.01, 0.0, 1e-5);
+  EXPECT_EQ(why(), "") << "a thousandth, as normals turn in a step";
+  contacts.tangentialForce[0] = Vec3::Zero();
+  contacts.normalForce[1] = 1e308;
+  expectSays(why(), "a force of 1e+308 N would throw all disks out of the scene in a step");
+  contacts.normalForce[1] = 0.1;
+
   // Forces: f_n = k_n δ of what rests; f_t and M are vectors within their bounds.
   const auto byLaw = [&] { return lawFault(shown, auditBasis(scene, can, effective), scene.law); };
   expectSays(byLaw(), "contact 0 (sphere 0 with sphere 1): f_n is 0.1 N");

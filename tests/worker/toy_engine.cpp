@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <limits>
 
 #include "adapters/worker/serve.hpp"
@@ -67,6 +68,9 @@ double ToyEngine::advance(double t) {
   if (mischief_ == "hang") {
     std::fputs("hanging\n", stderr);
     ::pause();
+  }
+  // 0.6 s of processor time, or all there is.
+  while (mischief_ == "spin" || (mischief_ == "slow" && std::clock() < CLOCKS_PER_SEC * 6 / 10)) {
   }
   if (mischief_ == "garbage") say("Welcome to the engine!\n");
   if (mischief_ == "deep") say(deepAnswer());

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "adapters/worker/answer.hpp"
+#include "adapters/worker/processes.hpp"
 #include "tests/worker/toy_engine.hpp"
 
 namespace crossgrain {
@@ -193,6 +194,13 @@ TEST_F(Worker, Refusal_IsPassedOnInBoundsAndTheWorkerLivesOn) {
   EXPECT_NEAR(worker->advance(0.5), 0.5, 1e-12);
 }
 
+// A worker that starts within the time-out and then computes for longer than that.
+TEST_F(Worker, ThatIsLateAndComputes_GetsAsMuchProcessorTimeAgain) {
+  EXPECT_EQ(advanceFailure("slow", 0.4), "no failure");
+  EXPECT_EQ(advanceFailure("spin", 0.4),
+            "toy, toy at t = 0 s: no answer within 0.4 s to advance(t = 0.5 s)");
+}
+
 TEST_F(Worker, ThatHangs_IsKilled) {
   const auto begin = std::chrono::steady_clock::now();
   EXPECT_EQ(advanceFailure("hang", 1.0),
@@ -280,6 +288,44 @@ TEST_F(Worker, Ended_LeavesNoGrandchild) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     EXPECT_EQ(killed, 1);
   }
+  ::prctl(PR_SET_CHILD_SUBREAPER, 0);
+}
+
+// A daemon that is born between the list of all processes and the look at its parent, which has
+// ended by then: one search finds neither, a hundred times of a hundred.
+TEST_F(Worker, DaemonBornDuringTheSearch_IsKilled) {
+  ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1), 0);
+  ASSERT_EQ(::setenv(workerMark, "test", 1), 0);
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    int go[2], born[2];
+    ASSERT_EQ(::pipe(go), 0);
+    ASSERT_EQ(::pipe(born), 0);
+    // A process has the environment that it was started with: a shell is started with the mark.
+    const pid_t parent = ::fork();
+    if (parent == 0) {
+      ::dup2(go[0], 0);
+      ::dup2(born[1], 1);
+      ::execl("/bin/sh", "sh", "-c", "read line; (exec sleep 1000) & echo $!", nullptr);
+      ::_exit(127);
+    }
+    pid_t daemon = 0;
+    const auto letBearAndEnd = [&] {
+      if (daemon != 0) return;
+      ASSERT_EQ(::write(go[1], "\n", 1), 1);
+      char text[16] = {};
+      ASSERT_GT(::read(born[0], text, sizeof text - 1), 0);
+      daemon = std::atoi(text);
+      ASSERT_EQ(::waitpid(parent, nullptr, 0), parent);
+    };
+    killMarkedProcesses("test", letBearAndEnd);
+    ASSERT_GT(daemon, 0);
+    ::kill(daemon, SIGTERM);  // so that a failure does not wait: of two signals SIGKILL is first
+    int status = 0;
+    EXPECT_EQ(::waitpid(daemon, &status, 0), daemon);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+    for (const int end : {go[0], go[1], born[0], born[1]}) ::close(end);
+  }
+  ::unsetenv(workerMark);
   ::prctl(PR_SET_CHILD_SUBREAPER, 0);
 }
 
