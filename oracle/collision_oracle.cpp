@@ -26,10 +26,6 @@ int TwoBodyProblem::rightHandSide(double, const double y[], double dydt[], void*
   return GSL_SUCCESS;
 }
 
-double TwoBodyProblem::contactTime(double speed) const {
-  return impactTime(law_, {pair_.reducedMass(), pair_.reducedRadius(), speed});
-}
-
 /// A law that stiffens has no stiffness to stick with at δ = 0: it begins 1e-12 of a contact later,
 /// or where positions resolve an overlap. The forces of that time are below rounding, or below
 /// 1e-7 of the whole for overlaps of 1e-8 of the reach.
@@ -54,24 +50,6 @@ State TwoBodyProblem::firstTouch(const CollisionStart& start) const {
   else if (!remembersForce())
     state.spring = later * k.tangentialVelocity;
   return state;
-}
-
-/// The share of v_t t that a spring is stretched by where its contact is first evaluated at t.
-double TwoBodyProblem::stretchedShare() const {
-  switch (law_.conventions.springUpdate) {
-    case SpringUpdate::after:
-      return 0.0;
-    case SpringUpdate::midpoint:
-      return 0.5;
-    case SpringUpdate::before:
-      break;
-  }
-  return 1.0;
-}
-
-/// Differences of positions below this are rounding [m].
-double TwoBodyProblem::visibleLength() const {
-  return 64.0 * std::numeric_limits<double>::epsilon() * reach_;
 }
 
 /// The state a little later (or earlier), to first order.
@@ -301,12 +279,15 @@ bool hasSeveralOutcomes(const ContactLaw& law, const CollidingPair& pair,
 
 CollisionEnd oracleOutcome(const ContactLaw& law, const CollidingPair& pair,
                            const CollisionStart& start) {
-  if (law.inSpace()) return spaceOutcome(law, pair, start);
-  if (!law.soft()) return rigidOutcome(law, pair, start);
+  if (!law.soft())
+    return law.inSpace() ? rigidOutcomeInSpace(law, pair, start) : rigidOutcome(law, pair, start);
   requireContinuousLimit(law);
+  const bool planar = start.spinOutOfPlane[0].isZero(0.0) && start.spinOutOfPlane[1].isZero(0.0);
+  if (law.inSpace() && !planar) return vectorOutcome(law, pair, start);
   CollisionEnd end = TwoBodyProblem(law, pair).solve(start);
   if (end.noLimit)
     end.noLimit = jumpsAtTouch(law, pair, start) || hasSeveralOutcomes(law, pair, start);
+  if (law.inSpace()) end.outOfPlane.emplace();
   return end;
 }
 

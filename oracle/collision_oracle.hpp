@@ -5,27 +5,29 @@
 
 namespace crossgrain::inline oracle {
 
-/// The outcome of a collision, from the planar two-body problem in continuous time: any soft law
-/// with any of its tangential laws and conventions, the normal turning with the pair. Integrated
-/// with Runge–Kutta–Prince–Dormand (8, 9) steps of at most t_c/400 (GSL), whose own error is below
+/// The outcome of a collision, from the two-body problem in continuous time: any soft law with any
+/// of its tangential laws and conventions, the normal turning with the pair. Integrated with
+/// Runge–Kutta–Prince–Dormand (8, 9) steps of at most t_c/400 (GSL), whose own error is below
 /// rounding; where a law that stiffens is not smooth, at δ = 0, steps shrink until it is again.
 /// Every change between stick and slip, of v_t's sign and of compression is an event, located to
 /// rounding. The energies lost are integrated beside the motion. Rigid laws: rigidOutcome().
 /// Rolling resistance and cohesion as in adapters/contact_law.hpp; a pair that coheres may not part
 /// (CollisionEnd::parted).
-/// @throws std::invalid_argument for an overdamped pair, which never parts, and for conventions
-///         whose force jumps with every step so that they have no limit of small steps
+/// Of a law in space: spheres that have no spin out of the plane of impact stay in it, and are the
+/// plane's problem (docs/dimensions.md, section 4); others are vectorOutcome().
+/// @throws std::invalid_argument for an overdamped pair, which never parts, for conventions whose
+///         force jumps with every step so that they have no limit of small steps, and as
+///         vectorOutcome()
 CollisionEnd oracleOutcome(const ContactLaw& law, const CollidingPair& pair,
                            const CollisionStart& start);
 
-/// The same of two spheres, or of a sphere and a plane, in space: rigid laws
-/// (rigidOutcomeInSpace()), and linear ones with constant dampers, without friction or with
-/// tangential springs, whose slip, force and ξ are vectors in the tangent plane
-/// (oracle/two_spheres.cpp; docs/dimensions.md has the equations). oracleOutcome() of a law in
-/// space. Parts of the energy lost are not distinguished. @throws std::invalid_argument for any
-/// other law
-CollisionEnd spaceOutcome(const ContactLaw& law, const CollidingPair& pair,
-                          const CollisionStart& start);
+/// The same of two spheres, or of a sphere and a plane, whose slip, force and ξ are vectors in the
+/// tangent plane: soft laws without rolling resistance and cohesion (oracle/two_spheres.cpp). Parts
+/// of the energy lost are not distinguished. oracleOutcome() chooses it, and checks the
+/// conventions.
+/// @throws std::invalid_argument for any other law, and where a slip's end has no limit
+CollisionEnd vectorOutcome(const ContactLaw& law, const CollidingPair& pair,
+                           const CollisionStart& start);
 
 /// Whether the law jumps at this start: spring and dashpot at |Ψ_i| = µγ_n/γ_t, where the outcome
 /// is another on either side and rounding decides which one an engine finds

@@ -6,6 +6,7 @@
 
 #include "adapters/contact_law.hpp"
 #include "oracle/collision_oracle.hpp"
+#include "oracle/contact_forces.hpp"
 
 namespace crossgrain::inline oracle {
 
@@ -67,14 +68,9 @@ inline double sign(double value) {
   return (value > 0.0) - (value < 0.0);
 }
 
-/// A function of the overlap and its derivative.
-struct Slope {
-  double value, rate;
-};
-
 /// The planar collision of two disks, or of a disk and a plane, in continuous time, one
 /// phase after another.
-class TwoBodyProblem {
+class TwoBodyProblem : private ContactForces {
  public:
   TwoBodyProblem(const ContactLaw& law, const CollidingPair& pair);
   CollisionEnd solve(const CollisionStart& start);
@@ -87,20 +83,6 @@ class TwoBodyProblem {
   void overshoot(double speed) { overshoot_ = speed; }
 
  private:
-  // How stiff a contact is and how much it damps
-  double elasticForce(double overlap) const;
-  Slope stiffness(double overlap) const;
-  Slope tangentialStiffness(double overlap) const;
-  Slope damping(double constant, const Slope& stiffness) const;
-  Slope normalDamping(double overlap) const { return damping(law_.gn, stiffness(overlap)); }
-  Slope tangentialDamping(double overlap) const {
-    return damping(law_.gt, tangentialStiffness(overlap));
-  }
-  /// What the spring's force is per unit of what it remembers.
-  double springUnit(double overlap) const {
-    return remembersForce() ? 1.0 : tangentialStiffness(overlap).value;
-  }
-  bool remembersForce() const { return law_.conventions.history == History::force; }
   /// A remembered force over a stiffness that goes to 0 under a pull has no energy: all its work
   /// counts as that of sticking.
   bool springHasEnergy() const { return !(remembersForce() && law_.stiffens() && law_.coheres()); }
@@ -202,22 +184,16 @@ class TwoBodyProblem {
   void chooseSpringPhase(State& s, const Kinematics& k);
 
   // Integration
-  double contactTime(double speed) const;
   State firstTouch(const CollisionStart& start) const;
-  double stretchedShare() const;
-  double visibleLength() const;
   State along(const State& s, double time) const;
   double roundingOfForce(const State& s) const;
 
   static int rightHandSide(double t, const double y[], double dydt[], void* self);
 
-  ContactLaw law_;
-  CollidingPair pair_;
-  double reach_, inverseMass_;
-  double reducedRadius_, bondRange_;  ///< R₁₂, bondRange() [m]
-  double rollingLength_ = 0.0;        ///< L [m]
-  double rollingStiffness_ = 0.0;     ///< k_r (…) [N m]
-  double rollingDamping_ = 0.0;       ///< of its dashpot [N m s]
+  double bondRange_;               ///< bondRange() [m]
+  double rollingLength_ = 0.0;     ///< L [m]
+  double rollingStiffness_ = 0.0;  ///< k_r (…) [N m]
+  double rollingDamping_ = 0.0;    ///< of its dashpot [N m s]
   Phase phase_;
   double stillness_ = 0.0;  ///< v_t that counts as 0 [m/s]
   double overshoot_ = 0.0;  ///< overshoot() [m/s]

@@ -6,7 +6,12 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <optional>
 #include <random>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "adapters/law_options.hpp"
 #include "oracle/collision_oracle.hpp"
@@ -39,6 +44,7 @@ ContactLaw springLaw(int dimension = 3) {
   law.mu = 0.3;
   law.conventions.tension = Tension::cut;
   law.conventions.leverArm = LeverArm::contactPoint;
+  law.conventions.springUpdate = SpringUpdate::before;
   return law;
 }
 
@@ -53,52 +59,151 @@ double contactTimeOf(const ContactLaw& law, const CollidingPair& pair) {
   return impactTime(law, {pair.reducedMass(), pair.reducedRadius(), 1.0});
 }
 
+/// A law of glass, E = 64 GPa made a thousand times softer.
+ContactLaw hertzLaw(Damper damper = Damper::critical, double gn = 0.3, double gt = 0.3) {
+  ContactLaw law = dashpotLaw(2);
+  law.normal = NormalLaw::hertz;
+  law.damper = damper;
+  law.kn = 4e7;
+  law.kt = 5e7;
+  law.gn = gn;
+  law.gt = gt;
+  law.conventions.history = History::force;
+  return law;
+}
+
+/// Laws of the plane with every option that has a limit of small time steps, named.
+std::vector<std::pair<std::string, ContactLaw>> softLaws() {
+  std::vector<std::pair<std::string, ContactLaw>> laws;
+  const auto add = [&](const std::string& name, ContactLaw law, auto&&... changes) {
+    (changes(law), ...);
+    laws.emplace_back(name, law);
+  };
+  for (const SpringUpdate update :
+       {SpringUpdate::before, SpringUpdate::after, SpringUpdate::midpoint}) {
+    const auto updated = [=](ContactLaw& law) { law.conventions.springUpdate = update; };
+    const auto springOnly = [](ContactLaw& law) {
+      law.conventions.springReset = SpringReset::springOnly;
+    };
+    const auto pulls = [](ContactLaw& law) { law.conventions.tension = Tension::allow; };
+    const auto magnitude = [](ContactLaw& law) {
+      law.conventions.coulombBound = CoulombBound::magnitude;
+    };
+    const auto noDashpot = [](ContactLaw& law) {
+      law.tangential = TangentialLaw::spring;
+      law.gt = 0.0;
+    };
+    const auto displacement = [](ContactLaw& law) {
+      law.conventions.history = History::displacement;
+    };
+    const std::string when = " update " + std::to_string(int(update));
+    add("spring" + when, springLaw(2), updated);
+    add("spring that pulls" + when, springLaw(2), updated, pulls, magnitude);
+    add("dashpot, total" + when, dashpotLaw(2), updated);
+    add("dashpot, spring_only" + when, dashpotLaw(2), updated, springOnly);
+    add("dashpot, spring_only, pulls" + when, dashpotLaw(2), updated, springOnly, pulls, magnitude);
+    add("hertz, spring, force" + when, hertzLaw(), updated, noDashpot);
+    add("hertz, spring, displacement" + when, hertzLaw(), updated, noDashpot, displacement);
+    add("hertz, dashpot, total" + when, hertzLaw(), updated);
+    add("hertz, dashpot, spring_only" + when, hertzLaw(), updated, springOnly);
+    add("hertz, viscoelastic" + when, hertzLaw(Damper::viscoelastic, 1e-5, 1e-5), updated,
+        springOnly);
+  }
+  for (const TangentialLaw tangential : {TangentialLaw::coulomb, TangentialLaw::viscous})
+    for (ContactLaw law : {dashpotLaw(2), hertzLaw()}) {
+      law.tangential = tangential;
+      laws.emplace_back("tangential " + std::to_string(int(tangential)), law);
+    }
+  ContactLaw polynomial = springLaw(2);
+  polynomial.normal = NormalLaw::polynomial;
+  polynomial.kn = 5e8;
+  polynomial.kn3 = 1e12;
+  laws.emplace_back("polynomial", polynomial);
+  return laws;
+}
+
+/// The outcome, or why there is none.
+template <class Solve>
+std::optional<CollisionEnd> attempt(Solve&& solve) {
+  try {
+    CollisionEnd end = solve();
+    return end.noLimit ? std::nullopt : std::optional(end);
+  } catch (const std::invalid_argument&) {  // a slip that ends as its bound falls: the plane's
+    return std::nullopt;                    // oracle knows when that matters to nothing
+  }
+}
+
 TEST(TwoSpheres, SpinsAlongOneAxis_AreThePlanesProblem) {
-  // q = 2/5. Both solvers find events to rounding; 1e-12 is some hundred roundings of a contact.
-  int compared = 0;
-  for (const CollidingPair& pair : {spheres(), sphereOnWall()})
-    for (const bool dashpot : {false, true})
-      for (const Tension tension : {Tension::allow, Tension::cut})
-        for (const LeverArm arm : {LeverArm::radius, LeverArm::overlapMiddle})
-          for (const CoulombBound bound : {CoulombBound::compression, CoulombBound::magnitude})
-            for (const Approach approach : {Approach::spin, Approach::oblique})
-              for (const double psi : {0.0, 0.3, 0.9, -1.7, 4.0}) {
-                ContactLaw law = dashpot ? dashpotLaw(2) : springLaw(2);
-                law.conventions.tension = tension;
-                law.conventions.leverArm = arm;
-                law.conventions.coulombBound = bound;
-                const CollisionStart start{psi, 1.0, approach, pair.plane ? 0.0 : 40.0};
-                const CollisionEnd plane = oracleOutcome(law, pair, start);
-                law.dimension = 3;
-                if (plane.noLimit) continue;
-                CollisionEnd space;
-                try {
-                  space = oracleOutcome(law, pair, start);
-                } catch (const std::invalid_argument&) {  // a slip that ends as its bound falls:
-                  continue;  // the plane's oracle knows when that matters to nothing
-                }
-                ++compared;
-                SCOPED_TRACE(testing::Message()
-                             << "wall " << pair.plane << " dashpot " << dashpot << " tension "
-                             << int(tension) << " arm " << int(arm) << " bound " << int(bound)
-                             << " approach " << int(approach) << " psi " << psi);
-                EXPECT_NEAR(space.en, plane.en, 1e-12);
-                EXPECT_NEAR(space.psi, plane.psi, 1e-12);
-                EXPECT_NEAR(space.centrePsi, plane.centrePsi, 1e-12);
-                for (const int side : {0, 1}) {
-                  EXPECT_NEAR(space.spin[side] * pair.radius[side],
-                              plane.spin[side] * pair.radius[side], 1e-12);
-                  EXPECT_NEAR(space.outOfPlane->spinNormal[side], 0.0, 1e-12);
-                  EXPECT_NEAR(space.outOfPlane->spinTangent[side], 0.0, 1e-12);
-                }
-                EXPECT_NEAR(space.outOfPlane->psi, 0.0, 1e-12);
-                // Each ends within 1e-14 of the reach of where they part.
-                EXPECT_NEAR(*space.duration, *plane.duration,
-                            5e-14 * (pair.radius[0] + pair.radius[1]) / plane.en);
-                EXPECT_NEAR(*space.maxOverlap, *plane.maxOverlap, 1e-12 * *plane.maxOverlap);
-                EXPECT_NEAR(space.energyAfter, plane.energyAfter, 1e-12 * plane.energyBefore);
-              }
-  EXPECT_GE(compared, 250);  // of 320
+  // q = 2/5. Both solvers find events to rounding; 1e-11 is a thousand roundings of a contact. A
+  // law that stiffens begins and ends with a stiffness of 0, where distances that are rounded hide
+  // 1e-10 of the contact.
+  int compared = 0, all = 0;
+  for (const auto& [name, soft] : softLaws())
+    for (const CollidingPair& pair : {spheres(), sphereOnWall()})
+      for (const LeverArm arm : {pair.plane ? LeverArm::overlapMiddle : LeverArm::radius})
+        for (const Approach approach : {Approach::spin, Approach::oblique})
+          for (const double psi : {0.0, 0.3, 0.9, -1.7, 4.0}) {
+            SCOPED_TRACE(testing::Message()
+                         << name << ", wall " << pair.plane << " arm " << int(arm) << " approach "
+                         << int(approach) << " psi " << psi);
+            ContactLaw law = soft;
+            law.conventions.leverArm = arm;
+            const CollisionStart start{psi, 1.0, approach, pair.plane ? 0.0 : 40.0};
+            const auto plane = attempt([&] { return oracleOutcome(law, pair, start); });
+            law.dimension = 3;
+            const auto space = attempt([&] { return vectorOutcome(law, pair, start); });
+            ++all;
+            if (!plane || !space) continue;
+            ++compared;
+            const double near = law.stiffens() ? 1e-9 : 1e-11;
+            EXPECT_NEAR(space->en, plane->en, near);
+            EXPECT_NEAR(space->psi, plane->psi, near);
+            EXPECT_NEAR(space->centrePsi, plane->centrePsi, near);
+            for (const int side : {0, 1}) {
+              EXPECT_NEAR(space->spin[side] * pair.radius[side],
+                          plane->spin[side] * pair.radius[side], near);
+              EXPECT_NEAR(space->outOfPlane->spinNormal[side], 0.0, 1e-12);
+              EXPECT_NEAR(space->outOfPlane->spinTangent[side], 0.0, 1e-12);
+            }
+            EXPECT_NEAR(space->outOfPlane->psi, 0.0, 1e-12);
+            // Each ends within 1e-14 of the reach of where they part.
+            EXPECT_NEAR(*space->duration, *plane->duration,
+                        (law.stiffens() ? 1e-9 * *plane->duration : 0.0) +
+                            5e-14 * (pair.radius[0] + pair.radius[1]) / plane->en);
+            EXPECT_NEAR(*space->maxOverlap, *plane->maxOverlap, near * *plane->maxOverlap);
+            EXPECT_NEAR(space->energyAfter, plane->energyAfter, near * plane->energyBefore);
+            // What oracleOutcome() says of such a start is the plane's.
+            const CollisionEnd chosen = oracleOutcome(law, pair, start);
+            EXPECT_EQ(chosen.psi, plane->psi);
+            EXPECT_EQ(chosen.outOfPlane->psi, 0.0);
+          }
+  EXPECT_GE(compared, all * 9 / 10);
+}
+
+/// Two spheres that turn alike about an axis aslant to n stay in the plane across it.
+TEST(TwoSpheres, PlaneAslant_IsThePlanesProblem) {
+  int compared = 0, all = 0;
+  for (const auto& [name, soft] : softLaws())
+    for (const double psi : {0.4, 1.3, 4.0})
+      for (const double angle : {0.7, 2.2}) {
+        SCOPED_TRACE(testing::Message() << name << " psi " << psi << " angle " << angle);
+        ContactLaw law = soft;
+        const CollidingPair pair = spheres();
+        const auto plane = attempt([&] { return oracleOutcome(law, pair, {psi, 1.0}); });
+        law.dimension = 3;
+        CollisionStart start{psi * std::cos(angle), 1.0};
+        const double spin = psi * std::sin(angle) / (pair.radius[0] + pair.radius[1]);
+        for (Vec2& besides : start.spinOutOfPlane) besides = {0.0, spin};
+        const auto space = attempt([&] { return oracleOutcome(law, pair, start); });
+        ++all;
+        if (!plane || !space) continue;
+        ++compared;
+        const double near = law.stiffens() ? 1e-9 : 1e-11;
+        EXPECT_NEAR(space->en, plane->en, near);
+        EXPECT_NEAR(space->psi, plane->psi * std::cos(angle), near);
+        EXPECT_NEAR(space->outOfPlane->psi, plane->psi * std::sin(angle), near);
+      }
+  EXPECT_GE(compared, all * 9 / 10);
 }
 
 TEST(TwoSpheres, SlipInAnyDirection_IsThePlanesAlongIt) {
@@ -296,6 +401,142 @@ TEST(TwoSpheres, AnyImpact_IsThatOfEqualStepsByAnotherRoute) {
   }
 }
 
+/// The law as engines have it, step by step: force, kick, drift, with velocities half a step old.
+/// Of first order; no phases, no events.
+struct Stepped {
+  ContactLaw law;
+  CollidingPair pair;
+  Vec3 x, v, spin[2], memory = Vec3::Zero(), before = Vec3::Zero();
+
+  double reach() const { return pair.radius[0] + pair.radius[1]; }
+  double overlap() const { return reach() - x.norm(); }
+  double damping(double constant, double stiffness) const {
+    if (law.damper == Damper::viscoelastic) return constant * stiffness;
+    if (law.damper == Damper::critical) return constant * std::sqrt(pair.reducedMass() * stiffness);
+    return constant;
+  }
+  Vec3 friction(double bound, double kt, const Vec3& slip, double h) {
+    const LawConventions& how = law.conventions;
+    const double speed = slip.norm(), gt = damping(law.gt, kt);
+    if (law.tangential == TangentialLaw::coulomb) return -bound * slip.normalized();
+    if (law.tangential == TangentialLaw::viscous)
+      return -std::min(gt * speed, bound) * slip.normalized();
+    const bool force = how.history == History::force;
+    const double unit = force ? 1.0 : kt;
+    const double part = how.springUpdate == SpringUpdate::before  ? 1.0
+                        : how.springUpdate == SpringUpdate::after ? 0.0
+                                                                  : 0.5;
+    const Vec3 stretch = (force ? kt : 1.0) * h * slip;
+    const Vec3 viscous =
+        law.tangential == TangentialLaw::springDashpot ? Vec3(-gt * slip) : Vec3::Zero();
+    const Vec3 stretched = memory + part * stretch, trial = -unit * stretched + viscous;
+    if (trial.norm() <= bound) {
+      memory = stretched + (1.0 - part) * stretch;
+      return trial;
+    }
+    const Vec3 slips = bound * trial.normalized();
+    memory = -(how.springReset == SpringReset::total ? slips : slips - viscous) / unit;
+    if (how.springUpdate == SpringUpdate::midpoint) memory += 0.5 * stretch;
+    return slips;
+  }
+  void step(double h) {
+    const double depth = overlap(), mass = pair.reducedMass();
+    const Vec3 n = x.normalized();
+    if (!before.isZero(0.0)) {
+      memory = Eigen::Quaterniond::FromTwoVectors(before, n) * memory;
+      if (law.conventions.springTwist == SpringTwist::meanSpin)
+        memory = Eigen::AngleAxisd(0.5 * (spin[0] + spin[1]).dot(n) * h, n) * memory;
+    }
+    before = n;
+    const double width = std::sqrt(pair.reducedRadius() * depth);
+    double elastic = law.kn * depth, stiffness = law.kn, kt = law.kt;
+    if (law.normal == NormalLaw::hertz) {
+      elastic = law.kn * width * depth;
+      stiffness = 1.5 * law.kn * width;
+      kt = law.kt * width;
+    } else if (law.normal == NormalLaw::polynomial) {
+      elastic = (law.kn + law.kn3 * depth) * depth * depth;
+      stiffness = (2.0 * law.kn + 3.0 * law.kn3 * depth) * depth;
+    }
+    const double vn = v.dot(n);
+    double normal = elastic - damping(law.gn, stiffness) * vn;
+    if (law.conventions.tension == Tension::cut) normal = std::max(normal, 0.0);
+    const bool magnitude = law.conventions.coulombBound == CoulombBound::magnitude;
+    const double bound = law.mu * (magnitude ? std::abs(normal) : std::max(normal, 0.0));
+    double arm[2];
+    for (const int side : {0, 1})
+      arm[side] = pair.radius[side] - depth * leverFraction(law.conventions.leverArm,
+                                                            law.conventions.planeArm, pair, side);
+    const Vec3 slip = v - vn * n - (arm[0] * spin[0] + arm[1] * spin[1]).cross(n);
+    const Vec3 f = friction(bound, kt, slip, h);
+    v += h / mass * (normal * n + f);
+    for (const int side : {0, 1}) spin[side] -= h * arm[side] / pair.inertia[side] * n.cross(f);
+    x += h * v;
+  }
+};
+
+using NineNumbers = Eigen::Matrix<double, 9, 1>;
+
+/// e_n, both parts of Ψ_f and a ω/v_n of both.
+NineNumbers numbersOf(const CollisionEnd& end, const CollidingPair& pair) {
+  const double a = pair.radius[0], b = pair.radius[1];
+  const EndOutOfPlane& out = *end.outOfPlane;
+  NineNumbers all;
+  all << end.en, end.psi, out.psi, a * end.spin[0], b * end.spin[1], a * out.spinNormal[0],
+      a * out.spinTangent[0], b * out.spinNormal[1], b * out.spinTangent[1];
+  return all;
+}
+
+/// Mean over where in a step the spheres meet, in steps of t_c/count.
+NineNumbers steppedThrough(const ContactLaw& law, const CollidingPair& pair,
+                           const CollisionStart& start, int count) {
+  constexpr int phases = 4;
+  NineNumbers sum = NineNumbers::Zero();
+  for (int k = 0; k < phases; ++k) {
+    const SpaceMotion touch = spaceMotionBefore(pair, start);
+    const double h = contactTimeOf(law, pair) / count, late = (k + 0.5) / phases * h;
+    Stepped now{law,
+                pair,
+                (pair.radius[0] + pair.radius[1]) * Vec3::UnitX() + late * touch.velocity,
+                touch.velocity,
+                {touch.spin[0], touch.spin[1]}};
+    Vec3 parting = now.x.normalized();
+    while (now.overlap() > 0.0) {
+      parting = now.x.normalized();
+      now.step(h);
+    }
+    sum += numbersOf(spaceEndOf(pair, start, {parting, now.v, {now.spin[0], now.spin[1]}}), pair);
+  }
+  return sum / phases;
+}
+
+TEST(TwoSpheres, ImpactOutOfAPlane_IsTheLimitOfItsLawInSmallSteps) {
+  // Every option that has a limit, with slips that turn by half a radian and more, on the way: the
+  // force of a slip with `after` goes on where v_t has turned. Errors are of first order with some
+  // scatter by events within a step: at t_c/8000 and t_c/16000 what extrapolation leaves of them is
+  // below 3e-4 of v_n, and the wrong share of stretching steps or none is 1e-2 and more.
+  int compared = 0, all = 0;
+  for (const auto& [name, soft] : softLaws())
+    for (const double psi : {0.5, 1.5, 3.0}) {
+      ContactLaw law = soft;
+      law.dimension = 3;
+      CollisionStart start{psi, 1.0, Approach::oblique};
+      start.spinOutOfPlane[0] = {2000.0, 150.0};
+      start.spinOutOfPlane[1] = {500.0, -80.0};
+      const CollidingPair pair = spheres();
+      const auto end = attempt([&] { return oracleOutcome(law, pair, start); });
+      ++all;
+      if (!end) continue;
+      ++compared;
+      const NineNumbers coarse = steppedThrough(law, pair, start, 8000),
+                        fine = steppedThrough(law, pair, start, 16000);
+      const NineNumbers off = 2.0 * fine - coarse - numbersOf(*end, pair);
+      EXPECT_LT(off.cwiseAbs().maxCoeff(), 3e-4)
+          << name << " psi " << psi << ": " << off.transpose();
+    }
+  EXPECT_GE(compared, all * 8 / 10);
+}
+
 ContactLaw rigidLaw(int dimension = 3) {
   ContactLaw law;
   law.dimension = dimension;
@@ -374,23 +615,29 @@ TEST(RigidSpheres, ChungAndOoisTests_AreWaltonsLaw) {
 }
 
 TEST(TwoSpheres, LawsWithoutAnOracleInSpace_AreNamed) {
-  const auto why = [](auto&& change) -> std::string {
+  const auto why = [](double twist, auto&& change) -> std::string {
     ContactLaw law = dashpotLaw();
     change(law);
     try {
-      oracleOutcome(law, spheres(), {1.0, 1.0});
+      CollisionStart start{1.0, 1.0};
+      start.spinOutOfPlane[0].x() = twist;
+      oracleOutcome(law, spheres(), start);
     } catch (const std::invalid_argument& error) {
       return error.what();
     }
     return "known";
   };
-  EXPECT_EQ(why([](ContactLaw&) {}), "known");
-  EXPECT_EQ(why([](ContactLaw& law) { law.normal = NormalLaw::hertz; }),
-            "normal = \"hertz\": there is no oracle of it in space");
-  EXPECT_EQ(why([](ContactLaw& law) { law.tangential = TangentialLaw::coulomb; }),
-            "tangential = \"coulomb\": there is no oracle of it in space");
-  EXPECT_EQ(why([](ContactLaw& law) { law.conventions.dashpot = Dashpot::outside; }),
-            "dashpot = \"outside\": there is no oracle of it in space");
+  const auto rolling = [](ContactLaw& law) {
+    law.rolling = RollingLaw::constantTorque;
+    law.muR = 0.1;
+  };
+  EXPECT_EQ(why(1.0, [](ContactLaw&) {}), "known");
+  EXPECT_EQ(why(0.0, rolling), "known");
+  EXPECT_EQ(why(1.0, rolling),
+            "rolling = \"constant_torque\": there is no oracle of it in space but for spheres that "
+            "move in a plane");
+  EXPECT_EQ(why(1.0, [](ContactLaw& law) { law.conventions.dashpot = Dashpot::outside; }),
+            "dashpot = \"outside\" has no limit of small time steps to score against");
 }
 
 }  // namespace
