@@ -2,6 +2,8 @@
 
 // Disks or spheres, walls and contacts as the protocol has them, for engines in C++17.
 
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -45,6 +47,35 @@ std::vector<BodyOf<D>> bodiesOf(const Json& scene, const Arrays& arrays) {
   }
   return bodies;
 }
+
+/// The scene's box: which directions are periodic, and how long it is along these.
+template <int D>
+class BoxOf {
+ public:
+  BoxOf() = default;
+  explicit BoxOf(const Json& scene) {
+    if (!scene.contains("box")) return;
+    const Json& box = scene.at("box");
+    for (std::size_t k = 0; k < D; ++k)
+      if (box.at("periodic").at(k))
+        length_[k] = box.at("high").at(k).get<double>() - box.at("low").at(k).get<double>();
+  }
+
+  /// Of the images of the difference of two places the shortest.
+  VectorOf<D> nearest(VectorOf<D> difference) const {
+    shorten(difference.x, 0);
+    shorten(difference.y, 1);
+    if constexpr (D == 3) shorten(difference.z, 2);
+    return difference;
+  }
+
+ private:
+  void shorten(double& along, std::size_t k) const {
+    if (length_[k] > 0.0) along -= length_[k] * std::round(along / length_[k]);
+  }
+
+  std::array<double, D> length_{};  ///< 0 where it is not periodic [m]
+};
 
 /// Ids of walls: which body each wall disk, plane and cylinder belongs to. Disks come first, then
 /// wall disks, then planes, then cylinders.

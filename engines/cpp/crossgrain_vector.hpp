@@ -124,6 +124,13 @@ inline Vector alongTangent(double along, Vector normal) {
 inline Vector3 alongTangent(Vector3 along, Vector3) {
   return along;
 }
+/// The other way round: of a vector that is normal to n.
+inline double tangentOf(Vector across, Vector normal) {
+  return dot(across, turned(normal));
+}
+inline Vector3 tangentOf(Vector3 across, Vector3) {
+  return across;
+}
 /// As a normal turns from n to m, by the smallest turn that does so.
 inline double carriedAlong(double along, Vector, Vector) {
   return along;

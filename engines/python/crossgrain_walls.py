@@ -20,6 +20,13 @@ def moments(arm, force, torque=0.0):
     return torque + np.cross(arm, force)
 
 
+def swept(spin, arm):
+    """Velocities ω × r, one a row. Spins about z, in the plane, are a number or a column of them."""
+    if arm.shape[1] == 2:
+        return spin * np.column_stack([-arm[:, 1], arm[:, 0]])
+    return np.cross(spin, arm)
+
+
 class Box:
     """The scene's: which directions are periodic, and how long it is along these."""
 
@@ -97,7 +104,7 @@ class Body:
         self.disk_radius = disk_radius
         self.disk_position = disk_position.reshape(-1, len(self.centre))
         self.offset = self.disk_position - self.centre
-        self.distance = np.hypot(self.offset[:, 0], self.offset[:, 1])
+        self.distance = np.hypot.reduce(self.offset, axis=1)
 
     def state(self, t):
         """Centre, velocity of the centre, angle and angular velocity at time t."""
@@ -130,12 +137,12 @@ class Body:
     def disk_states(self, t):
         """Positions and velocities of the wall disks at time t."""
         centre, velocity, angle, spin = self.state(t)
-        if len(centre) == 3:
-            arm = turned(angle, self.offset)
-            return centre + arm, velocity + np.cross(spin, arm)
         shift, outward = self.radial(t)
         apart = np.where(self.distance > 0, self.distance, 1.0)  # a disk at the centre stays there
         scale = 1.0 + shift / apart
+        if len(centre) == 3:
+            arm = scale[:, None] * turned(angle, self.offset)
+            return centre + arm, velocity + (outward / (scale * apart))[:, None] * arm + swept(spin, arm)
         cos, sin = math.cos(angle) * scale, math.sin(angle) * scale
         x = cos * self.offset[:, 0] - sin * self.offset[:, 1]
         y = sin * self.offset[:, 0] + cos * self.offset[:, 1]
@@ -160,7 +167,6 @@ class Body:
         return centre + (point - self.centre) @ turn, normal @ turn
 
     def velocity_at(self, t, place):
-        """Velocity of the body's material at places, (n, 2), as planes have it."""
+        """Velocity of the body's material at places, one a row, as planes and cylinders have it."""
         centre, velocity, _, spin = self.state(t)
-        arm = place - centre
-        return velocity + spin * np.column_stack([-arm[:, 1], arm[:, 0]])
+        return velocity + swept(spin, place - centre)

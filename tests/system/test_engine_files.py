@@ -29,6 +29,59 @@ LEFT_OUT = ("self.found, plane = [contacts], 0", "self.found, plane = [[c[1:] fo
 ONE_STATE = ("lockstep", COUETTE, "--quick", "--starts=1", "--quiet")
 
 
+# cases/space/pile.toml with fewer spheres, for less long.
+HEAP = f"""
+[case]
+name = "heap"
+extends = "{CASES / 'space/pile.toml'}"
+[assembly]
+duration = 0.1
+[[assembly.disks]]
+position = [-0.0125, -0.0125, 0.012]
+radius = 0.005
+density = 2500
+radius_spread = 0.1
+jitter = 0.05
+grid = {{ columns = 3, rows = 3, layers = 2, spacing = [1.25, 1.25, 1.25] }}
+[[assembly.walls]]
+position = [-0.03, -0.03, 0.0]
+radius = 0.005
+grid = {{ columns = 7, rows = 7 }}
+[[assembly.walls]]
+point = [0.0, 0.0, -0.01]
+normal = [0.0, 0.0, 1.0]
+[average]
+from = 0.05
+snapshots = 5
+[preparation]
+packings = 4
+[looks]
+count = 1
+"""
+
+# A disk that rubs along a wall disk and does not turn.
+RUBS = f"""
+[case]
+name = "rubs"
+kind = "assembly"
+extends = "{CASES / 'laws/rough.toml'}"
+[law]
+tension = "allow"
+[assembly]
+duration = 0.002
+rotation = false
+gravity = [0.0, 0.0]
+[[assembly.disks]]
+position = [0.0, 0.00995]
+radius = 0.005
+mass = 0.275e-3
+velocity = [0.5, -0.2]
+[[assembly.walls]]
+position = [0.0, 0.0]
+radius = 0.005
+"""
+
+
 class Conformance(SystemTest):
     def conformance(self, *arguments):
         return self.run_program("conformance", *arguments, "--quiet")
@@ -51,6 +104,37 @@ class Conformance(SystemTest):
         self.assertRegex(done.stdout, r"numpy [^\n]*: (\d+) of \1 checks passed")
         # Of several names each is that of a check.
         self.assert_one_line(self.conformance(PYTHON, "-k", "Sound,Sounds"), BAD_INPUT, "-k 'Sounds': no check has that")
+
+    def test_examples_take_spheres_alone(self):
+        """As most engines of spheres are: [3] in place of [2, 3]. A heap on a floor of spheres, on the one that is fast."""
+        numpy, plain = (
+            self.engine_file(name, *program, "3")
+            for name, program in (("numpy", ("python3", PYTHON.with_name("engine.py"))), ("plain", (CPP.with_name("engine"),)))
+        )
+        in_space = "MovedPairs,InSpace,TurningWall,TorqueTurns,TurnedAlike"
+        for engine, arguments in ((plain, ()), (numpy, ("-k", in_space))):
+            done = self.conformance(engine, *arguments, "--out", self.out / engine.stem)
+            self.assert_status(done, HELD)
+            self.assertEqual({"passed", "skipped"}, {row["outcome"] for row in self.results(self.out / engine.stem)["checks"]})
+        heap = self.write("heap.toml", HEAP)
+        done = self.run_program("lockstep", heap, "--engines", plain, "--starts=2", "--out", self.out / "lockstep", "--quiet")
+        self.assert_status(done, HELD)
+        self.assertIn("plain is the law that it declares", done.stdout)
+        done = self.run_program("compare", heap, "--engines", f"grain,{plain}", "--out", self.out / "compare", "--quiet")
+        self.assert_status(done, HELD)
+        self.assertRegex(done.stdout, r"[1-9] agree, \d borderline, 0 disagree")
+
+    def test_wall_of_a_scene_without_rotation_bears_forces_alone(self):
+        """A wall disk takes no −a f_t there: about its body's centre, its own, all of it is 0."""
+        case = self.write("rubs.toml", RUBS)
+        for engine in (PYTHON, CPP):
+            recording = self.folder / f"{engine.parent.name}.rec"
+            self.assert_status(self.run_program("record", case, "--engines", engine, "--out", recording), HELD)
+            shown = [answer["snapshot"]["bodies"][0] for _, answer, _ in recorded_exchanges(recording) if "snapshot" in answer]
+            pushed = [body for body in shown if abs(body["force"][0]) > 1e-3]
+            self.assertTrue(pushed)
+            for body in pushed:
+                self.assertLess(abs(body["torque"]), 1e-12 * 0.005 * abs(body["force"][1]))
 
     def test_wrong_constant_is_named(self):
         engine = self.changed_example('law["kn"] * overlap', '1.02 * law["kn"] * overlap')
