@@ -37,19 +37,25 @@ struct Unsupported : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The arrays of a scene by name; all of them are f64.
+/// The arrays of a scene by name. All are f64 but `disks.material`, whose numbers are doubles here.
 using Arrays = std::map<std::string, std::vector<double>>;
 
 inline Arrays readArrays(const std::string& path, const Json& entries) {
   std::ifstream file(path, std::ios::binary);
   Arrays arrays;
   for (const Json& entry : entries) {
-    std::vector<double> values(entry.at("count").get<std::size_t>());
-    file.seekg(entry.at("offset").get<std::streamoff>());
-    file.read(reinterpret_cast<char*>(values.data()),
-              static_cast<std::streamsize>(values.size() * sizeof(double)));
-    if (!file) throw std::runtime_error(path + " is too short");
-    arrays[entry.at("name")] = std::move(values);
+    const auto count = entry.at("count").get<std::size_t>();
+    const auto read = [&](auto values) {
+      file.seekg(entry.at("offset").get<std::streamoff>());
+      file.read(reinterpret_cast<char*>(values.data()),
+                static_cast<std::streamsize>(values.size() * sizeof values[0]));
+      if (!file) throw std::runtime_error(path + " is too short");
+      arrays[entry.at("name")] = {values.begin(), values.end()};
+    };
+    if (entry.at("type") == "i32")
+      read(std::vector<std::int32_t>(count));
+    else
+      read(std::vector<double>(count));
   }
   return arrays;
 }

@@ -6,6 +6,9 @@ serve(engine) answers requests with the methods of `engine`:
     advance(time) -> float
     snapshot(contacts) -> (dict, {name: (type, numpy array or list)})
     stats() -> dict
+and, of an engine with the capability `checkpoints`, all that its future depends on:
+    checkpoint(file)
+    restore(file)                                  after a load of the same scene
 Dictionaries are the protocol's JSON objects; arrays go under the protocol's names.
 """
 
@@ -66,6 +69,9 @@ def answer(engine, request):
         return {"snapshot": snapshot, "arrays": write_arrays(request["file"], arrays)}
     if what == "stats":
         return {"stats": engine.stats()}
+    if what in ("checkpoint", "restore") and hasattr(engine, what):
+        getattr(engine, what)(request["file"])
+        return {}
     if what == "quit":
         return {}
     raise ValueError(f"no request '{what}'")
