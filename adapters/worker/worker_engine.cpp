@@ -299,7 +299,7 @@ json WorkerEngine::answerTo(const json& request, const std::string& what) const 
 }
 
 std::string WorkerEngine::receive(ChildProcess::Clock::time_point deadline) const {
-  constexpr int slices = 4, most = 20;  // of the time-out; times the time-out
+  constexpr int slices = 4, most = 100;  // of the time-out; times the time-out
   double usedWhenLate = 0.0;
   for (int k = 0;; ++k) {
     try {
