@@ -5,9 +5,15 @@
 #include "oracle/calibration.hpp"
 #include "oracle/cohesion.hpp"
 #include "oracle/impact.hpp"
-#include "stability/recording.hpp"
+#include "stability/springs.hpp"
 
 namespace crossgrain::inline stability {
+
+bool hasNoSprings(const Recording& run) {
+  return !run.scene.law.soft() ||
+         std::ranges::find(run.effective.deviations, "normal", &Deviation::name) !=
+             run.effective.deviations.end();
+}
 
 namespace {
 
@@ -18,13 +24,6 @@ double kineticEnergy(const Disks& disks, const Snapshot& snapshot) {
     energy += 0.5 * disks.mass[i] * snapshot.velocity[i].squaredNorm() +
               0.5 * disks.inertia[i] * spin[i] * spin[i];
   return energy;
-}
-
-/// Whether the engine has impulses where the scene has springs.
-bool hasNoSprings(const Recording& run) {
-  return !run.scene.law.soft() ||
-         std::ranges::find(run.effective.deviations, "normal", &Deviation::name) !=
-             run.effective.deviations.end();
 }
 
 double tangentialEnergy(const Recording& run, const Snapshot& snapshot) {

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "oracle/collision_flight.hpp"
 #include "oracle/collision_oracle.hpp"
+#include "stability/springs.hpp"
 
 namespace crossgrain::inline stability {
 
@@ -60,23 +63,27 @@ Curve ownEnergy(const Recording& run) {
   return energy;
 }
 
-Curve energyChange(const Recording& run, double (*counted)(double)) {
+/// Energy above that of the start, and where losses count below it. What the law's springs would
+/// hold at the start an engine of impulses need not make motion of: of that it loses nothing.
+Curve energyChange(const Recording& run, bool losses) {
   Curve curve = ownEnergy(run);
   if (curve.empty()) return curve;
   const double start = curve.front(), scale = energyScale(run);
+  const double least =
+      start - (hasNoSprings(run) ? energyOf(run, run.snapshots.front()).elastic : 0.0);
   for (double& value : curve) {
-    const double change = counted(value - start);
+    const double change = std::max({value - start, losses ? least - value : 0.0, 0.0});
     value = change == 0.0 ? 0.0 : change / scale;
   }
   return curve;
 }
 
 Curve energyGain(const Recording& run) {
-  return energyChange(run, [](double change) { return std::max(change, 0.0); });
+  return energyChange(run, false);
 }
 
 Curve energyDrift(const Recording& run) {
-  return energyChange(run, [](double change) { return std::abs(change); });
+  return energyChange(run, true);
 }
 
 Curve ledgerResidual(const Recording& run) {
@@ -179,6 +186,11 @@ bool atRest(const Recording& run, const Snapshot& now) {
   return now.positionTime >= restingStart(run).positionTime;
 }
 
+/// False: all that is seen at rest is one snapshot, which is as far from itself as any.
+bool isWatchedAtRest(const Recording& run) {
+  return restingStart(run).positionTime < endOf(run);
+}
+
 Curve kineticAtRest(const Recording& run) {
   const double scale = energyScale(run);
   return each(run, [&](const Snapshot& now) {
@@ -195,10 +207,11 @@ double farthest(const Scene& scene, const Snapshot& from, const Snapshot& to) {
 }
 
 Curve creep(const Recording& run) {
+  if (!isWatchedAtRest(run)) return {};
   const Snapshot& start = restingStart(run);
   const double watched = endOf(run) - start.positionTime;
   return each(run, [&](const Snapshot& now) {
-    return atRest(run, now) && watched > 0.0 ? farthest(run.scene, start, now) / watched : 0.0;
+    return atRest(run, now) ? farthest(run.scene, start, now) / watched : 0.0;
   });
 }
 
@@ -221,6 +234,7 @@ double pileAngle(const Scene& scene, const Snapshot& now) {
 }
 
 Curve pileAngleChange(const Recording& run) {
+  if (!isWatchedAtRest(run)) return {};
   const double start = pileAngle(run.scene, restingStart(run));
   return each(run, [&](const Snapshot& now) {
     return atRest(run, now) ? std::abs(pileAngle(run.scene, now) - start) : 0.0;
@@ -282,17 +296,11 @@ Curve escaped(const Recording& run) {
   });
 }
 
-/// Of one collision case: |e_n − oracle's of the law that the engine runs|, known once the disks
-/// have parted; e_n is 0 of those that do not (nearly critical dampers take for ever).
+/// Known once the disks have parted; the largest.
 Curve restitutionError(const Recording& run) {
   if (run.collisions.empty()) return {};
   Curve curve(run.snapshots.size(), 0.0);
-  for (std::size_t k = 0; k < run.collisions.size(); ++k) {
-    const CollisionStart& start = run.collisions[k];
-    const double expected = oracleOutcome(run.law, pairOf(run.scene, k), start).en;
-    const auto end = collisionEnd(run.scene, run.snapshots.back(), k, start);
-    curve.back() = std::max(curve.back(), std::abs((end ? end->en : 0.0) - expected));
-  }
+  curve.back() = std::ranges::max(restitutionErrors(run));
   return curve;
 }
 
@@ -316,10 +324,13 @@ Curve ratchet(const Recording& run) {
   const auto samples = static_cast<std::size_t>(
       std::llround(cycle / (endOf(run) / static_cast<double>(run.snapshots.size() - 1))));
   Curve curve(run.snapshots.size(), 0.0);
+  bool compared = false;
   for (std::size_t k = samples; k < curve.size(); ++k)
-    if (atRest(run, run.snapshots[k - samples]))
+    if (samples > 0 && atRest(run, run.snapshots[k - samples])) {
       curve[k] = farthest(run.scene, run.snapshots[k - samples], run.snapshots[k]);
-  return curve;
+      compared = true;
+    }
+  return compared ? curve : Curve{};
 }
 
 constexpr std::array measures = {
@@ -377,6 +388,19 @@ const StabilityMeasure& stabilityMeasure(std::string_view name) {
   const auto found = std::ranges::find(measures, name, &StabilityMeasure::name);
   if (found == measures.end()) throw std::out_of_range("no measure " + std::string(name));
   return *found;
+}
+
+std::vector<double> restitutionErrors(const Recording& run) {
+  std::vector<double> errors;
+  std::map<std::pair<double, double>, double> expected;  // of starts that are alike
+  for (std::size_t k = 0; k < run.collisions.size(); ++k) {
+    const CollisionStart& start = run.collisions[k];
+    const auto [known, isNew] = expected.try_emplace({start.psi, start.vn});
+    if (isNew) known->second = oracleOutcome(run.law, pairOf(run.scene, k), start).en;
+    const auto end = collisionEnd(run.scene, run.snapshots.back(), k, start);
+    errors.push_back(std::abs((end ? end->en : 0.0) - known->second));
+  }
+  return errors;
 }
 
 double largestDistance(const Scene& scene, const Snapshot& one, const Snapshot& other) {

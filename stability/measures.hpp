@@ -35,6 +35,10 @@ std::span<const StabilityMeasure> stabilityMeasures();
 /// @throws std::out_of_range
 const StabilityMeasure& stabilityMeasure(std::string_view name);
 
+/// |e_n − oracle's of the law that the engine runs| of each of a case's collisions; e_n is 0 of
+/// disks that do not part (nearly critical dampers take for ever).
+std::vector<double> restitutionErrors(const Recording& run);
+
 /// StabilityProtocol::againstOriginal: the largest distance between a disk of the copy, taken back
 /// to where it would be without being mirrored, turned, shifted and boosted, and the same disk of
 /// the original [diameters], at each instant that both have.

@@ -159,7 +159,8 @@ std::vector<std::size_t> shuffledOrder(std::size_t disks, std::uint64_t seed) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   if (disks < 2) return order;
   const Random random = seededRandom(seed);
-  gsl_ran_shuffle(random.get(), order.data(), order.size(), sizeof(std::size_t));
+  while (std::ranges::is_sorted(order))  // of few disks a shuffle may be none
+    gsl_ran_shuffle(random.get(), order.data(), order.size(), sizeof(std::size_t));
   return order;
 }
 

@@ -46,6 +46,37 @@ bool belongsTo(SuitePart part, const Stability& hard) {
   return part == SuitePart::withLong || !hard.longRun;
 }
 
+bool comparesVariants(const Stability& hard) {
+  return stabilityMeasure(hard.measure).protocol == StabilityProtocol::againstOriginal;
+}
+
+/// Whether the case is the one that others are compared with, which has no verdict of its own.
+/// @param all  whole files
+/// @throws BadInput if its file has no others
+bool isOriginal(const Case& setup, const std::vector<Case>& all) {
+  if (!comparesVariants(*setup.stability)) return false;
+  if (std::ranges::count(all, setup.file, &Case::file) < 2)
+    throw BadInput(
+        fmt::format("{}: stability.measure = \"{}\" compares every variant with the file's first: "
+                    "it takes two [[variants]] at least",
+                    setup.file.string(), setup.stability->measure));
+  return &setup == &*std::ranges::find(all, setup.file, &Case::file);
+}
+
+/// A variant's label where the case runs in a plane of space.
+std::string inSpaceLabel(const std::string& variant) {
+  return variant.empty() ? "in space" : variant + ", in space";
+}
+
+/// What a case is compared with: the first variant of its file, whichever part of the suite is run.
+/// @throws std::logic_error if that is the case itself, as any run is like itself
+Case originalOf(const Case& setup) {
+  Case first = loadCase(setup.file, setup.overrides).front();
+  if (setup.variant == first.variant || setup.variant == inSpaceLabel(first.variant))
+    throw std::logic_error(fmt::format("{} would be compared with itself", fullName(setup)));
+  return first;
+}
+
 }  // namespace
 
 std::vector<Case> hardCases(const std::vector<fs::path>& inputs,
@@ -56,7 +87,10 @@ std::vector<Case> hardCases(const std::vector<fs::path>& inputs,
       throw BadInput(
           fmt::format("{}: has no [stability]: it is no hard case", setup.file.string()));
   requireOwnNames(cases);
-  std::erase_if(cases, [&](const Case& c) { return !belongsTo(part, *c.stability); });
+  std::vector<Case> judged;
+  for (const Case& setup : cases)
+    if (!isOriginal(setup, cases) && belongsTo(part, *setup.stability)) judged.push_back(setup);
+  cases = std::move(judged);
   if (cases.empty())
     throw BadInput(part == SuitePart::quick ? "none of these cases has stability.quick = true"
                                             : "all of these cases are long: --long runs them");
@@ -77,12 +111,24 @@ struct Suite {
   RunStore& store;
   SuiteAsks asks;
   Progress progress{command.quiet};
-  std::vector<std::string> versions = {};    ///< of engines; empty: it did not answer
-  std::vector<Packing> packings = {};        ///< of cases that are Couette cells
-  std::vector<std::string> unprepared = {};  ///< why they have none
-  TimeBudget* budget = nullptr;              ///< of transforms
-  bool inSpace = false;                      ///< StabilityTask::inSpace
+  std::vector<std::string> versions = {};           ///< of engines; empty: it did not answer
+  std::vector<Packing> packings = {};               ///< of cases that are Couette cells
+  std::vector<std::string> unprepared = {};         ///< why they have none
+  std::vector<std::optional<Case>> originals = {};  ///< of cases that are compared with one
+  TimeBudget* budget = nullptr;                     ///< of transforms
+  bool inSpace = false;                             ///< StabilityTask::inSpace
 };
+
+/// What each case needs besides itself.
+void makeRoom(Suite& suite) {
+  suite.packings.resize(suite.cases.size());
+  suite.unprepared.resize(suite.cases.size());
+  suite.originals.resize(suite.cases.size());
+  if (suite.asks == SuiteAsks::transforms) return;
+  for (std::size_t c = 0; c < suite.cases.size(); ++c)
+    if (comparesVariants(*suite.cases[c].stability))
+      suite.originals[c] = originalOf(suite.cases[c]);
+}
 
 void askEngines(Suite& suite) {
   for (const Case& setup : suite.cases) checkEngineSections(setup);
@@ -162,16 +208,20 @@ CachedTask<Rows>::Outcome transformsOf(const StabilityTask& task, TimeBudget& bu
   };
   const auto broken = count(&StabilityRun::verdict, Verdict::fail);
   const auto late = count(&StabilityRun::status, Status::notRun);
+  const auto refused = count(&StabilityRun::verdict, Verdict::notApplicable);
   const bool finished = late + count(&StabilityRun::status, Status::failed) == 0;
-  return {std::move(rows), finished,
-          fmt::format("{}{}", broken == 0 ? "nothing breaks" : fmt::format("{} break", broken),
-                      late == 0 ? "" : fmt::format(", {} not run", late))};
+  std::vector<std::string> parts;  // of the rows, so that what did not run is no success
+  if (broken > 0) parts.push_back(fmt::format("{} break", broken));
+  if (broken == 0 && refused + late < std::ssize(rows)) parts.emplace_back("nothing breaks");
+  if (refused == std::ssize(rows)) parts.emplace_back("refused");
+  if (late > 0) parts.push_back(fmt::format("{} not run", late));
+  return {std::move(rows), finished, fmt::format("{}", fmt::join(parts, ", "))};
 }
 
 CachedTask<Rows> taskOf(const Suite& suite, std::size_t c, std::size_t e) {
   const Case& setup = suite.cases[c];
   const EngineEntry& entry = suite.engines[e];
-  const Case& original = *std::ranges::find(suite.cases, setup.name, &Case::name);
+  const Case* const original = suite.originals[c] ? &*suite.originals[c] : nullptr;
   const bool transforms = suite.asks == SuiteAsks::transforms;
   CachedTask<Rows> task;
   task.of = {entry.name, fullName(setup)};
@@ -187,13 +237,14 @@ CachedTask<Rows> taskOf(const Suite& suite, std::size_t c, std::size_t e) {
   if (transforms) {
     task.name += "-transforms";
     task.priority = -task.weight;  // what is over soon leaves its part of the budget to the others
-  } else if (stabilityMeasure(setup.stability->measure).protocol != StabilityProtocol::oneRun) {
-    task.key["compared with"] = original.variant;
+  } else if (original) {
+    for (const auto& [name, value] : runKey(*original, entry.name, suite.versions[e]))
+      task.key["compared with, " + name] = value;
   }
-  task.work = [&suite, &setup, &original, &entry, c, transforms,
+  task.work = [&suite, &setup, original, &entry, c, transforms,
                scratch = suite.store.scratch(task.name)](const auto& progress) {
-    const StabilityTask own{&setup,  &original,           entry,        &suite.packings[c],
-                            scratch, suite.unprepared[c], suite.inSpace};
+    const StabilityTask own{
+        &setup, original, entry, &suite.packings[c], scratch, suite.unprepared[c], suite.inSpace};
     return transforms ? transformsOf(own, *suite.budget, progress) : limitsOf(own, progress);
   };
   return task;
@@ -225,6 +276,11 @@ std::vector<Case> casesToTest(const CommandLine& line, StabilityOptions& own) {
   if (own.transforms) {  // of any cases
     cases = casesOf(inputs, line.overrides);
     requireOwnNames(cases);
+    for (const Case& setup : cases)
+      if (setup.dimension != 2)
+        throw BadInput(
+            fmt::format("{}: --transforms takes scenes of the plane, and case.dimension = {}",
+                        setup.file.string(), setup.dimension));
   } else {
     cases = hardCases(inputs, line.overrides,
                       line.quick      ? SuitePart::quick
@@ -234,7 +290,7 @@ std::vector<Case> casesToTest(const CommandLine& line, StabilityOptions& own) {
   if (line.only) cases = selectedCases(cases, *line.only);
   reportKeysWithoutUse(cases, "stability", line.json ? stderr : stdout);
   for (Case& setup : cases)
-    if (own.inSpace) setup.variant += setup.variant.empty() ? "in space" : ", in space";
+    if (own.inSpace) setup.variant = inSpaceLabel(setup.variant);
   return cases;
 }
 
@@ -242,8 +298,7 @@ std::string stabilityPlan(const StudyWork& work, const StabilityOptions& own) {
   const std::vector<EngineEntry> engines = selectEngines(work.line.run.engines);
   Suite suite{work.cases, engines, work.line.run, work.store, own.asks()};
   suite.inSpace = own.inSpace;
-  suite.packings.resize(work.cases.size());
-  suite.unprepared.resize(work.cases.size());
+  makeRoom(suite);
   askEngines(suite);
   std::string head;
   for (std::size_t c = 0; c < work.cases.size(); ++c) {
@@ -289,8 +344,7 @@ StabilityResults testStability(const std::vector<Case>& cases,
   Suite suite{cases, engines, command, store, asks};
   suite.budget = &budget;
   suite.inSpace = inSpace;
-  suite.packings.resize(cases.size());
-  suite.unprepared.resize(cases.size());
+  makeRoom(suite);
   askEngines(suite);
   preparePackings(suite);
   StabilityResults results;

@@ -87,6 +87,21 @@ TEST(StabilityMeasures, ImpulsesInPlaceOfSpringsHoldNoEnergy) {
   EXPECT_NEAR(at.last("energy_drift"), 0.0, 1e-12);
 }
 
+// A start with an overlap of 0.1 m: 0.5 J in springs beside 2 J of motion.
+TEST(StabilityMeasures, OverlapOfAStart_IsLostByASpringAndNotByAnImpulse) {
+  Series at;
+  at.run.snapshots.clear();
+  at.look(0.0, {0, 0}, {1.9, 0});
+  at.look(1.0, {-1, 0}, {9, 0});  // 2 J: what the springs held is gone
+  EXPECT_NEAR(at.last("energy_drift"), 0.5 / 2.5, 1e-12);
+  at.run.effective.deviations.push_back({"normal", 0.5, "-", "rigid contacts"});
+  EXPECT_EQ(at.last("energy_drift"), 0.0);
+  at.look(2.0, {-1, 0}, {9, 0}, {0, 0}, {-1.0, 0});  // 1 J: half of the motion, too
+  EXPECT_NEAR(at.last("energy_drift"), 1.0 / 2.5, 1e-12);
+  at.look(3.0, {-1, 0}, {9, 0}, {-2.0, 0}, {-1.0, 0});  // 5 J: more than the springs held
+  EXPECT_NEAR(at.last("energy_gain"), 2.5 / 2.5, 1e-12);
+}
+
 TEST(StabilityMeasures, WorkOfWallsIsNotAGain) {
   Series at;
   Motion motion;
@@ -165,6 +180,21 @@ TEST(StabilityMeasures, RestBeginsWhereTheCaseSays) {
   EXPECT_EQ(at.last("time_to_rest"), 4.0);
 }
 
+// What is compared with itself alone is nothing that was seen.
+TEST(StabilityMeasures, RestOfOneSnapshot_HasNoFigure) {
+  Series at;
+  at.run.settle = 0.9;
+  at.look(1.0, {0, 0}, {10, 0});
+  at.look(2.0, {5, 0}, {15, 0});
+  EXPECT_TRUE(at.curve("creep").empty());
+  EXPECT_TRUE(at.curve("pile_angle_change").empty());
+  Motion motion;
+  motion.kind = Motion::Kind::oscillating;
+  motion.frequency = 1.0;  // a cycle of 6.3 s in a run of 2 s
+  at.addPlane(motion);
+  EXPECT_TRUE(at.curve("ratchet").empty());
+}
+
 /// A filled triangle with base angles of 45°, then one pressed to half its height: atan ½.
 void expectPileAngle(const Vec2& gravity) {
   Series at;
@@ -203,8 +233,8 @@ TEST(StabilityMeasures, GoingThroughIsToldFromBouncing) {
   EXPECT_EQ(past.last("tunnelled"), 0.0);
 }
 
-/// Disks that stay together have e_n = 0: far from an elastic law's 1, and next to nothing from that
-/// of dampers at 0.95 of critical, exp(−π 0.95/√(1 − 0.95²)).
+/// Disks that stay together have e_n = 0: far from an elastic law's 1, and next to nothing from
+/// that of dampers at 0.95 of critical, exp(−π 0.95/√(1 − 0.95²)).
 TEST(StabilityMeasures, RestitutionOfDisksThatDoNotPartIsZero) {
   Series at;
   at.run.collisions = {{0.0, 2.0, Approach::spin}};
@@ -215,6 +245,25 @@ TEST(StabilityMeasures, RestitutionOfDisksThatDoNotPartIsZero) {
   at.run.law.gn = 0.95 * 2.0 * std::sqrt(100.0 * 1.0);  // k_n = 100 N/m, m₁₂ = 1 kg
   const double damped = std::exp(-std::numbers::pi * 0.95 / std::sqrt(1.0 - 0.95 * 0.95));
   EXPECT_NEAR(at.last("restitution_error"), damped, 1e-3 * damped);
+}
+
+/// Two collisions of an elastic law: one gives back all of the speed, the other half of it.
+TEST(StabilityMeasures, RestitutionIsThatOfTheWorstOfSeveral) {
+  Series at;
+  at.run.scene.disks.radius.assign(4, 1.0);
+  at.run.scene.disks.mass.assign(4, 2.0);
+  at.run.scene.disks.inertia.assign(4, 1.0);
+  at.run.collisions.assign(2, {0.0, 2.0, Approach::spin});
+  at.run.law = at.run.scene.law;
+  at.run.law.gn = 0.0;
+  Snapshot& now = at.look(1.0, {10, 0}, {0, 0}, {1.0, 0}, {-1.0, 0});
+  now.position.insert(now.position.end(), {{10, 50}, {0, 50}});
+  now.velocity.insert(now.velocity.end(), {{0.5, 0}, {-0.5, 0}});
+  const std::vector<double> errors = restitutionErrors(at.run);
+  ASSERT_EQ(errors.size(), 2u);
+  EXPECT_NEAR(errors[0], 0.0, 1e-9);
+  EXPECT_NEAR(errors[1], 0.5, 1e-9);
+  EXPECT_EQ(at.last("restitution_error"), errors[1]);
 }
 
 TEST(StabilityMeasures, OneDiskGoesThroughAWallDisk) {

@@ -1,12 +1,17 @@
 // The suite's verdicts: by the limits, and on engines that misbehave on purpose.
 #include "studies/stability/stability.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
+#include <stdexcept>
 
 #include "adapters/worker/json.hpp"
+#include "cases/loader.hpp"
 #include "results/scene_picture.hpp"
 #include "results/stability.hpp"
 #include "stability/verdict.hpp"
@@ -123,6 +128,105 @@ TEST(HardCases, Repository_AllLoadWithReasons) {
   const std::vector<Case> cases = hardCases({CROSSGRAIN_CASES "/hard"}, {}, SuitePart::withLong);
   EXPECT_GE(cases.size(), 60u);
   for (const Case& c : cases) EXPECT_GT(c.stability->why.size(), 20u) << c.name;
+}
+
+// ---- Faults that the suite's cases are there for, planted in an engine that shares no line with
+// the in-house one (tests/faults/engine).
+
+EngineEntry plantedEntry(const std::string& fault) {
+  EngineEntry entry;
+  entry.name = fault.empty() ? "right" : fault.substr(0, fault.find('='));
+  entry.command = [=] {
+    std::vector<std::string> words = {CROSSGRAIN_PLANTED};
+    if (!fault.empty()) words.push_back(fault);
+    return words;
+  };
+  return entry;
+}
+
+/// A case of the quick suite, by file and variant.
+Case quickCase(const std::string& file, const std::string& variant) {
+  for (Case& setup : hardCases({CROSSGRAIN_CASES "/hard/" + file + ".toml"}, {}, SuitePart::quick))
+    if (setup.variant == variant) return setup;
+  throw std::out_of_range(file + " " + variant + " is not quick");
+}
+
+std::vector<StabilityRun> runsOf(const std::vector<Case>& cases,
+                                 const std::vector<EngineEntry>& engines) {
+  const TemporaryFolder folder;
+  RunCommand command;
+  command.out = folder.path() / "out";
+  command.jobs = 2;
+  command.quiet = true;
+  RunStore store(command, "stability", keysOfEach(cases));
+  return testStability(cases, engines, command, store).runs;
+}
+
+struct Escaped {
+  const char *file, *variant, *fault;
+};
+
+class QuickSuite : public ::testing::TestWithParam<Escaped> {};
+
+TEST_P(QuickSuite, FaultIsSeenAndTheRightEngineIsNot) {
+  const auto& [file, variant, fault] = GetParam();
+  const auto runs = runsOf({quickCase(file, variant)}, {plantedEntry(""), plantedEntry(fault)});
+  ASSERT_EQ(runs.size(), 2u);
+  EXPECT_EQ(runs[0].verdict, Verdict::pass) << jsonOf(runs[0]).dump();
+  EXPECT_GT(runs[1].verdict, Verdict::pass) << jsonOf(runs[1]).dump();
+}
+
+INSTANTIATE_TEST_SUITE_P(All, QuickSuite,
+                         ::testing::Values(
+                             // Compared with the scene near the origin, not with itself.
+                             Escaped{"far-away", "1e3", "float_state=1"},
+                             Escaped{"pinched", "10-s", "spring_age=150000"},
+                             Escaped{"pinched", "10-s", "springs_emptied_every=65536"},
+                             Escaped{"pile", "creep", "springs_emptied_every=65536"},
+                             Escaped{"fast-impact", "plane-0.03", "planes_most_speed=2"},
+                             Escaped{"heavy-on-light", "1e2", "uneven_kn=0.5"},
+                             Escaped{"deep-start", "elastic", "touching_drag=10"},
+                             Escaped{"deep-start", "damped-loss-tension", "touching_drag=100"},
+                             Escaped{"warm-start", "", "touching_drag=10"},
+                             Escaped{"wedged-small", "elastic", "touching_drag=3"},
+                             Escaped{"size-ratio", "elastic", "touching_drag=20"},
+                             Escaped{"high-spin", "loss", "mu=1.2"}),
+                         [](const auto& test) {
+                           std::string name = fmt::format("{}_{}_{}", test.param.file,
+                                                          test.param.variant, test.param.fault);
+                           std::ranges::replace_if(
+                               name, [](char c) { return !std::isalnum(c); }, '_');
+                           return name;
+                         });
+
+TEST(HardCases, FirstVariantOfCopies_IsRunWithTheOthersAndNotJudged) {
+  const auto count = [](const char* file, SuitePart part) {
+    return hardCases({CROSSGRAIN_CASES "/hard/" + std::string(file)}, {}, part).size();
+  };
+  EXPECT_EQ(count("far-away.toml", SuitePart::quick), 1u);
+  EXPECT_EQ(count("far-away.toml", SuitePart::withLong), 3u);
+  EXPECT_EQ(count("cell-border.toml", SuitePart::quick), 1u);
+
+  const Case original = loadCase(CROSSGRAIN_CASES "/hard/far-away.toml").front();
+  EXPECT_THROW(runsOf({original}, {*findEngine("grain")}), std::logic_error);
+
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "meeting.toml";
+  std::ofstream(file) << meeting;
+  const std::string said = test::refusalOf<BadInput>(
+      [&] { hardCases({file}, {R"(stability.measure="copies_differ")"}, SuitePart::usual); });
+  EXPECT_NE(said.find("takes two [[variants]]"), std::string::npos) << said;
+}
+
+// e_n at one phase of one step was 0.0010 where others err by 0.013.
+TEST(TestStability, Restitution_IsTheWorstOfPhasesAndSteps) {
+  const auto run = runsOf({quickCase("restitution", "gn-0.19")}, {*findEngine("grain")}).front();
+  EXPECT_EQ(run.verdict, Verdict::pass) << run.reason;
+  // By the equation of motion in steps of Verlet's schemes: 0.011 to 0.013, rms 0.006.
+  EXPECT_GT(run.value, 0.008);
+  EXPECT_LT(run.value, 0.014);
+  EXPECT_NE(run.reason.find("largest of 374 collisions"), std::string::npos) << run.reason;
+  EXPECT_NE(run.reason.find("rms 0.005"), std::string::npos) << run.reason;
 }
 
 using conformance::smallMass, conformance::smallRadius;

@@ -139,6 +139,8 @@ TEST(Transforms, ShuffledOrder_IsAPermutation) {
   for (std::size_t k = 0; k + 1 < order.size(); ++k) kept += order[k] + 1 == order[k + 1];
   EXPECT_LT(kept, 10);
   EXPECT_TRUE(shuffledOrder(0, 1).empty());
+  for (std::uint64_t seed = 1; seed < 20; ++seed)  // half of all shuffles of two change nothing
+    EXPECT_EQ(shuffledOrder(2, seed), (std::vector<std::size_t>{1, 0}));
 }
 
 /// Lengths twice as long, masses three times as large, times five times as long.

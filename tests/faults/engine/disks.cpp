@@ -101,6 +101,7 @@ void Simulation::drift(double dt) {
     const double speed = std::sqrt(dot(v, v));
     if (speed < faults_.asleep && touching_[i] > 0) v = {};
     if (faults_.mostSpeed > 0.0 && speed > faults_.mostSpeed) v = (faults_.mostSpeed / speed) * v;
+    if (touching_[i] > 0) v = (1.0 - faults_.touchingDrag * dt) * v;
     Vector& x = world_.position[i];
     x = x + dt * v;
     if (turnedOnce) x.x += dt * faults_.driftAfterTurn;
@@ -228,6 +229,8 @@ void Simulation::addPlanes() {
         if (beyondGrid(w.position[i], faults_.farGrid)) continue;
         if (faults_.planeEnds > 0.0 && norm(foot - plane.point) > faults_.planeEnds) continue;
         if (!holds({w.radius[i], 0.0, overlap}, kept)) continue;
+        if (faults_.planesMostSpeed > 0.0 && norm(w.velocity[i]) > faults_.planesMostSpeed)
+          continue;
         if (planesTouched_[i]++ > 0 && faults_.onePlane != 0.0) continue;
         const bool flipped = faults_.flippedWalls == static_cast<double>(i + 1);
         const Vector met = faults_.planeAtCentre != 0.0 ? w.position[i] : foot;
@@ -285,9 +288,12 @@ bool Simulation::holds(const Touching& pair, Memory& kept) const {
 /// @param spinOfOther  as contacts see it [rad/s]
 Contact Simulation::contact(std::size_t i, std::size_t j, Vector n, double overlap, Vector relative,
                             double rim, double spinOfOther, Memory& kept) {
-  const Law& law = world_.law;
+  Law law = world_.law;
   double& spring = kept.spring;
   const bool wall = j >= world_.disks;
+  if (!wall &&
+      std::max(world_.mass[i], world_.mass[j]) >= 50.0 * std::min(world_.mass[i], world_.mass[j]))
+    law.kn *= faults_.unevenKn;
   double mu = law.mu * (wall ? faults_.wallMu : 1.0);
   if (i % 2 == 1) mu *= faults_.muOdd;
   if (dot(world_.position[i], world_.position[i]) > 1.0) mu *= faults_.muFar;
@@ -341,6 +347,7 @@ Contact Simulation::contact(std::size_t i, std::size_t j, Vector n, double overl
         spring = kt > 0.0 ? -(faults_.springOnly != 0.0 ? c.ft - viscous : c.ft) / kt : 0.0;
       spring = stored(spring);
       if (everyNth(faults_.springAge, static_cast<unsigned long long>(++kept.age))) spring = 0.0;
+      if (everyNth(faults_.springsEmptiedEvery, steps_)) spring = 0.0;
       if (faults_.mostSprings > 0.0 && static_cast<double>(i) >= faults_.mostSprings) spring = 0.0;
     } else if (law.dashpot) {
       c.sliding = std::abs(viscous) > bound;

@@ -205,6 +205,12 @@ struct Faults {
       given("load_keeps", 0.0);  ///< the law stays that of the first scene of as many disks
   double mostSteps = given("most_steps", 0.0);  ///< n: an advance takes no more, and does not say
 
+  // Of what hard cases are there for: ../../studies/stability_test.cpp.
+  double planesMostSpeed = given("planes_most_speed", 0.0);  ///< [m/s] faster disks meet no plane
+  double springsEmptiedEvery = given("springs_emptied_every", 0.0);  ///< n: all, every n-th step
+  double touchingDrag = given("touching_drag", 0.0);  ///< [1/s] of the velocity of disks that touch
+  double unevenKn = given("uneven_kn", 1.0);  ///< where one mass is 50 times the other, or more
+
   // What is answered; the motion is right.
   double showFloat = given("show_float", 0.0);  ///< positions rounded to float32
   double showLate = given("show_late", 0.0);    ///< contacts and loads on walls of the step before
