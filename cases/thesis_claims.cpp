@@ -37,8 +37,11 @@ ClaimBand readBand(Reader in, const std::string& name) {
   in.read("unit", band.unit);
   in.read("low", band.low, Range{});
   in.read("high", band.high, Range{});
+  in.read("testable", band.testable);
   in.requireText("why", band.why, reasonWanted);
   in.finish();
+  if (!band.testable && band.judged())
+    in.fail("testable", "what cannot be tested has neither low nor high");
   if (band.low && band.high && !(*band.low < *band.high))
     in.fail("high", fmt::format("must be above low = {}", *band.low));
   return band;
@@ -51,7 +54,8 @@ std::vector<ClaimBand> readBands(Reader in, const std::vector<std::string>& name
     bands.push_back(readBand(in.section(name), name));
   }
   in.finish();
-  if (std::ranges::none_of(bands, &ClaimBand::judged))
+  if (std::ranges::none_of(bands,
+                           [](const ClaimBand& band) { return band.judged() || !band.testable; }))
     in.failMissing(names.front() + ".low", "or high: a claim has a figure with a band");
   return bands;
 }

@@ -24,6 +24,8 @@ struct ClaimBand {
   std::string unit;                 ///< empty: a number
   std::optional<double> low, high;  ///< both absent: reported, not judged
   std::string why;
+  bool testable =
+      true;  ///< false: nothing that is run says whether the thesis is right; `why` has why
 
   bool judged() const { return low || high; }
 };

@@ -131,8 +131,11 @@ struct ThesisRun {
 };
 
 /// What files and reports call a claim's verdict.
-inline constexpr support::EnumNames<Verdict, 3> claimVerdictNames{
-    {{Verdict::pass, "reproduced"}, {Verdict::fail, "refuted"}, {Verdict::undecided, "undecided"}}};
+inline constexpr support::EnumNames<Verdict, 4> claimVerdictNames{
+    {{Verdict::pass, "reproduced"},
+     {Verdict::fail, "refuted"},
+     {Verdict::undecided, "undecided"},
+     {Verdict::notApplicable, "cannot_be_tested"}}};
 
 /// One number that a claim's verdict rests on, beside what the thesis says it should be.
 struct ClaimFigure {

@@ -20,7 +20,7 @@ using Claims = std::vector<const ClaimRow*>;
 constexpr const char* noEngine = "-";  ///< a claim's engine where none takes part
 
 std::string wordOf(Verdict verdict) {
-  return std::string(nameOf(verdict, claimVerdictNames));
+  return spaced(nameOf(verdict, claimVerdictNames));
 }
 
 /// What a rule asks of a figure: "0.791 … 0.796", "≥ 0.5"; empty: nothing.
@@ -80,7 +80,8 @@ OverviewCell cellOf(const Claims& claims) {
   const ClaimRow& claim = *claims.front();
   cell.verdict = claim.verdict;
   cell.anchor = claim.id;
-  // The figure that refutes a claim, or leaves it undecided; else the one that stands for it.
+  // The figure that refutes a claim, leaves it undecided or cannot be tested; else the one that
+  // stands for it.
   auto figure = std::ranges::find(claim.figures, claim.verdict, &ClaimFigure::verdict);
   if (figure == claim.figures.end()) figure = claim.figures.begin();
   if (figure != claim.figures.end()) cell.words = withBounds(figure->name, *figure);
@@ -108,8 +109,10 @@ std::size_t countOf(const Claims& claims, Verdict verdict) {
 
 /// "18 reproduced, 5 refuted, 4 undecided"
 std::string countsText(const Claims& claims) {
-  return fmt::format("{} reproduced, {} refuted, {} undecided", countOf(claims, Verdict::pass),
-                     countOf(claims, Verdict::fail), countOf(claims, Verdict::undecided));
+  const std::size_t untestable = countOf(claims, Verdict::notApplicable);
+  return fmt::format("{} reproduced, {} refuted, {} undecided{}", countOf(claims, Verdict::pass),
+                     countOf(claims, Verdict::fail), countOf(claims, Verdict::undecided),
+                     untestable == 0 ? "" : fmt::format(", {} cannot be tested", untestable));
 }
 
 /// Which are refuted, and whether a reason is known.
@@ -184,8 +187,8 @@ Table claimTable(const ThesisResults& results) {
     table.rows.push_back(
         {{first ? Cell(claim.id, {claim.claim}) : Cell(),
           Cell(claim.engine, {claim.mirror.empty() ? "" : "and runs of " + claim.mirror}),
-          Cell(wordOf(claim.verdict), {}, claim.verdict, true),
-          Cell("", std::move(figures)), Cell(claim.why, std::move(remarks))},
+          Cell(wordOf(claim.verdict), {}, claim.verdict, true), Cell("", std::move(figures)),
+          Cell(claim.why, std::move(remarks))},
          "",
          first ? claim.id : ""});
   }
@@ -343,7 +346,7 @@ Overview thesisOverview(const ThesisResults& results) {
   Overview overview;
   overview.states = {{Verdict::pass, "reproduced"},
                      {Verdict::fail, "refuted"},
-                     {Verdict::notApplicable, "no claim of it"}};
+                     {Verdict::notApplicable, "cannot be tested, or no claim of it"}};
   for (const ClaimRow& claim : results.claims)
     if (std::ranges::find(overview.columns, claim.id, &OverviewColumn::name) ==
         overview.columns.end())

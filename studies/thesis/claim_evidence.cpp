@@ -80,9 +80,14 @@ namespace {
 /// @param of  null: nothing is known
 std::string describe(const ClaimBand& band, const Evidence* of, Verdict verdict,
                      double confidence) {
-  if (!of || !of->estimate) return fmt::format("{}: {}", band.label, of ? of->missing : "");
+  if (!of || !of->estimate)
+    return fmt::format("{}: {}", band.label,
+                       verdict == Verdict::notApplicable ? band.why
+                       : of                              ? of->missing
+                                                         : "");
   const std::string text =
       fmt::format("{} is {}", band.label, valueText(band, *of->estimate, of->of));
+  if (verdict == Verdict::notApplicable) return fmt::format("{}, and {}", text, band.why);
   if (verdict == Verdict::pass) return text + ", " + bandText(band);
   if (verdict == Verdict::fail) return text + ", not " + bandText(band);
   const auto n = runsToDecide(band, *of->estimate, confidence);
@@ -114,17 +119,23 @@ ClaimRow claimRow(const ClaimScope& scope, const std::map<std::string, Evidence>
       figure.value = own->estimate->value;
       figure.standardError = own->estimate->standardError;
     }
-    if (!band.judged()) continue;
-    figure.verdict = own && own->estimate
+    if (!band.judged() && band.testable) continue;
+    figure.verdict = !band.testable ? Verdict::notApplicable
+                     : own && own->estimate
                          ? placeIn(band, *own->estimate, confidence, rule.judgedFigures())
                          : Verdict::undecided;
     sentences[*figure.verdict].push_back(describe(band, own, *figure.verdict, confidence));
   }
-  row.verdict = sentences.begin()->first;  // a rule has a figure with a band
+  row.verdict = sentences.begin()->first;  // a rule has a figure with a verdict
+  // What holds as far as it goes is not reproduced while a part of it cannot be tested.
+  if (row.verdict != Verdict::fail && sentences.contains(Verdict::notApplicable))
+    row.verdict = Verdict::notApplicable;
   std::vector<std::string> parts;
-  for (const auto& [verdict, own] : sentences)
-    parts.push_back(
-        fmt::format("{}: {}.", nameOf(verdict, claimVerdictNames), fmt::join(own, "; ")));
+  for (const auto& [verdict, own] : sentences) {
+    std::string word(nameOf(verdict, claimVerdictNames));
+    std::ranges::replace(word, '_', ' ');
+    parts.push_back(fmt::format("{}: {}.", word, fmt::join(own, "; ")));
+  }
   row.why = fmt::format("{}", fmt::join(parts, " "));
   if (runs.empty()) return row;
   row.why +=

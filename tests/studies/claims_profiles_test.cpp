@@ -100,8 +100,6 @@ const std::vector<Falsehood>& falsehoods() {
       {"C21", shaped("shear_modulus", [](double) { return 9000.0; }), "exponent of G"},
       {"C22", scaled("spin", -1.0), "mean spin over"},
       {"C23", torqueGrowsOutward, "|M_zr|"},
-      {"C25", [](ThesisRun& run, const ThesisCase&) { run.run.stats->cpuSeconds *= 50.0; },
-       "1.5 days"},
       {"C26", [](ThesisRun& run, const ThesisCase&) { setHead(run, "max_overlap_over_d", 1e-3); },
        "largest overlap"},
       {"C27",
