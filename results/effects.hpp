@@ -50,7 +50,7 @@ struct EffectVariant {
   std::string effect;  ///< that is switched off; empty: everything is on
   Status status = Status::finished;
   std::string reason;
-  std::optional<double> step;                       ///< [s] of wall time
+  std::optional<double> step;                       ///< [s] of processor time
   std::optional<double> contacts;                   ///< evaluated per step
   std::optional<double> timeRatio, timeRatioError;  ///< of a step, over that with everything on
   std::optional<std::string> precision;             ///< that was used

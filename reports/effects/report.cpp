@@ -251,8 +251,8 @@ List effectsReading(const EffectsResults& results) {
         "the case's: a change within the margin in every ring shows that this scene does not "
         "need the effect for that field, as two engines would agree."},
        {"Time",
-        fmt::format("one run at a time on packing 0, in {} rounds that take turns, at least {} "
-                    "s each over the same steps; the shortest round counts, its error is that "
+        fmt::format("one run at a time, in {} rounds that take turns, a packing each, at least {} "
+                    "s each over the same steps; the mean of the rounds counts, its error is that "
                     "over rounds. What other programs had of the core meanwhile is not counted. "
                     "A run without an effect is in another state and may have more or fewer "
                     "contacts, which is part of the number: see the column of contacts.",

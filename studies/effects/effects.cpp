@@ -181,8 +181,10 @@ class EffectCampaign {
     timed.start = [&entry, &setup, scratch] {
       return startEngine(entry, scratch, setup.run.timeout);
     };
-    timed.load = [this, &entry, &setup](Engine& engine) {
-      const Scene scene = couetteScene(setup, campaign_.packings().front(), campaign_.dt());
+    timed.load = [this, &entry, &setup](Engine& engine, int round) {
+      const auto& packings = campaign_.packings();
+      const Packing& packing = packings[static_cast<std::size_t>(round) % packings.size()];
+      const Scene scene = couetteScene(setup, packing, campaign_.dt());
       return loadScene(engine, entry, setup, scene).dt;
     };
     return timed;
@@ -206,7 +208,7 @@ class EffectCampaign {
   }
 
   void addTimes(EffectVariant& variant, const StepTimes& times) const {
-    variant.step = shortestStep(times);
+    variant.step = meanStep(times);
     variant.contacts = times.contacts;
     if (!times.failure.empty()) {
       variant.status = Status::failed;

@@ -25,33 +25,32 @@ void unlessFailed(StepTimes& times, Work&& work) {
   }
 }
 
+/// Between two samples of the engine's times [s]: processor time, as other programs that have the
+/// core meanwhile add to the wall time; wall time of an engine that does not report it.
+double timeBetween(const Stats& before, const Stats& after) {
+  const double cpu = after.cpuSeconds - before.cpuSeconds;
+  return cpu > 0.0 ? cpu : after.wallSeconds - before.wallSeconds;
+}
+
 /// About how long a step takes [s]: of the last of stretches that double until one takes `target`,
 /// for the first steps may be slow.
 double roughStep(const TimedVariant& variant, double target) {
   constexpr std::uint64_t most = 1 << 20;
   const auto engine = variant.start();
-  const double dt = variant.load(*engine);
+  const double dt = variant.load(*engine, 0);
   std::uint64_t steps = 0, stretch = 16;
   for (;; stretch *= 2) {
     steps += stretch;
-    const double before = engine->stats().wallSeconds;
+    const Stats before = engine->stats();
     engine->advance(static_cast<double>(steps) * dt);
-    const double took = engine->stats().wallSeconds - before;
+    const double took = timeBetween(before, engine->stats());
     if (took >= target || stretch >= most) return took / static_cast<double>(stretch);
   }
 }
 
-/// Between two samples of the engine's times [s]. Other programs that have the core meanwhile add
-/// to the wall time of an engine on one thread, but not to its CPU time.
-double timeBetween(const Stats& before, const Stats& after) {
-  const double wall = after.wallSeconds - before.wallSeconds;
-  const double cpu = after.cpuSeconds - before.cpuSeconds;
-  return cpu > 0.0 ? std::min(wall, cpu) : wall;
-}
-
-void timeOnce(const TimedVariant& variant, std::uint64_t steps, StepTimes& times) {
+void timeOnce(const TimedVariant& variant, std::uint64_t steps, int round, StepTimes& times) {
   const auto engine = variant.start();
-  const double dt = variant.load(*engine);
+  const double dt = variant.load(*engine, round);
   const std::uint64_t warmUp = steps / 2;
   engine->advance(static_cast<double>(warmUp) * dt);
   const Stats before = engine->stats();
@@ -80,24 +79,31 @@ std::vector<StepTimes> timeSteps(const std::vector<TimedVariant>& variants, cons
   double done = 0.0;
   for (int round = 0; round < plan.rounds; ++round)
     for (std::size_t k = 0; k < variants.size(); ++k) {
-      unlessFailed(times[k], [&] { timeOnce(variants[k], steps, times[k]); });
+      unlessFailed(times[k], [&] { timeOnce(variants[k], steps, round, times[k]); });
       progress(++done / turns);
     }
   return times;
 }
 
-std::optional<double> shortestStep(const StepTimes& time) {
-  if (time.seconds.empty()) return std::nullopt;
-  return std::ranges::min(time.seconds);
+namespace {
+
+std::optional<EnsembleMean> overRounds(const std::vector<double>& rounds) {
+  return ensembleMean(std::vector<std::optional<double>>(rounds.begin(), rounds.end()));
+}
+
+}  // namespace
+
+std::optional<double> meanStep(const StepTimes& time) {
+  const auto mean = overRounds(time.seconds);
+  return mean ? std::optional(mean->mean) : std::nullopt;
 }
 
 std::optional<TimeRatio> timeRatio(const StepTimes& time, const StepTimes& whole) {
-  const auto one = shortestStep(time), other = shortestStep(whole);
-  if (!one || !other || *other == 0.0) return std::nullopt;
-  std::vector<std::optional<double>> ratios;
+  std::vector<double> ratios;
   for (std::size_t k = 0; k < std::min(time.seconds.size(), whole.seconds.size()); ++k)
-    ratios.push_back(time.seconds[k] / whole.seconds[k]);
-  return TimeRatio{*one / *other, ensembleMean(ratios)->standardError};
+    if (whole.seconds[k] > 0.0) ratios.push_back(time.seconds[k] / whole.seconds[k]);
+  const auto mean = overRounds(ratios);
+  return mean ? std::optional(TimeRatio{mean->mean, mean->standardError}) : std::nullopt;
 }
 
 }  // namespace crossgrain::inline studies

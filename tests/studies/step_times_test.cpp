@@ -57,7 +57,7 @@ TimedVariant variantOf(MadeUpClock& clock) {
   const std::shared_ptr<Engine> itself(&clock, [](Engine*) {});
   const auto nothing = [](auto&) {};
   return {[=] { return std::make_unique<test::PlantedEngine>(nothing, nothing, itself); },
-          [](Engine& engine) {
+          [](Engine& engine, int) {
             engine.load({}, {});
             return 1.0;  // dt
           }};
@@ -86,13 +86,15 @@ TEST(StepTimes, WarmUp_IsLeftOut) {
   EXPECT_FALSE(times[1].contacts);
 }
 
-TEST(StepTimes, BusyCore_CountsItsOwnShare) {
+TEST(StepTimes, ProcessorTime_CountsWhateverTheWallTimeIs) {
   WholeAndWithout variants(4e-4, 3e-4);
   variants.clocks[0].shareOfCore = 0.5;  // half as much CPU time as wall
   variants.clocks[1].shareOfCore = 1.9;  // two threads
   const auto times = variants.times({0.2, 2});
-  EXPECT_NEAR(*shortestStep(times[0]), 2e-4, 1e-12);
-  EXPECT_NEAR(*shortestStep(times[1]), 3e-4, 1e-12);
+  EXPECT_NEAR(*meanStep(times[0]), 2e-4, 1e-12);
+  EXPECT_NEAR(*meanStep(times[1]), 5.7e-4, 1e-12);
+  variants.clocks[0].shareOfCore = 0.0;  // it does not report it
+  EXPECT_NEAR(*meanStep(variants.times({0.2, 2})[0]), 4e-4, 1e-12);
 }
 
 TEST(StepTimes, EveryVariant_TakesAsManySteps) {
@@ -103,15 +105,28 @@ TEST(StepTimes, EveryVariant_TakesAsManySteps) {
   EXPECT_GE(fast.wallSeconds, 0.2);
 }
 
-TEST(StepTimes, NoisyRounds_TakeTheShortestAndTheSpread) {
+TEST(StepTimes, NoisyRounds_TakeTheMeanAndItsError) {
   WholeAndWithout variants(1e-4, 1e-4);
   // Load 0 is there for the estimate; each round is one more load.
   variants.clocks[1].noise = {3e-5, 0.0, 2e-5, 1e-5};
   const auto times = variants.times({0.2, 4});
   const auto ratio = timeRatio(times[1], times[0]);
-  EXPECT_NEAR(ratio->value, 1.0, 1e-9);
+  EXPECT_NEAR(ratio->value, 1.15, 1e-9);
   // Ratios 1.0, 1.1, 1.2, 1.3 in some order: sd = √(0.05/3), over √4.
   EXPECT_NEAR(*ratio->standardError, std::sqrt(0.05 / 3.0) / 2.0, 1e-9);
+}
+
+TEST(StepTimes, Rounds_AreEachLoadedFromTheirOwnPacking) {
+  WholeAndWithout variants(1e-4, 1e-4);
+  std::vector<int> rounds;
+  std::vector<TimedVariant> timed = {variantOf(variants.clocks[0]), variantOf(variants.clocks[1])};
+  for (TimedVariant& one : timed)
+    one.load = [&, load = one.load](Engine& engine, int round) {
+      rounds.push_back(round);
+      return load(engine, round);
+    };
+  timeSteps(timed, {0.01, 3}, [](double) {});
+  EXPECT_EQ(rounds, (std::vector<int>{0, 0, 0, 0, 1, 1, 2, 2}));  // the first two: estimates
 }
 
 TEST(StepTimes, VariantThatBreaksDown_LeavesTheOthers) {
