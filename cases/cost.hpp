@@ -41,7 +41,7 @@ struct Cost {
   std::vector<CostKind> kinds = {costKinds.begin(), costKinds.end()};
   std::vector<std::string> knobs = {costKnobs.begin(), costKnobs.end()};
   double timed = 0.02;  ///< shortest time that counts as measured [s]
-  int repeats = 3;      ///< of which the shortest counts
+  int repeats = 5;      ///< rounds in which settings take turns; their scatter is a time's interval
 
   /// Two small disks that meet as in `approach = "spin"`, Ψ_i = 0 … psiMax.
   std::vector<double> collisionSteps = {400, 200, 100, 50, 20, 10, 5, 2, 1.2};
@@ -56,6 +56,7 @@ struct Cost {
   std::vector<double> trajectorySteps = {400, 200, 100, 50, 20, 10, 5, 2};
   double trajectoryReference = 1600.0;  ///< steps per t_c of the references
   double windowMost = 40.0;             ///< its length [t_c]
+  int trajectoryPackings = 4;           ///< so many of the case's, from the first
 
   /// The case's packings and averaging.
   std::vector<double> averageSteps = {100, 50, 20, 10, 5, 2};

@@ -31,7 +31,8 @@ std::vector<Key<Cost>> costTable() {
       key("knobs", &Cost::knobs, Names(costKnobs.begin(), costKnobs.end()), "what is varied")
           .listed("all"),
       key("timed", &Cost::timed, positive("s"), "what is shorter is not called measured"),
-      key("repeats", &Cost::repeats, between(1, 1000), "the shortest of so many repeats counts"),
+      key("repeats", &Cost::repeats, between(2, 1000),
+          "rounds in which settings take turns; their scatter is the interval of a time"),
       key("collision_steps", &Cost::collisionSteps, steps, "steps of two small disks that collide"),
       key("speed", &Cost::speed, positive("m/s"), "their v_n"),
       key("psi_max", &Cost::psiMax, positive(), "their Ψ_i go from 0 to this"),
@@ -41,6 +42,8 @@ std::vector<Key<Cost>> costTable() {
       key("trajectory_steps", &Cost::trajectorySteps, steps, "steps of a packing's path"),
       key("trajectory_reference", &Cost::trajectoryReference, steps, "steps of its reference"),
       key("window_most", &Cost::windowMost, positive("t_c"), "longest window"),
+      key("trajectory_packings", &Cost::trajectoryPackings, between(2, 10'000),
+          "so many of the case's, from the first"),
       key("average_steps", &Cost::averageSteps, steps,
           "steps of averages over `[averaging] rotations` of all packings"),
       key("average_reference", &Cost::averageReference, steps,

@@ -43,9 +43,42 @@ inline constexpr support::EnumNames<Verdict, 4> costVerdictNames{
      {Verdict::fail, "not reached"},
      {Verdict::notMeasured, "not measured"}}};
 
+/// A time, and between which it lies [s].
+struct TimeInterval {
+  double value, low, high;
+  /// Whether it is not known which of both is shorter.
+  bool ties(const TimeInterval& other) const { return low <= other.high && other.low <= high; }
+};
+
+/// What a setting takes: of the advance alone, per unit that all points of one kind and measure
+/// share: a sweep of collisions, the trajectory's window, one rotation.
+struct CostTime {
+  std::optional<double> wallSeconds, cpuSeconds;  ///< geometric means over the rounds [s]
+  /// Ends of the 95 % interval of time(), from its rounds [s]; absent of a single one.
+  std::optional<double> timeLow, timeHigh;
+
+  /// By which settings are ranked: processor time, as wall time depends on what else runs; wall
+  /// time of an engine that does not report it [s].
+  std::optional<double> time() const {
+    return cpuSeconds.value_or(0.0) > 0.0 ? cpuSeconds : wallSeconds;
+  }
+  /// Infinite where there is no time.
+  TimeInterval timeInterval() const {
+    const double value = time().value_or(std::numeric_limits<double>::infinity());
+    return {value, timeLow.value_or(value), timeHigh.value_or(value)};
+  }
+};
+
+void timeFields(auto& io, CostTime& time) {
+  io("wall_s", time.wallSeconds);
+  io("cpu_s", time.cpuSeconds);
+  io("time_low_s", time.timeLow);
+  io("time_high_s", time.timeHigh);
+}
+
 /// What one setting of one engine costs and how wrong it is, in one kind of error and one measure:
 /// a point of a work–precision plot, a row of cost.csv.
-struct CostPoint {
+struct CostPoint : CostTime {
   std::string engine;
   std::string knob;      ///< one of costKnobs, an engine's setting, or "effect:NAME"
   std::string setting;   ///< readable, e.g. "t_c/50"
@@ -61,21 +94,20 @@ struct CostPoint {
   /// they cannot be separated [-].
   std::optional<double> statistical, systematic;
   std::optional<double> referenceError;  ///< what the reference itself is uncertain by [-]
-  /// Of averages: ends of the error's confidence interval, all rings and measures together [-].
+  /// Ends of the error's 95 % interval: of collisions over where in a step they begin, of
+  /// trajectories over packings, of averages over these, all rings and measures together [-].
   std::optional<double> intervalLow, intervalHigh;
+  std::optional<double> worst;  ///< of collisions: the largest error of a single one [-]
 
-  /// Of the advance alone, per unit that all points of one kind and measure share: a sweep of
-  /// collisions, the trajectory's window, one rotation [s].
-  std::optional<double> wallSeconds, cpuSeconds;
-  std::optional<std::uint64_t> steps, contactEvaluations;  ///< per the same unit
+  std::optional<std::uint64_t> steps, contactEvaluations;  ///< per the unit of the times
 
   Status status = Status::finished;
   std::string reason;  ///< unless it ran: one line
 
   bool ran() const { return status == Status::finished; }
   bool measured() const { return ran() && error; }
-  /// Averages over a single packing: their scatter is not known, so that they count nowhere.
-  bool saysNothing() const { return kind == CostKind::averages && !statistical; }
+  /// A single packing: the scatter over packings is not known, so that it counts nowhere.
+  bool saysNothing() const { return kind != CostKind::collision && !statistical; }
   /// Ends of the interval that the true error lies in, the lower at least 0. @pre measured()
   double low() const {
     return intervalLow && intervalHigh ? *intervalLow : std::max(0.0, *error - uncertainty());
@@ -116,8 +148,8 @@ void fields(auto& io, CostPoint& point) {
   io("reference_error", point.referenceError);
   io("low", point.intervalLow);
   io("high", point.intervalHigh);
-  io("wall_s", point.wallSeconds);
-  io("cpu_s", point.cpuSeconds);
+  io.present("worst", point.worst);
+  timeFields(io, point);
   io("steps", point.steps);
   io("contact_evaluations", point.contactEvaluations);
   io("status", point.status, costStatusNames);
@@ -181,7 +213,18 @@ void fields(auto& io, Startup& startup) {
   io("load_s", startup.load);
 }
 
-/// The points of one kind and measure that no other beats in both error and time.
+/// A setting whose time cannot be told from that of another one.
+struct TiedSetting {
+  std::string knob, setting;
+  bool operator==(const TiedSetting&) const = default;
+};
+
+void fields(auto& io, TiedSetting& tied) {
+  io("knob", tied.knob, aKnob);
+  io("setting", tied.setting);
+}
+
+/// The points of one kind and measure that no other is shown to beat in both error and time.
 struct Front {
   CostKind kind = CostKind::collision;
   std::string measure;
@@ -201,23 +244,26 @@ void fields(auto& io, Front& front) {
 /// The setting of an engine for a target: the cheapest that collisions show to reach it and that
 /// averages, whose scatter seldom decides, do not contradict. Where no collision was measured
 /// averages have to show it.
-struct Advice {
+struct Advice : CostTime {
   std::string engine;
   double target = 0.0;
   Verdict verdict = Verdict::notMeasured;
-  /// Reached: the cheapest; else the one whose largest upper end is smallest. Empty: none.
+  /// Reached: the cheapest, of ties the most accurate; else the one whose largest upper end is
+  /// smallest. Empty: none.
   std::string knob, setting, fragment;
-  std::vector<CostKind> kinds;  ///< in which it was measured
-  /// Of a sweep of collisions or of one rotation, whichever costKind() says [s].
-  std::optional<double> wallSeconds;
+  std::vector<CostKind> kinds;    ///< in which it was measured
+  std::vector<TiedSetting> ties;  ///< that reach it too, in a time that cannot be told from its own
   /// Simulated time that makes the statistical part as small as the target, in units of what was
   /// simulated: (statistical/target)², of the measure that takes longest.
   std::optional<double> length;
   /// The point that stands in the way, if it is not reached; if it is, an average that does not
   /// decide and has the largest upper end. `decides`: what would decide on it.
   std::optional<std::size_t> obstacle;
+  std::optional<std::size_t> model;  ///< as of CostCell
   std::string decides;
-  bool cheapest = false;  ///< of the engines that reach this target in the same kinds
+  /// Of the engines that reach this target in the same kinds: the cheapest, or one that ties with
+  /// it.
+  bool cheapest = false;
 
   /// Whose time counts: averages if they were measured.
   std::optional<CostKind> costKind() const {
@@ -233,12 +279,14 @@ void fields(auto& io, Advice& advice) {
   io("setting", advice.setting);
   io("fragment", advice.fragment);
   io("kinds", advice.kinds);
-  io("wall_s", advice.wallSeconds);
+  timeFields(io, advice);
+  io("ties", advice.ties);
   const auto kind = advice.costKind();
   std::string costKind = kind ? toString(*kind) : "";  // for readers of the file: it follows
   io("cost_kind", costKind);
   io("length", advice.length);
   io("obstacle", advice.obstacle);
+  io("model", advice.model);
   io("decides", advice.decides);
   io("cheapest", advice.cheapest);
 }
@@ -255,16 +303,17 @@ inline constexpr std::array costBases = {CostBasis::own, CostBasis::scene};
 
 /// Which setting of an engine reaches a target in one kind of error, in all its measures, for the
 /// least time. Nothing is interpolated. A setting meets the target if the upper ends of its errors
-/// do; it may, if only the lower ends do.
-struct CostCell {
+/// do; it may, if only the lower ends do. Against the case's law an error that is small because
+/// the step's makes up for the model's does not count (studies/cost/analysis.hpp).
+struct CostCell : CostTime {
   std::string engine;
   CostKind kind = CostKind::collision;
   CostBasis basis = CostBasis::own;
   double target = 0.0;
   Verdict verdict = Verdict::notMeasured;
-  std::string knob = {}, setting = {};     ///< as of Advice
-  std::optional<double> wallSeconds = {};  ///< of that setting [s]
-  std::optional<std::size_t> point = {};   ///< its measured figure: the measure that decides
+  std::string knob = {}, setting = {};  ///< as of Advice
+  std::vector<TiedSetting> ties = {};
+  std::optional<std::size_t> point = {};  ///< its measured figure: the measure that decides
   /// Not reached, of the case's law: place in CostResults::models of a model error that alone lies
   /// above the target.
   std::optional<std::size_t> model = {};
@@ -281,7 +330,8 @@ void fields(auto& io, CostCell& cell) {
   io("verdict", cell.verdict, costVerdictNames);
   io("knob", cell.knob, aKnob);
   io("setting", cell.setting);
-  io("wall_s", cell.wallSeconds);
+  timeFields(io, cell);
+  io("ties", cell.ties);
   io("point", cell.point);
   io("model", cell.model);
   io("decides", cell.decides);

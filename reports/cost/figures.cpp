@@ -51,8 +51,8 @@ Range errorRange(const Points& points) {
 /// part.
 std::optional<Point> markOf(const CostPoint& point) {
   const auto error = point.counted();
-  if (!error || *error > offScale || !point.wallSeconds) return std::nullopt;
-  Point mark{*point.wallSeconds, *error, {}};
+  if (!error || *error > offScale || !point.time()) return std::nullopt;
+  Point mark{*point.time(), *error, {}};
   if (point.statistical && !point.mayBeChance()) mark.error = point.statistical;
   return mark;
 }
@@ -62,7 +62,8 @@ void addCurve(Panel& panel, Curve curve) {
   if (!curve.points.empty()) panel.curves.push_back(std::move(curve));
 }
 
-/// Steps down from point to point: what the best setting reaches in a given time.
+/// Steps down from point to point: what the best setting reaches in a given time. Points that are
+/// on the front by a tie with one that errs less are left out.
 Curve frontCurve(const CostResults& results, const CostMeasure& measure) {
   Curve curve{frontName, {"#c9d3dc", 7, false}, Draw::lines, {}, 6.0};
   for (const Front& front : results.fronts) {
@@ -71,7 +72,7 @@ Curve frontCurve(const CostResults& results, const CostMeasure& measure) {
     for (const std::size_t place : front.points) {
       const auto mark =
           place < results.points.size() ? markOf(results.points[place]) : std::nullopt;
-      if (!mark) continue;
+      if (!mark || (!curve.points.empty() && mark->y >= curve.points.back().y)) continue;
       if (!curve.points.empty()) curve.points.push_back({mark->x, curve.points.back().y, {}});
       curve.points.push_back({mark->x, mark->y, {}});
     }
@@ -91,8 +92,8 @@ void addEngine(Panel& panel, const Points& points, const std::string& engine,
   for (const CostPoint& point : points) {
     if (point.engine != engine) continue;
     if ((point.status == Status::failed || point.counted().value_or(0.0) > offScale) &&
-        point.wallSeconds)
-      failures.points.push_back({*point.wallSeconds, panel.yRange->high / belowEdge, {}});
+        point.time())
+      failures.points.push_back({*point.time(), panel.yRange->high / belowEdge, {}});
     auto mark = markOf(point);
     if (!mark) continue;
     const auto scheme = schemeOf(point.knob, point.setting);
@@ -122,7 +123,7 @@ Panel panelOf(const CostResults& results, const CostMeasure& measure) {
   std::erase_if(points, [&](const CostPoint& point) { return !measure.has(point); });
   Panel panel;
   panel.title = mathGnuplot(measureText(measure.name));
-  panel.xLabel = fmt::format("wall time of {} [s]", timeUnit(measure.kind));
+  panel.xLabel = fmt::format("processor time of {} [s]", timeUnit(measure.kind));
   panel.yLabel = "error";
   panel.logX = panel.logY = true;
   panel.key = Key::none;
@@ -142,7 +143,7 @@ Panel panelOf(const CostResults& results, const CostMeasure& measure) {
 
 std::string captionOf(const Points& points, CostKind kind) {
   std::string caption = fmt::format(
-      "Error against the wall time of {}. Lines join the time steps of an engine, dashed with "
+      "Error against the processor time of {}. Lines join the time steps of an engine, dashed with "
       "another integrator; pale line: Pareto front; grey: uncertainty of the reference; bars: the "
       "statistical part; ▽ may be chance: drawn at its upper end; ×, at the upper edge: failed.",
       timeUnit(kind));

@@ -56,7 +56,8 @@ std::string errorText(const CostPoint& point) {
   if (!point.error) return absentText;
   if (point.saysNothing())
     return percentText(point.error) + ", of one packing: no statistical error";
-  return intervalText(*point.error, point.low(), point.high());
+  return intervalText(*point.error, point.low(), point.high()) +
+         (point.worst ? fmt::format(", worst {}", percentText(point.worst)) : "");
 }
 
 /// Falling, each once.
@@ -70,8 +71,34 @@ const CostPoint* pointAt(const CostResults& results, std::optional<std::size_t> 
   return place && *place < results.points.size() ? &results.points[*place] : nullptr;
 }
 
-const CostModel* modelOf(const CostResults& results, const CostCell& cell) {
-  return cell.model && *cell.model < results.models.size() ? &results.models[*cell.model] : nullptr;
+/// Of a cell, or of advice.
+const CostModel* modelOf(const CostResults& results, const auto& of) {
+  return of.model && *of.model < results.models.size() ? &results.models[*of.model] : nullptr;
+}
+
+/// "ψ_f: its limit of small steps is off by 25 % (24 % to 26 %)"
+std::string modelText(const CostModel& model) {
+  return fmt::format("{}: its limit of small steps is off by {}", measureText(model.measure),
+                     intervalText(model.error, model.low, model.high));
+}
+
+/// "a tie with t_c/200, skin = 0.001": settings of which it is not known whether they take less.
+std::string tieText(const std::vector<TiedSetting>& ties) {
+  std::vector<std::string> names;
+  for (const TiedSetting& one : ties) names.push_back(settingText(one.knob, one.setting));
+  return names.empty() ? "" : fmt::format("a tie with {}", fmt::join(names, ", "));
+}
+
+/// "the cheapest engine", or that it ties with others.
+std::string cheapestText(const CostResults& results, const Advice& advice) {
+  if (!advice.cheapest) return "";
+  std::vector<std::string> others;
+  for (const Advice& one : results.advice)
+    if (one.cheapest && one.target == advice.target && one.engine != advice.engine)
+      others.push_back(one.engine);
+  return others.empty()
+             ? "the cheapest engine"
+             : fmt::format("the cheapest engine, a tie with {}", fmt::join(others, ", "));
 }
 
 const CostCell* cellAt(const CostResults& results, const std::string& engine, CostKind kind,
@@ -126,15 +153,18 @@ std::string asToml(const Advice& one, const CostResults& results) {
             : one.verdict == Verdict::notMeasured ? " far enough; the best so far is "
                                                   : "; the best is ";
     text += speaksForItself(one.knob) ? one.setting : one.knob + " " + one.setting;
-    if (one.wallSeconds)
-      text +=
-          fmt::format(", {:.3g} s per {}", *one.wallSeconds,
-                      one.costKind() == CostKind::averages ? "rotation" : "sweep of collisions");
-    text += fmt::format(" (measured in {}){}", fmt::join(kinds, " and "),
-                        one.cheapest ? "; the cheapest engine" : "");
+    if (const auto time = one.time())
+      text += fmt::format(
+          ", {:.3g} s of {} per {}", *time, one.cpuSeconds ? "processor time" : "wall time",
+          one.costKind() == CostKind::averages ? "rotation" : "sweep of collisions");
+    text += fmt::format(" (measured in {})", fmt::join(kinds, " and "));
+    for (const std::string& more : {tieText(one.ties), cheapestText(results, one)})
+      if (!more.empty()) text += "; " + more;
   }
   text += "\n";
-  if (const CostPoint* point = pointAt(results, one.obstacle))
+  const CostModel* model = modelOf(results, one);
+  if (model) text += fmt::format("# {}, {}\n", toString(model->kind), modelText(*model));
+  if (const CostPoint* point = pointAt(results, one.obstacle); point && !model)
     text += fmt::format("# {}, {}: {:.2g} to {:.2g} of its scale{}\n", toString(point->kind),
                         point->measure, point->low(), point->high(),
                         reached ? ", which does not decide" : "");
@@ -144,28 +174,44 @@ std::string asToml(const Advice& one, const CostResults& results) {
   return text.ends_with('\n') ? text : text + "\n";
 }
 
+/// Whether a point errs no less than another one, in a time that cannot be told from its own.
+bool tiesWithABetter(const CostResults& results, std::size_t place, std::size_t other) {
+  const CostPoint* one = pointAt(results, place);
+  const CostPoint* better = pointAt(results, other);
+  return one && better && one->counted() && better->counted() &&
+         *better->counted() <= *one->counted() && better->timeInterval().ties(one->timeInterval());
+}
+
 }  // namespace
 
 std::string costCsv(const CostResults& results) {
   std::string table =
       "engine,setting,dt_s,error,error_kind,wall_s,cpu_s,steps,contact_evaluations,status,reason,"
       "knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front,low,high,"
-      "equivalent,bound\n";
-  std::vector<bool> onFront(results.points.size(), false);
+      "equivalent,bound,worst,time_low_s,time_high_s,tied\n";
+  std::vector<bool> onFront(results.points.size(), false), tied = onFront;
   for (const Front& front : results.fronts)
-    for (const std::size_t place : front.points)
-      if (front.engine.empty() && place < onFront.size()) onFront[place] = true;
+    for (const std::size_t place : front.points) {
+      if (!front.engine.empty() || place >= onFront.size()) continue;
+      onFront[place] = true;
+      tied[place] = std::ranges::any_of(front.points, [&](std::size_t other) {
+        return other != place && tiesWithABetter(results, place, other);
+      });
+    }
   for (std::size_t k = 0; k < results.points.size(); ++k) {
     const CostPoint& point = results.points[k];
-    table += row(point.engine, point.setting, point.dt, point.error, toString(point.kind),
-                 point.wallSeconds, point.cpuSeconds, point.steps, point.contactEvaluations,
-                 std::string(nameOf(point.status, costStatusNames)), point.reason, point.knob,
-                 point.measure, point.statistical, point.systematic, point.referenceError,
-                 point.stepsPerContact,
-                 !point.ran() ? ""
-                 : onFront[k] ? "yes"
-                              : "no",
-                 point.intervalLow, point.intervalHigh, "", "");
+    table += row(
+        point.engine, point.setting, point.dt, point.error, toString(point.kind), point.wallSeconds,
+        point.cpuSeconds, point.steps, point.contactEvaluations,
+        std::string(nameOf(point.status, costStatusNames)), point.reason, point.knob, point.measure,
+        point.statistical, point.systematic, point.referenceError, point.stepsPerContact,
+        !point.ran() ? ""
+        : onFront[k] ? "yes"
+                     : "no",
+        point.intervalLow, point.intervalHigh, "", "", point.worst, point.timeLow, point.timeHigh,
+        !onFront[k] ? ""
+        : tied[k]   ? "yes"
+                    : "no");
   }
   return table;
 }
@@ -188,9 +234,10 @@ OverviewCell overviewCell(const CostResults& results, const CostCell* cost) {
   if (!cost || cost->verdict == Verdict::notMeasured) return cell;
   cell.verdict = cost->verdict;
   if (cost->verdict == Verdict::pass) {
-    cell.value = cost->wallSeconds;
-    cell.shown = shortDuration(cost->wallSeconds);
+    cell.value = cost->time();
+    cell.shown = shortDuration(cost->time());
     cell.words = settingText(cost->knob, cost->setting);
+    if (!cost->ties.empty()) cell.words += ", " + tieText(cost->ties);
     return cell;
   }
   cell.unit = "%";
@@ -210,27 +257,36 @@ OverviewCell overviewCell(const CostResults& results, const CostCell* cost) {
   if (!own || own->verdict != Verdict::pass) return cell;
   cell.words += fmt::format("{}its own law: {}", cell.words.empty() ? "" : "; ",
                             settingText(own->knob, own->setting));
-  if (own->wallSeconds) cell.words += ", " + shortDuration(own->wallSeconds);
+  if (own->time()) cell.words += ", " + shortDuration(own->time());
   return cell;
 }
 
-/// In each kind of error the finest accuracy that anyone reaches, and who does for the least time.
+/// In each kind of error the finest accuracy that anyone reaches, and who does for the least time,
+/// with those that tie.
 std::string finestReached(const CostResults& results) {
   std::vector<std::string> parts;
   for (const CostKind kind : kindsIn(results.points)) {
     const CostCell* finest = nullptr;
-    const auto rank = [](const CostCell& cell) {
-      return std::pair(cell.target, *cell.wallSeconds);
+    const auto counts = [&](const CostCell& cell) {
+      return cell.kind == kind && cell.basis == CostBasis::scene && cell.time() &&
+             cell.verdict == Verdict::pass;
     };
+    const auto rank = [](const CostCell& cell) { return std::pair(cell.target, *cell.time()); };
     for (const CostCell& cell : results.cells)
-      if (cell.kind == kind && cell.basis == CostBasis::scene && cell.wallSeconds &&
-          cell.verdict == Verdict::pass && (!finest || rank(cell) < rank(*finest)))
-        finest = &cell;
-    parts.push_back(finest ? fmt::format("{} {} by {} with {} ({} for {})", kindText(kind),
-                                         targetText(finest->target), finest->engine,
-                                         settingText(finest->knob, finest->setting),
-                                         shortDuration(finest->wallSeconds), timeUnit(kind))
-                           : fmt::format("{} by no engine as far as measured", kindText(kind)));
+      if (counts(cell) && (!finest || rank(cell) < rank(*finest))) finest = &cell;
+    if (!finest) {
+      parts.push_back(fmt::format("{} by no engine as far as measured", kindText(kind)));
+      continue;
+    }
+    std::vector<std::string> ties;
+    for (const CostCell& cell : results.cells)
+      if (counts(cell) && cell.target == finest->target && cell.engine != finest->engine &&
+          cell.timeInterval().ties(finest->timeInterval()))
+        ties.push_back(cell.engine);
+    parts.push_back(fmt::format(
+        "{} {} by {} with {} ({} for {}{})", kindText(kind), targetText(finest->target),
+        finest->engine, settingText(finest->knob, finest->setting), shortDuration(finest->time()),
+        timeUnit(kind), ties.empty() ? "" : fmt::format("; a tie with {}", listed(ties))));
   }
   if (parts.empty()) return "Nothing was measured.";
   return fmt::format("Finest accuracy of the case's law that is reached, for the least time: {}.",
@@ -292,6 +348,13 @@ std::string decidesText(const std::string& decides) {
   return decides.empty() ? "" : "would decide: " + decides;
 }
 
+/// "1.2 ms (1.1 ms to 1.3 ms)"
+std::string timeText(const CostTime& time) {
+  if (!time.time() || !time.timeLow || !time.timeHigh) return readableDuration(time.time());
+  return fmt::format("{} ({} to {})", readableDuration(time.time()), readableDuration(time.timeLow),
+                     readableDuration(time.timeHigh));
+}
+
 /// Per kind of error, basis, engine and target: the setting that reaches it for the least time.
 Table accuracyTable(const CostResults& results) {
   Table table{{{"engine", Column::Kind::engines},
@@ -311,14 +374,12 @@ Table accuracyTable(const CostResults& results) {
         const CostPoint* point = pointAt(results, cell.point);
         std::string error;
         if (model)
-          error =
-              fmt::format("{}: its limit of small steps is off by {}", measureText(model->measure),
-                          intervalText(model->error, model->low, model->high));
+          error = modelText(*model);
         else if (point)
           error = fmt::format("{}: {}", measureText(withoutOwn(point->measure)), errorText(*point));
         table.rows.push_back(
-            {{cell.engine, targetText(cell.target), verdictCell(cell),
-              readableDuration(cell.wallSeconds), Cell(error, {decidesText(cell.decides)})},
+            {{cell.engine, targetText(cell.target), verdictCell(cell, tieText(cell.ties)),
+              timeText(cell), Cell(error, {decidesText(cell.decides)})},
              std::exchange(group, {})});
       }
     }
@@ -327,8 +388,10 @@ Table accuracyTable(const CostResults& results) {
       "error. Its own limit: the engine's small steps, or the oracle of the law that it declares; "
       "what is left is discretisation. The case's law: the model difference is included. Reached: "
       "the upper end of the interval is below. Not reached: every setting tried is shown to lie "
-      "above, or the engine's limit of small steps does and no setting comes nearer. Undecided: "
-      "the interval holds the accuracy. Only measured settings: nothing is interpolated.";
+      "above, or the engine's limit of small steps does. A setting whose step makes up for an "
+      "error of the model counts with both. Undecided: the interval holds the accuracy. Time: of "
+      "the processor, with its 95 % interval; settings whose intervals overlap are a tie. Only "
+      "measured settings: nothing is interpolated.";
   return table;
 }
 
@@ -344,15 +407,19 @@ Blocks adviceBlocks(const CostResults& results) {
   for (const Advice& one : results.advice) {
     const CostPoint* obstacle = pointAt(results, one.obstacle);
     std::string time = absentText;
-    if (one.wallSeconds && one.costKind())
-      time = fmt::format("{} for {}", readableDuration(one.wallSeconds), timeUnit(*one.costKind()));
-    Cell rest(obstacle ? fmt::format("{}, {}: {}", toString(obstacle->kind),
-                                     measureText(obstacle->measure), errorText(*obstacle))
-                       : "",
+    if (one.time() && one.costKind())
+      time = fmt::format("{} for {}", timeText(one), timeUnit(*one.costKind()));
+    const CostModel* model = modelOf(results, one);
+    std::string remark = tieText(one.ties);
+    if (const std::string cheapest = cheapestText(results, one); !cheapest.empty())
+      remark += (remark.empty() ? "" : "; ") + cheapest;
+    Cell rest(model      ? modelText(*model)
+              : obstacle ? fmt::format("{}, {}: {}", toString(obstacle->kind),
+                                       measureText(obstacle->measure), errorText(*obstacle))
+                         : "",
               {decidesText(one.decides)});
     table.rows.push_back(
-        {{one.engine, targetText(one.target),
-          verdictCell(one, one.cheapest ? "the cheapest engine" : ""), time, rest}});
+        {{one.engine, targetText(one.target), verdictCell(one, remark), time, rest}});
     if (one.verdict != Verdict::pass) continue;
     fragments.push_back(Heading{fmt::format("{} for {}: {}", one.engine, targetText(one.target),
                                             settingText(one.knob, one.setting))});
@@ -383,7 +450,7 @@ Table settingTable(const CostResults& results) {
     table.rows.push_back({{fmt::to_string(place - settings.begin() + 1), point.engine,
                            settingText(point.knob, point.setting),
                            toString(point.kind) + ", " + measureText(point.measure),
-                           readableDuration(point.wallSeconds), errorText(point)}});
+                           timeText(point), errorText(point)}});
   }
   table.note = "The number is that in the plots.";
   return table;
@@ -448,10 +515,13 @@ std::vector<std::string> costSentences(const CostResults& results) {
 }
 
 constexpr std::array whatErrorsAre = {
-    "Two disks collide, over a whole curve of Ψ_i; the error is the root mean square distance from "
-    "the oracle, in units of the range of its curve.",
-    "One packing over a time short against its chaos; the error is the root mean square distance "
-    "of the disks, in diameters, from a run at a much smaller step.",
+    "Two disks collide, or a disk and a wall disk, over a whole curve of Ψ_i, beginning anywhere "
+    "in "
+    "a step; the error is the root mean square distance from the oracle, in units of the range of "
+    "its curve, of the pair and of the step up to a tenth shorter for which it is largest. Worst: "
+    "of a single collision.",
+    "Packings over a time short against their chaos; the error is the root mean square distance of "
+    "the disks, in diameters, from a run at a much smaller step, mean over packings.",
     "Profiles and fitted numbers of a sheared cell, against a reference on the same packings: the "
     "mean paired difference, in units of the profile's largest value."};
 
@@ -480,7 +550,9 @@ Report reportOf(const CostResults& results) {
       {{"Three kinds of error",
         "never mixed: of a collision, of a trajectory, of averages. Times of one kind are of the "
         "same piece of work; those of different kinds cannot be compared."},
-       {"The Pareto front", "the points that no other beats in both time and error."},
+       {"The Pareto front",
+        "the points that no other is shown to beat in both processor time and error. Times whose "
+        "intervals overlap are a tie: both stay."},
        {"Intervals",
         "an error lies between itself less and plus its statistical error and the uncertainty of "
         "its reference. A setting is recommended only if the upper end meets the accuracy. A point "

@@ -22,9 +22,11 @@ std::string costText(const CostResults& results);
 std::string costToml(const CostResults& results);
 
 /// engine,setting,dt_s,error,error_kind,wall_s,cpu_s,steps,contact_evaluations,status,reason, then
-/// knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front,low,high,equivalent,bound
-/// One row per point, those that did not run too; on_front is of the front over all engines;
-/// equivalent and bound are empty, of earlier versions.
+/// knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front,low,high,equivalent,bound,
+/// worst,time_low_s,time_high_s,tied
+/// One row per point, those that did not run too; on_front is of the front over all engines; tied:
+/// it is there because its time cannot be told from that of a point which errs no more; equivalent
+/// and bound are empty, of earlier versions.
 std::string costCsv(const CostResults& results);
 
 /// cost_KIND: error against time for each kind of error.

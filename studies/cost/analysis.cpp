@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <iterator>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace crossgrain::inline studies {
 
@@ -14,30 +16,37 @@ void addCostAnalysis(CostResults& results) {
   if (results.target && std::ranges::find(targets, *results.target) == targets.end())
     targets.push_back(*results.target);
   results.fronts = paretoFronts(results.points);
-  results.advice = advice(results.points, targets);
+  results.advice = advice(results.points, results.models, targets);
   results.cells = costCells(results.points, results.models);
 }
 
-std::vector<std::size_t> paretoFront(const std::vector<CostPoint>& points) {
-  struct Place {
-    double time, error;
-    std::size_t point;
-    auto operator<=>(const Place&) const = default;
-  };
-  std::vector<Place> places;
-  for (std::size_t k = 0; k < points.size(); ++k)
-    if (const auto error = points[k].counted(); error && points[k].wallSeconds)
-      places.push_back({*points[k].wallSeconds, *error, k});
-  std::ranges::sort(places);
+namespace {
+
+/// Whether a point is shown to be better: at most as wrong and at most as slow, and less in one.
+bool beats(const CostPoint& one, const CostPoint& other) {
+  const double error = *one.counted(), thanError = *other.counted();
+  const TimeInterval time = one.timeInterval(), than = other.timeInterval();
+  return error <= thanError && time.high <= than.low && (error < thanError || time.high < than.low);
+}
+
+std::vector<std::size_t> frontAmong(const std::vector<CostPoint>& points,
+                                    std::vector<std::size_t> among) {
+  std::erase_if(among, [&](std::size_t k) { return !points[k].counted() || !points[k].time(); });
   std::vector<std::size_t> front;
-  Place best{0.0, std::numeric_limits<double>::infinity(), 0};
-  for (const Place& one : places) {
-    const bool equal = one.error == best.error && one.time == best.time;
-    if (one.error >= best.error && !equal) continue;
-    best = one;
-    front.push_back(one.point);
-  }
+  std::ranges::copy_if(among, std::back_inserter(front), [&](std::size_t k) {
+    return std::ranges::none_of(among, [&](std::size_t j) { return beats(points[j], points[k]); });
+  });
+  std::ranges::stable_sort(
+      front, {}, [&](std::size_t k) { return std::pair(*points[k].time(), *points[k].counted()); });
   return front;
+}
+
+}  // namespace
+
+std::vector<std::size_t> paretoFront(const std::vector<CostPoint>& points) {
+  std::vector<std::size_t> all(points.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return frontAmong(points, all);
 }
 
 namespace {
@@ -64,12 +73,12 @@ std::vector<Front> paretoFronts(const std::vector<CostPoint>& points) {
   for (const auto& [kind, measure] : measures)
     for (const std::string& engine : engines) {
       Front front{kind, measure, engine, {}, {}};
-      std::vector<CostPoint> own = points;  // those of others have no time: they keep their places
-      for (CostPoint& point : own)
-        if (point.kind != kind || point.measure != measure ||
-            (!engine.empty() && point.engine != engine))
-          point.wallSeconds.reset();
-      front.points = paretoFront(own);
+      std::vector<std::size_t> own;
+      for (std::size_t k = 0; k < points.size(); ++k)
+        if (points[k].kind == kind && points[k].measure == measure &&
+            (engine.empty() || points[k].engine == engine))
+          own.push_back(k);
+      front.points = frontAmong(points, own);
       for (const std::size_t place : front.points) front.errors.push_back(*points[place].counted());
       if (engine.empty() || !front.points.empty()) fronts.push_back(std::move(front));
     }
@@ -82,16 +91,68 @@ using Points = std::vector<CostPoint>;
 using Places = std::vector<std::size_t>;
 using Measure = std::pair<CostKind, std::string>;
 
-/// Pass: the point's whole interval meets the target; undecided: a part of it; fail: nothing.
-Verdict verdictOf(const CostPoint& point, double target) {
-  if (point.high() <= target) return Verdict::pass;
-  return point.low() <= target ? Verdict::undecided : Verdict::fail;
+CostBasis basisOf(const CostPoint& point) {
+  return isOwn(point.measure) ? CostBasis::own : CostBasis::scene;
+}
+
+/// Where a point's error lies as far as it counts.
+struct CountedEnds {
+  double low, high;
+  bool cancels = false;  ///< the step's error makes up for a part of the model's
+
+  /// Pass: the whole interval meets the target; undecided: a part of it; fail: nothing.
+  Verdict verdict(double target) const {
+    if (high <= target) return Verdict::pass;
+    return low <= target ? Verdict::undecided : Verdict::fail;
+  }
+};
+
+/// Whether a setting is of another law, whose model error is its own.
+bool changesLaw(const std::string& knob) {
+  return knob == "tangential" || knob == "tension" || knob.starts_with("effect:");
+}
+
+/// The same setting's error against the engine's own limit of small steps.
+const CostPoint* ownPoint(const Points& points, const CostPoint& point) {
+  const auto found = std::ranges::find_if(points, [&](const CostPoint& one) {
+    return one.engine == point.engine && one.kind == point.kind && one.knob == point.knob &&
+           one.setting == point.setting && one.measured() && isOwn(one.measure) &&
+           (one.kind == CostKind::trajectory || withoutOwn(one.measure) == point.measure);
+  });
+  return found == points.end() ? nullptr : &*found;
+}
+
+/// An error against the case's law is a sum e = e_step + e_model over the same collisions or disks,
+/// hence ‖e‖ <= ‖e_step‖ + ‖e_model‖, and it can be smaller than either part only where the two
+/// have opposite signs: by chance of that one step. So a point whose error is shown to be smaller
+/// than a part counts with the larger part as its lower end and the sum as its upper one. A tenth
+/// of a part is left to rounding and to different samples of both.
+CountedEnds endsOf(const Points& points, const std::vector<CostModel>& models,
+                   const CostPoint& point) {
+  CountedEnds ends{point.low(), point.high()};
+  if (isOwn(point.measure) || changesLaw(point.knob)) return ends;
+  double least = 0.0, most = 0.0;
+  const auto add = [&](double low, double high) {
+    least = std::max(least, low);
+    most += high;
+  };
+  if (const CostPoint* own = ownPoint(points, point)) add(own->low(), own->high());
+  for (const CostModel& model : models)
+    if (model.engine == point.engine && model.kind == point.kind && model.measure == point.measure)
+      add(model.low, model.high);
+  constexpr double noticeable = 0.9;
+  if (!(ends.high < noticeable * least)) return ends;
+  return {std::max(ends.low, least), std::max(ends.high, most), true};
 }
 
 /// What would show whether the error lies above or below the target. Repeats are taken to show the
 /// same error with a smaller uncertainty.
 std::string whatDecides(const CostPoint& point, double target) {
   if (point.saysNothing()) return "more packings: one shows no statistical error";
+  if (point.kind == CostKind::collision && !point.referenceError)
+    return "more collisions: a larger cost.psi_count";
+  if (point.kind == CostKind::trajectory && point.statistical.value_or(0.0) > 0.0)
+    return "more packings: a larger cost.trajectory_packings";
   const double distance = std::abs(target - *point.error);
   const double statistical = point.statistical.value_or(0.0);
   const double reference = point.referenceError.value_or(0.0);
@@ -128,12 +189,26 @@ std::optional<std::size_t> mayYetReach(const Points& points, Places notRun, cons
 
 /// What is asked of an engine's settings.
 struct Question {
-  std::function<bool(const CostPoint&)> belongs;  ///< which points decide
+  std::string engine;
+  std::vector<CostKind> kinds;
+  CostBasis basis;
   double target;
-  CostKind costKind;  ///< the kind whose time counts
   /// A kind that can only contradict: where its interval holds the target it does not stand in the
   /// way.
   std::optional<CostKind> onlyContradicts = {};
+
+  /// Whether a point decides.
+  bool asks(const CostPoint& point) const {
+    return point.engine == engine && std::ranges::find(kinds, point.kind) != kinds.end() &&
+           basisOf(point) == basis;
+  }
+  CostKind costKind() const { return kinds.back(); }  ///< whose time counts
+};
+
+/// Points, and how far engines' own limits are from the case's law.
+struct CostData {
+  const Points& points;
+  const std::vector<CostModel>& models;
 };
 
 /// A setting of an engine with its points in every measure that decides.
@@ -142,14 +217,12 @@ struct RatedSetting {
   Places points;
   Verdict verdict = Verdict::pass;
   std::size_t worst = 0;                 ///< the point with the largest upper end
+  double high = 0.0;                     ///< that end
   std::size_t obstacle = 0;              ///< with the largest lower end if that is above the
                                          ///< target, else the worst
   std::optional<std::size_t> open = {};  ///< the worst of the kind that can only contradict
-  double time = std::numeric_limits<double>::infinity();  ///< [s]
-
-  std::optional<double> seconds() const {
-    return std::isfinite(time) ? std::optional(time) : std::nullopt;
-  }
+  bool cancels = false;                  ///< CountedEnds::cancels of a point
+  CostTime time = {};
 };
 
 /// Every setting with its points.
@@ -175,21 +248,25 @@ bool isComplete(const RatedSetting& one, const Points& points,
   });
 }
 
-void judge(RatedSetting& rated, const Points& points, const Question& question) {
+void judge(RatedSetting& rated, const CostData& of, const Question& question) {
   rated.worst = rated.obstacle = rated.points.front();
+  rated.high = -1.0;
+  double largestLow = -1.0, openHigh = -1.0;
   for (const std::size_t k : rated.points) {
-    const CostPoint& point = points[k];
-    if (point.kind == question.costKind)
-      rated.time =
-          std::min(rated.time, point.wallSeconds.value_or(std::numeric_limits<double>::infinity()));
-    const Verdict verdict = verdictOf(point, question.target);
+    const CostPoint& point = of.points[k];
+    if (point.kind == question.costKind() &&
+        point.timeInterval().value < rated.time.timeInterval().value)
+      rated.time = point;
+    const CountedEnds ends = endsOf(of.points, of.models, point);
+    const Verdict verdict = ends.verdict(question.target);
     if (verdict == Verdict::undecided && point.kind == question.onlyContradicts) {
-      if (!rated.open || point.high() > points[*rated.open].high()) rated.open = k;
+      if (ends.high > openHigh) rated.open = k, openHigh = ends.high;
       continue;
     }
+    rated.cancels = rated.cancels || ends.cancels;
     rated.verdict = moreSevere(rated.verdict, verdict);
-    if (point.high() > points[rated.worst].high()) rated.worst = k;
-    if (point.low() > points[rated.obstacle].low()) rated.obstacle = k;
+    if (ends.high > rated.high) rated.worst = k, rated.high = ends.high;
+    if (ends.low > largestLow) rated.obstacle = k, largestLow = ends.low;
   }
   if (rated.verdict != Verdict::fail) rated.obstacle = rated.worst;
 }
@@ -198,20 +275,34 @@ void judge(RatedSetting& rated, const Points& points, const Question& question) 
 struct Settled {
   Verdict verdict = Verdict::notMeasured;
   /// Reached: the cheapest; else the one whose largest upper end is smallest. Absent where no
-  /// setting was measured in every measure.
+  /// setting was measured in every measure, or none reaches it and only settings were whose error
+  /// cancels.
   std::optional<RatedSetting> best = {};
-  /// As of Advice.
-  std::optional<std::size_t> obstacle = {};
+  std::vector<TiedSetting> ties = {};        ///< as of Advice
+  std::optional<std::size_t> obstacle = {};  ///< as of Advice
+  std::optional<std::size_t> figure = {};    ///< as of CostCell::point
+  std::optional<std::size_t> model = {};     ///< as of CostCell
   std::string decides = {};
 };
 
-Settled settle(const Points& points, const Question& question) {
+/// Better: a better verdict, then less time where it meets the target; elsewhere errors that do
+/// not cancel, then a smaller end.
+bool isBetter(const RatedSetting& a, const RatedSetting& b) {
+  if (a.verdict != b.verdict) return a.verdict < b.verdict;
+  const double time = a.time.timeInterval().value, than = b.time.timeInterval().value;
+  if (a.verdict == Verdict::pass && time != than) return time < than;
+  if (a.verdict != Verdict::pass && a.cancels != b.cancels) return b.cancels;
+  return a.high < b.high;
+}
+
+Settled settle(const CostData& of, const Question& question) {
   static const std::string everyMeasure = "a setting that was measured in every measure";
+  const Points& points = of.points;
   Places among, notRun;
   std::optional<std::string> refusal;  // of the case as it is, which comes first
   std::vector<Measure> measures;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    if (!question.belongs(points[k])) continue;
+    if (!question.asks(points[k])) continue;
     if (points[k].status == Status::notRun) notRun.push_back(k);
     if (!refusal) refusal = points[k].status == Status::refused ? points[k].reason : "";
     if (!points[k].measured()) continue;
@@ -220,7 +311,7 @@ Settled settle(const Points& points, const Question& question) {
   }
   Settled found;
   std::vector<RatedSetting> settings = ratedSettings(points, among);
-  for (RatedSetting& one : settings) judge(one, points, question);
+  for (RatedSetting& one : settings) judge(one, of, question);
   const auto rest = std::ranges::stable_partition(
       settings, [&](const RatedSetting& one) { return isComplete(one, points, measures); });
   // Some settings are not measured in every kind of error; others lack a measure of a kind.
@@ -241,15 +332,17 @@ Settled settle(const Points& points, const Question& question) {
       found.decides = refusal.value_or("");
     return found;
   }
-  // Better: a better verdict, then less time where it meets the target, a smaller end elsewhere.
-  found.best =
-      *std::ranges::min_element(settings, [&](const RatedSetting& a, const RatedSetting& b) {
-        if (a.verdict != b.verdict) return a.verdict < b.verdict;
-        if (a.verdict == Verdict::pass && a.time != b.time) return a.time < b.time;
-        return points[a.worst].high() < points[b.worst].high();
-      });
-  const RatedSetting& best = *found.best;
-  found.obstacle = best.verdict == Verdict::pass ? best.open : best.obstacle;
+  const RatedSetting best = *std::ranges::min_element(settings, isBetter);
+  const bool reached = best.verdict == Verdict::pass;
+  if (reached || !best.cancels) found.best = best;
+  if (reached)
+    for (const RatedSetting& one : settings)
+      if (one.verdict == Verdict::pass &&
+          TiedSetting(one.knob, one.setting) != TiedSetting(best.knob, best.setting) &&
+          one.time.timeInterval().ties(best.time.timeInterval()))
+        found.ties.push_back({one.knob, one.setting});
+  found.obstacle = reached ? best.open : best.obstacle;
+  found.figure = found.obstacle.value_or(best.worst);
   if (best.verdict != Verdict::fail) {
     found.verdict = best.verdict;
     if (found.obstacle) found.decides = whatDecides(points[*found.obstacle], question.target);
@@ -264,94 +357,112 @@ Settled settle(const Points& points, const Question& question) {
   return found;
 }
 
-Advice adviceFor(const Points& points, const std::string& engine, double target) {
+/// The largest of an engine's model errors that are shown to lie above the target: no time step
+/// lessens it, and one whose error cancels it does not count.
+std::optional<std::size_t> modelAbove(const CostData& of, const Question& question) {
+  std::optional<std::size_t> largest;
+  for (std::size_t k = 0; k < of.models.size(); ++k) {
+    const CostModel& one = of.models[k];
+    if (one.engine == question.engine && one.low > question.target &&
+        std::ranges::find(question.kinds, one.kind) != question.kinds.end() &&
+        (!largest || one.low > of.models[*largest].low))
+      largest = k;
+  }
+  return largest;
+}
+
+/// The one rule by which cells and advice stand. What a single kind of error is shown not to reach
+/// several do not, whatever else is left to be run.
+Settled decide(const CostData& of, const Question& question) {
+  Settled found = settle(of, question);
+  if (found.verdict == Verdict::pass || question.basis == CostBasis::own) return found;
+  if (question.kinds.size() > 1)
+    for (const CostKind kind : question.kinds) {
+      Settled single = decide(of, {question.engine, {kind}, question.basis, question.target});
+      if (single.verdict != Verdict::fail) continue;
+      if (found.verdict == Verdict::fail && !single.model) return found;
+      single.decides.clear();
+      return single;
+    }
+  const auto model = modelAbove(of, question);
+  // A setting of another law may come nearer than any time step of the engine's own.
+  const bool otherLaw = found.best && changesLaw(found.best->knob);
+  if (!model || (otherLaw && found.best->high < of.models[*model].low)) return found;
+  found.model = model;
+  found.verdict = Verdict::fail;
+  found.decides.clear();
+  return found;
+}
+
+Advice adviceFor(const CostData& of, const std::string& engine, double target) {
   Advice found;
   found.engine = engine;
   found.target = target;
   // Errors against the case's law that do not end with a window.
-  const auto belongs = [&](const CostPoint& point) {
-    return point.engine == engine && point.kind != CostKind::trajectory && !isOwn(point.measure);
-  };
-  for (const CostPoint& point : points)
-    if (belongs(point) && point.measured()) addOnce(found.kinds, point.kind);
+  for (const CostPoint& point : of.points)
+    if (point.engine == engine && point.kind != CostKind::trajectory && !isOwn(point.measure) &&
+        point.measured())
+      addOnce(found.kinds, point.kind);
   std::ranges::sort(found.kinds);
   if (found.kinds.empty()) return found;
-  Question question{belongs, target, *found.costKind()};
+  Question question{engine, found.kinds, CostBasis::scene, target};
   if (found.kinds.size() > 1) question.onlyContradicts = CostKind::averages;
-  const Settled settled = settle(points, question);
+  const Settled settled = decide(of, question);
   found.verdict = settled.verdict;
   found.decides = settled.decides;
   found.obstacle = settled.obstacle;
+  found.model = settled.model;
+  found.ties = settled.ties;
   if (!settled.best) return found;
   found.knob = settled.best->knob;
   found.setting = settled.best->setting;
-  found.fragment = points[settled.best->points.front()].fragment;
-  found.wallSeconds = settled.best->seconds();
+  found.fragment = of.points[settled.best->points.front()].fragment;
   for (const std::size_t k : settled.best->points)
-    if (const double statistical = points[k].statistical.value_or(0.0); statistical > 0.0)
+    if (const double statistical = of.points[k].statistical.value_or(0.0); statistical > 0.0)
       found.length = std::max(found.length.value_or(0.0), std::pow(statistical / target, 2));
+  static_cast<CostTime&>(found) = settled.best->time;
   return found;
 }
 
-/// Marks the cheapest of those that were measured in most kinds.
+/// Marks the cheapest of those that were measured in most kinds, and those that tie with it.
 void markCheapest(std::vector<Advice>& all, double target) {
-  Advice* best = nullptr;
-  for (Advice& one : all) {
-    if (one.target != target || one.verdict != Verdict::pass || !one.wallSeconds) continue;
+  const Advice* best = nullptr;
+  const auto counts = [&](const Advice& one) {
+    return one.target == target && one.verdict == Verdict::pass && one.time();
+  };
+  for (const Advice& one : all) {
+    if (!counts(one)) continue;
     if (!best || one.kinds.size() > best->kinds.size() ||
-        (one.kinds == best->kinds && *one.wallSeconds < *best->wallSeconds))
+        (one.kinds == best->kinds && *one.time() < *best->time()))
       best = &one;
   }
-  if (best) best->cheapest = true;
+  for (Advice& one : all)
+    one.cheapest = one.cheapest || (best && counts(one) && one.kinds == best->kinds &&
+                                    one.timeInterval().ties(best->timeInterval()));
 }
 
-CostBasis basisOf(const CostPoint& point) {
-  return isOwn(point.measure) ? CostBasis::own : CostBasis::scene;
-}
-
-/// The largest of an engine's model errors that are shown to lie above the target. Where a setting
-/// comes nearer to the case's law than the limit of small steps does, coarse steps make up for some
-/// of the model, and nothing follows for those that were not run.
-std::optional<std::size_t> modelAbove(const std::vector<CostModel>& models, const CostCell& cell) {
-  std::optional<std::size_t> largest;
-  for (std::size_t k = 0; k < models.size(); ++k)
-    if (models[k].engine == cell.engine && models[k].kind == cell.kind &&
-        models[k].low > cell.target && (!largest || models[k].low > models[*largest].low))
-      largest = k;
-  return largest;
-}
-
-CostCell cellOf(CostCell cell, const Points& points, const std::vector<CostModel>& models) {
-  const auto belongs = [&](const CostPoint& point) {
-    return point.engine == cell.engine && point.kind == cell.kind && basisOf(point) == cell.basis;
-  };
-  const Settled settled = settle(points, {belongs, cell.target, cell.kind});
+CostCell cellOf(CostCell cell, const CostData& of) {
+  const Settled settled = decide(of, {cell.engine, {cell.kind}, cell.basis, cell.target});
   cell.verdict = settled.verdict;
   cell.decides = settled.decides;
-  if (settled.best) {
-    cell.knob = settled.best->knob;
-    cell.setting = settled.best->setting;
-    cell.wallSeconds = settled.best->seconds();
-    cell.point = settled.obstacle.value_or(settled.best->worst);
-  }
-  if (cell.verdict == Verdict::pass || cell.basis == CostBasis::own) return cell;
-  cell.model = modelAbove(models, cell);
-  if (cell.model && settled.best && points[settled.best->worst].high() < models[*cell.model].low)
-    cell.model.reset();
-  if (cell.model) {
-    cell.verdict = Verdict::fail;
-    cell.decides.clear();
-  }
+  cell.ties = settled.ties;
+  cell.model = settled.model;
+  cell.point = settled.figure;
+  if (!settled.best) return cell;
+  cell.knob = settled.best->knob;
+  cell.setting = settled.best->setting;
+  static_cast<CostTime&>(cell) = settled.best->time;
   return cell;
 }
 
 }  // namespace
 
-std::vector<Advice> advice(const Points& points, const std::vector<double>& targets) {
+std::vector<Advice> advice(const Points& points, const std::vector<CostModel>& models,
+                           const std::vector<double>& targets) {
   std::vector<Advice> all;
   for (const double target : targets) {
     for (const std::string& engine : enginesIn(points))
-      all.push_back(adviceFor(points, engine, target));
+      all.push_back(adviceFor({points, models}, engine, target));
     markCheapest(all, target);
   }
   return all;
@@ -368,8 +479,7 @@ std::vector<CostCell> costCells(const Points& points, const std::vector<CostMode
         };
         if (std::ranges::none_of(points, has)) continue;
         for (const double target : targets)
-          cells.push_back(cellOf({.engine = engine, .kind = kind, .basis = basis, .target = target},
-                                 points, models));
+          cells.push_back(cellOf({{}, engine, kind, basis, target}, {points, models}));
       }
   return cells;
 }

@@ -12,8 +12,9 @@ namespace crossgrain::inline studies {
 /// results' own target.
 void addCostAnalysis(CostResults& results);
 
-/// The points that no other beats: none is at most as slow and at most as wrong, and less in one of
-/// both. By rising wall time; points that are equal in both stay together.
+/// The points that no other is shown to beat: none is at most as slow and at most as wrong, and
+/// less in one of both. Where intervals of times overlap neither point is shown to be faster. By
+/// rising time.
 /// @param points  of one kind and measure; those without time or error are on no front
 std::vector<std::size_t> paretoFront(const std::vector<CostPoint>& points);
 
@@ -21,13 +22,16 @@ std::vector<std::size_t> paretoFront(const std::vector<CostPoint>& points);
 std::vector<Front> paretoFronts(const std::vector<CostPoint>& points);
 
 /// For every target and engine, in that order; the engine that reaches a target in the least time
-/// is marked.
+/// is marked, and those that tie with it. By the rule of the cells: what a cell says is not reached
+/// no advice says is.
 std::vector<Advice> advice(const std::vector<CostPoint>& points,
+                           const std::vector<CostModel>& models,
                            const std::vector<double>& targets);
 
 /// For every engine, kind of error, basis and target (10 %, 1 % and 0.1 %), in that order, what was
 /// measured says of it. Not reached only where that was shown: of every setting, or, of the case's
 /// law, of the engine's own limit of small steps, which lies above the target whatever the step.
+/// A setting is never the best because its step's error cancels its model's.
 std::vector<CostCell> costCells(const std::vector<CostPoint>& points,
                                 const std::vector<CostModel>& models,
                                 const std::vector<double>& targets = {0.1, 0.01, 1e-3});

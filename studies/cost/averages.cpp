@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "adapters/audit.hpp"
 #include "averaging/agreement.hpp"
@@ -53,9 +52,8 @@ std::map<std::string, std::vector<std::optional<double>>> numbersOf(
 
 /// Averages one packing on one engine over the case's rotations, after settling.
 /// @throws EngineFailure (also of a packing that blew up), UnsupportedScene, BadInput, Interrupted
-AveragedPacking averagePacking(Engine& engine, const EngineEntry& entry, const Case& setup,
-                               const Packing& packing,
-                               const std::function<void(double)>& progress) {
+CostRun averagePacking(Engine& engine, const EngineEntry& entry, const Case& setup,
+                       const Packing& packing, const std::function<void(double)>& progress) {
   const Scene scene = couetteScene(setup, packing, timeStep(setup));
   const EffectiveParameters effective = loadScene(engine, entry, setup, scene);
   const ContactReport report =
@@ -111,26 +109,25 @@ AveragedPacking averagePacking(Engine& engine, const EngineEntry& entry, const C
 }
 
 /// A measure at a ring; absent where the run has none.
-std::optional<double> valueAt(const AveragedPacking& run, const std::string& measure,
-                              std::size_t ring) {
+std::optional<double> valueAt(const CostRun& run, const std::string& measure, std::size_t ring) {
   const auto found = run.numbers.find(measure);
   return found == run.numbers.end() || ring >= found->second.size() ? std::nullopt
                                                                     : found->second[ring];
 }
 
-std::size_t ringsIn(const AveragedPacking& run, const std::string& measure) {
+std::size_t ringsIn(const CostRun& run, const std::string& measure) {
   const auto found = run.numbers.find(measure);
   return found == run.numbers.end() ? 0 : found->second.size();
 }
 
 }  // namespace
 
-std::optional<PairedError> pairedError(const std::vector<AveragedPacking>& runs,
-                                       const std::vector<AveragedPacking>& reference,
+std::optional<PairedError> pairedError(const std::vector<CostRun>& runs,
+                                       const std::vector<CostRun>& reference,
                                        const std::string& measure, double alpha) {
   double differences = 0.0, variances = 0.0, scale = 0.0, low = 0.0, high = 0.0;
   std::size_t rings = 0, withError = 0, all = 0;
-  for (const AveragedPacking& run : reference) all = std::max(all, ringsIn(run, measure));
+  for (const CostRun& run : reference) all = std::max(all, ringsIn(run, measure));
   for (std::size_t ring = 0; ring < all; ++ring) {
     std::vector<std::optional<double>> paired, level;
     for (std::size_t k = 0; k < std::min(runs.size(), reference.size()); ++k) {
@@ -178,6 +175,8 @@ class AverageErrors final : public ErrorKind {
             "shear_band_width",   "wall_slip", "stress_level"};
   }
 
+  std::size_t rounds() const override { return packings().size(); }
+
   double predicted(std::size_t engine, const CostSetting& setting) const override {
     const TimedEngine& timed = study_.engines[engine];
     const Averaging& averaging = setting.setup.averaging;
@@ -198,24 +197,16 @@ class AverageErrors final : public ErrorKind {
 
   double ownTime(std::size_t) const override { return 0.0; }
 
-  /// Runs are kept packing by packing, so that more packings may follow.
-  bool keepsPoints() const override { return false; }
-  bool isKept(const PlannedPoint& point) const override {
-    const std::size_t last = packings().size() - 1;
-    return ErrorKind::isKept(point) ||
-           study_.campaign.store().find(nameOf(point, last), keyOf(point, last)).has_value();
-  }
-
   void makeReferences() override {
     const EngineEntry& entry = study_.inHouse;
     const Case setup = atSteps(study_.setup, entry.name, study_.inHouseEngine->capabilities(),
                                study_.setup.cost.averageReference);
-    std::vector<CachedTask<AveragedPacking>> tasks;
+    std::vector<CachedTask<CostRun>> tasks;
     for (std::size_t k = 0; k < packings().size(); ++k)
       tasks.push_back({referenceName(k), fmt::format("packing {}", k), referenceKey(k), 1.0,
                        [&, k](const std::function<void(double)>& progress) {
                          const auto engine = entry.make();
-                         return CachedTask<AveragedPacking>::Outcome{
+                         return CachedTask<CostRun>::Outcome{
                              averagePacking(*engine, entry, setup, packings()[k], progress), true,
                              "done"};
                        }});
@@ -223,25 +214,15 @@ class AverageErrors final : public ErrorKind {
                            "references of the averages", study_.jobs);
   }
 
-  std::vector<CostPoint> measure(const PlannedPoint& planned) override {
-    const CostSetting& setting = study_.settingOf(planned);
-    const EngineEntry& entry = study_.entryOf(planned.engine);
-    std::vector<AveragedPacking> runs;
-    for (std::size_t k = 0; k < packings().size(); ++k)
-      runs.push_back(keptOr(study_.campaign.store(), nameOf(planned, k), keyOf(planned, k), [&] {
-        return averagePacking(study_.workerOf(planned.engine), entry, setting.setup, packings()[k],
-                              [](double) {});
-      }));
-    CostPoint row = pointOf(entry.name, setting, kind(), runs.front().dt);
-    row.wallSeconds = row.cpuSeconds = std::numeric_limits<double>::infinity();
-    std::uint64_t steps = 0, contactEvaluations = 0;
-    for (const AveragedPacking& run : runs) {
-      row.wallSeconds = std::min(*row.wallSeconds, run.wallSeconds);
-      row.cpuSeconds = std::min(*row.cpuSeconds, run.cpuSeconds);
-      steps += run.steps / runs.size();
-      contactEvaluations += run.contactEvaluations / runs.size();
-    }
-    countWork(row, steps, contactEvaluations);
+  CostRun run(const PlannedPoint& planned, std::size_t round) override {
+    return averagePacking(study_.workerOf(planned.engine), study_.entryOf(planned.engine),
+                          study_.settingOf(planned).setup, packings()[round], [](double) {});
+  }
+
+  std::vector<CostPoint> points(const PlannedPoint& planned,
+                                const std::vector<CostRun>& runs) const override {
+    const CostPoint row =
+        timedPoint(study_.entryOf(planned.engine).name, study_.settingOf(planned), kind(), runs);
     const double alpha =
         (1.0 - study_.setup.averaging.confidence) / static_cast<double>(measures().size());
     std::vector<CostPoint> points;
@@ -276,12 +257,6 @@ class AverageErrors final : public ErrorKind {
     const Averaging& averaging = study_.setup.averaging;
     return (averaging.settleRotations + averaging.rotations) * rotationTime(study_.setup);
   }
-  std::string nameOf(const PlannedPoint& point, std::size_t packing) const {
-    return fmt::format("{}-p{}", study_.nameOf(point), packing);
-  }
-  CaseKeys keyOf(const PlannedPoint& point, std::size_t packing) const {
-    return study_.keyOf(point, static_cast<int>(packing));
-  }
   std::string referenceName(std::size_t packing) const {
     return fmt::format("reference-averages-p{}", packing);
   }
@@ -289,7 +264,7 @@ class AverageErrors final : public ErrorKind {
     return study_.inHouseKey(packing, "cost: reference averages");
   }
 
-  std::vector<AveragedPacking> reference_;  ///< by packing
+  std::vector<CostRun> reference_;  ///< by packing
 };
 
 }  // namespace

@@ -10,27 +10,6 @@
 
 namespace crossgrain::inline studies {
 
-/// What the averages of one packing on one engine came to; kept of every run.
-struct AveragedPacking {
-  double dt = 0.0;                                  ///< [s]
-  double wallSeconds = 0.0, cpuSeconds = 0.0;       ///< of a rotation [s]
-  std::uint64_t steps = 0, contactEvaluations = 0;  ///< of a rotation
-  /// By measure; absent where the run has no such number. One per ring of "azimuthal_velocity"
-  /// [ΩR_i], "stress_rr" [N/m²] and "volume_fraction"; a single one of "shear_band_width" [d],
-  /// "wall_slip" (1 − v_φ/(ΩR_i) at the wheel, of the fit) and "stress_level" (σ_rr over all rings
-  /// [N/m²]).
-  std::map<std::string, std::vector<std::optional<double>>> numbers = {};
-};
-
-void fields(auto& io, AveragedPacking& run) {
-  io("dt_s", run.dt);
-  io("wall_s", run.wallSeconds);
-  io("cpu_s", run.cpuSeconds);
-  io("steps", run.steps);
-  io("contact_evaluations", run.contactEvaluations);
-  io("numbers", run.numbers);
-}
-
 /// An error of averages with its parts, all relative to the measure's scale: the largest value of
 /// the reference's profile; of slip 1.
 struct PairedError {
@@ -45,12 +24,15 @@ struct PairedError {
 /// @param runs, reference  over packings, in the same order
 /// @param alpha  chance that the interval does not hold the true error, at most
 /// @returns absent where no packing has it in both
-std::optional<PairedError> pairedError(const std::vector<AveragedPacking>& runs,
-                                       const std::vector<AveragedPacking>& reference,
+std::optional<PairedError> pairedError(const std::vector<CostRun>& runs,
+                                       const std::vector<CostRun>& reference,
                                        const std::string& measure, double alpha);
 
 /// Averages of the sheared cell over all packings, packing by packing compared with those of the
-/// in-house engine at a smaller step.
+/// in-house engine at a smaller step. Numbers of a run: one per ring of "azimuthal_velocity"
+/// [ΩR_i], "stress_rr" [N/m²] and "volume_fraction"; a single one of "shear_band_width" [d],
+/// "wall_slip" (1 − v_φ/(ΩR_i) at the wheel, of the fit) and "stress_level" (σ_rr over all rings
+/// [N/m²]). Its time is that of a rotation.
 std::unique_ptr<ErrorKind> averageErrors(CostStudy& study);
 
 }  // namespace crossgrain::inline studies

@@ -4,35 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
-#include "adapters/declared_law.hpp"
+#include "averaging/agreement.hpp"
+#include "averaging/statistics.hpp"
 #include "cases/time_step.hpp"
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline studies {
-
-Case collisionOf(const Case& setup) {
-  Case pair = setup;
-  pair.kind = CaseKind::collision;
-  pair.bottom.reset();
-  Collision& collision = pair.collision;
-  const Cost& cost = setup.cost;
-  for (int k = 0; k < cost.psiCount; ++k)
-    collision.psi.push_back(cost.psiMax * k / (cost.psiCount - 1));
-  collision.vn = {cost.speed};
-  for (const int side : {0, 1}) {
-    collision.radius[side] = setup.particles.smallRadius;
-    collision.mass[side] = setup.particles.smallMass;
-  }
-  collision.inertiaFactor = setup.particles.inertiaFactor;
-  return pair;
-}
-
-CollisionReference collisionReference(const Case& setup) {
-  const Case pair = collisionOf(setup);
-  const auto starts = collisionStarts(pair);
-  return {starts, oracleCurve(pair, starts)};
-}
 
 namespace {
 
@@ -44,213 +23,283 @@ std::vector<std::optional<double>> numbersOf(const CollisionTable& table, Quanti
 }
 
 /// What errors of that quantity are in units of, as those of `collide` [its unit].
-double unitOf(const CollisionReference& reference, QuantityId quantity) {
+double unitOf(const PairCurve& pair, QuantityId quantity) {
   std::vector<double> known;
-  for (const auto& number :
-       numbersOf(tableOf(reference.starts, referenceOf(reference.oracle)), quantity))
+  for (const auto& number : numbersOf(tableOf(pair.starts, referenceOf(pair.oracle)), quantity))
     if (number) known.push_back(*number);
   return errorUnit(known).value;
 }
 
-/// The law that the engine declares for the collision; absent where its constants are not known.
-std::optional<ContactLaw> lawDeclared(Engine& engine, const EngineEntry& entry, const Case& pair,
-                                      double dt, const std::vector<CollisionStart>& starts) {
-  const Scene scene = collisionScene(pair, starts, dt);
-  const EffectiveParameters effective = loadScene(engine, entry, pair, scene);
-  const Capabilities can = engine.capabilities();
-  return declaredLaw(can, sceneFor(can, entry, pair, scene).scene, effective,
-                     collidingPair(pair).reducedMass());
-}
-
-CollisionNumbers endsOf(const CollisionTable& table) {
+/// @param of  by pair
+CollisionNumbers numbersOf(const CollisionReference& reference, const std::vector<Outcomes>& of) {
   CollisionNumbers numbers;
-  for (const QuantityId quantity : collisionMeasures)
-    numbers[std::string(collisionQuantity(quantity).name)] = numbersOf(table, quantity);
+  for (std::size_t p = 0; p < reference.pairs.size(); ++p) {
+    const CollisionTable table = tableOf(reference.pairs[p].starts, of[p]);
+    for (const QuantityId quantity : collisionMeasures)
+      std::ranges::copy(numbersOf(table, quantity),
+                        std::back_inserter(numbers[std::string(collisionQuantity(quantity).name)]));
+  }
   return numbers;
 }
 
-}  // namespace
-
-std::optional<double> rmsDifference(const std::vector<std::optional<double>>& numbers,
-                                    const std::vector<std::optional<double>>& from, double unit) {
-  double squares = 0.0;
-  int count = 0;
-  for (std::size_t k = 0; k < std::min(numbers.size(), from.size()); ++k) {
-    if (!from[k]) continue;
-    if (!numbers[k]) return std::nullopt;
-    squares += (*numbers[k] - *from[k]) * (*numbers[k] - *from[k]);
-    ++count;
-  }
-  return count > 0 ? std::optional(std::sqrt(squares / count) / unit) : std::nullopt;
+/// Of the case's law.
+CollisionNumbers sceneNumbers(const CollisionReference& reference) {
+  std::vector<Outcomes> of;
+  for (const PairCurve& pair : reference.pairs) of.push_back(referenceOf(pair.oracle));
+  return numbersOf(reference, of);
 }
 
-CollisionLimit collisionLimit(Engine& engine, const EngineEntry& entry, const Case& fine,
-                              const Case& coarse, const CollisionReference& reference) {
-  const Case pair = collisionOf(fine);
-  CollisionLimit limit;
-  CollisionNumbers half;
-  OracleCurve declared;
-  if (const auto law = lawDeclared(engine, entry, pair, timeStep(fine), reference.starts)) {
-    Case own = pair;
-    own.law = *law;
-    declared = oracleCurve(own, reference.starts);
+/// Of the pair for which it is largest, with the worst of all; absent where one lacks a number that
+/// the other has, or no pair has any.
+std::optional<CurveError> largestError(const CollisionReference& reference, QuantityId quantity,
+                                       const CollisionNumbers& numbers,
+                                       const CollisionNumbers& from) {
+  const std::string name(collisionQuantity(quantity).name);
+  std::optional<CurveError> largest;
+  std::size_t first = 0;
+  for (const PairCurve& pair : reference.pairs) {
+    const auto of = [&](const CollisionNumbers& all) {
+      const auto begin = all.at(name).begin() + static_cast<std::ptrdiff_t>(first);
+      return std::vector(begin, begin + static_cast<std::ptrdiff_t>(pair.starts.size()));
+    };
+    const auto own = of(numbers), other = of(from);
+    first += pair.starts.size();
+    if (std::ranges::none_of(other, [](const auto& number) { return bool(number); })) continue;
+    const auto error = curveError(own, other, unitOf(pair, quantity));
+    if (!error) return std::nullopt;
+    const double worst = std::max(error->worst, largest ? largest->worst : 0.0);
+    if (!largest || error->rms > largest->rms) largest = error;
+    largest->worst = worst;
   }
-  const bool known = std::ranges::any_of(declared.ends, [](const auto& end) { return bool(end); });
-  if (known) {
-    limit.setting = "oracle of the law that it declares";
-    limit.ends = half = endsOf(tableOf(reference.starts, referenceOf(declared)));
-  } else {
-    for (const auto& [setup, numbers] :
-         {std::pair(&coarse, &half), std::pair(&fine, &limit.ends)}) {
-      const CollisionCurve sweep = runSweep(engine, entry, collisionOf(*setup), timeStep(*setup),
-                                            reference.starts, reference.oracle, /*watch=*/false);
-      limit.setting = fmt::format("t_c/{:g}", std::round(costContactTime(*setup) / sweep.dt));
-      if (!sweep.complete())
-        return {limit.setting, {}, {}, {}, fmt::format("at {} {}", limit.setting, sweep.reason)};
-      *numbers = endsOf(sweep.points);
-    }
-  }
-  const CollisionNumbers scene = endsOf(tableOf(reference.starts, referenceOf(reference.oracle)));
-  for (const QuantityId quantity : collisionMeasures) {
-    const std::string name(collisionQuantity(quantity).name);
-    const double unit = unitOf(reference, quantity);
-    if (const auto error = rmsDifference(limit.ends[name], half[name], unit))
-      limit.error[name] = *error;
-    if (const auto model = rmsDifference(limit.ends[name], scene.at(name), unit))
-      limit.model[name] = *model;
-  }
-  return limit;
-}
-
-namespace {
-
-/// Sweeps whose pairs touch at different fractions of a step: the dashpot's jump at touch errs by
-/// how far it is from a step, so that one phase alone says little of a setting.
-constexpr int collisionPhases = 8;
-
-struct SweepTime {
-  double wall, cpu;
-};
-
-/// Of one sweep among `copies` that run side by side.
-SweepTime timeSweeps(Engine& engine, const EngineEntry& entry, const Case& pair, double dt,
-                     const std::vector<CollisionStart>& starts, int copies) {
-  std::vector<CollisionStart> many;
-  for (int k = 0; k < copies; ++k) many.insert(many.end(), starts.begin(), starts.end());
-  const EffectiveParameters effective =
-      loadScene(engine, entry, pair, collisionScene(pair, many, dt));
-  engine.advance(sweepEnd(pair, dt, effective.dt));
-  const Stats stats = engine.stats();
-  return {stats.wallSeconds / copies, stats.cpuSeconds / copies};
-}
-
-/// The shortest of some repeats, each long enough to be measured.
-SweepTime shortestSweep(Engine& engine, const EngineEntry& entry, const Case& pair, double dt,
-                        const std::vector<CollisionStart>& starts, double single) {
-  constexpr int mostCopies = 50;
-  const int copies =
-      std::clamp(static_cast<int>(std::ceil(pair.cost.timed / single)), 1, mostCopies);
-  SweepTime best{INFINITY, INFINITY};
-  for (int repeat = 0; repeat < pair.cost.repeats; ++repeat) {
-    throwIfInterrupted();
-    const SweepTime time = timeSweeps(engine, entry, pair, dt, starts, copies);
-    best.wall = std::min(best.wall, time.wall);
-    best.cpu = std::min(best.cpu, time.cpu);
-  }
-  return best;
+  return largest;
 }
 
 /// Why a sweep says nothing about the case, empty if it does.
-std::string failureOf(const CollisionCurve& sweep, const Case& pair, double dt) {
-  const double ofLimit = dt / pairLimit(pair);
+std::string failureOf(const CollisionReference& reference, const std::vector<Outcomes>& found,
+                      const Case& setting, double dt) {
+  const double ofLimit = dt / pairLimit(setting);
   const std::string limit =
       ofLimit > 1.0 ? fmt::format("{} (dt = {:.3g} · 2/ω): ", beyondLimit, ofLimit) : "";
-  if (!sweep.complete()) return limit + sweep.reason;
+  int missing = 0;
   double largest = 0.0;
-  for (std::size_t k = 0; k < sweep.points.size(); ++k)
-    if (const auto en = sweep.points.at(QuantityId::en, k))
-      largest = std::max(largest, std::abs(*en));
+  for (std::size_t p = 0; p < found.size(); ++p)
+    for (std::size_t k = 0; k < found[p].size(); ++k) {
+      const auto& expected = reference.pairs[p].oracle.ends[k];
+      missing += !found[p][k] && !(expected && !expected->parted);
+      if (found[p][k]) largest = std::max(largest, std::abs(found[p][k]->end.en));
+    }
+  if (missing > 0) return fmt::format("{}{} pairs did not part", limit, missing);
   if (largest > 1.0)
     return fmt::format("{}pairs part {:.3g} times as fast as they met",
                        limit.empty() ? fmt::format("{}: ", beyondLimit) : limit, largest);
   return {};
 }
 
-/// √(mean of squares) of what `errorOf` says of each sweep; absent where it says nothing of one.
-template <class ErrorOf>
-std::optional<double> rmsOver(const std::vector<CollisionCurve>& sweeps, ErrorOf errorOf) {
-  double squares = 0.0;
-  for (const CollisionCurve& sweep : sweeps) {
-    const std::optional<double> error = errorOf(sweep);
-    if (!error) return std::nullopt;
-    squares += *error * *error;
-  }
-  return std::sqrt(squares / static_cast<double>(sweeps.size()));
-}
-
-/// Against the engine's own limit, beside the point against the case's law.
-CostPoint ownPoint(CostPoint point, const std::vector<CollisionCurve>& sweeps, QuantityId measure,
-                   const CollisionReference& reference, const CollisionLimit& own) {
-  const std::string name = point.measure;
-  point.measure = ownOf(name);
-  point.error.reset();
-  if (!point.ran()) return point;
-  const auto ends = own.ends.find(name);
-  if (ends == own.ends.end()) {
-    point.status = Status::refused;
-    point.reason = fmt::format("its own limit of small steps was not found: {}", own.reason);
-    return point;
-  }
-  const double unit = unitOf(reference, measure);
-  point.error = rmsOver(sweeps, [&](const CollisionCurve& sweep) {
-    return rmsDifference(numbersOf(sweep.points, measure), ends->second, unit);
-  });
-  if (const auto error = own.error.find(name); error != own.error.end() && error->second > 0.0)
-    point.referenceError = error->second;
-  return point;
+/// The case with a step, of an engine that has its own and of all others [s].
+Case inSteps(Case setup, const EngineEntry& entry, const Capabilities& can, double step) {
+  if (stepOfItsOwn(setup, entry.name, can))
+    setup.engines[entry.name]["dt"] = step;
+  else
+    setup.run.dt = step;
+  return setup;
 }
 
 }  // namespace
 
-std::vector<CostPoint> measureCollision(Engine& engine, const EngineEntry& entry,
-                                        const CostSetting& setting,
-                                        const CollisionReference& reference,
-                                        const CollisionLimit& own) {
-  Case pair = collisionOf(setting.setup);
-  const double dt = timeStep(setting.setup);
-  std::vector<CollisionCurve> sweeps;
-  for (int k = 0; k < collisionPhases; ++k) {
-    pair.collision.startPhase = (k + 0.5) / collisionPhases;
-    sweeps.push_back(
-        runSweep(engine, entry, pair, dt, reference.starts, reference.oracle, /*watch=*/false));
+std::optional<CurveError> curveError(const std::vector<std::optional<double>>& numbers,
+                                     const std::vector<std::optional<double>>& from, double unit) {
+  std::vector<std::optional<double>> squares;
+  double largest = 0.0;
+  for (std::size_t k = 0; k < std::min(numbers.size(), from.size()); ++k) {
+    if (!from[k]) continue;
+    if (!numbers[k]) return std::nullopt;
+    const double error = (*numbers[k] - *from[k]) / unit;
+    squares.emplace_back(error * error);
+    largest = std::max(largest, std::abs(error));
   }
-  const CollisionCurve& first = sweeps.front();
-  CostPoint point = pointOf(entry.name, setting, CostKind::collision, first.dt);
-  countWork(point, first.stats->steps, first.stats->contactEvaluations);
-  for (const CollisionCurve& each : sweeps)
-    if (point.reason.empty()) point.reason = failureOf(each, pair, first.dt);
-  if (!point.reason.empty()) point.status = Status::failed;
-  const SweepTime time = shortestSweep(engine, entry, pair, dt, reference.starts,
-                                       std::max(first.stats->wallSeconds, 1e-6));
-  point.wallSeconds = time.wall;
-  point.cpuSeconds = time.cpu;
+  const auto mean = ensembleMean(squares);
+  if (!mean) return std::nullopt;
+  constexpr double confidence = 0.95;
+  const double half = mean->standardError
+                          ? *mean->standardError * studentQuantile(confidence, mean->packings - 1)
+                          : 0.0;
+  return CurveError{std::sqrt(mean->mean), std::sqrt(std::max(0.0, mean->mean - half)),
+                    std::sqrt(mean->mean + half), largest};
+}
 
+CollisionLimit collisionLimit(Engine& engine, const EngineEntry& entry, const Case& fine,
+                              const Case& coarse, const CollisionReference& reference) {
+  CollisionLimit limit;
+  CollisionNumbers half;
+  std::vector<Outcomes> declared;
+  const std::vector<Case> collisions = collisionsOf(fine);
+  for (std::size_t p = 0; p < collisions.size(); ++p) {
+    const auto& starts = reference.pairs[p].starts;
+    const auto law = lawDeclared(engine, entry, collisions[p], starts);
+    if (!law) break;
+    Case own = collisions[p];
+    own.law = *law;
+    const OracleCurve oracle = oracleCurve(own, starts);
+    if (std::ranges::none_of(oracle.ends, [](const auto& end) { return bool(end); })) break;
+    declared.push_back(referenceOf(oracle));
+  }
+  if (declared.size() == collisions.size()) {
+    limit.setting = "oracle of the law that it declares";
+    limit.ends = half = numbersOf(reference, declared);
+  } else {
+    const Capabilities can = engine.capabilities();
+    for (const auto& [setup, numbers] :
+         {std::pair(&coarse, &half), std::pair(&fine, &limit.ends)}) {
+      const double step = engineStep(*setup, entry.name, can);
+      const PairOutcomes found = runPairs(engine, entry, collisionsOf(*setup), reference, step, 0);
+      limit.setting = fmt::format("t_c/{:g}", std::round(costContactTime(*setup) / found.dt));
+      if (const std::string why = failureOf(reference, found.of, *setup, found.dt); !why.empty())
+        return {limit.setting, {}, {}, {}, fmt::format("at {} {}", limit.setting, why)};
+      *numbers = numbersOf(reference, found.of);
+    }
+  }
+  const CollisionNumbers scene = sceneNumbers(reference);
+  for (const QuantityId quantity : collisionMeasures) {
+    const std::string name(collisionQuantity(quantity).name);
+    if (const auto error = largestError(reference, quantity, limit.ends, half))
+      limit.error[name] = error->rms;
+    if (const auto model = largestError(reference, quantity, limit.ends, scene))
+      limit.model[name] = model->rms;
+  }
+  return limit;
+}
+
+namespace {
+
+/// Of one sweep of the first pair among `copies` that run side by side.
+CostRun timeSweeps(Engine& engine, const EngineEntry& entry, const Case& pair,
+                   const std::vector<CollisionStart>& starts, int copies) {
+  const double dt = timeStep(pair);
+  std::vector<CollisionStart> many;
+  for (int k = 0; k < copies; ++k) many.insert(many.end(), starts.begin(), starts.end());
+  const EffectiveParameters effective =
+      loadScene(engine, entry, pair, collisionScene(pair, many, dt));
+  engine.advance(sweepEnd(pair, dt, effective.dt));
+  const Stats stats = engine.stats();
+  return {effective.dt, stats.wallSeconds / copies, stats.cpuSeconds / copies, stats.steps,
+          stats.contactEvaluations / static_cast<std::uint64_t>(copies)};
+}
+
+/// Long enough to be measured.
+CostRun timedSweep(Engine& engine, const EngineEntry& entry, const Case& pair,
+                   const std::vector<CollisionStart>& starts) {
+  constexpr double mostCopies = 50.0;
+  throwIfInterrupted();
+  const CostRun single = timeSweeps(engine, entry, pair, starts, 1);
+  const double took =
+      std::max(single.cpuSeconds > 0.0 ? single.cpuSeconds : single.wallSeconds, 1e-6);
+  const int copies = static_cast<int>(std::min(std::ceil(pair.cost.timed / took), mostCopies));
+  return copies <= 1 ? single : timeSweeps(engine, entry, pair, starts, copies);
+}
+
+/// Keeps the largest rms over the steps of a cycle, and the worst of all.
+void raise(std::vector<std::optional<double>>& kept, const std::optional<CurveError>& error) {
+  if (!error) {
+    kept.assign(4, std::nullopt);
+    return;
+  }
+  const double worst = kept.empty() ? error->worst : std::max(*kept[3], error->worst);
+  if (kept.empty() || error->rms > *kept[0]) kept = {error->rms, error->low, error->high, {}};
+  kept[3] = worst;
+}
+
+/// Against the case's law and against the engine's own limit. @returns why there are none
+std::string addErrors(CostRun& run, Engine& engine, const EngineEntry& entry,
+                      const CostSetting& setting, const CollisionReference& reference,
+                      const CollisionLimit& own) {
+  const Capabilities can = engine.capabilities();
+  const double step = engineStep(setting.setup, entry.name, can);
+  const CollisionNumbers scene = sceneNumbers(reference);
+  std::size_t collisions = 0;
+  for (const PairCurve& pair : reference.pairs) collisions += pair.starts.size();
+  for (int j = 0; j < cycleSteps; ++j) {
+    throwIfInterrupted();
+    const double shorter = cycleStep(step, costContactTime(setting.setup), j);
+    const PairOutcomes found =
+        runPairs(engine, entry, collisionsOf(inSteps(setting.setup, entry, can, shorter)),
+                 reference, shorter, static_cast<std::size_t>(j) * collisions);
+    if (std::string why = failureOf(reference, found.of, setting.setup, step); !why.empty())
+      return why;
+    const CollisionNumbers numbers = numbersOf(reference, found.of);
+    for (const QuantityId quantity : collisionMeasures) {
+      const std::string name(collisionQuantity(quantity).name);
+      const auto add = [&](const std::string& measure, const CollisionNumbers& from) {
+        auto& kept = run.numbers[measure];
+        if (kept.empty() || kept[0]) raise(kept, largestError(reference, quantity, numbers, from));
+      };
+      add(name, scene);
+      if (!own.ends.empty()) add(ownOf(name), own.ends);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+CostRun runCollisions(Engine& engine, const EngineEntry& entry, const CostSetting& setting,
+                      const CollisionReference& reference, const CollisionLimit& own,
+                      std::size_t round) {
+  CostRun errors;
+  std::string why;
+  if (round == 0) why = addErrors(errors, engine, entry, setting, reference, own);
+  CostRun run = timedSweep(engine, entry, collisionsOf(setting.setup).front(),
+                           reference.pairs.front().starts);
+  run.numbers = std::move(errors.numbers);
+  if (why.empty()) return run;
+  run.status = Status::failed;
+  run.reason = why;
+  return run;
+}
+
+std::vector<CostPoint> collisionPoints(const EngineEntry& entry, const CostSetting& setting,
+                                       const CollisionLimit& own,
+                                       const std::vector<CostRun>& runs) {
+  const CostPoint timed = timedPoint(entry.name, setting, CostKind::collision, runs);
   std::vector<CostPoint> points;
+  const auto add = [&](const std::string& measure) -> CostPoint& {
+    CostPoint& point = points.emplace_back(timed);
+    point.measure = measure;
+    const auto found = runs.front().numbers.find(measure);
+    if (found == runs.front().numbers.end() || !found->second.at(0)) return point;
+    point.error = found->second[0];
+    point.intervalLow = found->second.at(1);
+    point.intervalHigh = found->second.at(2);
+    point.worst = found->second.at(3);
+    return point;
+  };
   for (const QuantityId measure : collisionMeasures) {
-    point.measure = collisionQuantity(measure).name;
-    point.error.reset();
-    if (point.ran())
-      point.error = rmsOver(sweeps, [&](const CollisionCurve& sweep) {
-        const auto& score = sweep.score.of[measure];
-        return score ? std::optional(score->rms) : std::nullopt;
-      });
-    points.push_back(point);
-    points.push_back(ownPoint(point, sweeps, measure, reference, own));
+    const std::string name(collisionQuantity(measure).name);
+    add(name);
+    CostPoint& point = add(ownOf(name));
+    if (own.ends.empty()) {
+      point.status = Status::refused;
+      point.reason = fmt::format("its own limit of small steps was not found: {}", own.reason);
+      continue;
+    }
+    const auto error = own.error.find(name);
+    if (!point.error || error == own.error.end() || !(error->second > 0.0)) continue;
+    point.referenceError = error->second;
+    point.intervalLow = std::max(0.0, *point.intervalLow - error->second);
+    point.intervalHigh = *point.intervalHigh + error->second;
   }
   return points;
 }
 
 namespace {
+
+std::string noteOf(const CollisionReference& reference) {
+  std::string names;
+  for (const PairCurve& pair : reference.pairs) {
+    if (!pair.oracle.reason.empty()) return pair.oracle.reason;
+    names += (names.empty() ? "" : ", ") + pair.collision.name;
+  }
+  return "planar two-body problem in continuous time, to 1e-9: " + names;
+}
 
 class CollisionErrors final : public ErrorKind {
  public:
@@ -267,14 +316,22 @@ class CollisionErrors final : public ErrorKind {
     return names;
   }
 
+  std::size_t rounds() const override {
+    return static_cast<std::size_t>(study_.setup.cost.repeats);
+  }
+
   double predicted(std::size_t engine, const CostSetting& setting) const override {
     const TimedEngine& timed = study_.engines[engine];
     const Cost& cost = study_.setup.cost;
     const double dt = study_.stepOf(engine, setting.setup);
-    // 2.5 t_c and some steps, of fewer disks than the packing has: an upper bound.
-    const double once = (2.5 * costContactTime(setting.setup) / dt + 21.0) * timed.step;
-    return collisionPhases * once + cost.repeats * std::max(1.3 * cost.timed, once) +
-           (collisionPhases + cost.repeats) * timed.load;
+    double longest = 0.0;
+    for (const Case& pair : collisionsOf(setting.setup))
+      longest = std::max(longest, impactTimes(pair).longest);
+    // 2.5 contacts and some steps, of fewer disks than the packing has: an upper bound.
+    const auto lasts = [&](double contact) { return (2.5 * contact / dt + 21.0) * timed.step; };
+    const double once = lasts(costContactTime(setting.setup));
+    return cycleSteps * lasts(longest) + cost.repeats * (once + 1.3 * cost.timed) +
+           (cycleSteps + 2 * cost.repeats) * timed.load;
   }
 
   double ownTime(std::size_t engine) const override {
@@ -284,7 +341,7 @@ class CollisionErrors final : public ErrorKind {
 
   void makeReferences() override { reference_ = collisionReference(study_.setup); }
 
-  std::vector<CostPoint> measure(const PlannedPoint& point) override {
+  CostRun run(const PlannedPoint& point, std::size_t round) override {
     const EngineEntry& entry = study_.entryOf(point.engine);
     const auto at = [&](double steps) {
       return atSteps(study_.setup, entry.name, study_.canOf(point.engine), steps);
@@ -295,18 +352,23 @@ class CollisionErrors final : public ErrorKind {
       return collisionLimit(study_.workerOf(point.engine), entry, at(steps), at(steps / 2.0),
                             reference_);
     });
-    return measureCollision(study_.workerOf(point.engine), entry, study_.settingOf(point),
-                            reference_, limit);
+    return runCollisions(study_.workerOf(point.engine), entry, study_.settingOf(point), reference_,
+                         limit, round);
+  }
+
+  std::vector<CostPoint> points(const PlannedPoint& point,
+                                const std::vector<CostRun>& runs) const override {
+    const auto [name, key] = limitOf(point.engine);
+    const auto limit = study_.campaign.store().findAs<CollisionLimit>(name, key);
+    return collisionPoints(study_.entryOf(point.engine), study_.settingOf(point),
+                           limit.value_or(CollisionLimit{}), runs);
   }
 
   void addTo(CostResults& results) const override {
-    results.references.push_back(
-        {.kind = kind(),
-         .engine = "oracle",
-         .setting = "the case's law",
-         .note = reference_.oracle.reason.empty()
-                     ? "planar two-body problem in continuous time, to 1e-9"
-                     : reference_.oracle.reason});
+    results.references.push_back({.kind = kind(),
+                                  .engine = "oracle",
+                                  .setting = "the case's law",
+                                  .note = noteOf(reference_)});
     for (std::size_t e = 0; e < study_.engines.size(); ++e) {
       if (!study_.engines[e].takesPart) continue;
       const auto [file, key] = limitOf(e);

@@ -6,28 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "studies/collide/sweep.hpp"
+#include "studies/cost/collision_pairs.hpp"
 #include "studies/cost/study.hpp"
 
 namespace crossgrain::inline studies {
 
-/// The collision that stands for a Couette case: two of its small disks and its law, head on with
-/// spins, Ψ_i = 0 … psi_max at one speed. Its step is the case's.
-Case collisionOf(const Case& setup);
-
-/// What all collisions of one case are compared with: the case's own law, whatever a setting makes
-/// of it, so that an error says how far off the case a setting is.
-struct CollisionReference {
-  std::vector<CollisionStart> starts;
-  OracleCurve oracle;
-};
-
-CollisionReference collisionReference(const Case& setup);
-
 /// What is measured of collisions against the case's law; against the engine's own limit, ownOf().
 inline constexpr QuantityId collisionMeasures[] = {QuantityId::psiF, QuantityId::en};
 
-/// A collision's numbers over the starts, by the names of their quantities [their unit].
+/// Collisions' numbers, over pairs and their starts one after the other, by the names of their
+/// quantities [their unit].
 using CollisionNumbers = std::map<std::string, std::vector<std::optional<double>>>;
 
 /// Where an engine's collisions go to with small steps: its law may be another than the case's.
@@ -35,7 +23,7 @@ struct CollisionLimit {
   std::string setting;    ///< what it was found by: an oracle, or so small a step
   CollisionNumbers ends;  ///< empty: it was not found
   /// By how much `ends` may be off, and by how much they are off the case's law: the engine's model
-  /// error. In the units of the case's errors.
+  /// error, each of the pair for which it is largest. In the units of the case's errors.
   std::map<std::string, double> error, model;
   std::string reason;  ///< why it was not found
 };
@@ -55,24 +43,38 @@ void fields(auto& io, CollisionLimit& limit) {
 CollisionLimit collisionLimit(Engine& engine, const EngineEntry& entry, const Case& fine,
                               const Case& coarse, const CollisionReference& reference);
 
+/// An error over many collisions of a pair, in the unit of their curve.
+struct CurveError {
+  double rms = 0.0;
+  double low = 0.0, high = 0.0;  ///< 95 % interval of it, as collisions are a sample of phases
+  double worst = 0.0;            ///< of a single one
+};
+
 /// √(mean of squares) of the differences, in that unit; absent where a start has only one of both
-/// numbers, or none has both.
-std::optional<double> rmsDifference(const std::vector<std::optional<double>>& numbers,
-                                    const std::vector<std::optional<double>>& from, double unit);
+/// numbers, or none has both. The interval is Student's, of the mean of the squares.
+std::optional<CurveError> curveError(const std::vector<std::optional<double>>& numbers,
+                                     const std::vector<std::optional<double>>& from, double unit);
 
-/// One setting on one engine: points for Ψ_f (rms over the curve, and over where in a step the
-/// pairs touch, in units of the curve's range) and e_n (rms in units of its magnitude). Timed over
-/// so many copies of the sweep that the time is at least `cost.timed`, the shortest of
-/// `cost.repeats`. Collisions that do not part, or part faster than they met, are failed. The same
-/// against the engine's own limit; where it has none these are refused, with its reason.
+/// A round of one setting on one engine: the time of one sweep of the first pair, over so many
+/// copies that it is at least `cost.timed`; of the first round also the errors of Ψ_f and e_n, of
+/// the pair and the step of the cycle (cycleStep()) for which the rms is largest, and the largest
+/// of a single collision: {rms, low, high, worst} by measure. The rms decides on advice, not the
+/// worst: a flow's collisions begin at every phase alike, their errors have either sign and mean 0,
+/// so that what many of them do is by the rms; the worst belongs to a share of phases that
+/// vanishes. Collisions that do not part, or part faster than they met, are failed. The same
+/// against the engine's own limit, where it has one.
 /// @throws EngineFailure, UnsupportedScene, BadInput
-std::vector<CostPoint> measureCollision(Engine& engine, const EngineEntry& entry,
-                                        const CostSetting& setting,
-                                        const CollisionReference& reference,
-                                        const CollisionLimit& own);
+CostRun runCollisions(Engine& engine, const EngineEntry& entry, const CostSetting& setting,
+                      const CollisionReference& reference, const CollisionLimit& own,
+                      std::size_t round);
 
-/// Two disks that collide, against the oracle of the case's law and against the engine's own limit
-/// of small steps.
+/// Points of all rounds; those against the own limit are refused, with its reason, where there is
+/// none.
+std::vector<CostPoint> collisionPoints(const EngineEntry& entry, const CostSetting& setting,
+                                       const CollisionLimit& own, const std::vector<CostRun>& runs);
+
+/// Collisions of every pair of the cell, against the oracle of the case's law and against the
+/// engine's own limit of small steps.
 std::unique_ptr<ErrorKind> collisionErrors(CostStudy& study);
 
 }  // namespace crossgrain::inline studies

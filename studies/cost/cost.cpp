@@ -28,6 +28,7 @@ namespace {
 
 /// What --quick makes of [cost]: every kind of error and some settings, in seconds.
 const std::vector<std::string> quickCosts = {"cost.timed=0.002",
+                                             "cost.repeats=3",
                                              "cost.psi_count=9",
                                              "cost.collision_steps=[50, 10, 1.2]",
                                              "cost.collision_reference=800",
@@ -106,21 +107,25 @@ std::optional<std::string> pastLimit(const CostStudy& study, const PlannedPoint&
   return fmt::format("{}: {}", beyondLimit, reason);
 }
 
-using Measured = CachedTask<Points>::Outcome;
+using Measured = CachedTask<CostRun>::Outcome;
 
-Measured measure(CostStudy& study, ErrorKind& kind, const PlannedPoint& planned) {
+/// One round. What breaks down beyond a stability limit is a result, and kept.
+Measured measure(CostStudy& study, ErrorKind& kind, const PlannedPoint& planned,
+                 std::size_t round) {
   const auto ended = [&](Status status, const std::string& reason, bool isResult) {
-    return Measured{without(study, kind, planned, status, reason), isResult,
-                    fmt::format("{}: {}", nameOf(status, costStatusNames), reason)};
+    CostRun run;
+    run.status = status;
+    run.reason = BadInput(reason).what();  // in one line
+    return Measured{run, isResult, fmt::format("{}: {}", nameOf(status, costStatusNames), reason)};
   };
   try {
-    Points points = kind.measure(planned);
-    const CostPoint& first = points.front();
-    const std::string line =
-        !first.ran()  ? fmt::format("{}: {}", nameOf(first.status, costStatusNames), first.reason)
-        : first.error ? fmt::format("{:.3g}", *first.error)
-                      : "no number";
-    return {std::move(points), kind.keepsPoints(), line};
+    CostRun run = kind.run(planned, round);
+    if (run.status != Status::finished) {
+      const std::string why =
+          fmt::format("{}: {}", nameOf(run.status, costStatusNames), run.reason);
+      return {std::move(run), true, why};
+    }
+    return {std::move(run), true, "done"};
   } catch (const Interrupted&) {
     throw;
   } catch (const OutputError&) {
@@ -139,8 +144,21 @@ Measured measure(CostStudy& study, ErrorKind& kind, const PlannedPoint& planned)
   }
 }
 
-/// Measures one kind of error after the other, one point at a time: of each the case as it is
-/// first, then the cheapest on whichever engine, so that a budget buys as many points as it can.
+/// Of a setting's rounds, those that no earlier command has run; none where one says that it fails.
+double shareMissing(const CostStudy& study, const PlannedPoint& point, std::size_t rounds) {
+  std::size_t missing = 0;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    const auto kept = study.campaign.store().findAs<CostRun>(study.nameOf(point, round),
+                                                             study.keyOf(point, round));
+    if (kept && kept->status != Status::finished) return 0.0;
+    missing += !kept;
+  }
+  return static_cast<double>(missing) / static_cast<double>(rounds);
+}
+
+/// Measures one kind of error after the other, round by round and one point at a time: of each the
+/// case as it is first, then the cheapest on whichever engine, so that a budget buys as many points
+/// as it can. A point that is begun gets all of its rounds.
 class Measuring {
  public:
   /// @param budget  for all that is measured [s]
@@ -156,35 +174,24 @@ class Measuring {
       kind.makeReferences();
     else
       budgetForTheRest += common;
-    std::vector<CachedTask<Points>> tasks;
-    std::vector<const PlannedPoint*> measured;
+    std::vector<Rounds> all;
     for (const PlannedPoint& point : plan) {
       const CostSetting& setting = study_.settingOf(point);
-      const auto put = [&](Status status, const std::string& reason) {
-        found_[{point.kind, point.engine, point.setting}] =
-            without(study_, kind, point, status, reason);
-      };
       if (!setting.refusal.empty()) {
-        put(Status::refused, setting.refusal);
+        put(kind, point, Status::refused, setting.refusal);
       } else if (!why.empty()) {
-        put(Status::notRun, "its reference " + why);
+        put(kind, point, Status::notRun, "its reference " + why);
         budgetForTheRest += point.seconds;
       } else {
-        tasks.push_back({.name = study_.nameOf(point),
-                         .label = fmt::format("{}, {}: {} {}", study_.entryOf(point.engine).name,
-                                              toString(point.kind), setting.knob, setting.setting),
-                         .key = study_.keyOf(point),
-                         .weight = point.seconds,
-                         .work = [&](const auto&) { return affordable(kind, point); },
-                         .priority = -static_cast<double>(tasks.size())});
-        measured.push_back(&point);
+        all.push_back({point});
       }
     }
-    const auto results =
-        runOrLoad(tasks, study_.campaign.store(), study_.campaign.progress(),
-                  fmt::format("errors of {}, one at a time", toString(kind.kind())), 1);
-    for (std::size_t k = 0; k < results.size(); ++k)
-      found_[{measured[k]->kind, measured[k]->engine, measured[k]->setting}] = results[k];
+    for (std::size_t round = 0; round < kind.rounds(); ++round) runRound(kind, all, round);
+    for (const Rounds& one : all)
+      if (one.ended)
+        putEnded(kind, one.point, *one.ended);
+      else
+        found_[placeOf(one.point)] = kind.points(one.point, one.runs);
   }
 
   /// By kind, engine and setting.
@@ -198,6 +205,62 @@ class Measuring {
 
  private:
   using Clock = std::chrono::steady_clock;
+  using Place = std::tuple<CostKind, std::size_t, std::size_t>;
+
+  /// A point and what it has so far.
+  struct Rounds {
+    PlannedPoint point;
+    std::vector<CostRun> runs = {};
+    std::optional<CostRun> ended = {};  ///< failed, refused or not run: no further round
+    double committed = 0.0;             ///< what its further rounds will take [s]
+    bool begun = false;
+  };
+
+  static Place placeOf(const PlannedPoint& point) {
+    return {point.kind, point.engine, point.setting};
+  }
+
+  void put(const ErrorKind& kind, const PlannedPoint& point, Status status,
+           const std::string& reason) {
+    found_[placeOf(point)] = without(study_, kind, point, status, reason);
+  }
+
+  /// With the time that it took, if it is known, as plots show those that failed, too.
+  void putEnded(const ErrorKind& kind, const PlannedPoint& point, const CostRun& run) {
+    put(kind, point, run.status, run.reason);
+    for (CostPoint& row : found_[placeOf(point)]) {
+      if (run.wallSeconds > 0.0) row.wallSeconds = run.wallSeconds;
+      if (run.cpuSeconds > 0.0) row.cpuSeconds = run.cpuSeconds;
+    }
+  }
+
+  void runRound(ErrorKind& kind, std::vector<Rounds>& all, std::size_t round) {
+    std::vector<CachedTask<CostRun>> tasks;
+    std::vector<Rounds*> run;
+    for (Rounds& one : all) {
+      if (one.ended) continue;
+      const PlannedPoint& point = one.point;
+      const CostSetting& setting = study_.settingOf(point);
+      tasks.push_back(
+          {.name = study_.nameOf(point, round),
+           .label = fmt::format("{}, {}: {} {}", study_.entryOf(point.engine).name,
+                                toString(point.kind), setting.knob, setting.setting),
+           .key = study_.keyOf(point, round),
+           .weight = point.seconds,
+           .work = [this, &kind, &one, round](const auto&) { return affordable(kind, one, round); },
+           .priority = -static_cast<double>(tasks.size())});
+      run.push_back(&one);
+    }
+    const auto results = runOrLoad(tasks, study_.campaign.store(), study_.campaign.progress(),
+                                   fmt::format("errors of {}, one at a time, round {} of {}",
+                                               toString(kind.kind()), round + 1, kind.rounds()),
+                                   1);
+    for (std::size_t k = 0; k < results.size(); ++k)
+      if (results[k].status == Status::finished)
+        run[k]->runs.push_back(results[k]);
+      else
+        run[k]->ended = results[k];
+  }
 
   std::vector<PlannedPoint> planned(const ErrorKind& kind) const {
     std::vector<PlannedPoint> plan;
@@ -205,8 +268,9 @@ class Measuring {
       const std::vector<CostSetting>& settings = study_.settingsOf(e, kind.kind());
       for (std::size_t s = 0; s < settings.size(); ++s) {
         PlannedPoint& point = plan.emplace_back(PlannedPoint{e, kind.kind(), s});
-        if (settings[s].refusal.empty() && !kind.isKept(point))
-          point.seconds = kind.predicted(e, settings[s]);
+        if (settings[s].refusal.empty())
+          point.seconds =
+              kind.predicted(e, settings[s]) * shareMissing(study_, point, kind.rounds());
       }
     }
     std::ranges::stable_sort(plan, {}, [](const PlannedPoint& point) {
@@ -217,31 +281,52 @@ class Measuring {
 
   /// "would take about 90 s, 8 s are left of the budget of 20 s"; empty: there is time for it.
   std::string lackOfTime(double seconds) const {
-    const double left = budget_ - std::chrono::duration<double>(Clock::now() - started_).count();
+    const double left =
+        budget_ - std::chrono::duration<double>(Clock::now() - started_).count() - committed_;
     if (!(seconds > 0.0) || seconds <= left) return {};
     return fmt::format("would take about {:.3g} s, {:.3g} s are left of the budget of {:.3g} s",
                        seconds, std::max(left, 0.0), budget_);
   }
 
-  /// The first point of an engine and kind pays for the references of its own.
-  Measured affordable(ErrorKind& kind, const PlannedPoint& point) {
+  /// The first round of a point decides on all of them; the first point of an engine and kind pays
+  /// for the references of its own.
+  Measured affordable(ErrorKind& kind, Rounds& of, std::size_t round) {
     throwIfInterrupted();
+    const PlannedPoint& point = of.point;
+    if (of.begun) {
+      const double once = of.committed / static_cast<double>(kind.rounds() - round);
+      of.committed -= once;
+      committed_ -= once;
+      Measured measured = measure(study_, kind, point, round);
+      if (measured.result.status != Status::finished) committed_ -= of.committed;
+      return measured;
+    }
     const std::pair group(point.kind, point.engine);
     const double takes = point.seconds > 0.0 && !begun_.contains(group)
                              ? point.seconds + kind.ownTime(point.engine)
                              : point.seconds;
     if (const std::string why = lackOfTime(takes); !why.empty()) {
       budgetForTheRest += takes;
-      return {without(study_, kind, point, Status::notRun, why), false, why};
+      CostRun none;
+      none.status = Status::notRun;
+      none.reason = why;
+      return {none, false, why};
     }
     begun_.insert(group);
-    return measure(study_, kind, point);
+    of.begun = true;
+    const auto left = static_cast<double>(kind.rounds() - round);
+    of.committed = point.seconds * (left - 1.0) / left;
+    committed_ += of.committed;
+    Measured measured = measure(study_, kind, point, round);
+    if (measured.result.status != Status::finished) committed_ -= of.committed;
+    return measured;
   }
 
   CostStudy& study_;
   double budget_;
+  double committed_ = 0.0;  ///< what further rounds of points that are begun will take [s]
   Clock::time_point started_ = Clock::now();
-  std::map<std::tuple<CostKind, std::size_t, std::size_t>, Points> found_;
+  std::map<Place, Points> found_;
   std::set<std::pair<CostKind, std::size_t>> begun_;
 };
 
@@ -298,7 +383,7 @@ std::string planOfCost(const StudyWork& work, const CostOptions& options) {
       for (std::size_t s = 0; s < all.size(); ++s) {
         if (!all[s].refusal.empty()) continue;
         ++settings.total;
-        settings.finished += kind->isKept({e, kind->kind(), s});
+        settings.finished += shareMissing(study, {e, kind->kind(), s}, kind->rounds()) == 0.0;
       }
       if (settings.total > 0) works.push_back(settings);
     }

@@ -7,6 +7,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "averaging/agreement.hpp"
+#include "averaging/statistics.hpp"
 #include "cases/couette.hpp"
 #include "cases/materials.hpp"
 #include "cases/time_step.hpp"
@@ -53,6 +55,50 @@ void requireSound(const Case& setup, const Snapshot& snapshot) {
     throw EngineFailure(
         fmt::format("{}: at t = {:.3g} s the disks' rms speed is {:.3g} times the wheel's rim",
                     beyondLimit, snapshot.positionTime, speed / rim));
+}
+
+namespace {
+
+/// Between which the geometric mean of positive numbers lies; absent of a single one.
+struct GeometricMean {
+  double mean;
+  std::optional<double> low, high;
+};
+GeometricMean geometricMean(const std::vector<double>& numbers) {
+  std::vector<std::optional<double>> logs;
+  for (const double number : numbers) logs.emplace_back(std::log(number));
+  const auto mean = ensembleMean(logs);
+  GeometricMean found{std::exp(mean->mean), {}, {}};
+  if (!mean->standardError) return found;
+  constexpr double confidence = 0.95;
+  const double half = *mean->standardError * studentQuantile(confidence, mean->packings - 1);
+  found.low = std::exp(mean->mean - half);
+  found.high = std::exp(mean->mean + half);
+  return found;
+}
+
+}  // namespace
+
+CostPoint timedPoint(const std::string& engine, const CostSetting& setting, CostKind kind,
+                     const std::vector<CostRun>& runs) {
+  CostPoint point = pointOf(engine, setting, kind, runs.front().dt);
+  std::vector<double> wall, cpu;
+  std::uint64_t steps = 0, contactEvaluations = 0;
+  for (const CostRun& run : runs) {
+    wall.push_back(std::max(run.wallSeconds, 1e-9));
+    if (run.cpuSeconds > 0.0) cpu.push_back(run.cpuSeconds);
+    steps += run.steps;
+    contactEvaluations += run.contactEvaluations;
+  }
+  const bool reportsCpu = cpu.size() == runs.size();
+  const GeometricMean wallMean = geometricMean(wall);
+  const GeometricMean ranked = reportsCpu ? geometricMean(cpu) : wallMean;
+  point.wallSeconds = wallMean.mean;
+  if (reportsCpu) point.cpuSeconds = ranked.mean;
+  point.timeLow = ranked.low;
+  point.timeHigh = ranked.high;
+  countWork(point, steps / runs.size(), contactEvaluations / runs.size());
+  return point;
 }
 
 CostStudy::CostStudy(const Case& of, const RunCommand& command, RunStore& store)
@@ -129,7 +175,7 @@ void CostStudy::timeInHouse() {
   constexpr int steps = 2000;
   const Track track = followPacking(*inHouseEngine, inHouse, setup, campaign.packings().front(),
                                     steps * campaign.dt());
-  inHouseStep = track.wallSeconds / static_cast<double>(track.steps);
+  inHouseStep = track.cost.wallSeconds / static_cast<double>(track.cost.steps);
 }
 
 double CostStudy::stepOf(std::size_t engine, const Case& of) const {
@@ -144,9 +190,14 @@ std::string CostStudy::nameOf(const PlannedPoint& point) const {
   return fmt::format("{}-{}-{}", toString(point.kind), entryOf(point.engine).name, what);
 }
 
-CaseKeys CostStudy::keyOf(const PlannedPoint& point, int packing) const {
+std::string CostStudy::nameOf(const PlannedPoint& point, std::size_t round) const {
+  return fmt::format("{}-{}{}", nameOf(point), point.kind == CostKind::collision ? "r" : "p",
+                     round);
+}
+
+CaseKeys CostStudy::keyOf(const PlannedPoint& point, std::size_t round) const {
   return campaign.keyOf(
-      point.engine, packing,
+      point.engine, point.kind == CostKind::collision ? 0 : static_cast<int>(round),
       fmt::format("cost: {} {}", toString(point.kind), settingOf(point).fragment));
 }
 
@@ -155,10 +206,6 @@ CaseKeys CostStudy::inHouseKey(std::size_t packing, const std::string& part) con
   key["packing"] = campaign.packings()[packing].hash;
   key["part"] = part;
   return key;
-}
-
-bool ErrorKind::isKept(const PlannedPoint& point) const {
-  return study_.campaign.store().find(study_.nameOf(point), study_.keyOf(point)).has_value();
 }
 
 }  // namespace crossgrain::inline studies

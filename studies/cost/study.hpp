@@ -45,6 +45,34 @@ auto keptOr(const RunStore& store, const std::string& name, const CaseKeys& key,
   return made;
 }
 
+/// One round of a setting: a sweep of collisions, or one packing; kept as it is.
+struct CostRun {
+  double dt = 0.0;                                  ///< [s]
+  double wallSeconds = 0.0, cpuSeconds = 0.0;       ///< of the kind's piece of work [s]
+  std::uint64_t steps = 0, contactEvaluations = 0;  ///< of the same
+  /// By measure, as each kind of error has them; absent where the run has no such number.
+  std::map<std::string, std::vector<std::optional<double>>> numbers = {};
+  Status status = Status::finished;
+  std::string reason = {};  ///< unless it finished: one line
+};
+
+void fields(auto& io, CostRun& run) {
+  io("dt_s", run.dt);
+  io("wall_s", run.wallSeconds);
+  io("cpu_s", run.cpuSeconds);
+  io("steps", run.steps);
+  io("contact_evaluations", run.contactEvaluations);
+  io("numbers", run.numbers);
+  io("status", run.status, costStatusNames);
+  io("reason", run.reason);
+}
+
+/// A point without error, with the times of its rounds: geometric means, as what disturbs a run
+/// multiplies its time, and Student's interval of their logarithms.
+/// @param runs  all of them finished, at least one
+CostPoint timedPoint(const std::string& engine, const CostSetting& setting, CostKind kind,
+                     const std::vector<CostRun>& runs);
+
 /// An engine, its worker, what it takes to start and to step, and what there is to measure on it.
 struct TimedEngine {
   std::array<std::vector<CostSetting>, costKinds.size()> settings;  ///< by CostKind
@@ -90,7 +118,8 @@ struct CostStudy {
 
   /// By what it is, not by its place in lists that may grow: "averages-grain-time_step-t_c-50".
   std::string nameOf(const PlannedPoint& point) const;
-  CaseKeys keyOf(const PlannedPoint& point, int packing = 0) const;
+  std::string nameOf(const PlannedPoint& point, std::size_t round) const;
+  CaseKeys keyOf(const PlannedPoint& point, std::size_t round) const;
   /// Of what the in-house engine does for all: it need not be among the engines named.
   CaseKeys inHouseKey(std::size_t packing, const std::string& part) const;
 
@@ -110,9 +139,11 @@ struct CostStudy {
   void timeInHouse();
 };
 
-/// One kind of error: how its points are predicted and measured, and what against.
+/// One kind of error: how its points are predicted and measured, and what against. All settings of
+/// all engines are run once, then all of them again, so that a machine that is busy for a while
+/// disturbs a round of many and not all rounds of one.
 ///
-///   predicted, commonTime, ownTime ── makeReferences ── measure … ── addTo
+///   predicted, commonTime, ownTime ── makeReferences ── run … ── points … ── addTo
 class ErrorKind {
  public:
   explicit ErrorKind(CostStudy& study) : study_(study) {}
@@ -122,19 +153,19 @@ class ErrorKind {
 
   virtual CostKind kind() const = 0;
   virtual std::vector<std::string> measures() const = 0;
-  /// What measuring a setting on an engine will take; what references take that all engines share,
-  /// and an engine's own [s].
+  virtual std::size_t rounds() const = 0;
+  /// What all rounds of a setting on an engine will take; what references take that all engines
+  /// share, and an engine's own [s].
   virtual double predicted(std::size_t engine, const CostSetting& setting) const = 0;
   virtual double commonTime() const { return 0.0; }
   virtual double ownTime(std::size_t engine) const = 0;
-  /// Whether an earlier command has measured it.
-  virtual bool isKept(const PlannedPoint& point) const;
   /// Those references that all points need. Not called where they take too long.
   virtual void makeReferences() {}
-  /// @returns one point per measure @throws as Engine does
-  virtual std::vector<CostPoint> measure(const PlannedPoint& point) = 0;
-  /// Whether points are kept as they are; else measure() keeps what they are made of.
-  virtual bool keepsPoints() const { return true; }
+  /// @throws as Engine does
+  virtual CostRun run(const PlannedPoint& point, std::size_t round) = 0;
+  /// One point per measure. @param runs  of all rounds, finished
+  virtual std::vector<CostPoint> points(const PlannedPoint& point,
+                                        const std::vector<CostRun>& runs) const = 0;
   /// Adds its references and what else it has found out.
   virtual void addTo(CostResults& results) const = 0;
 

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "averaging/agreement.hpp"
+#include "averaging/statistics.hpp"
 #include "cases/couette.hpp"
 #include "cases/loader.hpp"
 #include "cases/time_step.hpp"
@@ -26,8 +28,8 @@ Track followPacking(Engine& engine, const EngineEntry& entry, const Case& setup,
     snapshot.position[k] += (time - snapshot.positionTime) * snapshot.velocity[k];
   const Stats stats = engine.stats();
   return {
-      std::move(snapshot.position), effective.dt, stats.wallSeconds, stats.cpuSeconds, stats.steps,
-      stats.contactEvaluations};
+      std::move(snapshot.position),
+      {effective.dt, stats.wallSeconds, stats.cpuSeconds, stats.steps, stats.contactEvaluations}};
 }
 
 double rmsDistance(const std::vector<Vec2>& a, const std::vector<Vec2>& b, double diameter) {
@@ -38,7 +40,21 @@ double rmsDistance(const std::vector<Vec2>& a, const std::vector<Vec2>& b, doubl
 
 namespace {
 
-/// What packings' paths are compared with.
+/// A mean over packings and the half width of its 95 % interval; that is absent of one packing.
+struct PackingMean {
+  double mean;
+  std::optional<double> standardError, half;
+};
+PackingMean overPackings(const std::vector<std::optional<double>>& numbers) {
+  constexpr double confidence = 0.95;
+  const auto mean = ensembleMean(numbers);
+  PackingMean found{mean->mean, mean->standardError, {}};
+  if (mean->standardError)
+    found.half = *mean->standardError * studentQuantile(confidence, mean->packings - 1);
+  return found;
+}
+
+/// What a packing's path is compared with.
 struct TrajectoryReference {
   std::vector<Vec2> positions;  ///< at the window's end [m]
   double error = 0.0;           ///< distance to the same at twice the step [d]
@@ -63,12 +79,15 @@ class TrajectoryErrors final : public ErrorKind {
     return {"position_rms_own", "position_rms_" + study_.inHouse.name};
   }
 
+  std::size_t rounds() const override {
+    return std::min(study_.campaign.packings().size(),
+                    static_cast<std::size_t>(study_.setup.cost.trajectoryPackings));
+  }
+
   double predicted(std::size_t engine, const CostSetting& setting) const override {
     const TimedEngine& timed = study_.engines[engine];
-    const Cost& cost = study_.setup.cost;
     const double once = window() / study_.stepOf(engine, setting.setup) * timed.step;
-    const double runs = once < 10.0 * cost.timed ? cost.repeats : 1;
-    return runs * (once + timed.load);
+    return static_cast<double>(rounds()) * (once + timed.load);
   }
 
   double commonTime() const override { return referenceSteps() * study_.inHouseStep; }
@@ -80,44 +99,47 @@ class TrajectoryErrors final : public ErrorKind {
     return references * referenceSteps() * study_.engines[engine].step;
   }
 
-  /// The shortest time of `cost.repeats`, where a run is shorter than `cost.timed`.
-  std::vector<CostPoint> measure(const PlannedPoint& planned) override {
+  CostRun run(const PlannedPoint& planned, std::size_t round) override {
     const CostSetting& setting = study_.settingOf(planned);
-    const Case& setup = setting.setup;
-    const EngineEntry& entry = study_.entryOf(planned.engine);
-    const TrajectoryReference inHouse = referenceOf({}, {});
+    const TrajectoryReference inHouse = referenceOf({}, {}, round);
     const TrajectoryReference own = isCommon(planned.engine, setting.integrator())
                                         ? inHouse
-                                        : referenceOf(planned.engine, setting.integrator());
-    Engine& engine = study_.workerOf(planned.engine);
-    Track track = followPacking(engine, entry, setup, packing(), window());
-    // Short runs begin with what every start costs, so they are warmed up and repeated.
-    if (track.wallSeconds < 10.0 * setup.cost.timed)
-      for (int repeat = 1; repeat < setup.cost.repeats; ++repeat) {
-        const Track again = followPacking(engine, entry, setup, packing(), window());
-        track.wallSeconds = std::min(track.wallSeconds, again.wallSeconds);
-        track.cpuSeconds = std::min(track.cpuSeconds, again.cpuSeconds);
-      }
-    CostPoint point = pointOf(entry.name, setting, kind(), track.dt);
-    point.wallSeconds = track.wallSeconds;
-    point.cpuSeconds = track.cpuSeconds;
-    countWork(point, track.steps, track.contactEvaluations);
-    std::vector<CostPoint> points(2, point);
+                                        : referenceOf(planned.engine, setting.integrator(), round);
+    Track track = followPacking(study_.workerOf(planned.engine), study_.entryOf(planned.engine),
+                                setting.setup, packing(round), window());
     const std::vector<std::string> names = measures();
     for (std::size_t k = 0; k < 2; ++k) {
       const TrajectoryReference& reference = k == 0 ? own : inHouse;
-      points[k].measure = names[k];
-      points[k].error = rmsDistance(track.positions, reference.positions, diameter());
-      points[k].referenceError = reference.error;
+      const double error = rmsDistance(track.positions, reference.positions, diameter());
+      track.cost.numbers[names[k]] = {std::optional(error), std::optional(reference.error)};
+    }
+    return track.cost;
+  }
+
+  std::vector<CostPoint> points(const PlannedPoint& planned,
+                                const std::vector<CostRun>& runs) const override {
+    std::vector<CostPoint> points;
+    for (const std::string& measure : measures()) {
+      CostPoint& point = points.emplace_back(
+          timedPoint(study_.entryOf(planned.engine).name, study_.settingOf(planned), kind(), runs));
+      point.measure = measure;
+      std::vector<std::optional<double>> errors, references;
+      for (const CostRun& run : runs) {
+        errors.push_back(run.numbers.at(measure).at(0));
+        references.push_back(run.numbers.at(measure).at(1));
+      }
+      const PackingMean error = overPackings(errors);
+      point.error = error.mean;
+      point.statistical = error.standardError;
+      point.referenceError = overPackings(references).mean;
+      if (!error.half) continue;
+      point.intervalLow = std::max(0.0, error.mean - *error.half - *point.referenceError);
+      point.intervalHigh = error.mean + *error.half + *point.referenceError;
     }
     return points;
   }
 
   void addTo(CostResults& results) const override {
-    const auto kept = [&](std::optional<std::size_t> engine, const std::string& integrator) {
-      const auto [name, key] = referenceFile(engine, integrator);
-      return study_.campaign.store().findAs<TrajectoryReference>(name, key);
-    };
     const auto add = [&](const std::string& engine, const std::string& integrator, double error) {
       results.references.push_back(
           {kind(), engine,
@@ -127,51 +149,89 @@ class TrajectoryErrors final : public ErrorKind {
     };
     results.window = window();
     const auto inHouse = kept({}, {});
-    if (inHouse) add(study_.inHouse.name, "", inHouse->error);
+    if (!inHouse.empty()) add(study_.inHouse.name, "", meanError(inHouse));
     for (std::size_t e = 0; e < study_.engines.size(); ++e) {
       if (!study_.engines[e].takesPart) continue;
       const std::string& name = study_.entryOf(e).name;
       for (const std::string& integrator : integratorsOf(e)) {
-        const auto own = isCommon(e, integrator) ? std::nullopt : kept(e, integrator);
-        if (!own) continue;
-        add(name, integrator, own->error);
-        if (!integrator.empty() || !inHouse) continue;
-        const double model = rmsDistance(own->positions, inHouse->positions, diameter());
-        const double unsure = own->error + inHouse->error;
-        results.models.push_back({name, kind(), "position_rms_" + study_.inHouse.name, model,
-                                  std::max(0.0, model - unsure), model + unsure});
+        if (isCommon(e, integrator)) continue;
+        const auto own = kept(e, integrator);
+        if (own.empty()) continue;
+        add(name, integrator, meanError(own));
+        if (integrator.empty()) addModel(results, name, own, inHouse);
       }
     }
   }
 
  private:
-  const Packing& packing() const { return study_.campaign.packings().front(); }
+  const Packing& packing(std::size_t round) const { return study_.campaign.packings()[round]; }
   double diameter() const { return 2.0 * study_.setup.particles.smallRadius; }  // [m]
   double window() const {                                                       // [s]
     return study_.setup.cost.windowMost * costContactTime(study_.setup);
   }
-  /// Of a reference: at its step and at twice that.
+  /// Of references of all packings: at their step and at twice that.
   double referenceSteps() const {
-    return 1.5 * study_.setup.cost.trajectoryReference * study_.setup.cost.windowMost;
+    return 1.5 * study_.setup.cost.trajectoryReference * study_.setup.cost.windowMost *
+           static_cast<double>(rounds());
   }
   /// The in-house engine's own reference is everybody's.
   bool isCommon(std::size_t engine, const std::string& integrator) const {
     return integrator.empty() && study_.entryOf(engine).name == study_.inHouse.name;
   }
 
+  using References = std::map<std::size_t, TrajectoryReference>;  ///< by packing
+
+  /// Those that were made.
+  References kept(std::optional<std::size_t> engine, const std::string& integrator) const {
+    References found;
+    for (std::size_t round = 0; round < rounds(); ++round) {
+      const auto [name, key] = referenceFile(engine, integrator, round);
+      if (auto one = study_.campaign.store().findAs<TrajectoryReference>(name, key))
+        found[round] = std::move(*one);
+    }
+    return found;
+  }
+
+  static double meanError(const References& references) {
+    double sum = 0.0;
+    for (const auto& [round, one] : references) sum += one.error;
+    return sum / static_cast<double>(references.size());
+  }
+
+  /// How far an engine's own references are from the in-house one's, over packings that both have.
+  void addModel(CostResults& results, const std::string& engine, const References& own,
+                const References& inHouse) const {
+    std::vector<std::optional<double>> distances;
+    double unsure = 0.0;
+    for (const auto& [round, one] : own) {
+      const auto other = inHouse.find(round);
+      if (other == inHouse.end()) continue;
+      distances.push_back(rmsDistance(one.positions, other->second.positions, diameter()));
+      unsure = std::max(unsure, one.error + other->second.error);
+    }
+    if (distances.empty()) return;
+    const PackingMean model = overPackings(distances);
+    if (!model.half) return;
+    const double half = *model.half + unsure;
+    results.models.push_back({engine, kind(), "position_rms_" + study_.inHouse.name, model.mean,
+                              std::max(0.0, model.mean - half), model.mean + half});
+  }
+
   /// Name and key of a reference, which is kept. @param engine  absent: the in-house one, for all
   std::pair<std::string, CaseKeys> referenceFile(std::optional<std::size_t> engine,
-                                                 const std::string& integrator) const {
+                                                 const std::string& integrator,
+                                                 std::size_t round) const {
     const std::string name = engine ? study_.entryOf(*engine).name + integrator : "in-house";
-    return {"reference-trajectory-" + name,
-            engine ? study_.campaign.keyOf(*engine, 0, "cost: reference " + integrator)
-                   : study_.inHouseKey(0, "cost: reference")};
+    return {fmt::format("reference-trajectory-{}-p{}", name, round),
+            engine ? study_.campaign.keyOf(*engine, static_cast<int>(round),
+                                           "cost: reference " + integrator)
+                   : study_.inHouseKey(round, "cost: reference")};
   }
 
   /// Made when it is first needed.
-  TrajectoryReference referenceOf(std::optional<std::size_t> engine,
-                                  const std::string& integrator) {
-    const auto [file, key] = referenceFile(engine, integrator);
+  TrajectoryReference referenceOf(std::optional<std::size_t> engine, const std::string& integrator,
+                                  std::size_t round) {
+    const auto [file, key] = referenceFile(engine, integrator, round);
     return keptOr(study_.campaign.store(), file, key, [&] {
       const EngineEntry& entry = engine ? study_.entryOf(*engine) : study_.inHouse;
       Engine& running = engine ? study_.workerOf(*engine) : *study_.inHouseEngine;
@@ -181,7 +241,7 @@ class TrajectoryErrors final : public ErrorKind {
         const Case setup =
             caseWith(study_.setup,
                      law + stepFragment(study_.setup, entry.name, running.capabilities(), steps));
-        return followPacking(running, entry, setup, packing(), window()).positions;
+        return followPacking(running, entry, setup, packing(round), window()).positions;
       };
       const double steps = study_.setup.cost.trajectoryReference;
       const auto twice = at(steps / 2.0);

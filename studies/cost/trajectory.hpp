@@ -12,9 +12,7 @@ namespace crossgrain::inline studies {
 /// Where one engine has taken a packing, and what it cost.
 struct Track {
   std::vector<Vec2> positions;  ///< at the end [m]
-  double dt = 0.0;              ///< [s]
-  double wallSeconds = 0.0, cpuSeconds = 0.0;
-  std::uint64_t steps = 0, contactEvaluations = 0;
+  CostRun cost;                 ///< without numbers
 };
 
 /// Runs one packing, from springs dropped, for that time [s]. The case says the step.
@@ -25,10 +23,11 @@ Track followPacking(Engine& engine, const EngineEntry& entry, const Case& setup,
 /// √(Σ|a − b|²/N)/d
 double rmsDistance(const std::vector<Vec2>& a, const std::vector<Vec2>& b, double diameter);
 
-/// A packing's path over a window that is short against its chaos, against runs at a much smaller
-/// step: of the engine itself with the same integrator ("position_rms_own"), and of the in-house
-/// engine ("position_rms_NAME", the model included). Rms in d at the window's end. What chaos makes
-/// of the reference's own error shows in `reference_error`.
+/// Paths of packings over a window that is short against their chaos, against runs at a much
+/// smaller step: of the engine itself with the same integrator ("position_rms_own"), and of the
+/// in-house engine ("position_rms_NAME", the model included). Rms in d at the window's end, mean
+/// over packings with Student's interval. What chaos makes of the reference's own error shows in
+/// `reference_error`.
 std::unique_ptr<ErrorKind> trajectoryErrors(CostStudy& study);
 
 }  // namespace crossgrain::inline studies

@@ -13,7 +13,7 @@
 #include "studies/core/engine_access.hpp"
 #include "studies/core/executor.hpp"
 #include "studies/core/run_store.hpp"
-#include "studies/cost/collision.hpp"
+#include "studies/cost/collision_pairs.hpp"
 #include "studies/flow/endpoint_values.hpp"
 #include "studies/flow/run.hpp"
 #include "studies/lockstep/responses.hpp"

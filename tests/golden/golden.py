@@ -97,7 +97,7 @@ TRANSIENT = {
     "elapsed_s", "started", "command", "version", "program", "build", "machine", "file", "stats", "wall_s", "cpu_s", "overview",
     "time_ratio", "time_ratio_stderr", "step_s", "spread", "strong", "weak", "ratio", "memory_bytes", "bytes_per_disk",
     "ns_per_disk", "steps", "repetitions", "predicted_s", "on_front", "cores", "timings", "best_s", "advice", "fronts",
-    "measured", "cells", "cheapest", "startup", "contacts_per_step", "from_cache",
+    "measured", "cells", "tied", "time_low_s", "time_high_s", "cheapest", "startup", "contacts_per_step", "from_cache",
 }  # fmt: skip
 # What a list's items are called by.
 NAMES = ("name", "id", "case", "engine", "variant", "packing", "measure", "quantity")

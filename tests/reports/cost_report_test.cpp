@@ -39,6 +39,9 @@ CostResults byHand() {
   failed.status = Status::failed;
   failed.reason = "NaN, at 3";
   results.points[3].knob = "precision";
+  results.points[0].worst = 0.3;
+  results.points[0].timeLow = 0.5;
+  results.points[0].timeHigh = 2.0;
   results.fronts = {{CostKind::collision, "psi_f", "", {0, 1}, {}}};
   return results;
 }
@@ -48,11 +51,12 @@ TEST(CostCsv, Rows_AreAllPointsAlsoThoseThatFailed) {
       costCsv(byHand()),
       "engine,setting,dt_s,error,error_kind,wall_s,cpu_s,steps,contact_evaluations,status,"
       "reason,knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front,low,"
-      "high,equivalent,bound\n"
-      "a,t_c/10,0.1,0.1,collision,1,1,100,200,ran,,time_step,psi_f,,,,10,yes,,,,\n"
-      "a,t_c/100,0.01,0.01,collision,10,10,100,200,ran,,time_step,psi_f,,,,100,yes,,,,\n"
-      "a,t_c/1,1,,collision,0.1,0.1,100,200,failed,\"NaN, at 3\",time_step,psi_f,,,,1,,,,,\n"
-      "a,\"float, slow\",0.01,0.01,collision,20,20,100,200,ran,,precision,psi_f,,,,100,no,,,,\n");
+      "high,equivalent,bound,worst,time_low_s,time_high_s,tied\n"
+      "a,t_c/10,0.1,0.1,collision,1,1,100,200,ran,,time_step,psi_f,,,,10,yes,,,,,0.3,0.5,2,no\n"
+      "a,t_c/100,0.01,0.01,collision,10,10,100,200,ran,,time_step,psi_f,,,,100,yes,,,,,,,,no\n"
+      "a,t_c/1,1,,collision,0.1,0.1,100,200,failed,\"NaN, at 3\",time_step,psi_f,,,,1,,,,,,,,,\n"
+      "a,\"float, slow\",0.01,0.01,collision,20,20,100,200,ran,,precision,psi_f,,,,100,no,,,,,,,,"
+      "\n");
   EXPECT_EQ(std::ranges::count(costCsv({}), '\n'), 1);
 }
 
@@ -88,6 +92,17 @@ TEST(CostFigures, Panel_JoinsStepsNumbersOtherSettingsAndCrossesFailures) {
   EXPECT_TRUE(costFigures({}).empty());
 }
 
+/// A point that is on the front since its time may be the shorter one, and errs more.
+TEST(CostCsv, PointOnTheFrontByATie_IsMarkedAndNotDrawn) {
+  CostResults results = byHand();
+  results.points[1].timeLow = 0.9;
+  results.points[1].timeHigh = 12.0;
+  EXPECT_TRUE(has(costCsv(results), "10,yes,,,,,0.3,0.5,2,yes\n"));
+  results.points[1].cpuSeconds = 0.9;
+  results.fronts[0].points = {1, 0};
+  EXPECT_EQ(costFigures(results)[0].panels[0].curves[0].points.size(), 1u);
+}
+
 TEST(CostFigures, ErrorBelowTheReferences_IsDrawnAtItsUpperEnd) {
   CostResults results = byHand();
   results.points[1].referenceError = 0.03;
@@ -104,12 +119,12 @@ TEST(CostFigures, ErrorBelowTheReferences_IsDrawnAtItsUpperEnd) {
 /// The engine of byHand() with another law: 25 % off, whatever the step.
 TEST(CostOverview, ModelError_IsAModelDifferenceAndTheOwnLimitIsNamed) {
   CostResults results = byHand();
-  CostCell own{"a", CostKind::collision, CostBasis::own, 0.1, Verdict::pass};
+  CostCell own{{}, "a", CostKind::collision, CostBasis::own, 0.1, Verdict::pass};
   own.knob = "time_step";
   own.setting = "t_c/10";
   own.wallSeconds = 1.0;
   own.point = 0;
-  CostCell scene{"a", CostKind::collision, CostBasis::scene, 0.1, Verdict::fail};
+  CostCell scene{{}, "a", CostKind::collision, CostBasis::scene, 0.1, Verdict::fail};
   scene.model = 0;
   results.models = {{"a", CostKind::collision, "psi_f", 0.25, 0.24, 0.26}};
   results.cells = {own, scene};
@@ -138,8 +153,18 @@ TEST(CostToml, AdviceForTheTarget_IsAFragmentWithCommentsAlone) {
   advice.cheapest = true;
   results.advice = {advice};
   EXPECT_EQ(costToml(results),
-            "# a, wanted 10 %: reached by t_c/10, 800 s per rotation (measured in collision and "
-            "averages); the cheapest engine\n[run]\nsteps_per_contact = 10\n");
+            "# a, wanted 10 %: reached by t_c/10, 800 s of wall time per rotation (measured in "
+            "collision and averages); the cheapest engine\n[run]\nsteps_per_contact = 10\n");
+  results.advice[0].cpuSeconds = 700.0;
+  results.advice[0].ties = {{"time_step", "t_c/20"}, {"precision", "float"}};
+  results.advice.push_back(results.advice[0]);
+  results.advice[1].engine = "b";
+  EXPECT_TRUE(has(costToml(results),
+                  "reached by t_c/10, 700 s of processor time per rotation (measured in collision "
+                  "and averages); a tie with t_c/20, precision float; the cheapest engine, a tie "
+                  "with b\n[run]"));
+  results.advice.pop_back();
+  results.advice[0].ties.clear();
   results.advice[0].obstacle = 0;
   results.advice[0].decides = "more packings";
   EXPECT_TRUE(has(costToml(results),
@@ -147,6 +172,12 @@ TEST(CostToml, AdviceForTheTarget_IsAFragmentWithCommentsAlone) {
                   "# what would decide: more packings\n[run]\n"));
   results.advice[0].verdict = Verdict::notMeasured;
   EXPECT_TRUE(has(costToml(results), "not measured far enough; the best so far is t_c/10"));
+  results.models = {{"a", CostKind::collision, "psi_f", 0.25, 0.24, 0.26}};
+  results.advice[0].verdict = Verdict::fail;
+  results.advice[0].model = 0;
+  EXPECT_TRUE(has(costToml(results),
+                  "# collision, Ψ_f: its limit of small steps is off by 25 % (24 % to 26 %)\n"));
+  results.advice[0].verdict = Verdict::notMeasured;
   EXPECT_FALSE(has(costToml(results), "[run]"));
   results.target = 0.01;
   EXPECT_EQ(costToml(results), "");

@@ -29,7 +29,7 @@ const std::vector<Measure>& measures() {
   static const std::vector<Measure> all = {
       {CostKind::collision, "psi_f", 1.0, 0.0, 0.0, 40.0},
       {CostKind::collision, "e_n", 0.4, 0.0, 0.0, 40.0},
-      {CostKind::trajectory, "position_rms_own", 0.02, 0.0, 2e-8, 2e3},
+      {CostKind::trajectory, "position_rms_own", 0.02, 1e-8, 2e-8, 2e3},
       {CostKind::averages, "azimuthal_velocity", 0.5, 0.004, 0.001, 3e4},
       {CostKind::averages, "stress_rr", 2.0, 0.03, 0.001, 3e4},
       {CostKind::averages, "shear_band_width", 0.3, 0.02, 0.001, 3e4},
@@ -50,6 +50,7 @@ CostPoint pointOf(const Engine& engine, const Measure& measure, double stepsPerC
   const double bias =
       measure.scale * (engine.amplitude * std::pow(stepsPerContact, -engine.order) + engine.floor);
   point.error = bias;
+  if (measure.kind == CostKind::collision) point.worst = 2.0 * bias;
   if (measure.statistical > 0.0) {
     // as if drawn: alternately above and below
     const double noise = measure.statistical * std::sin(stepsPerContact);
@@ -64,6 +65,8 @@ CostPoint pointOf(const Engine& engine, const Measure& measure, double stepsPerC
   point.contactEvaluations = 400 * steps;
   point.wallSeconds = engine.cost * static_cast<double>(steps);
   point.cpuSeconds = 0.99 * *point.wallSeconds;
+  point.timeLow = 0.95 * *point.cpuSeconds;
+  point.timeHigh = 1.05 * *point.cpuSeconds;
   return point;
 }
 
@@ -82,7 +85,9 @@ CostPoint changed(CostPoint point, const std::string& knob, const std::string& s
   point.setting = setting;
   point.fragment = fmt::format("[run]\n{} = \"{}\"\n", knob, setting);
   *point.error *= error;
-  *point.wallSeconds *= time;
+  if (point.worst) *point.worst *= error;
+  for (auto* const each : {&point.wallSeconds, &point.cpuSeconds, &point.timeLow, &point.timeHigh})
+    **each *= time;
   return point;
 }
 

@@ -1,10 +1,13 @@
 // Errors of collisions, trajectories and averages, as cost measures them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "adapters/grain.hpp"
 #include "cases/couette.hpp"
+#include "cases/time_step.hpp"
+#include "oracle/collision_oracle.hpp"
 #include "studies/cost/averages.hpp"
 #include "studies/cost/collision.hpp"
 #include "studies/cost/trajectory.hpp"
@@ -27,17 +30,33 @@ CollisionLimit limitOf(Engine& engine, const Case& setup, const CollisionReferen
                         reference);
 }
 
-std::vector<CostPoint> pointsOf(const std::string& knob, const std::string& setting) {
-  const Case setup = test::costCase();
+CostSetting settingNamed(const std::string& knob, const std::string& setting) {
   const auto engine = makeGrain();
   for (const CostSetting& one :
-       costSettings(setup, CostKind::collision, "grain", engine->capabilities()))
-    if (one.knob == knob && one.setting == setting) {
-      const CollisionReference reference = collisionReference(setup);
-      return measureCollision(*engine, test::inHouse, one, reference,
-                              limitOf(*engine, setup, reference));
-    }
+       costSettings(test::costCase(), CostKind::collision, "grain", engine->capabilities()))
+    if (one.knob == knob && one.setting == setting) return one;
   throw std::runtime_error("no such setting");
+}
+
+std::vector<CostPoint> pointsOf(const CostSetting& setting) {
+  const Case setup = test::costCase();
+  const auto engine = makeGrain();
+  const CollisionReference reference = collisionReference(setup);
+  const CollisionLimit limit = limitOf(*engine, setup, reference);
+  std::vector<CostRun> runs;
+  for (const std::size_t round : {0u, 1u})
+    runs.push_back(runCollisions(*engine, test::inHouse, setting, reference, limit, round));
+  return collisionPoints(test::inHouse, setting, limit, runs);
+}
+std::vector<CostPoint> pointsOf(const std::string& knob, const std::string& setting) {
+  return pointsOf(settingNamed(knob, setting));
+}
+
+/// A setting of so many steps a contact, whole or not.
+CostSetting inSteps(double steps) {
+  CostSetting setting = settingNamed("time_step", "the case's own");
+  setting.setup = withSteps(setting.setup, steps);
+  return setting;
 }
 
 TEST(CostCollision, Point_HasErrorTimeAndWork) {
@@ -52,11 +71,23 @@ TEST(CostCollision, Point_HasErrorTimeAndWork) {
     EXPECT_NEAR(*point.stepsPerContact, 50.0, 1e-9);
     EXPECT_GT(*point.error, 0.0);
     EXPECT_LT(*point.error, 0.05);
-    EXPECT_GT(*point.wallSeconds, 0.0);
+    EXPECT_GT(*point.cpuSeconds, 0.0);
+    EXPECT_LE(*point.timeLow, *point.cpuSeconds);
+    EXPECT_GE(*point.timeHigh, *point.cpuSeconds);
+    EXPECT_LE(point.low(), *point.error);
+    EXPECT_GE(point.high(), *point.error);
+    EXPECT_GE(*point.worst, *point.error);
     // 9 pairs; a sweep lasts 2.5 t_c and 21 steps.
     EXPECT_EQ(point.steps, 146u);
     EXPECT_GT(*point.contactEvaluations, 9u * 45u);
   }
+}
+
+TEST(CostCollision, TimedSweep_IsOfTheSettingsStep) {
+  // A sweep lasts 2.5 t_c and 21 steps.
+  EXPECT_EQ(pointsOf("time_step", "t_c/200")[0].steps, 521u);
+  for (const Case& pair : collisionsOf(settingNamed("time_step", "t_c/200").setup))
+    EXPECT_NEAR(timeStep(pair) / (costContactTime(test::costCase()) / 200.0), 1.0, 1e-12);
 }
 
 TEST(CostCollision, ThesisScheme_ConvergesAtFirstOrder) {
@@ -69,13 +100,76 @@ TEST(CostCollision, ThesisScheme_ConvergesAtFirstOrder) {
   EXPECT_LT(order, 1.2);
 }
 
+/// collision_pairs.hpp derives √(f (1 − f)) γ_n dt/m₁₂ over phases, half of γ_n dt/m₁₂ at most; the
+/// same by an independent integration: 2.97 % at t_c/50, 1.5 % at t_c/100, 1.0 % at t_c/150.
+TEST(CostCollision, Restitution_ErrsByHalfTheDashpotsJumpOfAStep) {
+  const Case setup = test::costCase();
+  const double reducedMass = 0.5 * setup.particles.smallMass;
+  for (const double steps : {50.0, 54.4, 100.0, 150.0, 200.0}) {
+    const CostPoint point = pointsOf(inSteps(steps))[2];
+    const double jump = setup.law.gn * costContactTime(setup) / steps / reducedMass;
+    EXPECT_NEAR(*point.error, 0.5 * jump, 0.08 * 0.5 * jump) << steps;  // of nine phases
+    EXPECT_GT(*point.worst, 0.8 * jump) << steps;
+    EXPECT_LT(*point.worst, 1.1 * jump) << steps;
+  }
+}
+
+/// 1 % of e_n, which a whole number of steps seems to reach at t_c/50.
+TEST(CostCollision, OnePercentOfRestitution_IsReachedByFinerStepsThanHalvesOfAContact) {
+  const double half = 1.0 / 2.0;
+  EXPECT_GT(pointsOf(inSteps(50.0))[2].low(), 0.01);
+  EXPECT_GT(*pointsOf(inSteps(100.0))[2].error, 0.014);
+  EXPECT_LT(pointsOf(inSteps(200.0))[2].high(), 0.01);
+  // Whole or not, steps that are as fine err alike.
+  EXPECT_NEAR(*pointsOf(inSteps(50.0))[2].error, *pointsOf(inSteps(50.0 + half))[2].error, 3e-3);
+}
+
+TEST(CostCollision, CycleOfSteps_MeetsEveryFractionOfAContactOnce) {
+  for (int j = 0; j < cycleSteps; ++j) {
+    EXPECT_NEAR(2e-3 / cycleStep(4e-5, 2e-3, j), 50.0 + j / 8.0, 1e-9);
+    EXPECT_GE(cycleStep(4e-4, 2e-3, j), 4e-4 / 1.1);  // t_c/5: within a tenth
+  }
+  std::vector<double> phases;
+  for (std::size_t k = 100; k < 200; ++k) phases.push_back(phaseOf(k));
+  std::ranges::sort(phases);
+  EXPECT_LT(phases.front(), 0.02);
+  EXPECT_GT(phases.back(), 0.98);
+  for (std::size_t k = 1; k < phases.size(); ++k) EXPECT_LT(phases[k] - phases[k - 1], 0.02);
+}
+
+/// Every two sizes, and walls; each against its own oracle, from one scene.
+TEST(CostCollision, PairsOfTheCell_EachFollowsItsOracle) {
+  const Case setup = withSteps(test::costCase(), 2000.0);
+  const CollisionReference reference = collisionReference(setup);
+  std::vector<std::string> names;
+  for (const PairCurve& pair : reference.pairs) names.push_back(pair.collision.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"small-small", "small-large", "small-wall",
+                                             "large-large", "large-wall"}));
+  const auto engine = makeGrain();
+  const PairOutcomes found = runPairs(*engine, test::inHouse, collisionsOf(setup), reference,
+                                      timeStep(setup), /*first=*/0);
+  for (std::size_t p = 0; p < names.size(); ++p) {
+    const PairCurve& pair = reference.pairs[p];
+    // Head on the normal does not turn.
+    EXPECT_NEAR(pair.oracle.ends[0]->en,
+                restitutionOfLinearLaw(setup.law, collidingPair(pair.collision).reducedMass()),
+                1e-8)
+        << names[p];
+    for (std::size_t k = 0; k < pair.starts.size(); ++k) {
+      EXPECT_NEAR(found.of[p][k]->end.en, pair.oracle.ends[k]->en, 2e-3) << names[p];
+      EXPECT_NEAR(found.of[p][k]->end.psi, pair.oracle.ends[k]->psi, 0.02) << names[p];
+    }
+  }
+}
+
 TEST(CostCollision, StepBeyondTheStabilityLimit_FailsAndSaysSo) {
   // dt = t_c/1.2, where 2/ω is about t_c/1.6
-  for (const CostPoint& point : pointsOf("time_step", "t_c/1.2")) {
-    EXPECT_EQ(point.status, Status::failed);
-    EXPECT_TRUE(point.reason.starts_with(beyondLimit)) << point.reason;
-    EXPECT_FALSE(point.error);
-  }
+  const auto engine = makeGrain();
+  const CollisionReference reference = collisionReference(test::costCase());
+  const CostRun run =
+      runCollisions(*engine, test::inHouse, settingNamed("time_step", "t_c/1.2"), reference, {}, 0);
+  EXPECT_EQ(run.status, Status::failed);
+  EXPECT_TRUE(run.reason.starts_with(beyondLimit)) << run.reason;
 }
 
 TEST(CostCollision, OtherLaw_ErrsByTheDifferenceAlsoFromTheCasesOracle) {
@@ -111,13 +205,38 @@ TEST(CostCollision, LimitOfALawWithoutOracle_IsSmallSteps) {
   EXPECT_GT(limit.model.at("psi_f"), limit.error.at("psi_f"));
 }
 
-TEST(CostCollision, RmsDifference_SkipsStartsWithoutReference) {
+TEST(CostCollision, CurveError_SkipsStartsWithoutReference) {
   // 3 and 4 in units of 2: √(12.5)/2
-  EXPECT_NEAR(*rmsDifference({3.0, 4.0, 9.0}, {0.0, 0.0, {}}, 2.0), std::sqrt(12.5) / 2.0, 1e-12);
-  EXPECT_FALSE(rmsDifference({3.0, {}}, {0.0, 0.0}, 2.0));
-  EXPECT_FALSE(rmsDifference({3.0}, {{}}, 2.0));
+  const auto error = curveError({3.0, 4.0, 9.0}, {0.0, 0.0, {}}, 2.0);
+  EXPECT_NEAR(error->rms, std::sqrt(12.5) / 2.0, 1e-12);
+  EXPECT_NEAR(error->worst, 2.0, 1e-12);
+  // Squares 2.25 and 4: mean 3.125 ± 12.706 · 0.875, Student's t of one degree of freedom.
+  EXPECT_EQ(error->low, 0.0);
+  EXPECT_NEAR(error->high, std::sqrt(3.125 + 12.7062 * 0.875), 1e-3);
+  EXPECT_FALSE(curveError({3.0, {}}, {0.0, 0.0}, 2.0));
+  EXPECT_FALSE(curveError({3.0}, {{}}, 2.0));
   EXPECT_NEAR(rmsDistance({{3.0, 0.0}, {0.0, 4.0}}, {{0.0, 0.0}, {0.0, 0.0}}, 2.0),
               std::sqrt(12.5) / 2.0, 1e-12);
+}
+
+TEST(CostTime, Rounds_GiveAGeometricMeanAndItsInterval) {
+  std::vector<CostRun> runs(3);
+  const double cpu[] = {1.0, 2.0, 4.0};
+  for (std::size_t k = 0; k < 3; ++k) {
+    runs[k].dt = 1e-3;
+    runs[k].cpuSeconds = cpu[k];
+    runs[k].wallSeconds = 10.0 * cpu[k];
+  }
+  const CostSetting setting = settingNamed("time_step", "the case's own");
+  const CostPoint point = timedPoint("a", setting, CostKind::collision, runs);
+  EXPECT_NEAR(*point.cpuSeconds, 2.0, 1e-12);
+  EXPECT_NEAR(*point.wallSeconds, 20.0, 1e-12);
+  // Logarithms 0, ln 2, 2 ln 2: standard error ln 2/√3; Student's t of two degrees is 4.3027.
+  EXPECT_NEAR(*point.timeHigh / 2.0, std::exp(4.3027 * std::log(2.0) / std::sqrt(3.0)), 1e-3);
+  EXPECT_NEAR(*point.timeLow * *point.timeHigh, 4.0, 1e-9);
+  runs[1].cpuSeconds = 0.0;  // not reported
+  EXPECT_FALSE(timedPoint("a", setting, CostKind::collision, runs).cpuSeconds);
+  EXPECT_FALSE(timedPoint("a", setting, CostKind::collision, {runs[0]}).timeLow);
 }
 
 /// A packing that needs no preparation: disks on a lattice between the walls, each moving.
@@ -181,15 +300,15 @@ TEST_F(CostTrajectory, PackingThatBlowsUp_SaysSo) {
   expectFailure("[run]\ndt = 2e-3", "overlap by");
 }
 
-AveragedPacking run(const std::vector<std::optional<double>>& stress, double slip) {
-  AveragedPacking run;
+CostRun run(const std::vector<std::optional<double>>& stress, double slip) {
+  CostRun run;
   run.numbers = {{"stress_rr", stress}, {"wall_slip", {slip}}};
   return run;
 }
 
 TEST(CostAverages, PairedError_SplitsScatterAndBias) {
   // Differences in ring 1: 1, 3 (mean 2, error 1); in ring 2: 0, 0. Scale: the largest mean, 20.
-  const std::vector<AveragedPacking> reference = {run({10.0, 20.0}, 0.1), run({10.0, 20.0}, 0.1)};
+  const std::vector<CostRun> reference = {run({10.0, 20.0}, 0.1), run({10.0, 20.0}, 0.1)};
   const auto found =
       pairedError({run({11.0, 20.0}, 0.2), run({13.0, 20.0}, 0.2)}, reference, "stress_rr", 0.05);
   ASSERT_TRUE(found);
@@ -211,7 +330,7 @@ TEST(CostAverages, OnePackingNoneOrAFraction_AreSpecialCases) {
   EXPECT_NEAR(one->error, 1.0, 1e-12);
   EXPECT_FALSE(one->statistical);
   EXPECT_FALSE(one->systematic);
-  EXPECT_FALSE(pairedError({AveragedPacking{}}, {run({1.0}, 0.1)}, "stress_rr", 0.05));
+  EXPECT_FALSE(pairedError({CostRun{}}, {run({1.0}, 0.1)}, "stress_rr", 0.05));
   // Slip is a fraction of the rim's speed already.
   const auto slip = pairedError({run({1.0}, 0.2), run({1.0}, 0.2)},
                                 {run({1.0}, 0.1), run({1.0}, 0.1)}, "wall_slip", 0.05);

@@ -21,7 +21,7 @@ inline Case quickCell(const std::vector<std::string>& changes = {}) {
 inline Case costCase(const std::string& fragment = {}) {
   return loadCase(CROSSGRAIN_CASES "/cost/quick.toml",
                   {"cost.collision_steps=[200, 100, 50, 1.2]", "cost.psi_count=9",
-                   "cost.collision_reference=800", "cost.timed=1e-4", "cost.repeats=1"},
+                   "cost.collision_reference=800", "cost.timed=1e-4", "cost.repeats=2"},
                   fragment)
       .front();
 }
