@@ -238,7 +238,8 @@ CaseKeys Campaign::keyOf(std::size_t engine, int packing, const std::string& par
   if (entry.ofFiles())
     key["files"] = fingerprintOf(entry, k);
   else
-    key["packing"] = packings_[k].hash;
+    key["packing"] =
+        k < packings_.size() ? packings_[k].hash : expectedPacking(setup_, packing, dt_).hash;
   if (!part.empty()) key["part"] = part;
   return key;
 }
@@ -355,6 +356,11 @@ double Campaign::secondsOf(const std::vector<PlannedRuns>& lists) const {
   return std::max(all / std::max(command_.jobs, 1), longest);
 }
 
+std::size_t Campaign::missingRuns(const PlannedRuns& list) const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      tasksOf(list), [&](const auto& task) { return !store_.find(task.name, task.key); }));
+}
+
 void Campaign::add(RunsById runs) {
   for (auto& [id, run] : runs) runs_.push_back(std::move(run));
   const auto place = [this](const FlowRun& run) {
@@ -381,10 +387,11 @@ std::vector<CachedTask<FlowRun>> Campaign::tasksOf(const PlannedRuns& list) cons
   return tasks;
 }
 
-void Campaign::lookForPackings() {
+void Campaign::lookForPackings(int count) {
   if (!runsEngines()) return;
-  packings_.resize(static_cast<std::size_t>(packingCount()));
-  for (std::size_t k = 0; k < packings_.size(); ++k) {
+  const std::size_t there = packings_.size();
+  packings_.resize(std::max(there, static_cast<std::size_t>(count)));
+  for (std::size_t k = there; k < packings_.size(); ++k) {
     const ExpectedPacking expected = expectedPacking(setup_, static_cast<int>(k), dt_);
     packings_[k].hash = expected.hash;
     packings_[k].fromCache = expected.there;

@@ -96,9 +96,14 @@ class Campaign {
   /// Seconds until those of them that are not finished would be, by the brief timing of each
   /// engine.
   double secondsOf(const std::vector<PlannedRuns>& lists) const;
+  /// Runs of the list that the store does not have, whether or not their packings are prepared.
+  std::size_t missingRuns(const PlannedRuns& list) const;
 
-  /// Of a dry run, in place of preparePackings() and timeEngines(): which packings they would be.
-  void lookForPackings();
+  /// In place of preparePackings(), where no run of the further packings is missing: which they
+  /// are.
+  void lookForPackings(int count);
+  /// Of a dry run, in place of preparePackings() and timeEngines().
+  void lookForPackings() { lookForPackings(packingCount()); }
   /// What `run` would do, engine by engine, those that refuse too.
   std::vector<PlannedWork> plan(const std::vector<Variant>& variants) const;
   /// Whether runs of files take part, which are what they are: no more of them can be asked for.

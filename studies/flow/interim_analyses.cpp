@@ -54,7 +54,7 @@ class Sequence {
       judge();
       close();
       looks.ended = reasonToStop();
-      if (looks.ended.empty()) runOn(plan_.packings[looks.taken - 1], plan_.packings[looks.taken]);
+      if (looks.ended.empty()) runNext();
     }
     return std::move(findings_);
   }
@@ -155,13 +155,25 @@ class Sequence {
     }
   }
 
-  void runOn(int from, int to) {
-    campaign_.preparePackings(to);
-    std::vector<Variant> variants;
+  /// Runs of the next analysis: of all engines that are open and have no surrogate.
+  PlannedRuns next() const {
+    const std::size_t taken = findings_.looks.taken;
+    PlannedRuns list{{}, {plan_.packings[taken - 1], plan_.packings[taken]}};
     for (const std::size_t e : open_)
-      if (!surrogateOf(findings_.surrogates, nameOf(e))) variants.push_back({e, "", &setup_});
-    campaign_.add(campaign_.runSome(
-        {{variants, {from, to}}}, fmt::format("running engines, packings {} to {}", from, to - 1)));
+      if (!surrogateOf(findings_.surrogates, nameOf(e))) list.variants.push_back({e, "", &setup_});
+    return list;
+  }
+
+  void runNext() {
+    const PlannedRuns list = next();
+    const auto [from, to] = list.packings;
+    // Preparing takes time, and finished runs need no packing.
+    if (campaign_.missingRuns(list) == 0)
+      campaign_.lookForPackings(to);
+    else
+      campaign_.preparePackings(to);
+    campaign_.add(
+        campaign_.runSome({list}, fmt::format("running engines, packings {} to {}", from, to - 1)));
   }
 
   void judge() {
@@ -192,7 +204,9 @@ class Sequence {
     if (campaign_.hasFiles()) return "files hold no further runs";
     if (taken == plan_.packings.size())
       return fmt::format("{} packings are the most", plan_.packings.back());
-    if (campaign_.elapsed() + secondsOfNext() > findings_.looks.budget)
+    // What an earlier command has finished costs nothing: a smaller budget takes no verdict back.
+    if (campaign_.missingRuns(next()) > 0 &&
+        campaign_.elapsed() + secondsOfNext() > findings_.looks.budget)
       return fmt::format(
           "the next analysis, at {} packings, would have ended after the budget of {:g} s",
           plan_.packings[taken], findings_.looks.budget);
@@ -209,16 +223,17 @@ class Sequence {
                : "every endpoint that was compared is decided";
   }
 
-  /// Seconds that the next look takes, by the runs so far.
+  /// Seconds that the next analysis takes, by the runs so far.
   double secondsOfNext() const {
-    const std::size_t taken = findings_.looks.taken;
-    const int more = plan_.packings[taken] - plan_.packings[taken - 1];
-    double seconds = campaign_.secondsOfPreparing(plan_.packings[taken]);
-    for (const std::size_t e : open_) {
+    const PlannedRuns list = next();
+    double seconds = campaign_.secondsOfPreparing(list.packings.to);
+    for (const Variant& variant : list.variants) {
+      const std::string name = nameOf(variant.engine);
       double sum = 0.0;
       for (const FlowRun& run : campaign_.runs())
-        if (run.engine == nameOf(e) && run.finished() && run.stats) sum += run.stats->wallSeconds;
-      if (const int runs = finishedIn(nameOf(e))) seconds += more * sum / runs;
+        if (run.engine == name && run.finished() && run.stats) sum += run.stats->wallSeconds;
+      const auto missing = static_cast<double>(campaign_.missingRuns({{variant}, list.packings}));
+      if (const int runs = finishedIn(name)) seconds += missing * sum / runs;
     }
     return seconds / std::max(command_.jobs, 1);
   }
