@@ -37,18 +37,23 @@ void nearPairs(const std::vector<VecOf<D>>& position, const std::vector<double>&
   const double inverse = 1.0 / side;
   std::array<std::size_t, D> count;
   std::size_t cells = 1;
+  // An extent that is no number any more has an inverse of 0: one cell holds all.
+  const auto cellAt = [inverse](double from) {
+    const double at = inverse * from;
+    return at > 0.0 ? static_cast<std::size_t>(at) : 0;
+  };
   for (std::size_t k = 0; k < D; ++k) {
-    count[k] = static_cast<std::size_t>(inverse * extent[static_cast<int>(k)]) + 1;
+    count[k] = cellAt(extent[static_cast<int>(k)]) + 1;
     cells *= count[k];
   }
   const std::size_t columns = count[0];
   std::vector<std::size_t> cell(position.size()), begin(cells + 1);
   for (std::size_t k = 0; k < position.size(); ++k) {
-    const VecOf<D> from = inverse * (position[k] - low);
+    const VecOf<D> from = position[k] - low;
     std::size_t row = 0;
     for (int axis = D - 1; axis > 0; --axis)
-      row = row * count[static_cast<std::size_t>(axis)] + static_cast<std::size_t>(from[axis]);
-    cell[k] = row * columns + static_cast<std::size_t>(from.x());
+      row = row * count[static_cast<std::size_t>(axis)] + cellAt(from[axis]);
+    cell[k] = row * columns + cellAt(from.x());
     ++begin[cell[k] + 1];
   }
   for (std::size_t c = 0; c < cells; ++c) begin[c + 1] += begin[c];

@@ -39,18 +39,19 @@ std::size_t Grid::slotAt(const Vec2& x) const {
 void Grid::addFractions(const Vec2& x, double a, BinFractions& fractions, double& rest) const {
   const Vec2 from = (x - Vec2(a, a) - low_).cwiseQuotient(cell_);
   const Vec2 to = (x + Vec2(a, a) - low_).cwiseQuotient(cell_);
-  const auto first = [](double place) {
-    return static_cast<int>(std::floor(std::max(place, 0.0)));
+  // Before the cast: beyond what an int holds the other side of the range is as good.
+  const auto first = [](double place, int count) {
+    return static_cast<int>(std::floor(std::clamp(place, 0.0, static_cast<double>(count))));
   };
   const auto last = [](double place, int count) {
-    return static_cast<int>(std::min(std::floor(place), count - 1.0));
+    return static_cast<int>(std::clamp(std::floor(place), -1.0, count - 1.0));
   };
   const auto within = [&](int i, int j) {  // what lies below and left of corner (i, j)
     const Vec2 corner = (low_ + cell_.cwiseProduct(Vec2(i, j)) - x) / a;
     return quadrantArea(corner.x(), corner.y());
   };
-  for (int j = first(from.y()); j <= last(to.y(), ny_); ++j)
-    for (int i = first(from.x()); i <= last(to.x(), nx_); ++i) {
+  for (int j = first(from.y(), ny_); j <= last(to.y(), ny_); ++j)
+    for (int i = first(from.x(), nx_); i <= last(to.x(), nx_); ++i) {
       const double area = within(i + 1, j + 1) - within(i, j + 1) - within(i + 1, j) + within(i, j);
       const double fraction = std::max(area / std::numbers::pi, 0.0);
       fractions.push_back({slot(i, j), fraction});

@@ -57,6 +57,10 @@ std::optional<int> Parts::at(double x) const {
   return k;
 }
 
+int Parts::partFrom(double place) const {
+  return static_cast<int>(std::clamp(place, 0.0, static_cast<double>(count_)));
+}
+
 void Parts::cut(double x, double r, std::vector<Cut>& cuts) const {
   cuts.clear();
   constexpr double inf = std::numeric_limits<double>::infinity();
@@ -67,9 +71,10 @@ void Parts::cut(double x, double r, std::vector<Cut>& cuts) const {
   const bool repeats = period_ > 0.0;
   const double first = repeats ? std::ceil((low_ - r - x) / period_) : 0.0;
   const double last = repeats ? std::floor((high_ + r - x) / period_) : 0.0;
-  for (double image = first; image <= last; ++image) {
-    const double c = x + image * period_;
-    const int from = static_cast<int>(std::max(std::floor((c - r - low_) / width_), 0.0));
+  const double images = last - first;  // far away ++ would leave a double as it is
+  for (double n = 0.0; n <= images; ++n) {
+    const double c = x + (first + n) * period_;
+    const int from = partFrom(std::floor((c - r - low_) / width_));
     for (int k = from; k < count_ && edge(k) < c + r; ++k)
       if (edge(k + 1) > c - r) cuts.push_back({k, edge(k) - c, edge(k + 1) - c});
   }
@@ -81,10 +86,11 @@ void Parts::crossings(double x, double step, std::vector<double>& s) const {
   const bool repeats = period_ > 0.0;
   const double first = repeats ? std::ceil((from - high_) / period_) : 0.0;
   const double last = repeats ? std::floor((to - low_) / period_) : 0.0;
-  for (double image = first; image <= last; ++image) {
-    const double shift = image * period_;
-    const double begin = std::max(std::ceil((from - shift - low_) / width_), 0.0);
-    for (int k = static_cast<int>(begin); k <= count_ && edge(k) + shift < to; ++k)
+  const double images = last - first;
+  for (double n = 0.0; n <= images; ++n) {
+    const double shift = (first + n) * period_;
+    const int begin = partFrom(std::ceil((from - shift - low_) / width_));
+    for (int k = begin; k <= count_ && edge(k) + shift < to; ++k)
       if (const double place = (edge(k) + shift - x) / step; place > 0.0 && place < 1.0)
         s.push_back(place);
   }

@@ -46,6 +46,9 @@ class Parts {
   void crossings(double x, double step, std::vector<double>& s) const;
 
  private:
+  /// Index of the first part to look at, 0 … count: beyond the last there is none.
+  int partFrom(double place) const;
+
   double low_, high_, width_, period_;
   int count_;
   bool all_;

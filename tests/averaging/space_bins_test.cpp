@@ -179,6 +179,22 @@ TEST(SpaceBins, RefuseWhatIsNoBin) {
   EXPECT_NO_THROW(bins.slabs.require(Weight(WeightMethod::gauss, 0.5)));
 }
 
+TEST(SpaceBins, SphereBeyondWhatAnIntegerCounts_IsOutside) {
+  // (x − low)/width is 10¹⁴ and more: as an index that is no int.
+  const Cells slabs(Vec3::Zero(), Vec3(1.0, 1.0, 1e-12), {1, 1, 4}, {}, 2);
+  const SpaceRings rings(0.0, 1e-12, 4, 0.0, 1.0, 1);
+  for (const double far : {300.0, 1e12, 1e300}) {
+    BinFractions fractions;
+    slabs.sphereFractions(Vec3(0.5, 0.5, far), 0.1, WeightMethod::slicing, fractions);
+    ASSERT_EQ(fractions.size(), 1u);
+    EXPECT_EQ(fractions[0].slot, 0u);
+    EXPECT_EQ(fractions[0].fraction, 1.0);
+    rings.sphereFractions(Vec3(far, 0.0, 0.5), 0.1, WeightMethod::slicing, fractions);
+    ASSERT_EQ(fractions.size(), 1u);
+    EXPECT_EQ(fractions[0].fraction, 1.0);
+  }
+}
+
 TEST(SpaceRings, VolumesAndDirections) {
   const SpaceRings rings(0.0, 2.0, 2, -1.0, 3.0, 2);
   EXPECT_DOUBLE_EQ(rings.volume(1), 2.0 * pi);  // inner ring, lower layer
