@@ -202,6 +202,11 @@ struct LateWindows {
   /// of its interval (95 %). A constant that moves nothing has none.
   std::vector<EquivalentChange> equivalents;
   std::string failure;  ///< why there are none; empty: there are
+  std::size_t read = 0,
+              beyond = 0;  ///< windows that can be read, and of those beyond lockstep's rule
+  bool differs = false;    ///< by that rule, from more windows than chance may part
+  /// Of differs: all but a share within chance first part where a disk touches several at once.
+  bool severalAtOnce = false;
 
   void fields(auto& io) {
     io("packing", packing);
@@ -209,6 +214,10 @@ struct LateWindows {
     io("length_s", length);
     io("equivalents", equivalents);
     io("failure", failure);
+    io("read", read);
+    io("beyond", beyond);
+    io("differs", differs);
+    io("several_at_once", severalAtOnce);
   }
 };
 
@@ -224,6 +233,7 @@ struct SurrogateEngine {
   std::string alarm;   ///< why the mirror does not stand for it after all; empty: it does
   bool inUse = false;  ///< both runs of the spot check ended without an alarm
   LateWindows late = {};
+  bool observed = false;  ///< the alarm is a difference that was seen, not something missing
 
   void fields(auto& io) {
     io("engine", engine, aName);
@@ -235,8 +245,28 @@ struct SurrogateEngine {
     io("alarm", alarm);
     io("carried", inUse);
     io("late", late);
+    io("observed", observed);
   }
 };
+
+/// What its own runs say of the law of an engine that passed lockstep's windows. A difference is
+/// one where windows show it by lockstep's own rule, and endpoints feel it; what was seen and shows
+/// less than that is undecided.
+inline Verdict verdictOf(const SurrogateEngine& own) {
+  if (!own.alarm.empty() && own.late.differs) {
+    const auto& changes = own.late.equivalents;
+    const bool rigid = !changes.empty() && changes.front().constant == "en";
+    return rigid && own.late.severalAtOnce ? Verdict::borderline : Verdict::fail;
+  }
+  return own.observed ? Verdict::undecided : Verdict::pass;
+}
+
+/// Of an engine; null: it has no spot check.
+inline const SurrogateEngine* spotCheckedEngine(const std::vector<SurrogateEngine>& surrogates,
+                                                const std::string& engine) {
+  const auto found = std::ranges::find(surrogates, engine, &SurrogateEngine::engine);
+  return found == surrogates.end() ? nullptr : &*found;
+}
 
 /// What says that the engine's packings are run by its mirror; null: it runs them itself.
 inline const SurrogateEngine* surrogateOf(const std::vector<SurrogateEngine>& surrogates,

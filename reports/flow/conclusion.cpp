@@ -121,6 +121,12 @@ std::string causesOfDifferences(const CompareResults& results, const Engines& en
                     row->term ? " (deviation found: " + constantWords(row->term->name) + ")" : ""));
       continue;
     }
+    if (const auto* const own = spotCheckedEngine(results.endpoints.surrogates, engine.name);
+        own && verdictOf(*own) == Verdict::fail) {
+      parts.push_back(fmt::format("{} does not have the law that it declares late in its own run",
+                                  engine.name));
+      continue;
+    }
     if (const Names endpoints = disagreementsWithMirror(results, engine.name); !endpoints.empty()) {
       Names words;
       for (const std::string& endpoint : endpoints) words.push_back(endpointWords(endpoint));

@@ -18,8 +18,24 @@ OverviewCell lockstepOf(const CompareResults& results, const EngineRow& engine) 
   static const LockstepFindings none;
   const LockstepFindings& findings = results.lockstep ? *results.lockstep : none;
   const auto row = std::ranges::find(findings.rows, engine.name, &LockstepRow::engine);
-  return lockstepCell(row == findings.rows.end() ? nullptr : &*row, findings.rules,
-                      !engine.mirrors.empty());
+  OverviewCell cell = lockstepCell(row == findings.rows.end() ? nullptr : &*row, findings.rules,
+                                   !engine.mirrors.empty());
+  // The worst of all that was seen: a fault that begins after lockstep's windows shows in the
+  // engine's own run.
+  const SurrogateEngine* const own = spotCheckedEngine(results.endpoints.surrogates, engine.name);
+  if (!own || cell.verdict == Verdict::fail || verdictOf(*own) == Verdict::pass) return cell;
+  cell.verdict = verdictOf(*own);
+  cell.words = (own->late.differs ? fmt::format("differs in {} of {} windows of its own run; ",
+                                                own->late.beyond, own->late.read)
+                                  : std::string()) +
+               own->alarm;
+  cell.anchor = "agreement";
+  if (own->late.differs && !own->late.equivalents.empty()) {
+    const EquivalentChange& change = own->late.equivalents.front();
+    cell.value = 100.0 * change.change;
+    cell.shown = fmt::format("{} of {}", percentText(change.change), plainSymbol(change.constant));
+  }
+  return cell;
 }
 
 bool alarmed(const CompareResults& results, const std::string& engine) {
@@ -159,6 +175,9 @@ std::vector<std::string> disagreementsWithMirror(const CompareResults& results,
 bool isModelDifference(const CompareResults& results, const EngineRow& engine) {
   if (!engine.mirrors.empty()) return true;
   if (!disagreementsWithMirror(results, engine.name).empty()) return false;
+  if (const auto* const own = spotCheckedEngine(results.endpoints.surrogates, engine.name);
+      own && verdictOf(*own) != Verdict::pass)
+    return false;
   if (results.lockstep)
     for (const LockstepRow& row : results.lockstep->rows)
       if (row.engine == engine.name && row.verdict != Equivalence::notMeasured &&

@@ -228,12 +228,18 @@ std::vector<std::string> failsOf(const CompareResults& results, std::size_t refu
     if (alarm.kind == PairKind::peer) alarms.push_back(fmt::format("{} and {}", alarm.a, alarm.b));
   add("engines disagree", endpointsWith(results, Verdict::fail));
   add("an alarm: engines differ far beyond a margin", alarms);
-  add("an engine differs from the law that it declares", lockstepWith(Equivalence::differs, false));
+  std::vector<std::string> differing = lockstepWith(Equivalence::differs, false), undecided;
+  for (const SurrogateEngine& own : results.endpoints.surrogates) {
+    if (verdictOf(own) == Verdict::fail) differing.push_back(own.engine + ", late in its own run");
+    if (verdictOf(own) == Verdict::undecided) undecided.push_back(own.engine);
+  }
+  add("an engine differs from the law that it declares", differing);
   if (!strict) return fails;
   add("--strict: borderline", endpointsWith(results, Verdict::borderline));
   add("--strict: undecided", endpointsWith(results, Verdict::undecided));
   add("--strict: absent", endpointsWith(results, Verdict::notMeasured));
-  add("--strict: an engine's law is undecided", lockstepWith(Equivalence::undecided, false));
+  std::ranges::move(lockstepWith(Equivalence::undecided, false), std::back_inserter(undecided));
+  add("--strict: an engine's law is undecided", undecided);
   add("--strict: an engine's law is borderline: the law of rigid disks leaves open what parts it "
       "from its mirror",
       lockstepWith(Equivalence::differs, true));

@@ -17,8 +17,9 @@ namespace {
 constexpr int spotCheckPacking = 0;
 
 /// Why a mirror cannot stand for its engine; empty: it can.
-std::string alarmOf(const Case& setup, const std::vector<SpotCheckNumber>& spotCheck,
-                    double alpha) {
+/// @param observed  set where it is a difference that was seen
+std::string alarmOf(const Case& setup, const std::vector<SpotCheckNumber>& spotCheck, double alpha,
+                    bool& observed) {
   std::string least;
   double chance = alpha;
   for (const SpotCheckNumber& number : spotCheck) {
@@ -30,6 +31,7 @@ std::string alarmOf(const Case& setup, const std::vector<SpotCheckNumber>& spotC
     least = fmt::format("{} differs by {:.2g} margins, where chaos scatters by {:.2g}", words,
                         std::abs(*number.difference), *number.floor);
   }
+  observed = !least.empty();
   return least;
 }
 
@@ -72,7 +74,7 @@ void judgeSpotChecks(const Case& setup, const Campaign& campaign,
       continue;
     }
     own.spotCheck = spotCheckOf(setup, *run, *mirror, responses);
-    own.alarm = alarmOf(setup, own.spotCheck, 1.0 - setup.averaging.confidence);
+    own.alarm = alarmOf(setup, own.spotCheck, 1.0 - setup.averaging.confidence, own.observed);
     own.inUse = own.alarm.empty() && !own.spotCheck.empty();
   }
 }
@@ -87,6 +89,7 @@ void judgeLateWindows(const Case& setup, const std::vector<EndpointResponse>& re
   for (const auto& [name, margin] : setup.averaging.endpoints)
     if (const auto reach = reachOf(name, found, responses); reach && !(*reach <= farthest)) {
       farthest = *reach;
+      engine.observed = true;
       std::vector<std::string> changes;
       for (const EquivalentChange& one : found.equivalents)
         changes.push_back(fmt::format("{:.2g} % of {}", 100.0 * one.change, one.constant));

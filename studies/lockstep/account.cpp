@@ -47,13 +47,12 @@ bool isSeen(const FirstExceedance& first, double step) {
   return first.after > 0.0 && first.until - first.after < 1.5 * step;
 }
 
-/// Whether so many of the starts read are shown to be a larger share than chance may part.
+}  // namespace
+
 bool exceedsStrayShare(std::size_t count, std::size_t read) {
   return count > 1 && gsl_cdf_binomial_Q(static_cast<unsigned>(count - 1), strayShare,
                                          static_cast<unsigned>(read)) < 1.0 - shareConfidence;
 }
-
-}  // namespace
 
 void judge(LockstepRow& row, bool moved, std::size_t alone) {
   readMedian(row);

@@ -17,6 +17,9 @@ namespace crossgrain::inline studies {
 ///               touch nothing else, or at one that touches nothing
 void judge(LockstepRow& row, bool moved, std::size_t alone);
 
+/// Whether so many of the starts read are shown to be a larger share than chance may part.
+bool exceedsStrayShare(std::size_t count, std::size_t read);
+
 /// Adds up what windows show of an engine and of what it is compared with, start by start.
 class SeparationAccount {
  public:

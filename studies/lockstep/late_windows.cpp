@@ -138,8 +138,13 @@ class LateComparison {
   /// engine and mirror part in a window in which the reference constant moves nothing, or it moves
   /// nothing in any.
   void conclude(LateWindows& found) const {
+    const LockstepRow row = accounts_.front().row();  // any of them: `beyond` is of the reference's
+    found.read = row.read + unmeasured_;
+    found.beyond = row.beyond;
+    found.differs = exceedsStrayShare(found.beyond, found.read);
+    found.severalAtOnce = row.severalAtOnce;
     for (std::size_t c = 0; c < constants_.size(); ++c) {
-      const std::vector<StartReading> readings = accounts_[c].row().readings;
+      const std::vector<StartReading> readings = (c == 0 ? row : accounts_[c].row()).readings;
       const auto mean = meanOf(readings);
       const bool parts = std::ranges::any_of(readings, [](const StartReading& reading) {
         return reading.beyond && !reading.equivalent;

@@ -173,6 +173,33 @@ TEST(CompareSentences, SpotCheck_NamesTheFarthestEndpoint) {
   }
 }
 
+/// No row says "law verified" beside a run that shows another law.
+TEST(CompareSentences, LateFault_IsInTheMatrix) {
+  std::mt19937 random(3);
+  CompareResults results = randomResults(random);
+  LockstepRow row;
+  row.engine = "second";
+  row.verdict = Equivalence::sameLaw;
+  row.equivalent = 1e-10;
+  results.lockstep.emplace().rows = {row};
+  results.lockstep->rules.sameLaw = 1e-3;
+  SurrogateEngine& own = results.endpoints.surrogates.front();
+  const auto cell = [&] { return rowNamed(compareOverview(results), "second").cells.front(); };
+  EXPECT_EQ(cell().verdict, Verdict::pass);
+  own.inUse = false;
+  own.alarm = "18 windows differ";
+  own.observed = true;
+  EXPECT_EQ(cell().verdict, Verdict::undecided);
+  own.late.differs = true;
+  own.late.beyond = 9;
+  own.late.read = 18;
+  own.late.equivalents = {{"kn", 0.58}};
+  EXPECT_EQ(cell().verdict, Verdict::fail);
+  EXPECT_EQ(cell().shown, "58 % of kn");
+  EXPECT_TRUE(cell().words.starts_with("differs in 9 of 18 windows of its own run"))
+      << cell().words;
+}
+
 TEST(CompareSentences, NextPair_IsUndecidedAndOneOfThoseShown) {
   std::mt19937 random(2);
   int named = 0;

@@ -114,6 +114,19 @@ TEST(CompareOutcome, LockstepAlarmsRefusalsAndFailures_Decide) {
             (std::vector<std::string>{"broke", "cannot"}));
 }
 
+TEST(CompareOutcome, FaultLateInAnEnginesOwnRun_IsOneOfItsLaw) {
+  CompareResults results;
+  SurrogateEngine own;
+  own.engine = "b";
+  own.alarm = "one of both has no pressure";  // something is missing, nothing was seen
+  results.endpoints.surrogates = {own};
+  EXPECT_EQ(both(results), std::pair(exitPassed, exitPassed));
+  results.endpoints.surrogates.front().observed = true;
+  EXPECT_EQ(both(results), std::pair(exitPassed, exitFailed));
+  results.endpoints.surrogates.front().late.differs = true;
+  EXPECT_EQ(both(results), std::pair(exitFailed, exitFailed));
+}
+
 /// A law that is only borderline, or not judged at all, and a status 1: the line names the rule.
 TEST(CompareOutcome, StatusOne_SaysWhichRuleMadeIt) {
   CompareResults results;

@@ -79,6 +79,8 @@ TEST_F(SpotCheck, RightEngine_IsEvaluatedThroughItsMirror) {
   EXPECT_NEAR(late.times.back() + late.length, 0.3 * 2.0 * std::numbers::pi, late.length);
   ASSERT_EQ(late.equivalents.size(), 2u);
   EXPECT_EQ(late.equivalents[1].constant, "mu");
+  EXPECT_EQ(late.beyond, 0u);
+  EXPECT_EQ(verdictOf(found.surrogates[0]), Verdict::pass);
 }
 
 TEST_F(SpotCheck, FirstEngineFails_TakesResponsesOfTheNext) {
@@ -105,6 +107,9 @@ TEST_F(SpotCheck, FaultLateInTheRun_IsFoundByItsWindows) {
   EXPECT_GT(own.late.equivalents[1].change, 0.14);
   EXPECT_FALSE(own.inUse);
   EXPECT_NE(own.alarm.find("of packing 1"), std::string::npos) << own.alarm;
+  // About half of the windows: what lockstep passed is not the engine's law.
+  EXPECT_GT(own.late.beyond, own.late.read / 4);
+  EXPECT_EQ(verdictOf(own), Verdict::fail);
   for (const EndpointRow& row : found.rows) {
     EXPECT_EQ(row.surrogateB, "");
     EXPECT_FALSE(row.reach);
