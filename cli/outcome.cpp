@@ -27,10 +27,31 @@ void printTimeSpent() {
              100.0 * drawing / all.count());
 }
 
+/// Without the middle of what nobody reads: runs of digits, and of characters in all. Characters
+/// of several bytes stay whole.
+std::string shortened(const std::string& text) {
+  constexpr std::size_t mostDigits = 40, begin = 900, end = 300;
+  std::string some;
+  std::size_t digits = 0;
+  for (const char c : text) {
+    digits = c >= '0' && c <= '9' ? digits + 1 : 0;
+    if (digits <= mostDigits) some += c;
+    if (digits == mostDigits + 1) some += "…";
+  }
+  if (some.size() <= begin + end) return some;
+  const auto isWithin = [&](std::size_t at) {
+    return (static_cast<unsigned char>(some[at]) & 0xc0u) == 0x80u;
+  };
+  std::size_t head = begin, tail = some.size() - end;
+  while (isWithin(head)) --head;
+  while (isWithin(tail)) ++tail;
+  return some.substr(0, head) + " … " + some.substr(tail);
+}
+
 }  // namespace
 
 void printFailure(const std::string& reason) {
-  fmt::print(stderr, "crossgrain: {}\n", reason);
+  fmt::print(stderr, "crossgrain: {}\n", shortened(reason));
 }
 
 void printResults(const CommandLine& line, const std::string& text, const Overview& overview,

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <new>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -18,6 +19,7 @@
 #include "cases/engine_file.hpp"
 #include "cli/command.hpp"
 #include "cli/outcome.hpp"
+#include "reports/render/gnuplot.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/run_store.hpp"
 #include "studies/core/study_cases.hpp"
@@ -262,6 +264,10 @@ int runAndExplain(int argc, char** argv) {
   } catch (const OutputError& error) {
     // A folder that cannot be written is the user's to change; that the disk is full is not.
     return explain(error, error.noRoom ? exitEngineFailed : exitBadInput);
+  } catch (const reports::GnuplotError& error) {
+    return explain(error, error.failed ? exitEngineFailed : exitBadInput);
+  } catch (const std::bad_alloc&) {
+    return explain(std::runtime_error("out of memory"), exitEngineFailed);
   } catch (const std::exception& error) {
     return explain(error, exitBadInput);
   }

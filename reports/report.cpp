@@ -36,7 +36,7 @@ Report reportOf(const CompareResults& results) {
 }
 
 /// @returns why there are no plots, if so
-std::optional<std::string> draw(const Report& report, const std::filesystem::path& plots) {
+std::optional<GnuplotError> draw(const Report& report, const std::filesystem::path& plots) {
   makeDirectory(plots);
   std::vector<std::string> scripts;
   for (const Figure& figure : report.figures) scripts.push_back(writeFigure(figure, plots));
@@ -44,7 +44,7 @@ std::optional<std::string> draw(const Report& report, const std::filesystem::pat
   try {
     runGnuplot(scripts, plots);
   } catch (const GnuplotError& error) {
-    return error.what();
+    return error;
   }
   return std::nullopt;
 }
@@ -56,10 +56,11 @@ void writeTexts(const Report& report, const std::filesystem::path& dir) {
   if (report.checks) writeFile(dir / "junit.xml", junitXml(report.head.kind, *report.checks));
 }
 
-void writePage(const Report& report, const DrawnFigures& drawings,
-               const std::filesystem::path& dir) {
+void writePage(const Report& report, DrawnFigures drawings,
+               const std::optional<GnuplotError>& failure, const std::filesystem::path& dir) {
+  if (failure) drawings.missing = failure->what();
   writeFile(dir / "report.html", html(report, drawings));
-  if (drawings.missing) throw std::runtime_error(*drawings.missing);
+  if (failure) throw *failure;
 }
 
 /// @param document  results.json
@@ -71,7 +72,8 @@ ReportDigest write(const Results& results, Json document, const std::filesystem:
   writeFile(dir / "results.json", toText(document));
   writeTexts(report, dir);
   const auto plots = dir / "plots";
-  writePage(report, {plots, draw(report, plots)}, dir);
+  const auto failure = draw(report, plots);
+  writePage(report, {plots}, failure, dir);
   return report;
 }
 
@@ -85,11 +87,12 @@ ReportDigest writeForSite(Report report, const std::filesystem::path& dir) {
   makeDirectory(dir / "plots");
   writeTexts(report, dir);
   const ScratchFolder scratch;
-  const DrawnFigures drawings{dir / "plots", draw(report, scratch.path), true};
+  const auto failure = draw(report, scratch.path);
+  const DrawnFigures drawings{dir / "plots", {}, true};
   for (const auto& drawn : std::filesystem::directory_iterator(scratch.path))
     if (drawn.path().extension() == ".svg")
       writeFile(drawings.folder / drawn.path().filename(), readFile(drawn.path()).value());
-  writePage(report, drawings, dir);
+  writePage(report, drawings, failure, dir);
   return report;
 }
 

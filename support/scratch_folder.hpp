@@ -5,7 +5,7 @@
 namespace crossgrain::inline support {
 
 /// A folder of this process' own in the system's place for temporary files, gone at the end of the
-/// scope.
+/// scope. What killed processes left there is removed by the next one.
 class ScratchFolder {
  public:
   /// @throws BadInput naming TMPDIR
@@ -15,6 +15,9 @@ class ScratchFolder {
   ScratchFolder& operator=(const ScratchFolder&) = delete;
 
   std::filesystem::path path;
+
+ private:
+  int held_ = -1;  ///< descriptor whose lock shows that the process lives
 };
 
 }  // namespace crossgrain::inline support

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <span>
+#include <sstream>
 #include <system_error>
 #include <thread>
 
@@ -51,13 +52,26 @@ int waitFor(pid_t child) {
   return status;
 }
 
-/// gnuplot's last word on what stopped it.
+/// How a child ended: "it ended with status 2", "signal 9 ended it", or nothing to say.
+std::string endOf(int status) {
+  if (status == -1) return "its end is not known";
+  if (WIFSIGNALED(status)) return fmt::format("signal {} ended it", WTERMSIG(status));
+  return WEXITSTATUS(status) == 0 ? ""
+                                  : fmt::format("it ended with status {}", WEXITSTATUS(status));
+}
+
+/// gnuplot's last word on what stopped it; a warning did not, and where nothing else is said memory
+/// is what it most often lacks.
 std::string lastLine(const std::string& log) {
-  const auto end = log.find_last_not_of(" \r\n");
-  if (end == std::string::npos) return "it says nothing";
-  const auto before = log.find_last_of("\r\n", end);
-  const auto begin = before == std::string::npos ? 0 : before + 1;
-  return log.substr(log.find_first_not_of(' ', begin), end + 1 - begin);
+  std::string last;
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);) {
+    const auto begin = line.find_first_not_of(" \r");
+    if (begin == std::string::npos) continue;
+    line = line.substr(begin, line.find_last_not_of(" \r") + 1 - begin);
+    if (line.find("arning: ") == std::string::npos) last = line;
+  }
+  return last.empty() ? "it says nothing, as where memory is short" : last;
 }
 
 /// One process that draws some of the scripts. @returns its id
@@ -76,7 +90,8 @@ pid_t startGnuplot(std::span<const std::string> scripts, const std::filesystem::
     throw GnuplotError(
         fmt::format("gnuplot cannot be started ({}): the report is without plots; install gnuplot "
                     "(gnuplot-nox) and rebuild it with crossgrain report",
-                    std::generic_category().message(error)));
+                    std::generic_category().message(error)),
+        error != ENOENT);
   return child;
 }
 
@@ -100,11 +115,13 @@ void runGnuplot(const std::vector<std::string>& scripts, const std::filesystem::
     const std::size_t end = shareBegin(share + 1, shares, scripts.size());
     children.push_back(startGnuplot(std::span(scripts).subspan(begin, end - begin), dir));
   }
-  bool failed = false;
-  for (const pid_t child : children) failed = waitFor(child) != 0 || failed;
+  std::string failed;
+  for (const pid_t child : children)
+    if (const std::string end = endOf(waitFor(child)); !end.empty()) failed = end;
   const std::string said = readFile(dir / logName).value_or("");
-  if (failed)
-    throw GnuplotError(fmt::format("gnuplot failed in {}: {}", dir.string(), lastLine(said)));
+  if (!failed.empty())
+    throw GnuplotError(
+        fmt::format("gnuplot failed in {} ({}): {}", dir.string(), failed, lastLine(said)));
   if (said.empty()) std::filesystem::remove(dir / logName);
 }
 

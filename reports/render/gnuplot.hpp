@@ -11,7 +11,9 @@ namespace crossgrain::reports {
 
 /// gnuplot is not installed, or stopped; what() is one line.
 struct GnuplotError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit GnuplotError(const std::string& what, bool there = true)
+      : std::runtime_error(what), failed(there) {}
+  bool failed;  ///< it is there and failed; else it is the user's to install
 };
 
 /// Writes name.dat and name.gp; run in that folder, the script makes name.svg and name.pdf (and

@@ -90,7 +90,12 @@ std::string withoutEnd(std::string line) {
 std::string forTable(const std::string& text) {
   std::string safe;
   for (const char c : text) {
-    if (std::string_view("\\|*_<>`[]#&$~@").find(c) != std::string_view::npos) safe += '\\';
+    // Renderers that know no backslash before these would make them HTML.
+    if (c == '<' || c == '>' || c == '&') {
+      safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : "&amp;";
+      continue;
+    }
+    if (std::string_view("\\|*_`[]#$~@").find(c) != std::string_view::npos) safe += '\\';
     safe += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
   }
   return safe;

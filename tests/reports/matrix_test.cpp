@@ -81,7 +81,7 @@ TEST(OverviewMarkdown, AwkwardNames_AreEscaped) {
   Overview overview = made(1, 1);
   overview.rows[0].name = "a|b_c";
   const std::string text = overviewMarkdown(overview, "compare: <x>");
-  EXPECT_TRUE(has(text, "# compare: \\<x\\>\n\n| engine | question 1 |\n|---|---|\n"));
+  EXPECT_TRUE(has(text, "# compare: &lt;x&gt;\n\n| engine | question 1 |\n|---|---|\n"));
   EXPECT_TRUE(has(text, "| a\\|b\\_c | ✓ 0.3 µm |\n\nOne.\n\nTwo.\n"));
 }
 
