@@ -131,22 +131,32 @@ std::optional<TwoWalls> twoWalls(const SceneOf<D>& scene) {
   return walls;
 }
 
-/// Of the disks on a body [N].
+}  // namespace
+
 template <int D>
-std::optional<VecOf<D>> forceOn(const SceneOf<D>& scene, const SnapshotOf<D>& snapshot,
-                                std::size_t body) {
-  if (body < snapshot.bodies.size() && snapshot.bodies[body].force)
+std::optional<VecOf<D>> forceOnWall(const SceneOf<D>& scene, const SnapshotOf<D>& snapshot,
+                                    std::size_t body, std::optional<std::size_t> plane) {
+  BodyIds ids = idsOf(scene, body);
+  std::size_t members = 0;
+  for (const BodyIds::Range& range : ids.ranges) members += range.end - range.first;
+  if (body < snapshot.bodies.size() && snapshot.bodies[body].force && (!plane || members == 1))
     return snapshot.bodies[body].force;
   if (!snapshot.contacts) return std::nullopt;
-  const BodyIds ids = idsOf(scene, body);
+  if (plane) {
+    const std::size_t first = ids.ranges[1].first + *plane;
+    ids = {};
+    ids.ranges[1] = {first, first + 1};
+  }
   VecOf<D> force = VecOf<D>::Zero();
   for (std::size_t c = 0; c < snapshot.contacts->size(); ++c)
     if (ids.contain(static_cast<std::size_t>(snapshot.contacts->j[c])))
       force -= snapshot.contacts->force(c);
   return force;
 }
-
-}  // namespace
+template std::optional<Vec2> forceOnWall(const Scene&, const Snapshot&, std::size_t,
+                                         std::optional<std::size_t>);
+template std::optional<Vec3> forceOnWall(const SpaceScene&, const SpaceSnapshot&, std::size_t,
+                                         std::optional<std::size_t>);
 
 template <int D>
 bool hasTwoWalls(const SceneOf<D>& scene) {
@@ -160,8 +170,8 @@ std::optional<WallStresses> wallStresses(const SceneOf<D>& scene, const Snapshot
                                          double height) {
   const auto walls = twoWalls(scene);
   if (!walls) return std::nullopt;
-  const auto low = forceOn(scene, snapshot, walls->low);
-  const auto high = forceOn(scene, snapshot, walls->high);
+  const auto low = forceOnWall(scene, snapshot, walls->low);
+  const auto high = forceOnWall(scene, snapshot, walls->high);
   if (!low || !high) return std::nullopt;
   VecOf<D> sides = scene.box->high - scene.box->low;
   sides[walls->across] = D == 2 ? height : 1.0;

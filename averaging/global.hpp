@@ -46,6 +46,13 @@ std::optional<double> radialPressure(const Scene& scene, const Snapshot& snapsho
 std::optional<double> drivingTorque(const Scene& scene, const Snapshot& snapshot,
                                     std::string_view body);
 
+/// Force of the disks on a wall body, or on one of its planes [N]: as the engine reports it where
+/// that is all of the body, else the sum over contacts. Absent for a snapshot without either.
+/// @pre the scene has that body, and the body that plane
+template <int D>
+std::optional<VecOf<D>> forceOnWall(const SceneOf<D>& scene, const SnapshotOf<D>& snapshot,
+                                    std::size_t body, std::optional<std::size_t> plane = {});
+
 /// Of a cell between two walls: a box that is periodic but for one direction n, and at least two
 /// bodies. F is the force on the lowest and the highest body along n, A the area across n: the
 /// box's, or its length times h in the plane. Stresses as in the bins next to the walls, where

@@ -268,7 +268,10 @@ struct OwnEndpoint {
   std::string words;        ///< the name with blanks
   std::string quantity;     ///< a field of profiles.csv or a number of regionNumbers()
   std::optional<int> disk;  ///< from 0: then a number of diskNumbers()
-  std::string per;          ///< divided by another one, reduced likewise; empty: not
+  /// Of [[assembly.walls]], from 0: then a number of wallNumbers(), of all of it or of one plane.
+  std::optional<int> wall, plane;
+  double area = 1.0;  ///< that a force on a wall is divided by [m²]
+  std::string per;    ///< divided by another one, reduced likewise; empty: not
   Reduction reduction = Reduction::mean;
   int bin = 0;         ///< of Reduction::bin, from 0
   double level = 0.0;  ///< of Reduction::time [s], of Reduction::reaches [unit of the quantity]
@@ -294,6 +297,10 @@ std::span<const RegionNumber> regionNumbers(int dimension = 2);
 
 /// Of one disk, wherever it is.
 std::span<const RegionNumber> diskNumbers(int dimension = 2);
+
+/// Of one wall, or of one of its planes: what the disks do to it.
+std::span<const RegionNumber> wallNumbers(int dimension = 2);
+inline constexpr std::string_view normalForce = "normal_force";
 
 struct Average {
   Region region;

@@ -138,7 +138,22 @@ std::span<const RegionNumber> diskNumbers(int dimension) {
   return inPlane;
 }
 
+std::span<const RegionNumber> wallNumbers(int dimension) {
+  static constexpr RegionNumber
+      normal = {normalForce, "N", "force of the disks on a plane of a wall, against its normal"},
+      x = {"force_x", "N", "x of the force of the disks on a wall"},
+      y = {"force_y", "N", "y of the force of the disks on a wall"},
+      z = {"force_z", "N", "z of the force of the spheres on a wall"};
+  static constexpr std::array inPlane = {normal, x, y};
+  static constexpr std::array inSpace = {normal, x, y, z};
+  if (dimension == 3) return inSpace;
+  return inPlane;
+}
+
 std::string OwnEndpoint::series() const {
+  if (wall)
+    return fmt::format("wall_{}_{}{}", *wall, plane ? fmt::format("plane_{}_", *plane) : "",
+                       quantity);
   return disk ? fmt::format("disk_{}_{}", *disk, quantity) : quantity;
 }
 

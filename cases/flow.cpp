@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "adapters/registry.hpp"
 #include "cases/assembly_scene.hpp"
 #include "cases/couette.hpp"
 #include "cases/preparation.hpp"
@@ -150,6 +151,12 @@ ExpectedPacking expectedPacking(const Case& setup, int index, double dt) {
   ExpectedPacking packing{packingHash(setup, index, dt), false};
   packing.there = std::filesystem::exists(packingCacheFile(packing.hash));
   return packing;
+}
+
+void checkPacking(const Case& setup, int index, double dt) {
+  if (!isAssembly(setup) && !packingsAreFiles(setup)) return;
+  const auto none = engineRegistry().front().make();  // nothing is prepared
+  flowPacking(setup, index, dt, *none, [](double) {});
 }
 
 double flowRestart(const Case& setup, double t) {

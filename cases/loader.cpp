@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "cases/assembly_scene.hpp"
 #include "cases/couette.hpp"
@@ -64,8 +65,15 @@ void refuseSections(const Reader& root, CaseKind kind) {
 void requireStep(Reader& run, const Case& c) {
   if (c.run.dt) return;
   if (c.law.normal == NormalLaw::rigid) run.failMissing("dt", "a rigid law has no contact time");
-  if (c.law.stiffens())
+  if (!c.law.stiffens()) return;
+  const double speed = startingSpeed(c);
+  if (!(speed > 0.0))
     run.failMissing("dt", "the contact time of this law depends on the speed of an impact");
+  const double time = fastestImpactTime(c);
+  run.failMissing("dt", fmt::format("the contact time of this law depends on the speed of an "
+                                    "impact: {:.3g} s at {:.3g} m/s, the fastest at the start; "
+                                    "a fiftieth of it is {:.2g} s",
+                                    time, speed, time / 50.0));
 }
 
 /// A linear contact must oscillate: e_n and t_c are defined by that.
@@ -123,14 +131,18 @@ void checkFit(const Reader& cell, const Reader& particles, const Case& c) {
 }
 
 /// Runs that no machine ends are mistyped numbers.
-void checkLength(const Reader& cell, const Case& c) {
+/// @param steps  may be no number, where a step is too small to be one
+void checkSteps(const Reader& in, std::string_view key, const char* what, double steps) {
   constexpr double mostSteps = 1e12;
+  in.check(steps <= mostSteps, key, "{} would take {:.3g} steps: at most {:g}", what, steps,
+           mostSteps);
+}
+
+void checkLength(const Reader& cell, const Case& c) {
   const double rotations = c.averaging.settleRotations + c.averaging.rotations;
   const double time = rotations * 2.0 * std::numbers::pi / std::abs(c.cell.omega);
-  const double steps = preparationSteps(c) + time / timeStep(c);
-  cell.check(steps <= mostSteps, "omega",
-             "preparation, settling and averaging would take {:.3g} steps: at most {:g}", steps,
-             mostSteps);
+  checkSteps(cell, "omega", "preparation, settling and averaging",
+             preparationSteps(c) + time / timeStep(c));
 }
 
 void checkPreparation(const Reader& preparation, const Case& c) {
@@ -192,6 +204,8 @@ void readAssemblyCase(Reader& root, Reader& law, Reader& run, Starts starts, Cas
                  "this law has no contact time: give duration or steps");
   // An overdamped contact has no t_c, but it is a scene.
   if (!c.run.dt || contactTimes) checkDamping(law, c);
+  for (const char* const key : {"duration", "contact_times", "steps"})
+    if (assembly.has(key)) checkSteps(assembly, key, "it", assemblyDuration(c) / timeStep(c));
   if (c.average) checkAveragedTime(average, endpoints, c);
   inDimensionOf(c, [&]<int D>() { checkStartFiles<D>(c); });
 }
@@ -210,6 +224,17 @@ void readCollisionCase(Reader& root, Reader& law, Reader& run, Case& c) {
     if (!c.run.dt) run.failMissing("dt", "a rigid law has no contact time");
   }
   checkDamping(law, c);
+  if (!c.law.soft()) return;
+  const char* const key = collision.has("steps_per_contact") ? "steps_per_contact"
+                          : collision.has("vn")              ? "vn"
+                                                             : "speed";
+  try {
+    const ImpactTimes lasting = impactTimes(c);
+    for (const double dt : collisionTimeSteps(c))
+      checkSteps(collision, key, "the longest impact", lasting.longest / dt);
+  } catch (const std::invalid_argument&) {
+    return;  // a law that such an impact overcomes: the command says so
+  }
 }
 
 /// Paths in a document that is kept or printed must not hang on where it came from.
@@ -261,6 +286,8 @@ Case readCase(const std::filesystem::path& file, CaseDocument& document,
     readCollisionCase(root, law, run, c);
   else
     readAssemblyCase(root, law, run, starts, c);
+
+  if (!law.has("pairs")) refuseMaterials(c);  // an empty list is one that was taken away
 
   document.root["case"].as_table()->insert("name", c.name);
   makeAbsolute(document.root, c);

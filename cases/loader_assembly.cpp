@@ -104,18 +104,21 @@ struct Arrangement {
 };
 constexpr Arrangement arrangements[] = {
     {"grid",
-     "`{ columns, rows, spacing = 1, triangular = false }`: to the right and upward. In space also "
+     "`{ columns, rows, spacing = 1, triangular = false }`: to the right and upward, spacing in "
+     "diameters of a disk, as in all arrangements. In space also "
      "`layers = 1`, and `axes = \"xyz\"` says along which axes columns, rows and layers are; "
      "triangular layers lie in the hollows of the ones below (close-packed)",
      true},
     {"stack", "`{ count, spacing = 1 }`: upward", false},
     {"chain", "`{ count, spacing = 1 }`: to the right", true},
     {"heap", "`{ base, spacing = 1 }`: a triangle of rows of base, base − 1, … disks", false},
-    {"line", "`{ count, step }`: each off by step, [x, y], from the one before", true},
+    {"line", "`{ count, step }`: each off by step, [x, y] in diameters, from the one before", true},
     {"circles",
      "in space: `{ inner = 0, outer, spacing = 1, layers = 1, rise = spacing, axis = \"z\" }`: on "
-     "circles about `position`, of radii inner, inner + spacing … up to outer, as many on each as "
-     "fit; layers along the axis. A bottom with an orifice, or what fills a cylinder",
+     "circles about `position`, of radii inner, inner + spacing … up to outer, all in diameters, "
+     "as "
+     "many on each as fit; layers along the axis. A bottom with an orifice, or what fills a "
+     "cylinder",
      true}};
 
 /// Adds the keys of arrangements, of which one may be given.
@@ -123,27 +126,28 @@ template <int D, typename T>
 std::vector<Key<T>> withArrangements(std::vector<Key<T>> keys) {
   for (const auto& [name, meaning, inSpace] : arrangements) {
     if (D == 3 && !inSpace) continue;
-    keys.push_back(special<T>(
-        {name, "", "–", "a table", meaning}, [](Reader& in, const std::string& key, T& target) {
-          if (!in.has(key)) return static_cast<void>(in.take(key));
-          Reader part = in.section(key);
-          std::vector<VecOf<D>>& places = target.places;
-          if (key == "grid") {
-            places = readGrid<D>(part);
-          } else if (key == "line") {
-            places = readLine<D>(part);
-          } else if (key == "circles") {
-            if constexpr (D == 3) places = readCircles(part);
-          } else {
-            const auto [count, space] = readRow(part, key == "heap" ? "base" : "count");
-            if constexpr (D == 2)
-              places = key == "heap"    ? heapPlaces(count, space)
-                       : key == "stack" ? gridPlaces(1, count, {space, space}, false)
-                                        : gridPlaces(count, 1, {space, space}, false);
-            else
-              places = latticePlaces({count, 1, 1}, Vec3::Constant(space), false);
-          }
-        }));
+    keys.push_back(
+        special<T>({name, "diameters", "–", "a table", meaning},
+                   [](Reader& in, const std::string& key, T& target) {
+                     if (!in.has(key)) return static_cast<void>(in.take(key));
+                     Reader part = in.section(key);
+                     std::vector<VecOf<D>>& places = target.places;
+                     if (key == "grid") {
+                       places = readGrid<D>(part);
+                     } else if (key == "line") {
+                       places = readLine<D>(part);
+                     } else if (key == "circles") {
+                       if constexpr (D == 3) places = readCircles(part);
+                     } else {
+                       const auto [count, space] = readRow(part, key == "heap" ? "base" : "count");
+                       if constexpr (D == 2)
+                         places = key == "heap"    ? heapPlaces(count, space)
+                                  : key == "stack" ? gridPlaces(1, count, {space, space}, false)
+                                                   : gridPlaces(count, 1, {space, space}, false);
+                       else
+                         places = latticePlaces({count, 1, 1}, Vec3::Constant(space), false);
+                     }
+                   }));
   }
   return keys;
 }

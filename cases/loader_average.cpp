@@ -1,9 +1,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
+#include "averaging/global.hpp"
 #include "averaging/weights.hpp"
 #include "cases/assembly_scene.hpp"
 #include "cases/flow.hpp"
@@ -72,7 +74,8 @@ const Section<AverageInput>& averageKeys() {
            "as in `[averaging]`; in space slicing, centre or, of slabs, the coarse-graining "
            "functions "
            "heaviside, lucy and gauss"),
-       key("line_width", &A::lineWidth, positive("d"),
+       key("line_width", &A::lineWidth,
+           Range{.low = 0.0, .high = 1000.0, .lowOpen = true, .unit = "d"},
            "as in `[averaging]`, of the smallest disks"),
        key("confidence", &A::confidence, inside(0.0, 1.0), "as in `[averaging]`")});
   return section;
@@ -119,6 +122,36 @@ void checkRegionInBox(const Reader& in, const Case& c) {
   });
 }
 
+/// Contacts are averaged in pieces as long as a bin is wide, a disk bin by bin: a bin that is much
+/// thinner than a disk is a mistyped number, whose loops do not end.
+void checkWidths(const Reader& in, const Case& c) {
+  constexpr double thinnest = 1e-4;  // [smallest diameters]
+  constexpr int mostBins = 1'000'000;
+  const Region& region = c.average->region;
+  in.check(region.binCount() <= mostBins, "bins", "these are {} bins: at most {}",
+           region.binCount(), mostBins);
+  const double least = thinnest * flowDiameter(c);
+  const auto check = [&](const char* key, double width, const char* along) {
+    in.check(width >= least, key,
+             "a bin would be {:.3g} m wide along {}: at least {:.3g} m, 10^-4 diameters of the "
+             "smallest {}",
+             width, along, least, c.dimension == 2 ? "disk" : "sphere");
+  };
+  if (region.hasRings()) {
+    check("outer_radius", (region.outerRadius - region.innerRadius) / region.count, "r");
+    if (c.dimension == 3) check("top", (region.high.z() - region.low.z()) / region.layers, "z");
+    return;
+  }
+  const std::array counts = {region.columnCount(), region.rowCount(), region.layerCount()};
+  constexpr std::array axes = {"x", "y", "z"};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(c.dimension); ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    const double width = region.high[axis] - region.low[axis];
+    in.check(std::isfinite(width), "high", "is so far from low that no number holds it");
+    check("high", width / counts[k], axes[k]);
+  }
+}
+
 void readRegion(Reader& in, Case& c) {
   Region& region = c.average->region;
   AverageInput input;
@@ -158,6 +191,7 @@ void readRegion(Reader& in, Case& c) {
     region.high.z() = input.top;
     in.check(input.top > input.bottom, "top", "must be > bottom = {} m", input.bottom);
   }
+  checkWidths(in, c);
   checkRegionInBox(in, c);
 }
 
@@ -182,6 +216,16 @@ const Section<EndpointInput>& endpointsKeys() {
             "a field of `profiles.csv`, or a quantity of `crossgrain list endpoints`"),
        key("disk", &OwnEndpoint::disk, between(0, mostDisks),
            "of which `quantity` is `x`, `y`, `velocity_x`, `velocity_y` or `spin`; from 0"),
+       key("wall", &OwnEndpoint::wall, between(0, mostDisks),
+           "of `[[assembly.walls]]`, from 0, of which `quantity` is `normal_force`, `force_x` …: "
+           "of "
+           "the disks on it"),
+       key("plane", &OwnEndpoint::plane, between(0, mostDisks),
+           "of that wall, from 0; of a `box`: left, bottom, right, top, in space the planes at its "
+           "lower corner across x, y and z, then those at its upper one"),
+       key("area", &OwnEndpoint::area, positive("m^2"),
+           "the force on a wall is divided by it: a stress, in N/m²")
+           .listed("–"),
        key("per", &OwnEndpoint::per, any,
            "another quantity of the same kind and unit, that it is divided by"),
        special<E>(
@@ -240,6 +284,43 @@ Quantity quantityOfDisk(const Reader& in, const std::string& name, int dimension
   in.fail("quantity", "of a disk is {}{}", fmt::join(known, ", "), suggestion(name, known));
 }
 
+/// Of one wall. A force against the normal is that of one plane which keeps its direction.
+Quantity quantityOfWall(const Reader& in, const OwnEndpoint& endpoint, const Case& setup) {
+  std::vector<std::string> known;
+  for (const RegionNumber& number : wallNumbers(setup.dimension)) known.emplace_back(number.name);
+  if (std::ranges::find(known, endpoint.quantity) == known.end())
+    in.fail("quantity", "of a wall is {}{}", fmt::join(known, ", "),
+            suggestion(endpoint.quantity, known));
+  withAssembly(setup, [&](const auto& assembly) {
+    const auto& walls = assembly.walls;
+    in.check(static_cast<std::size_t>(*endpoint.wall) < walls.size(), "wall",
+             "there are {} walls, counted from 0", walls.size());
+    const auto& wall = walls[static_cast<std::size_t>(*endpoint.wall)];
+    if (endpoint.plane)
+      in.check(static_cast<std::size_t>(*endpoint.plane) < wall.planes.size(), "plane",
+               "assembly.walls[{}] has {} planes, counted from 0", *endpoint.wall,
+               wall.planes.size());
+    if (endpoint.quantity != normalForce) return;
+    const bool sole = wall.planes.size() == 1 && wall.position.empty() && wall.cylinders.empty();
+    if (!sole && !endpoint.plane)
+      in.failMissing("plane", "normal_force is of one plane, and this wall is more, or has none");
+    in.check(wall.motion.kind != MotionKind::rotating, "quantity",
+             "the planes of a wall that turns keep no direction: take force_x …");
+  });
+  return {false, in.has("area") ? "N/m²" : "N"};
+}
+
+/// Stresses of two walls are of the scenes that have them, and nothing of any other.
+void checkTwoWalls(const Reader& in, std::string_view key, const std::string& quantity,
+                   const Case& setup) {
+  if (quantity != "wall_normal_stress" && quantity != "wall_shear_stress") return;
+  const bool between = inDimensionOf(
+      setup, [&]<int D>() { return hasTwoWalls(assemblyScene<D>(setup, DisksOf<D>{}, 0.0, 1.0)); });
+  in.check(between, key,
+           "is of a box that is periodic in all directions but one, between two walls across it; "
+           "the force on one wall is quantity = \"normal_force\", with wall = 0 …");
+}
+
 /// Disks of each start.
 std::size_t disksOf(const Case& setup) {
   return withAssembly(setup, [](const auto& assembly) {
@@ -296,6 +377,8 @@ std::string definitionOf(const OwnEndpoint& endpoint, bool isField) {
   const bool ratio = !endpoint.per.empty();
   std::string what = endpoint.quantity;
   if (endpoint.disk) what += fmt::format(" of disk {}", *endpoint.disk);
+  if (endpoint.wall) what += fmt::format(" of wall {}", *endpoint.wall);
+  if (endpoint.plane) what += fmt::format(", plane {}", *endpoint.plane);
   if (ratio) what += " and " + endpoint.per;
   const std::string value = ratio ? "ratio of " + what : what;
   std::string when = isField ? "averaged part" : "averaged time";
@@ -349,13 +432,20 @@ OwnEndpoint readEndpoint(Reader& in, const Case& c, Margin& margin) {
     const auto last = static_cast<int>(disksOf(c)) - 1;
     in.check(*endpoint.disk <= last, "disk", "must be in [0, {}]", last);
   }
-  const Quantity quantity = endpoint.disk ? quantityOfDisk(in, endpoint.quantity, c.dimension)
-                                          : quantityOf(in, "quantity", endpoint.quantity, c);
+  in.onlyOne({"disk", "wall"});
+  for (const char* const ofWall : {"plane", "area"})
+    in.check(endpoint.wall || !in.has(ofWall), ofWall, "is of one wall: give wall, too");
+  const Quantity quantity = endpoint.disk   ? quantityOfDisk(in, endpoint.quantity, c.dimension)
+                            : endpoint.wall ? quantityOfWall(in, endpoint, c)
+                                            : quantityOf(in, "quantity", endpoint.quantity, c);
+  checkTwoWalls(in, "quantity", endpoint.quantity, c);
+  checkTwoWalls(in, "per", endpoint.per, c);
   setReduction(in, input, region, quantity.isField, endpoint);
   margin = marginOf(in, input, {endpoint.name, ""}, nullptr);
   in.check(usableName(endpoint.name), "name", "{}", usableNameRule);
   if (in.has("per")) {
-    in.check(!endpoint.disk, "per", "is of the averaged part, and disk of one disk");
+    in.check(!endpoint.disk && !endpoint.wall, "per",
+             "is of the averaged part, and {} of one of them", endpoint.disk ? "disk" : "wall");
     in.check(endpoint.reduction != Reduction::reaches, "per", "not where reaches is");
     const Quantity below = quantityOf(in, "per", endpoint.per, c);
     in.check(below.isField == quantity.isField, "per",

@@ -125,6 +125,7 @@ void readBox(Reader in, AssemblyOf<D>& assembly) {
   in.check(!box.along.empty(), "periodic", "must name a direction; a box without any is none");
   in.check(((box.high - box.low).array() > 0.0).all(), "high", "must lie beyond low in all of {}",
            D == 2 ? "x, y" : "x, y, z");
+  in.check((box.high - box.low).allFinite(), "high", "is so far from low that no number holds it");
   for (const std::string& name : box.along) {
     const int k = name[0] - 'x';
     box.periodic[static_cast<std::size_t>(k)] = true;

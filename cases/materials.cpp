@@ -96,6 +96,14 @@ void settleMaterials(Case& setup) {
   }
 }
 
+void refuseMaterials(const Case& setup) {
+  for (const auto& [who, material] : bodiesOf(setup))
+    if (!material->name.empty())
+      throw BadInput(fmt::format(
+          "{} = \"{}\": the case has no [[law.pairs]], which say what the law of a material is",
+          material->where, material->name));
+}
+
 template <int D>
 void addMaterials(SceneOf<D>& scene, const Case& setup) {
   if (!setup.materials) return;

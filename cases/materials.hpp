@@ -32,4 +32,7 @@ void addMaterials(SceneOf<D>& scene, const Case& setup);
 /// @throws BadInput
 void settleMaterials(Case& setup);
 
+/// Of a case without [[law.pairs]]: a name of a material would mean nothing. @throws BadInput
+void refuseMaterials(const Case& setup);
+
 }  // namespace crossgrain::inline cases

@@ -237,6 +237,27 @@ double startingSpeed(const AssemblyOf<D>& assembly) {
 
 }  // namespace
 
+double startingSpeed(const Case& setup) {
+  if (setup.kind == CaseKind::couette) return std::abs(setup.cell.omega) * setup.cell.innerRadius;
+  return withAssembly(setup, [](const auto& assembly) { return startingSpeed(assembly); });
+}
+
+double fastestImpactTime(const Case& setup) {
+  const bool alone =
+      setup.kind == CaseKind::assembly && withAssembly(setup, [](const auto& assembly) {
+        std::size_t count =
+            assembly.starts.disks.empty() ? 0 : assembly.starts.disks.front().size();
+        for (const auto& group : assembly.disks) count += group.count();
+        return count == 1;  // it meets walls alone, with R₁₂ = a, of two it is a/2
+      });
+  const Impact impact{lightestReducedMass(setup), flowDiameter(setup) / (alone ? 2.0 : 4.0),
+                      startingSpeed(setup)};
+  double shortest = INFINITY;
+  for (const ContactLaw& law : lawsOf(setup))
+    shortest = std::min(shortest, impactTime(law, impact));
+  return shortest;
+}
+
 std::optional<double> pairContactTime(const Case& setup) {
   if (setup.law.normal != NormalLaw::linear || setup.particles.file) return std::nullopt;
   try {
@@ -250,10 +271,7 @@ namespace {
 
 std::optional<PairStepLimit> pairStepLimit(const Case& setup, const ContactLaw& law,
                                            const LightestPair& pair) {
-  const double speed =
-      setup.kind == CaseKind::couette
-          ? std::abs(setup.cell.omega) * setup.cell.innerRadius
-          : withAssembly(setup, [](const auto& assembly) { return startingSpeed(assembly); });
+  const double speed = startingSpeed(setup);
   Deepest stiffness{};
   try {
     stiffness = deepest(law, {pair.normal, flowDiameter(setup) / 4.0, speed});

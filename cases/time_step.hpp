@@ -47,6 +47,14 @@ double preparationSteps(const Case& c);
 /// @throws std::invalid_argument for a law that has none
 double shortestContact(const Case& c);
 
+/// At the start, of the two fastest of an assembly's disks and walls against each other; of a cell
+/// the wheel's rim [m/s].
+double startingSpeed(const Case& setup);
+
+/// How long the lightest pair touches at that speed, under the law that makes it shortest [s].
+/// @pre startingSpeed() > 0
+double fastestImpactTime(const Case& setup);
+
 /// t_c of the lightest pair that a case's own numbers allow [s]; absent for a law that has none,
 /// and where the disks are a packing file's.
 std::optional<double> pairContactTime(const Case& setup);

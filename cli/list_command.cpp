@@ -60,6 +60,13 @@ json listEndpoints(const fs::path&) {
                            std::string(number.definition) +
                                (dimension == 3 ? "; a quantity for [[endpoints]] in space"
                                                : "; a quantity for [[endpoints]]")));
+  for (const int dimension : {2, 3})
+    for (const RegionNumber& number : wallNumbers(dimension))
+      if (listed.insert(number.name).second)
+        rows.push_back(row(number.name, number.unit,
+                           std::string(number.definition) +
+                               "; a quantity for [[endpoints]] with `wall`" +
+                               (dimension == 3 ? ", in space" : "")));
   return rows;
 }
 

@@ -110,6 +110,7 @@ class RegionAverages : public ProfileAveragesOf<D> {
   void addMoments(const SnapshotOf<D>& now);
   void addWalls(const SnapshotOf<D>& now);
   void addDisks(const SnapshotOf<D>& now);
+  void addWallForces(const SnapshotOf<D>& now);
   void addFlanks(const SnapshotOf<D>& now);
 
   using ProfileAveragesOf<D>::profiles_;

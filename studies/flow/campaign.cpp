@@ -398,6 +398,17 @@ void Campaign::lookForPackings(int count) {
   }
 }
 
+void Campaign::lookForPackings() {
+  for (int k = 0; runsEngines() && k < packingCount(); ++k) {
+    throwIfInterrupted();
+    checkPacking(setup_, k, dt_);
+  }
+  if (setup_.particles.file)
+    requireStable(setup_, dt_,
+                  lightestPair(readPacking(*setup_.particles.file, setup_).disks, true));
+  lookForPackings(packingCount());
+}
+
 std::string Campaign::planHead() const {
   return fmt::format("{}: {} packings, {} of them prepared already\n", setup_.name,
                      packings_.size(), std::ranges::count_if(packings_, &Packing::fromCache));

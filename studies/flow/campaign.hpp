@@ -102,8 +102,8 @@ class Campaign {
   /// In place of preparePackings(), where no run of the further packings is missing: which they
   /// are.
   void lookForPackings(int count);
-  /// Of a dry run, in place of preparePackings() and timeEngines().
-  void lookForPackings() { lookForPackings(packingCount()); }
+  /// Of a dry run, in place of preparePackings() and timeEngines(). @throws BadInput likewise
+  void lookForPackings();
   /// What `run` would do, engine by engine, those that refuse too.
   std::vector<PlannedWork> plan(const std::vector<Variant>& variants) const;
   /// Whether runs of files take part, which are what they are: no more of them can be asked for.

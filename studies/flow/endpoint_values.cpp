@@ -105,9 +105,11 @@ const Formula& formulaOf(std::string_view endpoint) {
   return *found;
 }
 
-/// What a field, or a number of regionNumbers() or diskNumbers(), is made of.
-Needs needsOf(const std::string& quantity, bool ofDisk, int dimension) {
-  if (ofDisk) return quantity.starts_with("spin") ? Needs::spin : Needs::kinematics;
+/// What a field, or a number of regionNumbers() or diskNumbers(), is made of. Forces on walls have
+/// no need that profiles show: where there are none the series is empty, and says so.
+Needs needsOf(const std::string& quantity, const OwnEndpoint& how, int dimension) {
+  if (how.wall) return Needs::kinematics;
+  if (how.disk) return quantity.starts_with("spin") ? Needs::spin : Needs::kinematics;
   const auto numbers = regionNumbers(dimension);
   const auto found = std::ranges::find(numbers, quantity, &RegionNumber::name);
   if (found == numbers.end()) return fieldSpec(quantity).needs;
@@ -181,7 +183,7 @@ std::string notShown(const EndpointSpec& endpoint, const Case& setup, const Flow
   if (!own) return lackOf(formulaOf(endpoint.name).needs, run);
   for (const std::string& quantity : {own->quantity, own->per}) {
     if (quantity.empty()) continue;
-    std::string lack = lackOf(needsOf(quantity, own->disk.has_value(), setup.dimension), run);
+    std::string lack = lackOf(needsOf(quantity, *own, setup.dimension), run);
     if (!lack.empty()) return lack;
     const bool ofSliding = quantity == "sliding_fraction" && run.series;
     if (run.ofFiles() && ofSliding && presentNumbers(valuesOf(*run.series, quantity)).empty())

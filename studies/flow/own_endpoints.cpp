@@ -120,7 +120,7 @@ std::optional<double> missedTime(const OwnEndpoint& how, const Case& setup,
 OwnValue ofSeries(const std::string& quantity, const OwnEndpoint& how, const Case& setup,
                   const FlowRun& run) {
   if (!run.series) return {};
-  const std::string name = how.disk ? how.series() : quantity;
+  const std::string name = how.disk || how.wall ? how.series() : quantity;
   // A disk's velocity may be of another instant than its place.
   const bool ofVelocity = how.disk && quantity != "x" && quantity != "y" && quantity != "z";
   const Numbers& values = valuesOf(*run.series, name);
@@ -132,10 +132,10 @@ OwnValue ofSeries(const std::string& quantity, const OwnEndpoint& how, const Cas
     const auto [from, to] = how.between.value_or(std::pair(-INFINITY, INFINITY));
     if (!times[k] || *times[k] < from || *times[k] > to) continue;
     ++all;
-    last = values[k];
-    if (!values[k]) continue;
+    last = values[k] ? Value(*values[k] / how.area) : Value{};
+    if (!last) continue;
     points.t.push_back(*times[k]);
-    points.y.push_back(*values[k]);
+    points.y.push_back(*last);
   }
   if (const auto t = missedTime(how, setup, *run.series))
     return {{}, fmt::format("no snapshot near t = {:.6g} s", *t), true};
@@ -195,7 +195,8 @@ OwnValue ofField(const std::string& field, const OwnEndpoint& how, const Case& s
 OwnValue reduced(const std::string& quantity, const OwnEndpoint& how, const Case& setup,
                  const FlowRun& run) {
   const auto numbers = regionNumbers(setup.dimension);
-  if (how.disk || std::ranges::find(numbers, quantity, &RegionNumber::name) != numbers.end())
+  if (how.disk || how.wall ||
+      std::ranges::find(numbers, quantity, &RegionNumber::name) != numbers.end())
     return ofSeries(quantity, how, setup, run);
   return ofField(quantity, how, setup, run);
 }

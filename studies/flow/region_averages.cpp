@@ -96,6 +96,25 @@ void RegionAverages<D>::addWalls(const SnapshotOf<D>& now) {
 }
 
 template <int D>
+void RegionAverages<D>::addWallForces(const SnapshotOf<D>& now) {
+  std::set<std::string> added;  // two endpoints may share a column
+  for (const OwnEndpoint& own : setup_.average->endpoints) {
+    if (!own.wall || !added.insert(own.series()).second) continue;
+    const auto body = static_cast<std::size_t>(*own.wall);
+    const std::optional<std::size_t> plane =
+        own.plane ? std::optional(static_cast<std::size_t>(*own.plane)) : std::nullopt;
+    const auto force = forceOnWall<D>(scene_, now, body, plane);
+    Numbers& row = series_[own.series()];
+    if (!force)
+      row.emplace_back();
+    else if (own.quantity == normalForce)
+      row.push_back(-force->dot(scene_.bodies[body].planes[plane.value_or(0)].normal));
+    else
+      row.push_back((*force)[componentOf(own.quantity)]);
+  }
+}
+
+template <int D>
 void RegionAverages<D>::addFlanks(const SnapshotOf<D>& now) {
   // As Lethe measures the sandpile of Ai et al. (2011): eight tops from -0.5 to -0.1 m of a box of
   // +-1 m; here of the right flank too, and in any box.
@@ -141,6 +160,7 @@ void RegionAverages<D>::add(const SnapshotOf<D>& snapshot) {
   addMoments(snapshot);
   addWalls(snapshot);
   addDisks(snapshot);
+  addWallForces(snapshot);
   if (std::ranges::any_of(setup_.average->endpoints, [](const OwnEndpoint& own) {
         return own.quantity == "flank_slope" || own.per == "flank_slope";
       }))

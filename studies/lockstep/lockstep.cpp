@@ -316,6 +316,21 @@ CachedTask<LockstepRow> taskOf(const LockstepEngine& engine, const Case& setup,
   return task;
 }
 
+/// Where the in-house engine, which all mirrors are made of, cannot run the scene: engines are
+/// compared with each other all the same.
+LockstepFindings withoutMirrors(const std::vector<LockstepEngine>& engines, const Case& setup,
+                                const std::string& why) {
+  LockstepFindings findings;
+  findings.rules = lockstepRules(setup.law);
+  for (const LockstepEngine& engine : engines) {
+    LockstepRow& row = findings.rows.emplace_back();
+    row.engine = engine.entry.name;
+    row.reason = fmt::format("there is no mirror: {}, which mirrors are made of, {}",
+                             engineRegistry().front().name, why);
+  }
+  return findings;
+}
+
 }  // namespace
 
 LockstepFindings holdAgainstMirrors(const std::vector<LockstepEngine>& engines, const Case& setup,
@@ -332,9 +347,13 @@ LockstepFindings holdAgainstMirrors(const std::vector<LockstepEngine>& engines, 
         return store.find(task.name, task.key).has_value();
       })) {
     progress.begin("finding states of the flow", {1.0});
-    states = statesAlongTheFlow(
-        setup, plan.packings, plan.dt, plan.starts,
-        [&](double fraction) { progress.update(0, "states", fraction); }, plan.jobs);
+    try {
+      states = statesAlongTheFlow(
+          setup, plan.packings, plan.dt, plan.starts,
+          [&](double fraction) { progress.update(0, "states", fraction); }, plan.jobs);
+    } catch (const UnsupportedScene& refusal) {
+      return withoutMirrors(engines, setup, refusal.what());
+    }
     kept.emplace();
     for (const FlowState& state : states) kept->starts.push_back(state.start);
     store.keep(name, key, jsonOf(*kept));

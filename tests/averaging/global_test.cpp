@@ -97,6 +97,23 @@ TEST(RadialPressure, CountsContactByContact) {
   EXPECT_THROW(pressure("lid", 1.0), std::invalid_argument);
 }
 
+TEST(ForceOnWall, OfAPlaneIsThatOfItsContacts_OfABodyWhatTheEngineReports) {
+  Instant instant = cell();
+  const std::size_t ring = instant.scene.bodies.size() - 1;
+  const std::size_t planes = instant.scene.bodies[ring].planes.size();
+  ASSERT_EQ(planes, 1u);
+  instant.addContact(0, 5, {0.6, 0.8}, 5.0, 0.0);  // the plane's id, the last of all
+  instant.snapshot.bodies[ring].force = Vec2(7.0, 8.0);
+  const auto force = [&](std::optional<std::size_t> plane) {
+    return forceOnWall(instant.scene, instant.snapshot, ring, plane).value();
+  };
+  EXPECT_EQ(force({}), Vec2(7.0, 8.0));  // the wall disks' too
+  EXPECT_NEAR(force(0).x(), -3.0, 1e-14);
+  EXPECT_NEAR(force(0).y(), -4.0, 1e-14);
+  instant.snapshot.contacts.reset();
+  EXPECT_FALSE(forceOnWall(instant.scene, instant.snapshot, ring, std::size_t{0}));
+}
+
 TEST(DrivingTorque, IsWhatTheWheelDoesToTheDisks) {
   const Instant instant = cell();
   EXPECT_EQ(drivingTorque(instant.scene, instant.snapshot, "wheel"), 0.6);

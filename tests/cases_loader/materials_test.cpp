@@ -134,6 +134,13 @@ TEST_F(Materials, RollingAndCohesion_OfPairs) {
   EXPECT_EQ(glass.kc, 2e4);
 }
 
+TEST_F(LoaderErrors, MaterialWithoutPairs_IsRefused_UnlessTheyWereTakenAway) {
+  const std::string named = soundAssembly + "material = \"glass\"\n";
+  expectMessage(named, "\"glass\": the case has no [[law.pairs]]");
+  std::string away = named;
+  EXPECT_EQ(messageOfText(away.insert(away.find("[assembly]"), "pairs = []\n")), "");
+}
+
 TEST_F(LoaderErrors, Pairs_OfMaterials) {
   expectMessages({
       {cell(pair(glassSteel, "kn = 0")),

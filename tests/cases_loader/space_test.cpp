@@ -197,6 +197,72 @@ TEST_F(Space, Average_Refusals) {
                 "rings are of scenes that are not periodic");
 }
 
+TEST_F(Space, SizesThatNoNumberHolds_AreRefused) {
+  const auto with = [](const std::string& from, const std::string& to) {
+    std::string text = spheres + slabsAlongZ;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  expectMessage(with("contact_times = 3", "duration = 1e300"), "steps: at most 1e+12");
+  expectMessage(with("kn = 100.0", "kn = 1e300"), "steps: at most 1e+12");
+  expectMessage(with("contact_times = 3", "contact_times = 1e12"), "steps: at most 1e+12");
+  expectMessage(
+      with("low = [0, 0, 0]\nhigh = [5, 6, 1]", "low = [-1e308, 0, 0]\nhigh = [1e308, 6, 1]"),
+      "assembly.box.high: is so far from low that no number holds it");
+  expectMessage(with("high = [5, 6, 4]", "high = [5, 6, 1e-12]"),
+                "average.high: a bin would be 2.5e-13 m wide along z: at least 0.0001 m");
+}
+
+TEST_F(Space, WallStress_IsOfTwoWalls_AndAForceOfOne) {
+  const std::string alone = spheres + slabsAlongZ;
+  const auto endpoint = [](const std::string& what) {
+    return "[[endpoints]]\nname = \"w\"\nabsolute = 1\nwhy = \"x\"\n" + what;
+  };
+  const std::string plane = "[[assembly.walls]]\nbox = [0, 0, 0, 5, 6, 9]\n",
+                    stress = "quantity = \"wall_normal_stress\"";
+  expectMessage(alone + endpoint(stress), "is of a box that is periodic in all directions but one");
+  std::string closed = alone;
+  closed.erase(closed.find("[assembly.box]"),
+               closed.find("[[assembly.disks]]") - closed.find("[assembly.box]"));
+  closed.insert(closed.find("[average]"), plane);
+  expectMessage(closed + endpoint(stress),
+                "is of a box that is periodic in all directions but one");
+  const std::string normal = "quantity = \"normal_force\"\nwall = 1\n";
+  expectMessage(closed + endpoint(normal), "endpoints[0].plane is missing");
+  expectMessage(closed + endpoint(normal + "plane = 6"), "assembly.walls[1] has 6 planes");
+  expectMessage(closed + endpoint("quantity = \"force_x\"\nwall = 2"), "there are 2 walls");
+  expectMessage(closed + endpoint("quantity = \"mean_z\"\narea = 2.0"), "is of one wall");
+  std::ofstream("case.toml") << closed + endpoint(normal + "plane = 2\narea = 30.0");
+  const OwnEndpoint own = loadCase("case.toml").front().average->endpoints.at(0);
+  EXPECT_EQ(own.unit, "N/m²");
+  EXPECT_EQ(own.series(), "wall_1_plane_2_normal_force");
+}
+
+/// One glass sphere of 1 mm on a plane at 1 m/s: T = 2.9432 δ/v, δ = (15 m v²/(16 E* √R))^(2/5)
+/// with E* = 50 GPa/(1 − 0.22²), m = 1.309 mg, R = 0.5 mm (Johnson 1985).
+TEST_F(Space, HertzWithoutStep_SaysHowLongTheFastestImpactOfTheStartLasts) {
+  expectMessage(R"([case]
+kind = "assembly"
+dimension = 3
+[law]
+normal = "hertz"
+young = 50e9
+poisson = 0.22
+gn = 0.0
+tangential = "none"
+[assembly]
+duration = 1e-4
+[[assembly.disks]]
+position = [0.0, 0.0, 0.00051]
+velocity = [0.0, 0.0, -1.0]
+radius = 0.0005
+density = 2500
+[[assembly.walls]]
+point = [0.0, 0.0, 0.0]
+normal = [0.0, 0.0, 1.0]
+)",
+                "3.95e-06 s at 1 m/s, the fastest at the start; a fiftieth of it is 7.9e-08 s");
+}
+
 TEST_F(Space, Start_IsReadWithItsThirdColumns) {
   const std::string start =
       withLine(spheres.substr(0, spheres.find("[[assembly.disks]]")), 9,

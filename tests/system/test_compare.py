@@ -65,6 +65,101 @@ class Files(SystemTest):
         done = self.run_program("lockstep", COUETTE, "--engines", f"mine={self.kept}/grain-p0.h5", "--out", self.folder / "no")
         self.assert_one_error(done, BAD_INPUT, "mine", "files")
 
+ROOM = """
+[case]
+name = "force-on-the-floor"
+kind = "assembly"
+dimension = 3
+[law]
+normal = "linear"
+tangential = "none"
+kn = 1e4
+gn = 2.0
+[run]
+steps_per_contact = 40
+mirrors = false
+may_differ = ["conventions"]
+[assembly]
+duration = 0.6
+gravity = [0.0, 0.0, -9.81]
+[[assembly.disks]]
+position = [0.01, 0.01, 0.01]
+radius = 0.01
+density = 2500
+grid = { columns = 3, rows = 3, layers = 3 }
+[[assembly.walls]]
+box = [0.0, 0.0, 0.0, 0.06, 0.06, 0.5]
+[average]
+bins = "whole"
+low = [0.0, 0.0, 0.0]
+high = [0.06, 0.06, 0.06]
+from = 0.5
+snapshots = 10
+[[endpoints]]
+name = "floor"
+wall = 0
+plane = 2
+quantity = "normal_force"
+area = 0.0036
+expected = EXPECTED
+relative = 0.001
+why = "at rest the floor carries the weight, by whatever law"
+"""
+
+PLANE_ROOM = (
+    ROOM.replace("dimension = 3\n", "")
+    .replace("gravity = [0.0, 0.0, -9.81]", "gravity = [0.0, -9.81]")
+    .replace("[0.01, 0.01, 0.01]", "[0.01, 0.01]")
+    .replace("rows = 3, layers = 3", "rows = 3")
+    .replace("[0.0, 0.0, 0.0, 0.06, 0.06, 0.5]", "[0.0, 0.0, 0.06, 0.5]")
+    .replace("low = [0.0, 0.0, 0.0]", "low = [0.0, 0.0]")
+    .replace("high = [0.06, 0.06, 0.06]", "high = [0.06, 0.06]")
+    .replace("plane = 2", "plane = 1")
+    .replace("area = 0.0036", "area = 0.06")
+    .replace("gn = 2.0", "gn = 20.0")
+)
+
+RIGID_ROOM = """
+[case]
+name = "rigid"
+kind = "assembly"
+dimension = 3
+[law]
+normal = "rigid"
+tangential = "coulomb"
+e_n = 0.5
+mu = 0.3
+[run]
+dt = 2e-4
+may_differ = ["conventions"]
+[assembly]
+duration = 0.1
+gravity = [0.0, 0.0, -9.81]
+[[assembly.disks]]
+position = [0.012, 0.012, 0.012]
+radius = 0.01
+density = 2500
+velocity_rms = 0.01
+grid = { columns = 2, rows = 2, layers = 2, spacing = 1.1 }
+[[assembly.walls]]
+box = [0.0, 0.0, 0.0, 0.06, 0.06, 0.5]
+[preparation]
+packings = 4
+[looks]
+count = 1
+[average]
+bins = "whole"
+low = [0.0, 0.0, 0.0]
+high = [0.06, 0.06, 0.06]
+from = 0.02
+snapshots = 10
+[[endpoints]]
+name = "height"
+quantity = "mean_z"
+absolute = 0.01
+why = "a radius"
+"""
+
 
 class Space(SystemTest):
     """Spheres, and disks in a periodic cell."""
@@ -87,6 +182,48 @@ class Space(SystemTest):
         self.assertEqual(8, len(kept))
         self.assert_status(self.run_program(*command), HELD, FELL_SHORT)
         self.assertEqual(kept, {file: file.stat().st_mtime_ns for file in kept})
+
+    def test_force_on_the_floor_is_the_weight(self):
+        """27 spheres, or 9 disks, at rest in a closed room: weight over area, on every engine that reports wall forces."""
+        weight = 27 * 2500 * 4 / 3 * math.pi * 1e-6 * 9.81
+        self.assertAlmostEqual(770.476, weight / 0.0036, delta=1e-3)
+        for text, engines, expected in (
+            (ROOM, "grain,lammps", weight / 0.0036),
+            (PLANE_ROOM, "grain,box2d-penalty", 9 * 2500 * math.pi * 1e-4 * 9.81 / 0.06),
+        ):
+            with self.subTest(engines):
+                self.out = self.folder / engines
+                case = self.write("room.toml", text.replace("EXPECTED", repr(expected)))
+                done = self.run_program("compare", case, "--engines", engines, "--out", self.out)
+                self.assert_status(done, HELD)
+                judged = [row for row in self.rows("endpoints.csv") if row["kind"] == "closed_form"]
+                self.assertEqual(set(engines.split(",")), {row["b"] for row in judged})
+                self.assertEqual({"small_difference"}, {row["answer"] for row in judged}, done.stdout)
+
+    def test_rigid_law_in_space_has_no_mirror_and_is_compared_all_the_same(self):
+        case = self.write("rigid.toml", RIGID_ROOM)
+        self.assert_status(self.run_program("check", case, "--engines", "bullet,ode", "--no-timing"), HELD)
+        done = self.run_program("compare", case, "--engines", "bullet,ode", "--out", self.out)
+        self.assert_status(done, HELD, FELL_SHORT)
+        self.assertIn("there is no mirror: grain, which mirrors are made of, has no rigid contacts in space", done.stdout)
+        self.assertEqual({"height"}, {row["endpoint"] for row in self.rows("endpoints.csv") if row["kind"] == "peer"})
+
+    def test_check_and_dry_run_refuse_alike(self):
+        """Spheres that overlap, a place that no number resolves, a run without end."""
+        room = ROOM.replace("EXPECTED", "1.0")
+        for said, instead in (
+            ("layers = 3", "layers = 3, spacing = 0.5"),
+            ("position = [0.01, 0.01", "position = [1e308, 0.01"),
+            ("duration = 0.6", "duration = 1e300"),
+        ):
+            with self.subTest(instead):
+                case, lines = self.write("case.toml", room.replace(said, instead)), []
+                for command in (("check", "--no-timing"), ("compare", "--dry-run", "--out", self.out)):
+                    done = self.run_program(command[0], case, "--engines", "grain", *command[1:])
+                    self.assert_status(done, BAD_INPUT)
+                    lines.append(done.error_lines())
+                self.assertEqual(1, len(lines[0]))
+                self.assertEqual(lines[0], lines[1])
 
     def test_plan_and_dry_run(self):
         done = self.run_program("compare", self.BUMPY, "--engines", "grain", "--out", self.out, "--dry-run", *self.SHORT)
