@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "adapters/contact_law.hpp"
+
 /// The keys of case files as a list: `crossgrain list keys`, and the second part of docs/cases.md.
 /// The tables behind it are those that the loader reads by (schema.hpp).
 namespace crossgrain::inline cases {
@@ -35,6 +37,12 @@ Range atLeast(double low, std::string unit = {});
 Range between(double low, double high, std::string unit = {});  ///< ends included
 Range inside(double low, double high, std::string unit = {});   ///< ends excluded
 Range aboveZeroTo(double high);                                 ///< (0, high]
+
+/// The conventions of a case that does not say its own: option by option what closed forms and
+/// experiments support and most engines of soft spheres share. docs/cases.md has the reason of
+/// each; LawConventions itself begins with the thesis', which cases/laws/thesis-conventions.toml
+/// names.
+LawConventions usualConventions();
 
 /// A key as it is listed.
 struct KeyInfo {

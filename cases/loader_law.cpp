@@ -6,11 +6,22 @@
 #include "cases/loader_sections.hpp"
 
 namespace crossgrain::inline cases {
+
+LawConventions usualConventions() {
+  LawConventions usual;
+  usual.springReset = SpringReset::springOnly;
+  usual.springUpdate = SpringUpdate::before;
+  usual.leverArm = LeverArm::overlapMiddle;
+  return usual;
+}
+
 namespace {
 
 /// The keys of [law]: the constants, of which Hertz' law has materials instead, and what others
 /// can be given by.
 struct LawInput : ContactLaw {
+  LawInput() { conventions = usualConventions(); }
+
   double krPerKt = 0.0, krFactor = 0.0;  ///< k_r = (…) k_t; k_r = (…) k_n µ_r²
   double gamma = 0.0;                    ///< surface energy, w or half of it
   std::string gammaIs = "half_of_w";
@@ -88,7 +99,7 @@ std::vector<Key<LawInput>> lawTable() {
     const auto* const meaning = std::ranges::find(
         optionMeanings, option.name, [](const auto& each) { return std::string_view(each.first); });
     const std::string standard =
-        option.name == "tangential" ? "required (soft)" : printed(names[option.get(ContactLaw{})]);
+        option.name == "tangential" ? "required (soft)" : printed(names[option.get(LawInput{})]);
     keys.push_back(special<LawInput>(
         {std::string(option.name), "", standard, valuesOf(names), meaning->second},
         [names, &option](Reader& in, const std::string& key, LawInput& law) {

@@ -110,6 +110,7 @@ void setOption(ContactLaw& law, const char* option, const std::string& value,
 
 ContactLaw startOfLaw(const Request& request) {
   ContactLaw law;
+  law.conventions = usualConventions();
   law.mu = request.mu.value_or(0.0);
   if (request.tension) setOption(law, "tension", *request.tension, {"allow", "cut"});
   return law;
@@ -151,10 +152,9 @@ std::string fromWanted(const Request& request) {
   const ReducedPair two = reduced(pair);
   std::string asked = fmt::format("e_n = {}, {}", en, setNormal(law, request, en, two.mass));
   if (request.et0) {
+    // What slips at first touch sticks again by the usual reset and update of springs; see
+    // ImpliedImpact::firstTouchSticksToPsi.
     calibrateTangential(law, *request.et0, two);
-    // What slips at first touch is to stick again; see ImpliedImpact::firstTouchSticksToPsi.
-    law.conventions.springReset = SpringReset::springOnly;
-    law.conventions.springUpdate = SpringUpdate::before;
     asked += fmt::format(", e_t0 = {}", *request.et0);
   } else {
     if (request.mu || request.tangential)
@@ -200,8 +200,8 @@ std::string fromCase(const CommandLine& line, const Request& request) {
     throw BadInput("--tension and --tangential: the case file says it; --set changes it");
   const auto& file = line.inputs.front();
   const std::vector<Case> cases = loadCase(file, line.overrides);
-  const bool ofFiles = withAssembly(
-      cases.front(), [](const auto& assembly) { return assembly.disks.empty(); });
+  const bool ofFiles =
+      withAssembly(cases.front(), [](const auto& assembly) { return assembly.disks.empty(); });
   if (cases.front().kind == CaseKind::assembly && ofFiles)
     throw BadInput(
         fmt::format("{}: its disks are those of start files, of any radius: give the law's "

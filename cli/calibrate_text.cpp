@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "adapters/law_options.hpp"
+#include "cases/keys.hpp"
 #include "cli/calibrate_contact.hpp"
 #include "oracle/calibration.hpp"
 
@@ -123,9 +124,11 @@ std::string decimals4(std::optional<double> value) {
 std::string lawText(const ContactLaw& law, const std::string& asked) {
   constexpr std::array<std::string_view, 6> alwaysPrinted = {
       "normal", "tension", "tangential", "coulomb_bound", "spring_reset", "spring_update"};
+  ContactLaw before;
+  before.conventions = usualConventions();
   std::string text = fmt::format("# {}\n[law]\n", asked);
   for (const LawOption& option : lawOptions()) {
-    const bool asLoaded = option.get(law) == option.get(ContactLaw{});
+    const bool asLoaded = option.get(law) == option.get(before);
     const bool always = std::ranges::find(alwaysPrinted, option.name) != alwaysPrinted.end();
     if (mattersTo(law, option.name) && (always || !asLoaded))
       text += fmt::format("{} = \"{}\"\n", option.name, lawOptionValue(law, option.name));
