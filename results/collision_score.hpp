@@ -104,12 +104,17 @@ struct DeclaredScore {
   DeclaredReference reference = DeclaredReference::none;
   CurveScore score;
   std::string oracleReason;  ///< why there is no oracle of it, or not everywhere
+  /// Of conventions in `law`, by how many limits each alone, in the scene's law, moves what the
+  /// in-house engine finds, in the quantity that it moves most. Of a curve that the scene's law
+  /// fails; absent where the in-house engine cannot run it.
+  std::optional<std::map<std::string, double>> moves;
 
   void fields(auto& io) {
     io("law", law);
     io("reference", reference);
     io("score", score);
     io("oracle_reason", oracleReason);
+    io.present("moves", moves);
   }
 };
 

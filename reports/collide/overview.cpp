@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
+#include <optional>
 #include <ranges>
 
 #include "reports/common/labels.hpp"
@@ -237,13 +239,33 @@ Causes causesOf(const CollideResults& results, Verdict verdict, const auto& caus
   return causes;
 }
 
-/// Conventions of the declared law that are not the scene's; its constants follow from these.
+/// Conventions of the declared law that are not the scene's; its constants follow from these. Where
+/// it was measured how far each moves the outcome, those that do so beyond a limit by themselves.
 Names conventionsIn(const CollisionCurve& curve) {
   Names words;
-  if (curve.declared)
-    for (const auto& [name, value] : curve.declared->law)
-      if (std::holds_alternative<std::string>(value)) words.push_back(*lawWords(name, value));
+  if (!curve.declared) return words;
+  const auto& moves = curve.declared->moves;
+  for (const auto& [name, value] : curve.declared->law) {
+    if (!std::holds_alternative<std::string>(value)) continue;
+    const auto moved = moves ? moves->find(name) : std::map<std::string, double>::const_iterator();
+    if (!moves || (moved != moves->end() && moved->second > 1.0))
+      words.push_back(*lawWords(name, value));
+  }
   return words;
+}
+
+/// The largest of DeclaredScore::moves that has these words; absent where nothing was measured.
+std::optional<double> movedBy(const CollideResults& results, const std::string& words) {
+  std::optional<double> most;
+  for (const CollisionVariant& variant : results.variants)
+    for (const CollisionCurve& curve : variant.curves) {
+      if (!curve.declared || !curve.declared->moves || runsBesideItsPeer(results, curve.engine))
+        continue;
+      for (const auto& [name, times] : *curve.declared->moves)
+        if (lawWords(name, curve.declared->law.at(name)) == words)
+          most = std::max(most.value_or(0.0), times);
+    }
+  return most;
 }
 
 /// Quantities beyond their limits.
@@ -263,6 +285,19 @@ std::string causesInWords(const Causes& causes) {
     words.push_back(
         fmt::format("{} ({})", cause.words, listedShortly(cause.engines, mostOfACause)));
   return listed(words);
+}
+
+/// Model differences by the conventions that make them: by what each was measured to move, else by
+/// the number of sweeps.
+std::string differingLaws(const CollideResults& results) {
+  Causes causes = causesOf(results, Verdict::modelDifference, conventionsIn);
+  std::ranges::stable_sort(causes, std::greater(), [&](const Cause& cause) {
+    return movedBy(results, cause.words).value_or(0.0);
+  });
+  for (Cause& cause : causes)
+    if (const auto times = movedBy(results, cause.words))
+      cause.words += fmt::format(", by itself {} × limit", shortly(*times));
+  return causesInWords(causes);
 }
 
 /// "siconos (44 of 45 sweeps) and grain (2 of 242)"
@@ -316,8 +351,7 @@ std::string whoPasses(const CollideResults& results) {
 
 std::string causesOfDifferences(const CollideResults& results) {
   const Causes quantities = causesOf(results, Verdict::fail, failuresIn);
-  return joinedParts({{"laws differ most by",
-                       causesInWords(causesOf(results, Verdict::modelDifference, conventionsIn))},
+  return joinedParts({{"laws differ most by", differingLaws(results)},
                       {"fails most often", quantities.empty() ? "" : quantities.front().words}});
 }
 

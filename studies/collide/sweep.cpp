@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <string>
 
 #include "adapters/declared_law.hpp"
@@ -318,6 +319,38 @@ struct SweptCurve {
   const CurveScore& score;  ///< against the scene's law; also has what rounding does
 };
 
+/// DeclaredScore::moves, measured by mixtures on the in-house engine, so that conventions count
+/// that no solution in continuous time has.
+template <int D>
+std::optional<std::map<std::string, double>> movesOf(const SweptCurve<D>& swept,
+                                                     const LawDescription& differences) {
+  const auto under = [&](const ContactLaw& law) {
+    return mirrorOutcomes(swept.setup, swept.asRun, law, swept.effective.dt, swept.starts,
+                          swept.watch);
+  };
+  std::map<std::string, double> moves;
+  try {
+    const Outcomes scene = under(swept.setup.law);
+    for (const auto& [name, value] : differences) {
+      const auto* const word = std::get_if<std::string>(&value);
+      if (!word || !isConvention(name)) continue;
+      ContactLaw one = swept.setup.law;
+      setLawOption(one, name, *word);
+      const CurveScore apart =
+          scoreSweep(swept.setup, swept.starts, under(one), scene, &swept.score);
+      double most = 0.0;
+      for (const CollisionQuantity& quantity : scoredQuantities())
+        if (const auto& score = apart.of[quantity.id]; score && score->limit)
+          most = std::max(most, score->max / *score->limit);
+      moves[name] = most;
+    }
+  } catch (const UnsupportedScene&) {
+    return std::nullopt;
+  }
+  if (moves.empty()) return std::nullopt;
+  return moves;
+}
+
 /// Against the oracle. Integrator, damping velocity and spring update are conventions that no
 /// solution in continuous time has, and others have no limit of small steps at all: where the curve
 /// is short of the oracle, or there is none, the in-house engine decides, with the same conventions
@@ -333,6 +366,8 @@ std::optional<DeclaredScore> scoreDeclared(const SweptCurve<D>& swept, const Eng
   }
   score.law = lawDifference(*law, swept.setup.law);
   if (score.law.empty()) return std::nullopt;
+  if (swept.score.verdict == Verdict::fail && law->soft() && swept.setup.law.soft())
+    score.moves = movesOf(swept, score.law);
   Case declared = swept.setup;
   declared.law = *law;
   const OracleCurve oracle =

@@ -60,6 +60,16 @@ TEST(CollideOverview, LargestShareOfALimit_IsAModelDifferenceWhereTheDeclaredLaw
         curve.declared->law.clear();
   EXPECT_EQ(collideOverview(results).conclusion[1],
             "Laws differ most by: tension cut (yade); fails most often: tangential rebound Ψ_f.");
+  // Of two that differ everywhere the one that moves the outcome is named, by how far it does.
+  for (CollisionVariant& variant : results.variants)
+    for (CollisionCurve& curve : variant.curves)
+      if (curve.engine == "yade" && curve.declared && !curve.declared->law.empty()) {
+        curve.declared->law.insert_or_assign("spring_update", std::string("before"));
+        curve.declared->moves = {{"spring_update", 7.1}, {"tension", 0.2}};
+      }
+  EXPECT_EQ(collideOverview(results).conclusion[1],
+            "Laws differ most by: spring update before, by itself 7.1 × limit (yade); fails most "
+            "often: tangential rebound Ψ_f.");
 }
 
 TEST(CollideReport, ModelDifference_IsNoFailure) {
