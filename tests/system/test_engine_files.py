@@ -159,6 +159,18 @@ class Conformance(SystemTest):
             "numpy: [settings] of its file: there is no setting 'loudnes' (did you mean loudness?)",
         )  # fmt: skip
 
+    def test_worker_in_python_has_checkpoints(self):
+        """As adapters/worker/README.md says: all of the engine, as it is."""
+        kept = "    def checkpoint(self, file):\n        pickle.dump(vars(self), open(file, 'wb'))\n\n"
+        kept += "    def restore(self, file):\n        vars(self).update(pickle.load(open(file, 'rb')))\n\n"
+        engine = self.changed_example(
+            "import sys\n", "import pickle\nimport sys\n", '"settings": [],', '"settings": [], "checkpoints": True,',
+            "    def stats(self):\n", f"{kept}    def stats(self):\n",
+        )  # fmt: skip
+        done = self.conformance(engine, "-k", "CheckpointsGoOn")
+        self.assert_status(done, HELD)
+        self.assertIn("1 of 1 checks passed", done.stdout)
+
     def test_checks_beyond_the_time_given_are_not_tried_and_not_passed(self):
         done = self.run_program("conformance", PYTHON, "--budget", "3s", "--out", self.out, "--quiet")
         self.assert_status(done, FELL_SHORT)

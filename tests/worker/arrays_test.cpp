@@ -6,6 +6,8 @@
 #include <fstream>
 #include <limits>
 
+#include "engines/cpp/crossgrain_worker.hpp"
+
 namespace crossgrain {
 namespace {
 
@@ -51,6 +53,16 @@ TEST_F(ArrayFile, WrittenAndRead_KeepsEveryBit) {
   const ArrayReader content(std::string(bytes, writer.bytes().size()), "content", writer.list());
   EXPECT_EQ(content.vec2("vectors", 2), vectors);
   EXPECT_THROW(ArrayReader(std::string(bytes, 8), "content", writer.list()), std::runtime_error);
+}
+
+TEST_F(ArrayFile, WorkersInCpp_ReadMaterialsAsNumbers) {
+  ArrayWriter writer;
+  writer.add("disks.mass", std::vector<double>{0.1, 1e-3});
+  writer.add("disks.material", std::vector<std::int32_t>{0, 2, 1});
+  const crossgrain_worker::Arrays arrays =
+      crossgrain_worker::readArrays(file_, writer.write(file_));
+  EXPECT_EQ(arrays.at("disks.mass"), (std::vector{0.1, 1e-3}));
+  EXPECT_EQ(arrays.at("disks.material"), (std::vector{0.0, 2.0, 1.0}));
 }
 
 TEST_F(ArrayFile, Bytes_AreLittleEndianAndAligned) {
