@@ -160,8 +160,9 @@ class Run {
         while (j >= disks_ && j >= end + bodies_[body].radius.size())
           end += bodies_[body++].radius.size();
         const Vector apart = box_.nearest(position_[i] - position_[j]);
-        const double reach = radius_[i] + radius_[j], distance = norm(apart);
-        if (distance >= reach) continue;
+        const double reach = radius_[i] + radius_[j];
+        if (dot(apart, apart) >= reach * reach) continue;
+        const double distance = norm(apart);
         const Contact c =
             contact(i, j, (1.0 / distance) * apart, reach - distance, velocity_[i] - velocity_[j],
                     radius_[i] * spin_[i] + radius_[j] * spin_[j]);
