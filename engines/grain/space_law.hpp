@@ -279,8 +279,9 @@ GRAIN_INLINE MeetingForce<Real> meetingForce(const L& law, const SpaceConvention
                                              SpaceMemory<Real>& kept) {
   const Vec3<Real>& n = meeting.normal;
   const bool friction = law.tangential != Tangential::none;
+  const bool rolls = law.rotation && law.rolling != Rolling::none;
   const ContactMotion<Real> motion = motionOf(law, meeting);
-  if (friction) followNormal(law, how, meeting, kept);
+  if (friction || rolls) followNormal(law, how, meeting, kept);
   kept.normal = n;
 
   const Real body = remembersRest(law) ? laggedPlasticForce(law, motion, kept.memory, kept.rest)
@@ -288,16 +289,18 @@ GRAIN_INLINE MeetingForce<Real> meetingForce(const L& law, const SpaceConvention
   MeetingForce<Real> found{};
   found.normal = normalForce(law, motion, body);
   found.force = found.normal * n;
-  if (!friction) return found;
+  if (!friction && !rolls) return found;
   const Real load = boundLoad(law, motion, found.normal, body);
-  const Vec3<Real> slip = slipOf(law, meeting);
-  found.tangential = tangentialForce(law, motion, slip, load, kept.spring, found.sliding);
-  found.force += found.tangential;
-  if (!law.rotation) return found;
-  const Vec3<Real> couple = cross(n, found.tangential);
-  found.torqueI = -meeting.leverI * couple;
-  found.torqueJ = -meeting.leverJ * couple;
-  if (law.rolling == Rolling::none) return found;
+  if (friction) {
+    const Vec3<Real> slip = slipOf(law, meeting);
+    found.tangential = tangentialForce(law, motion, slip, load, kept.spring, found.sliding);
+    found.force += found.tangential;
+    if (!law.rotation) return found;
+    const Vec3<Real> couple = cross(n, found.tangential);
+    found.torqueI = -meeting.leverI * couple;
+    found.torqueJ = -meeting.leverJ * couple;
+  }
+  if (!rolls) return found;
   found.rolling = rollingResistance(law, meeting, motion, load, kept.angle);
   found.torqueI += found.rolling;
   found.torqueJ -= found.rolling;
