@@ -229,6 +229,7 @@ std::string averagedText(const Results& results) {
 
 struct ConformanceOptions {
   std::string engine;
+  bool allowUnexamined = false;
   std::optional<std::string> out, budget;
 };
 
@@ -262,7 +263,7 @@ int conformanceOf(const CommandLine& line, const ConformanceOptions& options) {
   else
     print(results);
   if (options.out && !line.json) fmt::print("report: {}/report.html\n", *options.out);
-  return printOutcome(line, outcomeOf(results));
+  return printOutcome(line, outcomeOf(results, options.allowUnexamined));
 }
 
 Action declareConformance(CLI::App& app, CommandLine& line) {
@@ -278,6 +279,8 @@ Action declareConformance(CLI::App& app, CommandLine& line) {
       app, "--budget", options->budget,
       "start no further check after this time, e.g. 90s or 10m; checks not started give status 1",
       "TIME");
+  addFlag(app, "--allow-unexamined", options->allowUnexamined,
+          "status 0 even if less than 80 % of what the engine declares was examined");
   addFlag(app, "--json", line.json, "print results.json instead of text");
   addQuiet(app, line);
   return [&line, options] { return conformanceOf(line, *options); };

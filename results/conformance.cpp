@@ -16,6 +16,7 @@ void fields(auto& io, ConformanceRow& row) {
   io("faults", row.faults);
   io("cause", row.cause);
   io("wall_s", row.seconds);
+  io("about", row.about);
 }
 
 void fields(auto& io, ConformanceResults& results) {
@@ -26,10 +27,16 @@ void fields(auto& io, ConformanceResults& results) {
   io("cause", results.cause);
   io.present("declared", results.declared);
   io("not_examined", results.notExamined);
+  io("at_defaults", results.atDefaults);
 }
 
 std::size_t ConformanceResults::count(CheckOutcome outcome) const {
   return static_cast<std::size_t>(std::ranges::count(rows, outcome, &ConformanceRow::outcome));
+}
+
+std::optional<double> ConformanceResults::partExamined() const {
+  if (declared.value_or(0) == 0) return std::nullopt;
+  return 1.0 - static_cast<double>(notExamined.size()) / static_cast<double>(*declared);
 }
 
 Json toJson(const ConformanceResults& results) {

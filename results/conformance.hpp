@@ -43,7 +43,13 @@ struct ConformanceRow {
   std::size_t faults = 0;  ///< that were found in all
   std::string cause = {};  ///< what explains them, sign and size; empty: nothing that was tried
   double seconds = 0.0;    ///< wall time [s]
+  /// What it is about, "free motion"; with others of that it passes or fails. Empty of other parts.
+  std::string about = {};
 };
+
+/// What part of the declared capabilities has to be examined, or nothing is said of an engine by
+/// checks that passed: each fifth that was not could hold a fault.
+inline constexpr double leastExamined = 0.8;
 
 struct ConformanceResults {
   ResultsHead head;
@@ -53,6 +59,10 @@ struct ConformanceResults {
   std::string cause;  ///< those of the rows, each once; empty: nothing that was tried explains them
   std::optional<std::size_t> declared;   ///< capabilities; absent: only some checks were asked for
   std::vector<std::string> notExamined;  ///< of them, by no check
+  std::vector<std::string> atDefaults;   ///< settings that were run at their defaults alone
+
+  /// Of what is declared; absent: only some checks were asked for, or nothing is declared.
+  std::optional<double> partExamined() const;
 
   std::size_t count(CheckOutcome outcome) const;
 };

@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "reports/common/labels.hpp"
 #include "reports/common/sentences.hpp"
 #include "results/json_fields.hpp"
 
@@ -84,6 +86,29 @@ void addCheckPart(Report& report, const ConformanceResults& results, const Check
         Details{counted(others.rows.size(), "check") + " passed or skipped", {std::move(others)}});
 }
 
+/// Checks of one subject.
+struct Subject {
+  std::string name;
+  std::size_t passed = 0;
+  std::vector<std::string> failed = {};
+};
+
+/// In the order in which they were run.
+std::vector<Subject> subjectsOf(const ConformanceResults& results) {
+  std::vector<Subject> all;
+  for (const ConformanceRow& row : results.rows) {
+    const auto part = std::ranges::find(checkParts, row.part, &CheckPart::name);
+    const std::string name = !row.about.empty()             ? row.about
+                             : part == std::end(checkParts) ? row.part
+                                                            : part->column;
+    auto subject = std::ranges::find(all, name, &Subject::name);
+    if (subject == all.end()) subject = all.insert(all.end(), {name});
+    subject->passed += row.outcome == checkPassed;
+    if (isFault(row)) subject->failed.push_back(row.name);
+  }
+  return all;
+}
+
 std::vector<JUnitCase> conformanceChecks(const ConformanceResults& results) {
   std::vector<JUnitCase> cases;
   for (const ConformanceRow& row : results.rows)
@@ -97,8 +122,15 @@ std::vector<JUnitCase> conformanceChecks(const ConformanceResults& results) {
 
 std::string conformanceLead(const ConformanceResults& results) {
   const std::size_t asked = results.rows.size() - results.count(checkSkipped);
-  std::string lead = fmt::format("{} ({}): {} of {} checks passed", results.engine.name,
-                                 results.engine.version, results.count(checkPassed), asked);
+  std::string lead = fmt::format("{} ({}): ", results.engine.name, results.engine.version);
+  if (const auto part = results.partExamined())
+    lead += fmt::format("{} of {} declared capabilities examined ({:.0f} %{}); ",
+                        *results.declared - results.notExamined.size(), *results.declared,
+                        std::floor(100.0 * *part),
+                        *part < leastExamined
+                            ? fmt::format(", which is below {:.0f} %", 100.0 * leastExamined)
+                            : "");
+  lead += fmt::format("{} of {} checks passed", results.count(checkPassed), asked);
   if (const std::size_t count = results.count(checkFailed))
     lead += fmt::format(", {} failed", count);
   if (const std::size_t count = results.count(checkBrokeDown))
@@ -107,26 +139,32 @@ std::string conformanceLead(const ConformanceResults& results) {
     lead += fmt::format(", {} not tried in the time given", count);
   if (const std::size_t count = results.count(checkSkipped))
     lead += fmt::format(", {} skipped", count);
-  const std::size_t unseen = results.notExamined.size();
-  if (results.declared && unseen > 0)
-    lead += fmt::format(
-        "; {} of {} declared capabilities ({:.0f} %) not examined", unseen, *results.declared,
-        100.0 * static_cast<double>(unseen) / static_cast<double>(*results.declared));
   return lead + ".";
 }
 
 std::string conformanceNotExamined(const ConformanceResults& results) {
-  if (results.notExamined.empty()) return {};
-  return fmt::format("not examined: {}", fmt::join(results.notExamined, "; "));
+  std::vector<std::string> lines;
+  if (!results.notExamined.empty())
+    lines.push_back(fmt::format("not examined: {}", fmt::join(results.notExamined, "; ")));
+  if (!results.atDefaults.empty())
+    lines.push_back(fmt::format("settings run at their defaults alone: {}",
+                                fmt::join(results.atDefaults, ", ")));
+  return fmt::format("{}", fmt::join(lines, "; "));
 }
 
 std::string conformanceCause(const ConformanceResults& results) {
   if (!results.cause.empty()) return "most likely: " + results.cause;
-  const auto first = std::ranges::find(results.rows, checkFailed, &ConformanceRow::outcome);
-  if (first == results.rows.end()) return {};
-  return fmt::format(
-      "no single cause of those tried explains it; see to {} first: later checks ask for more",
-      first->name);
+  if (results.count(checkFailed) == 0) return {};
+  std::vector<std::string> passes, fails;
+  for (const Subject& subject : subjectsOf(results)) {
+    if (!subject.failed.empty())
+      fails.push_back(fmt::format("{} ({})", subject.name, listedShortly(subject.failed, 3)));
+    else if (subject.passed > 0)
+      passes.push_back(subject.name);
+  }
+  return fmt::format("no single cause of those tried explains it; {}fails: {}",
+                     passes.empty() ? "" : fmt::format("passes: {}; ", fmt::join(passes, ", ")),
+                     fmt::join(fails, ", "));
 }
 
 std::string conformanceSentence(const ConformanceRow& row) {

@@ -178,8 +178,11 @@ std::string precisionNamed(Precision precision) {
 std::vector<std::string> declaredBy(const Capabilities& can) {
   using Kind = Motion::Kind;
   std::vector<std::string> all;
+  const bool plate = contains(can.dimensions, 2);  // there is none in space
   for (const auto& [effect, support] : can.effects)
-    if (support != Support::never) all.push_back(toString(effect));
+    if (support != Support::never &&
+        (plate || (effect != Effect::bottomFriction && effect != Effect::bottomSpinFriction)))
+      all.push_back(toString(effect));
   for (const auto& [option, values] : can.lawOptions)
     for (const std::string& value : values)
       if (hasBearing(can, option, value)) all.push_back(option + " = " + value);
@@ -222,8 +225,9 @@ std::vector<std::string> declaredBy(const Capabilities& can) {
         {can.tangentialRestitution && impulses, tangentialRestitution}})
     if (declared) all.push_back(name);
   for (const Precision precision : can.precisions) all.push_back(precisionNamed(precision));
-  for (const SettingSpec& setting : can.settings)
-    all.push_back("setting " + setting.name + ", other than its default");
+  if (const auto known = std::ranges::find(can.settings, "dt", &SettingSpec::name);
+      known != can.settings.end())
+    all.push_back(settingDt);
   return all;
 }
 

@@ -15,6 +15,7 @@
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
 #include "studies/conformance/conformance_scenes.hpp"
+#include "studies/stability/in_space.hpp"
 
 /// What a check works with: the engine, what it declares, comparisons with tolerances, and the
 /// faults found so far.
@@ -77,13 +78,14 @@ inline const std::string lateTimes = "late times";
 inline const std::string spheresInSpace = "spheres in space";
 inline const std::string periodicDirections = "periodic directions";
 inline const std::string cylinders = "cylinders";
+inline const std::string settingDt = "setting dt, other than its default";
 std::string planeMotion(Motion::Kind kind);  ///< "planes: rotating"
 std::string wallMotion(Motion::Kind kind);   ///< "walls: rotating"
 std::string precisionNamed(Precision precision);
 
 /// All of it: effects, each value of each law option, planes and walls with each motion,
-/// observables, precisions, settings; and what every engine must have: several sizes, many disks,
-/// places far off and late times. What limits do not exclude is declared.
+/// observables, precisions, a setting of the time step; and what every engine must have: several
+/// sizes, many disks, places far off and late times. What limits do not exclude is declared.
 std::vector<std::string> declaredBy(const Capabilities& can);
 
 bool simulates(const Capabilities& can, Effect effect);
@@ -246,7 +248,7 @@ class CheckContext {
   }
   /// What explains the faults found, sign and size; the first counts.
   void suspect(std::string what) {
-    if (!cause) cause = std::move(what);
+    if (!cause && !what.empty()) cause = std::move(what);
   }
   /// The same of a part of the law: nobody knows while the law without it is wrong.
   void suspectPart(std::string what) {
@@ -280,9 +282,19 @@ struct Check {
   void (*run)(CheckContext&);  ///< finds faults, or throws Skipped
   int dimension = 2;           ///< of its scenes
   bool basis = false;  ///< no law enters it: others see their scenes through what it examines
+  /// How its plane lies in space for an engine that has no other: flat where spheres would leave
+  /// it, as a pile does sideways, by what roundings put beside it.
+  PlaneFrame frame = PlaneFrame::any;
+  const char* about = "";  ///< its subject's name
 };
 
 using Checks = std::span<const Check>;
+/// What a list of checks is about: together they pass or fail.
+struct Subject {
+  const char* name;
+  Checks checks;
+};
+
 Checks capabilityChecks();
 Checks lifecycleChecks();
 Checks freeMotionChecks();

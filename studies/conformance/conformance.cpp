@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -9,6 +10,7 @@
 #include <ranges>
 
 #include "adapters/suitability.hpp"
+#include "cases/flow.hpp"
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
@@ -23,6 +25,7 @@
 #include "studies/lockstep/lockstep.hpp"
 #include "studies/lockstep/rules.hpp"
 #include "studies/lockstep/terms.hpp"
+#include "studies/stability/in_space.hpp"
 #include "support/bad_input.hpp"
 #include "support/data_folder.hpp"
 #include "support/interrupt.hpp"
@@ -31,7 +34,7 @@
 namespace crossgrain::conformance {
 namespace {
 
-constexpr double timeout = 60.0;  // for one answer [s]
+constexpr double timeout = 60.0;  // for one answer, of processor time where it computes [s]
 constexpr int mostBreakdowns = 3;
 
 constexpr const char* untriedReason = "the time of --budget was over";
@@ -49,13 +52,15 @@ struct Findings {
   bool lawIsOff = false;
 };
 
+bool hasDimension(const Capabilities& can, int dimension) {
+  return std::ranges::find(can.dimensions, dimension) != can.dimensions.end();
+}
+
 void runOne(const Check& check, CheckContext context, ConformanceRow& row, CheckReport& result,
             Findings& findings) {
   context.lawIsOff = findings.lawIsOff;
   try {
-    const std::vector<int>& had = context.can.dimensions;
-    if (std::ranges::find(had, check.dimension) == had.end())
-      context.skip("declares no " + (check.dimension == 3 ? spheresInSpace : "disks in a plane"));
+    if (!hasDimension(context.can, check.dimension)) context.skip("declares no " + spheresInSpace);
     check.run(context);
   } catch (const Skipped& skip) {
     row.outcome = checkSkipped;
@@ -109,12 +114,27 @@ void withdrawCauses(const std::vector<Check>& checks, const Findings& findings,
 
 std::vector<Check> checksOf(bool isMirror) {
   std::vector<Check> all;
-  for (const Checks& part :
-       {capabilityChecks(), lifecycleChecks(), freeMotionChecks(), collisionChecks(), lawChecks(),
-        conventionChecks(), resistanceChecks(), symmetryChecks(), wallChecks(), contactChecks(),
-        reachChecks(), sceneChecks(), springChecks(), spaceChecks(), cylinderChecks(),
-        refusalChecks(), isMirror ? mirrorChecks() : Checks{}})
-    all.insert(all.end(), part.begin(), part.end());
+  for (const auto& [name, checks] : {Subject{"what it declares", capabilityChecks()},
+                                     {"requests and snapshots", lifecycleChecks()},
+                                     {"free motion", freeMotionChecks()},
+                                     {"collisions, in general", collisionChecks()},
+                                     {"two bodies by the law", lawChecks()},
+                                     {"conventions", conventionChecks()},
+                                     {"rolling and cohesion", resistanceChecks()},
+                                     {"symmetries", symmetryChecks()},
+                                     {"walls that move", wallChecks()},
+                                     {"contacts as shown", contactChecks()},
+                                     {"far, late, fast and many", reachChecks()},
+                                     {"several at once", sceneChecks()},
+                                     {"springs in space", springChecks()},
+                                     {"space and periodic borders", spaceChecks()},
+                                     {"cylinders", cylinderChecks()},
+                                     {"refusals", refusalChecks()},
+                                     {"its peer", isMirror ? mirrorChecks() : Checks{}}})
+    for (Check check : checks) {
+      check.about = name;
+      all.push_back(check);
+    }
   return all;
 }
 
@@ -124,18 +144,34 @@ CheckReport runChecks(const EngineEntry& entry, const std::vector<Check>& checks
                       const std::function<bool()>& timeIsUp) {
   using Clock = std::chrono::steady_clock;
   int workers = 0;
-  const CheckContext::Start start = [&](const EngineEntry& of) {
+  const CheckContext::Start startOne = [&](const EngineEntry& of) {
     return startNew(of, scratch / fmt::format("{}-{}", of.name, ++workers), timeout);
   };
-  std::unique_ptr<Engine> engine = start(entry);  // all checks share it
+  // Scenes of the plane are run in space by an engine that has no others. All checks share workers:
+  // one for scenes as they are, one for each way in which a plane lies in space.
+  struct Shared {
+    CheckContext::Start start;
+    std::unique_ptr<Engine> engine = nullptr;
+  };
+  const auto lying = [&](PlaneFrame frame) {
+    return Shared{[&, frame](const EngineEntry& of) {
+      auto started = startOne(of);
+      return hasDimension(started->capabilities(), 2) ? std::move(started)
+                                                      : runInSpace(std::move(started), frame);
+    }};
+  };
+  Shared asTheyAre{startOne, startOne(entry)}, any = lying(PlaneFrame::any),
+                                               flat = lying(PlaneFrame::flat);
   CheckReport result;
-  result.declared = declaredBy(engine->capabilities());
+  result.declared = declaredBy(asTheyAre.engine->capabilities());
+  const bool planar = hasDimension(asTheyAre.engine->capabilities(), 2);
   std::vector<ConformanceRow>& rows = result.rows;
   Findings findings;
   int breakdowns = 0;
   for (const Check& check : checks) {
     throwIfInterrupted();
-    progress(check.name, static_cast<double>(rows.size()) / static_cast<double>(checks.size()));
+    progress(fmt::format("check {} of {}: {}", rows.size() + 1, checks.size(), check.name),
+             static_cast<double>(rows.size()) / static_cast<double>(checks.size()));
     if (timeIsUp()) {
       rows.push_back(untriedRow("suite", check.name, check.what));
       continue;
@@ -144,12 +180,16 @@ CheckReport runChecks(const EngineEntry& entry, const std::vector<Check>& checks
     row.part = "suite";
     row.name = check.name;
     row.what = check.what;
+    row.about = check.about;
     if (breakdowns >= mostBreakdowns) {
       row.outcome = checkSkipped;
       row.detail = fmt::format("not tried: it broke down {} times before", breakdowns);
       continue;
     }
     const auto began = Clock::now();
+    auto& [start, engine] = planar || check.dimension == 3    ? asTheyAre
+                            : check.frame == PlaneFrame::flat ? flat
+                                                              : any;
     if (!engine) engine = start(entry);
     runOne(check, CheckContext(*engine, entry, start), row, result, findings);
     row.seconds = std::chrono::duration<double>(Clock::now() - began).count();
@@ -169,16 +209,22 @@ namespace {
 
 /// Collisions of the laws of Lätzel's figure 4.3, or of rigid disks, at 50 steps a contact: whether
 /// they converge is the business of `collide`. Without the pure spring, which has two limits of
-/// small steps (README.md, known limits): no single oracle says which an engine is to reach.
+/// small steps (README.md, known limits): no single oracle says which an engine is to reach. Of an
+/// engine of space alone those of spheres.
 std::vector<Case> collisionCases(const Capabilities& can) {
+  const bool space = !conformance::hasDimension(can, 2);
   const bool rigid =
       conformance::valuesOf(can, ContactLaw{}, "normal") == std::vector<std::string>{"rigid"};
-  const auto file =
-      dataFolder() / "cases/collision" / (rigid ? "hard-sphere.toml" : "figure-4-3.toml");
+  const auto file = dataFolder() / "cases" /
+                    (space   ? rigid ? "space/spheres-rigid.toml" : "space/spheres.toml"
+                     : rigid ? "collision/hard-sphere.toml"
+                             : "collision/figure-4-3.toml");
   std::vector<std::string> less = {"run.mirrors=false"};
   if (!rigid) less.emplace_back("collision.steps_per_contact=[50]");
   std::vector<Case> cases = loadCase(file, less);
-  std::erase_if(cases, [](const Case& each) {
+  std::erase_if(cases, [&](const Case& each) {
+    // In space the dashpot's case has finer steps of its own.
+    if (space) return each.law.tangential == TangentialLaw::springDashpot;
     return each.law.soft() && each.law.tangential == TangentialLaw::spring;
   });
   return cases;
@@ -187,7 +233,7 @@ std::vector<Case> collisionCases(const Capabilities& can) {
 std::vector<FlowState> flowOf(const Case& setup, std::size_t starts) {
   const double dt = timeStep(setup);
   const auto inHouse = engineRegistry().front().make();
-  const Packing packing = packingOf(setup, 0, dt, *inHouse, [](double) { throwIfInterrupted(); });
+  const Packing packing = flowPacking(setup, 0, dt, *inHouse, [](double) { throwIfInterrupted(); });
   return statesAlongTheFlow(setup, {packing}, dt, starts, [](double) {});
 }
 
@@ -227,6 +273,7 @@ std::string causeOf(Engine& engine, const EngineEntry& entry, const Case& setup,
   std::vector<std::string> causes;
   if (row.term && explains(*row.term))
     causes.push_back("lockstep's closest term: " + results::describeTerm(row));
+  if (setup.dimension == 3) return fmt::format("{}", fmt::join(causes, "; "));
   const std::string found = contradictionsOf(
       identify(engine, entry, setup, flowOf(setup, 2), timeStep(setup), [](double) {}));
   if (!found.empty()) causes.push_back("found from outside: " + found);
@@ -236,20 +283,32 @@ std::string causeOf(Engine& engine, const EngineEntry& entry, const Case& setup,
 constexpr const char* mirrorProperty =
     "it does step by step what the in-house engine does with the conventions declared";
 
+/// What it flows through in lockstep with its mirror: the quick cell; of an engine of space alone a
+/// shear between walls of spheres, or a pile where it has no periodic directions. Short.
+Case flowCase(const Capabilities& can) {
+  const bool space = !conformance::hasDimension(can, 2);
+  const char* const file = !space         ? "couette/quick.toml"
+                           : can.periodic ? "space/shear-3d.toml"
+                                          : "space/pile.toml";
+  const std::vector<std::string> less =
+      space ? std::vector<std::string>{"assembly.duration=3", "average.from=1"}
+            : std::vector<std::string>{"preparation.rotations=0.1"};
+  return loadCase(dataFolder() / "cases" / file, less).front();
+}
+
 /// @param name      of the row
 /// @param seesTrue  whether the suite's basis held; no cause is looked for without
 /// @param part      how the law of the cell becomes the row's
 ConformanceRow lockstepRow(const EngineEntry& entry, const std::filesystem::path& scratch,
                            const std::string& name, bool seesTrue,
                            const std::function<void(ContactLaw&)>& part) {
-  Case setup =
-      loadCase(dataFolder() / "cases/couette/quick.toml", {"preparation.rotations=0.1"}).front();
-  part(setup.law);
   ConformanceRow row;
   row.part = "lockstep";
   row.name = name;
   row.what = mirrorProperty;
-  const auto engine = startNew(entry, scratch / name, setup.run.timeout);
+  const auto engine = startNew(entry, scratch / name, conformance::timeout);
+  Case setup = flowCase(engine->capabilities());
+  part(setup.law);
   if (const std::string why = noMirrorReason(entry, engine->capabilities(), setup); !why.empty()) {
     row.outcome = checkSkipped;
     row.detail = why;
@@ -402,9 +461,16 @@ ConformanceResults runConformance(const ConformanceTask& task) {
 
   Progress progress(task.quiet);
   progress.begin("conformance of " + entry.name, {2.0, 1.0, 1.0});
+  double reported = elapsed();  // [s]
   conformance::CheckReport suite = conformance::runChecks(
       entry, checks, scratch.path,
-      [&](const std::string& check, double fraction) { progress.update(0, check, fraction); },
+      [&](const std::string& check, double fraction) {
+        progress.update(0, check, fraction);
+        // Without a terminal a line now and then.
+        if (::isatty(STDERR_FILENO) == 1 || elapsed() - reported < 5.0) return;
+        reported = elapsed();
+        progress.say("  " + check);
+      },
       timeIsUp);
   results.rows = std::move(suite.rows);
   progress.finish(0, fmt::format("suite: {} checks", results.rows.size()));
@@ -428,6 +494,8 @@ ConformanceResults runConformance(const ConformanceTask& task) {
   results.cause = causesOf(results.rows);
   if (!task.only) {
     results.declared = suite.declared.size();
+    for (const SettingSpec& setting : can.settings)
+      if (setting.name != "dt") results.atDefaults.push_back(setting.name);
     for (const std::string& one : suite.declared) {
       if (suite.examined.contains(one)) continue;
       const auto why = suite.refused.find(one);
@@ -444,13 +512,21 @@ ConformanceResults runConformance(const ConformanceTask& task) {
   return results;
 }
 
-Outcome outcomeOf(const ConformanceResults& results) {
+Outcome outcomeOf(const ConformanceResults& results, bool allowUnexamined) {
   if (results.count(checkBrokeDown) > 0) return {exitEngineFailed, {results.engine.reason}};
   if (results.count(checkFailed) > 0) return {exitFailed};
   if (const std::size_t untried = results.count(checkUntried))
     return {exitFailed,
             {fmt::format("{} of {} checks were not tried: {}", untried, results.rows.size(),
                          conformance::untriedReason)}};
+  const auto part = results.partExamined();
+  if (part && *part < leastExamined && !allowUnexamined)
+    return {exitFailed,
+            {},
+            {},
+            {fmt::format("{:.0f} % of what {} declares was examined, {:.0f} % have to be "
+                         "(--allow-unexamined: they need not)",
+                         std::floor(100.0 * *part), results.engine.name, 100.0 * leastExamined)}};
   return results.count(checkPassed) == 0 ? notJudged("every check was skipped") : Outcome();
 }
 

@@ -60,7 +60,8 @@ struct ConformanceTask {
 ConformanceResults runConformance(const ConformanceTask& task);
 
 /// An engine that broke down failed; a check that failed is a failure of what it declares. What was
-/// not tried in the time given did not pass.
-Outcome outcomeOf(const ConformanceResults& results);
+/// not tried in the time given did not pass. Nor did an engine of which too little was examined.
+/// @param allowUnexamined  it did, however little
+Outcome outcomeOf(const ConformanceResults& results, bool allowUnexamined = false);
 
 }  // namespace crossgrain::inline studies

@@ -124,6 +124,11 @@ std::vector<ContactLaw> resistingLaws(const Capabilities& can) {
         bases, [&](const ContactLaw& law) { return goesWith(each, law.normal); });
     if (base == bases.end()) continue;
     laws.push_back(withCohesion(*base, each));
+    for (const std::string& tension : valuesOf(can, laws.back(), "tension")) {
+      ContactLaw other = laws.back();
+      setLawOption(other, "tension", tension);
+      if (mattersTo(other, "tension") && !(other == laws.back())) laws.push_back(other);
+    }
     if (!rolling.empty()) laws.push_back(withRolling(laws.back(), rolling.back()));
   }
   return laws;

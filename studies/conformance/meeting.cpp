@@ -172,19 +172,31 @@ struct Suspect {
   std::string without = {};           ///< the name where the factor is 0, if it has one
 };
 
-/// v_t + a ω in place of v_t − a ω on a plane. As s' = v_t − a ω', J' ω̇' = −a f_t with ω' = −ω and
-/// J' = −J it is the slip of a disk of negative inertia that spins the other way.
-std::optional<CollisionEnd> endOfWrongSpin(const ContactLaw& law, const CollidingPair& pair,
-                                           const CollisionStart& start) {
+/// v_t − Σ a_i k_i ω_i in place of v_t − Σ a_i ω_i: ω′ = k ω of bodies of J′ = J/k has the slip of
+/// the law, as J′ ω̇′ = −a f_t. The force sees nothing but the slip, which is here one by spin.
+/// @param by  k of each, not 0; of a plane −1, say, where the sign is wrong
+std::optional<CollisionEnd> endOfSpins(const ContactLaw& law, const CollidingPair& pair,
+                                       const CollisionStart& start, const double (&by)[2]) {
   CollidingPair other = pair;
-  other.inertia[0] = -pair.inertia[0];
-  CollisionStart wrong = start;
-  if (start.approach != Approach::oblique) wrong.psi = -start.psi;
-  const auto seen = oracle(law, other, wrong);
-  if (!seen) return std::nullopt;
-  CollisionEnd end =
-      endOf(pair, start, {seen->en * start.vn, seen->centrePsi * start.vn, {-seen->spin[0], 0.0}});
-  end.duration = seen->duration;
+  const PairMotion before = motionBefore(pair, start);
+  double slip = before.tangential;
+  for (const int side : {0, 1}) {
+    other.inertia[side] /= by[side];
+    slip -= by[side] * pair.radius[side] * before.spin[side];
+  }
+  CollisionStart seen = start;
+  seen.psi = slip / start.vn;
+  seen.approach = Approach::firstSpin;
+  seen.counterSpin = 0.0;
+  const auto found = oracle(law, other, seen);
+  if (!found) return std::nullopt;
+  const PairMotion from = motionBefore(other, seen);
+  PairMotion after{
+      found->en * start.vn, before.tangential + found->centrePsi * start.vn - from.tangential, {}};
+  for (const int side : {0, 1})
+    after.spin[side] = before.spin[side] + (found->spin[side] - from.spin[side]) / by[side];
+  CollisionEnd end = endOf(pair, start, after);
+  end.duration = found->duration;
   return end;
 }
 
@@ -223,7 +235,7 @@ std::vector<Suspect> suspectsOf(const std::vector<Met>& met) {
   if (met.front().meeting->partner == Partner::plane) {
     all.push_back({"the disk's spin enters the slip with the wrong sign",
                    [](const Met& one, const CollisionStart& start, double) {
-                     return endOfWrongSpin(one.outcome.law, one.outcome.pair, start);
+                     return endOfSpins(one.outcome.law, one.outcome.pair, start, {-1.0, 1.0});
                    },
                    1.0});
     if (any([](const Met& one) { return one.meeting->wallVelocity.y() != 0.0; }))
@@ -235,6 +247,14 @@ std::vector<Suspect> suspectsOf(const std::vector<Met>& met) {
                      {},
                      "the plane's motion along itself is not in the slip"});
   }
+  all.push_back({"spins enter the slip without their radii",
+                 [](const Met& one, const CollisionStart& start, double) {
+                   const CollidingPair& pair = one.outcome.pair;
+                   const bool wall = !(pair.radius[1] > 0.0);
+                   return endOfSpins(one.outcome.law, pair, start,
+                                     {1.0 / pair.radius[0], wall ? 1.0 : 1.0 / pair.radius[1]});
+                 },
+                 1.0});
   if (first.law.normal == NormalLaw::hertz)
     ofLaw("a Hertz law without √R₁₂", {&ContactLaw::kn, &ContactLaw::kt},
           1.0 / std::sqrt(first.pair.reducedRadius()));

@@ -9,6 +9,7 @@
 
 #include "adapters/audit.hpp"
 #include "adapters/declared_law.hpp"
+#include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"
 #include "studies/conformance/check_context.hpp"
 #include "studies/lockstep/rules.hpp"

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "adapters/suitability.hpp"
 #include "studies/conformance/check_context.hpp"
@@ -15,6 +16,8 @@
 
 namespace crossgrain::conformance {
 namespace {
+
+constexpr double approachSpeed = 0.05, framesApart = 12.0 * radius;  // [m/s, m]
 
 // ---- torques ------------------------------------------------------------------------------------
 
@@ -72,6 +75,40 @@ void torqueTurnsSpheres(CheckContext& c) {
   }
 }
 
+/// Two spheres meet as before, with spins about n besides that the two have in opposite directions:
+/// these leave the slip as it is, the mean spin along n too, and J is the same about every axis. So
+/// nothing else is another one: dω/dt is T/J, without ω × T, ω × Jω or what a wrong frame makes of
+/// T.
+void spinsAboutTheLineChangeNothing(CheckContext& c) {
+  c.needs(toString(Effect::rotation));
+  constexpr double extra = 40.0;  // [rad/s]; |ω| dt is 1.6e-4
+  const Eigen::Matrix3d frame =
+      Eigen::AngleAxisd(-0.8, Vec3(2.0, -1.0, 1.0).normalized()).toRotationMatrix();
+  const Vec3 n = frame.col(0), slip = frame * Vec3(0.0, 0.03, 0.04);
+  const auto ended = [&](double about) {
+    SpaceScene scene = emptySpace(c, "spheres that spin about their line as they meet");
+    for (const double side : {1.0, -1.0})
+      addBody<3>(scene, side * (radius + 5.0 * approachSpeed * scene.dt) * n,
+                 0.5 * side * (slip - 2.0 * approachSpeed * n), side * about * n);
+    loaded(c, scene);
+    SpaceSnapshot after = shown<3>(c, 1e-3);
+    c.require(after.spin.has_value(), "shows no spins");
+    for (const int k : {0, 1}) (*after.spin)[k] -= (k == 0 ? 1.0 : -1.0) * about * n;
+    return after;
+  };
+  const SpaceSnapshot still = ended(0.0), spun = ended(extra);
+  const double size = (*still.spin)[0].norm();
+  c.require(size * radius > 0.1 * approachSpeed, "spheres that slide as they meet do not turn");
+  const Tolerance rounding = c.byPrecision(
+      1e-9, std::max(1e-3, roundedImpact(c, 2.0 * radius, approachSpeed)), "roundings of ω");
+  for (const int k : {0, 1}) {
+    const std::string which = text(" of sphere ", k, ", off from that without a spin about n");
+    c.near(((*spun.spin)[k] - (*still.spin)[k]).norm() / size, 0.0, rounding, "Δω" + which);
+    c.near((spun.velocity[k] - still.velocity[k]).norm() / approachSpeed, 0.0, rounding,
+           "v" + which);
+  }
+}
+
 // ---- frames -------------------------------------------------------------------------------------
 
 /// Of n, s and b = n × s: about n, and about other axes.
@@ -90,18 +127,19 @@ std::vector<Eigen::Matrix3d> framesAllRound() {
 
 constexpr double speedAlong = 0.3;  ///< of two that slide past each other as they meet [m/s]
 
-/// In each frame two spheres that meet at 0.05 m/s, far from the others. K µ (1 + e_n) v_n is 0.16
-/// m/s: they slide throughout.
+/// In each frame two spheres that meet, far from the others and none far from the origin. K µ (1 +
+/// e_n) v_n is 0.16 m/s: they slide throughout.
 SpaceScene turnedImpacts(const CheckContext& c, const std::vector<Eigen::Matrix3d>& frames) {
   SpaceScene scene = emptySpace(c, "an impact in turned frames");
-  constexpr double approach = 0.05;
   for (std::size_t k = 0; k < frames.size(); ++k)
-    for (const double side : {1.0, -1.0})
-      addBody<3>(scene,
-                 12.0 * static_cast<double>(k) * radius * Vec3::UnitY() +
-                     frames[k] * (side * (radius + 2.75 * approach * scene.dt) * Vec3::UnitX()),
-                 frames[k] * (0.5 * side * Vec3(-approach, speedAlong, 0.0)),
+    for (const double side : {1.0, -1.0}) {
+      const auto at = static_cast<int>(k);
+      const Vec3 middle = framesApart * Vec3(0.0, at % 4 - 1.5, at / 4 - 1.5);
+      const double apart = side * (radius + 2.75 * approachSpeed * scene.dt);
+      addBody<3>(scene, middle + frames[k] * (apart * Vec3::UnitX()),
+                 frames[k] * (0.5 * side * Vec3(-approachSpeed, speedAlong, 0.0)),
                  frames[k] * Vec3(6.0 * side, 2.0, 1.0));
+    }
   return scene;
 }
 
@@ -117,8 +155,9 @@ void turnedImpactsAreTurnedAlike(CheckContext& c) {
     changes.push_back(frames[k].transpose() *
                       (after.velocity[2 * k] - scene.disks.velocity[2 * k]));
   c.require(changes[0].norm() > 0.01, "two spheres that meet do not bounce off each other");
-  const Tolerance rounding =
-      c.byPrecision(1e-6, 1e-2, "overlaps of 1e-5 radii of places up to 200 radii off");
+  const double single = roundedImpact(c, 2.2 * framesApart, approachSpeed);
+  const Tolerance rounding = c.byPrecision(1e-6, std::max(1e-2, single),
+                                           "overlaps of 1e-3 radii of places some 25 radii off");
   double least = speedAlong, most = 0.0;
   for (std::size_t k = 0; k < frames.size(); ++k) {
     c.near((changes[k] - changes[0]).norm() / changes[0].norm(), 0.0, rounding,
@@ -209,27 +248,30 @@ void turningWallPushesSpheres(CheckContext& c) {
 
 // ---- images -------------------------------------------------------------------------------------
 
-/// Two that meet, and the same two elsewhere in a box 16 radii wide that does not begin at the
-/// origin, periodic along x or along all directions.
-/// @param at     of both pairs along x [radius]
-/// @param speed  that all have along x besides [m/s]
-/// @param all    whether it is periodic along all directions, and the second pair at a corner
+constexpr double boxWidth = 16.0;  // [radius]
+
+/// Two that meet, and the same two elsewhere in a box that does not begin at the origin and is
+/// periodic along the directions given.
+/// @param at     of both pairs along these, whose first is also that of their lines of centres,
+///               nearly [radius]
+/// @param speed  that all have along the first besides [m/s]
 /// @param rolls  what the second's spin is times the first's
 template <int D>
 SceneOf<D> twoPairs(const ContactLaw& law, std::array<double, 2> at, double speed, double rolls,
-                    bool all = false) {
+                    const std::vector<int>& along) {
   SceneOf<D> scene;
   scene.law = law;
   scene.dt = 4e-6;
   BoxOf<D>& box = scene.box.emplace();
   for (int k = 0; k < D; ++k) box.low[k] = (k == 0 ? -3.0 : 2.0) * radius;
-  box.high = box.low + VecOf<D>::Constant(16 * radius);
-  for (int k = 0; k < D; ++k) box.periodic[k] = k == 0 || all;
-  VecOf<D> apart = VecOf<D>::Zero(), velocity = VecOf<D>::Zero();
-  apart[0] = 0.99 * radius;
-  apart[1] = 0.1 * radius;
-  velocity[0] = -0.2;
-  velocity[D - 1] += 0.1;
+  box.high = box.low + VecOf<D>::Constant(boxWidth * radius);
+  for (const int k : along) box.periodic[static_cast<std::size_t>(k)] = true;
+  const int first = along.front(), second = (first + 1) % D;
+  VecOf<D> apart = VecOf<D>::Constant(0.07 * radius), velocity = VecOf<D>::Zero();
+  apart[first] = 0.98 * radius;
+  apart[second] = 0.1 * radius;
+  velocity[first] = -0.2;
+  velocity[(first + D - 1) % D] += 0.1;
   SpinOf<D> spin = noSpin<D>();
   if constexpr (D == 2)
     spin = 20.0;
@@ -237,14 +279,25 @@ SceneOf<D> twoPairs(const ContactLaw& law, std::array<double, 2> at, double spee
     spin = Vec3(20.0, -30.0, 10.0);
   for (const double middle : at)
     for (const double side : {1.0, -1.0}) {
-      VecOf<D> place = box.low + VecOf<D>::Constant(8 * radius), moving = side * velocity;
-      for (int k = 0; k < D; ++k)
-        if (k == 0 || all) place[k] = box.low[k] + middle * radius;
+      VecOf<D> place = box.low + VecOf<D>::Constant(0.5 * boxWidth * radius),
+               moving = side * velocity;
+      for (const int k : along) place[k] = box.low[k] + middle * radius;
       place += side * apart;
-      moving[0] += speed;
+      moving[first] += speed;
       addBody<D>(scene, box.wrapped(place), moving, side > 0.0 ? spin : SpinOf<D>(rolls * spin));
     }
   return scene;
+}
+
+/// Each direction alone, and all of them, at a corner.
+template <int D>
+std::vector<std::vector<int>> acrossWhat() {
+  std::vector<std::vector<int>> all(D + 1);
+  for (int k = 0; k < D; ++k) {
+    all[static_cast<std::size_t>(k)] = {k};
+    all[D].push_back(k);
+  }
+  return all;
 }
 
 template <int D>
@@ -303,11 +356,15 @@ template <int D>
 void pairsThatCrossBorders(CheckContext& c) {
   c.needs(periodicDirections);
   constexpr int steps = 60;
+  constexpr double fast = 50.0, pairSpeed = 0.4;  // [m/s]
   const SceneOf<D> scene =
-      loadedPairs(c, twoPairs<D>(rollingLawOf(c.can, D), {4.0, 14.8}, 50.0, -2.0));
+      loadedPairs(c, twoPairs<D>(rollingLawOf(c.can, D), {4.0, 14.8}, fast, -2.0, {0}));
   c.examine(periodicDirections);
+  // The pair is some 5e-3 radii deep, as in an impact at 0.6 m/s, and its motion rounded as well.
+  const double moving = roundedInContact(c.can, fast, steps) / pairSpeed;
   const Tolerance rounding =
-      c.byPrecision(1e-9, 1e-4, "the same sums of places that are rounded in another way");
+      c.byPrecision(1e-9, roundedImpact(c, boxWidth * radius, pairSpeed) + moving,
+                    "the same sums of places that are rounded in another way");
   SnapshotOf<D> before = shown<D>(c, 0.0);
   for (int k = 1; k <= steps && c.faults.empty(); ++k) {
     const SnapshotOf<D> now = shown<D>(c, k * c.effective.dt);
@@ -329,17 +386,27 @@ void pairsThatCrossBorders(CheckContext& c) {
   }
 }
 
+/// " along z", or of several " at a corner".
+std::string alongWhat(const std::vector<int>& along) {
+  constexpr const char* names[] = {" along x", " along y", " along z"};
+  return along.size() > 1 ? " at a corner" : names[along.front()];
+}
+
+Tolerance acrossRounding(const CheckContext& c) {
+  return c.byPrecision(1e-9, std::max(1e-4, roundedImpact(c, boxWidth * radius, 0.4)),
+                       "the same sums of places that are rounded in another way");
+}
+
 /// Two that meet, and the same two half a box further on, on either side of its border, or at a
 /// corner.
 template <int D>
-void expectPairsAcross(CheckContext& c, bool corner) {
-  const SceneOf<D> scene =
-      loadedPairs(c, twoPairs<D>(followed(c.can, dampedLaw(D)), {8.0, 16.0}, 0.0, 1.0, corner));
+void expectPairsAcross(CheckContext& c, const std::vector<int>& along) {
+  const SceneOf<D> scene = loadedPairs(
+      c, twoPairs<D>(followed(c.can, dampedLaw(D)), {0.5 * boxWidth, boxWidth}, 0.0, 1.0, along));
   const BoxOf<D>& box = *scene.box;
   c.examine(periodicDirections);
   const bool held = c.faults.empty();  // at a border: else a corner says nothing more
-  const Tolerance rounding =
-      c.byPrecision(1e-9, 1e-4, "the same sums of places that are rounded in another way");
+  const Tolerance rounding = acrossRounding(c);
   const SnapshotOf<D> during = shown<D>(c, 4e-5), after = shown<D>(c, 1e-3);
   VecOf<D> changes[2];
   for (const int side : {0, 1}) {
@@ -347,11 +414,11 @@ void expectPairsAcross(CheckContext& c, bool corner) {
       changes[pair] = after.velocity[2 * pair + side] - scene.disks.velocity[2 * pair + side];
     c.require(changes[0].norm() > 0.1, "two in the middle of the box do not bounce off each other");
     c.near((changes[1] - changes[0]).norm() / changes[0].norm(), 0.0, rounding,
-           text("Δv of ", side,
-                " of two across the border, off from that of the same two inside by a part of it"));
+           text("Δv of ", side, " of two across the border", alongWhat(along),
+                ", off from that of the same two inside by a part of it"));
   }
   if (held && changes[1].norm() < 1e-3 * changes[0].norm())
-    c.suspect("bodies do not meet each other's images across the border");
+    c.suspect("bodies do not meet each other's images across the border" + alongWhat(along));
   else if (held && changes[1].dot(changes[0]) < 0.0)
     c.suspect("the force across a border is that of the wrong image: it has the other sign");
   if (!during.contacts) return;
@@ -378,7 +445,44 @@ void expectPairsAcross(CheckContext& c, bool corner) {
 template <int D>
 void pairsAcrossBorders(CheckContext& c) {
   c.needs(periodicDirections);
-  for (const bool corner : {false, true}) expectPairsAcross<D>(c, corner);
+  for (const std::vector<int>& along : acrossWhat<D>()) expectPairsAcross<D>(c, along);
+}
+
+/// The second of each pair as a disk, or sphere, of a wall at rest.
+template <int D>
+SceneOf<D> withPosts(SceneOf<D> scene) {
+  WallBodyOf<D>& posts = scene.bodies.emplace_back();
+  posts.name = "posts";
+  const DisksOf<D> all = std::exchange(scene.disks, {});
+  for (std::size_t k = 0; k < all.size(); k += 2) {
+    addBody<D>(scene, all.position[k], all.velocity[k], all.spin[k]);
+    posts.diskPosition.push_back(all.position[k + 1]);
+    posts.diskRadius.push_back(radius);
+  }
+  return scene;
+}
+
+/// A wall's disks, or spheres, have images too.
+template <int D>
+void wallsAcrossBorders(CheckContext& c) {
+  c.needs(periodicDirections);
+  c.needs(wallMotion(Motion::Kind::fixed));
+  for (const std::vector<int>& along : acrossWhat<D>()) {
+    const SceneOf<D> scene =
+        loadedPairs(c, withPosts<D>(twoPairs<D>(followed(c.can, dampedLaw(D)),
+                                                {0.5 * boxWidth, boxWidth}, 0.0, 1.0, along)));
+    c.examine(periodicDirections);
+    const bool held = c.faults.empty();
+    const SnapshotOf<D> after = shown<D>(c, 1e-3);
+    VecOf<D> changes[2];
+    for (const int k : {0, 1}) changes[k] = after.velocity[k] - scene.disks.velocity[k];
+    c.require(changes[0].norm() > 0.1, "one in the middle of the box does not bounce off a wall's");
+    c.near((changes[1] - changes[0]).norm() / changes[0].norm(), 0.0, acrossRounding(c),
+           text("Δv of one at a wall's across the border", alongWhat(along),
+                ", off from that of the same inside by a part of it"));
+    if (held && changes[1].norm() < 1e-3 * changes[0].norm())
+      c.suspect("bodies do not meet images of walls' disks across the border" + alongWhat(along));
+  }
 }
 
 }  // namespace
@@ -387,6 +491,9 @@ Checks spaceChecks() {
   static constexpr Check list[] = {
       {"TorqueTurnsSpheres", "f_t turns spheres about n × f_t, with 2/5 m a²", torqueTurnsSpheres,
        3},
+      {"SpinsAboutTheLineChangeNothing",
+       "spins about the line of centres, opposite ones, change nothing else as spheres meet",
+       spinsAboutTheLineChangeNothing, 3},
       {"TurnedImpactsAreTurnedAlike",
        "an impact in another frame, its slip in any direction, is the same, turned",
        turnedImpactsAreTurnedAlike, 3},
@@ -400,6 +507,8 @@ Checks spaceChecks() {
        pairsAcrossBorders<2>},
       {"PairsAcrossBordersInSpace", "two spheres across a periodic border are the same two inside",
        pairsAcrossBorders<3>, 3},
+      {"WallsAcrossBorders", "so is a disk at a wall's disk", wallsAcrossBorders<2>},
+      {"WallsAcrossBordersInSpace", "so is a sphere at a wall's sphere", wallsAcrossBorders<3>, 3},
       {"PairsThatCrossBorders",
        "two disks in contact that go over a periodic border do what the same two do inside",
        pairsThatCrossBorders<2>},

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "studies/conformance/check_context.hpp"
 
 /// What scenes of equal bodies, most of them spheres in space, are made of.
@@ -28,6 +32,15 @@ inline SpaceScene emptySpace(const CheckContext& c, const char* name) {
   scene.law = followed(c.can, dampedLaw(3));
   scene.dt = 4e-6;
   return scene;
+}
+
+/// How far single precision takes what is left of an impact of two such at that speed, by a part of
+/// it: what a contact of half an oscillation walks (check_context.hpp), by its depth v √(m₁₂/k_n).
+/// @param place  as far as they are from the origin [m]
+inline double roundedImpact(const CheckContext& c, double place, double speed) {
+  const double swing = std::sqrt(0.5 * mass / dampedLaw(3).kn);  // 1/ω [s]
+  const double steps = std::max(std::numbers::pi * swing / c.effective.dt, 1.0);
+  return roundedInContact(c.can, place, steps) / (speed * swing);
 }
 
 /// A solid disk or sphere.

@@ -113,15 +113,15 @@ void rollingSpringsOfMovedPairs(CheckContext& c) {
     return;
   }
   for (const SpringMotion& motion : springMotions(declared))
-    if (farthest(motion) <= rounding.absolute)
-      return c.suspect("rolling: " + motion.differenceFrom(declared));
+    if (farthest(motion) <= rounding.absolute) {
+      // Where it is the declared one something else is wrong.
+      const std::string difference = motion.differenceFrom(declared);
+      return c.suspect(difference.empty() ? difference : "rolling: " + difference);
+    }
 }
 
-void springsOfMovedPairs(CheckContext& c) {
-  if (!c.can.instantContacts) c.skip("shows no contacts of one instant");
-  const ContactLaw law = followed(c.can, movedLaw());
-  if (law.normal != NormalLaw::linear || law.tangential != TangentialLaw::spring)
-    c.skip("has no linear law with a tangential spring");
+/// Under one way in which springs follow their pair.
+void expectMovedSprings(CheckContext& c, const ContactLaw& law) {
   const MovedPair pairs[] = {passingPair(), twistingPair()};
   ContactLaw declared;
   const auto seen = seenOfPairs(c, pairs, law, declared, &ContactsOf<3>::tangentialForce, "F_t");
@@ -133,19 +133,37 @@ void springsOfMovedPairs(CheckContext& c) {
     return most;
   };
   const Tolerance rounding = movedRounding(c);
+  const std::size_t before = c.faults.size();
   for (std::size_t k = 0; k < seen.size(); ++k)
     c.near(distance(seen[k], springForces(pairs[k], {declared}, c.effective.dt, movedSteps)), 0.0,
            rounding, text("F_t of ", pairs[k].name, ", off by a part of it"));
   for (const char* const option : {"spring_turn", "spring_twist"})
     c.examine(text(option, " = ", lawOptionValue(declared, option)));
   c.examine(spheresInSpace);
-  if (c.faults.empty()) {
-    c.notes = frameDependence(declared);
+  if (c.faults.size() == before) {
+    for (std::string& note : frameDependence(declared))
+      if (std::ranges::find(c.notes, note) == c.notes.end()) c.notes.push_back(std::move(note));
     return;
   }
   for (const SpringMotion& motion : springMotions(declared))
     if (farthest(motion) <= rounding.absolute) return c.suspect(motion.differenceFrom(declared));
 }
+
+void springsOfMovedPairs(CheckContext& c) {
+  if (!c.can.instantContacts) c.skip("shows no contacts of one instant");
+  ContactLaw law = followed(c.can, movedLaw());
+  if (law.normal != NormalLaw::linear || law.tangential != TangentialLaw::spring)
+    c.skip("has no linear law with a tangential spring");
+  expectMovedSprings(c, law);
+  for (const char* const option : {"spring_turn", "spring_twist"})
+    for (const std::string& value : valuesOf(c.can, law, option)) {
+      if (value == lawOptionValue(law, option)) continue;
+      ContactLaw other = law;
+      setLawOption(other, option, value);
+      expectMovedSprings(c, other);
+    }
+}
+
 }  // namespace
 
 Checks springChecks() {

@@ -4,16 +4,20 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "adapters/grain_space.hpp"
-#include "adapters/suitability.hpp"
+#include "adapters/law_options.hpp"
 
 namespace crossgrain::inline studies {
 namespace {
 
 using Turn = Eigen::Matrix3d;
+
+/// Options of a law in space alone.
+constexpr std::array optionsOfSpace = {"spring_turn", "spring_twist"};
 
 /// No axis of the scene is along one of space, nor a bisector of two.
 Turn anyTurn() {
@@ -31,9 +35,21 @@ void turn(std::vector<Vec3>& vectors, const Turn& by) {
   for (Vec3& vector : vectors) vector = by * vector;
 }
 
+/// What a turn that takes axes to axes makes of a flag for each.
+std::array<bool, 3> turned(const std::array<bool, 3>& along, const Turn& by) {
+  std::array<bool, 3> to{};
+  for (int k = 0; k < 3; ++k)
+    for (int from = 0; from < 3; ++from)
+      if (by(k, from) == 1.0)
+        to[static_cast<std::size_t>(k)] = along[static_cast<std::size_t>(from)];
+  return to;
+}
+
 SpaceScene turned(SpaceScene scene, const Turn& by) {
   for (auto* vectors : {&scene.disks.position, &scene.disks.velocity, &scene.disks.spin})
     turn(*vectors, by);
+  if (scene.box)
+    for (Vec3* corner : {&scene.box->low, &scene.box->high}) *corner = by * *corner;
   for (WallBodyOf<3>& body : scene.bodies) {
     turn(body.diskPosition, by);
     for (PlaneOf<3>& plane : body.planes) plane = {by * plane.point, by * plane.normal};
@@ -41,6 +57,7 @@ SpaceScene turned(SpaceScene scene, const Turn& by) {
                          &body.motion.amplitude})
       *vector = by * *vector;
   }
+  if (scene.box) scene.box->periodic = turned(scene.box->periodic, by);
   scene.gravity = by * scene.gravity;
   return scene;
 }
@@ -61,14 +78,35 @@ SpaceSnapshot turned(SpaceSnapshot now, const Turn& by) {
   return now;
 }
 
+/// The scene at z = 0; a box is there as deep as it is wide.
+SpaceScene raisedScene(const Scene& scene, const Capabilities& can) {
+  if (scene.bottom) throw UnsupportedScene("has no bottom plate in space");
+  SpaceScene there = inSpace(scene);
+  if (there.box) {
+    const double half = 0.5 * (there.box->high.x() - there.box->low.x());
+    there.box->low.z() = -half;
+    there.box->high.z() = half;
+  }
+  changeLaws(there, [&](ContactLaw& law) {
+    for (const char* option : optionsOfSpace)
+      if (const auto has = can.lawOptions.find(option); has != can.lawOptions.end())
+        setLawOption(law, option, has->second.front());
+  });
+  return there;
+}
+
 class PlaneInSpace final : public Engine {
  public:
-  explicit PlaneInSpace(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}
+  PlaneInSpace(std::unique_ptr<Engine> engine, PlaneFrame frame)
+      : engine_(std::move(engine)), frame_(frame) {}
 
   Capabilities capabilities() const override {
     Capabilities can = engine_->capabilities();
     can.dimensions = {2};
     can.energyLedger = false;
+    for (const Effect effect : {Effect::bottomFriction, Effect::bottomSpinFriction})
+      can.effects[effect] = Support::never;
+    for (const char* option : optionsOfSpace) can.lawOptions.erase(option);
     return can;
   }
 
@@ -76,14 +114,11 @@ class PlaneInSpace final : public Engine {
     const Capabilities can = engine_->capabilities();
     if (std::ranges::find(can.dimensions, 3) == can.dimensions.end())
       throw UnsupportedScene("has dimension = 2, not 3");
-    if (scene.bottom) throw UnsupportedScene("has no bottom plate in space");
-    if (scene.box) throw UnsupportedScene("has no box that lies across the axes of space");
-    const bool axes = scene.planeCount() > 0 && can.limits.planesAlongAxes;
-    turn_ = axes ? alongAxes() : anyTurn();
-    radius_ = std::ranges::min(scene.disks.radius);
-    SpaceScene there = turned(inSpace(scene), turn_);
+    const bool axes = scene.box || (scene.planeCount() > 0 && can.limits.planesAlongAxes);
+    turn_ = frame_ == PlaneFrame::flat ? Turn(Turn::Identity()) : axes ? alongAxes() : anyTurn();
+    radius_ = scene.disks.size() > 0 ? std::ranges::min(scene.disks.radius) : 1.0;
+    SpaceScene there = turned(raisedScene(scene, can), turn_);
     there.energyLedger = false;
-    changeLaws(there, [&](ContactLaw& law) { law = lawAsRun(can, law); });
     return engine_->loadInSpace(there, settings);
   }
 
@@ -108,6 +143,7 @@ class PlaneInSpace final : public Engine {
 
  private:
   std::unique_ptr<Engine> engine_;
+  PlaneFrame frame_;
   Turn turn_ = Turn::Identity();
   double radius_ = 0.0;  ///< the smallest [m]
 };
@@ -121,8 +157,8 @@ Scene ofSpheres(Scene scene) {
   return scene;
 }
 
-std::unique_ptr<Engine> runInSpace(std::unique_ptr<Engine> engine) {
-  return std::make_unique<PlaneInSpace>(std::move(engine));
+std::unique_ptr<Engine> runInSpace(std::unique_ptr<Engine> engine, PlaneFrame frame) {
+  return std::make_unique<PlaneInSpace>(std::move(engine), frame);
 }
 
 }  // namespace crossgrain::inline studies

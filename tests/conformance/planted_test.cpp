@@ -68,7 +68,14 @@ Planted inSpace(const char* name, const char* fault, const char* check, const ch
 TEST(PlantedFaults, RightEngine_AllChecks_FindNoFault) {
   EXPECT_EQ("", faultsOf(rowsOf(plantedEntry("right", ""))));
   EXPECT_EQ("", faultsOf(rowsOf(mischiefOf("none"))));
-  EXPECT_EQ("", faultsOf(rowsOf(inSpace("", "", "", "").entry)));
+  for (const char* right : {"", "step_setting=1", "float_state=1"})
+    EXPECT_EQ("", faultsOf(rowsOf(inSpace("", right, "", "").entry))) << right;
+}
+
+/// Of an engine of spheres alone no check is skipped for its scenes' dimension.
+TEST(PlantedFaults, SpheresAlone_Checks_AreRunInSpace) {
+  for (const ConformanceRow& row : rowsOf(inSpace("", "", "", "").entry))
+    EXPECT_EQ(row.detail.find("disks in a plane"), std::string::npos) << row.name;
 }
 
 /// Places that are shown wrongly, a speed that is cut off and a velocity that is lost are nobody's
@@ -311,6 +318,36 @@ INSTANTIATE_TEST_SUITE_P(
                 "^the torque is about the wrong axis"),
         inSpace("inertia_of_disks", "inertia=1.25", "TorqueTurnsSpheres",
                 "^J is 0\\.5 m a², .*that of a disk")),
+    [](const auto& one) { return std::string(one.param.name); });
+
+/// Of an engine that has spheres alone, by a check of scenes that lie in a plane of space for it.
+Planted alone(const char* name, const char* fault, const char* check, const char* cause) {
+  Planted planted = inSpace(name, fault, check, cause);
+  planted.alone = true;
+  return planted;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    SpheresAlone, PlantedFault,
+    testing::Values(
+        alone("gravity_x", "gravity_x=0.98", "FallsFreely", ""),
+        alone("gravity_y", "gravity_y=0", "FallsFreely", ""),
+        alone("friction", "mu=0.9", "FrictionFollowsTheOracle", "^µ -(9|10)"),
+        alone("spins_without_radii", "slip_spin=0", "FrictionFollowsTheOracle",
+              "^spins enter the slip without their radii"),
+        alone("torque_at_planes", "plane_torque=-1", "PlanesFollowTheOracle",
+              "^torque -(19|20).*at planes"),
+        alone("walls_undamped", "wall_gt=0", "PlanesFollowTheOracle", "^γ_t -100 %, at planes"),
+        alone("walls_friction", "wall_mu=0.9", "WallDisksFollowTheOracle",
+              "^µ -(9|10).*at wall disks"),
+        alone("late_friction", "mu_late=0.7", "LateIsAsEarly",
+              "^µ -(2[89]|3[012]) %.*2 s after load"),
+        alone("images_along_z", "images_z=0", "PairsAcrossBordersInSpace",
+              "^bodies do not meet each other's images across the border along z"),
+        alone("images_of_walls", "wall_images=0", "WallsAcrossBordersInSpace",
+              "^bodies do not meet images of walls' disks"),
+        alone("omega_cross_torque", "gyroscopic=1", "SpinsAboutTheLineChangeNothing", ""),
+        alone("unused_step", "step_setting=-1", "SettingDtIsUsed", "")),
     [](const auto& one) { return std::string(one.param.name); });
 
 INSTANTIATE_TEST_SUITE_P(

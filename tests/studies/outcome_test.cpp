@@ -290,6 +290,13 @@ TEST(ScaleEffectsAndConformanceOutcome, Failures_AreEngineFailures) {
     conformance.rows.emplace_back().outcome = outcome;
     EXPECT_EQ(outcomeOf(conformance).status, status);
   }
+  conformance.rows.resize(2);  // one skipped and one passed
+  conformance.declared = 10;
+  conformance.notExamined.assign(2, "checkpoints");
+  EXPECT_EQ(outcomeOf(conformance).status, exitPassed);
+  conformance.notExamined.assign(3, "checkpoints");
+  EXPECT_EQ(outcomeOf(conformance).status, exitFailed);
+  EXPECT_EQ(outcomeOf(conformance, true).status, exitPassed);
 }
 
 TEST(DiffOutcome, DifferencesFailuresAndNothingMeasured_Decide) {

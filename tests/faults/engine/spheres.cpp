@@ -1,5 +1,5 @@
 // The same in space: a worker of soft spheres in a box, periodic where it is to be, and between
-// planes and cylinders, that is right but for what is planted.
+// walls of spheres, planes and cylinders, that is right but for what is planted. It knows no plane.
 //
 //     planted_spheres [NAME=VALUE …]      names: SpaceFaults
 
@@ -42,11 +42,29 @@ struct SpaceFaults {
   /// 1: δ at a cylinder is of the distance from a plane through its axis
   double cylinderPlane = given("cylinder_plane", 0.0);
   double cylinderTurns = given("cylinder_turns", 1.0);  ///< 0: a cylinder's surface stands still
+
+  // Factors, of what the scene says.
+  double mu = given("mu", 1.0), gn = given("gn", 1.0);
+  double gravityX = given("gravity_x", 1.0), gravityY = given("gravity_y", 1.0);  ///< components
+  double wallMu = given("wall_mu", 1.0), wallGt = given("wall_gt", 1.0);  ///< at walls of any kind
+  double muLate = given("mu_late", 1.0);            ///< from the 10 000th step on
+  double planeTorque = given("plane_torque", 1.0);  ///< of contacts with planes
+  double slipSpin = given("slip_spin", 1.0);        ///< of the spins' part of the slip; 0: a = 1 m
+
+  double imagesAlongZ = given("images_z", 1.0);                ///< 0: no images along z
+  double wallImages = given("wall_images", 1.0);               ///< 0: walls' spheres have none
+  double gyroscopic = given("gyroscopic", 0.0);                ///< 1: J dω/dt = T + J ω × T dt
+  double springsLostEvery = given("springs_lost_every", 0.0);  ///< n: springs are 0 every n-th step
+  double stepSetting = given("step_setting", 0.0);  ///< 1: a setting dt; −1: that it does not use
+  double firstStep = given("first_step", 1.0);      ///< of dt, that part is the first step
+  /// 1: places, velocities, spins and springs in single precision, as declared
+  double floatState = given("float_state", 0.0);
 };
 
 class Spheres {
  public:
-  Spheres(const Json& scene, const Arrays& arrays, const SpaceFaults& faults) : faults_(faults) {
+  Spheres(const Json& scene, const Arrays& arrays, const SpaceFaults& faults, double dt)
+      : faults_(faults) {
     const auto vectors = [&](const char* name) {
       const std::vector<double>& numbers = arrays.at(name);
       std::vector<Vec3> list;
@@ -62,21 +80,26 @@ class Spheres {
     spin_ = vectors("disks.spin");
     const Json& law = scene.at("law");
     kn_ = law.at("kn");
-    gn_ = law.at("gn");
+    gn_ = faults.gn * law.at("gn").get<double>();
+    friction_ = law.at("tangential") != "none" && law.at("mu") > 0.0;
+    turns_ = (friction_ || law.value("rolling", "none") == "spring") && scene.at("rotation");
     kt_ = law.at("kt");
     gt_ = law.at("tangential") == "spring_dashpot" ? law.at("gt").get<double>() : 0.0;
-    mu_ = law.at("mu");
+    mu_ = faults.mu * law.at("mu").get<double>();
     kr_ = law.value("rolling", "none") == "spring" ? law.at("kr").get<double>() : 0.0;
     gr_ = kr_ > 0.0 ? law.at("gr").get<double>() : 0.0;
     muR_ = kr_ > 0.0 ? law.at("mu_r").get<double>() : 0.0;
-    dt_ = scene.at("dt");
+    dt_ = dt;
     if (scene.contains("box"))
       for (int k = 0; k < 3; ++k)
-        if (scene.at("box").at("periodic").at(k) && !(k > 0 && faults.imagesOfFirst != 0.0)) {
+        if (scene.at("box").at("periodic").at(k) && !(k > 0 && faults.imagesOfFirst != 0.0) &&
+            !(k == 2 && faults.imagesAlongZ == 0.0)) {
           if (faults.boxFromOrigin == 0.0) low_[k] = scene.at("box").at("low").at(k);
           length_[k] = scene.at("box").at("high").at(k).get<double>() - low_[k];
         }
     for (int k = 0; k < 3; ++k) gravity_[k] = scene.at("gravity").at(k);
+    gravity_.x() *= faults.gravityX;
+    gravity_.y() *= faults.gravityY;
     walls_ = crossgrain_worker::bodiesOf<3>(scene, arrays);
     for (auto* sum : {&force_, &torque_}) sum->resize(position.size());
     addForces();
@@ -84,11 +107,21 @@ class Spheres {
   }
 
   void step() {
+    const double dt = steps_++ == 0 ? faults_.firstStep * dt_ : dt_;
     kick(dt_);
-    for (std::size_t i = 0; i < position.size(); ++i) position[i] += dt_ * velocity_[i];
+    for (std::size_t i = 0; i < position.size(); ++i) position[i] += dt * velocity_[i];
     time_ += dt_;
     for (auto& wall : walls_) wall.at(time_);
+    if (faults_.springsLostEvery > 0.0 &&
+        steps_ % static_cast<long long>(faults_.springsLostEvery) == 0)
+      springs_.clear();
     addForces();
+    if (faults_.floatState == 0.0) return;
+    for (auto* list : {&position, &velocity_, &spin_})
+      for (Vec3& vector : *list) vector = vector.cast<float>().cast<double>();
+    for (auto& [pair, spring] : springs_)
+      for (Vec3* vector : {&spring.stretch, &spring.angle})
+        *vector = vector->cast<float>().cast<double>();
   }
 
   struct Contact {
@@ -113,9 +146,17 @@ class Spheres {
     return list;
   }
 
+  std::vector<Vec3> wallPositions() const {
+    std::vector<Vec3> all;
+    for (const auto& wall : walls_)
+      for (const auto& place : wall.position) all.push_back(of(place));
+    return all;
+  }
+
   bool rolls() const { return kr_ > 0.0; }
   Vec3 velocity(std::size_t i) const { return velocity_[i] + 0.5 * dt_ / mass_[i] * force_[i]; }
   Vec3 spin(std::size_t i) const {
+    if (!turns_) return spin_[i];
     return spin_[i] + 0.5 * dt_ / (faults_.inertia * inertia_[i]) * torque_[i];
   }
 
@@ -123,15 +164,16 @@ class Spheres {
   void kick(double dt) {
     for (std::size_t i = 0; i < position.size(); ++i) {
       velocity_[i] += dt / mass_[i] * force_[i];
-      spin_[i] += dt / (faults_.inertia * inertia_[i]) * torque_[i];
+      if (!turns_) continue;
+      const Vec3 torque = torque_[i] + faults_.gyroscopic * dt * spin_[i].cross(torque_[i]);
+      spin_[i] += dt / (faults_.inertia * inertia_[i]) * torque;
     }
   }
 
-  Vec3 apart(std::size_t i, std::size_t j) const {
-    Vec3 line = position[i] - position[j];
+  /// @param images  0: as it is
+  Vec3 nearest(Vec3 line, double images) const {
     for (int k = 0; k < 3; ++k)
-      if (length_[k] > 0.0)
-        line[k] -= faults_.images * length_[k] * std::round(line[k] / length_[k]);
+      if (length_[k] > 0.0) line[k] -= images * length_[k] * std::round(line[k] / length_[k]);
     return line;
   }
 
@@ -140,14 +182,27 @@ class Spheres {
     for (Vec3& torque : torque_) torque.setZero();
     for (auto* sum : {&wallForce_, &wallTorque_}) sum->assign(walls_.size(), Vec3::Zero());
     contacts.clear();
+    for (auto& [pair, spring] : springs_) spring.touches = false;
     for (std::size_t i = 0; i < position.size(); ++i)
       for (std::size_t j = i + 1; j < position.size(); ++j) meet(i, j);
+    meetWalls();
+    std::erase_if(springs_, [](const auto& one) { return !one.second.touches; });
+  }
+
+  void meetWalls() {
     std::size_t id = position.size();
+    for (std::size_t b = 0; b < walls_.size(); ++b)
+      for (std::size_t k = 0; k < walls_[b].radius.size(); ++k) {
+        for (std::size_t i = 0; i < position.size(); ++i) meetWallSphere(i, id, b, k);
+        ++id;
+      }
     for (std::size_t b = 0; b < walls_.size(); ++b)
       for (const auto& plane : walls_[b].planes) {
         for (std::size_t i = 0; i < position.size(); ++i) {
           const Vec3 n = of(plane.normal);
-          meetWall(i, id, b, n, (position[i] - of(plane.point)).dot(n));
+          const double distance = (position[i] - of(plane.point)).dot(n);
+          meetWall(i, id, b, n, radius_[i] - distance, position[i] - of(walls_[b].centre),
+                   of(walls_[b].velocity), faults_.planeTorque);
         }
         ++id;
       }
@@ -160,7 +215,8 @@ class Spheres {
           const double from = faults_.cylinderPlane == 0.0
                                   ? apart
                                   : apart * std::abs(of(n).dot(of(cylinder.axis).unitOrthogonal()));
-          meetWall(i, id, b, faults_.cylinderNormal * of(n), cylinder.radius - from);
+          meetWall(i, id, b, faults_.cylinderNormal * of(n), radius_[i] - cylinder.radius + from,
+                   position[i] - of(walls_[b].centre), of(walls_[b].velocity));
         }
         ++id;
       }
@@ -168,25 +224,37 @@ class Spheres {
 
   static Vec3 of(const crossgrain_worker::Vector3& v) { return {v.x, v.y, v.z}; }
 
-  /// @param wall      its number
-  /// @param distance  of the sphere's centre from the surface [m]
-  void meetWall(std::size_t i, std::size_t id, std::size_t wall, const Vec3& n, double distance) {
-    const double overlap = radius_[i] - distance, arm = radius_[i] - 0.5 * overlap;
-    if (!(overlap > 0.0)) {
-      springs_.erase({i, id});
-      return;
-    }
+  void meetWallSphere(std::size_t i, std::size_t id, std::size_t wall, std::size_t k) {
     const auto& body = walls_[wall];
-    const Vec3 place = position[i] - arm * n, fromCentre = place - of(body.centre);
-    const Vec3 turning = faults_.cylinderTurns * of(body.spin);
-    const Vec3 relative = velocity_[i] - of(body.velocity) - turning.cross(fromCentre);
-    const Vec3 slip = relative - relative.dot(n) * n - arm * spin_[i].cross(n);
+    const Vec3 place = of(body.position[k]);
+    const Vec3 line = nearest(position[i] - place, faults_.images * faults_.wallImages);
+    const Vec3 centre = place - of(body.centre);
+    meetWall(i, id, wall, line.normalized(), radius_[i] + body.radius[k] - line.norm(),
+             centre + line, of(body.diskVelocity[k]) - of(body.spin).cross(centre));
+  }
+
+  /// @param wall        its number
+  /// @param fromCentre  the sphere's centre, from the wall's
+  /// @param velocity    of the wall, at its centre
+  void meetWall(std::size_t i, std::size_t id, std::size_t wall, const Vec3& n, double overlap,
+                const Vec3& fromCentre, const Vec3& velocity, double torque = 1.0) {
+    const double arm = radius_[i] - 0.5 * overlap;
+    if (!(overlap > 0.0)) return;
+    const Vec3 place = fromCentre - arm * n;
+    const Vec3 turning = faults_.cylinderTurns * of(walls_[wall].spin);
+    const Vec3 relative = velocity_[i] - velocity - turning.cross(place);
+    const Vec3 slip = relative - relative.dot(n) * n - rim(arm, spin_[i]).cross(n);
     const Vec3 force = push(i, id, n, overlap, relative.dot(n), slip, 0.5 * (spin_[i] + turning),
                             [](Spring&, double) { return Vec3(Vec3::Zero()); });
     force_[i] += force;
-    torque_[i] -= arm * couple(n, force);
+    torque_[i] -= torque * arm * couple(n, force);
     wallForce_[wall] -= force;
-    wallTorque_[wall] -= fromCentre.cross(force);
+    wallTorque_[wall] -= place.cross(force);
+  }
+
+  /// a ω, as the slip has it.
+  Vec3 rim(double arm, const Vec3& spin) const {
+    return faults_.slipSpin == 0.0 ? spin : Vec3(faults_.slipSpin * arm * spin);
   }
 
   /// n × f_t.
@@ -198,6 +266,7 @@ class Spheres {
   struct Spring {
     Vec3 stretch = Vec3::Zero(), angle = Vec3::Zero(), normal = Vec3::Zero();
     Eigen::Vector3d images = Eigen::Vector3d::Zero();  ///< boxes between the two
+    bool touches = true;                               ///< in this step
   };
 
   /// ξ or θ as n turned to the new one and the pair about it (docs/dimensions.md, section 4).
@@ -235,17 +304,15 @@ class Spheres {
   }
 
   void meet(std::size_t i, std::size_t j) {
-    const Vec3 line = apart(i, j);
+    const Vec3 line = nearest(position[i] - position[j], faults_.images);
     const double distance = line.norm(), overlap = radius_[i] + radius_[j] - distance;
-    if (!(overlap > 0.0)) {
-      springs_.erase({i, j});
-      return;
-    }
+    if (!(overlap > 0.0)) return;
     Vec3 n = line / distance;
     if (faults_.wrongImage != 0.0 && (position[i] - position[j]).dot(n) < 0.0) n = -n;
     const double armI = radius_[i] - 0.5 * overlap, armJ = radius_[j] - 0.5 * overlap;
     const Vec3 relative = velocity_[i] - velocity_[j];
-    const Vec3 slip = relative - relative.dot(n) * n - (armI * spin_[i] + armJ * spin_[j]).cross(n);
+    const Vec3 slip =
+        relative - relative.dot(n) * n - (rim(armI, spin_[i]) + rim(armJ, spin_[j])).cross(n);
     Vec3 rollingTorque;
     const Vec3 force = push(i, j, n, overlap, relative.dot(n), slip, 0.5 * (spin_[i] + spin_[j]),
                             [&](Spring& spring, double load) {
@@ -263,14 +330,18 @@ class Spheres {
   Vec3 push(std::size_t i, std::size_t j, const Vec3& n, double overlap, double approach,
             const Vec3& slip, const Vec3& meanSpin, const Roll& roll) {
     Spring& spring = springs_[{i, j}];
+    spring.touches = true;
     if (faults_.springTurn != 0.0) follow(spring.stretch, spring.normal, n, meanSpin);
     if (faults_.rollTurn != 0.0) follow(spring.angle, spring.normal, n, meanSpin);
     const double normal = kn_ * overlap - gn_ * approach;
     const Vec3 rollingTorque = roll(spring, normal);
     spring.normal = n;
     spring.stretch += dt_ * slip;
-    Vec3 tangential = -kt_ * spring.stretch - gt_ * slip;
-    const double bound = mu_ * std::max(normal, 0.0);
+    const bool wall = j >= position.size();
+    Vec3 tangential = -kt_ * spring.stretch - (wall ? faults_.wallGt : 1.0) * gt_ * slip;
+    const double bound = (wall ? faults_.wallMu : 1.0) * (steps_ < 10000 ? 1.0 : faults_.muLate) *
+                         mu_ * std::max(normal, 0.0);
+    if (!friction_) tangential = spring.stretch = Vec3::Zero();
     const bool sliding = tangential.norm() > bound;
     if (sliding && faults_.pyramid != 0.0) {
       const Vec3 p = n.unitOrthogonal(), q = n.cross(p);
@@ -288,6 +359,8 @@ class Spheres {
 
   SpaceFaults faults_;
   double kn_, gn_, kt_, gt_, mu_, kr_, gr_, muR_, dt_, time_ = 0.0;
+  bool friction_, turns_;
+  long long steps_ = 0;
   Vec3 gravity_ = Vec3::Zero();
   Vec3 low_ = Vec3::Zero(), length_ = Vec3::Zero();  ///< of the box where it is periodic
   std::vector<double> radius_, mass_, inertia_;
@@ -301,13 +374,20 @@ class PlantedSpheres {
  public:
   explicit PlantedSpheres(const SpaceFaults& faults) : faults_(faults) {}
 
-  static Json capabilities() {
+  Json capabilities() const {
     Json effects;
     for (const char* name :
          {"normal_damping", "friction", "tangential_spring", "tangential_damping", "rotation",
           "gravity", "rolling_resistance", "moving_walls"})
       effects[name] = "optional";
     const auto only = [](const char* value) { return Json::array({value}); };
+    Json settings = Json::array();
+    if (faults_.stepSetting != 0.0)
+      settings.push_back({{"name", "dt"},
+                          {"default", 0.0},
+                          {"unit", "s"},
+                          {"doc", "time step; 0: the scene's own"},
+                          {"choices", Json::array()}});
     return {{"version", "1"},
             {"dimensions", {3}},
             {"periodic", true},
@@ -315,7 +395,7 @@ class PlantedSpheres {
             {"law_options",
              {{"normal", only("linear")},
               {"damper", only("constant")},
-              {"tangential", {"spring", "spring_dashpot"}},
+              {"tangential", {"none", "spring", "spring_dashpot"}},
               {"tension", only("allow")},
               {"coulomb_bound", only("compression")},
               {"dashpot", only("inside")},
@@ -334,35 +414,50 @@ class PlantedSpheres {
               {"rolling_reset", only("total")},
               {"spring_turn", only("rotated")},
               {"spring_twist", only("mean_spin")}}},
-            {"wall_motions", Json::array()},
-            {"plane_motions", {"fixed"}},
             {"cylinders", true},
-            {"precisions", only("double")},
+            {"precisions", only(precision())},
             {"instant_contacts", true},
             {"accumulated_contacts", false},
             {"warm_handover", false},
             {"sliding_flags", true},
-            {"settings", Json::array()}};
+            {"settings", settings}};
   }
 
-  Json load(const Json& scene, const Arrays& arrays, const Json&) {
-    spheres_.assign(1, Spheres(scene, arrays, faults_));
-    count_ = StepCount(scene.at("dt"));
+  const char* precision() const { return faults_.floatState == 0.0 ? "double" : "float"; }
+
+  Json load(const Json& scene, const Arrays& arrays, const Json& settings) {
+    double dt = settings.value("dt", 0.0);
+    if (dt == 0.0) dt = scene.at("dt");
+    const double used = faults_.stepSetting < 0.0 ? scene.at("dt").get<double>() : dt;
+    spheres_.assign(1, Spheres(scene, arrays, faults_, used));
+    count_ = StepCount(dt);
     const Json& law = scene.at("law");
-    Json effects = {"friction", "tangential_spring"};
+    Json effects = Json::array();
+    const bool friction = law.at("tangential") != "none" && law.at("mu") > 0.0;
+    const bool rolls = law.value("rolling", "none") != "none";
+    if (friction) {
+      effects.push_back("friction");
+      effects.push_back("tangential_spring");
+    }
     if (law.at("gn") > 0.0) effects.push_back("normal_damping");
-    if (law.at("tangential") == "spring_dashpot" && law.at("gt") > 0.0)
+    if (friction && law.at("tangential") == "spring_dashpot" && law.at("gt") > 0.0)
       effects.push_back("tangential_damping");
-    if (scene.at("rotation")) effects.push_back("rotation");
-    if (law.value("rolling", "none") != "none") effects.push_back("rolling_resistance");
-    for (const Json& component : scene.at("gravity"))
-      if (component != 0.0 && effects.back() != "gravity") effects.push_back("gravity");
+    if (scene.at("rotation") && (friction || rolls)) effects.push_back("rotation");
+    if (rolls) effects.push_back("rolling_resistance");
+    if (scene.at("gravity") != Json({0.0, 0.0, 0.0})) effects.push_back("gravity");
     for (const Json& body : scene.at("bodies"))
-      if (body.at("motion").at("kind") != "fixed") effects.push_back("moving_walls");
-    return {{"engine", "planted_spheres"}, {"version", "1"},
-            {"dt", scene.at("dt")},        {"precision", "double"},
-            {"effects", effects},          {"integrator", "position_verlet"},
-            {"pairs", Json::array()},      {"deviations", Json::array()}};
+      if (body.at("motion").at("kind") != "fixed") {
+        effects.push_back("moving_walls");
+        break;
+      }
+    return {{"engine", "planted_spheres"},
+            {"version", "1"},
+            {"dt", dt},
+            {"precision", precision()},
+            {"effects", effects},
+            {"integrator", "position_verlet"},
+            {"pairs", Json::array()},
+            {"deviations", Json::array()}};
   }
 
   double advance(double t) {
@@ -374,7 +469,7 @@ class PlantedSpheres {
 
   Json snapshot(const std::string& contacts, ArrayFile& arrays) const {
     const Spheres& spheres = spheres_[0];
-    std::vector<double> position, velocity, spin;
+    std::vector<double> position, velocity, spin, walls;
     const auto add = [](std::vector<double>& to, const Vec3& v) {
       to.insert(to.end(), {v.x(), v.y(), v.z()});
     };
@@ -386,7 +481,8 @@ class PlantedSpheres {
     arrays.add("position", position);
     arrays.add("velocity", velocity);
     arrays.add("spin", spin);
-    arrays.add("wall_position", std::vector<double>{});
+    for (const Vec3& place : spheres.wallPositions()) add(walls, place);
+    arrays.add("wall_position", walls);
     if (contacts == "instant") addContacts(arrays, spheres);
     const double now = count_.now();
     return {{"position_time", now},
