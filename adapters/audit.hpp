@@ -25,6 +25,10 @@ struct AuditBasisOf {
   /// How far geometry worked out again may be off by rounding, of the farthest coordinate: 10⁶
   /// roundings of double precision, 10 of single.
   double rounding = 1e-10;
+  /// Where forces are compared with the law at the overlaps that contacts show, as those of files
+  /// have more digits than what follows from places.
+  /// Relative rounding of these overlaps; 0: positions' are taken.
+  double shownOverlaps = 0.0;
 
   std::vector<double> radius;          ///< disks, then wall disks [m]
   VecOf<D> middle = VecOf<D>::Zero();  ///< of everything at t = 0 [m]

@@ -288,6 +288,10 @@ ContactKinematics kinematicsOf(const SnapshotOf<D>& snapshot, const AuditBasisOf
   const PairPlaceOf<D> place = pairPlace<D>(places, basis, i, j);
   touch.overlap = place.overlap;
   touch.uncertain = place.uncertain;
+  if (basis.shownOverlaps > 0.0 && contacts.overlap[k] > 0.0) {
+    touch.overlap = contacts.overlap[k];
+    touch.uncertain = std::min(touch.uncertain, basis.shownOverlaps * touch.overlap);
+  }
   const double own = basis.radius[i];
   touch.reach = j < round ? own + basis.radius[j] : 0.0;
   touch.smallerRadius = j < round ? std::min(own, basis.radius[j]) : own;
@@ -322,9 +326,18 @@ std::string normalFault(double found, const ContactLaw& law, const ContactKinema
     return law.conventions.tension == Tension::cut ? std::max(force, std::min(body, 0.0)) : force;
   };
   const double least = forceAt(pull.least), most = forceAt(pull.most);
+  // What the overlap's uncertainty makes of the force: Hertz' slope at δ = 0 would leave nothing.
+  const auto elasticAt = [&](double change) {
+    return elasticPart(law, touch.overlap + change, touch.radius);
+  };
+  const ElasticPart deeper = elasticAt(touch.uncertain);
+  const double unsure =
+      std::max(deeper.force - elastic.force, elastic.force - elasticAt(-touch.uncertain).force);
+  const double unsureDamping = damping(law.damper, law.gn, deeper.stiffness, touch.mass) - gn;
   const double allowed =
       relative * (std::abs(elastic.force) + std::abs(pull.least) + gn * std::abs(touch.approach)) +
-      (elastic.stiffness + pull.stiffness) * touch.uncertain + gn * touch.doubt;
+      unsure + std::abs(unsureDamping * touch.approach) + pull.stiffness * touch.uncertain +
+      gn * touch.doubt;
   if (found >= least - allowed && found <= most + allowed) return {};
   return fmt::format(
       "f_n is {:.6g} N, by the law {:.6g} N from an overlap of {:.3g} m (to within "

@@ -227,6 +227,14 @@ std::string averagedText(const Results& results) {
   return fmt::format("{} snapshots averaged\n", results.averaging.snapshots);
 }
 
+/// What the files lack and what that costs, too; the first note says which files they are.
+std::string averagedFilesText(const CompareResults& results) {
+  std::string text = averagedText(results);
+  for (std::size_t k = 1; k < results.notes.size(); ++k)
+    text += fmt::format("note: {}\n", results.notes[k]);
+  return text;
+}
+
 struct ConformanceOptions {
   std::string engine;
   bool allowUnexamined = false;
@@ -417,7 +425,7 @@ extern const Command averageCommand = {
     "crossgrain average atoms-1.dump pairs-1.dump examples/import/box.toml --name my-lammps --out "
     "out/averaged",
     [](CLI::App& app, CommandLine& line) {
-      return declareStudy(app, line, averageStudy, {averagedText<CompareResults>});
+      return declareStudy(app, line, averageStudy, {averagedFilesText});
     }};
 
 extern const Command revCommand = {

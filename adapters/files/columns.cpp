@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 
 #include "support/bad_input.hpp"
 #include "support/nearest.hpp"
@@ -76,15 +77,33 @@ constexpr Name vectors[] = {{"position", Meaning::x},     {"velocity", Meaning::
                             {"tangential", Meaning::tx},  {"point", Meaning::px},
                             {"torque", Meaning::torqueX}, {"rolling", Meaning::rollingX}};
 
-Meaning following(Meaning first, int k) {
-  return static_cast<Meaning>(static_cast<int>(first) + k);
-}
-
 }  // namespace
 
+std::string lowered(std::string_view name) {
+  std::string text(name);
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
 Meaning meaningOf(std::string_view name) {
-  const auto* const found = std::ranges::find(names, name, &Name::name);
+  const std::string own = name == "T" ? std::string(name) : lowered(name);
+  const auto* const found = std::ranges::find(names, own, &Name::name);
   return found == std::end(names) ? Meaning::none : found->meaning;
+}
+
+std::string suggestedMeaning(std::string_view name) {
+  constexpr std::pair<std::string_view, std::string_view> others[] = {
+      {"r", "radius"},       {"rad", "radius"},     {"radii", "radius"},   {"d", "diameter"},
+      {"m", "mass"},         {"v_x", "vx"},         {"v_y", "vy"},         {"v_z", "vz"},
+      {"omega_x", "spin_x"}, {"omega_y", "spin_y"}, {"omega_z", "spin_z"}, {"omegax", "spin_x"},
+      {"omegay", "spin_y"},  {"omegaz", "spin_z"},  {"w_x", "spin_x"},     {"w_y", "spin_y"},
+      {"w_z", "spin_z"},     {"f_x", "fx"},         {"f_y", "fy"},         {"f_z", "fz"},
+      {"id1", "first"},      {"id2", "second"},     {"delta", "overlap"}};
+  const auto* const known =
+      std::ranges::find(others, lowered(name), [](const auto& one) { return one.first; });
+  if (known != std::end(others)) return fmt::format(" (did you mean {}?)", known->second);
+  return suggestion(name, meaningNames());
 }
 
 const std::vector<std::string>& meaningNames() {
@@ -133,7 +152,7 @@ std::optional<Meaning> ColumnOptions::of(std::string_view name) const {
     const std::size_t width = isVector ? 3 : 1;
     if (word != "-" && !isVector && meaningOf(word) == Meaning::none)
       throw BadInput(fmt::format("columns: {}={}: there is no such meaning{}", name, word,
-                                 suggestion(word, meaningNames())));
+                                 suggestedMeaning(word)));
     if (index > column && index <= column + width) {
       if (word == "-") return Meaning::none;
       return isVector ? following(vector->meaning, static_cast<int>(index - column) - 1)
@@ -168,7 +187,21 @@ bool Columns::has(Meaning meaning) const {
 }
 
 bool Columns::hasVector(Meaning first) const {
-  return has(first) && has(following(first, 1)) && has(following(first, 2));
+  return has(first) || has(following(first, 1)) || has(following(first, 2));
+}
+
+void Columns::addMissing(Meaning first, std::vector<MissingComponent>& missing) const {
+  const bool scaled = first == Meaning::x && hasVector(Meaning::scaledX);
+  if (!hasVector(first) && !scaled) return;
+  const bool axial =
+      first == Meaning::spinX || first == Meaning::rollingX || first == Meaning::torqueX;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Meaning own = following(first, axis);
+    if (has(own) || (scaled && has(following(Meaning::scaledX, axis)))) continue;
+    const auto found = std::find_if(std::rbegin(names), std::rend(names),
+                                    [&](const Name& one) { return one.meaning == own; });
+    missing.push_back({std::string(found->name), axis, axial});
+  }
 }
 
 void Columns::checkDistinct(const TextFile& text) const {
@@ -192,7 +225,7 @@ void reserve(FileParticles& particles, const Columns& columns, std::size_t rows)
   if (columns.has(Meaning::radius) || columns.has(Meaning::diameter))
     particles.radius.reserve(rows);
   if (columns.has(Meaning::vx)) particles.velocity.reserve(rows);
-  if (columns.has(Meaning::spinZ)) particles.spin.reserve(rows);
+  if (columns.hasVector(Meaning::spinX)) particles.spin.reserve(rows);
   if (columns.has(Meaning::mass)) particles.mass.reserve(rows);
   if (columns.has(Meaning::kind)) particles.kind.reserve(rows);
 }
@@ -202,7 +235,11 @@ void addParticle(FileParticles& particles, const Columns& columns, const TextFil
   particles.id.push_back(columns.has(Meaning::id) ? wholeNumber(text, columns[Meaning::id], "id")
                                                   : static_cast<std::int64_t>(row));
   if (particles.id.back() < 0) text.fail("id: should be 0 or more");
-  if (row == 0) particles.firstLine = text.number();
+  if (row == 0) {
+    particles.firstLine = text.number();
+    for (const Meaning vector : {Meaning::x, Meaning::vx, Meaning::spinX})
+      columns.addMissing(vector, particles.missing);
+  }
   particles.lastLine = text.number();
   particles.position.push_back(columns.vector(Meaning::x));
   if (columns.has(Meaning::radius))
@@ -210,7 +247,7 @@ void addParticle(FileParticles& particles, const Columns& columns, const TextFil
   else if (columns.has(Meaning::diameter))
     particles.radius.push_back(0.5 * columns[Meaning::diameter]);
   if (columns.has(Meaning::vx)) particles.velocity.push_back(columns.vector(Meaning::vx));
-  if (columns.has(Meaning::spinZ)) particles.spin.push_back(columns.vector(Meaning::spinX));
+  if (columns.hasVector(Meaning::spinX)) particles.spin.push_back(columns.vector(Meaning::spinX));
   if (columns.has(Meaning::mass)) particles.mass.push_back(columns[Meaning::mass]);
   if (columns.has(Meaning::kind))
     particles.kind.push_back(wholeNumber(text, columns[Meaning::kind], "type"));

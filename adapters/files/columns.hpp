@@ -42,16 +42,26 @@ enum class Meaning : std::uint8_t {
 };
 // clang-format on
 
+/// The k-th component of the vector that begins with `first`.
+constexpr Meaning following(Meaning first, int k) {
+  return static_cast<Meaning>(static_cast<int>(first) + k);
+}
+
 /// Further places of a row, of what one format alone has.
 inline constexpr std::size_t extraMeanings = 128;
 constexpr Meaning extraMeaning(std::size_t k) {
   return static_cast<Meaning>(static_cast<std::size_t>(Meaning::count) + k);
 }
 
-/// The meaning that a name has in CSV files and in FileOptions::columns; none: no such name.
+/// The meaning that a name has in CSV files and in FileOptions::columns, whatever its capitals
+/// (but for T, which is a temperature as well); none: no such name.
 Meaning meaningOf(std::string_view name);
 /// All such names.
 const std::vector<std::string>& meaningNames();
+/// " (did you mean vx?)": what other programs call so, else the nearest of meaningNames().
+std::string suggestedMeaning(std::string_view name);
+/// Without capitals.
+std::string lowered(std::string_view name);
 
 /// FileOptions::columns, word by word.
 class ColumnOptions {
@@ -88,8 +98,10 @@ class Columns {
   explicit Columns(std::vector<Meaning> meanings);
 
   bool has(Meaning meaning) const;
-  /// Whether all three components are there.
+  /// Whether any of the three components is there.
   bool hasVector(Meaning first) const;
+  /// Components that are not there of a vector that is. Places may be parts of the box.
+  void addMissing(Meaning first, std::vector<MissingComponent>& missing) const;
   std::size_t count() const { return places_.size(); }
   /// @throws BadInput naming two columns of one meaning
   void checkDistinct(const TextFile& text) const;
@@ -99,7 +111,7 @@ class Columns {
   }
   double operator[](Meaning meaning) const { return values_[static_cast<std::size_t>(meaning)]; }
   double& operator[](Meaning meaning) { return values_[static_cast<std::size_t>(meaning)]; }
-  /// Components that are not there are 0: a file of two dimensions.
+  /// Components that are not there are 0: addMissing() has them.
   Vec3 vector(Meaning first) const;
 
  private:

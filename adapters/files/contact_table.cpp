@@ -184,6 +184,11 @@ void checkContactColumns(const Columns& columns, const TextFile& text) {
 
 void addContact(ContactTable& table, const Columns& columns, const TextFile& text) {
   FileContacts& contacts = table.contacts;
+  if (contacts.first.empty())
+    for (const Meaning vector :
+         {Meaning::nx, Meaning::branchX, Meaning::fx, Meaning::tx, Meaning::px, Meaning::rollingX,
+          Meaning::torqueX, Meaning::pseudoX})
+      columns.addMissing(vector, contacts.missing);
   const std::int64_t first = wholeNumber(text, columns[Meaning::first], "first");
   const std::int64_t second = wholeNumber(text, columns[Meaning::second], "second");
   if (first < 0 && second < 0)
@@ -194,13 +199,13 @@ void addContact(ContactTable& table, const Columns& columns, const TextFile& tex
   contacts.first.push_back(turned ? second : first);
   contacts.second.push_back(turned ? first : second);
   const auto add = [&](std::vector<Vec3>& to, Meaning x, double factor) {
-    if (columns.has(x)) to.push_back(factor * columns.vector(x));
+    if (columns.hasVector(x)) to.push_back(factor * columns.vector(x));
   };
   add(contacts.normal, Meaning::nx, sign);
   add(table.branch, Meaning::branchX, sign);
   add(contacts.force, Meaning::fx, sign);
   add(contacts.point, Meaning::px, 1.0);
-  if (columns.has(Meaning::rollingZ))
+  if (columns.hasVector(Meaning::rollingX))
     contacts.torque.push_back(sign * columns.vector(Meaning::rollingX));
   if (columns.has(Meaning::overlap)) contacts.overlap.push_back(columns[Meaning::overlap]);
   if (!columns.has(Meaning::fx)) {
@@ -209,7 +214,7 @@ void addContact(ContactTable& table, const Columns& columns, const TextFile& tex
     if (!columns.has(Meaning::tx) && columns.has(Meaning::tangentialForce))
       contacts.tangentialForce.push_back(columns[Meaning::tangentialForce]);
   }
-  if (turned && (columns.has(Meaning::torqueX) || columns.has(Meaning::pseudoX)))
+  if (turned && (columns.hasVector(Meaning::torqueX) || columns.hasVector(Meaning::pseudoX)))
     text.fail("torque on a wall: the particle should be the first");
   add(table.torque, Meaning::torqueX, 1.0);
   add(table.rollingForce, Meaning::pseudoX, 1.0);
@@ -276,6 +281,16 @@ Vec3 nearestImage(Vec3 difference, const std::optional<FileBox>& box) {
   return difference;
 }
 
+void takePeriods(FileBox& box, const FileBox& ofCase) {
+  constexpr double samePeriod = 1e-5;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double period = ofCase.high[axis] - ofCase.low[axis];
+    if (ofCase.periodic[axis] &&
+        std::abs(box.high[axis] - box.low[axis] - period) <= samePeriod * period)
+      box.periodic[axis] = true;
+  }
+}
+
 FileContacts completed(ContactTable table, const FileFrame& frame, const std::string& where) {
   FileContacts& contacts = table.contacts;
   const Partners partners = partnersOf(contacts, frame, where);
@@ -294,6 +309,7 @@ void append(FileContacts& contacts, FileContacts more, const FileFrame& particle
   if (contacts.force.empty() && !contacts.normalForce.empty() && !more.force.empty())
     splitForces(more);
   const std::size_t before = contacts.size(), after = more.size();
+  contacts.missing.insert(contacts.missing.end(), more.missing.begin(), more.missing.end());
   join(contacts.first, more.first, before, after);
   join(contacts.second, more.second, before, after);
   join(contacts.normal, more.normal, before, after);

@@ -43,6 +43,10 @@ class RowOfId {
 /// x − y, over the nearest edges of a periodic box.
 Vec3 nearestImage(Vec3 difference, const std::optional<FileBox>& box);
 
+/// Borders of which nothing is said, or that a program which wrote the dump anew calls fixed, are
+/// periodic where the case's are and the box is as wide.
+void takePeriods(FileBox& box, const FileBox& ofCase);
+
 /// The contacts of a table, all in the terms of FileContacts. Particles are those of their time.
 /// Normals are taken as given, else from the branch, else from the centres; force = f_n n + f_t;
 /// torque of rolling resistance = R* n × (pseudo-force) [LAMMPS, pair_granular.cpp: torroll], or

@@ -9,7 +9,6 @@
 #include "adapters/files/readers.hpp"
 #include "adapters/files/series.hpp"
 #include "support/bad_input.hpp"
-#include "support/nearest.hpp"
 
 namespace crossgrain::files {
 namespace fs = std::filesystem;
@@ -47,8 +46,10 @@ Columns columnsOf(const TextFile& text, const Header& header, const ColumnOption
     const std::optional<Meaning> said = options.of(name);
     meanings.push_back(said.value_or(meaningOf(name)));
     if (!said && meanings.back() == Meaning::none && !isOfStartFiles(name))
-      text.fail(fmt::format("there is no column {}{}; columns = {}=- leaves it out", name,
-                            suggestion(name, meaningNames()), name));
+      text.fail(
+          fmt::format("{} is none of the names of columns{}; columns = {}=MEANING says what it is, "
+                      "{}=- leaves it out",
+                      name, suggestedMeaning(name), name, name));
   }
   Columns columns(std::move(meanings));
   columns.checkDistinct(text);
@@ -74,9 +75,8 @@ class Csv : public TextParts {
       checkContactColumns(columns_, text);
     else if (!columns_.has(Meaning::x) || !columns_.has(Meaning::y))
       text.fail("the columns x and y are missing");
-    fromName_ = columns_.has(Meaning::time) || columns_.has(Meaning::step)
-                    ? std::nullopt
-                    : std::optional(numberInName(text.path()).value_or(0));
+    fromName_ = numberInName(text.path());
+    if (!alone() && !fromName_) fromName_ = 0;
     if (!text.nextUncommented('#')) text.fail("there are no rows below the column names");
     text.back();
   }
@@ -106,8 +106,12 @@ class Csv : public TextParts {
         addParticle(frame.particles, columns_, text);
     }
     if (!timed && !stepped) frame.step = fromName_;
-    frame.where = timed ? fmt::format("{}, t = {}", text.path().string(), *frame.time)
-                        : fmt::format("{}, step {}", text.path().string(), *frame.step);
+    frame.alone = !timed && !stepped && alone();
+    frame.where = text.path().string();
+    if (timed)
+      frame.where += fmt::format(", t = {}", *frame.time);
+    else if (!frame.alone)
+      frame.where += fmt::format(", step {}", *frame.step);
     return part;
   }
 
@@ -125,13 +129,13 @@ class Csv : public TextParts {
 Content contentOfCsv(const fs::path& file) {
   TextFile text(file);
   const auto names = headerOf(text).names;
-  const auto has = [&](std::string_view name) {
-    return std::ranges::find(names, name) != names.end();
+  const auto has = [&](Meaning meaning) {
+    return std::ranges::find(names, meaning, meaningOf) != names.end();
   };
-  if (has("first") || has("second")) return Content::contacts;
-  if (has("x") || has("radius")) return Content::particles;
+  if (has(Meaning::first) || has(Meaning::second)) return Content::contacts;
+  if (has(Meaning::x) || has(Meaning::radius)) return Content::particles;
   // Names of one's own: what the file's says.
-  const std::string name = file.filename().string();
+  const std::string name = lowered(file.filename().string());
   for (const char* word : {"contact", "pair", "intr", "interaction"})
     if (name.find(word) != std::string::npos) return Content::contacts;
   return Content::particles;

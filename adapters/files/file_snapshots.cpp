@@ -42,8 +42,20 @@ FileSnapshotsOf<D>::FileSnapshotsOf(std::unique_ptr<FrameReader> reader, FileUni
   recognise(*pending_);
 }
 
+/// Of a file without a time that is the only one: the number in its name is a step if that is
+/// averaged.
+template <int D>
+std::optional<double> FileSnapshotsOf<D>::timeByName(const FileFrame& frame) const {
+  if (!frame.alone || !frame.step || units_.dt == 0.0) return std::nullopt;
+  const double t = units_.time * (static_cast<double>(*frame.step) * units_.dt - units_.start);
+  if (t < target_.from - slackAt(target_.from) || t > target_.to + slackAt(target_.to))
+    return std::nullopt;
+  return t;
+}
+
 template <int D>
 double FileSnapshotsOf<D>::timeOf(const FileFrame& frame) const {
+  if (frame.alone && std::isfinite(target_.to)) return timeByName(frame).value_or(target_.to);
   if (frame.time) return units_.time * (*frame.time - units_.start);
   if (!frame.step) fail(frame, "it has neither a time nor a step");
   if (units_.dt == 0.0)
@@ -52,10 +64,19 @@ double FileSnapshotsOf<D>::timeOf(const FileFrame& frame) const {
   return units_.time * (static_cast<double>(*frame.step) * units_.dt - units_.start);
 }
 
-/// The next frame of the averaged time, which ends with a whole step.
+/// By which a time may be off from the instant that it is of: engines go to the step that is
+/// nearest to it (Engine::advance), and files have six digits at least.
+template <int D>
+double FileSnapshotsOf<D>::slackAt(double edge) const {
+  constexpr double sixDigits = 2e-6;
+  return std::max(0.5 * step(), sixDigits * std::abs(edge));
+}
+
+/// The next frame of the averaged time.
 template <int D>
 std::optional<FileFrame> FileSnapshotsOf<D>::readWithin() {
-  const double slack = 1e-6 * std::max(std::abs(target_.from), step());
+  const double slack = slackAt(target_.from);
+  std::optional<FileFrame> atBegin;
   while (auto frame = reader_->next()) {
     const double t = timeOf(*frame);
     if (last_ && !(t > *last_))
@@ -63,16 +84,43 @@ std::optional<FileFrame> FileSnapshotsOf<D>::readWithin() {
            fmt::format("it is of t = {:.9g} s, not after the one before of {:.9g} s", t, *last_));
     last_ = t;
     lastWhere_ = frame->where;
-    if (t < target_.from - slack) {
-      ++early_;
-      checkEarlyMotion(*frame, t);
-    } else if (t > target_.to + 0.5 * step()) {
-      ++late_;
-    } else {
-      return frame;
+    if (frame->alone) {
+      const bool named = timeByName(*frame).has_value();
+      remarks_.insert(fmt::format("{} says no time: its snapshot is taken as {} t = {:.6g} s",
+                                  frame->where,
+                                  named ? fmt::format("step {} by its name,", *frame->step)
+                                        : "of the end of the averaged time,",
+                                  t));
     }
+    if (t > target_.to + slackAt(target_.to)) {
+      ++late_;
+      continue;
+    }
+    const bool isEarly = t <= target_.from + slack;
+    early_ += isEarly;
+    if (isEarly || !ids_) checkEarlyMotion(*frame, t);
+    if (!isEarly) return frame;
+    if (t >= target_.from - slack) atBegin = std::move(frame);
   }
-  return std::nullopt;
+  if (ids_ || !atBegin) return std::nullopt;
+  --early_;
+  return atBegin;
+}
+
+/// Means over snapshots some of which lack what others have are of no time.
+template <int D>
+void FileSnapshotsOf<D>::requireSame(const FileFrame& frame, const SnapshotOf<D>& now) {
+  const auto require = [&](std::optional<bool>& first, bool here, const char* what,
+                           const char* remedy) {
+    if (first.value_or(here) != here)
+      fail(frame, fmt::format("it has {}{}, the first averaged snapshot has {}: all or none should "
+                              "have them{}",
+                              here ? "" : "no ", what, here ? "none" : "some", remedy));
+    first = here;
+  };
+  require(spins_, now.spin.has_value(), "spins", "");
+  require(contacts_, now.contacts.has_value(), "contacts with forces and their directions",
+          "; to average without, leave the files or columns of contacts out");
 }
 
 /// Some snapshots with contacts and some without make no average of either.
@@ -92,6 +140,13 @@ void FileSnapshotsOf<D>::recognise(const FileFrame& frame) {
   if (all.velocity.empty())
     fail(frame, "there are no velocities in the files: nothing can be averaged without them");
   checkParticles(frame, units_, target_.box);
+  for (int axis = 0; frame.box && axis < 3; ++axis)
+    if (frame.box->saidFixed[axis] && frame.box->periodic[axis])
+      remarks_.insert(
+          fmt::format("the files' box is fixed along {}, the case's is periodic and as wide: "
+                      "theirs is taken as "
+                      "periodic, too",
+                      std::string_view("xyz").substr(static_cast<std::size_t>(axis), 1)));
   const std::vector<std::size_t> walls = wallRows(frame, units_, target_, timeOf(frame));
   ids_.emplace(all.id, walls);
   DisksOf<D> disks;
@@ -133,23 +188,44 @@ void FileSnapshotsOf<D>::allowForRounding(const FileFrame& frame) {
       rounding * basis_.farthest));
 }
 
+/// The scene has one radius of each.
+template <int D>
+void FileSnapshotsOf<D>::checkRadius(const FileFrame& frame, std::size_t row, std::size_t k) const {
+  constexpr double sixDigits = 1e-5;
+  const double first = scene_.disks.radius[k], now = units_.length * frame.particles.radius[row];
+  if (std::abs(now - first) > sixDigits * first)
+    fail(frame, fmt::format("particle {} has radius {:.6g} m, in the first snapshot {:.6g} m",
+                            frame.particles.id[row], now, first));
+}
+
 template <int D>
 SnapshotOf<D> FileSnapshotsOf<D>::convert(const FileFrame& frame) {
   const FileParticles& all = frame.particles;
   if (all.size() != ids_->size())
     fail(frame, fmt::format("{} particles, {} in the first snapshot", all.size(), ids_->size()));
+  if (all.velocity.empty())
+    fail(frame,
+         "it has no velocities, the first snapshot has: nothing can be averaged without them");
   checkParticles(frame, units_, target_.box);
   requireContacts(frame);
   allowForRounding(frame);
   SnapshotOf<D> now;
   now.positionTime = now.velocityTime = now.contactTime = timeOf(frame);
-  if (frame.contacts) now.contactTime -= units_.contactsBehind * step();
+  const auto inCase = [&](double time) { return units_.time * (time - units_.start); };
+  if (frame.velocityTime) now.velocityTime = inCase(*frame.velocityTime);
+  if (frame.contactTime)
+    now.contactTime = inCase(*frame.contactTime);
+  else if (frame.contacts)
+    now.contactTime -= units_.contactsBehind * step();
   const std::size_t count = ids_->disks();
   now.position.resize(count);
   now.velocity.resize(count);
-  if (scene_.rotation && !all.spin.empty()) now.spin.emplace(count);
-  if (scene_.rotation && all.spin.empty())
-    remarks_.insert("no spins in the files: spin and what follows from it are not available");
+  const MissingComponent* const lack = neededComponent<D>(all.missing, units_, true);
+  if (scene_.rotation && !all.spin.empty() && !lack) now.spin.emplace(count);
+  if (scene_.rotation && !now.spin)
+    remarks_.insert(
+        fmt::format("no {} in the files: spin and what follows from it are not available",
+                    lack ? lack->column : "spins"));
   std::vector<bool> seen(ids_->size(), false);
   const double speed = units_.length / units_.time;
   for (std::size_t row = 0; row < all.size(); ++row) {
@@ -160,6 +236,7 @@ SnapshotOf<D> FileSnapshotsOf<D>::convert(const FileFrame& frame) {
     if (*k >= count) continue;
     now.position[*k] = units_.length * units_.template along<D>(all.position[row]);
     now.velocity[*k] = speed * units_.template along<D>(all.velocity[row]);
+    if (!all.radius.empty()) checkRadius(frame, row, *k);
     if (now.spin) (*now.spin)[*k] = units_.template about<D>(all.spin[row]) / units_.time;
   }
   placeWallsAsPrescribed(scene_, now.positionTime, now);
@@ -252,6 +329,7 @@ void FileSnapshotsOf<D>::audit(const FileFrame& frame, SnapshotOf<D>& snapshot) 
   if (lawDiffers_ || !scene_.law.soft()) return;
   AuditBasisOf<D> basis = basis_;
   basis.dt = step();
+  if (!frame.contacts->overlap.empty()) basis.shownOverlaps = lastDigitOf(frame.contacts->overlap);
   const std::string differs = lawFault(snapshot, basis, scene_.law);
   lawDiffers_ = !differs.empty();
   if (lawDiffers_)
@@ -274,6 +352,48 @@ void FileSnapshotsOf<D>::refuseMotion(const FileFrame& frame, const MotionFindin
        fmt::format("{} {} that move have gone {:.4g} times as far since the snapshot before as "
                    "their velocities say: {}",
                    found.of, movers<D>, *found.factor, remedyOfMotion(frame)));
+}
+
+/// A velocity that would carry its particle through everything within a step is none; one that is
+/// a hundred times that of all others, and of the particle's own way, is remarked on.
+template <int D>
+void FileSnapshotsOf<D>::checkSpeeds(const FileFrame& frame, const SnapshotOf<D>& now) {
+  constexpr double outlier = 100.0;
+  // Of walls; of disks the basis takes the files' word.
+  double walls = 0.0;
+  for (const WallBodyOf<D>& body : target_.bodies)
+    walls = std::max({walls, body.motion.velocity.norm(),
+                      body.motion.frequency * body.motion.amplitude.norm(),
+                      sizeOf(body.motion.angularVelocity) * basis_.farthest,
+                      std::abs(body.motion.radialVelocity)});
+  double fastest = 0.0, next = walls;
+  std::size_t at = 0;
+  for (std::size_t k = 0; k < now.velocity.size(); ++k) {
+    const double speed = now.velocity[k].stableNorm();
+    if (speed > fastest) {
+      next = std::max(next, std::exchange(fastest, speed));
+      at = k;
+    } else {
+      next = std::max(next, speed);
+    }
+  }
+  const std::int64_t id = now.velocity.empty() ? 0 : ids_->theirOf(at);
+  if (fastest * step() > std::max(basis_.extent, outlier * walls * step()))
+    fail(frame, fmt::format("particle {} has a velocity of {:.3g} m/s, by which it crosses the "
+                            "scene of {:.3g} m within a step of {:.3g} s",
+                            id, fastest, basis_.extent, step()));
+  if (!lastPlaces_.empty() && fastest > outlier * next) {
+    VecOf<D> way = now.position[at] - lastPlaces_[at];
+    if (scene_.box) way = scene_.box->nearest(way);
+    const double lapse = now.positionTime - lastTime_;
+    if (fastest * lapse > outlier * way.norm() && std::exchange(alike_, false))
+      remarks_.insert(fmt::format(
+          "{}: particle {} has a velocity of {:.3g} m/s, no other one of more than {:.3g} m/s, and "
+          "it has gone {:.3g} m in the {:.3g} s since the snapshot before",
+          frame.where, id, fastest, next, way.norm(), lapse));
+  }
+  lastPlaces_ = now.position;
+  lastTime_ = now.positionTime;
 }
 
 /// Positions and velocities that do not belong together are of a wrong time step or unit.
@@ -321,6 +441,12 @@ std::optional<SnapshotOf<D>> FileSnapshotsOf<D>::next() {
   std::optional<FileFrame> frame = pending_ ? std::exchange(pending_, std::nullopt) : readWithin();
   if (!frame) return std::nullopt;
   SnapshotOf<D> snapshot = convert(*frame);
+  requireSame(*frame, snapshot);
+  if (snapshots_++ > 0 && frame->timesSkipped > 0) {
+    if (skipped_ == 0) firstSkipped_ = frame->firstSkipped;
+    skipped_ += frame->timesSkipped;
+  }
+  checkSpeeds(*frame, snapshot);
   checkMotion(*frame, snapshot);
   audit(*frame, snapshot);
   return snapshot;
@@ -329,9 +455,14 @@ std::optional<SnapshotOf<D>> FileSnapshotsOf<D>::next() {
 template <int D>
 std::vector<std::string> FileSnapshotsOf<D>::remarks() const {
   std::vector<std::string> all(remarks_.begin(), remarks_.end());
+  if (skipped_ > 0)
+    all.push_back(fmt::format(
+        "{}: contacts of a time that the files of particles lack ({} such time{} within what is "
+        "averaged): there is no snapshot of it",
+        firstSkipped_, skipped_, skipped_ == 1 ? "" : "s"));
   if (early_ + late_ > 0)
     all.push_back(
-        fmt::format("{} snapshots before {:.6g} s and {} after {:.6g} s are left out: the case "
+        fmt::format("{} snapshots up to {:.6g} s and {} after {:.6g} s are left out: the case "
                     "averages what is "
                     "between",
                     early_, target_.from, late_, target_.to));

@@ -28,7 +28,10 @@ struct FileSceneOf {
   bool anyAngle = false;
   /// The scene with those disks, radii and masses empty where the files have none. @throws BadInput
   std::function<SceneOf<D>(DisksOf<D>)> around;
-  double from = 0.0, to = INFINITY;     ///< frames of other times are left out [s]
+  /// Frames of (from, to] are averaged, those of other times left out, as engines are averaged from
+  /// the first snapshot after `from` to that at `to`. Of files that have none there, the instant
+  /// `from` itself is taken [s].
+  double from = 0.0, to = INFINITY;
   double dt = 0.0;                      ///< of the case [s]
   VecOf<D> gravity = VecOf<D>::Zero();  ///< of the case [m/s²]
   std::vector<std::string> remarks;     ///< on the files, before they are read
@@ -57,15 +60,20 @@ class FileSnapshotsOf : public SnapshotSourceOf<D> {
  private:
   std::optional<FileFrame> readWithin();
   void requireContacts(const FileFrame& frame) const;
+  void requireSame(const FileFrame& frame, const SnapshotOf<D>& now);
   void recognise(const FileFrame& frame);
   SnapshotOf<D> convert(const FileFrame& frame);
+  void checkRadius(const FileFrame& frame, std::size_t row, std::size_t k) const;
   void allowForRounding(const FileFrame& frame);
+  void checkSpeeds(const FileFrame& frame, const SnapshotOf<D>& now);
   void checkMotion(const FileFrame& frame, const SnapshotOf<D>& now);
   void checkEarlyMotion(const FileFrame& frame, double t);
   [[noreturn]] void refuseMotion(const FileFrame& frame, const MotionFinding& found) const;
   std::string remedyOfMotion(const FileFrame& frame) const;
   void audit(const FileFrame& frame, SnapshotOf<D>& snapshot);
   double timeOf(const FileFrame& frame) const;
+  std::optional<double> timeByName(const FileFrame& frame) const;
+  double slackAt(double edge) const;
   double step() const { return units_.dt > 0.0 ? units_.dt * units_.time : target_.dt; }
 
   std::unique_ptr<FrameReader> reader_;
@@ -77,9 +85,15 @@ class FileSnapshotsOf : public SnapshotSourceOf<D> {
   AuditBasisOf<D> basis_, bareBasis_;
   std::optional<double> last_;  ///< time of the frame before [s]
   std::string lastWhere_;       ///< where that is
-  std::size_t early_ = 0, late_ = 0;
+  std::size_t snapshots_ = 0, early_ = 0, late_ = 0, skipped_ = 0;
+  std::string firstSkipped_;  ///< of contacts whose particles the files lack
+  /// What the first snapshot has: absent before it. An average of some snapshots is another one's.
+  std::optional<bool> contacts_, spins_;
   bool wallContacts_ = false;               ///< whether any was seen
   bool lawDiffers_ = false, moves_ = true;  ///< moves_: as velocities say, so far
+  bool alike_ = true;                       ///< no velocity stands out, so far
+  std::vector<VecOf<D>> lastPlaces_;        ///< of the snapshot before [m]
+  double lastTime_ = 0.0;                   ///< its time [s]
   DisplacementsOf<D> displacements_, earlyDisplacements_;
   std::vector<std::int64_t> earlyIds_;  ///< of the frame before, rising
   std::set<std::string> remarks_;

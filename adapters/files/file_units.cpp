@@ -118,6 +118,26 @@ void checkPlane(const FileFrame& frame, const FileUnits& units) {
       fail(frame, fmt::format("particle {} spins about an axis that lies in the plane", all.id[k]));
 }
 
+/// "a case in space takes all three components", "plane = \"xz\" takes x and z of the files"
+template <int D>
+std::string describeNeed(const FileUnits& units) {
+  if (D == 3) return "a case in space takes all three components";
+  return fmt::format("plane = \"{0}{1}\" takes {0} and {1} of the files",
+                     axisNames[static_cast<std::size_t>(units.axes[0])],
+                     axisNames[static_cast<std::size_t>(units.axes[1])]);
+}
+
+template <int D>
+void checkComponents(const FileFrame& frame, const FileUnits& units) {
+  if (const auto* const lack = neededComponent<D>(frame.particles.missing, units, false))
+    fail(frame, fmt::format("there is no column {}: {}", lack->column, describeNeed<D>(units)));
+  if (!frame.contacts) return;
+  for (const bool axial : {false, true})
+    if (const auto* const lack = neededComponent<D>(frame.contacts->missing, units, axial))
+      fail(frame, fmt::format("its contacts have no column {}: {}", lack->column,
+                              axial ? "a torque has that component" : describeNeed<D>(units)));
+}
+
 /// Of an edge that the case does not have, whatever crosses it has an image there that the case
 /// does not know.
 void checkEdge(const FileFrame& frame, int axis) {
@@ -175,14 +195,35 @@ template FileBox boxInFiles(const BoxOf<2>&, const FileUnits&);
 template FileBox boxInFiles(const BoxOf<3>&, const FileUnits&);
 
 template <int D>
+const MissingComponent* neededComponent(const std::vector<MissingComponent>& missing,
+                                        const FileUnits& units, bool axial) {
+  const auto found = std::ranges::find_if(missing, [&](const MissingComponent& one) {
+    return one.axial == axial && (D == 3 || (one.axis == units.third()) == axial);
+  });
+  return found == missing.end() ? nullptr : &*found;
+}
+template const MissingComponent* neededComponent<2>(const std::vector<MissingComponent>&,
+                                                    const FileUnits&, bool);
+template const MissingComponent* neededComponent<3>(const std::vector<MissingComponent>&,
+                                                    const FileUnits&, bool);
+
+template <int D>
 void checkParticles(const FileFrame& frame, const FileUnits& units,
                     const std::optional<BoxOf<D>>& box) {
+  checkComponents<D>(frame, units);
   if (D == 2) checkPlane(frame, units);
   if (!frame.box) return;
   for (int k = 0; k < D; ++k) {
     const int axis = units.axes[k];
+    const bool isPeriodic = box && box->periodic[static_cast<std::size_t>(k)];
+    if (isPeriodic && frame.box->saidFixed[axis] && !frame.box->periodic[axis])
+      fail(frame, fmt::format("its box is fixed along {} and {:.7g} m wide, the case's is periodic "
+                              "over {:.7g} m",
+                              axisNames[static_cast<std::size_t>(axis)],
+                              units.length * (frame.box->high[axis] - frame.box->low[axis]),
+                              box->high[k] - box->low[k]));
     if (!frame.box->periodic[axis]) continue;
-    if (box && box->periodic[static_cast<std::size_t>(k)])
+    if (isPeriodic)
       checkPeriod(frame, axis, units.length * (frame.box->high[axis] - frame.box->low[axis]),
                   box->high[k] - box->low[k]);
     else
@@ -191,6 +232,15 @@ void checkParticles(const FileFrame& frame, const FileUnits& units,
 }
 template void checkParticles(const FileFrame&, const FileUnits&, const std::optional<BoxOf<2>>&);
 template void checkParticles(const FileFrame&, const FileUnits&, const std::optional<BoxOf<3>>&);
+
+double lastDigitOf(const std::vector<double>& numbers) {
+  constexpr std::size_t most = 1000;
+  constexpr int clear = 10;
+  int digits = 1;
+  for (std::size_t k = 0; k < std::min(most, numbers.size()) && digits < clear; ++k)
+    digits = std::max(digits, digitsOf(numbers[k]));
+  return std::pow(10.0, 1 - std::min(digits, clear));
+}
 
 template <int D>
 double roundingOf(const std::vector<Vec3>& position, const FileUnits& units) {

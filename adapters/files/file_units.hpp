@@ -55,13 +55,24 @@ FileUnits fileUnits(std::string_view format, const Settings& settings);
 template <int D>
 FileBox boxInFiles(const BoxOf<D>& box, const FileUnits& units);
 
-/// In the plane: nothing lies beside the others, moves out of it or spins about an axis in it. A
-/// direction that the file has periodic is that of the case's box, and as long; or nothing reaches
-/// over its edge.
+/// Of the missing components of vectors the first that the case needs: in space all three are, in
+/// the plane those along its axes, of spins and torques the one across it. Null: none.
+template <int D>
+const MissingComponent* neededComponent(const std::vector<MissingComponent>& missing,
+                                        const FileUnits& units, bool axial);
+
+/// Places and velocities have the components that the case needs, each array that is there is of
+/// all particles. In the plane: nothing lies beside the others, moves out of it or spins about an
+/// axis in it. A direction that the file has periodic is that of the case's box, and as long; or
+/// nothing reaches over its edge.
 /// @throws BadInput naming the frame and what is not so
 template <int D>
 void checkParticles(const FileFrame& frame, const FileUnits& units,
                     const std::optional<BoxOf<D>>& box);
+
+/// The last digit that numbers were written with, of the first one: 10⁻⁵ of six digits. At least
+/// 10⁻⁹.
+double lastDigitOf(const std::vector<double>& numbers);
 
 /// Relative rounding of coordinates: twice the last digit of files that write five to eight of
 /// them, as half of all coordinates then use the last two; else single precision's. Round numbers

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <map>
 
 #include "adapters/files/readers.hpp"
@@ -32,6 +33,8 @@ constexpr Format formats[] = {{"mercurydpm", openMercuryDpm, contentOfMercuryDpm
                               {"ondem", openOnDem, nullptr, nullptr},
                               {"csv", openCsv, contentOfCsv, firstTimeOfCsv}};
 
+constexpr std::string_view hdf5Mark = "\x89HDF";
+
 const Format& formatNamed(std::string_view name) {
   const auto* const found = std::ranges::find(formats, name, &Format::name);
   if (found == std::end(formats))
@@ -49,10 +52,10 @@ Content contentOf(const Format& format, const fs::path& file) {
 /// Words of file names that say what is in the file, not which run it is of.
 bool saysContent(const std::string& word) {
   constexpr std::string_view known[] = {
-      "atom", "atoms",  "particle", "particles", "sphere",   "spheres", "contact", "contacts",
-      "pair", "pairs",  "local",    "wall",      "walls",    "intr",    "intrs",   "interactions",
-      "dump", "custom", "txt",      "csv",       "data",     "fstat",   "vtk",     "vtu",
-      "vtp",  "vtkhdf", "hdf",      "h5",        "lammpstrj"};
+      "atom", "atoms",  "particle", "particles", "sphere",    "spheres", "contact", "contacts",
+      "pair", "pairs",  "local",    "wall",      "walls",     "intr",    "intrs",   "interactions",
+      "dump", "custom", "txt",      "csv",       "data",      "fstat",   "vtk",     "vtu",
+      "vtp",  "vtkhdf", "hdf",      "h5",        "lammpstrj", "gz"};
   return std::ranges::find(known, word) != std::end(known);
 }
 
@@ -122,6 +125,26 @@ bool areRuns(const Format& format, const Files& files) {
   return false;
 }
 
+/// Whether a line has the names of columns of the rows below it: known ones, or words above a row
+/// of numbers, which `columns` may say the meaning of.
+bool isTable(std::string_view names, std::string_view below) {
+  const auto separator = separatorOf(names);
+  if (!separator) return false;
+  const auto columns = separatedWords(names, *separator);
+  const auto isKnown = [](std::string_view name) { return meaningOf(name) != Meaning::none; };
+  if (std::ranges::any_of(columns, isKnown)) return true;
+  const auto isNumber = [](std::string_view word) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return error == std::errc() && end == word.data() + word.size();
+  };
+  const auto row = separatedWords(below.substr(0, below.find('\n')), *separator);
+  return std::ranges::none_of(
+             columns, [&](std::string_view name) { return name.empty() || isNumber(name); }) &&
+         row.size() == columns.size() &&
+         2 * static_cast<std::size_t>(std::ranges::count_if(row, isNumber)) > row.size();
+}
+
 /// A run for each number.
 std::vector<Run> split(const Run& whole) {
   std::map<std::int64_t, Run> runs;
@@ -150,6 +173,12 @@ Files filesOf(const Files& files, Content content, Content (*contentOf)(const fs
   return found;
 }
 
+bool isHdf5(const fs::path& file) {
+  std::string head(hdf5Mark.size(), '\0');
+  head.resize(RegularFile(file).read(0, std::as_writable_bytes(std::span(head))));
+  return head == hdf5Mark;
+}
+
 std::vector<std::string_view> fileFormats() {
   std::vector<std::string_view> names;
   for (const Format& format : formats) names.push_back(format.name);
@@ -158,10 +187,9 @@ std::vector<std::string_view> fileFormats() {
 
 std::optional<std::string_view> formatOf(const fs::path& file) {
   if (!fileFault(file).empty()) return std::nullopt;
-  std::string head(std::size_t{1} << 14, '\0');
-  head.resize(RegularFile(file).read(0, std::as_writable_bytes(std::span(head))));
+  std::string head = headOf(file, std::size_t{1} << 14);
   if (head.starts_with(byteOrderMark)) head.erase(0, byteOrderMark.size());
-  if (head.starts_with("\x89HDF")) {
+  if (head.starts_with(hdf5Mark)) {
     // Names of groups stand near the beginning.
     if (head.find("VTKHDF") != std::string::npos) return "ondem";
     return std::nullopt;
@@ -188,10 +216,9 @@ std::optional<std::string_view> formatOf(const fs::path& file) {
     if (parts.front() != "#" && (parts.size() == 6 || parts.size() == 8) && numbers)
       return "mercurydpm";
     if (line.front() == '#') continue;
-    if (const auto separator = separatorOf(line))
-      for (const std::string_view name : separatedWords(line, *separator))
-        if (meaningOf(name) != Meaning::none) return "csv";
-    return std::nullopt;
+    return isTable(line, std::string_view(head).substr(std::min(at, head.size())))
+               ? std::optional<std::string_view>("csv")
+               : std::nullopt;
   }
   return std::nullopt;
 }

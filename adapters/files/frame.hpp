@@ -19,17 +19,27 @@ using Vec3 = Eigen::Vector3d;
 struct FileBox {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< [length]
   bool periodic[3] = {false, false, false};
+  bool saidFixed[3] = {false, false, false};  ///< where the file says so
+};
+
+/// A component of a vector that no column has, whose others are there.
+struct MissingComponent {
+  std::string column;  ///< "vz", "spin_x"
+  int axis = 2;        ///< of the file's x, y, z
+  bool axial =
+      false;  ///< of a spin or a torque: those in a plane have the component across it alone
 };
 
 /// Particles of one time, structure of arrays. What the file does not have is empty.
 struct FileParticles {
-  std::vector<std::int64_t> id;    ///< the file's own; of files without ids, the row, from 0
-  std::vector<Vec3> position;      ///< [length]
-  std::vector<double> radius;      ///< [length]
-  std::vector<Vec3> velocity;      ///< [length/time]
-  std::vector<Vec3> spin;          ///< right-handed [1/time]
-  std::vector<double> mass;        ///< [mass]
-  std::vector<std::int64_t> kind;  ///< type, species or material number
+  std::vector<std::int64_t> id;           ///< the file's own; of files without ids, the row, from 0
+  std::vector<Vec3> position;             ///< [length]
+  std::vector<double> radius;             ///< [length]
+  std::vector<Vec3> velocity;             ///< [length/time]
+  std::vector<Vec3> spin;                 ///< right-handed [1/time]
+  std::vector<double> mass;               ///< [mass]
+  std::vector<std::int64_t> kind;         ///< type, species or material number
+  std::vector<MissingComponent> missing;  ///< of what is there; its numbers are 0
   /// Lines of the file that the first and the last of them are, one a line; 0: not text.
   std::size_t firstLine = 0, lastLine = 0;
 
@@ -45,13 +55,14 @@ struct FileContacts {
   /// Ids of particles; a wall k is −k − 1, and always the second. A partner that is neither (a
   /// facet, a fixed body that is no particle) counts as a wall.
   std::vector<std::int64_t> first, second;
-  std::vector<Vec3> normal;             ///< unit vector from second to first
-  std::vector<Vec3> force;              ///< on the first, damping and attraction included [force]
-  std::vector<double> normalForce;      ///< in place of `force`: > 0 pushes [force]
-  std::vector<double> tangentialForce;  ///< in place of `force`: its size [force]
-  std::vector<Vec3> point;              ///< where they touch [length]
-  std::vector<double> overlap;          ///< > 0 where they overlap [length]
-  std::vector<Vec3> torque;             ///< of rolling resistance on the first [force·length]
+  std::vector<Vec3> normal;               ///< unit vector from second to first
+  std::vector<Vec3> force;                ///< on the first, damping and attraction included [force]
+  std::vector<double> normalForce;        ///< in place of `force`: > 0 pushes [force]
+  std::vector<double> tangentialForce;    ///< in place of `force`: its size [force]
+  std::vector<Vec3> point;                ///< where they touch [length]
+  std::vector<double> overlap;            ///< > 0 where they overlap [length]
+  std::vector<Vec3> torque;               ///< of rolling resistance on the first [force·length]
+  std::vector<MissingComponent> missing;  ///< as of particles
 
   std::size_t size() const { return first.size(); }
 };
@@ -61,12 +72,21 @@ struct FileFrame {
   std::string where;                 ///< "out/run.data, time 3": for messages
   std::optional<double> time;        ///< [time]; absent where the file has steps alone
   std::optional<std::int64_t> step;  ///< absent where it has none
+  /// Of velocities and of contacts, where the file says them of their own.
+  std::optional<double> velocityTime, contactTime;
+  /// Of a file without a time that is the only one, whose number may be anything: the step is that
+  /// number, or absent.
+  bool alone = false;
   std::optional<FileBox> box;
   FileParticles particles;
   std::optional<FileContacts> contacts;
   /// Where there are files of contacts, but not of this time: what they have in its place, "the
   /// last are of run.local, step 4000".
   std::string contactsOfOtherTimes;
+  /// Where the files of contacts have times between the frame before and this one that the
+  /// particles lack: how many, and which is the first, "run.fstat, time 3".
+  std::size_t timesSkipped = 0;
+  std::string firstSkipped;
 };
 
 /// What a file does not say of itself.
@@ -96,6 +116,9 @@ std::vector<std::string_view> fileFormats();
 
 /// The format of a file, by what it begins with; absent: none that is known.
 std::optional<std::string_view> formatOf(const std::filesystem::path& file);
+
+/// Whether it begins as HDF5 does.
+bool isHdf5(const std::filesystem::path& file);
 
 /// Whether MercuryDPM wrote it beside a .data or .fstat that is among the files: NAME.restart,
 /// NAME.ene and others, which have nothing to be averaged.

@@ -140,16 +140,19 @@ class ContactReader {
 
   /// The plane or cylinder of the case that a wall of the file is, for the disk that touches it: of
   /// those with the contact's normal the one whose distance from the centre is nearest to the
+  /// radius less the contact's overlap. Without a normal no disk is deeper in it than half a
   /// radius.
   std::size_t planeOf(std::size_t c, std::size_t disk) const {
     std::optional<std::size_t> best;
-    double nearest = 0.5 * basis_.radius[disk];
+    const double radius = basis_.radius[disk];
+    const double overlap = in_.overlap.empty() ? 0.0 : units_.length * in_.overlap[c];
+    double nearest = in_.normal.empty() ? 0.5 * radius : INFINITY;
     for (std::size_t p = 0; p < places_.planes.size(); ++p) {
       const PlaneOf<D> plane = places_.planes[p].under(places_.position[disk]);
       if (!in_.normal.empty() && plane.normal.dot(units_.along<D>(in_.normal[c])) < 0.99) continue;
       const double distance = (places_.position[disk] - plane.point).dot(plane.normal);
-      const double off = std::abs(distance - basis_.radius[disk]);
-      if (off > nearest) continue;
+      const double off = std::abs(distance - radius + overlap);
+      if (off > nearest || distance > 1.5 * radius) continue;
       nearest = off;
       best = p;
     }
@@ -199,6 +202,13 @@ class ContactReader {
   const AuditBasisOf<D>& basis_;
   ContactPlacesOf<D> places_;
 };
+
+/// Whether there are tangential forces in the scene: where its law has none they are 0.
+template <int D>
+bool rubs(const SceneOf<D>& scene) {
+  return scene.materials ? std::ranges::any_of(scene.materials->laws, &ContactLaw::friction)
+                         : scene.law.friction();
+}
 
 /// Sizes of tangential forces without a direction say nothing unless they are 0.
 bool lacksDirection(const FileContacts& contacts) {
@@ -267,6 +277,12 @@ std::optional<ContactsOf<D>> frameContacts(const FileFrame& frame, const FileUni
     remarks.insert(
         "tangential forces have a size and no direction in the files, and contacts are left out: "
         "stress, fabric, coordination and forces on walls are not available");
+    return std::nullopt;
+  }
+  if (in.size() > 0 && in.force.empty() && in.tangentialForce.empty() && rubs(*basis.scene)) {
+    remarks.insert(
+        "no tangential forces in the files, and contacts are left out: stress, fabric, "
+        "coordination and forces on walls are not available");
     return std::nullopt;
   }
   if (in.size() > 0 && in.normal.empty())

@@ -58,6 +58,7 @@ FileBox readBox(TextFile& text, std::string_view letters) {
       text.fail("a tilted (triclinic) box is not read");
     const std::size_t axis = (triclinic ? 3u : 0u) + static_cast<std::size_t>(k);
     box.periodic[k] = axis < periodic.size() && periodic[axis].front() == 'p';
+    box.saidFixed[k] = axis < periodic.size() && !box.periodic[k];
   }
   return box;
 }
@@ -144,8 +145,10 @@ AtomColumns atomColumns(const TextFile& text, const std::vector<std::string>& na
       meanings.push_back(extraMeaning(found.walls.back().first + index - 1));
       continue;
     }
+    if (!said && std::ranges::count(names, name) > 1)
+      text.fail(fmt::format("the column {} is there twice: only one of them can be read", name));
     const auto* const known =
-        std::ranges::find(attributes, name, [](const auto& one) { return one.first; });
+        std::ranges::find(attributes, lowered(name), [](const auto& one) { return one.first; });
     const Meaning meaning = said                            ? *said
                             : known != std::end(attributes) ? known->second
                                                             : Meaning::none;
@@ -168,7 +171,8 @@ AtomColumns atomColumns(const TextFile& text, const std::vector<std::string>& na
 
 /// The row's contact with a wall, if they touch.
 void addWall(ContactTable& table, const AtomColumns& atoms, std::size_t wall,
-             const FileParticles& particles, const TextFile& text) {
+             const FileParticles& particles, const std::optional<FileBox>& box,
+             const TextFile& text) {
   const auto value = [&](std::size_t k) {
     return atoms.columns[extraMeaning(atoms.walls[wall].first + k)];
   };
@@ -179,7 +183,9 @@ void addWall(ContactTable& table, const AtomColumns& atoms, std::size_t wall,
         fmt::format("{0}[1] is {1}, neither 0 nor 1: if {0} is no fix wall/gran … contacts, "
                     "say columns = {0}=-",
                     fix, value(0)));
-  const Vec3 point(value(4), value(5), value(6)), away = particles.position.back() - point;
+  // Points are in the box, places may be of a path that is left whole.
+  const Vec3 point(value(4), value(5), value(6));
+  const Vec3 away = nearestImage(particles.position.back() - point, box);
   if (!(away.norm() > 0.0)) text.fail(fmt::format("{} touches the particle in its centre", fix));
   FileContacts& contacts = table.contacts;
   contacts.first.push_back(particles.id.back());
@@ -191,17 +197,21 @@ void addWall(ContactTable& table, const AtomColumns& atoms, std::size_t wall,
 
 class Atoms : public TextParts {
  public:
-  Atoms(Files files, std::shared_ptr<const ColumnOptions> options)
-      : TextParts(std::move(files)), options_(std::move(options)) {}
+  Atoms(Files files, std::shared_ptr<const ColumnOptions> options, std::optional<FileBox> box)
+      : TextParts(std::move(files)), options_(std::move(options)), box_(std::move(box)) {}
 
  protected:
   Part read(TextFile& text) override {
     Head head = readHead(text, "ATOMS");
     FileFrame& frame = head.part.frame;
+    if (frame.box && box_) takePeriods(*frame.box, *box_);
     AtomColumns atoms = atomColumns(text, head.names, *options_);
     Columns& columns = atoms.columns;
-    const bool scaled = !columns.has(Meaning::x);
-    if (scaled && !frame.box)
+    const auto isScaled = [&](int axis) {
+      return columns.has(following(Meaning::scaledX, axis)) &&
+             !columns.has(following(Meaning::x, axis));
+    };
+    if ((isScaled(0) || isScaled(1) || isScaled(2)) && !frame.box)
       text.fail("xs, ys, zs are parts of the box: ITEM: BOX BOUNDS is missing");
     if (!atoms.walls.empty()) {
       head.part.table.emplace();
@@ -211,23 +221,21 @@ class Atoms : public TextParts {
     for (std::size_t k = 0; k < head.rows; ++k) {
       text.need("an atom");
       columns.read(text, ' ');
-      for (int axis = 0; scaled && axis < 3; ++axis) {
-        const auto at = [&](Meaning first) {
-          return static_cast<Meaning>(static_cast<int>(first) + axis);
-        };
-        columns[at(Meaning::x)] =
-            frame.box->low[axis] +
-            columns[at(Meaning::scaledX)] * (frame.box->high[axis] - frame.box->low[axis]);
-      }
+      for (int axis = 0; axis < 3; ++axis)
+        if (isScaled(axis))
+          columns[following(Meaning::x, axis)] =
+              frame.box->low[axis] + columns[following(Meaning::scaledX, axis)] *
+                                         (frame.box->high[axis] - frame.box->low[axis]);
       addParticle(frame.particles, columns, text);
       for (std::size_t wall = 0; wall < atoms.walls.size(); ++wall)
-        addWall(*head.part.table, atoms, wall, frame.particles, text);
+        addWall(*head.part.table, atoms, wall, frame.particles, frame.box, text);
     }
     return std::move(head.part);
   }
 
  private:
   std::shared_ptr<const ColumnOptions> options_;
+  std::optional<FileBox> box_;  ///< of the case
 };
 
 // ---- contacts ----
@@ -480,9 +488,9 @@ std::unique_ptr<FrameReader> openLammps(const Files& files, const FileOptions& o
     contacts.push_back(std::make_unique<Entries>(std::move(dump), columns));
   // What is said of columns of contacts is no slip where there are only atoms.
   const auto checked = contacts.empty() ? nullptr : columns;
-  return joinParts(
-      std::make_unique<Atoms>(filesOf(files, Content::particles, contentOfLammps), columns),
-      std::move(contacts), checked);
+  return joinParts(std::make_unique<Atoms>(filesOf(files, Content::particles, contentOfLammps),
+                                           columns, options.box),
+                   std::move(contacts), checked);
 }
 
 }  // namespace crossgrain::files

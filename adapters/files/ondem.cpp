@@ -185,9 +185,13 @@ Part readScene(const fs::path& file, bool traction) {
   particles.spin = arrays.vectors(ofPoints + "angular_velocity", rows);
   if (arrays.holds(ofPoints + "material_id"))
     particles.kind = arrays.wholeNumbers(ofPoints + "material_id", rows);
-  part.frame.time = arrays.attribute("/ONDEM/Scene", "time");
-  if (part.frame.time && !std::isfinite(*part.frame.time))
-    arrays.fail("/ONDEM/Scene/time is not finite");
+  for (const auto& [name, time] : {std::pair("time", &part.frame.time),
+                                   {"velocity_time", &part.frame.velocityTime},
+                                   {"contact_time", &part.frame.contactTime}}) {
+    *time = arrays.attribute("/ONDEM/Scene", name);
+    if (*time && !std::isfinite(**time))
+      arrays.fail(fmt::format("/ONDEM/Scene/{} is not finite", name));
+  }
   part.table = readInteractions(arrays, layout, traction || layout.traction);
   return part;
 }

@@ -39,10 +39,11 @@ std::size_t sizeOf(const std::vector<fs::path>& files) {
 
 /// −1: a is before b; 1: after it; 0: the same time.
 int order(const FileFrame& a, const FileFrame& b) {
+  if (a.alone && b.alone) return 0;
   if (a.step && b.step) return *a.step < *b.step ? -1 : *a.step > *b.step ? 1 : 0;
   if (!a.time || !b.time)
-    throw BadInput(fmt::format(
-        "{} and {}: one has a time, the other a step: they cannot be compared", a.where, b.where));
+    throw BadInput(fmt::format("{} and {}: one has a time, the other {}: they cannot be compared",
+                               a.where, b.where, a.step || b.step ? "a step" : "none"));
   if (std::abs(*a.time - *b.time) <= sameTime * std::max(std::abs(*a.time), std::abs(*b.time)))
     return 0;
   return *a.time < *b.time ? -1 : 1;
@@ -79,6 +80,21 @@ class Rising {
   std::optional<FileFrame> last_;
 };
 
+/// Arrays of particles are of all of them or of none, whatever a file says of their lengths.
+void requireWhole(const FileFrame& frame) {
+  const FileParticles& all = frame.particles;
+  const auto require = [&](const char* what, std::size_t rows) {
+    if (rows != 0 && rows != all.size())
+      throw BadInput(
+          fmt::format("{}: {} {}, there are {} particles", frame.where, rows, what, all.size()));
+  };
+  require("ids", all.id.size());
+  require("radii", all.radius.size());
+  require("velocities", all.velocity.size());
+  require("spins", all.spin.size());
+  require("masses", all.mass.size());
+}
+
 class Joined : public FrameReader {
  public:
   Joined(std::unique_ptr<PartReader> particles, std::vector<std::unique_ptr<PartReader>> contacts,
@@ -99,6 +115,7 @@ class Joined : public FrameReader {
       return {};
     }
     FileFrame& frame = part->frame;
+    requireWhole(frame);
     ++frames_;
     lastFrame_ = frame.where;
     std::vector<Part> parts;
@@ -136,13 +153,14 @@ class Joined : public FrameReader {
   };
 
   /// Whether `pending` is of the frame's time then.
-  bool advance(Contacts& reader, const FileFrame& frame) {
+  bool advance(Contacts& reader, FileFrame& frame) {
     for (;;) {
       if (!reader.pending) reader.pending = reader.rising.next();
       if (!reader.pending) return false;
       reader.last = reader.pending->frame.where;
       const int later = order(reader.pending->frame, frame);
       if (later >= 0) return later == 0;
+      if (frame.timesSkipped++ == 0) frame.firstSkipped = reader.last;
       reader.pending.reset();
     }
   }
@@ -155,6 +173,7 @@ class Joined : public FrameReader {
   void add(FileFrame& frame, std::vector<Part> parts, std::optional<ContactTable> walls) {
     if (!frame.box) frame.box = parts.front().frame.box;
     if (!frame.time) frame.time = parts.front().frame.time;
+    frame.alone &= parts.front().frame.alone;
     frame.contacts.emplace();
     for (Part& part : parts) {
       if (!part.table) continue;
@@ -191,7 +210,7 @@ std::optional<Part> TextParts::next() {
       text_->back();
       return read(*text_);
     }
-    before_ += text_->size();
+    before_ += text_->fileSize();
     text_.reset();
   }
 }
@@ -205,10 +224,10 @@ std::optional<Part> WholeFiles::next() {
   Part part = read_(file);
   if (!part.frame.time && !part.frame.step) {
     part.frame.step = numberInName(file);
-    if (!part.frame.step && files_.size() > 1)
+    part.frame.alone = files_.size() == 1;
+    if (!part.frame.step && !part.frame.alone)
       throw BadInput(fmt::format("{}: neither the file nor a number in its name says its time",
                                  file.string()));
-    if (!part.frame.step) part.frame.step = 0;
   }
   std::error_code ignored;
   before_ += fs::file_size(file, ignored);

@@ -33,7 +33,7 @@ class TextParts : public PartReader {
  public:
   explicit TextParts(std::vector<std::filesystem::path> files);
   std::optional<Part> next() override;
-  std::size_t bytesRead() const override { return before_ + (text_ ? text_->position() : 0); }
+  std::size_t bytesRead() const override { return before_ + (text_ ? text_->bytesRead() : 0); }
   std::size_t bytes() const override { return bytes_; }
 
  protected:
@@ -41,6 +41,8 @@ class TextParts : public PartReader {
   virtual Part read(TextFile& text) = 0;
   /// A file is begun.
   virtual void begin(TextFile&) {}
+  /// Whether there is no other file.
+  bool alone() const { return files_.size() == 1; }
 
  private:
   std::vector<std::filesystem::path> files_;
@@ -52,7 +54,7 @@ class TextParts : public PartReader {
 class WholeFiles : public PartReader {
  public:
   /// @param read  a file; where it says neither time nor step, the last number of its name is the
-  ///              step
+  ///              step: of a single file it may be (FileFrame::alone)
   WholeFiles(std::vector<std::filesystem::path> files,
              std::function<Part(const std::filesystem::path&)> read);
   std::optional<Part> next() override;

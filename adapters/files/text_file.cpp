@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <zlib.h>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -40,11 +41,79 @@ std::from_chars_result parse(const char* from, const char* to, double& value) {
 
 }  // namespace
 
+/// zlib's reader of one file.
+struct TextFile::Gzip {
+  explicit Gzip(const std::filesystem::path& path)
+      : file(::gzopen(path.c_str(), "rb")), name(path.string()) {
+    if (!file) throw BadInput(fmt::format("{}: cannot be read", name));
+    ::gzbuffer(file, 1u << 17);
+  }
+  ~Gzip() { ::gzclose_r(file); }
+  Gzip(const Gzip&) = delete;
+  Gzip& operator=(const Gzip&) = delete;
+
+  /// The bytes that follow. @throws BadInput for a file that is damaged or was cut off
+  std::size_t read(std::span<std::byte> bytes) {
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+      const std::size_t more = std::min(bytes.size() - done, std::size_t{1} << 30);
+      const int got = ::gzread(file, bytes.data() + done, static_cast<unsigned>(more));
+      int status = Z_OK;
+      if (got <= 0) ::gzerror(file, &status);
+      if (got < 0 || status != Z_OK)
+        throw BadInput(fmt::format("{}: what gzip packed into it is damaged or was cut off", name));
+      if (got == 0) break;
+      done += static_cast<std::size_t>(got);
+    }
+    return done;
+  }
+
+  gzFile file;
+  std::string name;
+};
+
+bool isGzip(const std::filesystem::path& file) {
+  char head[2] = {};
+  RegularFile(file).read(0, std::as_writable_bytes(std::span(head)));
+  return head[0] == '\x1f' && head[1] == '\x8b';
+}
+
+std::string headOf(const std::filesystem::path& file, std::size_t bytes) {
+  return TextFile(file).head(bytes);
+}
+
+std::string TextFile::head(std::size_t bytes) {
+  std::string text(bytes, '\0');
+  text.resize(readAt(0, std::as_writable_bytes(std::span(text))));
+  return text;
+}
+
 TextFile::TextFile(const std::filesystem::path& file)
     : path_(file), file_(file), buffer_(std::make_unique_for_overwrite<char[]>(bufferSize)) {
-  if (file_.state() == RegularFile::State::open) return;
+  if (file_.state() == RegularFile::State::open) {
+    if (isGzip(file)) gzip_ = std::make_unique<Gzip>(file);
+    return;
+  }
   const std::string why = fileFault(file);
   throw BadInput(fmt::format("{}: {}", file.string(), why.empty() ? "cannot be read" : why));
+}
+
+TextFile::~TextFile() = default;
+TextFile::TextFile(TextFile&&) noexcept = default;
+
+std::size_t TextFile::size() const {
+  constexpr std::size_t mostPacked = 1032;  // zlib packs so many bytes into one
+  return gzip_ ? mostPacked * file_.size() : file_.size();
+}
+
+std::size_t TextFile::bytesRead() const {
+  if (!gzip_) return position();
+  return static_cast<std::size_t>(std::max<z_off_t>(::gzoffset(gzip_->file), 0));
+}
+
+/// @pre of a packed file: behind what was read before
+std::size_t TextFile::readAt(std::size_t offset, std::span<std::byte> bytes) {
+  return gzip_ ? gzip_->read(bytes) : file_.read(offset, bytes);
 }
 
 bool TextFile::fill() {
@@ -52,7 +121,7 @@ bool TextFile::fill() {
   offset_ += begin_;
   end_ -= begin_;
   begin_ = 0;
-  const std::size_t got = file_.read(
+  const std::size_t got = readAt(
       offset_ + end_, std::as_writable_bytes(std::span(buffer_.get() + end_, bufferSize - end_)));
   end_ += got;
   return got > 0;
@@ -101,12 +170,14 @@ std::string_view TextFile::need(std::string_view what) {
 }
 
 void TextFile::take(std::span<std::byte> bytes) {
+  if (gzip_) fail("numbers in binary are not read from what gzip packed: unpack it before");
   const std::size_t from = position();
   skip(bytes.size());
   if (file_.read(from, bytes) != bytes.size()) fail("the file was cut off while it was read");
 }
 
 void TextFile::skip(std::size_t bytes) {
+  if (gzip_) fail("numbers in binary are not read from what gzip packed: unpack it before");
   if (bytes > size() - std::min(size(), position()))
     fail(fmt::format("{} bytes should follow, the file has {}: it was cut off", bytes,
                      size() - std::min(size(), position())));

@@ -14,12 +14,21 @@
 
 namespace crossgrain::files {
 
-/// A text file read line by line through one buffer, whatever its size.
+/// Whether it is packed by gzip.
+bool isGzip(const std::filesystem::path& file);
+/// So many bytes from its beginning, unpacked; fewer where it ends before.
+std::string headOf(const std::filesystem::path& file, std::size_t bytes);
+
+/// A text file read line by line through one buffer, whatever its size, packed by gzip or not.
 class TextFile {
  public:
   /// @throws BadInput where it is no file that can be read
   explicit TextFile(const std::filesystem::path& file);
+  ~TextFile();
+  TextFile(TextFile&&) noexcept;
 
+  /// So many bytes from the beginning, before any line is read.
+  std::string head(std::size_t bytes);
   /// Goes on to the next line that is not blank; false after the last.
   /// @throws BadInput where a line is longer than the buffer
   bool next();
@@ -37,7 +46,12 @@ class TextFile {
   std::size_t number() const { return number_; }
   /// Bytes of lines that were read.
   std::size_t position() const { return offset_ + begin_; }
-  std::size_t size() const { return file_.size(); }
+  /// Of the whole file; at most, where it is packed.
+  std::size_t size() const;
+  /// Of the file as it is, packed or not.
+  std::size_t fileSize() const { return file_.size(); }
+  /// Bytes of it that were read.
+  std::size_t bytesRead() const;
   /// The bytes behind the present line, whatever they are; the next line begins behind them.
   /// @throws BadInput where the file ends before
   void take(std::span<std::byte> bytes);
@@ -51,11 +65,15 @@ class TextFile {
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
+  struct Gzip;
+
   bool fill();
   bool takeLine();
+  std::size_t readAt(std::size_t offset, std::span<std::byte> bytes);
 
   std::filesystem::path path_;
   RegularFile file_;
+  std::unique_ptr<Gzip> gzip_;       ///< of a packed file, which is read from front to back
   std::unique_ptr<char[]> buffer_;   ///< not filled before it is read: small files touch little
   std::size_t begin_ = 0, end_ = 0;  ///< of what is left in the buffer
   std::size_t offset_ = 0;           ///< of the buffer in the file

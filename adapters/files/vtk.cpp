@@ -15,23 +15,27 @@ namespace crossgrain::files {
 namespace fs = std::filesystem;
 namespace {
 
-/// Names of arrays by what they are. n, F, normalForce and shearForce are YADE's i.geom.normal,
-/// their sum, i.phys.normalForce, i.phys.shearForce: n from id1 to id2, forces on id2.
+/// Names of arrays by what they are, whatever their capitals: MercuryDPM has Radius, Velocity. n,
+/// F, normalForce and shearForce are YADE's i.geom.normal, their sum, i.phys.normalForce,
+/// i.phys.shearForce: n from id1 to id2, forces on id2.
 constexpr std::pair<std::string_view, std::string_view> roles[] = {{"radii", "radius"},
-                                                                   {"linVelVec", "velocity"},
+                                                                   {"linvelvec", "velocity"},
                                                                    {"vel", "velocity"},
                                                                    {"v", "velocity"},
-                                                                   {"angVelVec", "spin"},
-                                                                   {"angVel", "spin"},
+                                                                   {"angvelvec", "spin"},
+                                                                   {"angvel", "spin"},
+                                                                   {"angularvelocity", "spin"},
+                                                                   {"angular_velocity", "spin"},
                                                                    {"omega", "spin"},
                                                                    {"type", "kind"},
-                                                                   {"materialId", "kind"},
+                                                                   {"materialid", "kind"},
+                                                                   {"speciestype", "kind"},
                                                                    {"id1", "first"},
                                                                    {"id2", "second"},
-                                                                   {"forceN", "normal_force"},
-                                                                   {"absForceT", "tangential"},
-                                                                   {"contactPoint", "point"},
-                                                                   {"penetrationDepth", "overlap"}};
+                                                                   {"forcen", "normal_force"},
+                                                                   {"absforcet", "tangential"},
+                                                                   {"contactpoint", "point"},
+                                                                   {"penetrationdepth", "overlap"}};
 
 class Arrays {
  public:
@@ -39,11 +43,14 @@ class Arrays {
       : where_(std::move(where)) {
     for (const VtkArray& array : arrays) {
       const auto* const said = options.wordsOf(array.name);
+      const std::string own = lowered(array.name);
       const auto* const known =
-          std::ranges::find(roles, array.name, [](const auto& one) { return one.first; });
-      roles_.emplace_back(said                       ? std::string_view(said->front())
-                          : known != std::end(roles) ? known->second
-                                                     : std::string_view(array.name),
+          std::ranges::find(roles, own, [](const auto& one) { return one.first; });
+      // F and f are no names of one thing: what is known by one letter is known by that.
+      roles_.emplace_back(said                       ? said->front()
+                          : known != std::end(roles) ? std::string(known->second)
+                          : own.size() > 1           ? own
+                                                     : array.name,
                           &array);
     }
   }
@@ -90,7 +97,7 @@ class Arrays {
 
  private:
   std::string where_;
-  std::vector<std::pair<std::string_view, const VtkArray*>> roles_;
+  std::vector<std::pair<std::string, const VtkArray*>> roles_;
 };
 
 VtkData readVtk(const fs::path& file) {
@@ -108,7 +115,11 @@ Part readSpheres(const fs::path& file, const ColumnOptions& options) {
   for (const Vec3& point : data.points)
     if (!point.allFinite()) arrays.fail("a point is not finite");
   particles.position = data.points;
-  arrays.need("radius", 1, "these are no spheres");
+  arrays.need("radius", 1,
+              arrays.find("contactradius", 1)
+                  ? "these are contacts that do not name their particles, as MercuryDPM's "
+                    "Interaction files are: .data and .fstat have both"
+                  : "these are no spheres");
   particles.radius = arrays.numbers("radius");
   particles.id = arrays.wholeNumbers("id");
   for (std::size_t k = 0; particles.id.size() < particles.size(); ++k)
@@ -146,8 +157,8 @@ Part readContacts(const fs::path& file, const ColumnOptions& options) {
   contacts.force = arrays.vectors("force");
   if (contacts.force.empty()) contacts.force = arrays.vectors("F", -1.0);
   if (contacts.force.empty()) {
-    contacts.force = arrays.vectors("normalForce", -1.0);
-    const std::vector<Vec3> shear = arrays.vectors("shearForce", -1.0);
+    contacts.force = arrays.vectors("normalforce", -1.0);
+    const std::vector<Vec3> shear = arrays.vectors("shearforce", -1.0);
     if (contacts.force.size() != shear.size())
       arrays.fail("normalForce and shearForce: one of both is missing");
     for (std::size_t k = 0; k < shear.size(); ++k) contacts.force[k] += shear[k];
@@ -209,6 +220,9 @@ void findWalls(ContactTable& table, FileFrame& frame) {
 }  // namespace
 
 Content contentOfVtk(const fs::path& file) {
+  if (isGzip(file))
+    throw BadInput(fmt::format(
+        "{}: is packed by gzip, which is read of text alone: unpack it before", file.string()));
   // In XML it stands before the numbers, which may have no line ends.
   std::string head(std::size_t{1} << 14, '\0');
   const RegularFile bytes(file);

@@ -31,6 +31,9 @@ constexpr std::array<signed char, 256> sixBits = [] {
   return table;
 }();
 
+/// A case has a million particles at most, and walls of as many.
+constexpr std::size_t mostPoints = 4'000'000;
+
 constexpr std::size_t charactersOf(std::size_t bytes) {
   return (bytes + 2) / 3 * 4;
 }
@@ -51,13 +54,14 @@ class XmlFile {
     std::string_view name, text;
     bool base64 = false;
   };
+  struct Type;
 
   VtkData piece(const pugi::xml_node& piece, bool isPolyData) const;
   void append(std::vector<VtkArray>& arrays, std::vector<VtkArray> more) const;
   VtkArray array(const pugi::xml_node& node, std::size_t rows) const;
   std::vector<VtkArray> arrays(const pugi::xml_node& section, std::size_t rows) const;
-  Bytes bytes(Source source) const;
-  Bytes packedBytes(const Source& source) const;
+  Bytes bytes(Source source, std::uint64_t expected) const;
+  Bytes packedBytes(const Source& source, std::uint64_t expected) const;
   Bytes take(const Source& source, std::size_t from, std::size_t count) const;
   std::uint64_t header(const Bytes& bytes, std::size_t k) const;
   template <typename T>
@@ -156,8 +160,8 @@ std::uint64_t XmlFile::header(const Bytes& bytes, std::size_t k) const {
 }
 
 /// A number of bytes, then these.
-Bytes XmlFile::bytes(Source source) const {
-  if (packed_) return packedBytes(source);
+Bytes XmlFile::bytes(Source source, std::uint64_t expected) const {
+  if (packed_) return packedBytes(source, expected);
   const std::uint64_t count = header(take(source, 0, headerSize_), 0);
   const std::size_t headerLength = source.base64 ? charactersOf(headerSize_) : headerSize_;
   if (count > source.text.size())
@@ -171,7 +175,8 @@ Bytes XmlFile::bytes(Source source) const {
 }
 
 /// Number of blocks, their size, size of the last (0: as the others), packed size of each; blocks.
-Bytes XmlFile::packedBytes(const Source& source) const {
+/// @param expected  bytes that they should hold
+Bytes XmlFile::packedBytes(const Source& source, std::uint64_t expected) const {
   const std::uint64_t blocks = header(take(source, 0, headerSize_), 0);
   if (blocks > source.text.size() / headerSize_)
     fail(fmt::format("{}: {} packed blocks are not there", source.name, blocks));
@@ -179,6 +184,12 @@ Bytes XmlFile::packedBytes(const Source& source) const {
   const Bytes head = take(source, 0, blocks == 0 ? headerSize_ : headerBytes);
   if (blocks == 0) return {};
   const std::uint64_t size = header(head, 1), last = header(head, 2);
+  // Before room is taken: zlib packs what is alike into a thousandth. Some other number of rows is
+  // the caller's to name.
+  const std::uint64_t most = 2 * expected + (std::uint64_t{1} << 20);
+  if (size > most || last > size || blocks * size > most)
+    fail(fmt::format("{}: {} packed blocks of {} bytes are more than the {} bytes of its rows",
+                     source.name, blocks, size, expected));
   std::uint64_t packedSize = 0;
   for (std::size_t k = 0; k < blocks; ++k) {
     const std::uint64_t one = header(head, 3 + k);
@@ -192,13 +203,13 @@ Bytes XmlFile::packedBytes(const Source& source) const {
   constexpr std::uint64_t mostPacked = 1032;  // zlib packs so many bytes into one
   for (std::size_t k = 0, at = 0; k < blocks; ++k) {
     const auto length = static_cast<std::size_t>(header(head, 3 + k));
-    const std::uint64_t whole = k + 1 == blocks && last != 0 ? last : size;
-    if (whole > mostPacked * length + 64)
-      fail(fmt::format("{}: a block of {} bytes cannot hold {}", source.name, length, whole));
+    const std::uint64_t own = k + 1 == blocks && last != 0 ? last : size;
+    if (own > mostPacked * length + 64)
+      fail(fmt::format("{}: a block of {} bytes cannot hold {}", source.name, length, own));
     const std::size_t before = out.size();
-    out.resize(before + static_cast<std::size_t>(whole));
-    uLongf got = static_cast<uLongf>(whole);
-    if (uncompress(out.data() + before, &got, packed.data() + at, length) != Z_OK || got != whole)
+    out.resize(before + static_cast<std::size_t>(own));
+    uLongf got = static_cast<uLongf>(own);
+    if (uncompress(out.data() + before, &got, packed.data() + at, length) != Z_OK || got != own)
       fail(fmt::format("{}: a packed block is damaged", source.name));
     at += length;
   }
@@ -232,6 +243,19 @@ std::vector<double> XmlFile::numbersIn(std::string_view name, std::string_view t
   return values;
 }
 
+/// VTK's types of numbers.
+struct XmlFile::Type {
+  std::string_view name;
+  std::size_t size;  ///< [bytes]
+  std::vector<double> (*read)(const XmlFile& file, const Bytes& bytes);
+
+  template <typename T>
+  static constexpr Type of(std::string_view name) {
+    return {name, sizeof(T),
+            [](const XmlFile& file, const Bytes& bytes) { return file.numbers<T>(bytes); }};
+  }
+};
+
 /// @param rows  that it should have
 VtkArray XmlFile::array(const pugi::xml_node& node, std::size_t rows) const {
   VtkArray found;
@@ -258,29 +282,17 @@ VtkArray XmlFile::array(const pugi::xml_node& node, std::size_t rows) const {
       fail(
           fmt::format("{}: format \"{}\" should be ascii, binary or appended", found.name, format));
     }
-    const Bytes raw = bytes(source);
-    if (type == "Float64")
-      found.values = numbers<double>(raw);
-    else if (type == "Float32")
-      found.values = numbers<float>(raw);
-    else if (type == "Int64")
-      found.values = numbers<std::int64_t>(raw);
-    else if (type == "UInt64")
-      found.values = numbers<std::uint64_t>(raw);
-    else if (type == "Int32")
-      found.values = numbers<std::int32_t>(raw);
-    else if (type == "UInt32")
-      found.values = numbers<std::uint32_t>(raw);
-    else if (type == "Int16")
-      found.values = numbers<std::int16_t>(raw);
-    else if (type == "UInt16")
-      found.values = numbers<std::uint16_t>(raw);
-    else if (type == "Int8")
-      found.values = numbers<std::int8_t>(raw);
-    else if (type == "UInt8")
-      found.values = numbers<std::uint8_t>(raw);
-    else
+    static constexpr Type types[] = {
+        Type::of<double>("Float64"),     Type::of<float>("Float32"),
+        Type::of<std::int64_t>("Int64"), Type::of<std::uint64_t>("UInt64"),
+        Type::of<std::int32_t>("Int32"), Type::of<std::uint32_t>("UInt32"),
+        Type::of<std::int16_t>("Int16"), Type::of<std::uint16_t>("UInt16"),
+        Type::of<std::int8_t>("Int8"),   Type::of<std::uint8_t>("UInt8")};
+    const auto* const known =
+        std::ranges::find(types, type, [](const auto& one) { return one.name; });
+    if (known == std::end(types))
       fail(fmt::format("{}: type \"{}\" is no number that is read", found.name, type));
+    found.values = known->read(*this, bytes(source, known->size * rows * found.components));
   }
   if (found.values.size() % found.components != 0 || found.rows() != rows)
     fail(fmt::format(
@@ -306,6 +318,8 @@ VtkData XmlFile::piece(const pugi::xml_node& piece, bool isPolyData) const {
                     lines = countOf(piece, "NumberOfLines");
   const pugi::xml_node place = piece.child("Points").child("DataArray");
   if (!place) fail("<Points> are missing");
+  if (points > mostPoints)
+    fail(fmt::format("{} points: there should be {} at most", points, mostPoints));
   const VtkArray places = array(place, points);
   if (places.components != 3) fail("Points should have 3 components");
   data.points.reserve(points);

@@ -137,8 +137,12 @@ bool isNamed(const std::vector<std::string>& names, const EngineEntry& entry) {
 }
 
 void checkEngineSections(const Case& setup) {
+  // Files that do not take part have settings, too, and names like those of others: A, B, C.
+  std::vector<std::string> programs;
+  for (const EngineEntry& entry : engineRegistry())
+    if (!entry.ofFiles()) programs.push_back(entry.name);
   for (const auto& [name, settings] : setup.engines) {
-    const auto near = nearest(name, knownEngines());
+    const auto near = nearest(name, programs);
     if (findEngine(name) || !near) continue;
     // Of a short name little can be misspelt: "ondem" is no "ode".
     if (editDistance(name, *near) > std::max<std::size_t>(1, near->size() / 3)) continue;

@@ -77,12 +77,17 @@ CompareResults averageSnapshots(const Case& setup, const std::vector<std::filesy
                                 const std::string& commandLine, const AverageOptions& options,
                                 bool quiet) {
   const std::vector<SnapshotRun> runs = snapshotRuns(files);
+  const auto nameOf = [&](const SnapshotRun& run) {
+    return options.name.value_or(defaultName(run.format));
+  };
+  const DistinctRuns distinct = distinctRuns(runs, setup, nameOf);
   Progress progress(quiet);
   std::vector<NamedRun> all;
-  for (const SnapshotRun& run : runs) {
+  for (const std::size_t k : distinct.kept) {
+    const SnapshotRun& run = runs[k];
     const auto index = all.size();
-    const std::string name = options.name.value_or(defaultName(run.format));
-    all.push_back(averageRun(setup, run, name, static_cast<int>(index), runs.size(), progress));
+    all.push_back(averageRun(setup, run, nameOf(run), static_cast<int>(index), distinct.kept.size(),
+                             progress));
     progress.finish(index, fmt::format("{}: {} snapshots", run.name(), all.back().snapshots));
   }
   requireOneEngine(all);
@@ -102,6 +107,7 @@ CompareResults averageSnapshots(const Case& setup, const std::vector<std::filesy
                           : fmt::format("snapshots of {} runs", all.size()),
                       "", "", Status::finished, ""}};
   results.notes = {describeSources(all)};
+  results.notes.insert(results.notes.end(), distinct.remarks.begin(), distinct.remarks.end());
   for (NamedRun& one : all) results.runs.push_back(std::move(one.run));
   std::ranges::move(remarkNotes(results.runs, false), std::back_inserter(results.notes));
   results.steadiness = steadinessOf(results.runs, {engine}, setup.averaging.confidence);

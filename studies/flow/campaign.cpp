@@ -126,6 +126,8 @@ void Campaign::askEngines(std::size_t fewest) {
       [&](CampaignEngine& own) {
         if (own.entry.ofFiles()) {
           own.version = "files" + (own.entry.format.empty() ? "" : ", " + own.entry.format);
+          own.copies = dropCopies(own.entry, setup_);
+          for (const std::string& copy : own.copies) progress_.say(own.entry.name + ": " + copy);
           own.first = openRun(runOf(own.entry, 0), setup_, own.entry.name);
           own.radii = own.first->radius;
           // What is wrong with a file is said before engines run for hours.
@@ -465,6 +467,8 @@ FlowStudy Campaign::study(std::string_view kind) const {
     study.packings.push_back(
         {k, setup_.preparation.seed, packings_[k].hash, packings_[k].fromCache});
   study.runs = runs_;
+  for (const CampaignEngine& own : engines_)
+    for (const std::string& copy : own.copies) study.notes.push_back(own.entry.name + ": " + copy);
   const bool all = std::ranges::find(command_.engines, "all") != command_.engines.end();
   for (const EngineEntry& entry : engineRegistry())
     if (all && entry.missing && !entry.missing().empty())

@@ -32,6 +32,7 @@ struct CampaignEngine {
   std::vector<double> radii = {};
   /// That run, opened to be asked, until it is averaged: its beginning is read once.
   mutable std::optional<OpenRun> first = {};
+  std::vector<std::string> copies = {};  ///< runs of files that were left out, a sentence each
 };
 
 /// One engine on every packing, with the case as it is or with something switched off.

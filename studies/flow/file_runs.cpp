@@ -72,6 +72,17 @@ SnapshotRun runOf(const EngineEntry& entry, std::size_t run) {
   return {entry.format, entry.files[run]};
 }
 
+std::vector<std::string> dropCopies(EngineEntry& entry, const Case& setup) {
+  std::vector<SnapshotRun> runs;
+  for (std::size_t k = 0; k < entry.files.size(); ++k) runs.push_back(runOf(entry, k));
+  const DistinctRuns distinct =
+      distinctRuns(runs, setup, [&](const SnapshotRun&) { return entry.name; });
+  std::vector<std::vector<fs::path>> kept;
+  for (const std::size_t k : distinct.kept) kept.push_back(std::move(entry.files[k]));
+  entry.files = std::move(kept);
+  return distinct.remarks;
+}
+
 std::string fingerprintOf(const EngineEntry& entry, std::size_t run) {
   std::string text;
   for (const fs::path& file : entry.files[run]) {

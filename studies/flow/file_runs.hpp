@@ -27,6 +27,9 @@ EngineEntry engineOfFiles(const std::string& text);
 /// One of its runs.
 SnapshotRun runOf(const EngineEntry& entry, std::size_t run);
 
+/// Leaves out runs that are copies of others (distinctRuns()). @returns a sentence for each
+std::vector<std::string> dropCopies(EngineEntry& entry, const Case& setup);
+
 /// What a run of files depends on: names, sizes and times of change of its files.
 std::string fingerprintOf(const EngineEntry& entry, std::size_t run);
 

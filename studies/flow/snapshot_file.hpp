@@ -97,7 +97,7 @@ class SnapshotReaderOf : public SnapshotSourceOf<D> {
   SceneOf<D> scene_;
   std::string engine_;
   std::size_t count_ = 0, next_ = 0, leftOut_ = 0;
-  double from_ = -INFINITY, to_ = INFINITY;  ///< averaged [s]
+  double from_ = -INFINITY, to_ = INFINITY;  ///< (from_, to_] is averaged [s]
   AuditBasisOf<D> basis_;
 };
 using SnapshotReader = SnapshotReaderOf<2>;

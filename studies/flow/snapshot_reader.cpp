@@ -9,6 +9,7 @@
 
 #include "adapters/audit_geometry.hpp"
 #include "cases/flow.hpp"
+#include "cases/time_step.hpp"
 #include "studies/flow/snapshot_file.hpp"
 #include "studies/flow/snapshot_fit.hpp"
 #include "support/bad_input.hpp"
@@ -289,8 +290,18 @@ SnapshotReaderOf<D>::SnapshotReaderOf(const std::filesystem::path& file, const C
   basis_.prescribed = isAssembly;
   if (!setup.average) return;
   const FlowTimes times = flowTimes(setup);  // steps of an engine need not end with them
-  from_ = times.settled - 0.5 * times.interval;
   to_ = times.end() + 0.5 * times.interval;
+  // As engines are averaged: not at the instant that averaging begins at, unless nothing else is
+  // there. Half a step, or the last of six digits, is that instant.
+  const double slack = std::max(0.5 * timeStep(setup), 2e-6 * std::abs(times.settled));
+  from_ = times.settled + slack;
+  bool begins = false, any = false;
+  for (std::size_t k = 0; k < count_; ++k) {
+    const double t = in.numbers(snapshotGroup(k) + "/time", 4).front();
+    any |= t > from_ && t <= to_;
+    begins |= std::abs(t - times.settled) <= slack;
+  }
+  if (begins && !any) from_ = std::nextafter(times.settled - slack, -INFINITY);
 }
 
 template <int D>
@@ -316,7 +327,7 @@ std::optional<SnapshotOf<D>> SnapshotReaderOf<D>::next() {
     const std::size_t k = next_++;
     SnapshotOf<D> snapshot = read(k);
     requireSound(snapshot, k);
-    if (snapshot.positionTime >= from_ && snapshot.positionTime <= to_) return snapshot;
+    if (snapshot.positionTime > from_ && snapshot.positionTime <= to_) return snapshot;
     ++leftOut_;
   }
   return std::nullopt;

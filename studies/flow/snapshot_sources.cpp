@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <span>
 #include <utility>
 
 #include "adapters/audit_geometry.hpp"
@@ -20,6 +22,7 @@
 #include "studies/flow/snapshot_file.hpp"
 #include "studies/flow/snapshot_fit.hpp"
 #include "support/bad_input.hpp"
+#include "support/interrupt.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -82,6 +85,10 @@ void requireDifferent(const std::vector<fs::path>& files) {
 std::string formatOfFile(const fs::path& file) {
   if (!fs::is_regular_file(file)) return {};
   const auto found = files::formatOf(file);
+  if (!found && !files::isHdf5(file) && fs::file_size(file) > 0)
+    throw BadInput(
+        fmt::format("{}: is no HDF5 file, and begins as no result file does that is read ({})",
+                    file.string(), fmt::join(files::fileFormats(), ", ")));
   return found ? std::string(*found) : std::string();
 }
 
@@ -199,6 +206,110 @@ double stepOf(const Case& setup) {
   return setup.particles.file ? setup.run.dt.value_or(0.0) : timeStep(setup);
 }
 
+template <int D>
+Settings fileSettingsOf(const SnapshotRun& run, const Case& setup, const std::string& name) {
+  Capabilities settable;
+  settable.settings = files::fileSettings(run.format, D);
+  return settingsFor(setup, name, settable);
+}
+
+/// @param box  of the case
+template <int D>
+files::FileOptions fileOptionsOf(const Settings& settings, const files::FileUnits& units,
+                                 const std::optional<BoxOf<D>>& box) {
+  files::FileOptions options;
+  if (const auto columns = settings.find("columns"); columns != settings.end())
+    options.columns = std::get<std::string>(columns->second);
+  if (box) options.box = files::boxInFiles(*box, units);
+  return options;
+}
+
+/// Numbers that six digits of either leave apart.
+bool alike(std::span<const double> a, std::span<const double> b) {
+  constexpr double ofNumber = 1e-5, ofLargest = 1e-6;
+  if (a.size() != b.size()) return false;
+  double largest = 0.0;
+  for (const double value : a) largest = std::max(largest, std::abs(value));
+  for (std::size_t k = 0; k < a.size(); ++k)
+    if (!(std::abs(a[k] - b[k]) <= ofNumber * std::abs(a[k]) + ofLargest * largest)) return false;
+  return true;
+}
+
+template <typename Vector>
+bool alike(const std::vector<Vector>& a, const std::vector<Vector>& b) {
+  const auto flat = [](const std::vector<Vector>& all) {
+    return std::span(all.empty() ? nullptr : all.front().data(),
+                     all.size() * static_cast<std::size_t>(Vector::SizeAtCompileTime));
+  };
+  return alike(flat(a), flat(b));
+}
+
+/// Forces as sums: contacts that only rounding makes may be in one of both.
+template <int D>
+bool alike(const SnapshotOf<D>& a, const SnapshotOf<D>& b) {
+  const auto sums = [](const SnapshotOf<D>& snapshot) {
+    std::vector<double> sum;
+    if (!snapshot.contacts) return sum;
+    sum.assign(2, 0.0);
+    for (const double f : snapshot.contacts->normalForce) sum[0] += f;
+    for (const auto& f : snapshot.contacts->tangentialForce) sum[1] += crossgrain::sizeOf(f);
+    return sum;
+  };
+  const std::vector<double> ofA = sums(a), ofB = sums(b);
+  return alike(a.position, b.position) && alike(a.velocity, b.velocity) &&
+         alike(std::span<const double>(ofA), std::span<const double>(ofB));
+}
+
+/// Places and velocities of the first time that a run's files have, by rising id: whether it may be
+/// a copy is known from them without reading on to what is averaged.
+struct Beginning {
+  std::vector<files::Vec3> position, velocity;
+};
+
+template <int D>
+Beginning beginningOf(const SnapshotRun& run, const Case& setup, const std::string& name) {
+  Beginning found;
+  const auto add = [](const VecOf<D>& v) {
+    files::Vec3 padded = files::Vec3::Zero();
+    padded.head<D>() = v;
+    return padded;
+  };
+  if (run.format.empty()) {
+    const SnapshotOf<D> first = SnapshotReaderOf<D>(run.files.front(), setup).read(0);
+    for (const VecOf<D>& x : first.position) found.position.push_back(add(x));
+    for (const VecOf<D>& v : first.velocity) found.velocity.push_back(add(v));
+    return found;
+  }
+  const Settings settings = fileSettingsOf<D>(run, setup, name);
+  const auto options =
+      fileOptionsOf<D>(settings, files::fileUnits(run.format, settings), wallsOf<D>(setup).box);
+  const auto frame = files::openFrames(run.format, run.files, options)->next();
+  if (!frame) return found;
+  const files::FileParticles& all = frame->particles;
+  std::vector<std::size_t> order(all.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t row) { return all.id[row]; });
+  for (const std::size_t row : order) {
+    found.position.push_back(all.position[row]);
+    if (!all.velocity.empty()) found.velocity.push_back(all.velocity[row]);
+  }
+  return found;
+}
+
+/// Whether all averaged snapshots of both are alike.
+template <int D>
+bool alikeToTheEnd(const SnapshotRun& a, const SnapshotRun& b, const Case& setup,
+                   const std::function<std::string(const SnapshotRun&)>& nameOf) {
+  const auto first = openSnapshots<D>(a, setup, nameOf(a));
+  const auto second = openSnapshots<D>(b, setup, nameOf(b));
+  for (;;) {
+    throwIfInterrupted();
+    const auto one = first->next(), other = second->next();
+    if (!one || !other) return !one && !other;
+    if (!alike(*one, *other)) return false;
+  }
+}
+
 /// "[engines.mine]", and where the case has no such section, which ones it has.
 std::string sectionWords(const Case& setup, const std::string& name) {
   std::string words = fmt::format("[engines.{}]", name);
@@ -216,12 +327,7 @@ template <int D>
 std::unique_ptr<SnapshotSourceOf<D>> openSnapshots(const SnapshotRun& run, const Case& setup,
                                                    const std::string& name) {
   if (run.format.empty()) return openSnapshotFile<D>(run.files.front(), setup);
-  Capabilities settable;
-  settable.settings = files::fileSettings(run.format, D);
-  const Settings settings = settingsFor(setup, name, settable);
-  files::FileOptions options;
-  if (const auto columns = settings.find("columns"); columns != settings.end())
-    options.columns = std::get<std::string>(columns->second);
+  const Settings settings = fileSettingsOf<D>(run, setup, name);
   const files::FileUnits units = files::fileUnits(run.format, settings);
   const SnapshotOrigin origin{run.name(), fmt::format("[engines.{}]", name), units.length,
                               units.mass};
@@ -246,10 +352,46 @@ std::unique_ptr<SnapshotSourceOf<D>> openSnapshots(const SnapshotRun& run, const
     target.remarks = {
         fmt::format("not read, as nothing in them is averaged: {}", fmt::join(names, ", "))};
   }
-  if (target.box) options.box = files::boxInFiles(*target.box, units);
+  const files::FileOptions options = fileOptionsOf<D>(settings, units, target.box);
   return std::make_unique<files::FileSnapshotsOf<D>>(
       files::openFrames(run.format, run.files, options), units, std::move(target));
 }
+
+DistinctRuns distinctRuns(const std::vector<SnapshotRun>& runs, const Case& setup,
+                          const std::function<std::string(const SnapshotRun&)>& nameOf) {
+  DistinctRuns distinct;
+  if (runs.size() < 2) {
+    if (!runs.empty()) distinct.kept.push_back(0);
+    return distinct;
+  }
+  inDimensionOf(setup, [&]<int D>() {
+    // Of those that are kept a sample, which takes no memory to speak of.
+    constexpr std::size_t most = 1000;
+    std::vector<Beginning> beginnings;
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+      Beginning own = beginningOf<D>(runs[k], setup, nameOf(runs[k]));
+      for (auto* list : {&own.position, &own.velocity}) list->resize(std::min(list->size(), most));
+      const auto isCopyOf = [&](std::size_t j) {
+        return alike(own.position, beginnings[j].position) &&
+               alike(own.velocity, beginnings[j].velocity) &&
+               alikeToTheEnd<D>(runs[distinct.kept[j]], runs[k], setup, nameOf);
+      };
+      std::size_t j = 0;
+      while (j < beginnings.size() && !isCopyOf(j)) ++j;
+      if (j < beginnings.size()) {
+        distinct.remarks.push_back(fmt::format(
+            "{} has the snapshots of {}, at least to rounding: both are one run, and the former is "
+            "left out",
+            runs[k].name(), runs[distinct.kept[j]].name()));
+        continue;
+      }
+      distinct.kept.push_back(k);
+      beginnings.push_back(std::move(own));
+    }
+  });
+  return distinct;
+}
+
 template std::unique_ptr<SnapshotSource> openSnapshots(const SnapshotRun&, const Case&,
                                                        const std::string&);
 template std::unique_ptr<SnapshotSourceOf<3>> openSnapshots(const SnapshotRun&, const Case&,

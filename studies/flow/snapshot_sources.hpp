@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -48,6 +49,16 @@ std::vector<SnapshotRun> snapshotRuns(const std::vector<std::filesystem::path>& 
 /// What the files of a run are called where nobody says: their format, which is also the
 /// [engines.NAME] that has their settings.
 std::string defaultName(const std::string& format);
+
+/// Runs without those that are copies of one before them, byte by byte or to rounding: a run that
+/// is there twice is no replicate of itself.
+struct DistinctRuns {
+  std::vector<std::size_t> kept;     ///< indices, rising
+  std::vector<std::string> remarks;  ///< a sentence for each that is left out
+};
+/// @param nameOf  as openSnapshots() takes it  @throws BadInput
+DistinctRuns distinctRuns(const std::vector<SnapshotRun>& runs, const Case& setup,
+                          const std::function<std::string(const SnapshotRun&)>& nameOf);
 
 /// Opens a run of which the files fit the case.
 /// @param name  of its settings, [engines.NAME], and of who made it where the files do not say

@@ -49,7 +49,7 @@ TEST_F(Csv, Normals_AreUnitVectorsOrRefused) {
   EXPECT_EQ(frame.contacts->normal[0], Vec3(1, 0, 0));
   samples_.write("p.csv", "id,x,y,radius\n1,0,0,1\n2,-4e200,0,1\n");
   EXPECT_EQ(samples_.refusal("csv", {"p.csv", "contacts.csv"}),
-            "contacts.csv, step 0: contact 1 (1 and 2): its centres are too far apart");
+            "contacts.csv: contact 1 (1 and 2): its centres are too far apart");
 }
 
 /// A start file is a time; ids are rows.
@@ -59,7 +59,38 @@ TEST_F(Csv, StartFile) {
   EXPECT_EQ(frame.particles.id[0], 0);
   EXPECT_EQ(frame.particles.velocity[0], Vec3(3, 4, 0));
   EXPECT_EQ(frame.particles.mass[0], 6.0);
-  EXPECT_EQ(frame.step, 0);
+  // Of a single file without a time nobody knows when it is, whatever number its name has.
+  EXPECT_FALSE(frame.step);
+  EXPECT_TRUE(frame.alone);
+  samples_.write("start2.csv", "x,y,radius\n1,2,0.5\n");
+  EXPECT_EQ(samples_.read("csv", {"start2.csv"}).front().step, 2);
+  EXPECT_TRUE(samples_.read("csv", {"start2.csv"}).front().alone);
+}
+
+/// Programs write X and Radius; T is a temperature, too.
+TEST_F(Csv, Names_MayHaveCapitals) {
+  samples_.write("p.csv", "ID,X,Y,Z,Radius,VX,Vy,vz\n5,1,2,3,0.5,4,5,6\n");
+  const FileFrame frame = samples_.read("csv", {"p.csv"}).front();
+  EXPECT_EQ(frame.particles.id[0], 5);
+  EXPECT_EQ(frame.particles.position[0], Vec3(1, 2, 3));
+  EXPECT_EQ(frame.particles.radius[0], 0.5);
+  EXPECT_EQ(frame.particles.velocity[0], Vec3(4, 5, 6));
+  samples_.write("p.csv", "x,y,T\n1,2,300\n");
+  EXPECT_NE(samples_.refusal("csv", {"p.csv"}).find("T is none of the names"), std::string::npos);
+}
+
+/// A component that has no column is named: its numbers are 0 for the plane alone.
+TEST_F(Csv, Components_ThatAreMissingAreNamed) {
+  samples_.write("p.csv", "id,x,y,z,vx,vy,spin\n1,1,2,3,4,5,6\n2,1.9,2,3,4,5,6\n");
+  samples_.write("contacts.csv", "first,second,fx,fy,torque_z\n1,2,3,4,5\n");
+  const FileFrame frame = samples_.read("csv", {"p.csv", "contacts.csv"}).front();
+  const auto named = [](const std::vector<MissingComponent>& missing) {
+    std::string all;
+    for (const MissingComponent& one : missing) all += one.column + (one.axial ? "* " : " ");
+    return all;
+  };
+  EXPECT_EQ(named(frame.particles.missing), "vz spin_x* spin_y* ");
+  EXPECT_EQ(named(frame.contacts->missing), "fz torque_x* torque_y* ");
 }
 
 /// Spreadsheets write semicolons and tabs, and a mark before the first line.
@@ -94,9 +125,10 @@ TEST_F(Csv, WhatCannotBe_IsRefusedByLine) {
     samples_.write("p.csv", text);
     return samples_.refusal("csv", {"p.csv"});
   };
-  EXPECT_EQ(
-      refusal("x,y,radus\n1,2,3\n"),
-      "p.csv:1: there is no column radus (did you mean radius?); columns = radus=- leaves it out");
+  EXPECT_EQ(refusal("x,y,radus\n1,2,3\n"),
+            "p.csv:1: radus is none of the names of columns (did you mean radius?); columns = "
+            "radus=MEANING says what it is, radus=- leaves it out");
+  EXPECT_NE(refusal("x,y,r\n1,2,3\n").find("(did you mean radius?)"), std::string::npos);
   EXPECT_EQ(refusal("x,y,radius\n1,,3\n"), "p.csv:2: column 2: \"\" should be a finite number");
   EXPECT_EQ(refusal("x,y,radius\n1,2\n"), "p.csv:2: 2 columns, there should be 3");
   EXPECT_EQ(refusal("x,y,radius\n1 2,3,4\n"), "p.csv:2: no ',' after column 1");

@@ -45,6 +45,10 @@ TEST_F(Formats, KnownByTheirBeginning) {
   EXPECT_EQ(format("# vtk DataFile Version 3.0.\n"), "vtk");
   EXPECT_EQ(format("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">"), "vtk");
   EXPECT_EQ(format("# mine\nx,y,radius\n1,2,3\n"), "csv");
+  // Names that the case says the meaning of, above rows of numbers.
+  EXPECT_EQ(format("a;b;c\n1;2;x\n"), "csv");
+  EXPECT_EQ(format("a,b,c\n1,x,y\n"), std::nullopt);
+  EXPECT_EQ(format("1,2,3\n1,2,3\n"), std::nullopt);
   EXPECT_EQ(format("#t 1\n"), std::nullopt);
   EXPECT_EQ(format("\x89HDF\r\n\x1a\n"), std::nullopt);  // snapshots of ours
   EXPECT_EQ(format("hello, world\n"), std::nullopt);
@@ -103,7 +107,8 @@ TEST_F(Formats, ContactsAlone_AreRefused) {
 }
 
 TEST_F(Formats, BesidesOfMercuryDpm_AreKnownBesideTheirResults) {
-  const std::vector<fs::path> all{"out/run.data", "out/run.fstat", "out/run.restart.0003", "out/run.ene"};
+  const std::vector<fs::path> all{"out/run.data", "out/run.fstat", "out/run.restart.0003",
+                                  "out/run.ene"};
   EXPECT_TRUE(isBesideResults("out/run.ene", all));
   EXPECT_TRUE(isBesideResults("out/run.restart", all));
   EXPECT_TRUE(isBesideResults("out/run.restart.0003", all));

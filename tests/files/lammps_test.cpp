@@ -2,6 +2,10 @@
 /// programs ran: 2 at x = 3.41 and 1 at 0.4 touch over the edge at 4 with k_n δ = 1000 · 0.01 N, 3
 /// lies 0.02 deep on a floor.
 #include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <fstream>
+#include <iterator>
 
 #include "tests/files/samples.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -10,6 +14,7 @@ namespace {
 
 using namespace crossgrain::files;
 using namespace crossgrain::files::sampled;
+namespace fs = std::filesystem;
 
 /// Of what is printed with six digits.
 constexpr double sixDigits = 1e-5;
@@ -121,6 +126,81 @@ TEST_F(LammpsText, Granular_RollingPseudoForce) {
 TEST_F(LammpsText, AtomsAlone_NeedNoColumnsOfContacts) {
   writeAtoms();
   EXPECT_FALSE(samples_.read("lammps", {"a.dump"}, {"c_e=first,second"}).front().contacts);
+}
+
+/// Writers in Python have Radius; LAMMPS itself no capitals.
+TEST_F(LammpsText, Names_MayHaveCapitalsAndAreThereOnce) {
+  samples_.write("a.dump", head("ATOMS", 1) +
+                               "ITEM: ATOMS ID xs ys zs Radius VX vy vz\n"
+                               "1 0.5 0.5 0.25 0.3 4 5 6\n");
+  const FileFrame frame = samples_.read("lammps", {"a.dump"}).front();
+  EXPECT_EQ(frame.particles.position[0], Vec3(2, 2, 1));
+  EXPECT_EQ(frame.particles.radius.at(0), 0.3);
+  EXPECT_EQ(frame.particles.velocity.at(0), Vec3(4, 5, 6));
+  samples_.write("a.dump", head("ATOMS", 1) +
+                               "ITEM: ATOMS id x y z vx vy vz vx\n"
+                               "1 2 2 1 4 5 6 7\n");
+  EXPECT_EQ(samples_.refusal("lammps", {"a.dump"}),
+            "a.dump:9: the column vx is there twice: only one of them can be read");
+}
+
+/// A wall's points are in the box, the atoms' paths are left whole: the first two periods off.
+TEST_F(LammpsText, Walls_TouchTheNearestImage) {
+  std::string text = head("ATOMS", 1);
+  text.replace(text.find("ff ff ff"), 8, "pp pp ff");
+  samples_.write("a.dump", text +
+                               "ITEM: ATOMS id xu yu zu radius f_w[1] f_w[2] f_w[3] f_w[4] "
+                               "f_w[5] f_w[6] f_w[7] f_w[8]\n"
+                               "3 9 -2 0.48 0.5 1 0 0 20 1 2 0 0.5\n");
+  text = head("ENTRIES", 0);
+  samples_.write("a.local", text + "ITEM: ENTRIES c_p[1] c_p[2] c_q[1]\n");
+  const FileContacts contacts = *samples_.read("lammps", {"a.dump", "a.local"}).front().contacts;
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_EQ(contacts.normal[0], Vec3(0, 0, 1));
+}
+
+/// Of a dump that somebody wrote anew the borders are the case's, where it is as wide.
+TEST_F(LammpsText, Borders_OfWhichNothingIsSaidAreTheCases) {
+  FileOptions options;
+  options.box.emplace();
+  options.box->high = Vec3(4, 5, 4);
+  options.box->periodic[0] = options.box->periodic[1] = true;
+  std::string text =
+      head("ATOMS", 2) + "ITEM: ATOMS id x y z radius\n1 0.2 2 2 0.5\n2 3.3 2 2 0.5\n";
+  samples_.write("a.local", head("ENTRIES", 1) +
+                                "ITEM: ENTRIES c_p[1] c_p[2] c_q[1] c_q[2] c_q[3] c_q[4]\n"
+                                "1 2 100 0 0 0\n");
+  for (const std::string letters : {" ff ff ff", ""}) {
+    std::string own = text;
+    own.replace(own.find(" ff ff ff"), 9, letters);
+    samples_.write("a.dump", own);
+    const FileFrame frame = samples_.read("lammps", {"a.dump", "a.local"}, options).front();
+    EXPECT_TRUE(frame.box->periodic[0]);
+    EXPECT_FALSE(frame.box->periodic[1]);  // of another width
+    EXPECT_EQ(frame.box->saidFixed[0], !letters.empty());
+    EXPECT_EQ(frame.contacts->normal[0], Vec3(1, 0, 0));
+  }
+}
+
+/// LAMMPS packs what its name ends with .gz of.
+TEST_F(LammpsText, PackedDumps_AreReadAsTheyAre) {
+  writeAtoms();
+  const auto pack = [&](const char* name, std::size_t length) {
+    std::ifstream in(folder_.path() / "a.dump");
+    const std::string text((std::istreambuf_iterator<char>(in)), {});
+    const gzFile out = gzopen((folder_.path() / name).c_str(), "wb");
+    gzwrite(out, text.data(), static_cast<unsigned>(text.size()));
+    gzclose(out);
+    if (length > 0) fs::resize_file(folder_.path() / name, length);
+    return folder_.path() / name;
+  };
+  EXPECT_EQ(formatOf(pack("a.dump.gz", 0)), "lammps");
+  const FileFrame frame = samples_.read("lammps", {"a.dump.gz"}).front();
+  EXPECT_EQ(frame.particles.position,
+            samples_.read("lammps", {"a.dump"}).front().particles.position);
+  pack("b.dump.gz", 60);
+  EXPECT_EQ(samples_.refusal("lammps", {"b.dump.gz"}),
+            "b.dump.gz: what gzip packed into it is damaged or was cut off");
 }
 
 /// Half a velocity is none: the other half would be 0 for all that anybody knows.

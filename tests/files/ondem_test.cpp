@@ -34,6 +34,15 @@ TEST_F(OnDem, Scene_ForceOnTheFirst_WallSecond) {
   EXPECT_EQ(contacts.overlap[1], 0.005);
 }
 
+/// Without shear_force the forces are those along the normal, and not all of them.
+TEST_F(OnDem, ForcesAlongTheNormalAlone_AreNotWhole) {
+  writeOnDem(folder_.path() / "a.vtkhdf",
+             {.sign = 1.0, .without = {"/ONDEM/Interactions/shear_force"}});
+  const FileContacts contacts = *samples_.read("ondem", {"a.vtkhdf"}).front().contacts;
+  EXPECT_TRUE(contacts.force.empty());
+  EXPECT_EQ(contacts.normalForce, (std::vector{20.0, 5.0}));
+}
+
 TEST_F(OnDem, WhatTheExporterLeavesOut_IsNamed) {
   writeOnDem(folder_.path() / "a.vtkhdf", {.sign = 1.0, .without = {"/VTKHDF/PointData/body_id"}});
   EXPECT_EQ(samples_.refusal("ondem", {"a.vtkhdf"}),

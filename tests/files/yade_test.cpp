@@ -1,6 +1,7 @@
 /// What YADE's exporters write: samples/yade_export.py and yade_recorder.py are the scripts, which
 /// print YADE's own contacts.
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -247,6 +248,66 @@ TEST_F(VtkText, Exporter_WallBecomesTheSecond) {
   EXPECT_EQ(contacts.second[0], -6);
   EXPECT_EQ(contacts.normal[0], Vec3(0, 0, 1));
   EXPECT_EQ(contacts.force[0], Vec3(3, 0, 20));
+}
+
+/// A .vtu as MercuryDPM's SphericalParticleVtkWriter writes it, and the points of contacts of its
+/// InteractionVTKWriter, which name no particles.
+TEST_F(VtkText, MercuryDpm_HasRadiusWithACapital) {
+  const auto write = [&](const char* name, const std::string& arrays) {
+    samples_.write(name,
+                   "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
+                   "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"2\" "
+                   "NumberOfCells=\"0\">\n<Points>\n<DataArray type=\"Float32\" Name=\"Position\" "
+                   "NumberOfComponents=\"3\" format=\"ascii\">\n1 2 2\n1.98 2 2\n</DataArray>\n"
+                   "</Points>\n<PointData Vectors=\"vector\">\n" +
+                       arrays + "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+  };
+  const auto array = [](const std::string& name, int components, const std::string& values) {
+    return "<DataArray type=\"Float32\" Name=\"" + name + "\" NumberOfComponents=\"" +
+           std::to_string(components) + "\" format=\"ascii\">\n" + values + "\n</DataArray>\n";
+  };
+  write("runParticle_3.vtu", array("Velocity", 3, "1 2 3\n0 0 0") + array("Radius", 1, "0.5\n0.5") +
+                                 array("speciesType", 1, "0\n1"));
+  const FileFrame frame = samples_.read("vtk", {"runParticle_3.vtu"}).front();
+  EXPECT_EQ(frame.particles.radius, (std::vector{0.5, 0.5}));
+  EXPECT_EQ(frame.particles.velocity.at(0), Vec3(1, 2, 3));
+  EXPECT_EQ(frame.particles.kind, (std::vector<std::int64_t>{0, 1}));
+  write("runInteraction_3.vtu",
+        array("Normal", 3, "1 0 0\n0 0 1") + array("ContactRadius", 1, "1\n1"));
+  EXPECT_NE(samples_.refusal("vtk", {"runInteraction_3.vtu"}).find("contacts that do not name"),
+            std::string::npos);
+}
+
+/// Zeros packed into a thousandth: what is more than the rows is no reason to take room for it.
+TEST_F(VtkText, PackedNumbers_BeyondTheirRowsAreRefusedBeforeTheyAreUnpacked) {
+  std::vector<unsigned char> zeros(std::size_t{1} << 23), packed(zeros.size() / 100);
+  uLongf length = static_cast<uLongf>(packed.size());
+  ASSERT_EQ(compress(packed.data(), &length, zeros.data(), static_cast<uLong>(zeros.size())), Z_OK);
+  std::string raw;
+  const auto add = [&](std::uint32_t value) {
+    for (int shift = 0; shift < 32; shift += 8) raw += static_cast<char>(value >> shift & 255u);
+  };
+  for (const std::uint32_t value : {1u, 1u << 23, 0u, static_cast<std::uint32_t>(length)})
+    add(value);
+  raw.append(packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(length));
+  samples_.write(
+      "a.vtu",
+      "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\" "
+      "compressor=\"vtkZLibDataCompressor\"><UnstructuredGrid><Piece NumberOfPoints=\"2\" "
+      "NumberOfCells=\"0\"><Points><DataArray type=\"Float64\" Name=\"Points\" "
+      "NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/></Points></Piece>"
+      "</UnstructuredGrid><AppendedData encoding=\"raw\">_" +
+          raw + "</AppendedData></VTKFile>");
+  EXPECT_EQ(
+      samples_.refusal("vtk", {"a.vtu"}),
+      "a.vtu: Points: 1 packed blocks of 8388608 bytes are more than the 48 bytes of its rows");
+  samples_.write("a.vtu",
+                 "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece "
+                 "NumberOfPoints=\"5000000\" NumberOfCells=\"0\"><Points><DataArray "
+                 "type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\"></DataArray></Points>"
+                 "</Piece></UnstructuredGrid></VTKFile>");
+  EXPECT_EQ(samples_.refusal("vtk", {"a.vtu"}),
+            "a.vtu: 5000000 points: there should be 4000000 at most");
 }
 
 }  // namespace

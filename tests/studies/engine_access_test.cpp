@@ -356,6 +356,22 @@ std::vector<EngineEntry> mirrors() {
 }
 
 /// Whatever the peer, and from nothing but its capabilities: what it lacks is gone.
+/// Files that do not take part have settings, too, and names that are like those of others.
+TEST(EngineSections, SettingsOfAbsentFiles_AreNoSlips) {
+  for (const char* const name : {"A", "B"}) {
+    EngineEntry entry;
+    entry.name = name;
+    entry.files = {{"run.dump"}};
+    addEngine(entry);
+  }
+  Case setup;
+  setup.engines = {{"A", {}}, {"B", {}}, {"C", {}}};
+  EXPECT_EQ(test::refusalOf([&] { checkEngineSections(setup); }), "");
+  setup.engines["grian"] = {};
+  EXPECT_NE(test::refusalOf([&] { checkEngineSections(setup); }).find("did you mean grain?"),
+            std::string::npos);
+}
+
 TEST(SceneOfPeer, EveryMirror_HasTheEffectsOfItsPeer) {
   const Case setup = test::quickCell();
   const Scene scene = sceneOf(setup);

@@ -451,8 +451,24 @@ TEST(PlaneSnapshots, Times_AreThoseOfTheAveragedPart) {
       target);
   std::vector<double> times;
   while (const auto now = source.next()) times.push_back(now->positionTime);
-  EXPECT_EQ(times, (std::vector{1.0, 2.0, 3.0}));
-  expectSays(source.remarks().back(), {"1 snapshots before 1 s and 1 after 3 s are left out"});
+  // As engines are averaged: the instant that averaging begins at is not of it, its end is.
+  EXPECT_EQ(times, (std::vector{2.0, 3.0}));
+  expectSays(source.remarks().back(), {"2 snapshots up to 1 s and 1 after 3 s are left out"});
+  const auto timesOf = [&](std::deque<FileFrame> frames) {
+    PlaneSnapshots own(std::make_unique<FakeReader>(std::move(frames)), units, target);
+    std::vector<double> found;
+    while (const auto now = own.next()) found.push_back(now->positionTime);
+    return found;
+  };
+  // Six digits of a time, and half a step, are the instant.
+  const auto timed = [](double t) { return threeParticles(t); };
+  EXPECT_EQ(timesOf({timed(0.999999), timed(1.000001), timed(2.0), timed(3.000002)}),
+            (std::vector{2.0, 3.000002}));
+  EXPECT_EQ(timesOf({timed(1.004), timed(1.006), timed(3.004), timed(3.006)}),
+            (std::vector{1.006, 3.004}));
+  // Nothing else is there: a single snapshot is of the instant that it is of.
+  EXPECT_EQ(timesOf({timed(0.5), timed(1.0)}), (std::vector{1.0}));
+  EXPECT_EQ(timesOf({timed(1.0), timed(3.5)}), (std::vector{1.0}));
   const auto refused = [&](std::deque<FileFrame> frames) {
     return test::refusalOf([&] {
       PlaneSnapshots bad(std::make_unique<FakeReader>(std::move(frames)), units, target);
@@ -462,6 +478,156 @@ TEST(PlaneSnapshots, Times_AreThoseOfTheAveragedPart) {
   };
   expectSays(refused({at(1), at(2)}), {"no snapshot lies between 1 and 3 s", "0.02 s"});
   expectSays(refused({at(200), at(200)}), {"not after the one before"});
+}
+
+/// A single file without a time: a number in its name is a step only if that is averaged.
+TEST(PlaneSnapshots, LoneFileWithoutATime_IsOfTheEnd) {
+  files::FileSceneOf<2> target = targetOf(restingDisks());
+  target.from = 1.0;
+  target.to = 3.0;
+  const auto timeBy = [&](std::optional<std::int64_t> number, double dt, const char* says) {
+    FileFrame frame = threeParticles();
+    frame.time.reset();
+    frame.step = number;
+    frame.alone = true;
+    files::FileUnits units;
+    units.dt = dt;
+    PlaneSnapshots source(std::make_unique<FakeReader>(std::deque{frame}), units, target);
+    const double t = source.next().value().positionTime;
+    std::string all;
+    for (const std::string& remark : source.remarks()) all += remark + "\n";
+    expectSays(all, {"says no time", says});
+    return t;
+  };
+  EXPECT_EQ(timeBy({}, 0.0, "of the end of the averaged time, t = 3 s"), 3.0);
+  EXPECT_EQ(timeBy(2, 0.0, "of the end of the averaged time, t = 3 s"), 3.0);
+  EXPECT_EQ(timeBy(2, 1e-3, "of the end of the averaged time, t = 3 s"), 3.0);
+  EXPECT_EQ(timeBy(2000, 1e-3, "step 2000 by its name, t = 2 s"), 2.0);
+}
+
+/// What the first averaged snapshot has all others have.
+TEST(PlaneSnapshots, WhatLaterSnapshotsLack_IsRefused) {
+  const auto refused = [](const std::function<void(FileFrame&)>& change, bool first = false) {
+    std::deque<FileFrame> frames;
+    for (int k = 1; k <= 3; ++k) frames.push_back(threeParticles(k));
+    change(first ? frames[0] : frames[2]);
+    return test::refusalOf([&] {
+      PlaneSnapshots source(std::make_unique<FakeReader>(frames), {}, targetOf(restingDisks()));
+      while (source.next()) {
+      }
+    });
+  };
+  const auto withoutDirection = [](FileFrame& f) {
+    f.contacts->force.clear();
+    f.contacts->normalForce = {10.0, 2.0, 10.0};
+  };
+  EXPECT_EQ(refused([](FileFrame&) {}), "");
+  expectSays(refused([](FileFrame& f) { f.particles.velocity.clear(); }),
+             {"it has no velocities, the first snapshot has"});
+  expectSays(refused([](FileFrame& f) { f.particles.spin.clear(); }), {"it has no spins"});
+  expectSays(refused([](FileFrame& f) { f.particles.spin.clear(); }, true),
+             {"it has spins, the first averaged snapshot has none"});
+  expectSays(refused(withoutDirection), {"it has no contacts with forces and their directions"});
+  expectSays(refused(withoutDirection, true), {"it has contacts with forces"});
+  expectSays(refused([](FileFrame& f) { f.particles.radius[0] = 1.1; }),
+             {"particle 12 has radius 1.1 m, in the first snapshot 1 m"});
+}
+
+/// Of a law with friction forces along the normal alone are half of what is averaged; of one
+/// without they are all of it.
+TEST(PlaneSnapshots, NormalForcesAlone_AreThoseOfALawWithoutFriction) {
+  const auto contacts = [](bool friction) {
+    Case setup = restingDisks();
+    if (!friction) setup.law.tangential = TangentialLaw::none;
+    FileFrame frame = threeParticles();
+    frame.contacts->force.clear();
+    frame.contacts->normalForce = {10.0, 2.0, 10.0};
+    PlaneSnapshots source(std::make_unique<FakeReader>(std::deque{frame}), {}, targetOf(setup));
+    const bool found = source.next()->contacts.has_value();
+    EXPECT_EQ(source.remarks().back().starts_with("no tangential forces in the files"), !found);
+    return found;
+  };
+  EXPECT_FALSE(contacts(true));
+  EXPECT_TRUE(contacts(false));
+}
+
+/// Along the plane's axes, and of spins across it.
+TEST(PlaneSnapshots, MissingComponents_AreThoseOfThePlane) {
+  const auto lack = [](const char* column, int axis, bool axial) {
+    return [=](FileFrame& f) { f.particles.missing = {{column, axis, axial}}; };
+  };
+  EXPECT_EQ(refusalOfFrame(lack("vz", 2, false)), "");
+  expectSays(refusalOfFrame(lack("vx", 0, false)),
+             {"there is no column vx", "plane = \"xy\" takes x and y of the files"});
+  EXPECT_TRUE(firstOf(lack("spin_x", 0, true)).spin);
+  std::vector<std::string> remarks;
+  EXPECT_FALSE(firstOf(lack("spin_z", 2, true), {}, &remarks).spin);
+  expectSays(remarks.back(), {"no spin_z in the files"});
+  expectSays(refusalOfFrame([](FileFrame& f) {
+               f.contacts->missing = {{"fy", 1, false}};
+             }),
+             {"its contacts have no column fy"});
+}
+
+/// Contacts deeper than half a radius are of the plane that has their normal.
+TEST(PlaneSnapshots, WallContacts_MayBeDeep) {
+  const Snapshot now = firstOf([](FileFrame& f) {
+    f.particles.position[0].y() = 0.3;
+    f.contacts->overlap[1] = 0.7;
+    f.contacts->force[1].y() = 70.0;
+  });
+  EXPECT_EQ(now.contacts->j[1], 3);
+  EXPECT_NEAR(now.contacts->overlap[1], 0.7, 1e-15);
+}
+
+/// One velocity among others: none that crosses the scene in a step, and a note where it stands out
+/// and the particle did not go that way.
+TEST(PlaneSnapshots, OneVelocity_IsRefusedOrRemarked) {
+  const auto fast = [](double speed, double after = 1.15) {
+    return [=](FileFrame& frame) {
+      if (*frame.time > after) frame.particles.velocity[0].x() = speed;
+    };
+  };
+  std::vector<std::string> remarks;
+  for (const double speed : {1e308, 1e150, 1e8})
+    for (const double after : {0.0, 1.15})
+      expectSays(motionOf(fast(speed, after), 3),
+                 {"particle 12 has a velocity of", "within a step of"});
+  EXPECT_EQ(motionOf(fast(1000.0), 3, &remarks), "");
+  std::string all;
+  for (const std::string& remark : remarks) all += remark + "\n";
+  expectSays(all, {"particle 12 has a velocity of 1e+03 m/s, no other one of more than"});
+}
+
+/// Hertz: places of six digits say no overlap, the file's own has the force of the law.
+TEST(PlaneSnapshots, ForcesOfTheShownOverlaps_AreOfTheLaw) {
+  Case setup = restingDisks();
+  setup.law.normal = NormalLaw::hertz;
+  setup.law.kn = 1e6;
+  const auto remarksAt = [&](double overlap, double force, bool shown) {
+    FileFrame frame = threeParticles();
+    frame.particles.position = {
+        {4.00001, 30.00002, 0.0}, {1.00003, 10.00001, 0.0}, {3.00003, 10.00001, 0.0}};
+    auto& contacts = *frame.contacts;
+    contacts.first = {9};
+    contacts.second = {5};
+    contacts.normal = {{1.0, 0.0, 0.0}};
+    contacts.force = {{force, 0.0, 0.0}};
+    contacts.overlap = {overlap};
+    if (!shown) contacts.overlap.clear();
+    PlaneSnapshots source(std::make_unique<FakeReader>(std::deque{frame}), {}, targetOf(setup));
+    source.next();
+    std::string all;
+    for (const std::string& remark : source.remarks()) all += remark + "\n";
+    return all.find("not those of the case's law") != std::string::npos;
+  };
+  // f = k_n √R₁₂ δ^1.5, with R₁₂ = 0.5 m.
+  const auto byLaw = [](double overlap) { return 1e6 * std::sqrt(0.5) * std::pow(overlap, 1.5); };
+  EXPECT_FALSE(remarksAt(1.23456e-5, byLaw(1.23456e-5), true));
+  EXPECT_TRUE(remarksAt(1.23456e-5, 1.01 * byLaw(1.23456e-5), true));
+  // Places alone leave some 10⁻⁴ m open: any force of that is the law's, a larger one is not.
+  EXPECT_FALSE(remarksAt(0.0, byLaw(1.23456e-5), false));
+  EXPECT_TRUE(remarksAt(0.0, byLaw(1e-2), false));
 }
 
 TEST(PlaneSnapshots, SixDigits_WidenWhatGeometryMayBeOffBy) {
@@ -632,6 +798,19 @@ TEST_F(AssemblyFiles, SnapshotsOutsideOfTheAveragedTime_AreLeftOut) {
   setup_.average->region.from = 3.0;
   expectSays(test::refusalOf([&] { averageSnapshots(setup_, {path}, "test"); }),
              {"a.h5", "none of its snapshots"});
+}
+
+/// Copies are one run, and said to be; runs of the same places with other forces are two.
+TEST_F(AssemblyFiles, Copies_AreOneRun) {
+  const auto first = write("a.h5", 10.0), rounded = write("b.h5", 10.0 * (1.0 + 4e-6));
+  std::filesystem::copy_file(first, folder_.path() / "c.h5");
+  const CompareResults results = averageSnapshots(
+      setup_, {first, rounded, folder_.path() / "c.h5", write("d.h5", 13.0)}, "test");
+  EXPECT_EQ(results.runs.size(), 2u);
+  ASSERT_GE(results.notes.size(), 3u);
+  expectSays(results.notes[1], {"b.h5 has the snapshots of", "a.h5", "both are one run"});
+  expectSays(results.notes[2], {"c.h5 has the snapshots of", "a.h5"});
+  EXPECT_TRUE(averageSnapshots(setup_, {first, rounded}, "test").ensemble.empty());
 }
 
 TEST_F(AssemblyFiles, SameFileTwice_IsRefused) {

@@ -345,6 +345,29 @@ TEST_F(SpaceFiles, ForcesThatAttract_AreRefusedWhereDashpotsDoNotExplainThem) {
   EXPECT_NE(chain(2, -1.0).find("normal forces attract"), std::string::npos);
 }
 
+/// A component that no column has is not 0: places, velocities and forces are refused, spins
+/// absent.
+TEST_F(SpaceFiles, MissingComponents_AreRefusedOrAbsent) {
+  const auto refused = [&](const char* names, const char* rows) {
+    return refusal({{"a.csv", fmt::format("t,id,{}\n{}", names, rows)}});
+  };
+  const char* const full = "x,y,z,radius,vx,vy,vz";
+  EXPECT_EQ(refused(full, "1,1,0.2,1,2,0.5,0,0,-1\n1,2,2,1,2,0.5,0,0,-1\n1,3,2,2,2,0.5,0,0,-1\n"),
+            "");
+  for (const auto& [names, column] : {std::pair("x,y,z,radius,vx,vy,spin_z", "no column vz"),
+                                      {"x,y,spin_z,radius,vx,vy,vz", "no column z"}}) {
+    const std::string said =
+        refused(names, "1,1,0.2,1,2,0.5,0,0,-1\n1,2,2,1,2,0.5,0,0,-1\n1,3,2,2,2,0.5,0,0,-1\n");
+    EXPECT_NE(said.find(column), std::string::npos) << said;
+    EXPECT_NE(said.find("a case in space takes all three components"), std::string::npos) << said;
+  }
+  Texts texts = ofCsv().texts;
+  std::string& contacts = texts.at("a-contacts.csv");
+  contacts.replace(contacts.find(",fz"), 3, ",kind");
+  const std::string said = refusal(texts);
+  EXPECT_NE(said.find("its contacts have no column fz"), std::string::npos) << said;
+}
+
 TEST_F(SpaceFiles, WhatDoesNotFit_IsRefusedInOneLine) {
   const auto changed = [](Sample sample, const char* file, const std::string& from,
                           const std::string& to) {
