@@ -11,6 +11,13 @@
 /// (which disk or contact), the number and what would be right; empty: nothing was found.
 namespace crossgrain {
 
+/// How numbers were rounded when they were written: by 10⁻⁵ of six digits, at least 10⁻⁹, and by
+/// the place of the last decimal.
+struct LastDigit {
+  double relative = 0.0;
+  double place = 0.0;  ///< in the numbers' unit
+};
+
 /// What the snapshots of one run are compared with: worked out once, so that an audit is cheap.
 template <int D>
 struct AuditBasisOf {
@@ -27,8 +34,8 @@ struct AuditBasisOf {
   double rounding = 1e-10;
   /// Where forces are compared with the law at the overlaps that contacts show, as those of files
   /// have more digits than what follows from places.
-  /// Relative rounding of these overlaps; 0: positions' are taken.
-  double shownOverlaps = 0.0;
+  /// Absent: positions' are taken.
+  std::optional<LastDigit> shownOverlaps;
 
   std::vector<double> radius;          ///< disks, then wall disks [m]
   VecOf<D> middle = VecOf<D>::Zero();  ///< of everything at t = 0 [m]

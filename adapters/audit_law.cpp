@@ -288,9 +288,11 @@ ContactKinematics kinematicsOf(const SnapshotOf<D>& snapshot, const AuditBasisOf
   const PairPlaceOf<D> place = pairPlace<D>(places, basis, i, j);
   touch.overlap = place.overlap;
   touch.uncertain = place.uncertain;
-  if (basis.shownOverlaps > 0.0 && contacts.overlap[k] > 0.0) {
+  if (basis.shownOverlaps && contacts.overlap[k] > 0.0) {
     touch.overlap = contacts.overlap[k];
-    touch.uncertain = std::min(touch.uncertain, basis.shownOverlaps * touch.overlap);
+    touch.uncertain = std::min(
+        touch.uncertain,
+        std::max(basis.shownOverlaps->relative * touch.overlap, basis.shownOverlaps->place));
   }
   const double own = basis.radius[i];
   touch.reach = j < round ? own + basis.radius[j] : 0.0;

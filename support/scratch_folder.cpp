@@ -32,7 +32,9 @@ int hold(const fs::path& folder) {
 void removeAbandoned(const fs::path& folder) {
   constexpr auto settled = std::chrono::minutes(1);
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+  for (fs::directory_iterator each(folder, ignored), end; !ignored && each != end;
+       each.increment(ignored)) {
+    const fs::directory_entry& entry = *each;
     if (!entry.path().filename().string().starts_with(prefix)) continue;
     std::error_code gone;
     const auto made = fs::last_write_time(entry.path(), gone);

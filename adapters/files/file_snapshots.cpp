@@ -69,7 +69,7 @@ double FileSnapshotsOf<D>::timeOf(const FileFrame& frame) const {
 template <int D>
 double FileSnapshotsOf<D>::slackAt(double edge) const {
   constexpr double sixDigits = 2e-6;
-  return std::max(0.5 * step(), sixDigits * std::abs(edge));
+  return std::max(0.5 * shortestStep(), sixDigits * std::abs(edge));
 }
 
 /// The next frame of the averaged time.
@@ -109,7 +109,7 @@ std::optional<FileFrame> FileSnapshotsOf<D>::readWithin() {
 
 /// Means over snapshots some of which lack what others have are of no time.
 template <int D>
-void FileSnapshotsOf<D>::requireSame(const FileFrame& frame, const SnapshotOf<D>& now) {
+void FileSnapshotsOf<D>::requireSame(const FileFrame& frame, SnapshotOf<D>& now) {
   const auto require = [&](std::optional<bool>& first, bool here, const char* what,
                            const char* remedy) {
     if (first.value_or(here) != here)
@@ -119,6 +119,11 @@ void FileSnapshotsOf<D>::requireSame(const FileFrame& frame, const SnapshotOf<D>
     first = here;
   };
   require(spins_, now.spin.has_value(), "spins", "");
+  // Of contacts that are left out for want of tangential forces nothing is missing where none rubs.
+  if (contacts_ == false && now.contacts &&
+      std::ranges::all_of(now.contacts->tangentialForce,
+                          [](const SpinOf<D>& force) { return force == noSpin<D>(); }))
+    now.contacts.reset();
   require(contacts_, now.contacts.has_value(), "contacts with forces and their directions",
           "; to average without, leave the files or columns of contacts out");
 }
@@ -329,7 +334,10 @@ void FileSnapshotsOf<D>::audit(const FileFrame& frame, SnapshotOf<D>& snapshot) 
   if (lawDiffers_ || !scene_.law.soft()) return;
   AuditBasisOf<D> basis = basis_;
   basis.dt = step();
-  if (!frame.contacts->overlap.empty()) basis.shownOverlaps = lastDigitOf(frame.contacts->overlap);
+  if (!frame.contacts->overlap.empty()) {
+    basis.shownOverlaps = lastDigitOf(frame.contacts->overlap);
+    basis.shownOverlaps->place *= units_.length;
+  }
   const std::string differs = lawFault(snapshot, basis, scene_.law);
   lawDiffers_ = !differs.empty();
   if (lawDiffers_)
@@ -378,10 +386,11 @@ void FileSnapshotsOf<D>::checkSpeeds(const FileFrame& frame, const SnapshotOf<D>
     }
   }
   const std::int64_t id = now.velocity.empty() ? 0 : ids_->theirOf(at);
-  if (fastest * step() > std::max(basis_.extent, outlier * walls * step()))
+  const double brief = shortestStep();
+  if (fastest * brief > std::max(basis_.extent, outlier * walls * brief))
     fail(frame, fmt::format("particle {} has a velocity of {:.3g} m/s, by which it crosses the "
                             "scene of {:.3g} m within a step of {:.3g} s",
-                            id, fastest, basis_.extent, step()));
+                            id, fastest, basis_.extent, brief));
   if (!lastPlaces_.empty() && fastest > outlier * next) {
     VecOf<D> way = now.position[at] - lastPlaces_[at];
     if (scene_.box) way = scene_.box->nearest(way);

@@ -60,7 +60,7 @@ class FileSnapshotsOf : public SnapshotSourceOf<D> {
  private:
   std::optional<FileFrame> readWithin();
   void requireContacts(const FileFrame& frame) const;
-  void requireSame(const FileFrame& frame, const SnapshotOf<D>& now);
+  void requireSame(const FileFrame& frame, SnapshotOf<D>& now);
   void recognise(const FileFrame& frame);
   SnapshotOf<D> convert(const FileFrame& frame);
   void checkRadius(const FileFrame& frame, std::size_t row, std::size_t k) const;
@@ -74,7 +74,10 @@ class FileSnapshotsOf : public SnapshotSourceOf<D> {
   double timeOf(const FileFrame& frame) const;
   std::optional<double> timeByName(const FileFrame& frame) const;
   double slackAt(double edge) const;
+  /// Of what the files count: the time step, or the time from one file to the next [s].
   double step() const { return units_.dt > 0.0 ? units_.dt * units_.time : target_.dt; }
+  /// As short as the engine's time step can be known to be [s].
+  double shortestStep() const { return target_.dt > 0.0 ? std::min(step(), target_.dt) : step(); }
 
   std::unique_ptr<FrameReader> reader_;
   FileUnits units_;

@@ -233,13 +233,18 @@ void checkParticles(const FileFrame& frame, const FileUnits& units,
 template void checkParticles(const FileFrame&, const FileUnits&, const std::optional<BoxOf<2>>&);
 template void checkParticles(const FileFrame&, const FileUnits&, const std::optional<BoxOf<3>>&);
 
-double lastDigitOf(const std::vector<double>& numbers) {
+LastDigit lastDigitOf(const std::vector<double>& numbers) {
   constexpr std::size_t most = 1000;
   constexpr int clear = 10;
   int digits = 1;
-  for (std::size_t k = 0; k < std::min(most, numbers.size()) && digits < clear; ++k)
-    digits = std::max(digits, digitsOf(numbers[k]));
-  return std::pow(10.0, 1 - std::min(digits, clear));
+  double place = INFINITY;
+  for (std::size_t k = 0; k < std::min(most, numbers.size()); ++k) {
+    if (numbers[k] == 0.0) continue;
+    const int own = std::min(digitsOf(numbers[k]), clear);
+    digits = std::max(digits, own);
+    place = std::min(place, std::pow(10.0, std::floor(std::log10(std::abs(numbers[k]))) + 1 - own));
+  }
+  return {std::pow(10.0, 1 - digits), std::isfinite(place) ? place : 0.0};
 }
 
 template <int D>

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "adapters/audit.hpp"
 #include "adapters/engine.hpp"
 #include "adapters/files/frame.hpp"
 #include "adapters/scene.hpp"
@@ -70,9 +71,9 @@ template <int D>
 void checkParticles(const FileFrame& frame, const FileUnits& units,
                     const std::optional<BoxOf<D>>& box);
 
-/// The last digit that numbers were written with, of the first one: 10⁻⁵ of six digits. At least
-/// 10⁻⁹.
-double lastDigitOf(const std::vector<double>& numbers);
+/// The last digit that numbers were written with: as a part of the number, where all have as many
+/// digits, and its place, where all have as many decimals.
+LastDigit lastDigitOf(const std::vector<double>& numbers);
 
 /// Relative rounding of coordinates: twice the last digit of files that write five to eight of
 /// them, as half of all coordinates then use the last two; else single precision's. Round numbers

@@ -145,10 +145,11 @@ AtomColumns atomColumns(const TextFile& text, const std::vector<std::string>& na
       meanings.push_back(extraMeaning(found.walls.back().first + index - 1));
       continue;
     }
-    if (!said && std::ranges::count(names, name) > 1)
-      text.fail(fmt::format("the column {} is there twice: only one of them can be read", name));
     const auto* const known =
         std::ranges::find(attributes, lowered(name), [](const auto& one) { return one.first; });
+    if (!said && known != std::end(attributes) &&
+        std::ranges::count(names, lowered(name), lowered) > 1)
+      text.fail(fmt::format("the column {} is there twice: only one of them can be read", name));
     const Meaning meaning = said                            ? *said
                             : known != std::end(attributes) ? known->second
                                                             : Meaning::none;

@@ -43,14 +43,13 @@ class Arrays {
       : where_(std::move(where)) {
     for (const VtkArray& array : arrays) {
       const auto* const said = options.wordsOf(array.name);
-      const std::string own = lowered(array.name);
+      // F and f are no names of one thing: what is known by one letter is known by that.
+      const std::string own = array.name.size() > 1 ? lowered(array.name) : array.name;
       const auto* const known =
           std::ranges::find(roles, own, [](const auto& one) { return one.first; });
-      // F and f are no names of one thing: what is known by one letter is known by that.
       roles_.emplace_back(said                       ? said->front()
                           : known != std::end(roles) ? std::string(known->second)
-                          : own.size() > 1           ? own
-                                                     : array.name,
+                                                     : own,
                           &array);
     }
   }

@@ -187,7 +187,10 @@ Bytes XmlFile::packedBytes(const Source& source, std::uint64_t expected) const {
   // Before room is taken: zlib packs what is alike into a thousandth. Some other number of rows is
   // the caller's to name.
   const std::uint64_t most = 2 * expected + (std::uint64_t{1} << 20);
-  if (size > most || last > size || blocks * size > most)
+  // The size is the nominal one, of which an only block may be a part.
+  const std::uint64_t lastSize = last != 0 ? last : size;
+  if (last > size || lastSize > most || (blocks > 1 && size > most) ||
+      (blocks - 1) * size + lastSize > most)
     fail(fmt::format("{}: {} packed blocks of {} bytes are more than the {} bytes of its rows",
                      source.name, blocks, size, expected));
   std::uint64_t packedSize = 0;

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <span>
 #include <system_error>
+#include <thread>
 
 #include "adapters/worker/answer.hpp"
 #include "adapters/worker/json.hpp"
@@ -305,7 +306,12 @@ std::string WorkerEngine::receive(ChildProcess::Clock::time_point deadline) cons
     try {
       return process_->receiveLine(deadline, longestAnswer);
     } catch (const ProcessTimeout&) {
-      const GroupActivity now = activityOf(process_->pid());
+      GroupActivity now = activityOf(process_->pid());
+      // Between two pieces of work nobody computes for a moment.
+      for (int look = 0; look < 5 && !now.computes; ++look) {
+        std::this_thread::sleep_for(10ms);
+        now = activityOf(process_->pid());
+      }
       if (k == 0) usedWhenLate = now.cpuSeconds;
       if (!now.computes || now.cpuSeconds - usedWhenLate >= timeout_ || k >= most * slices) throw;
       deadline += std::chrono::duration_cast<ChildProcess::Clock::duration>(

@@ -30,6 +30,9 @@ OverviewCell lockstepOf(const CompareResults& results, const EngineRow& engine) 
                                   : std::string()) +
                own->alarm;
   cell.anchor = "agreement";
+  // Numbers of lockstep's windows are no part of this.
+  cell.value.reset();
+  cell.shown.clear();
   if (own->late.differs && !own->late.equivalents.empty()) {
     const EquivalentChange& change = own->late.equivalents.front();
     cell.value = 100.0 * change.change;

@@ -392,8 +392,9 @@ void expectResumed(CheckContext& context, double middle, double end) {
       most = std::max(most, (resumed.velocity[i] - from.velocity[i]).norm());
     return most;
   };
-  const bool springs = half.contacts && std::ranges::any_of(half.contacts->tangentialForce,
-                                                            [](double f) { return f != 0.0; });
+  // Of an engine that shows no contacts nobody knows.
+  const bool springs = !half.contacts || std::ranges::any_of(half.contacts->tangentialForce,
+                                                             [](double f) { return f != 0.0; });
   if (springs && distance(forgot) < 0.1 * distance(whole) &&
       resumesWithoutSprings(context, scene, middle, end))
     context.suspect(

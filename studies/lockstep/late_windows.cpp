@@ -138,6 +138,7 @@ class LateComparison {
   /// engine and mirror part in a window in which the reference constant moves nothing, or it moves
   /// nothing in any.
   void conclude(LateWindows& found) const {
+    if (accounts_.empty()) return;
     const LockstepRow row = accounts_.front().row();  // any of them: `beyond` is of the reference's
     found.read = row.read + unmeasured_;
     found.beyond = row.beyond;

@@ -203,7 +203,8 @@ TEST_F(Space, SizesThatNoNumberHolds_AreRefused) {
     return text.replace(text.find(from), from.size(), to);
   };
   expectMessage(with("contact_times = 3", "duration = 1e300"), "steps: at most 1e+12");
-  expectMessage(with("kn = 100.0", "kn = 1e300"), "steps: at most 1e+12");
+  // Contacts of such a law are short, and the run is counted in them.
+  expectMessage(with("kn = 100.0", "kn = 1e300"), "average.from = 0.1: must be <");
   expectMessage(with("contact_times = 3", "contact_times = 1e12"), "steps: at most 1e+12");
   expectMessage(
       with("low = [0, 0, 0]\nhigh = [5, 6, 1]", "low = [-1e308, 0, 0]\nhigh = [1e308, 6, 1]"),
@@ -238,7 +239,7 @@ TEST_F(Space, WallStress_IsOfTwoWalls_AndAForceOfOne) {
 }
 
 /// One glass sphere of 1 mm on a plane at 1 m/s: T = 2.9432 δ/v, δ = (15 m v²/(16 E* √R))^(2/5)
-/// with E* = 50 GPa/(1 − 0.22²), m = 1.309 mg, R = 0.5 mm (Johnson 1985).
+/// with E* = 50 GPa/(2 (1 − 0.22²)), m = 1.309 mg, R = 0.5 mm (Johnson 1985).
 TEST_F(Space, HertzWithoutStep_SaysHowLongTheFastestImpactOfTheStartLasts) {
   expectMessage(R"([case]
 kind = "assembly"

@@ -455,6 +455,7 @@ def is_installed(package):
 IN_SPACE = {
     "TorqueTurnsSpheres", "TurnedImpactsAreTurnedAlike", "ContactForcesInSpaceAct", "TurningWallPushesSpheres",
     "ForcesInSpaceAreThoseOfTheLaw", "CylinderIsMetAsAPlane", "TurningCylinderDrivesSpheres",
+    "SpinsAboutTheLineChangeNothing",
 }  # fmt: skip
 
 
@@ -467,7 +468,7 @@ class RigidEngine:
         "PairsAcrossBorders", "PairsAcrossBordersInSpace", "RollingSpringsOfMovedPairs", "PairsThatCrossBorders",
         "PairsThatCrossBordersInSpace", "BottomPlateHoldsASlowDisk", "CornersHaveNoFirstPlane",
         "FastIsAsSlow", "FastDisksAreNotMissed", "SeveralActAtOnce", "WallsUnderWayAct",
-        "PlateBrakesEachByItself", "SlowIsNotAtRest",
+        "PlateBrakesEachByItself", "SlowIsNotAtRest", "WallsAcrossBorders", "WallsAcrossBordersInSpace",
     }  # fmt: skip
 
     def test_passes_its_checks(self):

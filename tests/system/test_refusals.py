@@ -80,7 +80,7 @@ CASE_FILES = {
     "check /proc/self/mem": "mem: cannot be read",
     "check pipe.toml": "is a named pipe, not a file",
     f"average pipe.toml {CELL} --out out": "is a named pipe",
-    f"average text.h5 {CELL} --out out": ("text.h5", "cannot be read as an HDF5 file"),
+    f"average text.h5 {CELL} --out out": ("text.h5", "is no HDF5 file"),
     "check noise.toml": "noise.toml:1:1",
     "check mistaken.toml": ("mistaken.toml:4:1", "unknown key particles.smal_mass", "did you mean small_mass?"),
     "check mine/case.toml": "secret.toml:1:",
