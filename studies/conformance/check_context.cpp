@@ -266,7 +266,8 @@ ContactReport CheckContext::contactReport() const {
 
 Tolerance CheckContext::byPrecision(double ifDouble, double ifFloat, const char* why,
                                     double unit) const {
-  const double allowed = single() ? ifFloat : ifDouble;
+  // There and back three products and their sums each, some 10⁻¹⁵ together.
+  const double allowed = single() ? ifFloat : turned ? std::max(ifDouble, 4e-15) : ifDouble;
   return {allowed * unit, unit == 1.0 ? allowed : 0.0, why};
 }
 

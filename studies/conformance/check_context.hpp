@@ -15,7 +15,7 @@
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
 #include "studies/conformance/conformance_scenes.hpp"
-#include "studies/stability/in_space.hpp"
+#include "studies/core/in_space.hpp"
 
 /// What a check works with: the engine, what it declares, comparisons with tolerances, and the
 /// faults found so far.
@@ -158,6 +158,7 @@ class CheckContext {
   Capabilities can;
   Scene scene;                    ///< the one loaded last
   EffectiveParameters effective;  ///< what the engine made of it
+  bool turned = false;  ///< scenes lie aslant in space: what is seen of them has been turned back
 
   std::vector<std::string> faults;             ///< in the order found; a loop may repeat one
   std::set<std::string> examined;              ///< capabilities in which a fault would be found

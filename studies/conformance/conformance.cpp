@@ -20,12 +20,12 @@
 #include "studies/conformance/declared_laws.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/executor.hpp"
+#include "studies/core/in_space.hpp"
 #include "studies/core/study.hpp"
 #include "studies/lockstep/identify.hpp"
 #include "studies/lockstep/lockstep.hpp"
 #include "studies/lockstep/rules.hpp"
 #include "studies/lockstep/terms.hpp"
-#include "studies/stability/in_space.hpp"
 #include "support/bad_input.hpp"
 #include "support/data_folder.hpp"
 #include "support/interrupt.hpp"
@@ -199,7 +199,9 @@ CheckReport runChecks(const EngineEntry& entry, const std::vector<Check>& checks
                             : check.frame == PlaneFrame::flat ? flat
                                                               : any;
     if (!engine) engine = start(entry);
-    runOne(check, CheckContext(*engine, entry, start), row, result, findings);
+    CheckContext context(*engine, entry, start);
+    context.turned = &engine == &any.engine;
+    runOne(check, std::move(context), row, result, findings);
     row.seconds = std::chrono::duration<double>(Clock::now() - began).count();
     breakdowns += row.outcome == checkBrokeDown;
     // It may have died of it; the next check needs a sound one.

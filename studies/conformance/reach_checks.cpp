@@ -83,10 +83,9 @@ ContactLaw slower(ContactLaw law, double times) {
   return law;
 }
 
-/// A ninth as stiff with the same restitution, so that a step is three times as long: two seconds
-/// have more than ten thousand.
+/// A twenty-fifth as stiff with the same restitution, so that a step is five times as long.
 ContactLaw softer(const ContactLaw& law) {
-  return slower(law, 3.0);
+  return slower(law, 5.0);
 }
 
 /// Two seconds of flight before the same collision.

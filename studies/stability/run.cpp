@@ -20,7 +20,7 @@
 #include "studies/core/engine_running.hpp"
 #include "studies/core/study.hpp"
 #include "studies/flow/run.hpp"
-#include "studies/stability/in_space.hpp"
+#include "studies/core/in_space.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
 

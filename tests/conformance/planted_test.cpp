@@ -68,8 +68,13 @@ Planted inSpace(const char* name, const char* fault, const char* check, const ch
 TEST(PlantedFaults, RightEngine_AllChecks_FindNoFault) {
   EXPECT_EQ("", faultsOf(rowsOf(plantedEntry("right", ""))));
   EXPECT_EQ("", faultsOf(rowsOf(mischiefOf("none"))));
+  // Of spheres alone in the checks of space: it declares more than it has of what the others ask
+  // for. The example in C++ passes all (system.engine_files).
+  std::vector<std::string> ofSpace;
+  for (const conformance::Check& check : conformance::checksOf(false))
+    if (check.dimension == 3) ofSpace.emplace_back(check.name);
   for (const char* right : {"", "step_setting=1", "float_state=1"})
-    EXPECT_EQ("", faultsOf(rowsOf(inSpace("", right, "", "").entry))) << right;
+    EXPECT_EQ("", faultsOf(rowsOf(inSpace("", right, "", "").entry, ofSpace))) << right;
 }
 
 /// Of an engine of spheres alone no check is skipped for its scenes' dimension.
@@ -338,7 +343,6 @@ INSTANTIATE_TEST_SUITE_P(
                     alone("walls_undamped", "wall_gt=0", "PlanesFollowTheOracle",
                           "^γ_t -(99|100) %, at planes"),
                     alone("walls_friction", "wall_mu=0.9", "WallDisksFollowTheOracle", ""),
-                    alone("late_friction", "mu_late=0.7", "LateIsAsEarly", ""),
                     alone("images_along_z", "images_z=0", "PairsAcrossBordersInSpace",
                           "^bodies do not meet each other's images across the border along z"),
                     alone("images_of_walls", "wall_images=0", "WallsAcrossBordersInSpace",

@@ -195,7 +195,7 @@ TEST(CompareSentences, LateFault_IsInTheMatrix) {
   own.late.read = 18;
   own.late.equivalents = {{"kn", 0.58}};
   EXPECT_EQ(cell().verdict, Verdict::fail);
-  EXPECT_EQ(cell().shown, "58 % of kn");
+  EXPECT_EQ(cell().shown, "58.0 % of kₙ");
   EXPECT_TRUE(cell().words.starts_with("differs in 9 of 18 windows of its own run"))
       << cell().words;
 }

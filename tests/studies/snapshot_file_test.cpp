@@ -195,7 +195,7 @@ TEST_F(SnapshotFiles, MalformedFile_ThrowsNamingTheData) {
     EXPECT_NE(said.find(words), std::string::npos) << said;
   };
   writeFile(path_, "not HDF5");
-  expectRefusal("mine.h5: cannot be read as an HDF5 file");
+  expectRefusal("mine.h5: is no HDF5 file");
   writeBare();
   expectRefusal("there is no /snapshot-000/position in it");
   writeBare(3, [](Hdf5File&) {});

@@ -16,7 +16,7 @@
 #include "results/stability.hpp"
 #include "stability/verdict.hpp"
 #include "studies/core/engine_access.hpp"
-#include "studies/stability/in_space.hpp"
+#include "studies/core/in_space.hpp"
 #include "support/bad_input.hpp"
 #include "tests/misbehaving/entries.hpp"
 #include "tests/support/refusal.hpp"
@@ -187,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(All, QuickSuite,
                              Escaped{"heavy-on-light", "1e2", "uneven_kn=0.5"},
                              Escaped{"deep-start", "elastic", "touching_drag=10"},
                              Escaped{"deep-start", "damped-loss-tension", "touching_drag=100"},
-                             Escaped{"warm-start", "", "touching_drag=10"},
+                             Escaped{"warm-start", "loss", "touching_drag=10"},
                              Escaped{"wedged-small", "elastic", "touching_drag=3"},
                              Escaped{"size-ratio", "elastic", "touching_drag=20"},
                              Escaped{"high-spin", "loss", "mu=1.2"}),

@@ -272,7 +272,7 @@ class PackingFile(SystemTest):
                 self.assert_one_line(self.check(**datasets), BAD_INPUT, "mine.h5", *told)
         self.assert_status(self.check("--set=particles.max_overlap=0.3", radius=[SMALL] * 12, position=near), HELD)
         self.file.write_text("radius position\n0.0037 0 0\n", encoding="utf-8")
-        self.assert_one_line(self.check(), BAD_INPUT, "mine.h5", "is no HDF5 file")
+        self.assert_one_line(self.check(), BAD_INPUT, "mine.h5", "cannot be read as an HDF5 file")
         self.file.unlink()
         self.assert_one_line(self.check(), BAD_INPUT, "particles.file", "mine.h5", "no such file")
 

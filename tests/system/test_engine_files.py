@@ -270,7 +270,8 @@ class EngineFile(SystemTest):
                 strict = [] if "--dry-run" in command or command[0] == "check" else settings(law__normal="hertz")
                 done = self.run_program(command[0], COUETTE, "--engines", f"grain,{counted}", *command[1:], *strict)
                 self.assert_status(done, BAD_INPUT if strict else HELD)
-                self.assertEqual("x", starts.read_text(encoding="utf-8"))
+                # A case that cannot be read needs no engine.
+                self.assertEqual("" if strict else "x", starts.read_text(encoding="utf-8") if starts.exists() else "")
 
     def test_beside_an_engine_of_the_program_and_its_own_mirror(self):
         few = ["-k", "spring_dashpot-tension", *settings(collision__psi=[0.0, 1.0, 4.0], collision__steps_per_contact=50)]

@@ -1,4 +1,4 @@
-#include "studies/stability/in_space.hpp"
+#include "studies/core/in_space.hpp"
 
 #include <fmt/format.h>
 
