@@ -214,7 +214,7 @@ int writeTests(const std::string& program, const std::string& file) {
   const auto write = [&](const std::string& name, const std::string& filter) {
     out << fmt::format("add_test([[conformance.{}]] [[{}]] [[--gtest_filter={}]])\n", name, program,
                        filter)
-        << fmt::format("set_tests_properties([[conformance.{}]] PROPERTIES TIMEOUT 300 COST 20)\n",
+        << fmt::format("set_tests_properties([[conformance.{}]] PROPERTIES TIMEOUT 1800 COST 20)\n",
                        name);
   };
   for (const EngineEntry& entry : engineRegistry()) write(entry.name, "*/" + testName(entry.name));
