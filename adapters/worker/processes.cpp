@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <system_error>
 #include <vector>
@@ -33,11 +32,17 @@ std::vector<pid_t> numbersIn(const std::string& folder) {
   return all;
 }
 
+/// Content of a file of /proc; as far as it could be read, where its process ends meanwhile.
+std::string contentOf(const std::string& file) {
+  std::ostringstream content;
+  content << std::ifstream(file, std::ios::binary).rdbuf();  // unlike iterators it does not throw
+  return content.str();
+}
+
 /// As the process was started with; empty where it has none, has ended, is within exec or is the
 /// kernel's.
 std::string environmentOf(pid_t process) {
-  std::ifstream in(fmt::format("/proc/{}/environ", process), std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  return contentOf(fmt::format("/proc/{}/environ", process));
 }
 
 /// Fields of /proc/PID/stat, or of a thread's, by their numbers in proc(5), from 3 on; empty where
@@ -45,8 +50,7 @@ std::string environmentOf(pid_t process) {
 class Stat {
  public:
   explicit Stat(const std::string& folder) {
-    std::ifstream in(folder + "/stat");
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string text = contentOf(folder + "/stat");
     // Field 2 is the program's name in brackets, in which anything may stand.
     std::istringstream rest(text.substr(std::min(text.rfind(')'), text.size())));
     std::string field;
@@ -83,7 +87,7 @@ bool hasVariable(const std::string& environment, const std::string& variable) {
 
 struct Search {
   bool found = false;
-  bool withinExec = false;    ///< one was, so that nobody knows whether it is marked
+  bool withinExec = false;    ///< one was: its environment, and so its mark, is not there yet
   std::vector<pid_t> unseen;  ///< listed, and without an environment when looked at; ascending
 };
 

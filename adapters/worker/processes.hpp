@@ -22,7 +22,7 @@ inline constexpr const char* workerMark = "CROSSGRAIN_WORKER";
 /// @param listed  for tests: called in every search between the list and the first look
 void killMarkedProcesses(const std::string& mark, const std::function<void()>& listed = {});
 
-/// What the processes of a group do.
+/// Whether the processes of a group compute, and for how long they have.
 struct GroupActivity {
   double cpuSeconds = 0.0;  ///< of all that are there [s]
   bool computes = false;    ///< a thread runs, waits for its turn on a processor, or for a disk

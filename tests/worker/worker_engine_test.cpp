@@ -293,6 +293,29 @@ TEST_F(Worker, Ended_LeavesNoGrandchild) {
   ::prctl(PR_SET_CHILD_SUBREAPER, 0);
 }
 
+// Processes that end while they are looked at, some between the opening of a file of theirs and its
+// reading: on two processors a hundred searches meet dozens.
+TEST_F(Worker, ProcessesThatEndDuringTheSearch_AreNoFailure) {
+  std::vector<pid_t> shells;
+  for (int k = 0; k < 4; ++k) {
+    shells.push_back(::fork());
+    if (shells.back() == 0) {
+      ::setpgid(0, 0);
+      ::execl("/bin/sh", "sh", "-c", "while :; do (exit 0) & wait; done", nullptr);
+      ::_exit(127);
+    }
+    ::setpgid(shells.back(), shells.back());
+  }
+  for (int search = 0; search < 100; ++search) {
+    EXPECT_NO_THROW(killMarkedProcesses("nobody's"));
+    EXPECT_NO_THROW(activityOf(shells.front()));
+  }
+  for (const pid_t shell : shells) {
+    ::kill(-shell, SIGKILL);
+    EXPECT_EQ(::waitpid(shell, nullptr, 0), shell);
+  }
+}
+
 // A daemon that is born between the list of all processes and the look at its parent, which has
 // ended by then: one search finds neither, a hundred times of a hundred.
 TEST_F(Worker, DaemonBornDuringTheSearch_IsKilled) {
