@@ -42,6 +42,7 @@ struct AuditBasisOf {
   double extent = 0.0;                 ///< farthest from there that anything reaches at t = 0 [m]
   double farthest = 0.0;               ///< from the origin, rounding's measure [m]
   double fastest = 0.0;                ///< of what the scene starts or prescribes [m/s]
+  double mass = 0.0;                   ///< of all disks [kg]
 };
 using AuditBasis = AuditBasisOf<2>;
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "adapters/audit_geometry.hpp"
 #include "adapters/near_pairs.hpp"
@@ -60,10 +59,8 @@ std::string listFault(const ContactsOf<D>& contacts, const AuditBasisOf<D>& basi
 /// by f dt²/m ≤ 4 δ, impulses by what the fastest cover.
 template <int D>
 std::string forceFault(const ContactsOf<D>& contacts, const AuditBasisOf<D>& basis) {
-  const std::vector<double>& masses = basis.scene->disks.mass;
-  const double mass = std::accumulate(masses.begin(), masses.end(), 0.0);
   const double most =
-      100.0 * mass * (basis.extent + basis.fastest * basis.dt) / (basis.dt * basis.dt);
+      100.0 * basis.mass * (basis.extent + basis.fastest * basis.dt) / (basis.dt * basis.dt);
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const auto name = [&] { return contactName(contacts, k, *basis.scene); };
     const double along = contacts.normalForce[k], across = sizeOf(contacts.tangentialForce[k]);

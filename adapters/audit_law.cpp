@@ -328,7 +328,7 @@ std::string normalFault(double found, const ContactLaw& law, const ContactKinema
     return law.conventions.tension == Tension::cut ? std::max(force, std::min(body, 0.0)) : force;
   };
   const double least = forceAt(pull.least), most = forceAt(pull.most);
-  // What the overlap's uncertainty makes of the force: Hertz' slope at δ = 0 would leave nothing.
+  // Change of the force over the overlap's uncertainty: Hertz' slope at δ = 0 is 0.
   const auto elasticAt = [&](double change) {
     return elasticPart(law, touch.overlap + change, touch.radius);
   };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -117,6 +118,7 @@ AuditBasisOf<D> auditBasis(const SceneOf<D>& scene) {
   basis.prescribed = false;
   basis.rounding = 1e-6;
   basis.radius = scene.radii();
+  basis.mass = std::accumulate(scene.disks.mass.begin(), scene.disks.mass.end(), 0.0);
   for (const WallBodyOf<D>& body : scene.bodies)
     basis.fastest = std::max(basis.fastest, fastestOf(body));
   for (std::size_t i = 0; i < scene.disks.size(); ++i)

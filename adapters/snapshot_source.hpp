@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +10,13 @@
 #include "adapters/snapshot.hpp"
 
 namespace crossgrain {
+
+/// By which the time of a snapshot may be off from the instant that it is of: engines go to the
+/// step that is nearest to it (Engine::advance), and files have six digits at least [s].
+/// @param step  the time step [s]
+inline double instantSlack(double step, double instant) {
+  return std::max(0.5 * step, 2e-6 * std::abs(instant));
+}
 
 /// Snapshots that nobody runs: those of a file, one after the other, so that memory holds one at a
 /// time.

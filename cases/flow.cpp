@@ -13,6 +13,7 @@
 #include "cases/couette.hpp"
 #include "cases/preparation.hpp"
 #include "support/fingerprint.hpp"
+#include "support/interrupt.hpp"
 
 namespace crossgrain::inline cases {
 
@@ -153,10 +154,13 @@ ExpectedPacking expectedPacking(const Case& setup, int index, double dt) {
   return packing;
 }
 
-void checkPacking(const Case& setup, int index, double dt) {
+void checkPackings(const Case& setup, int count, double dt) {
   if (!isAssembly(setup) && !packingsAreFiles(setup)) return;
   const auto none = engineRegistry().front().make();  // nothing is prepared
-  flowPacking(setup, index, dt, *none, [](double) {});
+  for (int index = 0; index < count; ++index) {
+    throwIfInterrupted();
+    flowPacking(setup, index, dt, *none, [](double) {});
+  }
 }
 
 double flowRestart(const Case& setup, double t) {

@@ -67,9 +67,9 @@ struct ExpectedPacking {
 };
 ExpectedPacking expectedPacking(const Case& setup, int index, double dt);
 
-/// Refuses what flowPacking() refuses, without an engine: a packing that has to be prepared is not
-/// known yet. @throws BadInput
-void checkPacking(const Case& setup, int index, double dt);
+/// Refuses what flowPacking() refuses of the first `count` packings, without an engine: one that
+/// has to be prepared is not known yet. @throws BadInput
+void checkPackings(const Case& setup, int count, double dt);
 
 /// The last time up to t at which a scene can begin anew [s]: swinging walls begin in the middle,
 /// so that only whole periods will do.

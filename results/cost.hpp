@@ -213,7 +213,7 @@ void fields(auto& io, Startup& startup) {
   io("load_s", startup.load);
 }
 
-/// A setting whose time cannot be told from that of another one.
+/// A setting whose time cannot be distinguished from that of another one.
 struct TiedSetting {
   std::string knob, setting;
   bool operator==(const TiedSetting&) const = default;
@@ -251,8 +251,9 @@ struct Advice : CostTime {
   /// Reached: the cheapest, of ties the most accurate; else the one whose largest upper end is
   /// smallest. Empty: none.
   std::string knob, setting, fragment;
-  std::vector<CostKind> kinds;    ///< in which it was measured
-  std::vector<TiedSetting> ties;  ///< that reach it too, in a time that cannot be told from its own
+  std::vector<CostKind> kinds;  ///< in which it was measured
+  std::vector<TiedSetting>
+      ties;  ///< that reach it too, in a time that cannot be distinguished from its own
   /// Simulated time that makes the statistical part as small as the target, in units of what was
   /// simulated: (statistical/target)², of the measure that takes longest.
   std::optional<double> length;

@@ -5,7 +5,7 @@
 #include "oracle/calibration.hpp"
 #include "oracle/cohesion.hpp"
 #include "oracle/impact.hpp"
-#include "stability/springs.hpp"
+#include "stability/recording.hpp"
 
 namespace crossgrain::inline stability {
 

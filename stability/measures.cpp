@@ -11,7 +11,6 @@
 
 #include "oracle/collision_flight.hpp"
 #include "oracle/collision_oracle.hpp"
-#include "stability/springs.hpp"
 
 namespace crossgrain::inline stability {
 

@@ -63,6 +63,10 @@ struct EnergyState {
 /// motion a start with overlaps may become.
 EnergyState energyOf(const Recording& run, const Snapshot& snapshot);
 
+/// Whether the engine has impulses where the scene has springs, so that a start with overlaps holds
+/// no energy there but what it makes of them.
+bool hasNoSprings(const Recording& run);
+
 /// What all energies of a run are measured by: kinetic and elastic energy at the start and the work
 /// of lifting every disk by its radius, a bond's energy by its size; where all of that is nothing,
 /// the run's largest kinetic and elastic energy [J].

@@ -48,7 +48,8 @@ template <int D>
 std::optional<double> FileSnapshotsOf<D>::timeByName(const FileFrame& frame) const {
   if (!frame.alone || !frame.step || units_.dt == 0.0) return std::nullopt;
   const double t = units_.time * (static_cast<double>(*frame.step) * units_.dt - units_.start);
-  if (t < target_.from - slackAt(target_.from) || t > target_.to + slackAt(target_.to))
+  if (t < target_.from - instantSlack(shortestStep(), target_.from) ||
+      t > target_.to + instantSlack(shortestStep(), target_.to))
     return std::nullopt;
   return t;
 }
@@ -64,18 +65,10 @@ double FileSnapshotsOf<D>::timeOf(const FileFrame& frame) const {
   return units_.time * (static_cast<double>(*frame.step) * units_.dt - units_.start);
 }
 
-/// By which a time may be off from the instant that it is of: engines go to the step that is
-/// nearest to it (Engine::advance), and files have six digits at least.
-template <int D>
-double FileSnapshotsOf<D>::slackAt(double edge) const {
-  constexpr double sixDigits = 2e-6;
-  return std::max(0.5 * shortestStep(), sixDigits * std::abs(edge));
-}
-
 /// The next frame of the averaged time.
 template <int D>
 std::optional<FileFrame> FileSnapshotsOf<D>::readWithin() {
-  const double slack = slackAt(target_.from);
+  const double slack = instantSlack(shortestStep(), target_.from);
   std::optional<FileFrame> atBegin;
   while (auto frame = reader_->next()) {
     const double t = timeOf(*frame);
@@ -92,7 +85,7 @@ std::optional<FileFrame> FileSnapshotsOf<D>::readWithin() {
                                         : "of the end of the averaged time,",
                                   t));
     }
-    if (t > target_.to + slackAt(target_.to)) {
+    if (t > target_.to + instantSlack(shortestStep(), target_.to)) {
       ++late_;
       continue;
     }

@@ -73,7 +73,6 @@ class FileSnapshotsOf : public SnapshotSourceOf<D> {
   void audit(const FileFrame& frame, SnapshotOf<D>& snapshot);
   double timeOf(const FileFrame& frame) const;
   std::optional<double> timeByName(const FileFrame& frame) const;
-  double slackAt(double edge) const;
   /// Of what the files count: the time step, or the time from one file to the next [s].
   double step() const { return units_.dt > 0.0 ? units_.dt * units_.time : target_.dt; }
   /// As short as the engine's time step can be known to be [s].
@@ -90,7 +89,7 @@ class FileSnapshotsOf : public SnapshotSourceOf<D> {
   std::string lastWhere_;       ///< where that is
   std::size_t snapshots_ = 0, early_ = 0, late_ = 0, skipped_ = 0;
   std::string firstSkipped_;  ///< of contacts whose particles the files lack
-  /// What the first snapshot has: absent before it. An average of some snapshots is another one's.
+  /// Whether the first snapshot has them; absent before it. All others have to be alike.
   std::optional<bool> contacts_, spins_;
   bool wallContacts_ = false;               ///< whether any was seen
   bool lawDiffers_ = false, moves_ = true;  ///< moves_: as velocities say, so far

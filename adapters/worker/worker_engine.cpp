@@ -307,7 +307,7 @@ std::string WorkerEngine::receive(ChildProcess::Clock::time_point deadline) cons
       return process_->receiveLine(deadline, longestAnswer);
     } catch (const ProcessTimeout&) {
       GroupActivity now = activityOf(process_->pid());
-      // Between two pieces of work nobody computes for a moment.
+      // A computing worker sleeps for moments too, between two pieces of work.
       for (int look = 0; look < 5 && !now.computes; ++look) {
         std::this_thread::sleep_for(10ms);
         now = activityOf(process_->pid());

@@ -174,7 +174,8 @@ std::string asToml(const Advice& one, const CostResults& results) {
   return text.ends_with('\n') ? text : text + "\n";
 }
 
-/// Whether a point errs no less than another one, in a time that cannot be told from its own.
+/// Whether a point errs no less than another one, in a time that cannot be distinguished from its
+/// own.
 bool tiesWithABetter(const CostResults& results, std::size_t place, std::size_t other) {
   const CostPoint* one = pointAt(results, place);
   const CostPoint* better = pointAt(results, other);

@@ -25,7 +25,8 @@ std::string costToml(const CostResults& results);
 /// knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front,low,high,equivalent,bound,
 /// worst,time_low_s,time_high_s,tied
 /// One row per point, those that did not run too; on_front is of the front over all engines; tied:
-/// it is there because its time cannot be told from that of a point which errs no more; equivalent
+/// it is there because its time cannot be distinguished from that of a point
+/// which errs no more; equivalent
 /// and bound are empty, of earlier versions.
 std::string costCsv(const CostResults& results);
 

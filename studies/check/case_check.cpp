@@ -231,10 +231,7 @@ json checkedCase(const Case& setup, const std::vector<std::string>& names, bool 
   if (setup.particles.file && !setup.run.dt)
     throw BadInput(setup.file.string() + ": a packing file needs [run] dt, the time step in s");
   // What --dry-run and the command itself refuse: the start of any packing.
-  for (int k = 0; hasFlow(setup) && k < flowPackings(setup); ++k) {
-    throwIfInterrupted();
-    checkPacking(setup, k, timeStep(setup));
-  }
+  if (hasFlow(setup)) checkPackings(setup, flowPackings(setup), timeStep(setup));
   const auto addMargins = [&](json& result) {
     result["endpoints"] = marginsOf(endpointsOf(setup), setup.averaging.endpoints, "endpoint");
     result["margins"] = marginsOf(fieldsIn(setup.dimension, setup.average->region.hasRings()),

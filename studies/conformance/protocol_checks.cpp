@@ -333,6 +333,14 @@ void workersAgreeBitForBit(CheckContext& context) {
   context.expect(sameBits(other->snapshot(context.contactReport()), here), "two workers");
 }
 
+/// The largest difference between velocities of one disk [m/s].
+double velocitiesApart(const Snapshot& a, const Snapshot& b) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < a.velocity.size(); ++i)
+    most = std::max(most, (a.velocity[i] - b.velocity[i]).norm());
+  return most;
+}
+
 /// Whether what is taken up in the middle, by whichever worker, goes on as before where nothing has
 /// a spring, but for a tenth of what friction makes of it: else it is not springs that are lost.
 /// @param withSprings  by how much velocities are off with friction [m/s]
@@ -349,11 +357,7 @@ bool resumesWithoutSprings(CheckContext& context, Scene scene, double middle, do
   other->load(context.scene, context.entry.settings);
   other->restore(file);
   other->advance(end);
-  const Snapshot resumed = other->snapshot(context.contactReport());
-  double most = 0.0;
-  for (std::size_t i = 0; i < whole.velocity.size(); ++i)
-    most = std::max(most, (resumed.velocity[i] - whole.velocity[i]).norm());
-  return most < 0.1 * withSprings;
+  return velocitiesApart(other->snapshot(context.contactReport()), whole) < 0.1 * withSprings;
 }
 
 /// A run that another worker resumes from the middle goes on to the bit, and the one that wrote the
@@ -392,17 +396,12 @@ void expectResumed(CheckContext& context, double middle, double end) {
   afresh.disks.spin = spinsOf(scene, half);
   if (context.refusal(afresh)) return;
   const Snapshot forgot = context.at(end - middle);
-  const auto distance = [&](const Snapshot& from) {
-    double most = 0.0;
-    for (std::size_t i = 0; i < from.velocity.size(); ++i)
-      most = std::max(most, (resumed.velocity[i] - from.velocity[i]).norm());
-    return most;
-  };
+  const double off = velocitiesApart(resumed, whole);
   // Of an engine that shows no contacts nobody knows.
   const bool springs = !half.contacts || std::ranges::any_of(half.contacts->tangentialForce,
                                                              [](double f) { return f != 0.0; });
-  if (springs && distance(forgot) < 0.1 * distance(whole) &&
-      resumesWithoutSprings(context, scene, middle, end, distance(whole)))
+  if (springs && velocitiesApart(resumed, forgot) < 0.1 * off &&
+      resumesWithoutSprings(context, scene, middle, end, off))
     context.suspect(
         "checkpoints lose the springs of contacts: a restored run goes on as a start without them "
         "does");

@@ -401,10 +401,7 @@ void Campaign::lookForPackings(int count) {
 }
 
 void Campaign::lookForPackings() {
-  for (int k = 0; runsEngines() && k < packingCount(); ++k) {
-    throwIfInterrupted();
-    checkPacking(setup_, k, dt_);
-  }
+  if (runsEngines()) checkPackings(setup_, packingCount(), dt_);
   if (setup_.particles.file)
     requireStable(setup_, dt_,
                   lightestPair(readPacking(*setup_.particles.file, setup_).disks, true));

@@ -292,8 +292,8 @@ SnapshotReaderOf<D>::SnapshotReaderOf(const std::filesystem::path& file, const C
   const FlowTimes times = flowTimes(setup);  // steps of an engine need not end with them
   to_ = times.end() + 0.5 * times.interval;
   // As engines are averaged: not at the instant that averaging begins at, unless nothing else is
-  // there. Half a step, or the last of six digits, is that instant.
-  const double slack = std::max(0.5 * timeStep(setup), 2e-6 * std::abs(times.settled));
+  // there.
+  const double slack = instantSlack(timeStep(setup), times.settled);
   from_ = times.settled + slack;
   bool begins = false, any = false;
   for (std::size_t k = 0; k < count_; ++k) {
