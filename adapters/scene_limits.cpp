@@ -24,12 +24,10 @@ std::string describe(const std::vector<Motion::Kind>& kinds) {
 
 /// The first of a scene that is none of them.
 template <int D>
-std::optional<double> otherInertia(const std::vector<double>& allowed, const DisksOf<D>& disks) {
-  constexpr double roundings = 1e-9;  // of J = q m a² and back
+std::optional<double> otherInertia(const SceneLimits& limits, const DisksOf<D>& disks) {
   for (std::size_t k = 0; k < disks.size(); ++k) {
     const double q = disks.inertia[k] / (disks.mass[k] * disks.radius[k] * disks.radius[k]);
-    if (std::ranges::none_of(allowed, [&](double a) { return std::abs(q - a) <= roundings * a; }))
-      return q;
+    if (!hasInertia(limits, q)) return q;
   }
   return std::nullopt;
 }
@@ -92,12 +90,19 @@ bool pairsDiffer(const SceneOf<D>& scene) {
 
 }  // namespace
 
+bool hasInertia(const SceneLimits& limits, double q) {
+  constexpr double roundings = 1e-9;  // of J = q m a² and back
+  return !limits.inertia || std::ranges::any_of(*limits.inertia, [&](double a) {
+    return std::abs(q - a) <= roundings * a;
+  });
+}
+
 template <int D>
 std::vector<std::string> beyondLimits(const SceneLimits& limits, const SceneOf<D>& scene,
                                       bool softLawStoodFor) {
   std::vector<std::string> reasons;
-  if (limits.inertia && effectsOf(scene).contains(Effect::rotation))
-    if (const auto q = otherInertia(*limits.inertia, scene.disks))
+  if (effectsOf(scene).contains(Effect::rotation))
+    if (const auto q = otherInertia(limits, scene.disks))
       reasons.push_back(fmt::format("has moments of inertia of {} m a², not {:.6g} m a²",
                                     fmt::join(*limits.inertia, " | "), *q));
   for (const auto& body : scene.bodies) {

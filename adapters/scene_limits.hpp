@@ -22,6 +22,9 @@ struct SceneLimits {
   bool restitutionPerBody = false;
 };
 
+/// Whether disks may have J = q m a², to within roundings.
+bool hasInertia(const SceneLimits& limits, double q);
+
 /// What in a scene is beyond them, one clause each. Empty: nothing.
 /// @param softLawStoodFor  the engine has rigid contacts in place of the scene's law
 template <int D>

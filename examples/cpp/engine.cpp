@@ -257,7 +257,7 @@ class Run {
 
 class Engine {
  public:
-  explicit Engine(Json dimensions) : dimensions_(std::move(dimensions)) {}
+  explicit Engine(bool spheresAlone) : spheresAlone_(spheresAlone) {}
 
   Json capabilities() const {
     Json effects;  // what is missing is "never"
@@ -265,32 +265,34 @@ class Engine {
                              "tangential_damping", "rotation", "gravity", "moving_walls"})
       effects[name] = "optional";
     const auto only = [](const char* value) { return Json::array({value}); };
-    return {{"version", "1"},
-            {"dimensions", dimensions_},
-            {"periodic", true},
-            {"effects", effects},
-            {"law_options",
-             {{"normal", only("linear")},
-              {"damper", only("constant")},
-              {"tangential", {"none", "spring", "spring_dashpot"}},
-              {"tension", only("allow")},
-              {"coulomb_bound", only("compression")},
-              {"dashpot", only("inside")},
-              {"spring_reset", only("total")},
-              {"spring_update", only("after")},
-              {"lever_arm", only("radius")},
-              {"velocity_arm", only("lever_arm")},
-              {"history", only("displacement")},
-              {"damping_velocity", only("lagged")},
-              {"integrator", only("semi_implicit_euler")},
-              {"spring_turn", only("rescaled")},
-              {"spring_twist", only("none")}}},
-            {"precisions", only("double")},
-            {"instant_contacts", true},
-            {"accumulated_contacts", false},
-            {"warm_handover", false},
-            {"sliding_flags", true},
-            {"settings", Json::array()}};
+    Json can = {{"version", "1"},
+                {"dimensions", spheresAlone_ ? Json{3} : Json{2, 3}},
+                {"periodic", true},
+                {"effects", effects},
+                {"law_options",
+                 {{"normal", only("linear")},
+                  {"damper", only("constant")},
+                  {"tangential", {"none", "spring", "spring_dashpot"}},
+                  {"tension", only("allow")},
+                  {"coulomb_bound", only("compression")},
+                  {"dashpot", only("inside")},
+                  {"spring_reset", only("total")},
+                  {"spring_update", only("after")},
+                  {"lever_arm", only("radius")},
+                  {"velocity_arm", only("lever_arm")},
+                  {"history", only("displacement")},
+                  {"damping_velocity", only("lagged")},
+                  {"integrator", only("semi_implicit_euler")},
+                  {"spring_turn", only("rescaled")},
+                  {"spring_twist", only("none")}}},
+                {"precisions", only("double")},
+                {"instant_contacts", true},
+                {"accumulated_contacts", false},
+                {"warm_handover", false},
+                {"sliding_flags", true},
+                {"settings", Json::array()}};
+    if (spheresAlone_) can["inertia"] = Json{0.4};  // q of J = q m a²; any if missing
+    return can;
   }
 
   Json load(const Json& scene, const Arrays& arrays, const Json&) {
@@ -311,7 +313,7 @@ class Engine {
   }
 
  private:
-  Json dimensions_;
+  bool spheresAlone_;
   std::variant<Run<2>, Run<3>> run_;
 };
 
@@ -319,5 +321,5 @@ class Engine {
 
 int main(int argc, char** argv) {
   const bool spheresAlone = argc > 1 && std::string(argv[1]) == "3";
-  return serve(Engine(spheresAlone ? Json{3} : Json{2, 3}));
+  return serve(Engine(spheresAlone));
 }

@@ -247,6 +247,23 @@ ContactLaw followed(const Capabilities& can, ContactLaw law) {
   return law;
 }
 
+double CheckContext::inertiaFactor() const {
+  const auto& has = can.limits.inertia;
+  if (!has || has->empty() || hasInertia(can.limits, solidDisk)) return solidDisk;
+  return has->front();
+}
+
+Scene CheckContext::withItsInertia(Scene wanted) const {
+  const double factor = inertiaFactor();
+  Disks& disks = wanted.disks;
+  for (std::size_t k = 0; k < disks.size(); ++k) {
+    const double square = disks.mass[k] * disks.radius[k] * disks.radius[k];
+    if (std::abs(disks.inertia[k] - solidDisk * square) < 1e-12 * square)
+      disks.inertia[k] = factor * square;
+  }
+  return wanted;
+}
+
 bool CheckContext::inHouse() const {
   return entry.name == engineRegistry().front().name || !entry.mirrors.empty();
 }
@@ -255,7 +272,7 @@ Scene CheckContext::simplified(const Scene& whole) const {
   std::vector<std::string> effects;
   for (const Effect effect : allEffects) effects.push_back(toString(effect));
   effects.emplace_back(tangentialRestitutionName);
-  return adaptScene(can, whole, effects).scene;
+  return adaptScene(can, withItsInertia(whole), effects).scene;
 }
 
 ContactReport CheckContext::contactReport() const {
@@ -275,7 +292,7 @@ std::optional<std::string> CheckContext::refusal(const Scene& wanted, const Sett
   Settings settings = changed;
   settings.insert(entry.settings.begin(), entry.settings.end());
   try {
-    scene = adaptScene(can, wanted, {}).scene;
+    scene = adaptScene(can, withItsInertia(wanted), {}).scene;
     effective = engine.load(scene, settings);
     return std::nullopt;
   } catch (const UnsupportedScene& unsupported) {
@@ -290,8 +307,9 @@ void CheckContext::load(const Scene& wanted, const Settings& settings) {
 void CheckContext::loadWithinLimits(const Scene& wanted) {
   const auto why = refusal(wanted);
   if (!why) return;
+  const Scene asked = withItsInertia(wanted);
   const bool declared =
-      !mismatches(can, wanted).empty() || !beyondLimits(can.limits, wanted, false).empty();
+      !mismatches(can, asked).empty() || !beyondLimits(can.limits, asked, false).empty();
   require(declared, text("refuses what none of its capabilities excludes: ", *why));
   skip(*why);
 }

@@ -174,6 +174,10 @@ class CheckContext {
   ContactLaw law() const { return followed(can, fullLaw()); }
   /// Rigid disks have no duration of contact, and no oracle of the soft law applies to them.
   bool rigid() const { return law().normal == NormalLaw::rigid; }
+  /// q of J = q m a² of disks: ½, that of solid ones, unless the engine lacks it and has others.
+  double inertiaFactor() const;
+  /// The scene with that moment of inertia where it has solid disks: what is loaded.
+  Scene withItsInertia(Scene wanted) const;
   /// It is the in-house engine, with whatever conventions.
   bool inHouse() const;
   /// The scene without effects that the engine does not have, for checks that need something to
@@ -260,7 +264,8 @@ class CheckContext {
 /// Has the engine load a scene of D dimensions, which may differ from what it has in conventions.
 /// @returns the scene as it runs it  @throws Skipped
 template <int D>
-SceneOf<D> loaded(CheckContext& c, const SceneOf<D>& wanted) {
+SceneOf<D> loaded(CheckContext& c, SceneOf<D> wanted) {
+  if constexpr (D == 2) wanted = c.withItsInertia(std::move(wanted));
   try {
     const SceneOf<D> scene = adaptScene(c.can, wanted, {}).scene;
     c.effective = loadOn<D>(c.engine, scene, c.entry.settings);

@@ -270,7 +270,7 @@ void contactForcesAreThoseThatAct(CheckContext& context) {
     const double spun = spinsOf(scene, seen.back())[id] - spinsOf(scene, seen.front())[id];
     context.near(impulse, Vec2(scene.disks.mass[id] * gained), sum,
                  "the sum of forces over time against the change of momentum [kg m/s]");
-    context.near(angularImpulse, scene.disks.inertia[id] * spun,
+    context.near(angularImpulse, context.scene.disks.inertia[id] * spun,
                  {sum.absolute * smallRadius, 0.0, sum.why},
                  "the sum of torques over time against the change of angular momentum [kg m²/s]");
   }
@@ -313,7 +313,7 @@ void energyLedgerIsClosed(CheckContext& context) {
     const Snapshot after = context.run(scene, Encounter::end);
     context.examine(energyLedger);
     context.require(after.ledger.has_value(), "it declares an energy ledger, and shows none");
-    context.near(after.ledger->kinetic, kineticEnergy(scene, after),
+    context.near(after.ledger->kinetic, kineticEnergy(context.scene, after),
                  context.byPrecision(1e-9, 1e-4, "roundings of the additions"),
                  "its kinetic energy [J]");
     left[k] = std::abs(residual(*after.ledger)) / after.ledger->initial;

@@ -117,15 +117,12 @@ void unequalDisksFollowTheOracle(CheckContext& context) {
   context.examine(severalSizes);
 }
 
-/// A ring's, and a sphere's: what a scene says, and not what a disk of that mass and radius has.
+/// A ring's, and a sphere's or a disk's: what a scene says, and not what all others have.
 void inertiaIsTheScenes(CheckContext& context) {
   bool any = false;
   Evidence evidence;
-  for (const double factor : {0.4, 1.0}) {
-    const auto& allowed = context.can.limits.inertia;
-    if (allowed &&
-        std::ranges::none_of(*allowed, [&](double q) { return std::abs(q - factor) < 1e-6; }))
-      continue;
+  for (const double factor : {0.4, solidDisk, 1.0}) {
+    if (factor == context.inertiaFactor() || !hasInertia(context.can.limits, factor)) continue;
     any = compared(
               context,
               {.law = context.law(), .inertiaFactor = factor, .starts = startsOf(Approach::spin)},
@@ -133,7 +130,7 @@ void inertiaIsTheScenes(CheckContext& context) {
           any;
   }
   evidence.explain(context);
-  if (!any) context.skip("declares no other moments of inertia than those of disks");
+  if (!any) context.skip("declares moments of inertia of one kind alone");
 }
 
 void wallDisksFollowTheOracle(CheckContext& context) {
@@ -240,7 +237,7 @@ class MirrorPair {
   void load(Scene scene) {
     scene.law = followed(can, scene.law);
     try {
-      scene.dt = peer->load(scene, settings).dt;
+      scene.dt = peer->load(context.withItsInertia(scene), settings).dt;
     } catch (const UnsupportedScene& refusal) {
       context.skip(refusal.what());
     }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double heavy = 1e9;  // times as heavy as the disk: a wall to nine digits
 
-Case setupOf(const Meeting& meeting) {
+Case setupOf(const CheckContext& context, const Meeting& meeting) {
   const bool wallDisk = meeting.partner == Partner::wallDisk;
   Case setup;
   setup.name = "conformance";
@@ -31,7 +31,7 @@ Case setupOf(const Meeting& meeting) {
   collision.mass[0] = smallMass;
   collision.mass[1] = wallDisk ? heavy * smallMass : meeting.mass;
   collision.startPhase = meeting.flight;
-  collision.inertiaFactor = meeting.inertiaFactor;
+  collision.inertiaFactor = meeting.inertiaFactor.value_or(context.inertiaFactor());
   return setup;
 }
 
@@ -42,6 +42,7 @@ Scene withWallDisks(Scene scene) {
   const Disks all = std::exchange(scene.disks, {});
   for (std::size_t k = 0; k < all.size(); k += 2) {
     addDisk(scene, all.radius[k], all.mass[k], all.position[k], all.velocity[k], all.spin[k]);
+    scene.disks.inertia.back() = all.inertia[k];
     wall.diskPosition.push_back(all.position[k + 1]);
     wall.diskRadius.push_back(all.radius[k + 1]);
   }
@@ -61,11 +62,6 @@ Snapshot withoutWallDisks(const Snapshot& now) {
   return all;
 }
 
-Scene wholeOf(const Meeting& meeting) {
-  return collisionScene(setupOf(meeting), meeting.starts,
-                        emptyScene(meeting.law, meeting.steps).dt);
-}
-
 /// The oracle's outcome; none for conventions that have no limit of small steps.
 std::optional<CollisionEnd> oracle(const ContactLaw& law, const CollidingPair& pair,
                                    const CollisionStart& start) {
@@ -80,7 +76,7 @@ std::optional<CollisionEnd> oracle(const ContactLaw& law, const CollidingPair& p
 
 using Ends = std::vector<std::optional<CollisionEnd>>;
 
-/// @param whole  wholeOf(meeting), which the engine has loaded
+/// @param whole  MeetingResult::whole
 Ends endsOf(Engine& engine, const Meeting& meeting, const Scene& whole, double t) {
   engine.advance(t);
   Snapshot after = engine.snapshot(ContactReport::none);
@@ -281,10 +277,15 @@ std::vector<Suspect> suspectsOf(const std::vector<Met>& met) {
   all.push_back({"torque", [=](const Met& one, const CollisionStart& start, double factor) {
                    return withInertia(one, start, 1.0 / factor);
                  }});
-  if (any([](const Met& one) { return one.meeting->inertiaFactor != 0.5; }))
+  // Of solid disks, by that of the scene.
+  const auto asSolid = [](const Met& one) {
+    const CollidingPair& pair = one.outcome.pair;
+    return solidInertia(pair.mass[0], pair.radius[0]) / pair.inertia[0];
+  };
+  if (any([&](const Met& one) { return std::abs(asSolid(one) - 1.0) > 1e-9; }))
     all.push_back({"the moment of inertia is ½ m a², whatever the scene says",
                    [=](const Met& one, const CollisionStart& start, double) {
-                     return withInertia(one, start, 0.5 / one.meeting->inertiaFactor);
+                     return withInertia(one, start, asSolid(one));
                    },
                    1.0});
   if (first.law.soft()) {
@@ -427,17 +428,18 @@ MeetingResult withoutTruncation(MeetingResult found, const Meeting& meeting, con
 }
 
 /// What the in-house engine does with the law and in the steps of what another has run.
-Ends inHouseEnds(const Scene& mirrored, const Meeting& meeting, double time) {
+Ends inHouseEnds(const Scene& mirrored, const Meeting& meeting, const MeetingResult& outcome) {
   const auto mirror = engineRegistry().front().make();
   mirror->load(mirrored, {});
-  return endsOf(*mirror, meeting, wholeOf(meeting), time);
+  return endsOf(*mirror, meeting, outcome.whole, outcome.time);
 }
 
 }  // namespace
 
 std::optional<MeetingResult> meet(CheckContext& context, const Meeting& meeting, std::string* why) {
-  const CollidingPair pair = collidingPair(setupOf(meeting));
-  const Scene whole = wholeOf(meeting);
+  const Case setup = setupOf(context, meeting);
+  const CollidingPair pair = collidingPair(setup);
+  Scene whole = collisionScene(setup, meeting.starts, emptyScene(meeting.law, meeting.steps).dt);
   const Scene scene =
       shifted(meeting.partner == Partner::wallDisk ? withWallDisks(whole) : whole, meeting.place);
   if (const auto refusal = context.refusal(scene)) {
@@ -455,9 +457,9 @@ std::optional<MeetingResult> meet(CheckContext& context, const Meeting& meeting,
   for (const CollisionStart& start : meeting.starts)
     longest =
         std::max(longest, impactTime(soft, {pair.reducedMass(), pair.reducedRadius(), start.vn}));
-  MeetingResult outcome{
-      *law, pair, {}, meeting.flight * whole.dt + 2.5 * longest + 20.0 * context.effective.dt};
-  outcome.ends = endsOf(context.engine, meeting, whole, outcome.time);
+  const double time = meeting.flight * whole.dt + 2.5 * longest + 20.0 * context.effective.dt;
+  MeetingResult outcome{*law, pair, std::move(whole), {}, time};
+  outcome.ends = endsOf(context.engine, meeting, outcome.whole, time);
   return outcome;
 }
 
@@ -494,7 +496,7 @@ bool Evidence::expectTheOracle(CheckContext& context, const Meeting& meeting,
   // them; that one with nothing.
   if (!context.inHouse() && outcome.law.soft() &&
       !std::ranges::all_of(wanted, [](const auto& end) { return end.has_value(); })) {
-    const Ends theirs = inHouseEnds(mirrored, meeting, outcome.time);
+    const Ends theirs = inHouseEnds(mirrored, meeting, outcome);
     for (std::size_t k = 0; k < wanted.size(); ++k)
       if (!wanted[k]) wanted[k] = theirs[k];
   }
@@ -512,7 +514,7 @@ void Evidence::explain(CheckContext& context) const {
   std::vector<Met> met;
   for (const One& one : all_) {
     const bool steps = !context.inHouse() && one.outcome.law.soft();
-    const Ends inSteps = steps ? inHouseEnds(one.mirrored, one.meeting, one.outcome.time) : Ends();
+    const Ends inSteps = steps ? inHouseEnds(one.mirrored, one.meeting, one.outcome) : Ends();
     met.push_back({&one.meeting, withoutTruncation(one.outcome, one.meeting, inSteps)});
     const Ends right = oracleEnds(one.outcome.law, one.outcome.pair, one.meeting.starts);
     for (std::size_t k = 0; k < right.size(); ++k)

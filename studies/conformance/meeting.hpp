@@ -17,7 +17,7 @@ struct Meeting {
   ContactLaw law = {};
   Partner partner = Partner::disk;
   double radius = smallRadius, mass = smallMass;  ///< of the partner, of a disk [m, kg]
-  double inertiaFactor = 0.5;                     ///< q of J = q m a², of disks
+  std::optional<double> inertiaFactor = {};  ///< q of J = q m a²; absent: as the engine has disks
   std::vector<CollisionStart> starts = {};
   Vec2 wallVelocity = Vec2::Zero();  ///< of a plane, (along its normal, along it) [m/s]
   double steps = fineSteps;          ///< in a contact of two small disks
@@ -29,6 +29,7 @@ struct Meeting {
 struct MeetingResult {
   ContactLaw law;  ///< that the engine declares, its constants included
   CollidingPair pair;
+  Scene whole;  ///< that is loaded, with both of each pair as disks and not shifted
   std::vector<std::optional<CollisionEnd>> ends;  ///< absent: they did not part
   double time;                                    ///< of the snapshot [s]
 };

@@ -150,8 +150,9 @@ void bottomPlateBrakesADisk(CheckContext& context) {
     if (held && !context.faults.empty() && weight != 1.0)
       context.suspect(end == late ? "the bottom plate brakes otherwise late after load"
                                   : "the bottom plate has another gravity than the scene's");
-    const double slower = spin ? 4.0 / 3.0 * lost / smallRadius : 0.0;
-    const Tolerance turn = {4.0 / 3.0 * step.absolute / smallRadius, 0.0, step.why};
+    const double turns = 2.0 / 3.0 / context.inertiaFactor();
+    const double slower = spin ? turns * lost / smallRadius : 0.0;
+    const Tolerance turn = {turns * step.absolute / smallRadius, 0.0, step.why};
     context.near(spinsOf(scene, after)[0], 30.0 - slower, turn, "the spin [rad/s]");
   }
 }
@@ -174,7 +175,7 @@ void bottomPlateHoldsASlowDisk(CheckContext& context) {
     const double brake = plate.tauM * std::abs(force) + plate.gb * omega * smallRadius;
     v += dt * force / smallMass;
     x += dt * v;
-    omega -= dt * 2.0 / 3.0 * smallRadius * brake / smallInertia;
+    omega -= dt * 2.0 / 3.0 * smallRadius * brake / context.scene.disks.inertia[0];
   }
   const Tolerance scheme = {0.0, 0.02, "a first-order scheme at t_c/400"};
   context.near(after.velocity[0].x(), v, {0.02 * speed, 0.0, scheme.why}, "the velocity [m/s]");

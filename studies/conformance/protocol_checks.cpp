@@ -162,12 +162,12 @@ void effectsAreThoseThatItsCapabilitiesSay(CheckContext& context) {
   std::vector<std::string> anything;
   for (const Effect effect : allEffects) anything.push_back(toString(effect));
   for (const LawOption& option : lawOptions()) anything.emplace_back(option.name);
-  Scene scene = adaptScene(context.can, full, anything).scene;
+  Scene scene = adaptScene(context.can, context.withItsInertia(full), anything).scene;
   try {
     context.effective = context.engine.load(scene, context.entry.settings);
   } catch (const UnsupportedScene&) {  // nor can it put another law in this one's place
     full = plateScene(context.law());
-    scene = adaptScene(context.can, full, anything).scene;
+    scene = adaptScene(context.can, context.withItsInertia(full), anything).scene;
     context.effective = context.engine.load(scene, context.entry.settings);
   }
   for (const Effect effect : effectsOf(full))
@@ -312,7 +312,7 @@ void expectNothingOfAnother(CheckContext& context, const Scene& scene) {
   if (context.refusal(other)) return;
   const auto worker = context.start(context.entry);
   for (const Scene& each : {other, scene}) {
-    worker->load(each, context.entry.settings);
+    worker->load(context.withItsInertia(each), context.entry.settings);
     worker->advance(busyEnd);
   }
   context.expect(sameBits(worker->snapshot(context.contactReport()), wanted),
@@ -328,7 +328,7 @@ void workersAgreeBitForBit(CheckContext& context) {
   const Scene scene = context.busy();
   const Snapshot here = context.run(scene, busyEnd);
   const auto other = context.start(context.entry);
-  other->load(scene, context.entry.settings);
+  other->load(context.scene, context.entry.settings);
   other->advance(busyEnd);
   context.expect(sameBits(other->snapshot(context.contactReport()), here), "two workers");
 }

@@ -77,8 +77,9 @@ void harnessRefusesWhatTheEngineLacks(CheckContext& context) {
 void engineRefusesOrSaysHowItDeviates(CheckContext& context) {
   const auto expectHonest = [&](const Scene& scene, const std::string& what) {
     EffectiveParameters effective;
-    const std::string why = refusalOf<UnsupportedScene>(
-        [&] { effective = context.engine.load(scene, context.entry.settings); });
+    const std::string why = refusalOf<UnsupportedScene>([&] {
+      effective = context.engine.load(context.withItsInertia(scene), context.entry.settings);
+    });
     if (why.empty()) {
       context.expect(std::ranges::count(effective.deviations, what, &Deviation::name) > 0,
                      text("runs ", what, " without a deviation"));
@@ -101,7 +102,7 @@ void engineRefusesOrSaysHowItDeviates(CheckContext& context) {
 void livesOnAfterARefusal(CheckContext& context) {
   const Scene scene = encounterScene(crookedEncounter(), context.law(), coarseSteps);
   const Snapshot before = context.run(scene, Encounter::end);
-  Scene other = scene;
+  Scene other = context.scene;
   other.law.normal = context.rigid() ? NormalLaw::linear : NormalLaw::rigid;
   refusalOf<UnsupportedScene>([&] { context.engine.load(other, context.entry.settings); });
   context.expect(sameBits(context.run(scene, Encounter::end), before),

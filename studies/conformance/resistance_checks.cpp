@@ -40,9 +40,10 @@ std::string firstNormal(CheckContext& context) {
 }
 
 /// Two small disks, or one on a plane.
-CollidingPair smallPair(bool plane) {
-  if (plane) return diskOnWall(smallRadius, smallMass, smallInertia);
-  return {{smallRadius, smallRadius}, {smallMass, smallMass}, {smallInertia, smallInertia}};
+/// @param inertia  of each [kg m²]
+CollidingPair smallPair(bool plane, double inertia) {
+  if (plane) return diskOnWall(smallRadius, smallMass, inertia);
+  return {{smallRadius, smallRadius}, {smallMass, smallMass}, {inertia, inertia}};
 }
 
 // ---- rolling ------------------------------------------------------------------------------------
@@ -52,10 +53,10 @@ CollidingPair smallPair(bool plane) {
 /// moments of inertia:
 ///   A  ω_r − µ_r L p/J,   B  exp(−γ_r L² t_c/J),   by load  exp(−µ_r L² p/J),
 ///   C  cos(t_c √(k_r/J)) while its spring holds.
-double rollsOn(const ContactLaw& law, bool plane, double spin) {
+double rollsOn(const ContactLaw& law, bool plane, double inertia, double spin) {
   const double mass = plane ? smallMass : pairMass;
-  const double inverse = (plane ? 1.0 : 2.0) / smallInertia;
-  const CollidingPair pair = smallPair(plane);
+  const double inverse = (plane ? 1.0 : 2.0) / inertia;
+  const CollidingPair pair = smallPair(plane, inertia);
   const double length = rollingLength(law, pair);
   const double impulse = (law.soft() ? 2.0 : 1.0 + law.en) * mass * Encounter::speed;
   const double duration =
@@ -107,8 +108,9 @@ void rollingFollowsItsClosedForms(CheckContext& context) {
     any = true;
     context.examine(toString(Effect::rollingResistance));
     const ContactLaw own = declared(context);
+    const double inertia = context.scene.disks.inertia[0];
     const std::vector<double> spins = spinsOf(context.scene, context.at(Encounter::end));
-    const double lost = pairSpin - 0.5 * rollsOn(own, false, 2.0 * pairSpin);
+    const double lost = pairSpin - 0.5 * rollsOn(own, false, inertia, 2.0 * pairSpin);
     const double first = pairSpin - spins[0], second = pairSpin + spins[1];
     const bool resists = std::abs(first) > 0.1 * lost;
     if (resists && std::abs(second) < 1e-3 * lost)
@@ -120,7 +122,7 @@ void rollingFollowsItsClosedForms(CheckContext& context) {
 
     if (context.refusal(turningOnPlane(frictionless(law)))) continue;
     const double left = spinsOf(context.scene, context.at(Encounter::end))[0];
-    const double lostOnPlane = pairSpin - rollsOn(own, true, pairSpin);
+    const double lostOnPlane = pairSpin - rollsOn(own, true, inertia, pairSpin);
     if (resists && std::abs(pairSpin - left) < 1e-3 * lostOnPlane)
       context.suspectPart("nothing resists rolling at planes");
     context.near(pairSpin - left, lostOnPlane, firstOrderScheme,
@@ -142,7 +144,7 @@ void rollingHoldsASlope(CheckContext& context) {
   const ContactLaw base = lawOf(context.can, firstNormal(context));
   if (base.normal != NormalLaw::linear) context.skip("has no linear law");
   const ContactLaw law = withRolling(base, RollingLaw::spring);
-  const double most = law.muR * rollingLength(law, smallPair(true)) / smallRadius;
+  const double most = law.muR * rollingLength(law, smallPair(true, smallInertia)) / smallRadius;
   for (const auto& [part, end] : {std::pair(holding, soon), {rolling, soon}, {steep, late}}) {
     const double slope = std::atan(part * most);
     Scene scene = emptyScene(law, 100.0);
@@ -153,7 +155,7 @@ void rollingHoldsASlope(CheckContext& context) {
     context.load(scene);
     if (declared(context).kn != law.kn) context.skip("its contacts are stiffer than the scene's");
     const double speed = context.at(end).velocity[0].x();
-    const double free = gravity * std::sin(slope) / 1.5 * soon;
+    const double free = gravity * std::sin(slope) / (1.0 + context.inertiaFactor()) * soon;
     const bool held = context.faults.empty();
     if (part < 1.0)
       context.near(speed, 0.0, {0.02 * free, 0.0, "of the speed without resistance; springs swing"},

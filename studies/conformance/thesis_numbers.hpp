@@ -11,9 +11,11 @@ inline constexpr double wallRadius = 1.25e-3;    ///< of the walls' disks, as ca
 inline constexpr double smallMass = 0.275e-3;    ///< [kg]
 inline constexpr double largeMass = 0.490e-3;    ///< [kg]
 
-/// J of a solid disk, ½ m a² [kg m²].
+/// q of J = q m a² of a solid disk.
+inline constexpr double solidDisk = 0.5;
+/// Its J [kg m²].
 constexpr double solidInertia(double mass, double radius) {
-  return 0.5 * mass * radius * radius;
+  return solidDisk * mass * radius * radius;
 }
 inline constexpr double smallInertia = solidInertia(smallMass, smallRadius);  ///< [kg m²]
 
