@@ -190,13 +190,13 @@ class GrainEngine : public Engine {
     if (const double dt = setting(settings, "dt", 0.0); dt > 0.0) setup.dt = dt;
     setup.skin = setting(settings, "skin", 0.0);
     setup.maxOverlap = setting(settings, "max_overlap", setup.maxOverlap);
-    setup.threads = static_cast<int>(setting(settings, "threads", 1.0));
+    setup.threads = threadsOf(settings);
     rolls_ = law.rolls();
     bonds_ = law.cohesion == CohesionLaw::jkr;
     law_ = law;
     radii_ = scene.radii();
     spins_ = law.friction() || law.rolls();
-    stopwatch_ = {};
+    stopwatch_ = stopwatchOf(settings);
     spheres_.reset();
     simulation_.emplace(std::move(setup));
 
@@ -227,9 +227,9 @@ class GrainEngine : public Engine {
     SpaceScene own = asRun(scene, stiffness);
     if (const double dt = setting(settings, "dt", 0.0); dt > 0.0) own.dt = dt;
     spheres_.emplace(own, setting(settings, "skin", 0.0), setting(settings, "max_overlap", 1.0),
-                     static_cast<int>(setting(settings, "threads", 1.0)));
+                     threadsOf(settings));
     simulation_.reset();
-    stopwatch_ = {};
+    stopwatch_ = stopwatchOf(settings);
     EffectiveParameters effective = spheres_->effective();
     reportStiffness(effective, stiffness);
     return effective;
@@ -341,6 +341,13 @@ class GrainEngine : public Engine {
   }
 
  private:
+  static int threadsOf(const Settings& settings) {
+    return static_cast<int>(setting(settings, "threads", 1.0));
+  }
+  static Stopwatch stopwatchOf(const Settings& settings) {
+    return {.cpuClock =
+                threadsOf(settings) > 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_THREAD_CPUTIME_ID};
+  }
   /// The scene with the engine's own conventions, contacts and time step.
   /// @throws UnsupportedScene for a normal law that it does not have
   template <int D>

@@ -6,17 +6,19 @@ namespace crossgrain {
 
 /// Wall and CPU time summed over laps.
 struct Stopwatch {
+  /// Whose CPU time: the calling thread's; the whole process' where threads share the work.
+  clockid_t cpuClock = CLOCK_THREAD_CPUTIME_ID;
   double wallSeconds = 0.0;
-  double cpuSeconds = 0.0;  ///< of the calling thread
+  double cpuSeconds = 0.0;
 
   /// Adds the time from its construction to its destruction.
   class Lap {
    public:
     explicit Lap(Stopwatch& watch)
-        : watch_(watch), wall_(now(CLOCK_MONOTONIC)), cpu_(now(CLOCK_THREAD_CPUTIME_ID)) {}
+        : watch_(watch), wall_(now(CLOCK_MONOTONIC)), cpu_(now(watch.cpuClock)) {}
     ~Lap() {
       watch_.wallSeconds += now(CLOCK_MONOTONIC) - wall_;
-      watch_.cpuSeconds += now(CLOCK_THREAD_CPUTIME_ID) - cpu_;
+      watch_.cpuSeconds += now(watch_.cpuClock) - cpu_;
     }
     Lap(const Lap&) = delete;
     Lap& operator=(const Lap&) = delete;

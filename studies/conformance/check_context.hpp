@@ -158,7 +158,8 @@ class CheckContext {
   Capabilities can;
   Scene scene;                    ///< the one loaded last
   EffectiveParameters effective;  ///< what the engine made of it
-  bool turned = false;  ///< scenes lie aslant in space: what is seen of them has been turned back
+  bool inSpace = false;  ///< the engine has scenes in space alone, in which those of the plane lie
+  bool turned = false;   ///< so, and aslant: what is seen of them has been turned back
 
   std::vector<std::string> faults;             ///< in the order found; a loop may repeat one
   std::set<std::string> examined;              ///< capabilities in which a fault would be found

@@ -119,10 +119,11 @@ void unequalDisksFollowTheOracle(CheckContext& context) {
 
 /// A ring's, and a sphere's or a disk's: what a scene says, and not what all others have.
 void inertiaIsTheScenes(CheckContext& context) {
-  bool any = false;
+  bool others = false, any = false;
   Evidence evidence;
   for (const double factor : {0.4, solidDisk, 1.0}) {
     if (factor == context.inertiaFactor() || !hasInertia(context.can.limits, factor)) continue;
+    others = true;
     any = compared(
               context,
               {.law = context.law(), .inertiaFactor = factor, .starts = startsOf(Approach::spin)},
@@ -130,7 +131,8 @@ void inertiaIsTheScenes(CheckContext& context) {
           any;
   }
   evidence.explain(context);
-  if (!any) context.skip("declares moments of inertia of one kind alone");
+  if (!others) context.skip("declares no other moments of inertia");
+  if (!any) context.skip("there is no reference for " + nameOf(context.law()));
 }
 
 void wallDisksFollowTheOracle(CheckContext& context) {

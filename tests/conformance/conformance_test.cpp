@@ -65,6 +65,7 @@ constexpr std::array expectedSkips = {
     ExpectedSkip{"grain-stiff", "FollowsItsPeerOnAPlane", "its peer has another normal law"},
     ExpectedSkip{"grain-stiff", "FollowsItsPeerByHertzLaw", "its peer has another normal law"},
     ExpectedSkip{"grain-stiff", "RollingHoldsASlope", "contacts are stiffer"},
+    ExpectedSkip{"grain-as-yade", "InertiaIsTheScenes", "there is no reference"},
     ExpectedSkip{"yade", "RollingHoldsASlope", "has no rolling dashpot"},
     ExpectedSkip{"yade", "MaterialsHaveTheirOwnLaws",
                  "its materials combine like springs in series"},

@@ -7,6 +7,7 @@
 #include "adapters/grain.hpp"
 #include "adapters/law_options.hpp"
 #include "adapters/registry.hpp"
+#include "adapters/stopwatch.hpp"
 #include "adapters/suitability.hpp"
 #include "engines/grain/law.hpp"
 
@@ -271,6 +272,27 @@ TEST(GrainAdapter, StepsInTheScenesPrecision) {
   // float32 holds seven digits; 500 steps add their roundings.
   EXPECT_NEAR((rounded.position[0] - exact.position[0]).norm(), 0.0, 1e-4);
   EXPECT_NE(rounded.velocity[0].x(), exact.velocity[0].x());
+}
+
+// Two threads share every step by half: what they use is about twice what this one uses.
+TEST(GrainAdapter, CpuTime_IsThatOfAllThreads) {
+  Scene scene = oneDisk();
+  constexpr int side = 60;
+  Disks& disks = scene.disks;
+  for (auto* each : {&disks.radius, &disks.mass, &disks.inertia, &disks.spin})
+    each->assign(side * side, each->front());
+  disks.velocity.assign(side * side, Vec2::Zero());
+  disks.position.clear();
+  for (int k = 0; k < side * side; ++k)
+    disks.position.push_back(1.99 * Vec2(k % side, static_cast<double>(k / side)));
+  const auto engine = makeGrain();
+  engine->load(scene, {{"threads", 2.0}});
+  Stopwatch own;
+  {
+    const Stopwatch::Lap lap(own);
+    engine->advance(0.1);
+  }
+  EXPECT_GT(engine->stats().cpuSeconds, 1.3 * own.cpuSeconds);
 }
 
 TEST(GrainAdapter, RunsThePairsOfMaterialsAndReportsTheirConstants) {

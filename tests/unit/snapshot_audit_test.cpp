@@ -307,6 +307,13 @@ TEST(AuditInSpace, ContactsThroughNearestImages) {
              "along the normal");
   contacts.tangentialForce[0] = Vec3(0.01, 0.0, 1e-5);
   EXPECT_EQ(why(), "") << "a thousandth, as normals turn in a step";
+  const auto untouched = contacts;
+  contacts.normalForce[0] = 0.0;
+  contacts.tangentialForce[0] = Vec3(0.0, 0.0, 5e-17);
+  scene.disks.velocity[0].z() = 0.05;
+  EXPECT_EQ(why(), "") << "what roundings of velocities leave of contacts that just touch";
+  scene.disks.velocity[0].z() = 0.0;
+  contacts = untouched;
   contacts.tangentialForce[0] = Vec3::Zero();
   contacts.normalForce[1] = 1e308;
   expectSays(why(), "a force of 1e+308 N would throw all disks out of the scene in a step");
