@@ -360,6 +360,18 @@ INSTANTIATE_TEST_SUITE_P(
                     alone("unused_step", "step_setting=-1", "SettingDtIsUsed", "")),
     [](const auto& one) { return std::string(one.param.name); });
 
+// From the 60 000th step on: more than the others of a scene take.
+INSTANTIATE_TEST_SUITE_P(
+    Later, PlantedFault,
+    testing::Values(Planted{"friction", plantedEntry("later", "mu_late=0.7 late_steps=60000"),
+                            "LateIsAsEarly", "^µ -(2[89]|3[012]) %, at planes, 70000 steps", true},
+                    Planted{"friction_of_disks",
+                            plantedEntry("later", "mu_late=0.7 late_steps=60000"),
+                            "SpringsHoldWhileAnotherFalls", "^two disks meet otherwise late", true},
+                    Planted{"gravity", plantedEntry("later", "gravity_late=0.95 late_steps=60000"),
+                            "SpringsHoldWhileAnotherFalls", "", true}),
+    [](const auto& one) { return std::string(one.param.name); });
+
 INSTANTIATE_TEST_SUITE_P(
     One, PlantedFault,
     testing::Values(Planted{"spin_at_planes", plantedEntry("wallspin", "plane_spin=-1"),

@@ -97,7 +97,9 @@ class Simulation {
   Vector stored(Vector vector) const;
   void moveWalls();
   void addForces(double ahead);
-  bool late() const { return now() > 1.0; }
+  bool late() const {
+    return faults_.lateSteps > 0.0 ? static_cast<double>(steps_) > faults_.lateSteps : now() > 1.0;
+  }
   void addPlate(std::size_t i);
   void addPairs();
   Memory& memoryOf(Pair& pair);

@@ -138,7 +138,8 @@ struct Faults {
   double muOdd = given("mu_odd", 1.0);  ///< of contacts of disks with odd numbers
   double muAnticlockwise = given("mu_anticlockwise", 1.0);  ///< of contacts with positive slip
 
-  // Right here and soon; late is more than 1 s after load.
+  // Right here and soon; late is more than 1 s after load, or so many steps.
+  double lateSteps = given("late_steps", 0.0);
   double muFar = given("mu_far", 1.0);    ///< of contacts of disks farther than 1 m from the origin
   double muLate = given("mu_late", 1.0);  ///< of contacts later than 1 s after load
   double gravityLate = given("gravity_late", 1.0);
