@@ -57,8 +57,30 @@ class Peer(SystemTest):
         return done, {row["engine"]: row for row in self.rows("collisions.csv") if float(row["psi_i"]) == 4.0}
 
 
+class OutOfTheBox:
+    """Cases without a convention, which say what was measured or follows from closed forms, not from this project."""
+
+    def test_benchmarks_without_a_convention(self):
+        done = self.run_program(
+            "collide", CASES / "space/benchmarks.toml", "--engines", self.engine, "--quiet", "--fresh", "--out", self.out,
+            *settings(run__mirrors="false", collision__steps_per_contact=[100]),
+        )  # fmt: skip
+        self.assert_status(done, HELD)
+        curves = [curve for variant in self.results()["variants"] for curve in variant["curves"]]
+        self.assertEqual(["held", "held"], [curve["score"]["verdict"] for curve in curves])
+        for name, endpoints in (("mfix-dem01", 3), ("mfix-dem03", 4), ("mfix-dem04", 2)):
+            done = self.run_program(
+                "compare", CASES / f"space/{name}.toml", "--engines", f"grain,{self.engine}", "--quiet", "--fresh", "--out", self.out
+            )
+            self.assert_status(done, HELD)
+            judged = [row["answer"] for row in self.rows("endpoints.csv") if row["kind"] == "closed_form"]
+            self.assertEqual(["small_difference"] * 2 * endpoints, judged, name)
+
+
 @unittest.skipUnless(shutil.which("yade"), "yade is not installed (Debian: package yade)")
-class Yade(Peer):
+class Yade(OutOfTheBox, Peer):
+    engine = "yade"
+
     def test_is_the_law_that_it_declares(self):
         row = self.lockstep("yade")
         self.assertEqual("same_law", row["verdict"])
@@ -157,7 +179,9 @@ DIAMETER = 2 * 3.7e-3  # m, of a small disk of the quick cell
 
 @unittest.skipUnless(shutil.which("lmp"), "LAMMPS is not installed (Debian: package lammps)")
 @unittest.skipUnless(shutil.which("mpirun"), "there is no mpirun (Debian: package openmpi-bin)")
-class Lammps(Peer):
+class Lammps(OutOfTheBox, Peer):
+    engine = "lammps"
+
     def test_is_the_law_that_it_declares_on_one_rank_and_two(self):
         """Law, conventions, the wheel's motion, forces read back; Mindlin's spring as displacement and as force."""
         hertz = CASES / "cost/hertz.toml"
@@ -316,7 +340,9 @@ class Lammps(Peer):
 
 
 @unittest.skipUnless(shutil.which("liggghts"), "liggghts is not installed (./setup --engines all)")
-class Liggghts(Peer):
+class Liggghts(OutOfTheBox, Peer):
+    engine = "liggghts"
+
     def test_is_its_law_along_a_flow_and_in_collisions(self):
         """Contacts that open and close again within a list's life are in these windows; an old spring showed as 2 % of k_n."""
         row = self.lockstep("liggghts")
