@@ -9,11 +9,11 @@
 
 namespace crossgrain::inline studies {
 
-ErrorUnit errorUnit(const std::vector<double>& oracle) {
+ErrorUnit errorUnit(const std::vector<double>& oracle, double zero) {
   if (oracle.empty()) return {ErrorUnitKind::absolute, 1.0};
   const auto [low, high] = std::ranges::minmax(oracle);
   const double range = high - low, magnitude = std::max(std::abs(low), std::abs(high));
-  if (magnitude == 0.0) return {ErrorUnitKind::absolute, 1.0};
+  if (magnitude <= zero) return {ErrorUnitKind::absolute, 1.0};
   return range < 0.1 * magnitude ? ErrorUnit{ErrorUnitKind::magnitude, magnitude}
                                  : ErrorUnit{ErrorUnitKind::range, range};
 }
@@ -29,7 +29,7 @@ ErrorUnit errorUnitOf(const CollisionQuantity& quantity, const std::vector<doubl
   using enum CollisionQuantity::Scored;
   if (quantity.scored == energyFraction) return {ErrorUnitKind::energyBefore, 1.0};
   if (quantity.scored == byLargest) return {ErrorUnitKind::magnitude, std::ranges::max(oracle)};
-  return errorUnit(oracle);
+  return errorUnit(oracle, oracleIsGoodTo);
 }
 
 /// Absent where engine and oracle have no collision in common that has this quantity.

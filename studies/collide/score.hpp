@@ -23,7 +23,10 @@ struct ErrorUnit {
 /// The range of the oracle's curve, so that no part of it is favoured; where that is below a tenth
 /// of the curve's largest magnitude, as e_n of a linear law, that magnitude; 1 for a curve that is
 /// zero throughout. (Energies are scored in units of the energy before, not by this.)
-ErrorUnit errorUnit(const std::vector<double>& oracle);
+/// @param zero  what is no larger is 0, as the sum of opposite spins to rounding
+ErrorUnit errorUnit(const std::vector<double>& oracle, double zero = 0.0);
+/// The same of numbers by the speed of approach.
+inline constexpr double oracleIsGoodTo = 1e-11;
 
 /// Whether at least half of the outcomes are there: fewer are no curve to judge by.
 bool mostAreKnown(const Outcomes& outcomes);

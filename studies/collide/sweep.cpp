@@ -63,7 +63,7 @@ std::optional<double> marginOfPsi(const Case& setup, const OracleCurve& oracle) 
   std::vector<double> psi;
   for (const auto& end : oracle.ends)
     if (end && end->parted) psi.push_back(end->psi);
-  return margin->second.value * errorUnit(psi).value;
+  return margin->second.value * errorUnit(psi, oracleIsGoodTo).value;
 }
 
 /// Margins by which Ψ_f moves at a jump at least.

@@ -16,6 +16,9 @@ TEST(ErrorUnit, CurveWithHardlyAnyRange_TakesItsMagnitude) {
   EXPECT_EQ(errorUnit({-0.34, -0.341}).value, 0.341);
   EXPECT_EQ(errorUnit({0.0, 0.0}).kind, ErrorUnitKind::absolute);
   EXPECT_EQ(errorUnit({0.0, 0.0}).value, 1.0);
+  // Opposite spins, and what their sum leaves: an engine that has 0 is right.
+  EXPECT_EQ(errorUnit({1.7e-17, 0.0}, oracleIsGoodTo).kind, ErrorUnitKind::absolute);
+  EXPECT_EQ(errorUnit({1.7e-17, 0.0}, oracleIsGoodTo).value, 1.0);
 }
 
 /// Outcomes with these Ψ_f, all else alike.
