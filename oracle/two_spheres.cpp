@@ -165,6 +165,12 @@ Vec3 TwoSpheres::holdingForce(const State& s, const Kinematics& k) const {
   return -slipRate(s, k, motion(s, k, Vec3::Zero())) / compliance;
 }
 
+/// e of a slip. Beside a bound of 0 it turns at any rate, and within a step its length goes astray:
+/// were that a part of its rate, the more the longer it is.
+Vec3 directionOf(const State& s) {
+  return s.spring().normalized();
+}
+
 Vec3 TwoSpheres::tangentialForce(const State& s, const Kinematics& k) const {
   switch (phase_) {
     case Phase::free:
@@ -174,7 +180,7 @@ Vec3 TwoSpheres::tangentialForce(const State& s, const Kinematics& k) const {
     case Phase::sticks:
       return heldForce(s, k);
     case Phase::slidesSpring:
-      return -bound(k) * s.spring();
+      return -bound(k) * directionOf(s);
     case Phase::slides:
       return -bound(k) * k.slip.normalized();
     case Phase::holds:
@@ -261,8 +267,9 @@ State TwoSpheres::derivative(const State& s) const {
     const double holds = bound(k);
     if (!(holds > 0.0)) return rate;
     const Pull pull = pulled(s, k, rate);
-    const Vec3 turns = shareOfStretching(pull, spring, boundRate(k)) * pull.spring + pull.dashpot;
-    rate.at(12) += (turns - turns.dot(spring) * spring) / holds;
+    const Vec3 along = directionOf(s);
+    const Vec3 turns = shareOfStretching(pull, along, boundRate(k)) * pull.spring + pull.dashpot;
+    rate.at(12) += (turns - turns.dot(along) * along) / holds;
   }
   return rate;
 }
@@ -290,7 +297,7 @@ bool TwoSpheres::lasts(const State& s) const {
     case Phase::holds:
       return holdingForce(s, k).norm() <= bound(k);
     case Phase::slidesSpring:
-      return growth(pulled(s, k, derivative(s)), s.spring()) > boundRate(k);
+      return growth(pulled(s, k, derivative(s)), directionOf(s)) > boundRate(k);
     case Phase::slides:
       if (law_.tangential == TangentialLaw::viscous)
         return tangentialDamping(k.overlap).value * k.slip.norm() > bound(k);

@@ -537,6 +537,32 @@ TEST(TwoSpheres, ImpactOutOfAPlane_IsTheLimitOfItsLawInSmallSteps) {
   EXPECT_GE(compared, all * 8 / 10);
 }
 
+/// Of a slip whose bound comes to 0 its force turns at any rate: psi_f was 1e101 at some of these.
+TEST(TwoSpheres, SlipWhoseBoundEnds_IsTheLimitOfItsLawInSmallSteps) {
+  ContactLaw law;
+  law.dimension = 3;
+  law.tangential = TangentialLaw::spring;
+  law.kn = 189388.91374371207;
+  law.gn = 4.3511817881549515;
+  law.kt = 217188.01582224265;
+  law.mu = 0.1289707269678417;
+  law.conventions.tension = Tension::cut;
+  CollidingPair pair{{0.00431549222074355, 0.00684417355539732},
+                     {0.0006141746011967853, 0.0025873298000221585},
+                     {}};
+  for (const int side : {0, 1})
+    pair.inertia[side] = 0.4 * pair.mass[side] * pair.radius[side] * pair.radius[side];
+  for (const double psi : {3.1, 3.13, 3.162, 3.2}) {
+    CollisionStart start{psi, 0.9794527727163458, Approach::oblique};
+    start.spinOutOfPlane[0] = {-280.24134054397314, 147.7959328169972};
+    start.spinOutOfPlane[1] = {295.0150732904194, 46.93315850124361};
+    const CollisionEnd end = oracleOutcome(law, pair, start);
+    const NineNumbers off = 2.0 * steppedThrough(law, pair, start, 16000) -
+                            steppedThrough(law, pair, start, 8000) - numbersOf(end, pair);
+    EXPECT_LT(off.cwiseAbs().maxCoeff(), 3e-4) << "psi " << psi << ": " << off.transpose();
+  }
+}
+
 ContactLaw rigidLaw(int dimension = 3) {
   ContactLaw law;
   law.dimension = dimension;
