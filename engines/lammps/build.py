@@ -146,6 +146,7 @@ class Scene:
 
     def set_up(self, position, kind, skin):
         """An empty box for atoms of that many types."""
+        everywhere = self.region(position)
         self.run(
             f"""units si
             dimension {self.space}
@@ -154,18 +155,19 @@ class Scene:
             boundary {self.boundary("s")}
             newton off
             comm_modify vel yes
-            region everywhere block {self.region(position)}
+            region everywhere block {everywhere}
             create_box {len(self.materials_of_types)} everywhere"""
         )
 
     def order_of_atoms(self):
         """Where a pair (i, j) becomes (j, i), LAMMPS reverses its springs: right of the tangential one, wrong of that of
         rolling, which is the same seen from either side. That happens as atoms are sorted or go over to another rank.
-        Bonds (jkr.py) are known of the atoms of one rank, in the order of their ids.
+        Bonds (jkr.py) are known of the atoms of one rank, in the order of their ids. Atoms are sorted by bins, of which a
+        huge box has more than LAMMPS can count.
 
         @raise Unsupported for several ranks"""
         if not (self.law.rolls or self.law.bonds):
-            return ""
+            return "" if self.bins < MOST_BINS else " sort 0 0"
         if self.lammps.place()[1] > 1:
             what = "rolling_resistance" if self.law.rolls else 'cohesion = "jkr"'
             raise Unsupported(f"has {what} on one rank alone (README.md of engines/lammps)")
