@@ -36,6 +36,21 @@ constexpr std::pair<std::string_view, std::string_view> contents[] = {{"hello", 
                                                                       {"snapshot", "snapshot"},
                                                                       {"stats", "stats"}};
 
+/// Whether a line is what a library prints around an error and not the error: rules, addresses of
+/// a stack ("[host:12] [ 3] /lib/…") and the heading of these, and what MPI prints as it ends.
+bool isAroundErrors(const std::string& line) {
+  if (line.find_first_not_of("-=* ") == std::string::npos) return true;
+  static constexpr std::string_view ofMpi[] = {
+      "MPI_ABORT was invoked", "with errorcode", "NOTE: invoking MPI_ABORT",
+      "You may or may not see output", "exactly when Open MPI kills"};
+  if (std::ranges::any_of(ofMpi, [&](auto words) { return line.starts_with(words); })) return true;
+  const std::size_t host = line.find("] ");
+  if (line[0] != '[' || host == std::string::npos) return false;
+  const std::string_view rest = std::string_view(line).substr(host + 2);
+  static constexpr std::string_view ofStacks[] = {"[", "***", "Signal", "Failing at", "Associated"};
+  return std::ranges::any_of(ofStacks, [&](auto words) { return rest.starts_with(words); });
+}
+
 }  // namespace
 
 json parseAnswer(const std::string& line) {
@@ -68,10 +83,11 @@ std::string lastWords(const std::filesystem::path& log) {
   constexpr std::size_t lines = 3, longest = 200;
   std::istringstream in(tailOf(log, most));
   std::deque<std::string> last;
-  std::string error;  // of Python: the line after the indented ones says what it was
+  std::string error;  // of Python: the line after the indented ones; of others: one that says so
   bool inTraceback = false;
   for (std::string line; std::getline(in, line);) {
-    if (line.empty()) continue;
+    if (line.empty() || isAroundErrors(line)) continue;
+    if (line.starts_with("ERROR")) error = asOneLine(line, longest);
     if (inTraceback && line[0] != ' ') {
       error = asOneLine(line, longest);
       inTraceback = false;

@@ -25,8 +25,11 @@
 
 #include "adapters/worker/processes.hpp"
 #include "support/descriptor.hpp"
+#include "support/interrupt.hpp"
 
 namespace crossgrain {
+
+using namespace std::chrono_literals;
 namespace {
 
 /// A value of workerMark that no other worker has.
@@ -165,14 +168,23 @@ int millisecondsUntil(ChildProcess::Clock::time_point deadline) {
   return static_cast<int>(std::clamp<long long>(left.count(), 0, INT_MAX));
 }
 
-/// Waits until the descriptor has one of the events. @throws ProcessTimeout
+/// Waits until the descriptor has one of the events. What is nearly there when the user interrupts
+/// is waited for, as a run can then keep where it is. @throws ProcessTimeout, Interrupted
 void await(int fd, short events, ChildProcess::Clock::time_point deadline) {
+  constexpr auto slice = 100ms, patience = 1000ms;
   pollfd entry{fd, events, 0};
-  for (;;) {
-    const int ready = ::poll(&entry, 1, millisecondsUntil(deadline));
+  for (bool stopping = false;;) {
+    const auto wake = std::min(deadline, ChildProcess::Clock::now() + slice);
+    const int ready = ::poll(&entry, 1, millisecondsUntil(wake));
     if (ready > 0) return;
-    if (ready == 0) throw ProcessTimeout("no answer");
-    if (errno != EINTR) systemFailure("poll", errno);
+    if (ready < 0 && errno != EINTR) systemFailure("poll", errno);
+    if (ChildProcess::Clock::now() >= deadline) {
+      if (stopping) throw Interrupted();
+      throw ProcessTimeout("no answer");
+    }
+    if (!interrupted() || stopping) continue;
+    stopping = true;
+    deadline = std::min(deadline, ChildProcess::Clock::now() + patience);
   }
 }
 

@@ -54,12 +54,12 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// @throws ProcessTimeout, ProcessEnded
+  /// @throws ProcessTimeout, ProcessEnded, Interrupted
   void sendLine(const std::string& line, Clock::time_point deadline);
 
   /// The next line without its end.
   /// @param longest  that it may be [bytes]; little more than that is ever kept
-  /// @throws ProcessTimeout, ProcessEnded, OversizedMessage
+  /// @throws ProcessTimeout, ProcessEnded, OversizedMessage, Interrupted
   std::string receiveLine(Clock::time_point deadline, std::size_t longest);
 
   /// The line that the child has said, or begun, and nobody has received; empty: none.

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
+#include <new>
 #include <optional>
 #include <string>
 
@@ -110,6 +111,8 @@ int serve(Engine& engine) {
       last = request.at("request") == "quit";
     } catch (const UnsupportedScene& error) {
       reply = refusal("unsupported", error);
+    } catch (const std::bad_alloc&) {
+      reply = refusal("failed", std::runtime_error("out of memory"));
     } catch (const std::exception& error) {
       reply = refusal("failed", error);
     }

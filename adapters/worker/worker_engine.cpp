@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <new>
 #include <span>
 #include <system_error>
 #include <thread>
@@ -76,6 +77,11 @@ class Exchanging {
   ExchangeFile& file_;
 };
 
+/// It is not the answer that is wrong.
+std::string noMemoryFor(const std::string& what) {
+  return fmt::format("crossgrain is out of memory while it reads the answer to {}", what);
+}
+
 }  // namespace
 
 template <typename Read>
@@ -86,6 +92,8 @@ std::invoke_result_t<Read> WorkerEngine::understand(const std::string& what, Rea
     throw;
   } catch (const EngineFailure&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    fail(noMemoryFor(what));
   } catch (const std::exception& error) {
     fail(fmt::format("its answer to {} is unusable: {}", what,
                      asOneLine(withoutPrefix(error.what()), longestReason)));
@@ -294,6 +302,8 @@ json WorkerEngine::answerTo(const json& request, const std::string& what) const 
   }
   try {
     return parseAnswer(line);
+  } catch (const std::bad_alloc&) {
+    fail(noMemoryFor(what));
   } catch (const std::exception& error) {
     fail(fmt::format("its answer to {} {}", what, error.what()));
   }

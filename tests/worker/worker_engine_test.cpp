@@ -15,6 +15,7 @@
 
 #include "adapters/worker/answer.hpp"
 #include "adapters/worker/processes.hpp"
+#include "support/interrupt.hpp"
 #include "tests/worker/toy_engine.hpp"
 
 namespace crossgrain {
@@ -385,6 +386,46 @@ TEST_F(Worker, ParentKilled_Dies) {
   ::close(channel[0]);
   ::close(channel[1]);
   ::prctl(PR_SET_CHILD_SUBREAPER, 0);
+}
+
+TEST_F(Worker, LastWords_AreTheErrorAndNotWhatMpiPrintsAroundIt) {
+  std::filesystem::create_directories(scratch_);
+  const auto wordsOf = [&](const std::string& log) {
+    std::ofstream(scratch_ / "log") << log;
+    return lastWords(scratch_ / "log");
+  };
+  const std::string around =
+      "----------------------------------------\n"
+      "MPI_ABORT was invoked on rank 0 in communicator MPI_COMM_WORLD\nwith errorcode 1.\n\n"
+      "NOTE: invoking MPI_ABORT causes Open MPI to kill all MPI processes.\n"
+      "You may or may not see output from other processes, depending on\n"
+      "exactly when Open MPI kills them.\n----------------------------------------\n";
+  EXPECT_EQ(wordsOf("reading\nERROR on proc 0: Failed to allocate 8 bytes\n" + around),
+            "its error: ERROR on proc 0: Failed to allocate 8 bytes");
+  EXPECT_EQ(wordsOf("placed 3 atoms\n" + around), "the end of its log: placed 3 atoms");
+  EXPECT_EQ(wordsOf("[vm:12] *** Process received signal ***\n[vm:12] Signal: Segmentation fault\n"
+                    "[vm:12] [ 0] /lib/libc.so.6(+0x3c050)[0x7f]\n[vm:12] *** End of error message "
+                    "***\n"),
+            "");
+}
+
+// In a process of its own, as what was interrupted stays so.
+TEST_F(Worker, Interrupted_EndsTheWaitForAnAnswer) {
+  std::filesystem::create_directories(scratch_);
+  const auto waited = [&] {
+    catchInterrupts();
+    ChildProcess silent(std::vector<std::string>{"/bin/sleep", "60"}, scratch_ / "silent.log");
+    ::raise(SIGTERM);
+    try {
+      silent.receiveLine(ChildProcess::Clock::now() + std::chrono::seconds(60), 1000);
+    } catch (const Interrupted&) {
+      return 130;
+    } catch (const ProcessTimeout&) {
+      return 1;
+    }
+    return 2;
+  };
+  EXPECT_EXIT(::_exit(waited()), ::testing::ExitedWithCode(130), "");
 }
 
 TEST_F(Worker, RequestsEnd_EndsThoughASiblingLives) {
