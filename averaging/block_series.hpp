@@ -13,13 +13,23 @@ namespace crossgrain::inline averaging {
 /// over their number, times twice their correlation time; blocks shorter than the correlation time
 /// keep it visible, longer ones are independent, and both give the same error. Samples after the
 /// last whole block, less than 1/256 of the series, count in the mean and not in the error. The
-/// number of independent samples cannot come out larger than the number of blocks.
+/// number of independent samples cannot come out larger than the number of blocks. Of so many
+/// numbers that all blocks would take more than `mostNumbers` there are fewer.
 class BlockSeries {
  public:
-  static constexpr std::size_t mostBlocks = 512;
+  static constexpr std::size_t mostBlocks = 512, fewestBlocks = 8;
+  static constexpr std::size_t mostNumbers = std::size_t{1} << 27;  ///< of all blocks: 1 GB
+
+  /// How many there are at most, a power of two, as they merge in pairs.
+  static constexpr std::size_t blocksOf(std::size_t width) {
+    std::size_t blocks = mostBlocks;
+    while (blocks > fewestBlocks && blocks * width > mostNumbers) blocks /= 2;
+    return blocks;
+  }
 
   /// @param width numbers per sample
-  explicit BlockSeries(std::size_t width, std::size_t most = mostBlocks)
+  explicit BlockSeries(std::size_t width) : BlockSeries(width, blocksOf(width)) {}
+  BlockSeries(std::size_t width, std::size_t most)
       : width_(width), most_(most), partial_(width, 0.0) {}
 
   /// @pre sample has `width` numbers

@@ -48,6 +48,14 @@ TEST(BlockSeries, MergesPairsAndKeepsTheMean) {
   EXPECT_DOUBLE_EQ(blocks.means()[1], 1.0);
 }
 
+TEST(BlockSeries, ManyNumbers_HaveFewerBlocks_SoThatTheyHaveRoom) {
+  EXPECT_EQ(BlockSeries::blocksOf(1), BlockSeries::mostBlocks);
+  EXPECT_EQ(BlockSeries::blocksOf(6 * 60), BlockSeries::mostBlocks);  // of a cell's rings
+  EXPECT_EQ(BlockSeries::blocksOf(std::size_t{1} << 20), 128u);       // 2²⁷ numbers in all
+  // A million bins, the most that a case may have, of some forty moments: not 160 GB.
+  EXPECT_EQ(BlockSeries::blocksOf(40'000'000), BlockSeries::fewestBlocks);
+}
+
 TEST(BlockSeries, ShortSeriesAreKeptSampleBySample) {
   const auto series = correlated(0.5, 511, 1);
   EXPECT_EQ(meansOf(filled(series)), series);
