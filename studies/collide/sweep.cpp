@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <string>
@@ -15,6 +16,7 @@
 #include "oracle/collision_flight.hpp"
 #include "oracle/impact.hpp"
 #include "studies/collide/contact_account.hpp"
+#include "support/interrupt.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -76,6 +78,7 @@ void findJumps(const Case& setup, const std::vector<CollisionStart>& starts, Ora
   const bool springs = setup.law.springs() || setup.law.rolling == RollingLaw::spring;
   if (!margin || !springs || !setup.law.soft()) return;
   for (std::size_t k = 0; k < starts.size(); ++k) {
+    throwIfInterrupted();
     if (!oracle.ends[k] || !oracle.ends[k]->parted || !oracle.unsure[k].empty()) continue;
     for (const double side : {-1.0, 1.0}) {
       CollisionStart beside = starts[k];
@@ -99,6 +102,7 @@ void findJumps(const Case& setup, const std::vector<CollisionStart>& starts, Ora
 OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& starts) {
   OracleCurve curve;
   for (const CollisionStart& start : starts) {
+    throwIfInterrupted();
     std::string& unsure = curve.unsure.emplace_back();
     try {
       const CollisionEnd end = oracleOutcome(setup.law, collidingPair(setup), start);
@@ -123,6 +127,7 @@ OracleCurve atStep(OracleCurve oracle, const Case& setup, const std::vector<Coll
   const auto margin = marginOfPsi(setup, oracle);
   if (!margin) return oracle;
   for (std::size_t k = 0; k < starts.size(); ++k) {
+    throwIfInterrupted();
     if (!oracle.ends[k] || !oracle.ends[k]->parted || !oracle.unsure[k].empty() ||
         !stepMissesSlip(setup.law, collidingPair(setup), starts[k], dt))
       continue;
@@ -153,7 +158,7 @@ namespace {
 
 /// To nine digits.
 double shortened(double value) {
-  return std::stod(fmt::format("{:.9g}", value));
+  return std::strtod(fmt::format("{:.9g}", value).c_str(), nullptr);
 }
 
 /// As files have it; absent where no outcome has the quantity.
