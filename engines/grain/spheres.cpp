@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -15,6 +16,13 @@ namespace grain {
 namespace {
 
 using Vector = Vec3<double>;
+
+/// For messages: std::to_string() has all digits of 1e300 and none of 1e-9.
+std::string shortText(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
 
 void demand(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(what);
@@ -279,7 +287,7 @@ void Spheres::list(const std::function<void()>& pairs) {
   } catch (const NotFinite& lost) {
     throw std::runtime_error("the position of sphere " +
                              std::to_string(idOf(static_cast<std::int32_t>(lost.disk))) +
-                             " is not finite at t = " + std::to_string(time()) + " s");
+                             " is not finite at t = " + shortText(time()) + " s");
   }
   rememberChoice();
 }
@@ -413,10 +421,10 @@ void Spheres::reportDeep() {
                                 : j < position_.size() ? "wall sphere " + std::to_string(j - size())
                                                        : nameOfPlane(j - position_.size());
     throw std::runtime_error("sphere " + std::to_string(i) + " and " + partner + " overlap by " +
-                             std::to_string(contact.overlap / smallest) +
-                             " of the smaller radius at t = " + std::to_string(time()) + " s");
+                             shortText(contact.overlap / smallest) +
+                             " of the smaller radius at t = " + shortText(time()) + " s");
   }
-  throw std::runtime_error("two spheres have no distance at t = " + std::to_string(time()) + " s");
+  throw std::runtime_error("two spheres have no distance at t = " + shortText(time()) + " s");
 }
 
 std::vector<SpaceContact> Spheres::contacts() {

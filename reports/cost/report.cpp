@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <iterator>
 #include <set>
 #include <tuple>
@@ -30,7 +31,8 @@ std::string percentText(std::optional<double> fraction) {
   if (!fraction) return absentText;
   if (*fraction == 0.0) return "0";
   constexpr double least = 1e-5;  // as a percentage
-  if (*fraction < least) return readableSetting(std::stod(fmt::format("{:.1e}", *fraction)));
+  if (*fraction < least)
+    return readableSetting(std::strtod(fmt::format("{:.1e}", *fraction).c_str(), nullptr));
   const double percent = 100.0 * *fraction;
   return (percent < 99.5 ? fmt::format("{:.2g}", percent) : readable(percent)) + " %";
 }
