@@ -230,7 +230,7 @@ void checkStartFiles(const Case& setup) {
   const StartFilesOf<D>& starts = assemblyIn<D>(setup).starts;
   for (std::size_t k = 0; k < starts.files.size(); ++k) {
     const SceneOf<D> scene =
-        assemblyScene<D>(setup, assemblyDisks<D>(setup, static_cast<int>(k)), 0.0, 1.0);
+        assemblyScene<D>(setup, assemblyDisks<D>(setup, static_cast<int>(k)), 0.0, timeStep(setup));
     std::vector<int> lines = starts.lines[k];
     if (!lines.empty())  // fixed disks are the last body of the walls
       lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(scene.disks.size()),

@@ -10,6 +10,7 @@
 
 #include "adapters/start_check.hpp"
 #include "cases/materials.hpp"
+#include "cases/scene_numbers.hpp"
 #include "support/bad_input.hpp"
 
 namespace crossgrain::inline cases {
@@ -140,58 +141,6 @@ std::string outsideCylinder(const SceneOf<D>& scene, const DeepStartOf<D>& deep)
                          apart > 100.0 * cylinder.radius ? "; are lengths in mm?" : "");
     }
   return {};
-}
-
-}  // namespace
-
-namespace {
-
-/// What no number is good enough for, beginning with a colon; empty: nothing. A double that is so
-/// many diameters away from the origin is exact to 10⁻⁶ of one (ε = 1.1·10⁻¹⁶), which is as little
-/// as a contact overlaps; differences and squares of such places are numbers still.
-template <int D>
-std::string beyondNumbers(const SceneOf<D>& scene) {
-  constexpr double farthest = 1e10;  // [smallest diameters]
-  if (scene.disks.size() == 0) return {};
-  const double reach = farthest * 2.0 * std::ranges::min(scene.disks.radius);
-  const auto beyond = [&](const VecOf<D>& place, auto&& who) -> std::string {
-    for (int k = 0; k < D; ++k)
-      if (!(std::abs(place[k]) <= reach))
-        return fmt::format(
-            ": {} is at {} = {:.4g} m: beyond {:.4g} m, 10^10 diameters of the smallest {}, no "
-            "number resolves a contact",
-            who(), "xyz"[k], place[k], reach, D == 2 ? "disk" : "sphere");
-    return {};
-  };
-  std::string why;
-  std::size_t id = 0;
-  const auto look = [&](const std::vector<VecOf<D>>& places) {
-    for (const VecOf<D>& place : places) {
-      if (why.empty()) why = beyond(place, [&] { return nameOfId(scene, id); });
-      ++id;
-    }
-  };
-  look(scene.disks.position);
-  for (const WallBodyOf<D>& body : scene.bodies) look(body.diskPosition);
-  const auto lookAt = [&](const VecOf<D>& place, const char* who) {
-    if (why.empty()) why = beyond(place, [&] { return std::string(who); });
-  };
-  for (const WallBodyOf<D>& body : scene.bodies) {
-    for (const PlaneOf<D>& plane : body.planes) lookAt(plane.point, "a plane's point");
-    if constexpr (D == 3)
-      for (const Cylinder& cylinder : body.cylinders)
-        lookAt(cylinder.point, "the point of a cylinder");
-  }
-  for (int k = 0; scene.box && k < D; ++k) {
-    if (!scene.box->periodic[static_cast<std::size_t>(k)]) continue;
-    for (const VecOf<D>& corner : {scene.box->low, scene.box->high})
-      lookAt(VecOf<D>::Unit(k) * corner[k], "a side of the periodic box");
-  }
-  for (std::size_t i = 0; why.empty() && i < scene.disks.size(); ++i)
-    if (const double inertia = scene.disks.inertia[i]; !(inertia > 0.0 && std::isfinite(inertia)))
-      why = fmt::format(": the moment of inertia of {} is {:g} kg m²: no number holds it",
-                        nameOfId(scene, i), inertia);
-  return why;
 }
 
 }  // namespace

@@ -155,7 +155,10 @@ ExpectedPacking expectedPacking(const Case& setup, int index, double dt) {
 }
 
 void checkPackings(const Case& setup, int count, double dt) {
-  if (!isAssembly(setup) && !packingsAreFiles(setup)) return;
+  if (!isAssembly(setup) && !packingsAreFiles(setup)) {
+    preparationStart(setup, 0, dt);  // others differ in what is drawn at random
+    return;
+  }
   const auto none = engineRegistry().front().make();  // nothing is prepared
   for (int index = 0; index < count; ++index) {
     throwIfInterrupted();

@@ -67,8 +67,8 @@ struct ExpectedPacking {
 };
 ExpectedPacking expectedPacking(const Case& setup, int index, double dt);
 
-/// Refuses what flowPacking() refuses of the first `count` packings, without an engine: one that
-/// has to be prepared is not known yet. @throws BadInput
+/// Refuses what flowPacking() refuses of the first `count` packings, without an engine: of
+/// those that have to be prepared, the start of the first one's preparation. @throws BadInput
 void checkPackings(const Case& setup, int count, double dt);
 
 /// The last time up to t at which a scene can begin anew [s]: swinging walls begin in the middle,

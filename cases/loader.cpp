@@ -7,10 +7,12 @@
 #include <stdexcept>
 
 #include "cases/assembly_scene.hpp"
+#include "cases/collision_scene.hpp"
 #include "cases/couette.hpp"
 #include "cases/loader_document.hpp"
 #include "cases/loader_sections.hpp"
 #include "cases/materials.hpp"
+#include "cases/scene_numbers.hpp"
 #include "cases/time_step.hpp"
 #include "oracle/impact.hpp"
 #include "support/input_file.hpp"
@@ -215,6 +217,19 @@ void readAssemblyCase(Reader& root, Reader& law, Reader& run, Starts starts, Cas
   inDimensionOf(c, [&]<int D>() { checkStartFiles<D>(c); });
 }
 
+/// As checkStart() does of a flow.
+void checkCollisionNumbers(const Case& c) {
+  try {
+    const std::vector<CollisionStart> starts = collisionStarts(c);
+    const double dt = timeStep(c);
+    const std::string why = c.dimension == 3 ? beyondNumbers(spaceCollisionScene(c, starts, dt))
+                                             : beyondNumbers(collisionScene(c, starts, dt));
+    if (!why.empty()) throw BadInput(c.file.string() + why);
+  } catch (const std::invalid_argument&) {
+    return;  // a law that such an impact overcomes: the command says so
+  }
+}
+
 void readCollisionCase(Reader& root, Reader& law, Reader& run, Case& c) {
   Reader collision = root.section("collision");
   readCollision(collision, c.collision, c.dimension);
@@ -229,6 +244,7 @@ void readCollisionCase(Reader& root, Reader& law, Reader& run, Case& c) {
     if (!c.run.dt) run.failMissing("dt", "a rigid law has no contact time");
   }
   checkDamping(law, c);
+  checkCollisionNumbers(c);
   if (!c.law.soft()) return;
   const char* const key = collision.has("steps_per_contact") ? "steps_per_contact"
                           : collision.has("vn")              ? "vn"

@@ -15,6 +15,7 @@
 #include "adapters/worker/json.hpp"
 #include "adapters/worker/worker_engine.hpp"
 #include "cases/couette.hpp"
+#include "cases/scene_numbers.hpp"
 #include "cases/time_step.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
@@ -117,17 +118,24 @@ std::vector<Vec2> latticeSites(double constant, double inner, double outer) {
   return sites;
 }
 
+Scene preparationStart(const Case& setup, int index, double dt) {
+  Disks disks = diskKinds(setup.particles);
+  const Random random = randomStream(setup.preparation.seed, static_cast<std::uint64_t>(index));
+  placeAtRandom(disks, setup, random.get());
+  Scene scene = diluteScene(setup, disks, setup.preparation.dt.value_or(dt));
+  if (const std::string why = beyondNumbers(scene); !why.empty())
+    throw BadInput(setup.file.string() + why);
+  checkStart(scene, setup.particles,
+             setup.file.string() + ": preparation.dilation leaves too little room");
+  return scene;
+}
+
 Packing preparePacking(const Case& setup, int index, double dt, Engine& engine,
                        const std::function<void(double)>& progress) {
   Packing packing;
-  packing.disks = diskKinds(setup.particles);
   packing.hash = packingHash(setup, index, dt);
-  const Random random = randomStream(setup.preparation.seed, static_cast<std::uint64_t>(index));
-  placeAtRandom(packing.disks, setup, random.get());
-
-  const Scene scene = diluteScene(setup, packing.disks, setup.preparation.dt.value_or(dt));
-  checkStart(scene, setup.particles,
-             setup.file.string() + ": preparation.dilation leaves too little room");
+  const Scene scene = preparationStart(setup, index, dt);
+  packing.disks = scene.disks;
   load(engine, setup, scene);
   const double end = preparationTime(setup);
   // Where the engine stops is part of what a packing is: other slices give other bits.

@@ -15,6 +15,9 @@ namespace crossgrain::inline cases {
 /// Sites of a triangular lattice of the given constant with `inner` <= r <= `outer`, line by line.
 std::vector<Vec2> latticeSites(double constant, double inner, double outer);
 
+/// How the preparation of packing `index` begins. @throws BadInput where no engine could run it
+Scene preparationStart(const Case& setup, int index, double dt);
+
 /// Prepares packing `index` of a case as Lätzel (2003, section 3.3) does: disks on a dilute
 /// triangular lattice with random velocities, wheel turning, ring shrinking from R_prepare to R_o,
 /// then some rotations.
