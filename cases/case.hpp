@@ -174,7 +174,11 @@ struct StartFilesOf {
   std::vector<VecOf<D>> fixedPosition = {};  ///< of disks that stand still, alike in all files [m]
   std::vector<double> fixedRadius = {};      ///< [m]
   std::vector<std::vector<int>> lines = {};  ///< of each file, of its disks and then its fixed ones
-  MaterialName material = {};
+  MaterialName material = {};                ///< of disks whose file says none
+  /// What the files' rows say, each once with the row that says it first; and of each disk, alike
+  /// in all files, which of them it is, −1: nothing. Empty: no file says any.
+  std::vector<MaterialName> rowMaterials = {};
+  std::vector<std::int32_t> rowMaterialOf = {};
 };
 using StartFiles = StartFilesOf<2>;
 

@@ -23,11 +23,15 @@ bool isAssembly(const Case& setup) {
   return setup.kind == CaseKind::assembly;
 }
 
-/// Of the disks of a start file that stand still: its moving disks alone do not tell a scene.
+/// Of the disks of a start file that stand still, and of what its rows are made of: its moving
+/// disks alone do not make a scene.
 template <int D>
 std::string fixedHash(const StartFilesOf<D>& starts) {
-  if (starts.fixedRadius.empty()) return {};
+  if (starts.fixedRadius.empty() && starts.rowMaterials.empty()) return {};
   std::string text;
+  for (const MaterialName& material : starts.rowMaterials) text += material.name + ";";
+  if (!starts.rowMaterials.empty())
+    text += fmt::format("{};", fmt::join(starts.rowMaterialOf, " "));
   for (std::size_t k = 0; k < starts.fixedRadius.size(); ++k)
     text += fmt::format("{} {};", fmt::join(starts.fixedPosition[k], " "), starts.fixedRadius[k]);
   return fmt::format("{:016x}", fnv1a(text));

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -74,9 +76,48 @@ const Section<StartInput>& startKeys() {
        key("velocity_rms", &StartInput::velocityRms, atLeast(0.0, "m/s"),
            "normally distributed, added: makes `preparation.packings` packings of the files in "
            "turn"),
-       key("material", &StartInput::material, any, "of its disks, a name of `[[law.pairs]]`"),
+       key("material", &StartInput::material, any,
+           "of its disks, a name of `[[law.pairs]]`, where their rows name none"),
        key("fixed_material", &StartInput::fixedMaterial, any, "of those that stand still")});
   return section;
+}
+
+/// Materials of a file's rows, those of other files being alike.
+template <int D>
+void addMaterials(const StartOf<D>& start, const std::filesystem::path& file,
+                  StartFilesOf<D>& starts) {
+  std::vector<std::int32_t> ofRow;
+  for (std::size_t k = 0; k < start.materials.size(); ++k) {
+    const std::string& name = start.materials[k];
+    auto& known = starts.rowMaterials;
+    const auto found = std::ranges::find(known, name, &MaterialName::name);
+    ofRow.push_back(name.empty() ? -1 : static_cast<std::int32_t>(found - known.begin()));
+    if (!name.empty() && found == known.end())
+      known.push_back({name, fmt::format("{}:{}: material", file.string(), start.lines[k])});
+  }
+  if (starts.disks.empty()) starts.rowMaterialOf = ofRow;
+  const auto says = [](const std::vector<std::int32_t>& rows) {
+    return std::ranges::any_of(rows, [](std::int32_t of) { return of >= 0; });
+  };
+  if (ofRow != starts.rowMaterialOf && (says(ofRow) || says(starts.rowMaterialOf)))
+    throw BadInput(fmt::format("{}: the materials of its disks are not those of {}, row by row",
+                               file.string(), starts.files.front().string()));
+}
+
+/// Of the disks that stand still, which are one body; `material` where the case names it.
+template <int D>
+MaterialName materialOfFixed(const StartOf<D>& start, const std::filesystem::path& file,
+                             MaterialName material) {
+  for (std::size_t k = 0; k < start.fixedMaterials.size(); ++k) {
+    const std::string& own = start.fixedMaterials[k];
+    if (own.empty()) continue;
+    if (material.name.empty())
+      material = {own, fmt::format("{}:{}: material", file.string(), start.fixedLines[k])};
+    if (material.name != own)
+      throw BadInput(fmt::format("{}:{}: material = {}: disks that stand still are one body, of {}",
+                                 file.string(), start.fixedLines[k], own, material.name));
+  }
+  return material;
 }
 
 /// One start that counts as two packings would make a scatter too small.
@@ -177,6 +218,8 @@ void readStartFiles(Reader in, AssemblyOf<D>& assembly) {
     if (start.fixedPosition != starts.fixedPosition || start.fixedRadius != starts.fixedRadius)
       throw BadInput(fmt::format("{}: its fixed disks are not those of {}", file.string(),
                                  starts.files.front().string()));
+    addMaterials(start, file, starts);
+    input.fixedMaterial = materialOfFixed(start, file, input.fixedMaterial);
     starts.disks.push_back(std::move(start.disks));
     starts.lines.push_back(std::move(start.lines));
     starts.lines.back().insert(starts.lines.back().end(), start.fixedLines.begin(),

@@ -37,8 +37,13 @@ std::vector<Body> bodiesOf(const Case& setup) {
   withAssembly(setup, [&](const auto& assembly) {
     for (std::size_t k = 0; k < assembly.disks.size(); ++k)
       bodies.push_back({fmt::format("assembly.disks[{}]", k), &assembly.disks[k].material});
-    if (!assembly.starts.disks.empty())
-      bodies.push_back({"[assembly.start]", &assembly.starts.material});
+    const auto& starts = assembly.starts;
+    for (const MaterialName& material : starts.rowMaterials)
+      bodies.push_back({"[assembly.start]", &material});
+    const bool allSay = !starts.rowMaterialOf.empty() &&
+                        std::ranges::none_of(starts.rowMaterialOf, [](auto of) { return of < 0; });
+    if (!starts.disks.empty() && (!allSay || !starts.material.name.empty()))
+      bodies.push_back({"[assembly.start]", &starts.material});
     for (std::size_t k = 0; k < assembly.walls.size(); ++k)
       bodies.push_back({fmt::format("assembly.walls[{}]", k), &assembly.walls[k].material});
   });
@@ -125,6 +130,12 @@ void addMaterials(SceneOf<D>& scene, const Case& setup) {
     materials.ofDisk.insert(materials.ofDisk.end(), group.count(), index(group.material));
   if (!assembly.starts.disks.empty())
     materials.ofDisk.assign(scene.disks.size(), index(assembly.starts.material));
+  std::vector<std::int32_t> ofRows;
+  for (const MaterialName& material : assembly.starts.rowMaterials)
+    ofRows.push_back(index(material));
+  const std::vector<std::int32_t>& rows = assembly.starts.rowMaterialOf;
+  for (std::size_t i = 0; i < std::min(rows.size(), scene.disks.size()); ++i)
+    if (rows[i] >= 0) materials.ofDisk[i] = ofRows[static_cast<std::size_t>(rows[i])];
   for (const WallGroupOf<D>& wall : assembly.walls)
     materials.ofBody.push_back(index(wall.material));
 }

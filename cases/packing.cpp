@@ -241,9 +241,9 @@ template <int D>
 struct Csv;
 template <>
 struct Csv<2> {
-  enum Column : std::size_t { x, y, radius, vx, vy, spin, mass, inertia, fixed, count };
+  enum Column : std::size_t { x, y, radius, vx, vy, spin, mass, inertia, fixed, material, count };
   static inline const std::array<std::string, count> names = {
-      "x", "y", "radius", "vx", "vy", "spin", "mass", "inertia", "fixed"};
+      "x", "y", "radius", "vx", "vy", "spin", "mass", "inertia", "fixed", "material"};
 };
 template <>
 struct Csv<3> {
@@ -261,11 +261,12 @@ struct Csv<3> {
     mass,
     inertia,
     fixed,
+    material,
     count
   };
   static inline const std::array<std::string, count> names = {
-      "x",      "y",      "z",      "radius", "vx",      "vy",   "vz",
-      "spin_x", "spin_y", "spin_z", "mass",   "inertia", "fixed"};
+      "x",      "y",      "z",      "radius", "vx",      "vy",    "vz",
+      "spin_x", "spin_y", "spin_z", "mass",   "inertia", "fixed", "material"};
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -284,6 +285,13 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     if (end == std::string_view::npos) return pieces;
     begin = end + 1;
   }
+}
+
+/// A name may stand in quotes.
+std::string unquoted(std::string_view text) {
+  if (text.size() > 1 && text.front() == '"' && text.back() == '"')
+    text = text.substr(1, text.size() - 2);
+  return std::string(text);
 }
 
 /// One line of a CSV file, for messages: "start.csv:12: …".
@@ -337,8 +345,12 @@ void readDisk(const CsvLine& line, const std::vector<std::size_t>& columns,
   line.check(cells.size() == columns.size(), "has {} values for {} columns", cells.size(),
              columns.size());
   std::array<std::optional<double>, Columns::count> values;
+  std::string material;
   for (std::size_t k = 0; k < cells.size(); ++k)
-    values[columns[k]] = readNumber(line, cells[k], Columns::names[columns[k]]);
+    if (columns[k] == Columns::material)
+      material = unquoted(cells[k]);
+    else
+      values[columns[k]] = readNumber(line, cells[k], Columns::names[columns[k]]);
   for (const auto column : {Columns::radius, Columns::mass, Columns::inertia})
     line.check(!values[column] || *values[column] > 0.0, "{} = {}: must be > 0",
                Columns::names[column], values[column].value_or(0));
@@ -357,11 +369,13 @@ void readDisk(const CsvLine& line, const std::vector<std::size_t>& columns,
     start.fixedPosition.push_back(position);
     start.fixedRadius.push_back(a);
     start.fixedLines.push_back(line.number);
+    start.fixedMaterials.push_back(std::move(material));
     return;
   }
   DisksOf<D>& disks = start.disks;
   const double m = values[Columns::mass] ? *values[Columns::mass] : defaults.mass(a);
   start.lines.push_back(line.number);
+  start.materials.push_back(std::move(material));
   disks.position.push_back(position);
   disks.radius.push_back(a);
   disks.velocity.push_back(vectorFrom(Columns::vx));

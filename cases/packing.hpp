@@ -76,13 +76,16 @@ struct StartOf {
   std::vector<VecOf<D>> fixedPosition;           ///< [m]
   std::vector<double> fixedRadius;               ///< [m]
   std::vector<int> lines = {}, fixedLines = {};  ///< of the file, of each; of HDF5 none
+  /// What each is made of, empty where its row does not say; of HDF5 none.
+  std::vector<std::string> materials = {}, fixedMaterials = {};
 };
 
 /// CSV where the name ends in ".csv", else HDF5 (packing.hpp has its datasets; nothing is fixed).
 ///
 /// CSV: a line of column names, then one line a disk; commas between, and blanks or lines that
 /// begin with # where one likes. x, y, radius [m] are needed; vx, vy [m/s], spin [rad/s], mass
-/// [kg], inertia [kg m²] and fixed (0 or 1) may be there, in any order. In space also z, vz, and
+/// [kg], inertia [kg m²], fixed (0 or 1) and material (a name of
+/// [[law.pairs]]) may be there, in any order. In space also z, vz, and
 /// spin_x, spin_y, spin_z in place of spin; in HDF5 vectors have three columns.
 /// @throws BadInput "start.csv:12: radius = -0.1: must be > 0 m"
 template <int D>

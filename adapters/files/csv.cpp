@@ -16,7 +16,7 @@ namespace {
 
 /// Columns of start files that say nothing of a time.
 bool isOfStartFiles(std::string_view name) {
-  return name == "inertia" || name == "fixed";
+  return name == "inertia" || name == "fixed" || name == "material";
 }
 
 /// The names of columns and their separator.

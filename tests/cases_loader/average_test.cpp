@@ -1,4 +1,5 @@
 // [average], [[endpoints]] and [assembly.start], and what is wrong with them in one line.
+#include "cases/assembly_scene.hpp"
 #include "files.hpp"
 
 namespace crossgrain::test {
@@ -189,6 +190,48 @@ TEST_F(Average, StartFile_Csv) {
   write("other.csv", "x,y,radius\n0,1.5,1\n");
   EXPECT_EQ(messageOfText(of("[\"start.csv\", \"other.csv\"]")), "");
   expectMessage(start + scene.substr(scene.find("[[")), "come from one of the two");
+}
+
+/// Two species in one file, as restart files have them; where a row says nothing, the case does.
+TEST_F(Average, StartFile_MaterialOfARow) {
+  const std::string start =
+      scene.substr(0, scene.find("[[")) +
+      "[[law.pairs]]\nbetween = [\"ball\", \"steel\"]\nkn = 110.0\n[[law.pairs]]\nbetween = "
+      "[\"ball\", \"ball\"]\nkn = 120.0\n[assembly.start]\nfile = \"start.csv\"\ndensity = "
+      "2\nmaterial = \"ball\"\n";
+  write("start.csv",
+        "x,y,radius,material,fixed\n0,1,0.5,ball,0\n2,1,0.5, \"steel\",0\n4,1,0.5,,0\n"
+        "6,1,0.5,steel,1\n");
+  std::ofstream("case.toml") << start;
+  const Case c = loadCase("case.toml").front();
+  const Scene made = assemblyScene<2>(c, assemblyDisks<2>(c, 0), 0.0, 1e-3);
+  ASSERT_TRUE(made.materials);
+  const std::vector<std::string>& names = made.materials->names;
+  const auto nameOf = [&](std::int32_t k) { return names[static_cast<std::size_t>(k)]; };
+  ASSERT_EQ(made.materials->ofDisk.size(), 3u);
+  EXPECT_EQ(nameOf(made.materials->ofDisk[0]), "ball");
+  EXPECT_EQ(nameOf(made.materials->ofDisk[1]), "steel");
+  EXPECT_EQ(nameOf(made.materials->ofDisk[2]), "ball");
+  EXPECT_EQ(nameOf(made.materials->ofBody.back()), "steel");
+  EXPECT_EQ(made.lawOf(0, 1).kn, 110.0);
+  EXPECT_EQ(made.lawOf(0, 2).kn, 120.0);
+  for (const auto& [text, message] :
+       {std::pair{"x,y,radius,material\n0,1,0.5,ball\n2,1,0.5,brass\n",
+                  "start.csv:3: material = \"brass\": no [[law.pairs]] has that material"},
+        {"x,y,radius,material,fixed\n0,1,1,ball,0\n3,1,1,ball,1\n6,1,1,steel,1\n",
+         "start.csv:4: material = steel: disks that stand still are one body, of ball"}}) {
+    write("start.csv", text);
+    expectMessage(start, message);
+  }
+  write("start.csv", "x,y,radius,material\n0,1,0.5,steel\n2,1,0.5,ball\n");
+  EXPECT_EQ(messageOfText(start.substr(0, start.find("material"))), "");  // each row says its own
+  write("other.csv", "x,y,radius,material\n0,1.5,0.5,ball\n2,1,0.5,steel\n");
+  std::string two = start;
+  two.replace(two.find("\"start.csv\""), 11, "[\"start.csv\", \"other.csv\"]");
+  expectMessage(two, "other.csv: the materials of its disks are not those of");
+  expectMessage(
+      start.substr(0, start.find("[[law.pairs]]")) + start.substr(start.find("[assembly.start]")),
+      "the case has no [[law.pairs]]");
 }
 
 }  // namespace
