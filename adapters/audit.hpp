@@ -18,6 +18,16 @@ struct LastDigit {
   double place = 0.0;  ///< in the numbers' unit
 };
 
+/// How exactly a result file says which disks overlap, and what its list may leave out all the
+/// same.
+struct ShownPlaces {
+  LastDigit position, radius;  ///< in the file's numbers
+  double unit = 1.0;           ///< of these [m]
+  /// Of numbers held in binary, of their size: 2⁻²³ of single precision.
+  double binary = 0.0;
+  double step = 0.0;  ///< by which a list may be older than the places [s]
+};
+
 /// What the snapshots of one run are compared with: worked out once, so that an audit is cheap.
 template <int D>
 struct AuditBasisOf {
@@ -36,6 +46,8 @@ struct AuditBasisOf {
   /// have more digits than what follows from places.
   /// Absent: positions' are taken.
   std::optional<LastDigit> shownOverlaps;
+  /// Absent: pairs that overlap by more than `rounding` leaves open have to be listed, all of them.
+  std::optional<ShownPlaces> shownPlaces;
 
   std::vector<double> radius;          ///< disks, then wall disks [m]
   VecOf<D> middle = VecOf<D>::Zero();  ///< of everything at t = 0 [m]
@@ -84,6 +96,11 @@ std::string positionFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& 
 /// nearest images, no force passes a gap (but a bond of JKR's, as far as that reaches), and no pair
 /// that overlaps is left out.
 ///
+/// Of result files (AuditBasis::shownPlaces) lists may lack pairs that overlap by less than what
+/// the digits leave open, than the listed ones are off themselves, than a tenth of the listed
+/// ones' median (each carries less than a tenth of what half of these do), or than two bodies
+/// approach each other in a step, and pairs that part so fast that a damper may leave no force.
+///
 /// What conventions leave open: contacts of another time than the positions are looked for where
 /// disks were then, half of what two disks moved meanwhile being left to schemes whose velocities
 /// do not lie half way; rigid disks move on after their impulse, by what they move in a step and by
@@ -102,6 +119,23 @@ std::string contactFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& b
 template <int D>
 std::string lawFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis,
                      const ContactLaw& law);
+
+/// Contacts at the Coulomb bound whose tangential force is along the sliding, or against it.
+struct SlidingSense {
+  std::size_t along = 0, against = 0;
+};
+
+/// Adds the disks that slide on each other. Friction dissipates, so that f_t · v_t < 0, v_t of the
+/// first relative to the second where they touch. Springs may give back what they store, but at the
+/// bound they do so in passing alone: with f_t along v_t a spring relaxes at the rate k_t |v_t|,
+/// and the contact leaves the bound unless that falls as fast, at µ |df_n/dt| ≤ µ (k_n |v_n| + γ_n
+/// f_n/m₁₂). So contacts count whose v_t is twice what would keep up with this, three times what
+/// velocities may be off by. One that swings up to the bound and back without sliding is there with
+/// either sense for as long as with the other; one that slides is there against v_t. Right files
+/// have at most half of them along.
+template <int D>
+void addSliding(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis, const ContactLaw& law,
+                SlidingSense& sense);
 
 /// Cost counted as advance() was asked: steps done so far, seconds that can be.
 std::string statsFault(const Stats& stats, double dt, double reached);

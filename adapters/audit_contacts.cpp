@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <vector>
 
 #include "adapters/audit_geometry.hpp"
 #include "adapters/near_pairs.hpp"
@@ -143,15 +145,97 @@ std::string placeFault(const ContactsOf<D>& contacts, const AuditBasisOf<D>& bas
   return {};
 }
 
+/// What a result file's list may lack.
+template <int D>
+class ListGaps {
+ public:
+  ListGaps(const ContactsOf<D>& contacts, const AuditBasisOf<D>& basis,
+           const ContactPlacesOf<D>& places)
+      : basis_(basis), places_(places) {
+    constexpr double ofMedian = 0.1;
+    std::vector<double> listed;
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+      if (contacts.overlap[k] > 0.0) listed.push_back(contacts.overlap[k]);
+      const auto i = static_cast<std::size_t>(contacts.i[k]);
+      const auto j = static_cast<std::size_t>(contacts.j[k]);
+      if (j >= basis.radius.size() && !places.planes[j - basis.radius.size()].known) continue;
+      const double placed = pairPlace(places, basis, i, j).overlap;
+      off_ = std::max({off_, std::abs(contacts.overlap[k] - placed),
+                       contacts.normalForce[k] > 0.0 ? -placed : 0.0});
+    }
+    if (listed.empty()) return;
+    const auto middle = listed.begin() + static_cast<std::ptrdiff_t>(listed.size() / 2);
+    std::ranges::nth_element(listed, middle);
+    shallow_ = ofMedian * *middle;
+  }
+
+  /// @param place  of a pair that is not listed
+  bool contains(const PairPlaceOf<D>& place, std::size_t i, std::size_t j) const {
+    constexpr double digits = 1e-5;  // of velocities
+    const VecOf<D> relative = places_.velocity[i] - velocityOfSecond(places_, basis_, i, j);
+    const double parting = relative.dot(place.normal);
+    const double unsure = digits * (places_.velocity[i].norm() + relative.norm());
+    // A list of the step before has no pair that met since.
+    const double met = std::max(unsure - parting, 0.0) * basis_.shownPlaces->step;
+    const double open = std::min(place.uncertain, uncertain(place, i, j));
+    if (place.overlap <= std::max({off_, shallow_, open}) + met) return true;
+    return !pushesForSure(basis_, i, j, place.overlap, std::max(parting + unsure, 0.0));
+  }
+
+ private:
+  const ShownPlaces& shown() const { return *basis_.shownPlaces; }
+
+  /// By how much the overlap may be off, as the last digits of places and radii leave it open [m].
+  /// Planes are the case's, to six digits. Of wall disks and over periodic sides `rounding` stays.
+  double uncertain(const PairPlaceOf<D>& place, std::size_t i, std::size_t j) const {
+    constexpr double sixDigits = 1e-6;
+    const double later = place.uncertain - places_.rounding;  // of another time
+    const std::size_t round = basis_.radius.size();
+    if (j >= round) {
+      const VecOf<D> point = places_.planes[j - round].under(places_.position[i]).point;
+      return later + halves(place.normal, i) + sixDigits * point.norm();
+    }
+    const VecOf<D> apart = places_.position[i] - places_.position[j];
+    const bool acrossSides =
+        (apart - place.distance * place.normal).norm() > sixDigits * place.distance;
+    if (j >= basis_.scene->disks.size() || acrossSides) return place.uncertain;
+    return later + halves(place.normal, i) + halves(place.normal, j);
+  }
+
+  /// Of a disk's place along the normal and of its radius [m].
+  double halves(const VecOf<D>& normal, std::size_t i) const {
+    double sum = half(basis_.radius[i], shown().radius);
+    for (int axis = 0; axis < D; ++axis)
+      sum += std::abs(normal[axis]) * half(places_.position[i][axis], shown().position);
+    return sum;
+  }
+
+  /// Half of the last place.
+  double half(double value, const LastDigit& last) const {
+    const double size = std::abs(value) / shown().unit;
+    const double power = size > 0.0 ? std::pow(10.0, std::floor(std::log10(size))) : 0.0;
+    return std::max(0.5 * shown().unit * std::max(last.place, power * last.relative),
+                    shown().binary * std::abs(value));
+  }
+
+  const AuditBasisOf<D>& basis_;
+  const ContactPlacesOf<D>& places_;
+  double off_ = 0.0;      ///< by which the overlaps of the listed are [m]
+  double shallow_ = 0.0;  ///< [m]
+};
+
 /// Pairs that overlap and are not listed.
 template <int D>
 std::string incompleteReason(const ContactsOf<D>& contacts, const AuditBasisOf<D>& basis,
                              const ContactPlacesOf<D>& places, const ByFirst& byFirst) {
   const std::size_t disks = basis.scene->disks.size(), round = basis.radius.size();
   std::string why;
+  std::optional<ListGaps<D>> gaps;
+  if (basis.shownPlaces) gaps.emplace(contacts, basis, places);
   const auto require = [&](std::size_t i, std::size_t j) {
     const PairPlaceOf<D> place = pairPlace(places, basis, i, j);
-    if (place.overlap <= place.uncertain || byFirst.count(contacts, i, j) > 0) return;
+    if (place.overlap <= 0.0 || (!gaps && place.overlap <= place.uncertain)) return;
+    if (byFirst.count(contacts, i, j) > 0 || (gaps && gaps->contains(place, i, j))) return;
     why = fmt::format("no contact of {} with {}, which overlap by {:.3g} m",
                       nameOfId(*basis.scene, i), nameOfId(*basis.scene, j), place.overlap);
   };

@@ -86,6 +86,12 @@ double reducedRadius(const AuditBasisOf<D>& basis, std::size_t i, std::size_t j)
 /// a_p³ = 9π w R₁₂²/(8 E*), E* = 3/4 k_n (Johnson, Kendall and Roberts 1971).
 double bondReach(const ContactLaw& law, double reducedRadius);
 
+/// Whether two that overlap so much push each other whatever the damper is, up to a critical one:
+/// f_el(δ) > max(γ_n, 2 √(m₁₂ f_el′(δ))) v, at the speed v with which they part.
+template <int D>
+bool pushesForSure(const AuditBasisOf<D>& basis, std::size_t i, std::size_t j, double overlap,
+                   double parting);
+
 /// "contact 12 (disk 3 with wall disk 5)"
 template <int D>
 std::string contactName(const ContactsOf<D>& contacts, std::size_t k, const SceneOf<D>& scene);

@@ -26,13 +26,16 @@ class SnapshotSourceOf {
   virtual ~SnapshotSourceOf() = default;
 
   /// Disks and walls under the law of the case. Places and velocities of disks are those of the
-  /// first snapshot.
+  /// first snapshot, or of the last at which the disks changed.
   virtual const SceneOf<D>& scene() const = 0;
   /// Who made them, as the file says, else its name.
   virtual const std::string& engine() const = 0;
   /// The next one, by time; absent after the last. It fits the scene and was found sound
   /// (adapters/audit.hpp). @throws BadInput naming the file, the snapshot and what is wrong
   virtual std::optional<SnapshotOf<D>> next() = 0;
+  /// Whether the last snapshot has other disks than the one before, as particles come and go:
+  /// scene() has them.
+  virtual bool disksChanged() const { return false; }
   /// How far it has read, 0 … 1.
   virtual double progress() const = 0;
   /// What the files lack and what that costs, a sentence each; all of it after the last snapshot.

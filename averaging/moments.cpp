@@ -89,6 +89,13 @@ MomentSums::MomentSums(std::shared_ptr<const Coordinates> coordinates,
   for (const Weight& weight : weights) sharings_.emplace_back(*coordinates_, weight);
 }
 
+void MomentSums::changeDisks(const Scene& scene) {
+  radius_ = scene.radii();
+  mass_ = scene.disks.mass;
+  inertia_ = scene.disks.inertia;
+  counts_ = SceneCounts(scene);
+}
+
 void MomentSums::compute(const Snapshot& snapshot, std::vector<std::vector<Moments>>& sums) {
   counts_.require(snapshot, countWallDisks_ || snapshot.contacts);
   sums.resize(sharings_.size());

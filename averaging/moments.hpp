@@ -107,6 +107,9 @@ class MomentSums {
   MomentSums(std::shared_ptr<const Coordinates> coordinates, const std::vector<Weight>& weights,
              const Scene& scene, bool countWallDisks = false);
 
+  /// From now on snapshots are of that scene: other disks, the same walls.
+  void changeDisks(const Scene& scene);
+
   /// Per weight, per slot the moments. Moments that the snapshot has no data for stay zero: ask
   /// Snapshot whether they mean anything.
   /// @throws std::invalid_argument if the snapshot does not fit the scene

@@ -68,6 +68,9 @@ class ProfileAccumulatorOf {
   ///         where earlier ones had none (or the other way round)
   void add(const SnapshotOf<D>& snapshot);
 
+  /// From now on snapshots are of that scene: other disks, the same walls and springs.
+  void changeDisks(const SceneOf<D>& scene) { sums_.changeDisks(scene); }
+
   std::size_t snapshots() const { return snapshots_; }
 
   /// Every field that the snapshots have data for, method by method. Empty before the first add.

@@ -32,6 +32,12 @@ SpaceMomentSums::SpaceMomentSums(std::shared_ptr<const SpaceBins> bins,
   for (const Weight& weight : weights_) bins_->require(weight);
 }
 
+void SpaceMomentSums::changeDisks(const SpaceScene& scene) {
+  radius_ = scene.radii();
+  mass_ = scene.disks.mass;
+  counts_ = SceneCounts(scene);
+}
+
 void SpaceMomentSums::compute(const SpaceSnapshot& snapshot,
                               std::vector<std::vector<SpaceMoments>>& sums) {
   constexpr auto ofSpheres = static_cast<std::size_t>(SpaceMoment::stress);

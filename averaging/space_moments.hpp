@@ -77,6 +77,9 @@ class SpaceMomentSums {
   SpaceMomentSums(std::shared_ptr<const SpaceBins> bins, const std::vector<Weight>& weights,
                   const SpaceScene& scene);
 
+  /// As MomentSums'.
+  void changeDisks(const SpaceScene& scene);
+
   /// Per weight, per slot the moments. Moments that the snapshot has no data for stay zero: ask
   /// SpaceSnapshot whether they mean anything.
   /// @throws std::invalid_argument if the snapshot does not fit the scene

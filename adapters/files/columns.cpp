@@ -207,7 +207,7 @@ void Columns::addMissing(Meaning first, std::vector<MissingComponent>& missing) 
 void Columns::checkDistinct(const TextFile& text) const {
   for (const auto& [first, names] : {std::pair(Meaning::x, "x, y"), {Meaning::vx, "vx, vy"}})
     if (has(first) != has(following(first, 1)))
-      text.fail(fmt::format("one of {} is missing: a plane has two components", names));
+      text.fail(fmt::format("one of {} is missing: both are needed", names));
   for (std::size_t k = 0; k < places_.size(); ++k)
     for (std::size_t l = 0; l < k; ++l)
       if (places_[k] == places_[l] && places_[k] != unread)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "adapters/audit_geometry.hpp"
 
@@ -63,6 +64,7 @@ template double driveOf(const std::vector<WallBodyOf<3>>&);
 template <int D>
 std::optional<VecOf<D>> DisplacementsOf<D>::movedOf(const SnapshotOf<D>& now, std::size_t k) const {
   const VecOf<D> moved = now.position[k] - position_[k];
+  if (!moved.allFinite()) return std::nullopt;  // it is new
   if (!box_) return moved;
   const VecOf<D> way = 0.5 * (now.positionTime - time_) * (velocity_[k] + now.velocity[k]);
   if (box_->nearest(way) != way) return std::nullopt;
@@ -141,6 +143,18 @@ MotionFinding DisplacementsOf<D>::compare(const SnapshotOf<D>& now, double uncer
   velocity_ = now.velocity;
   time_ = now.positionTime;
   return finding;
+}
+
+template <int D>
+void DisplacementsOf<D>::changeDisks(const std::vector<std::optional<std::size_t>>& before) {
+  if (position_.empty()) return;
+  std::vector<VecOf<D>> position, velocity;
+  for (const std::optional<std::size_t>& k : before) {
+    position.push_back(k ? position_[*k] : VecOf<D>(VecOf<D>::Constant(NAN)));
+    velocity.push_back(k ? velocity_[*k] : VecOf<D>(VecOf<D>::Zero()));
+  }
+  position_ = std::move(position);
+  velocity_ = std::move(velocity);
 }
 
 template class DisplacementsOf<2>;

@@ -53,6 +53,9 @@ class DisplacementsOf {
 
   /// Compares with the snapshot before. @param uncertain  how far positions may be off [m]
   MotionFinding compare(const SnapshotOf<D>& now, double uncertain);
+  /// The next snapshot has other disks.
+  /// @param before  of each of them, which disk of the snapshot before it is; absent: it is new
+  void changeDisks(const std::vector<std::optional<std::size_t>>& before);
 
  private:
   /// Way covered/way by velocities of a disk; 0: by another way.

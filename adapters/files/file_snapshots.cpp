@@ -1,11 +1,9 @@
 #include "adapters/files/file_snapshots.hpp"
 
 #include <fmt/format.h>
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "adapters/audit_geometry.hpp"
@@ -13,12 +11,6 @@
 #include "support/bad_input.hpp"
 
 namespace crossgrain::files {
-namespace {
-
-template <int D>
-constexpr const char* movers = D == 3 ? "spheres" : "disks";
-
-}  // namespace
 
 template <int D>
 FileSnapshotsOf<D>::FileSnapshotsOf(std::unique_ptr<FrameReader> reader, FileUnits units,
@@ -39,7 +31,7 @@ FileSnapshotsOf<D>::FileSnapshotsOf(std::unique_ptr<FrameReader> reader, FileUni
     throw BadInput(fmt::format("{}: no snapshot lies between {:.6g} and {:.6g} s{}", target_.name,
                                target_.from, target_.to, when));
   }
-  recognise(*pending_);
+  begin();
 }
 
 /// Of a file without a time that is the only one: the number in its name is a step if that is
@@ -72,6 +64,14 @@ std::optional<FileFrame> FileSnapshotsOf<D>::readWithin() {
   std::optional<FileFrame> atBegin;
   while (auto frame = reader_->next()) {
     const double t = timeOf(*frame);
+    if (!last_ && t <= target_.from + slack) {
+      first_.emplace();
+      first_->where = frame->where;
+      first_->time = frame->time;
+      first_->step = frame->step;
+      first_->box = frame->box;
+      first_->particles = frame->particles;
+    }
     if (last_ && !(t > *last_))
       fail(*frame,
            fmt::format("it is of t = {:.9g} s, not after the one before of {:.9g} s", t, *last_));
@@ -166,12 +166,21 @@ void FileSnapshotsOf<D>::recognise(const FileFrame& frame) {
   if (all.mass.empty()) remarks_.insert("no masses in the files: they are the case's");
   scene_ = target_.around(std::move(disks));
   scene_.bodies = target_.bodies;
+  settleBasis();
+  learn(frame);
+}
+
+/// What snapshots are compared with, of the scene as it is.
+template <int D>
+void FileSnapshotsOf<D>::settleBasis() {
+  const double rounding = basis_.rounding;
   bare_ = scene_;
   bare_.bodies.clear();
   for (auto [basis, scene] : {std::pair(&basis_, &scene_), {&bareBasis_, &bare_}}) {
     *basis = auditBasis(*scene);
     basis->byOverlap = scene->law.soft();
     basis->prescribed = true;
+    basis->rounding = std::max(basis->rounding, rounding);
   }
 }
 
@@ -199,12 +208,14 @@ void FileSnapshotsOf<D>::checkRadius(const FileFrame& frame, std::size_t row, st
 template <int D>
 SnapshotOf<D> FileSnapshotsOf<D>::convert(const FileFrame& frame) {
   const FileParticles& all = frame.particles;
-  if (all.size() != ids_->size())
-    fail(frame, fmt::format("{} particles, {} in the first snapshot", all.size(), ids_->size()));
-  if (all.velocity.empty())
+  disksChanged_ = false;
+  if (all.size() != ids_->size() ||
+      std::ranges::any_of(all.id, [&](std::int64_t id) { return !ids_->ourOf(id); }))
+    changeDisks(frame);
+  if (all.size() > 0 && all.velocity.empty())
     fail(frame,
          "it has no velocities, the first snapshot has: nothing can be averaged without them");
-  checkParticles(frame, units_, target_.box);
+  if (all.size() > 0) checkParticles(frame, units_, target_.box);
   requireContacts(frame);
   allowForRounding(frame);
   SnapshotOf<D> now;
@@ -219,7 +230,8 @@ SnapshotOf<D> FileSnapshotsOf<D>::convert(const FileFrame& frame) {
   now.position.resize(count);
   now.velocity.resize(count);
   const MissingComponent* const lack = neededComponent<D>(all.missing, units_, true);
-  if (scene_.rotation && !all.spin.empty() && !lack) now.spin.emplace(count);
+  const bool hasSpins = all.size() == 0 ? spins_.value_or(false) : !all.spin.empty();
+  if (scene_.rotation && hasSpins && !lack) now.spin.emplace(count);
   if (scene_.rotation && !now.spin)
     remarks_.insert(
         fmt::format("no {} in the files: spin and what follows from it are not available",
@@ -228,7 +240,6 @@ SnapshotOf<D> FileSnapshotsOf<D>::convert(const FileFrame& frame) {
   const double speed = units_.length / units_.time;
   for (std::size_t row = 0; row < all.size(); ++row) {
     const auto k = ids_->ourOf(all.id[row]);
-    if (!k) fail(frame, fmt::format("particle {} is not in the first snapshot", all.id[row]));
     if (seen[*k]) fail(frame, describeTwice(all, all.id[row]));
     seen[*k] = true;
     if (*k >= count) continue;
@@ -240,202 +251,6 @@ SnapshotOf<D> FileSnapshotsOf<D>::convert(const FileFrame& frame) {
   placeWallsAsPrescribed(scene_, now.positionTime, now);
   now.contacts = frameContacts(frame, units_, *ids_, now, basis_, remarks_);
   return now;
-}
-
-namespace {
-
-/// Sums over contacts with each body: what the disks do to it, about its centre.
-template <int D>
-void addWallForces(const SceneOf<D>& scene, SnapshotOf<D>& now) {
-  const std::size_t disks = scene.disks.size(), round = disks + scene.wallDiskCount();
-  std::vector<std::size_t> bodyOf(scene.idCount());
-  std::size_t disk = disks, plane = round, cylinder = round + scene.planeCount();
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    for (std::size_t k = 0; k < scene.bodies[b].diskRadius.size(); ++k) bodyOf[disk++] = b;
-    for (std::size_t k = 0; k < scene.bodies[b].planes.size(); ++k) bodyOf[plane++] = b;
-    for (std::size_t k = 0; k < scene.bodies[b].cylinders.size(); ++k) bodyOf[cylinder++] = b;
-    now.bodies[b].force = VecOf<D>::Zero();
-    now.bodies[b].torque = noSpin<D>();
-  }
-  const ContactsOf<D>& contacts = *now.contacts;
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const auto i = static_cast<std::size_t>(contacts.i[c]);
-    const auto j = static_cast<std::size_t>(contacts.j[c]);
-    if (j < disks) continue;
-    BodySnapshotOf<D>& body = now.bodies[bodyOf[j]];
-    VecOf<D> point =
-        now.position[i] - (scene.disks.radius[i] - 0.5 * contacts.overlap[c]) * contacts.normal[c];
-    // Of the images, the one in which the wall disk turns with its body.
-    if (scene.box && j < round)
-      point = now.wallPosition[j - disks] + scene.box->nearest(point - now.wallPosition[j - disks]);
-    const VecOf<D> force = -contacts.force(c);
-    *body.force += force;
-    if constexpr (D == 2)
-      *body.torque += cross(point - body.centre, force);
-    else
-      *body.torque += (point - body.centre).cross(force);
-    if (!contacts.rollingTorque.empty()) *body.torque -= contacts.rollingTorque[c];
-  }
-}
-
-/// Whether the forces have the signs of a law without attraction. Dashpots that may pull do so at
-/// the end of a contact, for a twentieth of it or so: a few contacts may all be there, of twenty or
-/// more the half is not.
-template <int D>
-std::string signFault(const ContactsOf<D>& contacts, const SceneOf<D>& scene) {
-  double sum = 0.0;
-  for (const double f : contacts.normalForce) sum += f;
-  if (!(sum < 0.0) || scene.law.coheres()) return {};
-  constexpr std::size_t many = 20;
-  const bool mayPull = scene.law.conventions.tension == Tension::allow && scene.law.gn != 0.0;
-  const auto pulling = static_cast<std::size_t>(
-      std::ranges::count_if(contacts.normalForce, [](double f) { return f < 0.0; }));
-  if (mayPull && (contacts.size() < many || 2 * pulling <= contacts.size())) return {};
-  return fmt::format(
-      "normal forces attract, {:.4g} N over {} contacts, although the law has no cohesion; has "
-      "normal_force the other sign?",
-      sum, contacts.size());
-}
-
-}  // namespace
-
-template <int D>
-void FileSnapshotsOf<D>::audit(const FileFrame& frame, SnapshotOf<D>& snapshot) {
-  if (snapshot.contacts) {
-    if (const std::string why = signFault(*snapshot.contacts, scene_); !why.empty())
-      fail(frame, why);
-    wallContacts_ |= std::ranges::any_of(snapshot.contacts->j, [&](std::int32_t j) {
-      return static_cast<std::size_t>(j) >= scene_.disks.size();
-    });
-  }
-  std::string why = auditFault(snapshot, basis_);
-  if (!why.empty() && snapshot.contacts && !wallContacts_) {
-    // Of files without contacts of walls, all others are whole.
-    auto walls = std::exchange(snapshot.wallPosition, {});
-    auto bodies = std::exchange(snapshot.bodies, {});
-    why = auditFault(snapshot, bareBasis_);
-    snapshot.wallPosition = std::move(walls);
-    snapshot.bodies = std::move(bodies);
-    if (why.empty())
-      remarks_.insert(
-          "no contacts with walls in the files: stress, fabric and coordination lack them, and "
-          "forces on walls are not available");
-  }
-  if (!why.empty()) fail(frame, why);
-  if (!snapshot.contacts) return;
-  if (wallContacts_) addWallForces(scene_, snapshot);
-  if (lawDiffers_ || !scene_.law.soft()) return;
-  AuditBasisOf<D> basis = basis_;
-  basis.dt = step();
-  if (!frame.contacts->overlap.empty()) {
-    basis.shownOverlaps = lastDigitOf(frame.contacts->overlap);
-    basis.shownOverlaps->place *= units_.length;
-  }
-  const std::string differs = lawFault(snapshot, basis, scene_.law);
-  lawDiffers_ = !differs.empty();
-  if (lawDiffers_)
-    remarks_.insert(
-        fmt::format("{}: the forces are not those of the case's law: {}", frame.where, differs));
-}
-
-template <int D>
-std::string FileSnapshotsOf<D>::remedyOfMotion(const FileFrame& frame) const {
-  if (frame.time) return "velocities should be in the files' length per the files' time";
-  return fmt::format(
-      "is dt = {:g} in {} the time step, and are velocities in the files' length per the files' "
-      "time?",
-      units_.dt, target_.where);
-}
-
-template <int D>
-void FileSnapshotsOf<D>::refuseMotion(const FileFrame& frame, const MotionFinding& found) const {
-  fail(frame,
-       fmt::format("{} {} that move have gone {:.4g} times as far since the snapshot before as "
-                   "their velocities say: {}",
-                   found.of, movers<D>, *found.factor, remedyOfMotion(frame)));
-}
-
-/// A velocity that would carry its particle through everything within a step is none; one that is
-/// a hundred times that of all others, and of the particle's own way, is remarked on.
-template <int D>
-void FileSnapshotsOf<D>::checkSpeeds(const FileFrame& frame, const SnapshotOf<D>& now) {
-  constexpr double outlier = 100.0;
-  // Of walls; of disks the basis takes the files' word.
-  double walls = 0.0;
-  for (const WallBodyOf<D>& body : target_.bodies)
-    walls = std::max({walls, body.motion.velocity.norm(),
-                      body.motion.frequency * body.motion.amplitude.norm(),
-                      sizeOf(body.motion.angularVelocity) * basis_.farthest,
-                      std::abs(body.motion.radialVelocity)});
-  double fastest = 0.0, next = walls;
-  std::size_t at = 0;
-  for (std::size_t k = 0; k < now.velocity.size(); ++k) {
-    const double speed = now.velocity[k].stableNorm();
-    if (speed > fastest) {
-      next = std::max(next, std::exchange(fastest, speed));
-      at = k;
-    } else {
-      next = std::max(next, speed);
-    }
-  }
-  const std::int64_t id = now.velocity.empty() ? 0 : ids_->theirOf(at);
-  const double brief = shortestStep();
-  if (fastest * brief > std::max(basis_.extent, outlier * walls * brief))
-    fail(frame, fmt::format("particle {} has a velocity of {:.3g} m/s, by which it crosses the "
-                            "scene of {:.3g} m within a step of {:.3g} s",
-                            id, fastest, basis_.extent, brief));
-  if (!lastPlaces_.empty() && fastest > outlier * next) {
-    VecOf<D> way = now.position[at] - lastPlaces_[at];
-    if (scene_.box) way = scene_.box->nearest(way);
-    const double lapse = now.positionTime - lastTime_;
-    if (fastest * lapse > outlier * way.norm() && std::exchange(alike_, false))
-      remarks_.insert(fmt::format(
-          "{}: particle {} has a velocity of {:.3g} m/s, no other one of more than {:.3g} m/s, and "
-          "it has gone {:.3g} m in the {:.3g} s since the snapshot before",
-          frame.where, id, fastest, next, way.norm(), lapse));
-  }
-  lastPlaces_ = now.position;
-  lastTime_ = now.positionTime;
-}
-
-/// Positions and velocities that do not belong together are of a wrong time step or unit.
-template <int D>
-void FileSnapshotsOf<D>::checkMotion(const FileFrame& frame, const SnapshotOf<D>& now) {
-  const MotionFinding found = displacements_.compare(now, basis_.rounding * basis_.farthest);
-  if (found.factor) refuseMotion(frame, found);
-  if (found.rms && std::exchange(moves_, false))
-    remarks_.insert(
-        fmt::format("{}: {} have gone {:.3g} times as far since the snapshot before as their "
-                    "velocities say (root mean square): {}",
-                    frame.where, movers<D>, *found.rms, remedyOfMotion(frame)));
-}
-
-/// What is averaged is often at rest; what comes before shows whether times are right. Particles
-/// that are walls count as well.
-template <int D>
-void FileSnapshotsOf<D>::checkEarlyMotion(const FileFrame& frame, double t) {
-  const FileParticles& all = frame.particles;
-  if (t < 0.0 || all.velocity.size() != all.size() || all.size() == 0) return;
-  std::vector<std::size_t> order(all.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  if (!std::ranges::is_sorted(all.id))
-    std::ranges::sort(order, {}, [&](std::size_t row) { return all.id[row]; });
-  SnapshotOf<D> now;
-  now.positionTime = t;
-  std::vector<std::int64_t> ids;
-  double farthest = 0.0;
-  for (const std::size_t row : order) {
-    ids.push_back(all.id[row]);
-    now.position.push_back(units_.length * units_.template along<D>(all.position[row]));
-    now.velocity.push_back(units_.length / units_.time *
-                           units_.template along<D>(all.velocity[row]));
-    farthest = std::max(farthest, now.position.back().cwiseAbs().maxCoeff());
-  }
-  if (ids != earlyIds_) earlyDisplacements_ = displacements_;  // nothing to compare with
-  earlyIds_ = std::move(ids);
-  const MotionFinding found =
-      earlyDisplacements_.compare(now, roundingOf<D>(all.position, units_) * farthest);
-  if (found.factor) refuseMotion(frame, found);
 }
 
 template <int D>
@@ -457,6 +272,10 @@ std::optional<SnapshotOf<D>> FileSnapshotsOf<D>::next() {
 template <int D>
 std::vector<std::string> FileSnapshotsOf<D>::remarks() const {
   std::vector<std::string> all(remarks_.begin(), remarks_.end());
+  if (fewest_ < most_ || cameAndWent_)
+    all.push_back(fmt::format(
+        "particles come and go: each snapshot counts those that are there, {} to {} of them",
+        fewest_, most_));
   if (skipped_ > 0)
     all.push_back(fmt::format(
         "{}: contacts of a time that the files of particles lack ({} such time{} within what is "

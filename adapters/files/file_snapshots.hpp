@@ -1,10 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "adapters/audit.hpp"
@@ -28,6 +31,15 @@ struct FileSceneOf {
   bool anyAngle = false;
   /// The scene with those disks, radii and masses empty where the files have none. @throws BadInput
   std::function<SceneOf<D>(DisksOf<D>)> around;
+  /// The scene without disks, and the disks that the case begins with: particles may come and go
+  /// where the first time of the files has these, or where their number changes before the averaged
+  /// time. Empty: `around` says what is wrong with any other number.
+  std::function<std::pair<SceneOf<D>, DisksOf<D>>()> open;
+  /// Refuses disks of another size than the case's. @throws BadInput
+  std::function<void(const DisksOf<D>&)> checkLengths;
+  /// What of the case needs each particle from the start on: "the endpoint top is of disk 3".
+  /// Empty: particles may come and go.
+  std::string needsAll;
   /// Frames of (from, to] are averaged, those of other times left out, as engines are averaged from
   /// the first snapshot after `from` to that at `to`. Of files that have none there, the instant
   /// `from` itself is taken [s].
@@ -52,6 +64,7 @@ class FileSnapshotsOf : public SnapshotSourceOf<D> {
   FileSnapshotsOf& operator=(const FileSnapshotsOf&) = delete;
 
   const SceneOf<D>& scene() const override { return scene_; }
+  bool disksChanged() const override { return disksChanged_; }
   const std::string& engine() const override { return target_.name; }
   std::optional<SnapshotOf<D>> next() override;
   double progress() const override { return reader_->progress(); }
@@ -62,6 +75,13 @@ class FileSnapshotsOf : public SnapshotSourceOf<D> {
   void requireContacts(const FileFrame& frame) const;
   void requireSame(const FileFrame& frame, SnapshotOf<D>& now);
   void recognise(const FileFrame& frame);
+  void begin();
+  void settleBasis();
+  void requireOpen(const FileFrame& frame, std::size_t before) const;
+  void learn(const FileFrame& frame);
+  void remember();
+  void changeDisks(const FileFrame& frame);
+  DisksOf<D> disksOf(const FileFrame& frame, std::vector<std::int32_t>& materials) const;
   SnapshotOf<D> convert(const FileFrame& frame);
   void checkRadius(const FileFrame& frame, std::size_t row, std::size_t k) const;
   void allowForRounding(const FileFrame& frame);
@@ -71,6 +91,8 @@ class FileSnapshotsOf : public SnapshotSourceOf<D> {
   [[noreturn]] void refuseMotion(const FileFrame& frame, const MotionFinding& found) const;
   std::string remedyOfMotion(const FileFrame& frame) const;
   void audit(const FileFrame& frame, SnapshotOf<D>& snapshot);
+  void checkLaw(const FileFrame& frame, const SnapshotOf<D>& snapshot);
+  void checkSliding(const FileFrame& frame, const SnapshotOf<D>& snapshot);
   double timeOf(const FileFrame& frame) const;
   std::optional<double> timeByName(const FileFrame& frame) const;
   /// Of what the files count: the time step, or the time from one file to the next [s].
@@ -84,6 +106,19 @@ class FileSnapshotsOf : public SnapshotSourceOf<D> {
   std::optional<FileFrame> pending_;  ///< the first, until it is asked for
   SceneOf<D> scene_, bare_;           ///< with walls, and without
   std::optional<ParticleIds> ids_;
+  /// What is known of a particle by its id, or of those of a type.
+  struct Known {
+    double radius, mass;  ///< [m], [kg]
+    std::int32_t material;
+  };
+  std::unordered_map<std::int64_t, Known> known_;        ///< of times before, once they come and go
+  std::map<std::int64_t, std::int32_t> materialOfKind_;  ///< −1: several
+  std::optional<double> density_;   ///< m/a², in space m/a³, of all that is known
+  std::optional<FileFrame> first_;  ///< of all, without contacts, until the first averaged one
+  double inertiaFactor_ = 0.0;      ///< J/(m a²)
+  bool rows_ = false;               ///< ids are but numbers of rows
+  bool disksChanged_ = false, cameAndWent_ = false;
+  std::size_t fewest_ = 0, most_ = 0;  ///< particles of a snapshot, where they come and go
   AuditBasisOf<D> basis_, bareBasis_;
   std::optional<double> last_;  ///< time of the frame before [s]
   std::string lastWhere_;       ///< where that is
@@ -93,9 +128,11 @@ class FileSnapshotsOf : public SnapshotSourceOf<D> {
   std::optional<bool> contacts_, spins_;
   bool wallContacts_ = false;               ///< whether any was seen
   bool lawDiffers_ = false, moves_ = true;  ///< moves_: as velocities say, so far
-  bool alike_ = true;                       ///< no velocity stands out, so far
-  std::vector<VecOf<D>> lastPlaces_;        ///< of the snapshot before [m]
-  double lastTime_ = 0.0;                   ///< its time [s]
+  SlidingSense sliding_;
+  bool saidSliding_ = false;
+  bool alike_ = true;                 ///< no velocity stands out, so far
+  std::vector<VecOf<D>> lastPlaces_;  ///< of the snapshot before [m]
+  double lastTime_ = 0.0;             ///< its time [s]
   DisplacementsOf<D> displacements_, earlyDisplacements_;
   std::vector<std::int64_t> earlyIds_;  ///< of the frame before, rising
   std::set<std::string> remarks_;

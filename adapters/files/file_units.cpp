@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "support/bad_input.hpp"
@@ -161,9 +162,9 @@ void checkPeriod(const FileFrame& frame, int axis, double found, double wanted) 
                             axisNames[static_cast<std::size_t>(axis)], found, wanted));
 }
 
-/// Decimal digits that a number gets by with.
+/// Decimal digits that a number gets by with; what only its change of unit has added is no digit.
 int digitsOf(double x) {
-  const std::string text = fmt::format("{}", std::abs(x)),
+  const std::string text = fmt::format("{:.14g}", std::abs(x)),
                     mantissa = text.substr(0, text.find('e'));
   int digits = 0, zeros = 0;
   for (const char c : mantissa) {
@@ -247,18 +248,30 @@ LastDigit lastDigitOf(const std::vector<double>& numbers) {
   return {std::pow(10.0, 1 - digits), std::isfinite(place) ? place : 0.0};
 }
 
+namespace {
+
+/// Of those, as many as tell.
 template <int D>
-double roundingOf(const std::vector<Vec3>& position, const FileUnits& units) {
+std::vector<double> sampleOf(const std::vector<Vec3>& position, const FileUnits& units) {
   constexpr std::size_t most = 1000;
   const std::size_t stride = std::max<std::size_t>(1, position.size() / most);
+  std::vector<double> sample;
+  for (std::size_t k = 0; k < position.size(); k += stride)
+    for (int axis = 0; axis < D; ++axis) sample.push_back(position[k][units.axes[axis]]);
+  return sample;
+}
+
+}  // namespace
+
+template <int D>
+double roundingOf(const std::vector<Vec3>& position, const FileUnits& units) {
   std::array<std::size_t, 20> count{};
   std::size_t all = 0;
-  for (std::size_t k = 0; k < position.size(); k += stride)
-    for (int axis = 0; axis < D; ++axis)
-      if (const double x = position[k][units.axes[axis]]; x != 0.0) {
-        ++count[static_cast<std::size_t>(std::min(digitsOf(x), 19))];
-        ++all;
-      }
+  for (const double x : sampleOf<D>(position, units))
+    if (x != 0.0) {
+      ++count[static_cast<std::size_t>(std::min(digitsOf(x), 19))];
+      ++all;
+    }
   std::size_t digits = count.size() - 1;
   while (digits > 0 && count[digits] == 0) --digits;
   if (digits < 5 || digits > 8 || 2 * (count[digits] + count[digits - 1]) < all) return 1e-6;
@@ -266,5 +279,39 @@ double roundingOf(const std::vector<Vec3>& position, const FileUnits& units) {
 }
 template double roundingOf<2>(const std::vector<Vec3>&, const FileUnits&);
 template double roundingOf<3>(const std::vector<Vec3>&, const FileUnits&);
+
+template <int D>
+std::optional<ShownPlaces> shownPlacesOf(const FileParticles& particles, const FileUnits& units) {
+  if (particles.scaled) return std::nullopt;
+  constexpr double single = 0x1p-23;
+  const std::vector<double> places = sampleOf<D>(particles.position, units);
+  ShownPlaces shown;
+  shown.unit = units.length;
+  shown.position = lastDigitOf(places);
+  const auto isSingle = [&](double x) {
+    const double place =
+        shown.position.relative * std::pow(10.0, std::floor(std::log10(std::abs(x))));
+    return x == 0.0 || std::abs(x - static_cast<double>(static_cast<float>(x))) <= 0.5 * place;
+  };
+  if (std::ranges::all_of(places, isSingle)) shown.binary = single;
+  // Of one radius or a few the last digits may be noughts: then they have those of the places.
+  // Radii may be half of diameters, whose last place is twice as much.
+  constexpr std::size_t several = 8;
+  const std::set<double> different(
+      particles.radius.begin(),
+      particles.radius.begin() +
+          static_cast<std::ptrdiff_t>(std::min<std::size_t>(1000, particles.radius.size())));
+  std::vector<double> radii(different.begin(), different.end());
+  shown.radius = {shown.position.relative, 0.0};
+  if (radii.size() >= several) {
+    const LastDigit own = lastDigitOf(radii);
+    for (double& radius : radii) radius *= 2.0;
+    const LastDigit twice = lastDigitOf(radii);
+    shown.radius = {std::max(own.relative, twice.relative), std::max(own.place, 0.5 * twice.place)};
+  }
+  return shown;
+}
+template std::optional<ShownPlaces> shownPlacesOf<2>(const FileParticles&, const FileUnits&);
+template std::optional<ShownPlaces> shownPlacesOf<3>(const FileParticles&, const FileUnits&);
 
 }  // namespace crossgrain::files

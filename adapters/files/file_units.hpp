@@ -81,4 +81,8 @@ LastDigit lastDigitOf(const std::vector<double>& numbers);
 template <int D>
 double roundingOf(const std::vector<Vec3>& position, const FileUnits& units);
 
+/// How exactly particles say which of them overlap; absent where their digits do not show it.
+template <int D>
+std::optional<ShownPlaces> shownPlacesOf(const FileParticles& particles, const FileUnits& units);
+
 }  // namespace crossgrain::files

@@ -31,7 +31,8 @@ constexpr Format formats[] = {{"mercurydpm", openMercuryDpm, contentOfMercuryDpm
                               {"yade-text", openYadeText, nullptr, nullptr},
                               {"vtk", openVtk, contentOfVtk, nullptr},
                               {"ondem", openOnDem, nullptr, nullptr},
-                              {"csv", openCsv, contentOfCsv, firstTimeOfCsv}};
+                              {"csv", openCsv, contentOfCsv, firstTimeOfCsv},
+                              {"xyz", openXyz, nullptr, firstTimeOfXyz}};
 
 constexpr std::string_view hdf5Mark = "\x89HDF";
 
@@ -52,10 +53,11 @@ Content contentOf(const Format& format, const fs::path& file) {
 /// Words of file names that say what is in the file, not which run it is of.
 bool saysContent(const std::string& word) {
   constexpr std::string_view known[] = {
-      "atom", "atoms",  "particle", "particles", "sphere",    "spheres", "contact", "contacts",
-      "pair", "pairs",  "local",    "wall",      "walls",     "intr",    "intrs",   "interactions",
-      "dump", "custom", "txt",      "csv",       "data",      "fstat",   "vtk",     "vtu",
-      "vtp",  "vtkhdf", "hdf",      "h5",        "lammpstrj", "gz"};
+      "atom",      "atoms",        "particle", "particles", "sphere", "spheres", "contact",
+      "contacts",  "pair",         "pairs",    "local",     "wall",   "walls",   "intr",
+      "intrs",     "interactions", "dump",     "custom",    "txt",    "csv",     "data",
+      "fstat",     "vtk",          "vtu",      "vtp",       "vtkhdf", "hdf",     "h5",
+      "lammpstrj", "gz",           "pvtu",     "pvtp",      "xyz",    "extxyz"};
   return std::ranges::find(known, word) != std::end(known);
 }
 
@@ -216,6 +218,9 @@ std::optional<std::string_view> formatOf(const fs::path& file) {
     if (parts.front() != "#" && (parts.size() == 6 || parts.size() == 8) && numbers)
       return "mercurydpm";
     if (line.front() == '#') continue;
+    if (numbers && parts.size() == 1 &&
+        head.substr(at, 2000).find("Properties=") != std::string::npos)
+      return "xyz";
     return isTable(line, std::string_view(head).substr(std::min(at, head.size())))
                ? std::optional<std::string_view>("csv")
                : std::nullopt;
@@ -224,6 +229,15 @@ std::optional<std::string_view> formatOf(const fs::path& file) {
 }
 
 bool isBesideResults(const fs::path& file, const Files& files) {
+  const auto isPiece = [&](const fs::path& index) {
+    const std::string ending = index.extension().string();
+    if (index == file || (ending != ".pvtu" && ending != ".pvtp")) return false;
+    std::error_code ignored;
+    return std::ranges::any_of(piecesOfVtk(index), [&](const fs::path& piece) {
+      return fs::equivalent(piece, file, ignored);
+    });
+  };
+  if (std::ranges::any_of(files, isPiece)) return true;
   const fs::path name = numberInName(file) && seriesOf(file).ends_with('.') ? file.stem() : file;
   constexpr std::string_view endings[] = {".restart", ".ene", ".xballs", ".stat", ".interaction"};
   if (std::ranges::find(endings, name.extension().string()) == std::end(endings)) return false;

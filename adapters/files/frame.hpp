@@ -40,6 +40,7 @@ struct FileParticles {
   std::vector<double> mass;               ///< [mass]
   std::vector<std::int64_t> kind;         ///< type, species or material number
   std::vector<MissingComponent> missing;  ///< of what is there; its numbers are 0
+  bool scaled = false;  ///< places are parts of a box in the file: their digits are not its own
   /// Lines of the file that the first and the last of them are, one a line; 0: not text.
   std::size_t firstLine = 0, lastLine = 0;
 
@@ -121,7 +122,8 @@ std::optional<std::string_view> formatOf(const std::filesystem::path& file);
 bool isHdf5(const std::filesystem::path& file);
 
 /// Whether MercuryDPM wrote it beside a .data or .fstat that is among the files: NAME.restart,
-/// NAME.ene and others, which have nothing to be averaged.
+/// NAME.ene and others, which have nothing to be averaged; or an index of VTK files among them has
+/// it.
 bool isBesideResults(const std::filesystem::path& file,
                      const std::vector<std::filesystem::path>& files);
 

@@ -214,6 +214,7 @@ class Atoms : public TextParts {
     };
     if ((isScaled(0) || isScaled(1) || isScaled(2)) && !frame.box)
       text.fail("xs, ys, zs are parts of the box: ITEM: BOX BOUNDS is missing");
+    frame.particles.scaled = isScaled(0) || isScaled(1) || isScaled(2);
     if (!atoms.walls.empty()) {
       head.part.table.emplace();
       head.part.wallsAlone = true;

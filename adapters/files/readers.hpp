@@ -18,6 +18,7 @@ std::unique_ptr<FrameReader> openYadeText(const Files& files, const FileOptions&
 std::unique_ptr<FrameReader> openVtk(const Files& files, const FileOptions& options);
 std::unique_ptr<FrameReader> openOnDem(const Files& files, const FileOptions& options);
 std::unique_ptr<FrameReader> openCsv(const Files& files, const FileOptions& options);
+std::unique_ptr<FrameReader> openXyz(const Files& files, const FileOptions& options);
 
 /// What a file holds, where a format keeps particles and contacts apart. @throws BadInput
 enum class Content { particles, contacts };
@@ -30,6 +31,11 @@ Content contentOfCsv(const std::filesystem::path& file);
 /// runs.
 double firstTimeOfLammps(const std::filesystem::path& file);
 double firstTimeOfCsv(const std::filesystem::path& file);
+double firstTimeOfXyz(const std::filesystem::path& file);
+
+/// Of an index of VTK files (.pvtu, .pvtp), those that it names; of any other file none.
+/// @throws BadInput
+Files piecesOfVtk(const std::filesystem::path& file);
 
 /// Files of one content.
 Files filesOf(const Files& files, Content content,

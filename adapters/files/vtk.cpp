@@ -216,9 +216,8 @@ void findWalls(ContactTable& table, FileFrame& frame) {
   }
 }
 
-}  // namespace
-
-Content contentOfVtk(const fs::path& file) {
+/// @param isPiece  an index names it
+Content contentOf(const fs::path& file, bool isPiece) {
   if (isGzip(file))
     throw BadInput(fmt::format(
         "{}: is packed by gzip, which is read of text alone: unpack it before", file.string()));
@@ -227,6 +226,12 @@ Content contentOfVtk(const fs::path& file) {
   const RegularFile bytes(file);
   head.resize(bytes.read(0, std::as_writable_bytes(std::span(head))));
   if (head.starts_with('<')) {
+    const bool isIndex = head.find("type=\"PUnstructuredGrid\"") != std::string::npos ||
+                         head.find("type=\"PPolyData\"") != std::string::npos;
+    if (isIndex && isPiece)
+      throw BadInput(fmt::format("{}: is an index that another one names", file.string()));
+    const std::vector<fs::path> pieces = isIndex ? piecesOfVtk(file) : std::vector<fs::path>();
+    if (!pieces.empty()) return contentOf(pieces.front(), true);
     constexpr std::string_view lines = "NumberOfLines=\"";
     const std::size_t at = head.find(lines);
     const bool hasLines = at != std::string::npos && at + lines.size() < head.size() &&
@@ -235,6 +240,12 @@ Content contentOfVtk(const fs::path& file) {
                                                                     : Content::particles;
   }
   return legacyHasLines(file) ? Content::contacts : Content::particles;
+}
+
+}  // namespace
+
+Content contentOfVtk(const fs::path& file) {
+  return contentOf(file, false);
 }
 
 std::unique_ptr<FrameReader> openVtk(const Files& files, const FileOptions& options) {

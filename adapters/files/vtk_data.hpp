@@ -29,7 +29,8 @@ struct VtkData {
   std::vector<VtkArray> pointArrays, lineArrays;
 };
 
-/// .vtu and .vtp: numbers in text, in base64, or appended, raw or in base64, packed by zlib or not.
+/// .vtu and .vtp, or an index of them, .pvtu and .pvtp, without ghosts: numbers in text, in base64,
+/// or appended, raw or in base64, packed by zlib or not.
 /// @throws BadInput
 VtkData readVtkXml(const std::filesystem::path& file);
 /// The older format, in text or binary. @throws BadInput

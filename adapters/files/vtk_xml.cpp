@@ -11,6 +11,7 @@
 #include <optional>
 #include <pugixml.hpp>
 
+#include "adapters/files/readers.hpp"
 #include "adapters/files/vtk_data.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
@@ -44,6 +45,8 @@ class XmlFile {
   explicit XmlFile(const fs::path& file);
 
   VtkData data() const;  ///< of all pieces, one after the other
+  /// Of an index, the files that hold its pieces; of any other file none.
+  std::vector<fs::path> pieces() const;
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
@@ -57,6 +60,7 @@ class XmlFile {
   struct Type;
 
   VtkData piece(const pugi::xml_node& piece, bool isPolyData) const;
+  void add(VtkData& all, VtkData next) const;
   void append(std::vector<VtkArray>& arrays, std::vector<VtkArray> more) const;
   VtkArray array(const pugi::xml_node& node, std::size_t rows) const;
   std::vector<VtkArray> arrays(const pugi::xml_node& section, std::size_t rows) const;
@@ -343,6 +347,23 @@ VtkData XmlFile::piece(const pugi::xml_node& piece, bool isPolyData) const {
   return data;
 }
 
+/// A piece after those before. One without points says nothing of arrays.
+void XmlFile::add(VtkData& all, VtkData next) const {
+  if (all.points.empty()) {
+    if (!next.points.empty() || all.pointArrays.empty()) all = std::move(next);
+    return;
+  }
+  if (next.points.empty() && next.lines.empty()) return;
+  const std::size_t before = all.points.size();
+  for (const auto& [from, to] : next.lines) all.lines.emplace_back(before + from, before + to);
+  all.points.insert(all.points.end(), next.points.begin(), next.points.end());
+  append(all.pointArrays, std::move(next.pointArrays));
+  if (all.lineArrays.empty())
+    all.lineArrays = std::move(next.lineArrays);
+  else if (!next.lines.empty())
+    append(all.lineArrays, std::move(next.lineArrays));
+}
+
 /// Those of the next piece, which has the same.
 void XmlFile::append(std::vector<VtkArray>& arrays, std::vector<VtkArray> more) const {
   if (more.size() != arrays.size())
@@ -355,33 +376,64 @@ void XmlFile::append(std::vector<VtkArray>& arrays, std::vector<VtkArray> more) 
   }
 }
 
+std::vector<fs::path> XmlFile::pieces() const {
+  const pugi::xml_node root = document_.child("VTKFile");
+  const std::string_view type = root.attribute("type").value();
+  std::vector<fs::path> files;
+  if (type != "PUnstructuredGrid" && type != "PPolyData") return files;
+  for (const pugi::xml_node& node : root.child(root.attribute("type").value()).children("Piece"))
+    files.push_back(file_.parent_path() / node.attribute("Source").value());
+  if (files.empty()) fail("it is an index without a <Piece>");
+  return files;
+}
+
+/// Points that another piece has, too, are no particles of their own.
+void dropGhosts(VtkData& data) {
+  const auto ghosts = std::ranges::find(data.pointArrays, "vtkGhostType", &VtkArray::name);
+  if (ghosts == data.pointArrays.end() || !data.lines.empty()) return;
+  const std::vector<double> isGhost = ghosts->values;
+  const auto keep = [&](auto& values, std::size_t width) {
+    std::size_t kept = 0;
+    for (std::size_t row = 0; row < isGhost.size(); ++row)
+      for (std::size_t k = 0; isGhost[row] == 0.0 && k < width; ++k)
+        values[kept++] = values[row * width + k];
+    values.resize(kept);
+  };
+  for (VtkArray& array : data.pointArrays) keep(array.values, array.components);
+  keep(data.points, 1);
+}
+
 VtkData XmlFile::data() const {
   const pugi::xml_node root = document_.child("VTKFile");
   const std::string_view type = root.attribute("type").value();
+  if (const auto files = pieces(); !files.empty()) {
+    VtkData all;
+    for (const fs::path& file : files) {
+      const XmlFile one(file);
+      if (!one.pieces().empty()) one.fail("an index should name files of points, not an index");
+      VtkData next = one.data();
+      dropGhosts(next);
+      add(all, std::move(next));
+    }
+    return all;
+  }
   if (type != "UnstructuredGrid" && type != "PolyData")
     fail(fmt::format("VTKFile type \"{}\" should be UnstructuredGrid or PolyData", type));
-  std::optional<VtkData> all;
+  VtkData all;
+  bool any = false;
   for (const pugi::xml_node& node : root.child(root.attribute("type").value()).children("Piece")) {
-    VtkData next = piece(node, type == "PolyData");
-    if (next.points.empty() && next.lines.empty() && all) continue;
-    if (!all || all->points.empty()) {
-      all = std::move(next);
-      continue;
-    }
-    const std::size_t before = all->points.size();
-    for (const auto& [from, to] : next.lines) all->lines.emplace_back(before + from, before + to);
-    all->points.insert(all->points.end(), next.points.begin(), next.points.end());
-    append(all->pointArrays, std::move(next.pointArrays));
-    if (all->lineArrays.empty())
-      all->lineArrays = std::move(next.lineArrays);
-    else if (!next.lines.empty())
-      append(all->lineArrays, std::move(next.lineArrays));
+    add(all, piece(node, type == "PolyData"));
+    any = true;
   }
-  if (!all) fail("there is no <Piece>");
-  return *std::move(all);
+  if (!any) fail("there is no <Piece>");
+  return all;
 }
 
 }  // namespace
+
+std::vector<fs::path> piecesOfVtk(const fs::path& file) {
+  return XmlFile(file).pieces();
+}
 
 VtkData readVtkXml(const fs::path& file) {
   return XmlFile(file).data();

@@ -48,6 +48,8 @@ class FlowAveragesOf : public RunAverages {
  public:
   /// @throws std::invalid_argument for a snapshot that does not fit the scene or those before it
   virtual void add(const SnapshotOf<D>& snapshot) = 0;
+  /// The scene has other disks from now on (SnapshotSource::disksChanged). Not of a cell.
+  virtual void changeDisks() {}
 };
 using FlowAverages = FlowAveragesOf<2>;
 
@@ -104,6 +106,7 @@ class RegionAverages : public ProfileAveragesOf<D> {
   RegionAverages(const Case& setup, const SceneOf<D>& scene);
 
   void add(const SnapshotOf<D>& snapshot) override;
+  void changeDisks() override { profiles_.changeDisks(scene_); }
   void describe(const EffectiveParameters& effective, FlowRun& run) const override;
 
  private:

@@ -105,6 +105,7 @@ AveragedRun averagedRun(const Case& setup, const SnapshotRun& files, SnapshotSou
   auto averages = flowAverages<D>(setup, source.scene());
   while (const auto snapshot = source.next()) {
     throwIfInterrupted();
+    if (source.disksChanged()) averages->changeDisks();
     try {
       averages->add(*snapshot);
     } catch (const std::invalid_argument& misfit) {

@@ -84,6 +84,11 @@ Imported importRun(const SnapshotRun& run, const Case& setup, const std::string&
   CoveredTime covered(flowTimes(setup));
   while (const auto snapshot = source->next()) {
     throwIfInterrupted();
+    if (source->disksChanged() && imported.snapshots > 0)
+      throw BadInput(fmt::format(
+          "{}: its particles come and go, and a file of snapshots has the same disks throughout: "
+          "average and compare read the files themselves",
+          run.name()));
     if (imported.snapshots == 0) imported.from = snapshot->positionTime;
     imported.to = snapshot->positionTime;
     covered.add(snapshot->positionTime);

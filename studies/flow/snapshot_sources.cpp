@@ -194,6 +194,19 @@ SceneOf<D> sceneOf(const Case& setup, DisksOf<D> disks, const SnapshotOrigin& or
   return scene;
 }
 
+/// What needs each particle from the start on; empty: nothing.
+std::string needOfAll(const Case& setup) {
+  if (setup.kind == CaseKind::couette) return "a cell keeps its disks";
+  if (!setup.average) return {};
+  for (const OwnEndpoint& own : setup.average->endpoints)
+    if (own.disk)
+      return fmt::format(
+          "the endpoint {} is of disk {}, which is known where all that the case begins with are "
+          "there throughout",
+          own.name, *own.disk);
+  return {};
+}
+
 /// The case's scene without disks.
 template <int D>
 SceneOf<D> wallsOf(const Case& setup) {
@@ -342,6 +355,13 @@ std::unique_ptr<SnapshotSourceOf<D>> openSnapshots(const SnapshotRun& run, const
   target.around = [setup, origin](DisksOf<D> disks) {
     return sceneOf<D>(setup, std::move(disks), origin);
   };
+  if (setup.kind == CaseKind::assembly) {
+    target.open = [setup] { return std::pair(wallsOf<D>(setup), assemblyDisks<D>(setup, 0)); };
+    target.checkLengths = [setup, origin](const DisksOf<D>& disks) {
+      checkLengths<D>(setup, disks, origin);
+    };
+  }
+  target.needsAll = needOfAll(setup);
   target.from = times.settled;
   target.to = times.end();
   target.dt = stepOf(setup);

@@ -41,6 +41,47 @@ TEST_F(Csv, Times_RowsOfOneFollowOneAnother) {
   EXPECT_EQ(frames[1].contacts->force[0], Vec3(-7, 0, 0));
 }
 
+/// Extended XYZ: two times of a file, names of several programs.
+TEST_F(Csv, ExtendedXyz_HasParticlesByItsProperties) {
+  samples_.write("run.xyz",
+                 "2\nLattice=\"4 0 0 0 3 0 0 0 2\" Origin=\"-1 0 0\" pbc=\"T F T\" "
+                 "Properties=species:S:1:id:I:1:pos:R:3:velo:R:3:radius:R:1:mine:R:2:omega:R:3 "
+                 "Time=0.5 Timestep=50\nAr 7 0.1 0.2 0.3 1 2 3 0.5 9 9 4 5 6\n"
+                 "Ar 5 1.5 0.2 0.3 0 0 0 0.5 9 9 0 0 0\n"
+                 "0\nProperties=species:S:1:pos:R:3 Time=1\n");
+  const auto frames = samples_.read("xyz", {"run.xyz"});
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[0].time, 0.5);
+  EXPECT_EQ(frames[0].step, 50);
+  const FileParticles& all = frames[0].particles;
+  EXPECT_EQ(all.id, (std::vector<std::int64_t>{7, 5}));
+  EXPECT_EQ(all.position[1], Vec3(1.5, 0.2, 0.3));
+  EXPECT_EQ(all.velocity[0], Vec3(1, 2, 3));
+  EXPECT_EQ(all.spin[0], Vec3(4, 5, 6));
+  EXPECT_EQ(all.radius, (std::vector{0.5, 0.5}));
+  ASSERT_TRUE(frames[0].box);
+  EXPECT_EQ(frames[0].box->low, Vec3(-1, 0, 0));
+  EXPECT_EQ(frames[0].box->high, Vec3(3, 3, 2));
+  EXPECT_TRUE(frames[0].box->periodic[0] && frames[0].box->saidFixed[1]);
+  EXPECT_EQ(frames[1].particles.size(), 0u);
+  FileOptions options;
+  options.columns = "mine=mass,-";
+  EXPECT_EQ(samples_.read("xyz", {"run.xyz"}, options)[0].particles.mass, (std::vector{9.0, 9.0}));
+  for (const auto& [text, message] :
+       {std::pair{"2\nProperties=pos:R:3 Time=1\n1 2 3\n",
+                  "run.xyz:3: the file ends where a particle"},
+        {"1\nTime=1\n1 2 3\n", "run.xyz:2: Properties= is missing"},
+        {"1\nProperties=pos:R Time=1\n1 2 3\n", "should be NAME:TYPE:COLUMNS"},
+        {"1\nProperties=radius:R:1 Time=1\n1\n", "Properties has no pos:R:3"},
+        {"1\nProperties=pos:R:3 Time=1\n1 2 x\n", "run.xyz:3: column 3: \"x\" should be"},
+        {"1\nProperties=pos:R:3 Time=1 Lattice=\"1 1 0 0 1 0 0 0 1\" pbc=\"T T T\"\n1 2 3\n",
+         "Lattice is tilted"}}) {
+    samples_.write("run.xyz", text);
+    const std::string said = samples_.refusal("xyz", {"run.xyz"});
+    EXPECT_NE(said.find(message), std::string::npos) << said;
+  }
+}
+
 /// The square of such a distance has no room in a double.
 TEST_F(Csv, Normals_AreUnitVectorsOrRefused) {
   samples_.write("contacts.csv", "first,second,normal_force\n1,2,20\n");

@@ -47,6 +47,8 @@ TEST_F(Formats, KnownByTheirBeginning) {
   EXPECT_EQ(format("# mine\nx,y,radius\n1,2,3\n"), "csv");
   // Names that the case says the meaning of, above rows of numbers.
   EXPECT_EQ(format("a;b;c\n1;2;x\n"), "csv");
+  EXPECT_EQ(format("2\nProperties=pos:R:3 Time=1\n1 2 3\n"), "xyz");
+  EXPECT_EQ(format("2\nof plain XYZ nobody knows the columns\nAr 1 2 3\n"), std::nullopt);
   EXPECT_EQ(format("a,b,c\n1,x,y\n"), std::nullopt);
   EXPECT_EQ(format("1,2,3\n1,2,3\n"), std::nullopt);
   EXPECT_EQ(format("#t 1\n"), std::nullopt);
@@ -140,9 +142,9 @@ TEST_F(Formats, Runs_Vtk) {
 TEST_F(Formats, WhatIsNoFile_IsRefused) {
   EXPECT_EQ(samples_.refusal("lammps", {"none.dump"}), "none.dump: no such file");
   EXPECT_EQ(samples_.refusal("lammps", {}), "no files: there is nothing to read");
-  EXPECT_EQ(
-      samples_.refusal("lamps", {}),
-      "lamps: there is no such format (there are: mercurydpm, lammps, yade-text, vtk, ondem, csv)");
+  EXPECT_EQ(samples_.refusal("lamps", {}),
+            "lamps: there is no such format (there are: mercurydpm, lammps, yade-text, vtk, ondem, "
+            "csv, xyz)");
   samples_.write("p.csv", "x,y\n1,2\n");
   EXPECT_EQ(
       samples_.refusal("csv", {"p.csv"}, {"x"}),

@@ -1,5 +1,6 @@
 /// What YADE's exporters write: samples/yade_export.py and yade_recorder.py are the scripts, which
 /// print YADE's own contacts.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -228,6 +229,44 @@ TEST_F(VtkText, Xml_SeveralPieces) {
   EXPECT_EQ(contacts.first, (std::vector<std::int64_t>{0, 3}));
   EXPECT_EQ(contacts.second, (std::vector<std::int64_t>{1, 2}));
   EXPECT_EQ(contacts.normalForce, (std::vector{20.0, 30.0}));
+}
+
+/// The index of a parallel run: its pieces are one time, their ghosts are other pieces' particles.
+TEST_F(VtkText, Index_HasItsPiecesWithoutGhosts) {
+  const auto piece = [](const char* points, const char* radii, const char* ids,
+                        const char* ghosts) {
+    const auto array = [](const char* name, const char* type, const char* values) {
+      return fmt::format("<DataArray Name=\"{}\" type=\"{}\" format=\"ascii\">{}</DataArray>", name,
+                         type, values);
+    };
+    return "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"2\"><PointData>" +
+           array("radius", "Float64", radii) + array("id", "Int64", ids) +
+           array("vtkGhostType", "UInt8", ghosts) +
+           "</PointData><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" "
+           "format=\"ascii\">" +
+           points + "</DataArray></Points></Piece></PolyData></VTKFile>";
+  };
+  const std::string index =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PPolyData\"><PPolyData "
+      "GhostLevel=\"0\"><PPoints/><Piece Source=\"run_3_0.vtp\"/><Piece "
+      "Source=\"run_3_1.vtp\"/></PPolyData></VTKFile>";
+  const auto first = samples_.write("run_3_0.vtp", piece("0 0 0 1 0 0", "1 2", "4 5", "0 1"));
+  const auto second = samples_.write("run_3_1.vtp", piece("1 0 0 9 0 0", "2 3", "5 6", "0 0"));
+  const auto whole = samples_.write("run_3.pvtp", index);
+  const auto frames = samples_.read("vtk", {"run_3.pvtp"});
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].step, 3);
+  EXPECT_EQ(frames[0].particles.id, (std::vector<std::int64_t>{4, 5, 6}));
+  EXPECT_EQ(frames[0].particles.radius, (std::vector{1.0, 2.0, 3.0}));
+  EXPECT_TRUE(isBesideResults(first, {first, second, whole}));
+  EXPECT_FALSE(isBesideResults(whole, {first, second, whole}));
+  EXPECT_FALSE(isBesideResults(first, {first, second}));
+  samples_.write("run_4.pvtp", index.substr(0, index.find("<Piece")) + "</PPolyData></VTKFile>");
+  EXPECT_EQ(samples_.refusal("vtk", {"run_4.pvtp"}),
+            "run_4.pvtp: it is an index without a <Piece>");
+  std::filesystem::copy_file(whole, first, std::filesystem::copy_options::overwrite_existing);
+  EXPECT_EQ(samples_.refusal("vtk", {"run_3.pvtp"}),
+            "run_3_0.vtp: is an index that another one names");
 }
 
 /// Bodies that are no spheres: a wall 5 below sphere 0, named as the first.

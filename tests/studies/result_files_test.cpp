@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <deque>
+#include <fstream>
 #include <functional>
 #include <numbers>
 #include <set>
@@ -289,6 +290,144 @@ TEST(PlaneSnapshots, FaultyContacts_AreRefused) {
        },
        {"no contact of disk 0 with disk 1", "0.1 m"}}};
   for (const auto& [change, says] : faults) expectSays(refusalOfFrame(change), says);
+}
+
+/// The pair overlaps by less than a millionth of the scene and is not listed, that with the floor
+/// is, at 1e-6 m. Places have eight digits: they leave 2e-7 m open (two places and two radii of
+/// 5e-8 m).
+TEST(PlaneSnapshots, PairsThatOverlap_AreListedWhereDigitsShowThem) {
+  const auto missing = [](double x, double speed, double listed = 1e-6) {
+    return [=](FileFrame& frame) {
+      frame.particles.position = {{4.0, 1.0 - listed, 0.0}, {0.0, 2.0, 0.0}, {x, 2.0, 0.0}};
+      frame.particles.velocity[2] = Vec3(speed, 0.0, 0.0);
+      auto& contacts = *frame.contacts;
+      contacts.first = {12};
+      contacts.second = {-1};
+      contacts.normal = {Vec3::UnitY()};
+      contacts.force = {Vec3(0.0, 100.0 * listed, 0.0)};
+      contacts.overlap = {listed};
+    };
+  };
+  expectSays(refusalOfFrame(missing(1.9999996001, 0.0)),
+             {"no contact of disk 0 with disk 1", "4e-07"});
+  expectSays(refusalOfFrame(missing(1.9999996001, -1e-4)), {"no contact of disk 0 with disk 1"});
+  // Less than the digits show; less than a tenth of the median; met within the last step of 1 ms.
+  EXPECT_EQ(refusalOfFrame(missing(1.9999999, 0.0)), "");
+  EXPECT_EQ(refusalOfFrame(missing(1.9999996001, 0.0, 5e-6)), "");
+  EXPECT_EQ(refusalOfFrame(missing(1.9999996001, -1e-3)), "");
+  // A critical damper of 2 √(m₁₂ k_n) = 20 kg/s leaves no force above 100 δ/20 = 2e-6 m/s.
+  EXPECT_NE(refusalOfFrame(missing(1.9999996001, 1e-6)), "");
+  EXPECT_EQ(refusalOfFrame(missing(1.9999996001, 3e-6)), "");
+  // Places that a program has made of parts of a box have digits of their own.
+  EXPECT_EQ(refusalOfFrame([&](FileFrame& frame) {
+              missing(1.9999996001, 0.0)(frame);
+              frame.particles.scaled = true;
+            }),
+            "");
+}
+
+/// Forty pairs that slide on each other at 1 m/s, at f_t = µ f_n = 5 N.
+std::string refusalOfSliding(double tangential, double spin, std::size_t pairs, double mu = 0.5,
+                             std::vector<std::string>* remarks = nullptr) {
+  Case setup = restingDisks();
+  setup.law.mu = mu;
+  auto& group = setup.assembly.disks[0];
+  group.places.clear();
+  FileFrame frame;
+  frame.where = "mine.dump, step 7";
+  frame.time = 1.0;
+  auto& contacts = frame.contacts.emplace();
+  for (std::size_t k = 0; k < pairs; ++k)
+    for (const bool upper : {false, true}) {
+      const double x = 3.0 * static_cast<double>(k), y = upper ? 5.9 : 4.0;
+      group.places.emplace_back(0.5 * x, 0.5 * (y - 2.0));
+      frame.particles.id.push_back(static_cast<std::int64_t>(frame.particles.id.size()) + 1);
+      frame.particles.position.emplace_back(x, y, 0.0);
+      frame.particles.radius.push_back(1.0);
+      frame.particles.velocity.emplace_back(upper && spin == 0.0 ? 1.0 : 0.0, 0.0, 0.0);
+      frame.particles.spin.emplace_back(0.0, 0.0, spin);
+      if (!upper) continue;
+      contacts.first.push_back(frame.particles.id.back());
+      contacts.second.push_back(frame.particles.id.back() - 1);
+      contacts.normal.push_back(Vec3::UnitY());
+      contacts.force.emplace_back(tangential, 10.0, 0.0);
+      contacts.overlap.push_back(0.1);
+    }
+  return test::refusalOf([&] {
+    PlaneSnapshots source(std::make_unique<FakeReader>(std::deque{frame}), {}, targetOf(setup));
+    source.next();
+    if (remarks) *remarks = source.remarks();
+  });
+}
+
+TEST(PlaneSnapshots, FrictionAlongTheSliding_IsRefused) {
+  EXPECT_EQ(refusalOfSliding(-5.0, 0.0, 40), "");
+  expectSays(refusalOfSliding(5.0, 0.0, 40), {"mine.dump, step 7: in 40 of 40 contacts that slide",
+                                              "along the sliding", "or the spin, the other sign?"});
+  // Of disks that turn counter-clockwise the upper one's lower side moves to the right.
+  EXPECT_EQ(refusalOfSliding(-5.0, 1.0, 40), "");
+  EXPECT_NE(refusalOfSliding(5.0, 1.0, 40), "");
+  // Too few; below the bound, where springs may push back; of another bound than the case's.
+  EXPECT_EQ(refusalOfSliding(5.0, 0.0, 20), "");
+  EXPECT_EQ(refusalOfSliding(4.0, 0.0, 40), "");
+  std::vector<std::string> remarks;
+  EXPECT_EQ(refusalOfSliding(5.0, 0.0, 40, 0.3, &remarks), "");
+}
+
+/// Three disks of which one leaves and another one comes.
+TEST(PlaneSnapshots, ParticlesThatComeAndGo_AreThoseOfTheirTimes) {
+  FileFrame fewer = threeParticles(2.0), other = threeParticles(3.0), none = threeParticles(4.0);
+  const auto drop = [](FileFrame& frame, std::size_t row) {
+    files::FileParticles& all = frame.particles;
+    const auto at = static_cast<std::ptrdiff_t>(row);
+    all.id.erase(all.id.begin() + at);
+    all.radius.erase(all.radius.begin() + at);
+    for (auto* list : {&all.position, &all.velocity, &all.spin}) list->erase(list->begin() + at);
+  };
+  drop(fewer, 1);  // 5, and its contact with 9
+  for (auto* list : {&fewer.contacts->first, &fewer.contacts->second}) *list = {(*list)[1]};
+  for (auto* list : {&fewer.contacts->normal, &fewer.contacts->force}) *list = {(*list)[1]};
+  fewer.contacts->overlap = {0.02};
+  other.particles.id = {12, 77, 9};
+  for (auto* list : {&other.contacts->first, &other.contacts->second})
+    std::ranges::replace(*list, 5, 77);
+  for (int k = 0; k < 3; ++k) drop(none, 0);
+  none.contacts.emplace();
+  files::FileSceneOf<2> target = targetOf(restingDisks());
+  PlaneSnapshots source(
+      std::make_unique<FakeReader>(std::deque{threeParticles(), fewer, other, none}), {}, target);
+  EXPECT_EQ(source.next()->position.size(), 3u);
+  EXPECT_FALSE(source.disksChanged());
+  Snapshot now = source.next().value();
+  EXPECT_TRUE(source.disksChanged());
+  EXPECT_EQ(now.position, (std::vector<Vec2>{{1.9, 2.0}, {4.0, 0.98}}));  // 9 and 12
+  EXPECT_EQ(source.scene().disks.mass, (std::vector{2.0, 2.0}));
+  EXPECT_EQ(now.contacts->i, std::vector<std::int32_t>{1});
+  EXPECT_EQ(now.contacts->j, std::vector<std::int32_t>{2});  // the floor
+  now = source.next().value();
+  EXPECT_TRUE(source.disksChanged());
+  EXPECT_EQ(now.position[2], Vec2(0.0, 2.0));                             // 77
+  EXPECT_EQ(source.scene().disks.mass, (std::vector{2.0, 2.0, 2.0}));     // by the density
+  EXPECT_EQ(source.scene().disks.inertia, (std::vector{1.0, 1.0, 1.0}));  // as the others
+  EXPECT_EQ(source.next()->position.size(), 0u);
+  EXPECT_FALSE(source.next());
+  expectSays(source.remarks().at(1), {"particles come and go", "0 to 3 of them"});
+  const auto refused = [&](FileFrame frame) {
+    return test::refusalOf([&] {
+      PlaneSnapshots again(
+          std::make_unique<FakeReader>(std::deque{threeParticles(), std::move(frame)}), {}, target);
+      while (again.next()) {
+      }
+    });
+  };
+  FileFrame without = other;
+  without.particles.radius.clear();
+  expectSays(refused(without), {"particle 77 was not there before", "no radii"});
+  other.particles.id = {12, 9, 9};
+  expectSays(refused(other), {"particle 9 is there twice"});
+  target.needsAll = "the endpoint top is of disk 3";
+  expectSays(refused(fewer), {"other particles than a time before (2 now, 3 then)",
+                              "the endpoint top is of disk 3"});
 }
 
 TEST(PlaneSnapshots, FaultyParticles_AreRefused) {
@@ -734,6 +873,39 @@ TEST(CoveredTime, Gap_IsWhereAnotherSnapshotWasDue) {
   EXPECT_EQ(gap(0.8, 0.8, 1.0), "a single snapshot, of 0.8 s; the case averages 0.6 to 0.8 s");
   EXPECT_EQ(gap(0.61, 0.8, 0.01, {5, 6, 7}),
             "no snapshot between 0.65 and 0.69 s; the case averages 0.6 to 0.8 s");
+}
+
+/// Disks that leave through an open border before the averaged time and within it.
+TEST(ResultFiles, ParticlesThatLeave_CountWhileTheyAreThere) {
+  const TemporaryFolder folder;
+  Case setup = restingDisks();
+  setup.file = "open.toml";
+  setup.average->region.from = 0.5;
+  const auto write = [&](const char* name, const std::string& rows) {
+    std::ofstream(folder.path() / name) << "t,id,x,y,radius,mass,vx,vy,spin\n" << rows;
+    return folder.path() / name;
+  };
+  const std::string five = ",5,0,2,1,2,1,0,0\n", nine = ",9,1.9,2,1,2,1,0,0\n",
+                    twelve = ",12,4,1.5,1,2,0,0,0\n", later = ",5,1,2,1,2,1,0,0\n";
+  const auto file = write(
+      "a.csv", "0" + five + "0" + nine + "0" + twelve + "1" + later + "1" + twelve + "2" + twelve);
+  const CompareResults results = averageSnapshots(setup, {file}, "test");
+  // Disks in the region, of 8 × 4 m × 0.5 m: two, then one of 2 kg each.
+  EXPECT_EQ(results.runs.at(0).series->at("disks"), (std::vector<std::optional<double>>{2.0, 1.0}));
+  const Profile* density = profileOf(results.runs.at(0).profiles, "density");
+  ASSERT_TRUE(density);
+  EXPECT_NEAR(density->mean[0].value(), 1.5 * 2.0 / 16.0, 1e-14);
+  // Kinetic energies of 1 J and 0.
+  EXPECT_EQ(results.runs.at(0).series->at("kinetic_energy"),
+            (std::vector<std::optional<double>>{1.0, 0.0}));
+  EXPECT_TRUE(std::ranges::any_of(results.notes, [](const std::string& note) {
+    return note.find("particles come and go: each snapshot counts those that are there, 1 to 2") !=
+           std::string::npos;
+  }));
+  // Of another number throughout: the case is another one.
+  const auto other = write("b.csv", "0" + five + "0" + nine + "1" + later + "1" + nine);
+  expectSays(test::refusalOf([&] { averageSnapshots(setup, {other}, "test"); }),
+             {"2 disks, not 3"});
 }
 
 class AssemblyFiles : public testing::Test {
