@@ -72,8 +72,8 @@ std::string forceFault(const ContactsOf<D>& contacts, const AuditBasisOf<D>& bas
       // precision's. Of contacts that just touch all of f_t may be what roundings of velocities,
       // ε v, leave: no dashpot makes more of these than ε m v/dt.
       const double lengthwise = contacts.tangentialForce[k].dot(contacts.normal[k]);
-      const double rounded =
-          std::numeric_limits<double>::epsilon() * basis.mass * basis.fastest / basis.dt;
+      const double kick = basis.dt > 0.0 ? basis.mass * basis.fastest / basis.dt : 0.0;
+      const double rounded = std::numeric_limits<double>::epsilon() * kick;
       if (!(std::abs(lengthwise) <= 1e-2 * across + 1e-5 * std::abs(along) + rounded))
         return fmt::format("{}: {:.3g} N of its tangential force of {:.3g} N are along the normal",
                            name(), lengthwise, across);

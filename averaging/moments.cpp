@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "averaging/contact_rule.hpp"
-#include "support/interrupt.hpp"
+#include "averaging/patience.hpp"
 
 namespace crossgrain::inline averaging {
 
@@ -105,7 +105,7 @@ void MomentSums::compute(const Snapshot& snapshot, std::vector<std::vector<Momen
   if (snapshot.contacts) sumContacts(*snapshot.contacts);
 
   for (std::size_t p = 0; p < mass_.size(); ++p) {
-    throwIfInterrupted();  // a disk may reach over as many bins as there are
+    throwIfLongInterrupted();  // a disk may reach over as many bins as there are
     const Vec2& x = snapshot.position[p];
     const Vec2 er = coordinates_->firstDirection(x);
     Moments moments = momentsOf(snapshot, p, er);
@@ -163,7 +163,7 @@ void MomentSums::addBranches(const Snapshot& snapshot, Partition& partition,
                              std::vector<Moments>& sums) const {
   const Contacts& contacts = *snapshot.contacts;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    throwIfInterrupted();
+    throwIfLongInterrupted();
     const Vec2& n = contacts.normal[c];
     const Eigen::Matrix2d forceNormal = contacts.force(c) * n.transpose();
     for (const bool first : {true, false}) {

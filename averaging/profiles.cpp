@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "averaging/patience.hpp"
 #include "averaging/statistics.hpp"
-#include "support/interrupt.hpp"
 
 namespace crossgrain::inline averaging {
 
@@ -109,7 +109,7 @@ std::vector<Profile> ProfileAccumulatorOf<D>::profilesWithout(std::size_t k, std
         std::vector<double> means = series.sums();
         const std::size_t length = series.blockLength();
         for (std::size_t b = first / length; b < last / length; ++b) {
-          throwIfInterrupted();
+          throwIfLongInterrupted();
           for (std::size_t m = 0; m < means.size(); ++m) means[m] -= series.sums(b)[m];
         }
         for (double& mean : means) mean /= static_cast<double>(series.samples() - (last - first));
@@ -129,7 +129,7 @@ Profile ProfileAccumulatorOf<D>::profile(std::size_t weight, const FieldSpec& fi
   const std::span<const double> means = flat(mean);
   std::vector<double> residual(series.blocks());
   for (std::size_t slot = 0; slot < mean.size(); ++slot) {
-    throwIfInterrupted();
+    throwIfLongInterrupted();
     if (coordinates_->isOverflow(slot)) continue;
     const auto value = evaluate(field, BinView(*coordinates_, mean, slot, springs_));
     result.mean.push_back(value ? std::optional(value->value) : std::nullopt);

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "averaging/contact_rule.hpp"
-#include "support/interrupt.hpp"
+#include "averaging/patience.hpp"
 
 namespace crossgrain::inline averaging {
 
@@ -48,7 +48,7 @@ void SpaceMomentSums::compute(const SpaceSnapshot& snapshot,
   if (snapshot.contacts) sumContacts(*snapshot.contacts);
 
   for (std::size_t p = 0; p < mass_.size(); ++p) {
-    throwIfInterrupted();  // a sphere may reach over as many bins as there are
+    throwIfLongInterrupted();  // a sphere may reach over as many bins as there are
     const SpaceMoments moments = momentsOf(snapshot, p);
     for (std::size_t k = 0; k < weights_.size(); ++k) {
       bins_->sphereFractions(snapshot.position[p], radius_[p], weights_[k], fractions_);
@@ -116,7 +116,7 @@ void SpaceMomentSums::addBranches(const SpaceSnapshot& snapshot, const Weight& w
                                   std::vector<SpaceMoments>& sums) {
   const ContactsOf<3>& pairs = *snapshot.contacts;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
-    throwIfInterrupted();
+    throwIfLongInterrupted();
     if (!transmits(pairs, c)) continue;
     const auto i = static_cast<std::size_t>(pairs.i[c]), j = static_cast<std::size_t>(pairs.j[c]);
     const bool wall = j >= mass_.size();

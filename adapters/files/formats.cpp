@@ -219,7 +219,7 @@ std::optional<std::string_view> formatOf(const fs::path& file) {
       return "mercurydpm";
     if (line.front() == '#') continue;
     if (numbers && parts.size() == 1 &&
-        head.substr(at, 2000).find("Properties=") != std::string::npos)
+        head.substr(std::min(at, head.size()), 2000).find("Properties=") != std::string::npos)
       return "xyz";
     return isTable(line, std::string_view(head).substr(std::min(at, head.size())))
                ? std::optional<std::string_view>("csv")

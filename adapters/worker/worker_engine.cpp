@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <new>
+#include <optional>
 #include <span>
 #include <system_error>
 #include <thread>
@@ -17,6 +18,7 @@
 #include "adapters/worker/serve.hpp"
 #include "support/busy_time.hpp"
 #include "support/descriptor.hpp"
+#include "support/interrupt.hpp"
 #include "support/regular_file.hpp"
 
 namespace crossgrain {
@@ -311,17 +313,28 @@ json WorkerEngine::answerTo(const json& request, const std::string& what) const 
 
 std::string WorkerEngine::receive(ChildProcess::Clock::time_point deadline) const {
   constexpr int slices = 4, most = 100;  // of the time-out; times the time-out
+  constexpr double lastPiece = 10.0;     // of work, after an interrupt [s]
   double usedWhenLate = 0.0;
+  std::optional<double> usedWhenStopped;
+  const auto activity = [&] {
+    GroupActivity now = activityOf(process_->pid());
+    // A computing worker sleeps for moments too, between two pieces of work.
+    for (int look = 0; look < 5 && !now.computes; ++look) {
+      std::this_thread::sleep_for(10ms);
+      now = activityOf(process_->pid());
+    }
+    return now;
+  };
   for (int k = 0;; ++k) {
     try {
       return process_->receiveLine(deadline, longestAnswer);
+    } catch (const Interrupted&) {
+      // What computes ends its piece, on a loaded machine too, and the run keeps where it is.
+      const GroupActivity now = activity();
+      if (!usedWhenStopped) usedWhenStopped = now.cpuSeconds;
+      if (!now.computes || now.cpuSeconds - *usedWhenStopped >= lastPiece) throw;
     } catch (const ProcessTimeout&) {
-      GroupActivity now = activityOf(process_->pid());
-      // A computing worker sleeps for moments too, between two pieces of work.
-      for (int look = 0; look < 5 && !now.computes; ++look) {
-        std::this_thread::sleep_for(10ms);
-        now = activityOf(process_->pid());
-      }
+      const GroupActivity now = activity();
       if (k == 0) usedWhenLate = now.cpuSeconds;
       if (!now.computes || now.cpuSeconds - usedWhenLate >= timeout_ || k >= most * slices) throw;
       deadline += std::chrono::duration_cast<ChildProcess::Clock::duration>(
