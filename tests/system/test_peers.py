@@ -481,7 +481,7 @@ def is_installed(package):
 IN_SPACE = {
     "TorqueTurnsSpheres", "TurnedImpactsAreTurnedAlike", "ContactForcesInSpaceAct", "TurningWallPushesSpheres",
     "ForcesInSpaceAreThoseOfTheLaw", "CylinderIsMetAsAPlane", "TurningCylinderDrivesSpheres",
-    "SpinsAboutTheLineChangeNothing",
+    "SpinsAboutTheLineChangeNothing", "FallsFreelyInSpace",
 }  # fmt: skip
 
 
