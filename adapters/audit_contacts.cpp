@@ -145,7 +145,7 @@ std::string placeFault(const ContactsOf<D>& contacts, const AuditBasisOf<D>& bas
   return {};
 }
 
-/// What a result file's list may lack.
+/// Pairs that overlap and that a result file may leave out of its list (contactFault()).
 template <int D>
 class ListGaps {
  public:

@@ -6,7 +6,8 @@
 
 #include "adapters/audit_geometry.hpp"
 
-/// What the audits know of forces: the law's, and how far velocities may be from those it sees.
+/// Forces of the law as audits work them out, and how far shown velocities may be from those that
+/// dashpots see.
 namespace crossgrain {
 
 /// What a law makes of one contact, worked out here and nowhere else: an engine's own code is no

@@ -57,7 +57,7 @@ void addSliding(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis,
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const auto i = static_cast<std::size_t>(contacts.i[k]);
     const auto j = static_cast<std::size_t>(contacts.j[k]);
-    if (j >= scene.disks.size()) continue;  // nobody knows how a wall's surface moves
+    if (j >= scene.disks.size()) continue;  // snapshots do not show how a wall's surface moves
     const ContactLaw law = ownLaw(basis, i, j, ofAll);
     if (!isAtBound(k, law)) continue;
     if (!doubts) {

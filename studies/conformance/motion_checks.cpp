@@ -37,8 +37,8 @@ void fliesStraight(CheckContext& context) {
     context.near(after.velocity[0], scene.disks.velocity[0], rounding, "the velocity [m/s]");
     context.near(spinsOf(scene, after)[0], 5.0, rounding, "the spin [rad/s]");
     if (after.contacts) context.equal(after.contacts->size(), 0u, "contacts of a disk alone");
-    // Engines of impulses bound what a step may move, and some take steps of their own: 2 units of
-    // length in Box2D. In others nothing bounds speeds; here a step is a hundredth of a radius.
+    // Engines of impulses bound what a step may move, and some take steps of their own. In others
+    // nothing bounds speeds; here a step is a hundredth of a radius.
     if (context.rigid()) continue;
     scene.disks.velocity[0] *= 1e3;
     scene.dt *= 1e-3;
