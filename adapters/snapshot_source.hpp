@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "adapters/scene.hpp"
@@ -17,6 +18,9 @@ namespace crossgrain {
 inline double instantSlack(double step, double instant) {
   return std::max(0.5 * step, 2e-6 * std::abs(instant));
 }
+
+/// How a remark begins on files that list contacts, but none of walls that bodies touch.
+inline constexpr std::string_view noWallContacts = "no contacts with walls in the files";
 
 /// Snapshots that nobody runs: those of a file, one after the other, so that memory holds one at a
 /// time.

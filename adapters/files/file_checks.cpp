@@ -94,8 +94,8 @@ void FileSnapshotsOf<D>::audit(const FileFrame& frame, SnapshotOf<D>& snapshot) 
     snapshot.bodies = std::move(bodies);
     if (why.empty())
       remarks_.insert(
-          "no contacts with walls in the files: stress, fabric and coordination lack them, and "
-          "forces on walls are not available");
+          std::string(noWallContacts) +
+          ": stress, fabric and coordination lack them, and forces on walls are not available");
   }
   if (!why.empty()) fail(frame, why);
   if (!snapshot.contacts) return;

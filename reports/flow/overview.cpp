@@ -41,9 +41,12 @@ OverviewCell lockstepOf(const CompareResults& results, const EngineRow& engine) 
   return cell;
 }
 
-bool alarmed(const CompareResults& results, const std::string& engine) {
-  return std::ranges::any_of(results.endpoints.alarms,
-                             [&](const AlarmRow& alarm) { return alarm.b == engine; });
+/// The first alarm of an engine against the reference, or null.
+const AlarmRow* alarmOf(const CompareResults& results, const std::string& engine) {
+  const auto found = std::ranges::find_if(results.endpoints.alarms, [&](const AlarmRow& alarm) {
+    return alarm.a == referenceOf(results) && alarm.b == engine;
+  });
+  return found == results.endpoints.alarms.end() ? nullptr : &*found;
 }
 
 /// On how many packings the two are in different regimes: means are of different states there.
@@ -73,9 +76,9 @@ OverviewCell averagesOf(const CompareResults& results, const EngineRow& engine) 
   const EndpointRow* worst = worstOf(rowsOf(rows, reference, engine.name));
   if (!worst) return {Verdict::notMeasured, {}, "margins", {}, "not compared with it", {}};
   OverviewCell cell = endpointCell(results, *worst);
-  if (alarmed(results, engine.name)) {
+  if (const AlarmRow* const alarm = alarmOf(results, engine.name)) {
     cell.verdict = Verdict::fail;
-    cell.words = "ALARM: " + cell.words;
+    cell.words = "ALARM: " + alarm->what;
   }
   if (const std::size_t packings = otherRegime(results, reference, engine.name); packings > 0)
     cell.words += fmt::format("; on {} in another regime", counted(packings, "packing"));
@@ -94,7 +97,7 @@ OverviewCell costOfEngine(const EngineRuns& engine) {
 std::size_t endpointsWithoutValue(const CompareResults& results, const std::string& engine) {
   return static_cast<std::size_t>(
       std::ranges::count_if(results.endpoints.rows, [&](const EndpointRow& row) {
-        return row.lost > 0 && row.b == engine && row.kind != PairKind::mirrorImplementation;
+        return row.lost > 0 && row.b == engine && row.a == referenceOf(results);
       }));
 }
 

@@ -345,9 +345,15 @@ CollideResults collideEngines(const std::vector<Case>& variants, const RunComman
   for (const Case& setup : variants)
     cases.push_back({&setup, collisionTimeSteps(setup), collisionStarts(setup)});
   std::vector<Task> oracles;
-  for (CollisionCase& each : cases)
-    oracles.push_back({static_cast<double>(each.starts.size()),
-                       [&each] { each.oracle = oracleCurve(*each.setup, each.starts); }});
+  std::vector<double> weights;
+  for (CollisionCase& each : cases) {
+    weights.push_back(static_cast<double>(each.starts.size()));
+    oracles.push_back({weights.back(), [&each, &progress, k = oracles.size()] {
+                         each.oracle = oracleCurve(*each.setup, each.starts);
+                         progress.update(k, each.setup->name, 1.0);
+                       }});
+  }
+  progress.begin("solving the collisions for reference", weights);
   runTasks(oracles, command.jobs);
   const auto tasks = tasksOf(cases, engines, command.engines, store);
   const CollisionCurves curves =

@@ -493,7 +493,11 @@ Suitability suitabilityOf(Engine& engine, const EngineEntry& entry, const Case& 
     effects = effective.effects;
     found.dt = effective.dt;
   }
-  for (const Deviation& deviation : deviations) found.deviations.push_back(deviation.note);
+  for (const Deviation& deviation : deviations)
+    found.deviations.push_back(
+        deviation.value == 0.0 || deviation.unit.empty()
+            ? deviation.note
+            : fmt::format("{} ({:.3g} {})", deviation.note, deviation.value, deviation.unit));
   for (const Effect effect : effectsOf(scene))
     if (!effects.contains(effect)) found.notSimulated.emplace_back(toString(effect));
   return found;

@@ -71,6 +71,10 @@ bool holdsAny(const fs::path& folder) {
 
 }  // namespace
 
+bool holdsWork(const fs::path& out) {
+  return holdsAny(out / "runs") || holdsAny(out / "unfinished");
+}
+
 RunStore::RunStore(const RunCommand& command, std::string name,
                    std::map<std::string, CaseKeys> cases)
     : out_(command.out),
@@ -140,7 +144,7 @@ void RunStore::checkBefore() const {
 }
 
 bool RunStore::holdsRuns() const {
-  return holdsAny(out_ / "runs") || holdsAny(out_ / "unfinished");
+  return holdsWork(out_);
 }
 
 bool RunStore::holdsResults() const {

@@ -37,6 +37,9 @@ extern const char* const programBuild;
 /// "0.3.0 (7902f0e)"
 std::string thisProgram();
 
+/// Whether a folder has runs that are finished or under way, which the same command goes on from.
+bool holdsWork(const std::filesystem::path& out);
+
 /// The output folder of one command, with a file for each finished run, so that nothing computed is
 /// ever lost. A folder belongs to one command, one build of the program and one version of each
 /// case; what is finished there is loaded, and nothing else may be put on top of it.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "studies/core/run_store.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "support/interrupt.hpp"
@@ -83,8 +84,12 @@ ScenePicture scenePicture(const SpaceScene& scene, const SpaceSnapshot& now, dou
 int resumably(const RunCommand& command, const std::function<int()>& work) {
   const std::string same =
       fmt::format("the same command{} goes on from there", command.fresh ? " without --fresh" : "");
-  const Interrupted stopped(
-      fmt::format("interrupted; what is finished is kept in {}: {}", command.out.string(), same));
+  const auto stopped = [&] {
+    return Interrupted(holdsWork(command.out)
+                           ? fmt::format("interrupted; what is finished is kept in {}: {}",
+                                         command.out.string(), same)
+                           : std::string("interrupted; nothing was finished yet"));
+  };
   const auto explained = [&](const OutputError& error) {
     if (!error.noRoom) return error;
     return error.with(fmt::format("; what is finished is kept: make room, and {}", same));
@@ -92,14 +97,14 @@ int resumably(const RunCommand& command, const std::function<int()>& work) {
   try {
     return work();
   } catch (const Interrupted&) {
-    throw stopped;
+    throw stopped();
   } catch (const OutputError& error) {
     throw explained(error);
   } catch (const std::system_error& error) {
     throw explained(OutputError(error));
   } catch (const std::exception&) {
     // Ctrl-C goes to all programs of a terminal: what fails after it failed of it.
-    if (interrupted()) throw stopped;
+    if (interrupted()) throw stopped();
     throw;
   }
 }

@@ -25,7 +25,8 @@ namespace {
 void addOwnEndpoints(const Case& setup, FlowRun& run) {
   if (!setup.average) return;
   for (const OwnEndpoint& own : setup.average->endpoints) {
-    const OwnValue found = ownEndpointOf(own, setup, run);
+    OwnValue found = ownEndpointOf(own, setup, run);
+    if (!notShown(endpointSpec(setup, own.name), setup, run).empty()) found.value.reset();
     std::erase_if(run.head, [&](const HeadNumber& number) { return number.name == own.name; });
     run.head.push_back({own.name, own.unit, found.value, {}, {}});
   }

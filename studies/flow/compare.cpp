@@ -227,7 +227,7 @@ std::vector<std::string> failsOf(const CompareResults& results, std::size_t refu
   for (const AlarmRow& alarm : results.endpoints.alarms)
     if (alarm.kind == PairKind::peer) alarms.push_back(fmt::format("{} and {}", alarm.a, alarm.b));
   add("engines disagree", endpointsWith(results, Verdict::fail));
-  add("an alarm: engines differ far beyond a margin", alarms);
+  add("an alarm: engines differ in what no margin excuses", alarms);
   std::vector<std::string> differing = lockstepWith(Equivalence::differs, false), undecided;
   for (const SurrogateEngine& own : results.endpoints.surrogates) {
     if (verdictOf(own) == Verdict::fail) differing.push_back(own.engine + ", late in its own run");

@@ -141,7 +141,7 @@ std::vector<EndpointTest> familyOf(const Case& setup, std::span<const FlowRun> r
                                    const ComparedPair& pair, const EndpointFindings& known) {
   const std::size_t packings = packingsOf(runs);
   const std::vector<Runs> ours = referenceRuns(runs, pair, known.surrogates);
-  const Runs theirs = runsFor(runs, pair.b, known.surrogates);
+  const Runs theirs = runsFor(runs, pair.b, known.surrogates, pair.without);
   std::vector<EndpointTest> family;
   if (ours.empty() || theirs.empty()) return family;
   for (const EndpointSpec& endpoint : endpointsOf(setup)) {
@@ -340,8 +340,9 @@ struct RepeatedValue {
 };
 
 RepeatedValue repeatedValue(const EndpointSpec& endpoint, const Case& setup,
-                            std::span<const FlowRun> runs, const std::string& engine) {
-  const Runs own = finishedRuns(runs, engine);
+                            std::span<const FlowRun> runs, const std::string& engine,
+                            const std::string& without = "") {
+  const Runs own = finishedRuns(runs, engine, without);
   // Of files there are as many as there are; an engine runs its start that often.
   const bool ofFiles = !own.empty() && own.front()->ofFiles();
   const Numbers values =
@@ -384,19 +385,20 @@ std::vector<EndpointRow> closedFormRows(const Case& setup, std::span<const FlowR
     const EndpointSpec endpoint = endpointSpec(setup, own.name);
     const auto add = [&](const ComparedPair& pair, const RepeatedValue& first) {
       rows.push_back(emptyRow(pair, endpoint, setup.averaging.endpoints.at(own.name)));
-      for (const std::string& engine : {pair.a, pair.b})
-        if (const AbleRuns able = ableRuns(endpoint, setup, finishedRuns(runs, engine));
+      for (const auto& [engine, without] :
+           {std::pair(pair.a, std::string()), {pair.b, pair.without}})
+        if (const AbleRuns able = ableRuns(endpoint, setup, finishedRuns(runs, engine, without));
             able.runs.empty() && !able.lack.empty()) {
           rows.back().verdict = Verdict::notMeasured;
           rows.back().reason = able.lack;
           return;
         }
-      answerExactly(rows.back(), first, repeatedValue(endpoint, setup, runs, pair.b));
+      answerExactly(rows.back(), first, repeatedValue(endpoint, setup, runs, pair.b, pair.without));
     };
     for (const std::string& engine : engines)
       add({closedFormName, engine, PairKind::closedForm}, {own.expected, 0, {}});
     for (const ComparedPair& pair : pairs)
-      if (!finishedRuns(runs, pair.a).empty() && !finishedRuns(runs, pair.b).empty())
+      if (!finishedRuns(runs, pair.a).empty() && !finishedRuns(runs, pair.b, pair.without).empty())
         add(pair, repeatedValue(endpoint, setup, runs, pair.a));
   }
   return rows;
@@ -423,15 +425,25 @@ std::vector<EndpointRow> endpointRows(const Case& setup, const std::vector<Endpo
 std::vector<EndpointRow> endpointRows(const Case& setup, std::span<const FlowRun> runs,
                                       const std::vector<ComparedPair>& pairs,
                                       const InterimPlan& plan, int available,
-                                      const EndpointFindings& known) {
+                                      const EndpointFindings& known,
+                                      const std::map<std::string, int>& stopped) {
   std::vector<EndpointTest> judged;
+  const auto availableOf = [&](const ComparedPair& pair) {
+    std::vector<std::string> both = pair.references();
+    both.push_back(pair.b);
+    int least = available;
+    for (const std::string& engine : both)
+      if (const auto found = stopped.find(engine); found != stopped.end())
+        least = std::min(least, found->second);
+    return least;
+  };
   for (const ComparedPair& pair : pairs)
     if (pair.ofFiles) {  // all there are, whatever engines run
       const int all = static_cast<int>(packingsOf(finishedRuns(runs, pair.b)));
       judge(familyOf(setup, runs, pair, known),
             interimPlanAt(all, 1, 1.0 - setup.averaging.confidence), all, judged);
     } else
-      judge(familyOf(setup, runs, pair, known), plan, available, judged);
+      judge(familyOf(setup, runs, pair, known), plan, availableOf(pair), judged);
   return rowsOf(std::move(judged), plan);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,11 +32,13 @@ InterimPlan interimPlanOf(const Case& setup);
 /// the beginning show and ε_late,c what windows over a whole run of the engine's own do, the upper
 /// ends of their intervals. The second term is what the followed run of the spot check could have
 /// missed. Without responses, or late windows, there is no bound and no row.
-/// @param known  surrogates and responses; no rows yet
+/// @param known    surrogates and responses; no rows yet
+/// @param stopped  engines that ran fewer packings than `available`, and how many
 std::vector<EndpointRow> endpointRows(const Case& setup, std::span<const FlowRun> runs,
                                       const std::vector<ComparedPair>& pairs,
                                       const InterimPlan& plan, int available,
-                                      const EndpointFindings& known);
+                                      const EndpointFindings& known,
+                                      const std::map<std::string, int>& stopped = {});
 
 /// Verdicts on endpoints with expected values, of runs of one start: each of these engines against
 /// the closed form, and pair by pair. Numbers that come back the same when the start is run again

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "adapters/snapshot_source.hpp"
 #include "averaging/fields.hpp"
 #include "averaging/statistics.hpp"
 #include "studies/flow/averages.hpp"
@@ -181,6 +182,10 @@ std::optional<double> endpointOf(const EndpointSpec& endpoint, const Case& setup
 std::string notShown(const EndpointSpec& endpoint, const Case& setup, const FlowRun& run) {
   const OwnEndpoint* const own = ownEndpoint(setup, endpoint.name);
   if (!own) return lackOf(formulaOf(endpoint.name).needs, run);
+  if (own->wall && std::ranges::any_of(run.remarks, [](const std::string& remark) {
+        return remark.starts_with(noWallContacts);
+      }))
+    return "no contacts with walls in its files";
   for (const std::string& quantity : {own->quantity, own->per}) {
     if (quantity.empty()) continue;
     std::string lack = lackOf(needsOf(quantity, *own, setup.dimension), run);

@@ -56,6 +56,10 @@ class Sequence {
       looks.ended = reasonToStop();
       if (looks.ended.empty()) runNext();
     }
+    for (const auto& [name, packings] : stopped_)
+      looks.ended +=
+          fmt::format("; {} went no further than {} packings, as the budget of {:g} s ended", name,
+                      packings, looks.budget);
     return std::move(findings_);
   }
 
@@ -179,7 +183,7 @@ class Sequence {
   void judge() {
     const auto pairs = pairsOf(campaign_, command_.engines, findings_.surrogates);
     findings_.rows = endpointRows(setup_, campaign_.runs(), pairs, plan_,
-                                  plan_.packings[findings_.looks.taken - 1], findings_);
+                                  plan_.packings[findings_.looks.taken - 1], findings_, stopped_);
   }
 
   /// Engines with nothing left to decide, or that finish nothing, run no more.
@@ -197,7 +201,7 @@ class Sequence {
     });
   }
 
-  std::string reasonToStop() const {
+  std::string reasonToStop() {
     const std::size_t taken = findings_.looks.taken;
     if (open_.empty()) return reasonNoneIsOpen();
     if (open_.size() < 2) return "no two engines are left that finish their runs";
@@ -206,11 +210,33 @@ class Sequence {
       return fmt::format("{} packings are the most", plan_.packings.back());
     // What an earlier command has finished costs nothing: a smaller budget takes no verdict back.
     if (campaign_.missingRuns(next()) > 0 &&
-        campaign_.elapsed() + secondsOfNext() > findings_.looks.budget)
+        campaign_.elapsed() + secondsOfNext() > findings_.looks.budget && !finishedGoOn())
       return fmt::format(
           "the next analysis, at {} packings, would have ended after the budget of {:g} s",
           plan_.packings[taken], findings_.looks.budget);
     return {};
+  }
+
+  /// Engines whose next runs an earlier command has finished go on without the others, so that one
+  /// engine more takes no verdict of theirs back. @returns whether there are two such
+  bool finishedGoOn() {
+    const PlannedRuns all = next();
+    std::set<std::size_t> finished;
+    std::set<std::string> names;
+    for (const Variant& variant : all.variants)
+      if (campaign_.missingRuns({{variant}, all.packings}) == 0) {
+        finished.insert(variant.engine);
+        names.insert(nameOf(variant.engine));
+      }
+    for (const std::size_t e : open_)
+      if (const SurrogateEngine* const own = surrogateOf(findings_.surrogates, nameOf(e));
+          own && names.contains(own->mirror))
+        finished.insert(e);
+    if (finished.size() < 2) return false;
+    for (const std::size_t e : open_)
+      if (!finished.contains(e)) stopped_[nameOf(e)] = all.packings.from;
+    open_ = finished;
+    return true;
   }
 
   /// Decided is what was compared and came out, nothing else.
@@ -265,7 +291,8 @@ class Sequence {
   Campaign& campaign_;
   const RunCommand& command_;
   InterimPlan plan_;
-  std::set<std::size_t> open_;  ///< engines that still run
+  std::set<std::size_t> open_;          ///< engines that still run
+  std::map<std::string, int> stopped_;  ///< after how many packings the budget ended for an engine
   EndpointFindings findings_;
 };
 

@@ -24,7 +24,7 @@ std::string alarmOf(const Case& setup, const std::vector<SpotCheckNumber>& spotC
   double chance = alpha;
   for (const SpotCheckNumber& number : spotCheck) {
     const std::string words(endpointSpec(setup, number.endpoint).words);
-    if (!number.difference) return fmt::format("one of both has no {}", words);
+    if (!number.difference) return fmt::format("the engine, its mirror or both have no {}", words);
     if (!number.chance) return fmt::format("chaos of {} is not known: too few packings", words);
     if (*number.chance >= chance) continue;
     chance = *number.chance;

@@ -286,12 +286,18 @@ CaseKeys keyOf(const Case& setup, const LockstepEngine& engine, const LockstepPl
   return key;
 }
 
+/// Of a kept result: one for each number of packings that starts come from, as more packings have
+/// other starts and take nothing back.
+std::string nameOf(const std::string& what, const LockstepPlan& plan) {
+  return fmt::format("{}-from-{}", what, plan.packings.size());
+}
+
 CachedTask<LockstepRow> taskOf(const LockstepEngine& engine, const Case& setup,
                                const LockstepPlan& plan, const std::vector<FlowState>& states,
                                const RunStore& store) {
   const EngineEntry& entry = engine.entry;
   CachedTask<LockstepRow> task;
-  task.name = "lockstep-" + entry.name;
+  task.name = nameOf("lockstep-" + entry.name, plan);
   task.label = entry.name;
   task.key = keyOf(setup, engine, plan);
   task.weight = entry.command ? 10.0 : 1.0;
@@ -340,7 +346,7 @@ LockstepFindings holdAgainstMirrors(const std::vector<LockstepEngine>& engines, 
   std::vector<CachedTask<LockstepRow>> tasks;
   for (const LockstepEngine& engine : engines)
     tasks.push_back(taskOf(engine, setup, plan, states, store));
-  const std::string name = "starts-of-lockstep";
+  const std::string name = nameOf("starts-of-lockstep", plan);
   const CaseKeys key = keyOf(setup, {engineRegistry().front(), {}}, plan);
   auto kept = store.findAs<KeptStarts>(name, key);
   if (!kept || !std::ranges::all_of(tasks, [&](const auto& task) {

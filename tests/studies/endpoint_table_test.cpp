@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "adapters/snapshot_source.hpp"
 #include "studies/flow/endpoint_values.hpp"
 #include "studies/lockstep/terms.hpp"
 #include "tests/studies/flow_runs.hpp"
@@ -35,6 +36,22 @@ FlowRun runOf(const std::string& engine, int packing, double pressure, double sp
        test::sliced("volume_fraction", {0.6, 0.8})});
   run.head = {{"coordination", "-", 3.5, {}, {}}};
   return run;
+}
+
+/// Nor a sum over contacts that the files do not list: 0 N would be a value.
+TEST(EndpointTable, ForceOnAWallOfFilesWithoutItsContacts_IsAbsent) {
+  Case setup;
+  OwnEndpoint own;
+  own.name = "load";
+  own.quantity = std::string(normalForce);
+  own.wall = 0;
+  setup.average.emplace().endpoints = {own};
+  FlowRun run;
+  run.engine = "files";
+  const auto why = [&] { return notShown(endpointSpec(setup, "load"), setup, run); };
+  EXPECT_EQ(why(), "");
+  run.remarks = {std::string(noWallContacts) + ": stress lacks them"};
+  EXPECT_EQ(why(), "no contacts with walls in its files");
 }
 
 TEST(Endpoints, Values_AreAreaMeansRatiosAndTheRingAtTheWheel) {

@@ -156,7 +156,7 @@ TEST(CompareOutcome, StatusOne_SaysWhichRuleMadeIt) {
   law.engine = "b";
   law.verdict = Equivalence::differs;
   results.lockstep.emplace().rows = {law};
-  EXPECT_EQ(why(false), (Lines{"an alarm: engines differ far beyond a margin (a and b)",
+  EXPECT_EQ(why(false), (Lines{"an alarm: engines differ in what no margin excuses (a and b)",
                                "an engine differs from the law that it declares (b)"}));
 }
 

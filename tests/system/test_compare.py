@@ -378,6 +378,12 @@ class InterimAnalyses(SystemTest):
         third = self.compare_short(engines, "--budget=0.1s", stiff)
         self.assertRegex(third.stdout, r"Analysed after 4, 8, 12 packings \(3 of 3 interim analyses\)")
         self.assertEqual(verdicts, self.rows("endpoints.csv"))
+        # Nor does an engine more for which there is no time.
+        fourth = self.compare_short(f"{engines},grain-stiff", "--budget=0.1s", stiff)
+        self.assertIn("grain-stiff went no further than 4 packings, as the budget of 0.1 s ended", fourth.stdout)
+        kept = [[row[key] for key in ("a", "b", "endpoint", "answer", "low", "high", "look", "lost")] for row in self.rows("endpoints.csv")]
+        for row in verdicts:
+            self.assertIn([row[key] for key in ("a", "b", "endpoint", "answer", "low", "high", "look", "lost")], kept)
 
 
 class Collide(SystemTest):
