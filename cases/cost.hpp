@@ -12,7 +12,7 @@ namespace crossgrain::inline cases {
 enum class CostKind {
   collision,   ///< two disks against the oracle
   trajectory,  ///< a packing's path against a run at a much smaller step
-  averages     ///< of the sheared cell against a reference on the same packings
+  averages     ///< of the flow against a reference on the same packings
 };
 constexpr auto namesOf(CostKind) {
   return std::array<std::string_view, 3>{"collision", "trajectory", "averages"};
@@ -35,15 +35,15 @@ inline bool speaksForItself(std::string_view knob) {
   return knob == "time_step" || knob == "integrator";
 }
 
-/// What `crossgrain cost` varies and measures in a Couette case, [cost] of a case file. Steps are
-/// numbers of steps in the contact time t_c of two small disks.
+/// What `crossgrain cost` varies and measures in a flow, [cost] of a case file. Steps are numbers
+/// of steps in the contact time t_c of the lightest pair.
 struct Cost {
   std::vector<CostKind> kinds = {costKinds.begin(), costKinds.end()};
   std::vector<std::string> knobs = {costKnobs.begin(), costKnobs.end()};
   double timed = 0.02;  ///< shortest time that counts as measured [s]
   int repeats = 5;      ///< rounds in which settings take turns; their scatter is a time's interval
 
-  /// Two small disks that meet as in `approach = "spin"`, Ψ_i = 0 … psiMax.
+  /// Two bodies that meet as in `approach = "spin"`, Ψ_i = 0 … psiMax.
   std::vector<double> collisionSteps = {400, 200, 100, 50, 20, 10, 5, 2, 1.2};
   double speed = 0.01;  ///< v_n [m/s]
   double psiMax = 4.0;

@@ -65,8 +65,7 @@ bool keepsTension(const Case& setup) {
   return law.soft() && law.conventions.tension != Tension::cut && law.gn > 0.0;
 }
 
-/// In the order of reports. Gravity, which no case with profiles has, and moving walls, which drive
-/// the flow, are not switched.
+/// In the order of reports. Gravity and moving walls, which drive the flow, are not switched.
 const std::array switchables = {
     Switchable{"normal_damping", Effect::normalDamping, nullptr,
                [](const Case& setup) {
@@ -85,11 +84,14 @@ const std::array switchables = {
     Switchable{"tangential_spring", Effect::tangentialSpring, nullptr, noTangentialSpring},
     Switchable{"tangential_damping", Effect::tangentialDamping, nullptr, noTangentialDamping},
     Switchable{"rotation", Effect::rotation, nullptr,
-               [](const Case&) {
+               [](const Case& setup) {
+                 const char* const section =
+                     setup.kind == CaseKind::assembly ? "assembly" : "particles";
                  return Change{
-                     "Friction acts, but no disk turns about itself: every spin is zero, and "
-                     "stays so.",
-                     "[particles]\nrotation = false\n"};
+                     fmt::format("Friction acts, but no {} turns about itself: every spin is zero, "
+                                 "and stays so.",
+                                 setup.dimension == 3 ? "sphere" : "disk"),
+                     fmt::format("[{}]\nrotation = false\n", section)};
                }},
     Switchable{"bottom_friction", Effect::bottomFriction, nullptr,
                [](const Case&) {

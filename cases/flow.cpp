@@ -101,6 +101,11 @@ double flowDiameter(const Case& setup) {
   return 2.0 * smallest;
 }
 
+double inertiaFactorOf(const Case& setup) {
+  if (!isAssembly(setup)) return setup.particles.inertiaFactor;
+  return withAssembly(setup, [](const auto& assembly) { return assembly.inertiaFactor; });
+}
+
 bool packingsAreFiles(const Case& setup) {
   return setup.particles.file || withAssembly(setup, [](const auto& assembly) {
            return !assembly.starts.files.empty() && assembly.starts.velocityRms == 0.0;

@@ -33,6 +33,9 @@ double flowUnit(const Case& setup);
 /// d: the diameter of the smallest disks [m].
 double flowDiameter(const Case& setup);
 
+/// q in J = q m a² of the case's own bodies.
+double inertiaFactorOf(const Case& setup);
+
 /// Whether packings are files of the user's own, of which nothing is prepared.
 bool packingsAreFiles(const Case& setup);
 

@@ -191,6 +191,7 @@ void readAssemblyCase(Reader& root, Reader& law, Reader& run, Starts starts, Cas
   Reader preparation = root.section("preparation");
   Reader average = root.section("average");
   Reader looks = root.section("looks");
+  Reader cost = root.section("cost");
   if (c.dimension == 3) refusePlaneSections(root);
   readBottom(root, c.bottom);
   withAssembly(c, [&](auto& target) { readAssembly(assembly, target); });
@@ -203,7 +204,7 @@ void readAssemblyCase(Reader& root, Reader& law, Reader& run, Starts starts, Cas
     readAverage(average, endpoints, c);
     checkVariety(average, endpoints, preparation, starts, c);
   }
-  for (const char* const section : {"endpoints", "preparation", "looks"})
+  for (const char* const section : {"endpoints", "preparation", "looks", "cost"})
     root.check(c.average || !root.has(section), section, "is of no use without [average]");
   requireStep(run, c);
   const bool contactTimes = assembly.has("contact_times");
@@ -214,6 +215,7 @@ void readAssemblyCase(Reader& root, Reader& law, Reader& run, Starts starts, Cas
   for (const char* const key : {"duration", "contact_times", "steps"})
     if (assembly.has(key)) checkSteps(assembly, key, "it", assemblyDuration(c) / timeStep(c));
   if (c.average) checkAveragedTime(average, endpoints, c);
+  readCost(cost, c.cost);
   inDimensionOf(c, [&]<int D>() { checkStartFiles<D>(c); });
 }
 

@@ -38,7 +38,7 @@ const Section<AverageInput>& averageKeys() {
   static const Section<A> section(
       {.name = "average",
        .kinds = "assembly",
-       .commands = "compare plan lockstep average",
+       .commands = "compare plan lockstep identify baseline effects cost average",
        .note =
            "What `compare` averages: bins in a part of the plane, or of space, that stays where "
            "it is while walls move. With it an assembly runs as long as it says, from each of "
@@ -206,7 +206,7 @@ const Section<EndpointInput>& endpointsKeys() {
   static const Section<E> section(
       {.name = "endpoints",
        .kinds = "assembly",
-       .commands = "compare plan average",
+       .commands = "compare plan effects cost average baseline",
        .note = "The numbers of a run that carry verdicts, with `[average]`. One with a relative "
                "margin is compared by its ratio to the reference, whose values need one sign; any "
                "other by the difference.",

@@ -33,7 +33,7 @@ std::vector<Key<Cost>> costTable() {
       key("timed", &Cost::timed, positive("s"), "what is shorter is not called measured"),
       key("repeats", &Cost::repeats, between(2, 1000),
           "rounds in which settings take turns; their scatter is the interval of a time"),
-      key("collision_steps", &Cost::collisionSteps, steps, "steps of two small disks that collide"),
+      key("collision_steps", &Cost::collisionSteps, steps, "steps of two bodies that collide"),
       key("speed", &Cost::speed, positive("m/s"), "their v_n"),
       key("psi_max", &Cost::psiMax, positive(), "their Ψ_i go from 0 to this"),
       key("psi_count", &Cost::psiCount, between(2, 10'000), "number of their Ψ_i"),
@@ -45,7 +45,7 @@ std::vector<Key<Cost>> costTable() {
       key("trajectory_packings", &Cost::trajectoryPackings, between(2, 10'000),
           "so many of the case's, from the first"),
       key("average_steps", &Cost::averageSteps, steps,
-          "steps of averages over `[averaging] rotations` of all packings"),
+          "steps of averages over whole runs of all packings"),
       key("average_reference", &Cost::averageReference, steps,
           "steps of the ensemble that they are compared with"),
       key("tangential", &Cost::tangential,
@@ -56,9 +56,9 @@ std::vector<Key<Cost>> costTable() {
 const Section<Cost>& costKeys() {
   static const Section<Cost> section(
       {.name = "cost",
-       .kinds = "couette",
+       .kinds = "couette, assembly",
        .commands = "cost",
-       .note = "Steps are numbers of steps in the contact time t_c of two small disks; of a law "
+       .note = "Steps are numbers of steps in the contact time t_c of the lightest pair; of a law "
                "that stiffens, of an impact at `speed` (without its dashpot). Lists may be empty."},
       costTable());
   return section;

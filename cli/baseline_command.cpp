@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "cases/flow.hpp"
 #include "cases/loader.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
@@ -45,10 +46,14 @@ int keep(const CommandLine& line, const KeepOptions& own) {
   if (cases.front().kind == CaseKind::collision)
     reportKeysWithoutUse(cases.front(), "baseline", stdout);
   else
-    cases = {onlyCase(line, "baseline")};
+    cases = {onlyFlow(line, "baseline")};
+  if (cases.front().dimension == 3 && hasFlow(cases.front()))
+    throw BadInput(
+        fmt::format("{}: baseline keeps no flow of spheres yet; collisions in space it does",
+                    line.inputs.front().string()));
   if (endpoints && cases.front().averaging.endpoints.empty())
-    throw BadInput(fmt::format("--endpoints: {} has no [averaging.endpoints] to keep",
-                               line.inputs.front().string()));
+    throw BadInput(
+        fmt::format("--endpoints: {} has no endpoints to keep", line.inputs.front().string()));
   // A folder that cannot be written is reported before the work is done.
   if (file.has_parent_path()) makeDirectory(file.parent_path());
   std::vector<std::string> refusals;

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <set>
 
 #include "cases/effect_switch.hpp"
 #include "cases/engine_file.hpp"
@@ -119,6 +120,12 @@ std::string compareText(const CompareResults& results) {
     ++answers[row.verdict];
     add(fmt::format("{:<16} {:<26} {}", row.b, row.endpoint, reports::describeAnswer(row)));
   }
+  std::set<std::string> said;
+  for (const FlowRun& run : results.runs)
+    for (const std::string& remark : run.remarks)
+      if (const std::string note = fmt::format("note: {}: {}", run.engine, remark);
+          said.insert(note).second)
+        add(note);
   for (const AlarmRow& alarm : results.endpoints.alarms) add("ALARM: " + reports::describe(alarm));
   if (const InterimFindings& looks = results.endpoints.looks; looks.taken > 0)
     add(reports::describe(looks));
@@ -152,7 +159,8 @@ std::string collideText(const CollideResults& results) {
 }
 
 /// "grain  without friction  0.583 of the time per step, 21 of 42 rings changed"
-std::string effectText(const EffectVariant& variant) {
+/// @param places  that a profile is divided into
+std::string effectText(const EffectVariant& variant, const char* places) {
   const std::string head = fmt::format("{:<16} without {:<22} ", variant.engine, variant.effect);
   if (variant.status != Status::finished)
     return head +
@@ -164,14 +172,15 @@ std::string effectText(const EffectVariant& variant) {
       changed += ring.resolved == true;
     }
   return head + fmt::format("{:.3f} of the time per step, {}\n", variant.timeRatio.value_or(NAN),
-                            judged == 0 ? "too few packings to know what changed"
-                                        : fmt::format("{} of {} rings changed", changed, judged));
+                            judged == 0
+                                ? "too few packings to know what changed"
+                                : fmt::format("{} of {} {} changed", changed, judged, places));
 }
 
 std::string effectsText(const EffectsResults& results) {
   std::string text = describeEffects(results.effects);
   for (const EffectVariant& variant : results.variants)
-    if (variant.isSwitched()) text += effectText(variant);
+    if (variant.isSwitched()) text += effectText(variant, results.region ? "bins" : "rings");
   return text;
 }
 
@@ -180,7 +189,7 @@ std::string verdictText(const StabilityRun& run) {
   if (run.value)
     figure =
         fmt::format("{} {:.3g} {}, limit {:.3g}", run.measure, *run.value, run.unit, run.limit);
-  if (run.step) figure += fmt::format(", step {}", *run.step);
+  if (run.step) figure += fmt::format("{}step {}", figure.empty() ? "" : ", ", *run.step);
   return fmt::format("{:<9} {:<16} {}{}{}: {}{}{}\n", nameOf(run.verdict, stabilityNames),
                      run.engine, run.name, run.variant.empty() ? "" : " ", run.variant, figure,
                      figure.empty() || run.reason.empty() ? "" : "; ", run.reason);
@@ -328,7 +337,7 @@ void print(const std::string& engine, const Identification& found) {
 int identifyEngine(const CommandLine& line) {
   if (line.run.engines.size() != 1 || line.run.engines.front() == "all")
     throw BadInput("identify takes one engine: --engines NAME");
-  const Case setup = onlyCase(line, "identify");
+  const Case setup = onlyFlow(line, "identify");
   const Identification found = runIdentify(setup, line.run);
   printNotes();
   print(line.run.engines.front(), found);

@@ -39,6 +39,7 @@ void fields(auto& io, EffectVariant& variant) {
   io.when(changes, "packings", variant.changes.packings);
   io.when(changes, "stderr_kind", variant.changes.bars);
   io.when(changes, "fields", variant.changes.fields);
+  io.when(changes && !variant.changes.endpoints.empty(), "endpoints", variant.changes.endpoints);
 }
 
 void fields(auto& io, SwitchRow& row) {

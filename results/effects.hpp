@@ -42,6 +42,7 @@ struct EffectChanges {
   std::size_t packings = 0;
   BarKind bars = BarKind::packings;
   std::vector<ChangedField> fields;
+  std::vector<EndpointRow> endpoints;  ///< `a` with everything on, `b` without
 };
 
 /// One engine with one effect switched off, or with everything on.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
@@ -371,6 +372,9 @@ constexpr std::array measures = {
     StabilityMeasure{"step_limit", "-",
                      "1 − the largest stable time step by that of theory, 2/ω_max of the contacts",
                      nullptr, StabilityProtocol::stepLimit},
+    StabilityMeasure{"largest_step", "-",
+                     "the case's time step by the largest with which the run is still sound",
+                     nullptr, StabilityProtocol::largestStep},
     StabilityMeasure{"restart_differs", "diameters",
                      "between a run and one restarted from a checkpoint at its middle", nullptr,
                      StabilityProtocol::restart},
@@ -378,6 +382,27 @@ constexpr std::array measures = {
                      nullptr, StabilityProtocol::acceptance}};
 
 }  // namespace
+
+bool isSound(const Recording& run, const Recording& calm) {
+  constexpr double growth = 100.0, deepest = 1.0;  // by then centres pass each other
+  if (!run.failure.empty()) return false;
+  const auto largest = [](const Curve& curve) {
+    return curve.empty() ? 0.0 : std::ranges::max(curve);
+  };
+  const auto kinetic = [](const Recording& of) {
+    double most = 0.0;
+    for (const Snapshot& now : of.snapshots) {
+      const double energy = energyOf(of, now).kinetic;
+      if (!std::isfinite(energy)) return std::numeric_limits<double>::infinity();
+      most = std::max(most, energy);
+    }
+    return most;
+  };
+  constexpr double gained = 0.1;
+  const bool driven = effectsOf(run.scene).contains(Effect::movingWalls);
+  return largest(maxOverlap(run)) < deepest && largest(tunnelled(run)) == 0.0 &&
+         kinetic(run) <= growth * kinetic(calm) && (driven || largest(energyGain(run)) <= gained);
+}
 
 std::span<const StabilityMeasure> stabilityMeasures() {
   return measures;

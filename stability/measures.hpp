@@ -14,6 +14,7 @@ enum class StabilityProtocol {
   againstOriginal,  ///< a run of the case's first variant, then one of its own: copiesDiffer()
   restart,          ///< a run, and one taken up from its middle: largestDistance()
   stepLimit,        ///< many runs, until the largest stable step is known: theoreticalStepLimit()
+  largestStep,      ///< likewise, of a scene as it is: isSound()
   acceptance        ///< one that it has to refuse
 };
 
@@ -43,6 +44,12 @@ std::vector<double> restitutionErrors(const Recording& run);
 /// to where it would be without being mirrored, turned, shifted and boosted, and the same disk of
 /// the original [diameters], at each instant that both have.
 std::vector<double> copiesDiffer(const Recording& original, const Recording& copy);
+
+/// StabilityProtocol::largestStep: whether a run came to its end, none of its bodies sank into
+/// another by more than a radius or went through it or a wall, and its kinetic energy stayed below
+/// 100 times the largest of `calm`, the same scene at the case's own step; and where no wall moves
+/// the energy grew by less than a tenth.
+bool isSound(const Recording& run, const Recording& calm);
 
 /// StabilityProtocol::restart: the largest distance between two runs of the same scene [diameters].
 double largestDistance(const Scene& scene, const Snapshot& one, const Snapshot& other);

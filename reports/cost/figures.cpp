@@ -123,7 +123,7 @@ Panel panelOf(const CostResults& results, const CostMeasure& measure) {
   std::erase_if(points, [&](const CostPoint& point) { return !measure.has(point); });
   Panel panel;
   panel.title = mathGnuplot(measureText(measure.name));
-  panel.xLabel = fmt::format("processor time of {} [s]", timeUnit(measure.kind));
+  panel.xLabel = fmt::format("processor time of {} [s]", timeUnit(results, measure.kind));
   panel.yLabel = "error";
   panel.logX = panel.logY = true;
   panel.key = Key::none;
@@ -141,12 +141,12 @@ Panel panelOf(const CostResults& results, const CostMeasure& measure) {
   return panel;
 }
 
-std::string captionOf(const Points& points, CostKind kind) {
+std::string captionOf(const CostResults& results, const Points& points, CostKind kind) {
   std::string caption = fmt::format(
       "Error against the processor time of {}. Lines join the time steps of an engine, dashed with "
       "another integrator; pale line: Pareto front; grey: uncertainty of the reference; bars: the "
       "statistical part; ▽ may be chance: drawn at its upper end; ×, at the upper edge: failed.",
-      timeUnit(kind));
+      timeUnit(results, kind));
   const auto all = otherSettings(points);
   std::vector<std::string> numbers;
   for (std::size_t k = 0; k < all.size(); ++k)
@@ -183,8 +183,9 @@ std::string measureText(const std::string& measure) {
   return "positions, compared with " + (whom == "own" ? "itself" : whom);
 }
 
-std::string timeUnit(CostKind kind) {
-  constexpr std::array units = {"one sweep of collisions", "the window", "one rotation"};
+std::string timeUnit(const FlowFrame& frame, CostKind kind) {
+  const std::array units = {"one sweep of collisions", "the window",
+                            frame.region ? "a second of the scene" : "one rotation"};
   return units[static_cast<std::size_t>(kind)];
 }
 
@@ -218,7 +219,7 @@ std::vector<Figure> costFigures(const CostResults& results) {
       if (measure.kind == kind) figure.panels.push_back(panelOf(results, measure));
     std::erase_if(figure.panels, [](const Panel& panel) { return !hasPoints(panel); });
     if (figure.panels.empty()) continue;
-    figure.caption = captionOf(results.points, kind);
+    figure.caption = captionOf(results, results.points, kind);
     figure.keyAbove = true;
     figure.columns = figure.panels.size() > 1 ? 2 : 1;
     figure.panelWidth = 1040 / figure.columns;

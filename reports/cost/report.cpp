@@ -158,7 +158,8 @@ std::string asToml(const Advice& one, const CostResults& results) {
     if (const auto time = one.time())
       text += fmt::format(
           ", {:.3g} s of {} per {}", *time, one.cpuSeconds ? "processor time" : "wall time",
-          one.costKind() == CostKind::averages ? "rotation" : "sweep of collisions");
+          one.costKind() == CostKind::averages ? results.region ? "second of the scene" : "rotation"
+                                               : "sweep of collisions");
     text += fmt::format(" (measured in {})", fmt::join(kinds, " and "));
     for (const std::string& more : {tieText(one.ties), cheapestText(results, one)})
       if (!more.empty()) text += "; " + more;
@@ -289,7 +290,7 @@ std::string finestReached(const CostResults& results) {
     parts.push_back(fmt::format(
         "{} {} by {} with {} ({} for {}{})", kindText(kind), targetText(finest->target),
         finest->engine, settingText(finest->knob, finest->setting), shortDuration(finest->time()),
-        timeUnit(kind), ties.empty() ? "" : fmt::format("; a tie with {}", listed(ties))));
+        timeUnit(results, kind), ties.empty() ? "" : fmt::format("; a tie with {}", listed(ties))));
   }
   if (parts.empty()) return "Nothing was measured.";
   return fmt::format("Finest accuracy of the case's law that is reached, for the least time: {}.",
@@ -320,7 +321,7 @@ Overview costOverview(const CostResults& results) {
           {fmt::format("{} {}", kindText(kind), shown),
            fmt::format(
                "Which setting brings the error of {} below {} for the least time? Time of {}.",
-               kindText(kind), targetText(target), timeUnit(kind)),
+               kindText(kind), targetText(target), timeUnit(results, kind)),
            "kind-" + toString(kind)});
     }
   for (const std::string& engine : enginesIn(results)) {
@@ -368,9 +369,10 @@ Table accuracyTable(const CostResults& results) {
               {}};
   for (const CostKind kind : kindsIn(results.points))
     for (const CostBasis basis : costBases) {
-      std::string group = fmt::format(
-          "{}, compared with {}; time of {}", kindText(kind),
-          basis == CostBasis::own ? "the engine's own limit" : "the case's law", timeUnit(kind));
+      std::string group =
+          fmt::format("{}, compared with {}; time of {}", kindText(kind),
+                      basis == CostBasis::own ? "the engine's own limit" : "the case's law",
+                      timeUnit(results, kind));
       for (const CostCell& cell : results.cells) {
         if (cell.kind != kind || cell.basis != basis) continue;
         const CostModel* model = modelOf(results, cell);
@@ -411,7 +413,7 @@ Blocks adviceBlocks(const CostResults& results) {
     const CostPoint* obstacle = pointAt(results, one.obstacle);
     std::string time = absentText;
     if (one.time() && one.costKind())
-      time = fmt::format("{} for {}", timeText(one), timeUnit(*one.costKind()));
+      time = fmt::format("{} for {}", timeText(one), timeUnit(results, *one.costKind()));
     const CostModel* model = modelOf(results, one);
     std::string remark = tieText(one.ties);
     if (const std::string cheapest = cheapestText(results, one); !cheapest.empty())
@@ -517,16 +519,24 @@ std::vector<std::string> costSentences(const CostResults& results) {
   return sentences;
 }
 
-constexpr std::array whatErrorsAre = {
-    "Two disks collide, or a disk and a wall disk, over a whole curve of Ψ_i, beginning anywhere "
-    "in "
-    "a step; the error is the root mean square distance from the oracle, in units of the range of "
-    "its curve, of the pair and of the step up to a tenth shorter for which it is largest. Worst: "
-    "of a single collision.",
-    "Packings over a time short against their chaos; the error is the root mean square distance of "
-    "the disks, in diameters, from a run at a much smaller step, mean over packings.",
-    "Profiles and fitted numbers of a sheared cell, against a reference on the same packings: the "
-    "mean paired difference, in units of the profile's largest value."};
+std::string whatErrorsAre(const CostResults& results, CostKind kind) {
+  if (kind == CostKind::collision)
+    return "Two bodies collide, or one and a wall, over a whole curve of Ψ_i, beginning anywhere "
+           "in "
+           "a step; the error is the root mean square distance from the oracle, in units of the "
+           "range of its curve, of the pair and of the step up to a tenth shorter for which it is "
+           "largest. Worst: of a single collision.";
+  if (kind == CostKind::trajectory)
+    return "Packings over a time short against their chaos; the error is the root mean square "
+           "distance of the bodies, in diameters, from a run at a much smaller step, mean over "
+           "packings.";
+  if (results.region)
+    return "The case's endpoints, against a reference on the same packings: the mean paired "
+           "difference, in units of the reference's size or, of an endpoint with an absolute "
+           "margin, of ten margins.";
+  return "Profiles and fitted numbers of a sheared cell, against a reference on the same packings: "
+         "the mean paired difference, in units of the profile's largest value.";
+}
 
 }  // namespace
 
@@ -541,7 +551,7 @@ Report reportOf(const CostResults& results) {
       accuracyTable(results)};
   for (const CostKind kind : kindsIn(results.points))
     report.section("kind-" + toString(kind), "Error against time: " + kindText(kind)).blocks = {
-        Paragraph{whatErrorsAre[static_cast<std::size_t>(kind)]},
+        Paragraph{whatErrorsAre(results, kind)},
         drawingsOf(report.figures, "cost_" + toString(kind))};
   const auto addTable = [&](const std::string& id, const std::string& title, Table table) {
     if (!table.rows.empty()) report.section(id, title).blocks = {std::move(table)};

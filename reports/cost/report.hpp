@@ -43,7 +43,7 @@ std::string settingText(const std::string& knob, const std::string& setting);
 /// "Ψ_f", "radial stress", "positions, compared with grain"; "Ψ_f, own limit"
 std::string measureText(const std::string& measure);
 /// What one unit of an error kind's time is: "one sweep of collisions".
-std::string timeUnit(CostKind kind);
+std::string timeUnit(const FlowFrame& frame, CostKind kind);
 
 /// A measure of a kind of error.
 struct CostMeasure {

@@ -9,6 +9,7 @@
 #include "reports/common/numbers.hpp"
 #include "reports/common/sentences.hpp"
 #include "reports/effects/variants.hpp"
+#include "reports/flow/overview.hpp"
 
 namespace crossgrain::reports {
 
@@ -58,10 +59,22 @@ const FieldChange* mostChanged(const VariantSummary& variant) {
   return most;
 }
 
+const EndpointRow* worstEndpoint(const VariantSummary& variant) {
+  std::vector<const EndpointRow*> rows;
+  for (const EndpointRow& row : variant.endpoints) rows.push_back(&row);
+  return worstOf(rows);
+}
+
 OverviewCell changedCell(const VariantSummary* variant, const std::string& anchor) {
   OverviewCell cell = absentCell(variant, anchor);
   if (!variant || !variant->ran()) return cell;
   const FieldChange* most = mostChanged(*variant);
+  if (const EndpointRow* worst = worstEndpoint(*variant);
+      worst && worst->verdict == Verdict::fail && !(most && most->detected.value_or(false))) {
+    OverviewCell shown = endpointCell(*worst, true);
+    shown.anchor = anchor;
+    return shown;
+  }
   if (!most) return cell;
   cell.value = 100.0 * most->change;
   cell.shown = percentOf(most->change);
@@ -88,15 +101,19 @@ std::string effectsOf(const std::vector<VariantSummary>& all) {
   const VariantSummary* const costliest = costliestOf(all);
   Names parts;
   if (!changing.empty())
-    parts.push_back(fmt::format("{} {} a profile", listedShortly(changing, 4),
+    parts.push_back(fmt::format("{} {} a profile or an endpoint", listedShortly(changing, 4),
                                 verb(changing.size(), "changes", "change")));
   if (!idle.empty())
     parts.push_back(fmt::format("{} {} nothing beyond the margins", listedShortly(idle, 4),
                                 verb(idle.size(), "changes", "change")));
-  if (parts.empty()) parts.emplace_back("no effect changes a profile significantly");
+  const bool told = std::ranges::any_of(all, &VariantSummary::decidable);
+  if (parts.empty())
+    parts.emplace_back(told ? "no effect changes anything significantly"
+                            : "too few packings to know what changes");
   parts.push_back(costliest
-                      ? fmt::format("{} costs most, {} of a step", effectLabel(costliest->effect),
-                                    percentOf(*costliest->saved))
+                      ? fmt::format("{} costs most, {} % of a step", effectLabel(costliest->effect),
+                                    readable(100.0 * *costliest->saved,
+                                             times(costliest->savedError, 100.0)))
                       : "none is shown to cost time");
   return listed(parts);
 }
@@ -119,7 +136,7 @@ Overview effectsOverview(const EffectsResults& results) {
   const std::vector<VariantSummary> all = variantSummaries(results);
   Overview overview;
   overview.rowsAre = "without";
-  overview.states = {{Verdict::modelDifference, "changes a profile"},
+  overview.states = {{Verdict::modelDifference, "changes a profile or an endpoint"},
                      {Verdict::pass, "changes nothing beyond the margins"},
                      {Verdict::undecided, "no significant change, and the margin is not excluded"},
                      {Verdict::notApplicable, "refused"},

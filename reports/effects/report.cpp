@@ -13,7 +13,9 @@
 #include "reports/common/sections.hpp"
 #include "reports/common/sentences.hpp"
 #include "reports/effects/variants.hpp"
+#include "reports/flow/endpoint_text.hpp"
 #include "reports/flow/engine_table.hpp"
+#include "reports/flow/figures.hpp"
 
 namespace crossgrain::reports {
 
@@ -48,13 +50,8 @@ std::string changePercent(const FieldChange& change) {
   return readableDifference(value, inPercent(change.error)) + " % (one standard error)";
 }
 
-std::string ringName(const FieldChange& change) {
-  return fmt::format("ring {}", change.ring + 1);
-}
-
 std::string describeChange(const FieldChange& change) {
-  return fmt::format("{} in {}, {}", fieldWords(change.field), ringName(change),
-                     changePercent(change));
+  return fmt::format("{} in {}, {}", fieldWords(change.field), change.bin, changePercent(change));
 }
 
 std::vector<const FieldChange*> detectedOf(const VariantSummary& variant) {
@@ -123,12 +120,12 @@ std::string describeChanges(const VariantSummary& variant) {
                      more == 0 ? "" : fmt::format("; and {}", counted(more, "further field")));
 }
 
-/// Beyond only where that is shown, and where: the field may exceed its margin in another ring.
+/// Beyond only where that is shown, and where: the field may exceed its margin elsewhere.
 std::string againstMargin(const FieldChange& change) {
   if (change.verdict == Verdict::notApplicable) return {};
   if (change.verdict == Verdict::pass) return "shown within the margin";
   if (change.verdictHere == Verdict::fail) return "shown beyond the margin";
-  return change.verdict == Verdict::fail ? "shown beyond the margin in another ring"
+  return change.verdict == Verdict::fail ? "shown beyond the margin elsewhere"
                                          : "margin: undecided";
 }
 
@@ -141,7 +138,7 @@ const char* symbolOf(const FieldChange& change) {
 Cell fieldCell(const FieldChange* change) {
   if (!change) return absentText;
   const bool found = change->detected.value_or(false);
-  std::string detail = ringName(*change);
+  std::string detail = change->bin;
   if (!change->detected) detail += "; too few packings";
   if (!found && change->detectableHere)
     detail += fmt::format("; seen from {} %", roughly(100.0 * *change->detectableHere));
@@ -149,6 +146,43 @@ Cell fieldCell(const FieldChange* change) {
   return {fmt::format("{} {}", symbolOf(*change), changePercent(*change)),
           {std::move(detail)},
           found ? Verdict::modelDifference : Verdict::undecided};
+}
+
+/// "+31 N/m² (12 to 50) of 206 N/m²": what is without the effect less what is with it.
+Cell endpointCell(const EndpointRow& row) {
+  if (row.verdict == Verdict::notMeasured || !finite(row.difference))
+    return {absentText, {row.reason}, Verdict::notMeasured};
+  const std::string unit = row.unit == "-" || row.unit == "1" ? "" : " " + row.unit;
+  std::string text = readableDifference(row.difference, {}) + unit;
+  if (finite(row.low) && finite(row.high))
+    text += fmt::format(" ({} to {})", readableDifference(row.low, {}),
+                        readableDifference(row.high, {}));
+  std::vector<std::string> detail = {fmt::format("of {}{}", readable(row.reference), unit)};
+  detail.emplace_back(row.verdict == Verdict::pass   ? "shown within the margin"
+                      : row.verdict == Verdict::fail ? "shown beyond the margin"
+                                                     : "margin: undecided");
+  if (!row.reason.empty()) detail.push_back(row.reason);
+  return {std::move(text),
+          {fmt::format("{}", fmt::join(detail, "; "))},
+          row.verdict == Verdict::fail ? Verdict::modelDifference : row.verdict};
+}
+
+/// What each effect changes in every endpoint of the case; empty where it has none.
+Table endpointTable(const EffectsResults& results, const std::string& engine) {
+  Table table{{"switched off"}, {}};
+  for (const VariantSummary& variant : variantSummaries(results, engine)) {
+    if (!variant.ran() || variant.endpoints.empty()) continue;
+    if (table.rows.empty())
+      for (const EndpointRow& row : variant.endpoints)
+        table.columns.emplace_back(endpointWords(row.endpoint));
+    TableRow line{{effectLabel(variant.effect)}};
+    for (const EndpointRow& row : variant.endpoints) line.cells.push_back(endpointCell(row));
+    table.rows.push_back(std::move(line));
+  }
+  table.note =
+      "The value without the effect minus that with everything on, in brackets the interval that "
+      "the verdict against the case's margin rests on.";
+  return table;
 }
 
 /// The largest value of a field with everything on, which changes are shares of.
@@ -215,10 +249,15 @@ std::vector<std::string> effectsNotes(const EffectsResults& results) {
     notes.emplace_back(
         "Fewer than 4 packings: changes cannot be distinguished from the scatter between "
         "packings.");
-  notes.push_back(fmt::format("{}; rotations averaged in each run: {}, after {} of settling.",
-                              counted(results.packings.size(), "packing"),
-                              readableSetting(results.averaging.rotations),
-                              readableSetting(results.averaging.settleRotations)));
+  notes.push_back(results.region
+                      ? fmt::format("{}; averaged in each run: {} to {} s.",
+                                    counted(results.packings.size(), "packing"),
+                                    readableSetting(results.region->from),
+                                    readableSetting(results.region->to))
+                      : fmt::format("{}; rotations averaged in each run: {}, after {} of settling.",
+                                    counted(results.packings.size(), "packing"),
+                                    readableSetting(results.averaging.rotations),
+                                    readableSetting(results.averaging.settleRotations)));
   std::ranges::copy(results.notes, std::back_inserter(notes));
   return notes;
 }
@@ -236,20 +275,21 @@ std::string barsOf(const EffectsResults& results) {
 List effectsReading(const EffectsResults& results) {
   return {
       {{"Changes",
-        fmt::format("the run without the effect minus the run with everything on, at one ring, "
+        fmt::format("the run without the effect minus the run with everything on, in one {}, "
                     "in % of the profile's largest value with everything on; {}. effects.csv "
-                    "has every ring, in the field's unit.",
-                    barsOf(results))},
+                    "has every {}, in the field's unit.",
+                    binWord(results), barsOf(results), binWord(results))},
        {"▲ ▼",
         fmt::format("significant (larger, smaller without the effect); ○: not, and \"seen "
-                    "from\" is the smallest change that this ring would have shown. All rings "
+                    "from\" is the smallest change that this {0} would have shown. All {0}s "
                     "of all fields shown are one family of tests for each effect: the chance "
-                    "of any false alarm among them is at most {:.3g} % (paired t tests, Holm's "
+                    "of any false alarm among them is at most {1:.3g} % (paired t tests, Holm's "
                     "procedure). It takes at least 4 packings.",
-                    100.0 * (1.0 - results.averaging.confidence))},
+                    binWord(results), 100.0 * (1.0 - results.averaging.confidence))},
        {"Margin",
-        "the case's: a change within the margin in every ring shows that this scene does not "
-        "need the effect for that field, as two engines would agree."},
+        fmt::format("the case's: a change within the margin in every {} shows that this scene does "
+                    "not need the effect for that field, as two engines would agree.",
+                    binWord(results))},
        {"Time",
         fmt::format("one run at a time, in {} rounds that take turns, a packing each, at least {} "
                     "s each over the same steps; the mean of the rounds counts, its error is that "
@@ -277,6 +317,10 @@ void addStudy(Report& report, const EffectsResults& results, const std::string& 
   cost.side = false;
   blocks.push_back(std::move(cost));
   blocks.push_back(effectTable(results, engine));
+  if (Table endpoints = endpointTable(results, engine); !endpoints.rows.empty()) {
+    blocks.push_back(Heading{"What each effect changes in the endpoints"});
+    blocks.push_back(std::move(endpoints));
+  }
   Drawings profiles = drawingsOf(report.figures, prefix + "profile_");
   if (profiles.names.empty()) return;
   const bool faint = std::ranges::any_of(variants, [](const VariantSummary& variant) {

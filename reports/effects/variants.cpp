@@ -1,5 +1,7 @@
 #include "reports/effects/variants.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +9,7 @@
 #include "reports/common/engines.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
+#include "reports/flow/figures.hpp"
 
 namespace crossgrain::reports {
 
@@ -36,7 +39,7 @@ bool showFirst(const RingChange& a, const RingChange& b) {
   return detected ? sizeOf(a) > sizeOf(b) : inErrors(a) > inErrors(b);
 }
 
-std::optional<FieldChange> changeOf(const ChangedField& field) {
+std::optional<FieldChange> changeOf(const ChangedField& field, const char* bin) {
   const double scale = scaleOf(field);
   const RingChange* best = nullptr;
   std::optional<double> smallest;
@@ -55,6 +58,7 @@ std::optional<FieldChange> changeOf(const ChangedField& field) {
   change.verdict = field.verdict;
   change.verdictHere = best->verdict;
   change.ring = best->ring;
+  change.bin = fmt::format("{} {}", bin, best->ring + 1);
   change.change = *best->change / scale;
   change.error = scaled(best->standardError);
   if (change.error && *change.error > 0.0) change.inErrors = inErrors(*best);
@@ -68,7 +72,8 @@ std::optional<FieldChange> changeOf(const ChangedField& field) {
   return change;
 }
 
-VariantSummary summaryOf(const EffectVariant& variant, const EffectVariant* whole) {
+VariantSummary summaryOf(const EffectVariant& variant, const EffectVariant* whole,
+                         const char* bin) {
   VariantSummary summary;
   summary.engine = variant.engine;
   summary.effect = variant.effect;
@@ -82,7 +87,8 @@ VariantSummary summaryOf(const EffectVariant& variant, const EffectVariant* whol
   summary.packings = variant.changes.packings;
   for (const ChangedField& field : variant.changes.fields)
     if (field.judged)
-      if (const auto change = changeOf(field)) summary.changes.push_back(*change);
+      if (const auto change = changeOf(field, bin)) summary.changes.push_back(*change);
+  summary.endpoints = variant.changes.endpoints;
   return summary;
 }
 
@@ -112,13 +118,14 @@ bool VariantSummary::decidable() const {
 
 bool VariantSummary::changesSomething() const {
   return std::ranges::any_of(changes,
-                             [](const FieldChange& c) { return c.detected.value_or(false); });
+                             [](const FieldChange& c) { return c.detected.value_or(false); }) ||
+         std::ranges::find(endpoints, Verdict::fail, &EndpointRow::verdict) != endpoints.end();
 }
 
 bool VariantSummary::withinMargins() const {
-  return !changes.empty() && std::ranges::all_of(changes, [](const FieldChange& c) {
-    return c.verdict == Verdict::pass;
-  });
+  const auto passes = [](const auto& one) { return one.verdict == Verdict::pass; };
+  return (!changes.empty() || !endpoints.empty()) && std::ranges::all_of(changes, passes) &&
+         std::ranges::all_of(endpoints, passes);
 }
 
 bool VariantSummary::costsTime() const {
@@ -138,7 +145,8 @@ std::vector<VariantSummary> variantSummaries(const EffectsResults& results,
   std::vector<VariantSummary> summaries;
   for (const EffectVariant& variant : results.variants)
     if (variant.isSwitched() && (engine.empty() || variant.engine == engine))
-      summaries.push_back(summaryOf(variant, wholeVariant(results, variant.engine)));
+      summaries.push_back(
+          summaryOf(variant, wholeVariant(results, variant.engine), binWord(results)));
   return summaries;
 }
 

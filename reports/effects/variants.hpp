@@ -18,6 +18,7 @@ struct FieldChange {
   Verdict verdict = Verdict::notApplicable;
   Verdict verdictHere = Verdict::notApplicable;  ///< that of the ring alone
   std::size_t ring = 0;
+  std::string bin;              ///< what the ring is called: "ring 3", "bin 3"
   double change = 0.0;          ///< switched − everything on
   std::optional<double> error;  ///< standard error
   /// The interval that `detected` rests on: it leaves out 0 exactly if it is true.
@@ -38,12 +39,13 @@ struct VariantSummary {
   std::optional<double> wholeContacts;      ///< with everything on
   std::size_t packings = 0;
   std::vector<FieldChange> changes;  ///< of the fields that are judged, and have any number
+  std::vector<EndpointRow> endpoints;
 
   bool ran() const { return status == Status::finished; }
-  bool decidable() const;  ///< enough packings to tell what changes
-  bool changesSomething() const;
-  bool withinMargins() const;  ///< every field is shown to be
-  bool costsTime() const;      ///< the time saved exceeds two of its errors
+  bool decidable() const;         ///< enough packings to tell what changes
+  bool changesSomething() const;  ///< a field, or an endpoint beyond its margin
+  bool withinMargins() const;     ///< every field and endpoint is shown to be
+  bool costsTime() const;         ///< the time saved exceeds two of its errors
   /// Null where the field has no number.
   const FieldChange* of(const std::string& field) const;
 };

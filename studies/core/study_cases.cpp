@@ -109,14 +109,6 @@ Starts startsOf(const CommandLine& line, std::string_view command) {
 
 }  // namespace
 
-namespace {
-
-/// The others do not know spheres in space yet.
-constexpr std::array<std::string_view, 5> flowsInSpace = {"compare", "lockstep", "plan", "average",
-                                                          "import"};
-
-}  // namespace
-
 Case onlyFlow(const CommandLine& line, const char* command) {
   const fs::path& file = line.inputs.front();
   const Starts starts = startsOf(line, command);
@@ -128,10 +120,6 @@ Case onlyFlow(const CommandLine& line, const char* command) {
         "[[endpoints]]",
         file.string(), command));
   }
-  if (cases.front().dimension == 3 &&
-      std::ranges::find(flowsInSpace, command) == flowsInSpace.end())
-    throw BadInput(fmt::format("{}: {} knows no cases in space (case.dimension = 3) yet; {} do",
-                               file.string(), command, fmt::join(flowsInSpace, ", ")));
   if (cases.size() > 1)
     throw BadInput(fmt::format("{}: {} takes a case without variants", file.string(), command));
   // Every job of a plan is a compare, and import takes a case as it is for what comes after.

@@ -125,8 +125,8 @@ const CostPoint* ownPoint(const Points& points, const CostPoint& point) {
 /// An error against the case's law is a sum e = e_step + e_model over the same collisions or disks,
 /// hence ‖e‖ <= ‖e_step‖ + ‖e_model‖, and it can be smaller than either part only where the two
 /// have opposite signs: by chance of that one step. So a point whose error is shown to be smaller
-/// than a part counts with the larger part as its lower end and the sum as its upper one. A tenth
-/// of a part is left to rounding and to different samples of both.
+/// than a part counts with the larger part as its lower end and the sum as its upper one. Intervals
+/// hold what samples leave open; a hundredth of a part is left to rounding.
 CountedEnds endsOf(const Points& points, const std::vector<CostModel>& models,
                    const CostPoint& point) {
   CountedEnds ends{point.low(), point.high()};
@@ -140,7 +140,7 @@ CountedEnds endsOf(const Points& points, const std::vector<CostModel>& models,
   for (const CostModel& model : models)
     if (model.engine == point.engine && model.kind == point.kind && model.measure == point.measure)
       add(model.low, model.high);
-  constexpr double noticeable = 0.9;
+  constexpr double noticeable = 0.99;
   if (!(ends.high < noticeable * least)) return ends;
   return {std::max(ends.low, least), std::max(ends.high, most), true};
 }

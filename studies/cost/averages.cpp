@@ -10,24 +10,21 @@
 #include "averaging/profiles.hpp"
 #include "averaging/statistics.hpp"
 #include "cases/couette.hpp"
+#include "cases/flow.hpp"
 #include "cases/time_step.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/engine_running.hpp"
 #include "studies/core/executor.hpp"
+#include "studies/flow/endpoint_values.hpp"
 #include "studies/flow/run.hpp"
 #include "studies/flow/summary.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace crossgrain::inline studies {
 
 namespace {
 
 constexpr const char* profileMeasures[] = {"azimuthal_velocity", "stress_rr", "volume_fraction"};
-
-int snapshotsOf(const Case& setup) {
-  const Averaging& averaging = setup.averaging;
-  return std::max(
-      1, static_cast<int>(std::lround(averaging.snapshotsPerRotation * averaging.rotations)));
-}
 
 std::map<std::string, std::vector<std::optional<double>>> numbersOf(
     const Case& setup, const std::vector<Profile>& profiles) {
@@ -50,6 +47,35 @@ std::map<std::string, std::vector<std::optional<double>>> numbersOf(
   return numbers;
 }
 
+/// The case's endpoints of a whole run of one packing, as compare has them. Its time is that of a
+/// second of the scene.
+CostRun endpointsOfRun(const EngineEntry& entry, const Case& setup, const Packing& packing,
+                       const std::function<void(double)>& progress) {
+  Case quiet = setup;
+  quiet.run.keepSnapshots = 0;
+  const ScratchFolder scratch;
+  const CouetteTask task{&quiet,
+                         entry,
+                         0,
+                         &packing,
+                         timeStep(setup),
+                         scratch.path / "worker",
+                         scratch.path / "snapshots.h5",
+                         scratch.path / "unfinished",
+                         packing.hash};
+  const FlowRun run =
+      inDimensionOf(setup, [&]<int D>() { return runCouette<D>(task, progress, {}); });
+  const double seconds = flowDuration(setup);
+  const auto perSecond = [&](std::uint64_t count) {
+    return static_cast<std::uint64_t>(std::llround(static_cast<double>(count) / seconds));
+  };
+  CostRun cost{run.effective->dt, run.stats->wallSeconds / seconds, run.stats->cpuSeconds / seconds,
+               perSecond(run.stats->steps), perSecond(run.stats->contactEvaluations)};
+  for (const auto& [name, margin] : setup.averaging.endpoints)
+    cost.numbers[name] = {endpointOf(endpointSpec(setup, name), setup, run)};
+  return cost;
+}
+
 /// Averages one packing on one engine over the case's rotations, after settling.
 /// @throws EngineFailure (also of a packing that blew up), UnsupportedScene, BadInput, Interrupted
 CostRun averagePacking(Engine& engine, const EngineEntry& entry, const Case& setup,
@@ -58,10 +84,9 @@ CostRun averagePacking(Engine& engine, const EngineEntry& entry, const Case& set
   const EffectiveParameters effective = loadScene(engine, entry, setup, scene);
   const ContactReport report =
       engine.capabilities().instantContacts ? ContactReport::instant : ContactReport::accumulated;
-  const double settled = setup.averaging.settleRotations * rotationTime(setup);
-  const int samples = snapshotsOf(setup);
-  const double interval = setup.averaging.rotations * rotationTime(setup) / samples;
-  const double end = settled + samples * interval;
+  const FlowTimes times = flowTimes(setup);
+  const auto [settled, interval, samples] = times;
+  const double end = times.end();
   double now = 0.0;
   const Scene asRun = sceneFor(engine.capabilities(), entry, setup, scene).scene;
   const AuditBasis basis = auditBasis(asRun, engine.capabilities(), effective);
@@ -72,7 +97,7 @@ CostRun averagePacking(Engine& engine, const EngineEntry& entry, const Case& set
   };
   const auto sample = [&] {
     Snapshot snapshot = engine.snapshot(report);
-    requireSound(setup, snapshot);
+    requireSound<2>(setup, scene, snapshot);
     if (const std::string why = auditFault(snapshot, basis); !why.empty()) {
       discardWorker(engine);
       throw EngineFailure(fmt::format("{}, {} at t = {:g} s: its snapshot cannot be: {}",
@@ -124,7 +149,8 @@ std::size_t ringsIn(const CostRun& run, const std::string& measure) {
 
 std::optional<PairedError> pairedError(const std::vector<CostRun>& runs,
                                        const std::vector<CostRun>& reference,
-                                       const std::string& measure, double alpha) {
+                                       const std::string& measure, double alpha,
+                                       std::optional<double> unit) {
   double differences = 0.0, variances = 0.0, scale = 0.0, low = 0.0, high = 0.0;
   std::size_t rings = 0, withError = 0, all = 0;
   for (const CostRun& run : reference) all = std::max(all, ringsIn(run, measure));
@@ -150,7 +176,7 @@ std::optional<PairedError> pairedError(const std::vector<CostRun>& runs,
     low += std::pow(std::max(0.0, std::abs(difference->mean) - half), 2);
     high += std::pow(std::abs(difference->mean) + half, 2);
   }
-  if (measure == "wall_slip") scale = 1.0;  // it is a fraction of the rim's speed already
+  if (unit) scale = *unit;
   if (rings == 0 || !(scale > 0.0)) return std::nullopt;
   const auto count = static_cast<double>(rings);
   PairedError found{std::sqrt(differences / count) / scale, {}, {}, {}, {}};
@@ -171,19 +197,22 @@ class AverageErrors final : public ErrorKind {
   CostKind kind() const override { return CostKind::averages; }
 
   std::vector<std::string> measures() const override {
-    return {"azimuthal_velocity", "stress_rr", "volume_fraction",
-            "shear_band_width",   "wall_slip", "stress_level"};
+    if (isCell())
+      return {"azimuthal_velocity", "stress_rr", "volume_fraction",
+              "shear_band_width",   "wall_slip", "stress_level"};
+    std::vector<std::string> names;
+    for (const auto& [name, margin] : study_.setup.averaging.endpoints) names.push_back(name);
+    return names;
   }
 
   std::size_t rounds() const override { return packings().size(); }
 
   double predicted(std::size_t engine, const CostSetting& setting) const override {
     const TimedEngine& timed = study_.engines[engine];
-    const Averaging& averaging = setting.setup.averaging;
     constexpr double sample = 1e-3;
     return study_.packingCount() *
            (duration() / study_.stepOf(engine, setting.setup) * timed.step + timed.load +
-            sample * averaging.rotations * averaging.snapshotsPerRotation);
+            (isCell() ? 0.0 : timed.start) + sample * flowTimes(setting.setup).samples);
   }
 
   double commonTime() const override {
@@ -196,6 +225,7 @@ class AverageErrors final : public ErrorKind {
   }
 
   double ownTime(std::size_t) const override { return 0.0; }
+  bool keptSuffice() const override { return false; }
 
   void makeReferences() override {
     const EngineEntry& entry = study_.inHouse;
@@ -207,7 +237,7 @@ class AverageErrors final : public ErrorKind {
                        [&, k](const std::function<void(double)>& progress) {
                          const auto engine = entry.make();
                          return CachedTask<CostRun>::Outcome{
-                             averagePacking(*engine, entry, setup, packings()[k], progress), true,
+                             averagesOf(*engine, entry, setup, packings()[k], progress), true,
                              "done"};
                        }});
     reference_ = runOrLoad(tasks, study_.campaign.store(), study_.campaign.progress(),
@@ -215,8 +245,8 @@ class AverageErrors final : public ErrorKind {
   }
 
   CostRun run(const PlannedPoint& planned, std::size_t round) override {
-    return averagePacking(study_.workerOf(planned.engine), study_.entryOf(planned.engine),
-                          study_.settingOf(planned).setup, packings()[round], [](double) {});
+    return averagesOf(study_.workerOf(planned.engine), study_.entryOf(planned.engine),
+                      study_.settingOf(planned).setup, packings()[round], [](double) {});
   }
 
   std::vector<CostPoint> points(const PlannedPoint& planned,
@@ -229,7 +259,7 @@ class AverageErrors final : public ErrorKind {
     for (const std::string& measure : measures()) {
       CostPoint& point = points.emplace_back(row);
       point.measure = measure;
-      const auto error = pairedError(runs, reference_, measure, alpha);
+      const auto error = pairedError(runs, reference_, measure, alpha, unitOf(measure));
       if (!error) continue;
       point.error = error->error;
       point.statistical = error->statistical;
@@ -252,11 +282,25 @@ class AverageErrors final : public ErrorKind {
 
  private:
   const std::vector<Packing>& packings() const { return study_.campaign.packings(); }
-  /// Of settling and averaging [s].
-  double duration() const {
-    const Averaging& averaging = study_.setup.averaging;
-    return (averaging.settleRotations + averaging.rotations) * rotationTime(study_.setup);
+  bool isCell() const { return !study_.setup.average; }
+  double duration() const { return flowDuration(study_.setup); }  // [s]
+
+  CostRun averagesOf(Engine& engine, const EngineEntry& entry, const Case& setup,
+                     const Packing& packing, const std::function<void(double)>& progress) const {
+    return isCell() ? averagePacking(engine, entry, setup, packing, progress)
+                    : endpointsOfRun(entry, setup, packing, progress);
   }
+
+  /// What errors are in units of where that is not the reference's size: wall slip is a share of
+  /// the rim's speed already; of an endpoint with an absolute margin, ten margins, so that a margin
+  /// is a tenth of it as one of a tenth of the value is.
+  std::optional<double> unitOf(const std::string& measure) const {
+    if (isCell()) return measure == "wall_slip" ? std::optional(1.0) : std::nullopt;
+    const Margin& margin = study_.setup.averaging.endpoints.at(measure);
+    if (endpointSpec(study_.setup, measure).byRatio) return std::nullopt;
+    return 10.0 * margin.value;
+  }
+
   std::string referenceName(std::size_t packing) const {
     return fmt::format("reference-averages-p{}", packing);
   }

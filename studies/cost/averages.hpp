@@ -23,16 +23,19 @@ struct PairedError {
 
 /// @param runs, reference  over packings, in the same order
 /// @param alpha  chance that the interval does not hold the true error, at most
+/// @param unit   that errors are in; absent: the largest mean of the reference
 /// @returns absent where no packing has it in both
 std::optional<PairedError> pairedError(const std::vector<CostRun>& runs,
                                        const std::vector<CostRun>& reference,
-                                       const std::string& measure, double alpha);
+                                       const std::string& measure, double alpha,
+                                       std::optional<double> unit = {});
 
-/// Averages of the sheared cell over all packings, packing by packing compared with those of the
+/// Averages of a flow over all packings, packing by packing compared with those of the
 /// in-house engine at a smaller step. Numbers of a run: one per ring of "azimuthal_velocity"
 /// [ΩR_i], "stress_rr" [N/m²] and "volume_fraction"; a single one of "shear_band_width" [d],
 /// "wall_slip" (1 − v_φ/(ΩR_i) at the wheel, of the fit) and "stress_level" (σ_rr over all rings
-/// [N/m²]). Its time is that of a rotation.
+/// [N/m²]). Its time is that of a rotation. Of other flows the numbers are those of the endpoints,
+/// a single one each, and the time is that of a second of the scene.
 std::unique_ptr<ErrorKind> averageErrors(CostStudy& study);
 
 }  // namespace crossgrain::inline studies

@@ -178,7 +178,8 @@ CostRun timeSweeps(Engine& engine, const EngineEntry& entry, const Case& pair,
   std::vector<CollisionStart> many;
   for (int k = 0; k < copies; ++k) many.insert(many.end(), starts.begin(), starts.end());
   const EffectiveParameters effective =
-      loadScene(engine, entry, pair, collisionScene(pair, many, dt));
+      pair.dimension == 3 ? loadScene(engine, entry, pair, spaceCollisionScene(pair, many, dt))
+                          : loadScene(engine, entry, pair, collisionScene(pair, many, dt));
   engine.advance(sweepEnd(pair, dt, effective.dt));
   const Stats stats = engine.stats();
   return {effective.dt, stats.wallSeconds / copies, stats.cpuSeconds / copies, stats.steps,

@@ -5,7 +5,9 @@
 #include <numbers>
 
 #include "adapters/declared_law.hpp"
+#include "adapters/grain_space.hpp"
 #include "cases/collision_scene.hpp"
+#include "cases/flow.hpp"
 #include "cases/time_step.hpp"
 #include "oracle/collision_flight.hpp"
 
@@ -13,8 +15,22 @@ namespace crossgrain::inline studies {
 
 namespace {
 
+/// On a wall disk or a plane.
 bool isOnWall(const Case& collision) {
   return std::isinf(collision.collision.mass[1]);
+}
+
+/// Loads a planar scene, in space at z = 0, where all that moves stays in that plane.
+EffectiveParameters loadPlanar(Engine& engine, const EngineEntry& entry, const Case& setup,
+                               const Scene& scene) {
+  return setup.dimension == 3 ? loadScene(engine, entry, setup, inSpace(scene))
+                              : loadScene(engine, entry, setup, scene);
+}
+
+ContactLaw lawAsRun(const Capabilities& can, const EngineEntry& entry, const Case& setup,
+                    const Scene& scene) {
+  return setup.dimension == 3 ? sceneFor(can, entry, setup, inSpace(scene)).scene.law
+                              : sceneFor(can, entry, setup, scene).scene.law;
 }
 
 bool areAlike(const Case& one, const Case& other) {
@@ -41,7 +57,8 @@ std::vector<Case> collisionsOf(const Case& setup) {
       collision.radius[side] = named.bodies.radius[side];
       collision.mass[side] = named.bodies.mass[side];
     }
-    collision.inertiaFactor = setup.particles.inertiaFactor;
+    collision.wall = named.bodies.plane;
+    collision.inertiaFactor = inertiaFactorOf(setup);
     collision.vn = {cost.speed};
     collision.approach = isOnWall(pair) ? Approach::firstSpin : Approach::spin;
     if (std::ranges::any_of(all, [&](const Case& one) { return areAlike(one, pair); })) continue;
@@ -124,7 +141,8 @@ struct PairScene {
           Vec2(bodies.radius[0] + bodies.radius[1], 0.0) - phaseOf(first++) * step * velocity;
       addBodies(one, bodies, velocity);
     }
-    if (!wall_.diskPosition.empty()) scene.bodies.push_back(std::move(wall_));
+    if (!wall_.diskPosition.empty() || !wall_.planes.empty())
+      scene.bodies.push_back(std::move(wall_));
   }
 
   /// From a snapshot after all of them.
@@ -139,6 +157,10 @@ struct PairScene {
     then.spin.emplace();
     for (const int side : {0, 1}) {
       const bool onWall = side == 1 && isOnWall(collision);
+      if (onWall && bodies.plane) {
+        both.bodies.push_back(scene.bodies.front());
+        break;
+      }
       const std::size_t i = one.disk + static_cast<std::size_t>(side);
       both.disks.radius.push_back(bodies.radius[side]);
       both.disks.mass.push_back(bodies.mass[side]);
@@ -157,22 +179,25 @@ struct PairScene {
  private:
   void place(const std::vector<Case>& collisions, const std::vector<std::size_t>& pairs,
              const CollisionReference& reference) {
-    double area = 0.0;
+    double area = 0.0, height = 0.0;
     for (const std::size_t pair : pairs) {
       const Room room = roomOf(collidingPair(collisions[pair]));
-      area += static_cast<double>(reference.pairs[pair].starts.size()) * room.width * room.height;
+      const auto starts = static_cast<double>(reference.pairs[pair].starts.size());
+      area += starts * room.width * room.height;
+      height += starts * room.height;
     }
-    const double side = std::sqrt(area);
+    const bool onPlane = collidingPair(collisions[pairs.front()]).plane;  // all in one column
+    const double side = onPlane ? height : std::sqrt(area);
     double x = 0.0, y = 0.0, row = 0.0;
     for (const std::size_t pair : pairs) {
       const Room room = roomOf(collidingPair(collisions[pair]));
       for (std::size_t k = 0; k < reference.pairs[pair].starts.size(); ++k) {
-        if (x >= side) x = 0.0, y += row, row = 0.0;
+        if (x >= (onPlane ? 0.0 : side)) x = 0.0, y += row, row = 0.0;
         row = std::max(row, room.height);
         PlacedCollision& one = placed.emplace_back();
         one.pair = pair;
         one.start = k;
-        one.centre = {x + 0.5 * room.width - 0.5 * side, y - 0.5 * side};
+        one.centre = {onPlane ? 0.0 : x + 0.5 * room.width - 0.5 * side, y - 0.5 * side};
         x += room.width;
       }
     }
@@ -196,6 +221,10 @@ struct PairScene {
       return;
     }
     wall_.name = "wall";
+    if (bodies.plane) {
+      if (wall_.planes.empty()) wall_.planes.push_back({Vec2::Zero(), Vec2::UnitX()});
+      return;
+    }
     wall_.diskPosition.push_back(one.centre);
     wall_.diskRadius.push_back(bodies.radius[1]);
   }
@@ -203,12 +232,14 @@ struct PairScene {
   WallBody wall_;
 };
 
-/// Pairs under one law after the other, those under the first one first.
+/// Pairs under one law after the other, those under the first one first; those on a plane, which
+/// reaches everywhere, by themselves.
 std::vector<std::vector<std::size_t>> pairsByLaw(const std::vector<Case>& collisions) {
   std::vector<std::vector<std::size_t>> groups;
   for (std::size_t p = 0; p < collisions.size(); ++p) {
     const auto same = std::ranges::find_if(groups, [&](const auto& group) {
-      return collisions[group.front()].law == collisions[p].law;
+      return collisions[group.front()].law == collisions[p].law &&
+             collisions[group.front()].collision.wall == collisions[p].collision.wall;
     });
     (same == groups.end() ? groups.emplace_back() : *same).push_back(p);
   }
@@ -226,14 +257,16 @@ PairOutcomes runPairs(Engine& engine, const EngineEntry& entry, const std::vecto
     const PairScene pairs(collisions, group, reference, step, first);
     first += pairs.placed.size();
     const Case& common = collisions[group.front()];
-    const EffectiveParameters effective = loadScene(engine, entry, common, pairs.scene);
-    const ContactLaw law = sceneFor(can, entry, common, pairs.scene).scene.law;
+    const EffectiveParameters effective = loadPlanar(engine, entry, common, pairs.scene);
+    const ContactLaw law = lawAsRun(can, entry, common, pairs.scene);
     outcomes.dt = effective.dt;
     double end = 0.0;
     for (const std::size_t pair : group)
       end = std::max(end, sweepEnd(collisions[pair], pairs.scene.dt, effective.dt));
     engine.advance(end);
-    const Snapshot after = engine.snapshot(ContactReport::none);
+    const Snapshot after = common.dimension == 3
+                               ? inPlane(engine.snapshotInSpace(ContactReport::none))
+                               : engine.snapshot(ContactReport::none);
     for (const PlacedCollision& one : pairs.placed)
       outcomes.of[one.pair][one.start] = pairs.outcomeOf(
           one, collisions[one.pair], reference.pairs[one.pair].starts[one.start], law, after);
@@ -246,10 +279,13 @@ std::optional<ContactLaw> lawDeclared(Engine& engine, const EngineEntry& entry,
                                       const std::vector<CollisionStart>& starts) {
   const CollisionReference alone{{{collision, starts, {}}}};
   const Scene scene = PairScene({collision}, {0}, alone, timeStep(collision), 0).scene;
-  const EffectiveParameters effective = loadScene(engine, entry, collision, scene);
+  const EffectiveParameters effective = loadPlanar(engine, entry, collision, scene);
   const Capabilities can = engine.capabilities();
-  return declaredLaw(can, sceneFor(can, entry, collision, scene).scene, effective,
-                     collidingPair(collision).reducedMass());
+  const double mass = collidingPair(collision).reducedMass();
+  return collision.dimension == 3
+             ? declaredLaw(can, sceneFor(can, entry, collision, inSpace(scene)).scene, effective,
+                           mass)
+             : declaredLaw(can, sceneFor(can, entry, collision, scene).scene, effective, mass);
 }
 
 }  // namespace crossgrain::inline studies

@@ -6,16 +6,16 @@
 
 namespace crossgrain::inline studies {
 
-/// Two bodies of a cell and collisions of them.
+/// Two bodies of a flow and collisions of them.
 struct PairCurve {
   Case collision;                      ///< of the two, under their law; named as in pairsOf()
   std::vector<CollisionStart> starts;  ///< head on with spins, Ψ_i = 0 … psi_max at one speed
   OracleCurve oracle;                  ///< of that law
 };
 
-/// Collisions that stand for a Couette case: of every two sizes and materials that meet in it,
-/// those of disks with wall disks too, alike ones once. The first, of two small disks where there
-/// are such, has `cost.psi_count` of Ψ_i; the others have nine at most. Their step is the case's.
+/// Collisions that stand for a flow: of every two sizes and materials that meet in it, those with
+/// wall disks and planes too, alike ones once. The first, of a cell of two small disks, has
+/// `cost.psi_count` of Ψ_i; the others have nine at most. Their step is the case's.
 std::vector<Case> collisionsOf(const Case& setup);
 
 /// The first of them, by the case's own name.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <memory>
 #include <set>
@@ -45,7 +44,7 @@ double costBudget(const CostOptions& options) {
 std::vector<Case> casesOfCost(const CommandLine& line, CostOptions& own) {
   costBudget(own);  // what is misspelt is refused before anything runs
   if (own.target) fractionOf(*own.target);
-  const Case setup = onlyCase(line, "cost");
+  const Case setup = onlyFlow(line, "cost");
   if (!line.quick) return {setup};
   std::vector<std::string> overrides =
       quickOverrides(loadCase(line.inputs.front(), line.overrides).front(), 0.05);
@@ -158,17 +157,15 @@ double shareMissing(const CostStudy& study, const PlannedPoint& point, std::size
 
 /// Measures one kind of error after the other, round by round and one point at a time: of each the
 /// case as it is first, then the cheapest on whichever engine, so that a budget buys as many points
-/// as it can. A point that is begun gets all of its rounds.
+/// as it can. A point that is begun gets all of its rounds, unless the budget has ended.
 class Measuring {
  public:
-  /// @param budget  for all that is measured [s]
+  /// @param budget  of the whole command, what came before included [s]
   Measuring(CostStudy& study, double budget) : study_(study), budget_(budget) {}
 
   void measureKind(ErrorKind& kind) {
     std::vector<PlannedPoint> plan = planned(kind);
-    const bool anew =
-        std::ranges::any_of(plan, [](const auto& point) { return point.seconds > 0; });
-    const double common = anew ? kind.commonTime() : 0.0;
+    const double common = kind.commonTime();
     const std::string why = lackOfTime(common);
     if (why.empty())
       kind.makeReferences();
@@ -179,7 +176,7 @@ class Measuring {
       const CostSetting& setting = study_.settingOf(point);
       if (!setting.refusal.empty()) {
         put(kind, point, Status::refused, setting.refusal);
-      } else if (!why.empty()) {
+      } else if (!why.empty() && (point.seconds > 0.0 || !kind.keptSuffice())) {
         put(kind, point, Status::notRun, "its reference " + why);
         budgetForTheRest += point.seconds;
       } else {
@@ -204,16 +201,16 @@ class Measuring {
   double budgetForTheRest = 0.0;  ///< for what did not fit, all else kept [s]
 
  private:
-  using Clock = std::chrono::steady_clock;
   using Place = std::tuple<CostKind, std::size_t, std::size_t>;
 
   /// A point and what it has so far.
+  static constexpr std::size_t fewestRounds = 2;  ///< of an interval
   struct Rounds {
     PlannedPoint point;
     std::vector<CostRun> runs = {};
     std::optional<CostRun> ended = {};  ///< failed, refused or not run: no further round
     double committed = 0.0;             ///< what its further rounds will take [s]
-    bool begun = false;
+    bool begun = false, cut = false;    ///< cut: the budget ended before its last rounds
   };
 
   static Place placeOf(const PlannedPoint& point) {
@@ -238,7 +235,7 @@ class Measuring {
     std::vector<CachedTask<CostRun>> tasks;
     std::vector<Rounds*> run;
     for (Rounds& one : all) {
-      if (one.ended) continue;
+      if (one.ended || one.cut) continue;
       const PlannedPoint& point = one.point;
       const CostSetting& setting = study_.settingOf(point);
       tasks.push_back(
@@ -258,6 +255,8 @@ class Measuring {
     for (std::size_t k = 0; k < results.size(); ++k)
       if (results[k].status == Status::finished)
         run[k]->runs.push_back(results[k]);
+      else if (results[k].status == Status::notRun && run[k]->runs.size() >= fewestRounds)
+        run[k]->cut = true;
       else
         run[k]->ended = results[k];
   }
@@ -281,11 +280,26 @@ class Measuring {
 
   /// "would take about 90 s, 8 s are left of the budget of 20 s"; empty: there is time for it.
   std::string lackOfTime(double seconds) const {
-    const double left =
-        budget_ - std::chrono::duration<double>(Clock::now() - started_).count() - committed_;
+    const double left = budget_ - study_.campaign.elapsed() - slowness() * committed_;
+    seconds *= slowness();
     if (!(seconds > 0.0) || seconds <= left) return {};
     return fmt::format("would take about {:.3g} s, {:.3g} s are left of the budget of {:.3g} s",
                        seconds, std::max(left, 0.0), budget_);
+  }
+
+  /// How many times longer points take than predicted, by those so far: other work may have begun
+  /// since a step was timed.
+  double slowness() const { return expected_ > 1.0 ? std::max(1.0, took_ / expected_) : 1.0; }
+
+  /// One round of a point. @param seconds  that it is expected to take
+  Measured timed(ErrorKind& kind, const PlannedPoint& point, std::size_t round, double seconds) {
+    const double before = study_.campaign.elapsed();
+    Measured measured = measure(study_, kind, point, round);
+    if (seconds > 0.0) {
+      took_ += study_.campaign.elapsed() - before;
+      expected_ += seconds;
+    }
+    return measured;
   }
 
   /// The first round of a point decides on all of them; the first point of an engine and kind pays
@@ -293,11 +307,18 @@ class Measuring {
   Measured affordable(ErrorKind& kind, Rounds& of, std::size_t round) {
     throwIfInterrupted();
     const PlannedPoint& point = of.point;
+    if (of.begun && study_.campaign.elapsed() > budget_) {
+      CostRun none;
+      none.status = Status::notRun;
+      none.reason = fmt::format("the budget of {:.3g} s ended after {} of its {} rounds", budget_,
+                                of.runs.size(), kind.rounds());
+      return {none, false, none.reason};
+    }
     if (of.begun) {
       const double once = of.committed / static_cast<double>(kind.rounds() - round);
       of.committed -= once;
       committed_ -= once;
-      Measured measured = measure(study_, kind, point, round);
+      Measured measured = timed(kind, point, round, once);
       if (measured.result.status != Status::finished) committed_ -= of.committed;
       return measured;
     }
@@ -317,7 +338,7 @@ class Measuring {
     const auto left = static_cast<double>(kind.rounds() - round);
     of.committed = point.seconds * (left - 1.0) / left;
     committed_ += of.committed;
-    Measured measured = measure(study_, kind, point, round);
+    Measured measured = timed(kind, point, round, takes - of.committed);
     if (measured.result.status != Status::finished) committed_ -= of.committed;
     return measured;
   }
@@ -325,7 +346,7 @@ class Measuring {
   CostStudy& study_;
   double budget_;
   double committed_ = 0.0;  ///< what further rounds of points that are begun will take [s]
-  Clock::time_point started_ = Clock::now();
+  double expected_ = 0.0, took_ = 0.0;  ///< of rounds so far, by prediction and in truth [s]
   std::map<Place, Points> found_;
   std::set<std::pair<CostKind, std::size_t>> begun_;
 };

@@ -7,6 +7,7 @@
 
 #include "adapters/law_options.hpp"
 #include "cases/effect_switch.hpp"
+#include "cases/flow.hpp"
 #include "cases/loader.hpp"
 #include "cases/materials.hpp"
 #include "cases/time_step.hpp"
@@ -20,14 +21,13 @@ namespace crossgrain::inline studies {
 double costContactTime(const Case& setup) {
   if (!setup.law.soft())
     throw BadInput(
-        fmt::format("{}: cost counts steps in the contact time of a soft law: rigid disks "
+        fmt::format("{}: cost counts steps in the contact time of a soft law: rigid bodies "
                     "have none",
                     setup.file.string()));
   double shortest = INFINITY;
   for (const ContactLaw& law : lawsOf(setup))
-    shortest =
-        std::min(shortest, impactTime(law, {lightestReducedMass(setup),
-                                            setup.particles.smallRadius / 2.0, setup.cost.speed}));
+    shortest = std::min(shortest, impactTime(law, {lightestReducedMass(setup),
+                                                   flowDiameter(setup) / 4.0, setup.cost.speed}));
   return shortest;
 }
 

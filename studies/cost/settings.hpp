@@ -34,7 +34,7 @@ std::string stepFragment(const Case& setup, const std::string& engine, const Cap
 /// The case with that step.
 Case atSteps(const Case& setup, const std::string& engine, const Capabilities& can, double steps);
 
-/// t_c of two small disks, which steps are counted in [s]. @throws BadInput for a law without one
+/// t_c of the lightest pair, which steps are counted in [s]. @throws BadInput for a law without one
 double costContactTime(const Case& setup);
 
 /// The step that an engine will take [s].

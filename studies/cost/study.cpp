@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cctype>
 #include <chrono>
@@ -9,11 +10,12 @@
 
 #include "averaging/agreement.hpp"
 #include "averaging/statistics.hpp"
-#include "cases/couette.hpp"
+#include "cases/flow.hpp"
 #include "cases/materials.hpp"
 #include "cases/time_step.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/cost/trajectory.hpp"
+#include "studies/lockstep/starts.hpp"
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline studies {
@@ -37,25 +39,66 @@ double packingLimit(const Case& setup) {
   return pairLimit(setup) / std::sqrt(6.0);
 }
 
-void requireSound(const Case& setup, const Snapshot& snapshot) {
-  // A packing whose springs are dropped, or that loses its friction, lets go at several times ΩR_i;
-  // an instability grows without bound.
+namespace {
+
+template <int D>
+double spinRate(const SpinOf<D>& spin) {
+  if constexpr (D == 2)
+    return std::abs(spin);
+  else
+    return spin.norm();
+}
+
+}  // namespace
+
+template <int D>
+double drivenSpeed(const SceneOf<D>& scene) {
+  double fastest = 0.0;
+  Eigen::AlignedBox<double, D> extent;
+  for (const VecOf<D>& place : scene.disks.position) extent.extend(place);
+  for (const VecOf<D>& velocity : scene.disks.velocity)
+    fastest = std::max(fastest, velocity.norm());
+  for (const WallBodyOf<D>& body : scene.bodies) {
+    double reach = 0.0;
+    for (const VecOf<D>& place : body.diskPosition) {
+      extent.extend(place);
+      reach = std::max(reach, (place - body.centre).norm());
+    }
+    const MotionOf<D>& motion = body.motion;
+    fastest = std::max({fastest, motion.velocity.norm(),
+                        motion.amplitude.norm() * std::abs(motion.frequency),
+                        spinRate<D>(motion.angularVelocity) * reach});
+  }
+  return std::hypot(fastest, std::sqrt(2.0 * scene.gravity.norm() * extent.diagonal().norm()));
+}
+
+template <int D>
+void requireSound(const Case& setup, const SceneOf<D>& scene, const SnapshotOf<D>& snapshot) {
+  // A packing whose springs are dropped, or that loses its friction, lets go at several times what
+  // drives it; an instability grows without bound.
   constexpr double mostSpeed = 10.0;
+  const bool isCell = !setup.average;
   double squares = 0.0;
   for (std::size_t k = 0; k < snapshot.position.size(); ++k) {
     const double radius = snapshot.position[k].norm();
-    if (!(radius < setup.cell.outerRadius) || !(radius > setup.cell.innerRadius))
+    if (isCell && (!(radius < setup.cell.outerRadius) || !(radius > setup.cell.innerRadius)))
       throw EngineFailure(fmt::format("{}: disk {} left the cell by t = {:.3g} s", beyondLimit, k,
                                       snapshot.positionTime));
     squares += snapshot.velocity[k].squaredNorm();
   }
   const double speed = std::sqrt(squares / static_cast<double>(snapshot.position.size()));
-  const double rim = std::abs(setup.cell.omega) * setup.cell.innerRadius;
-  if (!(speed < mostSpeed * rim))
-    throw EngineFailure(
-        fmt::format("{}: at t = {:.3g} s the disks' rms speed is {:.3g} times the wheel's rim",
-                    beyondLimit, snapshot.positionTime, speed / rim));
+  const double driven =
+      isCell ? std::abs(setup.cell.omega) * setup.cell.innerRadius : drivenSpeed(scene);
+  if (!(speed < mostSpeed * driven))
+    throw EngineFailure(fmt::format("{}: at t = {:.3g} s the {}' rms speed is {:.3g} times {}",
+                                    beyondLimit, snapshot.positionTime,
+                                    D == 2 ? "disks" : "spheres", speed / driven,
+                                    isCell ? "the wheel's rim" : "what drives them"));
 }
+template double drivenSpeed(const Scene&);
+template double drivenSpeed(const SpaceScene&);
+template void requireSound(const Case&, const Scene&, const Snapshot&);
+template void requireSound(const Case&, const SpaceScene&, const SpaceSnapshot&);
 
 namespace {
 
@@ -138,7 +181,18 @@ void CostStudy::prepare() {
     campaign.progress().finish(
         e, fmt::format("{}: {:.3g} µs a step", entryOf(e).name, 1e6 * engines[e].step));
   }
+  findStates();
   timeInHouse();
+}
+
+void CostStudy::findStates() {
+  if (!setup.average) return;
+  const std::size_t wanted =
+      std::min(campaign.packings().size(), static_cast<std::size_t>(setup.cost.trajectoryPackings));
+  for (FlowState& state : statesAlongTheFlow(
+           setup, campaign.packings(), campaign.dt(), wanted, [](double) {}, jobs))
+    states_.push_back(std::move(state.packing));
+  if (states_.size() < wanted) states_.clear();
 }
 
 Engine& CostStudy::workerOf(std::size_t engine) {
@@ -161,9 +215,12 @@ void CostStudy::timeStart(std::size_t engine) {
   Engine& worker = workerOf(engine);
   worker.capabilities();
   timed.start = secondsSince(start);
-  const Scene scene = couetteScene(setup, campaign.packings().front(), campaign.dt());
   const Clock::time_point load = Clock::now();
-  const double dt = loadScene(worker, entryOf(engine), setup, scene).dt;
+  const double dt = inDimensionOf(setup, [&]<int D>() {
+    return loadScene(worker, entryOf(engine), setup,
+                     flowScene<D>(setup, campaign.packings().front(), campaign.dt()))
+        .dt;
+  });
   timed.load = secondsSince(load);
   worker.advance(warmUp * dt);
   const double before = worker.stats().wallSeconds;
@@ -173,7 +230,7 @@ void CostStudy::timeStart(std::size_t engine) {
 
 void CostStudy::timeInHouse() {
   constexpr int steps = 2000;
-  const Track track = followPacking(*inHouseEngine, inHouse, setup, campaign.packings().front(),
+  const Track track = followPacking(*inHouseEngine, inHouse, setup, trajectoryStarts().front(),
                                     steps * campaign.dt());
   inHouseStep = track.cost.wallSeconds / static_cast<double>(track.cost.steps);
 }

@@ -28,10 +28,16 @@ double pairLimit(const Case& setup);
 /// times as stiff as a pair (Gershgorin: ω² ≤ 6 · 2 k_n/m).
 double packingLimit(const Case& setup);
 
-/// Whether a packing has blown up: a position is no number, a disk has left the cell, or the disks'
-/// rms speed exceeds ten times the rim's ΩR_i, which nothing in the cell is driven faster than.
-/// @throws EngineFailure that says which, after `beyondLimit`
-void requireSound(const Case& setup, const Snapshot& snapshot);
+/// Whether a packing has blown up: a position is no number, a disk has left a cell, or the rms
+/// speed exceeds ten times what the scene drives anything to: the rim's ΩR_i of a cell, elsewhere
+/// drivenSpeed(). @throws EngineFailure that says which, after `beyondLimit`
+template <int D>
+void requireSound(const Case& setup, const SceneOf<D>& scene, const SnapshotOf<D>& snapshot);
+
+/// The fastest that anything may be in a scene without an instability: as its bodies and walls move
+/// at first, and as they fall through all of it, √(2 g L) [m/s].
+template <int D>
+double drivenSpeed(const SceneOf<D>& scene);
 
 /// @}
 
@@ -115,6 +121,11 @@ struct CostStudy {
   }
   double stepOf(std::size_t engine, const Case& setup) const;  ///< that it will take [s]
   double packingCount() const { return static_cast<double>(campaign.packings().size()); }
+  /// Where paths begin, one for each packing: a cell's packings are sheared already; of others
+  /// states along the flow, as nothing may touch at their start.
+  const std::vector<Packing>& trajectoryStarts() const {
+    return states_.empty() ? campaign.packings() : states_;
+  }
 
   /// By what it is, not by its place in lists that may grow: "averages-grain-time_step-t_c-50".
   std::string nameOf(const PlannedPoint& point) const;
@@ -137,6 +148,9 @@ struct CostStudy {
   void listSettings(std::size_t engine);
   void timeStart(std::size_t engine);
   void timeInHouse();
+  void findStates();
+
+  std::vector<Packing> states_;
 };
 
 /// One kind of error: how its points are predicted and measured, and what against. All settings of
@@ -159,6 +173,8 @@ class ErrorKind {
   virtual double predicted(std::size_t engine, const CostSetting& setting) const = 0;
   virtual double commonTime() const { return 0.0; }
   virtual double ownTime(std::size_t engine) const = 0;
+  /// Whether what is kept of a point needs none of those references any more.
+  virtual bool keptSuffice() const { return true; }
   /// Those references that all points need. Not called where they take too long.
   virtual void makeReferences() {}
   /// @throws as Engine does

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "averaging/agreement.hpp"
 #include "averaging/statistics.hpp"
-#include "cases/couette.hpp"
+#include "cases/flow.hpp"
 #include "cases/loader.hpp"
 #include "cases/time_step.hpp"
 #include "studies/core/engine_access.hpp"
@@ -16,23 +15,40 @@
 
 namespace crossgrain::inline studies {
 
-Track followPacking(Engine& engine, const EngineEntry& entry, const Case& setup,
-                    const Packing& packing, double time) {
-  const Scene scene = couetteScene(setup, packing, timeStep(setup));
+namespace {
+
+template <int D>
+Track trackOf(Engine& engine, const EngineEntry& entry, const Case& setup, const Packing& packing,
+              double time) {
+  const SceneOf<D> scene = flowScene<D>(setup, packing, timeStep(setup));
   const EffectiveParameters effective = loadScene(engine, entry, setup, scene);
   advanceInPieces(engine, effective, 0.0, time);
-  Snapshot snapshot = engine.snapshot(ContactReport::none);
-  requireSound(setup, snapshot);
-  // A step that does not divide the window ends a little beside it.
-  for (std::size_t k = 0; k < snapshot.position.size(); ++k)
-    snapshot.position[k] += (time - snapshot.positionTime) * snapshot.velocity[k];
+  const SnapshotOf<D> snapshot = snapshotOf<D>(engine, ContactReport::none);
+  requireSound<D>(setup, scene, snapshot);
+  Track track;
+  for (std::size_t k = 0; k < snapshot.position.size(); ++k) {
+    VecOf<D> place = snapshot.position[k];
+    const VecOf<D>& start = scene.disks.position[k];
+    if (scene.box) place = start + scene.box->nearest(place - start);
+    // A step that does not divide the window ends a little beside it.
+    place += (time - snapshot.positionTime) * snapshot.velocity[k];
+    track.positions.emplace_back(Vec3::Zero()).template head<D>() = place;
+  }
   const Stats stats = engine.stats();
-  return {
-      std::move(snapshot.position),
-      {effective.dt, stats.wallSeconds, stats.cpuSeconds, stats.steps, stats.contactEvaluations}};
+  track.cost = {effective.dt, stats.wallSeconds, stats.cpuSeconds, stats.steps,
+                stats.contactEvaluations};
+  return track;
 }
 
-double rmsDistance(const std::vector<Vec2>& a, const std::vector<Vec2>& b, double diameter) {
+}  // namespace
+
+Track followPacking(Engine& engine, const EngineEntry& entry, const Case& setup,
+                    const Packing& packing, double time) {
+  return inDimensionOf(setup,
+                       [&]<int D>() { return trackOf<D>(engine, entry, setup, packing, time); });
+}
+
+double rmsDistance(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double diameter) {
   double squares = 0.0;
   for (std::size_t k = 0; k < a.size(); ++k) squares += (a[k] - b[k]).squaredNorm();
   return std::sqrt(squares / static_cast<double>(a.size())) / diameter;
@@ -56,17 +72,24 @@ PackingMean overPackings(const std::vector<std::optional<double>>& numbers) {
 
 /// What a packing's path is compared with.
 struct TrajectoryReference {
-  std::vector<Vec2> positions;  ///< at the window's end [m]
+  std::vector<Vec3> positions;  ///< at the window's end, in the plane z = 0 [m]
   double error = 0.0;           ///< distance to the same at twice the step [d]
 };
 
 void fields(auto& io, TrajectoryReference& reference) {
-  std::vector<std::array<double, 2>> pairs;
-  for (const Vec2& at : reference.positions) pairs.push_back({at.x(), at.y()});
+  const bool flat =
+      std::ranges::all_of(reference.positions, [](const Vec3& at) { return at.z() == 0.0; });
+  std::vector<std::vector<double>> places;
+  for (const Vec3& at : reference.positions)
+    places.emplace_back(at.data(), at.data() + (flat ? 2 : 3));
   io("error", reference.error);
-  io("positions", pairs);
+  io("positions", places);
   if (reference.positions.empty())  // to be read
-    for (const auto& [x, y] : pairs) reference.positions.emplace_back(x, y);
+    for (const std::vector<double>& place : places) {
+      Vec3& at = reference.positions.emplace_back(Vec3::Zero());
+      for (std::size_t k = 0; k < std::min<std::size_t>(place.size(), 3); ++k)
+        at[static_cast<Eigen::Index>(k)] = place[k];
+    }
 }
 
 class TrajectoryErrors final : public ErrorKind {
@@ -90,7 +113,15 @@ class TrajectoryErrors final : public ErrorKind {
     return static_cast<double>(rounds()) * (once + timed.load);
   }
 
-  double commonTime() const override { return referenceSteps() * study_.inHouseStep; }
+  double commonTime() const override {
+    std::size_t missing = 0;
+    for (std::size_t round = 0; round < rounds(); ++round) {
+      const auto [name, key] = referenceFile({}, {}, round);
+      missing += !study_.campaign.store().find(name, key);
+    }
+    return referenceSteps() * study_.inHouseStep * static_cast<double>(missing) /
+           static_cast<double>(rounds());
+  }
 
   double ownTime(std::size_t engine) const override {
     double references = 0.0;
@@ -164,9 +195,9 @@ class TrajectoryErrors final : public ErrorKind {
   }
 
  private:
-  const Packing& packing(std::size_t round) const { return study_.campaign.packings()[round]; }
-  double diameter() const { return 2.0 * study_.setup.particles.smallRadius; }  // [m]
-  double window() const {                                                       // [s]
+  const Packing& packing(std::size_t round) const { return study_.trajectoryStarts()[round]; }
+  double diameter() const { return flowDiameter(study_.setup); }  // [m]
+  double window() const {                                         // [s]
     return study_.setup.cost.windowMost * costContactTime(study_.setup);
   }
   /// Of references of all packings: at their step and at twice that.

@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "cases/flow.hpp"
 #include "studies/flow/agreement_table.hpp"
+#include "studies/flow/endpoint_table.hpp"
 #include "studies/flow/paired_runs.hpp"
 
 namespace crossgrain::inline studies {
@@ -142,6 +144,11 @@ std::vector<ChangedField> changesOf(const std::vector<TestedField>& fields, doub
   return changes;
 }
 
+/// Effects add no packings: one analysis of those that the case begins with.
+InterimPlan oneAnalysis(const Case& setup) {
+  return interimPlanAt(flowPackings(setup), 1, 1.0 - setup.averaging.confidence);
+}
+
 std::size_t packingsInBoth(const PairedRuns& runs) {
   std::size_t both = 0;
   for (const FlowRun* whole : runs.whole)
@@ -159,9 +166,12 @@ EffectChanges effectChanges(const Case& setup, std::span<const FlowRun> runs,
   changes.packings = packingsInBoth(paired);
   changes.bars = changes.packings == 1 ? BarKind::withinRun : BarKind::packings;
   if (changes.packings == 0) return changes;
+  const std::vector<ComparedPair> pairs = {{engine, engine, PairKind::effect, without}};
+  changes.endpoints = hasClosedForms(setup) ? closedFormRows(setup, runs, {}, pairs)
+                                            : endpointRows(setup, runs, pairs, oneAnalysis(setup),
+                                                           flowPackings(setup), {});
   changes.fields = changesOf(fieldsOf(setup, paired), setup.averaging.confidence);
-  for (const AgreementRow& row :
-       agreementOf(setup, runs, {{engine, engine, PairKind::effect, without}}))
+  for (const AgreementRow& row : agreementOf(setup, runs, pairs))
     for (ChangedField& field : changes.fields) {
       if (field.field != row.field) continue;
       field.verdict = row.verdict;

@@ -7,7 +7,7 @@
 
 #include "adapters/law_options.hpp"
 #include "adapters/suitability.hpp"
-#include "cases/couette.hpp"
+#include "cases/flow.hpp"
 #include "results/schema.hpp"
 #include "studies/core/study_cases.hpp"
 #include "studies/flow/campaign.hpp"
@@ -33,21 +33,27 @@ std::string fixedOption(const std::vector<Mismatch>& differs, const ContactLaw& 
   return {};
 }
 
-}  // namespace
-
-std::string switchRefusal(const Capabilities& can, const Case& setup, const EffectSwitch& off) {
-  const Scene whole = couetteScene(setup, {}, 0.0), switched = couetteScene(off.without, {}, 0.0);
+template <int D>
+std::string refusalOf(const Capabilities& can, const Case& setup, const EffectSwitch& off) {
+  const SceneOf<D> whole = unplacedScene<D>(setup, 0.0),
+                   switched = unplacedScene<D>(off.without, 0.0);
   if (whole.precision != switched.precision)
     return can.precisions.size() > 1
                ? std::string()
                : fmt::format("runs in {} only", toString(can.precisions.front()));
   const auto differs = mismatches(can, whole);
-  const Adapted adapted = adaptScene(can, whole, setup.run.mayDiffer);
+  const auto adapted = adaptScene(can, whole, setup.run.mayDiffer);
   if (off.effect && !simulatedEffects(can, adapted.scene).contains(*off.effect))
     return fmt::format("has no {}", toString(*off.effect));
   for (const Mismatch& mismatch : mismatches(can, switched))
     if (!find(differs, mismatch.name)) return mismatch.reason;
   return fixedOption(differs, whole.law, switched.law);
+}
+
+}  // namespace
+
+std::string switchRefusal(const Capabilities& can, const Case& setup, const EffectSwitch& off) {
+  return inDimensionOf(setup, [&]<int D>() { return refusalOf<D>(can, setup, off); });
 }
 
 namespace {
@@ -82,6 +88,11 @@ class EffectCampaign {
       for (const PlannedVariant* planned : variantsThatRun(tasks[k].of.engine))
         times_[idOf(*planned)] = times[k].at(which++);
     }
+    // What an engine cannot do without shows when it is asked to: single precision in space, say.
+    for (PlannedVariant& planned : variants_)
+      if (const auto found = times_.find(idOf(planned));
+          planned.off && found != times_.end() && found->second.refused)
+        planned.refusal = found->second.failure;
     campaign_.run(asVariants(variantsThatRun()));
   }
 
@@ -164,7 +175,8 @@ class EffectCampaign {
         std::vector<TimedVariant> timed;
         for (const PlannedVariant* one : variantsThatRun(name)) timed.push_back(timedVariant(*one));
         auto times = timeSteps(timed, plan_, progress);
-        const bool finished = std::ranges::all_of(times, &std::string::empty, &StepTimes::failure);
+        const bool finished = std::ranges::all_of(
+            times, [](const StepTimes& each) { return each.failure.empty() || each.refused; });
         return CachedTask<std::vector<StepTimes>>::Outcome{std::move(times), finished, "done"};
       };
       tasks.push_back(std::move(task));
@@ -184,8 +196,9 @@ class EffectCampaign {
     timed.load = [this, &entry, &setup](Engine& engine, int round) {
       const auto& packings = campaign_.packings();
       const Packing& packing = packings[static_cast<std::size_t>(round) % packings.size()];
-      const Scene scene = couetteScene(setup, packing, campaign_.dt());
-      return loadScene(engine, entry, setup, scene).dt;
+      return inDimensionOf(setup, [&]<int D>() {
+        return loadScene(engine, entry, setup, flowScene<D>(setup, packing, campaign_.dt())).dt;
+      });
     };
     return timed;
   }
@@ -266,7 +279,7 @@ const Study<EffectsOptions, EffectsResults> effectsStudy = {
     {.packings = true},
     Keeps::oneCase,
     [](EffectsOptions&, CommandLine&) { return std::vector<StudyOption>{}; },
-    [](const CommandLine& line, EffectsOptions&) { return std::vector{onlyCase(line, "effects")}; },
+    [](const CommandLine& line, EffectsOptions&) { return std::vector{onlyFlow(line, "effects")}; },
     [](const StudyWork& work, const EffectsOptions&) {
       checkEngineSections(work.setup());
       return EffectCampaign(work.setup(), work.line.run, work.store, timingOf(work.line))

@@ -17,7 +17,7 @@ std::string switchRefusal(const Capabilities& can, const Case& setup, const Effe
 
 struct EffectsOptions {};
 
-/// Runs a Couette case as it is and with each of its effects switched off, on every engine that can
+/// Runs a case as it is and with each of its effects switched off, on every engine that can
 /// do without it and on the case's packings; and times a step of each, one at a time. Everything
 /// finished is kept in the store at once.
 /// @throws BadInput, UnsupportedScene (an engine named cannot run the case itself), OutputError,
@@ -34,7 +34,7 @@ extern const Study<EffectsOptions, EffectsResults> effectsStudy;
 /// high are the ends of the interval that this rests on, which leaves out 0 exactly if it is;
 /// `smallest` is the change that would just have been. All five are absent with fewer than 4
 /// packings. `verdict` holds the change of a field, and of a ring, against its margin, as between
-/// engines.
+/// engines; so do the rows of endpoints, which are a family of their own.
 EffectChanges effectChanges(const Case& setup, std::span<const FlowRun> runs,
                             const std::string& engine, const std::string& without);
 

@@ -21,6 +21,7 @@ void unlessFailed(StepTimes& times, Work&& work) {
     throw;
   } catch (const std::exception& error) {
     times.failure = error.what();
+    times.refused = dynamic_cast<const UnsupportedScene*>(&error) != nullptr;
     times.seconds.clear();
   }
 }

@@ -24,6 +24,7 @@ struct StepTimes {
                                    ///< does not report it wall time; empty if the engine failed
   std::optional<double> contacts;  ///< evaluated per step; absent if the engine does not count
   std::string failure;
+  bool refused = false;  ///< it does not run such a scene: that is no failure
 };
 
 /// Times variants against each other: one at a time, in turn, `rounds` times, each time over the
@@ -50,6 +51,7 @@ void fields(auto& io, StepTimes& times) {
   io("seconds", times.seconds);
   io("contacts", times.contacts);
   io("failure", times.failure);
+  io.when(times.refused, "refused", times.refused);
 }
 
 }  // namespace crossgrain::inline studies

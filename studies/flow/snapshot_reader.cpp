@@ -103,8 +103,7 @@ DisksOf<D> readDisks(const SnapshotDatasets& in, const Case& setup) {
   if (!std::ranges::all_of(disks.radius, [](double a) { return a > 0.0; }))
     in.fail("/disks/radius holds a radius that is not above 0");
   disks.mass = in.numbers("/disks/mass", count);
-  const double factor = setup.kind == CaseKind::couette ? setup.particles.inertiaFactor
-                                                        : assemblyIn<D>(setup).inertiaFactor;
+  const double factor = inertiaFactorOf(setup);
   if (in.holds("/disks/inertia"))
     disks.inertia = in.numbers("/disks/inertia", count);
   else

@@ -182,8 +182,7 @@ SceneOf<D> sceneOf(const Case& setup, DisksOf<D> disks, const SnapshotOrigin& or
     const double mass = massOf<D>(setup, k, disks.radius[k]);
     double& found = disks.mass[k];
     if (!ownMasses && (found == 0.0 || std::abs(found - mass) <= sameMass * mass)) found = mass;
-    const double factor = setup.kind == CaseKind::couette ? setup.particles.inertiaFactor
-                                                          : assemblyIn<D>(setup).inertiaFactor;
+    const double factor = inertiaFactorOf(setup);
     disks.inertia.push_back(factor * found * disks.radius[k] * disks.radius[k]);
   }
   SnapshotOf<D> first;

@@ -61,6 +61,7 @@ constexpr double alike = 0.01;
 /// with springs do is less.
 constexpr double leastConstant = 1e-5;  // of the constant
 
+template <int D>
 class Search {
  public:
   Search(Engine& engine, const EngineEntry& entry, const Case& setup,
@@ -68,14 +69,19 @@ class Search {
       : diameter_(flowDiameter(setup)), mirror_(engineRegistry().front().make()) {
     for (const FlowState& state : states) {
       throwIfInterrupted();
-      Scene scene = flowScene(setup, state.packing, dt);
+      SceneOf<D> scene = flowScene<D>(setup, state.packing, dt);
       const EffectiveParameters effective = loadScene(engine, entry, setup, scene);
       if (!engine_.empty()) requireSameStep(effective_, effective);
       effective_ = effective;
       step_ = effective_.dt;
       until_.clear();
       for (const double time : identifyTimes) until_.push_back(stepsUntil(time, step_));
-      engine_.push_back(follow(engine, step_, until_));
+      engine_.push_back(follow<D>(engine, step_, until_));
+      // An engine may report the image inside the box, where the mirror follows the sphere out.
+      for (LockstepFrameOf<D>& frame : engine_.back())
+        for (std::size_t i = 0; scene.box && i < frame.position.size(); ++i)
+          frame.position[i] = scene.disks.position[i] +
+                              scene.box->nearest(frame.position[i] - scene.disks.position[i]);
       scene.precision = Precision::float64;
       scene.dt = step_;
       scenes_.push_back(std::move(scene));
@@ -93,28 +99,28 @@ class Search {
 
   double distance() const { return best_; }
   double time() const { return static_cast<double>(until_[when_]) * step_; }
-  const std::vector<AppliedChange>& applied() const { return applied_; }
+  const std::vector<AppliedChangeOf<D>>& applied() const { return applied_; }
 
   /// The closest mirror's scene from the first state.
-  Scene closest() const {
-    Scene scene = scenes_.front();
-    for (const AppliedChange& one : applied_) one.change.apply(scene, one.by);
+  SceneOf<D> closest() const {
+    SceneOf<D> scene = scenes_.front();
+    for (const AppliedChangeOf<D>& one : applied_) one.change.apply(scene, one.by);
     return scene;
   }
 
-  std::vector<MirrorChange> candidates() const {
+  std::vector<MirrorChangeOf<D>> candidates() const {
     return changesOf(closest(), mirror_->capabilities());
   }
 
   /// Root of the summed squares of all components [d]; absent where it cannot run like that, or
   /// where it exceeds `limit`: the sum grows start by start, and what exceeds it after some need
   /// not run from the others.
-  std::optional<double> distanceWith(const std::vector<AppliedChange>& further,
+  std::optional<double> distanceWith(const std::vector<AppliedChangeOf<D>>& further,
                                      double limit = std::numeric_limits<double>::infinity()) {
-    const std::vector<AppliedChange> all = appliedAnd(further);
+    const std::vector<AppliedChangeOf<D>> all = appliedAnd(further);
     double sum = 0.0;
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
-      const auto run = runsWith(*mirror_, {scenes_[s]}, all, {time()});
+      const auto run = runsWith<D>(*mirror_, {scenes_[s]}, all, {time()});
       if (!run) return std::nullopt;
       for (const double apart : separationVector(engine_[s][when_], run->front()[0], diameter_))
         sum += apart * apart;
@@ -126,7 +132,7 @@ class Search {
   /// The largest separation of a disk from the closest mirror [d].
   double largest() {
     double most = 0.0;
-    const RunsFromStarts runs = *runsWithAlso({});
+    const RunsFromStartsOf<D> runs = *runsWithAlso({});
     for (std::size_t s = 0; s < runs.size(); ++s)
       most = std::max(most, farthest(engine_[s][when_], runs[s][0], diameter_).distance);
     return most;
@@ -135,9 +141,9 @@ class Search {
   /// Takes the convention or the missing effect that brings the mirror nearest. @returns whether
   /// one brought it nearer
   bool takeBestConvention() {
-    std::optional<MirrorChange> best;
+    std::optional<MirrorChangeOf<D>> best;
     double distance = best_ * (1.0 - alike);
-    for (const MirrorChange& change : candidates()) {
+    for (const MirrorChangeOf<D>& change : candidates()) {
       if (change.isConstant) continue;
       const auto with = distanceWith({{change}}, distance);
       if (!with || !(*with < distance)) continue;
@@ -151,9 +157,9 @@ class Search {
   /// Two at once, where neither alone brings the mirror nearer: arms of f_t and of v_t are such,
   /// which agree with each other in most laws. @returns whether two brought it nearer
   bool takeBestPair() {
-    std::vector<MirrorChange> changes = candidates();
-    std::erase_if(changes, &MirrorChange::isConstant);
-    const MirrorChange *first = nullptr, *second = nullptr;
+    std::vector<MirrorChangeOf<D>> changes = candidates();
+    std::erase_if(changes, &MirrorChangeOf<D>::isConstant);
+    const MirrorChangeOf<D>*first = nullptr, *second = nullptr;
     double distance = best_ * (1.0 - alike);
     for (std::size_t b = 1; b < changes.size(); ++b)
       for (std::size_t a = 0; a < b; ++a) {
@@ -175,7 +181,7 @@ class Search {
   void undoNeedless() {
     for (std::size_t k = applied_.size(); k-- > 0;) {
       if (applied_[k].change.isConstant) continue;
-      const AppliedChange one = applied_[k];
+      const AppliedChangeOf<D> one = applied_[k];
       const auto place = applied_.begin() + static_cast<std::ptrdiff_t>(k);
       applied_.erase(place);
       const auto without = distanceWith({});
@@ -189,11 +195,11 @@ class Search {
   /// Takes that constant, and as much of it, as leaves least, if that is half or less of what there
   /// is. @returns whether there is one
   bool takeBestConstant() {
-    const RunsFromStarts now = *runsWithAlso({});
+    const RunsFromStartsOf<D> now = *runsWithAlso({});
     const std::vector<double> separation = separationFrom(now);
-    std::optional<AppliedChange> best;
+    std::optional<AppliedChangeOf<D>> best;
     double unexplained = termWorthTrying;
-    for (const MirrorChange& change : candidates()) {
+    for (const MirrorChangeOf<D>& change : candidates()) {
       if (!change.isConstant) continue;
       const auto moved = runsWithAlso({{change, termChange}});
       if (!moved) continue;
@@ -211,25 +217,25 @@ class Search {
 
  private:
   /// What stands before " = " of a convention; all of an effect's name.
-  static std::string optionNamed(const MirrorChange& change) {
+  static std::string optionNamed(const MirrorChangeOf<D>& change) {
     return change.name.substr(0, change.name.find(" = "));
   }
 
-  void take(const AppliedChange& change, double distance) {
+  void take(const AppliedChangeOf<D>& change, double distance) {
     applied_.push_back(change);
     best_ = distance;
   }
 
-  std::vector<AppliedChange> appliedAnd(const std::vector<AppliedChange>& further) const {
-    std::vector<AppliedChange> all = applied_;
+  std::vector<AppliedChangeOf<D>> appliedAnd(const std::vector<AppliedChangeOf<D>>& further) const {
+    std::vector<AppliedChangeOf<D>> all = applied_;
     all.insert(all.end(), further.begin(), further.end());
     return all;
   }
-  std::optional<RunsFromStarts> runsWithAlso(const std::vector<AppliedChange>& further) {
-    return runsWith(*mirror_, scenes_, appliedAnd(further), {time()});
+  std::optional<RunsFromStartsOf<D>> runsWithAlso(const std::vector<AppliedChangeOf<D>>& further) {
+    return runsWith<D>(*mirror_, scenes_, appliedAnd(further), {time()});
   }
 
-  std::vector<double> separationFrom(const RunsFromStarts& runs) const {
+  std::vector<double> separationFrom(const RunsFromStartsOf<D>& runs) const {
     return separationOfAll(engine_, when_, runs, 0, diameter_);
   }
 
@@ -237,20 +243,21 @@ class Search {
   std::unique_ptr<Engine> mirror_;
   double step_ = 0.0;
   std::vector<std::uint64_t> until_;
-  std::size_t when_ = 0;   ///< index into identifyTimes
-  RunsFromStarts engine_;  ///< at identifyTimes
+  std::size_t when_ = 0;        ///< index into identifyTimes
+  RunsFromStartsOf<D> engine_;  ///< at identifyTimes
   EffectiveParameters effective_;
-  std::vector<Scene> scenes_;
-  std::vector<AppliedChange> applied_;
+  std::vector<SceneOf<D>> scenes_;
+  std::vector<AppliedChangeOf<D>> applied_;
   double best_ = std::numeric_limits<double>::infinity();
 };
 
 /// Values of an option that bring the mirror as near as the one it has.
-FoundOption optionOf(Search& search, const LawOption& option, const Capabilities& can) {
+template <int D>
+FoundOption optionOf(Search<D>& search, const LawOption& option, const Capabilities& can) {
   const std::string name(option.name);
   FoundOption found{name, {lawOptionValue(search.closest().law, name)}, {}};
   const double limit = (1.0 + alike) * search.distance() + lockstepRounding;
-  for (const MirrorChange& change : search.candidates()) {
+  for (const MirrorChangeOf<D>& change : search.candidates()) {
     const std::string prefix = name + " = ";
     if (change.isConstant || !change.name.starts_with(prefix)) continue;
     const auto with = search.distanceWith({{change}}, limit);
@@ -268,15 +275,14 @@ std::vector<std::string> missingFrom(const Effects& all, const Effects& there) {
   return missing;
 }
 
-}  // namespace
-
-Identification identify(Engine& engine, const EngineEntry& entry, const Case& setup,
-                        const std::vector<FlowState>& states, double dt,
-                        const std::function<void(double)>& progress) {
-  Search search(engine, entry, setup, states, dt);
+template <int D>
+Identification identifyIn(Engine& engine, const EngineEntry& entry, const Case& setup,
+                          const std::vector<FlowState>& states, double dt,
+                          const std::function<void(double)>& progress) {
+  Search<D> search(engine, entry, setup, states, dt);
   Identification found;
   found.starts = states.size();
-  const Scene whole = flowScene(setup, states.front().packing, dt);
+  const SceneOf<D> whole = flowScene<D>(setup, states.front().packing, dt);
   search.goTo(identifyTimes.size() - 1);
   found.time = search.time();
   found.before = search.largest();
@@ -294,7 +300,7 @@ Identification identify(Engine& engine, const EngineEntry& entry, const Case& se
   found.left = search.largest();
 
   std::map<std::string, double> constants;
-  for (const AppliedChange& one : search.applied())
+  for (const AppliedChangeOf<D>& one : search.applied())
     if (one.change.isConstant) {
       double& by = constants[one.change.name];
       by = (1.0 + by) * (1.0 + one.by) - 1.0;
@@ -303,7 +309,7 @@ Identification identify(Engine& engine, const EngineEntry& entry, const Case& se
     if (std::abs(change) >= leastConstant) found.constants.push_back({name, change});
 
   const Capabilities can = engine.capabilities();
-  const Scene closest = search.closest();
+  const SceneOf<D> closest = search.closest();
   for (const LawOption& option : lawOptions()) {
     const std::string_view name = option.name;
     const bool bears =
@@ -314,6 +320,15 @@ Identification identify(Engine& engine, const EngineEntry& entry, const Case& se
   found.missing = missingFrom(effectsOf(whole), effectsOf(closest));
   found.declaredMissing = missingFrom(effectsOf(whole), search.effective().effects);
   return found;
+}
+
+}  // namespace
+
+Identification identify(Engine& engine, const EngineEntry& entry, const Case& setup,
+                        const std::vector<FlowState>& states, double dt,
+                        const std::function<void(double)>& progress) {
+  return inDimensionOf(
+      setup, [&]<int D>() { return identifyIn<D>(engine, entry, setup, states, dt, progress); });
 }
 
 }  // namespace crossgrain::inline studies

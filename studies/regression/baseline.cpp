@@ -81,7 +81,9 @@ Record recordOf(const FlowState& state) {
   arrays.add("position", disks.position);
   arrays.add("velocity", disks.velocity);
   arrays.add("spin", disks.spin);
-  return recordOf({{"start", jsonOf(state.start)}}, arrays);
+  Json line = {{"start", jsonOf(state.start)}};
+  if (state.packing.wallTime != 0.0) line["wall_time_s"] = state.packing.wallTime;
+  return recordOf(std::move(line), arrays);
 }
 
 FlowState stateOf(const Record& record) {
@@ -97,6 +99,7 @@ FlowState stateOf(const Record& record) {
   disks.velocity = arrays.vec2("velocity", count);
   disks.spin = arrays.f64("spin", count);
   state.packing.wheelAngle = state.start.wheelAngle;
+  state.packing.wallTime = record.line.value("wall_time_s", 0.0);
   state.packing.hash = contentHash(state.packing);
   return state;
 }

@@ -9,7 +9,7 @@
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
 #include "cases/case_keys.hpp"
-#include "cases/couette.hpp"
+#include "cases/flow.hpp"
 #include "cases/time_step.hpp"
 #include "results/schema.hpp"
 #include "studies/core/engine_access.hpp"
@@ -103,7 +103,7 @@ class WindowsDiff {
         baseline_(baseline),
         before_(before),
         instant_(now.engine.capabilities().instantContacts),
-        diameter_(2.0 * caseBefore.particles.smallRadius) {}
+        diameter_(flowDiameter(caseBefore)) {}
 
   /// @throws EngineFailure, UnsupportedScene, BadInput
   void follow(std::size_t s) {
@@ -189,7 +189,7 @@ class WindowsDiff {
     TermSearch search{{}, frames_.instants(row.first, diameter_), diameter_};
     for (std::size_t s = 0; s < row.starts; ++s) {
       const Scene scene =
-          couetteScene(caseBefore_, baseline_.starts[s].packing, timeStep(caseBefore_));
+          flowScene(caseBefore_, baseline_.starts[s].packing, timeStep(caseBefore_));
       try {
         search.scenes.push_back(
             sceneOfMirror(before_.can, entry, caseBefore_, scene, *before_.effective));
@@ -264,7 +264,7 @@ DiffRow diffEngine(Engine& engine, const EngineEntry& entry, const std::vector<C
                    const Baseline& baseline, const BaselineEngine& before,
                    const std::function<void(double)>& progress) {
   const Case& setup = cases.front();
-  const bool flows = setup.kind == CaseKind::couette;
+  const bool flows = hasFlow(setup);
   const Case caseBefore = casesOf(baseline, baseline.setup.file, {}).front();
   const Capabilities can = engine.capabilities();
   DiffRow row;

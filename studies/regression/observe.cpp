@@ -5,9 +5,8 @@
 
 #include "adapters/registry.hpp"
 #include "cases/collision_scene.hpp"
-#include "cases/couette.hpp"
+#include "cases/flow.hpp"
 #include "cases/loader.hpp"
-#include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
 #include "studies/collide/sweep.hpp"
 #include "studies/core/engine_access.hpp"
@@ -40,7 +39,7 @@ BaselineWindow windowOf(const Observed& of, const FlowState& state,
   for (const double time : lockstepTimes)
     reported.push_back(window.frames[frameAt(steps, step, time)]);
   window.responses =
-      referenceResponses(of.engine, reported, 2.0 * of.setup.particles.smallRadius,
+      referenceResponses(of.engine, reported, flowDiameter(of.setup),
                          [&](double change) { return loadStart(of, state, change).dt; });
   return window;
 }
@@ -81,13 +80,12 @@ KeptCollisions collisionsOf(Engine& engine, const EngineEntry& entry, const Case
 
 std::vector<FlowState> startsOf(const Case& setup, double dt, std::size_t count,
                                 Progress& progress) {
-  const auto packings = std::min<std::size_t>(
-      count, setup.particles.file ? 1 : static_cast<std::size_t>(setup.preparation.packings));
+  const auto packings = std::min(count, static_cast<std::size_t>(flowPackings(setup)));
   progress.begin("preparing packings", std::vector<double>(packings + 1, 1.0));
   const auto engine = engineRegistry().front().make();
   std::vector<Packing> prepared;
   for (std::size_t p = 0; p < packings; ++p)
-    prepared.push_back(packingOf(setup, static_cast<int>(p), dt, *engine, [&](double fraction) {
+    prepared.push_back(flowPacking(setup, static_cast<int>(p), dt, *engine, [&](double fraction) {
       throwIfInterrupted();
       progress.update(p, "packings", fraction);
     }));
@@ -99,7 +97,7 @@ std::vector<FlowState> startsOf(const Case& setup, double dt, std::size_t count,
 }  // namespace
 
 EffectiveParameters loadStart(const Observed& of, const FlowState& state, double change) {
-  Scene scene = couetteScene(of.setup, state.packing, of.dt);
+  Scene scene = flowScene(of.setup, state.packing, of.dt);
   if (change != 0.0) changeLaws(scene, [&](ContactLaw& law) { changeReference(law, change); });
   return loadScene(of.engine, of.entry, of.setup, scene);
 }
@@ -108,7 +106,7 @@ std::vector<KeptCollisions> collisionsOf(Engine& engine, const EngineEntry& entr
                                          const std::vector<Case>& cases) {
   std::vector<KeptCollisions> kept;
   for (const Case& setup : cases) {
-    const bool flows = setup.kind == CaseKind::couette;
+    const bool flows = hasFlow(setup);
     for (const double dt : flows ? std::vector{timeStep(setup)} : collisionTimeSteps(setup)) {
       throwIfInterrupted();
       kept.push_back(collisionsOf(engine, entry, flows ? collisionOf(setup) : setup, dt));
@@ -138,7 +136,7 @@ KeptEndpoints endpointsFrom(const EngineEntry& entry, const Case& setup,
       progress((static_cast<double>(s) + fraction) / static_cast<double>(starts.size()));
     });
     for (const auto& [name, margin] : setup.averaging.endpoints)
-      kept[name].push_back(endpointOf(endpointSpec(name), setup, run));
+      kept[name].push_back(endpointOf(endpointSpec(setup, name), setup, run));
   }
   return kept;
 }
@@ -169,8 +167,8 @@ Baseline keepBaseline(const std::vector<Case>& cases, const RunCommand& command,
   std::vector<std::string> reasons;
   baseline.version = programVersion;
   baseline.setup = {setup.name, setup.variant, setup.file.string(), resolvedFile(cases)};
-  const double dt = setup.kind == CaseKind::couette ? timeStep(setup) : 0.0;
-  if (setup.kind == CaseKind::couette) baseline.starts = startsOf(setup, dt, starts, progress);
+  const double dt = hasFlow(setup) ? timeStep(setup) : 0.0;
+  if (hasFlow(setup)) baseline.starts = startsOf(setup, dt, starts, progress);
   progress.begin("running engines", std::vector<double>(engines.size(), 1.0));
   for (std::size_t e = 0; e < engines.size(); ++e) {
     const ScratchFolder scratch;

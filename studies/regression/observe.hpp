@@ -22,7 +22,7 @@ struct Observed {
 /// @throws UnsupportedScene, EngineFailure, BadInput
 EffectiveParameters loadStart(const Observed& of, const FlowState& state, double change = 0.0);
 
-/// Runs all sweeps of cases of collisions; of a Couette case the one of two small disks under its
+/// Runs all sweeps of cases of collisions; of a flow the one of its first pair of bodies under its
 /// law. Where the engine refuses one the refusal is kept.
 /// @throws EngineFailure, BadInput, Interrupted
 std::vector<KeptCollisions> collisionsOf(Engine& engine, const EngineEntry& entry,
@@ -37,15 +37,15 @@ KeptEndpoints endpointsFrom(const EngineEntry& entry, const Case& setup,
 
 /// What one engine does from each start and in each collision.
 /// @param engine  started; that of `entry`
-/// @param cases   one Couette case, or the variants of a case of collisions
-/// @param dt      of the Couette case [s]
+/// @param cases   one flow, or the variants of a case of collisions
+/// @param dt      of the flow [s]
 /// @throws UnsupportedScene, EngineFailure, BadInput, Interrupted
 BaselineEngine keepEngine(Engine& engine, const EngineEntry& entry, const std::vector<Case>& cases,
                           const std::vector<FlowState>& starts, double dt,
                           const std::function<void(double)>& progress);
 
 /// What all engines named do, but for those that refuse the case.
-/// @param starts     along the flow of a Couette case
+/// @param starts     along the flow of a case that has one
 /// @param endpoints  whether each start is also run and averaged
 /// @param refusals   becomes why engines refuse it that were asked for by name
 /// @throws as keepEngine(), AllRefused

@@ -18,9 +18,9 @@
 #include "stability/verdict.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/engine_running.hpp"
+#include "studies/core/in_space.hpp"
 #include "studies/core/study.hpp"
 #include "studies/flow/run.hpp"
-#include "studies/core/in_space.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
 
@@ -413,6 +413,45 @@ void judgeStepLimit(StabilityRun& row, const StabilityTask& task, const HardScen
       measured, measured / theory, theory, coordinationStepLimit(hard.scene));
 }
 
+/// From the case's own step upward: doubled as long as the run is sound, then halved between the
+/// last that was and the first that was not, to a twentieth.
+void judgeLargestStep(StabilityRun& row, const StabilityTask& task, HardScene hard, Engine& engine,
+                      const std::function<void(double)>& progress) {
+  constexpr double mostSteps = 1e4;  // of the case's own, of what may be a long run
+  constexpr double precision = 1.05, most = 64.0;
+  const double own = hard.scene.dt;
+  hard.duration = std::min(hard.duration, mostSteps * own);
+  const Recording calm = record(engine, task.entry, hard, [](double) {});
+  describe(row, calm, engine);
+  if (!calm.failure.empty()) return judgeFailure(row, calm);
+  if (calm.effective.dt != own)
+    throw UnsupportedScene(fmt::format("takes time steps of its own, {:g} s", calm.effective.dt));
+  const auto sound = [&](double times) {
+    HardScene run = hard;
+    run.scene.dt = times * own;
+    progress(0.5);
+    return isSound(record(engine, task.entry, run, [](double) {}), calm);
+  };
+  double good = isSound(calm, calm) ? 1.0 : 0.0, bad = good > 0.0 ? 2.0 : 1.0;
+  while (good > 0.0 && bad <= most && sound(bad)) {
+    good = bad;
+    bad *= 2.0;
+  }
+  while (good > 0.0 && bad <= most && bad > precision * good) {
+    const double middle = std::sqrt(good * bad);
+    (sound(middle) ? good : bad) = middle;
+  }
+  judgeNumber(row, *task.setup->stability, good > 0.0 ? 1.0 / good : 2.0);
+  const auto pair = pairStepLimit(*task.setup);
+  row.reason =
+      good > 0.0
+          ? fmt::format("sound in steps of up to {:.3g} s, {:.3g} times the case's own{}",
+                        good * own, good,
+                        pair ? fmt::format("; one contact alone bears {:.3g} s by theory", pair->dt)
+                             : std::string())
+          : fmt::format("not sound in the case's own steps of {:.3g} s", own);
+}
+
 /// The start is one that must be refused, by the harness or by the engine.
 void judgeAcceptance(StabilityRun& row, const StabilityTask& task, Engine& engine,
                      const std::function<void(double)>& progress) {
@@ -442,6 +481,8 @@ void judge(StabilityRun& row, const StabilityTask& task, Engine& engine,
       return judgeRestart(row, task, hard, engine);
     case StabilityProtocol::stepLimit:
       return judgeStepLimit(row, task, hard, engine, progress);
+    case StabilityProtocol::largestStep:
+      return judgeLargestStep(row, task, hard, engine, progress);
     case StabilityProtocol::againstOriginal:
       return judgeCopy(row, task, hard, engine, progress);
     default:

@@ -8,6 +8,7 @@
 
 #include "adapters/worker/json.hpp"
 #include "cases/case_files.hpp"
+#include "cases/effect_switch.hpp"
 #include "cases/flow.hpp"
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
@@ -79,13 +80,71 @@ Case originalOf(const Case& setup) {
 
 }  // namespace
 
+namespace {
+
+/// What is asked of a scene that is no hard case of its own.
+const struct SceneAudit {
+  const char* name;
+  Stability asks;
+  bool (*applies)(const Case&) = nullptr;  ///< null: always
+} sceneAudits[] = {
+    {"overlap",
+     {"No two bodies sink through each other.", "max_overlap", 1.0, 1.0,
+      "soft laws reach what a scene presses them to; beyond a radius centres pass each other"}},
+    {"walls",
+     {"No body goes through another or a wall.", "tunnelled", 0.0, 0.0, "bodies are impenetrable"}},
+    {"energy",
+     {"No energy comes from nowhere.", "energy_gain", 0.01, 0.1,
+      "walls that stand still do no work; a hundredth is what steps of t_c/50 leave"},
+     [](const Case& setup) { return !effectsOf(setup).contains(Effect::movingWalls); }},
+    {"restart",
+     {"A run taken up at its middle is the same run.", "restart_differs", 0.0, 1e-9,
+      "a checkpoint holds all that the future depends on: to the bit"}},
+    {"largest step",
+     {"The case's time step is one that the scene bears.", "largest_step", 1.0, 1.0,
+      "1: the case's own step is the largest; less: there is room"}}};
+
+/// One case for each, of a flow in the plane.
+std::vector<Case> auditsOf(const Case& setup) {
+  std::vector<Case> audits;
+  for (const SceneAudit& audit : sceneAudits) {
+    if (audit.applies && !audit.applies(setup)) continue;
+    Case& one = audits.emplace_back(setup);
+    one.stability = audit.asks;
+    one.stability->quick = one.stability->measure != "largest_step";
+    one.variant = setup.variant.empty() ? audit.name : setup.variant + ", " + audit.name;
+  }
+  return audits;
+}
+
+/// Cases with [stability] as they are, of flows without one their audits. @throws BadInput
+std::vector<Case> withAudits(const std::vector<Case>& cases) {
+  std::vector<Case> all;
+  for (const Case& setup : cases) {
+    if (setup.stability) {
+      all.push_back(setup);
+      continue;
+    }
+    if (!hasFlow(setup))
+      throw BadInput(
+          fmt::format("{}: has no [stability]: it is no hard case, and no flow whose run could be "
+                      "audited",
+                      setup.file.string()));
+    if (setup.dimension != 2)
+      throw BadInput(
+          fmt::format("{}: stability audits flows in the plane alone yet, and "
+                      "case.dimension = {}",
+                      setup.file.string(), setup.dimension));
+    std::ranges::move(auditsOf(setup), std::back_inserter(all));
+  }
+  return all;
+}
+
+}  // namespace
+
 std::vector<Case> hardCases(const std::vector<fs::path>& inputs,
                             const std::vector<std::string>& overrides, SuitePart part) {
-  std::vector<Case> cases = casesOf(inputs, overrides);
-  for (const Case& setup : cases)
-    if (!setup.stability)
-      throw BadInput(
-          fmt::format("{}: has no [stability]: it is no hard case", setup.file.string()));
+  std::vector<Case> cases = withAudits(casesOf(inputs, overrides));
   requireOwnNames(cases);
   std::vector<Case> judged;
   for (const Case& setup : cases)

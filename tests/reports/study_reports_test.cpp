@@ -74,7 +74,7 @@ TEST(EffectsReport, NotSignificant_HasAnIntervalThatContainsZero) {
   // Beyond it only where that is shown, and in which ring.
   ChangedField& velocity = results.variants[1].changes.fields[0];
   velocity.verdict = Verdict::fail;
-  EXPECT_TRUE(has(text(), "shown beyond the margin in another ring"));
+  EXPECT_TRUE(has(text(), "shown beyond the margin elsewhere"));
   velocity.rings[1].verdict = Verdict::fail;
   EXPECT_TRUE(has(text(), "ring 2; shown beyond the margin"));
 }

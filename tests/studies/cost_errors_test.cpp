@@ -215,8 +215,9 @@ TEST(CostCollision, CurveError_SkipsStartsWithoutReference) {
   EXPECT_NEAR(error->high, std::sqrt(3.125 + 12.7062 * 0.875), 1e-3);
   EXPECT_FALSE(curveError({3.0, {}}, {0.0, 0.0}, 2.0));
   EXPECT_FALSE(curveError({3.0}, {{}}, 2.0));
-  EXPECT_NEAR(rmsDistance({{3.0, 0.0}, {0.0, 4.0}}, {{0.0, 0.0}, {0.0, 0.0}}, 2.0),
-              std::sqrt(12.5) / 2.0, 1e-12);
+  EXPECT_NEAR(
+      rmsDistance({{3.0, 0.0, 0.0}, {0.0, 4.0, 0.0}}, {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}, 2.0),
+      std::sqrt(12.5) / 2.0, 1e-12);
 }
 
 TEST(CostTime, Rounds_GiveAGeometricMeanAndItsInterval) {
@@ -264,7 +265,7 @@ class CostTrajectory : public testing::Test {
     packing_.disks = disks;
   }
 
-  std::vector<Vec2> follow(const std::string& fragment, double time) {
+  std::vector<Vec3> follow(const std::string& fragment, double time) {
     return followPacking(*makeGrain(), test::inHouse, test::costCase(fragment), packing_, time)
         .positions;
   }
@@ -333,7 +334,7 @@ TEST(CostAverages, OnePackingNoneOrAFraction_AreSpecialCases) {
   EXPECT_FALSE(pairedError({CostRun{}}, {run({1.0}, 0.1)}, "stress_rr", 0.05));
   // Slip is a fraction of the rim's speed already.
   const auto slip = pairedError({run({1.0}, 0.2), run({1.0}, 0.2)},
-                                {run({1.0}, 0.1), run({1.0}, 0.1)}, "wall_slip", 0.05);
+                                {run({1.0}, 0.1), run({1.0}, 0.1)}, "wall_slip", 0.05, 1.0);
   EXPECT_NEAR(slip->error, 0.1, 1e-12);
   EXPECT_NEAR(*slip->systematic, 0.1, 1e-12);
   // Scatter that explains the difference leaves no bias.

@@ -2,6 +2,7 @@
 
 import json
 import pathlib
+import re
 import sys
 import unittest
 
@@ -26,6 +27,52 @@ class StudyTest(SystemTest):
             "    os.write(own, line.encode())\n",
         )
         return self.engine_file(name, sys.executable, pipe, *command)
+
+
+# A tenth of a second of the hopper, and of spheres between bumpy walls, as `effects` and its like run them.
+HOPPER = [CASES / "assembly/hopper.toml", *settings(assembly__duration=0.06, average__from=0.02, average__snapshots=20)]
+SPHERES = [CASES / "space/shear-3d.toml", *settings(assembly__duration=0.4, average__from=0.1, average__snapshots=20)]
+
+
+class Effects(SystemTest):
+    def legs(self, case, *arguments):
+        done = self.run_program("effects", *case, "--engines", "grain", "--out", self.out, "--quick", "--quiet", *arguments)
+        self.assert_status(done, HELD)
+        return {leg["effect"]: leg for leg in self.results()["legs"]}
+
+    def test_of_a_hopper(self):
+        """What gravity drives changes most where the walls hold nothing: without friction more disks run out."""
+        legs = self.legs(HOPPER, *settings(preparation__packings=4))
+        self.assertEqual({"", "normal_damping", "friction", "tangential_spring", "tangential_damping", "rotation"}, set(legs) - {
+            "double_precision", "tension_cut"})
+        for effect, leg in legs.items():
+            self.assertEqual("ran", leg["status"], effect)
+            names = [row["endpoint"] for row in leg.get("endpoints", [])]
+            self.assertEqual([] if effect == "" else ["discharge", "left", "filling_at_outlet", "velocity_at_outlet", "coordination"], names)
+            for row in leg.get("endpoints", []):
+                self.assertEqual(("grain", "grain", "effect"), (row["a"], row["b"], row["kind"]))
+        self.assertEqual(4, legs["friction"]["packings"])
+        page = (self.out / "report.html").read_text()
+        self.assertIn("What each effect changes in the endpoints", page)
+        self.assertRegex(page, r"averaged in each run: 0.02 to 0.06 s")
+        self.assertNotRegex(page, r"\bring 1\b|rotations averaged")
+
+    def test_of_spheres(self):
+        legs = self.legs(SPHERES)
+        self.assertIn("Friction acts, but no sphere turns", " ".join(one["what"] for one in self.results()["switches"]))
+        without = legs["rotation"]
+        self.assertNotIn("rotation", without["effects"])
+        self.assertTrue(any(ring["change"] for field in without["fields"] for ring in field["rings"]))
+        self.assertTrue(all(row["kind"] == "effect" for row in without["endpoints"]))
+
+
+class Identify(SystemTest):
+    def test_convention_of_another_mirror_is_found_in_every_kind_of_flow(self):
+        for case in (HOPPER, SPHERES):
+            done = self.run_program("identify", *case, "--engines", "grain-as-yade", "--quiet")
+            self.assertRegex(done.stdout, r"(?m)^tension +cut +declares cut")
+            self.assertIn("from the closest mirror", done.stdout)
+            self.assert_status(done, HELD)
 
 
 class Lockstep(SystemTest):
@@ -137,6 +184,30 @@ class Transforms(StudyTest):
         self.assertIn("restarted", self.of("stable", "elsewhere"))
 
 
+class SceneAudit(SystemTest):
+    def audit(self, engine):
+        done = self.run_program(
+            "stability", *HOPPER, *settings(assembly__duration=0.12, run__may_differ=["conventions"]), "--engines", engine, "--out", self.out, "--quiet", "--fresh")  # fmt: skip
+        return done, {row["variant"]: row for row in self.rows("stability.csv")}
+
+    def test_right_engine_is_stable_and_bears_longer_steps(self):
+        done, rows = self.audit("grain")
+        self.assert_status(done, HELD)
+        self.assertEqual({"overlap", "walls", "energy", "restart", "largest step"}, set(rows))
+        self.assertEqual({"stable"}, {row["verdict"] for row in rows.values()})
+        last = rows["largest step"]
+        found = re.search(r"up to (\S+) s, (\S+) times the case's own; one contact alone bears (\S+) s", last["reason"])
+        _, times, _ = map(float, found.groups())
+        self.assertAlmostEqual(1.0 / times, float(last["value"]), delta=0.01)
+        self.assertTrue(1.0 < times < 25.0, times)  # 25: two steps a contact
+
+    def test_dashpots_that_drive_and_disks_that_are_too_soft_are_found(self):
+        for fault, audit in (("gt=-1.0", "energy"), ("kn=0.0001", "overlap")):
+            done, rows = self.audit(self.engine_file(f"planted-{audit}", PLANTED, fault))
+            self.assert_status(done, FELL_SHORT)
+            self.assertEqual("unstable", rows[audit]["verdict"], rows[audit])
+
+
 class Baseline(StudyTest):
     def setUp(self):
         super().setUp()
@@ -186,6 +257,13 @@ class Baseline(StudyTest):
         self.assert_status(done, FELL_SHORT)
         self.assertRegex(done.stdout, r"averages from 4 starts:[\s\S]*\n    pressure +disagree: [0-9.]+ margins")
 
+    def test_of_a_hopper(self):
+        self.keep("grain", "--starts=2", "--endpoints", *HOPPER[1:], case=HOPPER[0])
+        self.assertRegex(self.diff("grain").stdout, r"hopper, 2 starts[\s\S]*same bits")
+        done = self.diff("grain", "--set=law.mu=0.5")
+        self.assert_status(done, FELL_SHORT)
+        self.assertIn("averages from 2 starts", done.stdout)
+
     def test_collisions(self):
         self.keep("grain", "--set=collision.psi=[0.5, 2.0]", case=COLLISION)
         self.assertRegex(self.diff("grain").stdout, r"figure-4-3, 0 starts[\s\S]*same bits")
@@ -199,9 +277,9 @@ class Baseline(StudyTest):
 
 
 class Cost(SystemTest):
-    def cost(self, *arguments):
+    def cost(self, *arguments, engines="grain"):
         return self.run_program(
-            "cost", CASES / "cost/quick.toml", "--engines", "grain", "--out", self.out, "--quick",
+            "cost", CASES / "cost/quick.toml", "--engines", engines, "--out", self.out, "--quick",
             *settings(cost__kinds=["collision"], cost__knobs=["time_step"]), *arguments,
         )  # fmt: skip
 
@@ -210,6 +288,32 @@ class Cost(SystemTest):
         self.assert_status(done, HELD)
         case = self.write("pasted.toml", f'[case]\nextends = "{CASES / "cost/quick.toml"}"\n\n{done.stdout}')
         self.assert_status(self.run_program("check", case, "--engines", "grain", "--no-timing"), HELD)
+
+    def test_an_engine_more_and_no_time_take_nothing_back(self):
+        paths = settings(cost__kinds=["trajectory"])
+        ran = {}
+        for engines, budget in (("grain", "1h"), ("grain,grain-as-lammps", "0.001s")):
+            self.assert_status(self.cost("--quiet", "--budget", budget, *paths, engines=engines), HELD)
+            ran[engines] = [
+                (row["setting"], row["measure"], row["error"], row["low"], row["high"])
+                for row in self.rows("cost.csv") if row["engine"] == "grain" and row["status"] == "ran"
+            ]  # fmt: skip
+        self.assertTrue(ran["grain"])
+        self.assertEqual(ran["grain"], ran["grain,grain-as-lammps"])
+
+    def test_of_every_kind_of_flow(self):
+        """Collisions of its bodies, planes among them, paths, and its own endpoints in a second of the scene."""
+        for case, endpoints in ((HOPPER, "discharge"), (SPHERES, "normal_stress")):
+            out = self.folder / pathlib.Path(case[0]).stem
+            done = self.run_program("cost", *case, "--engines", "grain", "--quick", "--quiet", "--want=10%", "--out", out,
+                                    *settings(cost__knobs=["time_step"], cost__average_steps=[50], cost__trajectory_steps=[50]))
+            self.assert_status(done, HELD)
+            rows = [row for row in self.rows("cost.csv", out) if row["status"] == "ran"]
+            for kind, measure in (("collision", "e_n"), ("trajectory", "position_rms_own"), ("averages", endpoints)):
+                errors = [float(row["error"]) for row in rows if (row["error_kind"], row["measure"]) == (kind, measure) and row["error"]]
+                self.assertTrue(errors, (kind, measure))
+                self.assertTrue(all(0.0 <= error < 1.0 for error in errors), errors)
+            self.assertIn("a second of the scene", (out / "report.html").read_text())
 
     def test_what_does_not_fit_the_budget_is_not_measured(self):
         done = self.cost("--budget", "0.002s")
