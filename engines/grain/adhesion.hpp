@@ -13,17 +13,17 @@ namespace grain {
 template <class L, class Real>
 GRAIN_INLINE Real cohesionArea(const L& law, const ContactMotion<Real>& contact) {
   const Real pi = Real(3.14159265358979323846);
-  const CohesionArea area = law.cohesionConventions.area;
   const bool plane = contact.reach == Real(0);
-  if (area != CohesionArea::lens) {
-    const bool twice = area == CohesionArea::twiceBetweenDisks && !plane;
-    return (twice ? Real(4) : Real(2)) * pi * contact.radius * contact.overlap;
+  const Real first = pi * contact.radius * contact.overlap;
+  if (plane) {
+    const Real cap = pi * (contact.radius + contact.radius - contact.overlap) * contact.overlap;
+    return law.lens * cap + law.walls * first;
   }
-  if (plane) return pi * (contact.radius + contact.radius - contact.overlap) * contact.overlap;
   const Real d = contact.reach - contact.overlap;
   const Real square = d * d;
   const Real beyond = square - contact.reach * (contact.reach - Real(4) * contact.radius);
-  return Real(0.25) * pi * contact.overlap * (contact.reach + d) * beyond / square;
+  const Real lens = Real(0.25) * pi * contact.overlap * (contact.reach + d) * beyond / square;
+  return law.lens * lens + law.disks * first;
 }
 
 /// ∫ A dδ [m³].
@@ -209,8 +209,12 @@ GRAIN_INLINE Real bodyForce(const L& law, const ContactMotion<Real>& contact, Re
 template <class L, class Real>
 GRAIN_INLINE Real boundLoad(const L& law, const ContactMotion<Real>& contact, Real normal,
                             Real body) {
+  if (law.cohesion == Cohesion::none) return normal;
+  if (law.cohesion == Cohesion::area)
+    return law.net * normal - law.lessPull * (body - elasticForce(law, contact)) +
+           law.size * magnitude(normal) + law.body * body;
   const CohesionLoad load = law.cohesionConventions.load;
-  if (law.cohesion == Cohesion::none || load == CohesionLoad::net) return normal;
+  if (load == CohesionLoad::net) return normal;
   if (load == CohesionLoad::netWithoutDashpot) return body;
   const bool hasPullOff = law.cohesion == Cohesion::dmt || law.cohesion == Cohesion::jkr;
   if (load == CohesionLoad::plusTwicePullOff)

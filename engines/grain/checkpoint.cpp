@@ -12,7 +12,7 @@ namespace grain {
 namespace {
 
 constexpr std::uint64_t magic = 0x38'6e'69'61'72'67;       // "grain8"
-constexpr std::uint64_t spaceMagic = 0x55'6e'69'61'72'67;  // "grainU"
+constexpr std::uint64_t spaceMagic = 0x56'6e'69'61'72'67;  // "grainV"
 
 template <class T>
 void write(std::ostream& out, const T& value) {
@@ -138,7 +138,7 @@ void Spheres::save(std::ostream& out) const {
   write(out, steps_);
   write(out, evaluations_);
   const_cast<Spheres*>(this)->forState([&](const auto& array) { writeAll(out, array); });
-  writeAll(out, lists_.touching());
+  writeAll(out, const_cast<Spheres*>(this)->lists_.touching());
 }
 
 void Spheres::restore(std::istream& in) {

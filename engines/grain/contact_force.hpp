@@ -20,15 +20,14 @@ GRAIN_INLINE Real normalForce(const L& law, const ContactMotion<Real>& contact, 
     force -= gn * contact.normalVelocity;
     if (law.implicitDamping) force /= Real(1) + gn * contact.normalCompliance;
   }
-  if (!law.cutTension) return force;
-  return larger(force, law.cohesion == Cohesion::none ? Real(0) : smaller(body, Real(0)));
+  if (law.cohesion == Cohesion::none) return larger(force, law.leastForce);
+  return larger(force, law.leastForce + smaller(body, Real(0)));
 }
 
 template <class L, class Real>
 GRAIN_INLINE Real coulombBound(const L& law, Real normal) {
-  if (law.bound == Bound::compression) return law.mu * larger(normal, Real(0));
-  if (law.bound == Bound::magnitude) return law.mu * magnitude(normal);
-  return law.mu * normal;
+  if (law.signedBound) return law.mu * normal;
+  return law.mu * larger(normal, law.ofPull * magnitude(normal));
 }
 
 /// An arm of a disk of radius a that touches one of radius `other` [m]: law.lever is that of f_t,
@@ -85,8 +84,7 @@ GRAIN_INLINE ContactForce<Real> springForce(const L& law, const ContactMotion<Re
   const bool holds = magnitude(tested) <= bound;
   // Where it does not hold `tested` is no zero, unless the bound is below zero, which turns the
   // force round.
-  const Real slipping =
-      law.bound == Bound::signedForce ? signedLike(bound, tested) : withSignOf(bound, tested);
+  const Real slipping = law.signedBound ? signedLike(bound, tested) : withSignOf(bound, tested);
   Real slipped = -(law.resetSpringOnly ? slipping - viscous : slipping) * inverse;
   if (law.stretch == Stretch::midpoint) slipped += Real(0.5) * stretch;
   spring = holds ? stretched + (Real(1) - part) * stretch : slipped;
@@ -125,34 +123,34 @@ GRAIN_INLINE Real inverseRollingInertia(Real inverseMass, Real inverseInertia, R
   return sum > Real(0) ? inverseMass * inverseInertia / sum : Real(0);
 }
 
-/// Lengths of a pair, or of a disk of radius a at a plane (other: 0).
+/// Lengths of a pair, or of a disk of radius a at a plane.
 template <class L, class Real>
-GRAIN_INLINE RollingMotion<Real> rollingMotion(const L& law, Real a, Real other, Real spin) {
-  const RollingConventions c = law.rollingConventions;
-  const Real effective = other > Real(0) ? a * other / (a + other) : a;
-  const Real smallest = other > Real(0) ? smaller(a, other) : a;
-  const Real mean = other > Real(0) ? Real(0.5) * (a + other) : a;
+GRAIN_INLINE RollingMotion<Real> rollingMotion(const L& law, Real a, Real other, Real spin,
+                                               bool atPlane) {
+  const Real effective = atPlane ? a : a * other / (a + other);
+  const Real smallest = atPlane ? a : smaller(a, other);
+  const Real mean = atPlane ? a : Real(0.5) * (a + other);
+  const Real radii = atPlane ? a * a : a * other;
   RollingMotion<Real> motion{};
   motion.spin = spin;
-  motion.length = c.length == RollingLength::smallerRadius    ? smallest
-                  : c.length == RollingLength::meanRadius     ? mean
-                  : c.length == RollingLength::twiceEffective ? effective + effective
-                                                              : effective;
-  const Real radii = other > Real(0) ? a * other : a * a;
-  motion.square = c.stiffness == RollingStiffness::constant ? Real(1)
-                  : c.stiffness == RollingStiffness::radii  ? radii
-                                                            : motion.length * motion.length;
+  motion.length = law.effective * effective + law.smallest * smallest + law.mean * mean;
+  motion.square =
+      law.ofLength * (motion.length * motion.length) + law.ofRadii * radii + law.ofNothing;
   return motion;
+}
+
+/// The same of a pair, or of a disk at a plane (other: 0).
+template <class L, class Real>
+GRAIN_INLINE RollingMotion<Real> rollingMotion(const L& law, Real a, Real other, Real spin) {
+  return rollingMotion(law, a, other, spin, !(other > Real(0)));
 }
 
 /// µ_r L N [N m].
 template <class L, class Real>
 GRAIN_INLINE Real rollingBound(const L& law, const RollingMotion<Real>& motion,
                                const ContactMotion<Real>& contact, Real normal) {
-  const RollingLoad of = law.rollingConventions.load;
-  Real load = normal;
-  if (of == RollingLoad::elastic) load = elasticForce(law, contact);
-  if (of == RollingLoad::magnitude) load = magnitude(normal);
+  const Real load = law.rollingNet * normal + law.rollingSize * magnitude(normal) +
+                    law.rollingElastic * elasticForce(law, contact);
   return law.muR * motion.length * larger(load, Real(0));
 }
 
@@ -170,12 +168,13 @@ template <class L, class Real>
 GRAIN_INLINE RollingTorque<Real> rollingTorque(const L& law, const RollingMotion<Real>& motion,
                                                const ContactMotion<Real>& contact, Real normal,
                                                Real& angle) {
-  if (law.rolling == Rolling::viscous)
-    return {-law.gr * motion.length * motion.length * motion.spin, Real(0)};
   const Real bound = rollingBound(law, motion, contact, normal);
-  if (law.rolling == Rolling::viscousByLoad) return {-bound * motion.length * motion.spin, Real(0)};
-  if (law.rolling == Rolling::constantTorque) return {-signedLike(bound, motion.spin), Real(1)};
-  const RollingConventions c = law.rollingConventions;
+  if (law.rolling != Rolling::spring) {
+    const Real viscous = law.viscous * (law.gr * motion.length * motion.length) +
+                         law.viscousByLoad * (bound * motion.length);
+    return {-viscous * motion.spin - law.constantTorque * signedLike(bound, motion.spin),
+            law.constantTorque};
+  }
   const Real stiffness = law.kr * motion.square;
   const Real stretch = motion.spin * law.dt;
   const Real part = partBefore<Real>(law.stretch);
@@ -183,11 +182,11 @@ GRAIN_INLINE RollingTorque<Real> rollingTorque(const L& law, const RollingMotion
   const Real spring = -stiffness * stretched;
   const Real viscous = -rollingDamping(law, motion) * motion.spin;
   const Real trial = spring + viscous;
-  const Real tested = c.dashpotOutsideBound ? spring : trial;
-  const bool limited = c.load != RollingLoad::whileCompressed || bound > Real(0);
+  const Real tested = spring + law.dashpotTested * viscous;
+  const bool limited = bound > law.unlimited;
   const bool holds = !limited || magnitude(tested) <= bound;
   const Real slipping = withSignOf(bound, tested);
-  Real slipped = -(c.resetSpringOnly ? slipping - viscous : slipping) / stiffness;
+  Real slipped = -(slipping - law.dashpotLeftOut * viscous) / stiffness;
   if (law.stretch == Stretch::midpoint) slipped += Real(0.5) * stretch;
   angle = holds ? stretched + (Real(1) - part) * stretch : slipped;
   return {holds ? trial : slipping, holds ? Real(0) : Real(1)};

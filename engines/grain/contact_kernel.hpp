@@ -41,7 +41,7 @@ GRAIN_INLINE const L& lawOfPair(const L& law, const ContactBlock<Real>&, std::si
 }
 template <HasMaterials L, class Real>
 GRAIN_INLINE L lawOfPair(const L& law, const MaterialBlock<Real>& b, std::size_t p) {
-  L own = onlySteps(law);
+  L own = withoutConstants(law);
   forPairConstants(law, [&](std::size_t which, auto member)
                             GRAIN_INLINE_LAMBDA { own.*member = b.constants[which][p]; });
   return own;
@@ -103,8 +103,7 @@ GRAIN_INLINE std::size_t applyLaw(const L& common, const PairView<Real>& pairs, 
   const Vec<Real>* const shift = hasLocalCoordinates<Real> ? pairs.shift + begin : nullptr;
   const PairMemory<Real> kept = pairs.kept.from(begin);
   const bool friction = common.tangential != Tangential::none;
-  const bool history =
-      common.tangential == Tangential::spring || common.tangential == Tangential::springDashpot;
+  const bool history = hasSprings(common);
   Real touching = 0;
 #pragma omp simd reduction(+ : touching)
   for (std::size_t p = 0; p < count; ++p) {
@@ -168,7 +167,7 @@ GRAIN_INLINE std::size_t applyLaw(const L& common, const PairView<Real>& pairs, 
     }
     if (law.rolling != Rolling::none) {
       RollingMotion<Real> rolling =
-          rollingMotion(law, radiusI[p], radiusJ[p], b.spinI[p] - b.spinJ[p]);
+          rollingMotion(law, radiusI[p], radiusJ[p], b.spinI[p] - b.spinJ[p], false);
       if (seesRollingInertia(law))
         rolling.inertia = Real(1) / (b.inverseRollingI[p] + b.inverseRollingJ[p]);
       Real angle = law.rolling == Rolling::spring ? kept.angle[p] : Real(0);

@@ -137,14 +137,10 @@ Core<Real>::Core(Setup setup)
   const bool materials = setup.materials.has_value();
   contacts_ = materials ? kernels_.generalMaterialContacts : kernels_.generalContacts;
   planes_ = materials ? kernels_.materialPlanes : kernels_.generalPlanes;
-  if (const auto set = conventionSet(law_); set && !setup.generalKernels) {
-    const std::size_t variant =
-        indexOf({law_.tangential, law_.cutTension, law_.normalDamping, law_.rotation,
-                 law_.rolling == Rolling::spring, law_.cohesion == Cohesion::area},
-                *set);
+  if (const auto variant = contactVariant(law_); variant && !setup.generalKernels) {
     const auto& contacts = materials ? kernels_.materialContacts : kernels_.contacts;
-    if (contacts[variant] != nullptr) contacts_ = contacts[variant];
-    if (!materials && kernels_.planes[variant] != nullptr) planes_ = kernels_.planes[variant];
+    if (const auto own = kernelOf(contacts, *variant)) contacts_ = own;
+    if (const auto own = kernelOf(kernels_.planes, *variant); own && !materials) planes_ = own;
   }
 
   if (materials) buildMaterials(setup);

@@ -15,44 +15,74 @@
 namespace grain {
 namespace {
 
-/// Without friction nothing turns: one kernel for both.
+/// Without friction and resistance to rolling nothing turns: one kernel for both.
 constexpr ContactEffects meaningful(ContactEffects e) {
-  e.rotation = e.rotation && e.tangential != Tangential::none;
+  e.rotation = e.rotation && (e.tangential != Tangential::none || e.rolling != Rolls::none);
   return e;
 }
 
 template <class Real, std::size_t Index>
-using LawAt =
-    EffectsLaw<Real, meaningful(contactEffects(Index)), conventionSets[Index / effectVariants]>;
+using LawAt = EffectsLaw<Real, meaningful(contactEffects(Index)),
+                         conventionSets[Index / effectVariants].conventions>;
 
-/// Conventions other than the thesis', springs against rolling and cohesion are compiled for the
-/// effects of its cell, tension or not: the compiler's time goes with each.
-constexpr bool compiled(std::size_t index) {
-  const ContactEffects e = contactEffects(index);
-  const bool allButTension =
-      e.tangential == Tangential::springDashpot && e.normalDamping && e.rotation;
-  return allButTension || (index < effectVariants && !e.rollingSpring && !e.cohesion);
-}
+#ifdef GRAIN_RARE_SET
+constexpr bool rareSet = true;
+#else
+constexpr bool rareSet = false;
+#endif
+
+/// The compiler's time goes with each kernel. Whole laws have theirs under every set of
+/// conventions, and so has what leaves effects out under those of everyEffect; where few processors
+/// run the instruction set, only in the plane under the first. A mirror's have no kernels but for
+/// the rolling springs that its engine has.
+struct Compiled {
+  ContactEffects effects;
+  bool whole, plain, leavesOut, first, mirror;
+
+  constexpr explicit Compiled(std::size_t index)
+      : effects(contactEffects(index)),
+        whole(effects.tangential == Tangential::springDashpot && effects.normalDamping &&
+              effects.rotation),
+        plain(effects.rolling == Rolls::none && !effects.cohesion),
+        leavesOut(plain && conventionSets[index / effectVariants].everyEffect),
+        first(index < effectVariants),
+        mirror(!conventionSets[index / effectVariants].everyEffect) {}
+
+  constexpr bool usualRolling() const {
+    return effects.rolling == Rolls::none || effects.rolling == Rolls::spring;
+  }
+  constexpr bool inPlane() const {
+    return (whole && (!mirror || usualRolling())) || (leavesOut && (first || !rareSet));
+  }
+  /// Few contacts are with planes: under rolling and cohesion the general one will do.
+  constexpr bool atPlanes() const { return inPlane() && plain; }
+  constexpr bool ofMaterials() const { return whole && !mirror && usualRolling(); }
+  /// In space springs follow their normals by the usual conventions: those of a mirror are others.
+  constexpr bool inSpace() const { return !mirror && (whole || (leavesOut && !rareSet)); }
+};
 
 template <class Real, std::size_t Index>
 constexpr ContactKernel<Real> contactKernelAt() {
-  if constexpr (compiled(Index)) return &contactKernel<LawAt<Real, Index>, Real>;
+  if constexpr (Compiled(Index).inPlane()) return &contactKernel<LawAt<Real, Index>, Real>;
   return nullptr;
 }
 
-/// Of materials: under the thesis' conventions, for the effects of its cell.
 template <class Real, std::size_t Index>
 constexpr ContactKernel<Real> materialKernelAt() {
-  constexpr ContactEffects e = contactEffects(Index);
-  constexpr bool ofTheCell = e.tangential == Tangential::springDashpot && e.normalDamping &&
-                             e.rotation && Index < effectVariants;
-  if constexpr (ofTheCell) return &contactKernel<OfMaterials<LawAt<Real, Index>>, Real>;
+  if constexpr (Compiled(Index).ofMaterials())
+    return &contactKernel<OfMaterials<LawAt<Real, Index>>, Real>;
   return nullptr;
 }
 
 template <class Real, std::size_t Index>
 constexpr PlaneKernel<Real> planeKernelAt() {
-  if constexpr (compiled(Index)) return &planeKernel<LawAt<Real, Index>, Real>;
+  if constexpr (Compiled(Index).atPlanes()) return &planeKernel<LawAt<Real, Index>, Real>;
+  return nullptr;
+}
+
+template <std::size_t Index>
+constexpr SpacePairKernel spaceKernelAt() {
+  if constexpr (Compiled(Index).inSpace()) return &space::contactKernel<LawAt<double, Index>>;
   return nullptr;
 }
 
@@ -63,21 +93,14 @@ constexpr std::size_t meaningful(std::size_t index) {
   return indexOf(e);
 }
 
-template <std::size_t Index>
-constexpr SpacePairKernel sideBySideAt() {
-  constexpr ContactEffects effects{Tangential::springDashpot, Index % 2 == 1, true, true};
-  using L = EffectsLaw<double, effects, sideBySideConventions(Index / 2 == 1)>;
-  return &space::sideBySideKernel<L, SpringTurn::rotated, SpringTwist::meanSpin>;
-}
-
-template <class Real>
-constexpr SpaceKernels spaceKernels() {
+template <class Real, std::size_t... C>
+constexpr SpaceKernels spaceKernels(std::index_sequence<C...>) {
   if constexpr (sizeof(Real) == sizeof(double))
-    return {&space::pairKernel<GeneralLaw<double>, false>,
+    return {{spaceKernelAt<C>()...},
+            &space::pairKernel<GeneralLaw<double>, false>,
             &space::pairKernel<space::EverydayLaw, false>,
             &space::pairKernel<GeneralLaw<double>, true>,
             &space::pairKernel<space::EverydayLaw, true>,
-            {sideBySideAt<0>(), sideBySideAt<1>(), sideBySideAt<2>(), sideBySideAt<3>()},
             &space::motionKernel,
             &space::neighbourKernel,
             &space::chooseKernel};
@@ -99,7 +122,7 @@ Kernels<Real> table(std::index_sequence<C...>, std::index_sequence<M...>,
           &planeKernel<OfMaterials<GeneralLaw<Real>>, Real>,
           {&ledgerDiskKernel<Real, D>...},
           &ledgerPairKernel<Real>,
-          spaceKernels<Real>()};
+          spaceKernels<Real>(std::index_sequence<C...>())};
 }
 
 }  // namespace

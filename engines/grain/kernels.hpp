@@ -133,25 +133,8 @@ struct MotionEffects {
   bool rotation, predict, gravity, plate, plateSpin;
 };
 
-inline constexpr std::size_t effectVariants = 5 * 2 * 2 * 2 * 2 * 2;
-inline constexpr std::size_t contactVariants = std::size(conventionSets) * effectVariants;
 inline constexpr std::size_t motionVariants = 2 * 2 * 2 * 2 * 2;
 
-/// @param set  of conventionSets
-constexpr std::size_t indexOf(const ContactEffects& e, std::size_t set) {
-  const std::size_t tangential = set * 5 + static_cast<std::size_t>(e.tangential);
-  const std::size_t motion =
-      ((tangential * 2 + e.cutTension) * 2 + e.normalDamping) * 2 + e.rotation;
-  return (motion * 2 + e.rollingSpring) * 2 + e.cohesion;
-}
-constexpr ContactEffects contactEffects(std::size_t index) {
-  return {static_cast<Tangential>(index / 32 % 5),
-          index / 16 % 2 == 1,
-          index / 8 % 2 == 1,
-          index / 4 % 2 == 1,
-          index / 2 % 2 == 1,
-          index % 2 == 1};
-}
 constexpr std::size_t indexOf(const MotionEffects& e) {
   return (((e.rotation * 2u + e.predict) * 2u + e.gravity) * 2u + e.plate) * 2u + e.plateSpin;
 }

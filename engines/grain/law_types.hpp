@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <type_traits>
 
@@ -19,60 +20,105 @@ struct LawConstants {
   Real halfStep;  ///< dt/2 of implicit damping; 0 where nothing is implied, at t = 0 [s]
 };
 
+/// Options of a law as numbers that multiply or limit: every kernel has all of them, and none asks
+/// which one is on. Of those that exclude each other one is not 0, so that adding up the others'
+/// zeros changes no bit.
+template <class Real>
+struct LawOptions {
+  Real leastForce;  ///< of f_n: 0 where tension is cut, else −∞ [N]
+  Real ofPull;      ///< the share of |f_n| in Coulomb's bound while bodies pull: 0, 1
+  // CohesionArea: A = lens · the lens + disks · π R₁₂ δ; at a plane `walls` in place of `disks`.
+  Real lens, disks, walls;
+  // CohesionLoad of Cohesion::area: f_n, less the pull, |f_n|, f_n without its dashpot.
+  Real net, lessPull, size, body;
+  // RollingLength, of R₁₂, the smaller radius and the mean; RollingStiffness, of L², a_i a_j and 1.
+  Real effective, smallest, mean, ofLength, ofRadii, ofNothing;
+  // RollingLoad: f_n, |f_n|, f_el; a spring is limited where its bound is larger than `unlimited`.
+  Real rollingNet, rollingSize, rollingElastic, unlimited;
+  // Of Rolling without a spring: constantTorque, viscous, viscousByLoad.
+  Real constantTorque, viscous, viscousByLoad;
+  // Of a rolling spring: the dashpot's share of what is held against the bound, and of what is left
+  // out of the spring where it slips.
+  Real dashpotTested, dashpotLeftOut;
+};
+
+/// How contacts resist rolling, as far as kernels differ.
+enum class Rolls {
+  none,
+  withoutSpring,
+  spring,
+  criticalSpring  ///< RollingDamper::critical
+};
+inline constexpr std::size_t rollsCount = 4;
+
 /// The effects of a scene that decide which kernels it runs.
 struct ContactEffects {
   Tangential tangential;
-  bool cutTension, normalDamping, rotation;
-  bool rollingSpring = false, cohesion = false;  ///< Cohesion::area
+  bool normalDamping, rotation;
+  Rolls rolling = Rolls::none;
+  bool cohesion = false;  ///< Cohesion::area
 };
 
-/// What engines differ in that simulate the same effects of the linear law.
+/// What engines differ in that simulate the same effects of the linear law, and no number of
+/// LawOptions makes.
 struct Conventions {
   History history = History::displacement;
-  Bound bound = Bound::compression;
+  bool signedBound = false;  ///< Bound::signedForce
   Lever lever = Lever::radius, velocityLever = Lever::radius;
   PlaneLever planeLever = PlaneLever::surface;  ///< of levers that are not the radius
   Stretch stretch = Stretch::after;
   bool implicitDamping = false, dashpotOutsideBound = false, resetSpringOnly = false;
-  RollingConventions rollingConventions = {};
-  CohesionConventions cohesionConventions = {};
 
   bool operator==(const Conventions&) const = default;
 };
 
-/// Those that have kernels of their own; any others run the general ones, at a third of the speed.
-inline constexpr Conventions conventionSets[] = {{},  // the thesis'
-                                                      // YADE's, whose mirror carries its packings.
-                                                 {.history = History::force,
-                                                  .lever = Lever::overlapMiddle,
-                                                  .velocityLever = Lever::overlapMiddle,
-                                                  .stretch = Stretch::before,
-                                                  .dashpotOutsideBound = true}};
+struct ConventionSet {
+  Conventions conventions;
+  bool everyEffect;  ///< each may be left out; else only whole laws have kernels
+};
+
+/// Those that have kernels of their own, in the plane and in space; any others run the general
+/// ones, at a third of the speed.
+inline constexpr ConventionSet conventionSets[] = {{{}, true},  // the thesis'
+                                                                // A case's that names none.
+                                                   {{.lever = Lever::overlapMiddle,
+                                                     .velocityLever = Lever::overlapMiddle,
+                                                     .stretch = Stretch::before,
+                                                     .resetSpringOnly = true},
+                                                    true},
+                                                   // YADE's, whose mirror carries its packings.
+                                                   {{.history = History::force,
+                                                     .lever = Lever::overlapMiddle,
+                                                     .velocityLever = Lever::overlapMiddle,
+                                                     .stretch = Stretch::before,
+                                                     .dashpotOutsideBound = true},
+                                                    false}};
 
 /// Every option at run time: the reference that each specialised law must match to the bit, and
 /// what runs laws and conventions that have no kernels of their own.
 template <class Real>
-struct GeneralLaw : LawConstants<Real>, Conventions {
+struct GeneralLaw : LawConstants<Real>, LawOptions<Real>, Conventions {
   Normal normal;
   Damper damper;
   Tangential tangential;
-  bool cutTension, normalDamping, rotation;
+  bool normalDamping, rotation;
   Rolling rolling;
+  RollingConventions rollingConventions;
   Cohesion cohesion;
+  CohesionConventions cohesionConventions;
 };
 
 /// The linear law under some conventions, with the effects of a scene as constants: what the scene
 /// does not call for is not compiled.
 template <class Real, ContactEffects E, Conventions C>
-struct EffectsLaw : LawConstants<Real> {
+struct EffectsLaw : LawConstants<Real>, LawOptions<Real> {
   static constexpr Tangential tangential = E.tangential;
-  static constexpr bool cutTension = E.cutTension;
   static constexpr bool normalDamping = E.normalDamping;
   static constexpr bool rotation = E.rotation;
   static constexpr Normal normal = Normal::linear;
   static constexpr Damper damper = Damper::constant;
   static constexpr History history = C.history;
-  static constexpr Bound bound = C.bound;
+  static constexpr bool signedBound = C.signedBound;
   static constexpr Lever lever = C.lever;
   static constexpr Lever velocityLever = C.velocityLever;
   static constexpr PlaneLever planeLever = C.planeLever;
@@ -80,13 +126,18 @@ struct EffectsLaw : LawConstants<Real> {
   static constexpr bool implicitDamping = C.implicitDamping;
   static constexpr bool dashpotOutsideBound = C.dashpotOutsideBound;
   static constexpr bool resetSpringOnly = C.resetSpringOnly;
-  static constexpr Rolling rolling = E.rollingSpring ? Rolling::spring : Rolling::none;
-  static constexpr RollingConventions rollingConventions = C.rollingConventions;
+  static constexpr Rolling rolling = E.rolling == Rolls::none            ? Rolling::none
+                                     : E.rolling == Rolls::withoutSpring ? Rolling::constantTorque
+                                                                         : Rolling::spring;
+  static constexpr RollingConventions rollingConventions{
+      .damper =
+          E.rolling == Rolls::criticalSpring ? RollingDamper::critical : RollingDamper::constant};
   static constexpr Cohesion cohesion = E.cohesion ? Cohesion::area : Cohesion::none;
-  static constexpr CohesionConventions cohesionConventions = C.cohesionConventions;
+  static constexpr CohesionConventions cohesionConventions{};
 
   EffectsLaw() = default;
-  explicit EffectsLaw(const GeneralLaw<Real>& general) : LawConstants<Real>(general) {}
+  explicit EffectsLaw(const GeneralLaw<Real>& general)
+      : LawConstants<Real>(general), LawOptions<Real>(general) {}
 };
 
 /// A law whose constants are those of each pair's materials.
@@ -104,19 +155,10 @@ concept HasMaterials = requires {
   L::ofMaterials;
 };
 
-/// The law without its constants. A law copied as a whole would stand in memory, where the compiler
-/// leaves it: its constants are each to be a vector.
+/// Whether contacts remember a tangential spring.
 template <class L>
-GRAIN_INLINE L onlySteps(const L& law) {
-  if constexpr (std::is_member_object_pointer_v<decltype(&L::planeLever)>) {  // the general one:
-                                                                              // its options too
-    return law;
-  } else {
-    L own;
-    own.dt = law.dt;
-    own.halfStep = law.halfStep;
-    return own;
-  }
+GRAIN_INLINE constexpr bool hasSprings(const L& law) {
+  return law.tangential == Tangential::spring || law.tangential == Tangential::springDashpot;
 }
 
 /// How many constants pairs can differ in.
@@ -126,15 +168,13 @@ inline constexpr std::size_t pairConstants = 14;
 template <class L, class Visit>
 GRAIN_INLINE void forPairConstants(const L& law, Visit&& visit) {
   using Constants = LawConstants<std::remove_cvref_t<decltype(law.kn)>>;
-  const bool springs =
-      law.tangential == Tangential::spring || law.tangential == Tangential::springDashpot;
   const bool dashpots =
       law.tangential == Tangential::viscous || law.tangential == Tangential::springDashpot;
   visit(0, &Constants::kn);
   if (law.normal == Normal::polynomial) visit(1, &Constants::kn3);
   if (law.normalDamping) visit(2, &Constants::gn);
   if (law.tangential != Tangential::none) visit(3, &Constants::mu);
-  if (springs) {
+  if (hasSprings(law)) {
     visit(4, &Constants::kt);
     visit(5, &Constants::inverseKt);
   }
@@ -152,15 +192,98 @@ GRAIN_INLINE void forPairConstants(const L& law, Visit&& visit) {
   visit(13, &Constants::plasticDepth);
 }
 
-/// Which of conventionSets a law has, so that only effects remain to be chosen; absent: none.
+/// Calls visit(member) for each number of LawOptions that pairs of bodies have a use for.
+template <class L, class Visit>
+GRAIN_INLINE void forPairOptions(const L& law, Visit&& visit) {
+  using Options = LawOptions<std::remove_cvref_t<decltype(law.dt)>>;
+  visit(&Options::leastForce);
+  if (law.tangential != Tangential::none) visit(&Options::ofPull);
+  if (law.cohesion == Cohesion::area) {
+    visit(&Options::lens);
+    visit(&Options::disks);
+    visit(&Options::walls);
+    visit(&Options::net);
+    visit(&Options::lessPull);
+    visit(&Options::size);
+    visit(&Options::body);
+  }
+  if (law.rolling == Rolling::none) return;
+  visit(&Options::effective);
+  visit(&Options::smallest);
+  visit(&Options::mean);
+  visit(&Options::ofLength);
+  visit(&Options::ofRadii);
+  visit(&Options::ofNothing);
+  visit(&Options::rollingNet);
+  visit(&Options::rollingSize);
+  visit(&Options::rollingElastic);
+  visit(&Options::unlimited);
+  visit(&Options::constantTorque);
+  visit(&Options::viscous);
+  visit(&Options::viscousByLoad);
+  visit(&Options::dashpotTested);
+  visit(&Options::dashpotLeftOut);
+}
+
+/// The law without its constants. A law copied as a whole would stand in memory, where the compiler
+/// leaves it: its constants are each to be a vector.
+template <class L>
+GRAIN_INLINE L withoutConstants(const L& law) {
+  if constexpr (std::is_member_object_pointer_v<decltype(&L::planeLever)>) {  // the general one:
+                                                                              // its options too
+    return law;
+  } else {
+    L own;
+    own.dt = law.dt;
+    own.halfStep = law.halfStep;
+    forPairOptions(law, [&](auto member) GRAIN_INLINE_LAMBDA { own.*member = law.*member; });
+    return own;
+  }
+}
+
+inline constexpr std::size_t effectVariants = 5 * 2 * 2 * rollsCount * 2;
+inline constexpr std::size_t contactVariants = std::size(conventionSets) * effectVariants;
+
+/// @param set  of conventionSets
+constexpr std::size_t indexOf(const ContactEffects& e, std::size_t set) {
+  const std::size_t tangential = set * 5 + static_cast<std::size_t>(e.tangential);
+  const std::size_t turning = (tangential * 2 + e.normalDamping) * 2 + e.rotation;
+  return (turning * rollsCount + static_cast<std::size_t>(e.rolling)) * 2 + e.cohesion;
+}
+constexpr ContactEffects contactEffects(std::size_t index) {
+  const std::size_t turning = index / (2 * rollsCount);
+  return {static_cast<Tangential>(turning / 4 % 5), turning / 2 % 2 == 1, turning % 2 == 1,
+          static_cast<Rolls>(index / 2 % rollsCount), index % 2 == 1};
+}
+
+/// Which kernels a law runs: its effects under one of conventionSets, as indexOf() numbers them;
+/// absent: the general ones.
 template <class Real>
-std::optional<std::size_t> conventionSet(const GeneralLaw<Real>& law) {
+std::optional<std::size_t> contactVariant(const GeneralLaw<Real>& law) {
   if (law.normal != Normal::linear || law.damper != Damper::constant) return std::nullopt;
-  if (law.rolling != Rolling::none && law.rolling != Rolling::spring) return std::nullopt;
   if (law.cohesion != Cohesion::none && law.cohesion != Cohesion::area) return std::nullopt;
+  const bool critical = law.rollingConventions.damper == RollingDamper::critical;
+  const Rolls rolls = law.rolling == Rolling::none     ? Rolls::none
+                      : law.rolling != Rolling::spring ? Rolls::withoutSpring
+                      : critical                       ? Rolls::criticalSpring
+                                                       : Rolls::spring;
   for (std::size_t set = 0; set < std::size(conventionSets); ++set)
-    if (static_cast<const Conventions&>(law) == conventionSets[set]) return set;
+    if (static_cast<const Conventions&>(law) == conventionSets[set].conventions)
+      return indexOf(
+          {law.tangential, law.normalDamping, law.rotation, rolls, law.cohesion == Cohesion::area},
+          set);
   return std::nullopt;
+}
+
+/// The kernel of a law's effects, or that of the same with the dashpots that it lacks, which are 0.
+/// @return null where neither is compiled
+template <class Kernel>
+Kernel kernelOf(const Kernel (&all)[contactVariants], std::size_t variant) {
+  if (all[variant] != nullptr) return all[variant];
+  ContactEffects effects = contactEffects(variant);
+  effects.normalDamping = true;
+  if (effects.tangential == Tangential::spring) effects.tangential = Tangential::springDashpot;
+  return all[indexOf(effects, variant / effectVariants)];
 }
 
 /// Whether a law asks for the compliances of ContactMotion.
@@ -195,14 +318,55 @@ GRAIN_INLINE constexpr bool seesRollingInertia(const L& law) {
 }
 
 template <class Real>
+LawOptions<Real> lawOptions(const Law& law) {
+  const auto one = [](bool is) { return is ? Real(1) : Real(0); };
+  const CohesionArea area = law.cohesionConventions.area;
+  const CohesionLoad load = law.cohesionConventions.load;
+  const RollingConventions& how = law.rollingConventions;
+  LawOptions<Real> to;
+  to.leastForce = law.cutTension ? Real(0) : -std::numeric_limits<Real>::infinity();
+  to.ofPull = one(law.bound == Bound::magnitude);
+  to.lens = one(area == CohesionArea::lens);
+  to.walls = area == CohesionArea::lens ? Real(0) : Real(2);
+  to.disks = area == CohesionArea::twiceBetweenDisks ? Real(4) : to.walls;
+  // Cohesion by area has no pull-off force.
+  to.net = one(load == CohesionLoad::net || load == CohesionLoad::withoutPull ||
+               load == CohesionLoad::plusTwicePullOff);
+  to.lessPull = one(load == CohesionLoad::withoutPull);
+  to.size = one(load == CohesionLoad::magnitudePlusPullOff);
+  to.body = one(load == CohesionLoad::netWithoutDashpot);
+  to.effective = how.length == RollingLength::effective        ? Real(1)
+                 : how.length == RollingLength::twiceEffective ? Real(2)
+                                                               : Real(0);
+  to.smallest = one(how.length == RollingLength::smallerRadius);
+  to.mean = one(how.length == RollingLength::meanRadius);
+  to.ofLength = one(how.stiffness == RollingStiffness::lengthSquare);
+  to.ofRadii = one(how.stiffness == RollingStiffness::radii);
+  to.ofNothing = one(how.stiffness == RollingStiffness::constant);
+  to.rollingNet =
+      one(how.load == RollingLoad::compression || how.load == RollingLoad::whileCompressed);
+  to.rollingSize = one(how.load == RollingLoad::magnitude);
+  to.rollingElastic = one(how.load == RollingLoad::elastic);
+  to.unlimited = how.load == RollingLoad::whileCompressed ? Real(0) : Real(-1);
+  to.constantTorque = one(law.rolling == Rolling::constantTorque);
+  to.viscous = one(law.rolling == Rolling::viscous);
+  to.viscousByLoad = one(law.rolling == Rolling::viscousByLoad);
+  to.dashpotTested = one(!how.dashpotOutsideBound);
+  to.dashpotLeftOut = one(how.resetSpringOnly);
+  return to;
+}
+
+template <class Real>
 GeneralLaw<Real> generalLaw(const Law& law, double dt, bool rotation) {
   GeneralLaw<Real> to;
+  static_cast<LawOptions<Real>&>(to) = lawOptions<Real>(law);
   to.kn = static_cast<Real>(law.kn);
   to.kn3 = static_cast<Real>(law.kn3);
-  to.gn = static_cast<Real>(law.gn);
+  // A dashpot that is not there is 0: kernels with it serve for a law without.
+  to.gn = static_cast<Real>(law.gn > 0.0 ? law.gn : 0.0);
   to.kt = static_cast<Real>(law.kt);
   to.inverseKt = static_cast<Real>(law.kt > 0.0 ? 1.0 / law.kt : 0.0);
-  to.gt = static_cast<Real>(law.gt);
+  to.gt = static_cast<Real>(law.tangential == Tangential::spring ? 0.0 : law.gt);
   to.mu = static_cast<Real>(law.mu);
   to.dt = static_cast<Real>(dt);
   to.halfStep = static_cast<Real>(0.5 * dt);
@@ -210,14 +374,13 @@ GeneralLaw<Real> generalLaw(const Law& law, double dt, bool rotation) {
   to.damper = law.damper;
   to.history = law.history;
   to.tangential = law.friction() ? law.tangential : Tangential::none;
-  to.bound = law.bound;
+  to.signedBound = law.bound == Bound::signedForce;
   to.lever = law.lever;
   to.velocityLever = law.velocityLever.value_or(law.lever);
   // A lever that is the radius is that on planes, too.
   if (to.lever != Lever::radius || to.velocityLever != Lever::radius)
     to.planeLever = law.planeLever;
   to.stretch = law.stretch;
-  to.cutTension = law.cutTension;
   to.normalDamping = law.gn > 0.0;
   to.implicitDamping = law.damping == Damping::implicit;
   to.dashpotOutsideBound = law.dashpotOutsideBound;
@@ -231,9 +394,9 @@ GeneralLaw<Real> generalLaw(const Law& law, double dt, bool rotation) {
   to.k2 = static_cast<Real>(law.k2);
   to.plasticDepth = static_cast<Real>(law.plasticDepth);
   to.cohesion = law.cohesion;
-  if (to.cohesion != Cohesion::none) to.cohesionConventions = law.cohesionConventions;
+  to.cohesionConventions = law.cohesionConventions;
   to.rolling = to.rotation ? law.rolling : Rolling::none;
-  if (to.rolling != Rolling::none) to.rollingConventions = law.rollingConventions;
+  to.rollingConventions = law.rollingConventions;
   return to;
 }
 

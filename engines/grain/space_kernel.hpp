@@ -11,19 +11,20 @@ inline constexpr std::size_t blockSize = 128;
 /// go through the law side by side.
 inline constexpr std::size_t meetingBlock = 64, lookedAt = 32, width = 8;
 
-/// The linear law with a spring and dashpots, the everyday one, under any conventions: what else a
-/// law may have is not compiled.
-struct EverydayLaw : LawConstants<double>, Conventions {
+/// The linear law with a spring and dashpots, the everyday one, under conventions at run time: what
+/// else a law may have is not compiled.
+struct EverydayLaw : LawConstants<double>, LawOptions<double>, Conventions {
   static constexpr Normal normal = Normal::linear;
   static constexpr Damper damper = Damper::constant;
   static constexpr Tangential tangential = Tangential::springDashpot;
   static constexpr bool normalDamping = true, rotation = true;
   static constexpr Rolling rolling = Rolling::none;
+  static constexpr RollingConventions rollingConventions{};
   static constexpr Cohesion cohesion = Cohesion::none;
-  bool cutTension;
+  static constexpr CohesionConventions cohesionConventions{};
 
   explicit EverydayLaw(const GeneralLaw<double>& law)
-      : LawConstants(law), Conventions(law), cutTension(law.cutTension) {}
+      : LawConstants(law), LawOptions(law), Conventions(law) {}
 };
 
 GRAIN_INLINE double sumOfThree(const Lanes& lanes) {
@@ -100,8 +101,8 @@ static SpaceReport pairKernel(const GeneralLaw<double>& general, const SpaceConv
       const double distance = length(d);
       const double overlap = all.position[i].w + all.position[j].w - distance;
       const Meeting<double> meeting = meetingOf(law, all, i, j, (1.0 / distance) * d, overlap);
-      SpaceMemory<double>& kept = pairs.kept[p];
-      if (pairs.touches[p] == 0) kept = {};
+      SpaceMemory<double> kept{};
+      if (pairs.touches[p] != 0) kept = pairs.contacts.memory(p);
       bool touches = meeting.overlap > 0.0;
       if (law.cohesion == Cohesion::jkr) {
         const double radius =
@@ -115,8 +116,8 @@ static SpaceReport pairKernel(const GeneralLaw<double>& general, const SpaceConv
       if (!touches) continue;
       ++report.touching;
       const MeetingForce<double> force = meetingForce(law, how, meeting, kept);
-      pairs.results[p] = {meeting.overlap, force.normal, force.sliding, force.tangential,
-                          force.rolling};
+      pairs.contacts.set(
+          p, kept, {meeting.overlap, force.normal, force.sliding, force.tangential, force.rolling});
       push(law, all, active, pairs, p, {force.force, force.torqueI, force.torqueJ});
     }
   }
@@ -138,23 +139,27 @@ struct Column {
 
 /// Pairs that meet, on their way through the law.
 struct alignas(64) MeetingBlock {
-  Column apart, velocity, spinI, spinJ, normal, spring;
+  Column apart, velocity, spinI, spinJ, normal, spring, angle;
   double radiusI[meetingBlock], radiusJ[meetingBlock];
   double inverseMassI[meetingBlock], inverseMassJ[meetingBlock];
   double inverseInertiaI[meetingBlock], inverseInertiaJ[meetingBlock];
-  Column force, tangential, torqueI, torqueJ;
+  Column force, tangential, rolling, torqueI, torqueJ;
   double overlap[meetingBlock], normalForce[meetingBlock], sliding[meetingBlock];
 };
 
-/// The same of a law with the effects of EverydayLaw that knows its conventions, so that pairs are
-/// taken side by side: the same arithmetic, to the bit.
-template <class L, SpringTurn Turn, SpringTwist Twist>
-static SpaceReport sideBySideKernel(const GeneralLaw<double>& general, const SpaceConventions&,
-                                    const SpaceView& view, const SpacePairs& list, double range,
-                                    double maxOverlap) {
+/// The same of a law that knows its effects and conventions, so that pairs are taken side by side:
+/// the same arithmetic, to the bit. What the law has no use for is not gathered.
+template <class L>
+static SpaceReport contactKernel(const GeneralLaw<double>& general, const SpaceConventions&,
+                                 const SpaceView& view, const SpacePairs& list, double range,
+                                 double maxOverlap) {
   const L law(general);
+  const bool friction = law.tangential != Tangential::none, rolls = law.rolling != Rolling::none;
+  const bool remembers = hasSprings(law) || law.rolling == Rolling::spring;
+  const bool masses = seesMasses(law) || seesRollingInertia(law);
   const SpaceView all = view;  // copies that no store through a pointer can change
   const SpacePairs pairs = list;
+  const SpaceContactView kept = pairs.contacts;
   ActiveSpheres active = view.active;
   SpaceReport report;
   std::size_t near[meetingBlock + width];
@@ -172,20 +177,24 @@ static SpaceReport sideBySideKernel(const GeneralLaw<double>& general, const Spa
       const auto j = static_cast<std::size_t>(pairs.j[p]);
       b.apart.set(k,
                   vectorOf(all.position[i]) - vectorOf(all.position[j]) - vectorOf(pairs.shift(p)));
-      b.velocity.set(k, vectorOf(all.velocity[i]) - vectorOf(all.velocity[j]));
-      b.spinI.set(k, vectorOf(all.spin[i]));
-      b.spinJ.set(k, vectorOf(all.spin[j]));
+      if (law.normalDamping || friction)
+        b.velocity.set(k, vectorOf(all.velocity[i]) - vectorOf(all.velocity[j]));
+      if (law.rotation) {
+        b.spinI.set(k, vectorOf(all.spin[i]));
+        b.spinJ.set(k, vectorOf(all.spin[j]));
+      }
       b.radiusI[k] = all.position[i].w;
       b.radiusJ[k] = all.position[j].w;
-      if (law.implicitDamping) {
+      if (masses) {
         b.inverseMassI[k] = all.inverseMass[i];
         b.inverseMassJ[k] = all.inverseMass[j];
         b.inverseInertiaI[k] = all.inverseInertia[i];
         b.inverseInertiaJ[k] = all.inverseInertia[j];
       }
       const bool touched = pairs.touches[p] != 0;
-      b.normal.set(k, touched ? pairs.kept[p].normal : Vec3<double>{});
-      b.spring.set(k, touched ? pairs.kept[p].spring : Vec3<double>{});
+      if (remembers) b.normal.set(k, touched ? kept.touch[p].normal : Vec3<double>{});
+      if (hasSprings(law)) b.spring.set(k, touched ? kept.spring[p] : Vec3<double>{});
+      if (law.rolling == Rolling::spring) b.angle.set(k, touched ? kept.angle[p] : Vec3<double>{});
     }
 #pragma GCC ivdep
     for (std::size_t k = 0; k < full; ++k) {
@@ -193,34 +202,45 @@ static SpaceReport sideBySideKernel(const GeneralLaw<double>& general, const Spa
       const double distance = length(apart);
       Meeting<double> meeting{};
       meeting.normal = (1.0 / distance) * apart;
-      meeting.velocity = b.velocity.at(k);
-      meeting.spinI = b.spinI.at(k);
-      meeting.spinJ = b.spinJ.at(k);
+      if (law.normalDamping || friction) meeting.velocity = b.velocity.at(k);
       meeting.radiusI = b.radiusI[k];
       meeting.radiusJ = b.radiusJ[k];
       meeting.overlap = meeting.radiusI + meeting.radiusJ - distance;
-      meeting.leverI = armOf(law.lever, meeting.radiusI, meeting.radiusJ, meeting.overlap);
-      meeting.leverJ = armOf(law.lever, meeting.radiusJ, meeting.radiusI, meeting.overlap);
-      meeting.armI = armOf(law.velocityLever, meeting.radiusI, meeting.radiusJ, meeting.overlap);
-      meeting.armJ = armOf(law.velocityLever, meeting.radiusJ, meeting.radiusI, meeting.overlap);
-      if (law.implicitDamping) {
+      if (law.rotation) {
+        meeting.spinI = b.spinI.at(k);
+        meeting.spinJ = b.spinJ.at(k);
+        meeting.leverI = armOf(law.lever, meeting.radiusI, meeting.radiusJ, meeting.overlap);
+        meeting.leverJ = armOf(law.lever, meeting.radiusJ, meeting.radiusI, meeting.overlap);
+        meeting.armI = armOf(law.velocityLever, meeting.radiusI, meeting.radiusJ, meeting.overlap);
+        meeting.armJ = armOf(law.velocityLever, meeting.radiusJ, meeting.radiusI, meeting.overlap);
+      }
+      if (masses) {
+        meeting.inverseMassI = b.inverseMassI[k];
+        meeting.inverseMassJ = b.inverseMassJ[k];
         meeting.inverseMass = b.inverseMassI[k] + b.inverseMassJ[k];
         meeting.inverseInertiaI = b.inverseInertiaI[k];
         meeting.inverseInertiaJ = b.inverseInertiaJ[k];
       }
-      SpaceMemory<double> kept{};
-      kept.normal = b.normal.at(k);
-      kept.spring = b.spring.at(k);
-      const MeetingForce<double> force = meetingForce(law, {Turn, Twist}, meeting, kept);
-      b.normal.set(k, kept.normal);
-      b.spring.set(k, kept.spring);
+      SpaceMemory<double> memory{};
+      if (remembers) memory.normal = b.normal.at(k);
+      if (hasSprings(law)) memory.spring = b.spring.at(k);
+      if (law.rolling == Rolling::spring) memory.angle = b.angle.at(k);
+      const MeetingForce<double> force = meetingForce(law, SpaceConventions{}, meeting, memory);
+      b.normal.set(k, meeting.normal);
       b.force.set(k, force.force);
-      b.tangential.set(k, force.tangential);
-      b.torqueI.set(k, force.torqueI);
-      b.torqueJ.set(k, force.torqueJ);
       b.overlap[k] = meeting.overlap;
       b.normalForce[k] = force.normal;
-      b.sliding[k] = force.sliding;
+      if (friction) {
+        b.tangential.set(k, force.tangential);
+        b.sliding[k] = force.sliding;
+      }
+      if (hasSprings(law)) b.spring.set(k, memory.spring);
+      if (law.rotation) {
+        b.torqueI.set(k, force.torqueI);
+        b.torqueJ.set(k, force.torqueJ);
+      }
+      if (rolls) b.rolling.set(k, force.rolling);
+      if (law.rolling == Rolling::spring) b.angle.set(k, memory.angle);
     }
     for (std::size_t k = 0; k < found; ++k) {
       const std::size_t p = near[k];
@@ -230,9 +250,14 @@ static SpaceReport sideBySideKernel(const GeneralLaw<double>& general, const Spa
       pairs.setTouches(p, b.overlap[k] > 0.0, b.radiusI[k] + b.radiusJ[k] + range);
       if (!(b.overlap[k] > 0.0)) continue;
       ++report.touching;
-      pairs.kept[p] = {b.normal.at(k), b.spring.at(k), {}, 0.0, 0.0};
-      pairs.results[p] = {b.overlap[k], b.normalForce[k], b.sliding[k], b.tangential.at(k), {}};
-      push(law, all, active, pairs, p, {b.force.at(k), b.torqueI.at(k), b.torqueJ.at(k)});
+      kept.touch[p] = {b.normal.at(k), b.overlap[k], b.normalForce[k]};
+      if (friction) kept.slide[p] = {b.tangential.at(k), b.sliding[k]};
+      if (hasSprings(law)) kept.spring[p] = b.spring.at(k);
+      if (rolls) kept.rolling[p] = b.rolling.at(k);
+      if (law.rolling == Rolling::spring) kept.angle[p] = b.angle.at(k);
+      SpacePush force{b.force.at(k), {}, {}};
+      if (law.rotation) force = {b.force.at(k), b.torqueI.at(k), b.torqueJ.at(k)};
+      push(law, all, active, pairs, p, force);
     }
     found = 0;
   }

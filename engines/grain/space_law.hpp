@@ -38,6 +38,23 @@ GRAIN_INLINE Vec3<Real> either(bool first, const Vec3<Real>& a, const Vec3<Real>
   return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
 }
 
+template <class Real>
+GRAIN_INLINE Vec3<Real> operator-(const Vec3<Real>& a) {
+  return {-a.x, -a.y, -a.z};
+}
+
+/// `some`, or `all` of it and a further part.
+template <class Real>
+GRAIN_INLINE Vec3<Real> plusShare(const Vec3<Real>& some, const Vec3<Real>& all, bool share,
+                                  const Vec3<Real>&) {
+  return either(share, all, some);
+}
+template <class Real>
+GRAIN_INLINE Vec3<Real> plusShare(const Vec3<Real>& some, const Vec3<Real>&, Real share,
+                                  const Vec3<Real>& part) {
+  return some + share * part;
+}
+
 /// How ξ follows a normal that turned from n to n′, before it is stretched: by the smallest
 /// rotation from n to n′; by that to first order (YADE: ScGeom::rotate); less its part along n′,
 /// and then to the old length (LAMMPS' pair_style granular) or not (gran/hooke/history).
@@ -49,6 +66,8 @@ enum class SpringTwist { meanSpin, none };
 struct SpaceConventions {
   SpringTurn turn = SpringTurn::rotated;
   SpringTwist twist = SpringTwist::meanSpin;
+
+  bool operator==(const SpaceConventions&) const = default;
 };
 
 /// ξ in the tangent plane of `now` that was in that of `before`, both of length 1.
@@ -117,13 +136,15 @@ struct MeetingForce {
 /// f* within the bound, else bound·f*/|f*|; the spring is what is left of it: springForce() of
 /// contact_force.hpp with directions in place of signs.
 /// @param unit     force per spring  @param inverse 1/unit, or 0
-/// @param stretch  what the spring grows by in a step  @param outside the dashpot is not tested
-template <class Real>
+/// @param stretch  what the spring grows by in a step
+/// @tparam Share  of an option that is known bool, of one that is a number of LawOptions that
+template <class Real, class Share>
 struct SpringLimit {
   Stretch when;
   Real unit, inverse, bound;
-  bool limited, outside, resetSpringOnly;
-  Real divisor;  ///< of implicit damping
+  bool limited;
+  Share dashpotTested, dashpotLeftOut;  ///< against the bound; of the spring where it slips
+  Real divisor;                         ///< of implicit damping
 
   GRAIN_INLINE Vec3<Real> force(Vec3<Real>& spring, const Vec3<Real>& stretch,
                                 const Vec3<Real>& viscous, Real& sliding) const {
@@ -132,13 +153,14 @@ struct SpringLimit {
     const Vec3<Real> elastic = -unit * stretched;
     Vec3<Real> trial = elastic + viscous;
     if (divisor != Real(1)) trial = (Real(1) / divisor) * trial;
-    const Vec3<Real> tested = either(outside, elastic, trial);
+    const Vec3<Real> tested = plusShare(elastic, trial, dashpotTested, viscous);
     const Real size = length(tested);
     // Choices of numbers and not of ways to go, so that contacts can be taken side by side.
     const bool holds = !limited || size <= bound;
     // A bound below zero turns the force round; of no force it has no direction.
     const Vec3<Real> slipping = (size > Real(0) ? bound / size : Real(0)) * tested;
-    Vec3<Real> slipped = -inverse * either(resetSpringOnly, slipping - viscous, slipping);
+    Vec3<Real> slipped =
+        -inverse * plusShare(slipping, slipping - viscous, dashpotLeftOut, -viscous);
     if (when == Stretch::midpoint) slipped += Real(0.5) * stretch;
     spring = either(holds, stretched + (Real(1) - part) * stretch, slipped);
     sliding = holds ? Real(0) : Real(1);
@@ -180,14 +202,14 @@ GRAIN_INLINE Vec3<Real> tangentialForce(const L& law, const ContactMotion<Real>&
     viscous = -gt * slip;
     if (law.implicitDamping) divisor += gt * contact.tangentialCompliance;
   }
-  const SpringLimit<Real> limit{law.stretch,
-                                force ? Real(1) : stiffness,
-                                inverse,
-                                bound,
-                                true,
-                                law.dashpotOutsideBound,
-                                law.resetSpringOnly,
-                                divisor};
+  const SpringLimit<Real, bool> limit{law.stretch,
+                                      force ? Real(1) : stiffness,
+                                      inverse,
+                                      bound,
+                                      true,
+                                      !law.dashpotOutsideBound,
+                                      law.resetSpringOnly,
+                                      divisor};
   return limit.force(spring, stretch, viscous, sliding);
 }
 
@@ -200,29 +222,23 @@ GRAIN_INLINE Vec3<Real> rollingResistance(const L& law, const Meeting<Real>& mee
   const Vec3<Real> relative = meeting.spinI - meeting.spinJ;
   const Vec3<Real> spin = relative - dot(relative, meeting.normal) * meeting.normal;
   RollingMotion<Real> motion = rollingMotion(law, meeting.radiusI, meeting.radiusJ, Real(0));
-  if (law.rolling == Rolling::viscous) return -law.gr * motion.length * motion.length * spin;
   const Real bound = rollingBound(law, motion, contact, load);
-  if (law.rolling == Rolling::viscousByLoad) return -bound * motion.length * spin;
-  if (law.rolling == Rolling::constantTorque) {
-    const Real size = length(spin);
-    return (size > Real(0) ? -bound / size : Real(0)) * spin;
+  if (law.rolling != Rolling::spring) {
+    const Real viscous = law.viscous * (law.gr * motion.length * motion.length) +
+                         law.viscousByLoad * (bound * motion.length);
+    const Real size = length(spin), constant = law.constantTorque * bound;
+    return (-viscous - (size > Real(0) ? constant / size : Real(0))) * spin;
   }
   if (seesRollingInertia(law))
     motion.inertia =
         Real(1) /
         (inverseRollingInertia(meeting.inverseMassI, meeting.inverseInertiaI, meeting.radiusI) +
          inverseRollingInertia(meeting.inverseMassJ, meeting.inverseInertiaJ, meeting.radiusJ));
-  const RollingConventions c = law.rollingConventions;
   const Real stiffness = law.kr * motion.square;
   Real sliding;
-  const SpringLimit<Real> limit{law.stretch,
-                                stiffness,
-                                Real(1) / stiffness,
-                                bound,
-                                c.load != RollingLoad::whileCompressed || bound > Real(0),
-                                c.dashpotOutsideBound,
-                                c.resetSpringOnly,
-                                Real(1)};
+  const SpringLimit<Real, Real> limit{
+      law.stretch,           stiffness,         Real(1) / stiffness, bound,
+      bound > law.unlimited, law.dashpotTested, law.dashpotLeftOut,  Real(1)};
   return limit.force(angle, law.dt * spin, -rollingDamping(law, motion) * spin, sliding);
 }
 
@@ -240,7 +256,7 @@ GRAIN_INLINE void followNormal(const L& law, const SpaceConventions& how,
     spring = turnedSpring(how.turn, spring, before, now);
     if (twists) spring = twistedSpring(how.turn, spring, about, twist);
   };
-  follow(kept.spring);
+  if (hasSprings(law)) follow(kept.spring);
   if (law.rolling == Rolling::spring) follow(kept.angle);
 }
 
@@ -281,7 +297,7 @@ GRAIN_INLINE MeetingForce<Real> meetingForce(const L& law, const SpaceConvention
   const bool friction = law.tangential != Tangential::none;
   const bool rolls = law.rotation && law.rolling != Rolling::none;
   const ContactMotion<Real> motion = motionOf(law, meeting);
-  if (friction || rolls) followNormal(law, how, meeting, kept);
+  if (hasSprings(law) || law.rolling == Rolling::spring) followNormal(law, how, meeting, kept);
   kept.normal = n;
 
   const Real body = remembersRest(law) ? laggedPlasticForce(law, motion, kept.memory, kept.rest)

@@ -36,8 +36,14 @@ bool earlier(const A& a, const B& b) {
 }  // namespace
 
 SpaceLists::SpaceLists(std::size_t moving, std::size_t parts, const SpaceBox& box, Skin skin,
-                       double range, const SpaceKernels& kernels)
-    : moving_(moving), skin_(skin), range_(range), kernels_(kernels), cells_(box), parts_(parts) {
+                       double range, const SpaceRecords& records, const SpaceKernels& kernels)
+    : moving_(moving),
+      skin_(skin),
+      range_(range),
+      neighbours_(kernels.neighbours),
+      choose_(kernels.choose),
+      cells_(box),
+      parts_(parts, Part(records)) {
   for (std::size_t image = 0; image < imageCount; ++image)
     image_.push_back(cells_.boxes(boxesOf(static_cast<std::int32_t>(image))));
 }
@@ -48,10 +54,7 @@ void SpaceLists::update(std::span<const Quad> position, std::span<const double> 
   requireFinite(position);
   skin_.allow(travel, allowance_);
   team.run([&](std::size_t part) {
-    for (NearPairs& pairs : parts_[part].near) {
-      pairs.before.clear();
-      pairs.collectTouching(pairs.before);
-    }
+    for (NearPairs& pairs : parts_[part].near) pairs.rememberTouching();
     parts_[part].skinUsed = skinUsed(part, position);
   });
   double used = 0.0;
@@ -70,12 +73,17 @@ void SpaceLists::restore(std::vector<Kept> touching, std::span<const Quad> posit
   requireFinite(position);
   skin_.allow(travel, allowance_);
   std::ranges::sort(touching, [](const Kept& a, const Kept& b) { return earlier(a, b); });
-  for (Part& part : parts_)
-    for (NearPairs& pairs : part.near) pairs.before.clear();
-  for (std::size_t part = 0; const Kept& pair : touching) {
-    while (!isUpTo(part, static_cast<std::size_t>(pair.i))) ++part;
-    const bool inside = isUpTo(part, static_cast<std::size_t>(pair.j));
-    parts_[part].near[inside ? 0 : 1].before.push_back(pair);
+  for (std::size_t part = 0, begin = 0; part < parts(); ++part) {
+    const auto ofPart = [&](std::size_t k) {
+      return isUpTo(part, static_cast<std::size_t>(touching[k].i));
+    };
+    std::size_t end = begin;
+    while (end < touching.size() && ofPart(end)) ++end;
+    std::array<std::vector<Kept>, 2> lists;
+    for (; begin < end; ++begin)
+      lists[isUpTo(part, static_cast<std::size_t>(touching[begin].j)) ? 0 : 1].push_back(
+          touching[begin]);
+    for (std::size_t list = 0; list < 2; ++list) parts_[part].near[list].remember(lists[list]);
   }
   rebuild(position, team);
   choose(position, team);
@@ -103,10 +111,14 @@ void SpaceLists::rebuild(std::span<const Quad> position, ThreadTeam& team) {
   skin_.endRebuild();
 }
 
-std::vector<SpaceLists::Kept> SpaceLists::touching() const {
+std::vector<SpaceLists::Kept> SpaceLists::touching() {
   std::vector<Kept> found;
-  for (const Part& part : parts_)
-    for (const NearPairs& pairs : part.near) pairs.collectTouching(found);
+  forNear([&](const SpacePairs& pairs) {
+    for (std::size_t p = 0; p < pairs.count; ++p)
+      if (pairs.touches[p] != 0)
+        found.push_back(
+            {pairs.i[p], pairs.j[p], pairs.contacts.memory(p), pairs.contacts.result(p)});
+  });
   std::ranges::sort(found, [](const Kept& a, const Kept& b) { return earlier(a, b); });
   return found;
 }
@@ -116,7 +128,7 @@ PairCounts SpaceLists::counts() const {
   for (const Part& part : parts_) {
     counts.far += part.far.size();
     for (const NearPairs& pairs : part.near) {
-      counts.touching += pairs.before.size();
+      counts.touching += pairs.beforeI.size();
       counts.near += pairs.i.size();
     }
   }
@@ -150,8 +162,8 @@ void SpaceLists::collect(std::size_t part, std::span<const Quad> position) {
     const Quad mine = cells_.inBox(i, position[i]);
     std::size_t found = 0;
     cells_.around(i, [&](std::size_t begin, std::size_t end) {
-      found += kernels_.neighbours(view, mine, static_cast<std::int32_t>(i), begin, end, reach,
-                                   row.data() + found);
+      found += neighbours_(view, mine, static_cast<std::int32_t>(i), begin, end, reach,
+                           row.data() + found);
     });
     far.insert(far.end(), row.begin(), row.begin() + static_cast<std::ptrdiff_t>(found));
     farBegin.push_back(static_cast<std::int32_t>(far.size()));
@@ -175,10 +187,9 @@ void SpaceLists::chooseNear(std::size_t number, std::span<const Quad> position) 
   Part& part = parts_[number];
   const std::size_t first = partBegin(number);
   part.chosen.resize(part.far.size() + 1);
-  const std::size_t count =
-      kernels_.choose({first, partBegin(number + 1) - first, part.farBegin.data(), part.far.data(),
-                       place_.data(), image_.data()},
-                      part.chosen.data());
+  const std::size_t count = choose_({first, partBegin(number + 1) - first, part.farBegin.data(),
+                                     part.far.data(), place_.data(), image_.data()},
+                                    part.chosen.data());
   sortChosen(part, count);
   std::size_t across = 0;
   const auto farPair = [&](std::size_t p) -> const SpaceNeighbour& {
@@ -194,7 +205,7 @@ void SpaceLists::chooseNear(std::size_t number, std::span<const Quad> position) 
   const std::array<SpacePairs, 2> listed{part.near[0].view(), part.near[1].view()};
   std::array<std::size_t, 2> at{};
   // Both are in one order, so that one walk through both finds every pair that touches.
-  std::array<const Kept*, 2> next{part.near[0].before.data(), part.near[1].before.data()};
+  std::array<std::size_t, 2> next{};
   for (std::size_t p = 0; p < count; ++p) {
     const std::size_t list = across > 0 && isAcross(p) ? 1 : 0, n = at[list]++;
     NearPairs& near = part.near[list];
@@ -209,15 +220,21 @@ void SpaceLists::chooseNear(std::size_t number, std::span<const Quad> position) 
       near.shiftOf[n] = static_cast<std::int32_t>(near.shifts.size());
       near.shifts.push_back(cells_.boxes(boxes));
     }
-    const struct { std::int32_t i, j; } here{near.i[n], near.j[n]};
-    const Kept *const last = near.before.data() + near.before.size(), *&kept = next[list];
-    while (kept != last && earlier(*kept, here)) ++kept;
-    const double reach = position[static_cast<std::size_t>(here.i)].w +
-                         position[static_cast<std::size_t>(here.j)].w + range_;
-    listed[list].setTouches(n, kept != last && !earlier(here, *kept), reach);
-    if (near.touches[n] == 0) continue;
-    near.kept[n] = kept->memory;
-    near.results[n] = kept->result;
+    std::size_t& kept = next[list];
+    const std::size_t last = near.beforeI.size();
+    const auto isBefore = [&] {
+      return near.beforeI[kept] < near.i[n] ||
+             (near.beforeI[kept] == near.i[n] && near.beforeJ[kept] < near.j[n]);
+    };
+    while (kept < last && isBefore()) ++kept;
+    const double reach = position[static_cast<std::size_t>(near.i[n])].w +
+                         position[static_cast<std::size_t>(near.j[n])].w + range_;
+    const bool touches =
+        kept < last && near.beforeI[kept] == near.i[n] && near.beforeJ[kept] == near.j[n];
+    listed[list].setTouches(n, touches, reach);
+    if (!touches) continue;
+    const SpaceContactView before = near.before.view();
+    listed[list].contacts.set(n, before.memory(kept), before.result(kept));
   }
 }
 
@@ -234,16 +251,34 @@ void SpaceLists::sortChosen(Part& part, std::size_t count) {
 }
 
 SpacePairs SpaceLists::NearPairs::view() {
-  return {i.size(),       i.data(),
-          j.data(),       shifts.data(),
-          shiftOf.data(), within.data(),
-          kept.data(),    results.data(),
-          touches.data(), pushes.empty() ? nullptr : pushes.data()};
+  return {i.size(),        i.data(),       j.data(),
+          shifts.data(),   shiftOf.data(), within.data(),
+          contacts.view(), touches.data(), pushes.empty() ? nullptr : pushes.data()};
 }
 
-void SpaceLists::NearPairs::collectTouching(std::vector<Kept>& found) const {
-  for (std::size_t p = 0; p < i.size(); ++p)
-    if (touches[p] != 0) found.push_back({i[p], j[p], kept[p], results[p]});
+void SpaceLists::NearPairs::rememberTouching() {
+  beforeI.clear();
+  beforeJ.clear();
+  for (std::size_t p = 0; p < i.size(); ++p) {
+    if (touches[p] == 0) continue;
+    beforeI.push_back(i[p]);
+    beforeJ.push_back(j[p]);
+  }
+  before.resize(beforeI.size());
+  const SpaceContactView from = contacts.view(), to = before.view();
+  for (std::size_t p = 0, n = 0; p < i.size(); ++p)
+    if (touches[p] != 0) to.set(n++, from.memory(p), from.result(p));
+}
+
+void SpaceLists::NearPairs::remember(const std::vector<Kept>& touching) {
+  beforeI.clear();
+  beforeJ.clear();
+  before.resize(touching.size());
+  for (const Kept& pair : touching) {
+    before.view().set(beforeI.size(), pair.memory, pair.result);
+    beforeI.push_back(pair.i);
+    beforeJ.push_back(pair.j);
+  }
 }
 
 /// @param apart  what pairs do is left to others
@@ -254,9 +289,8 @@ void SpaceLists::NearPairs::makeRoom(std::size_t count, bool apart) {
   shiftOf.resize(count);
   within.resize(count);
   touches.resize(count);
-  if (kept.size() < count) {
-    kept.resize(count);
-    results.resize(count);
+  if (contacts.size() < count) {
+    contacts.resize(count);
     if (apart) pushes.resize(count);
   }
 }

@@ -7,6 +7,7 @@
 
 #include "engines/grain/skin.hpp"
 #include "engines/grain/space_cells.hpp"
+#include "engines/grain/space_contacts.hpp"
 #include "engines/grain/thread_team.hpp"
 
 namespace grain {
@@ -21,8 +22,9 @@ class SpaceLists {
  public:
   /// @param moving   spheres 0 … moving−1 move; those after belong to walls and never meet
   /// @param range    how far apart bodies may be in contact [m]
+  /// @param records  of contacts
   SpaceLists(std::size_t moving, std::size_t parts, const SpaceBox& box, Skin skin, double range,
-             const SpaceKernels& kernels);
+             const SpaceRecords& records, const SpaceKernels& kernels);
 
   std::size_t parts() const { return parts_.size(); }
   /// The first moving sphere of a part; of part parts() their end.
@@ -38,14 +40,14 @@ class SpaceLists {
   void update(std::span<const Quad> position, std::span<const double> travel,
               std::size_t stepsSince, ThreadTeam& team);
 
-  /// A pair that touches, on its way from one choice to the next.
+  /// A pair that touches, on its way to other numbers or a file.
   struct Kept {
     std::int32_t i, j;
     SpaceMemory<double> memory;
     SpaceResult result;
   };
   /// In ascending (i, j).
-  std::vector<Kept> touching() const;
+  std::vector<Kept> touching();
   /// Lists built anew, of pairs that touch.
   /// @throws NotFinite
   void restore(std::vector<Kept> touching, std::span<const Quad> position,
@@ -76,14 +78,17 @@ class SpaceLists {
     Array<Quad> shifts;  ///< none, then those of pairs across a border
     std::vector<std::int32_t> shiftOf;
     std::vector<double> within;
-    std::vector<SpaceMemory<double>> kept;  ///< with room to spare, as results and pushes
-    std::vector<SpaceResult> results;
+    SpaceContacts contacts;  ///< with room to spare, as pushes
     std::vector<std::uint8_t> touches;
     std::vector<SpacePush> pushes;  ///< of pairs across
-    std::vector<Kept> before;  ///< those that touched at the choice before, in ascending (i, j)
+    /// Those that touched at the choice before, in ascending (i, j).
+    std::vector<std::int32_t> beforeI, beforeJ;
+    SpaceContacts before;
 
+    explicit NearPairs(const SpaceRecords& records) : contacts(records), before(records) {}
     SpacePairs view();
-    void collectTouching(std::vector<Kept>& found) const;
+    void rememberTouching();
+    void remember(const std::vector<Kept>& touching);
     void makeRoom(std::size_t count, bool apart);
   };
   struct Part {
@@ -91,7 +96,9 @@ class SpaceLists {
     std::vector<std::int32_t> farBegin;
     std::vector<SpaceChoice> chosen;
     std::array<NearPairs, 2> near;  ///< inside, across
-    double skinUsed;                ///< [m]
+    double skinUsed = 0.0;          ///< [m]
+
+    explicit Part(const SpaceRecords& records) : near{NearPairs(records), NearPairs(records)} {}
   };
 
   void requireFinite(std::span<const Quad> position) const;
@@ -110,7 +117,8 @@ class SpaceLists {
   std::size_t moving_;
   Skin skin_;
   double range_;
-  SpaceKernels kernels_;
+  SpaceNeighbourKernel neighbours_;
+  SpaceChoiceKernel choose_;
   SpaceCells cells_;
   std::vector<Part> parts_;
   // What choosing from far pairs needs. The images are those of the 27 numbers.

@@ -63,27 +63,30 @@ void Spheres::beginUnderWay(const std::vector<SpaceContact>& forces) {
     kick(-by);
   };
   const auto evaluate = [&] {
-    const auto remember = [&](std::int32_t i, std::size_t j, SpaceMemory<double>& kept,
-                              std::uint8_t& touches) {
+    const auto remember = [&](std::int32_t i, std::size_t j, const SpaceContactView& contacts,
+                              std::size_t at, std::uint8_t& touches) {
       const std::int32_t a = idOf(i), b = idOf(static_cast<std::int32_t>(j));
       const auto found = springs.find({std::min(a, b), std::max(a, b)});
-      const Vector normal = touches != 0 ? kept.normal : Vector{};
-      kept = found == springs.end() ? SpaceMemory<double>{} : found->second;
+      const Vector normal = touches != 0 ? contacts.touch[at].normal : Vector{};
+      SpaceMemory<double> kept = found == springs.end() ? SpaceMemory<double>{} : found->second;
       kept.normal = normal;
       if (found != springs.end()) touches = 1;  // what it has is kept
-      if (a < b) return;
-      kept.spring = -1.0 * kept.spring;
-      kept.angle = -1.0 * kept.angle;
+      if (b < a) {
+        kept.spring = -1.0 * kept.spring;
+        kept.angle = -1.0 * kept.angle;
+      }
+      contacts.remember(at, kept);
     };
     lists_.forNear([&](const SpacePairs& pairs) {
       for (std::size_t p = 0; p < pairs.count; ++p) {
-        remember(pairs.i[p], static_cast<std::size_t>(pairs.j[p]), pairs.kept[p], pairs.touches[p]);
+        remember(pairs.i[p], static_cast<std::size_t>(pairs.j[p]), pairs.contacts, p,
+                 pairs.touches[p]);
         if (pairs.touches[p] != 0) pairs.setTouches(p, true, 0.0);  // so that it is looked at
       }
     });
     for (std::size_t p = 0; p < planes_.size(); ++p)
       for (std::size_t i = 0; i < size(); ++i)
-        remember(static_cast<std::int32_t>(i), position_.size() + p, planes_[p].kept[i],
+        remember(static_cast<std::int32_t>(i), position_.size() + p, planes_[p].contacts.view(), i,
                  planes_[p].touches[i]);
     beginForces();
     if (!seenVelocity_.empty()) {

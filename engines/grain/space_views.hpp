@@ -100,7 +100,61 @@ GRAIN_INLINE Meeting<double> meetingOf(const L& law, const SpaceView& all, std::
 /// The last step's results for a pair that touched.
 struct SpaceResult {
   double overlap = 0.0, normal = 0.0, sliding = 0.0;
-  Vec3<double> tangential, rolling;
+  Vec3<double> tangential{}, rolling{};
+};
+
+// What contacts remember and what the law gave in the last step, in records that a law has or not.
+struct SpaceTouch {
+  Vec3<double> normal;
+  double overlap, force;
+};
+struct SpaceSlide {
+  Vec3<double> force;
+  double slides;
+};
+struct SpaceBond {
+  double memory, rest;
+};
+
+/// One record each a contact; null where the law has no such.
+struct SpaceContactView {
+  SpaceTouch* touch;
+  SpaceSlide* slide;      ///< of friction
+  Vec3<double>* spring;   ///< ξ
+  Vec3<double>* rolling;  ///< the torque against rolling
+  Vec3<double>* angle;    ///< θ
+  SpaceBond* bond;
+
+  GRAIN_INLINE SpaceMemory<double> memory(std::size_t p) const {
+    SpaceMemory<double> kept{.normal = touch[p].normal};
+    if (spring != nullptr) kept.spring = spring[p];
+    if (angle != nullptr) kept.angle = angle[p];
+    if (bond == nullptr) return kept;
+    kept.memory = bond[p].memory;
+    kept.rest = bond[p].rest;
+    return kept;
+  }
+  GRAIN_INLINE SpaceResult result(std::size_t p) const {
+    SpaceResult result{.overlap = touch[p].overlap, .normal = touch[p].force};
+    if (slide != nullptr) result.tangential = slide[p].force;
+    if (slide != nullptr) result.sliding = slide[p].slides;
+    if (rolling != nullptr) result.rolling = rolling[p];
+    return result;
+  }
+  GRAIN_INLINE void remember(std::size_t p, const SpaceMemory<double>& kept) const {
+    touch[p].normal = kept.normal;
+    if (spring != nullptr) spring[p] = kept.spring;
+    if (angle != nullptr) angle[p] = kept.angle;
+    if (bond != nullptr) bond[p] = {kept.memory, kept.rest};
+  }
+  GRAIN_INLINE void set(std::size_t p, const SpaceMemory<double>& kept,
+                        const SpaceResult& result) const {
+    remember(p, kept);
+    touch[p].overlap = result.overlap;
+    touch[p].force = result.normal;
+    if (slide != nullptr) slide[p] = {result.tangential, result.sliding};
+    if (rolling != nullptr) rolling[p] = result.rolling;
+  }
 };
 
 /// What a pair does to its spheres: the force on i, and torques about their own centres.
@@ -117,9 +171,8 @@ struct SpacePairs {
   /// The square of the distance within which it is looked at. One that touched is until that is
   /// over.
   double* within;
-  SpaceMemory<double>* kept;  ///< of those that touch, as results; of others anything
-  SpaceResult* results;
-  std::uint8_t* touches;  ///< whether it did in the last step
+  SpaceContactView contacts;  ///< of those that touch; of others anything
+  std::uint8_t* touches;      ///< whether it did in the last step
   /// Where a pair that touches leaves what it does, for others to add; null: it is added to both.
   SpacePush* pushes = nullptr;
 
@@ -209,20 +262,11 @@ struct SpaceChoice {
 /// Lists the far pairs that reach each other. @param found  with room for one more
 using SpaceChoiceKernel = std::size_t (*)(const SpaceFarPairs&, SpaceChoice* found);
 
-/// The law of EverydayLaw under conventions of springs that follow any rotation: by bound of
-/// compression or of magnitude, tension or not.
-inline constexpr std::size_t sideBySideVariants = 4;
-constexpr Conventions sideBySideConventions(bool magnitude) {
-  return {.bound = magnitude ? Bound::magnitude : Bound::compression};
-}
-constexpr std::size_t sideBySideIndex(bool magnitude, bool cutTension) {
-  return 2u * magnitude + cutTension;
-}
-
+/// Pair kernels are under the usual SpaceConventions, but for those of any law and of EverydayLaw.
 struct SpaceKernels {
-  SpacePairKernel pairs, everydayPairs;                   ///< of any law; of EverydayLaw
-  SpacePairKernel pairsOfMaterials, everydayOfMaterials;  ///< likewise
-  SpacePairKernel sideBySide[sideBySideVariants];
+  SpacePairKernel contacts[contactVariants];  ///< as Kernels::contacts
+  SpacePairKernel generalContacts, everydayContacts;
+  SpacePairKernel generalMaterialContacts, everydayMaterialContacts;
   SpaceMotionKernel motion;
   SpaceNeighbourKernel neighbours;
   SpaceChoiceKernel choose;

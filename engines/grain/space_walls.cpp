@@ -57,7 +57,8 @@ void Spheres::moveWalls() {
       } else {
         placeWallSphere(w, i, wallSteady_[w]);
       }
-      force_[i] = torque_[i] = {};
+      force_[i] = {};
+      if (law_.rotation) torque_[i] = {};
     }
   }
 }
@@ -82,10 +83,10 @@ void Spheres::placeWallSphere(std::size_t w, std::size_t i, bool steady) {
   }
   if (steady) return;
   velocity_[i] = quadOf(now.velocity + cross(now.spin, vectorOf(position_[i]) - now.centre));
-  spin_[i] = quadOf(now.spin);
+  if (law_.rotation) spin_[i] = quadOf(now.spin);
   if (seenVelocity_.empty()) return;
   seenVelocity_[i] = velocity_[i];
-  seenSpin_[i] = spin_[i];
+  if (law_.rotation) seenSpin_[i] = spin_[i];
 }
 
 Vector Spheres::wallPosition(std::size_t k) const {
@@ -97,25 +98,26 @@ Vector Spheres::wallPosition(std::size_t k) const {
 
 /// Contacts of spheres begin … end−1.
 void Spheres::addPlane(PlacedPlane& plane, Share& share, std::size_t begin, std::size_t end) {
+  const SpaceContactView contacts = plane.contacts.view();
   for (std::size_t i = begin; i < end; ++i) {
     const Place place = placeOn(plane, i);
     const double a = position_[i].w, height = place.height;
     const GeneralLaw<double>& law = lawOf(plane, i);
-    SpaceMemory<double>& kept = plane.kept[i];
+    SpaceMemory<double> kept{};
+    if (plane.touches[i] != 0) kept = contacts.memory(i);
     bool touches = a - height > 0.0;
     if (law.cohesion == Cohesion::jkr) {
       kept.memory = isBonded(law, a - height, a, kept.memory);
       touches = kept.memory > 0.0;
     }
-    if (!touches && plane.touches[i] != 0) kept = {};
     plane.touches[i] = touches;
     if (!touches) continue;
     if (setup_.maxOverlap > 0.0 && !(a - height <= setup_.maxOverlap * a)) share.deep = true;
     ++share.touching;
     const Meeting<double> meeting = meetingOn(plane, i, place);
     const MeetingForce<double> force = meetingForce(law, setup_.conventions, meeting, kept);
-    plane.results[i] = {meeting.overlap, force.normal, force.sliding, force.tangential,
-                        force.rolling};
+    contacts.set(i, kept,
+                 {meeting.overlap, force.normal, force.sliding, force.tangential, force.rolling});
     add(force_[i], force.force, 1.0);
     if (law_.rotation) add(torque_[i], force.torqueI, 1.0);
   }
@@ -144,12 +146,13 @@ Meeting<double> Spheres::meetingOn(const PlacedPlane& plane, std::size_t i,
   meeting.normal = place.normal;
   meeting.velocity = vectorOf(seenVelocities()[i]) -
                      (plane.now.velocity + cross(plane.now.spin, armOn(plane, i, place)));
-  meeting.spinI = vectorOf(seenSpins()[i]);
   meeting.overlap = a - height;
   meeting.radiusI = a;
+  meeting.inverseMass = meeting.inverseMassI = inverseMass_[i];
+  if (!law_.rotation) return meeting;
+  meeting.spinI = vectorOf(seenSpins()[i]);
   meeting.leverI = planeArmOf(law_.lever, law_.planeLever, a, height);
   meeting.armI = planeArmOf(law_.velocityLever, law_.planeLever, a, height);
-  meeting.inverseMass = meeting.inverseMassI = inverseMass_[i];
   meeting.inverseInertiaI = inverseInertia_[i];
   return meeting;
 }
@@ -159,16 +162,20 @@ std::pair<Vector, Vector> Spheres::wallLoad(std::size_t w) const {
   Vector force{}, torque{};
   for (std::size_t i = wallBegin_[w]; i < wallBegin_[w + 1]; ++i) {
     force += vectorOf(force_[i]);
-    torque += cross(vectorOf(position_[i]) - centre, vectorOf(force_[i])) + vectorOf(torque_[i]);
+    torque += cross(vectorOf(position_[i]) - centre, vectorOf(force_[i])) +
+              (law_.rotation ? vectorOf(torque_[i]) : Vector{});
   }
-  for (const PlacedPlane& plane : planes_)
-    for (std::size_t i = 0; plane.wall == w && i < size(); ++i) {
+  for (const PlacedPlane& plane : planes_) {
+    if (plane.wall != w) continue;
+    const SpaceContactView contacts = const_cast<PlacedPlane&>(plane).contacts.view();
+    for (std::size_t i = 0; i < size(); ++i) {
       if (plane.touches[i] == 0) continue;
-      const SpaceResult& result = plane.results[i];
-      const Vector push = result.normal * plane.kept[i].normal + result.tangential;
+      const SpaceResult result = contacts.result(i);
+      const Vector push = result.normal * contacts.touch[i].normal + result.tangential;
       force -= push;
       torque -= cross(armOn(plane, i, placeOn(plane, i)), push) + result.rolling;
     }
+  }
   return {force, torque};
 }
 

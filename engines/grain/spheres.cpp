@@ -28,20 +28,19 @@ void demand(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(what);
 }
 
-/// The fastest that a law has. @param several  laws, of materials
-SpacePairKernel pairKernelOf(const SpaceKernels& all, const GeneralLaw<double>& law, bool several,
-                             const SpaceConventions& how) {
+/// The fastest that a law has.
+SpacePairKernel pairKernelOf(const SpaceKernels& all, const GeneralLaw<double>& law,
+                             const SpheresSetup& setup) {
+  const bool materials = setup.materials.has_value();
+  const auto variant = contactVariant(law);
+  if (variant && !setup.generalKernels && !materials && setup.conventions == SpaceConventions{})
+    if (const auto own = kernelOf(all.contacts, *variant)) return own;
   const bool everyday = law.normal == Normal::linear && law.damper == Damper::constant &&
                         law.normalDamping && law.tangential == Tangential::springDashpot &&
                         law.rotation && law.rolling == Rolling::none &&
-                        law.cohesion == Cohesion::none;
-  if (several) return everyday ? all.everydayOfMaterials : all.pairsOfMaterials;
-  if (!everyday) return all.pairs;
-  const bool magnitude = law.bound == Bound::magnitude;
-  if (how.turn != SpringTurn::rotated || how.twist != SpringTwist::meanSpin ||
-      static_cast<const Conventions&>(law) != sideBySideConventions(magnitude))
-    return all.everydayPairs;
-  return all.sideBySide[sideBySideIndex(magnitude, law.cutTension)];
+                        law.cohesion == Cohesion::none && !setup.generalKernels;
+  if (materials) return everyday ? all.everydayMaterialContacts : all.generalMaterialContacts;
+  return everyday ? all.everydayContacts : all.generalContacts;
 }
 
 bool pushesMoreThanPairs(const SpheresSetup& setup) {
@@ -83,11 +82,11 @@ Spheres::Spheres(SpheresSetup setup)
       lists_(
           setup_.mass.size(), shares_.size(), setup_.box.value_or(SpaceBox{}),
           Skin(setup_.skin, setup_.radius.empty() ? 1.0 : *std::ranges::min_element(setup_.radius)),
-          range_, kernels_),
+          range_, SpaceRecords(law_), kernels_),
       team_(std::make_unique<ThreadTeam>(shares_.size())) {
   demand(setup_.dt > 0.0, "the time step must be > 0 s");
   demand(setup_.law.normal != Normal::impulse, "spheres have no impulses");
-  kernels_.pairs = pairKernelOf(kernels_, law_, !laws_.empty(), setup_.conventions);
+  pairs_ = pairKernelOf(kernels_, law_, setup_);
   placeSpheres();
   moveWalls();
   updateNeighbours();
@@ -108,12 +107,13 @@ void Spheres::addForcesAfter(double halfStep) {
 }
 
 void Spheres::placeSpheres() {
+  const SpaceRecords records(law_);
   const bool predicts = setup_.law.damping == Damping::predicted &&
                         setup_.integrator != Integrator::semiImplicitEuler;
   for (std::size_t i = 0; i < size(); ++i) {
     position_.push_back(quadOf(setup_.position[i], setup_.radius[i]));
     velocity_.push_back(quadOf(setup_.velocity[i]));
-    spin_.push_back(quadOf(setup_.spin[i]));
+    if (law_.rotation) spin_.push_back(quadOf(setup_.spin[i]));
     idAtIndex_.push_back(static_cast<std::int32_t>(i));
   }
   for (std::size_t w = 0; w < setup_.walls.size(); ++w) {
@@ -129,22 +129,24 @@ void Spheres::placeSpheres() {
     }
     wallReach_.push_back(arm);
     for (std::size_t member = 0; member < wall.planes.size(); ++member)
-      planes_.push_back({w, member, 0.0, {}, {}, {}, {}, {}, {}});
+      planes_.push_back({w, member, 0.0, {}, {}, {}, SpaceContacts(records)});
   }
   for (std::size_t w = 0; w < setup_.walls.size(); ++w)
     for (const SpaceWall::Cylinder& each : setup_.walls[w].cylinders)
-      planes_.push_back({w, 0, each.radius, {}, each.point, each.axis, {}, {}, {}});
+      planes_.push_back({w, 0, each.radius, {}, each.point, each.axis, SpaceContacts(records)});
   for (PlacedPlane& plane : planes_) {
-    plane.kept.resize(size());
-    plane.results.resize(size());
+    plane.contacts.resize(size());
     plane.touches.resize(size());
   }
   wallBegin_.push_back(position_.size());
   wallPath_.resize(setup_.walls.size());
   wallSteady_.resize(setup_.walls.size());
-  for (auto* array : {&velocity_, &spin_, &force_, &torque_}) array->resize(position_.size());
+  for (auto* array : {&velocity_, &force_}) array->resize(position_.size());
   inverseMass_.resize(position_.size());
-  inverseInertia_.resize(position_.size());
+  if (law_.rotation) {
+    for (auto* array : {&spin_, &torque_}) array->resize(position_.size());
+    inverseInertia_.resize(position_.size());
+  }
   mass_.resize(size());
   if (setup_.materials) {
     material_.resize(size());
@@ -177,7 +179,7 @@ void Spheres::followNumbers() {
     indexOfId_[id] = static_cast<std::int32_t>(i);
     mass_[i] = setup_.mass[id];
     inverseMass_[i] = 1.0 / setup_.mass[id];
-    inverseInertia_[i] = 1.0 / setup_.inertia[id];
+    if (law_.rotation) inverseInertia_[i] = 1.0 / setup_.inertia[id];
     if (setup_.materials) material_[i] = setup_.materials->ofDisk[id];
   }
 }
@@ -203,7 +205,7 @@ void Spheres::renumber() {
 void Spheres::beginForces() {
   for (std::size_t i = 0; i < position_.size(); ++i) {
     force_[i] = i < size() ? quadOf(mass_[i] * setup_.gravity) : Quad{};
-    torque_[i] = {};
+    if (law_.rotation) torque_[i] = {};
   }
 }
 
@@ -213,8 +215,8 @@ Vector Spheres::velocity(std::size_t id) const {
 }
 
 Vector Spheres::spin(std::size_t id) const {
+  if (!law_.rotation) return {};
   const std::size_t i = indexOf(id);
-  if (!law_.rotation) return vectorOf(spin_[i]);
   return vectorOf(spin_[i]) + (halfKick_ * inverseInertia_[i]) * vectorOf(torque_[i]);
 }
 
@@ -373,7 +375,7 @@ void Spheres::addForces() {
 void Spheres::addPairs(Share& share, const SpacePairs& pairs) {
   const double most = setup_.maxOverlap > 0.0 ? setup_.maxOverlap : 1e300;
   const SpaceReport report =
-      kernels_.pairs(law_, setup_.conventions, view(share.active), pairs, range_, most);
+      pairs_(law_, setup_.conventions, view(share.active), pairs, range_, most);
   share.active.count = report.active;
   share.touching += report.touching;
   share.deep |= report.deep;
@@ -443,14 +445,16 @@ std::vector<SpaceContact> Spheres::contacts() {
   lists_.forNear([&](const SpacePairs& pairs) {
     for (std::size_t p = 0; p < pairs.count; ++p)
       if (pairs.touches[p] != 0)
-        add(pairs.i[p], static_cast<std::size_t>(pairs.j[p]), pairs.kept[p].normal,
-            pairs.results[p]);
+        add(pairs.i[p], static_cast<std::size_t>(pairs.j[p]), pairs.contacts.touch[p].normal,
+            pairs.contacts.result(p));
   });
-  for (std::size_t p = 0; p < planes_.size(); ++p)
+  for (std::size_t p = 0; p < planes_.size(); ++p) {
+    const SpaceContactView contacts = planes_[p].contacts.view();
     for (std::size_t i = 0; i < size(); ++i)
       if (planes_[p].touches[i] != 0)
-        add(static_cast<std::int32_t>(i), position_.size() + p, planes_[p].kept[i].normal,
-            planes_[p].results[i]);
+        add(static_cast<std::int32_t>(i), position_.size() + p, contacts.touch[i].normal,
+            contacts.result(i));
+  }
   std::ranges::sort(found, {}, [](const SpaceContact& c) { return std::pair(c.i, c.j); });
   return found;
 }

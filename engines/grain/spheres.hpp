@@ -50,6 +50,7 @@ struct SpheresSetup {
   double skin = 0.0;        ///< of the neighbour list [m]; 0: tuned
   double maxOverlap = 1.0;  ///< as in Setup
   int threads = 1;
+  bool generalKernels = false;  ///< as in Setup
 };
 
 /// One contact of the last force evaluation; the force acts on i, n points from j to i. Numbers:
@@ -93,7 +94,7 @@ class Spheres {
   // By the setup's numbers.
   Vec3<double> position(std::size_t id) const { return vectorOf(position_[indexOf(id)]); }
   Vec3<double> velocity(std::size_t id) const;  ///< at time()
-  Vec3<double> spin(std::size_t id) const;      ///< at time()
+  Vec3<double> spin(std::size_t id) const;      ///< at time(); without rotation 0
 
   /// Of the last force evaluation, by ascending i, j.
   std::vector<SpaceContact> contacts();
@@ -129,9 +130,8 @@ class Spheres {
     double radius;               ///< of a cylinder; 0: a plane
     SpaceWall::State now;        ///< of the wall
     Vec3<double> point, normal;  ///< of a cylinder a point of the axis, and its direction
-    std::vector<SpaceMemory<double>> kept;
-    std::vector<SpaceResult> results;
-    std::vector<std::uint8_t> touches;
+    SpaceContacts contacts;
+    std::vector<std::uint8_t> touches{};
 
     bool isCylinder() const { return radius > 0.0; }
   };
@@ -147,10 +147,11 @@ class Spheres {
   void forState(auto&& visit) {
     visit(idAtIndex_);
     visit(mark_);
-    for (auto* array : {&position_, &velocity_, &spin_, &force_, &torque_}) visit(*array);
+    for (auto* array : {&position_, &velocity_, &force_}) visit(*array);
+    if (law_.rotation)
+      for (auto* array : {&spin_, &torque_}) visit(*array);
     for (PlacedPlane& plane : planes_) {
-      visit(plane.kept);
-      visit(plane.results);
+      plane.contacts.forRecords(visit);
       visit(plane.touches);
     }
   }
@@ -229,6 +230,7 @@ class Spheres {
   std::vector<GeneralLaw<double>> laws_;  ///< of two materials each; empty: law_ is that of all
   std::vector<std::int32_t> material_;    ///< by index, then of planes and cylinders
   SpaceKernels kernels_;
+  SpacePairKernel pairs_;
   double halfKick_ = 0.0;  ///< by which velocities are behind positions [s]
   double range_;           ///< how far apart bodies may be in contact [m]
   std::uint64_t steps_ = 0, chosenAt_ = 0, evaluations_ = 0;
@@ -236,7 +238,8 @@ class Spheres {
   /// Something besides pairs pushes: gravity, a plane or a cylinder.
   bool everyone_;
   double freeUntil_ = 0.0;  ///< the last step for which spheres that nothing pushes have allowance
-  // By index, from place to place: the moving spheres, then those of walls.
+  // By index, from place to place: the moving spheres, then those of walls. Without rotation there
+  // are no spins and torques.
   std::vector<std::int32_t> idAtIndex_, indexOfId_;
   Array<Quad> position_, velocity_, spin_, seenVelocity_, seenSpin_, force_, torque_, chosen_;
   std::vector<double> mass_, inverseMass_, inverseInertia_, allowance_, travel_;

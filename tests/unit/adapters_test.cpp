@@ -9,7 +9,8 @@
 #include "adapters/registry.hpp"
 #include "adapters/stopwatch.hpp"
 #include "adapters/suitability.hpp"
-#include "engines/grain/law.hpp"
+#include "cases/keys.hpp"
+#include "engines/grain/kernels.hpp"
 
 namespace {
 
@@ -405,6 +406,18 @@ TEST(Registry, MirrorsNameTheirPeer) {
     EXPECT_NE(findEngine(entry.mirrors), nullptr) << entry.name;
   }
   EXPECT_EQ(findEngine("no such engine"), nullptr);
+}
+
+TEST(GrainKernels, ConventionsOfACaseThatNamesNone_HaveTheirOwnInBothDimensions) {
+  ContactLaw law = oneDisk().law;
+  law.conventions = usualConventions();
+  const auto variant =
+      grain::contactVariant(grain::generalLaw<double>(grainLawOf(law), 1e-5, true));
+  ASSERT_TRUE(variant);
+  const auto kernels = grain::kernels<double>();
+  EXPECT_NE(kernels.contacts[*variant], nullptr);
+  EXPECT_NE(kernels.planes[*variant], nullptr);
+  EXPECT_NE(kernels.space.contacts[*variant], nullptr);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "engines/grain/ledger_views.hpp"
 #include "tests/unit/grain_packed.hpp"
+#include "tests/unit/grain_sheared.hpp"
 
 // What the engine allocates: once started nothing, and nothing for effects that a scene does not
 // call for. This program's operator new counts.
@@ -119,11 +120,13 @@ TEST_P(SteadyState, AllocatesNothingOverASecondRenumbering) {
   EXPECT_LE(allocationsOf(scene(), 16000, 500), someGrowth());
 }
 
-/// What a simulation holds at its beginning.
-std::size_t bytesHeld(const grain::Setup& setup) {
-  const Simulation first(setup);  // what the program keeps from then on is not this scene's
+/// What a simulation holds at its beginning, or after some steps.
+template <class Run = Simulation>
+std::size_t bytesHeld(const auto& setup, std::uint64_t steps = 0) {
+  const Run first(setup);  // what the program keeps from then on is not this scene's
   const std::size_t before = liveBytes;
-  Simulation simulation(setup);
+  Run simulation(setup);
+  simulation.advance(steps);
   return liveBytes - before;
 }
 
@@ -185,6 +188,54 @@ TEST_P(AbsentEffects, ScenesWithoutALedgerHoldNoneOfIt) {
   setup.ledger = true;
   // Velocities of two times, kinetic energies and masses of each disk; room for pairs at hand.
   EXPECT_GE(bytesHeld(setup), without + 7 * 8 * setup.disks.size() + sizeof(LedgerPairs<float>));
+}
+
+TEST(SpaceAbsentEffects, BlockedRotation_HoldsNoSpinsAndTorques) {
+  SpheresSetup setup = test::pressed();
+  const std::size_t turning = bytesHeld<Spheres>(setup);
+  setup.rotation = false;
+  // Spin, torque and spin as the dashpots see it, as wide as registers, and inverse inertia; the
+  // setup's own spins stay.
+  EXPECT_GE(turning, bytesHeld<Spheres>(setup) +
+                         (3 * sizeof(Quad) + sizeof(double)) * (setup.radius.size() + 2 * 49));
+}
+
+TEST(SpaceAbsentEffects, LawsWithoutASpring_HoldNoHistory) {
+  SpheresSetup setup = test::pressed();
+  const std::size_t contacts = Spheres(setup).contacts().size();
+  ASSERT_GT(contacts, 100u);
+  const std::size_t history = bytesHeld<Spheres>(setup);
+  setup.law.tangential = Tangential::viscous;
+  EXPECT_GE(history, bytesHeld<Spheres>(setup) + contacts * sizeof(Vec3<double>));
+}
+
+TEST(SpaceAbsentEffects, FrictionlessScenes_HoldNeitherSlipNorSpins) {
+  SpheresSetup setup = test::pressed();
+  const std::size_t contacts = Spheres(setup).contacts().size();
+  setup.law.tangential = Tangential::viscous;
+  setup.rotation = false;
+  const std::size_t slipping = bytesHeld<Spheres>(setup);
+  setup.law.tangential = Tangential::none;
+  const std::size_t without = bytesHeld<Spheres>(setup);
+  EXPECT_GE(slipping, without + contacts * sizeof(SpaceSlide));
+  setup.rotation = true;  // nothing would turn them
+  EXPECT_EQ(bytesHeld<Spheres>(setup), without);
+  setup.law.tangential = Tangential::springDashpot;
+  setup.law.mu = 0.0;
+  EXPECT_EQ(bytesHeld<Spheres>(setup), without);
+}
+
+TEST(SpaceAbsentEffects, RollingAndBonds_AloneHaveRecordsOfThem) {
+  SpheresSetup setup = test::pressed();
+  const std::size_t contacts = Spheres(setup).contacts().size(),
+                    without = bytesHeld<Spheres>(setup);
+  setup.law.rolling = Rolling::constantTorque;
+  setup.law.muR = 0.1;
+  const std::size_t torque = bytesHeld<Spheres>(setup);
+  EXPECT_GE(torque, without + contacts * sizeof(Vec3<double>));
+  setup.law.rolling = Rolling::spring;
+  setup.law.kr = setup.law.kt;
+  EXPECT_GE(bytesHeld<Spheres>(setup), torque + contacts * sizeof(Vec3<double>));
 }
 
 }  // namespace

@@ -1,71 +1,20 @@
 // Spheres on several threads: the bits of one, whatever the law, the walls, the box and the lists.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
-#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "engines/grain/spheres.hpp"
-#include "tests/unit/grain_scenes.hpp"
+#include "tests/unit/grain_sheared.hpp"
 
 namespace {
 
 using namespace grain;
 using Vector = Vec3<double>;
+using namespace crossgrain::test;
 
-constexpr double radius = 0.005, density = 2500.0;
-
-Law springLaw() {
-  Law law = crossgrain::test::sphereLaw();
-  law.bound = Bound::magnitude;
-  return law;
-}
-
-/// A lattice of loose spheres of up to 1.05 g, and a step of which their contacts take some thirty.
-void place(SpheresSetup& setup, int along, int up, const Vector& first) {
-  std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  for (int z = 0; z < up; ++z)
-    for (int y = 0; y < along; ++y)
-      for (int x = 0; x < along; ++x) {
-        const double a = radius * (0.9 + 0.1 * uniform(random));
-        const double mass = 4.0 / 3.0 * M_PI * a * a * a * density;
-        setup.position.push_back(first + 2.0 * radius * Vector{1.0 * x, 1.0 * y, 1.0 * z});
-        setup.velocity.push_back(0.8 * Vector{uniform(random), uniform(random), uniform(random)});
-        setup.spin.push_back(100.0 * Vector{uniform(random), uniform(random), uniform(random)});
-        setup.radius.push_back(a);
-        setup.mass.push_back(mass);
-        setup.inertia.push_back(0.4 * mass * a * a);
-      }
-  setup.dt = M_PI * std::sqrt(0.5 * 1.05e-3 / setup.law.kn) / 30.0;
-}
-
-/// 245 spheres between two walls of spheres that slide and swing, periodic along x and y.
-SpheresSetup sheared(const Law& law = springLaw()) {
-  constexpr int along = 7, up = 5;
-  constexpr double side = 2.0 * radius * along;
-  SpheresSetup setup;
-  setup.law = law;
-  place(setup, along, up, {0.3 * radius, 0.7 * radius, 2.0 * radius});
-  setup.box = SpaceBox{{}, {side, side, 1.0}, {true, true, false}};
-  for (const double sign : {-1.0, 1.0}) {
-    SpaceWall wall;
-    for (int n = 0; n < along * along; ++n) {
-      wall.position.push_back({2.0 * radius * (n % along), 2.0 * radius * (n / along),
-                               sign > 0.0 ? 2.0 * radius * (up + 0.9) : 0.1 * radius});
-      wall.radius.push_back(radius);
-    }
-    wall.motion = [sign](double t) {
-      return SpaceWall::State{{0.5 * sign * t, 0.0, 1e-4 * std::sin(500.0 * t)},
-                              {0.5 * sign, 0.0, 0.05 * std::cos(500.0 * t)}};
-    };
-    setup.walls.push_back(wall);
-  }
-  return setup;
-}
+constexpr double radius = sphereRadius;
 
 /// 108 spheres that fall in a turning drum with two lids.
 SpheresSetup drum() {
@@ -82,23 +31,6 @@ SpheresSetup drum() {
   };
   setup.walls.push_back(wall);
   return setup;
-}
-
-/// All that can be seen of it.
-std::vector<double> bitsOf(Spheres& spheres, std::size_t walls) {
-  std::vector<double> bits{static_cast<double>(spheres.contactEvaluations())};
-  const auto put = [&](const Vector& v) { bits.insert(bits.end(), {v.x, v.y, v.z}); };
-  for (std::size_t i = 0; i < spheres.size(); ++i)
-    for (const Vector& v : {spheres.position(i), spheres.velocity(i), spheres.spin(i)}) put(v);
-  for (const SpaceContact& c : spheres.contacts()) {
-    bits.insert(bits.end(), {1.0 * c.i, 1.0 * c.j, c.overlap, c.normalForce, 1.0 * c.sliding});
-    for (const Vector& v : {c.normal, c.tangentialForce, c.rollingTorque}) put(v);
-  }
-  for (std::size_t w = 0; w < walls; ++w) {
-    put(spheres.wallLoad(w).first);
-    put(spheres.wallLoad(w).second);
-  }
-  return bits;
 }
 
 /// @return how many contacts it evaluated on its way

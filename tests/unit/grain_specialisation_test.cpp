@@ -1,13 +1,18 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <iterator>
 #include <optional>
+#include <string>
 #include <tuple>
+#include <vector>
 
-#include "engines/grain/law_types.hpp"
+#include "engines/grain/kernels.hpp"
 #include "tests/unit/grain_packed.hpp"
+#include "tests/unit/grain_sheared.hpp"
 
-// Kernels in which a scene's effects are compiled in, against the one that decides at run time.
+// Kernels in which a scene's effects are compiled in, against the one that decides at run time, in
+// the plane and in space.
 
 namespace {
 
@@ -88,47 +93,199 @@ INSTANTIATE_TEST_SUITE_P(
                                      Integrator::semiImplicitEuler),
                      testing::Values(Precision::float64, Precision::float32)));
 
-/// The law with those conventions, the scene as in the thesis' cell.
-grain::Setup underConventions(const Conventions& conventions, bool cut, Precision precision) {
-  grain::Setup setup =
-      scene(Tangential::springDashpot, cut, Dashpot::lagged, true, Plate::spinning, false);
-  setup.precision = precision;
-  setup.law.history = conventions.history;
-  setup.law.bound = conventions.bound;
-  setup.law.lever = conventions.lever;
-  setup.law.velocityLever = conventions.velocityLever;
-  setup.law.planeLever = conventions.planeLever;
-  setup.law.stretch = conventions.stretch;
-  setup.law.dashpotOutsideBound = conventions.dashpotOutsideBound;
-  setup.law.resetSpringOnly = conventions.resetSpringOnly;
-  return setup;
+/// A law whose kernels are compiled, but for what a scene decides.
+struct Special {
+  std::string name;
+  Law law;
+  bool rotation = true;
+};
+
+void setConventions(Law& law, const Conventions& conventions) {
+  law.history = conventions.history;
+  if (conventions.signedBound) law.bound = Bound::signedForce;
+  law.lever = conventions.lever;
+  law.velocityLever = conventions.velocityLever;
+  law.planeLever = conventions.planeLever;
+  law.stretch = conventions.stretch;
+  law.dashpotOutsideBound = conventions.dashpotOutsideBound;
+  law.resetSpringOnly = conventions.resetSpringOnly;
 }
 
-TEST(Specialisation, ConventionsOfOtherEnginesGiveTheBitsOfTheGeneralKernel) {
-  for (std::size_t set = 0; set < std::size(conventionSets); ++set)
-    for (const bool cut : {false, true})
-      for (const Precision precision : {Precision::float64, Precision::float32}) {
-        grain::Setup setup = underConventions(conventionSets[set], cut, precision);
-        ASSERT_EQ(conventionSet(generalLaw<double>(setup.law, setup.dt, true)), set);
-        grain::Setup general = setup;
-        general.generalKernels = true;
-        const auto special = test::advanced(setup, steps);
-        const auto reference = test::advanced(general, steps);
-        EXPECT_EQ(test::difference(special, reference), "") << "set " << set << ", cut " << cut;
+/// A spring against rolling as stiff as that along the tangent, a pull of a twentieth of the
+/// elastic force of bodies of that radius.
+Law withRollingAndCohesion(Law law, Rolling rolling, bool cohesion, double radius) {
+  law.rolling = rolling;
+  law.kr = law.kt;
+  law.gr = law.gt;
+  law.muR = rolling == Rolling::viscousByLoad ? 1e-3 : 0.1;
+  if (!cohesion) return law;
+  law.cohesion = Cohesion::area;
+  law.kc = 0.05 * law.kn / (M_PI * radius);
+  return law;
+}
+
+/// Each set of conventions × each effect left out × tension and bound; of whole laws also how they
+/// resist rolling and cohere, with each option that is a number.
+std::vector<Special> specialLaws(const Law& common, double radius) {
+  std::vector<Special> laws;
+  const auto name = [](auto... parts) { return ((std::to_string(parts) + " ") + ...); };
+  for (std::size_t set = 0; set < std::size(conventionSets); ++set) {
+    Law whole = common;
+    setConventions(whole, conventionSets[set].conventions);
+    for (int tangential = 0; tangential < 5; ++tangential)
+      for (const bool damps : {true, false})
+        for (const bool turns : {true, false}) {
+          Law law = whole;
+          law.tangential = static_cast<Tangential>(tangential);
+          if (!damps) law.gn = 0.0;
+          const bool all = law.tangential == Tangential::springDashpot && damps && turns;
+          if (!all && !conventionSets[set].everyEffect) continue;
+          for (const bool cut : {false, true})
+            for (const Bound bound : {Bound::compression, Bound::magnitude}) {
+              law.cutTension = cut;
+              law.bound = bound;
+              laws.push_back(
+                  {"effects " + name(set, tangential, damps, turns, cut, int(bound)), law, turns});
+            }
+        }
+    for (int rolling = 0; rolling < 5; ++rolling)
+      for (const bool cohesion : {false, true}) {
+        const Law law =
+            withRollingAndCohesion(whole, static_cast<Rolling>(rolling), cohesion, radius);
+        const auto with = [&](const std::string& what, auto&& change) {
+          laws.push_back({what + " " + name(set, rolling, cohesion), law});
+          change(laws.back().law);
+        };
+        with("whole", [](Law&) {});
+        with("undamped", [](Law& l) { l.gn = 0.0; });
+        with("no dashpot", [](Law& l) { l.tangential = Tangential::spring; });
+        with("cut", [](Law& l) { l.cutTension = true; });
+        for (int k = 1; rolling > 0 && k < 4; ++k) {
+          with("length", [k](Law& l) {
+            l.rollingConventions.length = static_cast<RollingLength>(k);
+            l.rollingConventions.stiffness = static_cast<RollingStiffness>(k % 3);
+            if (k % 3 == 2) l.kr *= 1e-5;  // in N m
+          });
+          with("load", [k](Law& l) {
+            l.rollingConventions.load = static_cast<RollingLoad>(k);
+            l.rollingConventions.dashpotOutsideBound = k % 2 == 1;
+            l.rollingConventions.resetSpringOnly = k > 1;
+          });
+        }
+        if (rolling > 0)
+          with("critical", [](Law& l) {
+            l.rollingConventions.damper = RollingDamper::critical;
+            l.gr = 0.1;
+          });
+        for (int area = 0; cohesion && area < 3; ++area)
+          for (int load = 0; load < 5; ++load)
+            with("area " + name(area, load), [=](Law& l) {
+              l.cohesionConventions.area = static_cast<CohesionArea>(area);
+              l.cohesionConventions.load = static_cast<CohesionLoad>(load);
+            });
       }
+  }
+  return laws;
+}
+
+/// Some mirrors have none, and processors without AVX2 those of whole laws alone.
+bool hasKernels(std::size_t variant) {
+  return conventionSets[variant / effectVariants].everyEffect && instructionSets().size() > 1;
+}
+
+TEST(Specialisation, EveryLawInThePlane_GivesTheBitsOfTheGeneralKernel) {
+  const auto kernels = grain::kernels<double>();
+  for (const Special& special : specialLaws(test::thesisLaw(), test::smallRadius)) {
+    SCOPED_TRACE(special.name);
+    grain::Setup setup = test::packed(7, 21);
+    setup.law = special.law;
+    setup.law.damping = Damping::lagged;
+    setup.rotation = special.rotation;
+    const auto variant = contactVariant(generalLaw<double>(setup.law, setup.dt, special.rotation));
+    ASSERT_TRUE(variant);
+    if (hasKernels(*variant)) {
+      const ContactEffects effects = contactEffects(*variant);
+      EXPECT_NE(kernelOf(kernels.contacts, *variant), nullptr);
+      if (effects.rolling == Rolls::none && !effects.cohesion) {
+        EXPECT_NE(kernelOf(kernels.planes, *variant), nullptr);
+      }
+    }
+    for (const Precision precision : {Precision::float64, Precision::float32}) {
+      setup.precision = precision;
+      grain::Setup general = setup;
+      general.generalKernels = true;
+      EXPECT_EQ(test::difference(test::advanced(setup, 60), test::advanced(general, 60)), "");
+    }
+  }
+}
+
+/// @return contacts seen, and those of them that slid
+std::array<std::size_t, 2> expectBitsOfTheGeneralKernel(SpheresSetup setup) {
+  Spheres special(setup);
+  setup.generalKernels = true;
+  Spheres general(setup);
+  std::array<std::size_t, 2> found{};
+  for (int piece = 0; piece < 6; ++piece) {
+    special.advance(10);
+    general.advance(10);
+    for (const SpaceContact& contact : special.contacts()) {
+      ++found[0];
+      found[1] += contact.sliding;
+    }
+    EXPECT_TRUE(test::bitsOf(special, 2) == test::bitsOf(general, 2)) << piece;
+  }
+  return found;
+}
+
+TEST(Specialisation, EveryLawInSpace_GivesTheBitsOfTheGeneralKernel) {
+  const auto kernels = grain::kernels<double>().space;
+  for (const Special& special : specialLaws(test::springLaw(), test::sphereRadius)) {
+    SCOPED_TRACE(special.name);
+    SpheresSetup setup = test::pressed(special.law);
+    setup.law.damping = Damping::lagged;
+    setup.rotation = special.rotation;
+    const auto variant = contactVariant(generalLaw<double>(setup.law, setup.dt, special.rotation));
+    ASSERT_TRUE(variant);
+    EXPECT_EQ(kernelOf(kernels.contacts, *variant) != nullptr, hasKernels(*variant));
+    const auto [contacts, sliding] = expectBitsOfTheGeneralKernel(setup);
+    EXPECT_GT(contacts, 200u);
+    if (setup.law.tangential != Tangential::springDashpot) continue;
+    EXPECT_GT(sliding, 0u);
+    EXPECT_LT(sliding, contacts);
+  }
+}
+
+TEST(Specialisation, MirrorsInSpace_GiveTheBitsOfTheGeneralKernel) {
+  SpheresSetup setup = test::pressed();
+  setup.conventions = {SpringTurn::rescaled, SpringTwist::none};
+  for (const bool mixed : {false, true}) {
+    if (mixed) {
+      setup.materials = Materials{std::vector<std::int32_t>(setup.radius.size(), 0),
+                                  {0, 1},
+                                  2,
+                                  std::vector<Law>(4, setup.law)};
+      setup.materials->laws[3].mu = 0.1;
+    }
+    EXPECT_GT(expectBitsOfTheGeneralKernel(setup)[0], 200u);
+  }
 }
 
 TEST(Specialisation, ConventionsWithoutKernelsOfTheirOwnRunTheGeneralOnes) {
-  Law law = underConventions(conventionSets[1], true, Precision::float64).law;
+  Law law = test::thesisLaw();
+  const auto variant = [&] { return contactVariant(generalLaw<double>(law, 1e-5, true)); };
+  EXPECT_TRUE(variant());
   law.stretch = Stretch::midpoint;
-  EXPECT_EQ(conventionSet(generalLaw<double>(law, 1e-5, true)), std::nullopt);
-  law = underConventions(conventionSets[0], true, Precision::float64).law;
+  EXPECT_EQ(variant(), std::nullopt);
+  law = test::thesisLaw();
   law.normal = Normal::hertz;
-  EXPECT_EQ(conventionSet(generalLaw<double>(law, 1e-5, true)), std::nullopt);
-  // A plane's lever says nothing where levers are radii.
+  EXPECT_EQ(variant(), std::nullopt);
   law.normal = Normal::linear;
+  const auto usual = variant();
+  // A plane's lever says nothing where levers are radii.
   law.planeLever = PlaneLever::middle;
-  EXPECT_EQ(conventionSet(generalLaw<double>(law, 1e-5, true)), 0u);
+  EXPECT_EQ(variant(), usual);
+  law.bound = Bound::signedForce;
+  EXPECT_EQ(variant(), std::nullopt);
 }
 
 TEST(Specialisation, EffectsChangeTheRun) {

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <vector>
+
+#include "engines/grain/space_views.hpp"
+
+namespace grain {
+
+/// Which records a law's contacts have, besides SpaceTouch.
+struct SpaceRecords {
+  bool slide = false, spring = false, rolling = false, angle = false, bond = false;
+
+  SpaceRecords() = default;
+  explicit SpaceRecords(const GeneralLaw<double>& law)
+      : slide(law.tangential != Tangential::none),
+        spring(hasSprings(law)),
+        rolling(law.rolling != Rolling::none),
+        angle(law.rolling == Rolling::spring),
+        bond(remembers(law)) {}
+};
+
+/// Records of contacts, of the kinds that their law has.
+class SpaceContacts {
+ public:
+  explicit SpaceContacts(const SpaceRecords& has) : has_(has) {}
+
+  std::size_t size() const { return touch_.size(); }
+  void resize(std::size_t count) {
+    forRecords([count](auto& list) { list.resize(count); });
+  }
+  SpaceContactView view() {
+    const auto at = [](auto& list, bool has) { return has ? list.data() : nullptr; };
+    return {touch_.data(),
+            at(slide_, has_.slide),
+            at(spring_, has_.spring),
+            at(rolling_, has_.rolling),
+            at(angle_, has_.angle),
+            at(bond_, has_.bond)};
+  }
+  /// Calls visit(list) for each kind there is.
+  void forRecords(auto&& visit) {
+    visit(touch_);
+    if (has_.slide) visit(slide_);
+    if (has_.spring) visit(spring_);
+    if (has_.rolling) visit(rolling_);
+    if (has_.angle) visit(angle_);
+    if (has_.bond) visit(bond_);
+  }
+
+ private:
+  SpaceRecords has_;
+  std::vector<SpaceTouch> touch_;
+  std::vector<SpaceSlide> slide_;
+  std::vector<Vec3<double>> spring_, rolling_, angle_;
+  std::vector<SpaceBond> bond_;
+};
+
+}  // namespace grain
