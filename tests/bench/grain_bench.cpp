@@ -132,8 +132,22 @@ struct EffectSet {
   void (*change)(Setup&);
 };
 
+/// The conventions of a case that names none.
+void useDefaults(Setup& s) {
+  s.law.lever = grain::Lever::overlapMiddle;
+  s.law.stretch = grain::Stretch::before;
+  s.law.resetSpringOnly = true;
+}
+
 constexpr EffectSet effectSets[] = {
     {"thesis", [](Setup&) {}},
+    {"defaults", useDefaults},
+    {"defaults_no_friction",
+     [](Setup& s) {
+       useDefaults(s);
+       s.law.tangential = grain::Tangential::none;
+     }},
+    {"general", [](Setup& s) { s.generalKernels = true; }},
     {"no_bottom", [](Setup& s) { s.bottom.reset(); }},
     {"no_friction", [](Setup& s) { s.law.tangential = grain::Tangential::none; }},
     {"no_friction_no_bottom",
@@ -147,7 +161,33 @@ constexpr EffectSet effectSets[] = {
     {"no_rotation", [](Setup& s) { s.rotation = false; }},
     {"ledger", [](Setup& s) { s.ledger = true; }},
     {"rolling", resistRolling},
+    {"rolling_constant_torque",
+     [](Setup& s) {
+       resistRolling(s);
+       s.law.rolling = grain::Rolling::constantTorque;
+     }},
+    {"rolling_critical",
+     [](Setup& s) {
+       resistRolling(s);
+       s.law.rollingConventions.damper = grain::RollingDamper::critical;
+       s.law.gr = 0.1;
+     }},
     {"cohesion", cohere},
+    {"cohesion_net",
+     [](Setup& s) {
+       cohere(s);
+       s.law.cohesionConventions.load = grain::CohesionLoad::net;
+     }},
+    {"cohesion_first_order",
+     [](Setup& s) {
+       cohere(s);
+       s.law.cohesionConventions.area = grain::CohesionArea::firstOrder;
+     }},
+    {"cohesion_twice",
+     [](Setup& s) {
+       cohere(s);
+       s.law.cohesionConventions.area = grain::CohesionArea::twiceBetweenDisks;
+     }},
     {"rolling_cohesion",
      [](Setup& s) {
        resistRolling(s);

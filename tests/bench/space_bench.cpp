@@ -19,14 +19,13 @@ using Vector = grain::Vec3<double>;
 
 /// Unit spheres between two walls of touching ones that slide: some places of a lattice.
 struct Cell {
-  const char* name;
   double height;    ///< between the walls' centres [d]
   double fraction;  ///< of that room which spheres fill
   int layers;
   double speed;  ///< at the start: root mean square of each component
 };
 /// As cases/space/on-dem-shear.toml and shear-3d.toml, but for the area.
-constexpr Cell dilute{"dilute", 21.0, 0.36, 24, 0.3}, dense{"dense", 11.0, 0.513, 12, 0.3};
+constexpr Cell dilute{21.0, 0.36, 24, 0.3}, dense{11.0, 0.513, 12, 0.3};
 
 SpheresSetup shearCell(const Cell& cell, std::size_t spheres) {
   const double rowDistance = std::sqrt(3.0) / 2.0;
@@ -84,6 +83,58 @@ SpheresSetup shearCell(const Cell& cell, std::size_t spheres) {
   return setup;
 }
 
+/// Layers of a hexagonal packing that lie on one of walls under their own weight, some six contacts
+/// each that last: 0.1 % of a radius deep at the start.
+SpheresSetup restingBed(std::size_t spheres) {
+  constexpr int columns = 10, rows = 6;
+  const double rowDistance = std::sqrt(3.0) / 2.0, layerDistance = std::sqrt(2.0 / 3.0) - 5e-4;
+  SpheresSetup setup = shearCell(dense, 0);
+  const grain::SpaceWall floor = setup.walls.front();
+  setup.walls = {floor};
+  setup.walls[0].motion = [](double) { return grain::SpaceWall::State{}; };
+  setup.box = grain::SpaceBox{
+      {0.0, 0.0, 0.0}, {1.0 * columns, rows * rowDistance, 1.0}, {true, true, false}};
+  setup.walls[0].position.clear();
+  for (int k = 0; k < columns * rows; ++k)
+    setup.walls[0].position.push_back(
+        {k % columns + 0.5 * (k / columns % 2), rowDistance * (k / columns), 0.0});
+  setup.walls[0].radius.assign(setup.walls[0].position.size(), 0.5);
+  for (std::size_t k = 0; k < spheres; ++k) {
+    const auto layer = static_cast<int>(k / (columns * rows)) + 1;
+    setup.position.push_back(setup.walls[0].position[k % (columns * rows)] +
+                             layer % 2 * Vector{0.5, std::sqrt(3.0) / 6.0, 0.0} +
+                             Vector{0.0, 0.0, layer * layerDistance});
+  }
+  const double mass = std::numbers::pi / 6.0;
+  setup.velocity.assign(spheres, {});
+  setup.spin.assign(spheres, {});
+  setup.radius.assign(spheres, 0.5);
+  setup.mass.assign(spheres, mass);
+  setup.inertia.assign(spheres, 0.1 * mass);
+  setup.gravity = {0.0, 0.0, -1.0};
+  return setup;
+}
+
+/// As a case's that names no conventions.
+void useDefaults(SpheresSetup& s) {
+  s.law.lever = grain::Lever::overlapMiddle;
+  s.law.stretch = grain::Stretch::before;
+  s.law.resetSpringOnly = true;
+}
+
+/// A pull of a twentieth of the elastic force.
+void cohere(SpheresSetup& s) {
+  s.law.cohesion = grain::Cohesion::area;
+  s.law.kc = 0.05 * s.law.kn / (std::numbers::pi * 0.5);
+}
+
+void resistRolling(SpheresSetup& s) {
+  s.law.rolling = grain::Rolling::spring;
+  s.law.kr = s.law.kt;
+  s.law.gr = s.law.gt;
+  s.law.muR = 0.1;
+}
+
 struct Task {
   const char* name;
   void (*change)(SpheresSetup&);
@@ -91,9 +142,39 @@ struct Task {
 
 constexpr Task tasks[] = {
     {"everyday", [](SpheresSetup&) {}},
+    {"no_friction", [](SpheresSetup& s) { s.law.tangential = grain::Tangential::none; }},
+    {"no_rotation", [](SpheresSetup& s) { s.rotation = false; }},
+    {"viscous", [](SpheresSetup& s) { s.law.tangential = grain::Tangential::viscous; }},
+    {"no_normal_dashpot", [](SpheresSetup& s) { s.law.gn = 0.0; }},
+    {"no_tangential_dashpot",
+     [](SpheresSetup& s) { s.law.tangential = grain::Tangential::spring; }},
+    {"cut_tension", [](SpheresSetup& s) { s.law.cutTension = true; }},
+    {"defaults", useDefaults},
+    {"cohesion", cohere},
+    {"cohesion_net",
+     [](SpheresSetup& s) {
+       cohere(s);
+       s.law.cohesionConventions.load = grain::CohesionLoad::net;
+     }},
+    {"cohesion_first_order",
+     [](SpheresSetup& s) {
+       cohere(s);
+       s.law.cohesionConventions.area = grain::CohesionArea::firstOrder;
+     }},
+    {"rolling", resistRolling},
+    {"rolling_constant_torque",
+     [](SpheresSetup& s) {
+       resistRolling(s);
+       s.law.rolling = grain::Rolling::constantTorque;
+     }},
+    {"rolling_critical",
+     [](SpheresSetup& s) {
+       resistRolling(s);
+       s.law.rollingConventions.damper = grain::RollingDamper::critical;
+       s.law.gr = 0.1;
+     }},
     {"mirror", [](SpheresSetup& s) { s.conventions.turn = grain::SpringTurn::rescaled; }},
-    {"general",
-     [](SpheresSetup& s) { s.law.rolling = grain::Rolling::viscous; }},  // of no strength
+    {"general", [](SpheresSetup& s) { s.generalKernels = true; }},
     {"everyone",
      [](SpheresSetup& s) {
        grain::SpaceWall& wall = s.walls.emplace_back();
@@ -110,9 +191,8 @@ double timeOn(int threads) {
 }
 
 /// Running on and on, rebuilds counted in, after the lattice has melted. Time is that of 200 steps.
-void step(benchmark::State& state, const Cell& cell, std::size_t spheres, const Task& task,
-          int threads) {
-  SpheresSetup setup = shearCell(cell, spheres);
+void step(benchmark::State& state, SpheresSetup setup, const Task& task, int threads) {
+  const std::size_t spheres = setup.position.size();
   setup.threads = threads;
   task.change(setup);
   grain::Spheres simulation(setup);
@@ -147,18 +227,23 @@ int main(int argc, char** argv) {
   using namespace crossgrain::bench;
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  const auto add = [](const Cell& cell, std::size_t spheres) {
+  const auto add = [](const char* name, auto make, std::size_t spheres) {
     for (const Task& task : tasks)
       for (const int threads : {1, 2})
         benchmark::RegisterBenchmark(
-            fmt::format("{}/{}/{}/{}", cell.name, spheres, task.name, threads).c_str(),
-            [=, &cell, &task](auto& state) { step(state, cell, spheres, task, threads); })
+            fmt::format("{}/{}/{}/{}", name, spheres, task.name, threads).c_str(),
+            [=, &task](auto& state) { step(state, make(spheres), task, threads); })
             ->Iterations(spheres > 10000 ? 10 : 100)  // each trial would melt the lattice anew
             ->UseManualTime()
             ->Unit(benchmark::kMicrosecond);
   };
-  for (const std::size_t spheres : {500, 3000, 20000, 100000, 1000000}) add(dilute, spheres);
-  for (const std::size_t spheres : {560, 20000}) add(dense, spheres);
+  const auto cellOf = [](const Cell& cell) {
+    return [&cell](std::size_t spheres) { return shearCell(cell, spheres); };
+  };
+  for (const std::size_t spheres : {500, 3000, 20000, 100000, 1000000})
+    add("dilute", cellOf(dilute), spheres);
+  for (const std::size_t spheres : {560, 20000}) add("dense", cellOf(dense), spheres);
+  add("bed", restingBed, 600);
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }
