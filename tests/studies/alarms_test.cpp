@@ -69,7 +69,7 @@ CompareResults withPressure(int ofA, int ofB) {
 TEST(Alarms, ValueOfOneEngineMissingOnMostPackings_IsOne) {
   EXPECT_EQ(alarmsAt(withPressure(8, 3), {pressure(0.0, Verdict::undecided, 3, 5)}),
             Alarms{"b has no pressure on 5 of 8 packings where a has"});
-  EXPECT_EQ(alarmsAt(withPressure(8, 3), {pressure(0.0, Verdict::undecided, 4, 4)}), Alarms{});
+  EXPECT_EQ(alarmsAt(withPressure(8, 4), {pressure(0.0, Verdict::undecided, 4, 4)}), Alarms{});
   // What neither has is no difference, and what the other lacks as often is none of one.
   EXPECT_EQ(alarmsAt(withPressure(3, 3), {pressure(0.0, Verdict::undecided, 3, 5)}), Alarms{});
 }
