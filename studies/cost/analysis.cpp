@@ -158,7 +158,9 @@ std::string whatDecides(const CostPoint& point, double target) {
   const double reference = point.referenceError.value_or(0.0);
   const double room = distance - reference;
   if (statistical > 0.0 && room > 0.0) {
-    const double times = (statistical / room) * (statistical / room);
+    const double half =
+        std::max(statistical, point.intervalHigh.value_or(0.0) - *point.error - reference);
+    const double times = (half / room) * (half / room);
     return times < 1000.0 ? fmt::format("{:.1f} times as much simulated time", times)
                           : "more than 1000 times as much simulated time";
   }
