@@ -198,6 +198,13 @@ std::vector<NamedPair> pairsOfAssembly(const Case& setup) {
   };
   return withAssembly(setup, [&](const auto& assembly) {
     for (const auto& group : assembly.disks) add("disk", group.radius, group.mass, group.material);
+    if (!assembly.starts.disks.empty()) {
+      const auto& disks = assembly.starts.disks.front();
+      const auto [smallest, largest] = std::ranges::minmax_element(disks.radius);
+      for (const auto each : {smallest, largest})
+        add("disk", *each, disks.mass[static_cast<std::size_t>(each - disks.radius.begin())],
+            assembly.starts.material);
+    }
     const std::size_t disks = kinds.size();
     constexpr double infinite = std::numeric_limits<double>::infinity();
     for (const auto& wall : assembly.walls) {

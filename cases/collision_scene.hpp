@@ -40,7 +40,8 @@ struct NamedPair {
 };
 
 /// Of a cell's disks with each other and with wall disks; of a collision its two bodies; of an
-/// assembly "disk1-disk2", "disk1-plane3", disks by the radius of their group, none of start files.
+/// assembly "disk1-disk2", "disk1-plane3", disks by the radius of their group, of start files the
+/// smallest and the largest of the first.
 std::vector<NamedPair> pairsOf(const Case& setup);
 
 }  // namespace crossgrain::inline cases

@@ -315,6 +315,13 @@ class Cost(SystemTest):
                 self.assertTrue(all(0.0 <= error < 1.0 for error in errors), errors)
             self.assertIn("a second of the scene", (out / "report.html").read_text())
 
+    def test_disks_of_a_file_collide_as_its_smallest_and_largest(self):
+        case = CASES / "assembly/sandpile-small.toml"
+        done = self.run_program("cost", case, "--engines", "grain", "--quick", "--quiet", "--out", self.out,
+                                *settings(cost__kinds=["collision"], cost__knobs=["time_step"]))  # fmt: skip
+        self.assert_status(done, HELD)
+        self.assertTrue(any(row["measure"] == "e_n" and row["error"] for row in self.rows("cost.csv")))
+
     def test_what_does_not_fit_the_budget_is_not_measured(self):
         done = self.cost("--budget", "0.002s")
         self.assert_status(done, HELD)
