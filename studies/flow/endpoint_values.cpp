@@ -123,13 +123,23 @@ std::string lacks(const FlowRun& run, const char* what) {
                        : fmt::format("it reports no {}", what);
 }
 
-/// What the run does not show of that; empty: nothing. What a law lacks no run has.
+/// Files that list contacts, but none of walls that bodies touch.
+bool lacksWallContacts(const FlowRun& run) {
+  return std::ranges::any_of(
+      run.remarks, [](const std::string& remark) { return remark.starts_with(noWallContacts); });
+}
+
+/// What the run does not show of that; empty: nothing. What a law lacks no run has. Sums over
+/// contacts without those of walls would be others.
 std::string lackOf(Needs needs, const FlowRun& run) {
   const auto has = [&](Needs what) {
     return std::ranges::any_of(run.profiles, [&](const Profile& profile) {
       return fieldSpec(profile.field).needs == what;
     });
   };
+  const bool ofContacts = needs != Needs::kinematics && needs != Needs::spin;
+  if (ofContacts && has(Needs::contacts) && lacksWallContacts(run))
+    return lacks(run, "contacts with walls");
   if (needs == Needs::kinematics || has(needs)) return {};
   if (needs == Needs::spin) return lacks(run, "spins");
   if (!has(Needs::contacts)) return lacks(run, "contacts");
@@ -182,10 +192,7 @@ std::optional<double> endpointOf(const EndpointSpec& endpoint, const Case& setup
 std::string notShown(const EndpointSpec& endpoint, const Case& setup, const FlowRun& run) {
   const OwnEndpoint* const own = ownEndpoint(setup, endpoint.name);
   if (!own) return lackOf(formulaOf(endpoint.name).needs, run);
-  if (own->wall && std::ranges::any_of(run.remarks, [](const std::string& remark) {
-        return remark.starts_with(noWallContacts);
-      }))
-    return "no contacts with walls in its files";
+  if (own->wall && lacksWallContacts(run)) return lacks(run, "contacts with walls");
   for (const std::string& quantity : {own->quantity, own->per}) {
     if (quantity.empty()) continue;
     std::string lack = lackOf(needsOf(quantity, *own, setup.dimension), run);

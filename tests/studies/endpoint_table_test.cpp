@@ -446,6 +446,14 @@ TEST(FileRuns, WithoutContacts_HaveNoVerdictOnWhatIsMadeOfThem) {
   EXPECT_FALSE(row.distance);
 }
 
+TEST(FileRuns, WithoutContactsOfWalls_HaveNoVerdictOnWhatIsMadeOfContacts) {
+  std::vector<FlowRun> files = filesOf(pressuresOf("b", {100, 101, 102, 103}), {});
+  for (FlowRun& run : files) run.remarks.emplace_back(noWallContacts);
+  const auto row = judgedFiles(pressuresOf("a", {100, 101, 102, 103}), files);
+  EXPECT_EQ(row.verdict, Verdict::notMeasured);
+  EXPECT_EQ(row.reason, "b: no contacts with walls in its files");
+}
+
 TEST(FileRuns, WithContactsInSome_AreJudgedByThose) {
   // Without the second of b's runs the others are no longer the same ones as a's.
   const auto row = judgedFiles(pressuresOf("a", {100, 101, 102, 103, 102}),
