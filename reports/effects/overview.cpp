@@ -106,15 +106,15 @@ std::string effectsOf(const std::vector<VariantSummary>& all) {
   if (!idle.empty())
     parts.push_back(fmt::format("{} {} nothing beyond the margins", listedShortly(idle, 4),
                                 verb(idle.size(), "changes", "change")));
-  const bool told = std::ranges::any_of(all, &VariantSummary::decidable);
+  const bool decidable = std::ranges::any_of(all, &VariantSummary::decidable);
   if (parts.empty())
-    parts.emplace_back(told ? "no effect changes anything significantly"
-                            : "too few packings to know what changes");
-  parts.push_back(costliest
-                      ? fmt::format("{} costs most, {} % of a step", effectLabel(costliest->effect),
-                                    readable(100.0 * *costliest->saved,
-                                             times(costliest->savedError, 100.0)))
-                      : "none is shown to cost time");
+    parts.emplace_back(decidable ? "no effect changes anything significantly"
+                                 : "too few packings to know what changes");
+  parts.push_back(
+      costliest
+          ? fmt::format("{} costs most, {} % of a step", effectLabel(costliest->effect),
+                        readable(100.0 * *costliest->saved, times(costliest->savedError, 100.0)))
+          : "none is shown to cost time");
   return listed(parts);
 }
 

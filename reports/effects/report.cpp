@@ -167,7 +167,7 @@ Cell endpointCell(const EndpointRow& row) {
           row.verdict == Verdict::fail ? Verdict::modelDifference : row.verdict};
 }
 
-/// What each effect changes in every endpoint of the case; empty where it has none.
+/// Changes of every endpoint by each effect; empty where the case has none.
 Table endpointTable(const EffectsResults& results, const std::string& engine) {
   Table table{{"switched off"}, {}};
   for (const VariantSummary& variant : variantSummaries(results, engine)) {

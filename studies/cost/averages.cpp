@@ -18,7 +18,6 @@
 #include "studies/flow/endpoint_values.hpp"
 #include "studies/flow/run.hpp"
 #include "studies/flow/summary.hpp"
-#include "support/scratch_folder.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -51,20 +50,7 @@ std::map<std::string, std::vector<std::optional<double>>> numbersOf(
 /// second of the scene.
 CostRun endpointsOfRun(const EngineEntry& entry, const Case& setup, const Packing& packing,
                        const std::function<void(double)>& progress) {
-  Case quiet = setup;
-  quiet.run.keepSnapshots = 0;
-  const ScratchFolder scratch;
-  const CouetteTask task{&quiet,
-                         entry,
-                         0,
-                         &packing,
-                         timeStep(setup),
-                         scratch.path / "worker",
-                         scratch.path / "snapshots.h5",
-                         scratch.path / "unfinished",
-                         packing.hash};
-  const FlowRun run =
-      inDimensionOf(setup, [&]<int D>() { return runCouette<D>(task, progress, {}); });
+  const FlowRun run = runWithoutFiles(entry, setup, 0, packing, timeStep(setup), progress);
   const double seconds = flowDuration(setup);
   const auto perSecond = [&](std::uint64_t count) {
     return static_cast<std::uint64_t>(std::llround(static_cast<double>(count) / seconds));

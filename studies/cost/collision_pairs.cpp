@@ -20,17 +20,16 @@ bool isOnWall(const Case& collision) {
   return std::isinf(collision.collision.mass[1]);
 }
 
-/// Loads a planar scene, in space at z = 0, where all that moves stays in that plane.
-EffectiveParameters loadPlanar(Engine& engine, const EngineEntry& entry, const Case& setup,
-                               const Scene& scene) {
-  return setup.dimension == 3 ? loadScene(engine, entry, setup, inSpace(scene))
-                              : loadScene(engine, entry, setup, scene);
+/// Calls work with a planar scene as engines run it: in space at z = 0, where all that moves stays
+/// in that plane.
+auto withRunScene(const Case& setup, const Scene& scene, auto&& work) {
+  return setup.dimension == 3 ? work(inSpace(scene)) : work(scene);
 }
 
-ContactLaw lawAsRun(const Capabilities& can, const EngineEntry& entry, const Case& setup,
-                    const Scene& scene) {
-  return setup.dimension == 3 ? sceneFor(can, entry, setup, inSpace(scene)).scene.law
-                              : sceneFor(can, entry, setup, scene).scene.law;
+EffectiveParameters loadPlanar(Engine& engine, const EngineEntry& entry, const Case& setup,
+                               const Scene& scene) {
+  return withRunScene(setup, scene,
+                      [&](const auto& run) { return loadScene(engine, entry, setup, run); });
 }
 
 bool areAlike(const Case& one, const Case& other) {
@@ -258,7 +257,9 @@ PairOutcomes runPairs(Engine& engine, const EngineEntry& entry, const std::vecto
     first += pairs.placed.size();
     const Case& common = collisions[group.front()];
     const EffectiveParameters effective = loadPlanar(engine, entry, common, pairs.scene);
-    const ContactLaw law = lawAsRun(can, entry, common, pairs.scene);
+    const ContactLaw law = withRunScene(common, pairs.scene, [&](const auto& run) {
+      return sceneFor(can, entry, common, run).scene.law;
+    });
     outcomes.dt = effective.dt;
     double end = 0.0;
     for (const std::size_t pair : group)
@@ -282,10 +283,9 @@ std::optional<ContactLaw> lawDeclared(Engine& engine, const EngineEntry& entry,
   const EffectiveParameters effective = loadPlanar(engine, entry, collision, scene);
   const Capabilities can = engine.capabilities();
   const double mass = collidingPair(collision).reducedMass();
-  return collision.dimension == 3
-             ? declaredLaw(can, sceneFor(can, entry, collision, inSpace(scene)).scene, effective,
-                           mass)
-             : declaredLaw(can, sceneFor(can, entry, collision, scene).scene, effective, mass);
+  return withRunScene(collision, scene, [&](const auto& run) {
+    return declaredLaw(can, sceneFor(can, entry, collision, run).scene, effective, mass);
+  });
 }
 
 }  // namespace crossgrain::inline studies

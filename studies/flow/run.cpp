@@ -14,6 +14,7 @@
 #include "studies/flow/snapshot_file.hpp"
 #include "studies/flow/unfinished_run.hpp"
 #include "support/interrupt.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -139,5 +140,23 @@ template FlowRun runCouette<2>(const CouetteTask&, const std::function<void(doub
                                const SnapshotObserver&);
 template FlowRun runCouette<3>(const CouetteTask&, const std::function<void(double)>&,
                                const SnapshotObserverOf<3>&);
+
+FlowRun runWithoutFiles(const EngineEntry& entry, const Case& setup, int packingIndex,
+                        const Packing& packing, double dt,
+                        const std::function<void(double)>& progress) {
+  Case quiet = setup;
+  quiet.run.keepSnapshots = 0;
+  const ScratchFolder scratch;
+  const CouetteTask task{&quiet,
+                         entry,
+                         packingIndex,
+                         &packing,
+                         dt,
+                         scratch.path / "worker",
+                         scratch.path / "snapshots.h5",
+                         scratch.path / "unfinished",
+                         packing.hash};
+  return inDimensionOf(setup, [&]<int D>() { return runCouette<D>(task, progress); });
+}
 
 }  // namespace crossgrain::inline studies

@@ -53,4 +53,10 @@ template <int D = 2>
 FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& progress,
                    const SnapshotObserverOf<D>& watch = {});
 
+/// The same in folders that go with it: nothing is kept, and no unfinished run is gone on with.
+/// @param dt  the case's time step [s]
+FlowRun runWithoutFiles(const EngineEntry& entry, const Case& setup, int packingIndex,
+                        const Packing& packing, double dt,
+                        const std::function<void(double)>& progress);
+
 }  // namespace crossgrain::inline studies

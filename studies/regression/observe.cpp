@@ -118,23 +118,12 @@ std::vector<KeptCollisions> collisionsOf(Engine& engine, const EngineEntry& entr
 KeptEndpoints endpointsFrom(const EngineEntry& entry, const Case& setup,
                             const std::vector<FlowState>& starts, double dt,
                             const std::function<void(double)>& progress) {
-  Case quiet = setup;
-  quiet.run.keepSnapshots = 0;
-  const ScratchFolder scratch;
   KeptEndpoints kept;
   for (std::size_t s = 0; s < starts.size(); ++s) {
-    const CouetteTask task{&quiet,
-                           entry,
-                           static_cast<int>(s),
-                           &starts[s].packing,
-                           dt,
-                           scratch.path / "worker",
-                           scratch.path / "snapshots.h5",
-                           scratch.path / "unfinished",
-                           starts[s].packing.hash};
-    const FlowRun run = runCouette(task, [&](double fraction) {
-      progress((static_cast<double>(s) + fraction) / static_cast<double>(starts.size()));
-    });
+    const FlowRun run = runWithoutFiles(
+        entry, setup, static_cast<int>(s), starts[s].packing, dt, [&](double fraction) {
+          progress((static_cast<double>(s) + fraction) / static_cast<double>(starts.size()));
+        });
     for (const auto& [name, margin] : setup.averaging.endpoints)
       kept[name].push_back(endpointOf(endpointSpec(setup, name), setup, run));
   }
