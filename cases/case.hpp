@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -9,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "adapters/contact_law.hpp"
@@ -41,6 +43,8 @@ struct Cell {
   double height = 0.0;       ///< h of the disks, normal to the plane [m]
   double omega = 0.0;        ///< Ω of the wheel, counter-clockwise positive [rad/s]
   MaterialName wheelMaterial = {}, ringMaterial = {};
+
+  double rimSpeed() const { return std::abs(omega) * innerRadius; }  ///< [m/s]
 };
 
 struct Particles {
@@ -55,16 +59,37 @@ struct Particles {
   MaterialName smallMaterial = {}, largeMaterial = {};
 };
 
-/// Dilute lattice, random velocities, turning wheel, shrinking ring, then rotations (thesis §3.3).
-struct Preparation {
-  std::string engine;  ///< that prepares them; empty: the in-house one
-  int packings = 4;
-  std::uint64_t seed = 1;
+/// How a cell is filled: dilute lattice, random velocities, turning wheel, shrinking ring, then
+/// rotations (thesis §3.3).
+struct Filling {
+  std::string engine;        ///< that does it; empty: the in-house one
   double dilation = 1.25;    ///< R_prepare / R_o
   double velocity = 0.05;    ///< rms of each component of the initial velocities [m/s]
   double shrinkTime = 1.0;   ///< in which the ring goes from R_prepare to R_o [s]
   double rotations = 2.0;    ///< of the wheel, after the ring has reached R_o
   std::optional<double> dt;  ///< time step of all that [s]; absent: that of the runs
+};
+
+/// How long a cell is sheared, in rotations of its wheel, and over how many rings it is averaged.
+struct CellTimes {
+  int rings = 20;
+  double settleRotations = 0.25;  ///< after hand-over, not averaged
+  double rotations = 1.0;         ///< averaged
+  int snapshotsPerRotation = 400;
+};
+
+/// A scene source: the cell, and what it is filled with.
+struct Couette {
+  Cell cell;
+  Particles particles;
+  Filling filling;
+  CellTimes times;
+};
+
+/// The starts of a flow.
+struct Preparation {
+  int packings = 4;
+  std::uint64_t seed = 1;
 };
 
 /// How far apart two engines may be in one field and still agree.
@@ -75,13 +100,10 @@ struct Margin {
   std::string scale;  ///< of which the case file says a share (couette.hpp); empty: `value` is said
 };
 
+/// How a flow is averaged, and how far apart two engines may be.
 struct Averaging {
-  int rings = 20;
   std::vector<std::string> methods = {"slicing"};  ///< as in weightNames
-  double lineWidth = 0.5;         ///< kernel width of line methods, in units of d [-]
-  double settleRotations = 0.25;  ///< after hand-over, not averaged
-  double rotations = 1.0;         ///< averaged
-  int snapshotsPerRotation = 400;
+  double lineWidth = 0.5;  ///< kernel width of line methods, in units of d [-]
   double confidence = 0.95;
   std::map<std::string, Margin> margins;    ///< by field name as in profiles.csv
   std::map<std::string, Margin> endpoints;  ///< by name (endpoints.hpp)
@@ -266,10 +288,12 @@ enum class Reduction {
   reaches   ///< when a series first is at a value [s]
 };
 
-/// An endpoint (endpoints.hpp) that the case file makes up itself.
-struct OwnEndpoint {
-  std::string name;
+/// One number of a run that carries a verdict between engines: few of them, so that a test can find
+/// something, and each says another thing of the flow. Bins show where a difference is.
+struct Endpoint {
+  std::string name;         ///< "mean_spin"
   std::string words;        ///< the name with blanks
+  std::string symbol;       ///< marks as in reports/common/labels.hpp; empty: it has none
   std::string quantity;     ///< a field of profiles.csv or a number of regionNumbers()
   std::optional<int> disk;  ///< from 0: then a number of diskNumbers()
   /// Of [[assembly.walls]], from 0: then a number of wallNumbers(), of all of it or of one plane.
@@ -284,7 +308,9 @@ struct OwnEndpoint {
   std::optional<double> expected;
   std::string unit;
   std::string definition;  ///< in words
-  bool byRatio = false;    ///< EndpointSpec::byRatio: where the margin is relative
+  /// Engines are compared by their ratio, on logarithms, and the margin is relative: of what has
+  /// one sign in every run and spreads over packings by factors. Else by the difference.
+  bool byRatio = false;
 
   /// The quantity's column of series.csv: "disks", "disk_0_y".
   std::string series() const;
@@ -306,21 +332,21 @@ std::span<const RegionNumber> diskNumbers(int dimension = 2);
 std::span<const RegionNumber> wallNumbers(int dimension = 2);
 inline constexpr std::string_view normalForce = "normal_force";
 
-struct Average {
-  Region region;
-  std::vector<OwnEndpoint> endpoints;  ///< all of them have an expected value, or none
+/// Quantities of ready-made endpoints alone: half the trace of the stress of rings in the plane,
+/// which have no such field; and the contacts of a disk over the whole scene, which are those of no
+/// bin.
+inline constexpr std::string_view planePressure = "pressure",
+                                  sceneCoordination = "scene_coordination";
 
-  bool hasClosedForms() const { return !endpoints.empty() && endpoints.front().expected; }
-};
-
-enum class CaseKind { couette, collision, assembly };
+/// Where the bodies of a scene come from.
+using SceneSource = std::variant<Couette, Collision, AssemblyOf<2>, AssemblyOf<3>>;
 
 /// One case with all its `extends` resolved and one variant applied.
 struct Case {
   std::string name;
   std::string variant;  ///< empty for the case itself
-  CaseKind kind = CaseKind::couette;
-  int dimension = 2;  ///< 3: spheres in space
+  int dimension = 2;    ///< 3: spheres in space
+  SceneSource source;
   std::filesystem::path file;
   std::string resolvedToml;  ///< the merged document, printed: what was really run
   ContactLaw law;
@@ -328,16 +354,12 @@ struct Case {
   /// their own, whose options and effects all have.
   std::optional<Materials> materials;
   std::optional<BottomPlate> bottom;
-  Cell cell;
-  Particles particles;
   Preparation preparation;
   Averaging averaging;
   InterimSettings looks;
   RunOptions run;
-  Collision collision;
-  Assembly assembly;                   ///< in the plane
-  AssemblyOf<3> spaceAssembly;         ///< in space
-  std::optional<Average> average;      ///< of an assembly that engines are compared on
+  std::optional<Region> region;        ///< what is averaged of a flow: rings of a cell
+  std::vector<Endpoint> endpoints;     ///< all of them have an expected value, or none
   std::optional<Stability> stability;  ///< of a hard case
   Cost cost;
   std::map<std::string, Settings> engines;  ///< [engines.NAME]
@@ -345,18 +367,51 @@ struct Case {
   std::vector<std::string> overrides;       ///< "key.path=value" each, as after `--set`
 };
 
-/// The case's assembly of that dimension.
-template <int D>
-const AssemblyOf<D>& assemblyIn(const Case& setup) {
-  if constexpr (D == 2)
-    return setup.assembly;
-  else
-    return setup.spaceAssembly;
+/// The cell that the case fills; null: its scene is no Couette cell.
+inline const Couette* cellOf(const Case& setup) {
+  return std::get_if<Couette>(&setup.source);
 }
 
-/// Does the same to the assembly of the case's own dimension.
+inline bool isCollision(const Case& setup) {
+  return std::holds_alternative<Collision>(setup.source);
+}
+
+/// Disks and walls that the case file puts together itself.
+inline bool isAssembly(const Case& setup) {
+  return !cellOf(setup) && !isCollision(setup);
+}
+
+/// What the scene is made of. @throws std::bad_variant_access where it is something else
+inline const Couette& couetteIn(const Case& setup) {
+  return std::get<Couette>(setup.source);
+}
+inline Couette& couetteIn(Case& setup) {
+  return std::get<Couette>(setup.source);
+}
+inline const Collision& collisionIn(const Case& setup) {
+  return std::get<Collision>(setup.source);
+}
+inline Collision& collisionIn(Case& setup) {
+  return std::get<Collision>(setup.source);
+}
+template <int D>
+const AssemblyOf<D>& assemblyIn(const Case& setup) {
+  return std::get<AssemblyOf<D>>(setup.source);
+}
+template <int D>
+AssemblyOf<D>& assemblyIn(Case& setup) {
+  return std::get<AssemblyOf<D>>(setup.source);
+}
+
+/// A packing of the user's own that fills a cell; null: there is none.
+inline const std::filesystem::path* packingFile(const Case& setup) {
+  const Couette* const cell = cellOf(setup);
+  return cell && cell->particles.file ? &*cell->particles.file : nullptr;
+}
+
+/// Does the same to the assembly of the case's own dimension. @throws as assemblyIn()
 decltype(auto) withAssembly(auto& setup, auto&& work) {
-  return setup.dimension == 3 ? work(setup.spaceAssembly) : work(setup.assembly);
+  return setup.dimension == 3 ? work(assemblyIn<3>(setup)) : work(assemblyIn<2>(setup));
 }
 
 /// Calls work.operator()<D>() with the case's dimension.

@@ -56,7 +56,7 @@ void cautionsOfVerdicts(const Case& setup, Lines& lines) {
   const int packings = flowPackings(setup);
   if (setup.averaging.endpoints.empty())
     lines.push_back(fmt::format("no {}: compare will judge nothing",
-                                setup.average ? "[[endpoints]]" : "[averaging.endpoints]"));
+                                cellOf(setup) ? "[averaging.endpoints]" : "[[endpoints]]"));
   if (packings < fewest && !hasClosedForms(setup))
     lines.push_back(fmt::format("{} packing{}{}: compare judges nothing with fewer than {}",
                                 packings, packings == 1 ? "" : "s",
@@ -65,8 +65,8 @@ void cautionsOfVerdicts(const Case& setup, Lines& lines) {
 
 /// Grains are not as large as people; numbers in mm are. A diameter of just 1 is a scene's unit.
 void cautionsOfLengths(const Case& setup, Lines& lines) {
-  constexpr double large = 1.0;      // of a disk's diameter [m]
-  if (setup.particles.file) return;  // nobody knows yet
+  constexpr double large = 1.0;    // of a disk's diameter [m]
+  if (packingFile(setup)) return;  // nobody knows yet
   if (const double d = flowDiameter(setup); d > large)
     lines.push_back(fmt::format("the smallest disks are {:g} m across: are lengths in mm?", d));
 }
@@ -74,12 +74,12 @@ void cautionsOfLengths(const Case& setup, Lines& lines) {
 /// Impulses need no resolved contact, but disks must not jump.
 void cautionsOfEngineSteps(const Case& setup, Lines& lines) {
   constexpr double far = 0.1;  // of d
-  const double speed = std::abs(setup.cell.omega) * setup.cell.innerRadius;
+  const double speed = couetteIn(setup).cell.rimSpeed();
   for (const auto& [engine, settings] : setup.engines) {
     const auto step = settings.find("dt");
     if (step == settings.end() || !std::holds_alternative<double>(step->second)) continue;
     const double fraction =
-        std::get<double>(step->second) * speed / setup.particles.smallRadius / 2.0;
+        std::get<double>(step->second) * speed / couetteIn(setup).particles.smallRadius / 2.0;
     if (fraction > far)
       lines.push_back(
           fmt::format("[engines.{}] dt = {:g} s: the wheel's rim moves {:.2g} d in a step of it",
@@ -91,18 +91,16 @@ void cautionsOfEngineSteps(const Case& setup, Lines& lines) {
 
 Lines cautions(const Case& setup, double volumeFraction) {
   Lines lines = setup.warnings;
-  if (setup.kind == CaseKind::collision) {
-    if (setup.collision.margins.empty())
+  if (isCollision(setup)) {
+    if (collisionIn(setup).margins.empty())
       lines.emplace_back("no [collision.margins]: collide will judge nothing");
     return lines;
   }
   cautionsOfStep(setup, lines);
   cautionsOfLengths(setup, lines);
-  if (setup.average) cautionsOfVerdicts(setup, lines);
-  if (setup.kind == CaseKind::assembly) return lines;
-  cautionsOfFilling(setup, volumeFraction, lines);
-  cautionsOfVerdicts(setup, lines);
-  cautionsOfEngineSteps(setup, lines);
+  if (cellOf(setup)) cautionsOfFilling(setup, volumeFraction, lines);
+  if (setup.region) cautionsOfVerdicts(setup, lines);
+  if (cellOf(setup)) cautionsOfEngineSteps(setup, lines);
   return lines;
 }
 
@@ -111,12 +109,14 @@ namespace {
 /// How far wall disks at that spacing keep a small disk's surface off the circle of their centres,
 /// averaged along the wall [m].
 double wallDepth(const Case& setup) {
-  const double reach = setup.cell.wallRadius + setup.particles.smallRadius;
-  const double half = std::min(0.5 * setup.cell.wallSpacing, reach);
+  const Cell& cell = couetteIn(setup).cell;
+  const double small = couetteIn(setup).particles.smallRadius;
+  const double reach = cell.wallRadius + small;
+  const double half = std::min(0.5 * cell.wallSpacing, reach);
   // mean of √(reach² − x²) over |x| <= half
   const double area = 0.5 * (half * std::sqrt(reach * reach - half * half) +
                              reach * reach * std::asin(half / reach));
-  return area / half - setup.particles.smallRadius;
+  return area / half - small;
 }
 
 /// Sites of a square lattice between two circles.
@@ -135,15 +135,16 @@ std::vector<Vec2> squareSites(double constant, double inner, double outer) {
 
 double bulkVolumeFraction(const Case& setup, double volumeFraction) {
   constexpr double layering = 0.17;  // of d, fitted to both cells
-  const double width = setup.cell.outerRadius - setup.cell.innerRadius;
-  const double lost = wallDepth(setup) + layering * 2.0 * setup.particles.smallRadius;
+  const Cell& cell = couetteIn(setup).cell;
+  const double width = cell.outerRadius - cell.innerRadius;
+  const double lost = wallDepth(setup) + layering * flowDiameter(setup);
   return volumeFraction * width / (width - 2.0 * lost);
 }
 
 std::optional<double> expectedPressure(const Case& setup, double bulk) {
   if (setup.law.normal != NormalLaw::linear || bulk <= dilutedBelow) return std::nullopt;
   const double fabric = 4.0 * bulk;
-  return setup.law.kn * fabric / (2.0 * std::numbers::pi * setup.cell.height) *
+  return setup.law.kn * fabric / (2.0 * std::numbers::pi * couetteIn(setup).cell.height) *
          (bulk / dilutedBelow - 1.0);
 }
 
@@ -151,15 +152,15 @@ std::optional<double> expectedInertialNumber(const Case& setup, double bulk) {
   const auto pressure = expectedPressure(setup, bulk);
   if (!pressure) return std::nullopt;
   const double density = std::ranges::find(scales(), "disk_density", &Scale::name)->of(setup);
-  const double speed = std::abs(setup.cell.omega) * setup.cell.innerRadius;
+  const double speed = couetteIn(setup).cell.rimSpeed();
   return 0.5 * speed * std::sqrt(density / *pressure);
 }
 
 Packing madeUpPacking(const Case& setup) {
   Packing packing;
-  packing.disks = diskKinds(setup.particles);
+  packing.disks = diskKinds(couetteIn(setup).particles);
   Disks& disks = packing.disks;
-  const Cell& cell = setup.cell;
+  const Cell& cell = couetteIn(setup).cell;
   double narrow = 0.0, wide = cell.outerRadius - cell.innerRadius;
   std::vector<Vec2> sites;
   for (int halving = 0; halving < 40; ++halving) {
@@ -178,7 +179,7 @@ Packing madeUpPacking(const Case& setup) {
   disks.position = sites;
   for (std::size_t i = 0; i < disks.size(); ++i) {
     disks.radius[i] = radius;
-    disks.inertia[i] = setup.particles.inertiaFactor * disks.mass[i] * radius * radius;
+    disks.inertia[i] = couetteIn(setup).particles.inertiaFactor * disks.mass[i] * radius * radius;
   }
   return packing;
 }

@@ -13,7 +13,7 @@
 namespace crossgrain::inline cases {
 
 CollidingPair collidingPair(const Case& setup) {
-  const Collision& c = setup.collision;
+  const Collision& c = collisionIn(setup);
   const auto inertia = [&](int side) {
     return c.inertiaFactor * c.mass[side] * c.radius[side] * c.radius[side];
   };
@@ -22,7 +22,7 @@ CollidingPair collidingPair(const Case& setup) {
 }
 
 std::vector<CollisionStart> collisionStarts(const Case& setup) {
-  const Collision& c = setup.collision;
+  const Collision& c = collisionIn(setup);
   std::vector<CollisionStart> starts;
   const auto add = [&](const std::vector<double>& speeds, bool whole) {
     for (const double speed : speeds)
@@ -68,7 +68,7 @@ namespace {
 
 /// Whatever the case's dimension: in space it is turned afterwards.
 Scene planarScene(const Case& setup, const std::vector<CollisionStart>& starts, double dt) {
-  const Collision& collision = setup.collision;
+  const Collision& collision = collisionIn(setup);
   const CollidingPair pair = collidingPair(setup);
   const double reach = pair.radius[0] + pair.radius[1];
   const double spacing = 3.0 * std::max(2.0 * std::max(pair.radius[0], pair.radius[1]), reach);
@@ -119,7 +119,7 @@ Scene collisionScene(const Case& setup, const std::vector<CollisionStart>& start
 }
 
 Eigen::Matrix3d turnOf(const Case& setup) {
-  const Vec3& turn = setup.collision.turn;
+  const Vec3& turn = collisionIn(setup).turn;
   if (turn.isZero(0.0)) return Eigen::Matrix3d::Identity();
   return Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
 }
@@ -220,9 +220,9 @@ std::vector<NamedPair> pairsOfAssembly(const Case& setup) {
 }  // namespace
 
 std::vector<NamedPair> pairsOf(const Case& setup) {
-  if (setup.kind == CaseKind::collision) return {{"i-j", collidingPair(setup), setup.law}};
-  if (setup.kind == CaseKind::assembly) return pairsOfAssembly(setup);
-  const Particles& p = setup.particles;
+  if (isCollision(setup)) return {{"i-j", collidingPair(setup), setup.law}};
+  if (isAssembly(setup)) return pairsOfAssembly(setup);
+  const Particles& p = couetteIn(setup).particles;
   std::vector<Kind> kinds;
   if (p.small > 0 || p.file)
     kinds.push_back({"small", p.smallRadius, p.smallMass, p.smallMaterial});
@@ -230,7 +230,7 @@ std::vector<NamedPair> pairsOf(const Case& setup) {
     kinds.push_back({"large", p.largeRadius, p.largeMass, p.largeMaterial});
   const std::size_t disks = kinds.size();
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  const Cell& cell = setup.cell;
+  const Cell& cell = couetteIn(setup).cell;
   const bool alike = cell.wheelMaterial.name == cell.ringMaterial.name;
   kinds.push_back({alike ? "wall" : "wheel", cell.wallRadius, infinite, cell.wheelMaterial});
   if (!alike) kinds.push_back({"ring", cell.wallRadius, infinite, cell.ringMaterial});

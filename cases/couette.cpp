@@ -9,6 +9,8 @@
 #include <numbers>
 
 #include "adapters/start_check.hpp"
+#include "cases/endpoints.hpp"
+#include "cases/flow.hpp"
 #include "cases/materials.hpp"
 #include "cases/scene_numbers.hpp"
 #include "support/bad_input.hpp"
@@ -16,7 +18,23 @@
 namespace crossgrain::inline cases {
 
 double rotationTime(const Case& setup) {
-  return 2.0 * std::numbers::pi / std::abs(setup.cell.omega);
+  return 2.0 * std::numbers::pi / std::abs(couetteIn(setup).cell.omega);
+}
+
+void setFlowOfCell(Case& c) {
+  Region& region = c.region.emplace();
+  region.bins = BinKind::rings;
+  const auto& [cell, particles, filling, rotations] = couetteIn(c);
+  region.innerRadius = cell.innerRadius;
+  region.outerRadius = cell.outerRadius;
+  region.count = rotations.rings;
+  region.height = cell.height;
+  const FlowTimes times = flowTimes(c);
+  region.from = times.settled;
+  region.snapshots = times.samples;
+  c.endpoints.clear();
+  for (const Endpoint& endpoint : endpointTable())
+    if (c.averaging.endpoints.contains(endpoint.name)) c.endpoints.push_back(endpoint);
 }
 
 int wallDiskCount(const Cell& cell, double radius) {
@@ -58,10 +76,11 @@ Disks diskKinds(const Particles& particles) {
 }
 
 Disks spreadDisks(const Case& setup) {
-  Disks disks = diskKinds(setup.particles);
-  const double clearance = setup.cell.wallRadius + setup.particles.smallRadius;
-  const double inner = setup.cell.innerRadius + clearance;
-  const double outer = setup.cell.outerRadius - clearance;
+  Disks disks = diskKinds(couetteIn(setup).particles);
+  const double clearance =
+      couetteIn(setup).cell.wallRadius + couetteIn(setup).particles.smallRadius;
+  const double inner = couetteIn(setup).cell.innerRadius + clearance;
+  const double outer = couetteIn(setup).cell.outerRadius - clearance;
   const double goldenAngle = std::numbers::pi * (3.0 - std::sqrt(5.0));
   const auto count = static_cast<double>(disks.size());
   for (std::size_t k = 0; k < disks.size(); ++k) {
@@ -79,16 +98,18 @@ Scene couetteScene(const Case& setup, const Packing& packing, double dt) {
   scene.disks = packing.disks;
   scene.law = setup.law;
   scene.bottom = setup.bottom;
-  scene.rotation = setup.particles.rotation;
+  scene.rotation = couetteIn(setup).particles.rotation;
   if (!scene.rotation) std::ranges::fill(scene.disks.spin, 0.0);
   scene.precision = setup.run.precision;
   scene.energyLedger = setup.run.energyLedger;
   scene.dt = dt;
-  WallBody wheel = wallRing(wheelName, setup.cell, setup.cell.innerRadius, packing.wheelAngle);
+  WallBody wheel = wallRing(wheelName, couetteIn(setup).cell, couetteIn(setup).cell.innerRadius,
+                            packing.wheelAngle);
   wheel.motion.kind = Motion::Kind::rotating;
-  wheel.motion.angularVelocity = setup.cell.omega;
+  wheel.motion.angularVelocity = couetteIn(setup).cell.omega;
   scene.bodies.push_back(std::move(wheel));
-  scene.bodies.push_back(wallRing(ringName, setup.cell, setup.cell.outerRadius, 0.0));
+  scene.bodies.push_back(
+      wallRing(ringName, couetteIn(setup).cell, couetteIn(setup).cell.outerRadius, 0.0));
   addMaterials(scene, setup);
   return scene;
 }
@@ -193,8 +214,9 @@ double cellArea(const Cell& cell) {
 }  // namespace
 
 double volumeFraction(const Case& c) {
-  const Particles& p = c.particles;
-  return (p.small * square(p.smallRadius) + p.large * square(p.largeRadius)) / cellArea(c.cell);
+  const Particles& p = couetteIn(c).particles;
+  return (p.small * square(p.smallRadius) + p.large * square(p.largeRadius)) /
+         cellArea(couetteIn(c).cell);
 }
 
 double diskNumber(const Cell& cell, const Particles& particles, double fraction,
@@ -215,16 +237,17 @@ void setNumbers(const Cell& cell, Particles& particles, double fraction, double 
 namespace {
 
 double diameter(const Case& c) {
-  return 2.0 * c.particles.smallRadius;
+  return 2.0 * couetteIn(c).particles.smallRadius;
 }
 
 double rimSpeed(const Case& c) {
-  return std::abs(c.cell.omega) * c.cell.innerRadius;
+  return couetteIn(c).cell.rimSpeed();
 }
 
 double diskDensity(const Case& c) {
-  const double area = std::numbers::pi * c.particles.smallRadius * c.particles.smallRadius;
-  return c.particles.smallMass / (area * c.cell.height);
+  const double area =
+      std::numbers::pi * couetteIn(c).particles.smallRadius * couetteIn(c).particles.smallRadius;
+  return couetteIn(c).particles.smallMass / (area * couetteIn(c).cell.height);
 }
 
 // d: diameter of a small disk; D = 2 R_i, as the thesis scales spins (Lätzel 2003, section 6.3).
@@ -232,12 +255,13 @@ constexpr std::array<Scale, 8> scaleTable = {{
     {"rim_speed", "m/s", "Ω R_i", rimSpeed},
     {"spin_scale", "rad/s", "Ω D/d, D = 2 R_i",
      [](const Case& c) { return 2.0 * rimSpeed(c) / diameter(c); }},
-    {"wheel_rate", "rad/s", "Ω", [](const Case& c) { return std::abs(c.cell.omega); }},
+    {"wheel_rate", "rad/s", "Ω", [](const Case& c) { return std::abs(couetteIn(c).cell.omega); }},
     {"shear_rate", "1/s", "Ω R_i/d", [](const Case& c) { return rimSpeed(c) / diameter(c); }},
     {"diameter", "m", "d", diameter},
     {"rim_pressure", "N/m²", "ρ (Ω R_i)²",
      [](const Case& c) { return diskDensity(c) * rimSpeed(c) * rimSpeed(c); }},
-    {"contact_pressure", "N/m²", "k_n/h", [](const Case& c) { return c.law.kn / c.cell.height; }},
+    {"contact_pressure", "N/m²", "k_n/h",
+     [](const Case& c) { return c.law.kn / couetteIn(c).cell.height; }},
     {"disk_density", "kg/m³", "ρ of a small disk", diskDensity},
 }};
 

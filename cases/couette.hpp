@@ -17,6 +17,10 @@ inline constexpr const char* ringName = "ring";
 /// case blocks rotation, the packing's spins are dropped.
 Scene couetteScene(const Case& setup, const Packing& packing, double dt);
 
+/// The region and endpoints of a cell that has been read: the rings between its walls, and those of
+/// endpointTable() that have a margin.
+void setFlowOfCell(Case& c);
+
 /// Seconds of one rotation of the wheel.
 double rotationTime(const Case& setup);
 

@@ -85,8 +85,7 @@ const std::array switchables = {
     Switchable{"tangential_damping", Effect::tangentialDamping, nullptr, noTangentialDamping},
     Switchable{"rotation", Effect::rotation, nullptr,
                [](const Case& setup) {
-                 const char* const section =
-                     setup.kind == CaseKind::assembly ? "assembly" : "particles";
+                 const char* const section = isAssembly(setup) ? "assembly" : "particles";
                  return Change{
                      fmt::format("Friction acts, but no {} turns about itself: every spin is zero, "
                                  "and stays so.",

@@ -11,52 +11,67 @@ namespace crossgrain::inline cases {
 
 namespace {
 
-constexpr std::array<EndpointSpec, 9> table = {{
-    {"pressure", "pressure", "p", "N/m²", "mean of (σ_rr + σ_φφ)/2 over the cell", true},
-    {"stress_ratio", "stress ratio", "σ_rφ/σ_rr", "-", "means of both over the cell", false},
-    {"stress_anisotropy", "stress anisotropy", "σ_φφ/σ_rr", "-", "means of both over the cell",
-     false},
-    {"coordination", "coordination", "C", "-", "contacts of a disk, mean over disks and time",
-     false},
-    {"mean_velocity", "mean velocity", "⟨v_φ⟩", "m/s",
-     "mean of v_φ over the disks, Σ w V v_φ / Σ w V of the cell", false},
-    {"mean_spin", "mean spin", "⟨ω⟩", "rad/s",
-     "mean of the spin over the disks, Σ w V ω / Σ w V of the cell", false},
-    {"velocity_at_wheel", "velocity at the wheel", "v_φ1", "m/s", "v_φ in ring 1", false},
-    {"volume_fraction_at_wheel", "volume fraction at the wheel", "ν_1", "-", "ν in ring 1", false},
-    {"spin_at_wheel", "spin at the wheel", "ω_1", "rad/s", "spin in ring 1", false},
-}};
+/// Of a field: its mean over the bins, or, of those that touch the wheel, the first ring's.
+Endpoint ofField(const char* name, const char* symbol, std::string_view quantity, const char* unit,
+                 const char* definition, Reduction reduction = Reduction::mean) {
+  Endpoint endpoint;
+  endpoint.words = endpoint.name = name;
+  std::ranges::replace(endpoint.words, '_', ' ');
+  endpoint.symbol = symbol;
+  endpoint.quantity = quantity;
+  endpoint.unit = unit;
+  endpoint.definition = definition;
+  endpoint.reduction = reduction;
+  return endpoint;
+}
 
-}  // namespace
+Endpoint ofStresses(const char* name, const char* symbol, const char* above) {
+  Endpoint endpoint = ofField(name, symbol, above, "-", "means of both over the cell");
+  endpoint.per = "stress_rr";
+  return endpoint;
+}
 
-std::span<const EndpointSpec> endpointTable() {
+std::vector<Endpoint> makeTable() {
+  const auto atWheel = [](const char* name, const char* symbol, const char* quantity,
+                          const char* unit, const char* definition) {
+    Endpoint endpoint = ofField(name, symbol, quantity, unit, definition, Reduction::bin);
+    endpoint.words.insert(endpoint.words.find("wheel"), "the ");
+    return endpoint;
+  };
+  std::vector<Endpoint> table = {
+      ofField("pressure", "p", planePressure, "N/m²", "mean of (σ_rr + σ_φφ)/2 over the cell"),
+      ofStresses("stress_ratio", "σ_rφ/σ_rr", "stress_rp"),
+      ofStresses("stress_anisotropy", "σ_φφ/σ_rr", "stress_pp"),
+      ofField("coordination", "C", sceneCoordination, "-",
+              "contacts of a disk, mean over disks and time"),
+      ofField("mean_velocity", "⟨v_φ⟩", "azimuthal_velocity", "m/s",
+              "mean of v_φ over the disks, Σ w V v_φ / Σ w V of the cell"),
+      ofField("mean_spin", "⟨ω⟩", "spin", "rad/s",
+              "mean of the spin over the disks, Σ w V ω / Σ w V of the cell"),
+      atWheel("velocity_at_wheel", "v_φ1", "azimuthal_velocity", "m/s", "v_φ in ring 1"),
+      atWheel("volume_fraction_at_wheel", "ν_1", "volume_fraction", "-", "ν in ring 1"),
+      atWheel("spin_at_wheel", "ω_1", "spin", "rad/s", "spin in ring 1")};
+  table.front().byRatio = true;
   return table;
 }
 
-const EndpointSpec& endpointSpec(std::string_view name) {
-  const auto found = std::ranges::find(table, name, &EndpointSpec::name);
-  if (found == table.end())
+}  // namespace
+
+std::span<const Endpoint> endpointTable() {
+  static const std::vector<Endpoint> table = makeTable();
+  return table;
+}
+
+const Endpoint& endpointNamed(std::string_view name) {
+  const auto found = std::ranges::find(endpointTable(), name, &Endpoint::name);
+  if (found == endpointTable().end())
     throw std::invalid_argument("there is no endpoint " + std::string(name));
   return *found;
 }
 
-std::vector<EndpointSpec> endpointsOf(const Case& setup) {
-  std::vector<EndpointSpec> endpoints;
-  if (setup.average) {
-    for (const OwnEndpoint& own : setup.average->endpoints)
-      endpoints.push_back({own.name, own.words, own.words, own.unit, own.definition, own.byRatio});
-    return endpoints;
-  }
-  for (const EndpointSpec& endpoint : endpointTable())
-    if (setup.averaging.endpoints.contains(std::string(endpoint.name)))
-      endpoints.push_back(endpoint);
-  return endpoints;
-}
-
-EndpointSpec endpointSpec(const Case& setup, std::string_view name) {
-  for (const EndpointSpec& endpoint : endpointsOf(setup))
-    if (endpoint.name == name) return endpoint;
-  return endpointSpec(name);
+const Endpoint& endpointNamed(const Case& setup, std::string_view name) {
+  const auto found = std::ranges::find(setup.endpoints, name, &Endpoint::name);
+  return found == setup.endpoints.end() ? endpointNamed(name) : *found;
 }
 
 std::span<const RegionNumber> regionNumbers(int dimension) {
@@ -102,6 +117,7 @@ std::span<const RegionNumber> regionNumbers(int dimension) {
       largest,
       mean,
       sliding,
+
       disks,
       top,
       x,
@@ -150,7 +166,7 @@ std::span<const RegionNumber> wallNumbers(int dimension) {
   return inPlane;
 }
 
-std::string OwnEndpoint::series() const {
+std::string Endpoint::series() const {
   if (wall)
     return fmt::format("wall_{}_{}{}", *wall, plane ? fmt::format("plane_{}_", *plane) : "",
                        quantity);

@@ -19,10 +19,6 @@ namespace crossgrain::inline cases {
 
 namespace {
 
-bool isAssembly(const Case& setup) {
-  return setup.kind == CaseKind::assembly;
-}
-
 /// Of the disks of a start file that stand still, and of what its rows are made of: its moving
 /// disks alone do not make a scene.
 template <int D>
@@ -59,30 +55,31 @@ double swingPeriod(const AssemblyOf<D>& assembly) {
 }  // namespace
 
 bool hasFlow(const Case& setup) {
-  return setup.kind == CaseKind::couette || setup.average;
+  return setup.region.has_value();
 }
 
 FlowTimes flowTimes(const Case& setup) {
   FlowTimes times;
   if (isAssembly(setup)) {
-    const Region& region = setup.average->region;
+    const Region& region = *setup.region;
     times.settled = region.from;
     times.samples = region.snapshots;
     times.interval = (assemblyDuration(setup) - region.from) / region.snapshots;
     return times;
   }
-  const Averaging& averaging = setup.averaging;
+  const CellTimes& cell = couetteIn(setup).times;
   const double rotation = rotationTime(setup);
-  times.settled = averaging.settleRotations * rotation;
-  times.samples = std::max(
-      1, static_cast<int>(std::lround(averaging.snapshotsPerRotation * averaging.rotations)));
-  times.interval = averaging.rotations * rotation / times.samples;
+  times.settled = cell.settleRotations * rotation;
+  times.samples =
+      std::max(1, static_cast<int>(std::lround(cell.snapshotsPerRotation * cell.rotations)));
+  times.interval = cell.rotations * rotation / times.samples;
   return times;
 }
 
 double flowDuration(const Case& setup) {
   if (isAssembly(setup)) return assemblyDuration(setup);
-  return (setup.averaging.settleRotations + setup.averaging.rotations) * rotationTime(setup);
+  const CellTimes& cell = couetteIn(setup).times;
+  return (cell.settleRotations + cell.rotations) * rotationTime(setup);
 }
 
 double flowUnit(const Case& setup) {
@@ -90,7 +87,11 @@ double flowUnit(const Case& setup) {
 }
 
 double flowDiameter(const Case& setup) {
-  if (!isAssembly(setup)) return 2.0 * setup.particles.smallRadius;
+  if (const Couette* const cell = cellOf(setup)) return 2.0 * cell->particles.smallRadius;
+  if (isCollision(setup)) {
+    const Collision& two = collisionIn(setup);
+    return 2.0 * (two.wall ? two.radius[0] : std::min(two.radius[0], two.radius[1]));
+  }
   double smallest = INFINITY;
   withAssembly(setup, [&](const auto& assembly) {
     for (const auto& group : assembly.disks)
@@ -102,18 +103,25 @@ double flowDiameter(const Case& setup) {
 }
 
 double inertiaFactorOf(const Case& setup) {
-  if (!isAssembly(setup)) return setup.particles.inertiaFactor;
-  return withAssembly(setup, [](const auto& assembly) { return assembly.inertiaFactor; });
+  return std::visit(
+      [](const auto& source) {
+        if constexpr (requires { source.particles; })
+          return source.particles.inertiaFactor;
+        else
+          return source.inertiaFactor;
+      },
+      setup.source);
 }
 
 bool packingsAreFiles(const Case& setup) {
-  return setup.particles.file || withAssembly(setup, [](const auto& assembly) {
-           return !assembly.starts.files.empty() && assembly.starts.velocityRms == 0.0;
-         });
+  if (!isAssembly(setup)) return packingFile(setup) != nullptr;
+  return withAssembly(setup, [](const auto& assembly) {
+    return !assembly.starts.files.empty() && assembly.starts.velocityRms == 0.0;
+  });
 }
 
 bool hasClosedForms(const Case& setup) {
-  return setup.average && setup.average->hasClosedForms();
+  return !setup.endpoints.empty() && setup.endpoints.front().expected;
 }
 
 int flowPackings(const Case& setup) {
@@ -139,7 +147,7 @@ SceneOf<D> unplacedScene(const Case& setup, double dt) {
   if (isAssembly(setup))
     disksIn<D>(unplaced) = assemblyDisks<D>(setup, 0);
   else
-    unplaced.disks = diskKinds(setup.particles);
+    unplaced.disks = diskKinds(couetteIn(setup).particles);
   return flowScene<D>(setup, unplaced, dt);
 }
 template Scene unplacedScene<2>(const Case&, double);
@@ -156,8 +164,7 @@ Packing flowPacking(const Case& setup, int index, double dt, Engine& engine,
 
 ExpectedPacking expectedPacking(const Case& setup, int index, double dt) {
   if (isAssembly(setup)) return {assemblyPacking(setup, index).hash, true};
-  if (packingsAreFiles(setup))
-    return {contentHash(readPacking(*setup.particles.file, setup)), true};
+  if (packingsAreFiles(setup)) return {contentHash(readPacking(*packingFile(setup), setup)), true};
   ExpectedPacking packing{packingHash(setup, index, dt), false};
   packing.there = std::filesystem::exists(packingCacheFile(packing.hash));
   return packing;

@@ -9,6 +9,7 @@
 #include "cases/assembly_scene.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/couette.hpp"
+#include "cases/flow.hpp"
 #include "cases/loader_document.hpp"
 #include "cases/loader_sections.hpp"
 #include "cases/materials.hpp"
@@ -20,29 +21,45 @@
 namespace crossgrain::inline cases {
 namespace {
 
-const Names caseKinds = {"couette", "collision", "assembly"};  // in the order of CaseKind
+/// What [case] says.
+struct Header {
+  std::string name;
+  enum class Kind { couette, collision, assembly } kind = Kind::couette;
+  int dimension = 2;
+};
+const Names caseKinds = {"couette", "collision", "assembly"};  // in the order of Header::Kind
 
-const Section<Case>& headerKeys() {
-  static const Section<Case> section(
+const Section<Header>& headerKeys() {
+  static const Section<Header> section(
       {.name = "case"},
-      {key("name", &Case::name, any, "in reports and file names: letters, digits and `. _ - +`")
+      {key("name", &Header::name, any, "in reports and file names: letters, digits and `. _ - +`")
            .listed("the file's name"),
-       need("kind", &Case::kind, caseKinds, ""),
-       special<Case>({"dimension", "", "2", "2, 3",
-                      "3: spheres in space, of collisions and assemblies (docs/dimensions.md)"},
-                     [](Reader& in, const std::string& key, Case& c) {
-                       in.read(key, c.dimension, between(2, 3));
-                     }),
-       special<Case>({"extends", "", "–", "",
-                      "another case file, relative to this one; a name in `cases/` that does not "
-                      "exist there is that of a case that came with the program"},
-                     [](Reader&, const std::string&, Case&) {})});  // readCaseDocuments() takes it
+       need("kind", &Header::kind, caseKinds, ""),
+       special<Header>({"dimension", "", "2", "2, 3",
+                        "3: spheres in space, of collisions and assemblies (docs/dimensions.md)"},
+                       [](Reader& in, const std::string& key, Header& header) {
+                         in.read(key, header.dimension, between(2, 3));
+                       }),
+       special<Header>({"extends", "", "–", "",
+                        "another case file, relative to this one; a name in `cases/` that does not "
+                        "exist there is that of a case that came with the program"},
+                       // readCaseDocuments() takes it
+                       [](Reader&, const std::string&, Header&) {})});
   return section;
 }
 
 void readHeader(Reader& in, Case& c) {
-  headerKeys().read(in, c);
-  in.check(c.dimension == 2 || c.kind != CaseKind::couette, "dimension",
+  Header header{.name = c.name};
+  headerKeys().read(in, header);
+  c.name = header.name;
+  c.dimension = header.dimension;
+  if (header.kind == Header::Kind::collision)
+    c.source = Collision();
+  else if (header.kind == Header::Kind::assembly && c.dimension == 3)
+    c.source = AssemblyOf<3>();
+  else if (header.kind == Header::Kind::assembly)
+    c.source = Assembly();
+  in.check(c.dimension == 2 || !cellOf(c), "dimension",
            "a couette cell is of the plane: collisions and assemblies are in space, too");
   if (usableName(c.name)) return;
   if (in.has("name")) in.fail("name", usableNameRule);
@@ -55,12 +72,12 @@ bool isTable(const SectionInfo& section) {
 }
 
 /// Sections that only other kinds of cases have.
-void refuseSections(const Reader& root, CaseKind kind) {
-  const std::string& own = caseKinds[static_cast<std::size_t>(kind)];
+void refuseSections(const Reader& root, const Case& c) {
+  const std::string own = kindOf(c);
   for (const SectionInfo& section : caseSections())
     if (isTable(section) && root.has(section.name) && !section.kinds.empty())
       root.check(section.kinds.find(own) != std::string::npos, section.name,
-                 "has no part in {} {} case", kind == CaseKind::assembly ? "an" : "a", own);
+                 "has no part in {} {} case", isAssembly(c) ? "an" : "a", own);
 }
 
 /// Without [run] dt the law has to tell how long a contact lasts.
@@ -103,33 +120,34 @@ void checkDamping(const Reader& law, const Case& c) {
 }
 
 /// No disk may slip through a wall, nor through the ring where a packing begins.
-void checkHoles(const Reader& cell, const Case& c) {
-  const double a = c.particles.smallRadius, dilation = c.preparation.dilation;
+void checkHoles(const Reader& cell, const Couette& source) {
+  const double a = source.particles.smallRadius, dilation = source.filling.dilation;
   const auto check = [&](const char* wall, double radius, double dilated, std::string when) {
-    const double hole = wallHole(c.cell, radius, dilated);
+    const double hole = wallHole(source.cell, radius, dilated);
     cell.check(hole < 2.0 * a, "wall_spacing",
                "a disk of radius {} m slips through holes of {:.4g} m between the {} disks of the "
                "{}{}",
-               a, hole, wallDiskCount(c.cell, radius), wall, when);
+               a, hole, wallDiskCount(source.cell, radius), wall, when);
   };
-  check("wheel", c.cell.innerRadius, 1.0, "");
-  check("ring", c.cell.outerRadius, 1.0, "");
-  if (!c.particles.file)  // else nothing is prepared
-    check("ring", c.cell.outerRadius, dilation,
+  check("wheel", source.cell.innerRadius, 1.0, "");
+  check("ring", source.cell.outerRadius, 1.0, "");
+  if (!source.particles.file)  // else nothing is prepared
+    check("ring", source.cell.outerRadius, dilation,
           fmt::format(" before it shrinks from preparation.dilation = {:g} R_o", dilation));
 }
 
 void checkFit(const Reader& cell, const Reader& particles, const Case& c) {
-  const Particles& p = c.particles;
-  const double gap = c.cell.outerRadius - c.cell.innerRadius - 2.0 * c.cell.wallRadius;
+  const Particles& p = couetteIn(c).particles;
+  const Cell& walls = couetteIn(c).cell;
+  const double gap = walls.outerRadius - walls.innerRadius - 2.0 * walls.wallRadius;
   cell.check(gap >= 2.0 * p.largeRadius, "outer_radius",
              "a disk of radius {} m does not fit between the walls, {:.4g} m apart", p.largeRadius,
              gap);
-  const double walls =
-      2.0 * std::numbers::pi * (c.cell.innerRadius + c.cell.outerRadius) / c.cell.wallSpacing;
-  cell.check(walls <= mostDisks, "wall_spacing",
-             "makes {:.3g} wall disks: a case may have at most {}", walls, mostDisks);
-  checkHoles(cell, c);
+  const double count =
+      2.0 * std::numbers::pi * (walls.innerRadius + walls.outerRadius) / walls.wallSpacing;
+  cell.check(count <= mostDisks, "wall_spacing",
+             "makes {:.3g} wall disks: a case may have at most {}", count, mostDisks);
+  checkHoles(cell, couetteIn(c));
   const char* const said = particles.has("small")             ? "small"
                            : particles.has("volume_fraction") ? "volume_fraction"
                                                               : "large";
@@ -146,15 +164,14 @@ void checkSteps(const Reader& in, std::string_view key, const char* what, double
 }
 
 void checkLength(const Reader& cell, const Case& c) {
-  const double rotations = c.averaging.settleRotations + c.averaging.rotations;
-  const double time = rotations * 2.0 * std::numbers::pi / std::abs(c.cell.omega);
   checkSteps(cell, "omega", "preparation, settling and averaging",
-             preparationSteps(c) + time / timeStep(c));
+             preparationSteps(c) + flowDuration(c) / timeStep(c));
 }
 
 void checkPreparation(const Reader& preparation, const Case& c) {
-  if (!c.preparation.dt) return;
-  const std::string why = unstableStepFault(c, *c.preparation.dt, "dt");
+  const std::optional<double> dt = couetteIn(c).filling.dt;
+  if (!dt) return;
+  const std::string why = unstableStepFault(c, *dt, "dt");
   preparation.check(why.empty(), "dt", "{}", why);
 }
 
@@ -165,11 +182,13 @@ void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
   Reader averaging = root.section("averaging");
   Reader looks = root.section("looks");
   Reader cost = root.section("cost");
-  readCell(cell, c.cell);
-  readParticles(particles, c.cell, c.particles);
+  Couette& source = couetteIn(c);
+  readCell(cell, source.cell);
+  readParticles(particles, source.cell, source.particles);
   readBottom(root, c.bottom);
-  readPreparation(preparation, c.preparation);
-  readAveraging(averaging, c, c.averaging);
+  readPreparation(preparation, c);
+  readAveraging(averaging, c);
+  setFlowOfCell(c);
   readInterims(looks, c.looks);
   settleMaterials(c);
   requireStep(run, c);
@@ -177,7 +196,7 @@ void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
   checkDamping(law, c);
   checkFit(cell, particles, c);
   checkPreparation(preparation, c);
-  if (c.run.dt || !c.particles.file) checkLength(cell, c);
+  if (c.run.dt || !source.particles.file) checkLength(cell, c);
 }
 
 /// What cases in space do not have yet.
@@ -205,7 +224,7 @@ void readAssemblyCase(Reader& root, Reader& law, Reader& run, Starts starts, Cas
     checkVariety(average, endpoints, preparation, starts, c);
   }
   for (const char* const section : {"endpoints", "preparation", "looks", "cost"})
-    root.check(c.average || !root.has(section), section, "is of no use without [average]");
+    root.check(c.region || !root.has(section), section, "is of no use without [average]");
   requireStep(run, c);
   const bool contactTimes = assembly.has("contact_times");
   assembly.check(!contactTimes || c.law.normal == NormalLaw::linear, "contact_times",
@@ -214,7 +233,7 @@ void readAssemblyCase(Reader& root, Reader& law, Reader& run, Starts starts, Cas
   if (!c.run.dt || contactTimes) checkDamping(law, c);
   for (const char* const key : {"duration", "contact_times", "steps"})
     if (assembly.has(key)) checkSteps(assembly, key, "it", assemblyDuration(c) / timeStep(c));
-  if (c.average) checkAveragedTime(average, endpoints, c);
+  if (c.region) checkAveragedTime(average, endpoints, c);
   readCost(cost, c.cost);
   inDimensionOf(c, [&]<int D>() { checkStartFiles<D>(c); });
 }
@@ -234,7 +253,7 @@ void checkCollisionNumbers(const Case& c) {
 
 void readCollisionCase(Reader& root, Reader& law, Reader& run, Case& c) {
   Reader collision = root.section("collision");
-  readCollision(collision, c.collision, c.dimension);
+  readCollision(collision, collisionIn(c), c.dimension);
   settleMaterials(c);
   run.check(!run.has("steps_per_contact"), "steps_per_contact",
             "a collision takes collision.steps_per_contact");
@@ -265,8 +284,9 @@ void makeAbsolute(toml::table& root, const Case& c) {
   const auto absolute = [](const std::filesystem::path& file) {
     return std::filesystem::absolute(file).string();
   };
-  if (c.particles.file)
-    *root.at_path("particles.file").node()->as_string() = absolute(*c.particles.file);
+  if (packingFile(c))
+    *root.at_path("particles.file").node()->as_string() = absolute(*packingFile(c));
+  if (!isAssembly(c)) return;
   const auto& files = withAssembly(
       c, [](const auto& assembly) -> const auto& { return assembly.starts.files; });
   if (files.empty()) return;
@@ -295,17 +315,17 @@ Case readCase(const std::filesystem::path& file, CaseDocument& document,
   root.finish();
 
   readHeader(header, c);
-  refuseSections(root, c.kind);
+  refuseSections(root, c);
   std::vector<Reader> pairs = law.sections("pairs");
   c.law.dimension = c.dimension;
-  readLaw(law, c.law, c.kind == CaseKind::collision);
+  readLaw(law, c.law, isCollision(c));
   readPairLaws(law, pairs, c);
   readRun(run, c.run);
   readEngines(engines, c.engines);
   if (root.has("stability")) readStability(stability, c.stability.emplace());
-  if (c.kind == CaseKind::couette)
+  if (cellOf(c))
     readCouette(root, law, run, c);
-  else if (c.kind == CaseKind::collision)
+  else if (isCollision(c))
     readCollisionCase(root, law, run, c);
   else
     readAssemblyCase(root, law, run, starts, c);
@@ -354,6 +374,10 @@ std::vector<Case> loadAll(const std::filesystem::path& file,
 }
 
 }  // namespace
+
+std::string kindOf(const Case& setup) {
+  return caseKinds[std::min<std::size_t>(setup.source.index(), 2)];
+}
 
 std::vector<SectionInfo> headerSections() {
   return {headerKeys().info(),

@@ -30,6 +30,9 @@ std::vector<Case> loadCase(const std::filesystem::path& file,
 /// @throws BadInput for what makes no case
 Case caseWith(const Case& setup, const std::string& fragment);
 
+/// As case.kind has it: "couette", "collision" or "assembly".
+std::string kindOf(const Case& setup);
+
 /// What loadCase() gave, all layers merged, as one case file that loads to the same again, wherever
 /// it lies: one case as it is, several as variants of each of which everything is said.
 std::string resolvedFile(const std::vector<Case>& cases);

@@ -107,7 +107,7 @@ void checkKeysOfBins(const Reader& in, BinKind kind, int dimension) {
 
 /// A region that reached out of the box would hold some places twice.
 void checkRegionInBox(const Reader& in, const Case& c) {
-  const Region& region = c.average->region;
+  const Region& region = *c.region;
   withAssembly(c, [&]<int D>(const AssemblyOf<D>& assembly) {
     for (int k = 0; assembly.box && k < D; ++k) {
       const BoxOf<D>& box = *assembly.box;
@@ -127,7 +127,7 @@ void checkRegionInBox(const Reader& in, const Case& c) {
 void checkWidths(const Reader& in, const Case& c) {
   constexpr double thinnest = 1e-4;  // [smallest diameters]
   constexpr int mostBins = 1'000'000;
-  const Region& region = c.average->region;
+  const Region& region = *c.region;
   in.check(region.binCount() <= mostBins, "bins", "these are {} bins: at most {}",
            region.binCount(), mostBins);
   const double least = thinnest * flowDiameter(c);
@@ -153,7 +153,7 @@ void checkWidths(const Reader& in, const Case& c) {
 }
 
 void readRegion(Reader& in, Case& c) {
-  Region& region = c.average->region;
+  Region& region = *c.region;
   AverageInput input;
   averageKeys().read(in, input);
   region = input;
@@ -196,7 +196,7 @@ void readRegion(Reader& in, Case& c) {
 }
 
 /// The keys of [[endpoints]].
-struct EndpointInput : OwnEndpoint, MarginInput {
+struct EndpointInput : Endpoint, MarginInput {
   double time = 0.0, reaches = 0.0;
   std::vector<double> part;  ///< [from, to]
 };
@@ -211,22 +211,22 @@ const Section<EndpointInput>& endpointsKeys() {
                "margin is compared by its ratio to the reference, whose values need one sign; any "
                "other by the difference.",
        .isList = true},
-      {need("name", &OwnEndpoint::name, any, "as `case.name`; no two are alike"),
-       need("quantity", &OwnEndpoint::quantity, any,
+      {need("name", &Endpoint::name, any, "as `case.name`; no two are alike"),
+       need("quantity", &Endpoint::quantity, any,
             "a field of `profiles.csv`, or a quantity of `crossgrain list endpoints`"),
-       key("disk", &OwnEndpoint::disk, between(0, mostDisks),
+       key("disk", &Endpoint::disk, between(0, mostDisks),
            "of which `quantity` is `x`, `y`, `velocity_x`, `velocity_y` or `spin`; from 0"),
-       key("wall", &OwnEndpoint::wall, between(0, mostDisks),
+       key("wall", &Endpoint::wall, between(0, mostDisks),
            "of `[[assembly.walls]]`, from 0, of which `quantity` is `normal_force`, `force_x` …: "
            "of "
            "the disks on it"),
-       key("plane", &OwnEndpoint::plane, between(0, mostDisks),
+       key("plane", &Endpoint::plane, between(0, mostDisks),
            "of that wall, from 0; of a `box`: left, bottom, right, top, in space the planes at its "
            "lower corner across x, y and z, then those at its upper one"),
-       key("area", &OwnEndpoint::area, positive("m^2"),
+       key("area", &Endpoint::area, positive("m^2"),
            "the force on a wall is divided by it: a stress, in N/m²")
            .listed("–"),
-       key("per", &OwnEndpoint::per, any,
+       key("per", &Endpoint::per, any,
            "another quantity of the same kind and unit, that it is divided by"),
        special<E>(
            {"at", "–", "\"mean\"", "", "what is made of the quantity: see Endpoints of assemblies"},
@@ -238,7 +238,7 @@ const Section<EndpointInput>& endpointsKeys() {
        key("between", &E::part, atLeast(0.0, "s"),
            "[from, to]: the part of a run that `at` or `reaches` sees")
            .listed("all that is averaged"),
-       key("expected", &OwnEndpoint::expected, anyNumber(), "its value by a closed form")
+       key("expected", &Endpoint::expected, anyNumber(), "its value by a closed form")
            .listed("–", "the endpoint's"),
        key("relative", &MarginInput::relative, positive(),
            "of the reference's value, or of `expected`")
@@ -250,7 +250,7 @@ const Section<EndpointInput>& endpointsKeys() {
 }
 
 std::span<const FieldSpec> fieldsOf(const Case& setup) {
-  return fieldsIn(setup.dimension, setup.average->region.hasRings());
+  return fieldsIn(setup.dimension, setup.region->hasRings());
 }
 
 /// Where a quantity comes from, and its unit.
@@ -285,7 +285,7 @@ Quantity quantityOfDisk(const Reader& in, const std::string& name, int dimension
 }
 
 /// Of one wall. A force against the normal is that of one plane which keeps its direction.
-Quantity quantityOfWall(const Reader& in, const OwnEndpoint& endpoint, const Case& setup) {
+Quantity quantityOfWall(const Reader& in, const Endpoint& endpoint, const Case& setup) {
   std::vector<std::string> known;
   for (const RegionNumber& number : wallNumbers(setup.dimension)) known.emplace_back(number.name);
   if (std::ranges::find(known, endpoint.quantity) == known.end())
@@ -332,7 +332,7 @@ std::size_t disksOf(const Case& setup) {
 
 /// `at` in words or as the number of a bin, from 1; or `time`, or `reaches`; `between` of a series.
 void setReduction(Reader& in, const EndpointInput& input, const Region& region, bool isField,
-                  OwnEndpoint& endpoint) {
+                  Endpoint& endpoint) {
   const int bins = region.binCount();
   const std::string given = in.onlyOne({"at", "time", "reaches"});
   for (const char* const key : {"time", "reaches", "between"})
@@ -373,7 +373,7 @@ void setReduction(Reader& in, const EndpointInput& input, const Region& region, 
 }
 
 /// With `per` each of the two is reduced, and then divided: "ratio of the means of a and b over …".
-std::string definitionOf(const OwnEndpoint& endpoint, bool isField) {
+std::string definitionOf(const Endpoint& endpoint, bool isField) {
   const bool ratio = !endpoint.per.empty();
   std::string what = endpoint.quantity;
   if (endpoint.disk) what += fmt::format(" of disk {}", *endpoint.disk);
@@ -414,7 +414,7 @@ std::string definitionOf(const OwnEndpoint& endpoint, bool isField) {
   return reduced("mean", "means", "over the " + when);
 }
 
-std::string unitOf(const OwnEndpoint& endpoint, const Quantity& quantity) {
+std::string unitOf(const Endpoint& endpoint, const Quantity& quantity) {
   if (endpoint.reduction == Reduction::reaches) return "s";
   if (!endpoint.per.empty()) return "-";
   const std::string unit = quantity.unit == "-" ? "1" : quantity.unit;
@@ -423,11 +423,11 @@ std::string unitOf(const OwnEndpoint& endpoint, const Quantity& quantity) {
   return quantity.unit;
 }
 
-OwnEndpoint readEndpoint(Reader& in, const Case& c, Margin& margin) {
-  const Region& region = c.average->region;
+Endpoint readEndpoint(Reader& in, const Case& c, Margin& margin) {
+  const Region& region = *c.region;
   EndpointInput input;
   endpointsKeys().read(in, input);
-  OwnEndpoint endpoint = input;
+  Endpoint endpoint = input;
   if (endpoint.disk) {
     const auto last = static_cast<int>(disksOf(c)) - 1;
     in.check(*endpoint.disk <= last, "disk", "must be in [0, {}]", last);
@@ -506,24 +506,24 @@ std::vector<SectionInfo> averageSections() {
 }
 
 void readAverage(Reader& in, std::vector<Reader>& each, Case& c) {
-  c.average.emplace();
+  c.region.emplace();
   const Reader margins = in.section("margins");
   readRegion(in, c);
   c.averaging.margins = readMargins(margins, judgedFields(fieldsOf(c)));
   checkSwings(in, c);
   for (Reader& one : each) {
     Margin margin;
-    OwnEndpoint endpoint = readEndpoint(one, c, margin);
+    Endpoint endpoint = readEndpoint(one, c, margin);
     one.check(c.averaging.endpoints.emplace(endpoint.name, std::move(margin)).second, "name",
               "two endpoints have this name");
-    c.average->endpoints.push_back(std::move(endpoint));
+    c.endpoints.push_back(std::move(endpoint));
   }
 }
 
 void checkVariety(const Reader& in, const std::vector<Reader>& endpoints, const Reader& preparation,
                   Starts starts, const Case& c) {
-  const std::vector<OwnEndpoint>& own = c.average->endpoints;
-  const auto hasExpected = [](const OwnEndpoint& one) { return one.expected.has_value(); };
+  const std::vector<Endpoint>& own = c.endpoints;
+  const auto hasExpected = [](const Endpoint& one) { return one.expected.has_value(); };
   const auto first = std::ranges::find_if(own, hasExpected);
   const bool differ = startsDiffer(c);
   if (first == own.end()) {
@@ -548,7 +548,7 @@ void checkVariety(const Reader& in, const std::vector<Reader>& endpoints, const 
 }
 
 void checkAveragedTime(const Reader& in, const std::vector<Reader>& endpoints, const Case& c) {
-  const Region& region = c.average->region;
+  const Region& region = *c.region;
   const double duration = assemblyDuration(c), dt = timeStep(c);
   in.check(region.from < duration, "from", "must be < {:g} s, which the run takes", duration);
   const double interval = (duration - region.from) / region.snapshots;
@@ -558,7 +558,7 @@ void checkAveragedTime(const Reader& in, const std::vector<Reader>& endpoints, c
            region.snapshots, interval, dt);
   const double first = region.from + interval;
   for (std::size_t k = 0; k < endpoints.size(); ++k) {
-    const OwnEndpoint& own = c.average->endpoints[k];
+    const Endpoint& own = c.endpoints[k];
     const auto seen = [&](double from, double to, const char* key) {
       endpoints[k].check(to >= first * (1.0 - rounding) && from <= duration * (1.0 + rounding), key,
                          "snapshots are from {:g} to {:g} s", first, duration);

@@ -130,52 +130,57 @@ void setNumbers(Reader& in, const Cell& cell, ParticlesInput& p) {
   setNumbers(cell, p, p.volumeFraction, largeFraction);
 }
 
-const Section<Preparation>& preparationKeys() {
-  static const Section<Preparation> section(
+/// The keys of [preparation], and of [averaging].
+struct PreparationInput : Preparation, Filling {};
+struct AveragingInput : Averaging, CellTimes {};
+
+const Section<PreparationInput>& preparationKeys() {
+  using P = PreparationInput;
+  static const Section<P> section(
       {.name = "preparation",
        .kinds = "couette, assembly",
        .commands = "compare plan lockstep identify baseline record effects cost stability",
        .note = "Of an assembly with `[average]` only `packings` and `seed`."},
-      {key("engine", &Preparation::engine, any,
+      {key("engine", &P::engine, any,
            "the engine that prepares packings, as `may_differ` and its settings let it")
            .listed("the in-house one"),
-       key("packings", &Preparation::packings, between(1, 10'000),
+       key("packings", &P::packings, between(1, 10'000),
            "of `compare` at its first interim analysis; fewer than 4 give no general verdict")
            .usedBy("compare plan lockstep baseline effects cost"),
-       key("seed", &Preparation::seed, between(0, mostSeed),
+       key("seed", &P::seed, between(0, mostSeed),
            "of initial places and velocities; packing k draws from its stream k"),
-       key("dilation", &Preparation::dilation, above(1.0), "R_prepare/R_o"),
-       key("velocity", &Preparation::velocity, atLeast(0.0, "m/s"),
-           "rms of each component at the start"),
-       key("shrink_time", &Preparation::shrinkTime, positive("s"),
+       key("dilation", &P::dilation, above(1.0), "R_prepare/R_o"),
+       key("velocity", &P::velocity, atLeast(0.0, "m/s"), "rms of each component at the start"),
+       key("shrink_time", &P::shrinkTime, positive("s"),
            "in which the ring goes from R_prepare to R_o"),
-       key("rotations", &Preparation::rotations, atLeast(0.0), "of the wheel, after that"),
-       key("dt", &Preparation::dt, positive("s"),
+       key("rotations", &P::rotations, atLeast(0.0), "of the wheel, after that"),
+       key("dt", &P::dt, positive("s"),
            "time step of preparing: packings are then the same for any `run.dt`")
            .listed("that of the runs")});
   return section;
 }
 
-const Section<Averaging>& averagingKeys() {
+const Section<AveragingInput>& averagingKeys() {
+  using A = AveragingInput;
   constexpr const char* averaged = "compare plan effects cost average baseline";
   constexpr const char* run =
       "compare plan lockstep identify baseline effects cost stability average";
-  static const Section<Averaging> section(
+  static const Section<A> section(
       {.name = "averaging", .kinds = "couette"},
-      {key("rings", &Averaging::rings, between(1, 10'000), "of equal width from R_i to R_o")
+      {key("rings", &A::rings, between(1, 10'000), "of equal width from R_i to R_o")
            .usedBy(averaged),
-       key("method", &Averaging::methods, Names(weightNames.begin(), weightNames.end()),
+       key("method", &A::methods, Names(weightNames.begin(), weightNames.end()),
            "one name or a list; reports show the first")
            .usedBy(averaged),
-       key("line_width", &Averaging::lineWidth, positive("d"), "kernel width w of the line methods")
+       key("line_width", &A::lineWidth, positive("d"), "kernel width w of the line methods")
            .usedBy("compare plan effects cost average rev baseline"),
-       key("settle_rotations", &Averaging::settleRotations, atLeast(0.0),
+       key("settle_rotations", &A::settleRotations, atLeast(0.0),
            "after the hand-over, not averaged")
            .usedBy(run),
-       key("rotations", &Averaging::rotations, positive(), "averaged").usedBy(run),
-       key("snapshots_per_rotation", &Averaging::snapshotsPerRotation, between(1, 1'000'000), "")
+       key("rotations", &A::rotations, positive(), "averaged").usedBy(run),
+       key("snapshots_per_rotation", &A::snapshotsPerRotation, between(1, 1'000'000), "")
            .usedBy("compare plan effects cost baseline"),
-       key("confidence", &Averaging::confidence, inside(0.0, 1.0), "of verdicts and error bars")
+       key("confidence", &A::confidence, inside(0.0, 1.0), "of verdicts and error bars")
            .usedBy(averaged)});
   return section;
 }
@@ -281,7 +286,7 @@ const Section<Stability>& stabilityKeys() {
 
 std::vector<Judged> judgedEndpoints() {
   std::vector<Judged> judged;
-  for (const EndpointSpec& endpoint : endpointTable())
+  for (const Endpoint& endpoint : endpointTable())
     judged.push_back({std::string(endpoint.name), std::string(endpoint.unit), endpoint.byRatio});
   return judged;
 }
@@ -364,31 +369,40 @@ void readParticles(Reader& in, const Cell& c, Particles& target) {
   target = p;
 }
 
-void readPreparation(Reader& in, Preparation& how) {
-  preparationKeys().read(in, how);
-  if (!in.has("engine") || findEngine(how.engine)) return;
+void readPreparation(Reader& in, Case& c) {
+  PreparationInput input;
+  preparationKeys().read(in, input);
+  c.preparation = input;
+  couetteIn(c).filling = input;
+  const std::string& engine = input.engine;
+  if (!in.has("engine") || findEngine(engine)) return;
   Names known;
   for (const EngineEntry& entry : engineRegistry()) known.push_back(entry.name);
-  in.fail("engine", "there is no such engine{}", suggestion(how.engine, known));
+  in.fail("engine", "there is no such engine{}", suggestion(engine, known));
 }
 
 void readPackings(Reader& in, Case& c) {
   withAssembly(c, [&](auto& assembly) {
-    c.preparation.seed = assembly.seed;
-    preparationKeys().read(in, c.preparation, {"packings", "seed"});
-    assembly.seed = c.preparation.seed;
+    PreparationInput input;
+    input.seed = assembly.seed;
+    preparationKeys().read(in, input, {"packings", "seed"});
+    c.preparation = input;
+    assembly.seed = input.seed;
   });
 }
 
-void readAveraging(Reader& in, const Case& setup, Averaging& how) {
+void readAveraging(Reader& in, Case& c) {
   const Reader margins = in.section("margins"), endpoints = in.section("endpoints");
+  AveragingInput how;
   averagingKeys().read(in, how);
-  how.margins = readMargins(margins, judgedFields(fieldTable()), &setup);
-  how.endpoints = readMargins(endpoints, judgedEndpoints(), &setup);
+  how.margins = readMargins(margins, judgedFields(fieldTable()), &c);
+  how.endpoints = readMargins(endpoints, judgedEndpoints(), &c);
   in.check(!how.methods.empty(), "method", "must not be empty");
   in.check(how.snapshotsPerRotation * how.rotations <= mostSnapshots, "rotations",
            "with {} snapshots_per_rotation: more than {} snapshots", how.snapshotsPerRotation,
            mostSnapshots);
+  c.averaging = how;
+  couetteIn(c).times = how;
 }
 
 void readInterims(Reader& in, InterimSettings& target) {

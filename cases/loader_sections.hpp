@@ -37,11 +37,11 @@ void readBottom(Reader& root, std::optional<BottomPlate>& bottom);
 void readCell(Reader& in, Cell& cell);
 /// @param cell  read already: its area and height make numbers and masses
 void readParticles(Reader& in, const Cell& cell, Particles& particles);
-void readPreparation(Reader& in, Preparation& preparation);
+void readPreparation(Reader& in, Case& c);
 /// [preparation] of an assembly: how many packings, and their seed.
 void readPackings(Reader& in, Case& c);
-/// @param setup  whose cell, particles and law have been read: margins may be shares of its scales
-void readAveraging(Reader& in, const Case& setup, Averaging& averaging);
+/// @param c  whose cell, particles and law have been read: margins may be shares of its scales
+void readAveraging(Reader& in, Case& c);
 void readInterims(Reader& in, InterimSettings& looks);
 void readRun(Reader& in, RunOptions& run);
 void readEngines(Reader& in, std::map<std::string, Settings>& engines);

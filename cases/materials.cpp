@@ -21,17 +21,17 @@ struct Body {
 
 std::vector<Body> bodiesOf(const Case& setup) {
   std::vector<Body> bodies;
-  if (setup.kind == CaseKind::collision) {
-    for (const MaterialName& material : setup.collision.material)
+  if (isCollision(setup)) {
+    for (const MaterialName& material : collisionIn(setup).material)
       bodies.push_back({"[collision]", &material});
     return bodies;
   }
-  if (setup.kind == CaseKind::couette) {
-    const Particles& p = setup.particles;
+  if (const Couette* const cell = cellOf(setup)) {
+    const Particles& p = cell->particles;
     if (p.small > 0 || p.file) bodies.push_back({"[particles] small", &p.smallMaterial});
     if (p.large > 0 || p.file) bodies.push_back({"[particles] large", &p.largeMaterial});
-    bodies.push_back({"[cell] wheel", &setup.cell.wheelMaterial});
-    bodies.push_back({"[cell] ring", &setup.cell.ringMaterial});
+    bodies.push_back({"[cell] wheel", &cell->cell.wheelMaterial});
+    bodies.push_back({"[cell] ring", &cell->cell.ringMaterial});
     return bodies;
   }
   withAssembly(setup, [&](const auto& assembly) {
@@ -91,9 +91,9 @@ void settleMaterials(Case& setup) {
     throw BadInput(fmt::format("{}: [[law.pairs]] has a material that nobody is made of, \"{}\"",
                                setup.file.string(),
                                materials.names[static_cast<std::size_t>(idle - used.begin())]));
-  if (setup.kind == CaseKind::collision) {
-    setup.law = materials.law(indexOf(materials, setup.collision.material.front()),
-                              indexOf(materials, setup.collision.material.back()));
+  if (isCollision(setup)) {
+    setup.law = materials.law(indexOf(materials, collisionIn(setup).material.front()),
+                              indexOf(materials, collisionIn(setup).material.back()));
     setup.materials.reset();
   } else if (std::ranges::all_of(materials.laws,
                                  [&](const ContactLaw& law) { return law == setup.law; })) {
@@ -114,15 +114,15 @@ void addMaterials(SceneOf<D>& scene, const Case& setup) {
   if (!setup.materials) return;
   Materials& materials = scene.materials.emplace(*setup.materials);
   const auto index = [&](const MaterialName& material) { return indexOf(materials, material); };
-  if (setup.kind == CaseKind::couette) {
-    const Particles& p = setup.particles;
+  if (const Couette* const cell = cellOf(setup)) {
+    const Particles& p = cell->particles;
     for (std::size_t i = 0; i < scene.disks.size(); ++i) {
       const double a = scene.disks.radius[i];
       const bool small = p.file ? std::abs(a - p.smallRadius) <= std::abs(a - p.largeRadius)
                                 : i < static_cast<std::size_t>(p.small);
       materials.ofDisk.push_back(index(small ? p.smallMaterial : p.largeMaterial));
     }
-    materials.ofBody = {index(setup.cell.wheelMaterial), index(setup.cell.ringMaterial)};
+    materials.ofBody = {index(cell->cell.wheelMaterial), index(cell->cell.ringMaterial)};
     return;
   }
   const AssemblyOf<D>& assembly = assemblyIn<D>(setup);

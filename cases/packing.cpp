@@ -66,7 +66,7 @@ std::string contentHash(const Packing& packing) {
 
 std::string packingHash(const Case& setup, int index, double dt) {
   // The leading tag changes whenever the preparation itself does.
-  std::string text = fmt::format("preparation 2; dt {};", setup.preparation.dt.value_or(dt));
+  std::string text = fmt::format("preparation 2; dt {};", couetteIn(setup).filling.dt.value_or(dt));
   const ContactLaw& law = setup.law;
   for (const LawOption& option : lawOptions())
     if (hasPart(law, option.part))
@@ -81,9 +81,10 @@ std::string packingHash(const Case& setup, int index, double dt) {
   if (setup.materials) {
     text += "pairs";
     std::ranges::for_each(setup.materials->laws, addConstants);
-    const Particles& disks = setup.particles;
-    for (const MaterialName* each : {&disks.smallMaterial, &disks.largeMaterial,
-                                     &setup.cell.wheelMaterial, &setup.cell.ringMaterial})
+    const Particles& disks = couetteIn(setup).particles;
+    for (const MaterialName* each :
+         {&disks.smallMaterial, &disks.largeMaterial, &couetteIn(setup).cell.wheelMaterial,
+          &couetteIn(setup).cell.ringMaterial})
       text += fmt::format(" {};", std::ranges::find(setup.materials->names, each->name) -
                                       setup.materials->names.begin());
   }
@@ -91,16 +92,16 @@ std::string packingHash(const Case& setup, int index, double dt) {
     text += fmt::format("bottom {} {} {} {} {} {};", setup.bottom->mu, setup.bottom->kb,
                         setup.bottom->gb, setup.bottom->tauM, setup.bottom->gravity,
                         setup.bottom->spin);
-  const Cell& cell = setup.cell;
+  const Cell& cell = couetteIn(setup).cell;
   text += fmt::format("cell {} {} {} {} {} {};", cell.innerRadius, cell.outerRadius,
                       cell.wallRadius, wallDiskCount(cell, cell.innerRadius),
                       wallDiskCount(cell, cell.outerRadius), cell.omega);
-  const Particles& disks = setup.particles;
+  const Particles& disks = couetteIn(setup).particles;
   text += fmt::format("disks {} {} {} {} {} {} {};", disks.small, disks.large, disks.smallRadius,
                       disks.largeRadius, disks.smallMass, disks.largeMass, disks.inertiaFactor);
   if (!disks.rotation) text += "no rotation;";
-  const Preparation& how = setup.preparation;
-  text += fmt::format("prepare {} {} {} {} {}", how.seed, how.dilation, how.velocity,
+  const Filling& how = couetteIn(setup).filling;
+  text += fmt::format("prepare {} {} {} {} {}", setup.preparation.seed, how.dilation, how.velocity,
                       how.shrinkTime, how.rotations);
   if (const std::string who = preparerKey(setup); !who.empty()) text += "; engine " + who;
   if (index > 0) text += fmt::format("; stream {}", index);
@@ -198,7 +199,7 @@ Packing readPackingFile(const std::filesystem::path& file, const DiskDefaults& d
 }  // namespace
 
 Packing readPacking(const std::filesystem::path& file, const Case& setup, std::size_t most) {
-  const Particles& kinds = setup.particles;
+  const Particles& kinds = couetteIn(setup).particles;
   const double border = 0.5 * (kinds.smallRadius + kinds.largeRadius);
   return readPacking(
       file, {[&](double radius) { return radius < border ? kinds.smallMass : kinds.largeMass; },

@@ -39,20 +39,21 @@ std::vector<Vec2> diluteLattice(std::size_t disks, double inner, double outer) {
 }
 
 void placeAtRandom(Disks& disks, const Case& setup, gsl_rng* random) {
-  const double clearance = setup.cell.wallRadius + setup.particles.largeRadius;
-  const double outer = setup.preparation.dilation * setup.cell.outerRadius;
+  const double clearance =
+      couetteIn(setup).cell.wallRadius + couetteIn(setup).particles.largeRadius;
+  const double outer = couetteIn(setup).filling.dilation * couetteIn(setup).cell.outerRadius;
   std::vector<Vec2> sites =
-      diluteLattice(disks.size(), setup.cell.innerRadius + clearance, outer - clearance);
+      diluteLattice(disks.size(), couetteIn(setup).cell.innerRadius + clearance, outer - clearance);
   if (sites.size() < disks.size())
     throw BadInput(
         fmt::format("{}: preparation.dilation = {:g} leaves no room for {} disks on a "
                     "lattice; a larger one does",
-                    setup.file.string(), setup.preparation.dilation, disks.size()));
+                    setup.file.string(), couetteIn(setup).filling.dilation, disks.size()));
   gsl_ran_shuffle(random, sites.data(), sites.size(), sizeof(Vec2));
   std::copy_n(sites.begin(), disks.size(), disks.position.begin());
   for (Vec2& velocity : disks.velocity) {
-    velocity.x() = gsl_ran_gaussian(random, setup.preparation.velocity);
-    velocity.y() = gsl_ran_gaussian(random, setup.preparation.velocity);
+    velocity.x() = gsl_ran_gaussian(random, couetteIn(setup).filling.velocity);
+    velocity.y() = gsl_ran_gaussian(random, couetteIn(setup).filling.velocity);
   }
 }
 
@@ -63,12 +64,13 @@ Scene diluteScene(const Case& setup, const Disks& disks, double dt) {
   Scene scene = couetteScene(setup, packing, dt);
   scene.precision = Precision::float64;  // a packing is the same for all that run it
   scene.energyLedger = false;
-  const double start = setup.preparation.dilation * setup.cell.outerRadius;
+  const double start = couetteIn(setup).filling.dilation * couetteIn(setup).cell.outerRadius;
   WallBody& ring = scene.bodies.back();
-  for (Vec2& position : ring.diskPosition) position *= setup.preparation.dilation;
+  for (Vec2& position : ring.diskPosition) position *= couetteIn(setup).filling.dilation;
   ring.motion.kind = Motion::Kind::radial;
-  ring.motion.radialEnd = setup.preparation.shrinkTime;
-  ring.motion.radialVelocity = (setup.cell.outerRadius - start) / setup.preparation.shrinkTime;
+  ring.motion.radialEnd = couetteIn(setup).filling.shrinkTime;
+  ring.motion.radialVelocity =
+      (couetteIn(setup).cell.outerRadius - start) / couetteIn(setup).filling.shrinkTime;
   return scene;
 }
 
@@ -119,13 +121,13 @@ std::vector<Vec2> latticeSites(double constant, double inner, double outer) {
 }
 
 Scene preparationStart(const Case& setup, int index, double dt) {
-  Disks disks = diskKinds(setup.particles);
+  Disks disks = diskKinds(couetteIn(setup).particles);
   const Random random = randomStream(setup.preparation.seed, static_cast<std::uint64_t>(index));
   placeAtRandom(disks, setup, random.get());
-  Scene scene = diluteScene(setup, disks, setup.preparation.dt.value_or(dt));
+  Scene scene = diluteScene(setup, disks, couetteIn(setup).filling.dt.value_or(dt));
   if (const std::string why = beyondNumbers(scene); !why.empty())
     throw BadInput(setup.file.string() + why);
-  checkStart(scene, setup.particles,
+  checkStart(scene, couetteIn(setup).particles,
              setup.file.string() + ": preparation.dilation leaves too little room");
   return scene;
 }
@@ -176,11 +178,11 @@ std::filesystem::path packingCacheFile(const std::string& hash) {
 
 Packing packingOf(const Case& setup, int index, double dt, Engine& engine,
                   const std::function<void(double)>& progress) {
-  if (setup.particles.file) {
-    Packing packing = readPacking(*setup.particles.file, setup);
+  if (packingFile(setup)) {
+    Packing packing = readPacking(*packingFile(setup), setup);
     packing.hash = contentHash(packing);
-    checkStart(couetteScene(setup, packing, dt), setup.particles, setup.particles.file->string(),
-               &setup.cell);
+    checkStart(couetteScene(setup, packing, dt), couetteIn(setup).particles,
+               packingFile(setup)->string(), &couetteIn(setup).cell);
     return packing;
   }
   const std::string hash = packingHash(setup, index, dt);
@@ -219,7 +221,7 @@ const std::string& versionOf(const EngineEntry& entry, const Case& setup) {
 }  // namespace
 
 const EngineEntry* ownPreparer(const Case& setup) {
-  const std::string& name = setup.preparation.engine;
+  const std::string& name = couetteIn(setup).filling.engine;
   return name.empty() || name == engineRegistry().front().name ? nullptr : findEngine(name);
 }
 

@@ -41,8 +41,8 @@ void shuffle(std::vector<T>& values, Random& random) {
 /// As many sites of a triangular lattice as there are disks, between the walls, line by line, each
 /// off its place by up to a fifth of the lattice constant.
 std::vector<Vec2> jitteredSites(const Case& setup, std::size_t disks, Random& random) {
-  const double inner = setup.cell.innerRadius + setup.particles.largeRadius;
-  const double outer = setup.cell.outerRadius - setup.particles.largeRadius;
+  const double inner = couetteIn(setup).cell.innerRadius + couetteIn(setup).particles.largeRadius;
+  const double outer = couetteIn(setup).cell.outerRadius - couetteIn(setup).particles.largeRadius;
   const double area = std::numbers::pi * (outer * outer - inner * inner);
   double constant = std::sqrt(area / static_cast<double>(disks) * 2.0 / std::sqrt(3.0));
   std::vector<Vec2> sites;
@@ -119,7 +119,7 @@ Disks reordered(const Disks& disks, const std::vector<std::size_t>& to) {
 
 Packing makePacking(const Case& setup, const std::function<void(double)>& progress) {
   Random random(1);
-  const Disks kinds = diskKinds(setup.particles);
+  const Disks kinds = diskKinds(couetteIn(setup).particles);
   const std::size_t disks = kinds.size();
   std::vector<std::size_t> idAtSite(disks);
   for (std::size_t k = 0; k < disks; ++k) idAtSite[k] = k;
@@ -153,8 +153,9 @@ Packing makePacking(const Case& setup, const std::function<void(double)>& progre
 /// of loose disks at its wheel and is denser elsewhere: the factor 0.988, calibrated so
 /// that there are about as many contacts per disk as in the real cell, see README.md.
 double growthOf(const Case& setup, double room) {
-  const double width = setup.cell.outerRadius - setup.cell.innerRadius;
-  const double lost = setup.cell.wallRadius + 0.5 * setup.particles.smallRadius;
+  const double width = couetteIn(setup).cell.outerRadius - couetteIn(setup).cell.innerRadius;
+  const double lost =
+      couetteIn(setup).cell.wallRadius + 0.5 * couetteIn(setup).particles.smallRadius;
   return (lost + std::sqrt(lost * lost + 0.988 * room * width * (width - 2.0 * lost))) / width;
 }
 
@@ -162,15 +163,15 @@ double growthOf(const Case& setup, double room) {
 
 Case scaledCase(std::size_t disks, const std::vector<std::string>& overrides) {
   Case setup = loadCase(dataFolder() / "cases/couette/nu-0.804.toml", overrides).front();
-  Particles& particles = setup.particles;
+  Particles& particles = couetteIn(setup).particles;
   const double all = particles.small + particles.large;
   const double growth = growthOf(setup, static_cast<double>(disks) / all);
   particles.small =
       static_cast<int>(std::lround(static_cast<double>(disks) * particles.small / all));
   particles.large = static_cast<int>(disks) - particles.small;
-  setup.cell.innerRadius *= growth;
-  setup.cell.outerRadius *= growth;
-  setup.cell.omega /= growth;
+  couetteIn(setup).cell.innerRadius *= growth;
+  couetteIn(setup).cell.outerRadius *= growth;
+  couetteIn(setup).cell.omega /= growth;
   return setup;
 }
 
@@ -179,7 +180,8 @@ Packing scaledPacking(const Case& scaled, const std::filesystem::path& folder,
   // The tag changes whenever the making itself does.
   const std::string hash =
       fmt::format("{:016x}", fnv1a("scaled cell 1; " + packingHash(scaled, 0, timeStep(scaled))));
-  const auto disks = static_cast<std::size_t>(scaled.particles.small + scaled.particles.large);
+  const auto disks = static_cast<std::size_t>(couetteIn(scaled).particles.small +
+                                              couetteIn(scaled).particles.large);
   const std::filesystem::path file = folder / fmt::format("scaled-{}-{}.h5", disks, hash);
   std::string why;
   if (auto kept = keptPacking(file, hash, scaled, why, mostScaled)) return *std::move(kept);

@@ -47,8 +47,8 @@ SweepCase readCase(Reader in, const std::vector<std::string>& common,
   std::vector<Case> cases = loadCase(file, changes);
   if (cases.size() > 1) in.fail("case", "is a case with variants: a leg is one case");
   own.setup = std::move(cases.front());
-  if (own.setup.kind != CaseKind::couette) in.fail("case", "is no Couette cell");
-  if (own.setup.particles.file) in.fail("case", "has a packing of its own: it cannot be prepared");
+  if (!cellOf(own.setup)) in.fail("case", "is no Couette cell");
+  if (packingFile(own.setup)) in.fail("case", "has a packing of its own: it cannot be prepared");
   return own;
 }
 
@@ -106,8 +106,7 @@ ThesisSweep loadSweep(const std::filesystem::path& file,
   sweep.reasons = root.readFile("reasons", extension);
   if (const auto collisions = root.readFile("collisions", extension)) {
     sweep.collisions = loadCase(*collisions);
-    if (sweep.collisions.front().kind != CaseKind::collision)
-      root.fail("collisions", "is no case of collisions");
+    if (!isCollision(sweep.collisions.front())) root.fail("collisions", "is no case of collisions");
   }
   std::vector<double> finer;
   root.read("finer_rings", finer, between(3, 10'000));

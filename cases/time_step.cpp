@@ -69,14 +69,14 @@ LightestPair lightestPair(const Disks& disks, bool rotation) {
 }
 
 LightestPair lightestPair(const Case& c) {
-  if (c.kind == CaseKind::collision) {
+  if (isCollision(c)) {
     const CollidingPair pair = collidingPair(c);
     return {pair.reducedMass(), 1.0 / pair.tangentialCompliance()};
   }
-  if (c.kind == CaseKind::assembly)
+  if (isAssembly(c))
     return withAssembly(c, [](const auto& assembly) { return lightestPair(assembly); });
   // A single disk of a kind never meets its like, but a bound is all that is wanted.
-  const Particles& p = c.particles;
+  const Particles& p = couetteIn(c).particles;
   double mass = std::min(p.smallMass, p.largeMass);
   if (p.small > 0 && p.large == 0) mass = p.smallMass;
   if (p.large > 0 && p.small == 0) mass = p.largeMass;
@@ -88,7 +88,7 @@ double lightestReducedMass(const Case& c) {
 }
 
 double timeStep(const Case& c) {
-  if (c.kind == CaseKind::collision) return collisionTimeSteps(c).front();
+  if (isCollision(c)) return collisionTimeSteps(c).front();
   if (c.run.dt) return *c.run.dt;
   return shortestContact(c) / c.run.stepsPerContact;
 }
@@ -101,12 +101,13 @@ double shortestContact(const Case& c) {
 }
 
 double preparationTime(const Case& c) {
-  const Preparation& how = c.preparation;
-  return how.shrinkTime + how.rotations * 2.0 * std::numbers::pi / std::abs(c.cell.omega);
+  const Couette& cell = couetteIn(c);
+  return cell.filling.shrinkTime +
+         cell.filling.rotations * 2.0 * std::numbers::pi / std::abs(cell.cell.omega);
 }
 
 double preparationSteps(const Case& c) {
-  return preparationTime(c) / (c.preparation.dt ? *c.preparation.dt : timeStep(c));
+  return preparationTime(c) / couetteIn(c).filling.dt.value_or(timeStep(c));
 }
 
 ImpactTimes impactTimes(const Case& c) {
@@ -130,7 +131,7 @@ std::vector<double> collisionTimeSteps(const Case& c) {
   if (c.run.dt) return {*c.run.dt};
   std::vector<double> steps;
   const double shortest = impactTimes(c).shortest;
-  for (const double count : c.collision.stepsPerContact) steps.push_back(shortest / count);
+  for (const double count : collisionIn(c).stepsPerContact) steps.push_back(shortest / count);
   return steps;
 }
 
@@ -238,18 +239,17 @@ double startingSpeed(const AssemblyOf<D>& assembly) {
 }  // namespace
 
 double startingSpeed(const Case& setup) {
-  if (setup.kind == CaseKind::couette) return std::abs(setup.cell.omega) * setup.cell.innerRadius;
+  if (const Couette* const cell = cellOf(setup)) return cell->cell.rimSpeed();
   return withAssembly(setup, [](const auto& assembly) { return startingSpeed(assembly); });
 }
 
 double fastestImpactTime(const Case& setup) {
-  const bool alone =
-      setup.kind == CaseKind::assembly && withAssembly(setup, [](const auto& assembly) {
-        std::size_t count =
-            assembly.starts.disks.empty() ? 0 : assembly.starts.disks.front().size();
-        for (const auto& group : assembly.disks) count += group.count();
-        return count == 1;  // it meets walls alone, with R₁₂ = a, of two it is a/2
-      });
+  const bool alone = isAssembly(setup) && withAssembly(setup, [](const auto& assembly) {
+                       std::size_t count =
+                           assembly.starts.disks.empty() ? 0 : assembly.starts.disks.front().size();
+                       for (const auto& group : assembly.disks) count += group.count();
+                       return count == 1;  // it meets walls alone, with R₁₂ = a, of two it is a/2
+                     });
   const Impact impact{lightestReducedMass(setup), flowDiameter(setup) / (alone ? 2.0 : 4.0),
                       startingSpeed(setup)};
   double shortest = INFINITY;
@@ -259,7 +259,7 @@ double fastestImpactTime(const Case& setup) {
 }
 
 std::optional<double> pairContactTime(const Case& setup) {
-  if (setup.law.normal != NormalLaw::linear || setup.particles.file) return std::nullopt;
+  if (setup.law.normal != NormalLaw::linear || packingFile(setup)) return std::nullopt;
   try {
     return shortestContact(setup);
   } catch (const std::invalid_argument&) {
@@ -305,7 +305,7 @@ std::optional<PairStepLimit> pairStepLimit(const Case& setup, const ContactLaw& 
 
 std::optional<PairStepLimit> pairStepLimit(const Case& setup,
                                            std::optional<LightestPair> lightest) {
-  if (setup.kind == CaseKind::collision || !setup.law.soft()) return std::nullopt;
+  if (isCollision(setup) || !setup.law.soft()) return std::nullopt;
   const LightestPair pair = lightest ? *lightest : lightestPair(setup);
   std::optional<PairStepLimit> least;
   for (const ContactLaw& law : lawsOf(setup)) {

@@ -43,7 +43,7 @@ int keep(const CommandLine& line, const KeepOptions& own) {
         "this one",
         out));
   std::vector<Case> cases = loadCase(line.inputs.front(), line.overrides);
-  if (cases.front().kind == CaseKind::collision)
+  if (isCollision(cases.front()))
     reportKeysWithoutUse(cases.front(), "baseline", stdout);
   else
     cases = {onlyFlow(line, "baseline")};

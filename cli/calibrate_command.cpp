@@ -185,11 +185,10 @@ std::string fromConstants(const Request& request) {
 /// Of an impact under a law that stiffens [m/s].
 double speedOf(const Case& setup, const Request& request) {
   if (request.vn) return *request.vn;
-  if (setup.kind == CaseKind::assembly)
+  if (isAssembly(setup))
     throw BadInput(
         "--vn is missing: the speed of impacts, on which this law's restitution depends");
-  return setup.kind == CaseKind::collision ? setup.collision.vn.front()
-                                           : std::abs(setup.cell.omega) * setup.cell.innerRadius;
+  return isCollision(setup) ? collisionIn(setup).vn.front() : couetteIn(setup).cell.rimSpeed();
 }
 
 std::string fromCase(const CommandLine& line, const Request& request) {
@@ -200,9 +199,8 @@ std::string fromCase(const CommandLine& line, const Request& request) {
     throw BadInput("--tension and --tangential: the case file says it; --set changes it");
   const auto& file = line.inputs.front();
   const std::vector<Case> cases = loadCase(file, line.overrides);
-  const bool ofFiles =
-      withAssembly(cases.front(), [](const auto& assembly) { return assembly.disks.empty(); });
-  if (cases.front().kind == CaseKind::assembly && ofFiles)
+  if (isAssembly(cases.front()) &&
+      withAssembly(cases.front(), [](const auto& assembly) { return assembly.disks.empty(); }))
     throw BadInput(
         fmt::format("{}: its disks are those of start files, of any radius: give the law's "
                     "constants and a pair's masses, as --kn, --gn and --mass",

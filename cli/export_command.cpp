@@ -26,9 +26,9 @@ files::WrittenBox boxOf(const Case& setup) {
   const auto around = [](double reach, double height) {
     return files::WrittenBox{Vec2(-reach, -reach), Vec2(reach, reach), height};
   };
-  if (!setup.average)
-    return around(setup.cell.outerRadius + setup.cell.wallRadius, setup.cell.height);
-  const Region& region = setup.average->region;
+  if (const Couette* const source = cellOf(setup))
+    return around(source->cell.outerRadius + source->cell.wallRadius, source->cell.height);
+  const Region& region = *setup.region;
   if (region.hasRings()) return around(region.outerRadius, region.height);
   return {region.low.head<2>(), region.high.head<2>(), region.height};
 }
@@ -73,8 +73,7 @@ auto writerOf(const std::string& format, const std::string& out, const Scene& sc
 }
 auto writerOf(const std::string& format, const std::string& out, const SpaceScene& scene,
               const Case& setup) {
-  return files::openWriter(format, out, scene,
-                           scene.box.value_or(boxInSpace(setup.average->region)));
+  return files::openWriter(format, out, scene, scene.box.value_or(boxInSpace(*setup.region)));
 }
 
 template <int D>

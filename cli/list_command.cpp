@@ -50,7 +50,7 @@ json listFields(const fs::path&) {
 
 json listEndpoints(const fs::path&) {
   json rows = json::array();
-  for (const EndpointSpec& endpoint : endpointTable())
+  for (const Endpoint& endpoint : endpointTable())
     rows.push_back(row(endpoint.name, endpoint.unit, endpoint.definition));
   std::set<std::string_view> listed;
   for (const int dimension : {2, 3})

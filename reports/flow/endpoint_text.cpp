@@ -15,8 +15,8 @@ namespace crossgrain::reports {
 
 namespace {
 
-const EndpointSpec* shippedEndpoint(const std::string& name) {
-  const auto found = std::ranges::find(endpointTable(), name, &EndpointSpec::name);
+const Endpoint* shippedEndpoint(const std::string& name) {
+  const auto found = std::ranges::find(endpointTable(), name, &Endpoint::name);
   return found == endpointTable().end() ? nullptr : &*found;
 }
 
@@ -33,12 +33,12 @@ const SpotCheckNumber* farthest(const std::vector<SpotCheckNumber>& spotCheck) {
 }  // namespace
 
 std::string endpointWords(const std::string& name) {
-  const EndpointSpec* const endpoint = shippedEndpoint(name);
+  const Endpoint* const endpoint = shippedEndpoint(name);
   return endpoint ? std::string(endpoint->words) : spaced(name);
 }
 
 std::string endpointSymbol(const std::string& name, bool ofCell) {
-  const EndpointSpec* const endpoint = ofCell ? shippedEndpoint(name) : nullptr;
+  const Endpoint* const endpoint = ofCell ? shippedEndpoint(name) : nullptr;
   return endpoint ? std::string(endpoint->symbol) : spaced(name);
 }
 

@@ -42,9 +42,9 @@ struct Probe {
 /// A Couette cell with the disks of its file, of its first packing if that is cached, or made up.
 Probe probeOf(const Case& setup) {
   const double dt = timeStep(setup);
-  if (setup.kind == CaseKind::collision) return {collisionScene(setup, collisionStarts(setup), dt)};
-  if (setup.kind == CaseKind::assembly) return {assemblyScene(setup)};
-  if (setup.particles.file) {
+  if (isCollision(setup)) return {collisionScene(setup, collisionStarts(setup), dt)};
+  if (isAssembly(setup)) return {assemblyScene(setup)};
+  if (packingFile(setup)) {
     const auto none = engineRegistry().front().make();  // a file needs no preparing
     const Packing packing = packingOf(setup, 0, dt, *none, [](double) {});
     return {couetteScene(setup, packing, dt), "the packing of the file"};
@@ -63,18 +63,18 @@ void requireStableStep(const Case& setup, const DisksOf<D>& disks) {
   if (!hasFlow(setup)) return;
   std::optional<LightestPair> lightest;  // the disks of an assembly are all in its case
   if constexpr (D == 2)
-    if (setup.kind == CaseKind::couette) lightest = lightestPair(disks, true);
+    if (cellOf(setup)) lightest = lightestPair(disks, true);
   const char* const key = setup.run.dt ? "run.dt" : "run.steps_per_contact";
   const std::string why = unstableStepFault(setup, timeStep(setup), key, lightest);
   if (!why.empty()) throw BadInput(fmt::format("{}: {}", whereSaid(setup, key), why));
 }
 
 double stepsOf(const Case& setup, double dt) {
-  return (setup.averaging.settleRotations + setup.averaging.rotations) * rotationTime(setup) / dt;
+  return flowDuration(setup) / dt;
 }
 
 int packingsOf(const Case& setup) {
-  return setup.particles.file ? 1 : setup.preparation.packings;
+  return packingFile(setup) ? 1 : setup.preparation.packings;
 }
 
 template <int D>
@@ -127,7 +127,7 @@ json cellFigures(const Case& setup, const Scene& scene, double fraction) {
           {"ring_disks", scene.bodies.back().diskRadius.size()},
           {"packings", packingsOf(setup)},
           {"looks", interimPlanOf(setup).packings},
-          {"rotations", setup.averaging.settleRotations + setup.averaging.rotations},
+          {"rotations", couetteIn(setup).times.settleRotations + couetteIn(setup).times.rotations},
           {"steps", stepsOf(setup, scene.dt)}};
 }
 
@@ -177,9 +177,9 @@ json predictionOf(const Case& setup, const Probe& probe, const json& engines,
 
 double volumeFractionOf(const Case& setup, const Scene& scene, bool madeUp) {
   double area = 0.0;
-  const Disks kinds = madeUp ? diskKinds(setup.particles) : scene.disks;
+  const Disks kinds = madeUp ? diskKinds(couetteIn(setup).particles) : scene.disks;
   for (const double a : kinds.radius) area += a * a;
-  const Cell& cell = setup.cell;
+  const Cell& cell = couetteIn(setup).cell;
   return area / (cell.outerRadius * cell.outerRadius - cell.innerRadius * cell.innerRadius);
 }
 
@@ -189,12 +189,10 @@ template <int D>
 json checkedScene(const Case& setup, const SceneOf<D>& scene, double volumeFraction,
                   const std::vector<std::string>& names, bool timed,
                   const std::filesystem::path& scratch, Progress& progress) {
-  const bool couette = setup.kind == CaseKind::couette;
+  const bool couette = cellOf(setup) != nullptr;
   json result = {{"name", setup.name},
                  {"variant", setup.variant},
-                 {"kind", couette                             ? "couette"
-                          : setup.kind == CaseKind::collision ? "collision"
-                                                              : "assembly"},
+                 {"kind", kindOf(setup)},
                  {"disks", scene.disks.size()},
                  {"wall_disks", scene.wallDiskCount()},
                  {"dt_s", scene.dt},
@@ -228,37 +226,34 @@ json checkedScene(const Case& setup, const SceneOf<D>& scene, double volumeFract
 json checkedCase(const Case& setup, const std::vector<std::string>& names, bool timed,
                  const std::filesystem::path& scratch, Progress& progress) {
   checkEngineSections(setup);
-  if (setup.particles.file && !setup.run.dt)
+  if (packingFile(setup) && !setup.run.dt)
     throw BadInput(setup.file.string() + ": a packing file needs [run] dt, the time step in s");
   // What --dry-run and the command itself refuse: the start of any packing.
   if (hasFlow(setup)) checkPackings(setup, flowPackings(setup), timeStep(setup));
   const auto addMargins = [&](json& result) {
-    result["endpoints"] = marginsOf(endpointsOf(setup), setup.averaging.endpoints, "endpoint");
-    result["margins"] = marginsOf(fieldsIn(setup.dimension, setup.average->region.hasRings()),
+    result["endpoints"] = marginsOf(setup.endpoints, setup.averaging.endpoints, "endpoint");
+    result["margins"] = marginsOf(fieldsIn(setup.dimension, setup.region->hasRings()),
                                   setup.averaging.margins, "field");
   };
   if (setup.dimension == 3) {
     const SpaceScene spheres =
-        setup.kind == CaseKind::collision
-            ? spaceCollisionScene(setup, collisionStarts(setup), timeStep(setup))
-            : assemblyScene<3>(setup);
+        isCollision(setup) ? spaceCollisionScene(setup, collisionStarts(setup), timeStep(setup))
+                           : assemblyScene<3>(setup);
     requireStableStep(setup, spheres.disks);
     json result = checkedScene(setup, spheres, 0.0, names, false, scratch, progress);
-    if (setup.average) addMargins(result);
+    if (setup.region) addMargins(result);
     return result;
   }
   const Probe probe = probeOf(setup);
   const Scene& scene = probe.scene;
   requireStableStep(setup, scene.disks);
-  const bool couette = setup.kind == CaseKind::couette;
-  const double fraction = couette ? volumeFractionOf(setup, scene, !setup.particles.file) : 0.0;
+  const bool couette = cellOf(setup) != nullptr;
+  const double fraction = couette ? volumeFractionOf(setup, scene, !packingFile(setup)) : 0.0;
 
   json result = checkedScene(setup, scene, fraction, names, timed && couette, scratch, progress);
-  if (setup.average) addMargins(result);
+  if (setup.region) addMargins(result);
   if (!couette) return result;
   result["cell"] = cellFigures(setup, scene, fraction);
-  result["endpoints"] = marginsOf(endpointTable(), setup.averaging.endpoints, "endpoint");
-  result["margins"] = marginsOf(fieldTable(), setup.averaging.margins, "field");
   if (timed) result["prediction"] = predictionOf(setup, probe, result["engines"], scratch);
   return result;
 }

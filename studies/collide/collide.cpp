@@ -192,16 +192,16 @@ void requireAnyRun(const VersionedEngines& engines, const std::vector<EngineRow>
 
 /// The oracle on a grid fine enough for a smooth line, about 80 points, at the first v_n.
 CollisionTable fineOracle(const Case& setup) {
-  const auto& psi = setup.collision.psi;
+  const auto& psi = collisionIn(setup).psi;
   const auto parts = std::max<std::size_t>(1, 80 / psi.size());
   std::vector<CollisionStart> starts;
   Case one = setup;
-  one.collision.margins.clear();  // nothing is judged by it
+  collisionIn(one).margins.clear();  // nothing is judged by it
   for (std::size_t k = 0; k < psi.size(); ++k)
     for (std::size_t part = 0; part < (k + 1 < psi.size() ? parts : 1); ++part) {
       const double next = k + 1 < psi.size() ? psi[k + 1] : psi[k];
       const double fraction = static_cast<double>(part) / static_cast<double>(parts);
-      one.collision.psi = {psi[k] + (next - psi[k]) * fraction};
+      collisionIn(one).psi = {psi[k] + (next - psi[k]) * fraction};
       starts.push_back(collisionStarts(one).front());
     }
   return tableOf(starts, outcomesOf(oracleCurve(one, starts)));
@@ -236,11 +236,11 @@ CollisionVariant variantOf(const CollisionCase& sweep) {
                                  ? effectsOf(spaceCollisionScene(setup, sweep.starts, dt))
                                  : effectsOf(collisionScene(setup, sweep.starts, dt)))
     variant.effects->push_back(toString(effect));
-  if (setup.dimension == 3) variant.space = describeSpace(setup.collision);
+  if (setup.dimension == 3) variant.space = describeSpace(collisionIn(setup));
   variant.closedEn = closedRestitution(setup.law, pair.reducedMass());
   if (!setup.law.soft()) variant.sticking.et0 = setup.law.et0;
   // Ψ_f = Ψ_i − it is of a slip along s alone.
-  const auto& besides = setup.collision.spinOutOfPlane;
+  const auto& besides = collisionIn(setup).spinOutOfPlane;
   if (besides[0].y() == 0.0 && besides[1].y() == 0.0)
     variant.slidingConstant = slidingConstant(setup.law, pair);
   variant.oracle = fineOracle(setup);
@@ -272,7 +272,7 @@ std::vector<Case> collisionsOf(const fs::path& folder, const std::vector<std::st
   std::vector<Case> variants;
   for (const fs::path& file : caseFilesIn(folder))
     for (Case& setup : loadCase(file, overrides))
-      if (setup.kind == CaseKind::collision) variants.push_back(std::move(setup));
+      if (isCollision(setup)) variants.push_back(std::move(setup));
   requireOwnNames(variants);
   if (variants.empty()) throw BadInput(folder.string() + ": none of its cases is a collision");
   return variants;
@@ -292,7 +292,7 @@ std::vector<Case> casesToCollide(const CommandLine& line, CollideOptions&) {
   const fs::path& input = line.inputs.front();
   std::vector<Case> variants = fs::is_directory(input) ? collisionsOf(input, line.overrides)
                                                        : loadCase(input, line.overrides);
-  if (variants.front().kind != CaseKind::collision) refuseKind(variants.front(), input, "collide");
+  if (!isCollision(variants.front())) refuseKind(variants.front(), input, "collide");
   if (line.only) variants = selectedCases(variants, *line.only);
   reportKeysWithoutUse(variants, "collide", line.json ? stderr : stdout);
   return variants;

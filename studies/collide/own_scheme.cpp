@@ -26,7 +26,7 @@ std::string whyNone(const Case& setup) {
 /// The case with a single collision, head on.
 Case headOn(const Case& setup) {
   Case one = setup;
-  Collision& collision = one.collision;
+  Collision& collision = collisionIn(one);
   const CollidingPair pair = collidingPair(setup);
   const double overlap = 0.01 * (pair.radius[0] + pair.radius[1]);
   collision.psi = {0.0};

@@ -63,8 +63,8 @@ std::optional<QuantityScore> scoreQuantity(const Case& setup, const CollisionQua
   score.rms = std::sqrt(squares / count) / unit.value;
   score.unit = unit.value;
   score.unitIs = unit.kind;
-  const auto margin = setup.collision.margins.find(std::string(quantity.name));
-  if (!mostAreKnown(oracle) || margin == setup.collision.margins.end()) return score;
+  const auto margin = collisionIn(setup).margins.find(std::string(quantity.name));
+  if (!mostAreKnown(oracle) || margin == collisionIn(setup).margins.end()) return score;
   score.limit = margin->second.relative ? margin->second.value : margin->second.value / unit.value;
   // Times, lengths and energies are scored as shares; others are of the approach's speed.
   const bool share = quantity.scored == CollisionQuantity::Scored::byLargest ||
@@ -90,7 +90,7 @@ CurveScore scoreSweep(const Case& setup, const std::vector<CollisionStart>& star
     const bool asItShould = found[k].has_value() != sticks;
     held = held && (asItShould || !parts);
     open = open || (!asItShould && !parts);
-    judged = judged || (sticks && !setup.collision.margins.empty());
+    judged = judged || (sticks && !collisionIn(setup).margins.empty());
   }
   for (const CollisionQuantity& quantity : scoredQuantities()) {
     auto& one = score.of[quantity.id] =

@@ -59,8 +59,8 @@ namespace {
 
 /// The case's margin of Ψ_f [-]; absent without one.
 std::optional<double> marginOfPsi(const Case& setup, const OracleCurve& oracle) {
-  const auto margin = setup.collision.margins.find("psi_f");
-  if (margin == setup.collision.margins.end()) return std::nullopt;
+  const auto margin = collisionIn(setup).margins.find("psi_f");
+  if (margin == collisionIn(setup).margins.end()) return std::nullopt;
   if (!margin->second.relative) return margin->second.value;
   std::vector<double> psi;
   for (const auto& end : oracle.ends)

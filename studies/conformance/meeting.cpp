@@ -23,7 +23,7 @@ Case setupOf(const CheckContext& context, const Meeting& meeting) {
   Case setup;
   setup.name = "conformance";
   setup.law = meeting.law;
-  Collision& collision = setup.collision;
+  Collision& collision = setup.source.emplace<Collision>();
   collision.wall = meeting.partner == Partner::plane;
   collision.wallVelocity = meeting.wallVelocity;
   collision.radius[0] = smallRadius;

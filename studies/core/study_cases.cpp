@@ -74,20 +74,21 @@ void reportKeysWithoutUse(const std::vector<Case>& cases, std::string_view comma
 std::vector<std::string> quickOverrides(const Case& setup, double rotations) {
   const std::string packings =
       fmt::format("preparation.packings={}", std::min(2, setup.preparation.packings));
-  if (setup.average)
-    return {packings,
-            fmt::format("average.snapshots={}", std::min(20, setup.average->region.snapshots))};
+  if (!cellOf(setup))
+    return {packings, fmt::format("average.snapshots={}", std::min(20, setup.region->snapshots))};
   return {
-      packings, fmt::format("preparation.rotations={}", std::min(0.1, setup.preparation.rotations)),
-      fmt::format("averaging.settle_rotations={}", std::min(0.02, setup.averaging.settleRotations)),
-      fmt::format("averaging.rotations={}", std::min(rotations, setup.averaging.rotations)),
+      packings,
+      fmt::format("preparation.rotations={}", std::min(0.1, couetteIn(setup).filling.rotations)),
+      fmt::format("averaging.settle_rotations={}",
+                  std::min(0.02, couetteIn(setup).times.settleRotations)),
+      fmt::format("averaging.rotations={}", std::min(rotations, couetteIn(setup).times.rotations)),
       "averaging.snapshots_per_rotation=400"};
 }
 
 Case onlyCase(const CommandLine& line, const char* command) {
   const fs::path& file = line.inputs.front();
   const Case setup = loadCase(file, line.overrides).front();
-  if (setup.kind != CaseKind::couette) refuseKind(setup, file, command);
+  if (!cellOf(setup)) refuseKind(setup, file, command);
   return onlyFlow(line, command);
 }
 
@@ -113,7 +114,7 @@ Case onlyFlow(const CommandLine& line, const char* command) {
   const Starts starts = startsOf(line, command);
   const std::vector<Case> cases = loadCase(file, line.overrides, {}, starts);
   if (!hasFlow(cases.front())) {
-    if (cases.front().kind != CaseKind::assembly) refuseKind(cases.front(), file, command);
+    if (!isAssembly(cases.front())) refuseKind(cases.front(), file, command);
     throw BadInput(fmt::format(
         "{}: {} cannot run an assembly that does not say what is averaged: give it [average] and "
         "[[endpoints]]",
@@ -133,9 +134,9 @@ Case onlyFlow(const CommandLine& line, const char* command) {
 }
 
 void refuseKind(const Case& setup, const fs::path& input, const char* command) {
-  const char* const able = setup.kind == CaseKind::collision ? "collide"
-                           : hasFlow(setup)                  ? "compare"
-                                                             : "stability";
+  const char* const able = isCollision(setup) ? "collide"
+                           : hasFlow(setup)   ? "compare"
+                                              : "stability";
   throw BadInput(fmt::format("{}: {} cannot run a case of this kind; crossgrain {} can",
                              input.string(), command, able));
 }

@@ -28,7 +28,7 @@ constexpr const char* profileMeasures[] = {"azimuthal_velocity", "stress_rr", "v
 std::map<std::string, std::vector<std::optional<double>>> numbersOf(
     const Case& setup, const std::vector<Profile>& profiles) {
   std::map<std::string, std::vector<std::optional<double>>> numbers;
-  const double rim = setup.cell.omega * setup.cell.innerRadius;
+  const double rim = couetteIn(setup).cell.omega * couetteIn(setup).cell.innerRadius;
   for (const Profile& profile : profiles) {
     if (std::ranges::find(profileMeasures, profile.field) == std::end(profileMeasures)) continue;
     auto& rings = numbers[profile.field];
@@ -58,7 +58,7 @@ CostRun endpointsOfRun(const EngineEntry& entry, const Case& setup, const Packin
   CostRun cost{run.effective->dt, run.stats->wallSeconds / seconds, run.stats->cpuSeconds / seconds,
                perSecond(run.stats->steps), perSecond(run.stats->contactEvaluations)};
   for (const auto& [name, margin] : setup.averaging.endpoints)
-    cost.numbers[name] = {endpointOf(endpointSpec(setup, name), setup, run)};
+    cost.numbers[name] = {endpointOf(endpointNamed(setup, name), setup, run)};
   return cost;
 }
 
@@ -107,7 +107,7 @@ CostRun averagePacking(Engine& engine, const EngineEntry& entry, const Case& set
   }
   const Stats after = engine.stats();
 
-  const double rotations = setup.averaging.rotations;
+  const double rotations = couetteIn(setup).times.rotations;
   const auto perRotation = [&](std::uint64_t count) {
     return static_cast<std::uint64_t>(std::llround(static_cast<double>(count) / rotations));
   };
@@ -268,7 +268,7 @@ class AverageErrors final : public ErrorKind {
 
  private:
   const std::vector<Packing>& packings() const { return study_.campaign.packings(); }
-  bool isCell() const { return !study_.setup.average; }
+  bool isCell() const { return cellOf(study_.setup) != nullptr; }
   double duration() const { return flowDuration(study_.setup); }  // [s]
 
   CostRun averagesOf(Engine& engine, const EngineEntry& entry, const Case& setup,
@@ -283,7 +283,7 @@ class AverageErrors final : public ErrorKind {
   std::optional<double> unitOf(const std::string& measure) const {
     if (isCell()) return measure == "wall_slip" ? std::optional(1.0) : std::nullopt;
     const Margin& margin = study_.setup.averaging.endpoints.at(measure);
-    if (endpointSpec(study_.setup, measure).byRatio) return std::nullopt;
+    if (endpointNamed(study_.setup, measure).byRatio) return std::nullopt;
     return 10.0 * margin.value;
   }
 

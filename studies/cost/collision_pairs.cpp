@@ -17,7 +17,7 @@ namespace {
 
 /// On a wall disk or a plane.
 bool isOnWall(const Case& collision) {
-  return std::isinf(collision.collision.mass[1]);
+  return std::isinf(collisionIn(collision).mass[1]);
 }
 
 /// Calls work with a planar scene as engines run it: in space at z = 0, where all that moves stays
@@ -33,7 +33,7 @@ EffectiveParameters loadPlanar(Engine& engine, const EngineEntry& entry, const C
 }
 
 bool areAlike(const Case& one, const Case& other) {
-  const Collision &a = one.collision, &b = other.collision;
+  const Collision &a = collisionIn(one), &b = collisionIn(other);
   return std::ranges::equal(a.radius, b.radius) && std::ranges::equal(a.mass, b.mass) &&
          one.law == other.law;
 }
@@ -47,11 +47,10 @@ std::vector<Case> collisionsOf(const Case& setup) {
   for (const NamedPair& named : pairsOf(setup)) {
     Case pair = setup;
     pair.name = named.name;
-    pair.kind = CaseKind::collision;
     pair.law = named.law;
     pair.materials.reset();
     pair.bottom.reset();
-    Collision& collision = pair.collision;
+    Collision& collision = pair.source.emplace<Collision>();
     for (const int side : {0, 1}) {
       collision.radius[side] = named.bodies.radius[side];
       collision.mass[side] = named.bodies.mass[side];
@@ -238,7 +237,7 @@ std::vector<std::vector<std::size_t>> pairsByLaw(const std::vector<Case>& collis
   for (std::size_t p = 0; p < collisions.size(); ++p) {
     const auto same = std::ranges::find_if(groups, [&](const auto& group) {
       return collisions[group.front()].law == collisions[p].law &&
-             collisions[group.front()].collision.wall == collisions[p].collision.wall;
+             collisionIn(collisions[group.front()]).wall == collisionIn(collisions[p]).wall;
     });
     (same == groups.end() ? groups.emplace_back() : *same).push_back(p);
   }

@@ -77,18 +77,18 @@ void requireSound(const Case& setup, const SceneOf<D>& scene, const SnapshotOf<D
   // A packing whose springs are dropped, or that loses its friction, lets go at several times what
   // drives it; an instability grows without bound.
   constexpr double mostSpeed = 10.0;
-  const bool isCell = !setup.average;
+  const bool isCell = cellOf(setup) != nullptr;
   double squares = 0.0;
   for (std::size_t k = 0; k < snapshot.position.size(); ++k) {
     const double radius = snapshot.position[k].norm();
-    if (isCell && (!(radius < setup.cell.outerRadius) || !(radius > setup.cell.innerRadius)))
+    if (isCell && (!(radius < couetteIn(setup).cell.outerRadius) ||
+                   !(radius > couetteIn(setup).cell.innerRadius)))
       throw EngineFailure(fmt::format("{}: disk {} left the cell by t = {:.3g} s", beyondLimit, k,
                                       snapshot.positionTime));
     squares += snapshot.velocity[k].squaredNorm();
   }
   const double speed = std::sqrt(squares / static_cast<double>(snapshot.position.size()));
-  const double driven =
-      isCell ? std::abs(setup.cell.omega) * setup.cell.innerRadius : drivenSpeed(scene);
+  const double driven = isCell ? couetteIn(setup).cell.rimSpeed() : drivenSpeed(scene);
   if (!(speed < mostSpeed * driven))
     throw EngineFailure(fmt::format("{}: at t = {:.3g} s the {}' rms speed is {:.3g} times {}",
                                     beyondLimit, snapshot.positionTime,
@@ -186,7 +186,7 @@ void CostStudy::prepare() {
 }
 
 void CostStudy::findStates() {
-  if (!setup.average) return;
+  if (cellOf(setup)) return;
   const std::size_t wanted =
       std::min(campaign.packings().size(), static_cast<std::size_t>(setup.cost.trajectoryPackings));
   for (FlowState& state : statesAlongTheFlow(

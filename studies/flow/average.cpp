@@ -21,14 +21,14 @@
 namespace crossgrain::inline studies {
 namespace {
 
-/// Endpoints that the case makes up itself, beside the other numbers of the run.
-void addOwnEndpoints(const Case& setup, FlowRun& run) {
-  if (!setup.average) return;
-  for (const OwnEndpoint& own : setup.average->endpoints) {
-    OwnValue found = ownEndpointOf(own, setup, run);
-    if (!notShown(endpointSpec(setup, own.name), setup, run).empty()) found.value.reset();
-    std::erase_if(run.head, [&](const HeadNumber& number) { return number.name == own.name; });
-    run.head.push_back({own.name, own.unit, found.value, {}, {}});
+/// Endpoints beside the other numbers of the run.
+void addEndpoints(const Case& setup, FlowRun& run) {
+  if (cellOf(setup)) return;
+  for (const Endpoint& endpoint : setup.endpoints) {
+    EndpointValue found = endpointValue(endpoint, setup, run);
+    if (!notShown(endpoint, setup, run).empty()) found.value.reset();
+    std::erase_if(run.head, [&](const HeadNumber& number) { return number.name == endpoint.name; });
+    run.head.push_back({endpoint.name, endpoint.unit, found.value, {}, {}});
   }
 }
 
@@ -48,7 +48,7 @@ NamedRun averageRun(const Case& setup, const SnapshotRun& files, const std::stri
     progress.update(static_cast<std::size_t>(index), files.name(), fraction);
   });
   averaged.run.packing = index;
-  addOwnEndpoints(setup, averaged.run);
+  addEndpoints(setup, averaged.run);
   return {std::move(averaged.run), files.name(), averaged.snapshots, opened.radius};
 }
 
@@ -94,8 +94,7 @@ CompareResults averageSnapshots(const Case& setup, const std::vector<std::filesy
   requireOneEngine(all);
 
   CompareResults results;
-  static_cast<FlowFrame&>(results) =
-      couetteFrame(kindAverage, setup, commandLine, all.front().radius);
+  static_cast<FlowFrame&>(results) = flowFrame(kindAverage, setup, commandLine, all.front().radius);
   // Of a file's snapshots nobody says from when to when they are.
   FlowAveraging& averaging = results.averaging;
   averaging.settleRotations = averaging.rotations = averaging.fromRotation = averaging.toRotation =

@@ -34,7 +34,7 @@ void requireStable(const Case& setup, double dt, std::optional<LightestPair> lig
 }
 
 double stepOf(const Case& setup) {
-  if (!setup.run.dt && setup.particles.file)  // whose masses are not known yet
+  if (!setup.run.dt && packingFile(setup))  // whose masses are not known yet
     throw BadInput(setup.file.string() + ": a packing file needs [run] dt, the time step in s");
   const double dt = timeStep(setup);
   requireStable(setup, dt);
@@ -200,7 +200,9 @@ void Campaign::preparePackings(int count) {
            } catch (const Interrupted&) {
              throw;
            } catch (const std::exception& error) {
-             failures[at] = error.what() + stepHint(setup_, setup_.preparation.dt.value_or(dt_));
+             const Couette* const cell = cellOf(setup_);
+             failures[at] =
+                 error.what() + stepHint(setup_, cell ? cell->filling.dt.value_or(dt_) : dt_);
            }
          }});
   }
@@ -208,7 +210,7 @@ void Campaign::preparePackings(int count) {
   for (const std::string& failure : failures)
     if (!failure.empty()) throw BadInput(failure);
   std::ranges::copy_if(seconds, std::back_inserter(preparedIn_), [](double s) { return s > 0.0; });
-  if (setup_.particles.file)  // its disks may be lighter than the case says
+  if (packingFile(setup_))  // its disks may be lighter than the case says
     for (const Packing& packing : packings_)
       requireStable(setup_, dt_, lightestPair(packing.disks, true));
   if (there > 0) return;
@@ -291,16 +293,16 @@ CachedTask<FlowRun>::Outcome Campaign::runOne(const Variant& variant, int packin
   run.engine = entry.name;
   run.packing = packing;
   try {
-    const CouetteTask task{variant.setup,
-                           entry,
-                           packing,
-                           &packings_[static_cast<std::size_t>(packing)],
-                           dt_,
-                           store_.scratch(name),
-                           store_.snapshots(name),
-                           store_.unfinished(name),
-                           Json(keyOf(variant.engine, packing, partOf(variant))).dump()};
-    run = inDimensionOf(setup_, [&]<int D>() { return runCouette<D>(task, progress); });
+    const FlowTask task{variant.setup,
+                        entry,
+                        packing,
+                        &packings_[static_cast<std::size_t>(packing)],
+                        dt_,
+                        store_.scratch(name),
+                        store_.snapshots(name),
+                        store_.unfinished(name),
+                        Json(keyOf(variant.engine, packing, partOf(variant))).dump()};
+    run = inDimensionOf(setup_, [&]<int D>() { return runFlow<D>(task, progress); });
     run.without = variant.without;
     return {run, true, fmt::format("{:.1f} s", run.stats->wallSeconds)};
   } catch (const Interrupted&) {
@@ -402,9 +404,8 @@ void Campaign::lookForPackings(int count) {
 
 void Campaign::lookForPackings() {
   if (runsEngines()) checkPackings(setup_, packingCount(), dt_);
-  if (setup_.particles.file)
-    requireStable(setup_, dt_,
-                  lightestPair(readPacking(*setup_.particles.file, setup_).disks, true));
+  if (packingFile(setup_))
+    requireStable(setup_, dt_, lightestPair(readPacking(*packingFile(setup_), setup_).disks, true));
   lookForPackings(packingCount());
 }
 
@@ -458,7 +459,7 @@ const std::vector<double>& radiiOf(const std::vector<Packing>& packings,
 FlowStudy Campaign::study(std::string_view kind) const {
   FlowStudy study;
   static_cast<FlowFrame&>(study) =
-      couetteFrame(kind, setup_, command_.commandLine, radiiOf(packings_, engines_.front().radii));
+      flowFrame(kind, setup_, command_.commandLine, radiiOf(packings_, engines_.front().radii));
   study.engines = engineRows();
   for (std::size_t k = 0; k < packings_.size(); ++k)
     study.packings.push_back(

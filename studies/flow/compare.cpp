@@ -43,8 +43,8 @@ std::optional<NothingJudged> nothingJudged(const Case& setup, std::span<const En
     return NothingJudged{"no engine has a value that comes back when its one start is run again"};
   if (named < 2) return NothingJudged{"one engine has nothing to be compared with", true};
   if (setup.averaging.endpoints.empty())
-    return NothingJudged{setup.average ? "the case has no [[endpoints]]"
-                                       : "the case has no [averaging.endpoints]"};
+    return NothingJudged{!cellOf(setup) ? "the case has no [[endpoints]]"
+                                        : "the case has no [averaging.endpoints]"};
   constexpr int fewest = 4;  // of packings, for any test
   int endpoints = 0, most = 0;
   for (const EndpointRow& row : rows) {
@@ -127,10 +127,10 @@ std::string neutralNote(const Case& setup, const Campaign& campaign, bool lockst
   const std::string packings =
       campaign.packings().empty() ? ""
       : packingsAreFiles(setup)   ? "; packings are files"
-      : setup.average             ? "; packings are random, of the case's seeds"
-                                  : "; packings are made by " + (setup.preparation.engine.empty()
-                                                                     ? engineRegistry().front().name
-                                                                     : setup.preparation.engine);
+      : !cellOf(setup)            ? "; packings are random, of the case's seeds"
+                       : "; packings are made by " + (couetteIn(setup).filling.engine.empty()
+                                                          ? engineRegistry().front().name
+                                                          : couetteIn(setup).filling.engine);
   return fmt::format(
       "No engine is the reference: each is compared with the median of the others{}{}.", packings,
       lockstep ? "; laws are verified by the in-house engine under each one's conventions" : "");

@@ -28,8 +28,7 @@ struct EndpointTest {
 };
 
 /// Why some of the values cannot be tested by their ratio; empty: all can.
-std::string whyNoRatio(const EndpointSpec& endpoint, const Numbers& reference,
-                       const Numbers& other) {
+std::string whyNoRatio(const Endpoint& endpoint, const Numbers& reference, const Numbers& other) {
   if (!endpoint.byRatio) return {};
   const double sign = signOf(reference);
   const auto has = [](const auto& value) { return value.has_value(); };
@@ -44,7 +43,7 @@ std::string whyNoRatio(const EndpointSpec& endpoint, const Numbers& reference,
 }
 
 /// All but what is found.
-EndpointRow emptyRow(const ComparedPair& pair, const EndpointSpec& endpoint, const Margin& margin) {
+EndpointRow emptyRow(const ComparedPair& pair, const Endpoint& endpoint, const Margin& margin) {
   EndpointRow row;
   row.a = pair.a;
   row.b = pair.b;
@@ -57,7 +56,7 @@ EndpointRow emptyRow(const ComparedPair& pair, const EndpointSpec& endpoint, con
   return row;
 }
 
-EndpointTest testOf(const Case& setup, const ComparedPair& pair, const EndpointSpec& endpoint,
+EndpointTest testOf(const Case& setup, const ComparedPair& pair, const Endpoint& endpoint,
                     const Numbers& reference, const Numbers& other) {
   const Margin& margin = setup.averaging.endpoints.at(std::string(endpoint.name));
   EndpointTest own{emptyRow(pair, endpoint, margin),
@@ -111,7 +110,7 @@ struct AblePair {
   bool none = false;  ///< too few are left for a comparison
 };
 
-AblePair ablePair(const EndpointSpec& endpoint, const Case& setup, const ComparedPair& pair,
+AblePair ablePair(const Endpoint& endpoint, const Case& setup, const ComparedPair& pair,
                   const std::vector<Runs>& ours, const Runs& theirs) {
   AblePair able;
   const auto add = [&](const Runs& all) {
@@ -144,7 +143,7 @@ std::vector<EndpointTest> familyOf(const Case& setup, std::span<const FlowRun> r
   const Runs theirs = runsFor(runs, pair.b, known.surrogates, pair.without);
   std::vector<EndpointTest> family;
   if (ours.empty() || theirs.empty()) return family;
-  for (const EndpointSpec& endpoint : endpointsOf(setup)) {
+  for (const Endpoint& endpoint : setup.endpoints) {
     const AblePair able = ablePair(endpoint, setup, pair, ours, theirs);
     if (able.none) {
       EndpointTest absent = testOf(setup, pair, endpoint, {}, {});
@@ -174,7 +173,7 @@ std::vector<EndpointTest> familyOf(const Case& setup, std::span<const FlowRun> r
     if (independent && able.ours.front().size() == 1 && able.theirs.size() == 1) {
       const FlowRun &a = *able.ours.front().front(), &b = *able.theirs.front();
       if (const FlowRun* const without = addOwnErrors(own.test, a, b, endpoint.name))
-        addReason(missingErrorReason(endpoint, setup, *without));
+        addReason(missingErrorReason(endpoint, *without));
     }
     for (const Runs& engine : able.ours) addReason(missingValueReason(endpoint, setup, engine));
     addReason(missingValueReason(endpoint, setup, able.theirs));
@@ -339,7 +338,7 @@ struct RepeatedValue {
   std::string reason;  ///< why there is no value that can be judged
 };
 
-RepeatedValue repeatedValue(const EndpointSpec& endpoint, const Case& setup,
+RepeatedValue repeatedValue(const Endpoint& endpoint, const Case& setup,
                             std::span<const FlowRun> runs, const std::string& engine,
                             const std::string& without = "") {
   const Runs own = finishedRuns(runs, engine, without);
@@ -381,10 +380,9 @@ std::vector<EndpointRow> closedFormRows(const Case& setup, std::span<const FlowR
                                         const std::vector<std::string>& engines,
                                         const std::vector<ComparedPair>& pairs) {
   std::vector<EndpointRow> rows;
-  for (const OwnEndpoint& own : setup.average->endpoints) {
-    const EndpointSpec endpoint = endpointSpec(setup, own.name);
+  for (const Endpoint& endpoint : setup.endpoints) {
     const auto add = [&](const ComparedPair& pair, const RepeatedValue& first) {
-      rows.push_back(emptyRow(pair, endpoint, setup.averaging.endpoints.at(own.name)));
+      rows.push_back(emptyRow(pair, endpoint, setup.averaging.endpoints.at(endpoint.name)));
       for (const auto& [engine, without] :
            {std::pair(pair.a, std::string()), {pair.b, pair.without}})
         if (const AbleRuns able = ableRuns(endpoint, setup, finishedRuns(runs, engine, without));
@@ -396,7 +394,7 @@ std::vector<EndpointRow> closedFormRows(const Case& setup, std::span<const FlowR
       answerExactly(rows.back(), first, repeatedValue(endpoint, setup, runs, pair.b, pair.without));
     };
     for (const std::string& engine : engines)
-      add({closedFormName, engine, PairKind::closedForm}, {own.expected, 0, {}});
+      add({closedFormName, engine, PairKind::closedForm}, {endpoint.expected, 0, {}});
     for (const ComparedPair& pair : pairs)
       if (!finishedRuns(runs, pair.a).empty() && !finishedRuns(runs, pair.b, pair.without).empty())
         add(pair, repeatedValue(endpoint, setup, runs, pair.a));
@@ -416,8 +414,8 @@ std::vector<EndpointRow> endpointRows(const Case& setup, const std::vector<Endpo
                                       const InterimPlan& plan) {
   std::vector<EndpointTest> tests, judged;
   for (const EndpointValues& values : family)
-    tests.push_back(testOf(setup, {names.first, names.second}, endpointSpec(setup, values.endpoint),
-                           values.reference, values.other));
+    tests.push_back(testOf(setup, {names.first, names.second},
+                           endpointNamed(setup, values.endpoint), values.reference, values.other));
   judge(std::move(tests), plan, plan.packings.back(), judged);
   return rowsOf(std::move(judged), plan);
 }
@@ -460,7 +458,7 @@ std::optional<double> reachOf(std::string_view endpoint, const LateWindows& late
 EndpointResponse responseTo(const Case& setup, const Runs& runs, const Runs& changed,
                             const std::string& name, const std::string& constant, double change,
                             std::size_t packings) {
-  const EndpointSpec endpoint = endpointSpec(setup, name);
+  const Endpoint& endpoint = endpointNamed(setup, name);
   EndpointResponse response{name, constant, change, {}, {}, {}, 0};
   const PairedSample sample = testedEndpoint(endpoint, setup.averaging.endpoints.at(name),
                                              endpointByPacking(endpoint, setup, runs, packings),
@@ -483,7 +481,7 @@ std::vector<SpotCheckNumber> spotCheckOf(const Case& setup, const FlowRun& engin
                                          const std::vector<EndpointResponse>& responses) {
   std::vector<SpotCheckNumber> numbers;
   for (const auto& [name, allowed] : setup.averaging.endpoints) {
-    const EndpointSpec endpoint = endpointSpec(setup, name);
+    const Endpoint& endpoint = endpointNamed(setup, name);
     SpotCheckNumber number{name, {}, {}, {}, {}};
     const PairedSample sample =
         testedEndpoint(endpoint, allowed, {endpointOf(endpoint, setup, mirror)},

@@ -19,98 +19,18 @@ namespace {
 
 using Value = std::optional<double>;
 
-Value inRing(const Case& setup, const FlowRun& run, std::string_view field, std::size_t ring) {
-  const Profile* profile = profileOf(run.profiles, setup.averaging.methods.front(), field);
-  return profile && ring < profile->mean.size() ? profile->mean[ring] : Value{};
-}
-
-Value ratio(const Value& above, const Value& below) {
-  return above && below && *below > 0.0 ? Value(*above / *below) : Value{};
-}
-
-/// p = (σ_rr + σ_φφ)/2 in two dimensions; a cell without contacts has none.
-Value pressure(const Case& setup, const FlowRun& run) {
-  const Value rr = cellMean(setup, run, "stress_rr"), pp = cellMean(setup, run, "stress_pp");
-  if (!rr || !pp || !(*rr + *pp > 0.0)) return {};
-  return 0.5 * (*rr + *pp);
-}
-
-Value stressRatio(const Case& setup, const FlowRun& run) {
-  return ratio(cellMean(setup, run, "stress_rp"), cellMean(setup, run, "stress_rr"));
-}
-
-Value stressAnisotropy(const Case& setup, const FlowRun& run) {
-  return ratio(cellMean(setup, run, "stress_pp"), cellMean(setup, run, "stress_rr"));
-}
-
-Value coordination(const Case&, const FlowRun& run) {
-  for (const HeadNumber& number : run.head)
-    if (number.name == "coordination") return number.value;
-  return {};
-}
-
-Value meanVelocity(const Case& setup, const FlowRun& run) {
-  return cellMean(setup, run, "azimuthal_velocity");
-}
-
-Value meanSpin(const Case& setup, const FlowRun& run) {
-  return cellMean(setup, run, "spin");
-}
-
-Value velocityAtWheel(const Case& setup, const FlowRun& run) {
-  return inRing(setup, run, "azimuthal_velocity", 0);
-}
-
-Value volumeFractionAtWheel(const Case& setup, const FlowRun& run) {
-  return inRing(setup, run, "volume_fraction", 0);
-}
-
-Value spinAtWheel(const Case& setup, const FlowRun& run) {
-  return inRing(setup, run, "spin", 0);
-}
-
-const OwnEndpoint* ownEndpoint(const Case& setup, std::string_view name) {
-  if (!setup.average) return nullptr;
-  const auto& endpoints = setup.average->endpoints;
-  const auto found = std::ranges::find(endpoints, name, &OwnEndpoint::name);
-  return found == endpoints.end() ? nullptr : &*found;
-}
-
 /// Of all snapshots alike.
 bool isMean(Reduction reduction) {
   return reduction == Reduction::mean || reduction == Reduction::slope ||
          reduction == Reduction::bin || reduction == Reduction::rate;
 }
 
-struct Formula {
-  std::string_view endpoint;
-  Value (*of)(const Case& setup, const FlowRun& run);
-  Needs needs;
-};
-
-constexpr std::array<Formula, 9> formulas = {
-    {{"pressure", pressure, Needs::contacts},
-     {"stress_ratio", stressRatio, Needs::contacts},
-     {"stress_anisotropy", stressAnisotropy, Needs::contacts},
-     {"coordination", coordination, Needs::contacts},
-     {"mean_velocity", meanVelocity, Needs::kinematics},
-     {"mean_spin", meanSpin, Needs::spin},
-     {"velocity_at_wheel", velocityAtWheel, Needs::kinematics},
-     {"volume_fraction_at_wheel", volumeFractionAtWheel, Needs::kinematics},
-     {"spin_at_wheel", spinAtWheel, Needs::spin}}};
-
-const Formula& formulaOf(std::string_view endpoint) {
-  const auto* const found = std::ranges::find(formulas, endpoint, &Formula::endpoint);
-  if (found == formulas.end())
-    throw std::logic_error("no formula of endpoint " + std::string(endpoint));
-  return *found;
-}
-
 /// What a field, or a number of regionNumbers() or diskNumbers(), is made of. Forces on walls have
 /// no need that profiles show: where there are none the series is empty, and says so.
-Needs needsOf(const std::string& quantity, const OwnEndpoint& how, int dimension) {
+Needs needsOf(const std::string& quantity, const Endpoint& how, int dimension) {
   if (how.wall) return Needs::kinematics;
   if (how.disk) return quantity.starts_with("spin") ? Needs::spin : Needs::kinematics;
+  if (quantity == sceneCoordination) return Needs::contacts;
   const auto numbers = regionNumbers(dimension);
   const auto found = std::ranges::find(numbers, quantity, &RegionNumber::name);
   if (found == numbers.end()) return fieldSpec(quantity).needs;
@@ -179,33 +99,26 @@ std::optional<double> cellMean(const Case& setup, const FlowRun& run, std::strin
   return whole > 0.0 ? Value(sum / whole) : Value{};
 }
 
-std::optional<double> endpointOf(const EndpointSpec& endpoint, const Case& setup,
-                                 const FlowRun& run) {
-  const auto finite = [](const Value& value) {
-    return value && std::isfinite(*value) ? value : Value{};
-  };
-  if (const OwnEndpoint* own = ownEndpoint(setup, endpoint.name))
-    return finite(ownEndpointOf(*own, setup, run).value);
-  return finite(formulaOf(endpoint.name).of(setup, run));
+std::optional<double> endpointOf(const Endpoint& endpoint, const Case& setup, const FlowRun& run) {
+  const Value value = endpointValue(endpoint, setup, run).value;
+  return value && std::isfinite(*value) ? value : Value{};
 }
 
-std::string notShown(const EndpointSpec& endpoint, const Case& setup, const FlowRun& run) {
-  const OwnEndpoint* const own = ownEndpoint(setup, endpoint.name);
-  if (!own) return lackOf(formulaOf(endpoint.name).needs, run);
-  if (own->wall && lacksWallContacts(run)) return lacks(run, "contacts with walls");
-  for (const std::string& quantity : {own->quantity, own->per}) {
+std::string notShown(const Endpoint& endpoint, const Case& setup, const FlowRun& run) {
+  if (endpoint.wall && lacksWallContacts(run)) return lacks(run, "contacts with walls");
+  for (const std::string& quantity : {endpoint.quantity, endpoint.per}) {
     if (quantity.empty()) continue;
-    std::string lack = lackOf(needsOf(quantity, *own, setup.dimension), run);
+    std::string lack = lackOf(needsOf(quantity, endpoint, setup.dimension), run);
     if (!lack.empty()) return lack;
     const bool ofSliding = quantity == "sliding_fraction" && run.series;
     if (run.ofFiles() && ofSliding && presentNumbers(valuesOf(*run.series, quantity)).empty())
       return "no mark of sliding contacts in its files";
   }
-  const OwnValue found = ownEndpointOf(*own, setup, run);
+  const EndpointValue found = endpointValue(endpoint, setup, run);
   return run.ofFiles() && found.notCovered ? found.why + " in its files" : std::string();
 }
 
-AbleRuns ableRuns(const EndpointSpec& endpoint, const Case& setup, const Runs& all) {
+AbleRuns ableRuns(const Endpoint& endpoint, const Case& setup, const Runs& all) {
   AbleRuns able;
   std::string lack;
   for (const FlowRun* run : all)
@@ -232,9 +145,8 @@ std::vector<EndpointError> endpointErrors(const Case& setup, const RunAverages& 
       without.push_back(std::move(*rest));
     else
       return errors;
-  for (const EndpointSpec& endpoint : endpointsOf(setup)) {
-    if (const OwnEndpoint* own = ownEndpoint(setup, endpoint.name); own && !isMean(own->reduction))
-      continue;
+  for (const Endpoint& endpoint : setup.endpoints) {
+    if (!isMean(endpoint.reduction)) continue;
     const Value whole = endpointOf(endpoint, setup, run);
     std::vector<double> pseudo;
     for (const FlowRun& rest : without)
@@ -249,10 +161,8 @@ std::vector<EndpointError> endpointErrors(const Case& setup, const RunAverages& 
   return errors;
 }
 
-std::string missingErrorReason(const EndpointSpec& endpoint, const Case& setup,
-                               const FlowRun& run) {
-  const OwnEndpoint* const own = ownEndpoint(setup, endpoint.name);
-  if (own && !isMean(own->reduction))
+std::string missingErrorReason(const Endpoint& endpoint, const FlowRun& run) {
+  if (!isMean(endpoint.reduction))
     return "an endpoint of one time, or of an extreme, has no error within a single run";
   const std::size_t snapshots = run.series ? valuesOf(*run.series, "t_s").size() : 0;
   if (snapshots < fewestOfOwnError)
@@ -261,16 +171,14 @@ std::string missingErrorReason(const EndpointSpec& endpoint, const Case& setup,
   return fmt::format("{} has a single run, at rest or too short to know its own error", run.engine);
 }
 
-std::string missingValueReason(const EndpointSpec& endpoint, const Case& setup, const Runs& runs) {
-  const OwnEndpoint* const own = ownEndpoint(setup, endpoint.name);
-  if (own)
-    for (const FlowRun* run : runs)
-      if (const OwnValue found = ownEndpointOf(*own, setup, *run); !found.why.empty())
-        return fmt::format("{}, packing {}: {}", run->engine, run->packing, found.why);
+std::string missingValueReason(const Endpoint& endpoint, const Case& setup, const Runs& runs) {
+  for (const FlowRun* run : runs)
+    if (const EndpointValue found = endpointValue(endpoint, setup, *run); !found.why.empty())
+      return fmt::format("{}, packing {}: {}", run->engine, run->packing, found.why);
   return {};
 }
 
-Numbers endpointByPacking(const EndpointSpec& endpoint, const Case& setup, const Runs& runs,
+Numbers endpointByPacking(const Endpoint& endpoint, const Case& setup, const Runs& runs,
                           std::size_t packings) {
   Numbers values(packings);
   for (const FlowRun* run : runs)

@@ -102,7 +102,7 @@ AveragedRun averagedRun(const Case& setup, const SnapshotRun& files, SnapshotSou
   const std::string where = files.name();
   CoveredTime covered(flowTimes(setup));
   AveragedRun averaged;
-  auto averages = flowAverages<D>(setup, source.scene());
+  auto averages = std::make_unique<FlowAverages<D>>(setup, source.scene());
   while (const auto snapshot = source.next()) {
     throwIfInterrupted();
     if (source.disksChanged()) averages->changeDisks();
@@ -123,7 +123,7 @@ AveragedRun averagedRun(const Case& setup, const SnapshotRun& files, SnapshotSou
   averaged.averages = std::move(averages);
   averaged.run.remarks = source.remarks();
   // Of our own files of a cell all snapshots are averaged, whenever they are.
-  const bool timed = setup.average || !files.format.empty();
+  const bool timed = !cellOf(setup) || !files.format.empty();
   if (std::string gap = covered.gap(); timed && !gap.empty())
     averaged.run.remarks.push_back(std::move(gap));
   return averaged;

@@ -15,10 +15,9 @@ namespace crossgrain::inline studies {
 
 namespace {
 
-CouetteCell cellOf(const Case& setup, std::span<const double> radii) {
-  const Cell& cell = setup.cell;
-  const auto small =
-      static_cast<std::size_t>(std::ranges::count(radii, setup.particles.smallRadius));
+CouetteCell cellRow(const Couette& source, std::span<const double> radii) {
+  const auto& [cell, particles, filling, times] = source;
+  const auto small = static_cast<std::size_t>(std::ranges::count(radii, particles.smallRadius));
   double diskArea = 0.0;
   for (const double a : radii) diskArea += a * a;
   const double cellArea = cell.outerRadius * cell.outerRadius - cell.innerRadius * cell.innerRadius;
@@ -30,14 +29,14 @@ CouetteCell cellOf(const Case& setup, std::span<const double> radii) {
           cell.omega,
           small,
           radii.size() - small,
-          setup.particles.smallRadius,
-          setup.particles.largeRadius,
+          particles.smallRadius,
+          particles.largeRadius,
           diskArea / cellArea,
-          2.0 * setup.particles.smallRadius};
+          2.0 * particles.smallRadius};
 }
 
-RegionRow regionOf(const Case& setup, std::size_t disks) {
-  const Region& region = setup.average->region;
+RegionRow regionRow(const Case& setup, std::size_t disks) {
+  const Region& region = *setup.region;
   RegionRow row;
   row.bins = binKindNames[static_cast<std::size_t>(region.bins)];
   if (region.bins == BinKind::slabs)
@@ -68,20 +67,17 @@ RegionRow regionOf(const Case& setup, std::size_t disks) {
 }
 
 FlowAveraging averagingOf(const Case& setup) {
-  const Averaging& averaging = setup.averaging;
   FlowAveraging result;
-  result.method = averaging.methods.front();
-  result.confidence = averaging.confidence;
-  if (setup.average) {  // timed in seconds: see RegionRow
-    result.snapshots = setup.average->region.snapshots;
-    return result;
-  }
-  result.settleRotations = result.fromRotation = averaging.settleRotations;
-  result.rotations = averaging.rotations;
-  result.toRotation = averaging.settleRotations + averaging.rotations;
+  result.method = setup.averaging.methods.front();
+  result.confidence = setup.averaging.confidence;
+  result.snapshots = flowTimes(setup).samples;
+  const Couette* const cell = cellOf(setup);
+  if (!cell) return result;  // timed in seconds: see RegionRow
+  result.settleRotations = result.fromRotation = cell->times.settleRotations;
+  result.rotations = cell->times.rotations;
+  result.toRotation = cell->times.settleRotations + cell->times.rotations;
   // Nobody knows how long a packing of the user's own has been sheared.
-  if (!setup.particles.file) result.preparedRotations = setup.preparation.rotations;
-  result.snapshots = std::lround(averaging.snapshotsPerRotation * averaging.rotations);
+  if (!packingFile(setup)) result.preparedRotations = cell->filling.rotations;
   return result;
 }
 
@@ -118,8 +114,7 @@ std::vector<double> alongOf(const BinSet& bins, const Region& region) {
 }  // namespace
 
 RingPlaces placesOf(const Case& setup) {
-  if (!setup.average) return placesOf(ringsOf(setup));
-  const Region& region = setup.average->region;
+  const Region& region = *setup.region;
   const auto bins = binsOf(setup);
   if (const auto* rings = dynamic_cast<const Rings*>(bins.get())) return placesOf(*rings);
   const bool rings = region.hasRings(), inLine = region.bins == BinKind::slabs;
@@ -132,14 +127,14 @@ RingPlaces placesOf(const Case& setup) {
   return places;
 }
 
-FlowFrame couetteFrame(std::string_view kind, const Case& setup, const std::string& command,
-                       std::span<const double> radii) {
+FlowFrame flowFrame(std::string_view kind, const Case& setup, const std::string& command,
+                    std::span<const double> radii) {
   FlowFrame frame;
   frame.head = headOf(kind, setup, command);
-  if (setup.average)
-    frame.region = regionOf(setup, radii.size());
+  if (const Couette* const cell = cellOf(setup))
+    frame.cell = cellRow(*cell, radii);
   else
-    frame.cell = cellOf(setup, radii);
+    frame.region = regionRow(setup, radii.size());
   frame.averaging = averagingOf(setup);
   for (const Effect effect : effectsOf(setup)) frame.effects.emplace_back(toString(effect));
   frame.rings = placesOf(setup);

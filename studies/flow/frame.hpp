@@ -18,13 +18,13 @@ RingPlaces placesOf(const Case& setup);
 
 /// What results say of a case whatever is done with it.
 /// @param radii  of one packing's disks
-FlowFrame couetteFrame(std::string_view kind, const Case& setup, const std::string& command,
-                       std::span<const double> radii);
+FlowFrame flowFrame(std::string_view kind, const Case& setup, const std::string& command,
+                    std::span<const double> radii);
 
 template <int D>
-FlowFrame couetteFrame(std::string_view kind, const Case& setup, const std::string& command,
-                       const DisksOf<D>& disks) {
-  return couetteFrame(kind, setup, command, disks.radius);
+FlowFrame flowFrame(std::string_view kind, const Case& setup, const std::string& command,
+                    const DisksOf<D>& disks) {
+  return flowFrame(kind, setup, command, disks.radius);
 }
 
 }  // namespace crossgrain::inline studies

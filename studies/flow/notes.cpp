@@ -34,7 +34,7 @@ struct OneSided {
 /// Of the one that lacks it more often.
 OneSided missingOfOne(const Case& setup, const CompareResults& results, const EndpointRow& row) {
   const auto valuesOf = [&](const std::string& engine) {
-    return endpointByPacking(endpointSpec(setup, row.endpoint), setup,
+    return endpointByPacking(endpointNamed(setup, row.endpoint), setup,
                              runsFor(results.runs, engine, results.endpoints.surrogates),
                              packingsOf(results.runs));
   };
@@ -50,7 +50,7 @@ OneSided missingOfOne(const Case& setup, const CompareResults& results, const En
 void addFarEndpoints(const Case& setup, const CompareResults& results,
                      std::vector<AlarmRow>& alarms) {
   for (const EndpointRow& row : results.endpoints.rows) {
-    const std::string words(endpointSpec(setup, row.endpoint).words);
+    const std::string words(endpointNamed(setup, row.endpoint).words);
     const auto alarm = [&](std::string what) {
       alarms.push_back({row.a, row.b, row.kind, std::move(what)});
     };
@@ -92,7 +92,7 @@ std::vector<AlarmRow> alarmsOf(const Case& setup, const CompareResults& results)
       alarms.push_back(
           {pair.a, pair.b, pair.kind,
            fmt::format("another regime on {} of {} packings", pair.differ.size(), pair.packings)});
-    if (setup.average) continue;  // its bins may fill and empty
+    if (!cellOf(setup)) continue;  // its bins may fill and empty
     const auto ours = filled(setup, results, pair.a), theirs = filled(setup, results, pair.b);
     if (ours && theirs && *theirs < (1.0 - goneFraction) * *ours)
       alarms.push_back({pair.a, pair.b, pair.kind,

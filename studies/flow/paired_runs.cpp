@@ -112,8 +112,8 @@ double signOf(const Numbers& values) {
   return sign;
 }
 
-PairedTest testedEndpoint(const EndpointSpec& endpoint, const Margin& margin,
-                          const Numbers& reference, const Numbers& other) {
+PairedTest testedEndpoint(const Endpoint& endpoint, const Margin& margin, const Numbers& reference,
+                          const Numbers& other) {
   PairedTest test{{reference, other, margin.value, 0.0, {}}, false, signOf(reference)};
   for (auto* values : {&test.sample.reference, &test.sample.other})
     for (auto& value : *values)

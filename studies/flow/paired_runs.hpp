@@ -80,8 +80,8 @@ PairedTest testedRing(const Margin& margin, const Numbers& reference, const Numb
 
 /// An endpoint. What is 0 or of another sign than the reference has no ratio: such a packing has no
 /// value. Without one sign of the reference's values none has. @param margin  the case's
-PairedTest testedEndpoint(const EndpointSpec& endpoint, const Margin& margin,
-                          const Numbers& reference, const Numbers& other);
+PairedTest testedEndpoint(const Endpoint& endpoint, const Margin& margin, const Numbers& reference,
+                          const Numbers& other);
 
 /// Of the values of a reference, for a margin that is a share of |reference|: +1 or −1; 0 where
 /// both occur or none, as a share of what may be 0 is no margin.

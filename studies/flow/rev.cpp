@@ -37,24 +37,26 @@ std::vector<double> widths() {
 /// The ring about r of that width with its two neighbours, and what is left of the cell; absent
 /// where it does not fit. The rest is there for the walls' stress to be where it belongs.
 std::optional<Rings> ringsAbout(const Case& setup, double r, double width) {
-  const double inner = setup.cell.innerRadius, outer = setup.cell.outerRadius;
+  const double inner = couetteIn(setup).cell.innerRadius, outer = couetteIn(setup).cell.outerRadius;
   if (r - 0.5 * width < inner || r + 0.5 * width > outer) return std::nullopt;
   std::vector<double> edges = {inner};
   for (const double edge : {-1.5, -0.5, 0.5, 1.5})
     if (const double at = r + edge * width; at > edges.back() && at < outer) edges.push_back(at);
   edges.push_back(outer);
-  return Rings(std::move(edges), setup.cell.height, 2.0 * setup.particles.smallRadius);
+  return Rings(std::move(edges), couetteIn(setup).cell.height,
+               2.0 * couetteIn(setup).particles.smallRadius);
 }
 
 using Curves = std::map<std::tuple<std::string, std::string, double>, RevCurve>;
 
 void addWidth(const Case& setup, const SnapshotReader& reader, double width, Curves& curves) {
-  const double diameter = 2.0 * setup.particles.smallRadius;
+  const double diameter = 2.0 * couetteIn(setup).particles.smallRadius;
   const std::vector<std::string> names(weightNames.begin(), weightNames.end());
   const std::vector<Weight> weights = weightsOf(setup, names);
   for (const double place : places) {
     const double r =
-        setup.cell.innerRadius + place * (setup.cell.outerRadius - setup.cell.innerRadius);
+        couetteIn(setup).cell.innerRadius +
+        place * (couetteIn(setup).cell.outerRadius - couetteIn(setup).cell.innerRadius);
     const auto rings = ringsAbout(setup, r, width * diameter);
     if (!rings) continue;
     ProfileAccumulator accumulator(*rings, weights, reader.scene());
@@ -114,7 +116,7 @@ RevResults averagePerWidth(const StudyWork& work, const AverageOptions&) {
     progress.update(k, "ring widths", 1.0);
   }
   RevResults results{
-      couetteFrame(kindRev, setup, work.line.run.commandLine, reader.scene().disks.radius),
+      flowFrame(kindRev, setup, work.line.run.commandLine, reader.scene().disks.radius),
       reader.engine(),
       {},
       {}};

@@ -19,12 +19,12 @@
 namespace crossgrain::inline studies {
 
 Rings ringsOf(const Case& setup) {
-  return ringsOf(setup, setup.averaging.rings);
+  return ringsOf(setup, setup.region.value().count);
 }
 
 Rings ringsOf(const Case& setup, int count) {
-  return Rings(setup.cell.innerRadius, setup.cell.outerRadius, count, setup.cell.height,
-               2.0 * setup.particles.smallRadius);
+  const Region& region = setup.region.value();
+  return Rings(region.innerRadius, region.outerRadius, count, region.height, flowDiameter(setup));
 }
 
 std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> names) {
@@ -35,8 +35,8 @@ std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> na
 }
 
 template <int D>
-FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& progress,
-                   const SnapshotObserverOf<D>& watch) {
+FlowRun runFlow(const FlowTask& task, const std::function<void(double)>& progress,
+                const SnapshotObserverOf<D>& watch) {
   const Case& setup = *task.setup;
   const SceneOf<D> scene = flowScene<D>(setup, *task.packing, task.dt);
   LoadedEngine loaded = loadEngine(task.entry, setup, scene, task.scratch);
@@ -95,7 +95,7 @@ FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& p
   if (report == ContactReport::accumulated)
     snapshotOf<D>(engine, report);  // starts the first interval
 
-  const auto averages = flowAverages(setup, scene);
+  FlowAverages<D> averages(setup, scene);
   SnapshotFileOf<D> kept(
       task.snapshots, task.entry.name, scene, samples,
       task.packingIndex < setup.run.keepSnapshotsOf ? setup.run.keepSnapshots : 0);
@@ -103,7 +103,7 @@ FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& p
   const double pictureTime = std::min(0.5 * flowUnit(setup), end);
   int taken = 0;
   const auto take = [&](const SnapshotOf<D>& snapshot) {
-    averages->add(snapshot);
+    averages.add(snapshot);
     if (watch.averaged) watch.averaged(snapshot);
     kept.offer(snapshot, ++taken);
     if (task.packingIndex == 0 && !run.picture && snapshot.positionTime >= pictureTime - interval)
@@ -133,13 +133,13 @@ FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& p
   run.packing = task.packingIndex;
   run.effective = loaded.effective;
   run.stats = stats;
-  averages->describe(loaded.effective, run);
+  averages.describe(loaded.effective, run);
   return run;
 }
-template FlowRun runCouette<2>(const CouetteTask&, const std::function<void(double)>&,
-                               const SnapshotObserver&);
-template FlowRun runCouette<3>(const CouetteTask&, const std::function<void(double)>&,
-                               const SnapshotObserverOf<3>&);
+template FlowRun runFlow<2>(const FlowTask&, const std::function<void(double)>&,
+                            const SnapshotObserver&);
+template FlowRun runFlow<3>(const FlowTask&, const std::function<void(double)>&,
+                            const SnapshotObserverOf<3>&);
 
 FlowRun runWithoutFiles(const EngineEntry& entry, const Case& setup, int packingIndex,
                         const Packing& packing, double dt,
@@ -147,16 +147,16 @@ FlowRun runWithoutFiles(const EngineEntry& entry, const Case& setup, int packing
   Case quiet = setup;
   quiet.run.keepSnapshots = 0;
   const ScratchFolder scratch;
-  const CouetteTask task{&quiet,
-                         entry,
-                         packingIndex,
-                         &packing,
-                         dt,
-                         scratch.path / "worker",
-                         scratch.path / "snapshots.h5",
-                         scratch.path / "unfinished",
-                         packing.hash};
-  return inDimensionOf(setup, [&]<int D>() { return runCouette<D>(task, progress); });
+  const FlowTask task{&quiet,
+                      entry,
+                      packingIndex,
+                      &packing,
+                      dt,
+                      scratch.path / "worker",
+                      scratch.path / "snapshots.h5",
+                      scratch.path / "unfinished",
+                      packing.hash};
+  return inDimensionOf(setup, [&]<int D>() { return runFlow<D>(task, progress); });
 }
 
 }  // namespace crossgrain::inline studies

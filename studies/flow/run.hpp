@@ -14,7 +14,7 @@
 
 namespace crossgrain::inline studies {
 
-/// The rings that a Couette case averages over, or so many of its cell.
+/// The rings in the plane that a case averages over, or so many in their place.
 Rings ringsOf(const Case& setup);
 Rings ringsOf(const Case& setup, int count);
 
@@ -22,7 +22,7 @@ Rings ringsOf(const Case& setup, int count);
 std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> names);
 
 /// What one engine on one packing is to do, and where its files go.
-struct CouetteTask {
+struct FlowTask {
   const Case* setup;
   EngineEntry entry;
   int packingIndex;
@@ -50,8 +50,8 @@ using SnapshotObserver = SnapshotObserverOf<2>;
 /// @param progress  called with the fraction done, 0 … 1
 /// @throws EngineFailure, UnsupportedScene, BadInput, Interrupted
 template <int D = 2>
-FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& progress,
-                   const SnapshotObserverOf<D>& watch = {});
+FlowRun runFlow(const FlowTask& task, const std::function<void(double)>& progress,
+                const SnapshotObserverOf<D>& watch = {});
 
 /// The same in folders that go with it: nothing is kept, and no unfinished run is gone on with.
 /// @param dt  the case's time step [s]

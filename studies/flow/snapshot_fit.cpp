@@ -76,17 +76,17 @@ void compareDisks(const Disks& disks, const Particles& target, Misfits& misfits)
 
 /// The wheel's and the ring's wall disks, in this order, against those of the case's cell.
 void compareWalls(const Scene& scene, const Snapshot& first, const Case& setup, Misfits& misfits) {
-  const double radii[] = {setup.cell.innerRadius, setup.cell.outerRadius};
+  const double radii[] = {couetteIn(setup).cell.innerRadius, couetteIn(setup).cell.outerRadius};
   const char* const names[] = {wheelName, ringName};
   std::size_t at = 0;
   for (std::size_t b = 0; b < 2; ++b) {
     const std::vector<double>& disks = scene.bodies[b].diskRadius;
     if (disks.empty()) continue;
-    const WallBody target = wallRing(names[b], setup.cell, radii[b], 0.0);
+    const WallBody target = wallRing(names[b], couetteIn(setup).cell, radii[b], 0.0);
     misfits.number(b == 0 ? "wall disks of the wheel" : "wall disks of the ring", disks.size(),
                    target.diskRadius.size());
     misfits.size(fmt::format("the {}'s wall disks' radius", names[b]), disks.front(),
-                 setup.cell.wallRadius, "m");
+                 couetteIn(setup).cell.wallRadius, "m");
     misfits.size(fmt::format("the {}'s radius", names[b]), first.wallPosition[at].norm(), radii[b],
                  "m");
     at += disks.size();
@@ -192,7 +192,7 @@ void compareNumber(std::size_t found, const AssemblyOf<D>& assembly, Misfits& mi
 /// Disks of a file in a Couette cell.
 Scene cellAround(const Case& setup, Disks disks, const SnapshotOrigin& origin) {
   Case own = setup;
-  own.particles.file = origin.name;  // small and large are known by their radii
+  couetteIn(own).particles.file = origin.name;  // small and large are known by their radii
   Packing packing;
   packing.disks = std::move(disks);
   return couetteScene(own, packing, 0.0);
@@ -202,16 +202,16 @@ Scene cellAround(const Case& setup, Disks disks, const SnapshotOrigin& origin) {
 void requireCellFit(const Scene& scene, const Snapshot& first, const Case& setup,
                     const SnapshotOrigin& origin) {
   Misfits misfits;
-  if (!setup.particles.file) compareDisks(scene.disks, setup.particles, misfits);
+  if (!packingFile(setup)) compareDisks(scene.disks, couetteIn(setup).particles, misfits);
   compareWalls(scene, first, setup, misfits);
   if (!first.bodies.empty())
-    misfits.size("a wheel that turns at", first.bodies.front().angularVelocity, setup.cell.omega,
-                 "rad/s");
-  comparePlaces(first, setup.cell, misfits);
-  const std::string hint = setup.particles.file || scene.disks.size() == 0
+    misfits.size("a wheel that turns at", first.bodies.front().angularVelocity,
+                 couetteIn(setup).cell.omega, "rad/s");
+  comparePlaces(first, couetteIn(setup).cell, misfits);
+  const std::string hint = packingFile(setup) || scene.disks.size() == 0
                                ? ""
                                : unitHint(std::ranges::max(scene.disks.radius),
-                                          setup.particles.largeRadius, "length", origin);
+                                          couetteIn(setup).particles.largeRadius, "length", origin);
   throwIfAny(misfits, setup, origin, hint);
 }
 
@@ -236,8 +236,8 @@ std::string unitHint(double found, double target, std::string_view key,
 
 template <int D>
 double massOf(const Case& setup, std::size_t k, double radius) {
-  if (setup.kind == CaseKind::couette) {
-    const Particles& p = setup.particles;
+  if (cellOf(setup)) {
+    const Particles& p = couetteIn(setup).particles;
     const bool small = std::abs(radius - p.smallRadius) <= std::abs(radius - p.largeRadius);
     return small ? p.smallMass : p.largeMass;
   }
@@ -257,7 +257,7 @@ template double massOf<3>(const Case&, std::size_t, double);
 template <int D>
 SceneOf<D> sceneAround(const Case& setup, DisksOf<D> disks, const SnapshotOrigin& origin) {
   if constexpr (D == 2)
-    if (setup.kind == CaseKind::couette) return cellAround(setup, std::move(disks), origin);
+    if (cellOf(setup)) return cellAround(setup, std::move(disks), origin);
   Misfits misfits;
   compareNumber<D>(disks.size(), assemblyIn<D>(setup), misfits);
   throwIfAny(misfits, setup, origin);
@@ -270,7 +270,7 @@ template <int D>
 void requireFit(const SceneOf<D>& scene, const SnapshotOf<D>& first, const Case& setup,
                 const SnapshotOrigin& origin) {
   if constexpr (D == 2)
-    if (setup.kind == CaseKind::couette) return requireCellFit(scene, first, setup, origin);
+    if (cellOf(setup)) return requireCellFit(scene, first, setup, origin);
   Misfits misfits;
   const AssemblyOf<D>& assembly = assemblyIn<D>(setup);
   if (assembly.starts.disks.empty())

@@ -269,7 +269,7 @@ void requireReadable(const std::filesystem::path& file, const Case& setup) {
 template <int D>
 SnapshotReaderOf<D>::SnapshotReaderOf(const std::filesystem::path& file, const Case& setup)
     : name_(file) {
-  const bool isAssembly = setup.kind != CaseKind::couette;
+  const bool isAssembly = !cellOf(setup);
   const SnapshotDatasets in(file);
   in.requireDimension(D);
   scene_ = sceneAround<D>(setup, readDisks<D>(in, setup), {file.string()});
@@ -287,7 +287,7 @@ SnapshotReaderOf<D>::SnapshotReaderOf(const std::filesystem::path& file, const C
   basis_ = auditBasis(scene_);
   basis_.byOverlap = setup.law.soft();
   basis_.prescribed = isAssembly;
-  if (!setup.average) return;
+  if (cellOf(setup) || !setup.region) return;
   const FlowTimes times = flowTimes(setup);  // steps of an engine need not end with them
   to_ = times.end() + 0.5 * times.interval;
   // As engines are averaged: not at the instant that averaging begins at, unless nothing else is

@@ -129,7 +129,7 @@ namespace {
 /// Disks of files without radii have the case's, in its order.
 template <int D>
 std::vector<double> radiiOf(const Case& setup, const SnapshotOrigin& origin) {
-  if (setup.kind == CaseKind::couette) return diskKinds(setup.particles).radius;
+  if (cellOf(setup)) return diskKinds(couetteIn(setup).particles).radius;
   for (const DiskGroupOf<D>& group : assemblyIn<D>(setup).disks)
     if (group.radiusSpread > 0.0)
       throw BadInput(fmt::format(
@@ -141,9 +141,10 @@ std::vector<double> radiiOf(const Case& setup, const SnapshotOrigin& origin) {
 /// The largest disk of the case, and how far one lies from the origin at its start [m].
 template <int D>
 std::pair<double, double> scalesOf(const Case& setup) {
-  if (setup.kind == CaseKind::couette)
-    return {std::max(setup.particles.smallRadius, setup.particles.largeRadius),
-            setup.cell.outerRadius};
+  if (cellOf(setup))
+    return {
+        std::max(couetteIn(setup).particles.smallRadius, couetteIn(setup).particles.largeRadius),
+        couetteIn(setup).cell.outerRadius};
   const DisksOf<D> disks = assemblyDisks<D>(setup, 0);
   double farthest = 0.0;
   for (const VecOf<D>& x : disks.position) farthest = std::max(farthest, x.norm());
@@ -176,7 +177,7 @@ SceneOf<D> sceneOf(const Case& setup, DisksOf<D> disks, const SnapshotOrigin& or
     disks.radius.resize(disks.position.size(), disks.radius.back());  // the number is checked below
   }
   checkLengths(setup, disks, origin);
-  const bool ownMasses = !disks.mass.empty() && setup.particles.file.has_value();
+  const bool ownMasses = !disks.mass.empty() && (packingFile(setup) != nullptr);
   disks.mass.resize(disks.size(), 0.0);
   for (std::size_t k = 0; k < disks.size(); ++k) {
     const double mass = massOf<D>(setup, k, disks.radius[k]);
@@ -195,9 +196,8 @@ SceneOf<D> sceneOf(const Case& setup, DisksOf<D> disks, const SnapshotOrigin& or
 
 /// What needs each particle from the start on; empty: nothing.
 std::string needOfAll(const Case& setup) {
-  if (setup.kind == CaseKind::couette) return "a cell keeps its disks";
-  if (!setup.average) return {};
-  for (const OwnEndpoint& own : setup.average->endpoints)
+  if (cellOf(setup)) return "a cell keeps its disks";
+  for (const Endpoint& own : setup.endpoints)
     if (own.disk)
       return fmt::format(
           "the endpoint {} is of disk {}, which is known where all that the case begins with are "
@@ -210,12 +210,12 @@ std::string needOfAll(const Case& setup) {
 template <int D>
 SceneOf<D> wallsOf(const Case& setup) {
   if constexpr (D == 2)
-    if (setup.kind == CaseKind::couette) return couetteScene(setup, Packing(), 0.0);
+    if (cellOf(setup)) return couetteScene(setup, Packing(), 0.0);
   return assemblyScene<D>(setup, DisksOf<D>(), 0.0, 0.0);
 }
 
 double stepOf(const Case& setup) {
-  return setup.particles.file ? setup.run.dt.value_or(0.0) : timeStep(setup);
+  return packingFile(setup) ? setup.run.dt.value_or(0.0) : timeStep(setup);
 }
 
 template <int D>
@@ -350,11 +350,11 @@ std::unique_ptr<SnapshotSourceOf<D>> openSnapshots(const SnapshotRun& run, const
   const SceneOf<D> walls = wallsOf<D>(setup);
   target.bodies = walls.bodies;
   target.box = walls.box;
-  target.anyAngle = setup.kind == CaseKind::couette;
+  target.anyAngle = cellOf(setup) != nullptr;
   target.around = [setup, origin](DisksOf<D> disks) {
     return sceneOf<D>(setup, std::move(disks), origin);
   };
-  if (setup.kind == CaseKind::assembly) {
+  if (isAssembly(setup)) {
     target.open = [setup] { return std::pair(wallsOf<D>(setup), assemblyDisks<D>(setup, 0)); };
     target.checkLengths = [setup, origin](const DisksOf<D>& disks) {
       checkLengths<D>(setup, disks, origin);
@@ -364,7 +364,7 @@ std::unique_ptr<SnapshotSourceOf<D>> openSnapshots(const SnapshotRun& run, const
   target.from = times.settled;
   target.to = times.end();
   target.dt = stepOf(setup);
-  target.gravity = assemblyIn<D>(setup).gravity;
+  target.gravity = walls.gravity;
   if (!run.besides.empty()) {
     std::vector<std::string> names;
     for (const fs::path& file : run.besides) names.push_back(file.filename().string());

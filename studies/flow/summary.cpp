@@ -107,9 +107,9 @@ FitRow fitRow(const Fit& fit, const std::string& parameter, const std::string& n
 
 /// ρ of a small disk [kg/m³].
 double diskDensity(const Case& setup) {
-  const Particles& disks = setup.particles;
+  const Particles& disks = couetteIn(setup).particles;
   const double area = std::numbers::pi * disks.smallRadius * disks.smallRadius;
-  return disks.smallMass / (area * setup.cell.height);
+  return disks.smallMass / (area * couetteIn(setup).cell.height);
 }
 
 /// Samples in the time in which the wheel's rim passes one disk, at least one.
@@ -117,8 +117,8 @@ std::size_t rimPassesADisk(const Case& setup, const RunSeries& series) {
   const std::vector<double> times = presentNumbers(valuesOf(series, "t_s"));
   if (times.size() < 2) return 1;
   const double interval = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
-  const double rim = std::abs(setup.cell.omega) * setup.cell.innerRadius;
-  const double window = 2.0 * setup.particles.smallRadius / rim / interval;
+  const double rim = couetteIn(setup).cell.rimSpeed();
+  const double window = 2.0 * couetteIn(setup).particles.smallRadius / rim / interval;
   return static_cast<std::size_t>(std::max(1L, std::lround(window)));
 }
 
@@ -138,23 +138,23 @@ std::optional<double> meanOf(const Numbers& values) {
 }
 
 DistributionScales distributionScales(const Case& setup) {
-  return {setup.cell.omega * setup.cell.innerRadius,
-          1.0 / spinScale(ringsOf(setup), setup.cell.omega)};
+  return {couetteIn(setup).cell.omega * couetteIn(setup).cell.innerRadius,
+          1.0 / spinScale(ringsOf(setup), couetteIn(setup).cell.omega)};
 }
 
 std::vector<HeadNumber> headNumbers(const Case& setup, const std::vector<Profile>& profiles,
                                     const RunSeries& series, const EffectiveParameters& effective) {
-  const double diameter = 2.0 * setup.particles.smallRadius;
+  const double diameter = 2.0 * couetteIn(setup).particles.smallRadius;
   std::optional<double> stiffness, stressRatio, stepFraction;
   // The engine's own k_n against the force p d h that the pressure sends through a disk, per
   // overlap d.
   const double kn = effective.pairs.empty() ? 0.0 : effective.pairs.front().kn;
   if (const auto p = pressure(profiles, 0); p && kn > 0.0)
-    stiffness = kn / (*p * setup.cell.height);
+    stiffness = kn / (*p * couetteIn(setup).cell.height);
   const auto rr = ringMean(profiles, "stress_rr", 0);
   const auto rp = ringMean(profiles, "stress_rp", 0);
   if (rr && rp && *rr > 0.0) stressRatio = *rp / *rr;
-  if (effective.dt > 0.0 && setup.law.normal == NormalLaw::linear && !setup.particles.file)
+  if (effective.dt > 0.0 && setup.law.normal == NormalLaw::linear && !packingFile(setup))
     stepFraction = effective.dt / shortestContact(setup);
   const auto number = [](const char* name, const std::optional<double>& value) {
     return HeadNumber{name, "-", value, {}, {}};
@@ -185,7 +185,7 @@ std::vector<FitRow> couetteFits(const Case& setup, const std::vector<Profile>& p
                           "exponent p of σ_rφ ∝ r^p", "-", -2.0));
   }
   if (const Profile* velocity = profileOf(profiles, "azimuthal_velocity")) {
-    const double wheel = setup.cell.omega * setup.cell.innerRadius;
+    const double wheel = couetteIn(setup).cell.omega * couetteIn(setup).cell.innerRadius;
     const Fit fit = fitVelocityDecay(pointsOverRTilde(rings, *velocity, 1.0 / wheel));
     fits.push_back(fitRow(fit, "A", "velocity_amplitude", "A of v_φ/(ΩR_i) = A exp(−r̃/B)", "-"));
     fits.push_back(fitRow(fit, "B", "velocity_decay", "decay length B of v_φ", "d"));
@@ -199,7 +199,7 @@ std::vector<FitRow> couetteFits(const Case& setup, const std::vector<Profile>& p
         fitRow(fit, "C", "dilation_decay", "C, inverse width of the dilated zone", "1/d"));
   }
   if (const Profile* spin = profileOf(profiles, "spin")) {
-    const double scale = spinScale(rings, setup.cell.omega);
+    const double scale = spinScale(rings, couetteIn(setup).cell.omega);
     FitRow row;
     row.name = spinInRing1;
     row.label = "spin S d/(ΩD) in ring 1 (< 0: counter-rotates)";
@@ -213,7 +213,7 @@ std::vector<FitRow> couetteFits(const Case& setup, const std::vector<Profile>& p
 }
 
 std::vector<FitRow> spinFits(const Case& setup, const LayerSpin& spin) {
-  const auto points = spin.points(spinScale(ringsOf(setup), setup.cell.omega));
+  const auto points = spin.points(spinScale(ringsOf(setup), couetteIn(setup).cell.omega));
   if (points.empty()) return {};
   const Fit fit = fitSpinOscillation(points);
   return {fitRow(fit, "A", "spin_amplitude", "A of S d/(ΩD) = A exp(−B r̃) cos(π r̃ + φ)", "-"),

@@ -23,7 +23,7 @@ std::string alarmOf(const Case& setup, const std::vector<SpotCheckNumber>& spotC
   std::string least;
   double chance = alpha;
   for (const SpotCheckNumber& number : spotCheck) {
-    const std::string words(endpointSpec(setup, number.endpoint).words);
+    const std::string words(endpointNamed(setup, number.endpoint).words);
     if (!number.difference) return fmt::format("the engine, its mirror or both have no {}", words);
     if (!number.chance) return fmt::format("chaos of {} is not known: too few packings", words);
     if (*number.chance >= chance) continue;
@@ -97,7 +97,7 @@ void judgeLateWindows(const Case& setup, const std::vector<EndpointResponse>& re
           "{} windows of its own run of packing {} differ from the mirror as {} would, by which {} "
           "may differ by {:.2g} margins ({:g} is the most)",
           found.times.size(), found.packing, fmt::join(changes, " or "),
-          endpointSpec(setup, name).words, *reach, largestReach);
+          endpointNamed(setup, name).words, *reach, largestReach);
     }
   engine.inUse = engine.inUse && engine.alarm.empty();
 }

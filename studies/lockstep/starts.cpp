@@ -36,7 +36,7 @@ std::vector<double> timesOf(const Case& setup, std::size_t packing, std::size_t 
 
 /// Whether the case's seed makes any number of packings at no cost.
 bool canDrawMore(const Case& setup) {
-  return setup.kind == CaseKind::assembly && !packingsAreFiles(setup);
+  return isAssembly(setup) && !packingsAreFiles(setup);
 }
 
 template <int D>

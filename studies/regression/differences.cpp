@@ -265,7 +265,7 @@ std::vector<EndpointRow> endpointChanges(const Case& setup, const KeptEndpoints&
                                          const KeptEndpoints& now,
                                          const std::pair<std::string, std::string>& names) {
   std::vector<EndpointValues> family;
-  for (const EndpointSpec& endpoint : endpointTable()) {
+  for (const Endpoint& endpoint : endpointTable()) {
     const std::string name(endpoint.name);
     if (before.contains(name) && now.contains(name) && setup.averaging.endpoints.contains(name))
       family.push_back({name, before.at(name), now.at(name)});

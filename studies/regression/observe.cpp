@@ -125,7 +125,7 @@ KeptEndpoints endpointsFrom(const EngineEntry& entry, const Case& setup,
           progress((static_cast<double>(s) + fraction) / static_cast<double>(starts.size()));
         });
     for (const auto& [name, margin] : setup.averaging.endpoints)
-      kept[name].push_back(endpointOf(endpointSpec(setup, name), setup, run));
+      kept[name].push_back(endpointOf(endpointNamed(setup, name), setup, run));
   }
   return kept;
 }

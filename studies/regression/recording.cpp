@@ -39,14 +39,12 @@ constexpr double usualTimeout = 120.0;
 
 template <int D>
 SceneOf<D> sceneOf(const Case& setup) {
-  if (setup.kind == CaseKind::assembly) return assemblyScene<D>(setup);
-  const double step =
-      setup.kind == CaseKind::collision ? collisionTimeSteps(setup).front() : timeStep(setup);
+  if (isAssembly(setup)) return assemblyScene<D>(setup);
+  const double step = isCollision(setup) ? collisionTimeSteps(setup).front() : timeStep(setup);
   if constexpr (D == 3) {
     return spaceCollisionScene(setup, collisionStarts(setup), step);
   } else {
-    if (setup.kind == CaseKind::collision)
-      return collisionScene(setup, collisionStarts(setup), step);
+    if (isCollision(setup)) return collisionScene(setup, collisionStarts(setup), step);
     const auto engine = engineRegistry().front().make();
     return couetteScene(
         setup, packingOf(setup, 0, step, *engine, [](double) { throwIfInterrupted(); }), step);
@@ -55,8 +53,8 @@ SceneOf<D> sceneOf(const Case& setup) {
 
 /// @param dt  the scene's
 double timeOf(const Case& setup, double dt, const EffectiveParameters& effective) {
-  if (setup.kind == CaseKind::collision) return sweepEnd(setup, dt, effective.dt);
-  return setup.kind == CaseKind::assembly ? assemblyDuration(setup) : timeOfCell;
+  if (isCollision(setup)) return sweepEnd(setup, dt, effective.dt);
+  return isAssembly(setup) ? assemblyDuration(setup) : timeOfCell;
 }
 
 ContactReport contactsOf(const Capabilities& can) {

@@ -38,10 +38,11 @@ std::string sharingOf(const Capabilities& can) {
   return {};
 }
 
-ScaleCell cellOf(const Case& scaled) {
-  const Cell& cell = scaled.cell;
+ScaleCell scaleCell(const Case& scaled) {
+  const Cell& cell = couetteIn(scaled).cell;
   const int walls = wallDiskCount(cell, cell.innerRadius) + wallDiskCount(cell, cell.outerRadius);
-  return {static_cast<std::size_t>(scaled.particles.small + scaled.particles.large),
+  return {static_cast<std::size_t>(couetteIn(scaled).particles.small +
+                                   couetteIn(scaled).particles.large),
           static_cast<std::size_t>(walls), cell.outerRadius, volumeFraction(scaled), ""};
 }
 
@@ -156,7 +157,7 @@ class ScaleTimings {
     task.key["repetitions"] = fmt::format("{}", plan_.repetitions);
     task.weight = static_cast<double>(point.disks) * static_cast<double>(point.steps) + 1e6;
     if (points_.empty() || points_.back().disks != point.disks)
-      cells_.push_back(cellOf(scaledCase(point.disks, work_.line.overrides)));
+      cells_.push_back(scaleCell(scaledCase(point.disks, work_.line.overrides)));
     tasks_.push_back(std::move(task));
     points_.push_back(std::move(point));
     loaded_.push_back(false);

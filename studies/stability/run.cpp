@@ -11,6 +11,7 @@
 #include "cases/assembly_scene.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/couette.hpp"
+#include "cases/flow.hpp"
 #include "cases/time_step.hpp"
 #include "results/scene_picture.hpp"
 #include "results/stability.hpp"
@@ -28,17 +29,11 @@ namespace crossgrain::inline studies {
 
 HardScene plainScene(const Case& setup, const Packing& packing) {
   const double dt = timeStep(setup);
-  switch (setup.kind) {
-    case CaseKind::assembly:
-      return {&setup, assemblyScene(setup), assemblyDuration(setup)};
-    case CaseKind::collision:
-      return {&setup, collisionScene(setup, collisionStarts(setup), dt),
-              dt + 2.5 * impactTimes(setup).longest + 20.0 * dt};
-    case CaseKind::couette:
-      break;
-  }
-  return {&setup, couetteScene(setup, packing, dt),
-          (setup.averaging.settleRotations + setup.averaging.rotations) * rotationTime(setup)};
+  if (isCollision(setup))
+    return {&setup, collisionScene(setup, collisionStarts(setup), dt),
+            dt + 2.5 * impactTimes(setup).longest + 20.0 * dt};
+  return {&setup, cellOf(setup) ? couetteScene(setup, packing, dt) : assemblyScene(setup),
+          flowDuration(setup)};
 }
 
 HardScene hardScene(const Case& setup, const Packing& packing) {
@@ -52,9 +47,9 @@ namespace {
 
 /// Of all collisions of the scene, which has each of the case's as often as collisionsAt() says.
 std::vector<CollisionStart> startsOf(const Case& setup, const Scene& scene) {
-  if (setup.kind != CaseKind::collision) return {};
+  if (!isCollision(setup)) return {};
   const std::vector<CollisionStart> once = collisionStarts(setup);
-  const std::size_t all = scene.disks.size() / (setup.collision.wall ? 1 : 2);
+  const std::size_t all = scene.disks.size() / (collisionIn(setup).wall ? 1 : 2);
   std::vector<CollisionStart> starts;
   for (std::size_t k = 0; k < all; ++k) starts.push_back(once[k % once.size()]);
   return starts;
@@ -70,7 +65,7 @@ Recording record(Engine& engine, const EngineEntry& entry, const HardScene& hard
                 {},
                 {},
                 setup.stability->settle,
-                setup.assembly.placement,
+                isAssembly(setup) ? assemblyIn<2>(setup).placement : Placement(),
                 startsOf(setup, hard.scene),
                 lawAsRun(engine.capabilities(), hard.scene.law)};
   try {
@@ -210,7 +205,7 @@ constexpr double finestStep = 1.0 / 1.1;
 /// All of a case's collisions at that step, each with every phase, side by side.
 HardScene collisionsAt(const StabilityTask& task, double dt) {
   Case setup = *task.setup;
-  setup.collision.startPhase = 0.0;
+  collisionIn(setup).startPhase = 0.0;
   const std::vector<double> phases = touchPhases(32);
   const std::vector<CollisionStart> once = collisionStarts(setup);
   std::vector<CollisionStart> starts;
@@ -221,9 +216,10 @@ HardScene collisionsAt(const StabilityTask& task, double dt) {
   hard.duration += dt;  // that they touch later
   hard.scene.disks = collisionScene(setup, starts, dt).disks;
   Disks& disks = hard.scene.disks;
-  const std::size_t each = once.size() * (setup.collision.wall ? 1 : 2);  // disks of one phase
+  const std::size_t each = once.size() * (collisionIn(setup).wall ? 1 : 2);  // disks of one phase
   for (std::size_t i = 0; i < disks.size(); ++i)
-    disks.position[i] -= phases[i / each] * dt * (disks.velocity[i] - setup.collision.wallVelocity);
+    disks.position[i] -=
+        phases[i / each] * dt * (disks.velocity[i] - collisionIn(setup).wallVelocity);
   if (task.inSpace) hard.scene = ofSpheres(std::move(hard.scene));
   return hard;
 }
@@ -267,7 +263,7 @@ HardScene touchingAt(HardScene hard, double touch, double phase, double dt) {
 /// at several phases and steps.
 std::vector<HardScene> beginningsOf(const StabilityTask& task, const HardScene& hard,
                                     Engine& engine) {
-  const bool collisions = task.setup->kind == CaseKind::collision;
+  const bool collisions = isCollision(*task.setup);
   const std::optional<double> touch = firstTouch(hard.scene);
   if (!collisions && !touch) return {hard};
   const double own = loadScene(engine, task.entry, *task.setup, hard.scene).dt;

@@ -219,7 +219,7 @@ void askEngines(Suite& suite) {
 void preparePackings(Suite& suite) {
   for (std::size_t c = 0; c < suite.cases.size(); ++c) {
     const Case& setup = suite.cases[c];
-    if (setup.kind != CaseKind::couette) continue;
+    if (!cellOf(setup)) continue;
     const auto engine = engineRegistry().front().make();
     suite.progress.begin("preparing packings", {1.0});
     try {
@@ -243,11 +243,13 @@ void preparePackings(Suite& suite) {
 double predicted(const Case& setup, const EngineEntry& entry) {
   const double perStep = entry.command ? 3e-5 : 2e-6;
   double steps = 1e4;
-  if (setup.kind == CaseKind::assembly && setup.assembly.steps) steps = *setup.assembly.steps;
-  if (setup.kind == CaseKind::assembly && setup.assembly.duration)
-    steps = *setup.assembly.duration / timeStep(setup);
   std::size_t disks = 1;
-  for (const DiskGroup& group : setup.assembly.disks) disks += group.places.size();
+  if (isAssembly(setup))
+    withAssembly(setup, [&](const auto& assembly) {
+      if (assembly.steps) steps = *assembly.steps;
+      if (assembly.duration) steps = *assembly.duration / timeStep(setup);
+      for (const auto& group : assembly.disks) disks += group.places.size();
+    });
   return (entry.command ? 2.0 : 0.1) + steps * perStep * static_cast<double>(disks + 3);
 }
 
@@ -289,7 +291,7 @@ CachedTask<Rows> taskOf(const Suite& suite, std::size_t c, std::size_t e) {
   std::ranges::replace(task.name, ' ', '-');
   task.key = runKey(setup, entry.name, suite.versions[e]);
   if (const std::string& hash = suite.packings[c].hash; !hash.empty()) task.key["packing"] = hash;
-  if (!setup.assembly.starts.files.empty())  // the case has their paths only
+  if (isAssembly(setup) && packingsAreFiles(setup))  // the case has their paths only
     task.key["packing"] = expectedPacking(setup, 0, timeStep(setup)).hash;
   if (suite.inSpace) task.key["in space"] = true;
   task.weight = predicted(setup, entry);
@@ -362,8 +364,7 @@ std::string stabilityPlan(const StudyWork& work, const StabilityOptions& own) {
   std::string head;
   for (std::size_t c = 0; c < work.cases.size(); ++c) {
     const Case& setup = work.cases[c];
-    if (setup.kind == CaseKind::couette)
-      suite.packings[c].hash = packingHash(setup, 0, timeStep(setup));
+    if (cellOf(setup)) suite.packings[c].hash = packingHash(setup, 0, timeStep(setup));
     head += (head.empty() ? "" : ", ") + fullName(setup);
   }
   return describeDryRun(head + "\n", plannedWork(tasksOf(suite), "hard cases", work.store),

@@ -32,14 +32,14 @@ namespace {
 constexpr double besidesSteps = 1.2;
 
 double durationOf(const Case& setup) {
-  return (setup.averaging.settleRotations + setup.averaging.rotations) * rotationTime(setup);
+  return flowDuration(setup);
 }
 
 /// Sizes of a run that its time goes by: steps of the case's dt, the ring's shrinking included,
 /// times disks.
 double workOf(const Case& setup) {
   return (preparationSteps(setup) + durationOf(setup) / timeStep(setup)) *
-         (setup.particles.small + setup.particles.large);
+         (couetteIn(setup).particles.small + couetteIn(setup).particles.large);
 }
 
 Packing preparedPacking(const Case& setup, int index) {
@@ -65,13 +65,13 @@ ThesisCase rowOf(const SweepCase& own) {
   row.purpose = own.purpose;
   row.file = setup.file.string();
   row.families = own.families;
-  row.cell = couetteFrame(kindThesis, setup, "", diskKinds(setup.particles).radius).cell;
+  row.cell = flowFrame(kindThesis, setup, "", diskKinds(couetteIn(setup).particles).radius).cell;
   row.label = own.label;
   row.kn = setup.law.kn;
   row.mu = setup.law.mu;
   row.bottomFriction = setup.bottom.has_value();
-  row.settleRotations = setup.averaging.settleRotations;
-  row.averagedRotations = setup.averaging.rotations;
+  row.settleRotations = couetteIn(setup).times.settleRotations;
+  row.averagedRotations = couetteIn(setup).times.rotations;
   row.caseToml = setup.resolvedToml;
   return row;
 }
@@ -184,7 +184,7 @@ void ThesisCampaign::listRuns() {
     if (isNew && own.can) {
       const Case& setup = sweep_.cases[wanted.setup].setup;
       Packing unplaced;
-      unplaced.disks = diskKinds(setup.particles);
+      unplaced.disks = diskKinds(couetteIn(setup).particles);
       try {
         checkSuitable(*own.can, own.entry, setup, couetteScene(setup, unplaced, timeStep(setup)));
       } catch (const UnsupportedScene& refusal) {
@@ -290,15 +290,15 @@ ThesisCampaign::Outcome ThesisCampaign::make(const SweepRun& wanted, const std::
   try {
     const double dt = timeStep(own.setup);
     const Packing packing = preparedPacking(own.setup, wanted.packing);
-    const CouetteTask task{&own.setup,
-                           entry,
-                           wanted.packing,
-                           &packing,
-                           dt,
-                           store_.scratch(name),
-                           store_.snapshots(name),
-                           store_.unfinished(name),
-                           Json(key).dump()};
+    const FlowTask task{&own.setup,
+                        entry,
+                        wanted.packing,
+                        &packing,
+                        dt,
+                        store_.scratch(name),
+                        store_.snapshots(name),
+                        store_.unfinished(name),
+                        Json(key).dump()};
     result = runCase(task, sweep_.finerRings, sweep_.settlingSnapshots, progress);
     result.setup = own.name;
     result.key = keyOfRun(own.setup, key);

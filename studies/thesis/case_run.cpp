@@ -18,8 +18,8 @@ ThesisHistory::ThesisHistory(const Case& setup, const Scene& scene, int settling
       scene_(scene),
       rings_(ringsOf(setup)),
       sums_(std::make_shared<Rings>(rings_), {Weight(WeightMethod::slicing)}, scene) {
-  const double settled = setup.averaging.settleRotations;
-  const double end = settled + setup.averaging.rotations;
+  const double settled = couetteIn(setup).times.settleRotations;
+  const double end = settled + couetteIn(setup).times.rotations;
   const auto addSpans = [&](double from, double to) {
     constexpr double sliver = 1e-9;  // what rounding leaves of a rotation is no span
     for (double at = from; at < to - sliver; at += 1.0)
@@ -27,16 +27,17 @@ ThesisHistory::ThesisHistory(const Case& setup, const Scene& scene, int settling
   };
   addSpans(0.0, settled);
   addSpans(settled, end);
-  const double perRotation = std::max(settled > 0.0 ? settlingSnapshots / settled : 0.0,
-                                      static_cast<double>(setup.averaging.snapshotsPerRotation));
+  const double perRotation =
+      std::max(settled > 0.0 ? settlingSnapshots / settled : 0.0,
+               static_cast<double>(couetteIn(setup).times.snapshotsPerRotation));
   half_ = 0.5 / perRotation;
 }
 
 ThesisSpan ThesisHistory::momentary(const Snapshot& snapshot) {
   const GlobalNumbers numbers = globalNumbers(scene_, snapshot);
   ThesisSpan now;
-  now.outerPressure =
-      radialPressure(scene_, snapshot, ringName, setup_.cell.outerRadius, setup_.cell.height);
+  now.outerPressure = radialPressure(scene_, snapshot, ringName, couetteIn(setup_).cell.outerRadius,
+                                     couetteIn(setup_).cell.height);
   now.wheelTorque = drivingTorque(scene_, snapshot, wheelName);
   now.wheelContacts = contactsOf(scene_, snapshot, wheelName);
   if (now.wheelContacts) now.wheelTouched = *now.wheelContacts > 0.0 ? 1.0 : 0.0;
@@ -57,7 +58,7 @@ ThesisSpan ThesisHistory::momentary(const Snapshot& snapshot) {
   now.volumeFractionAtWheel = volumeOf(0) / rings_.ringVolume(0);
   if (volumeOf(0) > 0.0)
     now.velocityAtWheel = at(rings[rings_.slot(0)], Moment::velocityP) / volumeOf(0) /
-                          (setup_.cell.omega * setup_.cell.innerRadius);
+                          (couetteIn(setup_).cell.omega * couetteIn(setup_).cell.innerRadius);
   return now;
 }
 
@@ -105,15 +106,15 @@ void ThesisHistory::restore(const json& state) {
   readFrom(state, spans_);
 }
 
-ThesisRun runCase(const CouetteTask& task, const std::vector<int>& finerRings,
-                  int settlingSnapshots, const std::function<void(double)>& progress) {
+ThesisRun runCase(const FlowTask& task, const std::vector<int>& finerRings, int settlingSnapshots,
+                  const std::function<void(double)>& progress) {
   struct FinerRings {
     Rings rings;
     ProfileAccumulator profiles;
   };
   const Case& setup = *task.setup;
   const Scene scene = couetteScene(setup, *task.packing, task.dt);
-  const double settle = setup.averaging.settleRotations;
+  const double settle = couetteIn(setup).times.settleRotations;
   SnapshotObserver watch;
   if (settle > 0.0)
     watch.settlingSnapshots =
@@ -134,7 +135,7 @@ ThesisRun runCase(const CouetteTask& task, const std::vector<int>& finerRings,
   watch.restore = [&](const json& state) { history.restore(state); };
 
   ThesisRun result;
-  result.run = runCouette(task, progress, watch);
+  result.run = runFlow(task, progress, watch);
   result.run.picture.reset();
   result.engine = task.entry.name;
   result.packing = task.packingIndex;

@@ -66,8 +66,8 @@ class ThesisHistory {
 /// @param finerRings  averaged over beside the case's own, each with all methods of the case
 /// @param settlingSnapshots  per rotation that is not averaged
 /// @param progress  called with the fraction done, 0 … 1
-/// @throws as runCouette()
-ThesisRun runCase(const CouetteTask& task, const std::vector<int>& finerRings,
-                  int settlingSnapshots, const std::function<void(double)>& progress);
+/// @throws as runFlow()
+ThesisRun runCase(const FlowTask& task, const std::vector<int>& finerRings, int settlingSnapshots,
+                  const std::function<void(double)>& progress);
 
 }  // namespace crossgrain::inline studies

@@ -30,7 +30,7 @@ constexpr int psiCount = 40;
 constexpr double approachSpeed = 0.01;
 
 CollidingPair smallPair(const Case& setup) {
-  const Particles& of = setup.particles;
+  const Particles& of = couetteIn(setup).particles;
   const double inertia = of.inertiaFactor * of.smallMass * of.smallRadius * of.smallRadius;
   return {{of.smallRadius, of.smallRadius}, {of.smallMass, of.smallMass}, {inertia, inertia}};
 }

@@ -25,17 +25,17 @@ std::filesystem::path packingFolder;
 
 /// Rings of the thesis' width, however large the cell.
 Rings rings(const Case& setup) {
-  const double width = setup.cell.outerRadius - setup.cell.innerRadius;
-  const double diameter = 2.0 * setup.particles.smallRadius;
-  return {setup.cell.innerRadius, setup.cell.outerRadius, static_cast<int>(width / diameter),
-          setup.cell.height, diameter};
+  const double width = couetteIn(setup).cell.outerRadius - couetteIn(setup).cell.innerRadius;
+  const double diameter = 2.0 * couetteIn(setup).particles.smallRadius;
+  return {couetteIn(setup).cell.innerRadius, couetteIn(setup).cell.outerRadius,
+          static_cast<int>(width / diameter), couetteIn(setup).cell.height, diameter};
 }
 
 /// Averages snapshots of a sheared packing with what `make` gives for it.
 template <class Make>
 void average(benchmark::State& state, std::size_t disks, Make&& make) {
   Case setup = scaledCase(disks);
-  setup.averaging.rings = rings(setup).count();
+  couetteIn(setup).times.rings = rings(setup).count();
   const double dt = timeStep(setup);
   const Scene scene = couetteScene(setup, packedInto(setup, packingFolder), dt);
   const auto engine = makeGrain();
@@ -65,7 +65,7 @@ void average(benchmark::State& state, std::size_t disks, Make&& make) {
 
 /// All fields of one weight.
 ProfileAccumulator fields(WeightMethod method, const Case& setup, const Scene& scene) {
-  const double width = setup.averaging.lineWidth * 2.0 * setup.particles.smallRadius;
+  const double width = setup.averaging.lineWidth * 2.0 * couetteIn(setup).particles.smallRadius;
   return {rings(setup), {{method, width}}, scene};
 }
 
@@ -86,7 +86,7 @@ void registerAt(std::string_view name, Make make) {
 void registerAll() {
   // What a run does with a snapshot: fields by slicing, distributions, series, layers of spin.
   registerAt("everything",
-             [](const Case& setup, const Scene& scene) { return CouetteAverages(setup, scene); });
+             [](const Case& setup, const Scene& scene) { return FlowAverages<2>(setup, scene); });
   for (const WeightMethod method :
        {WeightMethod::slicing, WeightMethod::straightCut, WeightMethod::centre,
         WeightMethod::lineGaussian, WeightMethod::lineHeaviside})

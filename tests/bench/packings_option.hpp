@@ -35,7 +35,8 @@ inline Packing packedInto(const Case& scaled, const std::filesystem::path& folde
   return scaledPacking(scaled, folder, [&](double) {
     if (!std::exchange(told, true))
       fmt::print(stderr, "preparing {} disks, kept in {}\n",
-                 scaled.particles.small + scaled.particles.large, folder.string());
+                 couetteIn(scaled).particles.small + couetteIn(scaled).particles.large,
+                 folder.string());
   });
 }
 

@@ -13,20 +13,20 @@ using namespace crossgrain;
 
 Case twoDisks() {
   Case setup;
-  setup.kind = CaseKind::assembly;
+  setup.source = Assembly();
   setup.run.dt = 1e-3;
-  setup.assembly.duration = 1.0;
+  assemblyIn<2>(setup).duration = 1.0;
   DiskGroup group;
   group.radius = 0.5;
   group.mass = 3.0;
   group.places = gridPlaces(2, 1, {1.0, 1.0}, false);
   group.velocity = {1.0, 2.0};
   group.spin = 4.0;
-  setup.assembly.disks.push_back(group);
+  assemblyIn<2>(setup).disks.push_back(group);
   WallGroup wall;
   wall.planes.push_back({{0.0, -0.5}, {0.0, 1.0}});
-  setup.assembly.walls.push_back(wall);
-  setup.assembly.gravity = {0.0, -10.0};
+  assemblyIn<2>(setup).walls.push_back(wall);
+  assemblyIn<2>(setup).gravity = {0.0, -10.0};
   return setup;
 }
 
@@ -53,10 +53,10 @@ TEST(AssemblyScene, DisksWallsStep) {
 
 TEST(AssemblyScene, Placement_MirrorTurnShiftBoost) {
   Case setup = twoDisks();
-  setup.assembly.placement.mirror = true;
-  setup.assembly.placement.turn = std::numbers::pi / 2.0;
-  setup.assembly.placement.offset = {10.0, 0.0};
-  setup.assembly.placement.boost = {0.0, 7.0};
+  assemblyIn<2>(setup).placement.mirror = true;
+  assemblyIn<2>(setup).placement.turn = std::numbers::pi / 2.0;
+  assemblyIn<2>(setup).placement.offset = {10.0, 0.0};
+  assemblyIn<2>(setup).placement.boost = {0.0, 7.0};
   const Scene scene = assemblyScene(setup);
   // (1, 0) → (−1, 0) → (0, −1) → (10, −1); velocity (1, 2) → (−1, 2) → (−2, −1) → (−2, 6).
   EXPECT_NEAR((scene.disks.position[1] - Vec2(10.0, -1.0)).norm(), 0.0, 1e-14);
@@ -67,21 +67,22 @@ TEST(AssemblyScene, Placement_MirrorTurnShiftBoost) {
   EXPECT_NEAR((wall.planes[0].normal - Vec2(-1.0, 0.0)).norm(), 0.0, 1e-14);
   EXPECT_EQ(wall.motion.kind, Motion::Kind::translating);
   EXPECT_EQ(wall.motion.velocity, Vec2(0.0, 7.0));
-  const Vec2 later = scene.disks.position[1] + 2.0 * setup.assembly.placement.boost;
-  EXPECT_NEAR((setup.assembly.placement.undoneAt(later, 2.0) - Vec2(1.0, 0.0)).norm(), 0.0, 1e-14);
+  const Vec2 later = scene.disks.position[1] + 2.0 * assemblyIn<2>(setup).placement.boost;
+  EXPECT_NEAR((assemblyIn<2>(setup).placement.undoneAt(later, 2.0) - Vec2(1.0, 0.0)).norm(), 0.0,
+              1e-14);
 }
 
 TEST(AssemblyScene, Randomness_BySeed) {
   Case setup = twoDisks();
-  setup.assembly.disks[0].places = gridPlaces(10, 10, {1.5, 1.5}, false);
-  setup.assembly.disks[0].jitter = 0.1;
-  setup.assembly.disks[0].radiusSpread = 0.2;
-  setup.assembly.disks[0].velocityRms = 1.0;
-  setup.assembly.disks[0].position = {0.0, 1.0};
+  assemblyIn<2>(setup).disks[0].places = gridPlaces(10, 10, {1.5, 1.5}, false);
+  assemblyIn<2>(setup).disks[0].jitter = 0.1;
+  assemblyIn<2>(setup).disks[0].radiusSpread = 0.2;
+  assemblyIn<2>(setup).disks[0].velocityRms = 1.0;
+  assemblyIn<2>(setup).disks[0].position = {0.0, 1.0};
   const Scene one = assemblyScene(setup), same = assemblyScene(setup);
   EXPECT_EQ(one.disks.position, same.disks.position);
   EXPECT_EQ(one.disks.radius, same.disks.radius);
-  setup.assembly.seed = 2;
+  assemblyIn<2>(setup).seed = 2;
   EXPECT_NE(one.disks.position, assemblyScene(setup).disks.position);
   for (std::size_t i = 0; i < 100; ++i) {
     EXPECT_LE(std::abs(one.disks.radius[i] - 0.5), 0.1);
@@ -92,24 +93,24 @@ TEST(AssemblyScene, Randomness_BySeed) {
 
 TEST(AssemblyScene, CoincidentCentres_AreBadInput) {
   Case setup = twoDisks();
-  setup.assembly.disks[0].places = {Vec2::Zero(), Vec2::Zero()};
-  setup.assembly.maxOverlap = 2.0;
+  assemblyIn<2>(setup).disks[0].places = {Vec2::Zero(), Vec2::Zero()};
+  assemblyIn<2>(setup).maxOverlap = 2.0;
   EXPECT_THROW(assemblyScene(setup), BadInput);
 }
 
 Case spheres() {
   Case setup;
-  setup.kind = CaseKind::assembly;
+  setup.source = AssemblyOf<3>();
   setup.dimension = 3;
   setup.run.dt = 1e-3;
-  setup.spaceAssembly.duration = 1.0;
+  assemblyIn<3>(setup).duration = 1.0;
   DiskGroupOf<3> group;
   group.radius = 0.5;
   group.mass = 3.0;
   group.position = {0.0, 0.0, 1.0};
   group.places = latticePlaces({4, 4, 4}, Vec3(1.5, 1.5, 1.5), false);
   group.spin = {1.0, 2.0, 3.0};
-  setup.spaceAssembly.disks.push_back(group);
+  assemblyIn<3>(setup).disks.push_back(group);
   return setup;
 }
 
@@ -130,10 +131,10 @@ TEST(Places, ClosePackedLattice_TwelveNeighboursTouch) {
 
 TEST(AssemblyScene, Spheres_MassAsCubeInertiaOfSpheres) {
   Case setup = spheres();
-  setup.spaceAssembly.disks[0].radiusSpread = 0.2;
-  setup.spaceAssembly.disks[0].velocityRms = 0.5;
-  setup.spaceAssembly.gravity = {0.0, 0.0, -10.0};
-  setup.spaceAssembly.box = BoxOf<3>{Vec3::Zero(), Vec3::Constant(6.0), {true, true, false}};
+  assemblyIn<3>(setup).disks[0].radiusSpread = 0.2;
+  assemblyIn<3>(setup).disks[0].velocityRms = 0.5;
+  assemblyIn<3>(setup).gravity = {0.0, 0.0, -10.0};
+  assemblyIn<3>(setup).box = BoxOf<3>{Vec3::Zero(), Vec3::Constant(6.0), {true, true, false}};
   const SpaceScene scene = assemblyScene<3>(setup);
   ASSERT_EQ(scene.disks.size(), 64u);
   EXPECT_EQ(scene.gravity.z(), -10.0);
@@ -149,7 +150,7 @@ TEST(AssemblyScene, Spheres_MassAsCubeInertiaOfSpheres) {
 
 TEST(AssemblyScene, ChosenPlaces_AreDifferentAndOthersInEachPacking) {
   Case setup = spheres();
-  setup.spaceAssembly.disks[0].choose = 40;
+  assemblyIn<3>(setup).disks[0].choose = 40;
   const DisksOf<3> one = assemblyDisks<3>(setup, 0), other = assemblyDisks<3>(setup, 1);
   ASSERT_EQ(one.size(), 40u);
   EXPECT_EQ(one.position, assemblyDisks<3>(setup, 0).position);
@@ -165,7 +166,7 @@ TEST(AssemblyScene, WallSpheres_MoveOn) {
   wall.radius = 0.5;
   wall.motion.kind = MotionKind::translating;
   wall.motion.velocity = {0.0, 2.0, 0.0};
-  setup.spaceAssembly.walls.push_back(wall);
+  assemblyIn<3>(setup).walls.push_back(wall);
   const SpaceScene scene = assemblyScene<3>(setup, assemblyDisks<3>(setup, 0), 0.25, 1e-3);
   EXPECT_EQ(scene.bodies.at(0).diskPosition.at(1), Vec3(1.0, 0.5, -0.5));
   EXPECT_EQ(scene.bodies[0].motion.velocity, Vec3(0.0, 2.0, 0.0));
@@ -174,11 +175,11 @@ TEST(AssemblyScene, WallSpheres_MoveOn) {
 /// Across the border of a box 6.01 m wide the first and the last of a row overlap by 0.49 m.
 TEST(AssemblyScene, StartThatOverlapsAcrossTheBorder_IsBadInput) {
   Case setup = spheres();
-  setup.spaceAssembly.disks[0].places = {{0.1, 0.0, 0.0}, {5.6, 0.0, 0.0}};
+  assemblyIn<3>(setup).disks[0].places = {{0.1, 0.0, 0.0}, {5.6, 0.0, 0.0}};
   EXPECT_NO_THROW(assemblyScene<3>(setup));
-  setup.spaceAssembly.box = BoxOf<3>{Vec3::Zero(), Vec3(6.01, 6.0, 6.0), {false, true, false}};
+  assemblyIn<3>(setup).box = BoxOf<3>{Vec3::Zero(), Vec3(6.01, 6.0, 6.0), {false, true, false}};
   EXPECT_NO_THROW(assemblyScene<3>(setup));
-  setup.spaceAssembly.box->periodic = {true, false, false};
+  assemblyIn<3>(setup).box->periodic = {true, false, false};
   try {
     assemblyScene<3>(setup);
     FAIL();

@@ -13,8 +13,8 @@ using namespace crossgrain;
 
 TEST(CollisionScene, Pairs_HeadOn_WithPsi) {
   Case setup = test::smallPairCase();
-  setup.collision.radius[1] = 2.0 * test::smallRadius;
-  setup.collision.mass[1] = 8.0 * test::smallMass;
+  collisionIn(setup).radius[1] = 2.0 * test::smallRadius;
+  collisionIn(setup).mass[1] = 8.0 * test::smallMass;
   const Scene scene = collisionScene(setup, {{0.5, 0.1}, {3.0, 0.2}}, 1e-4);
   ASSERT_EQ(scene.disks.size(), 4u);
   for (std::size_t k = 0; k < 2; ++k) {
@@ -37,24 +37,24 @@ TEST(CollisionScene, Pairs_HeadOn_WithPsi) {
 /// One disk of a kind is enough for the kind.
 TEST(PairsOf, CellOfOneDisk_HasThatKindAndTheWall) {
   Case setup = test::smallPairCase();
-  setup.kind = CaseKind::couette;
-  setup.particles.small = 1;
-  setup.particles.large = 0;
-  setup.particles.smallRadius = setup.cell.wallRadius = test::smallRadius;
-  setup.particles.smallMass = test::smallMass;
+  setup.source = Couette();
+  couetteIn(setup).particles.small = 1;
+  couetteIn(setup).particles.large = 0;
+  couetteIn(setup).particles.smallRadius = couetteIn(setup).cell.wallRadius = test::smallRadius;
+  couetteIn(setup).particles.smallMass = test::smallMass;
   const auto names = [&] {
     std::vector<std::string> all;
     for (const NamedPair& pair : pairsOf(setup)) all.push_back(pair.name);
     return all;
   };
   EXPECT_EQ(names(), (std::vector<std::string>{"small-small", "small-wall"}));
-  std::swap(setup.particles.small, setup.particles.large);
+  std::swap(couetteIn(setup).particles.small, couetteIn(setup).particles.large);
   EXPECT_EQ(names(), (std::vector<std::string>{"large-large", "large-wall"}));
 }
 
 TEST(CollisionScene, Oblique_NoSpin_TouchesOnTheAxis) {
   Case setup = test::smallPairCase();
-  setup.collision.mass[1] = 8.0 * test::smallMass;
+  collisionIn(setup).mass[1] = 8.0 * test::smallMass;
   const double dt = 1e-4;
   const Scene scene = collisionScene(setup, {{2.0, 0.1, Approach::oblique}}, dt);
   const Vec2 velocity = scene.disks.velocity[0] - scene.disks.velocity[1];
@@ -69,7 +69,7 @@ TEST(CollisionScene, Oblique_NoSpin_TouchesOnTheAxis) {
 TEST(CollisionScene, End_AtSeparation_WithItsNormal) {
   // Disks of radius 1 that parted at (2, 0) with velocity (0.3, 0.4) and spin −0.5 each, 10 s ago.
   Case setup = test::smallPairCase();
-  setup.collision.radius[0] = setup.collision.radius[1] = 1.0;
+  collisionIn(setup).radius[0] = collisionIn(setup).radius[1] = 1.0;
   const CollisionStart start{1.0, 0.5};
   const Scene scene = collisionScene(setup, {start}, 1e-4);
   Snapshot after;

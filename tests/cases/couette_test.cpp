@@ -19,20 +19,20 @@ Case quickCell() {
   setup.name = "cell";
   setup.file = "cell.toml";
   setup.law = test::thesisLaw();
-  setup.cell = {0.03, 0.075, test::wallRadius, 2.5e-3, 6e-3, 1.0};
-  setup.particles.small = 190;
-  setup.particles.large = 30;
-  setup.particles.smallRadius = test::smallRadius;
-  setup.particles.largeRadius = test::largeRadius;
-  setup.particles.smallMass = test::smallMass;
-  setup.particles.largeMass = test::largeMass;
-  setup.preparation.shrinkTime = 0.1;
-  setup.preparation.rotations = 0.01;
+  couetteIn(setup).cell = {0.03, 0.075, test::wallRadius, 2.5e-3, 6e-3, 1.0};
+  couetteIn(setup).particles.small = 190;
+  couetteIn(setup).particles.large = 30;
+  couetteIn(setup).particles.smallRadius = test::smallRadius;
+  couetteIn(setup).particles.largeRadius = test::largeRadius;
+  couetteIn(setup).particles.smallMass = test::smallMass;
+  couetteIn(setup).particles.largeMass = test::largeMass;
+  couetteIn(setup).filling.shrinkTime = 0.1;
+  couetteIn(setup).filling.rotations = 0.01;
   return setup;
 }
 
 TEST(Couette, Walls_NumberOfDisks_NearestToTheSpacing) {
-  Cell cell = quickCell().cell;
+  Cell cell = couetteIn(quickCell()).cell;
   cell.innerRadius = 0.1032;
   cell.outerRadius = 0.2524;
   const auto counts = [&] {
@@ -46,7 +46,7 @@ TEST(Couette, Walls_NumberOfDisks_NearestToTheSpacing) {
 }
 
 TEST(Couette, Holes_AreGapsBetweenWallDisks) {
-  Cell cell = quickCell().cell;
+  Cell cell = couetteIn(quickCell()).cell;
   cell.wallSpacing = 7e-3;
   for (const double radius : {cell.innerRadius, cell.outerRadius}) {
     const WallBody wall = wallRing("wall", cell, radius, 0.3);
@@ -68,12 +68,13 @@ TEST(Couette, Preparation_FillsTheCell_RepeatsAndDiffersByIndex) {
   ASSERT_EQ(packing.disks.size(), 220u);
   EXPECT_EQ(std::ranges::count(packing.disks.radius, test::largeRadius), 30);
   for (const Vec2& position : packing.disks.position) {
-    EXPECT_GT(position.norm(), setup.cell.innerRadius);
-    EXPECT_LT(position.norm(), setup.cell.outerRadius);
+    EXPECT_GT(position.norm(), couetteIn(setup).cell.innerRadius);
+    EXPECT_LT(position.norm(), couetteIn(setup).cell.outerRadius);
   }
   // Ω·(shrink time + 0.01 rotations), to the steps that make up that time.
   EXPECT_NEAR(packing.wheelAngle, 0.1 + 0.01 * 2.0 * std::numbers::pi, 4e-5);
-  EXPECT_NO_THROW(checkStart(couetteScene(setup, packing, 4e-5), setup.particles, "here"));
+  EXPECT_NO_THROW(
+      checkStart(couetteScene(setup, packing, 4e-5), couetteIn(setup).particles, "here"));
   const Packing again = prepared(0), other = prepared(1);
   EXPECT_EQ(packing.disks.position, again.disks.position);
   EXPECT_EQ(packing.disks.spin, again.disks.spin);
@@ -85,16 +86,16 @@ TEST(Couette, Preparation_FillsTheCell_RepeatsAndDiffersByIndex) {
 TEST(Couette, PreparationDt_MakesPackingsIndependentOfTheRun) {
   Case setup = quickCell();
   const std::string byTheRuns = packingHash(setup, 0, 8e-5);
-  setup.preparation.dt = 8e-5;
+  couetteIn(setup).filling.dt = 8e-5;
   EXPECT_EQ(packingHash(setup, 0, 4e-5), byTheRuns);
   EXPECT_EQ(packingHash(setup, 0, 1e-5), byTheRuns);
-  setup.preparation.rotations = 0.0;
+  couetteIn(setup).filling.rotations = 0.0;
   const auto prepared = [&](double dt) {
     return preparePacking(setup, 0, dt, *makeGrain(), [](double) {}).disks.position;
   };
   EXPECT_EQ(prepared(4e-5), prepared(1e-5));
   const auto withOwn = prepared(4e-5);
-  setup.preparation.dt.reset();
+  couetteIn(setup).filling.dt.reset();
   EXPECT_EQ(prepared(8e-5), withOwn);
   EXPECT_NE(prepared(4e-5), withOwn);
 }
@@ -104,14 +105,14 @@ TEST(Couette, PreparationTime) {
   EXPECT_NEAR(preparationTime(setup), 0.1 + 0.0628319, 1e-7);
   setup.run.dt = 4e-5;
   EXPECT_NEAR(preparationSteps(setup), 4070.8, 0.1);
-  setup.preparation.dt = 8e-5;
+  couetteIn(setup).filling.dt = 8e-5;
   EXPECT_NEAR(preparationSteps(setup), 2035.4, 0.1);
 }
 
 /// Another engine prepares what the case lets it, and a setting of it makes another packing.
 TEST(Couette, PreparationEngine_IsPartOfTheHash) {
   Case setup = quickCell();
-  setup.preparation.engine = "box2d-penalty";
+  couetteIn(setup).filling.engine = "box2d-penalty";
   EXPECT_EQ(ownPreparer(setup)->name, "box2d-penalty");
   EXPECT_NE(preparerKey(setup).find("box2d-penalty 2."), std::string::npos);
   const std::string hash = packingHash(setup, 0, 4e-5);
@@ -131,30 +132,31 @@ TEST(Couette, PackingHash_ChangesWithEveryInput) {
   EXPECT_NE(hash, changed([](Case& c) { c.law.kn += 1.0; }));
   EXPECT_NE(hash, changed([](Case& c) { c.law.conventions.leverArm = LeverArm::contactPoint; }));
   EXPECT_NE(hash, changed([](Case& c) { c.bottom = BottomPlate{}; }));
-  EXPECT_NE(hash, changed([](Case& c) { c.cell.omega = 0.5; }));
-  EXPECT_NE(hash, changed([](Case& c) { c.cell.omega = -1.0; }));
-  EXPECT_NE(hash, changed([](Case& c) { c.cell.wallSpacing = 7e-3; }));
+  EXPECT_NE(hash, changed([](Case& c) { couetteIn(c).cell.omega = 0.5; }));
+  EXPECT_NE(hash, changed([](Case& c) { couetteIn(c).cell.omega = -1.0; }));
+  EXPECT_NE(hash, changed([](Case& c) { couetteIn(c).cell.wallSpacing = 7e-3; }));
   EXPECT_NE(hash, changed([](Case& c) { c.law.en = 0.9; }));
   EXPECT_NE(hash, changed([](Case& c) { c.law.et0 = 0.5; }));
   EXPECT_NE(hash, changed([](Case& c) { c.preparation.seed = 9; }));
-  EXPECT_NE(hash, changed([](Case& c) { c.preparation.engine = "grain-as-yade"; }));
-  EXPECT_EQ(hash, changed([](Case& c) { c.preparation.engine = "grain"; }));  // as it is anyway
+  EXPECT_NE(hash, changed([](Case& c) { couetteIn(c).filling.engine = "grain-as-yade"; }));
+  EXPECT_EQ(hash,
+            changed([](Case& c) { couetteIn(c).filling.engine = "grain"; }));  // as it is anyway
   // 75 and 188 wall disks, whether 75.4 and 188.5 are wanted or 75.1 and 187.7: the same packing.
-  EXPECT_EQ(hash, changed([](Case& c) { c.cell.wallSpacing = 2.51e-3; }));
+  EXPECT_EQ(hash, changed([](Case& c) { couetteIn(c).cell.wallSpacing = 2.51e-3; }));
   // What comes after the preparation does not matter to it.
-  EXPECT_EQ(hash, changed([](Case& c) { c.averaging.rings = 40; }));
+  EXPECT_EQ(hash, changed([](Case& c) { couetteIn(c).times.rings = 40; }));
 }
 
 TEST(Couette, BadStart_NamesTheDisks) {
   const Case setup = quickCell();
   Packing packing;
-  packing.disks = diskKinds(setup.particles);
+  packing.disks = diskKinds(couetteIn(setup).particles);
   for (std::size_t i = 0; i < packing.disks.size(); ++i)
     packing.disks.position[i] = Vec2(0.05 + 0.01 * static_cast<double>(i), 0.0);
   packing.disks.position[7] = packing.disks.position[3] + Vec2(1e-3, 0.0);
   const auto message = [&] {
     try {
-      checkStart(couetteScene(setup, packing, 4e-5), setup.particles, "my.h5");
+      checkStart(couetteScene(setup, packing, 4e-5), couetteIn(setup).particles, "my.h5");
     } catch (const BadInput& bad) {
       return std::string(bad.what());
     }
@@ -167,7 +169,7 @@ TEST(Couette, BadStart_NamesTheDisks) {
   packing.disks.position[7] = packing.disks.position[3];
   EXPECT_EQ(message(), "my.h5: disk 3 and disk 7 have the same centre");
   Case crowded = setup;  // the lattice that packings begin with has no room
-  crowded.preparation.dilation = 1.0;
+  couetteIn(crowded).filling.dilation = 1.0;
   EXPECT_THROW(preparePacking(crowded, 0, 4e-5, *makeGrain(), [](double) {}), BadInput);
 }
 

@@ -125,7 +125,7 @@ TEST(EffectSwitch, Without_KeepsOtherConstants) {
   EXPECT_EQ(effectsOf(cut), effectsOf(base));
   EXPECT_EQ(off(switches, "double_precision").run.precision, Precision::float32);
   EXPECT_EQ(off(switches, "bottom_spin_friction").bottom->mu, base.bottom->mu);
-  EXPECT_FALSE(off(switches, "rotation").particles.rotation);
+  EXPECT_FALSE(couetteIn(off(switches, "rotation")).particles.rotation);
   for (const auto& [left, effect] :
        {std::pair(thesisCase({"law.tangential=spring", "law.gt=0"}), Effect::tangentialSpring),
         std::pair(thesisCase({"law.tangential=viscous", "law.kt=0"}), Effect::tangentialDamping)})

@@ -15,16 +15,17 @@ constexpr double pi = std::numbers::pi;
 
 Case swingingBox() {
   Case setup = test::twoDisks();
-  setup.assembly.disks.front().radiusSpread = 0.1;
-  setup.assembly.walls.resize(2);
-  setup.assembly.walls[0].planes = {{{0.0, 0.0}, Vec2::UnitY()}};
-  setup.assembly.walls[0].motion = {.kind = Motion::Kind::translating, .velocity = {0.0, 0.5}};
-  setup.assembly.walls[1].position = {{1.0, 0.0}};
-  setup.assembly.walls[1].radius = 0.1;
-  setup.assembly.walls[1].motion = {.kind = Motion::Kind::rotating, .angularVelocity = pi};
-  Average& average = setup.average.emplace();
-  average.region.from = 1.0;
-  average.region.snapshots = 4;
+  assemblyIn<2>(setup).disks.front().radiusSpread = 0.1;
+  assemblyIn<2>(setup).walls.resize(2);
+  assemblyIn<2>(setup).walls[0].planes = {{{0.0, 0.0}, Vec2::UnitY()}};
+  assemblyIn<2>(setup).walls[0].motion = {.kind = Motion::Kind::translating,
+                                          .velocity = {0.0, 0.5}};
+  assemblyIn<2>(setup).walls[1].position = {{1.0, 0.0}};
+  assemblyIn<2>(setup).walls[1].radius = 0.1;
+  assemblyIn<2>(setup).walls[1].motion = {.kind = Motion::Kind::rotating, .angularVelocity = pi};
+  Region& region = setup.region.emplace();
+  region.from = 1.0;
+  region.snapshots = 4;
   return setup;
 }
 
@@ -70,7 +71,7 @@ TEST(Flow, GoesOnWithWallsWhereTheyAre) {
 TEST(Flow, BeginsAnewWhereSwingingWallsPassTheirMiddle) {
   Case setup = swingingBox();
   EXPECT_EQ(flowRestart(setup, 0.7), 0.7);
-  setup.assembly.walls[0].motion = {
+  assemblyIn<2>(setup).walls[0].motion = {
       .kind = Motion::Kind::oscillating, .amplitude = {0.1, 0.0}, .frequency = 4.0 * pi};
   EXPECT_NEAR(flowRestart(setup, 0.7), 0.5, 1e-15);
 }
@@ -78,8 +79,8 @@ TEST(Flow, BeginsAnewWhereSwingingWallsPassTheirMiddle) {
 TEST(Flow, TellsStartsByTheirFixedDisksToo) {
   Case setup = swingingBox();
   const std::string none = packing(setup, 0).hash;
-  setup.assembly.starts.fixedPosition = {{0.5, 0.0}};
-  setup.assembly.starts.fixedRadius = {0.1};
+  assemblyIn<2>(setup).starts.fixedPosition = {{0.5, 0.0}};
+  assemblyIn<2>(setup).starts.fixedRadius = {0.1};
   const Packing fixed = packing(setup, 0);
   EXPECT_NE(fixed.hash, none);
   EXPECT_EQ(expectedPacking(setup, 0, 1e-3).hash, fixed.hash);
@@ -88,7 +89,7 @@ TEST(Flow, TellsStartsByTheirFixedDisksToo) {
   now.velocity = fixed.disks.velocity;
   now.bodies.resize(2);
   EXPECT_EQ(packingAt(fixed, flowScene(setup, fixed, 1e-3), now).hash, fixed.hash);
-  setup.assembly.starts.fixedRadius = {0.2};
+  assemblyIn<2>(setup).starts.fixedRadius = {0.2};
   EXPECT_NE(packing(setup, 0).hash, fixed.hash);
 }
 
@@ -103,13 +104,13 @@ TEST(Flow, TakesFilesInTurnWithVelocitiesOfEachPacking) {
   one.spin = {0.0};
   Disks two = one;
   two.position = {{0.0, 4.0}};
-  setup.assembly.disks.clear();
-  setup.assembly.starts = {{"a.csv", "b.csv"}, {one, two}, 0.0};
+  assemblyIn<2>(setup).disks.clear();
+  assemblyIn<2>(setup).starts = {{"a.csv", "b.csv"}, {one, two}, 0.0};
   setup.preparation.packings = 5;
   EXPECT_TRUE(packingsAreFiles(setup));
   EXPECT_EQ(flowPackings(setup), 2);
   EXPECT_EQ(packing(setup, 1).disks.position[0].y(), 4.0);
-  setup.assembly.starts.velocityRms = 0.1;
+  assemblyIn<2>(setup).starts.velocityRms = 0.1;
   EXPECT_EQ(flowPackings(setup), 5);
   EXPECT_EQ(packing(setup, 2).disks.position[0].y(), 3.0);
   EXPECT_NE(packing(setup, 2).disks.velocity[0], packing(setup, 0).disks.velocity[0]);

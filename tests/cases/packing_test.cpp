@@ -26,10 +26,10 @@ fs::path file(const char* name) {
 
 Case kinds() {
   Case setup;
-  setup.particles.smallRadius = 1.0;
-  setup.particles.largeRadius = 2.0;
-  setup.particles.smallMass = 3.0;
-  setup.particles.largeMass = 7.0;
+  couetteIn(setup).particles.smallRadius = 1.0;
+  couetteIn(setup).particles.largeRadius = 2.0;
+  couetteIn(setup).particles.smallMass = 3.0;
+  couetteIn(setup).particles.largeMass = 7.0;
   return setup;
 }
 

@@ -16,13 +16,13 @@ using namespace crossgrain;
 TEST(ScaledCell, RimAndProportionAreKept) {
   const Case thesis = loadCase(dataFolder() / "cases/couette/nu-0.804.toml").front();
   const Case scaled = scaledCase(1000);
-  EXPECT_EQ(scaled.particles.small + scaled.particles.large, 1000);
+  EXPECT_EQ(couetteIn(scaled).particles.small + couetteIn(scaled).particles.large, 1000);
   // 2511 small ones of 2921: 859.6 of a thousand.
-  EXPECT_EQ(scaled.particles.small, 860);
-  EXPECT_NEAR(scaled.cell.omega * scaled.cell.innerRadius,
-              thesis.cell.omega * thesis.cell.innerRadius, 1e-15);
-  EXPECT_NEAR(scaled.cell.outerRadius / scaled.cell.innerRadius,
-              thesis.cell.outerRadius / thesis.cell.innerRadius, 1e-12);
+  EXPECT_EQ(couetteIn(scaled).particles.small, 860);
+  EXPECT_NEAR(couetteIn(scaled).cell.omega * couetteIn(scaled).cell.innerRadius,
+              couetteIn(thesis).cell.omega * couetteIn(thesis).cell.innerRadius, 1e-15);
+  EXPECT_NEAR(couetteIn(scaled).cell.outerRadius / couetteIn(scaled).cell.innerRadius,
+              couetteIn(thesis).cell.outerRadius / couetteIn(thesis).cell.innerRadius, 1e-12);
 }
 
 TEST(ScaledCell, DisksAreSpreadOverTheRingAndHardlyOverlap) {
@@ -35,8 +35,8 @@ TEST(ScaledCell, DisksAreSpreadOverTheRingAndHardlyOverlap) {
   int rightAbove = 0;
   for (std::size_t i = 0; i < at.size(); ++i) {
     const double r = at[i].norm(), a = packing.disks.radius[i];
-    EXPECT_GT(r, setup.cell.innerRadius) << i;
-    EXPECT_LT(r, setup.cell.outerRadius) << i;
+    EXPECT_GT(r, couetteIn(setup).cell.innerRadius) << i;
+    EXPECT_LT(r, couetteIn(setup).cell.outerRadius) << i;
     rightAbove += at[i].x() > 0.0 && at[i].y() > 0.0;
     for (std::size_t j = 0; j < i; ++j)
       deepest = std::max(deepest, (a + packing.disks.radius[j] - (at[i] - at[j]).norm()) / a);

@@ -28,8 +28,8 @@ TEST_F(Average, AssemblyDisks_GridByDensity) {
       soundAssembly, 12,
       "density = 4.0\njitter = 0.25\ngrid = { columns = 2, rows = 2, spacing = [2, 3] }");
   const Case c = loadCase("case.toml").front();
-  EXPECT_EQ(c.assembly.contactTimes, 3.0);
-  const DiskGroup group = c.assembly.disks.at(0);
+  EXPECT_EQ(assemblyIn<2>(c).contactTimes, 3.0);
+  const DiskGroup group = assemblyIn<2>(c).disks.at(0);
   EXPECT_EQ(group.position, Vec2(0.0, 1.0));
   EXPECT_DOUBLE_EQ(group.mass, 4.0 * 3.14159265358979323846 * group.radius * group.radius);
   EXPECT_EQ(group.jitter, 0.25);
@@ -42,11 +42,11 @@ TEST_F(Average, Assembly_Slabs) {
                                         "quantity = \"velocity_x\"\nat = \"slope\"\nabsolute = 2") +
                                     "[preparation]\npackings = 5\nseed = 7\n";
   const Case c = loadCase("case.toml").front();
-  ASSERT_TRUE(c.average);
-  EXPECT_EQ(c.average->region.rowCount(), 4);
-  EXPECT_EQ(c.assembly.seed, 7u);
+  ASSERT_TRUE(c.region);
+  EXPECT_EQ(c.region->rowCount(), 4);
+  EXPECT_EQ(assemblyIn<2>(c).seed, 7u);
   EXPECT_EQ(c.preparation.seed, 7u);
-  const OwnEndpoint& one = c.average->endpoints.front();
+  const Endpoint& one = c.endpoints.front();
   EXPECT_EQ(one.unit, "1/s");
   EXPECT_EQ(one.definition, "slope of velocity_x over the bins");
   EXPECT_FALSE(one.byRatio);
@@ -57,7 +57,7 @@ TEST_F(Average, Definition_OfRatios) {
   const auto definition = [](const std::string& keys) {
     std::ofstream("case.toml") << scene + slabs + endpoint(keys + "\nabsolute = 2") +
                                       "[preparation]\npackings = 5\nseed = 7\n";
-    return loadCase("case.toml").front().average->endpoints.front().definition;
+    return loadCase("case.toml").front().endpoints.front().definition;
   };
   const std::string stresses = "quantity = \"stress_xy\"\nper = \"stress_yy\"\n";
   EXPECT_EQ(definition(stresses),
@@ -105,7 +105,7 @@ TEST_F(Average, ClosedForms) {
   const std::string apex = "quantity = \"y\"\ndisk = 0\nat = \"maximum\"\nbetween = [1.5, 2]\n";
   std::ofstream("case.toml") << with(apex + "expected = -4\nrelative = 0.1");
   const Case c = loadCase("case.toml").front();
-  const OwnEndpoint& one = c.average->endpoints.front();
+  const Endpoint& one = c.endpoints.front();
   EXPECT_EQ(one.expected, -4.0);
   EXPECT_EQ(one.disk, 0);
   EXPECT_EQ(one.reduction, Reduction::maximum);
@@ -114,7 +114,7 @@ TEST_F(Average, ClosedForms) {
   EXPECT_EQ(one.unit, "m");
   std::ofstream("case.toml") << with(
       "quantity = \"spin\"\ndisk = 0\nreaches = -3\nexpected = 1\nabsolute = 1");
-  EXPECT_EQ(loadCase("case.toml").front().average->endpoints.front().unit, "s");
+  EXPECT_EQ(loadCase("case.toml").front().endpoints.front().unit, "s");
 
   expectMessage(with(apex + "expected = 0\nrelative = 0.1"), "give absolute");
   expectMessage(scene + slabs + endpoint(apex + "expected = 1\nabsolute = 1"),
@@ -156,11 +156,11 @@ TEST_F(Average, StartFile_Csv) {
       scene.substr(0, scene.find("[[")) + "[assembly.start]\nfile = \"start.csv\"\ndensity = 2\n";
   std::ofstream("case.toml") << start;
   const Case c = loadCase("case.toml").front();
-  const Disks& disks = c.assembly.starts.disks.at(0);
+  const Disks& disks = assemblyIn<2>(c).starts.disks.at(0);
   ASSERT_EQ(disks.size(), 1u);
   EXPECT_EQ(disks.velocity[0].y(), -2.0);
   EXPECT_NEAR(disks.mass[0], 2.0 * 3.14159265358979 * 0.25, 1e-12);
-  EXPECT_EQ(c.assembly.walls.back().radii, std::vector<double>{0.25});
+  EXPECT_EQ(assemblyIn<2>(c).walls.back().radii, std::vector<double>{0.25});
   EXPECT_NE(c.resolvedToml.find(std::filesystem::absolute("start.csv").string()),
             std::string::npos);
   for (const auto& [text, message] :

@@ -14,8 +14,8 @@ namespace {
 
 Case cellOf(const char* name, int small, int large) {
   Case c = loadCase(std::filesystem::path(CROSSGRAIN_CASES) / "couette" / name).front();
-  c.particles.small = small;
-  c.particles.large = large;
+  couetteIn(c).particles.small = small;
+  couetteIn(c).particles.large = large;
   return c;
 }
 
@@ -36,8 +36,8 @@ TEST(CellEstimates, Pressure_AsInTrialRuns_NoneOfAGas) {
                          {"nu-0.804.toml", 215, 35, 530.0, true}}) {
     Case c = cellOf(row.file, row.small, row.large);
     if (row.quick) {
-      c.cell.innerRadius = 0.03;
-      c.cell.outerRadius = 0.075;
+      couetteIn(c).cell.innerRadius = 0.03;
+      couetteIn(c).cell.outerRadius = 0.075;
     }
     const auto pressure = expectedPressure(c, bulkVolumeFraction(c, volumeFraction(c)));
     ASSERT_EQ(pressure.has_value(), row.pressure > 0.0) << row.small;
@@ -54,7 +54,8 @@ TEST(CellEstimates, MadeUpPacking_FillsTheCell) {
   double area = 0.0;
   for (const double a : packing.disks.radius) area += a * a;
   EXPECT_GT(area / (0.2524 * 0.2524 - 0.1032 * 0.1032), 0.7);
-  EXPECT_NO_THROW(checkStart(couetteScene(c, packing, 1e-5), c.particles, "made up", &c.cell));
+  EXPECT_NO_THROW(checkStart(couetteScene(c, packing, 1e-5), couetteIn(c).particles, "made up",
+                             &couetteIn(c).cell));
 }
 
 TEST(Cautions, GasSqueezedDisksFewStepsNothingToJudge) {

@@ -232,7 +232,8 @@ TEST_F(LoaderErrors, Collision_OfAWall_HasNeitherItsSizeNorItsSpin) {
       {collision(12, "mass = 0.275e-3\nsecond = \"wall\"\nwall_velocity = 1"),
        "case.toml:14:17: collision.wall_velocity = 1: must be [along its normal, along it] in m/s"},
       {line(2, "kind = \"couette\"\ndimension = 3"),
-       "case.toml:3:13: case.dimension = 3: a couette cell is of the plane: collisions and assemblies are in space, too"},
+       "case.toml:3:13: case.dimension = 3: a couette cell is of the plane: collisions and "
+       "assemblies are in space, too"},
       {collision(2, "kind = \"collision\"\ndimension = 4"),
        "case.toml:3:13: case.dimension = 4: must be in [2, 3]"},
       {collision(12, "mass = 0.275e-3\nturn = [0, 0, 90]"),
@@ -355,7 +356,7 @@ TEST_F(LoaderErrors, ShippedCase_IsFoundFromAnywhere_AfterWhatLiesBesideTheFile)
   write("mine.toml", "[case]\nextends = \"cases/couette/nu-0.804.toml\"\n[law]\nmu = 0.3\n");
   EXPECT_EQ(loadCase("mine.toml").front().law.mu, 0.3);
   write("cases/couette/nu-0.804.toml", soundCase);
-  EXPECT_EQ(loadCase("mine.toml").front().particles.small, 210);
+  EXPECT_EQ(couetteIn(loadCase("mine.toml").front()).particles.small, 210);
 }
 
 TEST_F(LoaderErrors, CyclesOfExtends) {

@@ -141,14 +141,14 @@ template <int D>
 std::string stepped(Engine& engine, const Case& setup) {
   const double dt = timeStep(setup);
   if (!(std::isnormal(dt) && dt > 0.0)) return "dt";
-  if (setup.kind == CaseKind::collision) {
+  if (isCollision(setup)) {
     const auto starts = collisionStarts(setup);
     if constexpr (D == 2)
       return stepped<D>(engine, collisionScene(setup, starts, dt));
     else
       return stepped<D>(engine, spaceCollisionScene(setup, starts, dt));
   }
-  if (setup.kind == CaseKind::couette) {
+  if (cellOf(setup)) {
     checkPackings(setup, 1, dt);  // preparing it takes too long
     return {};
   }

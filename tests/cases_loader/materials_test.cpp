@@ -40,7 +40,7 @@ TEST_F(Materials, Pairs_HaveTheirConstantsAndTheRestOfTheLaw) {
   glass.gt = 0.3;
   EXPECT_EQ(setup.materials->laws, (std::vector{glass, mixed, mixed, setup.law}));
 
-  const Disks disks = diskKinds(setup.particles);
+  const Disks disks = diskKinds(couetteIn(setup).particles);
   Packing packing;
   packing.disks = disks;
   const Scene scene = couetteScene(setup, packing, 1e-5);

@@ -89,42 +89,43 @@ TEST_F(Scales, VolumeFraction_GivesNumbersOfDisks) {
                              {2545, 394}, {2560, 418}, {2588, 422}};
   for (const auto& [small, large] : rows) {
     Case c;
-    c.cell = {.innerRadius = 0.1032, .outerRadius = 0.2524, .height = 0.006};
-    c.particles.small = small;
-    c.particles.large = large;
-    c.particles.smallRadius = smallRadius;
-    c.particles.largeRadius = largeRadius;
+    couetteIn(c).cell = {.innerRadius = 0.1032, .outerRadius = 0.2524, .height = 0.006};
+    couetteIn(c).particles.small = small;
+    couetteIn(c).particles.large = large;
+    couetteIn(c).particles.smallRadius = smallRadius;
+    couetteIn(c).particles.largeRadius = largeRadius;
     const double fraction = volumeFraction(c);
-    setNumbers(c.cell, c.particles, fraction, static_cast<double>(large) / (small + large));
-    EXPECT_EQ(c.particles.small, small);
-    EXPECT_EQ(c.particles.large, large);
+    setNumbers(couetteIn(c).cell, couetteIn(c).particles, fraction,
+               static_cast<double>(large) / (small + large));
+    EXPECT_EQ(couetteIn(c).particles.small, small);
+    EXPECT_EQ(couetteIn(c).particles.large, large);
   }
 }
 
 TEST_F(Scales, ShareOfLargeDisks_ByNumberOrMass) {
   write("case.toml", particles(masses + "volume_fraction = 0.754\nlarge_number_share = 0.14\n"));
   const Case byNumber = loadCase("case.toml").front();
-  EXPECT_EQ(byNumber.particles.small, 210);
-  EXPECT_EQ(byNumber.particles.large, 34);
+  EXPECT_EQ(couetteIn(byNumber).particles.small, 210);
+  EXPECT_EQ(couetteIn(byNumber).particles.large, 34);
   EXPECT_NEAR(volumeFraction(byNumber), 0.754,
               0.5 * smallRadius * smallRadius / (0.075 * 0.075 - 0.03 * 0.03));
   // 34 · 0.49 g of 34 · 0.49 g + 210 · 0.275 g
   write("case.toml", particles(masses + "volume_fraction = 0.754\nlarge_mass_share = 0.2239\n"));
   const Case byMass = loadCase("case.toml").front();
-  EXPECT_EQ(byMass.particles.small, 210);
-  EXPECT_EQ(byMass.particles.large, 34);
+  EXPECT_EQ(couetteIn(byMass).particles.small, 210);
+  EXPECT_EQ(couetteIn(byMass).particles.large, 34);
   write("case.toml", particles(masses + "volume_fraction = 0.5\nlarge_number_share = 0\n"));
-  EXPECT_EQ(loadCase("case.toml").front().particles.large, 0);
+  EXPECT_EQ(couetteIn(loadCase("case.toml").front()).particles.large, 0);
   write("case.toml", particles(masses + "volume_fraction = 0.5\nlarge_mass_share = 1\n"));
-  EXPECT_EQ(loadCase("case.toml").front().particles.small, 0);
+  EXPECT_EQ(couetteIn(loadCase("case.toml").front()).particles.small, 0);
 }
 
 TEST_F(Scales, Density_GivesMasses) {
   write("case.toml", particles("density = 1060.0\nsmall = 210\nlarge = 34\n"));
   const Case c = loadCase("case.toml").front();
-  EXPECT_DOUBLE_EQ(c.particles.smallMass,
+  EXPECT_DOUBLE_EQ(couetteIn(c).particles.smallMass,
                    1060.0 * std::numbers::pi * smallRadius * smallRadius * 0.006);
-  EXPECT_NEAR(c.particles.largeMass, 0.404e-3, 0.0005e-3);  // facts 1.1
+  EXPECT_NEAR(couetteIn(c).particles.largeMass, 0.404e-3, 0.0005e-3);  // facts 1.1
 }
 
 TEST_F(Scales, BothForms_OrNone_AreRefused) {

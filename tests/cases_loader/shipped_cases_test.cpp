@@ -25,11 +25,11 @@ std::vector<Case> shipped(const std::string& name) {
 
 TEST(ShippedCases, ThesisCell_VolumeFraction) {
   const Case c = shipped("couette/nu-0.804.toml").front();
-  EXPECT_EQ(c.particles.small + c.particles.large, 2921);
+  EXPECT_EQ(couetteIn(c).particles.small + couetteIn(c).particles.large, 2921);
   EXPECT_NEAR(volumeFraction(c), 0.8041, 0.00005);  // facts 1.1, four digits
   EXPECT_EQ(timeStep(c), 4e-5);
   EXPECT_NEAR(contactTime(c.law, lightestReducedMass(c)), smallContactTime, 0.005e-3);
-  EXPECT_EQ(c.averaging.rings, 20);
+  EXPECT_EQ(couetteIn(c).times.rings, 20);
   EXPECT_EQ(c.averaging.margins.size(), 7u);
 }
 
@@ -117,10 +117,10 @@ TEST(ShippedCases, Figure43_FourLawsWithAndWithoutTension) {
   ASSERT_EQ(cases.size(), 8u);
   for (std::size_t k = 0; k < 8; ++k) {
     const Case& c = cases[k];
-    ASSERT_EQ(c.collision.psi.size(), 41u);
-    EXPECT_EQ(c.collision.psi.front(), 0.0);
-    EXPECT_DOUBLE_EQ(c.collision.psi[5], 0.5);
-    EXPECT_EQ(c.collision.psi.back(), 4.0);
+    ASSERT_EQ(collisionIn(c).psi.size(), 41u);
+    EXPECT_EQ(collisionIn(c).psi.front(), 0.0);
+    EXPECT_DOUBLE_EQ(collisionIn(c).psi[5], 0.5);
+    EXPECT_EQ(collisionIn(c).psi.back(), 4.0);
     EXPECT_EQ(c.variant, lawOptionValue(c.law, "tangential") +
                              (c.law.conventions.tension == Tension::cut ? "-cut" : "-tension"));
     // A spring stretched after the force lags by more than the margin at t_c/50.
@@ -136,7 +136,7 @@ TEST(ShippedCases, Hertz_ConstantsOfTheMaterials) {
   // Test 2 of Chung and Ooi: E₁₂ = E/(1 − ν²) of an elastic sphere on a rigid wall.
   const auto rigidWall = shipped("collision/chung-ooi-2.toml");
   EXPECT_NEAR(rigidWall.front().law.kn, 4.0 / 3.0 * 70e9 / (1.0 - 0.09), 1.0);
-  EXPECT_TRUE(rigidWall.front().collision.wall);
+  EXPECT_TRUE(collisionIn(rigidWall.front()).wall);
   // Test 4: both of one material, G₁₂ = E/(4 (1 + ν)(2 − ν)), k_t/k_n = 3 (1 − ν)/(2 − ν).
   const auto oblique = shipped("collision/chung-ooi-4.toml");
   const ContactLaw& law = oblique.front().law;

@@ -49,7 +49,7 @@ snapshots = 10
 TEST_F(Space, Assembly_IsRead) {
   std::ofstream("case.toml") << spheres + slabsAlongZ;
   const Case c = loadCase("case.toml").front();
-  const AssemblyOf<3>& assembly = c.spaceAssembly;
+  const AssemblyOf<3>& assembly = assemblyIn<3>(c);
   EXPECT_EQ(assembly.gravity, Vec3(0.0, 0.0, -1.0));
   EXPECT_EQ(assembly.inertiaFactor, 0.4);
   ASSERT_TRUE(assembly.box);
@@ -62,7 +62,7 @@ TEST_F(Space, Assembly_IsRead) {
   EXPECT_EQ(assembly.walls.at(0).position.size(), 30u);
   EXPECT_EQ(assembly.walls[0].position[6], Vec3(1.0, 1.0, -0.5));
   EXPECT_EQ(assembly.walls[0].motion.velocity, Vec3(-1.0, 0.0, 0.0));
-  const Region& region = c.average->region;
+  const Region& region = *c.region;
   EXPECT_EQ(region.axis, 2);
   EXPECT_EQ(region.binCount(), 4);
   EXPECT_EQ(region.high, Vec3(5.0, 6.0, 4.0));
@@ -71,7 +71,7 @@ TEST_F(Space, Assembly_IsRead) {
 TEST_F(Space, GridAlongOtherAxes) {
   std::ofstream("case.toml") << withLine(
       spheres, gridLine, "grid = { columns = 2, rows = 5, layers = 2, axes = \"xzy\" }");
-  const auto places = loadCase("case.toml").front().spaceAssembly.disks.at(0).places;
+  const auto places = assemblyIn<3>(loadCase("case.toml").front()).disks.at(0).places;
   ASSERT_EQ(places.size(), 20u);
   EXPECT_EQ(places[2], Vec3(0.0, 0.0, 1.0));   // rows along z
   EXPECT_EQ(places[10], Vec3(0.0, 1.0, 0.0));  // layers along y
@@ -86,7 +86,7 @@ radius = 0.5
 [[assembly.walls]]
 cylinder = { axis = [0, 1, 0], radius = 50 }
 )";
-  const auto walls = loadCase("case.toml").front().spaceAssembly.walls;
+  const auto walls = assemblyIn<3>(loadCase("case.toml").front()).walls;
   ASSERT_EQ(walls.size(), 3u);
   ASSERT_EQ(walls[1].cylinders.size(), 1u);
   EXPECT_EQ(walls[1].cylinders[0].point, Vec3(1.0, 2.0, 3.0));
@@ -123,7 +123,7 @@ TEST_F(Space, Circles_AreFilledFromTheInnerToTheOuter) {
   const auto places = [](const std::string& table) {
     std::ofstream("case.toml") << withLine(
         withLine(spheres, gridLine, "circles = { " + table + " }"), chooseLine, "");
-    return loadCase("case.toml").front().spaceAssembly.disks.at(0).places;
+    return assemblyIn<3>(loadCase("case.toml").front()).disks.at(0).places;
   };
   // 1 in the middle, 6 at one diameter, 12 at two: their chords 2 r sin(π/n) are 1 and 1.04.
   const auto disk = places("outer = 2, layers = 2, rise = 1.5");
@@ -233,7 +233,7 @@ TEST_F(Space, WallStress_IsOfTwoWalls_AndAForceOfOne) {
   expectMessage(closed + endpoint("quantity = \"force_x\"\nwall = 2"), "there are 2 walls");
   expectMessage(closed + endpoint("quantity = \"mean_z\"\narea = 2.0"), "is of one wall");
   std::ofstream("case.toml") << closed + endpoint(normal + "plane = 2\narea = 30.0");
-  const OwnEndpoint own = loadCase("case.toml").front().average->endpoints.at(0);
+  const Endpoint own = loadCase("case.toml").front().endpoints.at(0);
   EXPECT_EQ(own.unit, "N/m²");
   EXPECT_EQ(own.series(), "wall_1_plane_2_normal_force");
 }
@@ -271,13 +271,13 @@ TEST_F(Space, Start_IsReadWithItsThirdColumns) {
   write("s.csv", "x,y,z,radius,vz,spin_x,spin_z,fixed\n1,2,3,0.5,4,5,6,0\n1,2,4,0.25,0,0,0,1\n");
   std::ofstream("case.toml") << start;
   const Case c = loadCase("case.toml").front();
-  const DisksOf<3>& disks = c.spaceAssembly.starts.disks.at(0);
+  const DisksOf<3>& disks = assemblyIn<3>(c).starts.disks.at(0);
   ASSERT_EQ(disks.size(), 1u);
   EXPECT_EQ(disks.position[0], Vec3(1.0, 2.0, 3.0));
   EXPECT_EQ(disks.velocity[0], Vec3(0.0, 0.0, 4.0));
   EXPECT_EQ(disks.spin[0], Vec3(5.0, 0.0, 6.0));
   EXPECT_NEAR(disks.mass[0], 0.5 * 3.14159265358979323846, 1e-15);
-  EXPECT_EQ(c.spaceAssembly.walls.back().position.at(0), Vec3(1.0, 2.0, 4.0));
+  EXPECT_EQ(assemblyIn<3>(c).walls.back().position.at(0), Vec3(1.0, 2.0, 4.0));
   write("s.csv", "x,y,radius\n1,2,0.5\n");
   expectMessage(start, "s.csv:1: there is no column z");
   write("s.csv", "x,y,z,radius,spin\n1,2,3,0.5,1\n");

@@ -38,7 +38,7 @@ TEST(ThesisCases, AllLoadAreNamedAsTheirFilesAndBeginWhenTheRingHasClosed) {
     ASSERT_EQ(cases.size(), 1u) << entry.path();
     EXPECT_EQ(cases.front().name, entry.path().stem());
     EXPECT_TRUE(cases.front().warnings.empty()) << entry.path();
-    EXPECT_EQ(cases.front().preparation.rotations, 0.0) << entry.path();
+    EXPECT_EQ(couetteIn(cases.front()).filling.rotations, 0.0) << entry.path();
     ++count;
   }
   EXPECT_EQ(count, 17 + 1 + 15 + 8 + 7);  // packings, base, rates, twenty rotations, readings
@@ -49,12 +49,12 @@ TEST(ThesisCases, PackingsAreThoseOfTheTable) {
     char name[64];
     std::snprintf(name, sizeof name, "nu-%.3f-%d-%d", row.nu, row.small, row.large);
     const Case c = thesisCase(name);
-    EXPECT_EQ(c.particles.small, row.small);
-    EXPECT_EQ(c.particles.large, row.large);
+    EXPECT_EQ(couetteIn(c).particles.small, row.small);
+    EXPECT_EQ(couetteIn(c).particles.large, row.large);
     EXPECT_NEAR(volumeFraction(c), row.nu, 0.00075) << name;  // facts 1.1
-    EXPECT_EQ(c.cell.omega, 0.1);
-    EXPECT_EQ(c.averaging.settleRotations, 5.0);
-    EXPECT_EQ(c.averaging.rotations, 3.0);
+    EXPECT_EQ(couetteIn(c).cell.omega, 0.1);
+    EXPECT_EQ(couetteIn(c).times.settleRotations, 5.0);
+    EXPECT_EQ(couetteIn(c).times.rotations, 3.0);
   }
 }
 
@@ -77,8 +77,10 @@ TEST(ThesisCases, AnotherStiffnessKeepsRestitutionAndStepsPerContact) {
 
 TEST(ThesisCases, InterpretationsDifferInOneThing) {
   const Case own = thesisCase("nu-0.804-2511-410");
-  EXPECT_EQ(wallDiskCount(thesisCase("spacing-7mm").cell, own.cell.innerRadius), 93);
-  EXPECT_EQ(thesisCase("large-mass-0.404g").particles.largeMass, 0.404e-3);
+  EXPECT_EQ(
+      wallDiskCount(couetteIn(thesisCase("spacing-7mm")).cell, couetteIn(own).cell.innerRadius),
+      93);
+  EXPECT_EQ(couetteIn(thesisCase("large-mass-0.404g")).particles.largeMass, 0.404e-3);
   EXPECT_NEAR(volumeFraction(thesisCase("small-radius-3.71mm")), 0.8076, 0.00005);  // facts 1.1
   EXPECT_FALSE(thesisCase("no-bottom").bottom);
   EXPECT_EQ(thesisCase("no-friction").law.mu, 0.0);
@@ -94,7 +96,7 @@ TEST(Sweeps, OfTheThesisHoldEveryRowOfItsTableFirst_BeginningWithNineThatSpanIt)
     const SweepCase& own = sweep.cases[step.setup];
     if (table.size() < 9) nine.insert(own.label);
     table.emplace(row.nu, row.small);
-    first.emplace(own.label, own.setup.particles.small);
+    first.emplace(own.label, couetteIn(own.setup).particles.small);
     EXPECT_EQ(step.packing, 0);
   }
   EXPECT_EQ(first, table);
@@ -111,7 +113,7 @@ TEST(Sweeps, HaveEveryFamilyAndLabelCasesByTheirDisks) {
     for (const SweepCase& own : sweep.cases) {
       for (const std::string& family : own.families) ++legs[family];
       Case printed = own.setup;
-      printed.particles.smallRadius = 0.0037;
+      couetteIn(printed).particles.smallRadius = 0.0037;
       EXPECT_NEAR(volumeFraction(printed), own.label, 0.00075) << own.name;
     }
     for (const char* family : sweepFamilies) EXPECT_GE(legs[family], 2) << file << " " << family;
@@ -152,9 +154,9 @@ TEST_F(SweepFiles, CasesAreNamedAfterTheirFilesAndChangedInLayers) {
   ASSERT_EQ(sweep.cases.size(), 1u);
   const SweepCase& own = sweep.cases.front();
   EXPECT_EQ(own.name, "cell");
-  EXPECT_EQ(own.setup.cell.omega, 3.0);
+  EXPECT_EQ(couetteIn(own.setup).cell.omega, 3.0);
   EXPECT_EQ(own.setup.law.mu, 0.1);
-  EXPECT_EQ(own.setup.particles.large, 30);
+  EXPECT_EQ(couetteIn(own.setup).particles.large, 30);
   EXPECT_EQ(sweep.rules, "rules.toml");
 }
 

@@ -34,12 +34,12 @@ TEST(ContactTime, RigidOrOverdamped_Throws) {
 TEST(TimeStep, IsGivenOrAFractionOfTheLightestContact) {
   Case c;
   c.law = thesisLaw();
-  c.particles.small = 10;
-  c.particles.large = 5;
-  c.particles.smallMass = smallMass;
-  c.particles.largeMass = largeMass;
+  couetteIn(c).particles.small = 10;
+  couetteIn(c).particles.large = 5;
+  couetteIn(c).particles.smallMass = smallMass;
+  couetteIn(c).particles.largeMass = largeMass;
   EXPECT_NEAR(timeStep(c), 43.5e-6, 0.05e-6);  // t_c/50, rounded to 44 µs in the thesis' digest
-  c.particles.small = 0;                       // √(m_l/m_s) longer, up to the damping's share
+  couetteIn(c).particles.small = 0;            // √(m_l/m_s) longer, up to the damping's share
   EXPECT_GT(timeStep(c), 55e-6);
   c.run.dt = 4e-5;
   EXPECT_EQ(timeStep(c), 4e-5);
@@ -47,10 +47,10 @@ TEST(TimeStep, IsGivenOrAFractionOfTheLightestContact) {
 
 TEST(TimeStep, Collision_OnePerSweep) {
   Case c;
-  c.kind = CaseKind::collision;
+  c.source = Collision();
   c.law = thesisLaw();
-  c.collision.mass[0] = c.collision.mass[1] = smallMass;
-  c.collision.stepsPerContact = {50, 1000};
+  collisionIn(c).mass[0] = collisionIn(c).mass[1] = smallMass;
+  collisionIn(c).stepsPerContact = {50, 1000};
   const auto steps = collisionTimeSteps(c);
   ASSERT_EQ(steps.size(), 2u);
   EXPECT_DOUBLE_EQ(steps[0], 20.0 * steps[1]);
@@ -59,15 +59,15 @@ TEST(TimeStep, Collision_OnePerSweep) {
 
 TEST(TimeStep, Hertz_IsAFractionOfTheFastestImpact) {
   Case c;
-  c.kind = CaseKind::collision;
+  c.source = Collision();
   c.law = thesisLaw();
   c.law.normal = NormalLaw::hertz;
   c.law.kn = 1e6;
   c.law.gn = 0.0;
-  c.collision.mass[0] = c.collision.mass[1] = smallMass;
-  c.collision.radius[0] = c.collision.radius[1] = smallRadius;
-  c.collision.psi = {0.0};
-  c.collision.vn = {0.1, 3.2};
+  collisionIn(c).mass[0] = collisionIn(c).mass[1] = smallMass;
+  collisionIn(c).radius[0] = collisionIn(c).radius[1] = smallRadius;
+  collisionIn(c).psi = {0.0};
+  collisionIn(c).vn = {0.1, 3.2};
   // t ∝ v^(−1/5) (Johnson 1985, Eq. 11.24): 32^(1/5) = 2
   const auto [shortest, longest] = impactTimes(c);
   EXPECT_NEAR(longest, 2.0 * shortest, 1e-9 * longest);
@@ -88,10 +88,10 @@ TEST(Nearest, IsThatOfTheFewestEdits_NoneIfAllAreFar) {
 Case thesisCell() {
   Case c;
   c.law = thesisLaw();
-  c.particles.small = 10;
-  c.particles.smallRadius = smallRadius;
-  c.particles.smallMass = smallMass;
-  c.cell = {.innerRadius = 0.1, .outerRadius = 0.2, .height = 0.006, .omega = 1.0};
+  couetteIn(c).particles.small = 10;
+  couetteIn(c).particles.smallRadius = smallRadius;
+  couetteIn(c).particles.smallMass = smallMass;
+  couetteIn(c).cell = {.innerRadius = 0.1, .outerRadius = 0.2, .height = 0.006, .omega = 1.0};
   return c;
 }
 
@@ -194,7 +194,7 @@ TEST(StepLimit, EngineBelowIt_Stays_BeyondIt_BlowsUp) {
         Term{0.3, 10.0, 0.0, predicted, before, false},
         Term{0.3, 10.0, 0.0, lagged, before, false}}) {
     Case c;
-    c.kind = CaseKind::assembly;
+    c.source = Assembly();
     c.law.tangential = TangentialLaw::springDashpot;
     c.law.kn = 1000.0;
     c.law.gn = term.gn;
@@ -209,11 +209,11 @@ TEST(StepLimit, EngineBelowIt_Stays_BeyondIt_BlowsUp) {
     const double resting = disk.mass * 1e4 / c.law.kn;  // so deep that no contact is lost
     disk.position = {0.0, disk.radius - (term.tangential ? 1.0 : 1.0 + 1e-9) * resting};
     disk.velocity = {term.tangential ? 1e-9 : 0.0, 0.0};
-    c.assembly.disks = {disk};
+    assemblyIn<2>(c).disks = {disk};
     WallGroup floor;
     floor.planes.push_back({.point = Vec2::Zero(), .normal = {0.0, 1.0}});
-    c.assembly.walls = {floor};
-    c.assembly.gravity = {0.0, -1e4};
+    assemblyIn<2>(c).walls = {floor};
+    assemblyIn<2>(c).gravity = {0.0, -1e4};
     c.run.dt = 1e-6;
     const auto limit = pairStepLimit(c);
     ASSERT_TRUE(limit);
@@ -244,7 +244,7 @@ TEST(StepLimit, Hertz_FollowsTheDeepestImpact_RigidLawsAndCollisionsHaveNone) {
   EXPECT_FALSE(pairStepLimit(c));
   EXPECT_EQ(unstableStepFault(c, 1.0, "run.dt"), "");
   c.law = thesisLaw();
-  c.kind = CaseKind::collision;
+  c.source = Collision();
   EXPECT_FALSE(pairStepLimit(c));
 }
 

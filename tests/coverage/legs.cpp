@@ -81,10 +81,11 @@ std::vector<WindowRun> run(const Case& setup, const Packing& packing, int index,
   engine->load(scene, {});
 
   const double rotation = rotationTime(setup);
-  const double length = setup.averaging.rotations;
-  const int samples = static_cast<int>(std::lround(length * setup.averaging.snapshotsPerRotation));
+  const double length = couetteIn(setup).times.rotations;
+  const int samples =
+      static_cast<int>(std::lround(length * couetteIn(setup).times.snapshotsPerRotation));
   const double interval = length * rotation / samples;
-  double now = setup.averaging.settleRotations * rotation;
+  double now = couetteIn(setup).times.settleRotations * rotation;
   const auto methods = weightsOf(setup, std::span(setup.averaging.methods).first(1));
   ProfileAccumulator all(ringsOf(setup), methods, scene);
   std::vector<WindowRun> entries;

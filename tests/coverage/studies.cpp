@@ -111,7 +111,7 @@ PairedSample shiftedSample(const Case& setup, const std::string& name, const Run
                            const Runs& other, std::size_t packings,
                            const std::vector<std::size_t>& order, std::size_t first, int group,
                            double margins) {
-  const EndpointSpec& endpoint = endpointSpec(name);
+  const Endpoint& endpoint = endpointNamed(name);
   const auto values = [&](const Runs& runs) {
     return pick(endpointByPacking(endpoint, setup, runs, packings), order, first, group);
   };
@@ -147,7 +147,7 @@ std::vector<Rate> withinRuns(const Case& setup, const std::vector<WindowRun>& en
   std::map<int, const WindowRun*> whole;
   std::map<int, std::map<int, const WindowRun*>> windows;
   for (const WindowRun& entry : entries) {
-    if (entry.rotations == setup.averaging.rotations)
+    if (entry.rotations == couetteIn(setup).times.rotations)
       windows[entry.packing][entry.window] = &entry;
     else
       whole[entry.packing] = &entry;
@@ -301,8 +301,8 @@ std::vector<Rate> power(const Sample& sample, int group) {
   std::vector<Rate> rates;
   for (std::size_t k = 0; k < family.field.size(); ++k) {
     const PairedTest all = testedRing(family.margin[k], family.reference[k], family.other[k]);
-    const double shift =
-        *smallestDetectable(deviationOf(all) / std::sqrt(group), group - 1, all.sample.margin, level);
+    const double shift = *smallestDetectable(deviationOf(all) / std::sqrt(group), group - 1,
+                                             all.sample.margin, level);
     Tally tally;
     const int independent = forEachGroup(
         sample, "again", group, [&](const std::vector<std::size_t>& order, std::size_t first) {

@@ -47,7 +47,7 @@ Health healthOf(const Case& setup, const Scene& scene, const Snapshot& now) {
     momentum += scene.disks.mass[i] * now.velocity[i];
     mass += scene.disks.mass[i];
   }
-  const double rim = std::abs(setup.cell.omega) * setup.cell.innerRadius;
+  const double rim = couetteIn(setup).cell.rimSpeed();
   const double smallest = *std::ranges::min_element(scene.disks.radius);
   const EnergyLedger& ledger = now.ledger.value();
   return {std::abs(residual(ledger)) / throughput(ledger), momentum.norm() / (mass * rim),
@@ -78,8 +78,8 @@ int main(int argc, char** argv) {
     const bool within = health.residual <= residualBound && health.momentum <= momentumBound;
     fmt::print(
         "{:.0f} steps, {:.3g} rotations: residual {:.2e}, momentum {:.2e}, overlap {:.2e}{}\n",
-        done, done * effective.dt * setup.cell.omega / (2.0 * std::numbers::pi), health.residual,
-        health.momentum, health.overlap, within ? "" : "  OUT OF BOUNDS");
+        done, done * effective.dt * couetteIn(setup).cell.omega / (2.0 * std::numbers::pi),
+        health.residual, health.momentum, health.overlap, within ? "" : "  OUT OF BOUNDS");
     std::fflush(stdout);
     sound = sound && within;
   }

@@ -238,12 +238,12 @@ TEST(CohesionOracle, ViscousForceEqualToItsBound_Slips) {
 /// end is that of the bond, beyond δ = 0; what sticks has no end.
 TEST(CohesionOracle, Engine_MeetsItAndSticksWhereItDoes) {
   Case setup;
-  setup.kind = CaseKind::collision;
+  setup.source = Collision();
   for (const int side : {0, 1}) {
-    setup.collision.radius[side] = 0.5;
-    setup.collision.mass[side] = 1.0;
+    collisionIn(setup).radius[side] = 0.5;
+    collisionIn(setup).mass[side] = 1.0;
   }
-  setup.collision.inertiaFactor = 0.4;
+  collisionIn(setup).inertiaFactor = 0.4;
   ContactLaw area = elastoPlastic(0.0);
   area.cohesion = CohesionLaw::area;
   area.kc = 2e3;
@@ -254,7 +254,7 @@ TEST(CohesionOracle, Engine_MeetsItAndSticksWhereItDoes) {
       for (const double speed : {1.0, 6.0}) {
         setup.law = law;
         setup.law.conventions.integrator = Integrator::velocityVerlet;
-        setup.collision.wall = wall;
+        collisionIn(setup).wall = wall;
         const CollidingPair pair = collidingPair(setup);
         const CollisionStart start{0.5, speed, Approach::oblique};
         const CollisionEnd expected = oracleOutcome(setup.law, pair, start);
@@ -333,8 +333,8 @@ TEST(RandomCohesion, Oracle_ClosesTheAccountAndIsWhatSmallStepsGive) {
     Collision c;
     drawPair(draw, c);
     Case setup;
-    setup.collision = c;
-    setup.collision.wall = draw.oneOf({false, true});
+    collisionIn(setup) = c;
+    collisionIn(setup).wall = draw.oneOf({false, true});
     const CollidingPair pair = collidingPair(setup);
     ContactLaw law = randomCohesion(draw, pair);
     const CollisionStart start{draw.uniform(0.0, 3.0), speedFor(draw, law, pair),

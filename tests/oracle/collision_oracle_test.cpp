@@ -113,8 +113,8 @@ TEST(CollisionOracle, SaysWhereTheLawHasNoLimitOfSmallSteps) {
   // Spring and dashpot near the transition: the in-house engine settles at Ψ_i = 1.65; at 1.75 ever
   // smaller steps go on giving other outcomes.
   Case setup = smallPairCase();
-  setup.collision.radius[1] = 3.0 * smallRadius;
-  setup.collision.mass[1] = 20.0 * smallMass;
+  collisionIn(setup).radius[1] = 3.0 * smallRadius;
+  collisionIn(setup).mass[1] = 20.0 * smallMass;
   const auto spread = [&](const CollisionStart& start) {
     double low = INFINITY, high = -INFINITY;
     for (const double steps : {1e4, 3e4, 1e5, 3e5}) {

@@ -19,8 +19,8 @@ using test::Draw;
 /// the uncut law), k_t/k_n from 0.1 to 1.5, µ from 0 to 2.
 Case randomCase(Draw& draw) {
   Case setup;
-  setup.kind = CaseKind::collision;
-  Collision& c = setup.collision;
+  setup.source = Collision();
+  Collision& c = collisionIn(setup);
   drawPair(draw, c);
   c.approach = draw.oneOf({Approach::spin, Approach::oblique});
   ContactLaw& law = setup.law;
@@ -58,7 +58,7 @@ CollisionStart randomStart(Draw& draw, const Case& setup) {
   const CollidingPair pair = collidingPair(setup);
   const double time = std::sqrt(pair.reducedMass() / setup.law.kn);
   const double overlap = std::min(pair.radius[0], pair.radius[1]) * draw.logarithmic(1e-4, 1e-2);
-  return {draw.uniform(0.0, 4.0), overlap / time, setup.collision.approach};
+  return {draw.uniform(0.0, 4.0), overlap / time, collisionIn(setup).approach};
 }
 
 TEST(RandomCollisions, OfTheOracleGainNoEnergyAndCloseTheAccount) {

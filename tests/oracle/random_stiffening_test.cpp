@@ -23,8 +23,8 @@ using test::Draw;
 /// gain energy where the stiffness is constant.
 Case randomStiffeningCase(Draw& draw) {
   Case setup;
-  setup.kind = CaseKind::collision;
-  Collision& c = setup.collision;
+  setup.source = Collision();
+  Collision& c = collisionIn(setup);
   c.wall = draw.oneOf({false, true});
   drawPair(draw, c);
   c.approach = draw.oneOf({Approach::spin, Approach::firstSpin, Approach::oblique});
@@ -59,7 +59,7 @@ CollisionStart randomStart(Draw& draw, const Case& setup) {
                                                                                            : high) =
         middle;
   }
-  return {draw.uniform(0.0, 4.0), low, setup.collision.approach};
+  return {draw.uniform(0.0, 4.0), low, collisionIn(setup).approach};
 }
 
 TEST(RandomStiffening, OfTheOracleCloseTheAccountAndAreOdd) {

@@ -217,8 +217,8 @@ TEST(RollingOracle, OutsideWithSpringOnly_SpringFasterThanItsBound_TurnsTheDiskO
 /// torque.
 TEST(RollingOracle, Engine_MeetsIt) {
   Case setup = smallPairCase();
-  setup.collision.radius[1] = 2.0 * smallRadius;
-  setup.collision.mass[1] = 4.0 * smallMass;
+  collisionIn(setup).radius[1] = 2.0 * smallRadius;
+  collisionIn(setup).mass[1] = 4.0 * smallMass;
   setup.law.tangential = TangentialLaw::spring;
   setup.law.muR = 0.1;
   setup.law.kr = 0.3 * setup.law.kn;
@@ -230,7 +230,7 @@ TEST(RollingOracle, Engine_MeetsIt) {
       for (const double psi : {0.0, 0.3, 2.0}) {
         setup.law.rolling = kind;
         setup.law.gr = kind == RollingLaw::viscous ? 0.5 * setup.law.gn : 0.0;
-        setup.collision.wall = wall;
+        collisionIn(setup).wall = wall;
         const CollidingPair pair = collidingPair(setup);
         const CollisionStart start{psi, 0.01, Approach::oblique, wall ? 0.0 : 1.0};
         const CollisionEnd expected = oracleOutcome(setup.law, pair, start);
@@ -294,8 +294,8 @@ TEST(RandomRolling, Oracle_ClosesTheAccountAndIsWhatSmallStepsGive) {
   for (int k = 0; k < 160; ++k) {
     SCOPED_TRACE(k);
     Case setup;
-    drawPair(draw, setup.collision);
-    setup.collision.wall = draw.oneOf({false, true});
+    drawPair(draw, collisionIn(setup));
+    collisionIn(setup).wall = draw.oneOf({false, true});
     const CollidingPair pair = collidingPair(setup);
     const ContactLaw law = randomRolling(draw, pair);
     const double time = contactTime(law, pair.reducedMass());

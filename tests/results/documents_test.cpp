@@ -156,7 +156,7 @@ TEST(Documents, UnitsAndNamesOfAllTablesAreReadBack) {
   };
   for (const StabilityMeasure& each : stabilityMeasures()) readable(each.name, each.unit);
   for (const FieldSpec& each : fieldTable()) readable(each.name, each.unit);
-  for (const EndpointSpec& each : endpointTable()) readable(each.name, each.unit);
+  for (const Endpoint& each : endpointTable()) readable(each.name, each.unit);
 }
 
 }  // namespace

@@ -22,8 +22,8 @@ struct Sides {
 Sides collide(const ContactLaw& law, double psi, double stepsPerContact) {
   Case setup = test::smallPairCase();
   setup.law = law;
-  setup.collision.psi = {psi};
-  setup.collision.vn = {0.01};
+  collisionIn(setup).psi = {psi};
+  collisionIn(setup).vn = {0.01};
   setup.run.energyLedger = true;
   const auto starts = collisionStarts(setup);
   const auto engine = makeGrain();
@@ -88,8 +88,8 @@ TEST(LedgerAgainstOracleOfHertz, StiffeningIsTheOracles) {
 
 TEST(EnergyLedgers, AreAbsentWhereNobodyAsks) {
   Case setup = test::smallPairCase();
-  setup.collision.psi = {1.0};
-  setup.collision.vn = {0.01};
+  collisionIn(setup).psi = {1.0};
+  collisionIn(setup).vn = {0.01};
   const auto engine = makeGrain();
   EXPECT_TRUE(engine->capabilities().energyLedger);
   engine->load(collisionScene(setup, collisionStarts(setup), 1e-6), {});

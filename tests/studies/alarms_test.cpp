@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cases/couette.hpp"
 #include "tests/studies/flow_runs.hpp"
 
 namespace crossgrain {
@@ -13,11 +14,11 @@ using Alarms = std::vector<std::string>;
 Alarms alarmsAt(CompareResults results, const std::vector<EndpointRow>& rows = {}) {
   results.endpoints.rows = rows;
   Case oneRing;
-  oneRing.cell.innerRadius = 1.0;
-  oneRing.cell.outerRadius = 2.0;
-  oneRing.cell.height = 1.0;
-  oneRing.particles.smallRadius = 0.1;
-  oneRing.averaging.rings = 1;
+  Couette& cell = couetteIn(oneRing);
+  cell.cell = {.innerRadius = 1.0, .outerRadius = 2.0, .height = 1.0, .omega = 1.0};
+  cell.particles.smallRadius = 0.1;
+  cell.times.rings = 1;
+  setFlowOfCell(oneRing);
   Alarms what;
   for (const AlarmRow& alarm : alarmsOf(oneRing, results)) what.push_back(alarm.what);
   return what;

@@ -18,7 +18,7 @@ Case sweepCase(LeverArm arm = LeverArm::radius, VelocityArm ofVelocity = Velocit
   setup.law.conventions.springUpdate = SpringUpdate::before;
   setup.law.conventions.leverArm = arm;
   setup.law.conventions.velocityArm = ofVelocity;
-  setup.collision.margins.clear();
+  collisionIn(setup).margins.clear();
   setup.run.mayDiffer = {"integrator", "damping_velocity"};
   return setup;
 }

@@ -58,13 +58,13 @@ TEST(Score, EveryQuantityWithinItsMargin_Passes) {
   const auto verdict = [&](const Outcomes& outcomes) {
     return scoreSweep(setup, starts, outcomes, oracle).verdict;
   };
-  setup.collision.margins["psi_f"] = {0.11, false, "in its own unit", ""};
+  collisionIn(setup).margins["psi_f"] = {0.11, false, "in its own unit", ""};
   EXPECT_EQ(verdict(found), Verdict::pass);
-  setup.collision.margins["max_overlap"] = {0.1, true, "a tenth of the largest", ""};
+  collisionIn(setup).margins["max_overlap"] = {0.1, true, "a tenth of the largest", ""};
   EXPECT_EQ(verdict(found), Verdict::fail);
-  setup.collision.margins["max_overlap"].value = 0.3;
+  collisionIn(setup).margins["max_overlap"].value = 0.3;
   EXPECT_EQ(verdict(found), Verdict::pass);
-  setup.collision.margins["duration"] = {0.1, true, "nobody knows it", ""};
+  collisionIn(setup).margins["duration"] = {0.1, true, "nobody knows it", ""};
   EXPECT_EQ(verdict(found), Verdict::pass);
   Outcomes one = found;
   one[1].reset();
@@ -73,7 +73,7 @@ TEST(Score, EveryQuantityWithinItsMargin_Passes) {
 
 TEST(Score, MostReferencesMissing_NothingIsJudged) {
   Case setup = test::smallPairCase();
-  setup.collision.margins["psi_f"] = {0.11, false, "in its own unit", ""};
+  collisionIn(setup).margins["psi_f"] = {0.11, false, "in its own unit", ""};
   const std::vector<CollisionStart> starts(4, {1.0, 0.1, Approach::spin});
   const Outcomes found = outcomes({0.0, 2.1, 3.0, 9.0}, 1e-6);
   Outcomes oracle = outcomes({0.0, 2.0, 2.0, 2.0}, 1e-6);
@@ -89,8 +89,8 @@ TEST(Score, MostReferencesMissing_NothingIsJudged) {
 
 TEST(Score, WhatIsBeyondALimitByNoMoreThanRounding_IsNotJudged) {
   Case setup = test::smallPairCase();
-  setup.collision.margins["psi_f"] = {0.1, false, "in its own unit", ""};
-  setup.collision.margins["max_overlap"] = {0.1, true, "a tenth of the largest", ""};
+  collisionIn(setup).margins["psi_f"] = {0.1, false, "in its own unit", ""};
+  collisionIn(setup).margins["max_overlap"] = {0.1, true, "a tenth of the largest", ""};
   const std::vector<CollisionStart> starts(2, {1.0, 0.1, Approach::spin});
   const Outcomes oracle = outcomes({0.0, 2.0}, 1e-6);
   const auto verdict = [&](double psi, double overlap, double rounding) {

@@ -29,7 +29,7 @@ TEST(CollisionInSpace, ShippedCase_PassesAndConverges) {
   for (const char* const name : {"in-plane", "out-of-plane", "twist", "dashpot", "wall"}) {
     SCOPED_TRACE(name);
     const Case setup = variantOf(name);
-    const double steps = setup.collision.stepsPerContact.front();
+    const double steps = collisionIn(setup).stepsPerContact.front();
     const CollisionCurve coarse = sweptAt(setup, steps), fine = sweptAt(setup, 8.0 * steps);
     EXPECT_EQ(coarse.score.verdict, Verdict::pass);
     EXPECT_TRUE(fine.allParted());
@@ -98,7 +98,7 @@ TEST(CollisionInSpace, InertiaOfADisk_IsFound) {
   Case disks = variantOf("in-plane");
   const auto starts = collisionStarts(disks);
   const OracleCurve spheres = oracleCurve(disks, starts);
-  disks.collision.inertiaFactor = 0.5;
+  collisionIn(disks).inertiaFactor = 0.5;
   const CollisionCurve curve =
       runSweep(*test::inHouse.make(), test::inHouse, disks, impactTimes(disks).shortest / 200.0,
                starts, spheres, false);

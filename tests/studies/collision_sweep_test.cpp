@@ -33,7 +33,7 @@ TEST(CollisionSweep, WholeCurve_IsScoredInUnitsOfItsRange) {
   const double range = oracle.ends[4]->psi - oracle.ends[1]->psi;
   EXPECT_GE(error * range + 1e-15,
             std::abs(held.points.at(QuantityId::psiF, 4).value() - oracle.ends[4]->psi));
-  setup.collision.margins["psi_f"].value = 1e-9;
+  collisionIn(setup).margins["psi_f"].value = 1e-9;
   EXPECT_EQ(test::swept(setup, test::smallContactTime / 50.0).score.verdict, Verdict::fail);
 }
 
@@ -68,8 +68,8 @@ Case sweepThatJumps(const std::vector<double>& psi) {
   setup.law.kt = 100.6;
   setup.law.gt = 0.0059;
   setup.law.conventions.springUpdate = SpringUpdate::midpoint;
-  setup.collision.vn = {1e-3};
-  setup.collision.margins["psi_f"] = {0.02, true, "because", ""};
+  collisionIn(setup).vn = {1e-3};
+  collisionIn(setup).margins["psi_f"] = {0.02, true, "because", ""};
   return setup;
 }
 constexpr double jumpingContactTime = 1.9643e-3;
@@ -109,7 +109,7 @@ TEST(CollisionSweep, StartBesideAJump_WithinTheMargin_IsNotJudged) {
   setup.law.tangential = TangentialLaw::spring;
   setup.law.conventions.tension = Tension::cut;
   const auto unsure = [&](double margin) {
-    setup.collision.margins["psi_f"].value = margin;
+    collisionIn(setup).margins["psi_f"].value = margin;
     return oracleCurve(setup, collisionStarts(setup)).unsure;
   };
   const auto wide = unsure(0.03);

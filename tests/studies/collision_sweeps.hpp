@@ -11,9 +11,9 @@ namespace crossgrain::test {
 /// Two small disks that meet at 0.01 m/s with these Ψ_i, judged by Ψ_f within 0.01.
 inline Case smallPairSweep(const std::vector<double>& psi) {
   Case setup = smallPairCase();
-  setup.collision.psi = psi;
-  setup.collision.vn = {0.01};
-  setup.collision.margins["psi_f"] = {0.01, false, "because", ""};
+  collisionIn(setup).psi = psi;
+  collisionIn(setup).vn = {0.01};
+  collisionIn(setup).margins["psi_f"] = {0.01, false, "because", ""};
   return setup;
 }
 

@@ -104,7 +104,7 @@ TEST(CostCollision, ThesisScheme_ConvergesAtFirstOrder) {
 /// same by an independent integration: 2.97 % at t_c/50, 1.5 % at t_c/100, 1.0 % at t_c/150.
 TEST(CostCollision, Restitution_ErrsByHalfTheDashpotsJumpOfAStep) {
   const Case setup = test::costCase();
-  const double reducedMass = 0.5 * setup.particles.smallMass;
+  const double reducedMass = 0.5 * couetteIn(setup).particles.smallMass;
   for (const double steps : {50.0, 54.4, 100.0, 150.0, 200.0}) {
     const CostPoint point = pointsOf(inSteps(steps))[2];
     const double jump = setup.law.gn * costContactTime(setup) / steps / reducedMass;
@@ -244,15 +244,16 @@ TEST(CostTime, Rounds_GiveAGeometricMeanAndItsInterval) {
 class CostTrajectory : public testing::Test {
  protected:
   void SetUp() override {
-    Disks disks = diskKinds(setup_.particles);
+    Disks disks = diskKinds(couetteIn(setup_).particles);
     disks.position.clear();
-    const double spacing = 2.02 * setup_.particles.largeRadius;
+    const double spacing = 2.02 * couetteIn(setup_).particles.largeRadius;
     for (int row = -9; row <= 9; ++row)
       for (int column = -9; column <= 9; ++column) {
         const Vec2 at((column + 0.5 * (row & 1)) * spacing, row * 0.87 * spacing);
-        const double margin = setup_.particles.largeRadius + setup_.cell.wallRadius;
-        if (at.norm() < setup_.cell.innerRadius + margin ||
-            at.norm() > setup_.cell.outerRadius - margin)
+        const double margin =
+            couetteIn(setup_).particles.largeRadius + couetteIn(setup_).cell.wallRadius;
+        if (at.norm() < couetteIn(setup_).cell.innerRadius + margin ||
+            at.norm() > couetteIn(setup_).cell.outerRadius - margin)
           continue;
         disks.position.push_back(at);
         disks.velocity.push_back({0.02 * std::sin(3.0 * row + column), 0.02 * std::cos(column)});
@@ -285,7 +286,7 @@ TEST_F(CostTrajectory, Errors_FallWithTheStep) {
   const auto reference = follow("[run]\nsteps_per_contact = 800", window);
   const auto errorAt = [&](const char* steps) {
     return rmsDistance(follow(std::string("[run]\nsteps_per_contact = ") + steps, window),
-                       reference, 2.0 * setup_.particles.smallRadius);
+                       reference, 2.0 * couetteIn(setup_).particles.smallRadius);
   };
   EXPECT_LT(errorAt("100"), 0.5 * errorAt("20"));
   EXPECT_GT(errorAt("100"), 0.0);

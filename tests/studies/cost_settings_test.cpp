@@ -87,7 +87,7 @@ TEST(CostSettings, EffectFragment_SwitchesTheEffectOff) {
     EXPECT_EQ(read.law.kt, off.without.law.kt);
     EXPECT_EQ(read.law.gt, off.without.law.gt);
     EXPECT_EQ(read.run.precision, off.without.run.precision);
-    EXPECT_EQ(read.particles.rotation, off.without.particles.rotation);
+    EXPECT_EQ(couetteIn(read).particles.rotation, couetteIn(off.without).particles.rotation);
   }
 }
 
@@ -124,7 +124,7 @@ TEST(CostSettings, WhatAnEngineLacks_IsRefusedWithItsReason) {
 TEST(CostSettings, HertzLaw_CountsStepsInAnImpactAtTheSpeedOfCollisions) {
   Case setup = loadCase(CROSSGRAIN_CASES "/cost/hertz.toml").front();
   setup.cost.speed = 0.02;
-  const Particles& disks = setup.particles;
+  const Particles& disks = couetteIn(setup).particles;
   const double mass = disks.smallMass / 2.0, radius = disks.smallRadius / 2.0;
   const double modulus = 0.75 * setup.law.kn;  // k_n = 4/3 E₁₂
   const double deepest =

@@ -50,8 +50,8 @@ class ShearedCell : public testing::Test {
         const Snapshot now = engine->snapshot(ContactReport::instant);
         accumulator.add(now);
         torque.push_back(*drivingTorque(scene, now, wheelName));
-        pressure.push_back(
-            *radialPressure(scene, now, ringName, setup_.cell.outerRadius, setup_.cell.height));
+        pressure.push_back(*radialPressure(scene, now, ringName, couetteIn(setup_).cell.outerRadius,
+                                           couetteIn(setup_).cell.height));
         const WallBalance wall = *outerWallBalance(ringsOf(setup_), scene, now);
         along.push_back(wall.alongBranches);
         hoop.push_back(wall.hoopTerm);
@@ -131,7 +131,7 @@ TEST_F(ShearedCell, OutermostRing_HasThePressureOfTheWall) {
 }
 
 TEST_F(ShearedCell, Shear_LiesInABandAtTheWheel) {
-  const double rim = setup_.cell.omega * setup_.cell.innerRadius;
+  const double rim = couetteIn(setup_).cell.omega * couetteIn(setup_).cell.innerRadius;
   EXPECT_GT(mean("azimuthal_velocity", 0), 0.15 * rim);
   EXPECT_LT(mean("azimuthal_velocity", 0), rim);
   EXPECT_LT(mean("azimuthal_velocity", 2), 0.4 * mean("azimuthal_velocity", 0));

@@ -146,11 +146,12 @@ RegimeRow averaged(int seed) {
   const Packing packing = packingOf(setup, 0, dt, *engine, [](double) {});
   const Scene scene = couetteScene(setup, packing, dt);
   engine->load(scene, {});
-  CouetteAverages averages(setup, scene);
+  FlowAverages averages(setup, scene);
   const double rotation = rotationTime(setup);
   for (int k = 1; k <= 100; ++k) {
-    engine->advance((setup.averaging.settleRotations + setup.averaging.rotations * k / 100) *
-                    rotation);
+    engine->advance(
+        (couetteIn(setup).times.settleRotations + couetteIn(setup).times.rotations * k / 100) *
+        rotation);
     averages.add(engine->snapshot(ContactReport::instant));
   }
   FlowRun result;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "averaging/rings.hpp"
+#include "cases/couette.hpp"
 #include "studies/flow/notes.hpp"
 #include "studies/flow/run.hpp"
 #include "tests/studies/flow_runs.hpp"
@@ -17,11 +18,12 @@ using namespace crossgrain;
 
 Case cell() {
   Case setup;
-  setup.cell = {0.03, 0.075, test::wallRadius, 2.5e-3, 6e-3, 1.0};
-  setup.particles.smallRadius = test::smallRadius;
-  setup.particles.smallMass = setup.particles.largeMass = test::smallMass;
-  setup.averaging.rings = 6;
+  couetteIn(setup).cell = {0.03, 0.075, test::wallRadius, 2.5e-3, 6e-3, 1.0};
+  couetteIn(setup).particles.smallRadius = test::smallRadius;
+  couetteIn(setup).particles.smallMass = couetteIn(setup).particles.largeMass = test::smallMass;
+  couetteIn(setup).times.rings = 6;
   setup.law.kn = test::thesis.kn;
+  setFlowOfCell(setup);
   return setup;
 }
 

@@ -126,14 +126,14 @@ TEST(DeclaredScore, SinglePrecision_IsJudgedWhereRoundingOfPlacesLeavesTheOutcom
     scene.precision = Precision::float32;
     scene.law.kn *= 1.2;
   });
-  setup.collision.stepsPerContact = {2000.0};
+  collisionIn(setup).stepsPerContact = {2000.0};
   const CollisionCurve slow = firstSweep(right, setup);
   EXPECT_GT(slow.score.of[QuantityId::duration]->max, *slow.score.of[QuantityId::duration]->limit);
   EXPECT_GT(slow.score.rounding.value(), 1.0);
   EXPECT_EQ(verdictOf(slow), Verdict::notMeasured);
   EXPECT_NE(slow.reason.find("float precision"), std::string::npos) << slow.reason;
-  setup.collision.stepsPerContact = {50.0};
-  setup.collision.vn = {1.0};
+  collisionIn(setup).stepsPerContact = {50.0};
+  collisionIn(setup).vn = {1.0};
   EXPECT_EQ(verdictOf(firstSweep(right, setup)), Verdict::pass);
   EXPECT_EQ(verdictOf(firstSweep(wrong, setup)), Verdict::fail);
   test::PlantedEngine inDouble([](Scene&) {});
@@ -144,7 +144,7 @@ TEST(DeclaredScore, SinglePrecision_IsJudgedWhereRoundingOfPlacesLeavesTheOutcom
 /// single precision resolves otherwise, too.
 TEST(DeclaredScore, SinglePrecisionUnderALawWithoutALimit_IsNotJudgedWhereItFallsShort) {
   Case setup = variantOf("figure-4-3.toml", "spring_dashpot-cut");
-  setup.collision.vn = {0.3};
+  collisionIn(setup).vn = {0.3};
   Declares single({{"dashpot", {"outside"}}}, [](Scene& scene) {
     scene.precision = Precision::float32;
     scene.law.gt *= 1.5;  // stands for what other roundings do
@@ -161,7 +161,7 @@ TEST(DeclaredScore, StepTooCoarseForTheMargin_IsNotTheEnginesFault) {
   Case setup = variantOf("figure-4-3.toml", "spring_dashpot-tension");
   setup.law.conventions.springReset = SpringReset::springOnly;
   setup.law.conventions.dampingVelocity = DampingVelocity::lagged;
-  setup.collision.stepsPerContact = {50.0};
+  collisionIn(setup).stepsPerContact = {50.0};
   test::PlantedEngine right([](Scene&) {});
   EXPECT_EQ(verdictOf(firstSweep(right, setup)), Verdict::fail);
   const CollisionCurve coarse = firstSweep(right, setup, "", true);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "adapters/snapshot_source.hpp"
+#include "cases/couette.hpp"
 #include "studies/flow/endpoint_values.hpp"
 #include "studies/lockstep/terms.hpp"
 #include "tests/studies/flow_runs.hpp"
@@ -17,12 +18,13 @@ namespace {
 /// A cell of two rings between 1 m and 3 m: areas 3π and 5π, so weights 3/8 and 5/8.
 Case twoRings() {
   Case setup;
-  setup.cell.innerRadius = 1.0;
-  setup.cell.outerRadius = 3.0;
-  setup.cell.height = 1.0;
-  setup.particles.smallRadius = 0.1;
-  setup.averaging.rings = 2;
+  couetteIn(setup).cell.innerRadius = 1.0;
+  couetteIn(setup).cell.outerRadius = 3.0;
+  couetteIn(setup).cell.height = 1.0;
+  couetteIn(setup).particles.smallRadius = 0.1;
+  couetteIn(setup).times.rings = 2;
   setup.preparation.packings = 4;
+  setFlowOfCell(setup);
   return setup;
 }
 
@@ -34,21 +36,22 @@ FlowRun runOf(const std::string& engine, int packing, double pressure, double sp
        test::sliced("stress_rp", {0.4 * pressure, 0.8 * pressure}),
        test::sliced("azimuthal_velocity", {0.8, std::nullopt}), test::sliced("spin", {spin, 0.6}),
        test::sliced("volume_fraction", {0.6, 0.8})});
-  run.head = {{"coordination", "-", 3.5, {}, {}}};
+  run.series = RunSeries{{"t_s", {1.0, 2.0}}, {"coordination", {3.0, 4.0}}};
   return run;
 }
 
 /// Nor a sum over contacts that the files do not list: 0 N would be a value.
 TEST(EndpointTable, ForceOnAWallOfFilesWithoutItsContacts_IsAbsent) {
   Case setup;
-  OwnEndpoint own;
+  Endpoint own;
   own.name = "load";
   own.quantity = std::string(normalForce);
   own.wall = 0;
-  setup.average.emplace().endpoints = {own};
+  setup.region.emplace();
+  setup.endpoints = {own};
   FlowRun run;
   run.engine = "files";
-  const auto why = [&] { return notShown(endpointSpec(setup, "load"), setup, run); };
+  const auto why = [&] { return notShown(endpointNamed(setup, "load"), setup, run); };
   EXPECT_EQ(why(), "");
   run.remarks = {std::string(noWallContacts) + ": stress lacks them"};
   EXPECT_EQ(why(), "no contacts with walls in its files");
@@ -57,7 +60,7 @@ TEST(EndpointTable, ForceOnAWallOfFilesWithoutItsContacts_IsAbsent) {
 TEST(Endpoints, Values_AreAreaMeansRatiosAndTheRingAtTheWheel) {
   const Case setup = twoRings();
   const FlowRun run = runOf("a", 0, 100.0);
-  const auto value = [&](const char* name) { return endpointOf(endpointSpec(name), setup, run); };
+  const auto value = [&](const char* name) { return endpointOf(endpointNamed(name), setup, run); };
   EXPECT_NEAR(*value("pressure"), 100.0, 1e-12);
   // (3·0.4 + 5·0.8)/8 of the pressure over twice the pressure.
   EXPECT_NEAR(*value("stress_ratio"), 0.325, 1e-12);
@@ -70,17 +73,18 @@ TEST(Endpoints, Values_AreAreaMeansRatiosAndTheRingAtTheWheel) {
   EXPECT_EQ(*value("volume_fraction_at_wheel"), 0.6);
   EXPECT_EQ(*value("spin_at_wheel"), -1.0);
   FlowRun bare = runOf("a", 0, 0.0);
-  EXPECT_FALSE(endpointOf(endpointSpec("pressure"), setup, bare));
-  EXPECT_FALSE(endpointOf(endpointSpec("stress_ratio"), setup, bare));
+  EXPECT_FALSE(endpointOf(endpointNamed("pressure"), setup, bare));
+  EXPECT_FALSE(endpointOf(endpointNamed("stress_ratio"), setup, bare));
   bare.profiles.clear();
-  bare.head.clear();
-  for (const EndpointSpec& endpoint : endpointTable())
+  bare.series.reset();
+  for (const Endpoint& endpoint : endpointTable())
     EXPECT_FALSE(endpointOf(endpoint, setup, bare)) << endpoint.name;
 }
 
 Case judging(const std::string& endpoint, const Margin& margin) {
   Case setup = twoRings();
   setup.averaging.endpoints[endpoint] = margin;
+  setFlowOfCell(setup);
   return setup;
 }
 
@@ -199,15 +203,15 @@ TEST(InterimPlan, PackingsOfTheCase_GiveTheAnalyses) {
   EXPECT_EQ(interimPlanOf(setup).packings, (std::vector{8, 16, 24, 32}));
   setup.preparation.packings = 3;  // too few for a verdict
   EXPECT_EQ(interimPlanOf(setup).packings, std::vector{3});
-  setup.particles.file = "packing.h5";
+  couetteIn(setup).particles.file = "packing.h5";
   EXPECT_EQ(interimPlanOf(setup).packings, std::vector{1});
   Case assembly;
-  assembly.kind = CaseKind::assembly;
-  assembly.average.emplace();
+  assembly.source = Assembly();
+  assembly.region.emplace();
   assembly.looks.count = 2;
-  assembly.assembly.starts.files = {"a.csv", "b.csv", "c.csv", "d.csv"};
+  assemblyIn<2>(assembly).starts.files = {"a.csv", "b.csv", "c.csv", "d.csv"};
   EXPECT_EQ(interimPlanOf(assembly).packings, std::vector{4});
-  assembly.assembly.starts.velocityRms = 0.1;  // any number of packings
+  assemblyIn<2>(assembly).starts.velocityRms = 0.1;  // any number of packings
   assembly.preparation.packings = 6;
   EXPECT_EQ(interimPlanOf(assembly).packings, (std::vector{6, 12}));
 }
@@ -215,6 +219,7 @@ TEST(InterimPlan, PackingsOfTheCase_GiveTheAnalyses) {
 TEST(EndpointTable, RatiosOfOtherSign_AreLostAndHideNoDisagreement) {
   Case setup = judging("pressure", {0.1, true, "because", ""});
   setup.averaging.endpoints["spin_at_wheel"] = {0.1, false, "because", ""};
+  setFlowOfCell(setup);
   const Numbers spin = {-1.0, -1.1, -0.9, -1.0}, far = {1.0, 0.9, 1.1, 1.05};
   const auto rowsWith = [&](const Numbers& pressure) {
     return endpointRows(setup, {{"pressure", pressure, pressure}, {"spin_at_wheel", spin, far}},
@@ -274,15 +279,16 @@ std::vector<FlowRun> heights(const std::string& engine, double first, double sec
 
 TEST(EndpointTable, ClosedForm_JudgesEveryEngineOnOneStart) {
   Case setup;
-  setup.kind = CaseKind::assembly;
-  OwnEndpoint apex;
+  setup.source = Assembly();
+  Endpoint apex;
   apex.name = "apex";
   apex.quantity = "y";
   apex.disk = 0;
   apex.reduction = Reduction::maximum;
   apex.expected = 2.0;
   apex.unit = "m";
-  setup.average.emplace().endpoints = {apex};
+  setup.region.emplace();
+  setup.endpoints = {apex};
   setup.averaging.endpoints["apex"] = {0.1, false, "because", ""};
   EXPECT_EQ(flowPackings(setup), 2);
   auto runs = heights("a", 2.05, 2.05);
@@ -470,7 +476,7 @@ TEST(FileRuns, WithContactsInSome_AreJudgedByThose) {
 TEST(FileRuns, Undecided_SaysWhy) {
   auto ours = pressuresOf("a", {100}), theirs = pressuresOf("b", {101});
   EXPECT_EQ(judgedFiles(ours, theirs).reason,
-            "a has a single run of 0 snapshots, whose own error takes 16");
+            "a has a single run of 2 snapshots, whose own error takes 16");
   ours[0].endpointErrors = {{"pressure", 0.6, 0.8}};
   theirs[0].endpointErrors = {{"pressure", 0.808, 0.8}};
   EXPECT_EQ(judgedFiles(ours, theirs).reason,

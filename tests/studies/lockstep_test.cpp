@@ -76,14 +76,14 @@ TEST_F(Lockstep, Starts_LieInEqualPartsOfTheFlow) {
 
 TEST(LockstepStarts, SwingingWalls_HaveAStartInEachPeriod) {
   Case setup = test::twoDisks();
-  setup.assembly.disks.front().velocityRms = 0.1;
+  assemblyIn<2>(setup).disks.front().velocityRms = 0.1;
   WallGroup wall;
   wall.planes = {{{0.0, 0.0}, Vec2::UnitY()}};
   wall.motion = {.kind = Motion::Kind::oscillating,
                  .amplitude = {0.1, 0.0},
                  .frequency = 2.0 * std::numbers::pi};
-  setup.assembly.walls = {wall};
-  setup.average.emplace();
+  assemblyIn<2>(setup).walls = {wall};
+  setup.region.emplace();
   const auto statesOf = [&setup](std::size_t count) {
     const auto none = std::unique_ptr<Engine>();
     const std::vector<Packing> one = {flowPacking(setup, 0, 1e-3, *none, [](double) {})};
@@ -98,7 +98,7 @@ TEST(LockstepStarts, SwingingWalls_HaveAStartInEachPeriod) {
   EXPECT_EQ(states[2].start.packing, 0u);
   EXPECT_EQ(states[3].start.packing, 1u);
   EXPECT_EQ(states.back().start.packing, 2u);
-  setup.assembly.disks.front().velocityRms = 0.0;  // no packing differs from another
+  assemblyIn<2>(setup).disks.front().velocityRms = 0.0;  // no packing differs from another
   EXPECT_EQ(statesOf(8).size(), 3u);
 }
 
@@ -294,7 +294,7 @@ TEST_F(Lockstep, EngineThatBlowsUp_IsNotMeasured) {
 /// Two disks that meet so fast that their centres pass: by the law, which is nobody's failure.
 TEST(LockstepOfDeclaredLaws, LawThatBlowsUp_IsNobodysFailure) {
   Case setup = test::twoDisks();
-  setup.average.emplace();
+  setup.region.emplace();
   const auto none = std::unique_ptr<Engine>();
   const double dt = 1e-5;
   FlowState state = {{}, flowPacking(setup, 0, dt, *none, [](double) {})};
@@ -364,12 +364,12 @@ LockstepRow fallingRow(double declaredLag) {
   Case setup = test::twoDisks();
   setup.law.conventions.integrator = Integrator::semiImplicitEuler;
   setup.law.kn = 1e4;
-  setup.assembly.gravity = {0.0, -9.81};
-  setup.assembly.disks.front().velocityRms = 0.05;
+  assemblyIn<2>(setup).gravity = {0.0, -9.81};
+  assemblyIn<2>(setup).disks.front().velocityRms = 0.05;
   WallGroup floor;
   floor.planes = {{{0.0, 0.0}, Vec2::UnitY()}};
-  setup.assembly.walls = {floor};
-  setup.average.emplace();
+  assemblyIn<2>(setup).walls = {floor};
+  setup.region.emplace();
   const auto none = std::unique_ptr<Engine>();
   const double dt = 1e-3;
   const std::vector<Packing> one = {flowPacking(setup, 0, dt, *none, [](double) {})};
@@ -407,9 +407,10 @@ TEST_F(Lockstep, EngineThatDies_KeepsTheStartsBefore) {
 TEST(LateWindows, RunInWhichNoConstantActs_SaysNothingOfTheLaw) {
   const Case setup = test::quickCell(
       {"bottom.mu=0", "averaging.settle_rotations=0.01", "averaging.rotations=0.02"});
-  const double x = 0.5 * (setup.cell.innerRadius + setup.cell.outerRadius);
+  const double x = 0.5 * (couetteIn(setup).cell.innerRadius + couetteIn(setup).cell.outerRadius);
   Packing packing;
-  packing.disks = {{setup.particles.smallRadius}, {1e-4}, {1e-9}, {{x, 0.0}}, {{0.0, 0.0}}, {0.0}};
+  packing.disks = {
+      {couetteIn(setup).particles.smallRadius}, {1e-4}, {1e-9}, {{x, 0.0}}, {{0.0, 0.0}}, {0.0}};
   const auto engine = makeGrain();
   const LateWindows late =
       followLate(*engine, test::inHouse, setup, packing, 0, timeStep(setup), 4, [](double) {});

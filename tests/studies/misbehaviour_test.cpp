@@ -30,8 +30,8 @@ class Misbehaviour : public testing::Test {
   static Case pairCase() {
     Case setup = ::test::smallPairCase();
     setup.file = "pair.toml";
-    setup.collision.psi = {1.0};
-    setup.collision.vn = {0.1};
+    collisionIn(setup).psi = {1.0};
+    collisionIn(setup).vn = {0.1};
     setup.run.timeout = 1.0;
     return setup;
   }

@@ -34,10 +34,10 @@ TEST(OwnScheme, InHouseEngine_FollowsEachSchemeToRounding) {
   Case unequal = test::smallPairCase(), wall = test::smallPairCase();
   const CollidingPair pair = test::unequalPair();
   for (const int side : {0, 1}) {
-    unequal.collision.radius[side] = pair.radius[side];
-    unequal.collision.mass[side] = pair.mass[side];
+    collisionIn(unequal).radius[side] = pair.radius[side];
+    collisionIn(unequal).mass[side] = pair.mass[side];
   }
-  wall.collision.wall = true;
+  collisionIn(wall).wall = true;
   int schemes = 0;
   for (Case setup : {test::smallPairCase(), unequal, wall})
     for (const char* integrator : {"position_verlet", "velocity_verlet", "semi_implicit_euler"})

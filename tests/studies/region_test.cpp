@@ -18,7 +18,7 @@ namespace {
 /// side, the third stands on a plane.
 Case threeDisks() {
   Case setup;
-  setup.kind = CaseKind::assembly;
+  setup.source = Assembly();
   setup.law.normal = NormalLaw::linear;
   setup.law.kn = 100.0;
   DiskGroup group;
@@ -26,16 +26,16 @@ Case threeDisks() {
   group.mass = 2.0;
   group.position = {0.0, 2.0};
   group.places = {{0.0, 0.0}, {0.95, 0.0}, {1.5, -0.5}};  // in diameters
-  setup.assembly.disks = {group};
+  assemblyIn<2>(setup).disks = {group};
   WallGroup floor;
   floor.planes = {{Vec2::Zero(), Vec2::UnitY()}};
-  setup.assembly.walls = {floor};
-  setup.assembly.duration = 1.0;
+  assemblyIn<2>(setup).walls = {floor};
+  assemblyIn<2>(setup).duration = 1.0;
   setup.run.dt = 1e-3;
-  Average& average = setup.average.emplace();
-  average.region.low = {-2.0, 0.0, 0.0};
-  average.region.high = {4.0, 4.0, 0.0};
-  average.region.height = 0.5;
+  Region& region = setup.region.emplace();
+  region.low = {-2.0, 0.0, 0.0};
+  region.high = {4.0, 4.0, 0.0};
+  region.height = 0.5;
   return setup;
 }
 
@@ -61,7 +61,7 @@ Snapshot touching(const Scene& scene) {
 FlowRun averaged(const Case& setup, const std::function<void(Snapshot&)>& change = {},
                  const EffectiveParameters& effective = {}) {
   const Scene scene = assemblyScene(setup, assemblyDisks(setup, 0), 0.0, 1e-3);
-  RegionAverages averages(setup, scene);
+  FlowAverages averages(setup, scene);
   Snapshot now = touching(scene);
   if (change) change(now);
   averages.add(now);
@@ -117,9 +117,9 @@ TEST(Region, Heap_HasTheSlopeOfItsFlanks) {
   // left flank falls by 0.3 a metre, its right one by 0.5; what lies deeper, nearer or farther is
   // left out.
   Case setup = threeDisks();
-  setup.average->region.low = {-1.0, 0.0, 0.0};
-  setup.average->region.high = {3.0, 4.0, 0.0};
-  setup.average->endpoints.emplace_back().quantity = "flank_slope";
+  setup.region->low = {-1.0, 0.0, 0.0};
+  setup.region->high = {3.0, 4.0, 0.0};
+  setup.endpoints.emplace_back().quantity = "flank_slope";
   std::vector<Vec2> heap = {{1.0, 3.0}, {2.05, 3.0}};
   for (int k = 0; k < 8; ++k) {
     const double away = 0.25 + 0.1 * k;
@@ -127,7 +127,7 @@ TEST(Region, Heap_HasTheSlopeOfItsFlanks) {
     heap.emplace_back(1.0 - away, 0.8 - 0.3 * away);
     heap.emplace_back(1.0 + away, 1.0 - 0.5 * away);
   }
-  setup.assembly.disks[0].places.resize(heap.size(), Vec2::Zero());
+  assemblyIn<2>(setup).disks[0].places.resize(heap.size(), Vec2::Zero());
   const auto slope = [&] {
     const FlowRun run = averaged(setup, [&](Snapshot& now) {
       now.position = heap;
@@ -145,9 +145,9 @@ TEST(Region, Heap_HasTheSlopeOfItsFlanks) {
 
 TEST(Region, Slabs_ShareDisksAndContacts) {
   Case setup = threeDisks();
-  setup.average->region.bins = BinKind::slabs;
-  setup.average->region.axis = 0;
-  setup.average->region.count = 3;  // 2 m each
+  setup.region->bins = BinKind::slabs;
+  setup.region->axis = 0;
+  setup.region->count = 3;  // 2 m each
   const FlowRun run = averaged(setup);
   // Half of the disk at x = 0 lies in the first slab; it carries half of −f_x l_x of that disk.
   EXPECT_NEAR(valueOf(run, "stress_xx", 0), 0.5 * 3.0 / 4.0, 1e-14);
@@ -159,9 +159,9 @@ TEST(Region, Slabs_ShareDisksAndContacts) {
 
 TEST(OwnEndpoints, Reductions_AreMeansBinsSlopesAndRates) {
   Case setup = threeDisks();
-  setup.average->region.bins = BinKind::slabs;
-  setup.average->region.axis = 1;
-  setup.average->region.count = 4;  // centres at 0.5, 1.5, 2.5, 3.5 m
+  setup.region->bins = BinKind::slabs;
+  setup.region->axis = 1;
+  setup.region->count = 4;  // centres at 0.5, 1.5, 2.5, 3.5 m
   FlowRun run;
   run.profiles = {test::sliced("velocity_x", {1.0, 3.0, std::nullopt, 7.0}),
                   test::sliced("stress_xy", {-1.0, -1.0, std::nullopt, -6.0}),
@@ -170,14 +170,14 @@ TEST(OwnEndpoints, Reductions_AreMeansBinsSlopesAndRates) {
   run.series = RunSeries{{"t_s", {1.0, 2.0, 3.0}}, {"disks", {9.0, 6.0, 3.0}}};
   const auto value = [&](const char* quantity, Reduction reduction, int bin = 0,
                          const char* per = "") {
-    OwnEndpoint endpoint;
+    Endpoint endpoint;
     endpoint.name = "one";
     endpoint.quantity = quantity;
     endpoint.per = per;
     endpoint.reduction = reduction;
     endpoint.bin = bin;
-    setup.average->endpoints = {endpoint};
-    return endpointOf(endpointSpec(setup, "one"), setup, run);
+    setup.endpoints = {endpoint};
+    return endpointOf(endpointNamed(setup, "one"), setup, run);
   };
   // Weighted with what the bins hold: 0.2, 0.2 and 0.6.
   EXPECT_NEAR(*value("velocity_x", Reduction::mean), 5.0, 1e-14);
@@ -204,28 +204,28 @@ FlowRun withThirdSlab(double held) {
 
 TEST(OwnEndpoints, BinEmptyOrAlmost_GivesTheSameValue) {
   Case setup = threeDisks();
-  setup.average->region.bins = BinKind::slabs;
-  setup.average->region.count = 4;
+  setup.region->bins = BinKind::slabs;
+  setup.region->count = 4;
   for (const char* field : {"coordination", "stress_yy", "spin"})
     for (const Reduction reduction : {Reduction::mean, Reduction::slope}) {
-      OwnEndpoint endpoint;
+      Endpoint endpoint;
       endpoint.quantity = field;
       endpoint.reduction = reduction;
       const auto valueWith = [&](double held) {
-        return ownEndpointOf(endpoint, setup, withThirdSlab(held)).value.value();
+        return endpointValue(endpoint, setup, withThirdSlab(held)).value.value();
       };
       EXPECT_NEAR(valueWith(1e-20), valueWith(0.0), 1e-12) << field;
     }
-  OwnEndpoint contacts;
+  Endpoint contacts;
   contacts.quantity = "coordination";  // Σ w V C / Σ w V of the whole
-  EXPECT_NEAR(*ownEndpointOf(contacts, setup, withThirdSlab(0.0)).value,
+  EXPECT_NEAR(*endpointValue(contacts, setup, withThirdSlab(0.0)).value,
               (0.8 * 3.0 + 0.4 * 2.0 + 0.2 * 1.0) / 1.4, 1e-14);
 }
 
 TEST(OwnEndpoints, SeriesWithGaps_IsAbsentWithItsReason) {
   Case setup = threeDisks();
   const auto found = [&](const char* quantity, std::size_t there, Reduction reduction) {
-    OwnEndpoint endpoint;
+    Endpoint endpoint;
     endpoint.quantity = quantity;
     endpoint.reduction = reduction;
     FlowRun run;
@@ -238,11 +238,11 @@ TEST(OwnEndpoints, SeriesWithGaps_IsAbsentWithItsReason) {
     run.series =
         RunSeries{{"t_s", times}, {"mean_x", values}, {"max_overlap", values}, {"disks", disks}};
     run.profiles = {test::sliced("velocity_x", {2.0}), test::sliced("volume_fraction", {0.5})};
-    return ownEndpointOf(endpoint, setup, run);
+    return endpointValue(endpoint, setup, run);
   };
   for (const char* quantity : {"mean_x", "velocity_x"}) {
     EXPECT_EQ(found(quantity, 95, Reduction::mean).value, 2.0) << quantity;
-    const OwnValue gone = found(quantity, 40, Reduction::mean);
+    const EndpointValue gone = found(quantity, 40, Reduction::mean);
     EXPECT_FALSE(gone.value) << quantity;
     EXPECT_NE(gone.why.find("60 of 100 snapshots"), std::string::npos) << gone.why;
   }
@@ -272,13 +272,13 @@ FlowRun thrown() {
 
 TEST(OwnEndpoints, OneDisk_HasApexesTimesAndEvents) {
   const Case setup = threeDisks();
-  OwnEndpoint endpoint;
+  Endpoint endpoint;
   endpoint.disk = 2;
   endpoint.quantity = "y";
   const auto value = [&](Reduction reduction, double level = 0.0) {
     endpoint.reduction = reduction;
     endpoint.level = level;
-    return ownEndpointOf(endpoint, setup, thrown()).value;
+    return endpointValue(endpoint, setup, thrown()).value;
   };
   EXPECT_NEAR(*value(Reduction::maximum), 3.2, 1e-12);  // at 0.2 s, between two snapshots
   EXPECT_NEAR(*value(Reduction::minimum), 3.0 + 1.4 - 5.0 * 0.49, 1e-12);  // the last one
@@ -289,11 +289,11 @@ TEST(OwnEndpoints, OneDisk_HasApexesTimesAndEvents) {
   // Snapshots end at 0.7 s, and the case at 1 s: no other time stands in for it.
   EXPECT_FALSE(value(Reduction::time, 0.9));
   EXPECT_FALSE(value(Reduction::end));
-  EXPECT_EQ(ownEndpointOf(endpoint, setup, thrown()).why, "no snapshot near t = 1 s");
-  EXPECT_TRUE(ownEndpointOf(endpoint, setup, thrown()).notCovered);
+  EXPECT_EQ(endpointValue(endpoint, setup, thrown()).why, "no snapshot near t = 1 s");
+  EXPECT_TRUE(endpointValue(endpoint, setup, thrown()).notCovered);
   endpoint.between = {0.8, 0.9};
   EXPECT_FALSE(value(Reduction::maximum));
-  EXPECT_EQ(ownEndpointOf(endpoint, setup, thrown()).why, "no snapshot from 0.8 to 0.9 s");
+  EXPECT_EQ(endpointValue(endpoint, setup, thrown()).why, "no snapshot from 0.8 to 0.9 s");
   endpoint.between = {0.3, 0.7};
   EXPECT_NEAR(*value(Reduction::maximum), 3.0 + 2.0 * 0.35 - 5.0 * 0.35 * 0.35, 1e-12);
   EXPECT_NEAR(*value(Reduction::end), 3.0 + 1.4 - 5.0 * 0.49, 1e-12);
@@ -305,11 +305,11 @@ TEST(OwnEndpoints, OneDisk_HasApexesTimesAndEvents) {
 
 TEST(Region, EndpointsOfDisks_AreKeptWithTheLedger) {
   Case setup = threeDisks();
-  OwnEndpoint height, fall;
+  Endpoint height, fall;
   height.disk = fall.disk = 2;
   height.quantity = "y";
   fall.quantity = "velocity_y";
-  setup.average->endpoints = {height, fall, height};
+  setup.endpoints = {height, fall, height};
   EffectiveParameters effective;
   effective.velocityLag = 0.25;
   const FlowRun run = averaged(
@@ -329,16 +329,16 @@ TEST(Region, EndpointsOfDisks_AreKeptWithTheLedger) {
 /// Velocities of one disk alone, the mean over the box is their mean.
 TEST(Region, EndpointErrors_AreThoseOfTheSeriesOfAPlainMean) {
   Case setup = threeDisks();
-  OwnEndpoint mean, last;
+  Endpoint mean, last;
   mean.name = "vy";
   mean.quantity = "velocity_y";
   last.name = "end";
   last.quantity = "kinetic_energy";
   last.reduction = Reduction::end;
-  setup.average->endpoints = {mean, last};
+  setup.endpoints = {mean, last};
   setup.averaging.endpoints["vy"] = setup.averaging.endpoints["end"] = {0.1, false, "", ""};
   const Scene scene = assemblyScene(setup, assemblyDisks(setup, 0), 0.0, 1e-3);
-  RegionAverages averages(setup, scene);
+  FlowAverages averages(setup, scene);
   Snapshot now = touching(scene);
   std::vector<double> series;
   double x = 0.0;
@@ -360,7 +360,7 @@ TEST(Region, EndpointErrors_AreThoseOfTheSeriesOfAPlainMean) {
   EXPECT_NEAR(errors[0].standardError, *expected.standardError, 1e-12);
   EXPECT_NEAR(errors[0].dof, expected.dof, 1e-12);
   // One snapshot says nothing of its error.
-  RegionAverages one(setup, scene);
+  FlowAverages one(setup, scene);
   one.add(now);
   FlowRun brief;
   one.describe({}, brief);

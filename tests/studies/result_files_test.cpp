@@ -46,7 +46,7 @@ class FakeReader : public files::FrameReader {
 /// deep in the floor. k_n = 100 N/m: forces of 10 N and 2 N.
 Case restingDisks() {
   Case setup;
-  setup.kind = CaseKind::assembly;
+  setup.source = Assembly();
   setup.law.normal = NormalLaw::linear;
   setup.law.kn = 100.0;
   setup.law.kt = 50.0;
@@ -56,17 +56,17 @@ Case restingDisks() {
   group.mass = 2.0;
   group.position = {0.0, 2.0};
   group.places = {{0.0, 0.0}, {0.95, 0.0}, {2.0, -0.51}};  // in diameters
-  setup.assembly.disks = {group};
+  assemblyIn<2>(setup).disks = {group};
   WallGroup floor;
   floor.planes = {{Vec2::Zero(), Vec2::UnitY()}};
-  setup.assembly.walls = {floor};
-  setup.assembly.duration = 4.0;
+  assemblyIn<2>(setup).walls = {floor};
+  assemblyIn<2>(setup).duration = 4.0;
   setup.run.dt = 1e-3;
-  Average& average = setup.average.emplace();
-  average.region.low = {-2.0, 0.0, 0.0};
-  average.region.high = {6.0, 4.0, 0.0};
-  average.region.height = 0.5;
-  average.region.snapshots = 4;
+  Region& region = setup.region.emplace();
+  region.low = {-2.0, 0.0, 0.0};
+  region.high = {6.0, 4.0, 0.0};
+  region.height = 0.5;
+  region.snapshots = 4;
   return setup;
 }
 
@@ -94,7 +94,7 @@ files::FileSceneOf<2> targetOf(const Case& setup) {
   files::FileSceneOf<2> target;
   target.name = "mine";
   target.where = "[engines.mine]";
-  const bool cell = setup.kind == CaseKind::couette;
+  const bool cell = cellOf(setup);
   target.bodies = cell ? couetteScene(setup, Packing(), 0.0).bodies
                        : assemblyScene(setup, Disks(), 0.0, 0.0).bodies;
   target.anyAngle = cell;
@@ -331,7 +331,7 @@ std::string refusalOfSliding(double tangential, double spin, std::size_t pairs, 
                              std::vector<std::string>* remarks = nullptr) {
   Case setup = restingDisks();
   setup.law.mu = mu;
-  auto& group = setup.assembly.disks[0];
+  auto& group = assemblyIn<2>(setup).disks[0];
   group.places.clear();
   FileFrame frame;
   frame.where = "mine.dump, step 7";
@@ -788,7 +788,7 @@ TEST(PlaneSnapshots, WallDisksOfACell_AreFoundAtAnyAngle) {
   FileFrame frame;
   frame.where = "cell.dump, step 0";
   frame.time = 0.5;
-  const double turned = 0.05 + 0.5 * setup.cell.omega;
+  const double turned = 0.05 + 0.5 * couetteIn(setup).cell.omega;
   std::int64_t id = 100;
   const auto add = [&](const Vec2& x, double a) {
     frame.particles.id.push_back(id--);
@@ -796,11 +796,11 @@ TEST(PlaneSnapshots, WallDisksOfACell_AreFoundAtAnyAngle) {
     frame.particles.radius.push_back(a);
     frame.particles.velocity.push_back(Vec3::Zero());
   };
-  for (const auto& [radius, angle] :
-       {std::pair(setup.cell.innerRadius, turned), {setup.cell.outerRadius, 0.02}})
-    for (const Vec2& x : wallRing("", setup.cell, radius, angle).diskPosition)
-      add(x, setup.cell.wallRadius);
-  add({0.05, 0.0}, setup.particles.smallRadius);
+  for (const auto& [radius, angle] : {std::pair(couetteIn(setup).cell.innerRadius, turned),
+                                      {couetteIn(setup).cell.outerRadius, 0.02}})
+    for (const Vec2& x : wallRing("", couetteIn(setup).cell, radius, angle).diskPosition)
+      add(x, couetteIn(setup).cell.wallRadius);
+  add({0.05, 0.0}, couetteIn(setup).particles.smallRadius);
   FileFrame later = frame;
   later.time = 0.75;
   PlaneSnapshots source(std::make_unique<FakeReader>(std::deque{frame, later}), {},
@@ -810,11 +810,12 @@ TEST(PlaneSnapshots, WallDisksOfACell_AreFoundAtAnyAngle) {
   EXPECT_EQ(first.position, (std::vector<Vec2>{{0.05, 0.0}}));
   // Walls are where the case prescribes them, whatever a file makes of them.
   const auto angleOf = [](const Vec2& x) { return std::atan2(x.y(), x.x()); };
-  const double spacing = 2.0 * std::numbers::pi / wallDiskCount(setup.cell, setup.cell.innerRadius);
+  const double spacing = 2.0 * std::numbers::pi /
+                         wallDiskCount(couetteIn(setup).cell, couetteIn(setup).cell.innerRadius);
   EXPECT_NEAR(std::remainder(angleOf(first.wallPosition[0]) - turned, spacing), 0.0, 1e-12);
   EXPECT_NEAR(angleOf(second.wallPosition[0]) - angleOf(first.wallPosition[0]),
-              0.25 * setup.cell.omega, 1e-12);
-  EXPECT_EQ(first.bodies[0].angularVelocity, setup.cell.omega);
+              0.25 * couetteIn(setup).cell.omega, 1e-12);
+  EXPECT_EQ(first.bodies[0].angularVelocity, couetteIn(setup).cell.omega);
 }
 
 TEST(PlaneSnapshots, WallDisksOfAnAssembly_AreAllThereOrNone) {
@@ -824,7 +825,7 @@ TEST(PlaneSnapshots, WallDisksOfAnAssembly_AreAllThereOrNone) {
   row.radius = 0.5;
   row.motion.kind = Motion::Kind::translating;
   row.motion.velocity = {0.25, 0.0};
-  setup.assembly.walls.push_back(row);
+  assemblyIn<2>(setup).walls.push_back(row);
   const auto opened = [&](const std::vector<Vec3>& walls) {
     FileFrame frame = threeParticles(2.0);
     for (std::size_t k = 0; k < walls.size(); ++k) {
@@ -880,7 +881,7 @@ TEST(ResultFiles, ParticlesThatLeave_CountWhileTheyAreThere) {
   const TemporaryFolder folder;
   Case setup = restingDisks();
   setup.file = "open.toml";
-  setup.average->region.from = 0.5;
+  setup.region->from = 0.5;
   const auto write = [&](const char* name, const std::string& rows) {
     std::ofstream(folder.path() / name) << "t,id,x,y,radius,mass,vx,vy,spin\n" << rows;
     return folder.path() / name;
@@ -962,13 +963,13 @@ TEST_F(AssemblyFiles, SeveralRuns_AreReplicates) {
 
 TEST_F(AssemblyFiles, SnapshotsOutsideOfTheAveragedTime_AreLeftOut) {
   const auto path = write("a.h5", 10.0);  // of 1 s and of 2 s
-  setup_.average->region.from = 1.5;
+  setup_.region->from = 1.5;
   const CompareResults results = averageSnapshots(setup_, {path}, "test");
   EXPECT_EQ(results.averaging.snapshots, 1);
   ASSERT_GE(results.notes.size(), 2u);
   expectSays(results.notes.end()[-2], {"1 of 2 snapshots", "left out"});
   expectSays(results.notes.back(), {"a single snapshot, of 2 s; the case averages 1.5 to 4 s"});
-  setup_.average->region.from = 3.0;
+  setup_.region->from = 3.0;
   expectSays(test::refusalOf([&] { averageSnapshots(setup_, {path}, "test"); }),
              {"a.h5", "none of its snapshots"});
 }
@@ -1005,17 +1006,17 @@ TEST_F(AssemblyFiles, OtherScene_IsRefused) {
     change(other);
     return test::refusalOf([&] { averageSnapshots(other, {path}, "test"); });
   };
-  expectSays(refused([](Case& c) { c.assembly.disks[0].places.pop_back(); }),
+  expectSays(refused([](Case& c) { assemblyIn<2>(c).disks[0].places.pop_back(); }),
              {"a.h5 does not fit", "3 disks, not 2"});
-  expectSays(refused([](Case& c) { c.assembly.disks[0].radius = 1e-3; }),
+  expectSays(refused([](Case& c) { assemblyIn<2>(c).disks[0].radius = 1e-3; }),
              {"disk 0 of radius 1 m, not 0.001 m", "are lengths in mm?"});
-  expectSays(refused([](Case& c) { c.assembly.disks[0].mass = 2e-3; }),
+  expectSays(refused([](Case& c) { assemblyIn<2>(c).disks[0].mass = 2e-3; }),
              {"disk 0 of mass 2 kg, not 0.002 kg", "are masses in g?"});
   expectSays(refused([](Case& c) {
-               c.assembly.walls[0].planes[0].point = {0.0, 0.5};
+               assemblyIn<2>(c).walls[0].planes[0].point = {0.0, 0.5};
              }),
              {"a.h5, snapshot 0", "from the positions"});
-  EXPECT_EQ(refused([](Case& c) { c.assembly.disks[0].radiusSpread = 0.2; }), "");
+  EXPECT_EQ(refused([](Case& c) { assemblyIn<2>(c).disks[0].radiusSpread = 0.2; }), "");
 }
 
 }  // namespace

@@ -72,8 +72,8 @@ TEST(ScaleCase, OtherCellOrLaw_Throws) {
 /// rule, as it is said in tests/bench/README.md.
 TEST(ScaledCell, EverySize_HasTheSameVolumeFractionOfTheRoom) {
   const auto fractionOfTheRoom = [](const Case& setup) {
-    const Cell& cell = setup.cell;
-    const double lost = cell.wallRadius + 0.5 * setup.particles.smallRadius;
+    const Cell& cell = couetteIn(setup).cell;
+    const double lost = cell.wallRadius + 0.5 * couetteIn(setup).particles.smallRadius;
     const double inner = cell.innerRadius + lost, outer = cell.outerRadius - lost;
     const double ring = cell.outerRadius * cell.outerRadius - cell.innerRadius * cell.innerRadius;
     return volumeFraction(setup) * ring / (outer * outer - inner * inner);
@@ -81,10 +81,12 @@ TEST(ScaledCell, EverySize_HasTheSameVolumeFractionOfTheRoom) {
   const double first = fractionOfTheRoom(scaledCase(1000));
   for (const std::size_t disks : {10'000u, 100'000u, 1'000'000u, 10'000'000u}) {
     const Case scaled = scaledCase(disks);
-    EXPECT_EQ(scaled.particles.small + scaled.particles.large, static_cast<int>(disks));
+    EXPECT_EQ(couetteIn(scaled).particles.small + couetteIn(scaled).particles.large,
+              static_cast<int>(disks));
     // Numbers of disks are whole: one of 1000 is 10⁻³.
     EXPECT_NEAR(fractionOfTheRoom(scaled), first, 1e-3 * first) << disks;
-    EXPECT_NEAR(scaled.cell.omega * scaled.cell.innerRadius, 0.1032, 1e-12);  // the rim's speed
+    EXPECT_NEAR(couetteIn(scaled).cell.omega * couetteIn(scaled).cell.innerRadius, 0.1032,
+                1e-12);  // the rim's speed
   }
 }
 

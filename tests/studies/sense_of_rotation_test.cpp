@@ -43,7 +43,7 @@ class SenseOfRotation : public testing::Test {
     const Scene scene = couetteScene(setup, packing, timeStep(setup));
     const auto engine = makeGrain();
     const EffectiveParameters effective = engine->load(scene, {});
-    CouetteAverages collected(setup, scene);
+    FlowAverages collected(setup, scene);
     for (int k = 1; k <= snapshots; ++k) {
       engine->advance(end * k / snapshots);
       collected.add(last = engine->snapshot(ContactReport::instant));
@@ -75,8 +75,8 @@ class SenseOfRotation : public testing::Test {
 };
 
 TEST_F(SenseOfRotation, MirroredPacking_MovesAsTheMirrorImage) {
-  const double d = 2.0 * as_.particles.smallRadius;
-  const double rim = as_.cell.innerRadius;
+  const double d = 2.0 * couetteIn(as_).particles.smallRadius;
+  const double rim = couetteIn(as_).cell.innerRadius;
   for (std::size_t i = 0; i < oneEnd_.position.size(); ++i) {
     const Vec2 image(otherEnd_.position[i].x(), -otherEnd_.position[i].y());
     const Vec2 velocity(otherEnd_.velocity[i].x(), -otherEnd_.velocity[i].y());
@@ -160,8 +160,8 @@ TEST_F(SenseOfRotation, Distributions_AreTheSame) {
 
 TEST_F(SenseOfRotation, Packing_IsPreparedInTheCasesSense) {
   Case setup = opposite_;
-  setup.preparation.shrinkTime = 0.1;
-  setup.preparation.rotations = 0.01;
+  couetteIn(setup).filling.shrinkTime = 0.1;
+  couetteIn(setup).filling.rotations = 0.01;
   const auto engine = makeGrain();
   const Packing packing = preparePacking(setup, 0, timeStep(setup), *engine, [](double) {});
   EXPECT_NEAR(packing.wheelAngle, -(0.1 + 0.02 * M_PI), 4e-5);

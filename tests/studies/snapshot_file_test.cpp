@@ -214,7 +214,7 @@ TEST_F(SnapshotFiles, MalformedFile_ThrowsNamingTheData) {
 TEST_F(SnapshotFiles, OtherCell_IsRefusedWithEveryMisfit) {
   const Case own = test::quickCell();
   Packing packing;
-  packing.disks = diskKinds(own.particles);
+  packing.disks = diskKinds(couetteIn(own).particles);
   for (Vec2& at : packing.disks.position) at = {0.05, 0.0};
   const Scene scene = couetteScene(own, packing, 1e-5);
   Snapshot now;
@@ -224,7 +224,7 @@ TEST_F(SnapshotFiles, OtherCell_IsRefusedWithEveryMisfit) {
     now.wallPosition.insert(now.wallPosition.end(), body.diskPosition.begin(),
                             body.diskPosition.end());
   now.bodies.resize(2);
-  now.bodies[0].angularVelocity = own.cell.omega;
+  now.bodies[0].angularVelocity = couetteIn(own).cell.omega;
   SnapshotFile out(path_, "someone", scene, 1, 1);
   out.offer(now, 1);
   out.close();
@@ -237,19 +237,22 @@ TEST_F(SnapshotFiles, OtherCell_IsRefusedWithEveryMisfit) {
   };
   EXPECT_EQ(misfit([](Case&) {}), "");
   EXPECT_EQ(misfit([](Case& c) {  // a packing file's disks are its own
-              c.particles.file = "mine.h5";
-              c.particles.small = c.particles.large = 0;
+              couetteIn(c).particles.file = "mine.h5";
+              couetteIn(c).particles.small = couetteIn(c).particles.large = 0;
             }),
             "");
   const std::pair<std::function<void(Case&)>, const char*> misfits[] = {
-      {[](Case& c) { ++c.particles.small; }, " small disks, not "},
-      {[](Case& c) { c.particles.smallRadius = 0.00371; }, "disks of radius 0.0037 m, not "},
-      {[](Case& c) { c.particles.largeMass *= 1.1; }, "a large disk's mass 0.00049 kg, not "},
-      {[](Case& c) { c.cell.omega *= 2.0; }, "a wheel that turns at 1 rad/s, not 2 rad/s"},
-      {[](Case& c) { c.cell.outerRadius *= 1.01; }, "the ring's radius "},
-      {[](Case& c) { c.cell.innerRadius *= 1.01; }, "the wheel's radius "},
-      {[](Case& c) { c.cell.wallRadius *= 1.1; }, "wall disks' radius 0.00125 m, not "},
-      {[](Case& c) { c.cell.wallSpacing = 0.007; }, " wall disks of the wheel, not "}};
+      {[](Case& c) { ++couetteIn(c).particles.small; }, " small disks, not "},
+      {[](Case& c) { couetteIn(c).particles.smallRadius = 0.00371; },
+       "disks of radius 0.0037 m, not "},
+      {[](Case& c) { couetteIn(c).particles.largeMass *= 1.1; },
+       "a large disk's mass 0.00049 kg, not "},
+      {[](Case& c) { couetteIn(c).cell.omega *= 2.0; },
+       "a wheel that turns at 1 rad/s, not 2 rad/s"},
+      {[](Case& c) { couetteIn(c).cell.outerRadius *= 1.01; }, "the ring's radius "},
+      {[](Case& c) { couetteIn(c).cell.innerRadius *= 1.01; }, "the wheel's radius "},
+      {[](Case& c) { couetteIn(c).cell.wallRadius *= 1.1; }, "wall disks' radius 0.00125 m, not "},
+      {[](Case& c) { couetteIn(c).cell.wallSpacing = 0.007; }, " wall disks of the wheel, not "}};
   for (const auto& [change, says] : misfits)
     EXPECT_NE(misfit(change).find(says), std::string::npos) << says << ": " << misfit(change);
   const std::string all = misfit(

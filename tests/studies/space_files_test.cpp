@@ -28,13 +28,13 @@ namespace fs = std::filesystem;
 Case threeSpheres() {
   Case setup;
   setup.file = "three.toml";
-  setup.kind = CaseKind::assembly;
+  setup.source = AssemblyOf<3>();
   setup.dimension = 3;
   setup.law.normal = NormalLaw::linear;
   setup.law.kn = 1000.0;
   setup.law.kt = 300.0;
   setup.law.mu = 0.5;
-  AssemblyOf<3>& assembly = setup.spaceAssembly;
+  AssemblyOf<3>& assembly = assemblyIn<3>(setup);
   DiskGroupOf<3> group;
   group.radius = 0.5;
   group.mass = 2.0;
@@ -49,7 +49,7 @@ Case threeSpheres() {
   assembly.box = BoxOf<3>{Vec3::Zero(), {4.0, 3.0, 4.0}, {true, true, false}};
   assembly.duration = 2.0;
   setup.run.dt = 1e-3;
-  Region& region = setup.average.emplace().region;
+  Region& region = setup.region.emplace();
   region.bins = BinKind::whole;
   region.high = {4.0, 3.0, 4.0};
   region.snapshots = 1;
@@ -275,11 +275,11 @@ TEST_F(SpaceFiles, Average_HasTheShortBranchOverTheBorder) {
 /// edge x = 4 with 1000 N/m · 0.01 m on a branch of 0.99 m, in 64 m³; and a sphere 0.02 m deep in a
 /// floor, whose contact LIGGGHTS' dump does not have. Numbers have six digits.
 TEST_F(SpaceFiles, DumpsOfBothPrograms_HaveTheStressOverTheBorder) {
-  AssemblyOf<3>& assembly = setup_.spaceAssembly;
+  AssemblyOf<3>& assembly = assemblyIn<3>(setup_);
   assembly.disks[0].mass = 1.0;
   assembly.disks[0].places = {{0.4, 2.0, 2.0}, {3.41, 2.0, 2.0}, {2.0, 2.0, 0.48}};
   assembly.walls.resize(1);
-  for (Vec3* high : {&assembly.box->high, &setup_.average->region.high}) *high = {4.0, 4.0, 4.0};
+  for (Vec3* high : {&assembly.box->high, &setup_.region->high}) *high = {4.0, 4.0, 4.0};
   struct Program {
     const char* name;
     Settings settings;
@@ -323,7 +323,7 @@ TEST_F(SpaceFiles, WaysOverTheBorder_AreThoseOfTheVelocities) {
 /// are.
 TEST_F(SpaceFiles, ForcesThatAttract_AreRefusedWhereDashpotsDoNotExplainThem) {
   setup_.law.gn = 10.0;
-  AssemblyOf<3>& assembly = setup_.spaceAssembly;
+  AssemblyOf<3>& assembly = assemblyIn<3>(setup_);
   assembly.walls.clear();
   assembly.box.reset();
   const auto chain = [&](int spheres, double force) {

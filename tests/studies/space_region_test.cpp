@@ -16,14 +16,14 @@ namespace {
 /// Four slabs along z of a cell of 2 m × 3 m, periodic along x and y, between walls 4 m apart.
 Case slabsOfACell() {
   Case setup;
-  setup.kind = CaseKind::assembly;
+  setup.source = AssemblyOf<3>();
   setup.dimension = 3;
   DiskGroupOf<3> group;
   group.radius = 0.5;
-  setup.spaceAssembly.disks = {group};
-  setup.spaceAssembly.duration = 1.0;
+  assemblyIn<3>(setup).disks = {group};
+  assemblyIn<3>(setup).duration = 1.0;
   setup.run.dt = 1e-3;
-  Region& region = setup.average.emplace().region;
+  Region& region = setup.region.emplace();
   region.bins = BinKind::slabs;
   region.axis = 2;
   region.count = 4;
@@ -65,11 +65,11 @@ double seriesEnd(const FlowRun& run, const char* name) {
 TEST(SpaceRegion, HasProfilesOverSlabsAndTheStressesOfItsWalls) {
   const Case setup = slabsOfACell();
   const Cell3d cell;
-  const auto averages = flowAverages(setup, cell.scene);
-  averages->add(cell.now);
-  EXPECT_EQ(averages->snapshots(), 1U);
+  FlowAverages averages(setup, cell.scene);
+  averages.add(cell.now);
+  EXPECT_EQ(averages.snapshots(), 1U);
   FlowRun run;
-  averages->describe({}, run);
+  averages.describe({}, run);
 
   const auto profile = [&](const char* field, std::size_t bin) {
     const Profile* found = profileOf(run.profiles, "slicing", field);
@@ -96,14 +96,14 @@ TEST(SpaceRegion, HasProfilesOverSlabsAndTheStressesOfItsWalls) {
   EXPECT_NEAR(seriesEnd(run, "kinetic_energy"), 0.5 + 1.5 + 0.5 * 0.1 * 4.0, 1e-15);
   EXPECT_NEAR(seriesEnd(run, "coordination"), 1.0, 1e-15);
 
-  OwnEndpoint ratio;
+  Endpoint ratio;
   ratio.quantity = "wall_shear_stress";
   ratio.per = "wall_normal_stress";
-  EXPECT_NEAR(ownEndpointOf(ratio, setup, run).value.value(), 1.0 / 3.0, 1e-15);
-  OwnEndpoint middle;
+  EXPECT_NEAR(endpointValue(ratio, setup, run).value.value(), 1.0 / 3.0, 1e-15);
+  Endpoint middle;
   middle.quantity = "stress_zz";
   middle.reduction = Reduction::mean;
-  EXPECT_NEAR(ownEndpointOf(middle, setup, run).value.value(), (0.5 + 0.0 + 0.0 + 1.0) / 4.0,
+  EXPECT_NEAR(endpointValue(middle, setup, run).value.value(), (0.5 + 0.0 + 0.0 + 1.0) / 4.0,
               1e-15);
 }
 
@@ -113,10 +113,10 @@ TEST(SpaceRegion, ForcesThatTheEngineReportsCountForWalls) {
   cell.now.bodies.resize(2);
   cell.now.bodies[0].force = Vec3(-6.0, 0.0, 24.0);
   cell.now.bodies[1].force = Vec3(6.0, 0.0, -24.0);
-  const auto averages = flowAverages(setup, cell.scene);
-  averages->add(cell.now);
+  FlowAverages averages(setup, cell.scene);
+  averages.add(cell.now);
   FlowRun run;
-  averages->describe({}, run);
+  averages.describe({}, run);
   EXPECT_NEAR(seriesEnd(run, "wall_normal_stress"), 4.0, 1e-15);
   EXPECT_NEAR(seriesEnd(run, "wall_shear_stress"), 1.0, 1e-15);
 }
@@ -127,19 +127,19 @@ TEST(SpaceRegion, PlacesAreAlongTheAxisOfSlabsAndOfRingsLayerByLayer) {
   EXPECT_EQ(placesOf(setup).rTilde.back(), 3.5);
   EXPECT_EQ(placesOf(setup).width, 1.0);
   const std::vector<double> radii(2, 0.5);
-  const FlowFrame frame = couetteFrame("compare", setup, "", radii);
+  const FlowFrame frame = flowFrame("compare", setup, "", radii);
   EXPECT_EQ(frame.region->along, "z");
   EXPECT_EQ(frame.region->z, (std::vector<double>{0.5, 1.5, 2.5, 3.5}));
   EXPECT_EQ(frame.region->disks, 2U);
 
-  Region& region = setup.average->region;
+  Region& region = *setup.region;
   region.bins = BinKind::rings;
   region.innerRadius = 1.0;
   region.outerRadius = 3.0;
   region.count = 2;
   region.layers = 2;
   EXPECT_EQ(placesOf(setup).r, (std::vector<double>{1.5, 2.5, 1.5, 2.5}));
-  EXPECT_EQ(couetteFrame("compare", setup, "", radii).region->z,
+  EXPECT_EQ(flowFrame("compare", setup, "", radii).region->z,
             (std::vector<double>{1.0, 1.0, 3.0, 3.0}));
 }
 
@@ -162,11 +162,12 @@ TEST(SpaceRegion, PictureIsACutThroughTheMiddleOfTheBox) {
 TEST(SpaceRegion, PeriodicPlaneHasStressesOfItsWallsToo) {
   Case setup = slabsOfACell();
   setup.dimension = 2;
-  setup.assembly.disks.emplace_back().radius = 0.5;
-  setup.assembly.duration = 1.0;
-  setup.average->region.axis = 1;
-  setup.average->region.high = {2.0, 3.0, 0.0};
-  setup.average->region.height = 0.5;
+  setup.source = Assembly();
+  assemblyIn<2>(setup).disks.emplace_back().radius = 0.5;
+  assemblyIn<2>(setup).duration = 1.0;
+  setup.region->axis = 1;
+  setup.region->high = {2.0, 3.0, 0.0};
+  setup.region->height = 0.5;
   Scene scene;
   scene.box = BoxOf<2>{Vec2::Zero(), Vec2(2.0, 3.0), {true, false}};
   for (const double y : {0.0, 3.0}) {
@@ -177,17 +178,17 @@ TEST(SpaceRegion, PeriodicPlaneHasStressesOfItsWallsToo) {
   now.bodies.resize(2);
   now.bodies[0].force = Vec2(0.5, -2.0);
   now.bodies[1].force = Vec2(-0.5, 2.0);
-  const auto averages = flowAverages(setup, scene);
-  averages->add(now);
+  FlowAverages averages(setup, scene);
+  averages.add(now);
   FlowRun run;
-  averages->describe({}, run);
+  averages.describe({}, run);
   EXPECT_NEAR(seriesEnd(run, "wall_normal_stress"), 2.0 / (2.0 * 0.5), 1e-15);
   EXPECT_NEAR(seriesEnd(run, "wall_shear_stress"), 0.5 / (2.0 * 0.5), 1e-15);
   scene.box.reset();
-  const auto unbounded = flowAverages(setup, scene);
-  unbounded->add(now);
+  FlowAverages unbounded(setup, scene);
+  unbounded.add(now);
   FlowRun other;
-  unbounded->describe({}, other);
+  unbounded.describe({}, other);
   EXPECT_FALSE(other.series->contains("wall_normal_stress")) << "no cell between two walls";
 }
 

@@ -21,7 +21,7 @@ class History : public testing::Test {
  protected:
   History() {
     Packing packing;
-    packing.disks = diskKinds(setup_.particles);
+    packing.disks = diskKinds(couetteIn(setup_).particles);
     scene_ = couetteScene(setup_, packing, 4e-5);
   }
 
@@ -55,7 +55,8 @@ class History : public testing::Test {
   }
 
   const Case setup_ = oneDisk();
-  const double radius_ = setup_.cell.innerRadius + setup_.particles.smallRadius;
+  const double radius_ =
+      couetteIn(setup_).cell.innerRadius + couetteIn(setup_).particles.smallRadius;
   Scene scene_;
 };
 
@@ -80,7 +81,7 @@ TEST_F(History, Numbers_AreMeansOfSnapshots) {
   const auto spans = history.spans();
   ASSERT_EQ(spans.size(), 2u);  // nothing was averaged
   const ThesisSpan& first = spans.front();
-  const double mass = setup_.particles.smallMass;
+  const double mass = couetteIn(setup_).particles.smallMass;
   EXPECT_DOUBLE_EQ(*first.kineticEnergy, 0.5 * mass * (1.0 + 9.0) / 2.0);
   EXPECT_DOUBLE_EQ(*spans[1].kineticEnergy, 0.5 * mass * 25.0);
   EXPECT_DOUBLE_EQ(*first.wheelTorque, (2.0 + 6.0) / 2.0);
@@ -91,7 +92,7 @@ TEST_F(History, Numbers_AreMeansOfSnapshots) {
   EXPECT_EQ(*first.maxOverlap, 6e-3);  // the largest
   EXPECT_DOUBLE_EQ(*first.meanOverlap, 5e-3);
   EXPECT_FALSE(spans[1].maxOverlap);  // nothing touches: absent, not zero
-  const Cell& cell = setup_.cell;
+  const Cell& cell = couetteIn(setup_).cell;
   const double mantle = 2.0 * std::numbers::pi * cell.outerRadius * cell.height;
   EXPECT_NEAR(*first.outerPressure, (0.0 + 6.0) / 2.0 / mantle, 1e-9 * 6.0 / mantle);
   EXPECT_NEAR(*first.velocityAtWheel, 2.0 / (cell.omega * cell.innerRadius), 1e-3);

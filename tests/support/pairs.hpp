@@ -27,11 +27,11 @@ inline CollidingPair unequalPair() {
 inline Case smallPairCase() {
   Case setup;
   setup.name = "pair";
-  setup.kind = CaseKind::collision;
+  setup.source = Collision();
   setup.law = thesisLaw();
   for (const int side : {0, 1}) {
-    setup.collision.radius[side] = smallRadius;
-    setup.collision.mass[side] = smallMass;
+    collisionIn(setup).radius[side] = smallRadius;
+    collisionIn(setup).mass[side] = smallMass;
   }
   return setup;
 }

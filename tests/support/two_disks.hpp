@@ -8,7 +8,7 @@ namespace crossgrain::test {
 /// steps of 1 ms. It has no walls yet.
 inline Case twoDisks() {
   Case setup;
-  setup.kind = CaseKind::assembly;
+  setup.source = Assembly();
   setup.law.normal = NormalLaw::linear;
   setup.law.kn = 100.0;
   setup.run.dt = 1e-3;
@@ -16,8 +16,8 @@ inline Case twoDisks() {
   group.radius = 0.5;
   group.mass = 1.0;
   group.places = {{0.0, 2.0}, {2.0, 2.0}};
-  setup.assembly.disks = {group};
-  setup.assembly.duration = 3.0;
+  assemblyIn<2>(setup).disks = {group};
+  assemblyIn<2>(setup).duration = 3.0;
   return setup;
 }
 

@@ -102,8 +102,7 @@ std::string missing(const std::string& what, std::size_t count, std::size_t all)
 /// The time of which no snapshot of the run is, so that there is no value of one time; absent:
 /// there is one. An engine's snapshots are at the end, and no further from any other time than they
 /// are apart; files may be of a part of the averaged time [s].
-std::optional<double> missedTime(const OwnEndpoint& how, const Case& setup,
-                                 const RunSeries& series) {
+std::optional<double> missedTime(const Endpoint& how, const Case& setup, const RunSeries& series) {
   const bool atEnd = how.reduction == Reduction::end && !how.between;
   if (!atEnd && how.reduction != Reduction::end && how.reduction != Reduction::time) return {};
   const FlowTimes averaged = flowTimes(setup);
@@ -117,8 +116,8 @@ std::optional<double> missedTime(const OwnEndpoint& how, const Case& setup,
   return covered ? std::nullopt : std::optional(t);
 }
 
-OwnValue ofSeries(const std::string& quantity, const OwnEndpoint& how, const Case& setup,
-                  const FlowRun& run) {
+EndpointValue ofSeries(const std::string& quantity, const Endpoint& how, const Case& setup,
+                       const FlowRun& run) {
   if (!run.series) return {};
   const std::string name = how.disk || how.wall ? how.series() : quantity;
   // A disk's velocity may be of another instant than its place.
@@ -176,8 +175,8 @@ OwnValue ofSeries(const std::string& quantity, const OwnEndpoint& how, const Cas
   return {sum / static_cast<double>(points.y.size()), ""};
 }
 
-OwnValue ofField(const std::string& field, const OwnEndpoint& how, const Case& setup,
-                 const FlowRun& run) {
+EndpointValue ofField(const std::string& field, const Endpoint& how, const Case& setup,
+                      const FlowRun& run) {
   if (how.reduction == Reduction::bin) {
     const Profile* profile = profileOf(run.profiles, setup.averaging.methods.front(), field);
     const auto bin = static_cast<std::size_t>(how.bin);
@@ -192,8 +191,15 @@ OwnValue ofField(const std::string& field, const OwnEndpoint& how, const Case& s
   return {slopeOf(placesOf(setup).r, value, weight), ""};
 }
 
-OwnValue reduced(const std::string& quantity, const OwnEndpoint& how, const Case& setup,
-                 const FlowRun& run) {
+EndpointValue reduced(const std::string& quantity, const Endpoint& how, const Case& setup,
+                      const FlowRun& run) {
+  if (quantity == planePressure && setup.dimension == 2) {  // a flow without contacts has none
+    const Value rr = ofField("stress_rr", how, setup, run).value,
+                pp = ofField("stress_pp", how, setup, run).value;
+    if (!rr || !pp || !(*rr + *pp > 0.0)) return {};
+    return {0.5 * (*rr + *pp), ""};
+  }
+  if (quantity == sceneCoordination) return ofSeries("coordination", how, setup, run);
   const auto numbers = regionNumbers(setup.dimension);
   if (how.disk || how.wall ||
       std::ranges::find(numbers, quantity, &RegionNumber::name) != numbers.end())
@@ -203,10 +209,10 @@ OwnValue reduced(const std::string& quantity, const OwnEndpoint& how, const Case
 
 }  // namespace
 
-OwnValue ownEndpointOf(const OwnEndpoint& endpoint, const Case& setup, const FlowRun& run) {
-  const OwnValue own = reduced(endpoint.quantity, endpoint, setup, run);
+EndpointValue endpointValue(const Endpoint& endpoint, const Case& setup, const FlowRun& run) {
+  const EndpointValue own = reduced(endpoint.quantity, endpoint, setup, run);
   if (endpoint.per.empty() || !own.value) return own;
-  const OwnValue below = reduced(endpoint.per, endpoint, setup, run);
+  const EndpointValue below = reduced(endpoint.per, endpoint, setup, run);
   if (!below.value) return below;
   if (*below.value == 0.0) return {{}, endpoint.per + " is 0"};
   return {*own.value / *below.value, ""};
