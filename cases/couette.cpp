@@ -76,11 +76,11 @@ Disks diskKinds(const Particles& particles) {
 }
 
 Disks spreadDisks(const Case& setup) {
-  Disks disks = diskKinds(couetteIn(setup).particles);
-  const double clearance =
-      couetteIn(setup).cell.wallRadius + couetteIn(setup).particles.smallRadius;
-  const double inner = couetteIn(setup).cell.innerRadius + clearance;
-  const double outer = couetteIn(setup).cell.outerRadius - clearance;
+  const auto& [cell, particles, filling, times] = couetteIn(setup);
+  Disks disks = diskKinds(particles);
+  const double clearance = cell.wallRadius + particles.smallRadius;
+  const double inner = cell.innerRadius + clearance;
+  const double outer = cell.outerRadius - clearance;
   const double goldenAngle = std::numbers::pi * (3.0 - std::sqrt(5.0));
   const auto count = static_cast<double>(disks.size());
   for (std::size_t k = 0; k < disks.size(); ++k) {
@@ -93,23 +93,22 @@ Disks spreadDisks(const Case& setup) {
 }
 
 Scene couetteScene(const Case& setup, const Packing& packing, double dt) {
+  const auto& [cell, particles, filling, times] = couetteIn(setup);
   Scene scene;
   scene.name = setup.name;
   scene.disks = packing.disks;
   scene.law = setup.law;
   scene.bottom = setup.bottom;
-  scene.rotation = couetteIn(setup).particles.rotation;
+  scene.rotation = particles.rotation;
   if (!scene.rotation) std::ranges::fill(scene.disks.spin, 0.0);
   scene.precision = setup.run.precision;
   scene.energyLedger = setup.run.energyLedger;
   scene.dt = dt;
-  WallBody wheel = wallRing(wheelName, couetteIn(setup).cell, couetteIn(setup).cell.innerRadius,
-                            packing.wheelAngle);
+  WallBody wheel = wallRing(wheelName, cell, cell.innerRadius, packing.wheelAngle);
   wheel.motion.kind = Motion::Kind::rotating;
-  wheel.motion.angularVelocity = couetteIn(setup).cell.omega;
+  wheel.motion.angularVelocity = cell.omega;
   scene.bodies.push_back(std::move(wheel));
-  scene.bodies.push_back(
-      wallRing(ringName, couetteIn(setup).cell, couetteIn(setup).cell.outerRadius, 0.0));
+  scene.bodies.push_back(wallRing(ringName, cell, cell.outerRadius, 0.0));
   addMaterials(scene, setup);
   return scene;
 }
@@ -245,9 +244,9 @@ double rimSpeed(const Case& c) {
 }
 
 double diskDensity(const Case& c) {
-  const double area =
-      std::numbers::pi * couetteIn(c).particles.smallRadius * couetteIn(c).particles.smallRadius;
-  return couetteIn(c).particles.smallMass / (area * couetteIn(c).cell.height);
+  const auto& [cell, particles, filling, times] = couetteIn(c);
+  const double area = std::numbers::pi * particles.smallRadius * particles.smallRadius;
+  return particles.smallMass / (area * cell.height);
 }
 
 // d: diameter of a small disk; D = 2 R_i, as the thesis scales spins (Lätzel 2003, section 6.3).

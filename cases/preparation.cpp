@@ -39,38 +39,38 @@ std::vector<Vec2> diluteLattice(std::size_t disks, double inner, double outer) {
 }
 
 void placeAtRandom(Disks& disks, const Case& setup, gsl_rng* random) {
-  const double clearance =
-      couetteIn(setup).cell.wallRadius + couetteIn(setup).particles.largeRadius;
-  const double outer = couetteIn(setup).filling.dilation * couetteIn(setup).cell.outerRadius;
+  const auto& [cell, particles, filling, times] = couetteIn(setup);
+  const double clearance = cell.wallRadius + particles.largeRadius;
+  const double outer = filling.dilation * cell.outerRadius;
   std::vector<Vec2> sites =
-      diluteLattice(disks.size(), couetteIn(setup).cell.innerRadius + clearance, outer - clearance);
+      diluteLattice(disks.size(), cell.innerRadius + clearance, outer - clearance);
   if (sites.size() < disks.size())
     throw BadInput(
         fmt::format("{}: preparation.dilation = {:g} leaves no room for {} disks on a "
                     "lattice; a larger one does",
-                    setup.file.string(), couetteIn(setup).filling.dilation, disks.size()));
+                    setup.file.string(), filling.dilation, disks.size()));
   gsl_ran_shuffle(random, sites.data(), sites.size(), sizeof(Vec2));
   std::copy_n(sites.begin(), disks.size(), disks.position.begin());
   for (Vec2& velocity : disks.velocity) {
-    velocity.x() = gsl_ran_gaussian(random, couetteIn(setup).filling.velocity);
-    velocity.y() = gsl_ran_gaussian(random, couetteIn(setup).filling.velocity);
+    velocity.x() = gsl_ran_gaussian(random, filling.velocity);
+    velocity.y() = gsl_ran_gaussian(random, filling.velocity);
   }
 }
 
 /// The cell with its ring at R_prepare, about to shrink.
 Scene diluteScene(const Case& setup, const Disks& disks, double dt) {
+  const auto& [cell, particles, filling, times] = couetteIn(setup);
   Packing packing;
   packing.disks = disks;
   Scene scene = couetteScene(setup, packing, dt);
   scene.precision = Precision::float64;  // a packing is the same for all that run it
   scene.energyLedger = false;
-  const double start = couetteIn(setup).filling.dilation * couetteIn(setup).cell.outerRadius;
+  const double start = filling.dilation * cell.outerRadius;
   WallBody& ring = scene.bodies.back();
-  for (Vec2& position : ring.diskPosition) position *= couetteIn(setup).filling.dilation;
+  for (Vec2& position : ring.diskPosition) position *= filling.dilation;
   ring.motion.kind = Motion::Kind::radial;
-  ring.motion.radialEnd = couetteIn(setup).filling.shrinkTime;
-  ring.motion.radialVelocity =
-      (couetteIn(setup).cell.outerRadius - start) / couetteIn(setup).filling.shrinkTime;
+  ring.motion.radialEnd = filling.shrinkTime;
+  ring.motion.radialVelocity = (cell.outerRadius - start) / filling.shrinkTime;
   return scene;
 }
 
@@ -121,13 +121,14 @@ std::vector<Vec2> latticeSites(double constant, double inner, double outer) {
 }
 
 Scene preparationStart(const Case& setup, int index, double dt) {
-  Disks disks = diskKinds(couetteIn(setup).particles);
+  const auto& [cell, particles, filling, times] = couetteIn(setup);
+  Disks disks = diskKinds(particles);
   const Random random = randomStream(setup.preparation.seed, static_cast<std::uint64_t>(index));
   placeAtRandom(disks, setup, random.get());
-  Scene scene = diluteScene(setup, disks, couetteIn(setup).filling.dt.value_or(dt));
+  Scene scene = diluteScene(setup, disks, filling.dt.value_or(dt));
   if (const std::string why = beyondNumbers(scene); !why.empty())
     throw BadInput(setup.file.string() + why);
-  checkStart(scene, couetteIn(setup).particles,
+  checkStart(scene, particles,
              setup.file.string() + ": preparation.dilation leaves too little room");
   return scene;
 }

@@ -292,7 +292,11 @@ std::vector<Case> casesToCollide(const CommandLine& line, CollideOptions&) {
   const fs::path& input = line.inputs.front();
   std::vector<Case> variants = fs::is_directory(input) ? collisionsOf(input, line.overrides)
                                                        : loadCase(input, line.overrides);
-  if (!isCollision(variants.front())) refuseKind(variants.front(), input, "collide");
+  if (!isCollision(variants.front()))
+    throw BadInput(
+        fmt::format("{}: collide takes two bodies that meet once, and this scene has no such pair; "
+                    "crossgrain {} can run it",
+                    input.string(), hasFlow(variants.front()) ? "compare" : "stability"));
   if (line.only) variants = selectedCases(variants, *line.only);
   reportKeysWithoutUse(variants, "collide", line.json ? stderr : stdout);
   return variants;

@@ -72,23 +72,23 @@ void reportKeysWithoutUse(const std::vector<Case>& cases, std::string_view comma
 }
 
 std::vector<std::string> quickOverrides(const Case& setup, double rotations) {
+  const auto& [cell, particles, filling, times] = couetteIn(setup);
   const std::string packings =
       fmt::format("preparation.packings={}", std::min(2, setup.preparation.packings));
   if (!cellOf(setup))
     return {packings, fmt::format("average.snapshots={}", std::min(20, setup.region->snapshots))};
-  return {
-      packings,
-      fmt::format("preparation.rotations={}", std::min(0.1, couetteIn(setup).filling.rotations)),
-      fmt::format("averaging.settle_rotations={}",
-                  std::min(0.02, couetteIn(setup).times.settleRotations)),
-      fmt::format("averaging.rotations={}", std::min(rotations, couetteIn(setup).times.rotations)),
-      "averaging.snapshots_per_rotation=400"};
+  return {packings, fmt::format("preparation.rotations={}", std::min(0.1, filling.rotations)),
+          fmt::format("averaging.settle_rotations={}", std::min(0.02, times.settleRotations)),
+          fmt::format("averaging.rotations={}", std::min(rotations, times.rotations)),
+          "averaging.snapshots_per_rotation=400"};
 }
 
 Case onlyCase(const CommandLine& line, const char* command) {
   const fs::path& file = line.inputs.front();
   const Case setup = loadCase(file, line.overrides).front();
-  if (!cellOf(setup)) refuseKind(setup, file, command);
+  if (!cellOf(setup))
+    throw BadInput(fmt::format("{}: {} takes rings about a wheel, and this scene has no wheel",
+                               file.string(), command));
   return onlyFlow(line, command);
 }
 
@@ -114,7 +114,11 @@ Case onlyFlow(const CommandLine& line, const char* command) {
   const Starts starts = startsOf(line, command);
   const std::vector<Case> cases = loadCase(file, line.overrides, {}, starts);
   if (!hasFlow(cases.front())) {
-    if (!isAssembly(cases.front())) refuseKind(cases.front(), file, command);
+    if (isCollision(cases.front()))
+      throw BadInput(
+          fmt::format("{}: {} needs a flow, and here two bodies meet once; crossgrain collide can "
+                      "run it",
+                      file.string(), command));
     throw BadInput(fmt::format(
         "{}: {} cannot run an assembly that does not say what is averaged: give it [average] and "
         "[[endpoints]]",
@@ -131,14 +135,6 @@ Case onlyFlow(const CommandLine& line, const char* command) {
   const bool shares = std::string_view(command) == "compare" &&
                       shareConventions(cases.front(), line.run.engines, overrides);
   return shares || line.quick ? loadCase(file, overrides, {}, starts).front() : cases.front();
-}
-
-void refuseKind(const Case& setup, const fs::path& input, const char* command) {
-  const char* const able = isCollision(setup) ? "collide"
-                           : hasFlow(setup)   ? "compare"
-                                              : "stability";
-  throw BadInput(fmt::format("{}: {} cannot run a case of this kind; crossgrain {} can",
-                             input.string(), command, able));
 }
 
 void printWarnings(const Case& setup) {

@@ -23,10 +23,6 @@ Case onlyFlow(const CommandLine& line, const char* command);
 /// @param rotations  averaged
 std::vector<std::string> quickOverrides(const Case& setup, double rotations = 0.1);
 
-/// Says which command can.
-[[noreturn]] void refuseKind(const Case& setup, const std::filesystem::path& input,
-                             const char* command);
-
 /// Keys and sections that the case says and that mean nothing to a command, settings of engines
 /// that it does not know among them; else none for `check`, which reads all of it.
 std::vector<std::string> keysWithoutUse(const Case& setup, std::string_view command);

@@ -14,18 +14,18 @@ CellAverages::CellAverages(const Case& setup, const Scene& scene)
       spin_(ringsOf(setup), scene) {}
 
 void CellAverages::add(const Snapshot& now, RunSeries& series) {
+  const Cell& cell = couetteIn(setup_).cell;
   distributions_.add(now);
   spin_.add(now);
   series["wheel_torque"].push_back(drivingTorque(scene_, now, wheelName));
   // Snapshots of another source may lack the walls: no disks of a ring, no pressure on it.
   const bool hasWalls = !now.wallPosition.empty();
-  const auto pressure =
-      hasWalls ? radialPressure(scene_, now, ringName, couetteIn(setup_).cell.outerRadius,
-                                couetteIn(setup_).cell.height)
-               : std::nullopt;
+  const auto pressure = hasWalls
+                            ? radialPressure(scene_, now, ringName, cell.outerRadius, cell.height)
+                            : std::nullopt;
   series["outer_pressure"].push_back(pressure);
   series["wheel_contacts"].push_back(contactsOf(scene_, now, wheelName));
-  const auto motion = wheelMotion(scene_, now, ringsOf(setup_), couetteIn(setup_).cell.omega);
+  const auto motion = wheelMotion(scene_, now, ringsOf(setup_), cell.omega);
   series["wheel_slip"].push_back(motion ? std::optional(motion->slip) : std::nullopt);
   series["shear_share"].push_back(motion ? std::optional(motion->shear) : std::nullopt);
   if (!hasWalls) return;

@@ -76,17 +76,18 @@ void compareDisks(const Disks& disks, const Particles& target, Misfits& misfits)
 
 /// The wheel's and the ring's wall disks, in this order, against those of the case's cell.
 void compareWalls(const Scene& scene, const Snapshot& first, const Case& setup, Misfits& misfits) {
-  const double radii[] = {couetteIn(setup).cell.innerRadius, couetteIn(setup).cell.outerRadius};
+  const Cell& cell = couetteIn(setup).cell;
+  const double radii[] = {cell.innerRadius, cell.outerRadius};
   const char* const names[] = {wheelName, ringName};
   std::size_t at = 0;
   for (std::size_t b = 0; b < 2; ++b) {
     const std::vector<double>& disks = scene.bodies[b].diskRadius;
     if (disks.empty()) continue;
-    const WallBody target = wallRing(names[b], couetteIn(setup).cell, radii[b], 0.0);
+    const WallBody target = wallRing(names[b], cell, radii[b], 0.0);
     misfits.number(b == 0 ? "wall disks of the wheel" : "wall disks of the ring", disks.size(),
                    target.diskRadius.size());
     misfits.size(fmt::format("the {}'s wall disks' radius", names[b]), disks.front(),
-                 couetteIn(setup).cell.wallRadius, "m");
+                 cell.wallRadius, "m");
     misfits.size(fmt::format("the {}'s radius", names[b]), first.wallPosition[at].norm(), radii[b],
                  "m");
     at += disks.size();
@@ -201,17 +202,18 @@ Scene cellAround(const Case& setup, Disks disks, const SnapshotOrigin& origin) {
 /// requireFit() of a Couette cell.
 void requireCellFit(const Scene& scene, const Snapshot& first, const Case& setup,
                     const SnapshotOrigin& origin) {
+  const auto& [cell, particles, filling, times] = couetteIn(setup);
   Misfits misfits;
-  if (!packingFile(setup)) compareDisks(scene.disks, couetteIn(setup).particles, misfits);
+  if (!packingFile(setup)) compareDisks(scene.disks, particles, misfits);
   compareWalls(scene, first, setup, misfits);
   if (!first.bodies.empty())
-    misfits.size("a wheel that turns at", first.bodies.front().angularVelocity,
-                 couetteIn(setup).cell.omega, "rad/s");
-  comparePlaces(first, couetteIn(setup).cell, misfits);
-  const std::string hint = packingFile(setup) || scene.disks.size() == 0
-                               ? ""
-                               : unitHint(std::ranges::max(scene.disks.radius),
-                                          couetteIn(setup).particles.largeRadius, "length", origin);
+    misfits.size("a wheel that turns at", first.bodies.front().angularVelocity, cell.omega,
+                 "rad/s");
+  comparePlaces(first, cell, misfits);
+  const std::string hint =
+      packingFile(setup) || scene.disks.size() == 0
+          ? ""
+          : unitHint(std::ranges::max(scene.disks.radius), particles.largeRadius, "length", origin);
   throwIfAny(misfits, setup, origin, hint);
 }
 

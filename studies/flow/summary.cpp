@@ -138,8 +138,8 @@ std::optional<double> meanOf(const Numbers& values) {
 }
 
 DistributionScales distributionScales(const Case& setup) {
-  return {couetteIn(setup).cell.omega * couetteIn(setup).cell.innerRadius,
-          1.0 / spinScale(ringsOf(setup), couetteIn(setup).cell.omega)};
+  const Cell& cell = couetteIn(setup).cell;
+  return {cell.omega * cell.innerRadius, 1.0 / spinScale(ringsOf(setup), cell.omega)};
 }
 
 std::vector<HeadNumber> headNumbers(const Case& setup, const std::vector<Profile>& profiles,
@@ -175,6 +175,7 @@ std::vector<HeadNumber> headNumbers(const Case& setup, const std::vector<Profile
 }
 
 std::vector<FitRow> couetteFits(const Case& setup, const std::vector<Profile>& profiles) {
+  const Cell& cell = couetteIn(setup).cell;
   const Rings rings = ringsOf(setup);
   std::vector<FitRow> fits;
   if (const Profile* shear = profileOf(profiles, "stress_rp")) {
@@ -185,7 +186,7 @@ std::vector<FitRow> couetteFits(const Case& setup, const std::vector<Profile>& p
                           "exponent p of σ_rφ ∝ r^p", "-", -2.0));
   }
   if (const Profile* velocity = profileOf(profiles, "azimuthal_velocity")) {
-    const double wheel = couetteIn(setup).cell.omega * couetteIn(setup).cell.innerRadius;
+    const double wheel = cell.omega * cell.innerRadius;
     const Fit fit = fitVelocityDecay(pointsOverRTilde(rings, *velocity, 1.0 / wheel));
     fits.push_back(fitRow(fit, "A", "velocity_amplitude", "A of v_φ/(ΩR_i) = A exp(−r̃/B)", "-"));
     fits.push_back(fitRow(fit, "B", "velocity_decay", "decay length B of v_φ", "d"));
@@ -199,7 +200,7 @@ std::vector<FitRow> couetteFits(const Case& setup, const std::vector<Profile>& p
         fitRow(fit, "C", "dilation_decay", "C, inverse width of the dilated zone", "1/d"));
   }
   if (const Profile* spin = profileOf(profiles, "spin")) {
-    const double scale = spinScale(rings, couetteIn(setup).cell.omega);
+    const double scale = spinScale(rings, cell.omega);
     FitRow row;
     row.name = spinInRing1;
     row.label = "spin S d/(ΩD) in ring 1 (< 0: counter-rotates)";

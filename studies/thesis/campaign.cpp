@@ -60,18 +60,19 @@ std::string roughly(double seconds) {
 
 ThesisCase rowOf(const SweepCase& own) {
   const Case& setup = own.setup;
+  const auto& [cell, particles, filling, times] = couetteIn(setup);
   ThesisCase row;
   row.name = own.name;
   row.purpose = own.purpose;
   row.file = setup.file.string();
   row.families = own.families;
-  row.cell = flowFrame(kindThesis, setup, "", diskKinds(couetteIn(setup).particles).radius).cell;
+  row.cell = flowFrame(kindThesis, setup, "", diskKinds(particles).radius).cell;
   row.label = own.label;
   row.kn = setup.law.kn;
   row.mu = setup.law.mu;
   row.bottomFriction = setup.bottom.has_value();
-  row.settleRotations = couetteIn(setup).times.settleRotations;
-  row.averagedRotations = couetteIn(setup).times.rotations;
+  row.settleRotations = times.settleRotations;
+  row.averagedRotations = times.rotations;
   row.caseToml = setup.resolvedToml;
   return row;
 }

@@ -18,8 +18,9 @@ ThesisHistory::ThesisHistory(const Case& setup, const Scene& scene, int settling
       scene_(scene),
       rings_(ringsOf(setup)),
       sums_(std::make_shared<Rings>(rings_), {Weight(WeightMethod::slicing)}, scene) {
-  const double settled = couetteIn(setup).times.settleRotations;
-  const double end = settled + couetteIn(setup).times.rotations;
+  const CellTimes& times = couetteIn(setup).times;
+  const double settled = times.settleRotations;
+  const double end = settled + times.rotations;
   const auto addSpans = [&](double from, double to) {
     constexpr double sliver = 1e-9;  // what rounding leaves of a rotation is no span
     for (double at = from; at < to - sliver; at += 1.0)
@@ -27,17 +28,16 @@ ThesisHistory::ThesisHistory(const Case& setup, const Scene& scene, int settling
   };
   addSpans(0.0, settled);
   addSpans(settled, end);
-  const double perRotation =
-      std::max(settled > 0.0 ? settlingSnapshots / settled : 0.0,
-               static_cast<double>(couetteIn(setup).times.snapshotsPerRotation));
+  const double perRotation = std::max(settled > 0.0 ? settlingSnapshots / settled : 0.0,
+                                      static_cast<double>(times.snapshotsPerRotation));
   half_ = 0.5 / perRotation;
 }
 
 ThesisSpan ThesisHistory::momentary(const Snapshot& snapshot) {
+  const Cell& cell = couetteIn(setup_).cell;
   const GlobalNumbers numbers = globalNumbers(scene_, snapshot);
   ThesisSpan now;
-  now.outerPressure = radialPressure(scene_, snapshot, ringName, couetteIn(setup_).cell.outerRadius,
-                                     couetteIn(setup_).cell.height);
+  now.outerPressure = radialPressure(scene_, snapshot, ringName, cell.outerRadius, cell.height);
   now.wheelTorque = drivingTorque(scene_, snapshot, wheelName);
   now.wheelContacts = contactsOf(scene_, snapshot, wheelName);
   if (now.wheelContacts) now.wheelTouched = *now.wheelContacts > 0.0 ? 1.0 : 0.0;
@@ -58,7 +58,7 @@ ThesisSpan ThesisHistory::momentary(const Snapshot& snapshot) {
   now.volumeFractionAtWheel = volumeOf(0) / rings_.ringVolume(0);
   if (volumeOf(0) > 0.0)
     now.velocityAtWheel = at(rings[rings_.slot(0)], Moment::velocityP) / volumeOf(0) /
-                          (couetteIn(setup_).cell.omega * couetteIn(setup_).cell.innerRadius);
+                          (cell.omega * cell.innerRadius);
   return now;
 }
 

@@ -85,12 +85,12 @@ CASE_FILES = {
     "check mistaken.toml": ("mistaken.toml:4:1", "unknown key particles.smal_mass", "did you mean small_mass?"),
     "check mine/case.toml": "secret.toml:1:",
     f"compare --engines grain gone.toml --out out": "gone.toml: no such file",
-    f"collide {CELL} {RUN}": ("quick.toml", "collide", "kind"),
-    f"compare {RIGID} {RUN}": ("hard-sphere.toml", "compare", "kind"),
+    f"collide {CELL} {RUN}": ("quick.toml", "collide takes two bodies that meet once", "crossgrain compare can run it"),
+    f"compare {RIGID} {RUN}": ("hard-sphere.toml", "compare needs a flow, and here two bodies meet once"),
     f"compare {PILE} {RUN}": "give it [average] and [[endpoints]]",
-    f"cost {PAIR} {RUN}": "cost cannot run a case of this kind; crossgrain collide can",
-    f"effects {PAIR} {RUN}": "effects cannot run a case of this kind",
-    f"lockstep {PAIR} {RUN}": "lockstep cannot run",
+    f"cost {PAIR} {RUN}": "cost needs a flow, and here two bodies meet once; crossgrain collide can run it",
+    f"effects {PAIR} {RUN}": "effects needs a flow",
+    f"lockstep {PAIR} {RUN}": "lockstep needs a flow",
     f"baseline {PILE} --engines grain --out b.h5": "give it [average] and [[endpoints]]",
     f"baseline {PAIR} --engines grain --out b.h5 --endpoints": ("--endpoints", "has no endpoints to keep"),
     f"thesis {TINY} --out out": "tiny.toml: is a case",
@@ -142,7 +142,7 @@ VALUES = {
 }
 SPHERES = CASES / "space/shear-3d.toml"
 IN_SPACE = {  # what knows no assembly of spheres
-    f"rev none.h5 {SPHERES} --out out": "rev cannot run a case of this kind",
+    f"rev none.h5 {SPHERES} --out out": "rev takes rings about a wheel, and this scene has no wheel",
     f"average none.h5 {SPHERES} --out out": "none.h5: no such file",
     f"stability {SPHERES} {RUN}": "audits flows in the plane alone yet",
     f"baseline {SPHERES} --engines grain --out b.baseline": "baseline keeps no flow of spheres yet",
