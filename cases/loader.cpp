@@ -201,8 +201,7 @@ void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
 
 /// What cases in space do not have yet.
 void refusePlaneSections(const Reader& root) {
-  for (const char* const section : {"bottom", "stability"})
-    root.check(!root.has(section), section, "is of the plane alone, and case.dimension = 3");
+  root.check(!root.has("bottom"), "bottom", "is of the plane alone, and case.dimension = 3");
 }
 
 void readAssemblyCase(Reader& root, Reader& law, Reader& run, Starts starts, Case& c) {
@@ -322,7 +321,7 @@ Case readCase(const std::filesystem::path& file, CaseDocument& document,
   readPairLaws(law, pairs, c);
   readRun(run, c.run);
   readEngines(engines, c.engines);
-  if (root.has("stability")) readStability(stability, c.stability.emplace());
+  if (root.has("stability")) readStability(stability, c.dimension, c.stability.emplace());
   if (cellOf(c))
     readCouette(root, law, run, c);
   else if (isCollision(c))

@@ -434,8 +434,11 @@ void readEngines(Reader& in, std::map<std::string, Settings>& engines) {
   for (const std::string& name : in.keys()) engines[name] = readSettings(in.section(name));
 }
 
-void readStability(Reader& in, Stability& hard) {
+void readStability(Reader& in, int dimension, Stability& hard) {
   stabilityKeys().read(in, hard);
+  const StabilityMeasure& measure = stabilityMeasure(hard.measure);
+  in.check(dimension == 2 || !measure.curve || measure.curveInSpace, "measure",
+           "is of the plane alone, and case.dimension = 3");
   in.check(hard.degraded >= hard.limit, "degraded", "must be >= limit = {}", hard.limit);
 }
 

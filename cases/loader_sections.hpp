@@ -47,7 +47,7 @@ void readRun(Reader& in, RunOptions& run);
 void readEngines(Reader& in, std::map<std::string, Settings>& engines);
 /// Settings of one engine: booleans, numbers, texts.
 Settings readSettings(Reader engine);
-void readStability(Reader& in, Stability& stability);
+void readStability(Reader& in, int dimension, Stability& stability);
 void readCost(Reader& in, Cost& cost);
 /// @param dimension  of the case: some keys are of collisions in space alone
 void readCollision(Reader& in, Collision& collision, int dimension);

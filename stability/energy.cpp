@@ -9,45 +9,57 @@
 
 namespace crossgrain::inline stability {
 
-bool hasNoSprings(const Recording& run) {
+template <int D>
+bool hasNoSprings(const RecordingOf<D>& run) {
   return !run.scene.law.soft() ||
          std::ranges::find(run.effective.deviations, "normal", &Deviation::name) !=
              run.effective.deviations.end();
 }
+template bool hasNoSprings<2>(const Recording&);
+template bool hasNoSprings<3>(const SpaceRecording&);
 
 namespace {
 
-double kineticEnergy(const Disks& disks, const Snapshot& snapshot) {
-  const std::vector<double>& spin = snapshot.spin ? *snapshot.spin : disks.spin;
+double square(double value) {
+  return value * value;
+}
+double square(const Vec3& value) {
+  return value.squaredNorm();
+}
+
+template <int D>
+double kineticEnergy(const DisksOf<D>& disks, const SnapshotOf<D>& snapshot) {
+  const std::vector<SpinOf<D>>& spin = snapshot.spin ? *snapshot.spin : disks.spin;
   double energy = 0.0;
   for (std::size_t i = 0; i < disks.size(); ++i)
     energy += 0.5 * disks.mass[i] * snapshot.velocity[i].squaredNorm() +
-              0.5 * disks.inertia[i] * spin[i] * spin[i];
+              0.5 * disks.inertia[i] * square(spin[i]);
   return energy;
 }
 
-double tangentialEnergy(const Recording& run, const Snapshot& snapshot) {
+template <int D>
+double tangentialEnergy(const RecordingOf<D>& run, const SnapshotOf<D>& snapshot) {
   const ContactLaw& law = run.scene.law;
   const bool constant = law.springs() && law.normal == NormalLaw::linear;
   if (!constant || !snapshot.contacts || run.effective.pairs.empty()) return 0.0;
-  const Contacts& contacts = *snapshot.contacts;
+  const ContactsOf<D>& contacts = *snapshot.contacts;
   double energy = 0.0;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
-    const double force = contacts.tangentialForce[k];
     const double kt = run.scene.materials ? run.scene
                                                 .lawOf(static_cast<std::size_t>(contacts.i[k]),
                                                        static_cast<std::size_t>(contacts.j[k]))
                                                 .kt
                                           : run.effective.pairs.front().kt;
-    if (kt > 0.0) energy += 0.5 * force * force / kt;
+    if (kt > 0.0) energy += 0.5 * square(contacts.tangentialForce[k]) / kt;
   }
   return energy;
 }
 
 /// ½ M²/k_r(…) of a rolling spring's torques, which a dashpot may be part of.
-double rollingEnergy(const Recording& run, const Snapshot& snapshot) {
+template <int D>
+double rollingEnergy(const RecordingOf<D>& run, const SnapshotOf<D>& snapshot) {
   if (run.law.rolling != RollingLaw::spring || !snapshot.contacts) return 0.0;
-  const Contacts& contacts = *snapshot.contacts;
+  const ContactsOf<D>& contacts = *snapshot.contacts;
   const std::vector<double> radius = run.scene.radii();
   double energy = 0.0;
   for (std::size_t k = 0; k < contacts.rollingTorque.size(); ++k) {
@@ -61,7 +73,7 @@ double rollingEnergy(const Recording& run, const Snapshot& snapshot) {
     pair.radius[1] = plane ? 0.0 : radius[j];
     pair.plane = plane;
     const double stiffness = law.kr * rollingSquare(law, pair);
-    energy += 0.5 * contacts.rollingTorque[k] * contacts.rollingTorque[k] / stiffness;
+    energy += 0.5 * square(contacts.rollingTorque[k]) / stiffness;
   }
   return energy;
 }
@@ -81,7 +93,8 @@ double jkrEnergy(const ContactLaw& law, double radius, double overlap) {
 
 /// Of the normal force without its dashpot [J]. Areas are those to first order. An elasto-plastic
 /// contact's is not a matter of its overlap alone: plasticEnergy().
-double bodyEnergy(const ContactLaw& law, const Overlap& at) {
+template <int D>
+double bodyEnergy(const ContactLaw& law, const OverlapOf<D>& at) {
   const double elastic = elasticEnergy(law, at.reducedRadius, at.depth);
   const double round = std::numbers::pi * at.reducedRadius;
   if (law.cohesion == CohesionLaw::dmt) return elastic - pullOff(law, at.reducedRadius) * at.depth;
@@ -95,7 +108,8 @@ double bodyEnergy(const ContactLaw& law, const Overlap& at) {
 }
 
 /// What unloading gives back, ½ f²/k₂ with the stiffest k₂ there is: no more than there is.
-double plasticEnergy(const ContactLaw& law, const Snapshot& snapshot) {
+template <int D>
+double plasticEnergy(const ContactLaw& law, const SnapshotOf<D>& snapshot) {
   if (law.cohesion != CohesionLaw::elastoPlastic || !snapshot.contacts) return 0.0;
   double energy = 0.0;
   for (const double force : snapshot.contacts->normalForce)
@@ -104,9 +118,11 @@ double plasticEnergy(const ContactLaw& law, const Snapshot& snapshot) {
 }
 
 /// Of JKR's bonds beyond the end of geometric contact, as far as they are shown [J].
-double stretchedBonds(const ContactLaw& law, const Recording& run, const Snapshot& snapshot) {
+template <int D>
+double stretchedBonds(const ContactLaw& law, const RecordingOf<D>& run,
+                      const SnapshotOf<D>& snapshot) {
   if (law.cohesion != CohesionLaw::jkr || !snapshot.contacts) return 0.0;
-  const Contacts& contacts = *snapshot.contacts;
+  const ContactsOf<D>& contacts = *snapshot.contacts;
   const std::vector<double> radius = run.scene.radii();
   double energy = 0.0;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
@@ -121,8 +137,9 @@ double stretchedBonds(const ContactLaw& law, const Recording& run, const Snapsho
 
 }  // namespace
 
-EnergyState energyOf(const Recording& run, const Snapshot& snapshot) {
-  const Scene& scene = run.scene;
+template <int D>
+EnergyState energyOf(const RecordingOf<D>& run, const SnapshotOf<D>& snapshot) {
+  const SceneOf<D>& scene = run.scene;
   const double t = timeOfVelocities(snapshot, run.effective.velocityLag);
   const double later = snapshot.positionTime - t;
   // Not the ledger's tangential springs: where they slip, a convention may put into them what no
@@ -136,7 +153,7 @@ EnergyState energyOf(const Recording& run, const Snapshot& snapshot) {
       energy.potential += later * scene.disks.mass[i] * scene.gravity.dot(snapshot.velocity[i]);
     return energy;
   }
-  std::vector<Vec2> position = snapshot.position;
+  std::vector<VecOf<D>> position = snapshot.position;
   for (std::size_t i = 0; i < position.size(); ++i) position[i] -= later * snapshot.velocity[i];
 
   EnergyState energy;
@@ -147,26 +164,31 @@ EnergyState energyOf(const Recording& run, const Snapshot& snapshot) {
   ContactLaw law = scene.law;
   if (law.normal == NormalLaw::linear && !run.effective.pairs.empty())
     law.kn = run.effective.pairs.front().kn;
-  for (const Overlap& overlap : overlapsOf(scene, position, t))
+  for (const OverlapOf<D>& overlap : overlapsOf(scene, position, t))
     energy.elastic +=
         bodyEnergy(scene.materials ? scene.lawOf(overlap.i, overlap.j) : law, overlap);
   energy.elastic += plasticEnergy(law, snapshot) + stretchedBonds(law, run, snapshot);
   energy.elastic += tangentialEnergy(run, snapshot) + rollingEnergy(run, snapshot);
   return energy;
 }
+template EnergyState energyOf<2>(const Recording&, const Snapshot&);
+template EnergyState energyOf<3>(const SpaceRecording&, const SpaceSnapshot&);
 
-double energyScale(const Recording& run) {
-  const Disks& disks = run.scene.disks;
+template <int D>
+double energyScale(const RecordingOf<D>& run) {
+  const DisksOf<D>& disks = run.scene.disks;
   const EnergyState start = energyOf(run, run.snapshots.front());
   double scale = start.kinetic + std::abs(start.elastic);
   for (std::size_t i = 0; i < disks.size(); ++i)
     scale += disks.mass[i] * run.scene.gravity.norm() * disks.radius[i];
   if (scale > 0.0) return scale;
-  for (const Snapshot& snapshot : run.snapshots) {
+  for (const SnapshotOf<D>& snapshot : run.snapshots) {
     const EnergyState now = energyOf(run, snapshot);
     scale = std::max(scale, now.kinetic + std::abs(now.elastic));
   }
   return scale;
 }
+template double energyScale<2>(const Recording&);
+template double energyScale<3>(const SpaceRecording&);
 
 }  // namespace crossgrain::inline stability

@@ -1,85 +1,71 @@
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
+#include "adapters/near_pairs.hpp"
 #include "stability/recording.hpp"
 
 namespace crossgrain::inline stability {
 
-double smallestDiameter(const Scene& scene) {
-  return 2.0 * std::ranges::min(scene.disks.radius);
-}
-
-std::vector<Plane> planesAt(const Scene& scene, double t) {
-  std::vector<Plane> planes;
-  for (const WallBody& body : scene.bodies) {
-    const BodyState now = stateAt(body.motion, body.centre, t);
-    for (const Plane& plane : body.planes) planes.push_back(planeAt(now, body.centre, plane));
+template <int D>
+std::vector<PlaneOf<D>> planesAt(const SceneOf<D>& scene, double t) {
+  std::vector<PlaneOf<D>> planes;
+  for (const WallBodyOf<D>& body : scene.bodies) {
+    const BodyStateOf<D> now = stateAt(body.motion, body.centre, t);
+    for (const PlaneOf<D>& plane : body.planes)
+      planes.push_back(planeAt<D>(now, body.centre, plane));
   }
   return planes;
 }
+template std::vector<Plane> planesAt<2>(const Scene&, double);
+template std::vector<PlaneOf<3>> planesAt<3>(const SpaceScene&, double);
 
-std::vector<Vec2> wallDisksAt(const Scene& scene, double t) {
-  std::vector<Vec2> positions;
-  for (const WallBody& body : scene.bodies) {
-    const BodyState now = stateAt(body.motion, body.centre, t);
-    for (const Vec2& reference : body.diskPosition)
-      positions.push_back(memberPosition(now, body.centre, reference));
+template <int D>
+std::vector<VecOf<D>> wallDisksAt(const SceneOf<D>& scene, double t) {
+  std::vector<VecOf<D>> positions;
+  for (const WallBodyOf<D>& body : scene.bodies) {
+    const BodyStateOf<D> now = stateAt(body.motion, body.centre, t);
+    for (const VecOf<D>& reference : body.diskPosition)
+      positions.push_back(memberPosition<D>(now, body.centre, reference));
   }
   return positions;
 }
+template std::vector<Vec2> wallDisksAt<2>(const Scene&, double);
+template std::vector<Vec3> wallDisksAt<3>(const SpaceScene&, double);
 
-namespace {
-
-/// Calls visit(i, j), i < j, for every two discs whose extents in x overlap, at least one of them
-/// among the first `moving`: those of walls may overlap each other.
-template <class Visit>
-void sweepPairs(const std::vector<Vec2>& position, const std::vector<double>& radius,
-                std::size_t moving, Visit&& visit) {
-  const auto left = [&](std::size_t i) { return position[i].x() - radius[i]; };
-  std::vector<std::size_t> order(position.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, {}, left);
-  for (std::size_t a = 0; a < order.size(); ++a) {
-    const double right = position[order[a]].x() + radius[order[a]];
-    for (std::size_t b = a + 1; b < order.size() && left(order[b]) <= right; ++b)
-      if (const auto [i, j] = std::minmax(order[a], order[b]); i < moving) visit(i, j);
-  }
-}
-
-void addPlaneOverlaps(const Scene& scene, const std::vector<Vec2>& position, double t,
-                      std::vector<Overlap>& found) {
-  const std::vector<Plane> planes = planesAt(scene, t);
-  const std::size_t firstPlane = scene.disks.size() + scene.wallDiskCount();
-  for (std::size_t i = 0; i < scene.disks.size(); ++i)
-    for (std::size_t p = 0; p < planes.size(); ++p) {
-      const double radius = scene.disks.radius[i];
-      const double depth = radius - (position[i] - planes[p].point).dot(planes[p].normal);
-      if (depth > 0.0)
-        found.push_back({i, firstPlane + p, depth, radius, radius, planes[p].normal});
-    }
-}
-
-}  // namespace
-
-std::vector<Overlap> overlapsOf(const Scene& scene, const std::vector<Vec2>& position, double t) {
-  std::vector<Vec2> place = position;
-  std::vector<double> radius = scene.disks.radius;
-  const std::vector<Vec2> walls = wallDisksAt(scene, t);
+template <int D>
+std::vector<OverlapOf<D>> overlapsOf(const SceneOf<D>& scene, const std::vector<VecOf<D>>& position,
+                                     double t) {
+  std::vector<VecOf<D>> place = position;
+  const std::vector<double> radius = scene.radii();
+  const std::vector<VecOf<D>> walls = wallDisksAt(scene, t);
   place.insert(place.end(), walls.begin(), walls.end());
-  for (const WallBody& body : scene.bodies)
-    radius.insert(radius.end(), body.diskRadius.begin(), body.diskRadius.end());
 
-  std::vector<Overlap> found;
-  sweepPairs(place, radius, scene.disks.size(), [&](std::size_t i, std::size_t j) {
-    const Vec2 apart = place[i] - place[j];
-    const double depth = radius[i] + radius[j] - apart.norm();
-    if (depth > 0.0)
-      found.push_back({i, j, depth, std::min(radius[i], radius[j]),
-                       radius[i] * radius[j] / (radius[i] + radius[j]), apart.normalized()});
-  });
-  addPlaneOverlaps(scene, position, t, found);
+  std::vector<OverlapOf<D>> found;
+  const auto finite = [](const VecOf<D>& x) { return x.allFinite(); };
+  if (std::ranges::all_of(place, finite))
+    nearPairs<D>(place, radius, scene.disks.size(), scene.box, [&](std::size_t i, std::size_t j) {
+      const VecOf<D> apart = apartIn<D>(scene, place[i] - place[j]);
+      const double depth = radius[i] + radius[j] - apart.norm();
+      if (depth > 0.0)
+        found.push_back({i, j, depth, std::min(radius[i], radius[j]),
+                         radius[i] * radius[j] / (radius[i] + radius[j]), apart.normalized()});
+    });
+  const auto addPlane = [&](std::size_t i, std::size_t id, const PlaneOf<D>& plane) {
+    const double depth = radius[i] - (position[i] - plane.point).dot(plane.normal);
+    if (depth > 0.0) found.push_back({i, id, depth, radius[i], radius[i], plane.normal});
+  };
+  const std::vector<PlaneOf<D>> planes = planesAt(scene, t);
+  for (std::size_t i = 0; i < scene.disks.size(); ++i) {
+    std::size_t id = radius.size();
+    for (const PlaneOf<D>& plane : planes) addPlane(i, id++, plane);
+    if constexpr (D == 3)
+      for (const WallBodyOf<D>& body : scene.bodies)
+        for (const Cylinder& cylinder : body.cylinders)
+          addPlane(i, id++, tangentPlane(cylinder, position[i]));
+  }
   return found;
 }
+template std::vector<OverlapOf<2>> overlapsOf<2>(const Scene&, const std::vector<Vec2>&, double);
+template std::vector<OverlapOf<3>> overlapsOf<3>(const SpaceScene&, const std::vector<Vec3>&,
+                                                 double);
 
 }  // namespace crossgrain::inline stability

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -19,33 +20,54 @@ namespace {
 
 using Curve = std::vector<double>;
 
+// Of what turns, in either dimension.
+double dot(double a, double b) {
+  return a * b;
+}
+double dot(const Vec3& a, const Vec3& b) {
+  return a.dot(b);
+}
+double sizeOf(double value) {
+  return std::abs(value);
+}
+double sizeOf(const Vec3& value) {
+  return value.norm();
+}
+using crossgrain::cross;
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return a.cross(b);
+}
+
 /// A value for each snapshot.
-template <typename Value>
-Curve each(const Recording& run, Value&& value) {
+template <int D, typename Value>
+Curve each(const RecordingOf<D>& run, Value&& value) {
   Curve curve;
-  for (const Snapshot& snapshot : run.snapshots) curve.push_back(value(snapshot));
+  for (const SnapshotOf<D>& snapshot : run.snapshots) curve.push_back(value(snapshot));
   return curve;
 }
 
-bool wallsMove(const Scene& scene) {
+template <int D>
+bool wallsMove(const SceneOf<D>& scene) {
   return effectsOf(scene).contains(Effect::movingWalls);
 }
 
 /// Power that the walls put into the disks, from the forces on the walls [W].
-std::optional<double> wallPower(const Snapshot& snapshot) {
+template <int D>
+std::optional<double> wallPower(const SnapshotOf<D>& snapshot) {
   double power = 0.0;
-  for (const BodySnapshot& body : snapshot.bodies) {
-    const bool turns = body.angularVelocity != 0.0, travels = !body.velocity.isZero(0.0);
+  for (const BodySnapshotOf<D>& body : snapshot.bodies) {
+    const bool turns = body.angularVelocity != noSpin<D>(), travels = !body.velocity.isZero(0.0);
     if ((travels && !body.force) || (turns && !body.torque)) return std::nullopt;
     if (travels) power -= body.force->dot(body.velocity);
-    if (turns) power -= *body.torque * body.angularVelocity;
+    if (turns) power -= dot(*body.torque, body.angularVelocity);
   }
   return power;
 }
 
 /// Energy less what the walls have put in since the start [J]; empty where that is not known.
-Curve ownEnergy(const Recording& run) {
-  Curve energy = each(run, [&](const Snapshot& now) {
+template <int D>
+Curve ownEnergy(const RecordingOf<D>& run) {
+  Curve energy = each(run, [&](const SnapshotOf<D>& now) {
     const double work = now.ledger ? now.ledger->workOfWalls : 0.0;
     return energyOf(run, now).total() - work;
   });
@@ -65,7 +87,8 @@ Curve ownEnergy(const Recording& run) {
 
 /// Energy above that of the start, and where losses count below it. What the law's springs would
 /// hold at the start an engine of impulses need not make motion of: of that it loses nothing.
-Curve energyChange(const Recording& run, bool losses) {
+template <int D>
+Curve energyChange(const RecordingOf<D>& run, bool losses) {
   Curve curve = ownEnergy(run);
   if (curve.empty()) return curve;
   const double start = curve.front(), scale = energyScale(run);
@@ -78,18 +101,21 @@ Curve energyChange(const Recording& run, bool losses) {
   return curve;
 }
 
-Curve energyGain(const Recording& run) {
+template <int D>
+Curve energyGain(const RecordingOf<D>& run) {
   return energyChange(run, false);
 }
 
-Curve energyDrift(const Recording& run) {
+template <int D>
+Curve energyDrift(const RecordingOf<D>& run) {
   return energyChange(run, true);
 }
 
-Curve ledgerResidual(const Recording& run) {
+template <int D>
+Curve ledgerResidual(const RecordingOf<D>& run) {
   const double scale = energyScale(run);
   Curve curve;
-  for (const Snapshot& now : run.snapshots) {
+  for (const SnapshotOf<D>& now : run.snapshots) {
     if (!now.ledger) return {};
     const double rest = std::abs(residual(*now.ledger));
     curve.push_back(rest == 0.0 ? 0.0 : rest / scale);
@@ -98,197 +124,231 @@ Curve ledgerResidual(const Recording& run) {
 }
 
 /// Sum of a vector over the disks, weighed with their mass.
-Vec2 massSum(const Disks& disks, const std::vector<Vec2>& of) {
-  Vec2 sum = Vec2::Zero();
+template <int D>
+VecOf<D> massSum(const DisksOf<D>& disks, const std::vector<VecOf<D>>& of) {
+  VecOf<D> sum = VecOf<D>::Zero();
   for (std::size_t i = 0; i < disks.size(); ++i) sum += disks.mass[i] * of[i];
   return sum;
 }
 
-double massOf(const Disks& disks) {
+template <int D>
+double massOf(const DisksOf<D>& disks) {
   double mass = 0.0;
   for (const double each : disks.mass) mass += each;
   return mass;
 }
 
-Curve momentumDrift(const Recording& run) {
-  const Disks& disks = run.scene.disks;
-  const Vec2 start = massSum(disks, disks.velocity);
+template <int D>
+Curve momentumDrift(const RecordingOf<D>& run) {
+  const DisksOf<D>& disks = run.scene.disks;
+  const VecOf<D> start = massSum(disks, disks.velocity);
   double scale = 0.0;
-  for (const Snapshot& now : run.snapshots) {
+  for (const SnapshotOf<D>& now : run.snapshots) {
     double sum = 0.0;
     for (std::size_t i = 0; i < disks.size(); ++i) sum += disks.mass[i] * now.velocity[i].norm();
     scale = std::max(scale, sum);
   }
-  return each(run, [&](const Snapshot& now) {
-    const Vec2 fallen = massOf(disks) * now.velocityTime * run.scene.gravity;
+  return each(run, [&](const SnapshotOf<D>& now) {
+    const VecOf<D> fallen = massOf(disks) * now.velocityTime * run.scene.gravity;
     const double change = (massSum(disks, now.velocity) - start - fallen).norm();
     return change == 0.0 ? 0.0 : change / scale;
   });
 }
 
 /// About the centre of mass and in its frame.
+template <int D>
 struct AngularMomentum {
-  double value = 0.0;  ///< [kg m²/s]
-  double scale = 0.0;  ///< what it could have been: Σ m (|x| + a) |v| + J |ω|
+  SpinOf<D> value = noSpin<D>();  ///< [kg m²/s]
+  double scale = 0.0;             ///< what it could have been: Σ m (|x| + a) |v| + J |ω|
 };
 
-AngularMomentum angularMomentumOf(const Disks& disks, const Snapshot& now) {
+template <int D>
+AngularMomentum<D> angularMomentumOf(const DisksOf<D>& disks, const SnapshotOf<D>& now) {
   const double mass = massOf(disks);
-  std::vector<Vec2> position = now.position;
+  std::vector<VecOf<D>> position = now.position;
   for (std::size_t i = 0; i < position.size(); ++i)
     position[i] -= (now.positionTime - now.velocityTime) * now.velocity[i];
-  const Vec2 centre = massSum(disks, position) / mass, drift = massSum(disks, now.velocity) / mass;
-  AngularMomentum sum;
+  const VecOf<D> centre = massSum(disks, position) / mass,
+                 drift = massSum(disks, now.velocity) / mass;
+  AngularMomentum<D> sum;
   for (std::size_t i = 0; i < disks.size(); ++i) {
-    const Vec2 arm = position[i] - centre, velocity = now.velocity[i] - drift;
-    const double spin = now.spin ? (*now.spin)[i] : disks.spin[i];
+    const VecOf<D> arm = position[i] - centre, velocity = now.velocity[i] - drift;
+    const SpinOf<D> spin = now.spin ? (*now.spin)[i] : disks.spin[i];
     sum.value += disks.mass[i] * cross(arm, velocity) + disks.inertia[i] * spin;
     sum.scale += disks.mass[i] * (arm.norm() + disks.radius[i]) * velocity.norm() +
-                 disks.inertia[i] * std::abs(spin);
+                 disks.inertia[i] * sizeOf(spin);
   }
   return sum;
 }
 
-Curve angularMomentumDrift(const Recording& run) {
-  const AngularMomentum start = angularMomentumOf(run.scene.disks, run.snapshots.front());
-  return each(run, [&](const Snapshot& now) {
-    const double change = angularMomentumOf(run.scene.disks, now).value - start.value;
-    return change == 0.0 ? 0.0 : std::abs(change) / start.scale;
+template <int D>
+Curve angularMomentumDrift(const RecordingOf<D>& run) {
+  const AngularMomentum<D> start = angularMomentumOf(run.scene.disks, run.snapshots.front());
+  return each(run, [&](const SnapshotOf<D>& now) {
+    const double change =
+        sizeOf(SpinOf<D>(angularMomentumOf(run.scene.disks, now).value - start.value));
+    return change == 0.0 ? 0.0 : change / start.scale;
   });
 }
 
-Curve maxOverlap(const Recording& run) {
-  return each(run, [&](const Snapshot& now) {
+template <int D>
+Curve maxOverlap(const RecordingOf<D>& run) {
+  return each(run, [&](const SnapshotOf<D>& now) {
     double deepest = 0.0;
-    for (const Overlap& overlap : overlapsOf(run.scene, now.position, now.positionTime))
+    for (const OverlapOf<D>& overlap : overlapsOf(run.scene, now.position, now.positionTime))
       deepest = std::max(deepest, overlap.depth / overlap.smallerRadius);
     return deepest;
   });
 }
 
-double endOf(const Recording& run) {
+template <int D>
+double endOf(const RecordingOf<D>& run) {
   return run.snapshots.back().positionTime;
 }
 
 /// When what is to be at rest should be [s].
-double restFrom(const Recording& run) {
+template <int D>
+double restFrom(const RecordingOf<D>& run) {
   return run.settle * endOf(run);
 }
 
 /// The first snapshot from which on the scene should be at rest.
-const Snapshot& restingStart(const Recording& run) {
+template <int D>
+const SnapshotOf<D>& restingStart(const RecordingOf<D>& run) {
   const double from = restFrom(run) * (1.0 - 1e-9);
   return *std::ranges::find_if(run.snapshots,
-                               [&](const Snapshot& now) { return now.positionTime >= from; });
+                               [&](const SnapshotOf<D>& now) { return now.positionTime >= from; });
 }
 
-bool atRest(const Recording& run, const Snapshot& now) {
+template <int D>
+bool atRest(const RecordingOf<D>& run, const SnapshotOf<D>& now) {
   return now.positionTime >= restingStart(run).positionTime;
 }
 
 /// False: all that is seen at rest is one snapshot, which is as far from itself as any.
-bool isWatchedAtRest(const Recording& run) {
+template <int D>
+bool isWatchedAtRest(const RecordingOf<D>& run) {
   return restingStart(run).positionTime < endOf(run);
 }
 
-Curve kineticAtRest(const Recording& run) {
+template <int D>
+Curve kineticAtRest(const RecordingOf<D>& run) {
   const double scale = energyScale(run);
-  return each(run, [&](const Snapshot& now) {
+  return each(run, [&](const SnapshotOf<D>& now) {
     const double kinetic = energyOf(run, now).kinetic;
     return atRest(run, now) && kinetic > 0.0 ? kinetic / scale : 0.0;
   });
 }
 
-double farthest(const Scene& scene, const Snapshot& from, const Snapshot& to) {
+template <int D>
+double farthest(const SceneOf<D>& scene, const SnapshotOf<D>& from, const SnapshotOf<D>& to) {
   double largest = 0.0;
   for (std::size_t i = 0; i < scene.disks.size(); ++i)
-    largest = std::max(largest, (to.position[i] - from.position[i]).norm());
+    largest = std::max(largest, apartIn<D>(scene, to.position[i] - from.position[i]).norm());
   return largest / smallestDiameter(scene);
 }
 
-Curve creep(const Recording& run) {
+template <int D>
+Curve creep(const RecordingOf<D>& run) {
   if (!isWatchedAtRest(run)) return {};
-  const Snapshot& start = restingStart(run);
+  const SnapshotOf<D>& start = restingStart(run);
   const double watched = endOf(run) - start.positionTime;
-  return each(run, [&](const Snapshot& now) {
+  return each(run, [&](const SnapshotOf<D>& now) {
     return atRest(run, now) ? farthest(run.scene, start, now) / watched : 0.0;
   });
 }
 
-/// Base angle of the isosceles triangle that has the second moments of the disks' centres [deg].
-double pileAngle(const Scene& scene, const Snapshot& now) {
-  const Disks& disks = scene.disks;
-  const Vec2 up =
-      scene.gravity.isZero(0.0) ? Vec2(Vec2::UnitY()) : Vec2(-scene.gravity.normalized());
-  const Vec2 along = -perpendicular(up);
-  const Vec2 centre = massSum(disks, now.position) / massOf(disks);
+/// Base angle of the isosceles triangle, in space of the cone, that has the second moments of the
+/// disks' centres [deg].
+template <int D>
+double pileAngle(const SceneOf<D>& scene, const SnapshotOf<D>& now) {
+  const DisksOf<D>& disks = scene.disks;
+  VecOf<D> up = VecOf<D>::Unit(D - 1);
+  if (!scene.gravity.isZero(0.0)) up = -scene.gravity.normalized();
+  const VecOf<D> centre = massSum(disks, now.position) / massOf(disks);
   double across = 0.0, upward = 0.0;
   for (std::size_t i = 0; i < disks.size(); ++i) {
-    const Vec2 arm = now.position[i] - centre;
-    across += arm.dot(along) * arm.dot(along);
+    const VecOf<D> arm = now.position[i] - centre;
     upward += arm.dot(up) * arm.dot(up);
+    across += (arm - arm.dot(up) * up).squaredNorm();
   }
-  // Of a triangle: base²/24 and height²/18.
-  return std::atan2(2.0 * std::sqrt(18.0 * upward), std::sqrt(24.0 * across)) * 180.0 /
-         std::numbers::pi;
+  // Of a triangle: base²/24 and height²/18. Of a cone: 3/20 r² along each of two, and 3/80 h².
+  const double slope = D == 2 ? std::sqrt(4.0 * 18.0 * upward) / std::sqrt(24.0 * across)
+                              : std::sqrt(80.0 / 3.0 * upward) / std::sqrt(10.0 / 3.0 * across);
+  return std::atan(slope) * 180.0 / std::numbers::pi;
 }
 
-Curve pileAngleChange(const Recording& run) {
+template <int D>
+Curve pileAngleChange(const RecordingOf<D>& run) {
   if (!isWatchedAtRest(run)) return {};
   const double start = pileAngle(run.scene, restingStart(run));
-  return each(run, [&](const Snapshot& now) {
+  return each(run, [&](const SnapshotOf<D>& now) {
     return atRest(run, now) ? std::abs(pileAngle(run.scene, now) - start) : 0.0;
   });
 }
 
 /// Whether two bodies went through each other between two samples: their centres changed sides, and
 /// the straight way between passes deep inside.
-bool crossed(const Vec2& before, const Vec2& after, double reach) {
-  if (before.dot(after) >= 0.0) return false;
-  const Vec2 way = after - before;
+template <int D>
+bool crossed(const VecOf<D>& before, const VecOf<D>& way, double reach) {
+  if (before.dot(before + way) >= 0.0) return false;
   const double fraction = std::clamp(-before.dot(way) / way.squaredNorm(), 0.0, 1.0);
   return (before + fraction * way).norm() < 0.5 * reach;
 }
 
-void addBehindPlanes(const Recording& run, const Snapshot& now, std::set<std::size_t>& found) {
-  for (const Plane& plane : planesAt(run.scene, now.positionTime))
-    for (std::size_t i = 0; i < now.position.size(); ++i)
-      if ((now.position[i] - plane.point).dot(plane.normal) < 0.0) found.insert(i);
+/// Adds disks whose centres are behind a plane or outside of a cylinder.
+template <int D>
+void addBehindWalls(const RecordingOf<D>& run, const SnapshotOf<D>& now,
+                    std::set<std::size_t>& found) {
+  const auto add = [&](std::size_t i, const PlaneOf<D>& plane) {
+    if ((now.position[i] - plane.point).dot(plane.normal) < 0.0) found.insert(i);
+  };
+  const std::vector<PlaneOf<D>> planes = planesAt(run.scene, now.positionTime);
+  for (std::size_t i = 0; i < now.position.size(); ++i) {
+    for (const PlaneOf<D>& plane : planes) add(i, plane);
+    if constexpr (D == 3)
+      for (const WallBodyOf<D>& body : run.scene.bodies)
+        for (const Cylinder& cylinder : body.cylinders)
+          add(i, tangentPlane(cylinder, now.position[i]));
+  }
 }
 
-Curve tunnelled(const Recording& run) {
-  const Disks& disks = run.scene.disks;
+template <int D>
+Curve tunnelled(const RecordingOf<D>& run) {
+  const std::size_t disks = run.scene.disks.size();
   std::set<std::size_t> through;
   Curve curve;
-  std::vector<double> radius = disks.radius;
-  for (const WallBody& body : run.scene.bodies)
-    radius.insert(radius.end(), body.diskRadius.begin(), body.diskRadius.end());
-  std::vector<Vec2> before, after;
-  for (const Snapshot& now : run.snapshots) {
+  const std::vector<double> radius = run.scene.radii();
+  std::vector<VecOf<D>> before, after;
+  for (const SnapshotOf<D>& now : run.snapshots) {
     after = now.position;
-    const std::vector<Vec2> walls = wallDisksAt(run.scene, now.positionTime);
+    const std::vector<VecOf<D>> walls = wallDisksAt(run.scene, now.positionTime);
     after.insert(after.end(), walls.begin(), walls.end());
     if (!before.empty())
-      for (std::size_t i = 0; i < disks.size(); ++i)
-        for (std::size_t j = i + 1; j < after.size(); ++j)
-          if (crossed(before[i] - before[j], after[i] - after[j], radius[i] + radius[j]))
+      for (std::size_t i = 0; i < disks; ++i)
+        for (std::size_t j = i + 1; j < after.size(); ++j) {
+          const VecOf<D> apart = apartIn<D>(run.scene, before[i] - before[j]);
+          if (crossed<D>(apart, (after[i] - before[i]) - (after[j] - before[j]),
+                         radius[i] + radius[j]))
             through.insert(i);
-    addBehindPlanes(run, now, through);
+        }
+    addBehindWalls(run, now, through);
     before = std::move(after);
     curve.push_back(static_cast<double>(through.size()));
   }
   return curve;
 }
 
-Curve escaped(const Recording& run) {
-  return each(run, [&](const Snapshot& now) {
+template <int D>
+Curve escaped(const RecordingOf<D>& run) {
+  return each(run, [&](const SnapshotOf<D>& now) {
     std::set<std::size_t> outside;
-    addBehindPlanes(run, now, outside);
-    const std::vector<Vec2> walls = wallDisksAt(run.scene, now.positionTime);
-    Vec2 centre = Vec2::Zero();
-    for (const Vec2& wall : walls) centre += wall / static_cast<double>(walls.size());
+    addBehindWalls(run, now, outside);
+    const std::vector<VecOf<D>> walls = wallDisksAt(run.scene, now.positionTime);
+    VecOf<D> centre = VecOf<D>::Zero();
+    for (const VecOf<D>& wall : walls) centre += wall / static_cast<double>(walls.size());
     double reach = 0.0;
-    for (const Vec2& wall : walls) reach = std::max(reach, (wall - centre).norm());
+    for (const VecOf<D>& wall : walls) reach = std::max(reach, (wall - centre).norm());
     if (!walls.empty())
       for (std::size_t i = 0; i < now.position.size(); ++i)
         if ((now.position[i] - centre).norm() > reach) outside.insert(i);
@@ -304,21 +364,151 @@ Curve restitutionError(const Recording& run) {
   return curve;
 }
 
-Curve timeToRest(const Recording& run) {
+/// Distance of √(T_0/T) from 1 + t/τ, by that: Haff's law of a gas of equal spheres or disks in a
+/// box that is periodic all around (Haff 1983). A collision takes m (1 − e²) T, T the mean square
+/// of a component of the velocities, so that with ω collisions of each per time dT/dt = −(1 − e²) ω
+/// T/D and 1/τ = (1 − e²) ω_0/2D; ω = 4 √(πT) n d² χ with χ = (1 − φ/2)/(1 − φ)³ (Carnahan and
+/// Starling 1969), of disks 2 √(πT) n d χ with χ = (1 − 7/16 φ)/(1 − φ)² (Henderson 1975).
+template <int D>
+Curve haffError(const RecordingOf<D>& run) {
+  const DisksOf<D>& disks = run.scene.disks;
+  const auto& box = run.scene.box;
+  const double radius = disks.radius.front();
+  const auto alike = [&](double a) { return a == radius; };
+  if (!box || !std::ranges::all_of(box->periodic, std::identity()) ||
+      !std::ranges::all_of(disks.radius, alike))
+    return {};
+  const double mass = massOf(disks);
+  const auto temperature = [&](const SnapshotOf<D>& now) {
+    const VecOf<D> drift = massSum(disks, now.velocity) / mass;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < disks.size(); ++i)
+      sum += disks.mass[i] * (now.velocity[i] - drift).squaredNorm();
+    return sum / (D * mass);
+  };
+  const double start = temperature(run.snapshots.front()), speed = std::sqrt(start);
+  CollidingPair pair{};
+  for (const int k : {0, 1}) {
+    pair.radius[k] = radius;
+    pair.mass[k] = disks.mass.front();
+    pair.inertia[k] = disks.inertia.front();
+  }
+  const double en = oracleOutcome(run.law, pair, {.vn = speed}).en;
+  const double number = static_cast<double>(disks.size()) / (box->high - box->low).prod();
+  const double pi = std::numbers::pi, d = 2.0 * radius;
+  const double filled = number * (D == 2 ? pi * d * d / 4.0 : pi * d * d * d / 6.0);
+  const double denser = D == 2 ? (1.0 - 7.0 / 16.0 * filled) / std::pow(1.0 - filled, 2)
+                               : (1.0 - 0.5 * filled) / std::pow(1.0 - filled, 3);
+  const double often =
+      (D == 2 ? 2.0 * d : 4.0 * d * d) * std::sqrt(pi) * number * denser * speed;  // ω_0 [1/s]
+  const double rate = (1.0 - en * en) * often / (2.0 * D);
+  return each(run, [&](const SnapshotOf<D>& now) {
+    const double expected = 1.0 + now.velocityTime * rate;
+    return std::abs(std::sqrt(start / temperature(now)) - expected) / expected;
+  });
+}
+
+/// What has come to rest, kinetic energy below 10⁻⁸ of the energy over eight steps, so that nothing
+/// pushes it, and moves again: its kinetic energy then. Empty where walls move or nothing rests.
+template <int D>
+Curve wakes(const RecordingOf<D>& run) {
+  constexpr double still = 1e-8;
+  if (wallsMove(run.scene)) return {};
+  const double scale = energyScale(run);
+  int quiet = 0;
+  bool rested = false;
+  const Curve curve = each(run, [&](const SnapshotOf<D>& now) {
+    const double kinetic = energyOf(run, now).kinetic / scale;
+    const bool before = rested;
+    quiet = kinetic < still ? quiet + 1 : 0;  // false for what is no number
+    rested = rested || quiet >= burstSteps;
+    return before ? kinetic : 0.0;
+  });
+  return rested ? curve : Curve{};
+}
+
+/// Momentum and angular momentum of all disks in the windows of consecutive steps, beyond what
+/// gravity and the walls have given them by the forces that the engine shows: the larger of both
+/// sums, each by the sum of sizes of what gave it. Over a window Δp = Σ (M g − Σ F) dt, F on a
+/// wall, and ΔL = Σ (X × M g − Σ (T + c × F)) dt about the origin, but in a periodic box, which has
+/// no L. Forces of an instant count by trapezoids.
+template <int D>
+Curve wallBalance(const RecordingOf<D>& run) {
+  if (run.scene.bottom) return {};
+  const DisksOf<D>& disks = run.scene.disks;
+  const double mass = massOf(disks), dt = run.effective.dt;
+  struct Rates {
+    VecOf<D> force = VecOf<D>::Zero();
+    SpinOf<D> torque = noSpin<D>();
+    double sizes[2] = {0.0, 0.0};
+  };
+  bool shown = true;
+  const auto ratesOf = [&](const SnapshotOf<D>& now) {
+    Rates rates;
+    const VecOf<D> weight = mass * run.scene.gravity;
+    const auto add = [&](const VecOf<D>& place, const VecOf<D>& force, const SpinOf<D>& torque) {
+      const SpinOf<D> about = cross(place, force) + torque;
+      rates.force += force;
+      rates.torque += about;
+      rates.sizes[0] += force.norm();
+      rates.sizes[1] += sizeOf(about);
+    };
+    add(massSum(disks, now.position) / mass, weight, noSpin<D>());
+    for (const BodySnapshotOf<D>& body : now.bodies) {
+      shown = shown && body.force && body.torque;
+      if (shown) add(body.centre, -*body.force, -*body.torque);
+    }
+    return rates;
+  };
+  const auto turning = [&](const SnapshotOf<D>& now) {
+    SpinOf<D> sum = noSpin<D>();
+    for (std::size_t i = 0; i < disks.size(); ++i) {
+      const VecOf<D> place =
+          now.position[i] - (now.positionTime - now.velocityTime) * now.velocity[i];
+      sum += disks.mass[i] * cross(place, now.velocity[i]) +
+             disks.inertia[i] * (now.spin ? (*now.spin)[i] : disks.spin[i]);
+    }
+    return sum;
+  };
+  VecOf<D> momentum = VecOf<D>::Zero();
+  SpinOf<D> angular = noSpin<D>();
+  double sizes[2] = {0.0, 0.0};
+  Curve curve(1, 0.0);
+  for (std::size_t k = 1; k < run.snapshots.size(); ++k) {
+    const SnapshotOf<D>&before = run.snapshots[k - 1], &now = run.snapshots[k];
+    if (before.positionTime > 0.0 && now.positionTime - before.positionTime < 1.5 * dt) {
+      const Rates end = ratesOf(now), start = now.contactInterval > 0.0 ? end : ratesOf(before);
+      if (!shown) return {};
+      momentum += massSum(disks, now.velocity) - massSum(disks, before.velocity) -
+                  0.5 * dt * (start.force + end.force);
+      angular += turning(now) - turning(before) - 0.5 * dt * (start.torque + end.torque);
+      for (const int n : {0, 1}) sizes[n] += 0.5 * dt * (start.sizes[n] + end.sizes[n]);
+    }
+    const auto share = [](double error, double of) { return of > 0.0 ? error / of : 0.0; };
+    curve.push_back(std::max(share(momentum.norm(), sizes[0]),
+                             run.scene.box ? 0.0 : share(sizeOf(angular), sizes[1])));
+  }
+  return curve;
+}
+
+template <int D>
+Curve timeToRest(const RecordingOf<D>& run) {
   constexpr double still = 1e-6;
   const double scale = energyScale(run);
   double last = 0.0;
-  return each(run, [&](const Snapshot& now) {
+  return each(run, [&](const SnapshotOf<D>& now) {
     if (energyOf(run, now).kinetic > still * scale) last = now.positionTime;
     return last;
   });
 }
 
 /// How far a disk has moved from one cycle of the oscillating wall to the next.
-Curve ratchet(const Recording& run) {
+template <int D>
+Curve ratchet(const RecordingOf<D>& run) {
   const auto& bodies = run.scene.bodies;
-  const auto wall = std::ranges::find_if(
-      bodies, [](const WallBody& body) { return body.motion.kind == Motion::Kind::oscillating; });
+  const auto wall = std::ranges::find_if(bodies, [](const WallBodyOf<D>& body) {
+    return body.motion.kind == MotionKind::oscillating;
+  });
   if (wall == bodies.end() || run.snapshots.size() < 2) return {};
   const double cycle = 2.0 * std::numbers::pi / wall->motion.frequency;
   const auto samples = static_cast<std::size_t>(
@@ -337,61 +527,77 @@ constexpr std::array measures = {
     StabilityMeasure{"energy_gain", "of the energy",
                      "kinetic, elastic and potential energy above that of the start, without the "
                      "work of moving walls",
-                     energyGain, StabilityProtocol::oneRun, true},
-    StabilityMeasure{"energy_drift", "of the energy", "the same, gained or lost", energyDrift,
-                     StabilityProtocol::oneRun, true},
+                     energyGain<2>, energyGain<3>, StabilityProtocol::oneRun, true},
+    StabilityMeasure{"energy_drift", "of the energy", "the same, gained or lost", energyDrift<2>,
+                     energyDrift<3>, StabilityProtocol::oneRun, true},
     StabilityMeasure{"ledger_residual", "of the energy",
-                     "what no term of the engine's own energy ledger accounts for", ledgerResidual,
-                     StabilityProtocol::oneRun, true},
+                     "what no term of the engine's own energy ledger accounts for",
+                     ledgerResidual<2>, ledgerResidual<3>, StabilityProtocol::oneRun, true},
     StabilityMeasure{"momentum_drift", "of Σ m|v|",
                      "change of the disks' momentum beyond gravity's, in a scene without walls",
-                     momentumDrift},
+                     momentumDrift<2>, momentumDrift<3>},
     StabilityMeasure{"angular_momentum_drift", "of Σ m(|x|+a)|v|",
                      "change of the angular momentum about the centre of mass, without walls",
-                     angularMomentumDrift},
+                     angularMomentumDrift<2>, angularMomentumDrift<3>},
     StabilityMeasure{"max_overlap", "radii", "deepest overlap, by the smaller radius of the two",
-                     maxOverlap},
+                     maxOverlap<2>, maxOverlap<3>},
     StabilityMeasure{"kinetic_at_rest", "of the energy", "kinetic energy of what should be at rest",
-                     kineticAtRest},
+                     kineticAtRest<2>, kineticAtRest<3>},
     StabilityMeasure{"creep", "diameters/s", "farthest displacement at rest, by the time watched",
-                     creep},
+                     creep<2>, creep<3>},
     StabilityMeasure{"pile_angle_change", "degrees", "of the slope of a pile at rest",
-                     pileAngleChange},
+                     pileAngleChange<2>, pileAngleChange<3>},
     StabilityMeasure{"copies_differ", "diameters",
                      "farthest a disk is from its place in the first variant of the case", nullptr,
-                     StabilityProtocol::againstOriginal},
-    StabilityMeasure{"tunnelled", "disks", "disks that went through another or a wall", tunnelled},
-    StabilityMeasure{"escaped", "disks", "disks outside the walls at once", escaped},
+                     nullptr, StabilityProtocol::againstOriginal},
+    StabilityMeasure{"tunnelled", "disks", "disks that went through another or a wall",
+                     tunnelled<2>, tunnelled<3>},
+    StabilityMeasure{"escaped", "disks", "disks outside the walls at once", escaped<2>, escaped<3>},
     StabilityMeasure{"restitution_error", "-", "distance of e_n from the oracle's",
                      restitutionError},
     StabilityMeasure{"time_to_rest", "s", "until the kinetic energy stays below 10⁻⁶ of the energy",
-                     timeToRest},
+                     timeToRest<2>, timeToRest<3>},
     StabilityMeasure{"ratchet", "diameters/cycle",
                      "farthest a disk moves from one cycle of an oscillating wall to the next",
-                     ratchet},
+                     ratchet<2>, ratchet<3>},
+    StabilityMeasure{"haff_error", "-",
+                     "distance of √(T_0/T) from Haff's 1 + t/τ, by that; of a periodic gas",
+                     haffError<2>, haffError<3>},
+    StabilityMeasure{"wakes", "of the energy",
+                     "kinetic energy of what had come to rest between walls that stand still",
+                     wakes<2>, wakes<3>, StabilityProtocol::oneRun, false, burstSteps},
+    StabilityMeasure{"wall_balance", "of the impulse",
+                     "momentum or angular momentum beyond that from gravity and the walls' forces",
+                     wallBalance<2>, wallBalance<3>, StabilityProtocol::oneRun, false, burstSteps},
     StabilityMeasure{"step_limit", "-",
                      "1 − the largest stable time step by that of theory, 2/ω_max of the contacts",
-                     nullptr, StabilityProtocol::stepLimit},
+                     nullptr, nullptr, StabilityProtocol::stepLimit},
     StabilityMeasure{"largest_step", "-",
                      "the case's time step by the largest with which the run is still sound",
-                     nullptr, StabilityProtocol::largestStep},
+                     nullptr, nullptr, StabilityProtocol::largestStep},
     StabilityMeasure{"restart_differs", "diameters",
                      "between a run and one restarted from a checkpoint at its middle", nullptr,
-                     StabilityProtocol::restart},
+                     nullptr, StabilityProtocol::restart},
+    StabilityMeasure{
+        "invariances", "of rounding's",
+        "farthest a turned, mirrored, rescaled, renumbered, restarted or unwatched run "
+        "is from where it should be, by how far rounding may take it",
+        nullptr, nullptr, StabilityProtocol::invariances},
     StabilityMeasure{"accepted", "-", "1 where a start that no engine can run was not refused",
-                     nullptr, StabilityProtocol::acceptance}};
+                     nullptr, nullptr, StabilityProtocol::acceptance}};
 
 }  // namespace
 
-bool isSound(const Recording& run, const Recording& calm) {
+template <int D>
+bool isSound(const RecordingOf<D>& run, const RecordingOf<D>& calm) {
   constexpr double growth = 100.0, deepest = 1.0;  // by then centres pass each other
   if (!run.failure.empty()) return false;
   const auto largest = [](const Curve& curve) {
     return curve.empty() ? 0.0 : std::ranges::max(curve);
   };
-  const auto kinetic = [](const Recording& of) {
+  const auto kinetic = [](const RecordingOf<D>& of) {
     double most = 0.0;
-    for (const Snapshot& now : of.snapshots) {
+    for (const SnapshotOf<D>& now : of.snapshots) {
       const double energy = energyOf(of, now).kinetic;
       if (!std::isfinite(energy)) return std::numeric_limits<double>::infinity();
       most = std::max(most, energy);
@@ -403,6 +609,8 @@ bool isSound(const Recording& run, const Recording& calm) {
   return largest(maxOverlap(run)) < deepest && largest(tunnelled(run)) == 0.0 &&
          kinetic(run) <= growth * kinetic(calm) && (driven || largest(energyGain(run)) <= gained);
 }
+template bool isSound<2>(const Recording&, const Recording&);
+template bool isSound<3>(const SpaceRecording&, const SpaceRecording&);
 
 std::span<const StabilityMeasure> stabilityMeasures() {
   return measures;
@@ -427,25 +635,35 @@ std::vector<double> restitutionErrors(const Recording& run) {
   return errors;
 }
 
-double largestDistance(const Scene& scene, const Snapshot& one, const Snapshot& other) {
+template <int D>
+double largestDistance(const SceneOf<D>& scene, const SnapshotOf<D>& one,
+                       const SnapshotOf<D>& other) {
   return farthest(scene, one, other);
 }
+template double largestDistance<2>(const Scene&, const Snapshot&, const Snapshot&);
+template double largestDistance<3>(const SpaceScene&, const SpaceSnapshot&, const SpaceSnapshot&);
 
-std::vector<double> copiesDiffer(const Recording& original, const Recording& copy) {
+template <int D>
+std::vector<double> copiesDiffer(const RecordingOf<D>& original, const RecordingOf<D>& copy) {
+  const auto way = [](const RecordingOf<D>& run, const SnapshotOf<D>& now, std::size_t i) {
+    if constexpr (D == 2)
+      return run.placement.undoneAt(now.position[i], now.positionTime);
+    else
+      return Vec3(now.position[i] - run.scene.disks.position[i]);
+  };
   const double diameter = smallestDiameter(original.scene);
   Curve curve;
   const std::size_t both = std::min(original.snapshots.size(), copy.snapshots.size());
   for (std::size_t k = 0; k < both; ++k) {
-    const Snapshot &here = original.snapshots[k], &there = copy.snapshots[k];
+    const SnapshotOf<D>&here = original.snapshots[k], &there = copy.snapshots[k];
     double largest = 0.0;
     for (std::size_t i = 0; i < here.position.size(); ++i)
-      largest =
-          std::max(largest, (original.placement.undoneAt(here.position[i], here.positionTime) -
-                             copy.placement.undoneAt(there.position[i], there.positionTime))
-                                .norm());
+      largest = std::max(largest, (way(original, here, i) - way(copy, there, i)).norm());
     curve.push_back(largest / diameter);
   }
   return curve;
 }
+template Curve copiesDiffer<2>(const Recording&, const Recording&);
+template Curve copiesDiffer<3>(const SpaceRecording&, const SpaceRecording&);
 
 }  // namespace crossgrain::inline stability

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -10,39 +11,59 @@
 namespace crossgrain::inline stability {
 
 /// What one engine did with a hard case, seen at some instants.
-struct Recording {
-  Scene scene;  ///< as it was asked for
+template <int D>
+struct RecordingOf {
+  SceneOf<D> scene;  ///< as it was asked for
   EffectiveParameters effective;
-  std::vector<Snapshot> snapshots;  ///< in the order of time, the first at t = 0
-  std::string failure;              ///< why the engine did not get to the end; empty if it did
-  double settle = 0.0;              ///< fraction of the run before it should be at rest, [0, 1)
-  Placement placement;              ///< of the scene, against the original it is a copy of
+  /// In the order of time, the first at t = 0; in a periodic box paths are whole.
+  std::vector<SnapshotOf<D>> snapshots;
+  std::string failure;  ///< why the engine did not get to the end; empty if it did
+  double settle = 0.0;  ///< fraction of the run before it should be at rest, [0, 1)
+  Placement placement;  ///< of a scene of the plane, against the original it is a copy of
   /// Where the scene is nothing but collisions side by side, what they start from, in its order.
   std::vector<CollisionStart> collisions = {};
   /// Of the contacts, as the engine says that it runs them (lawAsRun()).
   ContactLaw law = {};
 };
+using Recording = RecordingOf<2>;
+using SpaceRecording = RecordingOf<3>;
 
 /// The length that displacements are expressed in: a diameter of the smallest disk [m].
-double smallestDiameter(const Scene& scene);
+template <int D>
+double smallestDiameter(const SceneOf<D>& scene) {
+  return 2.0 * std::ranges::min(scene.disks.radius);
+}
 
-/// Two bodies that overlap: a disk, and by Scene's ids another disk, a wall disk or a plane.
-struct Overlap {
+/// Two bodies that overlap: a disk, and by Scene's ids another disk, a wall disk, a plane or a
+/// cylinder.
+template <int D>
+struct OverlapOf {
   std::size_t i = 0, j = 0;
-  double depth = 0.0;          ///< [m]
-  double smallerRadius = 0.0;  ///< of the two; the disk's on a plane [m]
-  double reducedRadius = 0.0;  ///< a_i a_j/(a_i + a_j), a_i on a plane [m]
-  Vec2 normal = Vec2::Zero();  ///< from j to i
+  double depth = 0.0;                  ///< [m]
+  double smallerRadius = 0.0;          ///< of the two; the disk's on a plane [m]
+  double reducedRadius = 0.0;          ///< a_i a_j/(a_i + a_j), a_i on a plane or cylinder [m]
+  VecOf<D> normal = VecOf<D>::Zero();  ///< from j to i
 };
 
-/// All of them at one instant, walls where their motion takes them.
-std::vector<Overlap> overlapsOf(const Scene& scene, const std::vector<Vec2>& position, double t);
+/// All of them at one instant, walls where their motion takes them, in a periodic box of nearest
+/// images.
+template <int D>
+std::vector<OverlapOf<D>> overlapsOf(const SceneOf<D>& scene, const std::vector<VecOf<D>>& position,
+                                     double t);
 
 /// Planes of all bodies at time t, in Scene's order.
-std::vector<Plane> planesAt(const Scene& scene, double t);
+template <int D>
+std::vector<PlaneOf<D>> planesAt(const SceneOf<D>& scene, double t);
 
 /// Positions of all wall disks at time t, in Scene's order [m].
-std::vector<Vec2> wallDisksAt(const Scene& scene, double t);
+template <int D>
+std::vector<VecOf<D>> wallDisksAt(const SceneOf<D>& scene, double t);
+
+/// The difference of two places, of the nearest images in a periodic box [m].
+template <int D>
+VecOf<D> apartIn(const SceneOf<D>& scene, const VecOf<D>& difference) {
+  return scene.box ? scene.box->nearest(difference) : difference;
+}
 
 /// Energies of a scene at the time of a snapshot's velocities [J].
 struct EnergyState {
@@ -61,15 +82,18 @@ struct EnergyState {
 /// beyond δ = 0 and of an elasto-plastic law as far as contacts are shown; engines that put
 /// impulses in place of the law's springs hold nothing, but at t = 0 what the law would: that much
 /// motion a start with overlaps may become.
-EnergyState energyOf(const Recording& run, const Snapshot& snapshot);
+template <int D>
+EnergyState energyOf(const RecordingOf<D>& run, const SnapshotOf<D>& snapshot);
 
 /// Whether the engine has impulses where the scene has springs, so that a start with overlaps holds
 /// no energy there but what it makes of them.
-bool hasNoSprings(const Recording& run);
+template <int D>
+bool hasNoSprings(const RecordingOf<D>& run);
 
 /// What all energies of a run are measured by: kinetic and elastic energy at the start and the work
 /// of lifting every disk by its radius, a bond's energy by its size; where all of that is nothing,
 /// the run's largest kinetic and elastic energy [J].
-double energyScale(const Recording& run);
+template <int D>
+double energyScale(const RecordingOf<D>& run);
 
 }  // namespace crossgrain::inline stability

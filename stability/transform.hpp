@@ -40,22 +40,43 @@ ContactLaw inUnits(ContactLaw law, const Units& units);
 /// A scene in other units: beside its law
 ///   x, a: L · v: L T⁻¹ · m: M · J: M L² · ω, Ω, angular frequencies: T⁻¹ · g: L T⁻² · dt: T,
 ///   and of the bottom plate (Eqs. 4.27–4.29) k_b: M T⁻², γ_b: M T⁻¹, µ_b and τ_M: 1.
-Scene inUnits(Scene scene, const Units& units);
+template <int D>
+SceneOf<D> inUnits(SceneOf<D> scene, const Units& units);
 
 /// Mirrored and turned about the origin with everything in it: walls, their motion, gravity, spins.
 /// The placement's offset and boost are left alone.
-/// @pre placement.offset and placement.boost are 0
-Scene placed(Scene scene, const Placement& placement);
+/// @pre placement.offset and placement.boost are 0; turnsBox() where the scene has a periodic box
+template <int D>
+SceneOf<D> placed(SceneOf<D> scene, const Placement& placement);
+
+/// A direction mirrored and turned, and back. In space x → −x is a mirror as well, and the turn is
+/// about (1, 1, 1), so that 120° take x to y, y to z and z to x.
+inline Vec2 placedDirection(const Placement& placement, const Vec2& direction) {
+  return placement.turned(direction);
+}
+Vec3 placedDirection(const Placement& placement, const Vec3& direction);
+inline Vec2 directionBack(const Placement& placement, const Vec2& direction) {
+  return placement.turnedBack(direction);
+}
+Vec3 directionBack(const Placement& placement, const Vec3& direction);
+
+/// Whether a placement takes axes to axes, as a box of them has to stay one.
+template <int D>
+bool turnsBox(const Placement& placement);
 
 /// Disks numbered otherwise. @pre a permutation of them
-Scene renumbered(Scene scene, const std::vector<std::size_t>& order);
+template <int D>
+SceneOf<D> renumbered(SceneOf<D> scene, const std::vector<std::size_t>& order);
 
-Scene transformed(const Scene& scene, const Transform& by);
+template <int D>
+SceneOf<D> transformed(const SceneOf<D>& scene, const Transform& by);
 
 /// Where disks of the transformed scene would be in the scene, numbered as there [m].
-std::vector<Vec2> placesBack(const Transform& by, const std::vector<Vec2>& position);
+template <int D>
+std::vector<VecOf<D>> placesBack(const Transform& by, const std::vector<VecOf<D>>& position);
 /// The same of spins [rad/s].
-std::vector<double> spinsBack(const Transform& by, const std::vector<double>& spin);
+template <int D = 2>
+std::vector<SpinOf<D>> spinsBack(const Transform& by, const std::vector<SpinOf<D>>& spin);
 
 /// An order without a system, the same for the same number.
 std::vector<std::size_t> shuffledOrder(std::size_t disks, std::uint64_t seed);
@@ -65,9 +86,11 @@ std::vector<std::size_t> shuffledOrder(std::size_t disks, std::uint64_t seed);
 /// vector's coordinates come from three rounded operations, half an ε each, of numbers as large as
 /// |x|.
 /// @param epsilon  of the numbers that an engine steps with
-Disks nudged(Disks disks, double epsilon, std::uint64_t seed);
+template <int D>
+DisksOf<D> nudged(DisksOf<D> disks, double epsilon, std::uint64_t seed);
 
 /// The farthest that anything of a scene is from the origin [m].
-double extentOf(const Scene& scene);
+template <int D>
+double extentOf(const SceneOf<D>& scene);
 
 }  // namespace crossgrain::inline stability

@@ -6,11 +6,10 @@
 #include <cmath>
 #include <iterator>
 
+#include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
 #include "adapters/worker/json.hpp"
-#include "cases/assembly_scene.hpp"
 #include "cases/collision_scene.hpp"
-#include "cases/couette.hpp"
 #include "cases/flow.hpp"
 #include "cases/time_step.hpp"
 #include "results/scene_picture.hpp"
@@ -21,32 +20,43 @@
 #include "studies/core/engine_running.hpp"
 #include "studies/core/in_space.hpp"
 #include "studies/core/study.hpp"
-#include "studies/flow/run.hpp"
+#include "studies/stability/transforms.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline studies {
 
-HardScene plainScene(const Case& setup, const Packing& packing) {
+template <int D>
+HardSceneOf<D> plainScene(const Case& setup, const Packing& packing) {
   const double dt = timeStep(setup);
-  if (isCollision(setup))
-    return {&setup, collisionScene(setup, collisionStarts(setup), dt),
-            dt + 2.5 * impactTimes(setup).longest + 20.0 * dt};
-  return {&setup, cellOf(setup) ? couetteScene(setup, packing, dt) : assemblyScene(setup),
-          flowDuration(setup)};
+  if (isCollision(setup)) {
+    const double duration = dt + 2.5 * impactTimes(setup).longest + 20.0 * dt;
+    if constexpr (D == 2)
+      return {&setup, collisionScene(setup, collisionStarts(setup), dt), duration};
+    else
+      return {&setup, spaceCollisionScene(setup, collisionStarts(setup), dt), duration};
+  }
+  const bool prepared = !packing.hash.empty();
+  const auto scene = [&](const Packing& start) {
+    return HardSceneOf<D>{&setup, flowScene<D>(setup, start, dt), flowDuration(setup)};
+  };
+  if (prepared) return scene(packing);
+  return scene(flowPacking(setup, 0, dt, *engineRegistry().front().make(), [](double) {}));
 }
-
-HardScene hardScene(const Case& setup, const Packing& packing) {
-  HardScene hard = plainScene(setup, packing);
-  hard.scene.energyLedger =
-      setup.run.energyLedger || stabilityMeasure(setup.stability->measure).takesLedger;
-  return hard;
-}
+template HardSceneOf<2> plainScene<2>(const Case&, const Packing&);
+template HardSceneOf<3> plainScene<3>(const Case&, const Packing&);
 
 namespace {
 
+/// How the case turns and moves its assembly as a whole; only one of the plane is.
+Placement placementOf(const Case& setup) {
+  const auto* const assembly = std::get_if<Assembly>(&setup.source);
+  return assembly ? assembly->placement : Placement();
+}
+
 /// Of all collisions of the scene, which has each of the case's as often as collisionsAt() says.
-std::vector<CollisionStart> startsOf(const Case& setup, const Scene& scene) {
+template <int D>
+std::vector<CollisionStart> startsOf(const Case& setup, const SceneOf<D>& scene) {
   if (!isCollision(setup)) return {};
   const std::vector<CollisionStart> once = collisionStarts(setup);
   const std::size_t all = scene.disks.size() / (collisionIn(setup).wall ? 1 : 2);
@@ -55,29 +65,51 @@ std::vector<CollisionStart> startsOf(const Case& setup, const Scene& scene) {
   return starts;
 }
 
-}  // namespace
+/// Takes what an engine has wrapped into a periodic box back to where its way has led, by the
+/// velocity of the snapshot before.
+template <int D>
+void unwrap(SnapshotOf<D>& now, const SnapshotOf<D>& before, const SceneOf<D>& scene) {
+  if (!scene.box) return;
+  const double passed = now.positionTime - before.positionTime;
+  for (std::size_t i = 0; i < now.position.size(); ++i) {
+    const VecOf<D> expected = before.position[i] + passed * before.velocity[i];
+    now.position[i] = expected + scene.box->nearest(now.position[i] - expected);
+  }
+}
 
-Recording record(Engine& engine, const EngineEntry& entry, const HardScene& hard,
-                 const std::function<void(double)>& progress) {
+/// Has an engine load the scene and takes the case's samples while it runs. An engine that fails
+/// on the way ends the recording there, with the reason and what was seen before.
+/// @param progress  called with the fraction done, 0 … 1
+/// @throws UnsupportedScene, BadInput, Interrupted
+template <int D>
+RecordingOf<D> record(Engine& engine, const EngineEntry& entry, const HardSceneOf<D>& hard,
+                      const std::function<void(double)>& progress) {
   const Case& setup = *hard.setup;
-  Recording run{hard.scene,
-                {},
-                {},
-                {},
-                setup.stability->settle,
-                isAssembly(setup) ? assemblyIn<2>(setup).placement : Placement(),
-                startsOf(setup, hard.scene),
-                lawAsRun(engine.capabilities(), hard.scene.law)};
+  RecordingOf<D> run{hard.scene,
+                     {},
+                     {},
+                     {},
+                     setup.stability->settle,
+                     placementOf(setup),
+                     startsOf(setup, hard.scene),
+                     lawAsRun(engine.capabilities(), hard.scene.law)};
   try {
     run.effective = loadScene(engine, entry, setup, hard.scene);
-    run.snapshots.push_back(engine.snapshot(ContactReport::none));
+    run.snapshots.push_back(snapshotOf<D>(engine, ContactReport::none));
     const int samples = setup.stability->samples;
+    const int more = stabilityMeasure(setup.stability->measure).steps;
     double now = 0.0;
     for (int k = 1; k <= samples; ++k) {
       const double next = hard.duration * k / samples;
-      advanceInPieces(engine, run.effective, now, next);
-      now = next;
-      run.snapshots.push_back(engine.snapshot(ContactReport::instant));
+      for (int step = 0; step <= more; ++step) {
+        const double then = next + step * run.effective.dt;
+        if (then > hard.duration * (k + 1) / samples) break;
+        advanceInPieces(engine, run.effective, now, then);
+        now = then;
+        SnapshotOf<D> seen = snapshotOf<D>(engine, ContactReport::instant);
+        unwrap(seen, run.snapshots.back(), hard.scene);
+        run.snapshots.push_back(std::move(seen));
+      }
       progress(static_cast<double>(k) / samples);
     }
   } catch (const EngineFailure& failure) {
@@ -86,12 +118,16 @@ Recording record(Engine& engine, const EngineEntry& entry, const HardScene& hard
   return run;
 }
 
-namespace {
-
-/// The scene of a case as the task has it.
-HardScene sceneOf(const StabilityTask& task, const Case& setup) {
-  HardScene hard = hardScene(setup, *task.packing);
-  if (task.inSpace) hard.scene = ofSpheres(std::move(hard.scene));
+/// The scene of a case as the task has it, with what its measure takes.
+template <int D>
+HardSceneOf<D> sceneOf(const StabilityTask& task, const Case& setup) {
+  HardSceneOf<D> hard = plainScene<D>(setup, *task.packing);
+  // Nobody has one in space, nor in a periodic box.
+  hard.scene.energyLedger =
+      setup.run.energyLedger ||
+      (D == 2 && !hard.scene.box && stabilityMeasure(setup.stability->measure).takesLedger);
+  if constexpr (D == 2)
+    if (task.inSpace) hard.scene = ofSpheres(std::move(hard.scene));
   return hard;
 }
 
@@ -132,13 +168,15 @@ void judgeNumber(StabilityRun& row, const Stability& hard, double value) {
   row.value = judged.value;
 }
 
-void placeInTime(StabilityRun& row, const Recording& run, std::size_t sample) {
+template <int D>
+void placeInTime(StabilityRun& row, const RecordingOf<D>& run, std::size_t sample) {
   row.time = run.snapshots[sample].positionTime;
   row.step = std::llround(*row.time / run.effective.dt);
 }
 
 /// Every few samples are enough for a plot.
-void keepCurve(StabilityRun& row, const Recording& run, const std::vector<double>& curve) {
+template <int D>
+void keepCurve(StabilityRun& row, const RecordingOf<D>& run, const std::vector<double>& curve) {
   constexpr std::size_t most = 200;
   const std::size_t stride = std::max<std::size_t>(1, (curve.size() + most - 1) / most);
   for (std::size_t k = 0; k < curve.size(); ++k) {
@@ -148,25 +186,29 @@ void keepCurve(StabilityRun& row, const Recording& run, const std::vector<double
   }
 }
 
-ScenePicture pictureAt(const Recording& run, std::size_t sample) {
-  const Snapshot& now = run.snapshots[sample];
+template <int D>
+ScenePicture pictureAt(const RecordingOf<D>& run, std::size_t sample) {
+  const SnapshotOf<D>& now = run.snapshots[sample];
   ScenePicture picture = scenePicture(run.scene, now, 0.0);
+  if constexpr (D == 3) return picture;
   picture.planes.emplace();
-  for (const Plane& plane : planesAt(run.scene, now.positionTime))
+  for (const PlaneOf<D>& plane : planesAt(run.scene, now.positionTime))
     picture.planes->push_back(
         {plane.point.x(), plane.point.y(), plane.normal.x(), plane.normal.y()});
   return picture;
 }
 
 /// The engine did not get to the end.
-void judgeFailure(StabilityRun& row, const Recording& run) {
+template <int D>
+void judgeFailure(StabilityRun& row, const RecordingOf<D>& run) {
   fail(row, run.failure);
   if (run.snapshots.empty()) return;
   placeInTime(row, run, run.snapshots.size() - 1);
   row.picture = pictureAt(run, run.snapshots.size() - 1);
 }
 
-void judgeCurve(StabilityRun& row, const Stability& hard, const Recording& run,
+template <int D>
+void judgeCurve(StabilityRun& row, const Stability& hard, const RecordingOf<D>& run,
                 const std::vector<double>& curve) {
   if (curve.empty()) return refuse(row, "does not show what the measure takes");
   const StabilityJudgement judged = judgeStability(hard, curve);
@@ -180,7 +222,8 @@ void judgeCurve(StabilityRun& row, const Stability& hard, const Recording& run,
 }
 
 /// What is common to all measures of a run.
-void describe(StabilityRun& row, const Recording& run, const Engine& engine) {
+template <int D>
+void describe(StabilityRun& row, const RecordingOf<D>& run, const Engine& engine) {
   if (!run.effective.engine.empty()) row.effective = run.effective;
   if (run.failure.empty()) row.stats = engine.stats();
 }
@@ -211,7 +254,7 @@ HardScene collisionsAt(const StabilityTask& task, double dt) {
   std::vector<CollisionStart> starts;
   for (std::size_t k = 0; k < phases.size(); ++k)
     starts.insert(starts.end(), once.begin(), once.end());
-  HardScene hard = sceneOf(task, *task.setup);
+  HardScene hard = sceneOf<2>(task, *task.setup);
   hard.scene.dt = dt;
   hard.duration += dt;  // that they touch later
   hard.scene.disks = collisionScene(setup, starts, dt).disks;
@@ -226,11 +269,13 @@ HardScene collisionsAt(const StabilityTask& task, double dt) {
 
 /// When two disks, or one and a plane at rest, first touch in a scene that has nothing else, where
 /// nothing acts before [s].
-std::optional<double> firstTouch(const Scene& scene) {
-  const Disks& disks = scene.disks;
-  const std::vector<Plane> planes = planesAt(scene, 0.0);
+template <int D>
+std::optional<double> firstTouch(const SceneOf<D>& scene) {
+  const DisksOf<D>& disks = scene.disks;
+  const std::vector<PlaneOf<D>> planes = planesAt(scene, 0.0);
   if (!scene.gravity.isZero(0.0) || disks.size() + planes.size() != 2 ||
-      effectsOf(scene).contains(Effect::movingWalls) || scene.bottom || scene.wallDiskCount() > 0)
+      effectsOf(scene).contains(Effect::movingWalls) || scene.bottom || scene.box ||
+      scene.wallDiskCount() + scene.cylinderCount() > 0)
     return std::nullopt;
   if (planes.size() == 1) {
     const double gap =
@@ -238,8 +283,8 @@ std::optional<double> firstTouch(const Scene& scene) {
     const double speed = -disks.velocity[0].dot(planes[0].normal);
     return gap > 0.0 && speed > 0.0 ? std::optional(gap / speed) : std::nullopt;
   }
-  const Vec2 apart = disks.position[0] - disks.position[1],
-             velocity = disks.velocity[0] - disks.velocity[1];
+  const VecOf<D> apart = disks.position[0] - disks.position[1],
+                 velocity = disks.velocity[0] - disks.velocity[1];
   const double reach = disks.radius[0] + disks.radius[1], along = apart.dot(velocity);
   const double outside = apart.squaredNorm() - reach * reach;
   const double root = along * along - velocity.squaredNorm() * outside;
@@ -248,11 +293,12 @@ std::optional<double> firstTouch(const Scene& scene) {
 }
 
 /// The scene so much earlier that it first touches at that fraction of a step.
-HardScene touchingAt(HardScene hard, double touch, double phase, double dt) {
+template <int D>
+HardSceneOf<D> touchingAt(HardSceneOf<D> hard, double touch, double phase, double dt) {
   const double steps = touch / dt;
   const double earlier = phase - (steps - std::floor(steps));
   const double shift = (earlier < 0.0 ? earlier + 1.0 : earlier) * dt;
-  Disks& disks = hard.scene.disks;
+  DisksOf<D>& disks = hard.scene.disks;
   for (std::size_t i = 0; i < disks.size(); ++i) disks.position[i] -= shift * disks.velocity[i];
   hard.scene.dt = dt;
   hard.duration += shift;
@@ -261,9 +307,10 @@ HardScene touchingAt(HardScene hard, double touch, double phase, double dt) {
 
 /// What a run is judged by: the scene, and where it is one collision or several side by side, that
 /// at several phases and steps.
-std::vector<HardScene> beginningsOf(const StabilityTask& task, const HardScene& hard,
-                                    Engine& engine) {
-  const bool collisions = isCollision(*task.setup);
+template <int D>
+std::vector<HardSceneOf<D>> beginningsOf(const StabilityTask& task, const HardSceneOf<D>& hard,
+                                         Engine& engine) {
+  const bool collisions = D == 2 && isCollision(*task.setup);
   const std::optional<double> touch = firstTouch(hard.scene);
   if (!collisions && !touch) return {hard};
   const double own = loadScene(engine, task.entry, *task.setup, hard.scene).dt;
@@ -271,13 +318,14 @@ std::vector<HardScene> beginningsOf(const StabilityTask& task, const HardScene& 
   const auto stepAt = [&](double part) {
     return itsOwn ? own : own * (1.0 - part * (1.0 - finestStep));
   };
-  std::vector<HardScene> all;
-  if (collisions) {
-    const int steps = itsOwn ? 1 : 11;
-    for (int k = 0; k < steps; ++k)
-      all.push_back(collisionsAt(task, stepAt(steps == 1 ? 0.0 : k / (steps - 1.0))));
-    return all;
-  }
+  std::vector<HardSceneOf<D>> all;
+  if constexpr (D == 2)
+    if (collisions) {
+      const int steps = itsOwn ? 1 : 11;
+      for (int k = 0; k < steps; ++k)
+        all.push_back(collisionsAt(task, stepAt(steps == 1 ? 0.0 : k / (steps - 1.0))));
+      return all;
+    }
   all.push_back(hard);
   const std::vector<double> phases = touchPhases(8);
   for (std::size_t k = 0; k < phases.size(); ++k)
@@ -293,32 +341,33 @@ double rms(const std::vector<double>& values) {
 }
 
 /// The worst of several beginnings, and the rms of all.
-void judgeBeginnings(StabilityRun& row, const StabilityTask& task, const HardScene& hard,
+template <int D>
+void judgeBeginnings(StabilityRun& row, const StabilityTask& task, const HardSceneOf<D>& hard,
                      Engine& engine, const std::function<void(double)>& progress) {
   const Stability& limits = *task.setup->stability;
-  const std::vector<HardScene> all = beginningsOf(task, hard, engine);
+  const std::vector<HardSceneOf<D>> all = beginningsOf(task, hard, engine);
   const auto share = [&](std::size_t k) {
     return static_cast<double>(k) / static_cast<double>(all.size());
   };
   struct Judged {
-    Recording run;
+    RecordingOf<D> run;
     std::vector<double> curve;
     double value;
   };
   std::optional<Judged> worst;
   std::vector<double> values;
   for (std::size_t k = 0; k < all.size(); ++k) {
-    Recording run = record(engine, task.entry, all[k],
-                           [&](double done) { progress(share(k) + done * share(1)); });
+    RecordingOf<D> run = record(engine, task.entry, all[k],
+                                [&](double done) { progress(share(k) + done * share(1)); });
     if (k == 0 || !run.failure.empty()) describe(row, run, engine);
     if (!run.failure.empty()) return judgeFailure(row, run);
-    std::vector<double> curve = stabilityMeasure(limits.measure).curve(run);
+    std::vector<double> curve = stabilityMeasure(limits.measure).of(run);
     if (curve.empty()) return judgeCurve(row, limits, run, curve);
     const double value = judgeStability(limits, curve).value;
-    if (run.collisions.empty())
-      values.push_back(value);
-    else
-      std::ranges::copy(restitutionErrors(run), std::back_inserter(values));
+    if (run.collisions.empty()) values.push_back(value);
+    if constexpr (D == 2)
+      if (!run.collisions.empty())
+        std::ranges::copy(restitutionErrors(run), std::back_inserter(values));
     if (!worst || value > worst->value) worst = Judged{std::move(run), std::move(curve), value};
   }
   judgeCurve(row, limits, worst->run, worst->curve);
@@ -329,13 +378,14 @@ void judgeBeginnings(StabilityRun& row, const StabilityTask& task, const HardSce
 }
 
 /// A run of the original, and one of the case.
-void judgeCopy(StabilityRun& row, const StabilityTask& task, const HardScene& hard, Engine& engine,
-               const std::function<void(double)>& progress) {
-  const HardScene originalScene = sceneOf(task, *task.original);
-  const Recording original =
+template <int D>
+void judgeCopy(StabilityRun& row, const StabilityTask& task, const HardSceneOf<D>& hard,
+               Engine& engine, const std::function<void(double)>& progress) {
+  const HardSceneOf<D> originalScene = sceneOf<D>(task, *task.original);
+  const RecordingOf<D> original =
       record(engine, task.entry, originalScene, [&](double f) { progress(0.5 * f); });
   if (!original.failure.empty()) return judgeFailure(row, original);
-  const Recording run =
+  const RecordingOf<D> run =
       record(engine, task.entry, hard, [&](double f) { progress(0.5 + 0.5 * f); });
   describe(row, run, engine);
   if (!run.failure.empty()) return judgeFailure(row, run);
@@ -343,7 +393,8 @@ void judgeCopy(StabilityRun& row, const StabilityTask& task, const HardScene& ha
 }
 
 /// Twice the same run, the second time in a new worker from a checkpoint at the middle.
-void judgeRestart(StabilityRun& row, const StabilityTask& task, const HardScene& hard,
+template <int D>
+void judgeRestart(StabilityRun& row, const StabilityTask& task, const HardSceneOf<D>& hard,
                   Engine& engine) {
   if (!engine.capabilities().checkpoints) return refuse(row, "has no checkpoints");
   const std::filesystem::path file = std::filesystem::absolute(task.scratch) / "middle";
@@ -353,7 +404,7 @@ void judgeRestart(StabilityRun& row, const StabilityTask& task, const HardScene&
   advanceInPieces(engine, effective, 0.0, middle);
   engine.checkpoint(file);
   advanceInPieces(engine, effective, middle, hard.duration);
-  const Snapshot whole = engine.snapshot(ContactReport::none);
+  const SnapshotOf<D> whole = snapshotOf<D>(engine, ContactReport::none);
 
   const auto second = asTaskHasIt(
       task, audited(task.entry.name,
@@ -361,21 +412,22 @@ void judgeRestart(StabilityRun& row, const StabilityTask& task, const HardScene&
   const EffectiveParameters again = loadScene(*second, task.entry, *task.setup, hard.scene);
   second->restore(file);
   advanceInPieces(*second, again, middle, hard.duration);
-  const Snapshot resumed = second->snapshot(ContactReport::none);
+  const SnapshotOf<D> resumed = snapshotOf<D>(*second, ContactReport::none);
   judgeNumber(row, *task.setup->stability, largestDistance(hard.scene, whole, resumed));
 }
 
-bool staysCalm(Engine& engine, const EngineEntry& entry, const HardScene& hard, double dt) {
+template <int D>
+bool staysCalm(Engine& engine, const EngineEntry& entry, const HardSceneOf<D>& hard, double dt) {
   constexpr double growth = 100.0;
-  HardScene run = hard;
+  HardSceneOf<D> run = hard;
   run.duration *= dt / hard.scene.dt;
   run.scene.dt = dt;
-  const Recording seen = record(engine, entry, run, [](double) {});
+  const RecordingOf<D> seen = record(engine, entry, run, [](double) {});
   if (!seen.snapshots.empty() && seen.effective.dt != dt)
     throw UnsupportedScene(fmt::format("takes time steps of its own, {:g} s", seen.effective.dt));
   if (!seen.failure.empty()) return false;  // a step far too long ends in no numbers at all
   const double start = energyOf(seen, seen.snapshots.front()).kinetic;
-  for (const Snapshot& now : seen.snapshots)
+  for (const SnapshotOf<D>& now : seen.snapshots)
     if (!(energyOf(seen, now).kinetic <= growth * start)) return false;
   return true;
 }
@@ -385,7 +437,8 @@ bool staysCalm(Engine& engine, const EngineEntry& entry, const HardScene& hard, 
 /// finds more than 100 times the kinetic energy of the start.
 /// @returns the largest stable one, by theory's; 0 if none is
 /// @throws UnsupportedScene for an engine that takes steps of its own, EngineFailure
-double measuredStepLimit(Engine& engine, const EngineEntry& entry, const HardScene& hard,
+template <int D>
+double measuredStepLimit(Engine& engine, const EngineEntry& entry, const HardSceneOf<D>& hard,
                          double theory, const std::function<void(double)>& progress) {
   double stable = 0.1, unstable = 1.6;
   constexpr double precision = 0.005;
@@ -398,7 +451,8 @@ double measuredStepLimit(Engine& engine, const EngineEntry& entry, const HardSce
   return stable;
 }
 
-void judgeStepLimit(StabilityRun& row, const StabilityTask& task, const HardScene& hard,
+template <int D>
+void judgeStepLimit(StabilityRun& row, const StabilityTask& task, const HardSceneOf<D>& hard,
                     Engine& engine, const std::function<void(double)>& progress) {
   const double theory = theoreticalStepLimit(hard.scene);
   const double measured = theory * measuredStepLimit(engine, task.entry, hard, theory, progress);
@@ -411,19 +465,20 @@ void judgeStepLimit(StabilityRun& row, const StabilityTask& task, const HardScen
 
 /// From the case's own step upward: doubled as long as the run is sound, then halved between the
 /// last that was and the first that was not, to a twentieth.
-void judgeLargestStep(StabilityRun& row, const StabilityTask& task, HardScene hard, Engine& engine,
-                      const std::function<void(double)>& progress) {
+template <int D>
+void judgeLargestStep(StabilityRun& row, const StabilityTask& task, HardSceneOf<D> hard,
+                      Engine& engine, const std::function<void(double)>& progress) {
   constexpr double mostSteps = 1e4;  // of the case's own, of what may be a long run
   constexpr double precision = 1.05, most = 64.0;
   const double own = hard.scene.dt;
   hard.duration = std::min(hard.duration, mostSteps * own);
-  const Recording calm = record(engine, task.entry, hard, [](double) {});
+  const RecordingOf<D> calm = record(engine, task.entry, hard, [](double) {});
   describe(row, calm, engine);
   if (!calm.failure.empty()) return judgeFailure(row, calm);
   if (calm.effective.dt != own)
     throw UnsupportedScene(fmt::format("takes time steps of its own, {:g} s", calm.effective.dt));
   const auto sound = [&](double times) {
-    HardScene run = hard;
+    HardSceneOf<D> run = hard;
     run.scene.dt = times * own;
     progress(0.5);
     return isSound(record(engine, task.entry, run, [](double) {}), calm);
@@ -449,11 +504,12 @@ void judgeLargestStep(StabilityRun& row, const StabilityTask& task, HardScene ha
 }
 
 /// The start is one that must be refused, by the harness or by the engine.
+template <int D>
 void judgeAcceptance(StabilityRun& row, const StabilityTask& task, Engine& engine,
                      const std::function<void(double)>& progress) {
   try {
-    const HardScene hard = sceneOf(task, *task.setup);
-    const Recording run = record(engine, task.entry, hard, progress);
+    const HardSceneOf<D> hard = sceneOf<D>(task, *task.setup);
+    const RecordingOf<D> run = record(engine, task.entry, hard, progress);
     if (!run.failure.empty()) return judgeFailure(row, run);
     judgeNumber(row, *task.setup->stability, 1.0);
     row.reason = "was not refused";
@@ -466,12 +522,14 @@ void judgeAcceptance(StabilityRun& row, const StabilityTask& task, Engine& engin
   }
 }
 
+template <int D>
 void judge(StabilityRun& row, const StabilityTask& task, Engine& engine,
            const std::function<void(double)>& progress) {
   const StabilityProtocol protocol = stabilityMeasure(task.setup->stability->measure).protocol;
+  if (protocol == StabilityProtocol::invariances) return judgeInvariances(row, task, progress);
   if (protocol == StabilityProtocol::acceptance)
-    return judgeAcceptance(row, task, engine, progress);
-  const HardScene hard = sceneOf(task, *task.setup);
+    return judgeAcceptance<D>(row, task, engine, progress);
+  const HardSceneOf<D> hard = sceneOf<D>(task, *task.setup);
   switch (protocol) {
     case StabilityProtocol::restart:
       return judgeRestart(row, task, hard, engine);
@@ -513,7 +571,7 @@ StabilityRun runStability(const StabilityTask& task, const std::function<void(do
       throw BadInput(task.unprepared);  // nobody's failure: it never ran
     const auto engine =
         asTaskHasIt(task, startAudited(task.entry, task.scratch, task.setup->run.timeout));
-    judge(row, task, *engine, progress);
+    inDimensionOf(*task.setup, [&]<int D>() { judge<D>(row, task, *engine, progress); });
   });
   return row;
 }

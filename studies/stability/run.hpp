@@ -17,7 +17,7 @@ struct StabilityTask {
   const Case* setup;
   const Case* original;  ///< the first variant of its file: what copies are compared with
   EngineEntry entry;
-  const Packing* packing;         ///< of a Couette case
+  const Packing* packing;         ///< of a case that prepares them; else empty
   std::filesystem::path scratch;  ///< the worker's
   std::string unprepared = {};    ///< why there is no packing, empty: there is
   bool inSpace = false;           ///< in a plane of space, its disks as spheres: in_space.hpp
@@ -37,25 +37,18 @@ void judged(StabilityRun& row, const std::function<void()>& work);
 StabilityRun runStability(const StabilityTask& task, const std::function<void(double)>& progress);
 
 /// A case as engines get it, whatever its kind.
-struct HardScene {
+template <int D>
+struct HardSceneOf {
   const Case* setup = nullptr;
-  Scene scene;
+  SceneOf<D> scene;
   double duration = 0.0;  ///< how long it is watched [s]
 };
+using HardScene = HardSceneOf<2>;
 
 /// The scene of a case, and for how long it says.
-/// @param packing  of a Couette case
+/// @param packing  prepared, or empty: then the case's first is made
 /// @throws BadInput
-HardScene plainScene(const Case& setup, const Packing& packing);
-
-/// The same of a hard case, with what its measure takes.
-HardScene hardScene(const Case& setup, const Packing& packing);
-
-/// Has an engine load the scene and takes `samples` samples while it runs. An engine that fails
-/// on the way ends the recording there, with the reason and what was seen before.
-/// @param progress  called with the fraction done, 0 … 1
-/// @throws UnsupportedScene, BadInput, Interrupted
-Recording record(Engine& engine, const EngineEntry& entry, const HardScene& hard,
-                 const std::function<void(double)>& progress);
+template <int D = 2>
+HardSceneOf<D> plainScene(const Case& setup, const Packing& packing);
 
 }  // namespace crossgrain::inline studies

@@ -97,14 +97,30 @@ const struct SceneAudit {
      {"No energy comes from nowhere.", "energy_gain", 0.01, 0.1,
       "walls that stand still do no work; a hundredth is what steps of t_c/50 leave"},
      [](const Case& setup) { return !effectsOf(setup).contains(Effect::movingWalls); }},
+    {"wall forces",
+     {"What walls and gravity give is what the bodies get: momentum and angular momentum.",
+      "wall_balance", 0.1, 0.3,
+      "forces of instants beside velocities of up to half a step away: 1/16 at most of eight "
+      "steps, "
+      "with either sign, and arms that leave a hundredth of a radius"},
+     [](const Case& setup) { return !effectsOf(setup).contains(Effect::bottomFriction); }},
+    {"rest",
+     {"What has come to rest stays at rest.", "wakes", 1e-6, 1.0,
+      "a hundred times what counts as rest; what stands unstably may fall, so that alone is no "
+      "instability"},
+     [](const Case& setup) { return !effectsOf(setup).contains(Effect::movingWalls); }},
     {"restart",
      {"A run taken up at its middle is the same run.", "restart_differs", 0.0, 1e-9,
       "a checkpoint holds all that the future depends on: to the bit"}},
+    {"invariances",
+     {"Turned, mirrored, in other units, renumbered, restarted and unwatched it is the same scene.",
+      "invariances", 1.0, 1.0,
+      "what rounding may do, as found by runs whose start is nudged by one"}},
     {"largest step",
      {"The case's time step is one that the scene bears.", "largest_step", 1.0, 1.0,
       "1: the case's own step is the largest; less: there is room"}}};
 
-/// One case for each, of a flow in the plane.
+/// One case for each, of a flow.
 std::vector<Case> auditsOf(const Case& setup) {
   std::vector<Case> audits;
   for (const SceneAudit& audit : sceneAudits) {
@@ -130,11 +146,6 @@ std::vector<Case> withAudits(const std::vector<Case>& cases) {
           fmt::format("{}: has no [stability]: it is no hard case, and no flow whose run could be "
                       "audited",
                       setup.file.string()));
-    if (setup.dimension != 2)
-      throw BadInput(
-          fmt::format("{}: stability audits flows in the plane alone yet, and "
-                      "case.dimension = {}",
-                      setup.file.string(), setup.dimension));
     std::ranges::move(auditsOf(setup), std::back_inserter(all));
   }
   return all;
@@ -242,12 +253,11 @@ void preparePackings(Suite& suite) {
 /// Roughly, in seconds: the longest start first.
 double predicted(const Case& setup, const EngineEntry& entry) {
   const double perStep = entry.command ? 3e-5 : 2e-6;
-  double steps = 1e4;
+  const bool collision = isCollision(setup);
+  const double steps = collision ? 1e4 : flowDuration(setup) / timeStep(setup);
   std::size_t disks = 1;
   if (isAssembly(setup))
     withAssembly(setup, [&](const auto& assembly) {
-      if (assembly.steps) steps = *assembly.steps;
-      if (assembly.duration) steps = *assembly.duration / timeStep(setup);
       for (const auto& group : assembly.disks) disks += group.places.size();
     });
   return (entry.command ? 2.0 : 0.1) + steps * perStep * static_cast<double>(disks + 3);
@@ -337,11 +347,6 @@ std::vector<Case> casesToTest(const CommandLine& line, StabilityOptions& own) {
   if (own.transforms) {  // of any cases
     cases = casesOf(inputs, line.overrides);
     requireOwnNames(cases);
-    for (const Case& setup : cases)
-      if (setup.dimension != 2)
-        throw BadInput(
-            fmt::format("{}: --transforms takes scenes of the plane, and case.dimension = {}",
-                        setup.file.string(), setup.dimension));
   } else {
     cases = hardCases(inputs, line.overrides,
                       line.quick      ? SuitePart::quick

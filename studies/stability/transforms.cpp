@@ -1,6 +1,7 @@
 #include "studies/stability/transforms.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -86,12 +87,13 @@ Settings inUnits(Settings settings, const std::vector<SettingSpec>& specs, const
   return settings;
 }
 
-std::vector<CaseTransform> caseTransforms(std::size_t disks) {
+std::vector<CaseTransform> caseTransforms(std::size_t disks, int dimension) {
+  const int degrees = dimension == 2 ? 90 : 120;
   const auto turned = [](double angle) { return Transform{.placement = {.turn = angle}}; };
   const auto inUnitsOf = [](Units units) { return Transform{.units = units}; };
   const std::string rescaled = "In other units the same happens: nothing has a unit of its own.";
-  return {{"turned", "turned by 90°", "A turned scene does the same, turned.",
-           turned(0.5 * std::numbers::pi)},
+  return {{"turned", fmt::format("turned by {}°", degrees), "A turned scene does the same, turned.",
+           turned(degrees / 180.0 * std::numbers::pi)},
           {"turned", "turned by 1 rad", "A turned scene does the same, turned.", turned(1.0)},
           {"mirrored",
            "mirrored",
@@ -122,10 +124,19 @@ double epsilonOf(const EffectiveParameters& effective) {
 
 /// How far two frames of one scene are apart: disks by places, and by as far as a rim has turned
 /// with the difference of spins [d].
-Farthest apart(const LockstepFrame& one, const LockstepFrame& other, double diameter) {
+double sizeOf(double value) {
+  return std::abs(value);
+}
+double sizeOf(const Vec3& value) {
+  return value.norm();
+}
+
+template <int D>
+Farthest apart(const LockstepFrameOf<D>& one, const LockstepFrameOf<D>& other, double diameter) {
   Farthest worst = farthest(one, other, diameter);
   for (std::size_t i = 0; i < std::min(one.spin.size(), other.spin.size()); ++i) {
-    const double turn = 0.5 * std::abs(one.spin[i] - other.spin[i]) * one.time;
+    const SpinOf<D> off = one.spin[i] - other.spin[i];
+    const double turn = 0.5 * one.time * sizeOf(off);
     if (turn > worst.distance) worst = {i, turn};
   }
   return worst;
@@ -133,9 +144,10 @@ Farthest apart(const LockstepFrame& one, const LockstepFrame& other, double diam
 
 /// One engine and one scene: the run as it is, what rounding may do to it, and runs that must go
 /// the same way.
+template <int D>
 class Trial {
  public:
-  Trial(const StabilityTask& task, const HardScene& hard, const TimeShare& time)
+  Trial(const StabilityTask& task, const HardSceneOf<D>& hard, const TimeShare& time)
       : task_(task), hard_(hard), time_(time), diameter_(smallestDiameter(hard.scene)) {
     const EffectiveParameters effective = load(hard.scene, {});
     dt_ = effective.dt;
@@ -173,15 +185,15 @@ class Trial {
   }
 
   /// As the case lets the engine run it, its settings in the same units.
-  EffectiveParameters loadInto(Engine& engine, const Scene& scene, const Units& units) {
+  EffectiveParameters loadInto(Engine& engine, const SceneOf<D>& scene, const Units& units) {
     can_ = engine.capabilities();
-    const Adapted adapted = sceneFor(can_, task_.entry, *task_.setup, scene);
-    return engine.load(adapted.scene, inUnits(settingsFor(*task_.setup, task_.entry.name, can_),
-                                              can_.settings, units));
+    const AdaptedOf<D> adapted = sceneFor(can_, task_.entry, *task_.setup, scene);
+    const Settings settings = settingsFor(*task_.setup, task_.entry.name, can_);
+    return loadOn<D>(engine, adapted.scene, inUnits(settings, can_.settings, units));
   }
 
   /// A worker that failed before is not asked again.
-  EffectiveParameters load(const Scene& scene, const Units& units) {
+  EffectiveParameters load(const SceneOf<D>& scene, const Units& units) {
     if (!engine_)
       engine_ = startAudited(task_.entry, task_.scratch / "worker", task_.setup->run.timeout);
     return loadInto(*engine_, scene, units);
@@ -199,12 +211,12 @@ class Trial {
 
   /// The run as it is, given up where the next frame would come too late: nobody knows yet how slow
   /// the engine is. @throws OutOfTime
-  std::vector<LockstepFrame> followInTime() {
+  std::vector<LockstepFrameOf<D>> followInTime() {
     using Clock = std::chrono::steady_clock;
     const auto began = Clock::now();
     auto soFar = [&] { return std::chrono::duration<double>(Clock::now() - began).count(); };
-    std::vector<LockstepFrame> frames =
-        follow(*engine_, dt_, steps_, contacts(), [&](std::uint64_t done, std::uint64_t step) {
+    std::vector<LockstepFrameOf<D>> frames =
+        follow<D>(*engine_, dt_, steps_, contacts(), [&](std::uint64_t done, std::uint64_t step) {
           const auto more = static_cast<double>(step - done);
           time_.require(done == 0 ? 0.0 : soFar() * more / static_cast<double>(done));
         });
@@ -217,11 +229,11 @@ class Trial {
     const double nudge = epsilon * extentOf(hard_.scene) / diameter_;
     std::vector<double> once(steps_.size(), nudge);
     for (int n = 0; n < transformNudges; ++n) {
-      Scene scene = hard_.scene;
+      SceneOf<D> scene = hard_.scene;
       scene.disks = nudged(scene.disks, epsilon, transformSeed + static_cast<std::uint64_t>(n));
       time_.require(took_);
       load(scene, {});
-      const std::vector<LockstepFrame> moved = follow(*engine_, dt_, steps_);
+      const std::vector<LockstepFrameOf<D>> moved = near(follow<D>(*engine_, dt_, steps_), 0);
       double most = 0.0;
       for (std::size_t k = 0; k < steps_.size(); ++k) {
         most = std::max(most, apart(moved[k], original_[k], diameter_).distance);
@@ -235,26 +247,29 @@ class Trial {
         limits_.begin());
   }
 
-  std::vector<LockstepFrame> another(const Transform& change) {
+  std::vector<LockstepFrameOf<D>> another(const Transform& change) {
     return work([&] {
       if (!change.order.empty() && change.order.size() < 2)
         throw UnsupportedScene("a single disk has one number only");
+      if (hard_.scene.box && !turnsBox<D>(change.placement))
+        throw UnsupportedScene("a periodic box lies along the axes: it cannot be turned so");
       const EffectiveParameters effective = load(transformed(hard_.scene, change), change.units);
       const double dt = dt_ * change.units.time;
       if (std::abs(effective.dt - dt) > 1e-12 * dt)
         throw UnsupportedScene(fmt::format(
             "takes time steps of its own, {:g} s where {:g} s are the same", effective.dt, dt));
-      std::vector<LockstepFrame> frames = follow(*engine_, effective.dt, steps_, contacts());
-      for (LockstepFrame& frame : frames) {
+      std::vector<LockstepFrameOf<D>> frames =
+          follow<D>(*engine_, effective.dt, steps_, contacts());
+      for (LockstepFrameOf<D>& frame : frames) {
         frame.position = placesBack(change, frame.position);
-        frame.spin = spinsBack(change, frame.spin);
+        frame.spin = spinsBack<D>(change, frame.spin);
       }
       return frames;
     });
   }
 
   /// From the frame in the middle on.
-  std::vector<LockstepFrame> restarted() {
+  std::vector<LockstepFrameOf<D>> restarted() {
     if (!can_.checkpoints) throw UnsupportedScene("has no checkpoints");
     if (steps_.size() < 3) throw UnsupportedScene("the case is too short to have a middle");
     return work([&] {
@@ -267,20 +282,33 @@ class Trial {
                                                              task_.setup->run.timeout));
       loadInto(*second, hard_.scene, {});
       second->restore(file);
-      return follow(*second, dt_, {steps_.begin() + static_cast<long>(middle), steps_.end()},
-                    contacts());
+      return follow<D>(*second, dt_, {steps_.begin() + static_cast<long>(middle), steps_.end()},
+                       contacts());
     });
   }
 
-  std::vector<LockstepFrame> inOneGo() {
+  std::vector<LockstepFrameOf<D>> inOneGo() {
     return work([&] {
       load(hard_.scene, {});
-      return follow(*engine_, dt_, {last_}, contacts());
+      return follow<D>(*engine_, dt_, {last_}, contacts());
     });
   }
 
+  /// The frames with the images of all places that are nearest to the run's.
   /// @param from  index of the first of the frames
-  void compare(StabilityRun& row, const std::vector<LockstepFrame>& frames, std::size_t from) {
+  std::vector<LockstepFrameOf<D>> near(std::vector<LockstepFrameOf<D>> frames,
+                                       std::size_t from) const {
+    if (const auto& box = hard_.scene.box)
+      for (std::size_t k = 0; k < frames.size(); ++k)
+        for (std::size_t i = 0; i < frames[k].position.size(); ++i) {
+          const VecOf<D>& place = original_[from + k].position[i];
+          frames[k].position[i] = place + box->nearest(frames[k].position[i] - place);
+        }
+    return frames;
+  }
+
+  void compare(StabilityRun& row, std::vector<LockstepFrameOf<D>> seen, std::size_t from) {
+    const std::vector<LockstepFrameOf<D>> frames = near(std::move(seen), from);
     if (from >= blind_)
       throw UnsupportedScene(
           fmt::format("its own rounding may separate two runs by more than {:g} d from step {} on: "
@@ -316,7 +344,7 @@ class Trial {
   }
 
   const StabilityTask& task_;
-  const HardScene& hard_;
+  const HardSceneOf<D>& hard_;
   const TimeShare& time_;
   double took_ = 0.0;  ///< the run as it is [s]
   double diameter_;    ///< d [m]
@@ -325,7 +353,7 @@ class Trial {
   std::unique_ptr<Engine> engine_;
   Capabilities can_;
   std::vector<std::uint64_t> steps_;  ///< of the frames
-  std::vector<LockstepFrame> original_;
+  std::vector<LockstepFrameOf<D>> original_;
   std::vector<double> limits_;
   std::size_t blind_ = 0;  ///< the first snapshot at which nothing can be compared any more
 };
@@ -351,7 +379,7 @@ std::string variantOf(const Case& setup, const CaseTransform& transform) {
 std::vector<HardCase> transformRows(const Case& setup) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   std::vector<HardCase> rows;
-  for (const CaseTransform& transform : caseTransforms(0))
+  for (const CaseTransform& transform : caseTransforms(0, setup.dimension))
     rows.push_back({setup.name, variantOf(setup, transform), setup.file.string(), transform.must,
                     transform.measure, "farthest a disk is from where the case itself has it", "d",
                     none, none,
@@ -363,18 +391,21 @@ std::vector<HardCase> transformRows(const Case& setup) {
   return rows;
 }
 
-std::vector<StabilityRun> runTransforms(const StabilityTask& task, const TimeShare& time,
-                                        const std::function<void(double)>& progress) {
-  std::optional<HardScene> hard;
-  std::optional<Trial> trial;
+namespace {
+
+template <int D>
+std::vector<StabilityRun> transformsIn(const StabilityTask& task, const TimeShare& time,
+                                       const std::function<void(double)>& progress) {
+  std::optional<HardSceneOf<D>> hard;
+  std::optional<Trial<D>> trial;
   StabilityRun before;
   judged(before, [&] {
     if (!task.unprepared.empty()) throw BadInput(task.unprepared);
-    hard = plainScene(*task.setup, *task.packing);
+    hard = plainScene<D>(*task.setup, *task.packing);
     trial.emplace(task, *hard, time);
   });
   std::vector<StabilityRun> rows;
-  const auto all = caseTransforms(hard ? hard->scene.disks.size() : 0);
+  const auto all = caseTransforms(hard ? hard->scene.disks.size() : 0, D);
   for (const CaseTransform& transform : all) {
     StabilityRun row = rowOf(task, transform);
     if (trial) {
@@ -388,6 +419,29 @@ std::vector<StabilityRun> runTransforms(const StabilityTask& task, const TimeSha
     progress(static_cast<double>(rows.size()) / static_cast<double>(all.size()));
   }
   return rows;
+}
+
+}  // namespace
+
+std::vector<StabilityRun> runTransforms(const StabilityTask& task, const TimeShare& time,
+                                        const std::function<void(double)>& progress) {
+  return inDimensionOf(*task.setup, [&]<int D>() { return transformsIn<D>(task, time, progress); });
+}
+
+void judgeInvariances(StabilityRun& row, const StabilityTask& task,
+                      const std::function<void(double)>& progress) {
+  std::vector<std::string> broken;
+  std::optional<double> worst;
+  for (const StabilityRun& one : runTransforms(task, TimeShare(), progress)) {
+    if (one.status == Status::failed) throw EngineFailure(one.reason);
+    if (!one.value) continue;
+    worst = std::max(worst.value_or(0.0), *one.value / one.limit);
+    if (one.verdict == Verdict::fail) broken.push_back(one.variant);
+  }
+  if (!worst) throw UnsupportedScene("none of its changes could be compared");
+  row.value = worst;
+  row.verdict = broken.empty() ? Verdict::pass : Verdict::fail;
+  row.reason = fmt::format("{}", fmt::join(broken, "; "));
 }
 
 }  // namespace crossgrain::inline studies

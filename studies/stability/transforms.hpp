@@ -105,7 +105,7 @@ struct CaseTransform {
 
 /// All of them, in the order of reports.
 /// @param disks  of the scene
-std::vector<CaseTransform> caseTransforms(std::size_t disks);
+std::vector<CaseTransform> caseTransforms(std::size_t disks, int dimension = 2);
 
 /// The name of a row: that of the transform, behind the case's variant where there is one.
 std::string variantOf(const Case& setup, const CaseTransform& transform);
@@ -121,5 +121,11 @@ std::vector<HardCase> transformRows(const Case& setup);
 /// @throws Interrupted
 std::vector<StabilityRun> runTransforms(const StabilityTask& task, const TimeShare& time,
                                         const std::function<void(double)>& progress);
+
+/// StabilityProtocol::invariances: the same as one figure, the largest distance by what rounding
+/// may do; the reason names what breaks.
+/// @throws UnsupportedScene where nothing could be compared, EngineFailure
+void judgeInvariances(StabilityRun& row, const StabilityTask& task,
+                      const std::function<void(double)>& progress);
 
 }  // namespace crossgrain::inline studies

@@ -359,4 +359,173 @@ TEST(StepLimit, AndEnergy_OfMaterials_AreThoseOfTheirPair) {
   EXPECT_NEAR(energyOf(pair.run, pair.run.snapshots.front()).elastic, 0.5 * 400.0 * 0.01, 1e-12);
 }
 
+// ---- In space -----------------------------------------------------------------------------------
+
+/// Spheres of radius 1 m and mass 2 kg, q = 0.4.
+SpaceRecording spheres(std::size_t count) {
+  SpaceRecording run;
+  DisksOf<3>& all = run.scene.disks;
+  all.radius.assign(count, 1.0);
+  all.mass.assign(count, 2.0);
+  all.inertia.assign(count, 0.8);
+  all.position.assign(count, Vec3::Zero());
+  all.velocity.assign(count, Vec3::Zero());
+  all.spin.assign(count, Vec3::Zero());
+  run.scene.law.kn = 100.0;
+  run.scene.law.tangential = TangentialLaw::none;
+  run.effective.dt = 1.0;
+  return run;
+}
+
+SpaceSnapshot& look(SpaceRecording& run, double t, std::vector<Vec3> position,
+                    std::vector<Vec3> velocity) {
+  SpaceSnapshot& now = run.snapshots.emplace_back();
+  now.positionTime = now.velocityTime = now.contactTime = t;
+  now.position = std::move(position);
+  now.velocity = std::move(velocity);
+  return now;
+}
+
+std::vector<double> curveOf(const SpaceRecording& run, const char* measure) {
+  return stabilityMeasure(measure).of(run);
+}
+
+TEST(SpaceMeasures, EnergyAndMomenta_AreThoseOfVectors) {
+  SpaceRecording run = spheres(2);
+  run.scene.disks.velocity = {{0, 0, 1}, {0, 0, -1}};
+  look(run, 0.0, {{0, 0, 0}, {0, 9, 0}}, run.scene.disks.velocity);  // 2 J, L_x = −18 kg m²/s
+  SpaceSnapshot& now = look(run, 1.0, {{0, 0, 0}, {0, 0, 1.9}}, {{0, 0, 1}, {0, 0, 0}});
+  now.spin = {{0, 0, 0}, {0.6, 0, 0.8}};  // 1 J + 0.5 J + 0.4 J of a unit spin
+  EXPECT_NEAR(curveOf(run, "energy_drift")[1], 0.05, 1e-12);
+  EXPECT_NEAR(curveOf(run, "momentum_drift")[1], 0.5, 1e-12);  // 2 of 4 kg m/s
+  // Σ m (|x| + a)|v| = 2 · 2 · 5.5; L = 0.8 (0.6, 0, 0.8) now, (−18, 0, 0) then.
+  EXPECT_NEAR(curveOf(run, "angular_momentum_drift")[1], std::hypot(18.48, 0.64) / 22.0, 1e-12);
+}
+
+TEST(SpaceMeasures, Cylinder_IsAWallFromInside) {
+  SpaceRecording run = spheres(1);
+  WallBodyOf<3>& body = run.scene.bodies.emplace_back();
+  body.cylinders = {{{0, 5, 0}, {1, 0, 0}, 3.0}};
+  look(run, 0.0, {{7, 5, 0}}, {{0, 0, 0}});
+  look(run, 1.0, {{7, 5, 2.25}}, {{0, 0, 0}});  // R − s = 0.75
+  look(run, 2.0, {{7, 1.5, 0}}, {{0, 0, 0}});   // outside
+  EXPECT_NEAR(curveOf(run, "max_overlap")[1], 0.25, 1e-12);
+  EXPECT_EQ(curveOf(run, "tunnelled"), (std::vector<double>{0, 0, 1}));
+  EXPECT_EQ(curveOf(run, "escaped"), (std::vector<double>{0, 0, 1}));
+}
+
+TEST(SpaceMeasures, PairAcrossABorder_TouchesAndIsNotCrossed) {
+  SpaceRecording run = spheres(2);
+  run.scene.box = {{0, 0, 0}, {10, 10, 10}, {true, false, false}};
+  look(run, 0.0, {{0.5, 0, 0}, {9.5, 0, 0}}, {{1, 0, 0}, {-1, 0, 0}});
+  look(run, 1.0, {{5.4, 0, 0}, {4.6, 5, 0}}, {{1, 0, 0}, {-1, 0, 0}});
+  EXPECT_NEAR(curveOf(run, "max_overlap")[0], 1.0, 1e-12);
+  EXPECT_EQ(curveOf(run, "tunnelled")[1], 0.0);
+  look(run, 2.0, {{4.6, 0, 0}, {5.4, 0.1, 0}}, {{1, 0, 0}, {-1, 0, 0}});
+  look(run, 3.0, {{5.4, 0, 0}, {4.6, 0.1, 0}}, {{1, 0, 0}, {-1, 0, 0}});
+  EXPECT_EQ(curveOf(run, "tunnelled")[3], 1.0);
+}
+
+TEST(SpaceMeasures, PileAngle_IsThatOfTheCone) {
+  SpaceRecording run = spheres(6);
+  // Moments of a cone of r = 2 and h = 1: 3/20 r² = 0.6 along x and y, 3/80 h² = 0.0375 along z.
+  const double x = std::sqrt(1.8), z = std::sqrt(0.1125);
+  const std::vector<Vec3> cone = {{x, 0, 0},  {-x, 0, 0}, {0, x, 0},
+                                  {0, -x, 0}, {0, 0, z},  {0, 0, -z}};
+  std::vector<Vec3> flat = cone;
+  for (Vec3& place : flat) place.z() = 0.0;
+  const std::vector<Vec3> still(6, Vec3::Zero());
+  look(run, 0.0, cone, still);
+  look(run, 1.0, flat, still);
+  EXPECT_NEAR(curveOf(run, "pile_angle_change")[1], std::atan(0.5) * 180.0 / std::numbers::pi,
+              1e-9);
+}
+
+TEST(SpaceMeasures, CopiesAreComparedByTheirWays) {
+  SpaceRecording here = spheres(1), there = spheres(1);
+  there.scene.disks.position = {{100, 0, 0}};
+  look(here, 0.0, {{0, 0, 0}}, {{1, 0, 0}});
+  look(here, 1.0, {{1, 0, 0}}, {{1, 0, 0}});
+  look(there, 0.0, {{100, 0, 0}}, {{1, 0, 0}});
+  look(there, 1.0, {{101, 0.5, 0}}, {{1, 0, 0}});
+  EXPECT_EQ(copiesDiffer(here, there), (std::vector<double>{0.0, 0.25}));
+}
+
+TEST(StepLimit, OfTwoSpheres_IsThatOfTheirContact) {
+  SpaceRecording run = spheres(2);
+  run.scene.disks.position = {{0, 0, 0}, {1.1, 1.1, 1.1}};
+  EXPECT_NEAR(theoreticalStepLimit(run.scene), 2.0 / std::sqrt(100.0), 1e-9);  // m₁₂ = 1 kg
+}
+
+/// A gas that cools by Haff's law, of the rate that the measure's equations give by hand.
+TEST(StabilityMeasures, HaffsLaw_IsThatOfKineticTheory) {
+  SpaceRecording run = spheres(2);
+  run.law = run.scene.law;
+  run.law.gn = 2.0;  // e = exp(−π/√(4·100/4 − 1)) = exp(−π/√99), m₁₂ = 1 kg
+  run.law.conventions.tension = Tension::allow;
+  run.scene.box = {{0, 0, 0}, {10, 10, 10}, {true, true, true}};
+  const double e = std::exp(-std::numbers::pi / std::sqrt(99.0)),
+               phi = 8.0 / 3.0 * std::numbers::pi / 1e3;
+  // T_0 = Σ m v²/(3 Σ m) = 1/3; ω = 4 √(π/3) n d² χ with n d² = 0.008.
+  const double often =
+      4.0 * std::sqrt(std::numbers::pi / 3.0) * 0.008 * (1.0 - phi / 2.0) / std::pow(1.0 - phi, 3);
+  const double tau = 6.0 / ((1.0 - e * e) * often);
+  const auto at = [&](double t, double v) {
+    look(run, t, {{0, 0, 0}, {5, 5, 5}}, {{0, 0, v}, {0, 0, -v}});
+  };
+  at(0.0, 1.0);
+  at(2.0 * tau, 1.0 / 3.0);
+  at(3.0 * tau, 1.0 / 3.0);  // where it should be 1/4
+  const std::vector<double> errors = curveOf(run, "haff_error");
+  EXPECT_NEAR(errors[1], 0.0, 1e-6);
+  EXPECT_NEAR(errors[2], 0.25, 1e-6);
+  run.scene.box->periodic[0] = false;
+  EXPECT_TRUE(curveOf(run, "haff_error").empty());
+}
+
+// A disk on a plane: m = 2 kg, g = 10 m/s², steps of 1 s.
+TEST(StabilityMeasures, WallForces_AreWhatTheDisksGet) {
+  Series at;
+  at.run.scene.gravity = {0.0, -10.0};
+  at.run.scene.disks = {{1.0}, {2.0}, {1.0}, {{0, 0}}, {{0, 0}}, {0.0}};
+  at.addPlane();
+  at.run.snapshots.clear();
+  const auto seen = [&](double t, double vy, double spin, Vec2 force, double torque) {
+    Snapshot& now = at.look(t, {3, 0}, {0, 0}, {0, vy});
+    now.position.resize(1);
+    now.velocity.resize(1);
+    now.spin = {spin};
+    BodySnapshot body;
+    body.force = force;
+    body.torque = torque;
+    now.bodies = {body};
+  };
+  seen(0.0, 0.0, 0.0, {0, 0}, 0.0);
+  seen(1.0, 0.0, 0.0, {0, -20}, -60.0);  // at rest: the plane bears it, x × F = 3 · −20
+  seen(2.0, 0.0, 0.0, {0, -20}, -60.0);
+  EXPECT_NEAR(at.last("wall_balance"), 0.0, 1e-12);
+  seen(3.0, 10.0, 0.0, {0, -60}, -180.0);  // (20 + 60)/2 − 20 = 20 N s
+  EXPECT_NEAR(at.last("wall_balance"), 0.0, 1e-12);
+  auto other = at;
+  other.run.snapshots.back().bodies[0].force = Vec2(0, -20);
+  other.run.snapshots.back().bodies[0].torque = -60.0;
+  EXPECT_NEAR(other.last("wall_balance"), 20.0 / 80.0, 1e-12);  // of twice 20 + 20 N s
+  at.run.snapshots.back().bodies[0].torque = 0.0;
+  EXPECT_NEAR(at.last("wall_balance"), 90.0 / (60.0 * 3.0 + 30.0), 1e-12);
+  at.run.snapshots.back().bodies[0].torque.reset();
+  EXPECT_TRUE(at.curve("wall_balance").empty());
+}
+
+TEST(StabilityMeasures, WhatRestsAndWakes_IsSeen) {
+  Series at;
+  at.run.snapshots.clear();
+  at.look(0.0, {0, 0}, {9, 0}, {1, 0}, {0, 0});  // 1 J
+  for (int k = 1; k <= burstSteps; ++k) at.look(k, {0, 0}, {9, 0}, {1e-5, 0}, {0, 0});
+  EXPECT_EQ(at.last("wakes"), 0.0);
+  at.look(9.0, {0, 0}, {9, 0}, {0.1, 0}, {0, 0});
+  EXPECT_NEAR(at.last("wakes"), 0.01, 1e-12);
+  at.run.snapshots.erase(at.run.snapshots.begin() + 1);  // seven steps are no rest
+  EXPECT_TRUE(at.curve("wakes").empty());
+}
+
 }  // namespace

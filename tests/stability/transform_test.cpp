@@ -198,4 +198,40 @@ TEST(Transform, FarthestIsADisksRimOrAWallsPoint) {
   EXPECT_DOUBLE_EQ(extentOf(scene), 0.375);
 }
 
+TEST(Transform, InSpaceATurnByAThird_TakesAxesToAxes) {
+  SpaceScene scene;
+  scene.disks = {{1.0}, {1.0}, {1.0}, {{1, 2, 3}}, {{4, 5, 6}}, {{7, 8, 9}}};
+  scene.box = {{0, -1, 0}, {10, 20, 30}, {true, false, false}};
+  scene.gravity = {0, 0, -10};
+  WallBodyOf<3>& drum = scene.bodies.emplace_back();
+  drum.cylinders = {{{0, 1, 0}, {1, 0, 0}, 5.0}};
+  drum.motion.angularVelocity = {2, 0, 0};
+  const Placement third{.turn = 2.0 / 3.0 * std::numbers::pi};  // (x, y, z) → (z, x, y)
+  const SpaceScene turned = placed(scene, third);
+  EXPECT_EQ(turned.disks.position[0], Vec3(3, 1, 2));
+  EXPECT_EQ(turned.disks.spin[0], Vec3(9, 7, 8));
+  EXPECT_EQ(turned.gravity, Vec3(-10, 0, 0));
+  EXPECT_EQ(turned.box->high, Vec3(30, 10, 20));
+  EXPECT_EQ(turned.box->periodic, (std::array<bool, 3>{false, true, false}));
+  EXPECT_EQ(turned.bodies[0].cylinders[0].axis, Vec3(0, 1, 0));
+  EXPECT_EQ(turned.bodies[0].cylinders[0].point, Vec3(0, 0, 1));
+  EXPECT_EQ(turned.bodies[0].motion.angularVelocity, Vec3(0, 2, 0));
+  EXPECT_TRUE(turnsBox<3>(third));
+  EXPECT_FALSE(turnsBox<3>({.turn = 1.0}));
+
+  const SpaceScene mirrored = placed(scene, {.mirror = true});  // x → −x; spins are axial
+  EXPECT_EQ(mirrored.disks.position[0], Vec3(-1, 2, 3));
+  EXPECT_EQ(mirrored.disks.spin[0], Vec3(7, -8, -9));
+  EXPECT_EQ(mirrored.box->low, Vec3(-10, -1, 0));
+
+  for (const double turn : {1.0, 2.0 / 3.0 * std::numbers::pi}) {
+    const Transform by{.placement = {.mirror = true, .turn = turn}};
+    SpaceScene open = scene;
+    open.box.reset();  // 1 rad turns no box
+    const SpaceScene there = transformed(open, by);
+    EXPECT_LE((placesBack(by, there.disks.position)[0] - Vec3(1, 2, 3)).norm(), 1e-15 * 8);
+    EXPECT_LE((spinsBack<3>(by, there.disks.spin)[0] - Vec3(7, 8, 9)).norm(), 1e-15 * 16);
+  }
+}
+
 }  // namespace
