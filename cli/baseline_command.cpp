@@ -47,10 +47,6 @@ int keep(const CommandLine& line, const KeepOptions& own) {
     reportKeysWithoutUse(cases.front(), "baseline", stdout);
   else
     cases = {onlyFlow(line, "baseline")};
-  if (cases.front().dimension == 3 && hasFlow(cases.front()))
-    throw BadInput(
-        fmt::format("{}: baseline keeps no flow of spheres yet; collisions in space it does",
-                    line.inputs.front().string()));
   if (endpoints && cases.front().averaging.endpoints.empty())
     throw BadInput(
         fmt::format("--endpoints: {} has no endpoints to keep", line.inputs.front().string()));

@@ -214,8 +214,6 @@ Outcomes referenceOf(const OracleCurve& oracle) {
   return outcomes;
 }
 
-namespace {
-
 template <int D>
 SceneOf<D> sceneOfSweep(const Case& setup, const std::vector<CollisionStart>& starts, double dt) {
   if constexpr (D == 2)
@@ -223,6 +221,11 @@ SceneOf<D> sceneOfSweep(const Case& setup, const std::vector<CollisionStart>& st
   else
     return spaceCollisionScene(setup, starts, dt);
 }
+
+template Scene sceneOfSweep<2>(const Case&, const std::vector<CollisionStart>&, double);
+template SpaceScene sceneOfSweep<3>(const Case&, const std::vector<CollisionStart>&, double);
+
+namespace {
 
 /// What a pair's flight after the collision tells. @param under  the scene with the engine's own
 /// law: where a bond lets go is a convention
@@ -486,12 +489,15 @@ CollisionCurve sweepIn(Engine& engine, const EngineEntry& entry, const Case& set
 
 }  // namespace
 
-Outcomes sweepOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup,
-                       const Scene& scene, const EffectiveParameters& effective,
-                       const std::vector<CollisionStart>& starts, bool watch) {
-  const Capabilities can = engine.capabilities();
-  const ContactLaw law = sceneFor(can, entry, setup, scene).scene.law;
-  return runOutcomes(engine, can, setup, scene, law, effective, starts, watch);
+Outcomes sweepOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
+                       const std::vector<CollisionStart>& starts) {
+  return inDimensionOf(setup, [&]<int D>() {
+    const SceneOf<D> scene = sceneOfSweep<D>(setup, starts, dt);
+    const EffectiveParameters effective = loadScene(engine, entry, setup, scene);
+    const Capabilities can = engine.capabilities();
+    const ContactLaw law = sceneFor(can, entry, setup, scene).scene.law;
+    return runOutcomes(engine, can, setup, scene, law, effective, starts, /*watch=*/true);
+  });
 }
 
 CollisionCurve runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,

@@ -66,12 +66,14 @@ Outcomes referenceOf(const OracleCurve& oracle);
 /// oracle's, `noLimit` marks points that have no limit of small time steps.
 CollisionTable tableOf(const std::vector<CollisionStart>& starts, const Outcomes& outcomes);
 
-/// What became of each collision of a scene of collisionScene() that the engine has just loaded,
-/// in the plane.
-/// @param watch  the contacts, step by step: then also with overlaps and work
-Outcomes sweepOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup,
-                       const Scene& scene, const EffectiveParameters& effective,
-                       const std::vector<CollisionStart>& starts, bool watch);
+/// All collisions of a sweep side by side, in the plane or in space.
+template <int D>
+SceneOf<D> sceneOfSweep(const Case& setup, const std::vector<CollisionStart>& starts, double dt);
+
+/// What became of each collision of a sweep, watched contact by contact for overlaps and work.
+/// @throws EngineFailure, UnsupportedScene, BadInput
+Outcomes sweepOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
+                       const std::vector<CollisionStart>& starts);
 
 /// One engine on one sweep.
 /// @param watch  the contacts, step by step, for the largest overlap and the energy's whereabouts,

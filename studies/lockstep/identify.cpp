@@ -77,11 +77,8 @@ class Search {
       until_.clear();
       for (const double time : identifyTimes) until_.push_back(stepsUntil(time, step_));
       engine_.push_back(follow<D>(engine, step_, until_));
-      // An engine may report the image inside the box, where the mirror follows the sphere out.
       for (LockstepFrameOf<D>& frame : engine_.back())
-        for (std::size_t i = 0; scene.box && i < frame.position.size(); ++i)
-          frame.position[i] = scene.disks.position[i] +
-                              scene.box->nearest(frame.position[i] - scene.disks.position[i]);
+        unwrap<D>(frame.position, scene.disks.position, scene.box);
       scene.precision = Precision::float64;
       scene.dt = step_;
       scenes_.push_back(std::move(scene));

@@ -34,16 +34,19 @@ DisksOf<D> nudged(DisksOf<D> disks, double side) {
 
 template <int D>
 Responses referenceResponses(Engine& engine, const std::vector<LockstepFrameOf<D>>& unchanged,
-                             double diameter, const std::function<double(double)>& load) {
+                             double diameter, const std::function<double(double)>& load,
+                             const std::optional<BoxOf<D>>& box) {
   Responses responses(unchanged.size());
   for (const double change : referencePerturbations) {
     const double step = load(change);
     std::vector<std::uint64_t> steps;
     for (const LockstepFrameOf<D>& frame : unchanged) steps.push_back(stepsUntil(frame.time, step));
-    const auto moved = follow<D>(engine, step, steps);
-    for (std::size_t k = 0; k < unchanged.size(); ++k)
+    auto moved = follow<D>(engine, step, steps);
+    for (std::size_t k = 0; k < unchanged.size(); ++k) {
+      unwrap<D>(moved[k].position, unchanged[k].position, box);
       std::ranges::copy(distances(moved[k], unchanged[k], diameter),
                         std::back_inserter(responses[k]));
+    }
   }
   return responses;
 }
@@ -70,12 +73,14 @@ std::vector<double> precisionLimits(const std::string& precision, Engine& mirror
 }
 
 template Responses referenceResponses(Engine&, const std::vector<LockstepFrameOf<2>>&, double,
-                                      const std::function<double(double)>&);
+                                      const std::function<double(double)>&,
+                                      const std::optional<BoxOf<2>>&);
 template std::vector<double> precisionLimits(const std::string&, Engine&, const SceneOf<2>&,
                                              const std::vector<LockstepFrameOf<2>>&,
                                              const std::vector<std::uint64_t>&, double);
 template Responses referenceResponses(Engine&, const std::vector<LockstepFrameOf<3>>&, double,
-                                      const std::function<double(double)>&);
+                                      const std::function<double(double)>&,
+                                      const std::optional<BoxOf<3>>&);
 template std::vector<double> precisionLimits(const std::string&, Engine&, const SceneOf<3>&,
                                              const std::vector<LockstepFrameOf<3>>&,
                                              const std::vector<std::uint64_t>&, double);

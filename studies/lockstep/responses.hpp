@@ -19,10 +19,12 @@ using Responses = std::vector<std::vector<double>>;
 /// @param load       has the engine load the start's scene, the reference constant changed by that
 /// part of
 ///                   itself; returns the engine's time step [s]
+/// @param box        the scene's, of an engine that may wrap paths
 /// @throws EngineFailure, Interrupted; what `load` throws
 template <int D>
 Responses referenceResponses(Engine& engine, const std::vector<LockstepFrameOf<D>>& unchanged,
-                             double diameter, const std::function<double(double)>& load);
+                             double diameter, const std::function<double(double)>& load,
+                             const std::optional<BoxOf<D>>& box = {});
 
 /// How far rounding alone may part an engine of a precision from its mirror, by frame [d]: an
 /// engine that rounds its state in every step does as much harm in each as the mirror takes from

@@ -81,6 +81,17 @@ std::size_t frameAt(const std::vector<std::uint64_t>& steps, double dt, double t
 }
 
 template <int D>
+void unwrap(std::vector<VecOf<D>>& places, const std::vector<VecOf<D>>& others,
+            const std::optional<BoxOf<D>>& box) {
+  for (std::size_t i = 0; box && i < std::min(places.size(), others.size()); ++i)
+    places[i] = others[i] + box->nearest(places[i] - others[i]);
+}
+template void unwrap<2>(std::vector<Vec2>&, const std::vector<Vec2>&,
+                        const std::optional<BoxOf<2>>&);
+template void unwrap<3>(std::vector<Vec3>&, const std::vector<Vec3>&,
+                        const std::optional<BoxOf<3>>&);
+
+template <int D>
 LockstepWindowOf<D> followBoth(Engine& engine, Engine& mirror, double dt,
                                const std::vector<std::uint64_t>& steps, bool contacts, double since,
                                const std::optional<BoxOf<D>>& box) {
@@ -103,10 +114,7 @@ LockstepWindowOf<D> followBoth(Engine& engine, Engine& mirror, double dt,
     byMirror([&] { takeTo(mirror, step, dt); });
     window.mirror.push_back(frameOf<D>(snapshotOf<D>(mirror, ContactReport::instant)));
     if (before) window.mirror.back().contacts = std::move(before);
-    if (!box) continue;
-    auto &own = window.engine.back().position, &places = window.mirror.back().position;
-    for (std::size_t i = 0; i < std::min(own.size(), places.size()); ++i)
-      own[i] = places[i] + box->nearest(own[i] - places[i]);
+    unwrap<D>(window.engine.back().position, window.mirror.back().position, box);
   }
   return window;
 }

@@ -47,6 +47,12 @@ std::vector<double> timesOf(const std::vector<std::uint64_t>& steps, double dt);
 /// Which of lockstepSteps() is nearest to that time.
 std::size_t frameAt(const std::vector<std::uint64_t>& steps, double dt, double time);
 
+/// Engines leave paths across a periodic border whole or wrap them: places become those of the
+/// images nearest to others.
+template <int D>
+void unwrap(std::vector<VecOf<D>>& places, const std::vector<VecOf<D>>& others,
+            const std::optional<BoxOf<D>>& box);
+
 /// What the in-house engine does in place of another; where it does not come through, under a law
 /// that drives disks through walls for one, nobody's failure is shown.
 /// @throws UnsupportedScene  for what it fails with

@@ -41,24 +41,28 @@ namespace {
 struct BaselineHead {
   std::string version;
   CaseHead setup;
+  int dimension = 2;
   std::size_t starts = 0, engines = 0;
 };
 
 void fields(auto& io, BaselineHead& head) {
   io("version", head.version);
   io("case", head.setup);
+  io.when(head.dimension != 2, "dimension", head.dimension);
   io("starts", head.starts);
   io("engines", head.engines);
 }
 
 /// Of a frame, what is no array.
+template <int D>
 struct FrameHead {
   double time = 0.0, velocityTime = 0.0, contactTime = 0.0;
-  std::vector<std::optional<Vec2>> forces;  ///< on each wall body [N]
-  std::vector<std::optional<double>> torques;
+  std::vector<std::optional<VecOf<D>>> forces;  ///< on each wall body [N]
+  std::vector<std::optional<SpinOf<D>>> torques;
 };
 
-void fields(auto& io, FrameHead& head) {
+template <int D>
+void fields(auto& io, FrameHead<D>& head) {
   io("time", head.time);
   io("velocity_time", head.velocityTime);
   io("contact_time", head.contactTime);
@@ -72,8 +76,19 @@ Record recordOf(Json line, const ArrayWriter& arrays) {
           {reinterpret_cast<const char*>(arrays.bytes().data()), arrays.bytes().size()}};
 }
 
+template <typename Value>
+std::vector<Value> listOf(const ArrayReader& arrays, const std::string& name, std::size_t count) {
+  if constexpr (std::is_same_v<Value, double>)
+    return arrays.f64(name, count);
+  else if constexpr (std::is_same_v<Value, Vec2>)
+    return arrays.vec2(name, count);
+  else
+    return arrays.vec3(name, count);
+}
+
+template <int D>
 Record recordOf(const FlowState& state) {
-  const Disks& disks = state.packing.disks;
+  const DisksOf<D>& disks = disksIn<D>(state.packing);
   ArrayWriter arrays;
   arrays.add("radius", disks.radius);
   arrays.add("mass", disks.mass);
@@ -86,30 +101,32 @@ Record recordOf(const FlowState& state) {
   return recordOf(std::move(line), arrays);
 }
 
+template <int D>
 FlowState stateOf(const Record& record) {
   const ArrayReader arrays(record.bytes, "a start", record.line.at("arrays"));
   FlowState state;
   readFrom(record.line.at("start"), state.start);
-  Disks& disks = state.packing.disks;
+  DisksOf<D>& disks = disksIn<D>(state.packing);
   const std::size_t count = arrays.count("radius");
   disks.radius = arrays.f64("radius", count);
   disks.mass = arrays.f64("mass", count);
   disks.inertia = arrays.f64("inertia", count);
-  disks.position = arrays.vec2("position", count);
-  disks.velocity = arrays.vec2("velocity", count);
-  disks.spin = arrays.f64("spin", count);
+  disks.position = listOf<VecOf<D>>(arrays, "position", count);
+  disks.velocity = listOf<VecOf<D>>(arrays, "velocity", count);
+  disks.spin = listOf<SpinOf<D>>(arrays, "spin", count);
   state.packing.wheelAngle = state.start.wheelAngle;
   state.packing.wallTime = record.line.value("wall_time_s", 0.0);
   state.packing.hash = contentHash(state.packing);
   return state;
 }
 
-Record recordOf(const BaselineWindow& window) {
+template <int D>
+Record recordOf(const BaselineWindowOf<D>& window) {
   ArrayWriter arrays;
-  std::vector<FrameHead> heads;
-  for (const LockstepFrame& frame : window.frames) {
-    FrameHead head{frame.time, frame.velocityTime, frame.contactTime, {}, {}};
-    for (const BodySnapshot& body : frame.bodies) {
+  std::vector<FrameHead<D>> heads;
+  for (const LockstepFrameOf<D>& frame : window.frames) {
+    FrameHead<D> head{frame.time, frame.velocityTime, frame.contactTime, {}, {}};
+    for (const BodySnapshotOf<D>& body : frame.bodies) {
       head.forces.push_back(body.force);
       head.torques.push_back(body.torque);
     }
@@ -132,21 +149,22 @@ Record recordOf(const BaselineWindow& window) {
   return recordOf({{"frames", jsonOf(heads)}}, arrays);
 }
 
-LockstepFrame frameOf(const FrameHead& head, const ArrayReader& arrays, const std::string& at,
-                      std::size_t disks) {
-  LockstepFrame frame;
+template <int D>
+LockstepFrameOf<D> frameOf(const FrameHead<D>& head, const ArrayReader& arrays,
+                           const std::string& at, std::size_t disks) {
+  LockstepFrameOf<D> frame;
   frame.time = head.time;
   frame.velocityTime = head.velocityTime;
   frame.contactTime = head.contactTime;
-  frame.position = arrays.vec2(at + "position", disks);
-  if (arrays.has(at + "spin")) frame.spin = arrays.f64(at + "spin", disks);
+  frame.position = listOf<VecOf<D>>(arrays, at + "position", disks);
+  if (arrays.has(at + "spin")) frame.spin = listOf<SpinOf<D>>(arrays, at + "spin", disks);
   for (std::size_t b = 0; b < head.forces.size(); ++b) {
-    BodySnapshot& body = frame.bodies.emplace_back();
+    BodySnapshotOf<D>& body = frame.bodies.emplace_back();
     body.force = head.forces[b];
     body.torque = head.torques.at(b);
   }
   if (!arrays.has(at + "i")) return frame;
-  Contacts& contacts = frame.contacts.emplace();
+  ContactsOf<D>& contacts = frame.contacts.emplace();
   const std::size_t count = arrays.count(at + "i");
   contacts.i = arrays.i32(at + "i", count);
   contacts.j = arrays.i32(at + "j", count);
@@ -154,21 +172,22 @@ LockstepFrame frameOf(const FrameHead& head, const ArrayReader& arrays, const st
     for (const std::int32_t id : *ids)
       if (id < 0) throw FieldError(fmt::format("{}contacts have the id {}", at, id));
   contacts.normalForce = arrays.f64(at + "normal_force", count);
-  contacts.tangentialForce = arrays.f64(at + "tangential_force", count);
+  contacts.tangentialForce = listOf<SpinOf<D>>(arrays, at + "tangential_force", count);
   contacts.sliding.assign(count, 0);
   if (arrays.has(at + "sliding")) contacts.sliding = arrays.u8(at + "sliding", count);
   if (arrays.has(at + "rolling_torque"))
-    contacts.rollingTorque = arrays.f64(at + "rolling_torque", count);
+    contacts.rollingTorque = listOf<SpinOf<D>>(arrays, at + "rolling_torque", count);
   return frame;
 }
 
-BaselineWindow windowOf(const Record& record, std::size_t disks) {
+template <int D>
+BaselineWindowOf<D> windowOf(const Record& record, std::size_t disks) {
   const ArrayReader arrays(record.bytes, "a window", record.line.at("arrays"));
-  const auto heads = readAs<std::vector<FrameHead>>(record.line.at("frames"));
+  const auto heads = readAs<std::vector<FrameHead<D>>>(record.line.at("frames"));
   if (heads.empty()) throw FieldError("a window has no frames");
-  BaselineWindow window;
+  BaselineWindowOf<D> window;
   double before = 0.0;
-  for (const FrameHead& head : heads) {
+  for (const FrameHead<D>& head : heads) {
     if (!(head.time > before && std::isfinite(head.velocityTime + head.contactTime)))
       throw FieldError("the times of a window do not increase");
     before = head.time;
@@ -181,11 +200,10 @@ BaselineWindow windowOf(const Record& record, std::size_t disks) {
   return window;
 }
 
-Baseline readRecords(RecordReader& in) {
-  const auto head = readAs<BaselineHead>(in.head());
-  if (head.engines == 0) throw FieldError("it has no engine");
-  Baseline baseline{head.version, head.setup, {}, {}};
-  for (std::size_t s = 0; s < head.starts; ++s) baseline.starts.push_back(stateOf(in.require()));
+template <int D>
+Baseline readRecords(RecordReader& in, const BaselineHead& head) {
+  Baseline baseline{head.version, head.setup, D, {}, {}};
+  for (std::size_t s = 0; s < head.starts; ++s) baseline.starts.push_back(stateOf<D>(in.require()));
   for (std::size_t e = 0; e < head.engines; ++e) {
     baseline.engines.push_back(readAs<BaselineEngine>(in.require().line));
     for (const KeptCollisions& kept : baseline.engines.back().collisions)
@@ -194,7 +212,8 @@ Baseline readRecords(RecordReader& in) {
           throw FieldError(fmt::format("{} of {} has {} values, not {}", quantity, kept.name,
                                        values.size(), kept.psi.size()));
     for (const FlowState& state : baseline.starts)
-      baseline.engines.back().windows.push_back(windowOf(in.require(), state.packing.disks.size()));
+      windowsIn<D>(baseline.engines.back())
+          .push_back(windowOf<D>(in.require(), disksIn<D>(state.packing).size()));
   }
   return baseline;
 }
@@ -203,12 +222,14 @@ Baseline readRecords(RecordReader& in) {
 
 void writeBaseline(const Baseline& baseline, const std::filesystem::path& file) {
   std::string text = headText(
-      baselineFormat, jsonOf(BaselineHead{baseline.version, baseline.setup, baseline.starts.size(),
-                                          baseline.engines.size()}));
-  for (const FlowState& state : baseline.starts) text += textOf(recordOf(state));
+      baselineFormat, jsonOf(BaselineHead{baseline.version, baseline.setup, baseline.dimension,
+                                          baseline.starts.size(), baseline.engines.size()}));
+  for (const FlowState& state : baseline.starts)
+    text += textOf(baseline.dimension == 3 ? recordOf<3>(state) : recordOf<2>(state));
   for (const BaselineEngine& engine : baseline.engines) {
     text += textOf({jsonOf(engine), {}});
-    for (const BaselineWindow& window : engine.windows) text += textOf(recordOf(window));
+    for (const auto& window : engine.windows) text += textOf(recordOf(window));
+    for (const auto& window : engine.spaceWindows) text += textOf(recordOf(window));
   }
   writeFile(file, text);
 }
@@ -216,7 +237,11 @@ void writeBaseline(const Baseline& baseline, const std::filesystem::path& file) 
 Baseline readBaseline(const std::filesystem::path& file) {
   RecordReader in(file, baselineFormat);
   try {
-    return readRecords(in);
+    const auto head = readAs<BaselineHead>(in.head());
+    if (head.engines == 0) throw FieldError("it has no engine");
+    if (head.dimension != 2 && head.dimension != 3)
+      throw FieldError(fmt::format("its dimension is {}, not 2 or 3", head.dimension));
+    return head.dimension == 3 ? readRecords<3>(in, head) : readRecords<2>(in, head);
   } catch (const BadInput&) {
     throw;
   } catch (const std::exception& error) {

@@ -19,13 +19,15 @@ namespace crossgrain::inline studies {
 inline constexpr const char* baselineFormat = "baseline-3";
 
 /// What an engine did from one start.
-struct BaselineWindow {
-  std::vector<LockstepFrame> frames;  ///< at lockstepSteps() of its own step
+template <int D>
+struct BaselineWindowOf {
+  std::vector<LockstepFrameOf<D>> frames;  ///< at lockstepSteps() of its own step
   /// What changes of the reference constant did to it, at the frames nearest to lockstepTimes:
   /// measured in the engine itself, so that no mirror is needed, and when it was kept, so that
   /// nothing that a later version does bends the measure.
   Responses responses;
 };
+using BaselineWindow = BaselineWindowOf<2>;
 
 /// What an engine made of a sweep of collisions, to the bit.
 struct KeptCollisions {
@@ -46,16 +48,27 @@ struct BaselineEngine {
   Capabilities can;
   std::optional<EffectiveParameters>
       effective;                        ///< of the first start; absent of cases of collisions
-  std::vector<BaselineWindow> windows;  ///< by start
+  std::vector<BaselineWindow> windows;  ///< by start, of a flow in the plane
+  std::vector<BaselineWindowOf<3>> spaceWindows;  ///< of one in space
   std::vector<KeptCollisions> collisions;
   KeptEndpoints endpoints;  ///< by start; empty: not asked for
 };
+
+/// Its windows of that dimension.
+template <int D, typename AnyEngine>
+auto& windowsIn(AnyEngine& engine) {
+  if constexpr (D == 2)
+    return engine.windows;
+  else
+    return engine.spaceWindows;
+}
 
 /// What some engines did on one case, with all that is needed to do the same again: nothing outside
 /// of it is read.
 struct Baseline {
   std::string version;            ///< of the crossgrain that kept it
   CaseHead setup;                 ///< its text is the merged case, with all variants
+  int dimension = 2;              ///< of starts and windows
   std::vector<FlowState> starts;  ///< springs relaxed; none of cases of collisions
   std::vector<BaselineEngine> engines;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "adapters/audit_geometry.hpp"
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
 #include "cases/case_keys.hpp"
@@ -34,7 +35,8 @@ struct CommonFrames {
   std::vector<std::size_t> which;     ///< of lockstepTimes, those that are reported
 };
 
-CommonFrames commonFrames(const std::vector<LockstepFrame>& kept, double step) {
+template <int D>
+CommonFrames commonFrames(const std::vector<LockstepFrameOf<D>>& kept, double step) {
   constexpr double rounding = 1e-12;
   CommonFrames common;
   for (std::size_t k = 0; k < kept.size(); ++k) {
@@ -45,9 +47,8 @@ CommonFrames commonFrames(const std::vector<LockstepFrame>& kept, double step) {
     common.steps.push_back(steps);
   }
   for (std::size_t which = 0; which < lockstepTimes.size(); ++which) {
-    const auto nearest = std::ranges::min_element(kept, {}, [&](const LockstepFrame& frame) {
-      return std::abs(frame.time - lockstepTimes[which]);
-    });
+    const auto nearest = std::ranges::min_element(
+        kept, {}, [&](const auto& frame) { return std::abs(frame.time - lockstepTimes[which]); });
     const auto found =
         std::ranges::find(common.frames, static_cast<std::size_t>(nearest - kept.begin()));
     if (found == common.frames.end()) continue;
@@ -57,16 +58,18 @@ CommonFrames commonFrames(const std::vector<LockstepFrame>& kept, double step) {
   return common;
 }
 
-bool sameMotion(const LockstepFrame& one, const LockstepFrame& other) {
+template <int D>
+bool sameMotion(const LockstepFrameOf<D>& one, const LockstepFrameOf<D>& other) {
   return one.position == other.position && one.spin == other.spin &&
          one.velocityTime == other.velocityTime;
 }
 
-bool sameForces(const LockstepFrame& one, const LockstepFrame& other) {
+template <int D>
+bool sameForces(const LockstepFrameOf<D>& one, const LockstepFrameOf<D>& other) {
   const auto& a = one.contacts;
   const auto& b = other.contacts;
   if (a.has_value() != b.has_value() || one.contactTime != other.contactTime) return false;
-  const auto alike = [](const BodySnapshot& before, const BodySnapshot& now) {
+  const auto alike = [](const BodySnapshotOf<D>& before, const BodySnapshotOf<D>& now) {
     return before.force == now.force && before.torque == now.torque;
   };
   return (!a ||
@@ -76,17 +79,18 @@ bool sameForces(const LockstepFrame& one, const LockstepFrame& other) {
 }
 
 /// Forces and torques on walls: the largest change, in the largest of before [-].
-double wallChange(const LockstepFrame& now, const LockstepFrame& before) {
+template <int D>
+double wallChange(const LockstepFrameOf<D>& now, const LockstepFrameOf<D>& before) {
   double force = 0.0, torque = 0.0, forceUnit = 0.0, torqueUnit = 0.0;
   for (std::size_t b = 0; b < std::min(now.bodies.size(), before.bodies.size()); ++b) {
-    const BodySnapshot &one = now.bodies[b], &other = before.bodies[b];
+    const BodySnapshotOf<D>&one = now.bodies[b], &other = before.bodies[b];
     if (one.force && other.force) {
       force = std::max(force, (*one.force - *other.force).norm());
       forceUnit = std::max(forceUnit, other.force->norm());
     }
     if (one.torque && other.torque) {
-      torque = std::max(torque, std::abs(*one.torque - *other.torque));
-      torqueUnit = std::max(torqueUnit, std::abs(*other.torque));
+      torque = std::max(torque, sizeOf(SpinOf<D>(*one.torque - *other.torque)));
+      torqueUnit = std::max(torqueUnit, sizeOf(*other.torque));
     }
   }
   return std::max(forceUnit > 0.0 ? force / forceUnit : 0.0,
@@ -94,6 +98,7 @@ double wallChange(const LockstepFrame& now, const LockstepFrame& before) {
 }
 
 /// An engine compared with what was kept, from one start after the other.
+template <int D>
 class WindowsDiff {
  public:
   WindowsDiff(const Observed& now, const Case& caseBefore, const Baseline& baseline,
@@ -108,29 +113,32 @@ class WindowsDiff {
   /// @throws EngineFailure, UnsupportedScene, BadInput
   void follow(std::size_t s) {
     const FlowState& state = baseline_.starts[s];
-    const BaselineWindow& kept = before_.windows[s];
-    EffectiveParameters effective = loadStart(now_, state);
+    const BaselineWindowOf<D>& kept = windowsIn<D>(before_)[s];
+    EffectiveParameters effective = loadStart<D>(now_, state);
     if (effective_) requireSameStep(*effective_, effective);
     step_ = effective.dt;
     if (!effective_) effective_ = std::move(effective);
     common_ = commonFrames(kept.frames, step_);
     if (common_.reported.empty()) return;
-    LockstepWindow window;
-    window.engine = studies::follow(now_.engine, step_, common_.steps,
-                                    instant_ ? ContactReport::instant : ContactReport::none);
+    LockstepWindowOf<D> window;
+    window.engine = studies::follow<D>(now_.engine, step_, common_.steps,
+                                       instant_ ? ContactReport::instant : ContactReport::none);
     Responses responses;
     for (const std::size_t frame : common_.frames) window.mirror.push_back(kept.frames[frame]);
+    const auto box = flowScene<D>(now_.setup, state.packing, now_.dt).box;
+    for (std::size_t k = 0; k < window.engine.size(); ++k)
+      unwrap<D>(window.engine[k].position, window.mirror[k].position, box);
     for (const std::size_t which : common_.which) responses.push_back(kept.responses[which]);
     sameBits_ &= common_.frames.size() == kept.frames.size() &&
-                 std::ranges::equal(window.engine, window.mirror, sameMotion) &&
-                 (!instant_ || std::ranges::equal(window.engine, window.mirror, sameForces));
+                 std::ranges::equal(window.engine, window.mirror, sameMotion<D>) &&
+                 (!instant_ || std::ranges::equal(window.engine, window.mirror, sameForces<D>));
     // Forces of another instant are no forces to compare.
     for (std::size_t k = 0; k < window.engine.size(); ++k)
       if (window.engine[k].contactTime != window.mirror[k].contactTime)
         window.engine[k].contacts.reset();
     compareForces(window);
     if (!account_) account_.emplace(diameter_, timesOf(common_.steps, step_), common_.reported);
-    account_->add(s, window, responses, state.packing.disks.size());
+    account_->add(s, window, responses, disksIn<D>(state.packing).size());
     frames_.add(window, common_.reported);
   }
 
@@ -161,17 +169,17 @@ class WindowsDiff {
   /// Forces that are reported of one and the same state: of soft disks also where it is the same
   /// but for rounding, 1e-10 d, which moves a force by 1e-7 of that of an overlap of 1e-3 d;
   /// impulses of rigid ones follow from no position alone.
-  void compareForces(const LockstepWindow& window) {
+  void compareForces(const LockstepWindowOf<D>& window) {
     if (!instant_) return;
     const double near = caseBefore_.law.soft() ? lockstepRounding : 0.0;
     for (std::size_t k = 0; k < window.engine.size(); ++k) {
-      const LockstepFrame &now = window.engine[k], &before = window.mirror[k];
+      const LockstepFrameOf<D>&now = window.engine[k], &before = window.mirror[k];
       const bool alike =
           near > 0.0 ? farthest(now, before, diameter_).distance <= near : sameMotion(now, before);
       if (!alike || now.contactTime != before.contactTime) continue;
       if (!forces_) forces_.emplace();
       ++forces_->frames;
-      if (const auto contacts = forcesOfFirstStep(LockstepWindow{{now}, {before}})) {
+      if (const auto contacts = forcesOfFirstStep(LockstepWindowOf<D>{{now}, {before}})) {
         forces_->normal = std::max(forces_->normal, contacts->normal);
         forces_->tangential = std::max(forces_->tangential, contacts->tangential);
       }
@@ -186,10 +194,10 @@ class WindowsDiff {
     const EngineEntry entry = known ? *known : EngineEntry{before_.name, "", {}, {}, {}, ""};
     std::unique_ptr<Engine> mirror;
     const double dt = before_.effective->dt;
-    TermSearch search{{}, frames_.instants(row.first, diameter_), diameter_};
+    TermSearchOf<D> search{{}, frames_.instants(row.first, diameter_), diameter_};
     for (std::size_t s = 0; s < row.starts; ++s) {
-      const Scene scene =
-          flowScene(caseBefore_, baseline_.starts[s].packing, timeStep(caseBefore_));
+      const SceneOf<D> scene =
+          flowScene<D>(caseBefore_, baseline_.starts[s].packing, timeStep(caseBefore_));
       try {
         search.scenes.push_back(
             sceneOfMirror(before_.can, entry, caseBefore_, scene, *before_.effective));
@@ -199,17 +207,18 @@ class WindowsDiff {
       }
     }
     // What was kept is no mirror's: what its mirror does is run again.
-    for (TermInstant& instant : search.instants) {
+    for (TermInstantOf<D>& instant : search.instants) {
       auto unchanged = runsWith(*mirror, search.scenes, {}, {instant.time});
       if (!unchanged) return std::nullopt;
       instant.unchanged = std::move(*unchanged);
     }
     if (step_ != dt)
       search.more.push_back({fmt::format("dt = {} s", step_), false,
-                             [step = step_](Scene& scene, double) { scene.dt = step; }});
+                             [step = step_](SceneOf<D>& scene, double) { scene.dt = step; }});
     if (effective_->precision != before_.effective->precision)
-      search.more.push_back({"precision = " + effective_->precision, false,
-                             [](Scene& scene, double) { scene.precision = Precision::float32; }});
+      search.more.push_back(
+          {"precision = " + effective_->precision, false,
+           [](SceneOf<D>& scene, double) { scene.precision = Precision::float32; }});
     return closestTerm(*mirror, search);
   }
 
@@ -225,7 +234,7 @@ class WindowsDiff {
   std::optional<ForcesChange> forces_;
   std::optional<EffectiveParameters> effective_;
   std::optional<SeparationAccount> account_;
-  TermFrames frames_;
+  TermFramesOf<D> frames_;
 };
 
 /// Whole runs again, where they were kept and the windows do not make them needless: a difference
@@ -258,11 +267,10 @@ const BaselineEngine& keptOf(const Baseline& baseline, const std::string& name) 
   return own == baseline.engines.end() ? baseline.engines.front() : *own;
 }
 
-}  // namespace
-
-DiffRow diffEngine(Engine& engine, const EngineEntry& entry, const std::vector<Case>& cases,
-                   const Baseline& baseline, const BaselineEngine& before,
-                   const std::function<void(double)>& progress) {
+template <int D>
+DiffRow diffIn(Engine& engine, const EngineEntry& entry, const std::vector<Case>& cases,
+               const Baseline& baseline, const BaselineEngine& before,
+               const std::function<void(double)>& progress) {
   const Case& setup = cases.front();
   const bool flows = hasFlow(setup);
   const Case caseBefore = casesOf(baseline, baseline.setup.file, {}).front();
@@ -272,8 +280,8 @@ DiffRow diffEngine(Engine& engine, const EngineEntry& entry, const std::vector<C
   row.version = can.version;
   row.before = before.name;
   row.versionBefore = before.version;
-  WindowsDiff windows({engine, entry, setup, flows ? timeStep(setup) : 0.0}, caseBefore, baseline,
-                      before);
+  WindowsDiff<D> windows({engine, entry, setup, flows ? timeStep(setup) : 0.0}, caseBefore,
+                         baseline, before);
   try {
     for (std::size_t s = 0; s < baseline.starts.size(); ++s) {
       windows.follow(s);
@@ -296,11 +304,23 @@ DiffRow diffEngine(Engine& engine, const EngineEntry& entry, const std::vector<C
   return row;
 }
 
+}  // namespace
+
+DiffRow diffEngine(Engine& engine, const EngineEntry& entry, const std::vector<Case>& cases,
+                   const Baseline& baseline, const BaselineEngine& before,
+                   const std::function<void(double)>& progress) {
+  return (baseline.dimension == 3 ? diffIn<3> : diffIn<2>)(engine, entry, cases, baseline, before,
+                                                           progress);
+}
+
 DiffResults diffAgainst(const std::filesystem::path& file,
                         const std::vector<std::string>& overrides, const RunCommand& command) {
   const Baseline baseline = readBaseline(file);
   const std::vector<Case> cases = casesOf(baseline, file, overrides);
   for (const Case& setup : cases) checkEngineSections(setup);
+  if (cases.front().dimension != baseline.dimension)
+    throw BadInput(fmt::format("{}: case.dimension is {}, not {}: a baseline is of one dimension",
+                               file.string(), cases.front().dimension, baseline.dimension));
   const std::vector<EngineEntry> engines = selectEngines(command.engines);
   DiffResults results;
   results.head = headOf(kindDiff, cases.front(), command.commandLine);

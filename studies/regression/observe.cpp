@@ -24,23 +24,25 @@
 namespace crossgrain::inline studies {
 namespace {
 
-BaselineWindow windowOf(const Observed& of, const FlowState& state,
-                        std::optional<EffectiveParameters>& effective) {
-  EffectiveParameters now = loadStart(of, state);
+template <int D>
+BaselineWindowOf<D> windowOf(const Observed& of, const FlowState& state,
+                             std::optional<EffectiveParameters>& effective) {
+  EffectiveParameters now = loadStart<D>(of, state);
   const double step = now.dt;
   if (effective) requireSameStep(*effective, now);
   if (!effective) effective = std::move(now);
   const std::vector<std::uint64_t> steps = lockstepSteps(step);
-  BaselineWindow window;
+  BaselineWindowOf<D> window;
   const bool instant = of.engine.capabilities().instantContacts;
   window.frames =
-      follow(of.engine, step, steps, instant ? ContactReport::instant : ContactReport::none);
-  std::vector<LockstepFrame> reported;
+      follow<D>(of.engine, step, steps, instant ? ContactReport::instant : ContactReport::none);
+  std::vector<LockstepFrameOf<D>> reported;
   for (const double time : lockstepTimes)
     reported.push_back(window.frames[frameAt(steps, step, time)]);
-  window.responses =
-      referenceResponses(of.engine, reported, flowDiameter(of.setup),
-                         [&](double change) { return loadStart(of, state, change).dt; });
+  window.responses = referenceResponses<D>(
+      of.engine, reported, flowDiameter(of.setup),
+      [&](double change) { return loadStart<D>(of, state, change).dt; },
+      flowScene<D>(of.setup, state.packing, of.dt).box);
   return window;
 }
 
@@ -55,11 +57,9 @@ KeptCollisions collisionsOf(Engine& engine, const EngineEntry& entry, const Case
     kept.psi.push_back(start.psi);
     kept.vn.push_back(start.vn);
   }
-  const Scene scene = collisionScene(setup, starts, dt);
   Outcomes outcomes;
   try {
-    const EffectiveParameters effective = loadScene(engine, entry, setup, scene);
-    outcomes = sweepOutcomes(engine, entry, setup, scene, effective, starts, /*watch=*/true);
+    outcomes = sweepOutcomes(engine, entry, setup, dt, starts);
   } catch (const UnsupportedScene& refusal) {
     kept.refusal = refusal.what();
     return kept;
@@ -96,11 +96,14 @@ std::vector<FlowState> startsOf(const Case& setup, double dt, std::size_t count,
 
 }  // namespace
 
+template <int D>
 EffectiveParameters loadStart(const Observed& of, const FlowState& state, double change) {
-  Scene scene = flowScene(of.setup, state.packing, of.dt);
+  SceneOf<D> scene = flowScene<D>(of.setup, state.packing, of.dt);
   if (change != 0.0) changeLaws(scene, [&](ContactLaw& law) { changeReference(law, change); });
   return loadScene(of.engine, of.entry, of.setup, scene);
 }
+template EffectiveParameters loadStart<2>(const Observed&, const FlowState&, double);
+template EffectiveParameters loadStart<3>(const Observed&, const FlowState&, double);
 
 std::vector<KeptCollisions> collisionsOf(Engine& engine, const EngineEntry& entry,
                                          const std::vector<Case>& cases) {
@@ -137,11 +140,15 @@ BaselineEngine keepEngine(Engine& engine, const EngineEntry& entry, const std::v
   kept.name = entry.name;
   kept.can = engine.capabilities();
   kept.version = kept.can.version;
-  for (const FlowState& state : starts) {
-    throwIfInterrupted();
-    progress(static_cast<double>(kept.windows.size()) / static_cast<double>(starts.size() + 1));
-    kept.windows.push_back(windowOf({engine, entry, cases.front(), dt}, state, kept.effective));
-  }
+  const Observed of{engine, entry, cases.front(), dt};
+  inDimensionOf(of.setup, [&]<int D>() {
+    auto& windows = windowsIn<D>(kept);
+    for (const FlowState& state : starts) {
+      throwIfInterrupted();
+      progress(static_cast<double>(windows.size()) / static_cast<double>(starts.size() + 1));
+      windows.push_back(windowOf<D>(of, state, kept.effective));
+    }
+  });
   kept.collisions = collisionsOf(engine, entry, cases);
   return kept;
 }
@@ -156,6 +163,7 @@ Baseline keepBaseline(const std::vector<Case>& cases, const RunCommand& command,
   std::vector<std::string> reasons;
   baseline.version = programVersion;
   baseline.setup = {setup.name, setup.variant, setup.file.string(), resolvedFile(cases)};
+  baseline.dimension = setup.dimension;
   const double dt = hasFlow(setup) ? timeStep(setup) : 0.0;
   if (hasFlow(setup)) baseline.starts = startsOf(setup, dt, starts, progress);
   progress.begin("running engines", std::vector<double>(engines.size(), 1.0));

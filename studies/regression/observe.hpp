@@ -20,6 +20,7 @@ struct Observed {
 
 /// Has the engine load the scene of a start, the reference constant changed by a part of itself.
 /// @throws UnsupportedScene, EngineFailure, BadInput
+template <int D>
 EffectiveParameters loadStart(const Observed& of, const FlowState& state, double change = 0.0);
 
 /// Runs all sweeps of cases of collisions; of a flow the one of its first pair of bodies under its

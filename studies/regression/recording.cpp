@@ -13,8 +13,7 @@
 #include "adapters/worker/json.hpp"
 #include "cases/assembly_scene.hpp"
 #include "cases/collision_scene.hpp"
-#include "cases/couette.hpp"
-#include "cases/preparation.hpp"
+#include "cases/flow.hpp"
 #include "cases/time_step.hpp"
 #include "studies/collide/sweep.hpp"
 #include "studies/core/engine_access.hpp"
@@ -39,16 +38,13 @@ constexpr double usualTimeout = 120.0;
 
 template <int D>
 SceneOf<D> sceneOf(const Case& setup) {
-  if (isAssembly(setup)) return assemblyScene<D>(setup);
-  const double step = isCollision(setup) ? collisionTimeSteps(setup).front() : timeStep(setup);
-  if constexpr (D == 3) {
-    return spaceCollisionScene(setup, collisionStarts(setup), step);
-  } else {
-    if (isCollision(setup)) return collisionScene(setup, collisionStarts(setup), step);
-    const auto engine = engineRegistry().front().make();
-    return couetteScene(
-        setup, packingOf(setup, 0, step, *engine, [](double) { throwIfInterrupted(); }), step);
-  }
+  if (isCollision(setup))
+    return sceneOfSweep<D>(setup, collisionStarts(setup), collisionTimeSteps(setup).front());
+  if (!hasFlow(setup)) return assemblyScene<D>(setup);
+  const double step = timeStep(setup);
+  const auto engine = engineRegistry().front().make();
+  const auto heed = [](double) { throwIfInterrupted(); };
+  return flowScene<D>(setup, flowPacking(setup, 0, step, *engine, heed), step);
 }
 
 /// @param dt  the scene's

@@ -9,6 +9,8 @@
 
 #include "adapters/registry.hpp"
 #include "adapters/worker/arrays.hpp"
+#include "cases/flow.hpp"
+#include "cases/time_step.hpp"
 #include "results/lockstep_findings.hpp"
 #include "studies/regression/diff.hpp"
 #include "studies/regression/observe.hpp"
@@ -265,6 +267,85 @@ TEST_F(BaselineDiff, Case_PackingFileGone_StillLoads) {
       loadCase(CROSSGRAIN_CASES "/couette/quick.toml", {"particles.file=" + packing.string()}));
   std::filesystem::remove(packing);
   EXPECT_EQ(casesOf(baseline, "b.h5", {"law.mu=0.3"}).front().law.mu, 0.3);
+}
+
+/// The in-house engine, which leaves paths whole, showing the images in the box.
+class Wrapping : public test::PlantedEngine {
+ public:
+  Wrapping() : PlantedEngine([](Scene&) {}, [](Snapshot&) {}, nullptr), own_(makeGrain()) {}
+  Capabilities capabilities() const override { return own_->capabilities(); }
+  EffectiveParameters loadInSpace(const SpaceScene& scene, const Settings& settings) override {
+    box_ = scene.box;
+    return own_->loadInSpace(scene, settings);
+  }
+  double advance(double t) override { return own_->advance(t); }
+  SpaceSnapshot snapshotInSpace(ContactReport contacts) override {
+    SpaceSnapshot now = own_->snapshotInSpace(contacts);
+    for (Vec3& place : now.position) {
+      const Vec3 inside = box_ ? box_->wrapped(place) : place;
+      wrapped += inside != place;
+      place = inside;
+    }
+    return now;
+  }
+  Stats stats() const override { return own_->stats(); }
+
+  std::size_t wrapped = 0;  ///< places that were of other images
+
+ private:
+  std::unique_ptr<Engine> own_;
+  std::optional<BoxOf<3>> box_;  ///< collisions have none
+};
+
+/// Spheres between bumpy walls in a periodic box: kept, written, read and compared as disks are.
+TEST(BaselineInSpace, Flow_KeptAndCompared) {
+  const auto casesWith = [](const std::vector<std::string>& changes) {
+    return loadCase(CROSSGRAIN_CASES "/space/shear-3d.toml", changes);
+  };
+  const std::vector<Case> cases = casesWith({});
+  const Case& setup = cases.front();
+  const double dt = timeStep(setup);
+  const auto grain = makeGrain();
+  Baseline baseline{"this", {setup.name, "", setup.file.string(), resolvedFile(cases)}, 3, {}, {}};
+  baseline.starts =
+      statesAlongTheFlow(setup, {flowPacking(setup, 0, dt, *grain, nobody)}, dt, 2, nobody);
+  const EngineEntry& entry = engineRegistry().front();
+  baseline.engines = {keepEngine(*grain, entry, cases, baseline.starts, dt, nobody)};
+  ASSERT_EQ(baseline.engines.front().spaceWindows.size(), 2u);
+  EXPECT_TRUE(baseline.engines.front().windows.empty());
+
+  const ScratchFolder scratch;
+  const auto file = scratch.path / "b", again = scratch.path / "again";
+  writeBaseline(baseline, file);
+  const Baseline read = readBaseline(file);
+  writeBaseline(read, again);
+  EXPECT_EQ(readFile(file), readFile(again));
+  const auto rowOf = [&](Engine& engine, const std::vector<Case>& now) {
+    return diffEngine(engine, entry, now, read, read.engines.front(), nobody);
+  };
+  const DiffRow same = rowOf(*grain, cases);
+  EXPECT_EQ(same.verdict, Equivalence::sameBits);
+  EXPECT_EQ(same.windows->starts, 2u);
+  EXPECT_EQ(same.sweeps, 1u);
+
+  const DiffRow other = rowOf(*grain, casesWith({fmt::format("law.kn={}", 1.01 * setup.law.kn),
+                                                 fmt::format("run.dt={}", dt)}));
+  EXPECT_EQ(other.verdict, Equivalence::differs);
+  ASSERT_TRUE(other.windows->term);
+  EXPECT_EQ(other.windows->term->name, "kn");
+  EXPECT_NEAR(*other.windows->term->amount / 0.01, 1.0, 0.01);
+
+  // Which image of a place an engine shows is no difference, kept or compared.
+  Wrapping wrapping;
+  EXPECT_LT(std::ranges::max(rowOf(wrapping, cases).windows->track), 1e-13);
+  EXPECT_GT(wrapping.wrapped, 0u);
+  const BaselineEngine shown = keepEngine(wrapping, entry, cases, baseline.starts, dt, nobody);
+  for (std::size_t k = 0; k < shown.spaceWindows.size(); ++k) {
+    const Responses &one = shown.spaceWindows[k].responses,
+                    &whole = baseline.engines.front().spaceWindows[k].responses;
+    for (std::size_t t = 0; t < one.size(); ++t)
+      for (std::size_t i = 0; i < one[t].size(); ++i) EXPECT_NEAR(one[t][i], whole[t][i], 1e-10);
+  }
 }
 
 TEST(CollisionChanges, Values_Changed_LargestRelativeFirst) {

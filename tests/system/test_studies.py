@@ -6,7 +6,7 @@ import re
 import sys
 import unittest
 
-from harness import BUILD, CASES, COLLISION, COUETTE, ENGINE_FAILED, FELL_SHORT, HELD, HOME, PROGRAM, SystemTest, settings
+from harness import BAD_INPUT, BUILD, CASES, COLLISION, COUETTE, ENGINE_FAILED, FELL_SHORT, HELD, HOME, PROGRAM, SystemTest, settings
 
 PLANTED = BUILD / "tests/faults/planted_engine"
 HARD = CASES / "hard"
@@ -270,6 +270,14 @@ class Baseline(StudyTest):
         done = self.diff("grain", "--set=law.gn=0.2")
         self.assert_status(done, FELL_SHORT)
         self.assertRegex(done.stdout, r"(?m)^    e_n +\d+ of \d+ changed, most by −")
+        self.assert_one_line(self.diff("grain", "--set=case.dimension=3"), BAD_INPUT, "a baseline is of one dimension")
+
+    def test_in_space(self):
+        for case, name in (("shear-3d", "shear-3d, 2 starts"), ("spheres", "spheres, 0 starts")):
+            self.file = self.folder / f"{case}.baseline"
+            self.keep("grain", "--starts=2", case=CASES / f"space/{case}.toml")
+            self.assertRegex(self.diff("grain").stdout, rf"{name}[\s\S]*same bits")
+            self.assert_status(self.diff("grain", "--set=law.mu=0.45"), FELL_SHORT)
 
     def test_engine_that_fails_is_status_3(self):
         self.keep("grain", "--starts=1")
