@@ -237,4 +237,15 @@ std::vector<NamedPair> pairsOf(const Case& setup) {
   return pairsOfKinds(setup, kinds, disks, p.inertiaFactor);
 }
 
+template <int D>
+SceneOf<D> sweepScene(const Case& setup, const std::vector<CollisionStart>& starts, double dt) {
+  if constexpr (D == 2)
+    return collisionScene(setup, starts, dt);
+  else
+    return spaceCollisionScene(setup, starts, dt);
+}
+
+template Scene sweepScene<2>(const Case&, const std::vector<CollisionStart>&, double);
+template SpaceScene sweepScene<3>(const Case&, const std::vector<CollisionStart>&, double);
+
 }  // namespace crossgrain::inline cases

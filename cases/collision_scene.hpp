@@ -44,4 +44,8 @@ struct NamedPair {
 /// smallest and the largest of the first.
 std::vector<NamedPair> pairsOf(const Case& setup);
 
+/// All collisions of a sweep side by side, in the plane or in space.
+template <int D>
+SceneOf<D> sweepScene(const Case& setup, const std::vector<CollisionStart>& starts, double dt);
+
 }  // namespace crossgrain::inline cases

@@ -214,17 +214,6 @@ Outcomes referenceOf(const OracleCurve& oracle) {
   return outcomes;
 }
 
-template <int D>
-SceneOf<D> sceneOfSweep(const Case& setup, const std::vector<CollisionStart>& starts, double dt) {
-  if constexpr (D == 2)
-    return collisionScene(setup, starts, dt);
-  else
-    return spaceCollisionScene(setup, starts, dt);
-}
-
-template Scene sceneOfSweep<2>(const Case&, const std::vector<CollisionStart>&, double);
-template SpaceScene sceneOfSweep<3>(const Case&, const std::vector<CollisionStart>&, double);
-
 namespace {
 
 /// What a pair's flight after the collision tells. @param under  the scene with the engine's own
@@ -433,7 +422,7 @@ template <int D>
 CollisionCurve sweepIn(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
                        const std::vector<CollisionStart>& starts, const OracleCurve& limit,
                        bool watch, DeclaredOracles* declared, bool passesFiner) {
-  const SceneOf<D> scene = sceneOfSweep<D>(setup, starts, dt);
+  const SceneOf<D> scene = sweepScene<D>(setup, starts, dt);
   const EffectiveParameters effective = loadScene(engine, entry, setup, scene);
   const Capabilities can = engine.capabilities();
   const SceneOf<D> asRun = sceneFor(can, entry, setup, scene).scene;
@@ -492,7 +481,7 @@ CollisionCurve sweepIn(Engine& engine, const EngineEntry& entry, const Case& set
 Outcomes sweepOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
                        const std::vector<CollisionStart>& starts) {
   return inDimensionOf(setup, [&]<int D>() {
-    const SceneOf<D> scene = sceneOfSweep<D>(setup, starts, dt);
+    const SceneOf<D> scene = sweepScene<D>(setup, starts, dt);
     const EffectiveParameters effective = loadScene(engine, entry, setup, scene);
     const Capabilities can = engine.capabilities();
     const ContactLaw law = sceneFor(can, entry, setup, scene).scene.law;

@@ -66,10 +66,6 @@ Outcomes referenceOf(const OracleCurve& oracle);
 /// oracle's, `noLimit` marks points that have no limit of small time steps.
 CollisionTable tableOf(const std::vector<CollisionStart>& starts, const Outcomes& outcomes);
 
-/// All collisions of a sweep side by side, in the plane or in space.
-template <int D>
-SceneOf<D> sceneOfSweep(const Case& setup, const std::vector<CollisionStart>& starts, double dt);
-
 /// What became of each collision of a sweep, watched contact by contact for overlaps and work.
 /// @throws EngineFailure, UnsupportedScene, BadInput
 Outcomes sweepOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,

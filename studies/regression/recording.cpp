@@ -39,7 +39,7 @@ constexpr double usualTimeout = 120.0;
 template <int D>
 SceneOf<D> sceneOf(const Case& setup) {
   if (isCollision(setup))
-    return sceneOfSweep<D>(setup, collisionStarts(setup), collisionTimeSteps(setup).front());
+    return sweepScene<D>(setup, collisionStarts(setup), collisionTimeSteps(setup).front());
   if (!hasFlow(setup)) return assemblyScene<D>(setup);
   const double step = timeStep(setup);
   const auto engine = engineRegistry().front().make();

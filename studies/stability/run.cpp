@@ -29,13 +29,9 @@ namespace crossgrain::inline studies {
 template <int D>
 HardSceneOf<D> plainScene(const Case& setup, const Packing& packing) {
   const double dt = timeStep(setup);
-  if (isCollision(setup)) {
-    const double duration = dt + 2.5 * impactTimes(setup).longest + 20.0 * dt;
-    if constexpr (D == 2)
-      return {&setup, collisionScene(setup, collisionStarts(setup), dt), duration};
-    else
-      return {&setup, spaceCollisionScene(setup, collisionStarts(setup), dt), duration};
-  }
+  if (isCollision(setup))
+    return {&setup, sweepScene<D>(setup, collisionStarts(setup), dt),
+            dt + 2.5 * impactTimes(setup).longest + 20.0 * dt};
   const bool prepared = !packing.hash.empty();
   const auto scene = [&](const Packing& start) {
     return HardSceneOf<D>{&setup, flowScene<D>(setup, start, dt), flowDuration(setup)};
