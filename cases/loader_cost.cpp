@@ -1,3 +1,6 @@
+#include <cmath>
+#include <utility>
+
 #include "cases/loader_sections.hpp"
 
 namespace crossgrain::inline cases {
@@ -30,11 +33,20 @@ std::vector<Key<Cost>> costTable() {
       key("kinds", &Cost::kinds, Names(kinds.begin(), kinds.end()), "of error").listed("all three"),
       key("knobs", &Cost::knobs, Names(costKnobs.begin(), costKnobs.end()), "what is varied")
           .listed("all"),
+      key("disks", &Cost::disks, between(1, 20'000'000),
+          "sizes of the scene, a step of which is timed; a scene that cannot be made larger says "
+          "why")
+          .listed("its own, and four times it", "–"),
+      key("threads", &Cost::threads, between(1, 1024),
+          "threads, or ranks of an engine that has them, that share a step; one is always timed")
+          .listed("1, 2, 4, … up to the cores", "–"),
       key("timed", &Cost::timed, positive("s"), "what is shorter is not called measured"),
       key("repeats", &Cost::repeats, between(2, 1000),
           "rounds in which settings take turns; their scatter is the interval of a time"),
       key("collision_steps", &Cost::collisionSteps, steps, "steps of two bodies that collide"),
-      key("speed", &Cost::speed, positive("m/s"), "their v_n"),
+      key("speed", &Cost::speed, positive("m/s"),
+          "their v_n in place of those of a run of the scene: median and, of laws whose collisions "
+          "depend on the speed, 95th percentile of each kind of pair"),
       key("psi_max", &Cost::psiMax, positive(), "their Ψ_i go from 0 to this"),
       key("psi_count", &Cost::psiCount, between(2, 10'000), "number of their Ψ_i"),
       key("collision_reference", &Cost::collisionReference, steps,
@@ -58,8 +70,9 @@ const Section<Cost>& costKeys() {
       {.name = "cost",
        .kinds = "couette, assembly",
        .commands = "cost",
-       .note = "Steps are numbers of steps in the contact time t_c of the lightest pair; of a law "
-               "that stiffens, of an impact at `speed` (without its dashpot). Lists may be empty."},
+       .note =
+           "Steps are numbers of steps in the contact time t_c of the lightest pair; of a law "
+           "that stiffens, of its fastest impact here (without its dashpot). Lists may be empty."},
       costTable());
   return section;
 }
@@ -77,6 +90,10 @@ void readCost(Reader& in, Cost& target) {
   refuseRemoved(in);
   readSettings(in.section("settings"), target);
   costKeys().read(in, target);
+  for (const auto& [name, numbers] :
+       {std::pair("disks", &target.disks), {"threads", &target.threads}})
+    for (const double number : *numbers)
+      if (number != std::floor(number)) in.fail(name, "has {:g}, which is no whole number", number);
 }
 
 }  // namespace crossgrain::inline cases

@@ -22,8 +22,7 @@ const Section<BottomPlate>& bottomKeys() {
   static const Section<BottomPlate> section(
       {.name = "bottom",
        .kinds = "couette, assembly",
-       .commands = "compare plan lockstep identify baseline record effects cost stability collide "
-                   "scale",
+       .commands = "compare plan lockstep identify baseline record effects cost stability collide",
        .note = "Leave it out for no plate."},
       {need("mu", &BottomPlate::mu, atLeast(0.0), "µ_b"),
        need("kb", &BottomPlate::kb, atLeast(0.0, "N/m"), "spring of a disk on the plate"),
@@ -220,7 +219,7 @@ void nameConventions(Names& mayDiffer) {
 
 const Section<RunOptions>& runKeys() {
   constexpr const char* users =
-      "compare plan lockstep identify baseline record effects cost stability collide scale";
+      "compare plan lockstep identify baseline record effects cost stability collide";
   // Answers are waited for in whole milliseconds, and no clock holds more than some years.
   const Range timeouts = between(1e-3, 1e9, "s");
   static const Section<RunOptions> section(
@@ -249,7 +248,7 @@ const Section<RunOptions>& runKeys() {
        key("energy_ledger", &RunOptions::energyLedger, any,
            "energy term by term of engines that can: columns `energy_…` of `series.csv`, and the "
            "field `dissipation`")
-           .usedBy("compare plan record stability effects cost scale"),
+           .usedBy("compare plan record stability effects cost"),
        key("keep_snapshots", &RunOptions::keepSnapshots, between(0, 1'000'000), "per run, in HDF5")
            .usedBy("compare plan effects cost"),
        key("keep_snapshots_of", &RunOptions::keepSnapshotsOf, between(1, 1'000'000),

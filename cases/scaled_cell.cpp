@@ -10,10 +10,8 @@
 
 #include "adapters/grain.hpp"
 #include "cases/couette.hpp"
-#include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
-#include "support/data_folder.hpp"
 #include "support/fingerprint.hpp"
 
 namespace crossgrain::inline cases {
@@ -161,17 +159,21 @@ double growthOf(const Case& setup, double room) {
 
 }  // namespace
 
-Case scaledCase(std::size_t disks, const std::vector<std::string>& overrides) {
-  Case setup = loadCase(dataFolder() / "cases/couette/nu-0.804.toml", overrides).front();
-  Particles& particles = couetteIn(setup).particles;
+bool canBeScaled(const Case& setup) {
+  return cellOf(setup) && !packingFile(setup);
+}
+
+Case scaledCase(Case setup, std::size_t disks) {
+  auto& [cell, particles, filling, times] = couetteIn(setup);
   const double all = particles.small + particles.large;
   const double growth = growthOf(setup, static_cast<double>(disks) / all);
   particles.small =
       static_cast<int>(std::lround(static_cast<double>(disks) * particles.small / all));
   particles.large = static_cast<int>(disks) - particles.small;
-  couetteIn(setup).cell.innerRadius *= growth;
-  couetteIn(setup).cell.outerRadius *= growth;
-  couetteIn(setup).cell.omega /= growth;
+  cell.innerRadius *= growth;
+  cell.outerRadius *= growth;
+  cell.omega /= growth;
+  setFlowOfCell(setup);
   return setup;
 }
 

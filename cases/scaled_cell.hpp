@@ -3,28 +3,27 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <string>
-#include <vector>
 
 #include "cases/case.hpp"
 #include "cases/packing.hpp"
 
 namespace crossgrain::inline cases {
 
-/// The sizes that a scaled cell can have [disks]: below, walls are most of it; above, ids and array
-/// files come to their ends.
-inline constexpr std::size_t leastScaled = 1000, mostScaled = 20'000'000;
+/// The most disks that a scaled cell can have: above, ids and array files come to their ends.
+inline constexpr std::size_t mostScaled = 20'000'000;
 
-/// The thesis' cell (cases/couette/nu-0.804.toml) blown up until it holds `disks` moving disks:
-/// both radii grow by one factor, disks and wall disks keep their size, small and large ones their
-/// proportion; the wheel turns slower, so that its rim keeps its speed. What is kept is ν̄ of the
-/// room that the walls leave: at the same ν̄ of the whole ring, of which walls take less and less, a
-/// large cell falls below the transition and its disks hardly touch.
-/// @param overrides  as of loadCase(), of what has nothing to do with how many disks there are
-/// @throws BadInput as loadCase()
-Case scaledCase(std::size_t disks, const std::vector<std::string>& overrides = {});
+/// Whether a case is a Couette cell whose disks are made, not read from a file.
+bool canBeScaled(const Case& setup);
 
-/// That cell filled, at rest in the bulk, with the thesis' law, bottom plate and time step; the
+/// A cell blown up until it holds `disks` moving disks: both radii grow by one factor, disks and
+/// wall disks keep their size, small and large ones their proportion; the wheel turns slower, so
+/// that its rim keeps its speed. What is kept is ν̄ of the room that the walls leave: at the same ν̄
+/// of the whole ring, of which walls take less and less, a large cell falls below the transition
+/// and its disks hardly touch.
+/// @pre canBeScaled()
+Case scaledCase(Case setup, std::size_t disks);
+
+/// That cell filled, at rest in the bulk, with the case's law, bottom plate and time step; the
 /// packing is kept in `folder` as an HDF5 file that is also a `particles.file` of a case, or made
 /// anew each time where it cannot be kept.
 ///

@@ -7,18 +7,17 @@ namespace crossgrain::inline cli {
 // In files of their names; diff with baseline, replay with record.
 extern const Command enginesCommand, listCommand, checkCommand, collideCommand, conformanceCommand,
     lockstepCommand, identifyCommand, baselineCommand, diffCommand, recordCommand, replayCommand,
-    compareCommand, effectsCommand, stabilityCommand, costCommand, scaleCommand, thesisCommand,
-    averageCommand, importCommand, exportCommand, revCommand, calibrateCommand, reportCommand,
-    planCommand, helpCommand, serveCommand;
+    compareCommand, effectsCommand, stabilityCommand, costCommand, thesisCommand, averageCommand,
+    importCommand, exportCommand, revCommand, calibrateCommand, reportCommand, planCommand,
+    helpCommand, serveCommand;
 
 const std::vector<const Command*>& commands() {
   static const std::vector<const Command*> table = {
-      &enginesCommand,  &listCommand,      &checkCommand,    &collideCommand,   &conformanceCommand,
-      &lockstepCommand, &identifyCommand,  &baselineCommand, &diffCommand,      &recordCommand,
-      &replayCommand,   &compareCommand,   &effectsCommand,  &stabilityCommand, &costCommand,
-      &scaleCommand,    &thesisCommand,    &importCommand,   &averageCommand,   &revCommand,
-      &exportCommand,   &calibrateCommand, &reportCommand,   &planCommand,      &helpCommand,
-      &serveCommand};
+      &enginesCommand,   &listCommand,     &checkCommand,    &collideCommand,   &conformanceCommand,
+      &lockstepCommand,  &identifyCommand, &baselineCommand, &diffCommand,      &recordCommand,
+      &replayCommand,    &compareCommand,  &effectsCommand,  &stabilityCommand, &costCommand,
+      &thesisCommand,    &importCommand,   &averageCommand,  &revCommand,       &exportCommand,
+      &calibrateCommand, &reportCommand,   &planCommand,     &helpCommand,      &serveCommand};
   return table;
 }
 

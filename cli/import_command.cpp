@@ -20,7 +20,8 @@ int importFiles(const CommandLine& line, const ImportOptions& options) {
 Action declareImport(CLI::App& app, CommandLine& line) {
   const auto options = std::make_shared<ImportOptions>();
   addArgument(app, "format", options->format,
-              "mercurydpm, lammps, yade-text, vtk, ondem, csv or xyz (docs/file-formats.md)", "FORMAT");
+              "mercurydpm, lammps, yade-text, vtk, ondem, csv or xyz (docs/file-formats.md)",
+              "FORMAT");
   addFilesAndCase(app, line, "result files of one run",
                   "case file: the scene, the law, what is averaged");
   addArgument(app, "--out", options->out,

@@ -168,9 +168,16 @@ std::string footer(const Command* command) {
   return text.substr(0, text.size() - 1);
 }
 
+/// Commands of earlier versions, and where what they did is now.
+constexpr Named removedCommands[] = {
+    {"scale", "cost CASE --disks N,N --threads P,P times steps as the scene grows and is shared"}};
+
 /// CLI11 would only say that some subcommand is required.
 void requireKnownCommand(const std::string& name) {
   const std::vector<std::string> names = publicCommands();
+  for (const Named& removed : removedCommands)
+    if (name == removed.name)
+      throw BadInput(fmt::format("there is no command '{}' any more: {}", name, removed.what));
   const bool known =
       std::ranges::any_of(commands(), [&](const Command* each) { return name == each->name; });
   if (!known)

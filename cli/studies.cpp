@@ -18,7 +18,6 @@
 #include "reports/flow/endpoint_text.hpp"
 #include "reports/lockstep/report.hpp"
 #include "reports/report.hpp"
-#include "reports/scale/report.hpp"
 #include "reports/thesis/report.hpp"
 #include "results/collision.hpp"
 #include "studies/collide/collide.hpp"
@@ -32,7 +31,6 @@
 #include "studies/flow/compare.hpp"
 #include "studies/flow/lockstep_job.hpp"
 #include "studies/lockstep/identify.hpp"
-#include "studies/scale/scale.hpp"
 #include "studies/stability/stability.hpp"
 #include "studies/thesis/thesis.hpp"
 #include "support/bad_input.hpp"
@@ -399,21 +397,14 @@ extern const Command lockstepCommand = {
 
 extern const Command costCommand = {
     "cost",
-    "measure error against time, for each engine and each setting that trades one for the other",
-    "crossgrain cost cases/cost/quick.toml --engines all --out out/cost --budget 10m\n"
-    "crossgrain cost cases/cost/quick.toml --engines all --out out/cost --want 1%",
+    "measure error against time: settings of each engine, sizes of the scene, threads and ranks",
+    "crossgrain cost cases/assembly/hopper.toml --engines grain,yade,lammps --out out/cost\n"
+    "crossgrain cost cases/assembly/hopper.toml --engines all --out out/cost --want 1%\n"
+    "crossgrain cost cases/space/shear-3d.toml --engines grain,lammps --disks 560,4480 --threads "
+    "1,2 "
+    "--out out/sizes",
     [](CLI::App& app, CommandLine& line) {
       return declareStudy(app, line, costStudy, {reports::costText, true, reports::costToml});
-    }};
-
-extern const Command scaleCommand = {
-    "scale", "measure the time of a step as the cell grows and threads or ranks share it",
-    "crossgrain scale --disks 1000,10000,100000 --out out/scale\n"
-    "crossgrain scale --disks 100000,200000 --engines grain,lammps --threads 1,2 --out "
-    "out/threads\n"
-    "crossgrain scale --disks 1000000,10000000 --steps 50 --repetitions 2 --out out/large",
-    [](CLI::App& app, CommandLine& line) {
-      return declareStudy(app, line, scaleStudy, {reports::scaleText});
     }};
 
 extern const Command thesisCommand = {

@@ -13,7 +13,6 @@
 #include "reports/lockstep/report.hpp"
 #include "reports/render/gnuplot.hpp"
 #include "reports/render/html.hpp"
-#include "reports/scale/report.hpp"
 #include "reports/site/site.hpp"
 #include "reports/stability/report.hpp"
 #include "reports/thesis/report.hpp"
@@ -106,7 +105,6 @@ auto withResults(const Json& document, const auto& call) {
   if (kind == kindEffects) return call(effectsFromJson(document));
   if (kind == kindLockstep) return call(lockstepFromJson(document));
   if (kind == kindRev) return call(revFromJson(document));
-  if (kind == kindScale) return call(scaleFromJson(document));
   if (kind == kindStability) return call(stabilityFromJson(document));
   if (kind == kindThesis) return call(thesisFromJson(document));
   return call(compareFromJson(document));
@@ -125,7 +123,6 @@ template ReportDigest writeReport(const CostResults&, const std::filesystem::pat
 template ReportDigest writeReport(const EffectsResults&, const std::filesystem::path&);
 template ReportDigest writeReport(const LockstepResults&, const std::filesystem::path&);
 template ReportDigest writeReport(const RevResults&, const std::filesystem::path&);
-template ReportDigest writeReport(const ScaleResults&, const std::filesystem::path&);
 template ReportDigest writeReport(const StabilityResults&, const std::filesystem::path&);
 template ReportDigest writeReport(const ThesisResults&, const std::filesystem::path&);
 

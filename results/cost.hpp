@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "results/engine_row.hpp"
 #include "results/flow_frame.hpp"
 #include "results/json_fields.hpp"
+#include "results/step_time.hpp"
 
 /// What `crossgrain cost` finds out: results of kind "cost" (docs/results.md). Targets are
 /// accuracies that are wanted: 0.01 is 1 %. Places are indices into CostResults::points.
@@ -25,14 +27,6 @@ inline constexpr Words aKnob{
       return isName(text.starts_with(effect) ? text.substr(effect.size()) : text);
     },
     "a knob"};
-
-/// What became of a point, as files call it. Failed: its engine broke down, or the step was beyond
-/// its stability limit; refused: its engine has no such setting; not run: the budget did not allow
-/// it.
-inline constexpr support::EnumNames<Status, 4> costStatusNames{{{Status::finished, "ran"},
-                                                                {Status::failed, "failed"},
-                                                                {Status::refused, "refused"},
-                                                                {Status::notRun, "undecided"}}};
 
 /// Whether a target is reached, as files and reports call it. Undecided: the error's interval holds
 /// the target; not reached: and every setting of the plan that may do better was run; not measured:
@@ -51,7 +45,7 @@ struct TimeInterval {
 };
 
 /// What a setting takes: of the advance alone, per unit that all points of one kind and measure
-/// share: a sweep of collisions, the trajectory's window, one rotation.
+/// share: a sweep of collisions, the trajectory's window, a simulated second.
 struct CostTime {
   std::optional<double> wallSeconds, cpuSeconds;  ///< geometric means over the rounds [s]
   /// Ends of the 95 % interval of time(), from its rounds [s]; absent of a single one.
@@ -199,6 +193,62 @@ void fields(auto& io, CostModel& model) {
   io("error", model.error);
   io("low", model.low);
   io("high", model.high);
+}
+
+/// The case's margin of an endpoint, in the unit of its points' errors.
+struct CostMargin {
+  std::string measure;
+  double margin = 0.0;
+};
+
+void fields(auto& io, CostMargin& margin) {
+  io("measure", margin.measure, aName);
+  io("margin", margin.margin);
+}
+
+void fields(auto& io, PairImpacts& impacts) {
+  io("pair", impacts.pair);
+  io("contacts", impacts.contacts);
+  io("median_speed", impacts.median);
+  io("fast_speed", impacts.fast);
+  for (const int side : {0, 1}) {
+    // No number stands for infinity in JSON: a wall's mass is absent.
+    std::optional<double> mass = impacts.mass[side];
+    if (!std::isfinite(*mass)) mass.reset();
+    io(side == 0 ? "radius_i" : "radius_j", impacts.radius[side]);
+    io(side == 0 ? "mass_i" : "mass_j", mass);
+    impacts.mass[side] = mass.value_or(std::numeric_limits<double>::infinity());
+  }
+}
+
+/// Contacts that begin in short runs of the scene on the in-house engine.
+struct SceneImpacts {
+  std::vector<PairImpacts> pairs;
+  double rmsSpeed = 0.0;  ///< of the bodies that move [m/s]
+  double seconds = 0.0;   ///< of the runs together [s]
+};
+
+void fields(auto& io, SceneImpacts& impacts) {
+  io("pairs", impacts.pairs);
+  io("rms_speed", impacts.rmsSpeed);
+  io("seconds", impacts.seconds);
+}
+
+/// Between which an engine's largest stable step lies, by the runs of the case's time steps.
+struct LargestStep {
+  std::string engine;
+  CostKind kind = CostKind::averages;  ///< of the runs: whole ones, or a trajectory's window
+  std::optional<double> stable;        ///< the largest that is stable as all smaller ones are [s]
+  std::optional<double> unstable;      ///< the smallest that is not; absent: none was found [s]
+  std::optional<double> contactTime;   ///< t_c that the steps are counted in [s]
+};
+
+void fields(auto& io, LargestStep& step) {
+  io("engine", step.engine, aName);
+  io("error_kind", step.kind);
+  io("stable_s", step.stable);
+  io("unstable_s", step.unstable);
+  io("contact_time_s", step.contactTime);
 }
 
 /// What it takes before the first step [s].
@@ -355,7 +405,12 @@ struct CostResults : FlowFrame {
   /// For other reasons than a step beyond the stability limit: one line each.
   std::vector<std::string> engineFailures;
 
+  SceneImpacts impacts;  ///< whose speeds and sizes collisions have, unless cost.speed says them
+  std::vector<CostMargin> margins;
+  std::vector<StepTime> steps;  ///< of the scene as it grows and workers share it, by size
+
   // Worked out from the points (studies/cost/analysis.hpp).
+  std::vector<LargestStep> largestSteps;
   std::vector<Front> fronts;
   std::vector<Advice> advice;
   std::vector<CostCell> cells;
@@ -377,6 +432,10 @@ struct CostResults : FlowFrame {
     io("window_s", window);
     io("startup", startup);
     io("engine_failures", engineFailures);
+    io("impacts", impacts);
+    io("margins", margins);
+    io("steps", steps);
+    io("largest_steps", largestSteps);
     io("fronts", fronts);
     io("advice", advice);
     io("cells", cells);

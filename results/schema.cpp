@@ -25,9 +25,8 @@ void checkSchema(const nlohmann::json& results, const std::string& where) {
     throw BadInput(fmt::format("{}: has schema \"{}\", this crossgrain reads \"{}\"", where, schema,
                                schemaVersion));
   const std::string kind = word("kind");
-  const auto known = {kindCompare, kindCollide, kindLockstep,   kindEffects,
-                      kindCost,    kindAverage, kindRev,        kindStability,
-                      kindThesis,  kindScale,   kindConformance};
+  const auto known = {kindCompare, kindCollide, kindLockstep,  kindEffects, kindCost,
+                      kindAverage, kindRev,     kindStability, kindThesis,  kindConformance};
   if (std::ranges::find(known, kind) == known.end())
     throw BadInput(fmt::format("{}: has kind \"{}\", a report is made of one of \"{}\"", where,
                                kind, fmt::join(known, "\", \"")));

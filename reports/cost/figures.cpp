@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <functional>
 
 #include "reports/common/engines.hpp"
 #include "reports/common/figure.hpp"
@@ -123,7 +124,7 @@ Panel panelOf(const CostResults& results, const CostMeasure& measure) {
   std::erase_if(points, [&](const CostPoint& point) { return !measure.has(point); });
   Panel panel;
   panel.title = mathGnuplot(measureText(measure.name));
-  panel.xLabel = fmt::format("processor time of {} [s]", timeUnit(results, measure.kind));
+  panel.xLabel = fmt::format("processor time of {} [s]", timeUnit(measure.kind));
   panel.yLabel = "error";
   panel.logX = panel.logY = true;
   panel.key = Key::none;
@@ -141,12 +142,120 @@ Panel panelOf(const CostResults& results, const CostMeasure& measure) {
   return panel;
 }
 
-std::string captionOf(const CostResults& results, const Points& points, CostKind kind) {
+/// Of an engine's own scheme, by step.
+Points stepsOf(const CostResults& results, const std::string& engine, const CostMeasure& measure) {
+  Points points;
+  for (const CostPoint& point : results.points)
+    if (point.engine == engine && measure.has(point) && point.knob == "time_step" &&
+        point.counted() && point.time())
+      points.push_back(point);
+  std::ranges::sort(points, std::greater<>(),
+                    [](const CostPoint& one) { return one.dt.value_or(0.0); });
+  return points;
+}
+
+/// Errors of an endpoint against time: a line per engine over its steps, upright bars their
+/// intervals over packings, grey up to the case's margin, a ring at the largest step whose whole
+/// interval lies inside.
+Panel endpointPanel(const CostResults& results, const CostMeasure& measure) {
+  Panel panel;
+  panel.title = mathGnuplot(measureText(measure.name));
+  panel.xLabel = "processor time of a simulated second [s]";
+  panel.yLabel = "error";
+  panel.logX = panel.logY = true;
+  panel.key = Key::none;
+  Points all = results.points;
+  std::erase_if(all, [&](const CostPoint& point) { return !measure.has(point); });
+  const auto margin = std::ranges::find(results.margins, measure.name, &CostMargin::measure);
+  const bool hasMargin = margin != results.margins.end();
+  Range range = errorRange(all);
+  if (hasMargin) {
+    range = {std::min(range.low, 0.1 * margin->margin), std::max(range.high, 3.0 * margin->margin)};
+    panel.shadedTo = margin->margin;
+  }
+  panel.yRange = range;
+  const std::vector<LineStyle> styles = engineStyles(results.engines);
+  Curve rings{"largest step within the margin", {"#000000", 6, false}, Draw::points, {}, 2.5};
+  for (std::size_t e = 0; e < results.engines.size(); ++e) {
+    Curve line{results.engines[e].name, styles[e], Draw::linesAndPoints, {}, 1.5};
+    std::vector<Curve> bars;
+    bool ringed = false;
+    for (const CostPoint& point : stepsOf(results, line.name, measure)) {
+      const Point mark{*point.time(), std::clamp(*point.error, range.low, range.high), {}};
+      line.points.push_back(mark);
+      bars.push_back({"",
+                      styles[e],
+                      Draw::lines,
+                      {{mark.x, std::clamp(point.low(), range.low, range.high), {}},
+                       {mark.x, std::clamp(point.high(), range.low, range.high), {}}},
+                      1.0});
+      if (ringed || !hasMargin || point.high() > margin->margin) continue;
+      ringed = true;
+      rings.points.push_back(mark);
+      rings.points.back().label = point.setting;
+    }
+    addCurve(panel, std::move(line));
+    for (Curve& bar : bars) panel.curves.push_back(std::move(bar));
+  }
+  addCurve(panel, std::move(rings));
+  return panel;
+}
+
+/// Errors of collisions against steps: the worst over phases of a step and over every pair of the
+/// scene, dashed their rms, of the pair for which it is largest.
+Panel envelopePanel(const CostResults& results, const CostMeasure& measure) {
+  Panel panel;
+  panel.title = mathGnuplot(measureText(measure.name)) + " of collisions, worst";
+  panel.xLabel = "steps per contact";
+  panel.yLabel = "error";
+  panel.logX = panel.logY = true;
+  panel.key = Key::none;
+  const std::vector<LineStyle> styles = engineStyles(results.engines);
+  for (std::size_t e = 0; e < results.engines.size(); ++e) {
+    Curve worst{results.engines[e].name, styles[e], Draw::linesAndPoints, {}, 1.5};
+    Curve rms{"", styles[e], Draw::lines, {}, 1.0};
+    rms.style.dashed = true;
+    for (const CostPoint& point : stepsOf(results, worst.name, measure)) {
+      if (!point.stepsPerContact) continue;
+      if (point.worst) worst.points.push_back({*point.stepsPerContact, *point.worst, {}});
+      rms.points.push_back({*point.stepsPerContact, *point.error, {}});
+    }
+    addCurve(panel, std::move(worst));
+    addCurve(panel, std::move(rms));
+  }
+  return panel;
+}
+
+/// A figure per measure, as narrow as a small screen.
+std::vector<Figure> pictureOf(const CostResults& results) {
+  std::vector<Figure> figures;
+  for (const CostKind kind : {CostKind::averages, CostKind::collision})
+    for (const CostMeasure& measure : measuresIn(results.points)) {
+      if (measure.kind != kind || isOwn(measure.name)) continue;
+      const bool isEndpoint = kind == CostKind::averages;
+      Figure figure;
+      figure.name = "cost_picture_" + measure.name;
+      figure.panels = {isEndpoint ? endpointPanel(results, measure)
+                                  : envelopePanel(results, measure)};
+      if (!hasPoints(figure.panels.front())) continue;
+      figure.title = fmt::format("Error of {} against {}", measureText(measure.name),
+                                 isEndpoint ? "processor time" : "steps per contact");
+      figure.caption = figure.title + ".";
+      figure.keyAbove = true;
+      figure.panelWidth = 380;
+      figure.panelHeight = 300;
+      figure.png = true;
+      figures.push_back(std::move(figure));
+    }
+  return figures;
+}
+
+std::string captionOf(const Points& points, CostKind kind) {
   std::string caption = fmt::format(
       "Error against the processor time of {}. Lines join the time steps of an engine, dashed with "
       "another integrator; pale line: Pareto front; grey: uncertainty of the reference; bars: the "
       "statistical part; ▽ may be chance: drawn at its upper end; ×, at the upper edge: failed.",
-      timeUnit(results, kind));
+      timeUnit(kind));
   const auto all = otherSettings(points);
   std::vector<std::string> numbers;
   for (std::size_t k = 0; k < all.size(); ++k)
@@ -183,9 +292,8 @@ std::string measureText(const std::string& measure) {
   return "positions, compared with " + (whom == "own" ? "itself" : whom);
 }
 
-std::string timeUnit(const FlowFrame& frame, CostKind kind) {
-  const std::array units = {"one sweep of collisions", "the window",
-                            frame.region ? "a second of the scene" : "one rotation"};
+std::string timeUnit(CostKind kind) {
+  constexpr std::array units = {"one sweep of collisions", "the window", "a second of the scene"};
   return units[static_cast<std::size_t>(kind)];
 }
 
@@ -210,8 +318,9 @@ std::vector<OtherSetting> otherSettings(const Points& points) {
 }
 
 std::vector<Figure> costFigures(const CostResults& results) {
-  std::vector<Figure> figures;
+  std::vector<Figure> figures = pictureOf(results);
   for (const CostKind kind : kindsIn(results.points)) {
+    if (kind == CostKind::averages) continue;  // has the picture
     Figure figure;
     figure.name = "cost_" + toString(kind);
     figure.title = "Error against time: " + toString(kind);
@@ -219,7 +328,7 @@ std::vector<Figure> costFigures(const CostResults& results) {
       if (measure.kind == kind) figure.panels.push_back(panelOf(results, measure));
     std::erase_if(figure.panels, [](const Panel& panel) { return !hasPoints(panel); });
     if (figure.panels.empty()) continue;
-    figure.caption = captionOf(results, results.points, kind);
+    figure.caption = captionOf(results.points, kind);
     figure.keyAbove = true;
     figure.columns = figure.panels.size() > 1 ? 2 : 1;
     figure.panelWidth = 1040 / figure.columns;

@@ -91,6 +91,13 @@ std::string tieText(const std::vector<TiedSetting>& ties) {
   return names.empty() ? "" : fmt::format("a tie with {}", fmt::join(names, ", "));
 }
 
+/// "1.2 ms (1.1 ms to 1.3 ms)"
+std::string timeText(const CostTime& time) {
+  if (!time.time() || !time.timeLow || !time.timeHigh) return readableDuration(time.time());
+  return fmt::format("{} ({} to {})", readableDuration(time.time()), readableDuration(time.timeLow),
+                     readableDuration(time.timeHigh));
+}
+
 /// "the cheapest engine", or that it ties with others.
 std::string cheapestText(const CostResults& results, const Advice& advice) {
   if (!advice.cheapest) return "";
@@ -101,14 +108,6 @@ std::string cheapestText(const CostResults& results, const Advice& advice) {
   return others.empty()
              ? "the cheapest engine"
              : fmt::format("the cheapest engine, a tie with {}", fmt::join(others, ", "));
-}
-
-const CostCell* cellAt(const CostResults& results, const std::string& engine, CostKind kind,
-                       CostBasis basis, double target) {
-  for (const CostCell& cell : results.cells)
-    if (cell.engine == engine && cell.kind == kind && cell.basis == basis && cell.target == target)
-      return &cell;
-  return nullptr;
 }
 
 /// Engines that have points, in the order of the results.
@@ -158,8 +157,7 @@ std::string asToml(const Advice& one, const CostResults& results) {
     if (const auto time = one.time())
       text += fmt::format(
           ", {:.3g} s of {} per {}", *time, one.cpuSeconds ? "processor time" : "wall time",
-          one.costKind() == CostKind::averages ? results.region ? "second of the scene" : "rotation"
-                                               : "sweep of collisions");
+          one.costKind() == CostKind::averages ? "second of the scene" : "sweep of collisions");
     text += fmt::format(" (measured in {})", fmt::join(kinds, " and "));
     for (const std::string& more : {tieText(one.ties), cheapestText(results, one)})
       if (!more.empty()) text += "; " + more;
@@ -233,68 +231,82 @@ std::string costToml(const CostResults& results) {
 
 namespace {
 
-OverviewCell overviewCell(const CostResults& results, const CostCell* cost) {
-  OverviewCell cell{Verdict::notMeasured, {}, "s", {}, {}, "accuracy"};
-  if (!cost || cost->verdict == Verdict::notMeasured) return cell;
-  cell.verdict = cost->verdict;
-  if (cost->verdict == Verdict::pass) {
-    cell.value = cost->time();
-    cell.shown = shortDuration(cost->time());
-    cell.words = settingText(cost->knob, cost->setting);
-    if (!cost->ties.empty()) cell.words += ", " + tieText(cost->ties);
+/// "t_c/2.5 (2 ms); unstable from 2.5 ms on"
+OverviewCell stabilityCell(const CostResults& results, const std::string& engine) {
+  OverviewCell cell{Verdict::notMeasured, {}, "s", {}, {}, "advice"};
+  const auto found = std::ranges::find(results.largestSteps, engine, &LargestStep::engine);
+  if (found == results.largestSteps.end()) return cell;
+  cell.verdict = std::nullopt;
+  cell.value = found->stable;
+  cell.shown = found->stable ? readableDuration(found->stable) : "none of those tried";
+  if (found->stable && found->contactTime)
+    cell.words = fmt::format("t_c/{:.3g}", *found->contactTime / *found->stable);
+  if (found->unstable)
+    cell.words += fmt::format("{}unstable at {}", cell.words.empty() ? "" : "; ",
+                              readableDuration(found->unstable));
+  else
+    cell.words += "; the largest that was tried";
+  return cell;
+}
+
+/// "0.41 ms": the step of an engine's setting, where all its points have the same.
+std::string stepText(const CostResults& results, const Advice& advice) {
+  for (const CostPoint& point : results.points)
+    if (point.engine == advice.engine && point.knob == advice.knob &&
+        point.setting == advice.setting && point.dt)
+      return readableDuration(point.dt);
+  return {};
+}
+
+/// The cheapest setting for an accuracy, or what stands in the way.
+OverviewCell adviceCell(const CostResults& results, const Advice& advice) {
+  OverviewCell cell{advice.verdict, {}, "s", {}, {}, "advice"};
+  if (advice.verdict == Verdict::notMeasured) return cell;
+  if (advice.verdict == Verdict::pass) {
+    cell.value = advice.time();
+    cell.shown = settingText(advice.knob, advice.setting);
+    cell.words = fmt::format("{}; {}", stepText(results, advice), timeText(advice));
+    for (const std::string& more : {tieText(advice.ties), cheapestText(results, advice)})
+      if (!more.empty()) cell.words += "; " + more;
     return cell;
   }
   cell.unit = "%";
-  const CostPoint* point = pointAt(results, cost->point);
   const auto show = [&](double error, const std::string& measure) {
     cell.value = 100.0 * error;
     cell.shown = percentText(error) + " off";
     cell.words = measureText(withoutOwn(measure));
   };
-  if (const CostModel* model = modelOf(results, *cost)) {
+  const CostPoint* point = pointAt(results, advice.obstacle);
+  if (const CostModel* model = modelOf(results, advice)) {
     cell.verdict = Verdict::modelDifference;
     show(model->error, model->measure);
+    cell.words += ", whatever the step";
   } else if (point && point->counted()) {
     show(*point->counted(), point->measure);
   }
-  const CostCell* own = cellAt(results, cost->engine, cost->kind, CostBasis::own, cost->target);
-  if (!own || own->verdict != Verdict::pass) return cell;
-  cell.words += fmt::format("{}its own law: {}", cell.words.empty() ? "" : "; ",
-                            settingText(own->knob, own->setting));
-  if (own->time()) cell.words += ", " + shortDuration(own->time());
   return cell;
 }
 
-/// In each kind of error the finest accuracy that anyone reaches, and who does for the least time,
-/// with those that tie.
-std::string finestReached(const CostResults& results) {
-  std::vector<std::string> parts;
-  for (const CostKind kind : kindsIn(results.points)) {
-    const CostCell* finest = nullptr;
-    const auto counts = [&](const CostCell& cell) {
-      return cell.kind == kind && cell.basis == CostBasis::scene && cell.time() &&
-             cell.verdict == Verdict::pass;
-    };
-    const auto rank = [](const CostCell& cell) { return std::pair(cell.target, *cell.time()); };
-    for (const CostCell& cell : results.cells)
-      if (counts(cell) && (!finest || rank(cell) < rank(*finest))) finest = &cell;
-    if (!finest) {
-      parts.push_back(fmt::format("{} by no engine as far as measured", kindText(kind)));
-      continue;
-    }
-    std::vector<std::string> ties;
-    for (const CostCell& cell : results.cells)
-      if (counts(cell) && cell.target == finest->target && cell.engine != finest->engine &&
-          cell.timeInterval().ties(finest->timeInterval()))
-        ties.push_back(cell.engine);
-    parts.push_back(fmt::format(
-        "{} {} by {} with {} ({} for {}{})", kindText(kind), targetText(finest->target),
-        finest->engine, settingText(finest->knob, finest->setting), shortDuration(finest->time()),
-        timeUnit(results, kind), ties.empty() ? "" : fmt::format("; a tie with {}", listed(ties))));
-  }
-  if (parts.empty()) return "Nothing was measured.";
-  return fmt::format("Finest accuracy of the case's law that is reached, for the least time: {}.",
-                     listed(parts));
+/// "1 %: grain with t_c/200 (0.01 ms; 1.2 s (1.1 s to 1.3 s) for a second of the scene)"
+std::string cheapestOf(const CostResults& results, double target) {
+  std::vector<std::string> names;
+  for (const Advice& one : results.advice)
+    if (one.target == target && one.cheapest)
+      names.push_back(fmt::format("{} with {} (step {}; {} for {})", one.engine,
+                                  settingText(one.knob, one.setting), stepText(results, one),
+                                  timeText(one), timeUnit(*one.costKind())));
+  return fmt::format("{}: {}", targetText(target),
+                     names.empty() ? "no engine, as far as measured"
+                                   : fmt::format("{}", fmt::join(names, " or ")));
+}
+
+/// The accuracies of the first matrix: those of the cells and the one asked for, falling.
+std::vector<double> answerTargets(const CostResults& results) {
+  std::vector<double> targets = targetsOf(results.cells);
+  if (results.target && std::ranges::find(targets, *results.target) == targets.end())
+    targets.push_back(*results.target);
+  std::ranges::sort(targets, std::greater<>());
+  return targets;
 }
 
 std::string nextStep(const CostResults& results) {
@@ -303,36 +315,42 @@ std::string nextStep(const CostResults& results) {
         "Next: the same command with --budget {:.0f}s measures the {} that did not fit into the "
         "budget.",
         std::ceil(results.budgetForTheRest.value_or(0.0) / 10.0) * 10.0, counted(left, "point"));
-  return "Next: take the setting that you need from the end of this page.";
+  return "Next: take the setting that you need from the advice on this page.";
 }
 
 }  // namespace
 
 Overview costOverview(const CostResults& results) {
   Overview overview;
-  const std::vector<CostKind> kinds = kindsIn(results.points);
-  const std::vector<double> targets = targetsOf(results.cells);
-  for (const CostKind kind : kinds)
-    for (const double target : targets) {
-      std::string shown = targetText(target);  // a number and its unit stay in one line
-      if (const std::size_t at = shown.find(' '); at != std::string::npos)
-        shown.replace(at, 1, "\u00a0");
-      overview.columns.push_back(
-          {fmt::format("{} {}", kindText(kind), shown),
-           fmt::format(
-               "Which setting brings the error of {} below {} for the least time? Time of {}.",
-               kindText(kind), targetText(target), timeUnit(results, kind)),
-           "kind-" + toString(kind)});
-    }
+  const std::vector<double> targets = answerTargets(results);
+  overview.columns.push_back({"largest stable step",
+                              "The largest time step at which the scene runs as smaller ones do.",
+                              "advice"});
+  for (const double target : targets) {
+    std::string shown = targetText(target);  // a number and its unit stay in one line
+    if (const std::size_t at = shown.find(' '); at != std::string::npos)
+      shown.replace(at, 1, "\u00a0");
+    overview.columns.push_back(
+        {shown, fmt::format("The cheapest setting whose errors are below {}.", targetText(target)),
+         "advice"});
+  }
   for (const std::string& engine : enginesIn(results)) {
-    OverviewRow row{engine, true, {}};
-    for (const CostKind kind : kinds)
-      for (const double target : targets)
-        row.cells.push_back(
-            overviewCell(results, cellAt(results, engine, kind, CostBasis::scene, target)));
+    OverviewRow row{engine, true, {stabilityCell(results, engine)}};
+    for (const double target : targets) {
+      const auto advice = std::ranges::find_if(results.advice, [&](const Advice& one) {
+        return one.engine == engine && one.target == target;
+      });
+      row.cells.push_back(advice == results.advice.end() ? OverviewCell{}
+                                                         : adviceCell(results, *advice));
+    }
     overview.rows.push_back(std::move(row));
   }
-  overview.conclusion = {finestReached(results), nextStep(results)};
+  std::vector<std::string> cheapest;
+  for (const double target : targets) cheapest.push_back(cheapestOf(results, target));
+  if (!cheapest.empty())
+    overview.conclusion.push_back(
+        fmt::format("Cheapest engine and setting for {}.", fmt::join(cheapest, "; ")));
+  overview.conclusion.push_back(nextStep(results));
   return overview;
 }
 
@@ -352,13 +370,6 @@ std::string decidesText(const std::string& decides) {
   return decides.empty() ? "" : "would decide: " + decides;
 }
 
-/// "1.2 ms (1.1 ms to 1.3 ms)"
-std::string timeText(const CostTime& time) {
-  if (!time.time() || !time.timeLow || !time.timeHigh) return readableDuration(time.time());
-  return fmt::format("{} ({} to {})", readableDuration(time.time()), readableDuration(time.timeLow),
-                     readableDuration(time.timeHigh));
-}
-
 /// Per kind of error, basis, engine and target: the setting that reaches it for the least time.
 Table accuracyTable(const CostResults& results) {
   Table table{{{"engine", Column::Kind::engines},
@@ -369,10 +380,9 @@ Table accuracyTable(const CostResults& results) {
               {}};
   for (const CostKind kind : kindsIn(results.points))
     for (const CostBasis basis : costBases) {
-      std::string group =
-          fmt::format("{}, compared with {}; time of {}", kindText(kind),
-                      basis == CostBasis::own ? "the engine's own limit" : "the case's law",
-                      timeUnit(results, kind));
+      std::string group = fmt::format(
+          "{}, compared with {}; time of {}", kindText(kind),
+          basis == CostBasis::own ? "the engine's own limit" : "the case's law", timeUnit(kind));
       for (const CostCell& cell : results.cells) {
         if (cell.kind != kind || cell.basis != basis) continue;
         const CostModel* model = modelOf(results, cell);
@@ -413,7 +423,7 @@ Blocks adviceBlocks(const CostResults& results) {
     const CostPoint* obstacle = pointAt(results, one.obstacle);
     std::string time = absentText;
     if (one.time() && one.costKind())
-      time = fmt::format("{} for {}", timeText(one), timeUnit(results, *one.costKind()));
+      time = fmt::format("{} for {}", timeText(one), timeUnit(*one.costKind()));
     const CostModel* model = modelOf(results, one);
     std::string remark = tieText(one.ties);
     if (const std::string cheapest = cheapestText(results, one); !cheapest.empty())
@@ -458,6 +468,33 @@ Table settingTable(const CostResults& results) {
                            timeText(point), errorText(point)}});
   }
   table.note = "The number is that in the plots.";
+  return table;
+}
+
+/// Speeds and sizes that collisions have, of a run of the scene.
+Table impactTable(const CostResults& results) {
+  Table table{{"pair",
+               {"new contacts", Column::Kind::number},
+               {"median v_n [m/s]", Column::Kind::number},
+               {"95 % below [m/s]", Column::Kind::number},
+               {"lightest pair, m₁₂ [kg]", Column::Kind::number}},
+              {}};
+  for (const PairImpacts& pair : results.impacts.pairs)
+    table.rows.push_back(
+        {{pair.pair, readableCount(static_cast<double>(pair.contacts)), readable(pair.median),
+          readable(pair.fast), readable(1.0 / (1.0 / pair.mass[0] + 1.0 / pair.mass[1]))}});
+  table.note = fmt::format(
+      "Of contacts that began in {} of the flow on the in-house engine; collisions have the median "
+      "speed and, of laws under which they depend on it, the 95th percentile, unless cost.speed "
+      "says another one. A kind of pair that did not meet has the speed of the most frequent one.",
+      readableDuration(results.impacts.seconds));
+  if (table.rows.empty() && results.impacts.seconds > 0.0) {
+    table.rows.push_back({{"all", "0", absentText, absentText, absentText}});
+    table.note = fmt::format(
+        "No contact began in {} of the flow: collisions have the root mean square speed of the "
+        "bodies, {} m/s, or 0.01 m/s where they rest.",
+        readableDuration(results.impacts.seconds), readable(results.impacts.rmsSpeed));
+  }
   return table;
 }
 
@@ -519,7 +556,7 @@ std::vector<std::string> costSentences(const CostResults& results) {
   return sentences;
 }
 
-std::string whatErrorsAre(const CostResults& results, CostKind kind) {
+std::string whatErrorsAre(CostKind kind) {
   if (kind == CostKind::collision)
     return "Two bodies collide, or one and a wall, over a whole curve of Ψ_i, beginning anywhere "
            "in "
@@ -530,12 +567,9 @@ std::string whatErrorsAre(const CostResults& results, CostKind kind) {
     return "Packings over a time short against their chaos; the error is the root mean square "
            "distance of the bodies, in diameters, from a run at a much smaller step, mean over "
            "packings.";
-  if (results.region)
-    return "The case's endpoints, against a reference on the same packings: the mean paired "
-           "difference, in units of the reference's size or, of an endpoint with an absolute "
-           "margin, of ten margins.";
-  return "Profiles and fitted numbers of a sheared cell, against a reference on the same packings: "
-         "the mean paired difference, in units of the profile's largest value.";
+  return "The case's endpoints, against a reference on the same packings: the mean paired "
+         "difference, in units of the reference's size or, of an endpoint with an absolute margin, "
+         "of ten margins.";
 }
 
 }  // namespace
@@ -547,15 +581,33 @@ Report reportOf(const CostResults& results) {
   std::ranges::copy(results.notes, std::back_inserter(report.notes));
   report.figures = costFigures(results);
   report.tables = {{"cost.csv", costCsv(results)}};
+  if (!results.steps.empty()) report.tables.push_back({"scale.csv", scaleCsv(results)});
+  report.section("advice", "Advice: settings to paste").blocks = adviceBlocks(results);
+  if (Drawings picture = drawingsOf(report.figures, "cost_picture_"); !picture.names.empty())
+    report.section("picture", "Error against processor time and steps").blocks = {
+        Paragraph{whatErrorsAre(CostKind::averages)},
+        Paragraph{
+            "A line per engine over its time steps, upright bars: the interval over packings; "
+            "grey: within the case's margin; ring: the largest step whose whole interval lies "
+            "inside. Collisions: the worst over phases of a step and every pair of the scene; "
+            "dashed: the largest rms."},
+        std::move(picture)};
   report.section("accuracy", "Which setting reaches an accuracy for the least time").blocks = {
       accuracyTable(results)};
-  for (const CostKind kind : kindsIn(results.points))
+  for (const CostKind kind : kindsIn(results.points)) {
+    if (kind == CostKind::averages) continue;  // has the picture
     report.section("kind-" + toString(kind), "Error against time: " + kindText(kind)).blocks = {
-        Paragraph{whatErrorsAre(results, kind)},
-        drawingsOf(report.figures, "cost_" + toString(kind))};
+        Paragraph{whatErrorsAre(kind)}, drawingsOf(report.figures, "cost_" + toString(kind))};
+  }
+  if (const Table table = impactTable(results); !table.rows.empty())
+    report.section("impacts", "Collisions of this scene").blocks = {table};
   const auto addTable = [&](const std::string& id, const std::string& title, Table table) {
     if (!table.rows.empty()) report.section(id, title).blocks = {std::move(table)};
   };
+  if (auto figure = stepFigure(results)) report.figures.push_back(std::move(*figure));
+  if (!results.steps.empty())
+    report.section("steps", "Time of a step: bodies, threads and ranks").blocks = {
+        drawingsOf(report.figures, "cost_steps"), stepTable(results)};
   addTable("others", "What other settings change", settingTable(results));
   addTable("references", "References and start-up", referenceTable(results));
   addTable("notrun", "What did not run", notRunTable(results));
@@ -575,7 +627,6 @@ Report reportOf(const CostResults& results) {
         "have a systematic part, which belongs to the setting, and a statistical part, which falls "
         "with the root of the simulated time and of the number of packings. Packings scatter them "
         "by more than most settings change them."}}}};
-  report.section("advice", "Advice: settings to paste").blocks = adviceBlocks(results);
   return report;
 }
 

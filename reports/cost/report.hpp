@@ -10,8 +10,8 @@
 /// What a study of cost is written as.
 namespace crossgrain::reports {
 
-/// An engine per row, a kind of error and a wanted accuracy per column: the setting that reaches it
-/// against the case's law for the least time, and that time.
+/// An engine per row: its largest stable step, and for each wanted accuracy the setting that the
+/// advice has for it, with step and time.
 Overview costOverview(const CostResults& results);
 
 /// For a terminal: how many accuracies are decided, and what became of the points.
@@ -30,7 +30,11 @@ std::string costToml(const CostResults& results);
 /// and bound are empty, of earlier versions.
 std::string costCsv(const CostResults& results);
 
-/// cost_KIND: error against time for each kind of error.
+/// A row per engine, size and number of workers, where steps were timed.
+std::string scaleCsv(const CostResults& results);
+
+/// cost_picture_MEASURE: errors of endpoints against processor time and of collisions against
+/// steps; cost_KIND: error against time for collisions and trajectories.
 std::vector<Figure> costFigures(const CostResults& results);
 
 Report reportOf(const CostResults& results);
@@ -43,7 +47,7 @@ std::string settingText(const std::string& knob, const std::string& setting);
 /// "Ψ_f", "radial stress", "positions, compared with grain"; "Ψ_f, own limit"
 std::string measureText(const std::string& measure);
 /// What one unit of an error kind's time is: "one sweep of collisions".
-std::string timeUnit(const FlowFrame& frame, CostKind kind);
+std::string timeUnit(CostKind kind);
 
 /// A measure of a kind of error.
 struct CostMeasure {
@@ -64,6 +68,11 @@ struct OtherSetting {
   bool operator==(const OtherSetting&) const = default;
 };
 std::vector<OtherSetting> otherSettings(const std::vector<CostPoint>& points);
+
+/// cost_steps: time of a step and efficiency of workers against bodies; absent where nothing ran.
+std::optional<Figure> stepFigure(const CostResults& results);
+/// An engine, size and number of workers per row.
+Table stepTable(const CostResults& results);
 
 /// @}
 

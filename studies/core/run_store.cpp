@@ -244,11 +244,20 @@ std::string programOf(const fs::path& folder) {
 CaseKeys resultAffectingKeys(const std::string& resolvedToml) {
   // Which runs there are: more or fewer of them leave the others as they are. What a worker may
   // take, and what an engine may differ in, decides whether it runs, not what comes out.
-  static const std::vector<std::string> which = {
-      "preparation.packings", "run.mirrors",          "run.may_differ",
-      "run.timeout",          "cost.kinds",           "cost.knobs",
-      "cost.settings",        "cost.collision_steps", "cost.trajectory_steps",
-      "cost.average_steps",   "cost.tangential",      "looks"};
+  static const std::vector<std::string> which = {"preparation.packings",
+                                                 "run.mirrors",
+                                                 "run.may_differ",
+                                                 "run.timeout",
+                                                 "cost.kinds",
+                                                 "cost.knobs",
+                                                 "cost.settings",
+                                                 "cost.collision_steps",
+                                                 "cost.trajectory_steps",
+                                                 "cost.average_steps",
+                                                 "cost.tangential",
+                                                 "cost.disks",
+                                                 "cost.threads",
+                                                 "looks"};
   // How they are judged, all together, when all are there.
   static const std::vector<std::string> judged = {"averaging.margins", "averaging.endpoints",
                                                   "averaging.confidence"};

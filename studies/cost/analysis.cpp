@@ -15,6 +15,7 @@ void addCostAnalysis(CostResults& results) {
   std::vector<double> targets = {0.1, 0.01, 1e-3, 1e-6};
   if (results.target && std::ranges::find(targets, *results.target) == targets.end())
     targets.push_back(*results.target);
+  results.largestSteps = largestSteps(results.points);
   results.fronts = paretoFronts(results.points);
   results.advice = advice(results.points, results.models, targets);
   results.cells = costCells(results.points, results.models);
@@ -63,6 +64,32 @@ std::vector<std::string> enginesIn(const std::vector<CostPoint>& points) {
 }
 
 }  // namespace
+
+std::vector<LargestStep> largestSteps(const std::vector<CostPoint>& points) {
+  std::vector<LargestStep> all;
+  for (const std::string& engine : enginesIn(points))
+    for (const CostKind kind : {CostKind::averages, CostKind::trajectory}) {
+      LargestStep found{engine, kind, {}, {}, {}};
+      const auto each = [&](Status status, auto&& use) {
+        for (const CostPoint& point : points)
+          if (point.engine == engine && point.kind == kind && point.knob == "time_step" &&
+              point.status == status && point.dt)
+            use(point);
+      };
+      each(Status::failed, [&](const CostPoint& point) {
+        found.unstable = std::min(found.unstable.value_or(INFINITY), *point.dt);
+      });
+      each(Status::finished, [&](const CostPoint& point) {
+        if (found.unstable && *point.dt >= *found.unstable) return;  // by chance
+        found.stable = std::max(found.stable.value_or(0.0), *point.dt);
+        if (point.stepsPerContact) found.contactTime = *point.dt * *point.stepsPerContact;
+      });
+      if (!found.stable && !found.unstable) continue;
+      all.push_back(found);
+      break;
+    }
+  return all;
+}
 
 std::vector<Front> paretoFronts(const std::vector<CostPoint>& points) {
   std::vector<std::pair<CostKind, std::string>> measures;
@@ -297,6 +324,23 @@ bool isBetter(const RatedSetting& a, const RatedSetting& b) {
   return a.high < b.high;
 }
 
+/// Of the settings whose times cannot be distinguished from that of the cheapest the plainest: a
+/// time step before another knob, of time steps the largest, which takes the fewest steps. So the
+/// same setting is named whichever of a tie happened to be the fastest.
+RatedSetting plainest(const std::vector<RatedSetting>& settings, const RatedSetting& cheapest,
+                      const Points& points) {
+  const auto rank = [&](const RatedSetting& one) {
+    const CostPoint& point = points[one.points.front()];
+    return std::pair(one.knob != "time_step", -point.dt.value_or(0.0));
+  };
+  const RatedSetting* found = &cheapest;
+  for (const RatedSetting& one : settings)
+    if (one.verdict == Verdict::pass &&
+        one.time.timeInterval().ties(cheapest.time.timeInterval()) && rank(one) < rank(*found))
+      found = &one;
+  return *found;
+}
+
 Settled settle(const CostData& of, const Question& question) {
   static const std::string everyMeasure = "a setting that was measured in every measure";
   const Points& points = of.points;
@@ -334,8 +378,9 @@ Settled settle(const CostData& of, const Question& question) {
       found.decides = refusal.value_or("");
     return found;
   }
-  const RatedSetting best = *std::ranges::min_element(settings, isBetter);
+  RatedSetting best = *std::ranges::min_element(settings, isBetter);
   const bool reached = best.verdict == Verdict::pass;
+  if (reached) best = plainest(settings, best, points);
   if (reached || !best.cancels) found.best = best;
   if (reached)
     for (const RatedSetting& one : settings)

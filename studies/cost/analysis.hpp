@@ -12,6 +12,10 @@ namespace crossgrain::inline studies {
 /// results' own target.
 void addCostAnalysis(CostResults& results);
 
+/// For every engine with time steps of its own scheme that were run over packings: of whole runs,
+/// or, where there is none, of trajectories.
+std::vector<LargestStep> largestSteps(const std::vector<CostPoint>& points);
+
 /// The points that no other is shown to beat: none is at most as slow and at most as wrong, and
 /// less in one of both. Where intervals of times overlap neither point is shown to be faster. By
 /// rising time.

@@ -35,7 +35,19 @@ EffectiveParameters loadPlanar(Engine& engine, const EngineEntry& entry, const C
 bool areAlike(const Case& one, const Case& other) {
   const Collision &a = collisionIn(one), &b = collisionIn(other);
   return std::ranges::equal(a.radius, b.radius) && std::ranges::equal(a.mass, b.mass) &&
-         one.law == other.law;
+         a.vn == b.vn && one.law == other.law;
+}
+
+/// Speeds of a kind of pair. Under a linear law without cohesion everything in a collision is in
+/// proportion to v_n, but for what its normal turns, so that one speed is enough.
+std::vector<double> speedsOf(const Cost& cost, const PairImpacts* seen, const ContactLaw& law) {
+  if (cost.speed) return {*cost.speed};
+  double median = cost.quietSpeed, fast = cost.quietSpeed;
+  if (!seen && !cost.impacts.empty())  // a kind that did not meet: as the most frequent one
+    seen = &*std::ranges::max_element(cost.impacts, {}, &PairImpacts::contacts);
+  if (seen) median = seen->median, fast = seen->fast;
+  const bool depends = law.stiffens() || law.coheres();
+  return depends && fast > median ? std::vector{median, fast} : std::vector{median};
 }
 
 }  // namespace
@@ -45,27 +57,31 @@ std::vector<Case> collisionsOf(const Case& setup) {
   const Cost& cost = setup.cost;
   std::vector<Case> all;
   for (const NamedPair& named : pairsOf(setup)) {
-    Case pair = setup;
-    pair.name = named.name;
-    pair.law = named.law;
-    pair.materials.reset();
-    pair.bottom.reset();
-    Collision& collision = pair.source.emplace<Collision>();
-    for (const int side : {0, 1}) {
-      collision.radius[side] = named.bodies.radius[side];
-      collision.mass[side] = named.bodies.mass[side];
+    const auto found = std::ranges::find(cost.impacts, named.name, &PairImpacts::pair);
+    const PairImpacts* const seen = found == cost.impacts.end() ? nullptr : &*found;
+    for (const double speed : speedsOf(cost, seen, named.law)) {
+      Case pair = setup;
+      pair.name = named.name;
+      pair.law = named.law;
+      pair.materials.reset();
+      pair.bottom.reset();
+      Collision& collision = pair.source.emplace<Collision>();
+      for (const int side : {0, 1}) {
+        collision.radius[side] = seen ? seen->radius[side] : named.bodies.radius[side];
+        collision.mass[side] = seen ? seen->mass[side] : named.bodies.mass[side];
+      }
+      collision.wall = named.bodies.plane;
+      collision.inertiaFactor = inertiaFactorOf(setup);
+      collision.vn = {speed};
+      collision.approach = isOnWall(pair) ? Approach::firstSpin : Approach::spin;
+      if (std::ranges::any_of(all, [&](const Case& one) { return areAlike(one, pair); })) continue;
+      const int count = all.empty() ? cost.psiCount : std::min(cost.psiCount, mostOfOthers);
+      collision.psi.clear();
+      for (int k = 0; k < count; ++k) collision.psi.push_back(cost.psiMax * k / (count - 1));
+      // A collision has a number of steps of its own: that which makes the case's step.
+      collision.stepsPerContact = {impactTimes(pair).shortest / timeStep(setup)};
+      all.push_back(std::move(pair));
     }
-    collision.wall = named.bodies.plane;
-    collision.inertiaFactor = inertiaFactorOf(setup);
-    collision.vn = {cost.speed};
-    collision.approach = isOnWall(pair) ? Approach::firstSpin : Approach::spin;
-    if (std::ranges::any_of(all, [&](const Case& one) { return areAlike(one, pair); })) continue;
-    const int count = all.empty() ? cost.psiCount : std::min(cost.psiCount, mostOfOthers);
-    collision.psi.clear();
-    for (int k = 0; k < count; ++k) collision.psi.push_back(cost.psiMax * k / (count - 1));
-    // A collision has a number of steps of its own: that which makes the case's step.
-    collision.stepsPerContact = {impactTimes(pair).shortest / timeStep(setup)};
-    all.push_back(std::move(pair));
   }
   return all;
 }

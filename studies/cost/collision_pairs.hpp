@@ -14,7 +14,8 @@ struct PairCurve {
 };
 
 /// Collisions that stand for a flow: of every two sizes and materials that meet in it, those with
-/// wall disks and planes too, alike ones once. The first, of a cell of two small disks, has
+/// wall disks and planes too, alike ones once; in the sizes and at the speeds of Cost::impacts, or
+/// at Cost::speed. The first, of a cell of two small disks, has
 /// `cost.psi_count` of Ψ_i; the others have nine at most. Their step is the case's.
 std::vector<Case> collisionsOf(const Case& setup);
 

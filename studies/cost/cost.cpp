@@ -16,6 +16,7 @@
 #include "studies/cost/analysis.hpp"
 #include "studies/cost/averages.hpp"
 #include "studies/cost/collision.hpp"
+#include "studies/cost/sizes.hpp"
 #include "studies/cost/trajectory.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
@@ -35,15 +36,20 @@ const std::vector<std::string> quickCosts = {"cost.timed=0.002",
                                              "cost.trajectory_reference=400",
                                              "cost.window_most=5",
                                              "cost.average_steps=[50, 10]",
-                                             "cost.average_reference=100"};
+                                             "cost.average_reference=100",
+                                             "cost.disks=[1]",
+                                             "cost.threads=[1]"};
 
 double costBudget(const CostOptions& options) {
-  return secondsOf(options.budget.value_or("12m"));
+  return secondsOf(options.budget.value_or("10m"));
 }
 
-std::vector<Case> casesOfCost(const CommandLine& line, CostOptions& own) {
+std::vector<Case> casesOfCost(const CommandLine& given, CostOptions& own) {
+  CommandLine line = given;
   costBudget(own);  // what is misspelt is refused before anything runs
   if (own.target) fractionOf(*own.target);
+  for (const auto& [key, numbers] : {std::pair("disks", &own.disks), {"threads", &own.threads}})
+    if (*numbers) line.overrides.push_back(fmt::format("cost.{}=[{}]", key, **numbers));
   const Case setup = onlyFlow(line, "cost");
   if (!line.quick) return {setup};
   std::vector<std::string> overrides =
@@ -155,15 +161,27 @@ double shareMissing(const CostStudy& study, const PlannedPoint& point, std::size
   return static_cast<double>(missing) / static_cast<double>(rounds);
 }
 
+/// Share of the budget of each kind of error and of the time of a step, which comes last. What one
+/// leaves is the next one's. Endpoints have most: they are what a scene is run for, and they come
+/// last of the errors.
+double shareOf(CostKind kind) {
+  constexpr double shares[] = {0.2, 0.2, 0.5};
+  return shares[static_cast<std::size_t>(kind)];
+}
+constexpr double shareOfSteps = 0.1;
+
 /// Measures one kind of error after the other, round by round and one point at a time: of each the
-/// case as it is first, then the cheapest on whichever engine, so that a budget buys as many points
-/// as it can. A point that is begun gets all of its rounds, unless the budget has ended.
+/// time steps first, then other settings, the cheapest on whichever engine first, so that a budget
+/// buys as many points as it can. A point that is begun gets all of its rounds, unless its time has
+/// ended.
 class Measuring {
  public:
-  /// @param budget  of the whole command, what came before included [s]
   Measuring(CostStudy& study, double budget) : study_(study), budget_(budget) {}
 
-  void measureKind(ErrorKind& kind) {
+  /// @param until  when it has to end, since the command began [s]
+  void measureKind(ErrorKind& kind, double until) {
+    until_ = until;
+    paces_.clear();
     std::vector<PlannedPoint> plan = planned(kind);
     const double common = kind.commonTime();
     const std::string why = lackOfTime(common);
@@ -272,32 +290,43 @@ class Measuring {
               kind.predicted(e, settings[s]) * shareMissing(study_, point, kind.rounds());
       }
     }
-    std::ranges::stable_sort(plan, {}, [](const PlannedPoint& point) {
-      return std::tuple(point.setting > 0, point.seconds);
+    std::ranges::stable_sort(plan, {}, [&](const PlannedPoint& point) {
+      const bool isStep = study_.settingOf(point).knob == "time_step";
+      return std::tuple(!isStep, point.seconds + kind.ownTime(point.engine));
     });
     return plan;
   }
 
-  /// "would take about 90 s, 8 s are left of the budget of 20 s"; empty: there is time for it.
-  std::string lackOfTime(double seconds) const {
-    const double left = budget_ - study_.campaign.elapsed() - slowness() * committed_;
-    seconds *= slowness();
-    if (!(seconds > 0.0) || seconds <= left) return {};
-    return fmt::format("would take about {:.3g} s, {:.3g} s are left of the budget of {:.3g} s",
-                       seconds, std::max(left, 0.0), budget_);
+  /// "would take about 90 s, 8 s are left of its share of the budget of 20 s"; empty: there is time
+  /// for it.
+  std::string lackOfTime(double seconds, std::optional<std::size_t> engine = {},
+                         double overrun = 1.0) const {
+    const double left = until_ - study_.campaign.elapsed() - pace() * committed_;
+    seconds *= pace(engine);
+    if (!(seconds > 0.0) || seconds <= overrun * left) return {};
+    return fmt::format(
+        "would take about {:.3g} s, {:.3g} s are left of its share of the budget of {:.3g} s",
+        seconds, std::max(left, 0.0), budget_);
   }
 
-  /// How many times longer points take than predicted, by those so far: other work may have begun
-  /// since a step was timed.
-  double slowness() const { return expected_ > 1.0 ? std::max(1.0, took_ / expected_) : 1.0; }
+  /// How many times longer points take than predicted, by those of the engine so far, or of all: a
+  /// load or a step that was timed once may be far off, and other work may have begun since.
+  double pace(std::optional<std::size_t> engine = {}) const {
+    constexpr double enough = 0.5, least = 0.02;  // [s], [-]
+    double expected = 0.0, took = 0.0;
+    for (const auto& [of, one] : paces_)
+      if (!engine || of == *engine) expected += one.expected, took += one.took;
+    return expected > enough ? std::max(least, took / expected) : 1.0;
+  }
 
   /// One round of a point. @param seconds  that it is expected to take
   Measured timed(ErrorKind& kind, const PlannedPoint& point, std::size_t round, double seconds) {
     const double before = study_.campaign.elapsed();
     Measured measured = measure(study_, kind, point, round);
     if (seconds > 0.0) {
-      took_ += study_.campaign.elapsed() - before;
-      expected_ += seconds;
+      Pace& pace = paces_[point.engine];
+      pace.took += study_.campaign.elapsed() - before;
+      pace.expected += seconds;
     }
     return measured;
   }
@@ -307,11 +336,12 @@ class Measuring {
   Measured affordable(ErrorKind& kind, Rounds& of, std::size_t round) {
     throwIfInterrupted();
     const PlannedPoint& point = of.point;
-    if (of.begun && study_.campaign.elapsed() > budget_) {
+    if (of.begun && study_.campaign.elapsed() > until_) {
       CostRun none;
       none.status = Status::notRun;
-      none.reason = fmt::format("the budget of {:.3g} s ended after {} of its {} rounds", budget_,
-                                of.runs.size(), kind.rounds());
+      none.reason =
+          fmt::format("its share of the budget of {:.3g} s ended after {} of its {} rounds",
+                      budget_, of.runs.size(), kind.rounds());
       return {none, false, none.reason};
     }
     if (of.begun) {
@@ -326,7 +356,9 @@ class Measuring {
     const double takes = point.seconds > 0.0 && !begun_.contains(group)
                              ? point.seconds + kind.ownTime(point.engine)
                              : point.seconds;
-    if (const std::string why = lackOfTime(takes); !why.empty()) {
+    // An engine's first point shows how good its predictions are, and may take twice the time left.
+    const double overrun = paces_.contains(point.engine) ? 1.0 : 2.0;
+    if (const std::string why = lackOfTime(takes, point.engine, overrun); !why.empty()) {
       budgetForTheRest += takes;
       CostRun none;
       none.status = Status::notRun;
@@ -344,9 +376,13 @@ class Measuring {
   }
 
   CostStudy& study_;
-  double budget_;
+  double budget_;           ///< of the command [s]
+  double until_ = 0.0;      ///< when the kind at hand has to end, since the command began [s]
   double committed_ = 0.0;  ///< what further rounds of points that are begun will take [s]
-  double expected_ = 0.0, took_ = 0.0;  ///< of rounds so far, by prediction and in truth [s]
+  struct Pace {
+    double expected = 0.0, took = 0.0;  ///< of an engine's rounds so far [s]
+  };
+  std::map<std::size_t, Pace> paces_;  ///< of the kind at hand
   std::map<Place, Points> found_;
   std::set<std::pair<CostKind, std::size_t>> begun_;
 };
@@ -372,17 +408,25 @@ CostResults runCost(const StudyWork& work, const CostOptions& options) {
   CostStudy study(work.setup(), work.line.run, work.store);
   const ErrorKinds kinds = errorKinds(study);
   study.prepare();
-  Measuring measuring(study, costBudget(options));
-  for (const auto& kind : kinds) measuring.measureKind(*kind);
+  const double budget = costBudget(options);
+  double shares = shareOfSteps, until = study.campaign.elapsed();
+  for (const auto& kind : kinds) shares += shareOf(kind->kind());
+  const double share = std::max(0.0, budget - until) / shares;
+  Measuring measuring(study, budget);
+  for (const auto& kind : kinds)
+    measuring.measureKind(*kind, until += share * shareOf(kind->kind()));
 
   CostResults results;
+  if (study.setup.cost.has("disks") || study.setup.cost.has("threads"))
+    results.steps = timeSizes(study, budget - study.campaign.elapsed());
   results.points = measuring.points();
   FlowStudy couette = study.campaign.study(kindCost);
   static_cast<FlowFrame&>(results) = couette;
   results.elapsed = couette.elapsed;
   results.engines = std::move(couette.engines);
   results.packings = std::move(couette.packings);
-  results.budget = costBudget(options);
+  results.budget = budget;
+  results.impacts = study.impacts;
   results.budgetForTheRest = measuring.budgetForTheRest;
   for (const auto& kind : kinds) kind->addTo(results);
   addEngines(results, study);
@@ -430,10 +474,18 @@ const Study<CostOptions, CostResults> costStudy = {
     Keeps::oneCase,
     [](CostOptions& own, CommandLine&) {
       return std::vector<StudyOption>{
-          {"--budget", "the longest that the command may take, e.g. 90s, 10m, 1h (default: 12m)",
+          {"--budget", "the longest that the command may take, e.g. 90s, 10m, 1h (default: 10m)",
            &own.budget},
           {"--want", "accuracy, e.g. 1% or 1e-3: prints the cheapest setting of each engine",
-           &own.target}};
+           &own.target},
+          {"--disks",
+           "sizes of the scene [bodies], a step of which is timed (default: its own, and four "
+           "times it)",
+           &own.disks, "N,N"},
+          {"--threads",
+           "threads, or ranks of an engine that has them, that share a step (default: 1, 2, 4, … "
+           "up to the cores)",
+           &own.threads, "P,P"}};
     },
     casesOfCost,
     planOfCost,

@@ -10,6 +10,7 @@ namespace crossgrain::inline studies {
 
 struct CostOptions {
   std::optional<std::string> budget, target;  ///< as they are given: "10m", "1%"
+  std::optional<std::string> disks, threads;  ///< "1000,4000": [cost] disks, threads
 };
 
 /// Measures what accuracy costs: every setting of [cost] on every engine, one at a time, engines in

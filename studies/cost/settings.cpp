@@ -24,10 +24,13 @@ double costContactTime(const Case& setup) {
         fmt::format("{}: cost counts steps in the contact time of a soft law: rigid bodies "
                     "have none",
                     setup.file.string()));
-  double shortest = INFINITY;
+  const Cost& cost = setup.cost;
+  double fastest = 0.0, shortest = INFINITY;
+  for (const PairImpacts& seen : cost.impacts) fastest = std::max(fastest, seen.fast);
+  const double speed = cost.speed.value_or(fastest > 0.0 ? fastest : cost.quietSpeed);
   for (const ContactLaw& law : lawsOf(setup))
-    shortest = std::min(shortest, impactTime(law, {lightestReducedMass(setup),
-                                                   flowDiameter(setup) / 4.0, setup.cost.speed}));
+    shortest = std::min(
+        shortest, impactTime(law, {lightestReducedMass(setup), flowDiameter(setup) / 4.0, speed}));
   return shortest;
 }
 
@@ -48,8 +51,20 @@ std::string stepFragment(const Case& setup, const std::string& engine, const Cap
   return fmt::format("[run]\nsteps_per_contact = {:g}\n", steps);
 }
 
+namespace {
+
+/// The case with a fragment merged in, which does not change what a run of the scene has shown.
+Case withFragment(const Case& setup, const std::string& fragment) {
+  Case changed = caseWith(setup, fragment);
+  changed.cost.impacts = setup.cost.impacts;
+  changed.cost.quietSpeed = setup.cost.quietSpeed;
+  return changed;
+}
+
+}  // namespace
+
 Case atSteps(const Case& setup, const std::string& engine, const Capabilities& can, double steps) {
-  return caseWith(setup, stepFragment(setup, engine, can, steps));
+  return withFragment(setup, stepFragment(setup, engine, can, steps));
 }
 
 CostPoint pointOf(const std::string& engine, const CostSetting& setting, CostKind kind, double dt) {
@@ -81,7 +96,7 @@ struct SettingList {
 
   CostSetting& add(const std::string& knob, const std::string& setting,
                    const std::string& fragment) {
-    CostSetting one{knob, setting, fragment, caseWith(setup, fragment)};
+    CostSetting one{knob, setting, fragment, withFragment(setup, fragment)};
     one.refusal = switchRefusal(can, setup, {knob, "", {}, one.setup});
     return settings.emplace_back(std::move(one));
   }

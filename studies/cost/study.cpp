@@ -14,6 +14,7 @@
 #include "cases/materials.hpp"
 #include "cases/time_step.hpp"
 #include "studies/core/engine_access.hpp"
+#include "studies/cost/impacts.hpp"
 #include "studies/cost/trajectory.hpp"
 #include "studies/lockstep/starts.hpp"
 #include "support/interrupt.hpp"
@@ -73,40 +74,24 @@ double drivenSpeed(const SceneOf<D>& scene) {
 }
 
 template <int D>
-void requireSound(const Case& setup, const SceneOf<D>& scene, const SnapshotOf<D>& snapshot) {
+void requireSound(const SceneOf<D>& scene, const SnapshotOf<D>& snapshot) {
   // A packing whose springs are dropped, or that loses its friction, lets go at several times what
   // drives it; an instability grows without bound.
   constexpr double mostSpeed = 10.0;
-  const bool isCell = cellOf(setup) != nullptr;
   double squares = 0.0;
-  for (std::size_t k = 0; k < snapshot.position.size(); ++k) {
-    const double radius = snapshot.position[k].norm();
-    if (isCell && (!(radius < couetteIn(setup).cell.outerRadius) ||
-                   !(radius > couetteIn(setup).cell.innerRadius)))
-      throw EngineFailure(fmt::format("{}: disk {} left the cell by t = {:.3g} s", beyondLimit, k,
-                                      snapshot.positionTime));
-    squares += snapshot.velocity[k].squaredNorm();
-  }
-  const double speed = std::sqrt(squares / static_cast<double>(snapshot.position.size()));
-  const double driven = isCell ? couetteIn(setup).cell.rimSpeed() : drivenSpeed(scene);
+  for (const VecOf<D>& velocity : snapshot.velocity) squares += velocity.squaredNorm();
+  const double speed = std::sqrt(squares / static_cast<double>(snapshot.velocity.size()));
+  const double driven = drivenSpeed(scene);
   if (!(speed < mostSpeed * driven))
-    throw EngineFailure(fmt::format("{}: at t = {:.3g} s the {}' rms speed is {:.3g} times {}",
-                                    beyondLimit, snapshot.positionTime,
-                                    D == 2 ? "disks" : "spheres", speed / driven,
-                                    isCell ? "the wheel's rim" : "what drives them"));
+    throw EngineFailure(fmt::format(
+        "{}: at t = {:.3g} s the {}' rms speed is {:.3g} times what drives them", beyondLimit,
+        snapshot.positionTime, D == 2 ? "disks" : "spheres", speed / driven));
 }
 template double drivenSpeed(const Scene&);
 template double drivenSpeed(const SpaceScene&);
-template void requireSound(const Case&, const Scene&, const Snapshot&);
-template void requireSound(const Case&, const SpaceScene&, const SpaceSnapshot&);
+template void requireSound(const Scene&, const Snapshot&);
+template void requireSound(const SpaceScene&, const SpaceSnapshot&);
 
-namespace {
-
-/// Between which the geometric mean of positive numbers lies; absent of a single one.
-struct GeometricMean {
-  double mean;
-  std::optional<double> low, high;
-};
 GeometricMean geometricMean(const std::vector<double>& numbers) {
   std::vector<std::optional<double>> logs;
   for (const double number : numbers) logs.emplace_back(std::log(number));
@@ -119,8 +104,6 @@ GeometricMean geometricMean(const std::vector<double>& numbers) {
   found.high = std::exp(mean->mean + half);
   return found;
 }
-
-}  // namespace
 
 CostPoint timedPoint(const std::string& engine, const CostSetting& setting, CostKind kind,
                      const std::vector<CostRun>& runs) {
@@ -147,7 +130,7 @@ CostPoint timedPoint(const std::string& engine, const CostSetting& setting, Cost
 CostStudy::CostStudy(const Case& of, const RunCommand& command, RunStore& store)
     : setup(of),
       jobs(command.jobs),
-      campaign(setup, command, selectEngines(command.engines), store),
+      campaign(of, command, selectEngines(command.engines), store),
       engines(campaign.engines().size()),
       inHouse(engineRegistry().front()),
       inHouseEngine(inHouse.make()) {
@@ -165,6 +148,8 @@ void CostStudy::prepare() {
   campaign.askEngines();
   campaign.preparePackings();
   campaign.timeEngines();
+  findStates();
+  findImpacts();
   campaign.progress().begin("timing starts and steps", std::vector<double>(engines.size(), 1.0));
   for (std::size_t e = 0; e < engines.size(); ++e) {
     throwIfInterrupted();
@@ -181,7 +166,6 @@ void CostStudy::prepare() {
     campaign.progress().finish(
         e, fmt::format("{}: {:.3g} µs a step", entryOf(e).name, 1e6 * engines[e].step));
   }
-  findStates();
   timeInHouse();
 }
 
@@ -193,6 +177,13 @@ void CostStudy::findStates() {
            setup, campaign.packings(), campaign.dt(), wanted, [](double) {}, jobs))
     states_.push_back(std::move(state.packing));
   if (states_.size() < wanted) states_.clear();
+}
+
+void CostStudy::findImpacts() {
+  impacts = keptOr(campaign.store(), "impacts", inHouseKey(0, "cost: impacts"),
+                   [&] { return impactsIn(setup, trajectoryStarts(), campaign.dt()); });
+  setup.cost.impacts = impacts.pairs;
+  if (impacts.rmsSpeed > 0.0) setup.cost.quietSpeed = impacts.rmsSpeed;
 }
 
 Engine& CostStudy::workerOf(std::size_t engine) {

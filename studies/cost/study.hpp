@@ -28,11 +28,10 @@ double pairLimit(const Case& setup);
 /// times as stiff as a pair (Gershgorin: ω² ≤ 6 · 2 k_n/m).
 double packingLimit(const Case& setup);
 
-/// Whether a packing has blown up: a position is no number, a disk has left a cell, or the rms
-/// speed exceeds ten times what the scene drives anything to: the rim's ΩR_i of a cell, elsewhere
-/// drivenSpeed(). @throws EngineFailure that says which, after `beyondLimit`
+/// Whether a packing has blown up: the rms speed is no number, or exceeds ten times drivenSpeed().
+/// @throws EngineFailure that says so, after `beyondLimit`
 template <int D>
-void requireSound(const Case& setup, const SceneOf<D>& scene, const SnapshotOf<D>& snapshot);
+void requireSound(const SceneOf<D>& scene, const SnapshotOf<D>& snapshot);
 
 /// The fastest that anything may be in a scene without an instability: as its bodies and walls move
 /// at first, and as they fall through all of it, √(2 g L) [m/s].
@@ -72,6 +71,14 @@ void fields(auto& io, CostRun& run) {
   io("status", run.status, costStatusNames);
   io("reason", run.reason);
 }
+
+/// Between which the geometric mean of positive numbers lies (Student, 95 %); absent of a single
+/// one.
+struct GeometricMean {
+  double mean;
+  std::optional<double> low, high;
+};
+GeometricMean geometricMean(const std::vector<double>& numbers);
 
 /// A point without error, with the times of its rounds: geometric means, as what disturbs a run
 /// multiplies its time, and Student's interval of their logarithms.
@@ -134,10 +141,11 @@ struct CostStudy {
   /// Of what the in-house engine does for all: it need not be among the engines named.
   CaseKeys inHouseKey(std::size_t packing, const std::string& part) const;
 
-  const Case& setup;
+  Case setup;  ///< with what a run of the scene shows of its collisions, once prepared
   const int jobs;
   Campaign campaign;
   std::vector<TimedEngine> engines;
+  SceneImpacts impacts;        ///< of a real run
   const EngineEntry& inHouse;  ///< whose runs are references for all
   std::unique_ptr<Engine> inHouseEngine;
   double inHouseStep = 0.0;  ///< what a step of it takes [s]
@@ -149,6 +157,7 @@ struct CostStudy {
   void timeStart(std::size_t engine);
   void timeInHouse();
   void findStates();
+  void findImpacts();
 
   std::vector<Packing> states_;
 };

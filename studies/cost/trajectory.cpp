@@ -24,7 +24,7 @@ Track trackOf(Engine& engine, const EngineEntry& entry, const Case& setup, const
   const EffectiveParameters effective = loadScene(engine, entry, setup, scene);
   advanceInPieces(engine, effective, 0.0, time);
   const SnapshotOf<D> snapshot = snapshotOf<D>(engine, ContactReport::none);
-  requireSound<D>(setup, scene, snapshot);
+  requireSound<D>(scene, snapshot);
   Track track;
   for (std::size_t k = 0; k < snapshot.position.size(); ++k) {
     VecOf<D> place = snapshot.position[k];

@@ -34,8 +34,9 @@ Rings rings(const Case& setup) {
 /// Averages snapshots of a sheared packing with what `make` gives for it.
 template <class Make>
 void average(benchmark::State& state, std::size_t disks, Make&& make) {
-  Case setup = scaledCase(disks);
+  Case setup = scaledCase(thesisCell(), disks);
   couetteIn(setup).times.rings = rings(setup).count();
+  setFlowOfCell(setup);
   const double dt = timeStep(setup);
   const Scene scene = couetteScene(setup, packedInto(setup, packingFolder), dt);
   const auto engine = makeGrain();

@@ -208,7 +208,7 @@ std::filesystem::path packingFolder;
 const Setup& packed(std::size_t disks) {
   static std::map<std::size_t, Setup> kept;
   if (const auto found = kept.find(disks); found != kept.end()) return found->second;
-  const Case scaled = scaledCase(disks);
+  const Case scaled = scaledCase(thesisCell(), disks);
   const Scene scene = couetteScene(scaled, packedInto(scaled, packingFolder), timeStep(scaled));
   return kept.emplace(disks, setupOf(scene)).first->second;
 }

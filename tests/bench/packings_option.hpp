@@ -10,8 +10,10 @@
 #include <string_view>
 #include <utility>
 
+#include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/scaled_cell.hpp"
+#include "support/data_folder.hpp"
 
 namespace crossgrain::bench {
 
@@ -27,6 +29,11 @@ inline std::filesystem::path takePackingFolder(int& argc, char** argv) {
     return folder;
   }
   return packingCacheFile("").parent_path();
+}
+
+/// The thesis' cell, which is blown up.
+inline Case thesisCell() {
+  return loadCase(dataFolder() / "cases/couette/nu-0.804.toml").front();
 }
 
 /// A scaled cell's packing, kept in `folder`. Says so where it has to be made.

@@ -70,9 +70,9 @@ TEST_F(Keys, InlineTables_AreInTheMeaning) {
 TEST_F(Keys, Use_IsThatOfTheLongestNameThatHoldsTheKey) {
   const auto& uses = keyUses();
   const auto find = [&](const char* name) { return *std::ranges::find(uses, name, &KeyUse::name); };
-  EXPECT_TRUE(find("run").by("scale"));
-  EXPECT_FALSE(find("run.mirrors").by("scale"));
-  EXPECT_TRUE(find("engines").by("scale"));
+  EXPECT_TRUE(find("run").by("cost"));
+  EXPECT_FALSE(find("run.mirrors").by("cost"));
+  EXPECT_TRUE(find("engines").by("cost"));
   EXPECT_FALSE(find("averaging.margins").by("average"));
   EXPECT_FALSE(find("run.mirrors").by("compar"));  // a whole word
 }

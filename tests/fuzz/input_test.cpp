@@ -199,9 +199,9 @@ TEST(FuzzedInput, StartsAreSoundOrRefusedInOneLine) {
 }
 
 TEST(FuzzedInput, ResultsAreReadOrRefusedInOneLine) {
-  const nlohmann::json corpus[] = {
-      toJson(sample::stabilityResults()), toJson(sample::collideResults()),
-      toJson(sample::lockstepResults()), toJson(sample::scaleResults())};
+  const nlohmann::json corpus[] = {toJson(sample::stabilityResults()),
+                                   toJson(sample::collideResults()),
+                                   toJson(sample::lockstepResults())};
   const auto read = [](const nlohmann::json& document) {
     checkSchema(document, "results.json");
     const std::string kind = document.at("kind");
@@ -211,8 +211,6 @@ TEST(FuzzedInput, ResultsAreReadOrRefusedInOneLine) {
       toText(toJson(collideFromJson(document)));
     else if (kind == kindLockstep)
       toText(toJson(lockstepFromJson(document)));
-    else if (kind == kindScale)
-      toText(toJson(scaleFromJson(document)));
   };
   Reading reading;
   const test::InputRange all = test::inputs(10'000);

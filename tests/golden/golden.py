@@ -52,7 +52,6 @@ COMMANDS = {
     "cost": [
         'cost cases/cost/quick.toml --engines grain --quick --out {out} --set=cost.knobs=["time_step","integrator","precision"]'
     ],
-    "scale": ["scale --engines grain --quick --out {out}"],
     "average": [
         "compare {cell} --engines grain --out {first} --set=run.keep_snapshots=5 {short}",
         "average {first}/snapshots/grain-p0.h5 {cell} --set=averaging.rings=4 --out {out}",

@@ -69,8 +69,8 @@ const Curve* curveOf(const Panel& panel, int pointType, Draw draw) {
 TEST(CostFigures, Panel_JoinsStepsNumbersOtherSettingsAndCrossesFailures) {
   const int mark = engineStyles(byHand().engines).front().pointType;  // open: its predecessor
   const auto figures = costFigures(byHand());
-  ASSERT_EQ(figures[0].name, "cost_collision");
-  const Panel& panel = figures[0].panels[0];
+  ASSERT_EQ(figures[1].name, "cost_collision");
+  const Panel& panel = figures[1].panels[0];
   EXPECT_TRUE(panel.logX && panel.logY);
   const Curve& front = panel.curves[0];
   ASSERT_EQ(front.points.size(), 3u);  // 10 % from 1 s on, 1 % from 10 s on
@@ -83,7 +83,7 @@ TEST(CostFigures, Panel_JoinsStepsNumbersOtherSettingsAndCrossesFailures) {
   const Curve* others = curveOf(panel, mark - 1, Draw::points);
   ASSERT_TRUE(others);
   EXPECT_EQ(others->points[0].label, "1");
-  EXPECT_TRUE(has(figures[0].caption, "other settings: 1 precision float, slow."));
+  EXPECT_TRUE(has(figures[1].caption, "other settings: 1 precision float, slow."));
   const Curve* crosses = curveOf(panel, 2, Draw::points);
   ASSERT_TRUE(crosses);
   EXPECT_EQ(crosses->points[0].x, 0.1);
@@ -100,42 +100,90 @@ TEST(CostCsv, PointOnTheFrontByATie_IsMarkedAndNotDrawn) {
   EXPECT_TRUE(has(costCsv(results), "10,yes,,,,,0.3,0.5,2,yes\n"));
   results.points[1].cpuSeconds = 0.9;
   results.fronts[0].points = {1, 0};
-  EXPECT_EQ(costFigures(results)[0].panels[0].curves[0].points.size(), 1u);
+  EXPECT_EQ(costFigures(results)[1].panels[0].curves[0].points.size(), 1u);
 }
 
 TEST(CostFigures, ErrorBelowTheReferences_IsDrawnAtItsUpperEnd) {
   CostResults results = byHand();
   results.points[1].referenceError = 0.03;
   const auto figures = costFigures(results);
-  const Panel& panel = figures[0].panels[0];
+  const Panel& panel = figures[1].panels[0];
   EXPECT_EQ(panel.shadedTo, 0.03);
   const Curve* chance = curveOf(panel, 10, Draw::points);
   ASSERT_TRUE(chance);
   EXPECT_NEAR(chance->points[0].y, 0.04, 1e-15);
   results.points[1].referenceError = 1e-9;  // below the axis
-  EXPECT_FALSE(costFigures(results)[0].panels[0].shadedTo);
+  EXPECT_FALSE(costFigures(results)[1].panels[0].shadedTo);
+}
+
+/// An endpoint at three steps, margin 0.05: the ring is at the largest whose interval lies inside.
+TEST(CostFigures, Picture_HasMarginIntervalsAndTheLargestStepInside) {
+  CostResults results = byHand();
+  for (CostPoint& point : results.points) {
+    point.kind = CostKind::averages;
+    point.measure = "discharge";
+    point.statistical = 1e-3;
+  }
+  results.points[1].intervalLow = 0.005;
+  results.points[1].intervalHigh = 0.06;  // of t_c/100: reaches beyond
+  CostPoint& fine = results.points.emplace_back(results.points[1]);
+  fine.setting = "t_c/400";
+  fine.dt = 0.0025;
+  fine.cpuSeconds = 40.0;
+  fine.intervalHigh = 0.03;
+  results.margins = {{"discharge", 0.05}};
+  const auto figures = costFigures(results);
+  ASSERT_EQ(figures[0].name, "cost_picture_discharge");
+  const Panel& panel = figures[0].panels[0];
+  EXPECT_EQ(panel.shadedTo, 0.05);
+  const Curve& line = panel.curves[0];
+  EXPECT_EQ(line.name, "a");
+  EXPECT_EQ(line.points.size(), 3u);
+  const Curve& rings = panel.curves.back();
+  ASSERT_EQ(rings.points.size(), 1u);
+  EXPECT_EQ(rings.points[0].x, 40.0);
+  EXPECT_EQ(rings.points[0].label, "t_c/400");
+  const auto bar = std::ranges::find_if(panel.curves, [](const Curve& curve) {
+    return curve.draw == Draw::lines && curve.points[0].x == 40.0;
+  });
+  ASSERT_NE(bar, panel.curves.end());
+  EXPECT_EQ(bar->points[1].y, 0.03);
 }
 
 /// The engine of byHand() with another law: 25 % off, whatever the step.
-TEST(CostOverview, ModelError_IsAModelDifferenceAndTheOwnLimitIsNamed) {
+TEST(CostOverview, Answer_HasStepTimeAndWhatStandsInTheWay) {
   CostResults results = byHand();
-  CostCell own{{}, "a", CostKind::collision, CostBasis::own, 0.1, Verdict::pass};
-  own.knob = "time_step";
-  own.setting = "t_c/10";
-  own.wallSeconds = 1.0;
-  own.point = 0;
-  CostCell scene{{}, "a", CostKind::collision, CostBasis::scene, 0.1, Verdict::fail};
-  scene.model = 0;
   results.models = {{"a", CostKind::collision, "psi_f", 0.25, 0.24, 0.26}};
-  results.cells = {own, scene};
-  const OverviewCell cell = costOverview(results).rows[0].cells[0];
-  EXPECT_EQ(cell.verdict, Verdict::modelDifference);
-  EXPECT_EQ(cell.shown, "25 % off");
-  EXPECT_EQ(cell.words, "Ψ_f; its own law: t_c/10, 1.00 s");
-  EXPECT_EQ(costText(results),
-            "Which setting reaches an accuracy for the least time is decided for 1 of 1 against "
-            "engines' own limits of small steps and 1 of 1 against the case's law.\n"
-            "3 ran, 1 failed, 0 refused, 0 not measured\n");
+  results.cells = {{{}, "a", CostKind::collision, CostBasis::scene, 0.1, Verdict::pass},
+                   {{}, "a", CostKind::collision, CostBasis::scene, 0.01, Verdict::fail}};
+  Advice reached, off;
+  reached.engine = off.engine = "a";
+  reached.target = 0.1;
+  reached.verdict = Verdict::pass;
+  reached.knob = "time_step";
+  reached.setting = "t_c/10";
+  reached.kinds = {CostKind::collision};
+  reached.cpuSeconds = 1.0;
+  reached.cheapest = true;
+  off.target = 0.01;
+  off.verdict = Verdict::fail;
+  off.model = 0;
+  results.advice = {reached, off};
+  results.largestSteps = {{"a", CostKind::averages, 0.1, 1.0, 1.0}};
+  const Overview overview = costOverview(results);
+  const auto& cells = overview.rows[0].cells;
+  ASSERT_EQ(cells.size(), 3u);
+  EXPECT_EQ(cells[0].value, 0.1);
+  EXPECT_TRUE(has(cells[0].words, "t_c/10; unstable at 1.00 s")) << cells[0].words;
+  EXPECT_EQ(cells[1].shown, "t_c/10");
+  EXPECT_EQ(cells[1].words, "100 ms; 1.00 s; the cheapest engine");
+  EXPECT_EQ(cells[2].verdict, Verdict::modelDifference);
+  EXPECT_EQ(cells[2].shown, "25 % off");
+  EXPECT_EQ(cells[2].words, "Ψ_f, whatever the step");
+  EXPECT_TRUE(has(overview.conclusion.front(),
+                  "10 %: a with t_c/10 (step 100 ms; 1.00 s for one sweep of collisions); 1 %: no "
+                  "engine, as far as measured"))
+      << overview.conclusion.front();
 }
 
 TEST(CostToml, AdviceForTheTarget_IsAFragmentWithCommentsAlone) {
@@ -153,16 +201,18 @@ TEST(CostToml, AdviceForTheTarget_IsAFragmentWithCommentsAlone) {
   advice.cheapest = true;
   results.advice = {advice};
   EXPECT_EQ(costToml(results),
-            "# a, wanted 10 %: reached by t_c/10, 800 s of wall time per rotation (measured in "
+            "# a, wanted 10 %: reached by t_c/10, 800 s of wall time per second of the scene "
+            "(measured in "
             "collision and averages); the cheapest engine\n[run]\nsteps_per_contact = 10\n");
   results.advice[0].cpuSeconds = 700.0;
   results.advice[0].ties = {{"time_step", "t_c/20"}, {"precision", "float"}};
   results.advice.push_back(results.advice[0]);
   results.advice[1].engine = "b";
-  EXPECT_TRUE(has(costToml(results),
-                  "reached by t_c/10, 700 s of processor time per rotation (measured in collision "
-                  "and averages); a tie with t_c/20, precision float; the cheapest engine, a tie "
-                  "with b\n[run]"));
+  EXPECT_TRUE(has(
+      costToml(results),
+      "reached by t_c/10, 700 s of processor time per second of the scene (measured in collision "
+      "and averages); a tie with t_c/20, precision float; the cheapest engine, a tie "
+      "with b\n[run]"));
   results.advice.pop_back();
   results.advice[0].ties.clear();
   results.advice[0].obstacle = 0;

@@ -111,7 +111,7 @@ TEST(Results, FolderWithoutThem_SaysWhatIsWrong) {
   EXPECT_EQ(message(), file +
                            ": has kind \"dance\", a report is made of one of \"compare\", "
                            "\"collide\", \"lockstep\", \"effects\", \"cost\", \"average\", "
-                           "\"rev\", \"stability\", \"thesis\", \"scale\", \"conformance\"");
+                           "\"rev\", \"stability\", \"thesis\", \"conformance\"");
 }
 
 }  // namespace

@@ -55,7 +55,6 @@ TEST(GoldenReports, Text_IsAsKept) {
   expectKept("effects", toJson(sample::effectsResults(4)));
   expectKept("lockstep", toJson(sample::lockstepResults()));
   expectKept("rev", toJson(sample::revResults()));
-  expectKept("scale", toJson(sample::scaleResults()));
   expectKept("stability", toJson(sample::stabilityResults()));
   expectKept("thesis", toJson(thesisResults()));
 }

@@ -136,6 +136,32 @@ CostResults costResults() {
   results.references = {{CostKind::collision, "oracle", "10⁻¹²", 1e-11, "planar two-body problem"},
                         {CostKind::averages, "grain", "t_c/400", 0.001, awkward}};
   results.window = 0.8;
+  results.margins = {{"azimuthal_velocity", 0.1}, {"stress_rr", 0.25}, {"shear_band_width", 0.1}};
+  results.impacts = {{{"small-small", 120, 0.012, 0.05, {0.0037, 0.0037}, {2.7e-4, 2.7e-4}},
+                      {"small-wall", 30, 0.02, 0.06, {0.0037, 0.00125}, {2.7e-4, INFINITY}}},
+                     0.02,
+                     0.8};
+  for (const std::size_t bodies : {246u, 984u})
+    for (const int workers : {1, 2}) {
+      StepTime& time = results.steps.emplace_back();
+      time.engine = "grain";
+      time.bodies = bodies;
+      time.workers = workers;
+      time.workersAre = "threads";
+      time.steps = 1000;
+      time.step = 4e-8 * static_cast<double>(bodies) / (workers == 1 ? 1.0 : 1.6);
+      time.seconds = {0.98 * time.step, 1.02 * time.step};
+      time.low = 0.9 * time.step;
+      time.high = 1.1 * time.step;
+      time.memory = 2e7 + 300.0 * static_cast<double>(bodies);
+      time.precision = "double";
+      time.dt = 4e-5;
+    }
+  StepTime& refused = results.steps.emplace_back();
+  refused.engine = "yade";
+  refused.bodies = 984;
+  refused.status = Status::refused;
+  refused.reason = awkward;
   results.startup = {{"grain", 0.004, 0.001}, {"yade", 1.4, 0.3}};
   addCostAnalysis(results);
   return results;

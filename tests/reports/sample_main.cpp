@@ -20,7 +20,6 @@ int main(int argc, char** argv) {
   crossgrain::writeReport(crossgrain::sample::averageResults(), dir / "average");
   crossgrain::writeReport(crossgrain::sample::revResults(), dir / "rev");
   crossgrain::writeReport(crossgrain::sample::thesisClaims(), dir / "thesis");
-  crossgrain::writeReport(crossgrain::sample::scaleResults(), dir / "scale");
   crossgrain::LockstepResults before = crossgrain::sample::lockstepResults();
   before.head.version = "0.0.9";
   crossgrain::writeSite({{"lockstep", toJson(crossgrain::sample::lockstepResults())},

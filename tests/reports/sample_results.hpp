@@ -9,7 +9,6 @@
 #include "results/cost.hpp"
 #include "results/effects.hpp"
 #include "results/rev.hpp"
-#include "results/scale.hpp"
 #include "results/stability.hpp"
 #include "results/thesis.hpp"
 
@@ -55,7 +54,6 @@ ThesisResults thesisResults();
 ThesisResults thesisClaims();
 
 /// Three sizes on one and two threads of one engine; another that failed on the largest.
-ScaleResults scaleResults();
 
 /// What users may put into a name or reason.
 inline constexpr const char* awkward = "odd <b>\"name\"</b> & `touch pwned` {x 'y' _z";

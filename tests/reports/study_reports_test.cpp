@@ -9,7 +9,6 @@
 #include "reports/effects/variants.hpp"
 #include "reports/flow/overview.hpp"
 #include "reports/flow/report.hpp"
-#include "reports/scale/report.hpp"
 #include "reports/stability/report.hpp"
 #include "tests/reports/report_text.hpp"
 #include "tests/reports/sample_results.hpp"
@@ -86,31 +85,6 @@ TEST(EffectsReport, FewPackings_NothingIsTested) {
   EXPECT_TRUE(has(text, "too few packings"));
   EXPECT_TRUE(has(text, "(one standard error)"));
   EXPECT_TRUE(has(text, "within the two runs of one packing"));
-}
-
-std::vector<std::string> textLines(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
-
-TEST(ScaleText, Absent_IsADash) {
-  const auto lines = textLines(scaleText(sample::scaleResults()));
-  ASSERT_EQ(lines.size(), 1u + 9u + 2u);  // head, points, who differs, the one that failed
-  EXPECT_EQ(lines[1],
-            "grain       1000     1 thread  16.0 µs     16.0     5 %       –     –     1.00      "
-            "20\u202f300");
-  EXPECT_EQ(lines[2],
-            "grain       1000    2 threads  10.0 µs     10.0     5 %    0.80     –    0.625      "
-            "20\u202f300");
-  EXPECT_EQ(
-      lines[3],
-      "odd-one     1000  one process   160 µs      160       –       –     –     10.0           "
-      "–");
-  EXPECT_TRUE(has(lines[9], "–  "));
-  EXPECT_EQ(lines[10], "odd-one: deviations from the scene: bottom_friction and slop");
-  EXPECT_TRUE(lines[11].starts_with("odd-one, 100\u202f000 disks, one process: failed: odd <b>"));
 }
 
 TEST(StabilityTable, WorstVariant_StandsForTheCase) {

@@ -40,8 +40,7 @@ std::map<std::string, Document> madeUp() {
           {"stability", documentOf(sample::stabilityResults(), stabilityFromJson)},
           {"lockstep", documentOf(sample::lockstepResults(), lockstepFromJson)},
           {"cost", documentOf(sample::costResults(), costFromJson)},
-          {"thesis", documentOf(sample::thesisResults(), thesisFromJson)},
-          {"scale", documentOf(sample::scaleResults(), scaleFromJson)}};
+          {"thesis", documentOf(sample::thesisResults(), thesisFromJson)}};
 }
 
 const std::map<std::string, Document>& documents() {

@@ -279,18 +279,20 @@ TEST(CostTime, ProcessorTimeRanks_WallTimeDoesNot) {
 }
 
 TEST(CostTime, IntervalsThatOverlap_AreATieInCellsAdviceAndFronts) {
-  const Points points = {timed(at(0.04, {}, "t_c/100"), 1.0, 1.0, 1.2),
-                         timed(at(0.01, {}, "t_c/200"), 1.0, 1.1, 1.2),
-                         timed(at(0.001, {}, "t_c/400"), 1.0, 2.0, 1.2)};
+  Points points = {timed(at(0.04, {}, "t_c/100"), 1.0, 1.0, 1.2),
+                   timed(at(0.01, {}, "t_c/200"), 1.0, 1.1, 1.2),
+                   timed(at(0.001, {}, "t_c/400"), 1.0, 2.0, 1.2)};
+  for (std::size_t k = 0; k < points.size(); ++k) points[k].dt = 0.04 / (1 << k);
   const CostCell cell = cellOf(points, 0.1);
   EXPECT_EQ(cell.setting, "t_c/100");
   EXPECT_EQ(cell.ties, (std::vector<TiedSetting>{{"time_step", "t_c/200"}}));
   EXPECT_EQ(advice(points, {}, {0.1}).front().ties, cell.ties);
   EXPECT_TRUE(cellOf(points, 0.02).ties.empty());  // t_c/100 does not reach it
   EXPECT_EQ(paretoFront(points), (Places{0, 1, 2}));
-  Points turned = points;  // another run: the other one is named, with the same tie
+  Points turned = points;  // another run, in which the smaller step was the faster: the same advice
   std::swap(turned[0].cpuSeconds, turned[1].cpuSeconds);
-  EXPECT_EQ(cellOf(turned, 0.1).ties, (std::vector<TiedSetting>{{"time_step", "t_c/100"}}));
+  EXPECT_EQ(cellOf(turned, 0.1).setting, "t_c/100");
+  EXPECT_EQ(cellOf(turned, 0.1).ties, cell.ties);
   Points engines = points;
   engines[1].engine = "b";
   engines[2].engine = "c";
@@ -372,6 +374,30 @@ TEST(CostAdvice, SeveralEngines_CheapestIsOfThoseMeasuredInMostKinds) {
   const auto all = advice(points, {}, {0.1});
   ASSERT_EQ(all.size(), 3u);
   for (const Advice& one : all) EXPECT_EQ(one.cheapest, one.engine == "fast") << one.engine;
+}
+
+/// Whole runs at 1, 2, 4 and 8 µs, of which that of 4 fails and that of 8 survives by chance.
+TEST(CostLargestStep, LiesBelowTheSmallestThatFails) {
+  Points points;
+  for (const double dt : {1e-6, 2e-6, 4e-6, 8e-6}) {
+    CostPoint& point = points.emplace_back();
+    point.engine = "a";
+    point.knob = "time_step";
+    point.kind = CostKind::averages;
+    point.dt = dt;
+    point.stepsPerContact = 1e-4 / dt;
+    if (dt == 4e-6) point.status = Status::failed;
+  }
+  points.push_back(points.front());
+  points.back().kind = CostKind::trajectory;  // whole runs count before windows
+  points.back().dt = 16e-6;
+  const auto found = largestSteps(points);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].stable, 2e-6);
+  EXPECT_EQ(found[0].unstable, 4e-6);
+  EXPECT_NEAR(*found[0].contactTime, 1e-4, 1e-16);
+  for (CostPoint& point : points) point.knob = "precision";
+  EXPECT_TRUE(largestSteps(points).empty());
 }
 
 }  // namespace

@@ -309,22 +309,21 @@ CostRun run(const std::vector<std::optional<double>>& stress, double slip) {
 }
 
 TEST(CostAverages, PairedError_SplitsScatterAndBias) {
-  // Differences in ring 1: 1, 3 (mean 2, error 1); in ring 2: 0, 0. Scale: the largest mean, 20.
-  const std::vector<CostRun> reference = {run({10.0, 20.0}, 0.1), run({10.0, 20.0}, 0.1)};
+  // Differences 1 and 3: mean 2, standard error 1. Scale: the mean of the reference, 20.
+  const std::vector<CostRun> reference = {run({20.0}, 0.1), run({20.0}, 0.1)};
   const auto found =
-      pairedError({run({11.0, 20.0}, 0.2), run({13.0, 20.0}, 0.2)}, reference, "stress_rr", 0.05);
+      pairedError({run({21.0}, 0.2), run({23.0}, 0.2)}, reference, "stress_rr", 0.05);
   ASSERT_TRUE(found);
-  EXPECT_NEAR(found->error, std::sqrt(4.0 / 2.0) / 20.0, 1e-12);
-  EXPECT_NEAR(*found->statistical, std::sqrt(1.0 / 2.0) / 20.0, 1e-12);
-  EXPECT_NEAR(*found->systematic, std::sqrt(3.0 / 2.0) / 20.0, 1e-12);
-  // Student's t of one degree of freedom for half of 5 % each is tan(π/2 · 0.975) = 25.45: the mean
-  // of ring 1 may be 0, and 2 + 25.45.
+  EXPECT_NEAR(found->error, 2.0 / 20.0, 1e-12);
+  EXPECT_NEAR(*found->statistical, 1.0 / 20.0, 1e-12);
+  EXPECT_NEAR(*found->systematic, std::sqrt(3.0) / 20.0, 1e-12);
+  // Student's t of one degree of freedom for 5 % is tan(π/2 · 0.95) = 12.706: the mean may be 0.
   EXPECT_EQ(*found->low, 0.0);
-  EXPECT_NEAR(*found->high, 27.452 / std::sqrt(2.0) / 20.0, 1e-4);
-  // 2 ± 0.01: from 2 − 0.2545 on
+  EXPECT_NEAR(*found->high, 14.706 / 20.0, 1e-4);
+  // 2 ± 0.01: from 2 − 0.12706 on
   const auto narrow =
-      pairedError({run({11.99, 20.0}, 0.2), run({12.01, 20.0}, 0.2)}, reference, "stress_rr", 0.05);
-  EXPECT_NEAR(*narrow->low, 1.7455 / std::sqrt(2.0) / 20.0, 1e-5);
+      pairedError({run({21.99}, 0.2), run({22.01}, 0.2)}, reference, "stress_rr", 0.05);
+  EXPECT_NEAR(*narrow->low, 1.87294 / 20.0, 1e-5);
 }
 
 TEST(CostAverages, OnePackingNoneOrAFraction_AreSpecialCases) {

@@ -1,5 +1,6 @@
 // What a study of cost measures, and what of it fits into a budget.
 #include "studies/cost/settings.hpp"
+#include "studies/cost/sizes.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -149,6 +150,35 @@ TEST(CostSettings, RemovedKey_IsRefusedAsSuch) {
         [&] { loadCase(CROSSGRAIN_CASES "/cost/quick.toml", {fmt::format("cost.{}=[1]", key)}); });
     EXPECT_NE(said.find("no more"), std::string::npos) << key << said;
   }
+}
+
+TEST(CostSizes, SizesAndWorkers_GiveStrongAndWeakPointsOnce) {
+  using Timings = std::vector<PlannedTiming>;
+  EXPECT_EQ(plannedTimings({1000, 3000}, {2}, {true, false}),
+            (Timings{{1000, 0, 1},
+                     {1000, 0, 2},
+                     {1000, 1, 1},  // the second engine has no workers
+                     {2000, 0, 2},  // 2 · 1000 on two: weak
+                     {3000, 0, 1},
+                     {3000, 0, 2},
+                     {3000, 1, 1}}));  // 6000 are more than asked for
+  EXPECT_EQ(plannedTimings({1000, 2000}, {1, 2}, {true}),
+            (Timings{{1000, 0, 1}, {1000, 0, 2}, {2000, 0, 1}, {2000, 0, 2}}));
+}
+
+TEST(CostSizes, NumberOfCores_GivesWorkersInPowersOfTwo) {
+  EXPECT_EQ(usualWorkers(0), (std::vector<int>{1}));
+  EXPECT_EQ(usualWorkers(2), (std::vector<int>{1, 2}));
+  EXPECT_EQ(usualWorkers(6), (std::vector<int>{1, 2, 4, 6}));
+}
+
+TEST(CostSizes, Default_IsTheSceneItselfAndFourTimesIt) {
+  Case setup = test::costCase();
+  EXPECT_EQ(sizesOf(setup, 246), (std::vector<std::size_t>{246, 984}));
+  setup.cost.disks = {3000, 1, 100};  // fewer than its own are its own
+  EXPECT_EQ(sizesOf(setup, 246), (std::vector<std::size_t>{246, 3000}));
+  setup.cost.knobs = {"time_step"};
+  EXPECT_EQ(sizesOf(setup, 246), (std::vector<std::size_t>{246}));
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include "studies/flow/compare.hpp"
 #include "studies/flow/lockstep_job.hpp"
 #include "studies/regression/diff.hpp"
-#include "studies/scale/scale.hpp"
 #include "studies/stability/stability.hpp"
 
 namespace {
@@ -270,14 +269,7 @@ TEST(LockstepOutcome, DifferenceThatTheLawLeavesOpen_IsNoOtherLaw) {
   EXPECT_EQ(statuses(false), std::pair(exitFailed, exitFailed));
 }
 
-TEST(ScaleEffectsAndConformanceOutcome, Failures_AreEngineFailures) {
-  ScaleResults scaled;
-  scaled.points.emplace_back().status = Status::finished;
-  EXPECT_EQ(scaleStudy.outcome(scaled, {}, {}).status, exitPassed);
-  scaled.points.front().status = Status::refused;
-  EXPECT_EQ(scaleStudy.outcome(scaled, {}, {}).status, exitFailed);
-  scaled.points.front().status = Status::failed;
-  EXPECT_EQ(scaleStudy.outcome(scaled, {}, {}).status, exitEngineFailed);
+TEST(EffectsAndConformanceOutcome, Failures_AreEngineFailures) {
   EffectsResults effects;
   effects.variants.emplace_back().status = Status::refused;
   EXPECT_EQ(effectsStudy.outcome(effects, {}, {}).status, exitPassed);

@@ -52,7 +52,6 @@ class EveryCommand(SystemTest):
             [COLLISION, *settings(collision__steps_per_contact=50, collision__psi=[0.5, 2.0], run__mirrors="false")],
             "law.kn=400.0",
         ),
-        "scale": (["--disks=1000", "--steps=40", "--repetitions=1", "--threads=1"], None),
         "lockstep": ([COUETTE, "--quick", "--starts=1"], "law.mu=0.3"),
     }  # fmt: skip
 
@@ -62,10 +61,9 @@ class EveryCommand(SystemTest):
             engine = SLOW if name == "lockstep" else "grain"
             command = [name, *arguments, "--engines", engine, "--out", self.out, "--quiet"]
             with self.subTest(name):
-                if name != "scale":
-                    plan = self.run_program(*command, "--dry-run")
-                    self.assertRegex(plan.stdout, rf"(?m)^  {engine} +\d+ ")
-                    self.assertFalse(self.out.exists())
+                plan = self.run_program(*command, "--dry-run")
+                self.assertRegex(plan.stdout, rf"(?m)^  {engine} +\d+ ")
+                self.assertFalse(self.out.exists())
                 self.assert_status(self.run_program(*command), HELD, FELL_SHORT)
                 runs = self.finished_runs()
                 self.assertTrue(runs)

@@ -192,7 +192,7 @@ class Pages(unittest.TestCase):
             sorted((one["name"], one["width"]) for one in self.light),
             sorted((name, width) for name in self.reports for width in WIDTHS),
         )
-        for command in ("compare", "collide", "effects", "stability", "cost", "lockstep", "thesis", "average", "rev", "scale"):
+        for command in ("compare", "collide", "effects", "stability", "cost", "lockstep", "thesis", "average", "rev"):
             self.assertIn(command, self.reports)
 
     def test_nothing_is_cut_at_the_side(self):

@@ -326,10 +326,10 @@ class Lammps(OutOfTheBox, Peer):
         running.process.wait()
         wait_for(lambda: not marked_processes(running.mark), 60, "all of them to end")
 
-    def test_scale_counts_ranks(self):
+    def test_cost_counts_ranks(self):
         done = self.run_program(
-            "scale", "--disks=1000", "--steps=20", "--repetitions=1", "--engines=lammps", "--threads=1,2", "--quiet",
-            "--out", self.out,
+            "cost", COUETTE, "--quick", "--disks=1", "--engines=lammps", "--threads=1,2", "--quiet", "--out", self.out,
+            "--set=cost.kinds=[]",
         )  # fmt: skip
         self.assert_status(done, HELD)
         one, two = self.rows("scale.csv")

@@ -1,4 +1,4 @@
-"""lockstep, stability with its transforms, baseline and diff, cost and scale as whole runs: what a plain run and golden folders do not show."""
+"""lockstep, stability with its transforms, baseline and diff, cost as whole runs: what a plain run and golden folders do not show."""
 
 import json
 import pathlib
@@ -333,7 +333,7 @@ class Cost(SystemTest):
     def test_what_does_not_fit_the_budget_is_not_measured(self):
         done = self.cost("--budget", "0.002s")
         self.assert_status(done, HELD)
-        self.assertIn("are left of the budget of 0.002 s", done.stderr)
+        self.assertIn("are left of its share of the budget of 0.002 s", done.stderr)
         # "undecided" is what files call it; it is neither that of a target nor not reached.
         left_out = [point for point in self.results()["points"] if point["status"] == "undecided"]
         self.assertTrue(left_out)
@@ -342,30 +342,39 @@ class Cost(SystemTest):
             self.assertIn("would take about", point["reason"])
             self.assertIsNone(point["error"])
 
-
-class Scale(StudyTest):
-    SMALL = ("--disks=1000", "--steps=40", "--repetitions=2", "--quiet")
-
     def test_threads_do_the_same_steps_and_columns_follow_from_each_other(self):
-        done = self.run_program("scale", "--engines", "grain", "--out", self.out, *self.SMALL, "--threads=1,2")
+        for case, most in ((CASES / "cost/quick.toml", 1000), (SPHERES[0], 1000)):
+            out = self.folder / pathlib.Path(case).stem
+            done = self.run_program("cost", case, "--engines", "grain", "--quick", "--quiet", "--out", out, "--threads=1,2",
+                                    f"--disks=1,{most}", *settings(cost__kinds=[], cost__timed=1e-4))  # fmt: skip
+            self.assert_status(done, HELD)
+            rows = self.rows("scale.csv", out)
+            self.assertEqual([("ran", str(workers)) for workers in (1, 2, 1, 2)], [(row["status"], row["workers"]) for row in rows])
+            one, two, more, _ = rows
+            self.assertEqual(one["contacts_per_step"], two["contacts_per_step"])
+            self.assertGreater(int(more["disks"]), int(one["disks"]))
+            for row in rows:
+                self.assertAlmostEqual(float(row["ns_per_disk"]), float(row["step_s"]) / int(row["disks"]) * 1e9)
+                self.assertTrue(float(row["low_s"]) <= float(row["step_s"]) <= float(row["high_s"]))
+                # The in-house engine alone is some MB, and no more than some tens.
+                self.assertTrue(2e6 < float(row["memory_bytes"]) < 2e8, row["memory_bytes"])
+            self.assertAlmostEqual(float(two["strong"]), float(one["step_s"]) / (2 * float(two["step_s"])))
+
+    def test_scene_that_cannot_be_made_larger_says_why(self):
+        done = self.run_program("cost", *HOPPER, "--engines", "grain", "--quick", "--quiet", "--out", self.out, "--threads=1",
+                                "--disks=1,4000", *settings(cost__kinds=[], cost__timed=1e-4))  # fmt: skip
         self.assert_status(done, HELD)
-        self.assertEqual("", done.stderr)
-        one, two = self.rows("scale.csv")
-        self.assertEqual(one["contacts_per_step"], two["contacts_per_step"])
-        for row in (one, two):
-            self.assertAlmostEqual(float(row["ns_per_disk"]), float(row["step_s"]) / 1000 * 1e9)
-            # The in-house engine alone is some MB, and no more than some tens.
-            self.assertTrue(2e6 < float(row["memory_bytes"]) < 2e8, row["memory_bytes"])
-        self.assertAlmostEqual(float(two["strong"]), float(one["step_s"]) / (2 * float(two["step_s"])))
-        self.assertEqual("", two["weak"], "nobody ran 500 disks")
+        own, more = self.rows("scale.csv")
+        self.assertEqual(("ran", "refused"), (own["status"], more["status"]))
+        self.assertRegex(more["reason"], "cannot be made larger: a plane of .* lies across x")
 
     def test_engine_that_dies_leaves_the_others_timings(self):
         """A worker that ends while it steps: one line, status 3, and what was timed is there."""
         dies = self.piped("dies", "os._exit(7)", PROGRAM, "__serve", "grain")
-        done = self.run_program("scale", f"--engines=grain,{dies}", "--out", self.out, *self.SMALL, "--threads=1")
+        done = self.run_program("cost", CASES / "cost/quick.toml", f"--engines=grain,{dies}", "--quick", "--quiet", "--out", self.out,
+                                *settings(cost__kinds=[], cost__timed=1e-4))  # fmt: skip
         self.assert_one_line(done, ENGINE_FAILED, "dies", "exit status 7", "advance")
-        self.assertEqual(["ran", "failed"], [row["status"] for row in self.rows("scale.csv")])
-        self.assertEqual(1, len(self.finished_runs()))
+        self.assertEqual(["ran"], [row["status"] for row in self.rows("scale.csv")])
 
 
 if __name__ == "__main__":

@@ -1,0 +1,76 @@
+// Figures of timings of growing scenes, by hand.
+#include "results/step_time.hpp"
+
+#include <gtest/gtest.h>
+
+namespace crossgrain::inline results {
+namespace {
+
+/// @param step  the mean of its rounds [s]
+StepTime timed(const char* engine, std::size_t bodies, int workers, double step,
+               std::vector<double> seconds) {
+  StepTime time;
+  time.engine = engine;
+  time.bodies = bodies;
+  time.workers = workers;
+  time.step = step;
+  time.seconds = std::move(seconds);
+  return time;
+}
+
+std::vector<StepTime> timings() {
+  std::vector<StepTime> all = {timed("grain", 1000, 1, 12e-6, {12e-6, 10e-6, 15e-6}),
+                               timed("grain", 1000, 2, 8e-6, {8e-6}),
+                               timed("other", 1000, 1, 48e-6, {48e-6}),
+                               timed("grain", 2000, 1, 24e-6, {24e-6}),
+                               timed("grain", 2000, 2, 16e-6, {16e-6}),
+                               timed("grain", 2000, 4, 10e-6, {10e-6})};
+  all[0].memory = 5e5;
+  return all;
+}
+
+TEST(StepFigures, OneWorker_HasStepSpreadMemoryAndRatio) {
+  const auto all = timings();
+  const StepFigures one = stepFigures(all, all[0]);
+  EXPECT_EQ(one.step, 12e-6);
+  EXPECT_NEAR(*one.spread, 0.5, 1e-12);   // 15/10 − 1
+  EXPECT_DOUBLE_EQ(*one.perBody, 12e-9);  // 12 µs for 1000 bodies
+  EXPECT_DOUBLE_EQ(*one.bytes, 500.0);    // 5·10⁵ for 1000
+  EXPECT_DOUBLE_EQ(*one.ratio, 1.0);
+  EXPECT_DOUBLE_EQ(*stepFigures(all, all[2]).ratio, 4.0);  // of the other engine
+  EXPECT_FALSE(one.strong || one.weak);
+}
+
+TEST(StepFigures, SeveralWorkers_HaveStrongAndWeakEfficiency) {
+  const auto all = timings();
+  const StepFigures two = stepFigures(all, all[4]);
+  EXPECT_DOUBLE_EQ(*two.strong, 24.0 / (2 * 16.0));
+  EXPECT_DOUBLE_EQ(*two.weak, 12.0 / 16.0);  // 1000 bodies on one against 2000 on two
+  EXPECT_FALSE(two.spread);                  // of one round
+  const StepFigures four = stepFigures(all, all[5]);
+  EXPECT_DOUBLE_EQ(*four.strong, 24.0 / (4 * 10.0));
+  EXPECT_FALSE(four.weak);  // nobody ran 500 bodies
+}
+
+TEST(StepFigures, FailedTiming_HasNoneAndLendsNone) {
+  auto all = timings();
+  all[0].status = Status::failed;
+  const StepFigures failed = stepFigures(all, all[0]);
+  EXPECT_FALSE(failed.step || failed.spread || failed.perBody || failed.bytes || failed.ratio);
+  EXPECT_TRUE(stepFigures(all, all[4]).strong);
+  EXPECT_FALSE(stepFigures(all, all[4]).weak);
+  EXPECT_FALSE(stepFigures(all, all[2]).ratio);
+}
+
+TEST(StepFigures, Workers_AreNamedByTheirKind) {
+  StepTime time;
+  EXPECT_EQ(describeWorkers(time), "one process");
+  time.workersAre = "threads";
+  EXPECT_EQ(describeWorkers(time), "1 thread");
+  time.workersAre = "ranks";
+  time.workers = 4;
+  EXPECT_EQ(describeWorkers(time), "4 ranks");
+}
+
+}  // namespace
+}  // namespace crossgrain::inline results
