@@ -353,6 +353,11 @@ std::vector<Case> casesToTest(const CommandLine& line, StabilityOptions& own) {
                       : own.longCases ? SuitePart::withLong
                                       : SuitePart::usual);
   }
+  if (own.inSpace) {
+    std::erase_if(cases, [](const Case& setup) { return setup.dimension == 3; });
+    if (cases.empty())
+      throw BadInput("--in-space takes scenes of the plane: these are in space as they are");
+  }
   if (line.only) cases = selectedCases(cases, *line.only);
   reportKeysWithoutUse(cases, "stability", line.json ? stderr : stdout);
   for (Case& setup : cases)

@@ -133,11 +133,12 @@ TEST(HardCases, Repository_AllLoadWithReasons) {
 // ---- Faults that the suite's cases are there for, planted in an engine that shares no line with
 // the in-house one (tests/faults/engine).
 
-EngineEntry plantedEntry(const std::string& fault) {
+EngineEntry plantedEntry(const std::string& fault, int dimension = 2) {
   EngineEntry entry;
   entry.name = fault.empty() ? "right" : fault.substr(0, fault.find('='));
   entry.command = [=] {
-    std::vector<std::string> words = {CROSSGRAIN_PLANTED};
+    std::vector<std::string> words = {dimension == 2 ? CROSSGRAIN_PLANTED
+                                                     : CROSSGRAIN_PLANTED_SPHERES};
     if (!fault.empty()) words.push_back(fault);
     return words;
   };
@@ -170,7 +171,9 @@ class QuickSuite : public ::testing::TestWithParam<Escaped> {};
 
 TEST_P(QuickSuite, FaultIsSeenAndTheRightEngineIsNot) {
   const auto& [file, variant, fault] = GetParam();
-  const auto runs = runsOf({quickCase(file, variant)}, {plantedEntry(""), plantedEntry(fault)});
+  const Case setup = quickCase(file, variant);
+  const auto runs =
+      runsOf({setup}, {plantedEntry("", setup.dimension), plantedEntry(fault, setup.dimension)});
   ASSERT_EQ(runs.size(), 2u);
   EXPECT_EQ(runs[0].verdict, Verdict::pass) << jsonOf(runs[0]).dump();
   EXPECT_GT(runs[1].verdict, Verdict::pass) << jsonOf(runs[1]).dump();
@@ -190,7 +193,13 @@ INSTANTIATE_TEST_SUITE_P(All, QuickSuite,
                              Escaped{"warm-start", "loss", "touching_drag=10"},
                              Escaped{"wedged-small", "elastic", "touching_drag=3"},
                              Escaped{"size-ratio", "elastic", "touching_drag=20"},
-                             Escaped{"high-spin", "loss", "mu=1.2"}),
+                             Escaped{"high-spin", "loss", "mu=1.2"},
+                             Escaped{"space-elastic", "gas", "wrong_image=1"},
+                             Escaped{"space-elastic", "gas-momentum", "float_state=1"},
+                             Escaped{"space-copies", "at-a-corner", "images=0"},
+                             Escaped{"space-drum", "walls", "cylinder_normal=-1"},
+                             Escaped{"space-fast", "cylinder", "cylinder_plane=1"},
+                             Escaped{"space-rest", "pile", "springs_lost_every=10000"}),
                          [](const auto& test) {
                            std::string name = fmt::format("{}_{}_{}", test.param.file,
                                                           test.param.variant, test.param.fault);

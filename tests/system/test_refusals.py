@@ -143,7 +143,7 @@ SPHERES = CASES / "space/shear-3d.toml"
 IN_SPACE = {  # what knows no assembly of spheres
     f"rev none.h5 {SPHERES} --out out": "rev takes rings about a wheel, and this scene has no wheel",
     f"average none.h5 {SPHERES} --out out": "none.h5: no such file",
-    f"stability {SPHERES} {RUN}": "audits flows in the plane alone yet",
+    f"stability {SPHERES} {RUN} --in-space": "these are in space as they are",
     f"compare {SPHERES} --engines chipmunk --out out": "has dimension = 2, not 3",
     f"compare {SPHERES} --engines bullet --out out": "has no periodic directions",
     f"compare {CASES / 'space/drum.toml'} --engines yade --out out": "has no cylinders, as wall-0 has",
