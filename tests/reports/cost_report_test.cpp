@@ -176,12 +176,12 @@ TEST(CostOverview, Answer_HasStepTimeAndWhatStandsInTheWay) {
   EXPECT_EQ(cells[0].value, 0.1);
   EXPECT_TRUE(has(cells[0].words, "t_c/10; unstable at 1.00 s")) << cells[0].words;
   EXPECT_EQ(cells[1].shown, "t_c/10");
-  EXPECT_EQ(cells[1].words, "100 ms; 1.00 s; the cheapest engine");
+  EXPECT_EQ(cells[1].words, "0.100 s; 1.00 s; the cheapest engine");
   EXPECT_EQ(cells[2].verdict, Verdict::modelDifference);
   EXPECT_EQ(cells[2].shown, "25 % off");
   EXPECT_EQ(cells[2].words, "Ψ_f, whatever the step");
   EXPECT_TRUE(has(overview.conclusion.front(),
-                  "10 %: a with t_c/10 (step 100 ms; 1.00 s for one sweep of collisions); 1 %: no "
+                  "10 %: a with t_c/10 (step 0.100 s; 1.00 s for one sweep of collisions); 1 %: no "
                   "engine, as far as measured"))
       << overview.conclusion.front();
 }
