@@ -8,16 +8,16 @@ namespace crossgrain::inline cli {
 extern const Command enginesCommand, listCommand, checkCommand, collideCommand, conformanceCommand,
     lockstepCommand, identifyCommand, baselineCommand, diffCommand, recordCommand, replayCommand,
     compareCommand, effectsCommand, stabilityCommand, costCommand, thesisCommand, averageCommand,
-    importCommand, exportCommand, revCommand, calibrateCommand, reportCommand, planCommand,
-    helpCommand, serveCommand;
+    importCommand, exportCommand, calibrateCommand, reportCommand, planCommand, helpCommand,
+    serveCommand;
 
 const std::vector<const Command*>& commands() {
   static const std::vector<const Command*> table = {
-      &enginesCommand,   &listCommand,     &checkCommand,    &collideCommand,   &conformanceCommand,
-      &lockstepCommand,  &identifyCommand, &baselineCommand, &diffCommand,      &recordCommand,
-      &replayCommand,    &compareCommand,  &effectsCommand,  &stabilityCommand, &costCommand,
-      &thesisCommand,    &importCommand,   &averageCommand,  &revCommand,       &exportCommand,
-      &calibrateCommand, &reportCommand,   &planCommand,     &helpCommand,      &serveCommand};
+      &enginesCommand,  &listCommand,     &checkCommand,    &collideCommand,   &conformanceCommand,
+      &lockstepCommand, &identifyCommand, &baselineCommand, &diffCommand,      &recordCommand,
+      &replayCommand,   &compareCommand,  &effectsCommand,  &stabilityCommand, &costCommand,
+      &&thesisCommand,  &importCommand,   &averageCommand,  &exportCommand,    &calibrateCommand,
+      &reportCommand,   &planCommand,     &helpCommand,     &serveCommand};
   return table;
 }
 

@@ -180,6 +180,8 @@ void requireKnownCommand(const std::string& name) {
       throw BadInput(fmt::format("there is no command '{}' any more: {}", name, removed.what));
   const bool known =
       std::ranges::any_of(commands(), [&](const Command* each) { return name == each->name; });
+  if (name == "rev")
+    throw BadInput("there is no command 'rev': crossgrain average FILES CASE --rev does its work");
   if (!known)
     throw BadInput(fmt::format("there is no command '{}'{}", name, suggestion(name, names)));
 }

@@ -229,14 +229,10 @@ std::string lockstepText(const LockstepResults& results) {
   return text;
 }
 
+/// What the files lack and what that costs, too; the first note says which files they are.
 template <typename Results>
 std::string averagedText(const Results& results) {
-  return fmt::format("{} snapshots averaged\n", results.averaging.snapshots);
-}
-
-/// What the files lack and what that costs, too; the first note says which files they are.
-std::string averagedFilesText(const CompareResults& results) {
-  std::string text = averagedText(results);
+  std::string text = fmt::format("{} snapshots averaged\n", results.averaging.snapshots);
   for (std::size_t k = 1; k < results.notes.size(); ++k)
     text += fmt::format("note: {}\n", results.notes[k]);
   return text;
@@ -423,16 +419,16 @@ extern const Command averageCommand = {
     "crossgrain average out/compare/snapshots/grain-p0.h5 cases/couette/quick.toml --out "
     "out/averaged\n"
     "crossgrain average atoms-1.dump pairs-1.dump examples/import/box.toml --name my-lammps --out "
-    "out/averaged",
-    [](CLI::App& app, CommandLine& line) {
-      return declareStudy(app, line, averageStudy, {averagedFilesText});
-    }};
-
-extern const Command revCommand = {
-    "rev", "compute every field for several ring widths and weights",
-    "crossgrain rev out/compare/snapshots/grain-p0.h5 cases/couette/quick.toml --out out/rev",
-    [](CLI::App& app, CommandLine& line) {
-      return declareStudy(app, line, revStudy, {averagedText<RevResults>});
+    "out/averaged\n"
+    "crossgrain average out/compare/snapshots/grain-p0.h5 cases/couette/quick.toml --rev --out "
+    "out/rev",
+    [](CLI::App& app, CommandLine& line) -> Action {
+      const auto own = std::make_shared<AverageOptions>();
+      addStudy(app, line, averageStudy.takes, averageStudy.options(*own, line), {});
+      return [&line, own] {
+        return own->rev ? runStudy(revStudy, line, *own, {averagedText<RevResults>})
+                        : runStudy(averageStudy, line, *own, {averagedText<CompareResults>});
+      };
     }};
 
 extern const Command conformanceCommand = {

@@ -11,10 +11,10 @@
 
 namespace crossgrain::inline results {
 
-/// One field under one weight about one radius, against ring width.
+/// One field under one weight about one place, against the width of a bin.
 struct RevCurve {
   std::string method, field, unit;
-  double r = 0.0;             ///< [m]
+  double r = 0.0;             ///< of rings; of slabs and boxes along their axis, or height [m]
   std::vector<double> width;  ///< [d]
   Numbers mean, standardError;
 
@@ -33,7 +33,7 @@ struct RevCurve {
 struct RevMeeting {
   std::string method, field;
   double near = 0.0, width = 0.0;  ///< [d]
-  double difference = 0.0;         ///< root mean square over the radii, in units of slicing's
+  double difference = 0.0;         ///< root mean square over the places, in units of slicing's
 
   void fields(auto& io) {
     io("method", method, aName);
@@ -44,8 +44,8 @@ struct RevMeeting {
   }
 };
 
-/// How far a method is from slicing in rings of that width [d]: √⟨(m − slicing)²⟩/√⟨slicing²⟩ over
-/// the radii that have room for such a ring; absent without one.
+/// How far a method is from slicing in bins of that width [d]: √⟨(m − slicing)²⟩/√⟨slicing²⟩ over
+/// the places that have room for such a bin; absent without one.
 std::optional<double> differenceFromSlicing(const std::vector<RevCurve>& curves,
                                             std::string_view field, std::string_view method,
                                             double width);

@@ -19,9 +19,30 @@ namespace crossgrain::reports {
 
 namespace {
 
-/// Fields that are drawn; the CSV file has all.
-constexpr std::array drawnFields = {"volume_fraction", "azimuthal_velocity", "spin",
-                                    "fabric_trace",    "stress_rr",          "stress_pr"};
+/// Fields that are drawn, those that bins of their kind have; the CSV file has all.
+constexpr std::array drawnFields = {
+    "volume_fraction", "azimuthal_velocity", "velocity_x", "velocity_y", "velocity_z", "spin",
+    "fabric_trace",    "stress_rr",          "stress_xx",  "stress_yy",  "stress_zz",  "stress_pr",
+    "stress_yx",       "stress_zx"};
+
+/// A field in words; where these leave out a component along x, y or z, by its name.
+std::string drawnName(const std::string& field) {
+  const bool components =
+      field == "velocity_z" || (field.starts_with("stress_") && field.back() >= 'x');
+  return components ? spaced(field) : fieldWords(field);
+}
+
+/// What bins are called, what is drawn of a place, and what a bin's width is.
+struct BinWords {
+  std::string bin, place, width;
+};
+BinWords wordsOf(const RevResults& results) {
+  if (!results.region || results.region->bins == "rings") return {"ring", "r", "Δr"};
+  const RegionRow& region = *results.region;
+  const std::string along = region.along.empty() ? region.z.empty() ? "y" : "z" : region.along;
+  if (!region.along.empty()) return {"slab", along, "Δ" + along};
+  return {region.z.empty() ? "square" : "cube", along, "Δ" + along};
+}
 
 using Names = std::vector<std::string>;
 
@@ -33,14 +54,32 @@ struct Weighing {
   LineStyle style;  ///< Okabe and Ito 2008
 };
 /// What the others are compared with first.
-const std::array<Weighing, 5> revWeights = {
-    {{"slicing", "slicing", {"#000000", 7, false}},
-     {"straight_cut", "straight cut", {"#56b4e9", 5, true}},
-     {"centre", "centre", {"#d55e00", 9, false}},
-     {"line_gaussian", "line, Gaussian", {"#009e73", 11, false}},
-     {"line_heaviside", "line, Heaviside", {"#cc79a7", 13, true}}}};
-const std::span comparedWeights = std::span(revWeights).subspan(1);
-const std::span kernelWeights = std::span(revWeights).subspan(2);
+const Weighing bySlicing = {"slicing", "slicing", {"#000000", 7, false}};
+const Weighing byCentre = {"centre", "centre", {"#d55e00", 9, false}};
+const std::vector<Weighing> planeWeights = {
+    bySlicing,
+    {"straight_cut", "straight cut", {"#56b4e9", 5, true}},
+    byCentre,
+    {"line_gaussian", "line, Gaussian", {"#009e73", 11, false}},
+    {"line_heaviside", "line, Heaviside", {"#cc79a7", 13, true}}};
+/// The last three are of slabs alone.
+const std::vector<Weighing> spaceWeights = {bySlicing,
+                                            byCentre,
+                                            {"heaviside", "Heaviside", {"#cc79a7", 13, true}},
+                                            {"lucy", "Lucy", {"#e69f00", 4, true}},
+                                            {"gauss", "Gauss", {"#009e73", 11, false}}};
+
+std::span<const Weighing> weightsOf(const RevResults& results) {
+  if (!results.region || results.region->z.empty()) return planeWeights;
+  return std::span(spaceWeights).first(results.region->bins == "slabs" ? 5 : 2);
+}
+std::span<const Weighing> comparedWeights(const RevResults& results) {
+  return weightsOf(results).subspan(1);
+}
+/// Without straight cuts, which are areas as slicing is.
+std::span<const Weighing> kernelWeights(const RevResults& results) {
+  return results.averaging.lineWidth ? weightsOf(results).subspan(2) : comparedWeights(results);
+}
 
 /// From which width on a weight stays near slicing, and how far apart they are at the widest one.
 struct Nearness {
@@ -63,7 +102,7 @@ Nearness nearnessOf(const RevResults& results, std::string_view field, std::stri
   return near;
 }
 
-OverviewCell nearnessCell(const Nearness& near) {
+OverviewCell nearnessCell(const Nearness& near, const BinWords& words) {
   OverviewCell cell{Verdict::notMeasured, near.from, "d", {}, {}, "figures"};
   if (!near.widest) return cell;
   cell.verdict.reset();
@@ -71,7 +110,7 @@ OverviewCell nearnessCell(const Nearness& near) {
                          : readablePercent(*near.widest) + " % apart";
   if (!near.from) {
     cell.verdict = Verdict::borderline;
-    cell.words = "in the widest ring";
+    cell.words = "in the widest " + words.bin;
   }
   return cell;
 }
@@ -90,7 +129,7 @@ WeightSummary weightSummaryOf(const RevResults& results, std::string_view method
     if (!near.widest) continue;
     summary.any = true;
     summary.from = std::max(summary.from, near.from.value_or(0.0));
-    if (!near.from) summary.apart.push_back(fieldWords(field));
+    if (!near.from) summary.apart.push_back(drawnName(field));
   }
   return summary;
 }
@@ -104,19 +143,18 @@ std::string revLead(const RevResults& results) {
     methods.insert(curve.method);
     widths.insert(curve.width.begin(), curve.width.end());
   }
-  if (widths.empty()) return "No ring fits into the cell: nothing was averaged.";
-  return fmt::format("{} of {}: {} under {}, in rings of widths from {} to {} d.",
+  return fmt::format("{} of {}: {} under {}, in {}s of widths from {} to {} d.",
                      counted(static_cast<std::size_t>(results.averaging.snapshots), "snapshot"),
                      results.engine, counted(fields.size(), "field"),
-                     counted(methods.size(), "weight"), readableSetting(*widths.begin()),
-                     readableSetting(*widths.rbegin()));
+                     counted(methods.size(), "weight"), wordsOf(results).bin,
+                     readableSetting(*widths.begin()), readableSetting(*widths.rbegin()));
 }
 
 /// Which weights are as good as slicing from which width on, and which are not.
 std::vector<std::string> revConclusion(const RevResults& results) {
   Names near, far;
   double from = 0.0;
-  for (const Weighing& weight : comparedWeights) {
+  for (const Weighing& weight : comparedWeights(results)) {
     const WeightSummary summary = weightSummaryOf(results, weight.method);
     if (!summary.any) continue;
     if (summary.apart.empty()) {
@@ -137,8 +175,8 @@ std::vector<std::string> revConclusion(const RevResults& results) {
                     fmt::join(far, "; ")));
   else if (!near.empty())
     sentences.push_back(fmt::format(
-        "Next: take rings of {} d or more where figures under different weights are compared.",
-        readableSetting(from)));
+        "Next: take {}s of {} d or more where figures under different weights are compared.",
+        wordsOf(results).bin, readableSetting(from)));
   return sentences;
 }
 
@@ -152,20 +190,22 @@ Curve drawnCurve(const RevCurve& curve, const Weighing& weight) {
 }
 
 Figure fieldFigure(const RevResults& results, const std::string& field) {
+  const BinWords words = wordsOf(results);
   std::set<double> radii;
   for (const RevCurve& curve : results.curves) radii.insert(curve.r);
   Figure figure{fmt::format("rev_{}", field),
-                fmt::format("{} against ring width", fieldWords(field)),
-                fmt::format("{}: rings of width Δr about each radius.", fieldWords(field)),
+                fmt::format("{} against {} width", drawnName(field), words.bin),
+                fmt::format("{}: {}s of width {} about each {}.", drawnName(field), words.bin,
+                            words.width, words.bin == "ring" ? "radius" : "place"),
                 {},
                 2};
   for (const double r : radii) {
     Panel panel;
-    panel.title = fmt::format("r = {:.4g} m", r);
-    panel.xLabel = "Δr / d";
+    panel.title = fmt::format("{} = {:.4g} m", words.place, r);
+    panel.xLabel = words.width + " / d";
     panel.yLabel = fieldAxis(field);
     panel.logX = true;
-    for (const Weighing& weight : revWeights)
+    for (const Weighing& weight : weightsOf(results))
       for (const RevCurve& curve : results.curves)
         if (curve.field == field && curve.method == weight.method && curve.r == r)
           panel.curves.push_back(drawnCurve(curve, weight));
@@ -189,13 +229,13 @@ std::string meetingOf(const RevResults& results, const char* field, const std::s
 /// A row per field: where centre and line averages come closest to slicing near d and 2 d.
 Table meetingTable(const RevResults& results) {
   Table table{{"field"}, {}};
-  for (const Weighing& weight : kernelWeights)
+  for (const Weighing& weight : kernelWeights(results))
     for (const char* near : {"d", "2 d"})
       table.columns.emplace_back(fmt::format("{}, near {}", weight.words, near),
                                  Column::Kind::number);
   for (const char* const field : drawnFields) {
     TableRow row{{fieldLabel(field)}};
-    for (const Weighing& weight : kernelWeights)
+    for (const Weighing& weight : kernelWeights(results))
       for (const double near : {1.0, 2.0})
         row.cells.emplace_back(meetingOf(results, field, weight.method, near));
     const bool any = std::ranges::any_of(row.cells.begin() + 1, row.cells.end(),
@@ -227,16 +267,20 @@ std::string revMeetingsCsv(const RevResults& results) {
 Overview revOverview(const RevResults& results) {
   Overview overview;
   overview.rowsAre = "field";
-  overview.states = {{std::nullopt, "from that ring width on within 5 % of slicing"},
-                     {Verdict::borderline, "further from slicing at any width"}};
-  for (const Weighing& weight : comparedWeights)
+  const BinWords words = wordsOf(results);
+  overview.states = {
+      {std::nullopt, fmt::format("from that {} width on within 5 % of slicing", words.bin)},
+      {Verdict::borderline, "further from slicing at any width"}};
+  for (const Weighing& weight : comparedWeights(results))
     overview.columns.push_back(
         {weight.words,
-         "From which ring width on does this weight give what slicing gives, within 5 %?", "meet"});
+         fmt::format("From which {} width on does this weight give what slicing gives, within 5 %?",
+                     words.bin),
+         "meet"});
   for (const char* const field : drawnFields) {
-    OverviewRow row{fieldWords(field), false, {}};
-    for (const Weighing& weight : comparedWeights)
-      row.cells.push_back(nearnessCell(nearnessOf(results, field, weight.method)));
+    OverviewRow row{drawnName(field), false, {}};
+    for (const Weighing& weight : comparedWeights(results))
+      row.cells.push_back(nearnessCell(nearnessOf(results, field, weight.method), words));
     const bool any = std::ranges::any_of(
         row.cells, [](const OverviewCell& cell) { return cell.verdict != Verdict::notMeasured; });
     if (any) overview.rows.push_back(std::move(row));
@@ -250,28 +294,39 @@ Report reportOf(const RevResults& results) {
                  {{results.engine, "", "", "", Status::finished, ""}},  // whose snapshots
                  revOverview(results)}};
   report.engineColours = false;  // colours are weights
-  report.caseHeading = "The case: its cell, rings and weights";
+  const BinWords words = wordsOf(results);
+  const bool rings = words.bin == "ring";
+  report.caseHeading = results.region ? "The case: its averaged part and weights"
+                                      : "The case: its cell, rings and weights";
   report.notes = {
-      "Nothing was run and nothing compared but ways of averaging the same snapshots: what depends "
-      "on the ring's width or on the weight comes from averaging there, not from the field."};
+      fmt::format("Nothing was run and nothing compared but ways of averaging the same snapshots: "
+                  "what depends on the {}'s width or on the weight comes from averaging there, not "
+                  "from the field.",
+                  words.bin)};
   if (const auto width = results.averaging.lineWidth)
     report.notes.push_back(fmt::format("Kernels of the line methods have the width w = {} d.",
                                        readableSetting(width)));
+  else if (weightsOf(results).size() > 2)
+    report.notes.push_back(fmt::format(
+        "Of Heaviside, Lucy and Gauss {} is the length over which the function reaches, 2 c or 6 "
+        "w, in slabs of d/10.",
+        words.width));
   std::ranges::copy(results.notes, std::back_inserter(report.notes));
   for (const char* const field : drawnFields)
     if (Figure figure = fieldFigure(results, field); !figure.panels.empty())
       report.figures.push_back(std::move(figure));
-  report.section("figures", "Fields against ring width").blocks = {
-      Paragraph{
-          "A ring of width Δr about each of a few radii, under every weight. Narrow rings show "
-          "the disks themselves, each weight in its own way; what does not depend on the "
-          "weight can be taken as a field."},
+  report.section("figures", fmt::format("Fields against {} width", words.bin)).blocks = {
+      Paragraph{fmt::format("A {0} of width {1} about each of a few {2}, under every weight. "
+                            "Narrow {0}s show the {3} themselves, each weight in its own way; what "
+                            "does not depend on the weight can be taken as a field.",
+                            words.bin, words.width, rings ? "radii" : "places",
+                            results.averaging.lineWidth ? "disks" : "spheres")},
       drawingsOf(report.figures, "rev_")};
   report.section("meet", "Where weights meet").blocks = {
-      Paragraph{
-          "The ring width Δr/d at which a weight comes closest to slicing, next to d and next "
-          "to 2 d, and the difference of the two then: root mean square over the radii, as a "
-          "part of slicing's."},
+      Paragraph{fmt::format("The {} width {}/d at which a weight comes closest to slicing, next to "
+                            "d and next to 2 d, and the difference of the two then: root mean "
+                            "square over the {}, as a part of slicing's.",
+                            words.bin, words.width, rings ? "radii" : "places")},
       meetingTable(results)};
   report.tables = {{"rev.csv", revCsv(results)}, {"rev_meetings.csv", revMeetingsCsv(results)}};
   return report;

@@ -115,26 +115,48 @@ CompareResults averageSnapshots(const Case& setup, const std::vector<std::filesy
   return results;
 }
 
-const Study<AverageOptions, CompareResults> averageStudy = {
-    "average",
-    {.input = SharedOptions::Input::files,
-     .inputIs = "snapshots: HDF5 files, or result files of other programs (docs/import.md)",
-     .engines = false},
-    Keeps::nothing,
-    [](AverageOptions& own, CommandLine& line) {
-      return std::vector<StudyOption>{
-          {"--name",
+namespace {
+
+const SharedOptions taken = {
+    .input = SharedOptions::Input::files,
+    .inputIs = "snapshots: HDF5 files, or result files of other programs (docs/import.md)",
+    .engines = false};
+
+std::vector<StudyOption> optionsOf(AverageOptions& own, CommandLine& line) {
+  return {{"--name",
            "settings of the files: units and columns in [engines.NAME] of the case (default: their "
            "format)",
            &own.name},
+          {"--rev", "compute every field of one run for bins of many widths, under every weight",
+           &own.rev},
           {"--quiet", "no progress", &line.run.quiet}};
-    },
-    [](const CommandLine& line, AverageOptions&) { return std::vector{onlyFlow(line, "average")}; },
+}
+
+std::vector<Case> casesOf(const CommandLine& line, AverageOptions&) {
+  return {onlyFlow(line, "average")};
+}
+
+template <typename Results>
+Outcome unjudged(const Results&, const CommandLine&, const AverageOptions&) {
+  return {};
+}
+
+}  // namespace
+
+const Study<AverageOptions, CompareResults> averageStudy = {
+    "average",
+    taken,
+    Keeps::nothing,
+    optionsOf,
+    casesOf,
     nullptr,
     [](const StudyWork& work, const AverageOptions& own) {
       return averageSnapshots(work.setup(), filesOf(work.line), work.line.run.commandLine, own,
                               work.line.run.quiet);
     },
-    [](const CompareResults&, const CommandLine&, const AverageOptions&) { return Outcome(); }};
+    unjudged};
+
+const Study<AverageOptions, RevResults> revStudy = {
+    "average --rev", taken, Keeps::nothing, optionsOf, casesOf, nullptr, averagePerWidth, unjudged};
 
 }  // namespace crossgrain::inline studies

@@ -14,6 +14,7 @@ namespace crossgrain::inline studies {
 
 struct AverageOptions {
   std::optional<std::string> name;  ///< whose [engines.NAME] has the units of other programs' files
+  bool rev = false;                 ///< every field against the width of a bin
 };
 
 /// Averages the snapshots of files with the bins and methods of a case: HDF5 files (docs/files.md
@@ -30,10 +31,14 @@ CompareResults averageSnapshots(const Case& setup, const std::vector<std::filesy
 extern const Study<AverageOptions, CompareResults> averageStudy;
 
 /// How large a representative element must be (Lätzel 2003, section 5.3): every field, under every
-/// weight, in rings of widths from d/10 to 4 d about a few fixed radii (those of Fig. 5.6 in the
-/// thesis' cell), and the widths next to d and 2 d at which each weight comes closest to slicing.
-/// Of snapshots of a Couette cell in one HDF5 file.
+/// weight, in bins of widths from d/10 to 20 d, as far as they fit, about a few fixed places, and
+/// the widths next to d and 2 d at which each weight comes closest to slicing. Bins are rings about
+/// radii (those of Fig. 5.6 in the thesis' cell), slabs, or else squares and cubes on the middle
+/// line of the averaged part. Of one run.
 /// @throws BadInput naming the file and what does not fit
+RevResults averagePerWidth(const StudyWork& work, const AverageOptions& own);
+
+/// averagePerWidth() as a command: `average --rev`.
 extern const Study<AverageOptions, RevResults> revStudy;
 
 }  // namespace crossgrain::inline studies

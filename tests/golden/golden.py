@@ -67,7 +67,7 @@ COMMANDS = {
     ],
     "rev": [
         "compare {cell} --engines grain --out {first} --set=run.keep_snapshots=5 {short}",
-        "rev {first}/snapshots/grain-p0.h5 {cell} --set=averaging.rings=4 --out {out}",
+        "average {first}/snapshots/grain-p0.h5 {cell} --rev --set=averaging.rings=4 --out {out}",
     ],
     "conformance": ["conformance box2d-penalty --out {out}"],
     "conformance-external": ["conformance examples/python/engine.toml -k Wall --out {out}"],

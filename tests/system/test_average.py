@@ -52,6 +52,26 @@ class Snapshots(SystemTest):
         done = self.average(snapshots, "--fresh", case=CASES / "couette/nu-0.804.toml")
         self.assert_one_error(done, BAD_INPUT, "grain-p0.h5 does not fit", "nu-0.804.toml", "disks, not 2921")
 
+    def test_rev_is_the_average_over_a_bin_of_each_width(self):
+        """The slab half way up that is 2 d wide: of ten that the case could say."""
+        case = CASES / "space/shear-3d.toml"
+        short = settings(preparation__packings=1, average__snapshots=3, assembly__duration=2, **{"average__from": 1})
+        slabs = settings(average__low=[0, 0, -5], average__high=[10, 5.196152422706632, 15])
+        run = self.run_program("compare", case, "--engines", "grain", "--out", self.out, "--quiet", *short)
+        self.assert_status(run, HELD)
+        snapshots = self.out / "snapshots/grain-p0.h5"
+        self.assert_status(self.average(snapshots, "--rev", *short, case=case), HELD)
+        curves = self.rows("rev.csv", self.folder / "again")
+        self.assertEqual({"slicing", "centre", "heaviside", "lucy", "gauss"}, {row["method"] for row in curves})
+        self.assert_status(self.average(snapshots, "--fresh", *short, *slabs, case=case), HELD)
+        for row in self.rows("profiles.csv", self.folder / "again"):
+            if row["packing"] == "0" and float(row["r_m"]) == 6.0 and row["mean"]:
+                asked = (row["field"], row["method"], 6.0, 2.0)
+                means = [
+                    each["mean"] for each in curves if asked == (each["field"], each["method"], float(each["r_m"]), float(each["width_over_d"]))
+                ]
+                self.assertEqual([row["mean"]], means, row["field"])
+
     def test_damaged_files_are_refused(self):
         """Some of them crash HDF5, or have it go round for ever."""
         files = sorted(HOME.glob("tests/fuzz/corpus/packings/*.h5"))

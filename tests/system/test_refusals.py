@@ -141,7 +141,7 @@ VALUES = {
 }
 SPHERES = CASES / "space/shear-3d.toml"
 IN_SPACE = {  # what knows no assembly of spheres
-    f"rev none.h5 {SPHERES} --out out": "rev takes rings about a wheel, and this scene has no wheel",
+    "rev run.h5 case.toml --out out": "crossgrain average FILES CASE --rev does its work",
     f"average none.h5 {SPHERES} --out out": "none.h5: no such file",
     f"stability {SPHERES} {RUN} --in-space": "these are in space as they are",
     f"compare {SPHERES} --engines chipmunk --out out": "has dimension = 2, not 3",
