@@ -172,7 +172,7 @@ const Section<AveragingInput>& averagingKeys() {
            "one name or a list; reports show the first")
            .usedBy(averaged),
        key("line_width", &A::lineWidth, positive("d"), "kernel width w of the line methods")
-           .usedBy("compare plan effects cost average rev baseline"),
+           .usedBy("compare plan effects cost average baseline"),
        key("settle_rotations", &A::settleRotations, atLeast(0.0),
            "after the hand-over, not averaged")
            .usedBy(run),

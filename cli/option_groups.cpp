@@ -219,13 +219,6 @@ void addRun(CLI::App& app, CommandLine& line, const char* usual, bool jobs) {
 void addStudy(CLI::App& app, CommandLine& line, const SharedOptions& takes,
               const std::vector<StudyOption>& own, const std::vector<Exclusion>& exclusions) {
   using Input = SharedOptions::Input;
-  if (takes.input == Input::snapshots) {
-    app.add_option("snapshots", line.snapshots, "HDF5 file of snapshots")
-        ->type_name("FILE")
-        ->required();
-    addCase(app, line, "case file: the cell, the law, how to average");
-    addResults(app, line);
-  }
   if (takes.input == Input::files) {
     addFilesAndCase(app, line, takes.inputIs, "case file: the scene, the law, how to average");
     addResults(app, line);

@@ -35,7 +35,6 @@ struct CommandLine {
   RunCommand run;
   /// Case files, or result folders; of files that are averaged the case, then the files.
   std::vector<std::filesystem::path> inputs;
-  std::filesystem::path snapshots;     ///< file to average
   std::vector<std::string> overrides;  ///< --set, then what other options stand for
   std::optional<std::int64_t> seed;    ///< --seed: preparation.seed
   std::optional<std::string> only;     ///< -k: part of the cases
@@ -45,7 +44,7 @@ struct CommandLine {
 
 /// Which of them a study takes.
 struct SharedOptions {
-  enum class Input { oneCase, anyCases, snapshots, none, files } input = Input::oneCase;
+  enum class Input { oneCase, anyCases, none, files } input = Input::oneCase;
   const char* inputIs = "case file";
   bool selection = false;  ///< -k
   bool engines = true;     ///< --engines and what goes with running them

@@ -72,24 +72,15 @@ void reportKeysWithoutUse(const std::vector<Case>& cases, std::string_view comma
 }
 
 std::vector<std::string> quickOverrides(const Case& setup, double rotations) {
-  const auto& [cell, particles, filling, times] = couetteIn(setup);
   const std::string packings =
       fmt::format("preparation.packings={}", std::min(2, setup.preparation.packings));
   if (!cellOf(setup))
     return {packings, fmt::format("average.snapshots={}", std::min(20, setup.region->snapshots))};
+  const auto& [cell, particles, filling, times] = couetteIn(setup);
   return {packings, fmt::format("preparation.rotations={}", std::min(0.1, filling.rotations)),
           fmt::format("averaging.settle_rotations={}", std::min(0.02, times.settleRotations)),
           fmt::format("averaging.rotations={}", std::min(rotations, times.rotations)),
           "averaging.snapshots_per_rotation=400"};
-}
-
-Case onlyCase(const CommandLine& line, const char* command) {
-  const fs::path& file = line.inputs.front();
-  const Case setup = loadCase(file, line.overrides).front();
-  if (!cellOf(setup))
-    throw BadInput(fmt::format("{}: {} takes rings about a wheel, and this scene has no wheel",
-                               file.string(), command));
-  return onlyFlow(line, command);
 }
 
 namespace {

@@ -12,11 +12,8 @@
 
 namespace crossgrain::inline studies {
 
-/// The one Couette case that a command was given, without variants; shortened by --quick.
+/// The one flow that a command was given, without variants; shortened by --quick.
 /// @throws BadInput
-Case onlyCase(const CommandLine& line, const char* command);
-
-/// The same, or an assembly that says what is averaged.
 Case onlyFlow(const CommandLine& line, const char* command);
 
 /// What --quick changes of a flow: nothing becomes longer than the case has it.

@@ -214,7 +214,7 @@ RevResults averagePerWidth(const StudyWork& work, const AverageOptions& own) {
     throw BadInput(
         fmt::format("{}: --rev: the averaged part has no room for a bin of {} d, d = {:g} m",
                     setup.file.string(), all.front(), flowDiameter(setup)));
-  const auto fields = fieldsIn(setup.dimension, *setup.region.hasRings());
+  const auto fields = fieldsIn(setup.dimension, setup.region->hasRings());
   for (const std::string_view method : weightNamesIn(setup.dimension))
     for (const FieldSpec& field : fields)
       for (const auto& [_, curve] : curves)

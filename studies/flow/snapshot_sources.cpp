@@ -141,9 +141,9 @@ std::vector<double> radiiOf(const Case& setup, const SnapshotOrigin& origin) {
 /// The largest disk of the case, and how far one lies from the origin at its start [m].
 template <int D>
 std::pair<double, double> scalesOf(const Case& setup) {
-  const auto& [cell, particles, filling, times] = couetteIn(setup);
-  if (cellOf(setup))
-    return {std::max(particles.smallRadius, particles.largeRadius), cell.outerRadius};
+  if (const Couette* const source = cellOf(setup))
+    return {std::max(source->particles.smallRadius, source->particles.largeRadius),
+            source->cell.outerRadius};
   const DisksOf<D> disks = assemblyDisks<D>(setup, 0);
   double farthest = 0.0;
   for (const VecOf<D>& x : disks.position) farthest = std::max(farthest, x.norm());
