@@ -16,7 +16,7 @@ const std::vector<const Command*>& commands() {
       &enginesCommand,  &listCommand,     &checkCommand,    &collideCommand,   &conformanceCommand,
       &lockstepCommand, &identifyCommand, &baselineCommand, &diffCommand,      &recordCommand,
       &replayCommand,   &compareCommand,  &effectsCommand,  &stabilityCommand, &costCommand,
-      &&thesisCommand,  &importCommand,   &averageCommand,  &exportCommand,    &calibrateCommand,
+      &thesisCommand,   &importCommand,   &averageCommand,  &exportCommand,    &calibrateCommand,
       &reportCommand,   &planCommand,     &helpCommand,     &serveCommand};
   return table;
 }

@@ -565,7 +565,8 @@ constexpr std::array measures = {
                      haffError<2>, haffError<3>},
     StabilityMeasure{"wakes", "of the energy",
                      "kinetic energy of what had come to rest between walls that stand still",
-                     wakes<2>, wakes<3>, StabilityProtocol::oneRun, false, burstSteps},
+                     wakes<2>, wakes<3>, StabilityProtocol::oneRun, false, burstSteps,
+                     "has nothing that comes to rest"},
     StabilityMeasure{"wall_balance", "of the impulse",
                      "momentum or angular momentum beyond that from gravity and the walls' forces",
                      wallBalance<2>, wallBalance<3>, StabilityProtocol::oneRun, false, burstSteps},
@@ -579,7 +580,7 @@ constexpr std::array measures = {
                      "between a run and one restarted from a checkpoint at its middle", nullptr,
                      nullptr, StabilityProtocol::restart},
     StabilityMeasure{
-        "invariances", "of rounding's",
+        "invariances", "of rounding",
         "farthest a turned, mirrored, rescaled, renumbered, restarted or unwatched run "
         "is from where it should be, by how far rounding may take it",
         nullptr, nullptr, StabilityProtocol::invariances},

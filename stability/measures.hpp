@@ -35,6 +35,8 @@ struct StabilityMeasure {
   StabilityProtocol protocol = StabilityProtocol::oneRun;
   bool takesLedger = false;  ///< engines that can account for their energy have to
   int steps = 0;             ///< snapshots after each sample's, one a step
+  /// Why a run has no curve.
+  std::string_view absent = "does not show what the measure takes";
 
   template <int D>
   std::vector<double> of(const RecordingOf<D>& run) const {

@@ -562,7 +562,7 @@ std::string whatErrorsAre(CostKind kind) {
            "in "
            "a step; the error is the root mean square distance from the oracle, in units of the "
            "range of its curve, of the pair and of the step up to a tenth shorter for which it is "
-           "largest. Worst: of a single collision.";
+           "largest. Worst: of a single collision among those that ran.";
   if (kind == CostKind::trajectory)
     return "Packings over a time short against their chaos; the error is the root mean square "
            "distance of the bodies, in diameters, from a run at a much smaller step, mean over "
@@ -589,7 +589,8 @@ Report reportOf(const CostResults& results) {
         Paragraph{
             "A line per engine over its time steps, upright bars: the interval over packings; "
             "grey: within the case's margin; ring: the largest step whose whole interval lies "
-            "inside. Collisions: the worst over phases of a step and every pair of the scene; "
+            "inside. Collisions: the worst that ran, over phases of a step and every pair of the "
+            "scene; "
             "dashed: the largest rms."},
         std::move(picture)};
   report.section("accuracy", "Which setting reaches an accuracy for the least time").blocks = {

@@ -143,6 +143,7 @@ std::string revLead(const RevResults& results) {
     methods.insert(curve.method);
     widths.insert(curve.width.begin(), curve.width.end());
   }
+  if (widths.empty()) return "No average over any width.";
   return fmt::format("{} of {}: {} under {}, in {}s of widths from {} to {} d.",
                      counted(static_cast<std::size_t>(results.averaging.snapshots), "snapshot"),
                      results.engine, counted(fields.size(), "field"),

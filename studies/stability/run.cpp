@@ -206,7 +206,7 @@ void judgeFailure(StabilityRun& row, const RecordingOf<D>& run) {
 template <int D>
 void judgeCurve(StabilityRun& row, const Stability& hard, const RecordingOf<D>& run,
                 const std::vector<double>& curve) {
-  if (curve.empty()) return refuse(row, "does not show what the measure takes");
+  if (curve.empty()) return refuse(row, std::string(stabilityMeasure(hard.measure).absent));
   const StabilityJudgement judged = judgeStability(hard, curve);
   row.verdict = judged.verdict;
   row.value = judged.value;

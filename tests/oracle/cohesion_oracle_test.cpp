@@ -333,7 +333,7 @@ TEST(RandomCohesion, Oracle_ClosesTheAccountAndIsWhatSmallStepsGive) {
     Collision c;
     drawPair(draw, c);
     Case setup;
-    collisionIn(setup) = c;
+    setup.source = c;
     collisionIn(setup).wall = draw.oneOf({false, true});
     const CollidingPair pair = collidingPair(setup);
     ContactLaw law = randomCohesion(draw, pair);

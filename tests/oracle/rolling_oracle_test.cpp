@@ -294,7 +294,7 @@ TEST(RandomRolling, Oracle_ClosesTheAccountAndIsWhatSmallStepsGive) {
   for (int k = 0; k < 160; ++k) {
     SCOPED_TRACE(k);
     Case setup;
-    drawPair(draw, collisionIn(setup));
+    drawPair(draw, setup.source.emplace<Collision>());
     collisionIn(setup).wall = draw.oneOf({false, true});
     const CollidingPair pair = collidingPair(setup);
     const ContactLaw law = randomRolling(draw, pair);

@@ -219,10 +219,10 @@ TEST(Transform, InSpaceATurnByAThird_TakesAxesToAxes) {
   EXPECT_TRUE(turnsBox<3>(third));
   EXPECT_FALSE(turnsBox<3>({.turn = 1.0}));
 
-  const SpaceScene mirrored = placed(scene, {.mirror = true});  // x → −x; spins are axial
-  EXPECT_EQ(mirrored.disks.position[0], Vec3(-1, 2, 3));
-  EXPECT_EQ(mirrored.disks.spin[0], Vec3(7, -8, -9));
-  EXPECT_EQ(mirrored.box->low, Vec3(-10, -1, 0));
+  const SpaceScene inMirror = placed(scene, {.mirror = true});  // x → −x; spins are axial
+  EXPECT_EQ(inMirror.disks.position[0], Vec3(-1, 2, 3));
+  EXPECT_EQ(inMirror.disks.spin[0], Vec3(7, -8, -9));
+  EXPECT_EQ(inMirror.box->low, Vec3(-10, -1, 0));
 
   for (const double turn : {1.0, 2.0 / 3.0 * std::numbers::pi}) {
     const Transform by{.placement = {.mirror = true, .turn = turn}};

@@ -193,7 +193,9 @@ class SceneAudit(SystemTest):
     def test_right_engine_is_stable_and_bears_longer_steps(self):
         done, rows = self.audit("grain")
         self.assert_status(done, HELD)
-        self.assertEqual({"overlap", "walls", "energy", "restart", "largest step"}, set(rows))
+        self.assertEqual({"overlap", "walls", "energy", "wall forces", "rest", "restart", "invariances", "largest step"}, set(rows))
+        rest = rows.pop("rest")  # a hopper that runs out
+        self.assertEqual(("refused", "has nothing that comes to rest"), (rest["verdict"], rest["reason"]))
         self.assertEqual({"stable"}, {row["verdict"] for row in rows.values()})
         last = rows["largest step"]
         found = re.search(r"up to (\S+) s, (\S+) times the case's own; one contact alone bears (\S+) s", last["reason"])
