@@ -237,10 +237,11 @@ void fields(auto& io, SceneImpacts& impacts) {
 /// Between which an engine's largest stable step lies, by the runs of the case's time steps.
 struct LargestStep {
   std::string engine;
-  CostKind kind = CostKind::averages;  ///< of the runs: whole ones, or a trajectory's window
-  std::optional<double> stable;        ///< the largest that is stable as all smaller ones are [s]
-  std::optional<double> unstable;      ///< the smallest that is not; absent: none was found [s]
-  std::optional<double> contactTime;   ///< t_c that the steps are counted in [s]
+  CostKind kind =
+      CostKind::averages;             ///< that `stable` is of: whole runs, or a trajectory's window
+  std::optional<double> stable;       ///< the largest that is stable as all smaller ones are [s]
+  std::optional<double> unstable;     ///< the smallest that is not; absent: none was found [s]
+  std::optional<double> contactTime;  ///< t_c that the steps are counted in [s]
 };
 
 void fields(auto& io, LargestStep& step) {

@@ -192,7 +192,8 @@ Panel endpointPanel(const CostResults& results, const CostMeasure& measure) {
       if (ringed || !hasMargin || point.high() > margin->margin) continue;
       ringed = true;
       rings.points.push_back(mark);
-      rings.points.back().label = point.setting;
+      // Short enough for the largest time, at the frame.
+      rings.points.back().label = point.fragment.empty() ? "own" : point.setting;
     }
     addCurve(panel, std::move(line));
     for (Curve& bar : bars) panel.curves.push_back(std::move(bar));

@@ -240,7 +240,8 @@ OverviewCell stabilityCell(const CostResults& results, const std::string& engine
   cell.value = found->stable;
   cell.shown = found->stable ? readableDuration(found->stable) : "none of those tried";
   if (found->stable && found->contactTime)
-    cell.words = fmt::format("t_c/{:.3g}", *found->contactTime / *found->stable);
+    cell.words = fmt::format("t_c/{:.3g}{}", *found->contactTime / *found->stable,
+                             found->kind == CostKind::trajectory ? " on short paths" : "");
   if (found->unstable)
     cell.words += fmt::format("{}unstable at {}", cell.words.empty() ? "" : "; ",
                               readableDuration(found->unstable));
@@ -295,9 +296,9 @@ std::string cheapestOf(const CostResults& results, double target) {
       names.push_back(fmt::format("{} with {} (step {}; {} for {})", one.engine,
                                   settingText(one.knob, one.setting), stepText(results, one),
                                   timeText(one), timeUnit(*one.costKind())));
-  return fmt::format("{}: {}", targetText(target),
-                     names.empty() ? "no engine, as far as measured"
-                                   : fmt::format("{}", fmt::join(names, " or ")));
+  return fmt::format(
+      "{}: {}", targetText(target),
+      names.empty() ? "no setting that was tried" : fmt::format("{}", fmt::join(names, " or ")));
 }
 
 /// The accuracies of the first matrix: those of the cells and the one asked for, falling.

@@ -67,27 +67,30 @@ std::vector<std::string> enginesIn(const std::vector<CostPoint>& points) {
 
 std::vector<LargestStep> largestSteps(const std::vector<CostPoint>& points) {
   std::vector<LargestStep> all;
-  for (const std::string& engine : enginesIn(points))
-    for (const CostKind kind : {CostKind::averages, CostKind::trajectory}) {
-      LargestStep found{engine, kind, {}, {}, {}};
-      const auto each = [&](Status status, auto&& use) {
-        for (const CostPoint& point : points)
-          if (point.engine == engine && point.kind == kind && point.knob == "time_step" &&
-              point.status == status && point.dt)
-            use(point);
-      };
-      each(Status::failed, [&](const CostPoint& point) {
+  for (const std::string& engine : enginesIn(points)) {
+    LargestStep found{engine, CostKind::averages, {}, {}, {}};
+    const auto each = [&](CostKind kind, Status status, auto&& use) {
+      for (const CostPoint& point : points)
+        if (point.engine == engine && point.kind == kind && point.knob == "time_step" &&
+            point.status == status && point.dt)
+          use(point);
+    };
+    constexpr std::array kinds = {CostKind::averages, CostKind::trajectory};
+    for (const CostKind kind : kinds)
+      each(kind, Status::failed, [&](const CostPoint& point) {
         found.unstable = std::min(found.unstable.value_or(INFINITY), *point.dt);
       });
-      each(Status::finished, [&](const CostPoint& point) {
+    for (const CostKind kind : kinds) {  // whole runs show more than paths
+      if (found.stable) break;
+      found.kind = kind;
+      each(kind, Status::finished, [&](const CostPoint& point) {
         if (found.unstable && *point.dt >= *found.unstable) return;  // by chance
         found.stable = std::max(found.stable.value_or(0.0), *point.dt);
         if (point.stepsPerContact) found.contactTime = *point.dt * *point.stepsPerContact;
       });
-      if (!found.stable && !found.unstable) continue;
-      all.push_back(found);
-      break;
     }
+    if (found.stable || found.unstable) all.push_back(found);
+  }
   return all;
 }
 

@@ -128,6 +128,7 @@ TEST(CostFigures, Picture_HasMarginIntervalsAndTheLargestStepInside) {
   results.points[1].intervalHigh = 0.06;  // of t_c/100: reaches beyond
   CostPoint& fine = results.points.emplace_back(results.points[1]);
   fine.setting = "t_c/400";
+  fine.fragment = "run.steps_per_contact = 400";
   fine.dt = 0.0025;
   fine.cpuSeconds = 40.0;
   fine.intervalHigh = 0.03;
@@ -182,7 +183,7 @@ TEST(CostOverview, Answer_HasStepTimeAndWhatStandsInTheWay) {
   EXPECT_EQ(cells[2].words, "Ψ_f, whatever the step");
   EXPECT_TRUE(has(overview.conclusion.front(),
                   "10 %: a with t_c/10 (step 0.100 s; 1.00 s for one sweep of collisions); 1 %: no "
-                  "engine, as far as measured"))
+                  "setting that was tried"))
       << overview.conclusion.front();
 }
 

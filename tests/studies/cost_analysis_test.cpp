@@ -396,6 +396,13 @@ TEST(CostLargestStep, LiesBelowTheSmallestThatFails) {
   EXPECT_EQ(found[0].stable, 2e-6);
   EXPECT_EQ(found[0].unstable, 4e-6);
   EXPECT_NEAR(*found[0].contactTime, 1e-4, 1e-16);
+  // Where of whole runs there is but the one that failed, paths show what is stable below it.
+  points.back().dt = 1e-6;
+  const auto paths = largestSteps({points[2], points.back()});
+  ASSERT_EQ(paths.size(), 1u);
+  EXPECT_EQ(paths[0].kind, CostKind::trajectory);
+  EXPECT_EQ(paths[0].stable, 1e-6);
+  EXPECT_EQ(paths[0].unstable, 4e-6);
   for (CostPoint& point : points) point.knob = "precision";
   EXPECT_TRUE(largestSteps(points).empty());
 }
