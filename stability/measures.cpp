@@ -476,13 +476,14 @@ Curve wallBalance(const RecordingOf<D>& run) {
   Curve curve(1, 0.0);
   for (std::size_t k = 1; k < run.snapshots.size(); ++k) {
     const SnapshotOf<D>&before = run.snapshots[k - 1], &now = run.snapshots[k];
-    if (before.positionTime > 0.0 && now.positionTime - before.positionTime < 1.5 * dt) {
+    const double passed = now.positionTime - before.positionTime;  // 0 where two looks meet
+    if (before.positionTime > 0.0 && passed < 1.5 * dt) {
       const Rates end = ratesOf(now), start = now.contactInterval > 0.0 ? end : ratesOf(before);
       if (!shown) return {};
       momentum += massSum(disks, now.velocity) - massSum(disks, before.velocity) -
-                  0.5 * dt * (start.force + end.force);
-      angular += turning(now) - turning(before) - 0.5 * dt * (start.torque + end.torque);
-      for (const int n : {0, 1}) sizes[n] += 0.5 * dt * (start.sizes[n] + end.sizes[n]);
+                  0.5 * passed * (start.force + end.force);
+      angular += turning(now) - turning(before) - 0.5 * passed * (start.torque + end.torque);
+      for (const int n : {0, 1}) sizes[n] += 0.5 * passed * (start.sizes[n] + end.sizes[n]);
     }
     const auto share = [](double error, double of) { return of > 0.0 ? error / of : 0.0; };
     curve.push_back(std::max(share(momentum.norm(), sizes[0]),

@@ -504,6 +504,8 @@ TEST(StabilityMeasures, WallForces_AreWhatTheDisksGet) {
   seen(1.0, 0.0, 0.0, {0, -20}, -60.0);  // at rest: the plane bears it, x × F = 3 · −20
   seen(2.0, 0.0, 0.0, {0, -20}, -60.0);
   EXPECT_NEAR(at.last("wall_balance"), 0.0, 1e-12);
+  seen(2.0, 0.0, 0.0, {0, -20}, -60.0);  // the next sample's first look, at the same step
+  EXPECT_NEAR(at.last("wall_balance"), 0.0, 1e-12);
   seen(3.0, 10.0, 0.0, {0, -60}, -180.0);  // (20 + 60)/2 − 20 = 20 N s
   EXPECT_NEAR(at.last("wall_balance"), 0.0, 1e-12);
   auto other = at;
