@@ -66,7 +66,7 @@ void cautionsOfVerdicts(const Case& setup, Lines& lines) {
 /// Grains are not as large as people; numbers in mm are. A diameter of just 1 is a scene's unit.
 void cautionsOfLengths(const Case& setup, Lines& lines) {
   constexpr double large = 1.0;    // of a disk's diameter [m]
-  if (packingFile(setup)) return;  // nobody knows yet
+  if (packingFile(setup)) return;  // its radii are in a file that is not read yet
   if (const double d = flowDiameter(setup); d > large)
     lines.push_back(fmt::format("the smallest disks are {:g} m across: are lengths in mm?", d));
 }

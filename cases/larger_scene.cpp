@@ -22,7 +22,7 @@ struct Direction {
   double length;  ///< from one copy to the next [m]
 };
 
-/// What stands in the way of copies along an axis; empty: nothing.
+/// Names what lies across an axis, so that no copy can stand along it; empty: nothing does.
 template <int D>
 std::string obstacleAlong(const SceneOf<D>& scene, int axis) {
   constexpr double aslant = 1e-12;

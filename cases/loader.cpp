@@ -21,7 +21,7 @@
 namespace crossgrain::inline cases {
 namespace {
 
-/// What [case] says.
+/// The keys of [case].
 struct Header {
   std::string name;
   enum class Kind { couette, collision, assembly } kind = Kind::couette;

@@ -129,7 +129,7 @@ namespace {
 /// Disks of files without radii have the case's, in its order.
 template <int D>
 std::vector<double> radiiOf(const Case& setup, const SnapshotOrigin& origin) {
-  if (cellOf(setup)) return diskKinds(couetteIn(setup).particles).radius;
+  if (const Couette* const cell = cellOf(setup)) return diskKinds(cell->particles).radius;
   for (const DiskGroupOf<D>& group : assemblyIn<D>(setup).disks)
     if (group.radiusSpread > 0.0)
       throw BadInput(fmt::format(
@@ -208,9 +208,7 @@ std::string needOfAll(const Case& setup) {
 /// The case's scene without disks.
 template <int D>
 SceneOf<D> wallsOf(const Case& setup) {
-  if constexpr (D == 2)
-    if (cellOf(setup)) return couetteScene(setup, Packing(), 0.0);
-  return assemblyScene<D>(setup, DisksOf<D>(), 0.0, 0.0);
+  return flowScene<D>(setup, Packing(), 0.0);
 }
 
 double stepOf(const Case& setup) {

@@ -20,6 +20,7 @@
 #include "studies/core/engine_running.hpp"
 #include "studies/core/in_space.hpp"
 #include "studies/core/study.hpp"
+#include "studies/lockstep/window.hpp"
 #include "studies/stability/transforms.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
@@ -65,12 +66,10 @@ std::vector<CollisionStart> startsOf(const Case& setup, const SceneOf<D>& scene)
 /// velocity of the snapshot before.
 template <int D>
 void unwrap(SnapshotOf<D>& now, const SnapshotOf<D>& before, const SceneOf<D>& scene) {
-  if (!scene.box) return;
-  const double passed = now.positionTime - before.positionTime;
-  for (std::size_t i = 0; i < now.position.size(); ++i) {
-    const VecOf<D> expected = before.position[i] + passed * before.velocity[i];
-    now.position[i] = expected + scene.box->nearest(now.position[i] - expected);
-  }
+  std::vector<VecOf<D>> expected = before.position;
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    expected[i] += (now.positionTime - before.positionTime) * before.velocity[i];
+  unwrap<D>(now.position, expected, scene.box);
 }
 
 /// Has an engine load the scene and takes the case's samples while it runs. An engine that fails
