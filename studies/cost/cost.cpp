@@ -171,9 +171,9 @@ double shareOf(CostKind kind) {
 constexpr double shareOfSteps = 0.1;
 
 /// Measures one kind of error after the other, round by round and one point at a time: of each the
-/// time steps first, then other settings, the cheapest on whichever engine first, so that a budget
-/// buys as many points as it can. A point that is begun gets all of its rounds, unless its time has
-/// ended.
+/// time steps first, then other settings, in turns over the engines, each one's cheapest first, so
+/// that a budget reaches every engine. A point that is begun gets as many rounds as an interval
+/// takes, and further ones as long as there is time.
 class Measuring {
  public:
   Measuring(CostStudy& study, double budget) : study_(study), budget_(budget) {}
@@ -227,8 +227,8 @@ class Measuring {
     PlannedPoint point;
     std::vector<CostRun> runs = {};
     std::optional<CostRun> ended = {};  ///< failed, refused or not run: no further round
-    double committed = 0.0;             ///< what its further rounds will take [s]
-    bool begun = false, cut = false;    ///< cut: the budget ended before its last rounds
+    double committed = 0.0;             ///< what rounds that it is to have will take [s]
+    bool cut = false;                   ///< the budget ended before its last rounds
   };
 
   static Place placeOf(const PlannedPoint& point) {
@@ -285,14 +285,23 @@ class Measuring {
       const std::vector<CostSetting>& settings = study_.settingsOf(e, kind.kind());
       for (std::size_t s = 0; s < settings.size(); ++s) {
         PlannedPoint& point = plan.emplace_back(PlannedPoint{e, kind.kind(), s});
-        if (settings[s].refusal.empty())
-          point.seconds =
-              kind.predicted(e, settings[s]) * shareMissing(study_, point, kind.rounds());
+        if (!settings[s].refusal.empty()) continue;
+        const double all = kind.predicted(e, settings[s]);
+        point.round = all / static_cast<double>(kind.rounds());
+        point.seconds = all * shareMissing(study_, point, kind.rounds());
       }
     }
+    const auto otherThanStep = [&](const PlannedPoint& point) {
+      return study_.settingOf(point).knob != "time_step";
+    };
     std::ranges::stable_sort(plan, {}, [&](const PlannedPoint& point) {
-      const bool isStep = study_.settingOf(point).knob == "time_step";
-      return std::tuple(!isStep, point.seconds + kind.ownTime(point.engine));
+      return std::tuple(otherThanStep(point), point.seconds);
+    });
+    std::map<std::pair<bool, std::size_t>, std::size_t> turns;
+    for (PlannedPoint& point : plan) point.turn = turns[{otherThanStep(point), point.engine}]++;
+    std::ranges::stable_sort(plan, {}, [&](const PlannedPoint& point) {
+      return std::tuple(otherThanStep(point), point.turn,
+                        point.seconds + kind.ownTime(point.engine));
     });
     return plan;
   }
@@ -323,7 +332,8 @@ class Measuring {
   Measured timed(ErrorKind& kind, const PlannedPoint& point, std::size_t round, double seconds) {
     const double before = study_.campaign.elapsed();
     Measured measured = measure(study_, kind, point, round);
-    if (seconds > 0.0 && measured.result.status == Status::finished) {  // what blows up takes for ever
+    if (seconds > 0.0 &&
+        measured.result.status == Status::finished) {  // what blows up takes for ever
       Pace& pace = paces_[point.engine];
       pace.took += study_.campaign.elapsed() - before;
       pace.expected += seconds;
@@ -331,47 +341,43 @@ class Measuring {
     return measured;
   }
 
-  /// The first round of a point decides on all of them; the first point of an engine and kind pays
-  /// for the references of its own.
+  static Measured notRun(const std::string& reason) {
+    CostRun none;
+    none.status = Status::notRun;
+    none.reason = reason;
+    return {none, false, reason};
+  }
+
+  /// A point's first round commits the budget to as many as an interval takes; the first point of
+  /// an engine and kind pays for the references of its own.
   Measured affordable(ErrorKind& kind, Rounds& of, std::size_t round) {
     throwIfInterrupted();
     const PlannedPoint& point = of.point;
-    if (of.begun && study_.campaign.elapsed() > until_) {
-      CostRun none;
-      none.status = Status::notRun;
-      none.reason =
-          fmt::format("its share of the budget of {:.3g} s ended after {} of its {} rounds",
-                      budget_, of.runs.size(), kind.rounds());
-      return {none, false, none.reason};
+    const std::size_t needed = of.runs.size() < fewestRounds
+                                   ? std::min(fewestRounds - of.runs.size(), kind.rounds() - round)
+                                   : 1;
+    double takes = point.round * static_cast<double>(needed);
+    if (of.committed > 0.0) {
+      committed_ -= of.committed;
+      if (study_.campaign.elapsed() > until_)
+        return notRun(
+            fmt::format("its share of the budget of {:.3g} s ended after {} of its {} rounds",
+                        budget_, of.runs.size(), kind.rounds()));
+    } else {
+      const std::pair group(point.kind, point.engine);
+      if (!begun_.contains(group)) takes += kind.ownTime(point.engine);
+      // An engine's first point shows how good its predictions are: it may take twice what is left.
+      const double overrun = paces_.contains(point.engine) ? 1.0 : 2.0;
+      if (const std::string why = lackOfTime(takes, point.engine, overrun); !why.empty()) {
+        budgetForTheRest += point.round * static_cast<double>(kind.rounds() - round);
+        return notRun(why);
+      }
+      begun_.insert(group);
     }
-    if (of.begun) {
-      const double once = of.committed / static_cast<double>(kind.rounds() - round);
-      of.committed -= once;
-      committed_ -= once;
-      Measured measured = timed(kind, point, round, once);
-      if (measured.result.status != Status::finished) committed_ -= of.committed;
-      return measured;
-    }
-    const std::pair group(point.kind, point.engine);
-    const double takes = point.seconds > 0.0 && !begun_.contains(group)
-                             ? point.seconds + kind.ownTime(point.engine)
-                             : point.seconds;
-    // An engine's first point shows how good its predictions are, and may take twice the time left.
-    const double overrun = paces_.contains(point.engine) ? 1.0 : 2.0;
-    if (const std::string why = lackOfTime(takes, point.engine, overrun); !why.empty()) {
-      budgetForTheRest += takes;
-      CostRun none;
-      none.status = Status::notRun;
-      none.reason = why;
-      return {none, false, why};
-    }
-    begun_.insert(group);
-    of.begun = true;
-    const auto left = static_cast<double>(kind.rounds() - round);
-    of.committed = point.seconds * (left - 1.0) / left;
-    committed_ += of.committed;
+    of.committed = point.round * static_cast<double>(needed - 1);
     Measured measured = timed(kind, point, round, takes - of.committed);
-    if (measured.result.status != Status::finished) committed_ -= of.committed;
+    if (measured.result.status != Status::finished) of.committed = 0.0;
+    committed_ += of.committed;
     return measured;
   }
 

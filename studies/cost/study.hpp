@@ -100,6 +100,8 @@ struct PlannedPoint {
   CostKind kind = CostKind::collision;
   std::size_t setting = 0;  ///< of that engine and kind; 0 is the case as it is
   double seconds = 0.0;     ///< predicted; 0: an earlier run has it, or it is refused
+  double round = 0.0;       ///< of one of its rounds
+  std::size_t turn = 0;     ///< among its engine's points, from the cheapest
 };
 
 /// What planning and measuring work with: engines and packings, the settings to measure, and by
