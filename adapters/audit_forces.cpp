@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "adapters/near_pairs.hpp"
 
 namespace crossgrain {

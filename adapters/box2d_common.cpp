@@ -103,47 +103,6 @@ box2d_granular::Model box2dModel(const Scene& scene, double dt, double lengthUni
   return model;
 }
 
-// Both sides list the values of these options in the same order.
-box2d_granular::SoftLaw box2dSoftLaw(const ContactLaw& law) {
-  const LawConventions& how = law.conventions;
-  box2d_granular::SoftLaw to;
-  to.kn = law.kn;
-  to.gn = law.gn;
-  to.kt = law.kt;
-  to.gt = law.gt;
-  to.mu = law.mu;
-  to.tangential = static_cast<box2d_granular::Tangential>(law.tangential);
-  to.bound = static_cast<box2d_granular::Bound>(how.coulombBound);
-  to.cutTension = how.tension == Tension::cut;
-  to.dashpotOutsideBound = how.dashpot == Dashpot::outside;
-  to.resetSpringOnly = how.springReset == SpringReset::springOnly;
-  to.stretchBefore = how.springUpdate == SpringUpdate::before;
-  to.leverToContactPoint = how.leverArm == LeverArm::contactPoint;
-  to.normal = law.normal == NormalLaw::hertz ? box2d_granular::Normal::hertz
-                                             : box2d_granular::Normal::linear;
-  to.damper = static_cast<box2d_granular::Damper>(law.damper);
-  to.history = static_cast<box2d_granular::History>(how.history);
-  to.rolling = static_cast<box2d_granular::Rolling>(law.rolling);
-  to.kr = law.kr;
-  to.gr = law.gr;
-  to.muR = law.muR;
-  to.rollingLength = static_cast<box2d_granular::RollingLength>(how.rollingLength);
-  to.rollingStiffness = static_cast<box2d_granular::RollingStiffness>(how.rollingStiffness);
-  to.rollingDamper = static_cast<box2d_granular::RollingDamper>(how.rollingDamper);
-  to.rollingLoad = static_cast<box2d_granular::RollingLoad>(how.rollingLoad);
-  to.rollingDashpotOutside = how.rollingDashpot == Dashpot::outside;
-  to.rollingResetSpringOnly = how.rollingReset == SpringReset::springOnly;
-  to.cohesion = static_cast<box2d_granular::Cohesion>(law.cohesion);
-  to.kc = law.kc;
-  to.w = law.w;
-  to.kUnload = law.kUnload;
-  to.plasticDepth = law.plasticDepth;
-  to.cohesionArea = static_cast<box2d_granular::CohesionArea>(how.cohesionArea);
-  to.jkrEnd = static_cast<box2d_granular::JkrEnd>(how.jkrEnd);
-  to.cohesionLoad = static_cast<box2d_granular::CohesionLoad>(how.cohesionLoad);
-  return to;
-}
-
 Snapshot kinematicSnapshot(const box2d_granular::Members& members, double time, bool spins) {
   Snapshot snapshot;
   snapshot.positionTime = snapshot.velocityTime = snapshot.contactTime = time;

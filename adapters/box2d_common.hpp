@@ -5,7 +5,6 @@
 
 #include "adapters/engine.hpp"
 #include "engines/box2d/members.hpp"
-#include "engines/box2d/soft_law.hpp"
 
 namespace crossgrain {
 
@@ -31,9 +30,6 @@ double numberSetting(const Settings& settings, const std::vector<SettingSpec>& s
 ///                    changing units rounds nothing
 /// @throws UnsupportedScene if a wall is not rigid
 box2d_granular::Model box2dModel(const Scene& scene, double dt, double lengthUnit);
-
-/// The scene's soft law.
-box2d_granular::SoftLaw box2dSoftLaw(const ContactLaw& law);
 
 inline Vec2 toVec2(box2d_granular::Vector v) {
   return {v.x, v.y};

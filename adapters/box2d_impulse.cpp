@@ -11,11 +11,11 @@
 #include "adapters/box2d.hpp"
 #include "adapters/box2d_common.hpp"
 #include "adapters/grain.hpp"
-#include "adapters/law_options.hpp"
 #include "adapters/pair_table.hpp"
 #include "adapters/stopwatch.hpp"
 #include "adapters/suitability.hpp"
 #include "engines/box2d/impulse_world.hpp"
+#include "law/law_options.hpp"
 
 namespace crossgrain {
 
@@ -221,7 +221,7 @@ class Box2dImpulse : public Engine {
   Restitution restitutionOf(const PairInertia& pair) {
     if (law_.normal == NormalLaw::rigid) return {law_.en, law_.et0};
     const auto [known, isNew] = known_.try_emplace({pair.normal, pair.tangential});
-    if (isNew) known->second = box2d_granular::rigidEquivalent(box2dSoftLaw(law_), pair);
+    if (isNew) known->second = box2d_granular::rigidEquivalent(law_, pair);
     return known->second;
   }
 

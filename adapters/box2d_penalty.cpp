@@ -7,10 +7,10 @@
 #include "adapters/box2d.hpp"
 #include "adapters/box2d_common.hpp"
 #include "adapters/grain.hpp"
-#include "adapters/law_options.hpp"
 #include "adapters/pair_table.hpp"
 #include "adapters/stopwatch.hpp"
 #include "engines/box2d/penalty_world.hpp"
+#include "law/law_options.hpp"
 
 namespace crossgrain {
 
@@ -25,14 +25,15 @@ class Box2dPenalty : public Engine {
     Capabilities can;
     can.version = box2dVersion();
     for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
+    for (const Effect effect : {Effect::rollingResistance, Effect::cohesion})
+      can.effects[effect] = Support::never;
     can.lawOptions = {{"normal", {"linear", "hertz"}},
                       {"spring_update", {"after", "before"}},
                       {"lever_arm", {"radius", "contact_point"}},
                       {"velocity_arm", {"lever_arm"}},
                       {"plane_arm", {"surface"}},
                       {"damping_velocity", {"lagged"}},
-                      {"integrator", {"semi_implicit_euler"}},
-                      {"unloading_stiffness", {"current"}}};
+                      {"integrator", {"semi_implicit_euler"}}};
     can.precisions = {Precision::float64};
     can.slidingFlags = true;
     can.settings = {{"dt", 0.0, "s", "time step; 0: the case's"}, lengthUnitSetting()};
@@ -48,13 +49,10 @@ class Box2dPenalty : public Engine {
     const double dt = numberSetting(settings, specs, "dt");
     const box2d_granular::Model model =
         box2dModel(scene, dt > 0.0 ? dt : scene.dt, numberSetting(settings, specs, "length_unit"));
-    std::optional<box2d_granular::Plate> plate;
-    if (scene.bottom && scene.bottom->mu > 0.0)
-      plate = {scene.bottom->mu,   scene.bottom->kb,      scene.bottom->gb,
-               scene.bottom->tauM, scene.bottom->gravity, scene.bottom->spin};
-    world_.emplace(model, box2dSoftLaw(scene.law), plate, pairLaws(scene));
-    spins_ = scene.law.friction() || scene.law.rolls();
-    rolls_ = scene.law.rolls();
+    std::optional<BottomPlate> plate = scene.bottom;
+    if (plate && !(plate->mu > 0.0)) plate.reset();
+    world_.emplace(model, scene.law, plate, pairLaws(scene));
+    spins_ = scene.law.friction();
     stopwatch_ = {};
 
     EffectiveParameters effective;
@@ -100,12 +98,11 @@ class Box2dPenalty : public Engine {
   static std::optional<box2d_granular::PairLaws> pairLaws(const Scene& scene) {
     if (!scene.materials) return std::nullopt;
     const Materials& from = *scene.materials;
-    box2d_granular::PairLaws to{from.ofDisk, from.names.size(), {}};
+    box2d_granular::PairLaws to{from.ofDisk, from.names.size(), from.laws};
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
       to.material.insert(to.material.end(), scene.bodies[b].diskRadius.size(), from.ofBody[b]);
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
       to.material.insert(to.material.end(), scene.bodies[b].planes.size(), from.ofBody[b]);
-    for (const ContactLaw& law : from.laws) to.laws.push_back(box2dSoftLaw(law));
     return to;
   }
 
@@ -120,14 +117,12 @@ class Box2dPenalty : public Engine {
       contacts.normalForce.push_back(contact.force.normal);
       contacts.tangentialForce.push_back(contact.force.tangential);
       contacts.sliding.push_back(contact.force.sliding);
-      if (rolls_) contacts.rollingTorque.push_back(contact.rolling);
     }
     return contacts;
   }
 
   std::optional<box2d_granular::PenaltyWorld> world_;
   bool spins_ = false;  ///< whether any force asks for them
-  bool rolls_ = false;
   Stopwatch stopwatch_;
 };
 
@@ -150,8 +145,7 @@ EngineEntry box2dPenaltyMirror() {
                       {"spring_update", {"after", "before"}},
                       {"lever_arm", {"radius", "contact_point"}},
                       {"velocity_arm", {"lever_arm"}},
-                      {"plane_arm", {"surface"}},
-                      {"unloading_stiffness", {"current"}}});
+                      {"plane_arm", {"surface"}}});
 }
 
 }  // namespace crossgrain

@@ -10,71 +10,19 @@
 
 #include "adapters/declared_law.hpp"
 #include "adapters/grain_space.hpp"
-#include "adapters/law_options.hpp"
 #include "adapters/pair_table.hpp"
 #include "adapters/stopwatch.hpp"
 #include "adapters/suitability.hpp"
 #include "engines/grain/simulation.hpp"
+#include "law/law_options.hpp"
 #include "support/busy_time.hpp"
 
 namespace crossgrain {
 
-// Both sides list the values of these options in the same order; a test holds them together.
-grain::Law grainLawOf(const ContactLaw& law) {
-  const LawConventions& how = law.conventions;
-  grain::Law to;
-  to.normal = static_cast<grain::Normal>(law.normal);
-  to.damper = static_cast<grain::Damper>(law.damper);
-  to.history = static_cast<grain::History>(how.history);
-  to.kn = law.kn;
-  to.kn3 = law.kn3;
-  to.gn = law.gn;
-  to.kt = law.kt;
-  to.gt = law.gt;
-  to.mu = law.mu;
-  to.en = law.en;
-  to.et0 = law.et0;
-  to.tangential = law.soft() ? static_cast<grain::Tangential>(law.tangential)
-                             : grain::Tangential::coulomb;  // rigid disks have no springs
-  to.bound = static_cast<grain::Bound>(how.coulombBound);
-  to.stretch = static_cast<grain::Stretch>(how.springUpdate);
-  to.cutTension = how.tension == Tension::cut;
-  to.dashpotOutsideBound = how.dashpot == Dashpot::outside;
-  to.resetSpringOnly = how.springReset == SpringReset::springOnly;
-  to.lever = static_cast<grain::Lever>(how.leverArm);
-  to.velocityLever = static_cast<grain::Lever>(how.armOfVelocity());
-  to.planeLever = static_cast<grain::PlaneLever>(how.planeArm);
-  // Euler's velocities belong to the same time as its positions: there is nothing to predict.
-  to.damping = how.integrator == Integrator::semiImplicitEuler
-                   ? grain::Damping::lagged
-                   : static_cast<grain::Damping>(how.dampingVelocity);
-  to.rolling = static_cast<grain::Rolling>(law.rolling);
-  to.kr = law.kr;
-  to.gr = law.gr;
-  to.muR = law.muR;
-  to.rollingConventions = {static_cast<grain::RollingLength>(how.rollingLength),
-                           static_cast<grain::RollingStiffness>(how.rollingStiffness),
-                           static_cast<grain::RollingDamper>(how.rollingDamper),
-                           static_cast<grain::RollingLoad>(how.rollingLoad),
-                           how.rollingDashpot == Dashpot::outside,
-                           how.rollingReset == SpringReset::springOnly};
-  to.cohesion = static_cast<grain::Cohesion>(law.cohesion);
-  to.kc = law.kc;
-  to.w = law.w;
-  to.k2 = law.kUnload;
-  to.plasticDepth = law.plasticDepth;
-  to.cohesionConventions = {static_cast<grain::CohesionArea>(how.cohesionArea),
-                            static_cast<grain::JkrEnd>(how.jkrEnd),
-                            static_cast<grain::CohesionLoad>(how.cohesionLoad),
-                            static_cast<grain::UnloadingStiffness>(how.unloadingStiffness)};
-  return to;
-}
-
 std::optional<grain::Materials> grainMaterialsOf(const std::optional<Materials>& materials) {
   if (!materials) return std::nullopt;
-  grain::Materials to{materials->ofDisk, materials->ofBody, materials->names.size(), {}};
-  for (const ContactLaw& law : materials->laws) to.laws.push_back(grainLawOf(law));
-  return to;
+  return grain::Materials{materials->ofDisk, materials->ofBody, materials->names.size(),
+                          materials->laws};
 }
 
 namespace {
@@ -115,15 +63,12 @@ grain::Setup setupOf(const Scene& scene) {
   setup.disks.mass = scene.disks.mass;
   setup.disks.inertia = scene.disks.inertia;
   for (const WallBody& body : scene.bodies) setup.walls.push_back(translate(body));
-  setup.law = grainLawOf(scene.law);
+  setup.law = scene.law;
   setup.materials = grainMaterialsOf(scene.materials);
-  if (scene.bottom && scene.bottom->mu > 0.0)
-    setup.bottom = {scene.bottom->mu,   scene.bottom->kb,      scene.bottom->gb,
-                    scene.bottom->tauM, scene.bottom->gravity, scene.bottom->spin};
+  if (scene.bottom && scene.bottom->mu > 0.0) setup.bottom = scene.bottom;
   setup.gravityX = scene.gravity.x();
   setup.gravityY = scene.gravity.y();
   setup.dt = scene.dt;
-  setup.integrator = static_cast<grain::Integrator>(scene.law.conventions.integrator);
   setup.rotation = scene.rotation;
   setup.precision = static_cast<grain::Precision>(scene.precision);
   setup.ledger = scene.energyLedger;

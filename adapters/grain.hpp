@@ -14,8 +14,7 @@ namespace crossgrain {
 /// without an adapter. Its law is one that the engine has.
 grain::Setup setupOf(const Scene& scene);
 
-/// A law in the in-house engine's own terms.
-grain::Law grainLawOf(const ContactLaw& law);
+/// Materials in the in-house engine's own terms.
 std::optional<grain::Materials> grainMaterialsOf(const std::optional<Materials>& materials);
 
 /// The in-house engine.

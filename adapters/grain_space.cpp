@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "adapters/grain.hpp"
-#include "adapters/law_options.hpp"
 #include "adapters/pair_table.hpp"
+#include "law/law_options.hpp"
 
 namespace crossgrain {
 namespace {
@@ -63,15 +63,10 @@ grain::SpheresSetup setupOf(const SpaceScene& scene, double skin, double maxOver
   for (const WallBodyOf<3>& body : scene.bodies) setup.walls.push_back(wallOf(body));
   if (const auto& box = scene.box)
     setup.box = grain::SpaceBox{of(box->low), of(Vec3(box->high - box->low)), box->periodic};
-  const LawConventions& how = scene.law.conventions;
-  setup.law = grainLawOf(scene.law);
+  setup.law = scene.law;
   setup.materials = grainMaterialsOf(scene.materials);
-  // Both sides list the values of these in the same order, too.
-  setup.conventions = {static_cast<grain::SpringTurn>(how.springTurn),
-                       static_cast<grain::SpringTwist>(how.springTwist)};
   setup.gravity = of(scene.gravity);
   setup.dt = scene.dt;
-  setup.integrator = static_cast<grain::Integrator>(how.integrator);
   setup.rotation = scene.rotation;
   setup.skin = skin;
   setup.maxOverlap = maxOverlap;

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "adapters/contact_law.hpp"
+#include "law/contact_law.hpp"
 #include "adapters/motion.hpp"
 #include "adapters/vec2.hpp"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 
 namespace crossgrain {
 namespace {

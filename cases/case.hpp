@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "adapters/contact_law.hpp"
+#include "law/contact_law.hpp"
 #include "adapters/engine.hpp"
 #include "adapters/motion.hpp"
 #include "adapters/scene.hpp"

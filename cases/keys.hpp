@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "adapters/contact_law.hpp"
+#include "law/contact_law.hpp"
 
 /// The keys of case files as a list: `crossgrain list keys`, and the second part of docs/cases.md.
 /// The tables behind it are those that the loader reads by (schema.hpp).

@@ -2,7 +2,7 @@
 #include <initializer_list>
 #include <numbers>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "cases/loader_sections.hpp"
 
 namespace crossgrain::inline cases {

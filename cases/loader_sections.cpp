@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "adapters/effects.hpp"
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
 #include "averaging/weights.hpp"

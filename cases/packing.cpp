@@ -12,7 +12,7 @@
 #include <string_view>
 #include <utility>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "cases/couette.hpp"
 #include "cases/preparation.hpp"
 #include "support/bad_input.hpp"

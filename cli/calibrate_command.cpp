@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/keys.hpp"
 #include "cases/loader.hpp"

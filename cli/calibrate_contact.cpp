@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "cases/keys.hpp"
 #include "cli/option_groups.hpp"
 #include "oracle/calibration.hpp"

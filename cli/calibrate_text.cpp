@@ -9,7 +9,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "cases/keys.hpp"
 #include "cli/calibrate_contact.hpp"
 #include "oracle/calibration.hpp"

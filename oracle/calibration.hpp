@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "adapters/contact_law.hpp"
+#include "law/contact_law.hpp"
 #include "oracle/collision_oracle.hpp"
 
 namespace crossgrain::inline oracle {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "adapters/contact_law.hpp"
+#include "law/contact_law.hpp"
 #include "oracle/collision_end.hpp"
 
 /// Forces of bodies that attract each other, without their dashpots, from the texts of the laws.

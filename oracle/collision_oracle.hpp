@@ -1,6 +1,6 @@
 #pragma once
 
-#include "adapters/contact_law.hpp"
+#include "law/contact_law.hpp"
 #include "oracle/collision_end.hpp"
 
 namespace crossgrain::inline oracle {
@@ -11,7 +11,7 @@ namespace crossgrain::inline oracle {
 /// rounding; where a law that stiffens is not smooth, at δ = 0, steps shrink until it is again.
 /// Every change between stick and slip, of v_t's sign and of compression is an event, located to
 /// rounding. The energies lost are integrated beside the motion. Rigid laws: rigidOutcome().
-/// Rolling resistance and cohesion as in adapters/contact_law.hpp; a pair that coheres may not part
+/// Rolling resistance and cohesion as in law/contact_law.hpp; a pair that coheres may not part
 /// (CollisionEnd::parted).
 /// Of a law in space: spheres that have no spin out of the plane of impact stay in it, and are the
 /// plane's problem (docs/dimensions.md, section 4); others are vectorOutcome().

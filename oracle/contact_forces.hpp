@@ -1,6 +1,6 @@
 #pragma once
 
-#include "adapters/contact_law.hpp"
+#include "law/contact_law.hpp"
 #include "oracle/collision_end.hpp"
 
 namespace crossgrain::inline oracle {

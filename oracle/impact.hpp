@@ -1,6 +1,6 @@
 #pragma once
 
-#include "adapters/contact_law.hpp"
+#include "law/contact_law.hpp"
 
 namespace crossgrain::inline oracle {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "adapters/contact_law.hpp"
+#include "law/contact_law.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "oracle/contact_forces.hpp"
 

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "oracle/contact_forces.hpp"
 

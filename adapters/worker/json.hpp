@@ -8,7 +8,7 @@
 #include <string>
 
 #include "adapters/engine.hpp"
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "adapters/worker/arrays.hpp"
 #include "support/json_fields.hpp"
 

@@ -6,43 +6,32 @@ namespace box2d_granular {
 namespace {
 
 // Enough for Begin and End to enclose the true contact in spite of rounded positions, and so little
-// that hardly any pair is looked at in vain. Bonds end as far out as they reach; a plane has no
-// skin, and the largest disk on one the largest R₁₂.
-double skinFor(const Model& model, const SoftLaw& law, const std::optional<PairLaws>& pairs) {
-  double smallest = extentOf(model), largest = 0.0, range = 0.0;
-  for (const Disk& disk : model.disks) {
-    smallest = std::min(smallest, disk.radius);
-    largest = std::max(largest, disk.radius);
-  }
-  if (largest > 0.0) {
-    range = bondRange(law, largest);
-    if (pairs)
-      for (const SoftLaw& one : pairs->laws) range = std::max(range, bondRange(one, largest));
-  }
-  const double rounding = 8.0 * roundingAt(extentOf(model));
-  return std::max(1e-3 * smallest, rounding) + range;
+// that hardly any pair is looked at in vain.
+double skinFor(const Model& model) {
+  double smallest = extentOf(model);
+  for (const Disk& disk : model.disks) smallest = std::min(smallest, disk.radius);
+  return std::max(1e-3 * smallest, 8.0 * roundingAt(extentOf(model)));
 }
 
 }  // namespace
 
-PenaltyWorld::PenaltyWorld(const Model& model, const SoftLaw& law, std::optional<Plate> plate,
-                           std::optional<PairLaws> pairs)
+PenaltyWorld::PenaltyWorld(const Model& model, const ContactLaw& law,
+                           std::optional<BottomPlate> plate, std::optional<PairLaws> pairs)
     : law_(law),
       pairs_(std::move(pairs)),
-      plain_(!pairs_ && law.plain()),
       plate_(plate),
       gravity_(model.gravity),
       dt_(model.dt),
-      rotation_(model.rotation && law.turnsDisks()),
+      rotation_(model.rotation && law.friction()),
       walls_(model.walls),
       members_(model),
-      world_(model, skinFor(model, law_, pairs_)),
+      world_(model, skinFor(model)),
       force_(model.disks.size()) {
   for (const Disk& disk : model.disks) {
     mass_.push_back(disk.mass);
     inertia_.push_back(disk.inertia);
   }
-  if (law.turnsDisks()) torque_.resize(model.disks.size());
+  if (law.friction()) torque_.resize(model.disks.size());
   if (plate_) plateSpring_.resize(model.disks.size());
   world_.box2d().SetContactListener(this);
   showBox2d();
@@ -107,16 +96,13 @@ void PenaltyWorld::EndContact(b2Contact* contact) {
 void PenaltyWorld::evaluateForces() {
   for (std::size_t i = 0; i < members_.disks; ++i) force_[i] = mass_[i] * gravity_;
   std::ranges::fill(torque_, 0.0);
-  if (plain_)
-    withPartsOf(law_, [this]<bool Damped, Tangential T>() { addContactForces<true, Damped, T>(); });
-  else
-    addContactForces<false, true, Tangential::springDashpot>();
+  withPartsOf(law_, [this]<bool Damped, TangentialLaw T>() { addContactForces<Damped, T>(); });
   if (plate_) addPlateForces();
 }
 
 PenaltyWorld::Levers PenaltyWorld::levers(const SoftContact& contact) const {
   const double a = members_.radius[static_cast<std::size_t>(contact.i)];
-  const bool yielding = law_.leverToContactPoint;
+  const bool yielding = law_.conventions.leverArm == LeverArm::contactPoint;
   const double overlap = contact.geometry.overlap;
   // A plane does not yield: the contact point lies on it.
   if (members_.isPlane(contact.j)) return {yielding ? a - overlap : a, 0.0};
@@ -137,7 +123,7 @@ Vector PenaltyWorld::planeVelocity(const SoftContact& contact) const {
   return pose.velocity + pose.spin * turned(footOnPlane(contact) - pose.centre);
 }
 
-const SoftLaw& PenaltyWorld::lawOf(const SoftContact& contact) const {
+const ContactLaw& PenaltyWorld::lawOf(const SoftContact& contact) const {
   if (!pairs_) return law_;
   const auto of = [&](std::int32_t id) {
     return static_cast<std::size_t>(pairs_->material[static_cast<std::size_t>(id)]);
@@ -145,55 +131,30 @@ const SoftLaw& PenaltyWorld::lawOf(const SoftContact& contact) const {
   return pairs_->laws[of(contact.i) * pairs_->count + of(contact.j)];
 }
 
-PairMotion PenaltyWorld::motionOf(const SoftContact& contact, double vn, double vt) const {
-  const auto i = static_cast<std::size_t>(contact.i), j = static_cast<std::size_t>(contact.j);
-  const bool wall = members_.isWall(contact.j), plane = members_.isPlane(contact.j);
-  PairMotion motion{contact.geometry.overlap, vn,  vt,      members_.spin[i],
-                    members_.radius[i],       0.0, mass_[i]};
-  const auto inertia = [&](std::size_t k) {
-    return inertia_[k] + mass_[k] * members_.radius[k] * members_.radius[k];
-  };
-  motion.rollingInertia = inertia(i);
-  motion.dt = dt_;
-  if (plane) {
-    motion.spin -= members_.pose[members_.wallOf(contact.j)].spin;
-    return motion;
-  }
-  motion.spin -= members_.spin[j];
-  motion.b = members_.radius[j];
-  if (wall) return motion;
-  motion.mass = mass_[i] * mass_[j] / (mass_[i] + mass_[j]);
-  motion.rollingInertia = inertia(i) * inertia(j) / (inertia(i) + inertia(j));
-  return motion;
+/// R₁₂ [m].
+double PenaltyWorld::radiusOf(const SoftContact& contact) const {
+  const double a = members_.radius[static_cast<std::size_t>(contact.i)];
+  if (members_.isPlane(contact.j)) return a;
+  const double b = members_.radius[static_cast<std::size_t>(contact.j)];
+  return a * b / (a + b);
 }
 
-/// Keeps the bond of JKR, and forgets everything where there is no contact.
-bool PenaltyWorld::touches(SoftContact& contact) const {
-  const PairMotion motion = motionOf(contact, 0.0, 0.0);
-  const double reach = contact.memory.bonded ? bondRange(lawOf(contact), motion.radius()) : 0.0;
-  const bool touching = motion.overlap > -reach;
-  if (!touching) contact.memory = {};
-  contact.memory.bonded = touching;
-  return touching;
+/// m₁₂ [kg]; walls are infinitely heavy.
+double PenaltyWorld::massOf(const SoftContact& contact) const {
+  const double a = mass_[static_cast<std::size_t>(contact.i)];
+  if (members_.isWall(contact.j)) return a;
+  const double b = mass_[static_cast<std::size_t>(contact.j)];
+  return a * b / (a + b);
 }
 
-void PenaltyWorld::addGeneralForce(SoftContact& contact, double vn, double vt) {
-  const PairForce force = pairForce(lawOf(contact), motionOf(contact, vn, vt), contact.memory);
-  contact.force = {force.normal, force.tangential, force.sliding};
-  contact.rolling = force.rolling;
-  if (law_.rolling == Rolling::none) return;
-  torque_[static_cast<std::size_t>(contact.i)] += force.rolling;
-  if (!members_.isWall(contact.j)) torque_[static_cast<std::size_t>(contact.j)] -= force.rolling;
-}
-
-template <bool Plain, bool Damped, Tangential T>
+template <bool Damped, TangentialLaw T>
 void PenaltyWorld::addContactForces() {
   for (SoftContact& contact : contacts_) {
     contact.geometry = pairGeometry(members_, contact.i, contact.j);
     const auto [n, overlap] = contact.geometry;
-    contact.touching = Plain ? overlap > 0.0 : touches(contact);
+    contact.touching = overlap > 0.0;
     if (!contact.touching) {
-      contact.spring = contact.rolling = 0.0;
+      contact.spring = 0.0;
       continue;
     }
     ++contactEvaluations_;
@@ -204,22 +165,20 @@ void PenaltyWorld::addContactForces() {
     const Vector v = members_.velocity[i] - (plane ? planeVelocity(contact) : members_.velocity[j]);
     double vt = 0.0;
     Levers lever{};
-    if constexpr (T != Tangential::none) {
+    if constexpr (T != TangentialLaw::none) {
       lever = levers(contact);
       vt = dot(v, turned(n)) - lever.i * members_.spin[i];
       if (!plane) vt -= lever.j * members_.spin[j];
     }
-    if constexpr (Plain)
-      contact.force = contactForce<Damped, T>(law_, overlap, dot(v, n), vt, contact.spring, dt_);
-    else
-      addGeneralForce(contact, dot(v, n), vt);
+    contact.force = contactForce<Damped, T>(
+        lawOf(contact), {overlap, dot(v, n), vt, dt_, radiusOf(contact), massOf(contact)},
+        contact.spring);
 
     const Vector onI = contact.force.normal * n + contact.force.tangential * turned(n);
     const bool wall = members_.isWall(contact.j);
     force_[i] = force_[i] + onI;
     if (!wall) force_[j] = force_[j] - onI;
-    if constexpr (T != Tangential::none) {
-      if (!Plain && !law_.friction()) continue;
+    if constexpr (T != TangentialLaw::none) {
       torque_[i] -= lever.i * contact.force.tangential;
       if (!wall) torque_[j] -= lever.j * contact.force.tangential;
     }
@@ -237,8 +196,8 @@ std::vector<WallLoad> PenaltyWorld::wallLoads() const {
                           ? footOnPlane(contact)
                           : members_.position[static_cast<std::size_t>(contact.j)];
     loads[w].force = loads[w].force + onWall;
-    loads[w].torque += cross(at - members_.pose[w].centre, onWall) -
-                       levers(contact).j * contact.force.tangential - contact.rolling;
+    loads[w].torque +=
+        cross(at - members_.pose[w].centre, onWall) - levers(contact).j * contact.force.tangential;
   }
   return loads;
 }
@@ -277,11 +236,9 @@ double PenaltyWorld::kineticEnergy() const {
 double PenaltyWorld::elasticEnergy() const {
   double energy = 0.0;
   for (const SoftContact& contact : contacts_)
-    if (contact.touching && !plain_)
-      energy += storedEnergy(lawOf(contact), motionOf(contact, 0.0, 0.0), contact.memory);
-    else if (contact.touching)
-      energy += 0.5 * law_.kn * contact.geometry.overlap * contact.geometry.overlap +
-                0.5 * law_.kt * contact.spring * contact.spring;
+    if (contact.touching)
+      energy +=
+          storedEnergy(lawOf(contact), contact.geometry.overlap, radiusOf(contact), contact.spring);
   return energy;
 }
 

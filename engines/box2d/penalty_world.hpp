@@ -5,21 +5,11 @@
 #include <unordered_map>
 #include <vector>
 
-#include "engines/box2d/general_law.hpp"
 #include "engines/box2d/members.hpp"
+#include "engines/box2d/soft_law.hpp"
 #include "engines/box2d/world.hpp"
 
 namespace box2d_granular {
-
-/// Friction with the plate that the disks lie on (Lätzel 2003, Eqs. 4.27–4.29).
-struct Plate {
-  double mu = 0.0;       ///< µ_b [-]
-  double kb = 0.0;       ///< [N/m]
-  double gb = 0.0;       ///< [kg/s]
-  double tauM = 0.0;     ///< τ_M [-]
-  double gravity = 0.0;  ///< presses a disk on the plate [m/s²]
-  bool spin = false;     ///< whether it brakes spin too
-};
 
 /// What the disks do to a wall: force [N] and torque about the wall's centre [N m].
 struct WallLoad {
@@ -30,19 +20,17 @@ struct WallLoad {
 /// A pair of shapes that Box2D says are close, and its state at the last force evaluation.
 struct SoftContact {
   std::int32_t i, j;
-  double spring = 0.0;  ///< ξ [m]
+  double spring = 0.0;  ///< ξ [m], or the force [N]
   bool touching = false;
   PairGeometry geometry{};
   ContactForce force{};
-  double rolling = 0.0;  ///< M on i [N m]
-  PairMemory memory{};   ///< in place of `spring`, of laws that are not plain
 };
 
 /// Laws of pairs of materials.
 struct PairLaws {
   std::vector<std::int32_t> material;  ///< of each id
   std::size_t count = 0;               ///< of materials
-  std::vector<SoftLaw> laws;           ///< of materials a and b at a · count + b
+  std::vector<ContactLaw> laws;        ///< of materials a and b at a · count + b
 };
 
 /// Soft disks on Box2D's collision detection.
@@ -62,8 +50,9 @@ struct PairLaws {
 /// touch.
 class PenaltyWorld : private b2ContactListener {
  public:
+  /// @param law    linear or Hertz', without rolling resistance and cohesion
   /// @param pairs  laws in place of `law`, which has the same parts
-  PenaltyWorld(const Model& model, const SoftLaw& law, std::optional<Plate> plate,
+  PenaltyWorld(const Model& model, const ContactLaw& law, std::optional<BottomPlate> plate,
                std::optional<PairLaws> pairs = std::nullopt);
 
   void step();
@@ -80,7 +69,7 @@ class PenaltyWorld : private b2ContactListener {
   std::vector<WallLoad> wallLoads() const;  ///< at time(), wall by wall
 
   double kineticEnergy() const;  ///< ½ m v² + ½ J ω² [J]
-  double elasticEnergy() const;  ///< of contacts: ½ k_n δ² + ½ k_t ξ², or storedEnergy() [J]
+  double elasticEnergy() const;  ///< of contacts: storedEnergy() [J]
 
   std::uint64_t contactEvaluations() const { return contactEvaluations_; }
 
@@ -92,12 +81,11 @@ class PenaltyWorld : private b2ContactListener {
   void moveWalls();
   void showBox2d();
   void evaluateForces();
-  template <bool Plain, bool Damped, Tangential T>
+  template <bool Damped, TangentialLaw T>
   void addContactForces();
-  const SoftLaw& lawOf(const SoftContact& contact) const;
-  PairMotion motionOf(const SoftContact& contact, double vn, double vt) const;
-  bool touches(SoftContact& contact) const;
-  void addGeneralForce(SoftContact& contact, double vn, double vt);
+  const ContactLaw& lawOf(const SoftContact& contact) const;
+  double radiusOf(const SoftContact& contact) const;
+  double massOf(const SoftContact& contact) const;
   void addPlateForces();
   /// The arms of f_t about the two centres [m].
   struct Levers {
@@ -107,10 +95,9 @@ class PenaltyWorld : private b2ContactListener {
   Vector footOnPlane(const SoftContact& contact) const;
   Vector planeVelocity(const SoftContact& contact) const;
 
-  SoftLaw law_;
+  ContactLaw law_;
   std::optional<PairLaws> pairs_;
-  bool plain_;  ///< contactForce() is the law of all pairs
-  std::optional<Plate> plate_;
+  std::optional<BottomPlate> plate_;
   Vector gravity_;
   double dt_;
   bool rotation_;
@@ -123,7 +110,7 @@ class PenaltyWorld : private b2ContactListener {
   std::vector<const b2Contact*> owner_;  ///< of each element of contacts_
   std::unordered_map<const b2Contact*, std::size_t> slot_;
   std::vector<Vector> force_;        ///< on the disks [N]
-  std::vector<double> torque_;       ///< likewise, with friction or rolling resistance only [N m]
+  std::vector<double> torque_;       ///< likewise, with friction only [N m]
   std::vector<Vector> plateSpring_;  ///< likewise, on a plate only [m]
 };
 

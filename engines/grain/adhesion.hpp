@@ -31,7 +31,7 @@ template <class L, class Real>
 Real cohesionVolume(const L& law, const ContactMotion<Real>& contact) {
   const Real pi = Real(3.14159265358979323846), overlap = contact.overlap;
   const bool plane = contact.reach == Real(0);
-  if (law.cohesionConventions.area != CohesionArea::lens)
+  if (law.conventions.cohesionArea != CohesionArea::lens)
     return Real(0.5) * cohesionArea(law, contact) * overlap;
   if (plane) return pi * overlap * overlap * (contact.radius - overlap / Real(3));
   const Real s = contact.reach, d = s - overlap;
@@ -45,7 +45,7 @@ Real cohesionVolume(const L& law, const ContactMotion<Real>& contact) {
 template <class L, class Real>
 GRAIN_INLINE Real pullOff(const L& law, const ContactMotion<Real>& contact) {
   const Real pi = Real(3.14159265358979323846);
-  const Real factor = law.cohesion == Cohesion::jkr ? Real(1.5) : Real(2);
+  const Real factor = law.cohesion == CohesionLaw::jkr ? Real(1.5) : Real(2);
   return factor * pi * law.w * contact.radius;
 }
 
@@ -74,7 +74,7 @@ GRAIN_INLINE Real jkrDepth(const L& law, Real radius) {
 /// How far apart surfaces are when they part [m].
 template <class L, class Real>
 GRAIN_INLINE Real jkrRange(const L& law, Real radius) {
-  return static_cast<Real>(jkrEnd(law.cohesionConventions.end)) * jkrDepth(law, radius);
+  return static_cast<Real>(jkrEnd(law.conventions.jkrEnd)) * jkrDepth(law, radius);
 }
 
 /// y⁴ − 4/3 y = δ/depth by Newton's method from above, where the left side is convex: it falls from
@@ -193,15 +193,15 @@ GRAIN_INLINE Real laggedPlasticForce(const L& law, const ContactMotion<Real>& co
 /// contact, updated; else not looked at
 template <class L, class Real>
 GRAIN_INLINE Real bodyForce(const L& law, const ContactMotion<Real>& contact, Real& memory) {
-  if (law.cohesion == Cohesion::area)
+  if (law.cohesion == CohesionLaw::area)
     return elasticForce(law, contact) - law.kc * cohesionArea(law, contact);
-  if (law.cohesion == Cohesion::dmt) return elasticForce(law, contact) - pullOff(law, contact);
-  if (law.cohesion == Cohesion::jkr) {
+  if (law.cohesion == CohesionLaw::dmt) return elasticForce(law, contact) - pullOff(law, contact);
+  if (law.cohesion == CohesionLaw::jkr) {
     const JkrContact<Real> jkr = jkrContact(law, contact);
     const Real cube = jkr.y * jkr.y * jkr.y;
     return pullOff(law, contact) * (cube - Real(2)) * cube;
   }
-  if (law.cohesion == Cohesion::elastoPlastic) return plasticContact(law, contact, memory).force;
+  if (law.cohesion == CohesionLaw::elastoPlastic) return plasticContact(law, contact, memory).force;
   return elasticForce(law, contact);
 }
 
@@ -209,19 +209,19 @@ GRAIN_INLINE Real bodyForce(const L& law, const ContactMotion<Real>& contact, Re
 template <class L, class Real>
 GRAIN_INLINE Real boundLoad(const L& law, const ContactMotion<Real>& contact, Real normal,
                             Real body) {
-  if (law.cohesion == Cohesion::none) return normal;
-  if (law.cohesion == Cohesion::area)
+  if (law.cohesion == CohesionLaw::none) return normal;
+  if (law.cohesion == CohesionLaw::area)
     return law.net * normal - law.lessPull * (body - elasticForce(law, contact)) +
            law.size * magnitude(normal) + law.body * body;
-  const CohesionLoad load = law.cohesionConventions.load;
+  const CohesionLoad load = law.conventions.cohesionLoad;
   if (load == CohesionLoad::net) return normal;
   if (load == CohesionLoad::netWithoutDashpot) return body;
-  const bool hasPullOff = law.cohesion == Cohesion::dmt || law.cohesion == Cohesion::jkr;
+  const bool hasPullOff = law.cohesion == CohesionLaw::dmt || law.cohesion == CohesionLaw::jkr;
   if (load == CohesionLoad::plusTwicePullOff)
     return hasPullOff ? body + Real(2) * pullOff(law, contact) : normal;
   if (load == CohesionLoad::magnitudePlusPullOff)
     return magnitude(normal) + (hasPullOff ? pullOff(law, contact) : Real(0));
-  if (law.cohesion == Cohesion::elastoPlastic) return normal - smaller(body, Real(0));
+  if (law.cohesion == CohesionLaw::elastoPlastic) return normal - smaller(body, Real(0));
   return normal - (body - elasticForce(law, contact));
 }
 
@@ -229,11 +229,11 @@ GRAIN_INLINE Real boundLoad(const L& law, const ContactMotion<Real>& contact, Re
 /// JKR: F_po a_p²/R [2/5 y¹⁰ − 4/3 y⁷ + 2/3 y⁴], less that at δ = 0.
 template <class L, class Real>
 Real bodyEnergy(const L& law, const ContactMotion<Real>& contact, Real memory) {
-  if (law.cohesion == Cohesion::area)
+  if (law.cohesion == CohesionLaw::area)
     return storedEnergy(law, contact, Real(0)) - law.kc * cohesionVolume(law, contact);
-  if (law.cohesion == Cohesion::dmt)
+  if (law.cohesion == CohesionLaw::dmt)
     return storedEnergy(law, contact, Real(0)) - pullOff(law, contact) * contact.overlap;
-  if (law.cohesion == Cohesion::jkr) {
+  if (law.cohesion == CohesionLaw::jkr) {
     const JkrContact<Real> jkr = jkrContact(law, contact);
     const auto integral = [](Real y) {
       const Real cube = y * y * y;
@@ -241,7 +241,7 @@ Real bodyEnergy(const L& law, const ContactMotion<Real>& contact, Real memory) {
     };
     return pullOff(law, contact) * jkr.depth * (integral(jkr.y) - integral(Real(1.10064241629820)));
   }
-  if (law.cohesion == Cohesion::elastoPlastic) {
+  if (law.cohesion == CohesionLaw::elastoPlastic) {
     const PlasticContact<Real> plastic = plasticContact(law, contact, memory);
     return Real(0.5) * plastic.force * plastic.force / plastic.stiffness;
   }

@@ -1,26 +1,16 @@
 #pragma once
 
-#include "engines/grain/real.hpp"
+#include "engines/grain/law.hpp"
 
 namespace grain {
 
-/// Friction with the plate that the disks lie on (Lätzel 2003, Eqs. 4.27–4.29).
-struct Bottom {
-  double mu = 0.0;        ///< µ_b [-]
-  double kb = 0.0;        ///< [N/m]
-  double gb = 0.0;        ///< [kg/s]
-  double tauM = 0.0;      ///< τ_M [-]
-  double gravity = 9.81;  ///< [m/s²]
-  bool spin = true;
-};
-
-/// The same in the precision of the state.
+/// Friction with the plate that the disks lie on, in the precision of the state.
 template <class Real>
 struct BottomConstants {
   Real pressure;  ///< µ_b g: the bound per mass [m/s²]
   Real kb, inverseKb, gb, tauM, dt;
 
-  BottomConstants(const Bottom& plate, double step)
+  BottomConstants(const BottomPlate& plate, double step)
       : pressure(static_cast<Real>(plate.mu * plate.gravity)),
         kb(static_cast<Real>(plate.kb)),
         inverseKb(static_cast<Real>(plate.kb > 0.0 ? 1.0 / plate.kb : 0.0)),

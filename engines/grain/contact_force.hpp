@@ -4,7 +4,7 @@
 
 namespace grain {
 
-// The functions below are the law. `L` is one of law_types.hpp: it has Law's members either as
+// The functions below are the law. `L` is one of law_types.hpp: it has ContactLaw's options either as
 // compile-time constants, and what they exclude is not compiled, or as run-time values.
 
 /// f_n = f_el(δ) − γ_n v_n (linear: Lätzel 2003, Eq. 4.9).
@@ -20,7 +20,7 @@ GRAIN_INLINE Real normalForce(const L& law, const ContactMotion<Real>& contact, 
     force -= gn * contact.normalVelocity;
     if (law.implicitDamping) force /= Real(1) + gn * contact.normalCompliance;
   }
-  if (law.cohesion == Cohesion::none) return larger(force, law.leastForce);
+  if (law.cohesion == CohesionLaw::none) return larger(force, law.leastForce);
   return larger(force, law.leastForce + smaller(body, Real(0)));
 }
 
@@ -33,24 +33,24 @@ GRAIN_INLINE Real coulombBound(const L& law, Real normal) {
 /// An arm of a disk of radius a that touches one of radius `other` [m]: law.lever is that of f_t,
 /// law.velocityLever that of the spin in v_t.
 template <class Real>
-GRAIN_INLINE Real armOf(Lever lever, Real a, Real other, Real overlap) {
-  if (lever == Lever::radius) return a;
-  if (lever == Lever::contactPoint) return a - overlap * other / (a + other);
+GRAIN_INLINE Real armOf(LeverArm lever, Real a, Real other, Real overlap) {
+  if (lever == LeverArm::radius) return a;
+  if (lever == LeverArm::contactPoint) return a - overlap * other / (a + other);
   return a - Real(0.5) * overlap;
 }
 
 /// The same on a plane, its centre `height` above it.
 template <class Real>
-GRAIN_INLINE Real planeArmOf(Lever lever, PlaneLever plane, Real a, Real height) {
-  if (lever == Lever::radius || plane == PlaneLever::radius) return a;
-  return plane == PlaneLever::middle ? Real(0.5) * (a + height) : height;
+GRAIN_INLINE Real planeArmOf(LeverArm lever, PlaneArm plane, Real a, Real height) {
+  if (lever == LeverArm::radius || plane == PlaneArm::radius) return a;
+  return plane == PlaneArm::middle ? Real(0.5) * (a + height) : height;
 }
 
 /// How far from the centre the point is where a force acts on the plane: on its surface unless the
 /// law has its contact point in the overlap.
 template <class L, class Real>
 GRAIN_INLINE Real planePoint(const L& law, Real a, Real height) {
-  const bool inside = law.lever != Lever::radius && law.planeLever == PlaneLever::middle;
+  const bool inside = law.lever != LeverArm::radius && law.planeLever == PlaneArm::middle;
   return inside ? Real(0.5) * (a + height) : height;
 }
 
@@ -65,20 +65,20 @@ GRAIN_INLINE ContactForce<Real> springForce(const L& law, const ContactMotion<Re
   const Real unit = force ? Real(1) : stiffness;
   Real inverse = law.inverseKt;
   if (force) inverse = Real(1);
-  if (law.normal == Normal::hertz && !force)
+  if (law.normal == NormalLaw::hertz && !force)
     inverse = stiffness > Real(0) ? Real(1) / stiffness : Real(0);
   Real stretch = contact.tangentialVelocity * law.dt;
   if (force) stretch *= stiffness;
   const Real part = partBefore<Real>(law.stretch);
-  const Real stretched = law.stretch == Stretch::after ? spring : spring + part * stretch;
+  const Real stretched = law.stretch == SpringUpdate::after ? spring : spring + part * stretch;
   const Real elastic = -unit * stretched;
   Real viscous = Real(0), gt = Real(0);
-  if (law.tangential == Tangential::springDashpot) {
+  if (law.tangential == TangentialLaw::springDashpot) {
     gt = tangentialDamping(law, contact);
     viscous = -gt * contact.tangentialVelocity;
   }
   Real trial = elastic + viscous;
-  if (law.implicitDamping && law.tangential == Tangential::springDashpot)
+  if (law.implicitDamping && law.tangential == TangentialLaw::springDashpot)
     trial /= Real(1) + gt * contact.tangentialCompliance;
   const Real tested = law.dashpotOutsideBound ? elastic : trial;
   const bool holds = magnitude(tested) <= bound;
@@ -86,7 +86,7 @@ GRAIN_INLINE ContactForce<Real> springForce(const L& law, const ContactMotion<Re
   // force round.
   const Real slipping = law.signedBound ? signedLike(bound, tested) : withSignOf(bound, tested);
   Real slipped = -(law.resetSpringOnly ? slipping - viscous : slipping) * inverse;
-  if (law.stretch == Stretch::midpoint) slipped += Real(0.5) * stretch;
+  if (law.stretch == SpringUpdate::midpoint) slipped += Real(0.5) * stretch;
   spring = holds ? stretched + (Real(1) - part) * stretch : slipped;
   return {normal, holds ? trial : slipping, holds ? Real(0) : Real(1), load};
 }
@@ -101,12 +101,12 @@ GRAIN_INLINE ContactForce<Real> contactForce(const L& law, const ContactMotion<R
                                        : bodyForce(law, contact, memory);
   const Real normal = normalForce(law, contact, body);
   const Real load = boundLoad(law, contact, normal, body);
-  if (law.tangential == Tangential::none) return {normal, Real(0), Real(0), load};
+  if (law.tangential == TangentialLaw::none) return {normal, Real(0), Real(0), load};
   const Real bound = coulombBound(law, load);
   const Real slip = contact.tangentialVelocity;
-  if (law.tangential == Tangential::coulomb)  // Eq. 4.16
+  if (law.tangential == TangentialLaw::coulomb)  // Eq. 4.16
     return {normal, -signedLike(bound, slip), Real(1), load};
-  if (law.tangential == Tangential::viscous) {  // Eq. 4.18
+  if (law.tangential == TangentialLaw::viscous) {  // Eq. 4.18
     const Real gt = tangentialDamping(law, contact);
     Real trial = gt * magnitude(slip);
     if (law.implicitDamping) trial /= Real(1) + gt * contact.tangentialCompliance;
@@ -169,7 +169,7 @@ GRAIN_INLINE RollingTorque<Real> rollingTorque(const L& law, const RollingMotion
                                                const ContactMotion<Real>& contact, Real normal,
                                                Real& angle) {
   const Real bound = rollingBound(law, motion, contact, normal);
-  if (law.rolling != Rolling::spring) {
+  if (law.rolling != RollingLaw::spring) {
     const Real viscous = law.viscous * (law.gr * motion.length * motion.length) +
                          law.viscousByLoad * (bound * motion.length);
     return {-viscous * motion.spin - law.constantTorque * signedLike(bound, motion.spin),
@@ -178,7 +178,7 @@ GRAIN_INLINE RollingTorque<Real> rollingTorque(const L& law, const RollingMotion
   const Real stiffness = law.kr * motion.square;
   const Real stretch = motion.spin * law.dt;
   const Real part = partBefore<Real>(law.stretch);
-  const Real stretched = law.stretch == Stretch::after ? angle : angle + part * stretch;
+  const Real stretched = law.stretch == SpringUpdate::after ? angle : angle + part * stretch;
   const Real spring = -stiffness * stretched;
   const Real viscous = -rollingDamping(law, motion) * motion.spin;
   const Real trial = spring + viscous;
@@ -187,7 +187,7 @@ GRAIN_INLINE RollingTorque<Real> rollingTorque(const L& law, const RollingMotion
   const bool holds = !limited || magnitude(tested) <= bound;
   const Real slipping = withSignOf(bound, tested);
   Real slipped = -(slipping - law.dashpotLeftOut * viscous) / stiffness;
-  if (law.stretch == Stretch::midpoint) slipped += Real(0.5) * stretch;
+  if (law.stretch == SpringUpdate::midpoint) slipped += Real(0.5) * stretch;
   angle = holds ? stretched + (Real(1) - part) * stretch : slipped;
   return {holds ? trial : slipping, holds ? Real(0) : Real(1)};
 }

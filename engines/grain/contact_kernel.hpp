@@ -57,7 +57,7 @@ GRAIN_INLINE void copy(const T* from, std::size_t count, T* to) {
 /// Velocities are gathered only for a law that has a use for them.
 template <class L>
 GRAIN_INLINE bool seesVelocities(const L& law) {
-  return law.normalDamping || law.tangential != Tangential::none || remembersRest(law);
+  return law.normalDamping || law.tangential != TangentialLaw::none || remembersRest(law);
 }
 
 template <class L, class Real>
@@ -102,7 +102,7 @@ GRAIN_INLINE std::size_t applyLaw(const L& common, const PairView<Real>& pairs, 
   const Real *const radiusI = pairs.radiusI + begin, *const radiusJ = pairs.radiusJ + begin;
   const Vec<Real>* const shift = hasLocalCoordinates<Real> ? pairs.shift + begin : nullptr;
   const PairMemory<Real> kept = pairs.kept.from(begin);
-  const bool friction = common.tangential != Tangential::none;
+  const bool friction = common.tangential != TangentialLaw::none;
   const bool history = hasSprings(common);
   Real touching = 0;
 #pragma omp simd reduction(+ : touching)
@@ -125,11 +125,11 @@ GRAIN_INLINE std::size_t applyLaw(const L& common, const PairView<Real>& pairs, 
 
     ContactMotion<Real> motion{};
     motion.overlap = reach - distance;
-    if (law.normal == Normal::hertz || law.cohesion != Cohesion::none)
+    if (law.normal == NormalLaw::hertz || law.cohesion != CohesionLaw::none)
       motion.radius = radiusI[p] * radiusJ[p] / reach;
-    if (law.cohesion == Cohesion::area) motion.reach = reach;
+    if (law.cohesion == CohesionLaw::area) motion.reach = reach;
     Real memory = remembers(law) ? kept.memory[p] : Real(0);
-    if (law.cohesion == Cohesion::jkr)
+    if (law.cohesion == CohesionLaw::jkr)
       touches = memory = isBonded(law, motion.overlap, motion.radius, memory);
     if (law.damper == Damper::critical) motion.mass = Real(1) / b.inverseMass[p];
     Real rest = remembersRest(law) ? kept.rest[p] : Real(0);
@@ -165,14 +165,14 @@ GRAIN_INLINE std::size_t applyLaw(const L& common, const PairView<Real>& pairs, 
       b.leverI[p] = leverI * ft;
       b.leverJ[p] = leverJ * ft;
     }
-    if (law.rolling != Rolling::none) {
+    if (law.rolling != RollingLaw::none) {
       RollingMotion<Real> rolling =
           rollingMotion(law, radiusI[p], radiusJ[p], b.spinI[p] - b.spinJ[p], false);
       if (seesRollingInertia(law))
         rolling.inertia = Real(1) / (b.inverseRollingI[p] + b.inverseRollingJ[p]);
-      Real angle = law.rolling == Rolling::spring ? kept.angle[p] : Real(0);
+      Real angle = law.rolling == RollingLaw::spring ? kept.angle[p] : Real(0);
       const RollingTorque<Real> resistance = rollingTorque(law, rolling, motion, force.load, angle);
-      if (law.rolling == Rolling::spring) kept.angle[p] = touches * angle;
+      if (law.rolling == RollingLaw::spring) kept.angle[p] = touches * angle;
       b.rolling[p] = touches * resistance.torque;
       b.rollingSlides[p] = touches * resistance.sliding;
       b.leverI[p] -= b.rolling[p];
@@ -220,7 +220,7 @@ static std::size_t contactKernel(const GeneralLaw<Real>& general, const ContactV
       copy(b.tangential, count, pairs.tangential + begin);
       copy(b.sliding, count, pairs.sliding + begin);
     }
-    if (law.rolling != Rolling::none && pairs.rolling != nullptr) {
+    if (law.rolling != RollingLaw::none && pairs.rolling != nullptr) {
       copy(b.rolling, count, pairs.rolling + begin);
       copy(b.rollingSlides, count, pairs.rollingSlides + begin);
     }

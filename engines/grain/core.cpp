@@ -35,10 +35,10 @@ double smallestRadius(const Disks& disks) {
 /// How far apart bodies may be in contact [m]: it grows with R₁₂ < a_i.
 template <class Real>
 double adhesionRange(const Setup& setup) {
-  if (setup.law.cohesion != Cohesion::jkr || setup.disks.size() == 0) return 0.0;
+  if (setup.law.cohesion != CohesionLaw::jkr || setup.disks.size() == 0) return 0.0;
   const double largest = *std::ranges::max_element(setup.disks.radius);
   double range = 0.0;
-  const auto look = [&](const Law& law) {
+  const auto look = [&](const ContactLaw& law) {
     const auto own = generalLaw<Real>(law, setup.dt, setup.rotation);
     range = std::max(range, 1.001 * static_cast<double>(jkrRange(own, static_cast<Real>(largest))));
   };
@@ -54,15 +54,16 @@ void demand(bool holds, const char* what) {
 }
 
 /// @throws std::invalid_argument naming what a law cannot be
-void requireSound(const Law& law) {
-  const bool rigid = law.normal == Normal::impulse;
-  demand(!rigid || law.rolling == Rolling::none, "impulses know no resistance to rolling");
-  demand(!rigid || law.cohesion == Cohesion::none, "impulses know no cohesion");
-  demand(law.rolling != Rolling::spring || law.kr > 0.0, "a rolling spring needs a stiffness > 0");
-  demand(law.cohesion != Cohesion::jkr || (law.normal == Normal::hertz && law.w > 0.0),
+void requireSound(const ContactLaw& law) {
+  const bool rigid = law.normal == NormalLaw::rigid;
+  demand(!rigid || law.rolling == RollingLaw::none, "impulses know no resistance to rolling");
+  demand(!rigid || law.cohesion == CohesionLaw::none, "impulses know no cohesion");
+  demand(law.rolling != RollingLaw::spring || law.kr > 0.0,
+         "a rolling spring needs a stiffness > 0");
+  demand(law.cohesion != CohesionLaw::jkr || (law.normal == NormalLaw::hertz && law.w > 0.0),
          "JKR needs Hertz' law and a work of adhesion > 0");
-  demand(law.cohesion != Cohesion::elastoPlastic ||
-             (law.normal == Normal::linear && law.k2 >= law.kn && law.kc >= 0.0),
+  demand(law.cohesion != CohesionLaw::elastoPlastic ||
+             (law.normal == NormalLaw::linear && law.kUnload >= law.kn && law.kc >= 0.0),
          "an elasto-plastic contact needs the linear law, k2 >= kn and kc >= 0");
 }
 
@@ -77,9 +78,9 @@ void requireSound(const Materials& materials, const Setup& setup) {
              within(materials.ofWall, setup.walls.size()) &&
              materials.laws.size() == materials.count * materials.count,
          "each disk and wall has a material, and each two of these a law");
-  for (const Law& law : materials.laws) {
+  for (const ContactLaw& law : materials.laws) {
     requireSound(law);
-    const Law& all = setup.law;
+    const ContactLaw& all = setup.law;
     demand(all.gn > 0.0 || law.gn == 0.0, "materials have no dashpots where the law has none");
     demand(all.friction() || !law.friction(), "materials have no friction where the law has none");
   }
@@ -87,9 +88,8 @@ void requireSound(const Materials& materials, const Setup& setup) {
 
 MotionEffects motionEffects(const Setup& setup) {
   MotionEffects effects;
-  effects.rotation = setup.law.turnsDisks() && setup.rotation;
-  effects.predict =
-      setup.law.damping == Damping::predicted && setup.integrator != Integrator::semiImplicitEuler;
+  effects.rotation = turnsDisks(setup.law) && setup.rotation;
+  effects.predict = dampingVelocity(setup.law) == DampingVelocity::predicted;
   effects.gravity = setup.gravityX != 0.0 || setup.gravityY != 0.0;
   effects.plate = setup.bottom.has_value();
   effects.plateSpin = setup.bottom && setup.bottom->spin;
@@ -101,26 +101,27 @@ MotionEffects motionEffects(const Setup& setup) {
 template <class Real>
 Core<Real>::Core(Setup setup)
     : law_(generalLaw<Real>(setup.law, setup.dt, setup.rotation)),
-      integrator_(setup.integrator),
+      integrator_(setup.law.conventions.integrator),
       dt_(setup.dt),
       moving_(setup.disks.size()),
       fingerprint_(fingerprint(setup)),
       motionConstants_{
-          static_cast<Real>(setup.integrator == Integrator::velocityVerlet ? 0.5 * setup.dt
-                                                                           : setup.dt),
+          static_cast<Real>(setup.law.conventions.integrator == Integrator::velocityVerlet
+                                ? 0.5 * setup.dt
+                                : setup.dt),
           static_cast<Real>(setup.dt),
           static_cast<Real>(0.5 * setup.dt),
           static_cast<Real>(setup.gravityX),
           static_cast<Real>(setup.gravityY),
-          {setup.bottom.value_or(Bottom{}), setup.dt}},
+          {setup.bottom.value_or(BottomPlate{}), setup.dt}},
       mass_(setup.disks.mass),
       inertia_(setup.disks.inertia),
       kernels_(kernels<Real>()),
       maxOverlap_(setup.maxOverlap > 0.0 ? setup.maxOverlap
                                          : std::numeric_limits<double>::infinity()),
       lists_(moving_, partCount(setup.threads, moving_),
-             {setup.law.springs(), setup.rotation && setup.law.rollingSprings(),
-              setup.law.remembers(), setup.law.remembersRest()},
+             {keepsSprings(setup.law), setup.rotation && keepsRollingSprings(setup.law),
+              remembers(setup.law), remembersRest(setup.law)},
              Skin(setup.skin, smallestRadius(setup.disks)), maxOverlap_,
              adhesionRange<Real>(setup)),
       team_(partCount(setup.threads, moving_)),
@@ -128,7 +129,7 @@ Core<Real>::Core(Setup setup)
       touching_(partCount(setup.threads, moving_)),
       impactLaw_{setup.law.en, setup.law.et0, setup.law.friction() ? setup.law.mu : 0.0} {
   if (!(dt_ > 0.0)) throw std::invalid_argument("the time step must be > 0 s");
-  if (law_.normal == Normal::impulse && integrator_ != Integrator::semiImplicitEuler)
+  if (law_.normal == NormalLaw::rigid && integrator_ != Integrator::semiImplicitEuler)
     throw std::invalid_argument("impulses need semi-implicit Euler steps");
   requireSound(setup.law);
   if (setup.materials) requireSound(*setup.materials, setup);
@@ -154,7 +155,7 @@ template <class Real>
 void Core<Real>::buildMaterials(const Setup& setup) {
   const Materials& materials = *setup.materials;
   materials_ = static_cast<std::int32_t>(materials.count);
-  for (const Law& law : materials.laws) {
+  for (const ContactLaw& law : materials.laws) {
     laws_.push_back(generalLaw<Real>(lawOfPair(law), setup.dt, setup.rotation));
     impactLaws_.push_back({law.en, law.et0, law.friction() ? law.mu : 0.0});
   }
@@ -310,7 +311,7 @@ void Core<Real>::makeRoomForRecords() {
     for (Array<Real>* array :
          {&placed.overlap, &placed.normal, &placed.tangential, &placed.sliding})
       array->resize(moving_);
-  if (law_.rolling == Rolling::none) return;
+  if (law_.rolling == RollingLaw::none) return;
   for (PlacedPlane& placed : placedPlanes_)
     for (Array<Real>* array : {&placed.rolling, &placed.rollingSlides}) array->resize(moving_);
 }

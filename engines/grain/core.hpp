@@ -46,7 +46,7 @@ class Core {
   double velocityY(std::size_t number) const;
   double spin(std::size_t number) const;
   bool rotates() const { return law_.rotation; }
-  bool rolls() const { return law_.rolling != Rolling::none; }
+  bool rolls() const { return law_.rolling != RollingLaw::none; }
   const MovingWall& wall(std::size_t w) const { return walls_[w]; }
   const std::vector<Contact>& contacts() const;
   WallLoad wallLoad(std::size_t wall) const;
@@ -156,7 +156,7 @@ class Core {
   std::optional<Contact> touching(const PairList<Real>& list, std::size_t k) const;
   /// @param overlaps  by geometry; a bond decides where the law has one
   bool isContact(const PairList<Real>& list, std::size_t k, bool overlaps) const {
-    return law_.cohesion == Cohesion::jkr ? list.memory[k] > Real(0) : overlaps;
+    return law_.cohesion == CohesionLaw::jkr ? list.memory[k] > Real(0) : overlaps;
   }
   Contact contactOf(const PairList<Real>& list, std::size_t k, Vec<Real> normal,
                     Real overlap) const;

@@ -33,25 +33,24 @@ class Fnv1a {
   std::uint64_t hash_ = 0xcbf29ce484222325u;
 };
 
-void add(Fnv1a& to, const Law& law) {
+void add(Fnv1a& to, const ContactLaw& law) {
+  const LawConventions& how = law.conventions;
   to.addAll(law.kn3, law.en, law.et0, static_cast<int>(law.normal), static_cast<int>(law.damper),
-            static_cast<int>(law.history));
-  to.addAll(law.kn, law.gn, law.kt, law.gt, law.mu, static_cast<int>(law.tangential),
-            static_cast<int>(law.bound), law.cutTension, law.dashpotOutsideBound,
-            law.resetSpringOnly, static_cast<int>(law.lever), static_cast<int>(law.stretch),
-            static_cast<int>(law.damping));
-  to.addAll(static_cast<int>(law.velocityLever.value_or(law.lever)),
-            static_cast<int>(law.planeLever));
-  const RollingConventions& rolling = law.rollingConventions;
+            static_cast<int>(how.history));
+  to.addAll(law.kn, law.gn, law.kt, law.gt, law.mu, static_cast<int>(tangentialOf(law)),
+            static_cast<int>(how.coulombBound), how.tension == Tension::cut,
+            how.dashpot == Dashpot::outside, how.springReset == SpringReset::springOnly,
+            static_cast<int>(how.leverArm), static_cast<int>(how.springUpdate),
+            static_cast<int>(dampingVelocity(law)));
+  to.addAll(static_cast<int>(how.armOfVelocity()), static_cast<int>(how.planeArm));
   to.addAll(static_cast<int>(law.rolling), law.kr, law.gr, law.muR,
-            static_cast<int>(rolling.length), static_cast<int>(rolling.stiffness),
-            static_cast<int>(rolling.damper), static_cast<int>(rolling.load),
-            rolling.dashpotOutsideBound, rolling.resetSpringOnly);
-  const CohesionConventions& cohesion = law.cohesionConventions;
-  to.addAll(static_cast<int>(law.cohesion), law.kc, law.w, law.k2, law.plasticDepth,
-            static_cast<int>(cohesion.area), static_cast<int>(cohesion.end),
-            static_cast<int>(cohesion.load));
-  if (law.remembersRest()) to.addAll(static_cast<int>(cohesion.unloading));
+            static_cast<int>(how.rollingLength), static_cast<int>(how.rollingStiffness),
+            static_cast<int>(how.rollingDamper), static_cast<int>(how.rollingLoad),
+            how.rollingDashpot == Dashpot::outside, how.rollingReset == SpringReset::springOnly);
+  to.addAll(static_cast<int>(law.cohesion), law.kc, law.w, law.kUnload, law.plasticDepth,
+            static_cast<int>(how.cohesionArea), static_cast<int>(how.jkrEnd),
+            static_cast<int>(how.cohesionLoad));
+  if (remembersRest(law)) to.addAll(static_cast<int>(how.unloadingStiffness));
 }
 
 void add(Fnv1a& to, const Wall& wall) {
@@ -61,10 +60,10 @@ void add(Fnv1a& to, const Wall& wall) {
   to.addAll(wall.moves);
 }
 
-void addLaws(Fnv1a& to, const Law& common, const std::optional<Materials>& materials) {
+void addLaws(Fnv1a& to, const ContactLaw& common, const std::optional<Materials>& materials) {
   add(to, common);
   if (!materials) return;
-  for (const Law& law : materials->laws) add(to, law);
+  for (const ContactLaw& law : materials->laws) add(to, law);
   for (const auto* list : {&materials->ofDisk, &materials->ofWall})
     for (const std::int32_t material : *list) to.addAll(material);
 }
@@ -83,8 +82,9 @@ std::uint64_t fingerprint(const Setup& setup) {
   to.addAll(setup.bottom.has_value());
   if (const auto& plate = setup.bottom)
     to.addAll(plate->mu, plate->kb, plate->gb, plate->tauM, plate->gravity, plate->spin);
-  to.addAll(setup.gravityX, setup.gravityY, setup.dt, static_cast<int>(setup.integrator),
-            setup.rotation, static_cast<int>(setup.precision));
+  to.addAll(setup.gravityX, setup.gravityY, setup.dt,
+            static_cast<int>(setup.law.conventions.integrator), setup.rotation,
+            static_cast<int>(setup.precision));
   return to.hash();
 }
 
@@ -103,12 +103,13 @@ std::uint64_t fingerprint(const SpheresSetup& setup) {
     }
   }
   addLaws(to, setup.law, setup.materials);
-  to.addAll(static_cast<int>(setup.conventions.turn), static_cast<int>(setup.conventions.twist));
+  const LawConventions& how = setup.law.conventions;
+  to.addAll(static_cast<int>(how.springTurn), static_cast<int>(how.springTwist));
   if (const auto& box = setup.box)
     to.addAll(box->low.x, box->low.y, box->low.z, box->length.x, box->length.y, box->length.z,
               box->periodic[0], box->periodic[1], box->periodic[2]);
   to.addAll(setup.gravity.x, setup.gravity.y, setup.gravity.z, setup.dt,
-            static_cast<int>(setup.integrator), setup.rotation);
+            static_cast<int>(setup.law.conventions.integrator), setup.rotation);
   return to.hash();
 }
 

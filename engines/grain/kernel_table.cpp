@@ -17,7 +17,7 @@ namespace {
 
 /// Without friction and resistance to rolling nothing turns: one kernel for both.
 constexpr ContactEffects meaningful(ContactEffects e) {
-  e.rotation = e.rotation && (e.tangential != Tangential::none || e.rolling != Rolls::none);
+  e.rotation = e.rotation && (e.tangential != TangentialLaw::none || e.rolling != Rolls::none);
   return e;
 }
 
@@ -41,7 +41,7 @@ struct Compiled {
 
   constexpr explicit Compiled(std::size_t index)
       : effects(contactEffects(index)),
-        whole(effects.tangential == Tangential::springDashpot && effects.normalDamping &&
+        whole(effects.tangential == TangentialLaw::springDashpot && effects.normalDamping &&
               effects.rotation),
         plain(effects.rolling == Rolls::none && !effects.cohesion),
         leavesOut(plain && conventionSets[index / effectVariants].everyEffect),

@@ -29,7 +29,7 @@ struct LawOptions {
   Real ofPull;      ///< the share of |f_n| in Coulomb's bound while bodies pull: 0, 1
   // CohesionArea: A = lens · the lens + disks · π R₁₂ δ; at a plane `walls` in place of `disks`.
   Real lens, disks, walls;
-  // CohesionLoad of Cohesion::area: f_n, less the pull, |f_n|, f_n without its dashpot.
+  // CohesionLoad of CohesionLaw::area: f_n, less the pull, |f_n|, f_n without its dashpot.
   Real net, lessPull, size, body;
   // RollingLength, of R₁₂, the smaller radius and the mean; RollingStiffness, of L², a_i a_j and 1.
   Real effective, smallest, mean, ofLength, ofRadii, ofNothing;
@@ -53,20 +53,20 @@ inline constexpr std::size_t rollsCount = 4;
 
 /// The effects of a scene that decide which kernels it runs.
 struct ContactEffects {
-  Tangential tangential;
+  TangentialLaw tangential;
   bool normalDamping, rotation;
   Rolls rolling = Rolls::none;
-  bool cohesion = false;  ///< Cohesion::area
+  bool cohesion = false;  ///< CohesionLaw::area
 };
 
 /// What engines differ in that simulate the same effects of the linear law, and no number of
 /// LawOptions makes.
 struct Conventions {
   History history = History::displacement;
-  bool signedBound = false;  ///< Bound::signedForce
-  Lever lever = Lever::radius, velocityLever = Lever::radius;
-  PlaneLever planeLever = PlaneLever::surface;  ///< of levers that are not the radius
-  Stretch stretch = Stretch::after;
+  bool signedBound = false;  ///< CoulombBound::signedForce
+  LeverArm lever = LeverArm::radius, velocityLever = LeverArm::radius;
+  PlaneArm planeLever = PlaneArm::surface;  ///< of levers that are not the radius
+  SpringUpdate stretch = SpringUpdate::after;
   bool implicitDamping = false, dashpotOutsideBound = false, resetSpringOnly = false;
 
   bool operator==(const Conventions&) const = default;
@@ -81,16 +81,16 @@ struct ConventionSet {
 /// ones, at a third of the speed.
 inline constexpr ConventionSet conventionSets[] = {{{}, true},  // the thesis'
                                                                 // A case's that names none.
-                                                   {{.lever = Lever::overlapMiddle,
-                                                     .velocityLever = Lever::overlapMiddle,
-                                                     .stretch = Stretch::before,
+                                                   {{.lever = LeverArm::overlapMiddle,
+                                                     .velocityLever = LeverArm::overlapMiddle,
+                                                     .stretch = SpringUpdate::before,
                                                      .resetSpringOnly = true},
                                                     true},
                                                    // YADE's, whose mirror carries its packings.
                                                    {{.history = History::force,
-                                                     .lever = Lever::overlapMiddle,
-                                                     .velocityLever = Lever::overlapMiddle,
-                                                     .stretch = Stretch::before,
+                                                     .lever = LeverArm::overlapMiddle,
+                                                     .velocityLever = LeverArm::overlapMiddle,
+                                                     .stretch = SpringUpdate::before,
                                                      .dashpotOutsideBound = true},
                                                     false}};
 
@@ -98,42 +98,41 @@ inline constexpr ConventionSet conventionSets[] = {{{}, true},  // the thesis'
 /// what runs laws and conventions that have no kernels of their own.
 template <class Real>
 struct GeneralLaw : LawConstants<Real>, LawOptions<Real>, Conventions {
-  Normal normal;
+  NormalLaw normal;
   Damper damper;
-  Tangential tangential;
+  TangentialLaw tangential;
   bool normalDamping, rotation;
-  Rolling rolling;
-  RollingConventions rollingConventions;
-  Cohesion cohesion;
-  CohesionConventions cohesionConventions;
+  RollingLaw rolling;
+  CohesionLaw cohesion;
+  LawConventions conventions;  ///< those of rolling and cohesion are read
 };
 
 /// The linear law under some conventions, with the effects of a scene as constants: what the scene
 /// does not call for is not compiled.
 template <class Real, ContactEffects E, Conventions C>
 struct EffectsLaw : LawConstants<Real>, LawOptions<Real> {
-  static constexpr Tangential tangential = E.tangential;
+  static constexpr TangentialLaw tangential = E.tangential;
   static constexpr bool normalDamping = E.normalDamping;
   static constexpr bool rotation = E.rotation;
-  static constexpr Normal normal = Normal::linear;
+  static constexpr NormalLaw normal = NormalLaw::linear;
   static constexpr Damper damper = Damper::constant;
   static constexpr History history = C.history;
   static constexpr bool signedBound = C.signedBound;
-  static constexpr Lever lever = C.lever;
-  static constexpr Lever velocityLever = C.velocityLever;
-  static constexpr PlaneLever planeLever = C.planeLever;
-  static constexpr Stretch stretch = C.stretch;
+  static constexpr LeverArm lever = C.lever;
+  static constexpr LeverArm velocityLever = C.velocityLever;
+  static constexpr PlaneArm planeLever = C.planeLever;
+  static constexpr SpringUpdate stretch = C.stretch;
   static constexpr bool implicitDamping = C.implicitDamping;
   static constexpr bool dashpotOutsideBound = C.dashpotOutsideBound;
   static constexpr bool resetSpringOnly = C.resetSpringOnly;
-  static constexpr Rolling rolling = E.rolling == Rolls::none            ? Rolling::none
-                                     : E.rolling == Rolls::withoutSpring ? Rolling::constantTorque
-                                                                         : Rolling::spring;
-  static constexpr RollingConventions rollingConventions{
-      .damper =
-          E.rolling == Rolls::criticalSpring ? RollingDamper::critical : RollingDamper::constant};
-  static constexpr Cohesion cohesion = E.cohesion ? Cohesion::area : Cohesion::none;
-  static constexpr CohesionConventions cohesionConventions{};
+  static constexpr RollingLaw rolling = E.rolling == Rolls::none ? RollingLaw::none
+                                        : E.rolling == Rolls::withoutSpring
+                                            ? RollingLaw::constantTorque
+                                            : RollingLaw::spring;
+  static constexpr CohesionLaw cohesion = E.cohesion ? CohesionLaw::area : CohesionLaw::none;
+  static constexpr LawConventions conventions{.rollingDamper = E.rolling == Rolls::criticalSpring
+                                                                   ? RollingDamper::critical
+                                                                   : RollingDamper::constant};
 
   EffectsLaw() = default;
   explicit EffectsLaw(const GeneralLaw<Real>& general)
@@ -158,7 +157,7 @@ concept HasMaterials = requires {
 /// Whether contacts remember a tangential spring.
 template <class L>
 GRAIN_INLINE constexpr bool hasSprings(const L& law) {
-  return law.tangential == Tangential::spring || law.tangential == Tangential::springDashpot;
+  return law.tangential == TangentialLaw::spring || law.tangential == TangentialLaw::springDashpot;
 }
 
 /// How many constants pairs can differ in.
@@ -169,25 +168,26 @@ template <class L, class Visit>
 GRAIN_INLINE void forPairConstants(const L& law, Visit&& visit) {
   using Constants = LawConstants<std::remove_cvref_t<decltype(law.kn)>>;
   const bool dashpots =
-      law.tangential == Tangential::viscous || law.tangential == Tangential::springDashpot;
+      law.tangential == TangentialLaw::viscous || law.tangential == TangentialLaw::springDashpot;
   visit(0, &Constants::kn);
-  if (law.normal == Normal::polynomial) visit(1, &Constants::kn3);
+  if (law.normal == NormalLaw::polynomial) visit(1, &Constants::kn3);
   if (law.normalDamping) visit(2, &Constants::gn);
-  if (law.tangential != Tangential::none) visit(3, &Constants::mu);
+  if (law.tangential != TangentialLaw::none) visit(3, &Constants::mu);
   if (hasSprings(law)) {
     visit(4, &Constants::kt);
     visit(5, &Constants::inverseKt);
   }
   if (dashpots) visit(6, &Constants::gt);
-  if (law.rolling != Rolling::none) {
+  if (law.rolling != RollingLaw::none) {
     visit(7, &Constants::kr);
     visit(8, &Constants::gr);
     visit(9, &Constants::muR);
   }
-  if (law.cohesion == Cohesion::none) return;
+  if (law.cohesion == CohesionLaw::none) return;
   visit(10, &Constants::kc);
-  if (law.cohesion == Cohesion::dmt || law.cohesion == Cohesion::jkr) visit(11, &Constants::w);
-  if (law.cohesion != Cohesion::elastoPlastic) return;
+  if (law.cohesion == CohesionLaw::dmt || law.cohesion == CohesionLaw::jkr)
+    visit(11, &Constants::w);
+  if (law.cohesion != CohesionLaw::elastoPlastic) return;
   visit(12, &Constants::k2);
   visit(13, &Constants::plasticDepth);
 }
@@ -197,8 +197,8 @@ template <class L, class Visit>
 GRAIN_INLINE void forPairOptions(const L& law, Visit&& visit) {
   using Options = LawOptions<std::remove_cvref_t<decltype(law.dt)>>;
   visit(&Options::leastForce);
-  if (law.tangential != Tangential::none) visit(&Options::ofPull);
-  if (law.cohesion == Cohesion::area) {
+  if (law.tangential != TangentialLaw::none) visit(&Options::ofPull);
+  if (law.cohesion == CohesionLaw::area) {
     visit(&Options::lens);
     visit(&Options::disks);
     visit(&Options::walls);
@@ -207,7 +207,7 @@ GRAIN_INLINE void forPairOptions(const L& law, Visit&& visit) {
     visit(&Options::size);
     visit(&Options::body);
   }
-  if (law.rolling == Rolling::none) return;
+  if (law.rolling == RollingLaw::none) return;
   visit(&Options::effective);
   visit(&Options::smallest);
   visit(&Options::mean);
@@ -252,7 +252,7 @@ constexpr std::size_t indexOf(const ContactEffects& e, std::size_t set) {
 }
 constexpr ContactEffects contactEffects(std::size_t index) {
   const std::size_t turning = index / (2 * rollsCount);
-  return {static_cast<Tangential>(turning / 4 % 5), turning / 2 % 2 == 1, turning % 2 == 1,
+  return {static_cast<TangentialLaw>(turning / 4 % 5), turning / 2 % 2 == 1, turning % 2 == 1,
           static_cast<Rolls>(index / 2 % rollsCount), index % 2 == 1};
 }
 
@@ -260,18 +260,18 @@ constexpr ContactEffects contactEffects(std::size_t index) {
 /// absent: the general ones.
 template <class Real>
 std::optional<std::size_t> contactVariant(const GeneralLaw<Real>& law) {
-  if (law.normal != Normal::linear || law.damper != Damper::constant) return std::nullopt;
-  if (law.cohesion != Cohesion::none && law.cohesion != Cohesion::area) return std::nullopt;
-  const bool critical = law.rollingConventions.damper == RollingDamper::critical;
-  const Rolls rolls = law.rolling == Rolling::none     ? Rolls::none
-                      : law.rolling != Rolling::spring ? Rolls::withoutSpring
-                      : critical                       ? Rolls::criticalSpring
-                                                       : Rolls::spring;
+  if (law.normal != NormalLaw::linear || law.damper != Damper::constant) return std::nullopt;
+  if (law.cohesion != CohesionLaw::none && law.cohesion != CohesionLaw::area) return std::nullopt;
+  const bool critical = law.conventions.rollingDamper == RollingDamper::critical;
+  const Rolls rolls = law.rolling == RollingLaw::none     ? Rolls::none
+                      : law.rolling != RollingLaw::spring ? Rolls::withoutSpring
+                      : critical                          ? Rolls::criticalSpring
+                                                          : Rolls::spring;
   for (std::size_t set = 0; set < std::size(conventionSets); ++set)
     if (static_cast<const Conventions&>(law) == conventionSets[set].conventions)
-      return indexOf(
-          {law.tangential, law.normalDamping, law.rotation, rolls, law.cohesion == Cohesion::area},
-          set);
+      return indexOf({law.tangential, law.normalDamping, law.rotation, rolls,
+                      law.cohesion == CohesionLaw::area},
+                     set);
   return std::nullopt;
 }
 
@@ -282,7 +282,8 @@ Kernel kernelOf(const Kernel (&all)[contactVariants], std::size_t variant) {
   if (all[variant] != nullptr) return all[variant];
   ContactEffects effects = contactEffects(variant);
   effects.normalDamping = true;
-  if (effects.tangential == Tangential::spring) effects.tangential = Tangential::springDashpot;
+  if (effects.tangential == TangentialLaw::spring)
+    effects.tangential = TangentialLaw::springDashpot;
   return all[indexOf(effects, variant / effectVariants)];
 }
 
@@ -298,34 +299,35 @@ GRAIN_INLINE constexpr bool seesMasses(const L& law) {
   return seesCompliances(law) || law.damper == Damper::critical;
 }
 
-/// Whether a law has a memory besides its springs. @see Law::remembers
+/// Whether contacts remember more than their springs: a bond, or their largest overlap.
 template <class L>
 GRAIN_INLINE constexpr bool remembers(const L& law) {
-  return law.cohesion == Cohesion::jkr || law.cohesion == Cohesion::elastoPlastic;
+  return law.cohesion == CohesionLaw::jkr || law.cohesion == CohesionLaw::elastoPlastic;
 }
 
-/// @see Law::remembersRest
+/// Whether they remember δ₀ besides.
 template <class L>
 GRAIN_INLINE constexpr bool remembersRest(const L& law) {
-  return law.cohesion == Cohesion::elastoPlastic &&
-         law.cohesionConventions.unloading == UnloadingStiffness::lagged;
+  return law.cohesion == CohesionLaw::elastoPlastic &&
+         law.conventions.unloadingStiffness == UnloadingStiffness::lagged;
 }
 
 /// Whether a law asks for the inertia of RollingMotion.
 template <class L>
 GRAIN_INLINE constexpr bool seesRollingInertia(const L& law) {
-  return law.rolling == Rolling::spring && law.rollingConventions.damper == RollingDamper::critical;
+  return law.rolling == RollingLaw::spring &&
+         law.conventions.rollingDamper == RollingDamper::critical;
 }
 
 template <class Real>
-LawOptions<Real> lawOptions(const Law& law) {
+LawOptions<Real> lawOptions(const ContactLaw& law) {
   const auto one = [](bool is) { return is ? Real(1) : Real(0); };
-  const CohesionArea area = law.cohesionConventions.area;
-  const CohesionLoad load = law.cohesionConventions.load;
-  const RollingConventions& how = law.rollingConventions;
+  const LawConventions& how = law.conventions;
+  const CohesionArea area = how.cohesionArea;
+  const CohesionLoad load = how.cohesionLoad;
   LawOptions<Real> to;
-  to.leastForce = law.cutTension ? Real(0) : -std::numeric_limits<Real>::infinity();
-  to.ofPull = one(law.bound == Bound::magnitude);
+  to.leastForce = how.tension == Tension::cut ? Real(0) : -std::numeric_limits<Real>::infinity();
+  to.ofPull = one(how.coulombBound == CoulombBound::magnitude);
   to.lens = one(area == CohesionArea::lens);
   to.walls = area == CohesionArea::lens ? Real(0) : Real(2);
   to.disks = area == CohesionArea::twiceBetweenDisks ? Real(4) : to.walls;
@@ -335,29 +337,30 @@ LawOptions<Real> lawOptions(const Law& law) {
   to.lessPull = one(load == CohesionLoad::withoutPull);
   to.size = one(load == CohesionLoad::magnitudePlusPullOff);
   to.body = one(load == CohesionLoad::netWithoutDashpot);
-  to.effective = how.length == RollingLength::effective        ? Real(1)
-                 : how.length == RollingLength::twiceEffective ? Real(2)
-                                                               : Real(0);
-  to.smallest = one(how.length == RollingLength::smallerRadius);
-  to.mean = one(how.length == RollingLength::meanRadius);
-  to.ofLength = one(how.stiffness == RollingStiffness::lengthSquare);
-  to.ofRadii = one(how.stiffness == RollingStiffness::radii);
-  to.ofNothing = one(how.stiffness == RollingStiffness::constant);
-  to.rollingNet =
-      one(how.load == RollingLoad::compression || how.load == RollingLoad::whileCompressed);
-  to.rollingSize = one(how.load == RollingLoad::magnitude);
-  to.rollingElastic = one(how.load == RollingLoad::elastic);
-  to.unlimited = how.load == RollingLoad::whileCompressed ? Real(0) : Real(-1);
-  to.constantTorque = one(law.rolling == Rolling::constantTorque);
-  to.viscous = one(law.rolling == Rolling::viscous);
-  to.viscousByLoad = one(law.rolling == Rolling::viscousByLoad);
-  to.dashpotTested = one(!how.dashpotOutsideBound);
-  to.dashpotLeftOut = one(how.resetSpringOnly);
+  to.effective = how.rollingLength == RollingLength::effective        ? Real(1)
+                 : how.rollingLength == RollingLength::twiceEffective ? Real(2)
+                                                                      : Real(0);
+  to.smallest = one(how.rollingLength == RollingLength::smallerRadius);
+  to.mean = one(how.rollingLength == RollingLength::meanRadius);
+  to.ofLength = one(how.rollingStiffness == RollingStiffness::lengthSquare);
+  to.ofRadii = one(how.rollingStiffness == RollingStiffness::radii);
+  to.ofNothing = one(how.rollingStiffness == RollingStiffness::constant);
+  to.rollingNet = one(how.rollingLoad == RollingLoad::compression ||
+                      how.rollingLoad == RollingLoad::whileCompressed);
+  to.rollingSize = one(how.rollingLoad == RollingLoad::magnitude);
+  to.rollingElastic = one(how.rollingLoad == RollingLoad::elastic);
+  to.unlimited = how.rollingLoad == RollingLoad::whileCompressed ? Real(0) : Real(-1);
+  to.constantTorque = one(law.rolling == RollingLaw::constantTorque);
+  to.viscous = one(law.rolling == RollingLaw::viscous);
+  to.viscousByLoad = one(law.rolling == RollingLaw::viscousByLoad);
+  to.dashpotTested = one(how.rollingDashpot == Dashpot::inside);
+  to.dashpotLeftOut = one(how.rollingReset == SpringReset::springOnly);
   return to;
 }
 
 template <class Real>
-GeneralLaw<Real> generalLaw(const Law& law, double dt, bool rotation) {
+GeneralLaw<Real> generalLaw(const ContactLaw& law, double dt, bool rotation) {
+  const LawConventions& how = law.conventions;
   GeneralLaw<Real> to;
   static_cast<LawOptions<Real>&>(to) = lawOptions<Real>(law);
   to.kn = static_cast<Real>(law.kn);
@@ -366,37 +369,36 @@ GeneralLaw<Real> generalLaw(const Law& law, double dt, bool rotation) {
   to.gn = static_cast<Real>(law.gn > 0.0 ? law.gn : 0.0);
   to.kt = static_cast<Real>(law.kt);
   to.inverseKt = static_cast<Real>(law.kt > 0.0 ? 1.0 / law.kt : 0.0);
-  to.gt = static_cast<Real>(law.tangential == Tangential::spring ? 0.0 : law.gt);
+  to.gt = static_cast<Real>(tangentialOf(law) == TangentialLaw::spring ? 0.0 : law.gt);
   to.mu = static_cast<Real>(law.mu);
   to.dt = static_cast<Real>(dt);
   to.halfStep = static_cast<Real>(0.5 * dt);
   to.normal = law.normal;
   to.damper = law.damper;
-  to.history = law.history;
-  to.tangential = law.friction() ? law.tangential : Tangential::none;
-  to.signedBound = law.bound == Bound::signedForce;
-  to.lever = law.lever;
-  to.velocityLever = law.velocityLever.value_or(law.lever);
+  to.history = how.history;
+  to.tangential = law.friction() ? tangentialOf(law) : TangentialLaw::none;
+  to.signedBound = how.coulombBound == CoulombBound::signedForce;
+  to.lever = how.leverArm;
+  to.velocityLever = how.armOfVelocity();
   // A lever that is the radius is that on planes, too.
-  if (to.lever != Lever::radius || to.velocityLever != Lever::radius)
-    to.planeLever = law.planeLever;
-  to.stretch = law.stretch;
+  if (to.lever != LeverArm::radius || to.velocityLever != LeverArm::radius)
+    to.planeLever = how.planeArm;
+  to.stretch = how.springUpdate;
   to.normalDamping = law.gn > 0.0;
-  to.implicitDamping = law.damping == Damping::implicit;
-  to.dashpotOutsideBound = law.dashpotOutsideBound;
-  to.resetSpringOnly = law.resetSpringOnly;
-  to.rotation = law.turnsDisks() && rotation;
+  to.implicitDamping = dampingVelocity(law) == DampingVelocity::implicit;
+  to.dashpotOutsideBound = how.dashpot == Dashpot::outside;
+  to.resetSpringOnly = how.springReset == SpringReset::springOnly;
+  to.rotation = turnsDisks(law) && rotation;
   to.kr = static_cast<Real>(law.kr);
   to.gr = static_cast<Real>(law.gr);
   to.muR = static_cast<Real>(law.muR);
   to.kc = static_cast<Real>(law.kc);
   to.w = static_cast<Real>(law.w);
-  to.k2 = static_cast<Real>(law.k2);
+  to.k2 = static_cast<Real>(law.kUnload);
   to.plasticDepth = static_cast<Real>(law.plasticDepth);
   to.cohesion = law.cohesion;
-  to.cohesionConventions = law.cohesionConventions;
-  to.rolling = to.rotation ? law.rolling : Rolling::none;
-  to.rollingConventions = law.rollingConventions;
+  to.rolling = to.rotation ? law.rolling : RollingLaw::none;
+  to.conventions = how;
   return to;
 }
 

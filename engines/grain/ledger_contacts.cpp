@@ -248,7 +248,7 @@ void LedgerObserver<Real>::accountForces(const Contact& contact, const ContactKi
     SpringAccount& account = sums_.nextSpring(LedgerSums::Spring::body);
     account.i = contact.i;
     account.j = contact.j;
-    account.sliding = core_.law_.cohesion == Cohesion::elastoPlastic;
+    account.sliding = core_.law_.cohesion == CohesionLaw::elastoPlastic;
     account.energy = energy;
     sums_.settleSpring(LedgerSums::Spring::body, times(body, touch.normal));
   }
@@ -260,7 +260,7 @@ void LedgerObserver<Real>::accountForces(const Contact& contact, const ContactKi
     sums_.workOfWall({power, power});
   }
   if (core_.rolls()) accountRolling(contact, touch);
-  if (core_.law_.tangential == Tangential::none) return;
+  if (core_.law_.tangential == TangentialLaw::none) return;
   // Where v_t has another arm than f_t, the force does work on a velocity that the law does not
   // see.
   sums_.gain({contact.tangentialForce * (touch.tangential.closing - touch.slip.closing),
@@ -281,8 +281,8 @@ GRAIN_INLINE void LedgerObserver<Real>::accountSpring(const Contact& contact,
                                                       double stiffness) {
   const bool remembersForce = core_.law_.history == History::force;
   double part = 0.0;  // of v_t dt
-  if (core_.law_.stretch == Stretch::after && !contact.sliding) part = 1.0;
-  if (core_.law_.stretch == Stretch::midpoint) part = 0.5;
+  if (core_.law_.stretch == SpringUpdate::after && !contact.sliding) part = 1.0;
+  if (core_.law_.stretch == SpringUpdate::midpoint) part = 0.5;
   const double unit = remembersForce ? 1.0 : stiffness;
   const double stretch = contact.spring - part * static_cast<double>(core_.law_.dt) *
                                               touch.seenSlip * (remembersForce ? stiffness : 1.0);
@@ -305,11 +305,11 @@ template <class Real>
 void LedgerObserver<Real>::accountRolling(const Contact& contact, const ContactKinematics& touch) {
   const auto lost =
       contact.rollingSlides ? &EnergyLedger::lostRolling : &EnergyLedger::lostRollingDamping;
-  if (core_.law_.rolling != Rolling::spring)
+  if (core_.law_.rolling != RollingLaw::spring)
     return sums_.lose(lost, times(contact.rollingTorque, touch.rolling));
   double part = 0.0;  // of ω_r dt
-  if (core_.law_.stretch == Stretch::after && !contact.rollingSlides) part = 1.0;
-  if (core_.law_.stretch == Stretch::midpoint) part = 0.5;
+  if (core_.law_.stretch == SpringUpdate::after && !contact.rollingSlides) part = 1.0;
+  if (core_.law_.stretch == SpringUpdate::midpoint) part = 0.5;
   const double angle =
       contact.angle - part * static_cast<double>(core_.law_.dt) * touch.seenRolling;
   SpringAccount& account = sums_.nextSpring(LedgerSums::Spring::rolling);
@@ -323,9 +323,10 @@ void LedgerObserver<Real>::accountRolling(const Contact& contact, const ContactK
   sums_.ledger.elasticRolling += account.energy;
   const double ofSpring = -account.modulus * angle;
   sums_.settleSpring(LedgerSums::Spring::rolling, times(ofSpring, touch.rolling));
-  sums_.lose(
-      core_.law_.rollingConventions.resetSpringOnly ? &EnergyLedger::lostRollingDamping : lost,
-      times(contact.rollingTorque - ofSpring, touch.rolling));
+  sums_.lose(core_.law_.conventions.rollingReset == SpringReset::springOnly
+                 ? &EnergyLedger::lostRollingDamping
+                 : lost,
+             times(contact.rollingTorque - ofSpring, touch.rolling));
 }
 
 }  // namespace grain

@@ -72,7 +72,7 @@ static void ledgerDiskKernel(const LedgerDisks<Real>& disks, std::size_t count) 
 
 /// Geometry is the contact kernel's own arithmetic: the same bits.
 template <bool RadiusLevers, class Real>
-GRAIN_INLINE void ledgerPairs(Lever force, Lever velocity, LedgerPairs<Real>& b,
+GRAIN_INLINE void ledgerPairs(LeverArm force, LeverArm velocity, LedgerPairs<Real>& b,
                               std::size_t count) {
 #pragma omp simd
   for (std::size_t p = 0; p < count; ++p) {
@@ -111,8 +111,9 @@ GRAIN_INLINE void ledgerPairs(Lever force, Lever velocity, LedgerPairs<Real>& b,
 }
 
 template <class Real>
-static void ledgerPairKernel(Lever force, Lever velocity, LedgerPairs<Real>& b, std::size_t count) {
-  if (force == Lever::radius && velocity == Lever::radius)
+static void ledgerPairKernel(LeverArm force, LeverArm velocity, LedgerPairs<Real>& b,
+                             std::size_t count) {
+  if (force == LeverArm::radius && velocity == LeverArm::radius)
     ledgerPairs<true>(force, velocity, b, count);
   else
     ledgerPairs<false>(force, velocity, b, count);

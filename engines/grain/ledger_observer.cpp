@@ -15,7 +15,8 @@ namespace {
 /// Euler's scheme kicks once, after the forces; Verlet's by halves before and after.
 LedgerSums::Scheme schemeOf(const Setup& setup) {
   const double dt = setup.dt;
-  if (setup.integrator == Integrator::semiImplicitEuler) return {{0.0, dt}, {0.0, 0.5 * dt}};
+  if (setup.law.conventions.integrator == Integrator::semiImplicitEuler)
+    return {{0.0, dt}, {0.0, 0.5 * dt}};
   return {{0.5 * dt, 0.5 * dt}, {-0.25 * dt, 0.25 * dt}};
 }
 
@@ -25,7 +26,8 @@ template <class Real>
 LedgerObserver<Real>::LedgerObserver(const Core<Real>& core, const Setup& setup)
     : core_(core),
       sums_(schemeOf(setup)),
-      toForces_(setup.integrator == Integrator::semiImplicitEuler ? 0.0 : 0.5 * setup.dt),
+      toForces_(setup.law.conventions.integrator == Integrator::semiImplicitEuler ? 0.0
+                                                                                  : 0.5 * setup.dt),
       plateSpin_(setup.bottom && setup.bottom->spin && core.law_.rotation) {
   const std::size_t disks = setup.disks.x.size();
   for (std::size_t i = 0; i < disks; ++i) {
@@ -118,7 +120,7 @@ void LedgerObserver<Real>::account(double time) {
   ledger.kinetic = ledger.elasticNormal = ledger.elasticTangential = ledger.elasticRolling = 0.0;
   ledger.potential = ledger.plateSprings = 0.0;
   lookAtDisks(time);
-  if (core_.law_.normal == Normal::impulse)
+  if (core_.law_.normal == NormalLaw::rigid)
     for (Contact contact : core_.contacts()) {
       for (std::int32_t* disk : {&contact.i, &contact.j})
         if (static_cast<std::size_t>(*disk) < core_.moving_)

@@ -64,7 +64,7 @@ template <class Real>
 using LedgerDiskKernel = void (*)(const LedgerDisks<Real>&, std::size_t count);
 
 template <class Real>
-using LedgerPairKernel = void (*)(Lever force, Lever velocity, LedgerPairs<Real>&,
+using LedgerPairKernel = void (*)(LeverArm force, LeverArm velocity, LedgerPairs<Real>&,
                                   std::size_t count);
 
 /// Of kernels for disks: without plate, with one, with one that brakes spins; without and with

@@ -63,7 +63,7 @@ const std::vector<Contact>& Core<Real>::contacts() const {
   if (!known_) {
     if (!recorded_) throw std::logic_error("the last step did not record its contacts");
     std::vector<Contact> contacts =
-        law_.normal == Normal::impulse ? impactContacts() : softContacts();
+        law_.normal == NormalLaw::rigid ? impactContacts() : softContacts();
     std::ranges::sort(contacts, [](const Contact& a, const Contact& b) {
       return std::tie(a.i, a.j) < std::tie(b.i, b.j);
     });
@@ -91,8 +91,8 @@ GRAIN_INLINE std::optional<Contact> Core<Real>::touching(const PairList<Real>& l
 template <class Real>
 GRAIN_INLINE std::optional<Contact> Core<Real>::touching(std::size_t plane, std::size_t i) const {
   const PlacedPlane& placed = placedPlanes_[plane];
-  if (law_.cohesion == Cohesion::jkr ? !(placed.memory[i] > Real(0))
-                                     : !(placed.overlap[i] > Real(0)))
+  if (law_.cohesion == CohesionLaw::jkr ? !(placed.memory[i] > Real(0))
+                                        : !(placed.overlap[i] > Real(0)))
     return std::nullopt;
   return Contact{static_cast<std::int32_t>(i),
                  static_cast<std::int32_t>(position_.size() + plane),
@@ -218,10 +218,10 @@ double Core<Real>::elasticEnergy() const {
     const ContactMotion<Real> motion = geometryOf(contact);
     const GeneralLaw<Real>& law = lawOf(contact);
     energy += static_cast<double>(storedEnergy(law, motion, static_cast<Real>(contact.spring)));
-    if (law_.cohesion != Cohesion::none)
+    if (law_.cohesion != CohesionLaw::none)
       energy += static_cast<double>(bodyEnergy(law, motion, static_cast<Real>(contact.memory)) -
                                     storedEnergy(law, motion, Real(0)));
-    if (law_.rolling == Rolling::spring)
+    if (law_.rolling == RollingLaw::spring)
       energy += 0.5 * static_cast<double>(law.kr * rollingLengths(contact).square) * contact.angle *
                 contact.angle;
   }

@@ -39,11 +39,11 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
     const Real overlap = disks.radius[i] - height;
     // What the law does not have is not compiled.
     Real spring = plane.kept.spring == nullptr ? Real(0) : plane.kept.spring[i];
-    Real angle = common.rolling == Rolling::spring ? plane.kept.angle[i] : Real(0);
+    Real angle = common.rolling == RollingLaw::spring ? plane.kept.angle[i] : Real(0);
     Real memory = remembers(common) ? plane.kept.memory[i] : Real(0);
     Real rest = remembersRest(common) ? plane.kept.rest[i] : Real(0);
     bool touches = overlap > Real(0);
-    if (common.cohesion == Cohesion::jkr) {
+    if (common.cohesion == CohesionLaw::jkr) {
       memory = isBonded(lawAtPlane(common, disks, plane, i), overlap, disks.radius[i], memory);
       touches = memory > Real(0);
     }
@@ -75,7 +75,7 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
       disks.force[i].x += force.normal * plane.nx - force.tangential * plane.ny;
       disks.force[i].y += force.normal * plane.ny + force.tangential * plane.nx;
       if (law.rotation) disks.torque[i] -= lever * force.tangential;
-      if (law.rolling != Rolling::none) {
+      if (law.rolling != RollingLaw::none) {
         RollingMotion<Real> rolling =
             rollingMotion(law, disks.radius[i], Real(0), disks.spin[i] - plane.spin);
         if (seesRollingInertia(law))
@@ -90,7 +90,7 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
       spring = angle = memory = rest = Real(0);
     }
     if (plane.kept.spring != nullptr) plane.kept.spring[i] = spring;
-    if (common.rolling == Rolling::spring) plane.kept.angle[i] = angle;
+    if (common.rolling == RollingLaw::spring) plane.kept.angle[i] = angle;
     if (remembers(common)) plane.kept.memory[i] = memory;
     if (remembersRest(common)) plane.kept.rest[i] = rest;
     if (plane.normal != nullptr) {
@@ -99,7 +99,7 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
       plane.tangential[i] = force.tangential;
       plane.sliding[i] = force.sliding;
     }
-    if (common.rolling != Rolling::none && plane.rolling != nullptr) {
+    if (common.rolling != RollingLaw::none && plane.rolling != nullptr) {
       plane.rolling[i] = resistance.torque;
       plane.rollingSlides[i] = resistance.sliding;
     }

@@ -24,14 +24,13 @@ enum class Precision { float64, float32 };
 struct Setup {
   Disks disks;
   std::vector<Wall> walls;
-  Law law;
+  ContactLaw law;
   std::optional<Materials> materials;  ///< where pairs differ: then `law` is of none
-  std::optional<Bottom> bottom;
+  std::optional<BottomPlate> bottom;
   double gravityX = 0.0, gravityY = 0.0;  ///< [m/s²]
   double dt = 0.0;                        ///< [s]
-  Integrator integrator = Integrator::positionVerlet;
-  bool rotation = true;  ///< false: friction, but no disk turns about itself
-  double skin = 0.0;     ///< of the Verlet lists [m]; 0: tuned
+  bool rotation = true;                   ///< false: friction, but no disk turns about itself
+  double skin = 0.0;                      ///< of the Verlet lists [m]; 0: tuned
   /// Overlaps beyond this many times the smaller radius end the run: at 1, the default, the centre
   /// of one disk lies inside the other, where no law of small overlaps means anything. 0: any, but
   /// for coincident centres, which have no normal. Looked at whenever near pairs are chosen anew,

@@ -12,10 +12,10 @@ struct SpaceRecords {
 
   SpaceRecords() = default;
   explicit SpaceRecords(const GeneralLaw<double>& law)
-      : slide(law.tangential != Tangential::none),
+      : slide(law.tangential != TangentialLaw::none),
         spring(hasSprings(law)),
-        rolling(law.rolling != Rolling::none),
-        angle(law.rolling == Rolling::spring),
+        rolling(law.rolling != RollingLaw::none),
+        angle(law.rolling == RollingLaw::spring),
         bond(remembers(law)) {}
 };
 

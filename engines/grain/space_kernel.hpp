@@ -14,14 +14,13 @@ inline constexpr std::size_t meetingBlock = 64, lookedAt = 32, width = 8;
 /// The linear law with a spring and dashpots, the everyday one, under conventions at run time: what
 /// else a law may have is not compiled.
 struct EverydayLaw : LawConstants<double>, LawOptions<double>, Conventions {
-  static constexpr Normal normal = Normal::linear;
+  static constexpr NormalLaw normal = NormalLaw::linear;
   static constexpr Damper damper = Damper::constant;
-  static constexpr Tangential tangential = Tangential::springDashpot;
+  static constexpr TangentialLaw tangential = TangentialLaw::springDashpot;
   static constexpr bool normalDamping = true, rotation = true;
-  static constexpr Rolling rolling = Rolling::none;
-  static constexpr RollingConventions rollingConventions{};
-  static constexpr Cohesion cohesion = Cohesion::none;
-  static constexpr CohesionConventions cohesionConventions{};
+  static constexpr RollingLaw rolling = RollingLaw::none;
+  static constexpr CohesionLaw cohesion = CohesionLaw::none;
+  static constexpr LawConventions conventions{};
 
   explicit EverydayLaw(const GeneralLaw<double>& law)
       : LawConstants(law), LawOptions(law), Conventions(law) {}
@@ -104,7 +103,7 @@ static SpaceReport pairKernel(const GeneralLaw<double>& general, const SpaceConv
       SpaceMemory<double> kept{};
       if (pairs.touches[p] != 0) kept = pairs.contacts.memory(p);
       bool touches = meeting.overlap > 0.0;
-      if (law.cohesion == Cohesion::jkr) {
+      if (law.cohesion == CohesionLaw::jkr) {
         const double radius =
             meeting.radiusI * meeting.radiusJ / (meeting.radiusI + meeting.radiusJ);
         kept.memory = isBonded(law, meeting.overlap, radius, kept.memory);
@@ -154,8 +153,9 @@ static SpaceReport contactKernel(const GeneralLaw<double>& general, const SpaceC
                                  const SpaceView& view, const SpacePairs& list, double range,
                                  double maxOverlap) {
   const L law(general);
-  const bool friction = law.tangential != Tangential::none, rolls = law.rolling != Rolling::none;
-  const bool remembers = hasSprings(law) || law.rolling == Rolling::spring;
+  const bool friction = law.tangential != TangentialLaw::none,
+             rolls = law.rolling != RollingLaw::none;
+  const bool remembers = hasSprings(law) || law.rolling == RollingLaw::spring;
   const bool masses = seesMasses(law) || seesRollingInertia(law);
   const SpaceView all = view;  // copies that no store through a pointer can change
   const SpacePairs pairs = list;
@@ -194,7 +194,8 @@ static SpaceReport contactKernel(const GeneralLaw<double>& general, const SpaceC
       const bool touched = pairs.touches[p] != 0;
       if (remembers) b.normal.set(k, touched ? kept.touch[p].normal : Vec3<double>{});
       if (hasSprings(law)) b.spring.set(k, touched ? kept.spring[p] : Vec3<double>{});
-      if (law.rolling == Rolling::spring) b.angle.set(k, touched ? kept.angle[p] : Vec3<double>{});
+      if (law.rolling == RollingLaw::spring)
+        b.angle.set(k, touched ? kept.angle[p] : Vec3<double>{});
     }
 #pragma GCC ivdep
     for (std::size_t k = 0; k < full; ++k) {
@@ -224,7 +225,7 @@ static SpaceReport contactKernel(const GeneralLaw<double>& general, const SpaceC
       SpaceMemory<double> memory{};
       if (remembers) memory.normal = b.normal.at(k);
       if (hasSprings(law)) memory.spring = b.spring.at(k);
-      if (law.rolling == Rolling::spring) memory.angle = b.angle.at(k);
+      if (law.rolling == RollingLaw::spring) memory.angle = b.angle.at(k);
       const MeetingForce<double> force = meetingForce(law, SpaceConventions{}, meeting, memory);
       b.normal.set(k, meeting.normal);
       b.force.set(k, force.force);
@@ -240,7 +241,7 @@ static SpaceReport contactKernel(const GeneralLaw<double>& general, const SpaceC
         b.torqueJ.set(k, force.torqueJ);
       }
       if (rolls) b.rolling.set(k, force.rolling);
-      if (law.rolling == Rolling::spring) b.angle.set(k, memory.angle);
+      if (law.rolling == RollingLaw::spring) b.angle.set(k, memory.angle);
     }
     for (std::size_t k = 0; k < found; ++k) {
       const std::size_t p = near[k];
@@ -254,7 +255,7 @@ static SpaceReport contactKernel(const GeneralLaw<double>& general, const SpaceC
       if (friction) kept.slide[p] = {b.tangential.at(k), b.sliding[k]};
       if (hasSprings(law)) kept.spring[p] = b.spring.at(k);
       if (rolls) kept.rolling[p] = b.rolling.at(k);
-      if (law.rolling == Rolling::spring) kept.angle[p] = b.angle.at(k);
+      if (law.rolling == RollingLaw::spring) kept.angle[p] = b.angle.at(k);
       SpacePush force{b.force.at(k), {}, {}};
       if (law.rotation) force = {b.force.at(k), b.torqueI.at(k), b.torqueJ.at(k)};
       push(law, all, active, pairs, p, force);

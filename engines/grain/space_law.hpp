@@ -55,13 +55,6 @@ GRAIN_INLINE Vec3<Real> plusShare(const Vec3<Real>& some, const Vec3<Real>&, Rea
   return some + share * part;
 }
 
-/// How ξ follows a normal that turned from n to n′, before it is stretched: by the smallest
-/// rotation from n to n′; by that to first order (YADE: ScGeom::rotate); less its part along n′,
-/// and then to the old length (LAMMPS' pair_style granular) or not (gran/hooke/history).
-enum class SpringTurn { rotated, firstOrder, rescaled, projected };
-/// Whether ξ turns with a pair that turns about n, by ½(ω_i + ω_j)·n dt.
-enum class SpringTwist { meanSpin, none };
-
 /// What engines differ in that have the same law in space.
 struct SpaceConventions {
   SpringTurn turn = SpringTurn::rotated;
@@ -69,6 +62,9 @@ struct SpaceConventions {
 
   bool operator==(const SpaceConventions&) const = default;
 };
+inline SpaceConventions spaceConventions(const ContactLaw& law) {
+  return {law.conventions.springTurn, law.conventions.springTwist};
+}
 
 /// ξ in the tangent plane of `now` that was in that of `before`, both of length 1.
 template <class Real>
@@ -140,7 +136,7 @@ struct MeetingForce {
 /// @tparam Share  of an option that is known bool, of one that is a number of LawOptions that
 template <class Real, class Share>
 struct SpringLimit {
-  Stretch when;
+  SpringUpdate when;
   Real unit, inverse, bound;
   bool limited;
   Share dashpotTested, dashpotLeftOut;  ///< against the bound; of the spring where it slips
@@ -161,7 +157,7 @@ struct SpringLimit {
     const Vec3<Real> slipping = (size > Real(0) ? bound / size : Real(0)) * tested;
     Vec3<Real> slipped =
         -inverse * plusShare(slipping, slipping - viscous, dashpotLeftOut, -viscous);
-    if (when == Stretch::midpoint) slipped += Real(0.5) * stretch;
+    if (when == SpringUpdate::midpoint) slipped += Real(0.5) * stretch;
     spring = either(holds, stretched + (Real(1) - part) * stretch, slipped);
     sliding = holds ? Real(0) : Real(1);
     return either(holds, trial, slipping);
@@ -174,11 +170,11 @@ GRAIN_INLINE Vec3<Real> tangentialForce(const L& law, const ContactMotion<Real>&
                                         const Vec3<Real>& slip, Real load, Vec3<Real>& spring,
                                         Real& sliding) {
   const Real bound = coulombBound(law, load);
-  if (law.tangential == Tangential::coulomb || law.tangential == Tangential::viscous) {
+  if (law.tangential == TangentialLaw::coulomb || law.tangential == TangentialLaw::viscous) {
     const Real speed = length(slip);
     Real size = bound;
     sliding = Real(1);
-    if (law.tangential == Tangential::viscous) {
+    if (law.tangential == TangentialLaw::viscous) {
       const Real gt = tangentialDamping(law, contact);
       Real trial = gt * speed;
       if (law.implicitDamping) trial /= Real(1) + gt * contact.tangentialCompliance;
@@ -192,12 +188,12 @@ GRAIN_INLINE Vec3<Real> tangentialForce(const L& law, const ContactMotion<Real>&
   const Real stiffness = tangentialStiffness(law, contact);
   Real inverse = law.inverseKt;
   if (force) inverse = Real(1);
-  if (law.normal == Normal::hertz && !force)
+  if (law.normal == NormalLaw::hertz && !force)
     inverse = stiffness > Real(0) ? Real(1) / stiffness : Real(0);
   const Vec3<Real> stretch = (force ? stiffness * law.dt : law.dt) * slip;
   Vec3<Real> viscous{};
   Real divisor = Real(1);
-  if (law.tangential == Tangential::springDashpot) {
+  if (law.tangential == TangentialLaw::springDashpot) {
     const Real gt = tangentialDamping(law, contact);
     viscous = -gt * slip;
     if (law.implicitDamping) divisor += gt * contact.tangentialCompliance;
@@ -223,7 +219,7 @@ GRAIN_INLINE Vec3<Real> rollingResistance(const L& law, const Meeting<Real>& mee
   const Vec3<Real> spin = relative - dot(relative, meeting.normal) * meeting.normal;
   RollingMotion<Real> motion = rollingMotion(law, meeting.radiusI, meeting.radiusJ, Real(0));
   const Real bound = rollingBound(law, motion, contact, load);
-  if (law.rolling != Rolling::spring) {
+  if (law.rolling != RollingLaw::spring) {
     const Real viscous = law.viscous * (law.gr * motion.length * motion.length) +
                          law.viscousByLoad * (bound * motion.length);
     const Real size = length(spin), constant = law.constantTorque * bound;
@@ -257,7 +253,7 @@ GRAIN_INLINE void followNormal(const L& law, const SpaceConventions& how,
     if (twists) spring = twistedSpring(how.turn, spring, about, twist);
   };
   if (hasSprings(law)) follow(kept.spring);
-  if (law.rolling == Rolling::spring) follow(kept.angle);
+  if (law.rolling == RollingLaw::spring) follow(kept.angle);
 }
 
 /// v_t
@@ -294,10 +290,10 @@ GRAIN_INLINE MeetingForce<Real> meetingForce(const L& law, const SpaceConvention
                                              const Meeting<Real>& meeting,
                                              SpaceMemory<Real>& kept) {
   const Vec3<Real>& n = meeting.normal;
-  const bool friction = law.tangential != Tangential::none;
-  const bool rolls = law.rotation && law.rolling != Rolling::none;
+  const bool friction = law.tangential != TangentialLaw::none;
+  const bool rolls = law.rotation && law.rolling != RollingLaw::none;
   const ContactMotion<Real> motion = motionOf(law, meeting);
-  if (hasSprings(law) || law.rolling == Rolling::spring) followNormal(law, how, meeting, kept);
+  if (hasSprings(law) || law.rolling == RollingLaw::spring) followNormal(law, how, meeting, kept);
   kept.normal = n;
 
   const Real body = remembersRest(law) ? laggedPlasticForce(law, motion, kept.memory, kept.rest)

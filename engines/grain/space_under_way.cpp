@@ -51,9 +51,10 @@ void Spheres::beginUnderWay(const std::vector<SpaceContact>& forces) {
   std::map<Numbers, bool> begun;
   for (const SpaceContact& contact : forces) {
     wanted[{contact.i, contact.j}] = &contact;
-    if (law_.cohesion == Cohesion::jkr) springs[{contact.i, contact.j}].memory = 1.0;
+    if (law_.cohesion == CohesionLaw::jkr) springs[{contact.i, contact.j}].memory = 1.0;
   }
-  const bool lags = setup_.integrator != Integrator::semiImplicitEuler && seenVelocity_.empty();
+  const bool lags =
+      setup_.law.conventions.integrator != Integrator::semiImplicitEuler && seenVelocity_.empty();
   const std::uint64_t evaluations = evaluations_;
   kick(halfKick_);
   const auto velocity = velocity_, spin = spin_;  // of the start
@@ -110,7 +111,7 @@ void Spheres::beginUnderWay(const std::vector<SpaceContact>& forces) {
     evaluate();
   }
   const bool history =
-      law_.tangential == Tangential::spring || law_.tangential == Tangential::springDashpot;
+      law_.tangential == TangentialLaw::spring || law_.tangential == TangentialLaw::springDashpot;
   for (int round = 0; history && round < mostOfSprings; ++round) {
     bool settled = true;
     forWanted([&](const SpaceContact& now, const SpaceContact& want) {
@@ -121,7 +122,7 @@ void Spheres::beginUnderWay(const std::vector<SpaceContact>& forces) {
       const Vector guess = springFor(law, meeting, want, sliding);
       settled &= stretched({now.tangentialForce, now.sliding}, {want.tangentialForce, want.sliding},
                            sliding, guess, begun[{now.i, now.j}], own.spring);
-      if (law_.rolling != Rolling::spring) return;
+      if (law_.rolling != RollingLaw::spring) return;
       bool always = true;  // at its bound nothing is known of the angle's direction
       settled &= stretched({now.rollingTorque, false}, {want.rollingTorque, false}, rolling, {},
                            always, own.angle);
@@ -130,7 +131,7 @@ void Spheres::beginUnderWay(const std::vector<SpaceContact>& forces) {
     evaluate();
   }
   evaluations_ = evaluations;
-  if (!lags || setup_.integrator == Integrator::velocityVerlet) goBack(halfKick_);
+  if (!lags || setup_.law.conventions.integrator == Integrator::velocityVerlet) goBack(halfKick_);
 }
 
 Meeting<double> Spheres::meetingOf(const SpaceContact& contact) {
@@ -173,7 +174,8 @@ Vector Spheres::springFor(const GeneralLaw<double>& law, const Meeting<double>& 
   const ContactMotion<double> motion = motionOf(law, meeting);
   const Vector slip = slipOf(law, meeting);
   Vector viscous{};
-  if (law.tangential == Tangential::springDashpot) viscous = -tangentialDamping(law, motion) * slip;
+  if (law.tangential == TangentialLaw::springDashpot)
+    viscous = -tangentialDamping(law, motion) * slip;
   const Vector& force = want.tangentialForce;
   const bool alone = want.sliding && law.dashpotOutsideBound;  // the dashpot has no part
   const Vector elastic = (want.sliding ? 2.0 : 1.0) * force - (alone ? Vector{} : viscous);

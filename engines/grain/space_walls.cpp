@@ -99,6 +99,7 @@ Vector Spheres::wallPosition(std::size_t k) const {
 /// Contacts of spheres begin … end−1.
 void Spheres::addPlane(PlacedPlane& plane, Share& share, std::size_t begin, std::size_t end) {
   const SpaceContactView contacts = plane.contacts.view();
+  const SpaceConventions conventions = spaceConventions(setup_.law);
   for (std::size_t i = begin; i < end; ++i) {
     const Place place = placeOn(plane, i);
     const double a = position_[i].w, height = place.height;
@@ -106,7 +107,7 @@ void Spheres::addPlane(PlacedPlane& plane, Share& share, std::size_t begin, std:
     SpaceMemory<double> kept{};
     if (plane.touches[i] != 0) kept = contacts.memory(i);
     bool touches = a - height > 0.0;
-    if (law.cohesion == Cohesion::jkr) {
+    if (law.cohesion == CohesionLaw::jkr) {
       kept.memory = isBonded(law, a - height, a, kept.memory);
       touches = kept.memory > 0.0;
     }
@@ -115,7 +116,7 @@ void Spheres::addPlane(PlacedPlane& plane, Share& share, std::size_t begin, std:
     if (setup_.maxOverlap > 0.0 && !(a - height <= setup_.maxOverlap * a)) share.deep = true;
     ++share.touching;
     const Meeting<double> meeting = meetingOn(plane, i, place);
-    const MeetingForce<double> force = meetingForce(law, setup_.conventions, meeting, kept);
+    const MeetingForce<double> force = meetingForce(law, conventions, meeting, kept);
     contacts.set(i, kept,
                  {meeting.overlap, force.normal, force.sliding, force.tangential, force.rolling});
     add(force_[i], force.force, 1.0);

@@ -33,12 +33,13 @@ SpacePairKernel pairKernelOf(const SpaceKernels& all, const GeneralLaw<double>& 
                              const SpheresSetup& setup) {
   const bool materials = setup.materials.has_value();
   const auto variant = contactVariant(law);
-  if (variant && !setup.generalKernels && !materials && setup.conventions == SpaceConventions{})
+  if (variant && !setup.generalKernels && !materials &&
+      spaceConventions(setup.law) == SpaceConventions{})
     if (const auto own = kernelOf(all.contacts, *variant)) return own;
-  const bool everyday = law.normal == Normal::linear && law.damper == Damper::constant &&
-                        law.normalDamping && law.tangential == Tangential::springDashpot &&
-                        law.rotation && law.rolling == Rolling::none &&
-                        law.cohesion == Cohesion::none && !setup.generalKernels;
+  const bool everyday = law.normal == NormalLaw::linear && law.damper == Damper::constant &&
+                        law.normalDamping && law.tangential == TangentialLaw::springDashpot &&
+                        law.rotation && law.rolling == RollingLaw::none &&
+                        law.cohesion == CohesionLaw::none && !setup.generalKernels;
   if (materials) return everyday ? all.everydayMaterialContacts : all.generalMaterialContacts;
   return everyday ? all.everydayContacts : all.generalContacts;
 }
@@ -53,14 +54,14 @@ bool pushesMoreThanPairs(const SpheresSetup& setup) {
 std::vector<GeneralLaw<double>> lawsOf(const SpheresSetup& setup) {
   std::vector<GeneralLaw<double>> laws;
   if (setup.materials)
-    for (const Law& law : setup.materials->laws)
+    for (const ContactLaw& law : setup.materials->laws)
       laws.push_back(generalLaw<double>(lawOfPair(law), setup.dt, setup.rotation));
   return laws;
 }
 
 double rangeOf(const GeneralLaw<double>& law, const std::vector<GeneralLaw<double>>& laws,
                const std::vector<double>& radius) {
-  if (law.cohesion != Cohesion::jkr || radius.empty()) return 0.0;
+  if (law.cohesion != CohesionLaw::jkr || radius.empty()) return 0.0;
   const double largest = *std::ranges::max_element(radius);
   if (laws.empty()) return jkrRange(law, largest);  // of a wall, the farthest
   double range = 0.0;
@@ -85,7 +86,7 @@ Spheres::Spheres(SpheresSetup setup)
           range_, SpaceRecords(law_), kernels_),
       team_(std::make_unique<ThreadTeam>(shares_.size())) {
   demand(setup_.dt > 0.0, "the time step must be > 0 s");
-  demand(setup_.law.normal != Normal::impulse, "spheres have no impulses");
+  demand(setup_.law.normal != NormalLaw::rigid, "spheres have no impulses");
   pairs_ = pairKernelOf(kernels_, law_, setup_);
   placeSpheres();
   moveWalls();
@@ -93,7 +94,7 @@ Spheres::Spheres(SpheresSetup setup)
   renumber();
   // At t = 0 the velocities are given: nothing is predicted, and no damping is implicit.
   addForcesAfter(0.0);
-  if (setup_.integrator == Integrator::positionVerlet) {
+  if (setup_.law.conventions.integrator == Integrator::positionVerlet) {
     halfKick_ = 0.5 * setup_.dt;  // from here on velocities live half a step before positions
     kick(-halfKick_);
   }
@@ -108,8 +109,7 @@ void Spheres::addForcesAfter(double halfStep) {
 
 void Spheres::placeSpheres() {
   const SpaceRecords records(law_);
-  const bool predicts = setup_.law.damping == Damping::predicted &&
-                        setup_.integrator != Integrator::semiImplicitEuler;
+  const bool predicts = dampingVelocity(setup_.law) == DampingVelocity::predicted;
   for (std::size_t i = 0; i < size(); ++i) {
     position_.push_back(quadOf(setup_.position[i], setup_.radius[i]));
     velocity_.push_back(quadOf(setup_.velocity[i]));
@@ -253,7 +253,7 @@ SpaceMotionView Spheres::motionView(const ActiveSpheres& active) {
 
 void Spheres::step() {
   const double dt = setup_.dt;
-  const bool verlet = setup_.integrator == Integrator::velocityVerlet;
+  const bool verlet = setup_.law.conventions.integrator == Integrator::velocityVerlet;
   const SpaceMotionConstants constants{verlet ? 0.5 * dt : dt, dt, 0.5 * dt, setup_.gravity};
   together([&](Share& share, std::size_t begin, std::size_t end) {
     share.moved = kernels_.motion(constants, motionView(share.active), begin, end);
@@ -375,7 +375,7 @@ void Spheres::addForces() {
 void Spheres::addPairs(Share& share, const SpacePairs& pairs) {
   const double most = setup_.maxOverlap > 0.0 ? setup_.maxOverlap : 1e300;
   const SpaceReport report =
-      pairs_(law_, setup_.conventions, view(share.active), pairs, range_, most);
+      pairs_(law_, spaceConventions(setup_.law), view(share.active), pairs, range_, most);
   share.active.count = report.active;
   share.touching += report.touching;
   share.deep |= report.deep;

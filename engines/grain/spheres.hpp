@@ -40,12 +40,10 @@ struct SpheresSetup {
   std::vector<double> radius, mass, inertia;
   std::vector<SpaceWall> walls;
   std::optional<SpaceBox> box;
-  Law law;                             ///< no impulses
+  ContactLaw law;                      ///< no impulses
   std::optional<Materials> materials;  ///< where pairs differ: then `law` is of none
-  SpaceConventions conventions;
   Vec3<double> gravity;
   double dt = 0.0;
-  Integrator integrator = Integrator::positionVerlet;
   bool rotation = true;
   double skin = 0.0;        ///< of the neighbour list [m]; 0: tuned
   double maxOverlap = 1.0;  ///< as in Setup

@@ -104,7 +104,7 @@ template <class Real>
 void Core<Real>::addForces(bool record) {
   recorded_ = record;
   const auto begin = std::chrono::steady_clock::now();
-  if (law_.normal == Normal::impulse)
+  if (law_.normal == NormalLaw::rigid)
     addImpacts();
   else
     addSoftForces(record);
@@ -141,7 +141,7 @@ std::size_t Core<Real>::addPairs(std::size_t part, Sort sort, bool record) {
   constexpr AddTo addTo[] = {AddTo::both, AddTo::none, AddTo::first};
   const auto pairs = lists_.list(part, sort)
                          .view(addTo[static_cast<std::size_t>(sort)], record, law_.rotation,
-                               law_.rolling != Rolling::none);
+                               law_.rolling != RollingLaw::none);
   return contacts_(law_, contactView(), pairs);
 }
 

@@ -11,9 +11,9 @@ namespace grain {
 template <class L, class Real>
 GRAIN_INLINE Real elasticForce(const L& law, const ContactMotion<Real>& contact) {
   const Real overlap = contact.overlap;
-  if (law.normal == Normal::linear) return law.kn * overlap;
-  if (law.normal == Normal::impulse) return Real(0);
-  if (law.normal == Normal::polynomial) return (law.kn + law.kn3 * overlap) * overlap * overlap;
+  if (law.normal == NormalLaw::linear) return law.kn * overlap;
+  if (law.normal == NormalLaw::rigid) return Real(0);
+  if (law.normal == NormalLaw::polynomial) return (law.kn + law.kn3 * overlap) * overlap * overlap;
   return law.kn * squareRoot(contact.radius * larger(overlap, Real(0))) * overlap;
 }
 
@@ -21,8 +21,8 @@ GRAIN_INLINE Real elasticForce(const L& law, const ContactMotion<Real>& contact)
 template <class L, class Real>
 GRAIN_INLINE Real normalStiffness(const L& law, const ContactMotion<Real>& contact) {
   const Real overlap = larger(contact.overlap, Real(0));
-  if (law.normal == Normal::linear) return law.kn;
-  if (law.normal == Normal::polynomial)
+  if (law.normal == NormalLaw::linear) return law.kn;
+  if (law.normal == NormalLaw::polynomial)
     return (Real(2) * law.kn + Real(3) * law.kn3 * overlap) * overlap;
   return Real(1.5) * law.kn * squareRoot(contact.radius * overlap);
 }
@@ -34,8 +34,8 @@ Real jkrRadius(const L& law, const ContactMotion<Real>& contact);
 /// Hertz–Mindlin: 8 G₁₂ a, a = √(R₁₂ δ) (Johnson 1985, Eq. 7.43), or JKR's (Thornton 1991).
 template <class L, class Real>
 GRAIN_INLINE Real tangentialStiffness(const L& law, const ContactMotion<Real>& contact) {
-  if (law.normal != Normal::hertz) return law.kt;
-  if (law.cohesion == Cohesion::jkr) return law.kt * jkrRadius(law, contact);
+  if (law.normal != NormalLaw::hertz) return law.kt;
+  if (law.cohesion == CohesionLaw::jkr) return law.kt * jkrRadius(law, contact);
   return law.kt * squareRoot(contact.radius * larger(contact.overlap, Real(0)));
 }
 
@@ -44,7 +44,7 @@ template <class L, class Real>
 GRAIN_INLINE Real damping(const L& law, const ContactMotion<Real>& contact, Real constant,
                           Real stiffness) {
   if (law.damper == Damper::constant) return constant;
-  if (law.damper == Damper::stiffness) return constant * stiffness;
+  if (law.damper == Damper::viscoelastic) return constant * stiffness;
   return constant * squareRoot(contact.mass * larger(stiffness, Real(0)));
 }
 
@@ -64,10 +64,10 @@ GRAIN_INLINE Real tangentialDamping(const L& law, const ContactMotion<Real>& con
 template <class L, class Real>
 Real storedEnergy(const L& law, const ContactMotion<Real>& contact, Real spring) {
   const Real overlap = contact.overlap;
-  if (law.normal == Normal::impulse) return Real(0);
+  if (law.normal == NormalLaw::rigid) return Real(0);
   Real normal = Real(0.5) * law.kn * overlap * overlap;
-  if (law.normal == Normal::hertz) normal = Real(0.4) * elasticForce(law, contact) * overlap;
-  if (law.normal == Normal::polynomial)
+  if (law.normal == NormalLaw::hertz) normal = Real(0.4) * elasticForce(law, contact) * overlap;
+  if (law.normal == NormalLaw::polynomial)
     normal = (law.kn / Real(3) + law.kn3 / Real(4) * overlap) * overlap * overlap * overlap;
   const Real stiffness = tangentialStiffness(law, contact);
   if (!(stiffness > Real(0))) return normal;

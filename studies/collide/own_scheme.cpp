@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "adapters/declared_law.hpp"
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "cases/collision_scene.hpp"
 #include "oracle/discrete_impact.hpp"
 #include "oracle/impact.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "adapters/declared_law.hpp"
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "adapters/pair_table.hpp"
 #include "adapters/registry.hpp"
 #include "cases/time_step.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "adapters/contact_law.hpp"
+#include "law/contact_law.hpp"
 #include "cases/case.hpp"
 #include "cases/collision_scene.hpp"
 #include "oracle/collision_oracle.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "adapters/suitability.hpp"
 #include "studies/conformance/declared_laws.hpp"
 

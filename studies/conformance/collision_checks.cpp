@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "stability/transform.hpp"
 #include "studies/conformance/check_context.hpp"

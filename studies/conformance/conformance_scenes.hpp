@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/contact_law.hpp"
+#include "law/contact_law.hpp"
 #include "adapters/scene.hpp"
 #include "studies/conformance/thesis_numbers.hpp"
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "adapters/declared_law.hpp"
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "oracle/impact.hpp"
 #include "results/lockstep_text.hpp"
 #include "studies/conformance/check_context.hpp"

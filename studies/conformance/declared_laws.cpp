@@ -4,7 +4,7 @@
 #include <iterator>
 #include <numbers>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "studies/conformance/check_context.hpp"
 
 namespace crossgrain::conformance {

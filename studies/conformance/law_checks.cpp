@@ -9,7 +9,7 @@
 
 #include "adapters/audit.hpp"
 #include "adapters/declared_law.hpp"
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "studies/conformance/check_context.hpp"
 #include "studies/conformance/declared_laws.hpp"
 #include "studies/conformance/meeting.hpp"

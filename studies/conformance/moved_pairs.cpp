@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "studies/conformance/check_context.hpp"
 #include "studies/conformance/declared_laws.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "adapters/pair_table.hpp"
 #include "adapters/suitability.hpp"
 #include "studies/conformance/check_context.hpp"

@@ -1,7 +1,7 @@
 // Scenes and settings that must be refused, by the harness or the engine, and life after it.
 #include <algorithm>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "adapters/suitability.hpp"
 #include "studies/conformance/check_context.hpp"
 #include "studies/conformance/declared_laws.hpp"

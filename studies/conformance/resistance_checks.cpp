@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "adapters/declared_law.hpp"
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "oracle/calibration.hpp"
 #include "oracle/impact.hpp"
 #include "studies/conformance/check_context.hpp"

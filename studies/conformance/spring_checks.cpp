@@ -6,7 +6,7 @@
 #include <span>
 
 #include "adapters/declared_law.hpp"
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "studies/conformance/check_context.hpp"
 #include "studies/conformance/declared_laws.hpp"
 #include "studies/conformance/moved_pairs.hpp"

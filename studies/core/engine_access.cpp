@@ -8,7 +8,7 @@
 #include <iterator>
 
 #include "adapters/audit.hpp"
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "adapters/start_check.hpp"
 #include "cases/case_keys.hpp"
 #include "cases/time_step.hpp"

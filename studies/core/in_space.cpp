@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "adapters/grain_space.hpp"
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 
 namespace crossgrain::inline studies {
 namespace {

@@ -12,7 +12,7 @@
 #include <sstream>
 #include <utility>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "adapters/registry.hpp"
 #include "studies/core/engine_access.hpp"
 #include "support/interrupt.hpp"

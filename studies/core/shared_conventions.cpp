@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "adapters/suitability.hpp"
 #include "cases/case_keys.hpp"
 #include "studies/core/engine_access.hpp"

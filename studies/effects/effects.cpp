@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "adapters/suitability.hpp"
 #include "cases/flow.hpp"
 #include "results/schema.hpp"

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <optional>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
 #include "cases/flow.hpp"

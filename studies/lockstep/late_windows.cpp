@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "adapters/grain.hpp"
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "averaging/agreement.hpp"
 #include "averaging/statistics.hpp"
 #include "cases/flow.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "adapters/suitability.hpp"
 #include "cases/materials.hpp"
 #include "studies/lockstep/rules.hpp"

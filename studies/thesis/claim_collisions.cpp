@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "cases/loader.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "oracle/discrete_impact.hpp"

@@ -84,8 +84,7 @@ Traffic stepTraffic(const Setup& setup) {
   const double real = single ? 4.0 : 8.0;
   const bool spins = setup.law.friction() && setup.rotation;
   const bool velocities = setup.law.friction() || setup.law.gn > 0.0;
-  const bool predict = setup.law.damping == grain::Damping::predicted &&
-                       setup.integrator != grain::Integrator::semiImplicitEuler;
+  const bool predict = grain::dampingVelocity(setup.law) == grain::DampingVelocity::predicted;
   Traffic traffic;
   const auto disk = [&](int reads, int writes) { traffic.perDisk += real * (reads + writes); };
 
@@ -104,14 +103,14 @@ Traffic stepTraffic(const Setup& setup) {
 
 /// Springs against rolling, k_r = k_t (Iwashita and Oda 1998).
 void resistRolling(Setup& s) {
-  s.law.rolling = grain::Rolling::spring;
+  s.law.rolling = grain::RollingLaw::spring;
   s.law.kr = s.law.kt;
   s.law.muR = 0.3;
 }
 
 /// A pull of a tenth of the elastic force, 2π k_c R₁₂ = k_n/10 of two small disks.
 void cohere(Setup& s) {
-  s.law.cohesion = grain::Cohesion::area;
+  s.law.cohesion = grain::CohesionLaw::area;
   s.law.kc = 0.1 * s.law.kn / (std::numbers::pi * s.disks.radius.front());
 }
 
@@ -134,9 +133,9 @@ struct EffectSet {
 
 /// The conventions of a case that names none.
 void useDefaults(Setup& s) {
-  s.law.lever = grain::Lever::overlapMiddle;
-  s.law.stretch = grain::Stretch::before;
-  s.law.resetSpringOnly = true;
+  s.law.conventions.leverArm = grain::LeverArm::overlapMiddle;
+  s.law.conventions.springUpdate = grain::SpringUpdate::before;
+  s.law.conventions.springReset = SpringReset::springOnly;
 }
 
 constexpr EffectSet effectSets[] = {
@@ -145,48 +144,48 @@ constexpr EffectSet effectSets[] = {
     {"defaults_no_friction",
      [](Setup& s) {
        useDefaults(s);
-       s.law.tangential = grain::Tangential::none;
+       s.law.tangential = grain::TangentialLaw::none;
      }},
     {"general", [](Setup& s) { s.generalKernels = true; }},
     {"no_bottom", [](Setup& s) { s.bottom.reset(); }},
-    {"no_friction", [](Setup& s) { s.law.tangential = grain::Tangential::none; }},
+    {"no_friction", [](Setup& s) { s.law.tangential = grain::TangentialLaw::none; }},
     {"no_friction_no_bottom",
      [](Setup& s) {
-       s.law.tangential = grain::Tangential::none;
+       s.law.tangential = grain::TangentialLaw::none;
        s.bottom.reset();
      }},
-    {"coulomb", [](Setup& s) { s.law.tangential = grain::Tangential::coulomb; }},
-    {"viscous", [](Setup& s) { s.law.tangential = grain::Tangential::viscous; }},
-    {"cut_tension", [](Setup& s) { s.law.cutTension = true; }},
+    {"coulomb", [](Setup& s) { s.law.tangential = grain::TangentialLaw::coulomb; }},
+    {"viscous", [](Setup& s) { s.law.tangential = grain::TangentialLaw::viscous; }},
+    {"cut_tension", [](Setup& s) { s.law.conventions.tension = Tension::cut; }},
     {"no_rotation", [](Setup& s) { s.rotation = false; }},
     {"ledger", [](Setup& s) { s.ledger = true; }},
     {"rolling", resistRolling},
     {"rolling_constant_torque",
      [](Setup& s) {
        resistRolling(s);
-       s.law.rolling = grain::Rolling::constantTorque;
+       s.law.rolling = grain::RollingLaw::constantTorque;
      }},
     {"rolling_critical",
      [](Setup& s) {
        resistRolling(s);
-       s.law.rollingConventions.damper = grain::RollingDamper::critical;
+       s.law.conventions.rollingDamper = grain::RollingDamper::critical;
        s.law.gr = 0.1;
      }},
     {"cohesion", cohere},
     {"cohesion_net",
      [](Setup& s) {
        cohere(s);
-       s.law.cohesionConventions.load = grain::CohesionLoad::net;
+       s.law.conventions.cohesionLoad = grain::CohesionLoad::net;
      }},
     {"cohesion_first_order",
      [](Setup& s) {
        cohere(s);
-       s.law.cohesionConventions.area = grain::CohesionArea::firstOrder;
+       s.law.conventions.cohesionArea = grain::CohesionArea::firstOrder;
      }},
     {"cohesion_twice",
      [](Setup& s) {
        cohere(s);
-       s.law.cohesionConventions.area = grain::CohesionArea::twiceBetweenDisks;
+       s.law.conventions.cohesionArea = grain::CohesionArea::twiceBetweenDisks;
      }},
     {"rolling_cohesion",
      [](Setup& s) {

@@ -77,8 +77,8 @@ SpheresSetup shearCell(const Cell& cell, std::size_t spheres) {
   setup.law.kt = 2.0 / 7.0 * setup.law.kn;
   setup.law.gt = 2.0 / 7.0 * setup.law.gn;
   setup.law.mu = 0.3;
-  setup.law.tangential = grain::Tangential::springDashpot;
-  setup.law.bound = grain::Bound::magnitude;
+  setup.law.tangential = grain::TangentialLaw::springDashpot;
+  setup.law.conventions.coulombBound = grain::CoulombBound::magnitude;
   setup.dt = 7.1925e-5;
   return setup;
 }
@@ -117,19 +117,19 @@ SpheresSetup restingBed(std::size_t spheres) {
 
 /// As a case's that names no conventions.
 void useDefaults(SpheresSetup& s) {
-  s.law.lever = grain::Lever::overlapMiddle;
-  s.law.stretch = grain::Stretch::before;
-  s.law.resetSpringOnly = true;
+  s.law.conventions.leverArm = grain::LeverArm::overlapMiddle;
+  s.law.conventions.springUpdate = grain::SpringUpdate::before;
+  s.law.conventions.springReset = SpringReset::springOnly;
 }
 
 /// A pull of a twentieth of the elastic force.
 void cohere(SpheresSetup& s) {
-  s.law.cohesion = grain::Cohesion::area;
+  s.law.cohesion = grain::CohesionLaw::area;
   s.law.kc = 0.05 * s.law.kn / (std::numbers::pi * 0.5);
 }
 
 void resistRolling(SpheresSetup& s) {
-  s.law.rolling = grain::Rolling::spring;
+  s.law.rolling = grain::RollingLaw::spring;
   s.law.kr = s.law.kt;
   s.law.gr = s.law.gt;
   s.law.muR = 0.1;
@@ -142,38 +142,38 @@ struct Task {
 
 constexpr Task tasks[] = {
     {"everyday", [](SpheresSetup&) {}},
-    {"no_friction", [](SpheresSetup& s) { s.law.tangential = grain::Tangential::none; }},
+    {"no_friction", [](SpheresSetup& s) { s.law.tangential = grain::TangentialLaw::none; }},
     {"no_rotation", [](SpheresSetup& s) { s.rotation = false; }},
-    {"viscous", [](SpheresSetup& s) { s.law.tangential = grain::Tangential::viscous; }},
+    {"viscous", [](SpheresSetup& s) { s.law.tangential = grain::TangentialLaw::viscous; }},
     {"no_normal_dashpot", [](SpheresSetup& s) { s.law.gn = 0.0; }},
     {"no_tangential_dashpot",
-     [](SpheresSetup& s) { s.law.tangential = grain::Tangential::spring; }},
-    {"cut_tension", [](SpheresSetup& s) { s.law.cutTension = true; }},
+     [](SpheresSetup& s) { s.law.tangential = grain::TangentialLaw::spring; }},
+    {"cut_tension", [](SpheresSetup& s) { s.law.conventions.tension = Tension::cut; }},
     {"defaults", useDefaults},
     {"cohesion", cohere},
     {"cohesion_net",
      [](SpheresSetup& s) {
        cohere(s);
-       s.law.cohesionConventions.load = grain::CohesionLoad::net;
+       s.law.conventions.cohesionLoad = grain::CohesionLoad::net;
      }},
     {"cohesion_first_order",
      [](SpheresSetup& s) {
        cohere(s);
-       s.law.cohesionConventions.area = grain::CohesionArea::firstOrder;
+       s.law.conventions.cohesionArea = grain::CohesionArea::firstOrder;
      }},
     {"rolling", resistRolling},
     {"rolling_constant_torque",
      [](SpheresSetup& s) {
        resistRolling(s);
-       s.law.rolling = grain::Rolling::constantTorque;
+       s.law.rolling = grain::RollingLaw::constantTorque;
      }},
     {"rolling_critical",
      [](SpheresSetup& s) {
        resistRolling(s);
-       s.law.rollingConventions.damper = grain::RollingDamper::critical;
+       s.law.conventions.rollingDamper = grain::RollingDamper::critical;
        s.law.gr = 0.1;
      }},
-    {"mirror", [](SpheresSetup& s) { s.conventions.turn = grain::SpringTurn::rescaled; }},
+    {"mirror", [](SpheresSetup& s) { s.law.conventions.springTurn = grain::SpringTurn::rescaled; }},
     {"general", [](SpheresSetup& s) { s.generalKernels = true; }},
     {"everyone",
      [](SpheresSetup& s) {

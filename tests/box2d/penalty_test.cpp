@@ -128,5 +128,27 @@ TEST(Box2dPenalty, RefusesRigidContacts) {
   EXPECT_THROW(makeBox2dPenalty()->load(scene, {}), UnsupportedScene);
 }
 
+TEST(Box2dPenalty, PairsOfMaterials_HaveTheirOwnLaws) {
+  Scene scene;
+  scene.law = box2dLaw();
+  scene.law.gn = 0.0;
+  scene.dt = 4e-5;
+  addDisk(scene, smallRadius, smallMass, {0.0, smallRadius - 1e-5}, Vec2::Zero());
+  addDisk(scene, smallRadius, smallMass, {2.0 * smallRadius - 1e-5, smallRadius - 1e-5},
+          Vec2::Zero());
+  scene.bodies = {planeWall({0.0, 0.0}, {0.0, 1.0})};
+  ContactLaw soft = scene.law, hard = scene.law, mixed = scene.law;
+  hard.kn = 4.0 * soft.kn;
+  mixed.kn = 2.0 * soft.kn;
+  scene.materials = Materials{{"soft", "hard"}, {0, 1}, {1}, {soft, mixed, mixed, hard}};
+  const auto engine = makeBox2dPenalty();
+  const Snapshot start = runTo(*engine, scene, 0.0);
+  ASSERT_EQ(start.contacts->size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const bool bothHard = start.contacts->i[k] == 1;
+    EXPECT_NEAR(start.contacts->normalForce[k], (bothHard ? 4.0 : 2.0) * soft.kn * 1e-5, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace crossgrain::test

@@ -8,8 +8,8 @@
 namespace crossgrain::test {
 namespace {
 
+using box2d_granular::normalRestitution;
 using box2d_granular::PairInertia;
-using box2d_granular::SoftLaw;
 
 double reduced(double a, double b) {
   return a * b / (a + b);
@@ -19,10 +19,10 @@ PairInertia disksOfReducedMass(double mass) {
   return {1.0 / mass, 3.0 / mass};
 }
 
-SoftLaw softLaw(Tension tension, TangentialLaw tangential = TangentialLaw::springDashpot) {
+ContactLaw softLaw(Tension tension, TangentialLaw tangential = TangentialLaw::springDashpot) {
   ContactLaw law = box2dLaw(tangential);
   law.conventions.tension = tension;
-  return box2dSoftLaw(law);
+  return law;
 }
 
 // The values of the thesis' disks, with tension and cut, are known to three digits.
@@ -43,13 +43,13 @@ TEST(Box2dRestitution, ClosedFormGivesTheThesisPairs) {
 TEST(Box2dRestitution, ClosedFormAgreesWithTheIntegratedCollision) {
   for (const Tension tension : {Tension::allow, Tension::cut}) {
     for (const double gn : {0.0, 0.05, 0.19, 0.4, 0.6}) {
-      SoftLaw law = softLaw(tension);
+      ContactLaw law = softLaw(tension);
       law.gn = gn;
       const double mass = reduced(smallMass, smallMass);
       // 1e-4: the first-order scheme's error at the steps it takes. From γ_n = 2√(k_n m₁₂) = 0.44
       // on the contact is overdamped and, with tension, never parts.
-      EXPECT_NEAR(collide(law, disksOfReducedMass(mass), 0.0).en > 0.0
-                      ? collide(law, disksOfReducedMass(mass), 0.0).en
+      EXPECT_NEAR(box2d_granular::collide(law, disksOfReducedMass(mass), 0.0).en > 0.0
+                      ? box2d_granular::collide(law, disksOfReducedMass(mass), 0.0).en
                       : 0.0,
                   normalRestitution(law, mass), 1e-4)
           << "gn " << gn;
@@ -61,20 +61,24 @@ TEST(Box2dRestitution, ClosedFormAgreesWithTheIntegratedCollision) {
 // and Ψ = 1 into −0.21.
 TEST(Box2dRestitution, TangentialReboundOfTheThesisLaws) {
   const PairInertia pair = disksOfReducedMass(reduced(smallMass, smallMass));
-  EXPECT_NEAR(collide(softLaw(Tension::allow, TangentialLaw::spring), pair, 0.5).psiF, -0.47, 5e-3);
-  EXPECT_NEAR(collide(softLaw(Tension::allow), pair, 0.5).psiF, -0.055, 1e-3);
-  EXPECT_NEAR(collide(softLaw(Tension::allow), pair, 1.0).psiF, -0.21, 5e-3);
+  EXPECT_NEAR(
+      box2d_granular::collide(softLaw(Tension::allow, TangentialLaw::spring), pair, 0.5).psiF,
+      -0.47, 5e-3);
+  EXPECT_NEAR(box2d_granular::collide(softLaw(Tension::allow), pair, 0.5).psiF, -0.055, 1e-3);
+  EXPECT_NEAR(box2d_granular::collide(softLaw(Tension::allow), pair, 1.0).psiF, -0.21, 5e-3);
   // Sliding throughout: Ψ_f = Ψ_i − 3(1 + 0.3408)µ.
-  EXPECT_NEAR(collide(softLaw(Tension::allow), pair, 6.0).psiF, 6.0 - 1.770, 5e-3);
+  EXPECT_NEAR(box2d_granular::collide(softLaw(Tension::allow), pair, 6.0).psiF, 6.0 - 1.770, 5e-3);
 }
 
 TEST(Box2dRestitution, RigidEquivalentStaysWithinItsRange) {
   const PairInertia pair = disksOfReducedMass(reduced(smallMass, smallMass));
-  EXPECT_NEAR(rigidEquivalent(softLaw(Tension::allow), pair).tangential, 0.11, 2e-3);
+  EXPECT_NEAR(box2d_granular::rigidEquivalent(softLaw(Tension::allow), pair).tangential, 0.11,
+              2e-3);
   // Dashpot or friction alone never reverse v_t.
   for (const TangentialLaw law :
        {TangentialLaw::none, TangentialLaw::coulomb, TangentialLaw::viscous})
-    EXPECT_NEAR(rigidEquivalent(softLaw(Tension::allow, law), pair).tangential, 0.0, 1e-3);
+    EXPECT_NEAR(box2d_granular::rigidEquivalent(softLaw(Tension::allow, law), pair).tangential, 0.0,
+                1e-3);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/couette.hpp"
 #include "cases/endpoints.hpp"

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "cases/effect_switch.hpp"
 #include "oracle/impact.hpp"
 #include "support/bad_input.hpp"

@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/couette.hpp"
 #include "cases/engine_file.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "adapters/grain.hpp"
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "adapters/registry.hpp"
 #include "studies/lockstep/rules.hpp"
 #include "tests/studies/planted_engine.hpp"

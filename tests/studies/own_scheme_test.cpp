@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "adapters/box2d.hpp"
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "oracle/impact.hpp"
 #include "stability/transform.hpp"
 #include "tests/studies/planted_engine.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "studies/lockstep/identify.hpp"
 #include "studies/lockstep/late_windows.hpp"
 #include "studies/lockstep/lockstep.hpp"

@@ -14,7 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 # one makes use of another.
 ORDER = [
     "support",
-    "continuum",
+    "continuum", "law",
     "engines/cpp", "engines/bullet", "engines/chipmunk", "engines/mujoco", "engines/ode", "engines/grain", "engines/box2d",
     "adapters", "adapters/files", "adapters/worker",
     "oracle", "stability", "averaging", "cases", "results",

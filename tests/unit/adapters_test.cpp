@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "adapters/grain.hpp"
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "adapters/registry.hpp"
 #include "adapters/stopwatch.hpp"
 #include "adapters/suitability.hpp"
@@ -374,31 +374,6 @@ TEST(LawOptions, UnknownNamesAndValuesAreSaid) {
   }
 }
 
-// The adapter of the in-house engine casts between these enums.
-template <typename A, typename B>
-bool same(A a, B b) {
-  return static_cast<int>(a) == static_cast<int>(b);
-}
-
-TEST(LawOptions, TheInHouseEngineListsValuesInTheSameOrder) {
-  EXPECT_TRUE(same(TangentialLaw::coulomb, grain::Tangential::coulomb));
-  EXPECT_TRUE(same(TangentialLaw::viscous, grain::Tangential::viscous));
-  EXPECT_TRUE(same(TangentialLaw::spring, grain::Tangential::spring));
-  EXPECT_TRUE(same(TangentialLaw::springDashpot, grain::Tangential::springDashpot));
-  EXPECT_TRUE(same(CoulombBound::magnitude, grain::Bound::magnitude));
-  EXPECT_TRUE(same(CoulombBound::signedForce, grain::Bound::signedForce));
-  EXPECT_TRUE(same(DampingVelocity::predicted, grain::Damping::predicted));
-  EXPECT_TRUE(same(DampingVelocity::implicit, grain::Damping::implicit));
-  EXPECT_TRUE(same(SpringUpdate::before, grain::Stretch::before));
-  EXPECT_TRUE(same(SpringUpdate::midpoint, grain::Stretch::midpoint));
-  EXPECT_TRUE(same(LeverArm::contactPoint, grain::Lever::contactPoint));
-  EXPECT_TRUE(same(LeverArm::overlapMiddle, grain::Lever::overlapMiddle));
-  EXPECT_TRUE(same(PlaneArm::middle, grain::PlaneLever::middle));
-  EXPECT_TRUE(same(PlaneArm::radius, grain::PlaneLever::radius));
-  EXPECT_TRUE(same(Integrator::velocityVerlet, grain::Integrator::velocityVerlet));
-  EXPECT_TRUE(same(Integrator::semiImplicitEuler, grain::Integrator::semiImplicitEuler));
-}
-
 TEST(Registry, MirrorsNameTheirPeer) {
   for (const EngineEntry& entry : engineRegistry()) {
     EXPECT_TRUE(entry.make || entry.command) << entry.name;
@@ -412,7 +387,7 @@ TEST(GrainKernels, ConventionsOfACaseThatNamesNone_HaveTheirOwnInBothDimensions)
   ContactLaw law = oneDisk().law;
   law.conventions = usualConventions();
   const auto variant =
-      grain::contactVariant(grain::generalLaw<double>(grainLawOf(law), 1e-5, true));
+      grain::contactVariant(grain::generalLaw<double>(law, 1e-5, true));
   ASSERT_TRUE(variant);
   const auto kernels = grain::kernels<double>();
   EXPECT_NE(kernels.contacts[*variant], nullptr);

@@ -35,7 +35,7 @@ INSTANTIATE_TEST_SUITE_P(Precisions, AbsentEffects,
 
 TEST_P(AbsentEffects, FrictionlessContactsHaveNoTangentialForceAndNothingTurns) {
   auto none = scene(), slippery = scene();
-  none.law.tangential = Tangential::none;
+  none.law.tangential = TangentialLaw::none;
   slippery.law.mu = 0.0;
   const auto a = run(std::move(none)), b = run(std::move(slippery));
   for (const Simulation* simulation : {&a, &b}) {
@@ -52,7 +52,7 @@ TEST_P(AbsentEffects, FrictionlessContactsHaveNoTangentialForceAndNothingTurns) 
 
 TEST_P(AbsentEffects, SpinsThatNothingCouldChangeChangeNothing) {
   auto spun = scene(), still = scene();
-  for (auto* setup : {&spun, &still}) setup->law.tangential = Tangential::none;
+  for (auto* setup : {&spun, &still}) setup->law.tangential = TangentialLaw::none;
   still.disks.spin.assign(still.disks.size(), 0.0);
   const auto a = run(std::move(spun)), b = run(std::move(still));
   EXPECT_EQ(test::difference(a, b), "");
@@ -71,7 +71,7 @@ TEST_P(AbsentEffects, BlockedRotationKeepsFrictionAndSpringsWithoutSpins) {
 }
 
 TEST_P(AbsentEffects, LawsWithoutASpringHaveNone) {
-  for (const Tangential tangential : {Tangential::coulomb, Tangential::viscous}) {
+  for (const TangentialLaw tangential : {TangentialLaw::coulomb, TangentialLaw::viscous}) {
     auto setup = scene();
     setup.law.tangential = tangential;
     const auto simulation = run(std::move(setup));
@@ -89,7 +89,7 @@ TEST_P(AbsentEffects, APlateThatBrakesNoSpinLeavesASingleDiskTurning) {
   setup.law = test::thesisLaw();
   setup.dt = 4e-5;
   setup.precision = GetParam();
-  setup.bottom = test::thesisBottom<Bottom>(0.02, false);
+  setup.bottom = test::thesisBottom<BottomPlate>(0.02, false);
   test::addDisk(setup.disks, 0.0, 0.0, 0.1, 0.0, 8.0);
   Simulation turning(setup);
   setup.bottom->spin = true;

@@ -89,8 +89,8 @@ class SteadyState : public testing::TestWithParam<std::tuple<Precision, Integrat
  protected:
   grain::Setup scene() const {
     grain::Setup setup = test::packed(10, 6);
-    std::tie(setup.precision, setup.integrator, setup.threads) = GetParam();
-    setup.bottom = test::thesisBottom<Bottom>(2e-3);
+    std::tie(setup.precision, setup.law.conventions.integrator, setup.threads) = GetParam();
+    setup.bottom = test::thesisBottom<BottomPlate>(2e-3);
     setup.skin = 0.1 * test::smallRadius;
     return setup;
   }
@@ -156,20 +156,20 @@ TEST_P(AbsentEffects, LawsWithoutSpringsHoldNoHistory) {
   auto setup = scene();
   const std::size_t history = bytesHeld(setup);
   const std::size_t pairs = Simulation(setup).neighbours().farPairs;
-  setup.law.tangential = Tangential::viscous;
+  setup.law.tangential = TangentialLaw::viscous;
   // A spring a pair, near and far, and one a disk for each of four planes.
   EXPECT_GE(history, bytesHeld(setup) + real() * (2 * pairs + 4 * setup.disks.size()));
 }
 
 TEST_P(AbsentEffects, FrictionlessScenesHoldWhatOnesWithoutSpringsAndRotationDo) {
   auto setup = scene();
-  setup.law.tangential = Tangential::viscous;
+  setup.law.tangential = TangentialLaw::viscous;
   setup.rotation = false;
   const std::size_t without = bytesHeld(setup);
-  setup.law.tangential = Tangential::none;
+  setup.law.tangential = TangentialLaw::none;
   setup.rotation = true;  // nothing would turn them
   EXPECT_EQ(bytesHeld(setup), without);
-  setup.law.tangential = Tangential::springDashpot;
+  setup.law.tangential = TangentialLaw::springDashpot;
   setup.law.mu = 0.0;
   EXPECT_EQ(bytesHeld(setup), without);
 }
@@ -177,7 +177,7 @@ TEST_P(AbsentEffects, FrictionlessScenesHoldWhatOnesWithoutSpringsAndRotationDo)
 TEST_P(AbsentEffects, ScenesWithoutAPlateHoldNoSpringsOfIt) {
   auto setup = scene();
   const std::size_t without = bytesHeld(setup);
-  setup.bottom = test::thesisBottom<Bottom>(2e-3);
+  setup.bottom = test::thesisBottom<BottomPlate>(2e-3);
   // Springs along x and y, and the mass that it carries.
   EXPECT_GE(bytesHeld(setup), without + 3 * real() * setup.disks.size());
 }
@@ -205,22 +205,22 @@ TEST(SpaceAbsentEffects, LawsWithoutASpring_HoldNoHistory) {
   const std::size_t contacts = Spheres(setup).contacts().size();
   ASSERT_GT(contacts, 100u);
   const std::size_t history = bytesHeld<Spheres>(setup);
-  setup.law.tangential = Tangential::viscous;
+  setup.law.tangential = TangentialLaw::viscous;
   EXPECT_GE(history, bytesHeld<Spheres>(setup) + contacts * sizeof(Vec3<double>));
 }
 
 TEST(SpaceAbsentEffects, FrictionlessScenes_HoldNeitherSlipNorSpins) {
   SpheresSetup setup = test::pressed();
   const std::size_t contacts = Spheres(setup).contacts().size();
-  setup.law.tangential = Tangential::viscous;
+  setup.law.tangential = TangentialLaw::viscous;
   setup.rotation = false;
   const std::size_t slipping = bytesHeld<Spheres>(setup);
-  setup.law.tangential = Tangential::none;
+  setup.law.tangential = TangentialLaw::none;
   const std::size_t without = bytesHeld<Spheres>(setup);
   EXPECT_GE(slipping, without + contacts * sizeof(SpaceSlide));
   setup.rotation = true;  // nothing would turn them
   EXPECT_EQ(bytesHeld<Spheres>(setup), without);
-  setup.law.tangential = Tangential::springDashpot;
+  setup.law.tangential = TangentialLaw::springDashpot;
   setup.law.mu = 0.0;
   EXPECT_EQ(bytesHeld<Spheres>(setup), without);
 }
@@ -229,11 +229,11 @@ TEST(SpaceAbsentEffects, RollingAndBonds_AloneHaveRecordsOfThem) {
   SpheresSetup setup = test::pressed();
   const std::size_t contacts = Spheres(setup).contacts().size(),
                     without = bytesHeld<Spheres>(setup);
-  setup.law.rolling = Rolling::constantTorque;
+  setup.law.rolling = RollingLaw::constantTorque;
   setup.law.muR = 0.1;
   const std::size_t torque = bytesHeld<Spheres>(setup);
   EXPECT_GE(torque, without + contacts * sizeof(Vec3<double>));
-  setup.law.rolling = Rolling::spring;
+  setup.law.rolling = RollingLaw::spring;
   setup.law.kr = setup.law.kt;
   EXPECT_GE(bytesHeld<Spheres>(setup), torque + contacts * sizeof(Vec3<double>));
 }

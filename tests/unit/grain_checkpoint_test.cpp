@@ -28,7 +28,7 @@ void restore(Simulation& simulation, const std::string& bytes) {
 grain::Setup scene(Precision precision = Precision::float64) {
   grain::Setup setup = test::packed(10, 3);
   setup.precision = precision;
-  setup.bottom = test::thesisBottom<Bottom>(2e-3);
+  setup.bottom = test::thesisBottom<BottomPlate>(2e-3);
   return setup;
 }
 
@@ -62,16 +62,18 @@ TEST_P(Checkpoint, ARestoredRunGoesOnToTheBit) {
 }
 
 TEST(Checkpoints, OfEveryLawAndIntegratorGoOnToTheBit) {
-  for (const Tangential tangential : {Tangential::none, Tangential::coulomb, Tangential::spring})
+  for (const TangentialLaw tangential :
+       {TangentialLaw::none, TangentialLaw::coulomb, TangentialLaw::spring})
     for (const Integrator integrator :
          {Integrator::positionVerlet, Integrator::velocityVerlet, Integrator::semiImplicitEuler})
-      for (const Damping damping : {Damping::lagged, Damping::predicted, Damping::implicit})
+      for (const DampingVelocity damping :
+           {DampingVelocity::lagged, DampingVelocity::predicted, DampingVelocity::implicit})
         for (const bool rotation : {false, true})
           for (const bool plate : {false, true}) {
             grain::Setup setup = scene();
             setup.law.tangential = tangential;
-            setup.law.damping = damping;
-            setup.integrator = integrator;
+            setup.law.conventions.dampingVelocity = damping;
+            setup.law.conventions.integrator = integrator;
             setup.rotation = rotation;
             if (!plate) setup.bottom.reset();
             Simulation whole(setup), resumed(setup);
@@ -137,16 +139,17 @@ TEST(Checkpoints, OfAnotherScene_AreRefused) {
            // Other arrays.
            [](auto& s) { s = test::packed(11, 3); }, [](auto& s) { s.bottom.reset(); },
            [](auto& s) { s.rotation = false; },
-           [](auto& s) { s.law.tangential = Tangential::none; },
+           [](auto& s) { s.law.tangential = TangentialLaw::none; },
            [](auto& s) { s.walls.pop_back(); },
            // Arrays of the same sizes, yet another future.
            [](auto& s) { s.walls.erase(s.walls.begin()); },  // planes only
            [](auto& s) { s.dt = 2e-5; }, [](auto& s) { s.law.kn *= 2.0; },
-           [](auto& s) { s.law.mu = 0.1; }, [](auto& s) { s.law.lever = Lever::contactPoint; },
-           [](auto& s) { s.law.tangential = Tangential::spring; },
+           [](auto& s) { s.law.mu = 0.1; },
+           [](auto& s) { s.law.conventions.leverArm = LeverArm::contactPoint; },
+           [](auto& s) { s.law.tangential = TangentialLaw::spring; },
            [](auto& s) { s.bottom->mu = 1e-3; }, [](auto& s) { s.disks.radius[3] *= 1.01; },
            [](auto& s) { s.disks.mass[3] *= 1.01; },
-           [](auto& s) { s.integrator = Integrator::velocityVerlet; }}) {
+           [](auto& s) { s.law.conventions.integrator = Integrator::velocityVerlet; }}) {
     grain::Setup setup = scene();
     change(setup);
     EXPECT_EQ(refusal(std::move(setup), bytes), "checkpoint: of another setup");
@@ -194,26 +197,28 @@ std::pair<double, double> farFromGoingOn(const Setup& setup) {
 
 TEST(BeginUnderWay, GoesOnToRounding) {
   using enum Integrator;
-  for (const auto& [integrator, damping] :
-       {std::pair(semiImplicitEuler, Damping::lagged), std::pair(positionVerlet, Damping::lagged),
-        std::pair(positionVerlet, Damping::implicit), std::pair(velocityVerlet, Damping::lagged)})
-    for (const Stretch stretch : {Stretch::after, Stretch::before, Stretch::midpoint})
+  for (const auto& [integrator, damping] : {std::pair(semiImplicitEuler, DampingVelocity::lagged),
+                                            std::pair(positionVerlet, DampingVelocity::lagged),
+                                            std::pair(positionVerlet, DampingVelocity::implicit),
+                                            std::pair(velocityVerlet, DampingVelocity::lagged)})
+    for (const SpringUpdate stretch :
+         {SpringUpdate::after, SpringUpdate::before, SpringUpdate::midpoint})
       for (const bool hertz : {false, true})
         for (const bool outside : {false, true}) {
           grain::Setup setup = packedAtRest();
-          setup.integrator = integrator;
-          setup.law.damping = damping;
-          setup.law.stretch = stretch;
-          setup.law.dashpotOutsideBound = outside;
-          setup.law.history = outside ? History::force : History::displacement;
+          setup.law.conventions.integrator = integrator;
+          setup.law.conventions.dampingVelocity = damping;
+          setup.law.conventions.springUpdate = stretch;
+          setup.law.conventions.dashpot = outside ? Dashpot::outside : Dashpot::inside;
+          setup.law.conventions.history = outside ? History::force : History::displacement;
           if (outside != hertz) {
-            setup.law.rolling = Rolling::spring;
+            setup.law.rolling = RollingLaw::spring;
             setup.law.kr = 0.1 * setup.law.kn;
             setup.law.gr = 0.1 * setup.law.gn;
             setup.law.muR = 0.05;
           }
           if (hertz) {
-            setup.law.normal = Normal::hertz;
+            setup.law.normal = NormalLaw::hertz;
             setup.law.kn *= 1e3;
             setup.law.kt *= 1e3;
           }

@@ -16,12 +16,12 @@ using namespace grain;
 namespace test = crossgrain::test;
 
 /// R₁₂ = 0.25, E* = 5e4, γ = 100, w = 2 γ.
-Law jkrLaw() {
-  Law law;
-  law.normal = Normal::hertz;
+ContactLaw jkrLaw() {
+  ContactLaw law;
+  law.normal = NormalLaw::hertz;
   law.kn = 4.0 / 3.0 * 5e4;
   law.w = 200.0;
-  law.cohesion = Cohesion::jkr;
+  law.cohesion = CohesionLaw::jkr;
   return law;
 }
 
@@ -33,7 +33,7 @@ ContactMotion<double> at(double overlap, double radius = 0.25, double reach = 1.
   return motion;
 }
 
-double force(const Law& law, double overlap, double memory = 1.0) {
+double force(const ContactLaw& law, double overlap, double memory = 1.0) {
   return bodyForce(generalLaw<double>(law, 1e-5, true), at(overlap), memory);
 }
 
@@ -62,7 +62,7 @@ TEST(Jkr, ForceOverOverlap_IsThatOfItsEquations) {
 }
 
 TEST(Jkr, CharacteristicPoints_AreTheClosedForms) {
-  const Law law = jkrLaw();
+  const ContactLaw law = jkrLaw();
   const double pull = 1.5 * M_PI * 200.0 * 0.25;
   EXPECT_NEAR(force(law, 0.0), -8.0 / 9.0 * pull, 1e-12 * pull);
   const GeneralLaw<double> general = generalLaw<double>(law, 1e-5, true);
@@ -93,24 +93,24 @@ TEST(Jkr, EnergyBetweenTwoOverlaps_IsTheIntegralOfTheForce) {
 }
 
 TEST(Dmt, ForceAndEquilibrium_AreTheClosedForms) {
-  Law law = jkrLaw();
-  law.cohesion = Cohesion::dmt;
+  ContactLaw law = jkrLaw();
+  law.cohesion = CohesionLaw::dmt;
   const double pull = 2.0 * M_PI * 200.0 * 0.25;
   EXPECT_NEAR(force(law, 0.0), -pull, 1e-12 * pull);
   EXPECT_NEAR(force(law, std::cbrt(std::pow(0.75 * pull / (5e4 * 0.5), 2.0))), 0.0, 1e-9 * pull);
 }
 
 TEST(CohesionAreas, OfTwoSpheres_AreTheirLensToFirstOrder) {
-  Law law;
+  ContactLaw law;
   law.kn = 1e5;
-  law.cohesion = Cohesion::area;
+  law.cohesion = CohesionLaw::area;
   law.kc = 1e4;
   // Radii 0.3 and 0.6 at a distance d: the circle in which the spheres meet, by Heron's formula.
   const double overlap = 0.02, s = 0.9, d = s - overlap;
   const double half = 0.5 * (0.3 + 0.6 + d);
   const double height = 2.0 * std::sqrt(half * (half - 0.3) * (half - 0.6) * (half - d)) / d;
   const auto area = [&](CohesionArea kind, const ContactMotion<double>& motion) {
-    law.cohesionConventions.area = kind;
+    law.conventions.cohesionArea = kind;
     return cohesionArea(generalLaw<double>(law, 1e-5, true), motion);
   };
   const ContactMotion<double> pair = at(overlap, 0.2, s), plane = at(overlap, 0.3, 0.0);
@@ -119,7 +119,7 @@ TEST(CohesionAreas, OfTwoSpheres_AreTheirLensToFirstOrder) {
   EXPECT_NEAR(area(CohesionArea::firstOrder, pair), 2.0 * M_PI * 0.2 * overlap, 1e-16);
   EXPECT_NEAR(area(CohesionArea::twiceBetweenDisks, pair), 4.0 * M_PI * 0.2 * overlap, 1e-16);
   EXPECT_NEAR(area(CohesionArea::twiceBetweenDisks, plane), 2.0 * M_PI * 0.3 * overlap, 1e-16);
-  law.cohesionConventions.area = CohesionArea::lens;
+  law.conventions.cohesionArea = CohesionArea::lens;
   EXPECT_NEAR(bodyForce(generalLaw<double>(law, 1e-5, true), pair, law.kt),
               1e5 * overlap - 1e4 * M_PI * height * height, 1e-9);
   // The energy's slope is the force.
@@ -134,12 +134,12 @@ TEST(CohesionAreas, OfTwoSpheres_AreTheirLensToFirstOrder) {
 }
 
 /// k₁ = 1e3, k₂ = 4e3, k_c = 500.
-Law plasticLaw() {
-  Law law;
+ContactLaw plasticLaw() {
+  ContactLaw law;
   law.kn = 1e3;
-  law.k2 = 4e3;
+  law.kUnload = 4e3;
   law.kc = 500.0;
-  law.cohesion = Cohesion::elastoPlastic;
+  law.cohesion = CohesionLaw::elastoPlastic;
   return law;
 }
 
@@ -159,7 +159,7 @@ TEST(ElastoPlastic, LoadingUnloadingAndPull_FollowTheirLines) {
 }
 
 TEST(ElastoPlastic, StiffnessThatGrows_KeepsItsLineThroughThePull) {
-  Law plain = plasticLaw();
+  ContactLaw plain = plasticLaw();
   plain.plasticDepth = 0.05;  // δ* = 4/3 · 0.05 · 0.5 = 0.0333
   const GeneralLaw<double> law = generalLaw<double>(plain, 1e-5, true);
   double memory = 0.01;
@@ -175,7 +175,7 @@ TEST(ElastoPlastic, StiffnessThatGrows_KeepsItsLineThroughThePull) {
 // δ* = 0.0333, δ₀ of it φ 2 R₁₂ = 0.025: from there on 4e3 (δ − 0.025), down to −k_c δ at δ_min =
 // 4e3 · 0.025/4500, and no further loading makes δ₀ grow.
 TEST(ElastoPlastic, BeyondTheLimit_IsElasticOnItsBranch) {
-  Law plain = plasticLaw();
+  ContactLaw plain = plasticLaw();
   plain.plasticDepth = 0.05;
   const GeneralLaw<double> law = generalLaw<double>(plain, 1e-5, true);
   double memory = 0.0;
@@ -193,9 +193,9 @@ TEST(ElastoPlastic, BeyondTheLimit_IsElasticOnItsBranch) {
 // A step late: the step that presses to 0.01 has the k₂ of 0.008, 1e3 + 3e3 · 0.24 = 1720, so that
 // δ₀ = (1 − 1/1.72) 0.01; the next one has k₂ of 0.01, 1900. Its pull has a limit on parting only.
 TEST(ElastoPlastic, LaggedStiffness_LeavesDeltaZeroAsItWas) {
-  Law plain = plasticLaw();
+  ContactLaw plain = plasticLaw();
   plain.plasticDepth = 0.05;
-  plain.cohesionConventions.unloading = UnloadingStiffness::lagged;
+  plain.conventions.unloadingStiffness = UnloadingStiffness::lagged;
   const GeneralLaw<double> law = generalLaw<double>(plain, 1e-5, true);
   double memory = 0.0, rest = 0.0;
   const auto f = [&](double overlap, double parting) {
@@ -223,7 +223,7 @@ TEST(ElastoPlastic, LaggedStiffness_LeavesDeltaZeroAsItWas) {
 }
 
 /// Two disks of 1 kg that approach with v each.
-grain::Setup approaching(const Law& law, double v, double gap = 1e-9) {
+grain::Setup approaching(const ContactLaw& law, double v, double gap = 1e-9) {
   grain::Setup setup;
   setup.law = law;
   setup.dt = 1e-5;
@@ -261,8 +261,8 @@ TEST(Jkr, StickingSpeed_IsThatOfTheEnergyLost) {
   const double pull = 1.5 * M_PI * 200.0 * 0.25;
   for (const auto& [end, share] :
        {std::pair{JkrEnd::largestPull, 0.32039}, std::pair{JkrEnd::branch, 0.64857}}) {
-    Law law = jkrLaw();
-    law.cohesionConventions.end = end;
+    ContactLaw law = jkrLaw();
+    law.conventions.jkrEnd = end;
     const double depth = jkrDepth(generalLaw<double>(law, 1e-5, true), 0.25);
     const double loss = share * pull * depth;
     const double sticking = std::sqrt(2.0 * loss / 0.5);  // relative, m* = ½
@@ -277,7 +277,7 @@ TEST(Jkr, StickingSpeed_IsThatOfTheEnergyLost) {
 }
 
 TEST(Jkr, PairsThatPassAtADistance_DoNotTouch) {
-  Law law = jkrLaw();
+  ContactLaw law = jkrLaw();
   const double range = jkrRange(generalLaw<double>(law, 1e-5, true), 0.25);
   grain::Setup setup = approaching(law, 0.0, 0.5 * range);
   Simulation simulation(std::move(setup));
@@ -289,7 +289,7 @@ TEST(Jkr, PairsThatPassAtADistance_DoNotTouch) {
 TEST(ElastoPlastic, Restitution_IsThatOfTheAreas) {
   // e² = k₁/k₂ − k_c δ_min δ₀/(k₁ δ_max²); k_c = 0: √(k₁/k₂).
   for (const double kc : {0.0, 500.0}) {
-    Law law = plasticLaw();
+    ContactLaw law = plasticLaw();
     law.kc = kc;
     Simulation simulation(approaching(law, 0.05));
     ASSERT_TRUE(partsAgain(simulation));
@@ -303,9 +303,9 @@ TEST(ElastoPlastic, Restitution_IsThatOfTheAreas) {
 // Neither friction nor a dashpot asks for velocities, but the limit of its pull does: e² = k₁/k₂ −
 // k_c δ_min δ₀/(k₁ δ_max²) with δ_max = v √(m₁₂/k₁), k₂ = k₁ + 3 k₁ δ_max/δ*.
 TEST(ElastoPlastic, LaggedStiffness_PullsAtMostKcDelta) {
-  Law law = plasticLaw();
+  ContactLaw law = plasticLaw();
   law.plasticDepth = 0.05;
-  law.cohesionConventions.unloading = UnloadingStiffness::lagged;
+  law.conventions.unloadingStiffness = UnloadingStiffness::lagged;
   Simulation simulation(approaching(law, 0.05));
   ASSERT_TRUE(partsAgain(simulation));
   const double k2 = 1e3 + 3e3 * 0.1 * std::sqrt(0.5 / 1e3) * 30.0;
@@ -316,14 +316,14 @@ TEST(ElastoPlastic, LaggedStiffness_PullsAtMostKcDelta) {
 TEST(CohesionLoads, InCoulombsBound_AreTheConventions) {
   // A pair at rest under DMT without load slips at nothing, at µ F_po, or at 2 µ F_po − µ F_po; in
   // the last its dashpot takes no part.
-  Law law = jkrLaw();
-  law.cohesion = Cohesion::dmt;
-  law.tangential = Tangential::coulomb;
+  ContactLaw law = jkrLaw();
+  law.cohesion = CohesionLaw::dmt;
+  law.tangential = TangentialLaw::coulomb;
   law.mu = 0.5;
   double approach = 0.0;
   const double pull = 2.0 * M_PI * 200.0 * 0.25;
   const auto bound = [&](CohesionLoad load, double overlap) {
-    law.cohesionConventions.load = load;
+    law.conventions.cohesionLoad = load;
     ContactMotion<double> motion = at(overlap);
     motion.normalVelocity = approach;
     motion.tangentialVelocity = 1.0;
@@ -348,11 +348,11 @@ TEST(CohesionLoads, InCoulombsBound_AreTheConventions) {
 TEST(Jkr, TangentialSpring_SeesItsContactRadius) {
   // k_t a: at δ = 0 a = (2πw R²/E*)^(1/3), from 4/3 √(a/a_p) = (a/a_p)² with a_p³ = 9π w R²/(8 E*);
   // a = a_p at −δ_p.
-  Law law = jkrLaw();
-  law.tangential = Tangential::spring;
+  ContactLaw law = jkrLaw();
+  law.tangential = TangentialLaw::spring;
   law.mu = 1e6;
   law.kt = 1e4;
-  law.cohesionConventions.load = CohesionLoad::plusTwicePullOff;
+  law.conventions.cohesionLoad = CohesionLoad::plusTwicePullOff;
   const double modulus = 0.75 * law.kn, radius = at(0.0).radius;
   const auto stiffness = [&](double overlap) {
     ContactMotion<double> motion = at(overlap);
@@ -368,9 +368,9 @@ TEST(Jkr, TangentialSpring_SeesItsContactRadius) {
 }
 
 TEST(CutTension, OfACohesiveContact_CutsTheDashpotAlone) {
-  Law law = jkrLaw();
-  law.cohesion = Cohesion::dmt;
-  law.cutTension = true;
+  ContactLaw law = jkrLaw();
+  law.cohesion = CohesionLaw::dmt;
+  law.conventions.tension = Tension::cut;
   law.gn = 1e4;
   ContactMotion<double> parting = at(1e-6);
   parting.normalVelocity = 1.0;
@@ -387,25 +387,25 @@ double residual(const EnergyLedger& l) {
          l.lostBottom + l.lostRelease + l.lostPlastic + l.lostDetachment;
 }
 
-Law lawOf(Cohesion cohesion) {
-  Law law = test::thesisLaw();
+ContactLaw lawOf(CohesionLaw cohesion) {
+  ContactLaw law = test::thesisLaw();
   law.cohesion = cohesion;
-  if (cohesion == Cohesion::area) law.kc = 1e4;
-  if (cohesion == Cohesion::elastoPlastic) {
-    law.k2 = 3.0 * law.kn;
+  if (cohesion == CohesionLaw::area) law.kc = 1e4;
+  if (cohesion == CohesionLaw::elastoPlastic) {
+    law.kUnload = 3.0 * law.kn;
     law.kc = 0.5 * law.kn;
     law.plasticDepth = 0.02;  // or they are elastic on the limit branch
   }
-  if (cohesion == Cohesion::dmt || cohesion == Cohesion::jkr) {
-    law.normal = Normal::hertz;
+  if (cohesion == CohesionLaw::dmt || cohesion == CohesionLaw::jkr) {
+    law.normal = NormalLaw::hertz;
     law.kn *= 1e4;
     law.kt *= 1e4;
-    law.w = cohesion == Cohesion::jkr ? 0.2 : 0.1;
+    law.w = cohesion == CohesionLaw::jkr ? 0.2 : 0.1;
   }
   return law;
 }
 
-class CohesionLedger : public testing::TestWithParam<Cohesion> {};
+class CohesionLedger : public testing::TestWithParam<CohesionLaw> {};
 
 TEST_P(CohesionLedger, OfAGas_ClosesBetterTheSmallerTheStep) {
   const auto worst = [&](double dt) {
@@ -420,8 +420,8 @@ TEST_P(CohesionLedger, OfAGas_ClosesBetterTheSmallerTheStep) {
     }
     const EnergyLedger& ledger = *simulation.energyLedger();
     // What yields holds a little of the last step's pull when it ends.
-    EXPECT_EQ(ledger.lostDetachment > 1e-4 * ledger.initial, GetParam() == Cohesion::jkr);
-    EXPECT_EQ(ledger.lostPlastic > 0.0, GetParam() == Cohesion::elastoPlastic);
+    EXPECT_EQ(ledger.lostDetachment > 1e-4 * ledger.initial, GetParam() == CohesionLaw::jkr);
+    EXPECT_EQ(ledger.lostPlastic > 0.0, GetParam() == CohesionLaw::elastoPlastic);
     return most / ledger.initial;
   };
   const double coarse = worst(4e-6), fine = worst(5e-7);
@@ -434,35 +434,35 @@ TEST_P(CohesionLedger, KernelsThreadsAndRestarts_GiveTheSameBits) {
     grain::Setup setup = test::packed(5, 21);
     const double kt = setup.law.kt;
     setup.law = lawOf(GetParam());
-    if (setup.law.normal == Normal::linear) setup.law.kt = kt;
+    if (setup.law.normal == NormalLaw::linear) setup.law.kt = kt;
     setup.precision = precision;
     Simulation whole(grain::Setup{setup});
     whole.advance(8250);  // across a renumbering
     std::size_t pulling = 0;
     for (const Contact& contact : whole.contacts()) pulling += contact.normalForce < 0.0;
     // An area softens the linear law: it pulls at no overlap.
-    EXPECT_EQ(pulling > 0, GetParam() != Cohesion::area);
+    EXPECT_EQ(pulling > 0, GetParam() != CohesionLaw::area);
     test::expectSameBits(setup, whole);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, CohesionLedger,
-                         testing::Values(Cohesion::area, Cohesion::dmt, Cohesion::jkr,
-                                         Cohesion::elastoPlastic));
+                         testing::Values(CohesionLaw::area, CohesionLaw::dmt, CohesionLaw::jkr,
+                                         CohesionLaw::elastoPlastic));
 
-TEST(Cohesion, WithALawThatCannotCarryIt_IsRefused) {
-  const auto refused = [](const Law& law) {
+TEST(CohesionLaw, WithALawThatCannotCarryIt_IsRefused) {
+  const auto refused = [](const ContactLaw& law) {
     grain::Setup setup = approaching(law, 0.1);
     EXPECT_THROW(Simulation{std::move(setup)}, std::invalid_argument);
   };
-  Law law = jkrLaw();
-  law.normal = Normal::linear;
+  ContactLaw law = jkrLaw();
+  law.normal = NormalLaw::linear;
   refused(law);
   law = jkrLaw();
   law.w = 0.0;
   refused(law);
   law = plasticLaw();
-  law.k2 = 0.5 * law.kn;
+  law.kUnload = 0.5 * law.kn;
   refused(law);
 }
 

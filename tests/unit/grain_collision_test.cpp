@@ -51,7 +51,7 @@ TEST(GrainCollision, ClosedFormsAreThoseOfTheThesisDisks) {
 
 struct Scheme {
   Integrator integrator;
-  Damping damping;
+  DampingVelocity damping;
   double tolerance;
 };
 
@@ -60,10 +60,10 @@ class NormalRestitution : public testing::TestWithParam<std::tuple<Scheme, bool>
 TEST_P(NormalRestitution, IsTheClosedFormAtTwoThousandStepsPerContact) {
   const auto& [scheme, cut] = GetParam();
   auto setup = collidingPair(0.1, 0.0, 0.0, contactTime() / 2000.0);
-  setup.law.tangential = Tangential::none;
-  setup.law.cutTension = cut;
-  setup.law.damping = scheme.damping;
-  setup.integrator = scheme.integrator;
+  setup.law.tangential = TangentialLaw::none;
+  setup.law.conventions.tension = cut ? Tension::cut : Tension::allow;
+  setup.law.conventions.dampingVelocity = scheme.damping;
+  setup.law.conventions.integrator = scheme.integrator;
   EXPECT_NEAR(restitution(std::move(setup), 0.1), closedForm(cut), scheme.tolerance);
 }
 
@@ -71,20 +71,22 @@ TEST_P(NormalRestitution, IsTheClosedFormAtTwoThousandStepsPerContact) {
 // whose error is of the order of η dt = 0.75e-3.
 INSTANTIATE_TEST_SUITE_P(
     Schemes, NormalRestitution,
-    testing::Combine(testing::Values(Scheme{Integrator::positionVerlet, Damping::predicted, 2e-6},
-                                     Scheme{Integrator::positionVerlet, Damping::implicit, 2e-6},
-                                     Scheme{Integrator::velocityVerlet, Damping::predicted, 2e-6},
-                                     Scheme{Integrator::velocityVerlet, Damping::implicit, 2e-6},
-                                     Scheme{Integrator::positionVerlet, Damping::lagged, 2e-3},
-                                     Scheme{Integrator::velocityVerlet, Damping::lagged, 2e-3},
-                                     Scheme{Integrator::semiImplicitEuler, Damping::lagged, 2e-3}),
-                     testing::Bool()));
+    testing::Combine(
+        testing::Values(Scheme{Integrator::positionVerlet, DampingVelocity::predicted, 2e-6},
+                        Scheme{Integrator::positionVerlet, DampingVelocity::implicit, 2e-6},
+                        Scheme{Integrator::velocityVerlet, DampingVelocity::predicted, 2e-6},
+                        Scheme{Integrator::velocityVerlet, DampingVelocity::implicit, 2e-6},
+                        Scheme{Integrator::positionVerlet, DampingVelocity::lagged, 2e-3},
+                        Scheme{Integrator::velocityVerlet, DampingVelocity::lagged, 2e-3},
+                        Scheme{Integrator::semiImplicitEuler, DampingVelocity::lagged, 2e-3}),
+        testing::Bool()));
 
 /// The law as the contact kernels see it, every option at run time.
-GeneralLaw<double> kernelLaw(bool cutTension = false, Bound bound = Bound::compression) {
-  Law law = thesisLaw();
-  law.cutTension = cutTension;
-  law.bound = bound;
+GeneralLaw<double> kernelLaw(bool cutTension = false,
+                             CoulombBound bound = CoulombBound::compression) {
+  ContactLaw law = thesisLaw();
+  law.conventions.tension = cutTension ? Tension::cut : Tension::allow;
+  law.conventions.coulombBound = bound;
   return generalLaw<double>(law, 1e-6, true);
 }
 
@@ -101,9 +103,9 @@ TEST(GrainCollision, CoulombBoundHasThreeReadings) {
   auto law = kernelLaw();
   EXPECT_DOUBLE_EQ(coulombBound(law, 2.0), 0.88);
   EXPECT_EQ(coulombBound(law, -2.0), 0.0);
-  law = kernelLaw(false, Bound::magnitude);
+  law = kernelLaw(false, CoulombBound::magnitude);
   EXPECT_DOUBLE_EQ(coulombBound(law, -2.0), 0.88);
-  law = kernelLaw(false, Bound::signedForce);
+  law = kernelLaw(false, CoulombBound::signedForce);
   EXPECT_DOUBLE_EQ(coulombBound(law, -2.0), -0.88);
 }
 
@@ -115,14 +117,14 @@ TEST(GrainCollision, TangentialLawsByHand) {
   const double bound = thesis.mu * 0.03521;
   double spring = 0.0, memory = 0.0, rest = 0.0;
 
-  law.tangential = Tangential::coulomb;
+  law.tangential = TangentialLaw::coulomb;
   EXPECT_DOUBLE_EQ(contactForce(law, slow, spring, memory, rest).tangential, -bound);
-  law.tangential = Tangential::viscous;
+  law.tangential = TangentialLaw::viscous;
   EXPECT_DOUBLE_EQ(contactForce(law, slow, spring, memory, rest).tangential, -thesis.gt * 0.01);
   EXPECT_DOUBLE_EQ(contactForce(law, fast, spring, memory, rest).tangential, -bound);
   EXPECT_EQ(spring, 0.0);
 
-  law.tangential = Tangential::spring;
+  law.tangential = TangentialLaw::spring;
   spring = 2e-5;
   EXPECT_DOUBLE_EQ(contactForce(law, slow, spring, memory, rest).tangential, -thesis.kt * 2e-5);
   EXPECT_DOUBLE_EQ(spring, 2e-5 + 0.01 * 1e-6);  // stretched after the force
@@ -132,7 +134,7 @@ TEST(GrainCollision, TangentialLawsByHand) {
   EXPECT_DOUBLE_EQ(slipping.tangential, -bound);
   EXPECT_DOUBLE_EQ(spring, bound / thesis.kt);
 
-  law.tangential = Tangential::springDashpot;
+  law.tangential = TangentialLaw::springDashpot;
   spring = 2e-5;
   EXPECT_DOUBLE_EQ(contactForce(law, slow, spring, memory, rest).tangential,
                    -thesis.kt * 2e-5 - thesis.gt * 0.01);

@@ -17,13 +17,14 @@ constexpr double a = 0.005, mass = 1.309e-3, g = 9.81;  // [m, kg, m/s²]
 constexpr double inertia = 0.4 * mass * a * a;
 constexpr double bore = 0.05;  // radius of the cylinder [m]
 
-Law springLaw() {
-  Law law;
+ContactLaw springLaw() {
+  ContactLaw law;
   law.kn = 1e5;
   law.kt = 2.857e4;
   law.mu = 0.5;
-  law.tangential = Tangential::springDashpot;
-  law.stretch = Stretch::before;  // after the force an undamped spring would gain energy
+  law.tangential = TangentialLaw::springDashpot;
+  law.conventions.springUpdate =
+      SpringUpdate::before;  // after the force an undamped spring would gain energy
   return law;
 }
 
@@ -55,7 +56,7 @@ SpheresSetup inCylinder(double omega = 0.0) {
 }
 
 /// Kinetic, of height along y, and of both springs of each contact [J].
-double energyOf(Spheres& spheres, const Law& law) {
+double energyOf(Spheres& spheres, const ContactLaw& law) {
   double energy = 0.0;
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const Vector v = spheres.velocity(i), w = spheres.spin(i);
@@ -75,7 +76,7 @@ TEST(Cylinder, SphereRollingAtItsBottom_SwingsAsAPendulum) {
   for (const SpringTurn turn :
        {SpringTurn::rotated, SpringTurn::firstOrder, SpringTurn::rescaled, SpringTurn::projected}) {
     SpheresSetup setup = inCylinder();
-    setup.conventions.turn = turn;
+    setup.law.conventions.springTurn = turn;
     setup.gravity = {0.0, -g, 0.0};
     const double arm = bore - a + mass * g / setup.law.kn;
     add(setup, {arm * std::sin(start), -arm * std::cos(start), 0.0});
@@ -99,7 +100,7 @@ TEST(Cylinder, SphereThatTurnsWithIt_StaysWhereItIsOnTheWall) {
   // on the wall, a − δ from the centre.
   const double omega = 20.0;
   SpheresSetup setup = inCylinder(omega);
-  setup.law.lever = Lever::contactPoint;
+  setup.law.conventions.leverArm = LeverArm::contactPoint;
   const double ratio = mass * omega * omega / setup.law.kn;
   const double arm = (bore - a) / (1.0 - ratio);
   add(setup, {arm, 0.0, 0.3}, {0.0, omega * arm, 0.0}, {0.0, 0.0, omega});
@@ -202,7 +203,7 @@ TEST(Cylinder, InATurnedScene_GivesTheTurnedMotion) {
   for (const SpringTurn how :
        {SpringTurn::rotated, SpringTurn::firstOrder, SpringTurn::rescaled, SpringTurn::projected}) {
     SpheresSetup setup = tumbling();
-    setup.conventions = {how, SpringTwist::meanSpin};
+    setup.law.conventions.springTurn = how;
     Vector axis{normal(random), normal(random), normal(random)};
     axis = (1.0 / length(axis)) * axis;
     const double angle = normal(random), c = std::cos(angle), s = std::sin(angle);
@@ -268,7 +269,8 @@ TEST(Cylinder, RestoredRun_GoesOnToTheBit) {
 
 TEST(Cylinder, RunThatBeginsUnderWay_GoesOnAsTheOneItIsOf) {
   SpheresSetup setup = tumbling();
-  setup.law.damping = Damping::lagged;  // predicted velocities need the forces of a step before
+  setup.law.conventions.dampingVelocity =
+      DampingVelocity::lagged;  // predicted velocities need the forces of a step before
   Spheres first(setup);
   first.advance(300);
   for (std::size_t i = 0; i < first.size(); ++i) {

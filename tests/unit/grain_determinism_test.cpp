@@ -33,7 +33,7 @@ class WithInstructions {
 grain::Setup scene(Precision precision, int side = 12) {
   grain::Setup setup = test::packed(side, 5);
   setup.precision = precision;
-  setup.bottom = test::thesisBottom<Bottom>(2e-3);
+  setup.bottom = test::thesisBottom<BottomPlate>(2e-3);
   return setup;
 }
 
@@ -75,11 +75,11 @@ Simulation sameOnEveryInstructionSet(const grain::Setup& setup, std::uint64_t st
 TEST_P(Determinism, EveryInstructionSet_GivesTheSameBitsAndLedger) {
   ASSERT_STREQ(instructionSets().front(), "baseline");
   sameOnEveryInstructionSet(scene(GetParam()), 1500);
-  for (const Lever lever : {Lever::radius, Lever::contactPoint})
+  for (const LeverArm lever : {LeverArm::radius, LeverArm::contactPoint})
     for (const bool rotation : {true, false}) {
       grain::Setup setup = scene(GetParam());
       setup.ledger = true;
-      setup.law.lever = lever;
+      setup.law.conventions.leverArm = lever;
       setup.rotation = rotation;
       const Simulation run = sameOnEveryInstructionSet(setup, 1500);
       EXPECT_GT(run.energyLedger()->lostSliding, 0.0);  // contacts have slid: all of it has run
@@ -87,14 +87,17 @@ TEST_P(Determinism, EveryInstructionSet_GivesTheSameBitsAndLedger) {
 }
 
 TEST_P(Determinism, EveryInstructionSet_GivesTheSameBitsForEveryLaw) {
-  for (const Tangential tangential : {Tangential::none, Tangential::coulomb, Tangential::viscous,
-                                      Tangential::spring, Tangential::springDashpot})
-    for (const Damping damping : {Damping::lagged, Damping::predicted, Damping::implicit})
-      for (const Lever lever : {Lever::radius, Lever::contactPoint, Lever::overlapMiddle}) {
+  for (const TangentialLaw tangential :
+       {TangentialLaw::none, TangentialLaw::coulomb, TangentialLaw::viscous, TangentialLaw::spring,
+        TangentialLaw::springDashpot})
+    for (const DampingVelocity damping :
+         {DampingVelocity::lagged, DampingVelocity::predicted, DampingVelocity::implicit})
+      for (const LeverArm lever :
+           {LeverArm::radius, LeverArm::contactPoint, LeverArm::overlapMiddle}) {
         grain::Setup setup = scene(GetParam(), 8);
         setup.law.tangential = tangential;
-        setup.law.damping = damping;
-        setup.law.lever = lever;
+        setup.law.conventions.dampingVelocity = damping;
+        setup.law.conventions.leverArm = lever;
         sameOnEveryInstructionSet(setup, 100);
       }
 }

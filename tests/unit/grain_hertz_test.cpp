@@ -41,10 +41,10 @@ constexpr Spheres limestone{0.010, 20e9, 0.25, 2500.0, 10.0};
 
 Setup headOn(const Spheres& s, double dt, double offset = 0.0, double spin = 0.0) {
   Setup setup;
-  setup.law.normal = Normal::hertz;
+  setup.law.normal = NormalLaw::hertz;
   setup.law.kn = 4.0 / 3.0 * s.effectiveModulus();
   setup.dt = dt;
-  setup.integrator = Integrator::velocityVerlet;
+  setup.law.conventions.integrator = Integrator::velocityVerlet;
   const double nx = std::sqrt(1.0 - offset * offset);
   const double ahead = 0.5 * s.speed * dt;
   for (const double side : {1.0, -1.0}) {
@@ -111,7 +111,7 @@ TEST(GrainHertz, ViscoelasticSpheresLoseMoreWhereTheyAreFaster) {
     spheres.speed = speed;
     grain::Setup setup = headOn(spheres, spheres.contactTime() / 4000.0);
     const double k = setup.law.kn * std::sqrt(spheres.reducedRadius());
-    setup.law.damper = Damper::stiffness;
+    setup.law.damper = Damper::viscoelastic;
     setup.law.gn = 2e-10;  // A [s]
     const double loss = 1.15344 * 1.5 * setup.law.gn * std::pow(k / spheres.reducedMass(), 0.4) *
                         std::pow(2.0 * speed, 0.2);
@@ -126,7 +126,7 @@ TEST(GrainPolynomial, TheMeasuredDiskStopsWhereItsWorkIsTheKineticEnergy) {
   const double v = 0.1, reduced = 0.5 * test::smallMass;
   grain::Setup setup = test::collidingPair(v, 0.0, 0.0, 1e-8);
   setup.law = {};
-  setup.law.normal = Normal::polynomial;
+  setup.law.normal = NormalLaw::polynomial;
   setup.law.kn = 8.456e9;
   setup.law.kn3 = -3.73e12;
   const Impact found = impact(setup);
@@ -144,9 +144,9 @@ INSTANTIATE_TEST_SUITE_P(Histories, Mindlin,
 Setup spinning(History history, double mu, double spin) {
   const double dt = glass.contactTime() / 4000.0;
   grain::Setup setup = headOn(glass, dt, 0.0, spin);
-  setup.law.tangential = Tangential::spring;
-  setup.law.history = history;
-  setup.law.stretch = Stretch::midpoint;
+  setup.law.tangential = TangentialLaw::spring;
+  setup.law.conventions.history = history;
+  setup.law.conventions.springUpdate = SpringUpdate::midpoint;
   setup.law.kt = 8.0 * glass.effectiveShear();
   setup.law.mu = mu;
   return setup;
@@ -178,7 +178,7 @@ TEST_P(Mindlin, GainsNoEnergy) {
 TEST(GrainHistory, OfALinearLawIsTheSameAsForceAndAsDisplacement) {
   grain::Setup setup = test::collidingPair(0.1, 0.3, 20.0, test::contactTime() / 200.0);
   grain::Setup other = setup;
-  other.law.history = History::force;
+  other.law.conventions.history = History::force;
   Simulation a(setup), b(other);
   a.advance(400);
   b.advance(400);

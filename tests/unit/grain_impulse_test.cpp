@@ -21,13 +21,13 @@ constexpr double en = 0.8, et0 = 0.3, mu = 0.4, speed = 0.1;
 /// Two disks that touch after half a step, head on, both turning so that v_t = Ψ_i v_n.
 grain::Setup headOn(double psi, double dt = 1e-5) {
   grain::Setup setup;
-  setup.law.normal = Normal::impulse;
-  setup.law.tangential = Tangential::coulomb;
+  setup.law.normal = NormalLaw::rigid;
+  setup.law.tangential = TangentialLaw::coulomb;
   setup.law.en = en;
   setup.law.et0 = et0;
   setup.law.mu = mu;
-  setup.law.lever = Lever::contactPoint;
-  setup.integrator = Integrator::semiImplicitEuler;
+  setup.law.conventions.leverArm = LeverArm::contactPoint;
+  setup.law.conventions.integrator = Integrator::semiImplicitEuler;
   setup.dt = dt;
   const double ahead = 0.25 * speed * dt, spin = -psi * speed / (2.0 * test::smallRadius);
   test::addDisk(setup.disks, test::smallRadius + ahead, 0.0, -0.5 * speed, 0.0, spin);
@@ -62,7 +62,7 @@ TEST(GrainImpulse, IsWaltonsClosedFormToRounding) {
   std::uniform_real_distribution<double> one(-1.0, 1.0);
   for (int trial = 0; trial < 200; ++trial) {
     grain::Setup setup = headOn(0.0);
-    setup.law.lever = Lever::radius;
+    setup.law.conventions.leverArm = LeverArm::radius;
     grain::Disks& d = setup.disks;
     for (const std::size_t k : {0u, 1u}) {
       d.radius[k] *= std::exp(one(random));
@@ -357,7 +357,7 @@ TEST(GrainImpulse, TheSameBitsOnAnyNumberOfThreads) {
 TEST(GrainImpulse, NeedsTheSchemeInWhichAKickIsAnImpulse) {
   for (const Integrator scheme : {Integrator::positionVerlet, Integrator::velocityVerlet}) {
     grain::Setup setup = headOn(1.0);
-    setup.integrator = scheme;
+    setup.law.conventions.integrator = scheme;
     EXPECT_THROW(Simulation{setup}, std::invalid_argument);
   }
 }

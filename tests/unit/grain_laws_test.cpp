@@ -24,25 +24,28 @@ T oneOf(std::initializer_list<T> values) {
 }
 
 /// Every convention that dissipates. `signedForce` is left out: under tension it drives.
-Law anyLaw() {
-  Law law;
+ContactLaw anyLaw() {
+  ContactLaw law;
   law.kn = between(50.0, 1000.0);
   law.gn = *rc::gen::arbitrary<bool>() ? between(0.01, 0.3) : 0.0;
   law.kt = law.kn * between(0.1, 1.0);
   law.gt = between(0.0, 0.15);
   law.mu = between(0.0, 1.0);
-  law.tangential = oneOf({Tangential::none, Tangential::coulomb, Tangential::viscous,
-                          Tangential::spring, Tangential::springDashpot});
-  law.bound = oneOf({Bound::compression, Bound::magnitude});
-  law.cutTension = *rc::gen::arbitrary<bool>();
-  law.dashpotOutsideBound = *rc::gen::arbitrary<bool>();
-  law.lever = oneOf({Lever::radius, Lever::contactPoint, Lever::overlapMiddle});
-  law.stretch = oneOf({Stretch::after, Stretch::before, Stretch::midpoint});
-  law.damping = oneOf({Damping::lagged, Damping::predicted, Damping::implicit});
+  law.tangential = oneOf({TangentialLaw::none, TangentialLaw::coulomb, TangentialLaw::viscous,
+                          TangentialLaw::spring, TangentialLaw::springDashpot});
+  law.conventions.coulombBound = oneOf({CoulombBound::compression, CoulombBound::magnitude});
+  law.conventions.tension = oneOf({Tension::allow, Tension::cut});
+  law.conventions.dashpot = oneOf({Dashpot::inside, Dashpot::outside});
+  law.conventions.leverArm =
+      oneOf({LeverArm::radius, LeverArm::contactPoint, LeverArm::overlapMiddle});
+  law.conventions.springUpdate =
+      oneOf({SpringUpdate::after, SpringUpdate::before, SpringUpdate::midpoint});
+  law.conventions.dampingVelocity =
+      oneOf({DampingVelocity::lagged, DampingVelocity::predicted, DampingVelocity::implicit});
   return law;
 }
 
-double period(const Law& law, double lightest) {
+double period(const ContactLaw& law, double lightest) {
   return M_PI * std::sqrt(0.5 * lightest / law.kn);
 }
 
@@ -51,7 +54,7 @@ grain::Setup anyCollision() {
   setup.law = anyLaw();
   setup.rotation = *rc::gen::arbitrary<bool>();
   setup.generalKernels = *rc::gen::arbitrary<bool>();
-  setup.integrator = oneOf(
+  setup.law.conventions.integrator = oneOf(
       {Integrator::positionVerlet, Integrator::velocityVerlet, Integrator::semiImplicitEuler});
   Disks& disks = setup.disks;
   for (const double side : {-1.0, 1.0}) {
@@ -118,8 +121,10 @@ RC_GTEST_PROP(AnyLaw, KeepsAngularMomentumWhereTheArmsMeet, ()) {
   // matter.
   grain::Setup setup = anyCollision();
   setup.rotation = true;
-  setup.law.velocityLever = oneOf({Lever::radius, Lever::contactPoint, Lever::overlapMiddle});
-  if (setup.law.lever == Lever::radius) setup.law.tangential = Tangential::none;
+  setup.law.conventions.velocityArm =
+      oneOf({VelocityArm::radius, VelocityArm::contactPoint, VelocityArm::overlapMiddle});
+  if (setup.law.conventions.leverArm == LeverArm::radius)
+    setup.law.tangential = TangentialLaw::none;
   Simulation simulation(setup);
   const Totals before = totals(simulation, setup.disks);
   RC_PRE(collide(simulation));
@@ -133,7 +138,8 @@ RC_GTEST_PROP(AnyLaw, NeverGainsEnergy, ()) {
   setup.dt /= 8.0;
   // With the dashpot's force inside the bound, slip sets the spring to what the dashpot carried:
   // that stores energy which nobody paid for, whatever the step (Lätzel 2003, Eq. 4.25).
-  if (setup.law.tangential == Tangential::springDashpot) setup.law.dashpotOutsideBound = true;
+  if (setup.law.tangential == TangentialLaw::springDashpot)
+    setup.law.conventions.dashpot = Dashpot::outside;
   Simulation simulation(setup);
   const Totals before = totals(simulation, setup.disks);
   RC_PRE(collide(simulation));
@@ -162,9 +168,9 @@ TEST(GrainConservation, Crowd_NeverGainsEnergy) {
 /// An oblique collision with spin: L is kept where the arms meet, and falls by Σ δ f_t dt where
 /// they are the radii.
 TEST(GrainConservation, AngularMomentum_FallsByOverlapTimesForce_OnlyWithTheRadiusAsArm) {
-  for (const Lever lever : {Lever::contactPoint, Lever::overlapMiddle, Lever::radius}) {
+  for (const LeverArm lever : {LeverArm::contactPoint, LeverArm::overlapMiddle, LeverArm::radius}) {
     auto setup = test::collidingPair(0.1, 0.4, 12.0, test::contactTime() / 2000.0);
-    setup.law.lever = lever;
+    setup.law.conventions.leverArm = lever;
     const Disks disks = setup.disks;
     Simulation simulation(std::move(setup));
     const double before = totals(simulation, disks).angular;
@@ -181,7 +187,7 @@ TEST(GrainConservation, AngularMomentum_FallsByOverlapTimesForce_OnlyWithTheRadi
     ASSERT_GT(std::abs(integral), 1e-5 * std::abs(before));  // there is something to see
     const double drift = totals(simulation, disks).angular - before;
     // Kept: rounding. Radius: the trapezoidal sum is good to the jumps at the contact's two ends.
-    if (lever == Lever::radius) {
+    if (lever == LeverArm::radius) {
       EXPECT_NEAR(drift, integral, 2e-3 * std::abs(integral));
     } else {
       EXPECT_NEAR(drift, 0.0, 1e-13 * std::abs(before));

@@ -52,8 +52,9 @@ double dtOf(double stepsPerContact) {
 }
 
 grain::Setup with(grain::Setup setup, Integrator integrator) {
-  setup.integrator = integrator;
-  if (integrator == Integrator::semiImplicitEuler) setup.law.damping = Damping::lagged;
+  setup.law.conventions.integrator = integrator;
+  if (integrator == Integrator::semiImplicitEuler)
+    setup.law.conventions.dampingVelocity = DampingVelocity::lagged;
   return setup;
 }
 
@@ -61,7 +62,7 @@ grain::Setup with(grain::Setup setup, Integrator integrator) {
 
 struct LawCase {
   const char* name;
-  void (*change)(Law&);
+  void (*change)(ContactLaw&);
   double impact, spin;
 };
 
@@ -69,79 +70,81 @@ void PrintTo(const LawCase& law, std::ostream* out) {
   *out << law.name;
 }
 
-void hertz(Law& law) {
-  law.normal = Normal::hertz;
+void hertz(ContactLaw& law) {
+  law.normal = NormalLaw::hertz;
   law.kn = 1e6;
   law.kt = 8e5;
   law.gn = law.gt = 0.0;
-  law.stretch = Stretch::midpoint;
+  law.conventions.springUpdate = SpringUpdate::midpoint;
   law.mu = 10.0;
 }
 
 constexpr LawCase laws[] = {
     {"undamped",
-     [](Law& law) {
+     [](ContactLaw& law) {
        law.gn = 0.0;
-       law.tangential = Tangential::none;
+       law.tangential = TangentialLaw::none;
      },
      0.3, 0.0},
-    {"damped", [](Law& law) { law.tangential = Tangential::none; }, 0.3, 0.0},
+    {"damped", [](ContactLaw& law) { law.tangential = TangentialLaw::none; }, 0.3, 0.0},
     {"cutTension",
-     [](Law& law) {
-       law.tangential = Tangential::none;
-       law.cutTension = true;
+     [](ContactLaw& law) {
+       law.tangential = TangentialLaw::none;
+       law.conventions.tension = Tension::cut;
      },
      0.0, 0.0},
     {"implicitDamping",
-     [](Law& law) {
-       law.damping = Damping::implicit;
-       law.stretch = Stretch::before;
+     [](ContactLaw& law) {
+       law.conventions.dampingVelocity = DampingVelocity::implicit;
+       law.conventions.springUpdate = SpringUpdate::before;
      },
      0.1, 5.0},
-    {"coulomb", [](Law& law) { law.tangential = Tangential::coulomb; }, 0.3, 10.0},
-    {"viscous", [](Law& law) { law.tangential = Tangential::viscous; }, 0.3, 10.0},
-    {"springSticking", [](Law& law) { law.stretch = Stretch::midpoint; }, 0.05, 5.0},
-    {"springSliding", [](Law& law) { law.stretch = Stretch::midpoint; }, 0.0, 60.0},
+    {"coulomb", [](ContactLaw& law) { law.tangential = TangentialLaw::coulomb; }, 0.3, 10.0},
+    {"viscous", [](ContactLaw& law) { law.tangential = TangentialLaw::viscous; }, 0.3, 10.0},
+    {"springSticking",
+     [](ContactLaw& law) { law.conventions.springUpdate = SpringUpdate::midpoint; }, 0.05, 5.0},
+    {"springSliding",
+     [](ContactLaw& law) { law.conventions.springUpdate = SpringUpdate::midpoint; }, 0.0, 60.0},
     {"undampedSpring",
-     [](Law& law) {
-       law.tangential = Tangential::spring;
-       law.stretch = Stretch::midpoint;
+     [](ContactLaw& law) {
+       law.tangential = TangentialLaw::spring;
+       law.conventions.springUpdate = SpringUpdate::midpoint;
      },
      0.5, 10.0},
     {"springOnlyReset",
-     [](Law& law) {
-       law.stretch = Stretch::midpoint;
-       law.resetSpringOnly = true;
+     [](ContactLaw& law) {
+       law.conventions.springUpdate = SpringUpdate::midpoint;
+       law.conventions.springReset = SpringReset::springOnly;
      },
      0.5, 30.0},
     {"contactPoint",
-     [](Law& law) {
-       law.stretch = Stretch::midpoint;
-       law.lever = Lever::contactPoint;
+     [](ContactLaw& law) {
+       law.conventions.springUpdate = SpringUpdate::midpoint;
+       law.conventions.leverArm = LeverArm::contactPoint;
      },
      0.3, 5.0},
     {"armsApart",
-     [](Law& law) {
-       law.stretch = Stretch::midpoint;
-       law.lever = Lever::overlapMiddle;
-       law.velocityLever = Lever::radius;
+     [](ContactLaw& law) {
+       law.conventions.springUpdate = SpringUpdate::midpoint;
+       law.conventions.leverArm = LeverArm::overlapMiddle;
+       law.conventions.velocityArm = VelocityArm::radius;
      },
      0.3, 5.0},
     {"hertz", hertz, 0.05, 5.0},
     {"mindlinForce",
-     [](Law& law) {
+     [](ContactLaw& law) {
        hertz(law);
-       law.history = History::force;
+       law.conventions.history = History::force;
      },
      0.05, 5.0},
     {"polynomial",
-     [](Law& law) {
-       law.normal = Normal::polynomial;
+     [](ContactLaw& law) {
+       law.normal = NormalLaw::polynomial;
        law.kn = 5e6;
        law.kn3 = 1e10;
        law.damper = Damper::critical;
        law.gn = law.gt = 0.3;
-       law.stretch = Stretch::midpoint;
+       law.conventions.springUpdate = SpringUpdate::midpoint;
      },
      0.1, 5.0}};
 
@@ -177,12 +180,12 @@ INSTANTIATE_TEST_SUITE_P(Laws, LedgerOrder,
 
 /// A spring that is stretched by v_t dt after its force, or before, is of first order itself.
 TEST(LedgerOrders, OfASpringStretchedOnOneSideIsOne) {
-  for (const Stretch stretch : {Stretch::after, Stretch::before}) {
+  for (const SpringUpdate stretch : {SpringUpdate::after, SpringUpdate::before}) {
     const double order = orderOf(
         [&](double dt) {
           grain::Setup setup = test::collidingPair(0.1, 0.5, 10.0, dt);
-          setup.law.tangential = Tangential::spring;
-          setup.law.stretch = stretch;
+          setup.law.tangential = TangentialLaw::spring;
+          setup.law.conventions.springUpdate = stretch;
           return setup;
         },
         dtOf(400), 1.5 * test::contactTime());
@@ -194,8 +197,8 @@ TEST(LedgerOrders, OfASpringStretchedOnOneSideIsOne) {
 
 TEST(LedgerOfImpulses, ClosesToRounding) {
   grain::Setup setup = test::packed(10, 5);
-  setup.law.normal = Normal::impulse;
-  setup.law.tangential = Tangential::coulomb;
+  setup.law.normal = NormalLaw::rigid;
+  setup.law.tangential = TangentialLaw::coulomb;
   setup.law.en = 0.8;
   setup.law.et0 = 0.3;
   setup = with(setup, Integrator::semiImplicitEuler);
@@ -210,7 +213,7 @@ TEST(LedgerOfImpulses, ClosesToRounding) {
 /// One impact along the normal: ½ m₁₂ (1 − e²) v².
 TEST(LedgerOfImpulses, LosesWhatRestitutionSays) {
   grain::Setup setup = test::collidingPair(0.1, 0.0, 0.0, dtOf(50));
-  setup.law.normal = Normal::impulse;
+  setup.law.normal = NormalLaw::rigid;
   setup.law.en = 0.6;
   setup = with(setup, Integrator::semiImplicitEuler);
   const EnergyLedger end = ledgerOf(setup, 2e-3);
@@ -224,7 +227,7 @@ TEST(LedgerOfImpulses, LosesWhatRestitutionSays) {
 /// Half way through an undamped collision all energy is in the spring.
 TEST(LedgerTerms, NormalSpring) {
   grain::Setup setup = test::collidingPair(0.1, 0.0, 0.0, dtOf(400));
-  setup.law.tangential = Tangential::none;
+  setup.law.tangential = TangentialLaw::none;
   setup.law.gn = 0.0;
   double most = 0.0;
   const EnergyLedger end = ledgerOf(setup, 5e-3, [&](const Simulation& s) {
@@ -240,7 +243,7 @@ TEST(LedgerTerms, NormalSpring) {
 TEST(LedgerTerms, PotentialOfAColumn) {
   grain::Setup setup;
   setup.law = test::thesisLaw();
-  setup.law.stretch = Stretch::midpoint;
+  setup.law.conventions.springUpdate = SpringUpdate::midpoint;
   setup.dt = 2e-5;
   setup.gravityX = 1.0;
   setup.gravityY = -9.81;
@@ -289,7 +292,7 @@ TEST(LedgerTerms, WorkOfAPlaneThatCompresses) {
 TEST(LedgerTerms, PlateTakesWhatADiskLosesOnTheWay) {
   grain::Setup setup;
   setup.dt = 1e-5;
-  setup.bottom = Bottom{0.1, 200.0, 0.1, 0.0, 9.81, false};
+  setup.bottom = BottomPlate{0.1, 200.0, 0.1, 0.0, 9.81, false};
   test::addDisk(setup.disks, 0.0, 0.0, 0.06, 0.08, 0.0);
   double springs = 0.0;
   const EnergyLedger end = ledgerOf(setup, 0.2, [&](const Simulation& s) {
@@ -311,7 +314,7 @@ TEST(LedgerTerms, PlateIsOfFirstOrder) {
       [](double dt) {
         grain::Setup setup;
         setup.dt = dt;
-        setup.bottom = Bottom{1.0, 200.0, 0.02, 1e-4, 9.81, true};
+        setup.bottom = BottomPlate{1.0, 200.0, 0.02, 1e-4, 9.81, true};
         test::addDisk(setup.disks, 0.0, 0.0, 1e-4, 0.0, 0.0);
         return setup;
       },
@@ -325,7 +328,7 @@ class PackedLedger : public testing::TestWithParam<Integrator> {
  protected:
   static grain::Setup scene(double dt) {
     grain::Setup setup = with(test::packed(10, 7), GetParam());
-    setup.law.stretch = Stretch::midpoint;
+    setup.law.conventions.springUpdate = SpringUpdate::midpoint;
     setup.gravityY = -1.0;
     setup.dt = dt;
     return setup;
@@ -357,7 +360,7 @@ TEST_P(PackedLedger, ResidualShrinksAtTheSchemesOrder) {
 /// Looking changes nothing; nor do threads what the ledger says; a checkpoint carries it on.
 TEST_P(PackedLedger, ChangesNoBitAndIsPartOfTheState) {
   grain::Setup setup = scene(4e-5);
-  setup.bottom = test::thesisBottom<Bottom>();
+  setup.bottom = test::thesisBottom<BottomPlate>();
   Simulation without(setup);
   setup.ledger = true;
   Simulation one(setup);
@@ -399,7 +402,7 @@ INSTANTIATE_TEST_SUITE_P(Schemes, PackedLedger,
 /// In single precision kicks round to 6e-8 of a velocity, and overlaps to 1e-9 m or so.
 TEST(LedgerInSinglePrecision, ClosesAsFarAsFloatsCan) {
   grain::Setup setup = test::packed(10, 7);
-  setup.law.stretch = Stretch::midpoint;
+  setup.law.conventions.springUpdate = SpringUpdate::midpoint;
   setup.dt = 1e-5;
   const double fine = worstResidual(setup, 0.02);
   setup.precision = Precision::float32;

@@ -19,19 +19,20 @@ using namespace grain;
 namespace test = crossgrain::test;
 
 /// Two materials, of which disks are in turn; walls are of the second.
-Setup mixed(Setup setup, const std::function<void(Law& aa, Law& ab, Law& bb)>& change) {
+Setup mixed(Setup setup,
+            const std::function<void(ContactLaw& aa, ContactLaw& ab, ContactLaw& bb)>& change) {
   Materials& materials = setup.materials.emplace();
   materials.count = 2;
   for (std::size_t i = 0; i < setup.disks.size(); ++i)
     materials.ofDisk.push_back(static_cast<std::int32_t>(i % 2));
   materials.ofWall.assign(setup.walls.size(), 1);
-  Law aa = setup.law, ab = setup.law, bb = setup.law;
+  ContactLaw aa = setup.law, ab = setup.law, bb = setup.law;
   change(aa, ab, bb);
   materials.laws = {aa, ab, ab, bb};
   return setup;
 }
 
-void differ(Law& aa, Law& ab, Law& bb) {
+void differ(ContactLaw& aa, ContactLaw& ab, ContactLaw& bb) {
   aa.kn *= 0.5;
   aa.mu = 0.9;
   ab.gn *= 2.0;
@@ -41,7 +42,7 @@ void differ(Law& aa, Law& ab, Law& bb) {
   bb.mu = 0.0;
 }
 
-Setup withRollingAndCohesion(Setup setup, Rolling rolling, Cohesion cohesion) {
+Setup withRollingAndCohesion(Setup setup, RollingLaw rolling, CohesionLaw cohesion) {
   setup.law.rolling = rolling;
   setup.law.kr = setup.law.kt;
   setup.law.gr = setup.law.gt;
@@ -57,12 +58,13 @@ TEST_P(Mixed, PairsOfOneLaw_GiveTheBitsWithoutMaterials) {
   const auto [precision, more, integrator] = GetParam();
   for (const bool general : {false, true}) {
     grain::Setup setup = test::packed(9, 5);
-    if (more) setup = withRollingAndCohesion(setup, Rolling::spring, Cohesion::area);
+    if (more) setup = withRollingAndCohesion(setup, RollingLaw::spring, CohesionLaw::area);
     setup.precision = precision;
-    setup.integrator = integrator;
+    setup.law.conventions.integrator = integrator;
     setup.generalKernels = general;
     const auto one = test::advanced(setup, 200);
-    const auto mixture = test::advanced(mixed(setup, [](Law&, Law&, Law&) {}), 200);
+    const auto mixture =
+        test::advanced(mixed(setup, [](ContactLaw&, ContactLaw&, ContactLaw&) {}), 200);
     EXPECT_EQ(test::difference(one, mixture), "") << general;
     EXPECT_GT(one.contacts().size(), 50u);
   }
@@ -71,10 +73,10 @@ TEST_P(Mixed, PairsOfOneLaw_GiveTheBitsWithoutMaterials) {
 TEST_P(Mixed, GivesTheBitsOfTheGeneralKernelOfOtherThreadsAndOfARestart) {
   const auto [precision, more, integrator] = GetParam();
   grain::Setup setup = test::packed(9, 5);
-  if (more) setup = withRollingAndCohesion(setup, Rolling::spring, Cohesion::area);
+  if (more) setup = withRollingAndCohesion(setup, RollingLaw::spring, CohesionLaw::area);
   setup.precision = precision;
-  setup.integrator = integrator;
-  const grain::Setup mixture = mixed(setup, [](Law& aa, Law& ab, Law& bb) {
+  setup.law.conventions.integrator = integrator;
+  const grain::Setup mixture = mixed(setup, [](ContactLaw& aa, ContactLaw& ab, ContactLaw& bb) {
     differ(aa, ab, bb);
     aa.kr *= 2.0;
     ab.muR = 0.0;
@@ -97,7 +99,7 @@ struct Encounters {
   static constexpr std::size_t disks[4][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 6}};
   static constexpr std::int32_t materials[] = {0, 0, 0, 1, 1, 1, 0};
 
-  explicit Encounters(Law law) {
+  explicit Encounters(ContactLaw law) {
     setup.law = law;
     setup.dt = 4e-5;
     for (int k = 0; k < 3; ++k) {
@@ -111,19 +113,21 @@ struct Encounters {
 };
 
 TEST(Materials, EachPair_MovesAsUnderItsLawAlone) {
-  for (const Normal normal : {Normal::linear, Normal::hertz, Normal::impulse}) {
-    Law law = test::thesisLaw();
+  for (const NormalLaw normal : {NormalLaw::linear, NormalLaw::hertz, NormalLaw::rigid}) {
+    ContactLaw law = test::thesisLaw();
     law.normal = normal;
-    if (normal == Normal::hertz) law.kn = law.kt = 1e6;
-    if (normal == Normal::impulse) {
-      law.tangential = Tangential::coulomb;
+    if (normal == NormalLaw::hertz) law.kn = law.kt = 1e6;
+    if (normal == NormalLaw::rigid) {
+      law.tangential = TangentialLaw::coulomb;
       law.en = 0.9;
       law.et0 = 0.2;
     }
     Encounters scene(law);
-    if (normal == Normal::impulse) scene.setup.integrator = Integrator::semiImplicitEuler;
-    if (normal == Normal::impulse) scene.setup.law.damping = Damping::lagged;
-    Law laws[3] = {scene.setup.law, scene.setup.law, scene.setup.law};
+    if (normal == NormalLaw::rigid)
+      scene.setup.law.conventions.integrator = Integrator::semiImplicitEuler;
+    if (normal == NormalLaw::rigid)
+      scene.setup.law.conventions.dampingVelocity = DampingVelocity::lagged;
+    ContactLaw laws[3] = {scene.setup.law, scene.setup.law, scene.setup.law};
     differ(laws[0], laws[1], laws[2]);
     laws[0].en = 0.5;
     laws[2].et0 = 0.0;
@@ -138,7 +142,8 @@ TEST(Materials, EachPair_MovesAsUnderItsLawAlone) {
     for (std::size_t pair = 0; pair < 4; ++pair) {
       grain::Setup alone = scene.setup;
       alone.law = laws[lawOf[pair]];
-      if (alone.law.mu == 0.0 && normal != Normal::impulse) alone.law.tangential = Tangential::none;
+      if (alone.law.mu == 0.0 && normal != NormalLaw::rigid)
+        alone.law.tangential = TangentialLaw::none;
       const auto reference = test::advanced(alone, 300);
       for (const std::size_t disk : scene.disks[pair]) {
         EXPECT_EQ(together.x(disk), reference.x(disk)) << pair;
@@ -156,10 +161,10 @@ TEST(Materials, EachPair_MovesAsUnderItsLawAlone) {
 TEST(Materials, BondsOfDifferentAdhesion_LastAsFarAsTheirOwn) {
   // Two disks drawn apart slowly under JKR: each bond holds to a_p²/3R₁₂ of its own w.
   grain::Setup setup;
-  setup.law.normal = Normal::hertz;
+  setup.law.normal = NormalLaw::hertz;
   setup.law.kn = 1e5;
   setup.law.w = 0.01;
-  setup.law.cohesion = Cohesion::jkr;
+  setup.law.cohesion = CohesionLaw::jkr;
   setup.dt = 1e-6;
   test::addDisk(setup.disks, test::smallRadius, 0.0, 0.0, 0.0, 0.0);
   test::addDisk(setup.disks, test::smallRadius, 0.1, 0.0, 0.0, 0.0);
@@ -167,7 +172,8 @@ TEST(Materials, BondsOfDifferentAdhesion_LastAsFarAsTheirOwn) {
   away.moves = true;
   away.motion = [](double t) { return WallState{.x = -0.01 * t, .vx = -0.01}; };
   setup.walls = {away};
-  grain::Setup mixture = mixed(setup, [](Law&, Law& ab, Law& bb) { bb.w = 8.0 * ab.w; });
+  grain::Setup mixture =
+      mixed(setup, [](ContactLaw&, ContactLaw& ab, ContactLaw& bb) { bb.w = 8.0 * ab.w; });
   for (double& mass : mixture.disks.mass) mass = 1e3;  // they stay where they are
   const auto endOf = [&](double w) {
     const double R = test::smallRadius, a = std::cbrt(1.5 * M_PI * w * R * R / 1e5);
@@ -187,7 +193,7 @@ TEST(Materials, BondsOfDifferentAdhesion_LastAsFarAsTheirOwn) {
 TEST(Materials, LawsThatTheSetupCannotHave_AreRefused) {
   grain::Setup setup = test::packed(4, 1);
   const auto refused = [&](const std::function<void(grain::Setup&)>& change) {
-    grain::Setup bad = mixed(setup, [](Law&, Law&, Law&) {});
+    grain::Setup bad = mixed(setup, [](ContactLaw&, ContactLaw&, ContactLaw&) {});
     change(bad);
     EXPECT_THROW(Simulation{bad}, std::invalid_argument);
   };
@@ -207,8 +213,8 @@ double residual(const EnergyLedger& l) {
 TEST(Materials, Ledger_ClosesAtTheSchemesOrder) {
   const auto worst = [](double dt) {
     grain::Setup setup =
-        withRollingAndCohesion(test::packed(6, 3), Rolling::spring, Cohesion::area);
-    setup.law.stretch = Stretch::midpoint;
+        withRollingAndCohesion(test::packed(6, 3), RollingLaw::spring, CohesionLaw::area);
+    setup.law.conventions.springUpdate = SpringUpdate::midpoint;
     setup.dt = dt;
     setup.ledger = true;
     Simulation simulation(mixed(setup, differ));
@@ -235,17 +241,19 @@ double lost(const EnergyLedger& l) {
          l.lostRolling + l.lostPlastic;
 }
 
-class HeatOfContacts : public testing::TestWithParam<std::tuple<Rolling, Cohesion, Integrator>> {};
+class HeatOfContacts
+    : public testing::TestWithParam<std::tuple<RollingLaw, CohesionLaw, Integrator>> {};
 
 // The power of a contact is what the ledger took from it in the step, so over all of them it is the
 // ledger's rate, but for what contacts lost that have just ended.
 TEST_P(HeatOfContacts, OfAllContacts_IsTheLedgersRate) {
   const auto [rolling, cohesion, integrator] = GetParam();
   grain::Setup setup = withRollingAndCohesion(test::packed(6, 3), rolling, cohesion);
-  setup.law.k2 = 2.0 * setup.law.kn;
-  if (cohesion == Cohesion::elastoPlastic) setup.law.kc = 0.1 * setup.law.kn;
-  setup.integrator = integrator;
-  if (integrator == Integrator::semiImplicitEuler) setup.law.damping = Damping::lagged;
+  setup.law.kUnload = 2.0 * setup.law.kn;
+  if (cohesion == CohesionLaw::elastoPlastic) setup.law.kc = 0.1 * setup.law.kn;
+  setup.law.conventions.integrator = integrator;
+  if (integrator == Integrator::semiImplicitEuler)
+    setup.law.conventions.dampingVelocity = DampingVelocity::lagged;
   setup.ledger = true;
   Simulation simulation(mixed(setup, differ));
   ASSERT_EQ(simulation.contactLosses().size(), simulation.contacts().size());
@@ -282,16 +290,16 @@ TEST_P(HeatOfContacts, OfAllContacts_IsTheLedgersRate) {
 
 INSTANTIATE_TEST_SUITE_P(
     Laws, HeatOfContacts,
-    testing::Values(std::tuple(Rolling::none, Cohesion::none, Integrator::positionVerlet),
-                    std::tuple(Rolling::spring, Cohesion::area, Integrator::velocityVerlet),
-                    std::tuple(Rolling::viscous, Cohesion::elastoPlastic,
+    testing::Values(std::tuple(RollingLaw::none, CohesionLaw::none, Integrator::positionVerlet),
+                    std::tuple(RollingLaw::spring, CohesionLaw::area, Integrator::velocityVerlet),
+                    std::tuple(RollingLaw::viscous, CohesionLaw::elastoPlastic,
                                Integrator::semiImplicitEuler)));
 
 TEST(HeatOfAContact, OfOneDashpotAtTheBeginning_IsItsForceTimesTheVelocity) {
   // Two disks that touch from t = 0, undamped along the tangent: γ_n v_n².
   grain::Setup setup;
   setup.law = test::thesisLaw();
-  setup.law.tangential = Tangential::none;
+  setup.law.tangential = TangentialLaw::none;
   setup.dt = 1e-6;
   setup.ledger = true;
   test::addDisk(setup.disks, 0.0, 0.0, 0.1, 0.0, 0.0);

@@ -131,7 +131,7 @@ TEST(SinglePrecision, FollowsDoubleThroughTheFirstStepsOfAPacking) {
 TEST(SinglePrecision, TellsTheOverlapsThatItsForcesCameFrom) {
   auto setup = test::packed(12, 4);
   setup.precision = Precision::float32;
-  setup.law.tangential = Tangential::none;
+  setup.law.tangential = TangentialLaw::none;
   setup.law.gn = 0.0;
   const Simulation simulation = test::advanced(setup, 100);
   ASSERT_GT(simulation.contacts().size(), 80u);

@@ -18,21 +18,21 @@ constexpr double g = 9.81, mass = 2.0, radius = 0.1, inertia = 0.5 * mass * radi
 constexpr double load = mass * g;
 
 /// Hard enough that the overlap at rest is 2e-5 of the radius.
-Law rollingLaw(Rolling rolling) {
-  Law law;
+ContactLaw rollingLaw(RollingLaw rolling) {
+  ContactLaw law;
   law.kn = 1e7;
   law.gn = 0.5 * std::sqrt(law.kn * mass);
   law.kt = 0.8 * law.kn;
   law.gt = law.gn;
   law.mu = 0.8;
-  law.tangential = Tangential::springDashpot;
+  law.tangential = TangentialLaw::springDashpot;
   law.rolling = rolling;
   law.muR = 0.1;
   return law;
 }
 
 /// A disk at rest on a plane that falls by `slope` = tan β to the right.
-grain::Setup onPlane(const Law& law, double slope = 0.0) {
+grain::Setup onPlane(const ContactLaw& law, double slope = 0.0) {
   grain::Setup setup;
   setup.law = law;
   setup.dt = 2e-5;
@@ -69,19 +69,19 @@ double stopOf(grain::Setup setup, double speed) {
 
 TEST(RollingConstantTorque, RollingDisk_StopsAfterItsClosedDistance) {
   // a = −µ_r g/(1 + q), so x = (1 + q) v²/(2 µ_r g).
-  EXPECT_NEAR(stopOf(onPlane(rollingLaw(Rolling::constantTorque)), 0.5),
+  EXPECT_NEAR(stopOf(onPlane(rollingLaw(RollingLaw::constantTorque)), 0.5),
               1.5 * 0.25 / (2.0 * 0.1 * g), 2e-5);
 }
 
 TEST(RollingConstantTorque, TwiceTheLength_HalvesTheDistance) {
-  Law law = rollingLaw(Rolling::constantTorque);
-  law.rollingConventions.length = RollingLength::twiceEffective;
+  ContactLaw law = rollingLaw(RollingLaw::constantTorque);
+  law.conventions.rollingLength = RollingLength::twiceEffective;
   EXPECT_NEAR(stopOf(onPlane(law), 0.5), 0.75 * 0.25 / (2.0 * 0.1 * g), 2e-5);
 }
 
 TEST(RollingConstantTorque, SpinWithoutFriction_FallsByTwoMuGOverR) {
-  Law law = rollingLaw(Rolling::constantTorque);
-  law.tangential = Tangential::none;
+  ContactLaw law = rollingLaw(RollingLaw::constantTorque);
+  law.tangential = TangentialLaw::none;
   grain::Setup setup = onPlane(law);
   setup.disks.spin[0] = 5.0;
   Simulation simulation(std::move(setup));
@@ -92,8 +92,8 @@ TEST(RollingConstantTorque, SpinWithoutFriction_FallsByTwoMuGOverR) {
 }
 
 TEST(RollingConstantTorque, AtRest_FlipsByHalfAStepOfItsTorque) {
-  Law law = rollingLaw(Rolling::constantTorque);
-  law.tangential = Tangential::none;
+  ContactLaw law = rollingLaw(RollingLaw::constantTorque);
+  law.tangential = TangentialLaw::none;
   grain::Setup setup = onPlane(law);
   setup.disks.spin[0] = 1e-3;
   Simulation simulation(std::move(setup));
@@ -108,8 +108,8 @@ TEST(RollingConstantTorque, AtRest_FlipsByHalfAStepOfItsTorque) {
 TEST(RollingConstantTorque, OfTheElasticLoad_IgnoresTheDashpot) {
   // At the first touch there is no overlap: the elastic load is small, the dashpot's is not.
   for (const RollingLoad of : {RollingLoad::compression, RollingLoad::elastic}) {
-    Law law = rollingLaw(Rolling::constantTorque);
-    law.rollingConventions.load = of;
+    ContactLaw law = rollingLaw(RollingLaw::constantTorque);
+    law.conventions.rollingLoad = of;
     grain::Setup setup = onPlane(law);
     setup.disks.y[0] = radius - 1e-9;
     setup.disks.vy[0] = -1.0;
@@ -126,7 +126,7 @@ TEST(RollingConstantTorque, OfTheElasticLoad_IgnoresTheDashpot) {
 
 TEST(RollingViscous, RollingDisk_DecaysExponentially) {
   // v = v₀ exp(−c t/((1 + q) m a²)) with c = γ_r L².
-  Law law = rollingLaw(Rolling::viscous);
+  ContactLaw law = rollingLaw(RollingLaw::viscous);
   law.gr = 3.0;
   Simulation simulation(rollingAt(onPlane(law), 0.5));
   advanceTo(simulation, 1.0);
@@ -135,21 +135,21 @@ TEST(RollingViscous, RollingDisk_DecaysExponentially) {
 
 TEST(RollingViscousByLoad, RollingDisk_DecaysWithItsLoad) {
   // c = µ_r L N L, µ_r in s/m.
-  Law law = rollingLaw(Rolling::viscousByLoad);
+  ContactLaw law = rollingLaw(RollingLaw::viscousByLoad);
   Simulation simulation(rollingAt(onPlane(law), 0.5));
   advanceTo(simulation, 1.0);
   EXPECT_NEAR(simulation.velocityX(0), 0.5 * std::exp(-0.1 * load / (1.5 * mass)), 2e-5);
 }
 
-Law springLaw(double stiffness = 1e4) {
-  Law law = rollingLaw(Rolling::spring);
+ContactLaw springLaw(double stiffness = 1e4) {
+  ContactLaw law = rollingLaw(RollingLaw::spring);
   law.kr = stiffness;
   return law;
 }
 
 TEST(RollingSpring, Incline_StandsUpToMuAndRollsBeyond) {
   // Critically damped, so that it comes to rest: x = a² m g sin β/k_r + m g sin β/k_t.
-  Law law = springLaw();
+  ContactLaw law = springLaw();
   law.gr = 2.0 * std::sqrt(law.kr * 1.5 * mass);
   const double slope = 0.08, down = load * std::sin(std::atan(slope));
   Simulation stands(onPlane(law, slope));
@@ -168,8 +168,8 @@ TEST(RollingSpring, Incline_StandsUpToMuAndRollsBeyond) {
 
 TEST(RollingSpring, BelowItsBound_OscillatesAtItsFrequency) {
   // ω₀² = k/((1 + q) m a²), k = k_r L²; by the time between two zeros of the velocity.
-  Law law = springLaw();
-  law.stretch = Stretch::midpoint;
+  ContactLaw law = springLaw();
+  law.conventions.springUpdate = SpringUpdate::midpoint;
   law.gt = 0.0;
   const double amplitude = 1e-4;
   const double omega = std::sqrt(law.kr / (1.5 * mass));
@@ -191,12 +191,12 @@ TEST(RollingSpring, BelowItsBound_OscillatesAtItsFrequency) {
 
 TEST(RollingSpring, RollingDisk_StopsAfterItsClosedDistanceAndTheSpringsOwn) {
   // (1 + q) v²/(2 µ_r g) + ½ µ_r a² N/k, k = k_r a².
-  const Law law = springLaw();
+  const ContactLaw law = springLaw();
   EXPECT_NEAR(stopOf(onPlane(law), 0.5), 1.5 * 0.25 / (2.0 * 0.1 * g) + 0.05 * load / law.kr, 2e-5);
 }
 
 /// Two heavy disks of unequal radii, pressed together; `turn` [rad/s] of the first.
-grain::Setup heldPair(const Law& law, double overlap, double turn) {
+grain::Setup heldPair(const ContactLaw& law, double overlap, double turn) {
   grain::Setup setup;
   setup.law = law;
   setup.dt = 1e-5;
@@ -213,9 +213,9 @@ TEST(RollingSpring, PairWithCentresHeld_ItsTorqueIsTheConventions) {
        {std::pair{RollingLength::effective, effective},
         std::pair{RollingLength::twiceEffective, 2.0 * effective},
         std::pair{RollingLength::smallerRadius, 0.1}, std::pair{RollingLength::meanRadius, 0.15}}) {
-    Law law = springLaw(1e8);
-    law.tangential = Tangential::none;
-    law.rollingConventions.length = length;
+    ContactLaw law = springLaw(1e8);
+    law.tangential = TangentialLaw::none;
+    law.conventions.rollingLength = length;
     Simulation simulation(heldPair(law, overlap, 100.0));
     simulation.advance(20);
     const Contact contact = simulation.contacts().front();
@@ -227,9 +227,9 @@ TEST(RollingSpring, PairWithCentresHeld_ItsTorqueIsTheConventions) {
   for (const auto& [stiffness, factor] :
        {std::pair{RollingStiffness::lengthSquare, effective * effective},
         std::pair{RollingStiffness::radii, 0.02}, std::pair{RollingStiffness::constant, 1.0}}) {
-    Law law = springLaw(10.0);
-    law.tangential = Tangential::none;
-    law.rollingConventions.stiffness = stiffness;
+    ContactLaw law = springLaw(10.0);
+    law.tangential = TangentialLaw::none;
+    law.conventions.rollingStiffness = stiffness;
     Simulation simulation(heldPair(law, overlap, 1e-6));
     simulation.advance(10);
     const Contact contact = simulation.contacts().front();
@@ -243,9 +243,9 @@ TEST(RollingSpring, PairWithCentresHeld_ItsTorqueIsTheConventions) {
 }
 
 TEST(RollingSpring, WithoutLoad_HasNoLimitWhereTheConventionSaysSo) {
-  Law law = springLaw(10.0);
+  ContactLaw law = springLaw(10.0);
   for (const RollingLoad counts : {RollingLoad::compression, RollingLoad::whileCompressed}) {
-    law.rollingConventions.load = counts;
+    law.conventions.rollingLoad = counts;
     const auto general = generalLaw<double>(law, 1e-5, true);
     const auto motion = rollingMotion(general, 0.2, 0.0, 0.0);  // L = a = 0.2 m, ω_r = 0
     double angle = 0.01;
@@ -259,9 +259,9 @@ TEST(RollingSpring, WithoutLoad_HasNoLimitWhereTheConventionSaysSo) {
 TEST(RollingSpring, DashpotOutsideTheBound_EndsWithTheSlip) {
   // Inside, spring and dashpot share the bound; outside, a sticking contact may exceed it.
   for (const bool outside : {false, true}) {
-    Law law = springLaw(1e3);
-    law.tangential = Tangential::none;
-    law.rollingConventions.dashpotOutsideBound = outside;
+    ContactLaw law = springLaw(1e3);
+    law.tangential = TangentialLaw::none;
+    law.conventions.rollingDashpot = outside ? Dashpot::outside : Dashpot::inside;
     law.gr = 1e3;
     Simulation simulation(heldPair(law, 1e-5, 5.0));
     simulation.step();
@@ -274,10 +274,10 @@ TEST(RollingSpring, DashpotOutsideTheBound_EndsWithTheSlip) {
 
 TEST(RollingSpring, CriticalDamper_IsTheDampingRatio) {
   // On a plane I = J + m a²: η = 0.3 gives the logarithmic decrement 2π η/√(1 − η²) a period.
-  Law law = springLaw();
-  law.rollingConventions.damper = RollingDamper::critical;
+  ContactLaw law = springLaw();
+  law.conventions.rollingDamper = RollingDamper::critical;
   law.gr = 0.3;
-  law.stretch = Stretch::midpoint;
+  law.conventions.springUpdate = SpringUpdate::midpoint;
   const double omega = std::sqrt(law.kr / (1.5 * mass));
   Simulation simulation(rollingAt(onPlane(law), 1e-4 * omega));
   double peaks[2] = {0.0, 0.0};
@@ -298,8 +298,8 @@ TEST(RollingSpring, CriticalDamper_IsTheDampingRatio) {
 TEST(RollingSpring, WhereTwoDisksChangePlaces_KeepsItsSign) {
   // The pair rises along y, one disk up to the left of the other: which is first in memory depends
   // on whether both are in one row of cells. θ grows on by ω_r dt.
-  Law law = springLaw(10.0);
-  law.tangential = Tangential::none;
+  ContactLaw law = springLaw(10.0);
+  law.tangential = TangentialLaw::none;
   for (int start = 0; start < 6; ++start) {
     grain::Setup setup = heldPair(law, 1e-5, 1e-6);
     setup.disks.inertia = {1e9, 1e9};
@@ -323,11 +323,11 @@ double residual(const EnergyLedger& l) {
 
 TEST(RollingLedger, OnATurningPlane_ClosesAtSecondOrder) {
   // The plane does work by its torque against rolling, too.
-  const auto worst = [](Rolling rolling, double dt) {
-    Law law = springLaw(500.0);
+  const auto worst = [](RollingLaw rolling, double dt) {
+    ContactLaw law = springLaw(500.0);
     law.rolling = rolling;
     law.gr = 2.0;
-    law.stretch = Stretch::midpoint;
+    law.conventions.springUpdate = SpringUpdate::midpoint;
     grain::Setup setup = rollingAt(onPlane(law), 0.4);
     setup.dt = dt;
     setup.ledger = true;
@@ -350,14 +350,14 @@ TEST(RollingLedger, OnATurningPlane_ClosesAtSecondOrder) {
     EXPECT_NE(simulation.energyLedger()->workOfWalls, 0.0);
     return most;
   };
-  for (const Rolling rolling :
-       {Rolling::constantTorque, Rolling::viscous, Rolling::viscousByLoad, Rolling::spring})
+  for (const RollingLaw rolling : {RollingLaw::constantTorque, RollingLaw::viscous,
+                                   RollingLaw::viscousByLoad, RollingLaw::spring})
     EXPECT_NEAR(std::log2(worst(rolling, 2e-5) / worst(rolling, 5e-6)) / 2.0, 2.0, 0.3)
         << static_cast<int>(rolling);
 }
 
 TEST(RollingLedger, RollingToRest_ItsTorqueTakesAll) {
-  Law law = rollingLaw(Rolling::constantTorque);
+  ContactLaw law = rollingLaw(RollingLaw::constantTorque);
   grain::Setup setup = rollingAt(onPlane(law), 0.5);
   setup.ledger = true;
   Simulation simulation(std::move(setup));
@@ -367,16 +367,16 @@ TEST(RollingLedger, RollingToRest_ItsTorqueTakesAll) {
 }
 
 /// Each law in a scene in which it rolls, slides and holds.
-grain::Setup rollingCrowd(Rolling rolling) {
+grain::Setup rollingCrowd(RollingLaw rolling) {
   grain::Setup setup = test::packed(5, 21);
   setup.law.rolling = rolling;
-  setup.law.muR = rolling == Rolling::viscousByLoad ? 10.0 : 0.05;
+  setup.law.muR = rolling == RollingLaw::viscousByLoad ? 10.0 : 0.05;
   setup.law.kr = 0.1 * setup.law.kn;
   setup.law.gr = 0.1 * setup.law.gn;
   return setup;
 }
 
-class RollingBits : public testing::TestWithParam<std::tuple<Rolling, Precision>> {};
+class RollingBits : public testing::TestWithParam<std::tuple<RollingLaw, Precision>> {};
 
 TEST_P(RollingBits, KernelsThreadsAndRestarts_GiveTheSame) {
   const auto [rolling, precision] = GetParam();
@@ -389,23 +389,24 @@ TEST_P(RollingBits, KernelsThreadsAndRestarts_GiveTheSame) {
     slides += contact.rollingSlides;
     holds += contact.rollingTorque != 0.0 && !contact.rollingSlides;
   }
-  EXPECT_EQ(slides > 0, rolling == Rolling::constantTorque || rolling == Rolling::spring);
-  EXPECT_EQ(holds > 0, rolling != Rolling::constantTorque);
+  EXPECT_EQ(slides > 0, rolling == RollingLaw::constantTorque || rolling == RollingLaw::spring);
+  EXPECT_EQ(holds > 0, rolling != RollingLaw::constantTorque);
   test::expectSameBits(setup, whole);
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, RollingBits,
-                         testing::Combine(testing::Values(Rolling::constantTorque, Rolling::viscous,
-                                                          Rolling::viscousByLoad, Rolling::spring),
-                                          testing::Values(Precision::float64, Precision::float32)));
+INSTANTIATE_TEST_SUITE_P(
+    Laws, RollingBits,
+    testing::Combine(testing::Values(RollingLaw::constantTorque, RollingLaw::viscous,
+                                     RollingLaw::viscousByLoad, RollingLaw::spring),
+                     testing::Values(Precision::float64, Precision::float32)));
 
-TEST(Rolling, WithoutAStiffnessOrOfImpulses_IsRefused) {
+TEST(RollingLaw, WithoutAStiffnessOrOfImpulses_IsRefused) {
   grain::Setup soft = onPlane(springLaw(0.0));
   EXPECT_THROW(Simulation{std::move(soft)}, std::invalid_argument);
-  Law law = rollingLaw(Rolling::constantTorque);
-  law.normal = Normal::impulse;
+  ContactLaw law = rollingLaw(RollingLaw::constantTorque);
+  law.normal = NormalLaw::rigid;
   grain::Setup rigid = onPlane(law);
-  rigid.integrator = Integrator::semiImplicitEuler;
+  rigid.law.conventions.integrator = Integrator::semiImplicitEuler;
   EXPECT_THROW(Simulation{std::move(rigid)}, std::invalid_argument);
 }
 

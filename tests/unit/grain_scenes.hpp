@@ -15,36 +15,41 @@ namespace grain {
 inline void PrintTo(Precision precision, std::ostream* out) {
   *out << (precision == Precision::float64 ? "float64" : "float32");
 }
+
+}  // namespace grain
+
+namespace crossgrain::inline contact_law {
+
 inline void PrintTo(Integrator integrator, std::ostream* out) {
   *out << (integrator == Integrator::positionVerlet   ? "positionVerlet"
            : integrator == Integrator::velocityVerlet ? "velocityVerlet"
                                                       : "semiImplicitEuler");
 }
-inline void PrintTo(Tangential law, std::ostream* out) {
+inline void PrintTo(TangentialLaw law, std::ostream* out) {
   constexpr const char* names[] = {"none", "coulomb", "viscous", "spring", "springDashpot"};
   *out << names[static_cast<int>(law)];
 }
 
-}  // namespace grain
+}  // namespace crossgrain::inline contact_law
 
 /// Scenes of the thesis' small disks.
 namespace crossgrain::test {
 
-inline grain::Law thesisLaw() {
-  grain::Law law = withThesisConstants(grain::Law{});
-  law.tangential = grain::Tangential::springDashpot;
+inline grain::ContactLaw thesisLaw() {
+  grain::ContactLaw law = withThesisConstants(grain::ContactLaw{});
+  law.tangential = grain::TangentialLaw::springDashpot;
   return law;
 }
 
 /// Of spheres of some grams.
-inline grain::Law sphereLaw() {
-  grain::Law law;
+inline grain::ContactLaw sphereLaw() {
+  grain::ContactLaw law;
   law.kn = 1e5;
   law.gn = 1.5;
   law.kt = 2.857e4;
   law.gt = 0.4;
   law.mu = 0.3;
-  law.tangential = grain::Tangential::springDashpot;
+  law.tangential = grain::TangentialLaw::springDashpot;
   return law;
 }
 

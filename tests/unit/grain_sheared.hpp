@@ -12,9 +12,9 @@ namespace crossgrain::test {
 
 inline constexpr double sphereRadius = 0.005, sphereDensity = 2500.0;
 
-inline grain::Law springLaw() {
-  grain::Law law = sphereLaw();
-  law.bound = grain::Bound::magnitude;
+inline grain::ContactLaw springLaw() {
+  grain::ContactLaw law = sphereLaw();
+  law.conventions.coulombBound = grain::CoulombBound::magnitude;
   return law;
 }
 
@@ -41,7 +41,7 @@ inline void place(grain::SpheresSetup& setup, int along, int up, const grain::Ve
 }
 
 /// 245 spheres between two walls of spheres that slide and swing, periodic along x and y.
-inline grain::SpheresSetup sheared(const grain::Law& law = springLaw()) {
+inline grain::SpheresSetup sheared(const grain::ContactLaw& law = springLaw()) {
   constexpr int along = 7, up = 5;
   constexpr double side = 2.0 * sphereRadius * along;
   grain::SpheresSetup setup;
@@ -65,7 +65,7 @@ inline grain::SpheresSetup sheared(const grain::Law& law = springLaw()) {
 }
 
 /// The same of larger spheres, a hundred of which touch from the start.
-inline grain::SpheresSetup pressed(const grain::Law& law = springLaw()) {
+inline grain::SpheresSetup pressed(const grain::ContactLaw& law = springLaw()) {
   grain::SpheresSetup setup = sheared(law);
   for (double& radius : setup.radius) radius *= 1.05;
   setup.skin = 1e-4;

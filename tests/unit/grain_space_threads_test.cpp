@@ -66,25 +66,29 @@ TEST(SpaceThreads, EveryLawAndIntegrator_GivesTheSameBits) {
     EXPECT_GT(expectTheSameBits(setup, 100), 1500u);
   };
   for (const Integrator integrator : {Integrator::velocityVerlet, Integrator::semiImplicitEuler})
-    with([&](auto& s) { s.integrator = integrator; });
-  for (const Tangential tangential : {Tangential::none, Tangential::coulomb, Tangential::viscous})
+    with([&](auto& s) { s.law.conventions.integrator = integrator; });
+  for (const TangentialLaw tangential :
+       {TangentialLaw::none, TangentialLaw::coulomb, TangentialLaw::viscous})
     with([&](auto& s) { s.law.tangential = tangential; });
   with([](auto& s) { s.rotation = false; });
-  with([](auto& s) { s.law.cutTension = true; });
-  with([](auto& s) { s.conventions = {SpringTurn::rescaled, SpringTwist::none}; });
+  with([](auto& s) { s.law.conventions.tension = Tension::cut; });
+  with([](auto& s) {
+    s.law.conventions.springTurn = SpringTurn::rescaled;
+    s.law.conventions.springTwist = SpringTwist::none;
+  });
   with([](auto& s) {  // rolling springs: the general kernel, torques that are not along f_t
-    s.law.rolling = Rolling::spring;
+    s.law.rolling = RollingLaw::spring;
     s.law.kr = 1e4;
     s.law.gr = 0.05;
     s.law.muR = 0.1;
   });
   with([](auto& s) {  // pairs that pull before and after they touch
-    s.law.normal = Normal::hertz;
+    s.law.normal = NormalLaw::hertz;
     s.law.kn = 2e8;
     s.law.kt = 3e8;
     s.law.gn = s.law.gt = 0.2;
     s.law.damper = Damper::critical;
-    s.law.cohesion = Cohesion::jkr;
+    s.law.cohesion = CohesionLaw::jkr;
     s.law.w = 2.0;
   });
   with([](auto& s) { s.skin = 2e-4; });  // rebuilds all the time
@@ -115,7 +119,7 @@ TEST(SpaceThreads, RunRestoredOnOtherNumbers_GoesOnToTheBitAcrossARenumbering) {
 
 TEST(SpaceThreads, RunThatBeginsUnderWay_GivesTheSameBits) {
   SpheresSetup setup = sheared();
-  setup.law.damping = Damping::lagged;
+  setup.law.conventions.dampingVelocity = DampingVelocity::lagged;
   Spheres before(setup);
   before.advance(100);
   const auto contacts = before.contacts();

@@ -22,7 +22,7 @@ namespace test = crossgrain::test;
 constexpr int steps = 150;
 
 enum class Plate { none, sliding, spinning };
-enum class Dashpot { none, lagged, predicted };  // implicit damping has no kernel of its own
+enum class Damping { none, lagged, predicted };  // implicit damping has no kernel of its own
 
 struct Share {
   std::size_t contacts = 0, sliding = 0, pulling = 0, planes = 0;
@@ -38,21 +38,22 @@ void count(const Simulation& s, Share& share) {
   }
 }
 
-Setup scene(Tangential tangential, bool cut, Dashpot dashpot, bool rotation, Plate plate,
+Setup scene(TangentialLaw tangential, bool cut, Damping dashpot, bool rotation, Plate plate,
             bool gravity) {
   grain::Setup setup = test::packed(9, 21);
   setup.law.tangential = tangential;
-  setup.law.cutTension = cut;
-  if (dashpot == Dashpot::none) setup.law.gn = 0.0;
-  setup.law.damping = dashpot == Dashpot::lagged ? Damping::lagged : Damping::predicted;
+  setup.law.conventions.tension = cut ? Tension::cut : Tension::allow;
+  if (dashpot == Damping::none) setup.law.gn = 0.0;
+  setup.law.conventions.dampingVelocity =
+      dashpot == Damping::lagged ? DampingVelocity::lagged : DampingVelocity::predicted;
   setup.rotation = rotation;
   if (plate != Plate::none)
-    setup.bottom = test::thesisBottom<Bottom>(0.02, plate == Plate::spinning);
+    setup.bottom = test::thesisBottom<BottomPlate>(0.02, plate == Plate::spinning);
   if (gravity) setup.gravityY = -9.81;
   return setup;
 }
 
-using Kind = std::tuple<Tangential, Integrator, Precision>;
+using Kind = std::tuple<TangentialLaw, Integrator, Precision>;
 
 class Specialised : public testing::TestWithParam<Kind> {};
 
@@ -60,13 +61,14 @@ TEST_P(Specialised, GivesTheBitsOfTheGeneralKernel) {
   const auto [tangential, integrator, precision] = GetParam();
   Share share;
   for (const bool cut : {false, true})
-    for (const Dashpot dashpot : {Dashpot::none, Dashpot::lagged, Dashpot::predicted})
+    for (const Damping dashpot : {Damping::none, Damping::lagged, Damping::predicted})
       for (const bool rotation : {false, true})
         for (const Plate plate : {Plate::none, Plate::sliding, Plate::spinning})
           for (const bool gravity : {false, true}) {
-            if (tangential == Tangential::none && !rotation) continue;  // nothing turns either way
+            if (tangential == TangentialLaw::none && !rotation)
+              continue;  // nothing turns either way
             grain::Setup setup = scene(tangential, cut, dashpot, rotation, plate, gravity);
-            setup.integrator = integrator;
+            setup.law.conventions.integrator = integrator;
             setup.precision = precision;
             grain::Setup general = setup;
             general.generalKernels = true;
@@ -75,20 +77,21 @@ TEST_P(Specialised, GivesTheBitsOfTheGeneralKernel) {
             EXPECT_EQ(test::difference(special, reference), "")
                 << "cut " << cut << ", dashpot " << static_cast<int>(dashpot) << ", rotation "
                 << rotation << ", plate " << static_cast<int>(plate) << ", gravity " << gravity;
-            EXPECT_EQ(special.rotates(), rotation && tangential != Tangential::none);
+            EXPECT_EQ(special.rotates(), rotation && tangential != TangentialLaw::none);
             count(special, share);
           }
   EXPECT_GT(share.contacts, 1000u);
   EXPECT_GT(share.planes, 50u);
   EXPECT_GT(share.pulling, 0u);
-  EXPECT_EQ(share.sliding > 0, tangential != Tangential::none);
-  EXPECT_EQ(share.sliding < share.contacts, tangential != Tangential::coulomb);
+  EXPECT_EQ(share.sliding > 0, tangential != TangentialLaw::none);
+  EXPECT_EQ(share.sliding < share.contacts, tangential != TangentialLaw::coulomb);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Kernels, Specialised,
-    testing::Combine(testing::Values(Tangential::none, Tangential::coulomb, Tangential::viscous,
-                                     Tangential::spring, Tangential::springDashpot),
+    testing::Combine(testing::Values(TangentialLaw::none, TangentialLaw::coulomb,
+                                     TangentialLaw::viscous, TangentialLaw::spring,
+                                     TangentialLaw::springDashpot),
                      testing::Values(Integrator::positionVerlet, Integrator::velocityVerlet,
                                      Integrator::semiImplicitEuler),
                      testing::Values(Precision::float64, Precision::float32)));
@@ -96,92 +99,92 @@ INSTANTIATE_TEST_SUITE_P(
 /// A law whose kernels are compiled, but for what a scene decides.
 struct Special {
   std::string name;
-  Law law;
+  ContactLaw law;
   bool rotation = true;
 };
 
-void setConventions(Law& law, const Conventions& conventions) {
-  law.history = conventions.history;
-  if (conventions.signedBound) law.bound = Bound::signedForce;
-  law.lever = conventions.lever;
-  law.velocityLever = conventions.velocityLever;
-  law.planeLever = conventions.planeLever;
-  law.stretch = conventions.stretch;
-  law.dashpotOutsideBound = conventions.dashpotOutsideBound;
-  law.resetSpringOnly = conventions.resetSpringOnly;
+void setConventions(ContactLaw& law, const Conventions& conventions) {
+  law.conventions.history = conventions.history;
+  if (conventions.signedBound) law.conventions.coulombBound = CoulombBound::signedForce;
+  law.conventions.leverArm = conventions.lever;
+  law.conventions.planeArm = conventions.planeLever;
+  law.conventions.springUpdate = conventions.stretch;
+  if (conventions.dashpotOutsideBound) law.conventions.dashpot = Dashpot::outside;
+  if (conventions.resetSpringOnly) law.conventions.springReset = SpringReset::springOnly;
 }
 
 /// A spring against rolling as stiff as that along the tangent, a pull of a twentieth of the
 /// elastic force of bodies of that radius.
-Law withRollingAndCohesion(Law law, Rolling rolling, bool cohesion, double radius) {
+ContactLaw withRollingAndCohesion(ContactLaw law, RollingLaw rolling, bool cohesion,
+                                  double radius) {
   law.rolling = rolling;
   law.kr = law.kt;
   law.gr = law.gt;
-  law.muR = rolling == Rolling::viscousByLoad ? 1e-3 : 0.1;
+  law.muR = rolling == RollingLaw::viscousByLoad ? 1e-3 : 0.1;
   if (!cohesion) return law;
-  law.cohesion = Cohesion::area;
+  law.cohesion = CohesionLaw::area;
   law.kc = 0.05 * law.kn / (M_PI * radius);
   return law;
 }
 
 /// Each set of conventions × each effect left out × tension and bound; of whole laws also how they
 /// resist rolling and cohere, with each option that is a number.
-std::vector<Special> specialLaws(const Law& common, double radius) {
+std::vector<Special> specialLaws(const ContactLaw& common, double radius) {
   std::vector<Special> laws;
   const auto name = [](auto... parts) { return ((std::to_string(parts) + " ") + ...); };
   for (std::size_t set = 0; set < std::size(conventionSets); ++set) {
-    Law whole = common;
+    ContactLaw whole = common;
     setConventions(whole, conventionSets[set].conventions);
     for (int tangential = 0; tangential < 5; ++tangential)
       for (const bool damps : {true, false})
         for (const bool turns : {true, false}) {
-          Law law = whole;
-          law.tangential = static_cast<Tangential>(tangential);
+          ContactLaw law = whole;
+          law.tangential = static_cast<TangentialLaw>(tangential);
           if (!damps) law.gn = 0.0;
-          const bool all = law.tangential == Tangential::springDashpot && damps && turns;
+          const bool all = law.tangential == TangentialLaw::springDashpot && damps && turns;
           if (!all && !conventionSets[set].everyEffect) continue;
           for (const bool cut : {false, true})
-            for (const Bound bound : {Bound::compression, Bound::magnitude}) {
-              law.cutTension = cut;
-              law.bound = bound;
+            for (const CoulombBound bound : {CoulombBound::compression, CoulombBound::magnitude}) {
+              law.conventions.tension = cut ? Tension::cut : Tension::allow;
+              law.conventions.coulombBound = bound;
               laws.push_back(
                   {"effects " + name(set, tangential, damps, turns, cut, int(bound)), law, turns});
             }
         }
     for (int rolling = 0; rolling < 5; ++rolling)
       for (const bool cohesion : {false, true}) {
-        const Law law =
-            withRollingAndCohesion(whole, static_cast<Rolling>(rolling), cohesion, radius);
+        const ContactLaw law =
+            withRollingAndCohesion(whole, static_cast<RollingLaw>(rolling), cohesion, radius);
         const auto with = [&](const std::string& what, auto&& change) {
           laws.push_back({what + " " + name(set, rolling, cohesion), law});
           change(laws.back().law);
         };
-        with("whole", [](Law&) {});
-        with("undamped", [](Law& l) { l.gn = 0.0; });
-        with("no dashpot", [](Law& l) { l.tangential = Tangential::spring; });
-        with("cut", [](Law& l) { l.cutTension = true; });
+        with("whole", [](ContactLaw&) {});
+        with("undamped", [](ContactLaw& l) { l.gn = 0.0; });
+        with("no dashpot", [](ContactLaw& l) { l.tangential = TangentialLaw::spring; });
+        with("cut", [](ContactLaw& l) { l.conventions.tension = Tension::cut; });
         for (int k = 1; rolling > 0 && k < 4; ++k) {
-          with("length", [k](Law& l) {
-            l.rollingConventions.length = static_cast<RollingLength>(k);
-            l.rollingConventions.stiffness = static_cast<RollingStiffness>(k % 3);
+          with("length", [k](ContactLaw& l) {
+            l.conventions.rollingLength = static_cast<RollingLength>(k);
+            l.conventions.rollingStiffness = static_cast<RollingStiffness>(k % 3);
             if (k % 3 == 2) l.kr *= 1e-5;  // in N m
           });
-          with("load", [k](Law& l) {
-            l.rollingConventions.load = static_cast<RollingLoad>(k);
-            l.rollingConventions.dashpotOutsideBound = k % 2 == 1;
-            l.rollingConventions.resetSpringOnly = k > 1;
+          with("load", [k](ContactLaw& l) {
+            l.conventions.rollingLoad = static_cast<RollingLoad>(k);
+            l.conventions.rollingDashpot = k % 2 == 1 ? Dashpot::outside : Dashpot::inside;
+            l.conventions.rollingReset = k > 1 ? SpringReset::springOnly : SpringReset::total;
           });
         }
         if (rolling > 0)
-          with("critical", [](Law& l) {
-            l.rollingConventions.damper = RollingDamper::critical;
+          with("critical", [](ContactLaw& l) {
+            l.conventions.rollingDamper = RollingDamper::critical;
             l.gr = 0.1;
           });
         for (int area = 0; cohesion && area < 3; ++area)
           for (int load = 0; load < 5; ++load)
-            with("area " + name(area, load), [=](Law& l) {
-              l.cohesionConventions.area = static_cast<CohesionArea>(area);
-              l.cohesionConventions.load = static_cast<CohesionLoad>(load);
+            with("area " + name(area, load), [=](ContactLaw& l) {
+              l.conventions.cohesionArea = static_cast<CohesionArea>(area);
+              l.conventions.cohesionLoad = static_cast<CohesionLoad>(load);
             });
       }
   }
@@ -199,7 +202,7 @@ TEST(Specialisation, EveryLawInThePlane_GivesTheBitsOfTheGeneralKernel) {
     SCOPED_TRACE(special.name);
     grain::Setup setup = test::packed(7, 21);
     setup.law = special.law;
-    setup.law.damping = Damping::lagged;
+    setup.law.conventions.dampingVelocity = DampingVelocity::lagged;
     setup.rotation = special.rotation;
     const auto variant = contactVariant(generalLaw<double>(setup.law, setup.dt, special.rotation));
     ASSERT_TRUE(variant);
@@ -242,14 +245,14 @@ TEST(Specialisation, EveryLawInSpace_GivesTheBitsOfTheGeneralKernel) {
   for (const Special& special : specialLaws(test::springLaw(), test::sphereRadius)) {
     SCOPED_TRACE(special.name);
     SpheresSetup setup = test::pressed(special.law);
-    setup.law.damping = Damping::lagged;
+    setup.law.conventions.dampingVelocity = DampingVelocity::lagged;
     setup.rotation = special.rotation;
     const auto variant = contactVariant(generalLaw<double>(setup.law, setup.dt, special.rotation));
     ASSERT_TRUE(variant);
     EXPECT_EQ(kernelOf(kernels.contacts, *variant) != nullptr, hasKernels(*variant));
     const auto [contacts, sliding] = expectBitsOfTheGeneralKernel(setup);
     EXPECT_GT(contacts, 200u);
-    if (setup.law.tangential != Tangential::springDashpot) continue;
+    if (setup.law.tangential != TangentialLaw::springDashpot) continue;
     EXPECT_GT(sliding, 0u);
     EXPECT_LT(sliding, contacts);
   }
@@ -257,13 +260,14 @@ TEST(Specialisation, EveryLawInSpace_GivesTheBitsOfTheGeneralKernel) {
 
 TEST(Specialisation, MirrorsInSpace_GiveTheBitsOfTheGeneralKernel) {
   SpheresSetup setup = test::pressed();
-  setup.conventions = {SpringTurn::rescaled, SpringTwist::none};
+  setup.law.conventions.springTurn = SpringTurn::rescaled;
+  setup.law.conventions.springTwist = SpringTwist::none;
   for (const bool mixed : {false, true}) {
     if (mixed) {
       setup.materials = Materials{std::vector<std::int32_t>(setup.radius.size(), 0),
                                   {0, 1},
                                   2,
-                                  std::vector<Law>(4, setup.law)};
+                                  std::vector<ContactLaw>(4, setup.law)};
       setup.materials->laws[3].mu = 0.1;
     }
     EXPECT_GT(expectBitsOfTheGeneralKernel(setup)[0], 200u);
@@ -271,20 +275,20 @@ TEST(Specialisation, MirrorsInSpace_GiveTheBitsOfTheGeneralKernel) {
 }
 
 TEST(Specialisation, ConventionsWithoutKernelsOfTheirOwnRunTheGeneralOnes) {
-  Law law = test::thesisLaw();
+  ContactLaw law = test::thesisLaw();
   const auto variant = [&] { return contactVariant(generalLaw<double>(law, 1e-5, true)); };
   EXPECT_TRUE(variant());
-  law.stretch = Stretch::midpoint;
+  law.conventions.springUpdate = SpringUpdate::midpoint;
   EXPECT_EQ(variant(), std::nullopt);
   law = test::thesisLaw();
-  law.normal = Normal::hertz;
+  law.normal = NormalLaw::hertz;
   EXPECT_EQ(variant(), std::nullopt);
-  law.normal = Normal::linear;
+  law.normal = NormalLaw::linear;
   const auto usual = variant();
   // A plane's lever says nothing where levers are radii.
-  law.planeLever = PlaneLever::middle;
+  law.conventions.planeArm = PlaneArm::middle;
   EXPECT_EQ(variant(), usual);
-  law.bound = Bound::signedForce;
+  law.conventions.coulombBound = CoulombBound::signedForce;
   EXPECT_EQ(variant(), std::nullopt);
 }
 
@@ -292,14 +296,14 @@ TEST(Specialisation, EffectsChangeTheRun) {
   // Else the comparison above could not tell one kernel from another.
   const auto run = [](grain::Setup setup) { return test::stateOf(test::advanced(setup, steps)); };
   using enum Plate;
-  constexpr auto spring = Tangential::spring, springDashpot = Tangential::springDashpot;
-  const auto predicted = Dashpot::predicted;
+  constexpr auto spring = TangentialLaw::spring, springDashpot = TangentialLaw::springDashpot;
+  const auto predicted = Damping::predicted;
   const auto full = run(scene(springDashpot, false, predicted, true, spinning, true));
   for (const grain::Setup& less :
        {scene(spring, false, predicted, true, spinning, true),
         scene(springDashpot, true, predicted, true, spinning, true),
-        scene(springDashpot, false, Dashpot::lagged, true, spinning, true),
-        scene(springDashpot, false, Dashpot::none, true, spinning, true),
+        scene(springDashpot, false, Damping::lagged, true, spinning, true),
+        scene(springDashpot, false, Damping::none, true, spinning, true),
         scene(springDashpot, false, predicted, false, spinning, true),
         scene(springDashpot, false, predicted, true, sliding, true),
         scene(springDashpot, false, predicted, true, Plate::none, true),

@@ -22,7 +22,7 @@ using Vector = grain::Vec3<double>;
 constexpr double radius = 0.005, mass = 1.309e-3;
 constexpr double inertia = 0.4 * mass * radius * radius;
 
-Law springLaw() {
+ContactLaw springLaw() {
   return crossgrain::test::sphereLaw();
 }
 
@@ -40,7 +40,7 @@ void add(SpheresSetup& setup, const Vector& x, const Vector& v, const Vector& sp
 }
 
 /// Three spheres and a floor, all meeting at once.
-SpheresSetup meeting(const Law& law, bool planar) {
+SpheresSetup meeting(const ContactLaw& law, bool planar) {
   SpheresSetup setup;
   setup.law = law;
   setup.dt = contactTime() / 40.0;
@@ -70,13 +70,13 @@ SpheresSetup meeting(const Law& law, bool planar) {
 /// Of two materials, in turn; every constant differs, and two of the second do not rub.
 void mix(SpheresSetup& setup) {
   const auto changed = [&](double by, double friction) {
-    Law law = setup.law;
+    ContactLaw law = setup.law;
     for (double* constant : {&law.kn, &law.gn, &law.kt, &law.gt, &law.w, &law.kr, &law.gr})
       *constant *= by;
     law.mu *= friction;
     return law;
   };
-  const Law both = changed(0.6, 0.5);
+  const ContactLaw both = changed(0.6, 0.5);
   setup.materials = Materials{{0, 1, 0}, {1, 0}, 2, {setup.law, both, both, changed(0.3, 0.0)}};
 }
 
@@ -119,7 +119,7 @@ Setup inThePlane(const SpheresSetup& spheres) {
   setup.law = spheres.law;
   setup.materials = spheres.materials;
   setup.dt = spheres.dt;
-  setup.integrator = spheres.integrator;
+  setup.law.conventions.integrator = spheres.law.conventions.integrator;
   return setup;
 }
 
@@ -133,33 +133,33 @@ TEST(Spheres, AllInAPlane_MoveAsThePlanesEngineMovesThem) {
     runs.emplace_back(name, std::move(setup));
   };
   with("as it is", [](auto&) {});
-  with("frictionless", [](auto& s) { s.law.tangential = Tangential::none; });
-  with("spring alone", [](auto& s) { s.law.tangential = Tangential::spring; });
-  with("cut", [](auto& s) { s.law.cutTension = true; });
-  for (const Bound bound : {Bound::magnitude, Bound::signedForce})
-    with("bound", [&](auto& s) { s.law.bound = bound; });
-  with("outside", [](auto& s) { s.law.dashpotOutsideBound = true; });
-  with("spring only", [](auto& s) { s.law.resetSpringOnly = true; });
-  for (const Stretch stretch : {Stretch::before, Stretch::midpoint})
-    with("stretch", [&](auto& s) { s.law.stretch = stretch; });
-  for (const Lever lever : {Lever::contactPoint, Lever::overlapMiddle})
-    for (const PlaneLever plane : {PlaneLever::surface, PlaneLever::middle, PlaneLever::radius})
+  with("frictionless", [](auto& s) { s.law.tangential = TangentialLaw::none; });
+  with("spring alone", [](auto& s) { s.law.tangential = TangentialLaw::spring; });
+  with("cut", [](auto& s) { s.law.conventions.tension = Tension::cut; });
+  for (const CoulombBound bound : {CoulombBound::magnitude, CoulombBound::signedForce})
+    with("bound", [&](auto& s) { s.law.conventions.coulombBound = bound; });
+  with("outside", [](auto& s) { s.law.conventions.dashpot = Dashpot::outside; });
+  with("spring only", [](auto& s) { s.law.conventions.springReset = SpringReset::springOnly; });
+  for (const SpringUpdate stretch : {SpringUpdate::before, SpringUpdate::midpoint})
+    with("stretch", [&](auto& s) { s.law.conventions.springUpdate = stretch; });
+  for (const LeverArm lever : {LeverArm::contactPoint, LeverArm::overlapMiddle})
+    for (const PlaneArm plane : {PlaneArm::surface, PlaneArm::middle, PlaneArm::radius})
       with("levers", [&](auto& s) {
-        s.law.lever = lever;
-        s.law.planeLever = plane;
+        s.law.conventions.leverArm = lever;
+        s.law.conventions.planeArm = plane;
       });
   with("velocity lever", [](auto& s) {
-    s.law.lever = Lever::overlapMiddle;
-    s.law.velocityLever = Lever::radius;
+    s.law.conventions.leverArm = LeverArm::overlapMiddle;
+    s.law.conventions.velocityArm = VelocityArm::radius;
   });
-  for (const Damping damping : {Damping::lagged, Damping::implicit})
-    with("damping", [&](auto& s) { s.law.damping = damping; });
+  for (const DampingVelocity damping : {DampingVelocity::lagged, DampingVelocity::implicit})
+    with("damping", [&](auto& s) { s.law.conventions.dampingVelocity = damping; });
   for (const Integrator integrator : {Integrator::velocityVerlet, Integrator::semiImplicitEuler})
-    with("integrator", [&](auto& s) { s.integrator = integrator; });
-  for (const Tangential tangential : {Tangential::coulomb, Tangential::viscous})
+    with("integrator", [&](auto& s) { s.law.conventions.integrator = integrator; });
+  for (const TangentialLaw tangential : {TangentialLaw::coulomb, TangentialLaw::viscous})
     with("tangential", [&](auto& s) { s.law.tangential = tangential; });
   const auto hertz = [](auto& s) {
-    s.law.normal = Normal::hertz;
+    s.law.normal = NormalLaw::hertz;
     s.law.kn = 2e8;
     s.law.kt = 3e8;
     s.law.gn = s.law.gt = 0.2;
@@ -168,62 +168,63 @@ TEST(Spheres, AllInAPlane_MoveAsThePlanesEngineMovesThem) {
   with("hertz", hertz);
   with("hertz, force", [&](auto& s) {
     hertz(s);
-    s.law.history = History::force;
+    s.law.conventions.history = History::force;
   });
   with("polynomial", [](auto& s) {
-    s.law.normal = Normal::polynomial;
+    s.law.normal = NormalLaw::polynomial;
     s.law.kn = 1e9;
     s.law.kn3 = 1e12;
-    s.law.damper = Damper::stiffness;
+    s.law.damper = Damper::viscoelastic;
     s.law.gn = s.law.gt = 1e-5;
   });
-  for (const Rolling rolling :
-       {Rolling::constantTorque, Rolling::viscous, Rolling::viscousByLoad, Rolling::spring})
+  for (const RollingLaw rolling : {RollingLaw::constantTorque, RollingLaw::viscous,
+                                   RollingLaw::viscousByLoad, RollingLaw::spring})
     for (const RollingLength of : {RollingLength::effective, RollingLength::smallerRadius})
       with("rolling", [&](auto& s) {
         s.law.rolling = rolling;
         s.law.kr = 1e4;
         s.law.gr = 0.05;
         s.law.muR = 0.1;
-        s.law.rollingConventions.length = of;
-        s.law.rollingConventions.damper =
+        s.law.conventions.rollingLength = of;
+        s.law.conventions.rollingDamper =
             of == RollingLength::effective ? RollingDamper::constant : RollingDamper::critical;
       });
-  for (const Cohesion cohesion : {Cohesion::area, Cohesion::dmt, Cohesion::elastoPlastic})
+  for (const CohesionLaw cohesion :
+       {CohesionLaw::area, CohesionLaw::dmt, CohesionLaw::elastoPlastic})
     with("cohesion", [&](auto& s) {
       s.law.cohesion = cohesion;
-      s.law.kc = cohesion == Cohesion::area ? 1e6 : 2e4;
+      s.law.kc = cohesion == CohesionLaw::area ? 1e6 : 2e4;
       s.law.w = 20.0;
-      s.law.k2 = 2e5;
+      s.law.kUnload = 2e5;
       s.law.plasticDepth = 0.05;
     });
   for (const UnloadingStiffness unloading :
        {UnloadingStiffness::current, UnloadingStiffness::lagged})
     with("unloading", [&](auto& s) {
-      s.law.cohesion = Cohesion::elastoPlastic;
+      s.law.cohesion = CohesionLaw::elastoPlastic;
       s.law.kc = 2e4;
-      s.law.k2 = 2e5;
+      s.law.kUnload = 2e5;
       s.law.plasticDepth = 0.05;
-      s.law.cohesionConventions.unloading = unloading;
+      s.law.conventions.unloadingStiffness = unloading;
     });
   with("jkr", [&](auto& s) {
     hertz(s);
-    s.law.cohesion = Cohesion::jkr;
+    s.law.cohesion = CohesionLaw::jkr;
     s.law.w = 20.0;
   });
   with("materials", mix);
   with("materials, implicit", [](auto& s) {
-    s.law.damping = Damping::implicit;
+    s.law.conventions.dampingVelocity = DampingVelocity::implicit;
     mix(s);
   });
   with("materials, jkr", [&](auto& s) {
     hertz(s);
-    s.law.cohesion = Cohesion::jkr;
+    s.law.cohesion = CohesionLaw::jkr;
     s.law.w = 20.0;
     mix(s);
   });
   for (const SpringTurn turn : {SpringTurn::rescaled, SpringTurn::rotated})
-    with("turn", [&](auto& s) { s.conventions.turn = turn; });
+    with("turn", [&](auto& s) { s.law.conventions.springTurn = turn; });
   for (auto& [name, setup] : runs) {
     Simulation plane(inThePlane(setup));
     Spheres space(setup);
@@ -295,7 +296,8 @@ TEST(Spheres, TurnedScene_GivesTheTurnedMotion) {
        {SpringTurn::rotated, SpringTurn::firstOrder, SpringTurn::rescaled, SpringTurn::projected})
     for (const SpringTwist twist : {SpringTwist::meanSpin, SpringTwist::none}) {
       SpheresSetup setup = meeting(springLaw(), false);
-      setup.conventions = {how, twist};
+      setup.law.conventions.springTurn = how;
+      setup.law.conventions.springTwist = twist;
       setup.gravity = {0.0, -9.81, 0.0};
       Vector axis{normal(random), normal(random), normal(random)};
       axis = (1.0 / length(axis)) * axis;
@@ -367,8 +369,8 @@ TEST(Spheres, SpringOfATwistedPair_TurnsByTheMeanSpin) {
 }
 
 TEST(Spheres, SlippingForce_IsAlongTheSpringAndAtTheBound) {
-  Law law = springLaw();
-  law.tangential = Tangential::spring;
+  ContactLaw law = springLaw();
+  law.tangential = TangentialLaw::spring;
   const auto general = generalLaw<double>(law, 1e-6, true);
   ContactMotion<double> contact{};
   contact.overlap = 1e-5;  // f_n = 1 N, bound 0.3 N
@@ -385,7 +387,7 @@ TEST(Spheres, SlippingForce_IsAlongTheSpringAndAtTheBound) {
 SpheresSetup cloud() {
   SpheresSetup setup;
   setup.law = springLaw();
-  setup.law.lever = Lever::overlapMiddle;
+  setup.law.conventions.leverArm = LeverArm::overlapMiddle;
   setup.dt = contactTime() / 40.0;
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -430,7 +432,7 @@ TEST(Spheres, LawThatTheyDoNotHave_IsRefused) {
     return "taken";
   };
   EXPECT_EQ(why([](auto&) {}), "taken");
-  EXPECT_EQ(why([](auto& s) { s.law.normal = Normal::impulse; }), "spheres have no impulses");
+  EXPECT_EQ(why([](auto& s) { s.law.normal = NormalLaw::rigid; }), "spheres have no impulses");
   EXPECT_EQ(why([](auto& s) { s.dt = 0.0; }), "the time step must be > 0 s");
 }
 
@@ -528,7 +530,7 @@ TEST(Spheres, PlaneThatNothingReaches_ChangesNoBit) {
   floor.motion = [](double) { return SpaceWall::State{}; };
   closed.walls.push_back(floor);
   for (const Integrator integrator : {Integrator::positionVerlet, Integrator::velocityVerlet}) {
-    open.integrator = closed.integrator = integrator;
+    open.law.conventions.integrator = closed.law.conventions.integrator = integrator;
     Spheres here(open), there(closed);
     for (auto* spheres : {&here, &there}) spheres->advance(2000);
     EXPECT_EQ(bitsOf(here), bitsOf(there));
@@ -598,12 +600,12 @@ TEST(Spheres, PairAcrossABorder_MeetsAsInTheMiddle) {
 
 TEST(Spheres, RestoredRun_GoesOnToTheBit) {
   SpheresSetup setup = meeting(springLaw(), false);
-  setup.law.rolling = Rolling::spring;
+  setup.law.rolling = RollingLaw::spring;
   setup.law.kr = 1e4;
   setup.law.gr = 0.05;
   setup.law.muR = 0.1;
   for (const Integrator integrator : {Integrator::positionVerlet, Integrator::velocityVerlet}) {
-    setup.integrator = integrator;
+    setup.law.conventions.integrator = integrator;
     Spheres whole(setup), second(setup), other(boxed({}));
     whole.advance(30);
     ASSERT_GE(whole.contacts().size(), 3u);
@@ -635,25 +637,26 @@ TEST(Spheres, RunThatBeginsUnderWay_GoesOnAsTheOneItIsOf) {
   const auto with = [&](const std::string& name, auto&& change) {
     SpheresSetup setup = meeting(springLaw(), false);
     setup.walls.resize(1);
-    setup.law.damping = Damping::lagged;  // predicted velocities need the forces of a step before
+    setup.law.conventions.dampingVelocity =
+        DampingVelocity::lagged;  // predicted velocities need the forces of a step before
     change(setup);
     runs.emplace_back(name, std::move(setup));
   };
   with("as it is", [](auto&) {});
-  with("before", [](auto& s) { s.law.stretch = Stretch::before; });
-  with("outside", [](auto& s) { s.law.dashpotOutsideBound = true; });
-  with("spring only", [](auto& s) { s.law.resetSpringOnly = true; });
-  with("no twist", [](auto& s) { s.conventions.twist = SpringTwist::none; });
+  with("before", [](auto& s) { s.law.conventions.springUpdate = SpringUpdate::before; });
+  with("outside", [](auto& s) { s.law.conventions.dashpot = Dashpot::outside; });
+  with("spring only", [](auto& s) { s.law.conventions.springReset = SpringReset::springOnly; });
+  with("no twist", [](auto& s) { s.law.conventions.springTwist = SpringTwist::none; });
   with("rough", [](auto& s) { s.law.mu = 5.0; });
   with("materials", [](auto& s) {
     mix(s);
     s.materials->ofWall.pop_back();
   });
   for (const Integrator integrator : {Integrator::velocityVerlet, Integrator::semiImplicitEuler})
-    with("integrator", [&](auto& s) { s.integrator = integrator; });
+    with("integrator", [&](auto& s) { s.law.conventions.integrator = integrator; });
   with("rolling", [](auto& s) {
     s.law.mu = 5.0;
-    s.law.rolling = Rolling::spring;
+    s.law.rolling = RollingLaw::spring;
     s.law.kr = 1e4;
     s.law.gr = 0.05;
     s.law.muR = 5.0;

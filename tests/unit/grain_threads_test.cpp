@@ -92,14 +92,15 @@ TEST_P(Threads, OfAnyNumberGiveTheSameBitsAcrossARenumbering) {
 }
 
 TEST_P(Threads, GiveTheSameBitsForEveryLawAndIntegrator) {
-  for (const Tangential tangential : {Tangential::none, Tangential::viscous, Tangential::spring})
+  for (const TangentialLaw tangential :
+       {TangentialLaw::none, TangentialLaw::viscous, TangentialLaw::spring})
     for (const Integrator integrator :
          {Integrator::positionVerlet, Integrator::velocityVerlet, Integrator::semiImplicitEuler})
       for (const bool rotation : {false, true}) {
         const auto run = [&](int threads) {
           grain::Setup setup = scene(8, threads);
           setup.law.tangential = tangential;
-          setup.integrator = integrator;
+          setup.law.conventions.integrator = integrator;
           setup.rotation = rotation;
           return test::advanced(std::move(setup), 15);
         };

@@ -54,7 +54,7 @@ TEST(GrainWalls, AWheelTurnsExactlyAndFeelsTheOppositeForceAndTorque) {
   };
   grain::Setup setup;
   setup.law = thesisLaw();
-  setup.law.lever = Lever::contactPoint;
+  setup.law.conventions.leverArm = LeverArm::contactPoint;
   setup.dt = 4e-5;
   addDisk(setup.disks, rim + smallRadius + wallRadius - 1e-5, 0.0, 0.0, 0.0, 0.0);
   setup.walls.push_back(wheel);
@@ -80,7 +80,7 @@ TEST(GrainWalls, AWheelTurnsExactlyAndFeelsTheOppositeForceAndTorque) {
 }
 
 TEST(GrainBottom, BrakesSpinAndNeverDrivesIt) {
-  const BottomConstants<double> plate(thesisBottom<Bottom>(), 1e-5);
+  const BottomConstants<double> plate(thesisBottom<BottomPlate>(), 1e-5);
   double springX = 0.0, springY = 0.0;
   const auto left =
       bottomForce<true>(plate, smallMass, smallRadius, 0.0, 0.0, 3.0, springX, springY);

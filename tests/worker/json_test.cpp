@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 #include "tests/worker/toy_engine.hpp"
 
 namespace crossgrain {

@@ -11,7 +11,7 @@ namespace crossgrain::planted {
 
 using crossgrain_worker::Body;
 
-/// The thesis' law and plate, as adapters/contact_law.hpp has them. [SI units]
+/// The thesis' law and plate, as law/contact_law.hpp has them. [SI units]
 struct Law {
   double kn = 0.0, gn = 0.0, kt = 0.0, gt = 0.0, mu = 0.0;
   bool friction = false, spring = false, dashpot = false;  ///< of the tangential force

@@ -6,7 +6,7 @@
 
 #include "faults.hpp"
 
-/// Hertz' law, rolling resistance and cohesion, as adapters/contact_law.hpp defines them, worked
+/// Hertz' law, rolling resistance and cohesion, as law/contact_law.hpp defines them, worked
 /// out once more from their sources.
 namespace crossgrain::planted {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace crossgrain {
+namespace crossgrain::inline contact_law {
 
 /// The contact law of a scene and every convention that engines are known to differ in.
 ///
@@ -310,4 +310,4 @@ struct BottomPlate {
   bool operator==(const BottomPlate&) const = default;
 };
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline contact_law

@@ -1,4 +1,4 @@
-#include "adapters/law_options.hpp"
+#include "law/law_options.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

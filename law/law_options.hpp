@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "adapters/contact_law.hpp"
+#include "law/contact_law.hpp"
 
 namespace crossgrain {
 
@@ -32,7 +32,7 @@ struct LawOption {
 /// of a law in space.
 std::span<const LawOption> lawOptions();
 
-/// One constant of the law; case files and units: adapters/contact_law.hpp.
+/// One constant of the law; case files and units: law/contact_law.hpp.
 struct LawConstant {
   std::string_view name;  ///< as in the worker protocol
   double ContactLaw::*value;
