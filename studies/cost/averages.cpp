@@ -118,9 +118,15 @@ class AverageErrors final : public ErrorKind {
                            "references of the averages", study_.jobs);
   }
 
-  CostRun run(const PlannedPoint& planned, std::size_t round) override {
-    return endpointsOfRun(study_.entryOf(planned.engine), study_.settingOf(planned).setup,
-                          packings()[round], [](double) {});
+  CostRun run(const PlannedPoint& planned, std::size_t round, double longest) override {
+    Case setup = study_.settingOf(planned).setup;
+    setup.run.timeout = std::min(setup.run.timeout, longest);
+    const double begin = study_.campaign.elapsed();
+    return endpointsOfRun(study_.entryOf(planned.engine), setup, packings()[round], [&](double) {
+      if (study_.campaign.elapsed() - begin > longest)
+        throw TakesTooLong(fmt::format("takes more than {:.3g} s, predicted were {:.3g} s", longest,
+                                       planned.round));
+    });
   }
 
   std::vector<CostPoint> points(const PlannedPoint& planned,

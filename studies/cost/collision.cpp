@@ -342,7 +342,7 @@ class CollisionErrors final : public ErrorKind {
 
   void makeReferences() override { reference_ = collisionReference(study_.setup); }
 
-  CostRun run(const PlannedPoint& point, std::size_t round) override {
+  CostRun run(const PlannedPoint& point, std::size_t round, double) override {
     const EngineEntry& entry = study_.entryOf(point.engine);
     const auto at = [&](double steps) {
       return atSteps(study_.setup, entry.name, study_.canOf(point.engine), steps);

@@ -115,8 +115,8 @@ std::optional<std::string> pastLimit(const CostStudy& study, const PlannedPoint&
 using Measured = CachedTask<CostRun>::Outcome;
 
 /// One round. What breaks down beyond a stability limit is a result, and kept.
-Measured measure(CostStudy& study, ErrorKind& kind, const PlannedPoint& planned,
-                 std::size_t round) {
+Measured measure(CostStudy& study, ErrorKind& kind, const PlannedPoint& planned, std::size_t round,
+                 double longest) {
   const auto ended = [&](Status status, const std::string& reason, bool isResult) {
     CostRun run;
     run.status = status;
@@ -124,7 +124,7 @@ Measured measure(CostStudy& study, ErrorKind& kind, const PlannedPoint& planned,
     return Measured{run, isResult, fmt::format("{}: {}", nameOf(status, costStatusNames), reason)};
   };
   try {
-    CostRun run = kind.run(planned, round);
+    CostRun run = kind.run(planned, round, longest);
     if (run.status != Status::finished) {
       const std::string why =
           fmt::format("{}: {}", nameOf(run.status, costStatusNames), run.reason);
@@ -139,6 +139,10 @@ Measured measure(CostStudy& study, ErrorKind& kind, const PlannedPoint& planned,
     throw;
   } catch (const UnsupportedScene& refusal) {
     return ended(Status::refused, refusal.what(), false);
+  } catch (const TakesTooLong& late) {
+    study.engines[planned.engine].worker.reset();
+    const auto reason = pastLimit(study, planned, late.what());
+    return ended(reason ? Status::failed : Status::notRun, reason.value_or(late.what()), false);
   } catch (const std::exception& error) {
     if (std::string(error.what()).find(beyondLimit) == std::string::npos)
       study.engines[planned.engine].worker.reset();
@@ -222,7 +226,7 @@ class Measuring {
   using Place = std::tuple<CostKind, std::size_t, std::size_t>;
 
   /// A point and what it has so far.
-  static constexpr std::size_t fewestRounds = 2;  ///< of an interval
+  static constexpr std::size_t fewestRounds = 3;  ///< of an interval that says something
   struct Rounds {
     PlannedPoint point;
     std::vector<CostRun> runs = {};
@@ -273,7 +277,7 @@ class Measuring {
     for (std::size_t k = 0; k < results.size(); ++k)
       if (results[k].status == Status::finished)
         run[k]->runs.push_back(results[k]);
-      else if (results[k].status == Status::notRun && run[k]->runs.size() >= fewestRounds)
+      else if (results[k].status == Status::notRun && run[k]->runs.size() > 1)
         run[k]->cut = true;
       else
         run[k]->ended = results[k];
@@ -331,7 +335,10 @@ class Measuring {
   /// One round of a point. @param seconds  that it is expected to take
   Measured timed(ErrorKind& kind, const PlannedPoint& point, std::size_t round, double seconds) {
     const double before = study_.campaign.elapsed();
-    Measured measured = measure(study_, kind, point, round);
+    // Other work on the machine takes a few times as long; what blows up may never end.
+    constexpr double atLeast = 20.0, times = 10.0;  // [s], [-]
+    const double longest = std::max(atLeast, times * seconds * pace(point.engine));
+    Measured measured = measure(study_, kind, point, round, longest);
     if (seconds > 0.0 &&
         measured.result.status == Status::finished) {  // what blows up takes for ever
       Pace& pace = paces_[point.engine];

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <optional>
 
-#include "adapters/law_options.hpp"
 #include "cases/effect_switch.hpp"
 #include "cases/flow.hpp"
 #include "cases/loader.hpp"
 #include "cases/materials.hpp"
 #include "cases/time_step.hpp"
+#include "law/law_options.hpp"
 #include "oracle/impact.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/effects/effects.hpp"

@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -164,6 +165,11 @@ struct CostStudy {
   std::vector<Packing> states_;
 };
 
+/// A run takes many times what was predicted, as those do that blow up and do not end.
+struct TakesTooLong : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// One kind of error: how its points are predicted and measured, and what against. All settings of
 /// all engines are run once, then all of them again, so that a machine that is busy for a while
 /// disturbs a round of many and not all rounds of one.
@@ -188,8 +194,9 @@ class ErrorKind {
   virtual bool keptSuffice() const { return true; }
   /// Those references that all points need. Not called where they take too long.
   virtual void makeReferences() {}
-  /// @throws as Engine does
-  virtual CostRun run(const PlannedPoint& point, std::size_t round) = 0;
+  /// @param longest  that whole runs may take [s]
+  /// @throws as Engine does, TakesTooLong
+  virtual CostRun run(const PlannedPoint& point, std::size_t round, double longest) = 0;
   /// One point per measure. @param runs  of all rounds, finished
   virtual std::vector<CostPoint> points(const PlannedPoint& point,
                                         const std::vector<CostRun>& runs) const = 0;

@@ -130,7 +130,7 @@ class TrajectoryErrors final : public ErrorKind {
     return references * referenceSteps() * study_.engines[engine].step;
   }
 
-  CostRun run(const PlannedPoint& planned, std::size_t round) override {
+  CostRun run(const PlannedPoint& planned, std::size_t round, double) override {
     const CostSetting& setting = study_.settingOf(planned);
     const TrajectoryReference inHouse = referenceOf({}, {}, round);
     const TrajectoryReference own = isCommon(planned.engine, setting.integrator())
