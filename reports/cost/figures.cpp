@@ -175,7 +175,7 @@ Panel endpointPanel(const CostResults& results, const CostMeasure& measure) {
   }
   panel.yRange = range;
   const std::vector<LineStyle> styles = engineStyles(results.engines);
-  Curve rings{"largest step within the margin", {"#000000", 6, false}, Draw::points, {}, 2.5};
+  Curve rings{"", {"#000000", 6, false}, Draw::points, {}, 2.5};
   for (std::size_t e = 0; e < results.engines.size(); ++e) {
     Curve line{results.engines[e].name, styles[e], Draw::linesAndPoints, {}, 1.5};
     std::vector<Curve> bars;
@@ -244,7 +244,7 @@ std::vector<Figure> pictureOf(const CostResults& results) {
       figure.caption = figure.title + ".";
       figure.keyAbove = true;
       figure.panelWidth = 380;
-      figure.panelHeight = 300;
+      figure.panelHeight = 400;
       figure.png = true;
       figures.push_back(std::move(figure));
     }

@@ -383,7 +383,12 @@ std::string writeFigure(const Figure& figure, const std::filesystem::path& dir) 
   const auto columns = static_cast<std::size_t>(figure.columns);
   const std::size_t rows = (figure.panels.size() + columns - 1) / columns;
   const bool several = figure.panels.size() > 1 || figure.keyAbove;
-  const std::string room = figure.keyAbove ? " title \"\\n\\n\"" : "";  // two lines for the key
+  // Lines for the key: a figure one panel wide has two names in each.
+  const std::size_t lines =
+      columns > 1 ? 2 : std::max<std::size_t>(2, (namesAbove(figure).size() + 1) / 2);
+  std::string room;
+  for (std::size_t k = 0; figure.keyAbove && k < lines; ++k) room += "\\n";
+  if (!room.empty()) room = fmt::format(" title \"{}\"", room);
   std::string script = fmt::format(
       "# gnuplot {0}.gp\nreset\nset encoding utf8\nset bmargin {4}\nset datafile missing '?'\n{5}"
       "do for [terminal in 'svg pdfcairo{1}'] {{\n"
