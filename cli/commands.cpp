@@ -7,17 +7,16 @@ namespace crossgrain::inline cli {
 // In files of their names; diff with baseline, replay with record.
 extern const Command enginesCommand, listCommand, checkCommand, collideCommand, conformanceCommand,
     lockstepCommand, identifyCommand, baselineCommand, diffCommand, recordCommand, replayCommand,
-    compareCommand, effectsCommand, stabilityCommand, costCommand, thesisCommand, averageCommand,
-    importCommand, exportCommand, calibrateCommand, reportCommand, planCommand, helpCommand,
-    serveCommand;
+    compareCommand, effectsCommand, stabilityCommand, costCommand, averageCommand, importCommand,
+    exportCommand, calibrateCommand, reportCommand, planCommand, helpCommand, serveCommand;
 
 const std::vector<const Command*>& commands() {
   static const std::vector<const Command*> table = {
       &enginesCommand,  &listCommand,     &checkCommand,    &collideCommand,   &conformanceCommand,
       &lockstepCommand, &identifyCommand, &baselineCommand, &diffCommand,      &recordCommand,
       &replayCommand,   &compareCommand,  &effectsCommand,  &stabilityCommand, &costCommand,
-      &thesisCommand,   &importCommand,   &averageCommand,  &exportCommand,    &calibrateCommand,
-      &reportCommand,   &planCommand,     &helpCommand,     &serveCommand};
+      &importCommand,   &averageCommand,  &exportCommand,   &calibrateCommand, &reportCommand,
+      &planCommand,     &helpCommand,     &serveCommand};
   return table;
 }
 

@@ -170,7 +170,8 @@ std::string footer(const Command* command) {
 
 /// Commands of earlier versions, and where what they did is now.
 constexpr Named removedCommands[] = {
-    {"scale", "cost CASE --disks N,N --threads P,P times steps as the scene grows and is shared"}};
+    {"scale", "cost CASE --disks N,N --threads P,P times steps as the scene grows and is shared"},
+    {"thesis", "papers/laetzel-2003 judges the thesis' claims (README.md there)"}};
 
 /// CLI11 would only say that some subcommand is required.
 void requireKnownCommand(const std::string& name) {

@@ -19,7 +19,6 @@
 #include "results/schema.hpp"
 #include "studies/core/run_store.hpp"
 #include "studies/plan/job_plan.hpp"
-#include "studies/thesis/thesis.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "support/folder_lock.hpp"
@@ -54,34 +53,17 @@ void openPage(const std::filesystem::path& page) {
         fmt::format("xdg-open could not be started: {}", std::strerror(error)));
 }
 
-/// What is concluded from runs follows from them anew; all else is as it was.
-nlohmann::json concludedAnew(const nlohmann::json& results, const fs::path& folder,
-                             const std::optional<fs::path>& reasons) {
-  const fs::path file = folder / "results.json";
-  if (results.at("kind") == kindThesis)
-    return understood(file, [&] { return toJson(judgedAgain(thesisFromJson(results), reasons)); });
-  if (reasons)
-    throw BadInput(
-        fmt::format("--reasons: {} is not of thesis, whose claims have reasons", file.string()));
-  return results;
-}
-
 struct ReportOptions {
-  std::optional<std::string> reasons, site;
+  std::optional<std::string> site;
   bool open = false, changedCases = false;
 };
-
-std::optional<fs::path> pathOf(const std::optional<std::string>& text) {
-  return text ? std::optional<fs::path>(*text) : std::nullopt;
-}
 
 int rebuildReports(const CommandLine& line, const ReportOptions& options) {
   for (const fs::path& folder : line.inputs) {
     if (fs::exists(folder / planFile))
       throw BadInput(
           fmt::format("{}: holds a plan: --out says where its jobs are merged", folder.string()));
-    const nlohmann::json results =
-        concludedAnew(readResults(folder), folder, pathOf(options.reasons));
+    const nlohmann::json results = readResults(folder);
     if (options.open) requireBrowser();
     const FolderLock lock(folder, "report");
     writeReport(results, folder);
@@ -151,9 +133,7 @@ int makeSite(const CommandLine& line, const ReportOptions& options) {
     ofPlan |= fs::exists(input / planFile);
   }
   std::vector<SiteEntry> entries;
-  for (const fs::path& folder : folders)
-    entries.push_back(
-        {folder, concludedAnew(readResults(folder), folder, pathOf(options.reasons))});
+  for (const fs::path& folder : folders) entries.push_back({folder, readResults(folder)});
   compareCases(entries, options.changedCases || ofPlan);
   if (options.open) requireBrowser();
   makeDirectory(site);
@@ -172,8 +152,6 @@ Action declareReport(CLI::App& app, CommandLine& line) {
           "folder for a site: a copy of each report, a page for each engine, and an index.html "
           "(default: each report is rebuilt in its own folder)",
           "SITE");
-  addText(app, "--reasons", options->reasons,
-          "for thesis: reasons for refuted claims, which replace the earlier ones", "FILE");
   addFlag(app, "--changed-cases", options->changedCases,
           "for a site: accept cases of one name that differ; the pages say in what");
   addFlag(app, "--open", options->open, "open the report or site in the browser");

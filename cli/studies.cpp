@@ -18,7 +18,6 @@
 #include "reports/flow/endpoint_text.hpp"
 #include "reports/lockstep/report.hpp"
 #include "reports/report.hpp"
-#include "reports/thesis/report.hpp"
 #include "results/collision.hpp"
 #include "studies/collide/collide.hpp"
 #include "studies/conformance/conformance.hpp"
@@ -32,7 +31,6 @@
 #include "studies/flow/lockstep_job.hpp"
 #include "studies/lockstep/identify.hpp"
 #include "studies/stability/stability.hpp"
-#include "studies/thesis/thesis.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 
@@ -401,17 +399,6 @@ extern const Command costCommand = {
     "--out out/sizes",
     [](CLI::App& app, CommandLine& line) {
       return declareStudy(app, line, costStudy, {reports::costText, true, reports::costToml});
-    }};
-
-extern const Command thesisCommand = {
-    "thesis", "test the thesis' claims one by one, per engine: reproduced or refuted",
-    "crossgrain thesis --quick --out out/claims                       # minutes\n"
-    "crossgrain thesis --budget 2h --out out/thesis                   # and again, until all is "
-    "run\n"
-    "crossgrain thesis --budget 2h --from out/thesis/results.json --out out/more\n"
-    "crossgrain thesis --engines grain,yade --budget 8h --out out/yade",
-    [](CLI::App& app, CommandLine& line) {
-      return declareStudy(app, line, thesisStudy, {reports::claimsText});
     }};
 
 extern const Command averageCommand = {

@@ -40,12 +40,12 @@ foreach(page ${crossgrain_pages} reports/curated/cost/cost_collision.png reports
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
 endforeach()
 
-set(crossgrain_libraries crossgrain_options crossgrain_support crossgrain_continuum crossgrain_law grain box2d_granular crossgrain_adapters crossgrain_files
+set(crossgrain_libraries crossgrain_options crossgrain_support crossgrain_law grain box2d_granular crossgrain_adapters crossgrain_files
     crossgrain_worker crossgrain_engines crossgrain_oracle crossgrain_stability crossgrain_averaging
     crossgrain_cases crossgrain_results crossgrain_reports crossgrain_studies)
 install(TARGETS ${crossgrain_libraries} EXPORT crossgrain
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/crossgrain)
-foreach(folder support continuum law adapters oracle stability averaging cases engines/grain engines/box2d results reports studies)
+foreach(folder support law adapters oracle stability averaging cases engines/grain engines/box2d results reports studies)
   install(DIRECTORY ${folder}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/crossgrain/${folder}
           FILES_MATCHING PATTERN "*.hpp" PATTERN "curated" EXCLUDE PATTERN "templates" EXCLUDE)
 endforeach()

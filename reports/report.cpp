@@ -15,7 +15,6 @@
 #include "reports/render/html.hpp"
 #include "reports/site/site.hpp"
 #include "reports/stability/report.hpp"
-#include "reports/thesis/report.hpp"
 #include "results/json_fields.hpp"
 #include "results/schema.hpp"
 #include "support/bad_input.hpp"
@@ -106,7 +105,6 @@ auto withResults(const Json& document, const auto& call) {
   if (kind == kindLockstep) return call(lockstepFromJson(document));
   if (kind == kindRev) return call(revFromJson(document));
   if (kind == kindStability) return call(stabilityFromJson(document));
-  if (kind == kindThesis) return call(thesisFromJson(document));
   return call(compareFromJson(document));
 }
 
@@ -124,7 +122,6 @@ template ReportDigest writeReport(const EffectsResults&, const std::filesystem::
 template ReportDigest writeReport(const LockstepResults&, const std::filesystem::path&);
 template ReportDigest writeReport(const RevResults&, const std::filesystem::path&);
 template ReportDigest writeReport(const StabilityResults&, const std::filesystem::path&);
-template ReportDigest writeReport(const ThesisResults&, const std::filesystem::path&);
 
 ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::path& dir,
                          const std::filesystem::path& from) {

@@ -25,8 +25,8 @@ void checkSchema(const nlohmann::json& results, const std::string& where) {
     throw BadInput(fmt::format("{}: has schema \"{}\", this crossgrain reads \"{}\"", where, schema,
                                schemaVersion));
   const std::string kind = word("kind");
-  const auto known = {kindCompare, kindCollide, kindLockstep,  kindEffects, kindCost,
-                      kindAverage, kindRev,     kindStability, kindThesis,  kindConformance};
+  const auto known = {kindCompare, kindCollide, kindLockstep,  kindEffects,    kindCost,
+                      kindAverage, kindRev,     kindStability, kindConformance};
   if (std::ranges::find(known, kind) == known.end())
     throw BadInput(fmt::format("{}: has kind \"{}\", a report is made of one of \"{}\"", where,
                                kind, fmt::join(known, "\", \"")));
@@ -42,7 +42,7 @@ nlohmann::json readResultsFile(const std::filesystem::path& file) {
   if (!results)
     throw BadInput(
         fmt::format("{}: cannot be read; a folder that compare, collide, lockstep, effects, "
-                    "cost, stability, thesis, conformance, average or rev wrote has it",
+                    "cost, stability, conformance, average or rev wrote has it",
                     file.string()));
   checkSchema(*results, file.string());
   return *std::move(results);

@@ -19,7 +19,6 @@ inline constexpr std::string_view kindCost = "cost";
 inline constexpr std::string_view kindAverage = "average";
 inline constexpr std::string_view kindRev = "rev";
 inline constexpr std::string_view kindStability = "stability";
-inline constexpr std::string_view kindThesis = "thesis";
 
 /// @throws BadInput, beginning with where, unless schema and kind are ones that are known here
 void checkSchema(const nlohmann::json& results, const std::string& where);

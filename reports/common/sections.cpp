@@ -167,11 +167,11 @@ std::string nameOf(const ResultsHead& head) {
 
 std::string titleOf(const ResultsHead& head) {
   constexpr std::pair<std::string_view, std::string_view> titles[] = {
-      {kindCompare, "Engine agreement"},  {kindAverage, "Averages"},
-      {kindCollide, "Collisions"},        {kindLockstep, "Lockstep comparison"},
-      {kindEffects, "Effects"},           {kindCost, "Accuracy and cost"},
-      {kindRev, "Ring widths"},           {kindStability, "Hard cases"},
-      {kindThesis, "The thesis' claims"}, {kindConformance, "Conformance"}};
+      {kindCompare, "Engine agreement"}, {kindAverage, "Averages"},
+      {kindCollide, "Collisions"},       {kindLockstep, "Lockstep comparison"},
+      {kindEffects, "Effects"},          {kindCost, "Accuracy and cost"},
+      {kindRev, "Ring widths"},          {kindStability, "Hard cases"},
+      {kindConformance, "Conformance"}};
   const auto* const found =
       std::ranges::find(titles, head.kind, [](const auto& t) { return t.first; });
   std::string title(found == std::end(titles) ? std::string_view(head.kind) : found->second);

@@ -35,16 +35,6 @@ Names questionsWith(const Overview& overview, const OverviewRow& row,
   return names;
 }
 
-/// A refuted claim is a finding about the thesis, not about the engine.
-OverviewCell claimsCell(OverviewCell cell, const Overview& overview, const OverviewRow& row) {
-  const std::size_t reproduced = questionsWith(overview, row, {Verdict::pass}).size(),
-                    refuted = questionsWith(overview, row, {Verdict::fail}).size();
-  cell.value = static_cast<double>(reproduced);
-  cell.shown = fmt::format("{} of {} reproduced", reproduced, reproduced + refuted);
-  cell.words = "decided claims";
-  return cell;
-}
-
 OverviewCell cellOf(const SiteReport& report, const std::string& engine) {
   OverviewCell cell{Verdict::notApplicable, {}, "questions", {}, {}, {}};
   const Overview& overview = report.digest.overview;
@@ -56,7 +46,6 @@ OverviewCell cellOf(const SiteReport& report, const std::string& engine) {
     cell.words = "took part";
     return cell;
   }
-  if (report.digest.head.kind == kindThesis) return claimsCell(std::move(cell), overview, *row);
   cell.verdict = mostSevere(*row);
   if (!cell.verdict) return cell;
   const Names names = questionsWith(overview, *row, {*cell.verdict});
@@ -247,7 +236,6 @@ Overview engineOverview(const std::vector<SiteReport>& reports, const std::strin
       const std::size_t column = columnOf(overview, its.columns[k]);
       row.cells.resize(std::max(row.cells.size(), column + 1), {notApplicable});
       row.cells[column] = std::move(cell);
-      if (report.digest.head.kind == kindThesis) continue;  // its claims are not the engine's
       const auto verdict = own->cells[k].verdict;
       if (verdict == pass) passed.add(row.name);
       if (verdict == modelDifference) differs.add(row.name);

@@ -260,9 +260,8 @@ void writeIndex(const std::vector<SiteReport>& reports, const std::filesystem::p
       "else there is stay in the results folders."}};
   std::vector<JUnitCase> cases;
   for (const SiteReport& report : reports)
-    if (report.digest.head.kind != kindThesis)
-      std::ranges::move(overviewCases(report.digest.overview, report.folder),
-                        std::back_inserter(cases));
+    std::ranges::move(overviewCases(report.digest.overview, report.folder),
+                      std::back_inserter(cases));
   writeFile(site / "junit.xml", junitXml("reports", cases));
   writeFile(site / "summary.md", overviewMarkdown(index.overview, titleOf(index.head)));
   writeEnginePages(reports, site);

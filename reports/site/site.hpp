@@ -53,8 +53,7 @@ std::vector<EnginePage> enginePages(const std::vector<SiteReport>& reports);
 /// did not and why, and its numbers.
 void addEngineReports(Report& page, const EnginePage& engine);
 
-/// Writes index.html, a page for each engine and version, summary.md and, of all but the thesis,
-/// which judges no engine, junit.xml.
+/// Writes index.html, a page for each engine and version, summary.md and junit.xml.
 /// @throws std::runtime_error where they cannot be written
 void writeIndex(const std::vector<SiteReport>& reports, const std::filesystem::path& site);
 

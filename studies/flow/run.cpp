@@ -35,8 +35,7 @@ std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> na
 }
 
 template <int D>
-FlowRun runFlow(const FlowTask& task, const std::function<void(double)>& progress,
-                const SnapshotObserverOf<D>& watch) {
+FlowRun runFlow(const FlowTask& task, const std::function<void(double)>& progress) {
   const Case& setup = *task.setup;
   const SceneOf<D> scene = flowScene<D>(setup, *task.packing, task.dt);
   LoadedEngine loaded = loadEngine(task.entry, setup, scene, task.scratch);
@@ -52,19 +51,6 @@ FlowRun runFlow(const FlowTask& task, const std::function<void(double)>& progres
   const bool resumable = D == 2 && loaded.can.checkpoints && report == ContactReport::instant;
   UnfinishedRunOf<D> unfinished(task.unfinished, task.key, scene, resumable);
   const auto before = unfinished.resume(engine);
-  // What the watch has seen of the settling; what it sees later is shown to it again.
-  int settlingSeen = 0;
-  nlohmann::json watched;
-  if (before && watch.restore) {
-    settlingSeen = before->aside.at("settling");
-    watch.restore(before->aside.at("watched"));
-  }
-  if (watch.state)
-    unfinished.keepAside([&] {
-      const bool settling = settlingSeen < watch.settlingSnapshots;
-      return nlohmann::json{{"settling", settlingSeen},
-                            {"watched", settling ? watch.state() : watched}};
-    });
   double now = before ? before->time : 0.0;
   std::optional<double> reached;
   const auto advanceTo = [&](double t) {
@@ -81,17 +67,8 @@ FlowRun runFlow(const FlowTask& task, const std::function<void(double)>& progres
 
   // Slices only tell the progress: advanceTo() goes in pieces of its own.
   constexpr double mostSlices = 1e6;
-  const int settleSlices =
-      watch.settlingSnapshots > 0
-          ? watch.settlingSnapshots
-          : static_cast<int>(std::min(std::ceil(settled / interval), mostSlices));
-  for (int k = 1; k <= settleSlices; ++k) {
-    advanceTo(settled * k / settleSlices);
-    if (k <= settlingSeen || k > watch.settlingSnapshots) continue;
-    watch.settling(snapshotOf<D>(engine, report));
-    settlingSeen = k;
-  }
-  if (watch.state) watched = watch.state();
+  const int settleSlices = static_cast<int>(std::min(std::ceil(settled / interval), mostSlices));
+  for (int k = 1; k <= settleSlices; ++k) advanceTo(settled * k / settleSlices);
   if (report == ContactReport::accumulated)
     snapshotOf<D>(engine, report);  // starts the first interval
 
@@ -104,7 +81,6 @@ FlowRun runFlow(const FlowTask& task, const std::function<void(double)>& progres
   int taken = 0;
   const auto take = [&](const SnapshotOf<D>& snapshot) {
     averages.add(snapshot);
-    if (watch.averaged) watch.averaged(snapshot);
     kept.offer(snapshot, ++taken);
     if (task.packingIndex == 0 && !run.picture && snapshot.positionTime >= pictureTime - interval)
       run.picture = scenePicture(scene, snapshot, snapshot.positionTime / flowUnit(setup));
@@ -136,10 +112,8 @@ FlowRun runFlow(const FlowTask& task, const std::function<void(double)>& progres
   averages.describe(loaded.effective, run);
   return run;
 }
-template FlowRun runFlow<2>(const FlowTask&, const std::function<void(double)>&,
-                            const SnapshotObserver&);
-template FlowRun runFlow<3>(const FlowTask&, const std::function<void(double)>&,
-                            const SnapshotObserverOf<3>&);
+template FlowRun runFlow<2>(const FlowTask&, const std::function<void(double)>&);
+template FlowRun runFlow<3>(const FlowTask&, const std::function<void(double)>&);
 
 FlowRun runWithoutFiles(const EngineEntry& entry, const Case& setup, int packingIndex,
                         const Packing& packing, double dt,

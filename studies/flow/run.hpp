@@ -34,24 +34,11 @@ struct FlowTask {
   std::string key;                   ///< everything that the run depends on
 };
 
-/// Somebody who looks on from the hand-over to the end, beside what is averaged. All or none of
-/// the functions are there.
-template <int D>
-struct SnapshotObserverOf {
-  int settlingSnapshots = 0;  ///< evenly over the time that is not averaged, its end included
-  std::function<void(const SnapshotOf<D>&)> settling, averaged;
-  /// All that the snapshots so far have left, so that an unfinished run goes on to the bit.
-  std::function<nlohmann::json()> state;
-  std::function<void(const nlohmann::json&)> restore;
-};
-using SnapshotObserver = SnapshotObserverOf<2>;
-
 /// Lets the packing settle and averages over the case's rotations, or the time of its [average].
 /// @param progress  called with the fraction done, 0 … 1
 /// @throws EngineFailure, UnsupportedScene, BadInput, Interrupted
 template <int D = 2>
-FlowRun runFlow(const FlowTask& task, const std::function<void(double)>& progress,
-                const SnapshotObserverOf<D>& watch = {});
+FlowRun runFlow(const FlowTask& task, const std::function<void(double)>& progress);
 
 /// The same in folders that go with it: nothing is kept, and no unfinished run is gone on with.
 /// @param dt  the case's time step [s]

@@ -83,7 +83,6 @@ typename UnfinishedRunOf<D>::Before UnfinishedRunOf<D>::readBack(const json& kep
   before.snapshots = snapshots_.size();
   for (std::size_t k = 0; k < before.snapshots; ++k) snapshot(k);  // throws if damaged
   checkpoints_ = kept.at("checkpoints");
-  before.aside = kept.at("aside");
   return before;
 }
 
@@ -126,7 +125,6 @@ void UnfinishedRunOf<D>::keep(Engine& engine, double time) {
                                        {"cpu_s", earlierCpu_ + stats.cpuSeconds},
                                        {"checkpoint", checkpointName(checkpoints_)},
                                        {"checkpoints", checkpoints_},
-                                       {"aside", aside_ ? aside_() : json()},
                                        {"snapshots", snapshots_}})
                                      .dump());
   std::error_code ignored;

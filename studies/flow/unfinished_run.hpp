@@ -26,7 +26,6 @@ class UnfinishedRunOf {
     double time = 0.0;          ///< that the engine has reached [s]
     std::size_t snapshots = 0;  ///< taken up to then
     double wallSeconds = 0.0, cpuSeconds = 0.0;
-    nlohmann::json aside;  ///< as of keepAside()
   };
 
   /// Takes the engine, which has loaded the scene, to where the run was left. Absent if nothing
@@ -38,8 +37,6 @@ class UnfinishedRunOf {
   SnapshotOf<D> snapshot(std::size_t k) const;
 
   void took(const SnapshotOf<D>& snapshot);
-  /// Of what is to be kept beside it; asked whenever something is.
-  void keepAside(std::function<nlohmann::json()> aside) { aside_ = std::move(aside); }
   /// @param time  that the engine has reached [s]
   void keep(Engine& engine, double time);
   /// The same, if the last time is half a minute ago.
@@ -58,7 +55,6 @@ class UnfinishedRunOf {
   std::vector<SnapshotOf<D>> pending_;                  ///< not yet there
   double earlierWall_ = 0.0, earlierCpu_ = 0.0;
   int checkpoints_ = 0;
-  std::function<nlohmann::json()> aside_;
   std::chrono::steady_clock::time_point keptAt_;
 };
 using UnfinishedRun = UnfinishedRunOf<2>;

@@ -44,11 +44,15 @@ std::vector<Json> documents() {
   conformance.engine.name = "mine";
   conformance.rows.push_back(
       {"suite", "HeadOnCollision", "two disks part", checkPassed, "e_n is 0.5"});
-  return {toJson(sample::compareResults(4, 244)), toJson(sample::averageResults()),
-          toJson(sample::revResults()),           toJson(sample::collideResults()),
-          toJson(sample::effectsResults(4)),      toJson(sample::stabilityResults()),
-          toJson(sample::lockstepResults()),      toJson(sample::costResults()),
-          toJson(sample::thesisClaims()),         toJson(conformance)};
+  return {toJson(sample::compareResults(4, 244)),
+          toJson(sample::averageResults()),
+          toJson(sample::revResults()),
+          toJson(sample::collideResults()),
+          toJson(sample::effectsResults(4)),
+          toJson(sample::stabilityResults()),
+          toJson(sample::lockstepResults()),
+          toJson(sample::costResults()),
+          toJson(conformance)};
 }
 
 /// A text of a document, or the key of a member, by where it is.

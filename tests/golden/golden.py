@@ -84,7 +84,6 @@ COMMANDS = {
         "replay {first}.rec --engines box2d-penalty --json",
     ],
     "identify": ["identify {cell} --engines box2d-penalty"],
-    "thesis": ["thesis tests/studies/thesis/ladder.toml --out {out}"],
     "plan": ["plan {cell} --engines grain,yade --seeds 1,2 --slurm {out}"],
     "engines": ["engines --json"],
     "check": ["check {cell} --engines {built_in}"],

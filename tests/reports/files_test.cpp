@@ -100,7 +100,7 @@ TEST(Results, FolderWithoutThem_SaysWhatIsWrong) {
   EXPECT_EQ(message(),
             file +
                 ": cannot be read; a folder that compare, collide, lockstep, effects, cost, "
-                "stability, thesis, conformance, average or rev wrote has it");
+                "stability, conformance, average or rev wrote has it");
   writeFile(file, "{\"schema\": ");
   EXPECT_TRUE(message().starts_with(file + ": is not JSON, byte ")) << message();
   writeFile(file, "{\"schema\": \"crossgrain-results-9\"}");
@@ -111,7 +111,7 @@ TEST(Results, FolderWithoutThem_SaysWhatIsWrong) {
   EXPECT_EQ(message(), file +
                            ": has kind \"dance\", a report is made of one of \"compare\", "
                            "\"collide\", \"lockstep\", \"effects\", \"cost\", \"average\", "
-                           "\"rev\", \"stability\", \"thesis\", \"conformance\"");
+                           "\"rev\", \"stability\", \"conformance\"");
 }
 
 }  // namespace

@@ -30,14 +30,6 @@ ConformanceResults conformanceResults() {
   return results;
 }
 
-/// Runs and, of others, claims: what a report of the thesis has of both.
-ThesisResults thesisResults() {
-  ThesisResults results = sample::thesisClaims();
-  results.cases = sample::thesisResults().cases;
-  results.runs = sample::thesisResults().runs;
-  return results;
-}
-
 void expectKept(const char* name, const nlohmann::json& results) {
   const auto file =
       std::filesystem::path(__FILE__).parent_path() / "golden" / (std::string(name) + ".txt");
@@ -56,7 +48,6 @@ TEST(GoldenReports, Text_IsAsKept) {
   expectKept("lockstep", toJson(sample::lockstepResults()));
   expectKept("rev", toJson(sample::revResults()));
   expectKept("stability", toJson(sample::stabilityResults()));
-  expectKept("thesis", toJson(thesisResults()));
 }
 
 }  // namespace

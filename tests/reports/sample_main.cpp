@@ -19,12 +19,10 @@ int main(int argc, char** argv) {
   crossgrain::writeReport(crossgrain::sample::costResults(), dir / "cost");
   crossgrain::writeReport(crossgrain::sample::averageResults(), dir / "average");
   crossgrain::writeReport(crossgrain::sample::revResults(), dir / "rev");
-  crossgrain::writeReport(crossgrain::sample::thesisClaims(), dir / "thesis");
   crossgrain::LockstepResults before = crossgrain::sample::lockstepResults();
   before.head.version = "0.0.9";
-  crossgrain::writeSite({{"lockstep", toJson(crossgrain::sample::lockstepResults())},
-                         {"before", toJson(before)},
-                         {"thesis", toJson(crossgrain::sample::thesisClaims())}},
-                        dir / "site");
+  crossgrain::writeSite(
+      {{"lockstep", toJson(crossgrain::sample::lockstepResults())}, {"before", toJson(before)}},
+      dir / "site");
   std::printf("%s\n", dir.c_str());
 }

@@ -10,7 +10,6 @@
 #include "results/effects.hpp"
 #include "results/rev.hpp"
 #include "results/stability.hpp"
-#include "results/thesis.hpp"
 
 /// Made-up results in the layout of docs/results.md, for tests of the report and for looking at
 /// its pages: nothing in them was simulated.
@@ -45,13 +44,6 @@ LockstepResults lockstepResults();
 /// Three engines of known order and cost, a scheme that claims an order it does not have, failures
 /// past the stability limit, points that the budget did not allow, one engine that refused.
 CostResults costResults();
-
-/// Eleven densities on the thesis' rings, two packings of an engine, one of another at low density;
-/// exponentials and powers that tests know.
-ThesisResults thesisResults();
-
-/// The claims alone, of two engines and of none: every verdict, and several readings.
-ThesisResults thesisClaims();
 
 /// Three sizes on one and two threads of one engine; another that failed on the largest.
 

@@ -41,10 +41,9 @@ TEST(SiteOverview, HasTheMostSevereAnswerOfEachReport) {
   using enum Verdict;
   const std::vector<SiteReport> reports = {
       siteReportOf("collide", pass, fail), siteReportOf("compare", undecided, modelDifference),
-      siteReportOf("stability", pass, notMeasured), siteReportOf("thesis", fail, pass),
-      siteReportOf("lockstep", borderline, pass)};
+      siteReportOf("stability", pass, notMeasured), siteReportOf("lockstep", borderline, pass)};
   const Overview overview = siteOverview(reports);
-  ASSERT_EQ(overview.columns.size(), 5u);
+  ASSERT_EQ(overview.columns.size(), 4u);
   EXPECT_EQ(overview.columns[0].name, "collide quick");
   EXPECT_EQ(overview.columns[0].anchor, "collide/report.html");
   ASSERT_EQ(overview.rows.size(), 3u);
@@ -55,9 +54,6 @@ TEST(SiteOverview, HasTheMostSevereAnswerOfEachReport) {
   EXPECT_EQ(ours[1].verdict, undecided);
   EXPECT_EQ(ours[2].verdict, pass);
   EXPECT_EQ(ours[2].shown, "1 of 1 passed");
-  // A refuted claim is a finding about the thesis.
-  EXPECT_EQ(ours[3].verdict, std::nullopt);
-  EXPECT_EQ(ours[3].shown, "1 of 2 reproduced");
   // It took part, and no row is its.
   EXPECT_EQ(overview.rows[1].cells[0].verdict, std::nullopt);
   EXPECT_EQ(overview.conclusion,
@@ -110,12 +106,11 @@ TEST(SiteOverview, TellsReportsOfOneNameApart) {
 TEST(EngineOverview, HasTheAnswersOfEachReportWithTheWayToThem) {
   using enum Verdict;
   std::vector<SiteReport> reports = {siteReportOf("collide", pass, fail),
-                                     siteReportOf("compare", undecided, modelDifference),
-                                     siteReportOf("thesis", fail, fail)};
+                                     siteReportOf("compare", undecided, modelDifference)};
   reports[0].digest.overview.rows[0].cells[1].anchor = "scores";
   reports[1].digest.overview.columns[0].name = "averages";  // a question of its own
   const Overview ours = engineOverview(reports, "ours");
-  ASSERT_EQ(ours.rows.size(), 3u);
+  ASSERT_EQ(ours.rows.size(), 2u);
   ASSERT_EQ(ours.columns.size(), 3u);
   EXPECT_EQ(ours.columns[2].name, "averages");
   const auto statesOf = [&](std::size_t row) {

@@ -39,8 +39,7 @@ std::map<std::string, Document> madeUp() {
           {"effects", documentOf(sample::effectsResults(4), effectsFromJson)},
           {"stability", documentOf(sample::stabilityResults(), stabilityFromJson)},
           {"lockstep", documentOf(sample::lockstepResults(), lockstepFromJson)},
-          {"cost", documentOf(sample::costResults(), costFromJson)},
-          {"thesis", documentOf(sample::thesisResults(), thesisFromJson)}};
+          {"cost", documentOf(sample::costResults(), costFromJson)}};
 }
 
 const std::map<std::string, Document>& documents() {

@@ -209,13 +209,14 @@ TEST_F(RunStoreTest, Scratch_GoesWithTheStoreButForWhatFailed) {
   }
 }
 
-/// That it is gzip's, Python's library sees (tests/system/test_thesis.py).
+/// gzip's own format (RFC 1952), which other programs read.
 TEST(Files, PackedText_IsReadBackWholeOrNotAtAll) {
   std::string text;
   for (int k = 0; k < 300'000; ++k) text += fmt::format("{},", k * 0.1);
   ASSERT_GT(text.size(), std::size_t{1} << 20);
   const std::string content = packed(text);
   EXPECT_LT(content.size(), text.size() / 2);
+  EXPECT_TRUE(content.starts_with("\x1f\x8b\x08"));
   EXPECT_EQ(unpacked(content), text);
   EXPECT_EQ(unpacked(packed("")), "");
   EXPECT_FALSE(unpacked(content, text.size() - 1));

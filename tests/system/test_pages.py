@@ -192,7 +192,7 @@ class Pages(unittest.TestCase):
             sorted((one["name"], one["width"]) for one in self.light),
             sorted((name, width) for name in self.reports for width in WIDTHS),
         )
-        for command in ("compare", "collide", "effects", "stability", "cost", "lockstep", "thesis", "average", "rev"):
+        for command in ("compare", "collide", "effects", "stability", "cost", "lockstep", "average", "rev"):
             self.assertIn(command, self.reports)
 
     def test_nothing_is_cut_at_the_side(self):
@@ -227,7 +227,7 @@ class Pages(unittest.TestCase):
         self.assertGreater(min(many), 36, "of nine engines, too")
 
     def test_words_stand_out_light_and_dark(self):
-        few = {name: self.reports[name] for name in ("compare", "cost", "stability", "thesis", "site")}
+        few = {name: self.reports[name] for name in ("compare", "cost", "stability", "site")}
         dark = looked_at(few, dark=True)
         self.assertNotEqual(dark[0]["paper"], self.light[0]["paper"], "the browser was asked for dark")
         self.each(self.light + dark, lambda one: self.assertEqual(one["faint"], []))

@@ -14,7 +14,6 @@ import unittest
 from harness import BAD_INPUT, CASES, COLLISION, COUETTE, FELL_SHORT, HARD_SPHERE, HELD, PROGRAM, SystemTest, settings
 
 CELL, PAIR, RIGID, PILE = COUETTE, COLLISION, HARD_SPHERE, CASES / "hard/pile.toml"
-SWEEP, TINY = (CASES.parent / "tests/studies/thesis" / name for name in ("ladder.toml", "tiny.toml"))
 RUN = "--engines grain --out out --quiet"
 MATERIAL = "--mass=1e-3 --radius=5e-3"
 WANTED = f"--en=0.9 --et=0.5 --tc=1e-3 --mu=0.4 {MATERIAL}"
@@ -93,7 +92,6 @@ CASE_FILES = {
     f"lockstep {PAIR} {RUN}": "lockstep needs a flow",
     f"baseline {PILE} --engines grain --out b.h5": "give it [average] and [[endpoints]]",
     f"baseline {PAIR} --engines grain --out b.h5 --endpoints": ("--endpoints", "has no endpoints to keep"),
-    f"thesis {TINY} --out out": "tiny.toml: is a case",
     f"collide mine {RUN}": "secret.toml",
     f"collide twins {RUN}": ("b.toml", "twin"),
     f"stability {PILE.parent} -k pille {RUN}": ("-k 'pille'", "pile"),
@@ -124,12 +122,12 @@ VALUES = {
     f"record {PAIR} --engines grain --out r.rec --time=-1": "must be > 0",
     f"record {PAIR} --engines grain --out r.rec --looks=0": "from 1 to",
     "scale --engines grain --out out": "cost CASE --disks N,N",
+    "thesis --quick --out out": ("there is no command 'thesis' any more", "papers/laetzel-2003"),
     f"cost {CELL} {RUN} --disks=0": "must be in [1, 20000000]",
     f"cost {CELL} {RUN} --disks=1000.5": "no whole number",
     f"cost {CELL} {RUN} --threads=many": "cost.threads=[many]",
     f"stability --transforms {PILE} {RUN} --budget=soon": "must be like 90s",
     f"stability {PILE} {RUN} --budget=1m": "goes with --transforms",
-    f"thesis {SWEEP} --out out --budget=soon": "soon",
     f"plan {CELL} --engines grain --slurm out --sweep=law.mu": "must be KEY=VALUE",
     f"plan {CELL} --engines grain --slurm out --sweep=law.my=0.2": "law.my",
     f"plan {CELL} --engines grain --slurm out --seeds=1,1": "stands twice",

@@ -29,12 +29,8 @@ def sweeps(variants, engine, tension, steps):
 
 
 def figures_of(found, sliding_from):
-    def missing(law):
-        return Evidence(missing=f'there is no sweep of the law "{law}"')
-
-    def lowest(law):
-        return Evidence(exactly(np.min(found[law][1]))) if law in found else missing(law)
-
+    missing = lambda law: Evidence(missing=f'there is no sweep of the law "{law}"')
+    lowest = lambda law: Evidence(exactly(np.min(found[law][1]))) if law in found else missing(law)
     def off_asymptote(law):
         """the largest distance from Ψ_i − 3(1 + e_n)µ, with its sign"""
         if law not in found:

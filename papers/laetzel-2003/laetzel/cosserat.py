@@ -90,9 +90,7 @@ def solve(p=Parameters(), tolerance=1e-10):
         r, q = p.inner_radius + xi, p.yield_root(s, m) - a * s
         return np.stack([-(s + q) / r, (s - q) / c - m / r])
 
-    def ends_of_stresses(wheel, ring):
-        return np.array([wheel[0] - wall, ring[1] - p.outer_couple(ring[0])])
-
+    ends_of_stresses = lambda wheel, ring: np.array([wheel[0] - wall, ring[1] - p.outer_couple(ring[0])])
     def motion(xi, y):
         """of u/ω and ln ω, inward from the ring, where it is stable"""
         s, m = found.sol(xi)

@@ -10,15 +10,11 @@ import math
 import tomllib
 
 from laetzel.campaign import longest_of_each_packing
-from laetzel.statistics import mean_over, rank_trend, common_slope
+from laetzel.statistics import common_slope, mean_over, rank_trend
 from laetzel.text import readable, setting
 
 #: from the most severe on
 VERDICTS = ("refuted", "undecided", "reproduced", "cannot be tested")
-MOST_RUNS = 1000
-
-
-# ---- Rules.
 
 
 @dataclasses.dataclass
@@ -31,9 +27,7 @@ class Band:
     high: float = None
     testable: bool = True
 
-    @property
-    def judged(self):
-        return self.low is not None or self.high is not None
+    judged = property(lambda self: self.low is not None or self.high is not None)
 
     def text(self):
         if self.low is not None and self.high is not None:
@@ -49,11 +43,7 @@ class Rule:
     figure: str
     readings: list  #: under which the claim is judged beside the default
     numbers: dict
-    figures: dict  #: by name; the first stands for the claim
-
-    @property
-    def judged_figures(self):
-        return sum(band.judged for band in self.figures.values())
+    figures: dict  #: Bands by name; the first stands for the claim
 
 
 @dataclasses.dataclass
@@ -62,28 +52,21 @@ class Rules:
     claims: dict  #: by id
 
 
-def values_of(numbers):
-    return {name: number["value"] for name, number in numbers.items()}
-
-
 def load_rules(file):
-    with open(file, "rb") as text:
-        document = tomllib.load(text)
-    claims = {}
+    values = lambda numbers: {name: number["value"] for name, number in numbers.items()}
+    document = tomllib.loads(file.read_text(encoding="utf-8"))
+    rules = Rules(values(document["common"]), {})
     for claim in document["claims"]:
         figures = {name: Band(name, **band) for name, band in claim["figures"].items()}
-        claims[claim["id"]] = Rule(**claim | {"numbers": values_of(claim.get("numbers", {})), "figures": figures})
-    return Rules(values_of(document["common"]), claims)
+        rules.claims[claim["id"]] = Rule(**claim | {"numbers": values(claim.get("numbers", {})), "figures": figures})
+    return rules
 
 
 def load_reasons(file):
-    with open(file, "rb") as text:
-        return tomllib.load(text)["reasons"]
+    return tomllib.loads(file.read_text(encoding="utf-8"))["reasons"]
 
 
-# ---- Readings of what the thesis leaves open.
-
-#: family, label, of a leg, its unit
+#: What the thesis leaves open: family, label, of a leg, unit, its name
 OPEN = (
     ("spacing", "wall spacing", lambda leg: leg.cell["wall_spacing"], 1e-3, "mm"),
     ("mass", "large mass", lambda leg: leg.large_mass, 1e-3, "g"),
@@ -97,8 +80,7 @@ def same(a, b):
 
 
 def describe(choice, leg):
-    _, label, of, unit, name = choice
-    return f"{label} {of(leg) / unit:.4g} {name}"
+    return f"{choice[1]} {choice[2](leg) / choice[3]:.4g} {choice[4]}"
 
 
 def describe_rate(leg):
@@ -117,6 +99,8 @@ def same_but(choice, any_rate, a, b):
 
 @dataclasses.dataclass
 class Reading:
+    """One reading of what the thesis leaves open."""
+
     key: str  #: "spacing", "mass", "radius"; empty: the default
     label: str
     judged: list = dataclasses.field(default_factory=list)  #: legs that claims are judged by
@@ -126,14 +110,10 @@ class Reading:
 def readings_of(campaign):
     """The default first: what the reference leg has; then the values that differ."""
     reference = campaign.reference
-    default = Reading("", "default: " + ", ".join([describe(choice, reference) for choice in OPEN] + [describe_rate(reference)]))
-    for leg in campaign.legs:
-        if same_but(None, False, leg, reference):
-            if "packings" in leg.families:
-                default.judged.append(leg)
-            if "packings" in leg.families or "time" in leg.families:
-                default.timed.append(leg)
-    readings = [default]
+    default = [leg for leg in campaign.legs if same_but(None, False, leg, reference)]
+    label = "default: " + ", ".join([describe(choice, reference) for choice in OPEN] + [describe_rate(reference)])
+    judged = [leg for leg in default if "packings" in leg.families]
+    readings = [Reading("", label, judged, [leg for leg in default if {"packings", "time"} & set(leg.families)])]
     for choice in OPEN:
         others = {}
         for leg in campaign.family(choice[0]):
@@ -145,9 +125,6 @@ def readings_of(campaign):
             own.timed.append(leg)
         readings += [others[key] for key in sorted(others)]
     return readings
-
-
-# ---- The runs of a claim, and evidence of figures.
 
 
 @dataclasses.dataclass
@@ -163,9 +140,7 @@ class RunSet:
         """Why they give nothing."""
         if self.runs:
             return f"none of {self.label} has the data ({', '.join(sorted({run.leg.name for run in self.runs}))})"
-        if not self.without:
-            return f"there are no {self.label}: no case of theirs"
-        return f"there are no {self.label}: none of {', '.join(self.without)}"
+        return f"there are no {self.label}: " + (f"none of {', '.join(self.without)}" if self.without else "no case of theirs")
 
 
 @dataclasses.dataclass
@@ -195,8 +170,6 @@ class Scope:
     def __getitem__(self, name):
         """A number of the claim's rule, or one common to all."""
         return self.rule.numbers[name] if name in self.rule.numbers else self.rules.common[name]
-
-    # Sets of runs.
 
     def runs_of(self, legs, label):
         runs = {leg.name: self.campaign.of(leg, self.engine) for leg in legs}
@@ -232,46 +205,46 @@ class Scope:
 
     def carrying(self, runs):
         """Those whose wheel has the common number of contacts while they are averaged."""
-        fewest = self["wheel_contacts"]
-        those = runs.where(lambda run: run.wheel_contacts >= fewest, "")
-        return RunSet(those.runs, f"{runs.label} that carry ({len(those.runs)} of {len(runs.runs)})", runs.without)
+        those = [run for run in runs.runs if run.wheel_contacts >= self["wheel_contacts"]]
+        return RunSet(those, f"{runs.label} that carry ({len(those)} of {len(runs.runs)})", runs.without)
 
-    # What they say together. `number` is of a run.
-
-    def _collected(self, runs, number):
-        found = [(run, number(run)) for run in runs.runs]
-        found = [(run, value) for run, value in found if is_number(value)]
-        return [run for run, _ in found], [value for _, value in found]
+    def _evidence(self, runs, number, estimate, few="", counts=True):
+        """estimate(runs, values) of those that have the number, a function of a run; few: why there may be none of theirs"""
+        found = [(run, value) for run in runs.runs if is_number(value := number(run))]
+        used, values = [run for run, _ in found], [value for _, value in found]
+        missing = f"{runs.label}: {few.format(len(used))}" if found else runs.missing()
+        return Evidence(estimate(used, values) if found else None, missing, used, len(runs.runs) if counts else 0)
 
     def mean(self, runs, number):
-        used, values = self._collected(runs, number)
-        return Evidence(mean_over(values), runs.missing(), used, len(runs.runs))
+        return self._evidence(runs, number, lambda used, values: mean_over(values))
+
+    def means(self, runs, **numbers):
+        """Evidence of several figures by their names."""
+        return {name: self.mean(runs, number) for name, number in numbers.items()}
+
+    def trends(self, runs, **numbers):
+        return {name: self.trend(runs, number) for name, number in numbers.items()}
 
     def trend(self, runs, number):
         """Kendall's τ with ν̄"""
-        used, values = self._collected(runs, number)
-        tau = rank_trend([run.leg.label for run in used], [float(value) for value in values], self["fewest_for_trend"])
-        few = f"{runs.label}: {len(used)} with the data, of different ν̄, are too few for a trend"
-        return Evidence(tau, few if used else runs.missing(), used, len(runs.runs))
+        few = "{} with the data, of different ν̄, are too few for a trend"
+        labels = lambda used: [run.leg.label for run in used]
+        tau = lambda used, values: rank_trend(labels(used), [float(value) for value in values], self["fewest_for_trend"])
+        return self._evidence(runs, number, tau, few)
 
     def slope_in_rate(self, runs, number):
         """in lg Ω, with a level for each ν̄"""
-        used, values = self._collected(runs, number)
-        levels = [round(run.leg.label / self["same_label"]) for run in used]
-        slope = common_slope([math.log10(abs(run.leg.omega)) for run in used], [float(v) for v in values], levels) if used else None
-        few = f"{runs.label}: {len(used)} with the data, no two rates at one ν̄ or none left for the error"
-        return Evidence(slope, few if used else runs.missing(), used)
+        few = "{} with the data, no two rates at one ν̄ or none left for the error"
+        rates = lambda used: [math.log10(abs(run.leg.omega)) for run in used]
+        levels = lambda used: [round(run.leg.label / self["same_label"]) for run in used]
+        slope = lambda used, values: common_slope(rates(used), [float(value) for value in values], levels(used))
+        return self._evidence(runs, number, slope, few, counts=False)
 
     def slope_in_density(self, runs, number, span=1.0):
         """times a span of ν̄"""
-        used, values = self._collected(runs, number)
-        slope = common_slope([run.leg.label for run in used], [float(v) for v in values], [0] * len(used)) if used else None
-        if slope:
-            slope.value, slope.error = slope.value * span, slope.error * span
-        return Evidence(slope, f"{runs.label}: too few, or of one ν̄" if used else runs.missing(), used, len(runs.runs))
-
-
-# ---- Verdicts.
+        labels = lambda used: [run.leg.label / span for run in used]
+        slope = lambda used, values: common_slope(labels(used), [float(value) for value in values], [0] * len(used))
+        return self._evidence(runs, number, slope, "too few, or of one ν̄")
 
 
 def place(band, estimate, confidence, figures):
@@ -282,20 +255,18 @@ def place(band, estimate, confidence, figures):
     if (low is None or x - half >= low) and (high is None or x + half <= high):
         return "reproduced"
     wide = estimate.half(1 - (1 - confidence) / max(figures, 1))
-    outside = (low is not None and x + wide < low) or (high is not None and x - wide > high)
-    return "refuted" if outside else "undecided"
+    return "refuted" if (low is not None and x + wide < low) or (high is not None and x - wide > high) else "undecided"
 
 
-def runs_to_decide(band, estimate, confidence):
+def runs_to_decide(band, estimate, confidence, most=1000):
     """Runs that it would take for the interval to leave the edge that it lies across, if their scatter stays as it is."""
     if estimate.basis != "runs" or estimate.error is None or estimate.runs < 2:
         return None
     room = min(abs(estimate.value - edge) for edge in (band.low, band.high) if edge is not None)
-    for n in range(estimate.runs + 1, MOST_RUNS + 1):
-        more = dataclasses.replace(estimate, error=estimate.error * math.sqrt(estimate.runs / n), dof=estimate.dof + n - estimate.runs)
-        if more.half(confidence) < room:
-            return n
-    return None
+    more = lambda n: dataclasses.replace(
+        estimate, error=estimate.error * math.sqrt(estimate.runs / n), dof=estimate.dof + n - estimate.runs
+    )
+    return next((n for n in range(estimate.runs + 1, most + 1) if more(n).half(confidence) < room), None)
 
 
 def value_text(band, estimate, asked):
@@ -315,10 +286,8 @@ def sentence(band, evidence, verdict, confidence):
     text = f"{band.label} is {value_text(band, evidence.estimate, evidence.of)}"
     if verdict == "cannot be tested":
         return f"{text}, and {band.why}"
-    if verdict == "reproduced":
-        return f"{text}, {band.text()}"
-    if verdict == "refuted":
-        return f"{text}, not {band.text()}"
+    if verdict != "undecided":
+        return f"{text}, {'not ' if verdict == 'refuted' else ''}{band.text()}"
     n = runs_to_decide(band, evidence.estimate, confidence)
     return f"{text}, which does not show whether it is {band.text()}" + (f"; about {n} runs would" if n else "")
 
@@ -349,23 +318,23 @@ def row_of(scope, found):
     rule, confidence = scope.rule, scope.rules.common["confidence"]
     if set(found) != set(rule.figures):
         raise ValueError(f"{rule.id}: rules and judgement differ in {sorted(set(found) ^ set(rule.figures))}")
-    figures, sentences, runs = {}, {}, []
+    judged = sum(band.judged for band in rule.figures.values())
+    figures, sentences = {}, {verdict: [] for verdict in VERDICTS}
     for name, evidence in found.items():
         band, verdict = rule.figures[name], ""
-        runs += evidence.runs
         if not band.testable:
             verdict = "cannot be tested"
         elif band.judged:
-            placed = evidence.estimate and place(band, evidence.estimate, confidence, rule.judged_figures)
-            verdict = placed or "undecided"
+            verdict = place(band, evidence.estimate, confidence, judged) if evidence.estimate else "undecided"
         figures[name] = Figure(band, evidence.estimate, verdict)
         if verdict:
-            sentences.setdefault(verdict, []).append(sentence(band, evidence, verdict, confidence))
-    verdict = next(each for each in VERDICTS if each in sentences)
-    if verdict != "refuted" and "cannot be tested" in sentences:
+            sentences[verdict].append(sentence(band, evidence, verdict, confidence))
+    verdict = next(each for each in VERDICTS if sentences[each])
+    if verdict != "refuted" and sentences["cannot be tested"]:
         verdict = "cannot be tested"  # what holds as far as it goes is not reproduced while a part of it cannot be tested
-    why = " ".join(f"{each}: {'; '.join(sentences[each])}." for each in VERDICTS if each in sentences)
-    if runs:
-        windows = sorted({(run.leg.settle_rotations, run.leg.end) for run in runs})
+    why = " ".join(f"{each}: {'; '.join(texts)}." for each, texts in sentences.items() if texts)
+    legs = {run.leg.name: run.leg for evidence in found.values() for run in evidence.runs}
+    if legs:
+        windows = sorted({(leg.settle_rotations, leg.end) for leg in legs.values()})
         why += f" Averaged over rotations {', '.join(f'{a:g} to {b:g}' for a, b in windows)} since the ring had closed."
-    return Row(rule.id, scope.engine, scope.reading.label, figures, verdict, why, {run.leg.name for run in runs})
+    return Row(rule.id, scope.engine, scope.reading.label, figures, verdict, why, set(legs))

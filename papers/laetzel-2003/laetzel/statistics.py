@@ -53,15 +53,9 @@ def rank_trend(x, y, fewest):
         return None
     ties, others = (np.unique(values, return_counts=True)[1].astype(float) for values in (x, y))
 
-    def pairs(t):
-        return t * (t - 1)
-
-    def full(t):
-        return t * (t - 1) * (2 * t + 5)
-
-    def triple(t):
-        return t * (t - 1) * (t - 2)
-
+    pairs = lambda t: t * (t - 1)
+    full = lambda t: t * (t - 1) * (2 * t + 5)
+    triple = lambda t: t * (t - 1) * (t - 2)
     variance = (full(n) - full(ties).sum() - full(others).sum()) / 18
     if n > 2:
         variance += triple(ties).sum() * triple(others).sum() / (9 * triple(n))
@@ -150,12 +144,8 @@ def power_law(x, y, errors):
     weighted = bool(np.all(errors > 0))
     sigma = errors if weighted else np.full(len(y), np.sqrt(np.mean(y**2)))
 
-    def law(x, amplitude, p):
-        return amplitude * x**p
-
-    def slopes(x, amplitude, p):
-        return np.stack([x**p, amplitude * x**p * np.log(x)], axis=1)
-
+    law = lambda x, amplitude, p: amplitude * x**p
+    slopes = lambda x, amplitude, p: np.stack([x**p, amplitude * x**p * np.log(x)], axis=1)
     start = np.array([y[0], -2.0])
     try:
         best, covariance = scipy.optimize.curve_fit(

@@ -16,8 +16,7 @@ import numpy as np
 from laetzel.campaign import FINE_FIELDS, collisions_of, profiles_of, rounded, run_of
 from laetzel.tables import SPAN_NUMBERS
 
-PAPER = pathlib.Path(__file__).resolve().parents[1]
-PROJECT = PAPER.parents[1]
+PROJECT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(PROJECT / "python"))
 import crossgrain  # noqa: E402
 
@@ -29,33 +28,28 @@ class Sweep:
     """The file of a sweep: README.md has its keys."""
 
     def __init__(self, file):
-        self.file = pathlib.Path(file)
-        document = tomllib.loads(self.file.read_text(encoding="utf-8"))
-        shared = {key: document.pop(key, value) for key, value in (("rotations", [5, 8]), ("snapshots", 200), ("fine_rings", 60))}
-        base, common = self.file.parent / document.pop("base"), document.pop("set", [])
-        self.legs = {}
-        for leg in document.pop("legs"):
-            self.legs[leg["name"]] = {**shared, **leg, "case": base, "set": common + leg.get("set", [])}
-        self.rungs = document.pop("rungs")
-        if document:
-            raise ValueError(f"{file}: unknown keys {', '.join(document)}")
+        given = {"rotations": [5, 8], "snapshots": 200, "fine_rings": 60, "set": []} | tomllib.loads(file.read_text(encoding="utf-8"))
+        legs, self.rungs, common = given.pop("legs"), given.pop("rungs"), given.pop("set")
+        case = file.parent / given.pop("base")
+        if unknown := set(given) - {"rotations", "snapshots", "fine_rings"}:
+            raise SystemExit(f"{file}: unknown keys {', '.join(sorted(unknown))}")
+        self.legs = {leg["name"]: {**given, **leg, "case": case, "set": common + leg.get("set", [])} for leg in legs}
 
     def wanted(self):
         """(leg, packing) of all runs, each once: rung by rung, in a rung packing by packing, then leg by leg."""
         runs = {}
         for rung in self.rungs:
+            of_rung = lambda leg: leg["name"] in rung.get("legs", []) or set(leg["families"]) & set(rung.get("families", []))
             for packing in range(rung.get("packings", 1)):
-                for leg in self.legs.values():
-                    if leg["name"] in rung.get("legs", []) or set(leg["families"]) & set(rung.get("families", [])):
-                        runs[leg["name"], packing] = leg
-        return [(leg, packing) for (_, packing), leg in runs.items()]
+                runs |= {(leg["name"], packing): (leg, packing) for leg in filter(of_rung, self.legs.values())}
+        return list(runs.values())
 
 
 class Maker:
     """Makes runs; what is finished stays in the folder `out`."""
 
     def __init__(self, program, engine, out):
-        self.program, self.engine, self.out = program, engine, pathlib.Path(out)
+        self.program, self.engine, self.out = program, engine, out
 
     def call(self, command, *arguments, out, settings=()):
         sets = [word for setting in settings for word in ("--set", setting)]
@@ -80,95 +74,81 @@ class Maker:
 
     def _made(self, leg, packing):
         folder, (settle, end), per_rotation = self.out / "work" / leg["name"], leg["rotations"], leg["snapshots"]
-        times = ["settle_rotations=0", f"rotations={end}", f"snapshots_per_rotation={per_rotation}"]
-        keep = [f"run.keep_snapshots={math.ceil(per_rotation * end)}", f"run.keep_snapshots_of={ALL}"]
-        settings = leg["set"] + [f"averaging.{each}" for each in times] + keep + [f"preparation.packings={packing + 1}"]
+        settings = ["averaging.settle_rotations=0", f"averaging.rotations={end}", f"averaging.snapshots_per_rotation={per_rotation}"]
+        settings += [f"run.keep_snapshots={math.ceil(per_rotation * end)}", f"run.keep_snapshots_of={ALL}"]
+        settings = [*leg["set"], *settings, f"preparation.packings={packing + 1}"]
         results = self.call("compare", leg["case"], "--engines", self.engine, out=folder, settings=settings)
-        of_leg = leg_of(leg, results.document)
         [run] = [run for run in results.runs() if run["packing"] == packing]
+        case, cell = tomllib.loads(results.document["case"]["toml"]), results.document["cell"]
         file = folder / "snapshots" / f"{self.engine}-p{packing}.h5"
-        averaged = self._average(leg, of_leg, file, settle, end)
-        fine = self._average(leg, of_leg, file, settle, end, [f"averaging.rings={leg['fine_rings']}"])
+        average = lambda start, stop, *more: self._average(leg, 2 * math.pi / abs(cell["omega"]), file, start, stop, *more)
+        averaged, fine = run_of(average(settle, end)), average(settle, end, f"averaging.rings={leg['fine_rings']}")
         edges = [*np.arange(0, settle), *np.arange(settle, end), end]
-        history = [span_of(self._average(leg, of_leg, file, a, b), of_leg, a, b) for a, b in zip(edges, edges[1:])]
+        history = [span_of(average(a, b), cell, a, b) for a, b in zip(edges, edges[1:])]
         file.unlink()  # gigabytes in a sweep
-        seed = tomllib.loads(results.document["case"]["toml"])["preparation"]["seed"]
-        made = {"leg": leg["name"], "engine": self.engine, "packing": packing, "seed": seed, **run_of(averaged)}
-        made["head"] = {row["name"]: row["value"] for row in run["head"]} | {k: v for k, v in made["head"].items() if v is not None}
-        made |= {"cpu_s": run["stats"]["cpu_s"], "steps": run["stats"]["steps"], "dt": run["realised"]["dt"]}
-        made |= {"fine": {str(leg["fine_rings"]): profiles_of(fine["profiles"], FINE_FIELDS)}, "history": history}
-        return of_leg, made
+        head = {row["name"]: row["value"] for row in run["head"]} | {k: v for k, v in averaged["head"].items() if v is not None}
+        cost = {"cpu_s": run["stats"]["cpu_s"], "steps": run["stats"]["steps"], "dt": run["realised"]["dt"]}
+        rings = {str(leg["fine_rings"]): profiles_of(fine["profiles"], FINE_FIELDS)}
+        made = {"leg": leg["name"], "engine": self.engine, "packing": packing, "seed": case["preparation"]["seed"]}
+        return leg_of(leg, case, cell), made | averaged | cost | {"head": head, "fine": rings, "history": history}
 
-    def _average(self, leg, of_leg, file, start, end, settings=()):
-        """A run of results.json: of the snapshots from a rotation to another alone."""
-        rotation = 2 * math.pi / abs(of_leg["cell"]["omega"])
+    def _average(self, leg, rotation, file, start, end, *settings):
+        """A run of results.json: of the snapshots from a rotation [s] to another alone."""
         with tempfile.TemporaryDirectory(dir=self.out) as scratch:
             window = pathlib.Path(scratch) / "window.h5"
-            with h5py.File(file) as all_of_them, h5py.File(window, "w") as some:
-                some.attrs.update(all_of_them.attrs)
+            with h5py.File(file) as everything, h5py.File(window, "w") as some:
+                some.attrs.update(everything.attrs)
                 half, count = 0.5 / leg["snapshots"], 0  # snapshots come at the end of what they stand for
-                for name in sorted(all_of_them, key=lambda name: (len(name), name)):
+                for name in sorted(everything, key=lambda name: (len(name), name)):
                     if not name.startswith("snapshot-"):
-                        all_of_them.copy(name, some)
-                    elif start <= all_of_them[name]["time"][0] / rotation - half < end:
-                        all_of_them.copy(name, some, f"snapshot-{count:03d}")
+                        everything.copy(name, some)
+                    elif start <= everything[name]["time"][0] / rotation - half < end:
+                        everything.copy(name, some, f"snapshot-{count:03d}")
                         count += 1
             out = pathlib.Path(scratch) / "averaged"
             return self.call("average", window, leg["case"], out=out, settings=[*leg["set"], *settings]).runs()[0]
 
 
-def leg_of(leg, document):
-    """What a campaign's file says of a leg, from the results of its case."""
-    case = tomllib.loads(document["case"]["toml"])
-    law, particles = case["law"], case["particles"]
-    settle, end = leg["rotations"]
+def leg_of(leg, case, cell):
+    """What a campaign's file says of a leg; case: as it was resolved"""
+    law, particles, (settle, end) = case["law"], case["particles"], leg["rotations"]
     return {
-        "name": leg["name"],
-        "label": leg["nu"],
-        "families": leg["families"],
-        "cell": document["cell"],
-        "kn": law["kn"],
-        "kt": law.get("kt", 0.0),
-        "mu": law.get("mu", 0.0),
-        "large_mass": particles["large_mass"],
+        **{"name": leg["name"], "label": leg["nu"], "families": leg["families"], "cell": cell},
+        **{"kn": law["kn"], "kt": law.get("kt", 0.0), "mu": law.get("mu", 0.0), "large_mass": particles["large_mass"]},
         "bottom_friction": case.get("bottom", {}).get("mu", 0.0) > 0,
-        "settle_rotations": settle,
-        "averaged_rotations": end - settle,
+        **{"settle_rotations": settle, "averaged_rotations": end - settle},
         "law": {"kn": law["kn"], "gn": law["gn"], "small_mass": particles["small_mass"]},
     }
 
 
-def span_of(run, leg, start, end):
+def span_of(run, cell, start, end):
     """The history's numbers of a part of a run: means over its snapshots, the largest overlap of all of them."""
     series = {name: np.array(values, float) for name, values in run["series"].items()}
     profiles = {p["field"]: np.array(p["mean"], float) for p in reversed(run["profiles"])}
-    nu, cell = profiles["volume_fraction"], leg["cell"]
-    radius = cell["inner_radius"] + (np.arange(len(nu)) + 0.5) * (cell["outer_radius"] - cell["inner_radius"]) / len(nu)  # of rings' middles, as which volumes go
-    half = len(nu) // 2
-    numbers = {name: np.mean(values) for name, values in series.items()} | {
-        "max_overlap": np.max(series["max_overlap"]),
-        "wheel_touched": np.mean(series["wheel_contacts"] > 0),
-        "volume_fraction_at_wheel": nu[0],
-        "volume_fraction_outside": np.sum((nu * radius)[half:]) / np.sum(radius[half:]),
-        "velocity_at_wheel": profiles["azimuthal_velocity"][0] / (cell["omega"] * cell["inner_radius"]),
-    }
+    nu, rim, half = profiles["volume_fraction"], cell["omega"] * cell["inner_radius"], len(profiles["volume_fraction"]) // 2
+    width = (cell["outer_radius"] - cell["inner_radius"]) / len(nu)
+    volumes = cell["inner_radius"] + (np.arange(len(nu)) + 0.5) * width  # go as rings' middles
+    numbers = {name: np.mean(values) for name, values in series.items()}
+    numbers |= {"max_overlap": np.max(series["max_overlap"]), "wheel_touched": np.mean(series["wheel_contacts"] > 0)}
+    numbers |= {"volume_fraction_at_wheel": nu[0], "velocity_at_wheel": profiles["azimuthal_velocity"][0] / rim}
+    numbers["volume_fraction_outside"] = np.sum((nu * volumes)[half:]) / np.sum(volumes[half:])
     values = [float(numbers[name]) if np.isfinite(numbers[name]) else None for name in SPAN_NUMBERS]
     return {"from": float(start), "to": float(end)} | dict(zip(SPAN_NUMBERS, rounded(values, 6)))
 
 
 def climb(sweep, maker, earlier, budget, say):
     """A campaign's document of all runs that the budget [s] has room for: none begins after it. Runs of an earlier document are
-    taken where their leg is the same."""
-    begun = time.monotonic()
+    taken where their leg has the same rotations."""
+    begun, legs, runs, left = time.monotonic(), {}, [], 0
     taken = {(run["leg"], run["packing"]): run for run in earlier["runs"] if run["engine"] == maker.engine}
     before = {leg["name"]: leg for leg in earlier["legs"]}
-    legs, runs, left = {}, [], 0
     collisions = earlier["collisions"] or maker.collisions()
     for leg, packing in sweep.wanted():
-        name, key = leg["name"], (leg["name"], packing)
-        if key in taken and [before[name]["settle_rotations"], before[name]["averaged_rotations"]] == list(of_rotations(leg)):
-            legs.setdefault(name, before[name])
-            runs.append(taken[key])
+        name, (settle, end), known = leg["name"], leg["rotations"], before.get(leg["name"], {})
+        as_before = math.isclose(known.get("settle_rotations", -1), settle) and math.isclose(known["averaged_rotations"], end - settle)
+        if as_before and (name, packing) in taken:
+            legs[name] = known
+            runs.append(taken[name, packing])
         elif time.monotonic() - begun > budget:
             left += 1
         else:
@@ -177,10 +157,4 @@ def climb(sweep, maker, earlier, budget, say):
             runs.append(run)
     if left:
         say(f"{left} runs were left out: the budget is spent")
-    ordered = [legs[name] for name in sweep.legs if name in legs]
-    return {"made_by": [maker.program], "collisions": collisions, "legs": ordered, "runs": runs}
-
-
-def of_rotations(leg):
-    settle, end = leg["rotations"]
-    return settle, end - settle
+    return {"made_by": [maker.program], "collisions": collisions, "legs": [legs[n] for n in sweep.legs if n in legs], "runs": runs}

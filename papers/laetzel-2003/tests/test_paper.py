@@ -181,7 +181,7 @@ class Statistics(unittest.TestCase):
 class Sweep(unittest.TestCase):
     def test_runs_are_made_and_judged(self):
         with tempfile.TemporaryDirectory() as folder:
-            words = [PAPER / "run", HERE / "sweep.toml", "--afresh", "--no-figures", "--crossgrain", os.environ["CROSSGRAIN"], "--out", folder]
+            words = [PAPER / "run", HERE / "sweep.toml", "--afresh", "--crossgrain", os.environ["CROSSGRAIN"], "--out", folder]
             done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
             self.assertEqual(0, done.returncode, done.stderr)
             self.assertEqual(["tiny, packing 0", "tiny-smooth, packing 0"], done.stderr.splitlines())
