@@ -31,10 +31,10 @@ install(FILES README.md LICENSE CHANGELOG.md adapters/worker/protocol.schema.jso
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 # What these pages link to, at the place where they look for it.
 file(GLOB_RECURSE crossgrain_pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
-     adapters/*.md averaging/*.md cases/*.md engines/*.md oracle/*.md reports/curated/*.md tests/*.md)
+     adapters/*.md averaging/*.md cases/*.md engines/*.md oracle/*.md papers/*.md reports/curated/*.md tests/*.md)
 list(FILTER crossgrain_pages EXCLUDE REGEX node_modules)
 foreach(page ${crossgrain_pages} reports/curated/cost/cost_collision.png reports/curated/effects/effects_1_cost.png
-        reports/curated/full/overview.png reports/curated/stability/stability_map.png examples/import/box.toml
+        reports/curated/full/overview.png reports/curated/stability/stability_map.png examples/import/box.toml papers/laetzel-2003/figure_6_7.png
         examples/starts/on-dem.toml)
   cmake_path(GET page PARENT_PATH folder)
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})

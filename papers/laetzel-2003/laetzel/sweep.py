@@ -31,8 +31,11 @@ class Sweep:
         given = {"rotations": [5, 8], "snapshots": 200, "fine_rings": 60, "set": []} | tomllib.loads(file.read_text(encoding="utf-8"))
         legs, self.rungs, common = given.pop("legs"), given.pop("rungs"), given.pop("set")
         case = file.parent / given.pop("base")
-        if unknown := set(given) - {"rotations", "snapshots", "fine_rings"}:
-            raise SystemExit(f"{file}: unknown keys {', '.join(sorted(unknown))}")
+        lacks = [f"a leg without {key}: {leg}" for leg in legs for key in ("name", "nu", "families") if key not in leg]
+        lacks += [f"unknown key {key}" for key in given if key not in ("rotations", "snapshots", "fine_rings")]
+        lacks += [f"a rung of no leg: {name}" for rung in self.rungs for name in rung.get("legs", []) if name not in {leg["name"] for leg in legs}]
+        if lacks:
+            raise ValueError(f"{file}: {lacks[0]}")
         self.legs = {leg["name"]: {**given, **leg, "case": case, "set": common + leg.get("set", [])} for leg in legs}
 
     def wanted(self):
@@ -56,7 +59,8 @@ class Maker:
         words = [self.program, command, *map(str, arguments), *sets, "--quiet", "--out", str(out)]
         done = subprocess.run(words, capture_output=True, text=True)
         if done.returncode not in (0, 1):  # 1: a finding, no failure
-            raise SystemExit(f"{' '.join(words)}\n{done.stderr.strip()}")
+            print(f"{' '.join(words)}\n{done.stderr.strip()}", file=sys.stderr)
+            raise SystemExit(done.returncode)
         return crossgrain.Results(out)
 
     def collisions(self):

@@ -177,6 +177,25 @@ class Statistics(unittest.TestCase):
         self.assertEqual("undecided", judge.place(band, statistics.Estimate(5.0), 0.95, 1))
 
 
+class BadInput(unittest.TestCase):
+    def test_is_one_line_and_status_2(self):
+        with tempfile.TemporaryDirectory() as folder:
+            sweep = pathlib.Path(folder) / "sweep.toml"
+            for text, said in (
+                (None, "No such file"),
+                ("legs = [", "Invalid value"),
+                ('base = "x"\nlegs = [{ name = "a", nu = 0.8 }]\nrungs = []', "a leg without families"),
+                ('base = "x"\nlegs = []\nrungs = [{ legs = ["b"] }]', "a rung of no leg: b"),
+                ('base = "x"\nlegs = []\nrungs = []\nspeed = 1', "unknown key speed"),
+            ):
+                if text is not None:
+                    sweep.write_text(text, encoding="utf-8")
+                words = [sys.executable, PAPER / "run", sweep, "--kept", "quick", "--out", folder]
+                done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
+                self.assertEqual((2, 1), (done.returncode, len(done.stderr.splitlines())), done.stderr)
+                self.assertIn(said, done.stderr)
+
+
 @unittest.skipUnless("CROSSGRAIN" in os.environ, "needs the program")
 class Sweep(unittest.TestCase):
     def test_runs_are_made_and_judged(self):
