@@ -175,11 +175,11 @@ TEST(LockstepSteps, Steps_HoldTheFirstAndTheTimesReported) {
 }
 
 /// Three disks in a row and a wall disk with id 3; d = 2.
-struct ReadRow {
+struct DiskRow {
   std::vector<Vec2> places = {{0.0, 0.0}, {2.0, 0.0}, {4.0, 0.0}};
   Contacts contacts;
 
-  ReadRow& with(int i, int j, double normal, double tangential = 0.0, bool slides = false) {
+  DiskRow& with(int i, int j, double normal, double tangential = 0.0, bool slides = false) {
     contacts.i.push_back(i);
     contacts.j.push_back(j);
     contacts.normal.emplace_back(-1.0, 0.0);
@@ -193,7 +193,7 @@ struct ReadRow {
 };
 
 TEST(Farthest, Distance_IsInDiameters) {
-  ReadRow one, other;
+  DiskRow one, other;
   other.places[1].x() += 0.5;
   other.places[2].y() -= 1.0;
   const Farthest worst = farthest(one.at(0.0), other.at(0.0), 2.0);
@@ -202,8 +202,8 @@ TEST(Farthest, Distance_IsInDiameters) {
 }
 
 TEST(KindsVisited, Contacts_CountOnceAKind) {
-  const auto before = ReadRow().with(0, 1, 1.0).with(2, 3, 1.0, 0.5, true).at(0.1);
-  const auto after = ReadRow().with(1, 2, 1.0).with(2, 3, 1.0, 0.5, true).at(0.2);
+  const auto before = DiskRow().with(0, 1, 1.0).with(2, 3, 1.0, 0.5, true).at(0.1);
+  const auto after = DiskRow().with(1, 2, 1.0).with(2, 3, 1.0, 0.5, true).at(0.2);
   const ContactKinds kinds = kindsVisited<2>({before, after, after}, 3);
   EXPECT_EQ(kinds.sticking, 2u);
   EXPECT_EQ(kinds.sliding, 1u);
@@ -214,8 +214,8 @@ TEST(KindsVisited, Contacts_CountOnceAKind) {
 
 TEST(ForcesOfFirstStep, Differences_AreInTheMirrorsLargestForce) {
   LockstepWindow window;
-  window.mirror = {ReadRow().with(0, 1, 4.0, 1.0).with(1, 2, 2.0).with(0, 2, 1.0).at(0.1)};
-  window.engine = {ReadRow().with(0, 1, 4.4, 0.8).with(2, 3, 1.0).with(0, 3, 1.0).at(0.1)};
+  window.mirror = {DiskRow().with(0, 1, 4.0, 1.0).with(1, 2, 2.0).with(0, 2, 1.0).at(0.1)};
+  window.engine = {DiskRow().with(0, 1, 4.4, 0.8).with(2, 3, 1.0).with(0, 3, 1.0).at(0.1)};
   const auto forces = forcesOfFirstStep(window);
   ASSERT_TRUE(forces);
   EXPECT_EQ(forces->contacts, 3u);
@@ -229,10 +229,10 @@ TEST(ForcesOfFirstStep, Differences_AreInTheMirrorsLargestForce) {
 
 TEST(FirstExceedance, ContactWithTheLargestDifference_IsNamed) {
   LockstepWindow window;
-  window.mirror = {ReadRow().with(0, 1, 1.0).at(0.1),
-                   ReadRow().with(0, 1, 1.0).with(1, 3, 2.0, 0.4, true).at(0.2)};
-  ReadRow theirs = ReadRow().with(0, 1, 1.0).with(1, 3, 1.0, 0.4, true);
-  window.engine = {ReadRow().with(0, 1, 1.0).at(0.1), theirs.at(0.2)};
+  window.mirror = {DiskRow().with(0, 1, 1.0).at(0.1),
+                   DiskRow().with(0, 1, 1.0).with(1, 3, 2.0, 0.4, true).at(0.2)};
+  DiskRow theirs = DiskRow().with(0, 1, 1.0).with(1, 3, 1.0, 0.4, true);
+  window.engine = {DiskRow().with(0, 1, 1.0).at(0.1), theirs.at(0.2)};
   EXPECT_FALSE(firstExceedance(window, 2.0, {1e-10, 1e-10}, 3));
   window.engine[1].position[1].x() += 1e-6;
   const auto first = firstExceedance(window, 2.0, {1e-10, 1e-10}, 3);
@@ -248,9 +248,9 @@ TEST(FirstExceedance, ContactWithTheLargestDifference_IsNamed) {
 
 TEST(FirstExceedance, ContactThatLasts_IsNeitherNewNorOpening) {
   LockstepWindow window;
-  const auto met = ReadRow().with(0, 1, 1.0);
-  window.mirror = {ReadRow(met).at(0.1), ReadRow(met).at(0.2)};
-  window.engine = {ReadRow(met).at(0.1), ReadRow().with(0, 1, 2.0).at(0.2)};
+  const auto met = DiskRow().with(0, 1, 1.0);
+  window.mirror = {DiskRow(met).at(0.1), DiskRow(met).at(0.2)};
+  window.engine = {DiskRow(met).at(0.1), DiskRow().with(0, 1, 2.0).at(0.2)};
   window.engine[1].position[0].x() += 1e-6;
   const auto first = firstExceedance(window, 2.0, {1e-10, 1e-10}, 3);
   ASSERT_TRUE(first);
@@ -260,9 +260,9 @@ TEST(FirstExceedance, ContactThatLasts_IsNeitherNewNorOpening) {
 /// Impulses show in the positions of the next step, when the disks that met have parted.
 TEST(FirstExceedance, ContactsOfTheStepBefore_Count) {
   LockstepWindow window;
-  const auto met = ReadRow().with(0, 1, 1.0).with(1, 2, 1.0).at(0.1);
-  window.mirror = {met, ReadRow().at(0.2)};
-  window.engine = {met, ReadRow().at(0.2)};
+  const auto met = DiskRow().with(0, 1, 1.0).with(1, 2, 1.0).at(0.1);
+  window.mirror = {met, DiskRow().at(0.2)};
+  window.engine = {met, DiskRow().at(0.2)};
   window.engine[1].position[0].x() += 1e-6;
   const auto first = firstExceedance(window, 2.0, {1e-10, 1e-10}, 3);
   ASSERT_TRUE(first);

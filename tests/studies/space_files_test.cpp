@@ -7,6 +7,8 @@
 // and moves at 1 m/s along x is at (4.2, 1, 2.9) by then, 0.1 m deep in the first from above.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include <fmt/format.h>
 
 #include <fstream>
