@@ -123,14 +123,6 @@ class Reader {
   void need(std::string_view key) {
     if (!has(key)) missing_.emplace_back(key);
   }
-  void requireText(std::string_view key, std::string& target, std::string_view otherwise) {
-    require(key, target, Sentence{otherwise});
-  }
-  std::optional<std::filesystem::path> readFile(std::string_view key, const char* extension) {
-    std::optional<std::filesystem::path> file;
-    read(key, file, ExistingFile{extension});
-    return file;
-  }
 
   /// This table on top of another: what it lacks it has from there, but for some keys.
   Reader above(const Reader& base, const Names& without) const;

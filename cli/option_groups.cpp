@@ -197,10 +197,9 @@ void addResults(CLI::App& app, CommandLine& line) {
   app.add_flag("--json", line.json, "print only the path of results.json, for scripts");
 }
 
-/// Of all commands that run engines. @param usual  engine where none is named; null: they must be
-/// @param jobs  not of a command that times one engine at a time
-void addRun(CLI::App& app, CommandLine& line, const char* usual, bool jobs) {
-  addEngines(app, line, usual);
+/// Of all commands that run engines. @param jobs  not of a command that times one engine at a time
+void addRun(CLI::App& app, CommandLine& line, bool jobs) {
+  addEngines(app, line);
   addResults(app, line);
   addQuiet(app, line);
   app.add_flag("--dry-run", line.run.dryRun,
@@ -226,8 +225,7 @@ void addStudy(CLI::App& app, CommandLine& line, const SharedOptions& takes,
   if (takes.input == Input::oneCase) addCase(app, line, takes.inputIs);
   if (takes.input == Input::anyCases) addInputs(app, line, "case", takes.inputIs, 0, anyNumber);
   if (takes.selection) addSelection(app, line);
-  const char* const usual = takes.inHouse ? engineRegistry().front().name.c_str() : nullptr;
-  if (takes.engines) addRun(app, line, usual, takes.jobs);
+  if (takes.engines) addRun(app, line, takes.jobs);
   if (takes.packings) addPackings(app, line);
   for (const StudyOption& option : own) {
     if (auto* const* flag = std::get_if<bool*>(&option.value))

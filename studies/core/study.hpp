@@ -48,7 +48,6 @@ struct SharedOptions {
   const char* inputIs = "case file";
   bool selection = false;  ///< -k
   bool engines = true;     ///< --engines and what goes with running them
-  bool inHouse = false;    ///< where --engines is missing: the in-house engine
   bool jobs = true;        ///< --jobs; without: one engine at a time
   bool packings = false;   ///< --seed, --quick
 };

@@ -19,12 +19,9 @@
 namespace crossgrain::inline studies {
 
 Rings ringsOf(const Case& setup) {
-  return ringsOf(setup, setup.region.value().count);
-}
-
-Rings ringsOf(const Case& setup, int count) {
   const Region& region = setup.region.value();
-  return Rings(region.innerRadius, region.outerRadius, count, region.height, flowDiameter(setup));
+  return Rings(region.innerRadius, region.outerRadius, region.count, region.height,
+               flowDiameter(setup));
 }
 
 std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> names) {

@@ -14,9 +14,8 @@
 
 namespace crossgrain::inline studies {
 
-/// The rings in the plane that a case averages over, or so many in their place.
+/// The rings in the plane that a case averages over.
 Rings ringsOf(const Case& setup);
-Rings ringsOf(const Case& setup, int count);
 
 /// Weights of these names, with the case's kernel width.
 std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> names);

@@ -31,13 +31,6 @@ json keptUnder(const fs::path& folder, const std::string& key) {
 
 }  // namespace
 
-double timeReached(const fs::path& folder, const std::string& key) {
-  const json kept = keptUnder(folder, key);
-  return kept.is_object() && kept.contains("time") && kept["time"].is_number()
-             ? kept["time"].get<double>()
-             : 0.0;
-}
-
 template <int D>
 UnfinishedRunOf<D>::UnfinishedRunOf(fs::path folder, std::string key, const SceneOf<D>& scene,
                                     bool possible)

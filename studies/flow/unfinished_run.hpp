@@ -59,8 +59,4 @@ class UnfinishedRunOf {
 };
 using UnfinishedRun = UnfinishedRunOf<2>;
 
-/// How far a run came that was kept in that folder under that key [s]; 0: there is none, or nobody
-/// can tell.
-double timeReached(const std::filesystem::path& folder, const std::string& key);
-
 }  // namespace crossgrain::inline studies

@@ -54,15 +54,6 @@ class UnfinishedRuns : public testing::Test {
   std::unique_ptr<Engine> engine_ = makeGrain(), later_ = makeGrain();
 };
 
-TEST_F(UnfinishedRuns, TimeReached_IsThatOfTheLastCheckpoint) {
-  EXPECT_EQ(timeReached(folder_, "key"), 0.0);
-  leave();
-  EXPECT_EQ(timeReached(folder_, "key"), 0.05);
-  EXPECT_EQ(timeReached(folder_, "another key"), 0.0);
-  std::ofstream(folder_ / "index.json") << "{";
-  EXPECT_EQ(timeReached(folder_, "key"), 0.0);
-}
-
 TEST_F(UnfinishedRuns, Resumed_GoesOnToTheBit) {
   leave();
   later_->load(scene_, {});
