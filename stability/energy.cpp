@@ -41,7 +41,9 @@ template <int D>
 double tangentialEnergy(const RecordingOf<D>& run, const SnapshotOf<D>& snapshot) {
   const ContactLaw& law = run.scene.law;
   const bool constant = law.springs() && law.normal == NormalLaw::linear;
-  if (!constant || !snapshot.contacts || run.effective.pairs.empty()) return 0.0;
+  if (!constant || !snapshot.contacts || !run.effective.effects.contains(Effect::tangentialSpring))
+    return 0.0;
+  const std::vector<PairCoefficients>& pairs = run.effective.pairs;
   const ContactsOf<D>& contacts = *snapshot.contacts;
   double energy = 0.0;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
@@ -49,7 +51,8 @@ double tangentialEnergy(const RecordingOf<D>& run, const SnapshotOf<D>& snapshot
                                                 .lawOf(static_cast<std::size_t>(contacts.i[k]),
                                                        static_cast<std::size_t>(contacts.j[k]))
                                                 .kt
-                                          : run.effective.pairs.front().kt;
+                      : pairs.empty() ? law.kt
+                                      : pairs.front().kt;
     if (kt > 0.0) energy += 0.5 * square(contacts.tangentialForce[k]) / kt;
   }
   return energy;

@@ -288,10 +288,16 @@ Curve pileAngleChange(const RecordingOf<D>& run) {
 }
 
 /// Whether two bodies went through each other between two samples: their centres changed sides, and
-/// the straight way between passes deep inside.
+/// the straight way between passes deep inside. What has gone round the other is farther by then
+/// than 1.27 of the reach, and no straight way stands for its path: it is one that both velocities
+/// lead along.
+/// @param way  of one past the other  @param led  that of its velocity before, and of that after
 template <int D>
-bool crossed(const VecOf<D>& before, const VecOf<D>& way, double reach) {
+bool crossed(const VecOf<D>& before, const VecOf<D>& way, const std::array<VecOf<D>, 2>& led,
+             double reach) {
   if (before.dot(before + way) >= 0.0) return false;
+  const auto strays = [&](const VecOf<D>& one) { return (one - way).norm() > 0.5 * reach; };
+  if (way.norm() > 1.25 * reach && std::ranges::any_of(led, strays)) return false;
   const double fraction = std::clamp(-before.dot(way) / way.squaredNorm(), 0.0, 1.0);
   return (before + fraction * way).norm() < 0.5 * reach;
 }
@@ -320,20 +326,28 @@ Curve tunnelled(const RecordingOf<D>& run) {
   Curve curve;
   const std::vector<double> radius = run.scene.radii();
   std::vector<VecOf<D>> before, after;
+  const SnapshotOf<D>* last = nullptr;
   for (const SnapshotOf<D>& now : run.snapshots) {
     after = now.position;
     const std::vector<VecOf<D>> walls = wallDisksAt(run.scene, now.positionTime);
     after.insert(after.end(), walls.begin(), walls.end());
-    if (!before.empty())
+    const double passed = last ? now.positionTime - last->positionTime : 0.0;
+    // Walls' disks have no velocities in a snapshot: their way is known.
+    const auto led = [&](const SnapshotOf<D>& at, std::size_t k) {
+      return k < disks ? VecOf<D>(passed * at.velocity[k]) : VecOf<D>(after[k] - before[k]);
+    };
+    if (last)
       for (std::size_t i = 0; i < disks; ++i)
         for (std::size_t j = i + 1; j < after.size(); ++j) {
           const VecOf<D> apart = apartIn<D>(run.scene, before[i] - before[j]);
           if (crossed<D>(apart, (after[i] - before[i]) - (after[j] - before[j]),
+                         {led(*last, i) - led(*last, j), led(now, i) - led(now, j)},
                          radius[i] + radius[j]))
             through.insert(i);
         }
     addBehindWalls(run, now, through);
     before = std::move(after);
+    last = &now;
     curve.push_back(static_cast<double>(through.size()));
   }
   return curve;

@@ -188,7 +188,12 @@ class Measuring {
     paces_.clear();
     std::vector<PlannedPoint> plan = planned(kind);
     const double common = kind.commonTime();
-    const std::string why = lackOfTime(common);
+    // References serve nothing where no point fits beside them.
+    double first = 0.0;
+    for (const PlannedPoint& point : plan)
+      if (common > 0.0 && point.turn < 2 && study_.settingOf(point).knob == "time_step")
+        first += std::min(point.seconds, point.round * static_cast<double>(fewestRounds));
+    const std::string why = lackOfTime(common + first);
     if (why.empty())
       kind.makeReferences();
     else
@@ -199,7 +204,7 @@ class Measuring {
       if (!setting.refusal.empty()) {
         put(kind, point, Status::refused, setting.refusal);
       } else if (!why.empty() && (point.seconds > 0.0 || !kind.keptSuffice())) {
-        put(kind, point, Status::notRun, "its reference " + why);
+        put(kind, point, Status::notRun, "its reference and first points " + why);
         budgetForTheRest += point.seconds;
       } else {
         all.push_back({point});

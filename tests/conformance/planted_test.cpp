@@ -351,6 +351,8 @@ INSTANTIATE_TEST_SUITE_P(
                     alone("walls_undamped", "wall_gt=0", "PlanesFollowTheOracle",
                           "^γ_t -(99|100) %, at planes"),
                     alone("walls_friction", "wall_mu=0.9", "WallDisksFollowTheOracle", ""),
+                    alone("rolling_at_walls", "roll_at_walls=0", "RollingFollowsItsClosedForms",
+                          "^nothing resists rolling at planes"),
                     alone("images_along_z", "images_z=0", "PairsAcrossBordersInSpace",
                           "^bodies do not meet each other's images across the border along z"),
                     alone("images_of_walls", "wall_images=0", "WallsAcrossBordersInSpace",

@@ -24,7 +24,7 @@ namespace crossgrain::test {
 /// Others misbehave from the start, each in one thing that is declared:
 ///
 /// "no-checkpoints"    has none
-/// "forgetful"         its checkpoints do not hold the springs of contacts
+/// "forgetful"         its checkpoints do not hold the springs of contacts; "checkpoints" do
 /// "hertz-radius"      its law of Hertz lacks √R₁₂ (of the first pair, in SI units)
 /// "impulse-planes"    impulses restore 0.8 e_n where there are planes
 /// "impulse-sizes"     the same where disks are of several sizes

@@ -80,7 +80,8 @@ class MisbehavingEngine final : public Engine {
 
 Capabilities MisbehavingEngine::capabilities() const {
   Capabilities can = engine_->capabilities();
-  can.checkpoints = mischief_ == "no-checkpoints" || mischief_ == "forgetful";
+  can.checkpoints =
+      mischief_ == "no-checkpoints" || mischief_ == "forgetful" || mischief_ == "checkpoints";
   return can;
 }
 
@@ -101,7 +102,7 @@ void MisbehavingEngine::checkpoint(const std::filesystem::path& file) {
 
 void MisbehavingEngine::restore(const std::filesystem::path& file) {
   engine_->restore(file);
-  beginAnew(1.0, false);
+  if (mischief_ == "forgetful") beginAnew(1.0, false);
 }
 
 void MisbehavingEngine::beginAnew(double friction, bool springs) {

@@ -163,7 +163,7 @@ TEST_P(EnergyWithoutLedger, OfCohesionAndRolling_IsTheLedgers) {
     // Springs of friction are no part of it: k_t changes with a Hertz contact's depth.
     const double known = ledger.elasticNormal + ledger.elasticRolling;
     now.ledger.reset();
-    run.effective.pairs.clear();  // tells k_t
+    run.effective.effects.erase(Effect::tangentialSpring);
     const EnergyState found = energyOf(run, now);
     EXPECT_NEAR(found.elastic, known, 1e-6 * 1e-8) << k;
     EXPECT_NEAR(found.kinetic, ledger.kinetic, 1e-12 * 1e-8) << k;

@@ -61,6 +61,27 @@ TEST(StabilityMeasures, EnergyCountsMotionAndSprings) {
   EXPECT_NEAR(at.curve("energy_gain")[2], 1.0, 1e-12);
 }
 
+/// An engine need not report constants of pairs: k_t is then the scene's.
+TEST(StabilityMeasures, EnergyOfTangentialSprings_IsThatOfTheLawWithoutPairs) {
+  Series at;
+  at.run.scene.law.tangential = TangentialLaw::spring;
+  at.run.scene.law.mu = 1.0;
+  at.run.scene.law.kt = 50.0;
+  at.run.effective.effects = {Effect::tangentialSpring};
+  at.look(1.0, {0, 0}, {2.0, 0}, {1.0, 0}, {0.0, 0}).contacts.emplace();  // 1 J of 2 J
+  Contacts& contacts = *at.run.snapshots.back().contacts;
+  contacts.i = {0};
+  contacts.j = {1};
+  contacts.tangentialForce = {-10.0};  // ½ · 10²/50 J = 1 J
+  EXPECT_NEAR(at.last("energy_drift"), 0.0, 1e-12);
+  at.run.effective.pairs.resize(1);
+  at.run.effective.pairs.front().kn = 100.0;
+  at.run.effective.pairs.front().kt = 100.0;  // ½ J
+  EXPECT_NEAR(at.last("energy_drift"), 0.25, 1e-12);
+  at.run.effective.effects.clear();
+  EXPECT_NEAR(at.last("energy_drift"), 0.5, 1e-12);
+}
+
 TEST(StabilityMeasures, EnergyOfSpinsAndOfFalling) {
   Series at;
   at.run.scene.gravity = {0.0, -10.0};  // scale: 2 J + 2 · 2 kg · 10 m/s² · 1 m = 42 J
@@ -223,14 +244,27 @@ TEST(StabilityMeasures, PileAngleIsThatOfTheTriangle) {
 
 TEST(StabilityMeasures, GoingThroughIsToldFromBouncing) {
   Series at;
-  at.look(1.0, {4.5, 0}, {5.5, 0});  // deep in each other
-  at.look(2.0, {4.0, 0}, {6.0, 0});  // and back
+  at.look(1.0, {4.5, 0}, {5.5, 0});                   // deep in each other
+  at.look(2.0, {4.0, 0}, {6.0, 0}, {2, 0}, {-2, 0});  // and back
   EXPECT_EQ(at.last("tunnelled"), 0.0);
-  at.look(3.0, {6.0, 0.1}, {4.0, 0});  // changed sides, passing close
+  at.look(3.0, {6.0, 0.1}, {4.0, 0}, {2, 0}, {-2, 0});  // changed sides, passing close
   EXPECT_EQ(at.last("tunnelled"), 1.0);
   Series past;
   past.look(1.0, {10.0, 2.5}, {0.0, 0});  // changed sides at 2.5 m
   EXPECT_EQ(past.last("tunnelled"), 0.0);
+}
+
+/// What turns with a drum by 120° from one snapshot to the next has not gone through its
+/// neighbours.
+TEST(StabilityMeasures, GoingRoundEachOther_IsNotGoingThrough) {
+  Series at;
+  for (const double t : {1.0, 2.0, 3.0}) {
+    const double angle = 2.0 * std::numbers::pi / 3.0 * t;
+    const Vec2 arm(std::cos(angle), std::sin(angle)),
+        velocity = 2.0 * std::numbers::pi / 3.0 * Vec2(-arm.y(), arm.x());
+    at.look(t, arm, -arm, velocity, -velocity);
+  }
+  EXPECT_EQ(at.last("tunnelled"), 0.0);
 }
 
 /// Disks that stay together have e_n = 0: far from an elastic law's 1, and next to nothing from

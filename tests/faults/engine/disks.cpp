@@ -190,7 +190,9 @@ Memory& Simulation::memoryOf(Pair& pair) {
 
 void Simulation::addPairs() {
   const World& w = world_;
-  for (Pair& pair : neighbours_.pairs) {
+  std::vector<Pair>& pairs = neighbours_.pairs;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    Pair& pair = pairs[w.backwards ? pairs.size() - 1 - k : k];
     Memory& kept = memoryOf(pair);
     const auto [i, j] = std::pair(pair.i, pair.j);
     const Vector apart = w.position[i] - w.position[j];

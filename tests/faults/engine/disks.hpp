@@ -39,6 +39,7 @@ struct World {
   Plate plate;
   Vector gravity;
   bool turns = false;
+  bool backwards = false;  ///< pairs are taken from the last to the first
   std::vector<Body> bodies;
   std::vector<double> mass, inertia;                 ///< disks
   std::vector<double> radius, spin;                  ///< disks, wall disks

@@ -212,6 +212,9 @@ struct Faults {
   double touchingDrag = given("touching_drag", 0.0);  ///< [1/s] of the velocity of disks that touch
   double unevenKn = given("uneven_kn", 1.0);  ///< where one mass is 50 times the other, or more
 
+  double threads = given("threads", 0.0);  ///< 1: a setting, which changes nothing; 2: with more
+                                           ///< than one forces are summed the other way round
+
   // What is answered; the motion is right.
   double showFloat = given("show_float", 0.0);  ///< positions rounded to float32
   double showLate = given("show_late", 0.0);    ///< contacts and loads on walls of the step before
@@ -228,6 +231,7 @@ struct Faults {
       given("show_earlier", 0.0);             ///< [s] positions of that much earlier than said
   double showSpin = given("show_spin", 1.0);  ///< factor of spins
   double showWallForce = given("show_wall_force", 1.0);  ///< factor of forces on walls
+  double showWallTorque = given("show_wall_torque", 1.0);  ///< of torques on walls
   double showTorqueAboutOrigin =
       given("show_torque_about_origin", 0.0);  ///< of walls, not about their centres
 

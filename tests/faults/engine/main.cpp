@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <numeric>
-#include <type_traits>
 #include <utility>
 
+#include "checkpoint.hpp"
 #include "crossgrain_worker.hpp"
 #include "disks.hpp"
 
@@ -247,7 +246,7 @@ Json bodiesOf(const Simulation& simulation, const Loads& loads, const Faults& fa
                     {"velocity", {body.velocity.x, body.velocity.y}},
                     {"angular_velocity", body.spin},
                     {"force", {faults.showWallForce * force.x, faults.showWallForce * force.y}},
-                    {"torque", loads.torque[b] + more}});
+                    {"torque", faults.showWallTorque * loads.torque[b] + more}});
   }
   return list;
 }
@@ -291,17 +290,25 @@ class PlantedEngine {
         {"jkr_end", only("largest_pull")},
         {"cohesion_load", only("without_pull")},
         {"unloading_stiffness", only(declared(f.lagDeepest, "current", "lagged"))}};
+    Json settings = Json::array();
+    if (f.threads != 0.0)
+      settings.push_back({{"name", "threads"},
+                          {"default", 1.0},
+                          {"unit", "-"},
+                          {"doc", "that share the work of a step"},
+                          {"choices", Json::array()}});
     if (f.leverMiddle != 0.0 && f.declares != 0.0) options["plane_arm"] = only("surface");
     return {
         {"version", "1"},           {"effects", effects},
         {"law_options", options},   {"precisions", only(declared(f.floatState, "double", "float"))},
         {"instant_contacts", true}, {"accumulated_contacts", false},
         {"warm_handover", false},   {"checkpoints", true},
-        {"sliding_flags", true},    {"settings", Json::array()}};
+        {"sliding_flags", true},    {"settings", settings}};
   }
 
-  Json load(const Json& scene, const Arrays& arrays, const Json&) {
+  Json load(const Json& scene, const Arrays& arrays, const Json& settings) {
     World loaded = worldOf(scene, arrays, faults_);
+    loaded.backwards = faults_.threads > 1.0 && settings.value("threads", 1.0) > 1.0;
     if (simulation_ && faults_.loadGrows != 0.0) loaded.rough = simulation_->world().disks;
     auto next = std::make_unique<Simulation>(std::move(loaded), faults_);
     if (simulation_ && faults_.loadRemembers != 0.0) next->takeSprings(*simulation_);
@@ -372,39 +379,11 @@ class PlantedEngine {
             {"bodies", bodies}};
   }
 
-  void checkpoint(const std::string& path) {
-    std::ofstream file(path, std::ios::binary);
-    simulation_->parts([&](const auto& part) {
-      using Part = std::decay_t<decltype(part)>;
-      if constexpr (std::is_arithmetic_v<Part>) {
-        file.write(reinterpret_cast<const char*>(&part), sizeof part);
-      } else {
-        const std::size_t size = part.size();
-        file.write(reinterpret_cast<const char*>(&size), sizeof size);
-        file.write(reinterpret_cast<const char*>(part.data()),
-                   static_cast<std::streamsize>(size * sizeof part[0]));
-      }
-    });
-    if (!file.flush()) throw std::runtime_error(path + " cannot be written");
-  }
+  void checkpoint(const std::string& path) { writeParts(path, *simulation_); }
 
   /// What checkpoint() of the same scene wrote.
   void restore(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    simulation_->parts([&](auto& part) {
-      using Part = std::decay_t<decltype(part)>;
-      if constexpr (std::is_arithmetic_v<Part>) {
-        file.read(reinterpret_cast<char*>(&part), sizeof part);
-      } else {
-        std::size_t size = 0;
-        file.read(reinterpret_cast<char*>(&size), sizeof size);
-        if (!file) throw std::runtime_error(path + " is too short");
-        part.resize(size);
-        file.read(reinterpret_cast<char*>(part.data()),
-                  static_cast<std::streamsize>(size * sizeof part[0]));
-      }
-    });
-    if (!file) throw std::runtime_error(path + " is too short");
+    readParts(path, *simulation_);
     simulation_->restored();
     before_ = loadsOf(*simulation_);
   }
