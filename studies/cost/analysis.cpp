@@ -75,21 +75,27 @@ std::vector<LargestStep> largestSteps(const std::vector<CostPoint>& points) {
             point.status == status && point.dt)
           use(point);
     };
-    constexpr std::array kinds = {CostKind::averages, CostKind::trajectory};
-    for (const CostKind kind : kinds)
+    for (const CostKind kind : {CostKind::averages, CostKind::trajectory, CostKind::collision})
       each(kind, Status::failed, [&](const CostPoint& point) {
         found.unstable = std::min(found.unstable.value_or(INFINITY), *point.dt);
       });
-    for (const CostKind kind : kinds) {  // whole runs show more than paths
-      if (found.stable) break;
+    // Nothing may touch along a path, which then bears any step: collisions do.
+    std::optional<double> borne;
+    each(CostKind::collision, Status::finished,
+         [&](const CostPoint& point) { borne = std::max(borne.value_or(0.0), *point.dt); });
+    bool allRan = true;
+    for (const CostKind kind : {CostKind::averages, CostKind::trajectory}) {
+      if (found.stable) break;  // whole runs show more than paths
       found.kind = kind;
+      each(kind, Status::notRun, [&](const CostPoint&) { allRan = false; });
       each(kind, Status::finished, [&](const CostPoint& point) {
         if (found.unstable && *point.dt >= *found.unstable) return;  // by chance
+        if (kind == CostKind::trajectory && borne && *point.dt > *borne) return;
         found.stable = std::max(found.stable.value_or(0.0), *point.dt);
         if (point.stepsPerContact) found.contactTime = *point.dt * *point.stepsPerContact;
       });
     }
-    if (found.stable || found.unstable) all.push_back(found);
+    if (found.stable || (found.unstable && allRan)) all.push_back(found);
   }
   return all;
 }

@@ -342,7 +342,8 @@ class Measuring {
     const double before = study_.campaign.elapsed();
     // Other work on the machine takes a few times as long; what blows up may never end.
     constexpr double atLeast = 20.0, times = 10.0;  // [s], [-]
-    const double longest = std::max(atLeast, times * seconds * pace(point.engine));
+    const double most = std::max(atLeast, times * seconds * pace(point.engine));
+    const double longest = std::min(most, std::max(5.0, budget_ - before));
     Measured measured = measure(study_, kind, point, round, longest);
     if (seconds > 0.0 &&
         measured.result.status == Status::finished) {  // what blows up takes for ever

@@ -407,4 +407,24 @@ TEST(CostLargestStep, LiesBelowTheSmallestThatFails) {
   EXPECT_TRUE(largestSteps(points).empty());
 }
 
+/// Nothing may touch along a path: a disk that falls bears any step.
+TEST(CostLargestStep, OfPathsIsOneThatCollisionsBear) {
+  Points points;
+  for (const CostKind kind : {CostKind::trajectory, CostKind::collision})
+    for (const double dt : {1e-6, 2e-6, 4e-6}) {
+      CostPoint& point = points.emplace_back();
+      point.engine = "a";
+      point.knob = "time_step";
+      point.kind = kind;
+      point.dt = dt;
+      if (kind == CostKind::collision && dt == 4e-6) point.status = Status::failed;
+    }
+  EXPECT_EQ(largestSteps(points).at(0).stable, 2e-6);
+  EXPECT_EQ(largestSteps(points).at(0).unstable, 4e-6);
+  // Of the step that failed nothing follows while shorter ones have not been run.
+  for (CostPoint& point : points)
+    if (point.kind == CostKind::trajectory) point.status = Status::notRun;
+  EXPECT_TRUE(largestSteps(points).empty());
+}
+
 }  // namespace

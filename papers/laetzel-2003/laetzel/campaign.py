@@ -203,7 +203,10 @@ def longest_of_each_packing(runs):
 def load(file):
     """The document of a campaign's file, compressed or not."""
     data = pathlib.Path(file).read_bytes()
-    return json.loads(lzma.decompress(data) if str(file).endswith(".xz") else data)
+    try:
+        return json.loads(lzma.decompress(data) if str(file).endswith(".xz") else data)
+    except (ValueError, lzma.LZMAError) as error:
+        raise ValueError(f"{file}: no campaign: {error}") from error
 
 
 def save(document, file):

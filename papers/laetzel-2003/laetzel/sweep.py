@@ -28,12 +28,19 @@ class Sweep:
     """The file of a sweep: README.md has its keys."""
 
     def __init__(self, file):
-        given = {"rotations": [5, 8], "snapshots": 200, "fine_rings": 60, "set": []} | tomllib.loads(file.read_text(encoding="utf-8"))
+        try:
+            given = {"rotations": [5, 8], "snapshots": 200, "fine_rings": 60, "set": []} | tomllib.loads(file.read_text(encoding="utf-8"))
+        except tomllib.TOMLDecodeError as error:
+            raise ValueError(f"{file}: {error}") from error
+        if missing := [key for key in ("base", "legs", "rungs") if key not in given]:
+            raise ValueError(f"{file}: has no {missing[0]}")
         legs, self.rungs, common = given.pop("legs"), given.pop("rungs"), given.pop("set")
         case = file.parent / given.pop("base")
         lacks = [f"a leg without {key}: {leg}" for leg in legs for key in ("name", "nu", "families") if key not in leg]
         lacks += [f"unknown key {key}" for key in given if key not in ("rotations", "snapshots", "fine_rings")]
         lacks += [f"a rung of no leg: {name}" for rung in self.rungs for name in rung.get("legs", []) if name not in {leg["name"] for leg in legs}]
+        families = {family for leg in legs for family in leg.get("families", [])}
+        lacks += [f"a rung of no family: {name}" for rung in self.rungs for name in rung.get("families", []) if name not in families]
         if lacks:
             raise ValueError(f"{file}: {lacks[0]}")
         self.legs = {leg["name"]: {**given, **leg, "case": case, "set": common + leg.get("set", [])} for leg in legs}
