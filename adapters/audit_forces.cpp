@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
-#include "law/law_options.hpp"
 #include "adapters/near_pairs.hpp"
+#include "law/law_options.hpp"
 
 namespace crossgrain {
 

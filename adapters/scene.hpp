@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "law/contact_law.hpp"
 #include "adapters/motion.hpp"
 #include "adapters/vec2.hpp"
+#include "law/contact_law.hpp"
 
 namespace crossgrain {
 

@@ -13,12 +13,12 @@
 #include <variant>
 #include <vector>
 
-#include "law/contact_law.hpp"
 #include "adapters/engine.hpp"
 #include "adapters/motion.hpp"
 #include "adapters/scene.hpp"
 #include "adapters/vec2.hpp"
 #include "cases/cost.hpp"
+#include "law/contact_law.hpp"
 #include "oracle/collision_end.hpp"
 #include "stability/limits.hpp"
 #include "stability/placement.hpp"

@@ -2,8 +2,8 @@
 #include <initializer_list>
 #include <numbers>
 
-#include "law/law_options.hpp"
 #include "cases/loader_sections.hpp"
+#include "law/law_options.hpp"
 
 namespace crossgrain::inline cases {
 

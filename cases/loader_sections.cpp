@@ -4,12 +4,12 @@
 #include <numbers>
 
 #include "adapters/effects.hpp"
-#include "law/law_options.hpp"
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
 #include "averaging/weights.hpp"
 #include "cases/couette.hpp"
 #include "cases/endpoints.hpp"
+#include "law/law_options.hpp"
 #include "stability/measures.hpp"
 #include "support/nearest.hpp"
 

@@ -12,9 +12,9 @@
 #include <string_view>
 #include <utility>
 
-#include "law/law_options.hpp"
 #include "cases/couette.hpp"
 #include "cases/preparation.hpp"
+#include "law/law_options.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "support/fingerprint.hpp"

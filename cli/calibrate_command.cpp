@@ -9,13 +9,13 @@
 #include <tuple>
 #include <vector>
 
-#include "law/law_options.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/keys.hpp"
 #include "cases/loader.hpp"
 #include "cli/calibrate_contact.hpp"
 #include "cli/calibrate_text.hpp"
 #include "cli/option_groups.hpp"
+#include "law/law_options.hpp"
 #include "oracle/calibration.hpp"
 #include "studies/core/study_cases.hpp"
 #include "support/bad_input.hpp"

@@ -8,9 +8,9 @@
 #include <tuple>
 #include <vector>
 
-#include "law/law_options.hpp"
 #include "cases/keys.hpp"
 #include "cli/option_groups.hpp"
+#include "law/law_options.hpp"
 #include "oracle/calibration.hpp"
 #include "oracle/cohesion.hpp"
 #include "support/bad_input.hpp"

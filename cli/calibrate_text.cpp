@@ -9,9 +9,9 @@
 #include <string_view>
 #include <tuple>
 
-#include "law/law_options.hpp"
 #include "cases/keys.hpp"
 #include "cli/calibrate_contact.hpp"
+#include "law/law_options.hpp"
 #include "oracle/calibration.hpp"
 
 namespace crossgrain::inline cli {

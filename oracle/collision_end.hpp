@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "law/contact_law.hpp"
 #include "adapters/vec2.hpp"
+#include "law/contact_law.hpp"
 
 namespace crossgrain::inline oracle {
 

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "adapters/engine.hpp"
-#include "law/law_options.hpp"
 #include "adapters/worker/arrays.hpp"
+#include "law/law_options.hpp"
 #include "support/json_fields.hpp"
 
 /// What the worker protocol says of each shared type: README.md of this folder is the reference.

@@ -170,9 +170,11 @@ void PenaltyWorld::addContactForces() {
       vt = dot(v, turned(n)) - lever.i * members_.spin[i];
       if (!plane) vt -= lever.j * members_.spin[j];
     }
-    contact.force = contactForce<Damped, T>(
-        lawOf(contact), {overlap, dot(v, n), vt, dt_, radiusOf(contact), massOf(contact)},
-        contact.spring);
+    const ContactLaw& law = lawOf(contact);
+    PairMotion motion{overlap, dot(v, n), vt, dt_};
+    if (law.normal == NormalLaw::hertz) motion.radius = radiusOf(contact);
+    if (law.damper == Damper::critical) motion.mass = massOf(contact);
+    contact.force = contactForce<Damped, T>(law, motion, contact.spring);
 
     const Vector onI = contact.force.normal * n + contact.force.tangential * turned(n);
     const bool wall = members_.isWall(contact.j);

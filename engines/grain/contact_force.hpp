@@ -4,8 +4,8 @@
 
 namespace grain {
 
-// The functions below are the law. `L` is one of law_types.hpp: it has ContactLaw's options either as
-// compile-time constants, and what they exclude is not compiled, or as run-time values.
+// The functions below are the law. `L` is one of law_types.hpp: it has ContactLaw's options either
+// as compile-time constants, and what they exclude is not compiled, or as run-time values.
 
 /// f_n = f_el(δ) − γ_n v_n (linear: Lätzel 2003, Eq. 4.9).
 /// Implicit damping takes v_n at the end of the half step that f_n itself brings about:

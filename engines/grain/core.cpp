@@ -120,8 +120,8 @@ Core<Real>::Core(Setup setup)
       maxOverlap_(setup.maxOverlap > 0.0 ? setup.maxOverlap
                                          : std::numeric_limits<double>::infinity()),
       lists_(moving_, partCount(setup.threads, moving_),
-             {keepsSprings(setup.law), setup.rotation && keepsRollingSprings(setup.law),
-              remembers(setup.law), remembersRest(setup.law)},
+             {hasSprings(law_), law_.rolling == RollingLaw::spring, remembers(law_),
+              remembersRest(law_)},
              Skin(setup.skin, smallestRadius(setup.disks)), maxOverlap_,
              adhesionRange<Real>(setup)),
       team_(partCount(setup.threads, moving_)),

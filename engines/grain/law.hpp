@@ -18,13 +18,6 @@ GRAIN_INLINE constexpr Real partBefore(SpringUpdate when) {
   return when == SpringUpdate::after ? Real(0) : when == SpringUpdate::before ? Real(1) : Real(0.5);
 }
 
-/// Whether contacts remember a tangential spring. Impulses of rigid disks have none.
-inline bool keepsSprings(const ContactLaw& law) {
-  return law.soft() && law.friction() && law.springs();
-}
-inline bool keepsRollingSprings(const ContactLaw& law) {
-  return law.rolling == RollingLaw::spring && law.kr > 0.0;
-}
 /// Rigid disks have no springs: their friction is Coulomb's.
 inline TangentialLaw tangentialOf(const ContactLaw& law) {
   return law.soft() ? law.tangential : TangentialLaw::coulomb;

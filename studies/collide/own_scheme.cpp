@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "adapters/declared_law.hpp"
-#include "law/law_options.hpp"
 #include "cases/collision_scene.hpp"
+#include "law/law_options.hpp"
 #include "oracle/discrete_impact.hpp"
 #include "oracle/impact.hpp"
 

@@ -9,10 +9,10 @@
 #include <string>
 
 #include "adapters/declared_law.hpp"
-#include "law/law_options.hpp"
 #include "adapters/pair_table.hpp"
 #include "adapters/registry.hpp"
 #include "cases/time_step.hpp"
+#include "law/law_options.hpp"
 #include "oracle/collision_flight.hpp"
 #include "oracle/impact.hpp"
 #include "studies/collide/contact_account.hpp"

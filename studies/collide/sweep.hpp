@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "law/contact_law.hpp"
 #include "cases/case.hpp"
 #include "cases/collision_scene.hpp"
+#include "law/contact_law.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "results/collision.hpp"
 #include "results/collision_score.hpp"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "law/law_options.hpp"
 #include "adapters/suitability.hpp"
+#include "law/law_options.hpp"
 #include "studies/conformance/declared_laws.hpp"
 
 namespace crossgrain::conformance {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "law/contact_law.hpp"
 #include "adapters/scene.hpp"
+#include "law/contact_law.hpp"
 #include "studies/conformance/thesis_numbers.hpp"
 
 /// Contact laws, parts of scenes and scenes that checks and tests share.

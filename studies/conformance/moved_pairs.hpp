@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "law/contact_law.hpp"
 #include "adapters/engine.hpp"
 #include "adapters/scene.hpp"
+#include "law/contact_law.hpp"
 
 namespace crossgrain::conformance {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <tuple>
 
-#include "law/law_options.hpp"
 #include "adapters/pair_table.hpp"
 #include "adapters/suitability.hpp"
+#include "law/law_options.hpp"
 #include "studies/conformance/check_context.hpp"
 #include "studies/conformance/declared_laws.hpp"
 #include "support/scratch_folder.hpp"

@@ -1,8 +1,8 @@
 // Scenes and settings that must be refused, by the harness or the engine, and life after it.
 #include <algorithm>
 
-#include "law/law_options.hpp"
 #include "adapters/suitability.hpp"
+#include "law/law_options.hpp"
 #include "studies/conformance/check_context.hpp"
 #include "studies/conformance/declared_laws.hpp"
 #include "studies/core/engine_access.hpp"

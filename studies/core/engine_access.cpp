@@ -8,10 +8,10 @@
 #include <iterator>
 
 #include "adapters/audit.hpp"
-#include "law/law_options.hpp"
 #include "adapters/start_check.hpp"
 #include "cases/case_keys.hpp"
 #include "cases/time_step.hpp"
+#include "law/law_options.hpp"
 #include "studies/core/mirrors.hpp"
 #include "support/bad_input.hpp"
 #include "support/nearest.hpp"

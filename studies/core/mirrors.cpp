@@ -12,8 +12,8 @@
 #include <sstream>
 #include <utility>
 
-#include "law/law_options.hpp"
 #include "adapters/registry.hpp"
+#include "law/law_options.hpp"
 #include "studies/core/engine_access.hpp"
 #include "support/interrupt.hpp"
 #include "support/scratch_folder.hpp"

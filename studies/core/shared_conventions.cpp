@@ -8,9 +8,9 @@
 #include <set>
 #include <utility>
 
-#include "law/law_options.hpp"
 #include "adapters/suitability.hpp"
 #include "cases/case_keys.hpp"
+#include "law/law_options.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/mirrors.hpp"
 

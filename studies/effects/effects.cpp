@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <map>
 
-#include "law/law_options.hpp"
 #include "adapters/suitability.hpp"
 #include "cases/flow.hpp"
+#include "law/law_options.hpp"
 #include "results/schema.hpp"
 #include "studies/core/study_cases.hpp"
 #include "studies/flow/campaign.hpp"

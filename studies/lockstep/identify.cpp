@@ -9,10 +9,10 @@
 #include <numeric>
 #include <optional>
 
-#include "law/law_options.hpp"
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
 #include "cases/flow.hpp"
+#include "law/law_options.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/lockstep/closest_term.hpp"
 #include "studies/lockstep/rules.hpp"

@@ -8,10 +8,10 @@
 #include <optional>
 
 #include "adapters/grain.hpp"
-#include "law/law_options.hpp"
 #include "averaging/agreement.hpp"
 #include "averaging/statistics.hpp"
 #include "cases/flow.hpp"
+#include "law/law_options.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/lockstep/account.hpp"
 #include "studies/lockstep/lockstep.hpp"

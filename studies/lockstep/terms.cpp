@@ -7,9 +7,9 @@
 #include <limits>
 #include <numeric>
 
-#include "law/law_options.hpp"
 #include "adapters/suitability.hpp"
 #include "cases/materials.hpp"
+#include "law/law_options.hpp"
 #include "studies/lockstep/rules.hpp"
 
 namespace crossgrain::inline studies {

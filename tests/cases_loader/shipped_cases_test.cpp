@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "law/law_options.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/couette.hpp"
 #include "cases/endpoints.hpp"
 #include "cases/loader.hpp"
 #include "cases/time_step.hpp"
+#include "law/law_options.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"
 #include "tests/support/thesis.hpp"

@@ -254,8 +254,7 @@ TEST(StabilityMeasures, GoingThroughIsToldFromBouncing) {
   EXPECT_EQ(past.last("tunnelled"), 0.0);
 }
 
-/// What turns with a drum by 120° from one snapshot to the next has not gone through its
-/// neighbours.
+/// A disk that turns with a drum by 120° between two snapshots has gone through no neighbour.
 TEST(StabilityMeasures, GoingRoundEachOther_IsNotGoingThrough) {
   Series at;
   for (const double t : {1.0, 2.0, 3.0}) {

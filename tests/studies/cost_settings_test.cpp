@@ -7,8 +7,8 @@
 
 #include <algorithm>
 
-#include "law/law_options.hpp"
 #include "cases/effect_switch.hpp"
+#include "law/law_options.hpp"
 #include "oracle/impact.hpp"
 #include "support/bad_input.hpp"
 #include "tests/studies/quick_cell.hpp"

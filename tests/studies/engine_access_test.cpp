@@ -9,12 +9,12 @@
 #include <random>
 #include <set>
 
-#include "law/law_options.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/couette.hpp"
 #include "cases/engine_file.hpp"
 #include "cases/loader.hpp"
 #include "cases/time_step.hpp"
+#include "law/law_options.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/mirrors.hpp"
 #include "studies/core/shared_conventions.hpp"

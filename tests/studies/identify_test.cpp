@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "adapters/grain.hpp"
-#include "law/law_options.hpp"
 #include "adapters/registry.hpp"
+#include "law/law_options.hpp"
 #include "studies/lockstep/rules.hpp"
 #include "tests/studies/planted_engine.hpp"
 #include "tests/studies/quick_cell.hpp"

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "adapters/grain.hpp"
-#include "law/law_options.hpp"
 #include "adapters/registry.hpp"
 #include "adapters/stopwatch.hpp"
 #include "adapters/suitability.hpp"
 #include "cases/keys.hpp"
 #include "engines/grain/kernels.hpp"
+#include "law/law_options.hpp"
 
 namespace {
 
@@ -386,8 +386,7 @@ TEST(Registry, MirrorsNameTheirPeer) {
 TEST(GrainKernels, ConventionsOfACaseThatNamesNone_HaveTheirOwnInBothDimensions) {
   ContactLaw law = oneDisk().law;
   law.conventions = usualConventions();
-  const auto variant =
-      grain::contactVariant(grain::generalLaw<double>(law, 1e-5, true));
+  const auto variant = grain::contactVariant(grain::generalLaw<double>(law, 1e-5, true));
   ASSERT_TRUE(variant);
   const auto kernels = grain::kernels<double>();
   EXPECT_NE(kernels.contacts[*variant], nullptr);

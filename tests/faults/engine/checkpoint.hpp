@@ -28,7 +28,7 @@ void writeParts(const std::string& path, auto& simulation) {
   if (!file.flush()) throw std::runtime_error(path + " cannot be written");
 }
 
-/// What writeParts() of the same scene wrote. @throws std::runtime_error
+/// Reads what writeParts() wrote of the same scene. @throws std::runtime_error
 void readParts(const std::string& path, auto& simulation) {
   std::ifstream file(path, std::ios::binary);
   const auto read = [&](auto* first, std::size_t count) {

@@ -230,7 +230,7 @@ struct Faults {
   double showEarlier =
       given("show_earlier", 0.0);             ///< [s] positions of that much earlier than said
   double showSpin = given("show_spin", 1.0);  ///< factor of spins
-  double showWallForce = given("show_wall_force", 1.0);  ///< factor of forces on walls
+  double showWallForce = given("show_wall_force", 1.0);    ///< factor of forces on walls
   double showWallTorque = given("show_wall_torque", 1.0);  ///< of torques on walls
   double showTorqueAboutOrigin =
       given("show_torque_about_origin", 0.0);  ///< of walls, not about their centres

@@ -336,7 +336,7 @@ class Spheres {
     xi = Eigen::AngleAxisd(twist_ * dt_ * meanSpin.dot(n), n) * xi;
   }
 
-  /// What a rolling spring does where one of its pair has come to another image.
+  /// Reverses a rolling spring, as the fault has it, where one of its pair comes to another image.
   void crossBorder(Spring& spring, std::size_t i, std::size_t j) {
     Vec3 images = Vec3::Zero();
     for (int k = 0; k < 3; ++k)
@@ -386,7 +386,7 @@ class Spheres {
     Vec3 force, rolling;  ///< on i
   };
 
-  /// What a contact does to i; adds the contact.
+  /// Adds the contact. @returns its force and rolling torque on i
   /// @param length  R₁₂  @param approach  v_n  @param own, other  spins
   Push push(std::size_t i, std::size_t j, const Vec3& n, double length, double overlap,
             double approach, const Vec3& slip, const Vec3& own, const Vec3& other) {
