@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "averaging/rings.hpp"
 
@@ -17,22 +21,23 @@ SpringConstants springConstants(const SceneOf<D>& scene) {
   const ContactLaw& law = scene.law;
   SpringConstants springs;
   if (law.normal != NormalLaw::linear) return springs;
-  const bool spring =
-      law.tangential == TangentialLaw::spring || law.tangential == TangentialLaw::springDashpot;
   const auto common = [&](double ContactLaw::*constant) {
     const auto same = [&](const ContactLaw& own) { return own.*constant == law.*constant; };
     return law.*constant > 0.0 &&
            (!scene.materials || std::ranges::all_of(scene.materials->laws, same));
   };
   if (common(&ContactLaw::kn)) springs.kn = law.kn;
-  if (spring && common(&ContactLaw::kt)) springs.kt = law.kt;
+  if (law.springs() && common(&ContactLaw::kt)) springs.kt = law.kt;
   return springs;
 }
 template SpringConstants springConstants(const Scene&);
 template SpringConstants springConstants(const SpaceScene&);
 
-Linear BinView::moment(std::size_t which) const {
-  const std::size_t index = slot_ * perSlot_ + which;
+Linear BinView::sum(Moment which, int k) const {
+  const MomentPlaces& places = dimension() == 2 ? momentPlaces<2> : momentPlaces<3>;
+  const auto m = static_cast<std::size_t>(which);
+  if (places[m] == places[m + 1]) return 0.0;
+  const std::size_t index = slot_ * places.back() + places[m] + static_cast<std::size_t>(k);
   Linear moment(means_[index]);
   moment.slopes = {{index, 1.0}};
   return moment;
@@ -43,7 +48,7 @@ Linear BinView::slope(Linear (*field)(const BinView&)) const {
   if (!slope) return std::numeric_limits<double>::quiet_NaN();
   Linear sum;
   for (const auto& [slot, factor] : slope->terms)
-    sum = sum + factor * field(BinView(bins_, means_, perSlot_, slot, springs_));
+    sum = sum + factor * field(BinView(bins_, means_, slot, springs_));
   return sum;
 }
 
@@ -56,33 +61,71 @@ namespace {
 
 using Bin = const BinView&;
 
-/// Those of the thesis that take more than a line of the table: tensors of one bin [N/m², but for
-/// fabric: 1].
+/// Fields that take more than a line of the table: vectors and tensors of one bin [N/m², but for
+/// fabric and strain: 1].
 namespace formulas {
 
 using enum Moment;
+using Components = std::array<Linear, 3>;
+
+/// Σ w Q / V of a tensor that is symmetric, or not.
+template <int D>
+LinearTensor perVolumeIn(Bin bin, Moment which) {
+  LinearTensor tensor{D, {}};
+  if (numbersOf(which, D) == D * D)
+    for (std::size_t q = 0; q < tensorIn<D>.size(); ++q)
+      tensor(tensorIn<D>[q][0], tensorIn<D>[q][1]) = bin.perVolume(which, static_cast<int>(q));
+  else
+    for (std::size_t q = 0; numbersOf(which, D) > 0 && q < symmetricIn<D>.size(); ++q) {
+      const auto [row, column] = symmetricIn<D>[q];
+      tensor(row, column) = tensor(column, row) = bin.perVolume(which, static_cast<int>(q));
+    }
+  return tensor;
+}
+LinearTensor perVolume(Bin bin, Moment which) {
+  return bin.dimension() == 2 ? perVolumeIn<2>(bin, which) : perVolumeIn<3>(bin, which);
+}
+
+/// Σ w m Q / Σ w m and Σ w V Q / Σ w V of a vector.
+Components over(Bin bin, Moment vector, Moment weight) {
+  Components result;
+  for (int k = 0; k < bin.dimension(); ++k)
+    result[static_cast<std::size_t>(k)] = bin.sum(vector, k) / bin.sum(weight);
+  return result;
+}
+Components velocity(Bin bin) {
+  return over(bin, momentum, mass);
+}
+Components velocityByVolume(Bin bin) {
+  return over(bin, volumeVelocity, volume);
+}
+
+Components meanSpin(Bin bin) {
+  if (bin.dimension() == 3) return over(bin, spin, volume);
+  return {bin.sum(spin) / bin.sum(volume), 0.0, 0.0};
+}
+
+Components wallForceDensity(Bin bin) {
+  return {bin.perVolume(wallForce, 0), bin.perVolume(wallForce, 1), bin.perVolume(wallForce, 2)};
+}
 
 /// Of the moving disks alone
 LinearTensor movingStress(Bin bin) {
-  return {bin.perVolume(stressRR), bin.perVolume(stressRP), bin.perVolume(stressPR),
-          bin.perVolume(stressPP)};
+  return perVolume(bin, Moment::stress);
 }
 
 /// With the wall disks' part
-LinearTensor stress(Bin bin) {
+LinearTensor stressTensor(Bin bin) {
   const LinearTensor moving = movingStress(bin);
-  return {moving.rr + bin.perVolume(wallStressRR), moving.rp + bin.perVolume(wallStressRP),
-          moving.pr + bin.perVolume(wallStressPR), moving.pp + bin.perVolume(wallStressPP)};
+  return bin.dimension() == 2 ? moving + perVolume(bin, wallStress) : moving;
 }
 
 LinearTensor dynamicStress(Bin bin) {
-  const Linear mixed = bin.perVolume(dynamicRP);
-  return {bin.perVolume(dynamicRR), mixed, mixed, bin.perVolume(dynamicPP)};
+  return perVolume(bin, dynamic);
 }
 
-LinearTensor fabric(Bin bin) {
-  const Linear mixed = bin.perVolume(fabricRP);
-  return {bin.perVolume(fabricRR), mixed, mixed, bin.perVolume(fabricPP)};
+LinearTensor fabricTensor(Bin bin) {
+  return perVolume(bin, Moment::fabric);
 }
 
 /// σ_fluct = Σ w m (v − u)⊗(v − u)/V with u = Σ w m v/Σ w m the bin's mean velocity, which is the
@@ -90,44 +133,45 @@ LinearTensor fabric(Bin bin) {
 LinearTensor fluctuationStress(Bin bin) {
   const LinearTensor whole = dynamicStress(bin);
   const Linear density = bin.perVolume(mass);
-  const Linear r = bin.perVolume(momentumR);
-  const Linear p = bin.perVolume(momentumP);
-  const Linear mixed = whole.rp - r * p / density;
-  return {whole.rr - r * r / density, mixed, mixed, whole.pp - p * p / density};
+  return tensorOf(bin.dimension(), [&](int row, int column) {
+    const auto [low, high] = std::minmax(row, column);
+    return whole(row, column) -
+           bin.perVolume(momentum, low) * bin.perVolume(momentum, high) / density;
+  });
 }
 
 /// The micro-mechanical stress with the terms in ω̇ and ω² (Lätzel 2003, section 7.3, derived anew:
 /// README.md): sym σ + the dynamic stress.
 LinearTensor fullStress(Bin bin) {
-  const LinearTensor still = stress(bin);
-  const LinearTensor moved = dynamicStress(bin);
-  const Linear mixed = 0.5 * (still.rp + still.pr) + moved.rp;
-  return {still.rr + moved.rr, mixed, mixed, still.pp + moved.pp};
+  const LinearTensor still = stressTensor(bin);
+  return tensorOf(bin.dimension(),
+                  [&](int row, int column) {
+                    const auto [low, high] = std::minmax(row, column);
+                    return row == column ? still(row, row)
+                                         : 0.5 * (still(low, high) + still(high, low));
+                  }) +
+         dynamicStress(bin);
 }
 
-/// ε = (πh/V) Σ w Σ_c Δ⊗l · F⁻¹, Δ = δ n^c (Lätzel 2003, Eq. 7.88 with prefactor 1, such that equal
-/// overlaps δ of equal disks give (δ/a) I).
+/// ε = Σ w V Σ_c (δ/a) n⊗n · (Σ w V Σ_c n⊗n)⁻¹, so that equal overlaps δ of equal bodies give
+/// (δ/a) I (Lätzel 2003, Eq. 7.88 with prefactor 1).
 LinearTensor strain(Bin bin) {
-  const double factor = std::numbers::pi * bin.height();
-  const Linear mixed = factor * bin.perVolume(overlapRP);
-  const LinearTensor overlaps = {factor * bin.perVolume(overlapRR), mixed, mixed,
-                                 factor * bin.perVolume(overlapPP)};
-  return overlaps * inverse(fabric(bin));
+  return perVolume(bin, overlap) * inverse(fabricTensor(bin));
 }
 
-/// E = tr σ/tr ε, of the moving disks
+/// E = tr σ/tr ε, of the moving bodies
 Linear bulkModulus(Bin bin) {
   return trace(movingStress(bin)) / trace(strain(bin));
 }
 
-/// G = dev σ/dev ε, of the moving disks
+/// G = dev σ/dev ε, of the moving bodies
 Linear shearModulus(Bin bin) {
   return deviator(movingStress(bin)) / deviator(strain(bin));
 }
 
-/// k_n tr F/2πh, what E would be in mean field.
+/// k_n tr F/2πh, what E would be of disks in mean field.
 Linear meanFieldModulus(Bin bin) {
-  return bin.kn() / (2.0 * std::numbers::pi * bin.height()) * trace(fabric(bin));
+  return bin.kn() / (2.0 * std::numbers::pi * bin.height()) * trace(fabricTensor(bin));
 }
 
 /// σ = ε₀ E [I + G* ε₁ R(φ) diag(1, −1) Rᵀ(φ)] (Lätzel 2003, Eqs. 7.105–7.109) with ε₀ = tr ε/2,
@@ -139,119 +183,231 @@ LinearTensor predictedStress(Bin bin) {
   const Linear anisotropy =
       shearModulus(bin) / bulkModulus(bin) * deviator(deformation) / trace(deformation);
   // Axes are directions without a sign: of φ_ε and φ_ε ± π the one nearest to φ_F.
-  const Linear ofFabric = axis(fabric(bin));
+  const Linear ofFabric = axis(fabricTensor(bin));
   Linear ofStrain = axis(deformation);
   ofStrain.value -= pi * std::round((ofStrain.value - ofFabric.value) / pi);
   const Linear twice = ofStrain + ofFabric;
   const Linear along = pressure * anisotropy * cos(twice);
   const Linear mixed = pressure * anisotropy * sin(twice);
-  return {pressure + along, mixed, mixed, pressure - along};
+  return tensorOf(2, [&](int row, int column) {
+    return row != column ? mixed : row == 0 ? pressure + along : pressure - along;
+  });
 }
 
-/// (κ_zr, κ_zφ) = (πh/V) Σ w Σ_c (l × Δ)_z l · F⁻¹ (Lätzel 2003, section 8.2), Δ = δ n^c + ξ s with
+/// M_zα = −Σ w Σ_c (l × f)_z l_α/V, wall disks included
+Components coupleStress(Bin bin) {
+  return {bin.perVolume(couple, 0) + bin.perVolume(wallCouple, 0),
+          bin.perVolume(couple, 1) + bin.perVolume(wallCouple, 1), 0.0};
+}
+
+/// κ_zα = (πh/V) Σ w Σ_c (l × Δ)_z l · F⁻¹ (Lätzel 2003, section 8.2), Δ = δ n^c + ξ s with
 /// ξ = −f_t/k_t: the spring that holds f_t alone.
-std::pair<Linear, Linear> curvature(Bin bin) {
+Components curvature(Bin bin) {
   const double factor = std::numbers::pi * bin.height() / bin.kt();
-  const LinearTensor perFabric = inverse(fabric(bin));
-  const Linear r = factor * bin.perVolume(coupleR);
-  const Linear p = factor * bin.perVolume(coupleP);
-  return {r * perFabric.rr + p * perFabric.pr, r * perFabric.rp + p * perFabric.pp};
+  const LinearTensor perFabric = inverse(fabricTensor(bin));
+  const Linear r = factor * bin.perVolume(couple, 0);
+  const Linear p = factor * bin.perVolume(couple, 1);
+  return {r * perFabric(0, 0) + p * perFabric(1, 0), r * perFabric(0, 1) + p * perFabric(1, 1),
+          0.0};
 }
 
 Linear azimuthalVelocity(Bin bin) {
-  return bin[velocityP] / bin[volume];
+  return bin.sum(momentum, 1) / bin.sum(mass);
+}
+
+/// ½(∂v_φ/∂r + v_φ/r)
+Linear rotation(Bin bin) {
+  return 0.5 * (bin.slope(azimuthalVelocity) + bin.overRadius(azimuthalVelocity(bin)));
+}
+
+/// Fourier coefficients of the outward normals' density p(α) = (1 + Σ a_k cos kα + b_k sin kα)/2π:
+/// twice the mean of cos kα and sin kα over contacts, weighted with the disk's volume.
+std::pair<Linear, Linear> fourier(Bin b, int order) {
+  const Linear all = b.sum(Moment::contacts);
+  if (order == 2)
+    return {2.0 * (b.sum(Moment::fabric, 0) - b.sum(Moment::fabric, 1)) / all,
+            4.0 * b.sum(Moment::fabric, 2) / all};
+  const int first = order == 4 ? 0 : 2;
+  return {2.0 * b.sum(harmonics, first) / all, 2.0 * b.sum(harmonics, first + 1) / all};
+}
+
+template <int Order>
+Linear amplitude(Bin b) {
+  const auto [cosine, sine] = fourier(b, Order);
+  return length(cosine, sine);
+}
+template <int Order>
+Linear harmonicAxis(Bin b) {
+  const auto [cosine, sine] = fourier(b, Order);
+  return direction(cosine, sine) / static_cast<double>(Order);
 }
 
 }  // namespace formulas
 
-/// Fourier coefficient k of the outward normals' density p(α) = (1 + Σ a_k cos kα + b_k sin kα)/2π:
-/// twice the mean of cos kα or sin kα over contacts, weighted with the disk's volume.
-Linear cos2(Bin b) {
-  return 2.0 * (b[Moment::fabricRR] - b[Moment::fabricPP]) / b[Moment::contacts];
+using Formula = Linear (*)(Bin);
+
+template <auto Of, int K>
+Linear component(Bin b) {
+  return Of(b)[K];
 }
-Linear sin2(Bin b) {
-  return 4.0 * b[Moment::fabricRP] / b[Moment::contacts];
+template <auto Of, int Row, int Column>
+Linear entry(Bin b) {
+  return Of(b)(Row, Column);
 }
 
-Linear twiceMean(Bin b, Moment harmonic) {
-  return 2.0 * b[harmonic] / b[Moment::contacts];
-}
+/// Fields of one table, whose texts it keeps.
+class Table {
+ public:
+  Table(int dimension, bool rings)
+      : dimension_(dimension),
+        names_(rings ? std::array{"r", "p", "z"} : std::array{"x", "y", "z"}),
+        symbols_(rings ? std::array{"r", "φ", "z"} : std::array{"x", "y", "z"}) {}
 
-std::vector<FieldSpec> makeTable() {
-  using enum Moment;
-  using namespace formulas;
-  const auto kinematics = Needs::kinematics;
-  const auto normalSpring = Needs::normalSpring;
-  const auto tangentialSpring = Needs::tangentialSpring;
-  return {
-      // clang-format off
-      {"volume_fraction", "volume fraction", "ν", "1", "Σ w V / V_ring", kinematics, [](Bin b) { return b.perVolume(volume) + b.perVolume(wallVolume); }},
-      {"azimuthal_velocity", "azimuthal velocity", "v_φ", "m/s", "Σ w V v_φ / Σ w V", kinematics, azimuthalVelocity},
-      {"radial_velocity", "radial velocity", "v_r", "m/s", "Σ w V v_r / Σ w V", kinematics, [](Bin b) { return b[velocityR] / b[volume]; }},
-      {"spin", "spin", "S", "rad/s", "Σ w V ω / Σ w V", Needs::spin, [](Bin b) { return b[Moment::spin] / b[volume]; }},
-      {"stress_rr", "radial stress", "σ_rr", "N/m²", "−Σ w Σ_c f_r l_r / V_ring", Needs::contacts, [](Bin b) { return stress(b).rr; }},
-      {"stress_pp", "hoop stress", "σ_φφ", "N/m²", "−Σ w Σ_c f_φ l_φ / V_ring", Needs::contacts, [](Bin b) { return stress(b).pp; }},
-      {"stress_rp", "shear stress", "σ_rφ", "N/m²", "−Σ w Σ_c f_r l_φ / V_ring", Needs::contacts, [](Bin b) { return stress(b).rp; }},
-      {"stress_pr", "shear stress", "σ_φr", "N/m²", "−Σ w Σ_c f_φ l_r / V_ring", Needs::contacts, [](Bin b) { return stress(b).pr; }},
-      {"dynamic_stress_rr", "dynamic stress", "σ^dyn_rr", "N/m²", "Σ w m v_r v_r / V_ring", kinematics, [](Bin b) { return dynamicStress(b).rr; }},
-      {"dynamic_stress_pp", "dynamic stress", "σ^dyn_φφ", "N/m²", "Σ w m v_φ v_φ / V_ring", kinematics, [](Bin b) { return dynamicStress(b).pp; }},
-      {"dynamic_stress_rp", "dynamic stress", "σ^dyn_rφ", "N/m²", "Σ w m v_r v_φ / V_ring", kinematics, [](Bin b) { return dynamicStress(b).rp; }},
-      {"fabric_trace", "fabric", "tr F", "1", "Σ w V C / V_ring", Needs::contacts, [](Bin b) { return trace(fabric(b)); }},
-      {"fabric_deviator", "fabric", "dev F", "1", "F_max − F_min of F = Σ w V Σ_c n⊗n / V_ring", Needs::contacts, [](Bin b) { return deviator(fabric(b)); }},
-      {"fabric_rr", "", "", "1", "Σ w V Σ_c n_r n_r / V_ring", Needs::contacts, [](Bin b) { return fabric(b).rr; }},
-      {"fabric_pp", "", "", "1", "Σ w V Σ_c n_φ n_φ / V_ring", Needs::contacts, [](Bin b) { return fabric(b).pp; }},
-      {"fabric_rp", "", "", "1", "Σ w V Σ_c n_r n_φ / V_ring", Needs::contacts, [](Bin b) { return fabric(b).rp; }},
-      {"coordination", "contacts per disk", "C", "1", "Σ w V C / Σ w V", Needs::contacts, [](Bin b) { return b[Moment::contacts] / b[volume]; }},
-      {"density", "density", "ρ", "kg/m³", "Σ w m / V_ring", kinematics, [](Bin b) { return b.perVolume(mass); }},
-      {"fabric_angle", "", "", "rad", "major axis of F, from r towards φ", Needs::contacts, [](Bin b) { return axis(fabric(b)); }},
-      {"stress_trace", "", "", "N/m²", "σ_rr + σ_φφ", Needs::contacts, [](Bin b) { return trace(stress(b)); }},
-      {"stress_deviator", "", "", "N/m²", "σ_max − σ_min of sym σ", Needs::contacts, [](Bin b) { return deviator(stress(b)); }},
-      {"stress_angle", "", "", "rad", "major axis of sym σ, from r towards φ", Needs::contacts, [](Bin b) { return axis(stress(b)); }},
-      {"stress_antisymmetric", "", "", "N/m²", "(σ_φr − σ_rφ)/2, −Σ w J ω̇ / 2V_ring where nothing else turns the disks", Needs::contacts, [](Bin b) { return 0.5 * (stress(b).pr - stress(b).rp); }},
-      {"fluctuation_stress_rr", "", "", "N/m²", "Σ w m (v_r − u_r)² / V_ring", kinematics, [](Bin b) { return fluctuationStress(b).rr; }},
-      {"fluctuation_stress_pp", "", "", "N/m²", "Σ w m (v_φ − u_φ)² / V_ring", kinematics, [](Bin b) { return fluctuationStress(b).pp; }},
-      {"fluctuation_stress_rp", "", "", "N/m²", "Σ w m (v_r − u_r)(v_φ − u_φ) / V_ring", kinematics, [](Bin b) { return fluctuationStress(b).rp; }},
-      {"rotational_stress", "", "", "N/m²", "Σ w J ω² / 2V_ring, isotropic", Needs::spin, [](Bin b) { return b.perVolume(spinEnergy); }},
-      {"full_stress_rr", "", "", "N/m²", "σ_rr + dynamic", Needs::contacts, [](Bin b) { return fullStress(b).rr; }},
-      {"full_stress_pp", "", "", "N/m²", "σ_φφ + dynamic", Needs::contacts, [](Bin b) { return fullStress(b).pp; }},
-      {"full_stress_rp", "", "", "N/m²", "(σ_rφ + σ_φr)/2 + dynamic", Needs::contacts, [](Bin b) { return fullStress(b).rp; }},
-      {"strain_rr", "", "", "1", "ε_rr of ε = (πh/V_ring) Σ w Σ_c δ n⊗l · F⁻¹", Needs::contacts, [](Bin b) { return strain(b).rr; }},
-      {"strain_pp", "", "", "1", "ε_φφ", Needs::contacts, [](Bin b) { return strain(b).pp; }},
-      {"strain_rp", "", "", "1", "ε_rφ", Needs::contacts, [](Bin b) { return strain(b).rp; }},
-      {"strain_pr", "", "", "1", "ε_φr", Needs::contacts, [](Bin b) { return strain(b).pr; }},
-      {"strain_trace", "", "", "1", "ε_rr + ε_φφ", Needs::contacts, [](Bin b) { return trace(strain(b)); }},
-      {"strain_deviator", "", "", "1", "ε_max − ε_min of sym ε", Needs::contacts, [](Bin b) { return deviator(strain(b)); }},
-      {"strain_angle", "", "", "rad", "major axis of sym ε, from r towards φ", Needs::contacts, [](Bin b) { return axis(strain(b)); }},
-      {"bulk_modulus", "", "", "N/m²", "E = tr σ / tr ε of the moving disks", Needs::contacts, bulkModulus},
-      {"shear_modulus", "", "", "N/m²", "G = dev σ / dev ε of the moving disks", Needs::contacts, shearModulus},
-      {"modulus_ratio", "", "", "1", "G* = G / E", Needs::contacts, [](Bin b) { return shearModulus(b) / bulkModulus(b); }},
-      {"mean_field_modulus", "", "", "N/m²", "k_n tr F / 2πh", normalSpring, meanFieldModulus},
-      {"predicted_stress_rr", "", "", "N/m²", "ε₀E[1 + G* ε₁ cos 2φ]", normalSpring, [](Bin b) { return predictedStress(b).rr; }},
-      {"predicted_stress_pp", "", "", "N/m²", "ε₀E[1 − G* ε₁ cos 2φ]", normalSpring, [](Bin b) { return predictedStress(b).pp; }},
-      {"predicted_stress_rp", "", "", "N/m²", "ε₀E G* ε₁ sin 2φ", normalSpring, [](Bin b) { return predictedStress(b).rp; }},
-      {"couple_stress_zr", "", "", "N/m", "−Σ w Σ_c (l × f)_z l_r / V_ring", Needs::contacts, [](Bin b) { return b.perVolume(coupleR) + b.perVolume(wallCoupleR); }},
-      {"couple_stress_zp", "", "", "N/m", "−Σ w Σ_c (l × f)_z l_φ / V_ring", Needs::contacts, [](Bin b) { return b.perVolume(coupleP) + b.perVolume(wallCoupleP); }},
-      {"curvature_zr", "", "", "m", "κ_zr of κ = (πh/V_ring) Σ w Σ_c (l × Δ)⊗l · F⁻¹", tangentialSpring, [](Bin b) { return curvature(b).first; }},
-      {"curvature_zp", "", "", "m", "κ_zφ", tangentialSpring, [](Bin b) { return curvature(b).second; }},
-      {"torque_resistance", "", "", "N/m²", "M_zr / κ_zr of the moving disks", tangentialSpring, [](Bin b) { return b.perVolume(coupleR) / curvature(b).first; }},
-      {"velocity_gradient", "", "", "1/s", "∂v_φ/∂r", kinematics, [](Bin b) { return b.slope(azimuthalVelocity); }},
-      {"shear_rate", "", "", "1/s", "∂v_φ/∂r − v_φ/r", kinematics, [](Bin b) { return b.slope(azimuthalVelocity) - b.overRadius(azimuthalVelocity(b)); }},
-      {"continuum_rotation", "", "", "rad/s", "½(∂v_φ/∂r + v_φ/r)", kinematics, [](Bin b) { return 0.5 * (b.slope(azimuthalVelocity) + b.overRadius(azimuthalVelocity(b))); }},
-      {"excess_rotation", "", "", "rad/s", "spin − ½(∂v_φ/∂r + v_φ/r)", Needs::spin, [](Bin b) { return b[Moment::spin] / b[volume] - 0.5 * (b.slope(azimuthalVelocity) + b.overRadius(azimuthalVelocity(b))); }},
-      {"contact_cos_2", "", "", "1", "2 Σ w V Σ_c cos 2α / Σ w V C", Needs::contacts, cos2},
-      {"contact_sin_2", "", "", "1", "2 Σ w V Σ_c sin 2α / Σ w V C", Needs::contacts, sin2},
-      {"contact_cos_4", "", "", "1", "2 Σ w V Σ_c cos 4α / Σ w V C", Needs::contacts, [](Bin b) { return twiceMean(b, cos4); }},
-      {"contact_sin_4", "", "", "1", "2 Σ w V Σ_c sin 4α / Σ w V C", Needs::contacts, [](Bin b) { return twiceMean(b, sin4); }},
-      {"contact_cos_6", "", "", "1", "2 Σ w V Σ_c cos 6α / Σ w V C", Needs::contacts, [](Bin b) { return twiceMean(b, cos6); }},
-      {"contact_sin_6", "", "", "1", "2 Σ w V Σ_c sin 6α / Σ w V C", Needs::contacts, [](Bin b) { return twiceMean(b, sin6); }},
-      {"contact_amplitude_2", "", "", "1", "length of (cos, sin) of order 2", Needs::contacts, [](Bin b) { return length(cos2(b), sin2(b)); }},
-      {"contact_amplitude_4", "", "", "1", "length of (cos, sin) of order 4", Needs::contacts, [](Bin b) { return length(twiceMean(b, cos4), twiceMean(b, sin4)); }},
-      {"contact_amplitude_6", "", "", "1", "length of (cos, sin) of order 6", Needs::contacts, [](Bin b) { return length(twiceMean(b, cos6), twiceMean(b, sin6)); }},
-      {"contact_axis_4", "", "", "rad", "angle of (cos, sin) of order 4, over 4", Needs::contacts, [](Bin b) { return direction(twiceMean(b, cos4), twiceMean(b, sin4)) / 4.0; }},
-      {"contact_axis_6", "", "", "rad", "angle of (cos, sin) of order 6, over 6", Needs::contacts, [](Bin b) { return direction(twiceMean(b, cos6), twiceMean(b, sin6)) / 6.0; }},
-      {"dissipation", "dissipation", "", "W/m³", "Σ w Σ_c P_c / V_ring, P_c the power that a contact turns into heat, to each of two disks half", Needs::dissipation, [](Bin b) { return b.perVolume(heat); }},
-      // clang-format on
+  /// @param symbol, definition  with {0} and {1} for the symbols of the directions, or of the
+  ///        component's indices
+  void add(std::string name, const char* words, const char* symbol, const char* unit,
+           const char* definition, Needs needs, Formula formula, int first = 0, int second = 1) {
+    const auto text = [&](const char* form) {
+      return kept(fmt::format(fmt::runtime(form), symbols_[static_cast<std::size_t>(first)],
+                              symbols_[static_cast<std::size_t>(second)]));
+    };
+    FieldSpec field{kept(std::move(name)), words, text(symbol), unit,
+                    text(definition),      needs, formula};
+    field.perVolume = growsWithContent(field, dimension_);
+    fields_.push_back(field);
+  }
+
+  template <auto Of>
+  void addVector(const char* name, const char* words, const char* symbol, const char* unit,
+                 const char* definition, Needs needs) {
+    constexpr std::array<Formula, 3> formulas = {component<Of, 0>, component<Of, 1>,
+                                                 component<Of, 2>};
+    for (int k = 0; k < dimension_; ++k)
+      add(fmt::format(fmt::runtime(name), names_[static_cast<std::size_t>(k)]), words, symbol, unit,
+          definition, needs, formulas[static_cast<std::size_t>(k)], k);
+  }
+
+  /// @param words  of the component: of the diagonal's three, then of the others
+  template <auto Of>
+  void addTensor(const char* name, const std::array<const char*, 4>& words, const char* symbol,
+                 const char* unit, const char* definition, Needs needs, bool symmetric = true) {
+    constexpr std::array<Formula, 9> formulas = {entry<Of, 0, 0>, entry<Of, 0, 1>, entry<Of, 0, 2>,
+                                                 entry<Of, 1, 0>, entry<Of, 1, 1>, entry<Of, 1, 2>,
+                                                 entry<Of, 2, 0>, entry<Of, 2, 1>, entry<Of, 2, 2>};
+    for (const auto& [row, column] : tensorIn<3>) {
+      if (std::max(row, column) >= dimension_ || (symmetric && row > column)) continue;
+      const auto r = static_cast<std::size_t>(row), c = static_cast<std::size_t>(column);
+      add(fmt::format("{}_{}{}", name, names_[r], names_[c]), words[row == column ? r : 3], symbol,
+          unit, definition, needs, formulas[3 * r + c], row, column);
+    }
+  }
+
+  const std::vector<FieldSpec>& fields() const { return fields_; }
+
+ private:
+  std::string_view kept(std::string text) { return texts_.emplace_back(std::move(text)); }
+
+  int dimension_;
+  std::array<const char*, 3> names_, symbols_;
+  std::deque<std::string> texts_;
+  std::vector<FieldSpec> fields_;
+};
+
+/// Velocities of rings have names of their own.
+template <auto Of>
+void addVelocities(Table& table, bool rings, bool plane, const char* suffix,
+                   const char* definition) {
+  const auto name = [&](const char* stem) { return fmt::format("{}{}", stem, suffix); };
+  const auto add = [&](const char* stem, const char* words, Formula formula, int k) {
+    table.add(name(stem), words, "v_{0}", "m/s", definition, Needs::kinematics, formula, k);
   };
+  if (rings) {
+    add("azimuthal_velocity", "azimuthal velocity", component<Of, 1>, 1);
+    add("radial_velocity", "radial velocity", component<Of, 0>, 0);
+  } else {
+    add("velocity_x", "velocity along x", component<Of, 0>, 0);
+    add("velocity_y", "velocity along y", component<Of, 1>, 1);
+  }
+  if (!plane) add("velocity_z", "velocity along z", component<Of, 2>, 2);
+}
+
+Table makeTable(int dimension, bool rings) {
+  using enum Needs;
+  using namespace formulas;
+  using Words = std::array<const char*, 4>;
+  const bool plane = dimension == 2;
+  const Words none = {"", "", "", ""}, dynamicWords = {"dynamic stress", "dynamic stress",
+                                                       "dynamic stress", "dynamic stress"};
+  const Words stressWords =
+      rings ? Words{"radial stress", "hoop stress", "axial stress", "shear stress"}
+            : Words{"stress", "stress", "stress", "shear stress"};
+  Table t(dimension, rings);
+  // clang-format off
+  t.add("volume_fraction", "volume fraction", "ν", "1", "Σ w V / V_bin", kinematics, [](Bin b) { return b.perVolume(volume) + b.perVolume(wallVolume); });
+  addVelocities<velocity>(t, rings, plane, "", "Σ w m v_{0} / Σ w m");
+  if (plane) t.add("spin", "spin", "S", "rad/s", "Σ w V ω / Σ w V", Needs::spin, component<meanSpin, 0>);
+  else t.addVector<meanSpin>("spin_{}", "spin", "ω_{0}", "rad/s", "Σ w V ω_{0} / Σ w V", Needs::spin);
+  t.addTensor<stressTensor>("stress", stressWords, "σ_{0}{1}", "N/m²", "−Σ w Σ_c f_{0} l_{1} / V_bin", Needs::contacts, false);
+  t.addTensor<dynamicStress>("dynamic_stress", dynamicWords, "σ^dyn_{0}{1}", "N/m²", "Σ w m v_{0} v_{1} / V_bin", kinematics);
+  t.add("fabric_trace", "fabric", "tr F", "1", "Σ w V C / V_bin", Needs::contacts, [](Bin b) { return trace(fabricTensor(b)); });
+  t.add("fabric_deviator", "fabric", "dev F", "1", "F_max − F_min of F = Σ w V Σ_c n⊗n / V_bin", Needs::contacts, [](Bin b) { return deviator(fabricTensor(b)); });
+  t.addTensor<fabricTensor>("fabric", none, "", "1", "Σ w V Σ_c n_{0} n_{1} / V_bin", Needs::contacts);
+  t.add("coordination", plane ? "contacts per disk" : "contacts per sphere", "C", "1", "Σ w V C / Σ w V", Needs::contacts, [](Bin b) { return b.sum(Moment::contacts) / b.sum(volume); });
+  t.add("density", "density", "ρ", "kg/m³", "Σ w m / V_bin", kinematics, [](Bin b) { return b.perVolume(mass); });
+  if (plane) t.add("fabric_angle", "", "", "rad", "major axis of F, from {0} towards {1}", Needs::contacts, [](Bin b) { return axis(fabricTensor(b)); });
+  t.add("stress_trace", "", "", "N/m²", "tr σ of contacts", Needs::contacts, [](Bin b) { return trace(stressTensor(b)); });
+  t.add("stress_deviator", "", "", "N/m²", "σ_max − σ_min of sym σ", Needs::contacts, [](Bin b) { return deviator(stressTensor(b)); });
+  if (plane) {
+    t.add("stress_angle", "", "", "rad", "major axis of sym σ, from {0} towards {1}", Needs::contacts, [](Bin b) { return axis(stressTensor(b)); });
+    t.add("stress_antisymmetric", "", "", "N/m²", "(σ_{1}{0} − σ_{0}{1})/2, −Σ w J ω̇ / 2V_bin where nothing else turns the disks", Needs::contacts, [](Bin b) { const LinearTensor s = stressTensor(b); return 0.5 * (s(1, 0) - s(0, 1)); });
+  }
+  t.addTensor<fluctuationStress>("fluctuation_stress", none, "", "N/m²", "Σ w m (v_{0} − u_{0})(v_{1} − u_{1}) / V_bin", kinematics);
+  if (plane) t.add("rotational_stress", "", "", "N/m²", "Σ w J ω² / 2V_bin, isotropic", Needs::spin, [](Bin b) { return b.perVolume(spinEnergy); });
+  t.addTensor<fullStress>("full_stress", none, "", "N/m²", "(σ_{0}{1} + σ_{1}{0})/2 + dynamic", Needs::contacts);
+  t.addTensor<strain>("strain", none, "", "1", "ε_{0}{1} of ε = Σ w V Σ_c (δ/a) n⊗n · (Σ w V Σ_c n⊗n)⁻¹", Needs::contacts, false);
+  t.add("strain_trace", "", "", "1", "tr ε", Needs::contacts, [](Bin b) { return trace(strain(b)); });
+  t.add("strain_deviator", "", "", "1", "ε_max − ε_min of sym ε", Needs::contacts, [](Bin b) { return deviator(strain(b)); });
+  if (plane) t.add("strain_angle", "", "", "rad", "major axis of sym ε, from {0} towards {1}", Needs::contacts, [](Bin b) { return axis(strain(b)); });
+  t.add("bulk_modulus", "", "", "N/m²", "E = tr σ / tr ε of the moving bodies", Needs::contacts, bulkModulus);
+  t.add("shear_modulus", "", "", "N/m²", "G = dev σ / dev ε of the moving bodies", Needs::contacts, shearModulus);
+  t.add("modulus_ratio", "", "", "1", "G* = G / E", Needs::contacts, [](Bin b) { return shearModulus(b) / bulkModulus(b); });
+  if (plane) {
+    t.add("mean_field_modulus", "", "", "N/m²", "k_n tr F / 2πh", normalSpring, meanFieldModulus);
+    t.add(rings ? "predicted_stress_rr" : "predicted_stress_xx", "", "", "N/m²", "ε₀E[1 + G* ε₁ cos 2φ]", normalSpring, entry<predictedStress, 0, 0>);
+    t.add(rings ? "predicted_stress_pp" : "predicted_stress_yy", "", "", "N/m²", "ε₀E[1 − G* ε₁ cos 2φ]", normalSpring, entry<predictedStress, 1, 1>);
+    t.add(rings ? "predicted_stress_rp" : "predicted_stress_xy", "", "", "N/m²", "ε₀E G* ε₁ sin 2φ", normalSpring, entry<predictedStress, 0, 1>);
+    t.addVector<coupleStress>("couple_stress_z{}", "", "", "N/m", "−Σ w Σ_c (l × f)_z l_{0} / V_bin", Needs::contacts);
+    t.addVector<curvature>("curvature_z{}", "", "", "m", "κ_z{0} of κ = (πh/V_bin) Σ w Σ_c (l × Δ)⊗l · F⁻¹", tangentialSpring);
+    t.add("torque_resistance", "", "", "N/m²", "M_z{0} / κ_z{0} of the moving disks", tangentialSpring, [](Bin b) { return b.perVolume(couple, 0) / curvature(b)[0]; });
+    if (rings) {
+      t.add("velocity_gradient", "", "", "1/s", "∂v_φ/∂r", kinematics, [](Bin b) { return b.slope(azimuthalVelocity); });
+      t.add("shear_rate", "", "", "1/s", "∂v_φ/∂r − v_φ/r", kinematics, [](Bin b) { return b.slope(azimuthalVelocity) - b.overRadius(azimuthalVelocity(b)); });
+      t.add("continuum_rotation", "", "", "rad/s", "½(∂v_φ/∂r + v_φ/r)", kinematics, rotation);
+      t.add("excess_rotation", "", "", "rad/s", "spin − ½(∂v_φ/∂r + v_φ/r)", Needs::spin, [](Bin b) { return meanSpin(b)[0] - rotation(b); });
+    }
+    t.add("contact_cos_2", "", "", "1", "2 Σ w V Σ_c cos 2α / Σ w V C", Needs::contacts, [](Bin b) { return fourier(b, 2).first; });
+    t.add("contact_sin_2", "", "", "1", "2 Σ w V Σ_c sin 2α / Σ w V C", Needs::contacts, [](Bin b) { return fourier(b, 2).second; });
+    t.add("contact_cos_4", "", "", "1", "2 Σ w V Σ_c cos 4α / Σ w V C", Needs::contacts, [](Bin b) { return fourier(b, 4).first; });
+    t.add("contact_sin_4", "", "", "1", "2 Σ w V Σ_c sin 4α / Σ w V C", Needs::contacts, [](Bin b) { return fourier(b, 4).second; });
+    t.add("contact_cos_6", "", "", "1", "2 Σ w V Σ_c cos 6α / Σ w V C", Needs::contacts, [](Bin b) { return fourier(b, 6).first; });
+    t.add("contact_sin_6", "", "", "1", "2 Σ w V Σ_c sin 6α / Σ w V C", Needs::contacts, [](Bin b) { return fourier(b, 6).second; });
+    t.add("contact_amplitude_2", "", "", "1", "length of (cos, sin) of order 2", Needs::contacts, amplitude<2>);
+    t.add("contact_amplitude_4", "", "", "1", "length of (cos, sin) of order 4", Needs::contacts, amplitude<4>);
+    t.add("contact_amplitude_6", "", "", "1", "length of (cos, sin) of order 6", Needs::contacts, amplitude<6>);
+    t.add("contact_axis_4", "", "", "rad", "angle of (cos, sin) of order 4, over 4", Needs::contacts, harmonicAxis<4>);
+    t.add("contact_axis_6", "", "", "rad", "angle of (cos, sin) of order 6, over 6", Needs::contacts, harmonicAxis<6>);
+  }
+  t.add("dissipation", "dissipation", "", "W/m³", "Σ w Σ_c P_c / V_bin, P_c the power that a contact turns into heat, to each of two bodies half", Needs::dissipation, [](Bin b) { return b.perVolume(heat); });
+  t.add("granular_temperature", "granular temperature", "T", "m²/s²", "Σ w m |v − u|² / D Σ w m in D dimensions", kinematics, [](Bin b) { return trace(fluctuationStress(b)) / (b.dimension() * b.perVolume(mass)); });
+  t.add("pressure", "pressure", "p", "N/m²", "tr of stress and fluctuation stress, over D", Needs::contacts, [](Bin b) { return trace(stressTensor(b) + fluctuationStress(b)) / static_cast<double>(b.dimension()); });
+  t.add("coordination_without_rattlers", plane ? "contacts per disk that is held" : "contacts per sphere that is held", "C*", "1", "Σ w V C / Σ w V over bodies with C > D", Needs::contacts, [](Bin b) { return b.sum(heldContacts) / b.sum(heldVolume); });
+  addVelocities<velocityByVolume>(t, rings, plane, "_by_volume", "Σ w V v_{0} / Σ w V");
+  if (!plane) {
+    t.add("contact_density", "", "", "1/m³", "Σ_c w / V_bin", Needs::contacts, [](Bin b) { return b.perVolume(branches); });
+    t.addVector<wallForceDensity>("wall_force_density_{}", "", "", "N/m³", "Σ_c w f_{0} / V_bin over contacts with walls, f on the sphere", Needs::contacts);
+  }
+  // clang-format on
+  return t;
 }
 
 bool measuresFilling(const FieldSpec& field) {
@@ -283,18 +439,10 @@ bool growsWithContent(const FieldSpec& field, int dimension) {
   return std::abs(valueAt(2.0) - 2.0 * once) < 1e-9 * std::abs(once);
 }
 
-std::span<const FieldSpec> fieldTable() {
-  static const std::vector<FieldSpec> table = [] {
-    std::vector<FieldSpec> fields = makeTable();
-    for (FieldSpec& field : fields) field.perVolume = growsWithContent(field, 2);
-    return fields;
-  }();
-  return table;
-}
-
 std::span<const FieldSpec> fieldsIn(int dimension, bool rings) {
-  if (dimension == 3) return spaceFieldTable(rings);
-  return rings ? fieldTable() : cartesianFieldTable();
+  static const Table tables[] = {makeTable(2, false), makeTable(2, true), makeTable(3, false),
+                                 makeTable(3, true)};
+  return tables[2 * (dimension - 2) + (rings ? 1 : 0)].fields();
 }
 
 std::span<const FieldSpec> fieldsOf(const BinSet& bins) {

@@ -38,20 +38,20 @@ class BinView {
   /// @param means  moments per slot  @pre slot is no overflow; the arguments outlive the view
   BinView(const Coordinates& coordinates, std::span<const Moments> means, std::size_t slot,
           SpringConstants springs = {})
-      : BinView(coordinates, means.front().data(), momentCount, slot, springs) {}
+      : BinView(coordinates, means.front().data(), slot, springs) {}
   /// In space.
   BinView(const SpaceBins& bins, std::span<const SpaceMoments> means, std::size_t slot,
           SpringConstants springs = {})
-      : BinView(bins, means.front().data(), spaceMomentCount, slot, springs) {}
+      : BinView(bins, means.front().data(), slot, springs) {}
 
-  /// A moment; its index among all is slot · (moments per slot) + moment.
-  Linear operator[](Moment which) const { return moment(static_cast<std::size_t>(which)); }
-  Linear operator[](SpaceMoment which) const { return moment(static_cast<std::size_t>(which)); }
+  /// Number k of a moment; its index among all is slot · (numbers per slot) + its place there. 0
+  /// where the dimension has no such moment.
+  Linear sum(Moment which, int k = 0) const;
 
   /// Σ w Q / V
-  Linear perVolume(auto which) const { return (*this)[which] / volume(); }
+  Linear perVolume(Moment which, int k = 0) const { return sum(which, k) / volume(); }
 
-  bool isEmpty() const { return !((*this)[Moment::volume].value > 0.0); }
+  bool isEmpty() const { return !(sum(Moment::volume).value > 0.0); }
   int dimension() const { return bins_.dimension(); }
   double volume() const { return bins_.volume(slot_); }
   /// @pre in the plane
@@ -65,18 +65,14 @@ class BinView {
   Linear overRadius(const Linear& x) const;
 
  private:
-  BinView(const BinSet& bins, const double* means, std::size_t perSlot, std::size_t slot,
-          SpringConstants springs)
-      : bins_(bins), means_(means), perSlot_(perSlot), slot_(slot), springs_(springs) {}
-  Linear moment(std::size_t which) const;
+  BinView(const BinSet& bins, const double* means, std::size_t slot, SpringConstants springs)
+      : bins_(bins), means_(means), slot_(slot), springs_(springs) {}
 
   const BinSet& bins_;
   const double* means_;  ///< slot by slot
-  std::size_t perSlot_, slot_;
+  std::size_t slot_;
   SpringConstants springs_;
 };
-static_assert(static_cast<std::size_t>(Moment::volume) == 0 &&
-              static_cast<std::size_t>(SpaceMoment::volume) == 0);
 
 /// One field: its name and unit as in profiles.csv, how people call and write it, its defining sum
 /// as text and as formula. Where there is nothing to measure the formula is not finite (0/0), and
@@ -98,23 +94,13 @@ struct FieldSpec {
 /// Whether f(2m) = 2 f(m), on moments m with nothing special about them; ratios have f(2m) = f(m).
 bool growsWithContent(const FieldSpec& field, int dimension);
 
-/// All fields of rings, in the order of profiles.csv.
-std::span<const FieldSpec> fieldTable();
-
-/// The same where the directions are x and y, by their names there ("stress_xy", "velocity_x"),
-/// without those that only rings have.
-std::span<const FieldSpec> cartesianFieldTable();
-
-/// Those of bins in space: along x, y and z, or by the names of rings about the z axis
-/// ("stress_rz", "velocity_z").
-std::span<const FieldSpec> spaceFieldTable(bool rings);
-
-/// Whichever of the four tables is theirs.
+/// All fields of bins, in the order of profiles.csv: with the directions of rings about the z axis
+/// ("stress_rp", "radial_velocity") or x, y and z ("stress_xy", "velocity_x"). A name has one unit
+/// and one meaning in both dimensions.
 std::span<const FieldSpec> fieldsIn(int dimension, bool rings);
 std::span<const FieldSpec> fieldsOf(const BinSet& bins);
 
-/// Of any of them; null if there is no field of that name. What two tables have by one name has one
-/// unit and one meaning.
+/// Of any bins; null if there is no field of that name.
 const FieldSpec* findField(std::string_view name);
 
 /// @throws std::invalid_argument if there is no field of that name

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -48,20 +49,41 @@ Linear direction(const Linear& x, const Linear& y);
 Linear cos(const Linear& x);
 Linear sin(const Linear& x);
 
-/// A symmetric or unsymmetric 2 × 2 tensor; the first index is r or φ, then the second.
+/// A tensor of D × D, symmetric or not; indices are the bin's directions.
 struct LinearTensor {
-  Linear rr, rp, pr, pp;
+  int dimension = 2;
+  std::array<Linear, 9> entries;
+
+  Linear& operator()(int row, int column) { return entries[place(row, column)]; }
+  const Linear& operator()(int row, int column) const { return entries[place(row, column)]; }
+
+ private:
+  static std::size_t place(int row, int column) {
+    return static_cast<std::size_t>(3 * row + column);
+  }
 };
+
+/// The tensor whose entries are value(row, column).
+template <typename Value>
+LinearTensor tensorOf(int dimension, Value&& value) {
+  LinearTensor tensor{dimension, {}};
+  for (int row = 0; row < dimension; ++row)
+    for (int column = 0; column < dimension; ++column) tensor(row, column) = value(row, column);
+  return tensor;
+}
 
 Linear trace(const LinearTensor& t);
 
-/// Of the symmetric part: T_max − T_min, and the angle of the major axis from the first direction,
-/// counter-clockwise, in (−π/2, π/2].
+/// T_max − T_min of the symmetric part.
 Linear deviator(const LinearTensor& t);
+
+/// In the plane the angle of the symmetric part's major axis from the first direction,
+/// counter-clockwise, in (−π/2, π/2].
 Linear axis(const LinearTensor& t);
 
-/// NaN where |det t| ≤ 10⁻¹² (tr t)²: there the tensor has one direction only, up to rounding.
+/// NaN where |det t| ≤ 10⁻¹² |tr t|^D: there the tensor lacks a direction, up to rounding.
 LinearTensor inverse(const LinearTensor& t);
 LinearTensor operator*(const LinearTensor& s, const LinearTensor& t);
+LinearTensor operator+(const LinearTensor& s, const LinearTensor& t);
 
 }  // namespace crossgrain::inline averaging

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -13,23 +14,14 @@ namespace crossgrain::inline averaging {
 
 namespace {
 
-/// Where the four components of a stress tensor go.
-struct StressMoments {
-  Moment rr, pp, rp, pr;
-};
-constexpr StressMoments ofDisks = {Moment::stressRR, Moment::stressPP, Moment::stressRP,
-                                   Moment::stressPR};
-constexpr StressMoments ofWalls = {Moment::wallStressRR, Moment::wallStressPP, Moment::wallStressRP,
-                                   Moment::wallStressPR};
-
 /// Adds weight · (stress tensor turned into (r, φ)).
-void addStress(const Eigen::Matrix2d& stress, const Vec2& er, double weight,
-               const StressMoments& into, Moments& moments) {
+void addStress(const Eigen::Matrix2d& stress, const Vec2& er, double weight, Moment into,
+               Moments& moments) {
   const Vec2 ep = perpendicular(er);
-  at(moments, into.rr) += weight * er.dot(stress * er);
-  at(moments, into.pp) += weight * ep.dot(stress * ep);
-  at(moments, into.rp) += weight * er.dot(stress * ep);
-  at(moments, into.pr) += weight * ep.dot(stress * er);
+  at(moments, into, 0) += weight * er.dot(stress * er);
+  at(moments, into, 1) += weight * ep.dot(stress * ep);
+  at(moments, into, 2) += weight * er.dot(stress * ep);
+  at(moments, into, 3) += weight * ep.dot(stress * er);
 }
 
 /// Product of complex numbers: (cos, sin) of the sum of two angles.
@@ -49,7 +41,8 @@ void requireLength(const char* what, std::size_t got, std::size_t wanted) {
 }
 
 void distribute(const Moments& moments, const BinFractions& fractions, std::vector<Moments>& sums) {
-  using All = Eigen::Array<double, momentCount, 1>;  // side by side, which the loop is not
+  using All =
+      Eigen::Array<double, std::tuple_size_v<Moments>, 1>;  // side by side, which the loop is not
   for (const auto& [slot, w] : fractions)
     All::Map(sums[slot].data()) += w * All::Map(moments.data());
 }
@@ -110,7 +103,7 @@ void MomentSums::compute(const Snapshot& snapshot, std::vector<std::vector<Momen
     const Vec2 er = coordinates_->firstDirection(x);
     Moments moments = momentsOf(snapshot, p, er);
     for (const bool alongBranch : {true, false}) {  // those have their stress from addBranches()
-      if (!alongBranch) addStress(contactSums_[p].stress, er, 1.0, ofDisks, moments);
+      if (!alongBranch) addStress(contactSums_[p].stress, er, 1.0, Moment::stress, moments);
       for (std::size_t k = 0; k < sharings_.size(); ++k)
         if (sharings_[k].weight().alongBranch() == alongBranch)
           distribute(moments, sharings_[k].ofDisk(x, radius_[p]), sums[k]);
@@ -129,9 +122,10 @@ void MomentSums::addWalls(const Snapshot& snapshot, Partition& partition,
   const auto add = [&](const Vec2& couple, const Eigen::Matrix2d& stress, const Vec2& er,
                        const BinFractions& fractions) {
     for (const auto& [slot, fraction] : fractions) {
-      at(sums[slot], Moment::wallCoupleR) += fraction * couple.dot(er);
-      at(sums[slot], Moment::wallCoupleP) += fraction * couple.dot(perpendicular(er));
-      if (!partition.weight().alongBranch()) addStress(stress, er, fraction, ofWalls, sums[slot]);
+      at(sums[slot], Moment::wallCouple, 0) += fraction * couple.dot(er);
+      at(sums[slot], Moment::wallCouple, 1) += fraction * couple.dot(perpendicular(er));
+      if (!partition.weight().alongBranch())
+        addStress(stress, er, fraction, Moment::wallStress, sums[slot]);
     }
   };
   for (std::size_t w = 0; w < snapshot.wallPosition.size(); ++w) {
@@ -179,7 +173,8 @@ void MomentSums::addBranches(const Snapshot& snapshot, Partition& partition,
         for (const auto& [slot, fraction] : wall && !coordinates_->isCartesian()
                                                 ? partition.ofWallPoint(point, x, a)
                                                 : partition.ofPoint(point))
-          addStress(forceNormal, er, a * part * fraction, wall ? ofWalls : ofDisks, sums[slot]);
+          addStress(forceNormal, er, a * part * fraction,
+                    wall ? Moment::wallStress : Moment::stress, sums[slot]);
       }
     }
   }
@@ -236,22 +231,12 @@ void MomentSums::addHeat(const Contacts& contacts, std::size_t c) {
 
 Moments MomentSums::momentsOf(const Snapshot& snapshot, std::size_t p, const Vec2& er) const {
   const Vec2 ep = perpendicular(er);
-  const double m = mass_[p];
   const double volume = std::numbers::pi * radius_[p] * radius_[p] * coordinates_->height();
-  const double vr = snapshot.velocity[p].dot(er);
-  const double vp = snapshot.velocity[p].dot(ep);
   const ContactSums& sums = contactSums_[p];
 
   Moments moments{};
-  at(moments, Moment::volume) = volume;
-  at(moments, Moment::mass) = m;
-  at(moments, Moment::momentumR) = m * vr;
-  at(moments, Moment::momentumP) = m * vp;
-  at(moments, Moment::velocityR) = volume * vr;
-  at(moments, Moment::velocityP) = volume * vp;
-  at(moments, Moment::dynamicRR) = m * vr * vr;
-  at(moments, Moment::dynamicPP) = m * vp * vp;
-  at(moments, Moment::dynamicRP) = m * vr * vp;
+  addMotion<2>(moments, volume, mass_[p],
+               {snapshot.velocity[p].dot(er), snapshot.velocity[p].dot(ep)});
   if (snapshot.spin) {
     const double spin = (*snapshot.spin)[p];
     at(moments, Moment::spin) = volume * spin;
@@ -264,21 +249,23 @@ Moments MomentSums::momentsOf(const Snapshot& snapshot, std::size_t p, const Vec
   const Vec2 harmonic4 = turnedBack(sums.harmonic4, four);
   const Vec2 harmonic6 = turnedBack(sums.harmonic6, six);
   const Vec2 overlap = turnedBack(sums.overlapHarmonic, two);
-  at(moments, Moment::coupleR) = sums.couple.dot(er);
-  at(moments, Moment::coupleP) = sums.couple.dot(ep);
-  // n⊗n = ½(1 + cos 2α), ½(1 − cos 2α), ½ sin 2α
-  at(moments, Moment::fabricRR) = 0.5 * volume * (sums.count + harmonic2.x());
-  at(moments, Moment::fabricPP) = 0.5 * volume * (sums.count - harmonic2.x());
-  at(moments, Moment::fabricRP) = 0.5 * volume * harmonic2.y();
-  at(moments, Moment::contacts) = volume * sums.count;
+  // Σ_c of a symmetric tensor from its trace and (cos 2α, sin 2α): n⊗n = ½(1 + cos 2α), ½(1 − cos
+  // 2α), ½ sin 2α
+  const auto addSymmetric = [&](Moment which, double weight, double trace, const Vec2& twice) {
+    at(moments, which, 0) = 0.5 * weight * (trace + twice.x());
+    at(moments, which, 1) = 0.5 * weight * (trace - twice.x());
+    at(moments, which, 2) = 0.5 * weight * twice.y();
+  };
+  addSymmetric(Moment::fabric, volume, sums.count, harmonic2);
+  // V δ/a = πh a δ
+  addSymmetric(Moment::overlap, std::numbers::pi * coordinates_->height(), sums.overlap, overlap);
+  addContactCounts<2>(moments, volume, sums.count);
   at(moments, Moment::heat) = sums.heat;
-  at(moments, Moment::overlapRR) = 0.5 * (sums.overlap + overlap.x());
-  at(moments, Moment::overlapPP) = 0.5 * (sums.overlap - overlap.x());
-  at(moments, Moment::overlapRP) = 0.5 * overlap.y();
-  at(moments, Moment::cos4) = volume * harmonic4.x();
-  at(moments, Moment::sin4) = volume * harmonic4.y();
-  at(moments, Moment::cos6) = volume * harmonic6.x();
-  at(moments, Moment::sin6) = volume * harmonic6.y();
+  const std::array<double, 4> harmonics = {harmonic4.x(), harmonic4.y(), harmonic6.x(),
+                                           harmonic6.y()};
+  for (int k = 0; k < 2; ++k) at(moments, Moment::couple, k) = sums.couple.dot(k == 0 ? er : ep);
+  for (int k = 0; k < 4; ++k)
+    at(moments, Moment::harmonics, k) = volume * harmonics[static_cast<std::size_t>(k)];
   return moments;
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "adapters/scene.hpp"
@@ -11,59 +14,139 @@
 
 namespace crossgrain::inline averaging {
 
-/// The sums over disks that every field is made of. Each is Σ_p w_p Q_p over the moving disks, with
-/// w the disk's fraction in the bin, V = π a² h its volume, m its mass and J its moment of inertia.
-/// Vectors and tensors are turned into the coordinate's directions, (r, φ) for rings, at each
-/// disk's own place (Lätzel 2003, section 5.1).
+/// The sums that every field is made of, in the plane and in space. Each is Σ_p w_p Q_p over the
+/// moving bodies p, with w the body's fraction in the bin, V its volume (π a² h of a disk, 4π a³/3
+/// of a sphere), m its mass and J its moment of inertia; those of branches are Σ_c w_c Q_c over
+/// contacts, with w_c the fraction of the branch. Components are along the bin's directions, (x, y,
+/// z) or (r, φ, z), for disks the first two, at each body's own place (Lätzel 2003, section 5.1).
 enum class Moment : std::size_t {
-  volume,        ///< V [m³]
-  wallVolume,    ///< V of wall disks, only if asked for [m³]
-  mass,          ///< m [kg]
-  momentumR,     ///< m v_r [kg m/s]
-  momentumP,     ///< m v_φ [kg m/s]
-  velocityR,     ///< V v_r [m⁴/s]
-  velocityP,     ///< V v_φ [m⁴/s]
-  spin,          ///< V ω [m³/s]
-  spinEnergy,    ///< ½ J ω² [N m]
-  stressRR,      ///< −Σ_c f_r l_r [N m]; first index force, second branch (= face normal)
-  stressPP,      ///< −Σ_c f_φ l_φ [N m]
-  stressRP,      ///< −Σ_c f_r l_φ [N m]
-  stressPR,      ///< −Σ_c f_φ l_r [N m]
-  wallStressRR,  ///< −Σ_c f_r l_r of wall disks [N m]
-  wallStressPP,
-  wallStressRP,
-  wallStressPR,
-  coupleR,      ///< −Σ_c (l × f)_z l_r [N m²]
-  coupleP,      ///< −Σ_c (l × f)_z l_φ [N m²]
-  wallCoupleR,  ///< −Σ_c (l × f)_z l_r of wall disks [N m²]
-  wallCoupleP,
-  dynamicRR,  ///< m v_r v_r [N m]
-  dynamicPP,  ///< m v_φ v_φ [N m]
-  dynamicRP,  ///< m v_r v_φ [N m]
-  fabricRR,   ///< V Σ_c n_r n_r [m³]
-  fabricPP,   ///< V Σ_c n_φ n_φ [m³]
-  fabricRP,   ///< V Σ_c n_r n_φ [m³]
-  contacts,   ///< V C, C the disk's number of contacts, those with walls included [m³]
-  overlapRR,  ///< Σ_c Δ_r l_r, Δ = δ n with n along l: the overlap as a displacement [m²]
-  overlapPP,  ///< Σ_c Δ_φ l_φ [m²]
-  overlapRP,  ///< Σ_c Δ_r l_φ [m²]
-  cos4,       ///< V Σ_c cos 4α, α the angle of l from the first direction [m³]
-  sin4,       ///< V Σ_c sin 4α [m³]
-  cos6,       ///< V Σ_c cos 6α [m³]
-  sin6,       ///< V Σ_c sin 6α [m³]
-  heat  ///< Σ_c P/2, P what the contact turns into heat; with a wall P, so that none is lost [W]
+  volume,          ///< V [m³]
+  wallVolume,      ///< V of wall disks, only if asked for [m³]
+  mass,            ///< m [kg]
+  momentum,        ///< m v_α [kg m/s]
+  volumeVelocity,  ///< V v_α [m⁴/s]
+  spin,            ///< V ω_α [m³/s]
+  spinEnergy,      ///< ½ J ω² of disks [N m]
+  stress,  ///< of disks −Σ_c f_α l_β, in space per branch f_α l_β [N m]; first index force,
+           ///< second branch (= face normal)
+  wallStress,    ///< −Σ_c f_α l_β of wall disks [N m]
+  couple,        ///< −Σ_c (l × f)_z l_α of disks [N m²]
+  wallCouple,    ///< −Σ_c (l × f)_z l_α of wall disks [N m²]
+  dynamic,       ///< m v_α v_β [N m]
+  fabric,        ///< V Σ_c n_α n_β over the body's contacts [m³]
+  contacts,      ///< V C, C the body's number of contacts, those with walls included [m³]
+  heldVolume,    ///< V of bodies with C > D: one with fewer contacts is a rattler [m³]
+  heldContacts,  ///< V C of those [m³]
+  overlap,       ///< V Σ_c (δ/a) n_α n_β [m³]
+  harmonics,  ///< V Σ_c (cos 4α, sin 4α, cos 6α, sin 6α), α the angle of n in the plane [m³]
+  heat,  ///< Σ_c P/2, P what the contact turns into heat; with a wall P, so that none is lost [W]
+  branches,   ///< in space per contact 1 [-]
+  wallForce,  ///< in space per contact with a wall the force on the sphere, where it acts [N]
+  end
 };
 
-inline constexpr std::size_t momentCount = static_cast<std::size_t>(Moment::heat) + 1;
+/// Indices of a tensor's components in the order of moments and fields: the diagonal, then pairs.
+/// Of a symmetric tensor one of each pair, row < column.
+template <int D>
+inline constexpr auto tensorIn = [] {
+  constexpr std::array<std::array<int, 2>, 9> all = {
+      {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 0}, {0, 2}, {2, 0}, {1, 2}, {2, 1}}};
+  std::array<std::array<int, 2>, D * D> result{};
+  std::ranges::copy_if(all, result.begin(), [](const auto& q) { return q[0] < D && q[1] < D; });
+  return result;
+}();
+template <int D>
+inline constexpr auto symmetricIn = [] {
+  std::array<std::array<int, 2>, D*(D + 1) / 2> result{};
+  std::ranges::copy_if(tensorIn<D>, result.begin(), [](const auto& q) { return q[0] <= q[1]; });
+  return result;
+}();
 
-/// One number for each Moment.
-using Moments = std::array<double, momentCount>;
-
-inline double& at(Moments& moments, Moment which) {
-  return moments[static_cast<std::size_t>(which)];
+/// How many numbers a moment has; none in the dimension that does without it.
+constexpr std::size_t numbersOf(Moment which, int dimension) {
+  const bool plane = dimension == 2;
+  const auto d = static_cast<std::size_t>(dimension);
+  using enum Moment;
+  switch (which) {
+    case momentum:
+    case volumeVelocity:
+      return d;
+    case spin:
+      return plane ? 1 : 3;
+    case stress:
+      return d * d;
+    case dynamic:
+    case fabric:
+    case overlap:
+      return d * (d + 1) / 2;
+    case wallVolume:
+    case spinEnergy:
+      return plane ? 1 : 0;
+    case couple:
+    case wallCouple:
+      return plane ? 2 : 0;
+    case wallStress:
+    case harmonics:
+      return plane ? 4 : 0;
+    case branches:
+      return plane ? 0 : 1;
+    case wallForce:
+      return plane ? 0 : 3;
+    default:
+      return 1;
+  }
 }
-inline double at(const Moments& moments, Moment which) {
-  return moments[static_cast<std::size_t>(which)];
+
+/// Where the numbers of each moment begin, and at `end` how many there are.
+using MomentPlaces = std::array<std::size_t, static_cast<std::size_t>(Moment::end) + 1>;
+constexpr MomentPlaces momentPlacesIn(int dimension) {
+  MomentPlaces places{};
+  for (std::size_t m = 0; m + 1 < places.size(); ++m)
+    places[m + 1] = places[m] + numbersOf(static_cast<Moment>(m), dimension);
+  return places;
+}
+template <int D>
+inline constexpr MomentPlaces momentPlaces = momentPlacesIn(D);
+
+/// All numbers of one bin.
+template <int D>
+using MomentsOf = std::array<double, momentPlaces<D>.back()>;
+using Moments = MomentsOf<2>;
+using SpaceMoments = MomentsOf<3>;
+
+/// One number of a bin's: of a moment, the k-th.
+template <typename SomeMoments>
+auto& at(SomeMoments& moments, Moment which, int k = 0) {
+  constexpr int D =
+      std::tuple_size_v<std::remove_const_t<SomeMoments>> == std::tuple_size_v<Moments> ? 2 : 3;
+  return moments[momentPlaces<D>[static_cast<std::size_t>(which)] + static_cast<std::size_t>(k)];
+}
+
+/// What a body's motion adds: all that needs neither spin nor contact. @param v  along the bin's
+/// directions [m/s]
+template <int D>
+void addMotion(MomentsOf<D>& moments, double volume, double mass, const VecOf<D>& v) {
+  at(moments, Moment::volume) = volume;
+  at(moments, Moment::mass) = mass;
+  for (int k = 0; k < D; ++k) {
+    at(moments, Moment::momentum, k) = mass * v[k];
+    at(moments, Moment::volumeVelocity, k) = volume * v[k];
+  }
+  for (int q = 0; q < D * (D + 1) / 2; ++q) {
+    const auto [row, column] = symmetricIn<D>[static_cast<std::size_t>(q)];
+    at(moments, Moment::dynamic, q) = mass * v[row] * v[column];
+  }
+}
+
+/// What a body's number of contacts adds. One with fewer than D + 1 is a rattler, or on its way to
+/// be one: C* counts only the others (Göncü, Durán and Luding 2010, C. R. Mécanique 338:570:
+/// M₄/N₄).
+template <int D>
+void addContactCounts(MomentsOf<D>& moments, double volume, double count) {
+  at(moments, Moment::contacts) = volume * count;
+  if (count < D + 1.0) return;
+  at(moments, Moment::heldVolume) = volume;
+  at(moments, Moment::heldContacts) = volume * count;
 }
 
 /// How many of what a scene has, for snapshots to be compared with.

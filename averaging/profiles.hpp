@@ -42,7 +42,7 @@ template <int D>
 class ProfileAccumulatorOf {
  public:
   using Coordinates = std::conditional_t<D == 2, averaging::Coordinates, SpaceBins>;
-  using Moments = std::conditional_t<D == 2, averaging::Moments, SpaceMoments>;
+  using Moments = MomentsOf<D>;
   using Sums = std::conditional_t<D == 2, MomentSums, SpaceMomentSums>;
 
   /// @param countWallDisks adds the wall disks' area in the rings to volume_fraction; off in the

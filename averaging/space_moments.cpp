@@ -10,14 +10,31 @@ namespace crossgrain::inline averaging {
 
 namespace {
 
-void add(SpaceMoments& moments, SpaceMoment first, const Vec3& vector, double weight) {
-  for (int k = 0; k < 3; ++k) at(moments, first + k) += weight * vector[k];
+void add(SpaceMoments& moments, Moment which, const Vec3& vector, double weight) {
+  for (int k = 0; k < 3; ++k) at(moments, which, k) += weight * vector[k];
 }
 
 /// Weight · f⊗l, turned into the directions at its place.
 void addStress(SpaceMoments& moments, const Vec3& force, const Vec3& branch, double weight) {
-  for (int row = 0; row < 3; ++row)
-    add(moments, SpaceMoment::stress + 3 * row, branch, weight * force[row]);
+  for (int q = 0; q < 9; ++q) {
+    const auto [row, column] = tensorIn<3>[static_cast<std::size_t>(q)];
+    at(moments, Moment::stress, q) += weight * force[row] * branch[column];
+  }
+}
+
+/// Σ_c of a symmetric tensor, turned.
+void addSymmetric(SpaceMoments& moments, Moment which, double weight,
+                  const std::array<double, 6>& sums, const Eigen::Matrix3d& turn) {
+  Eigen::Matrix3d tensor;
+  for (std::size_t q = 0; q < 6; ++q) {
+    const auto [row, column] = symmetricIn<3>[q];
+    tensor(row, column) = tensor(column, row) = sums[q];
+  }
+  tensor = turn * tensor * turn.transpose();
+  for (int q = 0; q < 6; ++q) {
+    const auto [row, column] = symmetricIn<3>[static_cast<std::size_t>(q)];
+    at(moments, which, q) = weight * tensor(row, column);
+  }
 }
 
 }  // namespace
@@ -40,7 +57,7 @@ void SpaceMomentSums::changeDisks(const SpaceScene& scene) {
 
 void SpaceMomentSums::compute(const SpaceSnapshot& snapshot,
                               std::vector<std::vector<SpaceMoments>>& sums) {
-  constexpr auto ofSpheres = static_cast<std::size_t>(SpaceMoment::stress);
+  using All = Eigen::Array<double, std::tuple_size_v<SpaceMoments>, 1>;
   counts_.require(snapshot, false);
   sums.resize(weights_.size());
   for (std::vector<SpaceMoments>& slots : sums) slots.assign(bins_->slots(), SpaceMoments{});
@@ -53,7 +70,7 @@ void SpaceMomentSums::compute(const SpaceSnapshot& snapshot,
     for (std::size_t k = 0; k < weights_.size(); ++k) {
       bins_->sphereFractions(snapshot.position[p], radius_[p], weights_[k], fractions_);
       for (const auto& [slot, w] : fractions_)
-        for (std::size_t q = 0; q < ofSpheres; ++q) sums[k][slot][q] += w * moments[q];
+        All::Map(sums[k][slot].data()) += w * All::Map(moments.data());
     }
   }
   if (snapshot.contacts)
@@ -69,9 +86,10 @@ void SpaceMomentSums::sumContacts(const ContactsOf<3>& contacts) {
       const auto p = static_cast<std::size_t>(id);
       if (p >= mass_.size()) continue;
       ContactSums& sums = contactSums_[p];
-      for (std::size_t q = 0; q < symmetricComponents.size(); ++q) {
-        const auto& [a, b] = symmetricComponents[q];
-        sums.fabric[q] += n[a] * n[b];
+      for (std::size_t q = 0; q < 6; ++q) {
+        const auto [row, column] = symmetricIn<3>[q];
+        sums.fabric[q] += n[row] * n[column];
+        sums.overlap[q] += contacts.overlap[c] / radius_[p] * n[row] * n[column];
       }
       sums.count += 1.0;
       if (!contacts.dissipation.empty()) sums.heat += (pair ? 0.5 : 1.0) * contacts.dissipation[c];
@@ -83,32 +101,16 @@ SpaceMoments SpaceMomentSums::momentsOf(const SpaceSnapshot& snapshot, std::size
   const double a = radius_[p], m = mass_[p];
   const double V = 4.0 / 3.0 * std::numbers::pi * a * a * a;
   const Eigen::Matrix3d turn = bins_->directions(snapshot.position[p]).transpose();
-  const Vec3 v = turn * snapshot.velocity[p];
   const ContactSums& sums = contactSums_[p];
 
-  using enum SpaceMoment;
   SpaceMoments moments{};
-  at(moments, volume) = V;
-  at(moments, mass) = m;
-  add(moments, momentum, v, m);
-  if (snapshot.spin) add(moments, spin, turn * (*snapshot.spin)[p], m);
-  Eigen::Matrix3d normals;
-  for (std::size_t q = 0; q < symmetricComponents.size(); ++q) {
-    const auto& [k, l] = symmetricComponents[q];
-    at(moments, dynamic + static_cast<int>(q)) = m * v[k] * v[l];
-    normals(k, l) = normals(l, k) = sums.fabric[q];
-  }
+  addMotion<3>(moments, V, m, turn * snapshot.velocity[p]);
+  if (snapshot.spin) add(moments, Moment::spin, turn * (*snapshot.spin)[p], V);
   if (sums.count == 0.0) return moments;
-  normals = turn * normals * turn.transpose();
-  for (std::size_t q = 0; q < symmetricComponents.size(); ++q)
-    at(moments, fabric + static_cast<int>(q)) =
-        V * normals(symmetricComponents[q][0], symmetricComponents[q][1]);
-  at(moments, contacts) = V * sums.count;
-  if (sums.count >= fewestThatHold) {
-    at(moments, heldVolume) = V;
-    at(moments, heldContacts) = V * sums.count;
-  }
-  at(moments, heat) = sums.heat;
+  addSymmetric(moments, Moment::fabric, V, sums.fabric, turn);
+  addSymmetric(moments, Moment::overlap, V, sums.overlap, turn);
+  addContactCounts<3>(moments, V, sums.count);
+  at(moments, Moment::heat) = sums.heat;
   return moments;
 }
 
@@ -128,13 +130,13 @@ void SpaceMomentSums::addBranches(const SpaceSnapshot& snapshot, const Weight& w
     for (const auto& [slot, w, place] : along_) {
       const Eigen::Matrix3d turn = bins_->directions(place).transpose();
       addStress(sums[slot], turn * force, turn * branch, w);
-      at(sums[slot], SpaceMoment::branches) += w;
+      at(sums[slot], Moment::branches) += w;
     }
     if (!wall) continue;
     const Vec3 end = x - branch;
     bins_->sphereFractions(end, 0.0, weight, fractions_);
     const Vec3 turned = bins_->directions(end).transpose() * force;
-    for (const auto& [slot, w] : fractions_) add(sums[slot], SpaceMoment::wallForce, turned, w);
+    for (const auto& [slot, w] : fractions_) add(sums[slot], Moment::wallForce, turned, w);
   }
 }
 

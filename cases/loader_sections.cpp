@@ -394,7 +394,7 @@ void readAveraging(Reader& in, Case& c) {
   const Reader margins = in.section("margins"), endpoints = in.section("endpoints");
   AveragingInput how;
   averagingKeys().read(in, how);
-  how.margins = readMargins(margins, judgedFields(fieldTable()), &c);
+  how.margins = readMargins(margins, judgedFields(fieldsIn(2, true)), &c);
   how.endpoints = readMargins(endpoints, judgedEndpoints(), &c);
   in.check(!how.methods.empty(), "method", "must not be empty");
   in.check(how.snapshotsPerRotation * how.rotations <= mostSnapshots, "rotations",

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -39,12 +40,21 @@ json listCases(const fs::path& folder) {
 json listFields(const fs::path&) {
   json rows = json::array();
   std::set<std::string_view> listed;
+  const auto has = [](int dimension, std::string_view name) {
+    return std::ranges::any_of(std::array{true, false}, [&](bool rings) {
+      return std::ranges::find(fieldsIn(dimension, rings), name, &FieldSpec::name) !=
+             fieldsIn(dimension, rings).end();
+    });
+  };
   for (const int dimension : {2, 3})
     for (const bool rings : {true, false})
       for (const FieldSpec& field : fieldsIn(dimension, rings))
         if (listed.insert(field.name).second)
-          rows.push_back(row(field.name, field.unit,
-                             std::string(field.definition) + (dimension == 3 ? "; in space" : "")));
+          rows.push_back(
+              row(field.name, field.unit,
+                  std::string(field.definition) + (!has(2, field.name)   ? "; in space"
+                                                   : !has(3, field.name) ? "; in the plane"
+                                                                         : "")));
   return rows;
 }
 

@@ -209,8 +209,8 @@ double shareDecided(int packings, double difference, Verdict answer) {
   return decided / static_cast<double>(trials);
 }
 
-// A mean 2.1 sd beyond the margin: 4 packings put it 4.2 standard errors there, and 3.18 (Student's t
-// of 3) + 1.28 are needed for 9 chances in 10; 5 put it at 4.7, where 2.78 + 1.28 are.
+// A mean 2.1 sd beyond the margin: 4 packings put it 4.2 standard errors there, and 3.18 (Student's
+// t of 3) + 1.28 are needed for 9 chances in 10; 5 put it at 4.7, where 2.78 + 1.28 are.
 TEST(InterimSettings, ForecastOfFewPackings_ByHand) {
   EXPECT_EQ(packingsFor(3.1, 1.0, 1.0, 0.025, 0.9), std::optional(5));
 }

@@ -152,17 +152,17 @@ TEST(CoupleStress, ByHandAndAgainstCurvature) {
     const auto field = [&](const char* name) {
       return valueOf(name, rings, moments, ring, springs);
     };
-    const auto moving = [&](Moment couple) {
-      return at(moments[rings.slot(ring)], couple) / rings.ringVolume(ring);
+    const auto moving = [&](Moment which, int k) {
+      return at(moments[rings.slot(ring)], which, k) / rings.ringVolume(ring);
     };
     const double zr = field("curvature_zr"), zp = field("curvature_zp");
     const double factor = *springs.kt / (pi * rings.height());
     const double scale = factor * (std::abs(zr) + std::abs(zp)) * field("fabric_trace");
-    EXPECT_NEAR(moving(Moment::coupleR),
+    EXPECT_NEAR(moving(Moment::couple, 0),
                 factor * (zr * field("fabric_rr") + zp * field("fabric_rp")), 1e-12 * scale);
-    EXPECT_NEAR(moving(Moment::coupleP),
+    EXPECT_NEAR(moving(Moment::couple, 1),
                 factor * (zr * field("fabric_rp") + zp * field("fabric_pp")), 1e-12 * scale);
-    EXPECT_NEAR(field("torque_resistance") * zr, moving(Moment::coupleR), 1e-12 * scale);
+    EXPECT_NEAR(field("torque_resistance") * zr, moving(Moment::couple, 0), 1e-12 * scale);
   }
 }
 

@@ -212,10 +212,7 @@ void expectSums(const Sums& theirs, const Coordinates& bins, const std::vector<M
   EXPECT_NEAR(ours("dynamic_stress_xx"), theirs.flux(0, 0), agreement * flux);
   EXPECT_NEAR(ours("dynamic_stress_xy"), theirs.flux(0, 1), agreement * flux);
   EXPECT_NEAR(ours("dynamic_stress_yy"), theirs.flux(1, 1), agreement * flux);
-  // Our velocities are means by volume, no field has the momentum: it is that of the moments.
-  const Vec2 momentum =
-      Vec2(at(moments[slot], Moment::momentumR), at(moments[slot], Moment::momentumP)) /
-      bins.volume(slot);
+  const Vec2 momentum = ours("density") * Vec2(ours("velocity_x"), ours("velocity_y"));
   EXPECT_LT((momentum - theirs.momentum).norm(), agreement * theirs.momentum.norm());
 }
 

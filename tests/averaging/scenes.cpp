@@ -135,9 +135,9 @@ double valueOf(const char* field, const Rings& rings, const std::vector<Moments>
   return fieldIn(rings.slot(ring), field, rings, moments, springs);
 }
 
-double total(const std::vector<Moments>& moments, Moment which) {
+double total(const std::vector<Moments>& moments, Moment which, int k) {
   double sum = 0.0;
-  for (const Moments& bin : moments) sum += at(bin, which);
+  for (const Moments& bin : moments) sum += at(bin, which, k);
   return sum;
 }
 

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -62,7 +66,39 @@ double fieldIn(std::size_t slot, const char* field, const Coordinates& coordinat
 double valueOf(const char* field, const Rings& rings, const std::vector<Moments>& moments, int ring,
                SpringConstants springs = {});
 
+/// Expects of every field of these bins that its slopes in one slot are what central differences of
+/// all moments, there and beside it, come to.
+template <typename SomeMoments>
+void expectSlopes(const auto& bins, const std::vector<SomeMoments>& moments, std::size_t slot,
+                  SpringConstants springs = {}) {
+  constexpr std::size_t count = std::tuple_size_v<SomeMoments>;
+  for (const FieldSpec& field : fieldsOf(bins)) {
+    const auto here = evaluate(field, BinView(bins, moments, slot, springs));
+    ASSERT_TRUE(here) << field.name;
+    std::vector<SomeMoments> slopes(moments.size());
+    for (const auto& [index, slope] : here->slopes) slopes[index / count][index % count] += slope;
+    for (std::size_t bin = 0; bin < moments.size(); ++bin)
+      for (std::size_t q = 0; q < count; ++q) {
+        // 1e-5 of the moment itself, or of what it is elsewhere, or of a scale where it is 0.
+        double elsewhere = 0.0;
+        for (const SomeMoments& each : moments) elsewhere = std::max(elsewhere, std::abs(each[q]));
+        const double least = elsewhere > 0.0 ? 1e-2 * elsewhere : 1e-9;
+        const double step = 1e-5 * std::max(std::abs(moments[bin][q]), least);
+        const auto moved = [&](double by) {
+          auto other = moments;
+          other[bin][q] += by;
+          return evaluate(field, BinView(bins, other, slot, springs))->value;
+        };
+        const double change = (moved(step) - moved(-step)) / 2.0;
+        // Truncation 1e-10, rounding 1e-16 of the value, per step of 1e-5.
+        EXPECT_NEAR(slopes[bin][q] * step, change,
+                    1e-5 * std::abs(change) + 1e-13 * std::abs(here->value))
+            << field.name << " moment " << q;
+      }
+  }
+}
+
 /// Σ over all slots of one moment
-double total(const std::vector<Moments>& moments, Moment which);
+double total(const std::vector<Moments>& moments, Moment which, int k = 0);
 
 }  // namespace crossgrain::test

@@ -9,6 +9,7 @@
 #include "averaging/fields.hpp"
 #include "averaging/profiles.hpp"
 #include "averaging/space_rings.hpp"
+#include "tests/averaging/scenes.hpp"
 
 namespace crossgrain {
 namespace {
@@ -122,6 +123,27 @@ TEST(SpaceFields, LatticeIsUniformWhereverItLies) {
   }
 }
 
+TEST(SpaceFields, LatticeOfSprings_StrainAndModuliByHand) {
+  SpaceInstant lattice = cubicLattice(3, Vec3(1.0, 2.0, 3.0), Vec3::Zero());
+  auto& overlap = lattice.snapshot.contacts->overlap;
+  for (std::size_t c = 0; c < overlap.size(); ++c)  // δ = f/100 along x, y and z by turns
+    overlap[c] = 0.01 * static_cast<double>(c % 3 + 1);
+  const auto whole = slabs(Vec3::Zero(), Vec3::Constant(3.0), 1, everywhere);
+  const auto moments = momentsOf(whole, lattice);
+  const auto of = [&](const char* name) { return field(name, *whole, moments, 1); };
+  EXPECT_NEAR(of("strain_xx"), 0.02, 1e-14);  // δ/a
+  EXPECT_NEAR(of("strain_zz"), 0.06, 1e-14);
+  EXPECT_NEAR(of("strain_xy"), 0.0, 1e-15);
+  EXPECT_NEAR(of("strain_deviator"), 0.04, 1e-14);
+  // Branches are 2a − δ long: σ = f (1 − δ) per area 1.
+  const double xx = 1.0 * 0.99, yy = 2.0 * 0.98, zz = 3.0 * 0.97;
+  EXPECT_NEAR(of("stress_deviator"), zz - xx, 1e-12);
+  EXPECT_NEAR(of("bulk_modulus"), (xx + yy + zz) / 0.12, 1e-11);
+  EXPECT_NEAR(of("shear_modulus"), (zz - xx) / 0.04, 1e-11);
+  EXPECT_NEAR(of("full_stress_zz"), zz, 1e-12);
+  EXPECT_NEAR(of("fabric_deviator"), 0.0, 1e-12);
+}
+
 /// Spheres everywhere in and about a box of (2, 3, 4), some in contact across its borders.
 SpaceInstant randomInstant(const Vec3& shift) {
   std::mt19937_64 generator(3);
@@ -140,6 +162,14 @@ SpaceInstant randomInstant(const Vec3& shift) {
   return instant;
 }
 
+TEST(SpaceFields, SlopesMatchFiniteDifferences) {
+  SpaceInstant instant = randomInstant(Vec3::Zero());
+  for (int k = 0; k < 38; ++k)  // so that some spheres are held
+    instant.addContact(k, k + 2, Vec3(1.0, k, -2.0).normalized(), 0.02, 1.0);
+  const auto whole = slabs(Vec3::Zero(), Vec3(2.0, 3.0, 4.0), 1, everywhere);
+  test::expectSlopes(*whole, momentsOf(whole, instant), 1);
+}
+
 TEST(SpaceFields, SumsOverSlabsAreThoseOfTheWhole) {
   const SpaceInstant instant = randomInstant(Vec3::Zero());
   const Vec3 size(2.0, 3.0, 4.0);
@@ -153,17 +183,18 @@ TEST(SpaceFields, SumsOverSlabsAreThoseOfTheWhole) {
     const double length = instant.scene.disks.radius[i] + instant.scene.disks.radius[j] - 0.01;
     stress += contacts.force(c) * (length * contacts.normal[c]).transpose();
   }
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
-      EXPECT_NEAR(at(total, SpaceMoment::stress + (3 * row + column)), stress(row, column), 1e-12);
-  EXPECT_NEAR(at(total, SpaceMoment::branches), 30.0, 1e-12);
+  for (int q = 0; q < 9; ++q) {
+    const auto [row, column] = tensorIn<3>[static_cast<std::size_t>(q)];
+    EXPECT_NEAR(at(total, Moment::stress, q), stress(row, column), 1e-12);
+  }
+  EXPECT_NEAR(at(total, Moment::branches), 30.0, 1e-12);
   for (const int axis : {0, 1, 2})
     for (const Weight& weight :
          {Weight(WeightMethod::slicing), Weight(WeightMethod::centre),
           Weight(WeightMethod::heaviside, 0.4), Weight(WeightMethod::lucy, 0.6)}) {
       const auto bins = slabs(Vec3::Zero(), size, 5, everywhere, axis);
       const auto moments = momentsOf(bins, instant, weight);
-      for (std::size_t q = 0; q < spaceMomentCount; ++q) {
+      for (std::size_t q = 0; q < std::tuple_size_v<SpaceMoments>; ++q) {
         double sum = 0.0;
         for (std::size_t slot = 1; slot < bins->slots(); ++slot) sum += moments[slot][q];
         EXPECT_NEAR(sum, total[q], 1e-12) << "moment " << q << " along " << axis;
@@ -178,7 +209,7 @@ TEST(SpaceFields, WhatIsShiftedByAThirdOfTheBoxIsShiftedByAThirdOfTheSlabs) {
     const auto here = momentsOf(bins, randomInstant(Vec3::Zero()), weight);
     const auto there = momentsOf(bins, randomInstant(size / 3.0), weight);
     for (std::size_t slab = 0; slab < 6; ++slab)
-      for (std::size_t q = 0; q < spaceMomentCount; ++q)
+      for (std::size_t q = 0; q < std::tuple_size_v<SpaceMoments>; ++q)
         EXPECT_NEAR(there[1 + (slab + 2) % 6][q], here[1 + slab][q], 1e-12) << q;
   }
 }
@@ -194,7 +225,7 @@ TEST(SpaceFields, PairAcrossABorderCountsOnBothSides) {
   for (const std::size_t slot : {1U, 4U})
     EXPECT_NEAR(field("stress_zz", *bins, moments, slot), 0.4, 1e-15);
   for (const std::size_t slot : {2U, 3U}) EXPECT_EQ(field("stress_zz", *bins, moments, slot), 0.0);
-  EXPECT_NEAR(at(moments[1], SpaceMoment::volume), 4.0 * pi / 3.0 * std::pow(0.25, 3), 1e-15);
+  EXPECT_NEAR(at(moments[1], Moment::volume), 4.0 * pi / 3.0 * std::pow(0.25, 3), 1e-15);
 }
 
 TEST(SpaceFields, WallForceIsTheStressOfTheSlabNextToIt) {
@@ -311,7 +342,7 @@ TEST(SpaceFields, RingsSeeSpinAndThrustAlongTheirDirections) {
   EXPECT_NEAR(field("stress_pr", *rings, moments, 1), -0.1 / V, 1e-15);
   EXPECT_NEAR(field("stress_rp", *rings, moments, 1), 0.0, 1e-15);
   EXPECT_NEAR(field("wall_force_density_r", *rings, moments, 1), -5.0 / V, 1e-14);
-  EXPECT_NEAR(field("fabric_rr", *rings, moments, 1), at(moments[1], SpaceMoment::volume) / 3.0 / V,
+  EXPECT_NEAR(field("fabric_rr", *rings, moments, 1), at(moments[1], Moment::volume) / 3.0 / V,
               1e-15);
 }
 
@@ -344,10 +375,11 @@ TEST(SpaceFields, ProfilesAreMeansOverTimeWithErrors) {
 
 TEST(SpaceFields, KnowWhatGrowsWithTheirContent) {
   for (const bool rings : {false, true})
-    for (const FieldSpec& spec : spaceFieldTable(rings)) {
-      const bool perVolume = spec.definition.ends_with("V_bin") || spec.name == "pressure" ||
-                             spec.name == "stress_trace" ||
-                             spec.definition.find("V_bin") != std::string_view::npos;
+    for (const FieldSpec& spec : fieldsIn(3, rings)) {
+      const auto is = [&](std::string_view stem) { return spec.name.starts_with(stem); };
+      const bool perVolume = spec.definition.find("V_bin") != std::string_view::npos ||
+                             is("pressure") || is("stress_") || is("full_stress_") ||
+                             is("bulk_modulus") || is("shear_modulus");
       EXPECT_EQ(spec.perVolume, perVolume) << spec.name;
       // By one name one unit and one kind in all tables.
       EXPECT_EQ(fieldSpec(spec.name).unit, spec.unit) << spec.name;

@@ -112,6 +112,9 @@ class Sums:
         self.put("VF", w, volume[:, None, None] * turned(fabric[:n], angle[:n]))
         self.put("strain", w, turned(strain[:n], angle[:n]))
         self.put("VC", w, volume * contacts_of[:n])
+        held = contacts_of[:n] > 2
+        self.put("heldV", w, volume * held)
+        self.put("heldVC", w, volume * held * contacts_of[:n])
         radial = np.stack([c * couple[:n, 0] + s * couple[:n, 1], c * couple[:n, 1] - s * couple[:n, 0]], axis=1)
         self.put("couple", w, radial)
         for order in (4, 6):
@@ -133,7 +136,8 @@ class Sums:
         per = lambda name: mean[name] / ring.reshape((-1,) + (1,) * (mean[name].ndim - 1))
         out = {}
         out["volume_fraction"] = per("V")
-        out["radial_velocity"], out["azimuthal_velocity"] = (mean["Vv"] / mean["V"][:, None]).T
+        for suffix, of, weight in (("", "mv", "m"), ("_by_volume", "Vv", "V")):
+            out["radial_velocity" + suffix], out["azimuthal_velocity" + suffix] = (mean[of] / mean[weight][:, None]).T
         out["spin"] = mean["Vspin"] / mean["V"]
         out["density"] = per("m")
         out["rotational_stress"] = per("spinEnergy")
@@ -142,10 +146,11 @@ class Sums:
         dynamic = per("mvv")
         out.update(components("stress", sigma))
         symmetric = lambda t: 0.5 * (t + t.transpose(0, 2, 1))
+        fluctuation = dynamic - (mean["mv"][:, :, None] * mean["mv"][:, None, :]) / mean["m"][:, None, None] / ring[:, None, None]
         for name, t in (
             ("dynamic_stress", dynamic),
             ("full_stress", symmetric(sigma) + dynamic),
-            ("fluctuation_stress", dynamic - (mean["mv"][:, :, None] * mean["mv"][:, None, :]) / mean["m"][:, None, None] / ring[:, None, None]),
+            ("fluctuation_stress", fluctuation),
         ):
             parts = components(name, t)
             parts.pop(name + "_pr")
@@ -162,6 +167,9 @@ class Sums:
             out[f"{name}_deviator"] = values[:, 1] - values[:, 0]
         out["stress_antisymmetric"] = 0.5 * (sigma[:, 1, 0] - sigma[:, 0, 1])
         out["coordination"] = mean["VC"] / mean["V"]
+        out["coordination_without_rattlers"] = mean["heldVC"] / mean["heldV"]
+        out["granular_temperature"] = np.trace(fluctuation, axis1=1, axis2=2) / (2.0 * out["density"])
+        out["pressure"] = np.trace(sigma + fluctuation, axis1=1, axis2=2) / 2.0
         spread = lambda t: np.ptp(np.linalg.eigvalsh(symmetric(t)), axis=1)
         trace = lambda t: np.trace(t, axis1=1, axis2=2)
         out["bulk_modulus"] = trace(moving) / trace(strain)

@@ -44,7 +44,7 @@ class Snapshots(SystemTest):
         self.assertEqual("", other.stderr)
         found = json.loads(other.stdout)
         self.assertEqual([], found["missing"])
-        self.assertGreaterEqual(len(found["worst"]), 43)
+        self.assertGreaterEqual(len(found["worst"]), 48)
         for field, worst in found["worst"].items():
             # Of the field's largest value: sums of some hundred disks, cut near tangency.
             self.assertLess(worst, 1e-10, field)

@@ -220,8 +220,15 @@ def rounded(values, digits):
     return [None if value is None else float(f"{value:.{digits - 1}e}") for value in values]
 
 
+def by_volume(profiles):
+    """The profiles with the thesis' velocities, means by volume; results without such have no others."""
+    named = {p["field"].removesuffix("_by_volume") for p in profiles if p["field"].endswith("_by_volume")}
+    return [p | {"field": p["field"].removesuffix("_by_volume")} for p in profiles if p["field"] not in named]
+
+
 def profiles_of(profiles, fields):
     first, kept = profiles[0]["method"] if profiles else None, {}
+    profiles = by_volume(profiles)
     for p in profiles:
         if p["field"] in fields and (p["method"] == first or (p["method"] == "centre" and p["field"] in BY_CENTRE)):
             kept.setdefault(p["method"], {})[p["field"]] = {"mean": rounded(p["mean"], 6), "stderr": rounded(p["stderr"], 3)}

@@ -13,7 +13,7 @@ import tomllib
 import h5py
 import numpy as np
 
-from laetzel.campaign import FINE_FIELDS, collisions_of, profiles_of, rounded, run_of
+from laetzel.campaign import FINE_FIELDS, by_volume, collisions_of, profiles_of, rounded, run_of
 from laetzel.tables import SPAN_NUMBERS
 
 PROJECT = pathlib.Path(__file__).resolve().parents[3]
@@ -135,7 +135,7 @@ def leg_of(leg, case, cell):
 def span_of(run, cell, start, end):
     """The history's numbers of a part of a run: means over its snapshots, the largest overlap of all of them."""
     series = {name: np.array(values, float) for name, values in run["series"].items()}
-    profiles = {p["field"]: np.array(p["mean"], float) for p in reversed(run["profiles"])}
+    profiles = {p["field"]: np.array(p["mean"], float) for p in reversed(by_volume(run["profiles"]))}
     nu, rim, half = profiles["volume_fraction"], cell["omega"] * cell["inner_radius"], len(profiles["volume_fraction"]) // 2
     width = (cell["outer_radius"] - cell["inner_radius"]) / len(nu)
     volumes = cell["inner_radius"] + (np.arange(len(nu)) + 0.5) * width  # go as rings' middles

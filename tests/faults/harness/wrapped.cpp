@@ -32,12 +32,6 @@ struct Key {
 template struct Key<&MomentSums::coordinates_>;
 const Coordinates& coordinatesOf(const MomentSums& sums);
 
-constexpr Moment stresses[] = {Moment::stressRR,     Moment::stressPP,     Moment::stressRP,
-                               Moment::stressPR,     Moment::wallStressRR, Moment::wallStressPP,
-                               Moment::wallStressRP, Moment::wallStressPR};
-constexpr Moment wallStresses[] = {Moment::wallStressRR, Moment::wallStressPP, Moment::wallStressRP,
-                                   Moment::wallStressPR, Moment::wallCoupleR,  Moment::wallCoupleP};
-
 void plantInto(std::vector<Moments>& slots, const Coordinates& coordinates) {
   const std::size_t last = slots.size() - 2;  // the last ring; behind it the overflow
   if (planted("PLANTED_LAST_RING", 1.0) == 0.0) slots[last] = Moments{};
@@ -46,12 +40,15 @@ void plantInto(std::vector<Moments>& slots, const Coordinates& coordinates) {
   const bool wrongArea = planted("PLANTED_WRONG_AREA", 0.0) != 0.0;
   for (std::size_t slot = 0; slot < slots.size(); ++slot) {
     Moments& moments = slots[slot];
-    for (const Moment which : stresses) at(moments, which) *= branch;
-    for (const Moment which : wallStresses) at(moments, which) *= planted("PLANTED_WALLS", 1.0);
+    for (int q = 0; q < 4; ++q) {
+      at(moments, Moment::stress, q) *= branch;
+      at(moments, Moment::wallStress, q) *= branch * planted("PLANTED_WALLS", 1.0);
+    }
+    for (int k = 0; k < 2; ++k) at(moments, Moment::wallCouple, k) *= planted("PLANTED_WALLS", 1.0);
     at(moments, Moment::spin) *= planted("PLANTED_SPIN", 1.0);
     if (swapped) {
-      std::swap(at(moments, Moment::stressRP), at(moments, Moment::stressPR));
-      std::swap(at(moments, Moment::wallStressRP), at(moments, Moment::wallStressPR));
+      std::swap(at(moments, Moment::stress, 2), at(moments, Moment::stress, 3));
+      std::swap(at(moments, Moment::wallStress, 2), at(moments, Moment::wallStress, 3));
     }
     // A sum over the area of the ring that follows, as if it were this ring's.
     if (wrongArea && slot > 0 && slot < last)
@@ -64,13 +61,7 @@ void plantInto(std::vector<Moments>& slots, const Coordinates& coordinates) {
 }  // namespace crossgrain
 
 // Calls of the functions in question arrive at __wrap_NAME, those of __real_NAME at themselves.
-#define MOMENT_SUMS                                                                             \
-  "_ZN10crossgrain9averaging10MomentSums7computeERKNS_8SnapshotERSt6vectorIS5_ISt5arrayIdLm35E" \
-  "ESaIS7_EESaIS9_EE"
-#define ORACLE_OUTCOME                                                                     \
-  "_ZN10crossgrain6oracle13oracleOutcomeERKNS_10ContactLawERKNS0_13CollidingPairERKNS0_14" \
-  "CollisionStartE"
-
+// Both names are CMakeLists.txt's.
 namespace crossgrain {
 
 using SumsOfWeights = std::vector<std::vector<Moments>>;
