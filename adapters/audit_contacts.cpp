@@ -136,8 +136,8 @@ std::string placeFault(const ContactsOf<D>& contacts, const AuditBasisOf<D>& bas
                          fmt::join(contacts.normal[k], ", "), fmt::join(place.normal, ", "));
     const bool pushes =
         contacts.normalForce[k] != 0.0 || contacts.tangentialForce[k] != noSpin<D>();
-    if (pushes && place.overlap < -place.uncertain - bondReach(basis.scene->lawOf(i, j),
-                                                               reducedRadius(basis, i, j)))
+    if (pushes && place.overlap < -place.uncertain - bondRange(basis.scene->lawOf(i, j),
+                                                               pairOf(basis, i, j).reducedRadius()))
       return fmt::format("{}: a force of {:.3g} N passes a gap of {:.3g} m",
                          contactName(contacts, k, *basis.scene), contacts.normalForce[k],
                          -place.overlap);

@@ -10,62 +10,28 @@
 
 namespace crossgrain {
 
-ElasticPart elasticPart(const ContactLaw& law, double overlap, double reducedRadius) {
-  const double depth = std::max(overlap, 0.0);
-  switch (law.normal) {
-    case NormalLaw::linear:
-      return {law.kn * overlap, law.kn, law.kt};
-    case NormalLaw::hertz: {
-      const double root = std::sqrt(reducedRadius * depth);
-      return {law.kn * root * depth, 1.5 * law.kn * root, law.kt * root};
-    }
-    case NormalLaw::polynomial:
-      return {(law.kn + law.kn3 * depth) * depth * depth,
-              (2.0 * law.kn + 3.0 * law.kn3 * depth) * depth, law.kt};
-    case NormalLaw::rigid:
-      break;
-  }
-  return {0.0, 0.0, 0.0};
+ElasticPart elasticPart(const ContactLaw& law, const CollidingPair& pair, double overlap) {
+  const double radius = pair.reducedRadius();
+  return {elasticForce(law, radius, overlap), normalStiffness(law, radius, overlap).value,
+          tangentialStiffness(law, radius, overlap).value};
 }
 
-Attraction attraction(const ContactLaw& law, double overlap, double radius, double reach) {
+Attraction attraction(const ContactLaw& law, const CollidingPair& pair, double overlap) {
   using std::numbers::pi;
-  const double elastic = elasticPart(law, overlap, radius).force;
+  const double radius = pair.reducedRadius(), pull = pullOff(law, radius);
   switch (law.cohesion) {
     case CohesionLaw::area: {
-      const double round = 2.0 * pi * radius;  // A′(0)
-      double area = round * overlap;
-      if (law.conventions.cohesionArea == CohesionArea::twiceBetweenDisks && reach > 0.0)
-        area *= 2.0;
-      if (law.conventions.cohesionArea == CohesionArea::lens) {
-        // The lens of two spheres: π h² with h² = a_i² − x², x from the centre of i to its plane.
-        const double a =
-            reach > 0.0 ? 0.5 * (reach + std::sqrt(std::max(reach * (reach - 4.0 * radius), 0.0)))
-                        : radius;
-        const double d = reach - overlap, b = reach - a;
-        const double x = reach > 0.0 ? (d * d + a * a - b * b) / (2.0 * d) : radius - overlap;
-        area = pi * (a * a - x * x);
-      }
-      return {-law.kc * area, -law.kc * area, 2.0 * law.kc * round};
+      const double force = -law.kc * cohesionArea(law, pair, overlap).value;
+      return {force, force, 4.0 * pi * radius * law.kc};  // A′(0) is at most that
     }
-    case CohesionLaw::dmt: {
-      const double pull = 2.0 * pi * law.w * radius;
+    case CohesionLaw::dmt:
       return {-pull, -pull, 0.0, pull};
-    }
     case CohesionLaw::jkr: {
-      // F/F_po = x³ − 2 x^1.5, δ R/a_p² = x² − 4/3 √x, x = a/a_p, by bisection.
-      const double width = std::cbrt(1.5 * pi * law.w * radius * radius / law.kn);
-      const double wanted = overlap * radius / (width * width), pull = 1.5 * pi * law.w * radius;
-      double low = 1.0 / std::cbrt(9.0), high = 2.0 + 2.0 * std::sqrt(std::max(wanted, 0.0));
-      for (int k = 0; k < 100; ++k) {
-        const double x = 0.5 * (low + high);
-        (x * x - 4.0 / 3.0 * std::sqrt(x) < wanted ? low : high) = x;
-      }
-      const double force = pull * (low * low * low - 2.0 * std::pow(low, 1.5)) - elastic;
-      // dF/dδ; it has no bound at the end of the branch.
-      const double slope = 2.0 * low - 2.0 / 3.0 / std::sqrt(low);
-      const double stiffness = pull * (3.0 * low * low - 3.0 * std::sqrt(low)) /
-                               std::max(slope, 1e-3) * radius / (width * width);
+      // F = F_po (y⁶ − 2 y³), δ/unit = y⁴ − 4/3 y; dF/dδ has no bound at the end of the branch.
+      const double unit = jkrUnit(law, radius), y = jkrRoot(overlap / unit), cube = y * y * y;
+      const double force = pull * (cube - 2.0) * cube - elasticForce(law, radius, overlap);
+      const double stiffness =
+          pull * 6.0 * (cube - 1.0) * y * y / (std::max(4.0 * cube - 4.0 / 3.0, 2e-3) * unit);
       return {force, force, std::abs(stiffness), pull};
     }
     case CohesionLaw::elastoPlastic: {  // between loading, beyond δ* with kUnload, and the pull
@@ -81,20 +47,10 @@ Attraction attraction(const ContactLaw& law, double overlap, double radius, doub
   return {0.0, 0.0, 0.0};
 }
 
-double damping(Damper damper, double constant, double stiffness, double reducedMass) {
-  if (damper == Damper::constant) return constant;
-  if (damper == Damper::viscoelastic) return constant * stiffness;
-  return constant * std::sqrt(reducedMass * stiffness);
+double damping(const ContactLaw& law, double constant, double stiffness,
+               const CollidingPair& pair) {
+  return dashpot(law.damper, constant, {stiffness, 0.0}, 1.0 / pair.reducedMass()).value;
 }
-
-template <int D>
-double reducedMass(const SceneOf<D>& scene, std::size_t i, std::size_t j) {
-  const double mass = scene.disks.mass[i];
-  return j < scene.disks.size() ? mass * scene.disks.mass[j] / (mass + scene.disks.mass[j]) : mass;
-}
-
-template double reducedMass(const Scene&, std::size_t, std::size_t);
-template double reducedMass(const SpaceScene&, std::size_t, std::size_t);
 
 template <int D>
 ContactLaw ownLaw(const AuditBasisOf<D>& basis, std::size_t i, std::size_t j,
@@ -183,7 +139,7 @@ template <int D>
 bool VelocityDoubt<D>::isWithin(double way, double force, const ContactPlacesOf<D>& places,
                                 const AuditBasisOf<D>& basis, std::size_t i, std::size_t j) const {
   const VecOf<D> relative = places.velocity[i] - velocityOfSecond<D>(places, basis, i, j);
-  const double speed = relative.norm() + lapse_ * force / reducedMass(*basis.scene, i, j);
+  const double speed = relative.norm() + lapse_ * force / pairOf(basis, i, j).reducedMass();
   return way >= 0.0 && way <= lapse_ * speed;
 }
 
@@ -192,11 +148,9 @@ double VelocityDoubt<D>::changeWithin(const ContactLaw& law, double overlap,
                                       const ContactPlacesOf<D>& places,
                                       const AuditBasisOf<D>& basis, std::size_t i,
                                       std::size_t j) const {
-  const double radius = reducedRadius<D>(basis, i, j);
-  const double reach = j < basis.radius.size() ? basis.radius[i] + basis.radius[j] : 0.0;
+  const CollidingPair pair = pairOf(basis, i, j);
   const VecOf<D> relative = places.velocity[i] - velocityOfSecond<D>(places, basis, i, j);
-  return (elasticPart(law, overlap, radius).stiffness +
-          attraction(law, overlap, radius, reach).stiffness) *
+  return (elasticPart(law, pair, overlap).stiffness + attraction(law, pair, overlap).stiffness) *
          relative.norm() * lapse_;
 }
 
@@ -205,18 +159,16 @@ double VelocityDoubt<D>::lastForce(const ContactLaw& law, const ContactPlacesOf<
                                    const AuditBasisOf<D>& basis, std::size_t i,
                                    std::size_t j) const {
   const PairPlaceOf<D> place = pairPlace<D>(places, basis, i, j);
-  const double radius = reducedRadius<D>(basis, i, j);
+  const CollidingPair pair = pairOf(basis, i, j);
   const double separating =
       (places.velocity[i] - velocityOfSecond<D>(places, basis, i, j)).dot(place.normal);
-  const double reach = j < basis.radius.size() ? basis.radius[i] + basis.radius[j] : 0.0;
-  const double mass = reducedMass(*basis.scene, i, j);
   const bool pulls = law.conventions.tension == Tension::allow;
   const double dashpot =
-      pulls ? damping(law.damper, law.gn, elasticPart(law, 0.0, radius).stiffness, mass) : 0.0;
+      pulls ? damping(law, law.gn, elasticPart(law, pair, 0.0).stiffness, pair) : 0.0;
   double last = dashpot * std::max(separating, 0.0);
-  if (law.coheres()) last += attraction(law, 0.0, radius, reach).pullOff;
+  if (law.coheres()) last += attraction(law, pair, 0.0).pullOff;
   last *= 1.0 + law.mu;
-  const double gap = -place.overlap - bondReach(law, radius);
+  const double gap = -place.overlap - bondRange(law, pair.reducedRadius());
   return isWithin(gap + place.uncertain, last, places, basis, i, j) ? last : 0.0;
 }
 

@@ -10,16 +10,14 @@
 /// dashpots see.
 namespace crossgrain {
 
-/// What a law makes of one contact, worked out here and nowhere else: an engine's own code is no
-/// witness of itself.
+/// What a law makes of one contact: by the texts of the laws, as an engine's own code is no witness
+/// of itself.
 struct ElasticPart {
   double force;       ///< f_el(δ) [N]
   double stiffness;   ///< f_el′(δ) [N/m]
   double tangential;  ///< k_t(δ) [N/m]
 };
-
-/// @param reducedRadius  R₁₂ [m]
-ElasticPart elasticPart(const ContactLaw& law, double overlap, double reducedRadius);
+ElasticPart elasticPart(const ContactLaw& law, const CollidingPair& pair, double overlap);
 
 /// A range of forces where the law has a memory that nobody shows.
 struct Attraction {
@@ -27,16 +25,10 @@ struct Attraction {
   double stiffness;      ///< |its derivative| [N/m]
   double pullOff = 0.0;  ///< F_po [N]
 };
+Attraction attraction(const ContactLaw& law, const CollidingPair& pair, double overlap);
 
-/// @param reach  a_i + a_j, at a plane 0 [m]
-Attraction attraction(const ContactLaw& law, double overlap, double radius, double reach);
-
-/// γ of a damper, constant where it is that [kg/s]
-double damping(Damper damper, double constant, double stiffness, double reducedMass);
-
-/// m₁₂, of a wall that of i [kg].
-template <int D>
-double reducedMass(const SceneOf<D>& scene, std::size_t i, std::size_t j);
+/// γ of the law's dampers [kg/s]. @param constant  γ_n or γ_t of the law
+double damping(const ContactLaw& law, double constant, double stiffness, const CollidingPair& pair);
 
 /// The law of that pair with the options of `law`, as the engine runs them.
 template <int D>

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
+#include <limits>
 
 namespace crossgrain {
 namespace {
@@ -152,20 +152,17 @@ template PairPlaceOf<3> pairPlace<3>(const ContactPlacesOf<3>&, const AuditBasis
                                      std::size_t);
 
 template <int D>
-double reducedRadius(const AuditBasisOf<D>& basis, std::size_t i, std::size_t j) {
-  const double a = basis.radius[i];
-  return j < basis.radius.size() ? a * basis.radius[j] / (a + basis.radius[j]) : a;
+CollidingPair pairOf(const AuditBasisOf<D>& basis, std::size_t i, std::size_t j) {
+  const DisksOf<D>& disks = basis.scene->disks;
+  CollidingPair pair =
+      diskOnWall(basis.radius[i], disks.mass[i], std::numeric_limits<double>::infinity());
+  pair.plane = j >= basis.radius.size();
+  if (!pair.plane) pair.radius[1] = basis.radius[j];
+  if (j < disks.size()) pair.mass[1] = disks.mass[j];
+  return pair;
 }
-template double reducedRadius<2>(const AuditBasis&, std::size_t, std::size_t);
-template double reducedRadius<3>(const AuditBasisOf<3>&, std::size_t, std::size_t);
-
-double bondReach(const ContactLaw& law, double reducedRadius) {
-  if (law.cohesion != CohesionLaw::jkr) return 0.0;
-  const double width =
-      std::cbrt(1.5 * std::numbers::pi * law.w * reducedRadius * reducedRadius / law.kn);
-  const double end = law.conventions.jkrEnd == JkrEnd::branch ? std::cbrt(9.0) : 1.0;
-  return end / 3.0 * width * width / reducedRadius;
-}
+template CollidingPair pairOf<2>(const AuditBasis&, std::size_t, std::size_t);
+template CollidingPair pairOf<3>(const AuditBasisOf<3>&, std::size_t, std::size_t);
 
 template <int D>
 std::string contactName(const ContactsOf<D>& contacts, std::size_t k, const SceneOf<D>& scene) {

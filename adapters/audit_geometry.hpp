@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "adapters/audit.hpp"
+#include "law/cohesion.hpp"
 
 namespace crossgrain {
 
@@ -77,14 +78,9 @@ template <int D>
 PairPlaceOf<D> pairPlace(const ContactPlacesOf<D>& places, const AuditBasisOf<D>& basis,
                          std::size_t i, std::size_t j);
 
-/// R₁₂ = a_i a_j/(a_i + a_j), of a plane a_i [m].
+/// The two as the law sees them, moments of inertia apart: walls have no mass.
 template <int D>
-double reducedRadius(const AuditBasisOf<D>& basis, std::size_t i, std::size_t j);
-
-/// How far apart the surfaces of a pair are when a bond of JKR's breaks, 0 of other laws [m]:
-/// a_p²/(3 R₁₂) at the largest pull, 2.08 times that at the end of the branch, with
-/// a_p³ = 9π w R₁₂²/(8 E*), E* = 3/4 k_n (Johnson, Kendall and Roberts 1971).
-double bondReach(const ContactLaw& law, double reducedRadius);
+CollidingPair pairOf(const AuditBasisOf<D>& basis, std::size_t i, std::size_t j);
 
 /// Whether two that overlap so much push each other whatever the damper is, up to a critical one:
 /// f_el(δ) > max(γ_n, 2 √(m₁₂ f_el′(δ))) v, at the speed v with which they part.

@@ -21,15 +21,12 @@ double acceleration(const MotionOf<D>& motion, double arm) {
 
 /// Everything about one contact that its forces are compared with.
 struct ContactKinematics {
-  double overlap;        ///< δ worked out from places [m]
-  double uncertain;      ///< how far that may be off [m]
-  double radius;         ///< R₁₂ [m]
-  double reach;          ///< a_i + a_j, at a plane 0 [m]
-  double smallerRadius;  ///< [m]
-  double mass;           ///< m₁₂ [kg]
-  double approach;       ///< v_n as shown [m/s]
-  double slip;           ///< at most, |v_t| [m/s]
-  double doubt;          ///< of v_n [m/s]
+  double overlap;    ///< δ worked out from places [m]
+  double uncertain;  ///< how far that may be off [m]
+  CollidingPair pair;
+  double approach;  ///< v_n as shown [m/s]
+  double slip;      ///< at most, |v_t| [m/s]
+  double doubt;     ///< of v_n [m/s]
   ElasticPart elastic;
   Attraction pull;
 };
@@ -53,13 +50,9 @@ ContactKinematics kinematicsOf(const SnapshotOf<D>& snapshot, const AuditBasisOf
         touch.uncertain,
         std::max(basis.shownOverlaps->relative * touch.overlap, basis.shownOverlaps->place));
   }
-  const double own = basis.radius[i];
-  touch.reach = j < round ? own + basis.radius[j] : 0.0;
-  touch.smallerRadius = j < round ? std::min(own, basis.radius[j]) : own;
-  touch.radius = reducedRadius<D>(basis, i, j);
-  touch.elastic = elasticPart(law, touch.overlap, touch.radius);
-  touch.pull = attraction(law, touch.overlap, touch.radius, touch.reach);
-  touch.mass = reducedMass(scene, i, j);
+  touch.pair = pairOf(basis, i, j);
+  touch.elastic = elasticPart(law, touch.pair, touch.overlap);
+  touch.pull = attraction(law, touch.pair, touch.overlap);
   const VecOf<D> relative = places.velocity[i] - velocityOfSecond<D>(places, basis, i, j);
   touch.approach = relative.dot(contacts.normal[k]);
   const auto rimSpeed = [&](std::size_t id) {
@@ -81,7 +74,7 @@ std::string normalFault(double found, const ContactLaw& law, const ContactKinema
                         double relative) {
   const ElasticPart& elastic = touch.elastic;
   const Attraction& pull = touch.pull;
-  const double gn = damping(law.damper, law.gn, elastic.stiffness, touch.mass);
+  const double gn = damping(law, law.gn, elastic.stiffness, touch.pair);
   const auto forceAt = [&](double attractive) {
     const double body = elastic.force + attractive, force = body - gn * touch.approach;
     return law.conventions.tension == Tension::cut ? std::max(force, std::min(body, 0.0)) : force;
@@ -89,12 +82,12 @@ std::string normalFault(double found, const ContactLaw& law, const ContactKinema
   const double least = forceAt(pull.least), most = forceAt(pull.most);
   // Change of the force over the overlap's uncertainty: Hertz' slope at δ = 0 is 0.
   const auto elasticAt = [&](double change) {
-    return elasticPart(law, touch.overlap + change, touch.radius);
+    return elasticPart(law, touch.pair, touch.overlap + change);
   };
   const ElasticPart deeper = elasticAt(touch.uncertain);
   const double unsure =
       std::max(deeper.force - elastic.force, elastic.force - elasticAt(-touch.uncertain).force);
-  const double unsureDamping = damping(law.damper, law.gn, deeper.stiffness, touch.mass) - gn;
+  const double unsureDamping = damping(law, law.gn, deeper.stiffness, touch.pair) - gn;
   const double allowed =
       relative * (std::abs(elastic.force) + std::abs(pull.least) + gn * std::abs(touch.approach)) +
       unsure + std::abs(unsureDamping * touch.approach) + pull.stiffness * touch.uncertain +
@@ -133,8 +126,7 @@ std::string tangentialFault(double normal, double found, const ContactLaw& law,
   const ElasticPart& elastic = touch.elastic;
   if (friction && law.tangential == TangentialLaw::springDashpot &&
       law.conventions.dashpot == Dashpot::outside)
-    bound +=
-        damping(law.damper, law.gt, elastic.tangential, touch.mass) * (touch.slip + touch.doubt);
+    bound += damping(law, law.gt, elastic.tangential, touch.pair) * (touch.slip + touch.doubt);
   double allowed =
       bound * (1.0 + relative) + relative * (std::abs(elastic.force) + std::abs(normal));
   if (friction && law.coheres())  // what an uncertain overlap leaves open of the pull
@@ -152,11 +144,7 @@ std::string rollingFault(double normal, double found, const ContactLaw& law,
                        (law.rolling == RollingLaw::spring &&
                         (law.gr == 0.0 || how.rollingDashpot == Dashpot::inside));
   if (law.rolls() && !limited) return {};
-  double length = touch.radius;
-  if (how.rollingLength == RollingLength::twiceEffective) length *= 2.0;
-  if (how.rollingLength == RollingLength::smallerRadius) length = touch.smallerRadius;
-  if (how.rollingLength == RollingLength::meanRadius)
-    length = touch.reach > 0.0 ? 0.5 * touch.reach : touch.radius;
+  const double length = rollingLength(law, touch.pair);
   const ElasticPart& elastic = touch.elastic;
   const double load = loadOf(normal, law, touch);
   const double most = how.rollingLoad == RollingLoad::elastic     ? elastic.force

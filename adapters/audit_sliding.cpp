@@ -29,10 +29,10 @@ template <int D>
 bool pushesForSure(const AuditBasisOf<D>& basis, std::size_t i, std::size_t j, double overlap,
                    double parting) {
   const ContactLaw& law = basis.scene->lawOf(i, j);
-  const ElasticPart elastic = elasticPart(law, overlap, reducedRadius(basis, i, j));
-  const double mass = reducedMass(*basis.scene, i, j);
-  const double damper = std::max(damping(law.damper, law.gn, elastic.stiffness, mass),
-                                 2.0 * std::sqrt(mass * elastic.stiffness));
+  const CollidingPair pair = pairOf(basis, i, j);
+  const ElasticPart elastic = elasticPart(law, pair, overlap);
+  const double damper = std::max(damping(law, law.gn, elastic.stiffness, pair),
+                                 2.0 * std::sqrt(pair.reducedMass() * elastic.stiffness));
   return elastic.force > damper * parting;
 }
 template bool pushesForSure(const AuditBasis&, std::size_t, std::size_t, double, double);
@@ -64,15 +64,14 @@ void addSliding(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis,
       places = contactPlaces<D>(snapshot, basis);
       doubts.emplace(snapshot, basis, *places, ofAll);
     }
-    const ElasticPart elastic = elasticPart(law, contacts.overlap[k], reducedRadius(basis, i, j));
-    const double mass = reducedMass(scene, i, j), load = contacts.normalForce[k];
+    const CollidingPair pair = pairOf(basis, i, j);
+    const ElasticPart elastic = elasticPart(law, pair, contacts.overlap[k]);
+    const double mass = pair.reducedMass(), load = contacts.normalForce[k];
     const VecOf<D> relative = snapshot.velocity[i] - snapshot.velocity[j];
     const double falling =
         elastic.stiffness * std::abs(relative.dot(contacts.normal[k])) +
-        damping(law.damper, law.gn, elastic.stiffness, mass) * load / mass;  // of f_n, at most
-    const bool springs =
-        law.tangential == TangentialLaw::spring || law.tangential == TangentialLaw::springDashpot;
-    double least = springs ? certain * law.mu * falling / elastic.tangential : 0.0;
+        damping(law, law.gn, elastic.stiffness, pair) * load / mass;  // of f_n, at most
+    double least = law.springs() ? certain * law.mu * falling / elastic.tangential : 0.0;
     double speeds = 0.0;
     for (const std::size_t id : {i, j}) {
       least += clear * (doubts->centre[id] + doubts->rim[id]);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <type_traits>
 
 namespace crossgrain {
@@ -37,6 +38,14 @@ inline Vec2 perpendicular(const Vec2& v) {
 /// z component of a × b.
 inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
+}
+
+/// v turned by the smallest rotation that takes one unit vector to another, by Rodrigues' formula.
+/// Eigen's Quaternion::FromTwoVectors compiles a whole singular value decomposition for it.
+/// @pre from and to are not opposite
+inline Vec3 turnedAlong(const Vec3& from, const Vec3& to, const Vec3& v) {
+  const Vec3 w = from.cross(to), wv = w.cross(v);
+  return v + wv + w.cross(wv) / (1.0 + from.dot(to));
 }
 
 }  // namespace crossgrain

@@ -12,7 +12,7 @@
 #include "cli/option_groups.hpp"
 #include "law/law_options.hpp"
 #include "oracle/calibration.hpp"
-#include "oracle/cohesion.hpp"
+#include "law/cohesion.hpp"
 #include "support/bad_input.hpp"
 
 namespace crossgrain::inline cli {

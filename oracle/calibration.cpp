@@ -10,7 +10,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "oracle/cohesion.hpp"
+#include "law/cohesion.hpp"
 #include "oracle/impact.hpp"
 
 namespace crossgrain::inline oracle {
@@ -186,53 +186,8 @@ ImpliedImpact impliedImpact(const ContactLaw& given, const CollidingPair& pair) 
   return implied;
 }
 
-double rollingLength(const ContactLaw& law, const CollidingPair& pair) {
-  const double reduced = pair.reducedRadius();
-  switch (law.conventions.rollingLength) {
-    case RollingLength::effective:
-      break;
-    case RollingLength::twiceEffective:
-      return 2.0 * reduced;
-    case RollingLength::smallerRadius:
-      return pair.plane ? pair.radius[0] : std::min(pair.radius[0], pair.radius[1]);
-    case RollingLength::meanRadius:
-      return pair.plane ? pair.radius[0] : 0.5 * (pair.radius[0] + pair.radius[1]);
-  }
-  return reduced;
-}
-
-double rollingSquare(const ContactLaw& law, const CollidingPair& pair) {
-  const double length = rollingLength(law, pair);
-  switch (law.conventions.rollingStiffness) {
-    case RollingStiffness::lengthSquare:
-      break;
-    case RollingStiffness::radii:
-      return pair.radius[0] * (pair.plane ? pair.radius[0] : pair.radius[1]);
-    case RollingStiffness::constant:
-      return 1.0;
-  }
-  return length * length;
-}
-
-namespace {
-
-double aboutContact(const CollidingPair& pair, int side) {
-  return pair.inertia[side] + pair.mass[side] * pair.radius[side] * pair.radius[side];
-}
-
-}  // namespace
-
-double rollingDamperUnit(const ContactLaw& law, const CollidingPair& pair, double stiffness) {
-  const double length = rollingLength(law, pair);
-  if (law.rolling != RollingLaw::spring || law.conventions.rollingDamper == RollingDamper::constant)
-    return length * length;
-  const double inverse =
-      1.0 / aboutContact(pair, 0) + (pair.plane ? 0.0 : 1.0 / aboutContact(pair, 1));
-  return 2.0 * std::sqrt(stiffness / inverse);
-}
-
 double rollingInertia(const CollidingPair& pair) {
-  if (pair.plane) return aboutContact(pair, 0);
+  if (pair.plane) return inertiaAboutContact(pair, 0);
   return 1.0 / (1.0 / pair.inertia[0] + 1.0 / pair.inertia[1]);
 }
 

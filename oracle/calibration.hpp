@@ -80,14 +80,6 @@ struct ImpliedImpact {
 /// @throws std::invalid_argument for a rigid law and for an overdamped pair
 ImpliedImpact impliedImpact(const ContactLaw& law, const CollidingPair& pair);
 
-/// L of rolling resistance [m], and what the constant k_r is times, L², a_i a_j [m²] or 1.
-/// @see RollingLength, RollingStiffness
-double rollingLength(const ContactLaw& law, const CollidingPair& pair);
-double rollingSquare(const ContactLaw& law, const CollidingPair& pair);
-/// What γ_r is times in the dashpot: L² [m²], or 2 √(I_c K) of a rolling spring with a critical
-/// damper, 1/I_c = Σ 1/(J + m a²) [N m s]. @param stiffness  K of the spring [N m]
-double rollingDamperUnit(const ContactLaw& law, const CollidingPair& pair, double stiffness);
-
 /// What turns against a contact's rolling spring and dashpot, I θ̈ + G θ̇ + K θ = 0 with K = k_r L²
 /// (or as RollingStiffness says): a disk that rolls on a plane without slip, I = J + m a², or the
 /// relative spin of a pair whose centres are held, 1/I = 1/J_i + 1/J_j [kg m²].

@@ -6,35 +6,6 @@
 
 namespace crossgrain::inline oracle {
 
-double CollidingPair::reducedMass() const {
-  return 1.0 / (1.0 / mass[0] + 1.0 / mass[1]);
-}
-
-double CollidingPair::reducedRadius() const {
-  return plane ? radius[0] : radius[0] * radius[1] / (radius[0] + radius[1]);
-}
-
-double CollidingPair::tangentialCompliance() const {
-  return 1.0 / mass[0] + 1.0 / mass[1] + radius[0] * radius[0] / inertia[0] +
-         radius[1] * radius[1] / inertia[1];
-}
-
-CollidingPair diskOnWall(double radius, double mass, double inertia) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  return {{radius, 0.0}, {mass, inf}, {inertia, inf}, true};
-}
-
-double leverFraction(LeverArm arm, PlaneArm plane, const CollidingPair& pair, int side) {
-  if (arm == LeverArm::radius) return 0.0;
-  if (pair.plane) {
-    if (side == 1 || plane == PlaneArm::radius) return 0.0;
-    return plane == PlaneArm::middle ? 0.5 : 1.0;
-  }
-  if (arm == LeverArm::contactPoint)
-    return pair.radius[1 - side] / (pair.radius[0] + pair.radius[1]);
-  return 0.5;
-}
-
 PairMotion motionBefore(const CollidingPair& pair, const CollisionStart& start) {
   const double slip = start.psi * start.vn;
   PairMotion motion{-start.vn, 0.0, {0.0, 0.0}};
@@ -87,8 +58,8 @@ double energyOf(const CollidingPair& pair, const SpaceMotion& motion) {
 
 CollisionEnd spaceEndOf(const CollidingPair& pair, const CollisionStart& start,
                         const SpaceMotion& after) {
-  const auto turn = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), after.normal);
-  const Vec3 along = turn * Vec3::UnitY(), out = turn * Vec3::UnitZ();
+  const Vec3 along = turnedAlong(Vec3::UnitX(), after.normal, Vec3::UnitY()),
+             out = turnedAlong(Vec3::UnitX(), after.normal, Vec3::UnitZ());
   CollisionEnd end = endOf(pair, start,
                            {after.velocity.dot(after.normal),
                             after.velocity.dot(along),

@@ -3,30 +3,9 @@
 #include <optional>
 
 #include "adapters/vec2.hpp"
-#include "law/contact_law.hpp"
+#include "law/contact_reference.hpp"
 
 namespace crossgrain::inline oracle {
-
-/// Two disks, free but for each other, or a disk and a plane wall that moves at a constant
-/// velocity.
-struct CollidingPair {
-  double radius[2];    ///< [m]; 0 of a wall
-  double mass[2];      ///< [kg]; inf of a wall
-  double inertia[2];   ///< [kg m²]; inf of a wall
-  bool plane = false;  ///< the second is a plane: the normal does not turn
-
-  double reducedMass() const;    ///< m₁₂ [kg]
-  double reducedRadius() const;  ///< R₁₂ = a_i a_j/(a_i + a_j), a_i on a plane [m]
-  /// dv_t/dt of the contact point per tangential force, 1/m₁₂ + Σ a²/J = K/m₁₂ [1/kg]
-  double tangentialCompliance() const;
-};
-
-/// A disk and a plane wall.
-CollidingPair diskOnWall(double radius, double mass, double inertia);
-
-/// The part of the overlap that an arm of body `side` (0 or 1) is short of its radius. A plane does
-/// not turn; `plane` says where the contact point lies on it.
-double leverFraction(LeverArm arm, PlaneArm plane, const CollidingPair& pair, int side);
 
 /// What gives the contact point its tangential velocity before a collision.
 enum class Approach {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oracle/cohesion.hpp"
+#include "law/cohesion.hpp"
 
 namespace crossgrain::inline oracle {
 

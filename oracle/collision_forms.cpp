@@ -3,7 +3,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "oracle/cohesion.hpp"
+#include "law/cohesion.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"
 

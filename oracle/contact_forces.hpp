@@ -1,14 +1,11 @@
 #pragma once
 
-#include "law/contact_law.hpp"
+#include "law/cohesion.hpp"
 #include "oracle/collision_end.hpp"
 
 namespace crossgrain::inline oracle {
 
-/// A function of the overlap and its derivative.
-struct Slope {
-  double value, rate;
-};
+using Slope = SlopeOf<double>;
 
 /// How stiff the contact of two bodies is and how much it damps, by its overlap δ [m] alone: what
 /// the problem of the plane and that of space have in common.
@@ -16,13 +13,18 @@ class ContactForces {
  protected:
   ContactForces(const ContactLaw& law, const CollidingPair& pair);
 
-  double elasticForce(double overlap) const;
-  Slope stiffness(double overlap) const;
-  Slope tangentialStiffness(double overlap) const;
-  Slope damping(double constant, const Slope& stiffness) const;
-  Slope normalDamping(double overlap) const { return damping(law_.gn, stiffness(overlap)); }
+  double elasticForce(double overlap) const {
+    return contact_law::elasticForce(law_, reducedRadius_, overlap);
+  }
+  Slope stiffness(double overlap) const { return normalStiffness(law_, reducedRadius_, overlap); }
+  Slope tangentialStiffness(double overlap) const {
+    return contact_law::tangentialStiffness(law_, reducedRadius_, overlap);
+  }
+  Slope normalDamping(double overlap) const {
+    return dashpot(law_.damper, law_.gn, stiffness(overlap), inverseMass_);
+  }
   Slope tangentialDamping(double overlap) const {
-    return damping(law_.gt, tangentialStiffness(overlap));
+    return dashpot(law_.damper, law_.gt, tangentialStiffness(overlap), inverseMass_);
   }
   /// Force of a tangential spring per unit of what it remembers.
   double springUnit(double overlap) const {

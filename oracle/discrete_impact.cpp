@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "oracle/cohesion.hpp"
+#include "law/cohesion.hpp"
 #include "oracle/impact.hpp"
 
 namespace crossgrain::inline oracle {
@@ -32,32 +32,17 @@ class NormalContact {
       largest_ = rest_ = 0;
       return 0;
     }
-    const Extended body = bodyForce(overlap, velocity > 0),
-                   gn = damping(std::max(overlap, Extended(0)));
+    const Extended body = bodyForce(overlap, velocity > 0), gn = damping(overlap);
     const Extended whole = (body - gn * velocity) / (1 + gn * compliance);
     if (!cutsTension_) return whole;
     return std::max(whole, law_.coheres() ? std::min(body, Extended(0)) : Extended(0));
   }
 
  private:
-  Extended elastic(Extended overlap) const {
-    const Extended kn = law_.kn;
-    if (law_.normal == NormalLaw::hertz)
-      return kn * std::sqrt(radius_ * std::max(overlap, Extended(0))) * overlap;
-    if (law_.normal == NormalLaw::polynomial)
-      return (kn + Extended(law_.kn3) * overlap) * overlap * overlap;
-    return kn * overlap;
-  }
-  /// γ_n [kg/s]. @param depth  ≥ 0
-  Extended damping(Extended depth) const {
-    const Extended constant = law_.gn, kn = law_.kn;
-    if (law_.damper == Damper::constant) return constant;
-    const Extended stiffness =
-        law_.normal == NormalLaw::hertz        ? Extended(1.5L) * kn * std::sqrt(radius_ * depth)
-        : law_.normal == NormalLaw::polynomial ? (2 * kn + 3 * Extended(law_.kn3) * depth) * depth
-                                               : kn;
-    if (law_.damper == Damper::viscoelastic) return constant * stiffness;
-    return constant * std::sqrt(mass_ * std::max(stiffness, Extended(0)));
+  Extended elastic(Extended overlap) const { return elasticForce(law_, radius_, overlap); }
+  /// γ_n [kg/s]
+  Extended damping(Extended overlap) const {
+    return dashpot(law_.damper, law_.gn, normalStiffness(law_, radius_, overlap), 1 / mass_).value;
   }
   /// @param parts  whether the bodies separate
   Extended bodyForce(Extended overlap, bool parts) {

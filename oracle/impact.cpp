@@ -8,15 +8,12 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "oracle/cohesion.hpp"
+#include "law/cohesion.hpp"
 
 namespace crossgrain::inline oracle {
 
 double dampingOf(Damper damper, double constant, double stiffness, double reducedMass) {
-  if (damper == Damper::viscoelastic) return constant * stiffness;
-  if (damper == Damper::critical)
-    return constant * std::sqrt(reducedMass * std::max(stiffness, 0.0));
-  return constant;
+  return dashpot(damper, constant, {stiffness, 0.0}, 1.0 / reducedMass).value;
 }
 
 ContactLaw withConstantDampers(ContactLaw law, double reducedMass) {

@@ -1,7 +1,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "oracle/cohesion.hpp"
+#include "law/cohesion.hpp"
 #include "oracle/two_body_problem.hpp"
 
 /// Bodies that attract each other: their force, the load that bounds multiply, and what of both
@@ -14,7 +14,7 @@ Slope TwoBodyProblem::cohesiveForce(const Kinematics& k) const {
   const double elastic = elasticForce(k.overlap), stiff = stiffness(k.overlap).value;
   switch (law_.cohesion) {
     case CohesionLaw::area: {
-      const AreaSlope area = cohesionArea(law_, pair_, k.overlap);
+      const SlopeOf area = cohesionArea(law_, pair_, k.overlap);
       return {elastic - law_.kc * area.value, stiff - law_.kc * area.rate};
     }
     case CohesionLaw::dmt:

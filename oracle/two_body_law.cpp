@@ -1,4 +1,4 @@
-#include "oracle/cohesion.hpp"
+#include "law/cohesion.hpp"
 #include "oracle/two_body_problem.hpp"
 
 /// The law between two events, and the motion that it makes.

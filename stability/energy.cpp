@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "oracle/calibration.hpp"
-#include "oracle/cohesion.hpp"
+#include "law/cohesion.hpp"
 #include "oracle/impact.hpp"
 #include "stability/recording.hpp"
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "engines/grain/spheres.hpp"
+#include "law/law_options.hpp"
 
 namespace grain {
 namespace {
@@ -33,24 +34,13 @@ class Fnv1a {
   std::uint64_t hash_ = 0xcbf29ce484222325u;
 };
 
+/// What the law's table has, where it bears on this law.
 void add(Fnv1a& to, const ContactLaw& law) {
-  const LawConventions& how = law.conventions;
-  to.addAll(law.kn3, law.en, law.et0, static_cast<int>(law.normal), static_cast<int>(law.damper),
-            static_cast<int>(how.history));
-  to.addAll(law.kn, law.gn, law.kt, law.gt, law.mu, static_cast<int>(tangentialOf(law)),
-            static_cast<int>(how.coulombBound), how.tension == Tension::cut,
-            how.dashpot == Dashpot::outside, how.springReset == SpringReset::springOnly,
-            static_cast<int>(how.leverArm), static_cast<int>(how.springUpdate),
-            static_cast<int>(dampingVelocity(law)));
-  to.addAll(static_cast<int>(how.armOfVelocity()), static_cast<int>(how.planeArm));
-  to.addAll(static_cast<int>(law.rolling), law.kr, law.gr, law.muR,
-            static_cast<int>(how.rollingLength), static_cast<int>(how.rollingStiffness),
-            static_cast<int>(how.rollingDamper), static_cast<int>(how.rollingLoad),
-            how.rollingDashpot == Dashpot::outside, how.rollingReset == SpringReset::springOnly);
-  to.addAll(static_cast<int>(law.cohesion), law.kc, law.w, law.kUnload, law.plasticDepth,
-            static_cast<int>(how.cohesionArea), static_cast<int>(how.jkrEnd),
-            static_cast<int>(how.cohesionLoad));
-  if (remembersRest(law)) to.addAll(static_cast<int>(how.unloadingStiffness));
+  for (const crossgrain::LawOption& option : crossgrain::lawOptions())
+    if (crossgrain::hasPart(law, option.part) && crossgrain::mattersTo(law, option.name))
+      to.addAll(option.get(law));
+  for (const crossgrain::LawConstant& constant : crossgrain::lawConstants())
+    if (crossgrain::hasPart(law, constant.part)) to.addAll(law.*constant.value);
 }
 
 void add(Fnv1a& to, const Wall& wall) {
@@ -82,8 +72,7 @@ std::uint64_t fingerprint(const Setup& setup) {
   to.addAll(setup.bottom.has_value());
   if (const auto& plate = setup.bottom)
     to.addAll(plate->mu, plate->kb, plate->gb, plate->tauM, plate->gravity, plate->spin);
-  to.addAll(setup.gravityX, setup.gravityY, setup.dt,
-            static_cast<int>(setup.law.conventions.integrator), setup.rotation,
+  to.addAll(setup.gravityX, setup.gravityY, setup.dt, setup.rotation,
             static_cast<int>(setup.precision));
   return to.hash();
 }
@@ -108,8 +97,7 @@ std::uint64_t fingerprint(const SpheresSetup& setup) {
   if (const auto& box = setup.box)
     to.addAll(box->low.x, box->low.y, box->low.z, box->length.x, box->length.y, box->length.z,
               box->periodic[0], box->periodic[1], box->periodic[2]);
-  to.addAll(setup.gravity.x, setup.gravity.y, setup.gravity.z, setup.dt,
-            static_cast<int>(setup.law.conventions.integrator), setup.rotation);
+  to.addAll(setup.gravity.x, setup.gravity.y, setup.gravity.z, setup.dt, setup.rotation);
   return to.hash();
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "adapters/pair_table.hpp"
-#include "oracle/cohesion.hpp"
+#include "law/cohesion.hpp"
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline studies {

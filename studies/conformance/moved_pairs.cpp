@@ -29,12 +29,8 @@ MovedPair turned(MovedPair pair) {
   return pair;
 }
 
-Vec3 rotatedBy(const Vec3& vector, const Vec3& before, const Vec3& now) {
-  return Eigen::Quaterniond::FromTwoVectors(before, now) * vector;
-}
-
 Vec3 turnedSpring(SpringTurn how, const Vec3& spring, const Vec3& before, const Vec3& now) {
-  if (how == SpringTurn::rotated) return rotatedBy(spring, before, now);
+  if (how == SpringTurn::rotated) return turnedAlong(before, now, spring);
   if (how == SpringTurn::firstOrder) return spring + before.cross(now).cross(spring);
   const Vec3 projected = spring - spring.dot(now) * now;
   if (how == SpringTurn::projected || projected.isZero(0.0)) return projected;

@@ -5,7 +5,7 @@
 
 #include "adapters/grain.hpp"
 #include "cases/collision_scene.hpp"
-#include "oracle/cohesion.hpp"
+#include "law/cohesion.hpp"
 #include "oracle/collision_flight.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "law/law_options.hpp"
+#include "law/cohesion.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"
 
@@ -411,9 +412,7 @@ struct Stepped {
   double reach() const { return pair.radius[0] + pair.radius[1]; }
   double overlap() const { return reach() - x.norm(); }
   double damping(double constant, double stiffness) const {
-    if (law.damper == Damper::viscoelastic) return constant * stiffness;
-    if (law.damper == Damper::critical) return constant * std::sqrt(pair.reducedMass() * stiffness);
-    return constant;
+    return dashpot(law.damper, constant, {stiffness, 0.0}, 1.0 / pair.reducedMass()).value;
   }
   Vec3 friction(double bound, double kt, const Vec3& slip, double h) {
     const LawConventions& how = law.conventions;
@@ -443,23 +442,15 @@ struct Stepped {
     const double depth = overlap(), mass = pair.reducedMass();
     const Vec3 n = x.normalized();
     if (!before.isZero(0.0)) {
-      memory = Eigen::Quaterniond::FromTwoVectors(before, n) * memory;
+      memory = turnedAlong(before, n, memory);
       if (law.conventions.springTwist == SpringTwist::meanSpin)
         memory = Eigen::AngleAxisd(0.5 * (spin[0] + spin[1]).dot(n) * h, n) * memory;
     }
     before = n;
-    const double width = std::sqrt(pair.reducedRadius() * depth);
-    double elastic = law.kn * depth, stiffness = law.kn, kt = law.kt;
-    if (law.normal == NormalLaw::hertz) {
-      elastic = law.kn * width * depth;
-      stiffness = 1.5 * law.kn * width;
-      kt = law.kt * width;
-    } else if (law.normal == NormalLaw::polynomial) {
-      elastic = (law.kn + law.kn3 * depth) * depth * depth;
-      stiffness = (2.0 * law.kn + 3.0 * law.kn3 * depth) * depth;
-    }
-    const double vn = v.dot(n);
-    double normal = elastic - damping(law.gn, stiffness) * vn;
+    const double radius = pair.reducedRadius(), vn = v.dot(n);
+    const double kt = tangentialStiffness(law, radius, depth).value;
+    double normal = elasticForce(law, radius, depth) -
+                    damping(law.gn, normalStiffness(law, radius, depth).value) * vn;
     if (law.conventions.tension == Tension::cut) normal = std::max(normal, 0.0);
     const bool magnitude = law.conventions.coulombBound == CoulombBound::magnitude;
     const double bound = law.mu * (magnitude ? std::abs(normal) : std::max(normal, 0.0));

@@ -329,10 +329,12 @@ class Spheres {
   /// ξ or θ as n turned to the new one and the pair about it (docs/dimensions.md, section 4).
   void follow(Vec3& xi, const Vec3& before, const Vec3& n, const Vec3& meanSpin) const {
     if (before.isZero(0.0)) return;
-    if (faults_.springShrinks != 0.0)
+    if (faults_.springShrinks != 0.0) {
       xi -= xi.dot(n) * n;
-    else
-      xi = Eigen::Quaterniond::FromTwoVectors(before, n) * xi;
+    } else {  // Rodrigues' formula
+      const Vec3 w = before.cross(n), turned = w.cross(xi);
+      xi += turned + w.cross(turned) / (1.0 + before.dot(n));
+    }
     xi = Eigen::AngleAxisd(twist_ * dt_ * meanSpin.dot(n), n) * xi;
   }
 

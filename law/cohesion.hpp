@@ -4,11 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "law/contact_law.hpp"
-#include "oracle/collision_end.hpp"
+#include "law/contact_reference.hpp"
 
 /// Forces of bodies that attract each other, without their dashpots, from the texts of the laws.
-namespace crossgrain::inline oracle {
+namespace crossgrain::inline contact_law {
 
 /// F_po, the largest pull of DMT, 2π w R₁₂ (Derjaguin, Muller and Toporov 1975), and of JKR,
 /// 3/2 π w R₁₂ (Johnson, Kendall and Roberts 1971); 0 of other laws [N].
@@ -52,14 +51,26 @@ Real jkrRoot(Real t) {
   return Real(0.5) * (s + std::sqrt(std::max(Real(8) / (Real(3) * s) - z, Real(0))));
 }
 
+/// k_t(δ) [N/m]: constant, or of Hertz' contact k_t a with its radius a, √(R₁₂ δ), under JKR a_p
+/// y².
+template <class Real>
+SlopeOf<Real> tangentialStiffness(const ContactLaw& law, Real reducedRadius, Real overlap) {
+  const Real kt = law.kt;
+  if (law.normal != NormalLaw::hertz) return {kt, Real(0)};
+  if (law.cohesion == CohesionLaw::jkr) {
+    const Real unit = jkrUnit(law, reducedRadius), y = jkrRoot(overlap / unit);
+    const Real width = kt * std::sqrt(unit * reducedRadius);
+    const Real slope = std::max(Real(4) * y * y * y - Real(4) / Real(3), Real(1e-12));
+    return {width * y * y, Real(2) * width * y / (unit * slope)};  // slope: of δ/unit by y
+  }
+  const Real depth = std::max(overlap, Real(0)), root = std::sqrt(reducedRadius * depth);
+  return {kt * root, depth > Real(0) ? Real(0.5) * kt * root / depth : Real(0)};
+}
+
 /// A(δ) of CohesionLaw::area [m²], and dA/dδ. The lens is the circle in which spheres meet,
 /// 4 d² h² = (s + d)(s − d)(d + q)(d − q), s = a_i + a_j, q = a_i − a_j, d = s − δ.
 template <class Real>
-struct AreaSlope {
-  Real value, rate;
-};
-template <class Real>
-AreaSlope<Real> cohesionArea(const ContactLaw& law, const CollidingPair& pair, Real overlap) {
+SlopeOf<Real> cohesionArea(const ContactLaw& law, const CollidingPair& pair, Real overlap) {
   const Real pi = std::numbers::pi_v<Real>, a = pair.radius[0], b = pair.radius[1];
   if (law.conventions.cohesionArea != CohesionArea::lens) {
     const bool twice =
@@ -113,4 +124,4 @@ Real largestAtPull(const ContactLaw& law, Real reducedRadius, Real overlap) {
   return (Real(law.kUnload) + kc) * overlap / most;
 }
 
-}  // namespace crossgrain::inline oracle
+}  // namespace crossgrain::inline contact_law
