@@ -4,8 +4,10 @@ The order is that of the list below, from what knows nothing to what knows all. 
 in the list fails the test: its place is to be thought about.
 """
 
+import json
 import pathlib
 import re
+import subprocess
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -91,6 +93,62 @@ class Architecture(unittest.TestCase):
 
     def test_there_is_something_to_check(self):
         self.assertGreater(len(list(includes())), 1000)
+
+
+# Files of other programs, and files that are written.
+ELSEWHERE = {
+    "ContactConstraintManager.cpp", "HertzMindlin.cpp", "LudingPM.cpp", "ViscoelasticPM.cpp", "collision_util.cpp",
+    "compute_pair_gran_local.cpp", "gran_sub_mod_rolling.cpp", "implementation/README.md", "joints/contact.cpp", "lcp.cpp",
+    "pair_gran_hooke_history.cpp", "pair_granular.cpp", "quickstep.cpp", "sphere.cpp", "summary.md", "out/quick/summary.md",
+    "out/conformance/summary.md", "../../../tests/faults/README.md", "runs/README.md", "my/engine.py", "engines/ENGINE/worker.py",
+}  # fmt: skip
+
+
+def references(path):
+    """Source files and pages that a file's text or comments name."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    if path.suffix != ".md":
+        sign = "//" if path.suffix in (".hpp", ".cpp", ".mjs") else "# "
+        lines = [line.split(sign, 1)[1] for line in lines if sign in line and "://" not in line]
+    for line in lines:
+        yield from re.findall(r"(?<![\w./<*{}-])((?:[\w.-]+/)*[\w-]+\.(?:hpp|cpp|py|md))\b", line)
+
+
+class References(unittest.TestCase):
+    """What texts name is there: a file that moved takes its mentions along."""
+
+    def tracked(self):
+        listed = subprocess.run(["git", "-C", ROOT, "ls-files"], capture_output=True, text=True, check=False).stdout.split()
+        if not listed:
+            self.skipTest("no git checkout")
+        return [pathlib.Path(file) for file in listed]
+
+    def test_files(self):
+        files = self.tracked()
+        by_name = {}
+        for file in files:
+            by_name.setdefault(file.name, []).append(str(file))
+        stale = []
+        for file in files:
+            if file.suffix not in (".hpp", ".cpp", ".py", ".md", ".mjs") or file.name in ("CHANGELOG.md", pathlib.Path(__file__).name):
+                continue
+            for named in set(references(ROOT / file)) - ELSEWHERE:
+                if "NAME" in named or ((ROOT / file).parent / named).exists():
+                    continue
+                if not any(("/" + each).endswith("/" + named) for each in by_name.get(pathlib.Path(named).name, [])):
+                    stale.append(f"{file} names {named}")
+        self.assertEqual([], sorted(stale))
+
+    def test_presets(self):
+        known = {preset["name"] for preset in json.loads((ROOT / "CMakePresets.json").read_text())["configurePresets"]}
+        named = {
+            (str(file), preset)
+            for file in self.tracked()
+            if file.suffix == ".md"
+            for preset in re.findall(r"--preset[ =]([\w-]+)", (ROOT / file).read_text(encoding="utf-8"))
+        }
+        self.assertTrue(named)
+        self.assertEqual(set(), {pair for pair in named if pair[1] not in known})
 
 
 if __name__ == "__main__":

@@ -48,7 +48,7 @@ class Snapshots(SystemTest):
         for field, worst in found["worst"].items():
             # Of the field's largest value: sums of some hundred disks, cut near tangency.
             self.assertLess(worst, 1e-10, field)
-        # The other cell, wheel and packing; tests/studies/snapshot_fit_test.cpp has each misfit.
+        # The other cell, wheel and packing; tests/studies/snapshot_file_test.cpp has each misfit.
         done = self.average(snapshots, "--fresh", case=CASES / "couette/nu-0.804.toml")
         self.assert_one_error(done, BAD_INPUT, "grain-p0.h5 does not fit", "nu-0.804.toml", "disks, not 2921")
 
