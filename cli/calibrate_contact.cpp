@@ -10,9 +10,9 @@
 
 #include "cases/keys.hpp"
 #include "cli/option_groups.hpp"
+#include "law/cohesion.hpp"
 #include "law/law_options.hpp"
 #include "oracle/calibration.hpp"
-#include "law/cohesion.hpp"
 #include "support/bad_input.hpp"
 
 namespace crossgrain::inline cli {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "oracle/calibration.hpp"
 #include "law/cohesion.hpp"
+#include "oracle/calibration.hpp"
 #include "oracle/impact.hpp"
 #include "stability/recording.hpp"
 
