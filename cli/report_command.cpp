@@ -149,11 +149,11 @@ Action declareReport(CLI::App& app, CommandLine& line) {
             anyNumber);
   const auto options = std::make_shared<ReportOptions>();
   addText(app, "--out", options->site,
-          "folder for a site: a copy of each report, a page for each engine, and an index.html "
+          "folder for a site: a copy of each report, and an index.html that lists them "
           "(default: each report is rebuilt in its own folder)",
           "SITE");
   addFlag(app, "--changed-cases", options->changedCases,
-          "for a site: accept cases of one name that differ; the pages say in what");
+          "for a site: accept cases of one name that differ; the index says in what");
   addFlag(app, "--open", options->open, "open the report or site in the browser");
   return [&line, options] {
     return options->site ? makeSite(line, *options) : rebuildReports(line, *options);
@@ -166,7 +166,7 @@ extern const Command reportCommand = {
     "report", "rebuild reports from results.json, or make one site of several reports",
     "crossgrain report out/compare\n"
     "crossgrain report out/compare --open\n"
-    "crossgrain report out/compare out/collide --out out/site   # a page for each engine, too\n"
+    "crossgrain report out/compare out/collide --out out/site\n"
     "crossgrain report jobs --out out/jobs                      # the jobs of a plan",
     declareReport};
 

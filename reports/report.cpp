@@ -1,11 +1,17 @@
 #include "reports/report.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <cctype>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 
 #include "reports/collide/report.hpp"
 #include "reports/common/overview.hpp"
+#include "reports/common/sentences.hpp"
 #include "reports/conformance/report.hpp"
 #include "reports/cost/report.hpp"
 #include "reports/effects/report.hpp"
@@ -13,7 +19,6 @@
 #include "reports/lockstep/report.hpp"
 #include "reports/render/gnuplot.hpp"
 #include "reports/render/html.hpp"
-#include "reports/site/site.hpp"
 #include "reports/stability/report.hpp"
 #include "results/json_fields.hpp"
 #include "results/schema.hpp"
@@ -94,6 +99,75 @@ ReportDigest writeForSite(Report report, const std::filesystem::path& dir) {
   return report;
 }
 
+using Names = std::vector<std::string>;
+
+/// Letters, digits and "-_." of a name, "-" for all else; no hidden file's.
+std::string forAddress(const std::string& name) {
+  std::string safe;
+  for (const char c : name) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ||
+                       (c == '.' && !safe.empty());
+    if (plain)
+      safe += c;
+    else if (!safe.ends_with('-'))
+      safe += '-';
+  }
+  return safe.empty() ? "report" : safe;
+}
+
+/// Folders of a site: each entry's own name, with a number where another has it.
+Names siteFolders(const std::vector<SiteEntry>& entries) {
+  Names names;
+  for (const SiteEntry& entry : entries) {
+    const auto plain = std::filesystem::absolute(entry.folder).lexically_normal();
+    // Of "out/" the last part is empty.
+    const std::string name =
+        forAddress((plain.has_filename() ? plain : plain.parent_path()).filename().string());
+    std::string own = name;
+    for (int k = 2; std::ranges::find(names, own) != names.end(); ++k)
+      own = fmt::format("{}-{}", name, k);
+    names.push_back(std::move(own));
+  }
+  return names;
+}
+
+/// The most severe verdict of a report's matrix, and whose it is in which questions.
+Cell verdictCell(const Overview& overview) {
+  auto worst = Verdict::notMeasured;
+  for (const OverviewRow& row : overview.rows)
+    for (const OverviewCell& cell : row.cells)
+      worst = moreSevere(worst, cell.verdict.value_or(Verdict::notMeasured));
+  SaidOf said;
+  for (const OverviewRow& row : overview.rows) {
+    Names questions;
+    for (std::size_t k = 0; k < row.cells.size(); ++k)
+      if (row.cells[k].verdict == worst) questions.push_back(overview.columns[k].name);
+    if (!questions.empty()) said.add(row.name, listedShortly(questions, 3));
+  }
+  Names places;
+  if (worst != Verdict::pass && isJudged(worst))
+    for (const auto& [questions, who] : said.all())
+      places.push_back(fmt::format("{}: {}", listedShortly(who, 3), questions));
+  return {std::string(lookOf(worst).words), {listedShortly(places, 3)}, worst, true};
+}
+
+TableRow rowOf(const std::string& folder, const ReportDigest& report, const std::string& changed) {
+  const ResultsHead& head = report.head;
+  Cell name(titleOf(head), {folder, changed.empty() ? "" : "changed case: " + changed});
+  name.link = folder + "/report.html";
+  Names engines;
+  for (const EngineRow& engine : report.engines)
+    if (engine.mirrors.empty())
+      engines.push_back(engine.name + (engine.version.empty() ? "" : " " + engine.version));
+  const std::string build = head.build.empty() ? "" : fmt::format(" ({})", head.build);
+  return {
+      {std::move(name),
+       verdictCell(report.overview),
+       fmt::format("{}", fmt::join(engines, ", ")),
+       {head.started,
+        {fmt::format("crossgrain {}{}", head.version, build), head.machine.cpu, head.machine.os}}}};
+}
+
 /// Calls with the typed results of a document.
 auto withResults(const Json& document, const auto& call) {
   checkSchema(document, "results");
@@ -140,28 +214,31 @@ Report reportOf(const nlohmann::json& results) {
 
 void writeSite(const std::vector<SiteEntry>& entries, const std::filesystem::path& site) {
   makeDirectory(site);
-  std::vector<std::filesystem::path> folders;
-  for (const SiteEntry& entry : entries) folders.push_back(entry.folder);
-  const std::vector<std::string> names = siteFolders(folders);
-  std::vector<SiteReport> reports;
+  const Names names = siteFolders(entries);
+  Table table{{"report", "verdict", "engines", "made"}, {}};
+  std::vector<JUnitCase> cases;
   for (std::size_t k = 0; k < entries.size(); ++k) {
-    const std::filesystem::path& from = entries[k].folder;
+    const auto& [from, results, changed] = entries[k];
     const std::filesystem::path dir = site / names[k];
     // Results that lie below the site stay whole.
-    const auto write = [&] {
-      return std::filesystem::exists(dir) && std::filesystem::equivalent(dir, from)
-                 ? writeReport(entries[k].results, dir, from)
-                 : understood(from / "results.json",
-                              [&] { return writeForSite(reportOf(entries[k].results), dir); });
-    };
-    SiteReport report{names[k], write(), {}, entries[k].changedCase};
-    for (const auto& entry : std::filesystem::directory_iterator(dir))
-      if (entry.path().extension() == ".csv")
-        report.tables.push_back(entry.path().filename().string());
-    std::ranges::sort(report.tables);
-    reports.push_back(std::move(report));
+    const bool below = std::filesystem::exists(dir) && std::filesystem::equivalent(dir, from);
+    const ReportDigest report =
+        below ? writeReport(results, dir, from) : understood(from / "results.json", [&] {
+          return writeForSite(reportOf(results), dir);
+        });
+    table.rows.push_back(rowOf(names[k], report, changed));
+    std::ranges::move(overviewCases(report.overview, names[k]), std::back_inserter(cases));
   }
-  writeIndex(reports, site);
+  table.note =
+      "Verdict: the most severe of a report's matrix, and whose it is in which questions. This "
+      "page needs the reports' folders beside it; results.json and tables of more than 128 KiB "
+      "stay in the results folders.";
+  Report index;
+  index.head.setup.name = "crossgrain: " + counted(entries.size(), "report");
+  writeFile(site / "junit.xml", junitXml("reports", cases));
+  writeFile(site / "summary.md", tableMarkdown(table, titleOf(index.head)));
+  index.section("reports", "Reports").blocks = {std::move(table)};
+  writeFile(site / "index.html", html(index, {}));
 }
 
 nlohmann::json readResults(const std::filesystem::path& dir) {

@@ -24,7 +24,7 @@ struct OverviewCell {
   std::string unit = {};                                  ///< "margins", "s"
   std::string shown = {};  ///< the number with its unit as people read it: "0.31 margins"
   std::string words = {};  ///< what the number is of, or why there is none
-  /// Id of the page's heading that has the evidence or, with a slash, a page beside it; empty: none
+  /// Id of the page's heading that has the evidence; empty: none
   std::string anchor = {};
 
   void fields(auto& io) {
@@ -51,7 +51,6 @@ struct OverviewRow {
   std::string name;
   bool isEngine = true;             ///< else an effect
   std::vector<OverviewCell> cells;  ///< one for each column
-  std::string anchor = {};          ///< of a page that has more of it; empty: none
 
   void fields(auto& io) {
     io("name", name);

@@ -227,7 +227,6 @@ std::vector<JUnitCase> collideChecks(const CollideResults& results) {
     for (const CollisionCurve& curve : variant.curves)
       for (JUnitCase& one : sweepCases(variant, curve)) {
         one.group = junitGroup(variant.name, variant.variant);
-        one.engine = curve.engine;
         cases.push_back(std::move(one));
       }
   return cases;

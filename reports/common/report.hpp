@@ -98,10 +98,6 @@ struct Heading {
   std::string text, id = {};
 };
 
-struct Links {
-  std::vector<std::pair<std::string, std::string>> links;  ///< text, address
-};
-
 struct Block;
 /// Folded: what a reader may want, and what passes.
 struct Details {
@@ -110,7 +106,7 @@ struct Details {
 };
 
 struct Block {
-  std::variant<Paragraph, List, Table, Drawings, Code, Heading, Links, Details> content;
+  std::variant<Paragraph, List, Table, Drawings, Code, Heading, Details> content;
 
   template <typename T>
   requires(!std::same_as<std::remove_cvref_t<T>, Block>) Block(T&& part)
@@ -124,12 +120,6 @@ struct Section {
   std::string shortTitle = {};  ///< in the list of sections; empty: the title
 };
 
-/// A number of one engine that the matrix does not have, to be followed over versions.
-struct DigestValue {
-  std::string engine, quantity;
-  OverviewCell cell;
-};
-
 /// One thing that was judged, or that could not be.
 struct JUnitCase {
   std::string group;                ///< case and variant: "classname"
@@ -138,7 +128,6 @@ struct JUnitCase {
   std::string message = {};         ///< figure, limit and reason; why it is an error or was skipped
   double seconds = 0.0;     ///< wall time of the run; 0 where others of the same run have it
   bool broke = false;       ///< the engine did, so that nothing could be judged
-  std::string engine = {};  ///< that was judged
   std::optional<bool> passes = {};  ///< for build servers, or else is skipped, whatever the verdict
 };
 
@@ -147,7 +136,6 @@ struct ReportDigest {
   ResultsHead head;
   std::vector<EngineRow> engines;
   Overview overview = {};  ///< the matrix, and at most three sentences that follow from it
-  std::vector<DigestValue> values = {};
   std::optional<std::vector<JUnitCase>> checks = {};  ///< absent: nothing is judged
 };
 
@@ -158,7 +146,6 @@ struct Report : ReportDigest {
   std::vector<Figure> figures = {};
   std::vector<Picture> pictures = {};
   std::vector<std::pair<std::string, std::string>> tables = {};  ///< CSV: name of the file, content
-  bool wrapped = false;  ///< every cell of the matrix says its question: rows share few of them
   bool engineColours = true;  ///< plots have the engines' colours: a legend stays in sight
   std::string caseHeading = "The case as it was run";
 
@@ -180,6 +167,10 @@ std::string nameOf(const ResultsHead& head);
 
 /// The matrix as tests, for studies that have no finer ones.
 std::vector<JUnitCase> matrixChecks(const Report& report);
+
+/// As Markdown, a cell's notes after its text.
+/// @param title  its heading
+std::string tableMarkdown(const Table& table, const std::string& title);
 
 // Checks as JUnit's XML, which build servers read.
 

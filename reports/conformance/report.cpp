@@ -113,8 +113,7 @@ std::vector<JUnitCase> conformanceChecks(const ConformanceResults& results) {
   std::vector<JUnitCase> cases;
   for (const ConformanceRow& row : results.rows)
     cases.push_back({results.engine.name + " " + row.part, row.name, row.outcome.verdict,
-                     row.detail, row.seconds, row.outcome.status == Status::failed,
-                     results.engine.name});
+                     row.detail, row.seconds, row.outcome.status == Status::failed});
   return cases;
 }
 

@@ -122,11 +122,6 @@ OverviewCell failedRunsOf(const CompareResults& results, const EngineRuns& engin
   return cell;
 }
 
-OverviewCell valueCell(double value, const std::string& unit, std::optional<Verdict> verdict) {
-  const bool plain = unit.empty() || unit == "1" || unit == "-";
-  return {verdict, value, unit, readable(value) + (plain ? "" : " " + unit), {}, {}};
-}
-
 }  // namespace
 
 const EndpointRow* worstOf(const std::vector<const EndpointRow*>& rows) {
@@ -228,27 +223,6 @@ Overview compareOverview(const CompareResults& results) {
                               costOfEngine(engine), failedRunsOf(results, engine)}});
   overview.conclusion = compareConclusion(results);
   return overview;
-}
-
-std::vector<DigestValue> compareValues(const CompareResults& results) {
-  std::vector<DigestValue> values;
-  if (results.engines.empty()) return values;
-  const std::string& reference = referenceOf(results);
-  for (const EndpointRow& row : results.endpoints.rows) {
-    const auto of = finite(row.reference), difference = finite(row.difference);
-    if (row.a != reference || !of) continue;
-    const std::string quantity = "mean of " + endpointWords(row.endpoint);
-    const auto known = std::ranges::find_if(values, [&](const DigestValue& value) {
-      return value.engine == reference && value.quantity == quantity;
-    });
-    if (known == values.end() && reference != medianName)
-      values.push_back({reference, quantity, valueCell(*of, row.unit, std::nullopt)});
-    const auto other = std::ranges::find(results.engines, row.b, &EngineRow::name);
-    if (!difference || other == results.engines.end()) continue;
-    values.push_back({row.b, quantity,
-                      valueCell(*of + *difference, row.unit, endpointCell(results, row).verdict)});
-  }
-  return values;
 }
 
 }  // namespace crossgrain::reports

@@ -11,9 +11,6 @@ namespace crossgrain::reports {
 /// An engine per row: its own law, averages against the reference, cost, failed runs.
 Overview compareOverview(const CompareResults& results);
 
-/// Means of the endpoints, the reference's as numbers and the others' with their answers.
-std::vector<DigestValue> compareValues(const CompareResults& results);
-
 /// A field per row, a weight per column: from which ring width on the weight hardly matters.
 Overview revOverview(const RevResults& results);
 

@@ -69,9 +69,9 @@ std::string meaningOf(const Overview& overview, const VerdictLook& look) {
   return own == overview.states.end() ? std::string(look.words) : own->words;
 }
 
-/// Where it leads: a part of this page, or another page.
+/// The part of this page that it leads to.
 std::string addressOf(const std::string& anchor) {
-  return anchor.empty() || anchor.find('/') != std::string::npos ? anchor : "#" + anchor;
+  return anchor.empty() ? anchor : "#" + anchor;
 }
 
 std::string matrixCell(const Overview& overview, const OverviewCell& cell,
@@ -176,12 +176,6 @@ class Writer {
     out_ += "</ul>\n";
   }
   void write(const Code& part) { out_ += "<pre>" + escaped(part.text) + "</pre>\n"; }
-  void write(const Links& part) {
-    std::string links;
-    for (const auto& [text, address] : part.links)
-      links += (links.empty() ? "" : " · ") + linked(address, escaped(text));
-    out_ += "<p class=\"small\">" + links + "</p>\n";
-  }
   void write(const Details& part) {
     out_ += "<details><summary>" + mathHtml(part.summary) + "</summary>\n";
     blocks(part.blocks);
@@ -328,10 +322,9 @@ std::string htmlHead(const Report& report) {
 
 }  // namespace
 
-std::string htmlMatrix(const Overview& overview, const std::vector<EngineRow>& engines,
-                       bool wrapped) {
+std::string htmlMatrix(const Overview& overview, const std::vector<EngineRow>& engines) {
   if (overview.rows.empty() || overview.columns.empty()) return {};
-  wrapped = wrapped || overview.columns.size() > mostColumns;
+  const bool wrapped = overview.columns.size() > mostColumns;
   const bool tall = !wrapped && overview.rows.size() > mostRows;
   const EngineNames names(engines);
   std::string text = fmt::format(
@@ -347,8 +340,7 @@ std::string htmlMatrix(const Overview& overview, const std::vector<EngineRow>& e
                         linked(addressOf(column.anchor), mathHtml(column.name)));
   text += "</tr></thead>\n<tbody>\n";
   for (const OverviewRow& row : overview.rows) {
-    text += "<tr><th>" + linked(row.anchor, row.isEngine ? names(row.name) : mathHtml(row.name)) +
-            "</th>";
+    text += "<tr><th>" + (row.isEngine ? names(row.name) : mathHtml(row.name)) + "</th>";
     for (std::size_t k = 0; k < row.cells.size(); ++k)
       text += matrixCell(overview, row.cells[k], overview.columns[k].name);
     text += "</tr>\n";
@@ -442,8 +434,8 @@ std::string htmlFoot(const Report& report, bool ofSite) {
 
 std::string html(const Report& report, const DrawnFigures& drawings) {
   const auto& missing = drawings.missing;
-  std::string text = htmlHead(report) +
-                     htmlMatrix(report.overview, report.engines, report.wrapped) + notesOf(report);
+  std::string text =
+      htmlHead(report) + htmlMatrix(report.overview, report.engines) + notesOf(report);
   if (missing) text += "<p class=\"warning\">" + escaped(*missing) + "</p>\n";
   if (report.engineColours && !missing && !report.figures.empty() && report.engines.size() > 1)
     text += htmlLegend(report.engines);

@@ -21,10 +21,7 @@ struct DrawnFigures {
 std::string html(const Report& report, const DrawnFigures& drawings);
 
 /// Its matrix.
-/// @param wrapped  every cell has its question, and those without one are left out: for rows that
-///                 share few questions
-std::string htmlMatrix(const Overview& overview, const std::vector<EngineRow>& engines,
-                       bool wrapped = false);
+std::string htmlMatrix(const Overview& overview, const std::vector<EngineRow>& engines);
 
 /// A file of reports/page, kept in the program at build time, by its name.
 const std::string& pageFile(const std::string& name);

@@ -75,7 +75,7 @@ std::vector<JUnitCase> overviewCases(const Overview& overview, const std::string
     for (std::size_t k = 0; k < row.cells.size(); ++k)
       if (const auto verdict = row.cells[k].verdict; verdict && *verdict != Verdict::notApplicable)
         cases.push_back({group, fmt::format("{}: {}", row.name, overview.columns[k].name), *verdict,
-                         messageOf(row.cells[k]), 0.0, false, row.isEngine ? row.name : ""});
+                         messageOf(row.cells[k])});
   return cases;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "reports/common/overview.hpp"
+#include "reports/common/report.hpp"
 #include "reports/common/sentences.hpp"
 
 namespace crossgrain::reports {
@@ -183,6 +184,24 @@ std::string alignedText(const std::vector<std::vector<std::string>>& rows) {
     text += '\n';
   }
   return text;
+}
+
+std::string tableMarkdown(const Table& table, const std::string& title) {
+  std::vector<std::string> names;
+  for (const Column& column : table.columns) names.push_back(column.name);
+  std::string text = fmt::format("# {}\n\n{}", forTable(title),
+                                 headOf(names.front(), {names.begin() + 1, names.end()}));
+  for (const TableRow& row : table.rows) {
+    text += "|";
+    for (const Cell& cell : row.cells) {
+      const std::string mark(cell.marked ? lookOf(cell.verdict).mark : "");
+      std::string words = mark + (mark.empty() ? "" : " ") + cell.text;
+      for (const std::string& note : cell.notes) words += "; " + note;
+      text += fmt::format(" {} |", forTable(words));
+    }
+    text += "\n";
+  }
+  return text + (table.note.empty() ? "" : fmt::format("\n{}\n", forTable(table.note)));
 }
 
 std::string overviewMarkdown(const Overview& overview, const std::string& title) {

@@ -206,7 +206,7 @@ std::vector<JUnitCase> stabilityChecks(const StabilityResults& results) {
   for (const StabilityRun& run : results.runs) {
     JUnitCase one{
         junitGroup(run.name, run.variant), run.engine + ": " + run.measure, run.verdict, "",
-        junitSeconds(run.stats),           run.status == Status::failed,    run.engine};
+        junitSeconds(run.stats),           run.status == Status::failed};
     // A degraded run passes, and its message says so.
     if (run.verdict == Verdict::borderline) one.passes = true;
     if (one.broke || !isJudged(run.verdict)) {

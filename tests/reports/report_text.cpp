@@ -47,11 +47,6 @@ struct Printer {
   }
   std::string operator()(const Code& part) const { return part.text + "\n"; }
   std::string operator()(const Heading& part) const { return "### " + part.text + "\n"; }
-  std::string operator()(const Links& part) const {
-    std::string text;
-    for (const auto& [name, address] : part.links) text += fmt::format("<{}> ", address);
-    return text + "\n";
-  }
   std::string operator()(const Details& part) const {
     return "> " + part.summary + "\n" + blocksText(part.blocks);
   }

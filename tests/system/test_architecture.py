@@ -20,7 +20,7 @@ ORDER = [
     "engines/cpp", "engines/bullet", "engines/chipmunk", "engines/mujoco", "engines/ode", "engines/grain", "engines/box2d",
     "adapters", "adapters/files", "adapters/worker",
     "oracle", "stability", "averaging", "cases", "results",
-    "reports/common", "reports/render", "reports/lockstep", "reports/flow", "reports/regression", "reports/collide", "reports/conformance", "reports/effects", "reports/cost", "reports/stability", "reports/site",
+    "reports/common", "reports/render", "reports/lockstep", "reports/flow", "reports/regression", "reports/collide", "reports/conformance", "reports/effects", "reports/cost", "reports/stability",
     "reports",
     "studies/core", "studies/lockstep", "studies/flow", "studies/collide", "studies/conformance", "studies/stability", "studies/effects", "studies/cost", "studies/regression", "studies/check", "studies/plan",
     "cli",

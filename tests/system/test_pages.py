@@ -218,7 +218,7 @@ class Pages(unittest.TestCase):
             if one["width"] == 1280:
                 self.assertLess(one["matrixEnds"], HEIGHT)
 
-        self.each(self.light, check)
+        self.each([one for one in self.light if one["name"] != "site"], check)  # an index is a list
 
     def test_small_words_of_the_matrix_are_told_in_full(self):
         self.each(self.light, lambda one: self.assertEqual(one["short"], []))
