@@ -80,7 +80,7 @@ class BinView {
 struct FieldSpec {
   std::string_view name;
   std::string_view words;  ///< "shear stress"; empty: the name
-  std::string_view symbol;  ///< "σ_rφ", "σ^dyn_rr": marks as in reports/common/labels.hpp; or empty
+  std::string_view symbol;  ///< "σ_rφ", "σ^dyn_rr": marks as in reports/common/text.hpp; or empty
   std::string_view unit;
   std::string_view definition;
   Needs needs;

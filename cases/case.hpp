@@ -293,7 +293,7 @@ enum class Reduction {
 struct Endpoint {
   std::string name;         ///< "mean_spin"
   std::string words;        ///< the name with blanks
-  std::string symbol;       ///< marks as in reports/common/labels.hpp; empty: it has none
+  std::string symbol;       ///< marks as in reports/common/text.hpp; empty: it has none
   std::string quantity;     ///< a field of profiles.csv or a number of regionNumbers()
   std::optional<int> disk;  ///< from 0: then a number of diskNumbers()
   /// Of [[assembly.walls]], from 0: then a number of wallNumbers(), of all of it or of one plane.

@@ -8,7 +8,7 @@
 #include <chrono>
 #include <cstdlib>
 
-#include "reports/common/numbers.hpp"
+#include "support/numbers.hpp"
 #include "reports/common/overview.hpp"
 #include "support/busy_time.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "cli/command.hpp"
-#include "results/overview.hpp"
+#include "reports/common/overview.hpp"
 
 namespace crossgrain::inline cli {
 

@@ -12,7 +12,7 @@
 #include "cases/engine_file.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
-#include "reports/common/sentences.hpp"
+#include "reports/common/text.hpp"
 #include "reports/conformance/report.hpp"
 #include "reports/cost/report.hpp"
 #include "reports/flow/endpoint_text.hpp"

@@ -10,12 +10,9 @@
 #include <stdexcept>
 
 #include "reports/collide/report.hpp"
-#include "reports/common/overview.hpp"
-#include "reports/common/sentences.hpp"
 #include "reports/conformance/report.hpp"
 #include "reports/cost/report.hpp"
 #include "reports/effects/report.hpp"
-#include "reports/flow/report.hpp"
 #include "reports/lockstep/report.hpp"
 #include "reports/render/gnuplot.hpp"
 #include "reports/render/html.hpp"
@@ -132,7 +129,7 @@ Names siteFolders(const std::vector<SiteEntry>& entries) {
 }
 
 /// The most severe verdict of a report's matrix, and whose it is in which questions.
-Cell verdictCell(const Overview& overview) {
+reports::Cell verdictCell(const Overview& overview) {
   auto worst = Verdict::notMeasured;
   for (const OverviewRow& row : overview.rows)
     for (const OverviewCell& cell : row.cells)
@@ -153,7 +150,7 @@ Cell verdictCell(const Overview& overview) {
 
 TableRow rowOf(const std::string& folder, const ReportDigest& report, const std::string& changed) {
   const ResultsHead& head = report.head;
-  Cell name(titleOf(head), {folder, changed.empty() ? "" : "changed case: " + changed});
+  reports::Cell name(titleOf(head), {folder, changed.empty() ? "" : "changed case: " + changed});
   name.link = folder + "/report.html";
   Names engines;
   for (const EngineRow& engine : report.engines)

@@ -41,8 +41,8 @@ nlohmann::json readResultsFile(const std::filesystem::path& file) {
   auto results = readJsonFile(file);
   if (!results)
     throw BadInput(
-        fmt::format("{}: cannot be read; a folder that compare, collide, lockstep, effects, "
-                    "cost, stability, conformance, average or rev wrote has it",
+        fmt::format("{}: cannot be read; a folder that compare, collide, lockstep, effects, cost, "
+                    "stability, conformance, average or rev wrote has it",
                     file.string()));
   checkSchema(*results, file.string());
   return *std::move(results);

@@ -8,7 +8,6 @@
 
 #include "reports/collide/report.hpp"
 #include "reports/common/engines.hpp"
-#include "reports/common/numbers.hpp"
 
 namespace crossgrain::reports {
 
@@ -271,11 +270,9 @@ std::string drawnParts(const Figure& figure) {
 
 constexpr const char* captionOfMarks =
     " Lines: the oracle, whose energyParts add up to all that was lost. Marks: engines at the "
-    "largest of "
-    "their time steps; energyParts of those that show their contacts, recorded step by step, so "
-    "that "
-    "they add up as far as a sum over steps can. A slip too short for a step, as the last one "
-    "before the disks part, is not seen: what the oracle loses in it stays in the spring.";
+    "largest of their time steps; energyParts of those that show their contacts, recorded step by "
+    "step, so that they add up as far as a sum over steps can. A slip too short for a step, as the "
+    "last one before the disks part, is not seen: what the oracle loses in it stays in the spring.";
 
 /// Where the energy of a case's collisions went: the oracle's account and every engine's at the
 /// largest of its time steps. @param name  of the figure's files

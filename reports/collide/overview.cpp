@@ -8,10 +8,6 @@
 #include <optional>
 #include <ranges>
 
-#include "reports/common/labels.hpp"
-#include "reports/common/numbers.hpp"
-#include "reports/common/sentences.hpp"
-
 namespace crossgrain::reports {
 
 namespace {
@@ -27,8 +23,7 @@ const std::vector<QuantityGroup>& quantityGroups() {
   static const std::vector<QuantityGroup> groups = {
       {"restitution", "Normal restitution e_n.", {en}},
       {"tangential rebound Ψ_f",
-       "Tangential velocity of the contact point after the collision, and what follows "
-       "from it.",
+       "Tangential velocity of the contact point after the collision, and what follows from it.",
        {psiF, beta, et, centrePsiF}},
       {"angle", "Angle of the rebound.", {reboundAngle}},
       {"spin", "Spins after the collision.", {spinI, spinJ}},
@@ -385,11 +380,10 @@ Overview collideOverview(const CollideResults& results) {
       {"cases passed", "Sweeps within the limits of the scene's law, of those judged.", "matrix"});
   for (const QuantityGroup& group : quantityGroups())
     overview.columns.push_back({group.name, group.asks, ""});
-  overview.columns.push_back(
-      {"integrator (own scheme)",
-       "One impact compared with the discrete solution of the engine's integrator, as a share of "
-       "the diameter or the speed of approach.",
-       ""});
+  overview.columns.push_back({"integrator (own scheme)",
+                              "One impact compared with the discrete solution of the engine's "
+                              "integrator, as a share of the diameter or the speed of approach.",
+                              ""});
   for (const EngineRow& engine : results.engines) {
     const bool besidePeer = runsBesideItsPeer(results, engine.name);
     OverviewRow row{engine.name, true, {sweepsCell(groups, engine, besidePeer)}};

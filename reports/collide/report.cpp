@@ -6,11 +6,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "reports/common/csv_row.hpp"
-#include "reports/common/labels.hpp"
-#include "reports/common/numbers.hpp"
-#include "reports/common/sections.hpp"
-#include "reports/common/sentences.hpp"
 #include "results/json_fields.hpp"
 
 namespace crossgrain::reports {

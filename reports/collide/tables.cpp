@@ -3,17 +3,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "reports/collide/report.hpp"
-#include "reports/common/labels.hpp"
-#include "reports/common/numbers.hpp"
-#include "reports/common/sections.hpp"
-#include "reports/common/sentences.hpp"
 #include "results/json_fields.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
+
+/// The clause that names what is missing, of "X cannot run FILE: CLAUSE; HINT".
+std::string clauseOf(const std::string& refusal) {
+  const auto colon = refusal.find(": ");
+  const std::string rest = colon == std::string::npos ? refusal : refusal.substr(colon + 2);
+  return rest.substr(0, rest.find("; "));
+}
+
+void addTo(Tally& tally, const CollisionCurve& curve) {
+  tally.add(curve);
+  const bool refused = curve.status == Status::refused;
+  std::string& reason = refused ? tally.refusal : tally.reason;
+  if (reason.empty()) reason = refused ? clauseOf(curve.reason) : curve.reason;
+  const Verdict verdict = verdictOf(curve);
+  if (verdict == Verdict::fail) tally.worst.take(declaredScore(curve));
+  if (verdict == Verdict::modelDifference) tally.worstOfModel.take(curve.score);
+  if (const auto own = ownDeviation(curve)) {
+    tally.ownDeviation = std::max(tally.ownDeviation.value_or(0.0), *own);
+    tally.ownPassed = tally.ownPassed && curve.ownScheme->held.value_or(true);
+  }
+}
 
 using Kind = Column::Kind;
 
@@ -165,6 +183,109 @@ std::vector<ScoredBy> lawsOf(const CollisionCurve& curve) {
 
 }  // namespace
 
+std::string caseOf(const CollideResults& results, const CollisionVariant& variant) {
+  return variant.name.empty() ? results.head.setup.name : variant.name;
+}
+
+std::vector<CaseGroup> casesOf(const CollideResults& results) {
+  std::vector<CaseGroup> groups;
+  for (const CollisionVariant& variant : results.variants) {
+    const std::string name = caseOf(results, variant);
+    auto group = std::ranges::find(groups, name, &CaseGroup::name);
+    if (group == groups.end()) group = groups.insert(groups.end(), {name, {}});
+    group->variants.push_back(&variant);
+  }
+  return groups;
+}
+
+std::vector<const CollisionCurve*> curvesOf(const CollisionVariant& variant,
+                                            const std::string& engine) {
+  std::vector<const CollisionCurve*> curves;
+  for (const CollisionCurve& curve : variant.curves)
+    if (curve.engine == engine) curves.push_back(&curve);
+  std::ranges::stable_sort(curves, std::ranges::greater{}, [](const CollisionCurve* curve) {
+    return finite(curve->dt).value_or(0.0);
+  });
+  return curves;
+}
+
+const CollisionCurve* coarsestCurve(const CollisionVariant& variant, const std::string& engine) {
+  for (const CollisionCurve* curve : curvesOf(variant, engine))
+    if (curve->points.size() > 0) return curve;
+  return nullptr;
+}
+
+std::optional<std::string> lawWords(const std::string& option, const LawValue& value) {
+  if (const auto* word = std::get_if<std::string>(&value))
+    return spaced(option) + " " + spaced(*word);
+  const auto constant = finite(std::get<double>(value));
+  if (!constant) return std::nullopt;
+  return spaced(option) + " " + readableSetting(constant);
+}
+
+std::string quantityWords(const CollisionQuantity& quantity) {
+  using enum QuantityId;
+  switch (quantity.id) {
+    case psiF:
+      return "tangential rebound Ψ_f";
+    case en:
+      return "restitution e_n";
+    case beta:
+      return "tangential restitution β";
+    case et:
+      return "tangential restitution of the centres e_t";
+    case centrePsiF:
+      return "tangential velocity of the centres";
+    case reboundAngle:
+      return "rebound angle";
+    case spinI:
+      return "spin ω_i";
+    case spinJ:
+      return "spin ω_j";
+    case maxOverlap:
+      return "largest overlap";
+    case lostNormalDamping:
+      return "energy lost to the normal dashpot";
+    case lostTangential:
+      return "energy lost tangentially";
+    case lostTangentialDamping:
+      return "energy lost to the tangential dashpot";
+    case lostStiffening:
+      return "energy lost to stiffening";
+    case lostSliding:
+      return "energy lost to sliding";
+    case lostStored:
+      return "energy left in the tangential spring";
+    case psiFOut:
+      return "tangential rebound out of the plane of impact Ψ_f·b";
+    case spinINormal:
+      return "spin of the first about the line of centres";
+    case spinITangent:
+      return "spin of the first about the tangent";
+    case spinJNormal:
+      return "spin of the second about the line of centres";
+    case spinJTangent:
+      return "spin of the second about the tangent";
+    default:
+      return std::string(quantity.label);
+  }
+}
+
+Tally tallyOf(const std::vector<const CollisionVariant*>& variants, const std::string& engine) {
+  Tally tally;
+  for (const CollisionVariant* variant : variants)
+    for (const CollisionCurve* curve : curvesOf(*variant, engine)) addTo(tally, *curve);
+  return tally;
+}
+
+std::vector<std::string> shortfalls(const Tally& tally) {
+  std::vector<std::string> lines;
+  if (tally.worst.times > 1.0) lines.push_back(tally.worst.words());
+  if (tally.worstOfModel.times > 1.0) lines.push_back("model: " + tally.worstOfModel.words());
+  if (!tally.ownPassed) lines.push_back(fmt::format("own scheme {}", shortly(tally.ownDeviation)));
+  return lines;
+}
+
 Verdict stateOf(const Tally& tally) {
   if (tally.failed > 0 || tally.beyondLimits > 0) return Verdict::fail;
   if (tally.judged() == 0) return tally.refused > 0 ? Verdict::notApplicable : Verdict::notMeasured;
@@ -209,11 +330,9 @@ Table mirrorTable(const CaseGroup& group, const std::vector<EngineRow>& engines)
   table.columns.emplace_back("deviations of the peer from the scene", Kind::remark);
   table.note =
       "Largest differences over the curve at the largest time step of each. Model: the first "
-      "engine "
-      "against the mirror, the in-house engine with the peer's conventions. Implementation: the "
-      "mirror against the peer itself; of a mirror that only approaches its peer (see Engines) "
-      "part "
-      "of the model remains in it.";
+      "engine against the mirror, the in-house engine with the peer's conventions. Implementation: "
+      "the mirror against the peer itself; of a mirror that only approaches its peer (see Engines) "
+      "part of the model remains in it.";
   for (const EngineRow& mirror : engines) {
     if (mirror.mirrors.empty()) continue;
     const std::string& first = engines.front().name;
@@ -255,8 +374,7 @@ Table scoreTable(const CaseGroup& group) {
       "has no limit of small steps, or the sweep is short of the oracle by conventions of time "
       "stepping. Largest error, and rms error below it. Overlap and the parts of the energy are "
       "known where contacts were recorded step by step: at the largest time step. Sticking: lost "
-      "by "
-      "the tangential dashpot while the contact does not slip. Stored: left in the tangential "
+      "by the tangential dashpot while the contact does not slip. Stored: left in the tangential "
       "spring.";
   for (const CollisionVariant* variant : group.variants)
     for (const CollisionCurve& curve : variant->curves) {

@@ -10,14 +10,14 @@
 
 #include "adapters/engine.hpp"
 #include "reports/common/figure.hpp"
+#include "reports/common/overview.hpp"
 #include "reports/common/pictures.hpp"
 #include "results/engine_row.hpp"
 #include "results/head.hpp"
-#include "results/overview.hpp"
 
 /// A report as data. A study's builder makes it from results alone; reports/render/ has one
 /// renderer each for HTML, the terminal, Markdown, JUnit and gnuplot. All texts are plain:
-/// renderers escape them, and typeset "k_n", "σ_rφ" and "r^2" (reports/common/labels.hpp).
+/// renderers escape them, and typeset "k_n", "σ_rφ" and "r^2" (reports/common/text.hpp).
 namespace crossgrain::reports {
 
 /// A part of a cell that is a row of coloured squares.
@@ -126,8 +126,8 @@ struct JUnitCase {
   std::string name;                 ///< engine and what is judged
   Verdict verdict = Verdict::pass;  ///< as the matrix has it
   std::string message = {};         ///< figure, limit and reason; why it is an error or was skipped
-  double seconds = 0.0;     ///< wall time of the run; 0 where others of the same run have it
-  bool broke = false;       ///< the engine did, so that nothing could be judged
+  double seconds = 0.0;  ///< wall time of the run; 0 where others of the same run have it
+  bool broke = false;    ///< the engine did, so that nothing could be judged
   std::optional<bool> passes = {};  ///< for build servers, or else is skipped, whatever the verdict
 };
 

@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/common/labels.hpp"
-#include "reports/common/sentences.hpp"
+#include "reports/common/text.hpp"
 #include "results/json_fields.hpp"
 
 namespace crossgrain::reports {

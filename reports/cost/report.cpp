@@ -12,11 +12,7 @@
 #include <tuple>
 #include <utility>
 
-#include "reports/common/csv_row.hpp"
-#include "reports/common/labels.hpp"
-#include "reports/common/numbers.hpp"
-#include "reports/common/overview.hpp"
-#include "reports/common/sentences.hpp"
+#include "reports/common/blocks.hpp"
 
 namespace crossgrain::reports {
 
@@ -560,8 +556,7 @@ std::vector<std::string> costSentences(const CostResults& results) {
 std::string whatErrorsAre(CostKind kind) {
   if (kind == CostKind::collision)
     return "Two bodies collide, or one and a wall, over a whole curve of Ψ_i, beginning anywhere "
-           "in "
-           "a step; the error is the root mean square distance from the oracle, in units of the "
+           "in a step; the error is the root mean square distance from the oracle, in units of the "
            "range of its curve, of the pair and of the step up to a tenth shorter for which it is "
            "largest. Worst: of a single collision among those that ran.";
   if (kind == CostKind::trajectory)
@@ -587,12 +582,10 @@ Report reportOf(const CostResults& results) {
   if (Drawings picture = drawingsOf(report.figures, "cost_picture_"); !picture.names.empty())
     report.section("picture", "Error against processor time and steps").blocks = {
         Paragraph{whatErrorsAre(CostKind::averages)},
-        Paragraph{
-            "A line per engine over its time steps, upright bars: the interval over packings; "
-            "grey: within the case's margin; ring: the largest step whose whole interval lies "
-            "inside. Collisions: the worst that ran, over phases of a step and every pair of the "
-            "scene; "
-            "dashed: the largest rms."},
+        Paragraph{"A line per engine over its time steps, upright bars: the interval over "
+                  "packings; grey: within the case's margin; ring: the largest step whose whole "
+                  "interval lies inside. Collisions: the worst that ran, over phases of a step and "
+                  "every pair of the scene; dashed: the largest rms."},
         std::move(picture)};
   report.section("accuracy", "Which setting reaches an accuracy for the least time").blocks = {
       accuracyTable(results)};
@@ -613,22 +606,22 @@ Report reportOf(const CostResults& results) {
   addTable("others", "What other settings change", settingTable(results));
   addTable("references", "References and start-up", referenceTable(results));
   addTable("notrun", "What did not run", notRunTable(results));
-  report.section("reading", "How to read it").blocks = {List{
-      {{"Three kinds of error",
-        "never mixed: of a collision, of a trajectory, of averages. Times of one kind are of the "
-        "same piece of work; those of different kinds cannot be compared."},
-       {"The Pareto front",
-        "the points that no other is shown to beat in both processor time and error. Times whose "
-        "intervals overlap are a tie: both stay."},
-       {"Intervals",
-        "an error lies between itself less and plus its statistical error and the uncertainty of "
-        "its reference. A setting is recommended only if the upper end meets the accuracy. A point "
-        "below one of its two uncertainties may be chance; it counts, and is drawn (▽), at its "
-        "upper end."},
-       {"Averages",
-        "have a systematic part, which belongs to the setting, and a statistical part, which falls "
-        "with the root of the simulated time and of the number of packings. Packings scatter them "
-        "by more than most settings change them."}}}};
+  report.section("reading", "How to read it").blocks = {
+      List{{{"Three kinds of error",
+             "never mixed: of a collision, of a trajectory, of averages. Times of one kind are of "
+             "the same piece of work; those of different kinds cannot be compared."},
+            {"The Pareto front",
+             "the points that no other is shown to beat in both processor time and error. Times "
+             "whose intervals overlap are a tie: both stay."},
+            {"Intervals",
+             "an error lies between itself less and plus its statistical error and the uncertainty "
+             "of its reference. A setting is recommended only if the upper end meets the accuracy. "
+             "A point below one of its two uncertainties may be chance; it counts, and is drawn "
+             "(▽), at its upper end."},
+            {"Averages",
+             "have a systematic part, which belongs to the setting, and a statistical part, which "
+             "falls with the root of the simulated time and of the number of packings. Packings "
+             "scatter them by more than most settings change them."}}}};
   return report;
 }
 

@@ -5,10 +5,7 @@
 #include <cmath>
 
 #include "reports/common/engines.hpp"
-#include "reports/common/labels.hpp"
 #include "reports/effects/report.hpp"
-#include "reports/effects/variants.hpp"
-#include "reports/flow/figures.hpp"
 
 namespace crossgrain::reports {
 
@@ -22,7 +19,7 @@ Variants variantsThatRan(const EffectsResults& results, const std::string& engin
   return variants;
 }
 
-Panel rowsOf(const Variants& variants) {
+Panel effectRows(const Variants& variants) {
   Panel panel;
   panel.key = Key::none;
   for (const VariantSummary& variant : variants) panel.rows.push_back(effectLabel(variant.effect));
@@ -30,7 +27,7 @@ Panel rowsOf(const Variants& variants) {
 }
 
 Panel costPanel(const Variants& variants) {
-  Panel panel = rowsOf(variants);
+  Panel panel = effectRows(variants);
   panel.title = "cost";
   panel.xLabel = "share of a step [%]";
   Curve cost{"", engineStyle(2), Draw::blocks, {}, 1.5};
@@ -70,7 +67,7 @@ std::vector<double> decadesWithin(const Range& range) {
 }
 
 Panel changePanel(const Variants& variants, const std::string& field, const Range& range) {
-  Panel panel = rowsOf(variants);
+  Panel panel = effectRows(variants);
   panel.title = "change of " + fieldPlotSymbol(field);
   panel.xLabel = "of the largest value [%]";
   panel.logX = true;
@@ -119,11 +116,9 @@ Figure costFigure(const Variants& variants, const std::string& name) {
       "Right: the largest change of a profile when it is switched off, in % of the profile's "
       "largest value. ▲ larger without it, ▼ smaller; " +
       std::string(std::ranges::any_of(variants, &VariantSummary::decidable)
-                      ? "filled: significant, open: not. Bars: to the end nearer 0 of the "
-                        "interval that this rests on; one that leaves the axis on the left "
-                        "contains 0."
-                      : "open: too few packings for a test. Bars: one "
-                        "standard error.");
+                      ? "filled: significant, open: not. Bars: to the end nearer 0 of the interval "
+                        "that this rests on; one that leaves the axis on the left contains 0."
+                      : "open: too few packings for a test. Bars: one standard error.");
   figure.panels.push_back(costPanel(variants));
   const Range range = rangeOf(variants, fields);
   for (const std::string& field : fields) {

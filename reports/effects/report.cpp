@@ -7,15 +7,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "reports/common/csv_row.hpp"
-#include "reports/common/labels.hpp"
-#include "reports/common/numbers.hpp"
-#include "reports/common/sections.hpp"
-#include "reports/common/sentences.hpp"
-#include "reports/effects/variants.hpp"
 #include "reports/flow/endpoint_text.hpp"
-#include "reports/flow/engine_table.hpp"
-#include "reports/flow/figures.hpp"
 
 namespace crossgrain::reports {
 
@@ -149,7 +141,7 @@ Cell fieldCell(const FieldChange* change) {
 }
 
 /// "+31 N/m² (12 to 50) of 206 N/m²": what is without the effect less what is with it.
-Cell endpointCell(const EndpointRow& row) {
+Cell endpointChange(const EndpointRow& row) {
   if (row.verdict == Verdict::notMeasured || !finite(row.difference))
     return {absentText, {row.reason}, Verdict::notMeasured};
   const std::string unit = row.unit == "-" || row.unit == "1" ? "" : " " + row.unit;
@@ -168,7 +160,7 @@ Cell endpointCell(const EndpointRow& row) {
 }
 
 /// Changes of every endpoint by each effect; empty where the case has none.
-Table endpointTable(const EffectsResults& results, const std::string& engine) {
+Table endpointChanges(const EffectsResults& results, const std::string& engine) {
   Table table{{"switched off"}, {}};
   for (const VariantSummary& variant : variantSummaries(results, engine)) {
     if (!variant.ran() || variant.endpoints.empty()) continue;
@@ -176,7 +168,7 @@ Table endpointTable(const EffectsResults& results, const std::string& engine) {
       for (const EndpointRow& row : variant.endpoints)
         table.columns.emplace_back(endpointWords(row.endpoint));
     TableRow line{{effectLabel(variant.effect)}};
-    for (const EndpointRow& row : variant.endpoints) line.cells.push_back(endpointCell(row));
+    for (const EndpointRow& row : variant.endpoints) line.cells.push_back(endpointChange(row));
     table.rows.push_back(std::move(line));
   }
   table.note =
@@ -274,18 +266,17 @@ std::string barsOf(const EffectsResults& results) {
 
 List effectsReading(const EffectsResults& results) {
   return {
-      {{"Changes",
-        fmt::format("the run without the effect minus the run with everything on, in one {}, "
-                    "in % of the profile's largest value with everything on; {}. effects.csv "
-                    "has every {}, in the field's unit.",
-                    binWord(results), barsOf(results), binWord(results))},
+      {{"Changes", fmt::format("the run without the effect minus the run with everything on, in "
+                               "one {}, in % of the profile's largest value with everything on; "
+                               "{}. effects.csv has every {}, in the field's unit.",
+                               binWord(results), barsOf(results), binWord(results))},
        {"▲ ▼",
-        fmt::format("significant (larger, smaller without the effect); ○: not, and \"seen "
-                    "from\" is the smallest change that this {0} would have shown. All {0}s "
-                    "of all fields shown are one family of tests for each effect: the chance "
-                    "of any false alarm among them is at most {1:.3g} % (paired t tests, Holm's "
-                    "procedure). It takes at least 4 packings.",
-                    binWord(results), 100.0 * (1.0 - results.averaging.confidence))},
+        fmt::format(
+            "significant (larger, smaller without the effect); ○: not, and \"seen from\" is the "
+            "smallest change that this {0} would have shown. All {0}s of all fields shown are one "
+            "family of tests for each effect: the chance of any false alarm among them is at most "
+            "{1:.3g} % (paired t tests, Holm's procedure). It takes at least 4 packings.",
+            binWord(results), 100.0 * (1.0 - results.averaging.confidence))},
        {"Margin",
         fmt::format("the case's: a change within the margin in every {} shows that this scene does "
                     "not need the effect for that field, as two engines would agree.",
@@ -293,8 +284,8 @@ List effectsReading(const EffectsResults& results) {
        {"Time",
         fmt::format("one run at a time, in {} rounds that take turns, a packing each, at least {} "
                     "s each over the same steps; the mean of the rounds counts, its error is that "
-                    "over rounds. What other programs had of the core meanwhile is not counted. "
-                    "A run without an effect is in another state and may have more or fewer "
+                    "over rounds. What other programs had of the core meanwhile is not counted. A "
+                    "run without an effect is in another state and may have more or fewer "
                     "contacts, which is part of the number: see the column of contacts.",
                     readableCount(results.timing.rounds), readableSetting(results.timing.seconds))},
        {"Sum", "effects do not add up: with friction go rotation, springs and dashpots."}}};
@@ -317,7 +308,7 @@ void addStudy(Report& report, const EffectsResults& results, const std::string& 
   cost.side = false;
   blocks.push_back(std::move(cost));
   blocks.push_back(effectTable(results, engine));
-  if (Table endpoints = endpointTable(results, engine); !endpoints.rows.empty()) {
+  if (Table endpoints = endpointChanges(results, engine); !endpoints.rows.empty()) {
     blocks.push_back(Heading{"What each effect changes in the endpoints"});
     blocks.push_back(std::move(endpoints));
   }
@@ -341,8 +332,8 @@ std::string yesOrNo(const std::optional<bool>& value) {
 
 std::string effectsCsv(const EffectsResults& results) {
   std::string table =
-      "engine,effect,time_ratio,field,ring,change,stderr,r_tilde,reference,unit,resolved,"
-      "p_adjusted,smallest_resolvable,family_level,packings,stderr_kind,time_ratio_stderr,step_s,"
+      "engine,effect,time_ratio,field,ring,change,stderr,r_tilde,reference,unit,resolved,p_"
+      "adjusted,smallest_resolvable,family_level,packings,stderr_kind,time_ratio_stderr,step_s,"
       "contacts_per_step,precision,status,reason\n";
   const double level = std::round((1.0 - results.averaging.confidence) * 1e12) / 1e12;
   for (const EffectVariant& variant : results.variants) {

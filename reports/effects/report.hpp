@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
-#include "reports/common/report.hpp"
+#include "reports/flow/report.hpp"
 #include "results/effects.hpp"
 
 namespace crossgrain::reports {
@@ -17,5 +19,67 @@ Overview effectsOverview(const EffectsResults& results);
 /// For each engine k = 1, 2, …: effects_k_cost, what each effect costs and changes;
 /// effects_k_profile_FIELD, with and without.
 std::vector<Figure> effectFigures(const EffectsResults& results);
+
+/// What switching an effect off does to one field, at one ring: the largest of the significant
+/// changes, else the one with the most errors. Changes are over the profile's largest value with
+/// everything on, so that a ring where next to nothing is left of a field does not dominate.
+struct FieldChange {
+  std::string field;
+  Verdict verdict = Verdict::notApplicable;
+  Verdict verdictHere = Verdict::notApplicable;  ///< that of the ring alone
+  std::size_t ring = 0;
+  std::string bin;              ///< what the ring is called: "ring 3", "bin 3"
+  double change = 0.0;          ///< switched − everything on
+  std::optional<double> error;  ///< standard error
+  /// The interval that `detected` rests on: it leaves out 0 exactly if it is true.
+  std::optional<double> low, high;
+  std::optional<bool> detected;          ///< absent: too few packings to tell
+  std::optional<double> inErrors;        ///< |change|/error
+  std::optional<double> detectable;      ///< the smallest that some ring would have shown
+  std::optional<double> detectableHere;  ///< and that ring
+};
+
+/// One engine with one effect switched off.
+struct VariantSummary {
+  std::string engine, effect;
+  Status status = Status::finished;
+  std::string reason;
+  std::optional<double> saved, savedError;  ///< time saved per step, over the whole step's
+  std::optional<double> step, contacts;     ///< [s], number: of one step
+  std::optional<double> wholeContacts;      ///< with everything on
+  std::size_t packings = 0;
+  std::vector<FieldChange> changes;  ///< of the fields that are judged, and have any number
+  std::vector<EndpointRow> endpoints;
+
+  bool ran() const { return status == Status::finished; }
+  bool decidable() const;         ///< enough packings to tell what changes
+  bool changesSomething() const;  ///< a field, or an endpoint beyond its margin
+  bool withinMargins() const;     ///< every field and endpoint is shown to be
+  bool costsTime() const;         ///< the time saved exceeds two of its errors
+  /// Null where the field has no number.
+  const FieldChange* of(const std::string& field) const;
+};
+
+/// In the order of the results, of all engines or one; variants with everything on are left out.
+std::vector<VariantSummary> variantSummaries(const EffectsResults& results,
+                                             const std::string& engine = {});
+
+/// The one that costs most time; null: none is shown to.
+const VariantSummary* costliestOf(const std::vector<VariantSummary>& variants);
+
+/// An engine's variant with everything on, or null.
+const EffectVariant* wholeVariant(const EffectsResults& results, const std::string& engine);
+
+/// Fields that any variant judges, in the order of the results.
+std::vector<std::string> judgedFields(const std::vector<VariantSummary>& variants);
+
+/// The runs of one engine with everything on and with each effect switched off, each as if it were
+/// an engine of its own.
+std::vector<EngineRuns> variantRuns(const EffectsResults& results, const std::string& engine);
+
+/// Of an effect: "bottom friction", "tension", "double precision"; and of the run that lacks it:
+/// "without bottom friction", "tension cut off", "single precision".
+std::string effectLabel(const std::string& effect);
+std::string variantLabel(const std::string& effect);
 
 }  // namespace crossgrain::reports

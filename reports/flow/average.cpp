@@ -5,11 +5,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "reports/common/labels.hpp"
-#include "reports/common/numbers.hpp"
-#include "reports/common/sentences.hpp"
-#include "reports/flow/engine_table.hpp"
-#include "reports/flow/overview.hpp"
 #include "reports/flow/report.hpp"
 
 namespace crossgrain::reports {

@@ -1,15 +1,13 @@
 #include <algorithm>
 #include <set>
 
-#include "reports/common/csv_row.hpp"
-#include "reports/common/numbers.hpp"
 #include "reports/flow/report.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
 
-const std::optional<double> absent;
+const std::optional<double> noNumber;
 
 std::string indexOf(const FlowRun& run) {
   return fmt::format("{}", run.packing);
@@ -73,8 +71,8 @@ std::string distributionRows(const std::string& engine, const std::string& packi
               value, at(distribution.standardError, k), edge(1, line), edge(1, line + 1), bars);
     }
     if (const auto outside = finite(distribution.outside); outside && *outside > 0.0)
-      rows += row(engine, packing, distribution.quantity, place, absent, absent, outside, absent,
-                  absent, absent, bars);
+      rows += row(engine, packing, distribution.quantity, place, noNumber, noNumber, outside,
+                  noNumber, noNumber, noNumber, bars);
   }
   return rows;
 }
@@ -103,8 +101,8 @@ std::string steadinessRow(const SeriesDrift& drifts, const std::string& engine,
 
 std::string profilesCsv(const CompareResults& results) {
   std::string table =
-      "engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof,"
-      "from_rotation,to_rotation,prepared_rotations";
+      "engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof,from_"
+      "rotation,to_rotation,prepared_rotations";
   table += results.region ? ",x_m,y_m,from_s,to_s\n" : "\n";
   for (const FlowRun& run : results.runs)
     table += profileRows(results, run.engine, indexOf(run), "within_run", run.profiles);
@@ -191,9 +189,9 @@ std::string basisOf(const EndpointRow& row) {
 
 std::string endpointsCsv(const CompareResults& results) {
   std::string table =
-      "a,b,kind,endpoint,unit,margin,answer,difference,low,high,distance,distance_low,"
-      "distance_high,look,packings,lost,needs,needs_at_most,carrier_a,carrier_b,bound,"
-      "regimes_differ,reference,reason,reach,basis,packings_a,packings_b\n";
+      "a,b,kind,endpoint,unit,margin,answer,difference,low,high,distance,distance_low,distance_"
+      "high,look,packings,lost,needs,needs_at_most,carrier_a,carrier_b,bound,regimes_differ,"
+      "reference,reason,reach,basis,packings_a,packings_b\n";
   for (const EndpointRow& entry : results.endpoints.rows) {
     const auto margin = entry.marginRelative && entry.reference
                             ? std::optional(entry.margin * std::abs(*entry.reference))

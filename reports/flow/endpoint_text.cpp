@@ -7,9 +7,7 @@
 #include <cmath>
 
 #include "cases/endpoints.hpp"
-#include "reports/common/labels.hpp"
-#include "reports/common/numbers.hpp"
-#include "reports/common/sentences.hpp"
+#include "reports/common/text.hpp"
 
 namespace crossgrain::reports {
 
@@ -117,18 +115,18 @@ std::string describe(const SurrogateEngine& own) {
     std::vector<std::string> changes;
     for (const EquivalentChange& one : own.late.equivalents)
       changes.push_back(fmt::format("{} % of {}", readable(100.0 * one.change), one.constant));
-    parts.push_back(fmt::format(
-        "{} windows of {} over its own run of packing {} differ from the mirror as at most {} "
-        "would",
-        own.late.times.size(), shortDuration(own.late.length), own.late.packing,
-        fmt::join(changes, " or ")));
+    parts.push_back(
+        fmt::format("{} windows of {} over its own run of packing {} differ from the mirror as at "
+                    "most {} would",
+                    own.late.times.size(), shortDuration(own.late.length), own.late.packing,
+                    fmt::join(changes, " or ")));
   }
   if (const SpotCheckNumber* const worst = farthest(own.spotCheck))
-    parts.push_back(fmt::format(
-        "its own run of packing {} differs from the mirror's by no more than chaos: {} margins of "
-        "{} at most, where less than {} cannot be seen",
-        own.spotCheckPacking, readable(worst->difference), spaced(worst->endpoint),
-        readable(worst->reach)));
+    parts.push_back(
+        fmt::format("its own run of packing {} differs from the mirror's by no more than chaos: {} "
+                    "margins of {} at most, where less than {} cannot be seen",
+                    own.spotCheckPacking, readable(worst->difference), spaced(worst->endpoint),
+                    readable(worst->reach)));
   return words + fmt::format("{}.", fmt::join(parts, "; "));
 }
 
@@ -150,9 +148,7 @@ std::string describe(const InterimFindings& looks) {
                                              : "";
   return fmt::format(
       "Analysed after {} packings ({} of {} interim analyses), {}{:.3g} of {:.3g} % chance of a "
-      "false disagree "
-      "spent; "
-      "{}.",
+      "false disagree spent; {}.",
       fmt::join(packings, ", "), looks.taken, looks.planned.size(), agree, 100.0 * spent,
       100.0 * all, looks.ended);
 }

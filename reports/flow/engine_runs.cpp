@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "reports/common/engines.hpp"
-#include "reports/common/numbers.hpp"
+#include "support/numbers.hpp"
 
 namespace crossgrain::reports {
 

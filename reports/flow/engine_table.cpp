@@ -1,14 +1,15 @@
-#include "reports/flow/engine_table.hpp"
+#include "reports/flow/report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <map>
+#include <optional>
 #include <set>
 
-#include "reports/common/labels.hpp"
-#include "reports/common/numbers.hpp"
-#include "reports/common/sentences.hpp"
 #include "results/json_fields.hpp"
 
 namespace crossgrain::reports {
@@ -16,8 +17,248 @@ namespace crossgrain::reports {
 namespace {
 
 using Engines = std::vector<EngineRuns>;
-using Rows = std::vector<TableRow>;
 using Names = std::vector<std::string>;
+
+/// What a packing does in each regime, as a verb; of several packings.
+struct Verb {
+  std::optional<Regime> regime;  ///< absent: undecided
+  const char *one, *many;
+};
+constexpr Verb verbs[] = {
+    {Regime::blocked, "is blocked", "are blocked"},
+    {Regime::collisional, "is collisional", "are collisional"},
+    {Regime::flowing, "flows", "flow"},
+    {{}, "is undecided", "are undecided"},
+};
+
+/// Engines by regime, of one packing.
+using ByRegime = std::map<std::optional<Regime>, Names>;
+
+std::map<int, ByRegime> regimesByPacking(const Engines& engines) {
+  std::map<int, ByRegime> packings;
+  for (const EngineRuns& engine : engines)
+    for (const FlowRun* run : engine.finished)
+      if (run->regime) packings[run->packing][run->regime->regime].push_back(engine.name);
+  return packings;
+}
+
+/// "is blocked on a, b; flows on c", or "flows on every engine" of those that finished anything.
+std::string doesWhat(const ByRegime& engines, std::size_t all, bool many) {
+  Names parts;
+  for (const Verb& verb : verbs) {
+    const auto found = engines.find(verb.regime);
+    if (found == engines.end()) continue;
+    const bool every = all > 1 && found->second.size() == all;
+    parts.push_back(
+        fmt::format("{} on {}", many ? verb.many : verb.one,
+                    every ? "every engine" : fmt::format("{}", fmt::join(found->second, ", "))));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+void addRegimes(Names& sentences, const Engines& engines) {
+  const auto packings = regimesByPacking(engines);
+  if (packings.empty()) return;
+  const auto all = static_cast<std::size_t>(
+      std::ranges::count_if(engines, [](const auto& engine) { return !engine.finished.empty(); }));
+  // Packings that do the same are listed together, those that flow everywhere last.
+  std::map<std::string, std::vector<int>> alike;
+  for (const auto& [packing, byRegime] : packings)
+    alike[doesWhat(byRegime, all, false)].push_back(packing);
+  const auto flows = [&](const std::vector<int>& group) {
+    const ByRegime& first = packings.at(group.front());
+    return first.size() == 1 && first.begin()->first == Regime::flowing;
+  };
+  for (const bool last : {false, true})
+    for (const auto& [what, group] : alike) {
+      if (flows(group) != last) continue;
+      const bool many = group.size() > 1;
+      const std::string does = doesWhat(packings.at(group.front()), all, many);
+      sentences.push_back(
+          alike.size() == 1 && many
+              ? fmt::format("All {} packings {}.", group.size(), does)
+              : fmt::format("Packing{} {} {}.", many ? "s" : "", indicesText(group), does));
+    }
+  Names mixed;
+  for (const EngineRuns& engine : engines) {
+    std::set<Regime> regimes;
+    for (const FlowRun* run : engine.finished)
+      if (run->regime && run->regime->regime) regimes.insert(*run->regime->regime);
+    if (regimes.size() > 1) mixed.push_back(engine.name);
+  }
+  if (!mixed.empty())
+    sentences.push_back(
+        fmt::format("Means over packings mix regimes on {}: they describe none of them.",
+                    fmt::join(mixed, ", ")));
+}
+
+std::string packingsInWords(const std::vector<int>& indices) {
+  return fmt::format("packing{} {}", indices.size() > 1 ? "s" : "", fmt::join(indices, ", "));
+}
+
+void addPairs(Names& sentences, const CompareResults& results, const std::string& reference) {
+  Names pairs;
+  for (const RegimesOfPair& pair : results.regimes) {
+    if (pair.differ.empty() || (pair.a != reference && pair.b != reference)) continue;
+    pairs.push_back(fmt::format("{} on {}", pair.a == reference ? pair.b : pair.a,
+                                packingsInWords(pair.differ)));
+  }
+  if (!pairs.empty())
+    sentences.push_back(fmt::format(
+        "Not in the same regime as {}: {}. These pairs are compared in different states.",
+        reference, fmt::join(pairs, "; ")));
+}
+
+/// How one engine's answers on its series add up.
+struct Answers {
+  Names drifts;                    ///< "outer pressure falls by 40 ± 8 %"
+  std::optional<double> excluded;  ///< the largest change that is not excluded in any series
+  std::string worst;               ///< in which
+  bool seenNone = true;            ///< every series: no drift seen
+};
+
+std::map<std::string, Answers> answersByEngine(const std::vector<EngineDrift>& steadiness) {
+  std::map<std::string, Answers> engines;
+  for (const EngineDrift& row : steadiness) {
+    Answers& answers = engines[row.engine];
+    const std::string quantity = spaced(row.quantity);
+    const auto change = finite(row.drift.change), half = finite(row.drift.half);
+    const auto excluded = finite(row.drift.excluded);
+    answers.seenNone = answers.seenNone && row.drift.verdict == Drift::notSeen;
+    if (row.drift.verdict == Drift::drifts && change && half)
+      answers.drifts.push_back(
+          fmt::format("{} {} by {} ± {} %", quantity, *change < 0.0 ? "falls" : "rises",
+                      readablePercent(std::abs(*change)), readablePercent(*half)));
+    if (excluded && *excluded > answers.excluded.value_or(-1.0)) {
+      answers.excluded = excluded;
+      answers.worst = quantity;
+    }
+  }
+  return engines;
+}
+
+void addSteadiness(Names& sentences, const CompareResults& results, const Engines& engines) {
+  const auto answers = answersByEngine(results.steadiness);
+  Names drifts, none, open;
+  std::optional<double> largest;
+  std::string series;
+  for (const EngineRuns& engine : engines) {
+    const auto found = answers.find(engine.name);
+    if (found == answers.end()) continue;
+    const Answers& here = found->second;
+    if (!here.drifts.empty()) {
+      drifts.push_back(fmt::format("on {} {}", engine.name, fmt::join(here.drifts, ", ")));
+    } else if (here.seenNone && here.excluded) {
+      none.push_back(
+          fmt::format("{} (down to {} %)", engine.name, readablePercent(*here.excluded)));
+    } else {
+      open.push_back(engine.name);
+      if (here.excluded && *here.excluded > largest.value_or(-1.0)) {
+        largest = here.excluded;
+        series = here.worst;
+      }
+    }
+  }
+  if (!drifts.empty())
+    sentences.push_back(fmt::format("Not steady: {}, of the mean, over the averaged time.",
+                                    fmt::join(drifts, "; ")));
+  if (!none.empty())
+    sentences.push_back(
+        fmt::format("No drift seen over the averaged time: {}.", fmt::join(none, ", ")));
+  if (!open.empty())
+    sentences.push_back(
+        fmt::format("Steady or not is undecided for {}{}.", fmt::join(open, ", "),
+                    largest ? fmt::format(": changes of {} by up to {} % are not excluded", series,
+                                          readablePercent(*largest))
+                            : std::string()));
+}
+
+std::string range(double from, double to) {
+  return readableSetting(from) + " to " + readableSetting(to);
+}
+
+using Rows = std::vector<TableRow>;
+
+/// The run's regime with the numbers that it follows from.
+Cell regimeCell(const FlowRun* run) {
+  if (!run || !run->regime) return absentText;
+  const RegimeRow& regime = *run->regime;
+  std::string numbers = fmt::format("contacts {}, slip {}, shear {}, I {}",
+                                    readable(regime.wheelContacts), readable(regime.wheelSlip),
+                                    readable(regime.shearShare), readable(regime.inertialNumber));
+  // A run that is blocked throughout, or never, is named so.
+  if (const auto blocked = finite(regime.blockedFraction);
+      blocked && *blocked > 0.0 && *blocked < 1.0)
+    numbers += fmt::format("; blocked {} % of the time", readablePercent(*blocked));
+  return {std::string(regime.regime ? toString(*regime.regime) : "undecided"),
+          {std::move(numbers), regime.reason}};
+}
+
+Table regimeTable(const Engines& engines) {
+  Table table{engineColumns({{"packing", Column::Kind::number}}, engines), {}};
+  std::set<int> packings;
+  for (const EngineRuns& engine : engines)
+    for (const FlowRun* run : engine.finished)
+      if (run->regime) packings.insert(run->packing);
+  for (const int packing : packings) {
+    TableRow row{{fmt::format("{}", packing)}};
+    for (const EngineRuns& engine : engines) {
+      const auto run = std::ranges::find(engine.finished, packing, &FlowRun::packing);
+      row.cells.push_back(regimeCell(run == engine.finished.end() ? nullptr : *run));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table regimePairTable(const std::vector<RegimesOfPair>& pairs) {
+  Table table{{"pair", "packings in the same regime", "not in the same"}, {}};
+  for (const RegimesOfPair& pair : pairs)
+    table.rows.push_back(
+        {{pair.a + " – " + pair.b,
+          fmt::format("{} of {}", pair.packings - static_cast<int>(pair.differ.size()),
+                      pair.packings),
+          pair.differ.empty() ? std::string(absentText) : indicesText(pair.differ)}});
+  return table;
+}
+
+/// "−40 ± 8 %"
+std::string describeChange(const RelativeDrift& drift) {
+  const auto change = finite(drift.change), half = finite(drift.half);
+  if (!change || !half) return absentText;
+  return fmt::format("{}{} ± {} %", *change < 0.0 ? "−" : "+", readablePercent(std::abs(*change)),
+                     readablePercent(*half));
+}
+
+Cell steadinessCell(const EngineDrift& row) {
+  std::string word(toString(row.drift.verdict));
+  if (row.drift.verdict == Drift::notSeen)
+    word += fmt::format(" down to {} %", readablePercent(row.drift.excluded.value_or(0.0)));
+  Cell cell(word, {describeChange(row.drift)});
+  if (!row.drifting.empty())
+    cell.notes.push_back("by themselves drift: " + indicesText(row.drifting));
+  return cell;
+}
+
+Table steadinessTable(const std::vector<EngineDrift>& all, const Engines& engines) {
+  Table table{engineColumns({"series"}, engines), {}};
+  std::vector<std::string> quantities;
+  for (const EngineDrift& row : all)
+    if (std::ranges::find(quantities, row.quantity) == quantities.end())
+      quantities.push_back(row.quantity);
+  for (const std::string& quantity : quantities) {
+    TableRow row{{spaced(quantity)}};
+    for (const EngineRuns& engine : engines) {
+      const auto found = std::ranges::find_if(all, [&](const EngineDrift& drift) {
+        return drift.engine == engine.name && drift.quantity == quantity;
+      });
+      row.cells.push_back(found == all.end() ? Cell(absentText) : steadinessCell(*found));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
 using Text = std::function<std::string(const EngineRuns&)>;
 
 TableRow tableRow(const std::string& label, const std::string& unit, const Engines& engines,
@@ -194,6 +435,47 @@ std::string snapshotsInWords(const FlowFrame& frame, const Engines& engines) {
 }
 
 }  // namespace
+
+void addStates(Blocks& blocks, const CompareResults& results, const Engines& engines) {
+  if (Table regimes = regimeTable(engines); !regimes.rows.empty()) {
+    const std::string when = averagedRotations(results.averaging);
+    blocks.push_back(Heading{"Regimes", "regimes"});
+    blocks.push_back(Paragraph{
+        (when.empty() ? std::string() : "Averaged: " + when + ". ") +
+        "Flowing: disks touch for long and layers pass one another. Blocked: the wheel slips over "
+        "disks that keep their neighbours; less than a tenth of its rotation goes into shear. "
+        "Collisional: the wheel touches less than one disk at a time, or the inertial number I "
+        "there exceeds 0.1. Slip and shear are shares of Ω; contacts are the wheel's, at a time."});
+    blocks.push_back(std::move(regimes));
+    blocks.push_back(regimePairTable(results.regimes));
+  }
+  if (results.steadiness.empty()) return;
+  blocks.push_back(Heading{"Steady or not", "steady-or-not"});
+  blocks.push_back(Paragraph{fmt::format(
+      "Change of the straight line through each series over the averaged time, in % of its mean; "
+      "{:.3g} % intervals: over packings where there are four (shared out over the series), else "
+      "of each run with its autocorrelation. No drift seen: down to the largest change that is not "
+      "excluded, if that is at most a quarter; else: cannot tell.",
+      100.0 * results.averaging.confidence)});
+  blocks.push_back(steadinessTable(results.steadiness, engines));
+}
+
+std::string averagedRotations(const FlowAveraging& averaging) {
+  const auto from = averaging.fromRotation, to = averaging.toRotation;
+  if (!from || !to) return {};
+  std::string words = fmt::format("rotations {} since the hand-over", range(*from, *to));
+  if (const auto before = averaging.preparedRotations)
+    words += fmt::format(", {} since the ring had closed", range(*before + *from, *before + *to));
+  return words;
+}
+
+std::vector<std::string> stateSentences(const CompareResults& results, const Engines& engines) {
+  Names sentences;
+  addRegimes(sentences, engines);
+  if (!engines.empty()) addPairs(sentences, results, referenceOf(results));
+  addSteadiness(sentences, results, engines);
+  return sentences;
+}
 
 void addEngineTable(Blocks& blocks, const Engines& engines) {
   Table table = emptyTable(engines);

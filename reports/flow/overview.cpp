@@ -1,18 +1,238 @@
-#include "reports/flow/overview.hpp"
+#include "reports/flow/report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
-#include "reports/common/numbers.hpp"
-#include "reports/common/sentences.hpp"
 #include "reports/flow/endpoint_text.hpp"
 #include "reports/lockstep/report.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
+
+using Engines = std::vector<EngineRuns>;
+using Names = std::vector<std::string>;
+
+/// Names in a sentence.
+constexpr std::size_t mostNames = 3;
+
+Names endpointsWith(const std::vector<const EndpointRow*>& rows, Verdict verdict) {
+  Names names;
+  for (const EndpointRow* row : rows)
+    if (row->verdict == verdict) names.push_back(endpointWords(row->endpoint));
+  return names;
+}
+
+/// "disagreed on pressure, agreed on 6 of 9 endpoints and left 2 undecided"; of one pair.
+std::string relationOf(const std::vector<const EndpointRow*>& rows) {
+  const Names disagree = endpointsWith(rows, Verdict::fail),
+              borderline = endpointsWith(rows, Verdict::borderline),
+              undecided = endpointsWith(rows, Verdict::undecided),
+              absent = endpointsWith(rows, Verdict::notMeasured);
+  const std::size_t agree =
+      rows.size() - disagree.size() - borderline.size() - undecided.size() - absent.size();
+  // The first count has the total.
+  const auto some = [&](std::size_t count, bool first) {
+    return count == rows.size() ? allOf(count, "endpoint")
+           : first              ? fmt::format("{} of {} endpoints", count, rows.size())
+                                : fmt::format("{}", count);
+  };
+  Names parts;
+  if (!disagree.empty()) parts.push_back("disagreed on " + listedShortly(disagree, mostNames));
+  if (!borderline.empty())
+    parts.push_back("came out borderline on " + listedShortly(borderline, mostNames));
+  if (agree > 0) parts.push_back("agreed on " + some(agree, true));
+  if (!undecided.empty())
+    parts.push_back(fmt::format("left {} undecided", some(undecided.size(), agree == 0)));
+  if (!absent.empty())
+    parts.push_back("could not be compared on " + listedShortly(absent, mostNames));
+  return listed(parts);
+}
+
+std::string agreementWith(const CompareResults& results, const std::string& a, const char* called,
+                          const Names& names) {
+  SaidOf said;
+  for (const std::string& name : names)
+    said.add(name, relationOf(rowsOf(results.endpoints.rows, a, name)));
+  Names parts;
+  for (const auto& [relation, peers] : said.all())
+    parts.push_back(fmt::format("{} {}", listed(peers), relation));
+  return fmt::format("Against {}: {}.", called, fmt::join(parts, "; "));
+}
+
+/// Who agrees with the closed forms, where the case has them, else with the reference, on what.
+std::string whoAgrees(const CompareResults& results, const Engines& engines) {
+  const Endpoints& rows = results.endpoints.rows;
+  if (const Names judged = closedFormEngines(rows); !judged.empty())
+    return agreementWith(results, closedFormName, "the closed forms", judged);
+  const Names peers = peersOf(results, engines);
+  if (peers.empty()) return "No two engines could be compared.";
+  return agreementWith(results, referenceOf(results), referenceWords(results).c_str(), peers);
+}
+
+/// "normal" and "tangential" are laws; the others say what they are.
+std::string conventionWords(const std::string& name) {
+  return spaced(name) + (name == "normal" || name == "tangential" ? " law" : "");
+}
+
+/// Deviations from the scene that an engine declares.
+Names conventionsOf(const EngineRuns& engine) {
+  Names names;
+  if (const EffectiveParameters* effective = engine.effective())
+    for (const Deviation& deviation : effective->deviations)
+      if (std::string name = conventionWords(deviation.name);
+          std::ranges::find(names, name) == names.end())
+        names.push_back(std::move(name));
+  return names;
+}
+
+bool disagrees(const CompareResults& results, const EngineRuns& engine) {
+  return std::ranges::any_of(rowsOf(results.endpoints.rows, referenceOf(results), engine.name),
+                             [](const EndpointRow* row) { return row->verdict == Verdict::fail; });
+}
+
+const LockstepRow* differingRow(const CompareResults& results, const std::string& engine) {
+  if (results.lockstep)
+    for (const LockstepRow& row : results.lockstep->rows)
+      if (row.engine == engine && row.verdict == Equivalence::differs) return &row;
+  return nullptr;
+}
+
+/// An engine that does not have its own law, else the conventions that it declares.
+std::string causesOfDifferences(const CompareResults& results, const Engines& engines) {
+  Names parts;
+  for (const EngineRuns& engine : engines) {
+    if (!engine.mirrors.empty()) continue;
+    if (const LockstepRow* row = differingRow(results, engine.name)) {
+      const bool open = !openInLaw(*row, results.lockstep->rules).empty();
+      parts.push_back(
+          open
+              ? fmt::format("{} differs from its mirror where disks touch several at once, which "
+                            "its law leaves open",
+                            engine.name)
+              : fmt::format(
+                    "{} does not have the law that it declares{}", engine.name,
+                    row->term ? " (deviation found: " + constantWords(row->term->name) + ")" : ""));
+      continue;
+    }
+    if (const auto* const own = spotCheckedEngine(results.endpoints.surrogates, engine.name);
+        own && verdictOf(*own) == Verdict::fail) {
+      parts.push_back(fmt::format("{} does not have the law that it declares late in its own run",
+                                  engine.name));
+      continue;
+    }
+    if (const Names endpoints = disagreementsWithMirror(results, engine.name); !endpoints.empty()) {
+      Names words;
+      for (const std::string& endpoint : endpoints) words.push_back(endpointWords(endpoint));
+      parts.push_back(fmt::format("{} disagrees with its own mirror in {}", engine.name,
+                                  listedShortly(words, mostNames)));
+      continue;
+    }
+    if (engine.name == referenceOf(results) || !disagrees(results, engine)) continue;
+    const Names conventions = conventionsOf(engine);
+    if (!isModelDifference(results, engine))
+      parts.push_back(fmt::format(
+          "no mirror shows whether the difference of {} comes from its law or its implementation{}",
+          engine.name,
+          conventions.empty()
+              ? ""
+              : "; it declares deviations: " + listedShortly(conventions, mostNames)));
+    else
+      parts.push_back(fmt::format(
+          "{} differs by the law that it declares{}", engine.name,
+          conventions.empty() ? "" : " (" + listedShortly(conventions, mostNames) + ")"));
+  }
+  if (parts.empty()) return {};
+  return fmt::format("Causes of differences: {}.", listedShortly(parts, mostNames));
+}
+
+/// Peers' undecided endpoint that takes the fewest packings, by the estimates of the rows: one
+/// against the reference, whose pairs the matrix shows, if any of them is open.
+const EndpointRow* nextToDecide(const CompareResults& results) {
+  const std::string& reference = referenceOf(results);
+  const auto rank = [&](const EndpointRow& row) {
+    return std::tuple(row.a != reference && row.b != reference, !row.needs, row.needs.value_or(0));
+  };
+  const EndpointRow* next = nullptr;
+  for (const EndpointRow& row : results.endpoints.rows)
+    if (row.kind == PairKind::peer && row.verdict == Verdict::undecided &&
+        (!next || rank(row) < rank(*next)))
+      next = &row;
+  return next;
+}
+
+/// How many runs an engine has that nobody has run here; 0 of one that crossgrain runs.
+std::size_t runsFromFiles(const Engines& engines, const std::string& name) {
+  const auto engine = std::ranges::find(engines, name, &EngineRuns::name);
+  if (engine == engines.end() || engine->finished.empty() || !engine->finished.front()->ofFiles())
+    return 0;
+  return engine->finished.size();
+}
+
+/// Where runs that nobody has run here widen an interval most; empty where those are ours.
+std::string moreRunsOfFiles(const EndpointRow& row, const Engines& engines) {
+  const std::size_t a = runsFromFiles(engines, row.a), b = runsFromFiles(engines, row.b);
+  if (a == 0 && b == 0) return {};
+  const bool known = row.unpaired && row.unpaired->shareOfA;
+  if (!known && a > 0 && b > 0)
+    return fmt::format("Next: more runs of {} and of {}, whose files hold {} and {}.", row.b, row.a,
+                       b, a);
+  const double shareOfA = known ? row.unpaired->shareOfA.value_or(0.0) : a > 0 ? 1.0 : 0.0;
+  const bool isMedian = std::ranges::find(engines, row.a, &EngineRuns::name) == engines.end();
+  const bool ofA = !isMedian && shareOfA > 0.5;
+  if ((ofA ? a : b) == 0) return {};
+  const std::string why =
+      known ? fmt::format(": {:.0f} % of the variance of the difference in {} is theirs",
+                          100.0 * (ofA ? shareOfA : 1.0 - shareOfA), endpointWords(row.endpoint))
+            : "";
+  return fmt::format("Next: more runs of {}, whose files hold {}{}.", ofA ? row.a : row.b,
+                     ofA ? a : b, why);
+}
+
+std::string nextStep(const CompareResults& results, const Engines& engines) {
+  if (results.nothingJudged)
+    return fmt::format("Nothing was judged: {}.", results.nothingJudged->reason);
+  for (const EngineRuns& engine : engines)
+    if (engine.status == Status::failed || engine.finished.size() < engine.runs.size())
+      return fmt::format("Next: see why {} did not finish, under “What did not run”.", engine.name);
+  for (const AlarmRow& alarm : results.endpoints.alarms)
+    return fmt::format("Next: see the alarm on {}: {}.", alarm.b, alarm.what);
+  const auto has = [&](Verdict verdict) {
+    return std::ranges::any_of(results.endpoints.rows, [&](const EndpointRow& row) {
+      return (row.kind == PairKind::peer || row.kind == PairKind::closedForm) &&
+             row.verdict == verdict;
+    });
+  };
+  for (const EndpointRow& row : results.endpoints.rows)
+    if (row.verdict == Verdict::undecided && !row.reason.empty() &&
+        (row.packings == 0 || row.kind == PairKind::closedForm))
+      return fmt::format("Next: {} has no value to judge: {}.", endpointWords(row.endpoint),
+                         row.reason);
+  if (closedFormEngines(results.endpoints.rows).empty() && peersOf(results, engines).empty())
+    return "Next: name two engines that run this scene.";
+  if (const EndpointRow* const next = nextToDecide(results)) {
+    if (const std::string more = moreRunsOfFiles(*next, engines); !more.empty()) return more;
+    const InterimFindings& looks = results.endpoints.looks;
+    const bool planned = looks.taken < looks.planned.size();
+    return fmt::format(
+        "Next: more packings{}; {}.",
+        next->needs ? fmt::format(", about {} for the {} of {} against {}", *next->needs,
+                                  endpointWords(next->endpoint), next->b, called(next->a))
+                    : "",
+        planned ? "the same command with a larger --budget adds them"
+                : "the case plans no further interim analysis ([looks] in its file)");
+  }
+  if (has(Verdict::fail))
+    return "Next: compare the margins with the accuracy that is needed, or give both the same law.";
+  if (has(Verdict::borderline))
+    return "More packings will hardly change what is borderline: its difference is about the "
+           "margin.";
+  return "Nothing is left to decide at these margins.";
+}
 
 OverviewCell lockstepOf(const CompareResults& results, const EngineRow& engine) {
   static const LockstepFindings none;
@@ -123,6 +343,14 @@ OverviewCell failedRunsOf(const CompareResults& results, const EngineRuns& engin
 }
 
 }  // namespace
+
+std::vector<std::string> compareConclusion(const CompareResults& results) {
+  const Engines engines = engineRuns(results);
+  if (engines.empty()) return {};
+  // Where nothing was judged, nobody is said to agree, or to be undecided.
+  return nonEmpty({results.nothingJudged ? std::string() : whoAgrees(results, engines),
+                   causesOfDifferences(results, engines), nextStep(results, engines)});
+}
 
 const EndpointRow* worstOf(const std::vector<const EndpointRow*>& rows) {
   const auto size = [](const EndpointRow& row) {

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "reports/common/report.hpp"
+#include "reports/common/blocks.hpp"
 #include "reports/flow/engine_runs.hpp"
 #include "results/rev.hpp"
 
@@ -45,5 +47,94 @@ std::vector<std::pair<std::string, std::string>> averageTables(const CompareResu
 std::string endpointsCsv(const CompareResults& results);
 /// Ring by ring where differences are, without a verdict.
 std::string agreementCsv(const CompareResults& results);
+
+// Figures.
+
+/// Whose curve of a field has nothing to say: it is drawn grey, behind the others, without a name.
+using IsFaint = std::function<bool(const EngineRuns&, const std::string& field)>;
+
+/// The parts of compareFigures. A check of a single number is no plot.
+std::vector<Figure> profileFigures(const FlowFrame& frame, const std::vector<EngineRuns>& engines,
+                                   const IsFaint& faint = {});
+/// difference_FIELD: engines minus the reference, ring by ring, in margins, with the margin's band.
+std::vector<Figure> differenceFigures(const CompareResults& results,
+                                      const std::vector<EngineRuns>& engines);
+std::vector<Figure> distributionFigures(const FlowFrame& frame,
+                                        const std::vector<EngineRuns>& engines);
+
+/// What the bars of the profiles are, in words: over packings, or within one run.
+std::string describeBars(const std::vector<EngineRuns>& engines);
+
+/// Where the bins of profiles are, on the axis of that name: (r − R_i)/d, or a coordinate in m.
+/// Those of a grid are nowhere (NaN).
+const std::vector<double>& binPlaces(const FlowFrame& frame);
+std::string binAxis(const FlowFrame& frame);
+/// "ring", or "bin" of an assembly.
+const char* binWord(const FlowFrame& frame);
+
+/// The radial axis of a cell, from the wheel to the ring; absent without a cell.
+std::optional<Range> rTildeRange(const FlowFrame& frame);
+
+// The matrix and what follows from it.
+
+/// An engine per row: its own law, averages against the reference, cost, failed runs.
+Overview compareOverview(const CompareResults& results);
+
+/// A field per row, a weight per column: from which ring width on the weight hardly matters.
+Overview revOverview(const RevResults& results);
+
+/// Of endpoints of one pair: the farthest of those with the most severe answer; null without one.
+const EndpointRow* worstOf(const std::vector<const EndpointRow*>& rows);
+
+/// That row as a cell. @param isModel  a disagreement is one of declared laws
+OverviewCell endpointCell(const EndpointRow& row, bool isModel);
+
+/// The same in a report: the difference of two engines that are both true to their laws is one of
+/// models, and nothing has a verdict where nothing was judged.
+OverviewCell endpointCell(const CompareResults& results, const EndpointRow& row);
+
+/// Endpoints in which an engine and its own mirror disagree: these have one law.
+std::vector<std::string> disagreementsWithMirror(const CompareResults& results,
+                                                 const std::string& engine);
+
+/// Whether the difference of an engine from the reference is shown to come from its declared law:
+/// lockstep verifies that law, or its mirror agrees with it wherever both it and the reference
+/// disagree, and nowhere does it disagree with its mirror. Of a mirror always: it is the in-house
+/// engine.
+bool isModelDifference(const CompareResults& results, const EngineRow& engine);
+
+/// At most three sentences: who agrees with whom on what, the cause of differences, what to do
+/// next.
+std::vector<std::string> compareConclusion(const CompareResults& results);
+
+// What ran, its cost, and in what state runs were while they were averaged.
+
+/// The table of engines, and engines and runs that did not finish, with their reasons.
+void addEngineTable(Blocks& blocks, const std::vector<EngineRuns>& engines);
+
+/// The state alone: of what was averaged and not run. No rows: nothing is known.
+Table stateTable(const std::vector<EngineRuns>& engines);
+
+/// Rings, weights and snapshots that the profiles are means over.
+/// @param engines  of which files may have others than the case says
+std::string describeAverages(const FlowFrame& frame, const std::vector<EngineRuns>& engines);
+
+/// What the engines made of the case's scene.
+std::vector<EffectiveScene> effectiveOf(const FlowFrame& frame,
+                                        const std::vector<EngineRuns>& engines);
+
+/// "rotations 0.25 to 1.25 since the hand-over, 2.25 to 3.25 since the ring had closed"; what is
+/// not known is left out.
+std::string averagedRotations(const FlowAveraging& averaging);
+
+/// Before any mean: which packings flow, are blocked or collisional, on which engines; where a
+/// pair's regimes differ; which engines drift, on which no drift is seen and down to what size, and
+/// where it is undecided.
+std::vector<std::string> stateSentences(const CompareResults& results,
+                                        const std::vector<EngineRuns>& engines);
+
+/// Tables: regimes by packing and engine; pairs whose regimes differ; drifts by series and engine.
+void addStates(Blocks& blocks, const CompareResults& results,
+               const std::vector<EngineRuns>& engines);
 
 }  // namespace crossgrain::reports

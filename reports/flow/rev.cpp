@@ -8,11 +8,6 @@
 #include <set>
 #include <span>
 
-#include "reports/common/csv_row.hpp"
-#include "reports/common/labels.hpp"
-#include "reports/common/numbers.hpp"
-#include "reports/common/sentences.hpp"
-#include "reports/flow/overview.hpp"
 #include "reports/flow/report.hpp"
 
 namespace crossgrain::reports {
@@ -171,8 +166,7 @@ std::vector<std::string> revConclusion(const RevResults& results) {
         fmt::format("Within 5 % of slicing in every field: {}.", fmt::join(near, "; ")));
   if (!far.empty())
     sentences.push_back(
-        fmt::format("Further from slicing at any width: {}; compare engines under one weight "
-                    "only.",
+        fmt::format("Further from slicing at any width: {}; compare engines under one weight only.",
                     fmt::join(far, "; ")));
   else if (!near.empty())
     sentences.push_back(fmt::format(
@@ -299,19 +293,18 @@ Report reportOf(const RevResults& results) {
   const bool rings = words.bin == "ring";
   report.caseHeading = results.region ? "The case: its averaged part and weights"
                                       : "The case: its cell, rings and weights";
-  report.notes = {
-      fmt::format("Nothing was run and nothing compared but ways of averaging the same snapshots: "
-                  "what depends on the {}'s width or on the weight comes from averaging there, not "
-                  "from the field.",
-                  words.bin)};
+  report.notes = {fmt::format(
+      "Nothing was run and nothing compared but ways of averaging the same snapshots: what depends "
+      "on the {}'s width or on the weight comes from averaging there, not from the field.",
+      words.bin)};
   if (const auto width = results.averaging.lineWidth)
     report.notes.push_back(fmt::format("Kernels of the line methods have the width w = {} d.",
                                        readableSetting(width)));
   else if (weightsOf(results).size() > 2)
-    report.notes.push_back(fmt::format(
-        "Of Heaviside, Lucy and Gauss {} is the length over which the function reaches, 2 c or 6 "
-        "w, in slabs of d/10.",
-        words.width));
+    report.notes.push_back(
+        fmt::format("Of Heaviside, Lucy and Gauss {} is the length over which the function "
+                    "reaches, 2 c or 6 w, in slabs of d/10.",
+                    words.width));
   std::ranges::copy(results.notes, std::back_inserter(report.notes));
   for (const char* const field : drawnFields)
     if (Figure figure = fieldFigure(results, field); !figure.panels.empty())

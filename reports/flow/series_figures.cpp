@@ -1,12 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <numeric>
 
-#include "reports/common/numbers.hpp"
-#include "reports/flow/figures.hpp"
 #include "reports/flow/report.hpp"
 
 namespace crossgrain::reports {
@@ -148,6 +149,191 @@ std::vector<Figure> checkFigures(const FlowFrame& frame, const std::vector<Engin
   return figures;
 }
 
+using Engines = std::vector<EngineRuns>;
+
+constexpr const char* speedAxis = "v_{φ} / (Ω R_{i})";
+constexpr const char* spinAxis = "S d / (Ω D)";
+
+/// That of an engine's averages, or null. @param ring  from 0; absent: the whole cell's
+const Distribution* distributionOf(const EngineRuns& engine, const std::string& quantity,
+                                   std::optional<int> ring) {
+  const auto found = std::ranges::find_if(engine.distributions(), [&](const Distribution& one) {
+    return one.quantity == quantity && one.ring == ring;
+  });
+  return found == engine.distributions().end() ? nullptr : &*found;
+}
+
+double centre(const Bins& axis, std::size_t index) {
+  return axis.low + (static_cast<double>(index) + 0.5) * axis.width;
+}
+
+/// @param empty  also bins that hold nothing, which a logarithmic axis cannot show
+std::vector<Point> pointsOf(const Distribution* distribution, bool empty) {
+  std::vector<Point> points;
+  if (!distribution || distribution->axes.empty()) return points;
+  for (std::size_t k = 0; k < distribution->density.size(); ++k)
+    if (const auto value = at(distribution->density, k); value && (empty || *value > 0.0))
+      points.push_back(
+          {centre(distribution->axes[0], k), *value, at(distribution->standardError, k)});
+  return points;
+}
+
+Panel densityPanel(const Engines& engines, const std::string& quantity, std::optional<int> ring,
+                   const std::string& xLabel, bool logarithmic) {
+  Panel panel;
+  panel.xLabel = xLabel;
+  panel.yLabel = "probability density";
+  panel.logY = logarithmic;
+  panel.key = Key::none;
+  for (const EngineRuns& engine : engines) {
+    Curve curve =
+        curveOf(engine, pointsOf(distributionOf(engine, quantity, ring), !logarithmic), 1.0);
+    if (!curve.points.empty()) panel.curves.push_back(std::move(curve));
+  }
+  return panel;
+}
+
+Figure figureOf(const std::string& name, const std::string& title, const std::string& caption,
+                std::vector<Panel> panels) {
+  Figure figure;
+  figure.name = "distribution_" + name;
+  figure.title = title;
+  figure.caption = caption;
+  for (Panel& panel : panels) {
+    if (!hasPoints(panel)) continue;
+    figure.panels.push_back(std::move(panel));
+  }
+  figure.columns = std::min(3, static_cast<int>(figure.panels.size()));
+  figure.panelWidth = 380;
+  figure.panelHeight = 300;
+  return figure;
+}
+
+/// Centres of the densest cells that together hold this fraction of what lies inside the bins.
+std::vector<Point> densest(const Distribution& joint, double fraction) {
+  const Bins &across = joint.axes.at(0), &up = joint.axes.at(1);
+  const auto columns = static_cast<std::size_t>(across.count);
+  std::vector<std::size_t> order(joint.density.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto densityAt = [&](std::size_t cell) { return at(joint.density, cell).value_or(0.0); };
+  std::ranges::stable_sort(order, std::greater(), densityAt);
+  double all = 0.0;
+  for (const std::size_t cell : order) all += densityAt(cell);
+  std::vector<Point> points;
+  double held = 0.0;
+  for (const std::size_t cell : order) {
+    if (held >= fraction * all) break;
+    held += densityAt(cell);
+    points.push_back({centre(across, cell % columns), centre(up, cell / columns), {}});
+  }
+  return points;
+}
+
+Panel jointPanel(const EngineRuns& engine) {
+  const Distribution* joint = distributionOf(engine, "azimuthal_velocity_and_spin", {});
+  Panel panel;
+  panel.name = engine.name;
+  panel.xLabel = speedAxis;
+  panel.yLabel = spinAxis;
+  panel.xRange = Range{-0.3, 1.3};
+  panel.yRange = Range{-1.3, 0.7};
+  panel.key = Key::none;
+  if (!joint) return panel;
+  LineStyle outer = engine.style, inner = engine.style;
+  outer.pointType = 6;  // open circles
+  inner.pointType = 7;  // filled
+  panel.curves.push_back({"", outer, Draw::points, densest(*joint, 0.9), 1.0});
+  panel.curves.push_back({"", inner, Draw::points, densest(*joint, 0.5), 1.0});
+  panel.curves.push_back({"", {}, Draw::lines, {{0.0, -1.0, {}}, {1.3, 0.3, {}}}, 1.0});
+  return panel;
+}
+
+/// Rings at the wheel, about 2, 4, 8 and 12 d from it, and at the outer ring (Lätzel 2003,
+/// Fig. 6.6).
+std::vector<std::size_t> directionRings(const std::vector<double>& places) {
+  std::vector<std::size_t> rings;
+  if (places.empty()) return rings;
+  const auto add = [&](std::size_t ring) {
+    if (rings.empty() || ring > rings.back()) rings.push_back(ring);
+  };
+  add(0);
+  for (const double target : {2.0, 4.0, 8.0, 12.0}) {
+    std::size_t best = 0;
+    const auto away = [&](std::size_t ring) {
+      return std::abs(at(places, ring).value_or(1e300) - target);
+    };
+    for (std::size_t ring = 0; ring < places.size(); ++ring)
+      if (away(ring) < away(best)) best = ring;
+    if (away(best) < 1.0) add(best);
+  }
+  add(places.size() - 1);
+  return rings;
+}
+
+/// The distribution's expansion to order 6, from the Fourier fields of the same averages.
+std::vector<Point> harmonics(const EngineRuns& engine, std::size_t ring) {
+  const auto coefficient = [&](const char* kind, int order) -> std::optional<double> {
+    const std::string field = fmt::format("contact_{}_{}", kind, order);
+    const Profile* profile = profileOf(engine.profiles(), field);
+    return profile ? at(profile->mean, ring) : std::nullopt;
+  };
+  std::vector<std::array<double, 3>> terms;  // order, a, b
+  for (const int order : {2, 4, 6}) {
+    const auto a = coefficient("cos", order), b = coefficient("sin", order);
+    if (!a || !b) return {};
+    terms.push_back({static_cast<double>(order), *a, *b});
+  }
+  std::vector<Point> points;
+  for (int degrees = -180; degrees <= 180; degrees += 4) {
+    const double angle = degrees * std::numbers::pi / 180.0;
+    double density = 1.0;
+    for (const auto& [order, a, b] : terms)
+      density += a * std::cos(order * angle) + b * std::sin(order * angle);
+    points.push_back({angle, density / (2.0 * std::numbers::pi), {}});
+  }
+  return points;
+}
+
+std::vector<Panel> directionPanels(const RingPlaces& rings, const Engines& engines) {
+  std::vector<Panel> panels;
+  for (const std::size_t ring : directionRings(rings.rTilde)) {
+    Panel panel = densityPanel(engines, "contact_direction", static_cast<int>(ring),
+                               "angle of contacts from r towards φ [rad]", false);
+    panel.title = fmt::format("(r − R_{{i}})/d = {:.2g}", at(rings.rTilde, ring).value_or(0.0));
+    panel.xRange = Range{-std::numbers::pi, std::numbers::pi};
+    panel.level = 0.5 / std::numbers::pi;
+    if (!panel.curves.empty()) {
+      const auto reference = std::ranges::find_if(engines, [&](const EngineRuns& engine) {
+        return curveOf(engine).name == panel.curves.front().name;
+      });
+      panel.curves.push_back({"", {}, Draw::lines, harmonics(*reference, ring), 1.0});
+    }
+    panels.push_back(std::move(panel));
+  }
+  return panels;
+}
+
+const ScenePicture* firstPicture(const EngineRuns& engine) {
+  for (const FlowRun* run : engine.runs)
+    if (run->picture) return &*run->picture;
+  return nullptr;
+}
+
+/// Letters, digits and dashes only: names of engines become names of files.
+std::string fileWord(const std::string& name) {
+  std::string word = name;
+  for (char& c : word)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
+  return word;
+}
+
+/// "Mean 0.0123 N; 4 of 412 contacts carry 0.05 N or more, the widest line."
+std::string forceWords(const ForceCount& count, double widest) {
+  return fmt::format("Mean {} N; {} of {} {} {} N or more, the widest line.", readable(count.mean),
+                     count.above, counted(count.contacts, "contact"),
+                     verb(count.above, "carries", "carry"), readable(widest));
+}
+
 }  // namespace
 
 std::vector<Figure> compareFigures(const CompareResults& results) {
@@ -157,6 +343,66 @@ std::vector<Figure> compareFigures(const CompareResults& results) {
                     seriesFigures(results, engines), distributionFigures(results, engines)})
     std::ranges::move(more, std::back_inserter(figures));
   return figures;
+}
+
+std::vector<Figure> distributionFigures(const FlowFrame& frame, const Engines& engines) {
+  std::vector<Panel> joint;
+  for (const EngineRuns& engine : engines)
+    if (engine.mirrors.empty()) joint.push_back(jointPanel(engine));
+  std::vector<Figure> figures = {
+      figureOf("velocities", "Distributions of velocities and spin at the wheel",
+               "Radial and azimuthal velocity and spin of single disks in ring 1, next to the "
+               "wheel (Lätzel 2003, section 6.4).",
+               {densityPanel(engines, "radial_velocity", 0, "v_{r} / |Ω R_{i}|", true),
+                densityPanel(engines, "azimuthal_velocity", 0, speedAxis, true),
+                densityPanel(engines, "spin", 0, spinAxis, true)}),
+      figureOf("joint", "Joint distribution of velocity and spin at the wheel",
+               "Velocity and spin of the same disk, centres within one d of the wheel: the densest "
+               "cells that hold half of the samples (filled) and nine tenths (open). On the line "
+               "v_φ/(ΩR_i) = 1 + S d/(ΩD) a disk rolls on the wheel.",
+               std::move(joint)),
+      figureOf("directions", "Directions of contacts",
+               "Outward normals of the contacts of disks in some rings, from the wheel to the "
+               "outer ring (Lätzel 2003, Fig. 6.6). Thin line: no preferred direction; black "
+               "curve: a constant and sines of 2α, 4α, 6α fitted to the first engine's.",
+               directionPanels(frame.rings, engines)),
+      figureOf(
+          "contacts", "Distributions of contact forces and numbers",
+          "Normal and tangential forces of all contacts over their means, and contacts per disk.",
+          {densityPanel(engines, "normal_force", {}, "f_{n} / ⟨f_{n}⟩", true),
+           densityPanel(engines, "tangential_force", {}, "|f_{t}| / ⟨|f_{t}|⟩", true),
+           densityPanel(engines, "coordination", {}, "contacts per disk", false)})};
+  std::erase_if(figures, [](const Figure& figure) { return figure.panels.empty(); });
+  return figures;
+}
+
+std::vector<Picture> comparePictures(const CompareResults& results) {
+  std::vector<Picture> origins, forces;
+  std::optional<double> widest;  // of the first that has forces, for all
+  double halfWidth = 0.0;
+  for (const EngineRuns& engine : engineRuns(results)) {
+    const ScenePicture* picture = firstPicture(engine);
+    if (!picture || picture->x.empty()) continue;
+    const std::string word = fmt::format("{}_{}", origins.size() + 1, fileWord(engine.name));
+    const bool inSpace = results.region && !results.region->z.empty();
+    origins.push_back(
+        {"origins_" + word, engine.name,
+         engine.name + (inSpace ? ": spheres cut along x and z, coloured by where they started"
+                                : ": disks coloured by where they started"),
+         "", Picture::Shows::origins,
+         originsDrawing(*picture, results.cell.innerRadius,
+                        results.region ? results.region->diameter : results.cell.diameter)});
+    halfWidth = std::max(halfWidth, origins.back().drawing.halfWidth);
+    const auto own = widestForce(*picture);
+    if (!own) continue;
+    if (!widest) widest = own;
+    forces.push_back({"forces_" + word, engine.name, engine.name + ": forces between disks",
+                      forceWords(countForces(*picture, *widest), *widest), Picture::Shows::forces,
+                      forcesDrawing(*picture, *widest, 0.75)});
+  }
+  std::ranges::move(forces, std::back_inserter(origins));
+  for (Picture& picture : origins) picture.drawing.halfWidth = halfWidth;
+  return origins;
 }
 
 }  // namespace crossgrain::reports

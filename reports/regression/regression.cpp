@@ -4,11 +4,8 @@
 
 #include <algorithm>
 
-#include "reports/common/labels.hpp"
-#include "reports/common/numbers.hpp"
-#include "reports/common/sentences.hpp"
 #include "reports/flow/endpoint_text.hpp"
-#include "reports/flow/overview.hpp"
+#include "reports/flow/report.hpp"
 #include "reports/lockstep/report.hpp"
 #include "results/json_fields.hpp"
 
@@ -58,8 +55,7 @@ std::string collisionsText(const DiffRow& row) {
   for (std::size_t k = 0; k < std::min(row.collisions.size(), mostQuantities); ++k) {
     const CollisionChange& change = row.collisions[k];
     text += fmt::format(
-        "    {:<24} {} of {} changed, most by {} ({} of the largest) at psi_i {}, "
-        "v_n {} m/s{}\n",
+        "    {:<24} {} of {} changed, most by {} ({} of the largest) at psi_i {}, v_n {} m/s{}\n",
         change.quantity, change.changed, change.points, readable(change.largest),
         percentText(change.relative), readable(change.psi), readable(change.vn),
         change.variant.empty() ? "" : ", " + change.variant);

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "results/overview.hpp"
+#include "reports/common/overview.hpp"
 #include "results/regression.hpp"
 
 /// What diff and replay found, for the command line.

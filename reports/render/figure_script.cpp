@@ -182,8 +182,8 @@ std::string rowNames(const Panel& panel, bool shown) {
   for (std::size_t k = 0; k < panel.rows.size(); ++k)
     places += fmt::format("{}{} {}", k == 0 ? "" : ",", quoted(shown ? panel.rows[k] : ""), k);
   return fmt::format(
-      "set ytics noenhanced ({})\n  set yrange [{}:-0.5]\n  set yzeroaxis lc rgb "
-      "'#444444' lw 1 dt solid",
+      "set ytics noenhanced ({})\n  set yrange [{}:-0.5]\n  set yzeroaxis lc rgb '#444444' lw 1 dt "
+      "solid",
       places, static_cast<double>(panel.rows.size()) - 0.5);
 }
 
@@ -240,8 +240,8 @@ std::string panelScript(const std::string& data, std::size_t firstBlock, const P
                         bool firstInLine) {
   const auto range = yRange(panel);
   std::string script = fmt::format(
-      "  set title {}\n  set xlabel {}\n  set ylabel {}\n  {}\n  {} logscale x\n  {} logscale y\n"
-      "  {}\n  {}\n  set xrange {}\n  set yrange {}\n",
+      "  set title {}\n  set xlabel {}\n  set ylabel {}\n  {}\n  {} logscale x\n  {} logscale y\n  "
+      "{}\n  {}\n  set xrange {}\n  set yrange {}\n",
       panel.name.empty() ? quoted(panel.title) : quoted(panel.name) + " noenhanced",
       quoted(panel.xLabel), quoted(panel.yLabel), keyText(panel.key), panel.logX ? "set" : "unset",
       panel.logY ? "set" : "unset", ticks('x', panel.xTicks, panel.logX),
@@ -298,13 +298,11 @@ std::string keyAbove(const Figure& figure) {
   if (entries.empty()) return {};
   return fmt::format(
       "  unset border\n  set tics scale 0\n  set format ''\n  unset grid\n  unset object\n  unset "
-      "arrow\n"
-      "  unset title\n  unset xlabel\n  unset ylabel\n  unset logscale\n"
-      "  set lmargin at screen 0.02\n  set rmargin at screen 0.98\n"
-      "  set bmargin at screen 0.998\n  set tmargin at screen 0.999\n"
-      "  set key at screen 0.5, screen 0.99 center top horizontal samplen 2 spacing 1.1\n"
-      "  plot [0:1][0:1] {}\n  unset lmargin\n  unset rmargin\n  unset tmargin\n"
-      "  set bmargin {}\n{}",
+      "arrow\n  unset title\n  unset xlabel\n  unset ylabel\n  unset logscale\n  set lmargin at "
+      "screen 0.02\n  set rmargin at screen 0.98\n  set bmargin at screen 0.998\n  set tmargin at "
+      "screen 0.999\n  set key at screen 0.5, screen 0.99 center top horizontal samplen 2 spacing "
+      "1.1\n  plot [0:1][0:1] {}\n  unset lmargin\n  unset rmargin\n  unset tmargin\n  set bmargin "
+      "{}\n{}",
       entries, bottomMargin(figure), frame);
 }
 
@@ -321,19 +319,15 @@ std::string terminals(const Figure& figure, std::size_t rows) {
   const int width = widthOf(figure);
   const int height = figure.panelHeight * static_cast<int>(rows);
   std::string script = fmt::format(
-      "  if (terminal eq 'svg') {{\n"
-      "    set terminal svg size {0},{1} font 'sans-serif,13' background rgb 'white'\n"
-      "    set output {2}\n  }}\n"
-      "  if (terminal eq 'pdfcairo') {{\n"
-      "    set terminal pdfcairo size {3}in,{4}in font 'sans-serif,10'\n"
-      "    set output {5}\n  }}\n",
+      "  if (terminal eq 'svg') {{\n    set terminal svg size {0},{1} font 'sans-serif,13' "
+      "background rgb 'white'\n    set output {2}\n  }}\n  if (terminal eq 'pdfcairo') {{\n    set "
+      "terminal pdfcairo size {3}in,{4}in font 'sans-serif,10'\n    set output {5}\n  }}\n",
       width, height, quoted(figure.name + ".svg"), width / 96.0, height / 96.0,
       quoted(figure.name + ".pdf"));
   if (figure.png)
     script += fmt::format(
-        "  if (terminal eq 'pngcairo') {{\n"
-        "    set terminal pngcairo size {},{} font 'sans-serif,10' fontscale 2 linewidth 2 "
-        "pointscale 2\n    set output {}\n  }}\n",
+        "  if (terminal eq 'pngcairo') {{\n    set terminal pngcairo size {},{} font "
+        "'sans-serif,10' fontscale 2 linewidth 2 pointscale 2\n    set output {}\n  }}\n",
         2 * width, 2 * height, quoted(figure.name + ".png"));
   return script;
 }
@@ -390,9 +384,9 @@ std::string writeFigure(const Figure& figure, const std::filesystem::path& dir) 
   for (std::size_t k = 0; figure.keyAbove && k < lines; ++k) room += "\\n";
   if (!room.empty()) room = fmt::format(" title \"{}\"", room);
   std::string script = fmt::format(
-      "# gnuplot {0}.gp\nreset\nset encoding utf8\nset bmargin {4}\nset datafile missing '?'\n{5}"
-      "do for [terminal in 'svg pdfcairo{1}'] {{\n"
-      "  if (strstrt(GPVAL_TERMINALS, ' ' . terminal . ' ') == 0) {{ continue }}\n{2}{3}",
+      "# gnuplot {0}.gp\nreset\nset encoding utf8\nset bmargin {4}\nset datafile missing "
+      "'?'\n{5}do for [terminal in 'svg pdfcairo{1}'] {{\n  if (strstrt(GPVAL_TERMINALS, ' ' . "
+      "terminal . ' ') == 0) {{ continue }}\n{2}{3}",
       figure.name, figure.png ? " pngcairo" : "", terminals(figure, rows),
       several ? fmt::format("  set multiplot layout {},{}{}\n", rows, columns, room) : "",
       bottomMargin(figure), frame);

@@ -9,10 +9,7 @@
 #include <set>
 
 #include "reports/common/engines.hpp"
-#include "reports/common/labels.hpp"
-#include "reports/common/numbers.hpp"
-#include "reports/common/overview.hpp"
-#include "reports/common/sentences.hpp"
+#include "reports/common/text.hpp"
 #include "support/files.hpp"
 
 namespace crossgrain::reports {

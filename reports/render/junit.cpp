@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "reports/common/labels.hpp"
+#include "reports/common/text.hpp"
 
 namespace crossgrain::reports {
 

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include "reports/common/overview.hpp"
 #include "reports/common/report.hpp"
-#include "reports/common/sentences.hpp"
+#include "reports/common/text.hpp"
 
 namespace crossgrain::reports {
 

@@ -7,8 +7,7 @@
 #include <map>
 #include <numbers>
 
-#include "reports/common/labels.hpp"
-#include "reports/common/numbers.hpp"
+#include "reports/common/text.hpp"
 #include "results/scene_picture.hpp"
 #include "support/files.hpp"
 

@@ -5,9 +5,7 @@
 
 #include "adapters/worker/json.hpp"
 #include "reports/common/engines.hpp"
-#include "reports/common/labels.hpp"
-#include "reports/common/numbers.hpp"
-#include "reports/common/overview.hpp"
+#include "reports/common/text.hpp"
 #include "reports/stability/report.hpp"
 #include "results/json_fields.hpp"
 #include "results/scene_picture.hpp"

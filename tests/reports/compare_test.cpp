@@ -9,10 +9,8 @@
 #include <random>
 
 #include "reports/common/engines.hpp"
-#include "reports/common/labels.hpp"
+#include "reports/common/text.hpp"
 #include "reports/flow/endpoint_text.hpp"
-#include "reports/flow/figures.hpp"
-#include "reports/flow/overview.hpp"
 #include "reports/flow/report.hpp"
 #include "results/json_fields.hpp"
 #include "tests/reports/report_text.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "reports/collide/report.hpp"
-#include "reports/common/csv_row.hpp"
+#include "reports/common/blocks.hpp"
 #include "tests/reports/report_text.hpp"
 #include "tests/reports/sample_results.hpp"
 

@@ -5,7 +5,6 @@
 
 #include "reports/common/engines.hpp"
 #include "reports/common/pictures.hpp"
-#include "reports/flow/figures.hpp"
 #include "reports/flow/report.hpp"
 #include "reports/render/gnuplot.hpp"
 #include "support/files.hpp"

@@ -1,9 +1,8 @@
-#include "reports/common/numbers.hpp"
+#include "support/numbers.hpp"
 
 #include <gtest/gtest.h>
 
-#include "reports/common/labels.hpp"
-#include "reports/common/sentences.hpp"
+#include "reports/common/text.hpp"
 #include "reports/render/html.hpp"
 
 namespace crossgrain::reports {

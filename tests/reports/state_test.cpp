@@ -1,8 +1,7 @@
-#include "reports/flow/engine_table.hpp"
+#include "reports/flow/report.hpp"
 
 #include <gtest/gtest.h>
 
-#include "reports/flow/report.hpp"
 #include "tests/reports/report_text.hpp"
 
 namespace crossgrain::reports {

@@ -6,8 +6,6 @@
 #include <sstream>
 
 #include "reports/effects/report.hpp"
-#include "reports/effects/variants.hpp"
-#include "reports/flow/overview.hpp"
 #include "reports/flow/report.hpp"
 #include "reports/stability/report.hpp"
 #include "tests/reports/report_text.hpp"

@@ -1,4 +1,4 @@
-#include "reports/common/sections.hpp"
+#include "reports/common/blocks.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,9 +8,6 @@
 #include <set>
 
 #include "adapters/worker/json.hpp"
-#include "reports/common/labels.hpp"
-#include "reports/common/numbers.hpp"
-#include "reports/common/sentences.hpp"
 #include "results/json_fields.hpp"
 #include "results/schema.hpp"
 
