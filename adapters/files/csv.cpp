@@ -56,73 +56,77 @@ Columns columnsOf(const TextFile& text, const Header& header, const ColumnOption
   return columns;
 }
 
-/// Rows up to the next time.
-class Csv : public TextParts {
- public:
-  Csv(Files files, std::shared_ptr<const ColumnOptions> columns, Content content,
-      std::optional<FileBox> box = {})
-      : TextParts(std::move(files)),
-        options_(std::move(columns)),
-        content_(content),
-        box_(std::move(box)) {}
-
- protected:
-  void begin(TextFile& text) override {
-    const Header header = headerOf(text);
-    columns_ = columnsOf(text, header, *options_);
-    separator_ = header.separator == '\t' ? ' ' : header.separator;  // as readRow() calls tabs
-    if (content_ == Content::contacts)
-      checkContactColumns(columns_, text);
-    else if (!columns_.has(Meaning::x) || !columns_.has(Meaning::y))
-      text.fail("the columns x and y are missing");
-    fromName_ = numberInName(text.path());
-    if (!alone() && !fromName_) fromName_ = 0;
-    if (!text.nextUncommented('#')) text.fail("there are no rows below the column names");
-    text.back();
-  }
-
-  Part read(TextFile& text) override {
-    Part part;
-    FileFrame& frame = part.frame;
-    frame.box = box_;
-    const bool timed = columns_.has(Meaning::time), stepped = columns_.has(Meaning::step);
-    if (content_ == Content::contacts) part.table.emplace();
-    bool first = true;
-    while (text.nextUncommented('#')) {
-      columns_.read(text, separator_);
-      const bool isNext =
-          !first && ((timed && columns_[Meaning::time] != *frame.time) ||
-                     (stepped && columns_[Meaning::step] != static_cast<double>(*frame.step)));
-      if (isNext) {
-        text.back();
-        break;
-      }
-      if (first && timed) frame.time = columns_[Meaning::time];
-      if (first && stepped) frame.step = wholeNumber(text, columns_[Meaning::step], "step");
-      first = false;
-      if (part.table)
-        addContact(*part.table, columns_, text);
-      else
-        addParticle(frame.particles, columns_, text);
-    }
-    if (!timed && !stepped) frame.step = fromName_;
-    frame.alone = !timed && !stepped && alone();
-    frame.where = text.path().string();
-    if (timed)
-      frame.where += fmt::format(", t = {}", *frame.time);
-    else if (!frame.alone)
-      frame.where += fmt::format(", step {}", *frame.step);
-    return part;
-  }
-
- private:
-  std::shared_ptr<const ColumnOptions> options_;
-  Content content_;
-  std::optional<FileBox> box_;
-  Columns columns_;
-  char separator_ = ',';
-  std::optional<std::int64_t> fromName_;
+/// A file's columns, and the step that its name says.
+struct Table {
+  Columns columns;
+  char separator = ',';
+  std::optional<std::int64_t> fromName;
 };
+
+/// @param alone  there is no other file
+Table tableOf(TextFile& text, const ColumnOptions& options, Content content, bool alone) {
+  const Header header = headerOf(text);
+  Table table{columnsOf(text, header, options),
+              header.separator == '\t' ? ' ' : header.separator,  // as readRow() calls tabs
+              numberInName(text.path())};
+  if (content == Content::contacts)
+    checkContactColumns(table.columns, text);
+  else if (!table.columns.has(Meaning::x) || !table.columns.has(Meaning::y))
+    text.fail("the columns x and y are missing");
+  if (!alone && !table.fromName) table.fromName = 0;
+  if (!text.nextUncommented('#')) text.fail("there are no rows below the column names");
+  text.back();
+  return table;
+}
+
+/// Rows up to the next time.
+Part readRows(TextFile& text, Table& table, Content content, bool alone) {
+  Columns& columns = table.columns;
+  Part part;
+  FileFrame& frame = part.frame;
+  const bool timed = columns.has(Meaning::time), stepped = columns.has(Meaning::step);
+  if (content == Content::contacts) part.table.emplace();
+  bool first = true;
+  while (text.nextUncommented('#')) {
+    columns.read(text, table.separator);
+    const bool isNext =
+        !first && ((timed && columns[Meaning::time] != *frame.time) ||
+                   (stepped && columns[Meaning::step] != static_cast<double>(*frame.step)));
+    if (isNext) {
+      text.back();
+      break;
+    }
+    if (first && timed) frame.time = columns[Meaning::time];
+    if (first && stepped) frame.step = wholeNumber(text, columns[Meaning::step], "step");
+    first = false;
+    if (part.table)
+      addContact(*part.table, columns, text);
+    else
+      addParticle(frame.particles, columns, text);
+  }
+  if (!timed && !stepped) frame.step = table.fromName;
+  frame.alone = !timed && !stepped && alone;
+  frame.where = text.path().string();
+  if (timed)
+    frame.where += fmt::format(", t = {}", *frame.time);
+  else if (!frame.alone)
+    frame.where += fmt::format(", step {}", *frame.step);
+  return part;
+}
+
+std::unique_ptr<PartReader> tables(Files files, std::shared_ptr<const ColumnOptions> options,
+                                   Content content, std::optional<FileBox> box = {}) {
+  const bool alone = files.size() == 1;
+  const auto table = std::make_shared<Table>();
+  return std::make_unique<TextParts>(
+      std::move(files),
+      [=](TextFile& text) {
+        Part part = readRows(text, *table, content, alone);
+        part.frame.box = box;
+        return part;
+      },
+      [=](TextFile& text) { *table = tableOf(text, *options, content, alone); });
+}
 
 }  // namespace
 
@@ -158,9 +162,9 @@ std::unique_ptr<FrameReader> openCsv(const Files& files, const FileOptions& opti
   const auto columns = std::make_shared<const ColumnOptions>(options.columns);
   std::vector<std::unique_ptr<PartReader>> contacts;
   for (Files& list : bySeries(filesOf(files, Content::contacts, contentOfCsv)))
-    contacts.push_back(std::make_unique<Csv>(std::move(list), columns, Content::contacts));
-  return joinParts(std::make_unique<Csv>(filesOf(files, Content::particles, contentOfCsv), columns,
-                                         Content::particles, options.box),
+    contacts.push_back(tables(std::move(list), columns, Content::contacts));
+  return joinParts(tables(filesOf(files, Content::particles, contentOfCsv), columns,
+                          Content::particles, options.box),
                    std::move(contacts), columns);
 }
 

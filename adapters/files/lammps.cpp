@@ -196,49 +196,39 @@ void addWall(ContactTable& table, const AtomColumns& atoms, std::size_t wall,
   contacts.point.push_back(point);
 }
 
-class Atoms : public TextParts {
- public:
-  Atoms(Files files, std::shared_ptr<const ColumnOptions> options, std::optional<FileBox> box)
-      : TextParts(std::move(files)), options_(std::move(options)), box_(std::move(box)) {}
-
- protected:
-  Part read(TextFile& text) override {
-    Head head = readHead(text, "ATOMS");
-    FileFrame& frame = head.part.frame;
-    if (frame.box && box_) takePeriods(*frame.box, *box_);
-    AtomColumns atoms = atomColumns(text, head.names, *options_);
-    Columns& columns = atoms.columns;
-    const auto isScaled = [&](int axis) {
-      return columns.has(following(Meaning::scaledX, axis)) &&
-             !columns.has(following(Meaning::x, axis));
-    };
-    if ((isScaled(0) || isScaled(1) || isScaled(2)) && !frame.box)
-      text.fail("xs, ys, zs are parts of the box: ITEM: BOX BOUNDS is missing");
-    frame.particles.scaled = isScaled(0) || isScaled(1) || isScaled(2);
-    if (!atoms.walls.empty()) {
-      head.part.table.emplace();
-      head.part.wallsAlone = true;
-    }
-    reserve(frame.particles, columns, head.rows);
-    for (std::size_t k = 0; k < head.rows; ++k) {
-      text.need("an atom");
-      columns.read(text, ' ');
-      for (int axis = 0; axis < 3; ++axis)
-        if (isScaled(axis))
-          columns[following(Meaning::x, axis)] =
-              frame.box->low[axis] + columns[following(Meaning::scaledX, axis)] *
-                                         (frame.box->high[axis] - frame.box->low[axis]);
-      addParticle(frame.particles, columns, text);
-      for (std::size_t wall = 0; wall < atoms.walls.size(); ++wall)
-        addWall(*head.part.table, atoms, wall, frame.particles, frame.box, text);
-    }
-    return std::move(head.part);
+/// @param ofCase  its box
+Part readAtoms(TextFile& text, const ColumnOptions& options, const std::optional<FileBox>& ofCase) {
+  Head head = readHead(text, "ATOMS");
+  FileFrame& frame = head.part.frame;
+  if (frame.box && ofCase) takePeriods(*frame.box, *ofCase);
+  AtomColumns atoms = atomColumns(text, head.names, options);
+  Columns& columns = atoms.columns;
+  const auto isScaled = [&](int axis) {
+    return columns.has(following(Meaning::scaledX, axis)) &&
+           !columns.has(following(Meaning::x, axis));
+  };
+  frame.particles.scaled = isScaled(0) || isScaled(1) || isScaled(2);
+  if (frame.particles.scaled && !frame.box)
+    text.fail("xs, ys, zs are parts of the box: ITEM: BOX BOUNDS is missing");
+  if (!atoms.walls.empty()) {
+    head.part.table.emplace();
+    head.part.wallsAlone = true;
   }
-
- private:
-  std::shared_ptr<const ColumnOptions> options_;
-  std::optional<FileBox> box_;  ///< of the case
-};
+  reserve(frame.particles, columns, head.rows);
+  for (std::size_t k = 0; k < head.rows; ++k) {
+    text.need("an atom");
+    columns.read(text, ' ');
+    for (int axis = 0; axis < 3; ++axis)
+      if (isScaled(axis))
+        columns[following(Meaning::x, axis)] =
+            frame.box->low[axis] + columns[following(Meaning::scaledX, axis)] *
+                                       (frame.box->high[axis] - frame.box->low[axis]);
+    addParticle(frame.particles, columns, text);
+    for (std::size_t wall = 0; wall < atoms.walls.size(); ++wall)
+      addWall(*head.part.table, atoms, wall, frame.particles, frame.box, text);
+  }
+  return std::move(head.part);
+}
 
 // ---- contacts ----
 
@@ -426,40 +416,30 @@ EntryColumns entryColumns(const TextFile& text, const std::vector<std::string>& 
   return found;
 }
 
-class Entries : public TextParts {
- public:
-  Entries(Files files, std::shared_ptr<const ColumnOptions> options)
-      : TextParts(std::move(files)), options_(std::move(options)) {}
-
- protected:
-  Part read(TextFile& text) override {
-    Head head = readHead(text, "ENTRIES");
-    EntryColumns entries = entryColumns(text, head.names, *options_);
-    Columns& columns = entries.columns;
-    ContactTable& table = head.part.table.emplace();
-    reserve(table, columns, head.rows);
-    for (std::size_t k = 0; k < head.rows; ++k) {
-      text.need("a contact");
-      columns.read(text, ' ');
-      const double one = columns[Meaning::first], other = columns[Meaning::second];
-      if (entries.guessed &&
-          (one != std::floor(one) || other != std::floor(other) || one < 0.0 || other < 0.0))
-        text.fail(
-            fmt::format("{} and {} should be the ids of two atoms; if the columns are others, say "
-                        "which: columns = c_p=property/local,patom1,patom2 …",
-                        one, other));
-      if (entries.walls) {
-        columns[Meaning::second] = -columns[Meaning::second] - 1.0;  // meshes count from 0
-        table.branch.push_back(columns.vector(Meaning::x) - columns.vector(Meaning::px));
-      }
-      addContact(table, columns, text);
+Part readEntries(TextFile& text, const ColumnOptions& options) {
+  Head head = readHead(text, "ENTRIES");
+  EntryColumns entries = entryColumns(text, head.names, options);
+  Columns& columns = entries.columns;
+  ContactTable& table = head.part.table.emplace();
+  reserve(table, columns, head.rows);
+  for (std::size_t k = 0; k < head.rows; ++k) {
+    text.need("a contact");
+    columns.read(text, ' ');
+    const double one = columns[Meaning::first], other = columns[Meaning::second];
+    if (entries.guessed &&
+        (one != std::floor(one) || other != std::floor(other) || one < 0.0 || other < 0.0))
+      text.fail(
+          fmt::format("{} and {} should be the ids of two atoms; if the columns are others, say "
+                      "which: columns = c_p=property/local,patom1,patom2 …",
+                      one, other));
+    if (entries.walls) {
+      columns[Meaning::second] = -columns[Meaning::second] - 1.0;  // meshes count from 0
+      table.branch.push_back(columns.vector(Meaning::x) - columns.vector(Meaning::px));
     }
-    return std::move(head.part);
+    addContact(table, columns, text);
   }
-
- private:
-  std::shared_ptr<const ColumnOptions> options_;
-};
+  return std::move(head.part);
+}
 
 }  // namespace
 
@@ -487,12 +467,14 @@ std::unique_ptr<FrameReader> openLammps(const Files& files, const FileOptions& o
   const auto columns = std::make_shared<const ColumnOptions>(options.columns);
   std::vector<std::unique_ptr<PartReader>> contacts;
   for (Files& dump : bySeries(filesOf(files, Content::contacts, contentOfLammps)))
-    contacts.push_back(std::make_unique<Entries>(std::move(dump), columns));
+    contacts.push_back(std::make_unique<TextParts>(
+        std::move(dump), [columns](TextFile& text) { return readEntries(text, *columns); }));
   // What is said of columns of contacts is no slip where there are only atoms.
   const auto checked = contacts.empty() ? nullptr : columns;
-  return joinParts(std::make_unique<Atoms>(filesOf(files, Content::particles, contentOfLammps),
-                                           columns, options.box),
-                   std::move(contacts), checked);
+  auto atoms = std::make_unique<TextParts>(
+      filesOf(files, Content::particles, contentOfLammps),
+      [columns, box = options.box](TextFile& text) { return readAtoms(text, *columns, box); });
+  return joinParts(std::move(atoms), std::move(contacts), checked);
 }
 
 }  // namespace crossgrain::files

@@ -26,90 +26,77 @@ const std::vector<Meaning> rowOfContact = {none, first,       second,          p
                                            none, normalForce, tangentialForce, nx, ny, nz, tx,
                                            ty,   tz};
 
-class Data : public TextParts {
- public:
-  using TextParts::TextParts;
+/// N t xmin ymin [zmin] xmax ymax [zmax]; rows.
+Part readData(TextFile& text) {
+  text.next();
+  const auto head = words(text.line());
+  if (head.size() != 8 && head.size() != 6)
+    text.fail(
+        fmt::format("a time begins with N t xmin ymin zmin xmax ymax zmax (in 2D: without z); "
+                    "here are {} words",
+                    head.size()));
+  const bool inSpace = head.size() == 8;
+  const int dimensions = inSpace ? 3 : 2;
+  Columns columns(inSpace ? rowInSpace : rowInPlane);
+  const std::size_t rows = text.rows(countOf(text, head[0], "N"), columns.count());
+  Part part;
+  FileFrame& frame = part.frame;
+  frame.time = numberOf(text, head[1], "t");
+  frame.where = fmt::format("{}, time {}", text.path().string(), *frame.time);
+  frame.box.emplace();
+  for (int k = 0; k < dimensions; ++k) {
+    frame.box->low[k] = numberOf(text, head[2 + k], "the box");
+    frame.box->high[k] = numberOf(text, head[2 + dimensions + k], "the box");
+  }
+  reserve(frame.particles, columns, rows);
+  for (std::size_t k = 0; k < rows; ++k) {
+    text.need("a particle");
+    columns.read(text, ' ');
+    if (!inSpace) columns[spinZ] = -columns[spinZ];
+    // Info may be anything that a user asked for.
+    if (columns[kind] != std::floor(columns[kind]) || std::abs(columns[kind]) > 0x1p31)
+      columns[kind] = 0.0;
+    addParticle(frame.particles, columns, text);
+  }
+  return part;
+}
 
- protected:
-  /// N t xmin ymin [zmin] xmax ymax [zmax]; rows.
-  Part read(TextFile& text) override {
-    text.next();
+/// "# t version", "# box", "# Rmin Rmax 0 0 0 0"; rows.
+Part readFStat(TextFile& text) {
+  Columns columns(rowOfContact);
+  Part part;
+  text.next();
+  for (int k = 0; k < 3; ++k) {
+    if (k > 0) text.need("the head of a time, three lines with # before them,");
     const auto head = words(text.line());
-    if (head.size() != 8 && head.size() != 6)
-      text.fail(
-          fmt::format("a time begins with N t xmin ymin zmin xmax ymax zmax (in 2D: without z); "
-                      "here are {} words",
-                      head.size()));
-    const bool inSpace = head.size() == 8;
-    const int dimensions = inSpace ? 3 : 2;
-    Columns columns(inSpace ? rowInSpace : rowInPlane);
-    const std::size_t rows = text.rows(countOf(text, head[0], "N"), columns.count());
-    Part part;
-    FileFrame& frame = part.frame;
-    frame.time = numberOf(text, head[1], "t");
-    frame.where = fmt::format("{}, time {}", text.path().string(), *frame.time);
-    frame.box.emplace();
-    for (int k = 0; k < dimensions; ++k) {
-      frame.box->low[k] = numberOf(text, head[2 + k], "the box");
-      frame.box->high[k] = numberOf(text, head[2 + dimensions + k], "the box");
-    }
-    reserve(frame.particles, columns, rows);
-    for (std::size_t k = 0; k < rows; ++k) {
-      text.need("a particle");
-      columns.read(text, ' ');
-      if (!inSpace) columns[spinZ] = -columns[spinZ];
-      // Info may be anything that a user asked for.
-      if (columns[kind] != std::floor(columns[kind]) || std::abs(columns[kind]) > 0x1p31)
-        columns[kind] = 0.0;
-      addParticle(frame.particles, columns, text);
-    }
-    return part;
+    if (head.front() != "#" || head.size() < 3)
+      text.fail("a time begins with three lines: # t 1, # box, # Rmin Rmax 0 0 0 0");
+    if (k == 0) part.frame.time = numberOf(text, head[1], "t");
   }
-};
-
-class FStat : public TextParts {
- public:
-  using TextParts::TextParts;
-
- protected:
-  /// "# t version", "# box", "# Rmin Rmax 0 0 0 0"; rows.
-  Part read(TextFile& text) override {
-    Columns columns(rowOfContact);
-    Part part;
-    text.next();
-    for (int k = 0; k < 3; ++k) {
-      if (k > 0) text.need("the head of a time, three lines with # before them,");
-      const auto head = words(text.line());
-      if (head.front() != "#" || head.size() < 3)
-        text.fail("a time begins with three lines: # t 1, # box, # Rmin Rmax 0 0 0 0");
-      if (k == 0) part.frame.time = numberOf(text, head[1], "t");
+  part.frame.where = fmt::format("{}, time {}", text.path().string(), *part.frame.time);
+  FileContacts& contacts = part.table.emplace().contacts;
+  while (text.next()) {
+    if (text.line()[text.line().find_first_not_of(" \t")] == '#') {
+      text.back();
+      break;
     }
-    part.frame.where = fmt::format("{}, time {}", text.path().string(), *part.frame.time);
-    ContactTable& table = part.table.emplace();
-    FileContacts& contacts = table.contacts;
-    while (text.next()) {
-      if (text.line()[text.line().find_first_not_of(" \t")] == '#') {
-        text.back();
-        break;
-      }
-      columns.read(text, ' ');
-      const std::int64_t i = wholeNumber(text, columns[first], "i");
-      const std::int64_t j = wholeNumber(text, columns[second], "j");
-      if (i < 0) text.fail("i should be a row of .data, from 0");
-      contacts.first.push_back(i);
-      contacts.second.push_back(j);
-      // "the flip in normal/tangential direction for walls should not be done; this is an old bug"
-      // (BaseInteraction.cc): of walls both point the other way.
-      const double sign = j < 0 ? -1.0 : 1.0;
-      const Vec3 normal = sign * columns.vector(nx), tangent = sign * columns.vector(tx);
-      contacts.normal.push_back(normal);
-      contacts.force.push_back(columns[normalForce] * normal + columns[tangentialForce] * tangent);
-      contacts.point.push_back(columns.vector(px));
-      contacts.overlap.push_back(columns[overlap]);
-    }
-    return part;
+    columns.read(text, ' ');
+    const std::int64_t i = wholeNumber(text, columns[first], "i");
+    const std::int64_t j = wholeNumber(text, columns[second], "j");
+    if (i < 0) text.fail("i should be a row of .data, from 0");
+    contacts.first.push_back(i);
+    contacts.second.push_back(j);
+    // "the flip in normal/tangential direction for walls should not be done; this is an old bug"
+    // (BaseInteraction.cc): of walls both point the other way.
+    const double sign = j < 0 ? -1.0 : 1.0;
+    const Vec3 normal = sign * columns.vector(nx), tangent = sign * columns.vector(tx);
+    contacts.normal.push_back(normal);
+    contacts.force.push_back(columns[normalForce] * normal + columns[tangentialForce] * tangent);
+    contacts.point.push_back(columns.vector(px));
+    contacts.overlap.push_back(columns[overlap]);
   }
-};
+  return part;
+}
 
 /// Of a contact with a ghost, the particle that is there in the box's nearest image: its centre is
 /// R − δ/2 behind the point.
@@ -186,8 +173,9 @@ std::unique_ptr<FrameReader> openMercuryDpm(const Files& files, const FileOption
   if (!options.columns.empty()) throw BadInput("columns: those of .data and .fstat are fixed");
   std::vector<std::unique_ptr<PartReader>> contacts;
   if (Files fstat = filesOf(files, Content::contacts, contentOfMercuryDpm); !fstat.empty())
-    contacts.push_back(std::make_unique<FStat>(std::move(fstat)));
-  return joinParts(std::make_unique<Data>(filesOf(files, Content::particles, contentOfMercuryDpm)),
+    contacts.push_back(std::make_unique<TextParts>(std::move(fstat), readFStat));
+  return joinParts(std::make_unique<TextParts>(
+                       filesOf(files, Content::particles, contentOfMercuryDpm), readData),
                    std::move(contacts), nullptr,
                    [box = options.box](ContactTable& table, FileFrame& frame) {
                      resolveGhosts(table, frame, box);

@@ -194,8 +194,12 @@ class Joined : public FrameReader {
 
 }  // namespace
 
-TextParts::TextParts(std::vector<fs::path> files)
-    : files_(std::move(files)), bytes_(sizeOf(files_)) {}
+TextParts::TextParts(std::vector<fs::path> files, std::function<Part(TextFile&)> read,
+                     std::function<void(TextFile&)> begin)
+    : files_(std::move(files)),
+      read_(std::move(read)),
+      begin_(std::move(begin)),
+      bytes_(sizeOf(files_)) {}
 
 std::optional<Part> TextParts::next() {
   for (;;) {
@@ -204,11 +208,11 @@ std::optional<Part> TextParts::next() {
       text_.emplace(files_[at_++]);
       if (!text_->next()) throw BadInput(fmt::format("{}: is empty", text_->path().string()));
       text_->back();
-      begin(*text_);
+      begin_(*text_);
     }
     if (text_->next()) {
       text_->back();
-      return read(*text_);
+      return read_(*text_);
     }
     before_ += text_->fileSize();
     text_.reset();

@@ -31,21 +31,20 @@ class PartReader {
 /// Text files with any number of times each.
 class TextParts : public PartReader {
  public:
-  explicit TextParts(std::vector<std::filesystem::path> files);
+  /// @param read   the next time of a file that has something left; the text is before its first
+  ///               line
+  /// @param begin  what is done with each file before
+  TextParts(
+      std::vector<std::filesystem::path> files, std::function<Part(TextFile&)> read,
+      std::function<void(TextFile&)> begin = [](TextFile&) {});
   std::optional<Part> next() override;
   std::size_t bytesRead() const override { return before_ + (text_ ? text_->bytesRead() : 0); }
   std::size_t bytes() const override { return bytes_; }
 
- protected:
-  /// The next time of a file that has something left. `text` is before its first line.
-  virtual Part read(TextFile& text) = 0;
-  /// A file is begun.
-  virtual void begin(TextFile&) {}
-  /// Whether there is no other file.
-  bool alone() const { return files_.size() == 1; }
-
  private:
   std::vector<std::filesystem::path> files_;
+  std::function<Part(TextFile&)> read_;
+  std::function<void(TextFile&)> begin_;
   std::size_t at_ = 0, before_ = 0, bytes_ = 0;
   std::optional<TextFile> text_;
 };

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -28,6 +30,16 @@ struct VtkData {
   std::vector<std::pair<std::size_t, std::size_t>> lines;  ///< their points
   std::vector<VtkArray> pointArrays, lineArrays;
 };
+
+/// A type of numbers, by its name in XML and in the older format.
+struct VtkType {
+  std::string_view name, before;
+  std::size_t size;  ///< [bytes]
+  /// @param swapped  their bytes are in the other order than this machine's
+  std::vector<double> (*read)(std::span<const std::byte> bytes, bool swapped);
+};
+/// Null: no number that is read.
+const VtkType* vtkTypeOf(std::string_view VtkType::*named, std::string_view name);
 
 /// .vtu and .vtp, or an index of them, .pvtu and .pvtp, without ghosts: numbers in text, in base64,
 /// or appended, raw or in base64, packed by zlib or not.

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 
 #include "adapters/files/text_file.hpp"
@@ -57,40 +56,14 @@ class Words {
   std::size_t at_ = 0;
 };
 
-template <typename T>
-std::vector<double> bigEndian(TextFile& text, std::size_t count) {
+/// So many numbers of a type of VTK's, in binary, the highest byte first.
+std::vector<double> binaryNumbers(TextFile& text, std::string_view name, std::size_t count) {
+  const VtkType* const type = vtkTypeOf(&VtkType::before, name);
+  if (!type) text.fail(fmt::format("{} is no type of number that is read in binary", name));
   if (count > text.size()) text.fail(fmt::format("{} numbers are announced", count));
-  std::vector<std::byte> bytes(sizeof(T) * count);
+  std::vector<std::byte> bytes(type->size * count);
   text.take(bytes);
-  std::vector<double> values(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    std::array<std::byte, sizeof(T)> one;
-    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(k * sizeof(T)), sizeof(T), one.begin());
-    if (std::endian::native == std::endian::little) std::ranges::reverse(one);
-    values[k] = static_cast<double>(std::bit_cast<T>(one));
-  }
-  return values;
-}
-
-/// So many numbers of a type of VTK's, in binary.
-std::vector<double> binaryNumbers(TextFile& text, std::string_view type, std::size_t count) {
-  using Read = std::vector<double> (*)(TextFile&, std::size_t);
-  static constexpr std::pair<std::string_view, Read> types[] = {
-      {"double", bigEndian<double>},
-      {"float", bigEndian<float>},
-      {"int", bigEndian<std::int32_t>},
-      {"vtkIdType", bigEndian<std::int32_t>},
-      {"unsigned_int", bigEndian<std::uint32_t>},
-      {"long", bigEndian<std::int64_t>},
-      {"vtktypeint64", bigEndian<std::int64_t>},
-      {"unsigned_long", bigEndian<std::uint64_t>},
-      {"short", bigEndian<std::int16_t>},
-      {"unsigned_short", bigEndian<std::uint16_t>},
-      {"char", bigEndian<std::int8_t>},
-      {"unsigned_char", bigEndian<std::uint8_t>}};
-  for (const auto& [name, read] : types)
-    if (name == type) return read(text, count);
-  text.fail(fmt::format("{} is no type of number that is read in binary", type));
+  return type->read(bytes, std::endian::native == std::endian::little);
 }
 
 VtkArray readArray(Words& in, std::string name, std::size_t components, std::size_t rows,

@@ -57,7 +57,6 @@ class XmlFile {
     std::string_view name, text;
     bool base64 = false;
   };
-  struct Type;
 
   VtkData piece(const pugi::xml_node& piece, bool isPolyData) const;
   void add(VtkData& all, VtkData next) const;
@@ -68,8 +67,6 @@ class XmlFile {
   Bytes packedBytes(const Source& source, std::uint64_t expected) const;
   Bytes take(const Source& source, std::size_t from, std::size_t count) const;
   std::uint64_t header(const Bytes& bytes, std::size_t k) const;
-  template <typename T>
-  std::vector<double> numbers(const Bytes& bytes) const;
   std::vector<double> numbersIn(std::string_view name, std::string_view text) const;
   std::size_t countOf(const pugi::xml_node& node, const char* name) const;
 
@@ -223,18 +220,6 @@ Bytes XmlFile::packedBytes(const Source& source, std::uint64_t expected) const {
   return out;
 }
 
-template <typename T>
-std::vector<double> XmlFile::numbers(const Bytes& bytes) const {
-  std::vector<double> values(bytes.size() / sizeof(T));
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    std::array<unsigned char, sizeof(T)> raw;
-    std::memcpy(raw.data(), bytes.data() + k * sizeof(T), sizeof(T));
-    if (swapped_) std::ranges::reverse(raw);
-    values[k] = static_cast<double>(std::bit_cast<T>(raw));
-  }
-  return values;
-}
-
 std::vector<double> XmlFile::numbersIn(std::string_view name, std::string_view text) const {
   std::vector<double> values;
   constexpr const char* blanks = " \t\r\n";
@@ -249,19 +234,6 @@ std::vector<double> XmlFile::numbersIn(std::string_view name, std::string_view t
   }
   return values;
 }
-
-/// VTK's types of numbers.
-struct XmlFile::Type {
-  std::string_view name;
-  std::size_t size;  ///< [bytes]
-  std::vector<double> (*read)(const XmlFile& file, const Bytes& bytes);
-
-  template <typename T>
-  static constexpr Type of(std::string_view name) {
-    return {name, sizeof(T),
-            [](const XmlFile& file, const Bytes& bytes) { return file.numbers<T>(bytes); }};
-  }
-};
 
 /// @param rows  that it should have
 VtkArray XmlFile::array(const pugi::xml_node& node, std::size_t rows) const {
@@ -289,17 +261,10 @@ VtkArray XmlFile::array(const pugi::xml_node& node, std::size_t rows) const {
       fail(
           fmt::format("{}: format \"{}\" should be ascii, binary or appended", found.name, format));
     }
-    static constexpr Type types[] = {
-        Type::of<double>("Float64"),     Type::of<float>("Float32"),
-        Type::of<std::int64_t>("Int64"), Type::of<std::uint64_t>("UInt64"),
-        Type::of<std::int32_t>("Int32"), Type::of<std::uint32_t>("UInt32"),
-        Type::of<std::int16_t>("Int16"), Type::of<std::uint16_t>("UInt16"),
-        Type::of<std::int8_t>("Int8"),   Type::of<std::uint8_t>("UInt8")};
-    const auto* const known =
-        std::ranges::find(types, type, [](const auto& one) { return one.name; });
-    if (known == std::end(types))
-      fail(fmt::format("{}: type \"{}\" is no number that is read", found.name, type));
-    found.values = known->read(*this, bytes(source, known->size * rows * found.components));
+    const VtkType* const known = vtkTypeOf(&VtkType::name, type);
+    if (!known) fail(fmt::format("{}: type \"{}\" is no number that is read", found.name, type));
+    const Bytes raw = bytes(source, known->size * rows * found.components);
+    found.values = known->read(std::as_bytes(std::span(raw)), swapped_);
   }
   if (found.values.size() % found.components != 0 || found.rows() != rows)
     fail(fmt::format(
@@ -437,6 +402,41 @@ std::vector<fs::path> piecesOfVtk(const fs::path& file) {
 
 VtkData readVtkXml(const fs::path& file) {
   return XmlFile(file).data();
+}
+
+namespace {
+
+template <typename T>
+constexpr VtkType vtkType(std::string_view name, std::string_view before) {
+  return {name, before, sizeof(T), [](std::span<const std::byte> bytes, bool swapped) {
+            std::vector<double> values(bytes.size() / sizeof(T));
+            for (std::size_t k = 0; k < values.size(); ++k) {
+              std::array<std::byte, sizeof(T)> raw;
+              std::ranges::copy(bytes.subspan(k * sizeof(T), sizeof(T)), raw.begin());
+              if (swapped) std::ranges::reverse(raw);
+              values[k] = static_cast<double>(std::bit_cast<T>(raw));
+            }
+            return values;
+          }};
+}
+
+}  // namespace
+
+const VtkType* vtkTypeOf(std::string_view VtkType::*named, std::string_view name) {
+  static constexpr VtkType types[] = {vtkType<double>("Float64", "double"),
+                                      vtkType<float>("Float32", "float"),
+                                      vtkType<std::int64_t>("Int64", "long"),
+                                      vtkType<std::int64_t>("Int64", "vtktypeint64"),
+                                      vtkType<std::uint64_t>("UInt64", "unsigned_long"),
+                                      vtkType<std::int32_t>("Int32", "int"),
+                                      vtkType<std::int32_t>("Int32", "vtkIdType"),
+                                      vtkType<std::uint32_t>("UInt32", "unsigned_int"),
+                                      vtkType<std::int16_t>("Int16", "short"),
+                                      vtkType<std::uint16_t>("UInt16", "unsigned_short"),
+                                      vtkType<std::int8_t>("Int8", "char"),
+                                      vtkType<std::uint8_t>("UInt8", "unsigned_char")};
+  const auto* const known = std::ranges::find(types, name, named);
+  return known == std::end(types) ? nullptr : known;
 }
 
 void addLine(VtkData& data, const std::string& where, double from, double to) {

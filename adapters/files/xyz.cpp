@@ -100,64 +100,49 @@ std::optional<FileBox> boxOf(const TextFile& text, const Keys& keys) {
   return box;
 }
 
-class Xyz : public TextParts {
- public:
-  Xyz(Files files, std::shared_ptr<const ColumnOptions> options, std::optional<FileBox> box)
-      : TextParts(std::move(files)), options_(std::move(options)), box_(std::move(box)) {}
+/// @param alone  there is no other file
+void addTime(const TextFile& text, const Keys& keys, bool alone, FileFrame& frame) {
+  for (const char* const name : {"time", "t"})
+    if (const auto found = keys.find(name); found != keys.end() && !frame.time)
+      frame.time = numberOf(text, found->second, name);
+  for (const char* const name : {"timestep", "step", "frame"})
+    if (const auto found = keys.find(name); found != keys.end() && !frame.step)
+      frame.step = wholeNumber(text, numberOf(text, found->second, name), name);
+  if (frame.time)
+    frame.where += fmt::format(", t = {}", *frame.time);
+  else if (frame.step)
+    frame.where += fmt::format(", step {}", *frame.step);
+  if (frame.time || frame.step) return;
+  frame.step = numberInName(text.path());
+  frame.alone = alone;
+  if (!frame.step && !frame.alone)
+    text.fail("there is neither Time= nor Timestep= beside Properties=, and no number in the name");
+}
 
- protected:
-  void begin(TextFile& text) override { fromName_ = numberInName(text.path()); }
-
-  Part read(TextFile& text) override {
-    Part part;
-    FileFrame& frame = part.frame;
-    const std::string_view first = text.need("the number of particles");
-    const std::int64_t claimed =
-        wholeNumber(text, numberOf(text, first, "the number of particles"), "their number");
-    if (claimed < 0) text.fail("the number of particles should be 0 or more");
-    const Keys keys = keysOf(text.need("the line of Properties=…"));
-    const auto said = keys.find("properties");
-    if (said == keys.end())
-      text.fail("Properties= is missing: it says what the columns are (extended XYZ)");
-    Columns columns = columnsOf(text, said->second, *options_);
-    frame.where = text.path().string();
-    addTime(text, keys, frame);
-    frame.box = box_;
-    if (auto own = boxOf(text, keys)) frame.box = own;
-    const std::size_t rows = text.rows(claimed, columns.count());
-    reserve(frame.particles, columns, rows);
-    for (std::size_t k = 0; k < rows; ++k) {
-      text.need("a particle");
-      columns.read(text, ' ');
-      addParticle(frame.particles, columns, text);
-    }
-    return part;
+Part readTime(TextFile& text, const ColumnOptions& options, bool alone) {
+  Part part;
+  FileFrame& frame = part.frame;
+  const std::string_view first = text.need("the number of particles");
+  const std::int64_t claimed =
+      wholeNumber(text, numberOf(text, first, "the number of particles"), "their number");
+  if (claimed < 0) text.fail("the number of particles should be 0 or more");
+  const Keys keys = keysOf(text.need("the line of Properties=…"));
+  const auto said = keys.find("properties");
+  if (said == keys.end())
+    text.fail("Properties= is missing: it says what the columns are (extended XYZ)");
+  Columns columns = columnsOf(text, said->second, options);
+  frame.where = text.path().string();
+  addTime(text, keys, alone, frame);
+  frame.box = boxOf(text, keys);
+  const std::size_t rows = text.rows(claimed, columns.count());
+  reserve(frame.particles, columns, rows);
+  for (std::size_t k = 0; k < rows; ++k) {
+    text.need("a particle");
+    columns.read(text, ' ');
+    addParticle(frame.particles, columns, text);
   }
-
- private:
-  void addTime(const TextFile& text, const Keys& keys, FileFrame& frame) const {
-    for (const char* const name : {"time", "t"})
-      if (const auto found = keys.find(name); found != keys.end() && !frame.time)
-        frame.time = numberOf(text, found->second, name);
-    for (const char* const name : {"timestep", "step", "frame"})
-      if (const auto found = keys.find(name); found != keys.end() && !frame.step)
-        frame.step = wholeNumber(text, numberOf(text, found->second, name), name);
-    if (frame.time)
-      frame.where += fmt::format(", t = {}", *frame.time);
-    else if (frame.step)
-      frame.where += fmt::format(", step {}", *frame.step);
-    if (frame.time || frame.step) return;
-    frame.step = fromName_;
-    frame.alone = alone();
-    if (!frame.step && !frame.alone)
-      text.fail(
-          "there is neither Time= nor Timestep= beside Properties=, and no number in the name");
-  }
-
-  std::shared_ptr<const ColumnOptions> options_;
-  std::optional<FileBox> box_;  ///< of the case
-  std::optional<std::int64_t> fromName_;
-};
+  return part;
+}
 
 }  // namespace
 
@@ -173,7 +158,12 @@ double firstTimeOfXyz(const std::filesystem::path& file) {
 
 std::unique_ptr<FrameReader> openXyz(const Files& files, const FileOptions& options) {
   const auto columns = std::make_shared<const ColumnOptions>(options.columns);
-  return joinParts(std::make_unique<Xyz>(files, columns, options.box), {}, columns);
+  auto times = [columns, box = options.box, alone = files.size() == 1](TextFile& text) {
+    Part part = readTime(text, *columns, alone);
+    if (!part.frame.box) part.frame.box = box;
+    return part;
+  };
+  return joinParts(std::make_unique<TextParts>(files, std::move(times)), {}, columns);
 }
 
 }  // namespace crossgrain::files
