@@ -65,7 +65,7 @@ int keep(const CommandLine& line, const KeepOptions& own) {
 
 int diff(const CommandLine& line, const std::string& file) {
   const DiffResults results = diffAgainst(file, line.overrides, line.run);
-  const Overview overview = reports::diffOverview(results);
+  const reports::Overview overview = reports::diffOverview(results);
   if (line.json) {
     nlohmann::json document = toJson(results);
     document["overview"] = jsonOf(overview);

@@ -8,7 +8,7 @@ namespace crossgrain::inline cli {
 extern const Command enginesCommand, listCommand, checkCommand, collideCommand, conformanceCommand,
     lockstepCommand, identifyCommand, baselineCommand, diffCommand, recordCommand, replayCommand,
     compareCommand, effectsCommand, stabilityCommand, costCommand, averageCommand, importCommand,
-    exportCommand, calibrateCommand, reportCommand, planCommand, helpCommand, serveCommand;
+    exportCommand, calibrateCommand, reportCommand, helpCommand, serveCommand;
 
 const std::vector<const Command*>& commands() {
   static const std::vector<const Command*> table = {
@@ -16,7 +16,7 @@ const std::vector<const Command*>& commands() {
       &lockstepCommand, &identifyCommand, &baselineCommand, &diffCommand,      &recordCommand,
       &replayCommand,   &compareCommand,  &effectsCommand,  &stabilityCommand, &costCommand,
       &importCommand,   &averageCommand,  &exportCommand,   &calibrateCommand, &reportCommand,
-      &planCommand,     &helpCommand,     &serveCommand};
+      &helpCommand,     &serveCommand};
   return table;
 }
 

@@ -96,11 +96,6 @@ void addArgument(CLI::App& app, const std::string& name, std::string& text, cons
   app.add_option(name, text, what)->type_name(type)->required();
 }
 
-void addTexts(CLI::App& app, const std::string& name, std::vector<std::string>& texts,
-              const std::string& what, const std::string& type) {
-  app.add_option(name, texts, what)->type_name(type)->allow_extra_args(false);
-}
-
 void addInputs(CLI::App& app, CommandLine& line, const std::string& name, const std::string& what,
                int least, int most) {
   CLI::Option* inputs = app.add_option(name, line.inputs, what)->type_name("FILE");
@@ -141,8 +136,9 @@ void addEngines(CLI::App& app, CommandLine& line, const char* usual) {
 }
 
 void addOverrides(CLI::App& app, CommandLine& line) {
-  addTexts(app, "--set", line.overrides, "change a key of the case, e.g. averaging.rings=40",
-           "KEY=VALUE");
+  app.add_option("--set", line.overrides, "change a key of the case, e.g. averaging.rings=40")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
 }
 
 void addCase(CLI::App& app, CommandLine& line, const std::string& what) {
@@ -197,8 +193,24 @@ void addResults(CLI::App& app, CommandLine& line) {
   app.add_flag("--json", line.json, "print only the path of results.json, for scripts");
 }
 
+/// "2/4". @throws BadInput
+Shard shardOf(const std::string& text) {
+  const auto slash = text.find('/');
+  const auto number = [](const std::string& digits) {
+    const bool plain = !digits.empty() && digits.size() < 6 &&
+                       digits.find_first_not_of("0123456789") == std::string::npos;
+    return plain ? std::stoi(digits) : 0;
+  };
+  const Shard shard = {slash == std::string::npos ? 0 : number(text.substr(0, slash)),
+                       slash == std::string::npos ? 0 : number(text.substr(slash + 1))};
+  if (shard.number < 1 || shard.number > shard.of)
+    throw BadInput(
+        fmt::format("--shard {}: must be K/N with whole numbers 1 <= K <= N, like 2/4", text));
+  return shard;
+}
+
 /// Of all commands that run engines. @param jobs  not of a command that times one engine at a time
-void addRun(CLI::App& app, CommandLine& line, bool jobs) {
+void addRun(CLI::App& app, CommandLine& line, bool jobs, bool shards) {
   addEngines(app, line);
   addResults(app, line);
   addQuiet(app, line);
@@ -211,6 +223,13 @@ void addRun(CLI::App& app, CommandLine& line, bool jobs) {
   app.add_option("--jobs", line.run.jobs, "engines side by side (default: one per core)")
       ->type_name("N")
       ->check(wholeNumber(1, mostJobs));
+  if (!shards) return;
+  app.add_option_function<std::string>(
+         "--shard", [&line](const std::string& text) { line.run.shard = shardOf(text); },
+         "one of N processes, here or on other machines, that share --out: each runs what no other "
+         "has begun, the first one writes the results")
+      ->type_name("K/N")
+      ->excludes("--fresh");
 }
 
 }  // namespace
@@ -225,7 +244,7 @@ void addStudy(CLI::App& app, CommandLine& line, const SharedOptions& takes,
   if (takes.input == Input::oneCase) addCase(app, line, takes.inputIs);
   if (takes.input == Input::anyCases) addInputs(app, line, "case", takes.inputIs, 0, anyNumber);
   if (takes.selection) addSelection(app, line);
-  if (takes.engines) addRun(app, line, takes.jobs);
+  if (takes.engines) addRun(app, line, takes.jobs, takes.shards);
   if (takes.packings) addPackings(app, line);
   for (const StudyOption& option : own) {
     if (auto* const* flag = std::get_if<bool*>(&option.value))

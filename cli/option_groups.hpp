@@ -21,10 +21,6 @@ void addNumber(CLI::App& app, const std::string& name, std::optional<double>& nu
 void addText(CLI::App& app, const std::string& name, std::optional<std::string>& text,
              const std::string& what, const std::string& type = "TEXT");
 
-/// An option that may stand several times.
-void addTexts(CLI::App& app, const std::string& name, std::vector<std::string>& texts,
-              const std::string& what, const std::string& type);
-
 /// An argument, or an option, that is required.
 void addArgument(CLI::App& app, const std::string& name, std::string& text, const std::string& what,
                  const std::string& type = "TEXT");

@@ -8,9 +8,9 @@
 #include <chrono>
 #include <cstdlib>
 
-#include "support/numbers.hpp"
 #include "reports/common/overview.hpp"
 #include "support/busy_time.hpp"
+#include "support/numbers.hpp"
 
 namespace crossgrain::inline cli {
 
@@ -22,9 +22,8 @@ void printTimeSpent() {
   const std::chrono::duration<double> all = std::chrono::steady_clock::now() - programBegan;
   const double stepping = steppingTime().seconds(), drawing = drawingTime().seconds();
   fmt::print(stderr, "{}: engines stepped for {} ({:.0f} %), plots took {} ({:.0f} %)\n",
-             reports::shortDuration(all.count()), reports::shortDuration(stepping),
-             100.0 * stepping / all.count(), reports::shortDuration(drawing),
-             100.0 * drawing / all.count());
+             shortDuration(all.count()), shortDuration(stepping), 100.0 * stepping / all.count(),
+             shortDuration(drawing), 100.0 * drawing / all.count());
 }
 
 /// Without the middle of what nobody reads: runs of digits, and of characters in all. Characters
@@ -54,8 +53,8 @@ void printFailure(const std::string& reason) {
   fmt::print(stderr, "crossgrain: {}\n", shortened(reason));
 }
 
-void printResults(const CommandLine& line, const std::string& text, const Overview& overview,
-                  bool timeSpent) {
+void printResults(const CommandLine& line, const std::string& text,
+                  const reports::Overview& overview, bool timeSpent) {
   if (line.json) {
     fmt::print("{}\n", (line.run.out / "results.json").string());
     return;
@@ -77,7 +76,7 @@ int printOutcome(const CommandLine& line, const Outcome& outcome) {
   return outcome.status;
 }
 
-void printOverview(const Overview& overview) {
+void printOverview(const reports::Overview& overview) {
   reports::TextLook look;
   if (::isatty(STDOUT_FILENO) == 1) {
     // https://no-color.org: set to anything but nothing, there are no colours.

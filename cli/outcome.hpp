@@ -11,15 +11,15 @@ namespace crossgrain::inline cli {
 void printFailure(const std::string& reason);
 
 /// The matrix that the report opens with: in colours on a terminal, unless NO_COLOR is set.
-void printOverview(const Overview& overview);
+void printOverview(const reports::Overview& overview);
 
 /// What stands on the terminal of results whose report has been written: the path of results.json
 /// alone (--json), or text, matrix and the report's path.
 /// @param timeSpent  and a line on standard error: how long the program has run, for how much of
 ///                   that engines stepped and plots were drawn. The rest are starts, files,
 ///                   averages
-void printResults(const CommandLine& line, const std::string& text, const Overview& overview,
-                  bool timeSpent);
+void printResults(const CommandLine& line, const std::string& text,
+                  const reports::Overview& overview, bool timeSpent);
 
 /// Failures on standard error; "nothing was judged: …" and "status 1: …", which says what makes it
 /// so, on standard output, or on standard error where that holds a path alone. @returns the status

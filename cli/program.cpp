@@ -170,6 +170,7 @@ std::string footer(const Command* command) {
 
 /// Commands of earlier versions, and where what they did is now.
 constexpr Named removedCommands[] = {
+    {"plan", "COMMAND … --shard K/N shares a command's runs among processes (docs/commands.md)"},
     {"scale", "cost CASE --disks N,N --threads P,P times steps as the scene grows and is shared"},
     {"thesis", "papers/laetzel-2003 judges the thesis' claims (README.md there)"}};
 

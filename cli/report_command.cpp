@@ -18,7 +18,6 @@
 #include "results/json_fields.hpp"
 #include "results/schema.hpp"
 #include "studies/core/run_store.hpp"
-#include "studies/plan/job_plan.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "support/folder_lock.hpp"
@@ -60,9 +59,6 @@ struct ReportOptions {
 
 int rebuildReports(const CommandLine& line, const ReportOptions& options) {
   for (const fs::path& folder : line.inputs) {
-    if (fs::exists(folder / planFile))
-      throw BadInput(
-          fmt::format("{}: holds a plan: --out says where its jobs are merged", folder.string()));
     const nlohmann::json results = readResults(folder);
     if (options.open) requireBrowser();
     const FolderLock lock(folder, "report");
@@ -71,28 +67,6 @@ int rebuildReports(const CommandLine& line, const ReportOptions& options) {
     if (options.open) openPage(folder / "report.html");
   }
   return exitPassed;
-}
-
-/// A plan's folder stands for those of its jobs, as far as they can be merged.
-/// @returns whether all is as planned; what is not is reported on standard error, a line each
-bool addFolders(const fs::path& input, std::vector<fs::path>& folders) {
-  if (!fs::exists(input / planFile)) {
-    folders.push_back(input);
-    return true;
-  }
-  bool asPlanned = true;
-  const std::size_t before = folders.size();
-  const std::vector<JobOutcome> outcomes = lookAtJobs(readPlan(input), input);
-  for (const JobOutcome& job : outcomes) {
-    if (!job.results.empty()) folders.push_back(job.results);
-    if (job.trouble.empty()) continue;
-    asPlanned = false;
-    fmt::print(stderr, "crossgrain: {}: {}\n", job.name, BadInput(job.trouble).what());
-  }
-  if (folders.size() == before)
-    throw BadInput(fmt::format("{}: none of its {} jobs has results that can be merged",
-                               input.string(), outcomes.size()));
-  return asPlanned;
 }
 
 /// Results made elsewhere are of the same case as those beside them that bear its name, or their
@@ -126,27 +100,20 @@ int makeSite(const CommandLine& line, const ReportOptions& options) {
         fmt::format("--out {}: holds results of its own; give a new folder, or that of "
                     "an earlier site",
                     site.string()));
-  bool asPlanned = true, ofPlan = false;  // whose jobs may differ in what it sweeps
-  std::vector<fs::path> folders;
-  for (const fs::path& input : line.inputs) {
-    asPlanned &= addFolders(input, folders);
-    ofPlan |= fs::exists(input / planFile);
-  }
   std::vector<SiteEntry> entries;
-  for (const fs::path& folder : folders) entries.push_back({folder, readResults(folder)});
-  compareCases(entries, options.changedCases || ofPlan);
+  for (const fs::path& folder : line.inputs) entries.push_back({folder, readResults(folder)});
+  compareCases(entries, options.changedCases);
   if (options.open) requireBrowser();
   makeDirectory(site);
   const FolderLock lock(site, "report");
   writeSite(entries, site);
   fmt::print("site: {}\n", (site / "index.html").string());
   if (options.open) openPage(site / "index.html");
-  return asPlanned ? exitPassed : exitFailed;
+  return exitPassed;
 }
 
 Action declareReport(CLI::App& app, CommandLine& line) {
-  addInputs(app, line, "folder", "folders with a results.json, or with a plan of jobs", 1,
-            anyNumber);
+  addInputs(app, line, "folder", "folders with a results.json", 1, anyNumber);
   const auto options = std::make_shared<ReportOptions>();
   addText(app, "--out", options->site,
           "folder for a site: a copy of each report, and an index.html that lists them "
@@ -166,8 +133,7 @@ extern const Command reportCommand = {
     "report", "rebuild reports from results.json, or make one site of several reports",
     "crossgrain report out/compare\n"
     "crossgrain report out/compare --open\n"
-    "crossgrain report out/compare out/collide --out out/site\n"
-    "crossgrain report jobs --out out/jobs                      # the jobs of a plan",
+    "crossgrain report out/compare out/collide --out out/site",
     declareReport};
 
 }  // namespace crossgrain::inline cli

@@ -65,7 +65,12 @@ int runStudy(const Study<Options, Results>& study, const CommandLine& line, Opti
   }
   const Results results = study.run(work, own);
   store.begin();
-  const Overview overview = writeReport(results, line.run.out).overview;
+  if (line.run.shard && !line.run.shard->writes()) {
+    fmt::print("shard {} of {}: all runs are finished; shard 1 writes the results into {}\n",
+               line.run.shard->number, line.run.shard->of, line.run.out.string());
+    return exitPassed;
+  }
+  const reports::Overview overview = writeReport(results, line.run.out).overview;
   const std::string paste = terminal.paste && !line.json ? terminal.paste(results) : "";
   if (!paste.empty())
     fmt::print("{}", paste);

@@ -37,33 +37,63 @@ std::string describe(const std::string& holder) {
                      fmt::localtime(std::time(nullptr)));
 }
 
-}  // namespace
-
-FolderLock::FolderLock(const fs::path& folder, const std::string& holder) : file_(folder / name) {
-  for (;;) {
-    descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) throw OutputError(file_, errno);
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && !cannotLock(errno)) {
-      const int error = errno;
-      ::close(descriptor_);
-      if (error == EINTR) continue;
-      if (error != EWOULDBLOCK) throw OutputError(file_, error);
-      const std::string who = readFile(file_).value_or("");
-      throw BadInput(
-          fmt::format("{}: in use by {}; wait until it has ended, or take another folder",
-                      folder.string(), who.empty() ? "another crossgrain" : who));
-    }
-    if (isStill(descriptor_, file_)) break;
-    ::close(descriptor_);  // its holder removed it between our two calls
-  }
-  // What it says is for people; on a full disk the lock holds without it.
-  const std::string who = describe(holder);
-  if (::ftruncate(descriptor_, 0) == 0) [[maybe_unused]]
-    const ssize_t written = ::write(descriptor_, who.data(), who.size());
+BadInput inUse(const fs::path& folder) {
+  const std::string who = readFile(folder / FolderLock::name).value_or("");
+  return BadInput(fmt::format("{}: in use by {}; wait until it has ended, or take another folder",
+                              folder.string(), who.empty() ? "another crossgrain" : who));
 }
 
+}  // namespace
+
+std::optional<FolderLock> FolderLock::held(const fs::path& file, int kind,
+                                           const std::string& holder) {
+  for (;;) {
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor < 0) throw OutputError(file, errno);
+    if (::flock(descriptor, kind | LOCK_NB) != 0 && !cannotLock(errno)) {
+      const int error = errno;
+      ::close(descriptor);
+      if (error == EINTR) continue;
+      if (error != EWOULDBLOCK) throw OutputError(file, error);
+      return std::nullopt;
+    }
+    if (!isStill(descriptor, file)) {
+      ::close(descriptor);  // its holder removed it between our two calls
+      continue;
+    }
+    // What it says is for people; on a full disk the lock holds without it.
+    const std::string who = describe(holder);
+    if (::ftruncate(descriptor, 0) == 0) [[maybe_unused]]
+      const ssize_t written = ::write(descriptor, who.data(), who.size());
+    return FolderLock(file, descriptor);
+  }
+}
+
+std::optional<FolderLock> FolderLock::attempt(const fs::path& file, const std::string& holder) {
+  return held(file, LOCK_EX, holder);
+}
+
+FolderLock FolderLock::shared(const fs::path& folder, const std::string& holder) {
+  auto lock = held(folder / name, LOCK_SH, holder);
+  if (!lock) throw inUse(folder);
+  return *std::move(lock);
+}
+
+FolderLock::FolderLock(const fs::path& folder, const std::string& holder) {
+  auto lock = held(folder / name, LOCK_EX, holder);
+  if (!lock) throw inUse(folder);
+  file_ = lock->file_;
+  descriptor_ = std::exchange(lock->descriptor_, -1);
+}
+
+void FolderLock::share() {
+  ::flock(descriptor_, LOCK_SH);
+}
+
+/// The last one that has it removes it.
 FolderLock::~FolderLock() {
-  ::unlink(file_.c_str());
+  if (descriptor_ < 0) return;
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || cannotLock(errno)) ::unlink(file_.c_str());
   ::close(descriptor_);
 }
 

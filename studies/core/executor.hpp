@@ -1,6 +1,8 @@
 #pragma once
 
+#include <fmt/format.h>
 #include <algorithm>
+
 #include <chrono>
 #include <compare>
 #include <functional>
@@ -9,10 +11,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "results/json_fields.hpp"
 #include "studies/core/run_store.hpp"
+#include "support/interrupt.hpp"
 #include "support/task_pool.hpp"
 
 namespace crossgrain::inline studies {
@@ -86,7 +90,8 @@ struct CachedTask {
 };
 
 /// Loads the results that are there and does the rest, `jobs` at a time. All that are there are
-/// read before anything is done, so that what stands in the way does so at once.
+/// read before anything is done, so that what stands in the way does so at once. What another shard
+/// of the command is doing is waited for at the end, and done here if that process dies.
 /// @returns the results in the order of the tasks
 /// @throws BadInput from RunStore::find(); Interrupted; the first thing that a task threw
 template <typename Result>
@@ -96,26 +101,44 @@ std::vector<Result> runOrLoad(const std::vector<CachedTask<Result>>& tasks, cons
   std::vector<double> weights;
   for (const auto& task : tasks) weights.push_back(task.weight);
   progress.begin(stage, weights);
+  const auto isThere = [&](std::size_t k, const char* whose) {
+    auto before = store.findAs<Result>(tasks[k].name, tasks[k].key);
+    if (!before) return false;
+    results[k] = *std::move(before);
+    progress.finish(k, fmt::format("{}: finished {}", tasks[k].label, whose));
+    return true;
+  };
+  const auto work = [&](std::size_t k) {
+    const auto& own = tasks[k];
+    auto outcome = own.work([&](double f) { progress.update(k, own.label, f); });
+    store.keep(own.name, own.key, jsonOf(outcome.result), outcome.finished);
+    if (!outcome.finished) store.failed(own.name);
+    results[k] = std::move(outcome.result);
+    progress.finish(k, own.label + ": " + outcome.line);
+  };
+  const auto isDone = [&](std::size_t k) {  // unless another has it
+    if (!store.isShared()) return work(k), true;
+    const auto claim = store.claim(tasks[k].name);
+    if (!claim) return false;
+    if (!isThere(k, "by another shard")) work(k);
+    return true;
+  };
   std::vector<Task> open;
-  for (std::size_t k = 0; k < tasks.size(); ++k) {
-    const auto& task = tasks[k];
-    if (auto before = store.findAs<Result>(task.name, task.key)) {
-      results[k] = *std::move(before);
-      progress.finish(k, task.label + ": finished in an earlier run");
-      continue;
-    }
-    open.push_back({task.priority.value_or(task.weight), [&, k] {
-                      const auto& own = tasks[k];
-                      auto outcome = own.work([&](double f) { progress.update(k, own.label, f); });
-                      if (outcome.finished)
-                        store.keep(own.name, own.key, jsonOf(outcome.result));
-                      else
-                        store.failed(own.name);
-                      results[k] = std::move(outcome.result);
-                      progress.finish(k, own.label + ": " + outcome.line);
-                    }});
-  }
+  std::mutex mutex;
+  std::vector<std::size_t> left;
+  for (std::size_t k = 0; k < tasks.size(); ++k)
+    if (!isThere(k, "in an earlier run"))
+      open.push_back({tasks[k].priority.value_or(tasks[k].weight), [&, k] {
+                        if (isDone(k)) return;
+                        const std::scoped_lock lock(mutex);
+                        left.push_back(k);
+                      }});
   runTasks(open, jobs);
+  for (const std::size_t k : left)
+    while (!isDone(k)) {
+      throwIfInterrupted();
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
   return results;
 }
 

@@ -81,7 +81,8 @@ RunStore::RunStore(const RunCommand& command, std::string name,
       name_(std::move(name)),
       cases_(std::move(cases)),
       dry_(command.dryRun),
-      fresh_(command.fresh) {
+      fresh_(command.fresh),
+      shard_(command.dryRun ? std::nullopt : command.shard) {
   if (holdsStrangers(out_))
     throw BadInput(
         fmt::format("--out {}: the folder is not empty and not of an earlier run; take a "
@@ -93,18 +94,19 @@ RunStore::RunStore(const RunCommand& command, std::string name,
     open();
   if (!fresh_) checkBefore();
   std::error_code ignored;
-  if (!dry_) fs::remove_all(out_ / "scratch", ignored);
+  if (!dry_) fs::remove_all(ownScratch(), ignored);
 }
 
 RunStore::~RunStore() {
   std::error_code ignored;
   if (begun_) {
-    for (const auto& entry : fs::directory_iterator(out_ / "scratch", ignored))
+    for (const auto& entry : fs::directory_iterator(ownScratch(), ignored))
       if (!failed_.contains(entry.path().filename().string()))
         fs::remove_all(entry.path(), ignored);
-    if (failed_.empty()) fs::remove(out_ / "scratch", ignored);
+    for (const fs::path& folder : {ownScratch(), out_ / "scratch", claims()})
+      fs::remove(folder, ignored);  // if it is empty
   }
-  if (begun_ || !made_) return;
+  if (begun_ || !made_ || shard_) return;
   for (const char* own : {"scratch", marker}) fs::remove_all(out_ / own, ignored);
   lock_.reset();
   fs::remove(out_, ignored);
@@ -114,7 +116,16 @@ void RunStore::open() {
   std::error_code ignored;
   made_ = !fs::exists(out_, ignored);
   makeDirectory(out_);
-  lock_.emplace(out_, name_);
+  if (!shard_) {
+    lock_.emplace(out_, name_);
+  } else if (auto first = FolderLock::attempt(out_ / FolderLock::name, name_)) {
+    // What shards of an earlier command said to each other is of no use.
+    for (const fs::path& old : {claims(), out_ / "scratch"}) fs::remove_all(old, ignored);
+    first->share();
+    lock_.emplace(*std::move(first));
+  } else {
+    lock_.emplace(FolderLock::shared(out_, name_));
+  }
   if (!fs::exists(out_ / marker, ignored)) writeFile(out_ / marker, "{}\n");
 }
 
@@ -176,7 +187,7 @@ void RunStore::setAside() {
   writeFile(aside / marker, readFile(out_ / marker).value_or("{}"));
   std::vector<fs::path> entries;
   for (const auto& entry : fs::directory_iterator(out_)) entries.push_back(entry.path().filename());
-  for (const char* stays : {marker, FolderLock::name, earlier, "scratch"})
+  for (const char* stays : {marker, FolderLock::name, earlier, "scratch", "claims"})
     std::erase(entries, stays);
   for (const fs::path& entry : entries) {
     std::error_code error;
@@ -188,7 +199,8 @@ void RunStore::setAside() {
 
 std::optional<json> RunStore::find(const std::string& name, const CaseKeys& key) const {
   if (dry_ && fresh_) return std::nullopt;
-  const auto content = readFile(file(name));
+  auto content = readFile(file(name));
+  if (!content && shard_) content = readFile(claims() / (name + ".failed"));
   const auto text = content ? unpacked(*content) : std::nullopt;
   if (!text) return std::nullopt;  // half a file, too: the run is done again
   KeptRun stored;
@@ -209,9 +221,18 @@ std::optional<json> RunStore::find(const std::string& name, const CaseKeys& key)
   return std::move(stored.run);
 }
 
-void RunStore::keep(const std::string& name, const CaseKeys& key, const json& run) const {
+std::optional<FolderLock> RunStore::claim(const std::string& name) const {
+  makeDirectory(claims());
+  return FolderLock::attempt(claims() / name, name_);
+}
+
+void RunStore::keep(const std::string& name, const CaseKeys& key, const json& run,
+                    bool finished) const {
+  if (!finished && !shard_) return;
   makeDirectory(out_ / "runs");
-  writeFile(file(name), packed(toText({{"key", key}, {"run", run}})));
+  writeFile(finished ? file(name) : claims() / (name + ".failed"),
+            packed(toText({{"key", key}, {"run", run}})));
+  if (!finished) return;
   std::error_code ignored;
   fs::remove_all(unfinished(name), ignored);
 }
@@ -221,8 +242,13 @@ void RunStore::failed(const std::string& name) const {
   failed_.insert(name);
 }
 
+fs::path RunStore::ownScratch() const {
+  const fs::path scratch = out_ / "scratch";
+  return shard_ ? scratch / fmt::format("shard-{}", shard_->number) : scratch;
+}
+
 fs::path RunStore::scratch(const std::string& name) const {
-  return (elsewhere_ ? elsewhere_->path : out_ / "scratch") / name;
+  return (elsewhere_ ? elsewhere_->path : ownScratch()) / name;
 }
 
 fs::path RunStore::snapshots(const std::string& name) const {

@@ -17,6 +17,13 @@
 
 namespace crossgrain::inline studies {
 
+/// One of several processes that share an output folder, on one machine or on many: what another
+/// has begun is left to it, and its result taken. The first writes the results.
+struct Shard {
+  int number = 1, of = 1;
+  bool writes() const { return number == 1; }
+};
+
 /// What every command that runs engines has on its command line.
 struct RunCommand {
   std::vector<std::string> engines;  ///< names, "all" allowed
@@ -25,6 +32,7 @@ struct RunCommand {
   bool fresh = false;   ///< set aside what an earlier command left in `out`, and begin anew
   bool dryRun = false;  ///< say what would run; write and hold nothing
   bool quiet = false;
+  std::optional<Shard> shard;
   std::string commandLine;  ///< for the report
 };
 
@@ -75,7 +83,13 @@ class RunStore {
     if (!kept) return std::nullopt;
     return understood(file(name), [&] { return std::optional(readAs<Result>(*kept)); });
   }
-  void keep(const std::string& name, const CaseKeys& key, const nlohmann::json& run) const;
+  /// @param finished  else it is kept for the other shards of this command alone
+  void keep(const std::string& name, const CaseKeys& key, const nlohmann::json& run,
+            bool finished = true) const;
+
+  bool isShared() const { return shard_.has_value(); }
+  /// Holds the run of that name against the other shards; absent while one of them has it.
+  std::optional<FolderLock> claim(const std::string& name) const;
 
   const std::filesystem::path& folder() const { return out_; }
   /// The run of that name failed: what its engine wrote stays until the next command begins.
@@ -93,11 +107,14 @@ class RunStore {
   bool holdsResults() const;
   void setAside();
   std::filesystem::path file(const std::string& name) const;
+  std::filesystem::path claims() const { return out_ / "claims"; }
+  std::filesystem::path ownScratch() const;
 
   std::filesystem::path out_;
   std::string name_;
   std::map<std::string, CaseKeys> cases_;
   bool dry_, fresh_, made_ = false, begun_ = false;
+  std::optional<Shard> shard_;
   mutable std::mutex mutex_;
   mutable std::set<std::string> failed_;
   std::optional<FolderLock> lock_;

@@ -50,6 +50,7 @@ struct SharedOptions {
   bool engines = true;     ///< --engines and what goes with running them
   bool jobs = true;        ///< --jobs; without: one engine at a time
   bool packings = false;   ///< --seed, --quick
+  bool shards = true;      ///< --shard; not of times, which are of one machine
 };
 
 /// One of its own.

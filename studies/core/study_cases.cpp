@@ -117,8 +117,8 @@ Case onlyFlow(const CommandLine& line, const char* command) {
   }
   if (cases.size() > 1)
     throw BadInput(fmt::format("{}: {} takes a case without variants", file.string(), command));
-  // Every job of a plan is a compare, and import takes a case as it is for what comes after.
-  if (std::string_view(command) != "plan" && std::string_view(command) != "import")
+  // import takes a case as it is for what comes after.
+  if (std::string_view(command) != "import")
     reportKeysWithoutUse(cases.front(), command, line.json ? stderr : stdout);
   std::vector<std::string> overrides;
   if (line.quick) overrides = quickOverrides(cases.front());

@@ -489,7 +489,7 @@ Outcome outcomeOfCost(const CostResults& results, const CommandLine& line, const
 
 const Study<CostOptions, CostResults> costStudy = {
     "cost",
-    {.packings = true},
+    {.packings = true, .shards = false},
     Keeps::oneCase,
     [](CostOptions& own, CommandLine&) {
       return std::vector<StudyOption>{

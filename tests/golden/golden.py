@@ -84,7 +84,6 @@ COMMANDS = {
         "replay {first}.rec --engines box2d-penalty --json",
     ],
     "identify": ["identify {cell} --engines box2d-penalty"],
-    "plan": ["plan {cell} --engines grain,yade --seeds 1,2 --slurm {out}"],
     "engines": ["engines --json"],
     "check": ["check {cell} --engines {built_in}"],
     "calibrate": ["calibrate --en 0.6 --tc 1e-3 --mass 1e-3 --radius 1e-3"],

@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <atomic>
 #include <mutex>
 #include <thread>
 
+#include "support/bad_input.hpp"
 #include "support/busy_time.hpp"
 #include "support/scratch_folder.hpp"
 #include "support/task_pool.hpp"
@@ -112,6 +116,78 @@ TEST(RunOrLoad, FinishedTasks_AreLoadedAndFailedOnesRunAgain) {
   EXPECT_EQ(planned().front().finished, 1u);
   EXPECT_EQ(byId(tasks, runOrLoad(tasks, store, progress, "runs", 1)), found);
   EXPECT_EQ(done, 5);
+}
+
+/// Two processes that share a folder, here as two stores: each run is done by one of them.
+TEST(RunOrLoad, Shards_DoEachRunOnceAndHaveThemAll) {
+  const ScratchFolder folder;
+  const auto command = [&](int number) {
+    RunCommand one;
+    one.out = folder.path / "out";
+    one.quiet = true;
+    if (number > 0) one.shard = Shard{number, 2};
+    return one;
+  };
+  std::atomic<int> done = 0;
+  const auto tasks = [&] {
+    std::vector<CachedTask<Values>> all;
+    for (int k = 0; k < 20; ++k) {
+      CachedTask<Values> task;
+      task.of = {"a", "", k};
+      task.name = fmt::format("a{}", k);
+      task.work = [&done, k](const auto&) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        ++done;
+        return CachedTask<Values>::Outcome{{static_cast<double>(k)}, k != 7, "done"};
+      };
+      all.push_back(std::move(task));
+    }
+    return all;
+  }();
+  const auto run = [&](RunStore& store) {
+    Progress progress(true);
+    return byId(tasks, runOrLoad(tasks, store, progress, "runs", 1));
+  };
+  std::map<RunId, Values> found[2];
+  {
+    RunStore first(command(1), "study", {}), second(command(2), "study", {});
+    first.begin();
+    second.begin();
+    EXPECT_THROW(RunStore(command(0), "study", {}), BadInput) << "in use";
+    std::thread other([&] { found[1] = run(second); });
+    found[0] = run(first);
+    other.join();
+  }
+  EXPECT_EQ(done, 20);
+  EXPECT_EQ(found[0].size(), 20u);
+  EXPECT_EQ(found[0], found[1]);
+  // What failed is tried again by the next command, which finds the rest.
+  RunStore next(command(1), "study", {});
+  next.begin();
+  EXPECT_EQ(run(next), found[0]);
+  EXPECT_EQ(done, 21);
+}
+
+TEST(RunOrLoad, RunOfAShardThatDied_IsDone) {
+  const ScratchFolder folder;
+  RunCommand command;
+  command.out = folder.path / "out";
+  command.quiet = true;
+  command.shard = Shard{1, 2};
+  RunStore store(command, "study", {});
+  store.begin();
+  auto claim = store.claim("b0");
+  ASSERT_TRUE(claim);
+  EXPECT_FALSE(store.claim("b0"));
+  std::thread dying([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    claim.reset();
+  });
+  Progress progress(true);
+  int done = 0;
+  runOrLoad(fourRuns(done), store, progress, "runs", 2);
+  dying.join();
+  EXPECT_EQ(done, 4);
 }
 
 }  // namespace

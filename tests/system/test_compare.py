@@ -2,8 +2,10 @@
 
 What they write is kept in tests/golden."""
 
+import concurrent.futures
 import json
 import math
+import re
 import shutil
 import subprocess
 import sys
@@ -228,11 +230,10 @@ class Space(SystemTest):
                 self.assertEqual(1, len(lines[0]))
                 self.assertEqual(lines[0], lines[1])
 
-    def test_plan_and_dry_run(self):
+    def test_dry_run(self):
         done = self.run_program("compare", self.BUMPY, "--engines", "grain", "--out", self.out, "--dry-run", *self.SHORT)
         self.assert_status(done, HELD)
         self.assertIn("shear-3d: 4 packings, 4 of them prepared already", done.stdout)
-        self.assert_status(self.run_program("plan", self.BUMPY, "--engines", "grain,lammps", "--slurm", self.folder / "jobs"), HELD)
 
     def test_spheres_in_cylinders(self):
         for name in ("silo", "silo-large", "drum"):
@@ -629,71 +630,24 @@ class Assemblies(SystemTest):
         self.assertRegex(row["reason"], r"grain, packing 0: no mean_x in \d+ of 20 snapshots")
 
 
-class Plan(SystemTest):
-    """An array of jobs for Slurm, run here by hand, and what is merged of them."""
+class Shards(SystemTest):
+    def test_share_the_runs_and_the_first_writes_what_one_process_would(self):
+        def command(out, *more):
+            return ["compare", COUETTE, "--engines", "grain,box2d-penalty", "--quick", "--set=run.mirrors=false", "--out", out, *SHORT, *more]
 
-    AWKWARD = "my jobs $(touch pwned) 'x'"
-
-    def setUp(self):
-        super().setUp()
-        self.slurm = self.folder / self.AWKWARD
-
-    def plan(self, *arguments):
-        return self.run_program(
-            "plan", COUETTE, "--engines", "grain,box2d-penalty", "--slurm", self.slurm, "--quick", "--set=run.mirrors=false",
-            *SHORT, *arguments,
-        )  # fmt: skip
-
-    def shell(self, *command, **variables):
-        """As Slurm runs it: elsewhere, with the folder that it was submitted from in the environment."""
-        env = {"SLURM_SUBMIT_DIR": str(self.slurm)} | variables
-        return self.call(*command, cwd="/", env=env)
-
-    def test_jobs_run_and_are_merged_and_what_is_not_as_planned_is_reported(self):
-        self.assert_status(self.plan("--seeds=1,2,3"), HELD)
-        names = [job["name"] for job in json.loads((self.slurm / "plan.json").read_text(encoding="utf-8"))["jobs"]]
-        nothing = self.run_program("report", self.slurm, "--out", self.folder / "site")
-        self.assert_status(nothing, BAD_INPUT)
-        self.assertIn("none of its 3 jobs has results", nothing.stderr.splitlines()[-1])
-        self.assert_one_line(self.run_program("report", self.slurm), BAD_INPUT, "holds a plan", "--out")
-        for number in ("1", "2"):
-            job = self.shell("bash", self.slurm / "array.sh", SLURM_ARRAY_TASK_ID=number)
-            self.assertEqual("", job.stderr)
-            self.assertIn(job.status, (HELD, FELL_SHORT), job.stdout)
-        # The third has not run; the second is then made the first's.
-        merged = self.shell("bash", self.slurm / "merge.sh")
-        self.assertEqual((FELL_SHORT, f"crossgrain: {names[2]}: missing: it has not begun\n"), (merged.status, merged.stderr))
-        site = (self.slurm / "site/index.html").read_text(encoding="utf-8")
-        self.assertEqual([True, True, False], [name in site for name in names])
-        results = self.slurm / "results"
-        shutil.rmtree(results / names[1])
-        for name in names[1:]:
-            shutil.copytree(results / names[0], results / name)
-        kept = results / names[2] / "results.json"
-        kept.write_bytes(kept.read_bytes()[:-100])
-        again = self.run_program("report", self.slurm, "--out", self.folder / "site")
-        self.assert_status(again, FELL_SHORT)
-        doubled, broken = again.stderr.splitlines()
-        self.assertEqual(f"crossgrain: {names[1]}: doubled: its folder holds the results of {names[0]}", doubled)
-        self.assertTrue(broken.startswith(f"crossgrain: {names[2]}: broken: "), broken)
-        self.assertFalse(list(self.folder.rglob("pwned")))
-
-    def test_submits_the_array_and_then_the_merging(self):
-        self.assert_status(self.plan("--seeds=1,2"), HELD)
-        self.assert_one_line(self.plan(), BAD_INPUT, "is there already")
-        sbatch = self.write("sbatch", '#!/bin/sh\nprintf "%s|" "$PWD" "$@" >> "$LOG"; echo >> "$LOG"; echo "17;cluster"\n')
-        sbatch.chmod(0o755)
-        log = self.folder / "log"
-        done = self.shell(self.slurm / "submit", "--comment=a b", PATH=f"{self.folder}:/usr/bin:/bin", LOG=str(log))
-        self.assertEqual((HELD, ""), (done.status, done.stderr))
-        self.assertEqual(
-            [
-                f"{self.slurm}|--parsable|--comment=a b|array.sh|",
-                f"{self.slurm}|--parsable|--dependency=afterany:17|--comment=a b|merge.sh|",
-            ],
-            log.read_text(encoding="utf-8").splitlines(),
-        )
-        self.assertIn("#SBATCH --array=1-2\n", (self.slurm / "array.sh").read_text(encoding="utf-8"))
+        with concurrent.futures.ThreadPoolExecutor() as pool:
+            both = list(pool.map(lambda k: self.run_program(*command(self.out, f"--shard={k}/2")), (1, 2)))
+        alone = self.folder / "alone"
+        self.assertEqual((self.run_program(*command(alone)).status, HELD), (both[0].status, both[1].status))
+        self.assertIn("shard 2 of 2: all runs are finished; shard 1 writes the results", both[1].stdout)
+        runs, whole = ({(run["engine"], run["packing"]): run for run in self.results(out)["runs"]} for out in (self.out, alone))
+        self.assertEqual(whole.keys(), runs.keys())
+        for key in whole.keys() - {key for key in whole if key[0] != "grain"}:
+            self.assertEqual(whole[key]["profiles"], runs[key]["profiles"])
+        # Each process ran what the other did not: progress says how each run came.
+        ran = [set(re.findall(r"^(\S+), packing (\d+): (?!finished)", done.stderr, re.M)) for done in both]
+        self.assertFalse(ran[0] & ran[1])
+        self.assertFalse(list((self.out / "claims").iterdir()))
 
 
 if __name__ == "__main__":
