@@ -342,14 +342,5 @@ TEST(ProfileFigures, SingleRunBesideMeans_IsPaleAndItsMirrorIsNamed) {
   EXPECT_TRUE(has(describeBars(engines), "theirs (its verdicts rest on mirror)"));
 }
 
-TEST(CompareReport, Cost_IsSummedOverFinishedRuns) {
-  const std::string text = textOf(compareReport(sample::compareResults(4, 300)));
-  // 7.85 s at dt = 4e-5 s are 196 250 steps a run; 4 runs of the first engine,
-  // 3 of the second.
-  EXPECT_TRUE(has(text, "| steps | 785\u202f000 | 588\u202f750 |"));
-  // 1.1e-4 s of wall time a step.
-  EXPECT_TRUE(has(text, "| wall time per step | 110 |"));
-}
-
 }  // namespace
 }  // namespace crossgrain::reports

@@ -78,18 +78,18 @@ Json fits(double bias, bool failed) {
 }
 
 Json headNumbers(double bias, bool impulses) {
-  return {{{"name", "inertial_number"}, {"value", 0.0041 * (1 + bias)}, {"unit", "-"}},
-          {{"name", "kn_over_p"}, {"value", 1490.0}, {"unit", "-"}},
-          {{"name", "mean_overlap_over_d"},
-           {"value", impulses ? Json(nullptr) : Json(1.2e-5)},
-           {"unit", "-"}},
-          {{"name", "max_overlap_over_d"},
-           {"value", impulses ? Json(nullptr) : Json(2.4e-4)},
-           {"unit", "-"}},
-          {{"name", "sliding_fraction"}, {"value", 0.131}, {"unit", "-"}},
-          {{"name", "stress_ratio_wheel"}, {"value", 0.284 + bias / 10}, {"unit", "-"}},
-          {{"name", "dt_over_tc"}, {"value", impulses ? 0.23 : 0.0183}, {"unit", "-"}},
-          {{"name", "coordination"}, {"value", 3.12}, {"unit", "-"}}};
+  Json numbers = Json::array();
+  for (const auto& [name, value] : std::initializer_list<std::pair<const char*, Json>>{
+           {"inertial_number", 0.0041 * (1 + bias)},
+           {"kn_over_p", 1490.0},
+           {"mean_overlap_over_d", impulses ? Json(nullptr) : Json(1.2e-5)},
+           {"max_overlap_over_d", impulses ? Json(nullptr) : Json(2.4e-4)},
+           {"sliding_fraction", 0.131},
+           {"stress_ratio_wheel", 0.284 + bias / 10},
+           {"dt_over_tc", impulses ? 0.23 : 0.0183},
+           {"coordination", 3.12}})
+    numbers.push_back({{"name", name}, {"value", value}, {"unit", "-"}});
+  return numbers;
 }
 
 Json series(double bias, Noise& noise) {
@@ -212,13 +212,7 @@ Json failedRun(const std::string& name, int packing, const std::string& reason) 
           {"status", "failed"},
           {"reason", reason},
           {"realised", effective(name, 4e-5)},
-          {"stats", Json::object()},
-          {"head", Json::array()},
-          {"profiles", Json::array()},
-          {"fits", Json::array()},
-          {"checks", Json::array()},
-          {"series", Json::object()},
-          {"picture", nullptr}};
+          {"series", Json::object()}};
 }
 
 Json agreement(const std::string& a, const std::string& b, const std::string& kind, double bias,
@@ -311,22 +305,13 @@ void append(Json& to, const Json& more) {
 CompareResults compareResults(int packings, int disks) {
   Json results = head("compare", "nu-0.804");
   results["notes"].push_back(std::string("A note with ") + awkward);
-  results["cell"] = {{"inner_radius", inner},
-                     {"outer_radius", outer},
-                     {"wall_radius", 0.00125},
-                     {"wall_spacing", 0.0025},
-                     {"height", 0.006},
-                     {"omega", 1.0},
-                     {"small", 2511},
-                     {"large", 410},
-                     {"small_radius", 0.0037},
-                     {"large_radius", 0.004495},
-                     {"volume_fraction", 0.804},
-                     {"diameter", diameter}};
-  results["averaging"] = {{"method", "slicing"}, {"settle_rotations", 0.25},
-                          {"rotations", 1.0},    {"from_rotation", 0.25},
-                          {"to_rotation", 1.25}, {"prepared_rotations", 5.0},
-                          {"snapshots", 400},    {"confidence", 0.95}};
+  results["cell"] = Json::parse(R"({"inner_radius": 0.1032, "outer_radius": 0.2524, "height": 0.006,
+    "wall_radius": 0.00125, "wall_spacing": 0.0025, "omega": 1.0, "small": 2511, "large": 410,
+    "small_radius": 0.0037, "large_radius": 0.004495, "volume_fraction": 0.804,
+    "diameter": 0.0074})");
+  results["averaging"] = Json::parse(R"({"method": "slicing", "settle_rotations": 0.25,
+    "rotations": 1.0, "from_rotation": 0.25, "to_rotation": 1.25, "prepared_rotations": 5.0,
+    "snapshots": 400, "confidence": 0.95})");
   results["engines"] = {
       engine("grain", "the in-house engine"), engine("yade", "YADE's viscoelastic law"),
       engine("box2d-impulse", "Box2D's own solver"),
@@ -389,32 +374,21 @@ CompareResults compareResults(int packings, int disks) {
   append(results["agreement"], agreement("grain", "grain~yade", "mirror_model", -0.05, decided));
   append(results["agreement"],
          agreement("grain~yade", "yade", "mirror_implementation", -0.01, decided));
-  results["endpoints"] = {
-      {"looks",
-       {{"planned", {{{"packings", 4}, {"alpha", 0.025}}, {{"packings", 8}, {"alpha", 0.025}}}},
-        {"taken", decided ? 1 : 0},
-        {"ended", "the budget"}}},
-      {"rows", endpoints("grain", "yade", "peer", 0.2, decided ? "no_difference_seen" : "undecided",
-                         decided ? "small_difference" : "undecided", "grain~yade")}};
-  Json& rows = results["endpoints"]["rows"];
+  results["endpoints"]["looks"] = Json::parse(
+      R"({"planned": [{"packings": 4, "alpha": 0.025}, {"packings": 8, "alpha": 0.025}]})");
+  results["endpoints"]["looks"]["taken"] = decided ? 1 : 0;
+  results["endpoints"]["looks"]["ended"] = "the budget";
+  Json& rows = results["endpoints"]["rows"] =
+      endpoints("grain", "yade", "peer", 0.2, decided ? "no_difference_seen" : "undecided",
+                decided ? "small_difference" : "undecided", "grain~yade");
   append(rows, endpoints("grain", "box2d-impulse", "peer", 1.1, decided ? "disagree" : "undecided",
                          decided ? "borderline" : "undecided", ""));
   if (decided) {
-    results["endpoints"]["alarms"] = {{{"a", "grain"},
-                                       {"b", "box2d-impulse"},
-                                       {"kind", "peer"},
-                                       {"what", "30 % of the disks are gone from the cell"}}};
-    results["endpoints"]["carried"] = {
-        {{"engine", "yade"},
-         {"mirror", "grain~yade"},
-         {"equivalent", 1e-5},
-         {"starts", 16},
-         {"carried", true},
-         {"late",
-          {{"packing", 1},
-           {"times_s", {0.0, 0.1, 0.2}},
-           {"length_s", 0.1},
-           {"equivalents", {{{"constant", "mu"}, {"change", 2e-5}}}}}}}};
+    results["endpoints"]["alarms"] = Json::parse(R"([{"a": "grain", "b": "box2d-impulse",
+      "kind": "peer", "what": "30 % of the disks are gone from the cell"}])");
+    results["endpoints"]["carried"] = Json::parse(R"([{"engine": "yade", "mirror": "grain~yade",
+      "equivalent": 1e-5, "starts": 16, "carried": true, "late": {"packing": 1, "length_s": 0.1,
+      "times_s": [0.0, 0.1, 0.2], "equivalents": [{"constant": "mu", "change": 2e-5}]}}])");
   }
   return compareFromJson(results);
 }

@@ -45,8 +45,6 @@ LockstepResults lockstepResults();
 /// past the stability limit, points that the budget did not allow, one engine that refused.
 CostResults costResults();
 
-/// Three sizes on one and two threads of one engine; another that failed on the largest.
-
 /// What users may put into a name or reason.
 inline constexpr const char* awkward = "odd <b>\"name\"</b> & `touch pwned` {x 'y' _z";
 

@@ -85,15 +85,6 @@ TEST(EffectsReport, FewPackings_NothingIsTested) {
   EXPECT_TRUE(has(text, "within the two runs of one packing"));
 }
 
-TEST(StabilityTable, WorstVariant_StandsForTheCase) {
-  const StabilityResults results = sample::stabilityResults();
-  const auto groups = hardGroups(results);
-  ASSERT_EQ(groups.size(), 2u);
-  EXPECT_EQ(worstRun(results, "grain", groups[0])->verdict, Verdict::borderline);
-  EXPECT_EQ(worstRun(results, "odd-one", groups[0])->variant, "fast");
-  EXPECT_EQ(worstRun(results, "odd-one", groups[1])->verdict, Verdict::notApplicable);
-}
-
 TEST(StabilityPictures, SceneFarAway_IsCentred) {
   const auto pictures = stabilityPictures(sample::stabilityResults());
   ASSERT_EQ(pictures.size(), 1u);
