@@ -38,7 +38,7 @@ Report reportOf(const CompareResults& results) {
 /// @returns why there are no plots, if so
 std::optional<GnuplotError> draw(const Report& report, const std::filesystem::path& plots) {
   makeDirectory(plots);
-  std::vector<std::string> scripts;
+  Names scripts;
   for (const Figure& figure : report.figures) scripts.push_back(writeFigure(figure, plots));
   for (const Picture& picture : report.pictures) writePicture(picture, plots);
   try {
@@ -95,8 +95,6 @@ ReportDigest writeForSite(Report report, const std::filesystem::path& dir) {
   writePage(report, drawings, failure, dir);
   return report;
 }
-
-using Names = std::vector<std::string>;
 
 /// Letters, digits and "-_." of a name, "-" for all else; no hidden file's.
 std::string forAddress(const std::string& name) {
@@ -212,7 +210,7 @@ Report reportOf(const nlohmann::json& results) {
 void writeSite(const std::vector<SiteEntry>& entries, const std::filesystem::path& site) {
   makeDirectory(site);
   const Names names = siteFolders(entries);
-  Table table{{"report", "verdict", "engines", "made"}, {}};
+  Table table{{"report", "verdict", "engines", "made"}};
   std::vector<JUnitCase> cases;
   for (std::size_t k = 0; k < entries.size(); ++k) {
     const auto& [from, results, changed] = entries[k];

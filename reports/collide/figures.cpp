@@ -257,7 +257,7 @@ Panel energyPanel(const CollisionVariant& variant, const Styles& styles) {
 
 /// The energyParts that some panel shows, in words.
 std::string drawnParts(const Figure& figure) {
-  std::vector<std::string> words;
+  Names words;
   for (const EnergyPart& part : energyParts)
     if (std::ranges::any_of(figure.panels, [&](const Panel& panel) {
           return std::ranges::find(panel.curves, part.colour, [](const Curve& curve) {

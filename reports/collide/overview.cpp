@@ -170,8 +170,6 @@ void dropEmptyColumns(Overview& overview) {
   }
 }
 
-using Names = std::vector<std::string>;
-
 /// In a sentence: the matrix has all names.
 constexpr std::size_t mostEngines = 5, mostOfACause = 2, mostCauses = 2;
 

@@ -231,7 +231,7 @@ std::vector<JUnitCase> collideChecks(const CollideResults& results) {
 
 /// "Law: normal linear, tangential spring dashpot, …" of what all variants share.
 std::string lawOf(const CaseGroup& group) {
-  std::vector<std::string> shared;
+  Names shared;
   for (const auto& [option, value] : group.variants.front()->law) {
     const bool same = std::ranges::all_of(
         group.variants, [&, &option = option, &value = value](const CollisionVariant* variant) {
@@ -246,7 +246,7 @@ std::string lawOf(const CaseGroup& group) {
 
 /// Empty, or what collisions in space have besides, variant by variant.
 std::string spaceOf(const CaseGroup& group) {
-  std::vector<std::string> words;
+  Names words;
   for (const CollisionVariant* variant : group.variants)
     if (variant->space) words.push_back(fmt::format("{}: {}", variant->variant, *variant->space));
   if (words.empty()) return {};
@@ -260,16 +260,16 @@ std::string spaceOf(const CaseGroup& group) {
 /// Empty, or in what the laws that engines declare are others than the scene's, over all
 /// variants.
 std::string declaredOf(const CollideResults& results, const CaseGroup& group) {
-  std::vector<std::string> laws;
+  Names laws;
   for (const EngineRow& engine : results.engines) {
     if (runsBesideItsPeer(results, engine.name)) continue;  // its peer's law
-    std::vector<std::string> words;
+    Names words;
     for (const CollisionVariant* variant : group.variants)
       for (const CollisionCurve* curve : curvesOf(*variant, engine.name)) {
         if (!curve->declared) continue;
         for (const auto& [name, value] : curve->declared->law) {
           std::string word = lawWords(name, value).value_or(spaced(name));
-          if (std::ranges::find(words, word) == words.end()) words.push_back(std::move(word));
+          addOnce(words, word);
         }
       }
     if (!words.empty()) laws.push_back(fmt::format("{}: {}", engine.name, fmt::join(words, ", ")));
@@ -280,16 +280,15 @@ std::string declaredOf(const CollideResults& results, const CaseGroup& group) {
 
 /// Empty, or which points were not judged because the law has no limit of small time steps there.
 std::string limitsOf(const CaseGroup& group) {
-  std::vector<std::string> places;
+  Names places;
   for (const CollisionVariant* variant : group.variants) {
-    std::vector<std::pair<std::string, std::vector<std::string>>> byReason;
+    std::vector<std::pair<std::string, Names>> byReason;
     for (const NoLimitPoint& point : variant->noLimit) {
       auto found =
           std::ranges::find(byReason, point.reason, [](const auto& one) { return one.first; });
       if (found == byReason.end()) found = byReason.insert(found, {point.reason, {}});
       const std::string psi = readableSetting(finite(point.psi));
-      if (std::ranges::find(found->second, psi) == found->second.end())
-        found->second.push_back(psi);
+      addOnce(found->second, psi);
     }
     for (const auto& [reason, psi] : byReason)
       places.push_back(
@@ -302,13 +301,13 @@ std::string limitsOf(const CaseGroup& group) {
 }
 
 Table collideMatrix(const std::vector<CaseGroup>& groups, const std::vector<EngineRow>& engines) {
-  Table table{engineColumns({"case"}, engines), {}};
+  Table table{engineColumns({"case"}, engines)};
   for (std::size_t g = 0; g < groups.size(); ++g) {
     TableRow row{{{groups[g].name, {counted(groups[g].variants.size(), "variant")}}}};
     row.cells.front().link = fmt::format("#case_{}", g + 1);
     for (const EngineRow& engine : engines) {
       const Tally tally = tallyOf(groups[g].variants, engine.name);
-      std::vector<std::string> notes = shortfalls(tally);
+      Names notes = shortfalls(tally);
       if (tally.refused > 0)
         notes.push_back(tally.judged() > 0 ? fmt::format("{} refused", tally.refused)
                                            : tally.refusal);

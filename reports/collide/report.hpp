@@ -43,7 +43,7 @@ struct Tally : SweepCount {
 Tally tallyOf(const std::vector<const CollisionVariant*>& variants, const std::string& engine);
 
 /// Of sweeps that did not pass: the worst quantities, and the own scheme.
-std::vector<std::string> shortfalls(const Tally& tally);
+Names shortfalls(const Tally& tally);
 
 /// Table: collisions.csv, one row per collision; a sweep without any is one row with its status,
 /// its reason and no numbers. Checks: one for each sweep and quantity that the case has a limit

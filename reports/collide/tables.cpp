@@ -33,8 +33,6 @@ void addTo(Tally& tally, const CollisionCurve& curve) {
   }
 }
 
-using Kind = Column::Kind;
-
 std::string orderOf(const CollideResults& results, const CollisionVariant& variant,
                     const std::string& engine, QuantityId quantity) {
   for (const ConvergenceOrder& order : results.orders) {
@@ -54,7 +52,7 @@ std::string orderOf(const CollideResults& results, const CollisionVariant& varia
 Cell variantCell(const CollideResults& results, const CollisionVariant& variant,
                  const std::string& engine) {
   const Tally tally = tallyOf({&variant}, engine);
-  std::vector<std::string> notes;
+  Names notes;
   const CollisionCurve* curve = coarsestCurve(variant, engine);
   for (const QuantityId quantity : {QuantityId::psiF, QuantityId::en}) {
     if (!curve || !curve->score.of[quantity]) continue;
@@ -70,8 +68,8 @@ Cell variantCell(const CollideResults& results, const CollisionVariant& variant,
 }
 
 /// The law's members that variants of the case differ in, or that only some have.
-std::vector<std::string> changing(const CaseGroup& group) {
-  std::vector<std::string> names;
+Names changing(const CaseGroup& group) {
+  Names names;
   for (const CollisionVariant* variant : group.variants)
     for (const auto& [name, value] : variant->law) {
       const auto differs = [&, &name = name, &value = value](const CollisionVariant* other) {
@@ -85,8 +83,8 @@ std::vector<std::string> changing(const CaseGroup& group) {
   return names;
 }
 
-std::string ownLaw(const CollisionVariant& variant, const std::vector<std::string>& names) {
-  std::vector<std::string> words;
+std::string ownLaw(const CollisionVariant& variant, const Names& names) {
+  Names words;
   for (const std::string& name : names)
     if (const auto found = variant.law.find(name); found != variant.law.end())
       words.push_back(lawWords(name, found->second).value_or(spaced(name) + " " + absentText));
@@ -106,11 +104,10 @@ std::optional<double> distance(const CollisionCurve* a, const CollisionCurve* b,
 }
 
 std::string deviationWords(const CollisionCurve& curve) {
-  std::vector<std::string> words;
+  Names words;
   if (curve.effective)
     for (const Deviation& deviation : curve.effective->deviations)
-      if (std::string name = spaced(deviation.name); std::ranges::find(words, name) == words.end())
-        words.push_back(std::move(name));
+      addOnce(words, spaced(deviation.name));
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
@@ -278,8 +275,8 @@ Tally tallyOf(const std::vector<const CollisionVariant*>& variants, const std::s
   return tally;
 }
 
-std::vector<std::string> shortfalls(const Tally& tally) {
-  std::vector<std::string> lines;
+Names shortfalls(const Tally& tally) {
+  Names lines;
   if (tally.worst.times > 1.0) lines.push_back(tally.worst.words());
   if (tally.worstOfModel.times > 1.0) lines.push_back("model: " + tally.worstOfModel.words());
   if (!tally.ownPassed) lines.push_back(fmt::format("own scheme {}", shortly(tally.ownDeviation)));
@@ -303,8 +300,8 @@ std::string headline(const Tally& tally) {
 }
 
 Table variantTable(const CollideResults& results, const CaseGroup& group) {
-  const std::vector<std::string> names = changing(group);
-  Table table{engineColumns({"variant"}, results.engines), {}};
+  const Names names = changing(group);
+  Table table{engineColumns({"variant"}, results.engines)};
   for (const CollisionVariant* variant : group.variants) {
     TableRow row{{{variant->variant, {ownLaw(*variant, names)}}}};
     for (const EngineRow& engine : results.engines)
@@ -323,11 +320,11 @@ Table variantTable(const CollideResults& results, const CaseGroup& group) {
 
 Table mirrorTable(const CaseGroup& group, const std::vector<EngineRow>& engines) {
   using enum QuantityId;
-  Table table{{"peer", "variant"}, {}};
+  Table table{{"peer", "variant"}};
   for (const char* name : {"model: |ΔΨ_f|", "model: |Δe_n|", "implementation: |ΔΨ_f|",
                            "implementation: |Δe_n|", "dt [s]: first | mirror | peer"})
-    table.columns.emplace_back(name, Kind::number);
-  table.columns.emplace_back("deviations of the peer from the scene", Kind::remark);
+    table.columns.push_back(numbers(name));
+  table.columns.push_back(remarks("deviations of the peer from the scene"));
   table.note =
       "Largest differences over the curve at the largest time step of each. Model: the first "
       "engine against the mirror, the in-house engine with the peer's conventions. Implementation: "
@@ -357,16 +354,10 @@ Table mirrorTable(const CaseGroup& group, const std::vector<EngineRow>& engines)
 
 Table scoreTable(const CaseGroup& group) {
   const auto scored = scoredIn(group);
-  Table table{{"variant",
-               "engine",
-               {"dt [s]", Kind::number},
-               "outcome",
-               {"own scheme", Kind::number},
-               "law"},
-              {}};
+  Table table{{"variant", "engine", numbers("dt [s]"), "outcome", numbers("own scheme"), "law"}};
   table.dense = true;
   for (const CollisionQuantity* quantity : scored)
-    table.columns.emplace_back(std::string(quantity->label), Kind::number);
+    table.columns.push_back(numbers(std::string(quantity->label)));
   table.note =
       "Time steps between the largest and the smallest are left out where the sweep passed: "
       "results.json has every score. Law: the scene's, the one that the engine declares, or both "

@@ -16,14 +16,13 @@ namespace crossgrain::reports {
 namespace {
 
 using Kind = Column::Kind;
-using Names = std::vector<std::string>;
 
 bool contains(const Names& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
 }
 
 /// Adds a row unless the table has it: engines report some things again for every run.
-void addOnce(Table& table, const Names& texts) {
+void addRowOnce(Table& table, const Names& texts) {
   const bool known = std::ranges::any_of(table.rows, [&](const TableRow& row) {
     return std::ranges::equal(row.cells, texts, {}, &Cell::text);
   });
@@ -31,14 +30,14 @@ void addOnce(Table& table, const Names& texts) {
 }
 
 Table deviationTable(const std::vector<EffectiveScene>& effective) {
-  Table table{{"engine", "deviation", {"value", Kind::number}, {"note", Kind::remark}}, {}};
+  Table table{{"engine", "deviation", numbers("value"), remarks("note")}};
   for (const auto& [engine, scene, calledFor] : effective)
     for (const auto& [name, value, unit, note] : scene->deviations) {
       const bool has = std::isfinite(value) && (value != 0.0 || !unit.empty());
-      addOnce(table,
-              {engine, spaced(name),
-               has ? readable(value) + (unit.empty() || unit == "-" ? "" : " " + unit) : absentText,
-               note});
+      addRowOnce(table, {engine, spaced(name),
+                         has ? readable(value) + (unit.empty() || unit == "-" ? "" : " " + unit)
+                             : absentText,
+                         note});
     }
   return table;
 }
@@ -46,9 +45,9 @@ Table deviationTable(const std::vector<EffectiveScene>& effective) {
 /// A constant of strength 0 is none; restitutions are of pairs without a spring, the tangential one
 /// of those with friction.
 Table pairTable(const std::vector<EffectiveScene>& effective) {
-  Table table{{"engine", "pair"}, {}};
+  Table table{{"engine", "pair"}};
   for (const char* name : {"k_n", "γ_n", "k_t", "γ_t", "µ", "e_n", "e_t0"})
-    table.columns.emplace_back(name, Kind::number);
+    table.columns.push_back(numbers(name));
   table.note =
       "In the law's own units: of a linear one N/m and kg/s (docs/cases.md has all). –: the "
       "engine's contacts have no such constant.";
@@ -60,7 +59,7 @@ Table pairTable(const std::vector<EffectiveScene>& effective) {
         cells.push_back(constant != 0.0 ? readableSetting(constant) : absentText);
       cells.push_back(springs ? absentText : readableSetting(pair.en));
       cells.push_back(springs || pair.mu == 0.0 ? absentText : readableSetting(pair.et0));
-      addOnce(table, cells);
+      addRowOnce(table, cells);
     }
   return table;
 }
@@ -97,7 +96,7 @@ Cell effectCell(const std::string& effect, const std::vector<EffectiveScene>& sc
 
 /// Effects by engine, of the scenes whose effects are known.
 Table effectTable(const std::vector<EffectiveScene>& effective) {
-  Table table{{"effect", "scene"}, {}};
+  Table table{{"effect", "scene"}};
   std::vector<std::pair<std::string, std::vector<EffectiveScene>>> engines;
   std::set<const Names*> scenes;
   Names effects;
@@ -195,7 +194,7 @@ void addDetails(Report& report, const std::vector<EffectiveScene>& effective) {
 }
 
 void addPackings(Report& report, const std::vector<PackingRow>& packings) {
-  Table table{{{"packing", Kind::number}, {"seed", Kind::number}, "content hash", "prepared"}, {}};
+  Table table{{numbers("packing"), numbers("seed"), "content hash", "prepared"}};
   for (const PackingRow& packing : packings)
     table.rows.push_back({{fmt::format("{}", packing.index), fmt::format("{}", packing.seed),
                            packing.hash, packing.fromCache ? "earlier, kept" : "for this run"}});
@@ -204,12 +203,8 @@ void addPackings(Report& report, const std::vector<PackingRow>& packings) {
 }
 
 void addEngines(Report& report) {
-  Table table{{{"engine", Kind::engines},
-               "version",
-               {"status", Kind::remark},
-               "mirrors",
-               {"description", Kind::remark}},
-              {}};
+  Table table{
+      {engineNames("engine"), "version", remarks("status"), "mirrors", remarks("description")}};
   for (const EngineRow& engine : report.engines)
     table.rows.push_back({{engine.name, engine.version,
                            std::string(nameOf(engine.status, engineStatusNames)) +

@@ -22,7 +22,7 @@ namespace crossgrain::reports {
 struct EffectiveScene {
   std::string engine;
   const EffectiveParameters* effective;
-  const std::vector<std::string>* calledFor;  ///< effects of this scene; null: not known
+  const Names* calledFor;  ///< effects of this scene; null: not known
 };
 /// Deviations of engines from the scene, pair coefficients after their mixing rules, and effects
 /// called for and simulated.

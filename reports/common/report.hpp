@@ -12,6 +12,7 @@
 #include "reports/common/figure.hpp"
 #include "reports/common/overview.hpp"
 #include "reports/common/pictures.hpp"
+#include "reports/common/text.hpp"
 #include "results/engine_row.hpp"
 #include "results/head.hpp"
 
@@ -28,14 +29,14 @@ struct Square {
 
 struct Cell {
   std::string text;
-  std::vector<std::string> notes;  ///< in smaller letters below
+  Names notes;                     ///< in smaller letters below
   std::optional<Verdict> verdict;  ///< its colour; absent: none, unless it is marked
   bool marked = false;             ///< the verdict's mark stands before the text
   std::string link = {};           ///< "#id" or another page; empty: none
   std::vector<Square> strip = {};
 
-  Cell(std::string text_ = {}, std::vector<std::string> notes_ = {},
-       std::optional<Verdict> verdict_ = {}, bool marked_ = false)
+  Cell(std::string text_ = {}, Names notes_ = {}, std::optional<Verdict> verdict_ = {},
+       bool marked_ = false)
       : text(std::move(text_)), notes(std::move(notes_)), verdict(verdict_), marked(marked_) {
     std::erase(notes, std::string());
   }
@@ -56,6 +57,15 @@ struct Column {
   Column(std::string name_, Kind kind_ = Kind::words) : name(std::move(name_)), kind(kind_) {}
   Column(const char* name_, Kind kind_ = Kind::words) : name(name_), kind(kind_) {}
 };
+inline Column numbers(std::string name) {
+  return {std::move(name), Column::Kind::number};
+}
+inline Column remarks(std::string name) {
+  return {std::move(name), Column::Kind::remark};
+}
+inline Column engineNames(std::string name) {
+  return {std::move(name), Column::Kind::engines};
+}
 
 struct TableRow {
   std::vector<Cell> cells;  ///< the first is the row's name
@@ -65,7 +75,7 @@ struct TableRow {
 
 struct Table {
   std::vector<Column> columns;
-  std::vector<TableRow> rows;
+  std::vector<TableRow> rows = {};
   std::string note = {};  ///< below it, in smaller letters
   bool dense = false;     ///< of thousands of numbers
 };
@@ -86,7 +96,7 @@ struct List {
 
 /// Plots and pictures by the names of their files.
 struct Drawings {
-  std::vector<std::string> names;
+  Names names;
   bool side = true;  ///< side by side, where they are narrow enough
 };
 
@@ -140,8 +150,8 @@ struct ReportDigest {
 };
 
 struct Report : ReportDigest {
-  std::optional<double> elapsed = {};   ///< [s]
-  std::vector<std::string> notes = {};  ///< remarks that the matrix does not have
+  std::optional<double> elapsed = {};  ///< [s]
+  Names notes = {};                    ///< remarks that the matrix does not have
   std::vector<Section> sections = {};
   std::vector<Figure> figures = {};
   std::vector<Picture> pictures = {};

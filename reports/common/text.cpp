@@ -150,7 +150,7 @@ std::string headLabel(std::string_view name) {
   return found->symbol.empty() ? words : words + " " + std::string(found->symbol);
 }
 
-std::string listed(const std::vector<std::string>& names) {
+std::string listed(const Names& names) {
   if (names.size() < 2) return fmt::format("{}", fmt::join(names, ""));
   return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
 }
@@ -160,9 +160,9 @@ std::string allOf(std::size_t count, std::string_view noun) {
   return count == 2 ? fmt::format("both {}s", noun) : fmt::format("all {} {}s", count, noun);
 }
 
-std::string listedShortly(const std::vector<std::string>& names, std::size_t most) {
+std::string listedShortly(const Names& names, std::size_t most) {
   if (names.size() <= most) return listed(names);
-  std::vector<std::string> few(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(most));
+  Names few(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(most));
   few.push_back(fmt::format("{} more", names.size() - most));
   return listed(few);
 }
@@ -178,7 +178,7 @@ std::string capitalised(std::string text) {
 }
 
 std::string indicesText(const std::vector<int>& indices) {
-  std::vector<std::string> parts;
+  Names parts;
   for (std::size_t k = 0; k < indices.size();) {
     std::size_t end = k + 1;
     while (end < indices.size() && indices[end] == indices[end - 1] + 1) ++end;
@@ -190,7 +190,7 @@ std::string indicesText(const std::vector<int>& indices) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-std::vector<std::string> nonEmpty(std::vector<std::string> texts) {
+Names nonEmpty(Names texts) {
   std::erase(texts, std::string());
   return texts;
 }
@@ -199,8 +199,8 @@ void SaidOf::add(const std::string& subject, const std::string& said) {
   const auto found = std::ranges::find(said_, said, [](const auto& one) { return one.first; });
   if (found == said_.end())
     said_.push_back({said, {subject}});
-  else if (std::ranges::find(found->second, subject) == found->second.end())
-    found->second.push_back(subject);
+  else
+    addOnce(found->second, subject);
 }
 
 }  // namespace crossgrain::reports

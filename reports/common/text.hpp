@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -12,6 +14,8 @@
 /// gnuplot's, and sentences that are put together by rule. A name that is not known here is shown
 /// as it is, its underscores as spaces.
 namespace crossgrain::reports {
+
+using Names = std::vector<std::string>;
 
 /// Of a field: "stress_rp" → "shear stress σ_rφ", and its words alone: "shear stress".
 std::string fieldLabel(std::string_view field);
@@ -55,6 +59,18 @@ std::string capitalised(std::string text);
 
 /// Indices that rise, runs of three or more by their ends: "0, 2 to 5, 7".
 std::string indicesText(const std::vector<int>& indices);
+
+/// Adds a value unless the list has it.
+template <typename T>
+void addOnce(std::vector<T>& list, const std::type_identity_t<T>& value) {
+  if (std::ranges::find(list, value) == list.end()) list.push_back(value);
+}
+
+/// The first element whose member has that value; null without one.
+auto findBy(const auto& list, const auto& value, auto member) -> decltype(&*list.begin()) {
+  const auto found = std::ranges::find(list, value, member);
+  return found == list.end() ? nullptr : &*found;
+}
 
 /// Drops empty ones.
 std::vector<std::string> nonEmpty(std::vector<std::string> texts);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/common/text.hpp"
 #include "results/json_fields.hpp"
 
 namespace crossgrain::reports {
@@ -33,7 +32,7 @@ bool isFault(const ConformanceRow& row) {
 
 OverviewCell partCell(const ConformanceResults& results, const CheckPart& part) {
   std::size_t asked = 0, passes = 0, untried = 0;
-  std::vector<std::string> faults;
+  Names faults;
   for (const ConformanceRow& row : results.rows) {
     if (row.part != part.name || row.outcome == checkSkipped) continue;
     untried += row.outcome == checkUntried;
@@ -66,7 +65,7 @@ OverviewCell notExaminedCell(const ConformanceResults& results) {
 
 /// Rows of one part: those that failed unfolded, the others folded.
 void addCheckPart(Report& report, const ConformanceResults& results, const CheckPart& part) {
-  Table faults{{"check", "passes if", "outcome", {"number or reason", Column::Kind::remark}}, {}};
+  Table faults{{"check", "passes if", "outcome", remarks("number or reason")}};
   Table others = faults;
   for (const ConformanceRow& row : results.rows) {
     if (row.part != part.name) continue;
@@ -89,7 +88,7 @@ void addCheckPart(Report& report, const ConformanceResults& results, const Check
 struct Subject {
   std::string name;
   std::size_t passed = 0;
-  std::vector<std::string> failed = {};
+  Names failed = {};
 };
 
 /// In the order in which they were run.
@@ -141,7 +140,7 @@ std::string conformanceLead(const ConformanceResults& results) {
 }
 
 std::string conformanceNotExamined(const ConformanceResults& results) {
-  std::vector<std::string> lines;
+  Names lines;
   if (!results.notExamined.empty())
     lines.push_back(fmt::format("not examined: {}", fmt::join(results.notExamined, "; ")));
   if (!results.atDefaults.empty())
@@ -153,7 +152,7 @@ std::string conformanceNotExamined(const ConformanceResults& results) {
 std::string conformanceCause(const ConformanceResults& results) {
   if (!results.cause.empty()) return "most likely: " + results.cause;
   if (results.count(checkFailed) == 0) return {};
-  std::vector<std::string> passes, fails;
+  Names passes, fails;
   for (const Subject& subject : subjectsOf(results)) {
     if (!subject.failed.empty())
       fails.push_back(fmt::format("{} ({})", subject.name, listedShortly(subject.failed, 3)));

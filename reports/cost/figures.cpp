@@ -19,11 +19,6 @@ namespace {
 
 using Points = std::vector<CostPoint>;
 
-template <class Value>
-void addOnce(std::vector<Value>& values, const Value& value) {
-  if (std::ranges::find(values, value) == values.end()) values.push_back(value);
-}
-
 /// Larger errors say no more than that the run is wrong: they stand at the upper edge.
 constexpr double offScale = 10.0;
 /// gnuplot's marks
@@ -258,7 +253,7 @@ std::string captionOf(const Points& points, CostKind kind) {
       "statistical part; ▽ may be chance: drawn at its upper end; ×, at the upper edge: failed.",
       timeUnit(kind));
   const auto all = otherSettings(points);
-  std::vector<std::string> numbers;
+  Names numbers;
   for (std::size_t k = 0; k < all.size(); ++k)
     if (std::ranges::any_of(points, [&](const CostPoint& point) {
           return point.kind == kind && point.counted() &&
@@ -422,17 +417,9 @@ std::optional<Figure> stepFigure(const CostResults& results) {
 }
 
 Table stepTable(const CostResults& results) {
-  Table table{{{"engine", Column::Kind::engines},
-               {"bodies", Column::Kind::number},
-               {"workers", Column::Kind::number},
-               {"step", Column::Kind::number},
-               {"ns/body", Column::Kind::number},
-               {"strong", Column::Kind::number},
-               {"weak", Column::Kind::number},
-               {"× first", Column::Kind::number},
-               {"bytes/body", Column::Kind::number},
-               {"deviations, or why it did not run", Column::Kind::remark}},
-              {}};
+  Table table{{engineNames("engine"), numbers("bodies"), numbers("workers"), numbers("step"),
+               numbers("ns/body"), numbers("strong"), numbers("weak"), numbers("× first"),
+               numbers("bytes/body"), remarks("deviations, or why it did not run")}};
   for (const StepTime& time : results.steps) {
     const StepFigures figures = stepFigures(results.steps, time);
     const auto bytes = figures.bytes ? std::optional(std::round(*figures.bytes)) : std::nullopt;

@@ -82,7 +82,7 @@ std::string modelText(const CostModel& model) {
 
 /// "a tie with t_c/200, skin = 0.001": settings of which it is not known whether they take less.
 std::string tieText(const std::vector<TiedSetting>& ties) {
-  std::vector<std::string> names;
+  Names names;
   for (const TiedSetting& one : ties) names.push_back(settingText(one.knob, one.setting));
   return names.empty() ? "" : fmt::format("a tie with {}", fmt::join(names, ", "));
 }
@@ -97,7 +97,7 @@ std::string timeText(const CostTime& time) {
 /// "the cheapest engine", or that it ties with others.
 std::string cheapestText(const CostResults& results, const Advice& advice) {
   if (!advice.cheapest) return "";
-  std::vector<std::string> others;
+  Names others;
   for (const Advice& one : results.advice)
     if (one.cheapest && one.target == advice.target && one.engine != advice.engine)
       others.push_back(one.engine);
@@ -107,8 +107,8 @@ std::string cheapestText(const CostResults& results, const Advice& advice) {
 }
 
 /// Engines that have points, in the order of the results.
-std::vector<std::string> enginesIn(const CostResults& results) {
-  std::vector<std::string> engines;
+Names enginesIn(const CostResults& results) {
+  Names engines;
   for (const EngineRow& engine : results.engines)
     if (std::ranges::find(results.points, engine.name, &CostPoint::engine) != results.points.end())
       engines.push_back(engine.name);
@@ -117,7 +117,7 @@ std::vector<std::string> enginesIn(const CostResults& results) {
 
 /// "Which setting … is decided for 31 of 36 against …"
 std::string decidedText(const CostResults& results) {
-  std::vector<std::string> parts;
+  Names parts;
   for (const CostBasis basis : costBases) {
     std::size_t all = 0, decided = 0;
     for (const CostCell& cell : results.cells)
@@ -286,7 +286,7 @@ OverviewCell adviceCell(const CostResults& results, const Advice& advice) {
 
 /// "1 %: grain with t_c/200 (0.01 ms; 1.2 s (1.1 s to 1.3 s) for a second of the scene)"
 std::string cheapestOf(const CostResults& results, double target) {
-  std::vector<std::string> names;
+  Names names;
   for (const Advice& one : results.advice)
     if (one.target == target && one.cheapest)
       names.push_back(fmt::format("{} with {} (step {}; {} for {})", one.engine,
@@ -300,8 +300,7 @@ std::string cheapestOf(const CostResults& results, double target) {
 /// The accuracies of the first matrix: those of the cells and the one asked for, falling.
 std::vector<double> answerTargets(const CostResults& results) {
   std::vector<double> targets = targetsOf(results.cells);
-  if (results.target && std::ranges::find(targets, *results.target) == targets.end())
-    targets.push_back(*results.target);
+  if (results.target) addOnce(targets, *results.target);
   std::ranges::sort(targets, std::greater<>());
   return targets;
 }
@@ -342,7 +341,7 @@ Overview costOverview(const CostResults& results) {
     }
     overview.rows.push_back(std::move(row));
   }
-  std::vector<std::string> cheapest;
+  Names cheapest;
   for (const double target : targets) cheapest.push_back(cheapestOf(results, target));
   if (!cheapest.empty())
     overview.conclusion.push_back(
@@ -369,12 +368,7 @@ std::string decidesText(const std::string& decides) {
 
 /// Per kind of error, basis, engine and target: the setting that reaches it for the least time.
 Table accuracyTable(const CostResults& results) {
-  Table table{{{"engine", Column::Kind::engines},
-               "accuracy",
-               "setting",
-               {"time", Column::Kind::number},
-               {"error", Column::Kind::remark}},
-              {}};
+  Table table{{engineNames("engine"), "accuracy", "setting", numbers("time"), remarks("error")}};
   for (const CostKind kind : kindsIn(results.points))
     for (const CostBasis basis : costBases) {
       std::string group = fmt::format(
@@ -409,12 +403,7 @@ Table accuracyTable(const CostResults& results) {
 
 /// Per engine and target the recommended setting, with its fragment to paste.
 Blocks adviceBlocks(const CostResults& results) {
-  Table table{{{"engine", Column::Kind::engines},
-               "accuracy",
-               "setting",
-               {"time", Column::Kind::number},
-               {"averages", Column::Kind::remark}},
-              {}};
+  Table table{{engineNames("engine"), "accuracy", "setting", numbers("time"), remarks("averages")}};
   Blocks fragments;
   for (const Advice& one : results.advice) {
     const CostPoint* obstacle = pointAt(results, one.obstacle);
@@ -448,13 +437,8 @@ Blocks adviceBlocks(const CostResults& results) {
 
 /// Settings other than time steps: their time and errors.
 Table settingTable(const CostResults& results) {
-  Table table{{{"number", Column::Kind::number},
-               {"engine", Column::Kind::engines},
-               "setting",
-               "error of",
-               {"time", Column::Kind::number},
-               {"error", Column::Kind::remark}},
-              {}};
+  Table table{{numbers("number"), engineNames("engine"), "setting", "error of", numbers("time"),
+               remarks("error")}};
   const auto settings = otherSettings(results.points);
   for (const CostPoint& point : results.points) {
     const auto place = std::ranges::find(settings, OtherSetting{point.knob, point.setting});
@@ -470,12 +454,8 @@ Table settingTable(const CostResults& results) {
 
 /// Speeds and sizes that collisions have, of a run of the scene.
 Table impactTable(const CostResults& results) {
-  Table table{{"pair",
-               {"new contacts", Column::Kind::number},
-               {"median v_n [m/s]", Column::Kind::number},
-               {"95 % below [m/s]", Column::Kind::number},
-               {"lightest pair, m₁₂ [kg]", Column::Kind::number}},
-              {}};
+  Table table{{"pair", numbers("new contacts"), numbers("median v_n [m/s]"),
+               numbers("95 % below [m/s]"), numbers("lightest pair, m₁₂ [kg]")}};
   for (const PairImpacts& pair : results.impacts.pairs)
     table.rows.push_back(
         {{pair.pair, readableCount(static_cast<double>(pair.contacts)), readable(pair.median),
@@ -497,13 +477,7 @@ Table impactTable(const CostResults& results) {
 
 /// What failed, was refused or did not fit, alike reasons together.
 Table notRunTable(const CostResults& results) {
-  Table table{{{"engine", Column::Kind::engines},
-               "error",
-               "setting",
-               "status",
-               {"reason", Column::Kind::remark},
-               "measures"},
-              {}};
+  Table table{{engineNames("engine"), "error", "setting", "status", remarks("reason"), "measures"}};
   const CostPoint* last = nullptr;
   const auto key = [](const CostPoint& point) {
     return std::tie(point.engine, point.kind, point.knob, point.setting, point.status,
@@ -524,8 +498,7 @@ Table notRunTable(const CostResults& results) {
 }
 
 Table referenceTable(const CostResults& results) {
-  Table table{{"error", "reference", "setting", {"its own error", Column::Kind::number}, "note"},
-              {}};
+  Table table{{"error", "reference", "setting", numbers("its own error"), "note"}};
   for (const CostReference& reference : results.references)
     table.rows.push_back({{toString(reference.kind), reference.engine, reference.setting,
                            percentText(reference.error), reference.note}});
@@ -538,7 +511,7 @@ Table referenceTable(const CostResults& results) {
 }
 
 /// What became of the points, and which engines refused.
-std::vector<std::string> costSentences(const CostResults& results) {
+Names costSentences(const CostResults& results) {
   std::string counts = fmt::format("{} points: {}", results.points.size(), countsText(results));
   if (results.count(Status::notRun) > 0 && results.budgetForTheRest)
     counts += fmt::format(
@@ -546,7 +519,7 @@ std::vector<std::string> costSentences(const CostResults& results) {
         "about {}",
         readableDuration(results.budget),
         readableDuration(std::ceil(*results.budgetForTheRest / 10.0) * 10.0));
-  std::vector<std::string> sentences = {decidedText(results), counts + "."};
+  Names sentences = {decidedText(results), counts + "."};
   for (const EngineRow& engine : results.engines)
     if (engine.status == Status::refused)
       sentences.push_back(fmt::format("{} refused the scene: {}", engine.name, engine.reason));

@@ -47,7 +47,7 @@ int triangle(bool up, bool filled) {
 }
 
 /// The sizes [%] that the change panels of a figure show.
-Range rangeOf(const Variants& variants, const std::vector<std::string>& fields) {
+Range rangeOf(const Variants& variants, const Names& fields) {
   constexpr double least = 0.01;  // [%] below lies no change that anybody would look for
   Range range{100.0, 100.0};
   for (const VariantSummary& variant : variants)
@@ -94,20 +94,19 @@ Panel changePanel(const Variants& variants, const std::string& field, const Rang
 }
 
 /// The fields that say most about a shear cell, as far as they are judged; else the first ones.
-std::vector<std::string> keyFields(const Variants& variants) {
+Names keyFields(const Variants& variants) {
   constexpr std::size_t most = 4;
-  const std::vector<std::string> judged = judgedFields(variants);
-  std::vector<std::string> fields;
+  const Names judged = judgedFields(variants);
+  Names fields;
   for (const char* name : {"azimuthal_velocity", "volume_fraction", "spin", "stress_rr"})
     if (std::ranges::find(judged, name) != judged.end()) fields.emplace_back(name);
   for (const std::string& name : judged)
-    if (fields.size() < most && std::ranges::find(fields, name) == fields.end())
-      fields.push_back(name);
+    if (fields.size() < most) addOnce(fields, name);
   return fields;
 }
 
 Figure costFigure(const Variants& variants, const std::string& name) {
-  const std::vector<std::string> fields = keyFields(variants);
+  const Names fields = keyFields(variants);
   Figure figure;
   figure.name = name;
   figure.title = "What each effect costs and what it changes";

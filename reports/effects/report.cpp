@@ -13,9 +13,6 @@ namespace crossgrain::reports {
 
 namespace {
 
-using Engines = std::vector<EngineRuns>;
-using Kind = Column::Kind;
-
 /// Two figures, three and more as they are: never a power of ten.
 std::string roughly(double percent) {
   return percent < 99.5 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent);
@@ -104,7 +101,7 @@ std::string describeChanges(const VariantSummary& variant) {
                      detectableInWords(variant)
                : std::string();
   constexpr std::size_t most = 3;
-  std::vector<std::string> words;
+  Names words;
   for (std::size_t k = 0; k < std::min(found.size(), most); ++k)
     words.push_back(describeChange(*found[k]));
   const std::size_t more = found.size() - words.size();
@@ -149,7 +146,7 @@ Cell endpointChange(const EndpointRow& row) {
   if (finite(row.low) && finite(row.high))
     text += fmt::format(" ({} to {})", readableDifference(row.low, {}),
                         readableDifference(row.high, {}));
-  std::vector<std::string> detail = {fmt::format("of {}{}", readable(row.reference), unit)};
+  Names detail = {fmt::format("of {}{}", readable(row.reference), unit)};
   detail.emplace_back(row.verdict == Verdict::pass   ? "shown within the margin"
                       : row.verdict == Verdict::fail ? "shown beyond the margin"
                                                      : "margin: undecided");
@@ -161,7 +158,7 @@ Cell endpointChange(const EndpointRow& row) {
 
 /// Changes of every endpoint by each effect; empty where the case has none.
 Table endpointChanges(const EffectsResults& results, const std::string& engine) {
-  Table table{{"switched off"}, {}};
+  Table table{{"switched off"}};
   for (const VariantSummary& variant : variantSummaries(results, engine)) {
     if (!variant.ran() || variant.endpoints.empty()) continue;
     if (table.rows.empty())
@@ -191,14 +188,11 @@ std::string scaleOf(const EngineRuns& whole, const std::string& field) {
 /// Effects of one engine: cost, contacts, and the change of each field that is judged.
 Table effectTable(const EffectsResults& results, const std::string& engine) {
   const std::vector<VariantSummary> variants = variantSummaries(results, engine);
-  const std::vector<std::string> fields = judgedFields(variants);
+  const Names fields = judgedFields(variants);
   const EffectVariant* whole = wholeVariant(results, engine);
   const EngineRuns everything = variantRuns(results, engine).front();
-  Table table{{"switched off",
-               {"saves of a step [%]", Kind::number},
-               {"a step [µs]", Kind::number},
-               {"contacts in a step", Kind::number}},
-              {}};
+  Table table{{"switched off", numbers("saves of a step [%]"), numbers("a step [µs]"),
+               numbers("contacts in a step")}};
   TableRow first{{"nothing: largest value", absentText, readable(times(finite(whole->step), 1e6)),
                   readableCount(whole->contacts)}};
   for (const std::string& field : fields) {
@@ -232,8 +226,8 @@ std::string effectSentence(const VariantSummary& variant) {
                      changes);
 }
 
-std::vector<std::string> effectsNotes(const EffectsResults& results) {
-  std::vector<std::string> notes;
+Names effectsNotes(const EffectsResults& results) {
+  Names notes;
   for (const EngineRow& engine : results.engines)
     if (engine.status == Status::refused)
       notes.push_back(fmt::format("{} refused the scene: {}", engine.name, engine.reason));
@@ -371,7 +365,7 @@ Report reportOf(const EffectsResults& results) {
   report.figures = effectFigures(results);
   for (std::size_t k = 0; k < engines.size(); ++k)
     if (wholeVariant(results, engines[k].name)) addStudy(report, results, engines[k].name, k + 1);
-  Table switches{{"switch", {"meaning", Kind::remark}}, {}};
+  Table switches{{"switch", remarks("meaning")}};
   for (const SwitchRow& one : results.switches)
     switches.rows.push_back({{variantLabel(one.effect), one.what}});
   report.section("reading", "How to read it").blocks = {

@@ -71,11 +71,11 @@ const VariantSummary* costliestOf(const std::vector<VariantSummary>& variants);
 const EffectVariant* wholeVariant(const EffectsResults& results, const std::string& engine);
 
 /// Fields that any variant judges, in the order of the results.
-std::vector<std::string> judgedFields(const std::vector<VariantSummary>& variants);
+Names judgedFields(const std::vector<VariantSummary>& variants);
 
 /// The runs of one engine with everything on and with each effect switched off, each as if it were
 /// an engine of its own.
-std::vector<EngineRuns> variantRuns(const EffectsResults& results, const std::string& engine);
+Engines variantRuns(const EffectsResults& results, const std::string& engine);
 
 /// Of an effect: "bottom friction", "tension", "double precision"; and of the run that lacks it:
 /// "without bottom friction", "tension cut off", "single precision".

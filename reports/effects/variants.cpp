@@ -98,11 +98,8 @@ constexpr std::array simplerLaws = {
     Name{"double_precision", "double precision", "single precision"}};
 
 const Name* simplerLaw(const std::string& effect) {
-  const auto found = std::ranges::find(simplerLaws, effect, &Name::effect);
-  return found == simplerLaws.end() ? nullptr : &*found;
+  return findBy(simplerLaws, effect, &Name::effect);
 }
-
-using Names = std::vector<std::string>;
 
 std::string percentOf(double fraction) {
   const double percent = 100.0 * fraction;
@@ -220,8 +217,7 @@ std::string effectsNextStep(const EffectsResults& results, const std::vector<Var
 }  // namespace
 
 const FieldChange* VariantSummary::of(const std::string& field) const {
-  const auto found = std::ranges::find(changes, field, &FieldChange::field);
-  return found == changes.end() ? nullptr : &*found;
+  return findBy(changes, field, &FieldChange::field);
 }
 
 bool VariantSummary::decidable() const {
@@ -269,16 +265,15 @@ const EffectVariant* wholeVariant(const EffectsResults& results, const std::stri
   return found == results.variants.end() ? nullptr : &*found;
 }
 
-std::vector<std::string> judgedFields(const std::vector<VariantSummary>& variants) {
-  std::vector<std::string> fields;
+Names judgedFields(const std::vector<VariantSummary>& variants) {
+  Names fields;
   for (const VariantSummary& variant : variants)
-    for (const FieldChange& change : variant.changes)
-      if (std::ranges::find(fields, change.field) == fields.end()) fields.push_back(change.field);
+    for (const FieldChange& change : variant.changes) addOnce(fields, change.field);
   return fields;
 }
 
-std::vector<EngineRuns> variantRuns(const EffectsResults& results, const std::string& engine) {
-  std::vector<EngineRuns> runs;
+Engines variantRuns(const EffectsResults& results, const std::string& engine) {
+  Engines runs;
   for (const EffectVariant& variant : results.variants) {
     if (variant.engine != engine) continue;
     EngineRuns of;
@@ -321,9 +316,7 @@ Overview effectsOverview(const EffectsResults& results) {
                                 anchor});
   }
   Names effects;
-  for (const VariantSummary& variant : all)
-    if (std::ranges::find(effects, variant.effect) == effects.end())
-      effects.push_back(variant.effect);
+  for (const VariantSummary& variant : all) addOnce(effects, variant.effect);
   for (const std::string& effect : effects) {
     OverviewRow row{effectLabel(effect), false, {}};
     for (std::size_t k = 0; k < results.engines.size(); ++k) {

@@ -11,8 +11,6 @@ namespace crossgrain::reports {
 
 namespace {
 
-using Engines = std::vector<EngineRuns>;
-
 OverviewCell regimeCell(const FlowRun& run) {
   OverviewCell cell{Verdict::notMeasured, {}, {}, {}, {}, "regimes"};
   if (!run.regime) return cell;
@@ -163,8 +161,8 @@ std::string averageLead(const CompareResults& results, const Engines& engines) {
   return fmt::format("{} of {} averaged: {}.", snapshots, name, extentOf(results, engines));
 }
 
-std::vector<std::string> averageNotes(const CompareResults& results, const Engines& engines) {
-  std::vector<std::string> sentences;
+Names averageNotes(const CompareResults& results, const Engines& engines) {
+  Names sentences;
   if (engines.empty() || engines.front().finished.empty()) return sentences;
   if (const std::string times = timesOf(engines); !times.empty())
     sentences.push_back("The snapshots are of " + times + ".");
@@ -217,7 +215,7 @@ void addRegionColumns(Overview& overview, const Engines& engines) {
 Overview averageOverview(const CompareResults& results) {
   Overview overview;
   overview.rowsAre = "snapshots of";
-  const std::vector<EngineRuns> engines = engineRuns(results);
+  const Engines engines = engineRuns(results);
   if (results.region) {
     addRegionColumns(overview, engines);
     if (!overview.rows.empty())

@@ -14,8 +14,6 @@ namespace crossgrain::reports {
 
 namespace {
 
-using Names = std::vector<std::string>;
-
 /// The matrix' mark and colour of the same answer. @param brief  the distance alone
 Cell answerCell(const CompareResults& results, const EndpointRow* row, bool brief = false) {
   if (!row) return absentText;
@@ -26,7 +24,7 @@ Cell answerCell(const CompareResults& results, const EndpointRow* row, bool brie
   const std::string distance = describeDistance(*row);
   if (brief)
     return {row->verdict == Verdict::notMeasured ? absentText : distance, {}, verdict, true};
-  std::vector<std::string> more = {describeSurrogate(*row), describeNeeds(*row)};
+  Names more = {describeSurrogate(*row), describeNeeds(*row)};
   if (row->lost > 0)
     more.push_back(counted(static_cast<std::size_t>(row->lost), "packing") + " failed");
   more.push_back(row->reason);
@@ -55,7 +53,7 @@ std::string marginInWords(const Endpoints& endpoints, const std::string& name) {
 /// Every endpoint with its margin; an engine per column, against a.
 Table endpointVerdicts(const CompareResults& results, const std::string& a, const Names& engines) {
   const Endpoints& endpoints = results.endpoints.rows;
-  Table table{{"endpoint and margin"}, {}};
+  Table table{{"endpoint and margin"}};
   for (const std::string& engine : engines)
     table.columns.emplace_back(engine, Column::Kind::engine);
   for (const std::string& name : endpointsOf(endpoints)) {
@@ -69,7 +67,7 @@ Table endpointVerdicts(const CompareResults& results, const std::string& a, cons
 
 /// Pairs of peers, or of mirrors, in the order of the results; an endpoint per column.
 Table endpointPairTable(const CompareResults& results, bool peers) {
-  Table table{{"pair"}, {}};
+  Table table{{"pair"}};
   if (!peers) table.columns.emplace_back("difference of");
   const Names endpoints = endpointsOf(results.endpoints.rows);
   for (const std::string& name : endpoints)
@@ -104,7 +102,7 @@ std::string ringInWords(const AgreementRing& ring, const char* bin) {
 /// Each field ring by ring, an engine per column.
 Table ringTable(const CompareResults& results, const std::string& reference, const Names& peers) {
   const char* const bin = binWord(results);
-  Table table{{"field"}, {}};
+  Table table{{"field"}};
   for (const std::string& peer : peers) table.columns.emplace_back(peer, Column::Kind::engine);
   for (const std::string& field : fieldsOf(results.agreement)) {
     TableRow row{{fieldLabel(field)}};
@@ -177,18 +175,14 @@ void addSurrogates(Blocks& blocks, const CompareResults& results) {
                 Paragraph::Style::small});
 }
 
-using Engines = std::vector<EngineRuns>;
-using Kind = Column::Kind;
-
 const FitRow* fitOf(const EngineRuns& engine, const std::string& name) {
-  const auto found = std::ranges::find(engine.fits(), name, &FitRow::name);
-  return found == engine.fits().end() ? nullptr : &*found;
+  return findBy(engine.fits(), name, &FitRow::name);
 }
 
 Cell fitCell(const FitRow* fit) {
   if (!fit) return absentText;
   const auto value = finite(fit->value), chi2 = finite(fit->chi2PerDof);
-  std::vector<std::string> notes;
+  Names notes;
   if (value && chi2) notes.push_back("χ²/dof " + readable(chi2));
   if (fit->packings && fit->ofPackings && *fit->packings < *fit->ofPackings)
     notes.push_back(
@@ -198,12 +192,11 @@ Cell fitCell(const FitRow* fit) {
 }
 
 Table fitTable(const Engines& engines) {
-  Table table{engineColumns({"quantity", {"expected", Kind::number}}, engines), {}};
+  Table table{engineColumns({"quantity", numbers("expected")}, engines)};
   table.columns.emplace_back("unit");
-  std::vector<std::string> names;
+  Names names;
   for (const EngineRuns& engine : engines)
-    for (const FitRow& fit : engine.fits())
-      if (std::ranges::find(names, fit.name) == names.end()) names.push_back(fit.name);
+    for (const FitRow& fit : engine.fits()) addOnce(names, fit.name);
   for (const std::string& name : names) {
     TableRow row{{name, absentText}};
     std::string unit;
@@ -228,9 +221,7 @@ Table fitTable(const Engines& engines) {
 
 /// Checks of a single number: found, and expected, of each engine's first finished packing.
 Table numberCheckTable(const Engines& engines) {
-  Table table{
-      {"check", {"engine", Kind::engines}, {"found", Kind::number}, {"expected", Kind::number}},
-      {}};
+  Table table{{"check", engineNames("engine"), numbers("found"), numbers("expected")}};
   for (const EngineRuns& engine : engines)
     for (const CheckRow& check : engine.finished.front()->checks)
       if (check.value.size() == 1)
@@ -308,8 +299,8 @@ std::string troubleInWords(const EngineRuns& engine) {
 }
 
 /// On what the verdicts rest, in which state the runs were, and what did not run.
-std::vector<std::string> compareNotes(const CompareResults& results, const Engines& engines) {
-  std::vector<std::string> notes;
+Names compareNotes(const CompareResults& results, const Engines& engines) {
+  Names notes;
   for (const AlarmRow& alarm : results.endpoints.alarms)
     notes.push_back("Alarm. " + describe(alarm));
   if (!engines.empty()) notes.push_back(basisInWords(results, referenceWords(results)));
@@ -330,8 +321,7 @@ std::vector<std::string> compareNotes(const CompareResults& results, const Engin
 
 }  // namespace
 
-void addAgreement(Report& report, const CompareResults& results,
-                  const std::vector<EngineRuns>& engines) {
+void addAgreement(Report& report, const CompareResults& results, const Engines& engines) {
   const Endpoints& endpoints = results.endpoints.rows;
   if (engines.empty()) return;
   const std::string& reference = referenceOf(results);

@@ -35,9 +35,9 @@ std::string profileRows(const FlowFrame& frame, const std::string& engine,
   return rows;
 }
 
-std::vector<std::string> seriesColumns(const std::vector<FlowRun>& runs) {
-  std::vector<std::string> columns = {"wheel_torque", "outer_pressure", "kinetic_energy",
-                                      "coordination", "max_overlap",    "sliding_fraction"};
+Names seriesColumns(const std::vector<FlowRun>& runs) {
+  Names columns = {"wheel_torque", "outer_pressure", "kinetic_energy",
+                   "coordination", "max_overlap",    "sliding_fraction"};
   std::set<std::string> further, ledger;
   for (const FlowRun& run : runs)
     for (const auto& [name, values] : run.series.value_or(RunSeries{}))
@@ -122,7 +122,7 @@ std::string distributionsCsv(const CompareResults& results) {
 }
 
 std::string seriesCsv(const CompareResults& results) {
-  const std::vector<std::string> columns = seriesColumns(results.runs);
+  const Names columns = seriesColumns(results.runs);
   std::string table = "engine,packing,t_s";
   for (const std::string& column : columns) table += "," + cell(column);
   table += "\n";

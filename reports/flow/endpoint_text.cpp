@@ -14,8 +14,7 @@ namespace crossgrain::reports {
 namespace {
 
 const Endpoint* shippedEndpoint(const std::string& name) {
-  const auto found = std::ranges::find(endpointTable(), name, &Endpoint::name);
-  return found == endpointTable().end() ? nullptr : &*found;
+  return findBy(endpointTable(), name, &Endpoint::name);
 }
 
 /// Which endpoint of a spot-check run differs by most margins.
@@ -73,7 +72,7 @@ std::string describeValue(const EndpointRow& row) {
 }
 
 std::string describeSurrogate(const EndpointRow& row) {
-  std::vector<std::string> mirrors;
+  Names mirrors;
   for (const std::string& mirror : {row.surrogateA, row.surrogateB})
     if (!mirror.empty()) mirrors.push_back(mirror);
   if (mirrors.empty()) return {};
@@ -110,9 +109,9 @@ std::string describe(const SurrogateEngine& own) {
       "states different)",
       own.engine, own.mirror, readable(own.equivalent), own.starts, 100.0 * unseen);
   words += "; spot check: ";
-  std::vector<std::string> parts;
+  Names parts;
   if (!own.late.equivalents.empty()) {
-    std::vector<std::string> changes;
+    Names changes;
     for (const EquivalentChange& one : own.late.equivalents)
       changes.push_back(fmt::format("{} % of {}", readable(100.0 * one.change), one.constant));
     parts.push_back(
@@ -160,10 +159,9 @@ bool isOf(const auto& row, const std::string& a, const std::string& b) {
 }
 
 /// The different values of a member, in the order of the rows.
-std::vector<std::string> differentOnes(const auto& rows, auto member) {
-  std::vector<std::string> values;
-  for (const auto& row : rows)
-    if (std::ranges::find(values, row.*member) == values.end()) values.push_back(row.*member);
+Names differentOnes(const auto& rows, auto member) {
+  Names values;
+  for (const auto& row : rows) addOnce(values, row.*member);
   return values;
 }
 
@@ -177,11 +175,11 @@ const Row* find(const std::vector<Row>& rows, const std::string& a, const std::s
 
 }  // namespace
 
-std::vector<std::string> fieldsOf(const Agreement& agreement) {
+Names fieldsOf(const Agreement& agreement) {
   return differentOnes(agreement, &AgreementRow::field);
 }
 
-std::vector<std::string> endpointsOf(const Endpoints& endpoints) {
+Names endpointsOf(const Endpoints& endpoints) {
   return differentOnes(endpoints, &EndpointRow::endpoint);
 }
 
@@ -203,7 +201,7 @@ std::vector<const EndpointRow*> rowsOf(const Endpoints& endpoints, const std::st
   return rows;
 }
 
-std::vector<std::string> closedFormEngines(const Endpoints& endpoints) {
+Names closedFormEngines(const Endpoints& endpoints) {
   Endpoints rows = endpoints;
   std::erase_if(rows, [](const EndpointRow& row) { return row.kind != PairKind::closedForm; });
   return differentOnes(rows, &EndpointRow::b);
@@ -217,9 +215,8 @@ std::string referenceWords(const CompareResults& results) {
   return called(referenceOf(results));
 }
 
-std::vector<std::string> peersOf(const CompareResults& results,
-                                 const std::vector<EngineRuns>& engines) {
-  std::vector<std::string> peers;
+Names peersOf(const CompareResults& results, const Engines& engines) {
+  Names peers;
   for (const EngineRuns& engine : engines)
     if (engine.name != referenceOf(results) &&
         std::ranges::any_of(results.endpoints.rows, [&](const EndpointRow& row) {

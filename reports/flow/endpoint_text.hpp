@@ -69,7 +69,6 @@ std::string called(const std::string& engine);
 std::string referenceWords(const CompareResults& results);
 
 /// Engines that are compared with the reference in their own name.
-std::vector<std::string> peersOf(const CompareResults& results,
-                                 const std::vector<EngineRuns>& engines);
+std::vector<std::string> peersOf(const CompareResults& results, const Engines& engines);
 
 }  // namespace crossgrain::reports

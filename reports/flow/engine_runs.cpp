@@ -68,10 +68,9 @@ void EngineRuns::takeRuns(const std::vector<FlowRun>& all,
     }
 }
 
-std::vector<EngineRuns> engineRuns(const FlowStudy& study,
-                                   const std::vector<CouetteEnsemble>& ensembles) {
+Engines engineRuns(const FlowStudy& study, const std::vector<CouetteEnsemble>& ensembles) {
   const std::vector<LineStyle> styles = engineStyles(study.engines);
-  std::vector<EngineRuns> engines;
+  Engines engines;
   for (const EngineRow& row : study.engines) {
     EngineRuns engine{row, styles[engines.size()], {}, {}, nullptr};
     engine.takeRuns(study.runs, ensembles, row.name, "");
@@ -80,8 +79,8 @@ std::vector<EngineRuns> engineRuns(const FlowStudy& study,
   return engines;
 }
 
-std::vector<EngineRuns> engineRuns(const CompareResults& results) {
-  std::vector<EngineRuns> engines = engineRuns(results, results.ensemble);
+Engines engineRuns(const CompareResults& results) {
+  Engines engines = engineRuns(results, results.ensemble);
   const bool means =
       std::ranges::any_of(engines, [](const EngineRuns& engine) { return engine.ensemble; });
   for (EngineRuns& engine : engines) {

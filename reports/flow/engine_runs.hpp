@@ -34,11 +34,12 @@ struct EngineRuns : EngineRow {
                 const std::string& engine, const std::string& without);
 };
 
+using Engines = std::vector<EngineRuns>;
+
 /// In the results' order: the reference first. Runs with an effect switched off are left out.
-std::vector<EngineRuns> engineRuns(const FlowStudy& study,
-                                   const std::vector<CouetteEnsemble>& ensembles);
+Engines engineRuns(const FlowStudy& study, const std::vector<CouetteEnsemble>& ensembles);
 /// The same with `isSingle` and `surrogate`.
-std::vector<EngineRuns> engineRuns(const CompareResults& results);
+Engines engineRuns(const CompareResults& results);
 
 /// What is drawn of an engine in its style; of a single run beside means a pale line without bars.
 Curve curveOf(const EngineRuns& engine, std::vector<Point> points = {}, double width = 1.5);

@@ -16,9 +16,6 @@ namespace crossgrain::reports {
 
 namespace {
 
-using Engines = std::vector<EngineRuns>;
-using Names = std::vector<std::string>;
-
 /// What a packing does in each regime, as a verb; of several packings.
 struct Verb {
   std::optional<Regime> regime;  ///< absent: undecided
@@ -195,7 +192,7 @@ Cell regimeCell(const FlowRun* run) {
 }
 
 Table regimeTable(const Engines& engines) {
-  Table table{engineColumns({{"packing", Column::Kind::number}}, engines), {}};
+  Table table{engineColumns({numbers("packing")}, engines)};
   std::set<int> packings;
   for (const EngineRuns& engine : engines)
     for (const FlowRun* run : engine.finished)
@@ -212,7 +209,7 @@ Table regimeTable(const Engines& engines) {
 }
 
 Table regimePairTable(const std::vector<RegimesOfPair>& pairs) {
-  Table table{{"pair", "packings in the same regime", "not in the same"}, {}};
+  Table table{{"pair", "packings in the same regime", "not in the same"}};
   for (const RegimesOfPair& pair : pairs)
     table.rows.push_back(
         {{pair.a + " – " + pair.b,
@@ -241,11 +238,9 @@ Cell steadinessCell(const EngineDrift& row) {
 }
 
 Table steadinessTable(const std::vector<EngineDrift>& all, const Engines& engines) {
-  Table table{engineColumns({"series"}, engines), {}};
-  std::vector<std::string> quantities;
-  for (const EngineDrift& row : all)
-    if (std::ranges::find(quantities, row.quantity) == quantities.end())
-      quantities.push_back(row.quantity);
+  Table table{engineColumns({"series"}, engines)};
+  Names quantities;
+  for (const EngineDrift& row : all) addOnce(quantities, row.quantity);
   for (const std::string& quantity : quantities) {
     TableRow row{{spaced(quantity)}};
     for (const EngineRuns& engine : engines) {
@@ -276,7 +271,7 @@ void addGroup(Table& table, const std::string& title, Rows rows) {
 }
 
 Table emptyTable(const Engines& engines) {
-  Table table{engineColumns({""}, engines), {}};
+  Table table{engineColumns({""}, engines)};
   table.columns.emplace_back("unit");
   return table;
 }
@@ -314,8 +309,7 @@ Rows whatRan(const Engines& engines) {
 }
 
 const HeadNumber* headOf(const EngineRuns& engine, const std::string& name) {
-  const auto found = std::ranges::find(engine.head(), name, &HeadNumber::name);
-  return found == engine.head().end() ? nullptr : &*found;
+  return findBy(engine.head(), name, &HeadNumber::name);
 }
 
 TableRow headRow(const std::string& name, const Engines& engines) {
@@ -378,11 +372,10 @@ Rows costRows(const Engines& engines) {
 }
 
 Rows stateRows(const Engines& engines) {
-  std::vector<std::string> names;
+  Names names;
   for (const EngineRuns& engine : engines)
     for (const HeadNumber& number : engine.head())
-      if (number.name != stepFraction && std::ranges::find(names, number.name) == names.end())
-        names.push_back(number.name);
+      if (number.name != stepFraction) addOnce(names, number.name);
   Rows rows;
   for (const std::string& name : names) rows.push_back(headRow(name, engines));
   return rows;
@@ -390,9 +383,7 @@ Rows stateRows(const Engines& engines) {
 
 /// Engines and runs that did not run to the end.
 Table troubleTable(const Engines& engines) {
-  Table table{
-      {{"engine", Column::Kind::engines}, "packing", "status", {"reason", Column::Kind::remark}},
-      {}};
+  Table table{{engineNames("engine"), "packing", "status", remarks("reason")}};
   for (const EngineRuns& engine : engines) {
     if (engine.status != Status::finished)
       table.rows.push_back(
@@ -469,7 +460,7 @@ std::string averagedRotations(const FlowAveraging& averaging) {
   return words;
 }
 
-std::vector<std::string> stateSentences(const CompareResults& results, const Engines& engines) {
+Names stateSentences(const CompareResults& results, const Engines& engines) {
   Names sentences;
   addRegimes(sentences, engines);
   if (!engines.empty()) addPairs(sentences, results, referenceOf(results));
@@ -512,8 +503,7 @@ std::string describeAverages(const FlowFrame& frame, const Engines& engines) {
                      when.empty() ? std::string() : ", " + when);
 }
 
-std::vector<EffectiveScene> effectiveOf(const FlowFrame& frame,
-                                        const std::vector<EngineRuns>& engines) {
+std::vector<EffectiveScene> effectiveOf(const FlowFrame& frame, const Engines& engines) {
   std::vector<EffectiveScene> effective;
   for (const EngineRuns& engine : engines)
     if (engine.effective()) effective.push_back({engine.name, engine.effective(), &frame.effects});

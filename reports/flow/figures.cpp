@@ -133,8 +133,8 @@ void makeFaint(Curve& curve) {
   curve.width = 1.0;
 }
 
-Panel profilePanel(const FlowFrame& frame, const std::vector<EngineRuns>& engines,
-                   const ProfilePlot& plot, const IsFaint& faint) {
+Panel profilePanel(const FlowFrame& frame, const Engines& engines, const ProfilePlot& plot,
+                   const IsFaint& faint) {
   const Scaled scale = scaled(plot, frame.cell);
   Panel panel;
   const double inner = frame.cell.innerRadius, outer = frame.cell.outerRadius;
@@ -169,8 +169,7 @@ const std::vector<ProfilePlot>& plotsOf(const FlowFrame& frame) {
 }
 
 /// Velocity twice, shear stress and volume fraction: a comparison at one glance.
-Figure overview(const FlowFrame& frame, const std::vector<EngineRuns>& engines,
-                const IsFaint& faint) {
+Figure overview(const FlowFrame& frame, const Engines& engines, const IsFaint& faint) {
   Figure figure;
   figure.name = "overview";
   const auto& plots = plotsOf(frame);
@@ -183,10 +182,9 @@ Figure overview(const FlowFrame& frame, const std::vector<EngineRuns>& engines,
   figure.panelWidth = 480;
   figure.panelHeight = 330;
   figure.png = true;
-  std::vector<std::string> shown =
-      rings ? std::vector<std::string>{"azimuthal_velocity", "azimuthal_velocity_log", "stress_rp",
-                                       "volume_fraction"}
-            : std::vector<std::string>{"velocity_x", "stress_xy", "stress_yy", "volume_fraction"};
+  Names shown =
+      rings ? Names{"azimuthal_velocity", "azimuthal_velocity_log", "stress_rp", "volume_fraction"}
+            : Names{"velocity_x", "stress_xy", "stress_yy", "volume_fraction"};
   if (!rings && &plots != &regionPlots()) {
     const std::string& along = frame.region->along;
     figure.title = "Velocity, temperature, stress and volume fraction of all engines";
@@ -303,8 +301,8 @@ std::optional<Range> rTildeRange(const FlowFrame& frame) {
   return Range{0.0, (cell.outerRadius - cell.innerRadius) / cell.diameter};
 }
 
-std::string describeBars(const std::vector<EngineRuns>& engines) {
-  std::vector<std::string> single;
+std::string describeBars(const Engines& engines) {
+  Names single;
   for (const EngineRuns& engine : engines)
     if (engine.isSingle)
       single.push_back(engine.surrogate.empty() ? engine.name
@@ -320,7 +318,7 @@ std::string describeBars(const std::vector<EngineRuns>& engines) {
          (single.empty() ? "." : fmt::format("; pale, without: one run of {}.", listed(single)));
 }
 
-std::vector<Figure> profileFigures(const FlowFrame& frame, const std::vector<EngineRuns>& engines,
+std::vector<Figure> profileFigures(const FlowFrame& frame, const Engines& engines,
                                    const IsFaint& faint) {
   std::vector<Figure> figures;
   if (Figure all = overview(frame, engines, faint); !all.panels.empty())
@@ -336,8 +334,7 @@ std::vector<Figure> profileFigures(const FlowFrame& frame, const std::vector<Eng
   return figures;
 }
 
-std::vector<Figure> differenceFigures(const CompareResults& results,
-                                      const std::vector<EngineRuns>& engines) {
+std::vector<Figure> differenceFigures(const CompareResults& results, const Engines& engines) {
   std::vector<Figure> figures;
   if (engines.empty()) return figures;
   const std::string& reference = referenceOf(results);

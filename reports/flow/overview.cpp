@@ -14,9 +14,6 @@ namespace crossgrain::reports {
 
 namespace {
 
-using Engines = std::vector<EngineRuns>;
-using Names = std::vector<std::string>;
-
 /// Names in a sentence.
 constexpr std::size_t mostNames = 3;
 
@@ -84,9 +81,7 @@ Names conventionsOf(const EngineRuns& engine) {
   Names names;
   if (const EffectiveParameters* effective = engine.effective())
     for (const Deviation& deviation : effective->deviations)
-      if (std::string name = conventionWords(deviation.name);
-          std::ranges::find(names, name) == names.end())
-        names.push_back(std::move(name));
+      addOnce(names, conventionWords(deviation.name));
   return names;
 }
 
@@ -344,7 +339,7 @@ OverviewCell failedRunsOf(const CompareResults& results, const EngineRuns& engin
 
 }  // namespace
 
-std::vector<std::string> compareConclusion(const CompareResults& results) {
+Names compareConclusion(const CompareResults& results) {
   const Engines engines = engineRuns(results);
   if (engines.empty()) return {};
   // Where nothing was judged, nobody is said to agree, or to be undecided.
@@ -391,9 +386,8 @@ OverviewCell endpointCell(const CompareResults& results, const EndpointRow& row)
   return cell;
 }
 
-std::vector<std::string> disagreementsWithMirror(const CompareResults& results,
-                                                 const std::string& engine) {
-  std::vector<std::string> endpoints;
+Names disagreementsWithMirror(const CompareResults& results, const std::string& engine) {
+  Names endpoints;
   for (const EndpointRow& row : results.endpoints.rows)
     if (row.kind == PairKind::mirrorImplementation && row.b == engine &&
         row.verdict == Verdict::fail)

@@ -32,14 +32,11 @@ std::vector<Figure> compareFigures(const CompareResults& results);
 std::vector<Picture> comparePictures(const CompareResults& results);
 
 /// Verdicts against the reference, of all pairs, and model against implementation.
-void addAgreement(Report& report, const CompareResults& results,
-                  const std::vector<EngineRuns>& engines);
+void addAgreement(Report& report, const CompareResults& results, const Engines& engines);
 /// Profiles, fits, balance checks and distributions.
-void addProfiles(Report& report, const CompareResults& results,
-                 const std::vector<EngineRuns>& engines);
+void addProfiles(Report& report, const CompareResults& results, const Engines& engines);
 /// Regimes, drifts and series.
-void addSeries(Report& report, const CompareResults& results,
-               const std::vector<EngineRuns>& engines);
+void addSeries(Report& report, const CompareResults& results, const Engines& engines);
 
 /// profiles.csv, series.csv, regimes.csv, steadiness.csv and distributions.csv.
 std::vector<std::pair<std::string, std::string>> averageTables(const CompareResults& results);
@@ -54,16 +51,14 @@ std::string agreementCsv(const CompareResults& results);
 using IsFaint = std::function<bool(const EngineRuns&, const std::string& field)>;
 
 /// The parts of compareFigures. A check of a single number is no plot.
-std::vector<Figure> profileFigures(const FlowFrame& frame, const std::vector<EngineRuns>& engines,
+std::vector<Figure> profileFigures(const FlowFrame& frame, const Engines& engines,
                                    const IsFaint& faint = {});
 /// difference_FIELD: engines minus the reference, ring by ring, in margins, with the margin's band.
-std::vector<Figure> differenceFigures(const CompareResults& results,
-                                      const std::vector<EngineRuns>& engines);
-std::vector<Figure> distributionFigures(const FlowFrame& frame,
-                                        const std::vector<EngineRuns>& engines);
+std::vector<Figure> differenceFigures(const CompareResults& results, const Engines& engines);
+std::vector<Figure> distributionFigures(const FlowFrame& frame, const Engines& engines);
 
 /// What the bars of the profiles are, in words: over packings, or within one run.
-std::string describeBars(const std::vector<EngineRuns>& engines);
+std::string describeBars(const Engines& engines);
 
 /// Where the bins of profiles are, on the axis of that name: (r − R_i)/d, or a coordinate in m.
 /// Those of a grid are nowhere (NaN).
@@ -94,8 +89,7 @@ OverviewCell endpointCell(const EndpointRow& row, bool isModel);
 OverviewCell endpointCell(const CompareResults& results, const EndpointRow& row);
 
 /// Endpoints in which an engine and its own mirror disagree: these have one law.
-std::vector<std::string> disagreementsWithMirror(const CompareResults& results,
-                                                 const std::string& engine);
+Names disagreementsWithMirror(const CompareResults& results, const std::string& engine);
 
 /// Whether the difference of an engine from the reference is shown to come from its declared law:
 /// lockstep verifies that law, or its mirror agrees with it wherever both it and the reference
@@ -105,23 +99,22 @@ bool isModelDifference(const CompareResults& results, const EngineRow& engine);
 
 /// At most three sentences: who agrees with whom on what, the cause of differences, what to do
 /// next.
-std::vector<std::string> compareConclusion(const CompareResults& results);
+Names compareConclusion(const CompareResults& results);
 
 // What ran, its cost, and in what state runs were while they were averaged.
 
 /// The table of engines, and engines and runs that did not finish, with their reasons.
-void addEngineTable(Blocks& blocks, const std::vector<EngineRuns>& engines);
+void addEngineTable(Blocks& blocks, const Engines& engines);
 
 /// The state alone: of what was averaged and not run. No rows: nothing is known.
-Table stateTable(const std::vector<EngineRuns>& engines);
+Table stateTable(const Engines& engines);
 
 /// Rings, weights and snapshots that the profiles are means over.
 /// @param engines  of which files may have others than the case says
-std::string describeAverages(const FlowFrame& frame, const std::vector<EngineRuns>& engines);
+std::string describeAverages(const FlowFrame& frame, const Engines& engines);
 
 /// What the engines made of the case's scene.
-std::vector<EffectiveScene> effectiveOf(const FlowFrame& frame,
-                                        const std::vector<EngineRuns>& engines);
+std::vector<EffectiveScene> effectiveOf(const FlowFrame& frame, const Engines& engines);
 
 /// "rotations 0.25 to 1.25 since the hand-over, 2.25 to 3.25 since the ring had closed"; what is
 /// not known is left out.
@@ -130,11 +123,9 @@ std::string averagedRotations(const FlowAveraging& averaging);
 /// Before any mean: which packings flow, are blocked or collisional, on which engines; where a
 /// pair's regimes differ; which engines drift, on which no drift is seen and down to what size, and
 /// where it is undecided.
-std::vector<std::string> stateSentences(const CompareResults& results,
-                                        const std::vector<EngineRuns>& engines);
+Names stateSentences(const CompareResults& results, const Engines& engines);
 
 /// Tables: regimes by packing and engine; pairs whose regimes differ; drifts by series and engine.
-void addStates(Blocks& blocks, const CompareResults& results,
-               const std::vector<EngineRuns>& engines);
+void addStates(Blocks& blocks, const CompareResults& results, const Engines& engines);
 
 }  // namespace crossgrain::reports

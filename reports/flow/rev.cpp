@@ -39,8 +39,6 @@ BinWords wordsOf(const RevResults& results) {
   return {region.z.empty() ? "square" : "cube", along, "Δ" + along};
 }
 
-using Names = std::vector<std::string>;
-
 /// Below it two weights agree on a field: packings of one cell differ as much at best.
 constexpr double hardlyApart = 0.05;
 
@@ -147,7 +145,7 @@ std::string revLead(const RevResults& results) {
 }
 
 /// Which weights are as good as slicing from which width on, and which are not.
-std::vector<std::string> revConclusion(const RevResults& results) {
+Names revConclusion(const RevResults& results) {
   Names near, far;
   double from = 0.0;
   for (const Weighing& weight : comparedWeights(results)) {
@@ -160,7 +158,7 @@ std::vector<std::string> revConclusion(const RevResults& results) {
       far.push_back(fmt::format("{} ({})", weight.words, listedShortly(summary.apart, 3)));
     }
   }
-  std::vector<std::string> sentences = {revLead(results)};
+  Names sentences = {revLead(results)};
   if (!near.empty())
     sentences.push_back(
         fmt::format("Within 5 % of slicing in every field: {}.", fmt::join(near, "; ")));
@@ -223,11 +221,10 @@ std::string meetingOf(const RevResults& results, const char* field, const std::s
 
 /// A row per field: where centre and line averages come closest to slicing near d and 2 d.
 Table meetingTable(const RevResults& results) {
-  Table table{{"field"}, {}};
+  Table table{{"field"}};
   for (const Weighing& weight : kernelWeights(results))
     for (const char* near : {"d", "2 d"})
-      table.columns.emplace_back(fmt::format("{}, near {}", weight.words, near),
-                                 Column::Kind::number);
+      table.columns.push_back(numbers(fmt::format("{}, near {}", weight.words, near)));
   for (const char* const field : drawnFields) {
     TableRow row{{fieldLabel(field)}};
     for (const Weighing& weight : kernelWeights(results))

@@ -61,8 +61,7 @@ std::optional<double> rotationRate(const CouetteCell& cell) {
   return std::abs(cell.omega) / (2.0 * std::numbers::pi);
 }
 
-Panel seriesPanel(const FlowFrame& frame, const std::vector<EngineRuns>& engines,
-                  const SeriesPlot& plot) {
+Panel seriesPanel(const FlowFrame& frame, const Engines& engines, const SeriesPlot& plot) {
   const auto rate = rotationRate(frame.cell);
   Panel panel;
   panel.xLabel = rate ? "rotations since hand-over" : "time since hand-over [s]";
@@ -104,7 +103,7 @@ std::vector<Point> balancePoints(const RingPlaces& rings, const CheckRow& check)
   return points;
 }
 
-std::vector<Figure> seriesFigures(const FlowFrame& frame, const std::vector<EngineRuns>& engines) {
+std::vector<Figure> seriesFigures(const FlowFrame& frame, const Engines& engines) {
   std::vector<Figure> figures;
   for (const SeriesPlot& plot : seriesPlots()) {
     Panel panel = seriesPanel(frame, engines, plot);
@@ -115,7 +114,7 @@ std::vector<Figure> seriesFigures(const FlowFrame& frame, const std::vector<Engi
   return figures;
 }
 
-std::vector<Figure> checkFigures(const FlowFrame& frame, const std::vector<EngineRuns>& engines) {
+std::vector<Figure> checkFigures(const FlowFrame& frame, const Engines& engines) {
   std::vector<Figure> figures;
   std::vector<std::pair<std::string, std::string>> checks;  // name, label
   for (const EngineRuns& engine : engines)
@@ -123,7 +122,7 @@ std::vector<Figure> checkFigures(const FlowFrame& frame, const std::vector<Engin
       for (const CheckRow& check : engine.finished.front()->checks) {
         if (check.value.size() < 2) continue;
         const std::pair entry(check.name, check.label);
-        if (std::ranges::find(checks, entry) == checks.end()) checks.push_back(entry);
+        addOnce(checks, entry);
       }
   for (const auto& [name, label] : checks) {
     Panel panel;
@@ -148,8 +147,6 @@ std::vector<Figure> checkFigures(const FlowFrame& frame, const std::vector<Engin
   }
   return figures;
 }
-
-using Engines = std::vector<EngineRuns>;
 
 constexpr const char* speedAxis = "v_{φ} / (Ω R_{i})";
 constexpr const char* spinAxis = "S d / (Ω D)";
@@ -337,7 +334,7 @@ std::string forceWords(const ForceCount& count, double widest) {
 }  // namespace
 
 std::vector<Figure> compareFigures(const CompareResults& results) {
-  const std::vector<EngineRuns> engines = engineRuns(results);
+  const Engines engines = engineRuns(results);
   std::vector<Figure> figures = profileFigures(results, engines);
   for (auto more : {differenceFigures(results, engines), checkFigures(results, engines),
                     seriesFigures(results, engines), distributionFigures(results, engines)})

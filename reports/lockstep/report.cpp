@@ -57,7 +57,7 @@ OverviewCell termCell(const LockstepRow& row) {
 
 /// The deviation found of those that differ from the law that they declare.
 std::string deviationOf(const LockstepFindings& findings) {
-  std::vector<std::string> parts;
+  Names parts;
   for (const LockstepRow& row : findings.rows)
     if (lockstepState(row, findings.rules) == Verdict::fail)
       parts.push_back(fmt::format(
@@ -68,7 +68,7 @@ std::string deviationOf(const LockstepFindings& findings) {
 }
 
 std::string nextOf(const LockstepFindings& findings) {
-  std::vector<std::string> differ, unmeasured, undecided;
+  Names differ, unmeasured, undecided;
   for (const LockstepRow& row : findings.rows) {
     if (row.verdict == Equivalence::undecided) undecided.push_back(row.engine);
     if (lockstepState(row, findings.rules) == Verdict::fail) differ.push_back(row.engine);
@@ -86,7 +86,6 @@ std::string nextOf(const LockstepFindings& findings) {
          "here.";
 }
 
-using Kind = Column::Kind;
 using Number = std::optional<double>;
 
 std::string orDash(std::string words) {
@@ -105,14 +104,13 @@ std::string forcesInWords(const LockstepRow& row) {
 }
 
 Table verdictTable(const LockstepFindings& findings) {
-  Table table{{{"engine", Kind::engines}, "verdict", {"ε_eq", Kind::number}}, {}};
+  Table table{{engineNames("engine"), "verdict", numbers("ε_eq")}};
   std::size_t times = 0;
   for (const LockstepRow& row : findings.rows)
     if (times == 0)
       for (const LockstepSeparation& at : row.separations) {
-        table.columns.emplace_back(
-            fmt::format("largest difference after {} ms [d]", readable(1e3 * at.time)),
-            Kind::number);
+        table.columns.push_back(
+            numbers(fmt::format("largest difference after {} ms [d]", readable(1e3 * at.time))));
         ++times;
       }
   table.columns.emplace_back("forces of the first step differ by");
@@ -136,9 +134,9 @@ Table verdictTable(const LockstepFindings& findings) {
 }
 
 Table contactTable(const LockstepFindings& findings) {
-  Table table{{{"engine", Kind::engines}}, {}};
+  Table table{{engineNames("engine")}};
   for (const char* name : {"starts", "sticking", "sliding", "new", "opening", "at a wall"})
-    table.columns.emplace_back(name, Kind::number);
+    table.columns.push_back(numbers(name));
   table.columns.emplace_back("first difference beyond rounding");
   for (const LockstepRow& row : findings.rows) {
     const ContactKinds& kinds = row.kinds;
@@ -263,7 +261,7 @@ std::string lockstepCsv(const LockstepResults& results) {
 }  // namespace
 
 std::string leadOf(const LockstepFindings& findings) {
-  std::vector<std::string> same, differ, ordered, open, undecided;
+  Names same, differ, ordered, open, undecided;
   for (const LockstepRow& row : findings.rows) {
     if (row.verdict == Equivalence::notMeasured)
       open.push_back(row.engine);
@@ -276,8 +274,8 @@ std::string leadOf(const LockstepFindings& findings) {
   }
   if (same.empty() && differ.empty() && ordered.empty() && undecided.empty())
     return "Nothing was measured.";
-  std::vector<std::string> parts;
-  const auto add = [&](const std::vector<std::string>& names, const char* one, const char* many) {
+  Names parts;
+  const auto add = [&](const Names& names, const char* one, const char* many) {
     if (!names.empty())
       parts.push_back(fmt::format("{} {}", listed(names), names.size() == 1 ? one : many));
   };

@@ -189,7 +189,7 @@ Overview diffOverview(const DiffResults& results) {
       {"averages", "The endpoint of whole runs that says most, in margins.", ""},
       {"declared", "What the engine declares otherwise than it did.", ""}};
   SaidOf verdicts, terms;
-  std::vector<std::string> differ;
+  Names differ;
   for (const DiffRow& row : results.rows) {
     overview.rows.push_back({row.engine,
                              true,

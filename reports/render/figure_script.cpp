@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/common/text.hpp"
 #include "reports/render/gnuplot.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
@@ -280,9 +281,7 @@ std::vector<std::string> namesAbove(const Figure& figure) {
   if (!figure.keyAbove) return names;
   for (const Panel& panel : figure.panels)
     for (const Curve& curve : panel.curves)
-      if (!curve.name.empty() && isSeen(panel, curve) &&
-          std::ranges::find(names, curve.name) == names.end())
-        names.push_back(curve.name);
+      if (!curve.name.empty() && isSeen(panel, curve)) addOnce(names, curve.name);
   return names;
 }
 

@@ -9,7 +9,6 @@
 #include <set>
 
 #include "reports/common/engines.hpp"
-#include "reports/common/text.hpp"
 #include "support/files.hpp"
 
 namespace crossgrain::reports {
@@ -243,7 +242,7 @@ class Writer {
   std::string out_;
 };
 
-std::string joined(const std::vector<std::string>& parts) {
+std::string joined(const Names& parts) {
   std::string result;
   for (const std::string& part : parts)
     if (!part.empty()) result += (result.empty() ? "" : " · ") + part;
@@ -274,7 +273,7 @@ std::string notesOf(const Report& report) {
 
 /// "Beside this page: results.json (everything), cost.csv and junit.xml."
 std::string filesOf(const Report& report, bool ofSite) {
-  std::vector<std::string> names = {ofSite ? "summary.md" : "results.json (everything)"};
+  Names names = {ofSite ? "summary.md" : "results.json (everything)"};
   for (const auto& [name, content] : report.tables) names.push_back(name);
   if (report.checks) names.emplace_back("junit.xml");
   return "Beside this page: " + listed(names) + ".";

@@ -59,7 +59,7 @@ std::string counts(const std::vector<JUnitCase>& cases) {
 
 /// "undecided, 0.31 margins, pressure"
 std::string messageOf(const OverviewCell& cell) {
-  std::vector<std::string> parts;
+  Names parts;
   if (cell.verdict != Verdict::pass && cell.verdict != Verdict::fail)
     parts.push_back(spaced(cellWord(cell.verdict)));
   for (const std::string& part : {cell.shown, cell.words})

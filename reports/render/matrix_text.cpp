@@ -69,7 +69,7 @@ Shown shownOf(const Overview& overview, std::size_t blocks) {
 
 /// "… and 3 more rows and 1 more column: in the report"; empty: nothing is left out.
 std::string leftOut(std::size_t rows, std::size_t columns) {
-  std::vector<std::string> parts;
+  Names parts;
   if (rows > 0) parts.push_back(fmt::format("{} more row{}", rows, rows == 1 ? "" : "s"));
   if (columns > 0)
     parts.push_back(fmt::format("{} more column{}", columns, columns == 1 ? "" : "s"));
@@ -101,7 +101,7 @@ std::string forTable(const std::string& text) {
   return safe;
 }
 
-std::string headOf(const std::string& corner, const std::vector<std::string>& names) {
+std::string headOf(const std::string& corner, const Names& names) {
   std::string text = fmt::format("| {} |", forTable(corner));
   for (const std::string& name : names) text += fmt::format(" {} |", forTable(name));
   text += "\n|---|";
@@ -111,7 +111,7 @@ std::string headOf(const std::string& corner, const std::vector<std::string>& na
 
 /// A question per column.
 std::string lying(const Overview& overview) {
-  std::vector<std::string> names;
+  Names names;
   for (const OverviewColumn& column : overview.columns) names.push_back(column.name);
   std::string text = headOf(overview.rowsAre, names);
   for (const OverviewRow& row : overview.rows) {
@@ -124,7 +124,7 @@ std::string lying(const Overview& overview) {
 
 /// A question per row.
 std::string standing(const Overview& overview) {
-  std::vector<std::string> names;
+  Names names;
   for (const OverviewRow& row : overview.rows) names.push_back(row.name);
   std::string text = headOf("", names);
   for (std::size_t k = 0; k < overview.columns.size(); ++k) {
@@ -168,7 +168,7 @@ std::string overviewText(const Overview& overview, const TextLook& look) {
   return text;
 }
 
-std::string alignedText(const std::vector<std::vector<std::string>>& rows) {
+std::string alignedText(const std::vector<Names>& rows) {
   std::vector<std::size_t> widths;
   for (const auto& cells : rows) {
     widths.resize(std::max(widths.size(), cells.size()));
@@ -186,7 +186,7 @@ std::string alignedText(const std::vector<std::vector<std::string>>& rows) {
 }
 
 std::string tableMarkdown(const Table& table, const std::string& title) {
-  std::vector<std::string> names;
+  Names names;
   for (const Column& column : table.columns) names.push_back(column.name);
   std::string text = fmt::format("# {}\n\n{}", forTable(title),
                                  headOf(names.front(), {names.begin() + 1, names.end()}));

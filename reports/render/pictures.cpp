@@ -230,7 +230,7 @@ std::string toSvg(const Drawing& drawing, double size, const std::string& title)
 std::string toPdf(const Drawing& drawing, double size) {
   const double points = size * 72.0 / 96.0;
   const std::string content = pdfContent(drawing, points);
-  const std::vector<std::string> objects = {
+  const Names objects = {
       "<< /Type /Catalog /Pages 2 0 R >>", "<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
       fmt::format("<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {0} {0}] /Contents 4 0 R >>",
                   points),

@@ -5,7 +5,6 @@
 
 #include "adapters/worker/json.hpp"
 #include "reports/common/engines.hpp"
-#include "reports/common/text.hpp"
 #include "reports/stability/report.hpp"
 #include "results/json_fields.hpp"
 #include "results/scene_picture.hpp"

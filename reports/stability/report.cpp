@@ -47,8 +47,7 @@ constexpr std::array families = {
     Family{"split", "in one go", "Does a run without snapshots do the same?", true}};
 
 const Family* known(const std::string& measure) {
-  const auto found = std::ranges::find(families, measure, &Family::measure);
-  return found == families.end() ? nullptr : &*found;
+  return findBy(families, measure, &Family::measure);
 }
 
 /// The family of hard cases that a measure belongs to; of one that is not known here its own name.
@@ -151,7 +150,7 @@ std::string stableEngines(const StabilityResults& results) {
 std::string differentTransforms(const StabilityResults& results) {
   SaidOf said;
   for (const EngineRow& engine : results.engines) {
-    std::vector<std::string> broken;
+    Names broken;
     for (const StabilityRun& run : results.runs)
       if (run.engine == engine.name && run.verdict == Verdict::fail)
         broken.push_back(fmt::format("{} {}", spaced(run.name), run.variant));
@@ -169,7 +168,7 @@ std::string unstableCases(const StabilityResults& results) {
   if (areTransforms(results)) return differentTransforms(results);
   SaidOf said;
   for (const EngineRow& engine : results.engines) {
-    std::vector<std::string> unstable;
+    Names unstable;
     for (const HardGroup& group : hardGroups(results))
       if (const StabilityRun* run = worstRun(results, engine.name, group);
           run && run->verdict == Verdict::fail)
@@ -204,8 +203,6 @@ std::string stabilityNextStep(const StabilityResults& results) {
   return "Nothing was judged: every run was refused.";
 }
 
-using Kind = Column::Kind;
-
 /// The clause that names what is missing, of "X cannot run FILE: CLAUSE; HINT".
 std::string shortReason(const StabilityRun& run) {
   const auto clause = run.reason.find(".toml: ");
@@ -226,7 +223,7 @@ std::string runWord(const StabilityRun& run) {
 /// The verdict, the measure's value, and the step from which on it was beyond its limit.
 Cell runCell(const StabilityRun* run) {
   if (!run) return absentText;
-  std::vector<std::string> notes = {valueOf(*run)};
+  Names notes = {valueOf(*run)};
   // Of a transformed case the limit is not the case's.
   if (std::isfinite(run->limit) && !std::isfinite(run->degradedLimit))
     notes.push_back("rounding may do " + readable(run->limit));
@@ -249,7 +246,7 @@ std::string stableTally(const StabilityResults& results, const std::string& engi
 }
 
 Table stabilityMatrix(const StabilityResults& results, const std::vector<HardGroup>& groups) {
-  Table table{engineColumns({"case"}, results.engines), {}};
+  Table table{engineColumns({"case"}, results.engines)};
   for (std::size_t g = 0; g < groups.size(); ++g) {
     TableRow row{{{spaced(groups[g].name), {spaced(groups[g].variants.front()->measure)}}}};
     row.cells.front().link = fmt::format("#case_{}", g + 1);
@@ -289,9 +286,7 @@ std::string measureOf(const HardCase& hard) {
 }
 
 Table variantTable(const StabilityResults& results, const HardGroup& group) {
-  Table table{engineColumns({"variant", {"limit", Kind::number}, {"degraded", Kind::number}},
-                            results.engines),
-              {}};
+  Table table{engineColumns({"variant", numbers("limit"), numbers("degraded")}, results.engines)};
   for (const HardCase* variant : group.variants) {
     const bool other = variant->measure != group.variants.front()->measure;
     TableRow row{{{variant->variant, {other ? spaced(variant->measure) : ""}},
@@ -340,18 +335,9 @@ void addHardCase(Report& report, const StabilityResults& results, const HardGrou
 }
 
 Table scoreTable(const StabilityResults& results) {
-  Table table{{{"engine", Kind::engines},
-               "case",
-               "variant",
-               "verdict",
-               "measure",
-               {"value", Kind::number},
-               {"limit", Kind::number},
-               {"degraded", Kind::number},
-               "unit",
-               {"from step", Kind::number},
-               {"reason", Kind::remark}},
-              {}};
+  Table table{{engineNames("engine"), "case", "variant", "verdict", "measure", numbers("value"),
+               numbers("limit"), numbers("degraded"), "unit", numbers("from step"),
+               remarks("reason")}};
   table.dense = true;
   for (const StabilityRun& run : results.runs)
     table.rows.push_back({{run.engine,

@@ -86,8 +86,7 @@ TEST(Html, EveryBlock_IsEscapedAndTypeset) {
   using namespace reports;
   Report report;
   report.engines = {{"en<g", "", "", "", Status::finished, ""}};
-  Table table{{{"engine", reports::Column::Kind::engines}, {"σ_rφ", reports::Column::Kind::number}},
-              {}};
+  Table table{{engineNames("engine"), numbers("σ_rφ")}};
   table.rows.push_back({{"en<g", {"1<2", {"k_n"}, Verdict::fail, true}}, "gr<oup"});
   report.section("one", "O<ne").blocks = {Paragraph{"a<b, k_n"}, List{{{"le<ad", "t_c"}}},
                                           std::move(table), Code{"c<d k_n"},
