@@ -8,14 +8,6 @@
 
 namespace crossgrain::inline results {
 
-Json toJson(const CollideResults& results) {
-  return jsonOf(results);
-}
-
-CollideResults collideFromJson(const Json& json) {
-  return readAs<CollideResults>(json);
-}
-
 bool CollisionCurve::allParted() const {
   for (std::size_t k = 0; k < points.size(); ++k)
     if (!points.parted(k) && points.shouldPart(k)) return false;

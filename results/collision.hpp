@@ -5,7 +5,6 @@
 #include "adapters/engine.hpp"
 #include "adapters/worker/json.hpp"
 #include "results/collision_score.hpp"
-#include "results/engine_row.hpp"
 #include "results/head.hpp"
 
 /// results.json of kind "collide": sweeps of collisions, compared with the oracle.

@@ -7,8 +7,8 @@
 
 #include "results/agreement.hpp"
 #include "results/endpoints.hpp"
-#include "results/engine_row.hpp"
 #include "results/flow_frame.hpp"
+#include "results/head.hpp"
 #include "results/json_fields.hpp"
 #include "results/lockstep_findings.hpp"
 #include "results/run.hpp"

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "results/engine_row.hpp"
 #include "results/head.hpp"
 
 /// results.json of kind "conformance": what one engine does as it declares.

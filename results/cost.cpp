@@ -1,12 +1,16 @@
 #include "results/cost.hpp"
 
-#include "adapters/worker/json.hpp"
+#include <fmt/format.h>
+
+#include <algorithm>
 
 namespace crossgrain::inline results {
 
 namespace {
+
 constexpr std::string_view ownSuffix = "_own";
-}
+
+}  // namespace
 
 bool isOwn(const std::string& measure) {
   return measure.ends_with(ownSuffix);
@@ -32,12 +36,46 @@ std::size_t CostResults::count(Status status) const {
   return static_cast<std::size_t>(std::ranges::count(points, status, &CostPoint::status));
 }
 
-Json toJson(const CostResults& results) {
-  return jsonOf(results);
+namespace {
+
+std::optional<double> quotient(std::optional<double> one, std::optional<double> other) {
+  if (!one || !other || !(*other > 0.0)) return std::nullopt;
+  return *one / *other;
 }
 
-CostResults costFromJson(const Json& json) {
-  return readAs<CostResults>(json);
+/// Of one worker.
+std::optional<double> stepAlone(const std::vector<StepTime>& times, const std::string& engine,
+                                std::size_t bodies) {
+  for (const StepTime& one : times)
+    if (one.engine == engine && one.bodies == bodies && one.workers == 1 && one.ran())
+      return one.step;
+  return std::nullopt;
+}
+
+}  // namespace
+
+StepFigures stepFigures(const std::vector<StepTime>& times, const StepTime& of) {
+  StepFigures figures;
+  if (!of.ran()) return figures;
+  figures.step = of.step;
+  if (of.seconds.size() > 1)
+    figures.spread = std::ranges::max(of.seconds) / std::ranges::min(of.seconds) - 1.0;
+  const auto bodies = static_cast<double>(of.bodies);
+  figures.perBody = of.step / bodies;
+  figures.bytes = quotient(of.memory, bodies);
+  figures.ratio = quotient(of.step, stepAlone(times, times.front().engine, of.bodies));
+  const auto workers = static_cast<std::size_t>(of.workers);
+  if (workers < 2) return figures;
+  figures.strong = quotient(stepAlone(times, of.engine, of.bodies), of.workers * of.step);
+  if (of.bodies % workers == 0)
+    figures.weak = quotient(stepAlone(times, of.engine, of.bodies / workers), of.step);
+  return figures;
+}
+
+std::string describeWorkers(const StepTime& of) {
+  if (of.workersAre.empty()) return "one process";
+  const std::string& many = of.workersAre;
+  return fmt::format("{} {}", of.workers, of.workers == 1 ? many.substr(0, many.size() - 1) : many);
 }
 
 }  // namespace crossgrain::inline results

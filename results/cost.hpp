@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "cases/cost.hpp"
-#include "results/engine_row.hpp"
 #include "results/flow_frame.hpp"
+#include "results/head.hpp"
 #include "results/json_fields.hpp"
 #include "results/step_time.hpp"
 

@@ -6,31 +6,6 @@
 
 namespace crossgrain::inline results {
 
-Json toJson(const FlowRun& run) {
-  return jsonOf(run);
-}
-FlowRun runFromJson(const Json& json) {
-  return readAs<FlowRun>(json);
-}
-
-Json toJson(const CompareResults& results) {
-  return jsonOf(results);
-}
-CompareResults compareFromJson(const Json& json) {
-  auto results = readAs<CompareResults>(json);
-  // Pages and tables of a comparison begin with the first engine, the reference.
-  if (results.head.kind == kindCompare && results.engines.empty())
-    throw FieldError("engines: are none");
-  return results;
-}
-
-Json toJson(const LockstepResults& results) {
-  return jsonOf(results);
-}
-LockstepResults lockstepFromJson(const Json& json) {
-  return readAs<LockstepResults>(json);
-}
-
 std::optional<double> differenceFromSlicing(const std::vector<RevCurve>& curves,
                                             std::string_view field, std::string_view method,
                                             double width) {
@@ -54,13 +29,6 @@ std::optional<double> differenceFromSlicing(const std::vector<RevCurve>& curves,
   }
   if (scale == 0.0) return std::nullopt;
   return std::sqrt(difference / scale);
-}
-
-Json toJson(const RevResults& results) {
-  return jsonOf(results);
-}
-RevResults revFromJson(const Json& json) {
-  return readAs<RevResults>(json);
 }
 
 const Profile* profileOf(const std::vector<Profile>& profiles, std::string_view field) {

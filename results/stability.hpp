@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "adapters/engine.hpp"
-#include "results/engine_row.hpp"
 #include "results/head.hpp"
 #include "results/json_fields.hpp"
 #include "results/scene_picture.hpp"

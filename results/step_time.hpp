@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "results/engine_row.hpp"
+#include "results/head.hpp"
 #include "results/json_fields.hpp"
 
 namespace crossgrain::inline results {

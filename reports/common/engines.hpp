@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "reports/common/figure.hpp"
-#include "results/engine_row.hpp"
+#include "results/head.hpp"
 
 namespace crossgrain::reports {
 

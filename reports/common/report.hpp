@@ -13,7 +13,6 @@
 #include "reports/common/overview.hpp"
 #include "reports/common/pictures.hpp"
 #include "reports/common/text.hpp"
-#include "results/engine_row.hpp"
 #include "results/head.hpp"
 
 /// A report as data. A study's builder makes it from results alone; reports/render/ has one

@@ -14,7 +14,6 @@
 #include "adapters/scene.hpp"
 #include "adapters/snapshot.hpp"
 #include "cases/case.hpp"
-#include "results/engine_row.hpp"
 #include "results/head.hpp"
 #include "results/scene_picture.hpp"
 #include "studies/core/run_store.hpp"

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "adapters/worker/json.hpp"
-#include "results/engine_row.hpp"
 #include "results/head.hpp"
 #include "results/schema.hpp"
 
