@@ -45,7 +45,7 @@ struct PairedSample {
   double withinDof = 0.0;  ///< degrees of freedom of the first withinVariance; 0: not known
 };
 
-/// What the differences other − reference of one ring say.
+/// Verdict on the differences other − reference of one ring.
 struct PairedComparison {
   int packings = 0;                              ///< P, those that both engines have
   int referencePackings = 0, otherPackings = 0;  ///< with a value; both P where they are paired

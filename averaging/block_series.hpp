@@ -9,7 +9,7 @@ namespace crossgrain::inline averaging {
 /// A long time series of many numbers at a time in bounded memory: sums over blocks of equal
 /// length. When all blocks are full, pairs are merged and blocks get twice as long.
 ///
-/// What the error of a mean needs survives the merging. Its variance is that of the block means
+/// Merging keeps all that the error of a mean needs. Its variance is that of the block means
 /// over their number, times twice their correlation time; blocks shorter than the correlation time
 /// keep it visible, longer ones are independent, and both give the same error. Samples after the
 /// last whole block, less than 1/256 of the series, count in the mean and not in the error. The

@@ -6,7 +6,7 @@
 
 namespace crossgrain::inline averaging {
 
-/// What is a contact: a pair of disks (or disk and wall) that transmits a force, f_n ≠ 0 or
+/// Says what a contact is: a pair of disks (or disk and wall) that transmits a force, f_n ≠ 0 or
 /// f_t ≠ 0, or a torque against rolling, at the instant shown, or as a mean over the interval
 /// shown. So C counts what carries load, as coordination numbers of granular packings do (Agnolin
 /// and Roux 2007), and σ and fabric are sums over the same set.

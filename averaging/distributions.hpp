@@ -58,7 +58,7 @@ struct Distribution {
   double samples = 0.0;
 };
 
-/// What velocities and spins are divided by: ΩR_i [m/s] and ΩD/d [rad/s], D = 2R_i (Lätzel 2003,
+/// Units of velocities and spins: ΩR_i [m/s] and ΩD/d [rad/s], D = 2R_i (Lätzel 2003,
 /// section 6.4), both < 0 where the wheel turns clockwise. Radial velocities know no sense of
 /// rotation: they are divided by |ΩR_i|.
 struct DistributionScales {

@@ -15,7 +15,7 @@
 
 namespace crossgrain::inline averaging {
 
-/// What a field needs beside positions and velocities.
+/// Needs of a field beside positions and velocities.
 enum class Needs {
   kinematics,  ///< no more
   spin,
@@ -79,7 +79,7 @@ class BinView {
 /// the field absent. All labels of reports come from here.
 struct FieldSpec {
   std::string_view name;
-  std::string_view words;  ///< "shear stress"; empty: the name
+  std::string_view words;   ///< "shear stress"; empty: the name
   std::string_view symbol;  ///< "σ_rφ", "σ^dyn_rr": marks as in reports/common/text.hpp; or empty
   std::string_view unit;
   std::string_view definition;

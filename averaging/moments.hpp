@@ -122,7 +122,7 @@ auto& at(SomeMoments& moments, Moment which, int k = 0) {
   return moments[momentPlaces<D>[static_cast<std::size_t>(which)] + static_cast<std::size_t>(k)];
 }
 
-/// What a body's motion adds: all that needs neither spin nor contact. @param v  along the bin's
+/// Adds a body's motion: all that needs neither spin nor contact. @param v  along the bin's
 /// directions [m/s]
 template <int D>
 void addMotion(MomentsOf<D>& moments, double volume, double mass, const VecOf<D>& v) {
@@ -138,7 +138,7 @@ void addMotion(MomentsOf<D>& moments, double volume, double mass, const VecOf<D>
   }
 }
 
-/// What a body's number of contacts adds. One with fewer than D + 1 is a rattler, or on its way to
+/// Adds a body's number of contacts. One with fewer than D + 1 is a rattler, or on its way to
 /// be one: C* counts only the others (Göncü, Durán and Luding 2010, C. R. Mécanique 338:570:
 /// M₄/N₄).
 template <int D>

@@ -11,7 +11,7 @@
 #include "averaging/profiles.hpp"
 #include "averaging/rings.hpp"
 
-/// What kind of state a sheared cell is in. Means over runs in different regimes are means of
+/// The state that a sheared cell is in. Means over runs in different regimes are means of
 /// different things, so this is asked first.
 namespace crossgrain::inline averaging {
 

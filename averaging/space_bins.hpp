@@ -35,7 +35,7 @@ class Parts {
   /// The part that holds x; absent outside.
   std::optional<int> at(double x) const;
 
-  /// What lies within r of x in one part, of any image, from there to there relative to x.
+  /// The stretch within r of x in one part, of any image, from there to there relative to x.
   struct Cut {
     int part;
     double from, to;

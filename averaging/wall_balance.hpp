@@ -8,9 +8,9 @@
 
 namespace crossgrain::inline averaging {
 
-/// What the pressure of the outer wall calls for in the outermost ring, r₁ ≤ r ≤ R_o, of width Δr
-/// and mean radius r_m, from forces that act along their branches (the lines from centres to
-/// contacts).
+/// Stress that the pressure of the outer wall calls for in the outermost ring, r₁ ≤ r ≤ R_o, of
+/// width Δr and mean radius r_m, from forces that act along their branches (the lines from centres
+/// to contacts).
 ///
 /// Branches end in the middle of the overlap. Those of the averaged fields are a disk's radius
 /// long, which adds the overlap, of the force's mean over the diameter: some tenths of a per cent

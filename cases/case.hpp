@@ -28,7 +28,7 @@ namespace crossgrain::inline cases {
 /// The most disks that a case may have, wall disks too: checked before room for them is taken.
 inline constexpr int mostDisks = 1'000'000;
 
-/// What a body is made of, as the case file says.
+/// Material of a body, as the case file says.
 struct MaterialName {
   std::string name;   ///< empty: it does not say
   std::string where;  ///< "file:3:1: assembly.disks[0].material"
@@ -197,8 +197,8 @@ struct StartFilesOf {
   std::vector<double> fixedRadius = {};      ///< [m]
   std::vector<std::vector<int>> lines = {};  ///< of each file, of its disks and then its fixed ones
   MaterialName material = {};                ///< of disks whose file says none
-  /// What the files' rows say, each once with the row that says it first; and of each disk, alike
-  /// in all files, which of them it is, −1: nothing. Empty: no file says any.
+  /// Materials of the files' rows, each once with the row that says it first; and of each disk,
+  /// alike in all files, which of them it is, −1: nothing. Empty: no file says any.
   std::vector<MaterialName> rowMaterials = {};
   std::vector<std::int32_t> rowMaterialOf = {};
 };
@@ -274,7 +274,7 @@ struct Region {
   int binCount() const { return (hasRings() ? count : columnCount() * rowCount()) * layerCount(); }
 };
 
-/// What is made of a quantity to get one number of a run. A mean or slope over bins weighs them
+/// Reduction of a quantity to one number of a run. A mean or slope over bins weighs them
 /// with their volumes where the field is per volume, else with what they hold.
 enum class Reduction {
   mean,     ///< of a field over all bins; of a series over time
@@ -381,7 +381,7 @@ inline bool isAssembly(const Case& setup) {
   return !cellOf(setup) && !isCollision(setup);
 }
 
-/// What the scene is made of. @throws std::bad_variant_access where it is something else
+/// Source of the scene. @throws std::bad_variant_access where it is something else
 inline const Couette& couetteIn(const Case& setup) {
   return std::get<Couette>(setup.source);
 }

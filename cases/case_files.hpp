@@ -11,7 +11,7 @@ namespace crossgrain::inline cases {
 /// The case files (*.toml) of a folder, sorted. @throws BadInput if there is none
 std::vector<std::filesystem::path> caseFilesIn(const std::filesystem::path& folder);
 
-/// What a case file says of itself.
+/// Description of a case file by itself.
 struct CaseSummary {
   std::filesystem::path file;
   std::string name, kind;

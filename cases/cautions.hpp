@@ -9,13 +9,13 @@
 
 namespace crossgrain::inline cases {
 
-/// What a case can be expected to do that is hardly meant, one line each: it loads, and it runs.
+/// Consequences of a case that are hardly meant, one line each: it loads, and it runs.
 /// Too few steps in a contact, a gas where a flow was wanted, squeezed disks, a rate that stresses
 /// depend on, nothing that could be judged.
 /// @param volumeFraction  of a Couette case's disks, ν̄
 std::vector<std::string> cautions(const Case& setup, double volumeFraction);
 
-/// What a Couette case can be expected to do, from its own numbers alone: right to a factor of two
+/// Consequences of a Couette case, from its own numbers alone: right to a factor of two
 /// or three, to tell a gas from a flow and a flow from squeezed disks before anything runs.
 
 /// ν̄ without the layer at the walls that no disk's area reaches: ν̄ H/(H − 2t), H = R_o − R_i, with

@@ -26,7 +26,7 @@ inline std::string toString(CostKind kind) {
   return std::string(namesOf(kind)[static_cast<std::size_t>(kind)]);
 }
 
-/// What `crossgrain cost` varies, one setting at a time, in the order of its results;
+/// Knobs that `crossgrain cost` varies, one setting at a time, in the order of its results;
 /// studies/cost/settings.cpp has the settings of each and the kinds of error that it may change.
 /// "settings" are engines' own, which go by their names; "effects" go by "effect:NAME".
 /// "disks" and "threads" change no error: they are what the time of a step is measured against.
@@ -48,7 +48,7 @@ struct PairImpacts {
   double radius[2] = {}, mass[2] = {};  ///< of the pair with the smallest m₁₂; inf: a wall [m, kg]
 };
 
-/// What `crossgrain cost` varies and measures in a flow, [cost] of a case file. Steps are numbers
+/// Settings and measures of `crossgrain cost` in a flow, [cost] of a case file. Steps are numbers
 /// of steps in the contact time t_c of the lightest pair.
 struct Cost {
   std::vector<CostKind> kinds = {costKinds.begin(), costKinds.end()};

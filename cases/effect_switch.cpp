@@ -10,7 +10,7 @@
 namespace crossgrain::inline cases {
 namespace {
 
-/// What is done, as a sentence and as TOML.
+/// A switch, as a sentence and as TOML.
 struct Change {
   std::string what, fragment;
 };

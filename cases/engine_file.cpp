@@ -101,7 +101,7 @@ std::function<ProgramCall()> stampedOnce(ProgramCall call, std::string file,
   };
 }
 
-/// What a worker in Python imports, beside what the caller's environment or the file has.
+/// Modules that a worker in Python imports, beside what the caller's environment or the file has.
 void addPythonPath(ProgramCall& call) {
   const auto own = call.environment.find("PYTHONPATH");
   const char* const callers = std::getenv("PYTHONPATH");

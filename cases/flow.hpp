@@ -7,8 +7,8 @@
 #include "cases/case.hpp"
 #include "cases/packing.hpp"
 
-/// What a case says to be run and averaged, whatever its kind: all that `compare` and lockstep need
-/// of it.
+/// The part of a case that is run and averaged, whatever its kind: all that `compare` and lockstep
+/// need of it.
 namespace crossgrain::inline cases {
 
 /// Whether there is anything to be averaged: a Couette cell, or an assembly with [average].

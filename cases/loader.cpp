@@ -199,7 +199,7 @@ void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
   if (c.run.dt || !source.particles.file) checkLength(cell, c);
 }
 
-/// What cases in space do not have yet.
+/// Refuses keys that cases in space do not have yet.
 void refusePlaneSections(const Reader& root) {
   root.check(!root.has("bottom"), "bottom", "is of the plane alone, and case.dimension = 3");
 }
@@ -394,7 +394,7 @@ std::vector<Case> loadCase(const std::filesystem::path& file,
   try {
     return loadAll(file, overrides, fragment, starts);
   } catch (const BadInput& error) {
-    // What the command line broke is not the file's fault, wherever it shows.
+    // A fault of the command line is not the file's, wherever it shows.
     if (overrides.empty() || std::string_view(error.what()).starts_with("--set ")) throw;
     try {
       loadAll(file, {}, fragment, starts);

@@ -9,7 +9,7 @@
 
 namespace crossgrain::inline cases {
 
-/// What is done with the starts of a case. Packings that are all the same are refused where several
+/// Treatment of the starts of a case. Packings that are all the same are refused where several
 /// are to be made: they have no scatter. Where none is made nothing speaks against them.
 enum class Starts { made, notMade };
 
@@ -33,8 +33,8 @@ Case caseWith(const Case& setup, const std::string& fragment);
 /// As case.kind has it: "couette", "collision" or "assembly".
 std::string kindOf(const Case& setup);
 
-/// What loadCase() gave, all layers merged, as one case file that loads to the same again, wherever
-/// it lies: one case as it is, several as variants of each of which everything is said.
+/// The case of loadCase(), all layers merged, as one case file that loads to the same again,
+/// wherever it lies: one case as it is, several as variants of each of which everything is said.
 std::string resolvedFile(const std::vector<Case>& cases);
 
 }  // namespace crossgrain::inline cases

@@ -45,7 +45,7 @@ bool isForeign(const toml::source_region& source);
 /// The file that a node came from; absent where it came from the command line or a fragment.
 std::optional<std::filesystem::path> fileOf(const toml::source_region& source);
 
-/// What paths are relative to: the folder of that file, else the working directory.
+/// Folder that paths are relative to: that of that file, else the working directory.
 std::filesystem::path folderOf(const toml::source_region& source);
 
 /// "file:line:column: ", "file: " or "--set key=value: ".

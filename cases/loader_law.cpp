@@ -42,7 +42,7 @@ Key<LawInput> damping(const char* name, double ContactLaw::*gamma, const char* s
                            });
 }
 
-/// What the options of the law mean; their values are listed with them.
+/// Meanings of the law's options; their values are listed with them.
 constexpr std::pair<const char*, const char*> optionMeanings[] = {
     {"normal", "elastic part of f_n: k_n δ; 4/3 E₁₂ √R₁₂ δ^(3/2); k₂ δ² + k₃ δ³; or restitutions"},
     {"damper",
@@ -260,7 +260,7 @@ void setRestitution(const Reader& in, ContactLaw& law) {
   law.en = 1.0;
 }
 
-/// What of the part `without` asks for is no part of the law: may be given as zero.
+/// Constants that the part `without` asks for and the law lacks: may be given as zero.
 void refuseAll(const Reader& in, std::initializer_list<std::pair<const char*, double>> constants,
                const char* without) {
   for (const auto& [key, value] : constants)
@@ -397,7 +397,7 @@ void settleRigid(const Reader& in, LawInput& law) {
 
 namespace {
 
-/// What two materials cannot differ in.
+/// Keys that two materials cannot differ in.
 bool isOption(const std::string& key) {
   return key == "gamma_is" || std::ranges::count(lawOptions(), key, &LawOption::name) > 0;
 }
@@ -439,7 +439,7 @@ Names replaced(const Reader& pair) {
   return hidden;
 }
 
-/// What a pair has and [law] has not would be an effect that engines do not look for.
+/// A part that a pair has and [law] has not would be an effect that engines do not look for.
 void refuseNewEffects(const Reader& in, const ContactLaw& pair, const ContactLaw& law) {
   const auto check = [&](bool is, bool may, const char* key) {
     if (in.has(key))

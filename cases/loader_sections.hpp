@@ -98,7 +98,7 @@ void refuseKeysOf(const Reader& in, int dimension, std::initializer_list<const c
              dimension == 3 ? "the plane" : "space", dimension);
 }
 
-/// What a margin can be for.
+/// Quantities that a margin can be for.
 struct Judged {
   std::string name;
   std::string unit;

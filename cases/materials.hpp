@@ -27,7 +27,7 @@ void changeLaws(Case& setup, auto&& change) {
 template <int D>
 void addMaterials(SceneOf<D>& scene, const Case& setup);
 
-/// What is wrong with the materials that a case names, at the place that says it; of a collision
+/// Fault of the materials that a case names, at the place that says it; of a collision
 /// the law of its two becomes the case's.
 /// @throws BadInput
 void settleMaterials(Case& setup);

@@ -26,7 +26,7 @@ struct Packing {
   std::string notCached;  ///< why it could not be kept for next time; empty if it could
 };
 
-/// What it has of that dimension.
+/// Its bodies of that dimension.
 template <int D, typename AnyPacking>
 auto& disksIn(AnyPacking& packing) {
   if constexpr (D == 2)
@@ -53,13 +53,13 @@ void writePacking(const Packing& packing, const std::filesystem::path& file);
 Packing readPacking(const std::filesystem::path& file, const Case& setup,
                     std::size_t most = mostDisks);
 
-/// What is kept in that file for that hash. Absent where there is none, and where it is another
+/// The packing kept in that file for that hash. Absent where there is none, and where it is another
 /// packing or no longer what was written: then `why` says so.
 std::optional<Packing> keptPacking(const std::filesystem::path& file, const std::string& hash,
                                    const Case& setup, std::string& why,
                                    std::size_t most = mostDisks);
 
-/// What a file of disks may leave out.
+/// Columns that a file of disks may leave out.
 struct DiskDefaults {
   std::function<double(double radius)> mass;  ///< [kg]
   double inertiaFactor = 0.5;                 ///< q in J = q m a²
@@ -76,7 +76,7 @@ struct StartOf {
   std::vector<VecOf<D>> fixedPosition;           ///< [m]
   std::vector<double> fixedRadius;               ///< [m]
   std::vector<int> lines = {}, fixedLines = {};  ///< of the file, of each; of HDF5 none
-  /// What each is made of, empty where its row does not say; of HDF5 none.
+  /// Material of each, empty where its row does not say; of HDF5 none.
   std::vector<std::string> materials = {}, fixedMaterials = {};
 };
 

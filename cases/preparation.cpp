@@ -74,7 +74,7 @@ Scene diluteScene(const Case& setup, const Disks& disks, double dt) {
   return scene;
 }
 
-/// What the case lets the in-house engine go on with: it ends a run or does not, and changes
+/// Leniency of the case with the in-house engine: it ends a run or does not, and changes
 /// nothing of a packing.
 Settings guardOf(const Case& setup) {
   Settings guard;

@@ -48,7 +48,7 @@ const EngineEntry* ownPreparer(const Case& setup);
 std::unique_ptr<Engine> startPreparer(const EngineEntry& entry, const Case& setup,
                                       const std::filesystem::path& scratch);
 
-/// What a packing owes to who prepared it: name, version and settings; empty for the in-house
+/// Origin of a packing: its maker's name, version and settings; empty for the in-house
 /// engine. The version is asked for once in the life of this program.
 /// @throws as startPreparer()
 std::string preparerKey(const Case& setup);

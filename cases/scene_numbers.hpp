@@ -6,7 +6,7 @@
 
 namespace crossgrain::inline cases {
 
-/// What in a scene no double is good enough for, beginning with a colon; empty: nothing.
+/// Numbers of a scene that no double is good enough for, beginning with a colon; empty: nothing.
 ///
 /// A place 10¹⁰ diameters of the smallest disk from the origin is exact to 10⁻⁶ of one
 /// (ε = 1.1·10⁻¹⁶), as little as a contact overlaps; differences and squares of such places are

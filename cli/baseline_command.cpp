@@ -36,7 +36,7 @@ int keep(const CommandLine& line, const KeepOptions& own) {
       : line.quick ? quickLockstepStarts
                    : baselineStarts;
   const fs::path file = out;
-  // What an older version did cannot be made again.
+  // An older version's work cannot be done again.
   if (fs::exists(file))
     throw BadInput(fmt::format(
         "--out {}: this file exists, and a baseline is not replaced: name another file, or remove "

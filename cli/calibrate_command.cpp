@@ -24,8 +24,8 @@
 namespace crossgrain::inline cli {
 namespace {
 
-/// What was asked: wanted values, or constants, or a case file (CommandLine::inputs), and the pair
-/// that they are for. SI units.
+/// Request of calibrate: wanted values, or constants, or a case file (CommandLine::inputs), and the
+/// pair that they are for. SI units.
 struct Request {
   std::optional<double> en, et0, contactTime;
   std::optional<double> kn, gn, kt, gt;
@@ -152,8 +152,8 @@ std::string fromWanted(const Request& request) {
   const ReducedPair two = reduced(pair);
   std::string asked = fmt::format("e_n = {}, {}", en, setNormal(law, request, en, two.mass));
   if (request.et0) {
-    // What slips at first touch sticks again by the usual reset and update of springs; see
-    // ImpliedImpact::firstTouchSticksToPsi.
+    // A contact that slips at first touch sticks again by the usual reset and update of springs;
+    // see ImpliedImpact::firstTouchSticksToPsi.
     calibrateTangential(law, *request.et0, two);
     asked += fmt::format(", e_t0 = {}", *request.et0);
   } else {

@@ -13,7 +13,7 @@ double need(std::optional<double> value, const char* option, const char* why);
 /// A line of a [law] table.
 std::string constant(const char* key, double value, const char* unit);
 
-/// What calibrate is asked of rolling resistance and cohesion: wanted values or constants, of a
+/// Request for rolling resistance and cohesion: wanted values or constants, of a
 /// disk on a plane, or of a pair. SI units.
 class ContactRequest {
  public:

@@ -7,7 +7,7 @@
 #include "cases/case.hpp"
 #include "cases/collision_scene.hpp"
 
-/// What calibrate prints: TOML that a case can take, all else as comments.
+/// Output of calibrate: TOML that a case can take, all else as comments.
 namespace crossgrain::inline cli {
 
 /// The law as a [law] table that a case can take, every line that is not TOML a comment.
@@ -17,10 +17,10 @@ std::string lawText(const ContactLaw& law, const std::string& asked);
 /// The laws of materials that differ from [law], as tables likewise.
 std::string materialsText(const Case& setup);
 
-/// What the law means for one pair, as comments. @param vn  of an impact, for its overlap [m/s]
+/// Meaning of the law for one pair, as comments. @param vn  of an impact, for its overlap [m/s]
 std::string impactText(const ContactLaw& law, const CollidingPair& pair, std::optional<double> vn);
 
-/// What a head-on impact does to each pair under a law that stiffens. @param speed  v_n [m/s]
+/// Outcome of a head-on impact of each pair under a law that stiffens. @param speed  v_n [m/s]
 /// @throws std::invalid_argument where the pair does not part
 std::string stiffeningPairsText(const std::vector<NamedPair>& pairs, double speed);
 

@@ -12,7 +12,7 @@ class App;
 
 namespace crossgrain::inline cli {
 
-/// What a command does once its options are parsed. @returns an ExitStatus
+/// The work of a command once its options are parsed. @returns an ExitStatus
 using Action = std::function<int()>;
 
 /// A command of the program. A new one is one of these and a line in commands.cpp; that of a study

@@ -33,7 +33,7 @@ files::WrittenBox boxOf(const Case& setup) {
   return {region.low.head<2>(), region.high.head<2>(), region.height};
 }
 
-/// What is averaged lies in it.
+/// The averaged files lie in it.
 BoxOf<3> boxInSpace(const Region& region) {
   if (!region.hasRings()) return {region.low, region.high};
   const double reach = region.outerRadius;

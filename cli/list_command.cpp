@@ -104,7 +104,7 @@ json listKeys(const fs::path&) {
   return rows;
 }
 
-/// What can be listed, and the columns of the text.
+/// Lists that there are, and the columns of their text.
 struct Subject {
   std::string name;
   json (*rows)(const fs::path& folder);

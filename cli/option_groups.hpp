@@ -8,7 +8,7 @@
 
 namespace crossgrain::inline cli {
 
-/// What commands take. CLI11 itself is slow to compile, so that only option_groups.cpp and
+/// Options of commands. CLI11 itself is slow to compile, so that only option_groups.cpp and
 /// program.cpp include it.
 
 /// @name Options of one command

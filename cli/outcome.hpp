@@ -13,7 +13,7 @@ void printFailure(const std::string& reason);
 /// The matrix that the report opens with: in colours on a terminal, unless NO_COLOR is set.
 void printOverview(const reports::Overview& overview);
 
-/// What stands on the terminal of results whose report has been written: the path of results.json
+/// Prints on the terminal, of results whose report has been written: the path of results.json
 /// alone (--json), or text, matrix and the report's path.
 /// @param timeSpent  and a line on standard error: how long the program has run, for how much of
 ///                   that engines stepped and plots were drawn. The rest are starts, files,

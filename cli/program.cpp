@@ -108,7 +108,7 @@ std::string reason(const CLI::ParseError& error, const CLI::App& command) {
   return error.what();
 }
 
-/// What a command line was refused for, in the words of this program, with the help that says what
+/// Why a command line was refused, in the words of this program, with the help that says what
 /// would be right.
 std::string explain(const CLI::ParseError& error, const CLI::App& app) {
   const auto commands = app.get_subcommands();
@@ -120,7 +120,7 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app) {
                      ofCommand ? asked.get_name() : "", ofCommand ? " " : "");
 }
 
-/// What --help says of all commands.
+/// Text of --help on all commands.
 struct Named {
   const char *name, *what;
 };
@@ -244,7 +244,7 @@ void fillStandardDescriptors() {
       static_cast<void>(::open("/dev/null", descriptor == 0 ? O_WRONLY : O_RDONLY));
 }
 
-/// What is still in the buffer may not find a place. A reader that has seen enough (`| head`) ends
+/// The rest of the buffer may not find a place. A reader that has seen enough (`| head`) ends
 /// the program without a word, by SIGPIPE.
 void flushOutput() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout))

@@ -43,7 +43,7 @@ template <typename Results>
 struct Terminal {
   std::string (*text)(const Results&);
   bool timeSpent = false;
-  /// What is printed in place of all that, to be pasted; empty: nothing is.
+  /// Text that is printed in place of all that, to be pasted; empty: nothing is.
   std::string (*paste)(const Results&) = nullptr;
 };
 
@@ -232,7 +232,7 @@ std::string lockstepText(const LockstepResults& results) {
   return text;
 }
 
-/// What the files lack and what that costs, too; the first note says which files they are.
+/// Says what the files lack and what that costs, too; the first note says which files they are.
 template <typename Results>
 std::string averagedText(const Results& results) {
   std::string text = fmt::format("{} snapshots averaged\n", results.averaging.snapshots);

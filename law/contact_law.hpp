@@ -17,7 +17,7 @@ enum class NormalLaw {
   rigid  ///< hard disks: restitution e_n, tangential restitution e_t0, friction µ (Walton 1992)
 };
 
-/// What the dashpots' constants multiply besides the velocity. S is the stiffness f_el′(δ), of the
+/// The factor of the dashpots' constants besides the velocity. S is the stiffness f_el′(δ), of the
 /// tangential dashpot k_t(δ).
 enum class Damper {
   constant,      ///< 1: γ [kg/s]
@@ -39,7 +39,7 @@ enum class TangentialLaw {
   springDashpot  ///< f* = −k_t ξ − γ_t v_t, limited to µ f_n              (Eqs. 4.22–4.25)
 };
 
-/// What multiplies µ in the Coulomb bound.
+/// The factor of µ in the Coulomb bound.
 enum class CoulombBound {
   compression,  ///< max(f_n, 0)
   magnitude,    ///< |f_n|
@@ -53,7 +53,7 @@ enum class Dashpot {
   outside  ///< test |k_t ξ|; the dashpot force is added only while the contact sticks
 };
 
-/// What the spring is set to when the contact slips.
+/// Value that the spring is set to when the contact slips.
 enum class SpringReset {
   total,      ///< ξ = −f_t / k_t: the spring alone carries the bound (Lätzel 2003, Eq. 4.25)
   springOnly  ///< ξ = −(f_t + γ_t v_t) / k_t: spring and dashpot together carry the bound
@@ -87,14 +87,14 @@ enum class VelocityArm {
   overlapMiddle
 };
 
-/// What an arm is at a wall's plane, unless it is LeverArm::radius, which stays a_i.
+/// The arm at a wall's plane, unless it is LeverArm::radius, which stays a_i.
 enum class PlaneArm {
   surface,  ///< a_i − δ: the plane does not yield, the contact point lies on it (YADE)
   middle,   ///< a_i − δ/2, half way into the overlap as between disks (Box2D, LIGGGHTS)
   radius    ///< a_i (LAMMPS: fix wall/gran with granular)
 };
 
-/// What a contact remembers of its tangential motion while k_t follows the overlap.
+/// Memory of a contact's tangential motion while k_t follows the overlap.
 enum class History {
   displacement,  ///< ξ, f* = −k_t(δ) ξ
   force          ///< the force, df* = −k_t(δ) v_t dt (Mindlin and Deresiewicz 1953)
@@ -126,14 +126,14 @@ enum class RollingLength {
   meanRadius       ///< (a_i + a_j)/2 (YADE: Hertz' law)
 };
 
-/// What multiplies the constant k_r of a rolling spring.
+/// The factor of the constant k_r of a rolling spring.
 enum class RollingStiffness {
   lengthSquare,  ///< L²: k_r [N/m] (LAMMPS)
   radii,         ///< a_i a_j: k_r [N/m] (YADE)
   constant       ///< 1: k_r [N m]
 };
 
-/// What the dashpot of a rolling spring is.
+/// The dashpot of a rolling spring.
 enum class RollingDamper {
   constant,  ///< γ_r L² ω_r, γ_r [kg/s] (LAMMPS)
   critical  ///< 2 γ_r √(I k_r) ω_r, γ_r the damping ratio [-], 1/I = Σ 1/(J + m a²) (LIGGGHTS)
@@ -178,7 +178,7 @@ enum class JkrEnd {
   branch        ///< where the branch ends, at −5/9 F_po (Thornton and Ning 1998)
 };
 
-/// What stands for f_n in Coulomb's bound and in that of rolling, of a law with cohesion.
+/// The load that stands for f_n in Coulomb's bound and in that of rolling, of a law with cohesion.
 enum class CohesionLoad {
   net,                   ///< f_n, the pull included
   withoutPull,           ///< f_n without the pull

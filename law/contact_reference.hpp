@@ -35,7 +35,7 @@ double leverFraction(LeverArm arm, PlaneArm plane, const CollidingPair& pair, in
 /// @see RollingLength, RollingStiffness
 double rollingLength(const ContactLaw& law, const CollidingPair& pair);
 double rollingSquare(const ContactLaw& law, const CollidingPair& pair);
-/// What γ_r is times in the dashpot: L² [m²], or 2 √(I_c K) of a rolling spring with a critical
+/// The factor of γ_r in the dashpot: L² [m²], or 2 √(I_c K) of a rolling spring with a critical
 /// damper, 1/I_c = Σ 1/(J + m a²) [N m s]. @param stiffness  K of the spring [N m]
 double rollingDamperUnit(const ContactLaw& law, const CollidingPair& pair, double stiffness);
 

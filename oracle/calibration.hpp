@@ -58,7 +58,7 @@ HertzMaterial hertzMaterial(const ContactLaw& law);
 /// The simplest tangential law that has those of k_t, γ_t and µ that are > 0.
 TangentialLaw tangentialLawOf(const ContactLaw& constants);
 
-/// What a law means for a pair.
+/// Meaning of a law for a pair.
 struct ImpliedImpact {
   double enAllowed, enCut;       ///< e_n with tension and without [-]
   double contactTime;            ///< t_c: t_s where the law cuts tension, else π/ω [s]
@@ -80,9 +80,9 @@ struct ImpliedImpact {
 /// @throws std::invalid_argument for a rigid law and for an overdamped pair
 ImpliedImpact impliedImpact(const ContactLaw& law, const CollidingPair& pair);
 
-/// What turns against a contact's rolling spring and dashpot, I θ̈ + G θ̇ + K θ = 0 with K = k_r L²
-/// (or as RollingStiffness says): a disk that rolls on a plane without slip, I = J + m a², or the
-/// relative spin of a pair whose centres are held, 1/I = 1/J_i + 1/J_j [kg m²].
+/// Inertia that turns against a contact's rolling spring and dashpot, I θ̈ + G θ̇ + K θ = 0 with K =
+/// k_r L² (or as RollingStiffness says): a disk that rolls on a plane without slip, I = J + m a²,
+/// or the relative spin of a pair whose centres are held, 1/I = 1/J_i + 1/J_j [kg m²].
 double rollingInertia(const CollidingPair& pair);
 
 /// Sets k_r and γ_r so that this oscillates at a frequency [Hz], its amplitude falling as e^(−λt):

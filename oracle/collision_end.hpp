@@ -7,7 +7,7 @@
 
 namespace crossgrain::inline oracle {
 
-/// What gives the contact point its tangential velocity before a collision.
+/// Source of the contact point's tangential velocity before a collision.
 enum class Approach {
   spin,       ///< both disks turn alike, their centres meet head on
   firstSpin,  ///< only the first disk turns; the same on a wall
@@ -45,7 +45,7 @@ struct EnergySplit {
   /// cut [J]
   double normalDamping = 0.0;
   double tangentialDamping = 0.0;  ///< ∫ γ_t v_t² dt while the contact does not slip [J]
-  /// What a loaded tangential spring loses (+) or gains (−) because its stiffness follows the
+  /// The loss (+) or gain (−) of a loaded tangential spring because its stiffness follows the
   /// overlap, while the contact does not slip: no force does this work, a history-dependent law
   /// just forgets it (Elata and Berryman 1996) [J]
   double stiffening = 0.0;
@@ -71,7 +71,7 @@ struct SpaceMotion {
   Vec3 spin[2] = {Vec3::Zero(), Vec3::Zero()};  ///< [rad/s]
 };
 
-/// What a collision in space has besides. The frame is that of the start: n, s and b = n × s.
+/// Numbers of a collision in space besides. The frame is that of the start: n, s and b = n × s.
 struct EndOutOfPlane {
   /// v_t after along b′ / speed of approach; n′, s′ and b′ are n, s and b after the smallest
   /// rotation that takes n to the normal at separation.
@@ -80,7 +80,7 @@ struct EndOutOfPlane {
   double spinTangent[2] = {};  ///< ω·s [rad/s]
 };
 
-/// What is left after a collision, at the instant of separation and with that instant's normal.
+/// State after a collision, at the instant of separation and with that instant's normal.
 /// About the contact point: psi, beta. About the centres' relative motion: en, centrePsi, et,
 /// reboundAngle. The two kinds are different numbers: friction moves the contact point K = 1 + 1/q
 /// times as much as the centres. Absent: not known.

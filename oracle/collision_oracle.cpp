@@ -64,7 +64,7 @@ State TwoBodyProblem::along(const State& s, double time) const {
   return moved;
 }
 
-/// What a force changes by where the distance is rounded [N].
+/// Change of a force by a rounding of the distance [N].
 double TwoBodyProblem::roundingOfForce(const State& s) const {
   const Kinematics k = kinematics(s);
   const Slope kt = tangentialStiffness(k.overlap);

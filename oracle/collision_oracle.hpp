@@ -73,7 +73,7 @@ std::optional<double> closedRestitution(const ContactLaw& law, double reducedMas
 /// does, e² = 1 − (δ*/δ_m)² (1 − e*²). 0: it sticks.
 double elastoPlasticRestitution(const ContactLaw& law, const CollidingPair& pair, double speed);
 
-/// What a touch under JKR loses, from δ = 0 on approach to where the bond ends, in units of F_po
+/// The loss of a touch under JKR, from δ = 0 on approach to where the bond ends, in units of F_po
 /// a_p²/R₁₂: of U/(F_po a_p²/R₁₂) = 2/5 y¹⁰ − 4/3 y⁷ + 2/3 y⁴, the integral of the force, between
 /// y³ = 4/3 (δ = 0) and y = 1 (the largest pull) or y³ = 1/3 (the end of the branch):
 ///   8/15 (4/3)^⅓ − 4/15 = 0.3203, or 8/15 (4/3)^⅓ + 4/45 (1/3)^⅓ = 0.6486,

@@ -8,7 +8,7 @@
 
 namespace crossgrain::inline oracle {
 
-/// What a contact's two forces took out of the motion, from the first touch to the last [J].
+/// Energy that a contact's two forces took out of the motion, from the first touch to the last [J].
 struct ForceWork {
   double normal = 0.0;      ///< −∫ f_n v_n dt
   double tangential = 0.0;  ///< −∫ f_t v_t dt, sticking and sliding together
@@ -72,7 +72,7 @@ struct CollisionQuantity {
   int csvPlace;            ///< among the further columns of collisions.csv; 0: none of these
   /// Absent where the collision has none. [unit]
   std::optional<double> (*value)(const CollisionOutcome&);
-  /// What its errors are of: itself; itself, always in units of the curve's largest, as it has a
+  /// The unit of its errors: itself; itself, always in units of the curve's largest, as it has a
   /// zero of its own; a ω/v_n of disk i or j [-]; it in units of the energy before.
   Scored scored = Scored::asItIs;
   /// Nine digits are what the oracle's and the engines' errors leave of a number, and half the

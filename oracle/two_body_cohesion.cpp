@@ -37,7 +37,7 @@ Slope TwoBodyProblem::cohesiveForce(const Kinematics& k) const {
   return {k2 * k.overlap - (k2 - law_.kn) * k.largest, k2};
 }
 
-/// What stands for f_n in bounds. @see CohesionLoad
+/// The load that stands for f_n in bounds. @see CohesionLoad
 double TwoBodyProblem::load(const Kinematics& k) const {
   const double normal = normalForce(k);
   if (!law_.coheres()) return normal;
@@ -102,12 +102,12 @@ bool TwoBodyProblem::neverLoaded() const {
          (of == CohesionLoad::net || pullOff(law_, reducedRadius_) == 0.0);
 }
 
-/// What an error of the overlap changes the load by at most [N/m].
+/// Largest change of the load by an error of the overlap [N/m].
 double TwoBodyProblem::stiffest(const Kinematics& k) const {
   return std::max(stiffness(k.overlap).value, std::abs(cohesiveForce(k).rate));
 }
 
-/// What a load may lack of 0 on its side of it where that was chosen by its rate, as
+/// The amount that a load may lack of 0 on its side of it where that was chosen by its rate, as
 /// cohesionGuard() allows [N]. A bound of it holds what needs no force, as v_t = 0 on a plane.
 double TwoBodyProblem::unseenLoad(const Kinematics& k) const {
   if (!law_.coheres()) return 0.0;

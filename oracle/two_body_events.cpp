@@ -36,7 +36,7 @@ double TwoBodyProblem::boundRate(const State& s, const Kinematics& k) const {
   return bound(loadRate(k, normalAcceleration(s, k)));
 }
 
-/// What the law leaves the spring with while it slips.
+/// The spring as the law leaves it while it slips.
 double TwoBodyProblem::slippedSpring(const Kinematics& k) const {
   if (springUnit(k.overlap) == 0.0) return 0.0;  // beyond δ = 0
   const double force = boundNow(k) * phase_.side;

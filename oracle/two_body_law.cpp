@@ -48,7 +48,7 @@ double TwoBodyProblem::bound(double load) const {
   return law_.mu * load;
 }
 
-/// What is compared with the bound.
+/// The force or torque that is compared with the bound.
 double TwoBodyProblem::testedForce(const Kinematics& k, double spring) const {
   const bool outside = law_.conventions.dashpot == Dashpot::outside;
   const double dashpot = outside ? 0.0 : tangentialDamping(k.overlap).value * k.tangentialVelocity;
@@ -82,7 +82,7 @@ double TwoBodyProblem::storedEnergy(const State& s) const {
   return 0.5 * force * force / stiffness;
 }
 
-/// What the stored energy loses per time because the stiffness changes, dδ/dt = −v_n: of a spring
+/// Loss of the stored energy per time because the stiffness changes, dδ/dt = −v_n: of a spring
 /// that keeps ξ, −½ ξ² dk_t/dt; of one that keeps its force f, +½ (f/k_t)² dk_t/dt [W].
 double TwoBodyProblem::stiffeningLoss(const State& s, const Kinematics& k) const {
   const Slope stiffness = tangentialStiffness(k.overlap);

@@ -78,7 +78,7 @@ class TwoBodyProblem : private ContactForces {
   bool jumpsAtTouch(const CollisionStart& start);
   bool hasJump() const;
   bool slipsAtFirst(const CollisionStart& start);
-  /// What v_t is let grow from where a slip ends at 0 and CollisionEnd::noLimit may hold; rounding
+  /// The v_t to grow from where a slip ends at 0 and CollisionEnd::noLimit may hold; rounding
   /// without it. @param speed  [m/s]
   void overshoot(double speed) { overshoot_ = speed; }
 
@@ -104,7 +104,7 @@ class TwoBodyProblem : private ContactForces {
   double tangentialForce(const State& s, const Kinematics& k) const;
   double storedEnergy(const State& s) const;
   double stiffeningLoss(const State& s, const Kinematics& k) const;
-  /// What f_t does work on: v_t, taken with the arms of f_t [m/s].
+  /// The velocity that f_t does work on: v_t, taken with the arms of f_t [m/s].
   double workedVelocity(const State& s, const Kinematics& k) const {
     return k.sideways - k.leverI * s.spinI - k.leverJ * s.spinJ;
   }

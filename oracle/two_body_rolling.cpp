@@ -41,7 +41,7 @@ bool TwoBodyProblem::hasNoRollingBound() const {
   return neverLoaded() || (!phase_.loaded && of != RollingLoad::magnitude);
 }
 
-/// What is compared with the bound.
+/// The force or torque that is compared with the bound.
 double TwoBodyProblem::rollingTested(const State& s, const Kinematics& k) const {
   const bool outside = law_.conventions.rollingDashpot == Dashpot::outside;
   return -rollingStiffness_ * s.angle - (outside ? 0.0 : rollingDamping_ * k.rollingSpin);
@@ -94,7 +94,7 @@ double TwoBodyProblem::rollingDashpotRate(const State& s, const Kinematics& k) c
          phase_.rollingSide;
 }
 
-/// What the law leaves θ with while it slips.
+/// θ as the law leaves it while it slips.
 double TwoBodyProblem::slippedAngle(const Kinematics& k) const {
   const double torque = rollingBound(k) * phase_.rollingSide;
   const bool springOnly = law_.conventions.rollingReset == SpringReset::springOnly;
@@ -122,8 +122,8 @@ double TwoBodyProblem::rollingSlipGuard(const State& s, const Kinematics& k) con
   return stretching + (outside ? 0.0 : rollingDashpotRate(s, k)) - rollingBoundRate(s, k);
 }
 
-/// What a bound may lack [N m]: where a contact begins, until positions resolve its overlap, it is
-/// as that of an overlap that they do; and unseenLoad().
+/// The amount that a bound may lack [N m]: where a contact begins, until positions resolve its
+/// overlap, it is as that of an overlap that they do; and unseenLoad().
 double TwoBodyProblem::unseenBound(const Kinematics& k) const {
   const double unseen = visibleLength() - k.overlap, factor = law_.muR * rollingLength_;
   if (k.normalVelocity >= 0.0 || unseen <= 0.0) return factor * unseenLoad(k);

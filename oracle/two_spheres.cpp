@@ -483,7 +483,7 @@ CollisionEnd TwoSpheres::solve(const CollisionStart& start) {
     return std::min(fullStep,
                     std::max(1e-3 * k.overlap, visibleLength()) / std::abs(k.normalVelocity));
   };
-  // What a rounded distance makes of v, and of a spin by up to K times as much, in a step. Where
+  // Change by a rounded distance of v, and of a spin by up to K times as much, in a step. Where
   // the share of steps that stretch a spring jumps, steps need not find each jump to rounding.
   const auto allowed = [&](const State& from, double h) {
     const Kinematics k = kinematics(from);

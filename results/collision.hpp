@@ -10,7 +10,7 @@
 /// results.json of kind "collide": sweeps of collisions, compared with the oracle.
 namespace crossgrain::inline results {
 
-/// What files call how far a sweep came; second: whether all pairs parted.
+/// Names in files of how far a sweep came; second: whether all pairs parted.
 inline constexpr support::EnumNames<std::pair<Status, bool>, 7> sweepStatusNames{
     {{{Status::finished, true}, "finished"},
      {{Status::finished, false}, "incomplete"},

@@ -63,7 +63,7 @@ struct CollisionTable {
   }
 };
 
-/// What an engine made of a sweep.
+/// Result of an engine in a sweep.
 struct CollisionPoints : CollisionTable {
   std::vector<std::string> reason;  ///< why there is no reference to judge by; else empty
   std::vector<bool> sticks;         ///< which pairs do not part by the oracle; empty: none
@@ -86,7 +86,7 @@ struct CollisionPoints : CollisionTable {
   }
 };
 
-/// What a quantity's errors are in units of.
+/// Unit of a quantity's errors.
 enum class ErrorUnitKind {
   range,      ///< of the oracle's curve
   magnitude,  ///< its largest
@@ -119,7 +119,7 @@ struct QuantityScore {
   }
 };
 
-/// What files call the verdict on a curve.
+/// Names in files of the verdict on a curve.
 inline constexpr support::EnumNames<Verdict, 3> curveVerdictNames{
     {{Verdict::notMeasured, "not judged"}, {Verdict::pass, "held"}, {Verdict::fail, "fell short"}}};
 
@@ -158,7 +158,7 @@ using LawValue = std::variant<std::string, double>;
 /// Options and constants of a law by their names.
 using LawDescription = std::map<std::string, LawValue>;
 
-/// What the law that an engine declares is known by.
+/// Evidence of the law that an engine declares.
 enum class DeclaredReference {
   none,
   oracle,

@@ -56,7 +56,7 @@ struct CompareResults : FlowStudy {
   }
 };
 
-/// What engines are compared with: the first of them, or medianName. @pre there is an engine
+/// Reference of engines: the first of them, or medianName. @pre there is an engine
 inline const std::string& referenceOf(const CompareResults& results) {
   return results.endpoints.reference.empty() ? results.engines.front().name
                                              : results.endpoints.reference;

@@ -42,11 +42,11 @@ struct ConformanceRow {
   std::size_t faults = 0;  ///< that were found in all
   std::string cause = {};  ///< what explains them, sign and size; empty: nothing that was tried
   double seconds = 0.0;    ///< wall time [s]
-  /// What it is about, "free motion"; with others of that it passes or fails. Empty of other parts.
+  /// Subject, "free motion"; with others of that it passes or fails. Empty of other parts.
   std::string about = {};
 };
 
-/// What part of the declared capabilities has to be examined, or nothing is said of an engine by
+/// Share of the declared capabilities that has to be examined, or nothing is said of an engine by
 /// checks that passed: each fifth that was not could hold a fault.
 inline constexpr double leastExamined = 0.8;
 

@@ -16,7 +16,7 @@
 #include "results/json_fields.hpp"
 #include "results/step_time.hpp"
 
-/// What `crossgrain cost` finds out: results of kind "cost" (docs/results.md). Targets are
+/// Findings of `crossgrain cost`: results of kind "cost" (docs/results.md). Targets are
 /// accuracies that are wanted: 0.01 is 1 %. Places are indices into CostResults::points.
 namespace crossgrain::inline results {
 
@@ -44,7 +44,7 @@ struct TimeInterval {
   bool ties(const TimeInterval& other) const { return low <= other.high && other.low <= high; }
 };
 
-/// What a setting takes: of the advance alone, per unit that all points of one kind and measure
+/// Time of a setting: of the advance alone, per unit that all points of one kind and measure
 /// share: a sweep of collisions, the trajectory's window, a simulated second.
 struct CostTime {
   std::optional<double> wallSeconds, cpuSeconds;  ///< geometric means over the rounds [s]
@@ -70,7 +70,7 @@ void timeFields(auto& io, CostTime& time) {
   io("time_high_s", time.timeHigh);
 }
 
-/// What one setting of one engine costs and how wrong it is, in one kind of error and one measure:
+/// Cost and error of one setting of one engine, in one kind of error and one measure:
 /// a point of a work–precision plot, a row of cost.csv.
 struct CostPoint : CostTime {
   std::string engine;
@@ -113,7 +113,7 @@ struct CostPoint : CostTime {
   bool mayBeChance() const {
     return error && (*error < statistical.value_or(0.0) || *error < referenceError.value_or(0.0));
   }
-  /// What it counts with on a front and in plots: its error, the upper end where that may be
+  /// Value for fronts and plots: its error, the upper end where that may be
   /// chance. Absent unless it ran and its error says anything.
   std::optional<double> counted() const {
     if (!measured() || saysNothing()) return std::nullopt;
@@ -161,7 +161,7 @@ std::string withoutOwn(const std::string& measure);
 /// of another one, whose settings are "INTEGRATOR, STEP". Absent of settings of other knobs.
 std::optional<std::string> schemeOf(const std::string& knob, const std::string& setting);
 
-/// What the points of one kind of error are compared with.
+/// Reference of the points of one kind of error.
 struct CostReference {
   CostKind kind = CostKind::collision;
   std::string engine, setting;
@@ -252,7 +252,7 @@ void fields(auto& io, LargestStep& step) {
   io("contact_time_s", step.contactTime);
 }
 
-/// What it takes before the first step [s].
+/// Time before the first step [s].
 struct Startup {
   std::string engine;
   double start = 0.0, load = 0.0;
@@ -343,7 +343,7 @@ void fields(auto& io, Advice& advice) {
   io("cheapest", advice.cheapest);
 }
 
-/// What an engine's error is compared with.
+/// Reference of an engine's error.
 enum class CostBasis {
   own,   ///< its own limit of small steps: what is left is discretisation
   scene  ///< the case's law: its model included
@@ -389,7 +389,7 @@ void fields(auto& io, CostCell& cell) {
   io("decides", cell.decides);
 }
 
-/// What accuracy costs: results of kind "cost" (docs/results.md).
+/// Cost of accuracy: results of kind "cost" (docs/results.md).
 struct CostResults : FlowFrame {
   std::optional<double> elapsed;  ///< [s]
   std::vector<EngineRow> engines;

@@ -12,7 +12,7 @@
 namespace crossgrain::inline results {
 
 /// How the change of a field, or of a ring, stands against the case's margin.
-/// What standard errors are of.
+/// Meaning of standard errors.
 enum class BarKind { packings, withinRun };
 constexpr auto namesOf(BarKind) {
   return std::array<std::string_view, 2>{"packings", "within_run"};
@@ -37,7 +37,7 @@ struct ChangedField {
   std::vector<RingChange> rings;
 };
 
-/// What switching one thing off changes, over the packings that both have finished.
+/// Changes by one thing switched off, over the packings that both have finished.
 struct EffectChanges {
   std::size_t packings = 0;
   BarKind bars = BarKind::packings;
@@ -62,7 +62,7 @@ struct EffectVariant {
   bool isSwitched() const { return !effect.empty(); }
 };
 
-/// What was switched off, in a sentence.
+/// Sentence on what was switched off.
 struct SwitchRow {
   std::string effect, what;
 };

@@ -12,7 +12,7 @@
 /// Verdicts on endpoints (cases/endpoints.hpp), and what they rest on.
 namespace crossgrain::inline results {
 
-/// What files call the verdict on an endpoint: an agreement has two names, see
+/// Names in files of the verdict on an endpoint: an agreement has two names, see
 /// EndpointRow::answer().
 inline constexpr support::EnumNames<Verdict, 6> answerNames{{{Verdict::pass, "no_difference_seen"},
                                                              {Verdict::pass, "small_difference"},
@@ -21,7 +21,7 @@ inline constexpr support::EnumNames<Verdict, 6> answerNames{{{Verdict::pass, "no
                                                              {Verdict::undecided, "undecided"},
                                                              {Verdict::notMeasured, "absent"}}};
 
-/// What files call the basis of a verdict.
+/// Names in files of the basis of a verdict.
 inline constexpr support::EnumNames<Basis, 4> basisNames{{{Basis::paired, "paired"},
                                                           {Basis::independent, "independent"},
                                                           {Basis::oneScatter, "one_scatter"},
@@ -143,7 +143,7 @@ struct InterimFindings {
   }
 };
 
-/// What a change of a constant does to an endpoint of the in-house engine, paired over packings.
+/// Response to a changed constant of an endpoint of the in-house engine, paired over packings.
 struct EndpointResponse {
   std::string endpoint, constant;
   double change = 0.0;               ///< relative, of the constant
@@ -249,7 +249,7 @@ struct SurrogateEngine {
   }
 };
 
-/// What its own runs say of the law of an engine that passed lockstep's windows. A difference is
+/// Test by its own runs of the law of an engine that passed lockstep's windows. A difference is
 /// one where windows show it by lockstep's own rule, and endpoints feel it; what was seen and shows
 /// less than that is undecided.
 inline Verdict verdictOf(const SurrogateEngine& own) {
@@ -268,7 +268,7 @@ inline const SurrogateEngine* spotCheckedEngine(const std::vector<SurrogateEngin
   return found == surrogates.end() ? nullptr : &*found;
 }
 
-/// What says that the engine's packings are run by its mirror; null: it runs them itself.
+/// The finding by which the engine's packings are run by its mirror; null: it runs them itself.
 inline const SurrogateEngine* surrogateOf(const std::vector<SurrogateEngine>& surrogates,
                                           const std::string& engine) {
   const auto found = std::ranges::find_if(
@@ -284,7 +284,7 @@ inline const SurrogateEngine* surrogateBy(const std::vector<SurrogateEngine>& su
   return found == surrogates.end() ? nullptr : &*found;
 }
 
-/// What nobody needs a test for.
+/// Alarms, which need no test.
 struct AlarmRow {
   std::string a, b;
   PairKind kind = PairKind::peer;

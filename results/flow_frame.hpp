@@ -9,7 +9,7 @@
 #include "results/head.hpp"
 #include "results/json_fields.hpp"
 
-/// What results of a Couette case say of it, whatever was done with it.
+/// Description of a Couette case in all its results.
 namespace crossgrain::inline results {
 
 struct CouetteCell {

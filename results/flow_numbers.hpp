@@ -51,7 +51,7 @@ struct HeadNumber {
   }
 };
 
-/// What is read off the profile of the spin, not fitted: it has no χ².
+/// Numbers read off the profile of the spin, not fitted: no χ².
 inline constexpr std::string_view spinInRing1 = "spin_ring_1";
 
 /// A parameter of a fit, or why there is none. Means over packings are of those that could be
@@ -80,7 +80,7 @@ struct FitRow {
   }
 };
 
-/// What must hold in a steady state: ring by ring, or one number.
+/// Balance of a steady state: ring by ring, or one number.
 struct CheckRow {
   std::string name, label;
   Numbers value, standardError;

@@ -4,7 +4,7 @@
 
 #include "results/json_fields.hpp"
 
-/// What every kind of results begins with.
+/// Head of every kind of results.
 namespace crossgrain::inline results {
 
 struct Machine {
@@ -52,7 +52,7 @@ struct ResultsHead {
   }
 };
 
-/// What files call the status of an engine.
+/// Names in files of an engine's status.
 inline constexpr support::EnumNames<Status, 3> engineStatusNames{
     {{Status::finished, "ran"}, {Status::refused, "refused"}, {Status::failed, "failed"}}};
 

@@ -3,7 +3,7 @@
 #include "support/json_fields.hpp"
 #include "support/verdict.hpp"
 
-/// What texts in results can be; support/json_fields.hpp has how structs become JSON.
+/// Meanings of texts in results; support/json_fields.hpp has how structs become JSON.
 namespace crossgrain::inline results {
 
 using support::Json;
@@ -23,7 +23,7 @@ inline constexpr Words aField{isField, "a field (crossgrain list fields has them
 bool isUnit(std::string_view text);
 inline constexpr Words aUnit{isUnit, "a unit"};
 
-/// What files call an agreement within a margin; a field that nothing is asked of has none.
+/// Names in files of an agreement within a margin; a field that nothing is asked of has none.
 inline constexpr support::EnumNames<Verdict, 4> agreementNames{{{Verdict::pass, "agree"},
                                                                 {Verdict::fail, "disagree"},
                                                                 {Verdict::undecided, "undecided"},

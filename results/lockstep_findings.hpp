@@ -46,7 +46,7 @@ constexpr Verdict verdictOf(Equivalence found) {
   }
 }
 
-/// What the verdicts rest on.
+/// Basis of the verdicts.
 struct LockstepRules {
   double rounding = 0.0;              ///< [d]
   double sameLaw = 0.0;               ///< reference perturbation, as a fraction of its constant
@@ -84,7 +84,7 @@ struct LockstepSeparation {
   double largest = 0.0;  ///< [d]
   std::optional<double>
       referencePerturbation;  ///< median of what the reference perturbation does [d]
-  /// What rounding to the declared precision may do, the median over the starts [d]; absent of
+  /// Effect of a rounding to the declared precision, the median over the starts [d]; absent of
   /// double precision.
   std::optional<double> rounding;
   /// ε_eq, the median over the starts that can be read then; absent: none can, or nothing is beyond
@@ -101,7 +101,7 @@ struct LockstepSeparation {
   }
 };
 
-/// What one start says.
+/// Finding of one start.
 struct StartReading {
   /// ε_eq, the largest over the times that can be read; absent: none can, or nothing is beyond what
   /// the declared precision explains.

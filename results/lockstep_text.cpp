@@ -19,7 +19,7 @@ struct Constant {
   std::string name, symbol, words;
 };
 
-/// What is no constant, as "tension = cut", stands for itself.
+/// A term that is no constant, as "tension = cut", stands for itself.
 Constant lookUp(const std::string& name) {
   static const Constant constants[] = {{"kn", "k_n", "the normal stiffness"},
                                        {"kn3", "k_n3", "the cubic normal stiffness"},

@@ -9,7 +9,7 @@
 #include "results/head.hpp"
 #include "results/lockstep_findings.hpp"
 
-/// What an engine does otherwise than a baseline or a recording has it.
+/// Difference of an engine from a baseline or a recording has it.
 namespace crossgrain::inline results {
 
 /// Something that an engine declares: its step, an option, a constant of a kind of pair.
@@ -80,14 +80,14 @@ struct AnswerDifference {
   std::size_t differ = 1, of = 1;  ///< elements
 };
 
-/// What an engine answered to the requests of a recording.
+/// Answers of an engine to the requests of a recording.
 struct ReplayResults {
   std::string engine, version;  ///< that answered now
   std::string recordedEngine, recordedVersion;
   std::string recordedStamp;  ///< of its program; empty for engines of this one
   std::string caseName;
   std::size_t asked = 0;  ///< requests, the one of `request` being the last
-  /// What the engine declares otherwise, in answer to hello and load: the replay goes on.
+  /// Declarations that differ, in answer to hello and load: the replay goes on.
   std::vector<AnswerDifference> declared;
   std::string request;  ///< the first other request with a different answer; empty: there is none
   std::vector<AnswerDifference> differences;

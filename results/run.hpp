@@ -35,7 +35,7 @@ void fields(auto& io, Distribution& distribution) {
   io("samples", distribution.samples);
 }
 
-/// What files call the status of a run.
+/// Names in files of a run's status.
 inline constexpr support::EnumNames<Status, 3> runStatusNames{
     {{Status::finished, "finished"}, {Status::failed, "failed"}, {Status::notRun, "missing"}}};
 

@@ -11,7 +11,7 @@
 
 namespace crossgrain::inline results {
 
-/// What became of a point or timing, as files call it. Failed: its engine broke down, or the step
+/// Names in files of the fate of a point or timing. Failed: its engine broke down, or the step
 /// was beyond its stability limit; refused: its engine has no such setting; not run: the budget did
 /// not allow it.
 inline constexpr support::EnumNames<Status, 4> costStatusNames{{{Status::finished, "ran"},

@@ -110,7 +110,7 @@ double bodyEnergy(const ContactLaw& law, const OverlapOf<D>& at) {
   return law.cohesion == CohesionLaw::elastoPlastic ? 0.0 : elastic;
 }
 
-/// What unloading gives back, ½ f²/k₂ with the stiffest k₂ there is: no more than there is.
+/// Energy that unloading gives back, ½ f²/k₂ with the stiffest k₂ there is: no more than there is.
 template <int D>
 double plasticEnergy(const ContactLaw& law, const SnapshotOf<D>& snapshot) {
   if (law.cohesion != CohesionLaw::elastoPlastic || !snapshot.contacts) return 0.0;

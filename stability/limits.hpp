@@ -4,7 +4,7 @@
 
 namespace crossgrain::inline stability {
 
-/// What makes a case a hard one: what it tests, by which measure, and how far that may go.
+/// Test of a hard case: what it tests, by which measure, and how far that may go.
 struct Stability {
   std::string tests;      ///< one sentence
   std::string measure;    ///< a name of stabilityMeasures(), whose unit the limits have

@@ -422,8 +422,9 @@ Curve haffError(const RecordingOf<D>& run) {
   });
 }
 
-/// What has come to rest, kinetic energy below 10⁻⁸ of the energy over eight steps, so that nothing
-/// pushes it, and moves again: its kinetic energy then. Empty where walls move or nothing rests.
+/// Bodies that have come to rest, kinetic energy below 10⁻⁸ of the energy over eight steps, so that
+/// nothing pushes it, and moves again: its kinetic energy then. Empty where walls move or nothing
+/// rests.
 template <int D>
 Curve wakes(const RecordingOf<D>& run) {
   constexpr double still = 1e-8;

@@ -8,7 +8,7 @@
 
 namespace crossgrain::inline stability {
 
-/// What an engine has to do for a measure.
+/// Demand of a measure on an engine.
 enum class StabilityProtocol {
   oneRun,
   againstOriginal,  ///< a run of the case's first variant, then one of its own: copiesDiffer()

@@ -10,7 +10,7 @@
 
 namespace crossgrain::inline stability {
 
-/// What one engine did with a hard case, seen at some instants.
+/// Record of one engine in a hard case, seen at some instants.
 template <int D>
 struct RecordingOf {
   SceneOf<D> scene;  ///< as it was asked for
@@ -90,7 +90,7 @@ EnergyState energyOf(const RecordingOf<D>& run, const SnapshotOf<D>& snapshot);
 template <int D>
 bool hasNoSprings(const RecordingOf<D>& run);
 
-/// What all energies of a run are measured by: kinetic and elastic energy at the start and the work
+/// Scale of all energies of a run: kinetic and elastic energy at the start and the work
 /// of lifting every disk by its radius, a bond's energy by its size; where all of that is nothing,
 /// the run's largest kinetic and elastic energy [J].
 template <int D>

@@ -13,12 +13,12 @@ namespace crossgrain::inline stability {
 struct Units {
   double length = 1.0, mass = 1.0, time = 1.0;
 
-  /// What a quantity of dimension L^l M^m T^t is multiplied by.
+  /// Factor of a quantity of dimension L^l M^m T^t.
   double of(int l, int m, int t) const;
   bool operator==(const Units&) const = default;
 };
 
-/// What may be done to a scene without any change of what happens in it.
+/// Transformations of a scene without any change of what happens in it.
 struct Transform {
   Placement placement = {};             ///< mirrored and turned
   Units units = {};                     ///< expressed in other units

@@ -10,16 +10,16 @@
 
 namespace crossgrain::inline stability {
 
-/// What files call the verdict on an engine in a hard case, from best to worst: nothing where there
-/// was no time; nothing where it lacks what the case calls for, or does not show what the measure
-/// takes; and unstable also where it died, hung or returned what is no number.
+/// Names in files of the verdict on an engine in a hard case, from best to worst: nothing where
+/// there was no time; nothing where it lacks what the case calls for, or does not show what the
+/// measure takes; and unstable also where it died, hung or returned what is no number.
 inline constexpr support::EnumNames<Verdict, 5> stabilityNames{{{Verdict::notMeasured, "not_run"},
                                                                 {Verdict::notApplicable, "refused"},
                                                                 {Verdict::pass, "stable"},
                                                                 {Verdict::borderline, "degraded"},
                                                                 {Verdict::fail, "unstable"}}};
 
-/// What a hard case's figure says.
+/// Verdict of a hard case's figure.
 struct StabilityJudgement {
   Verdict verdict = Verdict::pass;
   double value = 0.0;                 ///< the largest of the curve

@@ -6,7 +6,7 @@
 
 namespace crossgrain::inline support {
 
-/// What the user gave cannot be used. what() is always one line:
+/// An input of the user that cannot be used. what() is always one line:
 /// where ("file:line:column: " or "--set key=value: "), what is there, what would be right.
 struct BadInput : std::runtime_error {
   explicit BadInput(std::string message) : std::runtime_error(oneLine(std::move(message))) {}

@@ -95,7 +95,7 @@ bool readPieces(const std::filesystem::path& file, std::size_t most,
   }
   if (in.state() == RegularFile::State::special) refuse(fileFault(file));
   constexpr double mega = 1e6;
-  // What a file of the system has is only known once it is read.
+  // The size of a system's file is only known once it is read.
   std::string piece(std::size_t{1} << 20, '\0');
   for (std::size_t done = 0;;) {
     throwIfInterrupted();

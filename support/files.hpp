@@ -28,7 +28,7 @@ struct OutputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What the system says to errno; never "Success", which is what it says to 0.
+/// The system's words for errno; never "Success", which is what it says to 0.
 std::string systemReason(int error);
 
 /// Creates the folder and those above it. @throws OutputError
@@ -56,7 +56,8 @@ std::optional<std::string> readFile(const std::filesystem::path& file,
 /// In gzip's format (RFC 1952), the same bytes for the same text on every machine.
 std::string packed(std::string_view text);
 
-/// What packed() or gzip made of a text; absent where it is no such thing, damaged or cut off.
+/// Unpacks what packed() or gzip made of a text; absent where it is no such thing, damaged or cut
+/// off.
 /// @param most  of the text [bytes]: what would be longer counts as damaged
 std::optional<std::string> unpacked(std::string_view content, std::size_t most = longestText);
 

@@ -61,7 +61,7 @@ std::optional<FolderLock> FolderLock::held(const fs::path& file, int kind,
       ::close(descriptor);  // its holder removed it between our two calls
       continue;
     }
-    // What it says is for people; on a full disk the lock holds without it.
+    // Its words are for people; on a full disk the lock holds without it.
     const std::string who = describe(holder);
     if (::ftruncate(descriptor, 0) == 0) [[maybe_unused]]
       const ssize_t written = ::write(descriptor, who.data(), who.size());

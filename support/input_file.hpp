@@ -26,7 +26,7 @@ std::string fileFault(const std::filesystem::path& path);
 /// first files of a folder; empty if there is none. Only files that end alike are looked at.
 std::string nearestFile(const std::filesystem::path& path, const std::string& extension);
 
-/// What stands between commas, empty parts too: "a,,b" is three parts, "" is one.
+/// The parts between commas, empty ones too: "a,,b" is three parts, "" is one.
 inline std::vector<std::string> commaList(const std::string& list) {
   std::vector<std::string> parts;
   for (std::size_t from = 0, comma = 0; comma != std::string::npos; from = comma + 1) {

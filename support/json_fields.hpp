@@ -49,7 +49,7 @@ inline std::string path(const std::string& key, const FieldError& error) {
   return fmt::format("{}{}{}", key, rest.starts_with(':') ? "" : ".", rest);
 }
 
-/// What a text can be.
+/// Meanings that a text can have.
 struct Words {
   bool (*fit)(std::string_view);
   std::string_view what;

@@ -56,7 +56,7 @@ std::string asOneLine(const std::string& text, std::size_t longest) {
   if (text.size() > longest)
     while (!line.empty() && (static_cast<unsigned char>(text[line.size()]) & 0xc0) == 0x80)
       line.pop_back();
-  // What no text can hold comes back from JSON as U+FFFD.
+  // Characters that no text can hold come back from JSON as U+FFFD.
   line = json::parse(json(line).dump(-1, ' ', false, json::error_handler_t::replace));
   return text.size() <= longest ? line : line + " …";
 }

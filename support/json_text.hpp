@@ -16,7 +16,8 @@
 /// JSON of others: bounded in all that it may claim, and every fault of it one line with its place.
 namespace crossgrain::inline support {
 
-/// What a file holds is not what it should; the message begins with the path to it within the file.
+/// A file's content that is not as it should be; the message begins with the path to it within the
+/// file.
 class FieldError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -39,7 +40,7 @@ nlohmann::json parseJson(const std::string& text, int deepest = deepestJson);
 /// Absent if there is no such file. @throws BadInput naming the file; Interrupted
 std::optional<nlohmann::json> readJsonFile(const std::filesystem::path& file);
 
-/// What an exception of the JSON library says, without the library's own numbers.
+/// Message of an exception of the JSON library, without the library's own numbers.
 std::string withoutPrefix(const std::string& what);
 
 /// The text in one line of valid UTF-8, with an ellipsis where it has more than `longest` bytes.

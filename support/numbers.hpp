@@ -20,7 +20,7 @@ std::optional<double> at(const std::vector<double>& list, std::size_t k);
 /// Three significant digits: 0.0123, 12.3, 12 346, 1.23×10⁻⁵.
 std::string readable(std::optional<double> value);
 
-/// What somebody chose, with the digits that were given, up to four: 352.1, 0.25, 4×10⁻⁵.
+/// A number that somebody chose, with the digits that were given, up to four: 352.1, 0.25, 4×10⁻⁵.
 std::string readableSetting(std::optional<double> value);
 
 /// A count, with spaces between thousands.

@@ -10,7 +10,8 @@ namespace {
 
 using Twister = std::mt19937_64;
 
-/// What GSL's distributions draw from. GSL's own generators take 32 bits of seed at most.
+/// The generator that GSL's distributions draw from. GSL's own generators take 32 bits of seed at
+/// most.
 const gsl_rng_type twister = {
     "mt19937_64",
     Twister::max(),

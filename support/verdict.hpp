@@ -6,7 +6,7 @@
 
 namespace crossgrain::inline support {
 
-/// What happened to an engine, or to one of its runs.
+/// Fate of an engine, or of one of its runs.
 enum class Status {
   finished,
   failed,   ///< it died, hung, or answered what is no answer
@@ -17,7 +17,7 @@ constexpr auto namesOf(Status) {
   return std::array<std::string_view, 4>{"finished", "failed", "refused", "not_run"};
 }
 
-/// What a comparison with a limit means. In the order of severity: of several, the last is the one
+/// Verdict of a comparison with a limit. In the order of severity: of several, the last is the one
 /// that a summary has to show.
 enum class Verdict {
   notApplicable,  ///< the question does not arise: the reference against itself, a law it lacks

@@ -41,7 +41,8 @@ struct Wall {
   std::function<Pose(double t)> pose;
 };
 
-/// What a world is built from. Ids: disks, then wall disks wall by wall, then planes wall by wall.
+/// Parts that a world is built from. Ids: disks, then wall disks wall by wall, then planes wall by
+/// wall.
 struct Model {
   std::vector<Disk> disks;
   std::vector<Wall> walls;

@@ -11,7 +11,7 @@
 
 namespace box2d_granular {
 
-/// What the disks do to a wall: force [N] and torque about the wall's centre [N m].
+/// Action of the disks on a wall: force [N] and torque about the wall's centre [N m].
 struct WallLoad {
   Vector force;
   double torque = 0.0;
@@ -42,7 +42,7 @@ struct PairLaws {
 ///   v += a dt   x += v dt   shapes to where the disks are (SetTransform)   b2World::Step(0)   a(x,
 ///   v)
 ///
-/// What Box2D supplies is its dynamic tree, its contact list and the life of each contact, from
+/// Box2D supplies its dynamic tree, its contact list and the life of each contact, from
 /// BeginContact to EndContact, to which the tangential spring is bound. A step of length zero does
 /// exactly this: it looks for new pairs and updates all contacts, but leaves out islands and
 /// solver, which would have nothing to solve and read the clock for every disk. Shapes are a skin

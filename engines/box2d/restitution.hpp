@@ -4,7 +4,7 @@
 
 namespace box2d_granular {
 
-/// What a rigid contact needs to know.
+/// Data that a rigid contact needs.
 struct Restitution {
   double normal = 1.0;      ///< e_n
   double tangential = 0.0;  ///< e_t0, of a sticking contact

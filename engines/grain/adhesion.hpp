@@ -205,7 +205,7 @@ GRAIN_INLINE Real bodyForce(const L& law, const ContactMotion<Real>& contact, Re
   return elasticForce(law, contact);
 }
 
-/// What stands for f_n in a bound. @see CohesionLoad
+/// The load that stands for f_n in a bound. @see CohesionLoad
 template <class L, class Real>
 GRAIN_INLINE Real boundLoad(const L& law, const ContactMotion<Real>& contact, Real normal,
                             Real body) {

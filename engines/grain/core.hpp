@@ -182,7 +182,7 @@ class Core {
     return static_cast<std::size_t>(material_[i] * materials_ + material_[j]);
   }
   double ownRadius(const Contact& contact) const;
-  /// What the law's energies and stiffnesses ask for, of a contact of places.
+  /// Values that the law's energies and stiffnesses ask for, of a contact of places.
   ContactMotion<Real> geometryOf(const Contact& contact) const;
   Contact byPlace(Contact contact) const;
   /// The lengths of a contact of places.
@@ -264,7 +264,7 @@ void Core<Real>::guarded(Work&& work) {
   }
 }
 
-/// What the last step recorded of a pair. @param normal  from j to i
+/// The last step's record of a pair. @param normal  from j to i
 template <class Real>
 GRAIN_INLINE Contact Core<Real>::contactOf(const PairList<Real>& list, std::size_t k,
                                            Vec<Real> normal, Real overlap) const {

@@ -34,7 +34,7 @@ class Fnv1a {
   std::uint64_t hash_ = 0xcbf29ce484222325u;
 };
 
-/// What the law's table has, where it bears on this law.
+/// Adds all of the law's table that bears on this law.
 void add(Fnv1a& to, const ContactLaw& law) {
   for (const crossgrain::LawOption& option : crossgrain::lawOptions())
     if (crossgrain::hasPart(law, option.part) && crossgrain::mattersTo(law, option.name))

@@ -6,7 +6,7 @@
 
 #include "engines/grain/core.hpp"
 
-// What ends a run rather than going on with numbers that mean nothing.
+// Guards end a run rather than go on with numbers that mean nothing.
 
 namespace grain {
 

@@ -92,7 +92,7 @@ struct Pair {
   double normal = 0.0, tangential = 0.0;
 };
 
-/// What holds a contact against the kick.
+/// Impulse that holds a contact against the kick.
 struct Hold {
   Pair target;   ///< velocities: the least, and where friction leads [m/s]
   Pair impulse;  ///< [N s]

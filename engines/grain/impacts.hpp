@@ -14,7 +14,7 @@ struct ImpactLaw {
 /// A disk, or a point of a wall: that has no inverse mass, as it does not yield.
 struct ImpactBody {
   double vx = 0.0, vy = 0.0, spin = 0.0;  ///< [m/s, rad/s]
-  /// What the step's forces, or a wall's motion, add to them.
+  /// Changes of them by the step's forces, or a wall's motion.
   double kickX = 0.0, kickY = 0.0, kickSpin = 0.0;
   double inverseMass = 0.0;     ///< [1/kg]
   double inverseInertia = 0.0;  ///< 0 where nothing turns [1/(kg m²)]

@@ -11,7 +11,7 @@
 
 namespace grain {
 
-/// What contacts read of the disks (moving, then wall disks) and add to (moving disks).
+/// Arrays that contacts read of the disks (moving, then wall disks) and add to (moving disks).
 /// Without rotation there are no spins and torques: null.
 template <class Real>
 struct ContactView {
@@ -41,7 +41,7 @@ struct PairForces {
 /// none (they are stored, for two threads to add).
 enum class AddTo { both, first, none };
 
-/// What contacts remember, one entry each; null where they have no such memory. @see contactForce
+/// Memory of contacts, one entry each; null where they have no such memory. @see contactForce
 template <class Real>
 struct PairMemory {
   Real *spring, *angle;  ///< ξ, θ
@@ -95,7 +95,7 @@ struct MotionConstants {
   BottomConstants<Real> plate;
 };
 
-/// What a motion kernel saw on its way.
+/// Extremes that a motion kernel saw on its way.
 template <class Real>
 struct MotionReport {
   Real excess;        ///< > 0, or not a number, if some disk is beyond its allowance [m²]

@@ -59,7 +59,7 @@ struct ContactEffects {
   bool cohesion = false;  ///< CohesionLaw::area
 };
 
-/// What engines differ in that simulate the same effects of the linear law, and no number of
+/// Differences of engines that simulate the same effects of the linear law, and no number of
 /// LawOptions makes.
 struct Conventions {
   History history = History::displacement;

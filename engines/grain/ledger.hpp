@@ -37,7 +37,7 @@ struct HalfKicks {
   double closing = 0.0, opening = 0.0;
 };
 
-/// What a contact's spring was when it was last looked at.
+/// State of a contact's spring when it was last looked at.
 struct SpringAccount {
   std::int32_t i = 0, j = 0;  ///< of the contact, places; i < j
   std::int32_t sliding = 0;   ///< at the bound
@@ -88,7 +88,7 @@ class LedgerSums {
     loss_->opening -= power.opening * scheme_.time.opening;
   }
   /// Where all that is lost from now on is added up as well [J]: that of a contact; null: nowhere.
-  /// What a contact loses as it ends is in no such sum.
+  /// The loss of a contact as it ends is in no such sum.
   void tally(HalfKicks* loss) { loss_ = loss; }
   /// Powers [W] that a convention gives the disks.
   void gain(const HalfKicks& power) { add(&EnergyLedger::gainedByConvention, power, 1.0); }

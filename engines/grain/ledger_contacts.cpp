@@ -1,7 +1,7 @@
 #include "engines/grain/contact_force.hpp"
 #include "engines/grain/core.hpp"
 
-// What the ledger sees of contacts: pairs of disks in blocks, by the kernels; planes and the
+// Contacts as the ledger sees them: pairs of disks in blocks, by the kernels; planes and the
 // impulses of rigid disks one by one.
 
 namespace grain {

@@ -68,7 +68,7 @@ class LedgerObserver {
     DiskMotions view() { return {velocity.data(), spin.data()}; }
   };
 
-  /// What a contact lost, by numbers i < j [J].
+  /// Losses of contacts, by numbers i < j [J].
   struct ContactLoss {
     std::int32_t i, j;
     HalfKicks loss;

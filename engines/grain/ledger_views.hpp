@@ -14,7 +14,7 @@ struct DiskMotions {
   double* spin;
 };
 
-/// What a plate does to a disk by one part of a step [W]: by its spring, and beyond that.
+/// Power of a plate on a disk by one part of a step [W]: by its spring, and beyond that.
 struct PlatePower {
   double spring, beyond;
 };
@@ -52,7 +52,7 @@ struct alignas(64) LedgerPairs {
   double seenI[size], seenJ[size];
   Real radiusI[size], radiusJ[size];
 
-  // What comes of it; @see Touch
+  // Results; @see Touch
   Real touches[size], nx[size], ny[size], overlap[size];
   double leverI[size], leverJ[size];
   double normalClosing[size], normalOpening[size];

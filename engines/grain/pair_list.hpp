@@ -22,7 +22,7 @@ struct TooDeep {
   std::size_t i, j;
 };
 
-/// What pairs remember: springs of sliding and of rolling, and what their law does besides.
+/// Memory of pairs: springs of sliding and of rolling, and what their law does besides.
 struct PairSprings {
   bool sliding = false, rolling = false, memory = false, rest = false;
 

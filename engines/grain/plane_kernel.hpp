@@ -37,7 +37,7 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
     const Real dy = static_cast<Real>(origin.y - plane.y) + disks.position[i].y;
     const Real height = dx * plane.nx + dy * plane.ny;
     const Real overlap = disks.radius[i] - height;
-    // What the law does not have is not compiled.
+    // Parts that the law does not have are not compiled.
     Real spring = plane.kept.spring == nullptr ? Real(0) : plane.kept.spring[i];
     Real angle = common.rolling == RollingLaw::spring ? plane.kept.angle[i] : Real(0);
     Real memory = remembers(common) ? plane.kept.memory[i] : Real(0);

@@ -30,9 +30,9 @@ struct CacheLineAllocator {
 template <class T>
 using Array = std::vector<T, CacheLineAllocator<T>>;
 
-// What the kernels need of <cmath> and <algorithm>, inlined without exception: a kernel is compiled
-// for several instruction sets, and the linker would keep one arbitrary copy of a function that
-// was not inlined.
+// Functions that the kernels need of <cmath> and <algorithm>, inlined without exception: a kernel
+// is compiled for several instruction sets, and the linker would keep one arbitrary copy of a
+// function that was not inlined.
 #define GRAIN_INLINE [[gnu::always_inline]] inline
 #define GRAIN_INLINE_LAMBDA __attribute__((always_inline))
 

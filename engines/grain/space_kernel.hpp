@@ -46,7 +46,7 @@ GRAIN_INLINE std::size_t findMeeting(const SpaceView& all, const SpacePairs& pai
   return found;
 }
 
-/// What pair p does to its spheres.
+/// Action of pair p on its spheres.
 template <class L>
 GRAIN_INLINE void push(const L& law, const SpaceView& all, ActiveSpheres& active,
                        const SpacePairs& pairs, std::size_t p, const SpacePush& force) {

@@ -55,7 +55,7 @@ GRAIN_INLINE Vec3<Real> plusShare(const Vec3<Real>& some, const Vec3<Real>&, Rea
   return some + share * part;
 }
 
-/// What engines differ in that have the same law in space.
+/// Differences of engines that have the same law in space.
 struct SpaceConventions {
   SpringTurn turn = SpringTurn::rotated;
   SpringTwist twist = SpringTwist::meanSpin;
@@ -98,7 +98,7 @@ GRAIN_INLINE Vec3<Real> twistedSpring(SpringTurn how, const Vec3<Real>& spring,
   return ((q * q - p * p) * whole) * spring + (Real(2) * p * q * whole) * aside;
 }
 
-/// What a contact remembers from step to step. Its vectors lie in the tangent plane of `normal`.
+/// Memory of a contact from step to step. Its vectors lie in the tangent plane of `normal`.
 template <class Real>
 struct SpaceMemory {
   Vec3<Real> normal{};           ///< of the last step in which it touched
@@ -120,7 +120,7 @@ struct Meeting {
   Real inverseMassI, inverseMassJ, inverseInertiaI, inverseInertiaJ;
 };
 
-/// What it does to both: force on i, −force on j; torques on each about its own centre.
+/// Action on both: force on i, −force on j; torques on each about its own centre.
 template <class Real>
 struct MeetingForce {
   Real normal;                     ///< f_n
@@ -265,7 +265,7 @@ GRAIN_INLINE Vec3<Real> slipOf(const L& law, const Meeting<Real>& meeting) {
   return slip;
 }
 
-/// What the scalar parts of the law see of it.
+/// View of it for the scalar parts of the law.
 template <class L, class Real>
 GRAIN_INLINE ContactMotion<Real> motionOf(const L& law, const Meeting<Real>& meeting) {
   ContactMotion<Real> motion{};

@@ -121,7 +121,7 @@ class SpaceLists {
   SpaceChoiceKernel choose_;
   SpaceCells cells_;
   std::vector<Part> parts_;
-  // What choosing from far pairs needs. The images are those of the 27 numbers.
+  // Data that the choice from far pairs needs. The images are those of the 27 numbers.
   Array<Quad> place_, image_;
   std::vector<double> allowance_;
   Array<Quad> built_;  ///< places at the last rebuild

@@ -12,7 +12,7 @@ namespace {
 
 using Vector = Vec3<double>;
 
-/// What a spring carries, or is to carry: a force, or a torque.
+/// The load of a spring, carried or to be carried: a force, or a torque.
 struct SpringLoad {
   Vector value;
   bool slides;

@@ -54,7 +54,7 @@ struct ActiveSpheres {
   }
 };
 
-/// What contacts read of the spheres (moving, then those of walls) and add to.
+/// Arrays that contacts read of the spheres (moving, then those of walls) and add to.
 struct SpaceView {
   const Quad* position;                        ///< w: the radius
   const Quad *velocity, *spin;                 ///< what dashpots see; spin: null without rotation
@@ -103,7 +103,7 @@ struct SpaceResult {
   Vec3<double> tangential{}, rolling{};
 };
 
-// What contacts remember and what the law gave in the last step, in records that a law has or not.
+// Memory of contacts and the law's last results, in records that a law has or not.
 struct SpaceTouch {
   Vec3<double> normal;
   double overlap, force;
@@ -157,7 +157,7 @@ struct SpaceContactView {
   }
 };
 
-/// What a pair does to its spheres: the force on i, and torques about their own centres.
+/// Action of a pair on its spheres: the force on i, and torques about their own centres.
 struct SpacePush {
   Vec3<double> force, torqueI, torqueJ;
 };
@@ -215,7 +215,7 @@ struct SpaceMotionConstants {
   Vec3<double> gravity;
 };
 
-/// What a motion kernel saw on its way.
+/// Extremes that a motion kernel saw on its way.
 struct SpaceMotionReport {
   double excess = -1.0;    ///< > 0 if some sphere is beyond its allowance [m²]
   double squares = 0.0;    ///< not finite if some velocity or place is not

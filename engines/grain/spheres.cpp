@@ -166,7 +166,7 @@ void Spheres::placeSpheres() {
   beginForces();
 }
 
-/// What follows from which sphere is where.
+/// Rebuilds all that follows from which sphere is where.
 void Spheres::followNumbers() {
   for (std::size_t part = 0; part < shares_.size(); ++part)
     shares_[part].active = {activeList_.data() + lists_.partBegin(part) + part, 0, mark_.data()};

@@ -115,7 +115,7 @@ class Spheres {
   std::pair<Vec3<double>, Vec3<double>> wallLoad(std::size_t w) const;
 
  private:
-  /// What one thread has, on a cache line of its own.
+  /// One thread's data, on a cache line of its own.
   struct alignas(64) Share {
     ActiveSpheres active{};
     SpaceMotionReport moved;
@@ -153,7 +153,7 @@ class Spheres {
       visit(plane.touches);
     }
   }
-  /// What dashpots see: the velocities themselves unless predicted.
+  /// Velocities that dashpots see: the velocities themselves unless predicted.
   const Array<Quad>& seenVelocities() const {
     return seenVelocity_.empty() ? velocity_ : seenVelocity_;
   }

@@ -26,7 +26,7 @@ class ThreadTeam {
   ThreadTeam& operator=(const ThreadTeam&) = delete;
 
   /// Calls work(part) for every part, part 0 on the calling thread, and waits for all of them.
-  /// What a part throws is thrown here, the lowest part's first.
+  /// Throws what a part throws, the lowest part's first.
   template <class Work>
   void run(const Work& work) {
     runTask(

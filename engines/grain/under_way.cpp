@@ -85,7 +85,7 @@ void Core<Real>::addMissing(const PairMap<const Contact*>& wanted) {
 
 namespace {
 
-/// What a spring carries, or is to carry: a force, or a torque.
+/// The load of a spring, carried or to be carried: a force, or a torque.
 struct SpringLoad {
   double value;
   bool slides;

@@ -36,7 +36,7 @@ struct Wall {
   bool moves = true;  ///< false: motion(t) is motion(0) at all times, and nobody asks again
 };
 
-/// What the disks do to a wall: force [N] and torque about the wall's centre [N m].
+/// Action of the disks on a wall: force [N] and torque about the wall's centre [N m].
 struct WallLoad {
   double fx = 0.0, fy = 0.0, torque = 0.0;
 };

@@ -183,7 +183,7 @@ double volumeFractionOf(const Case& setup, const Scene& scene, bool madeUp) {
   return area / (cell.outerRadius * cell.outerRadius - cell.innerRadius * cell.innerRadius);
 }
 
-/// What is said of every kind of case.
+/// Description of every kind of case.
 /// @param timed  engines take some steps, too; not in space
 template <int D>
 json checkedScene(const Case& setup, const SceneOf<D>& scene, double volumeFraction,
@@ -228,7 +228,7 @@ json checkedCase(const Case& setup, const std::vector<std::string>& names, bool 
   checkEngineSections(setup);
   if (packingFile(setup) && !setup.run.dt)
     throw BadInput(setup.file.string() + ": a packing file needs [run] dt, the time step in s");
-  // What --dry-run and the command itself refuse: the start of any packing.
+  // Refusals of --dry-run and of the command itself: the start of any packing.
   if (hasFlow(setup)) checkPackings(setup, flowPackings(setup), timeStep(setup));
   const auto addMargins = [&](json& result) {
     result["endpoints"] = marginsOf(setup.endpoints, setup.averaging.endpoints, "endpoint");

@@ -10,7 +10,7 @@
 
 namespace crossgrain::inline studies {
 
-/// What `check` reports of one case, and of each engine on it. A packing file is read and checked.
+/// Report of `check` on one case, and of each engine on it. A packing file is read and checked.
 /// Of a Couette case some steps are timed on every engine, on its first packing where that is in
 /// the cache, else on a made-up one (cautions.hpp): nothing of it is kept.
 /// @param names  of engines, "all" allowed; mirrors that would run along are asked too

@@ -114,7 +114,7 @@ CachedTask<std::vector<CollisionCurve>>::Outcome sweepsOf(
       none.dt = refused ? each.steps.front() : dt;
       none.status = refused ? Status::refused : Status::failed;
       none.reason = error.what();
-      // What a law lacks, it lacks at every time step.
+      // A law lacks what it lacks at every time step.
       if (refused) break;
       worker.reset();
       failed = true;
@@ -207,7 +207,7 @@ CollisionTable fineOracle(const Case& setup) {
   return tableOf(starts, outcomesOf(oracleCurve(one, starts)));
 }
 
-/// What a case in space says besides: "J = 0.4 m a², first spin (2000, 200) rad/s".
+/// Further words on a case in space: "J = 0.4 m a², first spin (2000, 200) rad/s".
 std::string describeSpace(const Collision& c) {
   std::string words = fmt::format("J = {:g} m a²", c.inertiaFactor);
   const char* const bodies[] = {"first", "second"};
@@ -278,7 +278,7 @@ std::vector<Case> collisionsOf(const fs::path& folder, const std::vector<std::st
   return variants;
 }
 
-/// What a folder's cases are together.
+/// Name of a folder's cases together.
 CaseHead headOfFolder(const fs::path& folder, const std::vector<Case>& variants) {
   std::string toml;
   for (const Case& setup : variants)

@@ -8,7 +8,7 @@
 
 namespace crossgrain::inline studies {
 
-/// What one pair's contact did in a run that was watched step by step.
+/// Record of one pair's contact in a run that was watched step by step.
 struct ContactAccount {
   double maxOverlap = 0.0;  ///< largest at any step: below the true maximum by O(dt²) [m]
   ForceWork work;

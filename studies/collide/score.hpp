@@ -14,7 +14,7 @@ namespace crossgrain::inline studies {
 /// An oracle's may say that they do not part (CollisionEnd::parted).
 using Outcomes = std::vector<std::optional<CollisionOutcome>>;
 
-/// What a quantity's errors are given in.
+/// Unit of a quantity's errors.
 struct ErrorUnit {
   ErrorUnitKind kind = ErrorUnitKind::range;
   double value = 1.0;  ///< in the quantity's own unit

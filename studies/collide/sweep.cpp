@@ -216,7 +216,7 @@ Outcomes referenceOf(const OracleCurve& oracle) {
 
 namespace {
 
-/// What a pair's flight after the collision tells. @param under  the scene with the engine's own
+/// Reads a pair's flight after the collision. @param under  the scene with the engine's own
 /// law: where a bond lets go is a convention
 std::optional<CollisionEnd> endOfPair(const Case&, const Scene& under, const Snapshot& after,
                                       std::size_t pair, const CollisionStart& start) {
@@ -261,7 +261,7 @@ Outcomes runOutcomes(Engine& engine, const Capabilities& can, const Case& setup,
   return outcomes;
 }
 
-/// What the in-house engine makes of the sweep under the law that another declares, at the step
+/// Runs the in-house engine on the sweep under the law that another declares, at the step
 /// that it takes.
 template <int D>
 Outcomes mirrorOutcomes(const Case& setup, const SceneOf<D>& asRun, const ContactLaw& law,

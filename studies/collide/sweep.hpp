@@ -23,7 +23,7 @@ LawDescription describeLaw(const ContactLaw& law);
 /// law.
 LawDescription lawDifference(const ContactLaw& law, const ContactLaw& from);
 
-/// What the oracle says of each start; absent where it has no outcome.
+/// Outcome of the oracle for each start; absent where it has no outcome.
 struct OracleCurve {
   std::vector<std::optional<CollisionEnd>> ends;
   std::string reason;  ///< why there is none
@@ -66,7 +66,7 @@ Outcomes referenceOf(const OracleCurve& oracle);
 /// oracle's, `noLimit` marks points that have no limit of small time steps.
 CollisionTable tableOf(const std::vector<CollisionStart>& starts, const Outcomes& outcomes);
 
-/// What became of each collision of a sweep, watched contact by contact for overlaps and work.
+/// Outcome of each collision of a sweep, watched contact by contact for overlaps and work.
 /// @throws EngineFailure, UnsupportedScene, BadInput
 Outcomes sweepOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
                        const std::vector<CollisionStart>& starts);

@@ -228,7 +228,7 @@ void discardWorker(Engine& engine) {
 
 namespace {
 
-/// What the case says under [engines.NAME], and where it is silent the engine's own file.
+/// Settings of the case under [engines.NAME], and where it is silent the engine's own file.
 Settings settingsSaid(const Case& setup, const std::string& engine) {
   Settings settings;
   if (const auto section = setup.engines.find(engine); section != setup.engines.end())
@@ -357,7 +357,7 @@ AdaptedOf<D> sceneWithAdvice(Engine& engine, const EngineEntry& entry, const Cas
     } catch (const UnsupportedScene& refusal) {
       stillWhy = refusal.what();
     } catch (const std::exception&) {
-      // What else is wrong is for the run to find out.
+      // Other faults are for the run to find out.
     }
     if (stillWhy.empty()) throw;
     throw UnsupportedScene(

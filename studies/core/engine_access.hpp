@@ -74,7 +74,7 @@ std::unique_ptr<Engine> audited(std::string name, std::unique_ptr<Engine> engine
 std::unique_ptr<Engine> startAudited(const EngineEntry& entry, const std::filesystem::path& scratch,
                                      double timeout);
 
-/// What the engine showed cannot be: its worker is not to be another run's.
+/// An impossible snapshot: its worker is not to be another run's.
 void discardWorker(Engine& engine);
 
 /// Tells of those engines that get a new process for each run, since they were not seen to start
@@ -126,7 +126,7 @@ template <int D>
 EffectiveParameters loadScene(Engine& engine, const EngineEntry& entry, const Case& setup,
                               const SceneOf<D>& scene);
 
-/// What is compared over several starts of a case has one step and one precision.
+/// Requires one step and one precision of several starts of a case.
 /// @throws EngineFailure where the engine has others than from the first start
 void requireSameStep(const EffectiveParameters& first, const EffectiveParameters& now);
 
@@ -151,7 +151,7 @@ struct Suitability {
   std::vector<std::string> notSimulated;  ///< effects that the scene calls for
 };
 
-/// What `check` says of an engine and a case. The engine has loaded the scene then, so that `check`
+/// Words of `check` on an engine and a case. The engine has loaded the scene then, so that `check`
 /// and the reports of runs tell the same; of a scene that no engine can start from, it is what is
 /// known before.
 /// @throws UnsupportedScene in the engine's own words, BadInput for a setting

@@ -16,7 +16,7 @@ namespace crossgrain::inline studies {
 double advanceInPieces(Engine& engine, const EffectiveParameters& effective, double from, double to,
                        const std::function<void(double)>& between = {});
 
-/// What a step of an engine takes, from a brief look.
+/// Time of a step of an engine, from a brief look.
 struct BriefTiming {
   EffectiveParameters effective;      ///< its scene, with the engine's own time step
   double secondsPerStep = 0.0;        ///< wall time [s]
@@ -35,8 +35,8 @@ BriefTiming briefTiming(Engine& engine, const EngineEntry& entry, const Case& se
 /// count in each. Absent for an engine that is no worker, or has gone.
 std::optional<std::size_t> mostMemoryOf(const Engine& engine);
 
-/// What programs can still have without swapping: MemAvailable of /proc/meminfo [bytes]; absent
-/// where the kernel does not say.
+/// Memory that programs can still have without swapping: MemAvailable of /proc/meminfo [bytes];
+/// absent where the kernel does not say.
 std::optional<std::size_t> availableMemory();
 
 }  // namespace crossgrain::inline studies

@@ -27,7 +27,7 @@ namespace crossgrain::inline studies {
 /// @param elapsed  since it began [s]
 std::string timeLeft(double fraction, double elapsed);
 
-/// What is done of some pieces of work, shown on standard error: one line that is redrawn with the
+/// Progress of some pieces of work, shown on standard error: one line that is redrawn with the
 /// time left on a terminal, a plain line per finished piece elsewhere. Safe to call from all
 /// threads.
 class Progress {
@@ -60,8 +60,8 @@ class Progress {
   bool lineOpen_ = false;
 };
 
-/// What a run is: whose, of which case or change of it, from which packing. Results are looked up
-/// by it.
+/// Identity of a run: whose, of which case or change of it, from which packing. Results are looked
+/// up by it.
 struct RunId {
   std::string engine, variant = {};
   int packing = 0;
@@ -142,7 +142,7 @@ std::vector<Result> runOrLoad(const std::vector<CachedTask<Result>>& tasks, cons
   return results;
 }
 
-/// What an engine has to do for a command, as far as is known without computing anything.
+/// Work of an engine for a command, as far as is known without computing anything.
 struct PlannedWork {
   std::string engine;
   std::string what;  ///< "runs", "cases"

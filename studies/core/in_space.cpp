@@ -35,7 +35,7 @@ void turn(std::vector<Vec3>& vectors, const Turn& by) {
   for (Vec3& vector : vectors) vector = by * vector;
 }
 
-/// What a turn that takes axes to axes makes of a flag for each.
+/// Flags of axes after a turn that takes axes to axes.
 std::array<bool, 3> turned(const std::array<bool, 3>& along, const Turn& by) {
   std::array<bool, 3> to{};
   for (int k = 0; k < 3; ++k)

@@ -12,7 +12,8 @@
 
 namespace crossgrain::inline studies {
 
-/// What an engine can do, asked once in the life of this program. Absent if it cannot be started.
+/// Capabilities of an engine, asked once in the life of this program. Absent if it cannot be
+/// started.
 std::optional<Capabilities> capabilitiesOf(const EngineEntry& entry, double timeout);
 
 /// The scene that a mirror is given: the one that its peer runs. Effects that the peer lacks are

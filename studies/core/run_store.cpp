@@ -22,7 +22,7 @@ constexpr const char* earlier = "earlier";
 constexpr const char* versionKey = "engine version";
 constexpr const char* wayOut = "take another folder, or --fresh, which sets aside what is there";
 
-/// What the marker of a folder says.
+/// Content of a folder's marker.
 struct Marker {
   std::string command, program;
   std::map<std::string, CaseKeys> cases;
@@ -119,7 +119,7 @@ void RunStore::open() {
   if (!shard_) {
     lock_.emplace(out_, name_);
   } else if (auto first = FolderLock::attempt(out_ / FolderLock::name, name_)) {
-    // What shards of an earlier command said to each other is of no use.
+    // Claims of an earlier command's shards are of no use.
     for (const fs::path& old : {claims(), out_ / "scratch"}) fs::remove_all(old, ignored);
     first->share();
     lock_.emplace(*std::move(first));

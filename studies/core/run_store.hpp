@@ -24,7 +24,7 @@ struct Shard {
   bool writes() const { return number == 1; }
 };
 
-/// What every command that runs engines has on its command line.
+/// Command line of every command that runs engines.
 struct RunCommand {
   std::vector<std::string> engines;  ///< names, "all" allowed
   std::filesystem::path out;
@@ -97,7 +97,7 @@ class RunStore {
   /// Of a worker; gone with the store, but for those of failed().
   std::filesystem::path scratch(const std::string& name) const;
   std::filesystem::path snapshots(const std::string& name) const;
-  /// What a run that is under way keeps; gone once it is finished.
+  /// Files of a run that is under way; gone once it is finished.
   std::filesystem::path unfinished(const std::string& name) const;
 
  private:
@@ -138,7 +138,7 @@ std::string fullName(const Case& setup);
 /// Cases of a command that runs many: by fullName().
 std::map<std::string, CaseKeys> keysOfEach(const std::vector<Case>& cases);
 
-/// What else a run depends on: the engine, its version (empty: it did not answer) and settings, and
+/// Further keys of a run: the engine, its version (empty: it did not answer) and settings, and
 /// whatever more the caller adds.
 CaseKeys runKey(const Case& setup, const std::string& engine, const std::string& version);
 

@@ -51,7 +51,7 @@ std::optional<std::vector<std::string>> valuesOfAll(const std::vector<Capabiliti
 
 using Lacks = std::set<std::pair<std::size_t, std::string>>;
 
-/// What engines lack of a law that the case does not let differ, by engine.
+/// Parts of a law that engines lack and the case does not let differ, by engine.
 Lacks lacksOf(const std::vector<Capabilities>& all, const Case& setup, const ContactLaw& law) {
   Scene scene;
   scene.law = law;
@@ -113,7 +113,7 @@ std::vector<std::string> sharedConventionsOf(const Case& setup,
   std::vector<Capabilities> all;
   for (const EngineEntry& entry : selectEngines(engines)) {
     if (entry.ofFiles() || (entry.missing && !entry.missing().empty())) continue;
-    // What is wrong with one that does not answer is said where it is to run.
+    // The fault of one that does not answer is said where it is to run.
     if (auto can = capabilitiesOf(entry, setup.run.timeout)) all.push_back(std::move(*can));
   }
   return sharedConventions(setup, all);

@@ -62,7 +62,7 @@ struct StudyOption {
 /// Two options of which only one may be given.
 using Exclusion = std::pair<std::string, std::string>;
 
-/// What results come to, for scripts.
+/// Outcome of results, for scripts.
 struct Outcome {
   ExitStatus status = exitPassed;
   std::vector<std::string> failures = {};         ///< runs that failed, engines that refused
@@ -84,7 +84,7 @@ inline std::vector<std::filesystem::path> filesOf(const CommandLine& line) {
   return {line.inputs.begin() + 1, line.inputs.end()};
 }
 
-/// What finished runs in a study's output folder depend on.
+/// Keys of finished runs in a study's output folder.
 enum class Keeps { nothing, oneCase, eachCase };
 
 /// A question about engines, as data: from the options of its command to what came of it. All else
@@ -101,14 +101,15 @@ struct Study {
   std::vector<StudyOption> (*options)(Options&, CommandLine&);
   /// Checks the options and loads what is to be run. @throws BadInput
   std::vector<Case> (*cases)(const CommandLine&, Options&);
-  /// What run() would do, for people; nothing is computed. Null: the study has no --dry-run.
+  /// The work of run(), for people; nothing is computed. Null: the study has no --dry-run.
   std::string (*plan)(const StudyWork&, const Options&);
   Results (*run)(const StudyWork&, const Options&);
   Outcome (*outcome)(const Results&, const CommandLine&, const Options&);
   std::vector<Exclusion> exclusions = {};
 };
 
-/// What nothing judged comes to: no success, unless that was clear from what was asked for.
+/// Outcome of results with nothing judged: no success, unless that was clear from what was asked
+/// for.
 Outcome notJudged(std::string why, bool byRequest = false);
 
 /// Why engines that the user named did not run, one line each.
@@ -136,10 +137,10 @@ double fractionOf(const std::string& target);
 /// Now, as ISO 8601 in UTC.
 std::string timeStamp();
 
-/// What all results begin with.
+/// Head of all results.
 ResultsHead headOf(std::string_view kind, const Case& setup, const std::string& command);
 
-/// What the report's two pictures need of one snapshot: disks with the place they started from
+/// Data of the report's two pictures from one snapshot: disks with the place they started from
 /// (scene) and contacts with their normal force. @param rotation  of the wheel so far
 ScenePicture scenePicture(const Scene& scene, const Snapshot& now, double rotation);
 

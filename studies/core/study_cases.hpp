@@ -16,7 +16,7 @@ namespace crossgrain::inline studies {
 /// @throws BadInput
 Case onlyFlow(const CommandLine& line, const char* command);
 
-/// What --quick changes of a flow: nothing becomes longer than the case has it.
+/// Changes by --quick of a flow: nothing becomes longer than the case has it.
 /// @param rotations  averaged
 std::vector<std::string> quickOverrides(const Case& setup, double rotations = 0.1);
 
@@ -33,7 +33,7 @@ void reportKeysWithoutUse(const std::vector<Case>& cases, std::string_view comma
 /// Prints those lines, once it is known that the command can begin: a refusal stands alone.
 void printNotes();
 
-/// What loads but is hardly meant, one line each on standard error.
+/// Warns of what loads but is hardly meant, one line each on standard error.
 void printWarnings(const Case& setup);
 
 }  // namespace crossgrain::inline studies

@@ -88,7 +88,7 @@ class EffectCampaign {
       for (const PlannedVariant* planned : variantsThatRun(tasks[k].of.engine))
         times_[idOf(*planned)] = times[k].at(which++);
     }
-    // What an engine cannot do without shows when it is asked to: single precision in space, say.
+    // An engine's need of an effect shows when it is asked to: single precision in space, say.
     for (PlannedVariant& planned : variants_)
       if (const auto found = times_.find(idOf(planned));
           planned.off && found != times_.end() && found->second.refused)
@@ -96,7 +96,7 @@ class EffectCampaign {
     campaign_.run(asVariants(variantsThatRun()));
   }
 
-  /// What run() would do.
+  /// The work of run().
   std::string plan(const RunCommand& command) {
     campaign_.askEngines();
     campaign_.lookForPackings();

@@ -24,7 +24,7 @@ struct EffectsOptions {};
 /// Interrupted
 extern const Study<EffectsOptions, EffectsResults> effectsStudy;
 
-/// What switching one thing off changes in the profiles of an engine: switched − whole case, ring
+/// Changes by one thing switched off in the profiles of an engine: switched − whole case, ring
 /// by ring, mean over the packings that both have finished. Bars are those of paired differences,
 /// sd/√P, or, of one packing, the two runs' own, which say nothing about other packings.
 ///

@@ -18,7 +18,7 @@ struct TimedVariant {
   std::function<double(Engine&, int round)> load;
 };
 
-/// What a step of one variant takes.
+/// Time of a step of one variant.
 struct StepTimes {
   std::vector<double> seconds;     ///< per step, round by round: processor time, of an engine that
                                    ///< does not report it wall time; empty if the engine failed

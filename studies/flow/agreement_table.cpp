@@ -15,7 +15,8 @@ std::optional<double> marginOf(const PairedTest& test, const Margin& margin) {
   return margin.value * std::abs(test.reference);
 }
 
-/// What was found, in the field's unit: a ratio as the difference that it makes to the reference.
+/// The difference found, in the field's unit: a ratio as the difference that it makes to the
+/// reference.
 /// @param level  of a test that would find a difference by itself
 AgreementRing ringRow(std::size_t index, const PairedTest& test, const PairedComparison& found,
                       const Margin& margin, double level) {
@@ -43,7 +44,7 @@ AgreementRing ringRow(std::size_t index, const PairedTest& test, const PairedCom
   return row;
 }
 
-/// What a difference in all rings must at least be to be found: the ring that shows it best.
+/// Smallest difference in all rings that is found: the ring that shows it best.
 std::optional<double> smallestOf(const std::vector<AgreementRing>& rings) {
   std::optional<double> smallest;
   for (const AgreementRing& ring : rings)

@@ -34,8 +34,9 @@ class RunAverages {
 
   virtual std::size_t snapshots() const = 0;
 
-  /// What endpoints are made of, of the run without part k of n of its snapshots: means, series and
-  /// the coordination. Absent where there are too few snapshots for so many parts.
+  /// The numbers that endpoints are made of, of the run without part k of n of its snapshots:
+  /// means, series and the coordination. Absent where there are too few snapshots for so many
+  /// parts.
   virtual std::optional<FlowRun> without(std::size_t k, std::size_t n) const = 0;
 };
 
@@ -44,7 +45,7 @@ class RunAverages {
 template <int D>
 void addGlobalNumbers(RunSeries& rows, const SceneOf<D>& scene, const SnapshotOf<D>& now);
 
-/// What is averaged of the snapshots of a flow, whether they come from an engine or from a file:
+/// Averages of the snapshots of a flow, whether they come from an engine or from a file:
 /// profiles over the bins of its region; series of the whole scene, and of the region, disks and
 /// walls that endpoints ask for (cases/case.hpp); of a Couette cell those of cell_averages.hpp
 /// instead. Along a periodic direction nothing has a centre of mass.

@@ -130,7 +130,7 @@ void Campaign::askEngines(std::size_t fewest) {
           for (const std::string& copy : own.copies) progress_.say(own.entry.name + ": " + copy);
           own.first = openRun(runOf(own.entry, 0), setup_, own.entry.name);
           own.radii = own.first->radius;
-          // What is wrong with a file is said before engines run for hours.
+          // Says what is wrong with a file before engines run for hours.
           for (std::size_t run = 1; enginesRun && run < own.entry.files.size(); ++run)
             openRun(runOf(own.entry, run), setup_, own.entry.name);
           return;
@@ -250,7 +250,7 @@ CaseKeys Campaign::keyOf(std::size_t engine, int packing, const std::string& par
 
 namespace {
 
-/// What makes a variant another run than the case's.
+/// Keys that make a variant another run than the case's.
 const std::string& partOf(const Variant& variant) {
   return variant.without.empty() ? variant.changed : variant.without;
 }

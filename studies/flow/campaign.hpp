@@ -105,7 +105,7 @@ class Campaign {
   void lookForPackings(int count);
   /// Of a dry run, in place of preparePackings() and timeEngines(). @throws BadInput likewise
   void lookForPackings();
-  /// What `run` would do, engine by engine, those that refuse too.
+  /// The work of `run`, engine by engine, those that refuse too.
   std::vector<PlannedWork> plan(const std::vector<Variant>& variants) const;
   /// Whether runs of files take part, which are what they are: no more of them can be asked for.
   bool hasFiles() const;
@@ -139,7 +139,7 @@ class Campaign {
   RunStore& store() const { return store_; }
   Progress& progress() { return progress_; }
 
-  /// What a result of this engine on this packing depends on besides the case.
+  /// Keys of a result of this engine on this packing besides the case.
   /// @param part  what is switched off, or which part of the campaign the result is
   CaseKeys keyOf(std::size_t engine, int packing, const std::string& part) const;
 

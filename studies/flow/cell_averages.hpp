@@ -12,7 +12,7 @@
 
 namespace crossgrain::inline studies {
 
-/// What is averaged of a Couette cell beside its profiles: what wheel and ring feel and how the
+/// Averages of a Couette cell beside its profiles: what wheel and ring feel and how the
 /// wheel drives the disks, distributions, spins layer by layer, and what follows from them.
 class CellAverages {
  public:

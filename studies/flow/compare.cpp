@@ -122,7 +122,7 @@ std::string comparePlan(const StudyWork& work, const CompareOptions& own) {
                         command);
 }
 
-/// What no engine that takes part has made.
+/// Files that no engine that takes part has made.
 std::string neutralNote(const Case& setup, const Campaign& campaign, bool lockstep) {
   const std::string packings =
       campaign.packings().empty() ? ""
@@ -207,8 +207,8 @@ std::vector<std::string> endpointsWith(const CompareResults& results, Verdict ve
   return clauses;
 }
 
-/// What makes engines disagree, and with --strict what is left open. Another law than it declares
-/// is a disagreement, whatever averages make of it.
+/// Findings that make engines disagree, and with --strict what is left open. Another law than it
+/// declares is a disagreement, whatever averages make of it.
 std::vector<std::string> failsOf(const CompareResults& results, std::size_t refused, bool strict) {
   std::vector<std::string> fails;
   const auto add = [&](const char* what, const std::vector<std::string>& who) {

@@ -101,7 +101,7 @@ bool addBound(EndpointRow& row, std::string EndpointRow::*surrogate,
   return true;
 }
 
-/// What both of a pair can have of an endpoint.
+/// Runs in which both of a pair can have an endpoint.
 struct AblePair {
   std::vector<Runs> ours;  ///< of each reference that has any
   Runs theirs;

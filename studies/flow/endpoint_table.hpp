@@ -63,7 +63,7 @@ std::vector<EndpointRow> endpointRows(const Case& setup, const std::vector<Endpo
 std::optional<double> reachOf(std::string_view endpoint, const LateWindows& late,
                               const std::vector<EndpointResponse>& responses);
 
-/// What the change of a constant does to an endpoint: runs with it against runs without, packing by
+/// Response of an endpoint to a changed constant: runs with it against runs without, packing by
 /// packing.
 /// @param packings  how many there are
 EndpointResponse responseTo(const Case& setup, const Runs& runs, const Runs& changed,

@@ -25,7 +25,7 @@ bool isMean(Reduction reduction) {
          reduction == Reduction::bin || reduction == Reduction::rate;
 }
 
-/// What a field, or a number of regionNumbers() or diskNumbers(), is made of. Forces on walls have
+/// Needs of a field, or of a number of regionNumbers() or diskNumbers(). Forces on walls have
 /// no need that profiles show: where there are none the series is empty, and says so.
 Needs needsOf(const std::string& quantity, const Endpoint& how, int dimension) {
   if (how.wall) return Needs::kinematics;
@@ -49,7 +49,7 @@ bool lacksWallContacts(const FlowRun& run) {
       run.remarks, [](const std::string& remark) { return remark.starts_with(noWallContacts); });
 }
 
-/// What the run does not show of that; empty: nothing. What a law lacks no run has. Sums over
+/// Missing needs of the run; empty: none. A part that the law lacks no run has. Sums over
 /// contacts without those of walls would be others.
 std::string lackOf(Needs needs, const FlowRun& run) {
   const auto has = [&](Needs what) {

@@ -129,7 +129,7 @@ std::map<int, Regime> regimesByPacking(const Runs& runs) {
   return regimes;
 }
 
-/// What one run says of one series, or null.
+/// One run's numbers of one series, or null.
 const RelativeDrift* driftOf(const FlowRun& run, const std::string& quantity) {
   const auto found = std::ranges::find(run.steadiness, quantity, &SeriesDrift::quantity);
   return found == run.steadiness.end() ? nullptr : &found->drift;

@@ -8,7 +8,7 @@
 #include "results/run.hpp"
 #include "studies/flow/paired_runs.hpp"
 
-/// What the runs of engines say together, over packings.
+/// Means of the runs of engines, over packings.
 namespace crossgrain::inline studies {
 
 /// The mean over packings of every profile, distribution, fit and head number of an engine's

@@ -30,10 +30,10 @@ SnapshotRun runOf(const EngineEntry& entry, std::size_t run);
 /// Leaves out runs that are copies of others (distinctRuns()). @returns a sentence for each
 std::vector<std::string> dropCopies(EngineEntry& entry, const Case& setup);
 
-/// What a run of files depends on: names, sizes and times of change of its files.
+/// Keys of a run of files: names, sizes and times of change of its files.
 std::string fingerprintOf(const EngineEntry& entry, std::size_t run);
 
-/// What files hold, averaged as a run of an engine.
+/// Averages files as a run of an engine.
 struct AveragedRun {
   FlowRun run;  ///< of the source's engine, packing 0; without errors of endpoints
   std::int64_t snapshots = 0;

@@ -16,7 +16,7 @@ RingPlaces placesOf(const Rings& rings);
 /// Of the case's bins: of slabs the coordinate along which they lie, and of a grid none.
 RingPlaces placesOf(const Case& setup);
 
-/// What results say of a case whatever is done with it.
+/// Description of a case in all results.
 /// @param radii  of one packing's disks
 FlowFrame flowFrame(std::string_view kind, const Case& setup, const std::string& command,
                     std::span<const double> radii);

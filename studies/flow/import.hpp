@@ -11,14 +11,14 @@
 
 namespace crossgrain::inline studies {
 
-/// What `import` takes beside its files and case.
+/// Options of `import` beside its files and case.
 struct ImportOptions {
   std::string format;               ///< of adapters/files/frame.hpp
   std::optional<std::string> name;  ///< of the settings' [engines.NAME]; absent: defaultName()
   std::string out;                  ///< the file to write
 };
 
-/// What was written.
+/// Files that were written.
 struct Imported {
   std::string name;  ///< of who made them
   std::size_t snapshots = 0, disks = 0;
@@ -28,7 +28,7 @@ struct Imported {
 
 /// Writes the snapshots of one run as HDF5 of our own layout (docs/files.md), with an XDMF file
 /// beside it: those of the averaged time, each found sound. One snapshot is in memory at a time.
-/// What is there as `out` is replaced if it is such a file.
+/// Replaces `out` if it is such a file.
 /// @throws BadInput naming the file, the snapshot and what is wrong: then nothing is written;
 ///         OutputError, Interrupted
 Imported importSnapshots(const CommandLine& line, const ImportOptions& options);

@@ -208,7 +208,8 @@ class Sequence {
     if (campaign_.hasFiles()) return "files hold no further runs";
     if (taken == plan_.packings.size())
       return fmt::format("{} packings are the most", plan_.packings.back());
-    // What an earlier command has finished costs nothing: a smaller budget takes no verdict back.
+    // A run that an earlier command has finished costs nothing: a smaller budget takes no verdict
+    // back.
     if (campaign_.missingRuns(next()) > 0 &&
         campaign_.elapsed() + secondsOfNext() > findings_.looks.budget && !finishedGoOn())
       return fmt::format(

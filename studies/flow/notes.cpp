@@ -24,8 +24,8 @@ constexpr double farMargins = 10.0;
 /// Of the disks: what crosses the walls' circles and comes back is a tenth of that.
 constexpr double goneFraction = 0.02;
 
-/// What one of both lacks where the other has it: a packing on which neither has a value is no
-/// difference.
+/// Values that one of both lacks where the other has them: a packing on which neither has a value
+/// is no difference.
 struct OneSided {
   std::string who, other;
   int packings = 0;
@@ -146,7 +146,7 @@ std::vector<std::string> remarkNotes(std::span<const FlowRun> runs, bool named) 
 
 namespace {
 
-/// What verdicts of a pair rest on, and of how many runs.
+/// Basis of a pair's verdicts, and of how many runs.
 struct PairBasis {
   Basis basis = Basis::paired;
   int a = 0, b = 0;

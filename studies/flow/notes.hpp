@@ -10,18 +10,19 @@
 /// Remarks on a comparison that no test makes.
 namespace crossgrain::inline studies {
 
-/// What is far outside any margin, whether or not a test can prove it: an endpoint whose mean lies
-/// more than 10 margins off (chaos scatters single packings by at most 3) and is not already called
-/// a disagreement; an endpoint that one of two engines lacks on most packings; disks that are gone;
-/// another regime on most packings.
+/// Alarms: values far outside any margin, whether or not a test can prove it: an endpoint whose
+/// mean lies more than 10 margins off (chaos scatters single packings by at most 3) and is not
+/// already called a disagreement; an endpoint that one of two engines lacks on most packings; disks
+/// that are gone; another regime on most packings.
 std::vector<AlarmRow> alarmsOf(const Case& setup, const CompareResults& results);
 
-/// What it means that contacts are pairs which transmit a force (averaging/contact_rule.hpp):
-/// coordination as it is and as it would be with every pair that an engine lists, engine by engine.
-/// One note, or none where no run shows contacts.
+/// A note on what it means that contacts are pairs which transmit a force
+/// (averaging/contact_rule.hpp): coordination as it is and as it would be with every pair that an
+/// engine lists, engine by engine. One note, or none where no run shows contacts.
 std::vector<std::string> contactNotes(const FlowStudy& study);
 
-/// What files lack and what that costs, each once: of some of an engine's runs with their names.
+/// Notes on what files lack and what that costs, each once: of some of an engine's runs with their
+/// names.
 /// @param named  whether the engine is
 std::vector<std::string> remarkNotes(std::span<const FlowRun> runs, bool named);
 

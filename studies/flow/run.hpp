@@ -20,7 +20,7 @@ Rings ringsOf(const Case& setup);
 /// Weights of these names, with the case's kernel width.
 std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> names);
 
-/// What one engine on one packing is to do, and where its files go.
+/// Task of one engine on one packing, and where its files go.
 struct FlowTask {
   const Case* setup;
   EngineEntry entry;

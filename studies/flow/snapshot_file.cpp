@@ -15,7 +15,7 @@ void writeVectors(Hdf5File& out, const std::string& path, const std::vector<VecO
   out.write(path, values.empty() ? nullptr : values.front().data(), values.size(), D);
 }
 
-/// What is about the normal of the plane, a number each, or a vector each.
+/// Writes what is about the normal of the plane, a number each, or a vector each.
 template <int D>
 void writeSpins(Hdf5File& out, const std::string& path, const std::vector<SpinOf<D>>& values) {
   if constexpr (D == 2)

@@ -41,7 +41,7 @@ class SnapshotFileOf {
   void close();
 
  private:
-  /// What the XDMF text has to know of a snapshot in the file.
+  /// Description for the XDMF text of a snapshot in the file.
   struct KeptSnapshot {
     double time;  ///< of positions [s]
     bool spins;

@@ -30,7 +30,7 @@ std::string unitHint(double found, double target, std::string_view key,
 template <int D>
 SceneOf<D> sceneAround(const Case& setup, DisksOf<D> disks, const SnapshotOrigin& origin);
 
-/// What the case has for a disk, or sphere, of that radius, number k of an assembly [kg].
+/// Mass in the case of a disk, or sphere, of that radius, number k of an assembly [kg].
 template <int D>
 double massOf(const Case& setup, std::size_t k, double radius);
 

@@ -18,7 +18,7 @@
 namespace crossgrain::inline studies {
 namespace {
 
-/// What HDF5 cannot do with a file of the user's is bad input.
+/// A failure of HDF5 with a file of the user's is bad input.
 auto described(const auto& read) {
   try {
     return read();
@@ -68,7 +68,7 @@ class SnapshotDatasets {
     return result;
   }
 
-  /// What is about the normal of the plane, or in space a vector.
+  /// Reads what is about the normal of the plane, or in space a vector.
   template <int D>
   std::vector<SpinOf<D>> spins(const std::string& path, std::size_t wanted) const {
     if constexpr (D == 2)

@@ -193,7 +193,7 @@ SceneOf<D> sceneOf(const Case& setup, DisksOf<D> disks, const SnapshotOrigin& or
   return scene;
 }
 
-/// What needs each particle from the start on; empty: nothing.
+/// Reason why each particle is needed from the start on; empty: nothing.
 std::string needOfAll(const Case& setup) {
   if (cellOf(setup)) return "a cell keeps its disks";
   for (const Endpoint& own : setup.endpoints)

@@ -46,7 +46,7 @@ class CoveredTime {
 std::vector<SnapshotRun> snapshotRuns(const std::vector<std::filesystem::path>& files,
                                       const std::string& format = {});
 
-/// What the files of a run are called where nobody says: their format, which is also the
+/// Name of a run of files that is given none: their format, which is also the
 /// [engines.NAME] that has their settings.
 std::string defaultName(const std::string& format);
 

@@ -31,7 +31,7 @@ std::vector<FitRow> couetteFits(const Case& setup, const std::vector<Profile>& p
 /// The fit of the spin's oscillation from layer to layer.
 std::vector<FitRow> spinFits(const Case& setup, const LayerSpin& spin);
 
-/// What must hold in a steady state, ring by ring: the torque carried at every ring is
+/// Balance of a steady state, ring by ring: the torque carried at every ring is
 /// the wheel's, σ_rr in the outermost ring is what the pressure on the ring calls for.
 /// @param wall  one for each entry of the series' outer_pressure, or none: then that is not checked
 std::vector<CheckRow> couetteChecks(const Case& setup, const std::vector<Profile>& profiles,
@@ -42,7 +42,7 @@ std::vector<CheckRow> couetteChecks(const Case& setup, const std::vector<Profile
 /// kinetic energy is what moves; each may drift without the others.
 inline constexpr const char* watchedSeries[] = {"wheel_torque", "outer_pressure", "kinetic_energy"};
 
-/// What a change of a mean must stay below to be called "not seen": cases allow two engines to
+/// Bound below which a change of a mean is called "not seen": cases allow two engines to
 /// differ by a quarter in their stresses, and a drift beyond that would decide more than the
 /// engines do.
 inline constexpr double largestUnseenDrift = 0.25;

@@ -17,7 +17,7 @@ namespace {
 constexpr auto interval = std::chrono::seconds(30);
 constexpr const char* indexName = "index.json";
 
-/// What was kept under that key; null: nothing that can be used.
+/// The run kept under that key; null: none that can be used.
 json keptUnder(const fs::path& folder, const std::string& key) {
   try {
     json kept = readJsonFile(folder / indexName).value_or(json());

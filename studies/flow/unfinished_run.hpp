@@ -12,7 +12,7 @@
 
 namespace crossgrain::inline studies {
 
-/// What a long run has done so far, kept on disk now and then, so that --resume goes on in the
+/// State of a long run so far, kept on disk now and then, so that --resume goes on in the
 /// middle of it: the engine's own checkpoint and the snapshots taken before. Engines without
 /// checkpoints keep nothing, nor do any in space.
 template <int D>

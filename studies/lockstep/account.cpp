@@ -185,7 +185,7 @@ LockstepSeparation SeparationAccount::separationAt(std::size_t which) const {
   return separation;
 }
 
-/// What exceeds the limit from any start at any time that can be read is seen.
+/// A separation that exceeds the limit from any start at any time that can be read is seen.
 std::optional<double> SeparationAccount::resolution() const {
   std::optional<double> smallest;
   for (std::size_t s = 0; s < limits_.size(); ++s)

@@ -82,7 +82,7 @@ std::vector<TermInstantOf<D>> TermFramesOf<D>::instants(const std::optional<Firs
 
 namespace {
 
-/// What a change of the mirror does, from all starts, by instant. Absent where it cannot run like
+/// Response to a change of the mirror, from all starts, by instant. Absent where it cannot run like
 /// that.
 template <int D>
 std::optional<std::vector<std::vector<double>>> responsesTo(const AppliedChangeOf<D>& change,

@@ -11,12 +11,12 @@
 
 namespace crossgrain::inline studies {
 
-/// What runs do at some instants, by start and instant.
+/// Frames of runs at some instants, by start and instant.
 template <int D>
 using RunsFromStartsOf = std::vector<std::vector<LockstepFrameOf<D>>>;
 using RunsFromStarts = RunsFromStartsOf<2>;
 
-/// What the mirror does from each start with these changes. Absent where it cannot run like that.
+/// Runs the mirror from each start with these changes. Absent where it cannot run like that.
 /// @param scenes  the mirror's, by start
 /// @param times   of the frames, since the start [s]
 /// @throws Interrupted
@@ -40,7 +40,7 @@ struct TermInstantOf {
 };
 using TermInstant = TermInstantOf<2>;
 
-/// What is kept of windows for the search: frames without contacts of an engine and of what it is
+/// Memory of windows for the search: frames without contacts of an engine and of what it is
 /// compared with, all up to the first of those reported, and these.
 template <int D>
 class TermFramesOf {
@@ -61,7 +61,7 @@ class TermFramesOf {
 };
 using TermFrames = TermFramesOf<2>;
 
-/// What is to be accounted for.
+/// Differences to be accounted for.
 template <int D>
 struct TermSearchOf {
   std::vector<SceneOf<D>> scenes;            ///< the mirror's, by start

@@ -54,7 +54,7 @@ namespace {
 /// contacts to open.
 constexpr std::array identifyTimes = {1e-3, 10e-3};  // [s]
 
-/// What fits worse than the best by less than this part of it fits alike.
+/// Fits alike: worse than the best by less than this part of it.
 constexpr double alike = 0.01;
 
 /// A constant is put down as another one from here on: what rounding and what an engine's own way
@@ -213,7 +213,7 @@ class Search {
   }
 
  private:
-  /// What stands before " = " of a convention; all of an effect's name.
+  /// The part before " = " of a convention; all of an effect's name.
   static std::string optionNamed(const MirrorChangeOf<D>& change) {
     return change.name.substr(0, change.name.find(" = "));
   }

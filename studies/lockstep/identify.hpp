@@ -12,7 +12,7 @@
 
 namespace crossgrain::inline studies {
 
-/// What an engine does about one option of the law.
+/// Values that an engine's motion allows for one option of the law.
 struct FoundOption {
   std::string name;
   std::vector<std::string> values;    ///< that fit alike, the closest mirror's first

@@ -134,7 +134,7 @@ class LateComparison {
     return now.positionTime;
   }
 
-  /// What constants that move anything would have to be changed by; or why that says nothing:
+  /// Changes that constants which move anything would need; or why that says nothing:
   /// engine and mirror part in a window in which the reference constant moves nothing, or it moves
   /// nothing in any.
   void conclude(LateWindows& found) const {

@@ -22,7 +22,7 @@ namespace crossgrain::inline studies {
 /// mean over it of what is changed, so the mean over windows is what bounds averages; its interval
 /// says what another run may be like.
 ///
-/// What it cannot see: what happens on other packings alone (n windows alike leave at most 3/n of
+/// Blind spots: what happens on other packings alone (n windows alike leave at most 3/n of
 /// all unlike), and forces of the normal direction that are reported wrongly. The plate's springs,
 /// which no engine reports, begin relaxed, and of predicted damping the first force is that of the
 /// instant's velocity: engines of which that matters have larger ε_late, and no false ones.

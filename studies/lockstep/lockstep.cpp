@@ -154,7 +154,7 @@ class Comparison {
     }
   }
 
-  /// What changes of the reference constant do to the mirror from here.
+  /// Responses of the mirror to changes of the reference constant from here.
   Responses responses(const SceneOf<D>& mirrored, const LockstepWindowOf<D>& window) {
     std::vector<LockstepFrameOf<D>> unchanged;
     for (const std::size_t frame : reported()) unchanged.push_back(window.mirror[frame]);

@@ -2,7 +2,7 @@
 
 #include <array>
 
-/// What lockstep goes by. Fixed before any engine was measured, each with its reason.
+/// Rules of lockstep. Fixed before any engine was measured, each with its reason.
 namespace crossgrain::inline studies {
 
 /// Double precision rounds positions to 1e-16 d; in 0.1 s of flow the separation of two runs grows
@@ -59,8 +59,8 @@ inline constexpr double termWorthTrying = 0.5;
 /// fifth is no name.
 inline constexpr double termUnexplained = 0.2;
 
-/// What parts an engine from its mirror by less is rounding and contacts made a step earlier, and
-/// has no name.
+/// A smaller separation of an engine from its mirror is rounding and contacts made a step earlier,
+/// and has no name.
 inline constexpr double leastNamed = 1e-6;  // of the reference constant
 
 /// Starts along the flow; what n windows do not show happens in less than 3/n of all, at 95 %.

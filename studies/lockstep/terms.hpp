@@ -49,7 +49,7 @@ std::vector<MirrorChangeOf<D>> changesOf(const SceneOf<D>& scene, const Capabili
 /// The constant that deviations are expressed in: k_n, of rigid disks e_n.
 std::string referencePerturbationOf(const ContactLaw& law);
 
-/// What verdicts in a scene of that law rest on.
+/// Basis of verdicts in a scene of that law.
 LockstepRules lockstepRules(const ContactLaw& law);
 
 /// Changes it by that part of itself.

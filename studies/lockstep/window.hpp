@@ -11,7 +11,7 @@
 
 namespace crossgrain::inline studies {
 
-/// What is compared of an engine after so many steps.
+/// State of an engine that is compared after so many steps.
 template <int D>
 struct LockstepFrameOf {
   double time = 0.0;               ///< of the positions, since the start [s]
@@ -53,7 +53,7 @@ template <int D>
 void unwrap(std::vector<VecOf<D>>& places, const std::vector<VecOf<D>>& others,
             const std::optional<BoxOf<D>>& box);
 
-/// What the in-house engine does in place of another; where it does not come through, under a law
+/// Frames of the in-house engine in place of another; where it does not come through, under a law
 /// that drives disks through walls for one, nobody's failure is shown.
 /// @throws UnsupportedScene  for what it fails with
 template <class Work>

@@ -18,18 +18,18 @@ namespace crossgrain::inline studies {
 
 inline constexpr const char* baselineFormat = "baseline-3";
 
-/// What an engine did from one start.
+/// Record of an engine from one start.
 template <int D>
 struct BaselineWindowOf {
   std::vector<LockstepFrameOf<D>> frames;  ///< at lockstepSteps() of its own step
-  /// What changes of the reference constant did to it, at the frames nearest to lockstepTimes:
+  /// Responses to changes of the reference constant, at the frames nearest to lockstepTimes:
   /// measured in the engine itself, so that no mirror is needed, and when it was kept, so that
   /// nothing that a later version does bends the measure.
   Responses responses;
 };
 using BaselineWindow = BaselineWindowOf<2>;
 
-/// What an engine made of a sweep of collisions, to the bit.
+/// Outcomes of an engine in a sweep of collisions, to the bit.
 struct KeptCollisions {
   std::string name, variant;    ///< of the case
   std::string refusal;          ///< why it was not run; empty if it was
@@ -42,7 +42,7 @@ struct KeptCollisions {
 /// Endpoints of whole runs by name, an entry for each start.
 using KeptEndpoints = std::map<std::string, Numbers>;
 
-/// What one engine did, and as what it presented itself.
+/// Record of one engine, and as what it presented itself.
 struct BaselineEngine {
   std::string name, version;
   Capabilities can;
@@ -63,8 +63,8 @@ auto& windowsIn(AnyEngine& engine) {
     return engine.spaceWindows;
 }
 
-/// What some engines did on one case, with all that is needed to do the same again: nothing outside
-/// of it is read.
+/// Record of some engines on one case, with all that is needed to do the same again: nothing
+/// outside of it is read.
 struct Baseline {
   std::string version;            ///< of the crossgrain that kept it
   CaseHead setup;                 ///< its text is the merged case, with all variants

@@ -206,7 +206,7 @@ class WindowsDiff {
         return std::nullopt;
       }
     }
-    // What was kept is no mirror's: what its mirror does is run again.
+    // A kept record is no mirror's: its mirror is run again.
     for (TermInstantOf<D>& instant : search.instants) {
       auto unchanged = runsWith(*mirror, search.scenes, {}, {instant.time});
       if (!unchanged) return std::nullopt;
@@ -353,7 +353,7 @@ Outcome outcomeOf(const DiffResults& results) {
   Outcome outcome;
   for (const DiffRow& row : results.rows) {
     judged |= row.verdict != Equivalence::notMeasured;
-    // What was not shown to be the same is not passed.
+    // Passes only what was shown to be the same.
     differs |= row.verdict == Equivalence::differs || row.verdict == Equivalence::undecided;
     if (!row.failure.empty()) outcome.failures.push_back(row.failure);
   }

@@ -14,7 +14,7 @@
 
 namespace crossgrain::inline studies {
 
-/// What one engine does from the same starts and in the same collisions, compared with a baseline.
+/// Comparison of one engine, from the same starts and in the same collisions, with a baseline.
 /// @param engine  started; that of `entry`
 /// @param cases   as it is to run them now
 /// @param before  that of the baseline's cases
@@ -45,7 +45,7 @@ NumbersDifference differenceOf(const std::vector<double>& before, const std::vec
                                double tolerance = 0.0);
 
 /// Quantities of sweeps that are not the same bits, of each sweep those that changed most first.
-/// What one side refused is left out.
+/// Leaves out what one side refused.
 struct CollisionChanges {
   std::size_t sweeps = 0;  ///< that were compared
   std::vector<CollisionChange> changes;
@@ -57,14 +57,14 @@ CollisionChanges collisionChanges(const std::vector<KeptCollisions>& before,
 /// By the largest relative change: rules.hpp has the limits and their reasons.
 Equivalence equivalenceOf(const std::vector<CollisionChange>& changes);
 
-/// What an engine declares of itself.
+/// Declaration of an engine.
 struct Declaration {
   std::string engine;
   const Capabilities& can;
   const std::optional<EffectiveParameters>& ran;  ///< absent: it did not come to that
 };
 
-/// What is declared that was not declared before: of what was realised of a scene the step,
+/// Declarations that are new: of what was realised of a scene the step,
 /// precision, integrator, effects, constants and deviations; and where it is the same engine, its
 /// version and its options of the law.
 std::vector<DeclaredChange> declaredChanges(const Declaration& before, const Declaration& now);
@@ -74,7 +74,7 @@ std::vector<EndpointRow> endpointChanges(const Case& setup, const KeptEndpoints&
                                          const KeptEndpoints& now,
                                          const std::pair<std::string, std::string>& names);
 
-/// What differs between two answers to one request: arrays first, in the order of the earlier
+/// Differences of two answers to one request: arrays first, in the order of the earlier
 /// answer, then the other fields. Contacts are compared by their ids, whatever order they are
 /// listed in. Not compared: names and versions of the engine, times of clocks, the layout of files,
 /// and why there is no answer where both have none.

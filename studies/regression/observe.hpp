@@ -7,7 +7,7 @@
 #include "studies/core/run_store.hpp"
 #include "studies/regression/baseline.hpp"
 
-/// What is observed of an engine, in the same way when it is kept and when it is compared.
+/// Observation of an engine, in the same way when it is kept and when it is compared.
 namespace crossgrain::inline studies {
 
 /// One engine on one case.
@@ -36,7 +36,7 @@ KeptEndpoints endpointsFrom(const EngineEntry& entry, const Case& setup,
                             const std::vector<FlowState>& starts, double dt,
                             const std::function<void(double)>& progress);
 
-/// What one engine does from each start and in each collision.
+/// Observes one engine from each start and in each collision.
 /// @param engine  started; that of `entry`
 /// @param cases   one flow, or the variants of a case of collisions
 /// @param dt      of the flow [s]
@@ -45,7 +45,7 @@ BaselineEngine keepEngine(Engine& engine, const EngineEntry& entry, const std::v
                           const std::vector<FlowState>& starts, double dt,
                           const std::function<void(double)>& progress);
 
-/// What all engines named do, but for those that refuse the case.
+/// Observes all engines named but those that refuse the case.
 /// @param starts     along the flow of a case that has one
 /// @param endpoints  whether each start is also run and averaged
 /// @param refusals   becomes why engines refuse it that were asked for by name

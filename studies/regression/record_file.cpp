@@ -27,7 +27,7 @@ std::string_view kindOf(std::string_view format) {
 std::string textOf(const Record& record) {
   json line = record.line;
   line["bytes"] = record.bytes.size();
-  // What an engine answers need not be UTF-8.
+  // An engine's answer need not be UTF-8.
   const std::string text = line.dump(-1, ' ', false, json::error_handler_t::replace);
   return text + '\n' + record.bytes + checksum(text, record.bytes) + '\n';
 }

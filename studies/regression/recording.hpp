@@ -21,7 +21,7 @@ inline constexpr const char* recordingFormat = "recording-2";
 Record recordOf(const Exchange& exchange);
 Exchange exchangeOf(Record record);
 
-/// What is recorded of one engine: a snapshot at the start and after each of `snapshots` equal
+/// Record of one engine: a snapshot at the start and after each of `snapshots` equal
 /// parts of `time`, with contacts where the engine has any, and its stats at the end.
 struct RecordOptions {
   std::optional<double> time;  ///< [s]; else 0.1 s of a cell, all of what else a case is
