@@ -38,7 +38,7 @@ struct PairedSample {
   /// narrows the margin of agreement and widens that of disagreement.
   double bias = 0.0;
   /// Per packing the variance of other − reference that the two runs' finite length brings, the
-  /// sum of their squared within-run errors; empty if nobody knows.
+  /// sum of their squared within-run errors; empty if not known.
   std::vector<std::optional<double>> withinVariance;
   /// Packings of the two are not the same ones, nor need they be as many.
   bool independent = false;

@@ -84,7 +84,7 @@ std::string incompleteReason(const std::vector<fs::path>& needs) {
   return {};
 }
 
-/// The call with its stamp, made when an engine is first started and kept: engines that nobody
+/// The call with its stamp, made when an engine is first started and kept: engines that no run
 /// names cost a start of the program no reading of what they need.
 std::function<ProgramCall()> stampedOnce(ProgramCall call, std::string file,
                                          std::vector<fs::path> needs) {

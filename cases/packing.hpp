@@ -39,7 +39,7 @@ auto& disksIn(AnyPacking& packing) {
 /// @throws as preparerKey()
 std::string packingHash(const Case& setup, int index, double dt);
 
-/// Fingerprint of a packing itself, for one that nobody prepared.
+/// Fingerprint of a packing itself, for one without a preparation.
 std::string contentHash(const Packing& packing);
 
 /// HDF5: datasets radius, mass, inertia (N), position, velocity (N × 2), spin (N), SI units, and

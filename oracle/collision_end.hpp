@@ -39,7 +39,7 @@ struct PairMotion {
 
 /// Where the energy went that a collision took, a closed account:
 /// before = after + the sum of all parts. Parts of a law's rolling resistance and cohesion are
-/// absent where it has none, or where nobody knows.
+/// absent where it has none, or where it is not known.
 struct EnergySplit {
   /// ∫ (f_el − f_n) v_n dt: the dashpot's, and what the spring does not give back where tension is
   /// cut [J]

@@ -22,7 +22,7 @@ inline constexpr CheckOutcome checkPassed{Status::finished, Verdict::pass};
 inline constexpr CheckOutcome checkFailed{Status::finished, Verdict::fail};
 /// The engine does not declare what the check asks for, or cannot be asked.
 inline constexpr CheckOutcome checkSkipped{Status::notRun, Verdict::notApplicable};
-/// The time given was over: nobody knows.
+/// The time given was over: not known.
 inline constexpr CheckOutcome checkUntried{Status::notRun, Verdict::notMeasured};
 /// It died, hung, or answered what is no answer.
 inline constexpr CheckOutcome checkBrokeDown{Status::failed, Verdict::fail};

@@ -43,7 +43,7 @@ struct FlowAveraging {
   std::string method;  ///< the first one, which verdicts are of
   std::optional<double> settleRotations, rotations;
   std::optional<double> fromRotation, toRotation;
-  std::optional<double> preparedRotations;  ///< before the hand-over; absent: nobody knows
+  std::optional<double> preparedRotations;  ///< before the hand-over; absent: not known
   std::int64_t snapshots = 0;               ///< a run
   double confidence = 0.95;
   std::optional<double> lineWidth;  ///< of a study of ring widths: the kernels' [d]

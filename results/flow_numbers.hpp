@@ -15,7 +15,7 @@
 /// were while they were averaged: in which regime, and steady or not.
 namespace crossgrain::inline results {
 
-/// Absent is what nobody knows.
+/// Absent is what is not known.
 using Numbers = std::vector<std::optional<double>>;
 
 /// Numbers of the whole cell over time, by name: "t_s", "wheel_torque", …, "energy_…" of a ledger.

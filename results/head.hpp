@@ -33,7 +33,7 @@ struct CaseHead {
 
 struct ResultsHead {
   std::string schema, kind, version;
-  std::string build;  ///< the source that the program was built from; empty: nobody knows
+  std::string build;  ///< the source that the program was built from; empty: not known
   std::string command;
   std::string started;  ///< ISO 8601, UTC
   Machine machine;

@@ -13,7 +13,7 @@ namespace crossgrain::inline support {
 
 /// A folder or file cannot be written; what() names it and says why.
 struct OutputError : std::runtime_error {
-  /// @param error errno; 0 where nobody set it
+  /// @param error errno; 0 where none is set
   OutputError(const std::filesystem::path& path, int error);
   OutputError(const std::filesystem::path& path, const std::string& why);
   explicit OutputError(const std::system_error& error);

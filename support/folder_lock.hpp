@@ -7,7 +7,7 @@
 
 namespace crossgrain::inline support {
 
-/// Holds a folder for this process until the end of the scope: nobody else may write results into
+/// Holds a folder for this process until the end of the scope: no other may write results into
 /// it. The operating system keeps the lock, so that of a process that was killed is gone with it.
 class FolderLock {
  public:
@@ -25,7 +25,7 @@ class FolderLock {
                                            const std::string& holder);
   /// From now on others may share it, by shared(), and have it while anyone does.
   void share();
-  /// A lock that another process has shared, or that nobody has. @throws BadInput, OutputError
+  /// A lock that another process has shared, or that is free. @throws BadInput, OutputError
   static FolderLock shared(const std::filesystem::path& folder, const std::string& holder);
 
   /// Name of the lock's file in the folder, there while it is held.

@@ -380,7 +380,7 @@ void setBounds(const std::filesystem::path& file) {
 
 /// Waits until the trial is over; the user need not. What waits for a file system that does not
 /// answer takes no CPU time, so that only this ends it.
-/// @returns its status, as waitpid() has it; −1: nobody knows  @throws Interrupted
+/// @returns its status, as waitpid() has it; −1: not known  @throws Interrupted
 int await(int answer, pid_t child) {
   constexpr int patience = 100;  // [ms]
   pollfd entry{answer, POLLIN, 0};

@@ -11,7 +11,7 @@ enum class Status {
   finished,
   failed,   ///< it died, hung, or answered what is no answer
   refused,  ///< it lacks what the scene calls for, and says so
-  notRun    ///< there was no time, or nobody asked
+  notRun    ///< there was no time, or not asked for
 };
 constexpr auto namesOf(Status) {
   return std::array<std::string_view, 4>{"finished", "failed", "refused", "not_run"};

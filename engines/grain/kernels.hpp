@@ -60,7 +60,7 @@ struct PairView {
   const Real *radiusI, *radiusJ;  ///< [m]
   const Vec<Real>* shift;         ///< origin of i − origin of j, of local coordinates
   PairMemory<Real> kept;
-  Real *normal, *tangential, *sliding;  ///< the law's results; null: nobody asked
+  Real *normal, *tangential, *sliding;  ///< the law's results; null: not asked for
   Real *rolling, *rollingSlides;        ///< likewise; null without rolling resistance
   AddTo addTo;
   PairForces<Real> stored;  ///< for AddTo::none
@@ -120,7 +120,7 @@ struct PlaneView {
   Real centreX, centreY, vx, vy, spin;
   const Vec<Real>* origin;                        ///< of the disks' coordinates; null: one origin
   PairMemory<Real> kept;                          ///< one a disk
-  Real *overlap, *normal, *tangential, *sliding;  ///< results, one a disk; null: nobody asked
+  Real *overlap, *normal, *tangential, *sliding;  ///< results, one a disk; null: not asked for
   Real *rolling, *rollingSlides;                  ///< likewise; null without rolling resistance
   std::int32_t material = 0;                      ///< its own, of a law of materials
 };

@@ -33,7 +33,7 @@ struct Wall {
   std::vector<double> diskX, diskY, diskRadius;
   std::vector<Plane> planes;
   std::function<WallState(double t)> motion;
-  bool moves = true;  ///< false: motion(t) is motion(0) at all times, and nobody asks again
+  bool moves = true;  ///< false: motion(t) is motion(0) at all times, and is not asked for again
 };
 
 /// Action of the disks on a wall: force [N] and torque about the wall's centre [N m].

@@ -95,7 +95,7 @@ CompareResults averageSnapshots(const Case& setup, const std::vector<std::filesy
 
   CompareResults results;
   static_cast<FlowFrame&>(results) = flowFrame(kindAverage, setup, commandLine, all.front().radius);
-  // Of a file's snapshots nobody says from when to when they are.
+  // Snapshots of a file do not say from when to when they are.
   FlowAveraging& averaging = results.averaging;
   averaging.settleRotations = averaging.rotations = averaging.fromRotation = averaging.toRotation =
       averaging.preparedRotations = std::nullopt;

@@ -76,7 +76,7 @@ FlowAveraging averagingOf(const Case& setup) {
   result.settleRotations = result.fromRotation = cell->times.settleRotations;
   result.rotations = cell->times.rotations;
   result.toRotation = cell->times.settleRotations + cell->times.rotations;
-  // Nobody knows how long a packing of the user's own has been sheared.
+  // It is not known how long a packing of the user's own has been sheared.
   if (!packingFile(setup)) result.preparedRotations = cell->filling.rotations;
   return result;
 }
