@@ -165,10 +165,6 @@ class Core {
   /// disk its pairs by ascending partner, wall disks, planes.
   template <class Visit>
   void forContactsByPlace(Visit&& visit) const;
-  /// The same of near pairs, visitPair(list, its number there), and planes, visitPlane(plane,
-  /// place).
-  template <class VisitPair, class VisitPlane>
-  void forPairsByPlace(VisitPair&& visitPair, VisitPlane&& visitPlane) const;
   std::vector<Contact> softContacts() const;
   /// Of a disk and another or a plane, by places. Only constants differ from law_.
   const GeneralLaw<Real>& lawOf(std::size_t i, std::size_t j) const {
@@ -286,27 +282,17 @@ GRAIN_INLINE Contact Core<Real>::contactOf(const PairList<Real>& list, std::size
 template <class Real>
 template <class Visit>
 void Core<Real>::forContactsByPlace(Visit&& visit) const {
-  forPairsByPlace(
-      [&](const PairList<Real>& list, std::size_t k) {
-        if (const auto contact = touching(list, k)) visit(*contact);
-      },
-      [&](std::size_t plane, std::size_t i) {
-        if (const auto contact = touching(plane, i)) visit(*contact);
-      });
-}
-
-template <class Real>
-template <class VisitPair, class VisitPlane>
-void Core<Real>::forPairsByPlace(VisitPair&& visitPair, VisitPlane&& visitPlane) const {
   for (std::size_t part = 0; part < lists_.parts(); ++part) {
     std::array<std::size_t, sorts.size()> next{};
     for (std::size_t i = lists_.partBegin(part); i < lists_.partBegin(part + 1); ++i) {
       for (const Sort sort : sorts) {
         const PairList<Real>& list = lists_.list(part, sort);
         std::size_t& k = next[static_cast<std::size_t>(sort)];
-        for (; k < list.count && static_cast<std::size_t>(list.i[k]) == i; ++k) visitPair(list, k);
+        for (; k < list.count && static_cast<std::size_t>(list.i[k]) == i; ++k)
+          if (const auto contact = touching(list, k)) visit(*contact);
       }
-      for (std::size_t p = 0; p < placedPlanes_.size(); ++p) visitPlane(p, i);
+      for (std::size_t p = 0; p < placedPlanes_.size(); ++p)
+        if (const auto contact = touching(p, i)) visit(*contact);
     }
   }
 }

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "engines/grain/contact_kernel.hpp"
-#include "engines/grain/ledger_kernel.hpp"
 #include "engines/grain/motion_kernel.hpp"
 #include "engines/grain/plane_kernel.hpp"
 #include "engines/grain/space_kernel.hpp"
@@ -107,9 +106,8 @@ constexpr SpaceKernels spaceKernels(std::index_sequence<C...>) {
   return {};
 }
 
-template <class Real, std::size_t... C, std::size_t... M, std::size_t... D>
-Kernels<Real> table(std::index_sequence<C...>, std::index_sequence<M...>,
-                    std::index_sequence<D...>) {
+template <class Real, std::size_t... C, std::size_t... M>
+Kernels<Real> table(std::index_sequence<C...>, std::index_sequence<M...>) {
   return {GRAIN_TEXT(GRAIN_SET),
           {contactKernelAt<Real, C>()...},
           &contactKernel<GeneralLaw<Real>, Real>,
@@ -120,8 +118,6 @@ Kernels<Real> table(std::index_sequence<C...>, std::index_sequence<M...>,
           {materialKernelAt<Real, C>()...},
           &contactKernel<OfMaterials<GeneralLaw<Real>>, Real>,
           &planeKernel<OfMaterials<GeneralLaw<Real>>, Real>,
-          {&ledgerDiskKernel<Real, D>...},
-          &ledgerPairKernel<Real>,
           spaceKernels<Real>(std::index_sequence<C...>())};
 }
 
@@ -130,8 +126,7 @@ Kernels<Real> table(std::index_sequence<C...>, std::index_sequence<M...>,
 template <class Real>
 Kernels<Real> GRAIN_SET() {
   return table<Real>(std::make_index_sequence<contactVariants>(),
-                     std::make_index_sequence<motionVariants>(),
-                     std::make_index_sequence<ledgerDiskVariants>());
+                     std::make_index_sequence<motionVariants>());
 }
 
 template Kernels<double> GRAIN_SET<double>();

@@ -6,7 +6,6 @@
 
 #include "engines/grain/bottom.hpp"
 #include "engines/grain/law_types.hpp"
-#include "engines/grain/ledger_views.hpp"
 #include "engines/grain/space_views.hpp"
 
 namespace grain {
@@ -158,8 +157,6 @@ struct Kernels {
   ContactKernel<Real> materialContacts[contactVariants];
   ContactKernel<Real> generalMaterialContacts;
   PlaneKernel<Real> materialPlanes;
-  LedgerDiskKernel<Real> ledgerDisks[ledgerDiskVariants];
-  LedgerPairKernel<Real> ledgerPairs;
   SpaceKernels space;  ///< of double precision alone
 };
 

@@ -1,9 +1,6 @@
 #include "engines/grain/contact_force.hpp"
 #include "engines/grain/core.hpp"
 
-// Contacts as the ledger sees them: pairs of disks in blocks, by the kernels; planes and the
-// impulses of rigid disks one by one.
-
 namespace grain {
 
 /// One contact as the ledger reads it.
@@ -43,95 +40,6 @@ GRAIN_INLINE BodyMotion LedgerObserver<Real>::seen(std::size_t place) const {
   BodyMotion motion{static_cast<double>(velocity.x), static_cast<double>(velocity.y), 0.0};
   if (core_.law_.rotation) motion.spin = static_cast<double>(core_.spinSeen()[place]);
   return motion;
-}
-
-/// Planes are few: their contacts are taken one by one, in their turn.
-template <class Real>
-void LedgerObserver<Real>::accountPairs() {
-  core_.forPairsByPlace(
-      [&](const PairList<Real>& list, std::size_t k) {
-        pairList_[pairCount_] = &list;
-        pairPlace_[pairCount_] = k;
-        if (++pairCount_ == LedgerPairs<Real>::size) flushPairs();
-      },
-      [&](std::size_t plane, std::size_t place) {
-        const auto contact = core_.touching(plane, place);
-        if (!contact) return;
-        flushPairs();
-        accountContact(*contact);
-      });
-  flushPairs();
-}
-
-template <class Real>
-void LedgerObserver<Real>::gatherPairs() {
-  LedgerPairs<Real>& b = pairs_;
-  // Copies that no store into the block can change.
-  const auto* const position = core_.position_.data();
-  const auto* const radius = core_.radius_.data();
-  const bool rotation = core_.law_.rotation;
-  const auto* const seen = core_.velocitySeen().data();
-  const auto* const seenSpin = core_.spinSeen().data();
-  const DiskMotions closing = closing_.view(), opening = opening_.view();
-  const std::size_t moving = core_.moving_, count = pairCount_;
-  for (std::size_t p = 0; p < count; ++p) {
-    const PairList<Real>& list = *pairList_[p];
-    const std::size_t k = pairPlace_[p];
-    const auto i = static_cast<std::size_t>(list.i[k]), j = static_cast<std::size_t>(list.j[k]);
-    b.distance[p] = position[i] - position[j];
-    if (!list.shift.empty()) b.distance[p] += list.shift[k];
-    b.radiusI[p] = radius[i];
-    b.radiusJ[p] = radius[j];
-    const double seenX = seen[i].x, seenY = seen[i].y;
-    b.closingI[p] = rotation ? closing.spin[i] : 0.0;
-    b.openingI[p] = rotation ? opening.spin[i] : 0.0;
-    b.seenI[p] = rotation ? static_cast<double>(seenSpin[i]) : 0.0;
-    if (j < moving) {
-      b.closing[p] = closing.velocity[i] - closing.velocity[j];
-      b.opening[p] = opening.velocity[i] - opening.velocity[j];
-      b.seen[p].x = seenX - static_cast<double>(seen[j].x);
-      b.seen[p].y = seenY - static_cast<double>(seen[j].y);
-      b.closingJ[p] = rotation ? closing.spin[j] : 0.0;
-      b.openingJ[p] = rotation ? opening.spin[j] : 0.0;
-      b.seenJ[p] = rotation ? static_cast<double>(seenSpin[j]) : 0.0;
-    } else {
-      const BodyMotion wall = diskMotion(j);
-      pairWall_[p] = wall;
-      const Vec<double> velocity{wall.vx, wall.vy};
-      b.closing[p] = closing.velocity[i] - velocity;
-      b.opening[p] = opening.velocity[i] - velocity;
-      b.seen[p] = Vec<double>{seenX, seenY} - velocity;
-      b.closingJ[p] = b.openingJ[p] = b.seenJ[p] = wall.spin;
-    }
-  }
-}
-
-template <class Real>
-void LedgerObserver<Real>::flushPairs() {
-  LedgerPairs<Real>& b = pairs_;
-  gatherPairs();
-  core_.kernels_.ledgerPairs(core_.law_.lever, core_.law_.velocityLever, b, pairCount_);
-  for (std::size_t p = 0; p < pairCount_; ++p) {
-    const PairList<Real>& list = *pairList_[p];
-    const std::size_t k = pairPlace_[p];
-    if (!core_.isContact(list, k, b.touches[p] != Real(0))) continue;
-    const Contact contact = core_.contactOf(list, k, {b.nx[p], b.ny[p]}, b.overlap[p]);
-    ContactKinematics touch;
-    touch.nx = contact.nx;
-    touch.ny = contact.ny;
-    touch.leverI = b.leverI[p];
-    touch.leverJ = b.leverJ[p];
-    touch.normal = {b.normalClosing[p], b.normalOpening[p]};
-    touch.tangential = {b.acrossClosing[p], b.acrossOpening[p]};
-    touch.slip = {b.slipClosing[p], b.slipOpening[p]};
-    touch.seenSlip = b.seenSlip[p];
-    const bool atWall = static_cast<std::size_t>(contact.j) >= core_.moving_;
-    touch.rolling = {b.closingI[p] - b.closingJ[p], b.openingI[p] - b.openingJ[p]};
-    touch.seenRolling = b.seenI[p] - b.seenJ[p];
-    if (atWall) touch.wallSpin = b.seenJ[p];
-    accountContact(contact, touch, atWall ? &pairWall_[p] : nullptr);
-  }
-  pairCount_ = 0;
 }
 
 /// Of a wall's disk; the spin is that which friction sees.
@@ -203,7 +111,6 @@ GRAIN_INLINE ContactKinematics LedgerObserver<Real>::kinematicsOf(const Contact&
   return touch;
 }
 
-/// One that is not among the pairs at hand.
 template <class Real>
 void LedgerObserver<Real>::accountContact(const Contact& contact) {
   const auto j = static_cast<std::size_t>(contact.j);

@@ -34,7 +34,7 @@ LedgerObserver<Real>::LedgerObserver(const Core<Real>& core, const Setup& setup)
     middle_.x += setup.disks.x[i] / static_cast<double>(disks);
     middle_.y += setup.disks.y[i] / static_cast<double>(disks);
   }
-  for (auto* array : {&mass_, &inertia_, &kinetic_}) array->resize(disks);
+  for (auto* array : {&mass_, &inertia_}) array->resize(disks);
   for (Motions* motions : {&closing_, &opening_}) {
     motions->velocity.resize(disks);
     if (core.law_.rotation) motions->spin.resize(disks);
@@ -43,8 +43,6 @@ LedgerObserver<Real>::LedgerObserver(const Core<Real>& core, const Setup& setup)
   if (!setup.bottom) return;
   plateBefore_.resize(disks);
   plateAccounts_.resize(disks);
-  for (auto* array : {&plateSlides_, &plateSquare_}) array->resize(disks);
-  for (auto* array : {&plateClosing_, &plateOpening_}) array->resize(disks);
 }
 
 template <class Real>
@@ -128,42 +126,39 @@ void LedgerObserver<Real>::account(double time) {
       accountContact(contact);
     }
   else
-    accountPairs();
+    core_.forContactsByPlace([this](const Contact& contact) { accountContact(contact); });
   sums_.endSprings();
   accountDisks();
 }
 
-/// @param time  from the stored velocities to that of the forces [s]
+/// Kinetic energy, and velocities half way through the kicks: those stored, carried on by the
+/// acceleration. @param time  from the stored velocities to that of the forces [s]
 template <class Real>
 void LedgerObserver<Real>::lookAtDisks(double time) {
-  const LedgerSums::Scheme& scheme = sums_.scheme();
-  const LedgerDisks<Real> disks{core_.velocity_.data(),
-                                core_.force_.data(),
-                                core_.spin_.data(),
-                                core_.torque_.data(),
-                                core_.inverseMass_.data(),
-                                core_.inverseInertia_.data(),
-                                mass_.data(),
-                                inertia_.data(),
-                                time,
-                                time + scheme.offset.closing,
-                                time + scheme.offset.opening,
-                                closing_.view(),
-                                opening_.view(),
-                                kinetic_.data(),
-                                core_.motionConstants_.plate,
-                                core_.gravityForce_.data(),
-                                core_.radius_.data(),
-                                core_.velocitySeen().data(),
-                                core_.spinSeen().data(),
-                                plateBefore_.data(),
-                                plateSlides_.data(),
-                                plateSquare_.data(),
-                                plateClosing_.data(),
-                                plateOpening_.data()};
-  const bool plate = !plateBefore_.empty();
-  core_.kernels_.ledgerDisks[ledgerDiskVariant(core_.law_.rotation, plate, plateSpin_)](
-      disks, core_.moving_);
+  const HalfKicks& offset = sums_.scheme().offset;
+  for (std::size_t i = 0; i < core_.moving_; ++i) {
+    const auto inverseMass = static_cast<double>(core_.inverseMass_[i]);
+    const Vec<Real> stored = core_.velocity_[i], force = core_.force_[i];
+    const auto velocity = [&](double after) {
+      const auto carried = [&](Real v, Real f) {
+        return static_cast<double>(v) + after * inverseMass * static_cast<double>(f);
+      };
+      return Vec<double>{carried(stored.x, force.x), carried(stored.y, force.y)};
+    };
+    closing_.velocity[i] = velocity(time + offset.closing);
+    opening_.velocity[i] = velocity(time + offset.opening);
+    const Vec<double> now = velocity(time);
+    double spin = 0.0;
+    if (core_.law_.rotation) {
+      const auto storedSpin = static_cast<double>(core_.spin_[i]);
+      const auto spinUp = static_cast<double>(core_.torque_[i] * core_.inverseInertia_[i]);
+      closing_.spin[i] = storedSpin + (time + offset.closing) * spinUp;
+      opening_.spin[i] = storedSpin + (time + offset.opening) * spinUp;
+      spin = storedSpin + time * spinUp;
+    }
+    sums_.ledger.kinetic +=
+        0.5 * mass_[i] * (now.x * now.x + now.y * now.y) + 0.5 * inertia_[i] * spin * spin;
+  }
 }
 
 template <class Real>
@@ -171,7 +166,6 @@ void LedgerObserver<Real>::accountDisks() {
   EnergyLedger& ledger = sums_.ledger;
   const auto gx = static_cast<double>(core_.motionConstants_.gravityX);
   const auto gy = static_cast<double>(core_.motionConstants_.gravityY);
-  for (const double energy : kinetic_) ledger.kinetic += energy;
   if (gx != 0.0 || gy != 0.0)
     for (std::size_t place = 0; place < core_.moving_; ++place) {
       const auto number = static_cast<std::size_t>(core_.idAtIndex_[place]);
@@ -179,20 +173,44 @@ void LedgerObserver<Real>::accountDisks() {
           mass_[place] * (gx * (core_.x(number) - middle_.x) + gy * (core_.y(number) - middle_.y));
     }
   if (!plateBefore_.empty())
-    for (std::size_t place = 0; place < core_.moving_; ++place) accountPlate(place);
+    for (std::size_t place = 0; place < core_.moving_; ++place)
+      plateSpin_ ? accountPlate<true>(place) : accountPlate<false>(place);
 }
 
+/// The plate's force anew, from the spring that it was made of, and what it does to the disk.
 template <class Real>
-GRAIN_INLINE void LedgerObserver<Real>::accountPlate(std::size_t place) {
+template <bool Spin>
+GRAIN_INLINE void LedgerObserver<Real>::accountPlate(std::size_t i) {
+  const BottomConstants<Real>& plate = core_.motionConstants_.plate;
+  const Vec<Real> before = plateBefore_[i], u = core_.velocitySeen()[i];
+  const Real us = Spin ? core_.spinSeen()[i] : Real(0), weighed = core_.gravityForce_[i];
+  const Real trialX = -plate.kb * before.x - plate.gb * u.x;
+  const Real trialY = -plate.kb * before.y - plate.gb * u.y;
+  const bool slides = squareRoot(trialX * trialX + trialY * trialY) > plate.pressure * weighed;
+  Real setX = before.x, setY = before.y;
+  const BottomForce<Real> force =
+      bottomForce<Spin>(plate, weighed, core_.radius_[i], u.x, u.y, us, setX, setY);
+  // Where it slips the spring is set to what the force is.
+  const auto x = static_cast<double>(slides ? setX : before.x);
+  const auto y = static_cast<double>(slides ? setY : before.y);
   SpringAccount account;
-  account.sliding = plateSlides_[place] != 0.0;
-  account.modulus = static_cast<double>(core_.motionConstants_.plate.kb);
-  account.square = plateSquare_[place];
+  account.sliding = slides;
+  account.modulus = static_cast<double>(plate.kb);
+  account.square = x * x + y * y;
   account.energy = 0.5 * account.modulus * account.square;
   sums_.ledger.plateSprings += account.energy;
-  const PlatePower closing = plateClosing_[place], opening = plateOpening_[place];
-  sums_.plateSpring(plateAccounts_[place], account, {closing.spring, opening.spring});
-  sums_.lose(&EnergyLedger::lostBottom, {closing.beyond, opening.beyond});
+  HalfKicks spring, beyond;  // powers [W]
+  const auto powers = [&](const BodyMotion& motion, double HalfKicks::*part) {
+    const double ofSpring = -account.modulus * x * motion.vx + -account.modulus * y * motion.vy;
+    spring.*part = ofSpring;
+    beyond.*part = static_cast<double>(force.x) * motion.vx +
+                   static_cast<double>(force.y) * motion.vy +
+                   static_cast<double>(force.torque) * (Spin ? motion.spin : 0.0) - ofSpring;
+  };
+  powers(closing_.of(i), &HalfKicks::closing);
+  powers(opening_.of(i), &HalfKicks::opening);
+  sums_.plateSpring(plateAccounts_[i], account, spring);
+  sums_.lose(&EnergyLedger::lostBottom, beyond);
 }
 
 template class LedgerObserver<double>;

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "engines/grain/ledger.hpp"
-#include "engines/grain/ledger_views.hpp"
 #include "engines/grain/pair_list.hpp"
 #include "engines/grain/setup.hpp"
 
@@ -65,7 +64,6 @@ class LedgerObserver {
     BodyMotion of(std::size_t place) const {
       return {velocity[place].x, velocity[place].y, spin.empty() ? 0.0 : spin[place]};
     }
-    DiskMotions view() { return {velocity.data(), spin.data()}; }
   };
 
   /// Losses of contacts, by numbers i < j [J].
@@ -76,9 +74,6 @@ class LedgerObserver {
 
   void account(double time);
   void lookAtDisks(double time);
-  void accountPairs();
-  void gatherPairs();
-  void flushPairs();
   void accountContact(const Contact& contact);
   void accountContact(const Contact& contact, const ContactKinematics& touch,
                       const BodyMotion* wall);
@@ -87,6 +82,7 @@ class LedgerObserver {
   void accountSpring(const Contact& contact, const ContactKinematics& touch, double stiffness);
   void accountRolling(const Contact& contact, const ContactKinematics& touch);
   void accountDisks();
+  template <bool Spin>
   void accountPlate(std::size_t place);
   void takeMasses();
   ContactKinematics kinematicsOf(const Contact& contact, const BodyMotion* wall) const;
@@ -103,19 +99,10 @@ class LedgerObserver {
   // By place, of the moving disks.
   std::vector<double> mass_, inertia_;
   Motions closing_, opening_;           ///< half way through the two parts' kicks
-  std::vector<double> kinetic_;         ///< [J]
   std::vector<Vec<Real>> plateBefore_;  ///< springs before the last evaluation [m]
-  std::vector<double> plateSlides_, plateSquare_;
-  std::vector<PlatePower> plateClosing_, plateOpening_;
   std::vector<SpringAccount> plateAccounts_;
   std::vector<ContactLoss> losses_, lossesBefore_;  ///< of this evaluation and the one before
   bool tallies_ = false;
-  // The pairs at hand, and where they are from.
-  LedgerPairs<Real> pairs_;
-  std::size_t pairCount_ = 0;
-  std::array<const PairList<Real>*, LedgerPairs<Real>::size> pairList_{};
-  std::array<std::size_t, LedgerPairs<Real>::size> pairPlace_{};
-  std::array<BodyMotion, LedgerPairs<Real>::size> pairWall_{};
 };
 
 }  // namespace grain
