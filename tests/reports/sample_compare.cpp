@@ -61,20 +61,14 @@ Json profiles(double bias, double errorScale, Noise& noise) {
 }
 
 Json fits(double bias, bool failed) {
-  return {{{"name", "stress_rp_exponent"},
-           {"label", "exponent p of σ_rφ ∝ r^p"},
-           {"value", -2.0 + bias},
-           {"stderr", 0.043},
-           {"unit", "-"},
-           {"expected", -2},
-           {"reason", ""}},
-          {{"name", "velocity_decay_length"},
-           {"label", "decay length B of v_φ = A exp(−r̃/B), in d"},
-           {"value", failed ? Json(nullptr) : Json(1.9 + bias)},
-           {"stderr", failed ? Json(nullptr) : Json(0.11)},
-           {"unit", "-"},
-           {"expected", nullptr},
-           {"reason", failed ? "fewer than 3 rings with a velocity" : ""}}};
+  Json rows = Json::parse(R"([{"name": "stress_rp_exponent", "label": "exponent p of σ_rφ ∝ r^p",
+    "stderr": 0.043, "unit": "-", "expected": -2, "reason": ""},
+    {"name": "velocity_decay_length", "label": "decay length B of v_φ = A exp(−r̃/B), in d",
+     "unit": "-", "value": null, "stderr": null, "expected": null,
+     "reason": "fewer than 3 rings with a velocity"}])");
+  rows[0]["value"] = -2.0 + bias;
+  if (!failed) rows[1].update({{"value", 1.9 + bias}, {"stderr", 0.11}, {"reason", ""}});
+  return rows;
 }
 
 Json headNumbers(double bias, bool impulses) {
@@ -118,9 +112,9 @@ Json checks(Noise& noise) {
     result["reference"].push_back(4.7e-3);
     result["stderr"].push_back(1e-4);
   }
-  const Json pressure = {{"name", "wall_pressure"}, {"label", "σ_rr at the ring <outside>"},
-                         {"value", {41.5}},         {"reference", {40.25}},
-                         {"reference_stderr", 0.5}, {"stderr", {1.25}}};
+  const Json pressure = Json::parse(R"({"name": "wall_pressure", "value": [41.5],
+    "label": "σ_rr at the ring <outside>", "reference": [40.25], "reference_stderr": 0.5,
+    "stderr": [1.25]})");
   return Json::array({result, pressure});
 }
 

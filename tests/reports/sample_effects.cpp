@@ -75,15 +75,12 @@ EffectsResults effectsResults(int packings) {
   const bool decided = packings >= 4;
   Json results = head("effects", "small");
   results["notes"] = Json::array();
-  results["averaging"] = {{"method", "slicing"},
-                          {"settle_rotations", 0.25},
-                          {"rotations", 1.0},
-                          {"snapshots", 400},
-                          {"confidence", 0.95}};
-  results["cell"] = {
-      {"inner_radius", 0.03}, {"outer_radius", 0.0525}, {"omega", 1.0}, {"diameter", 0.0074}};
-  results["rings"] = {
-      {"r", {0.034, 0.041, 0.049}}, {"r_tilde", {0.5, 1.5, 2.5}}, {"width", 0.0075}};
+  results["averaging"] = Json::parse(R"({"method": "slicing", "settle_rotations": 0.25,
+    "rotations": 1.0, "snapshots": 400, "confidence": 0.95})");
+  results["cell"] = Json::parse(
+      R"({"inner_radius": 0.03, "outer_radius": 0.0525, "omega": 1.0, "diameter": 0.0074})");
+  results["rings"] =
+      Json::parse(R"({"r": [0.034, 0.041, 0.049], "r_tilde": [0.5, 1.5, 2.5], "width": 0.0075})");
   results["timing"] = {{"rounds", 5}, {"seconds", 0.2}};
   results["engines"] = Json::array({engine("grain", "the in-house engine")});
   results["switches"] = {{{"effect", "friction"}, {"what", "No <tangential> force."}},
