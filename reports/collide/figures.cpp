@@ -200,10 +200,10 @@ constexpr EnergyPart energyParts[] = {
     {QuantityId::lostStored, "#777777", 12,
      "left in the tangential spring at separation (grey, diamonds)"},
     {QuantityId::lostTangential, "#56b4e9", 14,
-     "to the tangential force in all, of engines that do not report its energyParts (pale blue, "
+     "to the tangential force in all, of engines that do not report its parts (pale blue, "
      "pentagons)"}};
 
-/// In units of J; of the whole what is left after, of all tangential energyParts only where they
+/// In units of J; of the whole what is left after, of all tangential parts only where they
 /// are not reported.
 std::optional<double> partAt(const CollisionTable& table, QuantityId part, std::size_t k) {
   if (part == QuantityId::energyLost) {
@@ -227,7 +227,7 @@ std::vector<Point> fractionsOf(const CollisionTable& table, QuantityId part, std
   return points;
 }
 
-/// Lines are the oracle's energyParts, marks the engines': colours are energyParts here, not
+/// Lines are the oracle's parts, marks the engines': colours are parts here, not
 /// engines.
 Panel energyPanel(const CollisionVariant& variant, const Styles& styles) {
   Panel panel = panelOver(variant, "energy lost / before");
@@ -255,7 +255,7 @@ Panel energyPanel(const CollisionVariant& variant, const Styles& styles) {
   return panel;
 }
 
-/// The energyParts that some panel shows, in words.
+/// The parts that some panel shows, in words.
 std::string drawnParts(const Figure& figure) {
   Names words;
   for (const EnergyPart& part : energyParts)
@@ -269,10 +269,10 @@ std::string drawnParts(const Figure& figure) {
 }
 
 constexpr const char* captionOfMarks =
-    " Lines: the oracle, whose energyParts add up to all that was lost. Marks: engines at the "
-    "largest of their time steps; energyParts of those that show their contacts, recorded step by "
-    "step, so that they add up as far as a sum over steps can. A slip too short for a step, as the "
-    "last one before the disks part, is not seen: what the oracle loses in it stays in the spring.";
+    " Lines: the oracle, whose parts add up to all that was lost. Marks: engines at the largest of "
+    "their time steps; parts of those that show their contacts, recorded step by step, so that "
+    "they add up as far as a sum over steps can. A slip too short for a step, as the last one "
+    "before the disks part, is not seen: what the oracle loses in it stays in the spring.";
 
 /// Where the energy of a case's collisions went: the oracle's account and every engine's at the
 /// largest of its time steps. @param name  of the figure's files
