@@ -282,15 +282,10 @@ std::string declaredOf(const CollideResults& results, const CaseGroup& group) {
 std::string limitsOf(const CaseGroup& group) {
   Names places;
   for (const CollisionVariant* variant : group.variants) {
-    std::vector<std::pair<std::string, Names>> byReason;
-    for (const NoLimitPoint& point : variant->noLimit) {
-      auto found =
-          std::ranges::find(byReason, point.reason, [](const auto& one) { return one.first; });
-      if (found == byReason.end()) found = byReason.insert(found, {point.reason, {}});
-      const std::string psi = readableSetting(finite(point.psi));
-      addOnce(found->second, psi);
-    }
-    for (const auto& [reason, psi] : byReason)
+    SaidOf byReason;
+    for (const NoLimitPoint& point : variant->noLimit)
+      byReason.add(readableSetting(finite(point.psi)), point.reason);
+    for (const auto& [reason, psi] : byReason.all())
       places.push_back(
           fmt::format("{}, Ψ_i = {}: {}", variant->variant, fmt::join(psi, ", "), reason));
     if (!variant->oracleReason.empty())

@@ -128,23 +128,24 @@ std::vector<const CollisionQuantity*> scoredIn(const CaseGroup& group) {
   return scored;
 }
 
-/// Marked where it is judged; the rms error below.
-Cell scoreCell(const std::optional<QuantityScore>& score) {
-  if (!score) return absentText;
-  Cell cell(shortly(score->max), {shortly(score->rms)});
-  if (score->held) cell.verdict = *score->held ? Verdict::pass : Verdict::fail;
-  cell.marked = score->held.has_value();
+/// Marked where it is judged.
+Cell judgedCell(double value, Names notes, std::optional<bool> held) {
+  Cell cell(shortly(value), std::move(notes));
+  if (held) cell.verdict = *held ? Verdict::pass : Verdict::fail;
+  cell.marked = held.has_value();
   return cell;
+}
+
+/// The rms error below.
+Cell scoreCell(const std::optional<QuantityScore>& score) {
+  return score ? judgedCell(score->max, {shortly(score->rms)}, score->held) : Cell(absentText);
 }
 
 /// The larger deviation from the own scheme.
 Cell schemeCell(const std::optional<SchemeScore>& own) {
   if (!own) return "";
   if (!own->position) return absentText;
-  Cell cell(shortly(std::max(*own->position, own->velocity.value_or(0.0))));
-  if (own->held) cell.verdict = *own->held ? Verdict::pass : Verdict::fail;
-  cell.marked = own->held.has_value();
-  return cell;
+  return judgedCell(std::max(*own->position, own->velocity.value_or(0.0)), {}, own->held);
 }
 
 std::string sweepWord(const CollisionCurve& curve) {

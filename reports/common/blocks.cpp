@@ -130,6 +130,12 @@ Table effectTable(const std::vector<EffectiveScene>& effective) {
   return table;
 }
 
+/// "CASE, VARIANT"
+std::string caseOf(const ResultsHead& head) {
+  const CaseHead& setup = head.setup;
+  return setup.variant.empty() ? setup.name : setup.name + ", " + setup.variant;
+}
+
 }  // namespace
 
 Drawings drawingsOf(const std::vector<Figure>& figures, std::string_view prefix) {
@@ -145,16 +151,6 @@ Drawings drawingsOf(const std::vector<Picture>& pictures, Picture::Shows shows) 
     if (picture.shows == shows) drawings.names.push_back(picture.name);
   return drawings;
 }
-
-namespace {
-
-/// "CASE, VARIANT"
-std::string caseOf(const ResultsHead& head) {
-  const CaseHead& setup = head.setup;
-  return setup.variant.empty() ? setup.name : setup.name + ", " + setup.variant;
-}
-
-}  // namespace
 
 std::string nameOf(const ResultsHead& head) {
   const std::string name = caseOf(head);

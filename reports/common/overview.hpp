@@ -140,8 +140,4 @@ std::string overviewText(const Overview& overview, const TextLook& look);
 /// @param title  its heading
 std::string overviewMarkdown(const Overview& overview, const std::string& title);
 
-/// Columns of equal width, the first to the left and the others to the right, each line ended; for
-/// the terminal.
-std::string alignedText(const std::vector<std::vector<std::string>>& rows);
-
 }  // namespace crossgrain::reports

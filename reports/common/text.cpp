@@ -203,4 +203,11 @@ void SaidOf::add(const std::string& subject, const std::string& said) {
     addOnce(found->second, subject);
 }
 
+std::string SaidOf::joined(std::string_view form) const {
+  Names parts;
+  for (const auto& [said, subjects] : said_)
+    parts.push_back(fmt::format(fmt::runtime(form), listed(subjects), said));
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
 }  // namespace crossgrain::reports

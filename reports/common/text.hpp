@@ -85,7 +85,8 @@ class SaidOf {
  public:
   void add(const std::string& subject, const std::string& said);
   const std::vector<std::pair<std::string, std::vector<std::string>>>& all() const { return said_; }
-  bool empty() const { return said_.empty(); }
+  /// "a and b in x; c in y", by the form "{} in {}".
+  std::string joined(std::string_view form) const;
 
  private:
   std::vector<std::pair<std::string, std::vector<std::string>>> said_;

@@ -115,6 +115,24 @@ std::vector<JUnitCase> conformanceChecks(const ConformanceResults& results) {
   return cases;
 }
 
+/// One row: checks passed in each part, and what was not examined.
+Overview conformanceOverview(const ConformanceResults& results) {
+  Overview overview;
+  OverviewRow row{results.engine.name, true, {}};
+  for (const CheckPart& part : checkParts) {
+    overview.columns.push_back({part.column, part.asks, ""});
+    row.cells.push_back(partCell(results, part));
+  }
+  overview.columns.push_back(
+      {"not examined", "Declared capabilities that no check asked for, or that were refused.", ""});
+  row.cells.push_back(notExaminedCell(results));
+  overview.rows = {std::move(row)};
+  overview.conclusion = {conformanceLead(results)};
+  for (const std::string& more : nonEmpty({conformanceCause(results)}))
+    overview.conclusion.push_back(capitalised(more) + ".");
+  return overview;
+}
+
 }  // namespace
 
 std::string conformanceLead(const ConformanceResults& results) {
@@ -169,23 +187,6 @@ std::string conformanceSentence(const ConformanceRow& row) {
   if (!row.detail.empty()) sentence += ": " + row.detail;
   if (row.faults > 1) sentence += fmt::format(" (and {} more)", row.faults - 1);
   return sentence;
-}
-
-Overview conformanceOverview(const ConformanceResults& results) {
-  Overview overview;
-  OverviewRow row{results.engine.name, true, {}};
-  for (const CheckPart& part : checkParts) {
-    overview.columns.push_back({part.column, part.asks, ""});
-    row.cells.push_back(partCell(results, part));
-  }
-  overview.columns.push_back(
-      {"not examined", "Declared capabilities that no check asked for, or that were refused.", ""});
-  row.cells.push_back(notExaminedCell(results));
-  overview.rows = {std::move(row)};
-  overview.conclusion = {conformanceLead(results)};
-  for (const std::string& more : nonEmpty({conformanceCause(results)}))
-    overview.conclusion.push_back(capitalised(more) + ".");
-  return overview;
 }
 
 Report reportOf(const ConformanceResults& results) {

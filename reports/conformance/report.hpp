@@ -10,9 +10,6 @@ namespace crossgrain::reports {
 
 Report reportOf(const ConformanceResults& results);
 
-/// One row: checks passed in each part, and what was not examined.
-Overview conformanceOverview(const ConformanceResults& results);
-
 /// "mine (1): 38 of 39 checks passed, 1 failed, 2 skipped; 3 of 40 declared capabilities (8 %) not
 /// examined."
 std::string conformanceLead(const ConformanceResults& results);

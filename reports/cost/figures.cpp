@@ -19,6 +19,12 @@ namespace {
 
 using Points = std::vector<CostPoint>;
 
+std::vector<CostMeasure> measuresIn(const Points& points) {
+  std::vector<CostMeasure> measures;
+  for (const CostPoint& point : points) addOnce(measures, CostMeasure{point.kind, point.measure});
+  return measures;
+}
+
 /// Larger errors say no more than that the run is wrong: they stand at the upper edge.
 constexpr double offScale = 10.0;
 /// gnuplot's marks
@@ -113,16 +119,23 @@ void addEngine(Panel& panel, const Points& points, const std::string& engine,
   for (Curve* const curve : {&marks, &chance, &failures}) addCurve(panel, std::move(*curve));
 }
 
+/// Empty, with log axes.
+Panel errorPanel(const CostMeasure& measure, const char* what, std::string xLabel) {
+  Panel panel;
+  panel.title = mathGnuplot(measureText(measure.name)) + what;
+  panel.xLabel = std::move(xLabel);
+  panel.yLabel = "error";
+  panel.logX = panel.logY = true;
+  panel.key = Key::none;
+  return panel;
+}
+
 /// Errors of one measure on log axes; grey up to the largest uncertainty of a reference.
 Panel panelOf(const CostResults& results, const CostMeasure& measure) {
   Points points = results.points;
   std::erase_if(points, [&](const CostPoint& point) { return !measure.has(point); });
-  Panel panel;
-  panel.title = mathGnuplot(measureText(measure.name));
-  panel.xLabel = fmt::format("processor time of {} [s]", timeUnit(measure.kind));
-  panel.yLabel = "error";
-  panel.logX = panel.logY = true;
-  panel.key = Key::none;
+  Panel panel =
+      errorPanel(measure, "", fmt::format("processor time of {} [s]", timeUnit(measure.kind)));
   panel.yRange = errorRange(points);
   double uncertain = 0.0;
   for (const CostPoint& point : points)
@@ -153,12 +166,7 @@ Points stepsOf(const CostResults& results, const std::string& engine, const Cost
 /// intervals over packings, grey up to the case's margin, a ring at the largest step whose whole
 /// interval lies inside.
 Panel endpointPanel(const CostResults& results, const CostMeasure& measure) {
-  Panel panel;
-  panel.title = mathGnuplot(measureText(measure.name));
-  panel.xLabel = "processor time of a simulated second [s]";
-  panel.yLabel = "error";
-  panel.logX = panel.logY = true;
-  panel.key = Key::none;
+  Panel panel = errorPanel(measure, "", "processor time of a simulated second [s]");
   Points all = results.points;
   std::erase_if(all, [&](const CostPoint& point) { return !measure.has(point); });
   const auto margin = std::ranges::find(results.margins, measure.name, &CostMargin::measure);
@@ -200,12 +208,7 @@ Panel endpointPanel(const CostResults& results, const CostMeasure& measure) {
 /// Errors of collisions against steps: the worst over phases of a step and over every pair of the
 /// scene, dashed their rms, of the pair for which it is largest.
 Panel envelopePanel(const CostResults& results, const CostMeasure& measure) {
-  Panel panel;
-  panel.title = mathGnuplot(measureText(measure.name)) + " of collisions, worst";
-  panel.xLabel = "steps per contact";
-  panel.yLabel = "error";
-  panel.logX = panel.logY = true;
-  panel.key = Key::none;
+  Panel panel = errorPanel(measure, " of collisions, worst", "steps per contact");
   const std::vector<LineStyle> styles = engineStyles(results.engines);
   for (std::size_t e = 0; e < results.engines.size(); ++e) {
     Curve worst{results.engines[e].name, styles[e], Draw::linesAndPoints, {}, 1.5};
@@ -338,12 +341,6 @@ std::vector<CostKind> kindsIn(const Points& points) {
   std::vector<CostKind> kinds;
   for (const CostPoint& point : points) addOnce(kinds, point.kind);
   return kinds;
-}
-
-std::vector<CostMeasure> measuresIn(const Points& points) {
-  std::vector<CostMeasure> measures;
-  for (const CostPoint& point : points) addOnce(measures, CostMeasure{point.kind, point.measure});
-  return measures;
 }
 
 std::vector<OtherSetting> otherSettings(const Points& points) {

@@ -180,53 +180,6 @@ bool tiesWithABetter(const CostResults& results, std::size_t place, std::size_t 
          *better->counted() <= *one->counted() && better->timeInterval().ties(one->timeInterval());
 }
 
-}  // namespace
-
-std::string costCsv(const CostResults& results) {
-  std::string table =
-      "engine,setting,dt_s,error,error_kind,wall_s,cpu_s,steps,contact_evaluations,status,reason,"
-      "knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front,low,high,"
-      "equivalent,bound,worst,time_low_s,time_high_s,tied\n";
-  std::vector<bool> onFront(results.points.size(), false), tied = onFront;
-  for (const Front& front : results.fronts)
-    for (const std::size_t place : front.points) {
-      if (!front.engine.empty() || place >= onFront.size()) continue;
-      onFront[place] = true;
-      tied[place] = std::ranges::any_of(front.points, [&](std::size_t other) {
-        return other != place && tiesWithABetter(results, place, other);
-      });
-    }
-  for (std::size_t k = 0; k < results.points.size(); ++k) {
-    const CostPoint& point = results.points[k];
-    table += row(
-        point.engine, point.setting, point.dt, point.error, toString(point.kind), point.wallSeconds,
-        point.cpuSeconds, point.steps, point.contactEvaluations,
-        std::string(nameOf(point.status, costStatusNames)), point.reason, point.knob, point.measure,
-        point.statistical, point.systematic, point.referenceError, point.stepsPerContact,
-        !point.ran() ? ""
-        : onFront[k] ? "yes"
-                     : "no",
-        point.intervalLow, point.intervalHigh, "", "", point.worst, point.timeLow, point.timeHigh,
-        !onFront[k] ? ""
-        : tied[k]   ? "yes"
-                    : "no");
-  }
-  return table;
-}
-
-std::string costText(const CostResults& results) {
-  return decidedText(results) + "\n" + countsText(results) + "\n";
-}
-
-std::string costToml(const CostResults& results) {
-  std::string text;
-  for (const Advice& one : results.advice)
-    if (one.target == results.target) text += (text.empty() ? "" : "\n") + asToml(one, results);
-  return text;
-}
-
-namespace {
-
 /// "t_c/2.5 (2 ms); unstable from 2.5 ms on"
 OverviewCell stabilityCell(const CostResults& results, const std::string& engine) {
   OverviewCell cell{Verdict::notMeasured, {}, "s", {}, {}, "advice"};
@@ -314,8 +267,8 @@ std::string nextStep(const CostResults& results) {
   return "Next: take the setting that you need from the advice on this page.";
 }
 
-}  // namespace
-
+/// An engine per row: its largest stable step, and for each wanted accuracy the setting that the
+/// advice has for it, with step and time.
 Overview costOverview(const CostResults& results) {
   Overview overview;
   const std::vector<double> targets = answerTargets(results);
@@ -349,8 +302,6 @@ Overview costOverview(const CostResults& results) {
   overview.conclusion.push_back(nextStep(results));
   return overview;
 }
-
-namespace {
 
 /// The setting that reaches an accuracy, or the verdict with the best setting below it.
 Cell verdictCell(const auto& of, std::string remark = {}) {
@@ -542,6 +493,49 @@ std::string whatErrorsAre(CostKind kind) {
 }
 
 }  // namespace
+
+std::string costCsv(const CostResults& results) {
+  std::string table =
+      "engine,setting,dt_s,error,error_kind,wall_s,cpu_s,steps,contact_evaluations,status,reason,"
+      "knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front,low,high,"
+      "equivalent,bound,worst,time_low_s,time_high_s,tied\n";
+  std::vector<bool> onFront(results.points.size(), false), tied = onFront;
+  for (const Front& front : results.fronts)
+    for (const std::size_t place : front.points) {
+      if (!front.engine.empty() || place >= onFront.size()) continue;
+      onFront[place] = true;
+      tied[place] = std::ranges::any_of(front.points, [&](std::size_t other) {
+        return other != place && tiesWithABetter(results, place, other);
+      });
+    }
+  for (std::size_t k = 0; k < results.points.size(); ++k) {
+    const CostPoint& point = results.points[k];
+    table += row(
+        point.engine, point.setting, point.dt, point.error, toString(point.kind), point.wallSeconds,
+        point.cpuSeconds, point.steps, point.contactEvaluations,
+        std::string(nameOf(point.status, costStatusNames)), point.reason, point.knob, point.measure,
+        point.statistical, point.systematic, point.referenceError, point.stepsPerContact,
+        !point.ran() ? ""
+        : onFront[k] ? "yes"
+                     : "no",
+        point.intervalLow, point.intervalHigh, "", "", point.worst, point.timeLow, point.timeHigh,
+        !onFront[k] ? ""
+        : tied[k]   ? "yes"
+                    : "no");
+  }
+  return table;
+}
+
+std::string costText(const CostResults& results) {
+  return decidedText(results) + "\n" + countsText(results) + "\n";
+}
+
+std::string costToml(const CostResults& results) {
+  std::string text;
+  for (const Advice& one : results.advice)
+    if (one.target == results.target) text += (text.empty() ? "" : "\n") + asToml(one, results);
+  return text;
+}
 
 Report reportOf(const CostResults& results) {
   Report report{{results.head, results.engines, costOverview(results)}};

@@ -10,10 +10,6 @@
 /// What a study of cost is written as.
 namespace crossgrain::reports {
 
-/// An engine per row: its largest stable step, and for each wanted accuracy the setting that the
-/// advice has for it, with step and time.
-Overview costOverview(const CostResults& results);
-
 /// For a terminal: how many accuracies are decided, and what became of the points.
 std::string costText(const CostResults& results);
 
@@ -59,8 +55,6 @@ struct CostMeasure {
 
 /// In the order of the points.
 std::vector<CostKind> kindsIn(const std::vector<CostPoint>& points);
-std::vector<CostMeasure> measuresIn(const std::vector<CostPoint>& points);
-
 /// A setting that is no time step and has an error somewhere: what the numbers in plots stand for,
 /// from 1.
 struct OtherSetting {

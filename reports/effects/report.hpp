@@ -64,9 +64,6 @@ struct VariantSummary {
 std::vector<VariantSummary> variantSummaries(const EffectsResults& results,
                                              const std::string& engine = {});
 
-/// The one that costs most time; null: none is shown to.
-const VariantSummary* costliestOf(const std::vector<VariantSummary>& variants);
-
 /// An engine's variant with everything on, or null.
 const EffectVariant* wholeVariant(const EffectsResults& results, const std::string& engine);
 

@@ -173,6 +173,15 @@ OverviewCell changedCell(const VariantSummary* variant, const std::string& ancho
   return cell;
 }
 
+/// The one that costs most time; null: none is shown to.
+const VariantSummary* costliestOf(const std::vector<VariantSummary>& variants) {
+  const VariantSummary* most = nullptr;
+  for (const VariantSummary& variant : variants)
+    if (variant.ran() && variant.costsTime() && (!most || *variant.saved > *most->saved))
+      most = &variant;
+  return most;
+}
+
 /// What an engine's effects do, in one clause.
 std::string effectsOf(const std::vector<VariantSummary>& all) {
   Names changing, idle;
@@ -238,14 +247,6 @@ bool VariantSummary::withinMargins() const {
 
 bool VariantSummary::costsTime() const {
   return saved && *saved > 0.0 && (!savedError || *saved > 2.0 * *savedError);
-}
-
-const VariantSummary* costliestOf(const std::vector<VariantSummary>& variants) {
-  const VariantSummary* most = nullptr;
-  for (const VariantSummary& variant : variants)
-    if (variant.ran() && variant.costsTime() && (!most || *variant.saved > *most->saved))
-      most = &variant;
-  return most;
 }
 
 std::vector<VariantSummary> variantSummaries(const EffectsResults& results,
@@ -331,10 +332,8 @@ Overview effectsOverview(const EffectsResults& results) {
   for (const EngineRow& engine : results.engines)
     if (engine.status == Status::finished)
       said.add(engine.name, effectsOf(variantSummaries(results, engine.name)));
-  std::string sentence;
-  for (const auto& [words, engines] : said.all())
-    sentence += fmt::format("{}On {}: {}", sentence.empty() ? "" : "; ", listed(engines), words);
-  if (!sentence.empty()) overview.conclusion.push_back(sentence + ".");
+  if (const std::string sentence = said.joined("On {}: {}"); !sentence.empty())
+    overview.conclusion.push_back(sentence + ".");
   if (std::string next = effectsNextStep(results, all); !next.empty())
     overview.conclusion.push_back(std::move(next));
   return overview;

@@ -319,8 +319,7 @@ Names compareNotes(const CompareResults& results, const Engines& engines) {
   return nonEmpty(std::move(notes));
 }
 
-}  // namespace
-
+/// Verdicts against the reference, of all pairs, and model against implementation.
 void addAgreement(Report& report, const CompareResults& results, const Engines& engines) {
   const Endpoints& endpoints = results.endpoints.rows;
   if (engines.empty()) return;
@@ -360,6 +359,8 @@ void addAgreement(Report& report, const CompareResults& results, const Engines& 
   }
   if (blocks.empty()) report.sections.pop_back();
 }
+
+}  // namespace
 
 void addProfiles(Report& report, const CompareResults& results, const Engines& engines) {
   Engines withData;

@@ -167,6 +167,12 @@ std::string steadinessCsv(const CompareResults& results) {
   return table;
 }
 
+/// Empty of what no test was made of: a closed form, or no value.
+std::string basisOf(const EndpointRow& row) {
+  if (row.kind == PairKind::closedForm || row.packings == 0) return {};
+  return std::string(nameOf(row.unpaired ? row.unpaired->basis : Basis::paired, basisNames));
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> averageTables(const CompareResults& results) {
@@ -176,16 +182,6 @@ std::vector<std::pair<std::string, std::string>> averageTables(const CompareResu
           {"steadiness.csv", steadinessCsv(results)},
           {"distributions.csv", distributionsCsv(results)}};
 }
-
-namespace {
-
-/// Empty of what no test was made of: a closed form, or no value.
-std::string basisOf(const EndpointRow& row) {
-  if (row.kind == PairKind::closedForm || row.packings == 0) return {};
-  return std::string(nameOf(row.unpaired ? row.unpaired->basis : Basis::paired, basisNames));
-}
-
-}  // namespace
 
 std::string endpointsCsv(const CompareResults& results) {
   std::string table =

@@ -27,6 +27,25 @@ const SpotCheckNumber* farthest(const std::vector<SpotCheckNumber>& spotCheck) {
   return worst;
 }
 
+bool isOf(const auto& row, const std::string& a, const std::string& b) {
+  return (row.a == a && row.b == b) || (row.a == b && row.b == a);
+}
+
+/// The different values of a member, in the order of the rows.
+Names differentOnes(const auto& rows, auto member) {
+  Names values;
+  for (const auto& row : rows) addOnce(values, row.*member);
+  return values;
+}
+
+template <typename Row>
+const Row* find(const std::vector<Row>& rows, const std::string& a, const std::string& b,
+                std::string Row::*member, const std::string& value) {
+  const auto found = std::ranges::find_if(
+      rows, [&](const Row& row) { return row.*member == value && isOf(row, a, b); });
+  return found == rows.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 std::string endpointWords(const std::string& name) {
@@ -151,29 +170,6 @@ std::string describe(const InterimFindings& looks) {
       fmt::join(packings, ", "), looks.taken, looks.planned.size(), agree, 100.0 * spent,
       100.0 * all, looks.ended);
 }
-
-namespace {
-
-bool isOf(const auto& row, const std::string& a, const std::string& b) {
-  return (row.a == a && row.b == b) || (row.a == b && row.b == a);
-}
-
-/// The different values of a member, in the order of the rows.
-Names differentOnes(const auto& rows, auto member) {
-  Names values;
-  for (const auto& row : rows) addOnce(values, row.*member);
-  return values;
-}
-
-template <typename Row>
-const Row* find(const std::vector<Row>& rows, const std::string& a, const std::string& b,
-                std::string Row::*member, const std::string& value) {
-  const auto found = std::ranges::find_if(
-      rows, [&](const Row& row) { return row.*member == value && isOf(row, a, b); });
-  return found == rows.end() ? nullptr : &*found;
-}
-
-}  // namespace
 
 Names fieldsOf(const Agreement& agreement) {
   return differentOnes(agreement, &AgreementRow::field);

@@ -19,6 +19,20 @@ const T& meansOf(const EngineRuns& engine, T CouetteEnsemble::*ofEnsemble, T Flo
   return engine.finished.empty() ? none : engine.finished.front()->*ofRun;
 }
 
+/// Two thirds of the way to white.
+std::string paled(const std::string& colour) {
+  std::string pale = "#";
+  for (const std::size_t at : {1u, 3u, 5u}) {
+    const int part = std::stoi(colour.substr(at, 2), nullptr, 16);
+    pale += fmt::format("{:02x}", part + (255 - part) * 2 / 3);
+  }
+  return pale;
+}
+
+void addTo(std::optional<double>& sum, std::optional<double> value) {
+  if (value) sum = sum.value_or(0.0) + *value;
+}
+
 }  // namespace
 
 const std::vector<Profile>& EngineRuns::profiles() const {
@@ -91,20 +105,6 @@ Engines engineRuns(const CompareResults& results) {
   return engines;
 }
 
-namespace {
-
-/// Two thirds of the way to white.
-std::string paled(const std::string& colour) {
-  std::string pale = "#";
-  for (const std::size_t at : {1u, 3u, 5u}) {
-    const int part = std::stoi(colour.substr(at, 2), nullptr, 16);
-    pale += fmt::format("{:02x}", part + (255 - part) * 2 / 3);
-  }
-  return pale;
-}
-
-}  // namespace
-
 Curve curveOf(const EngineRuns& engine, std::vector<Point> points, double width) {
   Curve curve{engine.name, engine.style, Draw::linesAndPoints, std::move(points), width};
   if (!engine.isSingle) return curve;
@@ -114,14 +114,6 @@ Curve curveOf(const EngineRuns& engine, std::vector<Point> points, double width)
   for (Point& point : curve.points) point.error.reset();
   return curve;
 }
-
-namespace {
-
-void addTo(std::optional<double>& sum, std::optional<double> value) {
-  if (value) sum = sum.value_or(0.0) + *value;
-}
-
-}  // namespace
 
 std::optional<double> EngineCost::cpuPerSecond() const {
   return quotient(cpu, simulated);

@@ -12,6 +12,17 @@ namespace crossgrain::reports {
 
 namespace {
 
+/// Where the bins of profiles are, on the axis of that name: (r − R_i)/d, or a coordinate in m.
+/// Those of a grid are nowhere (NaN).
+const std::vector<double>& binPlaces(const FlowFrame& frame) {
+  return frame.region ? frame.rings.r : frame.rings.rTilde;
+}
+
+std::string binAxis(const FlowFrame& frame) {
+  if (!frame.region) return "(r − R_{i}) / d";
+  return (frame.region->along.empty() ? "r" : frame.region->along) + " [m]";
+}
+
 /// What a profile is divided by before it is drawn, and the axis' name then.
 struct Scaled {
   double factor = 1.0;
@@ -282,17 +293,8 @@ void markWhatIsBeyond(Panel& panel) {
 
 }  // namespace
 
-const std::vector<double>& binPlaces(const FlowFrame& frame) {
-  return frame.region ? frame.rings.r : frame.rings.rTilde;
-}
-
 const char* binWord(const FlowFrame& frame) {
   return frame.region ? "bin" : "ring";
-}
-
-std::string binAxis(const FlowFrame& frame) {
-  if (!frame.region) return "(r − R_{i}) / d";
-  return (frame.region->along.empty() ? "r" : frame.region->along) + " [m]";
 }
 
 std::optional<Range> rTildeRange(const FlowFrame& frame) {

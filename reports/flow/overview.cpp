@@ -14,6 +14,16 @@ namespace crossgrain::reports {
 
 namespace {
 
+/// Endpoints in which an engine and its own mirror disagree: these have one law.
+Names disagreementsWithMirror(const CompareResults& results, const std::string& engine) {
+  Names endpoints;
+  for (const EndpointRow& row : results.endpoints.rows)
+    if (row.kind == PairKind::mirrorImplementation && row.b == engine &&
+        row.verdict == Verdict::fail)
+      endpoints.push_back(row.endpoint);
+  return endpoints;
+}
+
 /// Names in a sentence.
 constexpr std::size_t mostNames = 3;
 
@@ -55,10 +65,7 @@ std::string agreementWith(const CompareResults& results, const std::string& a, c
   SaidOf said;
   for (const std::string& name : names)
     said.add(name, relationOf(rowsOf(results.endpoints.rows, a, name)));
-  Names parts;
-  for (const auto& [relation, peers] : said.all())
-    parts.push_back(fmt::format("{} {}", listed(peers), relation));
-  return fmt::format("Against {}: {}.", called, fmt::join(parts, "; "));
+  return fmt::format("Against {}: {}.", called, said.joined("{} {}"));
 }
 
 /// Who agrees with the closed forms, where the case has them, else with the reference, on what.
@@ -384,15 +391,6 @@ OverviewCell endpointCell(const CompareResults& results, const EndpointRow& row)
     cell.words += ", not judged";
   }
   return cell;
-}
-
-Names disagreementsWithMirror(const CompareResults& results, const std::string& engine) {
-  Names endpoints;
-  for (const EndpointRow& row : results.endpoints.rows)
-    if (row.kind == PairKind::mirrorImplementation && row.b == engine &&
-        row.verdict == Verdict::fail)
-      endpoints.push_back(row.endpoint);
-  return endpoints;
 }
 
 bool isModelDifference(const CompareResults& results, const EngineRow& engine) {

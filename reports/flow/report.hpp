@@ -31,8 +31,6 @@ std::vector<Figure> compareFigures(const CompareResults& results);
 /// (widestForce).
 std::vector<Picture> comparePictures(const CompareResults& results);
 
-/// Verdicts against the reference, of all pairs, and model against implementation.
-void addAgreement(Report& report, const CompareResults& results, const Engines& engines);
 /// Profiles, fits, balance checks and distributions.
 void addProfiles(Report& report, const CompareResults& results, const Engines& engines);
 /// Regimes, drifts and series.
@@ -55,15 +53,9 @@ std::vector<Figure> profileFigures(const FlowFrame& frame, const Engines& engine
                                    const IsFaint& faint = {});
 /// difference_FIELD: engines minus the reference, ring by ring, in margins, with the margin's band.
 std::vector<Figure> differenceFigures(const CompareResults& results, const Engines& engines);
-std::vector<Figure> distributionFigures(const FlowFrame& frame, const Engines& engines);
-
 /// What the bars of the profiles are, in words: over packings, or within one run.
 std::string describeBars(const Engines& engines);
 
-/// Where the bins of profiles are, on the axis of that name: (r − R_i)/d, or a coordinate in m.
-/// Those of a grid are nowhere (NaN).
-const std::vector<double>& binPlaces(const FlowFrame& frame);
-std::string binAxis(const FlowFrame& frame);
 /// "ring", or "bin" of an assembly.
 const char* binWord(const FlowFrame& frame);
 
@@ -75,9 +67,6 @@ std::optional<Range> rTildeRange(const FlowFrame& frame);
 /// An engine per row: its own law, averages against the reference, cost, failed runs.
 Overview compareOverview(const CompareResults& results);
 
-/// A field per row, a weight per column: from which ring width on the weight hardly matters.
-Overview revOverview(const RevResults& results);
-
 /// Of endpoints of one pair: the farthest of those with the most severe answer; null without one.
 const EndpointRow* worstOf(const std::vector<const EndpointRow*>& rows);
 
@@ -87,9 +76,6 @@ OverviewCell endpointCell(const EndpointRow& row, bool isModel);
 /// The same in a report: the difference of two engines that are both true to their laws is one of
 /// models, and nothing has a verdict where nothing was judged.
 OverviewCell endpointCell(const CompareResults& results, const EndpointRow& row);
-
-/// Endpoints in which an engine and its own mirror disagree: these have one law.
-Names disagreementsWithMirror(const CompareResults& results, const std::string& engine);
 
 /// Whether the difference of an engine from the reference is shown to come from its declared law:
 /// lockstep verifies that law, or its mirror agrees with it wherever both it and the reference

@@ -254,8 +254,7 @@ std::string revMeetingsCsv(const RevResults& results) {
   return table;
 }
 
-}  // namespace
-
+/// A field per row, a weight per column: from which ring width on the weight hardly matters.
 Overview revOverview(const RevResults& results) {
   Overview overview;
   overview.rowsAre = "field";
@@ -280,6 +279,8 @@ Overview revOverview(const RevResults& results) {
   overview.conclusion = revConclusion(results);
   return overview;
 }
+
+}  // namespace
 
 Report reportOf(const RevResults& results) {
   Report report{{results.head,

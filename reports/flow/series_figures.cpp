@@ -331,17 +331,6 @@ std::string forceWords(const ForceCount& count, double widest) {
                      verb(count.above, "carries", "carry"), readable(widest));
 }
 
-}  // namespace
-
-std::vector<Figure> compareFigures(const CompareResults& results) {
-  const Engines engines = engineRuns(results);
-  std::vector<Figure> figures = profileFigures(results, engines);
-  for (auto more : {differenceFigures(results, engines), checkFigures(results, engines),
-                    seriesFigures(results, engines), distributionFigures(results, engines)})
-    std::ranges::move(more, std::back_inserter(figures));
-  return figures;
-}
-
 std::vector<Figure> distributionFigures(const FlowFrame& frame, const Engines& engines) {
   std::vector<Panel> joint;
   for (const EngineRuns& engine : engines)
@@ -370,6 +359,17 @@ std::vector<Figure> distributionFigures(const FlowFrame& frame, const Engines& e
            densityPanel(engines, "tangential_force", {}, "|f_{t}| / ⟨|f_{t}|⟩", true),
            densityPanel(engines, "coordination", {}, "contacts per disk", false)})};
   std::erase_if(figures, [](const Figure& figure) { return figure.panels.empty(); });
+  return figures;
+}
+
+}  // namespace
+
+std::vector<Figure> compareFigures(const CompareResults& results) {
+  const Engines engines = engineRuns(results);
+  std::vector<Figure> figures = profileFigures(results, engines);
+  for (auto more : {differenceFigures(results, engines), checkFigures(results, engines),
+                    seriesFigures(results, engines), distributionFigures(results, engines)})
+    std::ranges::move(more, std::back_inserter(figures));
   return figures;
 }
 

@@ -14,6 +14,12 @@ namespace crossgrain::reports {
 
 namespace {
 
+/// What differs only where the law leaves the order of impacts open is borderline.
+Verdict lockstepState(const LockstepRow& row, const LockstepRules& rules) {
+  const bool open = row.verdict == Equivalence::differs && !openInLaw(row, rules).empty();
+  return open ? Verdict::borderline : verdictOf(row.verdict);
+}
+
 constexpr const char* evidence = "lockstep";
 
 OverviewCell separationCell(const LockstepRow& row, bool last) {
@@ -258,6 +264,33 @@ std::string lockstepCsv(const LockstepResults& results) {
   return table;
 }
 
+/// An engine per row: its law, forces on one state, differences early and late, the deviation
+/// found.
+Overview lockstepOverview(const LockstepResults& results) {
+  const LockstepFindings& findings = results.lockstep;
+  Overview overview;
+  overview.columns = {
+      {"law verified",
+       "Does it have the law that it declares? Its difference from its mirror, in units of the "
+       "limit: of what a change of the reference constant by 0.1 % does.",
+       evidence},
+      {"forces", "Largest difference of a contact's force on one state.", evidence},
+      {"early", "Largest difference from its mirror at the first snapshot, in diameters.",
+       "over-time"},
+      {"late", "Largest difference from its mirror at the last snapshot, in diameters.",
+       "over-time"},
+      {"deviation found", "The single change of the mirror that leaves least of the difference.",
+       evidence}};
+  for (const LockstepRow& row : findings.rows)
+    overview.rows.push_back(
+        {row.engine,
+         true,
+         {lockstepCell(&row, findings.rules, false), forcesCell(row), separationCell(row, false),
+          separationCell(row, true), termCell(row)}});
+  overview.conclusion = nonEmpty({leadOf(findings), deviationOf(findings), nextOf(findings)});
+  return overview;
+}
+
 }  // namespace
 
 std::string leadOf(const LockstepFindings& findings) {
@@ -286,11 +319,6 @@ std::string leadOf(const LockstepFindings& findings) {
   add(undecided, "is undecided", "are undecided");
   add(open, "was not measured", "were not measured");
   return fmt::format("{}.", fmt::join(parts, "; "));
-}
-
-Verdict lockstepState(const LockstepRow& row, const LockstepRules& rules) {
-  const bool open = row.verdict == Equivalence::differs && !openInLaw(row, rules).empty();
-  return open ? Verdict::borderline : verdictOf(row.verdict);
 }
 
 OverviewCell lockstepCell(const LockstepRow* row, const LockstepRules& rules, bool isMirror) {
@@ -324,31 +352,6 @@ OverviewCell lockstepCell(const LockstepRow* row, const LockstepRules& rules, bo
     cell.shown = fmt::format("{} × limit", readable(*size / rules.sameLaw));
   }
   return cell;
-}
-
-Overview lockstepOverview(const LockstepResults& results) {
-  const LockstepFindings& findings = results.lockstep;
-  Overview overview;
-  overview.columns = {
-      {"law verified",
-       "Does it have the law that it declares? Its difference from its mirror, in units of the "
-       "limit: of what a change of the reference constant by 0.1 % does.",
-       evidence},
-      {"forces", "Largest difference of a contact's force on one state.", evidence},
-      {"early", "Largest difference from its mirror at the first snapshot, in diameters.",
-       "over-time"},
-      {"late", "Largest difference from its mirror at the last snapshot, in diameters.",
-       "over-time"},
-      {"deviation found", "The single change of the mirror that leaves least of the difference.",
-       evidence}};
-  for (const LockstepRow& row : findings.rows)
-    overview.rows.push_back(
-        {row.engine,
-         true,
-         {lockstepCell(&row, findings.rules, false), forcesCell(row), separationCell(row, false),
-          separationCell(row, true), termCell(row)}});
-  overview.conclusion = nonEmpty({leadOf(findings), deviationOf(findings), nextOf(findings)});
-  return overview;
 }
 
 Blocks lockstepTables(const LockstepFindings& findings) {

@@ -6,18 +6,7 @@
 
 namespace crossgrain::reports {
 
-using results::constantSymbol;
-using results::constantWords;
-using results::describe;
-using results::describeFirst;
-using results::describeReading;
-using results::describeResolution;
-using results::describeTerm;
-using results::describeVerdict;
-using results::openInLaw;
-using results::percentText;
-using results::plainSymbol;
-using results::verdictWord;
+using results::describe;  // beside those here
 
 /// Plot: lockstep_separation, the difference over time beside what the reference perturbation does.
 /// Table: lockstep.csv (docs/results.md).
@@ -30,13 +19,6 @@ List lockstepReading(const LockstepFindings& findings);
 /// Whether an engine has the law that it declares: ε_eq as a share of the reference constant.
 /// @param row  null: it was not compared with a mirror
 OverviewCell lockstepCell(const LockstepRow* row, const LockstepRules& rules, bool isMirror);
-
-/// What differs only where the law leaves the order of impacts open is borderline.
-Verdict lockstepState(const LockstepRow& row, const LockstepRules& rules);
-
-/// An engine per row: its law, forces on one state, differences early and late, the deviation
-/// found.
-Overview lockstepOverview(const LockstepResults& results);
 
 /// "one and another are the laws that they declare; a third was not measured."
 std::string leadOf(const LockstepFindings& findings);

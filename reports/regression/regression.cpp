@@ -139,14 +139,6 @@ OverviewCell declaredCell(const DiffRow& row) {
           {}};
 }
 
-/// "a and b: same bits; c: differs": engines with one description together.
-std::string byDescription(const SaidOf& engines) {
-  std::string sentence;
-  for (const auto& [description, names] : engines.all())
-    sentence += fmt::format("{}{}: {}", sentence.empty() ? "" : "; ", listed(names), description);
-  return sentence + ".";
-}
-
 std::string listText(const std::vector<AnswerDifference>& differences) {
   std::string text;
   for (std::size_t k = 0; k < std::min(differences.size(), mostFields); ++k) {
@@ -202,10 +194,10 @@ Overview diffOverview(const DiffResults& results) {
       terms.add(row.engine, constantWords(row.windows->term->name));
   }
   if (results.rows.empty()) return overview;
-  overview.conclusion = {byDescription(verdicts)};
-  if (!terms.empty())
-    overview.conclusion.push_back("The change that explains most of the difference: " +
-                                  byDescription(terms));
+  overview.conclusion = {verdicts.joined("{}: {}") + "."};
+  if (const std::string sentence = terms.joined("{}: {}"); !sentence.empty())
+    overview.conclusion.push_back("The change that explains most of the difference: " + sentence +
+                                  ".");
   if (!differ.empty())
     overview.conclusion.push_back(
         fmt::format("Next: where the change of {} is meant, keep a new baseline.", listed(differ)));

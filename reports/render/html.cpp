@@ -17,7 +17,36 @@ namespace {
 
 /// One of its figures or pictures; empty where it was not drawn.
 std::string htmlDrawing(const Report& report, const std::string& name,
-                        const DrawnFigures& drawings);
+                        const DrawnFigures& drawings) {
+  const auto svg = readFile(drawings.folder / (name + ".svg"));
+  if (!svg) return {};
+  std::string title, caption, width;
+  bool wide = false;
+  if (const auto figure = std::ranges::find(report.figures, name, &Figure::name);
+      figure != report.figures.end()) {
+    title = figure->title;
+    caption = figure->caption;
+    // As wide as its letters need to stay readable, and no wider than they look well.
+    constexpr double smallest = 12.0, readableOnes = 11.0;  // letters of gnuplot.cpp [px]
+    constexpr double column = 640.0;                        // of a figure beside another [px]
+    const double own = widthOf(*figure);
+    width = fmt::format(" style=\"min-width:{:.0f}px;max-width:{:.0f}px\"",
+                        std::ceil(own * readableOnes / smallest), 1.35 * own);
+    wide = own > column;
+  } else if (const auto picture = std::ranges::find(report.pictures, name, &Picture::name);
+             picture != report.pictures.end()) {
+    title = picture->title;
+    caption = picture->engine + ". " + picture->scale;
+  }
+  const std::string file = fmt::format("plots/{}.svg", escaped(name));
+  return fmt::format(
+      "<figure{}>\n<div class=\"plot\"><img alt=\"{}\" {}{}></div>\n<figcaption>{} <span "
+      "class=\"file\">{}{}</span></figcaption>\n</figure>\n",
+      wide ? " class=\"wide\"" : "", escaped(title),
+      drawings.ofSite ? fmt::format("loading=\"lazy\" src=\"{}\"", file)
+                      : fmt::format("src=\"data:image/svg+xml;base64,{}\"", base64(*svg)),
+      width, mathHtml(caption), file, drawings.ofSite ? "" : ", .pdf");
+}
 
 /// "All pairs" → "all-pairs".
 std::string slugOf(const std::string& words) {
@@ -279,26 +308,6 @@ std::string filesOf(const Report& report, bool ofSite) {
   return "Beside this page: " + listed(names) + ".";
 }
 
-}  // namespace
-
-std::string base64(std::string_view bytes) {
-  static constexpr char digits[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string encoded;
-  encoded.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t k = 0; k < bytes.size(); k += 3) {
-    const std::size_t count = bytes.size() - k < 3 ? bytes.size() - k : 3;
-    std::uint32_t group = 0;
-    for (std::size_t b = 0; b < 3; ++b)
-      group = group << 8 | (b < count ? static_cast<unsigned char>(bytes[k + b]) : 0u);
-    for (std::size_t d = 0; d < 4; ++d)
-      encoded += d <= count ? digits[group >> (18 - 6 * d) & 63u] : '=';
-  }
-  return encoded;
-}
-
-namespace {
-
 /// From the document's first line to its title.
 std::string htmlHead(const Report& report) {
   const std::string title = escaped(titleOf(report.head));
@@ -316,77 +325,12 @@ std::string htmlHead(const Report& report) {
                       machineOf(report)})));
 }
 
-}  // namespace
-
-std::string htmlMatrix(const Overview& overview, const std::vector<EngineRow>& engines) {
-  if (overview.rows.empty() || overview.columns.empty()) return {};
-  const bool wrapped = overview.columns.size() > mostColumns;
-  const bool tall = !wrapped && overview.rows.size() > mostRows;
-  const EngineNames names(engines);
-  std::string text = fmt::format(
-      "<div class=\"scroll\" id=\"overview\"><table "
-      "class=\"overview{}\"{}>\n<thead><tr><th>{}</th>",
-      wrapped ? " many"
-      : tall  ? " tall"
-              : "",
-      tall ? fmt::format(" style=\"--lines:{}\"", mostLines(overview.rows)) : "",
-      mathHtml(overview.rowsAre));
-  for (const OverviewColumn& column : overview.columns)
-    text += fmt::format("<th title=\"{}\">{}</th>", escaped(column.asks),
-                        linked(addressOf(column.anchor), mathHtml(column.name)));
-  text += "</tr></thead>\n<tbody>\n";
-  for (const OverviewRow& row : overview.rows) {
-    text += "<tr><th>" + (row.isEngine ? names(row.name) : mathHtml(row.name)) + "</th>";
-    for (std::size_t k = 0; k < row.cells.size(); ++k)
-      text += matrixCell(overview, row.cells[k], overview.columns[k].name);
-    text += "</tr>\n";
-  }
-  text += "</tbody></table></div>\n" + marksOf(overview, wrapped) + "<section class=\"summary\">\n";
-  for (const std::string& sentence : overview.conclusion)
-    text += "<p class=\"lead\">" + mathHtml(sentence) + "</p>\n";
-  return text + "</section>\n";
-}
-
-namespace {
-
 /// The legend of the engines' colours.
 std::string htmlLegend(const std::vector<EngineRow>& engines) {
   const EngineNames names(engines);
   std::string text = "<p class=\"legend\" id=\"legend\">";
   for (const EngineRow& engine : engines) text += "<span>" + names(engine.name) + "</span>";
   return text + "</p>\n";
-}
-
-std::string htmlDrawing(const Report& report, const std::string& name,
-                        const DrawnFigures& drawings) {
-  const auto svg = readFile(drawings.folder / (name + ".svg"));
-  if (!svg) return {};
-  std::string title, caption, width;
-  bool wide = false;
-  if (const auto figure = std::ranges::find(report.figures, name, &Figure::name);
-      figure != report.figures.end()) {
-    title = figure->title;
-    caption = figure->caption;
-    // As wide as its letters need to stay readable, and no wider than they look well.
-    constexpr double smallest = 12.0, readableOnes = 11.0;  // letters of gnuplot.cpp [px]
-    constexpr double column = 640.0;                        // of a figure beside another [px]
-    const double own = widthOf(*figure);
-    width = fmt::format(" style=\"min-width:{:.0f}px;max-width:{:.0f}px\"",
-                        std::ceil(own * readableOnes / smallest), 1.35 * own);
-    wide = own > column;
-  } else if (const auto picture = std::ranges::find(report.pictures, name, &Picture::name);
-             picture != report.pictures.end()) {
-    title = picture->title;
-    caption = picture->engine + ". " + picture->scale;
-  }
-  const std::string file = fmt::format("plots/{}.svg", escaped(name));
-  return fmt::format(
-      "<figure{}>\n<div class=\"plot\"><img alt=\"{}\" {}{}></div>\n<figcaption>{} <span "
-      "class=\"file\">{}{}</span></figcaption>\n</figure>\n",
-      wide ? " class=\"wide\"" : "", escaped(title),
-      drawings.ofSite ? fmt::format("loading=\"lazy\" src=\"{}\"", file)
-                      : fmt::format("src=\"data:image/svg+xml;base64,{}\"", base64(*svg)),
-      width, mathHtml(caption), file, drawings.ofSite ? "" : ", .pdf");
 }
 
 /// The case, the files, and how to make the page again, to the document's last line.
@@ -427,6 +371,51 @@ std::string htmlFoot(const Report& report, bool ofSite) {
 }
 
 }  // namespace
+
+std::string base64(std::string_view bytes) {
+  static constexpr char digits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string encoded;
+  encoded.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t k = 0; k < bytes.size(); k += 3) {
+    const std::size_t count = bytes.size() - k < 3 ? bytes.size() - k : 3;
+    std::uint32_t group = 0;
+    for (std::size_t b = 0; b < 3; ++b)
+      group = group << 8 | (b < count ? static_cast<unsigned char>(bytes[k + b]) : 0u);
+    for (std::size_t d = 0; d < 4; ++d)
+      encoded += d <= count ? digits[group >> (18 - 6 * d) & 63u] : '=';
+  }
+  return encoded;
+}
+
+std::string htmlMatrix(const Overview& overview, const std::vector<EngineRow>& engines) {
+  if (overview.rows.empty() || overview.columns.empty()) return {};
+  const bool wrapped = overview.columns.size() > mostColumns;
+  const bool tall = !wrapped && overview.rows.size() > mostRows;
+  const EngineNames names(engines);
+  std::string text = fmt::format(
+      "<div class=\"scroll\" id=\"overview\"><table "
+      "class=\"overview{}\"{}>\n<thead><tr><th>{}</th>",
+      wrapped ? " many"
+      : tall  ? " tall"
+              : "",
+      tall ? fmt::format(" style=\"--lines:{}\"", mostLines(overview.rows)) : "",
+      mathHtml(overview.rowsAre));
+  for (const OverviewColumn& column : overview.columns)
+    text += fmt::format("<th title=\"{}\">{}</th>", escaped(column.asks),
+                        linked(addressOf(column.anchor), mathHtml(column.name)));
+  text += "</tr></thead>\n<tbody>\n";
+  for (const OverviewRow& row : overview.rows) {
+    text += "<tr><th>" + (row.isEngine ? names(row.name) : mathHtml(row.name)) + "</th>";
+    for (std::size_t k = 0; k < row.cells.size(); ++k)
+      text += matrixCell(overview, row.cells[k], overview.columns[k].name);
+    text += "</tr>\n";
+  }
+  text += "</tbody></table></div>\n" + marksOf(overview, wrapped) + "<section class=\"summary\">\n";
+  for (const std::string& sentence : overview.conclusion)
+    text += "<p class=\"lead\">" + mathHtml(sentence) + "</p>\n";
+  return text + "</section>\n";
+}
 
 std::string html(const Report& report, const DrawnFigures& drawings) {
   const auto& missing = drawings.missing;

@@ -168,23 +168,6 @@ std::string overviewText(const Overview& overview, const TextLook& look) {
   return text;
 }
 
-std::string alignedText(const std::vector<Names>& rows) {
-  std::vector<std::size_t> widths;
-  for (const auto& cells : rows) {
-    widths.resize(std::max(widths.size(), cells.size()));
-    for (std::size_t k = 0; k < cells.size(); ++k)
-      widths[k] = std::max(widths[k], widthOf(cells[k]));
-  }
-  std::string text;
-  for (const auto& cells : rows) {
-    for (std::size_t k = 0; k < cells.size(); ++k)
-      text += k == 0 ? padded(cells[k], widths[k])
-                     : "  " + std::string(widths[k] - widthOf(cells[k]), ' ') + cells[k];
-    text += '\n';
-  }
-  return text;
-}
-
 std::string tableMarkdown(const Table& table, const std::string& title) {
   Names names;
   for (const Column& column : table.columns) names.push_back(column.name);

@@ -14,6 +14,15 @@ namespace crossgrain::reports {
 
 namespace {
 
+/// By verdict, then by value/limit.
+bool isWorse(const StabilityRun& run, const StabilityRun& than) {
+  const auto badness = [](const StabilityRun& one) {
+    const double value = one.value.value_or(0.0);
+    return std::pair(one.verdict, one.limit > 0.0 ? value / one.limit : value);
+  };
+  return badness(run) > badness(than);
+}
+
 struct Family {
   std::string_view measure, name, asks;
   bool transform = false;  ///< of a transformed case
@@ -120,6 +129,14 @@ OverviewCell familyCell(const FamilyTally& tally) {
   return cell;
 }
 
+/// Whether these are transformed cases (studies/stability/transforms.hpp), not hard ones.
+bool areTransforms(const StabilityResults& results) {
+  return !results.cases.empty() && std::ranges::all_of(results.cases, [](const HardCase& one) {
+    const Family* family = known(one.measure);
+    return family && family->transform;
+  });
+}
+
 std::string stableEngines(const StabilityResults& results) {
   const char* const same = areTransforms(results) ? "the same" : "stable";
   SaidOf said;
@@ -140,10 +157,7 @@ std::string stableEngines(const StabilityResults& results) {
                              : fmt::format("{} of {} runs {}{}", stable, all, same,
                                            notRun == 0 ? "" : fmt::format(", {} not run", notRun)));
   }
-  std::string sentence;
-  for (const auto& [words, engines] : said.all())
-    sentence += fmt::format("{}{}: {}", sentence.empty() ? "" : "; ", listed(engines), words);
-  return sentence + ".";
+  return said.joined("{}: {}") + ".";
 }
 
 /// Transformed cases that run differently, engine by engine.
@@ -156,9 +170,7 @@ std::string differentTransforms(const StabilityResults& results) {
         broken.push_back(fmt::format("{} {}", spaced(run.name), run.variant));
     if (!broken.empty()) said.add(engine.name, listedShortly(broken, 3));
   }
-  std::string sentence;
-  for (const auto& [names, engines] : said.all())
-    sentence += fmt::format("{}{} with {}", sentence.empty() ? "" : "; ", listed(engines), names);
+  const std::string sentence = said.joined("{} with {}");
   return sentence.empty() ? sentence
                           : fmt::format("Different after a transformation: {}.", sentence);
 }
@@ -175,11 +187,8 @@ std::string unstableCases(const StabilityResults& results) {
         unstable.push_back(spaced(group.name));
     if (!unstable.empty()) said.add(engine.name, listedShortly(unstable, 3));
   }
-  if (said.empty()) return {};
-  std::string sentence;
-  for (const auto& [names, engines] : said.all())
-    sentence += fmt::format("{}{} in {}", sentence.empty() ? "" : "; ", listed(engines), names);
-  return fmt::format("Unstable: {}.", sentence);
+  const std::string sentence = said.joined("{} in {}");
+  return sentence.empty() ? sentence : fmt::format("Unstable: {}.", sentence);
 }
 
 std::string stabilityNextStep(const StabilityResults& results) {
@@ -396,15 +405,7 @@ std::vector<JUnitCase> stabilityChecks(const StabilityResults& results) {
   return cases;
 }
 
-}  // namespace
-
-bool areTransforms(const StabilityResults& results) {
-  return !results.cases.empty() && std::ranges::all_of(results.cases, [](const HardCase& one) {
-    const Family* family = known(one.measure);
-    return family && family->transform;
-  });
-}
-
+/// An engine per row, a family of hard cases per column: runs that stayed stable, of those judged.
 Overview stabilityOverview(const StabilityResults& results) {
   Overview overview;
   if (areTransforms(results))
@@ -430,6 +431,8 @@ Overview stabilityOverview(const StabilityResults& results) {
   return overview;
 }
 
+}  // namespace
+
 std::vector<HardGroup> hardGroups(const StabilityResults& results) {
   std::vector<HardGroup> groups;
   for (const HardCase& variant : results.cases) {
@@ -446,14 +449,6 @@ const StabilityRun* runOf(const StabilityResults& results, const std::string& en
     return run.engine == engine && run.name == variant.name && run.variant == variant.variant;
   });
   return found == results.runs.end() ? nullptr : &*found;
-}
-
-bool isWorse(const StabilityRun& run, const StabilityRun& than) {
-  const auto badness = [](const StabilityRun& one) {
-    const double value = one.value.value_or(0.0);
-    return std::pair(one.verdict, one.limit > 0.0 ? value / one.limit : value);
-  };
-  return badness(run) > badness(than);
 }
 
 const StabilityRun* worstRun(const StabilityResults& results, const std::string& engine,

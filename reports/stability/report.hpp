@@ -13,9 +13,6 @@ namespace crossgrain::reports {
 /// case; unstable ones failed, engines that broke down are errors, what was refused is skipped.
 Report reportOf(const StabilityResults& results);
 
-/// An engine per row, a family of hard cases per column: runs that stayed stable, of those judged.
-Overview stabilityOverview(const StabilityResults& results);
-
 /// stability_map, the verdicts of all; stability_CASE, the measure over time where an engine
 /// passed its limit.
 std::vector<Figure> stabilityFigures(const StabilityResults& results);
@@ -39,14 +36,8 @@ inline std::optional<double> stepOf(const StabilityRun& run) {
 const StabilityRun* runOf(const StabilityResults& results, const std::string& engine,
                           const HardCase& variant);
 
-/// By verdict, then by value/limit.
-bool isWorse(const StabilityRun& run, const StabilityRun& than);
-
 /// Its worst run in a case; null without one.
 const StabilityRun* worstRun(const StabilityResults& results, const std::string& engine,
                              const HardGroup& group);
-
-/// Whether these are transformed cases (studies/stability/transforms.hpp), not hard ones.
-bool areTransforms(const StabilityResults& results);
 
 }  // namespace crossgrain::reports

@@ -171,7 +171,7 @@ TEST(CostOverview, Answer_HasStepTimeAndWhatStandsInTheWay) {
   off.model = 0;
   results.advice = {reached, off};
   results.largestSteps = {{"a", CostKind::averages, 0.1, 1.0, 1.0}};
-  const Overview overview = costOverview(results);
+  const Overview overview = reportOf(results).overview;
   const auto& cells = overview.rows[0].cells;
   ASSERT_EQ(cells.size(), 3u);
   EXPECT_EQ(cells[0].value, 0.1);

@@ -104,9 +104,9 @@ TEST(LockstepOverview, Difference_NamesTheDeviationFound) {
   row.verdict = Equivalence::differs;
   row.equivalent = 0.02;
   row.term = NamedTerm{"kn", -0.02, 0.1};
-  EXPECT_EQ(shown(lockstepOverview(results).rows[0].cells[0]), "bad 2.00 % of kₙ");
+  EXPECT_EQ(shown(reportOf(results).overview.rows[0].cells[0]), "bad 2.00 % of kₙ");
   row.term = NamedTerm{"mu", -0.02, 0.1};
-  const Overview overview = lockstepOverview(results);
+  const Overview overview = reportOf(results).overview;
   EXPECT_EQ(shown(overview.rows[0].cells[0]), "bad 20.0 × limit");
   EXPECT_EQ(shown(overview.rows[0].cells[4]), "bad −2.00 %");
   EXPECT_EQ(overview.conclusion[0], "theirs is another law than it declares.");

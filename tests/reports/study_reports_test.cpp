@@ -122,10 +122,9 @@ StabilityResults transforms(const std::vector<const char*>& engines) {
 
 TEST(StabilityOverview, OfTransforms_NamesWhatDiffers) {
   StabilityResults results = transforms({"mine", "theirs"});
-  EXPECT_TRUE(areTransforms(results));
-  EXPECT_EQ(stabilityOverview(results).conclusion[0], "mine and theirs: both runs the same.");
+  EXPECT_EQ(reportOf(results).overview.conclusion[0], "mine and theirs: both runs the same.");
   results.runs[1].verdict = Verdict::fail;
-  const Overview overview = stabilityOverview(results);
+  const Overview overview = reportOf(results).overview;
   ASSERT_EQ(overview.columns.size(), 2u);
   EXPECT_EQ(shown(rowNamed(overview, "theirs").cells[0]), "bad 0 of 1");
   EXPECT_EQ(shown(rowNamed(overview, "theirs").cells[1]), "good 1 of 1");
@@ -158,14 +157,14 @@ TEST(RevReport, NearnessToSlicing_DecidesTheMatrix) {
   RevResults results = sample::revResults();
   // 0.1/0.7 apart in the narrowest ring, the same from 1 d on.
   results.curves[1].mean[0] = 0.8;
-  const Overview overview = revOverview(results);
+  const Overview overview = reportOf(results).overview;
   ASSERT_EQ(overview.rows.size(), 1u);
   EXPECT_EQ(overview.rows[0].name, "volume fraction");
   EXPECT_EQ(overview.rows[0].cells[1].shown, "≥ 1 d");
   EXPECT_EQ(overview.rows[0].cells[0].verdict, Verdict::notMeasured);
   EXPECT_EQ(overview.conclusion[1], "Within 5 % of slicing in every field: centre from 1 d.");
   results.curves[1].mean[2] = 0.9;
-  EXPECT_EQ(revOverview(results).rows[0].cells[1].verdict, Verdict::borderline);
+  EXPECT_EQ(reportOf(results).overview.rows[0].cells[1].verdict, Verdict::borderline);
 }
 
 }  // namespace
