@@ -15,34 +15,10 @@ namespace {
 
 constexpr double meansOverSteps = 1.5;  // a mean over more belongs to no positions
 
-/// Contacts by their first disk: those of i are order[begin[i]] … order[begin[i + 1] − 1].
-struct ByFirst {
-  std::vector<std::size_t> begin, order;
-
-  template <int D>
-  ByFirst(const ContactsOf<D>& contacts, std::size_t disks)
-      : begin(disks + 1), order(contacts.size()) {
-    for (const std::int32_t i : contacts.i) ++begin[static_cast<std::size_t>(i) + 1];
-    for (std::size_t i = 0; i < disks; ++i) begin[i + 1] += begin[i];
-    std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-    for (std::size_t k = 0; k < contacts.size(); ++k)
-      order[next[static_cast<std::size_t>(contacts.i[k])]++] = k;
-  }
-
-  /// How often the pair is there.
-  template <int D>
-  std::size_t count(const ContactsOf<D>& contacts, std::size_t i, std::size_t j) const {
-    std::size_t found = 0;
-    for (std::size_t k = begin[i]; k < begin[i + 1]; ++k)
-      found += static_cast<std::size_t>(contacts.j[order[k]]) == j;
-    return found;
-  }
-};
-
 /// Ids, pairs, normals: what needs no positions.
 template <int D>
 std::string listFault(const ContactsOf<D>& contacts, const AuditBasisOf<D>& basis,
-                      const ByFirst& byFirst) {
+                      const ContactsByFirst& byFirst) {
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const double square = contacts.normal[k].squaredNorm();
     // Normals are rounded where they are made, whatever the coordinates are: 10⁻⁵ is ten times
@@ -227,7 +203,7 @@ class ListGaps {
 /// Pairs that overlap and are not listed.
 template <int D>
 std::string incompleteReason(const ContactsOf<D>& contacts, const AuditBasisOf<D>& basis,
-                             const ContactPlacesOf<D>& places, const ByFirst& byFirst) {
+                             const ContactPlacesOf<D>& places, const ContactsByFirst& byFirst) {
   const std::size_t disks = basis.scene->disks.size(), round = basis.radius.size();
   std::string why;
   std::optional<ListGaps<D>> gaps;
@@ -260,7 +236,7 @@ std::string contactFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& b
   if (!snapshot.contacts) return {};
   const ContactsOf<D>& contacts = *snapshot.contacts;
   if (std::string why = idsFault(contacts, *basis.scene); !why.empty()) return why;
-  const ByFirst byFirst(contacts, basis.scene->disks.size());
+  const ContactsByFirst byFirst(contacts, basis.scene->disks.size());
   if (std::string why = listFault(contacts, basis, byFirst); !why.empty()) return why;
   if (snapshot.contactInterval > meansOverSteps * basis.dt) return {};
   if (std::string why = forceFault(contacts, basis); !why.empty()) return why;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 #include "adapters/near_pairs.hpp"
@@ -64,30 +63,6 @@ ContactLaw ownLaw(const AuditBasisOf<D>& basis, std::size_t i, std::size_t j,
 template ContactLaw ownLaw(const AuditBasis&, std::size_t, std::size_t, const ContactLaw&);
 template ContactLaw ownLaw(const AuditBasisOf<3>&, std::size_t, std::size_t, const ContactLaw&);
 
-/// Pairs by their first: each has few, whose list is looked through faster than a tree.
-class ListedPairs {
- public:
-  template <int D>
-  ListedPairs(const ContactsOf<D>& contacts, std::size_t bodies)
-      : begin_(bodies + 1), second_(contacts.size()) {
-    for (const std::int32_t i : contacts.i) ++begin_[static_cast<std::size_t>(i) + 1];
-    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
-    for (std::size_t k = 0; k < contacts.size(); ++k)
-      second_[next[static_cast<std::size_t>(contacts.i[k])]++] = contacts.j[k];
-  }
-  bool contains(std::size_t i, std::size_t j) const {
-    const auto at = [&](std::size_t k) {
-      return second_.begin() + static_cast<std::ptrdiff_t>(begin_[k]);
-    };
-    return std::find(at(i), at(i + 1), static_cast<std::int32_t>(j)) != at(i + 1);
-  }
-
- private:
-  std::vector<std::size_t> begin_;
-  std::vector<std::int32_t> second_;
-};
-
 template <int D>
 VelocityDoubt<D>::VelocityDoubt(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis,
                                 const ContactPlacesOf<D>& places, const ContactLaw& law)
@@ -97,7 +72,7 @@ VelocityDoubt<D>::VelocityDoubt(const SnapshotOf<D>& snapshot, const AuditBasisO
   const ContactsOf<D>& contacts = *snapshot.contacts;
   std::vector<VecOf<D>> sum(centre.size(), VecOf<D>::Zero());
   std::vector<double> sizes(centre.size()), changes(centre.size());
-  const ListedPairs shown(contacts, centre.size());
+  const ContactsByFirst shown(contacts, centre.size());
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const auto i = static_cast<std::size_t>(contacts.i[k]);
     const auto j = static_cast<std::size_t>(contacts.j[k]);
@@ -115,7 +90,7 @@ VelocityDoubt<D>::VelocityDoubt(const SnapshotOf<D>& snapshot, const AuditBasisO
     }
   }
   const auto addEnded = [&](std::size_t i, std::size_t j) {
-    if (shown.contains(i, j)) return;
+    if (shown.count(contacts, i, j) > 0) return;
     const double last = lastForce(ownLaw(basis, i, j, law), places, basis, i, j);
     for (const std::size_t id : {i, j}) changes[id] += last;
   };

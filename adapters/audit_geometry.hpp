@@ -52,6 +52,31 @@ ContactPlacesOf<D> contactPlaces(const SnapshotOf<D>& snapshot, const AuditBasis
 template <int D>
 void placeWallsAsPrescribed(const SceneOf<D>& scene, double t, SnapshotOf<D>& snapshot);
 
+/// Contacts by their first: each has few, whose list is looked through faster than a tree: those of
+/// i are order[begin[i]] … order[begin[i + 1] − 1].
+struct ContactsByFirst {
+  std::vector<std::size_t> begin, order;
+
+  template <int D>
+  ContactsByFirst(const ContactsOf<D>& contacts, std::size_t bodies)
+      : begin(bodies + 1), order(contacts.size()) {
+    for (const std::int32_t i : contacts.i) ++begin[static_cast<std::size_t>(i) + 1];
+    for (std::size_t i = 0; i < bodies; ++i) begin[i + 1] += begin[i];
+    std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+      order[next[static_cast<std::size_t>(contacts.i[k])]++] = k;
+  }
+
+  /// How often the pair is there.
+  template <int D>
+  std::size_t count(const ContactsOf<D>& contacts, std::size_t i, std::size_t j) const {
+    std::size_t found = 0;
+    for (std::size_t k = begin[i]; k < begin[i + 1]; ++k)
+      found += static_cast<std::size_t>(contacts.j[order[k]]) == j;
+    return found;
+  }
+};
+
 /// How a pair lies there, in a periodic box its nearest images: n from j to i, δ > 0 where they
 /// overlap, and how far δ may be off.
 template <int D>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,12 @@
 #include "engines/box2d/members.hpp"
 
 namespace crossgrain {
+
+/// Box2D's own impulse solver for rigid disks, extended by tangential restitution.
+std::unique_ptr<Engine> makeBox2dImpulse();
+
+/// The scene's soft law on Box2D's collision detection.
+std::unique_ptr<Engine> makeBox2dPenalty();
 
 /// What both Box2D engines share: the scene in the words of engines/box2d.
 

@@ -8,7 +8,6 @@
 #include <span>
 #include <utility>
 
-#include "adapters/box2d.hpp"
 #include "adapters/box2d_common.hpp"
 #include "adapters/grain.hpp"
 #include "adapters/pair_table.hpp"

@@ -4,7 +4,6 @@
 #include <optional>
 #include <stdexcept>
 
-#include "adapters/box2d.hpp"
 #include "adapters/box2d_common.hpp"
 #include "adapters/grain.hpp"
 #include "adapters/pair_table.hpp"
@@ -139,13 +138,7 @@ EngineEntry box2dPenaltyEngine() {
 EngineEntry box2dPenaltyMirror() {
   return mirrorEntry("grain-as-box2d-penalty",
                      "the in-house engine with the penalty engine's conventions", "box2d-penalty",
-                     {"linear", "hertz"},
-                     {{"integrator", {"semi_implicit_euler"}},
-                      {"damping_velocity", {"lagged"}},
-                      {"spring_update", {"after", "before"}},
-                      {"lever_arm", {"radius", "contact_point"}},
-                      {"velocity_arm", {"lever_arm"}},
-                      {"plane_arm", {"surface"}}});
+                     {"linear", "hertz"}, conventionsOf(Box2dPenalty().capabilities().lawOptions));
 }
 
 }  // namespace crossgrain

@@ -392,6 +392,11 @@ std::unique_ptr<Engine> makeGrainMirror(LawConventionSets conventions) {
   return std::make_unique<GrainEngine>(std::move(conventions), 1.0);
 }
 
+LawConventionSets conventionsOf(LawConventionSets declared) {
+  for (const char* const law : {"normal", "damper", "tangential"}) declared.erase(law);
+  return declared;
+}
+
 EngineEntry mirrorEntry(std::string name, std::string summary, std::string peer,
                         std::vector<std::string> normals, LawConventionSets conventions) {
   return {.name = std::move(name),

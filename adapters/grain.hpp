@@ -23,6 +23,9 @@ std::unique_ptr<Engine> makeGrain();
 /// Law option → the values that an engine has, its own choice first.
 using LawConventionSets = std::map<std::string, std::vector<std::string>>;
 
+/// Of what an engine declares, all but the laws themselves: which one a scene has is its matter.
+LawConventionSets conventionsOf(LawConventionSets declared);
+
 /// The in-house engine with a peer's conventions: where it follows the peer, what remains
 /// between the scene's law and the peer is the model's; where it does not, somebody's
 /// implementation is at fault.

@@ -1,6 +1,8 @@
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "adapters/grain.hpp"
+#include "peer_laws.hpp"
 #include "support/data_folder.hpp"
 #include "support/files.hpp"
 
@@ -41,28 +43,10 @@ EngineEntry lammpsEngine() {
 /// pair_style granular with linear_history or mindlin, and fix nve/sphere
 /// (engines/lammps/README.md).
 EngineEntry lammpsMirror() {
+  LawConventionSets conventions = conventionsOf(nlohmann::json::parse(lammpsLaw));
+  for (const char* const law : {"rolling", "cohesion"}) conventions.erase(law);
   return mirrorEntry("grain-as-lammps", "the in-house engine with LAMMPS' conventions", "lammps",
-                     {"linear", "hertz"},
-                     {{"tension", {"allow"}},
-                      {"coulomb_bound", {"magnitude"}},
-                      {"dashpot", {"inside"}},
-                      {"spring_reset", {"spring_only"}},
-                      {"spring_update", {"before"}},
-                      {"lever_arm", {"overlap_middle"}},
-                      {"velocity_arm", {"radius"}},
-                      {"plane_arm", {"radius"}},
-                      {"rolling_length", {"effective"}},
-                      {"rolling_stiffness", {"length_square"}},
-                      {"rolling_damper", {"constant"}},
-                      {"rolling_load", {"magnitude"}},
-                      {"rolling_dashpot", {"inside"}},
-                      {"rolling_reset", {"spring_only"}},
-                      {"jkr_end", {"largest_pull"}},
-                      {"cohesion_load", {"plus_twice_pull_off", "net_without_dashpot"}},
-                      {"spring_turn", {"rescaled"}},
-                      {"spring_twist", {"none"}},
-                      {"damping_velocity", {"lagged"}},
-                      {"integrator", {"position_verlet"}}});
+                     {"linear", "hertz"}, std::move(conventions));
 }
 
 }  // namespace crossgrain

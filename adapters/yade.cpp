@@ -1,4 +1,7 @@
+#include <nlohmann/json.hpp>
+
 #include "adapters/grain.hpp"
+#include "peer_laws.hpp"
 #include "support/data_folder.hpp"
 #include "support/files.hpp"
 
@@ -32,27 +35,7 @@ EngineEntry yadeEngine() {
 /// …MindlinPhys_Mindlin, which share conventions, and NewtonIntegrator (engines/yade/README.md).
 EngineEntry yadeMirror() {
   return mirrorEntry("grain-as-yade", "the in-house engine with YADE's conventions", "yade",
-                     {"linear", "hertz"},
-                     {{"tension", {"cut"}},
-                      {"coulomb_bound", {"compression"}},
-                      {"dashpot", {"outside"}},
-                      {"spring_reset", {"total"}},
-                      {"spring_update", {"before"}},
-                      {"lever_arm", {"overlap_middle"}},
-                      {"velocity_arm", {"lever_arm"}},
-                      {"plane_arm", {"surface", "middle"}},
-                      {"history", {"force"}},
-                      {"damping_velocity", {"lagged"}},
-                      {"integrator", {"position_verlet"}},
-                      {"rolling", {"spring", "viscous_by_load"}},
-                      {"rolling_length", {"mean_radius", "smaller_radius"}},
-                      {"rolling_stiffness", {"constant", "radii"}},
-                      {"rolling_load", {"while_compressed"}},
-                      {"cohesion", {"dmt", "elasto_plastic"}},
-                      {"cohesion_load", {"magnitude_plus_pull_off"}},
-                      {"unloading_stiffness", {"lagged"}},
-                      {"spring_turn", {"first_order"}},
-                      {"spring_twist", {"mean_spin"}}});
+                     {"linear", "hertz"}, conventionsOf(nlohmann::json::parse(yadeLaw)));
 }
 
 }  // namespace crossgrain

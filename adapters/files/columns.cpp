@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <iterator>
 
@@ -12,61 +13,27 @@
 namespace crossgrain::files {
 namespace {
 
+/// Of CSV files, of start files of ours, and what LAMMPS and YADE users call the same: the name of
+/// each meaning. Parts of a box have none.
+// clang-format off
+constexpr std::array<std::string_view, static_cast<std::size_t>(Meaning::count)> names = {
+  "time", "step", "id", "kind", "x", "y", "z", "", "", "", "radius", "diameter", "vx", "vy", "vz",
+  "spin_x", "spin_y", "spin_z", "mass", "first", "second", "nx", "ny", "nz",
+  "branch_x", "branch_y", "branch_z", "fx", "fy", "fz", "tx", "ty", "tz",
+  "normal_force", "tangential_force", "px", "py", "pz", "overlap",
+  "rolling_x", "rolling_y", "rolling_z", "torque_x", "torque_y", "torque_z",
+  "rolling_force_x", "rolling_force_y", "rolling_force_z", "wall"};
+// clang-format on
+static_assert(names[static_cast<std::size_t>(Meaning::wall)] == "wall");
+
 struct Name {
   std::string_view name;
   Meaning meaning;
 };
 
-/// Of CSV files, of start files of ours, and what LAMMPS and YADE users call the same.
-constexpr Name names[] = {{"t", Meaning::time},
-                          {"time", Meaning::time},
-                          {"step", Meaning::step},
-                          {"id", Meaning::id},
-                          {"kind", Meaning::kind},
-                          {"x", Meaning::x},
-                          {"y", Meaning::y},
-                          {"z", Meaning::z},
-                          {"radius", Meaning::radius},
-                          {"diameter", Meaning::diameter},
-                          {"vx", Meaning::vx},
-                          {"vy", Meaning::vy},
-                          {"vz", Meaning::vz},
-                          {"spin", Meaning::spinZ},
-                          {"spin_x", Meaning::spinX},
-                          {"spin_y", Meaning::spinY},
-                          {"spin_z", Meaning::spinZ},
-                          {"mass", Meaning::mass},
-                          {"first", Meaning::first},
-                          {"second", Meaning::second},
-                          {"nx", Meaning::nx},
-                          {"ny", Meaning::ny},
-                          {"nz", Meaning::nz},
-                          {"branch_x", Meaning::branchX},
-                          {"branch_y", Meaning::branchY},
-                          {"branch_z", Meaning::branchZ},
-                          {"fx", Meaning::fx},
-                          {"fy", Meaning::fy},
-                          {"fz", Meaning::fz},
-                          {"tx", Meaning::tx},
-                          {"ty", Meaning::ty},
-                          {"tz", Meaning::tz},
-                          {"normal_force", Meaning::normalForce},
-                          {"tangential_force", Meaning::tangentialForce},
-                          {"px", Meaning::px},
-                          {"py", Meaning::py},
-                          {"pz", Meaning::pz},
-                          {"overlap", Meaning::overlap},
-                          {"rolling", Meaning::rollingZ},
-                          {"rolling_x", Meaning::rollingX},
-                          {"rolling_y", Meaning::rollingY},
-                          {"rolling_z", Meaning::rollingZ},
-                          {"torque_x", Meaning::torqueX},
-                          {"torque_y", Meaning::torqueY},
-                          {"torque_z", Meaning::torqueZ},
-                          {"rolling_force_x", Meaning::pseudoX},
-                          {"rolling_force_y", Meaning::pseudoY},
-                          {"rolling_force_z", Meaning::pseudoZ},
-                          {"wall", Meaning::wall}};
+/// Further names, each listed before that of the first meaning of its kind.
+constexpr Name others[] = {
+    {"t", Meaning::time}, {"spin", Meaning::spinZ}, {"rolling", Meaning::rollingZ}};
 
 /// Names of vectors, of which a group of three columns is.
 constexpr Name vectors[] = {{"position", Meaning::x},     {"velocity", Meaning::vx},
@@ -86,12 +53,16 @@ std::string lowered(std::string_view name) {
 
 Meaning meaningOf(std::string_view name) {
   const std::string own = name == "T" ? std::string(name) : lowered(name);
-  const auto* const found = std::ranges::find(names, own, &Name::name);
-  return found == std::end(names) ? Meaning::none : found->meaning;
+  if (const auto* const other = std::ranges::find(others, own, &Name::name);
+      other != std::end(others))
+    return other->meaning;
+  const auto* const found = std::ranges::find(names, own);
+  return own.empty() || found == names.end() ? Meaning::none
+                                             : static_cast<Meaning>(found - names.begin());
 }
 
 std::string suggestedMeaning(std::string_view name) {
-  constexpr std::pair<std::string_view, std::string_view> others[] = {
+  constexpr std::pair<std::string_view, std::string_view> ofOthers[] = {
       {"r", "radius"},       {"rad", "radius"},     {"radii", "radius"},   {"d", "diameter"},
       {"m", "mass"},         {"v_x", "vx"},         {"v_y", "vy"},         {"v_z", "vz"},
       {"omega_x", "spin_x"}, {"omega_y", "spin_y"}, {"omega_z", "spin_z"}, {"omegax", "spin_x"},
@@ -99,15 +70,20 @@ std::string suggestedMeaning(std::string_view name) {
       {"w_z", "spin_z"},     {"f_x", "fx"},         {"f_y", "fy"},         {"f_z", "fz"},
       {"id1", "first"},      {"id2", "second"},     {"delta", "overlap"}};
   const auto* const known =
-      std::ranges::find(others, lowered(name), [](const auto& one) { return one.first; });
-  if (known != std::end(others)) return fmt::format(" (did you mean {}?)", known->second);
+      std::ranges::find(ofOthers, lowered(name), [](const auto& one) { return one.first; });
+  if (known != std::end(ofOthers)) return fmt::format(" (did you mean {}?)", known->second);
   return suggestion(name, meaningNames());
 }
 
 const std::vector<std::string>& meaningNames() {
   static const std::vector<std::string> all = [] {
     std::vector<std::string> list;
-    for (const Name& one : names) list.emplace_back(one.name);
+    for (const std::string_view name : names) {
+      for (const Name& other : others)
+        if (name == "time" ? other.name == "t" : name == fmt::format("{}_x", other.name))
+          list.emplace_back(other.name);
+      if (!name.empty()) list.emplace_back(name);
+    }
     return list;
   }();
   return all;
@@ -196,9 +172,7 @@ void Columns::addMissing(Meaning first, std::vector<MissingComponent>& missing) 
   for (int axis = 0; axis < 3; ++axis) {
     const Meaning own = following(first, axis);
     if (has(own) || (scaled && has(following(Meaning::scaledX, axis)))) continue;
-    const auto found = std::find_if(std::rbegin(names), std::rend(names),
-                                    [&](const Name& one) { return one.meaning == own; });
-    missing.push_back({std::string(found->name), axis, axial});
+    missing.push_back({std::string(names[static_cast<std::size_t>(own)]), axis, axial});
   }
 }
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "adapters/files/file_snapshots.hpp"
-#include "adapters/files/wall_particles.hpp"
 #include "support/bad_input.hpp"
 
 /// Particles that come and go.

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "adapters/audit_geometry.hpp"
-#include "adapters/files/wall_particles.hpp"
 #include "support/bad_input.hpp"
 
 namespace crossgrain::files {

@@ -49,6 +49,16 @@ struct FileSceneOf {
   std::vector<std::string> remarks;     ///< on the files, before they are read
 };
 
+/// Rows of particles that are wall disks of the case, which their place alone says: of all of the
+/// case's wall disks in their order, or of none. Those of an assembly are found by the place that
+/// the case prescribes at time t [s], or an image of it; those of a cell, which may be at any
+/// angle, by their radius and their distance from the centre, and the target's reference places
+/// become what follows from theirs.
+/// @throws BadInput where some of them are there and others are not
+template <int D>
+std::vector<std::size_t> wallRows(const FileFrame& frame, const FileUnits& units,
+                                  FileSceneOf<D>& target, double t);
+
 /// Frames as snapshots, one at a time: in SI units, along the scene's axes, audited.
 ///
 /// Wall disks that are particles of the files are found by where they are, and all walls are where

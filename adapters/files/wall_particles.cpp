@@ -1,11 +1,11 @@
-#include "adapters/files/wall_particles.hpp"
-
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "adapters/files/file_snapshots.hpp"
 
 namespace crossgrain::files {
 namespace {

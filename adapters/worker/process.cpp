@@ -23,7 +23,6 @@
 #include <system_error>
 #include <thread>
 
-#include "adapters/worker/processes.hpp"
 #include "support/descriptor.hpp"
 #include "support/interrupt.hpp"
 

@@ -1,5 +1,3 @@
-#include "adapters/worker/processes.hpp"
-
 #include <fmt/format.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -13,6 +11,7 @@
 #include <system_error>
 #include <vector>
 
+#include "adapters/worker/process.hpp"
 #include "support/descriptor.hpp"
 
 namespace crossgrain {

@@ -14,7 +14,6 @@
 
 #include "adapters/worker/answer.hpp"
 #include "adapters/worker/json.hpp"
-#include "adapters/worker/processes.hpp"
 #include "adapters/worker/serve.hpp"
 #include "support/busy_time.hpp"
 #include "support/descriptor.hpp"

@@ -9,7 +9,7 @@ from build import Scene, check
 from contacts import contacts_of_rows, pair_rows, read_plane_contacts, torques_at_planes
 from crossgrain_answers import at, effects_called, effects_without_bottom, setting, stats
 from crossgrain_walls import bodies_of, moments
-from law import COHESION, DAMPERS, KINDS, NORMALS, ROLLING, Law, Laws
+from law import OPTIONS, Law, Laws
 from library import Lammps
 
 CHUNK = 1000  # steps between two checks of the number of contacts
@@ -23,25 +23,7 @@ class Engine:
 
     name = "lammps"
     Law, Scene, check = Law, Scene, staticmethod(check)
-    conventions = {
-        "normal": list(NORMALS),
-        "damper": list(DAMPERS),
-        "history": ["displacement", "force"],
-        "tangential": list(KINDS),
-        "dashpot": ["inside"],
-        "spring_reset": ["spring_only"],
-        "velocity_arm": ["radius"],
-        "plane_arm": ["radius"],
-        "rolling": list(ROLLING),
-        "rolling_damper": ["constant"],
-        "rolling_load": ["magnitude"],
-        "rolling_dashpot": ["inside"],
-        "rolling_reset": ["spring_only"],
-        "cohesion": list(COHESION),
-        "jkr_end": ["largest_pull"],
-        "cohesion_load": ["plus_twice_pull_off", "net_without_dashpot"],
-        "spring_turn": ["rescaled"],
-    }
+    law_options = OPTIONS
 
     limits = {
         "inertia": [0.5, 0.4],
@@ -72,20 +54,7 @@ class Engine:
             "dimensions": [2, 3],
             "periodic": True,
             "effects": effects_without_bottom() | {name: "optional" for name in PARTS},
-            "law_options": {
-                "normal": ["linear"],
-                "damper": ["constant"],
-                "tension": ["allow"],
-                "coulomb_bound": ["magnitude"],
-                "spring_update": ["before"],
-                "lever_arm": ["overlap_middle"],
-                "damping_velocity": ["lagged"],
-                "integrator": ["position_verlet"],
-                "rolling_length": ["effective"],
-                "rolling_stiffness": ["length_square"],
-                "spring_twist": ["none"],
-                **self.conventions,
-            },
+            "law_options": self.law_options,
             **self.limits,
             "precisions": ["double"],
             "instant_contacts": True,

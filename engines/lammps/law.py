@@ -1,18 +1,16 @@
 """The scene's soft laws in LAMMPS' terms: pair_style granular, hooke, hertz or dmt, and rolling sds."""
 
 import math
+import os
 
 import jkr
 import numpy as np
-from crossgrain_answers import demand_law
+from crossgrain_answers import demand_law, law_options
 from crossgrain_walls import Box
 from crossgrain_worker import Unsupported
 
-NORMALS = ("linear", "hertz")
-DAMPERS = ("constant", "critical")
-KINDS = ("none", "viscous", "spring", "spring_dashpot")
-ROLLING = ("none", "spring")
-COHESION = ("none", "dmt", "jkr")
+OPTIONS = law_options(os.path.dirname(os.path.abspath(__file__)))
+NORMALS, DAMPERS, KINDS, ROLLING, COHESION = map(OPTIONS.get, ("normal", "damper", "tangential", "rolling", "cohesion"))
 # The pull-off that is to be in the bound of a DMT contact is not: it is worked out from a variable that only JKR sets.
 LOADS = {"dmt": "net_without_dashpot", "jkr": "plus_twice_pull_off"}
 # The worker holds |f_t| to be at the bound within this; LAMMPS scales the spring to it.

@@ -13,6 +13,7 @@ sys.dont_write_bytecode = True
 
 import crossgrain_worker
 from engine import Engine
+from law import OPTIONS
 from liggghts_law import AREAS, COHESION, ROLLING, Law
 from liggghts_scene import Liggghts, Scene, contacts_of_rows, pair_rows
 
@@ -20,7 +21,10 @@ from liggghts_scene import Liggghts, Scene, contacts_of_rows, pair_rows
 class LiggghtsEngine(Engine):
     name = "liggghts"
     Law, Scene = Law, Scene
-    conventions = {
+    law_options = {
+        **{name: values for name, values in OPTIONS.items() if name not in ("history", "jkr_end")},
+        "normal": ["linear"],
+        "damper": ["constant"],
         "tangential": ["none", "spring", "spring_dashpot"],
         "dashpot": ["outside"],
         "spring_reset": ["total"],

@@ -1,5 +1,8 @@
 """What workers of engines that know disks, walls and a Coulomb law answer alike."""
 
+import json
+import os
+
 from crossgrain_worker import Unsupported
 
 EFFECTS = (
@@ -18,6 +21,12 @@ def effects_without_bottom():
     """Of `capabilities`: all effects of disks in their plane can be had, the bottom plate's never."""
     never = ("bottom_friction", "bottom_spin_friction")
     return {name: "optional" for name in EFFECTS} | {name: "never" for name in never}
+
+
+def law_options(folder):
+    """Of `capabilities`: what the engine in that folder declares of its law, of which its mirror is made, too."""
+    with open(os.path.join(folder, "law_options.json"), encoding="utf-8") as file:
+        return json.load(file)
 
 
 def setting(name, default, unit, doc, **limits):

@@ -15,8 +15,7 @@ import numpy as np
 from crossgrain_answers import at, setting, stats
 from crossgrain_walls import bodies_of
 from crossgrain_worker import Unsupported, serve
-from rigid_law import RigidLaw
-from world import World, version
+from world import RigidLaw, World, version
 
 EFFECTS = ("normal_damping", "friction", "rotation", "gravity", "moving_walls")
 

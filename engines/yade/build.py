@@ -46,42 +46,24 @@ def set_cell(scene, arrays, bodies):
     O.cell.setBox([*lengths, far][:3])
 
 
-def place_disks(arrays, kinds, rotation, boxes):
-    columns = (
-        kinds.of_disk,
-        arrays["disks.radius"].tolist(),
-        arrays["disks.mass"].tolist(),
-        arrays["disks.inertia"].tolist(),
-        arrays["disks.position"].reshape(-1, 2).tolist(),
-        arrays["disks.velocity"].reshape(-1, 2).tolist(),
-        arrays["disks.spin"].tolist(),
-    )
-    for kind, radius, mass, inertia, (x, y), (u, v), spin in zip(*columns):
-        mask = DISK_MASK | kind_mask(kind) if boxes else DISK_MASK
-        disk = utils.sphere((x, y, 0), radius, color=WHITE, material=kind, mask=mask)
-        state = disk.state
-        state.mass, state.inertia = mass, (inertia, inertia, inertia)
-        state.vel = (u, v, 0)
-        state.blockedDOFs = "zXY" if rotation else "zXYZ"
-        state.angVel = (0, 0, spin)
-        O.bodies.append(disk)
-
-
-def place_spheres(arrays, kinds, rotation, boxes):
-    """In space: nothing is held but, without rotation, spins."""
+def place_disks(arrays, kinds, rotation, boxes, space):
+    """Disks are held in the plane; spheres are not. Without rotation spins are held, too."""
+    size = 3 if space else 2
+    held = ("" if space else "z") + ("XYZ" if not rotation else "" if space else "XY")
     columns = (
         kinds.of_disk,
         *(arrays[f"disks.{name}"].tolist() for name in ("radius", "mass", "inertia")),
-        *(arrays[f"disks.{name}"].reshape(-1, 3).tolist() for name in ("position", "velocity", "spin")),
+        *(arrays[f"disks.{name}"].reshape(-1, size).tolist() for name in ("position", "velocity")),
+        (arrays["disks.spin"].reshape(-1, 3) if space else arrays["disks.spin"]).tolist(),
     )
     for kind, radius, mass, inertia, position, velocity, spin in zip(*columns):
         mask = DISK_MASK | kind_mask(kind) if boxes else DISK_MASK
-        sphere = utils.sphere(position, radius, color=WHITE, material=kind, mask=mask)
-        state = sphere.state
+        disk = utils.sphere(in_space(position), radius, color=WHITE, material=kind, mask=mask)
+        state = disk.state
         state.mass, state.inertia = mass, (inertia, inertia, inertia)
-        state.vel, state.angVel = velocity, spin
-        state.blockedDOFs = "" if rotation else "XYZ"
-        O.bodies.append(sphere)
+        state.vel, state.angVel = in_space(velocity), about(spin)
+        state.blockedDOFs = held
+        O.bodies.append(disk)
 
 
 def in_space(vector):

@@ -14,9 +14,8 @@ from yade import (
     MatchMaker,
 )
 
-from contacts import dot, xy
 from kinds import lengths
-from law import AT_THE_BOUND, Law
+from law import Law
 
 MOST_DISKS_AT_PLANES = 16  # kinds: each needs a bit of YADE's masks
 
@@ -108,14 +107,7 @@ class CohesiveFrictional(Law):
         }
 
     def forces(self, physs, normal, tangent, slip):
-        pressure = dot(xy([p.normalForce for p in physs]), normal)
-        shear = xy([p.shearForce for p in physs])
-        mu = self.of_each(physs, "tangensOfFrictionAngle", self.mu)
-        sliding = np.hypot(shear[:, 0], shear[:, 1]) >= mu * pressure * AT_THE_BOUND
-        return pressure + dot(shear, normal), dot(shear, tangent), sliding
-
-    def forces_in_space(self, physs, normal, slip):
-        return self.elastic_forces(physs, normal, lambda pressure: pressure)
+        return self.elastic_forces(physs, normal, tangent, lambda pressure: pressure)
 
     @staticmethod
     def moment(phys):

@@ -23,10 +23,15 @@ def dot(a, b):
     return products if a.shape[1] == 2 else products + a[:, 2] * b[:, 2]
 
 
-def in_normal_and_tangential(force, normal):
-    """Its size along n, and what is left of it."""
+def vectors(of_yade, normal):
+    """With as many components as the normals have."""
+    return (xy if normal.shape[1] == 2 else xyz)(of_yade)
+
+
+def in_normal_and_tangential(force, normal, tangent=None):
+    """Its size along n, and that along the tangent or, in space, what is left of it."""
     along = dot(force, normal)
-    return along, force - along[:, None] * normal
+    return along, force - along[:, None] * normal if tangent is None else dot(force, tangent)
 
 
 def turned(v):
@@ -53,16 +58,16 @@ def read_contacts(law, radius, first_plane, per_plane, velocity, spin):
     forward = first < second
     apart, arms = velocity[first] - velocity[second], (radius[first] - depth, radius[second] - depth)
     # Forces on the second; in the plane along a tangent, which is z × n of either.
+    tangent = None if space else turned(normal)
     if space:
         spins = arms[0][:, None] * spin[first] + arms[1][:, None] * spin[second]
         slip = apart - dot(apart, normal)[:, None] * normal + np.cross(spins, normal)
-        pressing, tangential, sliding = law.forces_in_space(physs, normal, slip)
-        tangential *= np.where(forward, -1.0, 1.0)[:, None]
     else:
-        tangent = turned(normal)
         slip = dot(apart, tangent)
         slip += spin[first] * arms[0] + spin[second] * arms[1]
-        pressing, tangential, sliding = law.forces(physs, normal, tangent, slip)
+    pressing, tangential, sliding = law.forces(physs, normal, tangent, slip)
+    if space:
+        tangential *= np.where(forward, -1.0, 1.0)[:, None]
 
     last = np.maximum(first, second)
     planes = np.maximum(last - first_plane, 0)

@@ -13,7 +13,7 @@ from yade import (
     MatchMaker,
 )
 
-from contacts import dot, in_normal_and_tangential, xyz, z
+from contacts import dot, in_normal_and_tangential, vectors, xyz, z
 
 MOST_KINDS = 4  # of disks in the table of pairs: a longer one is of no use to a reader
 AT_THE_BOUND = 1 - 1e-12  # a slipping contact's spring is scaled to the bound, up to rounding
@@ -25,8 +25,8 @@ class Law:
     functors        of YADE: one that makes a pair's constants, one that makes its force
     materials()     of the kinds of bodies
     coefficients()  what YADE made of a pair's constants, in the scene's terms
-    forces()        those of contacts
-    forces_in_space()  the same in space
+    forces()        those of contacts: pressure, f_t along the tangent or, in space, where there is none, as a vector,
+                    and whether they slide. Their slip is that of the first on the second, likewise
     torques()       of contacts that resist rolling, on the second, in the plane about z
     """
 
@@ -120,14 +120,14 @@ class Law:
         """@param rolling  the first's spin less the second's"""
         return (z if rolling.ndim == 1 else xyz)([self.moment(p) for p in physs])
 
-    def elastic_forces(self, physs, normal, bound):
-        """In space, of a law without dashpots: pressure, f_t, whether it slides.
-
-        @param bound  makes that of f_t of the pressure"""
-        pressure, shear = dot(xyz([p.normalForce for p in physs]), normal), xyz([p.shearForce for p in physs])
+    def elastic_forces(self, physs, normal, tangent, bound):
+        """Of a law without dashpots. @param bound  makes that of f_t of the pressure"""
+        pressure = dot(vectors([p.normalForce for p in physs], normal), normal)
+        shear = vectors([p.shearForce for p in physs], normal)
         mu = self.of_each(physs, "tangensOfFrictionAngle", self.mu)
         sliding = np.linalg.norm(shear, axis=1) >= mu * bound(pressure) * AT_THE_BOUND
-        return *in_normal_and_tangential(pressure[:, None] * normal + shear, normal), sliding
+        along, tangential = in_normal_and_tangential(shear, normal, tangent)
+        return pressure + along, tangential, sliding
 
     def without_absent(self, constants):
         """Those that contacts have: without friction no tangential one, of a spring no dashpot."""

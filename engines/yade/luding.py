@@ -4,8 +4,7 @@ import numpy as np
 from crossgrain_worker import Unsupported
 from yade import Ip2_LudingMat_LudingMat_LudingPhys, Law2_ScGeom_LudingPhys_Basic, LudingMat, O
 
-from contacts import dot, xy
-from law import AT_THE_BOUND, Law
+from law import Law
 
 
 class Luding(Law):
@@ -72,11 +71,4 @@ class Luding(Law):
         }
 
     def forces(self, physs, normal, tangent, slip):
-        pressure = dot(xy([p.normalForce for p in physs]), normal)
-        shear = xy([p.shearForce for p in physs])
-        mu = self.of_each(physs, "tangensOfFrictionAngle", self.mu)
-        sliding = np.hypot(shear[:, 0], shear[:, 1]) >= mu * np.abs(pressure) * AT_THE_BOUND
-        return pressure + dot(shear, normal), dot(shear, tangent), sliding
-
-    def forces_in_space(self, physs, normal, slip):
-        return self.elastic_forces(physs, normal, np.abs)
+        return self.elastic_forces(physs, normal, tangent, np.abs)

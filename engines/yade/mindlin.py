@@ -13,7 +13,7 @@ from yade import (
     O,
 )
 
-from contacts import dot, in_normal_and_tangential, xy, xyz
+from contacts import in_normal_and_tangential, vectors
 from crossgrain_worker import Unsupported
 from kinds import lengths
 from law import Law
@@ -148,13 +148,8 @@ class Mindlin(Law):
         return made
 
     def forces(self, physs, normal, tangent, slip):
-        force = xy([p.normalForce + p.shearForce for p in physs])  # dashpots are in them
-        sliding = np.array([p.isSliding for p in physs], bool)
-        return dot(force, normal), dot(force, tangent), sliding
-
-    def forces_in_space(self, physs, normal, slip):
-        force = xyz([p.normalForce + p.shearForce for p in physs])
-        return *in_normal_and_tangential(force, normal), np.array([p.isSliding for p in physs], bool)
+        force = vectors([p.normalForce + p.shearForce for p in physs], normal)  # dashpots are in them
+        return *in_normal_and_tangential(force, normal, tangent), np.array([p.isSliding for p in physs], bool)
 
     @staticmethod
     def moment(phys):

@@ -3,7 +3,7 @@
 import numpy as np
 from yade import Ip2_ViscElMat_ViscElMat_ViscElPhys, Law2_ScGeom_ViscElPhys_Basic, ViscElMat
 
-from contacts import dot, in_normal_and_tangential, xy, xyz
+from contacts import in_normal_and_tangential, vectors
 from kinds import lengths
 from law import AT_THE_BOUND, Law
 
@@ -68,24 +68,12 @@ class Viscoelastic(Law):
         """YADE keeps the spring's part of a tangential force but not the dashpot's, so that is
         computed here from the velocities that the law saw."""
         pressure = np.array([p.Fn + p.Fv for p in physs], float).clip(min=0.0)
-        spring = xy([p.shearForce for p in physs])
-        sliding = self.sliding(physs, np.hypot(spring[:, 0], spring[:, 1]), pressure)
-        dashpot = np.where(sliding, 0.0, self.of_each(physs, "cs", self.gt) * slip)
-        return pressure + dot(spring, normal), dot(spring, tangent) + dashpot, sliding
-
-    def forces_in_space(self, physs, normal, slip):
-        """The same, vectors. @param slip  of the first on the second"""
-        pressure = np.array([p.Fn + p.Fv for p in physs], float).clip(min=0.0)
-        spring = xyz([p.shearForce for p in physs])
-        sliding = self.sliding(physs, np.linalg.norm(spring, axis=1), pressure)
-        dashpot = np.where(sliding, 0.0, self.of_each(physs, "cs", self.gt))[:, None] * slip
-        along, tangential = in_normal_and_tangential(spring, normal)
-        return pressure + along, tangential + dashpot, sliding
-
-    def sliding(self, physs, spring, pressure):
-        """@param spring  its force's magnitude"""
+        spring = vectors([p.shearForce for p in physs], normal)
         mu = self.of_each(physs, "tangensOfFrictionAngle", self.mu)
-        return spring >= mu * pressure * AT_THE_BOUND
+        sliding = np.linalg.norm(spring, axis=1) >= mu * pressure * AT_THE_BOUND
+        dashpot = (np.where(sliding, 0.0, self.of_each(physs, "cs", self.gt)) * slip.T).T
+        along, tangential = in_normal_and_tangential(spring, normal, tangent)
+        return pressure + along, tangential + dashpot, sliding
 
     def torques(self, physs, pressure, rolling):
         return (np.array([p.mR for p in physs], float) * pressure * rolling.T).T

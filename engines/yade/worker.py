@@ -24,7 +24,7 @@ import build
 import crossgrain_worker
 from cohesive_frictional import CohesiveFrictional
 from contacts import read_contacts, xy, xyz, z
-from crossgrain_answers import demand_plain_walls, effects_called, effects_without_bottom, setting, stats
+from crossgrain_answers import demand_plain_walls, effects_called, effects_without_bottom, law_options, setting, stats
 from crossgrain_walls import bodies_of, moments
 from kinds import Kinds
 from law import representative_pairs
@@ -63,31 +63,7 @@ class Yade:
             "periodic": True,
             "effects": effects_without_bottom()
             | {name: "optional" for name in ("rolling_resistance", "cohesion", "pair_materials")},
-            "law_options": {
-                "normal": list(LAWS),
-                "damper": ["constant", "critical"],
-                "tangential": ["none", "spring", "spring_dashpot"],
-                "tension": ["cut"],
-                "coulomb_bound": ["compression"],
-                "dashpot": ["outside"],
-                "spring_reset": ["total"],
-                "spring_update": ["before"],
-                "lever_arm": ["overlap_middle"],
-                "velocity_arm": ["lever_arm"],
-                "plane_arm": ["surface", "middle"],
-                "history": ["force"],
-                "damping_velocity": ["lagged"],
-                "integrator": ["position_verlet"],
-                "rolling": ["spring", "viscous_by_load"],
-                "rolling_length": ["mean_radius", "smaller_radius"],
-                "rolling_stiffness": ["constant", "radii"],
-                "rolling_load": ["while_compressed"],
-                "cohesion": ["dmt", "elasto_plastic"],
-                "cohesion_load": ["magnitude_plus_pull_off"],
-                "unloading_stiffness": ["lagged"],
-                "spring_turn": ["first_order"],
-                "spring_twist": ["mean_spin"],
-            },
+            "law_options": law_options(HERE),
             "plane_motions": ["fixed", "translating", "oscillating"],
             "plane_normals": "axis",
             "precisions": ["double"],
@@ -129,10 +105,7 @@ class Yade:
         self.spins = self.law.friction or self.law.rolls
         self.rotation = self.spins and scene["rotation"]
         boxes = self.law.boxes and bool(kinds.plane.any())
-        if self.space:
-            build.place_spheres(arrays, kinds, self.rotation, boxes)
-        else:
-            build.place_disks(arrays, kinds, self.rotation, boxes)
+        build.place_disks(arrays, kinds, self.rotation, boxes, self.space)
         build.place_walls(self.bodies, self.law)
         self.states = [body.state for body in O.bodies]
         self.first_plane = self.disks + sum(len(body.disk_ids) for body in self.bodies)

@@ -99,13 +99,7 @@ std::optional<EngineEntry> mirrorOf(const std::string& name, const Capabilities&
     for (const std::string& law : laws->second)
       if (law != "rigid") mirror.mirrorsNormal.push_back(law);
   if (mirror.mirrorsNormal.empty()) return std::nullopt;
-  LawConventionSets conventions;
-  for (const LawOption& option : lawOptions()) {
-    const auto own = can.lawOptions.find(std::string(option.name));
-    const bool isLaw =
-        option.name == "normal" || option.name == "damper" || option.name == "tangential";
-    if (own != can.lawOptions.end() && !isLaw) conventions.insert(*own);
-  }
+  const LawConventionSets conventions = conventionsOf(can.lawOptions);
   mirror.name = "grain-as-" + name;
   mirror.summary = "the in-house engine with the conventions that " + name + " declares";
   mirror.make = [conventions] { return makeGrainMirror(conventions); };

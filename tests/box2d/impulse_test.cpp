@@ -9,53 +9,11 @@ namespace {
 
 constexpr double approach = 0.1;  // [m/s], far above the default impact_speed
 
-// Walton; Luding 1998: Ψ_f = max(−e_t0 Ψ_i, Ψ_i − 3(1 + e_n)µ).
-double hardSphere(double psi, double en, double et0, double mu) {
-  return std::max(-et0 * psi, psi - 3.0 * (1.0 + en) * mu);
-}
-
 Scene onePair(const ContactLaw& law, double vn, double psi, double gap = 1.3e-4) {
   Scene scene;
   scene.law = law;
   addPair(scene, Vec2::Zero(), vn, psi, gap);
   return scene;
-}
-
-TEST(Box2dImpulse, FollowsTheHardSphereLaw) {
-  constexpr double en = 0.3, mu = thesis.mu;
-  const auto engine = makeBox2dImpulse();
-  for (const double et0 : {0.0, 0.5}) {
-    double lowest = 0.0, highest = 0.0, error = 0.0;
-    for (double psi = 0.0; psi <= 4.0; psi += 0.125) {
-      const Scene scene = onePair(rigidLaw(en, et0, mu), approach, psi);
-      const Outcome got = outcome(runTo(*engine, scene, 0.02), 0, approach);
-      const double wanted = hardSphere(psi, en, et0, mu);
-      EXPECT_NEAR(got.en, en, 1e-3);
-      lowest = std::min(lowest, wanted);
-      highest = std::max(highest, wanted);
-      error = std::max(error, std::abs(got.psiF - wanted));
-    }
-    // The solver acts at the contact point, half the overlap of the first step inside the radius.
-    EXPECT_LT(error, 0.01 * (highest - lowest)) << "et0 " << et0;
-  }
-}
-
-TEST(Box2dImpulse, SweepInOneSceneEqualsSinglePairs) {
-  const ContactLaw law = rigidLaw(0.3, 0.5, thesis.mu);
-  const auto engine = makeBox2dImpulse();
-  Scene sweep;
-  sweep.law = law;
-  for (int k = 0; k < 40; ++k)
-    addPair(sweep, Vec2(0.03 * (k % 8), 0.02 * (k / 8)), approach, 0.1 * k, 1.3e-4);
-  const Snapshot all = runTo(*engine, sweep, 0.02);
-  for (int k = 0; k < 40; ++k) {
-    const Scene scene = onePair(law, approach, 0.1 * k);
-    const Outcome alone = outcome(runTo(*engine, scene, 0.02), 0, approach);
-    const Outcome together = outcome(all, static_cast<std::size_t>(2 * k), approach);
-    // float32 positions of up to 0.2 m are rounded otherwise than those at the origin.
-    EXPECT_NEAR(together.en, alone.en, 1e-4);
-    EXPECT_NEAR(together.psiF, alone.psiF, 2e-3);
-  }
 }
 
 TEST(Box2dImpulse, SoftLawRunsWithItsOwnRestitution) {

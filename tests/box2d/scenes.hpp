@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "adapters/box2d.hpp"
+#include "adapters/box2d_common.hpp"
 #include "tests/support/laws.hpp"
 #include "tests/support/scenes.hpp"
 

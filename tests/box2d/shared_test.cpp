@@ -148,25 +148,6 @@ TEST_P(BothBox2dEngines, DeclaresWhatWallsMayDo) {
   }
 }
 
-/// It declares no limit of J = q m a²: what friction takes of a disk's momentum, m Δv_t, turns it
-/// by a m Δv_t/J. The impulse engine's arm ends half way into the overlap.
-TEST_P(BothBox2dEngines, HasAnyMomentOfInertia) {
-  EXPECT_FALSE(engine()->capabilities().limits.inertia);
-  for (const double q : {0.1, 0.4, 1.0}) {
-    Scene scene = empty();
-    addPair(scene, Vec2::Zero(), 0.1, 2.0, 1.3e-4);
-    for (double& inertia : scene.disks.inertia) inertia = q * smallMass * smallRadius * smallRadius;
-    const auto one = engine();
-    const Snapshot after = runTo(*one, scene, 0.02);
-    for (const std::size_t i : {0u, 1u}) {
-      const Vec2 gained = after.velocity[i] - scene.disks.velocity[i];
-      const double turned = (*after.spin)[i] - scene.disks.spin[i];
-      EXPECT_GT(std::abs(gained.y()), 1e-3);
-      EXPECT_NEAR(std::abs(turned) * q * smallRadius / std::abs(gained.y()), 1.0, 0.01) << q;
-    }
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Box2d, BothBox2dEngines,
                          testing::Values(Kind{"impulse", makeBox2dImpulse, 5e-4},
                                          Kind{"penalty", makeBox2dPenalty, 4e-5}),

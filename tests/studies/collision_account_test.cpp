@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "adapters/box2d.hpp"
+#include "adapters/box2d_common.hpp"
 #include "tests/studies/collision_sweeps.hpp"
 
 namespace {

@@ -1,7 +1,7 @@
 // Curves against the law that an engine declares: what is its model, and what is a fault.
 #include <gtest/gtest.h>
 
-#include "adapters/box2d.hpp"
+#include "adapters/box2d_common.hpp"
 #include "cases/loader.hpp"
 #include "cases/time_step.hpp"
 #include "results/collision.hpp"

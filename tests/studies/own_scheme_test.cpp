@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "adapters/box2d.hpp"
+#include "adapters/box2d_common.hpp"
 #include "law/law_options.hpp"
 #include "oracle/impact.hpp"
 #include "stability/transform.hpp"

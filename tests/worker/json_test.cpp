@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "law/law_options.hpp"
 #include "tests/worker/toy_engine.hpp"
 
@@ -21,68 +19,44 @@ ContactLaw lawOfAllParts(int dimension = 2) {
   return law;
 }
 
-/// A trip through text and a file, as between two processes.
-template <typename Value, typename Read>
-auto roundTrip(const Value& value, Read&& read) {
-  const std::filesystem::path file =
-      std::filesystem::path(::testing::TempDir()) /
-      (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".bin");
-  ArrayWriter writer;
-  const std::string text = toJson(value, writer).dump();
-  const std::string list = writer.write(file).dump();
-  const ArrayReader reader(file, nlohmann::json::parse(list));
-  std::filesystem::remove(file);
-  return read(nlohmann::json::parse(text), reader);
-}
+/// What travels between two processes.
+struct Travelling {
+  std::string text, arrays;
+  bool operator==(const Travelling&) const = default;
+};
 
 template <typename Value>
-void expectSameBits(const std::vector<Value>& a, const std::vector<Value>& b) {
-  ASSERT_EQ(a.size(), b.size());
-  if (a.empty()) return;  // memcmp wants no null
-  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(Value)), 0);
+Travelling written(const Value& value) {
+  ArrayWriter writer;
+  nlohmann::json text = toJson(value, writer);
+  text["arrays"] = writer.list();
+  return {text.dump(),
+          {reinterpret_cast<const char*>(writer.bytes().data()), writer.bytes().size()}};
+}
+
+template <typename Read>
+auto readBack(const Travelling& there, Read&& read) {
+  const auto text = nlohmann::json::parse(there.text);
+  return read(text, ArrayReader(there.arrays, "arrays", text.at("arrays")));
+}
+
+/// Of the text the schema of the protocol says what is there (tests/system/test_engine_files.py).
+template <typename Value, typename Read>
+Value expectEveryBitComesBack(const Value& value, Read&& read) {
+  const Travelling there = written(value);
+  Value back = readBack(there, read);
+  EXPECT_EQ(written(back), there);
+  return back;
 }
 
 TEST(WorkerJson, Scene_KeepsEveryBit) {
   const Scene scene = test::toyScene();
-  const Scene back = roundTrip(scene, sceneFromJson<2>);
-  EXPECT_EQ(back.name, scene.name);
-  expectSameBits(back.disks.radius, scene.disks.radius);
-  expectSameBits(back.disks.mass, scene.disks.mass);
-  expectSameBits(back.disks.inertia, scene.disks.inertia);
-  expectSameBits(back.disks.position, scene.disks.position);
-  expectSameBits(back.disks.velocity, scene.disks.velocity);
-  expectSameBits(back.disks.spin, scene.disks.spin);
-  ASSERT_EQ(back.bodies.size(), scene.bodies.size());
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const WallBody &x = back.bodies[b], &y = scene.bodies[b];
-    EXPECT_EQ(x.name, y.name);
-    EXPECT_EQ(x.centre, y.centre);
-    expectSameBits(x.diskPosition, y.diskPosition);
-    expectSameBits(x.diskRadius, y.diskRadius);
-    ASSERT_EQ(x.planes.size(), y.planes.size());
-    for (std::size_t p = 0; p < y.planes.size(); ++p) {
-      EXPECT_EQ(x.planes[p].point, y.planes[p].point);
-      EXPECT_EQ(x.planes[p].normal, y.planes[p].normal);
-    }
-    EXPECT_EQ(x.motion.kind, y.motion.kind);
-    EXPECT_EQ(x.motion.angularVelocity, y.motion.angularVelocity);
-    EXPECT_EQ(x.motion.velocity, y.motion.velocity);
-    EXPECT_EQ(x.motion.amplitude, y.motion.amplitude);
-    EXPECT_EQ(x.motion.frequency, y.motion.frequency);
-    EXPECT_EQ(x.motion.radialVelocity, y.motion.radialVelocity);
-    EXPECT_EQ(x.motion.radialEnd, y.motion.radialEnd);
-  }
-  EXPECT_EQ(back.law.kn, scene.law.kn);
-  EXPECT_EQ(back.law.mu, scene.law.mu);
-  for (const LawOption& option : lawOptions())
-    EXPECT_EQ(option.get(back.law), option.get(scene.law)) << option.name;
-  ASSERT_TRUE(back.bottom);
-  EXPECT_EQ(back.bottom->kb, scene.bottom->kb);
+  const Scene back = expectEveryBitComesBack(scene, sceneFromJson<2>);
+  EXPECT_EQ(back.disks.position, scene.disks.position);
+  EXPECT_EQ(back.bodies[0].diskRadius, scene.bodies[0].diskRadius);
+  EXPECT_EQ(back.bodies[1].motion.frequency, scene.bodies[1].motion.frequency);
   EXPECT_EQ(back.bottom->tauM, scene.bottom->tauM);
-  EXPECT_EQ(back.bottom->spin, scene.bottom->spin);
-  EXPECT_EQ(back.gravity, scene.gravity);
-  EXPECT_EQ(back.dt, scene.dt);
-  EXPECT_EQ(back.energyLedger, scene.energyLedger);
+  EXPECT_EQ(back.law, scene.law);
 }
 
 TEST(WorkerJson, LawsOfMaterials_KeepEveryBit) {
@@ -93,14 +67,14 @@ TEST(WorkerJson, LawsOfMaterials_KeepEveryBit) {
   materials.laws[1].mu = materials.laws[2].mu = 0.7;
   materials.ofDisk.assign(scene.disks.size(), 1);
   materials.ofBody.assign(scene.bodies.size(), 0);
-  const Scene back = roundTrip(scene, sceneFromJson<2>);
+  const Scene back = expectEveryBitComesBack(scene, sceneFromJson<2>);
   EXPECT_EQ(back.law, scene.law);
   EXPECT_EQ(back.materials, scene.materials);
   EXPECT_EQ(&back.lawOf(0, 1), &back.materials->law(1, 1));
   EXPECT_EQ(&back.lawOf(0, scene.disks.size()), &back.materials->law(1, 0));
 
   scene.materials->ofDisk.front() = 2;
-  EXPECT_THROW(roundTrip(scene, sceneFromJson<2>), std::runtime_error);
+  EXPECT_THROW(readBack(written(scene), sceneFromJson<2>), std::runtime_error);
 }
 
 TEST(WorkerJson, SceneInSpace_KeepsEveryBitAndItsDimension) {
@@ -129,21 +103,10 @@ TEST(WorkerJson, SceneInSpace_KeepsEveryBitAndItsDimension) {
   EXPECT_EQ(dimensionOf(toJson(scene, arrays)), 3);
   EXPECT_EQ(dimensionOf(toJson(test::toyScene(), arrays)), 2);
   EXPECT_THROW(dimensionOf({{"dimension", 4}}), std::runtime_error);
-  const SpaceScene back = roundTrip(scene, sceneFromJson<3>);
+  const SpaceScene back = expectEveryBitComesBack(scene, sceneFromJson<3>);
   EXPECT_EQ(back.law, scene.law);
-  EXPECT_EQ(back.gravity, scene.gravity);
-  expectSameBits(back.disks.position, scene.disks.position);
-  expectSameBits(back.disks.velocity, scene.disks.velocity);
-  expectSameBits(back.disks.spin, scene.disks.spin);
-  ASSERT_EQ(back.bodies.size(), 2u);
-  ASSERT_EQ(back.bodies[0].cylinders.size(), 1u);
-  EXPECT_EQ(back.bodies[0].cylinders[0].point, wall.cylinders[0].point);
-  EXPECT_EQ(back.bodies[0].cylinders[0].axis, wall.cylinders[0].axis);
-  EXPECT_EQ(back.bodies[0].cylinders[0].radius, 1.0 / 7.0);
+  EXPECT_EQ(back.bodies[0].cylinders.at(0).axis, wall.cylinders[0].axis);
   EXPECT_TRUE(back.bodies[1].cylinders.empty());
-  EXPECT_EQ(back.bodies[0].planes[0].point, wall.planes[0].point);
-  EXPECT_EQ(back.bodies[0].planes[0].normal, wall.planes[0].normal);
-  EXPECT_EQ(back.bodies[0].motion.velocity, wall.motion.velocity);
 }
 
 TEST(WorkerJson, SnapshotInSpace_KeepsEveryBit) {
@@ -162,16 +125,9 @@ TEST(WorkerJson, SnapshotInSpace_KeepsEveryBit) {
   contacts.normalForce = {2.0};
   contacts.tangentialForce = {{0.8, 1.0 / 3.0, -0.6}};
   contacts.rollingTorque = {{1.0 / 13.0, 0.0, 0.0}};
-  const SpaceSnapshot back = roundTrip(snapshot, [&](const auto& json, const auto& arrays) {
-    return snapshotFromJson(json, arrays, scene);
-  });
-  EXPECT_EQ(back.positionTime, snapshot.positionTime);
-  expectSameBits(back.position, snapshot.position);
-  expectSameBits(back.velocity, snapshot.velocity);
-  expectSameBits(*back.spin, *snapshot.spin);
-  expectSameBits(back.contacts->normal, contacts.normal);
-  expectSameBits(back.contacts->tangentialForce, contacts.tangentialForce);
-  expectSameBits(back.contacts->rollingTorque, contacts.rollingTorque);
+  const SpaceSnapshot back = expectEveryBitComesBack(
+      snapshot,
+      [&](const auto& json, const auto& arrays) { return snapshotFromJson(json, arrays, scene); });
   EXPECT_EQ(back.contacts->force(0), Vec3(2.0 * 0.6 + 0.8, 1.0 / 3.0, 2.0 * 0.8 - 0.6));
 }
 
@@ -196,80 +152,52 @@ TEST(WorkerJson, Snapshot_KeepsEveryBitAndWhatIsAbsent) {
   Snapshot full = engine.snapshot(ContactReport::instant);
   full.contacts->rollingTorque = {1.0 / 13.0};
   full.contacts->dissipation = {1.0 / 17.0};
-  const Snapshot back = roundTrip(full, read);
-  EXPECT_EQ(back.positionTime, full.positionTime);
-  EXPECT_EQ(back.velocityTime, full.velocityTime);
-  EXPECT_EQ(back.contactTime, full.contactTime);
-  expectSameBits(back.position, full.position);
-  expectSameBits(back.velocity, full.velocity);
-  expectSameBits(*back.spin, *full.spin);
-  expectSameBits(back.wallPosition, full.wallPosition);
-  EXPECT_EQ(back.bodies[0].force, full.bodies[0].force);
+  const Snapshot back = expectEveryBitComesBack(full, read);
+  EXPECT_EQ(back.position, full.position);
   EXPECT_FALSE(back.bodies[0].torque);
   EXPECT_FALSE(back.bodies[1].force);
-  EXPECT_EQ(back.bodies[1].torque, full.bodies[1].torque);
-  EXPECT_EQ(back.bodies[0].angle, full.bodies[0].angle);
-  EXPECT_EQ(back.contacts->i, full.contacts->i);
-  EXPECT_EQ(back.contacts->j, full.contacts->j);
-  expectSameBits(back.contacts->normal, full.contacts->normal);
-  expectSameBits(back.contacts->overlap, full.contacts->overlap);
-  expectSameBits(back.contacts->normalForce, full.contacts->normalForce);
-  expectSameBits(back.contacts->tangentialForce, full.contacts->tangentialForce);
   EXPECT_EQ(back.contacts->sliding, full.contacts->sliding);
-  expectSameBits(back.contacts->rollingTorque, full.contacts->rollingTorque);
-  expectSameBits(back.contacts->dissipation, full.contacts->dissipation);
+  EXPECT_EQ(back.contacts->dissipation, full.contacts->dissipation);
   EXPECT_EQ(back.energies->elastic, full.energies->elastic);
-  for (const LedgerTerm& term : ledgerTerms)
-    EXPECT_EQ(*back.ledger.*term.value, *full.ledger.*term.value) << term.name;
 
   Snapshot bare = engine.snapshot(ContactReport::none);
   bare.spin.reset();
-  const Snapshot bareBack = roundTrip(bare, read);
+  const Snapshot bareBack = expectEveryBitComesBack(bare, read);
   EXPECT_FALSE(bareBack.contacts);
   EXPECT_FALSE(bareBack.spin);
   EXPECT_FALSE(bareBack.energies);
   EXPECT_FALSE(bareBack.ledger);
 }
 
+/// Through text.
+template <typename Value>
+Value expectComesBack(const Value& value) {
+  Value back = readAs<Value>(nlohmann::json::parse(jsonOf(value).dump()));
+  EXPECT_EQ(jsonOf(back), jsonOf(value));
+  return back;
+}
+
 TEST(WorkerJson, CapabilitiesSettingsParametersStats_ComeBack) {
   test::ToyEngine engine;
   Capabilities can = engine.capabilities();
-  can.limits.cylinders = false;
-  const Capabilities without = readAs<Capabilities>(nlohmann::json::parse(jsonOf(can).dump()));
-  EXPECT_FALSE(without.limits.cylinders);
-  can.limits.cylinders = true;
-  const Capabilities back = readAs<Capabilities>(nlohmann::json::parse(jsonOf(can).dump()));
-  EXPECT_TRUE(back.limits.cylinders);
-  EXPECT_EQ(back.version, can.version);
-  std::map<Effect, Support> told;
-  for (const Effect effect : allEffects) told[effect] = Support::never;  // what is missing
-  for (const auto& [effect, support] : can.effects) told[effect] = support;
-  EXPECT_EQ(back.effects, told);
-  EXPECT_EQ(back.lawOptions, can.lawOptions);
-  EXPECT_EQ(back.limits.inertia, can.limits.inertia);
-  EXPECT_EQ(back.limits.wallMotions, can.limits.wallMotions);
-  EXPECT_EQ(back.limits.planeMotions, can.limits.planeMotions);
-  EXPECT_EQ(back.limits.planesAlongAxes, can.limits.planesAlongAxes);
-  EXPECT_EQ(back.limits.restitutionPerBody, can.limits.restitutionPerBody);
-  EXPECT_EQ(back.slidingFlags, true);
-  EXPECT_EQ(back.warmHandover, false);
-  EXPECT_EQ(back.energyLedger, true);
-  ASSERT_EQ(back.settings.size(), 2u);
-  EXPECT_EQ(back.settings[0].defaultValue, SettingValue(1.0));
-  EXPECT_EQ(back.settings[1].defaultValue, SettingValue(std::string("fast")));
-  EXPECT_EQ(back.settings[1].choices, can.settings[1].choices);
-
+  EXPECT_EQ(readAs<Capabilities>(jsonOf(can)).effects.at(Effect::gravity), Support::never)
+      << "what is missing";
+  for (const Effect effect : allEffects) can.effects.try_emplace(effect, Support::never);
+  for (const bool cylinders : {false, true}) {
+    can.limits.cylinders = cylinders;
+    const Capabilities back = expectComesBack(can);
+    EXPECT_EQ(back.limits.cylinders, cylinders);
+    EXPECT_EQ(back.lawOptions, can.lawOptions);
+    EXPECT_EQ(back.limits.planesAlongAxes, can.limits.planesAlongAxes);
+    EXPECT_EQ(back.limits.restitutionPerBody, can.limits.restitutionPerBody);
+    EXPECT_EQ(back.settings.at(1).defaultValue, SettingValue(std::string("fast")));
+  }
   const Settings settings = {{"a", true}, {"b", 0.1}, {"c", std::string("x")}};
-  EXPECT_EQ(readAs<Settings>(nlohmann::json::parse(jsonOf(settings).dump())), settings);
-
+  EXPECT_EQ(expectComesBack(settings), settings);
   const EffectiveParameters effective = engine.load(test::toyScene(), {});
-  const EffectiveParameters again =
-      readAs<EffectiveParameters>(nlohmann::json::parse(jsonOf(effective).dump()));
-  EXPECT_EQ(again.effects, effective.effects);
-  EXPECT_EQ(again.dt, effective.dt);
-  ASSERT_EQ(again.pairs.size(), 1u);
-  EXPECT_EQ(again.pairs[0].pair, "a – b");
-  EXPECT_EQ(again.pairs[0].kt, 0.2);
+  const EffectiveParameters again = expectComesBack(effective);
+  EXPECT_EQ(again.pairs.at(0).kt, 0.2);
+  EXPECT_EQ(again.deviations.at(0).value, 1e-300);
   // What a contact does not have is absent, not 0: springs have no restitutions, and rebounds no
   // springs.
   const nlohmann::json soft = jsonOf(effective)["pairs"][0];
@@ -280,8 +208,6 @@ TEST(WorkerJson, CapabilitiesSettingsParametersStats_ComeBack) {
   for (const char* key : {"kn", "gn", "kt", "gt"}) EXPECT_TRUE(rebounding[key].is_null()) << key;
   EXPECT_EQ(rebounding["en"], 0.0);
   EXPECT_EQ(readAs<EffectiveParameters>(jsonOf(rigid)).pairs[0].et0, 0.6);
-  ASSERT_EQ(again.deviations.size(), 1u);
-  EXPECT_EQ(again.deviations[0].value, 1e-300);
 
   const Stats stats = statsFromJson(nlohmann::json::parse(toJson(engine.stats()).dump()));
   EXPECT_EQ(stats.wallSeconds, 1.0 / 3.0);

@@ -11,10 +11,10 @@
 #include <csignal>
 #include <fstream>
 #include <set>
+#include <string_view>
 #include <thread>
 
 #include "adapters/worker/answer.hpp"
-#include "adapters/worker/processes.hpp"
 #include "support/interrupt.hpp"
 #include "tests/worker/toy_engine.hpp"
 
@@ -439,3 +439,11 @@ TEST_F(Worker, RequestsEnd_EndsThoughASiblingLives) {
 
 }  // namespace
 }  // namespace crossgrain
+
+// The test program is also the worker that it tests.
+int main(int argc, char** argv) {
+  if (argc == 3 && std::string_view(argv[1]) == "--worker")
+    return crossgrain::test::toyWorker(argv[2]);
+  ::testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

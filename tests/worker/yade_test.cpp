@@ -1,105 +1,230 @@
-// YADE in its worker: walls, constants and forces, its Hertz–Mindlin functors against closed forms.
-// All else that an engine must do is asked of it, as of every other, in tests/conformance; oblique
-// impacts are compared with their mirror there.
-#include "tests/worker/yade_worker.hpp"
+// YADE in its worker: the laws that it has, which the in-house engine with its conventions follows
+// contact by contact in heaps; pairs of materials; what it refuses. All else that an engine must do
+// is asked of it, as of every other, in tests/conformance: constants after mixing, forces and
+// torques that act, closed forms of Hertz' law, of rolling resistance and of cohesion, walls.
+#include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <string>
+
+#include "adapters/registry.hpp"
+#include "adapters/worker/worker_engine.hpp"
+#include "tests/support/laws.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace crossgrain::test {
 namespace {
 
-/// Three spheres that meet each other and a floor that slides, not in one plane.
-SpaceScene spheresOnAFloor() {
-  SpaceScene scene;
-  scene.name = "yade in space";
-  scene.law = emptyScene().law;
-  scene.law.dimension = 3;
-  scene.law.tangential = TangentialLaw::spring;
+Scene emptyScene() {
+  Scene scene;
+  scene.name = "yade test";
+  scene.law = thesisLaw();
   scene.dt = 4e-5;
-  scene.gravity = {0.1, -9.81, 0.2};
-  const Vec3 places[] = {{0.0, 0.0, 0.0}, {2.0, 0.1, 0.2}, {1.0, 1.74, -0.1}};
-  for (int k = 0; k < 3; ++k) {
-    scene.disks.radius.push_back(smallRadius);
-    scene.disks.mass.push_back(smallMass);
-    scene.disks.inertia.push_back(0.4 * smallMass * smallRadius * smallRadius);
-    scene.disks.position.push_back(1.001 * smallRadius * places[k]);
-    scene.disks.velocity.emplace_back(0.02 - 0.03 * k, -0.05, 0.01 * k);
-    scene.disks.spin.emplace_back(20.0 * k, 30.0, -10.0);
-  }
-  WallBodyOf<3>& floor = scene.bodies.emplace_back();
-  floor.name = "floor";
-  floor.planes.push_back({{0.0, -1.001 * smallRadius, 0.0}, {0.0, 1.0, 0.0}});
-  floor.motion.kind = MotionKind::translating;
-  floor.motion.velocity = {0.02, 0.0, -0.01};
   return scene;
 }
 
-TEST_F(YadeWorker, SpheresInSpace_MoveAsItsMirrorMovesThem) {
-  const auto mirror = findEngine("grain-as-yade")->make();
-  SpaceScene scene = spheresOnAFloor();
-  const EffectiveParameters effective = engine_->loadInSpace(scene, {});
-  EXPECT_EQ(effective.dt, scene.dt);
-  mirror->loadInSpace(scene, {});
-  for (const double t : {0.0, 0.001, 0.004, 0.012}) {
-    engine_->advance(t);
-    mirror->advance(t);
-    const SpaceSnapshot now = engine_->snapshotInSpace(ContactReport::none);
-    const SpaceSnapshot own = mirror->snapshotInSpace(ContactReport::none);
-    ASSERT_EQ(now.position.size(), 3u);
-    // Rounding of 300 steps and some ten contacts.
-    for (int k = 0; k < 3; ++k) EXPECT_LE((now.position[k] - own.position[k]).norm(), 1e-12 * t);
-    EXPECT_EQ(now.bodies[0].centre, Vec3(t * scene.bodies[0].motion.velocity));
+WallBody ringBody(const std::string& name, Vec2 centre, double radius, int count, Motion motion) {
+  WallBody body;
+  body.name = name;
+  body.centre = centre;
+  body.motion = motion;
+  for (int k = 0; k < count; ++k) {
+    const double angle = 2 * std::numbers::pi * k / count;
+    body.diskPosition.push_back(centre + radius * Vec2(std::cos(angle), std::sin(angle)));
+    body.diskRadius.push_back(wallRadius);
   }
-  EXPECT_GT(mirror->stats().contactEvaluations, 100u);
+  return body;
 }
 
-TEST_F(YadeWorker, SlantingPlaneInSpace_IsRefused) {
-  SpaceScene scene = spheresOnAFloor();
-  scene.bodies[0].planes[0].normal = Vec3(0.6, 0.8, 0.0);
-  EXPECT_THROW(engine_->loadInSpace(scene, {}), UnsupportedScene);
-}
-
-TEST_F(YadeWorker, Walls_MoveAsPrescribed) {
+/// Disks pressed together by gravity onto a turning wheel and a floor that shakes.
+Scene crowdedScene(const ContactLaw& law = emptyScene().law) {
   Scene scene = emptyScene();
-  scene.dt = 1e-4;
-  addDisk(scene, smallRadius, smallMass, {1.0, 1.0}, {0, 0});
-  Motion translating, oscillating, radial;
-  translating.kind = Motion::Kind::translating;
-  translating.velocity = {0.01, -0.02};
-  oscillating.kind = Motion::Kind::oscillating;
-  oscillating.amplitude = {0.003, 0.001};
-  oscillating.frequency = 200.0;
-  radial.kind = Motion::Kind::radial;
-  radial.radialVelocity = -0.02;
-  radial.radialEnd = 0.30003;  // within a step
-  scene.bodies.push_back(ringBody("wheel", {0.1, 0.2}, 0.1032, 93, rotating(1.0)));
-  scene.bodies.back().diskPosition.resize(40);  // its centre of mass is not its centre
-  scene.bodies.back().diskRadius.resize(40);
-  scene.bodies.push_back(ringBody("slider", {-0.5, 0}, 0.1, 5, translating));
-  scene.bodies.push_back(ringBody("shaker", {-1.0, 0}, 0.1, 5, oscillating));
-  scene.bodies.push_back(ringBody("shrinker", {-2.0, 0}, 0.1, 5, radial));
-  engine_->load(scene, {});
-  double worst = 0.0;
-  for (const double t : {0.0, 0.0001, 0.1, 0.3, 0.3001, 1.0}) {
-    ASSERT_NEAR(engine_->advance(t), t, 1e-12);  // 10⁴ steps in all
-    const Snapshot now = engine_->snapshot(ContactReport::none);
-    std::size_t k = 0;
-    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-      const WallBody& body = scene.bodies[b];
-      const BodyState state = stateAt(body.motion, body.centre, now.positionTime);
-      EXPECT_EQ(now.bodies[b].angle, state.angle);
-      EXPECT_EQ(now.bodies[b].angularVelocity, state.angularVelocity);
-      for (const Vec2& reference : body.diskPosition) {
-        const double off =
-            (now.wallPosition[k++] - memberPosition(state, body.centre, reference)).norm();
-        // Rounding of 10⁴ additions; an uncorrected linear step would be off by 1e-5 m.
-        EXPECT_LT(off, 1e-12) << body.name << " at " << t;
-        worst = std::max(worst, off);
-      }
+  scene.law = law;
+  scene.gravity = {-1.0, -9.81};
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 5; ++column) {
+      const bool big = (row + column) % 3 == 0;
+      addDisk(scene, big ? largeRadius : smallRadius, big ? largeMass : smallMass,
+              {8.3e-3 * column + 2e-3 * row, 0.0165 + 8.1e-3 * row},
+              {0.02 * row, 0.03 - 0.01 * column}, 5.0 - column);
+    }
+  scene.bodies.push_back(ringBody("wheel", {0.017, 0.001}, 0.01, 24, rotating(2.0)));
+  WallBody floor;
+  floor.name = "floor";
+  floor.planes = {{{0.0, 0.005}, {0.0, 1.0}}, {{-0.006, 0.0}, {1.0, 0.0}}};
+  floor.motion.kind = Motion::Kind::oscillating;
+  floor.motion.amplitude = {1e-4, 2e-4};
+  floor.motion.frequency = 300.0;
+  scene.bodies.push_back(floor);
+  return scene;
+}
+
+class YadeWorker : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    if (findEngine("yade")->missing().empty()) engine_ = startYade("yade");
+  }
+  static void TearDownTestSuite() {
+    engine_.reset();
+    std::filesystem::remove_all(scratch());
+  }
+  void SetUp() override {
+    if (!engine_) GTEST_SKIP() << findEngine("yade")->missing();
+  }
+
+  /// Of this process alone: others may run at the same time.
+  static std::filesystem::path scratch() {
+    return std::filesystem::path(::testing::TempDir()) /
+           ("crossgrain-yade-" + std::to_string(getpid()));
+  }
+  static std::unique_ptr<WorkerEngine> startYade(const std::string& name) {
+    return std::make_unique<WorkerEngine>(name, findEngine("yade")->command(), scratch() / name,
+                                          120.0);
+  }
+
+  static inline std::unique_ptr<WorkerEngine> engine_;
+};
+
+/// Why the scene is refused, or "ran".
+std::string refusalOf(Engine& engine, const Scene& scene) {
+  try {
+    engine.load(scene, {});
+  } catch (const UnsupportedScene& error) {
+    return error.what();
+  }
+  return "ran";
+}
+
+/// CohFrictMat's rolling spring.
+ContactLaw linearRolling() {
+  ContactLaw law = thesisLaw(TangentialLaw::spring);
+  law.gn = law.gt = 0.0;
+  law.conventions.planeArm = PlaneArm::middle;
+  law.rolling = RollingLaw::spring;
+  law.kr = law.kt;
+  law.muR = 0.1;
+  law.conventions.rollingLength = RollingLength::smallerRadius;
+  law.conventions.rollingStiffness = RollingStiffness::radii;
+  return law;
+}
+
+/// Hertz' law with includeMoment.
+ContactLaw hertzRolling() {
+  ContactLaw law = hertzLaw();
+  law.rolling = RollingLaw::spring;
+  law.kr = 5e-4;  // [N m]
+  law.muR = 0.1;
+  law.conventions.rollingLength = RollingLength::meanRadius;
+  law.conventions.rollingStiffness = RollingStiffness::constant;
+  law.conventions.rollingLoad = RollingLoad::whileCompressed;
+  return law;
+}
+
+ContactLaw rollingByLoad() {
+  ContactLaw law = thesisLaw();
+  law.rolling = RollingLaw::viscousByLoad;
+  law.muR = 1.0;  // [s/m]
+  law.conventions.rollingLength = RollingLength::smallerRadius;
+  return law;
+}
+
+ContactLaw adhesive() {
+  ContactLaw law = hertzLaw();
+  law.gn = 0.0;
+  law.cohesion = CohesionLaw::dmt;
+  law.w = 0.1;
+  law.conventions.cohesionLoad = CohesionLoad::magnitudePlusPullOff;
+  return law;
+}
+
+ContactLaw plastic() {
+  ContactLaw law = thesisLaw(TangentialLaw::spring);
+  law.gn = law.gt = 0.0;
+  law.cohesion = CohesionLaw::elastoPlastic;
+  law.kUnload = 4.0 * law.kn;
+  law.kc = 0.3 * law.kn;
+  law.plasticDepth = 0.05;
+  law.conventions.cohesionLoad = CohesionLoad::magnitudePlusPullOff;
+  law.conventions.unloadingStiffness = UnloadingStiffness::lagged;
+  return law;
+}
+
+/// The scene in which everything touches, of one radius if `alike`, with or without planes.
+Scene heapOf(const ContactLaw& law, bool alike, bool planes) {
+  Scene scene = crowdedScene(law);
+  if (!planes) scene.bodies.pop_back();
+  scene.dt = law.normal == NormalLaw::hertz ? 1e-5 : 2e-5;
+  if (!alike) return scene;
+  std::ranges::fill(scene.disks.radius, smallRadius);
+  std::ranges::fill(scene.disks.mass, smallMass);
+  std::ranges::fill(scene.disks.inertia, 0.5 * smallMass * smallRadius * smallRadius);
+  return scene;
+}
+
+/// Contacts as the in-house engine has them, whose bodies are within 1e-6 radii of where they are.
+void expectContactsOf(const Contacts& mirror, const Contacts& now, const ContactLaw& law) {
+  const double open = 2e-6 * smallRadius * std::max(thesis.kn, law.kUnload);  // 1e-3 of a weight
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    SCOPED_TRACE(std::to_string(now.i[k]) + " with " + std::to_string(now.j[k]));
+    std::size_t l = 0;
+    while (l < mirror.size() && (mirror.i[l] != now.i[k] || mirror.j[l] != now.j[k])) ++l;
+    ASSERT_LT(l, mirror.size());
+    EXPECT_LT((now.force(k) - mirror.force(l)).norm(), open);
+    EXPECT_EQ(now.sliding[k], mirror.sliding[l]);
+    if (law.rolls()) {
+      EXPECT_NEAR(now.rollingTorque[k], mirror.rollingTorque[l], open * smallRadius);
     }
   }
-  RecordProperty("worst_m", std::to_string(worst * 1e15) + "e-15");
+}
+
+/// The largest distance of places, by the radius.
+double apartFromMirror(Engine& engine, const Scene& scene) {
+  const auto mirror = findEngine("grain-as-yade")->make();
+  engine.load(scene, {});
+  mirror->load(scene, {});
+  double most = 0.0;
+  std::size_t seen = 0;
+  for (int look = 10; look <= 30; ++look) {
+    const double time = 1e-3 * look;
+    engine.advance(time);
+    const Snapshot found = engine.snapshot(ContactReport::instant);
+    mirror->advance(found.contactTime);
+    const Snapshot then = mirror->snapshot(ContactReport::instant);
+    expectContactsOf(*then.contacts, *found.contacts, scene.law);
+    seen += found.contacts->size();
+    mirror->advance(time);
+    const Snapshot wanted = mirror->snapshot(ContactReport::none);
+    for (std::size_t i = 0; i < scene.disks.size(); ++i)
+      most = std::max(most, (found.position[i] - wanted.position[i]).norm());
+  }
+  EXPECT_GT(seen, 30u);
+  return most / smallRadius;
+}
+
+// As far as the mirror follows the linear law, 1e-6 (README.md of the engine): the turn of YADE's
+// springs is of first order, contact points of unequal disks differ.
+// Over 30 ms: undamped contacts that begin with a jump of the force part their ways soon after.
+TEST_F(YadeWorker, HeapsOfAllLaws_GoTheirMirrorsWay) {
+  ContactLaw deep = plastic();
+  deep.plasticDepth = 1e-3;  // most contacts reach δ*
+  for (const auto& [name, law, alike, planes] : {std::tuple("thesis", thesisLaw(), false, true),
+                                                 {"Hertz", hertzLaw(), false, true},
+                                                 {"linear rolling", linearRolling(), false, true},
+                                                 {"Hertz rolling", hertzRolling(), false, true},
+                                                 {"rolling by load", rollingByLoad(), true, true},
+                                                 {"adhesive", adhesive(), false, true},
+                                                 {"plastic", plastic(), false, false},
+                                                 {"plastic to its limit", deep, false, false}}) {
+    SCOPED_TRACE(name);
+    const double apart = apartFromMirror(*engine_, heapOf(law, alike, planes));
+    EXPECT_LT(apart, 1e-6);
+    RecordProperty(name, std::to_string(apart * 1e12) + "e-12");
+  }
 }
 
 TEST_F(YadeWorker, RotationBlocked_SpinsStay) {
@@ -116,103 +241,6 @@ TEST_F(YadeWorker, RotationBlocked_SpinsStay) {
   EXPECT_EQ(*after.spin, (std::vector<double>{10.0, -3.0}));
   EXPECT_LT(std::abs(after.velocity[0].x()), 0.05);  // they met,
   EXPECT_NE(after.velocity[0].y(), 0.0);             // and their spins rubbed
-}
-
-}  // namespace
-
-void expectForcesThatMoveTheDisks(Engine& engine, const Scene& scene) {
-  const std::size_t count = scene.disks.size();
-  engine.load(scene, {});
-  std::size_t sliding = 0, sticking = 0, withWall = 0, withPlane = 0;
-  for (const int step : {1, 2, 1000, 2500, 4000, 5000, 6000}) {
-    engine.advance((step - 1) * scene.dt);
-    const Snapshot before = engine.snapshot(ContactReport::none);
-    engine.advance(step * scene.dt);
-    const Snapshot after = engine.snapshot(ContactReport::instant);
-    EXPECT_DOUBLE_EQ(after.velocityTime, (step - 0.5) * scene.dt);
-    EXPECT_DOUBLE_EQ(after.contactTime, (step - 1) * scene.dt);
-
-    std::vector<Vec2> force(count, Vec2::Zero());
-    std::vector<double> torque(count, 0.0);
-    std::vector<Vec2> bodyForce(2, Vec2::Zero());
-    const Contacts& contacts = *after.contacts;
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      const auto i = static_cast<std::size_t>(contacts.i[c]);
-      const auto j = static_cast<std::size_t>(contacts.j[c]);
-      ASSERT_LT(i, count);
-      const Vec2 f = contacts.normalForce[c] * contacts.normal[c] +
-                     contacts.tangentialForce[c] * perpendicular(contacts.normal[c]);
-      const bool plane = j >= count + 24;
-      const bool onPlane = plane && scene.law.conventions.planeArm == PlaneArm::surface;
-      const double depth = (onPlane ? 1.0 : 0.5) * contacts.overlap[c];
-      const double rolling = contacts.rollingTorque.empty() ? 0.0 : contacts.rollingTorque[c];
-      EXPECT_GT(contacts.overlap[c], 0.0);
-      force[i] += f;
-      torque[i] += rolling - (scene.disks.radius[i] - depth) * contacts.tangentialForce[c];
-      (contacts.sliding[c] ? sliding : sticking) += 1;
-      if (j < count) {
-        force[j] -= f;
-        torque[j] -= rolling + (scene.disks.radius[j] - depth) * contacts.tangentialForce[c];
-      } else {
-        bodyForce[plane ? 1 : 0] -= f;
-        (plane ? withPlane : withWall) += 1;
-      }
-    }
-    const double kick = after.velocityTime - before.velocityTime;  // half a step, the first time
-    for (std::size_t i = 0; i < count; ++i) {
-      const Vec2 acceleration = (after.velocity[i] - before.velocity[i]) / kick;
-      const Vec2 expected = force[i] / scene.disks.mass[i] + scene.gravity;
-      // v/dt loses about 1e-16·0.1/4e-5, the reconstructed dashpot as much.
-      EXPECT_LT((acceleration - expected).norm(), 1e-10) << "disk " << i << ", step " << step;
-      const double spinUp = ((*after.spin)[i] - (*before.spin)[i]) / kick;
-      EXPECT_NEAR(spinUp, torque[i] / scene.disks.inertia[i], 1e-7) << i << ", step " << step;
-    }
-    // YADE sums its time step by step, which the shaking floor's velocity feels: γ·18 m/s²·1e-14 s.
-    for (std::size_t b = 0; b < 2; ++b)
-      EXPECT_LT((*after.bodies[b].force - bodyForce[b]).norm(), 1e-13) << "body " << b;
-  }
-  EXPECT_GT(sliding, 3u);
-  EXPECT_GT(sticking, 3u);
-  EXPECT_GT(withWall, 3u);
-  EXPECT_GT(withPlane, 3u);
-}
-
-namespace {
-
-TEST_F(YadeWorker, ContactForces_AreThoseThatMovedTheDisks) {
-  expectForcesThatMoveTheDisks(*engine_, crowdedScene());
-}
-
-TEST_F(YadeWorker, ContactForcesOfHertzLaw_AreThoseThatMovedTheDisks) {
-  expectForcesThatMoveTheDisks(*engine_, crowdedScene(hertzLaw()));
-}
-
-TEST_F(YadeWorker, MixesToTheScenesConstants_OfEveryPair) {
-  for (const ContactLaw& law : {thesisLaw(), hertzLaw()}) {
-    Scene scene = emptyScene();
-    scene.law = law;
-    scene.dt = 1e-5;
-    addDisk(scene, smallRadius, smallMass, {0.0, 0.0}, {0, 0});
-    addDisk(scene, largeRadius, largeMass, {0.1, 0.0}, {0, 0});
-    addDisk(scene, largeRadius, largeMass, {0.2, 0.0}, {0, 0});
-    scene.bodies.push_back(ringBody("ring", {0, 0}, 0.3, 4, {}));
-    scene.bodies[0].planes.push_back({{0.0, -0.1}, {0.0, 1.0}});
-    const EffectiveParameters effective = engine_->load(scene, {});
-    // small–large, large–large, and each with a wall disk and a plane; there is one small disk
-    // only.
-    ASSERT_EQ(effective.pairs.size(), 6u);
-    for (const PairCoefficients& pair : effective.pairs) {
-      // To YADE's law of Hertz a plane is a sphere of 1e8 radii; else an ulp or two.
-      const bool hertz = law.normal == NormalLaw::hertz;
-      const double allowed = hertz && pair.pair.ends_with("plane") ? 1e-8 : 1e-14;
-      EXPECT_NEAR(pair.kn / scene.law.kn, 1.0, allowed) << pair.pair;
-      EXPECT_NEAR(pair.kt / scene.law.kt, 1.0, allowed) << pair.pair;
-      EXPECT_DOUBLE_EQ(pair.gn, scene.law.gn) << pair.pair;
-      EXPECT_DOUBLE_EQ(pair.gt, scene.law.gt) << pair.pair;
-      EXPECT_DOUBLE_EQ(pair.mu, scene.law.mu) << pair.pair;
-    }
-    EXPECT_EQ(effective.effects, effectsOf(scene));
-  }
 }
 
 TEST_F(YadeWorker, SceneItCannotDo_IsRefused) {
@@ -242,118 +270,116 @@ TEST_F(YadeWorker, SceneItCannotDo_IsRefused) {
   }
 }
 
-/// Spheres or disks that meet with Hertz' law, at a relative speed along x.
-struct Meeting {
-  double kn;            ///< 4/3 E₁₂ [Pa]
-  double radius, mass;  ///< of each [m, kg]
-  double speed;         ///< [m/s]
-  bool plane = false;   ///< a plane that does not yield instead of the second
-
-  double reducedMass() const { return plane ? mass : mass / 2; }
-  double reducedRadius() const { return plane ? radius : radius / 2; }
-  /// Johnson 1985, Eqs. 11.23 and 11.24, written with k_n = 4/3 E₁₂.
-  double deepest() const {
-    return std::pow(1.25 * reducedMass() * speed * speed / (kn * std::sqrt(reducedRadius())), 0.4);
+// Rolling at v_0 = l ω without slip on an arm l, a − δ or a − δ/2: m v′ = −f, J ω′ = f l − µ_r a N,
+// so it stops after v_0² (m l² + J)/(2 µ_r a N l), and µ_r a² N/(2 k) later for the spring.
+TEST_F(YadeWorker, DiskOnAPlane_RollsToRestWhereTheLimitStopsIt) {
+  for (ContactLaw law : {linearRolling(), hertzRolling()}) {
+    law.mu = 0.5;
+    const bool linear = law.normal == NormalLaw::linear;
+    Scene scene = emptyScene();
+    scene.law = law;
+    scene.dt = 2e-5;
+    scene.gravity = {0.0, -9.81};
+    scene.bodies = {planeWall({0.0, 0.0}, {0.0, 1.0})};
+    const double weight = smallMass * 9.81, speed = 0.1;
+    const double depth =
+        linear ? weight / law.kn : std::pow(weight / (law.kn * std::sqrt(smallRadius)), 2.0 / 3.0);
+    const double arm = smallRadius - (linear ? 0.5 : 1.0) * depth;
+    addDisk(scene, smallRadius, smallMass, {0.0, smallRadius - depth}, {speed, 0.0}, -speed / arm);
+    engine_->load(scene, {});
+    double farthest = 0.0;
+    for (int step = 100; step <= 10000; step += 100) {
+      engine_->advance(step * scene.dt);
+      farthest = std::max(farthest, engine_->snapshot(ContactReport::none).position[0].x());
+    }
+    const double k = linear ? law.kr * smallRadius * smallRadius : law.kr;
+    const double inertia = 0.5 * smallMass * smallRadius * smallRadius;
+    const double limit = law.muR * smallRadius * weight;
+    const double expected =
+        speed * speed * (smallMass * arm * arm + inertia) / (2.0 * limit * arm) +
+        0.5 * limit * smallRadius / k;
+    // µ_r m g/k_t = 1e-6 m of 7.7 mm are friction's spring's, 3e-7 m are missed between two looks.
+    EXPECT_NEAR(farthest / expected, 1.0, 5e-4) << (linear ? "linear" : "Hertz");
   }
-  double largestForce() const { return kn * std::sqrt(reducedRadius()) * std::pow(deepest(), 1.5); }
-  double duration() const { return 2.9432 * deepest() / speed; }
-};
+}
 
-Scene sceneOf(const Meeting& pair, double gn, int stepsPerContact) {
-  Scene scene;
-  scene.law = hertzLaw();
-  scene.law.kn = pair.kn;
-  scene.law.kt = 1.2 * pair.kn;
-  scene.law.gn = gn;
-  scene.dt = pair.duration() / stepsPerContact;
-  const double gap = 0.3 * scene.dt * pair.speed;
-  if (pair.plane) {
-    scene.bodies = {planeWall({0.0, 0.0}, {1.0, 0.0})};
-    addDisk(scene, pair.radius, pair.mass, {pair.radius + gap, 0.0}, {-pair.speed, 0.0});
-  } else {
-    for (const double side : {1.0, -1.0})
-      addDisk(scene, pair.radius, pair.mass, {side * (pair.radius + gap / 2), 0.0},
-              {-side * pair.speed / 2, 0.0});
-  }
+/// Steel disks on a steel floor between glass ones.
+Scene materialsScene(const ContactLaw& steel, const ContactLaw& glass, const ContactLaw& mixed) {
+  Scene scene = emptyScene();
+  scene.law = steel;
+  const double apart = 2.0 * smallRadius - 1e-5;
+  for (const int k : {0, 1, 2})
+    addDisk(scene, smallRadius, smallMass, {apart * k, smallRadius - 1e-5}, {0, 0});
+  scene.bodies = {planeWall({0.0, 0.0}, {0.0, 1.0})};
+  scene.materials = Materials{{"steel", "glass"}, {0, 1, 1}, {0}, {steel, mixed, mixed, glass}};
   return scene;
 }
 
-struct Course {
-  double deepest = 0.0, largestForce = 0.0, duration = 0.0, restitution = 0.0;
-};
-
-Course courseOf(Engine& engine, const Meeting& pair, double gn, int stepsPerContact) {
-  const Scene scene = sceneOf(pair, gn, stepsPerContact);
-  engine.load(scene, {});
-  Course course;
-  for (int step = 1; step <= 1.5 * stepsPerContact; ++step) {
-    engine.advance(step * scene.dt);
-    const Snapshot now = engine.snapshot(ContactReport::instant);
-    const Contacts& contacts = now.contacts.value();
-    const double away = now.velocity[0].x() - (pair.plane ? 0.0 : now.velocity[1].x());
-    course.restitution = away / pair.speed;
-    if (contacts.size() == 0) continue;
-    course.deepest = std::max(course.deepest, contacts.overlap[0]);
-    course.largestForce = std::max(course.largestForce, contacts.normalForce[0]);
-    course.duration += scene.dt;
-  }
-  return course;
-}
-
-double sphereMass(double radius, double density) {
-  return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius * density;
-}
-
-constexpr int steps = 500;
-constexpr double oneStep = 1.1 / steps;  // in which a contact begins or ends
-
-/// Without damping: the deepest point is missed by up to half a step, (π/1000)²/2 = 5e-6.
-void expectElasticAsHertz(Engine& engine, const Meeting& meeting) {
-  const Course yade = courseOf(engine, meeting, 0.0, steps);
-  EXPECT_NEAR(yade.deepest / meeting.deepest(), 1.0, 1e-5);
-  EXPECT_NEAR(yade.largestForce / meeting.largestForce(), 1.0, 2e-5);
-  EXPECT_NEAR(yade.duration / meeting.duration(), 1.0, oneStep);
-  EXPECT_NEAR(yade.restitution, 1.0, 1e-6);
-}
-
-// Chung and Ooi (2011), test 1: two glass spheres.
-TEST_F(YadeWorker, GlassSpheres_MeetAsHertzSays) {
-  const double elasticity = 48e9 / (2 * (1 - 0.2 * 0.2));  // E₁₂
-  const Meeting glass{4.0 / 3.0 * elasticity, 0.010, sphereMass(0.010, 2800), 20.0};
-  EXPECT_NEAR(glass.deepest(), 274.1e-6, 0.05e-6);
-  EXPECT_NEAR(glass.largestForce(), 10.70e3, 5.0);
-  EXPECT_NEAR(glass.duration(), 40.3e-6, 0.05e-6);
-  expectElasticAsHertz(*engine_, glass);
-}
-
-// Chung and Ooi (2011), test 2: an aluminium sphere on a rigid plane. R₁₂ is the sphere's radius.
-TEST_F(YadeWorker, SphereOnAPlane_MeetsAsHertzSays) {
-  const double elasticity = 70e9 / (1 - 0.3 * 0.3);
-  const Meeting alloy{4.0 / 3.0 * elasticity, 0.1, sphereMass(0.1, 2699), 0.2, true};
-  EXPECT_NEAR(alloy.deepest(), 49.7e-6, 0.05e-6);
-  EXPECT_NEAR(alloy.largestForce(), 11.37e3, 5.0);
-  EXPECT_NEAR(alloy.duration(), 732e-6, 0.5e-6);
-  expectElasticAsHertz(*engine_, alloy);
-}
-
-// In y ~ δ^(5/4) and a time that runs as δ^(1/4), Hertz' law with critical dampers is a linear
-// oscillator with β = γ/(2 √(5/6)) (Antypov and Elliott 2011), so with the tension cut its e is
-// that of Schwager and Pöschel (2007) for a linear law, at every speed.
-TEST_F(YadeWorker, CriticalDampers_RestoreTheSameAtEverySpeed) {
-  constexpr double gn = 0.3;
-  const double beta = gn / (2 * std::sqrt(5.0 / 6.0));
-  const double omega = std::sqrt(1 - beta * beta);
-  const double expected =
-      std::exp(-beta / omega *
-               (std::numbers::pi - std::atan2(2 * beta * omega, omega * omega - beta * beta)));
-  EXPECT_NEAR(expected, 0.6260, 5e-5);
-  for (const bool plane : {false, true})
-    for (const double speed : {0.01, 0.1, 1.0}) {
-      const Meeting pair{7e5, smallRadius, smallMass, speed, plane};
-      // Velocities that lag make it first order in dt.
-      EXPECT_NEAR(courseOf(*engine_, pair, gn, steps).restitution / expected, 1.0, 0.001)
-          << "at " << speed << " m/s" << (plane ? " on a plane" : "");
+TEST_F(YadeWorker, PairsOfMaterials_HaveTheirOwnLaws) {
+  for (const ContactLaw& steel : {thesisLaw(), hertzLaw(), plastic()}) {
+    ContactLaw glass = steel, mixed = steel;
+    // In series: 1/mixed = (1/steel + 1/glass)/2.
+    for (double ContactLaw::*const stiffness :
+         {&ContactLaw::kn, &ContactLaw::kt, &ContactLaw::kUnload, &ContactLaw::kc}) {
+      glass.*stiffness = 0.5 * steel.*stiffness;
+      mixed.*stiffness = 2.0 / 3.0 * steel.*stiffness;
     }
+    glass.mu = 0.3;
+    mixed.mu = steel.coheres() ? 0.3 : 0.9;  // YADE's LudingMat has the smaller one
+    Scene scene = materialsScene(steel, glass, mixed);
+    if (steel.coheres()) scene.bodies.clear();
+    if (steel.coheres()) scene.materials->ofBody.clear();
+    EXPECT_EQ(engine_->load(scene, {}).effects, effectsOf(scene));
+    engine_->advance(scene.dt);
+    const Snapshot now = engine_->snapshot(ContactReport::instant);
+    ASSERT_EQ(now.contacts->size(), steel.coheres() ? 2u : 5u);
+    for (std::size_t k = 0; k < now.contacts->size(); ++k) {
+      const auto i = static_cast<std::size_t>(now.contacts->i[k]);
+      const auto j = static_cast<std::size_t>(now.contacts->j[k]);
+      const ContactLaw& law = scene.lawOf(i, j);
+      const double depth = now.contacts->overlap[k];
+      const double radius = j == 3 ? smallRadius : smallRadius / 2.0;
+      const double elastic = law.normal == NormalLaw::hertz
+                                 ? law.kn * std::sqrt(radius) * std::pow(depth, 1.5)
+                                 : law.kn * depth;
+      EXPECT_NEAR(now.contacts->normalForce[k] / elastic, 1.0, 1e-7) << i << " with " << j;
+    }
+  }
+  ContactLaw steel = thesisLaw(), glass = steel, mixed = steel;
+  glass.kn = 2.0 * steel.kn;
+  EXPECT_NE(refusalOf(*engine_, materialsScene(steel, glass, mixed))
+                .find("kn 469.467 of steel with glass, not 352.1"),
+            std::string::npos)
+      << refusalOf(*engine_, materialsScene(steel, glass, mixed));
+}
+
+TEST_F(YadeWorker, LawItLacks_IsRefusedByName) {
+  ContactLaw damped = linearRolling(), dashpot = hertzRolling(), mixed = rollingByLoad(),
+             surface = linearRolling(), both = hertzRolling(), pulls = adhesive(),
+             floor = plastic(), shallow = plastic(), constant = rollingByLoad(),
+             effective = hertzRolling();
+  damped.gn = 1e-3;
+  dashpot.gr = 0.1;
+  surface.conventions.planeArm = PlaneArm::surface;
+  both.cohesion = CohesionLaw::dmt;
+  pulls.gn = 0.1;
+  shallow.plasticDepth = 0.0;
+  constant.rolling = RollingLaw::constantTorque;
+  effective.conventions.rollingLength = RollingLength::effective;
+  for (const auto& [law, reason] :
+       {std::pair(damped, "without dashpots only (gn = gt = 0)"),
+        {dashpot, "has no rolling dashpot (gr = 0)"},
+        {mixed, "makes mu_r L²/2"},
+        {surface, "has plane_arm = \"middle\" with this law, not \"surface\""},
+        {both, "has no law with rolling resistance and cohesion"},
+        {pulls, "without a normal dashpot only (gn = 0)"},
+        {floor, "has no planes with cohesion = \"elasto_plastic\""},
+        {shallow, "plastic_depth"},
+        {constant, "not \"constant_torque\""},
+        {effective, "makes mu_r L/mean radius"}}) {
+    const std::string why = refusalOf(*engine_, crowdedScene(law));
+    EXPECT_NE(why.find(reason), std::string::npos) << why;
+  }
 }
 
 // The first step is a half kick, made of twice the inertia, which critical dampers would see.
