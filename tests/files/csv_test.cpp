@@ -1,18 +1,13 @@
 #include <gtest/gtest.h>
 
 #include "tests/files/samples.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace {
 
 using namespace crossgrain::files;
 using namespace crossgrain::files::sampled;
 
-class Csv : public testing::Test {
- protected:
-  TemporaryFolder folder_;
-  Samples samples_{folder_.path()};
-};
+using Csv = Sampled;
 
 TEST_F(Csv, Times_RowsOfOneFollowOneAnother) {
   samples_.write(

@@ -4,7 +4,6 @@
 
 #include "tests/files/samples.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace {
 
@@ -12,11 +11,8 @@ using namespace crossgrain::files;
 using namespace crossgrain::files::sampled;
 namespace fs = std::filesystem;
 
-class Formats : public testing::Test {
+class Formats : public Sampled {
  protected:
-  TemporaryFolder folder_;
-  Samples samples_{folder_.path()};
-
   /// Names of each run's files.
   std::vector<std::vector<std::string>> runs(std::string_view format,
                                              const std::vector<std::string>& names) {

@@ -8,7 +8,6 @@
 #include <iterator>
 
 #include "tests/files/samples.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace {
 
@@ -27,10 +26,6 @@ const std::vector<std::string> liggghtsFiles{"liggghts.0.dump",  "liggghts.2.dum
 constexpr const char* liggghtsColumns =
     "c_c=pair/gran/"
     "local,pos,id,force,force_normal,force_tangential,torque,history,delta,contactPoint";
-
-void expectNear(const Vec3& a, const Vec3& b, double tolerance) {
-  EXPECT_LE((a - b).norm(), tolerance) << a.transpose() << " and " << b.transpose();
-}
 
 TEST(Lammps, OwnDump_PairOverTheEdgeAndWall) {
   const auto frames = programs().read("lammps", lammpsFiles);
@@ -94,10 +89,8 @@ TEST(Lammps, Granular_ForceAndRollingTorqueAreTheAtoms) {
   EXPECT_GT(contacts.torque[0].norm(), 0.3);
 }
 
-class LammpsText : public testing::Test {
+class LammpsText : public Sampled {
  protected:
-  TemporaryFolder folder_;
-  Samples samples_{folder_.path()};
   static std::string head(const std::string& what, int count) {
     return "ITEM: TIMESTEP\n7\nITEM: NUMBER OF " + what + "\n" + std::to_string(count) +
            "\nITEM: BOX BOUNDS ff ff ff\n0 4\n0 4\n0 4\n";

@@ -3,18 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "tests/files/samples.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace {
 
 using namespace crossgrain::files;
 using namespace crossgrain::files::sampled;
 
-class MercuryDpm : public testing::Test {
- protected:
-  TemporaryFolder folder_;
-  Samples samples_{folder_.path()};
-};
+using MercuryDpm = Sampled;
 
 TEST_F(MercuryDpm, Pair_IsListedTwice_ForceOnTheFirst) {
   samples_.write("a.data", pairData);

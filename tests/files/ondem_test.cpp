@@ -2,18 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "tests/files/samples.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace {
 
 using namespace crossgrain::files;
 using namespace crossgrain::files::sampled;
 
-class OnDem : public testing::Test {
- protected:
-  TemporaryFolder folder_;
-  Samples samples_{folder_.path()};
-};
+using OnDem = Sampled;
 
 TEST_F(OnDem, Scene_ForceOnTheFirst_WallSecond) {
   writeOnDem(folder_.path() / "a.vtkhdf");

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "adapters/files/frame.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace crossgrain::files::sampled {
 
@@ -25,6 +28,17 @@ class Samples {
  private:
   std::filesystem::path folder_;
 };
+
+/// A test and its folder.
+class Sampled : public testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  Samples samples_{folder_.path()};
+};
+
+inline void expectNear(const Vec3& a, const Vec3& b, double tolerance) {
+  EXPECT_LE((a - b).norm(), tolerance) << a.transpose() << " and " << b.transpose();
+}
 
 /// tests/files/samples.
 Samples programs();

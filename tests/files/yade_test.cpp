@@ -12,16 +12,11 @@
 #include <sstream>
 
 #include "tests/files/samples.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace {
 
 using namespace crossgrain::files;
 using namespace crossgrain::files::sampled;
-
-void expectNear(const Vec3& a, const Vec3& b, double tolerance) {
-  EXPECT_LE((a - b).norm(), tolerance) << a.transpose() << " and " << b.transpose();
-}
 
 TEST(Yade, TextExt_IdsOfItsOwn) {
   const FileFrame frame = programs().read("yade-text", {"yade.4.txt"}).front();
@@ -84,10 +79,8 @@ TEST(Yade, VtkRecorder_ContactsByTheirEnds) {
   EXPECT_TRUE(contacts.force.empty());  // its direction is not there
 }
 
-class VtkText : public testing::Test {
+class VtkText : public Sampled {
  protected:
-  TemporaryFolder folder_;
-  Samples samples_{folder_.path()};
   void writeXml(const std::string& name, const std::string& attributes, const std::string& radii,
                 const std::string& rest = "") {
     samples_.write(
