@@ -35,6 +35,9 @@ HARD_SPHERE = CASES / "collision/hard-sphere.toml"
 # Longest wait [s] for what takes seconds: it catches what hangs, and no busy machine comes near it.
 PATIENCE = 1200
 
+# What takes tens of seconds and has its parts shown by other tests: the target engine_examples.
+nightly = unittest.skipUnless(os.environ.get("CROSSGRAIN_NIGHTLY"), "of the target engine_examples")
+
 HELD, FELL_SHORT, BAD_INPUT, ENGINE_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
 
 # What a user must never see: Python's, the C++ runtime's and the sanitizers' last words.
