@@ -197,41 +197,26 @@ def rolling_torques(rows, made, i, j, normal, overlap, sign, pressing):
     return made.laws.of_pairs("rolling_torque", i, j, *columns, of_each=spring.shape[1:])
 
 
-def contacts_in_space(rows, made, i, j, normal, overlap, sign):
-    """What contacts_of_rows returns, which says more."""
-    force = sign[:, None] * rows[:, 3:6]
-    pressing = (force * normal).sum(axis=1)
-    tangential = force - pressing[:, None] * normal
-    if made.law.friction:
-        at = 6 + 3 * (made.law.rolling_model == "cdt")
-        spring = sign[:, None] * rows[:, at : at + 3]
-        stretch = np.linalg.norm(spring, axis=1)
-        of_spring = made.laws.of_pairs("spring_force", i, j, stretch)
-        sliding = made.laws.of_pairs("sliding", i, j, pressing, of_spring, overlap, *made.radii(i, j))
-        direction = spring / np.where(stretch > 0, stretch, 1.0)[:, None]
-        tangential = np.where(sliding[:, None] > 0, of_spring[:, None] * direction, tangential)
-    rolling = rolling_torques(rows, made, i, j, normal, overlap, sign, pressing)
-    return i, j, normal, overlap, pressing, tangential, rolling
-
-
 def contacts_of_rows(rows, made, position):
     """Of two atoms: i < j, normal from j to i, overlap, forces on i, torque against rolling on i.
 
     LIGGGHTS evaluates its law anew when it is asked. A spring that was set to the bound is not over it then, so it
     would show the dashpot beside it, which did not act: there the force is the spring's alone."""
-    law = made.law
+    law, space = made.law, made.space
     i, j, normal, overlap, sign = pair_geometry(rows, made, position)
-    if made.space == 3:
-        return contacts_in_space(rows, made, i, j, normal, overlap, sign)
-    force = rows[:, 3:5]  # on the first of the two
-    tangent = turned(normal)
-    pressing = sign * (force * normal).sum(axis=1)
-    tangential = sign * (force * tangent).sum(axis=1)
+    tangent = turned(normal) if space == 2 else None
+    force = sign[:, None] * rows[:, 3 : 3 + space]
+    pressing = (force * normal).sum(axis=1)
+    tangential = (force * tangent).sum(axis=1) if space == 2 else force - pressing[:, None] * normal
     if law.friction:
         at = 6 + 3 * (law.rolling_model == "cdt")
-        stretch = sign * (rows[:, at : at + 2] * tangent).sum(axis=1)
+        spring = sign[:, None] * rows[:, at : at + space]
+        stretch = (spring * tangent).sum(axis=1) if space == 2 else np.linalg.norm(spring, axis=1)
         of_spring = made.laws.of_pairs("spring_force", i, j, stretch)
-        sliding = made.laws.of_pairs("sliding", i, j, pressing, of_spring, overlap, *made.radii(i, j))
-        tangential = np.where(sliding > 0, of_spring, tangential)
+        sliding = made.laws.of_pairs("sliding", i, j, pressing, of_spring, overlap, *made.radii(i, j)) > 0
+        if space == 3:
+            sliding = sliding[:, None]
+            of_spring = of_spring[:, None] * (spring / np.where(stretch > 0, stretch, 1.0)[:, None])
+        tangential = np.where(sliding, of_spring, tangential)
     rolling = rolling_torques(rows, made, i, j, normal, overlap, sign, pressing)
     return i, j, normal, overlap, pressing, tangential, rolling
