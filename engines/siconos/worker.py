@@ -201,20 +201,10 @@ class Siconos:
             arrays["spin"] = ("f64", spin)
         sums = self.sums if contacts == "accumulated" else self.last
         interval = sums["steps"] * self.dt
-        bodies = []
-        for b, body in enumerate(self.bodies):
-            centre, of_centre, angle, omega = body.state(t)
-            bodies.append(
-                {
-                    "centre": centre.tolist(),
-                    "velocity": of_centre.tolist(),
-                    "angle": angle,
-                    "angular_velocity": omega,
-                }
-            )
-            if interval > 0:
-                bodies[-1]["force"] = (sums["force"][b] / interval).tolist()
-                bodies[-1]["torque"] = sums["torque"][b] / interval
+        bodies = [body.shown(t) for body in self.bodies]
+        for b, shown in enumerate(bodies if interval > 0 else []):
+            shown["force"] = (sums["force"][b] / interval).tolist()
+            shown["torque"] = sums["torque"][b] / interval
         if interval > 0 and contacts != "none":
             arrays.update(self.contact_arrays(sums["pairs"], interval, position, walls))
             if contacts == "accumulated":
