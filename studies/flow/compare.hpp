@@ -18,8 +18,9 @@ struct CompareOptions {
 
 /// Prepares the case's packings, compares every engine with its mirror in lockstep, if the case
 /// wants mirrors; runs the engines on them, side by side where `jobs` allows, averages, and
-/// compares the engines with each other, one interim analysis after the other (interim_analyses.hpp). Every
-/// finished run is kept in the store at once; a failed one ends by itself and is reported.
+/// compares the engines with each other, one interim analysis after the other
+/// (interim_analyses.hpp). Every finished run is kept in the store at once; a failed one ends by
+/// itself and is reported.
 /// @throws BadInput, AllRefused (where fewer than two can run the case), Interrupted
 extern const Study<CompareOptions, CompareResults> compareStudy;
 

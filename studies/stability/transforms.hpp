@@ -72,7 +72,8 @@ inline constexpr std::uint64_t transformSteps = 2000;
 
 /// Told otherwise, a scene is rounded otherwise, at its start and in every step. As much harm as a
 /// rounding of the start does, each further step may do again: the n-th may show 1 + n times the
-/// farthest that the engine's own run goes apart when its start is nudged. Nudges are drawn at random; of several one is likely to lie along what grows most.
+/// farthest that the engine's own run goes apart when its start is nudged. Nudges are drawn at
+/// random; of several one is likely to lie along what grows most.
 inline constexpr int transformNudges = 4;
 
 /// Beyond this nothing is compared: runs that far apart do not share their contacts, whose overlaps

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "law/law_options.hpp"
 #include "law/cohesion.hpp"
+#include "law/law_options.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"
 
