@@ -129,10 +129,13 @@ class Engine {
 
   /// @pre scene is valid (Scene's own rules) and its effects are within capabilities() but for
   ///      what the caller knows to differ
-  /// @throws UnsupportedScene naming the first thing the engine cannot do
+  /// @post the run is at t = 0, stats() begin at 0
+  /// @throws UnsupportedScene naming the first thing the engine cannot do; EngineFailure
   virtual EffectiveParameters load(const Scene& scene, const Settings& settings) = 0;
 
   /// Does llround(t/dt) − (steps done) steps. @returns the time reached [s]
+  /// @pre t is finite and not before the time reached  @post |t − what it returns| ≤ dt/2
+  /// @throws EngineFailure
   virtual double advance(double t) = 0;
 
   /// @name The same of a scene in space, where Capabilities::dimensions has 3
@@ -143,14 +146,17 @@ class Engine {
   virtual SpaceSnapshot snapshotInSpace(ContactReport) { throw UnsupportedScene(planeOnly); }
   /// @}
 
-  /// Looking does not change the run.
+  /// The run as it stands. @post the run goes on as if it had not been looked at: to the same bits
+  /// @throws EngineFailure
   virtual Snapshot snapshot(ContactReport contacts) = 0;
 
+  /// @post counts never fall between two load()
   virtual Stats stats() const = 0;
 
   /// Writes all that the future of the run depends on; and takes an engine that has loaded the same
   /// scene with the same settings there, from where it goes on to the bit.
   /// Capabilities::checkpoints says which engines can.
+  /// @post of restore(): advance() and snapshot() are what they would have been to the bit
   /// @throws EngineFailure if the file cannot be written, or is none of this engine and scene
   virtual void checkpoint(const std::filesystem::path&) { throw EngineFailure(noCheckpoints); }
   virtual void restore(const std::filesystem::path&) { throw EngineFailure(noCheckpoints); }
