@@ -34,4 +34,8 @@ bool isInternal(const Command& command);
 /// The names of all others.
 std::vector<std::string> publicCommands();
 
+/// @throws BadInput for a name that no command has, with the one that was meant or what a removed
+/// one became
+void requireKnownCommand(const std::string& name);
+
 }  // namespace crossgrain::inline cli

@@ -170,9 +170,12 @@ std::string footer(const Command* command) {
 
 /// Commands of earlier versions, and where what they did is now.
 constexpr Named removedCommands[] = {
-    {"plan", "COMMAND … --shard K/N shares a command's runs among processes (docs/commands.md)"},
+    {"plan", "COMMAND … --shard K/N shares a command's runs among processes (docs/versions.md)"},
+    {"rev", "crossgrain average FILES CASE --rev does its work"},
     {"scale", "cost CASE --disks N,N --threads P,P times steps as the scene grows and is shared"},
     {"thesis", "papers/laetzel-2003 judges the thesis' claims (README.md there)"}};
+
+}  // namespace
 
 /// CLI11 would only say that some subcommand is required.
 void requireKnownCommand(const std::string& name) {
@@ -182,11 +185,11 @@ void requireKnownCommand(const std::string& name) {
       throw BadInput(fmt::format("there is no command '{}' any more: {}", name, removed.what));
   const bool known =
       std::ranges::any_of(commands(), [&](const Command* each) { return name == each->name; });
-  if (name == "rev")
-    throw BadInput("there is no command 'rev': crossgrain average FILES CASE --rev does its work");
   if (!known)
     throw BadInput(fmt::format("there is no command '{}'{}", name, suggestion(name, names)));
 }
+
+namespace {
 
 /// Parses a command line against the table of commands and does what it says.
 /// @returns an ExitStatus @throws BadInput for a command line that cannot be understood, and

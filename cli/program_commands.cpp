@@ -98,9 +98,7 @@ Action declareEngines(CLI::App& app, CommandLine& line) {
 int help(const CLI::App& program, const std::optional<std::string>& name) {
   const CLI::App* asked = &program;
   if (name) {
-    const std::vector<std::string> names = publicCommands();
-    if (std::ranges::find(names, *name) == names.end())
-      throw BadInput(fmt::format("there is no command '{}'{}", *name, suggestion(*name, names)));
+    requireKnownCommand(*name);
     asked = program.get_subcommand(*name);
   }
   // App::help() would show the command that is running.
