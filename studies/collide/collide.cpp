@@ -190,6 +190,29 @@ void requireAnyRun(const VersionedEngines& engines, const std::vector<EngineRow>
   if (!refusals.empty()) throw AllRefused(std::move(refusals));
 }
 
+/// Whether an engine that was named takes any case, if some were. One that breaks down does not
+/// refuse.
+bool anyTaken(const std::vector<CollisionCase>& cases, const VersionedEngines& engines,
+              const std::vector<std::string>& named, const RunStore& store) {
+  bool anyNamed = false;
+  for (const auto& [entry, version] : engines)
+    for (const CollisionCase& each : cases) {
+      if (!isNamed(named, entry)) continue;
+      anyNamed = true;
+      const Case& setup = *each.setup;
+      throwIfInterrupted();
+      try {
+        const auto worker = startEngine(entry, store.scratch(entry.name), setup.run.timeout);
+        loadSweep(*worker, entry, setup, each.steps.front(), each.starts);
+        return true;
+      } catch (const UnsupportedScene&) {
+      } catch (const EngineFailure&) {
+        return true;
+      }
+    }
+  return !anyNamed;
+}
+
 /// The oracle on a grid fine enough for a smooth line, about 80 points, at the first v_n.
 CollisionTable fineOracle(const Case& setup) {
   const auto& psi = collisionIn(setup).psi;
@@ -350,14 +373,17 @@ CollideResults collideEngines(const std::vector<Case>& variants, const RunComman
     cases.push_back({&setup, collisionTimeSteps(setup), collisionStarts(setup)});
   std::vector<Task> oracles;
   std::vector<double> weights;
+  // Where all refuse, their sweeps say so at once and nothing is compared with a reference.
+  const bool any = anyTaken(cases, engines, command.engines, store);
   for (CollisionCase& each : cases) {
+    if (!any) break;
     weights.push_back(static_cast<double>(each.starts.size()));
     oracles.push_back({weights.back(), [&each, &progress, k = oracles.size()] {
                          each.oracle = oracleCurve(*each.setup, each.starts);
                          progress.update(k, each.setup->name, 1.0);
                        }});
   }
-  progress.begin("solving the collisions for reference", weights);
+  if (any) progress.begin("solving the collisions for reference", weights);
   runTasks(oracles, command.jobs);
   const auto tasks = tasksOf(cases, engines, command.engines, store);
   const CollisionCurves curves =

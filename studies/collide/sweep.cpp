@@ -478,6 +478,13 @@ CollisionCurve sweepIn(Engine& engine, const EngineEntry& entry, const Case& set
 
 }  // namespace
 
+EffectiveParameters loadSweep(Engine& engine, const EngineEntry& entry, const Case& setup,
+                              double dt, const std::vector<CollisionStart>& starts) {
+  return inDimensionOf(setup, [&]<int D>() {
+    return loadScene(engine, entry, setup, sweepScene<D>(setup, starts, dt));
+  });
+}
+
 Outcomes sweepOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
                        const std::vector<CollisionStart>& starts) {
   return inDimensionOf(setup, [&]<int D>() {

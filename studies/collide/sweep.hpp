@@ -53,6 +53,10 @@ class DeclaredOracles {
   std::vector<std::pair<ContactLaw, std::unique_ptr<OracleCurve>>> known_;
 };
 
+/// Loads all collisions of a sweep. @throws UnsupportedScene, EngineFailure
+EffectiveParameters loadSweep(Engine& engine, const EngineEntry& entry, const Case& setup,
+                              double dt, const std::vector<CollisionStart>& starts);
+
 /// Long enough for every collision of a sweep to be over: contacts last about t_c, a rigid engine's
 /// a few of its own steps [s].
 double sweepEnd(const Case& setup, double dt, double engineStep);

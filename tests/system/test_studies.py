@@ -66,6 +66,14 @@ class Effects(SystemTest):
         self.assertTrue(all(row["kind"] == "effect" for row in without["endpoints"]))
 
 
+class Collide(SystemTest):
+    def test_what_no_engine_runs_is_refused_before_it_is_solved(self):
+        for case, engine, status, solved in ((COLLISION, "grain", HELD, True), (CASES / "collision/cohesion.toml", "box2d-impulse", BAD_INPUT, False)):
+            done = self.run_program("collide", case, "--engines", engine, "--out", self.folder / engine, *settings(collision__psi=[0.5]))
+            self.assert_status(done, status)
+            self.assertEqual(solved, "solving the collisions for reference" in done.stdout + done.stderr, engine)
+
+
 class Identify(SystemTest):
     def test_convention_of_another_mirror_is_found_in_every_kind_of_flow(self):
         for case in (HOPPER, SPHERES):
