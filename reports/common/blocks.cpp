@@ -162,7 +162,7 @@ std::string titleOf(const ResultsHead& head) {
       {kindCompare, "Engine agreement"}, {kindAverage, "Averages"},
       {kindCollide, "Collisions"},       {kindLockstep, "Lockstep comparison"},
       {kindEffects, "Effects"},          {kindCost, "Accuracy and cost"},
-      {kindRev, "Ring widths"},          {kindStability, "Hard cases"},
+      {kindRev, "Ring widths"},          {kindStability, "Stability"},
       {kindConformance, "Conformance"}};
   const auto* const found =
       std::ranges::find(titles, head.kind, [](const auto& t) { return t.first; });

@@ -1,6 +1,7 @@
 #include "reports/stability/report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -175,20 +176,27 @@ std::string differentTransforms(const StabilityResults& results) {
                           : fmt::format("Different after a transformation: {}.", sentence);
 }
 
-/// Cases in which engines are unstable, engine by engine.
-std::string unstableCases(const StabilityResults& results) {
-  if (areTransforms(results)) return differentTransforms(results);
+/// "Unstable: a in pile; b in column.": cases whose worst run has that verdict, engine by engine.
+std::string casesAt(const StabilityResults& results, Verdict verdict, std::string_view label) {
   SaidOf said;
   for (const EngineRow& engine : results.engines) {
-    Names unstable;
+    Names cases;
     for (const HardGroup& group : hardGroups(results))
       if (const StabilityRun* run = worstRun(results, engine.name, group);
-          run && run->verdict == Verdict::fail)
-        unstable.push_back(spaced(group.name));
-    if (!unstable.empty()) said.add(engine.name, listedShortly(unstable, 3));
+          run && run->verdict == verdict)
+        cases.push_back(spaced(group.name));
+    if (!cases.empty()) said.add(engine.name, listedShortly(cases, 3));
   }
   const std::string sentence = said.joined("{} in {}");
-  return sentence.empty() ? sentence : fmt::format("Unstable: {}.", sentence);
+  return sentence.empty() ? sentence : fmt::format("{}: {}.", label, sentence);
+}
+
+/// Cases in which engines are unstable, then those in which they are degraded.
+std::string worstCases(const StabilityResults& results) {
+  if (areTransforms(results)) return differentTransforms(results);
+  return fmt::format("{}", fmt::join(nonEmpty({casesAt(results, Verdict::fail, "Unstable"),
+                                               casesAt(results, Verdict::borderline, "Degraded")}),
+                                     " "));
 }
 
 std::string stabilityNextStep(const StabilityResults& results) {
@@ -427,7 +435,7 @@ Overview stabilityOverview(const StabilityResults& results) {
     overview.rows.push_back(std::move(row));
   }
   overview.conclusion =
-      nonEmpty({stableEngines(results), unstableCases(results), stabilityNextStep(results)});
+      nonEmpty({stableEngines(results), worstCases(results), stabilityNextStep(results)});
   return overview;
 }
 
@@ -467,7 +475,7 @@ Report reportOf(const StabilityResults& results) {
   report.elapsed = results.elapsed;
   report.figures = stabilityFigures(results);
   report.pictures = stabilityPictures(results);
-  report.section("matrix", "Hard cases by engine", "Summary")
+  report.section("matrix", "Cases by engine", "Summary")
       .blocks.push_back(stabilityMatrix(results, groups));
   for (std::size_t g = 0; g < groups.size(); ++g) addHardCase(report, results, groups[g], g + 1);
   report.section("scores", "All numbers").blocks = {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <set>
 
 #include "adapters/worker/json.hpp"
 #include "cases/case_files.hpp"
@@ -424,11 +425,13 @@ StabilityResults testStability(const std::vector<Case>& cases,
     std::ranges::move(rows, std::back_inserter(results.runs));
   reportNonReusableWorkers(engines, suite.progress);
   results.head = headOf(kindStability, cases.front(), command.commandLine);
-  const bool one =
-      std::ranges::all_of(cases, [&](const Case& c) { return c.name == cases.front().name; });
-  const char* const many = asks == SuiteAsks::transforms ? "transformed cases" : "hard cases";
-  results.head.setup = {one ? cases.front().name : many, "",
-                        cases.front().file.parent_path().string(), ""};
+  std::set<std::string> names;
+  for (const Case& setup : cases) names.insert(setup.name);
+  results.head.setup = {names.size() == 1
+                            ? cases.front().name
+                            : fmt::format("{} {}cases", names.size(),
+                                          asks == SuiteAsks::transforms ? "transformed " : ""),
+                        "", cases.front().file.parent_path().string(), ""};
   for (const Case& setup : cases)
     std::ranges::move(describe(setup, asks), std::back_inserter(results.cases));
   for (std::size_t e = 0; e < engines.size(); ++e)

@@ -85,6 +85,16 @@ TEST(EffectsReport, FewPackings_NothingIsTested) {
   EXPECT_TRUE(has(text, "within the two runs of one packing"));
 }
 
+TEST(StabilityOverview, DegradedCase_StandsInTheHead) {
+  StabilityResults results = sample::stabilityResults();
+  const auto& conclusion = stabilityOverview(results).conclusion;
+  ASSERT_GE(conclusion.size(), 2u);
+  EXPECT_TRUE(has(conclusion[1], "Degraded: grain in ")) << conclusion[1];
+  for (StabilityRun& run : results.runs)
+    if (run.verdict == Verdict::borderline) run.verdict = Verdict::pass;
+  EXPECT_FALSE(has(stabilityOverview(results).conclusion[1], "Degraded"));
+}
+
 TEST(StabilityPictures, SceneFarAway_IsCentred) {
   const auto pictures = stabilityPictures(sample::stabilityResults());
   ASSERT_EQ(pictures.size(), 1u);
