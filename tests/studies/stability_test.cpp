@@ -14,13 +14,19 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "adapters/grain.hpp"
 #include "adapters/worker/json.hpp"
+#include "cases/endpoints.hpp"
+#include "cases/flow.hpp"
 #include "cases/loader.hpp"
+#include "cases/time_step.hpp"
 #include "results/scene_picture.hpp"
 #include "results/stability.hpp"
 #include "stability/verdict.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/in_space.hpp"
+#include "studies/flow/endpoint_values.hpp"
+#include "studies/flow/run.hpp"
 #include "support/bad_input.hpp"
 #include "tests/misbehaving/entries.hpp"
 #include "tests/support/refusal.hpp"
@@ -286,6 +292,32 @@ INSTANTIATE_TEST_SUITE_P(All, HardCaseFault, ::testing::ValuesIn(shownToFail),
                                name, [](char c) { return !std::isalnum(c); }, '_');
                            return name;
                          });
+
+/// Endpoints that a run has beyond their margins of what closed forms expect.
+std::vector<std::string> beyondClosedForms(const Case& setup, const EngineEntry& entry) {
+  const auto engine = makeGrain();
+  const double step = timeStep(setup);
+  const Packing packing = flowPacking(setup, 0, step, *engine, [](double) {});
+  const FlowRun run = runWithoutFiles(entry, setup, 0, packing, step, [](double) {});
+  std::vector<std::string> beyond;
+  for (const auto& [name, margin] : setup.averaging.endpoints) {
+    const Endpoint& endpoint = endpointNamed(setup, name);
+    const auto found = endpointOf(endpoint, setup, run);
+    const double allowed = margin.value * (endpoint.byRatio ? std::abs(*endpoint.expected) : 1.0);
+    if (!found || std::abs(*found - *endpoint.expected) > allowed) beyond.push_back(name);
+  }
+  return beyond;
+}
+
+TEST(ClosedForms, StickSlip_FindsFrictionThatIsOffByAHundredth) {
+  const Case setup = loadCase(CROSSGRAIN_CASES "/assembly/stick-slip.toml").front();
+  const auto beyond = [&](const std::string& words) {
+    return beyondClosedForms(setup, plantedEntry(CROSSGRAIN_PLANTED, words, "planted"));
+  };
+  EXPECT_EQ(beyond(""), std::vector<std::string>{});
+  EXPECT_EQ(beyond("mu=0.99"), (std::vector<std::string>{"slip", "way"}));
+  EXPECT_EQ(beyond("mu=1.01"), (std::vector<std::string>{"slip", "way"}));
+}
 
 /// A case that nothing fails tests nothing.
 TEST(HardCases, Repository_EachIsShownToFail) {
