@@ -252,6 +252,17 @@ void fields(auto& io, LargestStep& step) {
   io("contact_time_s", step.contactTime);
 }
 
+/// An engine of which no endpoint was measured, as the budget had no room for it.
+struct MissingAnswer {
+  std::string engine;
+  double budget = 0.0;  ///< with which the same command has room for it [s]
+};
+
+void fields(auto& io, MissingAnswer& missing) {
+  io("engine", missing.engine, aName);
+  io("budget_s", missing.budget);
+}
+
 /// Time before the first step [s].
 struct Startup {
   std::string engine;
@@ -395,10 +406,11 @@ struct CostResults : FlowFrame {
   std::vector<EngineRow> engines;
   std::vector<PackingRow> packings;
 
-  std::optional<double> target;            ///< --want: an accuracy asked for besides the usual
-  std::optional<double> budget;            ///< for all that was measured [s]
-  std::optional<double> budgetForTheRest;  ///< for what did not fit, all else kept [s]
-  std::vector<CostPoint> points;           ///< by kind, engine and setting
+  std::optional<double> target;               ///< --want: an accuracy asked for besides the usual
+  std::optional<double> budget;               ///< for all that was measured [s]
+  std::optional<double> budgetForTheRest;     ///< for what did not fit, all else kept [s]
+  std::vector<MissingAnswer> missingAnswers;  ///< from the smallest budget
+  std::vector<CostPoint> points;              ///< by kind, engine and setting
   std::vector<CostReference> references;
   std::vector<CostModel> models;
   std::optional<double> window;  ///< over which trajectories were compared, if they were [s]
@@ -416,6 +428,12 @@ struct CostResults : FlowFrame {
   std::vector<Advice> advice;
   std::vector<CostCell> cells;
 
+  /// Whether the budget had no room for an endpoint of any engine.
+  bool lacksEndpoints() const {
+    return !missingAnswers.empty() && std::ranges::none_of(points, [](const CostPoint& point) {
+      return point.kind == CostKind::averages && point.ran();
+    });
+  }
   /// How many points have that status.
   std::size_t count(Status status) const;
 
@@ -427,6 +445,7 @@ struct CostResults : FlowFrame {
     io.present("want", target);
     io("budget_s", budget);
     io("budget_for_the_rest_s", budgetForTheRest);
+    io.when(!missingAnswers.empty(), "missing_answers", missingAnswers);
     io("points", points);
     io("references", references);
     io("models", models);

@@ -40,6 +40,14 @@ std::string targetText(double target) {
   return power.starts_with("1×") ? power.substr(std::string("1×").size()) : power;
 }
 
+/// "--budget 48h", rounded up.
+std::string budgetOption(double seconds) {
+  const auto [unit, size] = seconds <= 120.0    ? std::pair("s", 1.0)
+                            : seconds <= 7200.0 ? std::pair("m", 60.0)
+                                                : std::pair("h", 3600.0);
+  return fmt::format("--budget {:.0f}{}", std::max(1.0, std::ceil(seconds / size)), unit);
+}
+
 /// "3.2 % (1.4 % to 5.1 %)"
 std::string intervalText(double value, double low, double high) {
   const std::string from = percentText(low), to = percentText(high);
@@ -258,12 +266,26 @@ std::vector<double> answerTargets(const CostResults& results) {
   return targets;
 }
 
+/// Engines without an endpoint, with the budget that has room for one; empty: there is none such.
+std::string missingAnswersText(const CostResults& results) {
+  std::vector<std::string> budgets, engines;
+  for (const MissingAnswer& one : results.missingAnswers) {
+    engines.push_back(one.engine);
+    budgets.push_back(fmt::format("{} for {}", budgetOption(one.budget), one.engine));
+  }
+  if (engines.empty()) return {};
+  return fmt::format("{} was measured within the budget of {}: that takes {}.{}",
+                     results.lacksEndpoints() ? "No endpoint of the scene"
+                                              : fmt::format("No endpoint of {}", listed(engines)),
+                     readableDuration(results.budget), listed(budgets),
+                     results.lacksEndpoints() ? " Sizes and threads were not timed." : "");
+}
+
 std::string nextStep(const CostResults& results) {
   if (const std::size_t left = results.count(Status::notRun))
     return fmt::format(
-        "Next: the same command with --budget {:.0f}s measures the {} that did not fit into the "
-        "budget.",
-        std::ceil(results.budgetForTheRest.value_or(0.0) / 10.0) * 10.0, counted(left, "point"));
+        "Next: the same command with {} measures the {} that did not fit into the budget.",
+        budgetOption(results.budgetForTheRest.value_or(0.0)), counted(left, "point"));
   return "Next: take the setting that you need from the advice on this page.";
 }
 
@@ -294,6 +316,8 @@ Overview costOverview(const CostResults& results) {
     }
     overview.rows.push_back(std::move(row));
   }
+  if (const std::string missing = missingAnswersText(results); !missing.empty())
+    overview.conclusion.push_back(missing);
   Names cheapest;
   for (const double target : targets) cheapest.push_back(cheapestOf(results, target));
   if (!cheapest.empty())
@@ -466,10 +490,8 @@ Names costSentences(const CostResults& results) {
   std::string counts = fmt::format("{} points: {}", results.points.size(), countsText(results));
   if (results.count(Status::notRun) > 0 && results.budgetForTheRest)
     counts += fmt::format(
-        ", for they did not fit into the budget of {}; they would with --resume and a budget of "
-        "about {}",
-        readableDuration(results.budget),
-        readableDuration(std::ceil(*results.budgetForTheRest / 10.0) * 10.0));
+        ", for they did not fit into the budget of {}; they would with --resume {}",
+        readableDuration(results.budget), budgetOption(*results.budgetForTheRest));
   Names sentences = {decidedText(results), counts + "."};
   for (const EngineRow& engine : results.engines)
     if (engine.status == Status::refused)

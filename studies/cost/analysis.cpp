@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -181,10 +182,12 @@ CountedEnds endsOf(const Points& points, const std::vector<CostModel>& models,
   return {std::max(ends.low, least), std::max(ends.high, most), true};
 }
 
+constexpr const char* morePackings = "more packings: one shows no statistical error";
+
 /// What would show whether the error lies above or below the target. Repeats are taken to show the
 /// same error with a smaller uncertainty.
 std::string whatDecides(const CostPoint& point, double target) {
-  if (point.saysNothing()) return "more packings: one shows no statistical error";
+  if (point.saysNothing()) return morePackings;
   if (point.kind == CostKind::collision && !point.referenceError)
     return "more collisions: a larger cost.psi_count";
   if (point.kind == CostKind::trajectory && point.statistical.value_or(0.0) > 0.0)
@@ -214,14 +217,22 @@ std::string notRunText(const CostPoint& point, std::size_t count) {
   return fmt::format("{}{} not run: {}", point.setting, more, point.reason);
 }
 
-/// Of the points that were not run the one with the largest step that may yet be better than the
-/// best: not those at the same or larger time steps of an engine's own scheme.
+/// Whether no contact is stable at a point's step: 2/ω is 2 t_c/π.
+bool isBeyondLimit(const CostPoint& point) {
+  return point.stepsPerContact && *point.stepsPerContact < std::numbers::pi / 2.0;
+}
+
+/// Of the points that were not run, all below the stability limit, the one that may yet be better
+/// than the best: with the largest of the steps that are smaller than its own, else with the
+/// smallest; not those at the same or larger time steps of an engine's own scheme.
 std::optional<std::size_t> mayYetReach(const Points& points, Places notRun, const CostPoint& best) {
   std::erase_if(notRun, [&](std::size_t k) {
     return points[k].knob == "time_step" && points[k].dt >= best.dt;
   });
-  const auto found = std::ranges::min_element(
-      notRun, {}, [&](std::size_t k) { return -points[k].dt.value_or(0.0); });
+  const auto found = std::ranges::min_element(notRun, {}, [&](std::size_t k) {
+    const double dt = points[k].dt.value_or(0.0);
+    return dt < best.dt ? std::pair(false, -dt) : std::pair(true, dt);
+  });
   return found == notRun.end() ? std::nullopt : std::optional(*found);
 }
 
@@ -358,7 +369,7 @@ Settled settle(const CostData& of, const Question& question) {
   std::vector<Measure> measures;
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (!question.asks(points[k])) continue;
-    if (points[k].status == Status::notRun) notRun.push_back(k);
+    if (points[k].status == Status::notRun && !isBeyondLimit(points[k])) notRun.push_back(k);
     if (!refusal) refusal = points[k].status == Status::refused ? points[k].reason : "";
     if (!points[k].measured()) continue;
     among.push_back(k);
@@ -455,17 +466,24 @@ Advice adviceFor(const CostData& of, const std::string& engine, double target) {
   found.engine = engine;
   found.target = target;
   // Errors against the case's law that do not end with a window.
-  for (const CostPoint& point : of.points)
-    if (point.engine == engine && point.kind != CostKind::trajectory && !isOwn(point.measure) &&
-        point.measured())
+  bool ofOnePacking = false;
+  for (const CostPoint& point : of.points) {
+    if (point.engine != engine || point.kind == CostKind::trajectory || isOwn(point.measure) ||
+        !point.measured())
+      continue;
+    if (point.saysNothing())
+      ofOnePacking = true;
+    else
       addOnce(found.kinds, point.kind);
+  }
   std::ranges::sort(found.kinds);
+  if (ofOnePacking) found.decides = morePackings;
   if (found.kinds.empty()) return found;
   Question question{engine, found.kinds, CostBasis::scene, target};
   if (found.kinds.size() > 1) question.onlyContradicts = CostKind::averages;
   const Settled settled = decide(of, question);
   found.verdict = settled.verdict;
-  found.decides = settled.decides;
+  if (!settled.decides.empty() || settled.verdict == Verdict::fail) found.decides = settled.decides;
   found.obstacle = settled.obstacle;
   found.model = settled.model;
   found.ties = settled.ties;

@@ -87,28 +87,28 @@ class AverageErrors final : public ErrorKind {
     const TimedEngine& timed = study_.engines[engine];
     constexpr double sample = 1e-3;
     return study_.packingCount() *
-           (duration() / study_.stepOf(engine, setting.setup) * timed.step + timed.load +
-            timed.start + sample * flowTimes(setting.setup).samples);
+           (duration() / study_.stepOf(engine, setting.setup) * timed.scene.step +
+            timed.scene.load + timed.start + sample * flowTimes(setting.setup).samples);
   }
 
-  double commonTime() const override {
+  double commonTime(std::size_t rounds) const override {
     const Cost& cost = study_.setup.cost;
     int missing = 0;
-    for (std::size_t k = 0; k < packings().size(); ++k)
+    for (std::size_t k = 0; k < rounds; ++k)
       missing += !study_.campaign.store().find(referenceName(k), referenceKey(k));
     return duration() * cost.averageReference / costContactTime(study_.setup) * study_.inHouseStep *
-           missing / std::min<double>(study_.jobs, study_.packingCount());
+           missing / std::min<double>(study_.jobs, std::max(missing, 1));
   }
 
   double ownTime(std::size_t) const override { return 0.0; }
   bool keptSuffice() const override { return false; }
 
-  void makeReferences() override {
+  void makeReferences(std::size_t rounds) override {
     const EngineEntry& entry = study_.inHouse;
     const Case setup = atSteps(study_.setup, entry.name, study_.inHouseEngine->capabilities(),
                                study_.setup.cost.averageReference);
     std::vector<CachedTask<CostRun>> tasks;
-    for (std::size_t k = 0; k < packings().size(); ++k)
+    for (std::size_t k = 0; k < rounds; ++k)
       tasks.push_back({referenceName(k), fmt::format("packing {}", k), referenceKey(k), 1.0,
                        [&, k](const std::function<void(double)>& progress) {
                          return CachedTask<CostRun>::Outcome{

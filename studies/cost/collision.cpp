@@ -322,13 +322,13 @@ class CollisionErrors final : public ErrorKind {
   }
 
   double predicted(std::size_t engine, const CostSetting& setting) const override {
-    const TimedEngine& timed = study_.engines[engine];
+    const SceneTimes& timed = study_.engines[engine].collisions;
     const Cost& cost = study_.setup.cost;
     const double dt = study_.stepOf(engine, setting.setup);
     double longest = 0.0;
     for (const Case& pair : collisionsOf(setting.setup))
       longest = std::max(longest, impactTimes(pair).longest);
-    // 2.5 contacts and some steps, of fewer disks than the packing has: an upper bound.
+    // 2.5 contacts and some steps.
     const auto lasts = [&](double contact) { return (2.5 * contact / dt + 21.0) * timed.step; };
     const double once = lasts(costContactTime(setting.setup));
     return cycleSteps * lasts(longest) + cost.repeats * (once + 1.3 * cost.timed) +
@@ -337,10 +337,11 @@ class CollisionErrors final : public ErrorKind {
 
   double ownTime(std::size_t engine) const override {
     // 2.5 t_c at the reference's step and at twice that: what it takes where there is no oracle.
-    return 1.5 * 2.5 * study_.setup.cost.collisionReference * study_.engines[engine].step;
+    return 1.5 * 2.5 * study_.setup.cost.collisionReference *
+           study_.engines[engine].collisions.step;
   }
 
-  void makeReferences() override { reference_ = collisionReference(study_.setup); }
+  void makeReferences(std::size_t) override { reference_ = collisionReference(study_.setup); }
 
   CostRun run(const PlannedPoint& point, std::size_t round, double) override {
     const EngineEntry& entry = study_.entryOf(point.engine);

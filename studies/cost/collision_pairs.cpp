@@ -280,6 +280,9 @@ PairOutcomes runPairs(Engine& engine, const EngineEntry& entry, const std::vecto
     for (const std::size_t pair : group)
       end = std::max(end, sweepEnd(collisions[pair], pairs.scene.dt, effective.dt));
     engine.advance(end);
+    const Stats stats = engine.stats();
+    outcomes.seconds += stats.wallSeconds;
+    outcomes.steps = std::max(outcomes.steps, stats.steps);
     const Snapshot after = common.dimension == 3
                                ? inPlane(engine.snapshotInSpace(ContactReport::none))
                                : engine.snapshot(ContactReport::none);

@@ -59,6 +59,8 @@ double phaseOf(std::size_t k);
 struct PairOutcomes {
   std::vector<Outcomes> of;  ///< by pair, by start
   double dt = 0.0;           ///< that the engine took [s]
+  double seconds = 0.0;      ///< that steps took, of all scenes [s]
+  std::uint64_t steps = 0;   ///< of the scene that takes most of them
 };
 
 /// Runs all collisions of a reference once. The pairs of one law share a scene, far apart; wall

@@ -21,6 +21,7 @@
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "support/interrupt.hpp"
+#include "support/numbers.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -175,47 +176,45 @@ double shareOf(CostKind kind) {
 constexpr double shareOfSteps = 0.1;
 
 /// Measures one kind of error after the other, round by round and one point at a time: of each the
-/// time steps first, then other settings, in turns over the engines, each one's cheapest first, so
-/// that a budget reaches every engine. A point that is begun gets as many rounds as an interval
-/// takes, and further ones as long as there is time.
+/// time steps first, then other settings, in turns over the engines, each one's cheapest first
+/// after the case's own step, so that a budget reaches every engine. A point that is begun gets as
+/// many rounds as an interval takes, and further ones as long as there is time.
 class Measuring {
  public:
-  Measuring(CostStudy& study, double budget) : study_(study), budget_(budget) {}
+  Measuring(CostStudy& study, double budget)
+      : study_(study), budget_(budget), began_(study.campaign.elapsed()) {}
 
-  /// @param until  when it has to end, since the command began [s]
-  void measureKind(ErrorKind& kind, double until) {
-    until_ = until;
-    paces_.clear();
-    std::vector<PlannedPoint> plan = planned(kind);
-    const double common = kind.commonTime();
-    // References serve nothing where no point fits beside them.
-    double first = 0.0;
-    for (const PlannedPoint& point : plan)
-      if (common > 0.0 && point.turn < 2 && study_.settingOf(point).knob == "time_step")
-        first += std::min(point.seconds, point.round * static_cast<double>(fewestRounds));
-    const std::string why = lackOfTime(common + first);
-    if (why.empty())
-      kind.makeReferences();
-    else
-      budgetForTheRest += common;
-    std::vector<Rounds> all;
-    for (const PlannedPoint& point : plan) {
-      const CostSetting& setting = study_.settingOf(point);
-      if (!setting.refusal.empty()) {
-        put(kind, point, Status::refused, setting.refusal);
-      } else if (!why.empty() && (point.seconds > 0.0 || !kind.keptSuffice())) {
-        put(kind, point, Status::notRun, "its reference and first points " + why);
-        budgetForTheRest += point.seconds;
-      } else {
-        all.push_back({point});
+  void measureKinds(const ErrorKinds& kinds) {
+    const double all = std::max(0.0, budget_ - began_);
+    double shares = shareOfSteps, answers = 0.0, until = began_;
+    for (const auto& kind : kinds) {
+      shares += shareOf(kind->kind());
+      if (kind->kind() == CostKind::averages) answers = timeForAnswers(*kind, all);
+    }
+    for (const auto& kind : kinds) {
+      until += all * shareOf(kind->kind()) / shares;
+      if (kind->kind() == CostKind::averages)
+        measureKind(*kind, std::clamp(study_.campaign.elapsed() + answers, until,
+                                      std::max(until, budget_)));
+      else
+        measureKind(*kind, std::min(until, budget_ - answers));
+    }
+  }
+
+  /// Engines without an endpoint, as the budget had no room for it, and what it takes.
+  std::vector<MissingAnswer> missingAnswers(const ErrorKinds& kinds) const {
+    std::vector<MissingAnswer> missing;
+    for (const auto& kind : kinds) {
+      if (kind->kind() != CostKind::averages) continue;
+      double seconds = kind->commonTime(std::min(fewestRounds, kind->rounds()));
+      for (const auto& [takes, engine] : firstAnswers(*kind)) {
+        if (hasAnswer(engine)) continue;
+        seconds += takes * pace(engine);
+        missing.push_back(
+            {study_.entryOf(engine).name, began_ + slackOfAnswers * seconds / mostOfAnswers});
       }
     }
-    for (std::size_t round = 0; round < kind.rounds(); ++round) runRound(kind, all, round);
-    for (const Rounds& one : all)
-      if (one.ended)
-        putEnded(kind, one.point, *one.ended);
-      else
-        found_[placeOf(one.point)] = kind.points(one.point, one.runs);
+    return missing;
   }
 
   /// By kind, engine and setting.
@@ -230,8 +229,12 @@ class Measuring {
  private:
   using Place = std::tuple<CostKind, std::size_t, std::size_t>;
 
-  /// A point and what it has so far.
+  /// Of the budget for endpoints, where each engine's first one takes more than their share, and
+  /// for how much longer than predicted these may take.
+  static constexpr double mostOfAnswers = 0.8, slackOfAnswers = 1.2;
   static constexpr std::size_t fewestRounds = 3;  ///< of an interval that says something
+
+  /// A point and what it has so far.
   struct Rounds {
     PlannedPoint point;
     std::vector<CostRun> runs = {};
@@ -239,6 +242,74 @@ class Measuring {
     double committed = 0.0;             ///< what rounds that it is to have will take [s]
     bool cut = false;                   ///< the budget ended before its last rounds
   };
+
+  /// What the case's own step takes until it says something, by engine, the fastest first [s].
+  std::vector<std::pair<double, std::size_t>> firstAnswers(const ErrorKind& kind) const {
+    std::vector<std::pair<double, std::size_t>> answers;
+    for (const PlannedPoint& point : planned(kind))
+      if (point.setting == 0 && study_.settingOf(point).refusal.empty())
+        answers.emplace_back(
+            std::min(point.seconds, point.round * static_cast<double>(fewestRounds)), point.engine);
+    std::ranges::sort(answers);
+    return answers;
+  }
+
+  /// Of so many engines as there is time for; at least of the fastest, or of none [s].
+  double timeForAnswers(const ErrorKind& kind, double left) const {
+    double needed = slackOfAnswers * kind.commonTime(std::min(fewestRounds, kind.rounds()));
+    double found = 0.0;
+    for (const auto& [takes, engine] : firstAnswers(kind)) {
+      needed += slackOfAnswers * takes;
+      if (needed <= (found > 0.0 ? mostOfAnswers : 1.0) * left) found = needed;
+    }
+    return found;
+  }
+
+  bool hasAnswer(std::size_t engine) const {
+    return std::ranges::any_of(found_, [&](const auto& one) {
+      const auto& [kind, of, setting] = one.first;
+      return kind == CostKind::averages && of == engine &&
+             std::ranges::any_of(one.second, [&](const CostPoint& point) {
+               return point.ran() || (setting == 0 && point.status != Status::notRun);
+             });
+    });
+  }
+
+  /// @param until  when it has to end, since the command began [s]
+  void measureKind(ErrorKind& kind, double until) {
+    until_ = until;
+    paces_.clear();
+    const std::vector<PlannedPoint> plan = planned(kind);
+    // References serve nothing where no point fits beside them.
+    const auto answers = firstAnswers(kind);
+    const auto lack = [&](std::size_t rounds) {
+      const double common = kind.commonTime(rounds);
+      return common > 0.0 && !answers.empty() ? lackOfTime(common + answers.front().first) : "";
+    };
+    std::size_t rounds = kind.rounds();
+    if (!lack(rounds).empty()) rounds = std::min(rounds, fewestRounds);
+    const std::string why = lack(rounds);
+    if (why.empty()) kind.makeReferences(rounds);
+    budgetForTheRest += kind.commonTime(kind.rounds());
+    std::vector<Rounds> all;
+    for (const PlannedPoint& point : plan) {
+      const CostSetting& setting = study_.settingOf(point);
+      if (!setting.refusal.empty()) {
+        put(kind, point, Status::refused, setting.refusal);
+      } else if (!why.empty() && (point.seconds > 0.0 || !kind.keptSuffice())) {
+        put(kind, point, Status::notRun, "its reference and first points " + why);
+        budgetForTheRest += point.seconds;
+      } else {
+        all.push_back({point});
+      }
+    }
+    for (std::size_t round = 0; round < rounds; ++round) runRound(kind, all, round);
+    for (const Rounds& one : all)
+      if (one.ended)
+        putEnded(kind, one.point, *one.ended);
+      else
+        found_[placeOf(one.point)] = kind.points(one.point, one.runs);
+  }
 
   static Place placeOf(const PlannedPoint& point) {
     return {point.kind, point.engine, point.setting};
@@ -304,7 +375,7 @@ class Measuring {
       return study_.settingOf(point).knob != "time_step";
     };
     std::ranges::stable_sort(plan, {}, [&](const PlannedPoint& point) {
-      return std::tuple(otherThanStep(point), point.seconds);
+      return std::tuple(otherThanStep(point), point.setting != 0, point.seconds);
     });
     std::map<std::pair<bool, std::size_t>, std::size_t> turns;
     for (PlannedPoint& point : plan) point.turn = turns[{otherThanStep(point), point.engine}]++;
@@ -323,8 +394,8 @@ class Measuring {
     seconds *= pace(engine);
     if (!(seconds > 0.0) || seconds <= overrun * left) return {};
     return fmt::format(
-        "would take about {:.3g} s, {:.3g} s are left of its share of the budget of {:.3g} s",
-        seconds, std::max(left, 0.0), budget_);
+        "would take about {}, {:.3g} s are left of its share of the budget of {:.3g} s",
+        readableDuration(seconds), std::max(left, 0.0), budget_);
   }
 
   /// How many times longer points take than predicted, by those of the engine so far, or of all: a
@@ -396,6 +467,7 @@ class Measuring {
 
   CostStudy& study_;
   double budget_;           ///< of the command [s]
+  double began_;            ///< since the command began [s]
   double until_ = 0.0;      ///< when the kind at hand has to end, since the command began [s]
   double committed_ = 0.0;  ///< what further rounds of points that are begun will take [s]
   struct Pace {
@@ -411,7 +483,7 @@ class Measuring {
 void addEngines(CostResults& results, const CostStudy& study) {
   for (std::size_t e = 0; e < study.engines.size(); ++e)
     if (const TimedEngine& engine = study.engines[e]; engine.takesPart)
-      results.startup.push_back({study.entryOf(e).name, engine.start, engine.load});
+      results.startup.push_back({study.entryOf(e).name, engine.start, engine.scene.load});
   results.engineFailures = study.engineFailures;
   for (EngineRow& engine : results.engines)
     for (const CostPoint& point : results.points)
@@ -428,17 +500,15 @@ CostResults runCost(const StudyWork& work, const CostOptions& options) {
   const ErrorKinds kinds = errorKinds(study);
   study.prepare();
   const double budget = costBudget(options);
-  double shares = shareOfSteps, until = study.campaign.elapsed();
-  for (const auto& kind : kinds) shares += shareOf(kind->kind());
-  const double share = std::max(0.0, budget - until) / shares;
   Measuring measuring(study, budget);
-  for (const auto& kind : kinds)
-    measuring.measureKind(*kind, until += share * shareOf(kind->kind()));
+  measuring.measureKinds(kinds);
 
   CostResults results;
-  if (study.setup.cost.has("disks") || study.setup.cost.has("threads"))
-    results.steps = timeSizes(study, budget - study.campaign.elapsed());
+  results.missingAnswers = measuring.missingAnswers(kinds);
   results.points = measuring.points();
+  const bool timesSteps = study.setup.cost.has("disks") || study.setup.cost.has("threads");
+  if (timesSteps && !results.lacksEndpoints())
+    results.steps = timeSizes(study, budget - study.campaign.elapsed());
   FlowStudy couette = study.campaign.study(kindCost);
   static_cast<FlowFrame&>(results) = couette;
   results.elapsed = couette.elapsed;
@@ -482,6 +552,10 @@ Outcome outcomeOfCost(const CostResults& results, const CommandLine& line, const
                   refusals(results.engines, line.run.engines)};
   outcome.failures.insert(outcome.failures.end(), results.engineFailures.begin(),
                           results.engineFailures.end());
+  if (outcome.status == exitPassed && results.lacksEndpoints()) {
+    outcome.status = exitFailed;
+    outcome.nothingJudged = "the budget has no room for any endpoint of the scene";
+  }
   return outcome;
 }
 

@@ -124,9 +124,9 @@ class SizeTimings {
       time.bodies = one.bodies;
       time.workers = one.workers;
       time.workersAre = sharing[one.engine];
-      time.steps = stepsFor(
-          study_.engines[e].step * static_cast<double>(one.bodies) / static_cast<double>(own_),
-          setup.cost.timed);
+      time.steps = stepsFor(study_.engines[e].scene.step * static_cast<double>(one.bodies) /
+                                static_cast<double>(own_),
+                            setup.cost.timed);
       engines_.push_back(e);
       times_.push_back(std::move(time));
     }
@@ -198,7 +198,8 @@ class SizeTimings {
     const TimedEngine& engine = study_.engines[engines_[k]];
     const double larger = static_cast<double>(time.bodies) / static_cast<double>(own_);
     const double takes =
-        engine.start + larger * (engine.load + engine.step * 1.1 * static_cast<double>(time.steps));
+        engine.start +
+        larger * (engine.scene.load + engine.scene.step * 1.1 * static_cast<double>(time.steps));
     if (takes > left_)
       return fmt::format("would take about {:.3g} s, {:.3g} s are left of the budget", takes,
                          std::max(left_, 0.0));

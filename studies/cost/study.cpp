@@ -14,6 +14,7 @@
 #include "cases/materials.hpp"
 #include "cases/time_step.hpp"
 #include "studies/core/engine_access.hpp"
+#include "studies/cost/collision_pairs.hpp"
 #include "studies/cost/impacts.hpp"
 #include "studies/cost/trajectory.hpp"
 #include "studies/lockstep/starts.hpp"
@@ -92,6 +93,33 @@ template double drivenSpeed(const SpaceScene&);
 template void requireSound(const Scene&, const Snapshot&);
 template void requireSound(const SpaceScene&, const SpaceSnapshot&);
 
+namespace {
+
+/// After a warm-up; of a slow engine few steps are enough.
+double secondsOfAStep(Engine& engine, double dt) {
+  constexpr int warmUp = 20, most = 200, least = 20;
+  constexpr double enough = 1.0;  // [s]
+  engine.advance(warmUp * dt);
+  const double before = engine.stats().wallSeconds;
+  const int steps = static_cast<int>(
+      std::clamp(warmUp * enough / std::max(before, 1e-9), 1.0 * least, 1.0 * most));
+  engine.advance((warmUp + steps) * dt);
+  return (engine.stats().wallSeconds - before) / steps;
+}
+
+}  // namespace
+
+SceneTimes timeCollisions(Engine& engine, const EngineEntry& entry, const Case& setup,
+                          double step) {
+  const std::vector<Case> collisions = collisionsOf(setup);
+  CollisionReference starts;
+  for (const Case& pair : collisions) starts.pairs.push_back({pair, collisionStarts(pair), {}});
+  const Clock::time_point begin = Clock::now();
+  const PairOutcomes done = runPairs(engine, entry, collisions, starts, step, 0);
+  return {secondsSince(begin) - done.seconds,
+          done.seconds / static_cast<double>(std::max<std::uint64_t>(done.steps, 1))};
+}
+
 GeometricMean geometricMean(const std::vector<double>& numbers) {
   std::vector<std::optional<double>> logs;
   for (const double number : numbers) logs.emplace_back(std::log(number));
@@ -164,7 +192,7 @@ void CostStudy::prepare() {
     listSettings(e);
     engines[e].takesPart = true;
     campaign.progress().finish(
-        e, fmt::format("{}: {:.3g} µs a step", entryOf(e).name, 1e6 * engines[e].step));
+        e, fmt::format("{}: {:.3g} µs a step", entryOf(e).name, 1e6 * engines[e].scene.step));
   }
   timeInHouse();
 }
@@ -200,23 +228,28 @@ void CostStudy::listSettings(std::size_t engine) {
 }
 
 void CostStudy::timeStart(std::size_t engine) {
-  constexpr int warmUp = 50, steps = 200;
   TimedEngine& timed = engines[engine];
+  const EngineEntry& entry = entryOf(engine);
   const Clock::time_point start = Clock::now();
   Engine& worker = workerOf(engine);
-  worker.capabilities();
+  const Capabilities can = worker.capabilities();
   timed.start = secondsSince(start);
   const Clock::time_point load = Clock::now();
   const double dt = inDimensionOf(setup, [&]<int D>() {
-    return loadScene(worker, entryOf(engine), setup,
-                     flowScene<D>(setup, campaign.packings().front(), campaign.dt()))
+    return loadScene(worker, entry, setup,
+                     flowScene<D>(setup, trajectoryStarts().front(), campaign.dt()))
         .dt;
   });
-  timed.load = secondsSince(load);
-  worker.advance(warmUp * dt);
-  const double before = worker.stats().wallSeconds;
-  worker.advance((warmUp + steps) * dt);
-  timed.step = (worker.stats().wallSeconds - before) / steps;
+  timed.scene.load = secondsSince(load);
+  timed.scene.step = secondsOfAStep(worker, dt);
+  timed.collisions = timed.scene;
+  if (std::ranges::find(setup.cost.kinds, CostKind::collision) == setup.cost.kinds.end()) return;
+  try {
+    timed.collisions = timeCollisions(worker, entry, setup, engineStep(setup, entry.name, can));
+  } catch (const UnsupportedScene&) {  // is said where they are measured, as is what fails
+  } catch (const EngineFailure&) {
+    timed.worker.reset();
+  }
 }
 
 void CostStudy::timeInHouse() {

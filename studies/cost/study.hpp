@@ -87,10 +87,20 @@ GeometricMean geometricMean(const std::vector<double>& numbers);
 CostPoint timedPoint(const std::string& engine, const CostSetting& setting, CostKind kind,
                      const std::vector<CostRun>& runs);
 
+/// What it takes to load a scene and to step it [s].
+struct SceneTimes {
+  double load = 0.0, step = 0.0;
+};
+
+/// Of all collisions of a flow, side by side as errors run them, at a step of the engine [s].
+/// @throws EngineFailure, UnsupportedScene
+SceneTimes timeCollisions(Engine& engine, const EngineEntry& entry, const Case& setup, double step);
+
 /// An engine, its worker, what it takes to start and to step, and what there is to measure on it.
 struct TimedEngine {
   std::array<std::vector<CostSetting>, costKinds.size()> settings;  ///< by CostKind
-  double start = 0.0, load = 0.0, step = 0.0;                       ///< [s]
+  double start = 0.0;                                               ///< [s]
+  SceneTimes scene, collisions;  ///< of a state along the flow, and of two bodies at a time
   bool takesPart = false;
   std::unique_ptr<Engine> worker;  ///< null: to be started anew
 };
@@ -185,15 +195,16 @@ class ErrorKind {
   virtual CostKind kind() const = 0;
   virtual std::vector<std::string> measures() const = 0;
   virtual std::size_t rounds() const = 0;
-  /// What all rounds of a setting on an engine will take; what references take that all engines
-  /// share, and an engine's own [s].
+  /// What all rounds of a setting on an engine will take; what references of the first rounds take
+  /// that all engines share, and an engine's own [s].
   virtual double predicted(std::size_t engine, const CostSetting& setting) const = 0;
-  virtual double commonTime() const { return 0.0; }
+  virtual double commonTime(std::size_t) const { return 0.0; }
   virtual double ownTime(std::size_t engine) const = 0;
   /// Whether what is kept of a point needs none of those references any more.
   virtual bool keptSuffice() const { return true; }
-  /// Those references that all points need. Not called where they take too long.
-  virtual void makeReferences() {}
+  /// Those references that all points of the first rounds need. Not called where they take too
+  /// long.
+  virtual void makeReferences(std::size_t) {}
   /// @param longest  that whole runs may take [s]
   /// @throws as Engine does, TakesTooLong
   virtual CostRun run(const PlannedPoint& point, std::size_t round, double longest) = 0;

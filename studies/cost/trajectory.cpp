@@ -108,14 +108,14 @@ class TrajectoryErrors final : public ErrorKind {
   }
 
   double predicted(std::size_t engine, const CostSetting& setting) const override {
-    const TimedEngine& timed = study_.engines[engine];
+    const SceneTimes& timed = study_.engines[engine].scene;
     const double once = window() / study_.stepOf(engine, setting.setup) * timed.step;
     return static_cast<double>(rounds()) * (once + timed.load);
   }
 
-  double commonTime() const override {
+  double commonTime(std::size_t of) const override {
     std::size_t missing = 0;
-    for (std::size_t round = 0; round < rounds(); ++round) {
+    for (std::size_t round = 0; round < of; ++round) {
       const auto [name, key] = referenceFile({}, {}, round);
       missing += !study_.campaign.store().find(name, key);
     }
@@ -127,7 +127,7 @@ class TrajectoryErrors final : public ErrorKind {
     double references = 0.0;
     for (const std::string& integrator : integratorsOf(engine))
       references += !isCommon(engine, integrator);
-    return references * referenceSteps() * study_.engines[engine].step;
+    return references * referenceSteps() * study_.engines[engine].scene.step;
   }
 
   CostRun run(const PlannedPoint& planned, std::size_t round, double) override {

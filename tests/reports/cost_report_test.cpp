@@ -187,6 +187,28 @@ TEST(CostOverview, Answer_HasStepTimeAndWhatStandsInTheWay) {
       << overview.conclusion.front();
 }
 
+/// Budgets are those that the option takes, and come before what else there is to say.
+TEST(CostOverview, EndpointsWithoutRoom_ComeFirstWithTheirBudget) {
+  CostResults results = byHand();
+  results.budget = 60.0;
+  results.budgetForTheRest = 172'330.0;
+  results.missingAnswers = {{"a", 61.5}, {"b", 7'190.0}};
+  results.points[1].status = Status::notRun;
+  const auto conclusion = costOverview(results).conclusion;
+  EXPECT_EQ(conclusion.front(),
+            "No endpoint of the scene was measured within the budget of 1 min 00 s: that takes "
+            "--budget 62s for a and --budget 120m for b. Sizes and threads were not timed.");
+  EXPECT_TRUE(has(conclusion.back(), "with --budget 48h measures the 1 point "))
+      << conclusion.back();
+  results.points[0].kind = CostKind::averages;
+  results.missingAnswers.erase(results.missingAnswers.begin());
+  EXPECT_EQ(costOverview(results).conclusion.front(),
+            "No endpoint of b was measured within the budget of 1 min 00 s: that takes --budget "
+            "120m for b.");
+  results.missingAnswers.clear();
+  EXPECT_FALSE(has(costOverview(results).conclusion.front(), "No endpoint"));
+}
+
 TEST(CostToml, AdviceForTheTarget_IsAFragmentWithCommentsAlone) {
   CostResults results = byHand();
   results.target = 0.1;

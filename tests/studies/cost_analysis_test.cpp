@@ -1,6 +1,7 @@
 // Fronts, advice and cells of made-up points.
 #include "studies/cost/analysis.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -185,6 +186,23 @@ TEST(CostCells, SettingNotRunThatMayDoBetter_NotMeasured) {
             "it has no limit");
 }
 
+/// Another integrator has its steps, too: none beyond 2/ω is named, and the smaller one is.
+TEST(CostCells, StepBeyondTheStabilityLimit_DoesNotDecide) {
+  Points points = collisions();
+  for (const double perContact : {1.2, 2.0, 400.0}) {
+    CostPoint left = without(at(0.0, 1.0), Status::notRun, "would take about 90 s");
+    left.knob = "integrator";
+    left.setting = fmt::format("velocity_verlet, t_c/{:g}", perContact);
+    left.stepsPerContact = perContact;
+    left.dt = 1.0 / perContact;
+    points.push_back(left);
+  }
+  EXPECT_EQ(cellOf(points, 0.001).decides,
+            "velocity_verlet, t_c/400 and 1 more, which were not run: would take about 90 s");
+  points.resize(points.size() - 2);  // that of t_c/1.2 is left
+  EXPECT_EQ(cellOf(points, 0.001).verdict, Verdict::fail);
+}
+
 TEST(CostCells, SettingWithoutAMeasure_IsNotRecommended) {
   Points points = {at(0.005, 1.0, "t_c/10"), at(0.05, 1.0, "t_c/10", "e_n"),
                    at(0.001, 4.0, "t_c/40")};
@@ -340,6 +358,18 @@ TEST(CostAdvice, AveragesCannotDecide_CollisionsDoAndTheOpenAverageIsNamed) {
   const Points averages(points.begin() + 4, points.end());
   EXPECT_EQ(advice(averages, {}, {0.01}).front().verdict, Verdict::undecided);
   EXPECT_EQ(advice(averages, {}, {0.1}).front().verdict, Verdict::pass);
+}
+
+TEST(CostAdvice, AveragesOfOnePacking_AreNoPartOfIt) {
+  const Points points = ladder(0.0, {});
+  const Advice one = advice(points, {}, {0.1}).front();
+  EXPECT_EQ(one.verdict, Verdict::pass);
+  EXPECT_EQ(one.kinds, std::vector{CostKind::collision});
+  EXPECT_FALSE(one.obstacle);
+  EXPECT_EQ(one.decides, "more packings: one shows no statistical error");
+  const Advice alone = advice({points.begin() + 4, points.end()}, {}, {0.1}).front();
+  EXPECT_EQ(alone.verdict, Verdict::notMeasured);
+  EXPECT_EQ(alone.decides, one.decides);
 }
 
 TEST(CostAdvice, SmallerStepNotRun_NotMeasured) {

@@ -205,6 +205,30 @@ TEST(CostCollision, LimitOfALawWithoutOracle_IsSmallSteps) {
   EXPECT_GT(limit.model.at("psi_f"), limit.error.at("psi_f"));
 }
 
+/// An engine whose steps take a millisecond for each body of the scene that it has loaded.
+class MillisecondABody final : public test::PlantedEngine {
+ public:
+  MillisecondABody() : PlantedEngine([this](Scene& scene) { bodies = scene.disks.size(); }) {}
+  Stats stats() const override {
+    Stats stats = PlantedEngine::stats();
+    stats.wallSeconds = 1e-3 * static_cast<double>(bodies * stats.steps);
+    return stats;
+  }
+  std::size_t bodies = 0;
+};
+
+/// A slow engine of a large scene has its collisions planned by the bodies that collide.
+TEST(CostCollision, TimeOfAStep_IsOfTheBodiesThatCollide) {
+  const Case setup = test::costCase();
+  MillisecondABody engine;
+  const SceneTimes times = timeCollisions(engine, test::inHouse, setup, timeStep(setup));
+  std::size_t bodies = 0;
+  for (const Case& pair : collisionsOf(setup))
+    bodies += collisionIn(pair).psi.size() * (std::isinf(collisionIn(pair).mass[1]) ? 1 : 2);
+  EXPECT_EQ(engine.bodies, bodies);
+  EXPECT_NEAR(times.step, 1e-3 * static_cast<double>(bodies), 1e-9);
+}
+
 TEST(CostCollision, CurveError_SkipsStartsWithoutReference) {
   // 3 and 4 in units of 2: √(12.5)/2
   const auto error = curveError({3.0, 4.0, 9.0}, {0.0, 0.0, {}}, 2.0);

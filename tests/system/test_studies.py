@@ -352,6 +352,20 @@ class Cost(StudyTest):
             self.assertIn("would take about", point["reason"])
             self.assertIsNone(point["error"])
 
+    def test_a_budget_without_room_for_endpoints_says_so_first_and_names_the_one_that_has(self):
+        run = ["cost", *HOPPER, "--engines", "grain", "--quick", "--out", self.out,
+               *settings(cost__knobs=["time_step", "disks"], cost__average_steps=[50])]  # fmt: skip
+        done = self.run_program(*run, "--budget=0.01s")
+        self.assert_status(done, FELL_SHORT)
+        budget = re.search(r"No endpoint of the scene was measured .*: that takes (--budget \d+[smh]) for grain", done.stdout)
+        self.assertTrue(budget, done.stdout)
+        self.assertEqual(self.results()["steps"], [])
+        done = self.run_program(*run, *budget[1].split())
+        self.assert_status(done, HELD)
+        self.assertNotIn("No endpoint", done.stdout)
+        ran = [row for row in self.rows("cost.csv") if row["error_kind"] == "averages" and row["status"] == "ran"]
+        self.assertTrue(ran)
+
     def test_threads_do_the_same_steps_and_columns_follow_from_each_other(self):
         for case in (CASES / "cost/quick.toml", SPHERES[0]):
             out = self.folder / pathlib.Path(case).stem
