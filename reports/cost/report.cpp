@@ -489,9 +489,9 @@ Table referenceTable(const CostResults& results) {
 Names costSentences(const CostResults& results) {
   std::string counts = fmt::format("{} points: {}", results.points.size(), countsText(results));
   if (results.count(Status::notRun) > 0 && results.budgetForTheRest)
-    counts += fmt::format(
-        ", for they did not fit into the budget of {}; they would with --resume {}",
-        readableDuration(results.budget), budgetOption(*results.budgetForTheRest));
+    counts +=
+        fmt::format(", for they did not fit into the budget of {}; they would with --resume {}",
+                    readableDuration(results.budget), budgetOption(*results.budgetForTheRest));
   Names sentences = {decidedText(results), counts + "."};
   for (const EngineRow& engine : results.engines)
     if (engine.status == Status::refused)

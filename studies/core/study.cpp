@@ -137,7 +137,8 @@ double wholeNumberOf(const std::string& option, double value, double least, doub
 }
 
 double secondsOf(const std::string& budget) {
-  return numberWithUnit("--budget", budget, {{"", 1.0}, {"s", 1.0}, {"m", 60.0}, {"min", 60.0}, {"h", 3600.0}},
+  return numberWithUnit("--budget", budget,
+                        {{"", 1.0}, {"s", 1.0}, {"m", 60.0}, {"min", 60.0}, {"h", 3600.0}},
                         "90s, 10m or 1h");
 }
 

@@ -194,7 +194,7 @@ TEST(CostOverview, EndpointsWithoutRoom_ComeFirstWithTheirBudget) {
   results.budgetForTheRest = 172'330.0;
   results.missingAnswers = {{"a", 61.5}, {"b", 7'190.0}};
   results.points[1].status = Status::notRun;
-  const auto conclusion = costOverview(results).conclusion;
+  const auto conclusion = reportOf(results).overview.conclusion;
   EXPECT_EQ(conclusion.front(),
             "No endpoint of the scene was measured within the budget of 1 min 00 s: that takes "
             "--budget 62s for a and --budget 120m for b. Sizes and threads were not timed.");
@@ -202,11 +202,11 @@ TEST(CostOverview, EndpointsWithoutRoom_ComeFirstWithTheirBudget) {
       << conclusion.back();
   results.points[0].kind = CostKind::averages;
   results.missingAnswers.erase(results.missingAnswers.begin());
-  EXPECT_EQ(costOverview(results).conclusion.front(),
+  EXPECT_EQ(reportOf(results).overview.conclusion.front(),
             "No endpoint of b was measured within the budget of 1 min 00 s: that takes --budget "
             "120m for b.");
   results.missingAnswers.clear();
-  EXPECT_FALSE(has(costOverview(results).conclusion.front(), "No endpoint"));
+  EXPECT_FALSE(has(reportOf(results).overview.conclusion.front(), "No endpoint"));
 }
 
 TEST(CostToml, AdviceForTheTarget_IsAFragmentWithCommentsAlone) {

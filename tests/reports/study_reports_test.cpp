@@ -87,12 +87,12 @@ TEST(EffectsReport, FewPackings_NothingIsTested) {
 
 TEST(StabilityOverview, DegradedCase_StandsInTheHead) {
   StabilityResults results = sample::stabilityResults();
-  const auto& conclusion = stabilityOverview(results).conclusion;
+  const auto conclusion = reportOf(results).overview.conclusion;
   ASSERT_GE(conclusion.size(), 2u);
   EXPECT_TRUE(has(conclusion[1], "Degraded: grain in ")) << conclusion[1];
   for (StabilityRun& run : results.runs)
     if (run.verdict == Verdict::borderline) run.verdict = Verdict::pass;
-  EXPECT_FALSE(has(stabilityOverview(results).conclusion[1], "Degraded"));
+  EXPECT_FALSE(has(reportOf(results).overview.conclusion[1], "Degraded"));
 }
 
 TEST(StabilityPictures, SceneFarAway_IsCentred) {
