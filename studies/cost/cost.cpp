@@ -290,7 +290,6 @@ class Measuring {
     if (!lack(rounds).empty()) rounds = std::min(rounds, fewestRounds);
     const std::string why = lack(rounds);
     if (why.empty()) kind.makeReferences(rounds);
-    budgetForTheRest += kind.commonTime(kind.rounds());
     std::vector<Rounds> all;
     for (const PlannedPoint& point : plan) {
       const CostSetting& setting = study_.settingOf(point);
@@ -304,6 +303,7 @@ class Measuring {
       }
     }
     for (std::size_t round = 0; round < rounds; ++round) runRound(kind, all, round);
+    budgetForTheRest += kind.commonTime(kind.rounds());
     for (const Rounds& one : all)
       if (one.ended)
         putEnded(kind, one.point, *one.ended);

@@ -72,7 +72,7 @@ TEST(Site, ListsReportsWithVerdictEnginesAndOrigin) {
   EXPECT_TRUE(has(index, before.head.started));
   EXPECT_TRUE(has(index, "href=\"a-b-c/report.html\"")) << "a name fit for an address";
   EXPECT_TRUE(has(index, "changed case: " + changed));
-  const std::string line = "| Hard cases: hard cases; ours | ✗ failed; odd-one: ";
+  const std::string line = "| Stability: hard cases; ours | ✗ failed; odd-one: ";
   EXPECT_TRUE(has(readFile(site / "summary.md").value(), line))
       << readFile(site / "summary.md").value();
 }
