@@ -274,7 +274,7 @@ std::string missingAnswersText(const CostResults& results) {
     budgets.push_back(fmt::format("{} for {}", budgetOption(one.budget), one.engine));
   }
   if (engines.empty()) return {};
-  return fmt::format("{} was measured within the budget of {}: that takes {}.{}",
+  return fmt::format("{} was measured within the budget of {}; predicted: {}.{}",
                      results.lacksEndpoints() ? "No endpoint of the scene"
                                               : fmt::format("No endpoint of {}", listed(engines)),
                      readableDuration(results.budget), listed(budgets),

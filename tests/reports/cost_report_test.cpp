@@ -196,14 +196,14 @@ TEST(CostOverview, EndpointsWithoutRoom_ComeFirstWithTheirBudget) {
   results.points[1].status = Status::notRun;
   const auto conclusion = reportOf(results).overview.conclusion;
   EXPECT_EQ(conclusion.front(),
-            "No endpoint of the scene was measured within the budget of 1 min 00 s: that takes "
+            "No endpoint of the scene was measured within the budget of 1 min 00 s; predicted: "
             "--budget 62s for a and --budget 120m for b. Sizes and threads were not timed.");
   EXPECT_TRUE(has(conclusion.back(), "with --budget 48h measures the 1 point "))
       << conclusion.back();
   results.points[0].kind = CostKind::averages;
   results.missingAnswers.erase(results.missingAnswers.begin());
   EXPECT_EQ(reportOf(results).overview.conclusion.front(),
-            "No endpoint of b was measured within the budget of 1 min 00 s: that takes --budget "
+            "No endpoint of b was measured within the budget of 1 min 00 s; predicted: --budget "
             "120m for b.");
   results.missingAnswers.clear();
   EXPECT_FALSE(has(reportOf(results).overview.conclusion.front(), "No endpoint"));
