@@ -17,13 +17,8 @@ std::string costText(const CostResults& results);
 /// else as TOML comments.
 std::string costToml(const CostResults& results);
 
-/// engine,setting,dt_s,error,error_kind,wall_s,cpu_s,steps,contact_evaluations,status,reason, then
-/// knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front,low,high,equivalent,bound,
-/// worst,time_low_s,time_high_s,tied
-/// One row per point, those that did not run too; on_front is of the front over all engines; tied:
-/// it is there because its time cannot be distinguished from that of a point
-/// which errs no more; equivalent
-/// and bound are empty, of earlier versions.
+/// A row per point, those that did not run too. on_front is of the front over all engines; tied: it
+/// is there because its time cannot be distinguished from that of a point which errs no more.
 std::string costCsv(const CostResults& results);
 
 /// A row per engine, size and number of workers, where steps were timed.
@@ -55,6 +50,7 @@ struct CostMeasure {
 
 /// In the order of the points.
 std::vector<CostKind> kindsIn(const std::vector<CostPoint>& points);
+
 /// A setting that is no time step and has an error somewhere: what the numbers in plots stand for,
 /// from 1.
 struct OtherSetting {

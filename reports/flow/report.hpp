@@ -53,6 +53,7 @@ std::vector<Figure> profileFigures(const FlowFrame& frame, const Engines& engine
                                    const IsFaint& faint = {});
 /// difference_FIELD: engines minus the reference, ring by ring, in margins, with the margin's band.
 std::vector<Figure> differenceFigures(const CompareResults& results, const Engines& engines);
+
 /// What the bars of the profiles are, in words: over packings, or within one run.
 std::string describeBars(const Engines& engines);
 
