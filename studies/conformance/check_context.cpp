@@ -248,6 +248,8 @@ ContactLaw followed(const Capabilities& can, ContactLaw law) {
 }
 
 double CheckContext::inertiaFactor() const {
+  constexpr double solidSphere = 0.4;
+  if (inSpace && hasInertia(can.limits, solidSphere)) return solidSphere;
   const auto& has = can.limits.inertia;
   if (!has || has->empty() || hasInertia(can.limits, solidDisk)) return solidDisk;
   return has->front();

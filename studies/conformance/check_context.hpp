@@ -158,8 +158,8 @@ class CheckContext {
   Capabilities can;
   Scene scene;                    ///< the one loaded last
   EffectiveParameters effective;  ///< what the engine made of it
-  bool inSpace = false;  ///< the engine has scenes in space alone, in which those of the plane lie
-  bool turned = false;   ///< so, and aslant: what is seen of them has been turned back
+  bool inSpace = false;           ///< scenes of the plane lie in one of space
+  bool turned = false;            ///< so, and aslant: what is seen of them has been turned back
 
   std::vector<std::string> faults;             ///< in the order found; a loop may repeat one
   std::set<std::string> examined;              ///< capabilities in which a fault would be found
@@ -175,7 +175,8 @@ class CheckContext {
   ContactLaw law() const { return followed(can, fullLaw()); }
   /// Rigid disks have no duration of contact, and no oracle of the soft law applies to them.
   bool rigid() const { return law().normal == NormalLaw::rigid; }
-  /// q of J = q m a² of disks: ½, that of solid ones, unless the engine lacks it and has others.
+  /// q of J = q m a²: ½, that of solid disks, in space ⅖, that of solid spheres, unless the engine
+  /// lacks it and has others.
   double inertiaFactor() const;
   /// The scene with that moment of inertia where it has solid disks: what is loaded.
   Scene withItsInertia(Scene wanted) const;
@@ -284,7 +285,7 @@ SnapshotOf<D> shown(CheckContext& c, double t) {
 
 /// A property that holds for any engine.
 struct Check {
-  const char* name;            ///< "HeadOnCollision"
+  std::string name;            ///< "HeadOnCollision"
   const char* what;            ///< the property
   void (*run)(CheckContext&);  ///< finds faults, or throws Skipped
   int dimension = 2;           ///< of its scenes
@@ -292,8 +293,20 @@ struct Check {
   /// How its plane lies in space for an engine that has no other: flat where spheres would leave
   /// it, as a pile does sideways, by what roundings put beside it.
   PlaneFrame frame = PlaneFrame::any;
+  /// Engines of both dimensions are asked twice: also in a plane of space, as those of space alone.
+  bool inSpaceToo = false;
   const char* about = "";  ///< its subject's name
+  bool lies = false;       ///< it is the second time
 };
+
+/// The check, in a plane of space too.
+inline Check inBoth(Check check) {
+  check.inSpaceToo = true;
+  return check;
+}
+
+/// Why an engine of space alone is not asked twice.
+inline constexpr const char* sameOfSpheres = "the same is asked for of spheres";
 
 using Checks = std::span<const Check>;
 /// What a list of checks is about: together they pass or fail.
@@ -318,6 +331,5 @@ Checks springChecks();
 Checks spaceChecks();
 Checks cylinderChecks();
 Checks refusalChecks();
-Checks mirrorChecks();
 
 }  // namespace crossgrain::conformance

@@ -50,6 +50,7 @@ struct Findings {
   std::vector<SubjectCause> subjectCauses;
   std::vector<std::size_t> ofSubjects;  ///< rows whose causes these are
   bool lawIsOff = false;
+  bool planar = true;  ///< the engine has scenes of the plane
 };
 
 bool hasDimension(const Capabilities& can, int dimension) {
@@ -60,7 +61,9 @@ void runOne(const Check& check, CheckContext context, ConformanceRow& row, Check
             Findings& findings) {
   context.lawIsOff = findings.lawIsOff;
   try {
-    if (!hasDimension(context.can, check.dimension)) context.skip("declares no " + spheresInSpace);
+    if (!hasDimension(context.can, check.dimension) || (check.lies && !context.inSpace))
+      context.skip("declares no " + spheresInSpace);
+    if (check.lies && !findings.planar) context.skip(sameOfSpheres);
     check.run(context);
   } catch (const Skipped& skip) {
     row.outcome = checkSkipped;
@@ -130,7 +133,7 @@ void withdrawCauses(const std::vector<Check>& checks, const Findings& findings,
 
 }  // namespace
 
-std::vector<Check> checksOf(bool isMirror) {
+std::vector<Check> allChecks() {
   std::vector<Check> all;
   for (const auto& [name, checks] : {Subject{"what it declares", capabilityChecks()},
                                      {"requests and snapshots", lifecycleChecks()},
@@ -147,11 +150,14 @@ std::vector<Check> checksOf(bool isMirror) {
                                      {"springs in space", springChecks()},
                                      {"space and periodic borders", spaceChecks()},
                                      {"cylinders", cylinderChecks()},
-                                     {"refusals", refusalChecks()},
-                                     {"its peer", isMirror ? mirrorChecks() : Checks{}}})
+                                     {"refusals", refusalChecks()}})
     for (Check check : checks) {
       check.about = name;
       all.push_back(check);
+      if (!check.inSpaceToo) continue;
+      check.lies = true;
+      check.name += "InSpace";
+      all.push_back(std::move(check));
     }
   return all;
 }
@@ -172,19 +178,17 @@ CheckReport runChecks(const EngineEntry& entry, const std::vector<Check>& checks
     std::unique_ptr<Engine> engine = nullptr;
   };
   const auto lying = [&](PlaneFrame frame) {
-    return Shared{[&, frame](const EngineEntry& of) {
-      auto started = startOne(of);
-      return hasDimension(started->capabilities(), 2) ? std::move(started)
-                                                      : runInSpace(std::move(started), frame);
-    }};
+    return Shared{[&, frame](const EngineEntry& of) { return runInSpace(startOne(of), frame); }};
   };
   Shared asTheyAre{startOne, startOne(entry)}, any = lying(PlaneFrame::any),
                                                flat = lying(PlaneFrame::flat);
   CheckReport result;
   result.declared = declaredBy(asTheyAre.engine->capabilities());
   const bool planar = hasDimension(asTheyAre.engine->capabilities(), 2);
+  const bool spatial = hasDimension(asTheyAre.engine->capabilities(), 3);
   std::vector<ConformanceRow>& rows = result.rows;
   Findings findings;
+  findings.planar = planar;
   int breakdowns = 0;
   for (const Check& check : checks) {
     throwIfInterrupted();
@@ -205,12 +209,11 @@ CheckReport runChecks(const EngineEntry& entry, const std::vector<Check>& checks
       continue;
     }
     const auto began = Clock::now();
-    auto& [start, engine] = planar || check.dimension == 3    ? asTheyAre
-                            : check.frame == PlaneFrame::flat ? flat
-                                                              : any;
+    const bool asItIs = check.dimension == 3 || (planar && !(check.lies && spatial));
+    auto& [start, engine] = asItIs ? asTheyAre : check.frame == PlaneFrame::flat ? flat : any;
     if (!engine) engine = start(entry);
     CheckContext context(*engine, entry, start);
-    context.inSpace = !planar;
+    context.inSpace = !asItIs;
     context.turned = &engine == &any.engine;
     runOne(check, std::move(context), row, result, findings);
     row.seconds = std::chrono::duration<double>(Clock::now() - began).count();
@@ -463,7 +466,7 @@ ConformanceResults runConformance(const ConformanceTask& task) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   };
   const auto timeIsUp = [&] { return elapsed() > task.budget; };
-  std::vector<conformance::Check> checks = conformance::checksOf(!entry.mirrors.empty());
+  std::vector<conformance::Check> checks = conformance::allChecks();
   const std::vector<std::string> words = wordsOf(task.only, checks);
   const auto wanted = [&](const std::string& name) {
     return !task.only || std::ranges::any_of(words, [&](const std::string& word) {

@@ -25,8 +25,7 @@ struct CheckReport {
 };
 
 /// All checks, in the order in which they are run.
-/// @param isMirror  whether the engine is a mirror, which has to follow its peer as well
-std::vector<Check> checksOf(bool isMirror);
+std::vector<Check> allChecks();
 
 /// Runs checks on one engine through its real worker, one row each. A worker that broke down is
 /// started again for the next check; after three of them the rest is not tried.

@@ -351,7 +351,7 @@ void conventionsAreThoseDeclared(CheckContext& context) {
 }  // namespace
 
 Checks conventionChecks() {
-  static constexpr Check list[] = {
+  static const Check list[] = {
       {"ConventionsAreThoseDeclared",
        "its conventions are those declared: the in-house engine with them does the same",
        conventionsAreThoseDeclared},

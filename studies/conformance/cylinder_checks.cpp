@@ -195,7 +195,7 @@ void turningCylinderDrivesSpheres(CheckContext& c) {
 }  // namespace
 
 Checks cylinderChecks() {
-  static constexpr Check list[] = {
+  static const Check list[] = {
       {"CylinderIsMetAsAPlane", "spheres run into a cylinder all round as into a plane",
        cylinderIsMetAsAPlane, 3},
       {"TurningCylinderDrivesSpheres",

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "law/law_options.hpp"
+#include "oracle/calibration.hpp"
+#include "oracle/collision_end.hpp"
 #include "studies/conformance/check_context.hpp"
 #include "studies/conformance/declared_laws.hpp"
 
@@ -37,16 +39,15 @@ Vec3 turnedSpring(SpringTurn how, const Vec3& spring, const Vec3& before, const 
   return spring.norm() / projected.norm() * projected;
 }
 
-double armOf(const ContactLaw& law, double own, double other, double overlap) {
-  switch (law.conventions.armOfVelocity()) {
-    case LeverArm::radius:
-      return own;
-    case LeverArm::contactPoint:
-      return own - overlap * other / (own + other);
-    case LeverArm::overlapMiddle:
-      break;
-  }
-  return own - 0.5 * overlap;
+CollidingPair radiiOf(const MovedPair& pair) {
+  return {{pair.radii[0], pair.radii[1]}, {}, {}};
+}
+
+/// The arm of v_t of one of the pair [m].
+double armOf(const ContactLaw& law, const MovedPair& pair, int side, double overlap) {
+  const LawConventions& how = law.conventions;
+  return pair.radii[side] -
+         overlap * leverFraction(how.armOfVelocity(), how.planeArm, radiiOf(pair), side);
 }
 
 /// A spring of the step before as it is in the one with normal n.
@@ -75,18 +76,6 @@ double partBefore(const ContactLaw& law) {
       break;
   }
   return 0.5;
-}
-
-/// What `kr` is multiplied with [m² or 1].
-double rollingSquare(const MovedPair& pair, const LawConventions& how) {
-  const double a = pair.radii[0], b = pair.radii[1], effective = a * b / (a + b);
-  if (how.rollingStiffness == RollingStiffness::radii) return a * b;
-  if (how.rollingStiffness == RollingStiffness::constant) return 1.0;
-  const double length = how.rollingLength == RollingLength::effective        ? effective
-                        : how.rollingLength == RollingLength::twiceEffective ? 2.0 * effective
-                        : how.rollingLength == RollingLength::smallerRadius  ? std::min(a, b)
-                                                                             : 0.5 * (a + b);
-  return length * length;
 }
 
 /// Those that springs of moved pairs depend on.
@@ -180,8 +169,8 @@ std::vector<Vec3> springForces(const MovedPair& pair, const SpringMotion& motion
     const Vec3 apart = pair.apart(k * dt), n = apart.normalized();
     if (k > 0) spring = turnedWithPair(spring, pair, motion, dt, before, n);
     const double overlap = pair.reach() - apart.norm();
-    const Vec3 rims = armOf(motion.law, pair.radii[0], pair.radii[1], overlap) * pair.spin[0] +
-                      armOf(motion.law, pair.radii[1], pair.radii[0], overlap) * pair.spin[1];
+    const Vec3 rims = armOf(motion.law, pair, 0, overlap) * pair.spin[0] +
+                      armOf(motion.law, pair, 1, overlap) * pair.spin[1];
     const Vec3 relative = pair.velocity[0] - pair.velocity[1];
     const Vec3 slip = relative - relative.dot(n) * n - motion.spinsOfSlip * rims.cross(n);
     spring += part * dt * slip;
@@ -195,7 +184,7 @@ std::vector<Vec3> springForces(const MovedPair& pair, const SpringMotion& motion
 std::vector<Vec3> rollingTorques(const MovedPair& pair, const SpringMotion& motion, double dt,
                                  int steps) {
   const double part = partBefore(motion.law);
-  const double stiffness = motion.law.kr * rollingSquare(pair, motion.law.conventions);
+  const double stiffness = motion.law.kr * rollingSquare(motion.law, radiiOf(pair));
   const Vec3 spin = pair.spin[0] - pair.spin[1];
   std::vector<Vec3> torques;
   Vec3 spring = Vec3::Zero(), before = Vec3::Zero();

@@ -318,7 +318,7 @@ void springsHoldWhileAnotherFalls(CheckContext& context) {
 }  // namespace
 
 Checks reachChecks() {
-  static constexpr Check list[] = {
+  static const Check list[] = {
       {"FarIsAsNear", "a collision far from the origin is as one near it", farIsAsNear},
       {"LateIsAsEarly", "a collision long after load is as one at once", lateIsAsEarly},
       {"RollersGoOn", "disks that rollers turn still do after two seconds what they did before",

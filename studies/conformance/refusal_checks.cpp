@@ -132,7 +132,7 @@ void unknownSettingsAreRefused(CheckContext& context) {
 }  // namespace
 
 Checks refusalChecks() {
-  static constexpr Check list[] = {
+  static const Check list[] = {
       {"HarnessRefusesWhatTheEngineLacks", "what it lacks is refused before it is asked",
        harnessRefusesWhatTheEngineLacks},
       {"EngineRefusesOrSaysHowItDeviates", "it refuses, or says how it deviates",

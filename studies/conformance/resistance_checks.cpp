@@ -170,49 +170,6 @@ void rollingHoldsASlope(CheckContext& context) {
   }
 }
 
-/// M on i, −M on j, each beside −l f_t: what snapshots show of it adds up to what changed the
-/// spins.
-void rollingTorquesAreThoseThatAct(CheckContext& context) {
-  context.needs(toString(Effect::rollingResistance));
-  context.needsContacts();
-  bool shown = false;
-  for (const RollingLaw kind : rollingLaws(context.can)) {
-    const ContactLaw law = withRolling(lawOf(context.can, firstNormal(context)), kind);
-    Encounter pair = crookedEncounter();
-    pair.radii[1] = pair.radii[0];  // every engine's contact point is then in the middle
-    if (context.refusal(encounterScene(pair, law, coarseSteps))) continue;
-    const std::vector<Snapshot> seen = context.watch(Encounter::end);
-    const double dt = context.effective.dt;
-    double impulses[2] = {}, size = 0.0;
-    for (const Snapshot& now : seen) {
-      if (&now == &seen.front() || !now.contacts || now.contacts->rollingTorque.empty()) continue;
-      const Contacts& all = *now.contacts;
-      const bool radius = law.conventions.leverArm == LeverArm::radius;
-      const double lever = smallRadius - (radius ? 0.0 : 0.5 * all.overlap.front());
-      for (const int disk : {0, 1}) {
-        const double rolled = (disk == 0 ? 1.0 : -1.0) * all.rollingTorque.front();
-        impulses[disk] += dt * (rolled - lever * all.tangentialForce.front());
-      }
-      size += dt * std::abs(all.rollingTorque.front());
-    }
-    if (size == 0.0) continue;
-    shown = true;
-    const double interval = seen.back().contactInterval * Encounter::speed / smallRadius;
-    const double part = context.byPrecision(1e-12, 1e-5, "").relative + interval;
-    for (const int disk : {0, 1}) {
-      const double gained = spinsOf(context.scene, seen.back())[static_cast<std::size_t>(disk)] -
-                            spinsOf(context.scene, seen.front())[static_cast<std::size_t>(disk)];
-      const double unit = smallMass * Encounter::speed * smallRadius;
-      context.near(
-          impulses[disk], context.scene.disks.inertia[static_cast<std::size_t>(disk)] * gained,
-          {part * unit, 0.0, "roundings, and a normal that turns"},
-          text("rolling = ", lawOptionValue(law, "rolling"), ", the sum of torques on disk ", disk,
-               " over time against its change of angular momentum [kg m²/s]"));
-    }
-  }
-  if (!shown) context.skip("shows no torque against rolling");
-}
-
 /// A disk that turns between two posts, held by all that contacts remember, while another flies by,
 /// for which lists of neighbours are made anew: it does what it does alone.
 void memoriesHoldWhileAnotherFliesBy(CheckContext& context) {
@@ -471,13 +428,12 @@ void materialsHaveTheirOwnLaws(CheckContext& context) {
 }  // namespace
 
 Checks resistanceChecks() {
-  static constexpr Check list[] = {
-      {"RollingFollowsItsClosedForms", "rolling resistance takes as much spin as closed forms say",
-       rollingFollowsItsClosedForms},
+  static const Check list[] = {
+      inBoth({"RollingFollowsItsClosedForms",
+              "rolling resistance takes as much spin as closed forms say",
+              rollingFollowsItsClosedForms}),
       {"RollingHoldsASlope", "a rolling spring holds a disk up to the slope that it can",
        rollingHoldsASlope},
-      {"RollingTorquesAreThoseThatAct", "the torques shown against rolling are those that act",
-       rollingTorquesAreThoseThatAct},
       {"MemoriesHoldWhileAnotherFliesBy",
        "what contacts remember holds while lists of neighbours are made anew",
        memoriesHoldWhileAnotherFliesBy, 2, true},

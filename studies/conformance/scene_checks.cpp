@@ -399,7 +399,7 @@ void slowIsNotAtRest(CheckContext& context) {
 }  // namespace
 
 Checks sceneChecks() {
-  static constexpr Check list[] = {
+  static const Check list[] = {
       {"SeveralActAtOnce",
        "what touches a disk at once acts at once, whatever it is: the in-house engine does the "
        "same",

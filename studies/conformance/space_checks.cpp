@@ -1,5 +1,5 @@
-// Spheres in space, and boxes with periodic directions: torques, impacts in turned frames, walls,
-// images.
+// What no scene that lies in a plane shows of spheres: torques about any axis, impacts in turned
+// frames; and boxes with periodic directions.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -18,33 +18,6 @@ namespace crossgrain::conformance {
 namespace {
 
 constexpr double approachSpeed = 0.05, framesApart = 12.0 * radius;  // [m/s, m]
-
-// ---- gravity ------------------------------------------------------------------------------------
-
-/// A sphere falls under a gravity that has a part along each axis.
-void fallsFreelyInSpace(CheckContext& c) {
-  c.needs(toString(Effect::gravity));
-  SpaceScene scene = emptySpace(c, "a sphere that falls");
-  scene.dt = 4e-5;
-  scene.gravity = Vec3(1.5, -9.81, 3.7);
-  addBody<3>(scene, Vec3(0.002, -0.001, 0.003), Vec3(0.31, -0.17, 0.23), Vec3::Zero());
-  scene = loaded(c, scene);
-  const SpaceSnapshot was = shown<3>(c, 0.01), now = shown<3>(c, 0.02);
-  const Vec3 gained = (now.velocity[0] - was.velocity[0]) / (now.velocityTime - was.velocityTime);
-  const Tolerance rounding = c.byPrecision(1e-9, 1e-2, "roundings of a velocity in every step");
-  const Vec3 part = (gained - scene.gravity).cwiseQuotient(scene.gravity);
-  std::string causes;
-  for (const int axis : {0, 1, 2}) {
-    const std::size_t before = c.faults.size();
-    const std::string along = text("gravity along ", "xyz"[axis]);
-    c.near(gained[axis], scene.gravity[axis], rounding, along + " [m/s²]");
-    if (c.faults.size() > before)
-      causes += (causes.empty() ? "" : ", ") + along + percentOf(part[axis]);
-  }
-  if (causes.empty()) return c.examine(toString(Effect::gravity));
-  const bool alike = part.maxCoeff() - part.minCoeff() < explainedLeaves * part.norm();
-  c.suspect(alike ? text("gravity", percentOf(part.x())) : causes);
-}
 
 // ---- torques ------------------------------------------------------------------------------------
 
@@ -202,77 +175,6 @@ void turnedImpactsAreTurnedAlike(CheckContext& c) {
                     most / least));
 }
 
-/// Σ f dt over the steps, of instants or of means over a step, is m Δv of each sphere.
-void contactForcesInSpaceAct(CheckContext& c) {
-  if (!c.can.instantContacts) c.skip("shows no contacts of one instant");
-  const std::vector<Eigen::Matrix3d> frames = framesAllRound();
-  const SpaceScene scene = loaded(c, turnedImpacts(c, frames));
-  const double dt = c.effective.dt;
-  std::vector<Vec3> impulse(scene.disks.size(), Vec3::Zero());
-  const auto steps = static_cast<int>(std::ceil(std::max(1e-3 / dt, 6.0)));
-  SpaceSnapshot now;
-  for (int step = 1; step <= steps; ++step) {
-    now = shown<3>(c, step * dt);
-    c.require(now.contacts.has_value(), "shows no contacts");
-    for (std::size_t k = 0; k < now.contacts->size(); ++k) {
-      const Vec3 force = now.contacts->force(k);
-      impulse[static_cast<std::size_t>(now.contacts->i[k])] += dt * force;
-      impulse[static_cast<std::size_t>(now.contacts->j[k])] -= dt * force;
-    }
-  }
-  for (std::size_t i = 0; i < impulse.size(); ++i) {
-    const Vec3 change = now.velocity[i] - scene.disks.velocity[i];
-    c.near((impulse[i] / scene.disks.mass[i] - change).norm() / change.norm(), 0.0,
-           {0.02, 0.0,
-            "n turns by v_t dt/(2a), 0.015 at 0.5 ms, in the step that finds rigid spheres; a soft "
-            "contact has some sixty steps"},
-           text("Σ f dt/m of sphere ", i, ", off from Δv by a part of it"));
-  }
-}
-
-// ---- walls --------------------------------------------------------------------------------------
-
-/// A wall sphere on an arm of 4 a, which turns about the body's centre, runs into a sphere at rest.
-/// What the body takes is what the sphere does not get: −Σ F dt = m v, −Σ T dt = m x × v + J ω.
-void turningWallPushesSpheres(CheckContext& c) {
-  c.needs(toString(Effect::movingWalls));
-  SpaceScene scene = emptySpace(c, "a sphere and a wall sphere that turns");
-  const Eigen::Matrix3d frame =
-      Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
-  constexpr double rate = 5.0;  // rad/s: 0.1 m/s
-  WallBodyOf<3>& wall = scene.bodies.emplace_back();
-  wall.name = "arm";
-  wall.diskPosition.push_back(frame * Vec3(4.0 * radius, 0.0, 0.0));
-  wall.diskRadius.push_back(radius);
-  wall.motion.kind = Motion::Kind::rotating;
-  wall.motion.angularVelocity = rate * frame.col(2);
-  addBody<3>(scene, frame * Vec3(4.0 * radius, 2.02 * radius, 0.4 * radius), Vec3::Zero(),
-             Vec3::Zero());
-  scene = loaded(c, scene);
-  const double dt = c.effective.dt;
-  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-  SpaceSnapshot now;
-  for (int step = 1; step <= std::ceil(4e-3 / dt); ++step) {
-    now = shown<3>(c, step * dt);
-    const BodySnapshotOf<3>& body = now.bodies.at(0);
-    force += dt * body.force.value_or(Vec3::Zero());
-    torque += dt * body.torque.value_or(Vec3::Zero());
-  }
-  const Vec3 gained = mass * now.velocity[0];
-  const double speed = (frame.transpose() * now.velocity[0]).y(), met = 4.0 * radius * rate;
-  c.expect(speed > met && speed < 2.0 * met,
-           text("a sphere that a wall runs into at ", met, " m/s leaves at ", speed, " m/s"));
-  c.examine(wallMotion(Motion::Kind::rotating));
-  if (!now.bodies[0].force || !now.bodies[0].torque) return;
-  const Tolerance tolerance{0.03, 0.0, "both turn on by 0.01 in a step of 0.5 ms"};
-  c.near((force + gained).norm() / gained.norm(), 0.0, tolerance,
-         "Σ F dt on the wall, off from −m v of the sphere by a part of it");
-  Vec3 turning = now.position[0].cross(gained);
-  if (now.spin) turning += scene.disks.inertia[0] * (*now.spin)[0];
-  c.near((torque + turning).norm() / turning.norm(), 0.0, tolerance,
-         "Σ T dt on the wall, off from the sphere's angular momentum by a part of it");
-}
-
 // ---- images -------------------------------------------------------------------------------------
 
 constexpr double boxWidth = 16.0;  // [radius]
@@ -330,7 +232,7 @@ std::vector<std::vector<int>> acrossWhat() {
 /// Of an engine of spheres alone the same check in space stands, which has the names of its axes.
 template <int D>
 void skipWhatSpaceHas(const CheckContext& c) {
-  if (D == 2 && c.inSpace) c.skip("the same is asked for of spheres");
+  if (D == 2 && c.inSpace) c.skip(sameOfSpheres);
 }
 
 template <int D>
@@ -547,8 +449,7 @@ void wallsAcrossBorders(CheckContext& c) {
 }  // namespace
 
 Checks spaceChecks() {
-  static constexpr Check list[] = {
-      {"FallsFreelyInSpace", "a sphere falls freely along each axis", fallsFreelyInSpace, 3, true},
+  static const Check list[] = {
       {"TorqueTurnsSpheres", "f_t turns spheres about n × f_t, with 2/5 m a²", torqueTurnsSpheres,
        3},
       {"SpinsAboutTheLineChangeNothing",
@@ -557,12 +458,6 @@ Checks spaceChecks() {
       {"TurnedImpactsAreTurnedAlike",
        "an impact in another frame, its slip in any direction, is the same, turned",
        turnedImpactsAreTurnedAlike, 3},
-      {"ContactForcesInSpaceAct",
-       "forces of contacts between spheres, summed over steps, are what changes their velocities",
-       contactForcesInSpaceAct, 3},
-      {"TurningWallPushesSpheres",
-       "a wall that turns in space pushes spheres, and bears the force and torque of that",
-       turningWallPushesSpheres, 3},
       {"PairsAcrossBorders", "two disks across a periodic border are the same two inside",
        pairsAcrossBorders<2>},
       {"PairsAcrossBordersInSpace", "two spheres across a periodic border are the same two inside",

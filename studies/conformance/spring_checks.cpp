@@ -167,7 +167,7 @@ void springsOfMovedPairs(CheckContext& c) {
 }  // namespace
 
 Checks springChecks() {
-  static constexpr Check list[] = {
+  static const Check list[] = {
       {"SpringsOfMovedPairs",
        "tangential springs of spheres that pass, turn and twist are those of the declared law, "
        "step "

@@ -28,7 +28,7 @@ from harness import (
 
 # The first contact of every snapshot is left out.
 LEFT_OUT = ("self.found, plane = [contacts], 0", "self.found, plane = [[c[1:] for c in contacts]], 0")
-IN_SPACE = "MovedPairs,InSpace,TurningWall,TorqueTurns,TurnedAlike"
+IN_SPACE = "MovedPairs,InSpace,RotatingWall,TorqueTurns,TurnedAlike"
 ONE_STATE = ("lockstep", COUETTE, "--quick", "--starts=1", "--quiet")
 
 

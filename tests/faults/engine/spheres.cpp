@@ -46,6 +46,7 @@ class PlantedSpheres {
               {"spring_update", only("before")},
               {"lever_arm", only("overlap_middle")},
               {"velocity_arm", only("lever_arm")},
+              {"plane_arm", only("middle")},
               {"damping_velocity", only("lagged")},
               {"integrator", only("position_verlet")},
               {"rolling", {"none", "spring"}},
@@ -73,6 +74,10 @@ class PlantedSpheres {
   const char* precision() const { return faults_.floatState == 0.0 ? "double" : "float"; }
 
   Json load(const Json& scene, const Arrays& arrays, const Json& settings) {
+    const std::string normal = scene.at("law").at("normal");
+    if (normal != "linear" && normal != "hertz")
+      throw crossgrain_worker::Unsupported("has only normal = linear | hertz");
+    evaluations_ = 0;
     double dt = settings.value("dt", 0.0);
     if (dt == 0.0) dt = scene.at("dt");
     const double used = faults_.stepSetting < 0.0 ? scene.at("dt").get<double>() : dt;
