@@ -20,6 +20,8 @@ TARGETS = {
     "engine_examples": None,
     "all_declared_laws": None,
     "one_definition": None,
+    "planted_checks": None,
+    "all_of_peers": None,
     "coverage_of_verdicts": "coverage",
     "fuzz": "tests/fuzz/shards",
     "false_alarms": "false_alarms",
