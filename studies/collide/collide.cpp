@@ -364,7 +364,7 @@ Outcome outcomeOfCollide(const CollideResults& results, const CommandLine&,
 CollideResults collideEngines(const std::vector<Case>& variants, const RunCommand& command,
                               RunStore& store) {
   const auto started = std::chrono::steady_clock::now();
-  const VersionedEngines engines = enginesForAny(variants, command, store);
+  VersionedEngines engines = enginesForAny(variants, command, store);
   Progress progress(command.quiet);
   store.begin();
   printNotes();
@@ -373,8 +373,11 @@ CollideResults collideEngines(const std::vector<Case>& variants, const RunComman
     cases.push_back({&setup, collisionTimeSteps(setup), collisionStarts(setup)});
   std::vector<Task> oracles;
   std::vector<double> weights;
-  // Where all refuse, their sweeps say so at once and nothing is compared with a reference.
+  // Where all that are named refuse, their sweeps say so at once: nothing is compared with a
+  // reference, nor with an engine that only stands beside them.
   const bool any = anyTaken(cases, engines, command.engines, store);
+  if (!any)
+    std::erase_if(engines, [&](const auto& each) { return !isNamed(command.engines, each.first); });
   for (CollisionCase& each : cases) {
     if (!any) break;
     weights.push_back(static_cast<double>(each.starts.size()));

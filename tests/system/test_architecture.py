@@ -7,7 +7,6 @@ in the list fails the test: its place is to be thought about.
 import json
 import pathlib
 import re
-import subprocess
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -117,14 +116,13 @@ def references(path):
 class References(unittest.TestCase):
     """What texts name is there: a file that moved takes its mentions along."""
 
-    def tracked(self):
-        listed = subprocess.run(["git", "-C", ROOT, "ls-files"], capture_output=True, text=True, check=False).stdout.split()
-        if not listed:
-            self.skipTest("no git checkout")
-        return [pathlib.Path(file) for file in listed]
+    def files(self):
+        """Those of the project, from its root, without what builds and runs leave beside them."""
+        places = (path.relative_to(ROOT) for path in ROOT.rglob("*.*") if path.is_file())
+        return [path for path in places if not re.match(r"build|out/|\.", str(path)) and "node_modules" not in path.parts]
 
     def test_files(self):
-        files = self.tracked()
+        files = self.files()
         by_name = {}
         for file in files:
             by_name.setdefault(file.name, []).append(str(file))
@@ -143,7 +141,7 @@ class References(unittest.TestCase):
         known = {preset["name"] for preset in json.loads((ROOT / "CMakePresets.json").read_text())["configurePresets"]}
         named = {
             (str(file), preset)
-            for file in self.tracked()
+            for file in self.files()
             if file.suffix == ".md"
             for preset in re.findall(r"--preset[ =]([\w-]+)", (ROOT / file).read_text(encoding="utf-8"))
         }

@@ -645,9 +645,10 @@ class Shards(SystemTest):
         for key in whole.keys() - {key for key in whole if key[0] != "grain"}:
             self.assertEqual(whole[key]["profiles"], runs[key]["profiles"])
         # Each process ran what the other did not: progress says how each run came.
-        ran = [set(re.findall(r"^(\S+), packing (\d+): (?!finished)", done.stderr, re.M)) for done in both]
-        self.assertFalse(ran[0] & ran[1])
-        self.assertFalse(list((self.out / "claims").iterdir()))
+        ran = [set(re.findall(r"\] (\S+ packing \d+): (?!finished)", done.stderr)) for done in both]
+        self.assertEqual((set(), {f"{engine} packing {packing}" for engine, packing in runs}), (ran[0] & ran[1], ran[0] | ran[1]))
+        self.assertFalse((self.out / "claims").exists())
+
 
 
 if __name__ == "__main__":
