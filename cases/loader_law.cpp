@@ -42,66 +42,14 @@ Key<LawInput> damping(const char* name, double ContactLaw::*gamma, const char* s
                            });
 }
 
-/// Meanings of the law's options; their values are listed with them.
-constexpr std::pair<const char*, const char*> optionMeanings[] = {
-    {"normal", "elastic part of f_n: k_n δ; 4/3 E₁₂ √R₁₂ δ^(3/2); k₂ δ² + k₃ δ³; or restitutions"},
-    {"damper",
-     "what γ_n and γ_t multiply besides the velocity: 1, the stiffness, or √(m₁₂ · stiffness)"},
-    {"tangential", "tangential law; rigid: `coulomb` if `mu` > 0, else `none`"},
-    {"tension", "f_n as it is, or max(f_n, 0)"},
-    {"coulomb_bound", "µ max(f_n, 0), µ|f_n|, µ f_n"},
-    {"dashpot", "whether γ_t v_t is part of the trial force that the bound limits"},
-    {"spring_reset", "on slip ξ = −f_t/k_t, or −(f_t + γ_t v_t)/k_t"},
-    {"spring_update", "ξ grows by v_t dt after or before the force, or by half of it on each side"},
-    {"lever_arm",
-     "a_i (does not conserve angular momentum), a_i − δ a_j/(a_i + a_j), or a_i − δ/2"},
-    {"velocity_arm", "the arm of the spins in v_t; `lever_arm`: that of f_t"},
-    {"plane_arm", "what an arm other than `radius` is at a plane: a_i − δ, a_i − δ/2, a_i"},
-    {"history", "what a Hertz contact remembers: ξ, or the force, which grows by −k_t v_t dt"},
-    {"damping_velocity",
-     "in the dashpots: v(t − dt/2), v(t − dt/2) + a dt/2, or the one that the force makes"},
-    {"integrator", "the scheme of the in-house engine"},
-    {"rolling",
-     "torque M on i, −M on j: −µ_r L N sign(ω_r); −γ_r L² ω_r; −µ_r L² N ω_r; or −k_r θ − γ_r L² "
-     "ω_r, θ = ∫ω_r dt, limited to µ_r L N. ω_r = ω_i − ω_j"},
-    {"rolling_length",
-     "L: R₁₂, 2 R₁₂, the smaller radius or their mean; at a plane a_i, 2 a_i, a_i, a_i"},
-    {"rolling_stiffness", "what `kr` is times: L², a_i a_j, or 1 (then N m)"},
-    {"rolling_damper",
-     "what `gr` is: γ_r [kg/s] of γ_r L² ω_r, or the damping ratio of 2 γ_r √(I k_r) ω_r, 1/I = Σ "
-     "1/(J + m a²)"},
-    {"rolling_load",
-     "N: max(f_n, 0), |f_n|, f_el without dashpot and cohesion, or max(f_n, 0) with no limit of a "
-     "spring where it is 0"},
-    {"rolling_dashpot",
-     "whether the bound limits spring and dashpot, or the spring, which is alone while it slips"},
-    {"rolling_reset", "at the bound the spring alone carries it, or spring and dashpot together"},
-    {"cohesion",
-     "none; −k_c A(δ); −F_po = −2π w R₁₂; JKR in place of Hertz' force, until beyond δ = 0; or "
-     "elasto-plastic: k_n δ on loading, up to `k_unload` on unloading, pull up to k_c δ"},
-    {"cohesion_area", "A: the lens of two spheres; 2π R₁₂ δ; 4π R₁₂ δ, at a plane 2π R₁₂ δ"},
-    {"jkr_end", "where parting surfaces let go: at the largest pull, or at the end of the branch"},
-    {"cohesion_load",
-     "what µ and µ_r multiply: f_n, f_n without the pull, f_n without its dashpot + 2 F_po, |f_n| "
-     "+ "
-     "F_po, or f_n without its dashpot"},
-    {"unloading_stiffness",
-     "k₂ of an elasto-plastic contact: of δ_max in this step, or in the step before"},
-    {"spring_turn",
-     "in space, how ξ follows n: by the smallest rotation, that to first order, or less its part "
-     "along n, to the old length or not (docs/dimensions.md)"},
-    {"spring_twist", "in space, whether ξ turns with a pair about n, by ½(ω_i + ω_j)·n dt"}};
-
 std::vector<Key<LawInput>> lawTable() {
   std::vector<Key<LawInput>> keys;
   for (const LawOption& option : lawOptions()) {
     const Names names(option.values.begin(), option.values.end());
-    const auto* const meaning = std::ranges::find(
-        optionMeanings, option.name, [](const auto& each) { return std::string_view(each.first); });
     const std::string standard =
         option.name == "tangential" ? "required (soft)" : printed(names[option.get(LawInput{})]);
     keys.push_back(special<LawInput>(
-        {std::string(option.name), "", standard, valuesOf(names), meaning->second},
+        {std::string(option.name), "", standard, valuesOf(names), std::string(option.meaning)},
         [names, &option](Reader& in, const std::string& key, LawInput& law) {
           std::string name = names[option.get(law)];
           in.read(key, name, names);

@@ -20,16 +20,14 @@ bool hasPart(const ContactLaw& law, LawPart part);
 /// One option of the contact law under the name that case files use.
 struct LawOption {
   std::string_view name;                              ///< e.g. "dashpot"
+  std::string_view meaning;                           ///< for people, one line
   std::vector<std::string_view> values;               ///< e.g. "inside", "outside", in enum order
   std::function<std::size_t(const ContactLaw&)> get;  ///< index into values
   std::function<void(ContactLaw&, std::size_t)> set;
   LawPart part = LawPart::contact;
 };
 
-/// Every option of the law: normal, damper, tangential, tension, coulomb_bound, dashpot,
-/// spring_reset, spring_update, lever_arm, velocity_arm, plane_arm, history, damping_velocity,
-/// integrator; rolling and its six conventions; cohesion and its four; spring_turn and spring_twist
-/// of a law in space.
+/// Every option of the law, those of its parts after those that all laws have.
 std::span<const LawOption> lawOptions();
 
 /// One constant of the law; case files and units: law/contact_law.hpp.
