@@ -9,6 +9,7 @@
 #include "law/law_options.hpp"
 #include "studies/conformance/check_context.hpp"
 #include "studies/conformance/declared_laws.hpp"
+#include "studies/core/mirrors.hpp"
 
 namespace crossgrain::conformance {
 namespace {
@@ -45,8 +46,12 @@ double turnWithin(double interval) {
 /// In space, a spring that follows its normal to first order leaves the tangent plane by
 /// (ξ·n′)(1 − cos θ), about θ³/2 of it, with each turn by θ: by Θ θ²/2 over a turn Θ.
 double offPlane(const CheckContext& context, double dt) {
-  if (!context.inSpace || context.law().conventions.springTurn != SpringTurn::firstOrder)
-    return 0.0;
+  if (!context.inSpace) return 0.0;
+  const auto can =
+      capabilitiesOf(context.entry, 60.0);  // as a plane in space it has no such option
+  if (!can) return 0.0;
+  const auto how = can->lawOptions.find("spring_turn");
+  if (how == can->lawOptions.end() || how->second.front() != "first_order") return 0.0;
   return 0.5 * turnWithin(Encounter::end) * turnWithin(dt) * turnWithin(dt);
 }
 
