@@ -46,11 +46,6 @@ Attraction attraction(const ContactLaw& law, const CollidingPair& pair, double o
   return {0.0, 0.0, 0.0};
 }
 
-double damping(const ContactLaw& law, double constant, double stiffness,
-               const CollidingPair& pair) {
-  return dashpot(law.damper, constant, {stiffness, 0.0}, 1.0 / pair.reducedMass()).value;
-}
-
 template <int D>
 ContactLaw ownLaw(const AuditBasisOf<D>& basis, std::size_t i, std::size_t j,
                   const ContactLaw& law) {
@@ -139,7 +134,9 @@ double VelocityDoubt<D>::lastForce(const ContactLaw& law, const ContactPlacesOf<
       (places.velocity[i] - velocityOfSecond<D>(places, basis, i, j)).dot(place.normal);
   const bool pulls = law.conventions.tension == Tension::allow;
   const double dashpot =
-      pulls ? damping(law, law.gn, elasticPart(law, pair, 0.0).stiffness, pair) : 0.0;
+      pulls
+          ? dampingOf(law.damper, law.gn, elasticPart(law, pair, 0.0).stiffness, pair.reducedMass())
+          : 0.0;
   double last = dashpot * std::max(separating, 0.0);
   if (law.coheres()) last += attraction(law, pair, 0.0).pullOff;
   last *= 1.0 + law.mu;

@@ -10,8 +10,7 @@
 /// dashpots see.
 namespace crossgrain {
 
-/// What a law makes of one contact: by the texts of the laws, as an engine's own code is no witness
-/// of itself.
+/// Elastic part of one contact's force, by law/contact_reference.hpp.
 struct ElasticPart {
   double force;       ///< f_el(δ) [N]
   double stiffness;   ///< f_el′(δ) [N/m]
@@ -26,9 +25,6 @@ struct Attraction {
   double pullOff = 0.0;  ///< F_po [N]
 };
 Attraction attraction(const ContactLaw& law, const CollidingPair& pair, double overlap);
-
-/// γ of the law's dampers [kg/s]. @param constant  γ_n or γ_t of the law
-double damping(const ContactLaw& law, double constant, double stiffness, const CollidingPair& pair);
 
 /// The law of that pair with the options of `law`, as the engine runs them.
 template <int D>

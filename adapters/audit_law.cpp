@@ -74,7 +74,7 @@ std::string normalFault(double found, const ContactLaw& law, const ContactKinema
                         double relative) {
   const ElasticPart& elastic = touch.elastic;
   const Attraction& pull = touch.pull;
-  const double gn = damping(law, law.gn, elastic.stiffness, touch.pair);
+  const double gn = dampingOf(law.damper, law.gn, elastic.stiffness, touch.pair.reducedMass());
   const auto forceAt = [&](double attractive) {
     const double body = elastic.force + attractive, force = body - gn * touch.approach;
     return law.conventions.tension == Tension::cut ? std::max(force, std::min(body, 0.0)) : force;
@@ -87,7 +87,8 @@ std::string normalFault(double found, const ContactLaw& law, const ContactKinema
   const ElasticPart deeper = elasticAt(touch.uncertain);
   const double unsure =
       std::max(deeper.force - elastic.force, elastic.force - elasticAt(-touch.uncertain).force);
-  const double unsureDamping = damping(law, law.gn, deeper.stiffness, touch.pair) - gn;
+  const double unsureDamping =
+      dampingOf(law.damper, law.gn, deeper.stiffness, touch.pair.reducedMass()) - gn;
   const double allowed =
       relative * (std::abs(elastic.force) + std::abs(pull.least) + gn * std::abs(touch.approach)) +
       unsure + std::abs(unsureDamping * touch.approach) + pull.stiffness * touch.uncertain +
@@ -126,7 +127,8 @@ std::string tangentialFault(double normal, double found, const ContactLaw& law,
   const ElasticPart& elastic = touch.elastic;
   if (friction && law.tangential == TangentialLaw::springDashpot &&
       law.conventions.dashpot == Dashpot::outside)
-    bound += damping(law, law.gt, elastic.tangential, touch.pair) * (touch.slip + touch.doubt);
+    bound += dampingOf(law.damper, law.gt, elastic.tangential, touch.pair.reducedMass()) *
+             (touch.slip + touch.doubt);
   double allowed =
       bound * (1.0 + relative) + relative * (std::abs(elastic.force) + std::abs(normal));
   if (friction && law.coheres())  // what an uncertain overlap leaves open of the pull

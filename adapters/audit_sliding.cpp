@@ -31,8 +31,9 @@ bool pushesForSure(const AuditBasisOf<D>& basis, std::size_t i, std::size_t j, d
   const ContactLaw& law = basis.scene->lawOf(i, j);
   const CollidingPair pair = pairOf(basis, i, j);
   const ElasticPart elastic = elasticPart(law, pair, overlap);
-  const double damper = std::max(damping(law, law.gn, elastic.stiffness, pair),
-                                 2.0 * std::sqrt(pair.reducedMass() * elastic.stiffness));
+  const double damper =
+      std::max(dampingOf(law.damper, law.gn, elastic.stiffness, pair.reducedMass()),
+               2.0 * std::sqrt(pair.reducedMass() * elastic.stiffness));
   return elastic.force > damper * parting;
 }
 template bool pushesForSure(const AuditBasis&, std::size_t, std::size_t, double, double);
@@ -68,9 +69,9 @@ void addSliding(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis,
     const ElasticPart elastic = elasticPart(law, pair, contacts.overlap[k]);
     const double mass = pair.reducedMass(), load = contacts.normalForce[k];
     const VecOf<D> relative = snapshot.velocity[i] - snapshot.velocity[j];
-    const double falling =
-        elastic.stiffness * std::abs(relative.dot(contacts.normal[k])) +
-        damping(law, law.gn, elastic.stiffness, pair) * load / mass;  // of f_n, at most
+    const double falling = elastic.stiffness * std::abs(relative.dot(contacts.normal[k])) +
+                           dampingOf(law.damper, law.gn, elastic.stiffness, pair.reducedMass()) *
+                               load / mass;  // of f_n, at most
     double least = law.springs() ? certain * law.mu * falling / elastic.tangential : 0.0;
     double speeds = 0.0;
     for (const std::size_t id : {i, j}) {

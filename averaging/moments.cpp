@@ -40,13 +40,6 @@ void requireLength(const char* what, std::size_t got, std::size_t wanted) {
         fmt::format("averaging: the snapshot has {} {}, the scene has {}", got, what, wanted));
 }
 
-void distribute(const Moments& moments, const BinFractions& fractions, std::vector<Moments>& sums) {
-  using All =
-      Eigen::Array<double, std::tuple_size_v<Moments>, 1>;  // side by side, which the loop is not
-  for (const auto& [slot, w] : fractions)
-    All::Map(sums[slot].data()) += w * All::Map(moments.data());
-}
-
 }  // namespace
 
 template <int D>

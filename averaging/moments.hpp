@@ -149,6 +149,16 @@ void addContactCounts(MomentsOf<D>& moments, double volume, double count) {
   at(moments, Moment::heldContacts) = volume * count;
 }
 
+/// Adds what one body has to the bins that it lies in.
+template <typename SomeMoments>
+void distribute(const SomeMoments& moments, const BinFractions& fractions,
+                std::vector<SomeMoments>& sums) {
+  // Side by side, which a loop is not.
+  using All = Eigen::Array<double, std::tuple_size_v<SomeMoments>, 1>;
+  for (const auto& [slot, w] : fractions)
+    All::Map(sums[slot].data()) += w * All::Map(moments.data());
+}
+
 /// How many of what a scene has, for snapshots to be compared with.
 struct SceneCounts {
   std::size_t disks, wallDisks, ids;

@@ -57,7 +57,6 @@ void SpaceMomentSums::changeDisks(const SpaceScene& scene) {
 
 void SpaceMomentSums::compute(const SpaceSnapshot& snapshot,
                               std::vector<std::vector<SpaceMoments>>& sums) {
-  using All = Eigen::Array<double, std::tuple_size_v<SpaceMoments>, 1>;
   counts_.require(snapshot, false);
   sums.resize(weights_.size());
   for (std::vector<SpaceMoments>& slots : sums) slots.assign(bins_->slots(), SpaceMoments{});
@@ -69,8 +68,7 @@ void SpaceMomentSums::compute(const SpaceSnapshot& snapshot,
     const SpaceMoments moments = momentsOf(snapshot, p);
     for (std::size_t k = 0; k < weights_.size(); ++k) {
       bins_->sphereFractions(snapshot.position[p], radius_[p], weights_[k], fractions_);
-      for (const auto& [slot, w] : fractions_)
-        All::Map(sums[k][slot].data()) += w * All::Map(moments.data());
+      distribute(moments, fractions_, sums[k]);
     }
   }
   if (snapshot.contacts)

@@ -7,7 +7,7 @@
 
 /// The force of one contact as the texts of the laws have it, by its overlap and lengths alone: the
 /// reference that audits of snapshots, the oracle's equations of motion and its schemes in steps
-/// are made of. Engines have code of their own and are held against it. With cohesion.hpp.
+/// are made of. Engines have code of their own and are compared with it. With cohesion.hpp.
 namespace crossgrain::inline contact_law {
 
 /// Two disks or spheres, free but for each other, or one and a plane wall that moves at a constant
@@ -102,6 +102,12 @@ SlopeOf<Real> dashpot(Damper damper, double constant, const SlopeOf<Real>& stiff
       break;
   }
   return {Real(constant), Real(0)};
+}
+
+/// The same where its derivative is not asked for; 0 where the contact does not resist.
+/// @param constant  of the law, in the unit of its damper  @param stiffness  [N/m]
+inline double dampingOf(Damper damper, double constant, double stiffness, double reducedMass) {
+  return dashpot(damper, constant, {stiffness, 0.0}, 1.0 / reducedMass).value;
 }
 
 }  // namespace crossgrain::inline contact_law

@@ -12,10 +12,6 @@
 
 namespace crossgrain::inline oracle {
 
-double dampingOf(Damper damper, double constant, double stiffness, double reducedMass) {
-  return dashpot(damper, constant, {stiffness, 0.0}, 1.0 / reducedMass).value;
-}
-
 ContactLaw withConstantDampers(ContactLaw law, double reducedMass) {
   if (law.normal != NormalLaw::linear) return law;
   law.gn = dampingOf(law.damper, law.gn, law.kn, reducedMass);

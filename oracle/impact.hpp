@@ -1,12 +1,8 @@
 #pragma once
 
-#include "law/contact_law.hpp"
+#include "law/contact_reference.hpp"
 
 namespace crossgrain::inline oracle {
-
-/// γ that a dashpot multiplies the velocity with [kg/s], 0 where the contact does not resist.
-/// @param constant  of the law, in the unit of its damper  @param stiffness  [N/m]
-double dampingOf(Damper damper, double constant, double stiffness, double reducedMass);
 
 /// The linear law as a pair of that mass sees it, its dampers turned into constant ones: γ k
 /// (Damper:: viscoelastic) or γ √(m₁₂ k) (critical). Other laws: unchanged. @param reducedMass m₁₂

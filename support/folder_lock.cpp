@@ -37,12 +37,6 @@ std::string describe(const std::string& holder) {
                      fmt::localtime(std::time(nullptr)));
 }
 
-BadInput inUse(const fs::path& folder) {
-  const std::string who = readFile(folder / FolderLock::name).value_or("");
-  return BadInput(fmt::format("{}: in use by {}; wait until it has ended, or take another folder",
-                              folder.string(), who.empty() ? "another crossgrain" : who));
-}
-
 }  // namespace
 
 std::optional<FolderLock> FolderLock::held(const fs::path& file, int kind,
@@ -73,17 +67,18 @@ std::optional<FolderLock> FolderLock::attempt(const fs::path& file, const std::s
   return held(file, LOCK_EX, holder);
 }
 
-FolderLock FolderLock::shared(const fs::path& folder, const std::string& holder) {
-  auto lock = held(folder / name, LOCK_SH, holder);
-  if (!lock) throw inUse(folder);
-  return *std::move(lock);
+FolderLock FolderLock::ofFolder(const fs::path& folder, int kind, const std::string& holder) {
+  if (auto lock = held(folder / name, kind, holder)) return *std::move(lock);
+  const std::string who = readFile(folder / name).value_or("");
+  throw BadInput(fmt::format("{}: in use by {}; wait until it has ended, or take another folder",
+                             folder.string(), who.empty() ? "another crossgrain" : who));
 }
 
-FolderLock::FolderLock(const fs::path& folder, const std::string& holder) {
-  auto lock = held(folder / name, LOCK_EX, holder);
-  if (!lock) throw inUse(folder);
-  file_ = lock->file_;
-  descriptor_ = std::exchange(lock->descriptor_, -1);
+FolderLock::FolderLock(const fs::path& folder, const std::string& holder)
+    : FolderLock(ofFolder(folder, LOCK_EX, holder)) {}
+
+FolderLock FolderLock::shared(const fs::path& folder, const std::string& holder) {
+  return ofFolder(folder, LOCK_SH, holder);
 }
 
 void FolderLock::share() {

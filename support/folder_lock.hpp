@@ -36,6 +36,9 @@ class FolderLock {
       : file_(std::move(file)), descriptor_(descriptor) {}
   static std::optional<FolderLock> held(const std::filesystem::path& file, int kind,
                                         const std::string& holder);
+  /// @throws BadInput where another holds it
+  static FolderLock ofFolder(const std::filesystem::path& folder, int kind,
+                             const std::string& holder);
 
   std::filesystem::path file_;
   int descriptor_ = -1;

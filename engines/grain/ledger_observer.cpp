@@ -131,7 +131,7 @@ void LedgerObserver<Real>::account(double time) {
   accountDisks();
 }
 
-/// Kinetic energy, and velocities half way through the kicks: those stored, carried on by the
+/// Kinetic energy, and velocities half way through the kicks: those stored, advanced by the
 /// acceleration. @param time  from the stored velocities to that of the forces [s]
 template <class Real>
 void LedgerObserver<Real>::lookAtDisks(double time) {
@@ -140,10 +140,10 @@ void LedgerObserver<Real>::lookAtDisks(double time) {
     const auto inverseMass = static_cast<double>(core_.inverseMass_[i]);
     const Vec<Real> stored = core_.velocity_[i], force = core_.force_[i];
     const auto velocity = [&](double after) {
-      const auto carried = [&](Real v, Real f) {
+      const auto advanced = [&](Real v, Real f) {
         return static_cast<double>(v) + after * inverseMass * static_cast<double>(f);
       };
-      return Vec<double>{carried(stored.x, force.x), carried(stored.y, force.y)};
+      return Vec<double>{advanced(stored.x, force.x), advanced(stored.y, force.y)};
     };
     closing_.velocity[i] = velocity(time + offset.closing);
     opening_.velocity[i] = velocity(time + offset.opening);

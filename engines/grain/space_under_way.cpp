@@ -12,7 +12,7 @@ namespace {
 
 using Vector = Vec3<double>;
 
-/// The load of a spring, carried or to be carried: a force, or a torque.
+/// The load of a spring, as it is or is to be: a force, or a torque.
 struct SpringLoad {
   Vector value;
   bool slides;

@@ -85,7 +85,7 @@ void Core<Real>::addMissing(const PairMap<const Contact*>& wanted) {
 
 namespace {
 
-/// The load of a spring, carried or to be carried: a force, or a torque.
+/// The load of a spring, as it is or is to be: a force, or a torque.
 struct SpringLoad {
   double value;
   bool slides;

@@ -18,7 +18,7 @@
 /// Blocks that several studies' reports are made of, and lines of CSV (RFC 4180).
 namespace crossgrain::reports {
 
-/// What an engine made of a scene. Both must outlive it.
+/// A scene as an engine took it. Both must outlive it.
 struct EffectiveScene {
   std::string engine;
   const EffectiveParameters* effective;

@@ -14,7 +14,7 @@
 /// from it, and its plain forms.
 namespace crossgrain::reports {
 
-/// What files call the verdict of a cell. A number that nothing is judged by, what it costs, has
+/// Names in files of a cell's verdict. A number that nothing is judged by, what it costs, has
 /// none.
 inline std::string cellWord(std::optional<Verdict> verdict) {
   if (verdict == Verdict::pass) return "good";
@@ -63,7 +63,7 @@ struct OverviewRow {
   }
 };
 
-/// What a verdict means here, where that is not what it means everywhere.
+/// Words for a verdict where it means something else than everywhere.
 struct VerdictWords {
   std::optional<Verdict> verdict;
   std::string words;

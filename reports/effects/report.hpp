@@ -20,7 +20,7 @@ Overview effectsOverview(const EffectsResults& results);
 /// effects_k_profile_FIELD, with and without.
 std::vector<Figure> effectFigures(const EffectsResults& results);
 
-/// What switching an effect off does to one field, at one ring: the largest of the significant
+/// Change of one field by an effect switched off, at one ring: the largest of the significant
 /// changes, else the one with the most errors. Changes are over the profile's largest value with
 /// everything on, so that a ring where next to nothing is left of a field does not dominate.
 struct FieldChange {

@@ -182,7 +182,7 @@ const VariantSummary* costliestOf(const std::vector<VariantSummary>& variants) {
   return most;
 }
 
-/// What an engine's effects do, in one clause.
+/// A clause on what an engine's effects do.
 std::string effectsOf(const std::vector<VariantSummary>& all) {
   Names changing, idle;
   for (const VariantSummary& variant : all) {

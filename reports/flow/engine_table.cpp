@@ -16,7 +16,7 @@ namespace crossgrain::reports {
 
 namespace {
 
-/// What a packing does in each regime, as a verb; of several packings.
+/// Verbs for a packing in each regime; for several packings.
 struct Verb {
   std::optional<Regime> regime;  ///< absent: undecided
   const char *one, *many;

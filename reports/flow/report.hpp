@@ -54,7 +54,7 @@ std::vector<Figure> profileFigures(const FlowFrame& frame, const Engines& engine
 /// difference_FIELD: engines minus the reference, ring by ring, in margins, with the margin's band.
 std::vector<Figure> differenceFigures(const CompareResults& results, const Engines& engines);
 
-/// What the bars of the profiles are, in words: over packings, or within one run.
+/// Words for the bars of the profiles: over packings, or within one run.
 std::string describeBars(const Engines& engines);
 
 /// "ring", or "bin" of an assembly.
@@ -88,7 +88,7 @@ bool isModelDifference(const CompareResults& results, const EngineRow& engine);
 /// next.
 Names compareConclusion(const CompareResults& results);
 
-// What ran, its cost, and in what state runs were while they were averaged.
+// Engines that ran, their cost, and in what state runs were while they were averaged.
 
 /// The table of engines, and engines and runs that did not finish, with their reasons.
 void addEngineTable(Blocks& blocks, const Engines& engines);
@@ -100,7 +100,7 @@ Table stateTable(const Engines& engines);
 /// @param engines  of which files may have others than the case says
 std::string describeAverages(const FlowFrame& frame, const Engines& engines);
 
-/// What the engines made of the case's scene.
+/// The case's scene as the engines took it.
 std::vector<EffectiveScene> effectiveOf(const FlowFrame& frame, const Engines& engines);
 
 /// "rotations 0.25 to 1.25 since the hand-over, 2.25 to 3.25 since the ring had closed"; what is

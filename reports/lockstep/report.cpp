@@ -14,7 +14,7 @@ namespace crossgrain::reports {
 
 namespace {
 
-/// What differs only where the law leaves the order of impacts open is borderline.
+/// A difference only where the law leaves the order of impacts open is borderline.
 Verdict lockstepState(const LockstepRow& row, const LockstepRules& rules) {
   const bool open = row.verdict == Equivalence::differs && !openInLaw(row, rules).empty();
   return open ? Verdict::borderline : verdictOf(row.verdict);
@@ -334,7 +334,8 @@ OverviewCell lockstepCell(const LockstepRow* row, const LockstepRules& rules, bo
   if (row->verdict == Equivalence::undecided) cell.words += ": " + row->reason;
   if (row->verdict == Equivalence::differs && cell.verdict == Verdict::borderline)
     cell.words = "differs only where the law leaves the order of impacts open";
-  // What would just have shown is what can be said of an engine that stays within its rounding.
+  // The smallest deviation that would have shown is what can be said of an engine that stays within
+  // its rounding.
   const bool bounded = row->verdict == Equivalence::sameToPrecision;
   const auto size = bounded ? row->resolution : row->equivalent;
   if (!size) return cell;

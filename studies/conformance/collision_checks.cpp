@@ -217,7 +217,7 @@ void freeFlightRemembersNothing(CheckContext& context) {
 
 constexpr const char* magnified = "rounding of the positions, which the stiff contact magnifies";
 
-/// What becomes of the mirrored or turned scene is the image of what becomes of it.
+/// The mirrored or turned scene moves as the image of the scene.
 void expectImage(CheckContext& context, const Placement& placement) {
   const Scene scene = encounterScene(crookedEncounter(), context.law(), coarseSteps);
   const std::vector<DiskState> original = statesOf(scene, context.run(scene, Encounter::end));

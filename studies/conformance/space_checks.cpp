@@ -1,4 +1,4 @@
-// What no scene that lies in a plane shows of spheres: torques about any axis, impacts in turned
+// Checks of spheres that no scene in a plane can make: torques about any axis, impacts in turned
 // frames; and boxes with periodic directions.
 #include <fmt/format.h>
 

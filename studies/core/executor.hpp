@@ -117,7 +117,10 @@ std::vector<Result> runOrLoad(const std::vector<CachedTask<Result>>& tasks, cons
     progress.finish(k, own.label + ": " + outcome.line);
   };
   const auto isDone = [&](std::size_t k) {  // unless another has it
-    if (!store.isShared()) return work(k), true;
+    if (!store.isShared()) {
+      work(k);
+      return true;
+    }
     const auto claim = store.claim(tasks[k].name);
     if (!claim) return false;
     if (!isThere(k, "by another shard")) work(k);

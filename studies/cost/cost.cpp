@@ -243,7 +243,7 @@ class Measuring {
     bool cut = false;                   ///< the budget ended before its last rounds
   };
 
-  /// What the case's own step takes until it says something, by engine, the fastest first [s].
+  /// Time of the case's own step until it answers, by engine, the fastest first [s].
   std::vector<std::pair<double, std::size_t>> firstAnswers(const ErrorKind& kind) const {
     std::vector<std::pair<double, std::size_t>> answers;
     for (const PlannedPoint& point : planned(kind))

@@ -87,7 +87,7 @@ GeometricMean geometricMean(const std::vector<double>& numbers);
 CostPoint timedPoint(const std::string& engine, const CostSetting& setting, CostKind kind,
                      const std::vector<CostRun>& runs);
 
-/// What it takes to load a scene and to step it [s].
+/// Times to load a scene and to step it [s].
 struct SceneTimes {
   double load = 0.0, step = 0.0;
 };
@@ -195,7 +195,7 @@ class ErrorKind {
   virtual CostKind kind() const = 0;
   virtual std::vector<std::string> measures() const = 0;
   virtual std::size_t rounds() const = 0;
-  /// What all rounds of a setting on an engine will take; what references of the first rounds take
+  /// Time of all rounds of a setting on an engine; what references of the first rounds take
   /// that all engines share, and an engine's own [s].
   virtual double predicted(std::size_t engine, const CostSetting& setting) const = 0;
   virtual double commonTime(std::size_t) const { return 0.0; }

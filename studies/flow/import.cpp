@@ -32,7 +32,7 @@ void checkFormat(const std::string& format) {
   throw BadInput(fmt::format("there is no format '{}'{}", format, suggestion(format, known)));
 }
 
-/// Tells a file's format by its beginning.
+/// Finds a file's format by its beginning.
 void checkFormatOf(const std::vector<fs::path>& files, const std::string& format) {
   for (const fs::path& file : files)
     if (const auto own = files::formatOf(file); own && *own != format)

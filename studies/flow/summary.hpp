@@ -31,7 +31,7 @@ std::vector<FitRow> couetteFits(const Case& setup, const std::vector<Profile>& p
 /// The fit of the spin's oscillation from layer to layer.
 std::vector<FitRow> spinFits(const Case& setup, const LayerSpin& spin);
 
-/// Balance of a steady state, ring by ring: the torque carried at every ring is
+/// Balance of a steady state, ring by ring: the torque at every ring is
 /// the wheel's, σ_rr in the outermost ring is what the pressure on the ring calls for.
 /// @param wall  one for each entry of the series' outer_pressure, or none: then that is not checked
 std::vector<CheckRow> couetteChecks(const Case& setup, const std::vector<Profile>& profiles,

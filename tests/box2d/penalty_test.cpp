@@ -1,4 +1,4 @@
-// What is particular to the penalty engine: the conformance suite compares its forces, loads, plate
+// Tests of the penalty engine alone: the conformance suite compares its forces, loads, plate
 // and materials with the in-house engine, and its impacts with the oracles.
 #include <gtest/gtest.h>
 

@@ -412,7 +412,7 @@ struct Stepped {
   double reach() const { return pair.radius[0] + pair.radius[1]; }
   double overlap() const { return reach() - x.norm(); }
   double damping(double constant, double stiffness) const {
-    return dashpot(law.damper, constant, {stiffness, 0.0}, 1.0 / pair.reducedMass()).value;
+    return dampingOf(law.damper, constant, stiffness, pair.reducedMass());
   }
   Vec3 friction(double bound, double kt, const Vec3& slip, double h) {
     const LawConventions& how = law.conventions;

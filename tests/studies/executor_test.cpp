@@ -161,7 +161,7 @@ TEST(RunOrLoad, Shards_DoEachRunOnceAndHaveThemAll) {
   EXPECT_EQ(done, 20);
   EXPECT_EQ(found[0].size(), 20u);
   EXPECT_EQ(found[0], found[1]);
-  // What failed is tried again by the next command, which finds the rest.
+  // The next command tries again what failed, and finds the rest.
   RunStore next(command(1), "study", {});
   next.begin();
   EXPECT_EQ(run(next), found[0]);

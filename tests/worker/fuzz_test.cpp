@@ -66,7 +66,7 @@ class Dice {
   std::mt19937_64 random_;
 };
 
-/// What takes the place of a value.
+/// Values that take another's place.
 constexpr std::array<std::string_view, 26> values = {
     "null",       "true",    "-1",         "0",        "1e308",
     "1e999",      "-1e999",  "5e-324",     "2.5",      "9223372036854775807",

@@ -19,7 +19,7 @@ ContactLaw lawOfAllParts(int dimension = 2) {
   return law;
 }
 
-/// What travels between two processes.
+/// Messages between two processes.
 struct Travelling {
   std::string text, arrays;
   bool operator==(const Travelling&) const = default;
