@@ -7,19 +7,18 @@
 
 #include "adapters/engine.hpp"
 
-/// Whether a snapshot can be true of its scene. Each answer is one clause that names what is wrong
-/// (which disk or contact), the number and what would be right; empty: nothing was found.
+/// Checks whether a snapshot is possible in its scene. Each returns one clause that names the fault
+/// (which disk or contact), the number and the right one; empty: no fault was found.
 namespace crossgrain {
 
-/// How numbers were rounded when they were written: by 10⁻⁵ of six digits, at least 10⁻⁹, and by
+/// Rounding of numbers as they were written: relative, 10⁻⁵ of six digits, at least 10⁻⁹, and by
 /// the place of the last decimal.
 struct LastDigit {
   double relative = 0.0;
   double place = 0.0;  ///< in the numbers' unit
 };
 
-/// How exactly a result file says which disks overlap, and what its list may leave out all the
-/// same.
+/// Accuracy of overlaps in a result file, and pairs that its list of contacts may leave out.
 struct ShownPlaces {
   LastDigit position, radius;  ///< in the file's numbers
   double unit = 1.0;           ///< of these [m]
@@ -28,25 +27,24 @@ struct ShownPlaces {
   double step = 0.0;  ///< by which a list may be older than the places [s]
 };
 
-/// What the snapshots of one run are compared with: worked out once, so that an audit is cheap.
+/// Reference for the snapshots of one run, computed once so that each audit is cheap.
 template <int D>
 struct AuditBasisOf {
   const SceneOf<D>* scene =
-      nullptr;      ///< as the engine runs it; only its bodies and places are asked for
+      nullptr;      ///< as the engine runs it; only its bodies and places are read
   double dt = 0.0;  ///< the engine's [s]; 0: not known, then times are not counted
   /// Whether a contact is a pair that overlaps at contactTime, as soft disks have it. Rigid disks
   /// show the pairs that an impulse passed between in the last step, while they moved on.
   bool byOverlap = true;
   /// Whether walls have moved as the scene prescribes since t = 0.
   bool prescribed = true;
-  /// How far geometry worked out again may be off by rounding, of the farthest coordinate: 10⁶
-  /// roundings of double precision, 10 of single.
+  /// Rounding error of recomputed geometry, as a share of the farthest coordinate: 10⁶ roundings of
+  /// double precision, 10 of single.
   double rounding = 1e-10;
-  /// Where forces are compared with the law at the overlaps that contacts show, as those of files
-  /// have more digits than what follows from places.
-  /// Absent: positions' are taken.
+  /// Present where forces are compared with the law at the contacts' own overlaps, which in files
+  /// have more digits than those from positions. Absent: overlaps are those from positions.
   std::optional<LastDigit> shownOverlaps;
-  /// Absent: pairs that overlap by more than `rounding` leaves open have to be listed, all of them.
+  /// Absent: every pair that overlaps by more than `rounding` allows has to be listed.
   std::optional<ShownPlaces> shownPlaces;
 
   std::vector<double> radius;          ///< disks, then wall disks [m]
@@ -58,25 +56,25 @@ struct AuditBasisOf {
 };
 using AuditBasis = AuditBasisOf<2>;
 
-/// Of an engine that has loaded the scene, which outlives it.
+/// Reference of an engine that has loaded the scene, which has to outlive it.
 template <int D>
 AuditBasisOf<D> auditBasis(const SceneOf<D>& scene, const Capabilities& can,
                            const EffectiveParameters& effective);
 
-/// Of snapshots of unknown origin: soft, single precision, nothing known of step and walls' motion.
+/// Reference of snapshots of unknown origin: soft, single precision, unknown step and wall motion.
 template <int D>
 AuditBasisOf<D> auditBasis(const SceneOf<D>& scene);
 
-/// Times, places, and contacts worked out again from positions. Costs less than a third of
-/// averaging the same snapshot.
+/// Checks times, places, and contacts against those recomputed from positions. Costs less than a
+/// third of averaging the same snapshot.
 /// @param reached  what advance() returned last [s]; absent: not known
 template <int D>
 std::string auditFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis,
                        std::optional<double> reached = std::nullopt);
 
-/// Time of positions is a whole number of steps and the time reached; velocities and contacts are
-/// of within a step of it, as staggered schemes have them. A hundredth of a step is left to sums of
-/// 10⁷ steps in any order.
+/// Time of positions is a whole number of steps and the time reached; those of velocities and
+/// contacts are within a step of it, as in staggered schemes. A hundredth of a step is allowed for
+/// the rounding of sums over 10⁷ steps in any order.
 template <int D>
 std::string timeFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis,
                       std::optional<double> reached);
@@ -84,9 +82,8 @@ std::string timeFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basi
 /// No disk is farther off than it could have flown: a hundred times the scene's extent, and ten
 /// times what the fastest thing of the scene and its gravity cover (disks that overlap at the start
 /// drive each other apart; one that slipped out flies on). None crosses the scene in a step,
-/// unless the scene itself is as fast. Walls
-/// are where they are prescribed to be, to 10⁻⁶ of the extent. In a periodic box positions may be
-/// of any image.
+/// unless the scene itself is as fast. Walls are where they are prescribed to be, to 10⁻⁶ of the
+/// extent. In a periodic box positions may be of any image.
 template <int D>
 std::string positionFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis);
 
@@ -101,20 +98,20 @@ std::string positionFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& 
 /// ones' median (each carries less than a tenth of what half of these do), or than two bodies
 /// approach each other in a step, and pairs that part so fast that a damper may leave no force.
 ///
-/// What conventions leave open: contacts of another time than the positions are looked for where
-/// disks were then, half of what two disks moved meanwhile being left to schemes whose velocities
-/// do not lie half way; rigid disks move on after their impulse, by what they move in a step and by
-/// what solvers move disks apart that overlap (twice the deepest overlap shown), and whether a pair
-/// got an impulse is the solver's matter, so none is missed there. Means over more than a step
+/// Allowances for conventions: contacts of another time than the positions are compared with the
+/// disks' places at that time, to within half of what two disks moved meanwhile where velocities do
+/// not lie half way. Rigid disks move on after their impulse, by what they move in a step and by
+/// what solvers move overlapping disks apart (twice the deepest overlap shown); the solver decides
+/// which pairs get an impulse, so none of theirs counts as left out. Means over more than a step
 /// belong to no positions.
 template <int D>
 std::string contactFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis);
 
 /// The forces of every contact against the law: f_n from overlap and approach, |f_t| and the torque
 /// against rolling within their bounds by the law's conventions. An elasto-plastic law, whose
-/// memory nobody shows, has a range of f_n. Of instants of soft disks, and of rigid disks f_n ≥ 0
-/// alone. Velocities are known to what forces change of them in a step and a
-/// half, as schemes have their dashpots see velocities of up to that long before.
+/// memory is in no snapshot, has a range of f_n. For instants of soft disks; of rigid disks only
+/// f_n ≥ 0 is checked. Velocities are uncertain by the change that forces make in a step and a
+/// half, as the dashpots of schemes use velocities of up to that long before.
 /// @param law  the one that the engine declares (adapters/declared_law.hpp)
 template <int D>
 std::string lawFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis,
@@ -137,7 +134,7 @@ template <int D>
 void addSliding(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis, const ContactLaw& law,
                 SlidingSense& sense);
 
-/// Cost counted as advance() was asked: steps done so far, seconds that can be.
+/// Steps are those that advance() was called for; seconds are possible ones.
 std::string statsFault(const Stats& stats, double dt, double reached);
 
 }  // namespace crossgrain

@@ -21,10 +21,10 @@ struct PlacedPlaneOf {
   PlaneOf<D> plane;  ///< not of a cylinder
   const WallBodyOf<D>* body;
   BodyStateOf<D> motion;  ///< of the body
-  bool known;             ///< false: it turned in ways that nobody prescribed
+  bool known;             ///< false: it turned in ways that the scene does not prescribe
   const Cylinder* cylinder = nullptr;
 
-  /// What a disk there meets: the plane, or the one that touches the cylinder.
+  /// Plane that a disk at `place` meets; of a cylinder its tangent plane.
   PlaneOf<D> under(const VecOf<D>& place) const {
     if constexpr (D == 3)
       if (cylinder) return tangentPlane(*cylinder, place);
@@ -38,7 +38,7 @@ struct ContactPlacesOf {
   std::vector<VecOf<D>> position;        ///< disks, then wall disks [m]
   std::vector<VecOf<D>> velocity;        ///< likewise, as shown [m/s]
   std::vector<PlacedPlaneOf<D>> planes;  ///< then cylinders
-  /// What of two bodies' relative motion their places are uncertain by [s].
+  /// Uncertainty of two bodies' distance, divided by their relative speed [s].
   double drift = 0.0;
   double rounding = 0.0;  ///< [m]
 };
@@ -47,13 +47,13 @@ using ContactPlaces = ContactPlacesOf<2>;
 template <int D>
 ContactPlacesOf<D> contactPlaces(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& basis);
 
-/// Wall disks and bodies as the scene prescribes them at that time, without forces: what a snapshot
-/// of somebody else's need not say.
+/// Sets wall disks and bodies as the scene prescribes them at that time, without forces, for
+/// snapshots of files that lack them.
 template <int D>
 void placeWallsAsPrescribed(const SceneOf<D>& scene, double t, SnapshotOf<D>& snapshot);
 
-/// Contacts by their first: each has few, whose list is looked through faster than a tree: those of
-/// i are order[begin[i]] … order[begin[i + 1] − 1].
+/// Contacts by their first body: those of i are order[begin[i]] … order[begin[i + 1] − 1]. Each
+/// body has few, so that a search of this list is faster than of a tree.
 struct ContactsByFirst {
   std::vector<std::size_t> begin, order;
 
@@ -67,7 +67,7 @@ struct ContactsByFirst {
       order[next[static_cast<std::size_t>(contacts.i[k])]++] = k;
   }
 
-  /// How often the pair is there.
+  /// Number of contacts of the pair.
   template <int D>
   std::size_t count(const ContactsOf<D>& contacts, std::size_t i, std::size_t j) const {
     std::size_t found = 0;
@@ -77,8 +77,8 @@ struct ContactsByFirst {
   }
 };
 
-/// How a pair lies there, in a periodic box its nearest images: n from j to i, δ > 0 where they
-/// overlap, and how far δ may be off.
+/// Geometry of a pair, in a periodic box of its nearest images: n from j to i, δ > 0 where they
+/// overlap, and the uncertainty of δ.
 template <int D>
 struct PairPlaceOf {
   VecOf<D> normal;
@@ -88,12 +88,12 @@ struct PairPlaceOf {
 };
 using PairPlace = PairPlaceOf<2>;
 
-/// The point of the plane that is nearest.
+/// Nearest point of the plane.
 template <int D>
 VecOf<D> footOn(const PlaneOf<D>& plane, const VecOf<D>& point);
 
-/// Of the second of a pair: of a disk's centre; of a plane where the first's centre has its foot
-/// [m/s].
+/// Velocity of the second of a pair: a disk's at its centre, a plane's at the foot of the first's
+/// centre [m/s].
 template <int D>
 VecOf<D> velocityOfSecond(const ContactPlacesOf<D>& places, const AuditBasisOf<D>& basis,
                           std::size_t i, std::size_t j);
@@ -107,7 +107,7 @@ PairPlaceOf<D> pairPlace(const ContactPlacesOf<D>& places, const AuditBasisOf<D>
 template <int D>
 CollidingPair pairOf(const AuditBasisOf<D>& basis, std::size_t i, std::size_t j);
 
-/// Whether two that overlap so much push each other whatever the damper is, up to a critical one:
+/// Whether two with this overlap repel each other with any damper up to a critical one:
 /// f_el(δ) > max(γ_n, 2 √(m₁₂ f_el′(δ))) v, at the speed v with which they part.
 template <int D>
 bool pushesForSure(const AuditBasisOf<D>& basis, std::size_t i, std::size_t j, double overlap,

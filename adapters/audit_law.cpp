@@ -100,7 +100,7 @@ std::string normalFault(double found, const ContactLaw& law, const ContactKinema
       found, found < least ? least : most, touch.overlap, allowed);
 }
 
-/// What stands for f_n in the bounds of sliding and rolling, at most [N].
+/// Largest possible load in the bounds of sliding and rolling, f_n without cohesion [N].
 double loadOf(double normal, const ContactLaw& law, const ContactKinematics& touch) {
   if (!law.coheres() || law.conventions.cohesionLoad == CohesionLoad::net) return normal;
   const Attraction& pull = touch.pull;

@@ -15,14 +15,14 @@ std::unique_ptr<Engine> makeBox2dImpulse();
 /// The scene's soft law on Box2D's collision detection.
 std::unique_ptr<Engine> makeBox2dPenalty();
 
-/// What both Box2D engines share: the scene in the words of engines/box2d.
+/// Helpers of both Box2D engines: settings, limits, and a scene as a model of engines/box2d.
 
-/// The version that its CMake package has, and what the library that runs says of itself where that
-/// is another one: 2.4.1 was released with a b2_version of 2.4.0.
+/// Version of the CMake package, and b2_version of the library that runs where it differs: 2.4.1
+/// was released with a b2_version of 2.4.0.
 std::string box2dVersion();
 
-/// What both can hold: walls that are rigid. Any moment of inertia, planes in any direction, and a
-/// restitution for each pair, set when a contact begins.
+/// Limits of both: walls are rigid. Moments of inertia and directions of planes are not limited,
+/// and each pair has its own restitution, set when a contact begins.
 SceneLimits box2dLimits();
 
 /// Both engines' setting for Box2D's unit of length.

@@ -89,7 +89,7 @@ class Box2dImpulse : public Engine {
     // long.
     can.effects[Effect::bottomFriction] = Support::never;
     can.effects[Effect::bottomSpinFriction] = Support::never;
-    // What a soft law has of these is folded into e_n and e_t0.
+    // A soft law's tangential spring and dashpot are folded into e_n and e_t0.
     can.effects[Effect::tangentialSpring] = Support::never;
     can.effects[Effect::tangentialDamping] = Support::never;
     can.lawOptions = {{"normal", {"rigid"}},
@@ -204,7 +204,7 @@ class Box2dImpulse : public Engine {
   }
 
  private:
-  /// What disk i and disk or wall j use.
+  /// Restitutions of disk i with disk or wall j.
   Restitution restitution(std::int32_t i, std::int32_t j) {
     PairInertia pair;
     for (const std::int32_t id : {i, j}) {

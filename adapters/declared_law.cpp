@@ -10,8 +10,8 @@
 namespace crossgrain {
 namespace {
 
-/// What the engine's table, in its own words, says of the first two bodies: its rows are named
-/// "A with B" or "A with wall". Absent where rows that can be theirs differ.
+/// Row for the first two bodies in the engine's table of pairs, whose rows are named "A with B" or
+/// "A with wall". Absent where no row fits them, or several that differ.
 /// @param reducedMass  of the two [kg]: the disk's beside a wall, half of it beside its equal
 template <int D>
 std::optional<PairCoefficients> pairOf(const SceneOf<D>& scene,

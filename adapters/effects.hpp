@@ -9,7 +9,7 @@
 
 namespace crossgrain {
 
-/// What a scene may call for; an engine should simulate these and nothing else.
+/// Effects that a scene may call for; an engine should simulate those it calls for and no others.
 enum class Effect {
   normalDamping,
   friction,

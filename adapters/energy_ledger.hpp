@@ -43,8 +43,8 @@ inline constexpr std::array<LedgerTerm, 18> ledgerTerms = {{
 /// The first ones are those of every law, the rest of laws that resist rolling or cohere.
 inline constexpr std::size_t commonLedgerTerms = 13;
 
-/// What no term accounts for: states + losses − initial − what came in; > 0: energy from nowhere.
-/// It shrinks with dt at the order of the scheme.
+/// Energy that no term accounts for, states + losses − initial − inflow [J]; > 0: energy from
+/// nowhere. It shrinks with dt at the order of the scheme.
 constexpr double residual(const EnergyLedger& ledger) {
   double sum = 0.0;
   for (const LedgerTerm& term : ledgerTerms) sum += term.sign * ledger.*term.value;

@@ -32,11 +32,11 @@ struct SettingSpec {
   bool whole = false;
 };
 
-/// What an engine can do. Asked for, never assumed.
+/// Abilities of an engine, as it reports them.
 struct Capabilities {
   std::string version;  ///< of the engine itself
-  /// Of the scenes that it takes: 2, disks in a plane; 3, spheres in space, where it has load() and
-  /// snapshot() of such.
+  /// Dimensions of the scenes that it takes: 2, disks in a plane; 3, spheres in space, with
+  /// loadInSpace() and snapshotInSpace().
   std::vector<int> dimensions = {2};
   bool periodic = false;  ///< that a scene's box may have periodic directions
   std::map<Effect, Support> effects;
@@ -55,7 +55,7 @@ struct Capabilities {
   SceneLimits limits;
 };
 
-/// Something an engine does otherwise than the scene says.
+/// Difference between an engine and the scene.
 struct Deviation {
   std::string name;  ///< a law option or effect as in `may_differ`, or free-standing ("rounding")
   double value = 0.0;
@@ -72,7 +72,7 @@ struct PairCoefficients {
   double kc = 0.0, w = 0.0;              ///< where they cohere
 };
 
-/// What an engine really uses after loading a scene.
+/// Parameters that an engine really uses after loading a scene.
 struct EffectiveParameters {
   std::string engine;
   std::string version;
@@ -146,15 +146,15 @@ class Engine {
   virtual SpaceSnapshot snapshotInSpace(ContactReport) { throw UnsupportedScene(planeOnly); }
   /// @}
 
-  /// The run as it stands. @post the run goes on as if it had not been looked at: to the same bits
+  /// State of the run. @post the run goes on to the same bits as without this call
   /// @throws EngineFailure
   virtual Snapshot snapshot(ContactReport contacts) = 0;
 
   /// @post counts never fall between two load()
   virtual Stats stats() const = 0;
 
-  /// Writes all that the future of the run depends on; and takes an engine that has loaded the same
-  /// scene with the same settings there, from where it goes on to the bit.
+  /// Writes the state that the rest of the run depends on; and restores it in an engine that has
+  /// loaded the same scene with the same settings, which then goes on to the same bits.
   /// Capabilities::checkpoints says which engines can.
   /// @post of restore(): advance() and snapshot() are what they would have been to the bit
   /// @throws EngineFailure if the file cannot be written, or is none of this engine and scene

@@ -26,10 +26,10 @@ struct EngineEntry {
   std::string mirrors = {};
   /// Of a mirror: the normal laws (lawOptionValue) of scenes in which it stands for that peer.
   std::vector<std::string> mirrorsNormal = {};
-  /// What the engine's settings are where the case says nothing.
+  /// Values of the engine's settings where the case gives none.
   Settings settings = {};
-  /// Files of an engine that somebody else has run, in place of all that starts one: run by run,
-  /// those of one run by time; and their format.
+  /// Files of runs that another program made, in place of one to start: run by run, those of one
+  /// run by time; and their format.
   std::vector<std::vector<std::filesystem::path>> files = {};
   std::string format = {};
 

@@ -23,12 +23,11 @@ std::unique_ptr<Engine> makeGrain();
 /// Law option → the values that an engine has, its own choice first.
 using LawConventionSets = std::map<std::string, std::vector<std::string>>;
 
-/// Of what an engine declares, all but the laws themselves: which one a scene has is its matter.
+/// Declared conventions without the laws themselves, which the scene chooses.
 LawConventionSets conventionsOf(LawConventionSets declared);
 
-/// The in-house engine with a peer's conventions: where it follows the peer, what remains
-/// between the scene's law and the peer is the model's; where it does not, somebody's
-/// implementation is at fault.
+/// The in-house engine with a peer's conventions. Where it agrees with the peer, the peer differs
+/// from the scene's law by its conventions alone; where it does not, an implementation is at fault.
 std::unique_ptr<Engine> makeGrainMirror(LawConventionSets conventions);
 
 /// Its entry. @param normals  EngineEntry::mirrorsNormal
@@ -40,12 +39,13 @@ EngineEntry mirrorEntry(std::string name, std::string summary, std::string peer,
 /// its root like the contact time.
 std::unique_ptr<Engine> makeStiffGrain(double factor);
 
-/// Has the in-house engine or a mirror, which has loaded a scene of soft disks and not yet
-/// advanced, begin as one that is in the middle of a run: with springs stretched for the tangential
-/// forces and torques of these contacts, as another engine reports them, bonds of JKR's law where
-/// there are contacts, and velocities within a step. Largest overlaps of plastic contacts, which
-/// nobody reports, are those of the instant. See grain::Simulation::beginUnderWay(). @throws
-/// UnsupportedScene of any other engine
+/// Starts the in-house engine or a mirror in the middle of a run: with springs stretched for the
+/// tangential forces and torques of these contacts, as another engine reports them, bonds of JKR's
+/// law where there are contacts, and velocities within a step. Largest overlaps of plastic
+/// contacts, which no engine reports, are those of the instant. See
+/// grain::Simulation::beginUnderWay().
+/// @pre it has loaded a scene of soft disks and not yet advanced
+/// @throws UnsupportedScene of any other engine
 template <int D>
 void beginUnderWay(Engine& inHouse, const ContactsOf<D>& contacts);
 

@@ -10,7 +10,7 @@ namespace crossgrain {
 /// @throws UnsupportedScene of a scene with a bottom plate
 SpaceScene inSpace(const Scene& scene);
 ContactsOf<3> inSpace(const Contacts& contacts);
-/// What it shows there, in the plane.
+/// Snapshot of such a scene as one of the plane.
 Snapshot inPlane(const SpaceSnapshot& snapshot);
 
 /// A scene in space on the in-house engine.

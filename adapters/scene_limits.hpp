@@ -8,9 +8,9 @@
 
 namespace crossgrain {
 
-/// Which scenes an engine can hold, beside its effects and its law: said before any is loaded, so
-/// that one it cannot hold is refused before anything starts. What is absent is not limited, or the
-/// engine refuses it itself.
+/// Limits on an engine's scenes besides its effects and its law, declared before any is loaded: a
+/// scene beyond them is refused before anything starts. Where a limit is absent, every scene
+/// is allowed, or the engine refuses it itself.
 struct SceneLimits {
   std::optional<std::vector<double>> inertia;             ///< q of J = q m a² that disks may have
   std::optional<std::vector<Motion::Kind>> wallMotions;   ///< of bodies with wall disks
@@ -25,7 +25,7 @@ struct SceneLimits {
 /// Whether disks may have J = q m a², to within roundings.
 bool hasInertia(const SceneLimits& limits, double q);
 
-/// What in a scene is beyond them, one clause each. Empty: nothing.
+/// Features of a scene that are beyond them, a clause each; empty: none.
 /// @param softLawStoodFor  the engine has rigid contacts in place of the scene's law
 template <int D>
 std::vector<std::string> beyondLimits(const SceneLimits& limits, const SceneOf<D>& scene,

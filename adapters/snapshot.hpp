@@ -64,7 +64,7 @@ struct Energies {
   double elastic = 0.0;  ///< normal and tangential springs
 };
 
-/// What an engine shows of its state. Engines stagger their arrays in time, so each says its own.
+/// State that an engine reports. Engines stagger their arrays in time, so each kind has its own.
 /// Absent data is absent, never zero.
 template <int D>
 struct SnapshotOf {

@@ -12,18 +12,17 @@
 
 namespace crossgrain {
 
-/// By which the time of a snapshot may be off from the instant that it is of: engines go to the
-/// step that is nearest to it (Engine::advance), and files have six digits at least [s].
+/// Largest difference between the time of a snapshot and the instant that was asked for: engines go
+/// to the step nearest to it (Engine::advance), and files have six digits at least [s].
 /// @param step  the time step [s]
 inline double instantSlack(double step, double instant) {
   return std::max(0.5 * step, 2e-6 * std::abs(instant));
 }
 
-/// How a remark begins on files that list contacts, but none of walls that bodies touch.
+/// Beginning of a remark on files that list contacts, but none of walls that bodies touch.
 inline constexpr std::string_view noWallContacts = "no contacts with walls in the files";
 
-/// Snapshots that nobody runs: those of a file, one after the other, so that memory holds one at a
-/// time.
+/// Snapshots of a file in place of a run, one after the other, so that memory holds one at a time.
 template <int D>
 class SnapshotSourceOf {
  public:
@@ -32,7 +31,7 @@ class SnapshotSourceOf {
   /// Disks and walls under the law of the case. Places and velocities of disks are those of the
   /// first snapshot, or of the last at which the disks changed.
   virtual const SceneOf<D>& scene() const = 0;
-  /// Who made them, as the file says, else its name.
+  /// Program that made them, as the file says, else the file's name.
   virtual const std::string& engine() const = 0;
   /// The next one, by time; absent after the last. It fits the scene and was found sound
   /// (adapters/audit.hpp). @throws BadInput naming the file, the snapshot and what is wrong
@@ -42,7 +41,8 @@ class SnapshotSourceOf {
   virtual bool disksChanged() const { return false; }
   /// How far it has read, 0 … 1.
   virtual double progress() const = 0;
-  /// What the files lack and what that costs, a sentence each; all of it after the last snapshot.
+  /// Data that the files lack and the consequence, a sentence each; complete after the last
+  /// snapshot.
   virtual std::vector<std::string> remarks() const { return {}; }
 };
 using SnapshotSource = SnapshotSourceOf<2>;

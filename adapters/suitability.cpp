@@ -71,8 +71,8 @@ bool has(const Capabilities& can, const ContactLaw& law, const std::string& opti
          std::ranges::count(found->second, lawOptionValue(law, option)) > 0;
 }
 
-/// Springs and dashpots are parts of a soft law: an engine that has another law in its place has
-/// what it makes of them in that law's constants.
+/// Springs and dashpots are parts of a soft law: an engine with another law in its place converts
+/// them to that law's constants.
 bool isPartOfSoftLaw(Effect effect) {
   return effect == Effect::tangentialSpring || effect == Effect::tangentialDamping;
 }
@@ -82,7 +82,7 @@ bool isConventionName(const std::string& name) {
          isConvention(name);
 }
 
-/// What is to be done about it.
+/// Advice to allow these differences.
 std::string adviceOn(const std::vector<std::string>& names) {
   std::vector<std::string> quoted;
   for (const std::string& name : names) quoted.push_back('"' + name + '"');
@@ -168,7 +168,7 @@ ContactLaw lawAsRun(const Capabilities& can, ContactLaw law) {
 
 namespace {
 
-/// All that is not listed at once, so that nobody has to ask again and again.
+/// Names all unlisted differences at once, so that a user need not try again for each.
 void refuseUnlisted(const std::vector<Mismatch>& all, const std::vector<std::string>& mayDiffer) {
   std::vector<std::string> reasons, names;
   for (const Mismatch& mismatch : all) {
@@ -201,8 +201,8 @@ AdaptedOf<D> adaptScene(const Capabilities& can, const SceneOf<D>& scene,
   const std::vector<std::string> beyond =
       beyondLimits(can.limits, adapted.scene, !hasNormalLaw(can, scene.law));
   if (!beyond.empty()) throw UnsupportedScene(fmt::format("{}", fmt::join(beyond, "; ")));
-  // Double is what a scene says where nobody chose: an engine of floats that runs it reports
-  // its rounding itself.
+  // Double is a scene's precision where the user chose none: an engine of floats that runs it
+  // reports its rounding itself.
   const bool has = std::ranges::find(can.precisions, scene.precision) != can.precisions.end();
   if (!has && !can.precisions.empty()) {
     adapted.scene.precision = can.precisions.front();

@@ -16,8 +16,8 @@ using Vec2 = VecOf<2>;
 /// A vector in space, components (x, y, z).
 using Vec3 = VecOf<3>;
 
-/// What turns: an angular velocity, an angle or a torque. In the plane it is about z, one number,
-/// counter-clockwise positive; in space a vector along its axis.
+/// Angular velocity, angle or torque. In the plane it is about z, one number, counter-clockwise
+/// positive; in space a vector along its axis.
 template <int D>
 using SpinOf = std::conditional_t<D == 2, double, Vec3>;
 

@@ -29,7 +29,7 @@ std::string tailOf(const std::filesystem::path& file, std::size_t bytes) {
   return text;
 }
 
-/// What an answer to each request holds. A checkpoint's holds nothing.
+/// Key that the answer to each request has. A checkpoint's has none.
 constexpr std::pair<std::string_view, std::string_view> contents[] = {{"hello", "capabilities"},
                                                                       {"load", "realised"},
                                                                       {"advance", "time"},

@@ -37,7 +37,7 @@ class ArrayWriter {
   /// @returns, @throws likewise
   nlohmann::json writeOver(const std::filesystem::path& file) const;
 
-  /// What the file would hold, and the list that describes it.
+  /// Content of the file, and the list that describes it.
   const std::vector<std::byte>& bytes() const { return bytes_; }
   const nlohmann::json& list() const { return list_; }
 
@@ -95,9 +95,9 @@ class ArrayReader {
   std::map<std::string, Entry> arrays_;
 };
 
-/// The files in which arrays travel between the harness and one worker, one for each exchange: each
-/// a new one, or, for a worker that writes over what is there, the same again and again. (Making
-/// and removing a file takes as long as the exchange of a small scene does.)
+/// Files in which arrays travel between the harness and one worker: a new one for each exchange, or
+/// always the same for a worker that overwrites files. (Making and removing a file takes as long as
+/// the exchange of a small scene.)
 ///
 ///   next ── write (load) or read (snapshot) ── done ── next …
 class ExchangeFile {
@@ -118,7 +118,7 @@ class ExchangeFile {
   /// @throws std::runtime_error as ArrayReader
   ArrayReader read(const nlohmann::json& list) const;
 
-  /// The exchange is over: a file that is not kept goes.
+  /// Ends the exchange: a file that is not kept is removed.
   void done();
 
  private:

@@ -12,7 +12,7 @@
 #include "law/law_options.hpp"
 #include "support/json_fields.hpp"
 
-/// What the worker protocol says of each shared type: README.md of this folder is the reference.
+/// JSON of each shared type in the worker protocol: README.md of this folder is the reference.
 /// Names and values are those of the case files; numbers are printed so that they read back to the
 /// same bits. Reading throws std::exception with one line on whatever is missing or malformed.
 namespace crossgrain {

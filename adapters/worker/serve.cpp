@@ -117,7 +117,7 @@ int serve(Engine& engine) {
       reply = refusal("failed", error);
     }
     std::fflush(stdout);  // what it printed is in the log of this run, and not of the next
-    // What an engine throws need not be UTF-8.
+    // The message of an engine's exception need not be UTF-8.
     if (!writeLine(reply.dump(-1, ' ', false, json::error_handler_t::replace)) || last) break;
   }
   return 0;

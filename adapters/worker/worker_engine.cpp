@@ -26,12 +26,12 @@ namespace {
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-/// Ids of a scene whose array file is kept: of larger ones it is long, and spoiling it takes longer
-/// than making a new one.
+/// Most ids of a scene whose array file is kept: a larger scene has a long one, which takes longer
+/// to spoil than a new one to make.
 constexpr std::size_t mostBodiesOfKept = 10'000;
 
-/// The longest array file that a listener gets of an exchange [bytes]; of a longer one, and of what
-/// is no regular file, it gets nothing.
+/// Longest array file that a listener gets of an exchange [bytes]. A longer one, or one that is no
+/// regular file, it does not get.
 constexpr std::size_t longestKeptFile = std::size_t{1} << 30;
 
 std::string keptContent(const std::filesystem::path& file) {
@@ -42,9 +42,9 @@ std::string keptContent(const std::filesystem::path& file) {
   return content;
 }
 
-/// A worker that goes on to another run keeps writing to the file that it was started with. From
-/// here on that file has the name `to`, and what was said before stays, as a copy, under `from`: a
-/// run's log is what was said during that run.
+/// Renames the log of a worker that goes on to another run and keeps writing to the same file: the
+/// file gets the name `to`, and its lines so far stay, as a copy, under `from`. So the log of a run
+/// holds the lines of that run.
 /// @pre the worker appends to it
 /// @throws std::runtime_error if `from` is no file of text any more, or `to` is on another disk
 void moveLog(const std::filesystem::path& from, const std::filesystem::path& to) {
@@ -54,8 +54,8 @@ void moveLog(const std::filesystem::path& from, const std::filesystem::path& to)
       throw std::runtime_error(
           fmt::format("{}: {}", from.string(), std::generic_category().message(errno)));
   };
-  // The worker may have put anything there: a link would be cut where it points to, a pipe would
-  // hold who opens it.
+  // The worker may have put anything there: of a link the target would be cut, and a pipe would
+  // block the caller.
   const Descriptor log(::open(from.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   struct stat status {};
   require(log.get() >= 0 && ::fstat(log.get(), &status) == 0);
@@ -66,7 +66,7 @@ void moveLog(const std::filesystem::path& from, const std::filesystem::path& to)
   require(::ftruncate(log.get(), 0) == 0);
 }
 
-/// Says that the exchange is over, however it ends.
+/// Ends the exchange, also where an exception leaves it.
 class Exchanging {
  public:
   explicit Exchanging(ExchangeFile& file) : file_(file) {}
@@ -78,7 +78,7 @@ class Exchanging {
   ExchangeFile& file_;
 };
 
-/// It is not the answer that is wrong.
+/// Message where the harness, not the answer, is at fault.
 std::string noMemoryFor(const std::string& what) {
   return fmt::format("crossgrain is out of memory while it reads the answer to {}", what);
 }
@@ -139,7 +139,7 @@ void WorkerEngine::dismiss() {
   try {
     process_->sendLine(R"({"request":"quit"})", ChildProcess::Clock::now() + 100ms);
   } catch (const std::exception&) {
-    // It is ended whether or not it listens.
+    // The worker is ended whether or not it reads this.
   }
   process_->closeInput();
 }
@@ -182,7 +182,7 @@ EffectiveParameters WorkerEngine::loadShape(const SceneOf<D>& scene, const Setti
   sceneName_ = scene.name;
   time_ = 0.0;
   goodTime_.reset();
-  // Of a recording each exchange has its own, as one is kept that grew longer before.
+  // A recording needs a file of its own for each exchange: a kept one stays as long as it once was.
   keepsFile_ = writesOver_ && !listener_ && scene.idCount() <= mostBodiesOfKept;
   const Exchanging exchanging(*exchangeFile_);
   ArrayWriter arrays;
@@ -197,7 +197,7 @@ EffectiveParameters WorkerEngine::loadShape(const SceneOf<D>& scene, const Setti
   const json reply = ask(request, "load");
   return understand("load", [&] {
     auto effective = readAs<EffectiveParameters>(reply.at("realised"));
-    // Less than this is no step but a mistake, and a run of such steps would never end.
+    // A smaller step is a mistake: a run of such steps would never end.
     if (!(effective.dt >= 1e-6 * scene.dt))
       throw std::runtime_error(fmt::format("dt = {:g} s is no time step, with {:g} s in the scene",
                                            effective.dt, scene.dt));
@@ -328,7 +328,8 @@ std::string WorkerEngine::receive(ChildProcess::Clock::time_point deadline) cons
     try {
       return process_->receiveLine(deadline, longestAnswer);
     } catch (const Interrupted&) {
-      // What computes ends its piece, on a loaded machine too, and the run keeps where it is.
+      // A worker that computes may end its piece, so that the run keeps its progress. CPU time is
+      // the limit, as the machine may be loaded.
       const GroupActivity now = activity();
       if (!usedWhenStopped) usedWhenStopped = now.cpuSeconds;
       if (!now.computes || now.cpuSeconds - *usedWhenStopped >= lastPiece) throw;

@@ -20,14 +20,14 @@ namespace crossgrain {
 /// of an engine is known for the life of the pool.
 class WorkerPool {
  public:
-  /// Who it is of and how it was started: what is not the same in all of this is another worker.
+  /// Engine of a worker and the call that started it. Only workers equal in both can be exchanged.
   struct Kind {
     std::string name;
     ProgramCall call;
     bool operator==(const Kind&) const = default;
   };
 
-  /// What a second load of an engine was seen to do.
+  /// Outcome of an engine's second load.
   enum class Loads {
     untried,
     afresh,    ///< its second load did what its first had done
@@ -35,12 +35,12 @@ class WorkerPool {
   };
 
   WorkerPool() = default;
-  /// Ends all that wait, side by side.
+  /// Ends all waiting workers, side by side.
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  /// One that waits, if it still answers, for a run with that folder and patience; else null.
+  /// A waiting worker that still answers, for a run with that folder and time-out; else null.
   struct Taken {
     std::unique_ptr<WorkerEngine> worker;
     bool loaded = false;  ///< it has been sent a scene before
@@ -80,11 +80,11 @@ class WorkerPool {
 /// that it shows is the same to the bit, and contacts were among it, its workers are used again.
 /// If not, or if it breaks down over that, this run and every later one gets a new process, whose
 /// only scene is that run's: an engine with leftovers shows what it would have shown alone.
-/// What one scene cannot show is taken on trust, as it is wherever scenes are loaded one after the
-/// other into one worker (lockstep, collisions).
+/// Leftovers that one scene cannot show are not found, here as wherever scenes are loaded one after
+/// the other into one worker (lockstep, collisions).
 ///
-/// A worker that failed in any way, or whose answers were found to be impossible (distrust()), is
-/// ended with this object.
+/// A worker that failed in any way, or whose answers were found to be impossible (discardWorker()),
+/// is ended with this object.
 class PooledEngine final : public Engine {
  public:
   /// @throws EngineFailure if there is none that waits and a new one cannot be started
@@ -104,7 +104,7 @@ class PooledEngine final : public Engine {
   void checkpoint(const std::filesystem::path& file) override;
   void restore(const std::filesystem::path& file) override;
 
-  /// What it showed cannot be: no other run is to have this worker.
+  /// Keeps this worker from other runs: its answers were found to be impossible.
   void discardWorker() { trusted_ = false; }
 
   /// Of the worker that it has now; −1 once that has gone.
@@ -126,7 +126,7 @@ class PooledEngine final : public Engine {
   mutable bool trusted_ = true;
 };
 
-/// Of this process: they wait until it ends.
+/// Pool of this process, where workers wait until it ends.
 WorkerPool& workerPool();
 
 }  // namespace crossgrain
