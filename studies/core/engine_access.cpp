@@ -20,8 +20,7 @@ namespace crossgrain::inline studies {
 
 namespace {
 
-/// An engine whose every snapshot is compared with what must be true of it before anybody sees it;
-/// all else is handed on.
+/// Engine whose snapshots are audited before the caller gets them; all other calls are passed on.
 class AuditedEngine final : public Engine {
  public:
   AuditedEngine(std::string name, std::unique_ptr<Engine> engine)
@@ -38,7 +37,7 @@ class AuditedEngine final : public Engine {
     reached_ = engine_->advance(t);
     return *reached_;
   }
-  /// @throws EngineFailure of one line: engine, scene, time, and what cannot be
+  /// @throws EngineFailure of one line: engine, scene, time and fault
   Snapshot snapshot(ContactReport contacts) override {
     return checked(plane_, engine_->snapshot(contacts));
   }
@@ -84,7 +83,7 @@ class AuditedEngine final : public Engine {
   std::unique_ptr<Engine> engine_;
   Audited<2> plane_;
   Audited<3> space_;
-  std::optional<double> reached_;  ///< what advance() returned last; absent: not known [s]
+  std::optional<double> reached_;  ///< last result of advance(); absent: not known [s]
 };
 
 std::string typeName(const SettingValue& value) {

@@ -60,8 +60,7 @@ class Progress {
   bool lineOpen_ = false;
 };
 
-/// Identity of a run: whose, of which case or change of it, from which packing. Results are looked
-/// up by it.
+/// Identity of a run: engine, case or change of it, and packing. Results are looked up by it.
 struct RunId {
   std::string engine, variant = {};
   int packing = 0;
@@ -80,7 +79,7 @@ struct CachedTask {
 
   std::string name;     ///< of its file
   std::string label;    ///< for people
-  CaseKeys key;         ///< what it depends on
+  CaseKeys key;         ///< inputs that the result depends on
   double weight = 1.0;  ///< how long it is likely to take; the longest start first
   /// @param progress  to be called with the fraction done, 0 … 1
   std::function<Outcome(const std::function<void(double)>& progress)> work;
@@ -89,9 +88,9 @@ struct CachedTask {
   RunId of = {};
 };
 
-/// Loads the results that are there and does the rest, `jobs` at a time. All that are there are
-/// read before anything is done, so that what stands in the way does so at once. What another shard
-/// of the command is doing is waited for at the end, and done here if that process dies.
+/// Loads the results that are there and runs the other tasks, `jobs` at a time. All those
+/// results are read before a task begins, so that a bad one is an error at once. Tasks that another
+/// shard of the command runs are waited for at the end, and run here if that process dies.
 /// @returns the results in the order of the tasks
 /// @throws BadInput from RunStore::find(); Interrupted; the first thing that a task threw
 template <typename Result>
@@ -151,10 +150,10 @@ struct PlannedWork {
   std::string what;  ///< "runs", "cases"
   std::string refusal = {};
   std::size_t total = 0, finished = 0;
-  double seconds = 0.0;  ///< that the finished ones took, where they say
+  double seconds = 0.0;  ///< that the finished ones took, where known
 };
 
-/// Counts a piece of work, and what it took if its result is there.
+/// Counts a piece of work, and the time that it took if its result is there.
 void count(PlannedWork& work, const std::optional<nlohmann::json>& kept);
 
 /// The work of tasks, engine by engine in the order of tasks.
@@ -171,7 +170,7 @@ std::vector<PlannedWork> plannedWork(const std::vector<CachedTask<Result>>& task
   return works;
 }
 
-/// The results of tasks by what they are.
+/// Results of tasks by the identity of their runs.
 /// @param results  of runOrLoad()
 template <typename Result>
 std::map<RunId, Result> byId(const std::vector<CachedTask<Result>>& tasks,
@@ -184,7 +183,7 @@ std::map<RunId, Result> byId(const std::vector<CachedTask<Result>>& tasks,
 /// One line for an engine: "grain   4 runs: 2 finished, 2 to do, about 3.1 s".
 std::string describe(const PlannedWork& work);
 
-/// All that `--dry-run` prints.
+/// Text that `--dry-run` prints.
 /// @param head  what is to be run, a line or more
 std::string describeDryRun(const std::string& head, const std::vector<PlannedWork>& works,
                            const RunStore& store, const RunCommand& command);

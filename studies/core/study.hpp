@@ -41,7 +41,7 @@ struct CommandLine {
   bool json = false;
 };
 
-/// Which of them a study takes.
+/// Choice of the shared options that a study takes.
 struct SharedOptions {
   enum class Input { oneCase, anyCases, none, files } input = Input::oneCase;
   const char* inputIs = "case file";
@@ -52,7 +52,7 @@ struct SharedOptions {
   bool shards = true;      ///< --shard; not of times, which are of one machine
 };
 
-/// One of its own.
+/// Option of one study alone.
 struct StudyOption {
   std::string name, what;
   std::variant<bool*, std::optional<std::string>*, std::optional<double>*> value;
@@ -67,7 +67,7 @@ struct Outcome {
   ExitStatus status = exitPassed;
   std::vector<std::string> failures = {};         ///< runs that failed, engines that refused
   std::optional<std::string> nothingJudged = {};  ///< why; absent: something was
-  std::vector<std::string> fails = {};            ///< what a status 1 follows from, a clause each
+  std::vector<std::string> fails = {};            ///< reasons for status 1, a clause each
 };
 
 /// The cases of a study and where it keeps what is finished.
@@ -87,10 +87,9 @@ inline std::vector<std::filesystem::path> filesOf(const CommandLine& line) {
 /// Keys of finished runs in a study's output folder.
 enum class Keeps { nothing, oneCase, eachCase };
 
-/// A question about engines, as data: from the options of its command to what came of it. All else
-/// is the same for all studies (cli/studies.cpp): cases are loaded once; what is finished in the
-/// output folder is loaded, the rest is run; results are written, reported and printed; the exit
-/// status is the outcome's.
+/// A study as data: from the options of its command to its outcome. All else is the same for all
+/// studies (cli/studies.cpp): cases are loaded once; finished runs in the output folder are loaded,
+/// the others are run; results are written, reported and printed; the exit status is the outcome's.
 ///
 ///   options ── cases ── plan (--dry-run) | run: tasks (executor.hpp) → results ── outcome
 template <typename Options, typename Results>
@@ -108,8 +107,7 @@ struct Study {
   std::vector<Exclusion> exclusions = {};
 };
 
-/// Outcome of results with nothing judged: no success, unless that was clear from what was asked
-/// for.
+/// Outcome of results with nothing judged: no success, unless the request left nothing to judge.
 Outcome notJudged(std::string why, bool byRequest = false);
 
 /// Why engines that the user named did not run, one line each.
@@ -119,8 +117,8 @@ std::vector<std::string> refusals(const std::vector<EngineRow>& engines,
 /// A row for an engine as it came with the program. @param version  empty: it did not answer
 EngineRow engineRow(const EngineEntry& entry, const std::string& version);
 
-/// Does the work of a command that loads what is finished in its folder. Where it cannot go on,
-/// since the user interrupted it or the disk is full, what it throws says how to.
+/// Does the work of a command that loads finished runs from its folder. If the user interrupts it
+/// or the disk is full, the exception says how to continue.
 /// @returns what the work returns
 /// @throws Interrupted, OutputError; what else the work throws
 int resumably(const RunCommand& command, const std::function<int()>& work);
@@ -145,8 +143,8 @@ ResultsHead headOf(std::string_view kind, const Case& setup, const std::string& 
 ScenePicture scenePicture(const Scene& scene, const Snapshot& now, double rotation);
 
 /// The same in space, of a cut along x and z through the middle of the box, or of all spheres:
-/// discs of √(a² − (y − y_cut)²), in the box. Which contacts lie in a cut nobody can say: there are
-/// none.
+/// discs of √(a² − (y − y_cut)²), in the box. It has no contacts: which of them lie in a cut is not
+/// defined.
 ScenePicture scenePicture(const SpaceScene& scene, const SpaceSnapshot& now, double rotation);
 
 }  // namespace crossgrain::inline studies

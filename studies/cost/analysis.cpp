@@ -184,8 +184,8 @@ CountedEnds endsOf(const Points& points, const std::vector<CostModel>& models,
 
 constexpr const char* morePackings = "more packings: one shows no statistical error";
 
-/// What would show whether the error lies above or below the target. Repeats are taken to show the
-/// same error with a smaller uncertainty.
+/// Advice on how to decide whether the error lies above or below the target. Repeats are assumed to
+/// show the same error with a smaller uncertainty.
 std::string whatDecides(const CostPoint& point, double target) {
   if (point.saysNothing()) return morePackings;
   if (point.kind == CostKind::collision && !point.referenceError)
@@ -236,7 +236,7 @@ std::optional<std::size_t> mayYetReach(const Points& points, Places notRun, cons
   return found == notRun.end() ? std::nullopt : std::optional(*found);
 }
 
-/// What is asked of an engine's settings.
+/// Target and kinds of error for which an engine's settings are rated.
 struct Question {
   std::string engine;
   std::vector<CostKind> kinds;

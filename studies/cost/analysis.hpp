@@ -5,7 +5,7 @@
 
 #include "results/cost.hpp"
 
-/// What follows from the points of a study of cost.
+/// Conclusions from the points of a study of cost.
 namespace crossgrain::inline studies {
 
 /// Sets fronts, advice and cells from points and models; advice for 10 %, 1 %, 0.1 %, 1e-6 and the
@@ -26,14 +26,14 @@ std::vector<std::size_t> paretoFront(const std::vector<CostPoint>& points);
 std::vector<Front> paretoFronts(const std::vector<CostPoint>& points);
 
 /// For every target and engine, in that order; the engine that reaches a target in the least time
-/// is marked, and those that tie with it. By the rule of the cells: what a cell says is not reached
-/// no advice says is.
+/// is marked, and those that tie with it. By the rule of the cells: no advice reaches a target that
+/// a cell does not.
 std::vector<Advice> advice(const std::vector<CostPoint>& points,
                            const std::vector<CostModel>& models,
                            const std::vector<double>& targets);
 
-/// For every engine, kind of error, basis and target (10 %, 1 % and 0.1 %), in that order, what was
-/// measured says of it. Not reached only where that was shown: of every setting, or, of the case's
+/// Result for every engine, kind of error, basis and target (10 %, 1 % and 0.1 %), in that order. A
+/// target is called not reached only where that was shown: of every setting, or, of the case's
 /// law, of the engine's own limit of small steps, which lies above the target whatever the step.
 /// A setting is never the best because its step's error cancels its model's.
 std::vector<CostCell> costCells(const std::vector<CostPoint>& points,

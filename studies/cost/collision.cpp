@@ -22,7 +22,7 @@ std::vector<std::optional<double>> numbersOf(const CollisionTable& table, Quanti
   return numbers;
 }
 
-/// What errors of that quantity are in units of, as those of `collide` [its unit].
+/// Unit of that quantity's errors, as in `collide` [its unit].
 double unitOf(const PairCurve& pair, QuantityId quantity) {
   std::vector<double> known;
   for (const auto& number : numbersOf(tableOf(pair.starts, referenceOf(pair.oracle)), quantity))

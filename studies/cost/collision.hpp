@@ -11,7 +11,7 @@
 
 namespace crossgrain::inline studies {
 
-/// What is measured of collisions against the case's law; against the engine's own limit, ownOf().
+/// Quantities with an error against the case's law; against the engine's own limit: ownOf().
 inline constexpr QuantityId collisionMeasures[] = {QuantityId::psiF, QuantityId::en};
 
 /// Collisions' numbers, over pairs and their starts one after the other, by the names of their
@@ -20,7 +20,7 @@ using CollisionNumbers = std::map<std::string, std::vector<std::optional<double>
 
 /// Where an engine's collisions go to with small steps: its law may be another than the case's.
 struct CollisionLimit {
-  std::string setting;    ///< what it was found by: an oracle, or so small a step
+  std::string setting;    ///< source of the limit: an oracle, or a small step
   CollisionNumbers ends;  ///< empty: it was not found
   /// By how much `ends` may be off, and by how much they are off the case's law: the engine's model
   /// error, each of the pair for which it is largest. In the units of the case's errors.
@@ -59,9 +59,9 @@ std::optional<CurveError> curveError(const std::vector<std::optional<double>>& n
 /// copies that it is at least `cost.timed`; of the first round also the errors of Ψ_f and e_n, of
 /// the pair and the step of the cycle (cycleStep()) for which the rms is largest, and the largest
 /// of a single collision: {rms, low, high, worst} by measure. The rms decides on advice, not the
-/// worst: a flow's collisions begin at every phase alike, their errors have either sign and mean 0,
-/// so that what many of them do is by the rms; the worst belongs to a share of phases that
-/// vanishes. Collisions that do not part, or part faster than they met, are failed. The same
+/// worst: a flow's collisions begin at every phase alike, and their errors have either sign and
+/// mean 0, so that the effect of many scales with the rms; the worst belongs to a vanishing share
+/// of phases. Collisions that do not part, or part faster than they met, are failed. The same
 /// against the engine's own limit, where it has one.
 /// @throws EngineFailure, UnsupportedScene, BadInput
 CostRun runCollisions(Engine& engine, const EngineEntry& entry, const CostSetting& setting,

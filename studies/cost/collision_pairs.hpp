@@ -22,8 +22,8 @@ std::vector<Case> collisionsOf(const Case& setup);
 /// The first of them, by the case's own name.
 Case collisionOf(const Case& setup);
 
-/// What all collisions of one case are compared with: the case's own law, whatever a setting makes
-/// of it, so that an error says how far off the case a setting is.
+/// Reference of all collisions of one case: the case's own law, also where a setting changes the
+/// law, so that an error says how far a setting is off the case.
 struct CollisionReference {
   std::vector<PairCurve> pairs;
 };
@@ -55,7 +55,7 @@ double cycleStep(double step, double contactTime, int j);
 /// evenly over (0, 1), its edges too, whatever range of k is taken.
 double phaseOf(std::size_t k);
 
-/// What became of collisions side by side in one scene for each law.
+/// Outcomes of collisions side by side in one scene for each law.
 struct PairOutcomes {
   std::vector<Outcomes> of;  ///< by pair, by start
   double dt = 0.0;           ///< that the engine took [s]

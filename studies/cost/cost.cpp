@@ -27,7 +27,7 @@ namespace crossgrain::inline studies {
 
 namespace {
 
-/// What --quick makes of [cost]: every kind of error and some settings, in seconds.
+/// Overrides of [cost] for --quick: every kind of error and some settings, in seconds.
 const std::vector<std::string> quickCosts = {"cost.timed=0.002",
                                              "cost.repeats=3",
                                              "cost.psi_count=9",
@@ -106,8 +106,8 @@ std::optional<std::string> pastLimit(const CostStudy& study, const PlannedPoint&
   const Case& setup = study.settingOf(planned).setup;
   const double theory =
       planned.kind == CostKind::collision ? pairLimit(setup) : packingLimit(setup);
-  // What the case's own step bears and a longer one does not is past a limit, wherever theory puts
-  // it: it knows no dashpots.
+  // A step longer than the case's own that fails is past a limit even below that of theory, which
+  // knows no dashpots.
   const double limit = std::min(theory, study.stepOf(planned.engine, study.setup));
   if (study.stepOf(planned.engine, setup) <= limit) return std::nullopt;
   return fmt::format("{}: {}", beyondLimit, reason);
@@ -115,7 +115,7 @@ std::optional<std::string> pastLimit(const CostStudy& study, const PlannedPoint&
 
 using Measured = CachedTask<CostRun>::Outcome;
 
-/// One round. What breaks down beyond a stability limit is a result, and kept.
+/// Measures one round. A failure beyond a stability limit is a result, and kept.
 Measured measure(CostStudy& study, ErrorKind& kind, const PlannedPoint& planned, std::size_t round,
                  double longest) {
   const auto ended = [&](Status status, const std::string& reason, bool isResult) {
@@ -239,7 +239,7 @@ class Measuring {
     PlannedPoint point;
     std::vector<CostRun> runs = {};
     std::optional<CostRun> ended = {};  ///< failed, refused or not run: no further round
-    double committed = 0.0;             ///< what rounds that it is to have will take [s]
+    double committed = 0.0;             ///< predicted time of its further rounds [s]
     bool cut = false;                   ///< the budget ended before its last rounds
   };
 
@@ -469,7 +469,7 @@ class Measuring {
   double budget_;           ///< of the command [s]
   double began_;            ///< since the command began [s]
   double until_ = 0.0;      ///< when the kind at hand has to end, since the command began [s]
-  double committed_ = 0.0;  ///< what further rounds of points that are begun will take [s]
+  double committed_ = 0.0;  ///< predicted time of further rounds of begun points [s]
   struct Pace {
     double expected = 0.0, took = 0.0;  ///< of an engine's rounds so far [s]
   };
@@ -478,8 +478,8 @@ class Measuring {
   std::set<std::pair<CostKind, std::size_t>> begun_;
 };
 
-/// What engines took to start, and which failed for other reasons than a step beyond the stability
-/// limit.
+/// Adds the start-up times of engines, and marks those that failed for other reasons than a step
+/// beyond the stability limit.
 void addEngines(CostResults& results, const CostStudy& study) {
   for (std::size_t e = 0; e < study.engines.size(); ++e)
     if (const TimedEngine& engine = study.engines[e]; engine.takesPart)

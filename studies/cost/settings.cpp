@@ -86,7 +86,7 @@ void countWork(CostPoint& point, std::uint64_t steps, std::uint64_t contactEvalu
 
 namespace {
 
-/// What the settings of every knob need.
+/// List of settings that every knob adds to, with the data that it needs.
 struct SettingList {
   const Case& setup;
   std::string engine;

@@ -13,10 +13,10 @@ namespace crossgrain::inline studies {
 struct CostSetting {
   std::string knob, setting;  ///< as in CostPoint
   std::string fragment;       ///< TOML; empty: the case as it is
-  Case setup;                 ///< what the loader makes of case and fragment
+  Case setup;                 ///< case and fragment as loaded
   std::string refusal = {};   ///< why the engine has no such setting; empty if it has
 
-  /// Of another integrator which; empty: the one the engine has by itself.
+  /// Integrator of a setting of another one; empty: the engine's own.
   std::string integrator() const { return schemeOf(knob, setting).value_or(""); }
 };
 
@@ -26,7 +26,7 @@ struct CostSetting {
 std::vector<CostSetting> costSettings(const Case& setup, CostKind kind, const std::string& engine,
                                       const Capabilities& can);
 
-/// What the time step of an engine is set by: an engine with a step of its own does not follow the
+/// TOML that sets the time step of an engine: an engine with a step of its own does not follow the
 /// case's. @param steps  per contact time t_c
 std::string stepFragment(const Case& setup, const std::string& engine, const Capabilities& can,
                          double steps);
@@ -43,7 +43,7 @@ double engineStep(const Case& setup, const std::string& engine, const Capabiliti
 /// A point of that setting without any numbers but dt and the steps in t_c of the setting's case.
 CostPoint pointOf(const std::string& engine, const CostSetting& setting, CostKind kind, double dt);
 
-/// What was done per unit of a point's time; 0 is not known.
+/// Sets the steps and contact evaluations that a point's time is for; 0: not known.
 void countWork(CostPoint& point, std::uint64_t steps, std::uint64_t contactEvaluations);
 
 }  // namespace crossgrain::inline studies

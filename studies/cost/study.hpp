@@ -18,7 +18,7 @@ namespace crossgrain::inline studies {
 /// @name Stability limits
 /// @{
 
-/// What every point past a stability limit begins its reason with: such a failure is a result.
+/// Beginning of the reason of every point past a stability limit: such a failure is a result.
 inline constexpr const char* beyondLimit = "beyond its stability limit";
 
 /// The largest stable step of a contact, 2/ω with ω² = k_n/m₁₂ [s]: what a symplectic integrator
@@ -41,7 +41,7 @@ double drivenSpeed(const SceneOf<D>& scene);
 
 /// @}
 
-/// What the store has by that name, else what `make` makes, which is then kept.
+/// Returns the stored result of that name, else that of `make`, which is then kept.
 template <class Make>
 auto keptOr(const RunStore& store, const std::string& name, const CaseKeys& key, Make make) {
   using Run = decltype(make());
@@ -115,8 +115,8 @@ struct PlannedPoint {
   std::size_t turn = 0;     ///< among its engine's points, from the cheapest
 };
 
-/// What planning and measuring work with: engines and packings, the settings to measure, and by
-/// which names and keys the store has what is measured.
+/// Data of planning and measuring: engines and packings, the settings to measure, and the names and
+/// keys of the results in the store.
 ///
 ///   ask          of a dry run
 ///   prepare      of a real one
@@ -161,7 +161,7 @@ struct CostStudy {
   SceneImpacts impacts;        ///< of a real run
   const EngineEntry& inHouse;  ///< whose runs are references for all
   std::unique_ptr<Engine> inHouseEngine;
-  double inHouseStep = 0.0;  ///< what a step of it takes [s]
+  double inHouseStep = 0.0;  ///< duration of one of its steps [s]
   /// For other reasons than a step beyond the stability limit.
   std::vector<std::string> engineFailures;
 

@@ -70,7 +70,7 @@ PackingMean overPackings(const std::vector<std::optional<double>>& numbers) {
   return found;
 }
 
-/// What a packing's path is compared with.
+/// Reference for a packing's path.
 struct TrajectoryReference {
   std::vector<Vec3> positions;  ///< at the window's end, in the plane z = 0 [m]
   double error = 0.0;           ///< distance to the same at twice the step [d]

@@ -82,7 +82,7 @@ void Campaign::requireAble(std::size_t fewest) const {
 
 void Campaign::forEachEngine(const std::function<void(CampaignEngine&)>& work, std::size_t fewest) {
   struct Ending {
-    std::exception_ptr thrown;  ///< what the user is to resolve
+    std::exception_ptr thrown;  ///< error that the user is to resolve
     std::string failure;        ///< of it, or of an engine named that refuses
   };
   std::vector<Ending> endings(engines_.size());

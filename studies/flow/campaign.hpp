@@ -24,8 +24,8 @@ struct CampaignEngine {
   EngineEntry entry;
   std::string version = {};              ///< empty: it did not answer
   std::string refusal = {};              ///< why it does not take part, empty if it does
-  std::vector<std::string> lacks = {};   ///< what may_differ could allow it, if that is all
-  std::optional<Capabilities> can = {};  ///< what timeEngines() found; absent where it failed
+  std::vector<std::string> lacks = {};   ///< entries that may_differ needs, if that is all
+  std::optional<Capabilities> can = {};  ///< from timeEngines(); absent where it failed
   std::optional<EffectiveParameters> effective = {};  ///< likewise
   double predicted = 1.0;                             ///< seconds of one run
   /// Of its first run, where that is a file, the disks' [m].
@@ -38,7 +38,7 @@ struct CampaignEngine {
 /// One engine on every packing, with the case as it is or with something switched off.
 struct Variant {
   std::size_t engine;   ///< index into Campaign::engines()
-  std::string without;  ///< what is switched off, empty: nothing; "without" of its runs
+  std::string without;  ///< effect switched off, empty: none; "without" of its runs
   const Case* setup;
   std::string changed = {};  ///< "kn+10%": a constant that `setup` has otherwise than the case
 };

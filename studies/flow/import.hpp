@@ -23,7 +23,7 @@ struct Imported {
   std::string name;  ///< of who made them
   std::size_t snapshots = 0, disks = 0;
   double from = 0.0, to = 0.0;       ///< of the first and the last snapshot [s]
-  std::vector<std::string> remarks;  ///< what the files lack and what that costs
+  std::vector<std::string> remarks;  ///< data that the files lack, with the consequence
 };
 
 /// Writes the snapshots of one run as HDF5 of our own layout (docs/files.md), with an XDMF file

@@ -11,17 +11,17 @@
 #include "results/endpoints.hpp"
 #include "results/run.hpp"
 
-/// Runs by engine, and their numbers packing by packing, as two engines or two cases are paired.
+/// Runs by engine, and their numbers packing by packing, for comparisons of two engines or cases.
 namespace crossgrain::inline studies {
 
-/// In the order of packings.
+/// Runs in the order of packings.
 using Runs = std::vector<const FlowRun*>;
 
-/// The finished runs of one engine, with that switched off (empty: nothing). They point into runs.
+/// Finished runs of one engine without that effect (empty: with all). They point into `runs`.
 Runs finishedRuns(std::span<const FlowRun> runs, const std::string& engine,
                   const std::string& without = "");
 
-/// Those that verdicts on an engine rest on: its mirror's, where it is evaluated through that, else
+/// Runs that verdicts on an engine rest on: its mirror's, where it is evaluated through that, else
 /// its own.
 Runs runsFor(std::span<const FlowRun> runs, const std::string& engine,
              const std::vector<SurrogateEngine>& surrogates, const std::string& without = "");
@@ -34,13 +34,13 @@ std::size_t packingsOf(const Runs& runs);
 struct ComparedPair {
   std::string a, b;  ///< the reference first
   PairKind kind = PairKind::peer;
-  std::string without = {};  ///< what is switched off in the runs of `b`
-  /// One of them is files, whose runs are other packings than the other's, as far as anybody knows.
+  std::string without = {};  ///< effect switched off in the runs of `b`
+  /// One of them is files: its runs are taken to be other packings than the other's.
   bool ofFiles = false;
-  /// Where `a` is medianName: those whose median it is, packing by packing.
+  /// Where `a` is medianName: the engines whose median it is, packing by packing.
   std::vector<std::string> others = {};
 
-  /// Those whose runs the reference is made of: `a`, or the others.
+  /// Engines whose runs make up the reference: `a`, or the others.
   std::vector<std::string> references() const { return others.empty() ? std::vector{a} : others; }
 };
 
@@ -49,13 +49,13 @@ struct ComparedPair {
 std::vector<Runs> referenceRuns(std::span<const FlowRun> runs, const ComparedPair& pair,
                                 const std::vector<SurrogateEngine>& surrogates);
 
-/// The median of what several engines have on each packing; where fewer than two have a value there
-/// is none. Of one engine its own values.
+/// Median of several engines' values on each packing; absent where fewer than two have one. Of one
+/// engine its own values.
 Numbers medianByPacking(const std::vector<Numbers>& engines);
 
-/// Whether two engines' runs are independent samples: those of files, unless both are as many and
-/// of the same indices. Then they are paired one by one, which holds whether their packings are the
-/// same or not, and shows more where they are.
+/// Whether two engines' runs are independent samples: those of files, unless both have the same
+/// indices. Then they are paired one by one, which is valid whether or not their packings are the
+/// same, and more sensitive where they are.
 bool independentRuns(const ComparedPair& pair, const Runs& reference, const Runs& other);
 
 /// One field in each ring, by packing index. @param what  of the profile

@@ -244,8 +244,8 @@ SnapshotOf<D> readSnapshot(const SnapshotDatasets& in, std::size_t k, const Scen
   return snapshot;
 }
 
-/// Where wall disks were at t = 0, whose places a file says of later: a wheel's angle then is
-/// nobody's to know but by them.
+/// Places wall disks as at t = 0, from their later places in a file: only these show at which angle
+/// a wheel began.
 void placeCellWalls(const Snapshot& first, Scene& scene) {
   auto place = first.wallPosition.begin();
   for (WallBody& body : scene.bodies) {

@@ -35,7 +35,7 @@ std::vector<double> separationOfAll(const RunsFromStartsOf<D>& one, std::size_t 
 template <int D>
 struct TermInstantOf {
   double time = 0.0;               ///< since the start [s]
-  RunsFromStartsOf<D> unchanged;   ///< what the mirror does, by start: one frame each
+  RunsFromStartsOf<D> unchanged;   ///< the mirror's runs, by start: one frame each
   std::vector<double> separation;  ///< of all starts
 };
 using TermInstant = TermInstantOf<2>;

@@ -52,7 +52,7 @@ std::vector<CollisionChange> changesOf(const KeptCollisions& before, const KeptC
   return changes;
 }
 
-using Declared = std::map<std::string, std::string>;  ///< what is declared, by its name
+using Declared = std::map<std::string, std::string>;  ///< declared values, by name
 
 Declared declaredBy(const Declaration& engine, bool withAbilities) {
   Declared all;

@@ -51,7 +51,8 @@ Placement placementOf(const Case& setup) {
   return assembly ? assembly->placement : Placement();
 }
 
-/// Of all collisions of the scene, which has each of the case's as often as collisionsAt() says.
+/// Starts of all collisions of the scene, which has each of the case's as often as in
+/// collisionsAt().
 template <int D>
 std::vector<CollisionStart> startsOf(const Case& setup, const SceneOf<D>& scene) {
   if (!isCollision(setup)) return {};
@@ -62,8 +63,8 @@ std::vector<CollisionStart> startsOf(const Case& setup, const SceneOf<D>& scene)
   return starts;
 }
 
-/// Takes what an engine has wrapped into a periodic box back to where its way has led, by the
-/// velocity of the snapshot before.
+/// Unwraps positions that an engine has wrapped into a periodic box, by the velocity of the
+/// snapshot before.
 template <int D>
 void unwrap(SnapshotOf<D>& now, const SnapshotOf<D>& before, const SceneOf<D>& scene) {
   std::vector<VecOf<D>> expected = before.position;
@@ -117,7 +118,7 @@ RecordingOf<D> record(Engine& engine, const EngineEntry& entry, const HardSceneO
 template <int D>
 HardSceneOf<D> sceneOf(const StabilityTask& task, const Case& setup) {
   HardSceneOf<D> hard = plainScene<D>(setup, *task.packing);
-  // Nobody has one in space, nor in a periodic box.
+  // No engine has one in space, nor in a periodic box.
   hard.scene.energyLedger =
       setup.run.energyLedger ||
       (D == 2 && !hard.scene.box && stabilityMeasure(setup.stability->measure).takesLedger);
@@ -216,17 +217,17 @@ void judgeCurve(StabilityRun& row, const Stability& hard, const RecordingOf<D>& 
   row.picture = pictureAt(run, judged.worst);
 }
 
-/// What is common to all measures of a run.
+/// Sets the entries of a row that every measure has: parameters and cost.
 template <int D>
 void describe(StabilityRun& row, const RecordingOf<D>& run, const Engine& engine) {
   if (!run.effective.engine.empty()) row.effective = run.effective;
   if (run.failure.empty()) row.stats = engine.stats();
 }
 
-// What a collision comes to depends on where within a step the bodies first touch: a dashpot's
-// force begins up to a step late, and the contact may end a step earlier or later. At a whole
-// number of steps a contact only phases close to a step's edge show the latter, at other steps
-// other phases.
+// The outcome of a collision depends on where within a step the bodies first touch: a dashpot's
+// force begins up to a step late, and the contact may end a step earlier or later. Where a contact
+// lasts a whole number of steps, only phases close to a step's edge show the latter; with other
+// steps, other phases.
 
 /// Fractions of a step: `evenly` of them, and one close to either edge.
 std::vector<double> touchPhases(int evenly) {
@@ -300,8 +301,8 @@ HardSceneOf<D> touchingAt(HardSceneOf<D> hard, double touch, double phase, doubl
   return hard;
 }
 
-/// What a run is judged by: the scene, and where it is one collision or several side by side, that
-/// at several phases and steps.
+/// Scenes that a run is judged by: the scene itself, or one collision or several side by side at
+/// several phases and steps.
 template <int D>
 std::vector<HardSceneOf<D>> beginningsOf(const StabilityTask& task, const HardSceneOf<D>& hard,
                                          Engine& engine) {
@@ -563,7 +564,7 @@ StabilityRun runStability(const StabilityTask& task, const std::function<void(do
   StabilityRun row = rowOf(task);
   judged(row, [&] {
     if (!task.unprepared.empty())
-      throw BadInput(task.unprepared);  // nobody's failure: it never ran
+      throw BadInput(task.unprepared);  // no engine's failure: it never ran
     const auto engine =
         asTaskHasIt(task, startAudited(task.entry, task.scratch, task.setup->run.timeout));
     inDimensionOf(*task.setup, [&]<int D>() { judge<D>(row, task, *engine, progress); });

@@ -12,7 +12,7 @@
 
 namespace crossgrain::inline studies {
 
-/// What one engine is to do with one hard case.
+/// Run of one hard case on one engine, to be done.
 struct StabilityTask {
   const Case* setup;
   const Case* original;  ///< the first variant of its file: what copies are compared with
@@ -23,15 +23,15 @@ struct StabilityTask {
   bool inSpace = false;           ///< in a plane of space, its disks as spheres: in_space.hpp
 };
 
-/// What was not run for want of time: no verdict on anybody.
+/// Error of a run that is left out for want of time; it is no verdict on the engine.
 class OutOfTime : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Does it, and whatever the engine does is a verdict. @throws Interrupted
+/// Does `work`; whatever the engine does becomes a verdict in `row`. @throws Interrupted
 void judged(StabilityRun& row, const std::function<void()>& work);
 
-/// Runs it in a worker of its own. Whatever the engine does is a verdict.
+/// Runs the task in a worker of its own. Whatever the engine does becomes a verdict.
 /// @param progress  called with the fraction done, 0 … 1
 /// @throws Interrupted
 StabilityRun runStability(const StabilityTask& task, const std::function<void(double)>& progress);

@@ -70,7 +70,7 @@ std::string inSpaceLabel(const std::string& variant) {
   return variant.empty() ? "in space" : variant + ", in space";
 }
 
-/// What a case is compared with: the first variant of its file, whichever part of the suite is run.
+/// Reference of a case: the first variant of its file, whichever part of the suite is run.
 /// @throws std::logic_error if that is the case itself, as any run is like itself
 Case originalOf(const Case& setup) {
   Case first = loadCase(setup.file, setup.overrides).front();
@@ -83,7 +83,7 @@ Case originalOf(const Case& setup) {
 
 namespace {
 
-/// What is asked of a scene that is no hard case of its own.
+/// Measures and limits for a scene that is no hard case of its own.
 const struct SceneAudit {
   const char* name;
   Stability asks;
@@ -174,7 +174,7 @@ namespace {
 /// are compared with.
 using Rows = std::vector<StabilityRun>;
 
-/// What tasks need of cases and engines; it outlives them.
+/// Cases, engines and shared data of the tasks, which it outlives.
 struct Suite {
   const std::vector<Case>& cases;
   const std::vector<EngineEntry>& engines;
@@ -190,7 +190,7 @@ struct Suite {
   bool inSpace = false;                             ///< StabilityTask::inSpace
 };
 
-/// What each case needs besides itself.
+/// Makes room for data of each case, and loads the variants that cases are compared with.
 void makeRoom(Suite& suite) {
   suite.packings.resize(suite.cases.size());
   suite.unprepared.resize(suite.cases.size());

@@ -15,7 +15,7 @@ namespace crossgrain::inline studies {
 /// Which part of a suite of hard cases is run.
 enum class SuitePart { quick, usual, withLong };
 
-/// What a suite asks of its cases.
+/// Requirement of a suite on its cases.
 enum class SuiteAsks {
   limits,     ///< that they stay within their [stability]
   transforms  ///< that they go the same way after a change of description: transforms.hpp
@@ -29,7 +29,7 @@ struct StabilityOptions {
   SuiteAsks asks() const { return transforms ? SuiteAsks::transforms : SuiteAsks::limits; }
 };
 
-/// Hard cases: what stays stable on which engine, and what does not.
+/// Study of hard cases: which of them stay stable on which engine.
 extern const Study<StabilityOptions, StabilityResults> stabilityStudy;
 
 /// Hard cases by file and by folder (every *.toml in it, by name), all variants of each.

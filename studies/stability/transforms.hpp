@@ -15,11 +15,11 @@
 #include "stability/transform.hpp"
 #include "studies/stability/run.hpp"
 
-/// Changes of a case after which everything must go as it went: how a scene is expressed is
-/// nobody's physics. No second engine and no theory is needed for that.
+/// Changes of a case after which it must run as before, such as other units or a turned scene. The
+/// check needs no second engine and no theory.
 namespace crossgrain::inline studies {
 
-/// The part of a budget that one piece of work has, from its making on.
+/// Part of a budget that one piece of work has; it counts from construction.
 class TimeShare {
  public:
   /// @param seconds  infinite: as long as it takes
@@ -35,8 +35,8 @@ class TimeShare {
   Clock::time_point began_ = Clock::now();
 };
 
-/// A budget that several pieces of work have together. Each has an equal part of what is left when
-/// it begins, so that a slow engine takes no other's time, and what quick ones leave is used.
+/// Budget that several pieces of work share. Each has an equal part of the time left when it
+/// begins, so that a slow engine takes no other's time, and time that quick ones leave is used.
 class TimeBudget {
  public:
   /// @param seconds  for all, from now on; infinite: as long as it takes
@@ -56,49 +56,49 @@ class TimeBudget {
   std::size_t jobs_;
 };
 
-/// What a setting of that unit ("m", "m/s") is multiplied by in other units; absent: of a unit that
-/// is not known here.
+/// Factor of a setting with that unit ("m", "m/s") in other units; absent: the unit is not known
+/// here.
 std::optional<double> factorOf(const std::string& unit, const Units& units);
 
 /// An engine's settings for a scene in other units: those with a unit are multiplied, defaults
-/// said. What is 0 stays, whatever its unit.
+/// given explicitly. A 0 stays 0, whatever its unit.
 /// @throws UnsupportedScene naming a setting whose unit is not known
 Settings inUnits(Settings settings, const std::vector<SettingSpec>& specs, const Units& units);
 
-// What verdicts go by, fixed before any engine was measured, each with its reason.
+// Criteria of verdicts, fixed before any engine was measured, each with its reason.
 
 /// A fault shows in its first contacts; much later chaos has had its part.
 inline constexpr std::uint64_t transformSteps = 2000;
 
-/// Told otherwise, a scene is rounded otherwise, at its start and in every step. As much harm as a
-/// rounding of the start does, each further step may do again: the n-th may show 1 + n times the
-/// farthest that the engine's own run goes apart when its start is nudged. Nudges are drawn at
-/// random; of several one is likely to lie along what grows most.
+/// Number of nudged runs. A scene in another description is rounded differently, at its start and
+/// in every step. Each step may do as much harm as a rounding of the start: after n steps 1 + n
+/// times the farthest that the engine's own run goes apart when its start is nudged. Nudges are
+/// random; of several, one is likely to lie along the direction that grows most.
 inline constexpr int transformNudges = 4;
 
 /// Beyond this nothing is compared: runs that far apart do not share their contacts, whose overlaps
 /// are as deep [d].
 inline constexpr double transformBlind = 1e-2;
 
-/// Powers of two, whose products are not rounded; of a length a power of four, as Hertz' law takes
-/// its root. Towards small numbers all, since that is where a tolerance without a unit bites:
-/// lengths, forces and speeds of a thousandth.
+/// Factors of other units. Powers of two, whose products are not rounded; of a length a power of
+/// four, as Hertz' law takes its root. All make numbers smaller, where a tolerance without a unit
+/// shows: lengths, forces and speeds become a thousandth.
 inline constexpr double transformSmaller = 0x1p-10, transformSlower = 0x1p10;
 
-/// Of the order without a system and of nudges.
+/// Seed of the random order of disks and of nudges.
 inline constexpr std::uint64_t transformSeed = 22;
 
-/// How the other run comes about.
+/// Origin of the run that the case's own is compared with.
 enum class TransformRun {
   another,  ///< of the transformed scene
   restart,  ///< taken up from a checkpoint in the middle, by another worker
   oneGo     ///< of one advance, where the run itself has some forty snapshots
 };
 
-/// One of them, as reports have it: a measure is a column, a name one of its rows.
+/// One transform, as in reports: a measure is a column, a name one of its rows.
 struct CaseTransform {
   std::string measure, name;
-  std::string must;  ///< what must hold, one sentence
+  std::string must;  ///< requirement, one sentence
   Transform change = {};
   TransformRun run = TransformRun::another;
 };
@@ -110,7 +110,7 @@ std::vector<CaseTransform> caseTransforms(std::size_t disks, int dimension = 2);
 /// The name of a row: that of the transform, behind the case's variant where there is one.
 std::string variantOf(const Case& setup, const CaseTransform& transform);
 
-/// What they are, for reports of a case.
+/// Rows that describe the transforms in reports of a case.
 std::vector<HardCase> transformRows(const Case& setup);
 
 /// One row for each of caseTransforms(): the value is how far the farthest disk is off [d] where
