@@ -13,7 +13,7 @@ const CHECK_EVERY = 32;      // steps between two checks of where they are: in t
 
 export const version = `box2d3-wasm ${JSON.parse(readFileSync(new URL('package.json', home))).version}`;
 
-/// What the binding makes lives until it is deleted.
+/// Deletes an object of the binding after use: it is not garbage-collected.
 function once(object, use) {
   const result = use(object);
   object.delete();

@@ -32,11 +32,11 @@ inline Json within(Json setting, double least, double most, bool whole) {
   return setting;
 }
 
-/// What an engine says of itself.
+/// Description that an engine gives of itself.
 struct ImpulseAbout {
   std::string name, version, integrator;
-  /// By how many steps a velocity that is shown is later than the motion that had it: 1/2 where
-  /// velocities change first, −1/2 where positions do.
+  /// Steps by which a reported velocity is later than the motion that had it: 1/2 where velocities
+  /// change first, −1/2 where positions do.
   double lag;
   /// Where forces act: lever_arm, velocity_arm, plane_arm; and `rolling`, of those that have it.
   Json lawOptions;
@@ -178,7 +178,8 @@ class ImpulseRunOf : public ImpulseRun {
     ids_.emplace(disks_, bodies_);
   }
 
-  /// As they take part: what cannot turn has no moment of inertia, what nothing turns no spin.
+  /// Disks as they take part: of infinite inertia where they cannot turn, without spin where
+  /// nothing turns them.
   std::vector<DiskOf<D>> turningDisks(const Arrays& arrays) const {
     std::vector<DiskOf<D>> disks = disksOf<D>(arrays);
     for (DiskOf<D>& disk : disks) {

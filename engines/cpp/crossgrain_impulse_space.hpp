@@ -1,6 +1,6 @@
 #pragma once
 
-// What an engine of rigid contacts and impulses brings to crossgrain_impulse_engine.hpp: its space.
+// Space of an engine of rigid contacts and impulses, as crossgrain_impulse_engine.hpp uses it.
 
 #include <cstdint>
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace crossgrain_worker {
 
-/// What passed between two in a step. Ids: disks, then wall disks, then planes, then
+/// Impulse between two bodies in a step. Ids: disks, then wall disks, then planes, then
 /// cylinders; i < j.
 template <int D>
 struct PairImpulseOf {
@@ -25,7 +25,8 @@ struct PairImpulseOf {
 
   Vector onFirst() const { return pressing * normal + alongTangent(along, normal); }
 
-  /// Of any two; pressing is the same on both, and so is what is along z × their own normal.
+  /// Impulse between any two, in either order: pressing and the part along z × their own normal are
+  /// the same on both.
   static PairImpulseOf between(std::int32_t a, std::int32_t b, Vector normalToA, double pressing,
                                TangentOf<D> alongOnA, Vector placeOnA, Vector placeOnB,
                                SpinOf<D> rollingOnA = {}) {
@@ -36,7 +37,7 @@ struct PairImpulseOf {
 };
 using PairImpulse = PairImpulseOf<2>;
 
-/// What a space is made of.
+/// Scene and settings that a space is made from.
 template <int D>
 struct ImpulseSceneOf {
   std::vector<DiskOf<D>> disks;
@@ -69,9 +70,9 @@ class ImpulseSpaceOf {
   virtual VectorOf<D> position(std::size_t disk) const = 0;
   virtual VectorOf<D> velocity(std::size_t disk) const = 0;
   virtual SpinOf<D> spin(std::size_t disk) const = 0;
-  /// Of the last step, in ascending order of ids.
+  /// Impulses of the last step, in ascending order of ids.
   const std::vector<PairImpulseOf<D>>& impulses() const { return impulses_; }
-  /// What Realised reports besides the law's own.
+  /// Deviations that the engine reports besides those of the law.
   virtual Json deviations() const { return Json::array(); }
 
  protected:

@@ -1,6 +1,6 @@
 #pragma once
 
-// What rigid contacts make of a scene's law: a friction coefficient, and a restitution for each
+// Rigid contacts in place of a scene's law: a friction coefficient, and a restitution for each
 // pair.
 
 #include <cmath>

@@ -1,7 +1,6 @@
 #pragma once
 
-// What a scene's law is between each two bodies of an engine of rigid contacts, and what of it is
-// reported.
+// Coefficients of each two bodies of an engine of rigid contacts, and their report.
 
 #include <algorithm>
 #include <cstdint>
@@ -39,7 +38,7 @@ class RigidPairs {
     return law_.rolling() * law_.rollingLength(least, most);
   }
 
-  /// `pairs` of Realised, of the first few kinds of disks.
+  /// Coefficients of pairs of the first few kinds of disks, to be reported after load.
   Json table(bool walls, bool rolls) const {
     std::map<double, double> kinds;  // mass → radius
     for (std::size_t i = 0; i < mass_.size() && kinds.size() < 4; ++i)
@@ -63,7 +62,7 @@ class RigidPairs {
     return pairs;
   }
 
-  /// What rigid contacts make of a soft law, as `deviations` of Realised.
+  /// Deviations of rigid contacts from a soft law, to be reported after load.
   Json deviations() const {
     Json list = Json::array();
     if (!law_.soft() || mass_.empty()) return list;

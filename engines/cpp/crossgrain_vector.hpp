@@ -1,7 +1,7 @@
 #pragma once
 
-// Vectors in the plane of motion, or in space (SI units, laboratory frame), in plain C++17. What is
-// one number about z in the plane is a vector along its axis in space.
+// Vectors in the plane of motion, or in space (SI units, laboratory frame), in plain C++17. A
+// quantity about z, one number in the plane, is a vector along its axis in space.
 
 #include <cmath>
 #include <type_traits>
@@ -113,7 +113,7 @@ inline Vector turned(double angle, Vector v) {
   return TurnOf<2>(angle)(v);
 }
 
-// What acts across a normal: a number along z × n in the plane, a vector in space.
+// Tangential quantities: a number along z × n in the plane, a vector normal to n in space.
 
 template <int D>
 using TangentOf = SpinOf<D>;
@@ -124,14 +124,14 @@ inline Vector alongTangent(double along, Vector normal) {
 inline Vector3 alongTangent(Vector3 along, Vector3) {
   return along;
 }
-/// The other way round: of a vector that is normal to n.
+/// Inverse of alongTangent(), of a vector that is normal to n.
 inline double tangentOf(Vector across, Vector normal) {
   return dot(across, turned(normal));
 }
 inline Vector3 tangentOf(Vector3 across, Vector3) {
   return across;
 }
-/// As a normal turns from n to m, by the smallest turn that does so.
+/// A tangential quantity after its normal has turned from n to m by the smallest turn.
 inline double carriedAlong(double along, Vector, Vector) {
   return along;
 }

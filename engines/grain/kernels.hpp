@@ -19,7 +19,7 @@ struct ContactView {
   const Real *inverseMass, *inverseInertia;  ///< 0 for wall disks
   Vec<Real>* force;
   Real* torque;
-  /// Of a law of materials: that of each disk, and the laws by pairs of them.
+  /// For several materials: the material of each disk, and the laws by two of them.
   const std::int32_t* material = nullptr;
   const GeneralLaw<Real>* laws = nullptr;
   std::int32_t materials = 0;
@@ -76,7 +76,7 @@ struct MotionView {
   Vec<Real>*position, *velocity;
   Real* spin;
   Vec<Real>* seenVelocity;
-  Real* seenSpin;  ///< what the dashpots see; the velocities themselves unless predicted
+  Real* seenSpin;  ///< velocities for dashpots; the plain ones unless predicted
   Vec<Real>* force;
   Real* torque;
   const Real *inverseMass, *inverseInertia, *mass, *radius;
@@ -101,8 +101,8 @@ struct MotionReport {
   Real speedSquares;  ///< sum of v², not finite if some v is not
 };
 
-/// Kick, drift and predict disks begin … end−1, and begin their forces anew with those that no
-/// contact has part in.
+/// Kicks, drifts and predicts disks begin … end−1, and sets their forces to those that have no part
+/// in a contact.
 template <class Real>
 using MotionKernel = MotionReport<Real> (*)(const MotionConstants<Real>&, const MotionView<Real>&,
                                             std::size_t begin, std::size_t end);

@@ -27,7 +27,7 @@ inline bool turnsDisks(const ContactLaw& law) {
   return law.friction() || law.rolls();
 }
 
-/// Of velocities that belong to the same time as positions, Euler's, there is nothing to predict.
+/// Euler's velocities belong to the same time as positions, so that there is nothing to predict.
 inline DampingVelocity dampingVelocity(const ContactLaw& law) {
   const LawConventions& how = law.conventions;
   return how.integrator == Integrator::semiImplicitEuler ? DampingVelocity::lagged
@@ -53,7 +53,7 @@ template <class Real>
 struct RollingMotion {
   Real spin;         ///< ω_r = ω_i − ω_j [rad/s]
   Real length;       ///< L [m]
-  Real square;       ///< what k_r's constant multiplies [m²] or 1
+  Real square;       ///< factor of k_r's constant [m²] or 1
   Real inertia = 0;  ///< I; read by critical dampers [kg m²]
 };
 
@@ -68,7 +68,7 @@ struct ContactForce {
   Real normal;      ///< f_n [N]
   Real tangential;  ///< f_t [N]
   Real sliding;     ///< 1 where the Coulomb bound holds, else 0
-  Real load;        ///< what stands for f_n in bounds [N]
+  Real load;        ///< load in the bounds, in place of f_n [N]
 };
 
 /// Bodies of several materials: the law of each two of them.

@@ -47,7 +47,7 @@ struct SpringAccount {
   double openingWork = 0.0;   ///< on the disks until the next evaluation [J]
 };
 
-/// The sums of an energy ledger: what the forces of one evaluation did, term by term.
+/// Sums of an energy ledger: work of the forces of each evaluation, term by term.
 ///
 /// The discrete kinetic-energy identity. A kick from u to u + τ a, a = F/m, changes ½ m u² by
 ///   τ F·(u + τ a/2),
@@ -76,7 +76,7 @@ class LedgerSums {
 
   const Scheme& scheme() const { return scheme_; }
 
-  /// The openings noted at the last evaluation have happened.
+  /// Adds the openings noted at the last evaluation: they have happened by now.
   void beginEvaluation();
   /// Powers [W], > 0 to the disks.
   void workOfWall(const HalfKicks& power) { add(&EnergyLedger::workOfWalls, power, 1.0); }
@@ -87,20 +87,20 @@ class LedgerSums {
     loss_->closing -= power.closing * scheme_.time.closing;
     loss_->opening -= power.opening * scheme_.time.opening;
   }
-  /// Where all that is lost from now on is added up as well [J]: that of a contact; null: nowhere.
+  /// Sets where losses from now on are added up as well, those of one contact [J]; null: nowhere.
   /// The loss of a contact as it ends is in no such sum.
   void tally(HalfKicks* loss) { loss_ = loss; }
   /// Powers [W] that a convention gives the disks.
   void gain(const HalfKicks& power) { add(&EnergyLedger::gainedByConvention, power, 1.0); }
   /// `body` is the normal force of a law that remembers: one that yields counts as sliding.
   enum class Spring { sliding, rolling, body };
-  /// One spring, in ascending (i, j): its account to be filled in, then what it did.
+  /// Account of one spring, in ascending (i, j), to be filled in, then settled.
   /// @param power  of the spring on the disks [W]
   SpringAccount& nextSpring(Spring of) { return bookOf(of).next.emplace_back(); }
   void settleSpring(Spring of, const HalfKicks& power);
-  /// After the last spring: those of contacts that are no more.
+  /// Settles, after the last spring, those of contacts that have ended.
   void endSprings();
-  /// Moving disks, the first ones, have other places. @param newPlace  old → new
+  /// Renumbers the moving disks, which are the first ones. @param newPlace  old → new
   void renumber(std::span<const std::int32_t> newPlace);
   /// The plate's spring with one disk.
   void plateSpring(SpringAccount& before, SpringAccount now, const HalfKicks& power);
@@ -110,7 +110,7 @@ class LedgerSums {
 
   EnergyLedger ledger;  ///< its states are for the caller to keep
 
-  /// Calls visit(sums) and visitAll(springs) for all that a checkpoint has to keep.
+  /// Calls visit(sums) and visitAll(springs) for all state that a checkpoint has to keep.
   template <class Sums, class Visit, class VisitAll>
   static void forState(Sums& sums, Visit&& visit, VisitAll&& visitAll) {
     visit(sums.ledger);
@@ -121,8 +121,8 @@ class LedgerSums {
  private:
   /// All contacts' springs of one kind.
   struct SpringBook {
-    double EnergyLedger::*lost;      ///< what slides at its bound
-    double EnergyLedger::*released;  ///< what a contact still holds when it ends
+    double EnergyLedger::*lost;      ///< term of losses at the bound
+    double EnergyLedger::*released;  ///< term of energy left when a contact ends
     std::vector<SpringAccount> springs = {}, next = {};
     std::size_t place = 0;  ///< in springs
   };

@@ -57,7 +57,7 @@ struct ActiveSpheres {
 /// Arrays that contacts read of the spheres (moving, then those of walls) and add to.
 struct SpaceView {
   const Quad* position;                        ///< w: the radius
-  const Quad *velocity, *spin;                 ///< what dashpots see; spin: null without rotation
+  const Quad *velocity, *spin;                 ///< for dashpots; spin: null without rotation
   const double *inverseMass, *inverseInertia;  ///< 0 of walls
   Quad *force, *torque;
   ActiveSpheres active;

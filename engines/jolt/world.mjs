@@ -21,7 +21,7 @@ const FRICTION_OF_POINTS = binding.startsWith('1.0.');
 
 export const version = `jolt-physics ${binding}`;
 
-/// What the binding makes lives until it is destroyed.
+/// Destroys an object of the binding after use: it is not garbage-collected.
 function once(object, use) {
   const result = use(object);
   J.destroy(object);

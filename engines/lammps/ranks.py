@@ -23,7 +23,7 @@ from crossgrain_worker import Failed, Unsupported
 PATIENCE = 120  # s that ranks have to begin
 RANK = os.path.join(os.path.dirname(os.path.abspath(__file__)), "rank.py")
 
-# What Open MPI needs to run as root, in a container, with more ranks than cores; what the user says stands.
+# Variables that let Open MPI run as root, in a container, with more ranks than cores; the user's own take precedence.
 OPEN_MPI = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",

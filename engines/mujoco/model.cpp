@@ -14,7 +14,7 @@
 namespace crossgrain_worker::mujoco {
 namespace {
 
-/// Of a wall that moves, in disks' masses: what contacts change of its motion is below rounding,
+/// Mass of a wall that moves, in disks' masses: contacts change its motion by less than rounding,
 /// and its motion is prescribed anew in every step.
 constexpr double HEAVY = 1e12;
 
@@ -204,8 +204,8 @@ void Model::step(const std::vector<Body>& bodies) {
   findForces();
 }
 
-/// What mj_forward does, and between finding contacts and solving for their forces each gets its
-/// own constants.
+/// Does the work of mj_forward, but gives each contact its own constants after contacts are found
+/// and before their forces are solved for.
 void Model::findForces() {
   const mjModel* m = model_.get();
   mjData* d = data_.get();
@@ -221,7 +221,7 @@ void Model::findForces() {
   mj_fwdActuation(m, d);
   mj_fwdAcceleration(m, d);
   mj_fwdConstraint(m, d);
-  // What its solver leaves, some 1e-12 of a force, would be motion that no force accounts for.
+  // The solver's residual, some 1e-12 of a force, would be motion that no force accounts for.
   // Accelerations from the forces are nearer to the solution by d/(1 − d), where that is below 1.
   if (options_.impedance < 0.5) {
     mj_solveM(m, d, d->qacc, d->qfrc_constraint, 1);

@@ -26,7 +26,7 @@ export function turned(angle, a) {
   return plus(plus(scaled(Math.cos(size), a), scaled(Math.sin(size), cross(axis, a))), scaled(along, axis));
 }
 
-/// What acts across n, as n turns to m by the smallest turn.
+/// A tangential quantity after its normal has turned from n to m by the smallest turn.
 export function carriedAlong(along, n, m) {
   if (n.length === 2) return along;
   const w = cross(n, m), across = cross(w, along), share = 1 + dot(n, m);  // 0: any turn by 180° is as small

@@ -1,4 +1,4 @@
-// What rigid contacts make of the scene's law: a friction coefficient, and a restitution for each pair.
+// Rigid contacts in place of the scene's law: a friction coefficient, and a restitution for each pair.
 
 import {Unsupported} from './crossgrain_worker.mjs';
 

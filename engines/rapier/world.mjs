@@ -26,7 +26,7 @@ export class RapierWorld {
   constructor({disks, bodies, law, gravity, dt, rotation, number}) {
     this.world = new RAPIER.World(vectorOf(gravity));
     this.world.timestep = dt;
-    // What Rapier takes as small is a share of this.
+    // Rapier's tolerances are fractions of this length.
     this.world.lengthUnit = 2 * Math.min(...disks.map((disk) => disk.radius));
     this.world.integrationParameters.numSolverIterations = number('iterations');
     this.world.integrationParameters.contact_natural_frequency = number('natural_frequency');
