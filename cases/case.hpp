@@ -131,7 +131,7 @@ struct RunOptions {
 /// Two-body collisions: disks that meet each other, or a wall, with v_t = Ψ_i v_n.
 struct Collision {
   std::vector<double> psi;             ///< Ψ_i = v_t/|v_n| before
-  Approach approach = Approach::spin;  ///< what v_t comes from
+  Approach approach = Approach::spin;  ///< source of v_t
   std::vector<double> vn;              ///< approach speeds [m/s]; empty: `speed` is given
   double speed = 0.0;                  ///< √(v_n² + v_t²), for every Ψ_i its own v_n [m/s]
   std::vector<double> counterSpin = {0.0};  ///< CollisionStart::counterSpin [rad/s]
@@ -264,7 +264,7 @@ struct Region {
   int layers = 1;             ///< along z, of a grid or rings in space
   double height = 1.0;  ///< h of the disks, normal to the plane: with 1 m a stress in N/m² is the
                         ///< force per length in N/m [m]
-  double from = 0.0;    ///< what comes before is not averaged [s]
+  double from = 0.0;    ///< start of averaging [s]
   int snapshots = 100;  ///< evenly from there to the end
 
   bool hasRings() const { return bins == BinKind::rings; }
@@ -358,12 +358,12 @@ struct Case {
   Averaging averaging;
   InterimSettings looks;
   RunOptions run;
-  std::optional<Region> region;        ///< what is averaged of a flow: rings of a cell
+  std::optional<Region> region;        ///< averaged part of a flow: rings of a cell
   std::vector<Endpoint> endpoints;     ///< all of them have an expected value, or none
   std::optional<Stability> stability;  ///< of a hard case
   Cost cost;
   std::map<std::string, Settings> engines;  ///< [engines.NAME]
-  std::vector<std::string> warnings;        ///< what loads, but is hardly meant; one line each
+  std::vector<std::string> warnings;        ///< entries that load but are hardly meant; a line each
   std::vector<std::string> overrides;       ///< "key.path=value" each, as after `--set`
 };
 

@@ -24,7 +24,7 @@ void setFlowOfCell(Case& c);
 /// Seconds of one rotation of the wheel.
 double rotationTime(const Case& setup);
 
-/// How many disks the wall of that radius has: 2π·radius/wall_spacing, rounded to the nearest, so
+/// Number of disks in the wall of that radius: 2π·radius/wall_spacing, rounded to the nearest, so
 /// that the real spacing is as near the wanted one as whole numbers allow. Wheel:
 /// `cell.innerRadius`, ring: `cell.outerRadius`.
 int wallDiskCount(const Cell& cell, double radius);
@@ -41,14 +41,13 @@ WallBody wallRing(const char* name, const Cell& cell, double radius, double angl
 Disks diskKinds(const Particles& particles);
 
 /// The same evenly spread over the cell, as seeds are over a sunflower's head (Vogel 1979): a scene
-/// for engines to be asked about, not to be run, as neighbours may overlap.
+/// to query engines about, not to be run, as neighbours may overlap.
 Disks spreadDisks(const Case& setup);
 
-/// A start that an engine cannot be blamed for: no two disks overlap by more than
-/// max_overlap · small radius, no two centres coincide, all are finite.
-/// Where `cell` is given, they also lie between its walls.
+/// Checks that a start is sound: no two disks overlap by more than max_overlap · small radius, no
+/// two centres coincide, all are finite. Where `cell` is given, they also lie between its walls.
 /// @param lines  of the file `where` that disks and wall disks were read from, by id; 0 or missing:
-///               nobody knows
+///               unknown
 /// @throws BadInput naming the disks
 template <int D>
 void checkStart(const SceneOf<D>& scene, const Particles& particles, const std::string& where,
@@ -59,7 +58,8 @@ void checkStart(const SceneOf<D>& scene, const Particles& particles, const std::
 /// numbers of the thesis' table 3.2 come out. @pre a couette case without particles.file
 double volumeFraction(const Case& c);
 
-/// How many disks have a volume fraction, before rounding. @param largeFraction  by number, 0 … 1
+/// Number of disks with that volume fraction, before rounding. @param largeFraction  by number, 0 …
+/// 1
 double diskNumber(const Cell& cell, const Particles& particles, double fraction,
                   double largeFraction);
 
@@ -78,8 +78,8 @@ struct Scale {
 
 std::span<const Scale> scales();
 
-/// A share of a scale, rounded to two digits: a margin is a choice, further digits would claim to
-/// know better.
+/// A share of a scale, rounded to two digits: a margin is a choice, and further digits would claim
+/// more.
 double fractionOf(const Scale& scale, double share, const Case& setup);
 
 }  // namespace crossgrain::inline cases

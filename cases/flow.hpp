@@ -16,7 +16,7 @@ bool hasFlow(const Case& setup);
 
 /// When a run is averaged; times are since the hand-over.
 struct FlowTimes {
-  double settled = 0.0;   ///< what comes before is not averaged [s]
+  double settled = 0.0;   ///< start of averaging [s]
   double interval = 0.0;  ///< between snapshots; the first is one interval after `settled` [s]
   int samples = 1;        ///< snapshots
 
@@ -24,7 +24,7 @@ struct FlowTimes {
 };
 FlowTimes flowTimes(const Case& setup);
 
-/// How long a run takes [s]. That of flowTimes() but for rounding.
+/// Duration of a run [s], that of flowTimes() but for rounding.
 double flowDuration(const Case& setup);
 
 /// The time that pictures count by: one rotation of the wheel, or a second [s].
@@ -39,31 +39,30 @@ double inertiaFactorOf(const Case& setup);
 /// Whether packings are files of the user's own, of which nothing is prepared.
 bool packingsAreFiles(const Case& setup);
 
-/// How often a start with closed forms is run: a run that does not come back the same is not
-/// judged.
+/// Runs of a start with closed forms: where they differ, nothing is judged.
 inline constexpr int closedFormRuns = 2;
 
 /// Whether its endpoints have expected values by closed forms, on which one start is enough.
 bool hasClosedForms(const Case& setup);
 
-/// As many as a campaign begins with; a file is one, however many a case would prepare or make.
+/// Number of packings that a campaign begins with; each file is one, whatever the case would make.
 int flowPackings(const Case& setup);
 
 /// The scene with that packing at t = 0.
 template <int D = 2>
 SceneOf<D> flowScene(const Case& setup, const Packing& packing, double dt);
 
-/// Its disks wherever they are: a scene for engines to be asked about, not to be run.
+/// Disks of the case at any places: a scene to query engines about, not to be run.
 template <int D = 2>
 SceneOf<D> unplacedScene(const Case& setup, double dt);
 
-/// A packing from the user's file, from what is kept of earlier times, or made anew.
+/// A packing from the user's file, kept from an earlier command, or made anew.
 /// @param engine  the in-house one  @param progress  called with the fraction done, 0 … 1
 /// @throws UnsupportedScene, EngineFailure, BadInput
 Packing flowPacking(const Case& setup, int index, double dt, Engine& engine,
                     const std::function<void(double)>& progress);
 
-/// Its fingerprint before anybody makes it, and whether that would take no time.
+/// Fingerprint of a packing before it is made, and whether it needs no preparation.
 struct ExpectedPacking {
   std::string hash;
   bool there = false;

@@ -1,6 +1,6 @@
-# What keeps a build from nothing short. Most of it is headers and templates that many sources share
-# (nlohmann's JSON, Eigen, fmt), so they are read once, compiled several sources at a time, and
-# optimised as little as what they are used for allows.
+# Measures that keep a full build short. Most of its time goes to headers and templates that many
+# sources share (nlohmann's JSON, Eigen, fmt), so they are read once, compiled several sources at a
+# time, and optimised as little as their use allows.
 
 option(CROSSGRAIN_UNITY_BUILD "Compile several sources of a library in one go" ON)
 set(CMAKE_UNITY_BUILD ${CROSSGRAIN_UNITY_BUILD})
@@ -39,7 +39,7 @@ function(add_precompiled_headers name)
   target_precompile_headers(${name} PRIVATE ${crossgrain_precompiled} ${arg_HEADERS})
 endfunction()
 
-# For what computes little: files, results, reports, commands. Step, averages and oracle keep -O2.
+# For code that computes little: files, results, reports, commands. Step, averages and oracle keep -O2.
 function(quick_to_build headers)
   foreach(target ${ARGN})
     target_compile_options(${target} PRIVATE ${crossgrain_quick_to_build})

@@ -1,6 +1,6 @@
-# What `cmake --install` and `cpack` lay out:
+# Layout of `cmake --install` and `cpack`:
 #   bin/crossgrain                 the program; finds share/crossgrain beside its own folder, so a prefix can be moved
-#   share/crossgrain/cases, engines  what it reads at run time
+#   share/crossgrain/cases, engines  read at run time
 #   share/crossgrain/examples      engines of one's own to begin with; engines/python and engines/cpp are their helpers
 #   share/crossgrain/python        crossgrain.py reads results and snapshots
 #   share/bash-completion/completions
@@ -29,7 +29,7 @@ install(FILES python/crossgrain.py DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgra
 install(FILES README.md LICENSE CHANGELOG.md adapters/worker/protocol.schema.json
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
-# What these pages link to, at the place where they look for it.
+# Targets of these pages' links, at the places where the links point.
 file(GLOB_RECURSE crossgrain_pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
      adapters/*.md averaging/*.md cases/*.md engines/*.md oracle/*.md papers/*.md reports/curated/*.md tests/*.md)
 list(FILTER crossgrain_pages EXCLUDE REGEX node_modules)

@@ -39,7 +39,7 @@ struct Kinematics {
   Vec3 normal, turning;                      ///< n, dn/dt [1/s]
   double distance, overlap, normalVelocity;  ///< [m], δ [m], v_n [m/s]
   Vec3 slip;                                 ///< v_t [m/s]
-  double twist;                              ///< what ξ turns about n by, spring_twist [rad/s]
+  double twist;                              ///< turn rate of ξ about n, spring_twist [rad/s]
 };
 
 enum class Phase {

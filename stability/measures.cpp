@@ -20,7 +20,7 @@ namespace {
 
 using Curve = std::vector<double>;
 
-// Of what turns, in either dimension.
+// Operations on spins and torques, in either dimension.
 double dot(double a, double b) {
   return a * b;
 }
@@ -159,7 +159,7 @@ Curve momentumDrift(const RecordingOf<D>& run) {
 template <int D>
 struct AngularMomentum {
   SpinOf<D> value = noSpin<D>();  ///< [kg m²/s]
-  double scale = 0.0;             ///< what it could have been: Σ m (|x| + a) |v| + J |ω|
+  double scale = 0.0;             ///< upper bound of its size: Σ m (|x| + a) |v| + J |ω|
 };
 
 template <int D>

@@ -8,7 +8,7 @@ namespace crossgrain::inline support {
 /// A piece of work that may run beside others.
 struct Task {
   double weight = 1.0;         ///< how long it is likely to take; the longest start first
-  std::function<void()> work;  ///< what it throws ends the whole pool once running tasks are done
+  std::function<void()> work;  ///< an exception ends the whole pool once running tasks are done
 };
 
 /// Runs all tasks on `jobs` threads, longest first.

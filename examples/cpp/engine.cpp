@@ -210,7 +210,7 @@ class Run {
     return c;
   }
 
-  /// What of a vector is normal to n.
+  /// Part of v that is normal to n.
   static Vector across(Vector n, Vector v) { return v - dot(v, n) * n; }
 
   /// A spring after the normal has turned to n: normal to it, as long as it was (spring_turn =
