@@ -85,7 +85,7 @@ void registerAt(std::string_view name, Make make) {
 }
 
 void registerAll() {
-  // What a run does with a snapshot: fields by slicing, distributions, series, layers of spin.
+  // All work of a run on a snapshot: fields by slicing, distributions, series, layers of spin.
   registerAt("everything",
              [](const Case& setup, const Scene& scene) { return FlowAverages<2>(setup, scene); });
   for (const WeightMethod method :

@@ -59,9 +59,9 @@ double measureStream(int threads) {
   return 3.0 * sizeof(double) * streamLength / best;
 }
 
-/// What memory gives to the loop a[i] = b[i] + s c[i] (triad; McCalpin 1995) on arrays of 128 MiB,
+/// Memory bandwidth of the loop a[i] = b[i] + s c[i] (triad; McCalpin 1995) on arrays of 128 MiB,
 /// far beyond the caches, counted as there: 24 bytes an element, without the read that a write
-/// brings about. The best of some passes [byte/s]. Measured once per number of threads.
+/// causes. The best of some passes [byte/s]. Measured once per number of threads.
 double streamBandwidth(int threads) {
   static std::map<int, double> known;
   if (!known.contains(threads)) known[threads] = measureStream(threads);
@@ -70,7 +70,7 @@ double streamBandwidth(int threads) {
 
 /// Bytes that one step without new lists moves between core and memory when nothing of it fits a
 /// cache: every array once per pass over it, read and write counted apart, the read that a write
-/// brings about not counted, as in the stream test. Partners of a disk are taken to be in cache:
+/// causes not counted, as in the stream test. Partners of a disk are taken to be in cache:
 /// disks are near each other in memory if they are in space.
 struct Traffic {
   double perDisk = 0.0, perPair = 0.0;  ///< [byte]; pairs are the near ones
@@ -238,8 +238,8 @@ double processorTime() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Sums up time and contacts over steps: of one thread its processor time, to which whoever else
-/// uses the machine adds little.
+/// Sums up time and contacts over steps: of one thread its processor time, to which other
+/// programs on the machine add little.
 struct Meter {
   bool oneThread;
   double seconds = 0.0;

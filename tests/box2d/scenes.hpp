@@ -22,7 +22,7 @@ struct Outcome {
   double en, psiF;
 };
 
-/// What became of the pair of disks (first, first + 1) of addPair(), its normal taken as fixed.
+/// Outcome of the pair of disks (first, first + 1) of addPair(), its normal taken as fixed.
 inline Outcome outcome(const Snapshot& after, std::size_t first, double vn) {
   const Vec2 v = after.velocity[first] - after.velocity[first + 1];
   const double spins = after.spin ? (*after.spin)[first] + (*after.spin)[first + 1] : 0.0;

@@ -1,5 +1,5 @@
-// What both Box2D engines must do alike, beyond the conformance suite, which holds every engine to
-// starting afresh, to walls that move and push, and to the laws of motion.
+// Behaviour that both Box2D engines share, beyond the conformance suite, which checks every engine
+// for fresh starts, for walls that move and push, and for the laws of motion.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -131,7 +131,7 @@ TEST_P(BothBox2dEngines, BlockedSpinsStayAndRub) {
   EXPECT_GT(std::abs(after.velocity[0].y()), 1e-3);  // and friction did its work
 }
 
-/// What it declares, so that commands refuse before anything starts.
+/// Declared limits let commands refuse a scene before anything starts.
 TEST_P(BothBox2dEngines, DeclaresWhatWallsMayDo) {
   Scene scene = empty();
   scene.bodies = {diskWall(Vec2(0.1, 0), 1e-3)};

@@ -1,8 +1,8 @@
 // long_run CASE [STEPS]
-//   the case's first packing on the in-house engine with its energy ledger, for 10⁷ steps unless
-//   told otherwise. Ten times on the way, a line: steps, the ledger's residual against what has
-//   gone through it, the speed of the centre of mass against the rim's, overlap. Exit status 1
-//   where one of them is out of bounds.
+//   the case's first packing on the in-house engine with its energy ledger, for STEPS or 10⁷
+//   steps. Prints ten lines on the way: steps, the ledger's residual relative to the energy that
+//   has gone through it, the speed of the centre of mass relative to the rim's, overlap. Exit
+//   status 1 where one of them is out of bounds.
 #include <fmt/format.h>
 
 #include <cmath>

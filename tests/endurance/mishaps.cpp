@@ -1,8 +1,8 @@
-// For LD_PRELOAD, mishaps that the environment asks for, counted in each process: from the write to
-// a file that is numbered FULL_DISK_AT on the disk is full; after CLOCK_BACK_AFTER looks at the
-// time of day the clock has been set back by an hour (clocks that only count on are left alone).
+// Library for LD_PRELOAD: mishaps that the environment asks for, counted in each process. From
+// write number FULL_DISK_AT to a file on, the disk is full; after CLOCK_BACK_AFTER calls for the
+// time of day, the clock has been set back by an hour (monotonic clocks are not changed).
 // FULL_DISK_COUNT names a file that gets the number of writes of each process that ends by itself.
-// What the C library writes by itself (fprintf) is not seen.
+// Writes that the C library makes by itself (fprintf) are not counted.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -12,14 +12,14 @@ std::size_t below(Draw& draw, std::size_t limit) {
   return static_cast<std::size_t>(draw.uniform(0.0, static_cast<double>(limit)));
 }
 
-/// What people and programs write by mistake.
+/// Values that people and programs write by mistake.
 constexpr const char* strange[] = {
     "nan",  "inf",    "-1",    "0",          "1e308",  "-1e-320", "9223372036854775808",
     "true", "\"\"",   "[]",    "{}",         "[[]]",   "null",    "\"\xff\xfe\"",
     "=",    "\n[\n",  "\"",    "'''",        "#",      "1_000",   "0x7fffffffffffffff",
     "[0]",  "[1, 2]", "1.0e5", "2026-11-23", "\\u00e9"};
 
-/// From where to where the word or number about a place reaches.
+/// Range of the word or number around a place.
 std::pair<std::size_t, std::size_t> wordAt(const std::string& text, std::size_t at) {
   const auto part = [&](std::size_t k) {
     const auto c = static_cast<unsigned char>(text[k]);

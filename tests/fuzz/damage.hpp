@@ -18,11 +18,11 @@ std::string damagedBytes(std::string bytes, Draw& draw);
 /// A document of which one value, wherever it is, is another, gone, or of another type.
 nlohmann::json damagedJson(const nlohmann::json& document, Draw& draw);
 
-/// The most memory that this program has had in use so far [bytes].
+/// Peak memory of this program so far [bytes].
 std::size_t mostMemory();
 
-/// What a damaged file of some kB may make a reader take besides what it has, buffers and what zlib
-/// unpacks among it [bytes]. Sanitizers keep what was given back for a while.
+/// Most additional memory that a reader may take for a damaged file of some kB, with buffers and
+/// the output of zlib [bytes]. Sanitizers keep freed memory for a while.
 #ifdef __SANITIZE_ADDRESS__
 inline constexpr std::size_t modest = std::size_t{1} << 29;
 #else

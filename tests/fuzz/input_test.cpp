@@ -1,7 +1,7 @@
-/// What users hand in is read to something sound or to one line of refusal, whatever it is: case
-/// files, packings and starts of their own, results of earlier runs. Inputs depend on their number
-/// alone; README.md has how a million of each kind are read. What once was read wrongly is kept in
-/// corpus/.
+/// Input of users, whatever it is, is read to something sound or refused in one line: case files,
+/// packings and starts of their own, results of earlier runs. Inputs depend on their number alone;
+/// README.md says how a million of each kind are read. Inputs that were once read wrongly are kept
+/// in corpus/.
 #include <gtest/gtest.h>
 
 #include <hdf5.h>
@@ -35,13 +35,13 @@ std::string contentOf(const fs::path& file) {
   return content.str();
 }
 
-/// Anew: some file systems wait for the disk where a file that is there is cut to nothing.
+/// Writes a new file: some file systems wait for the disk where an existing one is truncated.
 void write(const fs::path& file, const std::string& content) {
   fs::remove(file);
   std::ofstream(file, std::ios::binary) << content;
 }
 
-/// Counts what became of inputs, and holds refusals to one line.
+/// Counts accepted and refused inputs, and expects one line for each refusal.
 class Reading {
  public:
   template <typename Work>
@@ -57,7 +57,7 @@ class Reading {
       ADD_FAILURE() << "input " << number << ": neither taken nor refused: " << other.what();
     }
   }
-  /// Both happen, or the inputs would be no test; of few there may be none.
+  /// Expects both outcomes, or the inputs would be no test; few inputs may lack one.
   void expectBoth(std::uint64_t all) const {
     if (all < 100) return;
     EXPECT_GT(taken, all / 100);
@@ -103,7 +103,7 @@ TEST(FuzzedInput, CasesLoadOrAreRefusedInOneLine) {
         EXPECT_TRUE(std::isfinite(setup.law.kn) && setup.law.kn >= 0.0) << k;
         EXPECT_TRUE(std::isfinite(setup.law.mu) && setup.law.mu >= 0.0) << k;
       }
-      if (k % 16 != 0) return;  // what is taken says of itself what it is
+      if (k % 16 != 0) return;  // an accepted case can be written and read again
       const fs::path again = places[which].parent_path() / "again.toml";
       write(again, resolvedFile(loaded));
       EXPECT_EQ(loadCase(again).size(), loaded.size()) << k;
@@ -112,7 +112,7 @@ TEST(FuzzedInput, CasesLoadOrAreRefusedInOneLine) {
   reading.expectBoth(all.size());
 }
 
-/// What is taken can be run without a further look.
+/// Accepted disks can be run without further checks.
 void expectSound(const Disks& disks, std::uint64_t number) {
   for (std::size_t i = 0; i < disks.size(); ++i) {
     EXPECT_TRUE(std::isfinite(disks.radius[i]) && disks.radius[i] > 0.0) << number;
@@ -174,7 +174,7 @@ TEST(FuzzedInput, PackingsAreSoundOrRefusedInOneLine) {
   EXPECT_LT(test::mostMemory() - before, test::modest);
 }
 
-/// Each was taken, or worse, before it was kept.
+/// Each was accepted, or worse, before it was kept in corpus/.
 TEST(FuzzedInput, WhatWasOnceReadWronglyIsRefused) {
   Reading reading;
   std::uint64_t number = 0;

@@ -1,6 +1,5 @@
-/// Folders of others are what `report` and `plan` merge: whatever a text in their results.json
-/// says, nothing of it is run, nothing gets out of its quotes, and no file is written but the
-/// report's.
+/// `report` and `plan` merge folders of others: whatever a text in their results.json says, nothing
+/// of it is run, nothing gets out of its quotes, and no file is written but the report's.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -110,7 +109,7 @@ Json edited(const Json& document, const Place& place, const std::string& text) {
   return result;
 }
 
-/// Every word of a script that is in no quotes or comments; a line that ends within quotes is told
+/// Every word of a script that is in no quotes or comments; a line that ends within quotes appears
 /// as "\n".
 std::string outsideOfQuotes(const std::string& script) {
   std::string rest;
@@ -136,7 +135,7 @@ std::string outsideOfQuotes(const std::string& script) {
   return rest;
 }
 
-/// Whether a mark stands there without what makes it harmless.
+/// Whether a mark is there without the character that makes it harmless.
 bool isThere(const std::string& text, const std::string& mark, char harmlessAfter = 0) {
   for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + 1))
     if (harmlessAfter == 0 || at == 0 || text[at - 1] != harmlessAfter) return true;

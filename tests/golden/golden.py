@@ -88,7 +88,7 @@ COMMANDS = {
     "check": ["check {cell} --engines {built_in}"],
     "calibrate": ["calibrate --en 0.6 --tc 1e-3 --mass 1e-3 --radius 1e-3"],
 }
-# What depends on this run and machine; "stats" and "contacts_per_step" count steps of a timed
+# Members that depend on this run and machine; "stats" and "contacts_per_step" count steps of a timed
 # length, "overview" repeats times.
 TRANSIENT = {
     "elapsed_s", "started", "command", "version", "program", "build", "machine", "file", "stats", "wall_s", "cpu_s", "overview",
@@ -96,7 +96,7 @@ TRANSIENT = {
     "ns_per_disk", "steps", "repetitions", "predicted_s", "on_front", "cores", "timings", "best_s", "advice", "fronts",
     "measured", "cells", "tied", "time_low_s", "time_high_s", "cheapest", "startup", "contacts_per_step", "from_cache",
 }  # fmt: skip
-# What a list's items are called by.
+# Members that name an item of a list.
 NAMES = ("name", "id", "case", "engine", "variant", "packing", "measure", "quantity")
 
 

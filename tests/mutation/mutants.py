@@ -4,7 +4,7 @@ import dataclasses
 import random
 import re
 
-# What is mutated: the code that numbers and verdicts come from.
+# Code that is mutated: numbers and verdicts come from it.
 folders = {
     "engines/grain": ["engines/grain/**/*.[ch]pp"],
     "engines/box2d": ["engines/box2d/**/*.[ch]pp"],
@@ -30,9 +30,9 @@ prefix = re.compile(r"(?:(?<=[(\[{])|(?<=[=,?:&|<>] )|(?<=return )|(?<=^)|(?<=\s
 number = re.compile(r"(?<![\w.])(?<!e-)(\d+(?:\.\d+)?)(?=[ufl]?(?![\w.]))")
 
 hidden = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'', re.S)
-# Directives, declarations without arithmetic, and what is told while a command runs.
+# Directives, declarations without arithmetic, and progress messages.
 passed_over = re.compile(r"^\s*(#|template|using |namespace |static_assert|extern |friend )|progress_?\.|\bsay\(|\boperator\b")
-# What a member holds before anything is told: its maker sets it.
+# Default value of a member, which its maker sets anyway.
 default_value = re.compile(r"^\s+(?!constexpr|static|inline|return)[\w:<>, ]+ \w+ = [-\w.]+;")
 
 

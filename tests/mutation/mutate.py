@@ -51,7 +51,7 @@ class Records:
             if mutant is None:
                 print(f"judged again if it is drawn: {row['file']}:{row['line']} {row['change']}")
             elif mutant.key not in self.by_key:
-                # What survivors.toml calls equivalent is looked up there, each time.
+                # Equivalence is looked up in survivors.toml each time.
                 result = "open" if row["result"] == "equivalent" else row["result"]
                 self.add(mutant, row["drawn"] == "yes", result, row["killed_by"], float(row["seconds"]), row["at_first"])
 
@@ -97,7 +97,7 @@ def main():
         folders = {mutants.folder_of(mutant.file) for mutant in chosen}
     else:
         queues = {folder: list(filter(wanted, queue)) for folder, queue in mutants.drawn(shop.source, options.seed).items()}
-        # What is open already comes first.
+        # Mutants that are open already come first.
         queues = {folder: sorted(queue, key=lambda mutant: mutant.key not in records.by_key) for folder, queue in queues.items()}
         chosen = mutants.in_turns(queues, settled)
         folders = {folder for folder in queues if queues[folder]}

@@ -94,7 +94,7 @@ class Workshop:
 
     def run(self, name, cpu, wall):
         """@returns the test that failed first, a signal or "hang", or nothing; seconds of CPU"""
-        with tempfile.TemporaryDirectory() as folder:  # packings that a mutant prepares are nobody else's
+        with tempfile.TemporaryDirectory() as folder:  # packings that a mutant prepares are for no other
             environment = os.environ | {"CROSSGRAIN_CACHE": folder, "TMPDIR": folder, "RC_PARAMS": "seed=1"}
 
             def limits():

@@ -15,7 +15,7 @@ import shutil
 import subprocess
 import sys
 
-# Each with what an earlier pass left in the build and it would go on with, the shortest first. Mutants that are judged stay so.
+# Targets, the shortest first, each with the folder of the build that is removed before, as it would go on from there. Judged mutants stay.
 TARGETS = {
     "engine_examples": None,
     "all_declared_laws": None,
