@@ -15,14 +15,14 @@ namespace {
 
 constexpr double meansOverSteps = 1.5;  // a mean over more belongs to no positions
 
-/// Ids, pairs, normals: what needs no positions.
+/// Checks of ids, pairs and normals, which need no positions.
 template <int D>
 std::string listFault(const ContactsOf<D>& contacts, const AuditBasisOf<D>& basis,
                       const ContactsByFirst& byFirst) {
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const double square = contacts.normal[k].squaredNorm();
-    // Normals are rounded where they are made, whatever the coordinates are: 10⁻⁵ is ten times
-    // what single precision leaves, and changes no stress that anybody reads.
+    // Normals are rounded where they are made, whatever the coordinates are: 10⁻⁵ is ten times the
+    // error of single precision, and too small to matter to a stress.
     if (!(std::abs(square - 1.0) <= 2e-5))
       return fmt::format("{}: its normal has length {:.6g}, not 1",
                          contactName(contacts, k, *basis.scene), std::sqrt(square));
@@ -240,7 +240,7 @@ std::string contactFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& b
   if (std::string why = listFault(contacts, basis, byFirst); !why.empty()) return why;
   if (snapshot.contactInterval > meansOverSteps * basis.dt) return {};
   if (std::string why = forceFault(contacts, basis); !why.empty()) return why;
-  if (!basis.byOverlap && !(basis.dt > 0.0)) return {};  // moved on, nobody knows how far
+  if (!basis.byOverlap && !(basis.dt > 0.0)) return {};  // moved on, by an unknown way
   ContactPlacesOf<D> places = contactPlaces(snapshot, basis);
   // Both disks of a pair may have been moved out of others that deep.
   if (!basis.byOverlap) places.rounding += 2.0 * deepestOverlap(contacts, basis, places);

@@ -18,7 +18,7 @@ struct ElasticPart {
 };
 ElasticPart elasticPart(const ContactLaw& law, const CollidingPair& pair, double overlap);
 
-/// A range of forces where the law has a memory that nobody shows.
+/// Range of forces, as a law's memory is in no snapshot.
 struct Attraction {
   double least, most;    ///< that is added to f_el [N]
   double stiffness;      ///< |its derivative| [N/m]

@@ -17,7 +17,7 @@ ContactLaw stiffened(ContactLaw law, double factor);
 ///   and if it has rigid contacts in place of soft ones, e_n, e_t0 and µ of the pair as
 ///   EffectiveParameters has them.
 /// Otherwise the constants are the scene's: an engine whose own differ is wrong, whatever it says.
-/// Absent where it has another law whose constants nobody knows.
+/// Absent where it has another law whose constants are unknown.
 /// @param scene  as the case lets the engine run it
 template <int D>
 std::optional<ContactLaw> declaredLaw(const Capabilities& can, const SceneOf<D>& scene,

@@ -15,7 +15,7 @@ namespace crossgrain::inline averaging {
 /// at δ ≤ 0 or stay within the solver's slop, whether or not an impulse passes; and where tension
 /// is cut, a pair that parts overlaps for some steps while nothing passes. A pair held together by
 /// its dashpot (f_n < 0, tension allowed) does transmit, and counts. Engines list the pairs that
-/// they looked at; the averaging, and nobody else, decides.
+/// they looked at; the averaging alone decides.
 template <int D>
 bool transmits(const ContactsOf<D>& pairs, std::size_t k) {
   const SpinOf<D> none = noSpin<D>();

@@ -26,8 +26,8 @@ void printTimeSpent() {
              shortDuration(drawing), 100.0 * drawing / all.count());
 }
 
-/// Without the middle of what nobody reads: runs of digits, and of characters in all. Characters
-/// of several bytes stay whole.
+/// The text without the middle of long runs of digits, and of a long text. Characters of several
+/// bytes stay whole.
 std::string shortened(const std::string& text) {
   constexpr std::size_t mostDigits = 40, begin = 900, end = 300;
   std::string some;

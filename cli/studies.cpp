@@ -196,7 +196,7 @@ std::string verdictText(const StabilityRun& run) {
                      figure.empty() || run.reason.empty() ? "" : "; ", run.reason);
 }
 
-/// One line for each engine and reason of what was not judged: nobody reads forty of them.
+/// One line for each engine and reason of runs that were not judged, as there may be many.
 std::string unjudgedText(const std::vector<StabilityRun>& runs, Verdict verdict, const char* word) {
   std::map<std::pair<std::string, std::string>, int> count;
   for (const StabilityRun& run : runs)

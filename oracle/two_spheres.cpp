@@ -217,7 +217,7 @@ Vec3 TwoSpheres::slipRate(const State& s, const Kinematics& k, const State& rate
   return all - all.dot(k.normal) * k.normal;
 }
 
-/// With spring_reset = "total" and a dashpot nobody asks: such a slip has no e of its own.
+/// Has no meaning with spring_reset = "total" and a dashpot: such a slip has no e of its own.
 TwoSpheres::Pull TwoSpheres::pulled(const State& s, const Kinematics& k, const State& rate) const {
   const Slope kt = tangentialStiffness(k.overlap), gt = tangentialDamping(k.overlap);
   Pull pull{kt.value * k.slip, Vec3::Zero(), 0.0};

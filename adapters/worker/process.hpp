@@ -85,7 +85,7 @@ class ChildProcess {
   /// @throws ProcessTimeout, ProcessEnded, OversizedMessage, Interrupted
   std::string receiveLine(Clock::time_point deadline, std::size_t longest);
 
-  /// The line that the child has said, or begun, and nobody has received; empty: none.
+  /// Line that the child has written, or begun, and that is not received yet; empty: none.
   std::string unasked();
 
   /// It has not ended yet.

@@ -56,7 +56,7 @@ class WorkerEngine final : public Engine {
   void checkpoint(const std::filesystem::path& file) override;
   void restore(const std::filesystem::path& file) override;
 
-  /// It is there, and has said nothing that nobody asked for.
+  /// Whether the worker runs and has written nothing without a request.
   bool isReady() const;
 
   /// From now on it works for another run: with that run's folder and patience, and a log that

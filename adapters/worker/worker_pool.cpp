@@ -61,7 +61,7 @@ WorkerPool::Taken WorkerPool::take(const Kind& kind, const std::filesystem::path
       found = std::move(*place);
       waiting_.erase(place);
     }
-    if (!found.worker->isReady()) continue;  // nobody's failure: its runs were over
+    if (!found.worker->isReady()) continue;  // no run's failure: its runs were over
     try {
       found.worker->moveTo(scratch, timeout);
       return {std::move(found.worker), found.loaded};
@@ -166,8 +166,8 @@ EffectiveParameters PooledEngine::loadTried(const Scene& scene, const Settings& 
   return worker_->load(scene, settings);
 }
 
-/// Whether loads are afresh is tried in the plane alone: until then the worker of a scene in space
-/// is nobody else's.
+/// Whether loads are afresh is tried in the plane alone: until then no other run gets the worker
+/// of a scene in space.
 EffectiveParameters PooledEngine::loadInSpace(const SpaceScene& scene, const Settings& settings) {
   return ask([&] {
     loaded_ = true;

@@ -59,22 +59,21 @@ std::string ownProgram();
 std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesystem::path& scratch,
                                     double timeout);
 
-/// A new process that is nobody else's, where the process itself matters: what it is asked
-/// first, how long it takes to start, the memory that it holds, what it does after another one's
-/// end. @throws likewise
+/// A new process for one caller alone, where the process itself matters: its first request, the
+/// time that it takes to start, its memory, its behaviour after another one's end. @throws likewise
 /// @param listener  gets every request and answer
 std::unique_ptr<Engine> startNew(const EngineEntry& entry, const std::filesystem::path& scratch,
                                  double timeout, ExchangeListener listener = {});
 
-/// The engine, whose every snapshot is compared with what must be true of it (adapters/audit.hpp)
-/// before anybody sees it: what cannot be is an EngineFailure of one line.
+/// The engine, with an audit of every snapshot (adapters/audit.hpp) before the caller gets it: an
+/// impossible one is an EngineFailure of one line.
 std::unique_ptr<Engine> audited(std::string name, std::unique_ptr<Engine> engine);
 
 /// startEngine(), audited.
 std::unique_ptr<Engine> startAudited(const EngineEntry& entry, const std::filesystem::path& scratch,
                                      double timeout);
 
-/// An impossible snapshot: its worker is not to be another run's.
+/// Keeps a worker from other runs after an impossible snapshot.
 void discardWorker(Engine& engine);
 
 /// Tells of those engines that get a new process for each run, since they were not seen to start

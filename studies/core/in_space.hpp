@@ -24,7 +24,7 @@ enum class PlaneFrame {
 /// (docs/dimensions.md, section 4). Snapshots are those of the plane again. Of what is declared the
 /// bottom plate, the energy ledger and what a spring does in space have no meaning there.
 ///
-/// Rounding moves spheres off their plane, and what grows from that is no fault of anybody's:
+/// Rounding moves spheres off their plane, and the growth of that is no fault of the engine:
 /// snapshot() throws UnsupportedScene once one has left it.
 /// @param engine  has scenes in space
 std::unique_ptr<Engine> runInSpace(std::unique_ptr<Engine> engine,

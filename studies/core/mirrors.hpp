@@ -18,7 +18,8 @@ std::optional<Capabilities> capabilitiesOf(const EngineEntry& entry, double time
 
 /// The scene that a mirror is given: the one that its peer runs. Effects that the peer lacks are
 /// gone, its conventions stand in place of those that it lacks, and its time step is taken, so that
-/// what is left between the two is nobody's model. All of it follows from the peer's capabilities.
+/// no difference between the two is due to the model. All of it follows from the peer's
+/// capabilities.
 /// Where the peer has another normal law (soft contacts that stand for rigid ones) law and step are
 /// the mirror's own, as contacts of another kind need another step.
 ///

@@ -187,7 +187,7 @@ std::vector<EndpointTest> familyOf(const Case& setup, std::span<const FlowRun> r
   return family;
 }
 
-/// Why runs that nobody here can add to decide nothing.
+/// Why runs of files, to which none can be added here, decide nothing.
 std::string whyUndecided(const EndpointTest& own) {
   constexpr double fewestDof = fewestPackings - 1;
   const InterimAnswer& found = *own.found;

@@ -12,7 +12,7 @@
 #include "studies/flow/averages.hpp"
 #include "studies/flow/snapshot_sources.hpp"
 
-/// Runs that somebody else has done and that are here as files.
+/// Runs made elsewhere, read from files.
 namespace crossgrain::inline studies {
 
 /// Whether a name of --engines is that of files: "NAME=PATTERN".

@@ -57,8 +57,8 @@ class SnapshotFileOf {
 };
 using SnapshotFile = SnapshotFileOf<2>;
 
-/// All of such a file can be read: HDF5 itself does not get over every damaged one
-/// (support/hdf5_file.hpp). To be asked before a file of anybody's is opened.
+/// Checks that all of such a file can be read: HDF5 itself does not survive every damaged one
+/// (support/hdf5_file.hpp). To be called before any user's file is opened.
 /// @throws BadInput as SnapshotReader, or that the file is damaged
 template <int D>
 void requireReadable(const std::filesystem::path& file, const Case& setup);

@@ -7,7 +7,7 @@
 #include "adapters/snapshot.hpp"
 #include "cases/case.hpp"
 
-/// Whether snapshots that nobody ran here are of the case that they are averaged by. Snapshots of
+/// Checks whether snapshots of files are of the case that they are averaged by. Snapshots of
 /// one scene averaged with the bins of another give numbers without meaning.
 namespace crossgrain::inline studies {
 

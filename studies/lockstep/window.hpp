@@ -53,8 +53,8 @@ template <int D>
 void unwrap(std::vector<VecOf<D>>& places, const std::vector<VecOf<D>>& others,
             const std::optional<BoxOf<D>>& box);
 
-/// Frames of the in-house engine in place of another; where it does not come through, under a law
-/// that drives disks through walls for one, nobody's failure is shown.
+/// Frames of the in-house engine in place of another. Where it fails, for one under a law that
+/// drives disks through walls, this is no failure of an engine.
 /// @throws UnsupportedScene  for what it fails with
 template <class Work>
 auto byMirror(const Work& work) {

@@ -115,7 +115,7 @@ Record recordOf(const Exchange& exchange) {
                  {"sent", exchange.sent.size()},
                  {"received", exchange.received.size()}},
                 exchange.sent + exchange.received};
-  // Where the arrays were is nobody's business but that run's.
+  // The place of the arrays matters to that run alone.
   record.line["request"].erase("file");
   if (exchange.answer.is_null())
     record.line["failure"] = exchange.failure;

@@ -209,8 +209,8 @@ class Trial {
     }
   }
 
-  /// The run as it is, given up where the next frame would come too late: nobody knows yet how slow
-  /// the engine is. @throws OutOfTime
+  /// The run as it is, given up where the next frame would come too late, as the speed of the
+  /// engine is not known yet. @throws OutOfTime
   std::vector<LockstepFrameOf<D>> followInTime() {
     using Clock = std::chrono::steady_clock;
     const auto began = Clock::now();
