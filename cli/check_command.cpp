@@ -38,22 +38,28 @@ double number(const json& at, const char* key) {
   return at[key].get<double>();
 }
 
-void printCell(const json& checked) {
-  const json& cell = checked["cell"];
+void printCell(const json& cell) {
   fmt::print(
       "  volume fraction {:.4f}, about {:.3f} between the walls' layers; wall disks: {} on the "
       "wheel, {} on the ring\n",
       number(cell, "volume_fraction"), number(cell, "bulk_volume_fraction"),
       number(cell, "wheel_disks"), number(cell, "ring_disks"));
-  fmt::print("  per packing: {:.0f} steps of the case's dt, {:g} rotations; packings: {}\n",
-             number(cell, "steps"), number(cell, "rotations"),
-             fmt::join(cell["looks"].get<std::vector<int>>(), ", then "));
   fmt::print("  expected: {:.0f} to {:.0f} contacts", cell["expected_contacts"][0].get<double>(),
              cell["expected_contacts"][1].get<double>());
   if (cell["expected_pressure"].is_number())
     fmt::print(", pressure {:.1g} N/m², inertial number {:.1g} at the wheel (to a factor of three)",
                number(cell, "expected_pressure"), number(cell, "expected_inertial_number"));
   fmt::print("\n");
+}
+
+void printFlow(const json& checked) {
+  const json& flow = checked["flow"];
+  fmt::print("  per packing: {:.0f} steps of the case's dt, {:.4g} s{}; packings: {}\n",
+             number(flow, "steps"), number(flow, "duration_s"),
+             checked.contains("cell")
+                 ? fmt::format(", {:g} rotations", number(checked["cell"], "rotations"))
+                 : "",
+             fmt::join(flow["looks"].get<std::vector<int>>(), ", then "));
   for (const auto& [list, what] : {std::pair("endpoints", "endpoint"), {"margins", "field"}})
     for (const json& margin : checked[list]) {
       const std::string unit = margin["relative"] == true ? "of the reference" : margin["unit"],
@@ -104,7 +110,8 @@ void printChecked(const json& checked) {
   if (checked["steps_per_contact"].is_number())
     fmt::print("  {:.3g} steps in the shortest contact; dt may be at most {:.3g} s\n",
                number(checked, "steps_per_contact"), number(checked, "step_limit_s"));
-  if (checked.contains("cell")) printCell(checked);
+  if (checked.contains("cell")) printCell(checked["cell"]);
+  if (checked.contains("flow")) printFlow(checked);
   if (const auto shared = checked["shared_conventions"].get<std::vector<std::string>>();
       !shared.empty())
     fmt::print("  {}\n", describeShared(shared));

@@ -20,7 +20,6 @@
 #include "studies/collide/sweep.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/engine_running.hpp"
-#include "studies/flow/averages.hpp"
 #include "studies/flow/endpoint_table.hpp"
 #include "studies/flow/run.hpp"
 #include "support/bad_input.hpp"
@@ -32,18 +31,16 @@ using nlohmann::json;
 
 namespace {
 
-/// The scene that engines are asked about.
+/// The scene that engines are asked about, and that they are timed on.
+template <int D>
 struct Probe {
-  Scene scene;
-  std::string packing = {};  ///< where the disks of a Couette case come from
+  SceneOf<D> scene;
+  std::string timedOn = {};  ///< where its bodies are; empty: nothing to be timed
   bool prepared = true;      ///< whether packings need no preparing any more
 };
 
 /// A Couette cell with the disks of its file, of its first packing if that is cached, or made up.
-Probe probeOf(const Case& setup) {
-  const double dt = timeStep(setup);
-  if (isCollision(setup)) return {collisionScene(setup, collisionStarts(setup), dt)};
-  if (isAssembly(setup)) return {assemblyScene(setup)};
+Probe<2> cellProbe(const Case& setup, double dt) {
   if (packingFile(setup)) {
     const auto none = engineRegistry().front().make();  // a file needs no preparing
     const Packing packing = packingOf(setup, 0, dt, *none, [](double) {});
@@ -57,13 +54,44 @@ Probe probeOf(const Case& setup) {
           "a made-up square lattice, four contacts a disk", false};
 }
 
-/// Beyond what a contact bears, as the commands refuse it; hard cases may go there.
+/// A flow as the in-house engine has it halfway through, or after a second of its time: at its
+/// start nothing may touch, and steps are cheaper there than they will be.
 template <int D>
-void requireStableStep(const Case& setup, const DisksOf<D>& disks) {
-  if (!hasFlow(setup)) return;
-  std::optional<LightestPair> lightest;  // the disks of an assembly are all in its case
+Probe<D> underWay(const Case& setup, double dt) {
+  constexpr double enough = 1.0;  // [s]
+  const auto engine = engineRegistry().front().make();
+  const Packing start = flowPacking(setup, 0, dt, *engine, [](double) {});
+  const SceneOf<D> scene = flowScene<D>(setup, start, dt);
+  loadOn(*engine, scene, {});
+  const double half = flowRestart(setup, 0.5 * flowDuration(setup));
+  double reached = 0.0;
+  for (int pieces = 64, k = 1; k <= pieces && engine->stats().cpuSeconds < enough; ++k) {
+    throwIfInterrupted();
+    reached = flowRestart(setup, half * k / pieces);
+    engine->advance(reached);
+  }
+  const SnapshotOf<D> now = snapshotOf<D>(*engine, ContactReport::none);
+  return {flowScene<D>(setup, packingAt(start, scene, now), dt),
+          fmt::format("the flow at t = {:.3g} s", reached)};
+}
+
+template <int D>
+Probe<D> probeOf(const Case& setup, bool timed) {
+  const double dt = timeStep(setup);
   if constexpr (D == 2)
-    if (cellOf(setup)) lightest = lightestPair(disks, true);
+    if (cellOf(setup)) return cellProbe(setup, dt);
+  if (!isCollision(setup))
+    return timed && hasFlow(setup) ? underWay<D>(setup, dt) : Probe<D>{assemblyScene<D>(setup)};
+  if constexpr (D == 2)
+    return {collisionScene(setup, collisionStarts(setup), dt)};
+  else
+    return {spaceCollisionScene(setup, collisionStarts(setup), dt)};
+}
+
+/// Beyond what a contact bears, as the commands refuse it; hard cases may go there.
+/// @param lightest  pair of a cell; an assembly's disks are all in its case
+void requireStableStep(const Case& setup, const std::optional<LightestPair>& lightest) {
+  if (!hasFlow(setup)) return;
   const char* const key = setup.run.dt ? "run.dt" : "run.steps_per_contact";
   const std::string why = unstableStepFault(setup, timeStep(setup), key, lightest);
   if (!why.empty()) throw BadInput(fmt::format("{}: {}", whereSaid(setup, key), why));
@@ -73,8 +101,10 @@ double stepsOf(const Case& setup, double dt) {
   return flowDuration(setup) / dt;
 }
 
-int packingsOf(const Case& setup) {
-  return packingFile(setup) ? 1 : setup.preparation.packings;
+/// Time of a step on a machine that does nothing else [s]: others lengthen the wall time, an
+/// engine's own threads the processor time.
+double alone(const StepCost& step) {
+  return std::min(step.wall, step.processor);
 }
 
 template <int D>
@@ -92,15 +122,15 @@ json suitability(const EngineEntry& entry, const Case& setup, const SceneOf<D>& 
     row["deviations"] = found.deviations;
     row["not_simulated"] = found.notSimulated;
     if (found.dt) row["dt_s"] = *found.dt;
-    if constexpr (D == 2) {
-      if (!timed) return row;
-      const BriefTiming timing = briefTiming(*engine, entry, setup, scene);
-      row["dt_s"] = timing.effective.dt;
-      row["step_s"] = timing.secondsPerStep;
-      row["timed_steps"] = timing.steps;
-      row["memory_bytes"] = timing.memory ? json(*timing.memory) : json(nullptr);
-      row["run_s"] = timing.secondsPerStep * stepsOf(setup, timing.effective.dt);
-    }
+    if (!timed) return row;
+    const EffectiveParameters effective = loadScene(*engine, entry, setup, scene);
+    const StepCost step = briefSteps(*engine, effective.dt);
+    const auto memory = mostMemoryOf(*engine);
+    row["dt_s"] = effective.dt;
+    row["step_s"] = alone(step);
+    row["timed_steps"] = step.steps;
+    row["memory_bytes"] = memory ? json(*memory) : json(nullptr);
+    row["run_s"] = alone(step) * stepsOf(setup, effective.dt);
   } catch (const UnsupportedScene& refusal) {
     row["can"] = false;
     row["reason"] = refusal.what();
@@ -125,7 +155,7 @@ json cellFigures(const Case& setup, const Scene& scene, double fraction) {
            bulk < dilutedBelow ? json{0.0, disks} : json{1.5 * disks, 2.0 * disks}},
           {"wheel_disks", scene.bodies.front().diskRadius.size()},
           {"ring_disks", scene.bodies.back().diskRadius.size()},
-          {"packings", packingsOf(setup)},
+          {"packings", flowPackings(setup)},
           {"looks", interimPlanOf(setup).packings},
           {"rotations", couetteIn(setup).times.settleRotations + couetteIn(setup).times.rotations},
           {"steps", stepsOf(setup, scene.dt)}};
@@ -151,9 +181,10 @@ json marginsOf(const auto& list, const std::map<std::string, Margin>& margins, c
 }
 
 /// Preparing and running, engines one after the other [s].
-json predictionOf(const Case& setup, const Probe& probe, const json& engines,
+template <int D>
+json predictionOf(const Case& setup, const Probe<D>& probe, const json& engines,
                   const std::filesystem::path& scratch) {
-  const double packings = packingsOf(setup);
+  const double packings = flowPackings(setup);
   const EngineEntry& inHouse = engineRegistry().front();
   double runs = 0.0;
   std::optional<double> step;  // of the engine that prepares [s]
@@ -163,13 +194,13 @@ json predictionOf(const Case& setup, const Probe& probe, const json& engines,
   }
   double preparing = 0.0;
   if (!probe.prepared) {
-    if (!step)
-      step =
-          briefTiming(*startNew(inHouse, scratch, setup.run.timeout), inHouse, setup, probe.scene)
-              .secondsPerStep;
+    if (!step) {
+      const auto engine = startNew(inHouse, scratch, setup.run.timeout);
+      step = alone(briefSteps(*engine, loadScene(*engine, inHouse, setup, probe.scene).dt));
+    }
     preparing = packings * *step * preparationSteps(setup);
   }
-  return {{"timed_on", probe.packing},
+  return {{"timed_on", probe.timedOn},
           {"preparing_s", preparing},
           {"runs_s", runs},
           {"total_s", preparing + runs}};
@@ -183,13 +214,28 @@ double volumeFractionOf(const Case& setup, const Scene& scene, bool madeUp) {
   return area / (cell.outerRadius * cell.outerRadius - cell.innerRadius * cell.innerRadius);
 }
 
-/// Description of every kind of case.
-/// @param timed  engines take some steps, too; not in space
+/// Numbers of a flow's runs.
+json flowFigures(const Case& setup, double dt) {
+  return {{"packings", flowPackings(setup)},
+          {"looks", interimPlanOf(setup).packings},
+          {"duration_s", flowDuration(setup)},
+          {"steps", stepsOf(setup, dt)}};
+}
+
+/// @param timed  engines take some steps of a flow, too
 template <int D>
-json checkedScene(const Case& setup, const SceneOf<D>& scene, double volumeFraction,
-                  const std::vector<std::string>& names, bool timed,
-                  const std::filesystem::path& scratch, Progress& progress) {
-  const bool couette = cellOf(setup) != nullptr;
+json checkedIn(const Case& setup, const std::vector<std::string>& names, bool timed,
+               const std::filesystem::path& scratch, Progress& progress) {
+  const bool couette = cellOf(setup) != nullptr, flows = hasFlow(setup);
+  if (!couette) requireStableStep(setup, {});
+  const Probe<D> probe = probeOf<D>(setup, timed);
+  const SceneOf<D>& scene = probe.scene;
+  double fraction = 0.0;
+  if constexpr (D == 2)
+    if (couette) {
+      requireStableStep(setup, lightestPair(scene.disks, true));
+      fraction = volumeFractionOf(setup, scene, !packingFile(setup));
+    }
   json result = {{"name", setup.name},
                  {"variant", setup.variant},
                  {"kind", kindOf(setup)},
@@ -199,7 +245,7 @@ json checkedScene(const Case& setup, const SceneOf<D>& scene, double volumeFract
                  {"steps_per_contact", nullptr},
                  {"effects", json::array()},
                  {"left_out", json::array()},
-                 {"cautions", cautions(setup, volumeFraction)}};
+                 {"cautions", cautions(setup, fraction)}};
   if (D == 3) result["dimension"] = D;
   if (const auto limit = pairStepLimit(setup)) {
     result["step_limit_s"] = limit->dt;
@@ -209,15 +255,23 @@ json checkedScene(const Case& setup, const SceneOf<D>& scene, double volumeFract
   for (const Effect effect : allEffects)
     result[called.contains(effect) ? "effects" : "left_out"].push_back(toString(effect));
   result["engines"] = json::array();
-  const std::vector<EngineEntry> entries =
-      couette ? enginesFor(setup, names) : selectEngines(names);
+  const std::vector<EngineEntry> entries = flows ? enginesFor(setup, names) : selectEngines(names);
   progress.begin("asking engines", std::vector<double>(entries.size(), 1.0));
   for (std::size_t k = 0; k < entries.size(); ++k) {
     throwIfInterrupted();
     progress.update(k, entries[k].name, 0.0);
-    result["engines"].push_back(suitability(entries[k], setup, scene, timed, scratch));
+    result["engines"].push_back(suitability(entries[k], setup, scene, timed && flows, scratch));
     progress.finish(k, entries[k].name);
   }
+  if (setup.region) {
+    result["endpoints"] = marginsOf(setup.endpoints, setup.averaging.endpoints, "endpoint");
+    result["margins"] = marginsOf(fieldsIn(setup.dimension, setup.region->hasRings()),
+                                  setup.averaging.margins, "field");
+  }
+  if (flows) result["flow"] = flowFigures(setup, scene.dt);
+  if constexpr (D == 2)
+    if (couette) result["cell"] = cellFigures(setup, scene, fraction);
+  if (timed && flows) result["prediction"] = predictionOf(setup, probe, result["engines"], scratch);
   return result;
 }
 
@@ -230,32 +284,8 @@ json checkedCase(const Case& setup, const std::vector<std::string>& names, bool 
     throw BadInput(setup.file.string() + ": a packing file needs [run] dt, the time step in s");
   // Refusals of --dry-run and of the command itself: the start of any packing.
   if (hasFlow(setup)) checkPackings(setup, flowPackings(setup), timeStep(setup));
-  const auto addMargins = [&](json& result) {
-    result["endpoints"] = marginsOf(setup.endpoints, setup.averaging.endpoints, "endpoint");
-    result["margins"] = marginsOf(fieldsIn(setup.dimension, setup.region->hasRings()),
-                                  setup.averaging.margins, "field");
-  };
-  if (setup.dimension == 3) {
-    const SpaceScene spheres =
-        isCollision(setup) ? spaceCollisionScene(setup, collisionStarts(setup), timeStep(setup))
-                           : assemblyScene<3>(setup);
-    requireStableStep(setup, spheres.disks);
-    json result = checkedScene(setup, spheres, 0.0, names, false, scratch, progress);
-    if (setup.region) addMargins(result);
-    return result;
-  }
-  const Probe probe = probeOf(setup);
-  const Scene& scene = probe.scene;
-  requireStableStep(setup, scene.disks);
-  const bool couette = cellOf(setup) != nullptr;
-  const double fraction = couette ? volumeFractionOf(setup, scene, !packingFile(setup)) : 0.0;
-
-  json result = checkedScene(setup, scene, fraction, names, timed && couette, scratch, progress);
-  if (setup.region) addMargins(result);
-  if (!couette) return result;
-  result["cell"] = cellFigures(setup, scene, fraction);
-  if (timed) result["prediction"] = predictionOf(setup, probe, result["engines"], scratch);
-  return result;
+  return inDimensionOf(
+      setup, [&]<int D>() { return checkedIn<D>(setup, names, timed, scratch, progress); });
 }
 
 }  // namespace crossgrain::inline studies

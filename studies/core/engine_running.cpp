@@ -35,28 +35,29 @@ double advanceInPieces(Engine& engine, const EffectiveParameters& effective, dou
   return reached;
 }
 
-template <int D>
-BriefTiming briefTiming(Engine& engine, const EngineEntry& entry, const Case& setup,
-                        const SceneOf<D>& scene) {
-  constexpr double enough = 0.1;  // s of steps
-  constexpr int warmUp = 5, most = 2000;
-  BriefTiming timing;
-  timing.effective = loadScene(engine, entry, setup, scene);
-  const double dt = timing.effective.dt;
-  engine.advance(warmUp * dt);
-  const double before = engine.stats().wallSeconds;
-  double spent = 0.0;
-  for (int more = 5; timing.steps < most && spent < enough; more *= 2) {
-    timing.steps += more;
-    engine.advance((warmUp + timing.steps) * dt);
-    spent = engine.stats().wallSeconds - before;
-  }
-  timing.secondsPerStep = spent / timing.steps;
-  timing.memory = mostMemoryOf(engine);
-  return timing;
+StepCost costBetween(const Stats& before, const Stats& after) {
+  StepCost cost;
+  cost.steps = after.steps - before.steps;
+  const auto steps = static_cast<double>(cost.steps);
+  const double wall = after.wallSeconds - before.wallSeconds,
+               processor = after.cpuSeconds - before.cpuSeconds;
+  cost.wall = wall / steps;
+  cost.processor = (processor > 0.0 ? processor : wall) / steps;
+  if (after.contactEvaluations > before.contactEvaluations)
+    cost.contacts =
+        static_cast<double>(after.contactEvaluations - before.contactEvaluations) / steps;
+  return cost;
 }
-template BriefTiming briefTiming<2>(Engine&, const EngineEntry&, const Case&, const Scene&);
-template BriefTiming briefTiming<3>(Engine&, const EngineEntry&, const Case&, const SpaceScene&);
+
+StepCost briefSteps(Engine& engine, double dt, double enough, std::uint64_t most) {
+  std::uint64_t steps = 0;
+  for (std::uint64_t stretch = 16;; stretch *= 2) {
+    const Stats before = engine.stats();
+    engine.advance(static_cast<double>(steps += stretch) * dt);
+    const StepCost cost = costBetween(before, engine.stats());
+    if (cost.processor * static_cast<double>(cost.steps) >= enough || stretch >= most) return cost;
+  }
+}
 
 namespace {
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 
@@ -16,19 +17,19 @@ namespace crossgrain::inline studies {
 double advanceInPieces(Engine& engine, const EffectiveParameters& effective, double from, double to,
                        const std::function<void(double)>& between = {});
 
-/// Time of a step of an engine, from a brief look.
-struct BriefTiming {
-  EffectiveParameters effective;      ///< its scene, with the engine's own time step
-  double secondsPerStep = 0.0;        ///< wall time [s]
-  int steps = 0;                      ///< that were timed
-  std::optional<std::size_t> memory;  ///< most that its worker held so far [bytes]
+/// Work of an engine between two looks at its counters, per step.
+struct StepCost {
+  std::uint64_t steps = 0;         ///< between the looks
+  double wall = 0.0;               ///< [s]
+  double processor = 0.0;          ///< of all its threads; wall, where it is not reported [s]
+  std::optional<double> contacts;  ///< evaluated; absent of an engine that does not count them
 };
+StepCost costBetween(const Stats& before, const Stats& after);
 
-/// Loads the scene and does steps, about a tenth of a second of them after a few to warm up.
-/// @throws UnsupportedScene, EngineFailure, BadInput
-template <int D>
-BriefTiming briefTiming(Engine& engine, const EngineEntry& entry, const Case& setup,
-                        const SceneOf<D>& scene);
+/// Steps a loaded engine on in stretches that double, until one takes `enough` of its processor
+/// time [s] or `most` steps.
+/// @returns that of the last stretch, as the first steps may be slow
+StepCost briefSteps(Engine& engine, double dt, double enough = 0.05, std::uint64_t most = 1024);
 
 /// The most that an engine's worker and what it has started held in memory so far: the sum of
 /// VmHWM of /proc/PID/status (proc(5)) over those that still run [bytes]. Pages that several share

@@ -243,11 +243,9 @@ class SizeTimings {
     const Stats before = engine->stats();
     advanceInPieces(*engine, effective, warmUp,
                     warmUp + static_cast<double>(time.steps) * effective.dt);
-    const Stats after = engine->stats();
-    const auto steps = static_cast<double>(after.steps - before.steps);
-    time.seconds = {(after.wallSeconds - before.wallSeconds) / steps};
-    time.contacts =
-        static_cast<double>(after.contactEvaluations - before.contactEvaluations) / steps;
+    const StepCost cost = costBetween(before, engine->stats());
+    time.seconds = {cost.wall};
+    time.contacts = cost.contacts;
     if (const auto memory = mostMemoryOf(*engine)) time.memory = static_cast<double>(*memory);
     time.dt = effective.dt;
     time.precision = effective.precision;

@@ -14,6 +14,7 @@
 #include "cases/materials.hpp"
 #include "cases/time_step.hpp"
 #include "studies/core/engine_access.hpp"
+#include "studies/core/engine_running.hpp"
 #include "studies/cost/collision_pairs.hpp"
 #include "studies/cost/impacts.hpp"
 #include "studies/cost/trajectory.hpp"
@@ -92,22 +93,6 @@ template double drivenSpeed(const Scene&);
 template double drivenSpeed(const SpaceScene&);
 template void requireSound(const Scene&, const Snapshot&);
 template void requireSound(const SpaceScene&, const SpaceSnapshot&);
-
-namespace {
-
-/// After a warm-up; of a slow engine few steps are enough.
-double secondsOfAStep(Engine& engine, double dt) {
-  constexpr int warmUp = 20, most = 200, least = 20;
-  constexpr double enough = 1.0;  // [s]
-  engine.advance(warmUp * dt);
-  const double before = engine.stats().wallSeconds;
-  const int steps = static_cast<int>(
-      std::clamp(warmUp * enough / std::max(before, 1e-9), 1.0 * least, 1.0 * most));
-  engine.advance((warmUp + steps) * dt);
-  return (engine.stats().wallSeconds - before) / steps;
-}
-
-}  // namespace
 
 SceneTimes timeCollisions(Engine& engine, const EngineEntry& entry, const Case& setup,
                           double step) {
@@ -241,7 +226,7 @@ void CostStudy::timeStart(std::size_t engine) {
         .dt;
   });
   timed.scene.load = secondsSince(load);
-  timed.scene.step = secondsOfAStep(worker, dt);
+  timed.scene.step = briefSteps(worker, dt, 0.5, 128).wall;
   timed.collisions = timed.scene;
   if (std::ranges::find(setup.cost.kinds, CostKind::collision) == setup.cost.kinds.end()) return;
   try {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "averaging/agreement.hpp"
+#include "studies/core/engine_running.hpp"
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline studies {
@@ -26,29 +27,6 @@ void unlessFailed(StepTimes& times, Work&& work) {
   }
 }
 
-/// Between two samples of the engine's times [s]: processor time, as other programs that have the
-/// core meanwhile add to the wall time; wall time of an engine that does not report it.
-double timeBetween(const Stats& before, const Stats& after) {
-  const double cpu = after.cpuSeconds - before.cpuSeconds;
-  return cpu > 0.0 ? cpu : after.wallSeconds - before.wallSeconds;
-}
-
-/// About how long a step takes [s]: of the last of stretches that double until one takes `target`,
-/// for the first steps may be slow.
-double roughStep(const TimedVariant& variant, double target) {
-  constexpr std::uint64_t most = 1 << 20;
-  const auto engine = variant.start();
-  const double dt = variant.load(*engine, 0);
-  std::uint64_t steps = 0, stretch = 16;
-  for (;; stretch *= 2) {
-    steps += stretch;
-    const Stats before = engine->stats();
-    engine->advance(static_cast<double>(steps) * dt);
-    const double took = timeBetween(before, engine->stats());
-    if (took >= target || stretch >= most) return took / static_cast<double>(stretch);
-  }
-}
-
 void timeOnce(const TimedVariant& variant, std::uint64_t steps, int round, StepTimes& times) {
   const auto engine = variant.start();
   const double dt = variant.load(*engine, round);
@@ -56,12 +34,9 @@ void timeOnce(const TimedVariant& variant, std::uint64_t steps, int round, StepT
   engine->advance(static_cast<double>(warmUp) * dt);
   const Stats before = engine->stats();
   engine->advance(static_cast<double>(warmUp + steps) * dt);
-  const Stats after = engine->stats();
-  const auto done = static_cast<double>(after.steps - before.steps);
-  times.seconds.push_back(timeBetween(before, after) / done);
-  if (after.contactEvaluations > before.contactEvaluations)
-    times.contacts =
-        static_cast<double>(after.contactEvaluations - before.contactEvaluations) / done;
+  const StepCost cost = costBetween(before, engine->stats());
+  times.seconds.push_back(cost.processor);
+  if (cost.contacts) times.contacts = cost.contacts;
 }
 
 }  // namespace
@@ -72,7 +47,9 @@ std::vector<StepTimes> timeSteps(const std::vector<TimedVariant>& variants, cons
   double most = 1.0;
   for (std::size_t k = 0; k < variants.size(); ++k)
     unlessFailed(times[k], [&] {
-      const double step = roughStep(variants[k], plan.seconds / 4.0);
+      const auto engine = variants[k].start();
+      const double dt = variants[k].load(*engine, 0);
+      const double step = briefSteps(*engine, dt, plan.seconds / 4.0, 1 << 20).processor;
       if (step > 0.0) most = std::max(most, plan.seconds / step);
     });
   const auto steps = static_cast<std::uint64_t>(std::ceil(std::min(most, 1e8)));

@@ -225,12 +225,12 @@ void Campaign::timeEngines() {
     if (own.entry.ofFiles()) return;
     const auto engine =
         startEngine(own.entry, store_.scratch("time-" + own.entry.name), setup_.run.timeout);
-    const BriefTiming timing = inDimensionOf(setup_, [&]<int D>() {
-      return briefTiming(*engine, own.entry, setup_, flowScene<D>(setup_, packings_.front(), dt_));
+    own.effective = inDimensionOf(setup_, [&]<int D>() {
+      return loadScene(*engine, own.entry, setup_, flowScene<D>(setup_, packings_.front(), dt_));
     });
     own.can = engine->capabilities();
-    own.effective = timing.effective;
-    own.predicted = timing.secondsPerStep * end / timing.effective.dt;
+    const double dt = own.effective->dt;
+    own.predicted = briefSteps(*engine, dt).wall * end / dt;
   });
   reportNonReusableWorkers(engines(), progress_);
 }

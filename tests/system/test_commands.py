@@ -120,6 +120,26 @@ class Check(SystemTest):
         self.assertEqual(first.stdout, again.stdout)
         self.assertIn("omega = 0.5", again.stdout)
 
+    def test_every_flow_is_timed_and_predicted(self):
+        for case, bodies in (("assembly/hopper", "disks"), ("space/shear-3d", "spheres")):
+            with self.subTest(case):
+                path = os.path.join(CASES, case + ".toml")
+                command = ("check", path, "--engines", "grain,lammps", *settings(run__may_differ="conventions"))
+                (checked,) = json.loads(self.run_program(*command, "--json").stdout)
+                flow, prediction = checked["flow"], checked["prediction"]
+                self.assertGreater(len(checked["endpoints"]), 0)
+                self.assertAlmostEqual(flow["duration_s"], flow["steps"] * checked["dt_s"], delta=checked["dt_s"])
+                self.assertRegex(prediction["timed_on"], r"^the flow at t = [\d.e-]+ s$")
+                once = sum(row["run_s"] for row in checked["engines"])
+                self.assertAlmostEqual(prediction["total_s"], flow["packings"] * once, delta=1e-9 * prediction["total_s"])
+                self.assertEqual(0, prediction["preparing_s"])
+                for row in checked["engines"]:
+                    self.assertAlmostEqual(row["run_s"], row["step_s"] * flow["steps"], delta=1e-9 * row["run_s"])
+                    self.assertGreaterEqual(row["timed_steps"], 16)
+                said = self.run_program(*command, "--no-timing").stdout
+                self.assertRegex(said, rf"(?s)\d+ {bodies}.* per packing: \d+ steps .*; packings: \d.* margin of endpoint ")
+                self.assertNotIn("predicted time", said)
+
     def test_cautions(self):
         for change, caution in (
             ("particles.small=100", "dilute: .*expect a gas"), ("particles.small=230", "over-dense: "),
