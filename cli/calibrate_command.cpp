@@ -4,15 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "cases/collision_scene.hpp"
 #include "cases/keys.hpp"
 #include "cases/loader.hpp"
-#include "cli/calibrate_contact.hpp"
 #include "cli/calibrate_text.hpp"
 #include "cli/option_groups.hpp"
 #include "law/law_options.hpp"
@@ -25,17 +27,20 @@ namespace crossgrain::inline cli {
 namespace {
 
 /// Request of calibrate: wanted values, or constants, or a case file (CommandLine::inputs), and the
-/// pair that they are for. SI units.
+/// pair that they are for; or wanted values and constants of rolling resistance and cohesion, of a
+/// disk on a plane or of a pair. SI units, angles in degrees.
 struct Request {
   std::optional<double> en, et0, contactTime;
   std::optional<double> kn, gn, kt, gt;
   std::optional<double> mass, mass2, radius, radius2, inertiaFactor;
   std::optional<double> mu, vn;
   std::optional<std::string> tension, tangential;
-  ContactRequest contact;
+  std::optional<double> rollingFrequency, rollingDecay, restAngle, pullOff;
+  std::optional<double> kr, gr, muR, w;
+  std::optional<std::string> rollingLength, rollingStiffness, rollingDamper, cohesion;
 };
 
-enum class Part { wanted, constant, body, further };
+enum class Part { wanted, constant, body, further, resistance };
 
 /// An option of one number, and what it may be.
 struct Number {
@@ -70,6 +75,24 @@ const std::vector<Number>& numbers() {
        aboveZeroTo(1.0)},
       {further, "--mu", &Request::mu, "Coulomb's coefficient", positive()},
       {further, "--vn", &Request::vn, "speed of an impact, for its overlap [m/s]", positive("m/s")},
+      {resistance, "--rolling-frequency", &Request::rollingFrequency,
+       "wanted: frequency of the rolling spring [Hz], of a disk that rolls on a plane (--mass2 "
+       "inf), or of a pair about held centres",
+       positive("Hz")},
+      {resistance, "--rolling-decay", &Request::rollingDecay,
+       "wanted with it: rate at which its amplitude falls, e^(-t*rate) [1/s] (default: 0)",
+       atLeast(0.0, "1/s")},
+      {resistance, "--rest-angle", &Request::restAngle,
+       "wanted: steepest incline that a disk rests on [degrees]", inside(0.0, 90.0, "degrees")},
+      {resistance, "--pull-off", &Request::pullOff, "wanted: largest pull of a contact [N]",
+       positive("N")},
+      {resistance, "--kr", &Request::kr, "given: rolling stiffness, as --rolling-stiffness says",
+       positive("N/m")},
+      {resistance, "--gr", &Request::gr, "given: rolling damping, as --rolling-damper says",
+       atLeast(0.0)},
+      {resistance, "--mu-r", &Request::muR, "given: coefficient of rolling resistance", positive()},
+      {resistance, "--w", &Request::w, "given: work of adhesion, 2 gamma [J/m^2]",
+       positive("J/m^2")},
   };
   return all;
 }
@@ -78,6 +101,11 @@ const Number* firstGiven(const Request& request, Part part) {
   for (const Number& number : numbers())
     if (number.part == part && request.*number.member) return &number;
   return nullptr;
+}
+
+double need(std::optional<double> value, const char* option, const char* why) {
+  if (!value) throw BadInput(fmt::format("{} is missing: {}", option, why));
+  return *value;
 }
 
 CollidingPair askedPair(const Request& request) {
@@ -130,14 +158,18 @@ std::string setNormal(ContactLaw& law, const Request& request, double en, double
 }
 
 /// Two options that say the same thing may say different things.
-void refuseContradictions(const Request& request) {
-  const bool en = request.en.has_value(), et = request.et0.has_value();
-  const bool kn = request.kn.has_value(), time = request.contactTime.has_value();
+void refuseContradictions(const Request& is) {
+  const char *const damping = "e_n gives gn", *const tangent = "e_t0 gives kt and gt",
+                    *const each = "one gives the other";
   const std::tuple<const char*, const char*, bool, const char*> pairs[] = {
-      {"--tc", "--kn", time && kn, "with e_n each gives the other"},
-      {"--en", "--gn", en && request.gn, "e_n gives gn"},
-      {"--et", "--kt", et && request.kt, "e_t0 gives kt and gt"},
-      {"--et", "--gt", et && request.gt, "e_t0 gives kt and gt"}};
+      {"--tc", "--kn", is.contactTime && is.kn, "with e_n each gives the other"},
+      {"--en", "--gn", is.en && is.gn, damping},
+      {"--et", "--kt", is.et0 && is.kt, tangent},
+      {"--et", "--gt", is.et0 && is.gt, tangent},
+      {"--rolling-frequency", "--kr", is.rollingFrequency && is.kr, each},
+      {"--rolling-frequency", "--gr", is.rollingFrequency && is.gr, each},
+      {"--rest-angle", "--mu-r", is.restAngle && is.muR, each},
+      {"--pull-off", "--w", is.pullOff && is.w, each}};
   for (const auto& [wanted, constant, both, why] : pairs)
     if (both)
       throw BadInput(fmt::format("{} and {}: {}; leave one of them out", wanted, constant, why));
@@ -222,23 +254,94 @@ std::string fromCase(const CommandLine& line, const Request& request) {
   return text;
 }
 
+/// A plane unless the second body has a finite mass; only its radius matters to cohesion.
+CollidingPair restingPair(const Request& request, bool massMatters) {
+  const double radius = need(request.radius, "--radius", "of the disk [m]");
+  const double mass = massMatters ? need(request.mass, "--mass", "what oscillates has one [kg]")
+                                  : request.mass.value_or(1.0);
+  const double factor = request.inertiaFactor.value_or(0.5);
+  const double mass2 = request.mass2.value_or(mass), radius2 = request.radius2.value_or(radius);
+  if (!std::isfinite(mass2)) return diskOnWall(radius, mass, factor * mass * radius * radius);
+  return {{radius, radius2},
+          {mass, mass2},
+          {factor * mass * radius * radius, factor * mass2 * radius2 * radius2}};
+}
+
+void setIfGiven(ContactLaw& law, const char* name, const std::optional<std::string>& value) {
+  if (!value) return;
+  try {
+    setLawOption(law, name, *value);
+  } catch (const std::invalid_argument& error) {
+    throw BadInput(error.what());
+  }
+}
+
+std::string rolling(const Request& request) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  if (request.rollingDecay && !request.rollingFrequency)
+    throw BadInput("--rolling-frequency is missing: a decay is that of an oscillation");
+  if (request.gr && !request.kr) throw BadInput("--kr is missing: --gr is the dashpot beside it");
+  ContactLaw law;
+  law.rolling = RollingLaw::spring;
+  setIfGiven(law, "rolling_length", request.rollingLength);
+  setIfGiven(law, "rolling_stiffness", request.rollingStiffness);
+  setIfGiven(law, "rolling_damper", request.rollingDamper);
+  law.muR = request.restAngle ? rollingCoefficientOf(law, *request.restAngle * degree)
+                              : request.muR.value_or(0.0);
+  law.kr = request.kr.value_or(0.0);
+  law.gr = request.gr.value_or(0.0);
+  std::optional<CollidingPair> pair;
+  if (request.rollingFrequency || request.kr) pair = restingPair(request, true);
+  if (request.rollingFrequency)
+    calibrateRolling(law, *pair, *request.rollingFrequency, request.rollingDecay.value_or(0.0));
+  try {
+    return rollingText(law, pair);
+  } catch (const std::invalid_argument& error) {
+    throw BadInput(fmt::format("--gr = {}: {}", law.gr, error.what()));
+  }
+}
+
+std::string cohesion(const Request& request) {
+  ContactLaw law;
+  if (!request.cohesion) throw BadInput("--cohesion is missing: dmt or jkr, whose pulls differ");
+  setIfGiven(law, "cohesion", request.cohesion);
+  if (law.cohesion != CohesionLaw::dmt && law.cohesion != CohesionLaw::jkr)
+    throw BadInput(
+        fmt::format("--cohesion = {}: dmt and jkr have a work of adhesion", *request.cohesion));
+  const double radius = restingPair(request, false).reducedRadius();
+  law.w = request.pullOff ? workOfAdhesion(law, *request.pullOff, radius)
+                          : need(request.w, "--w", "the work of adhesion [J/m^2]; or --pull-off");
+  return cohesionText(law, radius);
+}
+
+/// Whether rolling resistance is asked, and cohesion.
+std::pair<bool, bool> resistancesOf(const Request& is) {
+  return {is.rollingFrequency || is.rollingDecay || is.restAngle || is.kr || is.gr || is.muR ||
+              is.rollingLength || is.rollingStiffness || is.rollingDamper,
+          is.pullOff || is.w || is.cohesion};
+}
+
+std::string fromResistances(const CommandLine& line, const Request& request) {
+  const auto [rolls, coheres] = resistancesOf(request);
+  for (const Number& number : numbers())
+    if (request.*number.member && number.part != Part::body && number.part != Part::resistance)
+      throw BadInput(fmt::format("{}: rolling resistance and cohesion are a call of their own",
+                                 number.option));
+  if (!line.inputs.empty() || request.tension || request.tangential)
+    throw BadInput("rolling resistance and cohesion are a call of their own");
+  return "[law]\n" + (rolls ? rolling(request) : "") + (coheres ? cohesion(request) : "");
+}
+
 int calibrate(const CommandLine& line, const Request& request) {
   for (const Number& number : numbers())
     if (const auto value = request.*number.member; value && !number.range.contains(*value))
       throw BadInput(
           fmt::format("{} = {}: must be {}", number.option, *value, number.range.text()));
-  if (request.contact.given()) {
-    for (const Number& number : numbers())
-      if (request.*number.member && number.part != Part::body)
-        throw BadInput(fmt::format("{}: rolling resistance and cohesion are a call of their own",
-                                   number.option));
-    if (!line.inputs.empty() || request.tension || request.tangential)
-      throw BadInput("rolling resistance and cohesion are a call of their own");
-    fmt::print("{}", request.contact.answer({request.radius, request.radius2, request.mass,
-                                             request.mass2, request.inertiaFactor}));
+  refuseContradictions(request);
+  if (const auto [rolls, coheres] = resistancesOf(request); rolls || coheres) {
+    fmt::print("{}", fromResistances(line, request));
     return exitPassed;
   }
-  refuseContradictions(request);
   const Number* wanted = firstGiven(request, Part::wanted);
   // A stiffness may be wanted, too.
   const bool constant = request.gn || request.kt || request.gt || (request.kn && !wanted);
@@ -259,13 +362,25 @@ Action declareCalibrate(CLI::App& app, CommandLine& line) {
   const auto request = std::make_shared<Request>();
   addInputs(app, line, "case", "case file: what its law means for each pair", 0, 1);
   addOverrides(app, line);
-  for (const Number& number : numbers())
-    addNumber(app, number.option, (*request).*number.member, number.what);
+  const auto addNumbers = [&](bool ofResistance) {
+    for (const Number& number : numbers())
+      if ((number.part == Part::resistance) == ofResistance)
+        addNumber(app, number.option, (*request).*number.member, number.what);
+  };
+  addNumbers(false);
   addText(app, "--tension", request->tension, "whether contacts pull (default: allow)",
           "allow|cut");
   addText(app, "--tangential", request->tangential,
           "tangential law wanted (default: spring_dashpot)", "spring|spring_dashpot");
-  request->contact.addOptions(app);
+  addNumbers(true);
+  addText(app, "--rolling-length", request->rollingLength,
+          "length of rolling resistance (default: effective)",
+          "effective|twice_effective|smaller_radius|mean_radius");
+  addText(app, "--rolling-stiffness", request->rollingStiffness,
+          "what kr is times (default: length_square)", "length_square|radii|constant");
+  addText(app, "--rolling-damper", request->rollingDamper, "what gr is (default: constant)",
+          "constant|critical");
+  addText(app, "--cohesion", request->cohesion, "law of the pull", "dmt|jkr");
   return [&line, request] { return calibrate(line, *request); };
 }
 

@@ -6,11 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 #include <tuple>
 
 #include "cases/keys.hpp"
-#include "cli/calibrate_contact.hpp"
+#include "law/cohesion.hpp"
 #include "law/law_options.hpp"
 #include "oracle/calibration.hpp"
 
@@ -19,6 +20,15 @@ namespace {
 
 constexpr double stepsPerContact = 50.0;
 constexpr double softOverlap = 0.01;  // of the smaller radius
+
+/// A line of a [law] table.
+std::string constant(const char* key, double value, const char* unit) {
+  return fmt::format("{:<46} # {}\n", fmt::format("{} = {}", key, value), unit);
+}
+
+std::string optionLine(const ContactLaw& law, std::string_view name) {
+  return fmt::format("{} = \"{}\"\n", name, lawOptionValue(law, std::string(name)));
+}
 
 std::string note(const std::string& label, const std::string& value) {
   return fmt::format("#   {:<50} {}\n", label, value);
@@ -130,10 +140,37 @@ std::string lawText(const ContactLaw& law, const std::string& asked) {
   for (const LawOption& option : lawOptions()) {
     const bool asLoaded = option.get(law) == option.get(before);
     const bool always = std::ranges::find(alwaysPrinted, option.name) != alwaysPrinted.end();
-    if (mattersTo(law, option.name) && (always || !asLoaded))
-      text += fmt::format("{} = \"{}\"\n", option.name, lawOptionValue(law, option.name));
+    if (mattersTo(law, option.name) && (always || !asLoaded)) text += optionLine(law, option.name);
   }
   return text + constantsText(law);
+}
+
+std::string rollingText(const ContactLaw& law, const std::optional<CollidingPair>& pair) {
+  std::string text, meaning;
+  if (pair) {
+    const bool constantK = law.conventions.rollingStiffness == RollingStiffness::constant;
+    const bool critical = law.conventions.rollingDamper == RollingDamper::critical;
+    text = optionLine(law, "rolling") + optionLine(law, "rolling_stiffness") +
+           optionLine(law, "rolling_damper") + constant("kr", law.kr, constantK ? "N m" : "N/m") +
+           constant("gr", law.gr, critical ? "-, the damping ratio" : "kg/s");
+    const ImpliedRolling is = impliedRolling(law, *pair);
+    meaning = note(pair->plane ? "frequency on a plane, without slip"
+                               : "frequency of the pair, centres held",
+                   number(is.frequency, "Hz")) +
+              note("decay of its amplitude", number(is.decay, "1/s"));
+  }
+  text += optionLine(law, "rolling_length");
+  if (!(law.muR > 0.0)) return text + "# mu_r = …   a case needs it; not given\n" + meaning;
+  return text + constant("mu_r", law.muR, "-") + meaning +
+         note("a disk rests on inclines up to",
+              number(restAngle(law) * 180.0 / std::numbers::pi, "degrees"));
+}
+
+std::string cohesionText(const ContactLaw& law, double reducedRadius) {
+  return optionLine(law, "cohesion") + constant("w", law.w, "J/m^2") +
+         fmt::format("# gamma = {}   in place of w, with gamma_is = \"half_of_w\"\n", 0.5 * law.w) +
+         note("reduced radius R12", number(reducedRadius, "m")) +
+         note("largest pull", number(pullOff(law, reducedRadius), "N"));
 }
 
 std::string materialsText(const Case& setup) {

@@ -14,6 +14,13 @@ namespace crossgrain::inline cli {
 /// @param asked  what it was made from, for the head
 std::string lawText(const ContactLaw& law, const std::string& asked);
 
+/// Rolling resistance as lines of such a table, and its meaning for a pair, if one is asked.
+/// @throws std::invalid_argument for a pair that does not oscillate
+std::string rollingText(const ContactLaw& law, const std::optional<CollidingPair>& pair);
+
+/// The same of cohesion by a work of adhesion. @param reducedRadius  R₁₂ [m]
+std::string cohesionText(const ContactLaw& law, double reducedRadius);
+
 /// The laws of materials that differ from [law], as tables likewise.
 std::string materialsText(const Case& setup);
 
