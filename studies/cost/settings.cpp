@@ -96,8 +96,14 @@ struct SettingList {
 
   CostSetting& add(const std::string& knob, const std::string& setting,
                    const std::string& fragment) {
-    CostSetting one{knob, setting, fragment, withFragment(setup, fragment)};
-    one.refusal = switchRefusal(can, setup, {knob, "", {}, one.setup});
+    CostSetting one{knob, setting, fragment, setup};
+    try {
+      one.setup = withFragment(setup, fragment);
+      one.refusal = switchRefusal(can, setup, {knob, "", {}, one.setup});
+    } catch (const BadInput& refused) {  // a step beyond the time between snapshots, a law of
+                                         // dashpots for a case without one
+      one.refusal = refused.what();
+    }
     return settings.emplace_back(std::move(one));
   }
 };
@@ -144,15 +150,9 @@ void addOwnSettings(SettingList& to) {
 }
 
 void addLaw(SettingList& to, const std::string& option, const std::vector<std::string>& values) {
-  for (const std::string& value : values) {
-    if (value == lawOptionValue(to.setup.law, option)) continue;
-    const std::string fragment = fmt::format("[law]\n{} = \"{}\"\n", option, value);
-    try {
-      to.add(option, value, fragment);
-    } catch (const BadInput& lacking) {  // a case without a dashpot, asked for a law of dashpots
-      to.settings.push_back({option, value, fragment, to.setup, lacking.what()});
-    }
-  }
+  for (const std::string& value : values)
+    if (value != lawOptionValue(to.setup.law, option))
+      to.add(option, value, fmt::format("[law]\n{} = \"{}\"\n", option, value));
 }
 
 void addEffects(SettingList& to) {

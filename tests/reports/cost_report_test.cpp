@@ -205,6 +205,11 @@ TEST(CostOverview, EndpointsWithoutRoom_ComeFirstWithTheirBudget) {
   EXPECT_EQ(reportOf(results).overview.conclusion.front(),
             "No endpoint of b was measured within the budget of 1 min 00 s; predicted: --budget "
             "120m for b.");
+  results.missingAnswers.insert(results.missingAnswers.begin(), {"a", 14.6});
+  EXPECT_EQ(reportOf(results).overview.conclusion.front(),
+            "No endpoint of a and b was measured within the budget of 1 min 00 s; predicted: the "
+            "same command again for a, as what ran longer than predicted is kept and --budget 120m "
+            "for b.");
   results.missingAnswers.clear();
   EXPECT_FALSE(has(reportOf(results).overview.conclusion.front(), "No endpoint"));
 }

@@ -93,6 +93,16 @@ TEST(CostSettings, EffectFragment_SwitchesTheEffectOff) {
   }
 }
 
+/// The rolling disk's 400 snapshots are 5e-4 s apart, half a contact time.
+TEST(CostSettings, StepThatTheCaseRefuses_IsRefusedByItself) {
+  Case setup = loadCase(CROSSGRAIN_CASES "/assembly/roll.toml").front();
+  setup.cost.averageSteps = {20.0, 1.9};
+  const auto settings = settingsOf(CostKind::averages, setup);
+  EXPECT_EQ(find(settings, "time_step", "t_c/20").refusal, "");
+  const std::string why = find(settings, "time_step", "t_c/1.9").refusal;
+  EXPECT_NE(why.find("400 snapshots would be 0.0005 s apart"), std::string::npos) << why;
+}
+
 TEST(CostSettings, EngineWithAStepOfItsOwn_GetsItByItsSetting) {
   Capabilities can = grainCan();
   std::ranges::find(can.settings, "dt", &SettingSpec::name)->defaultValue = 5e-4;
