@@ -445,13 +445,17 @@ Curve wakes(const RecordingOf<D>& run) {
 /// Momentum and angular momentum of all disks in the windows of consecutive steps, beyond what
 /// gravity and the walls have given them by the forces that the engine shows: the larger of both
 /// sums, each by the sum of sizes of what gave it. Over a window Δp = Σ (M g − Σ F) dt, F on a
-/// wall, and ΔL = Σ (X × M g − Σ (T + c × F)) dt about the origin, but in a periodic box, which has
-/// no L. Forces of an instant count by trapezoids.
+/// wall, and ΔL = Σ (X × M g − Σ (T + c × F)) dt about the origin. There is no ΔL in a periodic
+/// box, nor where friction acts on spins that are held: what holds them turns with torques that
+/// nothing shows. Forces of an instant count by trapezoids.
 template <int D>
 Curve wallBalance(const RecordingOf<D>& run) {
   if (run.scene.bottom) return {};
   const DisksOf<D>& disks = run.scene.disks;
   const double mass = massOf(disks), dt = run.effective.dt;
+  const Effects& acts = run.effective.effects;
+  const bool turns =
+      !run.scene.box && (acts.contains(Effect::rotation) || !acts.contains(Effect::friction));
   struct Rates {
     VecOf<D> force = VecOf<D>::Zero();
     SpinOf<D> torque = noSpin<D>();
@@ -501,8 +505,8 @@ Curve wallBalance(const RecordingOf<D>& run) {
       for (const int n : {0, 1}) sizes[n] += 0.5 * passed * (start.sizes[n] + end.sizes[n]);
     }
     const auto share = [](double error, double of) { return of > 0.0 ? error / of : 0.0; };
-    curve.push_back(std::max(share(momentum.norm(), sizes[0]),
-                             run.scene.box ? 0.0 : share(sizeOf(angular), sizes[1])));
+    curve.push_back(
+        std::max(share(momentum.norm(), sizes[0]), turns ? share(sizeOf(angular), sizes[1]) : 0.0));
   }
   return curve;
 }

@@ -547,6 +547,11 @@ TEST(StabilityMeasures, WallForces_AreWhatTheDisksGet) {
   EXPECT_NEAR(other.last("wall_balance"), 20.0 / 80.0, 1e-12);  // of twice 20 + 20 N s
   at.run.snapshots.back().bodies[0].torque = 0.0;
   EXPECT_NEAR(at.last("wall_balance"), 90.0 / (60.0 * 3.0 + 30.0), 1e-12);
+  other = at;
+  other.run.effective.effects = {Effect::friction};  // on spins that are held: L says nothing
+  EXPECT_NEAR(other.last("wall_balance"), 0.0, 1e-12);
+  other.run.effective.effects = {Effect::friction, Effect::rotation};
+  EXPECT_EQ(other.last("wall_balance"), at.last("wall_balance"));
   at.run.snapshots.back().bodies[0].torque.reset();
   EXPECT_TRUE(at.curve("wall_balance").empty());
 }
