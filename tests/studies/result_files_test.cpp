@@ -1,5 +1,6 @@
 // From frames of other programs' files to snapshots, and from several files to one average, against
 // numbers by hand.
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -107,13 +108,34 @@ files::FileSceneOf<2> targetOf(const Case& setup) {
   return target;
 }
 
+PlaneSnapshots snapshotsOf(std::deque<FileFrame> frames,
+                           files::FileSceneOf<2> target = targetOf(restingDisks()),
+                           const files::FileUnits& units = {}) {
+  return {std::make_unique<FakeReader>(std::move(frames)), units, std::move(target)};
+}
+
+/// Why frames that are all read are refused.
+std::string refusalOfFrames(const std::deque<FileFrame>& frames,
+                            const files::FileSceneOf<2>& target = targetOf(restingDisks()),
+                            const files::FileUnits& units = {},
+                            std::vector<std::string>* remarks = nullptr) {
+  return test::refusalOf([&] {
+    PlaneSnapshots source = snapshotsOf(frames, target, units);
+    while (source.next()) continue;
+    if (remarks) *remarks = source.remarks();
+  });
+}
+
+std::string lines(const std::vector<std::string>& remarks) {
+  return fmt::format("{}\n", fmt::join(remarks, "\n"));
+}
+
 /// The first snapshot of that frame, changed if need be.
 Snapshot firstOf(const std::function<void(FileFrame&)>& change = {},
                  const files::FileUnits& units = {}, std::vector<std::string>* remarks = nullptr) {
   FileFrame frame = threeParticles();
   if (change) change(frame);
-  PlaneSnapshots source(std::make_unique<FakeReader>(std::deque{frame}), units,
-                        targetOf(restingDisks()));
+  PlaneSnapshots source = snapshotsOf({frame}, targetOf(restingDisks()), units);
   Snapshot now = source.next().value();
   EXPECT_FALSE(source.next());
   if (remarks) *remarks = source.remarks();
@@ -353,11 +375,7 @@ std::string refusalOfSliding(double tangential, double spin, std::size_t pairs, 
       contacts.force.emplace_back(tangential, 10.0, 0.0);
       contacts.overlap.push_back(0.1);
     }
-  return test::refusalOf([&] {
-    PlaneSnapshots source(std::make_unique<FakeReader>(std::deque{frame}), {}, targetOf(setup));
-    source.next();
-    if (remarks) *remarks = source.remarks();
-  });
+  return refusalOfFrames({frame}, targetOf(setup), {}, remarks);
 }
 
 TEST(PlaneSnapshots, FrictionAlongTheSliding_IsRefused) {
@@ -394,8 +412,7 @@ TEST(PlaneSnapshots, ParticlesThatComeAndGo_AreThoseOfTheirTimes) {
   for (int k = 0; k < 3; ++k) drop(none, 0);
   none.contacts.emplace();
   files::FileSceneOf<2> target = targetOf(restingDisks());
-  PlaneSnapshots source(
-      std::make_unique<FakeReader>(std::deque{threeParticles(), fewer, other, none}), {}, target);
+  PlaneSnapshots source = snapshotsOf({threeParticles(), fewer, other, none}, target);
   EXPECT_EQ(source.next()->position.size(), 3u);
   EXPECT_FALSE(source.disksChanged());
   Snapshot now = source.next().value();
@@ -412,13 +429,8 @@ TEST(PlaneSnapshots, ParticlesThatComeAndGo_AreThoseOfTheirTimes) {
   EXPECT_EQ(source.next()->position.size(), 0u);
   EXPECT_FALSE(source.next());
   expectSays(source.remarks().at(1), {"particles come and go", "0 to 3 of them"});
-  const auto refused = [&](FileFrame frame) {
-    return test::refusalOf([&] {
-      PlaneSnapshots again(
-          std::make_unique<FakeReader>(std::deque{threeParticles(), std::move(frame)}), {}, target);
-      while (again.next()) {
-      }
-    });
+  const auto refused = [&](const FileFrame& frame) {
+    return refusalOfFrames({threeParticles(), frame}, target);
   };
   FileFrame without = other;
   without.particles.radius.clear();
@@ -477,12 +489,7 @@ std::string motionOf(const std::function<void(FileFrame&)>& change, std::size_t 
     change(frame);
     frames.push_back(frame);
   }
-  return test::refusalOf([&] {
-    PlaneSnapshots source(std::make_unique<FakeReader>(frames), {}, targetOf(restingDisks()));
-    while (source.next()) {
-    }
-    if (remarks) *remarks = source.remarks();
-  });
+  return refusalOfFrames(frames, targetOf(restingDisks()), {}, remarks);
 }
 
 TEST(PlaneSnapshots, WaysThatVelocitiesDoNotSay_AreRefusedWithTheirFactor) {
@@ -534,11 +541,7 @@ TEST(PlaneSnapshots, TimesOffByTwo_AreRefusedInFlightAndAtEvenSpeed) {
     target.gravity = {0.0, -gravity};
     target.from = from;
     for (WallBody& body : target.bodies) body.motion.frequency = drive;
-    return test::refusalOf([&] {
-      PlaneSnapshots source(std::make_unique<FakeReader>(frames), {}, target);
-      while (source.next()) {
-      }
-    });
+    return refusalOfFrames(frames, target);
   };
   for (const double gravity : {0.0, 10.0}) {
     EXPECT_EQ(flown(1.0, gravity, 0.0, {}), "");
@@ -585,16 +588,14 @@ TEST(PlaneSnapshots, Times_AreThoseOfTheAveragedPart) {
   files::FileSceneOf<2> target = targetOf(restingDisks());
   target.from = 1.0;
   target.to = 3.0;
-  PlaneSnapshots source(
-      std::make_unique<FakeReader>(std::deque{at(0), at(100), at(200), at(300), at(400)}), units,
-      target);
+  PlaneSnapshots source = snapshotsOf({at(0), at(100), at(200), at(300), at(400)}, target, units);
   std::vector<double> times;
   while (const auto now = source.next()) times.push_back(now->positionTime);
   // As engines are averaged: the instant that averaging begins at is not of it, its end is.
   EXPECT_EQ(times, (std::vector{2.0, 3.0}));
   expectSays(source.remarks().back(), {"2 snapshots up to 1 s and 1 after 3 s are left out"});
   const auto timesOf = [&](std::deque<FileFrame> frames) {
-    PlaneSnapshots own(std::make_unique<FakeReader>(std::move(frames)), units, target);
+    PlaneSnapshots own = snapshotsOf(std::move(frames), target, units);
     std::vector<double> found;
     while (const auto now = own.next()) found.push_back(now->positionTime);
     return found;
@@ -609,12 +610,8 @@ TEST(PlaneSnapshots, Times_AreThoseOfTheAveragedPart) {
   // Nothing else is there: a single snapshot is of the instant that it is of.
   EXPECT_EQ(timesOf({timed(0.5), timed(1.0)}), (std::vector{1.0}));
   EXPECT_EQ(timesOf({timed(1.0), timed(3.5)}), (std::vector{1.0}));
-  const auto refused = [&](std::deque<FileFrame> frames) {
-    return test::refusalOf([&] {
-      PlaneSnapshots bad(std::make_unique<FakeReader>(std::move(frames)), units, target);
-      while (bad.next()) {
-      }
-    });
+  const auto refused = [&](const std::deque<FileFrame>& frames) {
+    return refusalOfFrames(frames, target, units);
   };
   expectSays(refused({at(1), at(2)}), {"no snapshot lies between 1 and 3 s", "0.02 s"});
   expectSays(refused({at(200), at(200)}), {"not after the one before"});
@@ -632,11 +629,9 @@ TEST(PlaneSnapshots, LoneFileWithoutATime_IsOfTheEnd) {
     frame.alone = true;
     files::FileUnits units;
     units.dt = dt;
-    PlaneSnapshots source(std::make_unique<FakeReader>(std::deque{frame}), units, target);
+    PlaneSnapshots source = snapshotsOf({frame}, target, units);
     const double t = source.next().value().positionTime;
-    std::string all;
-    for (const std::string& remark : source.remarks()) all += remark + "\n";
-    expectSays(all, {"says no time", says});
+    expectSays(lines(source.remarks()), {"says no time", says});
     return t;
   };
   EXPECT_EQ(timeBy({}, 0.0, "of the end of the averaged time, t = 3 s"), 3.0);
@@ -651,11 +646,7 @@ TEST(PlaneSnapshots, WhatLaterSnapshotsLack_IsRefused) {
     std::deque<FileFrame> frames;
     for (int k = 1; k <= 3; ++k) frames.push_back(threeParticles(k));
     change(first ? frames[0] : frames[2]);
-    return test::refusalOf([&] {
-      PlaneSnapshots source(std::make_unique<FakeReader>(frames), {}, targetOf(restingDisks()));
-      while (source.next()) {
-      }
-    });
+    return refusalOfFrames(frames);
   };
   const auto withoutDirection = [](FileFrame& f) {
     f.contacts->force.clear();
@@ -682,7 +673,7 @@ TEST(PlaneSnapshots, NormalForcesAlone_AreThoseOfALawWithoutFriction) {
     FileFrame frame = threeParticles();
     frame.contacts->force.clear();
     frame.contacts->normalForce = {10.0, 2.0, 10.0};
-    PlaneSnapshots source(std::make_unique<FakeReader>(std::deque{frame}), {}, targetOf(setup));
+    PlaneSnapshots source = snapshotsOf({frame}, targetOf(setup));
     const bool found = source.next()->contacts.has_value();
     EXPECT_EQ(source.remarks().back().starts_with("no tangential forces in the files"), !found);
     return found;
@@ -734,9 +725,8 @@ TEST(PlaneSnapshots, OneVelocity_IsRefusedOrRemarked) {
       expectSays(motionOf(fast(speed, after), 3),
                  {"particle 12 has a velocity of", "within a step of"});
   EXPECT_EQ(motionOf(fast(1000.0), 3, &remarks), "");
-  std::string all;
-  for (const std::string& remark : remarks) all += remark + "\n";
-  expectSays(all, {"particle 12 has a velocity of 1e+03 m/s, no other one of more than"});
+  expectSays(lines(remarks),
+             {"particle 12 has a velocity of 1e+03 m/s, no other one of more than"});
 }
 
 /// Hertz: places of six digits say no overlap, the file's own has the force of the law.
@@ -755,11 +745,9 @@ TEST(PlaneSnapshots, ForcesOfTheShownOverlaps_AreOfTheLaw) {
     contacts.force = {{force, 0.0, 0.0}};
     contacts.overlap = {overlap};
     if (!shown) contacts.overlap.clear();
-    PlaneSnapshots source(std::make_unique<FakeReader>(std::deque{frame}), {}, targetOf(setup));
+    PlaneSnapshots source = snapshotsOf({frame}, targetOf(setup));
     source.next();
-    std::string all;
-    for (const std::string& remark : source.remarks()) all += remark + "\n";
-    return all.find("not those of the case's law") != std::string::npos;
+    return lines(source.remarks()).find("not those of the case's law") != std::string::npos;
   };
   // f = k_n √R₁₂ δ^1.5, with R₁₂ = 0.5 m.
   const auto byLaw = [](double overlap) { return 1e6 * std::sqrt(0.5) * std::pow(overlap, 1.5); };
@@ -803,8 +791,7 @@ TEST(PlaneSnapshots, WallDisksOfACell_AreFoundAtAnyAngle) {
   add({0.05, 0.0}, couetteIn(setup).particles.smallRadius);
   FileFrame later = frame;
   later.time = 0.75;
-  PlaneSnapshots source(std::make_unique<FakeReader>(std::deque{frame, later}), {},
-                        targetOf(setup));
+  PlaneSnapshots source = snapshotsOf({frame, later}, targetOf(setup));
   EXPECT_EQ(source.scene().disks.size(), 1u);
   const Snapshot first = source.next().value(), second = source.next().value();
   EXPECT_EQ(first.position, (std::vector<Vec2>{{0.05, 0.0}}));
@@ -835,9 +822,7 @@ TEST(PlaneSnapshots, WallDisksOfAnAssembly_AreAllThereOrNone) {
       frame.particles.velocity.emplace_back(0.25, 0.0, 0.0);
       frame.particles.spin.push_back(Vec3::Zero());
     }
-    return PlaneSnapshots(std::make_unique<FakeReader>(std::deque{frame}), {}, targetOf(setup))
-        .next()
-        .value();
+    return snapshotsOf({frame}, targetOf(setup)).next().value();
   };
   for (const auto& walls : {std::vector<Vec3>{}, {{1.0, 5.0, 0.0}, {-1.0, 5.0, 0.0}}}) {
     const Snapshot now = opened(walls);  // both have moved by half a metre
@@ -916,9 +901,8 @@ class AssemblyFiles : public testing::Test {
     const Scene scene = assemblyScene(setup_, assemblyDisks(setup_, 0), 0.0, 1e-3);
     const std::filesystem::path path = folder_.path() / name;
     SnapshotFile out(path, engine, scene, 1, 1);
-    PlaneSnapshots source(
-        std::make_unique<FakeReader>(std::deque{threeParticles(1.0), threeParticles(2.0)}), {},
-        targetOf(setup_));
+    PlaneSnapshots source =
+        snapshotsOf({threeParticles(1.0), threeParticles(2.0)}, targetOf(setup_));
     for (int k = 1; auto now = source.next(); ++k) {
       now->contacts->normalForce[0] = force;
       out.offer(*now, k);
