@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "adapters/grain.hpp"
-#include "cases/collision_scene.hpp"
 #include "law/cohesion.hpp"
 #include "oracle/collision_flight.hpp"
 #include "oracle/collision_oracle.hpp"
@@ -260,14 +258,11 @@ TEST(CohesionOracle, Engine_MeetsItAndSticksWhereItDoes) {
         const CollisionEnd expected = oracleOutcome(setup.law, pair, start);
         const double time =
             impactTime(setup.law, {pair.reducedMass(), pair.reducedRadius(), speed});
-        const Scene scene = collisionScene(setup, {start}, time / 4000.0);
-        const auto engine = makeGrain();
-        engine->load(scene, {});
-        engine->advance(longestContact * time);
-        const auto found = collisionEnd(scene, engine->snapshot(ContactReport::none), 0, start);
+        const double dt = time / 4000.0;
+        const auto found = endByEngine(setup, start, dt, longestContact * time);
         ASSERT_EQ(found.has_value(), expected.parted) << speed;
         if (!found) continue;
-        const double jumps = pullOff(law, pair.reducedRadius()) * scene.dt;
+        const double jumps = pullOff(law, pair.reducedRadius()) * dt;
         EXPECT_NEAR(found->en, expected.en, 1e-4 + jumps / (pair.reducedMass() * speed))
             << static_cast<int>(law.cohesion) << speed;
         EXPECT_NEAR(*found->duration, *expected.duration, 1e-3 * time);
@@ -347,11 +342,8 @@ TEST(RandomCohesion, Oracle_ClosesTheAccountAndIsWhatSmallStepsGive) {
     (end.parted ? parted : stuck) += 1;
     noLimit += end.noLimit;
     if (!end.parted) continue;
-    const EnergySplit& lost = *end.lost;
-    const double sum = end.energyAfter + lost.normalDamping + lost.tangentialDamping +
-                       lost.stiffening + lost.sliding + lost.stored + lost.plastic.value_or(0.0) +
-                       lost.detachment.value_or(0.0);
-    EXPECT_NEAR(sum, end.energyBefore, 1e-8 * end.energyBefore) << static_cast<int>(law.cohesion);
+    EXPECT_NEAR(accountOf(end), end.energyBefore, 1e-8 * end.energyBefore)
+        << static_cast<int>(law.cohesion);
     EXPECT_NEAR(end.en, plain.en, 6e-3) << static_cast<int>(law.cohesion);
     if (end.noLimit) continue;
     EXPECT_NEAR(end.psi, plain.psi, 0.02) << static_cast<int>(law.cohesion);

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "adapters/grain.hpp"
 #include "cases/case.hpp"
+#include "cases/collision_scene.hpp"
 #include "plain_integration.hpp"
 #include "tests/support/draw.hpp"
 
@@ -29,6 +32,26 @@ inline void drawConventions(Draw& draw, LawConventions& how) {
   how.springReset = draw.oneOf({SpringReset::total, SpringReset::springOnly});
   how.leverArm = draw.oneOf({LeverArm::radius, LeverArm::contactPoint});
   how.history = draw.oneOf({History::displacement, History::force});
+}
+
+/// What is left of the energy and all that was lost [J].
+inline double accountOf(const CollisionEnd& end) {
+  const EnergySplit& lost = *end.lost;
+  double sum = end.energyAfter + lost.normalDamping + lost.tangentialDamping + lost.stiffening +
+               lost.sliding + lost.stored;
+  for (const auto& part : {lost.rollingDamping, lost.rolling, lost.plastic, lost.detachment})
+    sum += part.value_or(0.0);
+  return sum;
+}
+
+/// What the in-house engine makes of a start until that time, if the two have parted by then.
+inline std::optional<CollisionEnd> endByEngine(const Case& setup, const CollisionStart& start,
+                                               double dt, double time) {
+  const Scene scene = collisionScene(setup, {start}, dt);
+  const auto engine = makeGrain();
+  engine->load(scene, {});
+  engine->advance(time);
+  return collisionEnd(scene, engine->snapshot(ContactReport::none), 0, start);
 }
 
 /// Random collisions against plain integrations, and how they came out.

@@ -6,8 +6,6 @@
 #include <limits>
 #include <string>
 
-#include "adapters/grain.hpp"
-#include "cases/collision_scene.hpp"
 #include "oracle/collision_flight.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"
@@ -74,10 +72,8 @@ TEST(RandomStiffening, OfTheOracleCloseTheAccountAndAreOdd) {
     const CollidingPair pair = collidingPair(setup);
     const CollisionStart start = randomStart(draw, setup);
     const CollisionEnd end = oracleOutcome(setup.law, pair, start);
-    const EnergySplit& lost = *end.lost;
-    const double sum = end.energyAfter + lost.normalDamping + lost.tangentialDamping +
-                       lost.stiffening + lost.sliding + lost.stored;
-    ASSERT_NEAR(sum, end.energyBefore, 1e-8 * end.energyBefore) << "collision " << k;
+    ASSERT_NEAR(test::accountOf(end), end.energyBefore, 1e-8 * end.energyBefore)
+        << "collision " << k;
     double& most = gain[static_cast<int>(setup.law.conventions.history)];
     most = std::max(most, end.energyAfter / end.energyBefore - 1.0);
     // A reset to the bound stores what the dashpot carried, more than a weak damper takes.
@@ -103,12 +99,7 @@ TEST(RandomStiffening, OfTheEngineMeetTheOracle) {
     const CollisionEnd expected = oracleOutcome(setup.law, pair, start);
     const double contact =
         impactTime(setup.law, {pair.reducedMass(), pair.reducedRadius(), start.vn});
-    const double dt = contact / 4000.0;
-    const Scene scene = collisionScene(setup, {start}, dt);
-    const auto engine = makeGrain();
-    engine->load(scene, {});
-    engine->advance(8.0 * contact);
-    const auto found = collisionEnd(scene, engine->snapshot(ContactReport::none), 0, start);
+    const auto found = test::endByEngine(setup, start, contact / 4000.0, 8.0 * contact);
     ASSERT_TRUE(found) << "collision " << k << " did not part";
     // First order in dt/t_c where dashpots act or a slip begins within a step.
     ASSERT_NEAR(found->en, expected.en, 5e-3) << "collision " << k;

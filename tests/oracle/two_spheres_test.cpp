@@ -340,9 +340,21 @@ struct Plain {
   }
 };
 
-/// (e_n, Ψ_f, Ψ_f·b, a ω of both) at the end, in steps of t_c/count.
-Eigen::Matrix<double, 9, 1> plainly(const ContactLaw& law, const CollidingPair& pair,
-                                    const CollisionStart& start, int count) {
+using NineNumbers = Eigen::Matrix<double, 9, 1>;
+
+/// e_n, both parts of Ψ_f and a ω/v_n of both.
+NineNumbers numbersOf(const CollisionEnd& end, const CollidingPair& pair) {
+  const double a = pair.radius[0], b = pair.radius[1];
+  const EndOutOfPlane& out = *end.outOfPlane;
+  NineNumbers all;
+  all << end.en, end.psi, out.psi, a * end.spin[0], b * end.spin[1], a * out.spinNormal[0],
+      a * out.spinTangent[0], b * out.spinNormal[1], b * out.spinTangent[1];
+  return all;
+}
+
+/// At the end, in steps of t_c/count.
+NineNumbers plainly(const ContactLaw& law, const CollidingPair& pair, const CollisionStart& start,
+                    int count) {
   const SpaceMotion before = spaceMotionBefore(pair, start);
   Plain now{law,
             pair,
@@ -364,14 +376,7 @@ Eigen::Matrix<double, 9, 1> plainly(const ContactLaw& law, const CollidingPair& 
     (tried.overlap() > 0.0 ? low : high) = 0.5 * (low + high);
   }
   last.step(low);
-  const CollisionEnd end = spaceEndOf(pair, start, {last.normal(), last.v, {last.wi, last.wj}});
-  Eigen::Matrix<double, 9, 1> all;
-  all << end.en, end.psi, end.outOfPlane->psi, pair.radius[0] * end.spin[0],
-      pair.radius[1] * end.spin[1], pair.radius[0] * end.outOfPlane->spinNormal[0],
-      pair.radius[0] * end.outOfPlane->spinTangent[0],
-      pair.radius[1] * end.outOfPlane->spinNormal[1],
-      pair.radius[1] * end.outOfPlane->spinTangent[1];
-  return all;
+  return numbersOf(spaceEndOf(pair, start, {last.normal(), last.v, {last.wi, last.wj}}), pair);
 }
 
 TEST(TwoSpheres, AnyImpact_IsThatOfEqualStepsByAnotherRoute) {
@@ -389,14 +394,9 @@ TEST(TwoSpheres, AnyImpact_IsThatOfEqualStepsByAnotherRoute) {
     for (Vec2& besides : start.spinOutOfPlane)
       besides = {2000.0 * uniform(random), 300.0 * uniform(random)};
     const CollidingPair pair = spheres();
-    const CollisionEnd end = oracleOutcome(law, pair, start);
-    const auto coarse = plainly(law, pair, start, 80000), fine = plainly(law, pair, start, 160000);
-    Eigen::Matrix<double, 9, 1> found;
-    found << end.en, end.psi, end.outOfPlane->psi, pair.radius[0] * end.spin[0],
-        pair.radius[1] * end.spin[1], pair.radius[0] * end.outOfPlane->spinNormal[0],
-        pair.radius[0] * end.outOfPlane->spinTangent[0],
-        pair.radius[1] * end.outOfPlane->spinNormal[1],
-        pair.radius[1] * end.outOfPlane->spinTangent[1];
+    const NineNumbers coarse = plainly(law, pair, start, 80000),
+                      fine = plainly(law, pair, start, 160000),
+                      found = numbersOf(oracleOutcome(law, pair, start), pair);
     const double off = (2.0 * fine - coarse - found).cwiseAbs().maxCoeff();
     EXPECT_LT(off, 1e-7) << k;
   }
@@ -465,18 +465,6 @@ struct Stepped {
     x += h * v;
   }
 };
-
-using NineNumbers = Eigen::Matrix<double, 9, 1>;
-
-/// e_n, both parts of Ψ_f and a ω/v_n of both.
-NineNumbers numbersOf(const CollisionEnd& end, const CollidingPair& pair) {
-  const double a = pair.radius[0], b = pair.radius[1];
-  const EndOutOfPlane& out = *end.outOfPlane;
-  NineNumbers all;
-  all << end.en, end.psi, out.psi, a * end.spin[0], b * end.spin[1], a * out.spinNormal[0],
-      a * out.spinTangent[0], b * out.spinNormal[1], b * out.spinTangent[1];
-  return all;
-}
 
 /// Mean over where in a step the spheres meet, in steps of t_c/count.
 NineNumbers steppedThrough(const ContactLaw& law, const CollidingPair& pair,
