@@ -7,7 +7,8 @@ A redesign changes none of them. Whoever changes one on purpose says why in the 
 
 A file of a folder stands for results.json or for a CSV file of the run. It is text, a number or a row a line, without
 what depends on the time of day, on the machine or on how long anything took. A file above MOST_TEXT is kept as digests
-instead, one of each group of its lines: `golden.py make --to DIR NAME` with the program before and after shows their numbers.
+instead, one of each group of its lines, as fine as MOST_GROUPS allows: `golden.py make --to DIR NAME` writes every line,
+so that the program before and after shows which numbers changed.
 
 The processor must not have a say: the in-house engine and the C library are limited to instructions that every x86-64
 machine has. The compiler and the C library have one, so the folders are of Debian 12.
@@ -27,6 +28,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 # Where the program runs, so that messages name files alike wherever the sources are.
 ROOT = HERE.parents[1]
 MOST_TEXT = 12_000  # bytes
+MOST_GROUPS = 24
 
 BASELINE = {
     "GRAIN_INSTRUCTIONS": "baseline",
@@ -116,36 +118,44 @@ def leaves(value, path=""):
 
 
 def rows(text):
-    """(group, line) of every row of a CSV file."""
+    """(first cells, line) of every row of a CSV file."""
     table = list(csv.reader(io.StringIO(text)))
-    kept = [index for index, column in enumerate(table[0]) if column not in TRANSIENT]
+    lasting_columns = [index for index, column in enumerate(table[0]) if column not in TRANSIENT]
     for row in table:
-        cells = [row[index] for index in kept]
-        yield ",".join(cells[:2]), ",".join(cells)
+        cells = [row[index] for index in lasting_columns]
+        yield cells[:2], ",".join(cells)
 
 
 def lasting(file, folder):
-    """(group, line) of a file of a run, and digests of groups where it is long."""
+    """(parts of its name, line) of every line of a file of a run."""
     text = file.read_text(encoding="utf-8").replace(str(folder), "FOLDER").replace(str(ROOT), "ROOT")
     if file.suffix == ".csv":
-        lines = list(rows(text))
-    elif file.suffix == ".json":
+        return list(rows(text))
+    if file.suffix == ".json":
         document = json.loads(text)
         if isinstance(document, list):  # of engines: others are installed here, and not there
             document = [item for item in document if item["name"] in BUILT_IN.split(",")]
-        lines = [("/".join(path.split("/")[:3]), f"{path} {value}") for path, value in leaves(document)]
-    else:
-        lines = [(line, line) for line in text.splitlines() if " a step:" not in line and "predicted time of" not in line]
+        return [(path.split("/")[1:4], f"{path} {value}") for path, value in leaves(document)]
+    return [([line], line) for line in text.splitlines() if " a step:" not in line and "predicted time of" not in line]
+
+
+def kept(lines):
+    """The lines themselves, or where they are many a digest and the number of those whose names begin alike."""
     if sum(len(line) for _, line in lines) <= MOST_TEXT:
         return [line for _, line in lines]
-    groups = {}
-    for group, line in lines:
-        groups.setdefault(group, hashlib.sha256()).update((line + "\n").encode())
-    return [f"{digest.hexdigest()[:12]} {group}" for group, digest in groups.items()]
+    for depth in (3, 2, 1):
+        groups = {}
+        for parts, line in lines:
+            groups.setdefault("/".join(parts[:depth]), []).append(line + "\n")
+        if len(groups) <= MOST_GROUPS:
+            break
+    return [
+        f"{hashlib.sha256(''.join(group).encode()).hexdigest()[:12]} {len(group)} {name}" for name, group in groups.items()
+    ]
 
 
 def run(name, folder):
-    """Runs the commands of that name. @returns lines by file name"""
+    """Runs the commands of that name. @returns named lines by file name"""
     out, first = folder / "out", folder / "first"
     names = {"out": out, "first": first, "cell": CELL, "built_in": BUILT_IN, "short": " ".join(SHORT)}
     env = os.environ | BASELINE | {"NO_COLOR": "1"}
@@ -161,25 +171,25 @@ def run(name, folder):
         if done.returncode not in (0, 1):
             raise AssertionError(f"{command}: status {done.returncode}\n{done.stderr}")
     if out.is_dir():
-        kept = [file for file in sorted(out.iterdir()) if file.suffix in (".csv", ".json", ".toml")]
-        found = {file.name: lasting(file, folder) for file in kept}
+        files = [file for file in sorted(out.iterdir()) if file.suffix in (".csv", ".json", ".toml")]
+        found = {file.name: lasting(file, folder) for file in files}
     else:
         file = folder / ("stdout.json" if done.stdout.startswith(("{", "[")) else "stdout.txt")
         file.write_text(done.stdout, encoding="utf-8")
         found = {file.name: lasting(file, folder)}
-    return found | {"status": [str(done.returncode)]}
+    return found | {"status": [([], str(done.returncode))]}
 
 
 def differences(name):
     """What is otherwise than kept, a line each."""
-    kept = {
+    written = {
         file.name.removesuffix(".txt"): file.read_text(encoding="utf-8").splitlines()
         for file in (HERE / name).iterdir()
     }
     with tempfile.TemporaryDirectory(prefix="crossgrain-golden-") as folder:
         found = run(name, pathlib.Path(folder))
-    for file in sorted(kept.keys() | found.keys()):
-        before, after = kept.get(file, []), found.get(file, [])
+    for file in sorted(written.keys() | found.keys()):
+        before, after = written.get(file, []), kept(found.get(file, []))
         if before == after:
             continue
         yield from (f"{name}/{file}: - {line}" for line in before if line not in set(after))
@@ -195,7 +205,8 @@ def make(name, to):
     for old in (to / name).iterdir():
         old.unlink()
     for file, lines in found.items():
-        (to / name / f"{file}.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        text = kept(lines) if to == HERE else [line for _, line in lines]
+        (to / name / f"{file}.txt").write_text("\n".join(text) + "\n", encoding="utf-8")
 
 
 def main(arguments):
