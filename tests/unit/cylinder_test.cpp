@@ -1,5 +1,5 @@
 // Cylinders among the walls of a scene in space: ids, limits, starts and audits. Their physics is
-// in grain_cylinder_test.cpp and, for all engines, in worker/space_test.cpp.
+// in grain_cylinder_test.cpp and, for all engines, in studies/conformance/cylinder_checks.cpp.
 #include <gtest/gtest.h>
 
 #include "adapters/audit.hpp"

@@ -95,7 +95,6 @@ void expectRollingOscillation(Engine& engine, WallBody body, double height, doub
   law.rolling = RollingLaw::spring;
   law.muR = 0.4;
   law.kr = 2.25 * law.kn * law.muR * law.muR;  // LIGGGHTS' epsd has no other
-  law.conventions.rollingLoad = RollingLoad::magnitude;
   scene.gravity = {0.0, -9.81};
   scene.dt = 1e-6;
   const double overlap = smallMass * 9.81 / law.kn, spin = 0.02;
@@ -216,32 +215,6 @@ TEST_P(LammpsAlone, CohesionAtPlanes_IsRefusedWhereItIsWrong) {
   law.mu = law.gt = law.gn = 0.1;
   EXPECT_THROW(engine_->load(scene, {}), UnsupportedScene);
 }
-
-using LiggghtsAlone = LammpsWorkers;
-
-TEST_P(LiggghtsAlone, ConstantTorque_SlowsTheSpinLinearly) {
-  // A disk rests on a wall disk and turns, without friction: J ω′ = −µ_r R₁₂ k_n δ = −µ_r R₁₂ m g.
-  // A step more or less is 1e-3 of what is lost in 10 ms.
-  Scene scene = emptyScene(NormalLaw::linear);
-  scene.law.rolling = RollingLaw::constantTorque;
-  scene.law.muR = 0.1;
-  scene.gravity = {0.0, -9.81};
-  const double weight = smallMass * 9.81, spin = 20.0;
-  addDisk(scene, smallRadius, smallMass, {0.0, 2.0 * smallRadius - weight / scene.law.kn}, {0, 0},
-          spin);
-  scene.bodies.push_back(diskWall({0.0, 0.0}, smallRadius));
-  engine_->load(scene, {});
-  const double t = engine_->advance(0.01);
-  const Snapshot now = engine_->snapshot(ContactReport::instant);
-  const double torque = -0.1 * 0.5 * smallRadius * weight;
-  ASSERT_EQ(now.contacts->rollingTorque.size(), 1U);
-  EXPECT_NEAR(now.contacts->rollingTorque[0], torque, 1e-9 * -torque);
-  const double lost = -torque * t / scene.disks.inertia[0];
-  EXPECT_NEAR(spin - now.spin->at(0), lost, 2e-3 * lost);
-}
-
-INSTANTIATE_TEST_SUITE_P(Liggghts, LiggghtsAlone, ::testing::Values("liggghts"),
-                         [](const auto& each) { return std::string(each.param); });
 
 INSTANTIATE_TEST_SUITE_P(Lammps, LammpsAlone, ::testing::Values("lammps"),
                          [](const auto& each) { return std::string(each.param); });
