@@ -7,10 +7,7 @@
 #include <hdf5.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <functional>
-#include <sstream>
 
 #include "cases/case_files.hpp"
 #include "cases/loader.hpp"
@@ -18,9 +15,8 @@
 #include "results/conformance.hpp"
 #include "results/schema.hpp"
 #include "results/stability.hpp"
-#include "tests/fuzz/damage.hpp"
+#include "tests/fuzz/reading.hpp"
 #include "tests/reports/sample_results.hpp"
-#include "tests/support/input_range.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace {
@@ -28,50 +24,7 @@ namespace {
 using namespace crossgrain;
 namespace fs = std::filesystem;
 
-std::string contentOf(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream content;
-  content << in.rdbuf();
-  return content.str();
-}
-
-/// Writes a new file: some file systems wait for the disk where an existing one is truncated.
-void write(const fs::path& file, const std::string& content) {
-  fs::remove(file);
-  std::ofstream(file, std::ios::binary) << content;
-}
-
-/// Counts accepted and refused inputs, and expects one line for each refusal.
-class Reading {
- public:
-  template <typename Work>
-  void read(std::uint64_t number, Work&& work) {
-    try {
-      work();
-      ++taken;
-    } catch (const BadInput& refusal) {
-      expectLine(number, refusal.what());
-    } catch (const FieldError& refusal) {
-      expectLine(number, refusal.what());
-    } catch (const std::exception& other) {
-      ADD_FAILURE() << "input " << number << ": neither taken nor refused: " << other.what();
-    }
-  }
-  /// Expects both outcomes, or the inputs would be no test; few inputs may lack one.
-  void expectBoth(std::uint64_t all) const {
-    if (all < 100) return;
-    EXPECT_GT(taken, all / 100);
-    EXPECT_GT(refused, all / 10);
-  }
-  std::uint64_t taken = 0, refused = 0;
-
- private:
-  void expectLine(std::uint64_t number, const std::string& line) {
-    EXPECT_FALSE(line.empty()) << "input " << number;
-    EXPECT_EQ(line.find('\n'), std::string::npos) << "input " << number << ": " << line;
-    ++refused;
-  }
-};
+using test::contentOf, test::write;
 
 TEST(FuzzedInput, CasesLoadOrAreRefusedInOneLine) {
   const fs::path cases = CROSSGRAIN_CASES;
@@ -90,26 +43,20 @@ TEST(FuzzedInput, CasesLoadOrAreRefusedInOneLine) {
     corpus.push_back(contentOf(cases / name));
     places.push_back(folder.path() / fs::path(name).parent_path() / "fuzzed.toml");
   }
-  Reading reading;
-  const test::InputRange all = test::inputs(10'000);
-  for (std::uint64_t k = all.from; k < all.to && !HasFailure(); ++k) {
-    test::Draw draw(k);
+  test::readAll(10'000, [&](std::uint64_t k, test::Draw& draw) {
     const std::size_t which = k % corpus.size();
     write(places[which], test::damagedText(corpus[which], draw));
-    reading.read(k, [&] {
-      const std::vector<Case> loaded = loadCase(places[which]);
-      ASSERT_FALSE(loaded.empty());
-      for (const Case& setup : loaded) {
-        EXPECT_TRUE(std::isfinite(setup.law.kn) && setup.law.kn >= 0.0) << k;
-        EXPECT_TRUE(std::isfinite(setup.law.mu) && setup.law.mu >= 0.0) << k;
-      }
-      if (k % 16 != 0) return;  // an accepted case can be written and read again
-      const fs::path again = places[which].parent_path() / "again.toml";
-      write(again, resolvedFile(loaded));
-      EXPECT_EQ(loadCase(again).size(), loaded.size()) << k;
-    });
-  }
-  reading.expectBoth(all.size());
+    const std::vector<Case> loaded = loadCase(places[which]);
+    ASSERT_FALSE(loaded.empty());
+    for (const Case& setup : loaded) {
+      EXPECT_TRUE(std::isfinite(setup.law.kn) && setup.law.kn >= 0.0) << k;
+      EXPECT_TRUE(std::isfinite(setup.law.mu) && setup.law.mu >= 0.0) << k;
+    }
+    if (k % 16 != 0) return;  // what is taken says of itself what it is
+    const fs::path again = places[which].parent_path() / "again.toml";
+    write(again, resolvedFile(loaded));
+    EXPECT_EQ(loadCase(again).size(), loaded.size()) << k;
+  });
 }
 
 /// Accepted disks can be run without further checks.
@@ -140,14 +87,10 @@ DiskDefaults defaults() {
 void readDamaged(const fs::path& file, std::uint64_t usual,
                  const std::function<std::string(test::Draw&)>& damaged,
                  const std::function<Disks()>& disksOf) {
-  Reading reading;
-  const test::InputRange all = test::inputs(usual);
-  for (std::uint64_t k = all.from; k < all.to && !testing::Test::HasFailure(); ++k) {
-    test::Draw draw(k);
+  test::readAll(usual, [&](std::uint64_t k, test::Draw& draw) {
     write(file, damaged(draw));
-    reading.read(k, [&] { expectSound(disksOf(), k); });
-  }
-  reading.expectBoth(all.size());
+    expectSound(disksOf(), k);
+  });
 }
 
 TEST(FuzzedInput, PackingsAreSoundOrRefusedInOneLine) {
@@ -176,7 +119,7 @@ TEST(FuzzedInput, PackingsAreSoundOrRefusedInOneLine) {
 
 /// Each was accepted, or worse, before it was kept in corpus/.
 TEST(FuzzedInput, WhatWasOnceReadWronglyIsRefused) {
-  Reading reading;
+  test::Reading reading;
   std::uint64_t number = 0;
   const std::size_t before = test::mostMemory();
   for (const fs::path& kept : keptIn("packings"))
@@ -212,14 +155,9 @@ TEST(FuzzedInput, ResultsAreReadOrRefusedInOneLine) {
     else if (kind == kindLockstep)
       toText(toJson(lockstepFromJson(document)));
   };
-  Reading reading;
-  const test::InputRange all = test::inputs(10'000);
-  for (std::uint64_t k = all.from; k < all.to && !HasFailure(); ++k) {
-    test::Draw draw(k);
-    const nlohmann::json damaged = test::damagedJson(corpus[k % std::size(corpus)], draw);
-    reading.read(k, [&] { read(damaged); });
-  }
-  reading.expectBoth(all.size());
+  test::readAll(10'000, [&](std::uint64_t k, test::Draw& draw) {
+    read(test::damagedJson(corpus[k % std::size(corpus)], draw));
+  });
 }
 
 }  // namespace
