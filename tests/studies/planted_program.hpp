@@ -30,9 +30,21 @@ struct OtherConvention {
   const char *word, *term;
 };
 
+/// Each is named where it is not declared.
+inline void expectNamed(const QuickFlow& flow, const std::vector<OtherConvention>& conventions) {
+  for (const OtherConvention& other : conventions) {
+    SCOPED_TRACE(other.word);
+    const LockstepRow undeclared = rowOfProgram(flow, {other.word}, false);
+    EXPECT_NE(undeclared.verdict, Equivalence::sameToRounding);
+    ASSERT_TRUE(undeclared.term);
+    EXPECT_EQ(undeclared.term->name, other.term);
+  }
+}
+
 /// Declared it is the mirror to rounding, and alone or with all others; else it is named.
 inline void expectDeclaredOrNamed(const QuickFlow& flow,
                                   const std::vector<OtherConvention>& conventions) {
+  expectNamed(flow, conventions);
   std::vector<std::string> all;
   for (const OtherConvention& other : conventions) {
     SCOPED_TRACE(other.word);
@@ -40,10 +52,6 @@ inline void expectDeclaredOrNamed(const QuickFlow& flow,
     const LockstepRow declared = rowOfProgram(flow, {other.word}, true);
     EXPECT_EQ(declared.verdict, Equivalence::sameToRounding) << declared.reason;
     EXPECT_EQ(declared.starts, flow.states.size());
-    const LockstepRow undeclared = rowOfProgram(flow, {other.word}, false);
-    EXPECT_NE(undeclared.verdict, Equivalence::sameToRounding);
-    ASSERT_TRUE(undeclared.term);
-    EXPECT_EQ(undeclared.term->name, other.term);
   }
   const LockstepRow together = rowOfProgram(flow, all, true);
   EXPECT_EQ(together.verdict, Equivalence::sameToRounding) << together.reason;
