@@ -381,12 +381,6 @@ TEST(CutTension, OfACohesiveContact_CutsTheDashpotAlone) {
   EXPECT_LT(f, 0.0);
 }
 
-double residual(const EnergyLedger& l) {
-  return l.states() - l.initial - l.workOfWalls - l.gainedByConvention + l.lostNormalDamping +
-         l.lostTangentialDamping + l.lostSliding + l.lostRollingDamping + l.lostRolling +
-         l.lostBottom + l.lostRelease + l.lostPlastic + l.lostDetachment;
-}
-
 ContactLaw lawOf(CohesionLaw cohesion) {
   ContactLaw law = test::thesisLaw();
   law.cohesion = cohesion;
@@ -416,7 +410,7 @@ TEST_P(CohesionLedger, OfAGas_ClosesBetterTheSmallerTheStep) {
     double most = 0.0;
     while (simulation.time() < 0.05) {
       simulation.step();
-      most = std::max(most, std::abs(residual(*simulation.energyLedger())));
+      most = std::max(most, std::abs(test::residual(*simulation.energyLedger())));
     }
     const EnergyLedger& ledger = *simulation.energyLedger();
     // What yields holds a little of the last step's pull when it ends.
@@ -436,13 +430,11 @@ TEST_P(CohesionLedger, KernelsThreadsAndRestarts_GiveTheSameBits) {
     setup.law = lawOf(GetParam());
     if (setup.law.normal == NormalLaw::linear) setup.law.kt = kt;
     setup.precision = precision;
-    Simulation whole(grain::Setup{setup});
-    whole.advance(8250);  // across a renumbering
+    const Simulation whole = test::withSameBits(setup, 8250);  // across a renumbering
     std::size_t pulling = 0;
     for (const Contact& contact : whole.contacts()) pulling += contact.normalForce < 0.0;
     // An area softens the linear law: it pulls at no overlap.
     EXPECT_EQ(pulling > 0, GetParam() != CohesionLaw::area);
-    test::expectSameBits(setup, whole);
   }
 }
 

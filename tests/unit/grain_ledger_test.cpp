@@ -13,12 +13,6 @@ namespace {
 using namespace grain;
 namespace test = crossgrain::test;
 
-/// > 0: energy from nowhere [J].
-double residual(const EnergyLedger& l) {
-  return l.states() - l.initial - l.workOfWalls - l.gainedByConvention + l.lostNormalDamping +
-         l.lostTangentialDamping + l.lostSliding + l.lostBottom + l.lostRelease;
-}
-
 /// Runs for a time, whatever `visit(simulation)` does after each step. @returns the last ledger
 EnergyLedger ledgerOf(grain::Setup setup, double time,
                       const std::function<void(const Simulation&)>& visit = {}) {
@@ -35,7 +29,7 @@ EnergyLedger ledgerOf(grain::Setup setup, double time,
 double worstResidual(const grain::Setup& setup, double time) {
   double worst = 0.0;
   ledgerOf(setup, time, [&](const Simulation& s) {
-    worst = std::max(worst, std::abs(residual(*s.energyLedger())));
+    worst = std::max(worst, std::abs(test::residual(*s.energyLedger())));
   });
   return worst;
 }
@@ -207,7 +201,7 @@ TEST(LedgerOfImpulses, ClosesToRounding) {
   EXPECT_GT(end.lostNormalDamping, 0.1 * end.initial);
   EXPECT_GT(end.lostSliding, 0.01 * end.initial);
   EXPECT_GT(std::abs(end.workOfWalls), 0.1 * end.initial);
-  EXPECT_LT(std::abs(residual(end)), 1e-12 * end.initial);  // 2500 steps of 1e-16 each
+  EXPECT_LT(std::abs(test::residual(end)), 1e-12 * end.initial);  // 2500 steps of 1e-16 each
 }
 
 /// One impact along the normal: ½ m₁₂ (1 − e²) v².
@@ -382,7 +376,7 @@ TEST_P(PackedLedger, ChangesNoBitAndIsPartOfTheState) {
     EXPECT_EQ(other->energyLedger()->lostSliding, ledger.lostSliding);
     EXPECT_EQ(other->energyLedger()->lostBottom, ledger.lostBottom);
     EXPECT_EQ(other->energyLedger()->workOfWalls, ledger.workOfWalls);
-    EXPECT_EQ(residual(*other->energyLedger()), residual(ledger));
+    EXPECT_EQ(test::residual(*other->energyLedger()), test::residual(ledger));
   }
   EXPECT_GT(ledger.lostBottom, 0.0);
 }

@@ -35,7 +35,7 @@ SpheresSetup drum() {
 
 /// @return how many contacts it evaluated on its way
 std::uint64_t expectTheSameBits(SpheresSetup setup, std::uint64_t steps,
-                                std::initializer_list<int> counts = {2, 3}) {
+                                std::initializer_list<int> counts) {
   const std::size_t walls = setup.walls.size();
   Spheres one(setup);
   one.advance(steps);
@@ -63,7 +63,7 @@ TEST(SpaceThreads, EveryLawAndIntegrator_GivesTheSameBits) {
   const auto with = [](auto&& change) {
     SpheresSetup setup = sheared();
     change(setup);
-    EXPECT_GT(expectTheSameBits(setup, 100), 1500u);
+    EXPECT_GT(expectTheSameBits(setup, 100, {2}), 1500u);  // other numbers: above
   };
   for (const Integrator integrator : {Integrator::velocityVerlet, Integrator::semiImplicitEuler})
     with([&](auto& s) { s.law.conventions.integrator = integrator; });
