@@ -16,6 +16,7 @@
 #include "cases/couette.hpp"
 #include "cases/time_step.hpp"
 #include "engines/grain/simulation.hpp"
+#include "tests/bench/effect_sets.hpp"
 #include "tests/bench/packings_option.hpp"
 
 namespace crossgrain::bench {
@@ -125,63 +126,25 @@ void mix(Setup& s) {
   materials.laws.assign(9, s.law);
 }
 
-/// One set of effects: the thesis' law, changed.
-struct EffectSet {
-  const char* name;
-  void (*change)(Setup&);
-};
+using Effects = EffectSet<Setup>;
 
-/// The conventions of a case that names none.
-void useDefaults(Setup& s) {
-  s.law.conventions.leverArm = grain::LeverArm::overlapMiddle;
-  s.law.conventions.springUpdate = grain::SpringUpdate::before;
-  s.law.conventions.springReset = SpringReset::springOnly;
-}
+constexpr Effects thesis{"thesis", [](Setup&) {}};  ///< the thesis' law, which the others change
 
-constexpr EffectSet effectSets[] = {
-    {"thesis", [](Setup&) {}},
-    {"defaults", useDefaults},
+const std::vector<Effects> effectSets = withCommonEffects<Setup, cohere, resistRolling>({
+    thesis,
     {"defaults_no_friction",
      [](Setup& s) {
        useDefaults(s);
        s.law.tangential = grain::TangentialLaw::none;
      }},
-    {"general", [](Setup& s) { s.generalKernels = true; }},
     {"no_bottom", [](Setup& s) { s.bottom.reset(); }},
-    {"no_friction", [](Setup& s) { s.law.tangential = grain::TangentialLaw::none; }},
     {"no_friction_no_bottom",
      [](Setup& s) {
        s.law.tangential = grain::TangentialLaw::none;
        s.bottom.reset();
      }},
     {"coulomb", [](Setup& s) { s.law.tangential = grain::TangentialLaw::coulomb; }},
-    {"viscous", [](Setup& s) { s.law.tangential = grain::TangentialLaw::viscous; }},
-    {"cut_tension", [](Setup& s) { s.law.conventions.tension = Tension::cut; }},
-    {"no_rotation", [](Setup& s) { s.rotation = false; }},
     {"ledger", [](Setup& s) { s.ledger = true; }},
-    {"rolling", resistRolling},
-    {"rolling_constant_torque",
-     [](Setup& s) {
-       resistRolling(s);
-       s.law.rolling = grain::RollingLaw::constantTorque;
-     }},
-    {"rolling_critical",
-     [](Setup& s) {
-       resistRolling(s);
-       s.law.conventions.rollingDamper = grain::RollingDamper::critical;
-       s.law.gr = 0.1;
-     }},
-    {"cohesion", cohere},
-    {"cohesion_net",
-     [](Setup& s) {
-       cohere(s);
-       s.law.conventions.cohesionLoad = grain::CohesionLoad::net;
-     }},
-    {"cohesion_first_order",
-     [](Setup& s) {
-       cohere(s);
-       s.law.conventions.cohesionArea = grain::CohesionArea::firstOrder;
-     }},
     {"cohesion_twice",
      [](Setup& s) {
        cohere(s);
@@ -199,7 +162,7 @@ constexpr EffectSet effectSets[] = {
        cohere(s);
        mix(s);
      }},
-};
+});
 
 std::filesystem::path packingFolder;
 
@@ -214,7 +177,7 @@ const Setup& packed(std::size_t disks) {
 
 struct Variant {
   std::size_t disks;
-  const EffectSet* effects;
+  const Effects* effects;
   grain::Precision precision;
   int threads;
 
@@ -354,13 +317,13 @@ void registerAll() {
   for (const std::size_t disks : {1000, 10000, 100000, 1000000}) {
     for (const auto precision : {float64, float32})
       for (const int threads : {1, 2}) {
-        for (const EffectSet& effects : effectSets) {
+        for (const Effects& effects : effectSets) {
           const Variant variant{disks, &effects, precision, threads};
           add(variant.name("step"), [=](auto& state) { step(state, variant); });
           add(variant.name("same_contacts"), [=](auto& state) { sameContacts(state, variant); });
         }
-        const Variant thesis{disks, &effectSets[0], precision, threads};
-        add(thesis.name("rebuild"), [=](auto& state) { rebuild(state, thesis); });
+        const Variant plain{disks, &thesis, precision, threads};
+        add(plain.name("rebuild"), [=](auto& state) { rebuild(state, plain); });
       }
   }
 }

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "engines/grain/spheres.hpp"
+#include "tests/bench/effect_sets.hpp"
 
 namespace crossgrain::bench {
 namespace {
@@ -115,13 +116,6 @@ SpheresSetup restingBed(std::size_t spheres) {
   return setup;
 }
 
-/// As a case's that names no conventions.
-void useDefaults(SpheresSetup& s) {
-  s.law.conventions.leverArm = grain::LeverArm::overlapMiddle;
-  s.law.conventions.springUpdate = grain::SpringUpdate::before;
-  s.law.conventions.springReset = SpringReset::springOnly;
-}
-
 /// A pull of a twentieth of the elastic force.
 void cohere(SpheresSetup& s) {
   s.law.cohesion = grain::CohesionLaw::area;
@@ -135,53 +129,21 @@ void resistRolling(SpheresSetup& s) {
   s.law.muR = 0.1;
 }
 
-struct Task {
-  const char* name;
-  void (*change)(SpheresSetup&);
-};
+using Task = EffectSet<SpheresSetup>;
 
-constexpr Task tasks[] = {
+const std::vector<Task> tasks = withCommonEffects<SpheresSetup, cohere, resistRolling>({
     {"everyday", [](SpheresSetup&) {}},
-    {"no_friction", [](SpheresSetup& s) { s.law.tangential = grain::TangentialLaw::none; }},
-    {"no_rotation", [](SpheresSetup& s) { s.rotation = false; }},
-    {"viscous", [](SpheresSetup& s) { s.law.tangential = grain::TangentialLaw::viscous; }},
     {"no_normal_dashpot", [](SpheresSetup& s) { s.law.gn = 0.0; }},
     {"no_tangential_dashpot",
      [](SpheresSetup& s) { s.law.tangential = grain::TangentialLaw::spring; }},
-    {"cut_tension", [](SpheresSetup& s) { s.law.conventions.tension = Tension::cut; }},
-    {"defaults", useDefaults},
-    {"cohesion", cohere},
-    {"cohesion_net",
-     [](SpheresSetup& s) {
-       cohere(s);
-       s.law.conventions.cohesionLoad = grain::CohesionLoad::net;
-     }},
-    {"cohesion_first_order",
-     [](SpheresSetup& s) {
-       cohere(s);
-       s.law.conventions.cohesionArea = grain::CohesionArea::firstOrder;
-     }},
-    {"rolling", resistRolling},
-    {"rolling_constant_torque",
-     [](SpheresSetup& s) {
-       resistRolling(s);
-       s.law.rolling = grain::RollingLaw::constantTorque;
-     }},
-    {"rolling_critical",
-     [](SpheresSetup& s) {
-       resistRolling(s);
-       s.law.conventions.rollingDamper = grain::RollingDamper::critical;
-       s.law.gr = 0.1;
-     }},
     {"mirror", [](SpheresSetup& s) { s.law.conventions.springTurn = grain::SpringTurn::rescaled; }},
-    {"general", [](SpheresSetup& s) { s.generalKernels = true; }},
     {"everyone",
      [](SpheresSetup& s) {
        grain::SpaceWall& wall = s.walls.emplace_back();
        wall.planes.push_back({{0.0, 0.0, -1e3}, {0.0, 0.0, 1.0}});
        wall.motion = [](double) { return grain::SpaceWall::State{}; };
      }},
-};
+});
 
 /// On one thread the processor's, which other programs do not disturb, else wall time [s].
 double timeOn(int threads) {
