@@ -247,6 +247,12 @@ class SystemTest(unittest.TestCase):
     def run_program(self, *arguments, **options):
         return self.call(PROGRAM, *arguments, **options)
 
+    def held(self, *arguments, **options):
+        """The program, which ends with status 0."""
+        done = self.run_program(*arguments, **options)
+        self.assert_status(done, HELD)
+        return done
+
     def compare(self, *arguments, case=COUETTE, engines="grain", out=None, **options):
         """A short `compare` of the small cell, with no engines but those named."""
         return self.run_program(

@@ -57,8 +57,7 @@ class Snapshots(SystemTest):
         case = CASES / "space/shear-3d.toml"
         short = settings(preparation__packings=1, average__snapshots=3, assembly__duration=2, **{"average__from": 1})
         slabs = settings(average__low=[0, 0, -5], average__high=[10, 5.196152422706632, 15])
-        run = self.run_program("compare", case, "--engines", "grain", "--out", self.out, "--quiet", *short)
-        self.assert_status(run, HELD)
+        self.held("compare", case, "--engines", "grain", "--out", self.out, "--quiet", *short)
         snapshots = self.out / "snapshots/grain-p0.h5"
         self.assert_status(self.average(snapshots, "--rev", *short, case=case), HELD)
         curves = self.rows("rev.csv", self.folder / "again")
@@ -113,8 +112,7 @@ class ResultFiles(SystemTest):
             self.assertAlmostEqual(-48e-3 * 9.81, force[:, 1].sum(), delta=2e-3 * 48e-3 * 9.81)
             self.assertAlmostEqual(0.0, force[:, 0].sum(), delta=2e-3 * 48e-3 * 9.81)
         for name, files in (("one", [self.snapshots]), ("other", self.FILES)):
-            done = self.run_program("average", *files, self.CASE, "--name", "my-lammps", "--out", self.folder / name)
-            self.assert_status(done, HELD)
+            self.held("average", *files, self.CASE, "--name", "my-lammps", "--out", self.folder / name)
         one, other = (self.rows("profiles.csv", self.folder / name) for name in ("one", "other"))
         self.assertGreater(len(one), 50)
         self.assertEqual(one, other)
@@ -145,7 +143,7 @@ class ResultFiles(SystemTest):
                         fstat.append(f"{t!r} {i} {len(radius) - j - 1} {line} {back}")
         files = [self.write(f"run.{name}", "\n".join(rows) + "\n") for name, rows in (("data", data), ("fstat", fstat))]
         again = self.folder / "again.h5"
-        self.assert_status(self.run_program("import", "mercurydpm", *files, self.CASE, "--out", again), HELD)
+        self.held("import", "mercurydpm", *files, self.CASE, "--out", again)
         with h5py.File(self.snapshots) as one, h5py.File(again) as other:
             for name in ("i", "j", "normal", "overlap", "normal_force", "tangential_force"):
                 for k in range(3):
@@ -223,20 +221,18 @@ class ResultFiles(SystemTest):
 
     def test_files_that_mercurydpm_writes_beside_are_left_out(self):
         self.assert_status(self.import_files(), HELD)
-        self.assert_status(self.run_program("export", "mercurydpm", self.snapshots, self.CASE, "--out", self.folder / "run"), HELD)
+        self.held("export", "mercurydpm", self.snapshots, self.CASE, "--out", self.folder / "run")
         self.write("run.ene", "time kinetic\n0 1\n")
         files = sorted(self.folder.glob("run.*"))
         self.assertEqual(["run.data", "run.ene", "run.fstat", "run.restart"], [file.name for file in files])
         again = self.folder / "again.h5"
-        done = self.run_program("import", "mercurydpm", *files, self.CASE, "--out", again)
-        self.assert_status(done, HELD)
+        done = self.held("import", "mercurydpm", *files, self.CASE, "--out", again)
         self.assertIn("not read, as nothing in them is averaged: run.ene, run.restart", done.stdout)
 
     def test_export_writes_all_that_the_file_has(self):
         """Whatever is averaged: three snapshots, of which the case's later start leaves one."""
         self.assert_status(self.import_files(), HELD)
-        done = self.run_program("export", "lammps", self.snapshots, self.CASE, "--set=average.from=0.795", "--out", self.folder / "run")
-        self.assert_status(done, HELD)
+        done = self.held("export", "lammps", self.snapshots, self.CASE, "--set=average.from=0.795", "--out", self.folder / "run")
         self.assertIn("3 snapshots of my-lammps, t = 0.78 to 0.8 s", done.stdout)
         self.assertEqual(3, (self.folder / "run.dump").read_text(encoding="utf-8").count("ITEM: TIMESTEP"))
 

@@ -37,8 +37,7 @@ class Engines(SystemTest):
             ["dpkg-query", "-W", "-f", "${Version}", "libbox2d-dev"], capture_output=True, encoding="utf-8", check=True
         ).stdout.partition("-")[0]
         readme = (CASES.parent / "docs/engines.md").read_text(encoding="utf-8")
-        done = self.run_program("engines", "--json")
-        self.assert_status(done, HELD)
+        done = self.held("engines", "--json")
         engines = {engine["name"]: engine for engine in json.loads(done.stdout)}
         for name, engine in engines.items():
             self.assertEqual(1, ("capabilities" in engine) + ("missing" in engine), name)
@@ -68,8 +67,7 @@ class Check(SystemTest):
         return self.run_program("check", case, "--engines", engines, "--no-timing", *arguments, **options)
 
     def test_prints_size_effects_and_expectations(self):
-        done = self.run_program("check", COUETTE, "--engines", "grain,box2d-impulse,box2d-penalty")
-        self.assert_status(done, HELD)
+        done = self.held("check", COUETTE, "--engines", "grain,box2d-impulse,box2d-penalty")
         # 246 disks; rings of 2π·30/4.8 = 39 and 2π·75/4.8 = 98 wall disks, to the nearest; 1.25 rotations in steps of 4e-5 s.
         for line in (
             r"quick: 246 disks, 137 wall disks, dt 4e-05 s", r"per packing: 196350 steps[\s\S]*grain +can run it",
@@ -170,8 +168,7 @@ class Calibrate(SystemTest):
     """Formulas have their tests in tests/oracle/calibration_test.cpp; here: what is printed is the law that was asked for."""
 
     def calibrate(self, *arguments):
-        done = self.run_program("calibrate", *arguments)
-        self.assert_status(done, HELD)
+        done = self.held("calibrate", *arguments)
         self.assertEqual("", done.stderr)
         return done.stdout
 
@@ -328,10 +325,9 @@ class KeysWithoutUse(SystemTest):
         )
         for command in ("compare", "lockstep", "effects", "cost", "stability"):
             transforms = ["--transforms"] if command == "stability" else []
-            done = self.run_program(
+            done = self.held(
                 command, every, "--engines", "grain", "--out", self.out, "--dry-run", "--quiet", *transforms
             )
-            self.assert_status(done, HELD)
             unused = self.unused(done)
             for key, users in self.EXPECTED.items():
                 with self.subTest(command=command, key=key):
@@ -388,8 +384,7 @@ class Report(SystemTest):
         before = {name: (self.out / name).read_bytes() for name in names}
         for name in names[1:]:
             (self.out / name).unlink()
-        done = self.run_program("report", self.out)
-        self.assert_status(done, HELD)
+        done = self.held("report", self.out)
         self.assertIn(str(self.out / "report.html"), done.stdout)
         self.assertEqual(before, {name: (self.out / name).read_bytes() for name in names})
         json.loads(before["results.json"], parse_constant=lambda name: self.fail(f"{name} is not JSON"))
@@ -402,7 +397,7 @@ class Report(SystemTest):
         self.assert_one_line(done, BAD_INPUT, "gnuplot", "crossgrain report")
         for name in ("collisions.csv", "report.html"):
             self.assertTrue((self.out / name).exists(), name)
-        self.assert_status(self.run_program("report", self.out), HELD)
+        self.held("report", self.out)
 
     def test_results_made_elsewhere_of_another_case_are_not_merged(self):
         self.assert_status(self.collide("-k", "*/spring-cut"), HELD, FELL_SHORT)
@@ -412,22 +407,20 @@ class Report(SystemTest):
         document = json.loads(kept.read_text(encoding="utf-8"))
         document["machine"]["cpu"] = "their processor"
         kept.write_text(json.dumps(document), encoding="utf-8")
-        self.assert_status(self.run_program("report", self.out, theirs, "--out", site), HELD)
+        self.held("report", self.out, theirs, "--out", site)
         self.assertIn("their processor", (site / "index.html").read_text(encoding="utf-8"))
         self.assertRegex(document["case"]["toml"], r"mu = [0-9.]+")
         document["case"]["toml"] = re.sub(r"mu = [0-9.]+", "mu = 0.123", document["case"]["toml"])
         kept.write_text(json.dumps(document), encoding="utf-8")
         refused = self.run_program("report", self.out, theirs, "--out", self.folder / "other")
         self.assert_one_line(refused, BAD_INPUT, "law.mu", "0.123", "--changed-cases")
-        taken = self.run_program("report", self.out, theirs, "--out", self.folder / "other", "--changed-cases")
-        self.assert_status(taken, HELD)
+        self.held("report", self.out, theirs, "--out", self.folder / "other", "--changed-cases")
 
     def test_several_reports_are_one_site(self):
         self.assert_status(self.collide(), HELD, FELL_SHORT)
         before = {path: path.read_bytes() for path in self.out.rglob("*") if path.is_file()}
         site = self.folder / "site"
-        done = self.run_program("report", self.out, self.out, "--out", site)
-        self.assert_status(done, HELD)
+        done = self.held("report", self.out, self.out, "--out", site)
         self.assertEqual(f"site: {site / 'index.html'}\n", done.stdout)
         index = (site / "index.html").read_text(encoding="utf-8")
         for page in ("out/report.html", "out-2/report.html"):
@@ -448,7 +441,7 @@ class Report(SystemTest):
         browser = self.write("xdg-open", f'#!/bin/sh\nprintf %s "$1" > "{self.folder}/opened"\n')
         browser.chmod(0o755)
         path = f"{self.folder}:{os.environ['PATH']}"
-        self.assert_status(self.run_program("report", self.out, "--open", env={"PATH": path}), HELD)
+        self.held("report", self.out, "--open", env={"PATH": path})
         opened = self.folder / "opened"
         wait_for(lambda: opened.exists() and opened.read_text(), PATIENCE, "the browser")
         self.assertEqual(str(self.out / "report.html"), opened.read_text())

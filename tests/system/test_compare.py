@@ -199,15 +199,14 @@ class Space(SystemTest):
             with self.subTest(engines):
                 self.out = self.folder / engines
                 case = self.write("room.toml", text.replace("EXPECTED", repr(expected)))
-                done = self.run_program("compare", case, "--engines", engines, "--out", self.out)
-                self.assert_status(done, HELD)
+                done = self.held("compare", case, "--engines", engines, "--out", self.out)
                 judged = [row for row in self.rows("endpoints.csv") if row["kind"] == "closed_form"]
                 self.assertEqual(set(engines.split(",")), {row["b"] for row in judged})
                 self.assertEqual({"small_difference"}, {row["answer"] for row in judged}, done.stdout)
 
     def test_rigid_law_in_space_has_no_mirror_and_is_compared_all_the_same(self):
         case = self.write("rigid.toml", RIGID_ROOM)
-        self.assert_status(self.run_program("check", case, "--engines", "bullet,ode", "--no-timing"), HELD)
+        self.held("check", case, "--engines", "bullet,ode", "--no-timing")
         done = self.run_program("compare", case, "--engines", "bullet,ode", "--out", self.out)
         self.assert_status(done, HELD, FELL_SHORT)
         self.assertIn("there is no mirror: grain, which mirrors are made of, has no rigid contacts in space", done.stdout)
@@ -231,22 +230,20 @@ class Space(SystemTest):
                 self.assertEqual(lines[0], lines[1])
 
     def test_dry_run(self):
-        done = self.run_program("compare", self.BUMPY, "--engines", "grain", "--out", self.out, "--dry-run", *self.SHORT)
-        self.assert_status(done, HELD)
+        done = self.held("compare", self.BUMPY, "--engines", "grain", "--out", self.out, "--dry-run", *self.SHORT)
         self.assertIn("shear-3d: 4 packings, 4 of them prepared already", done.stdout)
 
     def test_spheres_in_cylinders(self):
         for name in ("silo", "silo-large", "drum"):
             short = settings(assembly__duration=0.01, average__from=0.0, average__snapshots=10, preparation__packings=4, looks__count=1)
             out = self.folder / name
-            self.assert_status(self.run_program("compare", CASES / f"space/{name}.toml", "--engines", "grain", "--out", out, *short), HELD)
+            self.held("compare", CASES / f"space/{name}.toml", "--engines", "grain", "--out", out, *short)
             self.assertEqual(["finished"] * 4, [run["status"] for run in self.results(out)["runs"]])
 
     def test_disks_in_a_periodic_cell(self):
         case = CASES / "space/plane-shear.toml"
         short = settings(assembly__duration=0.05, average__from=0.0, average__snapshots=20, preparation__packings=4, looks__count=1)
-        done = self.run_program("compare", case, "--engines", "grain", "--out", self.out, *short)
-        self.assert_status(done, HELD)
+        self.held("compare", case, "--engines", "grain", "--out", self.out, *short)
         self.assertEqual(["finished"] * 4, [run["status"] for run in self.results()["runs"]])
 
 
@@ -295,8 +292,7 @@ class Compare(SystemTest):
             tables.append([(out / name).read_bytes() for name in ("profiles.csv", "series.csv")])
         self.assertEqual(*tables)
         case = self.write("again.toml", self.results(self.folder / "one")["case"]["toml"])
-        again = self.run_program("compare", case, "--engines", "grain", "--out", self.folder / "again")
-        self.assert_status(again, HELD)
+        self.held("compare", case, "--engines", "grain", "--out", self.folder / "again")
         self.assertEqual(tables[0][0], (self.folder / "again/profiles.csv").read_bytes())
         self.assert_status(self.compare(*SHORT, "--seed=9"), HELD)
         self.assertNotEqual(tables[0][0], (self.out / "profiles.csv").read_bytes())
@@ -520,11 +516,10 @@ class Assemblies(SystemTest):
 
     def test_lockstep_begins_where_the_walls_are(self):
         """With walls elsewhere than the mirror's, or disks, the first steps would part them by far more than rounding."""
-        done = self.run_program(
+        self.held(
             "lockstep", SHEAR, "--engines", "box2d-penalty", "--starts=2", "--out", self.out, "--quiet",
             *settings(assembly__duration=0.2, average__from=0.1),
         )  # fmt: skip
-        self.assert_status(done, HELD)
         last = self.rows("lockstep.csv")[-1]
         self.assertIn(last["verdict"], ("same_to_rounding", "same_law"))
         self.assertLess(float(last["largest_d"]), 1e-8)

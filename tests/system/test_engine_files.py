@@ -131,11 +131,9 @@ class Conformance(SystemTest):
         self.passes_spheres_alone("numpy", ("python3", PYTHON.with_name("engine.py")), "-k", IN_SPACE)
         plain = self.passes_spheres_alone("plain", (CPP.with_name("engine"),))
         heap = self.write("heap.toml", HEAP)
-        done = self.run_program("lockstep", heap, "--engines", plain, "--starts=2", "--out", self.out / "lockstep", "--quiet")
-        self.assert_status(done, HELD)
+        done = self.held("lockstep", heap, "--engines", plain, "--starts=2", "--out", self.out / "lockstep", "--quiet")
         self.assertIn("plain is the law that it declares", done.stdout)
-        done = self.run_program("compare", heap, "--engines", f"grain,{plain}", "--out", self.out / "compare", "--quiet")
-        self.assert_status(done, HELD)
+        done = self.held("compare", heap, "--engines", f"grain,{plain}", "--out", self.out / "compare", "--quiet")
         self.assertRegex(done.stdout, r"[1-9] agree, \d borderline, 0 disagree")
 
     def test_wall_of_a_scene_without_rotation_bears_forces_alone(self):
@@ -143,7 +141,7 @@ class Conformance(SystemTest):
         case = self.write("rubs.toml", RUBS)
         for engine in (PYTHON, CPP):
             recording = self.folder / f"{engine.parent.name}.rec"
-            self.assert_status(self.run_program("record", case, "--engines", engine, "--out", recording), HELD)
+            self.held("record", case, "--engines", engine, "--out", recording)
             shown = [answer["snapshot"]["bodies"][0] for _, answer, _ in recorded_exchanges(recording) if "snapshot" in answer]
             pushed = [body for body in shown if abs(body["force"][0]) > 1e-3]
             self.assertTrue(pushed)
@@ -291,8 +289,7 @@ class EngineFile(SystemTest):
 
     def test_beside_an_engine_of_the_program_and_its_own_mirror(self):
         few = ["-k", "spring_dashpot-tension", *settings(collision__psi=[0.0, 1.0, 4.0], collision__steps_per_contact=50)]
-        done = self.run_program("collide", COLLISION, "--engines", f"grain,{PYTHON}", "--out", self.out, "--quiet", *few)
-        self.assert_status(done, HELD)
+        self.held("collide", COLLISION, "--engines", f"grain,{PYTHON}", "--out", self.out, "--quiet", *few)
         self.assertEqual({"grain", "numpy", "grain-as-numpy"}, {row["engine"] for row in self.rows("collisions.csv")})
         own = [row for row in self.rows("collisions.csv") if row["engine"] == "numpy"]
         self.assertEqual({"held"}, {row["verdict_declared"] for row in own})
@@ -344,7 +341,7 @@ class EngineFile(SystemTest):
             ("python", ("--engines", PYTHON)), ("cpp", ("--engines", CPP)), ("mirror", (numpy, "--engines=grain-as-numpy")),
         ):  # fmt: skip
             recording = self.folder / f"{name}.rec"
-            self.assert_status(self.run_program("record", case, *arguments, "--out", recording), HELD)
+            self.held("record", case, *arguments, "--out", recording)
             ends[name] = last_disk(recording)
         self.assertGreater(ends["mirror"][1], 0.01)  # lifted by more than a radius
         self.assertLess(ends["mirror"][2], -1.0)  # it rolls
@@ -437,8 +434,7 @@ class Schema(SystemTest):
     def recorded(self, engine, case, *arguments):
         recording = self.folder / "run.rec"
         recording.unlink(missing_ok=True)
-        done = self.run_program("record", case, "--engines", engine, "--out", recording, "--looks=2", *arguments)
-        self.assert_status(done, HELD)
+        self.held("record", case, "--engines", engine, "--out", recording, "--looks=2", *arguments)
         exchanges = [(request, answer) for request, answer, _ in recorded_exchanges(recording)]
         for request, _ in exchanges:
             if request["request"] in ("load", "snapshot"):

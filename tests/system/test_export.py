@@ -162,7 +162,7 @@ class InSpace(SystemTest):
 
     def test_average_is_that_of_the_run(self):
         again = self.folder / "again"
-        self.assert_status(self.run_program("average", self.file, self.BUMPY, "--out", again, "--quiet", *self.SHORT), HELD)
+        self.held("average", self.file, self.BUMPY, "--out", again, "--quiet", *self.SHORT)
         run, other = (self.rows("profiles.csv", folder) for folder in (self.ran, again))
         self.assertEqual([row for row in run if row["packing"] == "0"], [row for row in other if row["packing"] == "0"])
         self.assertIn("stress_xz", {row["field"] for row in other})
@@ -185,15 +185,13 @@ class InSpace(SystemTest):
         for form, pattern in forms.items():
             with self.subTest(form):
                 file, out = ran / "snapshots/grain-p0.h5", self.folder / form
-                self.assert_status(self.run_program("export", form, file, case, "--out", out, "--quiet", *changes), HELD)
+                self.held("export", form, file, case, "--out", out, "--quiet", *changes)
                 files = sorted(self.folder.glob(form + pattern))
                 again = self.folder / f"{form}.h5"
-                done = self.run_program("import", form, *files, case, "--name", "mine", "--out", again, "--quiet", *settled)
-                self.assert_status(done, HELD)
+                done = self.held("import", form, *files, case, "--name", "mine", "--out", again, "--quiet", *settled)
                 for made in (files, [again]):
                     folder = self.folder / f"{form}-{len(made)}"
-                    done = self.run_program("average", *made, case, "--name", "mine", "--out", folder, "--quiet", *settled)
-                    self.assert_status(done, HELD)
+                    self.held("average", *made, case, "--name", "mine", "--out", folder, "--quiet", *settled)
                     rows = self.rows("profiles.csv", folder)
                     self.assertEqual(len(own), len(rows))
                     for row in rows:
@@ -229,7 +227,7 @@ class InSpace(SystemTest):
         spheres = len(snapshots.radius)
         self.assertIn(spheres, {id for snapshot in snapshots for id in snapshot.contacts.j}, "on the drum")
         again = self.folder / "again"
-        self.assert_status(self.run_program("average", file, drum, "--out", again, "--quiet", *short), HELD)
+        self.held("average", file, drum, "--out", again, "--quiet", *short)
         run, other = (self.rows("profiles.csv", folder) for folder in (self.out, again))
         self.assertEqual([row for row in run if row["packing"] == "0"], [row for row in other if row["packing"] == "0"])
         done = self.run_program("export", "ondem", file, drum, "--out", self.folder / "x", "--quiet", *short)
@@ -237,7 +235,7 @@ class InSpace(SystemTest):
 
     def test_ondem_has_spheres_and_their_forces(self):
         out = self.folder / "x"
-        self.assert_status(self.run_program("export", "ondem", self.file, self.BUMPY, "--out", out, "--quiet", *self.SHORT), HELD)
+        self.held("export", "ondem", self.file, self.BUMPY, "--out", out, "--quiet", *self.SHORT)
         snapshots = crossgrain.Snapshots(self.file)
         self.addCleanup(snapshots.close)
         spheres, touching = len(snapshots.radius), 0
@@ -269,10 +267,10 @@ class RoundTrip(OneRun):
     def check_round_trip(self, form, *files, file=None, case=COUETTE, changes=SHORT[:2], tolerance=1e-13):
         """@param changes  of the case: times of the run among them, as import leaves others out"""
         file = file or self.file
-        self.assert_status(self.run_program("export", form, file, case, "--out", self.folder / "x", "--quiet", *changes), HELD)
+        self.held("export", form, file, case, "--out", self.folder / "x", "--quiet", *changes)
         again = self.folder / "again.h5"
         named = [self.folder / f"x{ending}" for ending in files] or sorted(self.folder.glob("x*.vtkhdf"))
-        self.assert_status(self.run_program("import", form, *named, case, "--out", again, "--quiet", *changes), HELD)
+        self.held("import", form, *named, case, "--out", again, "--quiet", *changes)
         before, after = crossgrain.Snapshots(file), crossgrain.Snapshots(again)
         self.addCleanup(before.close), self.addCleanup(after.close)
         self.assertEqual(len(before), len(after))

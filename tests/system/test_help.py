@@ -59,7 +59,7 @@ class Help(SystemTest):
                 elif command in ("report", "diff", "replay"):  # of what another command left
                     self.assert_one_line(self.run_program(*words), BAD_INPUT, words[1])
                 elif command not in ("identify", "engines", "conformance", "check"):  # take seconds, and have tests of their own
-                    self.assert_status(self.run_program(*words), HELD)
+                    self.held(*words)
 
     def test_examples_take_no_folder_of_another_command_and_read_what_one_left(self):
         left, read = {}, []

@@ -52,10 +52,9 @@ def one_of(several, index=0):
 
 class Peer(SystemTest):
     def lockstep(self, engine, *arguments, case=COUETTE, starts=2):
-        done = self.run_program(
+        self.held(
             "lockstep", case, "--engines", engine, "--out", self.out, "--quick", "--quiet", f"--starts={starts}", "--fresh", *arguments
         )
-        self.assert_status(done, HELD)
         (row,) = self.results()["lockstep"]["rows"]
         return row
 
@@ -64,7 +63,7 @@ class Peer(SystemTest):
 
     def passes(self, *checks):
         """Those of `conformance` whose names contain one of these words."""
-        self.assert_status(self.run_program("conformance", self.engine, "--quiet", "-k", ",".join(checks)), HELD)
+        self.held("conformance", self.engine, "--quiet", "-k", ",".join(checks))
 
     def last_sliding(self, engines):
         """The last of a sweep of hard disks, Ψ_i = 4, by engine, and how the command ended."""
@@ -86,18 +85,16 @@ class OutOfTheBox:
     """Cases without a convention, which say what was measured or follows from closed forms, not from this project."""
 
     def test_benchmarks_without_a_convention(self):
-        done = self.run_program(
+        self.held(
             "collide", CASES / "space/benchmarks.toml", "--engines", self.engine, "--quiet", "--fresh", "--out", self.out,
             *settings(run__mirrors="false", collision__steps_per_contact=[100]),
         )  # fmt: skip
-        self.assert_status(done, HELD)
         curves = [curve for variant in self.results()["variants"] for curve in variant["curves"]]
         self.assertEqual(["held", "held"], [curve["score"]["verdict"] for curve in curves])
         for name, endpoints in one_of((("mfix-dem01", 3), ("mfix-dem03", 4), ("mfix-dem04", 2)), 1):
-            done = self.run_program(
+            self.held(
                 "compare", CASES / f"space/{name}.toml", "--engines", f"grain,{self.engine}", "--quiet", "--fresh", "--out", self.out
             )
-            self.assert_status(done, HELD)
             judged = [row["answer"] for row in self.rows("endpoints.csv") if row["kind"] == "closed_form"]
             self.assertEqual(["small_difference"] * 2 * endpoints, judged, name)
 
@@ -110,8 +107,7 @@ class Yade(OutOfTheBox, Peer):
         row = self.lockstep("yade")
         self.assertEqual("same_law", row["verdict"])
         self.assertLess(row["equivalent"], 1e-3)
-        done = self.run_program("identify", COUETTE, "--engines", "yade", "--quiet")
-        self.assert_status(done, HELD)
+        done = self.held("identify", COUETTE, "--engines", "yade", "--quiet")
         for line in (r"tension +cut +declares cut", r"dashpot +outside +declares outside", "does not simulate +bottom_friction"):
             self.assertRegex(done.stdout, rf"(?m)^{line}")
         self.assertNotIn("<-", done.stdout)
@@ -250,8 +246,7 @@ class Lammps(OutOfTheBox, Refuses, Peer):
     @at_night
     def test_conventions_are_found_from_outside(self):
         """Arms of f_t and of v_t that differ: neither alone brings a mirror nearer, the two together do."""
-        done = self.run_program("identify", COUETTE, "--engines", "lammps", "--quiet")
-        self.assert_status(done, HELD)
+        done = self.held("identify", COUETTE, "--engines", "lammps", "--quiet")
         for option, value in (
             ("lever_arm", "overlap_middle"), ("velocity_arm", "radius"), ("coulomb_bound", "magnitude"),
             ("spring_reset", "spring_only"), ("spring_update", "before"), ("damping_velocity", "lagged"),
@@ -261,8 +256,7 @@ class Lammps(OutOfTheBox, Refuses, Peer):
     @at_night
     def test_pile_on_planes(self):
         """Forces of disks and planes come from two parts of LAMMPS."""
-        done = self.run_program("stability", CASES / "hard/pile.toml", "--engines", "lammps", "--out", self.out, "--quick", TWO)
-        self.assert_status(done, HELD)
+        self.held("stability", CASES / "hard/pile.toml", "--engines", "lammps", "--out", self.out, "--quick", TWO)
 
     def test_several_ranks_without_mpirun_are_refused_with_what_to_install(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -339,11 +333,10 @@ class Lammps(OutOfTheBox, Refuses, Peer):
         wait_for(lambda: not marked_processes(running.mark), 60, "all of them to end")
 
     def test_cost_counts_ranks(self):
-        done = self.run_program(
+        self.held(
             "cost", COUETTE, "--quick", "--disks=1", "--engines=lammps", "--threads=1,2", "--quiet", "--out", self.out,
             "--set=cost.kinds=[]",
         )  # fmt: skip
-        self.assert_status(done, HELD)
         one, two = self.rows("scale.csv")
         self.assertEqual(("1", "ranks", "2", "ranks"), (one["workers"], one["workers_are"], two["workers"], two["workers_are"]))
         # Each pair counts once, whichever rank reports it; and each rank is a process more.
@@ -427,8 +420,7 @@ class NodeEngines(Peer):
     def test_cpu_time_is_not_that_of_the_clock(self):
         """On a busy machine the clock goes on while a worker waits."""
         recording = self.folder / "run.rec"
-        done = self.run_program("record", HARD_SPHERE, "-k", "e_t0-0", "--engines", "rapier", "--out", recording, "--time=0.1")
-        self.assert_status(done, HELD)
+        self.held("record", HARD_SPHERE, "-k", "e_t0-0", "--engines", "rapier", "--out", recording, "--time=0.1")
         (stats,) = [answer["stats"] for request, answer, _ in recorded_exchanges(recording) if request["request"] == "stats"]
         self.assertGreater(stats["cpu_seconds"], 0.0)
         self.assertNotEqual(stats["cpu_seconds"], stats["wall_seconds"])
@@ -436,8 +428,7 @@ class NodeEngines(Peer):
     def test_diff_tells_one_version_from_another(self):
         kept = self.folder / "before.h5"
         psi = "--set=collision.psi=[0.5, 4.0]"
-        done = self.run_program("baseline", HARD_SPHERE, "--engines", "rapier-before", "--out", kept, "--quiet", psi)
-        self.assert_status(done, HELD)
+        self.held("baseline", HARD_SPHERE, "--engines", "rapier-before", "--out", kept, "--quiet", psi)
         done = self.run_program("diff", kept, "--engines", "rapier", "--quiet", "--json")
         self.assert_status(done, FELL_SHORT)
         self.assertIn("psi_f", done.stdout)
@@ -452,8 +443,7 @@ class NodeEngines(Peer):
         for engine, others in one_of((("rapier", more), ("rapier-before", ()), ("box2d-v3", more))):
             with self.subTest(engine):
                 checks = ",".join(("ContactsSayWhereTheyAre", *others))
-                done = self.run_program("conformance", engine, "-k", checks, "--out", self.folder / engine, "--quiet")
-                self.assert_status(done, HELD)
+                self.held("conformance", engine, "-k", checks, "--out", self.folder / engine, "--quiet")
                 self.out = self.folder / engine
                 outcomes = {row["check"]: row["outcome"] for row in self.results()["checks"]}
                 self.assertEqual({"passed"}, set(outcomes.values()) - {"skipped"}, outcomes)
@@ -517,8 +507,7 @@ class RigidEngine:
 
     def test_passes_its_checks(self):
         words = () if AT_NIGHT else ("-k", ",".join(CHOSEN))
-        done = self.run_program("conformance", self.engine, "--quiet", "--json", *words)
-        self.assert_status(done, HELD)
+        done = self.held("conformance", self.engine, "--quiet", "--json", *words)
         checks = json.loads(done.stdout)["checks"]
         skipped = {check["check"] for check in checks if check["outcome"] == "skipped"}
         self.assertEqual(self.skipped & {check["check"] for check in checks}, skipped)
@@ -534,8 +523,7 @@ class RigidEngine:
 
     def test_a_soft_law_that_it_stands_for_is_a_model_difference(self):
         """Its law is Walton's with the e_n that it reports and e_t0 = 0, which it meets, whatever it calls its pairs."""
-        done = self.run_program("collide", COLLISION, "--engines", self.engine, "-k", "viscous-cut", "--out", self.out, "--quiet")
-        self.assert_status(done, HELD)
+        self.held("collide", COLLISION, "--engines", self.engine, "-k", "viscous-cut", "--out", self.out, "--quiet")
         (curve,) = self.results()["variants"][0]["curves"]
         self.assertEqual(("oracle", "rigid"), (curve["declared"]["reference"], curve["declared"]["law"]["normal"]))
         self.assertTrue(curve["declared"]["score"]["psi_f"]["held"])
@@ -604,11 +592,10 @@ class ResistsRolling(BuiltEngine, RigidEngine):
         """A disk rolls to rest within (1 + q) v²/(2 µ_r g); a step of 0.5 ms errs by half of what it goes in one, 25 µm."""
         lacking = "normal tangential_spring tangential_damping tension dashpot spring_reset spring_update coulomb_bound"
         may = lacking.split() + ["lever_arm", "velocity_arm", "plane_arm", "damping_velocity", "integrator", "rolling_length"]
-        done = self.run_program(
+        self.held(
             "compare", CASES / "assembly/rolling/constant-torque.toml", "--engines", f"{self.engine},grain", "--quiet", "--out", self.out,
             *settings(run__may_differ=may),
         )  # fmt: skip
-        self.assert_status(done, HELD)
         rows = [row for row in self.rows("endpoints.csv") if (row["kind"], row["b"]) == ("closed_form", self.engine)]
         error = {row["endpoint"]: abs(float(row["difference"])) for row in rows}
         self.assertEqual({"speed", "distance", "rest"}, set(error))
@@ -719,8 +706,7 @@ class Jolt(RigidEngine, InSpace, Peer):
         """Jolt 5.5 takes a step's small angle from the arc cosine of a number near 1 (JoltPhysics#1893)."""
         done = self.run_program("conformance", "jolt-before", "-k", "TurningPlanePushes", "--quiet")
         self.assert_status(done, FELL_SHORT)
-        done = self.run_program("conformance", "jolt-before", "-k", "PlaneLoadsAreThoseOfTheirContacts", "--quiet")
-        self.assert_status(done, HELD)
+        self.held("conformance", "jolt-before", "-k", "PlaneLoadsAreThoseOfTheirContacts", "--quiet")
 
     def test_speculative_contacts_push_across_gaps(self):
         """As Jolt has them, up to a distance: disks that never touched part, which the audit refuses."""
