@@ -213,7 +213,7 @@ class Conformance(SystemTest):
         )  # fmt: skip
         for command, engines, status in (
             (("compare", COUETTE, *short), f"grain,{engine}", ENGINE_FAILED), (ONE_STATE, engine, ENGINE_FAILED),
-            (("collide", COLLISION, "-k", "*spring*"), engine, ENGINE_FAILED),
+            (("collide", COLLISION, "-k", "*spring*", *settings(collision__psi=[0.5], collision__steps_per_contact=[50])), engine, ENGINE_FAILED),
             (("stability", CASES / "hard", "-k", "billiard-break*"), engine, FELL_SHORT),
         ):  # fmt: skip
             with self.subTest(command=command[0]):
