@@ -32,7 +32,8 @@ EndpointFindings SpotCheck::compared(const std::string& mischief, std::uint64_t 
                                      LockstepFindings& lockstep, bool failing) {
   const Case setup = test::quickCell(
       {"preparation.packings=4", "preparation.shrink_time=0.3", "preparation.rotations=0.1",
-       "averaging.settle_rotations=0.05", "averaging.rotations=0.25", "looks.count=1"});
+       "averaging.settle_rotations=0.05",
+       failing ? "averaging.rotations=0.1" : "averaging.rotations=0.25", "looks.count=1"});
   EngineEntry inHouse = *findEngine("grain"), peer = test::misbehavingEntry(mischief, step),
               mirror = test::misbehavingEntry("none", 0);
   // No program "__serve" here.
