@@ -76,6 +76,12 @@ bool simulates(const Capabilities& can, Effect effect) {
   return found != can.effects.end() && found->second != Support::never;
 }
 
+std::vector<std::string> effectNames() {
+  std::vector<std::string> names;
+  for (const Effect effect : allEffects) names.push_back(toString(effect));
+  return names;
+}
+
 bool single(const Capabilities& can) {
   return !can.precisions.empty() && can.precisions.front() == Precision::float32;
 }
@@ -152,15 +158,37 @@ double kineticEnergy(const Scene& scene, const Snapshot& now) {
   return sum;
 }
 
+double farthestPlace(const Scene& scene) {
+  double place = 0.0;
+  for (const Vec2& x : scene.disks.position) place = std::max(place, x.norm());
+  return place;
+}
+
 double farthest(const std::vector<double>& one, const std::vector<double>& other) {
   double most = 0.0;
   for (std::size_t k = 0; k < one.size(); ++k) most = std::max(most, std::abs(one[k] - other[k]));
   return most;
 }
 
-Vec2 forceOf(const Contacts& contacts, std::size_t c) {
-  return contacts.normalForce[c] * contacts.normal[c] +
-         contacts.tangentialForce[c] * perpendicular(contacts.normal[c]);
+Scene sceneOf(const ContactLaw& law, std::vector<WallBody> bodies,
+              const std::vector<SmallDisk>& disks, double steps) {
+  Scene scene = emptyScene(law, steps);
+  scene.bodies = std::move(bodies);
+  for (const auto& [position, velocity, spin] : disks)
+    addDisk(scene, smallRadius, smallMass, position, velocity, spin);
+  return scene;
+}
+
+WallBody planeWall(const Vec2& point, const Vec2& normal, const Motion& motion,
+                   const std::string& name) {
+  WallBody body = planeWall(point, normal);
+  body.motion = motion;
+  body.name = name;
+  return body;
+}
+
+WallBody postAt(const Vec2& centre, const Motion& motion, const std::string& name) {
+  return wallOf(name, centre, {centre}, motion);
 }
 
 std::string planeMotion(Motion::Kind kind) {
@@ -270,9 +298,16 @@ bool CheckContext::inHouse() const {
   return entry.name == engineRegistry().front().name || !entry.mirrors.empty();
 }
 
+Scene CheckContext::mirrored(const ContactLaw& law) const {
+  Scene mirror = scene;
+  mirror.law = law;
+  mirror.dt = effective.dt;
+  mirror.precision = Precision::float64;
+  return mirror;
+}
+
 Scene CheckContext::simplified(const Scene& whole) const {
-  std::vector<std::string> effects;
-  for (const Effect effect : allEffects) effects.push_back(toString(effect));
+  std::vector<std::string> effects = effectNames();
   effects.emplace_back(tangentialRestitutionName);
   return adaptScene(can, withItsInertia(whole), effects).scene;
 }
@@ -304,6 +339,12 @@ std::optional<std::string> CheckContext::refusal(const Scene& wanted, const Sett
 
 void CheckContext::load(const Scene& wanted, const Settings& settings) {
   if (auto why = refusal(wanted, settings)) skip(std::move(*why));
+}
+
+bool CheckContext::loads(const Scene& wanted, bool required) {
+  auto why = refusal(wanted);
+  if (why && required) skip(std::move(*why));
+  return !why;
 }
 
 void CheckContext::loadWithinLimits(const Scene& wanted) {

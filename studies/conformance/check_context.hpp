@@ -10,6 +10,7 @@
 #include <span>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "adapters/registry.hpp"
@@ -54,11 +55,26 @@ std::vector<DiskState> statesOf(const Scene& scene, const Snapshot& snapshot);
 /// The sum over disks of ½ m v² + ½ J ω² [J].
 double kineticEnergy(const Scene& scene, const Snapshot& now);
 
+/// How far the farthest disk is from the origin [m].
+double farthestPlace(const Scene& scene);
+
 /// The largest difference between two lists of equal length.
 double farthest(const std::vector<double>& one, const std::vector<double>& other);
 
-/// Normal and tangential force of one contact on disk i [N].
-Vec2 forceOf(const Contacts& contacts, std::size_t c);
+/// A small disk of a scene [m, m/s, rad/s].
+struct SmallDisk {
+  Vec2 position, velocity = Vec2::Zero();
+  double spin = 0.0;
+};
+
+/// A scene of these walls and small disks.
+Scene sceneOf(const ContactLaw& law, std::vector<WallBody> bodies,
+              const std::vector<SmallDisk>& disks, double steps = coarseSteps);
+
+/// A body of one plane that moves, and one of one wall disk.
+WallBody planeWall(const Vec2& point, const Vec2& normal, const Motion& motion,
+                   const std::string& name = "plane");
+WallBody postAt(const Vec2& centre, const Motion& motion = {}, const std::string& name = "post");
 
 // Names of declared capabilities: each is examined by some check, or reported as not examined.
 
@@ -89,6 +105,9 @@ std::string precisionNamed(Precision precision);
 std::vector<std::string> declaredBy(const Capabilities& can);
 
 bool simulates(const Capabilities& can, Effect effect);
+
+/// Names of all effects, as `[run] may_differ` has them.
+std::vector<std::string> effectNames();
 
 /// Single precision by default.
 bool single(const Capabilities& can);
@@ -182,6 +201,9 @@ class CheckContext {
   Scene withItsInertia(Scene wanted) const;
   /// It is the in-house engine, with whatever conventions.
   bool inHouse() const;
+  /// What is loaded, as the in-house engine runs it at the same time step under the law that the
+  /// engine declares.
+  Scene mirrored(const ContactLaw& law) const;
   /// The scene without effects that the engine does not have, for checks that need something to
   /// happen, whatever it is.
   Scene simplified(const Scene& scene) const;
@@ -197,6 +219,8 @@ class CheckContext {
                                                    const Settings& settings = {});
   /// The same; a refusal is a skip. @throws Skipped
   void load(const Scene& scene, const Settings& settings = {});
+  /// The same where it is `required`. @returns whether it is loaded  @throws Skipped
+  bool loads(const Scene& scene, bool required);
   /// The same for what limits can declare (adapters/scene_limits.hpp): refusing a scene that no
   /// declared limit excludes is a fault. @throws Skipped, GivenUp
   void loadWithinLimits(const Scene& scene);
@@ -275,6 +299,25 @@ SceneOf<D> loaded(CheckContext& c, SceneOf<D> wanted) {
   } catch (const UnsupportedScene& unsupported) {
     c.skip(unsupported.what());
   }
+}
+
+/// The second of each pair as a disk, or sphere, of a wall at rest.
+template <int D>
+SceneOf<D> withPosts(SceneOf<D> scene) {
+  WallBodyOf<D>& posts = scene.bodies.emplace_back();
+  posts.name = "posts";
+  const DisksOf<D> all = std::exchange(scene.disks, {});
+  const auto firsts = [&](auto list, auto& of) {
+    for (std::size_t k = 0; k < all.size(); k += 2) of.push_back((all.*list)[k]);
+  };
+  using Each = DisksOf<D>;
+  const auto keep = [&](auto... lists) { (firsts(lists, scene.disks.*lists), ...); };
+  keep(&Each::radius, &Each::mass, &Each::inertia, &Each::position, &Each::velocity, &Each::spin);
+  for (std::size_t k = 1; k < all.size(); k += 2) {
+    posts.diskPosition.push_back(all.position[k]);
+    posts.diskRadius.push_back(all.radius[k]);
+  }
+  return scene;
 }
 
 template <int D>

@@ -53,14 +53,10 @@ void headOnCollision(CheckContext& context) {
   }
 }
 
-/// A disk that touches the wall there after a short flight straight at it.
-Scene thrownAt(const WallBody& wall, const ContactLaw& law, const Vec2& touching,
-               const Vec2& normal) {
-  Scene scene = emptyScene(law, fineSteps);
-  scene.bodies = {wall};
-  addDisk(scene, smallRadius, smallMass, touching + Encounter::gap * normal,
-          -Encounter::speed * normal);
-  return scene;
+/// A disk that touches a plane there after a short flight straight at it.
+Scene thrownAt(const ContactLaw& law, const Vec2& point, const Vec2& normal, const Vec2& touching) {
+  return sceneOf(law, {planeWall(point, normal)},
+                 {{touching + Encounter::gap * normal, -Encounter::speed * normal}}, fineSteps);
 }
 
 /// It comes back with e_n of its speed.
@@ -74,8 +70,7 @@ void expectRebound(CheckContext& context, const Vec2& normal) {
 /// Near its point and far from it: planes have no ends.
 void planeDoesNotYield(CheckContext& context) {
   for (const double point : {0.5, -30.0}) {
-    const WallBody plane = planeWall({point, 0.0}, Vec2::UnitY());
-    context.load(thrownAt(plane, context.law(), {0.001, smallRadius}, Vec2::UnitY()));
+    context.load(thrownAt(context.law(), {point, 0.0}, Vec2::UnitY(), {0.001, smallRadius}));
     const std::size_t before = context.faults.size();
     expectRebound(context, Vec2::UnitY());
     if (context.faults.size() > before && before == 0 && point < 0.0)
@@ -89,13 +84,13 @@ void cornersHaveNoFirstPlane(CheckContext& context) {
   if (context.rigid()) context.skip("lets contacts collide one after the other");
   std::vector<DiskState> states;
   for (const bool swapped : {false, true}) {
-    Scene scene = emptyScene(context.law(), coarseSteps);
-    const Vec2 axes[] = {Vec2::UnitX(), Vec2::UnitY()};
-    scene.bodies = {planeWall(Vec2::Zero(), axes[swapped ? 1 : 0])};
-    scene.bodies[0].planes.push_back({Vec2::Zero(), axes[swapped ? 0 : 1]});
-    const double place = smallRadius + Encounter::gap;
-    addDisk(scene, smallRadius, smallMass, {place, place},
-            {-Encounter::speed, -0.9 * Encounter::speed}, 20.0);
+    WallBody corner = planeWall(Vec2::Zero(), Vec2::UnitX());
+    corner.planes.push_back({Vec2::Zero(), Vec2::UnitY()});
+    if (swapped) std::swap(corner.planes[0], corner.planes[1]);
+    constexpr double place = smallRadius + Encounter::gap;
+    const Scene scene =
+        sceneOf(context.law(), {corner},
+                {{{place, place}, {-Encounter::speed, -0.9 * Encounter::speed}, 20.0}});
     states.push_back(statesOf(scene, context.run(scene, Encounter::end))[0]);
   }
   context.sameState(states[1], states[0],
@@ -106,7 +101,7 @@ void cornersHaveNoFirstPlane(CheckContext& context) {
 void slantingPlaneDoesNotYield(CheckContext& context) {
   const Vec2 normal(0.6, 0.8), point(0.3, -0.4);  // 0.14 m below the origin
   const Vec2 touching = point + 0.2 * Vec2(-0.8, 0.6) + smallRadius * normal;
-  context.loadWithinLimits(thrownAt(planeWall(point, normal), context.law(), touching, normal));
+  context.loadWithinLimits(thrownAt(context.law(), point, normal, touching));
   context.examine(slantingPlanes);
   expectRebound(context, normal);
 }
@@ -117,19 +112,17 @@ enum class Between { posts, planes, disks };
 /// A disk that is thrown to and fro, with friction that loads the springs. Disks that it is thrown
 /// between are a million times as heavy.
 Scene toAndFro(const ContactLaw& law, Between what) {
-  Scene scene = emptyScene(law, coarseSteps);
-  const double post = 2.0 * smallRadius + Encounter::gap;
-  const double plane = smallRadius + Encounter::gap;
-  addDisk(scene, smallRadius, smallMass, {0.0, 0.0004}, {-Encounter::speed, 0.0}, 20.0);
-  if (what == Between::posts) {
+  constexpr double post = 2.0 * smallRadius + Encounter::gap, plane = smallRadius + Encounter::gap;
+  Scene scene = sceneOf(law, {}, {{{0.0, 0.0004}, {-Encounter::speed, 0.0}, 20.0}});
+  if (what == Between::posts)
     scene.bodies = {wallOf("posts", Vec2::Zero(), {{-post, 0.0}, {post, 0.0}})};
-  } else if (what == Between::planes) {
+  if (what == Between::planes) {
     scene.bodies = {planeWall({-plane, 0.0}, Vec2::UnitX())};
     scene.bodies[0].planes.push_back({{plane, 0.0}, -Vec2::UnitX()});
-  } else {
+  }
+  if (what == Between::disks)
     for (const double side : {-post, post})
       addDisk(scene, smallRadius, 1e6 * smallMass, {side, 0.0}, Vec2::Zero());
-  }
   return scene;
 }
 
@@ -218,7 +211,9 @@ void freeFlightRemembersNothing(CheckContext& context) {
 constexpr const char* magnified = "rounding of the positions, which the stiff contact magnifies";
 
 /// The mirrored or turned scene moves as the image of the scene.
-void expectImage(CheckContext& context, const Placement& placement) {
+template <bool mirror>
+void imageGivesTheImage(CheckContext& context) {
+  const Placement placement{mirror, mirror ? 0.0 : 0.5 * std::numbers::pi};
   const Scene scene = encounterScene(crookedEncounter(), context.law(), coarseSteps);
   const std::vector<DiskState> original = statesOf(scene, context.run(scene, Encounter::end));
   const Scene image = placed(scene, placement);
@@ -227,42 +222,32 @@ void expectImage(CheckContext& context, const Placement& placement) {
     context.sameState(
         found[i],
         {placement.turned(original[i].position), placement.turned(original[i].velocity),
-         (placement.mirror ? -1.0 : 1.0) * original[i].spin},
+         (mirror ? -1.0 : 1.0) * original[i].spin},
         context.byPrecision(1e-9, 1e-4, magnified), text(" of disk ", i));
-}
-
-void mirroredSceneGivesTheMirroredResult(CheckContext& context) {
-  expectImage(context, {.mirror = true});
-}
-
-void rotatedSceneGivesTheRotatedResult(CheckContext& context) {
-  expectImage(context, {.turn = 0.5 * std::numbers::pi});
 }
 
 /// Disks that each meet a wall disk of their own: an engine that resolves contacts one after the
 /// other, or several at once, has nothing to choose.
 Scene landings(const ContactLaw& law) {
-  constexpr int count = 12;
   constexpr double apart = 6.0 * smallRadius;
-  Scene scene = emptyScene(law, coarseSteps);
   std::vector<Vec2> posts;
-  for (int k = 0; k < count; ++k) {
+  std::vector<SmallDisk> disks;
+  for (int k = 0; k < 12; ++k) {
     const Vec2 post = {apart * (k % 4), apart * (k / 4)};
     const double angle = 0.4 + 0.15 * k;
     const Vec2 outwards(std::cos(angle), std::sin(angle));
     posts.push_back(post);
-    addDisk(scene, smallRadius, smallMass, post + (2.0 * smallRadius + Encounter::gap) * outwards,
-            -Encounter::speed * outwards, 3.0 * k - 15.0);
+    disks.push_back({post + (2.0 * smallRadius + Encounter::gap) * outwards,
+                     -Encounter::speed * outwards, 3.0 * k - 15.0});
   }
-  scene.bodies = {wallOf("posts", Vec2::Zero(), posts)};
-  return scene;
+  return sceneOf(law, {wallOf("posts", Vec2::Zero(), posts)}, disks);
 }
 
 /// Force of the one contact that each disk has, by its number [N].
 std::map<std::size_t, Vec2> forces(const Snapshot& now) {
   std::map<std::size_t, Vec2> force;
   for (std::size_t c = 0; now.contacts && c < now.contacts->size(); ++c)
-    force[static_cast<std::size_t>(now.contacts->i[c])] = forceOf(*now.contacts, c);
+    force[static_cast<std::size_t>(now.contacts->i[c])] = now.contacts->force(c);
   return force;
 }
 
@@ -314,9 +299,9 @@ Checks collisionChecks() {
 Checks symmetryChecks() {
   static const Check list[] = {
       {"MirroredSceneGivesTheMirroredResult", "a mirrored scene gives the mirrored result",
-       mirroredSceneGivesTheMirroredResult},
+       imageGivesTheImage<true>},
       {"RotatedSceneGivesTheRotatedResult", "a turned scene gives the turned result",
-       rotatedSceneGivesTheRotatedResult},
+       imageGivesTheImage<false>},
       {"RenumberedSceneGivesTheRenumberedResult",
        "disks numbered otherwise do the same: none is another for its number",
        renumberedSceneGivesTheRenumberedResult},

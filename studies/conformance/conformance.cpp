@@ -198,10 +198,8 @@ CheckReport runChecks(const EngineEntry& entry, const std::vector<Check>& checks
       rows.push_back(untriedRow("suite", check.name, check.what));
       continue;
     }
-    ConformanceRow& row = rows.emplace_back();
-    row.part = "suite";
-    row.name = check.name;
-    row.what = check.what;
+    ConformanceRow& row =
+        rows.emplace_back(ConformanceRow{"suite", check.name, check.what, checkPassed, {}});
     row.about = check.about;
     if (breakdowns >= mostBreakdowns) {
       row.outcome = checkSkipped;
@@ -326,10 +324,7 @@ Case flowCase(const Capabilities& can) {
 ConformanceRow lockstepRow(const EngineEntry& entry, const std::filesystem::path& scratch,
                            const std::string& name, bool seesTrue,
                            const std::function<void(ContactLaw&)>& part) {
-  ConformanceRow row;
-  row.part = "lockstep";
-  row.name = name;
-  row.what = mirrorProperty;
+  ConformanceRow row{"lockstep", name, mirrorProperty, checkPassed, {}};
   const auto engine = startNew(entry, scratch / name, conformance::timeout);
   Case setup = flowCase(engine->capabilities());
   part(setup.law);
@@ -397,10 +392,11 @@ std::string causesOf(const std::vector<ConformanceRow>& rows) {
 constexpr const char* collisionsProperty = "collisions of two come to what the declared law says";
 
 ConformanceRow rowOf(const CollisionVariant& variant, const CollisionCurve& curve) {
-  ConformanceRow row;
-  row.part = "collisions";
-  row.name = variant.variant.empty() ? variant.name : variant.variant;
-  row.what = collisionsProperty;
+  ConformanceRow row{"collisions",
+                     variant.variant.empty() ? variant.name : variant.variant,
+                     collisionsProperty,
+                     checkPassed,
+                     {}};
   row.seconds = curve.stats ? curve.stats->wallSeconds : 0.0;
   const Verdict verdict = verdictOf(curve);
   if (curve.status == Status::failed) {

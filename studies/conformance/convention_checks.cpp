@@ -144,12 +144,8 @@ bool loadedUnderAny(CheckContext& context, const std::vector<ContactLaw>& laws, 
 /// The in-house engine on what another has run, with that one's law or another.
 class Mirror {
  public:
-  Mirror(Engine& inHouse, Scene ran, const ContactLaw& declared, double dt)
-      : inHouse_(inHouse), scene_(std::move(ran)) {
-    scene_.law = declared;
-    scene_.dt = dt;
-    scene_.precision = Precision::float64;
-  }
+  /// @param scene  CheckContext::mirrored()
+  Mirror(Engine& inHouse, Scene scene) : inHouse_(inHouse), scene_(std::move(scene)) {}
   /// @param further  how far on its way each disk starts [m]
   std::vector<double> operator()(const auto& change, double further = 0.0) const {
     Scene scene = scene_;
@@ -227,8 +223,7 @@ struct Absence {
 double roundedApart(const CheckContext& context, const ContactLaw& law,
                     const std::function<double(double)>& moved) {
   if (!context.single()) return 0.0;
-  double place = 0.0;
-  for (const Vec2& x : context.scene.disks.position) place = std::max(place, x.norm());
+  const double place = farthestPlace(context.scene);
   const double dt = context.effective.dt, flight = Encounter::gap / Encounter::speed;
   const double further = roundedInFlight(context.can, place, flight / dt);
   ContactLaw elastic = law;
@@ -254,7 +249,7 @@ bool expectConvention(CheckContext& context, Engine& inHouse, const LawOption& o
   const auto declared = declaredLaw(context.can, ran, context.effective, 0.5 * smallMass);
   if (!declared || !declared->soft()) return false;
   const std::vector<double> found = motionAt(context.engine, ran, Encounter::end);
-  const Mirror with(inHouse, ran, *declared, context.effective.dt);
+  const Mirror with(inHouse, context.mirrored(*declared));
   const auto mirror = [&](std::string_view which, double stiffer, double further = 0.0) {
     return with(
         [&](ContactLaw& law) {

@@ -35,21 +35,6 @@ Case setupOf(const CheckContext& context, const Meeting& meeting) {
   return setup;
 }
 
-/// The second of each pair as a disk of a wall at rest.
-Scene withWallDisks(Scene scene) {
-  WallBody wall;
-  wall.name = "posts";
-  const Disks all = std::exchange(scene.disks, {});
-  for (std::size_t k = 0; k < all.size(); k += 2) {
-    addDisk(scene, all.radius[k], all.mass[k], all.position[k], all.velocity[k], all.spin[k]);
-    scene.disks.inertia.back() = all.inertia[k];
-    wall.diskPosition.push_back(all.position[k + 1]);
-    wall.diskRadius.push_back(all.radius[k + 1]);
-  }
-  scene.bodies = {wall};
-  return scene;
-}
-
 Snapshot withoutWallDisks(const Snapshot& now) {
   Snapshot all;
   all.positionTime = now.positionTime;
@@ -441,7 +426,7 @@ std::optional<MeetingResult> meet(CheckContext& context, const Meeting& meeting,
   const CollidingPair pair = collidingPair(setup);
   Scene whole = collisionScene(setup, meeting.starts, emptyScene(meeting.law, meeting.steps).dt);
   const Scene scene =
-      shifted(meeting.partner == Partner::wallDisk ? withWallDisks(whole) : whole, meeting.place);
+      shifted(meeting.partner == Partner::wallDisk ? withPosts<2>(whole) : whole, meeting.place);
   if (const auto refusal = context.refusal(scene)) {
     if (why) *why = *refusal;
     return std::nullopt;
@@ -469,8 +454,7 @@ Rounded roundedOf(const CheckContext& context, const Meeting& meeting,
                   const MeetingResult& outcome) {
   Rounded rounded;
   if (!context.single() || !outcome.law.soft()) return rounded;
-  double place = 0.0;
-  for (const Vec2& x : context.scene.disks.position) place = std::max(place, x.norm());
+  const double place = farthestPlace(context.scene);
   const double dt = context.effective.dt;
   for (const CollisionStart& start : meeting.starts) {
     const Impact impact{outcome.pair.reducedMass(), outcome.pair.reducedRadius(), start.vn};
@@ -488,10 +472,7 @@ Rounded roundedOf(const CheckContext& context, const Meeting& meeting,
 bool Evidence::expectTheOracle(CheckContext& context, const Meeting& meeting,
                                const MeetingResult& outcome, const std::string& name) {
   Ends wanted = oracleEnds(outcome.law, outcome.pair, meeting.starts);
-  Scene mirrored = context.scene;
-  mirrored.law = outcome.law;
-  mirrored.dt = context.effective.dt;
-  mirrored.precision = Precision::float64;
+  Scene mirrored = context.mirrored(outcome.law);
   // Conventions without a limit of small steps are compared with the in-house engine that has
   // them; that one with nothing.
   if (!context.inHouse() && outcome.law.soft() &&

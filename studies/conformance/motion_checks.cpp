@@ -16,9 +16,7 @@ constexpr const char* roundings = "roundings of the additions";
 constexpr double flight = 0.05;  // [s]
 
 Scene oneDisk(const ContactLaw& law) {
-  Scene scene = emptyScene(law, 20.0);
-  addDisk(scene, smallRadius, smallMass, {0.002, -0.001}, {0.31, -0.17}, 5.0);
-  return scene;
+  return sceneOf(law, {}, {{{0.002, -0.001}, {0.31, -0.17}, 5.0}}, 20.0);
 }
 
 void fliesStraight(CheckContext& context) {
@@ -173,8 +171,7 @@ void bottomPlateBrakesADisk(CheckContext& context) {
 /// γ_b a ω) (Lätzel 2003, Eqs. 4.27 to 4.29, signs such that it brakes), here by small steps.
 void bottomPlateHoldsASlowDisk(CheckContext& context) {
   constexpr double end = 1e-3, speed = 4e-4, spin = 0.1;  // bounds are at 9e-4 m/s, 0.24 rad/s
-  Scene scene = emptyScene(context.law(), fineSteps);
-  addDisk(scene, smallRadius, smallMass, {0.0, 0.0}, {speed, 0.0}, spin);
+  Scene scene = sceneOf(context.law(), {}, {{Vec2::Zero(), {speed, 0.0}, spin}}, fineSteps);
   scene.bottom = thesisBottom<BottomPlate>(0.05);
   scene.bottom->tauM = 0.5;
   const Snapshot after = context.run(scene, end);
@@ -212,26 +209,18 @@ Motion motionOf(Motion::Kind kind) {
   return motion;
 }
 
-/// A wall of two disks, one of which runs into a disk at rest.
-Scene pushingWall(const ContactLaw& law, Motion::Kind kind) {
+/// A wall of two disks, one of which runs into a disk at rest; or a plane through the origin that
+/// runs into one above it, when it turns at the same arm.
+Scene pushing(const ContactLaw& law, Motion::Kind kind, bool plane) {
+  const Motion motion = motionOf(kind);
+  if (plane)
+    return sceneOf(law, {planeWall(Vec2::Zero(), {0.0, 1.0}, motion)},
+                   {{{kind == Motion::Kind::rotating ? arm : 0.0, smallRadius + Encounter::gap}}},
+                   200.0);
   const Vec2 member(arm, 0.0);
   const Vec2 towards = kind == Motion::Kind::radial ? Vec2(-1.0, 0.0) : Vec2(0.0, 1.0);
-  Scene scene = emptyScene(law, 200.0);
-  scene.bodies = {wallOf("wall", Vec2::Zero(), {member, Vec2(-0.03, 0.04)}, motionOf(kind))};
-  addDisk(scene, smallRadius, smallMass, member + (2.0 * smallRadius + Encounter::gap) * towards,
-          Vec2::Zero());
-  return scene;
-}
-
-/// A plane through the origin that runs into a disk at rest above it.
-/// @param x    of the disk [m]
-/// @param gap  between them [m]
-Scene pushingPlane(const ContactLaw& law, Motion::Kind kind, double x, double gap) {
-  Scene scene = emptyScene(law, 200.0);
-  scene.bodies = {planeWall(Vec2::Zero(), {0.0, 1.0})};
-  scene.bodies[0].motion = motionOf(kind);
-  addDisk(scene, smallRadius, smallMass, {x, smallRadius + gap}, Vec2::Zero());
-  return scene;
+  return sceneOf(law, {wallOf("wall", Vec2::Zero(), {member, Vec2(-0.03, 0.04)}, motion)},
+                 {{member + (2.0 * smallRadius + Encounter::gap) * towards}}, 200.0);
 }
 
 /// Half a bit of every addition of that many steps: what a sum of them is off, as a part of it.
@@ -280,25 +269,21 @@ void expectPush(CheckContext& context) {
                "the speed of the disk that was pushed [m/s]");
 }
 
-/// The same a second and more after load, with the disk out of the way: nothing that repeats itself
-/// does so with the second.
-void expectPrescribedLate(CheckContext& context, Scene scene) {
-  scene.disks.position[0] = {1.0, 1.0};
-  context.loadWithinLimits(scene);
-  expectPrescribed(context, context.at(1.23));
-}
-
-template <Motion::Kind kind>
+template <Motion::Kind kind, bool plane>
 void wallPushes(CheckContext& context) {
-  context.load(pushingWall(context.law(), kind));
-  context.examine(wallMotion(kind));
-  context.examine(toString(Effect::movingWalls));
+  if (plane && kind == Motion::Kind::oscillating) context.needs(planeMotion(kind));
+  Scene scene = pushing(context.law(), kind, plane);
+  plane ? context.loadWithinLimits(scene) : context.load(scene);
+  context.examine(plane ? planeMotion(kind) : wallMotion(kind));
+  if (!plane) context.examine(toString(Effect::movingWalls));
   expectPush(context);
-  if constexpr (kind == Motion::Kind::oscillating)
-    expectPrescribedLate(context, pushingWall(context.law(), kind));
-  if constexpr (kind == Motion::Kind::radial) {  // and it stops when it is to
-    Scene scene = pushingWall(context.law(), kind);
-    scene.disks.position[0] = {1.0, 1.0};
+  scene.disks.position[0] = {1.0, 1.0};  // out of the way
+  // A second and more after load: nothing that repeats itself does so with the second.
+  if (kind == Motion::Kind::oscillating) {
+    context.loadWithinLimits(scene);
+    expectPrescribed(context, context.at(1.23));
+  }
+  if (kind == Motion::Kind::radial) {  // and it stops when it is to
     scene.bodies[0].motion.radialEnd = 0.4321 * pushEnd;
     context.load(scene);
     for (const double t : {0.43 * pushEnd, 0.44 * pushEnd, pushEnd})
@@ -309,7 +294,7 @@ void wallPushes(CheckContext& context) {
 /// Three turns and a half: the angle is Ωt, not what is left of it after whole turns, and a disk
 /// far from it flies on as before.
 void wheelKeepsItsAngle(CheckContext& context) {
-  Scene scene = pushingWall(context.law(), Motion::Kind::rotating);
+  Scene scene = pushing(context.law(), Motion::Kind::rotating, false);
   scene.disks.position[0] = {1.0, 1.0};
   scene.bodies[0].motion.angularVelocity = 220.0;
   scene.disks.velocity[0] = {0.31, -0.17};
@@ -327,26 +312,11 @@ void wheelKeepsItsAngle(CheckContext& context) {
   }
 }
 
-/// The same arm and speed as of the wall disks: the plane's point under the disk pushes it.
-void turningPlanePushes(CheckContext& context) {
-  context.loadWithinLimits(
-      pushingPlane(context.law(), Motion::Kind::rotating, arm, Encounter::gap));
-  context.examine(planeMotion(Motion::Kind::rotating));
-  expectPush(context);
-}
-
-void oscillatingPlanePushes(CheckContext& context) {
-  context.needs(planeMotion(Motion::Kind::oscillating));
-  const Scene scene = pushingPlane(context.law(), Motion::Kind::oscillating, 0.0, Encounter::gap);
-  context.loadWithinLimits(scene);
-  context.examine(planeMotion(Motion::Kind::oscillating));
-  expectPush(context);
-  expectPrescribedLate(context, scene);
-}
-
 /// A gap wider than a disk, and nothing but the wall moves: neighbour lists have to see walls come.
-void expectPushFromAfar(CheckContext& context, Scene scene) {
+template <bool plane>
+void wallComesFromAfar(CheckContext& context) {
   constexpr double speed = 5.0 * push, gap = 2.5 * smallRadius;
+  Scene scene = pushing(context.law(), Motion::Kind::translating, plane);
   scene.bodies[0].motion.velocity = {0.0, speed};
   scene.disks.position[0].y() += gap - Encounter::gap;
   context.loadWithinLimits(scene);
@@ -358,19 +328,10 @@ void expectPushFromAfar(CheckContext& context, Scene scene) {
                "the speed of the disk that was pushed [m/s]");
 }
 
-void planeComesFromAfar(CheckContext& context) {
-  expectPushFromAfar(context,
-                     pushingPlane(context.law(), Motion::Kind::translating, 0.0, Encounter::gap));
-}
-
-void wallDiskComesFromAfar(CheckContext& context) {
-  expectPushFromAfar(context, pushingWall(context.law(), Motion::Kind::translating));
-}
-
 /// A disk that falls straight onto a turning wheel is taken along and turned the other way; so it
 /// is by a wheel whose centre is elsewhere.
 void turningWheelDragsADisk(CheckContext& context) {
-  Scene scene = pushingWall(context.law(), Motion::Kind::rotating);
+  Scene scene = pushing(context.law(), Motion::Kind::rotating, false);
   scene.disks.position[0] = {arm + 2.0 * smallRadius + Encounter::gap, 0.0};
   scene.disks.velocity[0] = {-push, 0.0};
   const Snapshot after = context.run(scene, pushEnd);
@@ -394,10 +355,8 @@ void turningWheelDragsADisk(CheckContext& context) {
 void wallsSpinIsFelt(CheckContext& context) {
   constexpr double omega = 30.0;
   const auto pushed = [&](const Motion& wall, double spin) {
-    Scene scene = emptyScene(context.law(), coarseSteps);
-    scene.bodies = {wallOf("post", Vec2::Zero(), {Vec2::Zero()}, wall)};
-    addDisk(scene, smallRadius, smallMass, {2.0 * smallRadius + Encounter::gap, 0.0}, {-push, 0.0},
-            spin);
+    const Scene scene = sceneOf(context.law(), {postAt(Vec2::Zero(), wall)},
+                                {{{2.0 * smallRadius + Encounter::gap, 0.0}, {-push, 0.0}, spin}});
     return statesOf(scene, context.run(scene, pushEnd))[0];
   };
   const DiskState byWall = pushed(rotating(omega), 0.0), byDisk = pushed(Motion{}, omega);
@@ -428,21 +387,22 @@ Checks wallChecks() {
   using Kind = Motion::Kind;
   static const Check list[] = {
       inBoth({"RotatingWallPushes", "a rotating wall moves as prescribed and pushes",
-              wallPushes<Kind::rotating>}),
+              wallPushes<Kind::rotating, false>}),
       {"TranslatingWallPushes", "a translating wall moves as prescribed and pushes",
-       wallPushes<Kind::translating>},
+       wallPushes<Kind::translating, false>},
       {"OscillatingWallPushes", "an oscillating wall moves as prescribed and pushes",
-       wallPushes<Kind::oscillating>},
+       wallPushes<Kind::oscillating, false>},
       {"ShrinkingWallPushes", "a shrinking wall moves as prescribed and pushes",
-       wallPushes<Kind::radial>},
+       wallPushes<Kind::radial, false>},
       {"WheelKeepsItsAngle", "a wheel's angle counts whole turns, which change nothing else",
        wheelKeepsItsAngle},
-      {"TurningPlanePushes", "a turning plane moves as prescribed and pushes", turningPlanePushes},
+      {"TurningPlanePushes", "a turning plane moves as prescribed and pushes",
+       wallPushes<Kind::rotating, true>},
       {"OscillatingPlanePushes", "an oscillating plane moves as prescribed and pushes",
-       oscillatingPlanePushes},
+       wallPushes<Kind::oscillating, true>},
       {"PlaneComesFromAfar", "a plane that comes from afar pushes a disk at rest",
-       planeComesFromAfar},
-      {"WallDiskComesFromAfar", "so does a wall disk", wallDiskComesFromAfar},
+       wallComesFromAfar<true>},
+      {"WallDiskComesFromAfar", "so does a wall disk", wallComesFromAfar<false>},
       {"TurningWheelDragsADisk", "a turning wheel drags a disk along, wherever it is",
        turningWheelDragsADisk},
       {"WallsSpinIsFelt", "the law feels a wall's spin as a disk's", wallsSpinIsFelt},

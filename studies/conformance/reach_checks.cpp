@@ -7,7 +7,7 @@
 #include <span>
 
 #include "adapters/audit.hpp"
-#include "oracle/collision_oracle.hpp"
+#include "stability/transform.hpp"
 #include "studies/conformance/check_context.hpp"
 #include "studies/conformance/meeting.hpp"
 
@@ -73,19 +73,9 @@ void farIsAsNear(CheckContext& context) {
   context.examine(farPlaces);
 }
 
-/// The same law where everything takes so many times as long.
-ContactLaw slower(ContactLaw law, double times) {
-  for (double* constant : {&law.kn, &law.kn3, &law.kt}) *constant /= times * times;
-  for (double* constant : {&law.gn, &law.gt}) {
-    if (law.damper == Damper::constant) *constant /= times;
-    if (law.damper == Damper::viscoelastic) *constant *= times;
-  }
-  return law;
-}
-
 /// A twenty-fifth as stiff with the same restitution, so that a step is five times as long.
 ContactLaw softer(const ContactLaw& law) {
-  return slower(law, 5.0);
+  return inUnits(law, {.time = 5.0});
 }
 
 /// More than 16 bits count.
@@ -134,8 +124,7 @@ Scene rollers(const CheckContext& context) {
     const Vec2 middle(isLarge ? 8.0 * largeRadius : 0.0, 0.0);
     for (const double side : {-0.6, 0.6}) {
       const Vec2 centre = middle + Vec2(side * reach, 0.0);
-      scene.bodies.push_back(
-          wallOf(text("roller", scene.bodies.size()), centre, {centre}, rotating(rate)));
+      scene.bodies.push_back(postAt(centre, rotating(rate), text("roller", scene.bodies.size())));
     }
     addDisk(scene, radius, isLarge ? largeMass : smallMass, middle + Vec2(0.0, 0.8 * reach),
             Vec2::Zero(), -rate * smallRadius / radius);
@@ -170,11 +159,7 @@ void fastIsAsSlow(CheckContext& context) {
   if (context.rigid()) context.skip("has no stiffness that a unit of time could change");
   constexpr double times = 100.0;
   const Scene slow = encounterScene(crookedEncounter(), context.law(), coarseSteps);
-  Scene fast = slow;
-  fast.law = slower(fast.law, 1.0 / times);
-  fast.dt /= times;
-  for (Vec2& velocity : fast.disks.velocity) velocity *= times;
-  for (double& spin : fast.disks.spin) spin *= times;
+  const Scene fast = inUnits(slow, {.time = 1.0 / times});
   const std::vector<DiskState> wanted = statesOf(slow, context.run(slow, Encounter::end));
   std::vector<DiskState> found = statesOf(fast, context.run(fast, Encounter::end / times));
   const Tolerance part = context.byPrecision(1e-9, 1e-4, "roundings of another unit of time");

@@ -83,19 +83,15 @@ void expectAsInHouse(CheckContext& context, const Scene& wanted, const std::vect
   }
   const auto inHouse = engineRegistry().front().make();
   const auto mirrored = [&](double stiffer, const std::vector<double>& when) {
-    Scene scene = ran;
-    scene.law = *law;
+    Scene scene = context.mirrored(*law);
     changeReference(scene.law, stiffer);
-    scene.dt = dt;
-    scene.precision = Precision::float64;
     inHouse->load(scene, {});
     return courseOf(*inHouse, scene, when);
   };
   const Course same = mirrored(0.0, times), stiffer = mirrored(lockstepSameLaw, times);
   const Motions before = mirrored(0.0, {times.back() - dt}).last;
   // Flights in single precision end elsewhere; an impact answers another moment of touch with 1 %.
-  double place = 0.0;
-  for (const Vec2& each : ran.disks.position) place = std::max(place, each.norm());
+  const double place = farthestPlace(ran);
   const double rounded = roundedInFlight(context.can, place, times.back() / dt) / smallContactTime +
                          roundedInFlight(context.can, place, 1.0) / dt +
                          context.byPrecision(1e-9, 0.02, "").relative * Encounter::speed;
@@ -140,26 +136,6 @@ constexpr double pace = Encounter::speed, ahead = Encounter::gap;
 
 // ---- several at once ----------------------------------------------------------------------------
 
-/// A disk that slips into a corner of two bodies, or of two planes of one, and touches both at
-/// once: each acts, and each contact has a spring of its own.
-Scene cornerScene(const ContactLaw& law, std::vector<WallBody> bodies) {
-  Scene scene = emptyScene(law, coarseSteps);
-  scene.bodies = std::move(bodies);
-  const double place = smallRadius + ahead;
-  addDisk(scene, smallRadius, smallMass, {place, place}, {-pace, -0.9 * pace}, 20.0);
-  return scene;
-}
-
-/// A disk that spins on one wall disk of a body as it meets another of it: each has a spring of its
-/// own.
-Scene notchScene(const ContactLaw& law) {
-  const Vec2 first(-1.2 * smallRadius, 0.0), second(1.2 * smallRadius, -0.4 * ahead);
-  Scene scene = emptyScene(law, coarseSteps);
-  scene.bodies = {wallOf("notch", Vec2::Zero(), {first, second})};
-  addDisk(scene, smallRadius, smallMass, {0.0, 1.6 * smallRadius + ahead}, {0.0, -pace}, 20.0);
-  return scene;
-}
-
 /// So many disks close in on one that is so many times as large as they are.
 Scene cagedScene(const ContactLaw& law, int count, double times) {
   Scene scene = emptyScene(law, coarseSteps);
@@ -198,12 +174,11 @@ Scene lightScene(ContactLaw law) {
 
 /// Two disks that are ten times as large as forty around them meet.
 Scene largeAmongSmallScene(const ContactLaw& law) {
-  constexpr double times = 10.0;
+  constexpr double times = 10.0, reach = times * smallRadius;
   Scene scene = emptyScene(law, coarseSteps);
   for (int k = 0; k < 40; ++k)
     addDisk(scene, smallRadius, smallMass,
             {(k % 8 - 20.0) * 3.0 * smallRadius, (k / 8 + 20.0) * 3.0 * smallRadius}, Vec2::Zero());
-  const double reach = times * smallRadius;
   for (const double side : {-1.0, 1.0})
     addDisk(scene, reach, times * times * smallMass,
             {side * (reach + 0.5 * ahead), 0.1 * side * smallRadius}, {-0.5 * side * pace, 0.0},
@@ -211,50 +186,31 @@ Scene largeAmongSmallScene(const ContactLaw& law) {
   return scene;
 }
 
-/// One disk catches up with another twelve radii outside of where any was at the start.
-Scene outsideScene(const ContactLaw& law) {
-  constexpr double fast = 10.0 * pace;
-  Scene scene = emptyScene(law, coarseSteps);
-  addDisk(scene, smallRadius, smallMass, Vec2::Zero(), {fast, 0.0}, 3.0);
-  addDisk(scene, smallRadius, smallMass, {-14.0 * smallRadius, 0.5 * smallRadius},
-          {2.0 * fast, 0.0}, -4.0);
-  return scene;
-}
-
-/// A disk squeezed between two planes slides and swings from one to the other, so fast that the
-/// dashpot of the first pulls it, γ_n v = 1.3 k_n δ, while they still overlap: where the bound is 0
-/// no spring grows.
-Scene squeezedScene(const ContactLaw& law) {
-  constexpr double squeezed = 2e-5;  // [m]
-  Scene scene = emptyScene(law, coarseSteps);
-  scene.bodies = {planeWall(Vec2::Zero(), {0.0, 1.0}),
-                  planeWall({0.0, 2.0 * (smallRadius - squeezed)}, {0.0, -1.0})};
-  scene.bodies[1].name = "ceiling";
-  const double swing = 1.3 * thesis.kn * squeezed / thesis.gn;
-  addDisk(scene, smallRadius, smallMass, {0.0, smallRadius - squeezed}, {0.2 * pace, swing}, 10.0);
-  return scene;
-}
-
 void severalActAtOnce(CheckContext& context) {
   const ContactLaw law = context.law();
   Several scenes(context);
   const std::vector<double> soon = {0.3 * Encounter::end, Encounter::end};
-  const auto plane = [](const Vec2& normal) { return planeWall(Vec2::Zero(), normal); };
-  WallBody both = plane(Vec2::UnitX());
-  both.planes.push_back({Vec2::Zero(), Vec2::UnitY()});
-  const auto post = [](const char* name, const Vec2& place) {
-    return wallOf(name, place, {place});
-  };
-  const WallBody left = post("left", {-smallRadius, smallRadius}),
-                 below = post("below", {smallRadius, -smallRadius});
-  WallBody floor = plane(Vec2::UnitY());
-  floor.name = "floor";
-  scenes.expect(cornerScene(law, {both}), soon, "in a corner of two planes of one body");
-  scenes.expect(cornerScene(law, {plane(Vec2::UnitX()), floor}), soon,
-                "in a corner of two bodies' planes");
-  scenes.expect(cornerScene(law, {floor, left}), soon, "between a plane and a wall disk");
-  scenes.expect(cornerScene(law, {left, below}), soon, "between the wall disks of two bodies");
-  scenes.expect(notchScene(law), soon, "between two wall disks of one body");
+  const WallBody wall = planeWall(Vec2::Zero(), Vec2::UnitX());
+  const WallBody floor = planeWall(Vec2::Zero(), Vec2::UnitY(), {}, "floor");
+  WallBody both = wall;
+  both.planes.push_back(floor.planes.front());
+  const WallBody left = postAt({-smallRadius, smallRadius}, {}, "left"),
+                 below = postAt({smallRadius, -smallRadius}, {}, "below");
+  // A disk that slips into a corner touches two at once: each contact has a spring of its own.
+  constexpr double corner = smallRadius + ahead;
+  using Bodies = std::vector<WallBody>;
+  for (const auto& [bodies, where] :
+       {std::pair(Bodies{both}, "in a corner of two planes of one body"),
+        {Bodies{wall, floor}, "in a corner of two bodies' planes"},
+        {Bodies{floor, left}, "between a plane and a wall disk"},
+        {Bodies{left, below}, "between the wall disks of two bodies"}})
+    scenes.expect(sceneOf(law, bodies, {{{corner, corner}, {-pace, -0.9 * pace}, 20.0}}), soon,
+                  where);
+  // It spins on one of them as it meets the other.
+  const Vec2 first(-1.2 * smallRadius, 0.0), second(1.2 * smallRadius, -0.4 * ahead);
+  scenes.expect(sceneOf(law, {wallOf("notch", Vec2::Zero(), {first, second})},
+                        {{{0.0, 1.6 * smallRadius + ahead}, {0.0, -pace}, 20.0}}),
+                soon, "between two wall disks of one body");
   scenes.expect(cagedScene(law, 6, 1.0), soon, "one disk that six others touch");
   scenes.expect(cagedScene(law, 12, 3.5), soon, "a large disk that twelve small ones touch");
   scenes.expect(mixedScene(law), soon,
@@ -262,83 +218,72 @@ void severalActAtOnce(CheckContext& context) {
   scenes.expect(lightScene(law), soon, "a disk a hundred times as light as the other");
   scenes.expect(largeAmongSmallScene(law), {0.01, 0.04},
                 "two large disks that meet among small ones");
-  scenes.expect(outsideScene(law), {0.03, 0.06}, "two disks that meet outside of the start's box");
-  scenes.expect(squeezedScene(law), soon, "squeezed between planes of which one pulls");
+  // One disk catches up with another twelve radii outside of where any was at the start.
+  constexpr double fast = 10.0 * pace;
+  scenes.expect(sceneOf(law, {},
+                        {{Vec2::Zero(), {fast, 0.0}, 3.0},
+                         {{-14.0 * smallRadius, 0.5 * smallRadius}, {2.0 * fast, 0.0}, -4.0}}),
+                {0.03, 0.06}, "two disks that meet outside of the start's box");
+  // It slides and swings from one to the other, so fast that the dashpot of the first pulls it,
+  // γ_n v = 1.3 k_n δ, while they still overlap: where the bound is 0 no spring grows.
+  constexpr double squeezed = 2e-5, inside = smallRadius - squeezed;  // [m]
+  constexpr double swing = 1.3 * thesis.kn * squeezed / thesis.gn;
+  scenes.expect(sceneOf(law,
+                        {planeWall(Vec2::Zero(), Vec2::UnitY()),
+                         planeWall({0.0, 2.0 * inside}, {0.0, -1.0}, {}, "ceiling")},
+                        {{{0.0, inside}, {0.2 * pace, swing}, 10.0}}),
+                soon, "squeezed between planes of which one pulls");
   scenes.end();
 }
 
 // ---- walls under way ----------------------------------------------------------------------------
 
-/// A disk falls onto a plane that turns quickly: what touches it is the plane's point under it, not
-/// under its centre.
-Scene turningPlaneScene(const ContactLaw& law) {
-  Scene scene = emptyScene(law, coarseSteps);
-  scene.bodies = {planeWall(Vec2::Zero(), {0.0, 1.0})};
-  scene.bodies[0].motion = rotating(20.0);
-  addDisk(scene, smallRadius, smallMass, {1.5 * smallRadius, smallRadius + ahead}, {0.0, -pace});
-  return scene;
-}
-
 /// A disk flies to a plane that turns about another point than its own: by then both the normal and
 /// the point have turned by more than a radian.
-Scene turnedPlaneScene(const ContactLaw& law) {
+Scene turnedPlaneScene(const ContactLaw& law, const Vec2& by) {
   constexpr double omega = 20.0, meets = 0.06;  // [rad/s, s]
   const Vec2 away(std::sin(omega * meets), -std::cos(omega * meets));
-  Scene scene = emptyScene(law, coarseSteps);
-  scene.bodies = {planeWall({0.0, -smallRadius - pace * meets}, {0.0, 1.0})};
-  scene.bodies[0].motion = rotating(omega);
-  addDisk(scene, smallRadius, smallMass, Vec2::Zero(), pace * away);
-  return shifted(scene, {0.3, -0.2});
-}
-
-/// A disk falls onto a post that turns clockwise, and not about the origin.
-Scene turningPostScene(const ContactLaw& law) {
-  const Vec2 centre(0.3, -0.2);
-  Scene scene = emptyScene(law, coarseSteps);
-  scene.bodies = {wallOf("post", centre, {centre}, rotating(-20.0))};
-  addDisk(scene, smallRadius, smallMass, centre + Vec2(2.0 * smallRadius + ahead, 0.0),
-          {-pace, 0.0});
-  return scene;
+  return shifted(
+      sceneOf(law, {planeWall({0.0, -smallRadius - pace * meets}, Vec2::UnitY(), rotating(omega))},
+              {{Vec2::Zero(), pace * away}}),
+      by);
 }
 
 /// A ring about another place than the origin shrinks: one of its disks pushes a disk, and another
 /// runs into one that has stopped a moment ago.
-Scene shrinkingRingScene(const ContactLaw& law) {
+Scene shrinkingRingScene(const ContactLaw& law, const Vec2& by) {
   constexpr double ring = 0.1, shrinks = 0.004;  // [m, s]
   const Vec2 pushing(-0.03, 0.04), inwards = -pushing.normalized();
-  Scene scene = emptyScene(law, coarseSteps);
-  scene.bodies = {wallOf("ring", Vec2::Zero(), {Vec2(ring, 0.0), pushing})};
-  scene.bodies[0].motion.kind = Motion::Kind::radial;
-  scene.bodies[0].motion.radialVelocity = -pace;
-  scene.bodies[0].motion.radialEnd = shrinks;
+  Motion shrinking;
+  shrinking.kind = Motion::Kind::radial;
+  shrinking.radialVelocity = -pace;
+  shrinking.radialEnd = shrinks;
   const double reach = 2.0 * smallRadius + 2.0 * pace * shrinks + 2.0 * ahead;
-  addDisk(scene, smallRadius, smallMass, {ring - reach, 0.0}, {pace, 0.3 * pace}, 8.0);
-  addDisk(scene, smallRadius, smallMass, pushing + (2.0 * smallRadius + ahead) * inwards,
-          0.2 * pace * perpendicular(inwards));
-  return shifted(scene, {0.3, -0.2});
+  return shifted(sceneOf(law, {wallOf("ring", Vec2::Zero(), {Vec2(ring, 0.0), pushing}, shrinking)},
+                         {{{ring - reach, 0.0}, {pace, 0.3 * pace}, 8.0},
+                          {pushing + (2.0 * smallRadius + ahead) * inwards,
+                           0.2 * pace * perpendicular(inwards)}}),
+                 by);
 }
 
 void wallsUnderWayAct(CheckContext& context) {
+  const ContactLaw law = context.law();
+  const Vec2 elsewhere(0.3, -0.2);
   Several scenes(context);
-  scenes.expect(turningPlaneScene(context.law()), {0.003, 0.01}, "on a plane that turns");
-  scenes.expect(turnedPlaneScene(context.law()), {0.062, 0.07}, "on a plane that has turned");
-  scenes.expect(turningPostScene(context.law()), {0.003, 0.01}, "on a post that turns clockwise");
-  scenes.expect(shrinkingRingScene(context.law()), {0.003, 0.008, 0.016},
+  // Quickly: what touches the disk is the plane's point under it, not under its centre.
+  scenes.expect(sceneOf(law, {planeWall(Vec2::Zero(), Vec2::UnitY(), rotating(20.0))},
+                        {{{1.5 * smallRadius, smallRadius + ahead}, {0.0, -pace}}}),
+                {0.003, 0.01}, "on a plane that turns");
+  scenes.expect(turnedPlaneScene(law, elsewhere), {0.062, 0.07}, "on a plane that has turned");
+  scenes.expect(sceneOf(law, {postAt(elsewhere, rotating(-20.0))},
+                        {{elsewhere + Vec2(2.0 * smallRadius + ahead, 0.0), {-pace, 0.0}}}),
+                {0.003, 0.01}, "on a post that turns clockwise");
+  scenes.expect(shrinkingRingScene(law, elsewhere), {0.003, 0.008, 0.016},
                 "at a ring that shrinks, and has stopped");
   scenes.end();
 }
 
 // ---- the bottom plate ---------------------------------------------------------------------------
-
-/// Two that touch slide together, on a plate without torques: about a spin of 0 their signs would
-/// be roundings'.
-Scene touchingOnPlate(const ContactLaw& law, double mu) {
-  Scene scene = emptyScene(law, coarseSteps);
-  scene.bottom = thesisBottom<BottomPlate>(mu, false);
-  for (const double side : {1.0, -1.0})
-    addDisk(scene, smallRadius, smallMass, {0.0, 0.99 * side * smallRadius}, {pace, 0.0});
-  return scene;
-}
 
 /// Two disks of different masses that slide until they rest, one of them turning, and one that the
 /// plate holds on a slope; two fast ones fly apart meanwhile, so that lists of neighbours are made
@@ -358,8 +303,12 @@ void plateBrakesEachByItself(CheckContext& context) {
   expectAsInHouse(context, scene, {0.02, 0.06, 0.12}, "on the bottom plate");
   scene.disks.spin.assign(scene.disks.size(), 0.1);  // τ_m |F| brakes it, F as large as if it held
   expectAsInHouse(context, scene, {1e-3}, "on the bottom plate, where disks slide and hardly turn");
-  expectAsInHouse(context, touchingOnPlate(context.law(), mu), {1e-3, 0.02},
-                  "two that touch on the bottom plate");
+  // On a plate without torques: about a spin of 0 their signs would be roundings'.
+  scene = sceneOf(
+      context.law(), {},
+      {{{0.0, 0.99 * smallRadius}, {pace, 0.0}}, {{0.0, -0.99 * smallRadius}, {pace, 0.0}}});
+  scene.bottom = thesisBottom<BottomPlate>(mu, false);
+  expectAsInHouse(context, scene, {1e-3, 0.02}, "two that touch on the bottom plate");
 }
 
 // ---- slow ---------------------------------------------------------------------------------------
@@ -372,8 +321,7 @@ void slowIsNotAtRest(CheckContext& context) {
   constexpr double slow = 1e-7;  // [m/s]
   const ContactLaw law = context.law();
   const Tolerance scheme = {0.0, 0.02, "a first-order scheme, and where in a step it touches"};
-  Scene touch = emptyScene(law, 4.0 * coarseSteps);
-  touch.bodies = {wallOf("post", Vec2::Zero(), {Vec2::Zero()})};
+  Scene touch = sceneOf(law, {postAt(Vec2::Zero())}, {}, 4.0 * coarseSteps);
   const double place = 2.0 * smallRadius + 0.5 * touch.dt * slow;
   addDisk(touch, smallRadius, smallMass, {place, 0.0}, {-slow, 0.0});
   if (const auto restitution = closedRestitution(law, smallMass)) {
@@ -383,12 +331,12 @@ void slowIsNotAtRest(CheckContext& context) {
     context.near(after.velocity[0].x(), *restitution * slow, scheme,
                  "the speed at which a disk leaves that came at 0.1 µm/s [m/s]");
   }
-  Scene rest = emptyScene(law, coarseSteps);
+  Motion rising;
+  rising.kind = Motion::Kind::translating;
+  rising.velocity = {0.0, slow};
+  Scene rest =
+      sceneOf(law, {planeWall(Vec2::Zero(), Vec2::UnitY(), rising)}, {{{0.0, smallRadius}}});
   rest.gravity = {0.0, -9.81};
-  rest.bodies = {planeWall(Vec2::Zero(), {0.0, 1.0})};
-  rest.bodies[0].motion.kind = Motion::Kind::translating;
-  rest.bodies[0].motion.velocity = {0.0, slow};
-  addDisk(rest, smallRadius, smallMass, {0.0, smallRadius}, Vec2::Zero());
   if (!simulates(context.can, Effect::gravity) || context.refusal(rest)) return;
   const double later = 0.25, end = 0.5;  // [s]; e-folding times are some 4 ms
   const double was = context.at(later).position[0].y(), now = context.at(end).position[0].y();

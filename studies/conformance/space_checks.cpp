@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "adapters/suitability.hpp"
 #include "studies/conformance/check_context.hpp"
@@ -404,20 +403,6 @@ void pairsAcrossBorders(CheckContext& c) {
   if (!found.missing.empty() && !found.otherwise)
     c.suspect("bodies do not meet each other's images across the border" +
               alongAxes(found.missing));
-}
-
-/// The second of each pair as a disk, or sphere, of a wall at rest.
-template <int D>
-SceneOf<D> withPosts(SceneOf<D> scene) {
-  WallBodyOf<D>& posts = scene.bodies.emplace_back();
-  posts.name = "posts";
-  const DisksOf<D> all = std::exchange(scene.disks, {});
-  for (std::size_t k = 0; k < all.size(); k += 2) {
-    addBody<D>(scene, all.position[k], all.velocity[k], all.spin[k]);
-    posts.diskPosition.push_back(all.position[k + 1]);
-    posts.diskRadius.push_back(radius);
-  }
-  return scene;
 }
 
 /// A wall's disks, or spheres, have images too.
