@@ -2,12 +2,11 @@
 // forms of two bodies, without the in-house engine.
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numbers>
 
 #include "adapters/declared_law.hpp"
+#include "law/cohesion.hpp"
 #include "law/law_options.hpp"
-#include "oracle/calibration.hpp"
+#include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"
 #include "studies/conformance/check_context.hpp"
 #include "studies/conformance/declared_laws.hpp"
@@ -79,11 +78,9 @@ double rollsOn(const ContactLaw& law, bool plane, double inertia, double spin) {
 
 /// A disk that falls straight on a plane and turns; nothing slips against it without friction.
 Scene turningOnPlane(const ContactLaw& law) {
-  Scene scene = emptyScene(law, fineSteps);
-  scene.bodies = {planeWall({0.2, 0.0}, Vec2::UnitY())};
-  addDisk(scene, smallRadius, smallMass, {0.0, smallRadius + Encounter::gap},
-          {0.0, -Encounter::speed}, pairSpin);
-  return scene;
+  return sceneOf(law, {planeWall({0.2, 0.0}, Vec2::UnitY())},
+                 {{{0.0, smallRadius + Encounter::gap}, {0.0, -Encounter::speed}, pairSpin}},
+                 fineSteps);
 }
 
 void rollingFollowsItsClosedForms(CheckContext& context) {
@@ -147,11 +144,10 @@ void rollingHoldsASlope(CheckContext& context) {
   const double most = law.muR * rollingLength(law, smallPair(true, smallInertia)) / smallRadius;
   for (const auto& [part, end] : {std::pair(holding, soon), {rolling, soon}, {steep, late}}) {
     const double slope = std::atan(part * most);
-    Scene scene = emptyScene(law, 100.0);
-    scene.gravity = gravity * Vec2(std::sin(slope), -std::cos(slope));
-    scene.bodies = {planeWall({0.2, 0.0}, Vec2::UnitY())};
     const double depth = smallMass * gravity * std::cos(slope) / law.kn;
-    addDisk(scene, smallRadius, smallMass, {0.0, smallRadius - depth}, Vec2::Zero());
+    Scene scene =
+        sceneOf(law, {planeWall({0.2, 0.0}, Vec2::UnitY())}, {{{0.0, smallRadius - depth}}}, 100.0);
+    scene.gravity = gravity * Vec2(std::sin(slope), -std::cos(slope));
     context.load(scene);
     if (declared(context).kn != law.kn) context.skip("its contacts are stiffer than the scene's");
     const double speed = context.at(end).velocity[0].x();
@@ -184,20 +180,21 @@ void memoriesHoldWhileAnotherFliesBy(CheckContext& context) {
   constexpr double post = 2.0 * smallRadius - depth;
   bool any = false;
   for (const ContactLaw& law : laws) {
-    Scene scene = emptyScene(law, coarseSteps);
-    scene.bodies = {wallOf("posts", Vec2::Zero(), {{0.0, post}, {0.0, -post}})};
     constexpr double path = 20.0 * smallRadius, beside = path + 2.005 * smallRadius;
     const auto states = [&](double passing) {
-      Scene both = scene;
-      addDisk(both, smallRadius, smallMass, {-0.03, path}, {passing, 0.0});
-      addDisk(both, smallRadius, smallMass, Vec2::Zero(), {0.02, 0.0}, 5.0);
-      // One of a pair of its own, in which the second is the one that turns.
-      addDisk(both, smallRadius, smallMass, {0.1, 0.0}, {0.01, 0.0}, -3.0);
-      addDisk(both, smallRadius, smallMass, {0.1, post}, {-0.01, 0.0}, 4.0);
-      // Near these it is in lists, before all others: what is kept by its place there moves on.
-      for (const double x : {-0.02, 0.0, 0.02})
-        addDisk(both, smallRadius, smallMass, {x, beside}, Vec2::Zero());
-      return context.refusal(both) ? std::vector<DiskState>() : statesOf(both, context.at(end));
+      const Scene scene =
+          sceneOf(law, {wallOf("posts", Vec2::Zero(), {{0.0, post}, {0.0, -post}})},
+                  {{{-0.03, path}, {passing, 0.0}},
+                   {Vec2::Zero(), {0.02, 0.0}, 5.0},
+                   // One of a pair of its own, in which the second is the one that turns.
+                   {{0.1, 0.0}, {0.01, 0.0}, -3.0},
+                   {{0.1, post}, {-0.01, 0.0}, 4.0},
+                   // Near these it is in lists, before all others: what is kept by its place there
+                   // moves on.
+                   {{-0.02, beside}},
+                   {{0.0, beside}},
+                   {{0.02, beside}}});
+      return context.refusal(scene) ? std::vector<DiskState>() : statesOf(scene, context.at(end));
     };
     const std::vector<DiskState> wanted = states(0.0), found = states(speed);
     if (wanted.empty() || found.empty()) continue;
@@ -226,74 +223,6 @@ void memoriesHoldWhileAnotherFliesBy(CheckContext& context) {
 
 // ---- cohesion -----------------------------------------------------------------------------------
 
-double pullOff(const ContactLaw& law) {
-  const double factor = law.cohesion == CohesionLaw::jkr ? 1.5 : 2.0;
-  return factor * std::numbers::pi * law.w * pairRadius;
-}
-
-/// a_p²/R of JKR's contact, the unit of its overlaps: a_p³ = 9π w R²/(8 E*), E* = 3/4 k_n [m].
-double bondDepth(const ContactLaw& law) {
-  const double width = std::cbrt(1.5 * std::numbers::pi * law.w * pairRadius * pairRadius / law.kn);
-  return width * width / pairRadius;
-}
-
-/// The energy that a touch of two small disks costs, of JKR's contact alone: 0.320 F_po a_p²/R to
-/// the largest pull, 0.649 to the end of the branch, which is y⁴ − 4/3 y at 1 and at 3^(−1/3) of
-/// F_po a_p²/R (2/5 y¹⁰ − 4/3 y⁷ + 2/3 y⁴), less that at (4/3)^(1/3) (Johnson et al. 1971).
-double lossOfBond(const ContactLaw& law) {
-  const auto energy = [](double y) {
-    return 0.4 * std::pow(y, 10.0) - 4.0 / 3.0 * std::pow(y, 7.0) + 2.0 / 3.0 * std::pow(y, 4.0);
-  };
-  const double end = law.conventions.jkrEnd == JkrEnd::branch ? std::cbrt(1.0 / 3.0) : 1.0;
-  return pullOff(law) * bondDepth(law) * (energy(end) - energy(std::cbrt(4.0 / 3.0)));
-}
-
-/// How far apart surfaces are when they part, in units of a_p²/R.
-double bondEnd(const ContactLaw& law) {
-  return law.conventions.jkrEnd == JkrEnd::branch ? std::cbrt(9.0) / 3.0 : 1.0 / 3.0;
-}
-
-/// e_n of a plastic contact: e² = k_n/k₂ − k_c δ_min δ₀/(k_n δ_m²), the areas of Luding (2008),
-/// Fig. 1.
-double plasticRestitution(const ContactLaw& law, double speed) {
-  const double deepest = speed * std::sqrt(pairMass / law.kn), most = law.kUnload - law.kn;
-  const double limit = law.kUnload / most * law.plasticDepth * 2.0 * pairRadius;
-  const double k2 = law.kn + most * (limit > 0.0 ? std::min(1.0, deepest / limit) : 1.0);
-  const double rest = (1.0 - law.kn / k2) * deepest,
-               least = (k2 - law.kn) * deepest / (k2 + law.kc);
-  return std::sqrt(law.kn / k2 - law.kc * least * rest / (law.kn * deepest * deepest));
-}
-
-/// ∫ f_n dδ of a law that gives back what it takes [J].
-double energyAt(const ContactLaw& law, double overlap) {
-  const double elastic = elasticEnergy(law, pairRadius, overlap);
-  if (law.cohesion == CohesionLaw::dmt) return elastic - pullOff(law) * overlap;
-  const double circle = std::numbers::pi * pairRadius, reach = 2.0 * smallRadius;
-  double volume = circle * overlap * overlap;  // ∫ A dδ of A = 2π R₁₂ δ
-  if (law.conventions.cohesionArea == CohesionArea::twiceBetweenDisks) volume *= 2.0;
-  if (law.conventions.cohesionArea == CohesionArea::lens)  // A = π/4 (s² − d²) of equal spheres
-    volume = 0.25 * std::numbers::pi * overlap * overlap * (reach - overlap / 3.0);
-  return elastic - law.kc * volume;
-}
-
-/// Duration of such an impact: 2 ∫ dδ/√(v² − 2 W/m₁₂) up to where W = m₁₂ v²/2, by δ = δ_m (1 −
-/// u²), which takes the singular end away [s].
-double durationOf(const ContactLaw& law, double speed) {
-  const double kinetic = 0.5 * pairMass * speed * speed;
-  double low = 0.0, high = smallRadius;
-  for (int k = 0; k < 200; ++k) {
-    const double middle = 0.5 * (low + high);
-    (energyAt(law, middle) < kinetic ? low : high) = middle;
-  }
-  constexpr int parts = 4000;
-  double sum = 0.0;
-  for (int k = 0; k < parts; ++k) {
-    const double u = (k + 0.5) / parts, overlap = low * (1.0 - u * u);
-    sum += 2.0 * low * u / parts / std::sqrt(2.0 * (kinetic - energyAt(law, overlap)) / pairMass);
-  }
-  return 2.0 * sum;
-}
-
 /// Two small disks that meet head on at that speed.
 Scene headOn(const ContactLaw& law, double speed) {
   Scene scene = encounterScene({}, law, fineSteps);
@@ -321,7 +250,7 @@ void expectBond(CheckContext& context, const ContactLaw& law, double end) {
     if (first > 0.5) first = overlap;
     if (now.contacts->normalForce.front() < 0.0) farthest = std::min(farthest, overlap);
   }
-  const double reach = bondEnd(law) * bondDepth(law);
+  const double reach = bondRange(law, pairRadius);
   if (farthest == 0.0)
     context.suspectPart("contacts of JKR's law let go where surfaces just touch");
   context.atLeast(first, -1e-3 * reach, "the overlap where a bond of JKR's begins [m]");
@@ -337,15 +266,16 @@ void cohesionFollowsItsClosedForms(CheckContext& context) {
       const ContactLaw base = withoutDashpots(context.can, normal);
       if (!base.soft() || !goesWith(kind, base.normal)) continue;
       const ContactLaw law = withCohesion(base, kind);
-      const std::string name =
-          text(normal, " with cohesion = ", lawOptionValue(law, "cohesion"), ", ");
+      const std::string option = "cohesion = " + lawOptionValue(law, "cohesion"),
+                        name = text(normal, " with ", option, ", ");
       const bool bonds = kind == CohesionLaw::jkr;
-      const double sticking = bonds ? std::sqrt(2.0 * lossOfBond(law) / pairMass) : 0.0;
+      const CollidingPair pair = smallPair(false, smallInertia);
+      const double sticking = stickingSpeed(law, pair).value_or(0.0);
       const double speed = bonds ? 1.5 * sticking : Encounter::speed;
       const double end =
           Encounter::gap / speed + 5.0 * impactTime(law, {pairMass, pairRadius, speed});
       if (const auto why = context.refusal(headOn(law, speed))) {
-        context.couldNotExamine("cohesion = " + lawOptionValue(law, "cohesion"), *why);
+        context.couldNotExamine(option, *why);
         continue;
       }
       any = true;
@@ -355,11 +285,14 @@ void cohesionFollowsItsClosedForms(CheckContext& context) {
       const Parting parted = partingOf(after);
       double restitution = 1.0;
       if (bonds) restitution = std::sqrt(1.0 - 1.0 / (1.5 * 1.5));
-      if (kind == CohesionLaw::elastoPlastic) restitution = plasticRestitution(own, speed);
+      if (kind == CohesionLaw::elastoPlastic)
+        restitution = elastoPlasticRestitution(own, pair, speed);
       context.near(parted.speed / speed, restitution, firstOrderScheme, name + "e_n");
+      // Nothing slips: without friction there is no convention that has no limit of small steps.
       if (kind == CohesionLaw::area || kind == CohesionLaw::dmt)
         context.near(after.positionTime - Encounter::gap / speed - parted.gap / parted.speed,
-                     durationOf(own, speed), firstOrderScheme, name + "how long they touch [s]");
+                     oracleOutcome(frictionless(own), pair, {0.0, speed}).duration.value(),
+                     firstOrderScheme, name + "how long they touch [s]");
       if (!bonds) continue;
       if (context.contactReport() == ContactReport::instant) {
         context.load(headOn(law, speed));
@@ -368,7 +301,7 @@ void cohesionFollowsItsClosedForms(CheckContext& context) {
       context.load(headOn(law, 0.5 * sticking));
       const double stuck = Encounter::gap / (0.5 * sticking);
       for (const double times : {2.0, 3.0, 4.0})
-        context.atMost(partingOf(context.at(times * stuck)).gap, bondEnd(own) * bondDepth(own),
+        context.atMost(partingOf(context.at(times * stuck)).gap, bondRange(own, pairRadius),
                        name + "the gap of disks that met at half the speed that sticks [m]");
     }
   if (!any) context.skip("it refuses every law with cohesion here");
@@ -379,21 +312,21 @@ void cohesionFollowsItsClosedForms(CheckContext& context) {
 /// Two of one material, one of each, two of the other, and of the one two at walls of the other and
 /// of their own.
 Scene fourEncounters(const ContactLaw& law) {
-  Scene scene = emptyScene(law, coarseSteps);
   constexpr double apart = 12.0 * smallRadius;
-  for (int k = 0; k < 3; ++k) {
-    const Scene met = encounterScene({.obliqueness = 0.4, .spins = {9.0, -4.0}}, law, coarseSteps);
+  const Disks met =
+      encounterScene({.obliqueness = 0.4, .spins = {9.0, -4.0}}, law, coarseSteps).disks;
+  std::vector<SmallDisk> disks;
+  std::vector<WallBody> posts;
+  for (int k = 0; k < 3; ++k)
     for (const std::size_t i : {0, 1})
-      addDisk(scene, smallRadius, smallMass, met.disks.position[i] + Vec2(0.0, apart * k),
-              met.disks.velocity[i], met.disks.spin[i]);
-  }
+      disks.push_back({met.position[i] + Vec2(0.0, apart * k), met.velocity[i], met.spin[i]});
   for (const int k : {3, 4}) {
     const Vec2 post(0.0, k * apart);
-    scene.bodies.push_back(wallOf(text("post ", k), post, {post}));
-    addDisk(scene, smallRadius, smallMass, post + Vec2(2.0 * smallRadius + Encounter::gap, 0.0),
-            {-Encounter::speed, 0.03}, 7.0);
+    posts.push_back(postAt(post, {}, k == 3 ? "post 3" : "post 4"));
+    disks.push_back(
+        {post + Vec2(2.0 * smallRadius + Encounter::gap, 0.0), {-Encounter::speed, 0.03}, 7.0});
   }
-  return scene;
+  return sceneOf(law, std::move(posts), disks);
 }
 
 /// Each pair does what it does where all are like it.
