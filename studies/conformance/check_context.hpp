@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <set>
-#include <span>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -351,7 +350,7 @@ inline Check inBoth(Check check) {
 /// Why an engine of space alone is not asked twice.
 inline constexpr const char* sameOfSpheres = "the same is asked for of spheres";
 
-using Checks = std::span<const Check>;
+using Checks = std::vector<Check>;
 /// What a list of checks is about: together they pass or fail.
 struct Subject {
   const char* name;

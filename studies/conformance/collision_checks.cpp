@@ -284,7 +284,7 @@ void renumberedSceneGivesTheRenumberedResult(CheckContext& context) {
 }  // namespace
 
 Checks collisionChecks() {
-  static const Check list[] = {
+  return {
       {"HeadOnCollision", "two disks head on: momentum, energy, restitution", headOnCollision},
       {"PlaneDoesNotYield", "a plane does not yield, and has no ends", planeDoesNotYield},
       {"CornersHaveNoFirstPlane", "both planes of a corner act, whichever comes first",
@@ -293,11 +293,10 @@ Checks collisionChecks() {
       {"FreeFlightRemembersNothing", "a contact that ended leaves nothing behind",
        freeFlightRemembersNothing},
   };
-  return list;
 }
 
 Checks symmetryChecks() {
-  static const Check list[] = {
+  return {
       {"MirroredSceneGivesTheMirroredResult", "a mirrored scene gives the mirrored result",
        imageGivesTheImage<true>},
       {"RotatedSceneGivesTheRotatedResult", "a turned scene gives the turned result",
@@ -306,7 +305,6 @@ Checks symmetryChecks() {
        "disks numbered otherwise do the same: none is another for its number",
        renumberedSceneGivesTheRenumberedResult},
   };
-  return list;
 }
 
 }  // namespace crossgrain::conformance

@@ -427,7 +427,7 @@ void planeLoadsAreThoseOfTheirContacts(CheckContext& context) {
 }  // namespace
 
 Checks contactChecks() {
-  static const Check list[] = {
+  return {
       {"SnapshotsAreSound", "snapshots can be true: times, places, contacts worked out again",
        snapshotsAreSound},
       inBoth({"ForcesAreThoseOfTheLaw", "the forces of contacts are those of the declared law",
@@ -450,7 +450,6 @@ Checks contactChecks() {
               "a plane's force and torque are those of its contacts",
               planeLoadsAreThoseOfTheirContacts}),
   };
-  return list;
 }
 
 }  // namespace crossgrain::conformance

@@ -346,12 +346,11 @@ void conventionsAreThoseDeclared(CheckContext& context) {
 }  // namespace
 
 Checks conventionChecks() {
-  static const Check list[] = {
+  return {
       {"ConventionsAreThoseDeclared",
        "its conventions are those declared: the in-house engine with them does the same",
        conventionsAreThoseDeclared},
   };
-  return list;
 }
 
 }  // namespace crossgrain::conformance

@@ -195,7 +195,7 @@ void turningCylinderDrivesSpheres(CheckContext& c) {
 }  // namespace
 
 Checks cylinderChecks() {
-  static const Check list[] = {
+  return {
       {"CylinderIsMetAsAPlane", "spheres run into a cylinder all round as into a plane",
        cylinderIsMetAsAPlane, 3},
       {"TurningCylinderDrivesSpheres",
@@ -203,7 +203,6 @@ Checks cylinderChecks() {
        "torque",
        turningCylinderDrivesSpheres, 3},
   };
-  return list;
 }
 
 }  // namespace crossgrain::conformance

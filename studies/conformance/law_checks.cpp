@@ -167,7 +167,7 @@ void movingPlanesFollowTheOracle(CheckContext& context) {
 }  // namespace
 
 Checks lawChecks() {
-  static const Check list[] = {
+  return {
       {"FrictionFollowsTheOracle", "every law follows the theory of two disks",
        frictionFollowsTheOracle},
       {"UnequalDisksFollowTheOracle", "so do disks of two sizes and masses",
@@ -179,7 +179,6 @@ Checks lawChecks() {
       {"MovingPlanesFollowTheOracle", "and on a plane that moves along itself, towards it or away",
        movingPlanesFollowTheOracle},
   };
-  return list;
 }
 
 }  // namespace crossgrain::conformance

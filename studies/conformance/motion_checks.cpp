@@ -371,7 +371,7 @@ void wallsSpinIsFelt(CheckContext& context) {
 }  // namespace
 
 Checks freeMotionChecks() {
-  static const Check list[] = {
+  return {
       {"FliesStraight", "a disk alone flies straight", fliesStraight, 2, true},
       inBoth(
           {"FallsFreely", "disks of two sizes fall freely, for two seconds", fallsFreely, 2, true}),
@@ -380,12 +380,11 @@ Checks freeMotionChecks() {
        "where nothing slides the bottom plate acts as its equations say",
        bottomPlateHoldsASlowDisk},
   };
-  return list;
 }
 
 Checks wallChecks() {
   using Kind = Motion::Kind;
-  static const Check list[] = {
+  return {
       inBoth({"RotatingWallPushes", "a rotating wall moves as prescribed and pushes",
               wallPushes<Kind::rotating, false>}),
       {"TranslatingWallPushes", "a translating wall moves as prescribed and pushes",
@@ -407,7 +406,6 @@ Checks wallChecks() {
        turningWheelDragsADisk},
       {"WallsSpinIsFelt", "the law feels a wall's spin as a disk's", wallsSpinIsFelt},
   };
-  return list;
 }
 
 }  // namespace crossgrain::conformance

@@ -455,7 +455,7 @@ void settingDtIsUsed(CheckContext& context) {
 }  // namespace
 
 Checks capabilityChecks() {
-  static const Check list[] = {
+  return {
       {"CapabilitiesAreComplete", "it says what it can do", capabilitiesAreComplete},
       {"LawOptionsAreThoseOfTheCaseFiles",
        "its law options have names and values that case files know",
@@ -472,11 +472,10 @@ Checks capabilityChecks() {
       {"EffectsAreThoseThatItsCapabilitiesSay", "effects are those that its capabilities say",
        effectsAreThoseThatItsCapabilitiesSay},
   };
-  return list;
 }
 
 Checks lifecycleChecks() {
-  static const Check list[] = {
+  return {
       {"AdvancesByWholeSteps", "it advances by whole steps and counts them", advancesByWholeSteps,
        2, true},
       {"StartIsTheScene", "it starts from the scene's own state", startIsTheScene, 2, true},
@@ -488,7 +487,6 @@ Checks lifecycleChecks() {
       {"WorkersAgreeBitForBit", "two workers do the same, to the bit", workersAgreeBitForBit, 2,
        true},
   };
-  return list;
 }
 
 }  // namespace crossgrain::conformance

@@ -303,7 +303,7 @@ void springsHoldWhileAnotherFalls(CheckContext& context) {
 }  // namespace
 
 Checks reachChecks() {
-  static const Check list[] = {
+  return {
       {"FarIsAsNear", "a collision far from the origin is as one near it", farIsAsNear},
       {"LateIsAsEarly", "a collision long after load is as one at once", lateIsAsEarly},
       {"RollersGoOn", "disks that rollers turn still do after two seconds what they did before",
@@ -317,7 +317,6 @@ Checks reachChecks() {
        "springs hold a disk while others fall past it, for three seconds, and meet in the end",
        springsHoldWhileAnotherFalls},
   };
-  return list;
 }
 
 }  // namespace crossgrain::conformance

@@ -132,7 +132,7 @@ void unknownSettingsAreRefused(CheckContext& context) {
 }  // namespace
 
 Checks refusalChecks() {
-  static const Check list[] = {
+  return {
       {"HarnessRefusesWhatTheEngineLacks", "what it lacks is refused before it is asked",
        harnessRefusesWhatTheEngineLacks},
       {"EngineRefusesOrSaysHowItDeviates", "it refuses, or says how it deviates",
@@ -141,7 +141,6 @@ Checks refusalChecks() {
       {"UnknownSettingsAreRefused", "settings that it does not have are refused",
        unknownSettingsAreRefused},
   };
-  return list;
 }
 
 }  // namespace crossgrain::conformance

@@ -361,7 +361,7 @@ void materialsHaveTheirOwnLaws(CheckContext& context) {
 }  // namespace
 
 Checks resistanceChecks() {
-  static const Check list[] = {
+  return {
       inBoth({"RollingFollowsItsClosedForms",
               "rolling resistance takes as much spin as closed forms say",
               rollingFollowsItsClosedForms}),
@@ -375,7 +375,6 @@ Checks resistanceChecks() {
       {"MaterialsHaveTheirOwnLaws", "each two materials have a law of their own",
        materialsHaveTheirOwnLaws},
   };
-  return list;
 }
 
 }  // namespace crossgrain::conformance

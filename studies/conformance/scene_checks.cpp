@@ -347,7 +347,7 @@ void slowIsNotAtRest(CheckContext& context) {
 }  // namespace
 
 Checks sceneChecks() {
-  static const Check list[] = {
+  return {
       {"SeveralActAtOnce",
        "what touches a disk at once acts at once, whatever it is: the in-house engine does the "
        "same",
@@ -359,7 +359,6 @@ Checks sceneChecks() {
        plateBrakesEachByItself},
       {"SlowIsNotAtRest", "nothing is too slow or too slight to be felt", slowIsNotAtRest},
   };
-  return list;
 }
 
 }  // namespace crossgrain::conformance

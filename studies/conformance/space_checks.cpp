@@ -335,42 +335,46 @@ std::string alongWhat(const std::vector<int>& along) {
   return along.size() > 1 ? " at a corner" : alongAxes(along);
 }
 
-Tolerance acrossRounding(const CheckContext& c) {
-  return c.byPrecision(1e-9, std::max(1e-4, roundedImpact(c, boxWidth * radius, 0.4)),
-                       "the same sums of places that are rounded in another way");
-}
-
 /// Directions along which bodies do not meet, and whether along others something else is wrong.
 struct AcrossBorders {
   std::vector<int> missing;
   bool otherwise = false;
 };
 
-/// Two that meet, and the same two half a box further on, on either side of its border, or at a
-/// corner.
-template <int D>
-void expectPairsAcross(CheckContext& c, const std::vector<int>& along, AcrossBorders& found) {
-  const SceneOf<D> scene = loadedPairs(
-      c, twoPairs<D>(followed(c.can, dampedLaw(D)), {0.5 * boxWidth, boxWidth}, 0.0, 1.0, along));
+/// Two that meet, or one at a wall's, and the same half a box further on, on either side of its
+/// border, or at a corner.
+template <int D, bool atWall>
+void expectTheSameAcross(CheckContext& c, const std::vector<int>& along, AcrossBorders& found) {
+  SceneOf<D> scene =
+      twoPairs<D>(followed(c.can, dampedLaw(D)), {0.5 * boxWidth, boxWidth}, 0.0, 1.0, along);
+  scene = loadedPairs(c, atWall ? withPosts<D>(std::move(scene)) : std::move(scene));
   const BoxOf<D>& box = *scene.box;
   c.examine(periodicDirections);
   const bool held = c.faults.empty();  // at a border: else a corner says nothing more
   const std::size_t faults = c.faults.size();
-  const Tolerance rounding = acrossRounding(c);
+  const Tolerance rounding =
+      c.byPrecision(1e-9, std::max(1e-4, roundedImpact(c, boxWidth * radius, 0.4)),
+                    "the same sums of places that are rounded in another way");
   const SnapshotOf<D> during = shown<D>(c, 4e-5), after = shown<D>(c, 1e-3);
+  constexpr std::size_t bodies = atWall ? 1 : 2;  // of a pair
   VecOf<D> changes[2];
-  for (const int side : {0, 1}) {
-    for (const int pair : {0, 1})
-      changes[pair] = after.velocity[2 * pair + side] - scene.disks.velocity[2 * pair + side];
-    c.require(changes[0].norm() > 0.1, "two in the middle of the box do not bounce off each other");
+  for (std::size_t side = 0; side < bodies; ++side) {
+    for (const std::size_t pair : {0, 1})
+      changes[pair] =
+          after.velocity[bodies * pair + side] - scene.disks.velocity[bodies * pair + side];
+    c.require(changes[0].norm() > 0.1,
+              atWall ? "one in the middle of the box does not bounce off a wall's"
+                     : "two in the middle of the box do not bounce off each other");
     c.near((changes[1] - changes[0]).norm() / changes[0].norm(), 0.0, rounding,
-           text("Δv of ", side, " of two across the border", alongWhat(along),
-                ", off from that of the same two inside by a part of it"));
+           text("Δv of ", atWall ? "one at a wall's" : text(side, " of two"), " across the border",
+                alongWhat(along), ", off from that of the same ", atWall ? "" : "two ",
+                "inside by a part of it"));
   }
   if (along.size() == 1 && changes[1].norm() < 1e-3 * changes[0].norm())
     found.missing.push_back(along.front());
   else if (along.size() == 1 && c.faults.size() > faults)
     found.otherwise = true;
+  if (atWall) return;
   if (held && found.missing.empty() && changes[1].dot(changes[0]) < 0.0)
     c.suspect("the force across a border is that of the wrong image: it has the other sign");
   if (!during.contacts) return;
@@ -394,47 +398,24 @@ void expectPairsAcross(CheckContext& c, const std::vector<int>& along, AcrossBor
   }
 }
 
-template <int D>
-void pairsAcrossBorders(CheckContext& c) {
+/// Two bodies, or one and a wall's disk or sphere, which have images too.
+template <int D, bool atWall>
+void sameAcrossBorders(CheckContext& c) {
   c.needs(periodicDirections);
+  if (atWall) c.needs(wallMotion(Motion::Kind::fixed));
   skipWhatSpaceHas<D>(c);
   AcrossBorders found;
-  for (const std::vector<int>& along : acrossWhat<D>()) expectPairsAcross<D>(c, along, found);
-  if (!found.missing.empty() && !found.otherwise)
-    c.suspect("bodies do not meet each other's images across the border" +
-              alongAxes(found.missing));
-}
-
-/// A wall's disks, or spheres, have images too.
-template <int D>
-void wallsAcrossBorders(CheckContext& c) {
-  c.needs(periodicDirections);
-  c.needs(wallMotion(Motion::Kind::fixed));
-  skipWhatSpaceHas<D>(c);
-  std::vector<int> missing;
-  for (const std::vector<int>& along : acrossWhat<D>()) {
-    const SceneOf<D> scene =
-        loadedPairs(c, withPosts<D>(twoPairs<D>(followed(c.can, dampedLaw(D)),
-                                                {0.5 * boxWidth, boxWidth}, 0.0, 1.0, along)));
-    c.examine(periodicDirections);
-    const SnapshotOf<D> after = shown<D>(c, 1e-3);
-    VecOf<D> changes[2];
-    for (const int k : {0, 1}) changes[k] = after.velocity[k] - scene.disks.velocity[k];
-    c.require(changes[0].norm() > 0.1, "one in the middle of the box does not bounce off a wall's");
-    c.near((changes[1] - changes[0]).norm() / changes[0].norm(), 0.0, acrossRounding(c),
-           text("Δv of one at a wall's across the border", alongWhat(along),
-                ", off from that of the same inside by a part of it"));
-    if (along.size() == 1 && changes[1].norm() < 1e-3 * changes[0].norm())
-      missing.push_back(along.front());
-  }
-  if (!missing.empty())
-    c.suspect("bodies do not meet images of walls' disks across the border" + alongAxes(missing));
+  for (const std::vector<int>& along : acrossWhat<D>())
+    expectTheSameAcross<D, atWall>(c, along, found);
+  if (!found.missing.empty() && (atWall || !found.otherwise))
+    c.suspect(text("bodies do not meet ", atWall ? "images of walls' disks" : "each other's images",
+                   " across the border", alongAxes(found.missing)));
 }
 
 }  // namespace
 
 Checks spaceChecks() {
-  static const Check list[] = {
+  return {
       {"TorqueTurnsSpheres", "f_t turns spheres about n × f_t, with 2/5 m a²", torqueTurnsSpheres,
        3},
       {"SpinsAboutTheLineChangeNothing",
@@ -444,11 +425,12 @@ Checks spaceChecks() {
        "an impact in another frame, its slip in any direction, is the same, turned",
        turnedImpactsAreTurnedAlike, 3},
       {"PairsAcrossBorders", "two disks across a periodic border are the same two inside",
-       pairsAcrossBorders<2>},
+       sameAcrossBorders<2, false>},
       {"PairsAcrossBordersInSpace", "two spheres across a periodic border are the same two inside",
-       pairsAcrossBorders<3>, 3},
-      {"WallsAcrossBorders", "so is a disk at a wall's disk", wallsAcrossBorders<2>},
-      {"WallsAcrossBordersInSpace", "so is a sphere at a wall's sphere", wallsAcrossBorders<3>, 3},
+       sameAcrossBorders<3, false>, 3},
+      {"WallsAcrossBorders", "so is a disk at a wall's disk", sameAcrossBorders<2, true>},
+      {"WallsAcrossBordersInSpace", "so is a sphere at a wall's sphere", sameAcrossBorders<3, true>,
+       3},
       {"PairsThatCrossBorders",
        "two disks in contact that go over a periodic border do what the same two do inside",
        pairsThatCrossBorders<2>},
@@ -456,7 +438,6 @@ Checks spaceChecks() {
        "two spheres in contact that go over a periodic border do what the same two do inside",
        pairsThatCrossBorders<3>, 3},
   };
-  return list;
 }
 
 }  // namespace crossgrain::conformance

@@ -167,7 +167,7 @@ void springsOfMovedPairs(CheckContext& c) {
 }  // namespace
 
 Checks springChecks() {
-  static const Check list[] = {
+  return {
       {"SpringsOfMovedPairs",
        "tangential springs of spheres that pass, turn and twist are those of the declared law, "
        "step "
@@ -178,7 +178,6 @@ Checks springChecks() {
        "declared law, step by step",
        rollingSpringsOfMovedPairs, 3},
   };
-  return list;
 }
 
 }  // namespace crossgrain::conformance
