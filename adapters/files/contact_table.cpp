@@ -233,11 +233,7 @@ std::string describeTwice(const FileParticles& particles, std::int64_t id) {
                      lineOf(std::find(one + 1, ids.end(), id)));
 }
 
-RowOfId::RowOfId(const FileFrame& frame) {
-  const std::vector<std::int64_t>& ids = frame.particles.id;
-  const auto twice = [&](std::int64_t id) {
-    throw BadInput(fmt::format("{}: {}", frame.where, describeTwice(frame.particles, id)));
-  };
+RowOfId::RowOfId(const std::vector<std::int64_t>& ids) {
   if (ids.empty()) return;
   const auto [lowest, highest] = std::ranges::minmax(ids);
   lowest_ = lowest;
@@ -247,16 +243,23 @@ RowOfId::RowOfId(const FileFrame& frame) {
     dense_.assign(static_cast<std::size_t>(highest - lowest) + 1, noRow);
     for (std::size_t k = 0; k < ids.size(); ++k) {
       std::uint32_t& row = dense_[static_cast<std::size_t>(ids[k] - lowest)];
-      if (row != noRow) twice(ids[k]);
-      row = static_cast<std::uint32_t>(k);
+      if (row == noRow)
+        row = static_cast<std::uint32_t>(k);
+      else if (!twice_)
+        twice_ = ids[k];
     }
     return;
   }
   for (std::size_t k = 0; k < ids.size(); ++k)
     sparse_.emplace_back(ids[k], static_cast<std::uint32_t>(k));
   std::ranges::sort(sparse_);
-  for (std::size_t k = 1; k < sparse_.size(); ++k)
-    if (sparse_[k].first == sparse_[k - 1].first) twice(sparse_[k].first);
+  const auto twice = std::ranges::adjacent_find(sparse_, {}, [](const auto& e) { return e.first; });
+  if (twice != sparse_.end()) twice_ = twice->first;
+}
+
+RowOfId::RowOfId(const FileFrame& frame) : RowOfId(frame.particles.id) {
+  if (twice_)
+    throw BadInput(fmt::format("{}: {}", frame.where, describeTwice(frame.particles, *twice_)));
 }
 
 std::optional<std::size_t> RowOfId::operator[](std::int64_t id) const {

@@ -27,14 +27,16 @@ void addContact(ContactTable& table, const Columns& columns, const TextFile& tex
 /// Refuses columns of which no contact can be made. @throws BadInput saying what is missing
 void checkContactColumns(const Columns& columns, const TextFile& text);
 
-/// Where particles are by their ids.
+/// Where particles are by their ids; of two with one id the first.
 class RowOfId {
  public:
+  explicit RowOfId(const std::vector<std::int64_t>& ids);
   /// @throws BadInput where two have one id
   explicit RowOfId(const FileFrame& frame);
   std::optional<std::size_t> operator[](std::int64_t id) const;
 
  private:
+  std::optional<std::int64_t> twice_;  ///< an id of two
   std::int64_t lowest_ = 0;
   std::vector<std::uint32_t> dense_;                            ///< row by id − lowest_
   std::vector<std::pair<std::int64_t, std::uint32_t>> sparse_;  ///< else, sorted

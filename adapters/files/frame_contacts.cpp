@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -210,48 +211,49 @@ bool rubs(const SceneOf<D>& scene) {
                          : scene.law.friction();
 }
 
-/// Sizes of tangential forces without a direction say nothing unless they are 0.
-bool lacksDirection(const FileContacts& contacts) {
-  if (!contacts.force.empty()) return false;
+/// Why contacts give no averages; null: they do. Sizes of tangential forces without a direction say
+/// nothing unless they are 0.
+/// @param rubs  tangential forces are to be there
+const char* lackOf(const std::optional<FileContacts>& contacts, bool rubs) {
+  if (!contacts) return "no contacts in the files";
+  if (contacts->size() == 0 || !contacts->force.empty()) return nullptr;
+  if (contacts->normalForce.empty()) return "contacts have no forces in the files";
   double largest = 0.0;
-  for (const double f : contacts.normalForce) largest = std::max(largest, std::abs(f));
-  return std::ranges::any_of(contacts.tangentialForce,
-                             [&](double f) { return std::abs(f) > 1e-9 * largest; });
+  for (const double f : contacts->normalForce) largest = std::max(largest, std::abs(f));
+  if (std::ranges::any_of(contacts->tangentialForce,
+                          [&](double f) { return std::abs(f) > 1e-9 * largest; }))
+    return "tangential forces have a size and no direction in the files, and contacts are left out";
+  if (contacts->tangentialForce.empty() && rubs)
+    return "no tangential forces in the files, and contacts are left out";
+  return nullptr;
 }
 
 }  // namespace
 
 ParticleIds::ParticleIds(const std::vector<std::int64_t>& idOfRow,
                          const std::vector<std::size_t>& walls)
-    : sorted_(idOfRow), ours_(idOfRow.size()), disks_(idOfRow.size() - walls.size()) {
-  std::ranges::sort(sorted_);
-  const auto placeOf = [&](std::size_t row) {
-    return static_cast<std::size_t>(std::ranges::lower_bound(sorted_, idOfRow[row]) -
-                                    sorted_.begin());
-  };
-  std::vector<bool> isWall(sorted_.size(), false);
+    : rows_(idOfRow),
+      ours_(idOfRow.size()),
+      theirs_(idOfRow.size()),
+      disks_(idOfRow.size() - walls.size()) {
+  std::vector<bool> isWall(idOfRow.size(), false);
   for (std::size_t w = 0; w < walls.size(); ++w) {
-    isWall[placeOf(walls[w])] = true;
-    ours_[placeOf(walls[w])] = disks_ + w;
+    isWall[walls[w]] = true;
+    ours_[walls[w]] = disks_ + w;
   }
+  std::vector<std::size_t> byId(idOfRow.size());
+  std::iota(byId.begin(), byId.end(), std::size_t{0});
+  std::ranges::stable_sort(byId, {}, [&](std::size_t row) { return idOfRow[row]; });
   std::size_t next = 0;
-  theirs_.resize(sorted_.size());
-  for (std::size_t k = 0; k < sorted_.size(); ++k) {
-    if (!isWall[k]) ours_[k] = next++;
-    theirs_[ours_[k]] = sorted_[k];
+  for (const std::size_t row : byId) {
+    if (!isWall[row]) ours_[row] = next++;
+    theirs_[ours_[row]] = idOfRow[row];
   }
 }
 
 std::optional<std::size_t> ParticleIds::ourOf(std::int64_t id) const {
-  if (sorted_.empty() || id < sorted_.front() || id > sorted_.back()) return std::nullopt;
-  // Ids without gaps are where they are counted.
-  auto k = static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(sorted_.front());
-  if (k >= sorted_.size() || sorted_[k] != id) {
-    const auto found = std::ranges::lower_bound(sorted_, id);
-    if (*found != id) return std::nullopt;
-    k = static_cast<std::uint64_t>(found - sorted_.begin());
-  }
-  return ours_[k];
+  const auto row = rows_[id];
+  return row ? std::optional(ours_[*row]) : std::nullopt;
 }
 
 template <int D>
@@ -259,32 +261,12 @@ std::optional<ContactsOf<D>> frameContacts(const FileFrame& frame, const FileUni
                                            const ParticleIds& ids, const SnapshotOf<D>& snapshot,
                                            const AuditBasisOf<D>& basis,
                                            std::set<std::string>& remarks) {
-  if (!frame.contacts) {
-    remarks.insert(
-        "no contacts in the files: stress, fabric, coordination and forces on walls are not "
-        "available");
+  if (const char* const lack = lackOf(frame.contacts, rubs(*basis.scene))) {
+    remarks.insert(fmt::format(
+        "{}: stress, fabric, coordination and forces on walls are not available", lack));
     return std::nullopt;
   }
   const FileContacts& in = *frame.contacts;
-  if (in.size() > 0 && in.force.empty() && in.normalForce.empty()) {
-    remarks.insert(
-        "contacts have no forces in the files: stress, fabric, coordination and forces on walls "
-        "are "
-        "not available");
-    return std::nullopt;
-  }
-  if (lacksDirection(in)) {
-    remarks.insert(
-        "tangential forces have a size and no direction in the files, and contacts are left out: "
-        "stress, fabric, coordination and forces on walls are not available");
-    return std::nullopt;
-  }
-  if (in.size() > 0 && in.force.empty() && in.tangentialForce.empty() && rubs(*basis.scene)) {
-    remarks.insert(
-        "no tangential forces in the files, and contacts are left out: stress, fabric, "
-        "coordination and forces on walls are not available");
-    return std::nullopt;
-  }
   if (in.size() > 0 && in.normal.empty())
     remarks.insert("no normals in the files: they follow from the positions");
   if (in.size() > 0 && in.overlap.empty())

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "adapters/audit.hpp"
+#include "adapters/files/contact_table.hpp"
 #include "adapters/files/file_units.hpp"
 #include "adapters/files/frame.hpp"
 
@@ -20,14 +21,15 @@ class ParticleIds {
   ParticleIds(const std::vector<std::int64_t>& idOfRow, const std::vector<std::size_t>& walls);
 
   std::size_t disks() const { return disks_; }
-  std::size_t size() const { return sorted_.size(); }
+  std::size_t size() const { return theirs_.size(); }
   /// Disks, then wall disks; absent: no such particle.
   std::optional<std::size_t> ourOf(std::int64_t id) const;
   std::int64_t theirOf(std::size_t our) const { return theirs_[our]; }
 
  private:
-  std::vector<std::int64_t> sorted_, theirs_;
-  std::vector<std::size_t> ours_;  ///< of sorted_
+  RowOfId rows_;
+  std::vector<std::size_t> ours_;  ///< of rows
+  std::vector<std::int64_t> theirs_;
   std::size_t disks_ = 0;
 };
 

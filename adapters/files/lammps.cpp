@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <string>
 
 #include "adapters/files/readers.hpp"
@@ -303,43 +304,27 @@ Meanings granColumns(std::string_view array, const std::vector<std::string>& sai
 /// twelve (single() of pair_gran_hooke_history.cpp and pair_granular.cpp).
 Meanings localColumns(std::string_view array, const std::vector<std::string>& said) {
   using enum Meaning;
-  static const std::vector<Keyword> keywords = {{"patom1", {first}},
-                                                {"patom2", {second}},
-                                                {"natom1", {first}},
-                                                {"natom2", {second}},
-                                                {"ptype1", {none}},
-                                                {"ptype2", {none}},
-                                                {"ntype1", {none}},
-                                                {"ntype2", {none}},
-                                                {"dist", {none}},
-                                                {"eng", {none}},
-                                                {"dx", {none}},
-                                                {"dy", {none}},
-                                                {"dz", {none}},
-                                                {"fx", {none}},
-                                                {"fy", {none}},
-                                                {"fz", {none}},
-                                                {"force", {normalForce}},
-                                                {"p1", {tx}},
-                                                {"p2", {ty}},
-                                                {"p3", {tz}},
-                                                {"p4", {none}}};
-  static const std::pair<std::string_view, Meaning> ofGranular[] = {
+  constexpr std::pair<std::string_view, Meaning> keywords[] = {
+      {"patom1", first},      {"patom2", second}, {"natom1", first}, {"natom2", second},
+      {"force", normalForce}, {"p1", tx},         {"p2", ty},        {"p3", tz}};
+  constexpr std::pair<std::string_view, Meaning> ofGranular[] = {
       {"p5", pseudoX},  {"p6", pseudoY},  {"p7", pseudoZ},
       {"p10", branchX}, {"p11", branchY}, {"p12", branchZ}};
+  constexpr std::string_view leftOut[] = {"ptype1", "ptype2", "ntype1", "ntype2", "dist", "eng",
+                                          "dx",     "dy",     "dz",     "fx",     "fy",   "fz"};
   const bool granular = std::ranges::find(said, "p12") != said.end();
   Meanings meanings;
-  for (std::size_t k = 1; k < said.size(); ++k) {
-    const std::string& word = said[k];
-    const auto known = std::ranges::find(keywords, word, &Keyword::name);
-    const auto* const rolling =
-        std::ranges::find(ofGranular, word, [](const auto& one) { return one.first; });
-    if (known != keywords.end())
-      meanings.push_back(known->columns.front());
+  for (const std::string& word : said | std::views::drop(1)) {
+    const auto isWord = [&](const auto& one) { return one.first == word; };
+    const auto* const known = std::ranges::find_if(keywords, isWord);
+    const auto* const rolling = std::ranges::find_if(ofGranular, isWord);
+    const bool isNumbered = word.size() > 1 && word.front() == 'p' &&
+                            word.find_first_not_of("0123456789", 1) == std::string::npos;
+    if (known != std::end(keywords))
+      meanings.push_back(known->second);
     else if (granular && rolling != std::end(ofGranular))
       meanings.push_back(rolling->second);
-    else if (word.size() > 1 && word.front() == 'p' &&
-             word.find_first_not_of("0123456789", 1) == std::string::npos)
+    else if (isNumbered || std::ranges::find(leftOut, word) != std::end(leftOut))
       meanings.push_back(none);
     else
       unknownWord(array, said.front(), word);
