@@ -57,12 +57,6 @@ class SnapshotFileOf {
 };
 using SnapshotFile = SnapshotFileOf<2>;
 
-/// Checks that all of such a file can be read: HDF5 itself does not survive every damaged one
-/// (support/hdf5_file.hpp). To be called before any user's file is opened.
-/// @throws BadInput as SnapshotReader, or that the file is damaged
-template <int D>
-void requireReadable(const std::filesystem::path& file, const Case& setup);
-
 /// Reads such a file, of a run or of any other source, one snapshot at a time. Between two of them
 /// the file is closed, so that other HDF5 files can be read and written meanwhile.
 template <int D>
@@ -80,17 +74,16 @@ class SnapshotReaderOf : public SnapshotSourceOf<D> {
   std::optional<SnapshotOf<D>> next() override;
   /// next() leaves out none, whatever is averaged.
   void takeAll();
-  double progress() const override;
+  double progress() const override {
+    return static_cast<double>(next_) / static_cast<double>(count_);
+  }
   std::vector<std::string> remarks() const override;
 
   std::size_t count() const { return count_; }
-  const std::filesystem::path& file() const { return name_; }
 
   /// The k-th, not yet found sound.
   /// @throws BadInput naming the dataset that is missing or does not fit
   SnapshotOf<D> read(std::size_t k) const;
-  /// @throws BadInput naming what cannot be true of a snapshot
-  void requireSound(const SnapshotOf<D>& snapshot, std::size_t k) const;
 
  private:
   std::filesystem::path name_;
@@ -102,7 +95,8 @@ class SnapshotReaderOf : public SnapshotSourceOf<D> {
 };
 using SnapshotReader = SnapshotReaderOf<2>;
 
-/// Opens a file that is readable and fits the case. @throws BadInput
+/// Opens a file of anybody's, of which all is read first for trial (support/hdf5_file.hpp).
+/// @throws BadInput as SnapshotReader, that it is damaged or does not fit the case
 template <int D>
 std::unique_ptr<SnapshotReaderOf<D>> openSnapshotFile(const std::filesystem::path& file,
                                                       const Case& setup);

@@ -259,14 +259,6 @@ void placeCellWalls(const Snapshot& first, Scene& scene) {
 }  // namespace
 
 template <int D>
-void requireReadable(const std::filesystem::path& file, const Case& setup) {
-  tryReading(file, [&] {
-    const SnapshotReaderOf<D> reader(file, setup);
-    for (std::size_t k = 0; k < reader.count(); ++k) reader.read(k);
-  });
-}
-
-template <int D>
 SnapshotReaderOf<D>::SnapshotReaderOf(const std::filesystem::path& file, const Case& setup)
     : name_(file) {
   const bool isAssembly = !cellOf(setup);
@@ -309,12 +301,6 @@ SnapshotOf<D> SnapshotReaderOf<D>::read(std::size_t k) const {
 }
 
 template <int D>
-void SnapshotReaderOf<D>::requireSound(const SnapshotOf<D>& snapshot, std::size_t k) const {
-  if (const std::string why = auditFault(snapshot, basis_); !why.empty())
-    throw BadInput(fmt::format("{}, snapshot {}: {}", name_.string(), k, why));
-}
-
-template <int D>
 void SnapshotReaderOf<D>::takeAll() {
   from_ = -INFINITY;
   to_ = INFINITY;
@@ -325,7 +311,8 @@ std::optional<SnapshotOf<D>> SnapshotReaderOf<D>::next() {
   while (next_ < count_) {
     const std::size_t k = next_++;
     SnapshotOf<D> snapshot = read(k);
-    requireSound(snapshot, k);
+    if (const std::string why = auditFault(snapshot, basis_); !why.empty())
+      throw BadInput(fmt::format("{}, snapshot {}: {}", name_.string(), k, why));
     if (snapshot.positionTime > from_ && snapshot.positionTime <= to_) return snapshot;
     ++leftOut_;
   }
@@ -340,21 +327,17 @@ std::vector<std::string> SnapshotReaderOf<D>::remarks() const {
 }
 
 template <int D>
-double SnapshotReaderOf<D>::progress() const {
-  return static_cast<double>(next_) / static_cast<double>(count_);
-}
-
-template <int D>
 std::unique_ptr<SnapshotReaderOf<D>> openSnapshotFile(const std::filesystem::path& file,
                                                       const Case& setup) {
-  requireReadable<D>(file, setup);
+  tryReading(file, [&] {
+    const SnapshotReaderOf<D> reader(file, setup);
+    for (std::size_t k = 0; k < reader.count(); ++k) reader.read(k);
+  });
   auto reader = std::make_unique<SnapshotReaderOf<D>>(file, setup);
   requireFit<D>(reader->scene(), reader->read(0), setup, {file.string()});
   return reader;
 }
 
-template void requireReadable<2>(const std::filesystem::path&, const Case&);
-template void requireReadable<3>(const std::filesystem::path&, const Case&);
 template class SnapshotReaderOf<2>;
 template class SnapshotReaderOf<3>;
 template std::unique_ptr<SnapshotReaderOf<2>> openSnapshotFile(const std::filesystem::path&,
