@@ -167,14 +167,14 @@ TableRow rowOf(const std::string& folder, const ReportDigest& report, const std:
 auto withResults(const Json& document, const auto& call) {
   checkSchema(document, "results");
   const std::string kind = document.at("kind");
-  if (kind == kindCollide) return call(collideFromJson(document));
-  if (kind == kindConformance) return call(conformanceFromJson(document));
-  if (kind == kindCost) return call(costFromJson(document));
-  if (kind == kindEffects) return call(effectsFromJson(document));
-  if (kind == kindLockstep) return call(lockstepFromJson(document));
-  if (kind == kindRev) return call(revFromJson(document));
-  if (kind == kindStability) return call(stabilityFromJson(document));
-  return call(compareFromJson(document));
+  if (kind == kindCollide) return call(fromJson<CollideResults>(document));
+  if (kind == kindConformance) return call(fromJson<ConformanceResults>(document));
+  if (kind == kindCost) return call(fromJson<CostResults>(document));
+  if (kind == kindEffects) return call(fromJson<EffectsResults>(document));
+  if (kind == kindLockstep) return call(fromJson<LockstepResults>(document));
+  if (kind == kindRev) return call(fromJson<RevResults>(document));
+  if (kind == kindStability) return call(fromJson<StabilityResults>(document));
+  return call(fromJson<CompareResults>(document));
 }
 
 }  // namespace

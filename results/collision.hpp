@@ -1,7 +1,5 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include "adapters/engine.hpp"
 #include "adapters/worker/json.hpp"
 #include "results/collision_score.hpp"
@@ -143,10 +141,6 @@ struct CollideResults {
     io("orders", orders);
   }
 };
-
-nlohmann::json toJson(const CollideResults& results);
-/// @throws FieldError
-CollideResults collideFromJson(const nlohmann::json& json);
 
 /// The quantity furthest beyond its limit.
 struct WorstQuantity {

@@ -62,10 +62,6 @@ inline const std::string& referenceOf(const CompareResults& results) {
                                              : results.endpoints.reference;
 }
 
-Json toJson(const CompareResults& results);
-/// @throws FieldError
-CompareResults compareFromJson(const Json& json);
-
 /// Kind "lockstep".
 struct LockstepResults : FlowStudy {
   LockstepFindings lockstep;
@@ -75,9 +71,5 @@ struct LockstepResults : FlowStudy {
     io("lockstep", lockstep);
   }
 };
-
-Json toJson(const LockstepResults& results);
-/// @throws FieldError
-LockstepResults lockstepFromJson(const Json& json);
 
 }  // namespace crossgrain::inline results

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -65,9 +64,5 @@ struct ConformanceResults {
 
   std::size_t count(CheckOutcome outcome) const;
 };
-
-nlohmann::json toJson(const ConformanceResults& results);
-/// @throws FieldError
-ConformanceResults conformanceFromJson(const nlohmann::json& json);
 
 }  // namespace crossgrain::inline results

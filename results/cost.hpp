@@ -462,8 +462,4 @@ struct CostResults : FlowFrame {
   }
 };
 
-Json toJson(const CostResults& results);
-/// @throws FieldError
-CostResults costFromJson(const Json& json);
-
 }  // namespace crossgrain::inline results

@@ -1,5 +1,6 @@
 // Results of every kind as documents and back.
 #include <algorithm>
+#include <concepts>
 
 #include "adapters/worker/json.hpp"
 #include "results/collision.hpp"
@@ -11,47 +12,6 @@
 #include "results/stability.hpp"
 
 namespace crossgrain::inline results {
-
-Json toJson(const CollideResults& results) {
-  return jsonOf(results);
-}
-CollideResults collideFromJson(const Json& json) {
-  return readAs<CollideResults>(json);
-}
-Json toJson(const CostResults& results) {
-  return jsonOf(results);
-}
-CostResults costFromJson(const Json& json) {
-  return readAs<CostResults>(json);
-}
-Json toJson(const FlowRun& run) {
-  return jsonOf(run);
-}
-FlowRun runFromJson(const Json& json) {
-  return readAs<FlowRun>(json);
-}
-Json toJson(const CompareResults& results) {
-  return jsonOf(results);
-}
-CompareResults compareFromJson(const Json& json) {
-  auto results = readAs<CompareResults>(json);
-  // Pages and tables of a comparison begin with the first engine, the reference.
-  if (results.head.kind == kindCompare && results.engines.empty())
-    throw FieldError("engines: are none");
-  return results;
-}
-Json toJson(const LockstepResults& results) {
-  return jsonOf(results);
-}
-LockstepResults lockstepFromJson(const Json& json) {
-  return readAs<LockstepResults>(json);
-}
-Json toJson(const RevResults& results) {
-  return jsonOf(results);
-}
-RevResults revFromJson(const Json& json) {
-  return readAs<RevResults>(json);
-}
 
 void fields(auto& io, ConformanceRow& row) {
   io("part", row.part);
@@ -83,14 +43,6 @@ std::size_t ConformanceResults::count(CheckOutcome outcome) const {
 std::optional<double> ConformanceResults::partExamined() const {
   if (declared.value_or(0) == 0) return std::nullopt;
   return 1.0 - static_cast<double>(notExamined.size()) / static_cast<double>(*declared);
-}
-
-Json toJson(const ConformanceResults& results) {
-  return jsonOf(results);
-}
-
-ConformanceResults conformanceFromJson(const Json& json) {
-  return readAs<ConformanceResults>(json);
 }
 
 void fields(auto& io, RingChange& ring) {
@@ -141,13 +93,6 @@ void fields(auto& io, SwitchRow& row) {
 void fields(auto& io, TimingPlan& plan) {
   io("seconds", plan.seconds);
   io("rounds", plan.rounds);
-}
-
-Json toJson(const EffectsResults& results) {
-  return jsonOf(results);
-}
-EffectsResults effectsFromJson(const Json& json) {
-  return readAs<EffectsResults>(json);
 }
 
 void fields(auto& io, DeclaredChange& change) {
@@ -230,14 +175,6 @@ void fields(auto& io, ReplayResults& results) {
   io("failure", results.failure);
 }
 
-nlohmann::json toJson(const DiffResults& results) {
-  return jsonOf(results);
-}
-
-nlohmann::json toJson(const ReplayResults& results) {
-  return jsonOf(results);
-}
-
 void fields(auto& io, HardCase& setup) {
   io("case", setup.name, aName);
   io("variant", setup.variant);
@@ -260,12 +197,40 @@ void fields(auto& io, StabilityResults& results) {
   io("runs", results.runs);
 }
 
-Json toJson(const StabilityResults& results) {
+template <typename Results>
+Json toJson(const Results& results) {
   return jsonOf(results);
 }
 
-StabilityResults stabilityFromJson(const Json& json) {
-  return readAs<StabilityResults>(json);
+template <typename Results>
+Results fromJson(const Json& json) {
+  auto results = readAs<Results>(json);
+  if constexpr (std::same_as<Results, CompareResults>)
+    // Pages and tables of a comparison begin with the first engine, the reference.
+    if (results.head.kind == kindCompare && results.engines.empty())
+      throw FieldError("engines: are none");
+  return results;
 }
+
+template Json toJson(const CollideResults&);
+template Json toJson(const CompareResults&);
+template Json toJson(const ConformanceResults&);
+template Json toJson(const CostResults&);
+template Json toJson(const DiffResults&);
+template Json toJson(const EffectsResults&);
+template Json toJson(const FlowRun&);
+template Json toJson(const LockstepResults&);
+template Json toJson(const ReplayResults&);
+template Json toJson(const RevResults&);
+template Json toJson(const StabilityResults&);
+template CollideResults fromJson(const Json&);
+template CompareResults fromJson(const Json&);
+template ConformanceResults fromJson(const Json&);
+template CostResults fromJson(const Json&);
+template EffectsResults fromJson(const Json&);
+template FlowRun fromJson(const Json&);
+template LockstepResults fromJson(const Json&);
+template RevResults fromJson(const Json&);
+template StabilityResults fromJson(const Json&);
 
 }  // namespace crossgrain::inline results

@@ -88,8 +88,4 @@ struct EffectsResults : FlowStudy {
   }
 };
 
-Json toJson(const EffectsResults& results);
-/// @throws FieldError
-EffectsResults effectsFromJson(const Json& json);
-
 }  // namespace crossgrain::inline results

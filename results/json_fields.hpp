@@ -11,6 +11,13 @@ using support::nameOf;
 using support::Status;
 using support::Verdict;
 
+/// Results of a kind, or one run of them, as a document, and from one: documents.cpp lists them.
+template <typename Results>
+Json toJson(const Results& results);
+/// @throws FieldError
+template <typename Results>
+Results fromJson(const Json& json);
+
 /// Of engines, cases, variants, methods, quantities, …; empty where there is none.
 bool isName(std::string_view text);
 inline constexpr Words aName{isName, "a name of letters, digits and . _ - +"};

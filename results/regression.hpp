@@ -1,6 +1,5 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,8 +67,6 @@ struct DiffResults {
   std::vector<DiffRow> rows;
 };
 
-nlohmann::json toJson(const DiffResults& results);
-
 /// A field or an array that two answers to one request do not have alike.
 struct AnswerDifference {
   std::string field;  ///< "snapshot.bodies.0.torque", "position"
@@ -93,7 +90,5 @@ struct ReplayResults {
   std::vector<AnswerDifference> differences;
   std::string failure;  ///< of the engine, now; it may be the one that was recorded
 };
-
-nlohmann::json toJson(const ReplayResults& results);
 
 }  // namespace crossgrain::inline results

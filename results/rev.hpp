@@ -64,8 +64,4 @@ struct RevResults : FlowFrame {
   }
 };
 
-Json toJson(const RevResults& results);
-/// @throws FieldError
-RevResults revFromJson(const Json& json);
-
 }  // namespace crossgrain::inline results

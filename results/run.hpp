@@ -103,10 +103,6 @@ struct FlowRun {
   }
 };
 
-Json toJson(const FlowRun& run);
-/// @throws FieldError
-FlowRun runFromJson(const Json& json);
-
 /// Means over the packings of one engine's finished runs, with sd/√P as errors.
 struct CouetteEnsemble {
   std::string engine;

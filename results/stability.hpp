@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -88,9 +87,5 @@ struct StabilityResults {
   std::vector<HardCase> cases;
   std::vector<StabilityRun> runs;  ///< case by case, engine by engine
 };
-
-nlohmann::json toJson(const StabilityResults& results);
-/// @throws FieldError
-StabilityResults stabilityFromJson(const nlohmann::json& json);
 
 }  // namespace crossgrain::inline results

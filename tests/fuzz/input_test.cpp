@@ -149,11 +149,11 @@ TEST(FuzzedInput, ResultsAreReadOrRefusedInOneLine) {
     checkSchema(document, "results.json");
     const std::string kind = document.at("kind");
     if (kind == kindStability)
-      toText(toJson(stabilityFromJson(document)));
+      toText(toJson(fromJson<StabilityResults>(document)));
     else if (kind == kindCollide)
-      toText(toJson(collideFromJson(document)));
+      toText(toJson(fromJson<CollideResults>(document)));
     else if (kind == kindLockstep)
-      toText(toJson(lockstepFromJson(document)));
+      toText(toJson(fromJson<LockstepResults>(document)));
   };
   test::readAll(10'000, [&](std::uint64_t k, test::Draw& draw) {
     read(test::damagedJson(corpus[k % std::size(corpus)], draw));

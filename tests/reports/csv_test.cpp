@@ -35,7 +35,7 @@ TEST(Csv, Formulas_AreText) {
 }
 
 TEST(Csv, Distributions_AreRowsOfWhatIsThere) {
-  const CompareResults results = compareFromJson(nlohmann::json::parse(R"({
+  const CompareResults results = fromJson<CompareResults>(nlohmann::json::parse(R"({
     "runs": [{"engine": "one", "packing": 2, "distributions": [
       {"quantity": "spin", "ring": 0, "axes": [{"low": -1, "width": 0.5, "count": 3}],
        "density": [0.25, 0, 1.5], "stderr": [0.125, 0, 0.5], "outside": 0.125, "samples": 8},

@@ -50,7 +50,7 @@ TEST(EngineStyles, TwentyEngines_NoTwoLookAlike) {
 }
 
 TEST(Profiles, RingsWithoutAWheel_AreOverTheRadius) {
-  const CompareResults results = compareFromJson(nlohmann::json::parse(R"({
+  const CompareResults results = fromJson<CompareResults>(nlohmann::json::parse(R"({
     "engines": [{"name": "e", "mirrors": "", "status": "ran"}],
     "region": {"bins": "rings", "height": 1.0, "diameter": 0.01, "disks": 9, "x": [], "y": [],
                "from_s": 0, "to_s": 1},
@@ -65,7 +65,7 @@ TEST(Profiles, RingsWithoutAWheel_AreOverTheRadius) {
 /// v_φ/(ΩR_i) and S d/(ΩD), D = 2R_i: Lätzel (2003), chapter 6. With Ω = 1 /s, R_i = 0.1 m,
 /// d = 0.01 m these are 10 v_φ and S/20.
 TEST(Profiles, CellWithAWheel_AreDimensionlessAsInTheThesis) {
-  const CompareResults results = compareFromJson(nlohmann::json::parse(R"({
+  const CompareResults results = fromJson<CompareResults>(nlohmann::json::parse(R"({
     "engines": [{"name": "e", "mirrors": "", "status": "ran"}],
     "cell": {"inner_radius": 0.1, "outer_radius": 0.2, "diameter": 0.01, "omega": 1.0},
     "rings": {"r": [0.105, 0.2], "r_tilde": [0.5, 10]},

@@ -384,7 +384,7 @@ CompareResults compareResults(int packings, int disks) {
       "equivalent": 1e-5, "starts": 16, "carried": true, "late": {"packing": 1, "length_s": 0.1,
       "times_s": [0.0, 0.1, 0.2], "equivalents": [{"constant": "mu", "change": 2e-5}]}}])");
   }
-  return compareFromJson(results);
+  return fromJson<CompareResults>(results);
 }
 
 CompareResults averageResults() {

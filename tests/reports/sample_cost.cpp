@@ -112,7 +112,7 @@ CostResults costResults() {
   const std::vector<Engine> engines = {{"grain", 6.0, 2.0, 0.0, 5e-6},
                                        {"yade", 6.0, 1.0, 0.02, 8e-5},
                                        {"box2d-penalty", 9.0, 1.0, 1e-6, 4e-5}};
-  CostResults results = costFromJson(head("cost", "quick"));
+  CostResults results = fromJson<CostResults>(head("cost", "quick"));
   std::vector<CostPoint>& points = results.points;
   for (const Engine& engine : engines)
     for (const CostPoint& point : pointsOf(engine)) points.push_back(point);

@@ -107,7 +107,7 @@ EffectsResults effectsResults(int packings) {
   const Json refused = {
       {"engine", "grain"}, {"effect", "tension_cut"}, {"status", "refused"}, {"reason", awkward}};
   results["legs"] = {leg("", 1.0, 424.0), friction, bottom, refused};
-  return effectsFromJson(results);
+  return fromJson<EffectsResults>(results);
 }
 
 }  // namespace crossgrain::sample

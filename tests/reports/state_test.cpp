@@ -41,7 +41,7 @@ void set(Json& results, const char* engine, int packing, const char* regime) {
 }
 
 std::vector<std::string> sentencesOf(const Json& results) {
-  const CompareResults compared = compareFromJson(results);
+  const CompareResults compared = fromJson<CompareResults>(results);
   return stateSentences(compared, engineRuns(compared));
 }
 
@@ -92,7 +92,7 @@ TEST(StateSentences, Steadiness_HasOneOfThreeAnswers) {
 }
 
 TEST(AveragedRotations, Count_FromTheHandOverAndThePreparation) {
-  FlowAveraging averaging = compareFromJson(flowing(1)).averaging;
+  FlowAveraging averaging = fromJson<CompareResults>(flowing(1)).averaging;
   EXPECT_EQ(averagedRotations(averaging),
             "rotations 0.25 to 1.25 since the hand-over, 2.25 to 3.25 since the ring had closed");
   averaging.preparedRotations.reset();  // a packing of the user's own

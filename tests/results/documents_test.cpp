@@ -32,14 +32,14 @@ Document documentOf(const Results& results, Results (*read)(const Json&)) {
 std::map<std::string, Document> madeUp() {
   CompareResults compared = sample::compareResults(4, 30);
   compared.packings.front().seed = std::numeric_limits<std::uint64_t>::max();
-  return {{"compare", documentOf(compared, compareFromJson)},
-          {"average", documentOf(sample::averageResults(), compareFromJson)},
-          {"rev", documentOf(sample::revResults(), revFromJson)},
-          {"collide", documentOf(sample::manyCollideResults(), collideFromJson)},
-          {"effects", documentOf(sample::effectsResults(4), effectsFromJson)},
-          {"stability", documentOf(sample::stabilityResults(), stabilityFromJson)},
-          {"lockstep", documentOf(sample::lockstepResults(), lockstepFromJson)},
-          {"cost", documentOf(sample::costResults(), costFromJson)}};
+  return {{"compare", documentOf(compared, fromJson<CompareResults>)},
+          {"average", documentOf(sample::averageResults(), fromJson<CompareResults>)},
+          {"rev", documentOf(sample::revResults(), fromJson<RevResults>)},
+          {"collide", documentOf(sample::manyCollideResults(), fromJson<CollideResults>)},
+          {"effects", documentOf(sample::effectsResults(4), fromJson<EffectsResults>)},
+          {"stability", documentOf(sample::stabilityResults(), fromJson<StabilityResults>)},
+          {"lockstep", documentOf(sample::lockstepResults(), fromJson<LockstepResults>)},
+          {"cost", documentOf(sample::costResults(), fromJson<CostResults>)}};
 }
 
 const std::map<std::string, Document>& documents() {
@@ -106,7 +106,7 @@ TEST(FlowRunDocument, WithoutSeries_HasNeitherDistributionsNorPicture) {
   const Json bare = toJson(run);
   for (const char* bulky : {"series", "distributions", "picture"})
     EXPECT_FALSE(bare.contains(bulky)) << bulky;
-  EXPECT_EQ(runFromJson(bare).without, "friction");
+  EXPECT_EQ(fromJson<FlowRun>(bare).without, "friction");
   run.series.emplace();
   EXPECT_TRUE(toJson(run).at("picture").is_null());  // of a packing without one
   run.effective.reset();                             // snapshots of a file: nothing was run

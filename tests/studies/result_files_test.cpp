@@ -936,7 +936,7 @@ TEST_F(AssemblyFiles, SeveralRuns_AreReplicates) {
   // Of 20/16 and 26/16: the mean 23/16, its error |26 − 20|/16 / 2.
   EXPECT_NEAR(stress->mean[0].value(), 23.0 / 16.0, 1e-14);
   EXPECT_NEAR(stress->standardError[0].value(), 3.0 / 16.0, 1e-14);
-  const CompareResults back = compareFromJson(toJson(results));
+  const CompareResults back = fromJson<CompareResults>(toJson(results));
   EXPECT_EQ(back.ensemble.size(), 1u);
   expectSays(
       test::refusalOf([&] {
