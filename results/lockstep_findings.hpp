@@ -34,16 +34,10 @@ constexpr auto namesOf(Equivalence) {
 }
 
 constexpr Verdict verdictOf(Equivalence found) {
-  switch (found) {
-    case Equivalence::notMeasured:
-      return Verdict::notMeasured;
-    case Equivalence::undecided:
-      return Verdict::undecided;
-    case Equivalence::differs:
-      return Verdict::fail;
-    default:
-      return Verdict::pass;
-  }
+  return found == Equivalence::notMeasured ? Verdict::notMeasured
+         : found == Equivalence::undecided ? Verdict::undecided
+         : found == Equivalence::differs   ? Verdict::fail
+                                           : Verdict::pass;
 }
 
 /// Basis of the verdicts.

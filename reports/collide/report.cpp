@@ -60,56 +60,36 @@ std::string cellsOf(const std::vector<const CollisionQuantity*>& quantities,
   return cells;
 }
 
-/// The first cells of all rows of a curve, and the last ones.
-struct RowHead {
-  const std::string &engine, &name, &variant;
-  std::optional<double> dt;
-  std::string verdicts;
-  const std::vector<const CollisionQuantity*>& atEnd;
-};
-
-/// Of the whole curve: its outcome; verdicts by the scene's law and by the one that its engine
-/// declares, and its own scheme.
-std::string verdictCells(const CollisionCurve& curve) {
-  const bool ran = curve.points.size() > 0;
-  std::string cells = row(
-      outcomeName(curve), std::string(ran ? nameOf(curve.score.verdict, curveVerdictNames) : ""),
-      std::string(ran ? nameOf(declaredScore(curve).verdict, curveVerdictNames) : ""),
-      ownDeviation(curve));
-  cells.pop_back();
-  return cells;
-}
-
-std::string csvRow(const RowHead& head, const CollisionTable& points,
-                   const CollisionTable& reference, std::size_t k, const std::string& status,
-                   const std::string& reason) {
-  std::string line =
-      row(head.engine, head.name, head.variant, at(points.psi, k), at(points.vn, k),
-          points.at(QuantityId::en, k), points.at(QuantityId::psiF, k),
-          reference.at(QuantityId::en, k), reference.at(QuantityId::psiF, k), head.dt, status);
-  line.pop_back();
-  return line + cellsOf(furtherQuantities(), points, reference, k) + "," + cell(reason) + "," +
-         head.verdicts + cellsOf(head.atEnd, points, reference, k) + "\n";
-}
-
+/// Of each curve its outcome, verdicts by the scene's law and by the one that its engine declares,
+/// and its own scheme.
 std::string collisionsCsv(const CollideResults& results) {
-  const auto atEnd = quantitiesAtEnd(results);
+  const auto further = furtherQuantities(), atEnd = quantitiesAtEnd(results);
   std::string table =
       "engine,case,variant,psi_i,v_n,e_n,psi_f,e_n_reference,psi_f_reference,dt_s,status" +
-      columnsOf(furtherQuantities()) + ",reason,outcome,verdict_scene,verdict_declared,own_scheme" +
+      columnsOf(further) + ",reason,outcome,verdict_scene,verdict_declared,own_scheme" +
       columnsOf(atEnd) + "\n";
-  for (const CollisionVariant& variant : results.variants) {
-    const std::string name = caseOf(results, variant);
+  for (const CollisionVariant& variant : results.variants)
     for (const CollisionCurve& curve : variant.curves) {
-      const RowHead head{curve.engine,        name, variant.variant, finite(curve.dt),
-                         verdictCells(curve), atEnd};
       const CollisionPoints& points = curve.points;
+      const auto verdictBy = [&](const CurveScore& score) {
+        return std::string(points.size() > 0 ? nameOf(score.verdict, curveVerdictNames) : "");
+      };
+      const auto add = [&](const CollisionTable& found, const CollisionTable& reference,
+                           std::size_t k, const std::string& status, const std::string& reason) {
+        table += cells(curve.engine, caseOf(results, variant), variant.variant, at(found.psi, k),
+                       at(found.vn, k), found.at(QuantityId::en, k), found.at(QuantityId::psiF, k),
+                       reference.at(QuantityId::en, k), reference.at(QuantityId::psiF, k),
+                       finite(curve.dt), status) +
+                 cellsOf(further, found, reference, k) + "," +
+                 cells(reason, outcomeName(curve), verdictBy(curve.score),
+                       verdictBy(declaredScore(curve)), ownDeviation(curve)) +
+                 cellsOf(atEnd, found, reference, k) + "\n";
+      };
       for (std::size_t k = 0; k < points.size(); ++k)
-        table += csvRow(head, points, variant.reference, k, points.status(k),
-                        k < points.reason.size() ? points.reason[k] : "");
-      if (points.size() == 0) table += csvRow(head, {}, {}, 0, curve.statusName(), curve.reason);
+        add(points, variant.reference, k, points.status(k),
+            k < points.reason.size() ? points.reason[k] : "");
+      if (points.size() == 0) add({}, {}, 0, curve.statusName(), curve.reason);
     }
-  }
   return table;
 }
 
@@ -359,8 +339,7 @@ void addCollisionCase(Report& report, const CollideResults& results, const CaseG
 
 Report reportOf(const CollideResults& results) {
   const std::vector<CaseGroup> groups = casesOf(results);
-  Report report{{results.head, results.engines, collideOverview(results)}};
-  report.elapsed = results.elapsed;
+  Report report{{results.head, results.engines, collideOverview(results)}, results.elapsed};
   report.figures = collideFigures(results);
   report.section("matrix", "Cases by engine", "Summary").blocks = {
       collideMatrix(groups, results.engines),

@@ -223,50 +223,30 @@ std::optional<std::string> lawWords(const std::string& option, const LawValue& v
 
 std::string quantityWords(const CollisionQuantity& quantity) {
   using enum QuantityId;
-  switch (quantity.id) {
-    case psiF:
-      return "tangential rebound Ψ_f";
-    case en:
-      return "restitution e_n";
-    case beta:
-      return "tangential restitution β";
-    case et:
-      return "tangential restitution of the centres e_t";
-    case centrePsiF:
-      return "tangential velocity of the centres";
-    case reboundAngle:
-      return "rebound angle";
-    case spinI:
-      return "spin ω_i";
-    case spinJ:
-      return "spin ω_j";
-    case maxOverlap:
-      return "largest overlap";
-    case lostNormalDamping:
-      return "energy lost to the normal dashpot";
-    case lostTangential:
-      return "energy lost tangentially";
-    case lostTangentialDamping:
-      return "energy lost to the tangential dashpot";
-    case lostStiffening:
-      return "energy lost to stiffening";
-    case lostSliding:
-      return "energy lost to sliding";
-    case lostStored:
-      return "energy left in the tangential spring";
-    case psiFOut:
-      return "tangential rebound out of the plane of impact Ψ_f·b";
-    case spinINormal:
-      return "spin of the first about the line of centres";
-    case spinITangent:
-      return "spin of the first about the tangent";
-    case spinJNormal:
-      return "spin of the second about the line of centres";
-    case spinJTangent:
-      return "spin of the second about the tangent";
-    default:
-      return std::string(quantity.label);
-  }
+  constexpr std::pair<QuantityId, std::string_view> all[] = {
+      {psiF, "tangential rebound Ψ_f"},
+      {en, "restitution e_n"},
+      {beta, "tangential restitution β"},
+      {et, "tangential restitution of the centres e_t"},
+      {centrePsiF, "tangential velocity of the centres"},
+      {reboundAngle, "rebound angle"},
+      {spinI, "spin ω_i"},
+      {spinJ, "spin ω_j"},
+      {maxOverlap, "largest overlap"},
+      {lostNormalDamping, "energy lost to the normal dashpot"},
+      {lostTangential, "energy lost tangentially"},
+      {lostTangentialDamping, "energy lost to the tangential dashpot"},
+      {lostStiffening, "energy lost to stiffening"},
+      {lostSliding, "energy lost to sliding"},
+      {lostStored, "energy left in the tangential spring"},
+      {psiFOut, "tangential rebound out of the plane of impact Ψ_f·b"},
+      {spinINormal, "spin of the first about the line of centres"},
+      {spinITangent, "spin of the first about the tangent"},
+      {spinJNormal, "spin of the second about the line of centres"},
+      {spinJTangent, "spin of the second about the tangent"}};
+  const auto* const found =
+      std::ranges::find(all, quantity.id, &std::pair<QuantityId, std::string_view>::first);
+  return std::string(found == std::end(all) ? quantity.label : found->second);
 }
 
 Tally tallyOf(const std::vector<const CollisionVariant*>& variants, const std::string& engine) {

@@ -68,12 +68,18 @@ inline std::string cell(std::size_t value) {
   return fmt::format("{}", value);
 }
 
+/// Part of a row.
 template <class... Values>
-std::string row(const Values&... values) {
+std::string cells(const Values&... values) {
   std::string line;
   ((line += cell(values) + ","), ...);
-  line.back() = '\n';
+  line.pop_back();
   return line;
+}
+
+template <class... Values>
+std::string row(const Values&... values) {
+  return cells(values...) + "\n";
 }
 
 }  // namespace crossgrain::reports

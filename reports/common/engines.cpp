@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <map>
 #include <optional>
 
 #include "adapters/registry.hpp"
+#include "support/fingerprint.hpp"
 
 namespace crossgrain::reports {
 
@@ -47,13 +47,6 @@ std::string peerOf(const std::string& name) {
   return {};
 }
 
-/// FNV-1a: the same on every machine.
-std::size_t hashOf(const std::string& name) {
-  std::uint64_t hash = 14695981039346656037ull;
-  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-  return static_cast<std::size_t>(hash % externalStyles);
-}
-
 LineStyle strangersStyle(std::size_t number) {
   return {externalColours[number % externalColours.size()],
           filledMarks[number / externalColours.size() % filledMarks.size()], false};
@@ -89,7 +82,7 @@ std::vector<LineStyle> engineStyles(const std::vector<EngineRow>& engines) {
       styles[owner] = engineStyle(*place);
       continue;
     }
-    std::size_t number = hashOf(owner);
+    std::size_t number = fnv1a(owner) % externalStyles;  // the same on every machine
     for (std::size_t tried = 0; taken[number] && tried < externalStyles; ++tried)
       number = (number + 1) % externalStyles;
     taken[number] = true;

@@ -144,8 +144,8 @@ std::string fieldAxis(std::string_view field) {
 }
 
 std::string headLabel(std::string_view name) {
-  const auto found = std::ranges::find(headLabels, name, &Label::name);
-  if (found == headLabels.end()) return spaced(name);
+  const Label* const found = findBy(headLabels, name, &Label::name);
+  if (!found) return spaced(name);
   const std::string words(found->words);
   return found->symbol.empty() ? words : words + " " + std::string(found->symbol);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -66,10 +67,15 @@ void addOnce(std::vector<T>& list, const std::type_identity_t<T>& value) {
   if (std::ranges::find(list, value) == list.end()) list.push_back(value);
 }
 
+/// The first element of which that is true; null without one.
+auto findIf(const auto& list, const auto& isIt) -> decltype(&*list.begin()) {
+  const auto found = std::ranges::find_if(list, isIt);
+  return found == list.end() ? nullptr : &*found;
+}
+
 /// The first element whose member has that value; null without one.
 auto findBy(const auto& list, const auto& value, auto member) -> decltype(&*list.begin()) {
-  const auto found = std::ranges::find(list, value, member);
-  return found == list.end() ? nullptr : &*found;
+  return findIf(list, [&](const auto& one) { return std::invoke(member, one) == value; });
 }
 
 /// Drops empty ones.

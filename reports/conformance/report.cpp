@@ -146,14 +146,12 @@ std::string conformanceLead(const ConformanceResults& results) {
                             ? fmt::format(", which is below {:.0f} %", 100.0 * leastExamined)
                             : "");
   lead += fmt::format("{} of {} checks passed", results.count(checkPassed), asked);
-  if (const std::size_t count = results.count(checkFailed))
-    lead += fmt::format(", {} failed", count);
-  if (const std::size_t count = results.count(checkBrokeDown))
-    lead += fmt::format(", it broke down in {}", count);
-  if (const std::size_t count = results.count(checkUntried))
-    lead += fmt::format(", {} not tried in the time given", count);
-  if (const std::size_t count = results.count(checkSkipped))
-    lead += fmt::format(", {} skipped", count);
+  for (const auto& [outcome, words] : {std::pair(checkFailed, "{} failed"),
+                                       {checkBrokeDown, "it broke down in {}"},
+                                       {checkUntried, "{} not tried in the time given"},
+                                       {checkSkipped, "{} skipped"}})
+    if (const std::size_t count = results.count(outcome))
+      lead += ", " + fmt::format(fmt::runtime(words), count);
   return lead + ".";
 }
 
@@ -190,8 +188,7 @@ std::string conformanceSentence(const ConformanceRow& row) {
 }
 
 Report reportOf(const ConformanceResults& results) {
-  Report report{{results.head, {results.engine}, conformanceOverview(results)}};
-  report.elapsed = results.elapsed;
+  Report report{{results.head, {results.engine}, conformanceOverview(results)}, results.elapsed};
   for (const std::string& more : nonEmpty({conformanceNotExamined(results)}))
     report.notes.push_back(capitalised(more) + ".");
   for (const CheckPart& part : checkParts) addCheckPart(report, results, part);

@@ -66,13 +66,6 @@ std::string errorText(const CostPoint& point) {
          (point.worst ? fmt::format(", worst {}", percentText(point.worst)) : "");
 }
 
-/// Falling, each once.
-std::vector<double> targetsOf(const std::vector<CostCell>& cells) {
-  std::set<double, std::greater<>> targets;
-  for (const CostCell& cell : cells) targets.insert(cell.target);
-  return {targets.begin(), targets.end()};
-}
-
 const CostPoint* pointAt(const CostResults& results, std::optional<std::size_t> place) {
   return place && *place < results.points.size() ? &results.points[*place] : nullptr;
 }
@@ -191,8 +184,8 @@ bool tiesWithABetter(const CostResults& results, std::size_t place, std::size_t 
 /// "t_c/2.5 (2 ms); unstable from 2.5 ms on"
 OverviewCell stabilityCell(const CostResults& results, const std::string& engine) {
   OverviewCell cell{Verdict::notMeasured, {}, "s", {}, {}, "advice"};
-  const auto found = std::ranges::find(results.largestSteps, engine, &LargestStep::engine);
-  if (found == results.largestSteps.end()) return cell;
+  const LargestStep* const found = findBy(results.largestSteps, engine, &LargestStep::engine);
+  if (!found) return cell;
   cell.verdict = std::nullopt;
   cell.value = found->stable;
   cell.shown = found->stable ? readableDuration(found->stable) : "none of those tried";
@@ -260,10 +253,10 @@ std::string cheapestOf(const CostResults& results, double target) {
 
 /// The accuracies of the first matrix: those of the cells and the one asked for, falling.
 std::vector<double> answerTargets(const CostResults& results) {
-  std::vector<double> targets = targetsOf(results.cells);
-  if (results.target) addOnce(targets, *results.target);
-  std::ranges::sort(targets, std::greater<>());
-  return targets;
+  std::set<double, std::greater<>> targets;
+  for (const CostCell& cell : results.cells) targets.insert(cell.target);
+  if (results.target) targets.insert(*results.target);
+  return {targets.begin(), targets.end()};
 }
 
 /// Engines without an endpoint, with the budget that has room for one; empty: there is none such.
@@ -316,11 +309,10 @@ Overview costOverview(const CostResults& results) {
   for (const std::string& engine : enginesIn(results)) {
     OverviewRow row{engine, true, {stabilityCell(results, engine)}};
     for (const double target : targets) {
-      const auto advice = std::ranges::find_if(results.advice, [&](const Advice& one) {
+      const Advice* const advice = findIf(results.advice, [&](const Advice& one) {
         return one.engine == engine && one.target == target;
       });
-      row.cells.push_back(advice == results.advice.end() ? OverviewCell{}
-                                                         : adviceCell(results, *advice));
+      row.cells.push_back(advice ? adviceCell(results, *advice) : OverviewCell{});
     }
     overview.rows.push_back(std::move(row));
   }
@@ -568,8 +560,7 @@ std::string costToml(const CostResults& results) {
 }
 
 Report reportOf(const CostResults& results) {
-  Report report{{results.head, results.engines, costOverview(results)}};
-  report.elapsed = results.elapsed;
+  Report report{{results.head, results.engines, costOverview(results)}, results.elapsed};
   report.notes = costSentences(results);
   std::ranges::copy(results.notes, std::back_inserter(report.notes));
   report.figures = costFigures(results);

@@ -34,7 +34,7 @@ Panel costPanel(const Variants& variants) {
   for (std::size_t k = 0; k < variants.size(); ++k) {
     if (!variants[k].saved) continue;
     Point point{100.0 * *variants[k].saved, static_cast<double>(k), {}};
-    if (variants[k].savedError) point.error = 100.0 * *variants[k].savedError;
+    if (variants[k].timeRatioError) point.error = 100.0 * *variants[k].timeRatioError;
     cost.points.push_back(point);
   }
   panel.curves.push_back(std::move(cost));
@@ -135,11 +135,10 @@ Figure costFigure(const Variants& variants, const std::string& name) {
 /// Variants whose change of the field is not significant.
 IsFaint unchanged(const Variants& variants) {
   return [&variants](const EngineRuns& curve, const std::string& field) {
-    const auto variant = std::ranges::find_if(variants, [&](const VariantSummary& one) {
+    const VariantSummary* const variant = findIf(variants, [&](const VariantSummary& one) {
       return variantLabel(one.effect) == curve.name;
     });
-    if (variant == variants.end()) return false;
-    const FieldChange* change = variant->of(field);
+    const FieldChange* const change = variant ? variant->of(field) : nullptr;
     return change && change->detected == std::optional(false);
   };
 }

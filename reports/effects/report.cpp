@@ -45,7 +45,7 @@ std::string describeChange(const FieldChange& change) {
 
 std::vector<const FieldChange*> detectedOf(const VariantSummary& variant) {
   std::vector<const FieldChange*> found;
-  for (const FieldChange& change : variant.changes)
+  for (const FieldChange& change : variant.judged)
     if (change.detected.value_or(false)) found.push_back(&change);
   std::ranges::stable_sort(found, std::ranges::greater(),
                            [](const FieldChange* change) { return std::abs(change->change); });
@@ -55,7 +55,7 @@ std::vector<const FieldChange*> detectedOf(const VariantSummary& variant) {
 /// "0.8 % (volume fraction) to 45 % (spin)"
 std::string detectableInWords(const VariantSummary& variant) {
   const FieldChange *least = nullptr, *most = nullptr;
-  for (const FieldChange& change : variant.changes) {
+  for (const FieldChange& change : variant.judged) {
     if (!change.detectable) continue;
     if (!least || *change.detectable < *least->detectable) least = &change;
     if (!most || *change.detectable > *most->detectable) most = &change;
@@ -81,10 +81,11 @@ std::string contactsInWords(const VariantSummary& variant) {
 std::string describeCost(const VariantSummary& variant) {
   if (!variant.saved) return "was not timed";
   const std::string part =
-      readable(inPercent(std::abs(*variant.saved)), inPercent(variant.savedError));
-  if (variant.savedError && std::abs(*variant.saved) <= 2.0 * *variant.savedError)
-    return fmt::format("costs nothing measurable ({} % of a step)",
-                       readableDifference(inPercent(variant.saved), inPercent(variant.savedError)));
+      readable(inPercent(std::abs(*variant.saved)), inPercent(variant.timeRatioError));
+  if (variant.timeRatioError && std::abs(*variant.saved) <= 2.0 * *variant.timeRatioError)
+    return fmt::format(
+        "costs nothing measurable ({} % of a step)",
+        readableDifference(inPercent(variant.saved), inPercent(variant.timeRatioError)));
   return (*variant.saved > 0.0
               ? fmt::format("takes {} % of a step", part)
               : fmt::format("saves time: a step without it takes {} % longer", part)) +
@@ -160,12 +161,13 @@ Cell endpointChange(const EndpointRow& row) {
 Table endpointChanges(const EffectsResults& results, const std::string& engine) {
   Table table{{"switched off"}};
   for (const VariantSummary& variant : variantSummaries(results, engine)) {
-    if (!variant.ran() || variant.endpoints.empty()) continue;
+    if (!variant.ran() || variant.changes.endpoints.empty()) continue;
     if (table.rows.empty())
-      for (const EndpointRow& row : variant.endpoints)
+      for (const EndpointRow& row : variant.changes.endpoints)
         table.columns.emplace_back(endpointWords(row.endpoint));
     TableRow line{{effectLabel(variant.effect)}};
-    for (const EndpointRow& row : variant.endpoints) line.cells.push_back(endpointChange(row));
+    for (const EndpointRow& row : variant.changes.endpoints)
+      line.cells.push_back(endpointChange(row));
     table.rows.push_back(std::move(line));
   }
   table.note =
@@ -206,7 +208,7 @@ Table effectTable(const EffectsResults& results, const std::string& engine) {
       row.cells.front().notes = {
           fmt::format("{}: {}", nameOf(variant.status, engineStatusNames), variant.reason)};
     } else {
-      row.cells.emplace_back(readable(inPercent(variant.saved), inPercent(variant.savedError)));
+      row.cells.emplace_back(readable(inPercent(variant.saved), inPercent(variant.timeRatioError)));
       row.cells.emplace_back(readable(times(variant.step, 1e6)));
       row.cells.emplace_back(readableCount(variant.contacts));
       for (const std::string& field : fields) row.cells.push_back(fieldCell(variant.of(field)));
@@ -309,7 +311,7 @@ void addStudy(Report& report, const EffectsResults& results, const std::string& 
   Drawings profiles = drawingsOf(report.figures, prefix + "profile_");
   if (profiles.names.empty()) return;
   const bool faint = std::ranges::any_of(variants, [](const VariantSummary& variant) {
-    return variant.ran() && std::ranges::any_of(variant.changes, [](const FieldChange& change) {
+    return variant.ran() && std::ranges::any_of(variant.judged, [](const FieldChange& change) {
              return change.detected == std::optional(false);
            });
   });
@@ -358,8 +360,7 @@ std::string effectsCsv(const EffectsResults& results) {
 
 Report reportOf(const EffectsResults& results) {
   const Engines engines = engineRuns(results, results.ensemble);
-  Report report{{results.head, results.engines, effectsOverview(results)}};
-  report.elapsed = results.elapsed;
+  Report report{{results.head, results.engines, effectsOverview(results)}, results.elapsed};
   report.notes = effectsNotes(results);
   report.engineColours = false;  // colours are variants
   report.figures = effectFigures(results);

@@ -40,16 +40,10 @@ struct FieldChange {
 };
 
 /// One engine with one effect switched off.
-struct VariantSummary {
-  std::string engine, effect;
-  Status status = Status::finished;
-  std::string reason;
-  std::optional<double> saved, savedError;  ///< time saved per step, over the whole step's
-  std::optional<double> step, contacts;     ///< [s], number: of one step
-  std::optional<double> wholeContacts;      ///< with everything on
-  std::size_t packings = 0;
-  std::vector<FieldChange> changes;  ///< of the fields that are judged, and have any number
-  std::vector<EndpointRow> endpoints;
+struct VariantSummary : EffectVariant {
+  std::optional<double> saved;          ///< time saved per step, over the whole step's
+  std::optional<double> wholeContacts;  ///< of a step, with everything on
+  std::vector<FieldChange> judged;      ///< of the fields that are judged, and have any number
 
   bool ran() const { return status == Status::finished; }
   bool decidable() const;         ///< enough packings to tell what changes

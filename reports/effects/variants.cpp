@@ -71,21 +71,15 @@ std::optional<FieldChange> changeOf(const ChangedField& field, const char* bin) 
 
 VariantSummary summaryOf(const EffectVariant& variant, const EffectVariant* whole,
                          const char* bin) {
-  VariantSummary summary;
-  summary.engine = variant.engine;
-  summary.effect = variant.effect;
-  summary.status = variant.status;
-  summary.reason = variant.reason;
-  if (finite(variant.timeRatio)) summary.saved = 1.0 - *variant.timeRatio;
-  summary.savedError = finite(variant.timeRatioError);
-  summary.step = finite(variant.step);
-  summary.contacts = finite(variant.contacts);
+  VariantSummary summary{variant, {}, {}, {}};
+  for (auto* number :
+       {&summary.timeRatio, &summary.timeRatioError, &summary.step, &summary.contacts})
+    *number = finite(*number);
+  if (summary.timeRatio) summary.saved = 1.0 - *summary.timeRatio;
   if (whole) summary.wholeContacts = finite(whole->contacts);
-  summary.packings = variant.changes.packings;
   for (const ChangedField& field : variant.changes.fields)
     if (field.judged)
-      if (const auto change = changeOf(field, bin)) summary.changes.push_back(*change);
-  summary.endpoints = variant.changes.endpoints;
+      if (const auto change = changeOf(field, bin)) summary.judged.push_back(*change);
   return summary;
 }
 
@@ -108,9 +102,9 @@ std::string percentOf(double fraction) {
 
 const VariantSummary* variantOf(const std::vector<VariantSummary>& variants,
                                 const std::string& engine, const std::string& effect) {
-  for (const VariantSummary& variant : variants)
-    if (variant.engine == engine && variant.effect == effect) return &variant;
-  return nullptr;
+  return findIf(variants, [&](const VariantSummary& variant) {
+    return variant.engine == engine && variant.effect == effect;
+  });
 }
 
 OverviewCell absentCell(const VariantSummary* variant, const std::string& anchor) {
@@ -138,14 +132,14 @@ const FieldChange* mostChanged(const VariantSummary& variant) {
     return std::pair(detected, detected ? std::abs(change.change) : change.inErrors.value_or(0.0));
   };
   const FieldChange* most = nullptr;
-  for (const FieldChange& change : variant.changes)
+  for (const FieldChange& change : variant.judged)
     if (!most || rank(change) > rank(*most)) most = &change;
   return most;
 }
 
 const EndpointRow* worstEndpoint(const VariantSummary& variant) {
   std::vector<const EndpointRow*> rows;
-  for (const EndpointRow& row : variant.endpoints) rows.push_back(&row);
+  for (const EndpointRow& row : variant.changes.endpoints) rows.push_back(&row);
   return worstOf(rows);
 }
 
@@ -203,11 +197,11 @@ std::string effectsOf(const std::vector<VariantSummary>& all) {
   if (parts.empty())
     parts.emplace_back(decidable ? "no effect changes anything significantly"
                                  : "too few packings to know what changes");
-  parts.push_back(
-      costliest
-          ? fmt::format("{} costs most, {} % of a step", effectLabel(costliest->effect),
-                        readable(100.0 * *costliest->saved, times(costliest->savedError, 100.0)))
-          : "none is shown to cost time");
+  parts.push_back(costliest
+                      ? fmt::format("{} costs most, {} % of a step", effectLabel(costliest->effect),
+                                    readable(100.0 * *costliest->saved,
+                                             times(costliest->timeRatioError, 100.0)))
+                      : "none is shown to cost time");
   return listed(parts);
 }
 
@@ -226,27 +220,27 @@ std::string effectsNextStep(const EffectsResults& results, const std::vector<Var
 }  // namespace
 
 const FieldChange* VariantSummary::of(const std::string& field) const {
-  return findBy(changes, field, &FieldChange::field);
+  return findBy(judged, field, &FieldChange::field);
 }
 
 bool VariantSummary::decidable() const {
-  return std::ranges::any_of(changes, [](const FieldChange& c) { return c.detected.has_value(); });
+  return std::ranges::any_of(judged, [](const FieldChange& c) { return c.detected.has_value(); });
 }
 
 bool VariantSummary::changesSomething() const {
-  return std::ranges::any_of(changes,
+  return std::ranges::any_of(judged,
                              [](const FieldChange& c) { return c.detected.value_or(false); }) ||
-         std::ranges::find(endpoints, Verdict::fail, &EndpointRow::verdict) != endpoints.end();
+         findBy(changes.endpoints, Verdict::fail, &EndpointRow::verdict);
 }
 
 bool VariantSummary::withinMargins() const {
   const auto passes = [](const auto& one) { return one.verdict == Verdict::pass; };
-  return (!changes.empty() || !endpoints.empty()) && std::ranges::all_of(changes, passes) &&
-         std::ranges::all_of(endpoints, passes);
+  return (!judged.empty() || !changes.endpoints.empty()) && std::ranges::all_of(judged, passes) &&
+         std::ranges::all_of(changes.endpoints, passes);
 }
 
 bool VariantSummary::costsTime() const {
-  return saved && *saved > 0.0 && (!savedError || *saved > 2.0 * *savedError);
+  return saved && *saved > 0.0 && (!timeRatioError || *saved > 2.0 * *timeRatioError);
 }
 
 std::vector<VariantSummary> variantSummaries(const EffectsResults& results,
@@ -260,16 +254,15 @@ std::vector<VariantSummary> variantSummaries(const EffectsResults& results,
 }
 
 const EffectVariant* wholeVariant(const EffectsResults& results, const std::string& engine) {
-  const auto found = std::ranges::find_if(results.variants, [&](const EffectVariant& variant) {
+  return findIf(results.variants, [&](const EffectVariant& variant) {
     return variant.engine == engine && !variant.isSwitched();
   });
-  return found == results.variants.end() ? nullptr : &*found;
 }
 
 Names judgedFields(const std::vector<VariantSummary>& variants) {
   Names fields;
   for (const VariantSummary& variant : variants)
-    for (const FieldChange& change : variant.changes) addOnce(fields, change.field);
+    for (const FieldChange& change : variant.judged) addOnce(fields, change.field);
   return fields;
 }
 

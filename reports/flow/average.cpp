@@ -81,20 +81,26 @@ OverviewCell balanceCell(const FlowRun& run) {
   return cell;
 }
 
+/// Of a fit, or of the head's numbers: every number that a run of an assembly has, the case's
+/// endpoints among them.
+OverviewCell numberCell(const auto& number, const char* anchor) {
+  OverviewCell cell{Verdict::notMeasured, finite(number.value), {}, {}, {}, anchor};
+  if (!cell.value) return cell;
+  cell.verdict = std::nullopt;
+  if (number.unit != "-" && number.unit != "1") cell.unit = number.unit;
+  cell.shown =
+      readable(cell.value, number.standardError) + (cell.unit.empty() ? "" : " " + cell.unit);
+  return cell;
+}
+
 OverviewCell fitCell(const EngineRuns& engine, std::string_view name) {
   OverviewCell cell{Verdict::notMeasured, {}, {}, {}, {}, "fits"};
-  const auto fit = std::ranges::find(engine.fits(), name, &FitRow::name);
-  if (fit == engine.fits().end()) return cell;
-  cell.value = finite(fit->value);
-  if (!cell.value) {
+  const FitRow* const fit = findBy(engine.fits(), name, &FitRow::name);
+  if (!fit) return cell;
+  cell = numberCell(*fit, "fits");
+  if (!cell.value)
     cell.words = "no fit";
-    return cell;
-  }
-  cell.verdict = std::nullopt;
-  if (fit->unit != "-" && fit->unit != "1") cell.unit = fit->unit;
-  cell.shown =
-      readable(cell.value, fit->standardError) + (cell.unit.empty() ? "" : " " + cell.unit);
-  if (const auto expected = finite(fit->expected))
+  else if (const auto expected = finite(fit->expected))
     cell.words = readableSetting(expected) + " by theory";
   return cell;
 }
@@ -186,25 +192,13 @@ Names averageNotes(const CompareResults& results, const Engines& engines) {
   return sentences;
 }
 
-/// Every number that a run of an assembly has, the case's endpoints among them.
-OverviewCell headCell(const HeadNumber& number) {
-  OverviewCell cell{Verdict::notMeasured, {}, {}, {}, {}, "engines"};
-  cell.value = finite(number.value);
-  if (!cell.value) return cell;
-  cell.verdict = std::nullopt;
-  if (number.unit != "-" && number.unit != "1") cell.unit = number.unit;
-  cell.shown =
-      readable(cell.value, number.standardError) + (cell.unit.empty() ? "" : " " + cell.unit);
-  return cell;
-}
-
 void addRegionColumns(Overview& overview, const Engines& engines) {
   for (const EngineRuns& engine : engines) {
     OverviewRow row{engine.name, true, {}};
     for (const HeadNumber& number : engine.head()) {
       if (!finite(number.value)) continue;
       overview.columns.push_back({spaced(number.name), "", "engines"});
-      row.cells.push_back(headCell(number));
+      row.cells.push_back(numberCell(number, "engines"));
     }
     if (!row.cells.empty()) overview.rows.push_back(std::move(row));
   }
@@ -250,8 +244,7 @@ Overview averageOverview(const CompareResults& results) {
 
 Report averageReport(const CompareResults& results) {
   const Engines engines = engineRuns(results);
-  Report report{{results.head, results.engines, averageOverview(results)}};
-  report.elapsed = results.elapsed;
+  Report report{{results.head, results.engines, averageOverview(results)}, results.elapsed};
   report.caseHeading = results.region ? "The case: its averaged part and weights"
                                       : "The case: its cell, rings and weights";
   report.notes = averageNotes(results, engines);

@@ -411,8 +411,7 @@ void addSeries(Report& report, const CompareResults& results, const Engines& eng
 
 Report compareReport(const CompareResults& results) {
   const Engines engines = engineRuns(results);
-  Report report{{results.head, results.engines, compareOverview(results)}};
-  report.elapsed = results.elapsed;
+  Report report{{results.head, results.engines, compareOverview(results)}, results.elapsed};
   report.notes = compareNotes(results, engines);
   report.figures = compareFigures(results);
   report.pictures = comparePictures(results);

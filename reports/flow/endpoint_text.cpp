@@ -41,9 +41,7 @@ Names differentOnes(const auto& rows, auto member) {
 template <typename Row>
 const Row* find(const std::vector<Row>& rows, const std::string& a, const std::string& b,
                 std::string Row::*member, const std::string& value) {
-  const auto found = std::ranges::find_if(
-      rows, [&](const Row& row) { return row.*member == value && isOf(row, a, b); });
-  return found == rows.end() ? nullptr : &*found;
+  return findIf(rows, [&](const Row& row) { return row.*member == value && isOf(row, a, b); });
 }
 
 }  // namespace
@@ -112,9 +110,8 @@ std::string describeAnswer(const EndpointRow& row) {
   if (row.unpaired) words += fmt::format(", {} against {} runs", row.unpaired->b, row.unpaired->a);
   if (row.lost > 0) words += fmt::format(", {} failed", counted(std::size_t(row.lost), "packing"));
   if (!row.reason.empty()) words += fmt::format(" ({})", row.reason);
-  for (const std::string& more : {describeSurrogate(row), describeNeeds(row)})
-    if (!more.empty()) words += "; " + more;
-  return words;
+  return fmt::format(
+      "{}", fmt::join(nonEmpty({words, describeSurrogate(row), describeNeeds(row)}), "; "));
 }
 
 std::string describe(const SurrogateEngine& own) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -177,9 +178,9 @@ std::string range(double from, double to) {
 using Rows = std::vector<TableRow>;
 
 /// The run's regime with the numbers that it follows from.
-Cell regimeCell(const FlowRun* run) {
-  if (!run || !run->regime) return absentText;
-  const RegimeRow& regime = *run->regime;
+Cell regimeCell(const FlowRun& run) {
+  if (!run.regime) return absentText;
+  const RegimeRow& regime = *run.regime;
   std::string numbers = fmt::format("contacts {}, slip {}, shear {}, I {}",
                                     readable(regime.wheelContacts), readable(regime.wheelSlip),
                                     readable(regime.shearShare), readable(regime.inertialNumber));
@@ -200,8 +201,8 @@ Table regimeTable(const Engines& engines) {
   for (const int packing : packings) {
     TableRow row{{fmt::format("{}", packing)}};
     for (const EngineRuns& engine : engines) {
-      const auto run = std::ranges::find(engine.finished, packing, &FlowRun::packing);
-      row.cells.push_back(regimeCell(run == engine.finished.end() ? nullptr : *run));
+      const auto* const run = findBy(engine.finished, packing, &FlowRun::packing);
+      row.cells.push_back(run ? regimeCell(**run) : absentText);
     }
     table.rows.push_back(std::move(row));
   }
@@ -244,10 +245,10 @@ Table steadinessTable(const std::vector<EngineDrift>& all, const Engines& engine
   for (const std::string& quantity : quantities) {
     TableRow row{{spaced(quantity)}};
     for (const EngineRuns& engine : engines) {
-      const auto found = std::ranges::find_if(all, [&](const EngineDrift& drift) {
+      const EngineDrift* const found = findIf(all, [&](const EngineDrift& drift) {
         return drift.engine == engine.name && drift.quantity == quantity;
       });
-      row.cells.push_back(found == all.end() ? Cell(absentText) : steadinessCell(*found));
+      row.cells.push_back(found ? steadinessCell(*found) : absentText);
     }
     table.rows.push_back(std::move(row));
   }
@@ -291,20 +292,19 @@ std::string statusOf(const EngineRuns& engine) {
 
 Rows whatRan(const Engines& engines) {
   Rows rows;
-  rows.push_back(
-      tableRow("version", "", engines, [](const EngineRuns& engine) { return engine.version; }));
+  const auto add = [&](const char* label, const Text& text) {
+    rows.push_back(tableRow(label, "", engines, text));
+  };
+  add("version", &EngineRuns::version);
   if (std::ranges::any_of(engines, [](const auto& e) { return !e.mirrors.empty(); }))
-    rows.push_back(
-        tableRow("mirrors", "", engines, [](const EngineRuns& engine) { return engine.mirrors; }));
-  rows.push_back(tableRow("runs finished", "", engines, statusOf));
+    add("mirrors", &EngineRuns::mirrors);
+  add("runs finished", statusOf);
   if (std::ranges::any_of(engines, [](const auto& e) { return !e.surrogate.empty(); }))
-    rows.push_back(tableRow("verdicts rest on the runs of", "", engines, [](const auto& engine) {
+    add("verdicts rest on the runs of", [](const EngineRuns& engine) {
       return engine.surrogate.empty() ? engine.name : engine.surrogate;
-    }));
-  rows.push_back(
-      tableRow("precision", "", engines, fromEffective(&EffectiveParameters::precision)));
-  rows.push_back(
-      tableRow("integrator", "", engines, fromEffective(&EffectiveParameters::integrator)));
+    });
+  add("precision", fromEffective(&EffectiveParameters::precision));
+  add("integrator", fromEffective(&EffectiveParameters::integrator));
   return rows;
 }
 
@@ -350,24 +350,23 @@ constexpr const char* stepFraction = "dt_over_tc";
 
 Rows costRows(const Engines& engines) {
   Rows rows;
-  rows.push_back(tableRow("time step dt", "s", engines, [](const EngineRuns& engine) {
+  const auto add = [&](const char* label, const char* unit, const Text& text) {
+    rows.push_back(tableRow(label, unit, engines, text));
+  };
+  add("time step dt", "s", [](const EngineRuns& engine) {
     return engine.effective() ? readableSetting(engine.effective()->dt) : std::string(absentText);
-  }));
+  });
   rows.push_back(headRow(stepFraction, engines));
-  rows.push_back(
-      tableRow("steps", "", engines, [](const auto& e) { return readableCount(costOf(e).steps); }));
-  rows.push_back(tableRow("wall time", "", engines,
-                          [](const auto& e) { return readableDuration(costOf(e).wall); }));
-  rows.push_back(tableRow("CPU time", "", engines,
-                          [](const auto& e) { return readableDuration(costOf(e).cpu); }));
-  rows.push_back(tableRow("wall time per step", "µs", engines, [](const EngineRuns& engine) {
+  add("steps", "", [](const auto& e) { return readableCount(costOf(e).steps); });
+  add("wall time", "", [](const auto& e) { return readableDuration(costOf(e).wall); });
+  add("CPU time", "", [](const auto& e) { return readableDuration(costOf(e).cpu); });
+  add("wall time per step", "µs", [](const EngineRuns& engine) {
     const EngineCost cost = costOf(engine);
     return readable(times(quotient(cost.wall, cost.steps), 1e6));
-  }));
-  rows.push_back(
-      tableRow("CPU time per simulated second", "s", engines,
-               [](const EngineRuns& engine) { return readable(costOf(engine).cpuPerSecond()); }));
-  for (TableRow& row : counterRows(engines)) rows.push_back(std::move(row));
+  });
+  add("CPU time per simulated second", "s",
+      [](const auto& e) { return readable(costOf(e).cpuPerSecond()); });
+  std::ranges::move(counterRows(engines), std::back_inserter(rows));
   return rows;
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "reports/flow/endpoint_text.hpp"
 
@@ -32,27 +31,21 @@ struct Scaled {
 /// One plot of one field. Axes: thesis-style r̃, or where both are logarithmic r/R_i, and r without
 /// a wheel.
 struct ProfilePlot {
-  std::string name, field;
-  std::string scales;  ///< of its axes, for the title; empty: linear ones
+  std::string field;
+  std::string scales = {};  ///< of its axes, for the title; empty: linear ones
   bool logX = false, logY = false;
-  std::optional<double> guide;  ///< exponent of a power law to compare the slope with
+  std::optional<double> guide = {};  ///< exponent of a power law to compare the slope with
 
   std::string title() const { return fieldWords(field) + scales; }
+  /// Of its files: a field may be drawn once more with a log axis.
+  std::string name() const { return field + (logY && !logX ? "_log" : ""); }
 };
 
-/// Of bins along x or y.
-const std::vector<ProfilePlot>& regionPlots() {
-  static const std::vector<ProfilePlot> plots = {
-      {"volume_fraction", "volume_fraction", "", false, false, {}},
-      {"velocity_x", "velocity_x", "", false, false, {}},
-      {"velocity_y", "velocity_y", "", false, false, {}},
-      {"spin", "spin", "", false, false, {}},
-      {"stress_xx", "stress_xx", "", false, false, {}},
-      {"stress_yy", "stress_yy", "", false, false, {}},
-      {"stress_xy", "stress_xy", "", false, false, {}},
-      {"coordination", "coordination", "", false, false, {}},
-  };
-  return plots;
+enum class BinKind { rings, plane, space };
+BinKind kindOf(const FlowFrame& frame) {
+  if (!frame.region || frame.region->bins == "rings") return BinKind::rings;
+  const bool ofSpace = !frame.region->z.empty() && !frame.region->along.empty();
+  return ofSpace ? BinKind::space : BinKind::plane;
 }
 
 /// The direction that is sheared where slabs lie along this one.
@@ -61,32 +54,29 @@ std::string shearedAlong(const std::string& along) {
 }
 
 /// Of slabs in space along x, y or z: the components across them, and what shears.
-const std::vector<ProfilePlot>& spacePlots(const std::string& along) {
-  static std::map<std::string, std::vector<ProfilePlot>> made;
-  std::vector<ProfilePlot>& plots = made[along];
-  if (!plots.empty()) return plots;
+std::vector<ProfilePlot> plotsOf(const FlowFrame& frame) {
+  const BinKind kind = kindOf(frame);
+  if (kind == BinKind::rings)
+    return {{"volume_fraction"},
+            {"azimuthal_velocity"},
+            {"azimuthal_velocity", ", log axis", false, true},
+            {"spin"},
+            {"stress_rr"},
+            {"stress_pp"},
+            {"stress_rp", ", log axes", true, true, -2.0},
+            {"fabric_trace"}};
+  if (kind == BinKind::plane)
+    return {{"volume_fraction"}, {"velocity_x"}, {"velocity_y"}, {"spin"},
+            {"stress_xx"},       {"stress_yy"},  {"stress_xy"},  {"coordination"}};
+  const std::string& along = frame.region->along;
   const std::string sheared = shearedAlong(along);
-  for (const std::string& field :
-       {std::string("volume_fraction"), "velocity_" + sheared, std::string("granular_temperature"),
-        "stress_" + along + along, "stress_" + sheared + along, std::string("coordination")})
-    plots.push_back({field, field, "", false, false, {}});
-  plots.push_back(
-      {"granular_temperature_log", "granular_temperature", ", log axis", false, true, {}});
-  return plots;
-}
-
-const std::vector<ProfilePlot>& profilePlots() {
-  static const std::vector<ProfilePlot> plots = {
-      {"volume_fraction", "volume_fraction", "", false, false, {}},
-      {"azimuthal_velocity", "azimuthal_velocity", "", false, false, {}},
-      {"azimuthal_velocity_log", "azimuthal_velocity", ", log axis", false, true, {}},
-      {"spin", "spin", "", false, false, {}},
-      {"stress_rr", "stress_rr", "", false, false, {}},
-      {"stress_pp", "stress_pp", "", false, false, {}},
-      {"stress_rp", "stress_rp", ", log axes", true, true, -2.0},
-      {"fabric_trace", "fabric_trace", "", false, false, {}},
-  };
-  return plots;
+  return {{"volume_fraction"},
+          {"velocity_" + sheared},
+          {"granular_temperature"},
+          {"stress_" + along + along},
+          {"stress_" + sheared + along},
+          {"coordination"},
+          {"granular_temperature", ", log axis", false, true}};
 }
 
 /// v_φ/(ΩR_i) and S d/(ΩD) with D = 2R_i (Lätzel 2003, chapter 6) where the cell has a turning
@@ -173,18 +163,13 @@ Panel profilePanel(const FlowFrame& frame, const Engines& engines, const Profile
   return panel;
 }
 
-const std::vector<ProfilePlot>& plotsOf(const FlowFrame& frame) {
-  if (!frame.region || frame.region->bins == "rings") return profilePlots();
-  const bool ofSpace = !frame.region->z.empty() && !frame.region->along.empty();
-  return ofSpace ? spacePlots(frame.region->along) : regionPlots();
-}
-
 /// Velocity twice, shear stress and volume fraction: a comparison at one glance.
 Figure overview(const FlowFrame& frame, const Engines& engines, const IsFaint& faint) {
   Figure figure;
   figure.name = "overview";
-  const auto& plots = plotsOf(frame);
-  const bool rings = &plots == &profilePlots();
+  const std::vector<ProfilePlot> plots = plotsOf(frame);
+  const BinKind kind = kindOf(frame);
+  const bool rings = kind == BinKind::rings;
   figure.title = rings ? "Azimuthal velocity, shear stress and volume fraction of all engines"
                        : "Velocity, stresses and volume fraction of all engines";
   const std::string when = averagedRotations(frame.averaging);
@@ -196,7 +181,7 @@ Figure overview(const FlowFrame& frame, const Engines& engines, const IsFaint& f
   Names shown =
       rings ? Names{"azimuthal_velocity", "azimuthal_velocity_log", "stress_rp", "volume_fraction"}
             : Names{"velocity_x", "stress_xy", "stress_yy", "volume_fraction"};
-  if (!rings && &plots != &regionPlots()) {
+  if (kind == BinKind::space) {
     const std::string& along = frame.region->along;
     figure.title = "Velocity, temperature, stress and volume fraction of all engines";
     shown = {"velocity_" + shearedAlong(along), "granular_temperature_log",
@@ -328,7 +313,7 @@ std::vector<Figure> profileFigures(const FlowFrame& frame, const Engines& engine
   for (const ProfilePlot& plot : plotsOf(frame)) {
     Panel panel = profilePanel(frame, engines, plot, faint);
     if (!hasPoints(panel)) continue;
-    figures.push_back({"profile_" + plot.name,
+    figures.push_back({"profile_" + plot.name(),
                        "Profile of the " + plot.title(),
                        captionOf(frame, plot, panel),
                        {panel}});

@@ -98,10 +98,10 @@ bool disagrees(const CompareResults& results, const EngineRuns& engine) {
 }
 
 const LockstepRow* differingRow(const CompareResults& results, const std::string& engine) {
-  if (results.lockstep)
-    for (const LockstepRow& row : results.lockstep->rows)
-      if (row.engine == engine && row.verdict == Equivalence::differs) return &row;
-  return nullptr;
+  if (!results.lockstep) return nullptr;
+  return findIf(results.lockstep->rows, [&](const LockstepRow& row) {
+    return row.engine == engine && row.verdict == Equivalence::differs;
+  });
 }
 
 /// An engine that does not have its own law, else the conventions that it declares.
@@ -169,10 +169,9 @@ const EndpointRow* nextToDecide(const CompareResults& results) {
 
 /// How many runs an engine has that nobody has run here; 0 of one that crossgrain runs.
 std::size_t runsFromFiles(const Engines& engines, const std::string& name) {
-  const auto engine = std::ranges::find(engines, name, &EngineRuns::name);
-  if (engine == engines.end() || engine->finished.empty() || !engine->finished.front()->ofFiles())
-    return 0;
-  return engine->finished.size();
+  const EngineRuns* const engine = findBy(engines, name, &EngineRuns::name);
+  const bool ofFiles = engine && !engine->finished.empty() && engine->finished.front()->ofFiles();
+  return ofFiles ? engine->finished.size() : 0;
 }
 
 /// Where runs that nobody has run here widen an interval most; empty where those are ours.
@@ -184,8 +183,7 @@ std::string moreRunsOfFiles(const EndpointRow& row, const Engines& engines) {
     return fmt::format("Next: more runs of {} and of {}, whose files hold {} and {}.", row.b, row.a,
                        b, a);
   const double shareOfA = known ? row.unpaired->shareOfA.value_or(0.0) : a > 0 ? 1.0 : 0.0;
-  const bool isMedian = std::ranges::find(engines, row.a, &EngineRuns::name) == engines.end();
-  const bool ofA = !isMedian && shareOfA > 0.5;
+  const bool ofA = findBy(engines, row.a, &EngineRuns::name) && shareOfA > 0.5;
   if ((ofA ? a : b) == 0) return {};
   const std::string why =
       known ? fmt::format(": {:.0f} % of the variance of the difference in {} is theirs",
@@ -239,9 +237,8 @@ std::string nextStep(const CompareResults& results, const Engines& engines) {
 OverviewCell lockstepOf(const CompareResults& results, const EngineRow& engine) {
   static const LockstepFindings none;
   const LockstepFindings& findings = results.lockstep ? *results.lockstep : none;
-  const auto row = std::ranges::find(findings.rows, engine.name, &LockstepRow::engine);
-  OverviewCell cell = lockstepCell(row == findings.rows.end() ? nullptr : &*row, findings.rules,
-                                   !engine.mirrors.empty());
+  OverviewCell cell = lockstepCell(findBy(findings.rows, engine.name, &LockstepRow::engine),
+                                   findings.rules, !engine.mirrors.empty());
   // The worst of all that was seen: a fault that begins after lockstep's windows shows in the
   // engine's own run.
   const SurrogateEngine* const own = spotCheckedEngine(results.endpoints.surrogates, engine.name);
@@ -265,10 +262,9 @@ OverviewCell lockstepOf(const CompareResults& results, const EngineRow& engine) 
 
 /// The first alarm of an engine against the reference, or null.
 const AlarmRow* alarmOf(const CompareResults& results, const std::string& engine) {
-  const auto found = std::ranges::find_if(results.endpoints.alarms, [&](const AlarmRow& alarm) {
+  return findIf(results.endpoints.alarms, [&](const AlarmRow& alarm) {
     return alarm.a == referenceOf(results) && alarm.b == engine;
   });
-  return found == results.endpoints.alarms.end() ? nullptr : &*found;
 }
 
 /// On how many packings the two are in different regimes: means are of different states there.
@@ -376,8 +372,8 @@ OverviewCell endpointCell(const EndpointRow& row, bool isModel) {
 OverviewCell endpointCell(const CompareResults& results, const EndpointRow& row) {
   // Both sides have to be true to their laws: a fault of one of them is no model difference.
   const auto isTrue = [&](const std::string& name) {
-    const auto engine = std::ranges::find(results.engines, name, &EngineRow::name);
-    if (engine == results.engines.end()) return name == medianName;
+    const EngineRow* const engine = findBy(results.engines, name, &EngineRow::name);
+    if (!engine) return name == medianName;
     return name == referenceOf(results) || isModelDifference(results, *engine);
   };
   const bool isModel = row.kind != PairKind::mirrorImplementation && isTrue(row.a) && isTrue(row.b);

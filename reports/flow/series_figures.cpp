@@ -132,9 +132,8 @@ std::vector<Figure> checkFigures(const FlowFrame& frame, const Engines& engines)
     panel.level = 1.0;
     for (const EngineRuns& engine : engines) {
       if (engine.finished.empty()) continue;
-      const std::vector<CheckRow>& ofEngine = engine.finished.front()->checks;
-      const auto check = std::ranges::find(ofEngine, name, &CheckRow::name);
-      if (check == ofEngine.end()) continue;
+      const CheckRow* const check = findBy(engine.finished.front()->checks, name, &CheckRow::name);
+      if (!check) continue;
       Curve curve{engine.name, engine.style, Draw::linesAndPoints,
                   balancePoints(frame.rings, *check), 1.5};
       if (!curve.points.empty()) panel.curves.push_back(std::move(curve));
@@ -154,10 +153,9 @@ constexpr const char* spinAxis = "S d / (Ω D)";
 /// That of an engine's averages, or null. @param ring  from 0; absent: the whole cell's
 const Distribution* distributionOf(const EngineRuns& engine, const std::string& quantity,
                                    std::optional<int> ring) {
-  const auto found = std::ranges::find_if(engine.distributions(), [&](const Distribution& one) {
+  return findIf(engine.distributions(), [&](const Distribution& one) {
     return one.quantity == quantity && one.ring == ring;
   });
-  return found == engine.distributions().end() ? nullptr : &*found;
 }
 
 double centre(const Bins& axis, std::size_t index) {

@@ -407,8 +407,7 @@ List lockstepReading(const LockstepFindings& findings) {
 }
 
 Report reportOf(const LockstepResults& results) {
-  Report report{{results.head, results.engines, lockstepOverview(results)}};
-  report.elapsed = results.elapsed;
+  Report report{{results.head, results.engines, lockstepOverview(results)}, results.elapsed};
   report.notes = results.notes;
   std::vector<EffectiveScene> effective;
   for (const LockstepRow& row : results.lockstep.rows)

@@ -198,17 +198,11 @@ std::string columnNames(const Panel& panel) {
 }
 
 std::string keyText(Key key) {
-  switch (key) {
-    case Key::none:
-      return "unset key";
-    case Key::topRight:
-      return "set key inside top right noopaque samplen 2 spacing 1.1";
-    case Key::topLeft:
-      return "set key inside top left Left reverse noopaque samplen 2 spacing 1.1";
-    case Key::outside:
-      return "set key outside top center horizontal samplen 2 spacing 1.1";
-  }
-  return {};
+  if (key == Key::none) return "unset key";
+  return fmt::format("set key {} samplen 2 spacing 1.1",
+                     key == Key::outside    ? "outside top center horizontal"
+                     : key == Key::topRight ? "inside top right noopaque"
+                                            : "inside top left Left reverse noopaque");
 }
 
 /// Thin lines and the shaded part, drawn behind the data.

@@ -453,10 +453,9 @@ std::vector<HardGroup> hardGroups(const StabilityResults& results) {
 
 const StabilityRun* runOf(const StabilityResults& results, const std::string& engine,
                           const HardCase& variant) {
-  const auto found = std::ranges::find_if(results.runs, [&](const StabilityRun& run) {
+  return findIf(results.runs, [&](const StabilityRun& run) {
     return run.engine == engine && run.name == variant.name && run.variant == variant.variant;
   });
-  return found == results.runs.end() ? nullptr : &*found;
 }
 
 const StabilityRun* worstRun(const StabilityResults& results, const std::string& engine,
@@ -471,8 +470,7 @@ const StabilityRun* worstRun(const StabilityResults& results, const std::string&
 
 Report reportOf(const StabilityResults& results) {
   const std::vector<HardGroup> groups = hardGroups(results);
-  Report report{{results.head, results.engines, stabilityOverview(results)}};
-  report.elapsed = results.elapsed;
+  Report report{{results.head, results.engines, stabilityOverview(results)}, results.elapsed};
   report.figures = stabilityFigures(results);
   report.pictures = stabilityPictures(results);
   report.section("matrix", "Cases by engine", "Summary")
