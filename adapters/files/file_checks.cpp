@@ -81,7 +81,7 @@ void FileSnapshotsOf<D>::audit(const FileFrame& frame, SnapshotOf<D>& snapshot) 
     });
   }
   for (AuditBasisOf<D>* basis : {&basis_, &bareBasis_}) {
-    basis->shownPlaces = shownPlacesOf<D>(frame.particles, units_);
+    basis->shownPlaces = shownPlacesOf(frame.particles, units_);
     if (basis->shownPlaces) basis->shownPlaces->step = shortestStep();
   }
   std::string why = auditFault(snapshot, basis_);
@@ -241,7 +241,7 @@ void FileSnapshotsOf<D>::checkEarlyMotion(const FileFrame& frame, double t) {
   if (ids != earlyIds_) earlyDisplacements_ = displacements_;  // nothing to compare with
   earlyIds_ = std::move(ids);
   const MotionFinding found =
-      earlyDisplacements_.compare(now, roundingOf<D>(all.position, units_) * farthest);
+      earlyDisplacements_.compare(now, roundingOf(all.position, units_) * farthest);
   if (found.factor) refuseMotion(frame, found);
 }
 

@@ -20,6 +20,7 @@ FileSnapshotsOf<D>::FileSnapshotsOf(std::unique_ptr<FrameReader> reader, FileUni
       displacements_(target_.gravity, driveOf<D>(target_.bodies), target_.box),
       earlyDisplacements_(displacements_),
       remarks_(target_.remarks.begin(), target_.remarks.end()) {
+  units_.dimension = D;
   pending_ = readWithin();
   if (!pending_) {
     const std::string when =
@@ -185,7 +186,7 @@ void FileSnapshotsOf<D>::settleBasis() {
 
 template <int D>
 void FileSnapshotsOf<D>::allowForRounding(const FileFrame& frame) {
-  const double rounding = roundingOf<D>(frame.particles.position, units_);
+  const double rounding = roundingOf(frame.particles.position, units_);
   if (rounding <= basis_.rounding) return;
   basis_.rounding = bareBasis_.rounding = rounding;
   remarks_.insert(fmt::format(
@@ -228,7 +229,7 @@ SnapshotOf<D> FileSnapshotsOf<D>::convert(const FileFrame& frame) {
   const std::size_t count = ids_->disks();
   now.position.resize(count);
   now.velocity.resize(count);
-  const MissingComponent* const lack = neededComponent<D>(all.missing, units_, true);
+  const MissingComponent* const lack = neededComponent(all.missing, units_, true);
   const bool hasSpins = all.size() == 0 ? spins_.value_or(false) : !all.spin.empty();
   if (scene_.rotation && hasSpins && !lack) now.spin.emplace(count);
   if (scene_.rotation && !now.spin)

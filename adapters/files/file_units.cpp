@@ -17,7 +17,9 @@ namespace {
 constexpr double outOfPlane = 1e-6;
 
 constexpr std::array<std::string_view, 3> planeNames = {"xy", "xz", "yz"};
-constexpr std::string_view axisNames = "xyz";
+constexpr char axisName(int axis) {
+  return "xyz"[axis];
+}
 
 /// YADE works its contacts out at the beginning of a step, and then moves on; all of these formats
 /// are its exports.
@@ -101,11 +103,10 @@ void checkPlane(const FileFrame& frame, const FileUnits& units) {
     std::string hint = ", in space it has dimension = 3";
     for (std::size_t k = 0; k < planeNames.size(); ++k)  // the plane without axis 2, 1, 0
       if (const int other = 2 - static_cast<int>(k); (high - low)[other] <= outOfPlane * extent)
-        hint = fmt::format("; nothing differs in {}: say plane = \"{}\"",
-                           axisNames[static_cast<std::size_t>(other)], planeNames[k]);
-    fail(frame,
-         fmt::format("particles lie from {} = {:.6g} to {:.6g}: the case is plane{}",
-                     axisNames[static_cast<std::size_t>(third)], low[third], high[third], hint));
+        hint = fmt::format("; nothing differs in {}: say plane = \"{}\"", axisName(other),
+                           planeNames[k]);
+    fail(frame, fmt::format("particles lie from {} = {:.6g} to {:.6g}: the case is plane{}",
+                            axisName(third), low[third], high[third], hint));
   }
   double speed = 0.0, spin = 0.0;
   for (const Vec3& v : all.velocity) speed = std::max(speed, v.norm());
@@ -113,30 +114,27 @@ void checkPlane(const FileFrame& frame, const FileUnits& units) {
   for (std::size_t k = 0; k < all.velocity.size(); ++k)
     if (std::abs(all.velocity[k][third]) > outOfPlane * speed)
       fail(frame, fmt::format("particle {} moves along {}: the case is plane", all.id[k],
-                              axisNames[static_cast<std::size_t>(third)]));
+                              axisName(third)));
   for (std::size_t k = 0; k < all.spin.size(); ++k)
     if (Vec3 w = all.spin[k]; w[third] = 0.0, w.norm() > outOfPlane * spin)
       fail(frame, fmt::format("particle {} spins about an axis that lies in the plane", all.id[k]));
 }
 
 /// "a case in space takes all three components", "plane = \"xz\" takes x and z of the files"
-template <int D>
 std::string describeNeed(const FileUnits& units) {
-  if (D == 3) return "a case in space takes all three components";
-  return fmt::format("plane = \"{0}{1}\" takes {0} and {1} of the files",
-                     axisNames[static_cast<std::size_t>(units.axes[0])],
-                     axisNames[static_cast<std::size_t>(units.axes[1])]);
+  if (units.dimension == 3) return "a case in space takes all three components";
+  return fmt::format("plane = \"{0}{1}\" takes {0} and {1} of the files", axisName(units.axes[0]),
+                     axisName(units.axes[1]));
 }
 
-template <int D>
 void checkComponents(const FileFrame& frame, const FileUnits& units) {
-  if (const auto* const lack = neededComponent<D>(frame.particles.missing, units, false))
-    fail(frame, fmt::format("there is no column {}: {}", lack->column, describeNeed<D>(units)));
+  if (const auto* const lack = neededComponent(frame.particles.missing, units, false))
+    fail(frame, fmt::format("there is no column {}: {}", lack->column, describeNeed(units)));
   if (!frame.contacts) return;
   for (const bool axial : {false, true})
-    if (const auto* const lack = neededComponent<D>(frame.contacts->missing, units, axial))
+    if (const auto* const lack = neededComponent(frame.contacts->missing, units, axial))
       fail(frame, fmt::format("its contacts have no column {}: {}", lack->column,
-                              axial ? "a torque has that component" : describeNeed<D>(units)));
+                              axial ? "a torque has that component" : describeNeed(units)));
 }
 
 /// Of an edge that the case does not have, whatever crosses it has an image there that the case
@@ -149,17 +147,9 @@ void checkEdge(const FileFrame& frame, int axis) {
       fail(frame, fmt::format(
                       "particle {} reaches over the periodic edge at {} = {:.6g}: the case has no "
                       "periodic edge there",
-                      all.id[k], axisNames[static_cast<std::size_t>(axis)],
+                      all.id[k], axisName(axis),
                       x - a < frame.box->low[axis] ? frame.box->low[axis] : frame.box->high[axis]));
   }
-}
-
-/// Periods of six digits are the case's.
-void checkPeriod(const FileFrame& frame, int axis, double found, double wanted) {
-  constexpr double samePeriod = 1e-5;
-  if (std::abs(found - wanted) > samePeriod * wanted)
-    fail(frame, fmt::format("its box is periodic along {} over {:.7g} m, the case's over {:.7g} m",
-                            axisNames[static_cast<std::size_t>(axis)], found, wanted));
 }
 
 /// Decimal digits that a number gets by with; what only its change of unit has added is no digit.
@@ -195,40 +185,38 @@ FileBox boxInFiles(const BoxOf<D>& box, const FileUnits& units) {
 template FileBox boxInFiles(const BoxOf<2>&, const FileUnits&);
 template FileBox boxInFiles(const BoxOf<3>&, const FileUnits&);
 
-template <int D>
 const MissingComponent* neededComponent(const std::vector<MissingComponent>& missing,
                                         const FileUnits& units, bool axial) {
   const auto found = std::ranges::find_if(missing, [&](const MissingComponent& one) {
-    return one.axial == axial && (D == 3 || (one.axis == units.third()) == axial);
+    return one.axial == axial && (units.dimension == 3 || (one.axis == units.third()) == axial);
   });
   return found == missing.end() ? nullptr : &*found;
 }
-template const MissingComponent* neededComponent<2>(const std::vector<MissingComponent>&,
-                                                    const FileUnits&, bool);
-template const MissingComponent* neededComponent<3>(const std::vector<MissingComponent>&,
-                                                    const FileUnits&, bool);
 
 template <int D>
 void checkParticles(const FileFrame& frame, const FileUnits& units,
                     const std::optional<BoxOf<D>>& box) {
-  checkComponents<D>(frame, units);
+  checkComponents(frame, units);
   if (D == 2) checkPlane(frame, units);
   if (!frame.box) return;
+  constexpr double samePeriod = 1e-5;  // of six digits
   for (int k = 0; k < D; ++k) {
     const int axis = units.axes[k];
+    const double width = units.length * (frame.box->high[axis] - frame.box->low[axis]);
     const bool isPeriodic = box && box->periodic[static_cast<std::size_t>(k)];
-    if (isPeriodic && frame.box->saidFixed[axis] && !frame.box->periodic[axis])
-      fail(frame, fmt::format("its box is fixed along {} and {:.7g} m wide, the case's is periodic "
-                              "over {:.7g} m",
-                              axisNames[static_cast<std::size_t>(axis)],
-                              units.length * (frame.box->high[axis] - frame.box->low[axis]),
-                              box->high[k] - box->low[k]));
-    if (!frame.box->periodic[axis]) continue;
-    if (isPeriodic)
-      checkPeriod(frame, axis, units.length * (frame.box->high[axis] - frame.box->low[axis]),
-                  box->high[k] - box->low[k]);
-    else
+    const double period = isPeriodic ? box->high[k] - box->low[k] : 0.0;
+    if (!frame.box->periodic[axis]) {
+      if (isPeriodic && frame.box->saidFixed[axis])
+        fail(frame, fmt::format("its box is fixed along {} and {:.7g} m wide, the case's is "
+                                "periodic over {:.7g} m",
+                                axisName(axis), width, period));
+    } else if (!isPeriodic) {
       checkEdge(frame, axis);
+    } else if (std::abs(width - period) > samePeriod * period) {
+      fail(frame,
+           fmt::format("its box is periodic along {} over {:.7g} m, the case's over {:.7g} m",
+                       axisName(axis), width, period));
+    }
   }
 }
 template void checkParticles(const FileFrame&, const FileUnits&, const std::optional<BoxOf<2>>&);
@@ -251,23 +239,22 @@ LastDigit lastDigitOf(const std::vector<double>& numbers) {
 namespace {
 
 /// Of those, as many as tell.
-template <int D>
 std::vector<double> sampleOf(const std::vector<Vec3>& position, const FileUnits& units) {
   constexpr std::size_t most = 1000;
   const std::size_t stride = std::max<std::size_t>(1, position.size() / most);
   std::vector<double> sample;
   for (std::size_t k = 0; k < position.size(); k += stride)
-    for (int axis = 0; axis < D; ++axis) sample.push_back(position[k][units.axes[axis]]);
+    for (int axis = 0; axis < units.dimension; ++axis)
+      sample.push_back(position[k][units.axes[axis]]);
   return sample;
 }
 
 }  // namespace
 
-template <int D>
 double roundingOf(const std::vector<Vec3>& position, const FileUnits& units) {
   std::array<std::size_t, 20> count{};
   std::size_t all = 0;
-  for (const double x : sampleOf<D>(position, units))
+  for (const double x : sampleOf(position, units))
     if (x != 0.0) {
       ++count[static_cast<std::size_t>(std::min(digitsOf(x), 19))];
       ++all;
@@ -277,14 +264,11 @@ double roundingOf(const std::vector<Vec3>& position, const FileUnits& units) {
   if (digits < 5 || digits > 8 || 2 * (count[digits] + count[digits - 1]) < all) return 1e-6;
   return 2.0 * std::pow(10.0, 1.0 - static_cast<double>(digits));
 }
-template double roundingOf<2>(const std::vector<Vec3>&, const FileUnits&);
-template double roundingOf<3>(const std::vector<Vec3>&, const FileUnits&);
 
-template <int D>
 std::optional<ShownPlaces> shownPlacesOf(const FileParticles& particles, const FileUnits& units) {
   if (particles.scaled) return std::nullopt;
   constexpr double single = 0x1p-23;
-  const std::vector<double> places = sampleOf<D>(particles.position, units);
+  const std::vector<double> places = sampleOf(particles.position, units);
   ShownPlaces shown;
   shown.unit = units.length;
   shown.position = lastDigitOf(places);
@@ -311,7 +295,5 @@ std::optional<ShownPlaces> shownPlacesOf(const FileParticles& particles, const F
   }
   return shown;
 }
-template std::optional<ShownPlaces> shownPlacesOf<2>(const FileParticles&, const FileUnits&);
-template std::optional<ShownPlaces> shownPlacesOf<3>(const FileParticles&, const FileUnits&);
 
 }  // namespace crossgrain::files

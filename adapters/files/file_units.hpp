@@ -25,6 +25,7 @@ struct FileUnits {
   /// In the plane: of the file's x, y, z, that are x and y of the scene. In space they are its own.
   int axes[3] = {0, 1, 2};
   double turn = 1.0;  ///< in the plane: z of the scene along the third axis (1) or against it (−1)
+  int dimension = 2;  ///< of the case: 3 in space
 
   double force() const { return mass * length / (time * time); }  ///< of the file's units [N]
   int third() const { return 3 - axes[0] - axes[1]; }
@@ -58,7 +59,6 @@ FileBox boxInFiles(const BoxOf<D>& box, const FileUnits& units);
 
 /// Of the missing components of vectors the first that the case needs: in space all three are, in
 /// the plane those along its axes, of spins and torques the one across it. Null: none.
-template <int D>
 const MissingComponent* neededComponent(const std::vector<MissingComponent>& missing,
                                         const FileUnits& units, bool axial);
 
@@ -78,11 +78,9 @@ LastDigit lastDigitOf(const std::vector<double>& numbers);
 /// Relative rounding of coordinates: twice the last digit of files that write five to eight of
 /// them, as half of all coordinates then use the last two; else single precision's. Round numbers
 /// of a lattice are no sign of it.
-template <int D>
 double roundingOf(const std::vector<Vec3>& position, const FileUnits& units);
 
 /// How exactly particles say which of them overlap; absent where their digits do not show it.
-template <int D>
 std::optional<ShownPlaces> shownPlacesOf(const FileParticles& particles, const FileUnits& units);
 
 }  // namespace crossgrain::files
