@@ -17,21 +17,17 @@ namespace {
 struct SeriesPlot {
   std::string name, title, label;
 };
-
-const std::vector<SeriesPlot>& seriesPlots() {
-  static const std::vector<SeriesPlot> plots = {
-      {"wheel_torque", "Torque of the wheel on the disks", "torque [N m]"},
-      {"outer_pressure", "Pressure on the outer wall", "pressure [N/m^{2}]"},
-      {"shear_share", "Shear among the disks, share of the wheel's rotation (below 0.1: blocked)",
-       "shear among the disks / Ω"},
-      {"coordination", "Contacts per disk", "contacts per disk"},
-      {"kinetic_energy", "Kinetic energy", "kinetic energy [J]"},
-      {"disks", "Disks in the averaged part", "disks"},
-      {"top", "Highest point of the disks", "height [m]"},
-      {"heap_slope", "Slope of the triangle with the disks' moments", "slope"},
-  };
-  return plots;
-}
+const SeriesPlot seriesPlots[] = {
+    {"wheel_torque", "Torque of the wheel on the disks", "torque [N m]"},
+    {"outer_pressure", "Pressure on the outer wall", "pressure [N/m^{2}]"},
+    {"shear_share", "Shear among the disks, share of the wheel's rotation (below 0.1: blocked)",
+     "shear among the disks / Ω"},
+    {"coordination", "Contacts per disk", "contacts per disk"},
+    {"kinetic_energy", "Kinetic energy", "kinetic energy [J]"},
+    {"disks", "Disks in the averaged part", "disks"},
+    {"top", "Highest point of the disks", "height [m]"},
+    {"heap_slope", "Slope of the triangle with the disks' moments", "slope"},
+};
 
 constexpr std::size_t shownPoints = 80;
 
@@ -105,7 +101,7 @@ std::vector<Point> balancePoints(const RingPlaces& rings, const CheckRow& check)
 
 std::vector<Figure> seriesFigures(const FlowFrame& frame, const Engines& engines) {
   std::vector<Figure> figures;
-  for (const SeriesPlot& plot : seriesPlots()) {
+  for (const SeriesPlot& plot : seriesPlots) {
     Panel panel = seriesPanel(frame, engines, plot);
     if (!hasPoints(panel)) continue;
     figures.push_back(

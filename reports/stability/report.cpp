@@ -24,66 +24,62 @@ bool isWorse(const StabilityRun& run, const StabilityRun& than) {
   return badness(run) > badness(than);
 }
 
+/// Hard cases that ask one question.
 struct Family {
-  std::string_view measure, name, asks;
-  bool transform = false;  ///< of a transformed case
+  std::string name, asks;
+  Names measures = {};
+  bool transform = false;  ///< of transformed cases
 };
 /// In the order of the columns.
-constexpr std::array families = {
-    Family{"energy_gain", "energy", "Is energy conserved, or lost as the law says?"},
-    Family{"energy_drift", "energy", ""},
-    Family{"ledger_residual", "energy", ""},
-    Family{"momentum_drift", "momentum", "Are momentum and angular momentum kept?"},
-    Family{"angular_momentum_drift", "momentum", ""},
-    Family{"restitution_error", "bounce", "Do disks rebound as theory says?"},
-    Family{"max_overlap", "passing through", "Do disks go through each other or through walls?"},
-    Family{"tunnelled", "passing through", ""},
-    Family{"escaped", "passing through", ""},
-    Family{"kinetic_at_rest", "rest", "Do disks at rest stay at rest?"},
-    Family{"creep", "rest", ""},
-    Family{"pile_angle_change", "rest", ""},
-    Family{"time_to_rest", "rest", ""},
-    Family{"ratchet", "cycles", "Do repeated loads come back to where they were?"},
-    Family{"step_limit", "time step", "How near to theory is the largest stable time step?"},
-    Family{"copies_differ", "copies", "Do turned, shifted and scaled copies behave alike?"},
-    Family{"restart_differs", "restart", "Does a run go on from a checkpoint as if uninterrupted?"},
-    Family{"accepted", "bad starts", "Are starts refused that nothing can run?"},
-    Family{"turned", "turned", "Does a turned scene do the same, turned?", true},
-    Family{"mirrored", "mirrored", "Does a mirrored scene do the same, mirrored?", true},
-    Family{"rescaled", "other units", "Does a scene in other units do the same?", true},
-    Family{"renumbered", "renumbered", "Do disks do the same under other numbers?", true},
-    Family{"restarted", "restarted", "Does a run restarted from a checkpoint go on the same?",
-           true},
-    Family{"split", "in one go", "Does a run without snapshots do the same?", true}};
+const Family families[] = {
+    {"energy",
+     "Is energy conserved, or lost as the law says?",
+     {"energy_gain", "energy_drift", "ledger_residual"}},
+    {"momentum",
+     "Are momentum and angular momentum kept?",
+     {"momentum_drift", "angular_momentum_drift"}},
+    {"bounce", "Do disks rebound as theory says?", {"restitution_error"}},
+    {"passing through",
+     "Do disks go through each other or through walls?",
+     {"max_overlap", "tunnelled", "escaped"}},
+    {"rest",
+     "Do disks at rest stay at rest?",
+     {"kinetic_at_rest", "creep", "pile_angle_change", "time_to_rest"}},
+    {"cycles", "Do repeated loads come back to where they were?", {"ratchet"}},
+    {"time step", "How near to theory is the largest stable time step?", {"step_limit"}},
+    {"copies", "Do turned, shifted and scaled copies behave alike?", {"copies_differ"}},
+    {"restart", "Does a run go on from a checkpoint as if uninterrupted?", {"restart_differs"}},
+    {"bad starts", "Are starts refused that nothing can run?", {"accepted"}},
+    {"turned", "Does a turned scene do the same, turned?", {"turned"}, true},
+    {"mirrored", "Does a mirrored scene do the same, mirrored?", {"mirrored"}, true},
+    {"other units", "Does a scene in other units do the same?", {"rescaled"}, true},
+    {"renumbered", "Do disks do the same under other numbers?", {"renumbered"}, true},
+    {"restarted", "Does a run restarted from a checkpoint go on the same?", {"restarted"}, true},
+    {"in one go", "Does a run without snapshots do the same?", {"split"}, true}};
 
 const Family* known(const std::string& measure) {
-  return findBy(families, measure, &Family::measure);
+  for (const Family& family : families)
+    if (std::ranges::find(family.measures, measure) != family.measures.end()) return &family;
+  return nullptr;
 }
 
 /// The family of hard cases that a measure belongs to; of one that is not known here its own name.
 std::string familyOf(const std::string& measure) {
   const Family* family = known(measure);
-  return family ? std::string(family->name) : spaced(measure);
+  return family ? family->name : spaced(measure);
 }
 
-struct NamedFamily {
-  std::string name, asks;
-};
-
 /// Those that occur: known ones in their order, then the others.
-std::vector<NamedFamily> familiesOf(const StabilityResults& results) {
-  std::vector<NamedFamily> found;
-  const auto occurs = [&](std::string_view name) {
-    return std::ranges::any_of(
-        results.cases, [&](const HardCase& hard) { return familyOf(hard.measure) == name; });
-  };
-  const auto add = [&](std::string name, std::string_view asks) {
-    if (std::ranges::find(found, name, &NamedFamily::name) == found.end())
-      found.push_back({std::move(name), std::string(asks)});
-  };
+std::vector<Family> familiesOf(const StabilityResults& results) {
+  std::vector<Family> found;
   for (const Family& family : families)
-    if (occurs(family.name)) add(std::string(family.name), family.asks);
-  for (const HardCase& hard : results.cases) add(familyOf(hard.measure), hard.what);
+    if (std::ranges::any_of(results.cases, [&](const HardCase& hard) {
+          return familyOf(hard.measure) == family.name;
+        }))
+      found.push_back(family);
+  for (const HardCase& hard : results.cases)
+    if (!findBy(found, familyOf(hard.measure), &Family::name))
+      found.push_back({familyOf(hard.measure), hard.what});
   return found;
 }
 
@@ -425,12 +421,11 @@ Overview stabilityOverview(const StabilityResults& results) {
                        {Verdict::borderline, "some degraded"},
                        {Verdict::fail, "some unstable"},
                        {Verdict::notApplicable, "refused"}};
-  const std::vector<NamedFamily> all = familiesOf(results);
-  for (const NamedFamily& family : all)
-    overview.columns.push_back({family.name, family.asks, "matrix"});
+  const std::vector<Family> all = familiesOf(results);
+  for (const Family& family : all) overview.columns.push_back({family.name, family.asks, "matrix"});
   for (const EngineRow& engine : results.engines) {
     OverviewRow row{engine.name, true, {}};
-    for (const NamedFamily& family : all)
+    for (const Family& family : all)
       row.cells.push_back(familyCell(familyTally(results, engine.name, family.name)));
     overview.rows.push_back(std::move(row));
   }
