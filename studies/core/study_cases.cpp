@@ -74,6 +74,7 @@ void reportKeysWithoutUse(const std::vector<Case>& cases, std::string_view comma
 std::vector<std::string> quickOverrides(const Case& setup, double rotations) {
   const std::string packings =
       fmt::format("preparation.packings={}", std::min(2, setup.preparation.packings));
+  if (hasClosedForms(setup)) return {packings};  // few bodies, and times of what they do
   if (!cellOf(setup))
     return {packings, fmt::format("average.snapshots={}", std::min(20, setup.region->snapshots))};
   const auto& [cell, particles, filling, times] = couetteIn(setup);

@@ -581,6 +581,12 @@ class Assemblies(SystemTest):
                 self.assert_status(self.compare(case, f"--set={change}"), FELL_SHORT)
                 self.assertIn("disagree", {row["answer"] for row in self.rows("endpoints.csv")})
 
+    def test_quick_leaves_closed_forms_their_snapshots(self):
+        """Of ten periods of stick and slip, 20 snapshots would show none of the times at which it slips."""
+        case = CASES / "assembly/stick-slip.toml"
+        self.held("compare", case, "--engines", "grain", "--quick", "--out", self.out, "--quiet")
+        self.assertEqual(["small_difference"] * 3, [row["answer"] for row in self.rows("endpoints.csv")])
+
     def test_column_stands_by_its_cohesion_alone(self):
         for name, low, high in (("column", 0.074, 0.085), ("column-without", 0.0, 0.05)):  # of 12 layers of 6.4 mm
             self.out = self.folder / name
