@@ -13,7 +13,7 @@
 
 namespace crossgrain::files {
 
-/// What a column of numbers is. Components of a vector follow one another.
+/// Quantity in a column of numbers. Components of a vector follow one another.
 // clang-format off
 enum class Meaning : std::uint8_t {
   time, step,
@@ -69,9 +69,9 @@ class ColumnOptions {
   /// @throws BadInput
   explicit ColumnOptions(const std::string& option);
 
-  /// What is said of an array, or of a column without index; null: nothing.
+  /// Words given for an array, or for a column without index; null: none.
   const std::vector<std::string>* wordsOf(std::string_view name) const;
-  /// The meaning of column "name" or "name[k]", k from 1; absent: nothing is said of it. "-" is
+  /// The meaning of column "name" or "name[k]", k from 1; absent: none is given. "-" is
   /// Meaning::none. A vector's name among others stands for three columns.
   /// @throws BadInput where a word has no meaning
   std::optional<Meaning> of(std::string_view name) const;

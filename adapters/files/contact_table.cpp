@@ -86,9 +86,9 @@ void findNormals(ContactTable& table, const FileFrame& frame, const Partners& pa
   }
 }
 
-/// What is left of a torque without that of the force itself, which acts at the middle of the
-/// overlap: −(R − δ/2) n × F. With six digits of forces and places that difference of two torques
-/// is uncertain by R F (1 + |x| / R), each a few times the last digit; what is below is nothing.
+/// Subtracts from each torque that of the force, which acts at the middle of the overlap:
+/// −(R − δ/2) n × F. Forces and positions have six digits, so the rest is uncertain by a few units
+/// of the last digit times R F (1 + |x| / R); a smaller rest is set to 0.
 void takeOffLevers(ContactTable& table, const FileFrame& frame, const Partners& partners) {
   FileContacts& contacts = table.contacts;
   for (std::size_t k = 0; k < contacts.size(); ++k) {

@@ -34,7 +34,8 @@ bool isPowerOfTen(double factor) {
   return isSame(factor, std::pow(10.0, std::round(std::log10(factor))), powerOfTen);
 }
 
-/// What nearly all of them are, unless it lies between the limits; absent also of too few.
+/// Median of factors, if nearly all are close to it and it lies outside [least, most]; absent also
+/// of too few factors.
 std::optional<double> commonFactor(std::vector<double> factors, double least, double most) {
   if (factors.size() < fewest) return std::nullopt;
   const auto middle = factors.begin() + static_cast<std::ptrdiff_t>(factors.size() / 2);

@@ -13,7 +13,7 @@ namespace crossgrain::files {
 template <int D>
 double driveOf(const std::vector<WallBodyOf<D>>& bodies);
 
-/// What DisplacementsOf finds of two snapshots.
+/// Result of DisplacementsOf for two snapshots.
 struct MotionFinding {
   /// Way covered/way by velocities, where it is the same to 5 % of nine in ten of the counted
   /// disks, or of the even ones, and is either a power of ten to 2 % or the same as since the

@@ -91,7 +91,8 @@ void FileSnapshotsOf<D>::requireOpen(const FileFrame& frame, std::size_t before)
                             frame.particles.size(), before, target_.needsAll));
 }
 
-/// What the first time says of those to come.
+/// Records numbering, inertia factor, density and materials by type of the first frame, for later
+/// ones.
 template <int D>
 void FileSnapshotsOf<D>::learn(const FileFrame& frame) {
   const FileParticles& all = frame.particles;
@@ -107,7 +108,7 @@ void FileSnapshotsOf<D>::learn(const FileFrame& frame) {
     }
 }
 
-/// By which later times know the disks as they are now.
+/// Records the disks as they are now, for later times.
 template <int D>
 void FileSnapshotsOf<D>::remember() {
   if (rows_) return;

@@ -217,8 +217,8 @@ void FileSnapshotsOf<D>::checkMotion(const FileFrame& frame, const SnapshotOf<D>
                     frame.where, movers<D>, *found.rms, remedyOfMotion(frame)));
 }
 
-/// What is averaged is often at rest; what comes before shows whether times are right. Particles
-/// that are walls count as well.
+/// Compares displacements with velocities before the averaged time too: averaged particles are
+/// often at rest, earlier ones show wrong times. Wall particles count as well.
 template <int D>
 void FileSnapshotsOf<D>::checkEarlyMotion(const FileFrame& frame, double t) {
   const FileParticles& all = frame.particles;

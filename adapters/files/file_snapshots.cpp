@@ -170,7 +170,7 @@ void FileSnapshotsOf<D>::recognise(const FileFrame& frame) {
   learn(frame);
 }
 
-/// What snapshots are compared with, of the scene as it is.
+/// Sets what the audit compares snapshots with, from the present scene, with and without walls.
 template <int D>
 void FileSnapshotsOf<D>::settleBasis() {
   const double rounding = basis_.rounding;

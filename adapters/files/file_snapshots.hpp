@@ -37,7 +37,7 @@ struct FileSceneOf {
   std::function<std::pair<SceneOf<D>, DisksOf<D>>()> open;
   /// Refuses disks of another size than the case's. @throws BadInput
   std::function<void(const DisksOf<D>&)> checkLengths;
-  /// What of the case needs each particle from the start on: "the endpoint top is of disk 3".
+  /// Reason why the case needs each particle from the start on: "the endpoint top is of disk 3".
   /// Empty: particles may come and go.
   std::string needsAll;
   /// Frames of (from, to] are averaged, those of other times left out, as engines are averaged from
@@ -116,7 +116,7 @@ class FileSnapshotsOf : public SnapshotSourceOf<D> {
   std::optional<FileFrame> pending_;  ///< the first, until it is asked for
   SceneOf<D> scene_, bare_;           ///< with walls, and without
   std::optional<ParticleIds> ids_;
-  /// What is known of a particle by its id, or of those of a type.
+  /// Properties of a particle, known by its id.
   struct Known {
     double radius, mass;  ///< [m], [kg]
     std::int32_t material;

@@ -13,7 +13,7 @@
 namespace crossgrain::files {
 namespace {
 
-/// What moves along the third axis, or lies beside the others there, in units of what is largest.
+/// Limit of motion and offsets out of the plane, relative to the largest velocity, spin or extent.
 constexpr double outOfPlane = 1e-6;
 
 constexpr std::array<std::string_view, 3> planeNames = {"xy", "xz", "yz"};

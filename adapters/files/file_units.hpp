@@ -16,7 +16,7 @@ namespace crossgrain::files {
 /// @throws BadInput naming the frame
 [[noreturn]] void fail(const FileFrame& frame, const std::string& what);
 
-/// What no file says of itself: [engines.NAME] of a case.
+/// Units, start and axes, which no file contains: [engines.NAME] of a case.
 struct FileUnits {
   double length = 1.0, time = 1.0, mass = 1.0;  ///< of the file's units [m], [s], [kg]
   double dt = 0.0;              ///< time step of files that count steps [file's time]; 0: not said

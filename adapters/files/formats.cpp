@@ -61,7 +61,7 @@ bool saysContent(const std::string& word) {
   return std::ranges::find(known, word) != std::end(known);
 }
 
-/// What the files of a run have in common: the name without its last number and such words.
+/// Name that the files of a run share: without the last number and words such as "contacts".
 std::string runName(const Format& format, const fs::path& file) {
   std::string name = file.filename().string();
   if (format.name == "mercurydpm") {  // run1.data, run1.fstat.0003

@@ -90,9 +90,9 @@ struct FileFrame {
   std::string firstSkipped;
 };
 
-/// What a file does not say of itself.
+/// Facts that a file does not contain.
 struct FileOptions {
-  /// What columns (or arrays) mean whose names their program does not fix, as
+  /// Meanings of columns (or arrays) whose names their program does not fix, as
   /// "NAME=MEANING NAME=MEANING …": "c_q=normal_force,tx,ty,tz,- f_floor=wall v_m=mass". NAME alone
   /// is NAME[1], NAME[2], … in order; "-" is not read. Meanings are the names of columns of CSV
   /// files (docs/file-formats.md). Formats whose names are fixed take none.

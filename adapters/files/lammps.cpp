@@ -31,7 +31,7 @@ constexpr std::pair<std::string_view, Meaning> attributes[] = {
     {"xsu", Meaning::scaledX},   {"ysu", Meaning::scaledY},
     {"zsu", Meaning::scaledZ}};
 
-/// What stands before the rows of a time.
+/// Header of a time: the lines before its rows.
 struct Head {
   Part part;
   std::size_t rows = 0;
@@ -332,7 +332,7 @@ Meanings localColumns(std::string_view array, const std::vector<std::string>& sa
   return meanings;
 }
 
-/// What is taken where nobody said what the columns are: property/local patom1 patom2 and
+/// Default words for columns that the user does not describe: property/local patom1 patom2 and
 /// pair/local force p1 p2 … of LAMMPS, pair/gran/local with pos id force, or without keywords, of
 /// LIGGGHTS.
 std::vector<std::string> usualWords(const TextFile& text, const std::vector<std::string>& names,
@@ -361,7 +361,7 @@ std::vector<std::string> usualWords(const TextFile& text, const std::vector<std:
 struct EntryColumns {
   Columns columns;
   bool walls = false;    ///< of wall/gran/local
-  bool guessed = false;  ///< nobody said
+  bool guessed = false;  ///< the user does not describe them
 };
 
 EntryColumns entryColumns(const TextFile& text, const std::vector<std::string>& names,
@@ -454,7 +454,7 @@ std::unique_ptr<FrameReader> openLammps(const Files& files, const FileOptions& o
   for (Files& dump : bySeries(filesOf(files, Content::contacts, contentOfLammps)))
     contacts.push_back(std::make_unique<TextParts>(
         std::move(dump), [columns](TextFile& text) { return readEntries(text, *columns); }));
-  // What is said of columns of contacts is no slip where there are only atoms.
+  // Words for columns of contacts are no mistake where there are only atoms.
   const auto checked = contacts.empty() ? nullptr : columns;
   auto atoms = std::make_unique<TextParts>(
       filesOf(files, Content::particles, contentOfLammps),

@@ -196,7 +196,7 @@ Part readScene(const fs::path& file, bool traction) {
   return part;
 }
 
-/// What HDF5 says of a file that it cannot read is no BadInput.
+/// Reads a file; errors of HDF5 become BadInput.
 Part readChecked(const fs::path& file, bool traction) {
   if (const std::string why = fileFault(file); !why.empty())
     throw BadInput(fmt::format("{}: {}", file.string(), why));

@@ -20,7 +20,7 @@ std::unique_ptr<FrameReader> openOnDem(const Files& files, const FileOptions& op
 std::unique_ptr<FrameReader> openCsv(const Files& files, const FileOptions& options);
 std::unique_ptr<FrameReader> openXyz(const Files& files, const FileOptions& options);
 
-/// What a file holds, where a format keeps particles and contacts apart. @throws BadInput
+/// Kind of data in a file, where a format keeps particles and contacts apart. @throws BadInput
 enum class Content { particles, contacts };
 Content contentOfMercuryDpm(const std::filesystem::path& file);
 Content contentOfLammps(const std::filesystem::path& file);

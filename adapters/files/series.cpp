@@ -165,7 +165,7 @@ class Joined : public FrameReader {
     }
   }
 
-  /// What there is in place of contacts of the time that was looked for.
+  /// Text that names the contacts found in place of those of the frame's time.
   static std::string describeTimes(const Contacts& reader) {
     return fmt::format("the {} are of {}", reader.pending ? "next" : "last", reader.last);
   }

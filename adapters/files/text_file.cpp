@@ -27,7 +27,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// What is quoted in a message, cut to what fits a line.
+/// A word in quotes for a message, cut to fit a line.
 std::string quoted(std::string_view word) {
   constexpr std::size_t most = 40;
   return fmt::format("\"{}{}\"", word.substr(0, most), word.size() > most ? "…" : "");

@@ -91,7 +91,7 @@ std::vector<std::string_view> separatedWords(std::string_view line, char separat
 /// them aside, else tabs; absent where it has both, or none of the three.
 std::optional<char> separatorOf(std::string_view names);
 
-/// What some programs put before the first line of UTF-8 text: it is no part of it.
+/// Bytes that some programs put before UTF-8 text; they are no part of it.
 inline constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";
 
 /// All of a word as a finite number. @throws BadInput naming the line

@@ -50,7 +50,7 @@ VtkData readVtkLegacy(const std::filesystem::path& file);
 /// Whether it has lines, which contacts are. @throws BadInput
 bool legacyHasLines(const std::filesystem::path& file);
 
-/// What both formats check of lines. @throws BadInput
+/// Adds a line to data of either format. @throws BadInput where an end is no point
 void addLine(VtkData& data, const std::string& where, double from, double to);
 
 }  // namespace crossgrain::files

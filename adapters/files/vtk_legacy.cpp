@@ -39,11 +39,11 @@ class Words {
     }
     return numberOf(text_, words_[at_++], what);
   }
-  /// What follows begins on a line of its own.
+  /// Requires that all numbers of the line are read: the next section begins on a new line.
   void endLine() {
     if (at_ != words_.size()) text_.fail("more numbers than announced");
   }
-  /// What follows is numbers.
+  /// Skips the rest of the line: numbers follow.
   void skipLine() { at_ = words_.size(); }
   TextFile& text() { return text_; }
   const TextFile& text() const { return text_; }

@@ -52,7 +52,7 @@ class XmlFile {
   [[noreturn]] void fail(const std::string& what) const {
     throw BadInput(fmt::format("{}: {}", file_.string(), what));
   }
-  /// What is known of an array's numbers and where they are.
+  /// An array's numbers as they stand in the file.
   struct Source {
     std::string_view name, text;
     bool base64 = false;

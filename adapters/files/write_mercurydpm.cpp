@@ -82,8 +82,8 @@ class MercuryDpmWriter : public SnapshotWriter {
     density_ = {mass / area};
   }
 
-  /// What MercuryCG takes from it are densities and which particles are fixed (no inverse mass).
-  /// Stiffnesses are of no use there.
+  /// Writes all that MercuryCG reads from it: densities, and which particles are fixed (no inverse
+  /// mass). The stiffnesses have no effect.
   void writeRestart(const Snapshot& now) {
     const double z = 0.5 * box_.height;
     restart_.print("MercuryDPM 1.0 name {}\n", name_);

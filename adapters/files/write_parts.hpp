@@ -16,7 +16,7 @@
 #include "adapters/files/frame.hpp"
 #include "adapters/files/write_snapshots.hpp"
 
-/// What the writers share.
+/// Parts that the writers share.
 namespace crossgrain::files {
 
 /// A text file that grows in NAME.part, a megabyte at a time. One that is not closed is removed.

@@ -33,8 +33,8 @@ class SnapshotWriterOf {
   /// @throws OutputError
   virtual void close() = 0;
 
-  /// What the snapshots have and the format has no place for, and what it asks for and snapshots
-  /// do not have: each a line.
+  /// Data of the snapshots for which the format has no place, and data that it requires and the
+  /// snapshots lack: a line each.
   virtual std::vector<std::string> notWritten() const = 0;
 };
 using SnapshotWriter = SnapshotWriterOf<2>;

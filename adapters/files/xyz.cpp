@@ -38,7 +38,7 @@ Keys keysOf(std::string_view line) {
   return keys;
 }
 
-/// What programs call the columns that are read; those of any other name are left out.
+/// Names of the columns that are read, in the programs that write them; other columns are left out.
 constexpr std::pair<std::string_view, Meaning> properties[] = {
     {"pos", Meaning::x},      {"position", Meaning::x},    {"velo", Meaning::vx},
     {"vel", Meaning::vx},     {"velocity", Meaning::vx},   {"velocities", Meaning::vx},

@@ -1,5 +1,5 @@
-/// What export.textExt() of YADE writes: "#format …", a comment line or none, spheres. No contacts,
-/// no time: the last number of the file's name counts as the step.
+/// Files of YADE's export.textExt(): "#format …", a comment line or none, spheres. No contacts, no
+/// time: the last number of the file's name counts as the step.
 #include <fmt/format.h>
 
 #include <algorithm>
