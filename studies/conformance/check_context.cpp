@@ -267,7 +267,7 @@ std::vector<std::string> valuesOf(const Capabilities& can, const ContactLaw& law
 
 ContactLaw followed(const Capabilities& can, ContactLaw law) {
   for (const auto& [name, values] : can.lawOptions) {
-    // What it resists rolling by, or coheres, belongs to laws that do.
+    // The kind of rolling resistance or cohesion matters only to laws that have it.
     if ((name == "rolling" && !law.rolls()) || (name == "cohesion" && !law.coheres())) continue;
     if (!contains(values, lawOptionValue(law, name))) setLawOption(law, name, values.back());
   }

@@ -17,8 +17,8 @@
 #include "studies/conformance/conformance_scenes.hpp"
 #include "studies/core/in_space.hpp"
 
-/// What a check works with: the engine, what it declares, comparisons with tolerances, and the
-/// faults found so far.
+/// Context of a check: the engine, its declaration, comparisons with tolerances, and the faults
+/// found so far.
 namespace crossgrain::conformance {
 
 /// How far a value may be from the expected one: `absolute` or `relative` of the expected value,
@@ -136,14 +136,14 @@ ContactLaw followed(const Capabilities& can, ContactLaw law);
 /// a tolerance nearly any constant leaves less than that.
 inline constexpr double explainedLeaves = 0.2;
 
-/// What explains the collisions of a disk with partners of one kind.
+/// Cause that explains the collisions of a disk with partners of one kind.
 struct SubjectCause {
   std::string name;     ///< "µ"
   double change = 0.0;  ///< of a constant [-]
 };
 
-/// Whether one and the same thing explains what different partners show: it is not another one
-/// here and there, nor are amounts of it further apart than a fifth of the larger.
+/// Whether the causes of all partners have the same name, and amounts that differ by at most a
+/// fifth of the larger.
 bool oneCause(const std::vector<SubjectCause>& causes);
 
 /// Ends a check: the engine does not declare what it needs, or refuses the scene. No fault.
@@ -175,7 +175,7 @@ class CheckContext {
   const Start& start;
   Capabilities can;
   Scene scene;                    ///< the one loaded last
-  EffectiveParameters effective;  ///< what the engine made of it
+  EffectiveParameters effective;  ///< as the engine runs it
   bool inSpace = false;           ///< scenes of the plane lie in one of space
   bool turned = false;            ///< so, and aslant: what is seen of them has been turned back
 
@@ -200,8 +200,7 @@ class CheckContext {
   Scene withItsInertia(Scene wanted) const;
   /// It is the in-house engine, with whatever conventions.
   bool inHouse() const;
-  /// What is loaded, as the in-house engine runs it at the same time step under the law that the
-  /// engine declares.
+  /// The loaded scene, as the in-house engine runs it at the same time step under that law.
   Scene mirrored(const ContactLaw& law) const;
   /// The scene without effects that the engine does not have, for checks that need something to
   /// happen, whatever it is.
@@ -276,11 +275,11 @@ class CheckContext {
   void couldNotExamine(const std::string& capability, const std::string& why) {
     refused.try_emplace(capability, why);
   }
-  /// What explains the faults found, sign and size; the first counts.
+  /// Records a cause of the faults found, with sign and size; the first counts.
   void suspect(std::string what) {
     if (!cause && !what.empty()) cause = std::move(what);
   }
-  /// The same of a part of the law: nobody knows while the law without it is wrong.
+  /// The same for a part of the law; records nothing while the law without it is wrong.
   void suspectPart(std::string what) {
     if (!lawIsOff) suspect(std::move(what));
   }
@@ -351,7 +350,7 @@ inline Check inBoth(Check check) {
 inline constexpr const char* sameOfSpheres = "the same is asked for of spheres";
 
 using Checks = std::vector<Check>;
-/// What a list of checks is about: together they pass or fail.
+/// Subject of a list of checks, which pass or fail together.
 struct Subject {
   const char* name;
   Checks checks;

@@ -106,7 +106,7 @@ void slantingPlaneDoesNotYield(CheckContext& context) {
   expectRebound(context, normal);
 }
 
-/// What a disk is thrown to and fro between.
+/// Bodies that a disk is thrown to and fro between.
 enum class Between { posts, planes, disks };
 
 /// A disk that is thrown to and fro, with friction that loads the springs. Disks that it is thrown

@@ -45,7 +45,7 @@ ConformanceRow untriedRow(const std::string& part, const std::string& name,
   return {part, name, what, checkUntried, untriedReason};
 }
 
-/// What has been found so far that decides whether later causes stand.
+/// Findings so far that decide whether later causes stand.
 struct Findings {
   std::vector<SubjectCause> subjectCauses;
   std::vector<std::size_t> ofSubjects;  ///< rows whose causes these are
@@ -101,11 +101,10 @@ void runOne(const Check& check, CheckContext context, ConformanceRow& row, Check
   std::ranges::move(context.subjectCauses, std::back_inserter(findings.subjectCauses));
 }
 
-/// Subject of what is the same as here, elsewhere.
+/// Subject of the checks that repeat others far away, late, fast and with many disks.
 constexpr const char* elsewhere = "far, late, fast and many";
 
-/// Whether what others see their scenes through was found wrong: what they fit then are numbers
-/// that are not what they seem.
+/// Whether a check failed that others rest on: causes that those fit are then wrong.
 bool basisFailed(const std::vector<Check>& checks, const std::vector<ConformanceRow>& rows) {
   return std::ranges::any_of(rows, [&](const ConformanceRow& row) {
     const bool wrong = row.outcome == checkFailed || row.outcome == checkBrokeDown;
@@ -114,12 +113,12 @@ bool basisFailed(const std::vector<Check>& checks, const std::vector<Conformance
   });
 }
 
-/// Takes back causes that what was found later contradicts.
+/// Takes back causes that later findings contradict.
 void withdrawCauses(const std::vector<Check>& checks, const Findings& findings,
                     std::vector<ConformanceRow>& rows) {
   if (!oneCause(findings.subjectCauses))
     for (const std::size_t row : findings.ofSubjects) rows[row].cause.clear();
-  // What is another thing elsewhere alone explains nothing that goes wrong here.
+  // A cause that is only elsewhere explains no failure here.
   std::size_t unexplained = 0;
   for (std::size_t k = 0; k < rows.size(); ++k)
     unexplained +=
@@ -305,8 +304,8 @@ std::string causeOf(Engine& engine, const EngineEntry& entry, const Case& setup,
 constexpr const char* mirrorProperty =
     "it does step by step what the in-house engine does with the conventions declared";
 
-/// What it flows through in lockstep with its mirror: the quick cell; of an engine of space alone a
-/// shear between walls of spheres, or a pile where it has no periodic directions. Short.
+/// Flow that the engine and its mirror run in lockstep: the quick cell; of an engine of space alone
+/// a shear between walls of spheres, or a pile where it has no periodic directions. Short.
 Case flowCase(const Capabilities& can) {
   const bool space = !conformance::hasDimension(can, 2);
   const char* const file = !space         ? "couette/quick.toml"
@@ -375,7 +374,7 @@ std::vector<ConformanceRow> lockstepRows(const EngineEntry& entry, const Capabil
   return rows;
 }
 
-/// What explains the failures, each cause once: lockstep's first, which is the most exact.
+/// Causes of the failures, each once: lockstep's first, which is the most exact.
 std::string causesOf(const std::vector<ConformanceRow>& rows) {
   std::vector<std::string> causes;
   for (const bool lockstep : {true, false})
@@ -437,7 +436,7 @@ std::vector<ConformanceRow> collisionRows(const EngineEntry& entry, const Capabi
   return rows;
 }
 
-/// What stands between commas. @throws BadInput for a word that is in no check's name
+/// Words between commas. @throws BadInput for a word that is in no check's name
 std::vector<std::string> wordsOf(const std::optional<std::string>& list,
                                  const std::vector<conformance::Check>& checks) {
   std::vector<std::string> words,

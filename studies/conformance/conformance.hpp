@@ -16,7 +16,7 @@
 
 namespace crossgrain::conformance {
 
-/// What the checks found.
+/// Results of the checks.
 struct CheckReport {
   std::vector<ConformanceRow> rows;
   std::vector<std::string> declared;           ///< declaredBy()

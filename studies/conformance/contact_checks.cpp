@@ -184,8 +184,7 @@ void slidingFlagsMarkTheBound(CheckContext& context) {
     Vec2 before = Vec2::Zero();
     for (const Snapshot& now : context.watch(Encounter::end)) {
       if (!now.contacts || now.contacts->size() == 0) continue;
-      // What was at its bound along the tangent of a step before is shorter by 1 − cos Δφ along
-      // this one.
+      // A force at its bound along the last step's tangent is shorter by 1 − cos Δφ along this one.
       const Vec2 normal = (now.position[1] - now.position[0]).normalized();
       const double turn = before.isZero(0.0) ? 0.0 : (normal - before).squaredNorm();
       before = normal;

@@ -117,7 +117,7 @@ std::vector<ContactLaw> lawsFor(const Capabilities& can, const LawOption& option
         if (name != "rolling" && name != "cohesion") setLawOption(law, name, value);
         for (const ContactLaw& whole : withPart(can, law, option)) add(whole);
       }
-  // What has its part without dashpots only is asked for it like that, if with them it refuses.
+  // Laws without dashpots come last, for engines that have the part only without them.
   laws.insert(laws.end(), undamped.begin(), undamped.end());
   return laws;
 }
@@ -208,7 +208,8 @@ struct Absence {
   std::string said;                      ///< of the first of these
   std::function<std::string()> missing;  ///< finds the constant that is, of the first
 
-  /// What is missing: the part, or only a constant that is all there is of it under one kind.
+  /// The missing part, or the missing constant where that is all there is of the part under one
+  /// kind.
   std::string cause() const {
     if (absent < kinds)
       if (std::string constant = missing(); !constant.empty()) return constant;
@@ -234,8 +235,8 @@ double roundedApart(const CheckContext& context, const ContactLaw& law,
              deepestOverlap(elastic, impact) * Encounter::speed;
 }
 
-/// What is loaded, under one value of a convention: the engine is compared with the in-house engine
-/// that has it, and with those that have each other value.
+/// Compares the loaded scene, under one value of a convention, with the in-house engine that has
+/// this value, and with those that have each other value.
 /// @param absence  counts, where the convention is the kind of a part
 /// @param constant  gets what finds the constant that explains a difference, where no other value
 ///                  of this convention does
@@ -319,7 +320,7 @@ void conventionsAreThoseDeclared(CheckContext& context) {
   const auto inHouse = engineRegistry().front().make();
   const bool withPlane = !context.refusal(conventionsScene(context.law(), true));
   bool any = false;
-  // What another convention explains is no constant's doing: twice the length is twice the bound.
+  // A constant is a cause only if no convention is one: twice the length is twice the bound.
   std::function<std::string()> constant;
   for (const LawOption& option : lawOptions()) {
     const std::string name(option.name);

@@ -143,7 +143,7 @@ void planesFollowTheOracle(CheckContext& context) {
   context.examine(planeMotion(Motion::Kind::fixed));
 }
 
-/// What is relative is the same whether a plane moves along itself, towards the disk or away.
+/// The relative motion is the same whether a plane moves along itself, towards the disk or away.
 void movingPlanesFollowTheOracle(CheckContext& context) {
   context.needs(planeMotion(Motion::Kind::translating));
   bool any = false;

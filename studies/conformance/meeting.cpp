@@ -412,7 +412,7 @@ MeetingResult withoutTruncation(MeetingResult found, const Meeting& meeting, con
   return found;
 }
 
-/// What the in-house engine does with the law and in the steps of what another has run.
+/// Ends of the meeting in the in-house engine, with the law and steps that another engine ran.
 Ends inHouseEnds(const Scene& mirrored, const Meeting& meeting, const MeetingResult& outcome) {
   const auto mirror = engineRegistry().front().make();
   mirror->load(mirrored, {});

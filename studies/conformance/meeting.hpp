@@ -10,7 +10,7 @@
 /// Two bodies that meet once, in several ways side by side, and what the theory says of context.
 namespace crossgrain::conformance {
 
-/// What a small disk meets.
+/// Partner that a small disk meets.
 enum class Partner { disk, wallDisk, plane };
 
 struct Meeting {

@@ -42,15 +42,15 @@ ContactLaw rollingLaw(ContactLaw law);
 ContactLaw rollingLawOf(const Capabilities& can, int dimension);
 SpaceScene movedScene(const MovedPair& pair, const ContactLaw& law);
 
-/// What a spring does with its pair's motion from step to step.
+/// Rule by which a spring follows its pair's motion from step to step.
 struct SpringMotion {
   ContactLaw law;               ///< its conventions; k_t
   bool staysInSpace = false;    ///< ξ does not follow n at all
   double twistBy = 1.0;         ///< part of ½(ω_i + ω_j)·n that it turns by, where it twists
-  double spinsOfSlip = 1.0;     ///< what spins are multiplied with in v_t
+  double spinsOfSlip = 1.0;     ///< factor of the spins in v_t
   bool asDisplacement = false;  ///< a rolling spring is θ × n and not θ, and turns as that
 
-  /// How it is other than what is declared: empty where it is not.
+  /// Difference from the declared rule; empty: none.
   std::string differenceFrom(const ContactLaw& declared) const;
 };
 
@@ -67,8 +67,8 @@ std::vector<Vec3> rollingTorques(const MovedPair& pair, const SpringMotion& moti
 /// All that are tried, those with the fewest differences from what is declared first.
 std::vector<SpringMotion> springMotions(const ContactLaw& declared);
 
-/// What a law with these conventions does to a pair that turns rigidly and should keep its forces,
-/// turned: one sentence for each such convention.
+/// Errors of a law with these conventions for a pair that turns rigidly, whose forces should only
+/// turn with it: one sentence for each such convention.
 std::vector<std::string> frameDependence(const ContactLaw& law);
 
 }  // namespace crossgrain::conformance

@@ -1,5 +1,6 @@
-// What holds anywhere and at any time: collisions far from the origin, late, fast and of many disks
-// compared with the same near it, soon, slow and of two; and scenes that go on as they are.
+// Checks that place, time, speed and number do not matter: collisions far from the origin, late,
+// fast and of many disks compared with the same near it, soon, slow and of two; and scenes that go
+// on as they are.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -132,8 +133,7 @@ Scene rollers(const CheckContext& context) {
   return scene;
 }
 
-/// What moved in the second half of two seconds of what had come to rest, or to a steady spin,
-/// before.
+/// Disks on rollers that are at rest, or spin steadily, after 0.9 s do the same at 2 s.
 void rollersGoOn(CheckContext& context) {
   context.needs(toString(Effect::movingWalls));
   context.needs(toString(Effect::rotation));

@@ -109,7 +109,7 @@ void expectAsInHouse(CheckContext& context, const Scene& wanted, const std::vect
   }
 }
 
-/// What several scenes have: those that the engine refuses are left out, unless it refuses all.
+/// Several scenes: those that the engine refuses are left out, unless it refuses all.
 class Several {
  public:
   explicit Several(CheckContext& context) : context_(context) {}

@@ -20,7 +20,7 @@ constexpr double approachSpeed = 0.05, framesApart = 12.0 * radius;  // [m/s, m]
 
 // ---- torques ------------------------------------------------------------------------------------
 
-/// What turned a sphere by Δω that should be turned by `wanted`.
+/// Cause why a sphere turned by `found` and not by `wanted`, both Δω; n is the normal.
 std::string causeOfTurn(const Vec3& found, const Vec3& wanted, const Vec3& n) {
   const double size = wanted.norm();
   const Vec3 axis = wanted / size;
@@ -250,8 +250,8 @@ Vec3 asVector(double aboutZ) {
   return {0.0, 0.0, aboutZ};
 }
 
-/// What went wrong with a rolling spring as its pair went over the border, of the torque that one
-/// of the two has more from then on than the same one inside.
+/// Fault of a rolling spring as its pair crosses a border, by the torque that one of the two then
+/// has more than in the pair inside.
 /// @param part  that torque by the spring's own just before
 std::string causeAtBorder(double part) {
   if (std::abs(part + 2.0) < 0.1)

@@ -6,7 +6,7 @@
 
 #include "studies/conformance/check_context.hpp"
 
-/// What scenes of equal bodies, most of them spheres in space, are made of.
+/// Parts of scenes of equal bodies, most of them spheres in space.
 namespace crossgrain::conformance {
 
 inline constexpr double radius = 0.005, mass = 1.309e-3;  ///< [m, kg]
