@@ -80,7 +80,8 @@ ReportDigest write(const Results& results, Json document, const std::filesystem:
 /// Of a site [bytes].
 constexpr std::size_t largestTable = 128 << 10;
 
-/// What a site has of a report: its page, drawings beside it, and no table that nobody reads there.
+/// Writes a report for a site: its page, the drawings beside it, and tables of at most
+/// largestTable.
 ReportDigest writeForSite(Report report, const std::filesystem::path& dir) {
   std::erase_if(report.tables,
                 [](const auto& table) { return table.second.size() > largestTable; });

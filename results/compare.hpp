@@ -40,7 +40,7 @@ struct CompareResults : FlowStudy {
   std::vector<EngineDrift> steadiness;
   std::vector<CouetteEnsemble> ensemble;
   std::vector<AgreementRow> agreement;         ///< ring by ring: where a difference is
-  EndpointFindings endpoints;                  ///< what carries the verdicts
+  EndpointFindings endpoints;                  ///< basis of the verdicts
   std::optional<NothingJudged> nothingJudged;  ///< absent where something was judged
 
   void fields(auto& io) {

@@ -35,11 +35,11 @@ inline constexpr support::EnumNames<CheckOutcome, 5> checkNames{{{checkPassed, "
 struct ConformanceRow {
   std::string part;  ///< "suite", "lockstep", "collisions"
   std::string name;  ///< "HeadOnCollision"; of collisions the case and variant
-  std::string what;  ///< what holds of an engine that passes
+  std::string what;  ///< property of an engine that passes
   CheckOutcome outcome = checkPassed;
   std::string detail;      ///< the first fault with its number, or why it was skipped; may be empty
   std::size_t faults = 0;  ///< that were found in all
-  std::string cause = {};  ///< what explains them, sign and size; empty: nothing that was tried
+  std::string cause = {};  ///< of the faults, sign and size; empty: none that was tried fits
   double seconds = 0.0;    ///< wall time [s]
   /// Subject, "free motion"; with others of that it passes or fails. Empty of other parts.
   std::string about = {};

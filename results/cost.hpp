@@ -78,7 +78,7 @@ struct CostPoint : CostTime {
   std::string setting;   ///< readable, e.g. "t_c/50"
   std::string fragment;  ///< TOML that, in a case that extends this one, gives this setting
   CostKind kind = CostKind::collision;    ///< of error
-  std::string measure;                    ///< what the error is of: "psi_f", "stress_rr", …
+  std::string measure;                    ///< quantity of the error: "psi_f", "stress_rr", …
   std::optional<double> dt;               ///< absent where an engine refused [s]
   std::optional<double> stepsPerContact;  ///< t_c of the stiffest, lightest pair divided by dt
 
@@ -87,7 +87,7 @@ struct CostPoint : CostTime {
   /// Of averages: the standard error in `error`, and |bias| with that part removed; absent where
   /// they cannot be separated [-].
   std::optional<double> statistical, systematic;
-  std::optional<double> referenceError;  ///< what the reference itself is uncertain by [-]
+  std::optional<double> referenceError;  ///< uncertainty of the reference itself [-]
   /// Ends of the error's 95 % interval: of collisions over where in a step they begin, of
   /// trajectories over packings, of averages over these, all rings and measures together [-].
   std::optional<double> intervalLow, intervalHigh;
@@ -380,7 +380,7 @@ struct CostCell : CostTime {
   /// Not reached, of the case's law: place in CostResults::models of a model error that alone lies
   /// above the target.
   std::optional<std::size_t> model = {};
-  std::string decides = {};  ///< what would decide
+  std::string decides = {};  ///< measurements that would decide
 
   bool decided() const { return verdict == Verdict::pass || verdict == Verdict::fail; }
 };

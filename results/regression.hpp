@@ -38,13 +38,13 @@ struct ForcesChange {
 /// One engine compared with what was kept.
 struct DiffRow {
   std::string engine, version;        ///< now
-  std::string before, versionBefore;  ///< what was kept, and of which engine
+  std::string before, versionBefore;  ///< engine whose runs were kept, its version
   Equivalence verdict = Equivalence::notMeasured;
   std::string reason;   ///< why the windows were not compared
   std::string failure;  ///< of the first run that was not finished
   std::vector<DeclaredChange> declared;
   std::optional<LockstepRow> windows;  ///< compared with those kept; absent of cases of collisions
-  bool mirrored = false;  ///< what was kept has a mirror, in which a deviation can be sought
+  bool mirrored = false;  ///< the kept engine has a mirror, in which a deviation can be sought
   Equivalence windowsVerdict = Equivalence::notMeasured;
   std::optional<ForcesChange>
       forces;  ///< absent where the engine does not report those of an instant

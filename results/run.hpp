@@ -77,7 +77,7 @@ struct FlowRun {
   std::vector<std::string> remarks;           ///< likewise: what they lack and what that costs
 
   bool finished() const { return status == Status::finished; }
-  /// Nobody ran it here: it is averaged from files.
+  /// Whether it is averaged from files, not run here.
   bool ofFiles() const { return finished() && !stats; }
 
   void fields(auto& io) {

@@ -60,7 +60,7 @@ struct Panel {
 /// One or more panels in a grid, one file.
 struct Figure {
   std::string name;     ///< of its files
-  std::string title;    ///< what it shows, for readers who cannot see it
+  std::string title;    ///< description for readers who cannot see it
   std::string caption;  ///< under it in the report
   std::vector<Panel> panels;
   int columns = 1;

@@ -28,7 +28,7 @@ struct OverviewCell {
   std::optional<double> value = {};                       ///< [unit]; absent: there is none
   std::string unit = {};                                  ///< "margins", "s"
   std::string shown = {};  ///< the number with its unit as people read it: "0.31 margins"
-  std::string words = {};  ///< what the number is of, or why there is none
+  std::string words = {};  ///< quantity of the number, or why there is none
   /// Id of the page's heading that has the evidence; empty: none
   std::string anchor = {};
 
@@ -76,7 +76,7 @@ struct VerdictWords {
 
 /// It is written, for scripts, and never read.
 struct Overview {
-  std::string rowsAre = "engine";  ///< what the rows are
+  std::string rowsAre = "engine";  ///< kind of the rows
   std::vector<VerdictWords> states = {};
   std::vector<OverviewColumn> columns;
   std::vector<OverviewRow> rows;

@@ -35,7 +35,7 @@ struct Picture {
   std::string name;  ///< of its files: origins_1_ENGINE, forces_…, worst_1_ENGINE
   std::string engine;
   std::string title;
-  std::string scale;  ///< what the drawing's scale is, in words; may be empty
+  std::string scale;  ///< the drawing's scale in words; may be empty
   Shows shows = Shows::origins;
   Drawing drawing;
 };

@@ -140,7 +140,7 @@ struct JUnitCase {
   std::optional<bool> passes = {};  ///< for build servers, or else is skipped, whatever the verdict
 };
 
-/// What a site keeps of a report.
+/// Parts of a report that a site keeps.
 struct ReportDigest {
   ResultsHead head;
   std::vector<EngineRow> engines;

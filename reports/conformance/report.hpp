@@ -5,7 +5,7 @@
 #include "reports/common/report.hpp"
 #include "results/conformance.hpp"
 
-/// What is written for the author of an engine.
+/// Report for the author of an engine.
 namespace crossgrain::reports {
 
 Report reportOf(const ConformanceResults& results);

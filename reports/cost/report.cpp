@@ -133,7 +133,7 @@ std::string decidedText(const CostResults& results) {
                      fmt::join(parts, " and "));
 }
 
-/// What became of the points.
+/// Number of points by status.
 std::string countsText(const CostResults& results) {
   return fmt::format("{} ran, {} failed, {} refused, {} not measured",
                      results.count(Status::finished), results.count(Status::failed),
@@ -450,7 +450,7 @@ Table impactTable(const CostResults& results) {
   return table;
 }
 
-/// What failed, was refused or did not fit, alike reasons together.
+/// Points that failed, were refused or did not fit, equal reasons together.
 Table notRunTable(const CostResults& results) {
   Table table{{engineNames("engine"), "error", "setting", "status", remarks("reason"), "measures"}};
   const CostPoint* last = nullptr;
@@ -485,7 +485,7 @@ Table referenceTable(const CostResults& results) {
   return table;
 }
 
-/// What became of the points, and which engines refused.
+/// Number of points by status, and the engines that refused.
 Names costSentences(const CostResults& results) {
   std::string counts = fmt::format("{} points: {}", results.points.size(), countsText(results));
   if (results.count(Status::notRun) > 0 && results.budgetForTheRest)

@@ -7,13 +7,13 @@
 #include "reports/common/report.hpp"
 #include "results/cost.hpp"
 
-/// What a study of cost is written as.
+/// Texts, tables and figures of a cost study.
 namespace crossgrain::reports {
 
-/// For a terminal: how many accuracies are decided, and what became of the points.
+/// For a terminal: how many accuracies are decided, and the number of points by status.
 std::string costText(const CostResults& results);
 
-/// What --want prints, to be pasted: the fragment of each engine for the results' own target, all
+/// Output of --want, to be pasted: the fragment of each engine for the results' own target, all
 /// else as TOML comments.
 std::string costToml(const CostResults& results);
 
@@ -30,14 +30,14 @@ std::vector<Figure> costFigures(const CostResults& results);
 
 Report reportOf(const CostResults& results);
 
-/// @name What the report's parts share
+/// @name Functions that the report's parts share
 /// @{
 
 /// "precision float", "without friction", "velocity verlet, t_c/50"
 std::string settingText(const std::string& knob, const std::string& setting);
 /// "Ψ_f", "radial stress", "positions, compared with grain"; "Ψ_f, own limit"
 std::string measureText(const std::string& measure);
-/// What one unit of an error kind's time is: "one sweep of collisions".
+/// Unit of an error kind's time: "one sweep of collisions".
 std::string timeUnit(CostKind kind);
 
 /// A measure of a kind of error.

@@ -28,7 +28,7 @@ struct FieldChange {
   Verdict verdict = Verdict::notApplicable;
   Verdict verdictHere = Verdict::notApplicable;  ///< that of the ring alone
   std::size_t ring = 0;
-  std::string bin;              ///< what the ring is called: "ring 3", "bin 3"
+  std::string bin;              ///< name of the ring: "ring 3", "bin 3"
   double change = 0.0;          ///< switched − everything on
   std::optional<double> error;  ///< standard error
   /// The interval that `detected` rests on: it leaves out 0 exactly if it is true.

@@ -41,7 +41,7 @@ Engines engineRuns(const FlowStudy& study, const std::vector<CouetteEnsemble>& e
 /// The same with `isSingle` and `surrogate`.
 Engines engineRuns(const CompareResults& results);
 
-/// What is drawn of an engine in its style; of a single run beside means a pale line without bars.
+/// Curve of an engine in its style; pale and without bars for a single run beside means.
 Curve curveOf(const EngineRuns& engine, std::vector<Point> points = {}, double width = 1.5);
 
 /// Sums over an engine's finished runs, of stepping alone.

@@ -22,7 +22,7 @@ std::string binAxis(const FlowFrame& frame) {
   return (frame.region->along.empty() ? "r" : frame.region->along) + " [m]";
 }
 
-/// What a profile is divided by before it is drawn, and the axis' name then.
+/// Factor of a drawn profile, and the axis' name with it.
 struct Scaled {
   double factor = 1.0;
   std::string label;

@@ -27,7 +27,7 @@ std::string drawnName(const std::string& field) {
   return components ? spaced(field) : fieldWords(field);
 }
 
-/// What bins are called, what is drawn of a place, and what a bin's width is.
+/// Name of a bin, symbol of its place, and symbol of its width.
 struct BinWords {
   std::string bin, place, width;
 };
@@ -46,7 +46,7 @@ struct Weighing {
   std::string method, words;
   LineStyle style;  ///< Okabe and Ito 2008
 };
-/// What the others are compared with first.
+/// Weighing that the others are compared with first.
 const Weighing bySlicing = {"slicing", "slicing", {"#000000", 7, false}};
 const Weighing byCentre = {"centre", "centre", {"#d55e00", 9, false}};
 const std::vector<Weighing> planeWeights = {

@@ -24,7 +24,7 @@
     setTimeout(() => { from.textContent = said; }, 1500);
   }
 
-  // What a cell says, its small print apart: that explains, and would part what is equal.
+  // Text of a cell without its small print, which would make equal cells differ.
   function wordsOf(cell) {
     if (!cell) return '';
     const clone = cell.cloneNode(true);

@@ -5,7 +5,7 @@
 #include "reports/common/overview.hpp"
 #include "results/regression.hpp"
 
-/// What diff and replay found, for the command line.
+/// Results of diff and replay, for the command line.
 namespace crossgrain::reports {
 
 /// "same bits", "same to rounding", "same law", "differs, like 2.1 % of k_n", "not measured".

@@ -113,7 +113,7 @@ std::string matrixCell(const Overview& overview, const OverviewCell& cell,
                      linked(addressOf(cell.anchor), content));
 }
 
-/// What the marks stand for, of those that occur.
+/// Legend of the marks that occur.
 std::string marksOf(const Overview& overview, bool wrapped) {
   std::set<std::optional<Verdict>> seen;
   for (const OverviewRow& row : overview.rows)

@@ -21,7 +21,7 @@ struct Disk {
   double x = 0.0, y = 0.0, radius = 0.0;
 };
 
-/// What has no place has no radius.
+/// Disks to draw; one without a position has radius 0.
 std::vector<Disk> disksOf(const std::vector<double>& x, const std::vector<double>& y,
                           const std::vector<double>& radius) {
   std::vector<Disk> disks;
