@@ -191,7 +191,8 @@ Eigen::Matrix2d contactStress(const Files& files) {
   return sum / files.volume;
 }
 
-/// What ours has more of: the whole radius of each disk, and of a wall disk, too.
+/// Stress that ours has more, for its branches include the whole radius of each disk, and of a wall
+/// disk, too.
 Eigen::Matrix2d restOfBranches(const Files& files) {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
   for (const Interaction& c : files.interactions) {

@@ -4,7 +4,7 @@
 
 #include "engines/grain/setup.hpp"
 
-/// What a step has to do, left out or added one by one: the law of a setup, changed.
+/// Effects of a setup's law, left out or added one by one.
 namespace crossgrain::bench {
 
 template <class Setup>

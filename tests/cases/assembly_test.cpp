@@ -1,4 +1,4 @@
-// What a case file's arrangements make of disks and walls.
+// Disks and walls of a case file's arrangements.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -143,7 +143,7 @@ TEST(Couette, PackingHash_ChangesWithEveryInput) {
             changed([](Case& c) { couetteIn(c).filling.engine = "grain"; }));  // as it is anyway
   // 75 and 188 wall disks, whether 75.4 and 188.5 are wanted or 75.1 and 187.7: the same packing.
   EXPECT_EQ(hash, changed([](Case& c) { couetteIn(c).cell.wallSpacing = 2.51e-3; }));
-  // What comes after the preparation does not matter to it.
+  // Times after the preparation do not change its hash.
   EXPECT_EQ(hash, changed([](Case& c) { couetteIn(c).times.rings = 40; }));
 }
 

@@ -1,4 +1,4 @@
-// What a case's flow is, whatever its kind: packings of an assembly, and its walls along the way.
+// Flows of a case of any kind: packings of an assembly, and its walls along the way.
 #include "cases/flow.hpp"
 
 #include <gtest/gtest.h>

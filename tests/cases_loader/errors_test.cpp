@@ -418,7 +418,7 @@ TEST_F(LoaderErrors, Overrides_NameThemselves) {
   EXPECT_EQ(message.find("string"), std::string::npos) << message;
 }
 
-/// What an override breaks may show in another line of the file, which has no fault.
+/// An override's error may show in another line of the file, which has no fault.
 TEST_F(LoaderErrors, Overrides_AreBlamedForWhatTheyBreak) {
   write("case.toml", soundCase);
   const std::string missing = messageOf("case.toml", {"law.normal=hertz"});

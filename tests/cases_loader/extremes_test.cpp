@@ -126,7 +126,7 @@ bool isFinite(const SnapshotOf<D>& now) {
          (!now.energies || std::isfinite(now.energies->kinetic));
 }
 
-/// What the in-house engine makes of two steps; empty: finite numbers.
+/// Fault of two steps of the in-house engine; empty: all numbers are finite.
 template <int D>
 std::string stepped(Engine& engine, const SceneOf<D>& scene) {
   loadOn<D>(engine, scene, {});

@@ -82,7 +82,8 @@ const std::vector<ExpectedSkip> expectedSkips = {
     {{"box2d-impulse"}, "not radial as ring is", {"WallsUnderWayAct"}},
 };
 
-/// What an engine of others does wrong: it is found, and named by the same cause, as long as it is.
+/// Fault of another project's engine, which the checks find, with the same cause, as long as it
+/// exists.
 struct KnownFault {
   std::string_view engine, check;
   const char* cause;  ///< part of it
@@ -124,7 +125,7 @@ TEST_P(Conformance, Engine_AllChecks_PassOrSkipAsExpected) {
   const conformance::CheckReport done =
       conformance::runChecks(entry, checks, scratch.path, [](const std::string&, double) {});
   for (const ConformanceRow& row : done.rows) {
-    // What it does not declare is not required.
+    // Undeclared capabilities are not required.
     constexpr std::string_view undeclared = "declares no ";
     if (row.outcome == checkSkipped && row.detail.starts_with(undeclared) &&
         std::ranges::count(done.declared, row.detail.substr(undeclared.size())) == 0)
@@ -185,7 +186,8 @@ int writeTests(const std::string& program, const std::string& file) {
   return out ? 0 : 1;
 }
 
-/// What `crossgrain __serve NAME` does: this program is also the worker that it tests.
+/// Serves an engine as `crossgrain __serve NAME` does: this program is also the worker that it
+/// tests.
 int serveEngine(const std::string& name) {
   const EngineEntry* entry = findEngine(name);
   return entry && entry->make ? serve(*entry->make()) : 2;

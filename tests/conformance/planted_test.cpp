@@ -104,8 +104,8 @@ TEST(OneCause, Amounts_WithinAFifthOfOneName_AreOne) {
   EXPECT_FALSE(oneCause({{"µ", -0.10}, {"k_t", -0.10}}));
 }
 
-/// What no constant explains, though some come close: each of the rules by which a cause is taken
-/// back or not given.
+/// Faults that no constant explains, though some come close: one for each rule by which a cause is
+/// taken back or not given.
 TEST(Unexplained, WhatNoConstantExplains_HasNoCause) {
   struct Unnamed {
     const char* fault;

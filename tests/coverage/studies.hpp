@@ -13,7 +13,7 @@ namespace crossgrain::coverage {
 /// A share of trials in which something held.
 struct Rate {
   std::string study;
-  std::string leg;          ///< what was compared with the case, or empty
+  std::string leg;          ///< leg that was compared with the case, or empty
   std::string field;        ///< "any" for a whole family
   std::optional<int> ring;  ///< from 0; absent: all rings together
   int packings = 0;         ///< in a group

@@ -21,7 +21,7 @@ class Samples {
   /// All times of some files, as one run.
   std::vector<FileFrame> read(std::string_view format, const std::vector<std::string>& names,
                               const FileOptions& options = {}) const;
-  /// What is said when they are refused, without the folder's name; empty where they are not.
+  /// Message of their refusal, without the folder's name; empty if they are read.
   std::string refusal(std::string_view format, const std::vector<std::string>& names,
                       const FileOptions& options = {}) const;
 

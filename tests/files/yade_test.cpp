@@ -1,4 +1,4 @@
-/// What YADE's exporters write: samples/yade_export.py and yade_recorder.py are the scripts, which
+/// Files of YADE's exporters: samples/yade_export.py and yade_recorder.py are the scripts, which
 /// print YADE's own contacts.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

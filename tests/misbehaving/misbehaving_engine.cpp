@@ -75,7 +75,7 @@ class MisbehavingEngine final : public Engine {
   Scene scene_;
   std::uint64_t stepsBehind_ = 0;
   double behind_ = 0.0;         ///< time at which the engine was loaded anew [s]
-  std::vector<double> turned_;  ///< what bodies had turned by then [rad]
+  std::vector<double> turned_;  ///< rotation of the bodies by then [rad]
 };
 
 Capabilities MisbehavingEngine::capabilities() const {

@@ -9,8 +9,7 @@
 namespace crossgrain::reports {
 namespace {
 
-/// What engines simulate is compared with the effects of the variant that they
-/// ran.
+/// Effects that engines simulate are compared with those of the variant that they ran.
 TEST(CollideReport, Effects_AreThoseOfEachVariant) {
   CollideResults results = sample::collideResults();
   const std::string all = textOf(reportOf(results));

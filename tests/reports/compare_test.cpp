@@ -1,4 +1,4 @@
-// What a comparison concludes: causes and next steps by rule, and sentences that are true of random
+// Conclusions of a comparison: causes and next steps by rule, and sentences that are true of random
 // results.
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -24,7 +24,7 @@ std::string rowsOf(const std::string& table) {
   return table.substr(table.find('\n') + 1);
 }
 
-/// What a spreadsheet would compute, or run, is text.
+/// Cells that a spreadsheet would compute, or run, are text.
 TEST(Csv, Formulas_AreText) {
   EXPECT_EQ(cell(std::string("=cmd|' /C calc'!A1")), "'=cmd|' /C calc'!A1");
   EXPECT_EQ(cell(std::string("@SUM(1,2)")), "\"'@SUM(1,2)\"");

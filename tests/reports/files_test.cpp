@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the call throws, or nothing.
+/// Message of the error that the call throws, or nothing.
 template <class Error, class Call>
 std::string messageOf(Call call) {
   try {

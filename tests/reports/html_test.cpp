@@ -1,4 +1,4 @@
-// What is written, as a browser and a spreadsheet get it.
+// Written files, as a browser and a spreadsheet get them.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -19,7 +19,7 @@ namespace crossgrain::sample {
 /// gnuplot must not take literally, and absent numbers here and there.
 CompareResults compareResults(int packings, int disks);
 
-/// What `average` writes: one run of one source, nothing run by crossgrain.
+/// Results of `average`: one run of one source, nothing run by crossgrain.
 CompareResults averageResults();
 
 /// One field at one radius under two weights, which meet at one diameter.
@@ -45,7 +45,7 @@ LockstepResults lockstepResults();
 /// past the stability limit, points that the budget did not allow, one engine that refused.
 CostResults costResults();
 
-/// What users may put into a name or reason.
+/// Text that users may put into a name or reason.
 inline constexpr const char* awkward = "odd <b>\"name\"</b> & `touch pwned` {x 'y' _z";
 
 }  // namespace crossgrain::sample

@@ -1,4 +1,4 @@
-// What reports of effects, scaling and hard cases show beyond their kept texts.
+// Parts of reports of effects, scaling and hard cases that their kept texts do not cover.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -147,7 +147,7 @@ TEST(CostPoint, OwnMeasure_IsPairedWithTheScenes) {
   EXPECT_EQ(withoutOwn("position_rms_own"), "position_rms_own");
 }
 
-/// What a table of the program names, a file that it wrote must be read with.
+/// Names and units of the program's tables can be read back from its files.
 TEST(Documents, UnitsAndNamesOfAllTablesAreReadBack) {
   const auto readable = [](std::string_view name, std::string_view unit) {
     EXPECT_TRUE(isUnit(unit)) << name << ": " << unit;

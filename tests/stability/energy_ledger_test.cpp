@@ -53,7 +53,7 @@ TEST_P(LedgerAgainstOracle, EveryTermIsTheOracles) {
   EXPECT_NEAR(ledger.kinetic, oracle.energyAfter, 1e-3 * before);
   EXPECT_NEAR(ledger.lostNormalDamping, oracle.lost->normalDamping, 1e-3 * before);
   EXPECT_NEAR(ledger.lostTangentialDamping, oracle.lost->tangentialDamping, 1e-3 * before);
-  // What a slip's resets of the spring bring in, the oracle takes off the sliding.
+  // The oracle subtracts the energy that a slip's resets of the spring bring in from the sliding.
   EXPECT_NEAR(ledger.lostSliding - ledger.gainedByConvention,
               oracle.lost->sliding + oracle.lost->stiffening, 1e-3 * before);
   EXPECT_NEAR(ledger.lostRelease, oracle.lost->stored, 1e-3 * before);
@@ -117,7 +117,7 @@ TEST(EnergyLedgers, ResidualIsWhatNoTermAccountsFor) {
   EXPECT_EQ(residual(ledger), 0.0);
 }
 
-/// What an engine without a ledger has in its contacts, against the in-house engine's ledger: a
+/// Energy of contacts in an engine without a ledger, compared with the in-house engine's ledger: a
 /// disk with spin falls on one that lies on a plane, elastic and sticky, and comes back or stays.
 class EnergyWithoutLedger : public testing::TestWithParam<CohesionLaw> {};
 

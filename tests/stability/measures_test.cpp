@@ -201,7 +201,7 @@ TEST(StabilityMeasures, RestBeginsWhereTheCaseSays) {
   EXPECT_EQ(at.last("time_to_rest"), 4.0);
 }
 
-// What is compared with itself alone is nothing that was seen.
+// A snapshot compared with itself alone gives no figure.
 TEST(StabilityMeasures, RestOfOneSnapshot_HasNoFigure) {
   Series at;
   at.run.settle = 0.9;

@@ -1,4 +1,4 @@
-// What is so far off that nobody should wait for a test.
+// Alarms for differences so large that no test is needed.
 #include "studies/flow/notes.hpp"
 
 #include <gtest/gtest.h>
@@ -71,7 +71,7 @@ TEST(Alarms, ValueOfOneEngineMissingOnMostPackings_IsOne) {
   EXPECT_EQ(alarmsAt(withPressure(8, 3), {pressure(0.0, Verdict::undecided, 3, 5)}),
             Alarms{"b has no pressure on 5 of 8 packings where a has"});
   EXPECT_EQ(alarmsAt(withPressure(8, 4), {pressure(0.0, Verdict::undecided, 4, 4)}), Alarms{});
-  // What neither has is no difference, and what the other lacks as often is none of one.
+  // A value that both engines lack on the same packings is no difference.
   EXPECT_EQ(alarmsAt(withPressure(3, 3), {pressure(0.0, Verdict::undecided, 3, 5)}), Alarms{});
 }
 

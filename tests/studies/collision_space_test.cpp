@@ -106,9 +106,9 @@ TEST(CollisionInSpace, InertiaOfADisk_IsFound) {
 }
 
 TEST(CollisionInSpace, WatchedContacts_TellOverlapAndWhereTheEnergyGoes) {
-  // What a leapfrog scheme's forces take out of its motion is Σ f·v dt with velocities of the time
-  // of the force, here interpolated between snapshots: of second order in t_c/200, as the overlap
-  // is.
+  // Forces of a leapfrog scheme take the energy Σ f·v dt out of its motion, with velocities of the
+  // time of the force, here interpolated between snapshots: of second order in t_c/200, as the
+  // overlap is.
   for (const char* const name : {"in-plane", "out-of-plane", "twist", "wall"}) {
     SCOPED_TRACE(name);
     const Case setup = variantOf(name);

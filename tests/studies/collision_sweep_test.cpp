@@ -83,7 +83,7 @@ TEST(CollisionSweep, StartBesideTheJumpAtTouch_IsNotJudgedInStepsThatMissItsSlip
   EXPECT_EQ(statuses(coarse), (Texts{"parted", "no limit", "parted"}));
   EXPECT_NE(coarse.points.reason[1].find("beside the law's jump"), std::string::npos);
   EXPECT_EQ(coarse.score.verdict, Verdict::pass);
-  // What the engine finds is the law evaluated half a step late, and not the law.
+  // The engine's result is that of the law evaluated half a step late, and not of the law.
   const double found = coarse.points.at(QuantityId::psiF, 1).value();
   CollisionStart late = starts[1];
   late.late = 0.5 * coarse.dt;
@@ -127,7 +127,7 @@ TEST(CollisionSweep, LawWithoutALimitOfSmallSteps_HasNoReference) {
   EXPECT_NE(oracle.reason.find("dashpot"), std::string::npos);
 }
 
-/// What a table has of where the energy went adds up to what was lost.
+/// Requires that the parts of the lost energy in a table add up to the loss.
 void expectClosedAccount(const CollisionTable& table, double within) {
   using enum QuantityId;
   for (std::size_t k = 0; k < table.size(); ++k) {

@@ -1,4 +1,4 @@
-// What a study of cost measures, and what of it fits into a budget.
+// Settings that a study of cost measures, and those that fit into a budget.
 #include "studies/cost/settings.hpp"
 #include "studies/cost/sizes.hpp"
 

@@ -153,9 +153,9 @@ TEST(EndpointTable, Mirror_TakesItsBoundOffTheMargin) {
   EXPECT_EQ(rows[0].verdict, Verdict::pass);
   EXPECT_NEAR(*rows[0].distance, -0.5, 1e-9);
   EXPECT_NEAR(*rows[0].distanceHigh, -0.5 + 0.028, 1e-9);
-  // Nobody knows how averages respond: no row stands on the mirror's runs.
+  // Without responses of the averages no row rests on the mirror's runs.
   EXPECT_TRUE(rowsOf(byMirror(1e-3, late)).empty());
-  // Nor where nobody looked at what begins late.
+  // Nor does one without the changes that begin late.
   EXPECT_TRUE(rowsOf(byMirror(1e-3, {}, responses)).empty());
   // A bound beyond the margin leaves nothing to agree within, whichever windows it is from.
   for (const EndpointFindings& loose : {byMirror(0.05, {{"kn", 1e-4}}, responses),

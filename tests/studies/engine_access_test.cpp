@@ -92,7 +92,7 @@ std::set<std::string> lacking(const Capabilities& can, const Case& setup) {
   return names;
 }
 
-/// What is shared leaves no engine that could run the law unable to.
+/// Requires that shared conventions exclude no engine that could run the law before.
 void expectNoNewRefusal(const Case& setup, const std::vector<Capabilities>& engines) {
   Case shared = setup;
   for (const std::string& change : sharedConventions(setup, engines)) {
@@ -209,7 +209,8 @@ TEST(LoadScene, StepFarFromTheCases_IsBadInput) {
         << refused(unit);
 }
 
-/// What is said first counts: the engine's section, the case's explicit step, the engine's default.
+/// The first step given counts: the engine's section, the case's explicit step, the engine's
+/// default.
 TEST(StepOfItsOwn, SectionThenCaseThenDefault_TakesTheFirst) {
   Capabilities can;
   can.settings = {{"dt", 5e-4, "s", "step", {}}};
@@ -269,7 +270,7 @@ TEST(LoadScene, Mirror_TakesItsPeersStep) {
   EXPECT_EQ(stepOf("grain-as-box2d-impulse", own).dt, 1e-4);
 }
 
-/// What an engine is refused for in a case, or "" where it runs it.
+/// Reason why an engine is refused for a case, or "" where it runs it.
 std::string refusalBy(const std::string& name, const Case& setup, const Scene& scene) {
   const EngineEntry& entry = *findEngine(name);
   const auto engine = entry.make();

@@ -1,4 +1,4 @@
-// What an engine does is found without asking it.
+// Identification of an engine's law from its motion, without its declaration.
 #include "studies/lockstep/identify.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What lockstep works out of differences in motion, by hand.
+// Numbers that lockstep computes from differences in motion, by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,8 +13,7 @@ namespace {
 
 using namespace crossgrain;
 
-/// What referencePerturbations, ±1e-4 and ±1e-3, do to three disks: so much to one by a unit of
-/// change.
+/// Responses of three disks to referencePerturbations, ±1e-4 and ±1e-3: a rate for each disk.
 std::vector<double> inProportion(const std::vector<double>& rates = {1e-3, 1e-3, 1e-3}) {
   std::vector<double> responses;
   for (const double change : referencePerturbations)
@@ -40,7 +39,7 @@ TEST(EquivalentChange, DiskPartedByAnEvent_IsLeftOut) {
   std::vector<double> responses = inProportion();
   responses[0] = 5.83e-6;  // of +1e-4, the first disk
   EXPECT_NEAR(*equivalentChange({5.8e-6, 3e-8, 3e-8}, responses) / 3e-5, 1.0, 1e-12);
-  // What is beyond any event counts.
+  // A difference larger than any event makes counts.
   EXPECT_GT(*equivalentChange({1e-4, 3e-8, 3e-8}, responses), 0.05);
   responses[1] = 5.83e-6;  // and the second: of three less than half is in proportion
   EXPECT_FALSE(equivalentChange(all(3e-8), responses));

@@ -307,7 +307,8 @@ TEST(LockstepOfDeclaredLaws, LawThatBlowsUp_IsNobodysFailure) {
   EXPECT_NE(row.reason.find("does not come through"), std::string::npos) << row.reason;
 }
 
-/// What k_n does not explain has no equivalent in it, and no term that only resembles it is named.
+/// A difference that k_n does not explain has no equivalent in k_n, and no term that only resembles
+/// it is named.
 TEST_F(Lockstep, TermThatOnlyResembles_IsNotNamed) {
   const LockstepRow hot = rowOf([](Scene& scene) {
     for (Vec2& velocity : scene.disks.velocity) velocity *= 1.1;

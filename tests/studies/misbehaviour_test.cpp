@@ -36,7 +36,8 @@ class Misbehaviour : public testing::Test {
     return setup;
   }
 
-  /// What a run that looks every ten steps comes to, with what it saw last.
+  /// Error that ends a run with a snapshot every ten steps.
+  /// @param seen  gets the snapshots
   std::string endOf(const std::string& mischief, const Case& setup = pairCase(),
                     std::vector<Snapshot>* seen = nullptr) {
     const Scene scene = collisionScene(setup, collisionStarts(setup), dt);

@@ -1,4 +1,4 @@
-// What results come to: the exit status of every study, from results made by hand.
+// Exit status of every study, from results made by hand.
 #include <gtest/gtest.h>
 
 #include "results/lockstep_text.hpp"

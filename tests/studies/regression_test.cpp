@@ -1,4 +1,4 @@
-// What a baseline keeps, and what a diff says of engines that do otherwise.
+// Contents of a baseline, and the diff of engines that behave otherwise.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -152,8 +152,8 @@ TEST_F(BaselineDiff, ReportedForces_Changed_Differ) {
       Equivalence::sameToRounding);
 }
 
-/// What is compared over several starts has one step and one precision; a step that never comes by
-/// the times that were kept leaves the flow unmeasured.
+/// Runs from several starts are compared at one step and one precision; a step that never meets the
+/// kept times leaves the flow unmeasured.
 TEST_F(BaselineDiff, StepChangedBetweenStartsOrOffTheKeptTimes_IsNotCompared) {
   int loads = 0;
   const DiffRow between = rowOf([&](Scene& scene) {

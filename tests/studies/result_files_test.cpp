@@ -640,7 +640,7 @@ TEST(PlaneSnapshots, LoneFileWithoutATime_IsOfTheEnd) {
   EXPECT_EQ(timeBy(2000, 1e-3, "step 2000 by its name, t = 2 s"), 2.0);
 }
 
-/// What the first averaged snapshot has all others have.
+/// Later snapshots must have the same data as the first averaged one.
 TEST(PlaneSnapshots, WhatLaterSnapshotsLack_IsRefused) {
   const auto refused = [](const std::function<void(FileFrame&)>& change, bool first = false) {
     std::deque<FileFrame> frames;

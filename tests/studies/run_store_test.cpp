@@ -142,7 +142,7 @@ TEST_F(RunStoreTest, Fresh_SetsAsideWhatIsThere) {
     EXPECT_TRUE(fs::exists(aside / "runs" / "a-p0.json.gz"));
     store.keep("a-p0", key, {{"value", 0.2}});
   }
-  // What was set aside is a folder like any other.
+  // A folder that was set aside is like any other.
   command_.fresh = false;
   command_.out /= "earlier/1";
   EXPECT_TRUE(RunStore(command_, "compare", rings20).find("a-p0", key));
@@ -162,7 +162,7 @@ TEST_F(RunStoreTest, FolderOfOthers_ThrowsEvenWithFresh) {
   EXPECT_THROW(RunStore(command_, "compare", rings20), OutputError);
 }
 
-/// What is of another type is named with its file; what might never end is not opened.
+/// A member of the wrong type is named with its file; a pipe, which might never end, is not opened.
 TEST_F(RunStoreTest, MalformedFile_ThrowsNamingFileAndMember) {
   finish();
   const fs::path run = command_.out / "runs" / "a-p0.json.gz",
@@ -241,7 +241,7 @@ TEST(Files, FileBeyondItsBoundOrNone_Throws) {
   EXPECT_THROW(readFile(file), BadInput);
 }
 
-/// What calls itself for each list in another would use up its stack.
+/// A parser that calls itself for each nested list would use up its stack.
 TEST(JsonText, TooDeepOrMalformed_Throws) {
   EXPECT_EQ(parseJson("[[[1]]]", 3).dump(), "[[[1]]]");
   EXPECT_THROW(parseJson("[[[[1]]]]", 3), std::runtime_error);

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 class SnapshotFiles : public testing::Test {
  protected:
-  /// What any other program would write: no spins, no walls, no contacts.
+  /// Writes a file as any other program would: no spins, no walls, no contacts.
   /// @param more  into the first snapshot
   void writeBare(std::size_t disks = 2, const std::function<void(Hdf5File&)>& more = {}) const {
     Hdf5File file = Hdf5File::create(path_);

@@ -188,7 +188,7 @@ void expectNear(const Vec3& found, const Vec3& wanted, double within = 1e-12) {
   EXPECT_LE((found - wanted).norm(), within) << found.transpose() << " and " << wanted.transpose();
 }
 
-/// What is the same whoever wrote it.
+/// Requires the snapshot that every format has.
 void expectTheSnapshot(SnapshotSourceOf<3>& source) {
   EXPECT_EQ(source.scene().disks.mass, (std::vector<double>{2.0, 2.0, 2.0}));
   EXPECT_NEAR(source.scene().disks.inertia[0], 0.4 * 2.0 * 0.25, 1e-15);
@@ -273,9 +273,9 @@ TEST_F(SpaceFiles, Average_HasTheShortBranchOverTheBorder) {
   }
 }
 
-/// What Debian's programs wrote of tests/files/samples/lammps.in and liggghts.in: a pair over the
-/// edge x = 4 with 1000 N/m · 0.01 m on a branch of 0.99 m, in 64 m³; and a sphere 0.02 m deep in a
-/// floor, whose contact LIGGGHTS' dump does not have. Numbers have six digits.
+/// Dumps that Debian's programs wrote of tests/files/samples/lammps.in and liggghts.in: a pair over
+/// the edge x = 4 with 1000 N/m · 0.01 m on a branch of 0.99 m, in 64 m³; and a sphere 0.02 m deep
+/// in a floor, whose contact LIGGGHTS' dump does not have. Numbers have six digits.
 TEST_F(SpaceFiles, DumpsOfBothPrograms_HaveTheStressOverTheBorder) {
   AssemblyOf<3>& assembly = assemblyIn<3>(setup_);
   assembly.disks[0].mass = 1.0;

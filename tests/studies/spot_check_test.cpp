@@ -14,7 +14,7 @@
 namespace crossgrain {
 namespace {
 
-/// What the in-house engine and its mirror do is the same in all tests, and is done once.
+/// Runs of the in-house engine and its mirror, which all tests share, so that they are done once.
 class SpotCheck : public testing::Test {
  protected:
   static void SetUpTestSuite() { kept_.emplace(); }

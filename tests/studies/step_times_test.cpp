@@ -53,7 +53,7 @@ class MadeUpClock final : public Engine {
 
 /// @param clock  outlives it
 TimedVariant variantOf(MadeUpClock& clock) {
-  // What a variant is handed for a turn; the clock itself goes on.
+  // Engine that a variant gets for a turn; the clock itself goes on.
   const std::shared_ptr<Engine> itself(&clock, [](Engine*) {});
   const auto nothing = [](auto&) {};
   return {[=] { return std::make_unique<test::PlantedEngine>(nothing, nothing, itself); },

@@ -6,7 +6,7 @@
 
 namespace crossgrain::test {
 
-/// What is said when `act` is refused; empty where it is not.
+/// Message of the error that `act` throws; empty if it throws none.
 template <typename Error = BadInput>
 std::string refusalOf(const auto& act) {
   try {

@@ -35,12 +35,12 @@ HARD_SPHERE = CASES / "collision/hard-sphere.toml"
 # Longest wait [s] for what takes seconds: it catches what hangs, and no busy machine comes near it.
 PATIENCE = 1200
 
-# What takes tens of seconds and has its parts shown by other tests: the target engine_examples.
+# Tests that take tens of seconds and whose parts other tests show: the target engine_examples.
 nightly = unittest.skipUnless(os.environ.get("CROSSGRAIN_NIGHTLY"), "of the target engine_examples")
 
 HELD, FELL_SHORT, BAD_INPUT, ENGINE_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
 
-# What a user must never see: Python's, the C++ runtime's and the sanitizers' last words.
+# Output that a user must never see: crashes of Python, of the C++ runtime and of sanitizers.
 CRASH = re.compile(r"Traceback|terminate called|core dumped|Sanitizer|Assertion|what\(\):|HDF5-DIAG")
 
 

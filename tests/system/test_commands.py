@@ -97,7 +97,7 @@ class Check(SystemTest):
         self.assert_status(done, HELD)
         self.assertIn('share: law.tension="cut"', done.stdout)
         self.assertNotIn("differs: has tension", done.stdout)
-        # What the case gives stays, and so does what it lets differ; one engine shares with nobody.
+        # Values that the case gives stay, and so does may_differ; one engine alone shares with no other.
         given = self.check(squeeze, *damped, "--set=law.tension=allow", engines=f"grain,{cut}")
         self.assert_status(given, FELL_SHORT)
         self.assertRegex(given.stdout, "numpy +cannot: .*has tension = cut")

@@ -362,7 +362,7 @@ class InterimAnalyses(SystemTest):
         self.assertRegex(second.stdout, r"Analysed after 4, 8, 12 packings \(3 of 3 interim analyses\), .*; 5 of 5 %")
         now = self.finished_runs()
         self.assertEqual(runs, {name: now[name] for name in runs})
-        # What is big is there once: distributions of a packing are in its run, snapshots of the first packing.
+        # Large data are there once: distributions of a packing are in its run, snapshots of the first packing.
         self.assertFalse((self.out / "scratch").exists())
         self.assertTrue(all(not run["distributions"] for run in self.results()["runs"]))
         self.assertEqual({"all"}, {row["packing"] for row in self.rows("distributions.csv")})

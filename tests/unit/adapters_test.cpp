@@ -40,7 +40,7 @@ Capabilities able() {
   return can;
 }
 
-/// What refuses the scene; "" where it is taken.
+/// Message of the refusal; "" where the scene is taken.
 std::string refusalOf(const Capabilities& can, const Scene& scene,
                       const std::vector<std::string>& mayDiffer) {
   try {
@@ -92,7 +92,7 @@ TEST(Suitability, ALawThatAnEngineLacksIsNamedWithItsOption) {
   EXPECT_EQ(refusalOf(can, scene, {}),
             "has rolling_length = smaller_radius, not effective; list \"rolling_length\" under "
             "[run] may_differ to run it all the same");
-  // What the law does not have does not matter.
+  // Effects that the law lacks do not matter.
   scene.law.rolling = RollingLaw::none;
   EXPECT_EQ(refusalOf(can, scene, {}), "");
   can.effects[Effect::cohesion] = Support::never;
@@ -190,7 +190,7 @@ TEST(Suitability, ASceneBeyondTheLimitsIsRefusedWhateverMayDiffer) {
   EXPECT_EQ(soft(), std::vector{several});
   scene.bodies.clear();
   EXPECT_TRUE(soft().empty());
-  // What a case lets an engine leave out is no longer there to be refused.
+  // Effects that a case lets an engine leave out are gone, so nothing is refused.
   can.lawOptions.clear();
   can.effects[Effect::movingWalls] = Support::never;
   scene.bodies.push_back({"floor", {0, 0}, {}, {}, {Plane{}}, {}});

@@ -8,8 +8,8 @@
 #include "tests/unit/grain_packed.hpp"
 #include "tests/unit/grain_sheared.hpp"
 
-// What the engine allocates: once started nothing, and nothing for effects that a scene does not
-// call for. This program's operator new counts.
+// Allocations of the engine: none once started, and none for effects that a scene does not call
+// for. This program's operator new counts.
 
 namespace {
 
@@ -119,7 +119,7 @@ TEST_P(SteadyState, AllocatesNothingOverASecondRenumbering) {
   EXPECT_LE(allocationsOf(scene(), 16000, 500), someGrowth());
 }
 
-/// What a simulation holds at its beginning, or after some steps.
+/// Memory that a simulation holds at its beginning, or after some steps [bytes].
 template <class Run = Simulation>
 std::size_t bytesHeld(const auto& setup, std::uint64_t steps = 0) {
   const Run first(setup);  // what the program keeps from then on is not this scene's

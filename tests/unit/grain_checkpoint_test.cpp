@@ -107,7 +107,7 @@ TEST(Checkpoints, DoNotChangeTheRunTheyAreTakenFrom) {
   EXPECT_EQ(test::difference(saving, alone), "");
 }
 
-/// What restoring into a simulation of `setup` says; "" where it is content.
+/// Error of restoring into a simulation of `setup`; "" where it succeeds.
 std::string refusal(grain::Setup setup, const std::string& bytes) {
   Simulation simulation(std::move(setup));
   try {

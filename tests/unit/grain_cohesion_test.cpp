@@ -413,7 +413,7 @@ TEST_P(CohesionLedger, OfAGas_ClosesBetterTheSmallerTheStep) {
       most = std::max(most, std::abs(test::residual(*simulation.energyLedger())));
     }
     const EnergyLedger& ledger = *simulation.energyLedger();
-    // What yields holds a little of the last step's pull when it ends.
+    // A contact that yields ends with only a little of the last step's pull.
     EXPECT_EQ(ledger.lostDetachment > 1e-4 * ledger.initial, GetParam() == CohesionLaw::jkr);
     EXPECT_EQ(ledger.lostPlastic > 0.0, GetParam() == CohesionLaw::elastoPlastic);
     return most / ledger.initial;

@@ -4,7 +4,7 @@
 
 #include "tests/unit/grain_packed.hpp"
 
-// What ends a run: disks that are too deep in each other, and say so.
+// Errors that end a run: disks that overlap too much.
 
 namespace {
 
@@ -19,7 +19,8 @@ grain::Setup tunnelling() {
   return setup;
 }
 
-/// What ends the run, and when.
+/// Error that ends the run.
+/// @param time  gets when [s]
 std::string endOf(const grain::Setup& setup, int steps, double* time = nullptr) {
   Simulation simulation(setup);
   try {

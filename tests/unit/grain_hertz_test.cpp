@@ -164,7 +164,7 @@ TEST_P(Mindlin, FastSpinsSlipThroughout) {
   EXPECT_EQ(simulation.spin(0), simulation.spin(1));
 }
 
-/// What holds, slips and springs back gains no energy, whichever way it remembers.
+/// A contact that sticks, slips and springs back gains no energy, whichever history it keeps.
 TEST_P(Mindlin, GainsNoEnergy) {
   for (const double spin : {-2e3, -1e3, -3e2, 3e2}) {
     Simulation simulation(spinning(GetParam(), 0.35, spin));

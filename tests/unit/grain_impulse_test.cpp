@@ -303,7 +303,7 @@ TEST(GrainImpulse, RollsAndSlidesDownASlopeAsItShould) {
   }
 }
 
-/// What lies on a plate that shakes with less than gravity stays on it: a wall that speeds up is a
+/// A disk on a plate that shakes with less than gravity stays on it: a wall that speeds up is a
 /// kick, not an impact.
 TEST(GrainImpulse, AShakenPlateCarriesItsDisk) {
   grain::Setup setup = ball(1.0, 1e-4);

@@ -227,7 +227,7 @@ TEST(Materials, Ledger_ClosesAtTheSchemesOrder) {
   EXPECT_LT(order, 2.5);
 }
 
-// What each contact turns into heat.
+// Heat of each contact.
 
 double lost(const EnergyLedger& l) {
   return l.lostNormalDamping + l.lostTangentialDamping + l.lostSliding + l.lostRollingDamping +

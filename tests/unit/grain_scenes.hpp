@@ -9,7 +9,7 @@
 #include "tests/support/draw.hpp"
 #include "tests/support/thesis.hpp"
 
-// What the names of parametrised tests show.
+// Texts in the names of parametrised tests.
 namespace grain {
 
 inline void PrintTo(Precision precision, std::ostream* out) {

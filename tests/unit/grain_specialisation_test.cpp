@@ -28,7 +28,7 @@ struct Share {
   std::size_t contacts = 0, sliding = 0, pulling = 0, planes = 0;
 };
 
-/// What there is to see, so that "the same" is not "nothing on both sides".
+/// Counts contacts by kind, so that "the same" is not "nothing on both sides".
 void count(const Simulation& s, Share& share) {
   for (const Contact& c : s.contacts()) {
     ++share.contacts;

@@ -300,7 +300,7 @@ TEST(AuditInSpace, ContactsThroughNearestImages) {
   const auto why = [&] { return auditFault(shown, auditBasis(scene, can, effective), 0.0); };
   EXPECT_EQ(why(), "");
 
-  // What is no tangential force changes σ_zz, as if it were a part of f_n.
+  // A tangential force along the normal changes σ_zz, as if it were a part of f_n.
   contacts.tangentialForce[0] = Vec3(0.0, 0.0, 0.01);
   expectSays(why(),
              "contact 0 (sphere 0 with sphere 1): -0.01 N of its tangential force of 0.01 N are "

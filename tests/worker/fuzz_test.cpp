@@ -1,6 +1,6 @@
-/// What a worker says is read to a value or to one line of refusal, whatever it is: no crash, no
-/// hang, no large allocation. Messages depend on their number alone; tests/fuzz/README.md has how a
-/// million are read.
+/// Any message of a worker is read to a value or to one line of refusal: no crash, no hang, no
+/// large allocation. Messages depend on their number alone; tests/fuzz/README.md has how a million
+/// are read.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/mman.h>
@@ -227,7 +227,7 @@ class Hostile : public ::testing::Test {
     EXPECT_GE(stats.cpuSeconds, 0.0);
   }
 
-  /// What is taken can be used without a further look.
+  /// A snapshot that was taken can be used without further checks.
   void expectSound(const Snapshot& snapshot) const {
     const auto finite = [](const Vec2& v) { return v.allFinite(); };
     EXPECT_EQ(snapshot.position.size(), scene_.disks.size());

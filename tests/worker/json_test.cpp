@@ -198,8 +198,8 @@ TEST(WorkerJson, CapabilitiesSettingsParametersStats_ComeBack) {
   const EffectiveParameters again = expectComesBack(effective);
   EXPECT_EQ(again.pairs.at(0).kt, 0.2);
   EXPECT_EQ(again.deviations.at(0).value, 1e-300);
-  // What a contact does not have is absent, not 0: springs have no restitutions, and rebounds no
-  // springs.
+  // Parameters that a contact does not have are absent, not 0: springs have no restitutions, and
+  // rebounds no springs.
   const nlohmann::json soft = jsonOf(effective)["pairs"][0];
   EXPECT_TRUE(soft["en"].is_null() && soft["et0"].is_null());
   EffectiveParameters rigid = effective;

@@ -183,8 +183,8 @@ TEST_P(LammpsAlone, BondOfJkr_OutlastsLists) {
     ASSERT_EQ(now.contacts->size(), 1U) << overlap / range;
     const double force = jkrForce(law.kn, law.w, radius, overlap);
     EXPECT_NEAR(now.contacts->normalForce[0], force, 1e-9 * std::abs(force));
-    // What LAMMPS applied: m/2 Δv = ∫F dt, by the trapezoidal rule, of which the curve of F takes
-    // less than a hundredth.
+    // Impulse that LAMMPS applied: m/2 Δv = ∫F dt, by the trapezoidal rule, of which the curve of F
+    // takes less than a hundredth.
     const double slower = now.velocity[1].y() - now.velocity[0].y() - speed;
     if (k > 1) {
       EXPECT_NEAR(slower * 0.5 * heavy, 0.5e-3 * (before + force), 1e-5 * std::abs(force));

@@ -157,7 +157,7 @@ std::size_t Space::expectAsTheMirrorHasIt(const SpaceScene& scene, const std::ve
   // θ, with ΔΘ = 2.4e-4 of 0.6 m/s; in 100 steps 1.5e-7 N m, that is 5e-3 rad/s or 2e-4 N.
   const bool ofLammps = GetParam() == std::string("lammps");
   if (ofLammps && scene.law.rolls()) rounding *= 200.0;
-  // What LAMMPS shows of DMT's contacts is bounded by another load than what acts (README.md of
+  // In DMT's contacts LAMMPS shows forces bounded by another load than those that act (README.md of
   // engines/lammps).
   const bool ownBounds = ofLammps && scene.law.cohesion == CohesionLaw::dmt;
   const auto apart = [&](const Vec3& a, const Vec3& b) {

@@ -28,7 +28,7 @@ class ToyEngine final : public Engine {
 /// Two disks, two wall bodies, one of them with a plane, numbers that no decimal prints shortly.
 Scene toyScene();
 
-/// What `worker_tests --worker MISCHIEF` does instead of tests.
+/// Runs the worker of `worker_tests --worker MISCHIEF` instead of tests.
 int toyWorker(const std::string& mischief);
 
 }  // namespace crossgrain::test

@@ -56,7 +56,7 @@ class Worker : public ::testing::Test {
     return names;
   }
 
-  /// What becomes of advance() to 0.5 s.
+  /// Error of advance() to 0.5 s.
   std::string advanceFailure(const std::string& mischief, double timeout = 20.0) {
     const auto engine = start(mischief, timeout);
     engine->load(test::toyScene(), {});

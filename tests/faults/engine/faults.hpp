@@ -52,8 +52,8 @@ int servePlanted(const char* name, int argc, char** argv) {
   }
 }
 
-/// What is wrong with the engine: numbers, each neutral as it stands. All of them neutral make the
-/// right engine; a planted fault is one or two of them changed by its name (../faults.toml).
+/// Faults of the engine: numbers, each neutral by default. All of them neutral make the right
+/// engine; a planted fault is one or two of them changed by its name (../faults.toml).
 struct Faults {
   Words given;
 
@@ -86,7 +86,7 @@ struct Faults {
   double listReach =
       given("list_reach", 1.0);  ///< how far disks go before the list of neighbours is made anew
 
-  // What happens within a step: 0 is right.
+  // Faults within a step: 0 is right.
   double stride = given("stride", 0.0);           ///< n: one step of n dt in place of n steps
   double cutTension = given("cut_tension", 0.0);  ///< f_n := max(f_n, 0)
   double keepSpring = given("keep_spring", 0.0);  ///< a spring grows on while its contact slips
@@ -215,7 +215,7 @@ struct Faults {
   double threads = given("threads", 0.0);  ///< 1: a setting, which changes nothing; 2: with more
                                            ///< than one forces are summed the other way round
 
-  // What is answered; the motion is right.
+  // Faults of answers; the motion is right.
   double showFloat = given("show_float", 0.0);  ///< positions rounded to float32
   double showLate = given("show_late", 0.0);    ///< contacts and loads on walls of the step before
   double showSwappedPlaces =
@@ -240,7 +240,7 @@ struct Faults {
   double loadRemembers =
       given("load_remembers", 0.0);  ///< springs of the scene before are there in the next
   double restoreWithoutPlate =
-      given("restore_without_plate", 0.0);  ///< what is restored has no springs of the plate
+      given("restore_without_plate", 0.0);  ///< a restored state has no springs of the plate
   double restoreList =
       given("restore_list", 0.0);  ///< a list that is restored holds as long as one made anew
   double loadGrows =

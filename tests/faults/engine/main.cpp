@@ -381,7 +381,7 @@ class PlantedEngine {
 
   void checkpoint(const std::string& path) { writeParts(path, *simulation_); }
 
-  /// What checkpoint() of the same scene wrote.
+  /// Reads a file that checkpoint() of the same scene wrote.
   void restore(const std::string& path) {
     readParts(path, *simulation_);
     simulation_->restored();
@@ -397,7 +397,8 @@ class PlantedEngine {
   }
 
  private:
-  /// What it says of something that is changed: what the right engine has, or what it does.
+  /// Value that it declares for something changed: its own if it declares its changes, else the
+  /// right one.
   const char* declared(double changed, const char* right, const char* done) const {
     return changed != 0.0 && faults_.declares != 0.0 ? done : right;
   }

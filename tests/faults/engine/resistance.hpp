@@ -22,7 +22,7 @@ struct Resistance {
   double kc = 0.0, w = 0.0, k2 = 0.0, depth = 0.0;
 };
 
-/// What a contact remembers.
+/// State that a contact keeps between steps.
 struct Memory {
   double spring = 0.0;   ///< ξ [m]
   double angle = 0.0;    ///< θ [rad]

@@ -60,7 +60,7 @@ struct SpaceFaults {
   double pullParting = given("pull_parting", 1.0);   ///< of the pull between two that part
   double listReach = given("list_reach", 1.0);  ///< how far spheres go before lists are made anew
   double restoreWithoutSprings =
-      given("restore_without_springs", 0.0);  ///< what is restored has no springs
+      given("restore_without_springs", 0.0);  ///< a restored state has no springs
   /// 1: places, velocities, spins and springs in single precision, as declared
   double floatState = given("float_state", 0.0);
 };
