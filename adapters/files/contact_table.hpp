@@ -10,8 +10,8 @@
 
 namespace crossgrain::files {
 
-/// Contacts as rows of a file, with what can only be made sense of beside the particles: a force in
-/// parts, a normal that is where the centres are.
+/// Contacts as rows of a file, with data that need the particles: a force in parts, a normal from
+/// the centres.
 struct ContactTable {
   FileContacts contacts;
   std::vector<Vec3> tangential;    ///< tangential force on the first, beside contacts.normalForce
@@ -52,12 +52,12 @@ void takePeriods(FileBox& box, const FileBox& ofCase);
 /// The contacts of a table, all in the terms of FileContacts. Particles are those of their time.
 /// Normals are taken as given, else from the branch, else from the centres; force = f_n n + f_t;
 /// torque of rolling resistance = R* n × (pseudo-force) [LAMMPS, pair_granular.cpp: torroll], or
-/// what the whole torque has beyond −(R − δ/2) n × F.
+/// the whole torque without −(R − δ/2) n × F.
 /// @param where  of the table, for messages  @throws BadInput
 FileContacts completed(ContactTable table, const FileFrame& particles, const std::string& where);
 
-/// Adds contacts; what one of both does not have is dropped. Points that pairs of spheres lack are
-/// worked out: x − n (R − δ/2), with δ of the centres.
+/// Adds contacts; arrays that one of both does not have are dropped. Points that pairs of spheres
+/// lack are worked out: x − n (R − δ/2), with δ of the centres.
 void append(FileContacts& contacts, FileContacts more, const FileFrame& particles);
 
 }  // namespace crossgrain::files

@@ -9,7 +9,7 @@
 namespace crossgrain::files {
 namespace {
 
-/// Ways below so many times what is uncertain of a position say nothing.
+/// Displacements below this many times the uncertainty of a position are not compared.
 constexpr double clear = 100.0;
 /// Fewer disks are no sample.
 constexpr std::size_t fewest = 3;
@@ -22,7 +22,7 @@ constexpr double leastOfEven = 0.85, mostOfEven = 1.18;
 /// + δ apart then show δ/(nT + δ) of the way, less than 1/3 where a flight holds two of them in a
 /// row.
 constexpr double mostOfBouncing = 0.4;
-/// Of a turn of what drives the scene between two snapshots [rad].
+/// Limit of the turn of the drive between two snapshots [rad].
 constexpr double mostDriven = 0.5;
 constexpr double mostRms = 2.0, leastRms = 0.01;
 

@@ -39,8 +39,8 @@ struct MotionFinding {
 /// Of these alone less than 0.4 of the way is no finding: see mostOfBouncing.
 ///
 /// In a periodic box the way is that to the nearest image, since files may wrap places. Left out
-/// are disks that by their velocities have gone more than half of a period: which image is theirs
-/// then, nobody knows.
+/// are disks that by their velocities have gone more than half of a period: their image is not
+/// known then.
 template <int D>
 class DisplacementsOf {
  public:

@@ -18,7 +18,7 @@ bool hasSameIds(std::vector<std::int64_t> a, std::vector<std::int64_t> b) {
   return a == b;
 }
 
-/// Ids that are but the rows' numbers are nobody's: of files without ids, a particle that leaves
+/// Whether ids are only the rows' numbers, as in files without ids: a particle that leaves then
 /// passes its number on.
 bool areRows(const std::vector<std::int64_t>& ids) {
   for (std::size_t row = 0; row < ids.size(); ++row)

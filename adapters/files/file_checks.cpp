@@ -9,7 +9,7 @@
 #include "adapters/audit_geometry.hpp"
 #include "adapters/files/file_snapshots.hpp"
 
-/// Whether what was read can be true of the case's scene.
+/// Checks whether a file's data can be true of the case's scene.
 namespace crossgrain::files {
 namespace {
 

@@ -100,7 +100,7 @@ std::optional<FileFrame> FileSnapshotsOf<D>::readWithin() {
   return atBegin;
 }
 
-/// Means over snapshots some of which lack what others have are of no time.
+/// Refuses snapshots some of which lack data that others have: their means would be of no time.
 template <int D>
 void FileSnapshotsOf<D>::requireSame(const FileFrame& frame, SnapshotOf<D>& now) {
   const auto require = [&](std::optional<bool>& first, bool here, const char* what,

@@ -53,7 +53,7 @@ struct FileSceneOf {
 /// case's wall disks in their order, or of none. Those of an assembly are found by the place that
 /// the case prescribes at time t [s], or an image of it; those of a cell, which may be at any
 /// angle, by their radius and their distance from the centre, and the target's reference places
-/// become what follows from theirs.
+/// then follow from theirs.
 /// @throws BadInput where some of them are there and others are not
 template <int D>
 std::vector<std::size_t> wallRows(const FileFrame& frame, const FileUnits& units,
@@ -105,7 +105,7 @@ class FileSnapshotsOf : public SnapshotSourceOf<D> {
   void checkSliding(const FileFrame& frame, const SnapshotOf<D>& snapshot);
   double timeOf(const FileFrame& frame) const;
   std::optional<double> timeByName(const FileFrame& frame) const;
-  /// Of what the files count: the time step, or the time from one file to the next [s].
+  /// Unit that the files count: the time step, or the time from one file to the next [s].
   double step() const { return units_.dt > 0.0 ? units_.dt * units_.time : target_.dt; }
   /// As short as the engine's time step can be known to be [s].
   double shortestStep() const { return target_.dt > 0.0 ? std::min(step(), target_.dt) : step(); }

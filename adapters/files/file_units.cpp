@@ -88,7 +88,7 @@ FileUnits fileUnits(std::string_view format, const Settings& settings) {
 
 namespace {
 
-/// Refuses what lies beside the others, or moves out of the plane.
+/// Refuses particles that lie beside the others, or move out of the plane.
 void checkPlane(const FileFrame& frame, const FileUnits& units) {
   const FileParticles& all = frame.particles;
   const int third = units.third();
@@ -152,7 +152,7 @@ void checkEdge(const FileFrame& frame, int axis) {
   }
 }
 
-/// Decimal digits that a number gets by with; what only its change of unit has added is no digit.
+/// Decimal digits that a number needs; those that only its change of unit has added do not count.
 int digitsOf(double x) {
   const std::string text = fmt::format("{:.14g}", std::abs(x)),
                     mantissa = text.substr(0, text.find('e'));

@@ -10,7 +10,7 @@
 #include "adapters/files/frame.hpp"
 #include "adapters/scene.hpp"
 
-/// Units and axes of other programs' files, and what their particles have to be for a case.
+/// Units and axes of other programs' files, and conditions on their particles.
 namespace crossgrain::files {
 
 /// @throws BadInput naming the frame
@@ -66,7 +66,7 @@ const MissingComponent* neededComponent(const std::vector<MissingComponent>& mis
 /// all particles. In the plane: nothing lies beside the others, moves out of it or spins about an
 /// axis in it. A direction that the file has periodic is that of the case's box, and as long; or
 /// nothing reaches over its edge.
-/// @throws BadInput naming the frame and what is not so
+/// @throws BadInput naming the frame and the condition that fails
 template <int D>
 void checkParticles(const FileFrame& frame, const FileUnits& units,
                     const std::optional<BoxOf<D>>& box);

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-/// Result files of other programs, as they are: what they say of one time, in their units, before
-/// anybody knows which scene it is of.
+/// Result files of other programs, as they are: their data of one time, in their units, before the
+/// scene is known.
 namespace crossgrain::files {
 
 using Vec3 = Eigen::Vector3d;
@@ -30,7 +30,7 @@ struct MissingComponent {
       false;  ///< of a spin or a torque: those in a plane have the component across it alone
 };
 
-/// Particles of one time, structure of arrays. What the file does not have is empty.
+/// Particles of one time, structure of arrays. Data that the file does not have are empty.
 struct FileParticles {
   std::vector<std::int64_t> id;           ///< the file's own; of files without ids, the row, from 0
   std::vector<Vec3> position;             ///< [length]
@@ -50,8 +50,8 @@ struct FileParticles {
 /// "particle 5 is there twice (lines 11 and 14)". @pre it is
 std::string describeTwice(const FileParticles& particles, std::int64_t id);
 
-/// Contacts of one time, each once or twice as the file lists them. What it does not have is empty:
-/// each array but `first` and `second` is of all contacts or of none.
+/// Contacts of one time, each once or twice as the file lists them. Data that it does not have are
+/// empty: each array but `first` and `second` is of all contacts or of none.
 struct FileContacts {
   /// Ids of particles; a wall k is −k − 1, and always the second. A partner that is neither (a
   /// facet, a fixed body that is no particle) counts as a wall.
@@ -81,7 +81,7 @@ struct FileFrame {
   std::optional<FileBox> box;
   FileParticles particles;
   std::optional<FileContacts> contacts;
-  /// Where there are files of contacts, but not of this time: what they have in its place, "the
+  /// Where there are files of contacts, but none of this time: the contacts found instead, "the
   /// last are of run.local, step 4000".
   std::string contactsOfOtherTimes;
   /// Where the files of contacts have times between the frame before and this one that the

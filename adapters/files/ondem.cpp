@@ -15,7 +15,7 @@ namespace crossgrain::files {
 namespace fs = std::filesystem;
 namespace {
 
-/// Where a file has what.
+/// Paths of a file's data.
 struct Layout {
   std::string points = "/VTKHDF/Points", ofPoints = "/VTKHDF/PointData/";
   std::string interactions = "/ONDEM/Interactions/";

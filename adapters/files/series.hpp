@@ -33,7 +33,7 @@ class TextParts : public PartReader {
  public:
   /// @param read   the next time of a file that has something left; the text is before its first
   ///               line
-  /// @param begin  what is done with each file before
+  /// @param begin  called with each file before
   TextParts(
       std::vector<std::filesystem::path> files, std::function<Part(TextFile&)> read,
       std::function<void(TextFile&)> begin = [](TextFile&) {});
@@ -69,8 +69,8 @@ class WholeFiles : public PartReader {
 /// The last number in a file's name: 400 of "run2-spheres.400.vtu".
 std::optional<std::int64_t> numberInName(const std::filesystem::path& file);
 
-/// A file's name with its last number (the extension's counts) left out: what files of one series
-/// have in common.
+/// A file's name without its last number (the extension's counts), the same for all files of a
+/// series.
 std::string seriesOf(const std::filesystem::path& file);
 /// Files by that, each series in the order of its numbers.
 std::vector<std::vector<std::filesystem::path>> bySeries(std::vector<std::filesystem::path> files);

@@ -43,7 +43,7 @@ class Arrays {
       : where_(std::move(where)) {
     for (const VtkArray& array : arrays) {
       const auto* const said = options.wordsOf(array.name);
-      // F and f are no names of one thing: what is known by one letter is known by that.
+      // F and f are different arrays: names of one letter keep their capitals.
       const std::string own = array.name.size() > 1 ? lowered(array.name) : array.name;
       const auto* const known =
           std::ranges::find(roles, own, [](const auto& one) { return one.first; });

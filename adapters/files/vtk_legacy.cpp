@@ -138,8 +138,8 @@ void readLines(Words& in, VtkData& data) {
   in.endLine();
 }
 
-/// Of a binary file what follows a section's line goes with it: sections that say nothing of
-/// particles or contacts, whose numbers are 32-bit integers.
+/// Skips the numbers of a binary file's sections that have no particles or contacts: 32-bit
+/// integers.
 void skipCells(Words& in) {
   const std::string_view keyword = in.keyword();
   if (keyword == "CELL_TYPES") return in.text().skip(4 * std::min(rowsOf(in, 1), in.text().size()));

@@ -21,7 +21,7 @@ struct WrittenBox {
 };
 
 /// Writes snapshots one after the other: memory holds the one that is being written. Files have
-/// their names once close() has been called; what is left before that is removed.
+/// their names once close() has been called; unfinished files are removed.
 template <int D>
 class SnapshotWriterOf {
  public:
