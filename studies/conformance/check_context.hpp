@@ -100,7 +100,8 @@ std::string precisionNamed(Precision precision);
 
 /// All of it: effects, each value of each law option, planes and walls with each motion,
 /// observables, precisions, a setting of the time step; and what every engine must have: several
-/// sizes, many disks, places far off and late times. What limits do not exclude is declared.
+/// sizes, many disks, places far off and late times. Everything that limits do not exclude is
+/// declared.
 std::vector<std::string> declaredBy(const Capabilities& can);
 
 bool simulates(const Capabilities& can, Effect effect);
@@ -219,8 +220,8 @@ class CheckContext {
   void load(const Scene& scene, const Settings& settings = {});
   /// The same where it is `required`. @returns whether it is loaded  @throws Skipped
   bool loads(const Scene& scene, bool required);
-  /// The same for what limits can declare (adapters/scene_limits.hpp): refusing a scene that no
-  /// declared limit excludes is a fault. @throws Skipped, GivenUp
+  /// The same for scenes that limits can exclude (adapters/scene_limits.hpp): refusing a scene that
+  /// no declared limit excludes is a fault. @throws Skipped, GivenUp
   void loadWithinLimits(const Scene& scene);
   Snapshot at(double t);                        ///< advances to t; a snapshot with contacts
   Snapshot run(const Scene& wanted, double t);  ///< loads it and goes there. @throws Skipped
@@ -263,7 +264,7 @@ class CheckContext {
   void atMost(const auto& found, const auto& limit, const std::string& what) {
     expect(found <= limit, text(what, ": ", found, ", above ", limit));
   }
-  /// Velocity and spin to that part of Encounter::speed and of what a small disk would roll with at
+  /// Velocity to that part of Encounter::speed, spin to that part of a small disk's that rolls at
   /// that speed.
   void sameMotion(const DiskState& found, const DiskState& wanted, const Tolerance& part,
                   const std::string& which);

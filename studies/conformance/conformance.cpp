@@ -39,7 +39,7 @@ constexpr int mostBreakdowns = 3;
 
 constexpr const char* untriedReason = "the time of --budget was over";
 
-/// A row of what the budget had no time left for.
+/// A row of a check for which the budget had no time left.
 ConformanceRow untriedRow(const std::string& part, const std::string& name,
                           const std::string& what) {
   return {part, name, what, checkUntried, untriedReason};
@@ -267,7 +267,8 @@ std::string contradictionsOf(const Identification& found) {
           "it has {} = {}, and declares {}", option.name, fmt::join(option.values, " or "),
           option.declared.empty() ? "nothing"
                                   : fmt::format("{}", fmt::join(option.declared, " or "))));
-  // Constants beside a convention, or several, fit what none of them is the cause of.
+  // Several constants, or a constant beside a convention, can fit a difference that none of them
+  // causes.
   if (found.constants.size() + std::min<std::size_t>(parts.size(), 1) > 1) return {};
   for (const FoundConstant& constant : found.constants)
     parts.push_back(fmt::format("its {} is {:+.3g} % off the case's",

@@ -53,13 +53,13 @@ struct ConformanceTask {
 };
 
 /// The checks, lockstep with the mirror and collisions, one after the other, and the most likely
-/// cause of a failure. Nothing is kept. What would begin after the budget is not tried; a check
-/// that runs is not cut short.
+/// cause of a failure. Nothing is kept. Checks that would begin after the budget are not tried; a
+/// check that runs is not cut short.
 /// @throws EngineFailure if it cannot be started; BadInput, Interrupted
 ConformanceResults runConformance(const ConformanceTask& task);
 
-/// An engine that broke down failed; a check that failed is a failure of what it declares. What was
-/// not tried in the time given did not pass. Nor did an engine of which too little was examined.
+/// An engine that broke down failed; a failed check fails the engine. Checks that were not tried in
+/// the time given did not pass. Nor did an engine of which too little was examined.
 /// @param allowUnexamined  it did, however little
 Outcome outcomeOf(const ConformanceResults& results, bool allowUnexamined = false);
 

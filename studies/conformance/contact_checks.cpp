@@ -288,7 +288,8 @@ void contactForcesAreThoseThatAct(CheckContext& context) {
   }
 }
 
-/// Means over the time since the last snapshot, times that, are what changed a disk's momentum.
+/// Means over the time since the last snapshot, times that time, are the change of a disk's
+/// momentum.
 void accumulatedContactsAreImpulses(CheckContext& context) {
   context.needs(accumulatedContacts);
   const Scene scene = encounterScene(crookedEncounter(), context.law(), coarseSteps);
@@ -315,7 +316,7 @@ void accumulatedContactsAreImpulses(CheckContext& context) {
                "the sum of accumulated forces times their intervals [kg m/s]");
 }
 
-/// A closed account: what no term of the ledger accounts for is of the order of the scheme.
+/// Checks that the ledger is closed: energy in no term of it is of the scheme's order.
 void energyLedgerIsClosed(CheckContext& context) {
   context.needs(energyLedger);
   double left[2] = {};

@@ -141,7 +141,7 @@ bool loadedUnderAny(CheckContext& context, const std::vector<ContactLaw>& laws, 
   return false;
 }
 
-/// The in-house engine on what another has run, with that one's law or another.
+/// The in-house engine on the scene that another engine ran, with its law or another.
 class Mirror {
  public:
   /// @param scene  CheckContext::mirrored()
@@ -188,8 +188,8 @@ std::string constantOff(const Mirror& mirror, const ContactLaw& law, LawPart par
   return best;
 }
 
-/// The constant of that part without which the law does what was found, to within the limit; empty:
-/// there is none.
+/// The constant of that part without which the law moves as found, to within the limit; empty:
+/// none.
 std::string constantMissing(const Mirror& mirror, const ContactLaw& law, LawPart part,
                             const std::vector<double>& found, double limit) {
   for (const LawConstant& constant : lawConstants()) {

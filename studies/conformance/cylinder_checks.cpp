@@ -80,7 +80,7 @@ std::vector<Change> changesOf(const InCylinder& run, const SpaceSnapshot& after)
   return changes;
 }
 
-/// Why spheres at a cylinder that stands do not do what that at the plane does.
+/// Cause why spheres at a fixed cylinder do not move as the one at the plane.
 std::string causeAtCylinder(const std::vector<Change>& changes) {
   const double wanted = changes[atWall].velocity.x();
   std::size_t met = 0;
@@ -140,8 +140,8 @@ void cylinderIsMetAsAPlane(CheckContext& c) {
   if (const std::string cause = causeAtCylinder(changes); !cause.empty()) c.suspect(cause);
 }
 
-/// By Galileo's principle what a surface does that moves by ω R is what one at rest does to a
-/// sphere that moves the other way: nothing turns meanwhile but n, by Δv_t t_c/(R − a).
+/// By Galileo's principle a surface that moves by ω R acts as one at rest on a sphere that moves
+/// the other way: nothing turns meanwhile but n, by Δv_t t_c/(R − a).
 void turningCylinderDrivesSpheres(CheckContext& c) {
   c.needs(cylinders);
   c.needs(toString(Effect::movingWalls));

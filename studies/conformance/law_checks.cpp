@@ -42,7 +42,7 @@ std::string nameOf(const ContactLaw& law) {
                          : "");
 }
 
-/// @param evidence  gets what came of it  @returns whether there was a reference
+/// @param evidence  gets the result  @returns whether there was a reference
 bool compared(CheckContext& context, Meeting meeting, Evidence& evidence) {
   const ContactLaw& law = meeting.law;
   if (!law.soft()) {
@@ -112,7 +112,8 @@ void unequalDisksFollowTheOracle(CheckContext& context) {
   context.examine(severalSizes);
 }
 
-/// A ring's, and a sphere's or a disk's: what a scene says, and not what all others have.
+/// Checks that moments of inertia are the scene's, not the usual one: a ring's, and a sphere's or a
+/// disk's.
 void inertiaIsTheScenes(CheckContext& context) {
   bool others = false, any = false;
   Evidence evidence;

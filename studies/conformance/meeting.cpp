@@ -116,7 +116,7 @@ std::vector<Quantity> quantities(const Tolerance& psi, const Tolerance& others) 
            others, true}};
 }
 
-/// The largest error of one outcome's numbers, in units of what is allowed; infinite without a
+/// The largest error of one outcome's numbers, in units of the allowed one; infinite without a
 /// reference.
 double misfit(const CollisionEnd& found, const std::optional<CollisionEnd>& wanted,
               const std::vector<Quantity>& all) {
@@ -136,7 +136,7 @@ double misfit(const CollisionEnd& found, const std::optional<CollisionEnd>& want
 
 // ---- the most likely cause ----------------------------------------------------------------------
 
-/// A meeting and what came of it.
+/// A meeting and its outcome.
 struct Met {
   const Meeting* meeting;
   MeetingResult outcome;

@@ -7,7 +7,7 @@
 #include "oracle/collision_end.hpp"
 #include "studies/conformance/check_context.hpp"
 
-/// Two bodies that meet once, in several ways side by side, and what the theory says of context.
+/// Two bodies that meet once, in several ways side by side, compared with the theory.
 namespace crossgrain::conformance {
 
 /// Partner that a small disk meets.
@@ -39,8 +39,8 @@ struct MeetingResult {
 std::optional<MeetingResult> meet(CheckContext& context, const Meeting& meeting,
                                   std::string* why = nullptr);
 
-/// Collisions with partners of one kind under laws of one kind: what is off has to explain all of
-/// them with one amount, those that came out right included.
+/// Collisions with partners of one kind under laws of one kind: a cause has to explain all of them
+/// with one amount, those that came out right included.
 class Evidence {
  public:
   /// A fault for each number that is not the oracle's. Where the law has no limit of small steps

@@ -223,7 +223,7 @@ Scene pushing(const ContactLaw& law, Motion::Kind kind, bool plane) {
                  {{member + (2.0 * smallRadius + Encounter::gap) * towards}}, 200.0);
 }
 
-/// Half a bit of every addition of that many steps: what a sum of them is off, as a part of it.
+/// Relative error of a sum over that many steps: half a bit for every addition.
 double roundedSum(double steps) {
   return 0.5 * std::numeric_limits<double>::epsilon() * steps;
 }
@@ -250,7 +250,7 @@ void expectPrescribed(CheckContext& context, const Snapshot& now) {
                  length, "a wall disk's place [m]");
 }
 
-/// Of what is loaded: the wall moves as prescribed, and the disk leaves with (1 + e_n) its speed.
+/// In the loaded scene the wall moves as prescribed, and the disk leaves with (1 + e_n) its speed.
 void expectPush(CheckContext& context) {
   Snapshot now;
   for (const double t : {0.2 * pushEnd, 0.5 * pushEnd, pushEnd}) {

@@ -64,7 +64,7 @@ std::vector<Vec3> springForces(const MovedPair& pair, const SpringMotion& motion
 std::vector<Vec3> rollingTorques(const MovedPair& pair, const SpringMotion& motion, double dt,
                                  int steps);
 
-/// All that are tried, those with the fewest differences from what is declared first.
+/// All rules that are tried, those with the fewest differences from the declared one first.
 std::vector<SpringMotion> springMotions(const ContactLaw& declared);
 
 /// Errors of a law with these conventions for a pair that turns rigidly, whose forces should only

@@ -1,4 +1,4 @@
-// Capabilities and the life cycle (load, advance, snapshot, load again): what every run relies on.
+// Capabilities and the life cycle (load, advance, snapshot, load again), on which every run relies.
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -284,7 +284,7 @@ void expectAFreshStart(CheckContext& context, const Scene& scene) {
   context.equal(context.engine.stats().steps, stats.steps, "steps counted the second time");
   context.equal(context.engine.stats().contactEvaluations, stats.contactEvaluations,
                 "contact_evaluations the second time");
-  // Nothing came in between that would have emptied what is kept of these pairs.
+  // No scene came in between that would have removed data kept for these pairs.
   context.expect(sameBits(context.run(scene, busyEnd), second),
                  "loaded a third time, at once, and the second");
 }
@@ -385,7 +385,7 @@ void expectResumed(CheckContext& context, double middle, double end) {
   if (context.refusal(afresh)) return;
   const Snapshot forgot = context.at(end - middle);
   const double off = velocitiesApart(resumed, whole);
-  // Of an engine that shows no contacts nobody knows.
+  // An engine that shows no contacts may have springs.
   const bool springs = !half.contacts || std::ranges::any_of(half.contacts->tangentialForce,
                                                              [](double f) { return f != 0.0; });
   if (springs && velocitiesApart(resumed, forgot) < 0.1 * off &&

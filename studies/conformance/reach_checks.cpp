@@ -185,8 +185,8 @@ void fastDisksAreNotMissed(CheckContext& context) {
   }
 }
 
-/// 520 pairs, far apart: every one does what one alone does, and a snapshot in the midst of it has
-/// all contacts.
+/// Checks 520 pairs, far apart: each moves as one alone, and a snapshot in the middle has all
+/// contacts.
 void manyAreAsFew(CheckContext& context) {
   const Scene one = encounterScene(crookedEncounter(), context.law(), coarseSteps);
   const std::vector<DiskState> alone = statesOf(one, context.run(one, Encounter::end));

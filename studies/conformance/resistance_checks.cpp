@@ -28,7 +28,7 @@ ContactLaw withoutDashpots(const Capabilities& can, const std::string& normal) {
   return law;
 }
 
-/// The law that the engine declares it has, of what is loaded.
+/// The law of the loaded scene as the engine declares it.
 ContactLaw declared(CheckContext& context) {
   return declaredLaw(context.can, context.scene, context.effective, pairMass)
       .value_or(context.scene.law);
@@ -171,8 +171,8 @@ void rollingHoldsASlope(CheckContext& context) {
 void memoriesHoldWhileAnotherFliesBy(CheckContext& context) {
   if (context.rigid()) context.skip("has no contacts that remember anything");
   std::vector<ContactLaw> laws = resistingLaws(context.can);
-  // Before them what remembers nothing, and tangential springs alone: what goes wrong with these is
-  // no rolling spring's doing.
+  // First a law without memory and one of tangential springs alone: their faults are not the
+  // rolling spring's.
   const ContactLaw springs = context.law();
   laws.insert(laws.begin(), {frictionless(springs), springs});
   bool memoryless = true, ordinary = true;

@@ -41,8 +41,7 @@ std::vector<SeenForce> seenOf(CheckContext& c, const MovedPair& pair,
   return seen;
 }
 
-/// Of what a spring would have done, the largest difference from what was seen, by the largest
-/// force.
+/// The largest difference of the seen forces from the wanted ones, relative to the largest force.
 double distance(const std::vector<SeenForce>& seen, const std::vector<Vec3>& wanted) {
   double most = 0.0, size = 0.0;
   for (const auto& [force, step] : seen) {
@@ -53,7 +52,7 @@ double distance(const std::vector<SeenForce>& seen, const std::vector<Vec3>& wan
   return most / size;
 }
 
-// Rounding of a hundred steps; what conventions of a turn differ by is 1e-3.
+// Rounding of a hundred steps; conventions of a turn differ by 1e-3.
 Tolerance movedRounding(const CheckContext& c) {
   return c.byPrecision(1e-9, 1e-4, "the same sums in another order, motion as prescribed");
 }
