@@ -8,7 +8,7 @@
 
 #include "results/head.hpp"
 
-/// results.json of kind "conformance": what one engine does as it declares.
+/// results.json of kind "conformance": whether one engine behaves as it declares.
 namespace crossgrain::inline results {
 
 /// How a check came out.
@@ -19,11 +19,11 @@ struct CheckOutcome {
 };
 inline constexpr CheckOutcome checkPassed{Status::finished, Verdict::pass};
 inline constexpr CheckOutcome checkFailed{Status::finished, Verdict::fail};
-/// The engine does not declare what the check asks for, or cannot be asked.
+/// The engine does not declare what the check needs, or the check does not apply to it.
 inline constexpr CheckOutcome checkSkipped{Status::notRun, Verdict::notApplicable};
 /// The time given was over: not known.
 inline constexpr CheckOutcome checkUntried{Status::notRun, Verdict::notMeasured};
-/// It died, hung, or answered what is no answer.
+/// It died, hung, or gave an invalid answer.
 inline constexpr CheckOutcome checkBrokeDown{Status::failed, Verdict::fail};
 inline constexpr support::EnumNames<CheckOutcome, 5> checkNames{{{checkPassed, "passed"},
                                                                  {checkFailed, "failed"},

@@ -51,8 +51,8 @@ struct CostTime {
   /// Ends of the 95 % interval of time(), from its rounds [s]; absent of a single one.
   std::optional<double> timeLow, timeHigh;
 
-  /// By which settings are ranked: processor time, as wall time depends on what else runs; wall
-  /// time of an engine that does not report it [s].
+  /// By which settings are ranked: processor time, as wall time depends on the load of the machine;
+  /// wall time of an engine that does not report it [s].
   std::optional<double> time() const {
     return cpuSeconds.value_or(0.0) > 0.0 ? cpuSeconds : wallSeconds;
   }

@@ -35,7 +35,7 @@ struct ForcesChange {
   double walls = 0.0;  ///< on a wall, in the largest force, or torque, before [-]
 };
 
-/// One engine compared with what was kept.
+/// One engine compared with the baseline.
 struct DiffRow {
   std::string engine, version;        ///< now
   std::string before, versionBefore;  ///< engine whose runs were kept, its version

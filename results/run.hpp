@@ -52,8 +52,8 @@ struct EndpointError {
   }
 };
 
-/// One engine on one packing: what it used, what it cost and what its averages are. A run that did
-/// not finish has none.
+/// One engine on one packing: its parameters, cost and averages. A run that did not finish has
+/// none.
 struct FlowRun {
   std::string engine;
   std::string without;  ///< the effect that was switched off; empty: none

@@ -55,7 +55,7 @@ std::string intervalText(double value, double low, double high) {
                     : fmt::format("{} ({} to {})", percentText(value), from, to);
 }
 
-/// A point's error with what it lies between, or why it has none.
+/// A point's error with its interval, or the reason why it has none.
 std::string errorText(const CostPoint& point) {
   if (point.status == Status::notRun) return "not measured";
   if (!point.ran()) return std::string(nameOf(point.status, costStatusNames));
@@ -209,7 +209,7 @@ std::string stepText(const CostResults& results, const Advice& advice) {
   return {};
 }
 
-/// The cheapest setting for an accuracy, or what stands in the way.
+/// The cheapest setting for an accuracy, or the obstacle to it.
 OverviewCell adviceCell(const CostResults& results, const Advice& advice) {
   OverviewCell cell{advice.verdict, {}, "s", {}, {}, "advice"};
   if (advice.verdict == Verdict::notMeasured) return cell;
