@@ -1,4 +1,4 @@
-// Our fields and MercuryCG's, of the same files. What MercuryCG does is written out here from its
+// Our fields and MercuryCG's, of the same files. MercuryCG's method is written out here from its
 // definitions (Goldhirsch 2010, Granular Matter 12:239; Weinhart et al. 2012, Granular Matter
 // 14:289; MercuryDPM, Kernel/CG: Fields/StandardFields.cc, Coordinates/O.cc, Y.cc, XY.cc,
 // Functions/Polynomial.hcc), from what `export mercurydpm` wrote and nothing else:

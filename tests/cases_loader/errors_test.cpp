@@ -1,6 +1,6 @@
-// Bad input: one line that says where, what is there, and what would be right. Ranges and names are
-// data of the schema: here is one example of each kind of message, and every check that a section
-// makes beyond its table. Laws: law_errors_test.cpp.
+// Bad input: one line that names the place, the error and the remedy. Ranges and names are data of
+// the schema: here is one example of each kind of message, and every check that a section makes
+// beyond its table. Laws: law_errors_test.cpp.
 #include <sys/stat.h>
 
 #include "files.hpp"

@@ -1,5 +1,5 @@
 // Every engine of the registry passes every check of studies/conformance, each through its real
-// worker; what it skips is what is listed here, no more and no less, so that coverage does not
+// worker; its skipped checks are those listed here, no more and no less, so that coverage does not
 // shrink unseen. The program itself lists the ctest entries, since engines are the registry's
 // business, and it is the worker that it tests.
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Collisions: what is counted, what is no success, what differs by its model.
+// Collisions: numbers that are counted, failures, and differences by the model.
 #include <gtest/gtest.h>
 
 #include "reports/collide/report.hpp"

@@ -58,7 +58,7 @@ TEST(Csv, Endpoints_HaveTheAnswerAndWhatItRestsOn) {
   row.unit = "N/m²";
   row.margin = 0.25;
   row.marginRelative = true;
-  // Without a reference nobody knows what a quarter of it is: the fraction stands.
+  // Without a reference a quarter of it is unknown: the fraction stands.
   EXPECT_EQ(rowsOf(endpointsCsv(results)),
             "one,two,peer,pressure,N/m²,0.25,undecided,,,,,,,,0,0,,,,,,,,,,,,\n");
   row.reference = 200.0;

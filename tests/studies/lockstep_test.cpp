@@ -283,7 +283,8 @@ TEST_F(Lockstep, MissingContact_IsFoundAtItsDisk) {
   EXPECT_TRUE(row.first->disk == lonely || row.first->partner == lonely);
 }
 
-/// A dashpot of the wrong sign drives what it touches until it is stopped: that is a failure, told.
+/// A dashpot of the wrong sign drives its disks until the run is stopped: that is a failure, and
+/// reported.
 TEST_F(Lockstep, EngineThatBlowsUp_IsNotMeasured) {
   const LockstepRow row = rowOf([](Scene& scene) { scene.law.gt *= -1.0; });
   EXPECT_EQ(row.verdict, Equivalence::notMeasured);
@@ -291,7 +292,7 @@ TEST_F(Lockstep, EngineThatBlowsUp_IsNotMeasured) {
   EXPECT_EQ(row.reason, row.failure);
 }
 
-/// Two disks that meet so fast that their centres pass: by the law, which is nobody's failure.
+/// Two disks that meet so fast that their centres pass: by the law, which is no engine's failure.
 TEST(LockstepOfDeclaredLaws, LawThatBlowsUp_IsNobodysFailure) {
   Case setup = test::twoDisks();
   setup.region.emplace();
@@ -393,7 +394,7 @@ TEST(FallingBall, EngineThatMovesBeforeItKicks_HasAMirrorWhereItDeclaresThat) {
   EXPECT_NE(none.reason.find("no mirror has its time stepping"), std::string::npos) << none.reason;
 }
 
-/// An engine that dies is told, with what it did until then.
+/// An engine that dies is reported, with its results until then.
 TEST_F(Lockstep, EngineThatDies_KeepsTheStartsBefore) {
   int loads = 0;
   const LockstepRow row = rowOf([&](Scene&) {
@@ -404,7 +405,7 @@ TEST_F(Lockstep, EngineThatDies_KeepsTheStartsBefore) {
   EXPECT_EQ(row.verdict, Equivalence::sameToRounding);
 }
 
-/// A disk that meets nothing does what any law says: that neither clears nor accuses an engine.
+/// A disk that meets nothing moves alike under any law: that neither clears nor accuses an engine.
 TEST(LateWindows, RunInWhichNoConstantActs_SaysNothingOfTheLaw) {
   const Case setup = test::quickCell(
       {"bottom.mu=0", "averaging.settle_rotations=0.01", "averaging.rotations=0.02"});

@@ -203,7 +203,7 @@ TEST_F(BaselineDiff, File_WrittenAndRead_KeepsEveryBit) {
   EXPECT_EQ(readFile(file), readFile(again));  // the same baseline, the same bytes
 }
 
-/// Every refusal names the file and says what is wrong with it.
+/// Every refusal names the file and its fault.
 TEST_F(BaselineDiff, File_OfAnotherKind_IsRefused) {
   const ScratchFolder scratch;
   const auto file = scratch.path / "b.baseline";

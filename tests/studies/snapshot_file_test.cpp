@@ -1,4 +1,4 @@
-// Files of snapshots: what is written is read back, and what does not fit a case is refused.
+// Files of snapshots: written data are read back, and files that do not fit a case are refused.
 #include "studies/flow/snapshot_file.hpp"
 
 #include <gtest/gtest.h>

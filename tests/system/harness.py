@@ -32,7 +32,7 @@ COUETTE = CASES / "couette/quick.toml"
 COLLISION = CASES / "collision/figure-4-3.toml"
 HARD_SPHERE = CASES / "collision/hard-sphere.toml"
 
-# Longest wait [s] for what takes seconds: it catches what hangs, and no busy machine comes near it.
+# Longest wait [s] for commands that take seconds: it ends a hanging one; a busy machine needs far less.
 PATIENCE = 1200
 
 # Tests that take tens of seconds and whose parts other tests show: the target engine_examples.
@@ -123,7 +123,7 @@ class Running:
         def computing():
             if self.process.poll() is not None:
                 raise AssertionError(f"it ended before {engine} was seen at work: {self.stderr()}")
-            # Workers go from run to run: what one has used before the runs began tells nothing.
+            # Workers go from run to run: time that one used before the runs began does not count.
             now = {pid: cpu_time(pid) for pid in self.workers(engine)}
             for pid, seconds in now.items():
                 before.setdefault(pid, seconds)

@@ -370,7 +370,7 @@ class InterimAnalyses(SystemTest):
         for row in self.rows("endpoints.csv"):
             if row["endpoint"] in decided:
                 self.assertEqual((decided[row["endpoint"]], "1"), (row["answer"], row["look"]))
-        # A smaller budget takes nothing back: what is finished costs nothing.
+        # A smaller budget takes nothing back: finished runs cost nothing.
         verdicts = self.rows("endpoints.csv")
         third = self.compare_short(engines, "--budget=0.1s", stiff)
         self.assertRegex(third.stdout, r"Analysed after 4, 8, 12 packings \(3 of 3 interim analyses\)")

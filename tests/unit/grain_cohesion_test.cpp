@@ -7,8 +7,8 @@
 #include "engines/grain/contact_force.hpp"
 #include "tests/unit/grain_packed.hpp"
 
-// Cohesion: forces over the overlap against their closed forms, what a contact loses, the ledger
-// and the bits of the step.
+// Cohesion: forces over the overlap against their closed forms, losses of a contact, the ledger and
+// the bits of the step.
 
 namespace {
 

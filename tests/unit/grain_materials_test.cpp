@@ -11,7 +11,7 @@
 
 #include "tests/unit/grain_packed.hpp"
 
-// Bodies of several materials: each pair by its own law, and what each contact turns into heat.
+// Bodies of several materials: each pair by its own law, and the heat of each contact.
 
 namespace {
 

@@ -201,7 +201,7 @@ class MemoryFile {
 
 class Hostile : public ::testing::Test {
  protected:
-  /// As WorkerEngine does. @throws std::exception what is wrong with it
+  /// As WorkerEngine does. @throws std::exception naming the fault
   void read(const Message& message) {
     const json answer = parseAnswer(message.line);
     if (!answer.at("ok").get<bool>()) {

@@ -9,7 +9,7 @@
 
 namespace crossgrain::planted {
 
-/// NAME=VALUE each, as on the command line; what nobody asks for is refused.
+/// NAME=VALUE each, as on the command line; names that no fault reads are refused.
 class Words {
  public:
   Words(int count, char** word) {
@@ -29,7 +29,7 @@ class Words {
     const auto found = values_.extract(name);
     return found ? found.mapped() : neutral;
   }
-  /// @throws std::invalid_argument if there is a name that nobody asked for
+  /// @throws std::invalid_argument if there is a name that no fault reads
   void requireAllKnown() const {
     if (!values_.empty())
       throw std::invalid_argument("there is no fault " + values_.begin()->first);
@@ -61,7 +61,7 @@ struct Faults {
   /// that it is right, and steps otherwise (../other_engines.toml).
   double declares = given("declares", 0.0);
 
-  // Factors of what the scene says.
+  // Factors of the scene's values.
   double kn = given("kn", 1.0), gn = given("gn", 1.0), kt = given("kt", 1.0), gt = given("gt", 1.0),
          mu = given("mu", 1.0);
   double inertia =
@@ -115,7 +115,7 @@ struct Faults {
   double mostSpeed = given("most_speed", 0.0);        ///< [m/s] faster disks are slowed to it
   double mostContacts = given("most_contacts", 0.0);  ///< n: a disk's further ones have no force
 
-  // Rolling resistance and cohesion: factors of what the scene says, then what happens in a step.
+  // Rolling resistance and cohesion: factors of the scene's values, then faults within a step.
   double kr = given("kr", 1.0), gr = given("gr", 1.0), muR = given("mu_r", 1.0);
   double rollLength = given("roll_length", 1.0);  ///< of L; 2: MercuryDPM's
   double rollOnSecond = given("roll_on_second", 1.0),
@@ -165,7 +165,7 @@ struct Faults {
   double inertiaAssumed = given("inertia_assumed", 0.0);  ///< J = m a²/2, whatever is read
   double plateColumn = given("plate_column", 0.0);        ///< τ_m of the plate is read as its µ_b
 
-  // Of what several bodies do at once, of walls under way and of the plate (../audit.toml).
+  // Faults of several bodies at once, of walls under way and of the plate (../audit.toml).
   double listOfDisks = given("list_of_disks", 0.0);  ///< lists hold on while walls alone move
   double stoppedWallMoves =
       given("stopped_wall_moves", 0.0);  ///< contacts see the velocity that it had last
@@ -206,7 +206,7 @@ struct Faults {
       given("load_keeps", 0.0);  ///< the law stays that of the first scene of as many disks
   double mostSteps = given("most_steps", 0.0);  ///< n: an advance takes no more, and does not say
 
-  // Of what hard cases are there for: ../../studies/stability_test.cpp.
+  // Faults that hard cases find: ../../studies/stability_test.cpp.
   double planesMostSpeed = given("planes_most_speed", 0.0);  ///< [m/s] faster disks meet no plane
   double springsEmptiedEvery = given("springs_emptied_every", 0.0);  ///< n: all, every n-th step
   double touchingDrag = given("touching_drag", 0.0);  ///< [1/s] of the velocity of disks that touch

@@ -1,4 +1,4 @@
-// An engine that is right but for what is planted: a worker (adapters/worker/README.md) of soft
+// An engine that is right but for planted faults: a worker (adapters/worker/README.md) of soft
 // disks under the thesis' law and conventions, with faults as numbers on its command line.
 //
 //     planted_engine [NAME=VALUE …]      names: faults.hpp
@@ -138,7 +138,7 @@ World worldOf(const Json& scene, const Arrays& arrays, const Faults& faults) {
   return w;
 }
 
-/// Contacts and what they do to walls, at one instant.
+/// Contacts and the loads on walls by them, at one instant.
 struct Loads {
   std::vector<Contact> contacts;
   std::vector<Vector> force;   ///< on bodies [N]

@@ -19,7 +19,7 @@ using crossgrain_worker::Arrays;
 using crossgrain_worker::Json;
 using Vec3 = Eigen::Vector3d;
 
-/// 1 is right, of what is named by a factor.
+/// Faults named by a factor: 1 is right.
 struct SpaceFaults {
   Words given;
 
@@ -41,7 +41,7 @@ struct SpaceFaults {
   double cylinderPlane = given("cylinder_plane", 0.0);
   double cylinderTurns = given("cylinder_turns", 1.0);  ///< 0: a cylinder's surface stands still
 
-  // Factors, of what the scene says.
+  // Factors of the scene's values.
   double mu = given("mu", 1.0), gn = given("gn", 1.0);
   double gravityX = given("gravity_x", 1.0), gravityY = given("gravity_y", 1.0);  ///< components
   double wallMu = given("wall_mu", 1.0), wallGt = given("wall_gt", 1.0);  ///< at walls of any kind
