@@ -276,7 +276,7 @@ inline const SurrogateEngine* surrogateOf(const std::vector<SurrogateEngine>& su
   return found == surrogates.end() ? nullptr : &*found;
 }
 
-/// The same of the mirror that runs them; null: it runs nobody's.
+/// The same by the mirror that runs them; null: it runs no engine's.
 inline const SurrogateEngine* surrogateBy(const std::vector<SurrogateEngine>& surrogates,
                                           const std::string& mirror) {
   const auto found = std::ranges::find_if(

@@ -38,7 +38,7 @@ struct CouetteCell {
   }
 };
 
-/// Rotations are the wheel's since the hand-over. Of a file's snapshots nobody knows them.
+/// Rotations are the wheel's since the hand-over. They are unknown for a file's snapshots.
 struct FlowAveraging {
   std::string method;  ///< the first one, which verdicts are of
   std::optional<double> settleRotations, rotations;

@@ -74,7 +74,7 @@ void FileSnapshotsOf<D>::begin() {
     ids_.emplace(std::vector<std::int64_t>(), std::vector<std::size_t>());
     density_ = densityOf<D>(disks);
     inertiaFactor_ = inertiaFactorOf(disks);
-    rows_ = true;  // nobody is known
+    rows_ = true;  // no particle is known by its id
   }
   changeDisks(*pending_);
   if (target_.checkLengths) target_.checkLengths(scene_.disks);

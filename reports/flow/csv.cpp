@@ -77,7 +77,7 @@ std::string distributionRows(const std::string& engine, const std::string& packi
   return rows;
 }
 
-/// On how many packings; absent where nobody knows.
+/// Number of packings with different regimes; absent where it is unknown.
 std::optional<double> regimesDiffer(const std::vector<RegimesOfPair>& regimes, const std::string& a,
                                     const std::string& b) {
   for (const RegimesOfPair& pair : regimes)

@@ -167,14 +167,14 @@ const EndpointRow* nextToDecide(const CompareResults& results) {
   return next;
 }
 
-/// How many runs an engine has that nobody has run here; 0 of one that crossgrain runs.
+/// Number of an engine's runs that are averaged from files; 0 of one that crossgrain runs.
 std::size_t runsFromFiles(const Engines& engines, const std::string& name) {
   const EngineRuns* const engine = findBy(engines, name, &EngineRuns::name);
   const bool ofFiles = engine && !engine->finished.empty() && engine->finished.front()->ofFiles();
   return ofFiles ? engine->finished.size() : 0;
 }
 
-/// Where runs that nobody has run here widen an interval most; empty where those are ours.
+/// Advice where runs from files widen an interval most; empty where crossgrain's own do.
 std::string moreRunsOfFiles(const EndpointRow& row, const Engines& engines) {
   const std::size_t a = runsFromFiles(engines, row.a), b = runsFromFiles(engines, row.b);
   if (a == 0 && b == 0) return {};
@@ -345,7 +345,7 @@ OverviewCell failedRunsOf(const CompareResults& results, const EngineRuns& engin
 Names compareConclusion(const CompareResults& results) {
   const Engines engines = engineRuns(results);
   if (engines.empty()) return {};
-  // Where nothing was judged, nobody is said to agree, or to be undecided.
+  // Where nothing was judged, no engine is said to agree, or to be undecided.
   return nonEmpty({results.nothingJudged ? std::string() : whoAgrees(results, engines),
                    causesOfDifferences(results, engines), nextStep(results, engines)});
 }

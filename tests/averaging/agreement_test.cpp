@@ -272,7 +272,7 @@ TEST(SmallestDetectable, APlantedShiftIsFoundNineTimesOutOfTen) {
 
 TEST(ComparePaired, SaysHowMuchOfTheScatterIsTheRunsOwn) {
   PairedSample sample = differing({1.0, -1.0, 1.0, -1.0}, 1.0);  // sd² = 4/3
-  EXPECT_FALSE(compareOne(sample).withinFraction);  // nobody knows the runs' own errors
+  EXPECT_FALSE(compareOne(sample).withinFraction);               // the runs' own errors are unknown
   sample.withinVariance.assign(4, 1.2);
   EXPECT_NEAR(compareOne(sample).withinFraction.value(), 0.9, 1e-12);
 }

@@ -130,7 +130,7 @@ TEST(ContactsOf, CountsThoseOfOneBodyThatCarryAForce) {
   EXPECT_EQ(contacts("ring"), 2.0);
   instant.addContact(0, 2, {1.0, 0.0}, 0.0, 0.0);  // listed, and transmits nothing
   EXPECT_EQ(contacts("wheel"), 1.0);
-  // A wheel that nobody knows the disks of touches an unknown number, not none.
+  // A wheel of unknown disks touches an unknown number, not none.
   instant.scene.bodies.push_back({"axle", Vec2::Zero(), {}, {}, {}, {}});
   EXPECT_FALSE(contacts("axle"));
   instant.snapshot.contacts.reset();

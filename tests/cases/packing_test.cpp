@@ -89,7 +89,7 @@ TEST(Packing, Cached_AlteredOrAnother_IsNotUsed) {
   }
 }
 
-/// A link out of the file may lead to a pipe, which never ends, or to what is nobody's business.
+/// A link out of the file may lead to a pipe, which never ends, or to private data.
 TEST(Packing, Links_IntoOtherFiles_AreNotFollowed) {
   ::unlink(file("pipe").c_str());
   ASSERT_EQ(::mkfifo(file("pipe").c_str(), 0600), 0);
@@ -195,7 +195,7 @@ void writeWithAttribute(const fs::path& path, const char* name, hid_t type, hsiz
   for (const hid_t id : {attribute, space, whole}) H5Idec_ref(id);
 }
 
-/// A file with a dataset of that type and size that nobody has written to.
+/// Writes a file with a dataset of that type and size, without data.
 void writeClaim(const fs::path& path, const char* name, hid_t type, hsize_t count) {
   Hdf5File::create(path).save();
   const hid_t whole = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);

@@ -83,8 +83,8 @@ TEST(RightEngineAtNight, DeclaredOtherwise_AllChecks_FindNoFault) {
 
 // ---- no cause -----------------------------------------------------------------------------------
 
-/// Places that are shown wrongly, a speed that is cut off and a velocity that is lost are nobody's
-/// gravity.
+/// Places that are shown wrongly, a speed that is cut off and a velocity that is lost are no fault
+/// of gravity.
 TEST(Unexplained, FallThatIsNotEven_IsNotNamedGravity) {
   for (const char* fault : {"show_swapped_places=1", "show_earlier=4e-5", "show_float=1",
                             "float_state=1", "most_speed=0.5", "heal_every=1000"}) {

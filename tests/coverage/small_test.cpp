@@ -27,7 +27,7 @@ class SmallCoverage : public testing::Test {
     }
   }
 
-  /// A fault that nobody could overlook, beside the case itself.
+  /// A fault that is easily seen, beside the case itself.
   static coverage::Leg legNamed(const std::string& name) {
     if (name.empty()) return coverage::leg("");
     return {name, [](Case& c) { c.law.kn *= 3.0; }};

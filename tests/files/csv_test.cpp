@@ -95,7 +95,7 @@ TEST_F(Csv, StartFile) {
   EXPECT_EQ(frame.particles.id[0], 0);
   EXPECT_EQ(frame.particles.velocity[0], Vec3(3, 4, 0));
   EXPECT_EQ(frame.particles.mass[0], 6.0);
-  // Of a single file without a time nobody knows when it is, whatever number its name has.
+  // The time of a single file that gives none is unknown, whatever number its name has.
   EXPECT_FALSE(frame.step);
   EXPECT_TRUE(frame.alone);
   samples_.write("start2.csv", "x,y,radius\n1,2,0.5\n");

@@ -49,7 +49,7 @@ TEST(StepFigures, SeveralWorkers_HaveStrongAndWeakEfficiency) {
   EXPECT_FALSE(two.spread);                  // of one round
   const StepFigures four = stepFigures(all, all[5]);
   EXPECT_DOUBLE_EQ(*four.strong, 24.0 / (4 * 10.0));
-  EXPECT_FALSE(four.weak);  // nobody ran 500 bodies
+  EXPECT_FALSE(four.weak);  // no timing of 500 bodies
 }
 
 TEST(StepFigures, FailedTiming_HasNoneAndLendsNone) {

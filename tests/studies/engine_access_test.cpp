@@ -215,7 +215,7 @@ TEST(StepOfItsOwn, SectionThenCaseThenDefault_TakesTheFirst) {
   Capabilities can;
   can.settings = {{"dt", 5e-4, "s", "step", {}}};
   Case setup;
-  EXPECT_EQ(stepOfItsOwn(setup, "one", can), 5e-4);  // t_c / 50 is nobody's wish
+  EXPECT_EQ(stepOfItsOwn(setup, "one", can), 5e-4);  // t_c / 50 is not explicit
   EXPECT_EQ(settingsFor(setup, "one", can), Settings{});
   setup.run.dt = 1e-5;
   EXPECT_EQ(stepOfItsOwn(setup, "one", can), std::nullopt);

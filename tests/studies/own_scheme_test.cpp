@@ -162,7 +162,7 @@ TEST(OwnScheme, HertzLaw_IsHeldToItsScheme) {
   EXPECT_LT(*score.velocity, 1e-12);
 }
 
-/// An engine of a scheme that nobody knows.
+/// An engine of an unknown scheme.
 class Unknown : public test::PlantedEngine {
  public:
   Unknown() : PlantedEngine([](Scene&) {}) {}

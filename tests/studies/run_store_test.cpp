@@ -236,7 +236,7 @@ TEST(Files, FileBeyondItsBoundOrNone_Throws) {
   EXPECT_THROW(readFile(file, 9), BadInput);
   EXPECT_THROW(readFile(scratch.path), BadInput);
   EXPECT_THROW(readFile("/dev/zero"), BadInput);
-  EXPECT_GT(readFile("/proc/self/status")->size(), 0u);  // whose length nobody says
+  EXPECT_GT(readFile("/proc/self/status")->size(), 0u);  // whose length is not given
   fs::resize_file(file, std::uintmax_t{50} << 30);       // sparse: it takes no room
   EXPECT_THROW(readFile(file), BadInput);
 }

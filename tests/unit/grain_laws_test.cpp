@@ -137,7 +137,7 @@ RC_GTEST_PROP(AnyLaw, NeverGainsEnergy, ()) {
   grain::Setup setup = anyCollision();
   setup.dt /= 8.0;
   // With the dashpot's force inside the bound, slip sets the spring to what the dashpot carried:
-  // that stores energy which nobody paid for, whatever the step (Lätzel 2003, Eq. 4.25).
+  // that stores energy without a source, whatever the step (Lätzel 2003, Eq. 4.25).
   if (setup.law.tangential == TangentialLaw::springDashpot)
     setup.law.conventions.dashpot = Dashpot::outside;
   Simulation simulation(setup);

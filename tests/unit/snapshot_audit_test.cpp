@@ -583,7 +583,7 @@ TEST_F(Audit, ForcesOfCohesiveLaws) {
   EXPECT_EQ(lawFaultOf(), "");
   contacts().tangentialForce[0] = 0.0;
 
-  // δ_max is nobody's to see: any force between loading and the largest pull.
+  // δ_max is not visible: any force between loading and the largest pull passes.
   law.cohesion = CohesionLaw::elastoPlastic;
   law.kc = 0.5 * law.kn;
   law.kUnload = 3.0 * law.kn;
