@@ -5,7 +5,8 @@
 #include <gsl/gsl_odeiv2.h>
 
 #include <algorithm>
-#include <cstring>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -13,98 +14,150 @@
 #include <string>
 #include <utility>
 
+#include "law/cohesion.hpp"
 #include "oracle/impact.hpp"
 #include "oracle/two_body_problem.hpp"
 
 namespace crossgrain::inline oracle {
 
-int TwoBodyProblem::rightHandSide(double, const double y[], double dydt[], void* self) {
-  State s;
-  std::memcpy(&s, y, sizeof s);
-  const State rate = static_cast<const TwoBodyProblem*>(self)->derivative(s);
-  std::memcpy(dydt, &rate, sizeof rate);
+namespace {
+
+/// As fast a slip at the first touch, in the plane: what a law makes of that touch has no
+/// direction.
+CollisionStart inPlane(const CollidingPair& pair, CollisionStart start) {
+  const double out =
+      start.spinOutOfPlane[0].y() * pair.radius[0] + start.spinOutOfPlane[1].y() * pair.radius[1];
+  if (out != 0.0) start.psi = std::hypot(start.psi, out / start.vn);
+  return start;
+}
+
+}  // namespace
+
+template <int D>
+int TwoBodyProblem<D>::rightHandSide(double, const double y[], double dydt[], void* self) {
+  Moment s;
+  std::copy_n(y, numbers, s.data());
+  const Moment rate = static_cast<const TwoBodyProblem*>(self)->derivative(s);
+  std::copy_n(rate.data(), numbers, dydt);
   return GSL_SUCCESS;
 }
 
 /// A law that stiffens has no stiffness to stick with at δ = 0: it begins 1e-12 of a contact later,
 /// or where positions resolve an overlap. The forces of that time are below rounding, or below
 /// 1e-7 of the whole for overlaps of 1e-8 of the reach.
-State TwoBodyProblem::firstTouch(const CollisionStart& start) const {
-  const PairMotion touch = motionBefore(pair_, start);
-  State state{};
-  state.x = reach_;
-  state.vx = touch.normal;
-  state.vy = touch.tangential;
-  state.spinI = touch.spin[0];
-  state.spinJ = touch.spin[1];
+template <int D>
+State<D> TwoBodyProblem<D>::firstTouch(const CollisionStart& start) const {
+  const SpaceMotion touch = spaceMotionBefore(pair_, start);
+  Moment state;
+  state.position = reach_ * VecOf<D>::UnitX();
+  state.velocity = touch.velocity.template head<D>();
+  for (const int side : {0, 1}) {
+    if constexpr (D == 2)
+      state.spin[side] = touch.spin[side].z();
+    else
+      state.spin[side] = touch.spin[side];
+  }
   double later = start.late;
   if (law_.stiffens())
     later = std::max({later, 1e-12 * contactTime(start.vn), visibleLength() / start.vn});
   if (later == 0.0) return state;
-  state.x += later * state.vx;
-  state.y += later * state.vy;
-  const Kinematics k = kinematics(state);
+  state.position += later * state.velocity;
+  const Motion k = kinematics(state);
   if (start.late > 0.0)
-    state.spring = stretchedShare() * later * k.tangentialVelocity *
-                   (remembersForce() ? tangentialStiffness(k.overlap).value : 1.0);
+    state.spring[friction] = stretchedShare() * later * k.velocity[friction] *
+                             (remembersForce() ? tangentialStiffness(k.overlap).value : 1.0);
   else if (!remembersForce())
-    state.spring = later * k.tangentialVelocity;
+    state.spring[friction] = later * k.velocity[friction];
   return state;
 }
 
 /// The state a little later (or earlier), to first order.
-State TwoBodyProblem::along(const State& s, double time) const {
-  const State rate = derivative(s);
-  std::array<double, dimension> y, dydt;
-  std::memcpy(y.data(), &s, sizeof s);
-  std::memcpy(dydt.data(), &rate, sizeof rate);
-  for (std::size_t k = 0; k < dimension; ++k) y[k] += time * dydt[k];
-  State moved;
-  std::memcpy(&moved, y.data(), sizeof moved);
+template <int D>
+State<D> TwoBodyProblem<D>::along(const Moment& s, double time) const {
+  const Moment rate = derivative(s);
+  Moment moved = s;
+  for (std::size_t k = 0; k < numbers; ++k) moved.data()[k] += time * rate.data()[k];
   return moved;
 }
 
 /// Change of a force by a rounding of the distance [N].
-double TwoBodyProblem::roundingOfForce(const State& s) const {
-  const Kinematics k = kinematics(s);
+template <int D>
+double TwoBodyProblem<D>::roundingOfForce(const Moment& s) const {
+  const Motion k = kinematics(s);
   const Slope kt = tangentialStiffness(k.overlap);
-  const double stretch = remembersForce() ? 0.0 : std::abs(s.spring);
+  const double stretch = remembersForce() ? 0.0 : sizeOf(s.spring[friction]);
   return std::numeric_limits<double>::epsilon() * reach_ *
-         (std::max(stiffness(k.overlap).value,
+         (std::max(NormalForces::stiffness(k.overlap).value,
                    law_.coheres() ? std::abs(cohesiveForce(k).rate) : 0.0) +
           normalDamping(k.overlap).rate * std::abs(k.normalVelocity) + kt.rate * stretch +
-          tangentialDamping(k.overlap).rate * std::abs(k.tangentialVelocity));
+          tangentialDamping(k.overlap).rate * sizeOf(k.velocity[friction]));
 }
 
-CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
-  const double contactTime = this->contactTime(start.vn);
-  gsl_odeiv2_system system{&rightHandSide, nullptr, dimension, this};
-  const std::unique_ptr<gsl_odeiv2_step, decltype(&gsl_odeiv2_step_free)> stepper(
-      gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, dimension), &gsl_odeiv2_step_free);
+/// A step's error in units of what was there: of the relative velocity and of the energies lost; in
+/// space, where it decides on every step, of all that moves, a direction by the force that has it.
+/// @param speed  of the centres and the contact points before [m/s]
+template <int D>
+double TwoBodyProblem<D>::errorOf(const Moment& error, const Moment& s, const CollisionStart& start,
+                                  double speed) const {
+  double sum = 0.0;
+  if constexpr (D == 2) {
+    const double energy = energyOf(pair_, motionBefore(pair_, start));
+    sum = std::hypot(error.velocity.x(), error.velocity.y()) / start.vn;
+    for (std::size_t k = numbers - accounts; k < numbers; ++k)
+      sum += std::abs(error.data()[k]) / energy;
+  } else {
+    const double time = contactTime(start.vn), force = pair_.reducedMass() * speed / time;
+    const Motion k = kinematics(s);
+    sum = error.velocity.norm() + reach_ * (error.spin[0].norm() + error.spin[1].norm());
+    sum /= speed;
+    for (const Resistance of : both) {
+      const double length = of == friction ? 1.0 : reach_;
+      const bool isForce = of == friction && remembersForce();
+      sum += error.spring[of].norm() / (isForce ? force : speed * time / length) +
+             error.side[of].norm() * (bound(of, k) / (force * length) + 1e-9);
+    }
+  }
+  return sum;
+}
 
-  State now = firstTouch(start);
-  stillness_ = 1e-13 * start.vn * (1.0 + std::abs(start.psi));
+/// Of slips whose force is against the motion, before a step.
+template <int D>
+void TwoBodyProblem<D>::watchDirections(const Moment& s, double speed) {
+  const Motion k = kinematics(s);
+  for (const Resistance of : both) {
+    Slider& slider = slider_[of];
+    const double size = sizeOf(k.velocity[of]), unit = of == friction ? speed : speed / reach_;
+    if (size > 1e-6 * unit) slider.before = directionOf(k.velocity[of]);
+    if (slider.mode != Mode::slip || !slider.followsMotion())
+      slider.slowing.reset();
+    else if (!slider.slowing && size < 0.01 * unit)
+      slider.slowing = slider.before;
+  }
+}
+
+template <int D>
+CollisionEnd TwoBodyProblem<D>::solve(const CollisionStart& start) {
+  const double contactTime = this->contactTime(start.vn);
+  gsl_odeiv2_system system{&rightHandSide, nullptr, numbers, this};
+  const std::unique_ptr<gsl_odeiv2_step, decltype(&gsl_odeiv2_step_free)> stepper(
+      gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, numbers), &gsl_odeiv2_step_free);
+
+  Moment now = firstTouch(start);
+  const double speed = start.vn * (1.0 + std::abs(inPlane(pair_, start).psi));
+  stillness_ = 1e-13 * speed;
   noLimit_ = jumpsAtTouch(start);
   enterPhase(now, true);
 
-  std::array<double, dimension> error{};
-  const auto stepFrom = [&](const State& from, double h) {
-    State to = from;
+  Moment error;
+  const auto stepFrom = [&](const Moment& from, double h) {
+    Moment to = from;
     gsl_odeiv2_step_reset(stepper.get());
-    gsl_odeiv2_step_apply(stepper.get(), 0.0, h, reinterpret_cast<double*>(&to), error.data(),
-                          nullptr, nullptr, &system);
+    gsl_odeiv2_step_apply(stepper.get(), 0.0, h, to.data(), error.data(), nullptr, nullptr,
+                          &system);
     return to;
   };
-  /// The last step's error of the relative velocity and of the energies lost, in units of what was
-  /// there.
-  const double energy = energyOf(pair_, motionBefore(pair_, start));
-  const auto errorOfStep = [&] {
-    double sum = std::hypot(error[2], error[3]) / start.vn;
-    for (const std::size_t k : accounts) sum += std::abs(error[k]) / energy;
-    return sum;
-  };
   /// When within h a guard that is > 0 at first no longer is.
-  const auto timeOf = [&](const auto& guard, const State& from, double h) {
+  const auto timeOf = [&](const auto& guard, const Moment& from, double h) {
     double before = 0.0, after = h;
     while (after - before > 1e-16 * contactTime && after - before > 1e-15 * after) {
       const double middle = 0.5 * (before + after);
@@ -112,15 +165,15 @@ CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
     }
     return after;
   };
-  const auto phaseLasts = [this](const State& s) { return firstGuard(s); };
-  const auto approach = [this](const State& s) { return -kinematics(s).normalVelocity; };
+  const auto phaseLasts = [this](const Moment& s) { return firstGuard(s); };
+  const auto approach = [this](const Moment& s) { return -kinematics(s).normalVelocity; };
   /// When within h a guard of friction or rolling, > 0 at both ends, is ≤ 0 in between: where it
   /// falls at first and rises at last its minimum is looked for. Else the events between would be
   /// missed, and with them that a contact sticks for less than a step before its bound begins to
   /// fall, which is where the outcome jumps.
-  const auto dipOf = [&](const auto& guardOf, const State& from, const State& to,
+  const auto dipOf = [&](const auto& guardOf, const Moment& from, const Moment& to,
                          double h) -> std::optional<double> {
-    const auto guardAfter = [&](const State& of, double time) {
+    const auto guardAfter = [&](const Moment& of, double time) {
       return guardOf(stepFrom(of, time));
     };
     const double little = 1e-6 * h, first = guardOf(from), last = guardOf(to);
@@ -151,42 +204,53 @@ CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
   // is not, at the ends of a contact that stiffens, they shrink until it is again, to a thousandth
   // of the time in which the overlap comes or goes at most, which is fine enough for any power of
   // it, or to that in which positions change visibly. Events cut steps short. A bond passes δ = 0
-  // again and again: a fiftieth is still 1e-14 of a step's own.
+  // again and again: a fiftieth is still 1e-14 of a step's own. In space directions turn fast
+  // beside a bound of 0 and a slip of 0.
+  const bool adapts = D == 3 || law_.stiffens();
   const double fullStep = contactTime / 400.0;
   const double least = law_.coheres() ? 0.02 : 1e-3;
-  const auto shortest = [&](const State& from) {
-    const Kinematics k = kinematics(from);
+  const auto shortest = [&](const Moment& from) {
+    const bool turns = D == 3 && (slider_[friction].mode == Mode::slip ||
+                                  slider_[rolling].mode == Mode::slip || !law_.stiffens());
+    if (turns) return 1e-10 * fullStep;
+    const Motion k = kinematics(from);
     return std::min(
         fullStep,
         std::max(least * std::min(std::abs(k.overlap), k.overlap + bondRange_), visibleLength()) /
             std::abs(k.normalVelocity));
   };
-  /// Errors below this are those of rounded positions, which a force sees.
-  const auto allowed = [&](const State& from, double h) {
-    return 1e-14 + 4.0 * h * roundingOfForce(from) * inverseMass_ / start.vn;
+  /// Errors below this are those of rounded positions, which a force sees; in space of spins too,
+  /// which change by up to K times as much. Where the share of steps that stretch a spring jumps,
+  /// steps need not find each jump to rounding.
+  const auto allowed = [&](const Moment& from, double h) {
+    const double rounding = h * roundingOfForce(from) * inverseMass_;
+    if (D == 2) return 1e-14 + 4.0 * rounding / start.vn;
+    const bool jumps = law_.conventions.springUpdate == SpringUpdate::after &&
+                       std::ranges::any_of(slider_, [](const Slider& slider) {
+                         return slider.mode == Mode::slip && !slider.followsMotion();
+                       });
+    return (jumps ? 1e-11 : 1e-14) + 8.0 * rounding / speed;
   };
   double wanted = law_.stiffens() ? 1e-12 * contactTime : fullStep;
   constexpr int mostSteps = 100000;
   double duration = 0.0, maxOverlap = 0.0;
   for (int step = 0; step < mostSteps; ++step) {
     double h = wanted;
-    State next = stepFrom(now, h);
-    if (law_.stiffens()) {
-      if (errorOfStep() > allowed(now, h) && h > shortest(now)) {
+    if (D == 3) watchDirections(now, speed);
+    Moment next = stepFrom(now, h);
+    if (adapts) {
+      const double found = errorOf(error, now, start, speed), most = allowed(now, h);
+      if (found > most && h > shortest(now)) {
         wanted = 0.5 * h;
         continue;
       }
-      const double grown = errorOfStep() < 0.01 * allowed(now, h) ? 2.0 * h : h;
-      wanted = std::min(fullStep, std::max(grown, shortest(next)));
+      wanted = std::min(fullStep, std::max(found < 0.01 * most ? 2.0 * h : h, shortest(next)));
     }
     std::optional<double> within;  // a time by when the phase has ended
-    if (!(phaseLasts(next) > 0.0))
-      within = h;
-    else if (law_.springs())
-      within = dipOf([this](const State& s) { return tangentialGuard(s); }, now, next, h);
-    if (!within && law_.rolling == RollingLaw::spring)
-      within =
-          dipOf([this](const State& s) { return rollingGuard(s, kinematics(s)); }, now, next, h);
+    if (!(phaseLasts(next) > 0.0)) within = h;
+    for (const Resistance of : both)
+      if (!within && slider_[of].springs)
+        within = dipOf([&](const Moment& s) { return guard(of, s, kinematics(s)); }, now, next, h);
     const bool event = within.has_value();
     if (event) {
       h = timeOf(phaseLasts, now, *within);
@@ -197,13 +261,15 @@ CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
           std::max(maxOverlap, kinematics(stepFrom(now, timeOf(approach, now, h))).overlap);
     duration += h;
     now = next;
+    if (D == 3)
+      for (Tangent& side : now.side) side = directionOf(side);
     if (law_.coheres() && duration > longestContact * contactTime) {
       CollisionEnd end = endAt(now, start);
       end.parted = false;
       return end;
     }
     if (!event) continue;
-    const Kinematics k = kinematics(now);
+    const Motion k = kinematics(now);
     if (k.overlap + bondRange_ <= 1e-14 * reach_ && k.normalVelocity > 0.0) {
       CollisionEnd end = endAt(now, start);
       end.duration = duration;
@@ -211,6 +277,7 @@ CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
       return end;
     }
     enterPhase(now);
+    if (!law_.stiffens()) wanted = fullStep;
   }
   throw std::invalid_argument(
       fmt::format("the pair has not parted after {} steps of the oracle, {:.3g} contact times",
@@ -262,7 +329,7 @@ bool hasSeveralOutcomes(const ContactLaw& law, const CollidingPair& pair,
   const double allowed = 1e-4 * std::max(1.0, std::abs(start.psi));
   std::array<double, samples> psi, en;
   for (int k = 0; k < samples; ++k) {
-    TwoBodyProblem problem(law, pair);
+    TwoBodyProblem<2> problem(law, pair);
     problem.overshoot(start.vn * std::pow(10.0, -9.0 + 3.0 * std::fmod(k * golden, 1.0)));
     const CollisionEnd end = problem.solve(start);
     psi[k] = end.psi;
@@ -284,34 +351,45 @@ CollisionEnd oracleOutcome(const ContactLaw& law, const CollidingPair& pair,
   requireContinuousLimit(law);
   const bool planar = start.spinOutOfPlane[0].isZero(0.0) && start.spinOutOfPlane[1].isZero(0.0);
   if (law.inSpace() && !planar) return vectorOutcome(law, pair, start);
-  CollisionEnd end = TwoBodyProblem(law, pair).solve(start);
+  CollisionEnd end = TwoBodyProblem<2>(law, pair).solve(start);
   if (end.noLimit)
     end.noLimit = jumpsAtTouch(law, pair, start) || hasSeveralOutcomes(law, pair, start);
   if (law.inSpace()) end.outOfPlane.emplace();
   return end;
 }
 
-namespace {
-
-/// As fast a slip at the first touch, in the plane: what a law makes of that touch has no
-/// direction.
-CollisionStart inPlane(const CollidingPair& pair, CollisionStart start) {
-  const double out =
-      start.spinOutOfPlane[0].y() * pair.radius[0] + start.spinOutOfPlane[1].y() * pair.radius[1];
-  if (out != 0.0) start.psi = std::hypot(start.psi, out / start.vn);
-  return start;
+CollisionEnd vectorOutcome(const ContactLaw& law, const CollidingPair& pair,
+                           const CollisionStart& start) {
+  const LawConventions& how = law.conventions;
+  const bool rollingSpring = law.rolling == RollingLaw::spring;
+  const char* lacks = nullptr;
+  // After a slip the spring is beyond its bound on the other side, by a finite part of it per step.
+  if (rollingSpring && law.gr > 0.0 && how.rollingDashpot == Dashpot::outside &&
+      how.rollingReset == SpringReset::springOnly)
+    lacks = "rolling_dashpot = \"outside\" with rolling_reset = \"spring_only\"";
+  // Where the dashpot is cut the bound stays as it is: rounding decides whether a step slips again
+  // or stretches the spring, which turns the force.
+  const bool ofPullAlone =
+      (law.cohesion == CohesionLaw::dmt && how.cohesionLoad == CohesionLoad::withoutPull) ||
+      (pullOff(law, pair.reducedRadius()) > 0.0 &&
+       how.cohesionLoad == CohesionLoad::magnitudePlusPullOff);
+  if (ofPullAlone && law.gn > 0.0 && how.tension == Tension::cut &&
+      how.springUpdate == SpringUpdate::after && (law.springs() || rollingSpring))
+    lacks = "spring_update = \"after\" with a bound that tension = \"cut\" keeps constant";
+  if (lacks)
+    throw std::invalid_argument(fmt::format(
+        "{}: there is no oracle of it in space but for spheres that move in a plane", lacks));
+  return TwoBodyProblem<3>(law, pair).solve(start);
 }
 
-}  // namespace
-
 bool jumpsAtTouch(const ContactLaw& law, const CollidingPair& pair, const CollisionStart& start) {
-  return law.soft() && TwoBodyProblem(law, pair).jumpsAtTouch(inPlane(pair, start));
+  return law.soft() && TwoBodyProblem<2>(law, pair).jumpsAtTouch(inPlane(pair, start));
 }
 
 bool stepMissesSlip(const ContactLaw& law, const CollidingPair& pair, const CollisionStart& start,
                     double dt) {
   if (!law.soft()) return false;
-  TwoBodyProblem problem(law, pair);
+  TwoBodyProblem<2> problem(law, pair);
   const CollisionStart touch = inPlane(pair, start);
   CollisionStart late = touch;
   late.late = dt;

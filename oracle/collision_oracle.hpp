@@ -21,11 +21,10 @@ namespace crossgrain::inline oracle {
 CollisionEnd oracleOutcome(const ContactLaw& law, const CollidingPair& pair,
                            const CollisionStart& start);
 
-/// The same of two spheres, or of a sphere and a plane, whose slip, force and ξ are vectors in the
-/// tangent plane: soft laws without rolling resistance and cohesion (oracle/two_spheres.cpp). Parts
-/// of the energy lost are not distinguished. oracleOutcome() chooses it, and checks the
-/// conventions.
-/// @throws std::invalid_argument for any other law, and where a slip's end has no limit
+/// The same of two spheres, or of a sphere and a plane, whose slip, force, spins and springs are
+/// vectors, whatever their spins. oracleOutcome() chooses it, and checks the conventions.
+/// @throws std::invalid_argument for conventions whose limit is of the plane alone, and where a
+///         slip's end has none
 CollisionEnd vectorOutcome(const ContactLaw& law, const CollidingPair& pair,
                            const CollisionStart& start);
 

@@ -1,80 +1,108 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
 
-#include "law/contact_law.hpp"
+#include "adapters/vec2.hpp"
 #include "oracle/collision_oracle.hpp"
-#include "oracle/contact_forces.hpp"
+#include "oracle/normal_forces.hpp"
 
 namespace crossgrain::inline oracle {
 
-/// Relative position and velocity of i against j, both spins, what the tangential spring remembers
-/// (ξ, or its force with the sign of ξ); the account of the energy lost so far, as in EnergySplit;
-/// θ of the rolling spring and δ_max of an elasto-plastic contact; and the account of these.
-struct State {
-  double x, y, vx, vy, spinI, spinJ, spring;
-  double lostNormal, lostTangential, lostStiffening, lostSliding;
-  double angle, largest;
-  double lostRollingDamping, lostRolling;
-  double lostBody;  ///< −∫ f v_n dt of the force without its dashpot, of a body that forgets
-};
-constexpr std::size_t dimension = 16;
-/// Which of them are accounts.
-constexpr std::size_t accounts[] = {7, 8, 9, 10, 13, 14, 15};
-static_assert(sizeof(State) == dimension * sizeof(double));
+// What lies in the tangent plane of a contact, a velocity, a force, an axis, is SpinOf<D>: in the
+// plane one number, along s = z × n or about z, in space a vector. Of these:
 
-/// Between two events the right-hand side is smooth; a phase says which branch of the law holds.
-struct Phase {
-  enum class Tangential {
-    none,    ///< no tangential force
-    damped,  ///< f_t = −γ_t v_t
-    stick,   ///< f_t = −k_t ξ − γ_t v_t
-    slip,    ///< f_t = bound · side
-    hold     ///< Coulomb's law at v_t = 0: the force that keeps it there
-  } tangential = Tangential::none;
-  double side = 0.0;        ///< sign of f_t while it slips
-  bool compressive = true;  ///< f_el − γ_n v_n > 0; of cohesion, more than the pull alone
-  bool loaded = true;       ///< the load that bounds multiply is > 0
-
-  /// Of cohesion: whether the bodies attract each other, their dashpot apart; whether they are
-  /// beyond δ = 0; and on which line an elasto-plastic contact is.
-  bool pulls = false, beyond = false;
-  enum class Line { loading, unloading, pull } line = Line::loading;
-
-  enum class Rolling {
-    none,    ///< no torque, or none as there is no load
-    damped,  ///< type B
-    stick,   ///< type C, M = −k_r θ − γ_r ω_r
-    slip,    ///< M = bound · rollingSide
-    hold     ///< type A at ω_r = 0: the torque that keeps it there
-  } rolling = Rolling::none;
-  double rollingSide = 0.0;  ///< sign of M while it slips
-};
-
-struct Kinematics {
-  double distance, nx, ny, overlap;
-  double normalVelocity, tangentialVelocity;
-  double sideways;        ///< the centres' own velocity along s [m/s]
-  double turning;         ///< rate at which the normal turns [rad/s]
-  double leverI, leverJ;  ///< of f_t [m]
-  double armI, armJ;      ///< of the spins in v_t [m]
-  double rollingSpin;     ///< ω_r = ω_i − ω_j [rad/s]
-  double largest;         ///< δ_max of an elasto-plastic contact [m]
-};
-
-inline double sign(double value) {
-  return (value > 0.0) - (value < 0.0);
+inline double sizeOf(double a) {
+  return std::abs(a);
+}
+inline double sizeOf(const Vec3& a) {
+  return a.norm();
+}
+/// Of length 1; 0 of 0.
+inline double directionOf(double a) {
+  return (a > 0.0) - (a < 0.0);
+}
+inline Vec3 directionOf(const Vec3& a) {
+  return a.normalized();
+}
+inline double dot(double a, double b) {
+  return a * b;
+}
+inline double dot(const Vec3& a, const Vec3& b) {
+  return a.dot(b);
+}
+/// n × f, the couple of a force, and ω × n, the velocity of a spin; z × n = s, n × s = z.
+inline double coupleOf(const Vec2&, double force) {
+  return force;
+}
+inline Vec3 coupleOf(const Vec3& n, const Vec3& force) {
+  return n.cross(force);
+}
+inline double sweepOf(const Vec2&, double spin) {
+  return spin;
+}
+inline Vec3 sweepOf(const Vec3& n, const Vec3& spin) {
+  return spin.cross(n);
+}
+/// In the laboratory's frame.
+inline Vec2 alongTangent(const Vec2& n, double force) {
+  return force * perpendicular(n);
+}
+inline Vec3 alongTangent(const Vec3&, const Vec3& force) {
+  return force;
 }
 
-/// The planar collision of two disks, or of a disk and a plane, in continuous time, one
-/// phase after another.
-class TwoBodyProblem : private ContactForces {
+/// Both ways in which a contact resists: friction the slip v_t, by f_t, and rolling resistance the
+/// relative spin ω_r, by M.
+enum Resistance { friction, rolling };
+
+/// What is integrated: numbers alone, so that it is an array of them as well.
+template <int D>
+struct State {
+  VecOf<D> position = VecOf<D>::Zero();  ///< of i against j, or the point of a plane touched first
+  VecOf<D> velocity = VecOf<D>::Zero();  ///< likewise
+  SpinOf<D> spin[2] = {noSpin<D>(), noSpin<D>()};
+  /// What the springs remember: ξ, or its force with the sign of ξ, and θ.
+  SpinOf<D> spring[2] = {noSpin<D>(), noSpin<D>()};
+  /// Directions of f_t and M while they slip.
+  SpinOf<D> side[2] = {noSpin<D>(), noSpin<D>()};
+  double largest = 0.0;  ///< δ_max of an elasto-plastic contact [m]
+  /// The account of the energy lost so far, as in EnergySplit; `body` is −∫ f v_n dt of the force
+  /// without its dashpot, of a body that forgets.
+  struct Lost {
+    double normal = 0.0, tangential = 0.0, stiffening = 0.0, sliding = 0.0;
+    double rollingDamping = 0.0, rolling = 0.0, body = 0.0;
+  } lost;
+
+  double* data() { return reinterpret_cast<double*>(this); }
+  const double* data() const { return reinterpret_cast<const double*>(this); }
+};
+
+template <int D>
+struct Kinematics : NormalMotion {
+  double distance;
+  VecOf<D> normal;     ///< from j to i
+  SpinOf<D> sideways;  ///< the centres' own velocity across n [m/s]
+  SpinOf<D> turning;   ///< dn/dt [1/s]
+  double lever[2];     ///< of f_t [m]
+  double arm[2];       ///< of the spins in v_t [m]
+  SpinOf<D> velocity[2];  ///< v_t [m/s] and ω_r = ω_i − ω_j, in space less its part along n [rad/s]
+  // In space:
+  double twist = 0.0;     ///< rate at which springs turn about n, spring_twist [rad/s]
+  double spinning = 0.0;  ///< (Σ c ω)·n [m/s]
+  double twisting = 0.0;  ///< (ω_i − ω_j)·n [rad/s]
+};
+
+/// The collision of two bodies, or of one and a plane, in continuous time, one phase after another:
+/// in the plane, or in space. docs/dimensions.md, section 4, has the equations of space, of which
+/// those of the plane are the same with one component of each tangential vector.
+template <int D>
+class TwoBodyProblem : private NormalForces {
  public:
   TwoBodyProblem(const ContactLaw& law, const CollidingPair& pair);
   CollisionEnd solve(const CollisionStart& start);
-  /// As the free function below.
+  /// As the free function.
   bool jumpsAtTouch(const CollisionStart& start);
   bool hasJump() const;
   bool slipsAtFirst(const CollisionStart& start);
@@ -83,118 +111,128 @@ class TwoBodyProblem : private ContactForces {
   void overshoot(double speed) { overshoot_ = speed; }
 
  private:
+  using Tangent = SpinOf<D>;
+  using Moment = State<D>;
+  using Motion = Kinematics<D>;
+  static constexpr Resistance both[] = {friction, rolling};
+  static constexpr std::size_t numbers = sizeof(Moment) / sizeof(double);
+  static constexpr std::size_t accounts = sizeof(typename Moment::Lost) / sizeof(double);
+
+  /// Between two events the right-hand side is smooth; a mode says which branch of the law holds.
+  enum class Mode {
+    none,    ///< no force or torque, or none as there is no load
+    damped,  ///< f_t = −γ_t v_t
+    stick,   ///< f_t = −k_t ξ − γ_t v_t, M = −k_r θ − γ_r ω_r
+    slip,    ///< at its bound, along side()
+    hold     ///< at rest without a spring: the force or torque that keeps it there
+  };
+
+  /// How a law resists, and what of it holds now.
+  struct Slider {
+    bool springs = false;     ///< else Coulomb's law or a dashpot alone, M of type A or B
+    double dashpot = 0.0;     ///< 0: none beside the spring
+    bool outside = false;     ///< of the test against the bound
+    bool springOnly = false;  ///< is reset by a slip
+    Mode mode = Mode::none;
+    /// In space, of a force against the motion: its direction when a step began; of one below 1e-6
+    /// of the speed the last one, as that of the last bits is rounding; and when it was down to a
+    /// hundredth of the speed.
+    Tangent before = noSpin<D>();
+    std::optional<Tangent> slowing = {};
+
+    /// Whether its slip is against the motion at each instant, and ends where that does: without a
+    /// spring, and where the reset of a spring to all of the force leaves the dashpot to turn it.
+    bool followsMotion() const { return !springs || (dashpot > 0.0 && !springOnly && !outside); }
+  };
+
   /// A remembered force over a stiffness that goes to 0 under a pull has no energy: all its work
   /// counts as that of sticking.
   bool springHasEnergy() const { return !(remembersForce() && law_.stiffens() && law_.coheres()); }
 
   // The law
-  Kinematics kinematics(const State& s) const;
-  double trialNormal(const Kinematics& k) const {
-    return bodyForce(k) - normalDamping(k.overlap).value * k.normalVelocity;
-  }
+  Motion kinematics(const Moment& s) const;
   double leverFraction(int side) const { return fractionOf(law_.conventions.leverArm, side); }
   double armFraction(int side) const { return fractionOf(law_.conventions.armOfVelocity(), side); }
   double fractionOf(LeverArm arm, int side) const {
     return crossgrain::leverFraction(arm, law_.conventions.planeArm, pair_, side);
   }
-  double normalForce(const Kinematics& k) const;
-  double bound(double load) const;
-  double boundNow(const Kinematics& k) const { return bound(load(k)); }
-  double testedForce(const Kinematics& k, double spring) const;
-  double tangentialForce(const State& s, const Kinematics& k) const;
-  double storedEnergy(const State& s) const;
-  double stiffeningLoss(const State& s, const Kinematics& k) const;
-  /// The velocity that f_t does work on: v_t, taken with the arms of f_t [m/s].
-  double workedVelocity(const State& s, const Kinematics& k) const {
-    return k.sideways - k.leverI * s.spinI - k.leverJ * s.spinJ;
-  }
-  State derivative(const State& s) const;
-  CollisionEnd endAt(const State& s, const CollisionStart& start) const;
-
-  // Cohesion
-  double bodyForce(const Kinematics& k) const {
-    return law_.coheres() ? cohesiveForce(k).value : elasticForce(k.overlap);
-  }
-  Slope cohesiveForce(const Kinematics& k) const;
-  double load(const Kinematics& k) const;
-  double loadRate(const Kinematics& k, double acceleration) const;
-  bool remembersBody() const {
-    return law_.cohesion == CohesionLaw::jkr || law_.cohesion == CohesionLaw::elastoPlastic;
-  }
-  bool cuts() const {
-    return law_.conventions.tension == Tension::cut && !phase_.compressive && law_.gn > 0.0;
-  }
-  double beyondPull(const Kinematics& k) const;
-  bool neverLoaded() const;
-  double stiffest(const Kinematics& k) const;
-  double unseenLoad(const Kinematics& k) const;
-  double cohesionGuard(const Kinematics& k) const;
-  bool onLimitBranch(double overlap) const;
-  void chooseLine(State& s);
-  void chooseNormal(State& s, bool anew);
-  bool hasNoBound() const;
-
-  // Rolling
-  void setRollingConstants();
-  double rollingLoad(const Kinematics& k) const;
-  bool rollingHasNoLimit() const;
-  bool hasNoRollingBound() const;
-  double rollingBound(const Kinematics& k) const {
+  double rollingLoad(const Motion& k) const;
+  double rollingBound(const Motion& k) const {
     return law_.muR * rollingLength_ * std::max(rollingLoad(k), 0.0);
   }
-  double rollingTested(const State& s, const Kinematics& k) const;
-  double rollingTorque(const State& s, const Kinematics& k) const;
-  double rollingEnergy(const State& s) const;
-  double holdingTorque(const State& s, const Kinematics& k) const;
-  double rollingBoundRate(const State& s, const Kinematics& k) const;
-  double rollingDashpotRate(const State& s, const Kinematics& k) const;
-  double rollingStretching(const Kinematics& k) const;
-  double rollingSlipGuard(const State& s, const Kinematics& k) const;
-  double slippedAngle(const Kinematics& k) const;
-  double unseenBound(const Kinematics& k) const;
-  double rollingGuard(const State& s, const Kinematics& k) const;
-  void chooseRolling(State& s, bool anew);
-  void chooseRollingSpring(State& s);
-  /// ω_r set by the first spin.
-  void setRollingSpin(State& s, double spin) const { s.spinI = s.spinJ + spin; }
-  /// d ω_r/dt per M [1/(kg m²)], and per −f_t [1/(kg m)].
-  double rollingCompliance() const { return 1.0 / pair_.inertia[0] + 1.0 / pair_.inertia[1]; }
-  double turningBySlip(const Kinematics& k) const {
-    return k.leverI / pair_.inertia[0] - k.leverJ / pair_.inertia[1];
+  double bound(Resistance of, const Motion& k) const {
+    return of == friction ? NormalForces::bound(load(k)) : rollingBound(k);
   }
-  /// d v_t/dt per −M [1/(kg m)].
-  double slippingByTorque(const Kinematics& k) const {
-    return k.armI / pair_.inertia[0] - k.armJ / pair_.inertia[1];
+  Slope stiffness(Resistance of, const Motion& k) const {
+    return of == friction ? tangentialStiffness(k.overlap) : Slope{rollingStiffness_, 0.0};
   }
+  Slope damping(Resistance of, const Motion& k) const;
+  /// Force or torque of a spring per unit of what it remembers.
+  double springUnit(Resistance of, const Motion& k) const {
+    return of == friction && remembersForce() ? 1.0 : stiffness(of, k).value;
+  }
+  Tangent tested(Resistance of, const Moment& s, const Motion& k) const;
+  Tangent side(Resistance of, const Moment& s, const Motion& k) const;
+  Tangent force(Resistance of, const Moment& s, const Motion& k) const;
+  double storedEnergy(Resistance of, const Moment& s) const;
+  double stiffeningLoss(const Moment& s, const Motion& k) const;
+  VecOf<D> acceleration(const Moment& s, const Motion& k) const;
+  Moment derivative(const Moment& s) const;
+  CollisionEnd endAt(const Moment& s, const CollisionStart& start) const;
+  Tangent carried(const Tangent& spring, const Motion& k) const;
 
   // Events
-  double slipDrift(const State& s, const Kinematics& k) const;
-  double normalAcceleration(const State& s, const Kinematics& k) const;
-  bool tangentialLasts(const State& s) const;
-  double compliance(const Kinematics& k) const;
-  double holdingForce(const State& s, const Kinematics& k) const;
-  double boundRate(const State& s, const Kinematics& k) const;
-  double slippedSpring(const Kinematics& k) const;
-  double slipGuard(const State& s, const Kinematics& k) const;
-  double dashpotRate(const State& s, const Kinematics& k) const;
-  double tangentialGuard(const State& s) const;
-  double firstGuard(const State& s) const;
-  void enterPhase(State& s, bool anew = false);
-  void choosePhase(State& s);
-  void chooseSpringPhase(State& s, const Kinematics& k);
+  bool rollingHasNoLimit() const;
+  bool hasNoBound(Resistance of) const;
+  double normalAcceleration(const Moment& s, const Motion& k) const;
+  double compliance(const Motion& k) const;
+  /// dω_r/dt per M [1/(kg m²)], and per −f_t [1/(kg m)].
+  double rollingCompliance() const { return 1.0 / pair_.inertia[0] + 1.0 / pair_.inertia[1]; }
+  double turningBySlip(const Motion& k) const {
+    return k.lever[0] / pair_.inertia[0] - k.lever[1] / pair_.inertia[1];
+  }
+  /// dv_t/dt per −M [1/(kg m)].
+  double slippingByTorque(const Motion& k) const {
+    return k.arm[0] / pair_.inertia[0] - k.arm[1] / pair_.inertia[1];
+  }
+  Tangent slipDrift(const Moment& s, const Motion& k) const;
+  Tangent rollingDrift(const Motion& k) const;
+  Tangent holding(Resistance of, const Moment& s, const Motion& k) const;
+  double boundRate(Resistance of, const Moment& s, const Motion& k) const;
+  Tangent slippedSpring(Resistance of, const Moment& s, const Motion& k) const;
+  Tangent dashpotRate(Resistance of, const Moment& s, const Motion& k) const;
+  double springRate(Resistance of, const Moment& s, const Motion& k) const;
+  double slipGuard(Resistance of, const Moment& s, const Motion& k) const;
+  Tangent turningOfSlip(Resistance of, const Moment& s, const Motion& k) const;
+  double unseenBound(Resistance of, const Motion& k) const;
+  double stillness(Resistance of) const {
+    return of == friction ? stillness_ : stillness_ / pair_.radius[0];
+  }
+  double guard(Resistance of, const Moment& s, const Motion& k) const;
+  double firstGuard(const Moment& s) const;
+  bool lasts(Resistance of, const Moment& s) const;
+  void enterPhase(Moment& s, bool anew = false);
+  void choose(Resistance of, Moment& s, bool anew);
+  void chooseAtRest(Resistance of, Moment& s);
+  void chooseSpring(Resistance of, Moment& s);
+  void endSlip(Resistance of, Moment& s);
+  void slip(Resistance of, Moment& s, const Tangent& along);
+  void setVelocity(Resistance of, Moment& s, const Motion& k, const Tangent& wanted) const;
 
   // Integration
-  State firstTouch(const CollisionStart& start) const;
-  State along(const State& s, double time) const;
-  double roundingOfForce(const State& s) const;
+  Moment firstTouch(const CollisionStart& start) const;
+  Moment along(const Moment& s, double time) const;
+  double roundingOfForce(const Moment& s) const;
+  void watchDirections(const Moment& s, double speed);
+  double errorOf(const Moment& error, const Moment& s, const CollisionStart& start,
+                 double speed) const;
 
   static int rightHandSide(double t, const double y[], double dydt[], void* self);
 
-  double bondRange_;               ///< bondRange() [m]
   double rollingLength_ = 0.0;     ///< L [m]
   double rollingStiffness_ = 0.0;  ///< k_r (…) [N m]
   double rollingDamping_ = 0.0;    ///< of its dashpot [N m s]
-  Phase phase_;
+  Slider slider_[2];
   double stillness_ = 0.0;  ///< v_t that counts as 0 [m/s]
   double overshoot_ = 0.0;  ///< overshoot() [m/s]
   bool noLimit_ = false;    ///< CollisionEnd::noLimit

@@ -1,16 +1,69 @@
+#include "oracle/normal_forces.hpp"
+
+#include <algorithm>
+#include <cmath>
 #include <limits>
-#include <stdexcept>
 
-#include "law/cohesion.hpp"
-#include "oracle/two_body_problem.hpp"
+#include "oracle/impact.hpp"
 
-/// Bodies that attract each other: their force, the load that bounds multiply, and what of both
-/// changes at which instant.
+/// The force along n, of bodies that attract each other too, the load that bounds multiply, and
+/// what of both changes at which instant.
 namespace crossgrain::inline oracle {
+
+NormalForces::NormalForces(const ContactLaw& law, const CollidingPair& pair)
+    : law_(law),
+      pair_(pair),
+      reach_(pair.radius[0] + pair.radius[1]),
+      inverseMass_(1.0 / pair.mass[0] + 1.0 / pair.mass[1]),
+      reducedRadius_(pair.reducedRadius()),
+      bondRange_(bondRange(law, reducedRadius_)) {
+  if (law.tangential == TangentialLaw::spring) law_.gt = 0.0;
+  if (law.mu == 0.0) law_.tangential = TangentialLaw::none;
+}
+
+double NormalForces::contactTime(double speed) const {
+  return impactTime(law_, {pair_.reducedMass(), reducedRadius_, speed});
+}
+
+double NormalForces::stretchedShare() const {
+  switch (law_.conventions.springUpdate) {
+    case SpringUpdate::after:
+      return 0.0;
+    case SpringUpdate::midpoint:
+      return 0.5;
+    case SpringUpdate::before:
+      break;
+  }
+  return 1.0;
+}
+
+double NormalForces::visibleLength() const {
+  return 64.0 * std::numeric_limits<double>::epsilon() * reach_;
+}
+
+/// Where tension is cut the dashpot does not pull; cohesion does.
+double NormalForces::normalForce(const NormalMotion& k) const {
+  if (!cuts()) return trialNormal(k);
+  return phase_.pulls ? bodyForce(k) : 0.0;
+}
+
+/// Linear in the load within a phase, so it also maps the load's rate to the bound's.
+double NormalForces::bound(double load) const {
+  if (phase_.loaded) return law_.mu * load;
+  switch (law_.conventions.coulombBound) {
+    case CoulombBound::compression:
+      return 0.0;
+    case CoulombBound::magnitude:
+      return -law_.mu * load;
+    case CoulombBound::signedForce:
+      break;
+  }
+  return law_.mu * load;
+}
 
 /// The force without its dashpot, and its derivative by δ. Elasto-plastic: of the line that the
 /// contact is on.
-Slope TwoBodyProblem::cohesiveForce(const Kinematics& k) const {
+Slope NormalForces::cohesiveForce(const NormalMotion& k) const {
   const double elastic = elasticForce(k.overlap), stiff = stiffness(k.overlap).value;
   switch (law_.cohesion) {
     case CohesionLaw::area: {
@@ -31,14 +84,14 @@ Slope TwoBodyProblem::cohesiveForce(const Kinematics& k) const {
     case CohesionLaw::none:
       return {elastic, stiff};
   }
-  if (phase_.line == Phase::Line::loading) return {elastic, law_.kn};
-  if (phase_.line == Phase::Line::pull) return {-law_.kc * k.overlap, -law_.kc};
+  if (phase_.line == NormalPhase::Line::loading) return {elastic, law_.kn};
+  if (phase_.line == NormalPhase::Line::pull) return {-law_.kc * k.overlap, -law_.kc};
   const double k2 = unloadingStiffness(law_, reducedRadius_, k.largest);
   return {k2 * k.overlap - (k2 - law_.kn) * k.largest, k2};
 }
 
 /// The load that stands for f_n in bounds. @see CohesionLoad
-double TwoBodyProblem::load(const Kinematics& k) const {
+double NormalForces::load(const NormalMotion& k) const {
   const double normal = normalForce(k);
   if (!law_.coheres()) return normal;
   const double pull = pullOff(law_, reducedRadius_);
@@ -61,7 +114,7 @@ double TwoBodyProblem::load(const Kinematics& k) const {
 
 /// d load/dt, from df/dt = −f′ v_n of what follows the overlap and −γ_n dv_n/dt + γ_n′ v_n² of the
 /// dashpot. @param acceleration  dv_n/dt [m/s²]
-double TwoBodyProblem::loadRate(const Kinematics& k, double acceleration) const {
+double NormalForces::loadRate(const NormalMotion& k, double acceleration) const {
   const double elastic = -stiffness(k.overlap).value * k.normalVelocity;
   const double body = law_.coheres() ? -cohesiveForce(k).rate * k.normalVelocity : elastic;
   const Slope gn = normalDamping(k.overlap);
@@ -80,19 +133,19 @@ double TwoBodyProblem::loadRate(const Kinematics& k, double acceleration) const 
 
 /// By how much the force exceeds the pull alone, or of what sign that is: where tension is cut it
 /// acts while this is > 0.
-double TwoBodyProblem::beyondPull(const Kinematics& k) const {
+double NormalForces::beyondPull(const NormalMotion& k) const {
   return phase_.pulls ? -k.normalVelocity : trialNormal(k);
 }
 
 /// Whether the load of this phase is zero throughout, to rounding: it has no sign to watch.
-bool TwoBodyProblem::neverLoaded() const {
+bool NormalForces::neverLoaded() const {
   const bool nothing = cuts() && !phase_.pulls;  // f_n is 0
   if (!law_.coheres()) return nothing;
   const CohesionLoad of = law_.conventions.cohesionLoad;
   const bool bare = law_.gn == 0.0 || cuts();  // f_n is the body's alone
   if (law_.cohesion == CohesionLaw::elastoPlastic) {
     if (of == CohesionLoad::withoutPull) return nothing || (phase_.pulls && bare);
-    const bool empty = phase_.line == Phase::Line::pull && law_.kc == 0.0;
+    const bool empty = phase_.line == NormalPhase::Line::pull && law_.kc == 0.0;
     if (of == CohesionLoad::netWithoutDashpot) return empty;
     return nothing || (empty && bare);
   }
@@ -103,20 +156,23 @@ bool TwoBodyProblem::neverLoaded() const {
 }
 
 /// Largest change of the load by an error of the overlap [N/m].
-double TwoBodyProblem::stiffest(const Kinematics& k) const {
+double NormalForces::stiffest(const NormalMotion& k) const {
   return std::max(stiffness(k.overlap).value, std::abs(cohesiveForce(k).rate));
 }
 
 /// The amount that a load may lack of 0 on its side of it where that was chosen by its rate, as
 /// cohesionGuard() allows [N]. A bound of it holds what needs no force, as v_t = 0 on a plane.
-double TwoBodyProblem::unseenLoad(const Kinematics& k) const {
+double NormalForces::unseenLoad(const NormalMotion& k) const {
   if (!law_.coheres()) return 0.0;
   return 16.0 * std::numeric_limits<double>::epsilon() * reach_ * stiffest(k);
 }
 
-/// > 0 as long as the force is the same smooth function of the motion.
-double TwoBodyProblem::cohesionGuard(const Kinematics& k) const {
-  double guard = std::numeric_limits<double>::infinity();
+double NormalForces::normalGuard(const NormalMotion& k) const {
+  double guard = k.overlap + bondRange_;
+  if (!law_.coheres()) {
+    if (law_.gn == 0.0) return guard;
+    return std::min(guard, phase_.compressive ? trialNormal(k) : -trialNormal(k));
+  }
   // A sign that was chosen by its rate, within four roundings of 0, lasts until eight beyond.
   const double rounding = std::numeric_limits<double>::epsilon() * reach_;
   const auto keeps = [&](bool positive, double value, double unit = 0.0) {
@@ -125,14 +181,14 @@ double TwoBodyProblem::cohesionGuard(const Kinematics& k) const {
   bool changesSign = true;
   if (law_.cohesion == CohesionLaw::jkr) keeps(!phase_.beyond, k.overlap, rounding);
   if (law_.cohesion == CohesionLaw::elastoPlastic) {
-    changesSign = phase_.line == Phase::Line::unloading;
+    changesSign = phase_.line == NormalPhase::Line::unloading;
     if (changesSign) {  // towards loading at δ_max, or towards the pull at its limit
       const double loads = onLimitBranch(k.largest) ? guard : k.largest - k.overlap;
       guard = std::min({guard, std::max(loads, k.normalVelocity),
                         std::max(bodyForce(k) + law_.kc * k.overlap, -k.normalVelocity)});
     } else
-      keeps(phase_.line == Phase::Line::pull, k.normalVelocity);
-    if (phase_.line == Phase::Line::loading && law_.plasticDepth > 0.0)
+      keeps(phase_.line == NormalPhase::Line::pull, k.normalVelocity);
+    if (phase_.line == NormalPhase::Line::loading && law_.plasticDepth > 0.0)
       guard = std::min(guard, plasticLimit(law_, reducedRadius_) - k.overlap);
   }
   if (changesSign) keeps(!phase_.pulls, bodyForce(k), std::abs(cohesiveForce(k).rate) * rounding);
@@ -144,21 +200,20 @@ double TwoBodyProblem::cohesionGuard(const Kinematics& k) const {
 }
 
 /// Whether an overlap, or a δ_max, is δ* or beyond.
-bool TwoBodyProblem::onLimitBranch(double overlap) const {
+bool NormalForces::onLimitBranch(double overlap) const {
   return isBeyondPlasticLimit(law_, reducedRadius_, overlap);
 }
 
 /// Loading ends at the turning point, whose overlap is remembered, or at δ*; unloading at that
 /// overlap unless it is δ*, or at the limit of the pull; the pull where the bodies turn again.
-void TwoBodyProblem::chooseLine(State& s) {
-  const Kinematics k = kinematics(s);
-  using enum Phase::Line;
+void NormalForces::chooseLine(NormalMotion& k) {
+  using enum NormalPhase::Line;
   const bool limit = onLimitBranch(k.overlap);
   if (phase_.line == loading && (k.normalVelocity >= 0.0 || limit)) {
-    s.largest = limit ? plasticLimit(law_, reducedRadius_) : k.overlap;
+    k.largest = limit ? plasticLimit(law_, reducedRadius_) : k.overlap;
     phase_.line = unloading;
   } else if (phase_.line == pull && k.normalVelocity <= 0.0) {
-    s.largest = largestAtPull(law_, reducedRadius_, k.overlap);
+    k.largest = largestAtPull(law_, reducedRadius_, k.overlap);
     phase_.line = unloading;
   } else if (phase_.line == unloading && k.normalVelocity < 0.0 && k.overlap >= k.largest &&
              !onLimitBranch(k.largest)) {
@@ -169,37 +224,40 @@ void TwoBodyProblem::chooseLine(State& s) {
   }
 }
 
-/// The parts of a phase that are about the normal. @param anew  at the first touch
-void TwoBodyProblem::chooseNormal(State& s, bool anew) {
+/// Of a value that is zero to the rounding of positions, as one is at an event, by its rate.
+/// @param unit  of the value by a rounding
+bool isPositive(double value, double rate, double unit) {
+  return std::abs(value) > 4.0 * unit ? value > 0.0 : rate > 0.0;
+}
+
+void NormalForces::chooseNormal(NormalMotion& k) {
   if (!law_.coheres()) {
-    phase_.compressive = law_.gn == 0.0 || trialNormal(kinematics(s)) > 0.0;
-    phase_.loaded = phase_.compressive;
+    phase_.compressive = law_.gn == 0.0 || trialNormal(k) > 0.0;
     return;
   }
   const bool yields = law_.cohesion == CohesionLaw::elastoPlastic;
-  if (yields) chooseLine(s);
-  const Kinematics k = kinematics(s);
-  // Where an event is, a value is zero to the rounding of positions: its rate says what follows.
+  if (yields) chooseLine(k);
   const double rounding = std::numeric_limits<double>::epsilon() * reach_;
-  const auto isPositive = [](double value, double rate, double unit) {
-    return std::abs(value) > 4.0 * unit ? value > 0.0 : rate > 0.0;
-  };
   const Slope body = cohesiveForce(k);
   phase_.beyond =
       law_.cohesion == CohesionLaw::jkr && !isPositive(k.overlap, -k.normalVelocity, rounding);
   phase_.pulls =
-      yields && phase_.line != Phase::Line::unloading
-          ? phase_.line == Phase::Line::pull
+      yields && phase_.line != NormalPhase::Line::unloading
+          ? phase_.line == NormalPhase::Line::pull
           : !isPositive(body.value, -body.rate * k.normalVelocity, std::abs(body.rate) * rounding);
   const bool cut = law_.conventions.tension == Tension::cut && law_.gn > 0.0;
   phase_.compressive = !cut || beyondPull(k) > 0.0;
-  phase_.loaded =
-      !neverLoaded() && isPositive(load(k), anew ? 1.0 : loadRate(k, normalAcceleration(s, k)),
-                                   stiffest(k) * rounding);
+}
+
+void NormalForces::chooseLoaded(const NormalMotion& k, double rate) {
+  const double rounding = std::numeric_limits<double>::epsilon() * reach_;
+  phase_.loaded = law_.coheres()
+                      ? !neverLoaded() && isPositive(load(k), rate, stiffest(k) * rounding)
+                      : phase_.compressive;
 }
 
 /// Whether there is no friction for want of a load.
-bool TwoBodyProblem::hasNoBound() const {
+bool NormalForces::hasNoBound() const {
   const bool compression = law_.conventions.coulombBound == CoulombBound::compression;
   if (law_.coheres()) return neverLoaded() || (!phase_.loaded && compression);
   return !phase_.compressive && (compression || law_.conventions.tension == Tension::cut);
