@@ -4,6 +4,8 @@
 
 namespace crossgrain {
 
+static_assert(effectNames.size() == allEffects.size() && !effectNames.back().empty());
+
 std::string toString(Effect effect) {
   return std::string(effectNames[static_cast<std::size_t>(effect)]);
 }

@@ -13,16 +13,15 @@ foreach(engine bullet chipmunk mujoco ode)
   if(TARGET crossgrain-${engine})
     install(TARGETS crossgrain-${engine} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   endif()
-  install(FILES engines/${engine}/${engine}.toml
-          DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines/${engine})
 endforeach()
 install(FILES cli/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME crossgrain)
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
         FILES_MATCHING PATTERN "*.toml" PATTERN "*.md" PATTERN "*.csv" PATTERN "*.py")
-install(DIRECTORY engines/lammps engines/yade engines/python engines/cpp engines/liggghts engines/siconos engines/node engines/rapier engines/box2d-v3 engines/jolt
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines
-        FILES_MATCHING PATTERN "*.py" PATTERN "*.hpp" PATTERN "*.mjs" PATTERN "*.json" PATTERN "*.toml"
-        PATTERN node_modules EXCLUDE)
+# grain and box2d are part of the program.
+install(DIRECTORY engines DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
+        FILES_MATCHING PATTERN "*.py" PATTERN "*.mjs" PATTERN "*.json" PATTERN "*.toml"
+        PATTERN node_modules EXCLUDE PATTERN grain EXCLUDE PATTERN box2d EXCLUDE)
+install(DIRECTORY engines/cpp DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines FILES_MATCHING PATTERN "*.hpp")
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
         FILES_MATCHING PATTERN "*.py" PATTERN "*.cpp" PATTERN "*.toml" PATTERN "*.lmp")
 install(FILES python/crossgrain.py DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/python)

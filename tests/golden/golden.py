@@ -1,6 +1,6 @@
 """Golden folders: what every command finds out, kept in a folder each beside this file.
 
-A redesign changes none of them. Whoever changes one on purpose says why in the commit and in CHANGELOG.md.
+A redesign changes none of them. Whoever changes one on purpose says why in the commit and in changes/.
 
     CROSSGRAIN=build/release/cli/crossgrain python3 golden.py check [NAME …]   compares; status 1 where anything differs
     CROSSGRAIN=build/release/cli/crossgrain python3 golden.py make  [NAME …]   writes the folders anew

@@ -112,6 +112,18 @@ TEST(Region, Disks_HaveMomentsInTheSeries) {
   EXPECT_NEAR(last("kinetic_energy"), 0.5 * 2.0 * (1.0 + 1.0 + 4.0), 1e-14);
 }
 
+/// Else an endpoint of it would be undecided, however many runs there are.
+TEST(Region, EveryNumberOfARegion_HasASeries) {
+  Case setup = threeDisks();
+  for (const RegionNumber& number : regionNumbers(2))
+    setup.endpoints.emplace_back().quantity = number.name;
+  const FlowRun run = averaged(setup);
+  for (const RegionNumber& number : regionNumbers(2)) {
+    if (number.name.starts_with("wall_")) continue;  // of a periodic box (space_region_test.cpp)
+    EXPECT_TRUE(run.series->contains(std::string(number.name))) << number.name;
+  }
+}
+
 TEST(Region, Heap_HasTheSlopeOfItsFlanks) {
   // A box from -1 to 3 m, whose strips are 0.1 m wide and begin 0.2 m from the middle, 1 m. Its
   // left flank falls by 0.3 a metre, its right one by 0.5; what lies deeper, nearer or farther is

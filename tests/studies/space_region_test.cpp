@@ -62,6 +62,19 @@ double seriesEnd(const FlowRun& run, const char* name) {
   return valuesOf(*run.series, name).back().value_or(NAN);
 }
 
+TEST(SpaceRegion, EveryNumberOfARegion_HasASeries) {
+  Case setup = slabsOfACell();
+  for (const RegionNumber& number : regionNumbers(3))
+    setup.endpoints.emplace_back().quantity = number.name;
+  const Cell3d cell;
+  FlowAverages averages(setup, cell.scene);
+  averages.add(cell.now);
+  FlowRun run;
+  averages.describe({}, run);
+  for (const RegionNumber& number : regionNumbers(3))
+    EXPECT_TRUE(run.series->contains(std::string(number.name))) << number.name;
+}
+
 TEST(SpaceRegion, HasProfilesOverSlabsAndTheStressesOfItsWalls) {
   const Case setup = slabsOfACell();
   const Cell3d cell;

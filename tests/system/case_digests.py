@@ -5,7 +5,7 @@ walls and contacts of ten looks, go into one digest. It covers scene, packing an
 machine has (golden/golden.py); grain's own AVX2 and AVX-512 must give the same, and so does a build by another compiler (tests/README.md).
 Left out, each with the reason, is what LEFT_OUT says.
 
-What changes bits on purpose says so in CHANGELOG.md and renews the file:
+What changes bits on purpose says so in changes/ and renews the file:
     CROSSGRAIN=build/release/cli/crossgrain python3 case_digests.py   (in this folder)
 """
 
