@@ -27,6 +27,8 @@ double square(const Vec3& value) {
   return value.squaredNorm();
 }
 
+}  // namespace
+
 template <int D>
 double kineticEnergy(const DisksOf<D>& disks, const SnapshotOf<D>& snapshot) {
   const std::vector<SpinOf<D>>& spin = snapshot.spin ? *snapshot.spin : disks.spin;
@@ -36,6 +38,10 @@ double kineticEnergy(const DisksOf<D>& disks, const SnapshotOf<D>& snapshot) {
               0.5 * disks.inertia[i] * square(spin[i]);
   return energy;
 }
+template double kineticEnergy<2>(const Disks&, const Snapshot&);
+template double kineticEnergy<3>(const DisksOf<3>&, const SpaceSnapshot&);
+
+namespace {
 
 template <int D>
 double tangentialEnergy(const RecordingOf<D>& run, const SnapshotOf<D>& snapshot) {

@@ -422,21 +422,45 @@ Curve haffError(const RecordingOf<D>& run) {
   });
 }
 
-/// Bodies that have come to rest, kinetic energy below 10⁻⁸ of the energy over eight steps, so that
-/// nothing pushes it, and moves again: its kinetic energy then. Empty where walls move or nothing
-/// rests.
+/// Kinetic energy that bodies would have if velocities changed on as they did between two
+/// snapshots of a burst of steps, for as long as nothing was seen before the burst [J].
+/// @param first  not the first of the run
+template <int D>
+double energyOfPush(const RecordingOf<D>& run, std::size_t first, std::size_t last) {
+  const auto after = [&](std::size_t k, std::size_t earlier) {
+    return run.snapshots[k].positionTime - run.snapshots[earlier].positionTime;
+  };
+  const SnapshotOf<D>&from = run.snapshots[first], &to = run.snapshots[last];
+  std::size_t burst = first;
+  while (burst > 1 && after(burst, burst - 1) < 1.5 * run.effective.dt) --burst;
+  const double longer = std::max(after(burst, burst - 1) / after(last, first), 1.0);
+  SnapshotOf<D> change = to;
+  for (std::size_t i = 0; i < change.velocity.size(); ++i)
+    change.velocity[i] = longer * (to.velocity[i] - from.velocity[i]);
+  if (to.spin && from.spin)
+    for (std::size_t i = 0; i < change.spin->size(); ++i)
+      (*change.spin)[i] = longer * ((*to.spin)[i] - (*from.spin)[i]);
+  return kineticEnergy(run.scene.disks, change);
+}
+
+/// Bodies that have come to rest and move again: their kinetic energy then. At rest it is below
+/// 10⁻⁸ of the energy over eight steps, and so is that of what pushes them: a swing that turns back
+/// is still for as long. Empty where walls move or nothing rests.
 template <int D>
 Curve wakes(const RecordingOf<D>& run) {
   constexpr double still = 1e-8;
   if (wallsMove(run.scene)) return {};
   const double scale = energyScale(run);
-  int quiet = 0;
+  std::size_t place = 0, quiet = 0;
   bool rested = false;
   const Curve curve = each(run, [&](const SnapshotOf<D>& now) {
     const double kinetic = energyOf(run, now).kinetic / scale;
     const bool before = rested;
     quiet = kinetic < still ? quiet + 1 : 0;  // false for what is no number
-    rested = rested || quiet >= burstSteps;
+    const std::size_t first = place + 1 - std::min<std::size_t>(quiet, burstSteps);
+    rested = rested ||
+             (quiet >= burstSteps && first > 0 && energyOfPush(run, first, place) < still * scale);
+    ++place;
     return before ? kinetic : 0.0;
   });
   return rested ? curve : Curve{};

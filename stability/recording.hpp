@@ -74,6 +74,10 @@ struct EnergyState {
   double total() const { return kinetic + elastic + potential; }
 };
 
+/// Of translation and rotation, with the spins of the start where a snapshot has none [J].
+template <int D>
+double kineticEnergy(const DisksOf<D>& disks, const SnapshotOf<D>& snapshot);
+
 /// From the engine's own ledger where it keeps one. Else from what it shows:
 /// positions, and with them the energies of springs and gravity, are taken back to the time that
 /// the velocities belong to; so the sum of a leapfrog engine is as good as its scheme, second
