@@ -214,6 +214,13 @@ class SceneAudit(SystemTest):
             self.assert_status(done, FELL_SHORT)
             self.assertEqual("unstable", rows[audit]["verdict"], rows[audit])
 
+    def test_right_engine_is_not_accused(self):
+        """Of a block whose spin is held, a swing that turns back, a pull that begins where a step ends."""
+        for scene in ("stick-slip", "rolling/oscillation", "cohesion/dmt-impact"):
+            with self.subTest(scene):
+                self.held("stability", CASES / f"assembly/{scene}.toml", "--engines", "grain", "--quick", "--quiet", "--fresh", "--out", self.out)
+                self.assertLessEqual({row["verdict"] for row in self.rows("stability.csv")}, {"stable", "refused"})
+
 
 class Baseline(StudyTest):
     def setUp(self):
