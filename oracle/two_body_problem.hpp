@@ -10,8 +10,8 @@
 
 namespace crossgrain::inline oracle {
 
-// What lies in the tangent plane of a contact, a velocity, a force, an axis, is SpinOf<D>: in the
-// plane one number, along s = z × n or about z, in space a vector. Of these:
+// Velocities, forces and axes in the tangent plane of a contact are SpinOf<D>: in the plane one
+// number, along s = z × n or about z, in space a vector. Of these:
 
 inline double sizeOf(double a) {
   return std::abs(a);
@@ -57,13 +57,13 @@ inline Vec3 alongTangent(const Vec3&, const Vec3& force) {
 /// relative spin ω_r, by M.
 enum Resistance { friction, rolling };
 
-/// What is integrated: numbers alone, so that it is an array of them as well.
+/// Variables of the integration: numbers alone, so that they are an array, too.
 template <int D>
 struct State {
   VecOf<D> position = VecOf<D>::Zero();  ///< of i against j, or the point of a plane touched first
   VecOf<D> velocity = VecOf<D>::Zero();  ///< likewise
   SpinOf<D> spin[2] = {noSpin<D>(), noSpin<D>()};
-  /// What the springs remember: ξ, or its force with the sign of ξ, and θ.
+  /// Memory of the springs: ξ, or its force with the sign of ξ, and θ.
   SpinOf<D> spring[2] = {noSpin<D>(), noSpin<D>()};
   /// Directions of f_t and M while they slip.
   SpinOf<D> side[2] = {noSpin<D>(), noSpin<D>()};

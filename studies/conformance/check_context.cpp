@@ -149,15 +149,6 @@ std::vector<DiskState> statesOf(const Scene& scene, const Snapshot& snapshot) {
   return states;
 }
 
-double kineticEnergy(const Scene& scene, const Snapshot& now) {
-  const std::vector<double> spins = spinsOf(scene, now);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < now.velocity.size(); ++i)
-    sum += 0.5 * scene.disks.mass[i] * now.velocity[i].squaredNorm() +
-           0.5 * scene.disks.inertia[i] * spins[i] * spins[i];
-  return sum;
-}
-
 double farthestPlace(const Scene& scene) {
   double place = 0.0;
   for (const Vec2& x : scene.disks.position) place = std::max(place, x.norm());

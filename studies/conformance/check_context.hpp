@@ -51,9 +51,6 @@ struct DiskState {
 std::vector<double> spinsOf(const Scene& scene, const Snapshot& snapshot);
 std::vector<DiskState> statesOf(const Scene& scene, const Snapshot& snapshot);
 
-/// The sum over disks of ½ m v² + ½ J ω² [J].
-double kineticEnergy(const Scene& scene, const Snapshot& now);
-
 /// How far the farthest disk is from the origin [m].
 double farthestPlace(const Scene& scene);
 

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "oracle/collision_oracle.hpp"
+#include "stability/recording.hpp"
 #include "stability/transform.hpp"
 #include "studies/conformance/check_context.hpp"
 #include "studies/conformance/declared_laws.hpp"
@@ -41,8 +42,8 @@ void headOnCollision(CheckContext& context) {
                  context.byPrecision(1e-12, 1e-5, "both disks get the same impulse",
                                      pair.reducedMass() * Encounter::speed),
                  "momentum [kg m/s]");
-    context.below(kineticEnergy(context.scene, after), kineticEnergy(context.scene, before),
-                  "kinetic energy after a collision");
+    context.below(kineticEnergy(context.scene.disks, after),
+                  kineticEnergy(context.scene.disks, before), "kinetic energy after a collision");
     context.near(velocity.x() / Encounter::speed,
                  closedRestitution(scene.law, pair.reducedMass()).value(), restitution, "e_n");
     // Nothing slides, so nothing turns.

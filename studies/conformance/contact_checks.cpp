@@ -6,6 +6,7 @@
 #include "adapters/audit.hpp"
 #include "adapters/declared_law.hpp"
 #include "law/law_options.hpp"
+#include "stability/recording.hpp"
 #include "studies/conformance/check_context.hpp"
 #include "studies/conformance/declared_laws.hpp"
 #include "studies/core/mirrors.hpp"
@@ -326,7 +327,7 @@ void energyLedgerIsClosed(CheckContext& context) {
     const Snapshot after = context.run(scene, Encounter::end);
     context.examine(energyLedger);
     context.require(after.ledger.has_value(), "it declares an energy ledger, and shows none");
-    context.near(after.ledger->kinetic, kineticEnergy(context.scene, after),
+    context.near(after.ledger->kinetic, kineticEnergy(context.scene.disks, after),
                  context.byPrecision(1e-9, 1e-4, "roundings of the additions"),
                  "its kinetic energy [J]");
     left[k] = std::abs(residual(*after.ledger)) / after.ledger->initial;

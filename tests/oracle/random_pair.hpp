@@ -34,7 +34,7 @@ inline void drawConventions(Draw& draw, LawConventions& how) {
   how.history = draw.oneOf({History::displacement, History::force});
 }
 
-/// What is left of the energy and all that was lost [J].
+/// Sum of the energy left and of all that was lost [J].
 inline double accountOf(const CollisionEnd& end) {
   const EnergySplit& lost = *end.lost;
   double sum = end.energyAfter + lost.normalDamping + lost.tangentialDamping + lost.stiffening +
@@ -44,7 +44,7 @@ inline double accountOf(const CollisionEnd& end) {
   return sum;
 }
 
-/// What the in-house engine makes of a start until that time, if the two have parted by then.
+/// Outcome of a start on the in-house engine at that time, if the two have parted by then.
 inline std::optional<CollisionEnd> endByEngine(const Case& setup, const CollisionStart& start,
                                                double dt, double time) {
   const Scene scene = collisionScene(setup, {start}, dt);

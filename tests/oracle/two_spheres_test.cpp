@@ -208,7 +208,7 @@ std::optional<CollisionEnd> attempt(Solve&& solve) {
   }
 }
 
-/// What a collision took, part by part [J].
+/// Energy lost in a collision, part by part [J].
 std::vector<double> partsOf(const EnergySplit& lost) {
   return {lost.normalDamping,
           lost.tangentialDamping,
