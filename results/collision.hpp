@@ -31,6 +31,7 @@ struct CollisionCurve {
   CurveScore score;                       ///< against the scene's law
   std::optional<DeclaredScore> declared;  ///< absent where the engine declares the scene's law
   std::optional<SchemeScore> ownScheme;   ///< measured at the largest time step of a variant
+  std::optional<CollisionCauses> causes;  ///< likewise; absent where it does not differ
 
   bool allParted() const;  ///< but those that stick by the oracle
   bool complete() const { return status == Status::finished && allParted(); }
@@ -52,6 +53,7 @@ struct CollisionCurve {
     io("score", score);
     io("declared", declared);
     io.present("own_scheme", ownScheme);
+    io.present("causes", causes);
   }
 };
 

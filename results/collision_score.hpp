@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "oracle/collision_quantities.hpp"
+#include "results/causes.hpp"
 #include "results/json_fields.hpp"
 
 /// Outcomes of collisions as tables, and how far they are from the oracle's.
@@ -178,17 +179,22 @@ struct DeclaredScore {
   DeclaredReference reference = DeclaredReference::none;
   CurveScore score;
   std::string oracleReason;  ///< why there is no oracle of it, or not everywhere
-  /// Of conventions in `law`, by how many limits each alone, in the scene's law, moves what the
-  /// in-house engine finds, in the quantity that it moves most. Of a curve that the scene's law
-  /// fails; absent where the in-house engine cannot run it.
-  std::optional<std::map<std::string, double>> moves;
 
   void fields(auto& io) {
     io("law", law);
     io("reference", reference);
     io("score", score);
     io("oracle_reason", oracleReason);
-    io.present("moves", moves);
+  }
+};
+
+/// Causes of what a curve differs by from the in-house engine's under the scene's law.
+struct CollisionCauses : Causes {
+  PerQuantity<QuantityCauses> of;  ///< those that the sweep is scored in
+
+  void fields(auto& io) {
+    Causes::fields(io);
+    io("quantities", of);
   }
 };
 

@@ -306,7 +306,8 @@ std::vector<Figure> collideFigures(const CollideResults& results) {
   for (const CaseGroup& group : casesOf(results)) {
     const std::string name = fmt::format("collision_{}", ++index);
     for (Figure& figure : std::vector{curvesFigure(group, styles, name),
-                                      energyFigure(group, styles, name + "_energy")})
+                                      energyFigure(group, styles, name + "_energy"),
+                                      causesFigure(group, name + "_causes")})
       if (!figure.panels.empty()) figures.push_back(std::move(figure));
   }
   return figures;

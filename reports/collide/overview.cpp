@@ -171,20 +171,12 @@ void dropEmptyColumns(Overview& overview) {
 }
 
 /// In a sentence: the matrix has all names.
-constexpr std::size_t mostEngines = 5, mostOfACause = 2, mostCauses = 2;
+constexpr std::size_t mostEngines = 5, mostDifferences = 2;
 
 /// Sweeps of an engine.
 struct EngineCount : SweepCount {
   std::string engine;
 };
-
-/// A possible cause of differences or failures.
-struct Cause {
-  std::string words;
-  int excess = 0;  ///< of sweeps that it could explain over sweeps that pass in spite of it
-  Names engines;   ///< whose sweeps it could explain
-};
-using Causes = std::vector<Cause>;
 
 /// Engines that are judged: not the mirrors beside their peers.
 Names judgedEngines(const CollideResults& results) {
@@ -205,62 +197,6 @@ std::vector<EngineCount> countsOf(const CollideResults& results) {
   return counts;
 }
 
-Cause& causeOf(Causes& causes, const std::string& words) {
-  const auto found = std::ranges::find(causes, words, &Cause::words);
-  return found == causes.end() ? causes.emplace_back(Cause{words, 0, {}}) : *found;
-}
-
-/// Of the sweeps that came out so, the likeliest cause first: what as many passing sweeps have
-/// explains nothing.
-/// @param causesIn  of a sweep: its causes' words
-Causes causesOf(const CollideResults& results, Verdict verdict, const auto& causesIn) {
-  Causes causes;
-  for (const std::string& engine : judgedEngines(results))
-    for (const CollisionVariant& variant : results.variants)
-      for (const CollisionCurve* curve : curvesOf(variant, engine)) {
-        const bool explained = verdictOf(*curve) == verdict && curve->status != Status::failed;
-        if (!explained && verdictOf(*curve) != Verdict::pass) continue;
-        for (const std::string& words : causesIn(*curve)) {
-          Cause& cause = causeOf(causes, words);
-          cause.excess += explained ? 1 : -1;
-          if (explained && (cause.engines.empty() || cause.engines.back() != engine))
-            cause.engines.push_back(engine);
-        }
-      }
-  std::erase_if(causes, [](const Cause& cause) { return cause.excess <= 0; });
-  std::ranges::stable_sort(causes, std::greater(), &Cause::excess);
-  return causes;
-}
-
-/// Conventions of the declared law that are not the scene's; its constants follow from these. Where
-/// it was measured how far each moves the outcome, those that do so beyond a limit by themselves.
-Names conventionsIn(const CollisionCurve& curve) {
-  Names words;
-  if (!curve.declared) return words;
-  const auto& moves = curve.declared->moves;
-  for (const auto& [name, value] : curve.declared->law) {
-    if (!std::holds_alternative<std::string>(value)) continue;
-    const auto moved = moves ? moves->find(name) : std::map<std::string, double>::const_iterator();
-    if (!moves || (moved != moves->end() && moved->second > 1.0))
-      words.push_back(*lawWords(name, value));
-  }
-  return words;
-}
-
-/// The largest of DeclaredScore::moves that has these words; absent where nothing was measured.
-std::optional<double> movedBy(const CollideResults& results, const std::string& words) {
-  std::optional<double> most;
-  for (const CollisionVariant& variant : results.variants)
-    for (const CollisionCurve& curve : variant.curves) {
-      if (!curve.declared || !curve.declared->moves || runsBesideItsPeer(results, curve.engine))
-        continue;
-      for (const auto& [name, times] : *curve.declared->moves)
-        if (lawWords(name, curve.declared->law.at(name)) == words)
-          most = std::max(most.value_or(0.0), times);
-    }
-  return most;
-}
-
 /// Quantities beyond their limits.
 Names failuresIn(const CollisionCurve& curve) {
   Names words;
@@ -271,26 +207,41 @@ Names failuresIn(const CollisionCurve& curve) {
   return words;
 }
 
-/// "tension cut (two engines) and dashpot outside (one of them)"
-std::string causesInWords(const Causes& causes) {
-  Names words;
-  for (const Cause& cause : causes | std::views::take(mostCauses))
-    words.push_back(
-        fmt::format("{} ({})", cause.words, listedShortly(cause.engines, mostOfACause)));
-  return listed(words);
+/// The quantity that most sweeps of engines that are judged fail in; empty: none does.
+std::string failsMostOften(const CollideResults& results) {
+  std::map<std::string, int> counts;
+  for (const std::string& engine : judgedEngines(results))
+    for (const CollisionVariant& variant : results.variants)
+      for (const CollisionCurve* curve : curvesOf(variant, engine))
+        if (verdictOf(*curve) == Verdict::fail && curve->status != Status::failed)
+          for (const std::string& words : failuresIn(*curve)) ++counts[words];
+  const auto most =
+      std::ranges::max_element(counts, {}, [](const auto& one) { return one.second; });
+  return most == counts.end() ? "" : most->first;
 }
 
-/// Model differences by the conventions that make them: by what each was measured to move, else by
-/// the number of sweeps.
-std::string differingLaws(const CollideResults& results) {
-  Causes causes = causesOf(results, Verdict::modelDifference, conventionsIn);
-  std::ranges::stable_sort(causes, std::greater(), [&](const Cause& cause) {
-    return movedBy(results, cause.words).value_or(0.0);
-  });
-  for (Cause& cause : causes)
-    if (const auto times = movedBy(results, cause.words))
-      cause.words += fmt::format(", by itself {} × limit", shortly(*times));
-  return causesInWords(causes);
+/// Of each engine that is judged the difference furthest beyond a limit, in a sentence; the largest
+/// first.
+std::string differencesByCause(const CollideResults& results) {
+  const std::vector<CaseGroup> groups = casesOf(results);
+  std::vector<std::pair<WorstDifference, std::string>> worst;
+  for (const std::string& engine : judgedEngines(results)) {
+    std::optional<std::pair<WorstDifference, std::string>> own;
+    for (const CaseGroup& group : groups)
+      for (const CollisionVariant* variant : group.variants)
+        for (const CollisionCurve* curve : curvesOf(*variant, engine))
+          for (const CollisionQuantity& quantity : scoredQuantities())
+            if (const auto one = worstDifference(variant, *curve, quantity.id);
+                one && one->limits > 1.0 && curve->score.of[quantity.id]->held == false &&
+                (!own || one->limits > own->first.limits))
+              own = {*one, results.variants.size() > 1 ? placeOf(groups, group, *variant) : ""};
+    if (own) worst.push_back(std::move(*own));
+  }
+  std::ranges::stable_sort(worst, std::greater(), [](const auto& one) { return one.first.limits; });
+  Names words;
+  for (const auto& [one, place] : worst | std::views::take(mostDifferences))
+    words.push_back(differenceSentence(one, place));
+  return fmt::format("{}", fmt::join(words, "; "));
 }
 
 /// "siconos (44 of 45 sweeps) and grain (2 of 242)"
@@ -343,9 +294,8 @@ std::string whoPasses(const CollideResults& results) {
 }
 
 std::string causesOfDifferences(const CollideResults& results) {
-  const Causes quantities = causesOf(results, Verdict::fail, failuresIn);
-  return joinedParts({{"laws differ most by", differingLaws(results)},
-                      {"fails most often", quantities.empty() ? "" : quantities.front().words}});
+  return joinedParts(
+      {{"causes", differencesByCause(results)}, {"fails most often", failsMostOften(results)}});
 }
 
 std::string collideNextStep(const CollideResults& results) {
@@ -389,10 +339,13 @@ Overview collideOverview(const CollideResults& results) {
       Errors errors;
       forCurves(
           groups, engine.name,
-          [&](const CollisionCurve& curve, const std::string& place, const std::string& anchor) {
+          [&](const CollisionCurve& curve, const std::string& sweep, const std::string& anchor) {
             for (const QuantityId id : group.quantities) {
               const CollisionQuantity& quantity = collisionQuantity(id);
               const bool alone = group.quantities.size() == 1;  // the question names it
+              std::string place = sweep;
+              if (const auto worst = worstDifference(nullptr, curve, id))
+                place += ": " + largestCause(*worst);
               look(errors, curve, quantity,
                    alone ? place : fmt::format("{}, {}", quantity.label, place), anchor);
             }

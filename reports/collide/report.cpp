@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "reports/common/causes.hpp"
 #include "results/json_fields.hpp"
 
 namespace crossgrain::reports {
@@ -323,6 +324,14 @@ void addCollisionCase(Report& report, const CollideResults& results, const CaseG
                    variantTable(results, group)};
   if (std::string space = spaceOf(group); !space.empty())
     blocks.insert(blocks.begin() + 1, Paragraph{std::move(space), small});
+  if (Table causes = causesTable(group, false); !causes.rows.empty()) {
+    blocks.push_back(Heading{"Causes of differences", fmt::format("causes_{}", number)});
+    blocks.push_back(drawing(figure + "_causes"));
+    blocks.push_back(std::move(causes));
+    for (std::string& note : causesNotes(group))
+      blocks.push_back(Paragraph{std::move(note), small});
+    blocks.push_back(Details{"Causes of every quantity", {causesTable(group, true)}});
+  }
   if (Table mirrors = mirrorTable(group, results.engines); !mirrors.rows.empty())
     blocks.push_back(Details{"Model or implementation?", {std::move(mirrors)}});
   if (Drawings energy = drawing(figure + "_energy"); !energy.names.empty())
@@ -361,7 +370,14 @@ Report reportOf(const CollideResults& results) {
         effective.push_back(
             {curve.engine, &*curve.effective, variant.effects ? &*variant.effects : nullptr});
   addDetails(report, effective);
+  std::vector<const Causes*> causes;
+  for (const CollisionVariant& variant : results.variants)
+    for (const CollisionCurve& curve : variant.curves)
+      if (curve.causes) causes.push_back(&*curve.causes);
+  if (Table terms = causeTerms(causes); !terms.rows.empty())
+    report.section("terms", "Options that differ", "Terms").blocks = {std::move(terms)};
   report.tables = {{"collisions.csv", collisionsCsv(results)}};
+  if (!causes.empty()) report.tables.emplace_back("causes.csv", causesCsv(results));
   report.checks = collideChecks(results);
   return report;
 }

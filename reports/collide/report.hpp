@@ -67,4 +67,38 @@ Table variantTable(const CollideResults& results, const CaseGroup& group);
 Table mirrorTable(const CaseGroup& group, const std::vector<EngineRow>& engines);
 Table scoreTable(const CaseGroup& group);
 
+/// A difference of one quantity of an engine's sweep from the in-house engine's, and its causes,
+/// where it is largest.
+struct WorstDifference {
+  const CollisionVariant* variant;
+  const CollisionCurve* curve;
+  QuantityId quantity;
+  std::size_t point;  ///< of the sweep
+  double limits;      ///< size in limits; without one in the unit of the quantity's errors
+};
+
+/// Of one quantity of a curve of that variant; absent where it has no causes of it, or no
+/// difference.
+std::optional<WorstDifference> worstDifference(const CollisionVariant* variant,
+                                               const CollisionCurve& curve, QuantityId quantity);
+
+/// The name of the largest cause, "spring_update".
+std::string largestCause(const WorstDifference& worst);
+
+/// "Ψ_f of yade is 0.14 lower than grain's at Ψ_i = 0.35 (Figure 4.3): spring_update 0.139, …"
+/// @param place  of the sweep; empty: not said
+std::string differenceSentence(const WorstDifference& worst, const std::string& place);
+
+/// Causes of what engines' sweeps of a case differ by: a row for each quantity of each engine and
+/// variant that differs. @param quantities  "the one furthest beyond its limit" or all
+Table causesTable(const CaseGroup& group, bool all);
+Names causesNotes(const CaseGroup& group);
+
+/// Ψ_i, the difference and its parts: causes.csv.
+std::string causesCsv(const CollideResults& results);
+
+/// Differences as lines over Ψ_i, their parts as stacked bands: a panel for each engine and variant
+/// that differs, the largest differences first.
+Figure causesFigure(const CaseGroup& group, const std::string& name);
+
 }  // namespace crossgrain::reports

@@ -23,8 +23,8 @@ struct LineStyle {
 };
 
 /// Blocks reach from x = 0 to each point, in panels with rows; tiles fill the place of each point,
-/// in panels with rows and columns.
-enum class Draw { linesAndPoints, lines, points, blocks, tiles };
+/// in panels with rows and columns; bands fill what lies within the points' errors.
+enum class Draw { linesAndPoints, lines, points, blocks, tiles, bands };
 
 struct Curve {
   std::string name;  ///< empty: not in the key

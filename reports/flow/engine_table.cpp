@@ -178,7 +178,7 @@ std::string range(double from, double to) {
 using Rows = std::vector<TableRow>;
 
 /// The run's regime with the numbers that it follows from.
-Cell regimeCell(const FlowRun& run) {
+Cell regimeOfRun(const FlowRun& run) {
   if (!run.regime) return absentText;
   const RegimeRow& regime = *run.regime;
   std::string numbers = fmt::format("contacts {}, slip {}, shear {}, I {}",
@@ -202,7 +202,7 @@ Table regimeTable(const Engines& engines) {
     TableRow row{{fmt::format("{}", packing)}};
     for (const EngineRuns& engine : engines) {
       const auto* const run = findBy(engine.finished, packing, &FlowRun::packing);
-      row.cells.push_back(run ? regimeCell(**run) : absentText);
+      row.cells.push_back(run ? regimeOfRun(**run) : absentText);
     }
     table.rows.push_back(std::move(row));
   }

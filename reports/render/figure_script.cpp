@@ -150,6 +150,9 @@ std::string plotElements(const std::string& data, std::size_t index, const Curve
     return blocksElement(source, colour) +
            (hasBars(curve) ? ", " + barsElement(source, "lc rgb 'black'", across) + "1/0 notitle"
                            : "");
+  if (curve.draw == Draw::bands)
+    return fmt::format("{} using 1:3:4 with filledcurves fill solid 0.6 noborder {} {}", source,
+                       colour, keyTitle(seen ? curve.name : std::string()));
   if (curve.draw == Draw::tiles) return tilesElement(source, colour, curve.name);
   const std::string look = styleText(curve, across);
   const std::string title = keyTitle(seen ? curve.name : std::string());

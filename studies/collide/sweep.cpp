@@ -15,6 +15,7 @@
 #include "law/law_options.hpp"
 #include "oracle/collision_flight.hpp"
 #include "oracle/impact.hpp"
+#include "studies/collide/causes.hpp"
 #include "studies/collide/contact_account.hpp"
 #include "support/interrupt.hpp"
 
@@ -261,22 +262,31 @@ Outcomes runOutcomes(Engine& engine, const Capabilities& can, const Case& setup,
   return outcomes;
 }
 
-/// Runs the in-house engine on the sweep under the law that another declares, at the step
-/// that it takes.
+}  // namespace
+
+template <int D>
+Outcomes inHouseOutcomes(const Case& setup, SceneOf<D> scene,
+                         const std::vector<CollisionStart>& starts, bool watch) {
+  const auto engine = engineRegistry().front().make();
+  scene.precision = Precision::float64;
+  const EffectiveParameters effective = loadOn(*engine, scene, {});
+  return runOutcomes(*engine, engine->capabilities(), setup, scene, scene.law, effective, starts,
+                     watch);
+}
+template Outcomes inHouseOutcomes(const Case&, Scene, const std::vector<CollisionStart>&, bool);
+template Outcomes inHouseOutcomes(const Case&, SpaceScene, const std::vector<CollisionStart>&,
+                                  bool);
+
+namespace {
+
+/// The same under the law that another engine declares, at the step that it takes.
 template <int D>
 Outcomes mirrorOutcomes(const Case& setup, const SceneOf<D>& asRun, const ContactLaw& law,
                         double dt, const std::vector<CollisionStart>& starts, bool watch) {
-  const auto mirror = engineRegistry().front().make();
   SceneOf<D> scene = asRun;
   scene.law = law;
   scene.dt = dt;
-  scene.precision = Precision::float64;
-  EffectiveParameters effective;
-  if constexpr (D == 2)
-    effective = mirror->load(scene, {});
-  else
-    effective = mirror->loadInSpace(scene, {});
-  return runOutcomes(*mirror, mirror->capabilities(), setup, scene, law, effective, starts, watch);
+  return inHouseOutcomes(setup, std::move(scene), starts, watch);
 }
 
 /// More than any outcome differs by, of the speed of approach; files have no infinity.
@@ -316,38 +326,6 @@ struct SweptCurve {
   const CurveScore& score;  ///< against the scene's law; also has what rounding does
 };
 
-/// DeclaredScore::moves, measured by mixtures on the in-house engine, so that conventions count
-/// that no solution in continuous time has.
-template <int D>
-std::optional<std::map<std::string, double>> movesOf(const SweptCurve<D>& swept,
-                                                     const LawDescription& differences) {
-  const auto under = [&](const ContactLaw& law) {
-    return mirrorOutcomes(swept.setup, swept.asRun, law, swept.effective.dt, swept.starts,
-                          swept.watch);
-  };
-  std::map<std::string, double> moves;
-  try {
-    const Outcomes scene = under(swept.setup.law);
-    for (const auto& [name, value] : differences) {
-      const auto* const word = std::get_if<std::string>(&value);
-      if (!word || !isConvention(name)) continue;
-      ContactLaw one = swept.setup.law;
-      setLawOption(one, name, *word);
-      const CurveScore apart =
-          scoreSweep(swept.setup, swept.starts, under(one), scene, &swept.score);
-      double most = 0.0;
-      for (const CollisionQuantity& quantity : scoredQuantities())
-        if (const auto& score = apart.of[quantity.id]; score && score->limit)
-          most = std::max(most, score->max / *score->limit);
-      moves[name] = most;
-    }
-  } catch (const UnsupportedScene&) {
-    return std::nullopt;
-  }
-  if (moves.empty()) return std::nullopt;
-  return moves;
-}
-
 /// Against the oracle. Integrator, damping velocity and spring update are conventions that no
 /// solution in continuous time has, and others have no limit of small steps at all: where the curve
 /// is short of the oracle, or there is none, the in-house engine decides, with the same conventions
@@ -363,8 +341,6 @@ std::optional<DeclaredScore> scoreDeclared(const SweptCurve<D>& swept, const Eng
   }
   score.law = lawDifference(*law, swept.setup.law);
   if (score.law.empty()) return std::nullopt;
-  if (swept.score.verdict == Verdict::fail && law->soft() && swept.setup.law.soft())
-    score.moves = movesOf(swept, score.law);
   Case declared = swept.setup;
   declared.law = *law;
   const OracleCurve oracle =
@@ -418,6 +394,15 @@ bool leavesItToTheStep(const SweptCurve<D>& swept, const Outcomes& reference, Cu
   return !beyond;
 }
 
+/// The scene as an engine declares to run it.
+template <int D>
+SceneOf<D> peerScene(SceneOf<D> asRun, const ContactLaw& law,
+                     const EffectiveParameters& effective) {
+  asRun.law = law;
+  asRun.dt = effective.dt;
+  return asRun;
+}
+
 template <int D>
 CollisionCurve sweepIn(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
                        const std::vector<CollisionStart>& starts, const OracleCurve& limit,
@@ -460,6 +445,9 @@ CollisionCurve sweepIn(Engine& engine, const EngineEntry& entry, const Case& set
                  soft ? roundingOfPlaces<D>(scene, effective, starts, reference) : std::nullopt);
   const SweptCurve<D> swept{setup, starts, asRun, effective, found, watch, step, curve.score};
   if (declared) curve.declared = scoreDeclared(swept, entry, law, *declared);
+  if (declared && watch && law && entry.mirrors.empty())
+    curve.causes = causesOfSweep<D>(setup, starts, scene, peerScene(asRun, *law, effective), found,
+                                    curve.score);
   if (passesFiner && soft && !curve.declared && missing == 0 &&
       curve.score.verdict == Verdict::fail && leavesItToTheStep(swept, reference, curve.score))
     curve.reason += fmt::format(

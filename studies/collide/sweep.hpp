@@ -75,6 +75,11 @@ CollisionTable tableOf(const std::vector<CollisionStart>& starts, const Outcomes
 Outcomes sweepOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
                        const std::vector<CollisionStart>& starts);
 
+/// The in-house engine on the sweep, under the law of `scene` and at its step.
+template <int D>
+Outcomes inHouseOutcomes(const Case& setup, SceneOf<D> scene,
+                         const std::vector<CollisionStart>& starts, bool watch);
+
 /// One engine on one sweep.
 /// @param watch  the contacts, step by step, for the largest overlap and the energy's whereabouts,
 ///               where the engine shows them; the outcome is the same

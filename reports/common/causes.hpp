@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reports/common/report.hpp"
+#include "results/causes.hpp"
+
+/// Causes of differences in words (results/causes.hpp).
+namespace crossgrain::reports {
+
+/// A difference and its parts, which add up to it; all in one unit.
+struct CauseAccount {
+  double whole = 0.0;
+  std::vector<std::pair<std::string, double>> parts;  ///< by name
+  double interaction = 0.0, remainder = 0.0;
+  std::string remainderName;
+
+  /// Name of the largest part, the remainder's where that is larger than any.
+  std::string largest() const;
+};
+
+/// "spring_update 0.139, lever_arm 0.001, implementation < 0.001": the largest first, what works
+/// against the whole with a minus sign, all with the digits of the whole; what is below a hundredth
+/// of it together as "others".
+std::string accountWords(const CauseAccount& account);
+
+/// "Ψ_f of yade is 0.14 lower than grain's at Ψ_i = 0.35: spring_update 0.139, lever_arm 0.001,
+/// implementation < 0.001 (1 limit = 0.02)"
+/// @param what   the quantity, "Ψ_f"
+/// @param where  "at Ψ_i = 0.35"; empty: it has no place
+/// @param unit   empty: none
+/// @param limit  in the unit, and its word: "limit", "margin"
+std::string causeSentence(const std::string& what, const std::string& engine,
+                          const std::string& reference, const std::string& where,
+                          const CauseAccount& account, const std::string& unit,
+                          const std::optional<double>& limit, const char* limitIs);
+
+/// "spring_update after → before (not declared)"
+std::string differenceWords(const CauseName& difference);
+
+/// Sentences that hold for all numbers of a pair: which interact, how far the path goes, what was
+/// not attributed and why. Empty: there is nothing to be said.
+std::string causesNote(const Causes& causes);
+
+/// Options among these differences and what they mean: terms that a reader may not know.
+Table causeTerms(const std::vector<const Causes*>& all);
+
+/// Of a row of that table, to be linked to; there is none of a constant or an effect.
+std::string termId(const std::string& difference);
+
+}  // namespace crossgrain::reports

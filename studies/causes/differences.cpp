@@ -1,0 +1,192 @@
+#include "studies/causes/differences.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "adapters/declared_law.hpp"
+#include "adapters/suitability.hpp"
+#include "cases/effect_switch.hpp"
+#include "cases/materials.hpp"
+#include "law/law_options.hpp"
+#include "studies/lockstep/terms.hpp"
+
+namespace crossgrain::inline studies {
+
+namespace {
+
+using NameSet = std::set<std::string_view>;
+
+/// An option and what means nothing without it.
+struct Group {
+  std::string_view option;
+  std::vector<std::string_view> options;    ///< further ones
+  std::vector<std::string_view> constants;  ///< of lawConstants()
+};
+
+/// The most comprehensive first: what one has taken is not taken again.
+const std::vector<Group>& groups() {
+  static const std::vector<Group> all = {
+      {"normal", {"damper", "tangential"}, {"kn", "kn3", "gn", "kt", "gt", "en", "et0"}},
+      {"damper", {}, {"gn", "gt"}},
+      {"tangential", {}, {"kt", "gt"}},
+      {"rolling", {"rolling_stiffness", "rolling_damper"}, {"kr", "gr", "mu_r"}},
+      {"rolling_stiffness", {}, {"kr"}},
+      {"rolling_damper", {}, {"gr"}},
+      {"cohesion", {}, {"kc", "w", "k_unload", "plastic_depth"}}};
+  return all;
+}
+
+double& constantOf(ContactLaw& law, std::string_view name) {
+  return law.*std::ranges::find(lawConstants(), name, &LawConstant::name)->value;
+}
+double constantOf(const ContactLaw& law, std::string_view name) {
+  return law.*std::ranges::find(lawConstants(), name, &LawConstant::name)->value;
+}
+
+/// Whether two constants differ by more than rounding.
+bool differ(double one, double other) {
+  return std::abs(one - other) > 1e-12 * std::max(std::abs(one), std::abs(other));
+}
+
+/// Parts of one difference of laws.
+struct Taken {
+  std::vector<std::string_view> options, constants;
+};
+
+/// A constant in proportion, so that pairs of materials stay in theirs.
+void takeConstant(ContactLaw& law, std::string_view name, double from, double to) {
+  double& value = constantOf(law, name);
+  value = from == 0.0 || value == from ? to : value * (to / from);
+}
+
+template <class Setup>
+Difference<Setup> differenceOf(CauseName words, const Taken& taken, const ContactLaw& from,
+                               const ContactLaw& to) {
+  return {std::move(words), [taken, from, to](Setup& setup) {
+            changeLaws(setup, [&](ContactLaw& law) {
+              for (const std::string_view option : taken.options)
+                setLawOption(law, option, lawOptionValue(to, option));
+              for (const std::string_view constant : taken.constants)
+                takeConstant(law, constant, constantOf(from, constant), constantOf(to, constant));
+            });
+          }};
+}
+
+/// How many times as stiff a law is as the other, if that is all in which their constants differ;
+/// 1: it is not.
+double stiffnessBetween(const ContactLaw& from, const ContactLaw& to) {
+  const double factor = from.kn > 0.0 ? to.kn / from.kn : 1.0;
+  if (!differ(factor, 1.0)) return 1.0;
+  const ContactLaw stiff = stiffened(from, factor);
+  const bool is = std::ranges::all_of(lawConstants(), [&](const LawConstant& constant) {
+    return std::abs(stiff.*constant.value - to.*constant.value) <=
+           1e-9 * std::abs(to.*constant.value);
+  });
+  return is ? factor : 1.0;
+}
+
+bool bears(const ContactLaw& from, const ContactLaw& to, std::string_view option) {
+  return bearsOnMirror(from, option) || bearsOnMirror(to, option);
+}
+
+}  // namespace
+
+template <class Setup>
+std::vector<Difference<Setup>> lawDifferences(const ContactLaw& from, const ContactLaw& to) {
+  NameSet options, constants;
+  for (const LawOption& option : lawOptions())
+    if (option.get(from) != option.get(to) && bears(from, to, option.name))
+      options.insert(option.name);
+  for (const LawConstant& constant : lawConstants())
+    if (differ(from.*constant.value, to.*constant.value) &&
+        (hasPart(from, constant.part) || hasPart(to, constant.part)))
+      constants.insert(constant.name);
+  // Conventions of forces that a rigid law does not have.
+  if (from.soft() != to.soft())
+    std::erase_if(options, [](std::string_view name) { return isConvention(name); });
+
+  std::vector<Difference<Setup>> found;
+  for (const Group& group : groups()) {
+    if (options.erase(group.option) == 0) continue;
+    Taken taken{{group.option}, {}};
+    for (const std::string_view option : group.options)
+      if (options.erase(option) > 0) taken.options.push_back(option);
+    for (const std::string_view constant : group.constants)
+      if (constants.erase(constant) > 0) taken.constants.push_back(constant);
+    found.push_back(
+        differenceOf<Setup>({std::string(group.option), lawOptionValue(from, group.option),
+                             lawOptionValue(to, group.option)},
+                            taken, from, to));
+  }
+  if (const double factor = stiffnessBetween(from, to); factor != 1.0 && !constants.empty()) {
+    found.push_back(differenceOf<Setup>({"stiffness", "1", fmt::format("{:.4g}", factor)},
+                                        {{}, {constants.begin(), constants.end()}}, from, to));
+    constants.clear();
+  }
+  for (const LawOption& option : lawOptions())
+    if (options.contains(option.name))
+      found.push_back(differenceOf<Setup>(
+          {std::string(option.name), std::string(option.values[option.get(from)]),
+           std::string(option.values[option.get(to)])},
+          {{option.name}, {}}, from, to));
+  for (const LawConstant& constant : lawConstants())
+    if (constants.contains(constant.name))
+      found.push_back(differenceOf<Setup>(
+          {std::string(constant.name), fmt::format("{:.4g}", from.*constant.value),
+           fmt::format("{:.4g}", to.*constant.value)},
+          {{}, {constant.name}}, from, to));
+  return found;
+}
+template std::vector<Difference<Case>> lawDifferences(const ContactLaw&, const ContactLaw&);
+
+template <int D>
+std::vector<Difference<SceneOf<D>>> differencesOf(const SceneOf<D>& from, const SceneOf<D>& to) {
+  std::vector<Difference<SceneOf<D>>> found = lawDifferences<SceneOf<D>>(from.law, to.law);
+  const auto add = [&](std::string name, std::string was, std::string is,
+                       std::function<void(SceneOf<D>&)> take) {
+    found.push_back({{std::move(name), std::move(was), std::move(is)}, std::move(take)});
+  };
+  if (from.rotation != to.rotation)
+    add("rotation", from.rotation ? "free" : "blocked", to.rotation ? "free" : "blocked",
+        [on = to.rotation](SceneOf<D>& scene) { scene.rotation = on; });
+  if (from.bottom != to.bottom)
+    add(to.bottom ? "bottom_spin_friction" : "bottom_friction", "there", "missing",
+        [plate = to.bottom](SceneOf<D>& scene) { scene.bottom = plate; });
+  if (from.gravity != to.gravity)
+    add("gravity", "there", "missing",
+        [gravity = to.gravity](SceneOf<D>& scene) { scene.gravity = gravity; });
+  if (from.materials.has_value() && !to.materials)
+    add("pair_materials", "there", "missing", [](SceneOf<D>& scene) { scene.materials.reset(); });
+  if (differ(from.dt, to.dt)) {
+    // No soft contact is resolved in the steps of impulses.
+    if (from.law.normal != to.law.normal) {
+      found.front().take = [take = found.front().take, dt = to.dt](SceneOf<D>& scene) {
+        take(scene);
+        scene.dt = dt;
+      };
+      return found;
+    }
+    add("time step", fmt::format("{:.4g} s", from.dt), fmt::format("{:.4g} s", to.dt),
+        [dt = to.dt](SceneOf<D>& scene) { scene.dt = dt; });
+  }
+  return found;
+}
+template std::vector<Difference<Scene>> differencesOf(const Scene&, const Scene&);
+template std::vector<Difference<SpaceScene>> differencesOf(const SpaceScene&, const SpaceScene&);
+
+void addFindings(Causes& causes, const Attribution& found) {
+  causes.mixtures = found.mixtures;
+  for (const Attribution::Pair& pair : found.pairs)
+    causes.interactions.push_back(
+        {causes.differences[pair.one].name, causes.differences[pair.other].name, pair.share});
+  for (const Attribution::Step& step : found.path)
+    causes.path.push_back({causes.differences[step.taken].name, step.left});
+  causes.runs += found.runs;
+}
+
+}  // namespace crossgrain::inline studies

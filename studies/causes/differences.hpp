@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "adapters/engine.hpp"
+#include "cases/case.hpp"
+#include "results/causes.hpp"
+#include "studies/causes/attribution.hpp"
+
+namespace crossgrain::inline studies {
+
+/// One thing in which two ways of running a scene differ. @tparam Setup  a scene, or a case
+template <class Setup>
+struct Difference {
+  CauseName words;
+  std::function<void(Setup&)> take;  ///< makes the reference's like the peer's in this
+};
+
+/// In what two laws differ: options that bear on either, each by itself; constants, each by itself,
+/// or all as one where one law is the other made stiffer; and together what means nothing apart: a
+/// normal, tangential, rolling or cohesive law, or a kind of damper, with its constants.
+template <class Setup>
+std::vector<Difference<Setup>> lawDifferences(const ContactLaw& from, const ContactLaw& to);
+
+/// In what two scenes of the same bodies differ: laws, effects that are no matter of the law, time
+/// step. All of them taken, `from` is `to`.
+template <int D>
+std::vector<Difference<SceneOf<D>>> differencesOf(const SceneOf<D>& from, const SceneOf<D>& to);
+
+/// Setup with some differences taken, in their order.
+template <class Setup>
+Setup mixed(Setup from, const std::vector<Difference<Setup>>& differences, Mixture mixture) {
+  for (std::size_t k = 0; k < differences.size(); ++k)
+    if (mixture >> k & 1) differences[k].take(from);
+  return from;
+}
+
+/// What is to be said of a pair before anything is run.
+template <class Setup>
+Causes causesOf(const std::vector<Difference<Setup>>& differences) {
+  Causes causes;
+  for (const Difference<Setup>& one : differences) causes.differences.push_back(one.words);
+  return causes;
+}
+
+/// Adds what attribute() says of all numbers together.
+void addFindings(Causes& causes, const Attribution& found);
+
+}  // namespace crossgrain::inline studies

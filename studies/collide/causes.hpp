@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "adapters/engine.hpp"
+#include "cases/case.hpp"
+#include "results/collision_score.hpp"
+#include "studies/collide/sweep.hpp"
+
+namespace crossgrain::inline studies {
+
+/// What makes an engine's sweep differ from the in-house engine's on the scene as the case has it,
+/// by runs of the in-house engine under mixtures of both laws.
+/// @param scene  the case's
+/// @param peer   as the engine declares to run it: its law, its step
+/// @param score  of the sweep, whose units and limits are taken
+/// @returns nothing where the sweeps do not differ by more than rounding does
+template <int D>
+std::optional<CollisionCauses> causesOfSweep(const Case& setup,
+                                             const std::vector<CollisionStart>& starts,
+                                             const SceneOf<D>& scene, const SceneOf<D>& peer,
+                                             const Outcomes& found, const CurveScore& score);
+
+}  // namespace crossgrain::inline studies
