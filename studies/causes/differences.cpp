@@ -1,6 +1,7 @@
 #include "studies/causes/differences.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +38,8 @@ const std::vector<Group>& groups() {
       {"rolling", {"rolling_stiffness", "rolling_damper"}, {"kr", "gr", "mu_r"}},
       {"rolling_stiffness", {}, {"kr"}},
       {"rolling_damper", {}, {"gr"}},
-      {"cohesion", {}, {"kc", "w", "k_unload", "plastic_depth"}}};
+      {"cohesion", {}, {"kc", "w", "k_unload", "plastic_depth"}},
+      {"integrator", {"damping_velocity"}, {}}};  // Euler's is of the positions' own time
   return all;
 }
 
@@ -48,15 +50,22 @@ double constantOf(const ContactLaw& law, std::string_view name) {
   return law.*std::ranges::find(lawConstants(), name, &LawConstant::name)->value;
 }
 
-/// Whether two constants differ by more than rounding.
-bool differ(double one, double other) {
-  return std::abs(one - other) > 1e-12 * std::max(std::abs(one), std::abs(other));
-}
-
 /// Parts of one difference of laws.
 struct Taken {
   std::vector<std::string_view> options, constants;
 };
+
+/// "damper+gn": all that moves together; a normal law by itself, whose constants are many.
+std::string nameOf(const Group& group, const Taken& taken) {
+  if (group.option == "normal") return "normal";
+  return fmt::format("{}{}{}", fmt::join(taken.options, "+"), taken.constants.empty() ? "" : "+",
+                     fmt::join(taken.constants, "+"));
+}
+
+/// Whether two constants differ by more than rounding.
+bool differ(double one, double other) {
+  return std::abs(one - other) > 1e-12 * std::max(std::abs(one), std::abs(other));
+}
 
 /// A constant in proportion, so that pairs of materials stay in theirs.
 void takeConstant(ContactLaw& law, std::string_view name, double from, double to) {
@@ -112,16 +121,18 @@ std::vector<Difference<Setup>> lawDifferences(const ContactLaw& from, const Cont
 
   std::vector<Difference<Setup>> found;
   for (const Group& group : groups()) {
+    const bool euler = from.conventions.integrator == Integrator::semiImplicitEuler ||
+                       to.conventions.integrator == Integrator::semiImplicitEuler;
+    if (group.option == "integrator" && !euler) continue;
     if (options.erase(group.option) == 0) continue;
     Taken taken{{group.option}, {}};
     for (const std::string_view option : group.options)
       if (options.erase(option) > 0) taken.options.push_back(option);
     for (const std::string_view constant : group.constants)
       if (constants.erase(constant) > 0) taken.constants.push_back(constant);
-    found.push_back(
-        differenceOf<Setup>({std::string(group.option), lawOptionValue(from, group.option),
-                             lawOptionValue(to, group.option)},
-                            taken, from, to));
+    found.push_back(differenceOf<Setup>({nameOf(group, taken), lawOptionValue(from, group.option),
+                                         lawOptionValue(to, group.option)},
+                                        taken, from, to));
   }
   if (const double factor = stiffnessBetween(from, to); factor != 1.0 && !constants.empty()) {
     found.push_back(differenceOf<Setup>({"stiffness", "1", fmt::format("{:.4g}", factor)},
