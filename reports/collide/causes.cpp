@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "reports/collide/report.hpp"
 #include "reports/common/causes.hpp"
@@ -26,7 +27,7 @@ std::optional<CauseAccount> accountAt(const CollisionCauses& causes, const Quant
   for (std::size_t k = 0; k < own.parts.size(); ++k) {
     const auto part = at(own.parts[k], point);
     if (!part) return std::nullopt;
-    account.parts.emplace_back(causes.differences[k].name, *part);
+    account.parts.emplace_back(partName(causes.differences[k]), *part);
   }
   return account;
 }
@@ -34,7 +35,7 @@ std::optional<CauseAccount> accountAt(const CollisionCauses& causes, const Quant
 /// Shares in the whole sweep: Σ part · whole/Σ whole², which add up to 1.
 CauseAccount accountOver(const CollisionCauses& causes, const QuantityCauses& own) {
   CauseAccount sum{0.0, {}, 0.0, 0.0, causes.remainder};
-  for (const CauseName& one : causes.differences) sum.parts.emplace_back(one.name, 0.0);
+  for (const CauseName& one : causes.differences) sum.parts.emplace_back(partName(one), 0.0);
   for (std::size_t k = 0; k < own.whole.size(); ++k) {
     const auto one = accountAt(causes, own, k);
     if (!one) continue;
@@ -62,19 +63,20 @@ std::optional<CauseAccount> accountOf(const WorstDifference& worst) {
   return accountAt(*worst.curve->causes, *causesIn(*worst.curve, worst.quantity), worst.point);
 }
 
-/// Every engine's quantities in which it differs, those furthest in limits first.
+/// Of every engine the quantity and variant in which it differs most in limits, the largest first;
+/// or all of them, sweep by sweep.
 std::vector<WorstDifference> differencesIn(const CaseGroup& group, bool all) {
   std::vector<WorstDifference> found;
   for (const CollisionVariant* variant : group.variants)
-    for (const CollisionCurve& curve : variant->curves) {
-      std::vector<WorstDifference> own;
+    for (const CollisionCurve& curve : variant->curves)
       for (const CollisionQuantity& quantity : scoredQuantities())
-        if (const auto worst = worstDifference(variant, curve, quantity.id)) own.push_back(*worst);
-      std::ranges::stable_sort(own, std::greater(), &WorstDifference::limits);
-      if (!all && own.size() > 1) own.resize(1);
-      found.insert(found.end(), own.begin(), own.end());
-    }
-  if (!all) std::ranges::stable_sort(found, std::greater(), &WorstDifference::limits);
+        if (const auto worst = worstDifference(variant, curve, quantity.id))
+          found.push_back(*worst);
+  if (all) return found;
+  std::ranges::stable_sort(found, std::greater(), &WorstDifference::limits);
+  std::set<std::string> seen;
+  std::erase_if(found,
+                [&](const WorstDifference& one) { return !seen.insert(one.curve->engine).second; });
   return found;
 }
 
@@ -267,8 +269,9 @@ Figure causesFigure(const CaseGroup& group, const std::string& name) {
   std::map<std::string, const char*> colours;
   for (const WorstDifference& one : shown) figure.panels.push_back(causesPanel(one, colours));
   figure.caption =
-      "Line: the engine less grain under the scene's law, in the quantity that differs most in "
-      "limits. Bands: its parts, one on the other, by runs of grain under mixtures of both laws; "
+      "Line: the engine less grain under the scene's law, in the variant and quantity that differ "
+      "most in limits. Bands: its parts, one on the other, by runs of grain under mixtures of both "
+      "laws; "
       "grey: what no difference of the laws makes.";
   figure.keyAbove = true;
   figure.columns = std::max(1, std::min(3, static_cast<int>(figure.panels.size())));

@@ -95,6 +95,16 @@ OverviewCell errorCell(const Errors& errors, bool besidePeer) {
           shown.words, shown.anchor};
 }
 
+/// "by spring_update: " where most of a curve's error is a difference from the in-house engine at
+/// the same step: else the step makes it.
+std::string causeBefore(const CollisionCurve& curve, QuantityId quantity) {
+  const auto& score = curve.score.of[quantity];
+  const auto worst = worstDifference(nullptr, curve, quantity);
+  if (!worst || !score || !score->limit || worst->limits * *score->limit < 0.5 * score->max)
+    return {};
+  return fmt::format("by {}: ", largestCause(*worst));
+}
+
 /// Visits the curves of an engine that have an outcome.
 void forCurves(const std::vector<CaseGroup>& groups, const std::string& engine, const auto& visit) {
   for (std::size_t g = 0; g < groups.size(); ++g)
@@ -343,11 +353,9 @@ Overview collideOverview(const CollideResults& results) {
             for (const QuantityId id : group.quantities) {
               const CollisionQuantity& quantity = collisionQuantity(id);
               const bool alone = group.quantities.size() == 1;  // the question names it
-              std::string place = sweep;
-              if (const auto worst = worstDifference(nullptr, curve, id))
-                place += ": " + largestCause(*worst);
-              look(errors, curve, quantity,
-                   alone ? place : fmt::format("{}, {}", quantity.label, place), anchor);
+              const std::string place =
+                  alone ? sweep : fmt::format("{}, {}", quantity.label, sweep);
+              look(errors, curve, quantity, causeBefore(curve, id) + place, anchor);
             }
           });
       row.cells.push_back(errorCell(errors, besidePeer));

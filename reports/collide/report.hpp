@@ -89,16 +89,16 @@ std::string largestCause(const WorstDifference& worst);
 /// @param place  of the sweep; empty: not said
 std::string differenceSentence(const WorstDifference& worst, const std::string& place);
 
-/// Causes of what engines' sweeps of a case differ by: a row for each quantity of each engine and
-/// variant that differs. @param quantities  "the one furthest beyond its limit" or all
+/// Causes of what engines' sweeps of a case differ by: of each engine where it differs most in
+/// limits, or all: a row for each quantity of each engine and variant.
 Table causesTable(const CaseGroup& group, bool all);
 Names causesNotes(const CaseGroup& group);
 
 /// Ψ_i, the difference and its parts: causes.csv.
 std::string causesCsv(const CollideResults& results);
 
-/// Differences as lines over Ψ_i, their parts as stacked bands: a panel for each engine and variant
-/// that differs, the largest differences first.
+/// Differences as lines over Ψ_i, their parts as stacked bands: a panel for each engine that
+/// differs, where it does so most.
 Figure causesFigure(const CaseGroup& group, const std::string& name);
 
 }  // namespace crossgrain::reports

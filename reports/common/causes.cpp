@@ -79,6 +79,10 @@ std::string causeSentence(const std::string& what, const std::string& engine,
                      limit ? fmt::format(" (1 {} = {}{})", limitIs, readable(*limit), of) : "");
 }
 
+std::string partName(const CauseName& difference) {
+  return difference.name + (difference.declared ? "" : " (not declared)");
+}
+
 std::string differenceWords(const CauseName& difference) {
   return fmt::format("{} {} → {}{}", difference.name, difference.from, difference.to,
                      difference.declared ? "" : " (not declared)");

@@ -38,6 +38,9 @@ std::string causeSentence(const std::string& what, const std::string& engine,
                           const CauseAccount& account, const std::string& unit,
                           const std::optional<double>& limit, const char* limitIs);
 
+/// "spring_update", "spring_update (not declared)": as a part of a difference.
+std::string partName(const CauseName& difference);
+
 /// "spring_update after → before (not declared)"
 std::string differenceWords(const CauseName& difference);
 

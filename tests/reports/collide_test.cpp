@@ -53,22 +53,50 @@ TEST(CollideOverview, LargestShareOfALimit_IsAModelDifferenceWhereTheDeclaredLaw
   EXPECT_EQ(shown(rowNamed(declared, "yade").cells[1]), "model_difference 1.2 × limit");
   // Four of yade's sweeps hold in spite of it, two differ: it explains nothing.
   EXPECT_EQ(declared.conclusion[1], "Fails most often: tangential rebound Ψ_f.");
-  for (CollisionVariant& variant : results.variants)
-    for (CollisionCurve& curve : variant.curves)
-      if (curve.engine == "yade" && curve.score.verdict == Verdict::pass)
-        curve.declared->law.clear();
-  EXPECT_EQ(collideOverview(results).conclusion[1],
-            "Laws differ most by: tension cut (yade); fails most often: tangential rebound Ψ_f.");
-  // Of two that differ everywhere the one that moves the outcome is named, by how far it does.
-  for (CollisionVariant& variant : results.variants)
-    for (CollisionCurve& curve : variant.curves)
-      if (curve.engine == "yade" && curve.declared && !curve.declared->law.empty()) {
-        curve.declared->law.insert_or_assign("spring_update", std::string("before"));
-        curve.declared->moves = {{"spring_update", 7.1}, {"tension", 0.2}};
-      }
-  EXPECT_EQ(collideOverview(results).conclusion[1],
-            "Laws differ most by: spring update before, by itself 7.1 × limit (yade); fails most "
-            "often: tangential rebound Ψ_f.");
+}
+
+/// Of the first sweep that yade fails, at Ψ_i = 0.5 of two: 0.03 apart, and at 0.25 by 0.001.
+CollideResults withCauses() {
+  CollideResults results = sample::collideResults();
+  CollisionCurve& curve = results.variants[0].curves[1];
+  CollisionCauses& causes = curve.causes.emplace();
+  causes.differences = {{"lever_arm", "radius", "overlap_middle"},
+                        {"spring_update", "after", "before"},
+                        {"mu", "0.44", "0.45", false}};
+  causes.interactions = {{"lever_arm", "spring_update", 0.25}};
+  causes.remainder = "implementation";
+  causes.of[QuantityId::psiF] = {{0.001, -0.03},
+                                 {{0.0, 0.002}, {0.001, -0.03}, {0.0, -0.00201}},
+                                 {0.0, 0.0},
+                                 {0.0, 1e-5},
+                                 0.01};
+  return results;
+}
+
+TEST(CollideReport, LargestDifference_IsToldWithItsCauses) {
+  const CollideResults results = withCauses();
+  const Overview overview = collideOverview(results);
+  EXPECT_EQ(overview.conclusion[1],
+            "Causes: Ψ_f of yade is 0.0300 lower than grain's at Ψ_i = 0.5 of spring, tension cut: "
+            "spring_update 0.0300, mu (not declared) 0.0020, lever_arm −0.0020, implementation < "
+            "0.0001 (1 limit = 0.0100); fails most often: tangential rebound Ψ_f.");
+  EXPECT_EQ(rowNamed(overview, "yade").cells[1].words,
+            "by spring_update: Ψ_f, spring, tension cut");
+  const std::string all = textOf(reportOf(results));
+  // Over both points, each by its own size: 0.001² and 0.03².
+  EXPECT_TRUE(has(all, "spring_update 100, mu (not declared) 7, lever_arm −7, implementation < 1"));
+  EXPECT_TRUE(has(all, "Act on each other: lever_arm and spring_update (25 %)."));
+  EXPECT_TRUE(has(all, "| spring_update | after, before, midpoint |"));
+  EXPECT_FALSE(has(textOf(reportOf(sample::collideResults())), "Causes of differences"));
+}
+
+TEST(CollideReport, NotAttributed_SaysWhy) {
+  CollideResults results = withCauses();
+  CollisionCauses& causes = *results.variants[0].curves[1].causes;
+  causes = {};
+  causes.reason = "has no such law";
+  EXPECT_TRUE(has(textOf(reportOf(results)), "Not attributed: has no such law."));
+  EXPECT_FALSE(has(collideOverview(results).conclusion[1], "Causes"));
 }
 
 TEST(CollideReport, ModelDifference_IsNoFailure) {

@@ -46,6 +46,12 @@ class Declares : public test::PlantedEngine {
   LawConventionSets conventions_;
 };
 
+double largest(const Numbers& numbers) {
+  double most = 0.0;
+  for (const auto& value : numbers) most = std::max(most, std::abs(value.value()));
+  return most;
+}
+
 const LawConventionSets cutsTension = {{"tension", {"cut"}}};
 
 Case withTension() {
@@ -77,9 +83,13 @@ TEST(DeclaredScore, ConventionThatMovesTheOutcome_IsMeasuredByItself) {
                   });
   const CollisionCurve curve = firstSweep(engine, setup);
   EXPECT_EQ(verdictOf(curve), Verdict::modelDifference);
-  ASSERT_TRUE(curve.declared && curve.declared->moves);
-  EXPECT_GT(curve.declared->moves->at("spring_update"), 1.0);
-  EXPECT_LT(curve.declared->moves->at("lever_arm"), 0.1);
+  ASSERT_TRUE(curve.causes && curve.causes->of[QuantityId::psiF]);
+  const QuantityCauses& causes = *curve.causes->of[QuantityId::psiF];
+  ASSERT_EQ(curve.causes->differences.size(), 2u);
+  EXPECT_EQ(curve.causes->differences[0].name, "spring_update");
+  EXPECT_GT(largest(causes.parts[0]), *causes.limit);
+  EXPECT_LT(largest(causes.parts[1]), 0.1 * *causes.limit);
+  EXPECT_LT(largest(causes.remainder), 1e-9);
 }
 
 /// A fault behind the convention, a convention that is only declared, and a fault without any.
