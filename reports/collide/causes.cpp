@@ -104,7 +104,7 @@ std::string largestCause(const WorstDifference& worst) {
 std::string differenceSentence(const WorstDifference& worst, const std::string& place) {
   const CollisionQuantity& quantity = collisionQuantity(worst.quantity);
   const CollisionTable& points = worst.curve->points;
-  return causeSentence(std::string(quantity.label), worst.curve->engine, "grain",
+  return causeSentence(quantityWords(quantity), worst.curve->engine, "grain",
                        fmt::format("at Ψ_i = {}{}", readableSetting(at(points.psi, worst.point)),
                                    place.empty() ? "" : " of " + place),
                        *accountOf(worst), comparedUnit(quantity),
