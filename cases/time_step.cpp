@@ -180,9 +180,7 @@ double laggingOf(const LawConventions& how) {
 
 /// c σ of PairStepLimit, of the tangential spring.
 double signOf(const LawConventions& how) {
-  const double share = std::max(laggingOf(how), 1.0);
-  if (how.springUpdate == SpringUpdate::midpoint) return 0.0;
-  return how.springUpdate == SpringUpdate::before ? share : -share;
+  return std::max(laggingOf(how), 1.0) * (2.0 * stretchedShare(how.springUpdate) - 1.0);
 }
 
 /// No dashpot of rolling is implicit.

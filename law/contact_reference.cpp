@@ -33,6 +33,18 @@ double leverFraction(LeverArm arm, PlaneArm plane, const CollidingPair& pair, in
   return 0.5;
 }
 
+double stretchedShare(SpringUpdate when) {
+  switch (when) {
+    case SpringUpdate::after:
+      return 0.0;
+    case SpringUpdate::midpoint:
+      return 0.5;
+    case SpringUpdate::before:
+      break;
+  }
+  return 1.0;
+}
+
 double rollingLength(const ContactLaw& law, const CollidingPair& pair) {
   const double reduced = pair.reducedRadius();
   switch (law.conventions.rollingLength) {

@@ -31,6 +31,10 @@ CollidingPair diskOnWall(double radius, double mass, double inertia);
 /// not turn; `plane` says where the contact point lies on it.
 double leverFraction(LeverArm arm, PlaneArm plane, const CollidingPair& pair, int side);
 
+/// Share of a step's motion v_t dt, or of rolling, that a spring has been stretched by when its
+/// force is evaluated in that step [-]: 0 (after), 1/2 (midpoint) or 1 (before).
+double stretchedShare(SpringUpdate when);
+
 /// L of rolling resistance [m], and what the constant k_r is times, L², a_i a_j [m²] or 1.
 /// @see RollingLength, RollingStiffness
 double rollingLength(const ContactLaw& law, const CollidingPair& pair);

@@ -64,7 +64,8 @@ State<D> TwoBodyProblem<D>::firstTouch(const CollisionStart& start) const {
   state.position += later * state.velocity;
   const Motion k = kinematics(state);
   if (start.late > 0.0)
-    state.spring[friction] = stretchedShare() * later * k.velocity[friction] *
+    state.spring[friction] = stretchedShare(law_.conventions.springUpdate) * later *
+                             k.velocity[friction] *
                              (remembersForce() ? tangentialStiffness(k.overlap).value : 1.0);
   else if (!remembersForce())
     state.spring[friction] = later * k.velocity[friction];

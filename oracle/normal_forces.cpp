@@ -25,18 +25,6 @@ double NormalForces::contactTime(double speed) const {
   return impactTime(law_, {pair_.reducedMass(), reducedRadius_, speed});
 }
 
-double NormalForces::stretchedShare() const {
-  switch (law_.conventions.springUpdate) {
-    case SpringUpdate::after:
-      return 0.0;
-    case SpringUpdate::midpoint:
-      return 0.5;
-    case SpringUpdate::before:
-      break;
-  }
-  return 1.0;
-}
-
 double NormalForces::visibleLength() const {
   return 64.0 * std::numeric_limits<double>::epsilon() * reach_;
 }

@@ -46,8 +46,6 @@ class NormalForces {
   }
   bool remembersForce() const { return law_.conventions.history == History::force; }
 
-  /// Share of v_t t that a spring is stretched by where its contact is first evaluated at t.
-  double stretchedShare() const;
   /// @param speed  of the approach [m/s]
   double contactTime(double speed) const;
   /// Differences of positions below this are rounding [m].

@@ -65,19 +65,6 @@ Vec3 turnedWithPair(const Vec3& spring, const MovedPair& pair, const SpringMotio
   return Eigen::AngleAxisd(angle, about) * now;
 }
 
-/// The part of a step that a spring is stretched by before its force.
-double partBefore(const ContactLaw& law) {
-  switch (law.conventions.springUpdate) {
-    case SpringUpdate::before:
-      return 1.0;
-    case SpringUpdate::after:
-      return 0.0;
-    case SpringUpdate::midpoint:
-      break;
-  }
-  return 0.5;
-}
-
 /// Those that springs of moved pairs depend on.
 constexpr const char* movedOptions[] = {"spring_turn", "spring_twist", "velocity_arm",
                                         "spring_update"};
@@ -162,7 +149,7 @@ SpaceScene movedScene(const MovedPair& pair, const ContactLaw& law) {
 
 std::vector<Vec3> springForces(const MovedPair& pair, const SpringMotion& motion, double dt,
                                int steps) {
-  const double part = partBefore(motion.law);
+  const double part = stretchedShare(motion.law.conventions.springUpdate);
   std::vector<Vec3> forces;
   Vec3 spring = Vec3::Zero(), before = Vec3::Zero();
   for (int k = 0; k <= steps; ++k) {
@@ -183,7 +170,7 @@ std::vector<Vec3> springForces(const MovedPair& pair, const SpringMotion& motion
 
 std::vector<Vec3> rollingTorques(const MovedPair& pair, const SpringMotion& motion, double dt,
                                  int steps) {
-  const double part = partBefore(motion.law);
+  const double part = stretchedShare(motion.law.conventions.springUpdate);
   const double stiffness = motion.law.kr * rollingSquare(motion.law, radiiOf(pair));
   const Vec3 spin = pair.spin[0] - pair.spin[1];
   std::vector<Vec3> torques;
