@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -202,7 +201,6 @@ struct StartFilesOf {
   std::vector<MaterialName> rowMaterials = {};
   std::vector<std::int32_t> rowMaterialOf = {};
 };
-using StartFiles = StartFilesOf<2>;
 
 /// Disks and walls put together as a case file says, and then, in the plane, placed as a whole;
 /// gravity and walls go along.
@@ -224,28 +222,15 @@ struct AssemblyOf {
   std::optional<double> duration;      ///< [s]
   std::optional<double> contactTimes;  ///< [-]
   std::optional<double> steps;         ///< of the case's time step
+
+  /// Of each packing.
+  std::size_t diskCount() const {
+    std::size_t count = starts.disks.empty() ? 0 : starts.disks.front().size();
+    for (const auto& group : disks) count += group.count();
+    return count;
+  }
 };
 using Assembly = AssemblyOf<2>;
-
-/// Places on a lattice, in diameters: row by row, from the origin to the right and upward.
-/// @param spacing     between columns and between rows
-/// @param triangular  odd rows are shifted by half a column
-std::vector<Vec2> gridPlaces(int columns, int rows, const Vec2& spacing, bool triangular);
-
-/// A triangle of rows of base, base − 1, … 1 disks, each in the gaps of the one below.
-std::vector<Vec2> heapPlaces(int base, double spacing);
-
-/// Places on a lattice in space, in diameters: layer by layer along z, each as gridPlaces() has it.
-/// @param spacing      between columns, rows and layers
-/// @param closePacked  odd rows are shifted by half a column, and odd layers by half a column and a
-///                     third of a row: with spacing (1, √(3/4), √(2/3)) each sphere touches twelve
-std::vector<Vec3> latticePlaces(const std::array<int, 3>& counts, const Vec3& spacing,
-                                bool closePacked);
-
-/// Places on circles about the z axis, in diameters, layer by layer along z: of radii inner,
-/// inner + spacing … up to outer, on each as many as fit at that spacing.
-/// @param layers  how many  @param rise  from one to the next
-std::vector<Vec3> circlePlaces(double inner, double outer, double spacing, int layers, double rise);
 
 /// How the averaged part of the plane is divided into bins.
 enum class BinKind { rings, slabs, grid, whole };
@@ -316,28 +301,6 @@ struct Endpoint {
   std::string series() const;
 };
 
-/// A number of a run over time, besides its fields: a column of series.csv.
-struct RegionNumber {
-  std::string_view name, unit, definition;
-  bool ofContacts = false;  ///< absent without a contact, which is no gap in what was seen
-};
-
-/// Of disks with their centres in the averaged part, or, of contacts, of the whole scene.
-std::span<const RegionNumber> regionNumbers(int dimension = 2);
-
-/// Of one disk, wherever it is.
-std::span<const RegionNumber> diskNumbers(int dimension = 2);
-
-/// Of one wall, or of one of its planes: what the disks do to it.
-std::span<const RegionNumber> wallNumbers(int dimension = 2);
-inline constexpr std::string_view normalForce = "normal_force";
-
-/// Quantities of ready-made endpoints alone: half the trace of the stress of rings in the plane,
-/// which have no such field; and the contacts of a disk over the whole scene, which are those of no
-/// bin.
-inline constexpr std::string_view planePressure = "pressure",
-                                  sceneCoordination = "scene_coordination";
-
 /// Where the bodies of a scene come from.
 using SceneSource = std::variant<Couette, Collision, AssemblyOf<2>, AssemblyOf<3>>;
 
@@ -381,25 +344,15 @@ inline bool isAssembly(const Case& setup) {
   return !cellOf(setup) && !isCollision(setup);
 }
 
-/// Source of the scene. @throws std::bad_variant_access where it is something else
-inline const Couette& couetteIn(const Case& setup) {
+/// Source of the scene of a case. @throws std::bad_variant_access where it is something else
+auto& couetteIn(auto&& setup) {
   return std::get<Couette>(setup.source);
 }
-inline Couette& couetteIn(Case& setup) {
-  return std::get<Couette>(setup.source);
-}
-inline const Collision& collisionIn(const Case& setup) {
-  return std::get<Collision>(setup.source);
-}
-inline Collision& collisionIn(Case& setup) {
+auto& collisionIn(auto&& setup) {
   return std::get<Collision>(setup.source);
 }
 template <int D>
-const AssemblyOf<D>& assemblyIn(const Case& setup) {
-  return std::get<AssemblyOf<D>>(setup.source);
-}
-template <int D>
-AssemblyOf<D>& assemblyIn(Case& setup) {
+auto& assemblyIn(auto&& setup) {
   return std::get<AssemblyOf<D>>(setup.source);
 }
 

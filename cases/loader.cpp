@@ -199,18 +199,14 @@ void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
   if (c.run.dt || !source.particles.file) checkLength(cell, c);
 }
 
-/// Refuses keys that cases in space do not have yet.
-void refusePlaneSections(const Reader& root) {
-  root.check(!root.has("bottom"), "bottom", "is of the plane alone, and case.dimension = 3");
-}
-
 void readAssemblyCase(Reader& root, Reader& law, Reader& run, Starts starts, Case& c) {
   Reader assembly = root.section("assembly");
   Reader preparation = root.section("preparation");
   Reader average = root.section("average");
   Reader looks = root.section("looks");
   Reader cost = root.section("cost");
-  if (c.dimension == 3) refusePlaneSections(root);
+  root.check(c.dimension == 2 || !root.has("bottom"), "bottom",
+             "is of the plane alone, and case.dimension = 3");
   readBottom(root, c.bottom);
   withAssembly(c, [&](auto& target) { readAssembly(assembly, target); });
   settleMaterials(c);
@@ -219,8 +215,8 @@ void readAssemblyCase(Reader& root, Reader& law, Reader& run, Starts starts, Cas
   std::vector<Reader> endpoints;
   if (root.has("average")) {
     endpoints = root.sections("endpoints");
-    readAverage(average, endpoints, c);
-    checkVariety(average, endpoints, preparation, starts, c);
+    readAverage(average, c);
+    readEndpoints(endpoints, average, preparation, starts, c);
   }
   for (const char* const section : {"endpoints", "preparation", "looks", "cost"})
     root.check(c.region || !root.has(section), section, "is of no use without [average]");

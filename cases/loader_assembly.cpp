@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cases/assembly_scene.hpp"
 #include "cases/loader_sections.hpp"
 
 namespace crossgrain::inline cases {

@@ -63,12 +63,15 @@ template <int D>
 void readStartFiles(Reader in, AssemblyOf<D>& assembly);
 SectionInfo boxSection();
 SectionInfo startSection();
-/// [average] and [[endpoints]]. @param c  whose [assembly] and [preparation] have been read
-void readAverage(Reader& in, std::vector<Reader>& endpoints, Case& c);
-/// Packings that are all the same have no scatter to test with; a closed form is of one start.
-/// @param starts  where none are made, none are the same
-void checkVariety(const Reader& in, const std::vector<Reader>& endpoints, const Reader& preparation,
-                  Starts starts, const Case& c);
+/// @param c  whose [assembly] and [preparation] have been read
+void readAverage(Reader& in, Case& c);
+/// [[endpoints]]. Packings that are all the same have no scatter to test with; a closed form is of
+/// one start.
+/// @param average, preparation  read already, as c has it
+/// @param starts                where none are made, none are the same
+void readEndpoints(std::vector<Reader>& endpoints, const Reader& average, const Reader& preparation,
+                   Starts starts, Case& c);
+SectionInfo endpointsSection();
 /// @param c  whose step is known
 void checkAveragedTime(const Reader& in, const std::vector<Reader>& endpoints, const Case& c);
 

@@ -242,11 +242,9 @@ double startingSpeed(const Case& setup) {
 }
 
 double fastestImpactTime(const Case& setup) {
+  // A disk alone meets walls, with R₁₂ = a; of two it is a/2.
   const bool alone = isAssembly(setup) && withAssembly(setup, [](const auto& assembly) {
-                       std::size_t count =
-                           assembly.starts.disks.empty() ? 0 : assembly.starts.disks.front().size();
-                       for (const auto& group : assembly.disks) count += group.count();
-                       return count == 1;  // it meets walls alone, with R₁₂ = a, of two it is a/2
+                       return assembly.diskCount() == 1;
                      });
   const Impact impact{lightestReducedMass(setup), flowDiameter(setup) / (alone ? 2.0 : 4.0),
                       startingSpeed(setup)};

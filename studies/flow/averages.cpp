@@ -13,6 +13,7 @@
 #include "averaging/regime.hpp"
 #include "averaging/rings.hpp"
 #include "averaging/space_rings.hpp"
+#include "cases/endpoints.hpp"
 #include "cases/flow.hpp"
 #include "cases/time_step.hpp"
 #include "studies/flow/run.hpp"
