@@ -1,6 +1,9 @@
 """What is read from results: a table can only be as right as this."""
 
+import re
+import tomllib
 import unittest
+from pathlib import Path
 
 import false_alarms
 import publish
@@ -21,6 +24,16 @@ def conformance(cause, *failed, broke=()):
 def lockstep(name, amount=None, failure=""):
     term = {"name": name, "amount": amount, "unexplained": 0.1} if name else None
     return {"lockstep": {"rows": [{"engine": "mine", "term": term, "failure": failure}]}}
+
+
+class Faults(unittest.TestCase):
+    def test_every_check_that_a_fault_names_is_one_of_conformance(self):
+        here = Path(__file__).parent
+        sources = (here / "../../studies/conformance").glob("*.cpp")
+        checks = {name for file in sources for name in re.findall(r'"([A-Z][A-Za-z]+)"', file.read_text())}
+        for file in ("faults.toml", "audit.toml", "resistance.toml", "space.toml", "elsewhere.toml"):
+            for fault in tomllib.loads((here / file).read_text()).get("fault", []):
+                self.assertLessEqual(set(fault.get("checks", [])), checks, f"{file}: {fault['name']}")
 
 
 class Named(unittest.TestCase):
