@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -57,15 +58,18 @@ ContactLaw stiffened(ContactLaw law, double factor) {
   return law;
 }
 
-template <int D>
-std::optional<ContactLaw> declaredLaw(const Capabilities& can, const SceneOf<D>& scene,
-                                      const EffectiveParameters& effective, double reducedMass) {
-  ContactLaw law = lawAsRun(can, scene.materials ? scene.lawOf(0, 1) : scene.law);
+namespace {
+
+/// @param rigid  of the contacts that the engine has in place of soft ones, if that is all it has
+std::optional<ContactLaw> declared(const Capabilities& can, ContactLaw law,
+                                   const EffectiveParameters& effective,
+                                   const std::function<std::optional<PairCoefficients>()>& rigid) {
+  law = lawAsRun(can, law);
   const auto stiffness = std::ranges::find(effective.deviations, "stiffness", &Deviation::name);
   if (stiffness != effective.deviations.end()) law = stiffened(law, stiffness->value);
   if (hasNormalLaw(can, law)) return law;
   if (can.lawOptions.at("normal") != std::vector<std::string>{"rigid"}) return std::nullopt;
-  const auto pair = pairOf(scene, effective, reducedMass);
+  const auto pair = rigid();
   if (!pair) return std::nullopt;
   law.normal = NormalLaw::rigid;
   law.en = pair->en;
@@ -73,9 +77,31 @@ std::optional<ContactLaw> declaredLaw(const Capabilities& can, const SceneOf<D>&
   law.mu = pair->mu;
   return law;
 }
+
+}  // namespace
+
+template <int D>
+std::optional<ContactLaw> declaredLaw(const Capabilities& can, const SceneOf<D>& scene,
+                                      const EffectiveParameters& effective, double reducedMass) {
+  return declared(can, scene.materials ? scene.lawOf(0, 1) : scene.law, effective,
+                  [&] { return pairOf(scene, effective, reducedMass); });
+}
 template std::optional<ContactLaw> declaredLaw<2>(const Capabilities&, const Scene&,
                                                   const EffectiveParameters&, double);
 template std::optional<ContactLaw> declaredLaw<3>(const Capabilities&, const SpaceScene&,
                                                   const EffectiveParameters&, double);
+
+std::optional<ContactLaw> declaredLaw(const Capabilities& can, const ContactLaw& law,
+                                      const EffectiveParameters& effective) {
+  return declared(can, law, effective, [&]() -> std::optional<PairCoefficients> {
+    if (effective.pairs.empty()) return std::nullopt;
+    PairCoefficients mean;
+    for (double PairCoefficients::*constant :
+         {&PairCoefficients::en, &PairCoefficients::et0, &PairCoefficients::mu})
+      for (const PairCoefficients& pair : effective.pairs)
+        mean.*constant += pair.*constant / static_cast<double>(effective.pairs.size());
+    return mean;
+  });
+}
 
 }  // namespace crossgrain

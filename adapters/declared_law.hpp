@@ -23,4 +23,9 @@ template <int D>
 std::optional<ContactLaw> declaredLaw(const Capabilities& can, const SceneOf<D>& scene,
                                       const EffectiveParameters& effective, double reducedMass);
 
+/// The same of all pairs of a scene: rigid contacts have the means of e_n, e_t0 and µ over the
+/// kinds of pairs.
+std::optional<ContactLaw> declaredLaw(const Capabilities& can, const ContactLaw& law,
+                                      const EffectiveParameters& effective);
+
 }  // namespace crossgrain

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "results/agreement.hpp"
+#include "results/causes.hpp"
 #include "results/endpoints.hpp"
 #include "results/flow_frame.hpp"
 #include "results/head.hpp"
@@ -41,6 +42,7 @@ struct CompareResults : FlowStudy {
   std::vector<CouetteEnsemble> ensemble;
   std::vector<AgreementRow> agreement;         ///< ring by ring: where a difference is
   EndpointFindings endpoints;                  ///< basis of the verdicts
+  std::vector<PairCauses> causes;              ///< of differences that were seen
   std::optional<NothingJudged> nothingJudged;  ///< absent where something was judged
 
   void fields(auto& io) {
@@ -52,6 +54,7 @@ struct CompareResults : FlowStudy {
     io.when(compared || runs.size() > 1, "ensemble", ensemble);
     io.when(compared, "agreement", agreement);
     io.when(compared, "endpoints", endpoints);
+    io.when(!causes.empty(), "causes", causes);
     io.present("nothing_judged", nothingJudged);
   }
 };

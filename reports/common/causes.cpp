@@ -63,6 +63,7 @@ std::string accountWords(const CauseAccount& account) {
   if (any) words.push_back("others " + besideWhole(others, account.whole));
   if (std::abs(account.interaction) >= least && account.interaction != 0.0)
     words.push_back("interaction " + besideWhole(account.interaction, account.whole));
+  if (words.empty() && account.remainderName.empty()) return "no cause is shown";
   words.push_back(account.remainderName + " " + besideWhole(account.remainder, account.whole));
   return fmt::format("{}", fmt::join(words, ", "));
 }

@@ -16,7 +16,7 @@ struct CauseAccount {
   double whole = 0.0;
   std::vector<std::pair<std::string, double>> parts;  ///< by name
   double interaction = 0.0, remainder = 0.0;
-  std::string remainderName;
+  std::string remainderName = {};  ///< empty, with no parts: no cause is shown
 
   /// Name of the largest part, the remainder's where that is larger than any.
   std::string largest() const;

@@ -427,6 +427,7 @@ Report compareReport(const CompareResults& results) {
   addEngineTable(report.section("engines", "Engines and their cost", "Engines and cost").blocks,
                  engines);
   addAgreement(report, results, engines);
+  addCauses(report, results);
   addProfiles(report, results, engines);
   addSeries(report, results, engines);
   addPictures(report, results, engines);
@@ -435,6 +436,7 @@ Report compareReport(const CompareResults& results) {
   report.tables = averageTables(results);
   report.tables.emplace_back("endpoints.csv", endpointsCsv(results));
   report.tables.emplace_back("agreement.csv", agreementCsv(results));
+  if (!results.causes.empty()) report.tables.emplace_back("causes.csv", causesCsv(results));
   report.checks = matrixChecks(report);
   return report;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 
 #include "reports/flow/endpoint_text.hpp"
@@ -78,20 +79,6 @@ std::string whoAgrees(const CompareResults& results, const Engines& engines) {
   return agreementWith(results, referenceOf(results), referenceWords(results).c_str(), peers);
 }
 
-/// "normal" and "tangential" are laws; the others say what they are.
-std::string conventionWords(const std::string& name) {
-  return spaced(name) + (name == "normal" || name == "tangential" ? " law" : "");
-}
-
-/// Deviations from the scene that an engine declares.
-Names conventionsOf(const EngineRuns& engine) {
-  Names names;
-  if (const EffectiveParameters* effective = engine.effective())
-    for (const Deviation& deviation : effective->deviations)
-      addOnce(names, conventionWords(deviation.name));
-  return names;
-}
-
 bool disagrees(const CompareResults& results, const EngineRuns& engine) {
   return std::ranges::any_of(rowsOf(results.endpoints.rows, referenceOf(results), engine.name),
                              [](const EndpointRow* row) { return row->verdict == Verdict::fail; });
@@ -104,7 +91,7 @@ const LockstepRow* differingRow(const CompareResults& results, const std::string
   });
 }
 
-/// An engine that does not have its own law, else the conventions that it declares.
+/// Engines that do not have their own law, and those whose differences nothing measures.
 std::string causesOfDifferences(const CompareResults& results, const Engines& engines) {
   Names parts;
   for (const EngineRuns& engine : engines) {
@@ -135,18 +122,13 @@ std::string causesOfDifferences(const CompareResults& results, const Engines& en
       continue;
     }
     if (engine.name == referenceOf(results) || !disagrees(results, engine)) continue;
-    const Names conventions = conventionsOf(engine);
-    if (!isModelDifference(results, engine))
-      parts.push_back(fmt::format(
-          "no mirror shows whether the difference of {} comes from its law or its implementation{}",
-          engine.name,
-          conventions.empty()
-              ? ""
-              : "; it declares deviations: " + listedShortly(conventions, mostNames)));
-    else
-      parts.push_back(fmt::format(
-          "{} differs by the law that it declares{}", engine.name,
-          conventions.empty() ? "" : " (" + listedShortly(conventions, mostNames) + ")"));
+    // Measured causes say more.
+    if (findBy(results.causes, engine.name, &PairCauses::b)) continue;
+    parts.push_back(isModelDifference(results, engine)
+                        ? engine.name + " differs by the law that it declares"
+                        : fmt::format("no mirror shows whether the difference of {} comes from its "
+                                      "law or its implementation",
+                                      engine.name));
   }
   if (parts.empty()) return {};
   return fmt::format("Causes of differences: {}.", listedShortly(parts, mostNames));
@@ -294,6 +276,8 @@ OverviewCell averagesOf(const CompareResults& results, const EngineRow& engine) 
   const EndpointRow* worst = worstOf(rowsOf(rows, reference, engine.name));
   if (!worst) return {Verdict::notMeasured, {}, "margins", {}, "not compared with it", {}};
   OverviewCell cell = endpointCell(results, *worst);
+  if (const std::string cause = largestCause(results, *worst); !cause.empty())
+    cell.words += ", most by " + cause;
   if (const AlarmRow* const alarm = alarmOf(results, engine.name)) {
     cell.verdict = Verdict::fail;
     cell.words = "ALARM: " + alarm->what;
@@ -346,8 +330,11 @@ Names compareConclusion(const CompareResults& results) {
   const Engines engines = engineRuns(results);
   if (engines.empty()) return {};
   // Where nothing was judged, no engine is said to agree, or to be undecided.
-  return nonEmpty({results.nothingJudged ? std::string() : whoAgrees(results, engines),
-                   causesOfDifferences(results, engines), nextStep(results, engines)});
+  Names sentences = {results.nothingJudged ? std::string() : whoAgrees(results, engines),
+                     causesOfDifferences(results, engines)};
+  std::ranges::move(causeSentences(results, 2), std::back_inserter(sentences));
+  sentences.push_back(nextStep(results, engines));
+  return nonEmpty(std::move(sentences));
 }
 
 const EndpointRow* worstOf(const std::vector<const EndpointRow*>& rows) {

@@ -84,9 +84,22 @@ OverviewCell endpointCell(const CompareResults& results, const EndpointRow& row)
 /// engine.
 bool isModelDifference(const CompareResults& results, const EngineRow& engine);
 
-/// At most three sentences: who agrees with whom on what, the cause of differences, what to do
-/// next.
+/// A few sentences: who agrees with whom on what, the causes of the two largest differences, what
+/// to do next.
 Names compareConclusion(const CompareResults& results);
+
+// Causes of differences (results/causes.hpp). A part whose interval holds 0 is not named.
+
+/// "Pressure of yade is 12 % higher than grain's on 8 packings: spring_update 9.1, rest 2.9 (1
+/// margin = 25 %).": of the largest differences from the reference, at most so many; then what was
+/// not measured.
+Names causeSentences(const CompareResults& results, std::size_t most);
+/// Name of the largest part that is seen; empty: none is.
+std::string largestCause(const CompareResults& results, const EndpointRow& row);
+/// The section of all pairs. None: nothing was measured.
+void addCauses(Report& report, const CompareResults& results);
+/// All parts with their intervals.
+std::string causesCsv(const CompareResults& results);
 
 // Engines that ran, their cost, and in what state runs were while they were averaged.
 

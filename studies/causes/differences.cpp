@@ -10,11 +10,13 @@
 #include <string_view>
 
 #include "adapters/declared_law.hpp"
+#include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
 #include "cases/effect_switch.hpp"
 #include "cases/materials.hpp"
 #include "law/law_options.hpp"
 #include "studies/lockstep/terms.hpp"
+#include "support/fingerprint.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -153,42 +155,92 @@ std::vector<Difference<Setup>> lawDifferences(const ContactLaw& from, const Cont
           {{}, {constant.name}}, from, to));
   return found;
 }
-template std::vector<Difference<Case>> lawDifferences(const ContactLaw&, const ContactLaw&);
 
-template <int D>
-std::vector<Difference<SceneOf<D>>> differencesOf(const SceneOf<D>& from, const SceneOf<D>& to) {
-  std::vector<Difference<SceneOf<D>>> found = lawDifferences<SceneOf<D>>(from.law, to.law);
+namespace {
+
+auto& rotationOf(auto& setup) {
+  if constexpr (requires { setup.rotation; })
+    return setup.rotation;
+  else if (isAssembly(setup))
+    return withAssembly(
+        setup, [](auto& assembly) -> auto& { return assembly.rotation; });
+  else
+    return couetteIn(setup).particles.rotation;
+}
+
+/// Calls work(gravity) where there can be any in the plane or the space of the bodies.
+void withGravity(auto& setup, auto&& work) {
+  if constexpr (requires { setup.gravity; })
+    work(setup.gravity);
+  else if (isAssembly(setup))
+    withAssembly(setup, [&](auto& assembly) { work(assembly.gravity); });
+}
+
+bool falls(const auto& setup) {
+  bool any = false;
+  withGravity(setup, [&](const auto& gravity) { any = !gravity.isZero(); });
+  return any;
+}
+
+/// Settings of the in-house engine have a case's step.
+auto& timeStepIn(auto& setup) {
+  if constexpr (requires { setup.dt; })
+    return setup.dt;
+  else
+    return std::get<double>(setup.engines.at(engineRegistry().front().name).at("dt"));
+}
+
+}  // namespace
+
+template <class Setup>
+std::vector<Difference<Setup>> differencesOf(const Setup& from, const Setup& to) {
+  std::vector<Difference<Setup>> found = lawDifferences<Setup>(from.law, to.law);
   const auto add = [&](std::string name, std::string was, std::string is,
-                       std::function<void(SceneOf<D>&)> take) {
+                       std::function<void(Setup&)> take) {
     found.push_back({{std::move(name), std::move(was), std::move(is)}, std::move(take)});
   };
-  if (from.rotation != to.rotation)
-    add("rotation", from.rotation ? "free" : "blocked", to.rotation ? "free" : "blocked",
-        [on = to.rotation](SceneOf<D>& scene) { scene.rotation = on; });
+  if (const bool on = rotationOf(to); on != rotationOf(from))
+    add("rotation", on ? "blocked" : "free", on ? "free" : "blocked",
+        [on](Setup& setup) { rotationOf(setup) = on; });
   if (from.bottom != to.bottom)
     add(to.bottom ? "bottom_spin_friction" : "bottom_friction", "there", "missing",
-        [plate = to.bottom](SceneOf<D>& scene) { scene.bottom = plate; });
-  if (from.gravity != to.gravity)
+        [plate = to.bottom](Setup& setup) { setup.bottom = plate; });
+  if (falls(from) != falls(to))
     add("gravity", "there", "missing",
-        [gravity = to.gravity](SceneOf<D>& scene) { scene.gravity = gravity; });
+        [](Setup& setup) { withGravity(setup, [](auto& gravity) { gravity.setZero(); }); });
   if (from.materials.has_value() && !to.materials)
-    add("pair_materials", "there", "missing", [](SceneOf<D>& scene) { scene.materials.reset(); });
-  if (differ(from.dt, to.dt)) {
+    add("pair_materials", "there", "missing", [](Setup& setup) { setup.materials.reset(); });
+  if (const double dt = timeStepIn(to); differ(timeStepIn(from), dt)) {
     // No soft contact is resolved in the steps of impulses.
     if (from.law.normal != to.law.normal) {
-      found.front().take = [take = found.front().take, dt = to.dt](SceneOf<D>& scene) {
-        take(scene);
-        scene.dt = dt;
+      found.front().take = [take = found.front().take, dt](Setup& setup) {
+        take(setup);
+        timeStepIn(setup) = dt;
       };
       return found;
     }
-    add("time step", fmt::format("{:.4g} s", from.dt), fmt::format("{:.4g} s", to.dt),
-        [dt = to.dt](SceneOf<D>& scene) { scene.dt = dt; });
+    add("time step", fmt::format("{:.4g} s", timeStepIn(from)), fmt::format("{:.4g} s", dt),
+        [dt](Setup& setup) { timeStepIn(setup) = dt; });
   }
   return found;
 }
 template std::vector<Difference<Scene>> differencesOf(const Scene&, const Scene&);
 template std::vector<Difference<SpaceScene>> differencesOf(const SpaceScene&, const SpaceScene&);
+template std::vector<Difference<Case>> differencesOf(const Case&, const Case&);
+
+std::string fingerprintOf(const Case& setup) {
+  std::string text = fmt::format("{} {} {}", rotationOf(setup), falls(setup), timeStepIn(setup));
+  Case own = setup;
+  changeLaws(own, [&](const ContactLaw& law) {
+    for (const LawOption& option : lawOptions()) text += fmt::format(" {}", option.get(law));
+    for (const LawConstant& constant : lawConstants())
+      text += fmt::format(" {}", law.*constant.value);
+  });
+  if (const auto& plate = setup.bottom)
+    text += fmt::format(" {} {} {} {} {} {}", plate->mu, plate->kb, plate->gb, plate->tauM,
+                        plate->gravity, plate->spin);
+  return fmt::format("{:016x}", fnv1a(text));
+}
 
 void addFindings(Causes& causes, const Attribution& found) {
   causes.mixtures = found.mixtures;

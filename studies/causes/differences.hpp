@@ -23,10 +23,14 @@ struct Difference {
 template <class Setup>
 std::vector<Difference<Setup>> lawDifferences(const ContactLaw& from, const ContactLaw& to);
 
-/// In what two scenes of the same bodies differ: laws, effects that are no matter of the law, time
-/// step. All of them taken, `from` is `to`.
-template <int D>
-std::vector<Difference<SceneOf<D>>> differencesOf(const SceneOf<D>& from, const SceneOf<D>& to);
+/// In what two scenes of the same bodies differ, or two cases for the in-house engine: laws,
+/// effects that are no matter of the law, time step. All of them taken, `from` is `to`.
+/// @pre of cases: [engines.grain] has a dt
+template <class Setup>
+std::vector<Difference<Setup>> differencesOf(const Setup& from, const Setup& to);
+
+/// Of all in which differencesOf() cases can differ.
+std::string fingerprintOf(const Case& setup);
 
 /// Setup with some differences taken, in their order.
 template <class Setup>

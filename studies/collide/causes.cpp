@@ -75,7 +75,7 @@ std::optional<CollisionCauses> causesIn(const Case& setup,
   Stopwatch watch;
   std::optional<Stopwatch::Lap> lap(watch);
   const SweepNumbers numbers(setup, starts, score);
-  const std::vector<Difference<SceneOf<D>>> differences = differencesOf<D>(scene, peer);
+  const std::vector<Difference<SceneOf<D>>> differences = differencesOf(scene, peer);
   CollisionCauses causes;
   static_cast<Causes&>(causes) = causesOf(differences);
   causes.remainder = peer.law.soft() ? "implementation" : "solver";

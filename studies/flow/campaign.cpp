@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "adapters/registry.hpp"
 #include "cases/case_keys.hpp"
 #include "cases/flow.hpp"
 #include "cases/time_step.hpp"
@@ -167,20 +168,23 @@ void Campaign::preparePackings(int count) {
     store_.begin();
     return;
   }
-  const int there = static_cast<int>(packings_.size());
-  if (count <= there) return;
-  packings_.resize(static_cast<std::size_t>(count));
+  const std::size_t before = packings_.size();
+  packings_.resize(std::max(before, static_cast<std::size_t>(count)));
+  std::vector<int> missing;  // also those that lookForPackings() left without disks
+  for (int k = 0; k < count; ++k)
+    if (const Packing& own = packings_[static_cast<std::size_t>(k)];
+        own.disks.size() + own.spheres.size() == 0)
+      missing.push_back(k);
+  if (missing.empty()) return;
   std::vector<std::string> failures(packings_.size());
   std::vector<double> seconds(packings_.size());
-  progress_.begin("preparing packings",
-                  std::vector<double>(static_cast<std::size_t>(count - there), 1.0));
+  progress_.begin("preparing packings", std::vector<double>(missing.size(), 1.0));
   std::vector<Task> tasks;
-  for (int k = there; k < count; ++k) {
+  for (std::size_t place = 0; place < missing.size(); ++place) {
     tasks.push_back(
-        {1.0, [this, k, there, &failures, &seconds] {
+        {1.0, [this, k = missing[place], place, &failures, &seconds] {
            const auto began = std::chrono::steady_clock::now();
            const auto at = static_cast<std::size_t>(k);
-           const auto place = static_cast<std::size_t>(k - there);
            const std::string label = fmt::format("packing {}", k);
            try {
              const auto engine = engineRegistry().front().make();
@@ -213,26 +217,39 @@ void Campaign::preparePackings(int count) {
   if (packingFile(setup_))  // its disks may be lighter than the case says
     for (const Packing& packing : packings_)
       requireStable(setup_, dt_, lightestPair(packing.disks, true));
-  if (there > 0) return;
+  if (before > 0) return;
   store_.begin();
   printNotes();
 }
 
+void Campaign::timeEngine(CampaignEngine& own) {
+  const auto engine =
+      startEngine(own.entry, store_.scratch("time-" + own.entry.name), setup_.run.timeout);
+  own.effective = inDimensionOf(setup_, [&]<int D>() {
+    return loadScene(*engine, own.entry, setup_, flowScene<D>(setup_, packings_.front(), dt_));
+  });
+  own.can = engine->capabilities();
+  const double dt = own.effective->dt;
+  own.predicted = briefSteps(*engine, dt).wall * flowDuration(setup_) / dt;
+}
+
 void Campaign::timeEngines() {
   if (!runsEngines()) return;
-  const double end = flowDuration(setup_);
   forEachEngine([&](CampaignEngine& own) {
-    if (own.entry.ofFiles()) return;
-    const auto engine =
-        startEngine(own.entry, store_.scratch("time-" + own.entry.name), setup_.run.timeout);
-    own.effective = inDimensionOf(setup_, [&]<int D>() {
-      return loadScene(*engine, own.entry, setup_, flowScene<D>(setup_, packings_.front(), dt_));
-    });
-    own.can = engine->capabilities();
-    const double dt = own.effective->dt;
-    own.predicted = briefSteps(*engine, dt).wall * end / dt;
+    if (!own.entry.ofFiles()) timeEngine(own);
   });
   reportNonReusableWorkers(engines(), progress_);
+}
+
+std::size_t Campaign::inHouse() {
+  const EngineEntry& entry = engineRegistry().front();
+  for (std::size_t e = 0; e < engines_.size(); ++e)
+    if (engines_[e].entry.name == entry.name && engines_[e].can) return e;
+  CampaignEngine own{entry};
+  timeEngine(own);
+  own.version = own.can->version;
+  engines_.push_back(std::move(own));
+  return engines_.size() - 1;
 }
 
 CaseKeys Campaign::keyOf(std::size_t engine, int packing, const std::string& part) const {

@@ -76,11 +76,15 @@ class Campaign {
   void askEngines(std::size_t fewest = 1);
   /// With the first of them, the campaign begins: its folder is its own. @throws BadInput
   void preparePackings() { preparePackings(packingCount()); }
-  /// As many as are missing to that number of them.
+  /// As many as are missing to that number of them, or were only looked for.
   void preparePackings(int count);
   int packingCount() const { return flowPackings(setup_); }
   /// Times some steps of every engine on the first packing, so that the longest runs start first.
   void timeEngines();
+  /// The in-house engine, asked and timed; where it takes no part it is added for runs that
+  /// belong to no pair, and later results name it. @throws UnsupportedScene, EngineFailure,
+  /// BadInput
+  std::size_t inHouse();
   /// Every engine with the case as it is.
   std::vector<Variant> wholeCase() const;
   /// On all packings that are prepared.
@@ -150,6 +154,7 @@ class Campaign {
   void forEachEngine(const std::function<void(CampaignEngine&)>& work, std::size_t fewest = 1);
   /// @throws AllRefused likewise
   void requireAble(std::size_t fewest) const;
+  void timeEngine(CampaignEngine& own);
   std::vector<CachedTask<FlowRun>> tasksOf(const PlannedRuns& list) const;
   FlowRun runOfFiles(const CampaignEngine& own, int run,
                      const std::function<void(double)>& progress) const;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <set>
 
 #include "cases/flow.hpp"
@@ -13,6 +14,7 @@
 #include "studies/core/study_cases.hpp"
 #include "studies/flow/agreement_table.hpp"
 #include "studies/flow/campaign.hpp"
+#include "studies/flow/causes.hpp"
 #include "studies/flow/ensemble.hpp"
 #include "studies/flow/interim_analyses.hpp"
 #include "studies/flow/lockstep_job.hpp"
@@ -118,8 +120,12 @@ std::string comparePlan(const StudyWork& work, const CompareOptions& own) {
   Campaign campaign(work.setup(), command, enginesOf(work.setup(), command, own), work.store);
   campaign.askEngines(fewestToCompare);
   campaign.lookForPackings();
-  return describeDryRun(campaign.planHead(), campaign.plan(campaign.wholeCase()), work.store,
-                        command);
+  const std::string causes =
+      own.noCauses ? ""
+      : own.causes ? "then runs for the causes of all differences that are seen\n"
+                   : "then runs for causes of differences, in a fifth of the time at most\n";
+  return describeDryRun(campaign.planHead() + causes, campaign.plan(campaign.wholeCase()),
+                        work.store, command);
 }
 
 /// Files that no engine that takes part has made.
@@ -134,6 +140,22 @@ std::string neutralNote(const Case& setup, const Campaign& campaign, bool lockst
   return fmt::format(
       "No engine is the reference: each is compared with the median of the others{}{}.", packings,
       lockstep ? "; laws are verified by the in-house engine under each one's conventions" : "");
+}
+
+/// Of all time, for causes.
+constexpr double shareOfCauses = 0.2;
+
+void addCauses(CompareResults& results, Campaign& campaign, const Case& setup,
+               const RunCommand& command, const CompareOptions& own) {
+  if (results.nothingJudged) return;
+  if (own.noCauses) {
+    results.notes.emplace_back("Causes of differences were not measured (--no-causes).");
+    return;
+  }
+  const double until = own.causes ? std::numeric_limits<double>::infinity()
+                                  : campaign.elapsed() / (1.0 - shareOfCauses);
+  results.causes = causesOfPairs(campaign, setup, command, results.endpoints, until);
+  results.elapsed = campaign.elapsed();
 }
 
 CompareResults compare(const StudyWork& work, const CompareOptions& own) {
@@ -151,7 +173,7 @@ CompareResults compare(const StudyWork& work, const CompareOptions& own) {
     campaign.progress().say("lockstep: " + describe(row, lockstep.rules));
   campaign.timeEngines();
   EndpointFindings endpoints = runWithInterims(setup, campaign, command, lockstep, budget);
-  CompareResults results{campaign.study(kindCompare), {}, {}, {}, {}, {}, {}, {}};
+  CompareResults results{campaign.study(kindCompare), {}, {}, {}, {}, {}, {}, {}, {}};
   if (!lockstep.rows.empty()) results.lockstep = std::move(lockstep);
   std::vector<std::string> names;
   for (const EngineRow& engine : results.engines) names.push_back(engine.name);
@@ -179,6 +201,7 @@ CompareResults compare(const StudyWork& work, const CompareOptions& own) {
   std::ranges::move(fileNotes(results), std::back_inserter(results.notes));
   std::ranges::move(velocityNotes(results), std::back_inserter(results.notes));
   std::ranges::move(contactNotes(results), std::back_inserter(results.notes));
+  addCauses(results, campaign, setup, command, own);
   return results;
 }
 
@@ -282,6 +305,11 @@ const Study<CompareOptions, CompareResults> compareStudy = {
            "the engine that the others are compared with, or none: each with the median of the "
            "others (default: the first)",
            &own.reference, "NAME"},
+          {"--causes",
+           "measure the causes of every difference, however long it takes (default: in a fifth of "
+           "the time at most)",
+           &own.causes},
+          {"--no-causes", "measure no causes of differences", &own.noCauses},
           {"--strict",
            "status 1 also for undecided and borderline verdicts, for refused engines and where "
            "nothing was judged",
@@ -290,6 +318,7 @@ const Study<CompareOptions, CompareResults> compareStudy = {
     caseToCompare,
     comparePlan,
     compare,
-    outcomeOfCompare};
+    outcomeOfCompare,
+    {{"--causes", "--no-causes"}}};
 
 }  // namespace crossgrain::inline studies

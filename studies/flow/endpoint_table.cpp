@@ -16,8 +16,6 @@ namespace crossgrain::inline studies {
 
 namespace {
 
-constexpr int fewestPackings = 4;  // of any verdict
-
 /// An endpoint of two engines on its way to a verdict.
 struct EndpointTest {
   EndpointRow row;

@@ -15,6 +15,9 @@
 
 namespace crossgrain::inline studies {
 
+/// Of any verdict.
+inline constexpr int fewestPackings = 4;
+
 /// The interim analyses of a case: at its packings, and as many more each time.
 /// A single one where the first has too few packings for any verdict, or where packings are a file.
 InterimPlan interimPlanOf(const Case& setup);

@@ -75,6 +75,74 @@ TEST(CompareOverview, Disagreement_NamesTheLawAsCauseOnlyWhereThatIsShown) {
       "the tangential damping).");
 }
 
+CausePart part(double mean, double half) {
+  return {mean, mean - half, mean + half};
+}
+
+/// Of the disagreement of 30 N/m², by a relative margin of a tenth of 100 N/m².
+PairCauses measuredCauses(CompareResults& results) {
+  EndpointRow& row = results.endpoints.rows[0];
+  row.margin = 0.1;
+  row.marginRelative = true;
+  row.reference = 100.0;
+  row.look = 1;
+  PairCauses pair;
+  pair.a = "ours";
+  pair.b = "theirs";
+  pair.remainder = "implementation";
+  pair.differences = {{"tension", "allow", "cut"}, {"spring_update", "after", "before"}};
+  pair.endpoints = {{"pressure",
+                     "N/m²",
+                     8,
+                     part(30.0, 2.0),
+                     {part(3.0, 4.0), part(22.0, 2.0)},
+                     part(0.0, 0.0),
+                     part(5.0, 1.0)}};
+  return pair;
+}
+
+TEST(CompareCauses, SizeFirst_NamesWhatIsSeen) {
+  CompareResults results = disagreeing();
+  results.causes = {measuredCauses(results)};
+  const Overview overview = compareOverview(results);
+  EXPECT_EQ(overview.conclusion[1],
+            "Pressure of theirs is 30.0 % higher than ours's on 8 packings: spring_update 22.0, "
+            "implementation 5.0, rest 3.0 (1 margin = 10.0 %).");
+  EXPECT_EQ(rowNamed(overview, "theirs").cells[1].words, "pressure, most by spring_update");
+  const std::string csv = causesCsv(results);
+  EXPECT_NE(csv.find("ours,theirs,pressure,N/m²,8,tension,allow,cut,yes,3,-1,7,no\n"),
+            std::string::npos)
+      << csv;
+}
+
+TEST(CompareCauses, IntervalsThatHold0_AreNotNamed) {
+  CompareResults results = disagreeing();
+  PairCauses pair = measuredCauses(results);
+  for (CausePart& own : pair.endpoints[0].parts) own = part(*own.mean, 30.0);
+  pair.endpoints[0].remainder = part(5.0, 6.0);
+  results.causes = {pair};
+  const Overview overview = compareOverview(results);
+  EXPECT_EQ(overview.conclusion[1],
+            "Pressure of theirs is 30.0 % higher than ours's on 8 packings: no cause is shown (1 "
+            "margin = 10.0 %).");
+  EXPECT_EQ(rowNamed(overview, "theirs").cells[1].words, "pressure");
+}
+
+TEST(CompareCauses, WhatWasNotRun_SaysWhatItTakes) {
+  CompareResults results = disagreeing();
+  PairCauses pair = measuredCauses(results);
+  pair.endpoints.clear();
+  pair.missing = 40.0;
+  results.causes = {pair};
+  EXPECT_EQ(compareOverview(results).conclusion[1],
+            "Causes of the differences of theirs were not measured: they take about 40.0 s; "
+            "--causes asks for them.");
+  results.causes[0].reason = "theirs has another normal law, whose constants it does not report";
+  EXPECT_EQ(compareOverview(results).conclusion[1],
+            "The differences of theirs against ours are not attributed: theirs has another normal "
+            "law, whose constants it does not report.");
+}
+
 /// A mirror of "theirs", and what it answers to it where the two peers disagree.
 void addMirror(CompareResults& results, Verdict answer) {
   results.engines.push_back({"mirror", "", "", "theirs", Status::finished, ""});

@@ -1,0 +1,235 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "reports/common/causes.hpp"
+#include "reports/flow/endpoint_text.hpp"
+#include "reports/flow/report.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+/// An endpoint of a pair, and what was found of it.
+struct Explained {
+  const PairCauses* pair;
+  const EndpointCauses* own;
+  const EndpointRow* row;
+  double margins = 0.0;  ///< size of the difference
+
+  /// From the endpoint's unit to that of words: a per cent of the reference, where margins are.
+  double scale() const {
+    return row->marginRelative ? 100.0 / std::abs(row->reference.value_or(1.0)) : 1.0;
+  }
+  std::string unit() const {
+    if (row->marginRelative) return "%";
+    return own->unit == "-" || own->unit == "1" ? "" : own->unit;
+  }
+  double margin() const { return row->marginRelative ? 100.0 * row->margin : row->margin; }
+
+  /// All contributions by name.
+  std::vector<std::pair<std::string, const CausePart*>> parts() const {
+    std::vector<std::pair<std::string, const CausePart*>> all;
+    for (std::size_t k = 0; k < own->parts.size(); ++k)
+      all.emplace_back(pair->differences[k].name, &own->parts[k]);
+    all.emplace_back("interaction", &own->interaction);
+    all.emplace_back(pair->remainder, &own->remainder);
+    return all;
+  }
+
+  /// Those that are seen; the others together are the rest. Without any there is no name.
+  CauseAccount account() const {
+    CauseAccount account;
+    account.whole = scale() * own->whole.mean.value_or(0.0);
+    account.remainder = account.whole;
+    for (const auto& [name, part] : parts())
+      if (part->isSeen()) {
+        account.parts.emplace_back(name, scale() * *part->mean);
+        account.remainder -= account.parts.back().second;
+      }
+    if (!account.parts.empty()) account.remainderName = "rest";
+    return account;
+  }
+};
+
+const EndpointRow* rowFor(const CompareResults& results, const PairCauses& pair,
+                          const std::string& endpoint) {
+  return findIf(results.endpoints.rows, [&](const EndpointRow& row) {
+    return row.kind == PairKind::peer && row.endpoint == endpoint && row.b == pair.b &&
+           row.a == (results.endpoints.reference.empty() ? pair.a : results.endpoints.reference);
+  });
+}
+
+/// Those of which a difference is shown, the largest first.
+std::vector<Explained> explained(const CompareResults& results) {
+  std::vector<Explained> found;
+  for (const PairCauses& pair : results.causes)
+    for (const EndpointCauses& own : pair.endpoints) {
+      Explained one{&pair, &own, rowFor(results, pair, own.endpoint)};
+      const bool decided =
+          one.row && (one.row->verdict == Verdict::fail || one.row->verdict == Verdict::borderline);
+      if (!one.row || !own.whole.mean || !(decided || one.row->differenceSeen())) continue;
+      one.margins = std::abs(one.scale() * *own.whole.mean) / one.margin();
+      found.push_back(one);
+    }
+  std::ranges::stable_sort(found, std::greater(), &Explained::margins);
+  return found;
+}
+
+bool isOfReference(const CompareResults& results, const PairCauses& pair) {
+  return !results.endpoints.reference.empty() || pair.a == referenceOf(results);
+}
+
+std::string pairWords(const PairCauses& pair) {
+  return pair.b + " against " + pair.a;
+}
+
+std::string takes(double seconds) {
+  return fmt::format("about {}; --causes asks for them", shortDuration(seconds));
+}
+
+/// "1.2 (0.8 to 1.6)"
+std::string withInterval(const Explained& one, const CausePart& part) {
+  const auto shown = [&](const std::optional<double>& value) {
+    return readable(times(value, one.scale()));
+  };
+  return shown(part.mean) +
+         (part.low ? fmt::format(" ({} to {})", shown(part.low), shown(part.high)) : "");
+}
+
+Table causesTable(const CompareResults& results) {
+  Table table{{engineNames("engine"), engineNames("against"), "endpoint", numbers("difference"),
+               numbers("in margins"), remarks("what makes it"), numbers("packings")}};
+  for (const Explained& one : explained(results)) {
+    Names seen;
+    auto parts = one.parts();
+    std::erase_if(parts, [](const auto& part) { return !part.second->isSeen(); });
+    std::ranges::stable_sort(parts, std::greater(),
+                             [](const auto& part) { return std::abs(*part.second->mean); });
+    for (const auto& [name, part] : parts) seen.push_back(name + " " + withInterval(one, *part));
+    const std::size_t others = one.own->parts.size() + 2 - seen.size();
+    const std::string unit = one.unit().empty() ? "" : " " + one.unit();
+    TableRow row{{one.pair->b,
+                  one.pair->a,
+                  endpointWords(one.own->endpoint),
+                  withInterval(one, one.own->whole) + unit,
+                  shortly(one.margins),
+                  {seen.empty() ? "no cause is shown" : listed(seen),
+                   {fmt::format("rest {} of {} whose intervals hold 0",
+                                readable(one.account().remainder), counted(others, "part"))}},
+                  fmt::format("{}", one.own->packings)}};
+    if (!parts.empty() && parts.front().first != one.pair->remainder)
+      row.cells[5].link = "#" + termId(parts.front().first);
+    table.rows.push_back(std::move(row));
+  }
+  table.note =
+      "Parts are measured by runs of the in-house engine under mixtures of both engines' laws, on "
+      "the same packings; what is left is the implementation, or of rigid contacts the solver. All "
+      "of them add up to the difference. No part is named whose interval, at the level of the "
+      "verdicts, holds 0; causes.csv has all.";
+  return table;
+}
+
+/// In what the laws of a pair differ, and what was left out.
+Names causesNotes(const CompareResults& results) {
+  Names notes;
+  for (const PairCauses& pair : results.causes) {
+    Names words;
+    for (const CauseName& one : pair.differences) words.push_back(differenceWords(one));
+    std::string note = pairWords(pair) + ": ";
+    if (!pair.reason.empty())
+      note += causesNote(pair);
+    else
+      note += words.empty() ? "their laws do not differ."
+                            : "their laws differ in " + listed(words) + ".";
+    if (pair.missing && pair.reason.empty())
+      note += fmt::format(" {}: {}.",
+                          pair.endpoints.empty() ? "Causes were not measured, which takes"
+                                                 : "Further packings take",
+                          takes(*pair.missing));
+    notes.push_back(std::move(note));
+  }
+  return notes;
+}
+
+}  // namespace
+
+Names causeSentences(const CompareResults& results, std::size_t most) {
+  Names sentences;
+  std::vector<Explained> all = explained(results);
+  std::erase_if(all, [&](const auto& one) { return !isOfReference(results, *one.pair); });
+  for (const Explained& one : all) {
+    if (sentences.size() == most) break;
+    const bool closed = one.row->look == std::nullopt;
+    sentences.push_back(
+        capitalised(causeSentence(
+            endpointWords(one.own->endpoint), one.pair->b, one.pair->a,
+            closed ? ""
+                   : fmt::format("on {}",
+                                 counted(static_cast<std::size_t>(one.own->packings), "packing")),
+            one.account(), one.unit(), one.margin(), "margin")) +
+        ".");
+  }
+  Names open;
+  double seconds = 0.0;
+  for (const PairCauses& pair : results.causes) {
+    if (!isOfReference(results, pair) || !pair.endpoints.empty()) continue;
+    if (!pair.reason.empty())
+      sentences.push_back(fmt::format("The differences of {} are not attributed: {}.",
+                                      pairWords(pair), pair.reason));
+    if (!pair.reason.empty() || !pair.missing) continue;
+    open.push_back(pair.b);
+    seconds += *pair.missing;
+  }
+  if (!open.empty())
+    sentences.push_back(
+        fmt::format("Causes of the differences of {} were not measured: they take {}.",
+                    listed(open), takes(seconds)));
+  return sentences;
+}
+
+std::string largestCause(const CompareResults& results, const EndpointRow& row) {
+  for (const Explained& one : explained(results))
+    if (one.row == &row) {
+      CauseAccount account = one.account();
+      account.remainder = 0.0;
+      return account.parts.empty() ? "" : account.largest();
+    }
+  return {};
+}
+
+void addCauses(Report& report, const CompareResults& results) {
+  if (results.causes.empty()) return;
+  Blocks& blocks = report.section("causes", "Causes of differences", "Causes").blocks;
+  if (Table table = causesTable(results); !table.rows.empty()) blocks.push_back(std::move(table));
+  List notes;
+  for (const std::string& note : causesNotes(results)) notes.items.push_back({"", note});
+  blocks.push_back(std::move(notes));
+  std::vector<const Causes*> all;
+  for (const PairCauses& pair : results.causes) all.push_back(&pair);
+  if (Table terms = causeTerms(all); !terms.rows.empty())
+    blocks.push_back(Details{"Options of laws", {std::move(terms)}});
+}
+
+std::string causesCsv(const CompareResults& results) {
+  std::string csv = "a,b,endpoint,unit,packings,part,from,to,declared,mean,low,high,seen\n";
+  for (const PairCauses& pair : results.causes)
+    for (const EndpointCauses& own : pair.endpoints) {
+      const auto add = [&](const std::string& name, const CausePart& part,
+                           const CauseName& words = {}) {
+        csv += row(pair.a, pair.b, own.endpoint, own.unit, static_cast<std::size_t>(own.packings),
+                   name, words.from, words.to, std::string(words.declared ? "yes" : "no"),
+                   part.mean, part.low, part.high, std::string(part.isSeen() ? "yes" : "no"));
+      };
+      add("whole", own.whole);
+      for (std::size_t k = 0; k < own.parts.size(); ++k)
+        add(pair.differences[k].name, own.parts[k], pair.differences[k]);
+      add("interaction", own.interaction);
+      add(pair.remainder, own.remainder);
+    }
+  return csv;
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "results/causes.hpp"
+#include "results/endpoints.hpp"
+#include "studies/causes/differences.hpp"
+#include "studies/flow/campaign.hpp"
+
+namespace crossgrain::inline studies {
+
+/// The case for the in-house engine to run as another one runs it: its law, as it declares it, its
+/// time step, without the effects that it lacks. Rigid contacts in place of soft ones have the
+/// means of the restitutions and of µ that it reports over kinds of pairs.
+/// @param dt  the case's time step [s]
+/// @throws UnsupportedScene saying why there is no such case
+Case caseAsRun(const Case& setup, double dt, const EngineEntry& entry, const Capabilities& can,
+               const EffectiveParameters& effective);
+
+/// By engine, in what it is otherwise than it declares: further differences, `declared` = false.
+using UndeclaredDifferences = std::map<std::string, std::vector<Difference<Case>>>;
+
+/// Causes of the differences of every two peers that show one of at least a hundredth of a margin:
+/// those from the reference first, of these the largest, on the packings of one interim analysis
+/// after the other. Of a neutral campaign every engine's from the in-house one.
+///
+/// With a packing's values v(S) of an endpoint under mixtures S of both engines' laws, run by the
+/// in-house engine, on the scale of its test (its logarithm where engines are compared by their
+/// ratio), attribute() gives parts of v(all) − v(0), all mixtures of up to two differences, else
+/// both ends. The remainder is what is then left of b − a. So on every packing, and in their means,
+///
+///     whole = Σ parts + interaction + remainder.
+///
+/// Logarithms become the unit's by one factor, that which takes the mean whole log-ratio to
+/// inUnit(): parts go on to add up, and an interval holds 0 as it did. Intervals are those of the
+/// endpoints' verdicts, at the level of an interim analysis, of the whole to the same ends; where a
+/// mirror stands for an engine, those of whole and remainder are wider by its bound. Fewer than
+/// four packings give none.
+///
+/// @param campaign  over, its results taken: the in-house engine may be added to it
+/// @param until     no runs begin that would end later than this after the campaign began [s]; what
+///                  is left out is said in PairCauses::missing. Finished runs cost nothing
+std::vector<PairCauses> causesOfPairs(Campaign& campaign, const Case& setup,
+                                      const RunCommand& command, const EndpointFindings& found,
+                                      double until, const UndeclaredDifferences& undeclared = {});
+
+}  // namespace crossgrain::inline studies
