@@ -109,8 +109,10 @@ Table causeTerms(const std::vector<const Causes*>& all) {
   Table table{{"option", remarks("values"), remarks("meaning, value by value")}};
   for (const LawOption& option : lawOptions())
     if (std::ranges::any_of(all, [&](const Causes* causes) {
-          return std::ranges::find(causes->differences, option.name, &CauseName::name) !=
-                 causes->differences.end();
+          return std::ranges::any_of(causes->differences, [&](const CauseName& difference) {
+            return ("+" + difference.name + "+").find(fmt::format("+{}+", option.name)) !=
+                   std::string::npos;
+          });
         }))
       table.rows.push_back({{{std::string(option.name)},
                              {fmt::format("{}", fmt::join(option.values, ", "))},
@@ -121,7 +123,7 @@ Table causeTerms(const std::vector<const Causes*>& all) {
 }
 
 std::string termId(const std::string& difference) {
-  return "term_" + difference;
+  return "term_" + difference.substr(0, difference.find('+'));
 }
 
 }  // namespace crossgrain::reports

@@ -172,30 +172,41 @@ Names causeSentences(const CompareResults& results, std::size_t most) {
             one.account(), one.unit(), one.margin(), "margin")) +
         ".");
   }
-  Names open;
-  double seconds = 0.0;
+  Names open, partly;
+  double seconds = 0.0, further = 0.0;
   for (const PairCauses& pair : results.causes) {
-    if (!isOfReference(results, pair) || !pair.endpoints.empty()) continue;
-    if (!pair.reason.empty())
+    if (!isOfReference(results, pair)) continue;
+    if (!pair.reason.empty()) {
       sentences.push_back(fmt::format("The differences of {} are not attributed: {}.",
                                       pairWords(pair), pair.reason));
-    if (!pair.reason.empty() || !pair.missing) continue;
-    open.push_back(pair.b);
-    seconds += *pair.missing;
+    } else if (pair.missing) {
+      (pair.endpoints.empty() ? open : partly).push_back(pair.b);
+      (pair.endpoints.empty() ? seconds : further) += *pair.missing;
+    }
   }
   if (!open.empty())
     sentences.push_back(
         fmt::format("Causes of the differences of {} were not measured: they take {}.",
                     listed(open), takes(seconds)));
+  if (!partly.empty())
+    sentences.push_back(
+        fmt::format("The other packings for causes of the differences of {} take {}.",
+                    listed(partly), takes(further)));
   return sentences;
 }
 
 std::string largestCause(const CompareResults& results, const EndpointRow& row) {
   for (const Explained& one : explained(results))
     if (one.row == &row) {
-      CauseAccount account = one.account();
-      account.remainder = 0.0;
-      return account.parts.empty() ? "" : account.largest();
+      std::string largest;
+      double most = 0.0;  // of what does not work against it
+      const CauseAccount account = one.account();
+      for (const auto& [name, value] : account.parts)
+        if (value * account.whole > most * std::abs(account.whole)) {
+          largest = name;
+          most = std::abs(value);
+        }
+      return largest;
     }
   return {};
 }

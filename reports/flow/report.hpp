@@ -94,7 +94,7 @@ Names compareConclusion(const CompareResults& results);
 /// margin = 25 %).": of the largest differences from the reference, at most so many; then what was
 /// not measured.
 Names causeSentences(const CompareResults& results, std::size_t most);
-/// Name of the largest part that is seen; empty: none is.
+/// Name of the largest part that is seen and makes the difference larger; empty: none does.
 std::string largestCause(const CompareResults& results, const EndpointRow& row);
 /// The section of all pairs. None: nothing was measured.
 void addCauses(Report& report, const CompareResults& results);

@@ -40,6 +40,8 @@ const std::vector<Group>& groups() {
       {"rolling", {"rolling_stiffness", "rolling_damper"}, {"kr", "gr", "mu_r"}},
       {"rolling_stiffness", {}, {"kr"}},
       {"rolling_damper", {}, {"gr"}},
+      {"dashpot", {"spring_reset"}, {}},  // springs are set to what the bound leaves beside it
+      {"rolling_dashpot", {"rolling_reset"}, {}},
       {"cohesion", {}, {"kc", "w", "k_unload", "plastic_depth"}},
       {"integrator", {"damping_velocity"}, {}}};  // Euler's is of the positions' own time
   return all;

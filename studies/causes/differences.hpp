@@ -19,7 +19,8 @@ struct Difference {
 
 /// In what two laws differ: options that bear on either, each by itself; constants, each by itself,
 /// or all as one where one law is the other made stiffer; and together what means nothing apart: a
-/// normal, tangential, rolling or cohesive law, or a kind of damper, with its constants.
+/// normal, tangential, rolling or cohesive law, or a kind of damper, with its constants; a
+/// dashpot's place and what springs are set to at the bound.
 template <class Setup>
 std::vector<Difference<Setup>> lawDifferences(const ContactLaw& from, const ContactLaw& to);
 

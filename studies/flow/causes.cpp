@@ -7,6 +7,7 @@
 #include <set>
 
 #include "adapters/declared_law.hpp"
+#include "averaging/pocock.hpp"
 #include "cases/effect_switch.hpp"
 #include "cases/endpoints.hpp"
 #include "cases/flow.hpp"
@@ -84,7 +85,6 @@ struct Pair {
   int available = 0, measured = 0;  ///< packings
   Case from = {}, to = {};
   std::vector<Difference<Case>> differences = {};
-  bool open = true;  ///< has not met the end of the budget
 };
 
 class CausesOfPairs {
@@ -98,17 +98,23 @@ class CausesOfPairs {
         found_(found),
         until_(until),
         undeclared_(undeclared) {
+    const double alpha = 1.0 - setup.averaging.confidence;
     for (const InterimRow& look : found.looks.planned) looks_.push_back(look.packings);
     if (hasClosedForms(setup)) looks_ = {closedFormRuns};
+    level_ = found.looks.agreeAlpha.value_or(alpha);
+    if (looks_.front() <= fewestPackings) return;
+    looks_.insert(looks_.begin(), fewestPackings);
+    level_ = pocockLevel(static_cast<int>(looks_.size()), alpha);
   }
 
   std::vector<PairCauses> result() {
     plan();
+    if (!pairs_.empty()) takeVerdictsRuns();
     for (const int look : looks_)
       for (Pair& pair : pairs_) advance(pair, look);
     std::vector<PairCauses> all;
     for (Pair& pair : pairs_) {
-      if (pair.causes.reason.empty() && pair.measured > 0) measure(pair);
+      if (pair.causes.reason.empty() && pair.measured > 0) guarded(pair, [&] { measure(pair); });
       all.push_back(std::move(pair.causes));
     }
     return all;
@@ -194,9 +200,6 @@ class CausesOfPairs {
     return all;
   }
 
-  static bool isInHouse(const EngineEntry& entry) {
-    return entry.name == inHouseName() || !entry.mirrors.empty();
-  }
   static const std::string& inHouseName() { return engineRegistry().front().name; }
 
   std::size_t indexOf(const std::string& name) {
@@ -215,108 +218,92 @@ class CausesOfPairs {
 
   // Runs.
 
-  /// Of the in-house engine under its own law or as a mirror, by what they ran.
-  const std::string* engineThatRan(const std::string& fingerprint) {
-    if (inHouse_.empty())
-      for (std::size_t e = 0; e < campaign_.engines().size(); ++e) {
-        const EngineEntry& entry = campaign_.engines()[e];
-        if (!isInHouse(entry) || !campaign_.effective(e)) continue;
-        try {
-          inHouse_.emplace(fingerprintOf(asRun(entry.name)), entry.name);
-        } catch (const UnsupportedScene&) {
-          // Its runs stand for no other.
-        }
+  /// What the verdicts rest on stands for mixtures that are the in-house engine's law, or a
+  /// mirror's.
+  void takeVerdictsRuns() {
+    for (std::size_t e = 0; e < campaign_.engines().size(); ++e) {
+      const EngineEntry& entry = campaign_.engines()[e];
+      if ((entry.name != inHouseName() && entry.mirrors.empty()) || !campaign_.effective(e))
+        continue;
+      try {
+        auto& there = there_[fingerprintOf(asRun(entry.name))];
+        for (const FlowRun* run : finishedRuns(campaign_.runs(), entry.name))
+          there.emplace(run->packing, run);
+      } catch (const UnsupportedScene&) {
+        // They stand for no other.
       }
-    const auto found = inHouse_.find(fingerprint);
-    return found == inHouse_.end() ? nullptr : &found->second;
+    }
   }
 
-  /// Packings from 0 on, without the mixture's own runs where a finished one is there.
-  std::map<int, const FlowRun*> runsThere(const std::string& fingerprint) {
-    std::map<int, const FlowRun*> there;
-    for (const auto& [id, run] : ran_)
-      if (id.variant == nameOf(fingerprint)) there[id.packing] = &run;
-    if (const std::string* const engine = engineThatRan(fingerprint))
-      for (const FlowRun* run : finishedRuns(campaign_.runs(), *engine)) there[run->packing] = run;
-    return there;
-  }
-
-  static std::string nameOf(const std::string& fingerprint) { return "mixture-" + fingerprint; }
-
-  const std::string& keep(const Pair& pair, Mixture mixture) {
+  const std::string& fingerprint(const Pair& pair, Mixture mixture) {
     const bool all = mixture + 1 == Mixture{1} << pair.differences.size();
     Case setup = all ? pair.to : mixed(pair.from, pair.differences, mixture);
-    const std::string fingerprint = fingerprintOf(setup);
-    return cases_.try_emplace(fingerprint, std::move(setup)).first->first;
+    return cases_.try_emplace(fingerprintOf(setup), std::move(setup)).first->first;
   }
 
-  /// Runs that are missing of these mixtures on the first packings.
-  std::vector<PlannedRuns> missing(const Pair& pair, const std::set<Mixture>& mixtures,
-                                   int packings) {
-    std::vector<PlannedRuns> lists;
-    std::set<std::string> seen;
+  /// Runs that are to be made, by mixture.
+  struct Block {
+    std::map<std::string, PlannedRuns> lists;
+    double seconds = 0.0;  ///< 0: all are finished
+  };
+
+  /// Of these mixtures on the first packings, all but what is there. Seconds are those that runs so
+  /// far took step by step, before any by a timing, times what such a prediction was wrong by.
+  Block blockOf(const Pair& pair, const std::set<Mixture>& mixtures, int packings) {
+    Block block;
+    double wall = 0.0, steps = 0.0;
+    for (const auto& [law, runs] : there_)
+      for (const auto& [packing, run] : runs) {
+        if (!run->finished() || !run->stats) continue;
+        wall += run->stats->wallSeconds;
+        steps += static_cast<double>(run->stats->steps);
+      }
     for (const Mixture mixture : mixtures) {
-      const std::string& fingerprint = keep(pair, mixture);
-      if (!seen.insert(fingerprint).second) continue;
-      const auto there = runsThere(fingerprint);
+      const std::string& law = fingerprint(pair, mixture);
       int first = 0;
-      while (first < packings && there.contains(first)) ++first;
-      if (first < packings)
-        lists.push_back(
-            {{{indexOf(inHouseName()), "", &cases_.at(fingerprint), nameOf(fingerprint)}},
-             {first, packings}});
+      while (there_[law].contains(first)) ++first;
+      if (first >= packings || block.lists.contains(law)) continue;
+      const Case& setup = cases_.at(law);
+      const PlannedRuns list{{{indexOf(inHouseName()), "", &setup, "mixture-" + law}},
+                             {first, packings}};
+      const auto missing = static_cast<double>(campaign_.missingRuns(list));
+      const double dt = std::get<double>(setup.engines.at(inHouseName()).at("dt"));
+      const double each = steps > 0.0 ? wall / steps * flowDuration(setup_) / dt
+                                      : campaign_.secondsOf({list}) / std::max(missing, 1.0);
+      block.seconds += missing * each * pace_ / std::max(command_.jobs, 1);
+      block.lists.emplace(law, list);
     }
-    return lists;
+    return block;
   }
 
-  /// By the in-house engine's finished runs, where there are any, and how far such a prediction was
-  /// right so far.
-  double secondsOf(const std::vector<PlannedRuns>& lists) const {
-    double wall = 0.0, steps = 0.0, seconds = 0.0;
-    const auto add = [&](const FlowRun& run) {
-      if (!run.finished() || !run.stats) return;
-      wall += run.stats->wallSeconds;
-      steps += static_cast<double>(run.stats->steps);
-    };
-    for (const EngineEntry& entry : campaign_.engines())
-      for (const FlowRun& run : campaign_.runs())
-        if (isInHouse(entry) && run.engine == entry.name) add(run);
-    for (const auto& [id, run] : ran_) add(run);
-    if (steps == 0.0) return campaign_.secondsOf(lists) * pace_;
-    for (const PlannedRuns& list : lists)
-      seconds += static_cast<double>(campaign_.missingRuns(list)) * wall / steps *
-                 flowDuration(setup_) / stepOf(*list.variants.front().setup);
-    return seconds / std::max(command_.jobs, 1) * pace_;
-  }
-
-  static double stepOf(const Case& setup) {
-    return std::get<double>(setup.engines.at(inHouseName()).at("dt"));
-  }
-
-  void run(const std::vector<PlannedRuns>& lists) {
-    if (lists.empty()) return;
+  void run(const Block& block) {
+    if (block.lists.empty()) return;
+    std::vector<PlannedRuns> lists;
     int packings = 0;
-    for (const PlannedRuns& list : lists) packings = std::max(packings, list.packings.to);
+    for (const auto& [law, list] : block.lists) {
+      lists.push_back(list);
+      packings = std::max(packings, list.packings.to);
+    }
     campaign_.preparePackings(packings);
-    const double before = campaign_.elapsed(), predicted = secondsOf(lists);
+    const double before = campaign_.elapsed();
     ran_.merge(campaign_.runSome(lists, "measuring causes of differences"));
-    if (predicted > 0.0) pace_ *= std::max(1.0, (campaign_.elapsed() - before) / predicted);
+    if (block.seconds > 0.0) pace_ *= std::max(1.0, (campaign_.elapsed() - before) / block.seconds);
+    for (const auto& [law, list] : block.lists)
+      for (int k = list.packings.from; k < packings; ++k)
+        there_[law].emplace(k, &ran_.at({inHouseName(), "mixture-" + law, k}));
   }
 
   void advance(Pair& pair, int look) {
     const int packings = std::min(look, pair.available);
-    if (!pair.open || !pair.causes.reason.empty() || packings <= pair.measured) return;
+    if (pair.causes.missing || !pair.causes.reason.empty() || packings <= pair.measured) return;
     guarded(pair, [&] {
       const auto mixtures = mixturesOf(pair);
-      const std::vector<PlannedRuns> lists = missing(pair, mixtures, packings);
-      const bool free = std::ranges::all_of(
-          lists, [&](const PlannedRuns& list) { return campaign_.missingRuns(list) == 0; });
-      if (!free && campaign_.elapsed() + secondsOf(lists) > until_) {
-        pair.open = false;
-        pair.causes.missing = secondsOf(missing(pair, mixtures, pair.available));
+      const Block block = blockOf(pair, mixtures, packings);
+      if (block.seconds > 0.0 && campaign_.elapsed() + block.seconds > until_) {
+        pair.causes.missing = blockOf(pair, mixtures, pair.available).seconds;
         return;
       }
-      run(lists);
+      run(block);
       pair.measured = packings;
     });
   }
@@ -325,10 +312,9 @@ class CausesOfPairs {
 
   /// Finished ones of a mixture on the packings that were measured.
   Runs runsOf(const Pair& pair, Mixture mixture) {
-    const std::string& fingerprint = keep(pair, mixture);
-    run(missing(pair, {mixture}, pair.measured));
+    run(blockOf(pair, {mixture}, pair.measured));
     Runs runs;
-    for (const auto& [packing, run] : runsThere(fingerprint))
+    for (const auto& [packing, run] : there_[fingerprint(pair, mixture)])
       if (packing < pair.measured && run->finished()) runs.push_back(run);
     return runs;
   }
@@ -348,48 +334,41 @@ class CausesOfPairs {
   }
 
   void measure(Pair& pair) {
-    guarded(pair, [&] {
-      const Runs a = campaign_.isNeutral() ? runsOf(pair, Mixture{0}) : runsOf(pair, pair.causes.a),
-                 b = runsOf(pair, pair.causes.b);
-      AttributionPlan plan{pair.differences.size(), mostMixed, false};
+    const auto packings = static_cast<std::size_t>(pair.measured);
+    const Runs a = campaign_.isNeutral() ? runsOf(pair, Mixture{0}) : runsOf(pair, pair.causes.a),
+               b = runsOf(pair, pair.causes.b);
+    AttributionPlan plan{pair.differences.size(), mostMixed, false};
+    for (const EndpointRow* row : pair.rows)
+      plan.units.insert(plan.units.end(), packings, testOf(pair, *row, a, a).sample.margin);
+    const auto parts = attribute(plan, [&](Mixture mixture) -> std::optional<Numbers> {
+      if (pair.differences.empty()) return Numbers(plan.units.size(), 0.0);
+      const Runs runs = runsOf(pair, mixture);
+      Numbers numbers;
       for (const EndpointRow* row : pair.rows)
-        plan.units.insert(plan.units.end(), static_cast<std::size_t>(pair.measured),
-                          testOf(pair, *row, a, a).sample.margin);
-      const auto numbersOf = [&](const Runs& runs) {
-        Numbers numbers;
-        for (const EndpointRow* row : pair.rows)
-          std::ranges::copy(testOf(pair, *row, a, runs).sample.other, std::back_inserter(numbers));
-        return numbers;
-      };
-      const auto parts = attribute(plan, [&](Mixture mixture) -> std::optional<Numbers> {
-        return pair.differences.empty() ? Numbers(plan.units.size(), 0.0)
-                                        : numbersOf(runsOf(pair, mixture));
-      });
-      pair.causes.mixtures = parts->mixtures;
-      for (std::size_t r = 0; r < pair.rows.size(); ++r)
-        if (auto own = endpointCauses(pair, *pair.rows[r], testOf(pair, *pair.rows[r], a, b),
-                                      *parts, r * static_cast<std::size_t>(pair.measured)))
-          pair.causes.endpoints.push_back(std::move(*own));
-      count(pair);
-      if (pair.causes.endpoints.empty()) pair.causes.reason = whyNothing(pair);
+        std::ranges::copy(testOf(pair, *row, a, runs).sample.other, std::back_inserter(numbers));
+      return numbers;
     });
+    pair.causes.mixtures = parts->mixtures;
+    for (std::size_t r = 0; r < pair.rows.size(); ++r)
+      if (auto own = endpointCauses(pair, *pair.rows[r], testOf(pair, *pair.rows[r], a, b), *parts,
+                                    r * packings))
+        pair.causes.endpoints.push_back(std::move(*own));
+    sumUp(pair);
   }
 
-  void count(Pair& pair) {
+  /// What it took, and why nothing came out.
+  void sumUp(Pair& pair) {
+    std::string failure = "no packing has a value under all mixtures of both laws";
     std::set<std::string> names;
-    for (const Mixture mixture : mixturesOf(pair)) names.insert(nameOf(keep(pair, mixture)));
-    for (const auto& [id, run] : ran_)
-      if (names.contains(id.variant)) {
-        ++pair.causes.runs;
-        if (run.stats) pair.causes.cpuSeconds += run.stats->cpuSeconds;
-      }
-  }
-
-  std::string whyNothing(const Pair& pair) {
     for (const Mixture mixture : mixturesOf(pair))
-      for (const auto& [packing, run] : runsThere(keep(pair, mixture)))
-        if (!run->finished()) return run->reason;
-    return "no packing has a value under all mixtures of both laws";
+      names.insert("mixture-" + fingerprint(pair, mixture));
+    for (const auto& [id, run] : ran_) {
+      if (!names.contains(id.variant)) continue;
+      ++pair.causes.runs;
+      if (run.stats) pair.causes.cpuSeconds += run.stats->cpuSeconds;
+      if (!run.finished()) failure = run.reason;
+    }
+    if (pair.causes.endpoints.empty()) pair.causes.reason = failure;
   }
 
   /// @param from  of the endpoint's numbers among all
@@ -397,36 +376,35 @@ class CausesOfPairs {
                                                const PairedTest& test, const Attribution& found,
                                                std::size_t from) const {
     const std::size_t k = found.parts.size();
-    std::vector<std::vector<double>> values(k + 3);  // whole, parts, interaction, remainder
+    std::vector<Numbers> values(k + 3);  // whole, parts, interaction, remainder
     for (std::size_t p = 0; p < static_cast<std::size_t>(pair.measured); ++p) {
       const auto &a = test.sample.reference[p], &b = test.sample.other[p];
       bool all = a && b && found.interaction[from + p];
       for (const Numbers& part : found.parts) all = all && part[from + p];
       if (!all) continue;
       double left = *b - *a;
-      values[0].push_back(left);
+      values[0].emplace_back(left);
       for (std::size_t i = 0; i <= k; ++i) {
-        values[i + 1].push_back(*(i < k ? found.parts[i] : found.interaction)[from + p]);
-        left -= values[i + 1].back();
+        values[i + 1].push_back((i < k ? found.parts[i] : found.interaction)[from + p]);
+        left -= *values[i + 1].back();
       }
-      values[k + 2].push_back(left);
+      values[k + 2].emplace_back(left);
     }
     if (values[0].empty()) return std::nullopt;
-    const double whole = ensembleMean(Numbers(values[0].begin(), values[0].end()))->mean;
+    const double whole = ensembleMean(values[0])->mean;
     const double factor = !test.logarithmic ? 1.0
                           : whole == 0.0    ? std::abs(test.reference)
                                             : inUnit(test, whole) / whole;
     const auto part = [&](std::size_t i, double bound = 0.0) {
-      const PairedSample sample{Numbers(values[i].size(), 0.0),
-                                Numbers(values[i].begin(), values[i].end()),
-                                0.0,
-                                0.0,
-                                {}};
-      const auto mean = comparePaired({&sample, 1}, 1.0 - level()).front();
+      const PairedSample sample{Numbers(values[i].size(), 0.0), values[i], 0.0, 0.0, {}};
+      const auto mean = *comparePaired({&sample, 1}, 1.0 - level_).front();
       const auto made = [&](double value) { return i == 0 ? inUnit(test, value) : factor * value; };
-      if (!mean->low || (mean->packings < fewestPackings && !hasClosedForms(setup_)))
-        return CausePart{made(mean->difference), {}, {}};
-      return CausePart{made(mean->difference), made(*mean->low - bound), made(*mean->high + bound)};
+      CausePart own{made(mean.difference), {}, {}};
+      if (mean.low && (mean.packings >= fewestPackings || hasClosedForms(setup_))) {
+        own.low = made(*mean.low - bound);
+        own.high = made(*mean.high + bound);
+      }
+      return own;
     };
     const double bound = row.bound.value_or(0.0) * test.sample.margin;
     EndpointCauses own{row.endpoint,      row.unit, static_cast<int>(values[0].size()),
@@ -436,21 +414,19 @@ class CausesOfPairs {
     return own;
   }
 
-  double level() const {
-    return found_.looks.agreeAlpha.value_or(1.0 - setup_.averaging.confidence);
-  }
-
   Campaign& campaign_;
   const Case& setup_;
   const RunCommand& command_;
   const EndpointFindings& found_;
   double until_;
   const UndeclaredDifferences& undeclared_;
-  std::vector<int> looks_;
+  std::vector<int> looks_;  ///< packings, in steps
+  double level_ = 0.0;      ///< of intervals, at each
   std::vector<Pair> pairs_;
-  std::map<std::string, std::string> inHouse_;  ///< engines by the fingerprint of what they run
-  std::map<std::string, Case> cases_;           ///< mixtures by their fingerprints
+  std::map<std::string, Case> cases_;  ///< mixtures by their fingerprints
   RunsById ran_;
+  /// All runs of the in-house engine, by the fingerprint of what it ran, and packing.
+  std::map<std::string, std::map<int, const FlowRun*>> there_;
   double pace_ = 1.0;  ///< time that runs took, of what was predicted
 };
 

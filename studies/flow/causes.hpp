@@ -24,7 +24,8 @@ using UndeclaredDifferences = std::map<std::string, std::vector<Difference<Case>
 
 /// Causes of the differences of every two peers that show one of at least a hundredth of a margin:
 /// those from the reference first, of these the largest, on the packings of one interim analysis
-/// after the other. Of a neutral campaign every engine's from the in-house one.
+/// after the other; before them, where the first has more, on four. Of a neutral campaign every
+/// engine's from the in-house one.
 ///
 /// With a packing's values v(S) of an endpoint under mixtures S of both engines' laws, run by the
 /// in-house engine, on the scale of its test (its logarithm where engines are compared by their

@@ -19,11 +19,11 @@ namespace {
 
 constexpr double noLimit = std::numeric_limits<double>::infinity();
 
-/// A cell that shears for a quarter of a second, packings prepared in short.
+/// A cell that shears for 0.4 s, packings prepared in short.
 Case shortCell(std::vector<std::string> changes = {}) {
   changes.insert(changes.begin(), {"preparation.packings=4", "preparation.shrink_time=0.3",
-                                   "preparation.rotations=0.1", "averaging.settle_rotations=0.02",
-                                   "averaging.rotations=0.1", "looks.count=1"});
+                                   "preparation.rotations=0.1", "averaging.settle_rotations=0.01",
+                                   "averaging.rotations=0.05", "looks.count=1"});
   return test::quickCell(changes);
 }
 
@@ -140,7 +140,7 @@ TEST_F(FlowCauses, OneOfFour_IsTheLargest) {
 
 TEST_F(FlowCauses, StifferContactsAsDeclared_AreMixedInAll) {
   const auto found =
-      causes(shortCell({"engines.none.stiffness=16"}), test::misbehavingEntry("none", 0), noLimit);
+      causes(shortCell({"engines.none.stiffness=4"}), test::misbehavingEntry("none", 0), noLimit);
   ASSERT_EQ(found.size(), 1u);
   const PairCauses& pair = found[0];
   ASSERT_EQ(pair.differences.size(), 2u) << pair.reason;
