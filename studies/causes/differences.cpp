@@ -15,7 +15,7 @@
 #include "cases/effect_switch.hpp"
 #include "cases/materials.hpp"
 #include "law/law_options.hpp"
-#include "studies/lockstep/terms.hpp"
+#include "studies/causes/changes.hpp"
 #include "support/fingerprint.hpp"
 
 namespace crossgrain::inline studies {

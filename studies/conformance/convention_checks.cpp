@@ -15,6 +15,7 @@
 #include "studies/conformance/check_context.hpp"
 #include "studies/conformance/declared_laws.hpp"
 #include "studies/lockstep/rules.hpp"
+#include "studies/causes/changes.hpp"
 #include "studies/lockstep/terms.hpp"
 
 namespace crossgrain::conformance {

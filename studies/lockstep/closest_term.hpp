@@ -6,7 +6,7 @@
 
 #include "adapters/engine.hpp"
 #include "results/lockstep_findings.hpp"
-#include "studies/lockstep/terms.hpp"
+#include "studies/causes/closest_law.hpp"
 #include "studies/lockstep/window.hpp"
 
 namespace crossgrain::inline studies {
@@ -71,11 +71,7 @@ struct TermSearchOf {
 };
 using TermSearch = TermSearchOf<2>;
 
-/// Tries every change of the mirror from every start, and those constants that explain most to
-/// first order with the amount that they would have; where that names none, all constants by
-/// amounts of up to the whole of them. @returns the one that leaves least at one of the instants,
-/// in the mirror itself, if that is less than termUnexplained
-/// @throws Interrupted
+/// closestTerm() of all changes of the mirror, from every start. @throws Interrupted
 template <int D>
 std::optional<NamedTerm> closestTerm(Engine& mirror, const TermSearchOf<D>& search);
 

@@ -46,19 +46,6 @@ inline constexpr std::size_t leastRead = 4;
 /// From a fraction of a contact to where chaos has had its part. The last is the window's length.
 inline constexpr std::array lockstepTimes = {1e-3, 2e-3, 5e-3, 10e-3, 20e-3, 50e-3, 100e-3};  // [s]
 
-/// By which constants are changed in search of what is off: small, so that no contact is made or
-/// broken at another step, and large against rounding.
-inline constexpr double termChange = 1e-4;  // of the constant
-
-/// A term is tried with its amount where, to first order, it leaves less than half of the
-/// separation ...
-inline constexpr double termWorthTrying = 0.5;
-
-/// ... and named where the mirror that has it leaves less than a fifth. A right term leaves terms
-/// of second order, which a second trial takes away, and rounding; of several faults at once a
-/// fifth is no name.
-inline constexpr double termUnexplained = 0.2;
-
 /// A smaller separation of an engine from its mirror is rounding and contacts made a step earlier,
 /// and has no name.
 inline constexpr double leastNamed = 1e-6;  // of the reference constant

@@ -5,122 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
-#include "adapters/suitability.hpp"
 #include "cases/materials.hpp"
-#include "law/law_options.hpp"
 #include "studies/lockstep/rules.hpp"
 
 namespace crossgrain::inline studies {
-namespace {
-
-template <int D>
-void addConstants(std::vector<MirrorChangeOf<D>>& changes, const SceneOf<D>& scene) {
-  const auto add = [&](std::string name, std::function<void(SceneOf<D>&, double)> apply) {
-    changes.push_back({std::move(name), true, std::move(apply)});
-  };
-  for (const LawConstant& constant : lawConstants())
-    if (scene.law.*constant.value != 0.0 && hasPart(scene.law, constant.part))
-      add(std::string(constant.name), [value = constant.value](SceneOf<D>& changed, double by) {
-        changeLaws(changed, [&](ContactLaw& law) { law.*value *= 1.0 + by; });
-      });
-  const std::pair<const char*, double BottomPlate::*> plate[] = {
-      {"plate mu", &BottomPlate::mu},
-      {"plate kb", &BottomPlate::kb},
-      {"plate gb", &BottomPlate::gb},
-      {"plate tau_m", &BottomPlate::tauM}};
-  if (scene.bottom)
-    for (const auto& [name, value] : plate)
-      if ((*scene.bottom).*value != 0.0)
-        add(name, [value = value](SceneOf<D>& changed, double by) {
-          (*changed.bottom).*value *= 1.0 + by;
-        });
-  add("mass", [](SceneOf<D>& changed, double by) {
-    for (double& mass : changed.disks.mass) mass *= 1.0 + by;
-  });
-  if (scene.rotation)
-    add("inertia", [](SceneOf<D>& changed, double by) {
-      for (double& inertia : changed.disks.inertia) inertia *= 1.0 + by;
-    });
-  add("velocity of walls", [](SceneOf<D>& changed, double by) {
-    for (WallBodyOf<D>& body : changed.bodies) {
-      body.motion.angularVelocity *= 1.0 + by;
-      body.motion.velocity *= 1.0 + by;
-      body.motion.frequency *= 1.0 + by;
-    }
-  });
-}
-
-template <int D>
-void addConventions(std::vector<MirrorChangeOf<D>>& changes, const SceneOf<D>& scene,
-                    const Capabilities& can) {
-  for (const LawOption& option : lawOptions()) {
-    const std::string name(option.name);
-    if (!bearsOnMirror(scene.law, name)) continue;
-    const auto values = can.lawOptions.find(name);
-    if (values == can.lawOptions.end()) continue;
-    for (const std::string& value : values->second)
-      if (value != lawOptionValue(scene.law, name) && constantsServe(scene.law, name, value))
-        changes.push_back({fmt::format("{} = {}", name, value), false,
-                           [name, value](SceneOf<D>& changed, double) {
-                             changeLaws(changed,
-                                        [&](ContactLaw& law) { setLawOption(law, name, value); });
-                           }});
-  }
-}
-
-template <int D>
-void addMissingEffects(std::vector<MirrorChangeOf<D>>& changes, const SceneOf<D>& scene,
-                       Capabilities can) {
-  for (const Effect effect : effectsOf(scene)) {
-    const std::string name = toString(effect);
-    can.effects[effect] = Support::never;
-    changes.push_back({"without " + name, false, [can, name](SceneOf<D>& changed, double) {
-                         changed = adaptScene(can, changed, {name}).scene;
-                       }});
-    can.effects[effect] = Support::optional;
-  }
-}
-
-double dot(const std::vector<double>& one, const std::vector<double>& other) {
-  return std::inner_product(one.begin(), one.end(), other.begin(), 0.0);
-}
-
-}  // namespace
-
-bool bearsOnMirror(const ContactLaw& law, std::string_view option) {
-  if (option == "velocity_arm") return mattersTo(law, "lever_arm");
-  if (option == "damping_velocity" && law.soft() && (law.friction() || law.rolls())) return true;
-  return mattersTo(law, option);
-}
-
-bool constantsServe(const ContactLaw& law, std::string_view option, std::string_view value) {
-  if (option == "normal" || option == "damper" || option == "rolling_damper") return false;
-  const bool perRadian = law.conventions.rollingStiffness == RollingStiffness::constant;
-  if (option == "rolling_stiffness") return (value == "constant") == perRadian;
-  if (option == "rolling") {
-    if (value == "none") return false;
-    if (value == "spring" && !(law.kr > 0.0)) return false;
-    if (value == "viscous")
-      return law.gr > 0.0 && law.conventions.rollingDamper == RollingDamper::constant;
-    return law.muR > 0.0 &&
-           (value == "viscous_by_load") == (law.rolling == RollingLaw::viscousByLoad);
-  }
-  if (option == "cohesion")
-    return law.w > 0.0 && (value == "dmt" || (value == "jkr" && law.normal == NormalLaw::hertz));
-  return true;
-}
-
-template <int D>
-std::vector<MirrorChangeOf<D>> changesOf(const SceneOf<D>& scene, const Capabilities& can) {
-  std::vector<MirrorChangeOf<D>> changes;
-  addConstants(changes, scene);
-  addConventions(changes, scene, can);
-  addMissingEffects(changes, scene, can);
-  return changes;
-}
-
 std::string referencePerturbationOf(const ContactLaw& law) {
   return law.soft() ? "kn" : "en";
 }
@@ -180,29 +69,6 @@ std::optional<double> equivalentChange(const std::vector<double>& apart,
   return std::sqrt(own / moved);
 }
 
-template <int D>
-NamedTerm asTerm(const MirrorChangeOf<D>& change, const std::vector<double>& separation,
-                 const std::vector<double>& response) {
-  NamedTerm term{change.name, std::nullopt, 1.0};
-  const double whole = dot(separation, separation), ofResponse = dot(response, response);
-  if (!(whole > 0.0) || !(ofResponse > 0.0)) return term;
-  const double times = change.isConstant ? dot(separation, response) / ofResponse : 1.0;
-  double left = 0.0;
-  for (std::size_t k = 0; k < separation.size(); ++k) {
-    const double rest = separation[k] - times * response[k];
-    left += rest * rest;
-  }
-  term.unexplained = std::sqrt(left / whole);
-  if (change.isConstant) term.amount = times * termChange;
-  return term;
-}
-
-std::optional<NamedTerm> bestTerm(const std::vector<NamedTerm>& terms) {
-  const auto best = std::ranges::min_element(terms, {}, &NamedTerm::unexplained);
-  if (best == terms.end() || !(best->unexplained < termUnexplained)) return std::nullopt;
-  return *best;
-}
-
 void changeConstant(ContactLaw& law, const std::string& constant, double by) {
   if (constant == "mu")
     law.mu *= 1.0 + by;
@@ -221,12 +87,5 @@ std::vector<ChangedCase> changedCases(const Case& setup) {
   }
   return cases;
 }
-
-template std::vector<MirrorChangeOf<2>> changesOf(const SceneOf<2>&, const Capabilities&);
-template NamedTerm asTerm(const MirrorChangeOf<2>&, const std::vector<double>&,
-                          const std::vector<double>&);
-template std::vector<MirrorChangeOf<3>> changesOf(const SceneOf<3>&, const Capabilities&);
-template NamedTerm asTerm(const MirrorChangeOf<3>&, const std::vector<double>&,
-                          const std::vector<double>&);
 
 }  // namespace crossgrain::inline studies

@@ -20,6 +20,7 @@
 #include "studies/lockstep/lockstep.hpp"
 #include "studies/lockstep/rules.hpp"
 #include "studies/lockstep/separation.hpp"
+#include "studies/lockstep/terms.hpp"
 #include "studies/regression/observe.hpp"
 #include "support/bad_input.hpp"
 #include "support/scratch_folder.hpp"

@@ -1,6 +1,9 @@
 // Curves against the law that an engine declares: what is its model, and what is a fault.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "adapters/box2d_common.hpp"
 #include "cases/loader.hpp"
 #include "cases/time_step.hpp"
@@ -69,7 +72,7 @@ TEST(DeclaredScore, ConventionThatTheCaseAllows_IsAModelDifference) {
   EXPECT_EQ(verdictOf(curve), Verdict::modelDifference);
 }
 
-TEST(DeclaredScore, ConventionThatMovesTheOutcome_IsMeasuredByItself) {
+TEST(DeclaredScore, ConventionThatMovesTheOutcome_IsItsCause) {
   // Two conventions differ in every sweep. With k_t/k_n of MFiX' DEM05 the spring's update moves
   // Ψ_f by limits, and an arm shorter by half the overlap, 1e-4 of a, by nothing.
   Case setup = variantOf("glass-foerster-soft.toml", "");

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "studies/causes/closest_law.hpp"
 #include "studies/lockstep/account.hpp"
 #include "studies/lockstep/rules.hpp"
 #include "studies/lockstep/separation.hpp"

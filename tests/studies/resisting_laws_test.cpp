@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "law/law_options.hpp"
+#include "studies/causes/changes.hpp"
 #include "studies/lockstep/identify.hpp"
 #include "studies/lockstep/late_windows.hpp"
 #include "studies/lockstep/lockstep.hpp"
