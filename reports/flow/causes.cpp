@@ -62,7 +62,8 @@ const EndpointRow* rowFor(const CompareResults& results, const PairCauses& pair,
   });
 }
 
-/// Those of which a difference is shown, the largest first.
+/// Those of which a difference is shown, by the packings of the verdict and by these, the largest
+/// first.
 std::vector<Explained> explained(const CompareResults& results) {
   std::vector<Explained> found;
   for (const PairCauses& pair : results.causes)
@@ -70,7 +71,9 @@ std::vector<Explained> explained(const CompareResults& results) {
       Explained one{&pair, &own, rowFor(results, pair, own.endpoint)};
       const bool decided =
           one.row && (one.row->verdict == Verdict::fail || one.row->verdict == Verdict::borderline);
-      if (!one.row || !own.whole.mean || !(decided || one.row->differenceSeen())) continue;
+      const bool holds0 = own.whole.low && !own.whole.isSeen();
+      if (!one.row || !own.whole.mean || !(decided || (one.row->differenceSeen() && !holds0)))
+        continue;
       one.margins = std::abs(one.scale() * *own.whole.mean) / one.margin();
       found.push_back(one);
     }
