@@ -21,6 +21,7 @@ struct CauseName {
   /// false: seen in what the peer does, which it declares otherwise
   bool declared = true;
 
+  bool operator==(const CauseName&) const = default;
   void fields(auto& io) {
     io("name", name);
     io("from", from);
@@ -66,6 +67,8 @@ struct CauseStep {
 /// What is common to the causes of all numbers of a pair.
 struct Causes {
   std::vector<CauseName> differences;
+  /// In what the peer does something else than it declares, from that to what it does.
+  std::vector<CauseName> undeclared;
   Mixtures mixtures = Mixtures::all;
   std::vector<Interaction> interactions;  ///< the largest first
   std::vector<CauseStep> path;            ///< where not all mixtures ran
@@ -76,6 +79,7 @@ struct Causes {
 
   void fields(auto& io) {
     io("differences", differences);
+    io.when(!undeclared.empty(), "undeclared", undeclared);
     io("mixtures", mixtures);
     io("interactions", interactions);
     io.when(!path.empty(), "path", path);

@@ -17,25 +17,33 @@ const QuantityCauses* causesIn(const CollisionCurve& curve, QuantityId quantity)
   return curve.causes && curve.causes->of[quantity] ? &*curve.causes->of[quantity] : nullptr;
 }
 
+Names undeclaredIn(const Causes& causes) {
+  Names names;
+  for (const CauseName& one : causes.differences)
+    if (!one.declared) names.push_back(one.name);
+  return names;
+}
+
 /// Parts of the difference at one point; absent where one of them is not known.
 std::optional<CauseAccount> accountAt(const CollisionCauses& causes, const QuantityCauses& own,
                                       std::size_t point) {
   const auto whole = at(own.whole, point), interaction = at(own.interaction, point),
              remainder = at(own.remainder, point);
   if (!whole || !interaction || !remainder) return std::nullopt;
-  CauseAccount account{*whole, {}, *interaction, *remainder, causes.remainder};
+  CauseAccount account{
+      *whole, {}, *interaction, *remainder, causes.remainder, undeclaredIn(causes)};
   for (std::size_t k = 0; k < own.parts.size(); ++k) {
     const auto part = at(own.parts[k], point);
     if (!part) return std::nullopt;
-    account.parts.emplace_back(partName(causes.differences[k]), *part);
+    account.parts.emplace_back(causes.differences[k].name, *part);
   }
   return account;
 }
 
 /// Shares in the whole sweep: Σ part · whole/Σ whole², which add up to 1.
 CauseAccount accountOver(const CollisionCauses& causes, const QuantityCauses& own) {
-  CauseAccount sum{0.0, {}, 0.0, 0.0, causes.remainder};
-  for (const CauseName& one : causes.differences) sum.parts.emplace_back(partName(one), 0.0);
+  CauseAccount sum{0.0, {}, 0.0, 0.0, causes.remainder, undeclaredIn(causes)};
+  for (const CauseName& one : causes.differences) sum.parts.emplace_back(one.name, 0.0);
   for (std::size_t k = 0; k < own.whole.size(); ++k) {
     const auto one = accountAt(causes, own, k);
     if (!one) continue;
@@ -143,15 +151,19 @@ Table causesTable(const CaseGroup& group, bool all) {
 
 Names causesNotes(const CaseGroup& group) {
   std::vector<std::pair<std::string, Names>> byNote;
+  const auto add = [&](std::string note, const std::string& who) {
+    if (note.empty()) return;
+    const auto found = std::ranges::find(byNote, note, [](const auto& one) { return one.first; });
+    Names& all = found == byNote.end() ? byNote.emplace_back(std::move(note), Names{}).second
+                                       : found->second;
+    all.push_back(who);
+  };
   for (const CollisionVariant* variant : group.variants)
     for (const CollisionCurve& curve : variant->curves) {
       if (!curve.causes) continue;
-      std::string note = causesNote(*curve.causes);
-      if (note.empty()) continue;
-      const auto found = std::ranges::find(byNote, note, [](const auto& one) { return one.first; });
-      Names& who = found == byNote.end() ? byNote.emplace_back(std::move(note), Names{}).second
-                                         : found->second;
-      who.push_back(fmt::format("{}, {}", curve.engine, variant->variant));
+      const std::string who = fmt::format("{}, {}", curve.engine, variant->variant);
+      add(undeclaredSentence(curve.engine, *curve.causes), who);
+      add(causesNote(*curve.causes), who);
     }
   Names notes;
   for (const auto& [note, who] : byNote)

@@ -55,7 +55,9 @@ std::string accountWords(const CauseAccount& account) {
   bool any = false;
   for (const auto& [name, value] : parts)
     if (words.size() < mostNamed && std::abs(value) >= least && value != 0.0) {
-      words.push_back(name + " " + besideWhole(value, account.whole));
+      const bool declared = std::ranges::find(account.undeclared, name) == account.undeclared.end();
+      words.push_back(fmt::format("{} {}{}", name, besideWhole(value, account.whole),
+                                  declared ? "" : " (not declared)"));
     } else if (value != 0.0) {
       others += value;
       any = true;
@@ -80,13 +82,17 @@ std::string causeSentence(const std::string& what, const std::string& engine,
                      limit ? fmt::format(" (1 {} = {}{})", limitIs, readable(*limit), of) : "");
 }
 
-std::string partName(const CauseName& difference) {
-  return difference.name + (difference.declared ? "" : " (not declared)");
-}
-
 std::string differenceWords(const CauseName& difference) {
   return fmt::format("{} {} → {}{}", difference.name, difference.from, difference.to,
                      difference.declared ? "" : " (not declared)");
+}
+
+std::string undeclaredSentence(const std::string& engine, const Causes& causes) {
+  Names words;
+  for (const CauseName& one : causes.undeclared)
+    words.push_back(fmt::format("{} {}, not {}", one.name, one.to, one.from));
+  if (words.empty()) return {};
+  return fmt::format("{} does not do what it declares: as if {}.", engine, listed(words));
 }
 
 std::string causesNote(const Causes& causes) {

@@ -17,14 +17,15 @@ struct CauseAccount {
   std::vector<std::pair<std::string, double>> parts;  ///< by name
   double interaction = 0.0, remainder = 0.0;
   std::string remainderName = {};  ///< empty, with no parts: no cause is shown
+  Names undeclared = {};  ///< of the parts, those that the engine does not declare
 
   /// Name of the largest part, the remainder's where that is larger than any.
   std::string largest() const;
 };
 
-/// "spring_update 0.139, lever_arm 0.001, implementation < 0.001": the largest first, what works
-/// against the whole with a minus sign, all with the digits of the whole; what is below a hundredth
-/// of it together as "others".
+/// "spring_update 0.139 (not declared), lever_arm 0.001, implementation < 0.001": the largest
+/// first, what works against the whole with a minus sign, all with the digits of the whole; what is
+/// below a hundredth of it together as "others".
 std::string accountWords(const CauseAccount& account);
 
 /// "Ψ_f of yade is 0.14 lower than grain's at Ψ_i = 0.35: spring_update 0.139, lever_arm 0.001,
@@ -38,11 +39,11 @@ std::string causeSentence(const std::string& what, const std::string& engine,
                           const CauseAccount& account, const std::string& unit,
                           const std::optional<double>& limit, const char* limitIs);
 
-/// "spring_update", "spring_update (not declared)": as a part of a difference.
-std::string partName(const CauseName& difference);
-
 /// "spring_update after → before (not declared)"
 std::string differenceWords(const CauseName& difference);
+
+/// "yade does not do what it declares: as if spring_update before, not after." Empty: it does.
+std::string undeclaredSentence(const std::string& engine, const Causes& causes);
 
 /// Sentences that hold for all numbers of a pair: which interact, how far the path goes, what was
 /// not attributed and why. Empty: there is nothing to be said.

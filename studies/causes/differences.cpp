@@ -71,6 +71,14 @@ bool differ(double one, double other) {
   return std::abs(one - other) > 1e-12 * std::max(std::abs(one), std::abs(other));
 }
 
+/// With as many digits as tell both values apart.
+CauseName wordsOf(std::string_view constant, double from, double to) {
+  int digits = 4;
+  const auto words = [&](double value) { return fmt::format("{:.{}g}", value, digits); };
+  while (digits < 12 && words(from) == words(to)) ++digits;
+  return {std::string(constant), words(from), words(to)};
+}
+
 /// A constant in proportion, so that pairs of materials stay in theirs.
 void takeConstant(ContactLaw& law, std::string_view name, double from, double to) {
   double& value = constantOf(law, name);
@@ -151,10 +159,9 @@ std::vector<Difference<Setup>> lawDifferences(const ContactLaw& from, const Cont
           {{option.name}, {}}, from, to));
   for (const LawConstant& constant : lawConstants())
     if (constants.contains(constant.name))
-      found.push_back(differenceOf<Setup>(
-          {std::string(constant.name), fmt::format("{:.4g}", from.*constant.value),
-           fmt::format("{:.4g}", to.*constant.value)},
-          {{}, {constant.name}}, from, to));
+      found.push_back(
+          differenceOf<Setup>(wordsOf(constant.name, from.*constant.value, to.*constant.value),
+                              {{}, {constant.name}}, from, to));
   return found;
 }
 
@@ -243,6 +250,40 @@ std::string fingerprintOf(const Case& setup) {
                         plate->gravity, plate->spin);
   return fmt::format("{:016x}", fnv1a(text));
 }
+
+namespace {
+
+/// In what the declared peer with those changes differs from a scene.
+template <int D>
+std::vector<Difference<SceneOf<D>>> differencesWith(
+    const SceneOf<D>& from, const SceneOf<D>& declared,
+    const std::vector<AppliedChangeOf<D>>& changes) {
+  std::vector<Difference<SceneOf<D>>> all = differencesOf<D>(from, withChanges(declared, changes));
+  for (const AppliedChangeOf<D>& one : changes)
+    if (differencesOf<D>(declared, withChanges<D>(declared, {one})).empty())  // of bodies
+      all.push_back({wordsOf(one.change.name, 1.0, 1.0 + one.by),
+                     [one](SceneOf<D>& scene) { one.change.apply(scene, one.by); }});
+  return all;
+}
+
+}  // namespace
+
+template <int D>
+BehaviourOf<D> behaviourOf(const SceneOf<D>& from, const SceneOf<D>& declared,
+                           const std::vector<AppliedChangeOf<D>>& changes) {
+  BehaviourOf<D> found{
+      withChanges(declared, changes), differencesWith(from, declared, changes), {}};
+  found.causes = causesOf(found.differences);
+  found.causes.undeclared = causesOf(differencesWith(declared, declared, changes)).differences;
+  const auto known = causesOf(differencesOf<D>(from, declared)).differences;
+  for (CauseName& one : found.causes.differences)
+    one.declared = std::ranges::find(known, one) != known.end();
+  for (CauseName& one : found.causes.undeclared) one.declared = false;
+  return found;
+}
+template BehaviourOf<2> behaviourOf(const Scene&, const Scene&, const std::vector<AppliedChange>&);
+template BehaviourOf<3> behaviourOf(const SpaceScene&, const SpaceScene&,
+                                    const std::vector<AppliedChangeOf<3>>&);
 
 void addFindings(Causes& causes, const Attribution& found) {
   causes.mixtures = found.mixtures;

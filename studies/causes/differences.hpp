@@ -7,6 +7,7 @@
 #include "cases/case.hpp"
 #include "results/causes.hpp"
 #include "studies/causes/attribution.hpp"
+#include "studies/causes/changes.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -48,6 +49,20 @@ Causes causesOf(const std::vector<Difference<Setup>>& differences) {
   for (const Difference<Setup>& one : differences) causes.differences.push_back(one.words);
   return causes;
 }
+
+/// A peer as it behaves, beside a scene.
+template <int D>
+struct BehaviourOf {
+  SceneOf<D> scene;
+  std::vector<Difference<SceneOf<D>>> differences;  ///< taken, the other scene behaves like it
+  Causes causes;                                    ///< what is to be said before anything is run
+};
+
+/// @param declared  the peer's scene as it declares to run it
+/// @param changes   what it is seen to do otherwise: its differences are of what it does
+template <int D>
+BehaviourOf<D> behaviourOf(const SceneOf<D>& from, const SceneOf<D>& declared,
+                           const std::vector<AppliedChangeOf<D>>& changes);
 
 /// Adds what attribute() says of all numbers together.
 void addFindings(Causes& causes, const Attribution& found);

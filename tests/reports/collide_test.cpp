@@ -78,13 +78,13 @@ TEST(CollideReport, LargestDifference_IsToldWithItsCauses) {
   const Overview overview = collideOverview(results);
   EXPECT_EQ(overview.conclusion[1],
             "Causes: tangential rebound Ψ_f of yade is 0.0300 lower than grain's at Ψ_i = 0.5 of spring, "
-            "tension cut: spring_update 0.0300, mu (not declared) 0.0020, lever_arm −0.0020, implementation < "
+            "tension cut: spring_update 0.0300, mu 0.0020 (not declared), lever_arm −0.0020, implementation < "
             "0.0001 (1 limit = 0.0100); fails most often: tangential rebound Ψ_f.");
   EXPECT_EQ(rowNamed(overview, "yade").cells[1].words,
             "by spring_update: Ψ_f, spring, tension cut");
   const std::string all = textOf(reportOf(results));
   // Over both points, each by its own size: 0.001² and 0.03².
-  EXPECT_TRUE(has(all, "spring_update 100, mu (not declared) 7, lever_arm −7, implementation < 1"));
+  EXPECT_TRUE(has(all, "spring_update 100, mu 7 (not declared), lever_arm −7, implementation < 1"));
   EXPECT_TRUE(has(all, "Act on each other: lever_arm and spring_update (25 %)."));
   EXPECT_TRUE(has(all, "| spring_update | after, before, midpoint |"));
   EXPECT_FALSE(has(textOf(reportOf(sample::collideResults())), "Causes of differences"));
