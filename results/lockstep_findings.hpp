@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "adapters/engine.hpp"
+#include "results/causes.hpp"
 #include "results/json_fields.hpp"
 
 /// Engines compared with their mirrors, step by step from the same starts. A mirror is the in-house
@@ -175,6 +176,27 @@ struct NamedTerm {
   }
 };
 
+/// Causes of how far an engine's mirror leaves the in-house engine under the case's own law, both
+/// in the engine's steps.
+struct LockstepCauses : Causes {
+  std::size_t starts = 0;  ///< the first so many
+  /// By difference: the first step after which it alone has moved a disk by more than rounding, the
+  /// smallest over the starts; absent: none has.
+  std::vector<std::optional<std::size_t>> firstStep;
+  std::vector<double> time;    ///< since the start [s]
+  std::vector<Numbers> parts;  ///< by difference and time: of the divergence, to which …
+  Numbers interaction;         ///< … they add up with this [-]; absent: it is rounding then
+
+  void fields(auto& io) {
+    Causes::fields(io);
+    io("starts", starts);
+    io("first_step", firstStep);
+    io("time_s", time);
+    io("parts", parts);
+    io("interaction", interaction);
+  }
+};
+
 /// One engine against its mirror.
 struct LockstepRow {
   std::string engine;
@@ -202,7 +224,8 @@ struct LockstepRow {
   ContactKinds kinds;
   std::optional<FirstExceedance> first;
   std::optional<LockstepForces> forces;
-  std::optional<NamedTerm> term;  ///< absent: same to rounding, or none fits
+  std::optional<NamedTerm> term;         ///< absent: same to rounding, or none fits
+  std::optional<LockstepCauses> causes;  ///< absent: it declares the case's law, and has it
   std::optional<EffectiveParameters> effective;
   double wallSeconds = 0.0;  ///< that it took in all [s]
 
@@ -229,6 +252,7 @@ struct LockstepRow {
     io("first", first);
     io("forces", forces);
     io("term", term);
+    io.present("causes", causes);
     io("realised", effective);
     io("wall_s", wallSeconds);
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ranges>
 
 #include "support/numbers.hpp"
 
@@ -136,6 +137,31 @@ std::string describeResolution(const LockstepRow& row, const LockstepRules& rule
                            constantSymbol(rules.referencePerturbation));
 }
 
+std::string describeCauses(const LockstepRow& row) {
+  if (!row.causes || row.causes->parts.empty()) return {};
+  const LockstepCauses& causes = *row.causes;
+  constexpr std::size_t mostNamed = 4;
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < causes.parts.size(); ++k)
+    if (causes.firstStep[k]) order.push_back(k);
+  if (order.empty()) return fmt::format("none acts within {}", milliseconds(causes.time.back()));
+  std::ranges::sort(order, {}, [&](std::size_t k) {  // of those in one step the largest part
+    return std::pair(*causes.firstStep[k], -std::abs(causes.parts[k].back().value_or(0.0)));
+  });
+  std::string words;
+  for (const std::size_t k : order | std::views::take(mostNamed)) {
+    const CauseName& one = causes.differences[k];
+    const auto part = causes.parts[k].back();
+    const std::string share = part ? percentText(*part) : "rounding";
+    words += fmt::format(
+        "{}{}{} in step {}, {}{}", words.empty() ? "" : "; ", one.name,
+        one.declared ? "" : " (not declared)", *causes.firstStep[k], share,
+        words.empty() ? fmt::format(" of the divergence after {}", milliseconds(causes.time.back()))
+                      : "");
+  }
+  return "first to act: " + words;
+}
+
 std::string describe(const LockstepRow& row, const LockstepRules& rules) {
   if (row.verdict == Equivalence::notMeasured)
     return fmt::format("{}: not measured: {}.", row.engine, row.reason);
@@ -165,6 +191,8 @@ std::string describe(const LockstepRow& row, const LockstepRules& rules) {
       row.verdict == Equivalence::differs && !open.empty())
     words += fmt::format("; borderline: {}", open);
   if (!row.failure.empty()) words += fmt::format("; then it failed: {}", row.failure);
+  if (const std::string causes = describeCauses(row); !causes.empty())
+    words += ". Differences from the case's law, " + causes;
   return words + '.';
 }
 

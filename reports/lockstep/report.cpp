@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "reports/common/blocks.hpp"
+#include "reports/common/causes.hpp"
 #include "reports/common/engines.hpp"
 #include "results/json_fields.hpp"
 
@@ -153,6 +155,39 @@ Table contactTable(const LockstepFindings& findings) {
     line.cells.push_back({orDash(describeFirst(row)), {openInLaw(row, findings.rules)}});
     table.rows.push_back(std::move(line));
   }
+  return table;
+}
+
+/// Differences of the engines' laws from the case's: when each acts, and how much of the divergence
+/// it makes.
+Table causeTable(const LockstepFindings& findings) {
+  Table table{{engineNames("engine"), "difference", numbers("first step"), numbers("starts")}};
+  bool any = false;
+  for (const LockstepRow& row : findings.rows) {
+    if (!row.causes || row.causes->parts.empty()) continue;
+    const LockstepCauses& causes = *row.causes;
+    if (!std::exchange(any, true))
+      for (const double time : causes.time)
+        table.columns.push_back(numbers(fmt::format("part after {} ms [%]", readable(1e3 * time))));
+    const auto add = [&](const std::string& name, const std::string& step, const Numbers& parts) {
+      TableRow line{{row.engine, name, step, readableCount(static_cast<double>(causes.starts))}};
+      for (const auto& part : parts)
+        line.cells.push_back(part ? fmt::format("{:.1f}", 100.0 * *part) : absentText);
+      table.rows.push_back(std::move(line));
+    };
+    for (std::size_t k = 0; k < causes.parts.size(); ++k)
+      add(differenceWords(causes.differences[k]),
+          causes.firstStep[k] ? readableCount(static_cast<double>(*causes.firstStep[k]))
+                              : absentText,
+          causes.parts[k]);
+    if (causes.mixtures == Mixtures::bothEnds) add("interaction", absentText, causes.interaction);
+  }
+  table.note =
+      "First step: after which the in-house engine with that difference alone has moved a disk by "
+      "more than rounding. Parts: of the divergence of an engine's mirror from the in-house engine "
+      "under the case's law, in the same steps, by runs under mixtures of both laws; they add up "
+      "to "
+      "100 %.";
   return table;
 }
 
@@ -356,8 +391,12 @@ OverviewCell lockstepCell(const LockstepRow* row, const LockstepRules& rules, bo
 }
 
 Blocks lockstepTables(const LockstepFindings& findings) {
-  return {verdictTable(findings),
-          Details{"Contacts in the windows, and the first difference", {contactTable(findings)}}};
+  Blocks blocks = {
+      verdictTable(findings),
+      Details{"Contacts in the windows, and the first difference", {contactTable(findings)}}};
+  if (Table causes = causeTable(findings); !causes.rows.empty())
+    blocks.push_back(Details{"Which convention acts first", {std::move(causes)}});
+  return blocks;
 }
 
 List lockstepReading(const LockstepFindings& findings) {

@@ -12,6 +12,7 @@
 #include "cases/preparation.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/engine_running.hpp"
+#include "studies/core/study.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
 

@@ -253,7 +253,7 @@ ByPacking velocitiesOf(const FlowStudy& study, const std::string& engine) {
 }
 
 /// Paired difference of two engines in one ring, as a fraction of the first one's mean.
-struct Difference {
+struct RingDifference {
   double fraction = 0.0;
   double halfWidth = INFINITY;  ///< of the 95 % interval; infinite with fewer than two packings
   bool holds() const {
@@ -261,7 +261,8 @@ struct Difference {
   }
 };
 
-std::optional<Difference> difference(const ByPacking& from, const ByPacking& to, std::size_t ring) {
+std::optional<RingDifference> difference(const ByPacking& from, const ByPacking& to,
+                                         std::size_t ring) {
   Numbers differences, references;
   for (const auto& [packing, reference] : from) {
     const auto other = to.find(packing);
@@ -273,7 +274,7 @@ std::optional<Difference> difference(const ByPacking& from, const ByPacking& to,
   const auto mean = ensembleMean(differences);
   const auto reference = ensembleMean(references);
   if (!mean || reference->mean == 0.0) return std::nullopt;
-  Difference result;
+  RingDifference result;
   result.fraction = mean->mean / std::abs(reference->mean);
   if (mean->standardError)
     result.halfWidth = studentQuantile(0.95, mean->packings - 1) * *mean->standardError /
@@ -281,7 +282,7 @@ std::optional<Difference> difference(const ByPacking& from, const ByPacking& to,
   return result;
 }
 
-std::string percent(const Difference& d) {
+std::string percent(const RingDifference& d) {
   return std::isfinite(d.halfWidth)
              ? fmt::format("{:+.0f} ± {:.0f} %", 100.0 * d.fraction, 100.0 * d.halfWidth)
              : fmt::format("{:+.0f} %", 100.0 * d.fraction);

@@ -17,6 +17,7 @@
 #include "studies/core/executor.hpp"
 #include "studies/lockstep/account.hpp"
 #include "studies/lockstep/closest_term.hpp"
+#include "studies/lockstep/declared_causes.hpp"
 #include "studies/lockstep/responses.hpp"
 #include "studies/lockstep/rules.hpp"
 #include "studies/lockstep/separation.hpp"
@@ -114,6 +115,9 @@ class Comparison {
     account_->add(start, window, moved, mirrored.disks.size(), limits);
     frames_.add(window, reported());
     scenes_.push_back(mirrored);
+    cases_.push_back(scene);
+    cases_.back().precision = Precision::float64;
+    cases_.back().dt = step_;
     if (!effective_) effective_ = std::move(effective);
   }
 
@@ -125,6 +129,10 @@ class Comparison {
         row.term = closestTerm(
             *mirror_, TermSearchOf<D>{scenes_, frames_.instants(row.first, flowDiameter(setup_)),
                                       flowDiameter(setup_)});
+      const bool names = row.verdict == Equivalence::differs && row.term;
+      if (row.starts > 0)
+        row.causes = causesInLockstep<D>(*mirror_, cases_, scenes_, names ? &*row.term : nullptr,
+                                         flowDiameter(setup_));
       // Of rigid disks: impulses of one step, most of them of nothing but rounding.
       if (!setup_.law.soft()) row.forces.reset();
       row.effective = effective_;
@@ -177,6 +185,7 @@ class Comparison {
   std::optional<SeparationAccount> account_;
   TermFramesOf<D> frames_;
   std::vector<SceneOf<D>> scenes_;  ///< the mirror's, by start
+  std::vector<SceneOf<D>> cases_;   ///< likewise, of the case's own law
   std::optional<EffectiveParameters> effective_;
 };
 

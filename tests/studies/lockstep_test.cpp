@@ -20,6 +20,8 @@
 #include "studies/lockstep/late_windows.hpp"
 #include "studies/lockstep/lockstep.hpp"
 #include "studies/lockstep/rules.hpp"
+#include "studies/lockstep/separation.hpp"
+#include "studies/lockstep/window.hpp"
 #include "tests/studies/planted_engine.hpp"
 #include "tests/studies/planted_program.hpp"
 #include "tests/studies/quick_cell.hpp"
@@ -201,6 +203,58 @@ TEST_F(Lockstep, ConventionOfAnotherProgram_NotDeclared_IsNamed) {
                              {"cut_tension=1", "tension = cut"},
                              {"lagged=1", "damping_velocity = lagged"},
                              {"dashpot_outside=1", "dashpot = outside"}});
+}
+
+double partsThen(const LockstepCauses& causes, std::size_t time) {
+  double sum = *causes.interaction[time];
+  for (const Numbers& part : causes.parts) sum += *part[time];
+  return sum;
+}
+
+TEST_F(Lockstep, DeclaredConventions_HaveAFirstStepAndAPartOfTheDivergence) {
+  EXPECT_FALSE(rowOf([](Scene&) {}).causes);
+  const auto causes = test::rowOfProgram(*flow_, {"cut_tension=1", "lever_middle=1"}, true).causes;
+  ASSERT_TRUE(causes);
+  EXPECT_EQ(causes->starts, 1u);  // of 4, that have 24 windows: a tenth is less than the 4 mixtures
+  EXPECT_EQ(causes->runs, 4);
+  ASSERT_EQ(causes->differences.size(), 2u);
+  for (std::size_t time = 0; time < lockstepTimes.size(); ++time)
+    EXPECT_NEAR(partsThen(*causes, time), 1.0, 1e-9) << lockstepTimes[time];
+  const std::function<void(ContactLaw&)> alone[] = {
+      [](ContactLaw& law) { law.conventions.tension = Tension::cut; },
+      [](ContactLaw& law) { law.conventions.leverArm = LeverArm::overlapMiddle; }};
+  const char* const names[] = {"tension", "lever_arm"};
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(causes->differences[k].name, names[k]);
+    EXPECT_TRUE(causes->differences[k].declared);
+    ASSERT_TRUE(causes->firstStep[k]) << names[k];
+    const auto apartAfter = [&](std::size_t step) {
+      const auto as = makeGrain(), other = makeGrain();
+      Scene scene = couetteScene(flow_->setup, flow_->states.front().packing, flow_->dt);
+      as->load(scene, {});
+      alone[k](scene.law);
+      other->load(scene, {});
+      const auto there = follow<2>(*as, flow_->dt, {step}),
+                 here = follow<2>(*other, flow_->dt, {step});
+      return farthest(there.front(), here.front(), flowDiameter(flow_->setup)).distance;
+    };
+    EXPECT_GT(apartAfter(*causes->firstStep[k]), lockstepRounding) << names[k];
+    if (*causes->firstStep[k] > 1) {
+      EXPECT_LE(apartAfter(*causes->firstStep[k] - 1), lockstepRounding) << names[k];
+    }
+  }
+}
+
+/// What a false declaration says is no cause: what it does is.
+TEST_F(Lockstep, ConventionNotDeclared_IsTheCause) {
+  const LockstepRow row = test::rowOfProgram(*flow_, {"lever_middle=1"}, false);
+  ASSERT_TRUE(row.causes);
+  ASSERT_EQ(row.causes->differences.size(), 1u);
+  EXPECT_EQ(row.causes->differences.front(),
+            (CauseName{"lever_arm", "radius", "overlap_middle", false}));
+  EXPECT_EQ(row.causes->undeclared, row.causes->differences);
+  EXPECT_NEAR(*row.causes->parts.front().back(), 1.0, 1e-12);
+  EXPECT_NE(describeCauses(row).find("lever_arm (not declared) in step"), std::string::npos);
 }
 
 /// Conventions that go with each other, but for the other name of the first integrator; and of
