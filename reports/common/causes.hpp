@@ -17,7 +17,7 @@ struct CauseAccount {
   std::vector<std::pair<std::string, double>> parts;  ///< by name
   double interaction = 0.0, remainder = 0.0;
   std::string remainderName = {};  ///< empty, with no parts: no cause is shown
-  Names undeclared = {};  ///< of the parts, those that the engine does not declare
+  Names undeclared = {};           ///< of the parts, those that the engine does not declare
 
   /// Name of the largest part, the remainder's where that is larger than any.
   std::string largest() const;

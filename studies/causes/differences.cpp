@@ -165,6 +165,8 @@ std::vector<Difference<Setup>> lawDifferences(const ContactLaw& from, const Cont
   return found;
 }
 
+template std::vector<Difference<Case>> lawDifferences(const ContactLaw&, const ContactLaw&);
+
 namespace {
 
 auto& rotationOf(auto& setup) {
@@ -258,9 +260,9 @@ template <int D>
 std::vector<Difference<SceneOf<D>>> differencesWith(
     const SceneOf<D>& from, const SceneOf<D>& declared,
     const std::vector<AppliedChangeOf<D>>& changes) {
-  std::vector<Difference<SceneOf<D>>> all = differencesOf<D>(from, withChanges(declared, changes));
+  std::vector<Difference<SceneOf<D>>> all = differencesOf(from, withChanges(declared, changes));
   for (const AppliedChangeOf<D>& one : changes)
-    if (differencesOf<D>(declared, withChanges<D>(declared, {one})).empty())  // of bodies
+    if (differencesOf(declared, withChanges<D>(declared, {one})).empty())  // of bodies
       all.push_back({wordsOf(one.change.name, 1.0, 1.0 + one.by),
                      [one](SceneOf<D>& scene) { one.change.apply(scene, one.by); }});
   return all;
@@ -275,7 +277,7 @@ BehaviourOf<D> behaviourOf(const SceneOf<D>& from, const SceneOf<D>& declared,
       withChanges(declared, changes), differencesWith(from, declared, changes), {}};
   found.causes = causesOf(found.differences);
   found.causes.undeclared = causesOf(differencesWith(declared, declared, changes)).differences;
-  const auto known = causesOf(differencesOf<D>(from, declared)).differences;
+  const auto known = causesOf(differencesOf(from, declared)).differences;
   for (CauseName& one : found.causes.differences)
     one.declared = std::ranges::find(known, one) != known.end();
   for (CauseName& one : found.causes.undeclared) one.declared = false;

@@ -12,6 +12,7 @@
 #include "cases/endpoints.hpp"
 #include "cases/flow.hpp"
 #include "cases/materials.hpp"
+#include "studies/causes/changes.hpp"
 #include "studies/flow/endpoint_table.hpp"
 #include "studies/flow/endpoint_values.hpp"
 #include "studies/flow/paired_runs.hpp"
@@ -90,8 +91,7 @@ struct Pair {
 class CausesOfPairs {
  public:
   CausesOfPairs(Campaign& campaign, const Case& setup, const RunCommand& command,
-                const EndpointFindings& found, double until,
-                const UndeclaredDifferences& undeclared)
+                const EndpointFindings& found, double until, const UndeclaredTerms& undeclared)
       : campaign_(campaign),
         setup_(setup),
         command_(command),
@@ -166,14 +166,29 @@ class CausesOfPairs {
     }
   }
 
+  /// In what lockstep found an engine's law to be another than that of the case as it declares to
+  /// run it.
+  std::vector<Difference<Case>> undeclaredIn(const Case& own, const std::string& engine) {
+    const auto term = undeclared_.find(engine);
+    if (term == undeclared_.end()) return {};
+    return inDimensionOf(own, [&]<int D>() {
+      SceneOf<D> scene = unplacedScene<D>(own, campaign_.dt());
+      for (const MirrorChangeOf<D>& change :
+           changesOf(scene, engineRegistry().front().make()->capabilities()))
+        if (change.name == term->second.name)
+          change.apply(scene, term->second.amount.value_or(0.0));
+      return lawDifferences<Case>(own.law, scene.law);
+    });
+  }
+
   /// Laws of both and what tells them apart.
   void describe(Pair& pair) {
     if (std::ranges::any_of(pair.rows, [](const auto* row) { return row->unpaired.has_value(); }))
       throw UnsupportedScene("runs of files have no law that could be mixed with another");
     pair.from = asRun(pair.causes.a);
     pair.to = asRun(pair.causes.b);
-    if (const auto of = undeclared_.find(pair.causes.a); of != undeclared_.end())
-      for (const auto& difference : of->second) difference.take(pair.from);
+    for (const auto& difference : undeclaredIn(pair.from, pair.causes.a))
+      difference.take(pair.from);
     pair.differences = differencesOf(pair.from, pair.to);
     if (pair.from.law.soft() != pair.to.law.soft()) {
       const Case& rigid = pair.from.law.soft() ? pair.to : pair.from;
@@ -181,13 +196,15 @@ class CausesOfPairs {
       (pair.from.law.soft() ? normal.to : normal.from) +=
           fmt::format(" (e_n = {:.3g}, mean over kinds of pairs)", rigid.law.en);
     }
-    if (const auto of = undeclared_.find(pair.causes.b); of != undeclared_.end())
-      for (Difference<Case> difference : of->second) {
-        difference.take(pair.to);
-        difference.words.declared = false;
-        pair.differences.push_back(std::move(difference));
-      }
+    for (Difference<Case>& difference : undeclaredIn(pair.to, pair.causes.b)) {
+      difference.take(pair.to);
+      difference.words.declared = false;
+      pair.causes.undeclared.push_back(difference.words);
+      pair.differences.push_back(std::move(difference));
+    }
+    const auto undeclared = std::move(pair.causes.undeclared);
     static_cast<Causes&>(pair.causes) = causesOf(pair.differences);
+    pair.causes.undeclared = undeclared;
     pair.causes.remainder =
         pair.from.law.soft() && pair.to.law.soft() ? "implementation" : "solver";
     if (pair.differences.size() > mostMixed) pair.causes.mixtures = Mixtures::bothEnds;
@@ -419,7 +436,7 @@ class CausesOfPairs {
   const RunCommand& command_;
   const EndpointFindings& found_;
   double until_;
-  const UndeclaredDifferences& undeclared_;
+  const UndeclaredTerms& undeclared_;
   std::vector<int> looks_;  ///< packings, in steps
   double level_ = 0.0;      ///< of intervals, at each
   std::vector<Pair> pairs_;
@@ -434,7 +451,7 @@ class CausesOfPairs {
 
 std::vector<PairCauses> causesOfPairs(Campaign& campaign, const Case& setup,
                                       const RunCommand& command, const EndpointFindings& found,
-                                      double until, const UndeclaredDifferences& undeclared) {
+                                      double until, const UndeclaredTerms& undeclared) {
   return CausesOfPairs(campaign, setup, command, found, until, undeclared).result();
 }
 

@@ -6,6 +6,7 @@
 
 #include "results/causes.hpp"
 #include "results/endpoints.hpp"
+#include "results/lockstep_findings.hpp"
 #include "studies/causes/differences.hpp"
 #include "studies/flow/campaign.hpp"
 
@@ -19,8 +20,8 @@ namespace crossgrain::inline studies {
 Case caseAsRun(const Case& setup, double dt, const EngineEntry& entry, const Capabilities& can,
                const EffectiveParameters& effective);
 
-/// By engine, in what it is otherwise than it declares: further differences, `declared` = false.
-using UndeclaredDifferences = std::map<std::string, std::vector<Difference<Case>>>;
+/// By engine, the term by which lockstep found its law to differ from the one that it declares.
+using UndeclaredTerms = std::map<std::string, NamedTerm>;
 
 /// Causes of the differences of every two peers that show one of at least a hundredth of a margin:
 /// those from the reference first, of these the largest, on the packings of one interim analysis
@@ -41,10 +42,12 @@ using UndeclaredDifferences = std::map<std::string, std::vector<Difference<Case>
 /// four packings give none.
 ///
 /// @param campaign  over, its results taken: the in-house engine may be added to it
+/// @param undeclared  causes are of what an engine does: a constant or convention of its law is one
+///                  of them, `declared` = false; of other terms the remainder keeps what they do
 /// @param until     no runs begin that would end later than this after the campaign began [s]; what
 ///                  is left out is said in PairCauses::missing. Finished runs cost nothing
 std::vector<PairCauses> causesOfPairs(Campaign& campaign, const Case& setup,
                                       const RunCommand& command, const EndpointFindings& found,
-                                      double until, const UndeclaredDifferences& undeclared = {});
+                                      double until, const UndeclaredTerms& undeclared = {});
 
 }  // namespace crossgrain::inline studies

@@ -154,7 +154,11 @@ void addCauses(CompareResults& results, Campaign& campaign, const Case& setup,
   }
   const double until = own.causes ? std::numeric_limits<double>::infinity()
                                   : campaign.elapsed() / (1.0 - shareOfCauses);
-  results.causes = causesOfPairs(campaign, setup, command, results.endpoints, until);
+  UndeclaredTerms undeclared;
+  if (results.lockstep)
+    for (const LockstepRow& row : results.lockstep->rows)
+      if (row.verdict == Equivalence::differs && row.term) undeclared[row.engine] = *row.term;
+  results.causes = causesOfPairs(campaign, setup, command, results.endpoints, until, undeclared);
   results.elapsed = campaign.elapsed();
 }
 

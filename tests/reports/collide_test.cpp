@@ -76,10 +76,12 @@ CollideResults withCauses() {
 TEST(CollideReport, LargestDifference_IsToldWithItsCauses) {
   const CollideResults results = withCauses();
   const Overview overview = collideOverview(results);
-  EXPECT_EQ(overview.conclusion[1],
-            "Causes: tangential rebound Ψ_f of yade is 0.0300 lower than grain's at Ψ_i = 0.5 of spring, "
-            "tension cut: spring_update 0.0300, mu 0.0020 (not declared), lever_arm −0.0020, implementation < "
-            "0.0001 (1 limit = 0.0100); fails most often: tangential rebound Ψ_f.");
+  EXPECT_EQ(
+      overview.conclusion[1],
+      "Causes: tangential rebound Ψ_f of yade is 0.0300 lower than grain's at Ψ_i = 0.5 of spring, "
+      "tension cut: spring_update 0.0300, mu 0.0020 (not declared), lever_arm −0.0020, "
+      "implementation < "
+      "0.0001 (1 limit = 0.0100); fails most often: tangential rebound Ψ_f.");
   EXPECT_EQ(rowNamed(overview, "yade").cells[1].words,
             "by spring_update: Ψ_f, spring, tension cut");
   const std::string all = textOf(reportOf(results));

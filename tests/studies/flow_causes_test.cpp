@@ -43,9 +43,8 @@ EngineEntry program(std::vector<std::string> words) {
 }
 
 /// Friction times that, which nobody declares.
-Difference<Case> friction(double times) {
-  return {{"mu", "", ""},
-          [times](Case& setup) { changeLaws(setup, [&](ContactLaw& law) { law.mu *= times; }); }};
+NamedTerm friction(double times) {
+  return {"mu", times - 1.0, 0.0};
 }
 
 class FlowCauses : public testing::Test {
@@ -56,7 +55,7 @@ class FlowCauses : public testing::Test {
   /// The in-house engine and another one.
   /// @param until  in which no runs are begun, beyond the verdicts' own [s]
   std::vector<PairCauses> causes(const Case& setup, const EngineEntry& peer, double until,
-                                 const UndeclaredDifferences& undeclared = {}) {
+                                 const UndeclaredTerms& undeclared = {}) {
     RunCommand command;
     command.engines = {"grain", peer.name};
     command.out = kept_->path() / testing::UnitTest::GetInstance()->current_test_info()->name();
@@ -90,7 +89,7 @@ class FlowCauses : public testing::Test {
 
 TEST_F(FlowCauses, OtherFriction_IsNamed_AndPartsAddUp) {
   const auto found = causes(shortCell(), test::misbehavingEntry("slippery", 0), noLimit,
-                            {{"slippery", {friction(0.02)}}});
+                            {{"slippery", friction(0.02)}});
   ASSERT_EQ(found.size(), 1u);
   const PairCauses& pair = found[0];
   EXPECT_EQ(pair.reason, "");
@@ -120,7 +119,7 @@ TEST_F(FlowCauses, OneOfFour_IsTheLargest) {
   const auto found =
       causes(shortCell(),
              program({"declares=1", "spring_before=1", "lagged=1", "cut_tension=1", "mu=0.05"}),
-             noLimit, {{"program", {friction(0.05)}}});
+             noLimit, {{"program", friction(0.05)}});
   ASSERT_EQ(found.size(), 1u);
   const PairCauses& pair = found[0];
   ASSERT_EQ(pair.differences.size(), 4u) << pair.reason;
@@ -162,7 +161,7 @@ TEST_F(FlowCauses, SameEngine_HasNone) {
 TEST_F(FlowCauses, NoTime_RunsNothingAndSaysWhatIsMissing) {
   const auto run = [&](double until) {
     return causes(shortCell(), test::misbehavingEntry("slippery", 0), until,
-                  {{"slippery", {friction(0.02)}}});
+                  {{"slippery", friction(0.02)}});
   };
   const auto none = run(0.0);
   ASSERT_EQ(none.size(), 1u);
