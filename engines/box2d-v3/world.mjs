@@ -2,6 +2,7 @@
 // constants, in which the smallest disk has a radius of about five, as for Box2D 2 (engines/box2d).
 
 import {readFileSync} from 'node:fs';
+import {unitOf} from '../node/crossgrain_vector.mjs';
 
 const home = new URL('../node/node_modules/box2d3-wasm/', import.meta.url);
 const {default: Box2D} = await import(new URL('build/dist/es/compat/Box2D.compat.mjs', home));
@@ -23,7 +24,7 @@ const xy = (vector) => once(vector, ({x, y}) => [x, y]);
 
 export class Box2dWorld {
   constructor({disks, bodies, law, gravity, dt, rotation, number}) {
-    this.unit = 2 ** Math.round(Math.log2(Math.min(...disks.map((disk) => disk.radius)) / 5));
+    this.unit = unitOf(disks, 5);
     this.dt = dt;
     this.count = disks.length;
     this.kinds = [...new Set(disks.map((disk) => disk.mass))];  // the walls are one kind more

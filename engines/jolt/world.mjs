@@ -2,7 +2,7 @@
 // has a radius of about one, since Jolt's tolerances are made for things of 0.1 to 10 m.
 
 import {readFileSync} from 'node:fs';
-import {cross, noSpin, plus, scaled} from '../node/crossgrain_vector.mjs';
+import {cross, noSpin, plus, quaternionOf, scaled, unitOf} from '../node/crossgrain_vector.mjs';
 import {ballsOf, placeBalls} from '../node/crossgrain_walls.mjs';
 import {Unsupported} from '../node/crossgrain_worker.mjs';
 
@@ -107,7 +107,7 @@ export class JoltWorld {
   constructor({disks, bodies, law, gravity, dt, rotation, number}) {
     this.inSpace = gravity.length === 3;
     this.unturned = noSpin(gravity.length);
-    this.unit = 2 ** Math.round(Math.log2(Math.min(...disks.map((disk) => disk.radius))));
+    this.unit = unitOf(disks);
     this.dt = dt;
     this.count = disks.length;
     this.law = law;
@@ -144,10 +144,7 @@ export class JoltWorld {
   vectorOf([x, y, z = 0]) { return this.vector.Set(x / this.unit, y / this.unit, z / this.unit), this.vector; }
   placeOf([x, y, z = 0]) { return this.place.Set(x / this.unit, y / this.unit, z / this.unit), this.place; }
   spinOf(spin) { return this.vector.Set(...(this.inSpace ? spin : [0, 0, spin])), this.vector; }
-  turnOf(angle) {
-    const size = this.inSpace ? Math.hypot(...angle) : angle, axis = this.inSpace && size > 0 ? scaled(1 / size, angle) : [0, 0, 1];
-    return this.turn.Set(...scaled(Math.sin(size / 2), axis), Math.cos(size / 2)), this.turn;
-  }
+  turnOf(angle) { return this.turn.Set(...quaternionOf(angle)), this.turn; }
 
   configure(number, gravity) {
     const how = this.system.GetPhysicsSettings(), radius = 1;
@@ -232,8 +229,8 @@ export class JoltWorld {
   }
 
   /// In the layer of what is fixed, since balls meet spheres alone; where it is to be it is put before the first step.
-  ball({cylinder, radius}) {
-    this.body(new J.SphereShape(radius / this.unit), cylinder.point, J.EMotionType_Kinematic, () => {}, FIXED);
+  ball({surface, radius}) {
+    this.body(new J.SphereShape(radius / this.unit), surface.point, J.EMotionType_Kinematic, () => {}, FIXED);
   }
 
   placeWalls(now, next) {

@@ -14,6 +14,9 @@ export function cross(a, b) {
   return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 }
 
+/// Velocity of what spins, at the end of an arm.
+export const turning = (spin, arm) => (arm.length === 2 ? [-spin * arm[1], spin * arm[0]] : cross(spin, arm));
+
 /// a turned by an angle; in space by Rodrigues' formula.
 export function turned(angle, a) {
   if (a.length === 2) {
@@ -24,6 +27,15 @@ export function turned(angle, a) {
   if (size === 0) return a;
   const axis = scaled(1 / size, angle), along = (1 - Math.cos(size)) * dot(axis, a);
   return plus(plus(scaled(Math.cos(size), a), scaled(Math.sin(size), cross(axis, a))), scaled(along, axis));
+}
+
+/// A unit of length for engines in single precision: the power of two in which the smallest disk has about that radius.
+export const unitOf = (disks, radius = 1) => 2 ** Math.round(Math.log2(Math.min(...disks.map((disk) => disk.radius)) / radius));
+
+/// The unit quaternion [x, y, z, w] of a turn.
+export function quaternionOf(angle) {
+  const turn = Array.isArray(angle) ? angle : [0, 0, angle], size = Math.hypot(...turn);
+  return [...scaled(size > 0 ? Math.sin(size / 2) / size : 0.5, turn), Math.cos(size / 2)];
 }
 
 /// A tangential quantity after its normal has turned from n to m by the smallest turn.

@@ -1,10 +1,14 @@
 // Prescribed motion of wall bodies: the closed forms of adapters/motion.hpp, for those that stay rigid.
 
-import {cross, dot, minus, noSpin, plus, scaled, turned} from './crossgrain_vector.mjs';
+import {cross, dot, minus, noSpin, plus, scaled, turned, turning} from './crossgrain_vector.mjs';
 
-/// How a place faces a hollow cylinder, with spheres inside: the normal to the axis (on the axis itself any across it), and the
-/// distance from the surface.
-export function facing({point, axis, radius}, place) {
+/// How a place faces a plane of a body in such a state, or a hollow cylinder, with spheres inside: the normal (of a cylinder to the
+/// axis, on the axis itself any across it), and the distance from the surface.
+export function facing({point, normal: plane, axis, radius}, place, body, state) {
+  if (plane) {
+    const normal = turned(state.angle, plane);
+    return {normal, distance: dot(minus(place, body.placed(body.fromCentre(point), state)), normal)};
+  }
   const apart = minus(place, point), aside = minus(apart, scaled(dot(apart, axis), axis)), s = Math.hypot(...aside);
   return {normal: s > 0 ? scaled(-1 / s, aside) : across(axis), distance: radius - s};
 }
@@ -47,8 +51,8 @@ export class Body {
     return still;
   }
 
-  /// Velocity of its material at a place, in such a state; in space.
-  velocityAt(place, {centre, velocity, spin}) { return plus(velocity, cross(spin, minus(place, centre))); }
+  /// Velocity of its material at a place, in such a state.
+  velocityAt(place, {centre, velocity, spin}) { return plus(velocity, turning(spin, minus(place, centre))); }
 
   /// Where something is at time t that lies there, seen from the centre, at t = 0.
   placed(offset, {centre, angle}) {
@@ -58,23 +62,24 @@ export class Body {
   }
 }
 
-// Hollow cylinders for engines that have solid ones alone: for each sphere and cylinder a ball of the sphere's size, outside of the
-// wall. Before each step it is put where it touches the wall at the point nearest to the sphere, and gets the wall's velocity there.
+// Hollow cylinders for engines that have solid ones alone, and planes for those without: for each sphere and surface a ball of the
+// sphere's size, outside of the wall. Before each step it is put where it touches the wall at the point nearest to the sphere, and gets the wall's velocity there.
 // The sphere, s from the axis, meets it with n to the axis and δ = a + b − (R + b − s) = a − (R − s). The ball is behind the plane that
 // touches the wall there, and the whole inside is before that: no other sphere comes to it.
 
-/// Cylinder by cylinder, in the order of their ids, one for each sphere.
-export const ballsOf = (bodies, spheres) =>
+/// Surface by surface, those of one kind in the order of their ids, one for each sphere.
+export const ballsOf = (bodies, spheres, surfaces = ({cylinders}) => cylinders) =>
   bodies.flatMap((body, b) =>
-    body.cylinders.flatMap((cylinder) => spheres.map(({radius}, sphere) => ({body, b, cylinder, sphere, radius, follows: true}))));
+    surfaces(body).flatMap((surface) => spheres.map(({radius}, sphere) => ({body, b, surface, sphere, radius, follows: true}))));
 
 /// Before a step. Balls of spheres that are far from the wall rest where they were left, outside.
 /// @param positionOf  of a sphere by its number  @param states  of the bodies
 /// @param place       (ball, its number, centre, velocity)
 export function placeBalls(balls, positionOf, states, place) {
   balls.forEach((ball, k) => {
-    const {body, b, cylinder, sphere, radius, follows} = ball;
-    const from = positionOf(sphere), {normal, distance} = facing(cylinder, from), behind = (by) => from.map((x, c) => x - by * normal[c]);
+    const {body, b, surface, sphere, radius, follows} = ball;
+    const from = positionOf(sphere), {normal, distance} = facing(surface, from, body, states[b]);
+    const behind = (by) => from.map((x, c) => x - by * normal[c]);
     ball.follows = distance < 2 * radius;
     if (ball.follows) place(ball, k, behind(distance + radius), body.velocityAt(behind(distance), states[b]));
     else if (follows) place(ball, k, behind(distance + radius), [0, 0, 0]);

@@ -10,12 +10,13 @@
 //     world.impulses(visit)            visit(i, j, normal impulse ≥ 0, tangential, place), i < j, of those that are not 0; what
 //                                      is tangential is a number along z × normal, or a vector on i in space;
 //                                      place() → {normal towards i, point}
+//     world.touching()    in its place, where contacts cannot be read: how many there are, if that is known
 //     world.pairs, world.deviations, world.gap   what the engine makes of the law; how far apart it lets disks touch
 //
 // in SI units, ids as the protocol's: disks, or spheres, then wall disks, then planes, then cylinders. Vectors are those of
 // crossgrain_vector.mjs.
 
-import {carriedAlong, cross, dot, isZero, minus, noSpin, plus, scaled, turned} from './crossgrain_vector.mjs';
+import {carriedAlong, cross, isZero, minus, noSpin, plus, scaled} from './crossgrain_vector.mjs';
 import {Body, facing} from './crossgrain_walls.mjs';
 import {Unsupported} from './crossgrain_worker.mjs';
 import {RigidLaw} from './rigid_law.mjs';
@@ -67,8 +68,8 @@ export class ImpulseEngine {
     const rotation = this.friction && scene.rotation;
     this.bodies = scene.bodies.map((body, b) =>
       new Body(body, arrays[`bodies.${b}.disk_position`], arrays[`bodies.${b}.disk_radius`]));
-    this.surfaces = [...this.bodies.flatMap((body, b) => body.planes.map((plane) => ({b, plane}))),
-                     ...this.bodies.flatMap((body, b) => body.cylinders.map((cylinder) => ({b, cylinder})))];
+    this.surfaces = ['planes', 'cylinders'].flatMap(
+      (kind) => this.bodies.flatMap((body, b) => body[kind].map((surface) => ({b, surface}))));
     this.owner = [...this.bodies.flatMap((body, b) => Array.from(body.diskRadius, () => b)),
                   ...this.surfaces.map(({b}) => b)];
     this.radius = [...arrays['disks.radius'], ...this.bodies.flatMap((body) => [...body.diskRadius])];
@@ -122,6 +123,7 @@ export class ImpulseEngine {
       this.world.placeWalls(now, next);
       this.world.step();
       if (this.showsContacts) this.add(next);
+      else this.evaluations += this.world.touching?.() ?? 0;
     }
     this.seconds += (performance.now() - began) / 1e3;
     const {user, system} = process.cpuUsage(before);
@@ -204,14 +206,9 @@ export class ImpulseEngine {
     return {normal: apart.map((x) => x / distance), overlap: this.radius[i] + this.radius[j] - distance};
   }
 
-  ofSurface(i, {b, plane, cylinder}, positions, states) {
-    if (cylinder) {
-      const {normal, distance} = facing(cylinder, positions[i]);
-      return {normal, overlap: this.radius[i] - distance};
-    }
-    const body = this.bodies[b], now = turned(states[b].angle, plane.normal);
-    const foot = body.placed(body.fromCentre(plane.point), states[b]);
-    return {normal: now, overlap: this.radius[i] - dot(minus(positions[i], foot), now)};
+  ofSurface(i, {b, surface}, positions, states) {
+    const {normal, distance} = facing(surface, positions[i], this.bodies[b], states[b]);
+    return {normal, overlap: this.radius[i] - distance};
   }
 
   stats() {

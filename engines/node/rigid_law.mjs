@@ -37,13 +37,22 @@ export class RigidLaw {
     return this.known.get(reduced);
   }
 
+  /// For engines that take the mean of two bodies' restitutions, by mass, with the walls' under Infinity: those of disks are their
+  /// own among equals, so that pairs of equals are right; the walls' makes the mean over kinds of disks right.
+  restitutionOfEach(masses) {
+    const own = new Map(masses.map((mass) => [mass, this.restitution(mass, mass)]));
+    const needed = masses.map((mass) => 2 * this.restitution(mass, Infinity) - own.get(mass));
+    return own.set(Infinity, needed.reduce((sum, e) => sum + e, 0) / needed.length);
+  }
+
   /// Of `load`: what the law is between disks of the first few masses, and of these with walls.
-  pairs(masses, walls) {
+  /// @param restitution  the engine's, of two masses
+  pairs(masses, walls, restitution = (massI, massJ) => this.restitution(massI, massJ), mu = this.friction) {
     const kinds = masses.slice(0, 4), name = (mass) => `${(mass * 1e3).toPrecision(4)} g`;
-    const friction = this.friction > 0 ? {mu: this.friction} : {};
+    const friction = mu > 0 ? {mu} : {};
     return kinds.flatMap((mass, a) => [
-      ...kinds.slice(a).map((other) => ({pair: `${name(mass)} with ${name(other)}`, en: this.restitution(mass, other)})),
-      ...(walls ? [{pair: `${name(mass)} with wall`, en: this.restitution(mass, Infinity)}] : []),
+      ...kinds.slice(a).map((other) => ({pair: `${name(mass)} with ${name(other)}`, en: restitution(mass, other)})),
+      ...(walls ? [{pair: `${name(mass)} with wall`, en: restitution(mass, Infinity)}] : []),
     ]).map((pair) => ({...pair, et0: 0, ...friction}));
   }
 

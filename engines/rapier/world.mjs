@@ -1,7 +1,7 @@
 // The scene as Rapier's rigid bodies and colliders, in SI units and single precision.
 
 import {createRequire} from 'node:module';
-import {scaled} from '../node/crossgrain_vector.mjs';
+import {quaternionOf} from '../node/crossgrain_vector.mjs';
 import {ballsOf, placeBalls} from '../node/crossgrain_walls.mjs';
 
 const require = createRequire(new URL('../node/', import.meta.url));
@@ -16,8 +16,8 @@ const componentsOf = ({x, y, z}) => (inSpace ? [x, y, z] : [x, y]);
 /// A turn as Rapier takes it.
 function turnOf(angle) {
   if (!inSpace) return angle;
-  const size = Math.hypot(...angle), [x, y, z] = scaled(size > 0 ? Math.sin(size / 2) / size : 0.5, angle);
-  return {x, y, z, w: Math.cos(size / 2)};
+  const [x, y, z, w] = quaternionOf(angle);
+  return {x, y, z, w};
 }
 
 export const version = RAPIER.version();
@@ -53,20 +53,12 @@ export class RapierWorld {
 
   free() { this.world.free(); }
 
-  /// Rapier has a restitution for each collider, and takes the mean of two. Those of disks are their own among
-  /// equals, so that pairs of equals are right; the walls' makes the mean over kinds of disks right.
+  /// Rapier has a restitution for each collider, and takes the mean of two.
   setCoefficients(disks, walls) {
     const masses = [...new Set(disks.map((disk) => disk.mass))];
-    this.ofMass = new Map(masses.map((mass) => [mass, this.law.restitution(mass, mass)]));
-    const needed = masses.map((mass) => 2 * this.law.restitution(mass, Infinity) - this.ofMass.get(mass));
-    this.ofWalls = needed.reduce((sum, e) => sum + e, 0) / needed.length;
-    this.pairs = [];
-    const row = (pair, en) => this.pairs.push({pair, en, et0: 0, ...(this.law.friction > 0 && {mu: this.law.friction})});
-    const named = masses.slice(0, 4).map((mass) => [`${(mass * 1e3).toPrecision(4)} g`, this.ofMass.get(mass)]);
-    named.forEach(([name, e], a) => {
-      named.slice(a).forEach(([other, f]) => row(`${name} with ${other}`, (e + f) / 2));
-      if (walls) row(`${name} with wall`, (e + this.ofWalls) / 2);
-    });
+    this.ofMass = this.law.restitutionOfEach(masses);
+    this.ofWalls = this.ofMass.get(Infinity);
+    this.pairs = this.law.pairs(masses, walls, (a, b) => (this.ofMass.get(a) + this.ofMass.get(b)) / 2);
     this.deviations = [];
   }
 
