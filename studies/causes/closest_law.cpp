@@ -159,12 +159,13 @@ std::optional<NamedTerm> closestTerm(const std::vector<MirrorChangeOf<D>>& chang
 
 template <int D>
 ClosestLaw<D>::ClosestLaw(SceneOf<D> scene, Capabilities can, SeparationsWith<D> with,
-                          double rounding, std::vector<double> amounts)
+                          double rounding, std::vector<double> amounts, double constantsLeave)
     : scene_(std::move(scene)),
       can_(std::move(can)),
       with_(std::move(with)),
       rounding_(rounding),
-      amounts_(std::move(amounts)) {
+      amounts_(std::move(amounts)),
+      constantsLeave_(constantsLeave) {
   restart();
 }
 
@@ -208,7 +209,7 @@ bool ClosestLaw<D>::takeBest() {
     distance = *with;
     best = {change};
   }
-  if (best) distance *= termWorthTrying;
+  if (best) distance *= constantsLeave_;
   if (const auto constant = bestConstant(all, distance)) best = constant;
   if (best) take({*best});
   return best.has_value();

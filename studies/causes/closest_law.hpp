@@ -71,8 +71,11 @@ class ClosestLaw {
   /// @param can       of the in-house engine
   /// @param rounding  what is nearer is the same
   /// @param amounts   by which constants are changed to see what explains most to first order
+  /// @param constantsLeave  a constant, which may imitate the others, is taken where it leaves less
+  ///                  than this part of what the best convention or missing effect does; 0: only
+  ///                  where none of these brings the mirror nearer, as where several are amiss
   ClosestLaw(SceneOf<D> scene, Capabilities can, SeparationsWith<D> with, double rounding,
-             std::vector<double> amounts = {termChange});
+             std::vector<double> amounts = {termChange}, double constantsLeave = termWorthTrying);
 
   /// Goes by what SeparationsWith says from here on.
   void restart();
@@ -87,9 +90,8 @@ class ClosestLaw {
   /// Distance with a further change, absent where it exceeds `limit` or cannot run like that.
   std::optional<double> distanceWith(const AppliedChangeOf<D>& further, double limit) const;
 
-  /// Takes what brings the mirror nearest: a constant where it leaves less than half of what any
-  /// convention or missing effect does, which it may imitate. @returns whether anything brought it
-  /// nearer
+  /// Takes what brings the mirror nearest, conventions, missing effects and constants. @returns
+  /// whether anything brought it nearer
   bool takeBest();
 
   /// Takes the constant that, changed by up to the whole of it, leaves least. @returns likewise
@@ -118,6 +120,7 @@ class ClosestLaw {
   SeparationsWith<D> with_;
   double rounding_;
   std::vector<double> amounts_;
+  double constantsLeave_;
   Changes taken_;
   std::vector<double> separation_;
   double best_ = std::numeric_limits<double>::infinity();

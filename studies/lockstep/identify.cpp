@@ -84,9 +84,12 @@ class Followed {
 
   /// Search for the law of what is followed, from the mirror of its first state.
   ClosestLaw<D> search() {
-    return {scenes_.front(), mirror_->capabilities(),
+    return {scenes_.front(),
+            mirror_->capabilities(),
             [this](const auto& changes, double limit) { return separations(changes, limit); },
-            lockstepRounding};
+            lockstepRounding,
+            {termChange},
+            /*constantsLeave=*/0.0};
   }
 
   /// The largest separation of a disk from the mirror with these changes [d].

@@ -21,7 +21,7 @@ ORDER = [
     "oracle", "stability", "averaging", "cases", "results",
     "reports/common", "reports/render", "reports/lockstep", "reports/flow", "reports/regression", "reports/collide", "reports/conformance", "reports/effects", "reports/cost", "reports/stability",
     "reports",
-    "studies/core", "studies/lockstep", "studies/flow", "studies/collide", "studies/conformance", "studies/stability", "studies/effects", "studies/cost", "studies/regression", "studies/check",
+    "studies/core", "studies/causes", "studies/lockstep", "studies/flow", "studies/collide", "studies/conformance", "studies/stability", "studies/effects", "studies/cost", "studies/regression", "studies/check",
     "cli",
 ]  # fmt: skip
 
