@@ -188,6 +188,10 @@ struct Planted {
   std::vector<std::string> changes;
 };
 
+std::ostream& operator<<(std::ostream& out, const Planted& planted) {
+  return out << planted.name;
+}
+
 class CausesPlanted : public testing::TestWithParam<Planted> {};
 
 TEST_P(CausesPlanted, AreNamed) {
