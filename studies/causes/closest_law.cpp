@@ -159,13 +159,12 @@ std::optional<NamedTerm> closestTerm(const std::vector<MirrorChangeOf<D>>& chang
 
 template <int D>
 ClosestLaw<D>::ClosestLaw(SceneOf<D> scene, Capabilities can, SeparationsWith<D> with,
-                          double rounding, std::vector<double> amounts, double constantsLeave)
+                          double rounding, std::vector<double> amounts)
     : scene_(std::move(scene)),
       can_(std::move(can)),
       with_(std::move(with)),
       rounding_(rounding),
-      amounts_(std::move(amounts)),
-      constantsLeave_(constantsLeave) {
+      amounts_(std::move(amounts)) {
   restart();
 }
 
@@ -198,21 +197,45 @@ std::optional<double> ClosestLaw<D>::distanceWith(const AppliedChangeOf<D>& furt
 }
 
 template <int D>
+bool ClosestLaw<D>::takeConvention() {
+  double distance = best_ * (1.0 - fitsAlike);
+  const auto best = bestConvention(candidates(), distance);
+  if (best) take({*best});
+  return best.has_value();
+}
+
+template <int D>
+bool ClosestLaw<D>::takeConstant(double leaving) {
+  double distance = best_ * leaving;
+  const auto best = bestConstant(candidates(), distance);
+  if (best) take({*best});
+  return best.has_value();
+}
+
+template <int D>
 bool ClosestLaw<D>::takeBest() {
   const std::vector<MirrorChangeOf<D>> all = candidates();
-  std::optional<AppliedChangeOf<D>> best;
   double distance = best_ * (1.0 - fitsAlike);
-  for (const MirrorChangeOf<D>& change : all) {
+  auto best = bestConvention(all, distance);
+  if (best) distance *= termWorthTrying;
+  if (const auto constant = bestConstant(all, distance)) best = constant;
+  if (best) take({*best});
+  return best.has_value();
+}
+
+/// If it leaves less than `distance`, which becomes what it leaves.
+template <int D>
+std::optional<AppliedChangeOf<D>> ClosestLaw<D>::bestConvention(
+    const std::vector<MirrorChangeOf<D>>& candidates, double& distance) const {
+  std::optional<AppliedChangeOf<D>> best;
+  for (const MirrorChangeOf<D>& change : candidates) {
     if (change.isConstant) continue;
     const auto with = distanceWith({change}, distance);
     if (!with || !(*with < distance)) continue;
     distance = *with;
     best = {change};
   }
-  if (best) distance *= constantsLeave_;
-  if (const auto constant = bestConstant(all, distance)) best = constant;
-  if (best) take({*best});
-  return best.has_value();
+  return best;
 }
 
 /// If with the amount that leaves least it leaves less than `distance`, which becomes that.

@@ -71,11 +71,8 @@ class ClosestLaw {
   /// @param can       of the in-house engine
   /// @param rounding  what is nearer is the same
   /// @param amounts   by which constants are changed to see what explains most to first order
-  /// @param constantsLeave  a constant, which may imitate the others, is taken where it leaves less
-  ///                  than this part of what the best convention or missing effect does; 0: only
-  ///                  where none of these brings the mirror nearer, as where several are amiss
   ClosestLaw(SceneOf<D> scene, Capabilities can, SeparationsWith<D> with, double rounding,
-             std::vector<double> amounts = {termChange}, double constantsLeave = termWorthTrying);
+             std::vector<double> amounts = {termChange});
 
   /// Goes by what SeparationsWith says from here on.
   void restart();
@@ -90,8 +87,16 @@ class ClosestLaw {
   /// Distance with a further change, absent where it exceeds `limit` or cannot run like that.
   std::optional<double> distanceWith(const AppliedChangeOf<D>& further, double limit) const;
 
-  /// Takes what brings the mirror nearest, conventions, missing effects and constants. @returns
-  /// whether anything brought it nearer
+  /// Takes the convention or missing effect that brings the mirror nearest. @returns whether any
+  /// brought it nearer
+  bool takeConvention();
+
+  /// Takes the constant that leaves least, if that is less than this part. Several conventions can
+  /// be imitated by one constant, which leaves more than a right one does. @returns likewise
+  bool takeConstant(double leaving);
+
+  /// Takes what brings the mirror nearest: a constant where it leaves less than half of what any
+  /// convention or missing effect does, which it may imitate. @returns likewise
   bool takeBest();
 
   /// Takes the constant that, changed by up to the whole of it, leaves least. @returns likewise
@@ -112,6 +117,8 @@ class ClosestLaw {
   /// Of changes that are all; absent likewise.
   std::optional<double> distanceOf(const Changes& all, double limit) const;
   void take(const Changes& further);
+  std::optional<AppliedChangeOf<D>> bestConvention(const std::vector<MirrorChangeOf<D>>& candidates,
+                                                   double& distance) const;
   std::optional<AppliedChangeOf<D>> bestConstant(const std::vector<MirrorChangeOf<D>>& candidates,
                                                  double& distance) const;
 
@@ -120,7 +127,6 @@ class ClosestLaw {
   SeparationsWith<D> with_;
   double rounding_;
   std::vector<double> amounts_;
-  double constantsLeave_;
   Changes taken_;
   std::vector<double> separation_;
   double best_ = std::numeric_limits<double>::infinity();

@@ -84,12 +84,9 @@ class Followed {
 
   /// Search for the law of what is followed, from the mirror of its first state.
   ClosestLaw<D> search() {
-    return {scenes_.front(),
-            mirror_->capabilities(),
+    return {scenes_.front(), mirror_->capabilities(),
             [this](const auto& changes, double limit) { return separations(changes, limit); },
-            lockstepRounding,
-            {termChange},
-            /*constantsLeave=*/0.0};
+            lockstepRounding};
   }
 
   /// The largest separation of a disk from the mirror with these changes [d].
@@ -174,7 +171,9 @@ Identification identifyIn(Engine& engine, const EngineEntry& entry, const Case& 
     search.restart();
     const double enough = std::max(lockstepRounding, leftOfNoMirror * largest());
     for (bool nearer = true; nearer && largest() > lockstepRounding;) {
-      nearer = search.takeBest() || (largest() > enough && search.takeBestPair());
+      nearer = search.takeConvention() || search.takeConstant(termUnexplained) ||
+               (largest() > enough && search.takeBestPair()) ||
+               search.takeConstant(termWorthTrying);
       progress(1.0 - 1.0 / static_cast<double>(search.changes().size() + 2));
     }
   }
