@@ -109,8 +109,8 @@ export class HavokWorld {
 
   /// Where there is no event the first call fails, with 0.
   touching() {
-    let count = 0;
-    for (let event = H.HP_World_GetCollisionEvents(this.world)[1]; event; event = H.HP_World_GetNextCollisionEvent(Number(this.world), event)) ++count;
+    let count = 0, event = H.HP_World_GetCollisionEvents(this.world)[1];
+    for (; event; event = H.HP_World_GetNextCollisionEvent(Number(this.world), event)) ++count;
     return count;
   }
 

@@ -772,6 +772,31 @@ class Havok(Peer):
                     "ComesFromAfar", "CylinderIsMet", "EngineRefuses", "UnknownSettings")  # fmt: skip
 
 
+@unittest.skipUnless("physx" in INSTALLED, "node, or what engines/node needs, is not installed")
+class Physx(RigidEngine, InSpace, Peer):
+    engine = "physx"
+    failed = {"WallsSpinIsFelt"}  # contacts' points lie on one body's surface
+
+    def test_impacts_in_space_are_waltons_along_their_slip(self):
+        """With pgs, friction of two axes, each bounded by itself: up to √2 K (1 + e_n) µ of what slides; with tgs, of a cone."""
+        taken = {}
+        for solver in ("pgs", "tgs"):
+            done, curves = self.impacts("-k", "*any-slip*", f'--set=engines.physx.solver="{solver}"')
+            self.assert_status(done, FELL_SHORT)
+            slid = [row for row in self.rows("collisions.csv") if row["engine"] == self.engine and abs(float(row["psi_i"])) > 3]
+            taken[solver] = [
+                (math.hypot(float(row["psi_i"]), 1.5) - math.hypot(float(row["psi_f"]), float(row["psi_f_out"]))) / (3.5 * 1.9 * 0.3)
+                for row in slid
+            ]
+            if solver == "pgs":
+                self.assertTrue(all(curve["score"]["e_n"]["held"] for curve in curves))
+        self.assertLess(0.99, min(taken["pgs"]))
+        self.assertLess(1.1, max(taken["pgs"]))
+        self.assertLess(max(taken["pgs"]), math.sqrt(2) + 0.01)
+        for share in taken["tgs"]:
+            self.assertAlmostEqual(1.0, share, delta=0.01)
+
+
 @unittest.skipUnless("rapier3d" in INSTALLED, "node, or what engines/node needs, is not installed")
 class Rapier3d(InSpace, Peer):
     engine = "rapier3d"
