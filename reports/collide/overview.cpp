@@ -96,10 +96,13 @@ OverviewCell errorCell(const Errors& errors, bool besidePeer) {
 }
 
 /// "by spring_update: " where most of a curve's error is a difference from the in-house engine at
-/// the same step: else the step makes it.
-std::string causeBefore(const CollisionCurve& curve, QuantityId quantity) {
+/// the same step: else the step makes it. Causes are known of the largest step.
+std::string causeBefore(const CollisionVariant& variant, const CollisionCurve& curve,
+                        QuantityId quantity) {
+  const CollisionCurve* const coarsest = coarsestCurve(variant, curve.engine);
   const auto& score = curve.score.of[quantity];
-  const auto worst = worstDifference(nullptr, curve, quantity);
+  const auto worst =
+      coarsest ? worstDifference(&variant, *coarsest, quantity) : std::optional<WorstDifference>();
   if (!worst || !score || !score->limit || worst->limits * *score->limit < 0.5 * score->max)
     return {};
   return fmt::format("by {}: ", largestCause(*worst));
@@ -110,13 +113,15 @@ void forCurves(const std::vector<CaseGroup>& groups, const std::string& engine, 
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (const CollisionVariant* variant : groups[g].variants)
       for (const CollisionCurve* curve : curvesOf(*variant, engine))
-        visit(*curve, placeOf(groups, groups[g], *variant), fmt::format("case_{}", g + 1));
+        visit(*variant, *curve, placeOf(groups, groups[g], *variant),
+              fmt::format("case_{}", g + 1));
 }
 
 OverviewCell schemeCell(const std::vector<CaseGroup>& groups, const std::string& engine) {
   OverviewCell cell{Verdict::notMeasured, {}, "d or v_n", {}, {}, {}};
   forCurves(groups, engine,
-            [&](const CollisionCurve& curve, const std::string& place, const std::string& anchor) {
+            [&](const CollisionVariant&, const CollisionCurve& curve, const std::string& place,
+                const std::string& anchor) {
               const auto deviation = ownDeviation(curve);
               if (!deviation || (cell.value && *deviation <= *cell.value)) return;
               cell.value = deviation;
@@ -139,7 +144,8 @@ OverviewCell sweepsCell(const std::vector<CaseGroup>& groups, const EngineRow& e
   const Tally all = tallyOf(variants, engine.name);
   std::ptrdiff_t unknown = 0;
   forCurves(groups, engine.name,
-            [&](const CollisionCurve& curve, const std::string&, const std::string&) {
+            [&](const CollisionVariant&, const CollisionCurve& curve, const std::string&,
+                const std::string&) {
               for (std::size_t k = 0; k < curve.points.size(); ++k)
                 unknown += curve.points.status(k) == "no limit";
             });
@@ -347,17 +353,17 @@ Overview collideOverview(const CollideResults& results) {
     OverviewRow row{engine.name, true, {sweepsCell(groups, engine, besidePeer)}};
     for (const QuantityGroup& group : quantityGroups()) {
       Errors errors;
-      forCurves(
-          groups, engine.name,
-          [&](const CollisionCurve& curve, const std::string& sweep, const std::string& anchor) {
-            for (const QuantityId id : group.quantities) {
-              const CollisionQuantity& quantity = collisionQuantity(id);
-              const bool alone = group.quantities.size() == 1;  // the question names it
-              const std::string place =
-                  alone ? sweep : fmt::format("{}, {}", quantity.label, sweep);
-              look(errors, curve, quantity, causeBefore(curve, id) + place, anchor);
-            }
-          });
+      forCurves(groups, engine.name,
+                [&](const CollisionVariant& variant, const CollisionCurve& curve,
+                    const std::string& sweep, const std::string& anchor) {
+                  for (const QuantityId id : group.quantities) {
+                    const CollisionQuantity& quantity = collisionQuantity(id);
+                    const bool alone = group.quantities.size() == 1;  // the question names it
+                    const std::string place =
+                        alone ? sweep : fmt::format("{}, {}", quantity.label, sweep);
+                    look(errors, curve, quantity, causeBefore(variant, curve, id) + place, anchor);
+                  }
+                });
       row.cells.push_back(errorCell(errors, besidePeer));
     }
     row.cells.push_back(schemeCell(groups, engine.name));
