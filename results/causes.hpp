@@ -64,7 +64,7 @@ struct CauseStep {
   }
 };
 
-/// What is common to the causes of all numbers of a pair.
+/// Findings that hold for all numbers of a pair.
 struct Causes {
   std::vector<CauseName> differences;
   /// In what the peer does something else than it declares, from that to what it does.

@@ -6,12 +6,18 @@
 #include <map>
 #include <set>
 
+#include "adapters/registry.hpp"
 #include "reports/collide/report.hpp"
 #include "reports/common/causes.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
+
+/// Engine that ran the mixtures, whose sweep under the scene's law others are compared with.
+const std::string& inHouse() {
+  return engineRegistry().front().name;
+}
 
 const QuantityCauses* causesIn(const CollisionCurve& curve, QuantityId quantity) {
   return curve.causes && curve.causes->of[quantity] ? &*curve.causes->of[quantity] : nullptr;
@@ -112,7 +118,7 @@ std::string largestCause(const WorstDifference& worst) {
 std::string differenceSentence(const WorstDifference& worst, const std::string& place) {
   const CollisionQuantity& quantity = collisionQuantity(worst.quantity);
   const CollisionTable& points = worst.curve->points;
-  return causeSentence(quantityWords(quantity), worst.curve->engine, "grain",
+  return causeSentence(quantityWords(quantity), worst.curve->engine, inHouse(),
                        fmt::format("at Ψ_i = {}{}", readableSetting(at(points.psi, worst.point)),
                                    place.empty() ? "" : " of " + place),
                        *accountOf(worst), comparedUnit(quantity),
@@ -142,8 +148,9 @@ Table causesTable(const CaseGroup& group, bool all) {
     table.rows.push_back(std::move(row));
   }
   table.note =
-      "Difference: the engine less grain, both in the steps that the engine takes, grain under the "
-      "scene's law; where it is largest. Parts: measured by runs of grain under mixtures of that "
+      "Difference: the engine less the in-house one, both in the steps that the engine takes, the "
+      "in-house one under the scene's law; where it is largest. Parts: measured by its runs under "
+      "mixtures of that "
       "law and the one that the engine declares; with what is left, the implementation or solver, "
       "they add up to the difference. What works against it has a minus sign.";
   return table;
@@ -179,19 +186,16 @@ std::string causesCsv(const CollideResults& results) {
       for (const CollisionQuantity& quantity : scoredQuantities()) {
         const QuantityCauses* const own = causesIn(curve, quantity.id);
         if (!own) continue;
-        const auto add = [&](const Numbers& values, const std::string& part,
-                             const CauseName& name = {}) {
+        const auto add = [&](const std::string& part, const CauseName& name,
+                             const Numbers& values) {
           for (std::size_t k = 0; k < values.size(); ++k)
             csv += row(caseOf(results, variant), variant.variant, curve.engine,
                        std::optional(curve.dt), std::string(quantity.name), comparedUnit(quantity),
                        at(curve.points.psi, k), at(curve.points.vn, k), own->limit, part, name.from,
                        name.to, std::string(name.declared ? "yes" : "no"), at(values, k));
         };
-        add(own->whole, "whole");
-        for (std::size_t p = 0; p < own->parts.size(); ++p)
-          add(own->parts[p], curve.causes->differences[p].name, curve.causes->differences[p]);
-        add(own->interaction, "interaction");
-        add(own->remainder, curve.causes->remainder);
+        add("whole", {}, own->whole);
+        forParts(*curve.causes, *own, add);
       }
   return csv;
 }
@@ -241,8 +245,8 @@ Panel causesPanel(const WorstDifference& worst, std::map<std::string, const char
   Panel panel;
   panel.name = fmt::format("{}, {}", worst.curve->engine, worst.variant->variant);
   panel.xLabel = "slide before Ψ_{i}";
-  panel.yLabel = mathGnuplot(
-      fmt::format("{} less grain's{}", quantity.label, unit.empty() ? "" : " [" + unit + "]"));
+  panel.yLabel = mathGnuplot(fmt::format("{} less {}'s{}", quantity.label, inHouse(),
+                                         unit.empty() ? "" : " [" + unit + "]"));
   panel.level = 0.0;
   panel.key = Key::none;
   Numbers psi;
@@ -272,7 +276,7 @@ Panel causesPanel(const WorstDifference& worst, std::map<std::string, const char
 Figure causesFigure(const CaseGroup& group, const std::string& name) {
   Figure figure;
   figure.name = name;
-  figure.title = "Differences from grain over the sweep, and what makes them";
+  figure.title = "Differences from the in-house engine over the sweep, and their causes";
   std::vector<WorstDifference> shown = differencesIn(group, false);
   std::erase_if(shown, [](const WorstDifference& one) {
     return one.curve->points.psi.front() == one.curve->points.psi.back();  // over speeds alone
@@ -281,10 +285,11 @@ Figure causesFigure(const CaseGroup& group, const std::string& name) {
   std::map<std::string, const char*> colours;
   for (const WorstDifference& one : shown) figure.panels.push_back(causesPanel(one, colours));
   figure.caption =
-      "Line: the engine less grain under the scene's law, in the variant and quantity that differ "
-      "most in limits. Bands: its parts, one on the other, by runs of grain under mixtures of both "
-      "laws; "
-      "grey: what no difference of the laws makes.";
+      "Line: the engine less the in-house one under the scene's law, in the variant and quantity "
+      "that "
+      "differ most in limits. Bands: its parts, one on the other, by runs of the in-house engine "
+      "under "
+      "mixtures of both laws; grey: the rest, which no difference of the laws makes.";
   figure.keyAbove = true;
   figure.columns = std::max(1, std::min(3, static_cast<int>(figure.panels.size())));
   figure.panelWidth = 1240 / std::max(figure.columns, 2);

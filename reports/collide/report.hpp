@@ -85,7 +85,7 @@ std::optional<WorstDifference> worstDifference(const CollisionVariant* variant,
 /// The name of the largest cause, "spring_update".
 std::string largestCause(const WorstDifference& worst);
 
-/// "tangential rebound Ψ_f of yade is 0.14 lower than grain's at Ψ_i = 0.35: spring_update 0.139, …"
+/// "tangential rebound Ψ_f of mine is 0.14 lower than grain's at Ψ_i = 0.35: spring_update 0.139, …"
 /// @param place  of the sweep; empty: not said
 std::string differenceSentence(const WorstDifference& worst, const std::string& place);
 

@@ -28,7 +28,7 @@ struct CauseAccount {
 /// below a hundredth of it together as "others".
 std::string accountWords(const CauseAccount& account);
 
-/// "Ψ_f of yade is 0.14 lower than grain's at Ψ_i = 0.35: spring_update 0.139, lever_arm 0.001,
+/// "Ψ_f of mine is 0.14 lower than grain's at Ψ_i = 0.35: spring_update 0.139, lever_arm 0.001,
 /// implementation < 0.001 (1 limit = 0.02)"
 /// @param what   the quantity, "Ψ_f"
 /// @param where  "at Ψ_i = 0.35"; empty: it has no place
@@ -42,12 +42,22 @@ std::string causeSentence(const std::string& what, const std::string& engine,
 /// "spring_update after → before (not declared)"
 std::string differenceWords(const CauseName& difference);
 
-/// "yade does not do what it declares: as if spring_update before, not after." Empty: it does.
+/// "mine does not do what it declares: as if spring_update before, not after." Empty: it does.
 std::string undeclaredSentence(const std::string& engine, const Causes& causes);
 
 /// Sentences that hold for all numbers of a pair: which interact, how far the path goes, what was
 /// not attributed and why. Empty: there is nothing to be said.
 std::string causesNote(const Causes& causes);
+
+/// Visits the parts of a difference, then its interaction and remainder: (name, words, value);
+/// words are none of the last two. @tparam Own  QuantityCauses or EndpointCauses
+template <class Own>
+void forParts(const Causes& causes, const Own& own, auto&& visit) {
+  for (std::size_t k = 0; k < own.parts.size(); ++k)
+    visit(causes.differences[k].name, causes.differences[k], own.parts[k]);
+  visit("interaction", CauseName{}, own.interaction);
+  visit(causes.remainder, CauseName{}, own.remainder);
+}
 
 /// Options among these differences and what they mean: terms that a reader may not know.
 Table causeTerms(const std::vector<const Causes*>& all);

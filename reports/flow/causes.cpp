@@ -32,10 +32,9 @@ struct Explained {
   /// All contributions by name.
   std::vector<std::pair<std::string, const CausePart*>> parts() const {
     std::vector<std::pair<std::string, const CausePart*>> all;
-    for (std::size_t k = 0; k < own->parts.size(); ++k)
-      all.emplace_back(pair->differences[k].name, &own->parts[k]);
-    all.emplace_back("interaction", &own->interaction);
-    all.emplace_back(pair->remainder, &own->remainder);
+    forParts(*pair, *own, [&](const std::string& name, const CauseName&, const CausePart& part) {
+      all.emplace_back(name, &part);
+    });
     return all;
   }
 
@@ -231,17 +230,13 @@ std::string causesCsv(const CompareResults& results) {
   std::string csv = "a,b,endpoint,unit,packings,part,from,to,declared,mean,low,high,seen\n";
   for (const PairCauses& pair : results.causes)
     for (const EndpointCauses& own : pair.endpoints) {
-      const auto add = [&](const std::string& name, const CausePart& part,
-                           const CauseName& words = {}) {
+      const auto add = [&](const std::string& name, const CauseName& words, const CausePart& part) {
         csv += row(pair.a, pair.b, own.endpoint, own.unit, static_cast<std::size_t>(own.packings),
                    name, words.from, words.to, std::string(words.declared ? "yes" : "no"),
                    part.mean, part.low, part.high, std::string(part.isSeen() ? "yes" : "no"));
       };
-      add("whole", own.whole);
-      for (std::size_t k = 0; k < own.parts.size(); ++k)
-        add(pair.differences[k].name, own.parts[k], pair.differences[k]);
-      add("interaction", own.interaction);
-      add(pair.remainder, own.remainder);
+      add("whole", {}, own.whole);
+      forParts(pair, own, add);
     }
   return csv;
 }

@@ -224,4 +224,15 @@ std::optional<Attribution> attribute(const AttributionPlan& plan, const RunMixtu
   }
 }
 
+std::set<Mixture> mixturesOf(std::size_t differences, std::size_t mostMixed) {
+  const Mixture all = (Mixture{1} << differences) - 1;
+  std::set<Mixture> mixtures = {0, all};
+  if (differences <= mostMixed)
+    for (Mixture mixture = 1; mixture < all; ++mixture) mixtures.insert(mixture);
+  else
+    for (std::size_t k = 0; k < differences; ++k)
+      mixtures.insert({Mixture{1} << k, all ^ Mixture{1} << k});
+  return mixtures;
+}
+
 }  // namespace crossgrain::inline studies

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <span>
+#include <set>
 #include <vector>
 
 #include "results/causes.hpp"
@@ -60,5 +60,9 @@ struct AttributionPlan {
 /// and I_ij is that of S = 0.
 /// @returns nothing where one of the runs that it takes cannot be made
 std::optional<Attribution> attribute(const AttributionPlan& plan, const RunMixture& run);
+
+/// Mixtures that attribute() asks for where it does not search, from the reference to the peer.
+/// @param mostMixed  AttributionPlan::mostMixed
+std::set<Mixture> mixturesOf(std::size_t differences, std::size_t mostMixed);
 
 }  // namespace crossgrain::inline studies

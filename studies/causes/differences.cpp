@@ -11,8 +11,6 @@
 
 #include "adapters/declared_law.hpp"
 #include "adapters/registry.hpp"
-#include "adapters/suitability.hpp"
-#include "cases/effect_switch.hpp"
 #include "cases/materials.hpp"
 #include "law/law_options.hpp"
 #include "studies/causes/changes.hpp"
@@ -71,7 +69,7 @@ bool differ(double one, double other) {
   return std::abs(one - other) > 1e-12 * std::max(std::abs(one), std::abs(other));
 }
 
-/// With as many digits as tell both values apart.
+/// With as many digits as show that both values differ.
 CauseName wordsOf(std::string_view constant, double from, double to) {
   int digits = 4;
   const auto words = [&](double value) { return fmt::format("{:.{}g}", value, digits); };

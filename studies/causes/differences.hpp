@@ -34,15 +34,17 @@ std::vector<Difference<Setup>> differencesOf(const Setup& from, const Setup& to)
 /// Of all in which differencesOf() cases can differ.
 std::string fingerprintOf(const Case& setup);
 
-/// Setup with some differences taken, in their order.
+/// Setup with some differences taken, in their order; with all it is `to`.
 template <class Setup>
-Setup mixed(Setup from, const std::vector<Difference<Setup>>& differences, Mixture mixture) {
+Setup mixed(Setup from, const Setup& to, const std::vector<Difference<Setup>>& differences,
+            Mixture mixture) {
+  if (mixture + 1 == Mixture{1} << differences.size()) return to;
   for (std::size_t k = 0; k < differences.size(); ++k)
     if (mixture >> k & 1) differences[k].take(from);
   return from;
 }
 
-/// What is to be said of a pair before anything is run.
+/// Names of the differences, before anything is run.
 template <class Setup>
 Causes causesOf(const std::vector<Difference<Setup>>& differences) {
   Causes causes;

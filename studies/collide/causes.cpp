@@ -231,9 +231,8 @@ std::optional<CollisionCauses> causesIn(const Case& setup,
   causes.remainder = peer.law.soft() ? "implementation" : "solver";
   const auto parts = attribute(
       {.differences = differences.size(), .units = numbers.units()}, [&](Mixture mixture) {
-        const bool all = mixture + 1 == Mixture{1} << differences.size();
         return mixture == 0 ? reference
-                            : runOf(all ? behaviour.scene : mixed(scene, differences, mixture));
+                            : runOf(mixed(scene, behaviour.scene, differences, mixture));
       });
   causes.reason = reason;
   if (!parts) return causes;

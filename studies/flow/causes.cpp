@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 #include "adapters/declared_law.hpp"
 #include "averaging/pocock.hpp"
-#include "cases/effect_switch.hpp"
 #include "cases/endpoints.hpp"
 #include "cases/flow.hpp"
 #include "cases/materials.hpp"
@@ -61,21 +61,6 @@ Case caseAsRun(const Case& setup, double dt, const EngineEntry& entry, const Cap
 }
 
 namespace {
-
-/// Mixtures that attribute() asks for; laws that do not differ take no run.
-std::set<Mixture> mixturesOf(std::size_t differences) {
-  std::set<Mixture> all;
-  if (differences == 0) return all;
-  const Mixture last = (Mixture{1} << differences) - 1;
-  if (differences <= mostMixed) {
-    for (Mixture m = 0; m <= last; ++m) all.insert(m);
-    return all;
-  }
-  all = {0, last};
-  for (std::size_t k = 0; k < differences; ++k)
-    all.insert({Mixture{1} << k, last ^ Mixture{1} << k});
-  return all;
-}
 
 /// Two engines on their way to the causes of their differences.
 struct Pair {
@@ -181,7 +166,7 @@ class CausesOfPairs {
     });
   }
 
-  /// Laws of both and what tells them apart.
+  /// Laws of both and in what they differ.
   void describe(Pair& pair) {
     if (std::ranges::any_of(pair.rows, [](const auto* row) { return row->unpaired.has_value(); }))
       throw UnsupportedScene("runs of files have no law that could be mixed with another");
@@ -199,22 +184,20 @@ class CausesOfPairs {
     for (Difference<Case>& difference : undeclaredIn(pair.to, pair.causes.b)) {
       difference.take(pair.to);
       difference.words.declared = false;
-      pair.causes.undeclared.push_back(difference.words);
       pair.differences.push_back(std::move(difference));
     }
-    const auto undeclared = std::move(pair.causes.undeclared);
     static_cast<Causes&>(pair.causes) = causesOf(pair.differences);
-    pair.causes.undeclared = undeclared;
+    std::ranges::copy_if(pair.causes.differences, std::back_inserter(pair.causes.undeclared),
+                         [](const CauseName& one) { return !one.declared; });
     pair.causes.remainder =
         pair.from.law.soft() && pair.to.law.soft() ? "implementation" : "solver";
     if (pair.differences.size() > mostMixed) pair.causes.mixtures = Mixtures::bothEnds;
   }
 
-  /// Those that are run, by what pairs are compared with.
+  /// Those that are run: where laws do not differ none, but for a neutral campaign's reference.
   std::set<Mixture> mixturesOf(const Pair& pair) const {
-    std::set<Mixture> all = studies::mixturesOf(pair.differences.size());
-    if (campaign_.isNeutral()) all.insert(0);
-    return all;
+    if (pair.differences.empty() && !campaign_.isNeutral()) return {};
+    return studies::mixturesOf(pair.differences.size(), mostMixed);
   }
 
   static const std::string& inHouseName() { return engineRegistry().front().name; }
@@ -235,8 +218,7 @@ class CausesOfPairs {
 
   // Runs.
 
-  /// What the verdicts rest on stands for mixtures that are the in-house engine's law, or a
-  /// mirror's.
+  /// Takes the verdicts' own runs for mixtures that are the in-house engine's law, or a mirror's.
   void takeVerdictsRuns() {
     for (std::size_t e = 0; e < campaign_.engines().size(); ++e) {
       const EngineEntry& entry = campaign_.engines()[e];
@@ -253,8 +235,7 @@ class CausesOfPairs {
   }
 
   const std::string& fingerprint(const Pair& pair, Mixture mixture) {
-    const bool all = mixture + 1 == Mixture{1} << pair.differences.size();
-    Case setup = all ? pair.to : mixed(pair.from, pair.differences, mixture);
+    Case setup = mixed(pair.from, pair.to, pair.differences, mixture);
     return cases_.try_emplace(fingerprintOf(setup), std::move(setup)).first->first;
   }
 
@@ -373,7 +354,7 @@ class CausesOfPairs {
     sumUp(pair);
   }
 
-  /// What it took, and why nothing came out.
+  /// Says how many runs it took, and why nothing came out.
   void sumUp(Pair& pair) {
     std::string failure = "no packing has a value under all mixtures of both laws";
     std::set<std::string> names;

@@ -21,8 +21,7 @@ constexpr std::size_t windowsOfStart = 2 + referencePerturbations.size();
 
 /// Starts whose mixtures take a tenth of the windows of all.
 std::size_t startsFor(std::size_t differences, std::size_t all) {
-  const std::size_t mixtures =
-      differences <= mostMixed ? std::size_t{1} << differences : 2 * differences + 2;
+  const std::size_t mixtures = mixturesOf(differences, mostMixed).size();
   return std::clamp<std::size_t>(all * windowsOfStart / (10 * mixtures), 1, all);
 }
 
@@ -79,8 +78,7 @@ class MixedRuns {
 
  private:
   SceneOf<D> sceneOf(Mixture mixture, std::size_t s) const {
-    const bool all = mixture + 1 == Mixture{1} << differences_.size();
-    return all ? peers_[s] : mixed(scenes_[s], differences_, mixture);
+    return mixed(scenes_[s], peers_[s], differences_, mixture);
   }
 
   /// From all starts, at all steps.

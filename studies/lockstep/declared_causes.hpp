@@ -9,7 +9,7 @@
 
 namespace crossgrain::inline studies {
 
-/// What the differences of an engine from the case's law do.
+/// Causes of how far an engine's law takes disks from where the case's does.
 /// @param mirror   of the engine
 /// @param scenes   of the case's law in the engine's steps, by start: the first are followed, as
 /// many
