@@ -217,6 +217,23 @@ std::optional<double> smallestSignificant(double standardError, double dof, std:
   return upperQuantile(tail, dof) * standardError;
 }
 
+std::vector<std::optional<double>> smallestSignificant(
+    std::span<const std::optional<PairedComparison>> family, double confidence) {
+  const auto isTest = [](const auto& one) { return one && one->pDisagree; };
+  const auto isRejected = [&](const auto& one) {
+    return isTest(one) && *one->pDisagree <= 1.0 - confidence;
+  };
+  const auto left = static_cast<std::size_t>(std::ranges::count_if(family, isTest) -
+                                             std::ranges::count_if(family, isRejected));
+  std::vector<std::optional<double>> smallest;
+  for (const auto& one : family)
+    smallest.push_back(isTest(one)
+                           ? smallestSignificant(*one->standardError, one->dof,
+                                                 left + (isRejected(one) ? 1 : 0), confidence)
+                           : std::nullopt);
+  return smallest;
+}
+
 FieldVerdict fieldVerdict(std::span<const std::optional<PairedComparison>> rings) {
   FieldVerdict result;
   for (const auto& ring : rings) {

@@ -93,6 +93,16 @@ std::optional<double> smallestDetectable(double standardError, double dof, doubl
 std::optional<double> smallestSignificant(double standardError, double dof, std::size_t tests,
                                           double confidence);
 
+/// Of each of a family of differences without a margin the smallest one that would have been
+/// significant: the half of an interval that leaves out 0 exactly where Holm's procedure rejects
+/// that there is none. He holds the largest t against the level α/m of m tests, the next against
+/// α/(m − 1), and stops at the first that fails, the K + 1st: all that he rejects pass α/(m − K +
+/// 1), all others fail α/(m − K).
+/// @param family  of comparePaired() at that confidence
+/// @returns absent where there was no test
+std::vector<std::optional<double>> smallestSignificant(
+    std::span<const std::optional<PairedComparison>> family, double confidence);
+
 /// The verdict on a field from its rings.
 struct FieldVerdict {
   Verdict verdict = Verdict::undecided;

@@ -87,27 +87,14 @@ void describe(RingChange& row, const TestedChange& ring) {
   row.standardError = found->packings == 1 ? ring.withinRun : found->standardError;
 }
 
-/// How the family of one variant's tests ended.
-struct Family {
-  double confidence;
-  std::size_t tests = 0, rejected = 0;
-  bool resolves(const PairedComparison& one) const { return *one.pDisagree <= 1.0 - confidence; }
-};
-
-/// Sets the verdict and the interval that it rests on: half as wide as the smallest change that
-/// would have been significant, so that it leaves out 0 exactly if the change is. Holm (1979) holds
-/// the largest t against the level α/m of m tests, the next against α/(m − 1), and stops at the
-/// first that fails, the K + 1st: all that he rejects pass α/(m − K + 1), all others fail
-/// α/(m − K).
+/// Sets the verdict and the interval that it rests on, which leaves out 0 exactly if the change is
+/// significant.
+/// @param half  of it, smallestSignificant()
 void judge(RingChange& row, const TestedChange& ring, const PairedComparison& found,
-           const Family& family) {
+           const std::optional<double>& half, double confidence) {
   if (!found.pDisagree) return;
-  const bool resolved = family.resolves(found);
   row.p = *found.pDisagree;
-  row.resolved = resolved;
-  const auto half =
-      smallestSignificant(*found.standardError, found.dof,
-                          family.tests - family.rejected + (resolved ? 1 : 0), family.confidence);
+  row.resolved = *found.pDisagree <= 1.0 - confidence;
   row.low = inUnit(ring.test, found.difference - *half);
   row.high = inUnit(ring.test, found.difference + *half);
   row.smallest = std::abs(inUnit(ring.test, std::copysign(*half, found.difference)));
@@ -119,14 +106,8 @@ std::vector<ChangedField> changesOf(const std::vector<TestedField>& fields, doub
     for (const TestedChange& ring : field.rings)
       if (field.judged) judged.push_back(ring.test.sample);
   const auto results = comparePaired(judged, confidence);
-  Family family{confidence};
-  for (const auto& found : results)
-    if (found && found->pDisagree) {
-      ++family.tests;
-      family.rejected += family.resolves(*found);
-    }
-
-  auto next = results.begin();
+  const auto halves = smallestSignificant(results, confidence);
+  std::size_t next = 0;
   std::vector<ChangedField> changes;
   for (const TestedField& field : fields) {
     ChangedField& change = changes.emplace_back(
@@ -137,7 +118,8 @@ std::vector<ChangedField> changesOf(const std::vector<TestedField>& fields, doub
       row.reference = ring.reference;
       describe(row, ring);
       if (field.judged)
-        if (const auto& found = *next++) judge(row, ring, *found, family);
+        if (const std::size_t k = next++; results[k])
+          judge(row, ring, *results[k], halves[k], confidence);
       change.rings.push_back(std::move(row));
     }
   }

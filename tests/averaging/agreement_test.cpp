@@ -284,6 +284,49 @@ TEST(SmallestSignificant, IsTheQuantileOfTheWholeFamily) {
   EXPECT_FALSE(smallestSignificant(2.0, 2, 10, 0.95));
 }
 
+/// p of 0.001, 0.03 and 0.04 for t of 3 degrees of freedom: 0.03 is above 0.05/2, so only the first
+/// is rejected, at 0.05/3, and both others fail at 0.05/2.
+TEST(SmallestSignificant, OfAFamily_StopsWhereHolmDoes) {
+  std::vector<PairedSample> family;
+  for (const double t : {12.924, 3.896, 3.482}) {  // tables; sd of ±1: 2/√3, SE = 1/√3
+    const double mean = t / std::sqrt(3.0);
+    family.push_back(differing({mean + 1.0, mean - 1.0, mean + 1.0, mean - 1.0}, 0.0));
+  }
+  family.emplace_back();  // no test
+  const auto found = comparePaired(family, 0.95);
+  const auto smallest = smallestSignificant(found, 0.95);
+  EXPECT_NEAR(*smallest[0] * std::sqrt(3.0), 4.857, 1e-2);  // two-sided 0.05/3
+  EXPECT_NEAR(*smallest[1] * std::sqrt(3.0), 4.177, 1e-2);  // two-sided 0.05/2
+  EXPECT_DOUBLE_EQ(*smallest[2], *smallest[1]);
+  EXPECT_FALSE(smallest[3]);
+}
+
+/// An interval leaves out 0 exactly where Holm's procedure rejects it, so that any of a family of
+/// 20 does so by accident in at most 1 − confidence of all families.
+TEST(SmallestSignificant, OfAFamily_NamesNoneByAccident) {
+  std::mt19937_64 generator(61);
+  constexpr int repeats = 2000;
+  for (const double shift : {0.0, 8.0}) {
+    int families = 0;
+    for (int k = 0; k < repeats; ++k) {
+      auto family = randomFamily(generator, 20, 4, 0.0, 0.0);
+      const auto shifted = randomFamily(generator, 5, 4, shift, 0.0);
+      family.insert(family.end(), shifted.begin(), shifted.end());
+      const auto found = comparePaired(family, 0.95);
+      const auto smallest = smallestSignificant(found, 0.95);
+      bool any = false;
+      for (std::size_t r = 0; r < family.size(); ++r) {
+        const bool named = std::abs(found[r]->difference) > *smallest[r];
+        EXPECT_EQ(named, *found[r]->pDisagree <= 0.05);
+        any = any || (named && r < 20);
+      }
+      families += any;
+    }
+    EXPECT_LT(static_cast<double>(families) / repeats,
+              0.05 + 3.0 * std::sqrt(0.05 * 0.95 / repeats));
+  }
+}
+
 TEST(FieldVerdict, FollowsItsRings) {
   const auto ring = [](Verdict verdict) {
     PairedComparison c;
