@@ -121,17 +121,20 @@ struct CausePart {
   }
 };
 
-/// Difference of one endpoint between two engines, b less a, and its parts.
+/// Difference of one endpoint between two engines, or of a field in one bin, b less a, and its
+/// parts.
 struct EndpointCauses {
   std::string endpoint, unit;
   int packings = 0;  ///< that the parts rest on
   CausePart whole;
   std::vector<CausePart> parts;  ///< by difference
   CausePart interaction, remainder;
+  std::optional<std::size_t> bin = {};
 
   void fields(auto& io) {
     io("endpoint", endpoint, aName);
     io("unit", unit, aUnit);
+    io.present("bin", bin);
     io("packings", packings);
     io("whole", whole);
     io("parts", parts);
@@ -144,6 +147,7 @@ struct EndpointCauses {
 struct PairCauses : Causes {
   std::string a, b;  ///< the reference first
   std::vector<EndpointCauses> endpoints;
+  std::vector<EndpointCauses> profile;  ///< of the field that was asked for, bin by bin
   std::optional<double> missing;  ///< seconds that what was left out would take; absent: nothing
 
   void fields(auto& io) {
@@ -151,6 +155,7 @@ struct PairCauses : Causes {
     io("b", b, aName);
     Causes::fields(io);
     io("endpoints", endpoints);
+    io.when(!profile.empty(), "profile", profile);
     io.present("missing_s", missing);
   }
 };

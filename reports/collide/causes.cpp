@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "adapters/registry.hpp"
@@ -14,6 +13,8 @@ namespace crossgrain::reports {
 
 namespace {
 
+constexpr std::size_t mostPanels = 12;
+
 /// Engine that ran the mixtures, whose sweep under the scene's law others are compared with.
 const std::string& inHouse() {
   return engineRegistry().front().name;
@@ -23,33 +24,26 @@ const QuantityCauses* causesIn(const CollisionCurve& curve, QuantityId quantity)
   return curve.causes && curve.causes->of[quantity] ? &*curve.causes->of[quantity] : nullptr;
 }
 
-Names undeclaredIn(const Causes& causes) {
-  Names names;
-  for (const CauseName& one : causes.differences)
-    if (!one.declared) names.push_back(one.name);
-  return names;
-}
-
 /// Parts of the difference at one point; absent where one of them is not known.
 std::optional<CauseAccount> accountAt(const CollisionCauses& causes, const QuantityCauses& own,
                                       std::size_t point) {
   const auto whole = at(own.whole, point), interaction = at(own.interaction, point),
              remainder = at(own.remainder, point);
   if (!whole || !interaction || !remainder) return std::nullopt;
-  CauseAccount account{
-      *whole, {}, *interaction, *remainder, causes.remainder, undeclaredIn(causes)};
+  CauseAccount account{*whole, {}, *interaction, *remainder, causes.remainder};
   for (std::size_t k = 0; k < own.parts.size(); ++k) {
     const auto part = at(own.parts[k], point);
     if (!part) return std::nullopt;
-    account.parts.emplace_back(causes.differences[k].name, *part);
+    account.parts.push_back({causes.differences[k].name, *part, causes.differences[k].declared});
   }
   return account;
 }
 
 /// Shares in the whole sweep: Σ part · whole/Σ whole², which add up to 1.
 CauseAccount accountOver(const CollisionCauses& causes, const QuantityCauses& own) {
-  CauseAccount sum{0.0, {}, 0.0, 0.0, causes.remainder, undeclaredIn(causes)};
-  for (const CauseName& one : causes.differences) sum.parts.emplace_back(one.name, 0.0);
+  CauseAccount sum{0.0, {}, 0.0, 0.0, causes.remainder};
+  for (const CauseName& one : causes.differences)
+    sum.parts.push_back({one.name, 0.0, one.declared});
   for (std::size_t k = 0; k < own.whole.size(); ++k) {
     const auto one = accountAt(causes, own, k);
     if (!one) continue;
@@ -57,11 +51,11 @@ CauseAccount accountOver(const CollisionCauses& causes, const QuantityCauses& ow
     sum.interaction += one->interaction * one->whole;
     sum.remainder += one->remainder * one->whole;
     for (std::size_t p = 0; p < sum.parts.size(); ++p)
-      sum.parts[p].second += one->parts[p].second * one->whole;
+      sum.parts[p].value += one->parts[p].value * one->whole;
   }
   if (!(sum.whole > 0.0)) return sum;
   for (auto* value : {&sum.interaction, &sum.remainder}) *value *= 100.0 / sum.whole;
-  for (auto& [name, value] : sum.parts) value *= 100.0 / sum.whole;
+  for (CauseAccount::Part& part : sum.parts) part.value *= 100.0 / sum.whole;
   sum.whole = 100.0;
   return sum;
 }
@@ -77,24 +71,25 @@ std::optional<CauseAccount> accountOf(const WorstDifference& worst) {
   return accountAt(*worst.curve->causes, *causesIn(*worst.curve, worst.quantity), worst.point);
 }
 
-/// Of every engine the quantity and variant in which it differs most in limits, the largest first;
-/// or all of them, sweep by sweep.
-std::vector<WorstDifference> differencesIn(const CaseGroup& group, bool all) {
+}  // namespace
+
+std::vector<WorstDifference> differencesIn(const std::vector<const CollisionVariant*>& variants) {
   std::vector<WorstDifference> found;
-  for (const CollisionVariant* variant : group.variants)
+  for (const CollisionVariant* variant : variants)
     for (const CollisionCurve& curve : variant->curves)
       for (const CollisionQuantity& quantity : scoredQuantities())
         if (const auto worst = worstDifference(variant, curve, quantity.id))
           found.push_back(*worst);
-  if (all) return found;
-  std::ranges::stable_sort(found, std::greater(), &WorstDifference::limits);
-  std::set<std::string> seen;
-  std::erase_if(found,
-                [&](const WorstDifference& one) { return !seen.insert(one.curve->engine).second; });
   return found;
 }
 
-}  // namespace
+std::vector<WorstDifference> largestOfEngines(std::vector<WorstDifference> all) {
+  std::ranges::stable_sort(all, std::greater(), &WorstDifference::limits);
+  std::set<std::string> seen;
+  std::erase_if(all,
+                [&](const WorstDifference& one) { return !seen.insert(one.curve->engine).second; });
+  return all;
+}
 
 std::optional<WorstDifference> worstDifference(const CollisionVariant* variant,
                                                const CollisionCurve& curve, QuantityId quantity) {
@@ -115,20 +110,24 @@ std::string largestCause(const WorstDifference& worst) {
   return accountOf(worst)->largest();
 }
 
-std::string differenceSentence(const WorstDifference& worst, const std::string& place) {
+std::string differenceSentence(const WorstDifference& worst, const std::string& place,
+                               bool isFirst) {
   const CollisionQuantity& quantity = collisionQuantity(worst.quantity);
   const CollisionTable& points = worst.curve->points;
-  return causeSentence(quantityWords(quantity), worst.curve->engine, inHouse(),
-                       fmt::format("at Ψ_i = {}{}", readableSetting(at(points.psi, worst.point)),
-                                   place.empty() ? "" : " of " + place),
-                       *accountOf(worst), comparedUnit(quantity),
-                       causesIn(*worst.curve, worst.quantity)->limit, "limit");
+  return causeSentence(
+      quantityWords(quantity), worst.curve->engine, inHouse(),
+      fmt::format("{}at Ψ_i = {}{}", isFirst ? "(the in-house engine under the scene's law) " : "",
+                  readableSetting(at(points.psi, worst.point)),
+                  place.empty() ? "" : " of " + place),
+      *accountOf(worst), comparedUnit(quantity), causesIn(*worst.curve, worst.quantity)->limit,
+      "limit");
 }
 
 Table causesTable(const CaseGroup& group, bool all) {
   Table table{{"engine", "variant", "quantity", numbers("difference"), numbers("at Ψ_i"),
                numbers("in limits"), remarks("parts there"), remarks("over the sweep, in %")}};
-  for (const WorstDifference& worst : differencesIn(group, all)) {
+  const std::vector<WorstDifference> every = differencesIn(group.variants);
+  for (const WorstDifference& worst : all ? every : largestOfEngines(every)) {
     const CollisionCauses& causes = *worst.curve->causes;
     const QuantityCauses& own = *causesIn(*worst.curve, worst.quantity);
     const CauseAccount account = *accountOf(worst);
@@ -143,8 +142,7 @@ Table causesTable(const CaseGroup& group, bool all) {
          {own.limit ? shortly(worst.limits) : absentText},
          {accountWords(account)},
          {accountWords(accountOver(causes, own))}}};
-    if (const std::string cause = account.largest(); cause != causes.remainder)
-      row.cells[6].link = "#" + termId(cause);
+    row.cells[6].link = termLink(account.largest());
     table.rows.push_back(std::move(row));
   }
   table.note =
@@ -169,7 +167,7 @@ Names causesNotes(const CaseGroup& group) {
     for (const CollisionCurve& curve : variant->curves) {
       if (!curve.causes) continue;
       const std::string who = fmt::format("{}, {}", curve.engine, variant->variant);
-      add(undeclaredSentence(curve.engine, *curve.causes), who);
+      add(undeclaredSentence(curve.engine, *curve.causes, curve.effective), who);
       add(causesNote(*curve.causes), who);
     }
   Names notes;
@@ -200,101 +198,33 @@ std::string causesCsv(const CollideResults& results) {
   return csv;
 }
 
-namespace {
-
-/// Colours that tell eight parts apart (Okabe and Ito 2008), the remainder grey.
-constexpr const char* bandColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                       "#e69f00", "#56b4e9", "#f0e442", "#7f3fbf"};
-constexpr const char* restColour = "#b0b0b0";
-constexpr std::size_t mostPanels = 12;
-
-/// Parts of one kind at all points, as bands on those before it: what is above zero upward, what is
-/// below downward.
-class Stack {
- public:
-  explicit Stack(std::size_t points) : above_(points, 0.0), below_(points, 0.0) {}
-
-  Curve band(const std::string& name, const char* colour, const Numbers& psi,
-             const Numbers& values) {
-    Curve curve{name, {colour, 0, false}, Draw::bands, {}, 1.0};
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      const double value = values[k].value_or(0.0);
-      double& base = value < 0.0 ? below_[k] : above_[k];
-      if (psi[k]) curve.points.push_back({*psi[k], base + 0.5 * value, 0.5 * std::abs(value)});
-      base += value;
-    }
-    std::ranges::sort(curve.points, {}, &Point::x);
-    return curve;
-  }
-
- private:
-  std::vector<double> above_, below_;
-};
-
-bool anySeen(const Numbers& values, double least) {
-  return std::ranges::any_of(
-      values, [&](const auto& value) { return std::abs(value.value_or(0.0)) > least; });
-}
-
-/// @param colours  of parts by name, one for all panels
-Panel causesPanel(const WorstDifference& worst, std::map<std::string, const char*>& colours) {
-  const CollisionCauses& causes = *worst.curve->causes;
-  const QuantityCauses& own = *causesIn(*worst.curve, worst.quantity);
-  const CollisionQuantity& quantity = collisionQuantity(worst.quantity);
-  const std::string unit = comparedUnit(quantity);
-  Panel panel;
-  panel.name = fmt::format("{}, {}", worst.curve->engine, worst.variant->variant);
-  panel.xLabel = "slide before Ψ_{i}";
-  panel.yLabel = mathGnuplot(fmt::format("{} less {}'s{}", quantity.label, inHouse(),
-                                         unit.empty() ? "" : " [" + unit + "]"));
-  panel.level = 0.0;
-  panel.key = Key::none;
-  Numbers psi;
-  for (std::size_t k = 0; k < own.whole.size(); ++k) psi.push_back(at(worst.curve->points.psi, k));
-  const double least = 1e-3 * std::abs(*own.whole[worst.point]);
-  Stack stack(own.whole.size());
-  const auto add = [&](const std::string& name, const Numbers& values) {
-    if (!anySeen(values, least)) return;
-    const char* const next = bandColours[colours.size() % std::size(bandColours)];
-    panel.curves.push_back(
-        stack.band(name, colours.try_emplace(name, next).first->second, psi, values));
-  };
-  for (std::size_t p = 0; p < own.parts.size(); ++p) add(causes.differences[p].name, own.parts[p]);
-  add("interaction", own.interaction);
-  if (anySeen(own.remainder, least))
-    panel.curves.push_back(stack.band(causes.remainder, restColour, psi, own.remainder));
-  Curve line{"difference", {"#000000", 0, false}, Draw::lines, {}, 2.0};
-  for (std::size_t k = 0; k < own.whole.size(); ++k)
-    if (psi[k] && own.whole[k]) line.points.push_back({*psi[k], *own.whole[k], {}});
-  std::ranges::sort(line.points, {}, &Point::x);
-  panel.curves.push_back(std::move(line));
-  return panel;
-}
-
-}  // namespace
-
 Figure causesFigure(const CaseGroup& group, const std::string& name) {
-  Figure figure;
-  figure.name = name;
-  figure.title = "Differences from the in-house engine over the sweep, and their causes";
-  std::vector<WorstDifference> shown = differencesIn(group, false);
-  std::erase_if(shown, [](const WorstDifference& one) {
-    return one.curve->points.psi.front() == one.curve->points.psi.back();  // over speeds alone
-  });
-  if (shown.size() > mostPanels) shown.resize(mostPanels);
-  std::map<std::string, const char*> colours;
-  for (const WorstDifference& one : shown) figure.panels.push_back(causesPanel(one, colours));
-  figure.caption =
+  std::vector<StackedCauses> panels;
+  for (const WorstDifference& worst : largestOfEngines(differencesIn(group.variants))) {
+    const auto& points = worst.curve->points;
+    if (points.psi.front() == points.psi.back() || panels.size() == mostPanels)
+      continue;  // over speeds alone
+    const QuantityCauses& own = *causesIn(*worst.curve, worst.quantity);
+    const CollisionQuantity& quantity = collisionQuantity(worst.quantity);
+    const std::string unit = comparedUnit(quantity);
+    StackedCauses& panel = panels.emplace_back();
+    panel.name = fmt::format("{}, {}", worst.curve->engine, worst.variant->variant);
+    panel.xLabel = "slide before Ψ_{i}";
+    panel.yLabel = mathGnuplot(fmt::format("{} less {}'s{}", quantity.label, inHouse(),
+                                           unit.empty() ? "" : " [" + unit + "]"));
+    for (std::size_t k = 0; k < own.whole.size(); ++k) panel.x.push_back(at(points.psi, k));
+    panel.whole = own.whole;
+    forParts(*worst.curve->causes, own,
+             [&](const std::string& part, const CauseName&, const Numbers& values) {
+               panel.parts.emplace_back(part, values);
+             });
+  }
+  return stackedFigure(
+      name, "Differences from the in-house engine over the sweep, and their causes",
       "Line: the engine less the in-house one under the scene's law, in the variant and quantity "
-      "that "
-      "differ most in limits. Bands: its parts, one on the other, by runs of the in-house engine "
-      "under "
-      "mixtures of both laws; grey: the rest, which no difference of the laws makes.";
-  figure.keyAbove = true;
-  figure.columns = std::max(1, std::min(3, static_cast<int>(figure.panels.size())));
-  figure.panelWidth = 1240 / std::max(figure.columns, 2);
-  figure.panelHeight = 260;
-  return figure;
+      "that differ most in limits. Bands: its parts, one on the other, by runs of the in-house "
+      "engine under mixtures of both laws; grey: the rest, which no difference of the laws makes.",
+      panels);
 }
 
 }  // namespace crossgrain::reports

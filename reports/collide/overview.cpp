@@ -240,23 +240,24 @@ std::string failsMostOften(const CollideResults& results) {
 /// first.
 std::string differencesByCause(const CollideResults& results) {
   const std::vector<CaseGroup> groups = casesOf(results);
-  std::vector<std::pair<WorstDifference, std::string>> worst;
-  for (const std::string& engine : judgedEngines(results)) {
-    std::optional<std::pair<WorstDifference, std::string>> own;
-    for (const CaseGroup& group : groups)
-      for (const CollisionVariant* variant : group.variants)
-        for (const CollisionCurve* curve : curvesOf(*variant, engine))
-          for (const CollisionQuantity& quantity : scoredQuantities())
-            if (const auto one = worstDifference(variant, *curve, quantity.id);
-                one && one->limits > 1.0 && curve->score.of[quantity.id]->held == false &&
-                (!own || one->limits > own->first.limits))
-              own = {*one, results.variants.size() > 1 ? placeOf(groups, group, *variant) : ""};
-    if (own) worst.push_back(std::move(*own));
-  }
-  std::ranges::stable_sort(worst, std::greater(), [](const auto& one) { return one.first.limits; });
+  const Names engines = judgedEngines(results);
+  std::vector<WorstDifference> all;
+  for (const CaseGroup& group : groups)
+    std::ranges::move(differencesIn(group.variants), std::back_inserter(all));
+  std::erase_if(all, [&](const WorstDifference& one) {
+    return one.limits <= 1.0 || one.curve->score.of[one.quantity]->held != false ||
+           std::ranges::find(engines, one.curve->engine) == engines.end();
+  });
   Names words;
-  for (const auto& [one, place] : worst | std::views::take(mostDifferences))
-    words.push_back(differenceSentence(one, place));
+  for (const WorstDifference& one :
+       largestOfEngines(std::move(all)) | std::views::take(mostDifferences)) {
+    const auto group = std::ranges::find_if(groups, [&](const CaseGroup& each) {
+      return std::ranges::find(each.variants, one.variant) != each.variants.end();
+    });
+    words.push_back(differenceSentence(
+        one, results.variants.size() > 1 ? placeOf(groups, *group, *one.variant) : "",
+        words.empty()));
+  }
   return fmt::format("{}", fmt::join(words, "; "));
 }
 

@@ -82,12 +82,20 @@ struct WorstDifference {
 std::optional<WorstDifference> worstDifference(const CollisionVariant* variant,
                                                const CollisionCurve& curve, QuantityId quantity);
 
+/// Of all quantities of all curves, sweep by sweep.
+std::vector<WorstDifference> differencesIn(const std::vector<const CollisionVariant*>& variants);
+/// Of each engine the largest in limits, the largest first.
+std::vector<WorstDifference> largestOfEngines(std::vector<WorstDifference> all);
+
 /// The name of the largest cause, "spring_update".
 std::string largestCause(const WorstDifference& worst);
 
-/// "tangential rebound Ψ_f of mine is 0.14 lower than grain's at Ψ_i = 0.35: spring_update 0.139, …"
-/// @param place  of the sweep; empty: not said
-std::string differenceSentence(const WorstDifference& worst, const std::string& place);
+/// "tangential rebound Ψ_f of mine is 0.14 lower than grain's at Ψ_i = 0.35: spring_update 0.139,
+/// …"
+/// @param place    of the sweep; empty: not said
+/// @param isFirst  of some: it says what the in-house engine is there
+std::string differenceSentence(const WorstDifference& worst, const std::string& place,
+                               bool isFirst);
 
 /// Causes of what engines' sweeps of a case differ by: of each engine where it differs most in
 /// limits, or all: a row for each quantity of each engine and variant.

@@ -103,14 +103,6 @@ std::optional<double> distance(const CollisionCurve* a, const CollisionCurve* b,
   return largest;
 }
 
-std::string deviationWords(const CollisionCurve& curve) {
-  Names words;
-  if (curve.effective)
-    for (const Deviation& deviation : curve.effective->deviations)
-      addOnce(words, spaced(deviation.name));
-  return fmt::format("{}", fmt::join(words, ", "));
-}
-
 std::string dtOf(const CollisionCurve* curve) {
   return readableSetting(curve ? finite(curve->dt) : std::nullopt);
 }
@@ -180,6 +172,14 @@ std::vector<ScoredBy> lawsOf(const CollisionCurve& curve) {
 }
 
 }  // namespace
+
+std::string deviationWords(const CollisionCurve& curve) {
+  Names words;
+  if (curve.effective)
+    for (const Deviation& deviation : curve.effective->deviations)
+      addOnce(words, spaced(deviation.name));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
 
 std::string caseOf(const CollideResults& results, const CollisionVariant& variant) {
   return variant.name.empty() ? results.head.setup.name : variant.name;

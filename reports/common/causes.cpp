@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 
 #include "law/law_options.hpp"
 
@@ -32,30 +34,40 @@ std::string besideWhole(double part, double whole) {
   return fmt::format("{}{:.{}f}", sign, std::abs(part), shown);
 }
 
+bool isOption(std::string_view name) {
+  return std::ranges::find(lawOptions(), name, &LawOption::name) != lawOptions().end();
+}
+
+std::string termId(std::string_view option) {
+  return fmt::format("term_{}", option);
+}
+
 }  // namespace
 
 std::string CauseAccount::largest() const {
-  std::string name = remainderName;
-  double most = std::abs(remainder);
-  for (const auto& [part, value] : parts)
-    if (std::abs(value) > most) {
-      most = std::abs(value);
+  std::string name;
+  double most = 0.0;
+  const auto look = [&](const std::string& part, double value) {
+    if (const double makes = whole < 0.0 ? -value : value; makes > most) {
+      most = makes;
       name = part;
     }
+  };
+  for (const Part& part : parts) look(part.name, part.value);
+  look(remainderName, remainder);
   return name;
 }
 
 std::string accountWords(const CauseAccount& account) {
-  std::vector<std::pair<std::string, double>> parts = account.parts;
+  std::vector<CauseAccount::Part> parts = account.parts;
   std::ranges::stable_sort(parts, std::greater(),
-                           [](const auto& part) { return std::abs(part.second); });
+                           [](const auto& part) { return std::abs(part.value); });
   const double least = leastNamed * std::abs(account.whole);
   Names words;
   double others = 0.0;
   bool any = false;
-  for (const auto& [name, value] : parts)
+  for (const auto& [name, value, declared] : parts)
     if (words.size() < mostNamed && std::abs(value) >= least && value != 0.0) {
-      const bool declared = std::ranges::find(account.undeclared, name) == account.undeclared.end();
       words.push_back(fmt::format("{} {}{}", name, besideWhole(value, account.whole),
                                   declared ? "" : " (not declared)"));
     } else if (value != 0.0) {
@@ -87,12 +99,19 @@ std::string differenceWords(const CauseName& difference) {
                      difference.declared ? "" : " (not declared)");
 }
 
-std::string undeclaredSentence(const std::string& engine, const Causes& causes) {
-  Names words;
+std::string undeclaredSentence(const std::string& engine, const Causes& causes,
+                               const std::optional<EffectiveParameters>& effective) {
+  Names words, reported;
   for (const CauseName& one : causes.undeclared)
-    words.push_back(fmt::format("{} {}, not {}", one.name, one.to, one.from));
+    words.push_back(fmt::format("{} were {}, not {}", one.name, one.to, one.from));
   if (words.empty()) return {};
-  return fmt::format("{} does not do what it declares: as if {}.", engine, listed(words));
+  if (effective)
+    for (const Deviation& one : effective->deviations)
+      if (!isOption(one.name)) addOnce(reported, one.note.empty() ? spaced(one.name) : one.note);
+  return fmt::format("{} differs from the law that it declares as if {}.{}", engine, listed(words),
+                     reported.empty() ? ""
+                                      : fmt::format(" It reports, beside options of the law: {}.",
+                                                    fmt::join(reported, "; ")));
 }
 
 std::string causesNote(const Causes& causes) {
@@ -124,12 +143,83 @@ Table causeTerms(const std::vector<const Causes*>& all) {
                              {fmt::format("{}", fmt::join(option.values, ", "))},
                              {std::string(option.meaning)}},
                             {},
-                            termId(std::string(option.name))});
+                            termId(option.name)});
+  table.note =
+      "More of them is in the documentation: docs/cases.md, section Laws, why each option has its "
+      "default and which engines have which value; docs/laws.md, rolling resistance and cohesion; "
+      "docs/engines.md, the engines.";
   return table;
 }
 
-std::string termId(const std::string& difference) {
-  return "term_" + difference.substr(0, difference.find('+'));
+std::string termLink(const std::string& difference) {
+  const std::string option = difference.substr(0, difference.find('+'));
+  return isOption(option) ? "#" + termId(option) : "";
+}
+
+namespace {
+
+/// Colours that tell eight parts apart (Okabe and Ito 2008).
+constexpr const char* bandColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                       "#e69f00", "#56b4e9", "#f0e442", "#7f3fbf"};
+
+/// @param colours  of parts by name, one for all panels
+Panel stackedPanel(const StackedCauses& one, std::map<std::string, const char*>& colours) {
+  Panel panel;
+  panel.name = one.name;
+  panel.xLabel = one.xLabel;
+  panel.yLabel = one.yLabel;
+  panel.level = 0.0;
+  panel.key = Key::none;
+  const auto add = [&](Curve curve) {
+    std::ranges::sort(curve.points, {}, &Point::x);
+    panel.curves.push_back(std::move(curve));
+  };
+  const auto size = [](const auto& value) { return std::abs(value.value_or(0.0)); };
+  const double least = 1e-3 * size(*std::ranges::max_element(one.whole, {}, size));
+  // What is above zero stands on what is, what is below hangs from it.
+  std::vector<double> above(one.x.size(), 0.0), below = above;
+  for (const auto& [name, values] : one.parts) {
+    if (std::ranges::none_of(values, [&](const auto& value) { return size(value) > least; }))
+      continue;
+    const bool isRest = &values == &one.parts.back().second;
+    const char* const next = bandColours[colours.size() % std::size(bandColours)];
+    Curve band{name,
+               {isRest ? "#b0b0b0" : colours.try_emplace(name, next).first->second, 0, false},
+               Draw::bands,
+               {},
+               1.0};
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const double value = values[k].value_or(0.0);
+      double& base = value < 0.0 ? below[k] : above[k];
+      if (one.x[k]) band.points.push_back({*one.x[k], base + 0.5 * value, 0.5 * std::abs(value)});
+      base += value;
+    }
+    add(std::move(band));
+  }
+  Curve line{"difference", {"#000000", 0, false}, Draw::lines, {}, 2.0};
+  for (std::size_t k = 0; k < one.whole.size(); ++k)
+    if (one.x[k] && one.whole[k])
+      line.points.push_back({*one.x[k], *one.whole[k], at(one.error, k)});
+  if (!one.error.empty()) line.draw = Draw::linesAndPoints;
+  add(std::move(line));
+  return panel;
+}
+
+}  // namespace
+
+Figure stackedFigure(const std::string& name, const std::string& title, const std::string& caption,
+                     const std::vector<StackedCauses>& all) {
+  Figure figure;
+  figure.name = name;
+  figure.title = title;
+  figure.caption = caption;
+  std::map<std::string, const char*> colours;
+  for (const StackedCauses& one : all) figure.panels.push_back(stackedPanel(one, colours));
+  figure.keyAbove = true;
+  figure.columns = std::clamp(static_cast<int>(all.size()), 1, 3);
+  figure.panelWidth = 1240 / std::max(figure.columns, 2);
+  figure.panelHeight = 260;
+  return figure;
 }
 
 }  // namespace crossgrain::reports

@@ -13,13 +13,18 @@ namespace crossgrain::reports {
 
 /// A difference and its parts, which add up to it; all in one unit.
 struct CauseAccount {
+  struct Part {
+    std::string name;
+    double value = 0.0;
+    bool declared = true;
+  };
   double whole = 0.0;
-  std::vector<std::pair<std::string, double>> parts;  ///< by name
+  std::vector<Part> parts = {};
   double interaction = 0.0, remainder = 0.0;
   std::string remainderName = {};  ///< empty, with no parts: no cause is shown
-  Names undeclared = {};           ///< of the parts, those that the engine does not declare
 
-  /// Name of the largest part, the remainder's where that is larger than any.
+  /// Name of the part that makes most of the difference, the remainder's where that makes more;
+  /// empty: none does.
   std::string largest() const;
 };
 
@@ -42,8 +47,10 @@ std::string causeSentence(const std::string& what, const std::string& engine,
 /// "spring_update after → before (not declared)"
 std::string differenceWords(const CauseName& difference);
 
-/// "mine does not do what it declares: as if spring_update before, not after." Empty: it does.
-std::string undeclaredSentence(const std::string& engine, const Causes& causes);
+/// "mine differs from the law that it declares as if spring_update were before, not after. It
+/// reports, beside options of the law: rounding." Empty: it does not.
+std::string undeclaredSentence(const std::string& engine, const Causes& causes,
+                               const std::optional<EffectiveParameters>& effective);
 
 /// Sentences that hold for all numbers of a pair: which interact, how far the path goes, what was
 /// not attributed and why. Empty: there is nothing to be said.
@@ -59,10 +66,24 @@ void forParts(const Causes& causes, const Own& own, auto&& visit) {
   visit(causes.remainder, CauseName{}, own.remainder);
 }
 
-/// Options among these differences and what they mean: terms that a reader may not know.
+/// A difference over x and its parts, the last of them what is left.
+struct StackedCauses {
+  std::string name, xLabel, yLabel;
+  Numbers x, whole;
+  Numbers error = {};                                       ///< of the whole; empty: none
+  std::vector<std::pair<std::string, Numbers>> parts = {};  ///< by name
+};
+
+/// Differences as lines, their parts as bands one on the other, a panel each. A part has one
+/// colour, what is left is grey.
+Figure stackedFigure(const std::string& name, const std::string& title, const std::string& caption,
+                     const std::vector<StackedCauses>& all);
+
+/// Options among these differences and what they mean: terms that a reader may not know, with the
+/// documents that say more. They are named and not linked to, as a report has no place of its own.
 Table causeTerms(const std::vector<const Causes*>& all);
 
-/// Of a row of that table, to be linked to; there is none of a constant or an effect.
-std::string termId(const std::string& difference);
+/// To that table's row of a difference; empty: it has none, as constants, effects and remainders.
+std::string termLink(const std::string& difference);
 
 }  // namespace crossgrain::reports

@@ -29,27 +29,25 @@ struct Explained {
   }
   double margin() const { return row->marginRelative ? 100.0 * row->margin : row->margin; }
 
-  /// All contributions by name.
-  std::vector<std::pair<std::string, const CausePart*>> parts() const {
-    std::vector<std::pair<std::string, const CausePart*>> all;
-    forParts(*pair, *own, [&](const std::string& name, const CauseName&, const CausePart& part) {
-      all.emplace_back(name, &part);
-    });
-    return all;
-  }
-
-  /// Those that are seen; the others together are the rest. Without any there is no name.
+  /// Parts that are seen; the others together are the rest. Without any there is no name.
   CauseAccount account() const {
-    CauseAccount account;
-    account.whole = scale() * own->whole.mean.value_or(0.0);
+    CauseAccount account{scale() * *own->whole.mean};
     account.remainder = account.whole;
-    for (const auto& [name, part] : parts())
-      if (part->isSeen()) {
-        account.parts.emplace_back(name, scale() * *part->mean);
-        account.remainder -= account.parts.back().second;
-      }
+    forParts(*pair, *own,
+             [&](const std::string& name, const CauseName& one, const CausePart& part) {
+               if (!part.isSeen()) return;
+               account.parts.push_back({name, scale() * *part.mean, one.declared});
+               account.remainder -= account.parts.back().value;
+             });
     if (!account.parts.empty()) account.remainderName = "rest";
     return account;
+  }
+
+  /// The largest part that is seen and makes the difference larger; empty: none does.
+  std::string shownCause() const {
+    CauseAccount shown = account();
+    shown.remainder = 0.0;
+    return shown.largest();
   }
 };
 
@@ -105,12 +103,17 @@ Table causesTable(const CompareResults& results) {
   Table table{{engineNames("engine"), engineNames("against"), "endpoint", numbers("difference"),
                numbers("in margins"), remarks("what makes it"), numbers("packings")}};
   for (const Explained& one : explained(results)) {
+    std::vector<std::pair<double, std::string>> parts;
+    forParts(*one.pair, *one.own,
+             [&](const std::string& name, const CauseName& difference, const CausePart& part) {
+               if (part.isSeen())
+                 parts.emplace_back(std::abs(*part.mean),
+                                    name + " " + withInterval(one, part) +
+                                        (difference.declared ? "" : " (not declared)"));
+             });
+    std::ranges::stable_sort(parts, std::greater(), [](const auto& part) { return part.first; });
     Names seen;
-    auto parts = one.parts();
-    std::erase_if(parts, [](const auto& part) { return !part.second->isSeen(); });
-    std::ranges::stable_sort(parts, std::greater(),
-                             [](const auto& part) { return std::abs(*part.second->mean); });
-    for (const auto& [name, part] : parts) seen.push_back(name + " " + withInterval(one, *part));
+    for (const auto& [size, words] : parts) seen.push_back(words);
     const std::size_t others = one.own->parts.size() + 2 - seen.size();
     const std::string unit = one.unit().empty() ? "" : " " + one.unit();
     TableRow row{{one.pair->b,
@@ -122,15 +125,15 @@ Table causesTable(const CompareResults& results) {
                    {fmt::format("rest {} of {} whose intervals hold 0",
                                 readable(one.account().remainder), counted(others, "part"))}},
                   fmt::format("{}", one.own->packings)}};
-    if (!parts.empty() && parts.front().first != one.pair->remainder)
-      row.cells[5].link = "#" + termId(parts.front().first);
+    row.cells[5].link = termLink(one.shownCause());
     table.rows.push_back(std::move(row));
   }
   table.note =
       "Parts are measured by runs of the in-house engine under mixtures of both engines' laws, on "
       "the same packings; what is left is the implementation, or of rigid contacts the solver. All "
-      "of them add up to the difference. No part is named whose interval, at the level of the "
-      "verdicts, holds 0; causes.csv has all.";
+      "of them add up to the difference. No part is named whose interval holds 0: the chance that "
+      "any of a pair's is named by accident is at most that of a false disagreement. causes.csv "
+      "has all.";
   return table;
 }
 
@@ -199,17 +202,7 @@ Names causeSentences(const CompareResults& results, std::size_t most) {
 
 std::string largestCause(const CompareResults& results, const EndpointRow& row) {
   for (const Explained& one : explained(results))
-    if (one.row == &row) {
-      std::string largest;
-      double most = 0.0;  // of what does not work against it
-      const CauseAccount account = one.account();
-      for (const auto& [name, value] : account.parts)
-        if (value * account.whole > most * std::abs(account.whole)) {
-          largest = name;
-          most = std::abs(value);
-        }
-      return largest;
-    }
+    if (one.row == &row) return one.shownCause();
   return {};
 }
 
@@ -217,6 +210,8 @@ void addCauses(Report& report, const CompareResults& results) {
   if (results.causes.empty()) return;
   Blocks& blocks = report.section("causes", "Causes of differences", "Causes").blocks;
   if (Table table = causesTable(results); !table.rows.empty()) blocks.push_back(std::move(table));
+  if (Drawings profile = drawingsOf(report.figures, "causes_"); !profile.names.empty())
+    blocks.push_back(std::move(profile));
   List notes;
   for (const std::string& note : causesNotes(results)) notes.items.push_back({"", note});
   blocks.push_back(std::move(notes));
@@ -226,18 +221,61 @@ void addCauses(Report& report, const CompareResults& results) {
     blocks.push_back(Details{"Options of laws", {std::move(terms)}});
 }
 
-std::string causesCsv(const CompareResults& results) {
-  std::string csv = "a,b,endpoint,unit,packings,part,from,to,declared,mean,low,high,seen\n";
-  for (const PairCauses& pair : results.causes)
-    for (const EndpointCauses& own : pair.endpoints) {
-      const auto add = [&](const std::string& name, const CauseName& words, const CausePart& part) {
-        csv += row(pair.a, pair.b, own.endpoint, own.unit, static_cast<std::size_t>(own.packings),
-                   name, words.from, words.to, std::string(words.declared ? "yes" : "no"),
-                   part.mean, part.low, part.high, std::string(part.isSeen() ? "yes" : "no"));
-      };
-      add("whole", {}, own.whole);
-      forParts(pair, own, add);
+std::vector<Figure> profileCausesFigures(const CompareResults& results) {
+  std::vector<StackedCauses> panels;
+  for (const PairCauses& pair : results.causes) {
+    if (pair.profile.empty()) continue;
+    StackedCauses& panel = panels.emplace_back();
+    panel.name = pairWords(pair);
+    panel.xLabel = binAxis(results);
+    panel.yLabel = fieldAxis(pair.profile.front().endpoint);
+    for (const CauseName& one : pair.differences) panel.parts.push_back({one.name, {}});
+    for (const char* const name : {"interaction", "rest"}) panel.parts.push_back({name, {}});
+    for (const EndpointCauses& own : pair.profile) {
+      panel.x.push_back(at(binPlaces(results), *own.bin));
+      panel.whole.push_back(own.whole.mean);
+      panel.error.push_back(own.whole.low ? std::optional(0.5 * (*own.whole.high - *own.whole.low))
+                                          : std::nullopt);
+      double rest = *own.whole.mean;
+      std::size_t next = 0;
+      forParts(pair, own, [&](const std::string&, const CauseName&, const CausePart& part) {
+        const double value = part.isSeen() ? *part.mean : 0.0;
+        if (next + 1 < panel.parts.size()) {
+          panel.parts[next++].second.emplace_back(value);
+          rest -= value;
+        }
+      });
+      panel.parts.back().second.emplace_back(rest);
     }
+  }
+  std::erase_if(panels, [](const StackedCauses& panel) {
+    return std::ranges::none_of(panel.x, [](const auto& x) { return x && std::isfinite(*x); });
+  });
+  if (panels.empty()) return {};
+  const std::string& field = results.causes.front().profile.front().endpoint;
+  return {stackedFigure(
+      "causes_" + field,
+      fmt::format("Differences of the {} bin by bin, and their causes", fieldWords(field)),
+      "Line: the difference with its interval. Bands: parts whose intervals hold no 0, one on the "
+      "other, by runs of the in-house engine under mixtures of both laws; grey: the rest.",
+      panels)};
+}
+
+std::string causesCsv(const CompareResults& results) {
+  std::string csv = "a,b,endpoint,unit,packings,part,from,to,declared,mean,low,high,seen,bin\n";
+  for (const PairCauses& pair : results.causes)
+    for (const auto* all : {&pair.endpoints, &pair.profile})
+      for (const EndpointCauses& own : *all) {
+        const auto add = [&](const std::string& name, const CauseName& words,
+                             const CausePart& part) {
+          csv += row(pair.a, pair.b, own.endpoint, own.unit, static_cast<std::size_t>(own.packings),
+                     name, words.from, words.to, std::string(words.declared ? "yes" : "no"),
+                     part.mean, part.low, part.high, std::string(part.isSeen() ? "yes" : "no"),
+                     own.bin ? fmt::format("{}", *own.bin) : std::string());
+        };
+        add("whole", {}, own.whole);
+        forParts(pair, own, add);
+      }
   return csv;
 }
 

@@ -9,10 +9,6 @@
 
 namespace crossgrain::reports {
 
-namespace {
-
-/// Where the bins of profiles are, on the axis of that name: (r − R_i)/d, or a coordinate in m.
-/// Those of a grid are nowhere (NaN).
 const std::vector<double>& binPlaces(const FlowFrame& frame) {
   return frame.region ? frame.rings.r : frame.rings.rTilde;
 }
@@ -21,6 +17,8 @@ std::string binAxis(const FlowFrame& frame) {
   if (!frame.region) return "(r − R_{i}) / d";
   return (frame.region->along.empty() ? "r" : frame.region->along) + " [m]";
 }
+
+namespace {
 
 /// Factor of a drawn profile, and the axis' name with it.
 struct Scaled {

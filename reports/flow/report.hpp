@@ -57,6 +57,11 @@ std::vector<Figure> differenceFigures(const CompareResults& results, const Engin
 /// Words for the bars of the profiles: over packings, or within one run.
 std::string describeBars(const Engines& engines);
 
+/// Where the bins of profiles are, on the axis of that name: (r − R_i)/d, or a coordinate in m.
+/// Those of a grid are nowhere (NaN).
+const std::vector<double>& binPlaces(const FlowFrame& frame);
+std::string binAxis(const FlowFrame& frame);
+
 /// "ring", or "bin" of an assembly.
 const char* binWord(const FlowFrame& frame);
 
@@ -98,6 +103,8 @@ Names causeSentences(const CompareResults& results, std::size_t most);
 std::string largestCause(const CompareResults& results, const EndpointRow& row);
 /// The section of all pairs. None: nothing was measured.
 void addCauses(Report& report, const CompareResults& results);
+/// Of the field that was asked for, a panel for each pair. None: none was.
+std::vector<Figure> profileCausesFigures(const CompareResults& results);
 /// All parts with their intervals.
 std::string causesCsv(const CompareResults& results);
 

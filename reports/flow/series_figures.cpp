@@ -362,7 +362,8 @@ std::vector<Figure> compareFigures(const CompareResults& results) {
   const Engines engines = engineRuns(results);
   std::vector<Figure> figures = profileFigures(results, engines);
   for (auto more : {differenceFigures(results, engines), checkFigures(results, engines),
-                    seriesFigures(results, engines), distributionFigures(results, engines)})
+                    seriesFigures(results, engines), distributionFigures(results, engines),
+                    profileCausesFigures(results)})
     std::ranges::move(more, std::back_inserter(figures));
   return figures;
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "reports/collide/report.hpp"
+#include "reports/common/causes.hpp"
 #include "reports/common/overview.hpp"
 #include "tests/reports/report_text.hpp"
 #include "tests/reports/sample_results.hpp"
@@ -78,7 +79,8 @@ TEST(CollideReport, LargestDifference_IsToldWithItsCauses) {
   const Overview overview = collideOverview(results);
   EXPECT_EQ(
       overview.conclusion[1],
-      "Causes: tangential rebound Ψ_f of yade is 0.0300 lower than grain's at Ψ_i = 0.5 of spring, "
+      "Causes: tangential rebound Ψ_f of yade is 0.0300 lower than grain's (the in-house engine "
+      "under the scene's law) at Ψ_i = 0.5 of spring, "
       "tension cut: spring_update 0.0300, mu 0.0020 (not declared), lever_arm −0.0020, "
       "implementation < "
       "0.0001 (1 limit = 0.0100); fails most often: tangential rebound Ψ_f.");
@@ -90,6 +92,25 @@ TEST(CollideReport, LargestDifference_IsToldWithItsCauses) {
   EXPECT_TRUE(has(all, "Act on each other: lever_arm and spring_update (25 %)."));
   EXPECT_TRUE(has(all, "| spring_update | after, before, midpoint |"));
   EXPECT_FALSE(has(textOf(reportOf(sample::collideResults())), "Causes of differences"));
+}
+
+TEST(CollideReport, LawThatIsNotDeclared_StandsBesideWhatTheEngineReports) {
+  CollideResults results = withCauses();
+  CollisionCurve& curve = results.variants[0].curves[1];
+  curve.causes->undeclared = {{"kr", "3000", "3008", false}};
+  curve.effective.emplace().deviations = {{"tension", 0.0, "", "cut"},
+                                          {"rounding", 1e-7, "", "places are of single precision"}};
+  EXPECT_TRUE(has(textOf(reportOf(results)),
+                  "yade differs from the law that it declares as if kr were 3008, not 3000. It "
+                  "reports, beside options of the law: places are of single precision."));
+}
+
+/// Of a constant there is no row that a link could go to.
+TEST(CollideReport, CauseIsLinkedToItsTerm_WhereThereIsOne) {
+  EXPECT_EQ(termLink("spring_update"), "#term_spring_update");
+  EXPECT_EQ(termLink("damper+gn"), "#term_damper");
+  EXPECT_EQ(termLink("mu"), "");
+  EXPECT_EQ(termLink("implementation"), "");
 }
 
 TEST(CollideReport, NotAttributed_SaysWhy) {

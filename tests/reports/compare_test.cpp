@@ -110,9 +110,41 @@ TEST(CompareCauses, SizeFirst_NamesWhatIsSeen) {
             "implementation 5.0, rest 3.0 (1 margin = 10.0 %).");
   EXPECT_EQ(rowNamed(overview, "theirs").cells[1].words, "pressure, most by spring_update");
   const std::string csv = causesCsv(results);
-  EXPECT_NE(csv.find("ours,theirs,pressure,N/m²,8,tension,allow,cut,yes,3,-1,7,no\n"),
+  EXPECT_NE(csv.find("ours,theirs,pressure,N/m²,8,tension,allow,cut,yes,3,-1,7,no,\n"),
             std::string::npos)
       << csv;
+  results.causes[0].differences[1].declared = false;
+  EXPECT_NE(compareOverview(results).conclusion[1].find("spring_update 22.0 (not declared), "),
+            std::string::npos);
+}
+
+TEST(CompareCauses, ProfileThatWasAskedFor_IsDrawnAndListed) {
+  CompareResults results = disagreeing();
+  PairCauses pair = measuredCauses(results);
+  for (const std::size_t bin : {0, 1}) {
+    EndpointCauses& own = pair.profile.emplace_back(pair.endpoints[0]);
+    own.endpoint = "stress_rr";
+    own.bin = bin;
+  }
+  pair.profile[1].parts[1] = part(22.0, 30.0);
+  results.causes = {pair};
+  results.rings.rTilde = {0.5, 1.5};
+  EXPECT_NE(causesCsv(results).find(
+                "ours,theirs,stress_rr,N/m²,8,spring_update,after,before,yes,22,-8,52,no,1\n"),
+            std::string::npos);
+  const std::vector<Figure> figures = profileCausesFigures(results);
+  ASSERT_EQ(figures.size(), 1u);
+  EXPECT_EQ(figures[0].name, "causes_stress_rr");
+  // The part is drawn in the bin whose interval leaves out 0; all else is the rest.
+  const std::vector<Curve>& curves = figures[0].panels.at(0).curves;
+  ASSERT_EQ(curves.size(), 3u);
+  EXPECT_EQ(curves[0].name, "spring_update");
+  EXPECT_DOUBLE_EQ(*curves[0].points[0].error, 11.0);
+  EXPECT_DOUBLE_EQ(*curves[0].points[1].error, 0.0);
+  EXPECT_EQ(curves[1].name, "rest");
+  EXPECT_DOUBLE_EQ(*curves[1].points[0].error, 4.0);
+  EXPECT_DOUBLE_EQ(*curves[1].points[1].error, 15.0);
+  EXPECT_DOUBLE_EQ(*curves[2].points[0].error, 2.0);
 }
 
 TEST(CompareCauses, IntervalsThatHold0_AreNotNamed) {
