@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
-#include <tuple>
+#include <numeric>
 #include <utility>
 
 namespace crossgrain::inline studies {
@@ -42,36 +42,40 @@ double factorial(std::size_t n) {
 
 class Attributing {
  public:
-  Attributing(const AttributionPlan& plan, const RunMixture& run)
-      : plan_(plan), run_(run), all_((Mixture{1} << plan.differences) - 1) {}
+  Attributing(Causes& causes, const AttributionPlan& plan, const RunMixture& run)
+      : causes_(causes),
+        plan_(plan),
+        run_(run),
+        count_(causes.differences.size()),
+        all_((Mixture{1} << count_) - 1) {}
 
   Attribution result() {
-    const std::size_t k = plan_.differences;
-    found_.parts.assign(k, Numbers(at(0).size(), 0.0));
-    std::vector<std::size_t> active(k);
-    for (std::size_t i = 0; i < k; ++i) active[i] = i;
-    if (k > plan_.mostMixed) std::erase_if(active, [&](std::size_t i) { return isInert(i); });
-    Mixture taken = 0;
-    for (const std::size_t i : active) taken |= bit(i);
-    if (active.size() <= plan_.mostMixed && (taken == all_ || same(at(taken), at(all_))))
-      shapley(active);
+    found_.parts.assign(count_, Numbers(at(0).size(), 0.0));
+    std::vector<std::size_t> active(count_);
+    std::iota(active.begin(), active.end(), std::size_t{0});
+    if (count_ > plan_.mostMixed) std::erase_if(active, [&](std::size_t i) { return isInert(i); });
+    const Mixture taken = spread(all_, active);
+    const bool mixed = active.size() <= plan_.mostMixed && same(at(taken), at(all_));
+    causes_.mixtures = mixed ? Mixtures::all : Mixtures::bothEnds;
+    if (mixed)
+      mixAll(active);
     else
-      bothEnds();
+      takeBothEnds();
     Sum rest(at(0).size());
-    rest.add(1.0, at(all_));
-    rest.add(-1.0, at(0));
+    addEffect(rest, 1.0, 0, all_);
     for (const Numbers& part : found_.parts) rest.add(-1.0, part);
     found_.interaction = rest.numbers();
-    if (found_.mixtures == Mixtures::all)
+    if (mixed)
       for (auto& value : found_.interaction)
         if (value) value = 0.0;
-    std::ranges::sort(found_.pairs, std::greater(), &Attribution::Pair::share);
-    found_.runs = static_cast<int>(known_.size());
+    std::ranges::sort(causes_.interactions, std::greater(), &Interaction::share);
+    causes_.runs += static_cast<int>(known_.size());
     return std::move(found_);
   }
 
  private:
   static Mixture bit(std::size_t i) { return Mixture{1} << i; }
+  const std::string& nameOf(std::size_t i) const { return causes_.differences[i].name; }
 
   const Numbers& at(Mixture mixture) {
     const auto known = known_.find(mixture);
@@ -79,6 +83,16 @@ class Attributing {
     auto numbers = run_(mixture);
     if (!numbers) throw CannotRun();
     return known_.emplace(mixture, std::move(*numbers)).first->second;
+  }
+
+  /// Adds Δ of one, or of one and another.
+  void addEffect(Sum& sum, double weight, Mixture beside, Mixture one, Mixture other = 0) {
+    sum.add(weight, at(beside | one | other));
+    if (other != 0) {
+      sum.add(-weight, at(beside | one));
+      sum.add(-weight, at(beside | other));
+    }
+    sum.add(other != 0 ? weight : -weight, at(beside));
   }
 
   double unit(std::size_t k) const { return plan_.units.empty() ? 1.0 : plan_.units[k]; }
@@ -99,7 +113,7 @@ class Attributing {
   double largest(const Numbers& numbers) const {
     double most = 0.0;
     for (std::size_t k = 0; k < numbers.size(); ++k)
-      if (numbers[k]) most = std::max(most, std::abs(*numbers[k]) / unit(k));
+      most = std::max(most, std::abs(numbers[k].value_or(0.0)) / unit(k));
     return most;
   }
   double distance(const Numbers& one, const Numbers& other) const {
@@ -113,78 +127,62 @@ class Attributing {
     return same(at(bit(i)), at(0)) && same(at(all_), at(all_ & ~bit(i)));
   }
 
-  /// Mixtures of the active, by the bits of a number of as many bits.
-  static Mixture spread(std::size_t subset, const std::vector<std::size_t>& active) {
+  /// Mixture of those of the active that have a bit in `subset`.
+  static Mixture spread(Mixture subset, const std::vector<std::size_t>& active) {
     Mixture mixture = 0;
     for (std::size_t n = 0; n < active.size(); ++n)
       if (subset >> n & 1) mixture |= bit(active[n]);
     return mixture;
   }
 
-  void shapley(const std::vector<std::size_t>& active) {
-    const std::size_t k = active.size(), subsets = std::size_t{1} << k, size = at(0).size();
-    for (std::size_t n = 0; n < k; ++n) {
-      Sum part(size);
-      for (std::size_t s = 0; s < subsets; ++s) {
-        if (s >> n & 1) continue;
-        const auto others = static_cast<std::size_t>(std::popcount(s));
-        const double weight = factorial(others) * factorial(k - others - 1) / factorial(k);
-        part.add(weight, at(spread(s | std::size_t{1} << n, active)));
-        part.add(-weight, at(spread(s, active)));
-      }
-      found_.parts[active[n]] = part.numbers();
+  /// I_T of one of the active, or of two.
+  Numbers meanEffect(const std::vector<std::size_t>& active, Mixture one, Mixture other = 0) {
+    const std::size_t k = active.size(), t = other == 0 ? 1 : 2;
+    Sum sum(at(0).size());
+    for (Mixture s = 0; s < bit(k); ++s) {
+      if (s & (one | other)) continue;
+      const auto others = static_cast<std::size_t>(std::popcount(s));
+      addEffect(sum, factorial(others) * factorial(k - others - t) / factorial(k - t + 1),
+                spread(s, active), spread(one, active), spread(other, active));
     }
-    for (std::size_t n = 0; n < k; ++n)
-      for (std::size_t m = n + 1; m < k; ++m) {
-        const std::size_t one = std::size_t{1} << n, other = std::size_t{1} << m;
-        Sum both(size);
-        for (std::size_t s = 0; s < subsets; ++s) {
-          if (s & (one | other)) continue;
-          const auto others = static_cast<std::size_t>(std::popcount(s));
-          const double weight = factorial(others) * factorial(k - others - 2) / factorial(k - 1);
-          both.add(weight, at(spread(s | one | other, active)));
-          both.add(-weight, at(spread(s | one, active)));
-          both.add(-weight, at(spread(s | other, active)));
-          both.add(weight, at(spread(s, active)));
-        }
-        addPair(active[n], active[m], both.numbers());
-      }
+    return sum.numbers();
+  }
+
+  void mixAll(const std::vector<std::size_t>& active) {
+    for (std::size_t n = 0; n < active.size(); ++n) {
+      found_.parts[active[n]] = meanEffect(active, bit(n));
+      for (std::size_t m = n + 1; m < active.size(); ++m)
+        addPair(active[n], active[m], meanEffect(active, bit(n), bit(m)));
+    }
   }
 
   void addPair(std::size_t one, std::size_t other, const Numbers& both) {
     const double law = apart(at(all_), at(0)), share = largest(both) / law;
     if (law > roundingOfNumbers && std::isfinite(law) && share >= leastInteraction)
-      found_.pairs.push_back({one, other, share});
+      causes_.interactions.push_back({nameOf(one), nameOf(other), share});
   }
 
-  void bothEnds() {
-    found_.mixtures = Mixtures::bothEnds;
-    const std::size_t k = plan_.differences, size = at(0).size();
+  void takeBothEnds() {
+    const std::size_t size = at(0).size();
     std::vector<std::pair<double, std::size_t>> disagreeing;  // of both ends
-    for (std::size_t i = 0; i < k; ++i) {
+    for (std::size_t i = 0; i < count_; ++i) {
       Sum mean(size), ends(size);
-      for (const auto& [sum, first, second] :
-           {std::tuple(&mean, 0.5, 0.5), std::tuple(&ends, 1.0, -1.0)}) {
-        sum->add(first, at(bit(i)));
-        sum->add(-first, at(0));
-        sum->add(second, at(all_));
-        sum->add(-second, at(all_ & ~bit(i)));
-      }
+      addEffect(mean, 0.5, 0, bit(i));
+      addEffect(mean, 0.5, all_ & ~bit(i), bit(i));
+      addEffect(ends, 1.0, 0, bit(i));
+      addEffect(ends, -1.0, all_ & ~bit(i), bit(i));
       found_.parts[i] = mean.numbers();
       disagreeing.emplace_back(largest(ends.numbers()), i);
     }
     if (!plan_.searches) return;
     std::ranges::sort(disagreeing, std::greater());
     disagreeing.resize(std::min(disagreeing.size(), mostPairs));
-    for (std::size_t n = 0; n < disagreeing.size(); ++n)
-      for (std::size_t m = n + 1; m < disagreeing.size(); ++m) {
-        const std::size_t i = disagreeing[n].second, j = disagreeing[m].second;
+    for (const auto& [ends, i] : disagreeing)
+      for (const auto& [otherEnds, j] : disagreeing) {
+        if (i >= j) continue;
         Sum both(size);
-        both.add(1.0, at(bit(i) | bit(j)));
-        both.add(-1.0, at(bit(i)));
-        both.add(-1.0, at(bit(j)));
-        both.add(1.0, at(0));
-        addPair(std::min(i, j), std::max(i, j), both.numbers());
+        addEffect(both, 1.0, 0, bit(i), bit(j));
+        addPair(i, j, both.numbers());
       }
     walk();
   }
@@ -193,22 +191,25 @@ class Attributing {
   /// that shows.
   void walk() {
     const double whole = distance(at(0), at(all_));
-    Mixture taken = 0;
-    while (taken != all_ && whole > 0.0) {
-      std::optional<Attribution::Step> best;
-      for (std::size_t i = 0; i < plan_.differences; ++i) {
+    double left = 1.0;
+    for (Mixture taken = 0; taken != all_ && whole > 0.0 && left >= leastInteraction;) {
+      std::optional<std::size_t> best;
+      for (std::size_t i = 0; i < count_; ++i) {
         if (taken & bit(i)) continue;
-        const double left = distance(at(taken | bit(i)), at(all_)) / whole;
-        if (!best || left < best->left) best = {i, left};
+        const double with = distance(at(taken | bit(i)), at(all_)) / whole;
+        if (best && !(with < left)) continue;
+        best = i;
+        left = with;
       }
-      taken |= bit(best->taken);
-      found_.path.push_back(*best);
-      if (best->left < leastInteraction) return;
+      taken |= bit(*best);
+      causes_.path.push_back({nameOf(*best), left});
     }
   }
 
+  Causes& causes_;
   const AttributionPlan& plan_;
   const RunMixture& run_;
+  std::size_t count_;
   Mixture all_;
   std::map<Mixture, Numbers> known_;
   Attribution found_;
@@ -216,9 +217,10 @@ class Attributing {
 
 }  // namespace
 
-std::optional<Attribution> attribute(const AttributionPlan& plan, const RunMixture& run) {
+std::optional<Attribution> attribute(Causes& causes, const AttributionPlan& plan,
+                                     const RunMixture& run) {
   try {
-    return Attributing(plan, run).result();
+    return Attributing(causes, plan, run).result();
   } catch (const CannotRun&) {
     return std::nullopt;
   }

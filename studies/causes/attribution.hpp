@@ -19,26 +19,12 @@ using RunMixture = std::function<std::optional<Numbers>(Mixture)>;
 
 /// A difference of numbers, taken apart: v(all) − v(0) = Σ parts + interaction.
 struct Attribution {
-  Mixtures mixtures = Mixtures::all;
   std::vector<Numbers> parts;  ///< by difference; absent where a run has no such number
   Numbers interaction;         ///< 0 where all mixtures ran
-  /// By index of differences; the largest first, those that matter.
-  struct Pair {
-    std::size_t one, other;
-    double share;
-  };
-  std::vector<Pair> pairs;
-  struct Step {
-    std::size_t taken;
-    double left;
-  };
-  std::vector<Step> path;
-  int runs = 0;
 };
 
 /// How a difference is taken apart.
 struct AttributionPlan {
-  std::size_t differences = 0;
   /// Up to so many all 2^k mixtures run. Of more, those that do nothing at either end are left out
   /// first.
   std::size_t mostMixed = 6;
@@ -50,16 +36,19 @@ struct AttributionPlan {
 
 /// Parts of v(all) − v(0) that differences have.
 ///
-/// Where all mixtures of k differences ran, the part of i is its Shapley value (Shapley 1953),
-///   φ_i = Σ_{S ∌ i} |S|! (k − |S| − 1)!/k! · [v(S ∪ i) − v(S)],
-/// the mean over all orders in which differences can be taken of what i adds when its turn comes;
-/// two interact by (Grabisch and Roubens 1999)
-///   I_ij = Σ_{S ∌ i, j} |S|! (k − |S| − 2)!/(k − 1)! · [v(S ∪ ij) − v(S ∪ i) − v(S ∪ j) + v(S)].
+/// What t differences T do together beyond what fewer of them do is, beside others S,
+///   Δ_T(S) = Σ_{L ⊆ T} (−1)^{t − |L|} v(S ∪ L).
+/// Where all mixtures of k differences ran, its mean over all orders in which they can be taken
+/// (Grabisch and Roubens 1999),
+///   I_T = Σ_{S ∌ T} |S|! (k − |S| − t)!/(k − t + 1)! · Δ_T(S),
+/// is of one difference its part, the Shapley value (Shapley 1953), and of two how they interact.
 /// Else the part is the mean of what i does alone and what taking it back does,
-///   ½ [v(i) − v(0) + v(all) − v(all less i)],
-/// and I_ij is that of S = 0.
+///   ½ [Δ_i(0) + Δ_i(all less i)],
+/// and two interact by Δ_ij(0).
+/// @param causes  the differences, by index; mixtures, interactions, path and runs are added
 /// @returns nothing where one of the runs that it takes cannot be made
-std::optional<Attribution> attribute(const AttributionPlan& plan, const RunMixture& run);
+std::optional<Attribution> attribute(Causes& causes, const AttributionPlan& plan,
+                                     const RunMixture& run);
 
 /// Mixtures that attribute() asks for where it does not search, from the reference to the peer.
 /// @param mostMixed  AttributionPlan::mostMixed

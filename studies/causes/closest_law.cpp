@@ -38,19 +38,15 @@ struct Candidate {
 template <int D>
 std::vector<Candidate<D>> candidatesOf(const std::vector<MirrorChangeOf<D>>& changes,
                                        const Separations& now, const SeparationsWith<D>& with,
-                                       double rounding,
-                                       const std::vector<double>& amounts = {termChange}) {
+                                       double rounding) {
   std::vector<Candidate<D>> candidates;
   for (const MirrorChangeOf<D>& change : changes) {
     std::optional<Candidate<D>> best;
-    for (const double by : amounts) {
-      const auto moved = with({{change, by}}, anyDistance);
-      for (std::size_t k = 0; moved && k < now.size(); ++k) {
-        if ((*moved)[k].size() != now[k].size() || norm(now[k]) < rounding) continue;
-        NamedTerm term = asTerm(change, now[k], less(now[k], (*moved)[k]), by);
-        if (!best || term.unexplained < best->term.unexplained)
-          best = {&change, k, std::move(term)};
-      }
+    const auto moved = with({{change, termChange}}, anyDistance);
+    for (std::size_t k = 0; moved && k < now.size(); ++k) {
+      if ((*moved)[k].size() != now[k].size() || norm(now[k]) < rounding) continue;
+      NamedTerm term = asTerm(change, now[k], less(now[k], (*moved)[k]));
+      if (!best || term.unexplained < best->term.unexplained) best = {&change, k, std::move(term)};
     }
     if (best && best->term.unexplained < termWorthTrying) candidates.push_back(*best);
   }
@@ -119,7 +115,7 @@ std::string optionNamed(const MirrorChangeOf<D>& change) {
 
 template <int D>
 NamedTerm asTerm(const MirrorChangeOf<D>& change, const std::vector<double>& separation,
-                 const std::vector<double>& response, double by) {
+                 const std::vector<double>& response) {
   NamedTerm term{change.name, std::nullopt, 1.0};
   const double whole = dot(separation, separation), ofResponse = dot(response, response);
   if (!(whole > 0.0) || !(ofResponse > 0.0)) return term;
@@ -130,7 +126,7 @@ NamedTerm asTerm(const MirrorChangeOf<D>& change, const std::vector<double>& sep
     left += rest * rest;
   }
   term.unexplained = std::sqrt(left / whole);
-  if (change.isConstant) term.amount = times * by;
+  if (change.isConstant) term.amount = times * termChange;
   return term;
 }
 
@@ -159,12 +155,8 @@ std::optional<NamedTerm> closestTerm(const std::vector<MirrorChangeOf<D>>& chang
 
 template <int D>
 ClosestLaw<D>::ClosestLaw(SceneOf<D> scene, Capabilities can, SeparationsWith<D> with,
-                          double rounding, std::vector<double> amounts)
-    : scene_(std::move(scene)),
-      can_(std::move(can)),
-      with_(std::move(with)),
-      rounding_(rounding),
-      amounts_(std::move(amounts)) {
+                          double rounding)
+    : scene_(std::move(scene)), can_(std::move(can)), with_(std::move(with)), rounding_(rounding) {
   restart();
 }
 
@@ -175,7 +167,7 @@ void ClosestLaw<D>::restart() {
 }
 
 template <int D>
-std::vector<AppliedChangeOf<D>> ClosestLaw<D>::changes() const {
+typename ClosestLaw<D>::Changes ClosestLaw<D>::changes() const {
   Changes all;
   for (const AppliedChangeOf<D>& one : taken_) {
     const auto known = std::ranges::find_if(
@@ -189,106 +181,60 @@ std::vector<AppliedChangeOf<D>> ClosestLaw<D>::changes() const {
 }
 
 template <int D>
-std::optional<double> ClosestLaw<D>::distanceWith(const AppliedChangeOf<D>& further,
-                                                  double limit) const {
-  Changes all = taken_;
-  all.push_back(further);
-  return distanceOf(all, limit);
+std::optional<double> ClosestLaw<D>::distanceWith(const Changes& further, double limit) const {
+  return distanceOf(withTaken(further), limit);
 }
 
 template <int D>
-bool ClosestLaw<D>::takeConvention() {
-  double distance = best_ * (1.0 - fitsAlike);
-  const auto best = bestConvention(candidates(), distance);
-  if (best) take({*best});
-  return best.has_value();
-}
-
-template <int D>
-bool ClosestLaw<D>::takeConstant(double leaving) {
+bool ClosestLaw<D>::take(ChangeKind kind, double leaving) {
   double distance = best_ * leaving;
-  const auto best = bestConstant(candidates(), distance);
-  if (best) take({*best});
-  return best.has_value();
+  return take(best(kind, distance));
 }
 
 template <int D>
 bool ClosestLaw<D>::takeBest() {
-  const std::vector<MirrorChangeOf<D>> all = candidates();
   double distance = best_ * (1.0 - fitsAlike);
-  auto best = bestConvention(all, distance);
-  if (best) distance *= termWorthTrying;
-  if (const auto constant = bestConstant(all, distance)) best = constant;
-  if (best) take({*best});
-  return best.has_value();
-}
-
-/// If it leaves less than `distance`, which becomes what it leaves.
-template <int D>
-std::optional<AppliedChangeOf<D>> ClosestLaw<D>::bestConvention(
-    const std::vector<MirrorChangeOf<D>>& candidates, double& distance) const {
-  std::optional<AppliedChangeOf<D>> best;
-  for (const MirrorChangeOf<D>& change : candidates) {
-    if (change.isConstant) continue;
-    const auto with = distanceWith({change}, distance);
-    if (!with || !(*with < distance)) continue;
-    distance = *with;
-    best = {change};
-  }
-  return best;
-}
-
-/// If with the amount that leaves least it leaves less than `distance`, which becomes that.
-template <int D>
-std::optional<AppliedChangeOf<D>> ClosestLaw<D>::bestConstant(
-    const std::vector<MirrorChangeOf<D>>& candidates, double& distance) const {
-  std::vector<MirrorChangeOf<D>> constants;
-  std::ranges::copy_if(candidates, std::back_inserter(constants), &MirrorChangeOf<D>::isConstant);
-  const SeparationsWith<D> with = withTaken();
-  std::optional<AppliedChangeOf<D>> best;
-  for (const Candidate<D>& one :
-       candidatesOf(constants, {separation_}, with, rounding_) | std::views::take(mostTried)) {
-    const NamedTerm term = tried(one, {separation_}, with);
-    if (!(term.unexplained * best_ < distance)) continue;
-    distance = term.unexplained * best_;
-    best = {*one.change, *term.amount};
-  }
-  return best;
+  Changes found = best(ChangeKind::convention, distance);
+  if (!found.empty()) distance *= termWorthTrying;
+  if (const Changes constant = best(ChangeKind::constant, distance); !constant.empty())
+    found = constant;
+  return take(found);
 }
 
 template <int D>
-bool ClosestLaw<D>::takeConstantAtLarge() {
-  std::optional<AppliedChangeOf<D>> best;
-  double left = 1.0 - fitsAlike;
-  for (const MirrorChangeOf<D>& change : candidates()) {
-    if (!change.isConstant) continue;
-    const NamedTerm term = triedAtLarge(change, separation_, withTaken());
-    if (!(term.unexplained < left)) continue;
-    left = term.unexplained;
-    best = {change, *term.amount};
-  }
-  if (best) take({*best});
-  return best.has_value();
-}
-
-template <int D>
-bool ClosestLaw<D>::takeBestPair() {
+typename ClosestLaw<D>::Changes ClosestLaw<D>::best(ChangeKind kind, double& distance) const {
+  const bool ofConstants = kind == ChangeKind::constant || kind == ChangeKind::constantAtLarge;
   std::vector<MirrorChangeOf<D>> all = candidates();
-  std::erase_if(all, &MirrorChangeOf<D>::isConstant);
-  Changes best;
-  double distance = best_ * (1.0 - fitsAlike);
-  for (std::size_t b = 1; b < all.size(); ++b)
-    for (std::size_t a = 0; a < b; ++a) {
-      if (optionNamed(all[a]) == optionNamed(all[b])) continue;
-      Changes both = taken_;
-      both.insert(both.end(), {{all[a]}, {all[b]}});
-      const auto with = distanceOf(both, distance);
-      if (!with || !(*with < distance)) continue;
-      distance = *with;
-      best = {{all[a]}, {all[b]}};
-    }
-  if (!best.empty()) take(best);
-  return !best.empty();
+  std::erase_if(all, [&](const auto& change) { return change.isConstant != ofConstants; });
+  Changes found;
+  const auto look = [&](const Changes& further, std::optional<double> left) {
+    if (!left || !(*left < distance)) return;
+    distance = *left;
+    found = further;
+  };
+  const auto lookAt = [&](const Changes& further) {
+    look(further, distanceWith(further, distance));
+  };
+  const auto lookAtTerm = [&](const MirrorChangeOf<D>& change, const NamedTerm& term) {
+    if (term.amount) look({{change, *term.amount}}, term.unexplained * best_);
+  };
+  const SeparationsWith<D> with = [this](const Changes& further, double limit) {
+    return with_(withTaken(further), limit);
+  };
+  if (kind == ChangeKind::constant)
+    for (const Candidate<D>& one :
+         candidatesOf(all, {separation_}, with, rounding_) | std::views::take(mostTried))
+      lookAtTerm(*one.change, tried(one, {separation_}, with));
+  else if (kind == ChangeKind::constantAtLarge)
+    for (const MirrorChangeOf<D>& change : all)
+      lookAtTerm(change, triedAtLarge(change, separation_, with));
+  else if (kind == ChangeKind::convention)
+    for (const MirrorChangeOf<D>& change : all) lookAt({{change}});
+  else
+    for (std::size_t b = 1; b < all.size(); ++b)
+      for (std::size_t a = 0; a < b; ++a)
+        if (optionNamed(all[a]) != optionNamed(all[b])) lookAt({{all[a]}, {all[b]}});
+  return found;
 }
 
 template <int D>
@@ -304,12 +250,10 @@ void ClosestLaw<D>::undoNeedless(double times) {
 }
 
 template <int D>
-SeparationsWith<D> ClosestLaw<D>::withTaken() const {
-  return [this](const Changes& further, double limit) {
-    Changes all = taken_;
-    all.insert(all.end(), further.begin(), further.end());
-    return with_(all, limit);
-  };
+typename ClosestLaw<D>::Changes ClosestLaw<D>::withTaken(const Changes& further) const {
+  Changes all = taken_;
+  all.insert(all.end(), further.begin(), further.end());
+  return all;
 }
 
 template <int D>
@@ -321,18 +265,20 @@ std::optional<double> ClosestLaw<D>::distanceOf(const Changes& all, double limit
 }
 
 template <int D>
-void ClosestLaw<D>::take(const Changes& further) {
-  taken_.insert(taken_.end(), further.begin(), further.end());
+bool ClosestLaw<D>::take(const Changes& further) {
+  if (further.empty()) return false;
+  taken_ = withTaken(further);
   restart();
+  return true;
 }
 
 template NamedTerm asTerm(const MirrorChangeOf<2>&, const std::vector<double>&,
-                          const std::vector<double>&, double);
+                          const std::vector<double>&);
 template std::optional<NamedTerm> closestTerm(const std::vector<MirrorChangeOf<2>>&,
                                               const SeparationsWith<2>&, double);
 template class ClosestLaw<2>;
 template NamedTerm asTerm(const MirrorChangeOf<3>&, const std::vector<double>&,
-                          const std::vector<double>&, double);
+                          const std::vector<double>&);
 template std::optional<NamedTerm> closestTerm(const std::vector<MirrorChangeOf<3>>&,
                                               const SeparationsWith<3>&, double);
 template class ClosestLaw<3>;

@@ -43,10 +43,10 @@ using SeparationsWith = std::function<std::optional<Separations>(
 
 /// How much of a separation a change accounts for: for a constant the amount that fits best, in
 /// least squares; another convention or a missing effect as it is.
-/// @param response  a constant's to a change by that part of it
+/// @param response  a constant's to a change by termChange of it
 template <int D>
 NamedTerm asTerm(const MirrorChangeOf<D>& change, const std::vector<double>& separation,
-                 const std::vector<double>& response, double by = termChange);
+                 const std::vector<double>& response);
 
 /// The term that leaves least, if that is less than termUnexplained.
 std::optional<NamedTerm> bestTerm(const std::vector<NamedTerm>& terms);
@@ -61,18 +61,30 @@ template <int D>
 std::optional<NamedTerm> closestTerm(const std::vector<MirrorChangeOf<D>>& changes,
                                      const SeparationsWith<D>& with, double rounding);
 
+/// Changes that ClosestLaw looks for.
+enum class ChangeKind {
+  convention,  ///< or a missing effect
+  /// To first order. Several conventions can be imitated by one, which leaves more than a right
+  /// one does.
+  constant,
+  constantAtLarge,  ///< changed by up to the whole of it
+  /// Two conventions at once, where neither alone brings the mirror nearer: arms of f_t and of
+  /// v_t are such, which agree with each other in most laws.
+  pair
+};
+
 /// Begins with the mirror as it is and takes one change after the other, always the one that brings
 /// it nearest to the engine: conventions, missing effects and constants. It goes by the last
 /// instant. @throws Interrupted, of all that runs
 template <int D>
 class ClosestLaw {
  public:
+  using Changes = std::vector<AppliedChangeOf<D>>;
+
   /// @param scene     the mirror's, of which changesOf() are made
   /// @param can       of the in-house engine
   /// @param rounding  what is nearer is the same
-  /// @param amounts   by which constants are changed to see what explains most to first order
-  ClosestLaw(SceneOf<D> scene, Capabilities can, SeparationsWith<D> with, double rounding,
-             std::vector<double> amounts = {termChange});
+  ClosestLaw(SceneOf<D> scene, Capabilities can, SeparationsWith<D> with, double rounding);
 
   /// Goes by what SeparationsWith says from here on.
   void restart();
@@ -80,53 +92,37 @@ class ClosestLaw {
   /// Root of the summed squares.
   double distance() const { return best_; }
   /// Those taken, all of a constant as one.
-  std::vector<AppliedChangeOf<D>> changes() const;
+  Changes changes() const;
   SceneOf<D> scene() const { return withChanges(scene_, taken_); }
   std::vector<MirrorChangeOf<D>> candidates() const { return changesOf(scene(), can_); }
 
-  /// Distance with a further change, absent where it exceeds `limit` or cannot run like that.
-  std::optional<double> distanceWith(const AppliedChangeOf<D>& further, double limit) const;
+  /// Distance with further changes, absent where it exceeds `limit` or cannot run like that.
+  std::optional<double> distanceWith(const Changes& further, double limit) const;
 
-  /// Takes the convention or missing effect that brings the mirror nearest. @returns whether any
-  /// brought it nearer
-  bool takeConvention();
-
-  /// Takes the constant that leaves least, if that is less than this part. Several conventions can
-  /// be imitated by one constant, which leaves more than a right one does. @returns likewise
-  bool takeConstant(double leaving);
+  /// Takes what of this kind brings the mirror nearest, if it leaves less than that part.
+  /// @returns whether anything did
+  bool take(ChangeKind kind, double leaving = 1.0 - fitsAlike);
 
   /// Takes what brings the mirror nearest: a constant where it leaves less than half of what any
   /// convention or missing effect does, which it may imitate. @returns likewise
   bool takeBest();
-
-  /// Takes the constant that, changed by up to the whole of it, leaves least. @returns likewise
-  bool takeConstantAtLarge();
-
-  /// Two conventions at once, where neither alone brings the mirror nearer: arms of f_t and of v_t
-  /// are such, which agree with each other in most laws. @returns likewise
-  bool takeBestPair();
 
   /// Undoes every change without which the mirror is at most `times` as far: it was taken while
   /// something else was still amiss.
   void undoNeedless(double times = 1.0 + fitsAlike);
 
  private:
-  using Changes = std::vector<AppliedChangeOf<D>>;
-
-  SeparationsWith<D> withTaken() const;
+  Changes withTaken(const Changes& further) const;
   /// Of changes that are all; absent likewise.
   std::optional<double> distanceOf(const Changes& all, double limit) const;
-  void take(const Changes& further);
-  std::optional<AppliedChangeOf<D>> bestConvention(const std::vector<MirrorChangeOf<D>>& candidates,
-                                                   double& distance) const;
-  std::optional<AppliedChangeOf<D>> bestConstant(const std::vector<MirrorChangeOf<D>>& candidates,
-                                                 double& distance) const;
+  /// What of that kind leaves least, if that is less than `distance`, which becomes that.
+  Changes best(ChangeKind kind, double& distance) const;
+  bool take(const Changes& further);
 
   SceneOf<D> scene_;
   Capabilities can_;
   SeparationsWith<D> with_;
   double rounding_;
-  std::vector<double> amounts_;
   Changes taken_;
   std::vector<double> separation_;
   double best_ = std::numeric_limits<double>::infinity();

@@ -83,11 +83,11 @@ void takeConstant(ContactLaw& law, std::string_view name, double from, double to
   value = from == 0.0 || value == from ? to : value * (to / from);
 }
 
-template <class Setup>
-Difference<Setup> differenceOf(CauseName words, const Taken& taken, const ContactLaw& from,
-                               const ContactLaw& to) {
-  return {std::move(words), [taken, from, to](Setup& setup) {
-            changeLaws(setup, [&](ContactLaw& law) {
+template <int D>
+DifferenceOf<D> differenceOf(CauseName words, const Taken& taken, const ContactLaw& from,
+                             const ContactLaw& to) {
+  return {std::move(words), [taken, from, to](SceneOf<D>& scene) {
+            changeLaws(scene, [&](ContactLaw& law) {
               for (const std::string_view option : taken.options)
                 setLawOption(law, option, lawOptionValue(to, option));
               for (const std::string_view constant : taken.constants)
@@ -115,8 +115,8 @@ bool bears(const ContactLaw& from, const ContactLaw& to, std::string_view option
 
 }  // namespace
 
-template <class Setup>
-std::vector<Difference<Setup>> lawDifferences(const ContactLaw& from, const ContactLaw& to) {
+template <int D>
+std::vector<DifferenceOf<D>> lawDifferences(const ContactLaw& from, const ContactLaw& to) {
   NameSet options, constants;
   for (const LawOption& option : lawOptions())
     if (option.get(from) != option.get(to) && bears(from, to, option.name))
@@ -129,7 +129,7 @@ std::vector<Difference<Setup>> lawDifferences(const ContactLaw& from, const Cont
   if (from.soft() != to.soft())
     std::erase_if(options, [](std::string_view name) { return isConvention(name); });
 
-  std::vector<Difference<Setup>> found;
+  std::vector<DifferenceOf<D>> found;
   for (const Group& group : groups()) {
     const bool euler = from.conventions.integrator == Integrator::semiImplicitEuler ||
                        to.conventions.integrator == Integrator::semiImplicitEuler;
@@ -140,127 +140,113 @@ std::vector<Difference<Setup>> lawDifferences(const ContactLaw& from, const Cont
       if (options.erase(option) > 0) taken.options.push_back(option);
     for (const std::string_view constant : group.constants)
       if (constants.erase(constant) > 0) taken.constants.push_back(constant);
-    found.push_back(differenceOf<Setup>({nameOf(group, taken), lawOptionValue(from, group.option),
-                                         lawOptionValue(to, group.option)},
-                                        taken, from, to));
+    found.push_back(differenceOf<D>({nameOf(group, taken), lawOptionValue(from, group.option),
+                                     lawOptionValue(to, group.option)},
+                                    taken, from, to));
   }
   if (const double factor = stiffnessBetween(from, to); factor != 1.0 && !constants.empty()) {
-    found.push_back(differenceOf<Setup>({"stiffness", "1", fmt::format("{:.4g}", factor)},
-                                        {{}, {constants.begin(), constants.end()}}, from, to));
+    found.push_back(differenceOf<D>({"stiffness", "1", fmt::format("{:.4g}", factor)},
+                                    {{}, {constants.begin(), constants.end()}}, from, to));
     constants.clear();
   }
   for (const LawOption& option : lawOptions())
     if (options.contains(option.name))
-      found.push_back(differenceOf<Setup>(
-          {std::string(option.name), std::string(option.values[option.get(from)]),
-           std::string(option.values[option.get(to)])},
-          {{option.name}, {}}, from, to));
+      found.push_back(
+          differenceOf<D>({std::string(option.name), std::string(option.values[option.get(from)]),
+                           std::string(option.values[option.get(to)])},
+                          {{option.name}, {}}, from, to));
   for (const LawConstant& constant : lawConstants())
     if (constants.contains(constant.name))
       found.push_back(
-          differenceOf<Setup>(wordsOf(constant.name, from.*constant.value, to.*constant.value),
-                              {{}, {constant.name}}, from, to));
+          differenceOf<D>(wordsOf(constant.name, from.*constant.value, to.*constant.value),
+                          {{}, {constant.name}}, from, to));
   return found;
 }
 
-template std::vector<Difference<Case>> lawDifferences(const ContactLaw&, const ContactLaw&);
+template std::vector<DifferenceOf<2>> lawDifferences(const ContactLaw&, const ContactLaw&);
+template std::vector<DifferenceOf<3>> lawDifferences(const ContactLaw&, const ContactLaw&);
 
-namespace {
-
-auto& rotationOf(auto& setup) {
-  if constexpr (requires { setup.rotation; })
-    return setup.rotation;
-  else if (isAssembly(setup))
-    return withAssembly(
-        setup, [](auto& assembly) -> auto& { return assembly.rotation; });
-  else
-    return couetteIn(setup).particles.rotation;
-}
-
-/// Calls work(gravity) where there can be any in the plane or the space of the bodies.
-void withGravity(auto& setup, auto&& work) {
-  if constexpr (requires { setup.gravity; })
-    work(setup.gravity);
-  else if (isAssembly(setup))
-    withAssembly(setup, [&](auto& assembly) { work(assembly.gravity); });
-}
-
-bool falls(const auto& setup) {
-  bool any = false;
-  withGravity(setup, [&](const auto& gravity) { any = !gravity.isZero(); });
-  return any;
-}
-
-/// Settings of the in-house engine have a case's step.
-auto& timeStepIn(auto& setup) {
-  if constexpr (requires { setup.dt; })
-    return setup.dt;
-  else
-    return std::get<double>(setup.engines.at(engineRegistry().front().name).at("dt"));
-}
-
-}  // namespace
-
-template <class Setup>
-std::vector<Difference<Setup>> differencesOf(const Setup& from, const Setup& to) {
-  std::vector<Difference<Setup>> found = lawDifferences<Setup>(from.law, to.law);
+template <int D>
+std::vector<DifferenceOf<D>> differencesOf(const SceneOf<D>& from, const SceneOf<D>& to) {
+  std::vector<DifferenceOf<D>> found = lawDifferences<D>(from.law, to.law);
   const auto add = [&](std::string name, std::string was, std::string is,
-                       std::function<void(Setup&)> take) {
+                       std::function<void(SceneOf<D>&)> take) {
     found.push_back({{std::move(name), std::move(was), std::move(is)}, std::move(take)});
   };
-  if (const bool on = rotationOf(to); on != rotationOf(from))
-    add("rotation", on ? "blocked" : "free", on ? "free" : "blocked",
-        [on](Setup& setup) { rotationOf(setup) = on; });
+  if (from.rotation != to.rotation)
+    add("rotation", to.rotation ? "blocked" : "free", to.rotation ? "free" : "blocked",
+        [on = to.rotation](SceneOf<D>& scene) { scene.rotation = on; });
   if (from.bottom != to.bottom)
     add(to.bottom ? "bottom_spin_friction" : "bottom_friction", "there", "missing",
-        [plate = to.bottom](Setup& setup) { setup.bottom = plate; });
-  if (falls(from) != falls(to))
-    add("gravity", "there", "missing",
-        [](Setup& setup) { withGravity(setup, [](auto& gravity) { gravity.setZero(); }); });
+        [plate = to.bottom](SceneOf<D>& scene) { scene.bottom = plate; });
+  if (from.gravity.isZero() != to.gravity.isZero())
+    add("gravity", "there", "missing", [](SceneOf<D>& scene) { scene.gravity.setZero(); });
   if (from.materials.has_value() && !to.materials)
-    add("pair_materials", "there", "missing", [](Setup& setup) { setup.materials.reset(); });
-  if (const double dt = timeStepIn(to); differ(timeStepIn(from), dt)) {
+    add("pair_materials", "there", "missing", [](SceneOf<D>& scene) { scene.materials.reset(); });
+  if (differ(from.dt, to.dt)) {
     // No soft contact is resolved in the steps of impulses.
     if (from.law.normal != to.law.normal) {
-      found.front().take = [take = found.front().take, dt](Setup& setup) {
-        take(setup);
-        timeStepIn(setup) = dt;
+      found.front().take = [take = found.front().take, dt = to.dt](SceneOf<D>& scene) {
+        take(scene);
+        scene.dt = dt;
       };
       return found;
     }
-    add("time step", fmt::format("{:.4g} s", timeStepIn(from)), fmt::format("{:.4g} s", dt),
-        [dt](Setup& setup) { timeStepIn(setup) = dt; });
+    add("time step", fmt::format("{:.4g} s", from.dt), fmt::format("{:.4g} s", to.dt),
+        [dt = to.dt](SceneOf<D>& scene) { scene.dt = dt; });
   }
   return found;
 }
-template std::vector<Difference<Scene>> differencesOf(const Scene&, const Scene&);
-template std::vector<Difference<SpaceScene>> differencesOf(const SpaceScene&, const SpaceScene&);
-template std::vector<Difference<Case>> differencesOf(const Case&, const Case&);
+template std::vector<DifferenceOf<2>> differencesOf(const Scene&, const Scene&);
+template std::vector<DifferenceOf<3>> differencesOf(const SpaceScene&, const SpaceScene&);
 
-std::string fingerprintOf(const Case& setup) {
-  std::string text = fmt::format("{} {} {}", rotationOf(setup), falls(setup), timeStepIn(setup));
-  Case own = setup;
-  changeLaws(own, [&](const ContactLaw& law) {
+template <int D>
+std::string fingerprintOf(SceneOf<D> scene) {
+  std::string text = fmt::format("{} {} {}", scene.rotation, !scene.gravity.isZero(), scene.dt);
+  changeLaws(scene, [&](const ContactLaw& law) {
     for (const LawOption& option : lawOptions()) text += fmt::format(" {}", option.get(law));
     for (const LawConstant& constant : lawConstants())
       text += fmt::format(" {}", law.*constant.value);
   });
-  if (const auto& plate = setup.bottom)
+  if (const auto& plate = scene.bottom)
     text += fmt::format(" {} {} {} {} {} {}", plate->mu, plate->kb, plate->gb, plate->tauM,
                         plate->gravity, plate->spin);
   return fmt::format("{:016x}", fnv1a(text));
 }
+template std::string fingerprintOf<2>(Scene);
+template std::string fingerprintOf<3>(SpaceScene);
+
+template <int D>
+std::vector<AppliedChangeOf<D>> changesNamed(const NamedTerm* term, const SceneOf<D>& scene,
+                                             const Capabilities& can) {
+  std::vector<AppliedChangeOf<D>> found;
+  if (term)
+    for (MirrorChangeOf<D>& change : changesOf(scene, can))
+      if (change.name == term->name)
+        found.push_back({std::move(change), term->amount.value_or(0.0)});
+  return found;
+}
+template std::vector<AppliedChange> changesNamed(const NamedTerm*, const Scene&,
+                                                 const Capabilities&);
+template std::vector<AppliedChangeOf<3>> changesNamed(const NamedTerm*, const SpaceScene&,
+                                                      const Capabilities&);
 
 namespace {
 
+template <int D>
+std::vector<CauseName> wordsOf(const std::vector<DifferenceOf<D>>& differences) {
+  std::vector<CauseName> words;
+  for (const DifferenceOf<D>& one : differences) words.push_back(one.words);
+  return words;
+}
+
 /// In what the declared peer with those changes differs from a scene.
 template <int D>
-std::vector<Difference<SceneOf<D>>> differencesWith(
-    const SceneOf<D>& from, const SceneOf<D>& declared,
-    const std::vector<AppliedChangeOf<D>>& changes) {
-  std::vector<Difference<SceneOf<D>>> all = differencesOf(from, withChanges(declared, changes));
+std::vector<DifferenceOf<D>> differencesWith(const SceneOf<D>& from, const SceneOf<D>& declared,
+                                             const std::vector<AppliedChangeOf<D>>& changes) {
+  std::vector<DifferenceOf<D>> all = differencesOf<D>(from, withChanges<D>(declared, changes));
   for (const AppliedChangeOf<D>& one : changes)
-    if (differencesOf(declared, withChanges<D>(declared, {one})).empty())  // of bodies
+    if (differencesOf<D>(declared, withChanges<D>(declared, {one})).empty())  // of bodies
       all.push_back({wordsOf(one.change.name, 1.0, 1.0 + one.by),
                      [one](SceneOf<D>& scene) { one.change.apply(scene, one.by); }});
   return all;
@@ -273,9 +259,9 @@ BehaviourOf<D> behaviourOf(const SceneOf<D>& from, const SceneOf<D>& declared,
                            const std::vector<AppliedChangeOf<D>>& changes) {
   BehaviourOf<D> found{
       withChanges(declared, changes), differencesWith(from, declared, changes), {}};
-  found.causes = causesOf(found.differences);
-  found.causes.undeclared = causesOf(differencesWith(declared, declared, changes)).differences;
-  const auto known = causesOf(differencesOf(from, declared)).differences;
+  found.causes.differences = wordsOf(found.differences);
+  found.causes.undeclared = wordsOf(differencesWith(declared, declared, changes));
+  const auto known = wordsOf(differencesOf<D>(from, declared));
   for (CauseName& one : found.causes.differences)
     one.declared = std::ranges::find(known, one) != known.end();
   for (CauseName& one : found.causes.undeclared) one.declared = false;
@@ -284,15 +270,5 @@ BehaviourOf<D> behaviourOf(const SceneOf<D>& from, const SceneOf<D>& declared,
 template BehaviourOf<2> behaviourOf(const Scene&, const Scene&, const std::vector<AppliedChange>&);
 template BehaviourOf<3> behaviourOf(const SpaceScene&, const SpaceScene&,
                                     const std::vector<AppliedChangeOf<3>>&);
-
-void addFindings(Causes& causes, const Attribution& found) {
-  causes.mixtures = found.mixtures;
-  for (const Attribution::Pair& pair : found.pairs)
-    causes.interactions.push_back(
-        {causes.differences[pair.one].name, causes.differences[pair.other].name, pair.share});
-  for (const Attribution::Step& step : found.path)
-    causes.path.push_back({causes.differences[step.taken].name, step.left});
-  causes.runs += found.runs;
-}
 
 }  // namespace crossgrain::inline studies

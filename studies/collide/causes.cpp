@@ -100,22 +100,21 @@ class Undeclared {
     if (!showsAtTwoStarts()) return {};
     leaveOutRounding();
     if (!leftOut_.empty() && !showsAtTwoStarts()) return {};
-    ClosestLaw<D> search(peer_, engineRegistry().front().make()->capabilities(),
-                         [this](const auto& changes, double) -> std::optional<Separations> {
-                           auto from = separationFrom(withChanges(peer_, changes));
-                           return from ? std::optional(Separations{std::move(*from)})
-                                       : std::nullopt;
-                         },
-                         rounding_, {termChange, coarseChange});
+    ClosestLaw<D> search(
+        peer_, engineRegistry().front().make()->capabilities(),
+        [this](const auto& changes, double) -> std::optional<Separations> {
+          auto from = separationFrom(withChanges(peer_, changes));
+          return from ? std::optional(Separations{std::move(*from)}) : std::nullopt;
+        },
+        rounding_);
     const double before = search.distance(), enough = std::max(rounding_, leftOfCause * before);
-    using Take = bool (ClosestLaw<D>::*)();
+    using enum ChangeKind;
     std::vector<ClosestLaw<D>> found;
     // Another beginning where one change is not nearly all, nor several exactly.
-    for (const Take begin : {&ClosestLaw<D>::takeBest, &ClosestLaw<D>::takeBestPair,
-                             &ClosestLaw<D>::takeConstantAtLarge}) {
+    for (const auto begin : {convention, pair, constantAtLarge}) {
       ClosestLaw<D>& one = found.emplace_back(search);
-      if (!(one.*begin)()) continue;
-      while (one.distance() > enough && (one.takeBest() || one.takeBestPair())) {
+      if (!(begin == convention ? one.takeBest() : one.take(begin))) continue;
+      while (one.distance() > enough && (one.takeBest() || one.take(pair))) {
       }
       if (one.distance() <= (one.changes().size() == 1 ? enough : rounding_)) break;
     }
@@ -134,8 +133,6 @@ class Undeclared {
  private:
   /// Of the difference: what is left of it is looked at no further.
   static constexpr double leftOfCause = 1e-3;
-  /// Where a smaller change takes all of them a step further or not.
-  static constexpr double coarseChange = 0.01;  // of a constant
 
   /// In units; 1 of a number that only one of both has.
   std::optional<std::vector<double>> separationFrom(const SceneOf<D>& scene) {
@@ -229,14 +226,11 @@ std::optional<CollisionCauses> causesIn(const Case& setup,
   static_cast<Causes&>(causes) = behaviour.causes;
   causes.runs = search.runs();
   causes.remainder = peer.law.soft() ? "implementation" : "solver";
-  const auto parts = attribute(
-      {.differences = differences.size(), .units = numbers.units()}, [&](Mixture mixture) {
-        return mixture == 0 ? reference
-                            : runOf(mixed(scene, behaviour.scene, differences, mixture));
-      });
+  const auto parts = attribute(causes, {.units = numbers.units()}, [&](Mixture mixture) {
+    return mixture == 0 ? reference : runOf(mixed(scene, behaviour.scene, differences, mixture));
+  });
   causes.reason = reason;
   if (!parts) return causes;
-  addFindings(causes, *parts);
   Numbers remainder = less(whole, parts->interaction);
   for (const Numbers& part : parts->parts) remainder = less(remainder, part);
   for (std::size_t q = 0; q < numbers.quantities().size(); ++q) {
@@ -252,6 +246,7 @@ std::optional<CollisionCauses> causesIn(const Case& setup,
   causes.cpuSeconds = watch.cpuSeconds;
   return causes;
 }
+
 }  // namespace
 
 template <int D>
@@ -259,7 +254,7 @@ std::optional<CollisionCauses> causesOfSweep(const Case& setup,
                                              const std::vector<CollisionStart>& starts,
                                              const SceneOf<D>& scene, const SceneOf<D>& peer,
                                              const Outcomes& found, const CurveScore& score) {
-  return causesIn(setup, starts, scene, peer, found, score);
+  return causesIn<D>(setup, starts, scene, peer, found, score);
 }
 template std::optional<CollisionCauses> causesOfSweep<2>(const Case&,
                                                          const std::vector<CollisionStart>&,

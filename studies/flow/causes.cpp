@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <set>
 
 #include "adapters/declared_law.hpp"
+#include "averaging/fields.hpp"
 #include "averaging/pocock.hpp"
 #include "cases/endpoints.hpp"
 #include "cases/flow.hpp"
@@ -22,74 +24,95 @@ namespace crossgrain::inline studies {
 namespace {
 
 constexpr double leastMargins = 0.01;
-constexpr std::size_t mostMixed = 2;
+/// Of more, runs of ensembles of packings take too long.
+constexpr std::size_t mostMixedInFlows = 2;
+
+/// The case for the in-house engine to run with a scene's laws, effects and time step.
+template <int D>
+Case caseAs(Case setup, const SceneOf<D>& scene) {
+  setup.law = scene.law;
+  if (!scene.materials)
+    setup.materials.reset();
+  else
+    setup.materials->laws = scene.materials->laws;
+  setup.bottom = scene.bottom;
+  if (isAssembly(setup)) {
+    assemblyIn<D>(setup).rotation = scene.rotation;
+    assemblyIn<D>(setup).gravity = scene.gravity;
+  } else {
+    couetteIn(setup).particles.rotation = scene.rotation;
+  }
+  Settings& settings = setup.engines[engineRegistry().front().name];
+  settings.erase("stiffness");
+  settings["dt"] = scene.dt;
+  setup.run.keepSnapshots = 0;
+  return setup;
+}
 
 }  // namespace
 
-Case caseAsRun(const Case& setup, double dt, const EngineEntry& entry, const Capabilities& can,
-               const EffectiveParameters& effective) {
-  Case own = setup;
-  inDimensionOf(setup, [&]<int D>() {
-    const SceneOf<D> scene = sceneFor(can, entry, setup, unplacedScene<D>(setup, dt)).scene;
-    own.law = scene.law;
-    if (!scene.materials)
-      own.materials.reset();
-    else
-      own.materials->laws = scene.materials->laws;
-    own.bottom = scene.bottom;
-    if (isAssembly(setup)) {
-      assemblyIn<D>(own).rotation = scene.rotation;
-      assemblyIn<D>(own).gravity = scene.gravity;
-    } else {
-      couetteIn(own).particles.rotation = scene.rotation;
-    }
-    if (effectsOf(unplacedScene<D>(own, dt)) != effectsOf(scene))
-      throw UnsupportedScene(entry.name + " lacks an effect that no case can leave out");
-  });
-  changeLaws(own, [&](ContactLaw& law) {
+template <int D>
+SceneOf<D> sceneAsRun(const Case& setup, double dt, const EngineEntry& entry,
+                      const Capabilities& can, const EffectiveParameters& effective) {
+  SceneOf<D> scene = sceneFor(can, entry, setup, unplacedScene<D>(setup, dt)).scene;
+  if (effectsOf(unplacedScene<D>(caseAs<D>(setup, scene), dt)) != effectsOf(scene))
+    throw UnsupportedScene(entry.name + " lacks an effect that no case can leave out");
+  changeLaws(scene, [&](ContactLaw& law) {
     const auto declared = declaredLaw(can, law, effective);
     if (!declared)
       throw UnsupportedScene(entry.name +
                              " has another normal law, whose constants it does not report");
     law = *declared;
   });
-  Settings& settings = own.engines[engineRegistry().front().name];
-  settings.erase("stiffness");
-  settings["dt"] = effective.dt;
-  own.run.keepSnapshots = 0;
-  return own;
+  scene.dt = effective.dt;
+  return scene;
 }
+template Scene sceneAsRun<2>(const Case&, double, const EngineEntry&, const Capabilities&,
+                             const EffectiveParameters&);
+template SpaceScene sceneAsRun<3>(const Case&, double, const EngineEntry&, const Capabilities&,
+                                  const EffectiveParameters&);
 
 namespace {
 
 /// Two engines on their way to the causes of their differences.
-struct Pair {
+template <int D>
+struct PairOf {
   PairCauses causes;
   std::vector<const EndpointRow*> rows;  ///< those with a value
   double largest = 0.0;                  ///< of what is shown, in margins
   bool ofReference = false;
   int available = 0, measured = 0;  ///< packings
-  Case from = {}, to = {};
-  std::vector<Difference<Case>> differences = {};
+  SceneOf<D> from = {}, to = {};
+  std::vector<DifferenceOf<D>> differences = {};
 };
 
+template <int D>
 class CausesOfPairs {
+  using Pair = PairOf<D>;
+
  public:
   CausesOfPairs(Campaign& campaign, const Case& setup, const RunCommand& command,
-                const EndpointFindings& found, double until, const UndeclaredTerms& undeclared)
+                const EndpointFindings& found, double until, const UndeclaredTerms& undeclared,
+                std::string field)
       : campaign_(campaign),
         setup_(setup),
         command_(command),
         found_(found),
         until_(until),
-        undeclared_(undeclared) {
+        undeclared_(undeclared),
+        field_(std::move(field)) {
     const double alpha = 1.0 - setup.averaging.confidence;
     for (const InterimRow& look : found.looks.planned) looks_.push_back(look.packings);
-    if (hasClosedForms(setup)) looks_ = {closedFormRuns};
+    if (hasClosedForms(setup)) {
+      looks_ = {closedFormRuns};
+      mostMixed_ = AttributionPlan().mostMixed;
+    }
     level_ = found.looks.agreeAlpha.value_or(alpha);
-    if (looks_.front() <= fewestPackings) return;
-    looks_.insert(looks_.begin(), fewestPackings);
-    level_ = pocockLevel(static_cast<int>(looks_.size()), alpha);
+    if (looks_.front() > fewestPackings) {
+      looks_.insert(looks_.begin(), fewestPackings);
+      level_ = pocockLevel(static_cast<int>(looks_.size()), alpha);
+    }
+    partsLevel_ = 2.0 * pocockLevel(static_cast<int>(looks_.size()), 0.5 * alpha);
   }
 
   std::vector<PairCauses> result() {
@@ -133,7 +156,9 @@ class CausesOfPairs {
       pair->available = std::max(pair->available, row.packings + row.lost);
       if (isShown(row)) pair->largest = std::max(pair->largest, std::abs(*row.distance));
     }
-    std::erase_if(pairs_, [](const Pair& pair) { return pair.largest == 0.0; });
+    std::erase_if(pairs_, [&](const Pair& pair) {
+      return pair.largest == 0.0 && (field_.empty() || !pair.ofReference);
+    });
     std::ranges::stable_sort(pairs_, std::greater(), [](const Pair& pair) {
       return std::pair(pair.ofReference, pair.largest);
     });
@@ -151,19 +176,16 @@ class CausesOfPairs {
     }
   }
 
-  /// In what lockstep found an engine's law to be another than that of the case as it declares to
+  /// In what lockstep found an engine's law to be another than that of the scene as it declares to
   /// run it.
-  std::vector<Difference<Case>> undeclaredIn(const Case& own, const std::string& engine) {
+  std::vector<AppliedChangeOf<D>> undeclaredIn(const SceneOf<D>& own, const std::string& engine) {
     const auto term = undeclared_.find(engine);
-    if (term == undeclared_.end()) return {};
-    return inDimensionOf(own, [&]<int D>() {
-      SceneOf<D> scene = unplacedScene<D>(own, campaign_.dt());
-      for (const MirrorChangeOf<D>& change :
-           changesOf(scene, engineRegistry().front().make()->capabilities()))
-        if (change.name == term->second.name)
-          change.apply(scene, term->second.amount.value_or(0.0));
-      return lawDifferences<Case>(own.law, scene.law);
+    auto changes = changesNamed<D>(term == undeclared_.end() ? nullptr : &term->second, own,
+                                   engineRegistry().front().make()->capabilities());
+    std::erase_if(changes, [&](const AppliedChangeOf<D>& one) {
+      return lawDifferences<D>(own.law, withChanges<D>(own, {one}).law).empty();
     });
+    return changes;
   }
 
   /// Laws of both and in what they differ.
@@ -171,33 +193,27 @@ class CausesOfPairs {
     if (std::ranges::any_of(pair.rows, [](const auto* row) { return row->unpaired.has_value(); }))
       throw UnsupportedScene("runs of files have no law that could be mixed with another");
     pair.from = asRun(pair.causes.a);
-    pair.to = asRun(pair.causes.b);
-    for (const auto& difference : undeclaredIn(pair.from, pair.causes.a))
-      difference.take(pair.from);
-    pair.differences = differencesOf(pair.from, pair.to);
+    pair.from = withChanges(pair.from, undeclaredIn(pair.from, pair.causes.a));
+    const SceneOf<D> declared = asRun(pair.causes.b);
+    auto behaviour = behaviourOf<D>(pair.from, declared, undeclaredIn(declared, pair.causes.b));
+    pair.to = std::move(behaviour.scene);
+    pair.differences = std::move(behaviour.differences);
+    static_cast<Causes&>(pair.causes) = std::move(behaviour.causes);
     if (pair.from.law.soft() != pair.to.law.soft()) {
-      const Case& rigid = pair.from.law.soft() ? pair.to : pair.from;
-      CauseName& normal = pair.differences.front().words;
-      (pair.from.law.soft() ? normal.to : normal.from) +=
-          fmt::format(" (e_n = {:.3g}, mean over kinds of pairs)", rigid.law.en);
+      const bool toRigid = pair.from.law.soft();
+      CauseName& normal = pair.causes.differences.front();
+      (toRigid ? normal.to : normal.from) += fmt::format(
+          " (e_n = {:.3g}, mean over kinds of pairs)", (toRigid ? pair.to : pair.from).law.en);
     }
-    for (Difference<Case>& difference : undeclaredIn(pair.to, pair.causes.b)) {
-      difference.take(pair.to);
-      difference.words.declared = false;
-      pair.differences.push_back(std::move(difference));
-    }
-    static_cast<Causes&>(pair.causes) = causesOf(pair.differences);
-    std::ranges::copy_if(pair.causes.differences, std::back_inserter(pair.causes.undeclared),
-                         [](const CauseName& one) { return !one.declared; });
     pair.causes.remainder =
         pair.from.law.soft() && pair.to.law.soft() ? "implementation" : "solver";
-    if (pair.differences.size() > mostMixed) pair.causes.mixtures = Mixtures::bothEnds;
+    if (pair.differences.size() > mostMixed_) pair.causes.mixtures = Mixtures::bothEnds;
   }
 
   /// Those that are run: where laws do not differ none, but for a neutral campaign's reference.
   std::set<Mixture> mixturesOf(const Pair& pair) const {
     if (pair.differences.empty() && !campaign_.isNeutral()) return {};
-    return studies::mixturesOf(pair.differences.size(), mostMixed);
+    return studies::mixturesOf(pair.differences.size(), mostMixed_);
   }
 
   static const std::string& inHouseName() { return engineRegistry().front().name; }
@@ -210,10 +226,10 @@ class CausesOfPairs {
     throw EngineFailure(name + " could not be asked what it runs");
   }
 
-  Case asRun(const std::string& name) {
+  SceneOf<D> asRun(const std::string& name) {
     const std::size_t e = indexOf(name);
-    return caseAsRun(setup_, campaign_.dt(), campaign_.engines()[e], *campaign_.capabilities(e),
-                     *campaign_.effective(e));
+    return sceneAsRun<D>(setup_, campaign_.dt(), campaign_.engines()[e], *campaign_.capabilities(e),
+                         *campaign_.effective(e));
   }
 
   // Runs.
@@ -225,7 +241,7 @@ class CausesOfPairs {
       if ((entry.name != inHouseName() && entry.mirrors.empty()) || !campaign_.effective(e))
         continue;
       try {
-        auto& there = there_[fingerprintOf(asRun(entry.name))];
+        auto& there = there_[fingerprintOf<D>(asRun(entry.name))];
         for (const FlowRun* run : finishedRuns(campaign_.runs(), entry.name))
           there.emplace(run->packing, run);
       } catch (const UnsupportedScene&) {
@@ -235,8 +251,8 @@ class CausesOfPairs {
   }
 
   const std::string& fingerprint(const Pair& pair, Mixture mixture) {
-    Case setup = mixed(pair.from, pair.to, pair.differences, mixture);
-    return cases_.try_emplace(fingerprintOf(setup), std::move(setup)).first->first;
+    const SceneOf<D> scene = mixed<D>(pair.from, pair.to, pair.differences, mixture);
+    return cases_.try_emplace(fingerprintOf<D>(scene), caseAs<D>(setup_, scene)).first->first;
   }
 
   /// Runs that are to be made, by mixture.
@@ -323,35 +339,160 @@ class CausesOfPairs {
     return runs;
   }
 
-  PairedTest testOf(const Pair& pair, const EndpointRow& row, const Runs& a, const Runs& b) const {
-    const Endpoint& endpoint = endpointNamed(setup_, row.endpoint);
+  /// A number of a run whose difference is taken apart.
+  struct Quantity {
+    std::string name, unit;
+    std::optional<std::size_t> bin;  ///< of a field
+    double bound;                    ///< of what a mirror in an engine's place may hide, in margins
+    std::function<PairedTest(const Runs& a, const Runs& b)> test;
+  };
+
+  std::vector<Quantity> quantitiesOf(const Pair& pair, const Runs& a) const {
     const auto packings = static_cast<std::size_t>(pair.measured);
-    return testedEndpoint(endpoint, setup_.averaging.endpoints.at(row.endpoint),
-                          endpointByPacking(endpoint, setup_, a, packings),
-                          endpointByPacking(endpoint, setup_, b, packings));
+    std::vector<Quantity> all;
+    for (const EndpointRow* row : pair.rows)
+      all.push_back({row->endpoint,
+                     row->unit,
+                     {},
+                     row->bound.value_or(0.0),
+                     [this, row, packings](const Runs& one, const Runs& other) {
+                       const Endpoint& endpoint = endpointNamed(setup_, row->endpoint);
+                       return testedEndpoint(endpoint, setup_.averaging.endpoints.at(row->endpoint),
+                                             endpointByPacking(endpoint, setup_, one, packings),
+                                             endpointByPacking(endpoint, setup_, other, packings));
+                     }});
+    const auto valuesIn = [=, this](const Runs& runs) {
+      return fieldByRing(runs, setup_.averaging.methods.front(), field_, packings);
+    };
+    for (std::size_t bin = 0; bin < valuesIn(a).size(); ++bin)
+      all.push_back({field_, std::string(findField(field_)->unit), bin, 0.0,
+                     [=](const Runs& one, const Runs& other) {
+                       const auto ours = valuesIn(one), theirs = valuesIn(other);
+                       const Numbers none(packings);
+                       return PairedTest{{bin < ours.size() ? ours[bin] : none,
+                                          bin < theirs.size() ? theirs[bin] : none,
+                                          0.0,
+                                          0.0,
+                                          {}}};
+                     }});
+    return all;
   }
 
   void measure(Pair& pair) {
     const auto packings = static_cast<std::size_t>(pair.measured);
     const Runs a = campaign_.isNeutral() ? runsOf(pair, Mixture{0}) : runsOf(pair, pair.causes.a),
                b = runsOf(pair, pair.causes.b);
-    AttributionPlan plan{pair.differences.size(), mostMixed, false};
-    for (const EndpointRow* row : pair.rows)
-      plan.units.insert(plan.units.end(), packings, testOf(pair, *row, a, a).sample.margin);
-    const auto parts = attribute(plan, [&](Mixture mixture) -> std::optional<Numbers> {
-      if (pair.differences.empty()) return Numbers(plan.units.size(), 0.0);
-      const Runs runs = runsOf(pair, mixture);
-      Numbers numbers;
-      for (const EndpointRow* row : pair.rows)
-        std::ranges::copy(testOf(pair, *row, a, runs).sample.other, std::back_inserter(numbers));
-      return numbers;
-    });
-    pair.causes.mixtures = parts->mixtures;
-    for (std::size_t r = 0; r < pair.rows.size(); ++r)
-      if (auto own = endpointCauses(pair, *pair.rows[r], testOf(pair, *pair.rows[r], a, b), *parts,
-                                    r * packings))
-        pair.causes.endpoints.push_back(std::move(*own));
+    const std::vector<Quantity> quantities = quantitiesOf(pair, a);
+    Causes found = pair.causes;  // what interacts on one packing is chaos
+    const auto parts =
+        attribute(found, {mostMixed_, false}, [&](Mixture mixture) -> std::optional<Numbers> {
+          if (pair.differences.empty()) return Numbers(quantities.size() * packings, 0.0);
+          const Runs runs = runsOf(pair, mixture);
+          Numbers numbers;
+          for (const Quantity& one : quantities)
+            std::ranges::copy(one.test(a, runs).sample.other, std::back_inserter(numbers));
+          return numbers;
+        });
+    pair.causes.mixtures = found.mixtures;
+    std::vector<Parts> endpoints, bins;
+    for (std::size_t q = 0; q < quantities.size(); ++q) {
+      Parts own{&quantities[q], quantities[q].test(a, b), {}};
+      own.values = valuesOf(own.test, *parts, q * packings);
+      if (!own.values.front().empty())
+        (quantities[q].bin ? bins : endpoints).push_back(std::move(own));
+    }
+    pair.causes.endpoints = withIntervals(endpoints, found.mixtures);
+    pair.causes.profile = withIntervals(bins, found.mixtures);
     sumUp(pair);
+  }
+
+  /// A quantity's whole difference, its parts, interaction and remainder, on the scale of its test,
+  /// by packings that have all of them.
+  struct Parts {
+    const Quantity* of;
+    PairedTest test;
+    std::vector<Numbers> values;
+  };
+
+  /// @param from  of the quantity's numbers among all
+  static std::vector<Numbers> valuesOf(const PairedTest& test, const Attribution& found,
+                                       std::size_t from) {
+    std::vector<const Numbers*> parts;
+    for (const Numbers& part : found.parts) parts.push_back(&part);
+    parts.push_back(&found.interaction);
+    std::vector<Numbers> values(parts.size() + 2);
+    for (std::size_t p = 0; p < test.sample.reference.size(); ++p) {
+      const auto &a = test.sample.reference[p], &b = test.sample.other[p];
+      if (!a || !b || std::ranges::any_of(parts, [&](auto* part) { return !(*part)[from + p]; }))
+        continue;
+      double left = *b - *a;
+      values.front().emplace_back(left);
+      for (std::size_t i = 0; i < parts.size(); ++i) {
+        values[i + 1].push_back((*parts[i])[from + p]);
+        left -= *values[i + 1].back();
+      }
+      values.back().emplace_back(left);
+    }
+    return values;
+  }
+
+  /// Means over packings with intervals: of wholes those of the verdicts, of all parts those of one
+  /// family. Several parts of several quantities are as many chances to name one by accident, as
+  /// several endpoints are to find two engines different, and so have the same cure.
+  std::vector<EndpointCauses> withIntervals(const std::vector<Parts>& all,
+                                            Mixtures mixtures) const {
+    std::vector<PairedSample> wholes, parts;
+    for (const Parts& own : all)
+      for (std::size_t i = 0; i < own.values.size(); ++i) {
+        const bool none = i + 2 == own.values.size() && mixtures == Mixtures::all;  // interaction
+        const Numbers& values = own.values[i];
+        (i == 0 ? wholes : parts)
+            .push_back({none ? Numbers() : Numbers(values.size(), 0.0),
+                        none ? Numbers() : values,
+                        0.0,
+                        0.0,
+                        {}});
+      }
+    const double confidence = 1.0 - partsLevel_;
+    const auto foundWholes = comparePaired(wholes, 1.0 - level_),
+               foundParts = comparePaired(parts, confidence);
+    const auto halves = smallestSignificant(foundParts, confidence);
+    std::vector<EndpointCauses> causes;
+    std::size_t next = 0;  // of the parts
+    for (std::size_t q = 0; q < all.size(); ++q) {
+      const auto& [quantity, test, values] = all[q];
+      const double whole = foundWholes[q]->difference;
+      const double factor = !test.logarithmic ? 1.0
+                            : whole == 0.0    ? std::abs(test.reference)
+                                              : inUnit(test, whole) / whole;
+      const auto part = [&](const std::optional<PairedComparison>& found,
+                            std::optional<double> half, double bound, const auto& made) {
+        if (!found) return CausePart{0.0, 0.0, 0.0};  // no interaction
+        CausePart own{made(found->difference), {}, {}};
+        if (!half && found->low && hasClosedForms(setup_)) half = found->difference - *found->low;
+        if (half) own.low = made(found->difference - *half - bound);
+        if (half) own.high = made(found->difference + *half + bound);
+        return own;
+      };
+      const auto nextPart = [&](double bound = 0.0) {
+        const std::size_t k = next++;
+        return part(foundParts[k], halves[k], bound, [=](double value) { return factor * value; });
+      };
+      std::optional<double> half;
+      if (foundWholes[q]->packings >= fewestPackings) half = whole - *foundWholes[q]->low;
+      const double bound = quantity->bound * test.sample.margin;
+      EndpointCauses& own = causes.emplace_back();
+      own.endpoint = quantity->name;
+      own.unit = quantity->unit;
+      own.bin = quantity->bin;
+      own.packings = foundWholes[q]->packings;
+      own.whole =
+          part(foundWholes[q], half, bound, [&](double value) { return inUnit(test, value); });
+      for (std::size_t i = 0; i + 3 < values.size(); ++i) own.parts.push_back(nextPart());
+      own.interaction = nextPart();
+      own.remainder = nextPart(bound);
+    }
+    return causes;
   }
 
   /// Says how many runs it took, and why nothing came out.
@@ -369,57 +510,17 @@ class CausesOfPairs {
     if (pair.causes.endpoints.empty()) pair.causes.reason = failure;
   }
 
-  /// @param from  of the endpoint's numbers among all
-  std::optional<EndpointCauses> endpointCauses(const Pair& pair, const EndpointRow& row,
-                                               const PairedTest& test, const Attribution& found,
-                                               std::size_t from) const {
-    const std::size_t k = found.parts.size();
-    std::vector<Numbers> values(k + 3);  // whole, parts, interaction, remainder
-    for (std::size_t p = 0; p < static_cast<std::size_t>(pair.measured); ++p) {
-      const auto &a = test.sample.reference[p], &b = test.sample.other[p];
-      bool all = a && b && found.interaction[from + p];
-      for (const Numbers& part : found.parts) all = all && part[from + p];
-      if (!all) continue;
-      double left = *b - *a;
-      values[0].emplace_back(left);
-      for (std::size_t i = 0; i <= k; ++i) {
-        values[i + 1].push_back((i < k ? found.parts[i] : found.interaction)[from + p]);
-        left -= *values[i + 1].back();
-      }
-      values[k + 2].emplace_back(left);
-    }
-    if (values[0].empty()) return std::nullopt;
-    const double whole = ensembleMean(values[0])->mean;
-    const double factor = !test.logarithmic ? 1.0
-                          : whole == 0.0    ? std::abs(test.reference)
-                                            : inUnit(test, whole) / whole;
-    const auto part = [&](std::size_t i, double bound = 0.0) {
-      const PairedSample sample{Numbers(values[i].size(), 0.0), values[i], 0.0, 0.0, {}};
-      const auto mean = *comparePaired({&sample, 1}, 1.0 - level_).front();
-      const auto made = [&](double value) { return i == 0 ? inUnit(test, value) : factor * value; };
-      CausePart own{made(mean.difference), {}, {}};
-      if (mean.low && (mean.packings >= fewestPackings || hasClosedForms(setup_))) {
-        own.low = made(*mean.low - bound);
-        own.high = made(*mean.high + bound);
-      }
-      return own;
-    };
-    const double bound = row.bound.value_or(0.0) * test.sample.margin;
-    EndpointCauses own{row.endpoint,      row.unit, static_cast<int>(values[0].size()),
-                       part(0, bound),    {},       part(k + 1),
-                       part(k + 2, bound)};
-    for (std::size_t i = 1; i <= k; ++i) own.parts.push_back(part(i));
-    return own;
-  }
-
   Campaign& campaign_;
   const Case& setup_;
   const RunCommand& command_;
   const EndpointFindings& found_;
   double until_;
   const UndeclaredTerms& undeclared_;
+  std::string field_;       ///< to be taken apart bin by bin; empty: none
   std::vector<int> looks_;  ///< packings, in steps
-  double level_ = 0.0;      ///< of intervals, at each
+  std::size_t mostMixed_ = mostMixedInFlows;
+  /// At each, of one tail of wholes' intervals and of both tails of all parts together.
+  double level_ = 0.0, partsLevel_ = 0.0;
   std::vector<Pair> pairs_;
   std::map<std::string, Case> cases_;  ///< mixtures by their fingerprints
   RunsById ran_;
@@ -432,8 +533,11 @@ class CausesOfPairs {
 
 std::vector<PairCauses> causesOfPairs(Campaign& campaign, const Case& setup,
                                       const RunCommand& command, const EndpointFindings& found,
-                                      double until, const UndeclaredTerms& undeclared) {
-  return CausesOfPairs(campaign, setup, command, found, until, undeclared).result();
+                                      double until, const UndeclaredTerms& undeclared,
+                                      const std::string& field) {
+  return inDimensionOf(setup, [&]<int D>() {
+    return CausesOfPairs<D>(campaign, setup, command, found, until, undeclared, field).result();
+  });
 }
 
 }  // namespace crossgrain::inline studies

@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 
+#include "averaging/fields.hpp"
 #include "cases/flow.hpp"
 #include "results/lockstep_text.hpp"
 #include "results/schema.hpp"
@@ -122,8 +123,9 @@ std::string comparePlan(const StudyWork& work, const CompareOptions& own) {
   campaign.lookForPackings();
   const std::string causes =
       own.noCauses ? ""
-      : own.causes ? "then runs for the causes of all differences that are seen\n"
-                   : "then runs for causes of differences, in a fifth of the time at most\n";
+      : own.causes || own.causesOf
+          ? "then runs for the causes of all differences that are seen\n"
+          : "then runs for causes of differences, in a fifth of the time at most\n";
   return describeDryRun(campaign.planHead() + causes, campaign.plan(campaign.wholeCase()),
                         work.store, command);
 }
@@ -152,13 +154,14 @@ void addCauses(CompareResults& results, Campaign& campaign, const Case& setup,
     results.notes.emplace_back("Causes of differences were not measured (--no-causes).");
     return;
   }
-  const double until = own.causes ? std::numeric_limits<double>::infinity()
-                                  : campaign.elapsed() / (1.0 - shareOfCauses);
+  const double until = own.causes || own.causesOf ? std::numeric_limits<double>::infinity()
+                                                  : campaign.elapsed() / (1.0 - shareOfCauses);
   UndeclaredTerms undeclared;
   if (results.lockstep)
     for (const LockstepRow& row : results.lockstep->rows)
       if (row.verdict == Equivalence::differs && row.term) undeclared[row.engine] = *row.term;
-  results.causes = causesOfPairs(campaign, setup, command, results.endpoints, until, undeclared);
+  results.causes = causesOfPairs(campaign, setup, command, results.endpoints, until, undeclared,
+                                 own.causesOf.value_or(""));
   results.elapsed = campaign.elapsed();
 }
 
@@ -213,6 +216,9 @@ std::vector<Case> caseToCompare(const CommandLine& line, CompareOptions& own) {
   const Case setup = onlyFlow(line, "compare");
   printWarnings(setup);
   if (own.budget) secondsOf(*own.budget);  // throws for what is none
+  if (own.causesOf && !findField(*own.causesOf))
+    throw BadInput(fmt::format("--causes-of {}: there is no such field (crossgrain list fields)",
+                               *own.causesOf));
   return {setup};
 }
 
@@ -313,6 +319,8 @@ const Study<CompareOptions, CompareResults> compareStudy = {
            "measure the causes of every difference, however long it takes (default: in a fifth of "
            "the time at most)",
            &own.causes},
+          {"--causes-of", "measure the causes of every difference, and of this field's bin by bin",
+           &own.causesOf, "FIELD"},
           {"--no-causes", "measure no causes of differences", &own.noCauses},
           {"--strict",
            "status 1 also for undecided and borderline verdicts, for refused engines and where "
@@ -323,6 +331,6 @@ const Study<CompareOptions, CompareResults> compareStudy = {
     comparePlan,
     compare,
     outcomeOfCompare,
-    {{"--causes", "--no-causes"}}};
+    {{"--causes", "--no-causes"}, {"--causes-of", "--no-causes"}}};
 
 }  // namespace crossgrain::inline studies

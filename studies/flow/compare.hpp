@@ -15,6 +15,7 @@ struct CompareOptions {
   std::optional<std::string> budget;     ///< absent: looks.budget of the case
   std::optional<std::string> reference;  ///< absent: the first engine named; "none": the median
   bool causes = false;                   ///< of all differences, however long they take
+  std::optional<std::string> causesOf;   ///< and of this field, bin by bin
   bool noCauses = false;                 ///< of none
 };
 

@@ -25,24 +25,12 @@ std::size_t startsFor(std::size_t differences, std::size_t all) {
   return std::clamp<std::size_t>(all * windowsOfStart / (10 * mixtures), 1, all);
 }
 
-/// The change of a mirror that a term names.
-template <int D>
-std::vector<AppliedChangeOf<D>> changesNamed(const NamedTerm* term, const SceneOf<D>& scene,
-                                             const Capabilities& can) {
-  std::vector<AppliedChangeOf<D>> found;
-  if (term)
-    for (MirrorChangeOf<D>& change : changesOf(scene, can))
-      if (change.name == term->name)
-        found.push_back({std::move(change), term->amount.value_or(0.0)});
-  return found;
-}
-
 template <int D>
 class MixedRuns {
  public:
   MixedRuns(Engine& mirror, const std::vector<SceneOf<D>>& scenes,
-            const std::vector<SceneOf<D>>& peers,
-            const std::vector<Difference<SceneOf<D>>>& differences, double diameter)
+            const std::vector<SceneOf<D>>& peers, const std::vector<DifferenceOf<D>>& differences,
+            double diameter)
       : mirror_(mirror),
         scenes_(scenes),
         peers_(peers),
@@ -120,7 +108,7 @@ class MixedRuns {
 
   Engine& mirror_;
   const std::vector<SceneOf<D>>&scenes_, &peers_;
-  const std::vector<Difference<SceneOf<D>>>& differences_;
+  const std::vector<DifferenceOf<D>>& differences_;
   double diameter_, dt_;
   std::vector<std::uint64_t> steps_;
   std::optional<RunsFromStartsOf<D>> reference_;
@@ -156,14 +144,12 @@ std::optional<LockstepCauses> causesIn(Engine& mirror, const std::vector<SceneOf
   std::vector<SceneOf<D>> peers = some(mirrors);
   for (SceneOf<D>& peer : peers) peer = withChanges(peer, changes);
   MixedRuns<D> mixtures(mirror, from, peers, behaviour.differences, diameter);
-  const auto parts = attribute(
-      {.differences = behaviour.differences.size(), .mostMixed = mostMixed, .searches = false},
-      [&](Mixture mixture) { return mixtures.separations(mixture); });
+  const auto parts = attribute(causes, {.mostMixed = mostMixed, .searches = false},
+                               [&](Mixture mixture) { return mixtures.separations(mixture); });
   if (!parts) {
     causes.reason = "the in-house engine cannot run a mixture of both laws from these starts";
     return causes;
   }
-  addFindings(causes, *parts);
   Numbers whole = parts->interaction;  // to which all parts add up
   for (const Numbers& part : parts->parts)
     for (std::size_t k = 0; k < whole.size(); ++k) *whole[k] += *part[k];
@@ -190,7 +176,7 @@ std::optional<LockstepCauses> causesInLockstep(Engine& mirror,
                                                const std::vector<SceneOf<D>>& scenes,
                                                const std::vector<SceneOf<D>>& mirrors,
                                                const NamedTerm* term, double diameter) {
-  return causesIn(mirror, scenes, mirrors, term, diameter);
+  return causesIn<D>(mirror, scenes, mirrors, term, diameter);
 }
 template std::optional<LockstepCauses> causesInLockstep(Engine&, const std::vector<SceneOf<2>>&,
                                                         const std::vector<SceneOf<2>>&,

@@ -137,7 +137,7 @@ FoundOption optionOf(const ClosestLaw<D>& search, const LawOption& option,
   for (const MirrorChangeOf<D>& change : search.candidates()) {
     const std::string prefix = name + " = ";
     if (change.isConstant || !change.name.starts_with(prefix)) continue;
-    const auto with = search.distanceWith({change}, limit);
+    const auto with = search.distanceWith({{change}}, limit);
     if (with) found.values.push_back(change.name.substr(prefix.size()));
   }
   const auto declared = can.lawOptions.find(name);
@@ -171,9 +171,9 @@ Identification identifyIn(Engine& engine, const EngineEntry& entry, const Case& 
     search.restart();
     const double enough = std::max(lockstepRounding, leftOfNoMirror * largest());
     for (bool nearer = true; nearer && largest() > lockstepRounding;) {
-      nearer = search.takeConvention() || search.takeConstant(termUnexplained) ||
-               (largest() > enough && search.takeBestPair()) ||
-               search.takeConstant(termWorthTrying);
+      using enum ChangeKind;
+      nearer = search.take(convention) || search.take(constant, termUnexplained) ||
+               (largest() > enough && search.take(pair)) || search.take(constant, termWorthTrying);
       progress(1.0 - 1.0 / static_cast<double>(search.changes().size() + 2));
     }
   }

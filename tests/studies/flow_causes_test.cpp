@@ -55,7 +55,8 @@ class FlowCauses : public testing::Test {
   /// The in-house engine and another one.
   /// @param until  in which no runs are begun, beyond the verdicts' own [s]
   std::vector<PairCauses> causes(const Case& setup, const EngineEntry& peer, double until,
-                                 const UndeclaredTerms& undeclared = {}) {
+                                 const UndeclaredTerms& undeclared = {},
+                                 const std::string& field = {}) {
     RunCommand command;
     command.engines = {"grain", peer.name};
     command.out = kept_->path() / testing::UnitTest::GetInstance()->current_test_info()->name();
@@ -67,15 +68,15 @@ class FlowCauses : public testing::Test {
     campaign.preparePackings();
     campaign.timeEngines();
     findings_ = runWithInterims(setup, campaign, command, {}, 1e6);
-    const auto found = causesOfPairs(campaign, setup, command, findings_, until, undeclared);
+    const auto found = causesOfPairs(campaign, setup, command, findings_, until, undeclared, field);
     mixtures_ = 0;
     for (const auto& file : std::filesystem::directory_iterator(command.out / "runs"))
       mixtures_ += file.path().string().find("mixture") != std::string::npos;
     return found;
   }
 
-  static void expectSums(const PairCauses& pair) {
-    for (const EndpointCauses& own : pair.endpoints) {
+  static void expectSums(const std::vector<EndpointCauses>& all) {
+    for (const EndpointCauses& own : all) {
       double sum = *own.interaction.mean + *own.remainder.mean;
       for (const CausePart& part : own.parts) sum += *part.mean;
       EXPECT_NEAR(sum, *own.whole.mean, 1e-9 * std::abs(*own.whole.mean)) << own.endpoint;
@@ -89,7 +90,7 @@ class FlowCauses : public testing::Test {
 
 TEST_F(FlowCauses, OtherFriction_IsNamed_AndPartsAddUp) {
   const auto found = causes(shortCell(), test::misbehavingEntry("slippery", 0), noLimit,
-                            {{"slippery", friction(0.02)}});
+                            {{"slippery", friction(0.02)}}, "azimuthal_velocity");
   ASSERT_EQ(found.size(), 1u);
   const PairCauses& pair = found[0];
   EXPECT_EQ(pair.reason, "");
@@ -99,7 +100,10 @@ TEST_F(FlowCauses, OtherFriction_IsNamed_AndPartsAddUp) {
   EXPECT_EQ(pair.runs, 4);  // the in-house engine's own stand for the reference
   EXPECT_EQ(mixtures_, 4);
   ASSERT_FALSE(pair.endpoints.empty());
-  expectSums(pair);
+  expectSums(pair.endpoints);
+  EXPECT_EQ(pair.profile.size(), 20u);
+  expectSums(pair.profile);
+  for (std::size_t k = 0; k < pair.profile.size(); ++k) EXPECT_EQ(pair.profile[k].bin, k);
   bool named = false;
   for (const EndpointCauses& own : pair.endpoints) {
     EXPECT_EQ(own.packings, 4);
@@ -126,7 +130,7 @@ TEST_F(FlowCauses, OneOfFour_IsTheLargest) {
   EXPECT_EQ(pair.mixtures, Mixtures::bothEnds);
   EXPECT_EQ(pair.runs, 36);  // all, each alone and each taken back
   ASSERT_FALSE(pair.endpoints.empty());
-  expectSums(pair);
+  expectSums(pair.endpoints);
   int seen = 0;
   for (const EndpointCauses& own : pair.endpoints) {
     if (!own.whole.isSeen() || !own.parts[3].isSeen()) continue;
@@ -146,7 +150,7 @@ TEST_F(FlowCauses, StifferContactsAsDeclared_AreMixedInAll) {
   EXPECT_EQ(pair.differences[0].name, "stiffness");
   EXPECT_EQ(pair.differences[1].name, "time step");
   EXPECT_EQ(pair.mixtures, Mixtures::all);
-  expectSums(pair);
+  expectSums(pair.endpoints);
   for (const EndpointCauses& own : pair.endpoints) {
     EXPECT_FALSE(own.remainder.isSeen()) << own.endpoint;
     EXPECT_EQ(*own.interaction.mean, 0.0);
@@ -176,7 +180,7 @@ TEST_F(FlowCauses, NoTime_RunsNothingAndSaysWhatIsMissing) {
   EXPECT_FALSE(again[0].endpoints.empty());
 }
 
-TEST(CaseAsRun, HasWhatTheEngineHas) {
+TEST(SceneAsRun, HasWhatTheEngineHas) {
   const Case setup = shortCell({"run.may_differ=[\"conventions\", \"rotation\"]"});
   const double dt = timeStep(setup);
   const auto engine = makeGrain();
@@ -184,9 +188,9 @@ TEST(CaseAsRun, HasWhatTheEngineHas) {
   EffectiveParameters effective;
   effective.dt = dt;
   const auto differences = [&] {
-    return differencesOf(
-        caseAsRun(setup, dt, *findEngine("grain"), engine->capabilities(), effective),
-        caseAsRun(setup, dt, program({}), can, effective));
+    return differencesOf<2>(
+        sceneAsRun<2>(setup, dt, *findEngine("grain"), engine->capabilities(), effective),
+        sceneAsRun<2>(setup, dt, program({}), can, effective));
   };
   EXPECT_TRUE(differences().empty());
   can.lawOptions["lever_arm"] = {"contact_point"};
@@ -197,7 +201,7 @@ TEST(CaseAsRun, HasWhatTheEngineHas) {
   EXPECT_EQ(found[1].words.name, "rotation");
 }
 
-TEST(CaseAsRun, RigidContacts_HaveMeansOverPairsAndTheirStep) {
+TEST(SceneAsRun, RigidContacts_HaveMeansOverPairsAndTheirStep) {
   const Case setup = shortCell({"run.may_differ=[\"normal\"]"});
   const double dt = timeStep(setup);
   const auto engine = makeGrain();
@@ -208,22 +212,22 @@ TEST(CaseAsRun, RigidContacts_HaveMeansOverPairsAndTheirStep) {
                  {.pair = "a with wall", .mu = 0.4, .en = 0.7, .et0 = 0.3}};
   Capabilities can = engine->capabilities();
   can.lawOptions = {{"normal", {"rigid"}}};
-  const Case own = caseAsRun(setup, dt, program({}), can, rigid);
+  const Scene own = sceneAsRun<2>(setup, dt, program({}), can, rigid);
   EXPECT_EQ(own.law.normal, NormalLaw::rigid);
   EXPECT_DOUBLE_EQ(own.law.en, 0.6);
   EXPECT_DOUBLE_EQ(own.law.et0, 0.2);
   EXPECT_DOUBLE_EQ(own.law.mu, 0.4);
-  const Case from = caseAsRun(setup, dt, *findEngine("grain"), engine->capabilities(), soft);
-  const auto found = differencesOf(from, own);
+  const Scene from = sceneAsRun<2>(setup, dt, *findEngine("grain"), engine->capabilities(), soft);
+  const auto found = differencesOf<2>(from, own);
   ASSERT_FALSE(found.empty());
   EXPECT_EQ(found[0].words.name, "normal");
-  Case taken = from;
+  Scene taken = from;
   found[0].take(taken);
-  EXPECT_EQ(std::get<double>(taken.engines.at("grain").at("dt")), 10.0 * dt);
+  EXPECT_EQ(taken.dt, 10.0 * dt);
   EXPECT_EQ(std::ranges::find(found, "time step", [](const auto& one) { return one.words.name; }),
             found.end());
   rigid.pairs.clear();
-  EXPECT_THROW(caseAsRun(setup, dt, program({}), can, rigid), UnsupportedScene);
+  EXPECT_THROW(sceneAsRun<2>(setup, dt, program({}), can, rigid), UnsupportedScene);
 }
 
 }  // namespace
