@@ -101,7 +101,7 @@ TEST_F(FlowCauses, OtherFriction_IsNamed_AndPartsAddUp) {
   EXPECT_EQ(mixtures_, 4);
   ASSERT_FALSE(pair.endpoints.empty());
   expectSums(pair.endpoints);
-  EXPECT_EQ(pair.profile.size(), 20u);
+  EXPECT_EQ(pair.profile.size(), 6u);  // rings
   expectSums(pair.profile);
   for (std::size_t k = 0; k < pair.profile.size(); ++k) EXPECT_EQ(pair.profile[k].bin, k);
   bool named = false;
