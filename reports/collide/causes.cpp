@@ -154,7 +154,7 @@ Table causesTable(const CaseGroup& group, bool all) {
   return table;
 }
 
-Names causesNotes(const CaseGroup& group) {
+Names causesNotes(const CaseGroup& group, bool ofInteractions) {
   std::vector<std::pair<std::string, Names>> byNote;
   const auto add = [&](std::string note, const std::string& who) {
     if (note.empty()) return;
@@ -167,8 +167,9 @@ Names causesNotes(const CaseGroup& group) {
     for (const CollisionCurve& curve : variant->curves) {
       if (!curve.causes) continue;
       const std::string who = fmt::format("{}, {}", curve.engine, variant->variant);
-      add(undeclaredSentence(curve.engine, *curve.causes, curve.effective), who);
-      add(causesNote(*curve.causes), who);
+      if (!ofInteractions)
+        add(undeclaredSentence(curve.engine, *curve.causes, curve.effective), who);
+      if (curve.causes->reason.empty() == ofInteractions) add(causesNote(*curve.causes), who);
     }
   Names notes;
   for (const auto& [note, who] : byNote)

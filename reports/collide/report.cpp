@@ -325,13 +325,16 @@ void addCollisionCase(Report& report, const CollideResults& results, const CaseG
   if (std::string space = spaceOf(group); !space.empty())
     blocks.insert(blocks.begin() + 1, Paragraph{std::move(space), small});
   Table causes = causesTable(group, false);
-  Names notes = causesNotes(group);
+  Names notes = causesNotes(group, false);
   if (!causes.rows.empty() || !notes.empty())
     blocks.push_back(Heading{"Causes of differences", fmt::format("causes_{}", number)});
   if (!causes.rows.empty()) {
     blocks.push_back(drawing(figure + "_causes"));
     blocks.push_back(std::move(causes));
-    blocks.push_back(Details{"Causes of every quantity", {causesTable(group, true)}});
+    Details every{"Causes of every quantity", {causesTable(group, true)}};
+    for (std::string& note : causesNotes(group, true))
+      every.blocks.push_back(Paragraph{std::move(note), small});
+    blocks.push_back(std::move(every));
   }
   for (std::string& note : notes) blocks.push_back(Paragraph{std::move(note), small});
   if (Table mirrors = mirrorTable(group, results.engines); !mirrors.rows.empty())

@@ -100,7 +100,8 @@ std::string differenceSentence(const WorstDifference& worst, const std::string& 
 /// Causes of what engines' sweeps of a case differ by: of each engine where it differs most in
 /// limits, or all: a row for each quantity of each engine and variant.
 Table causesTable(const CaseGroup& group, bool all);
-Names causesNotes(const CaseGroup& group);
+/// Laws that are not those declared, and what is not attributed; or what acts on each other.
+Names causesNotes(const CaseGroup& group, bool ofInteractions);
 
 /// Ψ_i, the difference and its parts: causes.csv.
 std::string causesCsv(const CollideResults& results);

@@ -14,8 +14,6 @@ namespace crossgrain::reports {
 
 namespace {
 
-/// Of the whole: a part below it is not named by itself.
-constexpr double leastNamed = 0.01;
 constexpr std::size_t mostNamed = 4;
 
 /// A part with the digits of the whole's third significant one, "< 0.001" where that leaves none.
@@ -218,7 +216,7 @@ Figure stackedFigure(const std::string& name, const std::string& title, const st
   figure.keyAbove = true;
   figure.columns = std::clamp(static_cast<int>(all.size()), 1, 3);
   figure.panelWidth = 1240 / std::max(figure.columns, 2);
-  figure.panelHeight = 260;
+  figure.panelHeight = 300;
   return figure;
 }
 

@@ -11,6 +11,9 @@
 /// Causes of differences in words (results/causes.hpp).
 namespace crossgrain::reports {
 
+/// Of a difference: a part below it is not named by itself.
+inline constexpr double leastNamed = 0.01;
+
 /// A difference and its parts, which add up to it; all in one unit.
 struct CauseAccount {
   struct Part {

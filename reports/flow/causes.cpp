@@ -29,13 +29,17 @@ struct Explained {
   }
   double margin() const { return row->marginRelative ? 100.0 * row->margin : row->margin; }
 
-  /// Parts that are seen; the others together are the rest. Without any there is no name.
+  bool isNamed(const CausePart& part) const {
+    return part.isSeen() && std::abs(*part.mean) >= leastNamed * std::abs(*own->whole.mean);
+  }
+
+  /// Parts that are named; the others together are the rest. Without any there is no name.
   CauseAccount account() const {
     CauseAccount account{scale() * *own->whole.mean};
     account.remainder = account.whole;
     forParts(*pair, *own,
              [&](const std::string& name, const CauseName& one, const CausePart& part) {
-               if (!part.isSeen()) return;
+               if (!isNamed(part)) return;
                account.parts.push_back({name, scale() * *part.mean, one.declared});
                account.remainder -= account.parts.back().value;
              });
@@ -95,8 +99,9 @@ std::string withInterval(const Explained& one, const CausePart& part) {
   const auto shown = [&](const std::optional<double>& value) {
     return readable(times(value, one.scale()));
   };
-  return shown(part.mean) +
-         (part.low ? fmt::format(" ({} to {})", shown(part.low), shown(part.high)) : "");
+  return shown(part.mean) + (part.low < part.high
+                                 ? fmt::format(" ({} to {})", shown(part.low), shown(part.high))
+                                 : "");
 }
 
 Table causesTable(const CompareResults& results) {
@@ -106,7 +111,7 @@ Table causesTable(const CompareResults& results) {
     std::vector<std::pair<double, std::string>> parts;
     forParts(*one.pair, *one.own,
              [&](const std::string& name, const CauseName& difference, const CausePart& part) {
-               if (part.isSeen())
+               if (one.isNamed(part))
                  parts.emplace_back(std::abs(*part.mean),
                                     name + " " + withInterval(one, part) +
                                         (difference.declared ? "" : " (not declared)"));
@@ -122,7 +127,7 @@ Table causesTable(const CompareResults& results) {
                   withInterval(one, one.own->whole) + unit,
                   shortly(one.margins),
                   {seen.empty() ? "no cause is shown" : listed(seen),
-                   {fmt::format("rest {} of {} whose intervals hold 0",
+                   {fmt::format("rest {} of {} not shown, or below a hundredth",
                                 readable(one.account().remainder), counted(others, "part"))}},
                   fmt::format("{}", one.own->packings)}};
     row.cells[5].link = termLink(one.shownCause());
