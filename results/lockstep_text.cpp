@@ -141,6 +141,7 @@ std::string describeCauses(const LockstepRow& row) {
   if (!row.causes || row.causes->parts.empty()) return {};
   const LockstepCauses& causes = *row.causes;
   constexpr std::size_t mostNamed = 4;
+  constexpr double leastInteraction = 0.1;  // of the divergence
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < causes.parts.size(); ++k)
     if (causes.firstStep[k]) order.push_back(k);
@@ -159,6 +160,9 @@ std::string describeCauses(const LockstepRow& row) {
         words.empty() ? fmt::format(" of the divergence after {}", milliseconds(causes.time.back()))
                       : "");
   }
+  // Parts of what hardly parts may be many times the whole, and this takes them back.
+  if (const auto rest = causes.interaction.back(); rest && std::abs(*rest) >= leastInteraction)
+    words += fmt::format("; {} where they act together", percentText(*rest));
   return "first to act: " + words;
 }
 

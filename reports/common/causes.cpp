@@ -40,6 +40,25 @@ std::string termId(std::string_view option) {
   return fmt::format("term_{}", option);
 }
 
+/// The largest first. Two that are each more than twice the whole and cancel but for a tenth are
+/// one: neither alone is what makes it.
+std::vector<CauseAccount::Part> bySize(std::vector<CauseAccount::Part> parts, double whole) {
+  constexpr double many = 2.0, cancels = 0.1;
+  const auto sort = [&] {
+    std::ranges::stable_sort(parts, std::greater(),
+                             [](const auto& part) { return std::abs(part.value); });
+  };
+  sort();
+  while (parts.size() > 1 && std::abs(parts[1].value) > many * std::abs(whole) &&
+         std::abs(parts[0].value + parts[1].value) < cancels * std::abs(parts[0].value)) {
+    parts[0] = {fmt::format("{} and {} together", parts[0].name, parts[1].name),
+                parts[0].value + parts[1].value, parts[0].declared && parts[1].declared};
+    parts.erase(parts.begin() + 1);
+    sort();
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::string CauseAccount::largest() const {
@@ -51,15 +70,13 @@ std::string CauseAccount::largest() const {
       name = part;
     }
   };
-  for (const Part& part : parts) look(part.name, part.value);
+  for (const Part& part : bySize(parts, whole)) look(part.name, part.value);
   look(remainderName, remainder);
   return name;
 }
 
 std::string accountWords(const CauseAccount& account) {
-  std::vector<CauseAccount::Part> parts = account.parts;
-  std::ranges::stable_sort(parts, std::greater(),
-                           [](const auto& part) { return std::abs(part.value); });
+  const std::vector<CauseAccount::Part> parts = bySize(account.parts, account.whole);
   const double least = leastNamed * std::abs(account.whole);
   Names words;
   double others = 0.0;

@@ -10,6 +10,23 @@
 namespace crossgrain::reports {
 namespace {
 
+TEST(CauseWords, PartsThatCancelAreOne) {
+  CauseAccount account{-3.9e-6,
+                       {{"spring_update", 0.00118}, {"dashpot", -0.00118}, {"lever_arm", -4.1e-6}},
+                       0.0,
+                       2e-7,
+                       "rest"};
+  EXPECT_EQ(account.largest(), "lever_arm");
+  const std::string words = accountWords(account);
+  EXPECT_TRUE(words.starts_with("lever_arm 4.1")) << words;
+  EXPECT_EQ(words.find("0.00118"), std::string::npos) << words;
+  // Two that do not cancel, and two that are no more than the whole, stay apart.
+  account.parts[1].value = -0.001;
+  EXPECT_EQ(account.largest(), "dashpot");
+  account = {1.0, {{"a", 1.5}, {"b", -1.49}}, 0.0, 0.99, "rest"};
+  EXPECT_TRUE(accountWords(account).starts_with("a 1.50, b −1.49")) << accountWords(account);
+}
+
 /// Effects that engines simulate are compared with those of the variant that they ran.
 TEST(CollideReport, Effects_AreThoseOfEachVariant) {
   CollideResults results = sample::collideResults();
