@@ -93,6 +93,9 @@ std::string positionFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& 
 /// nearest images, no force passes a gap (but a bond of JKR's, as far as that reaches), and no pair
 /// that overlaps is left out.
 ///
+/// Of scenes with convex bodies instead of normal and overlap: each contact has a point, in both
+/// bodies.
+///
 /// Of result files (AuditBasis::shownPlaces) lists may lack pairs that overlap by less than what
 /// the digits leave open, than the listed ones are off themselves, than a tenth of the listed
 /// ones' median (each carries less than a tenth of what half of these do), or than two bodies

@@ -199,8 +199,18 @@ std::string shapeFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& bas
        {std::tuple("positions", snapshot.position.size(), disks),
         {"velocities", snapshot.velocity.size(), disks},
         {"spins", snapshot.spin ? snapshot.spin->size() : disks, disks},
+        {"orientations",
+         snapshot.turn          ? snapshot.turn->size()
+         : scene.shapes.empty() ? disks
+                                : 0,
+         disks},
         {"places of wall disks", snapshot.wallPosition.size(), basis.radius.size() - disks}})
     if (found != wanted) return fmt::format("{} {} are shown, not {}", found, what, wanted);
+  if constexpr (D == 3)
+    for (std::size_t i = 0; snapshot.turn && i < disks; ++i)
+      if (const double length = (*snapshot.turn)[i].norm(); !(std::abs(length - 1.0) <= 1e-5))
+        return fmt::format("the quaternion of {} has length {:.6g}, not 1", nameOfId(scene, i),
+                           length);
   if (basis.prescribed && snapshot.bodies.size() != scene.bodies.size())
     return fmt::format("{} wall bodies are shown, not {}", snapshot.bodies.size(),
                        scene.bodies.size());

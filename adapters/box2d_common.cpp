@@ -79,6 +79,7 @@ box2d_granular::Model box2dModel(const Scene& scene, double dt, double lengthUni
   // Box2D's bodies are of floats also where its own motion is not used.
   if (const std::string why = beyondSinglePrecision(scene); !why.empty())
     throw UnsupportedScene(why);
+  if (!scene.shapes.empty()) throw UnsupportedScene("has no convex bodies");
   box2d_granular::Model model;
   for (std::size_t i = 0; i < scene.disks.size(); ++i)
     model.disks.push_back({scene.disks.radius[i], scene.disks.mass[i], scene.disks.inertia[i],

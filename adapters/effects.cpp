@@ -33,7 +33,7 @@ Effects effectsOf(const SceneOf<D>& scene) {
   call(scene.materials.has_value(), Effect::pairMaterials);
   const bool turns =
       effects.contains(Effect::friction) || effects.contains(Effect::rollingResistance);
-  call(turns && scene.rotation, Effect::rotation);
+  call((turns || !scene.shapes.empty()) && scene.rotation, Effect::rotation);
 
   if (scene.bottom && scene.bottom->mu > 0.0) {
     effects.insert(Effect::bottomFriction);

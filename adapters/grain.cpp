@@ -294,9 +294,11 @@ class GrainEngine : public Engine {
                 threadsOf(settings) > 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_THREAD_CPUTIME_ID};
   }
   /// The scene with the engine's own conventions, contacts and time step.
-  /// @throws UnsupportedScene for a normal law that it does not have
+  /// @throws UnsupportedScene for a normal law that it does not have, and for convex bodies, which
+  ///         would be the disks around them: mirrors are loaded without a look at limits
   template <int D>
   SceneOf<D> asRun(const SceneOf<D>& scene, double stiffness) const {
+    if (!scene.shapes.empty()) throw UnsupportedScene("has no convex bodies");
     const bool rigid = !scene.law.soft();
     const Capabilities can = capabilities();
     const std::vector<std::string>& normals = can.lawOptions.at("normal");

@@ -90,11 +90,80 @@ const ContactLaw& SceneOf<D>::lawOf(std::size_t i, std::size_t j) const {
 template struct SceneOf<2>;
 template struct SceneOf<3>;
 
+Vec3 spinMomentum(const DisksOf<3>& spheres, std::size_t i, const Vec3& spin,
+                  const TurnOf<3>* turn) {
+  if (!turn || spheres.areRound()) return spheres.inertia[i] * spin;
+  const Eigen::Matrix3d axes = matrixOf<3>(*turn);
+  return axes * spheres.moments[i].cwiseProduct(axes.transpose() * spin);
+}
+
+double spinEnergy(const DisksOf<3>& spheres, std::size_t i, const Vec3& spin,
+                  const TurnOf<3>* turn) {
+  if (!turn || spheres.areRound()) return 0.5 * spheres.inertia[i] * spin.squaredNorm();
+  return 0.5 * spin.dot(spinMomentum(spheres, i, spin, turn));
+}
+
+template <int D>
+PlacedBody<D>::PlacedBody(const SceneOf<D>& scene, std::size_t disk, const VecOf<D>& position,
+                          const TurnOf<D>& turn)
+    : position_(position), turn_(turn) {
+  if (scene.isConvex(disk))
+    of_ = &scene.shapes[static_cast<std::size_t>(scene.disks.shape[disk])];
+  else
+    round_ = {ShapeKind::capsule, {VecOf<D>::Zero()}, scene.disks.radius[disk]};
+}
+template class PlacedBody<2>;
+template class PlacedBody<3>;
+
+template <int D>
+double overlapOfPair(const SceneOf<D>& scene, std::size_t i, std::size_t j, const VecOf<D>& apart,
+                     const std::vector<TurnOf<D>>* turn) {
+  const std::size_t disks = scene.disks.size();
+  const auto radiusOf = [&](std::size_t id) {
+    if (id < disks) return scene.disks.radius[id];
+    id -= disks;
+    for (const WallBodyOf<D>& body : scene.bodies) {
+      if (id < body.diskRadius.size()) return body.diskRadius[id];
+      id -= body.diskRadius.size();
+    }
+    throw std::out_of_range("no wall disk of the scene");
+  };
+  const bool moving = j < disks;
+  if (!scene.isConvex(i) && !(moving && scene.isConvex(j)))
+    return radiusOf(i) + radiusOf(j) - apart.norm();
+  const std::vector<TurnOf<D>>& turns = turn ? *turn : scene.disks.turn;
+  const PlacedBody<D> one(scene, i, apart, turns[i]);
+  if (moving)
+    return overlapOf<D>(one.get(), PlacedBody<D>(scene, j, VecOf<D>::Zero(), turns[j]).get());
+  const ShapeOf<D> round{ShapeKind::capsule, {VecOf<D>::Zero()}, radiusOf(j)};
+  return overlapOf<D>(one.get(), {&round});
+}
+template double overlapOfPair<2>(const Scene&, std::size_t, std::size_t, const Vec2&,
+                                 const std::vector<double>*);
+template double overlapOfPair<3>(const SpaceScene&, std::size_t, std::size_t, const Vec3&,
+                                 const std::vector<Eigen::Vector4d>*);
+
+template <int D>
+double overlapWithPlane(const SceneOf<D>& scene, std::size_t i, const VecOf<D>& position,
+                        const PlaneOf<D>& plane, const std::vector<TurnOf<D>>* turn) {
+  if (!scene.isConvex(i)) return scene.disks.radius[i] - (position - plane.point).dot(plane.normal);
+  const TurnOf<D>& own = turn ? (*turn)[i] : scene.disks.turn[i];
+  return depthBehind<D>(PlacedBody<D>(scene, i, position, own).get(), plane.point, plane.normal);
+}
+template double overlapWithPlane<2>(const Scene&, std::size_t, const Vec2&, const Plane&,
+                                    const std::vector<double>*);
+template double overlapWithPlane<3>(const SpaceScene&, std::size_t, const Vec3&, const PlaneOf<3>&,
+                                    const std::vector<Eigen::Vector4d>*);
+
 template <int D>
 std::string nameOfId(const SceneOf<D>& scene, std::size_t id) {
   const char* const round = D == 2 ? "disk" : "sphere";
   const std::size_t disks = scene.disks.size();
-  if (id < disks) return fmt::format("{} {}", round, id);
+  if (id < disks) {
+    if (!scene.isConvex(id)) return fmt::format("{} {}", round, id);
+    return fmt::format(
+        "{} {}", toString(scene.shapes[static_cast<std::size_t>(scene.disks.shape[id])].kind), id);
+  }
   const std::size_t walls = disks + scene.wallDiskCount(), planes = walls + scene.planeCount();
   if (id < walls) return fmt::format("wall {} {}", round, id - disks);
   return id < planes ? fmt::format("plane {}", id - walls)

@@ -9,13 +9,15 @@
 #include <vector>
 
 #include "adapters/motion.hpp"
+#include "adapters/shape.hpp"
 #include "adapters/vec2.hpp"
 #include "law/contact_law.hpp"
 
 namespace crossgrain {
 
 /// The moving disks, or spheres in space, structure of arrays, all of one length N; ids are 0 …
-/// N−1.
+/// N−1. Among them there may be convex bodies, whose radius is that of the circle or sphere about
+/// their centre of mass that holds them.
 template <int D>
 struct DisksOf {
   std::vector<double> radius;      ///< [m]
@@ -23,9 +25,23 @@ struct DisksOf {
   std::vector<double> inertia;     ///< moment of inertia about the centre, q m a² [kg m²]
   std::vector<VecOf<D>> position;  ///< [m]
   std::vector<VecOf<D>> velocity;  ///< [m/s]
-  std::vector<SpinOf<D>> spin;     ///< ω [rad/s]
+  std::vector<SpinOf<D>> spin;     ///< ω, laboratory frame [rad/s]
+  // Empty where all are round.
+  std::vector<std::int32_t> shape = {};  ///< index into SceneOf::shapes; −1: a disk, or sphere
+  std::vector<TurnOf<D>> turn = {};      ///< orientation
+  std::vector<VecOf<3>> moments = {};    ///< in space: of inertia, about the body's axes [kg m²]
 
+  bool areRound() const { return shape.empty(); }
   std::size_t size() const { return radius.size(); }
+  /// Of every kind of list, also those that are empty.
+  void forEachList(auto&& visit) {
+    for (auto* const each : {&radius, &mass, &inertia}) visit(*each);
+    for (auto* const each : {&position, &velocity}) visit(*each);
+    visit(spin);
+    visit(shape);
+    visit(turn);
+    visit(moments);
+  }
 };
 using Disks = DisksOf<2>;
 
@@ -125,6 +141,7 @@ template <int D>
 struct SceneOf {
   std::string name;
   DisksOf<D> disks;
+  std::vector<ShapeOf<D>> shapes;  ///< of convex bodies among the disks
   std::vector<WallBodyOf<D>> bodies;
   ContactLaw law;                       ///< of all pairs
   std::optional<Materials> materials;   ///< instead, where pairs differ
@@ -143,6 +160,7 @@ struct SceneOf {
   /// Of a pair by their ids; what `law` is where all pairs are alike.
   const ContactLaw& lawOf(std::size_t i, std::size_t j) const;
   std::vector<double> radii() const;  ///< of the disks, then of the wall disks [m]
+  bool isConvex(std::size_t disk) const { return !disks.areRound() && disks.shape[disk] >= 0; }
 };
 using Scene = SceneOf<2>;
 using SpaceScene = SceneOf<3>;
@@ -155,8 +173,46 @@ void changeLaws(SceneOf<D>& scene, auto&& change) {
     for (ContactLaw& law : scene.materials->laws) change(law);
 }
 
+/// Of the spin of a body in space about its centre of mass [J].
+/// @param turn  its orientation; null of a sphere
+double spinEnergy(const DisksOf<3>& spheres, std::size_t i, const Vec3& spin,
+                  const TurnOf<3>* turn);
+
+/// J ω of it, laboratory frame [kg m²/s].
+Vec3 spinMomentum(const DisksOf<3>& spheres, std::size_t i, const Vec3& spin,
+                  const TurnOf<3>* turn);
+
+/// A body of the scene where it is; a disk or sphere is one vertex with its radius around it.
+/// @param position, turn  of its centre of mass [m], and its orientation
+template <int D>
+class PlacedBody {
+ public:
+  PlacedBody(const SceneOf<D>& scene, std::size_t disk, const VecOf<D>& position,
+             const TurnOf<D>& turn);
+  PlacedShapeOf<D> get() const { return {of_ ? of_ : &round_, position_, turn_}; }
+
+ private:
+  const ShapeOf<D>* of_ = nullptr;
+  ShapeOf<D> round_;
+  VecOf<D> position_;
+  TurnOf<D> turn_;
+};
+
+/// Depth by which two bodies of the scene overlap, or a body and a wall disk [m]; < 0: their
+/// distance.
+/// @param apart  from the centre of j to that of i [m]
+/// @param turn   orientations; those of the scene's start if null
+template <int D>
+double overlapOfPair(const SceneOf<D>& scene, std::size_t i, std::size_t j, const VecOf<D>& apart,
+                     const std::vector<TurnOf<D>>* turn = nullptr);
+
+/// The same of a body and a plane.
+template <int D>
+double overlapWithPlane(const SceneOf<D>& scene, std::size_t i, const VecOf<D>& position,
+                        const PlaneOf<D>& plane, const std::vector<TurnOf<D>>* turn = nullptr);
+
 /// "disk 3", "wall disk 12", "plane 0", "cylinder 0": what an id is, each kind counted from 0; in
-/// space "sphere 3".
+/// space "sphere 3"; of convex bodies "polygon 3".
 template <int D>
 std::string nameOfId(const SceneOf<D>& scene, std::size_t id);
 

@@ -22,10 +22,18 @@ std::string describe(const std::vector<Motion::Kind>& kinds) {
   return fmt::format("{}", fmt::join(names, " | "));
 }
 
+/// @param first  that every engine has
+std::string describe(const std::vector<ShapeKind>& kinds, const char* first) {
+  std::string all = first;
+  for (const ShapeKind kind : kinds) all += " | " + toString(kind);
+  return all;
+}
+
 /// The first of a scene that is none of them.
 template <int D>
 std::optional<double> otherInertia(const SceneLimits& limits, const DisksOf<D>& disks) {
   for (std::size_t k = 0; k < disks.size(); ++k) {
+    if (!disks.areRound() && disks.shape[k] >= 0) continue;
     const double q = disks.inertia[k] / (disks.mass[k] * disks.radius[k] * disks.radius[k]);
     if (!hasInertia(limits, q)) return q;
   }
@@ -81,6 +89,24 @@ std::string beyondOfCylinders(const SceneLimits& limits, const WallBodyOf<D>& bo
   return {};
 }
 
+/// The first shape that is beyond; empty: none.
+template <int D>
+std::string beyondOfShapes(const SceneLimits& limits, const SceneOf<D>& scene) {
+  for (const ShapeOf<D>& shape : scene.shapes) {
+    const std::string kind = toString(shape.kind);
+    if (std::ranges::find(limits.shapes, shape.kind) == limits.shapes.end())
+      return fmt::format("has no {}, as the scene has (its shapes: {})", kind,
+                         describe(limits.shapes, D == 2 ? "disk" : "sphere"));
+    if (shape.vertices.size() > static_cast<std::size_t>(limits.mostVertices))
+      return fmt::format("has {}s of at most {} vertices, not {}", kind, limits.mostVertices,
+                         shape.vertices.size());
+    if (shape.kind == ShapeKind::polygon && shape.rounding > 0.0 && !limits.rounded)
+      return "has polygons with sharp corners, not rounded ones";
+  }
+  if (!scene.shapes.empty() && scene.law.coheres()) return "has convex bodies without cohesion";
+  return {};
+}
+
 /// Whether contacts of this scene have several reduced masses.
 template <int D>
 bool pairsDiffer(const SceneOf<D>& scene) {
@@ -105,6 +131,8 @@ std::vector<std::string> beyondLimits(const SceneLimits& limits, const SceneOf<D
     if (const auto q = otherInertia(limits, scene.disks))
       reasons.push_back(fmt::format("has moments of inertia of {} m a², not {:.6g} m a²",
                                     fmt::join(*limits.inertia, " | "), *q));
+  if (std::string why = beyondOfShapes(limits, scene); !why.empty())
+    reasons.push_back(std::move(why));
   for (const auto& body : scene.bodies) {
     const std::string kind = toString(body.motion.kind);
     if (limits.wallMotions && !body.diskRadius.empty() &&

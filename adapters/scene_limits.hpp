@@ -16,6 +16,9 @@ struct SceneLimits {
   std::optional<std::vector<Motion::Kind>> wallMotions;   ///< of bodies with wall disks
   std::optional<std::vector<Motion::Kind>> planeMotions;  ///< of those with planes; empty: none
   bool cylinders = false;                                 ///< bodies may have cylinders
+  std::vector<ShapeKind> shapes;  ///< that moving bodies may have besides disks and spheres
+  int mostVertices = 1000;        ///< of a polygon or polyhedron
+  bool rounded = false;           ///< polygons may be rounded
   bool planesAlongAxes = false;  ///< planes have normals along axes (±x, ±y, ±z) alone, to the bit
   /// Of rigid contacts: each body has one restitution, so that a soft law, whose restitution
   /// depends on the masses of the pair, cannot be stood for where pairs differ.

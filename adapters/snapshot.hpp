@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "adapters/energy_ledger.hpp"
+#include "adapters/shape.hpp"
 #include "adapters/vec2.hpp"
 
 namespace crossgrain {
@@ -18,7 +19,9 @@ enum class ContactReport {
 };
 
 /// Contacts as the engine computed them, structure of arrays, i < j by Scene's ids.
-/// The normal points from j to i; forces act on i.
+/// The normal points from j to i; forces act on i. Two bodies that touch in several points have one
+/// contact with the sum of their forces: it acts at the mean of the points, weighed with the normal
+/// forces, and what moment is left about that is the torque.
 template <int D>
 struct ContactsOf {
   std::vector<std::int32_t> i, j;
@@ -28,12 +31,15 @@ struct ContactsOf {
   /// f_t on i: along z × normal; in space the vector, normal to `normal` [N]
   std::vector<SpinOf<D>> tangentialForce;
   std::vector<std::uint8_t> sliding;  ///< 1 where the Coulomb bound holds; may be empty: unknown
-  /// M on i, −M on j, of laws that resist rolling [N m]; may be empty: none, or unknown
+  /// M on i, −M on j, of laws that resist rolling, and of several points [N m]; may be empty: none,
+  /// or unknown
   std::vector<SpinOf<D>> rollingTorque;
   /// Power that dashpots, sliding, rolling and yield turn into heat, over the step that ends at
   /// contactTime or at that instant [W]; may be empty: unknown. Asked for with
   /// Scene::energyLedger
   std::vector<double> dissipation;
+  /// Where the force acts; may be empty in scenes of disks alone [m]
+  std::vector<VecOf<D>> point = {};
 
   std::size_t size() const { return i.size(); }
   /// On the first of the two [N].
@@ -76,6 +82,7 @@ struct SnapshotOf {
   std::vector<VecOf<D>> position;              ///< disks, of any image in a periodic box [m]
   std::vector<VecOf<D>> velocity;              ///< disks [m/s]
   std::optional<std::vector<SpinOf<D>>> spin;  ///< disks [rad/s]; absent where nothing spins
+  std::optional<std::vector<TurnOf<D>>> turn;  ///< of disks; where there are convex bodies
   std::vector<VecOf<D>> wallPosition;          ///< wall disks, body by body [m]
   std::vector<BodySnapshotOf<D>> bodies;
   std::optional<ContactsOf<D>> contacts;
@@ -84,6 +91,12 @@ struct SnapshotOf {
 };
 using Snapshot = SnapshotOf<2>;
 using SpaceSnapshot = SnapshotOf<3>;
+
+/// Orientation of a body; null where all are round.
+template <int D>
+const TurnOf<D>* turnIn(const SnapshotOf<D>& snapshot, std::size_t i) {
+  return snapshot.turn ? &(*snapshot.turn)[i] : nullptr;
+}
 
 /// When the motion had the velocities that a snapshot shows [s].
 /// @param lag  EffectiveParameters::velocityLag; a scene's own velocities at t = 0 have none

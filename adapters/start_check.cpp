@@ -33,8 +33,8 @@ std::optional<DeepStartOf<D>> deepInWall(const SceneOf<D>& scene,
     for (std::size_t i = 0; i < scene.disks.size() && !found; ++i) {
       const double radius = scene.disks.radius[i];
       const PlaneOf<D> plane = planeFor(scene.disks.position[i]);
-      const double overlap =
-          radius - (scene.disks.position[i] - plane.point).dot(plane.normal.normalized());
+      const double overlap = overlapWithPlane<D>(scene, i, scene.disks.position[i],
+                                                 {plane.point, plane.normal.normalized()});
       if (overlap > limit(radius, radius)) found = {i, id, scene.disks.position[i], overlap, false};
     }
     ++id;
@@ -73,7 +73,7 @@ std::optional<DeepStartOf<D>> deepStart(const SceneOf<D>& scene,
     VecOf<D> apart = position[i] - position[j];
     if (scene.box) apart = scene.box->nearest(apart);
     const double distance = apart.norm();
-    const double overlap = radius[i] + radius[j] - distance;
+    const double overlap = overlapOfPair(scene, i, j, apart);
     if (distance == 0.0 || overlap > limit(radius[i], radius[j]))
       first = {i, j, position[i], overlap, distance == 0.0};
   });

@@ -67,6 +67,11 @@ SpinOf<D> spinningAt(const AssemblyOf<D>& assembly, const SpinOf<D>& spin) {
   return assembly.placement.mirror ? -spin : spin;
 }
 
+template <int D>
+bool anyShape(const AssemblyOf<D>& assembly) {
+  return std::ranges::any_of(assembly.disks, [](const auto& group) { return !!group.shape; });
+}
+
 /// All places of a group, or so many of them, drawn without repeats.
 template <int D>
 std::vector<VecOf<D>> placesOf(const DiskGroupOf<D>& group, gsl_rng* random) {
@@ -79,10 +84,40 @@ std::vector<VecOf<D>> placesOf(const DiskGroupOf<D>& group, gsl_rng* random) {
   return places;
 }
 
+/// An orientation, each as likely (Shoemake, Graphics Gems III (1992) 124).
+template <int D>
+TurnOf<D> anyTurn(gsl_rng* random) {
+  const auto angle = [&] { return gsl_ran_flat(random, 0.0, 2.0 * std::numbers::pi); };
+  if constexpr (D == 2) {
+    return angle();
+  } else {
+    const double share = gsl_rng_uniform(random), a = angle(), b = angle();
+    const double s = std::sqrt(1.0 - share), c = std::sqrt(share);
+    return {c * std::cos(b), s * std::sin(a), s * std::cos(a), c * std::sin(b)};
+  }
+}
+
+/// Mirrored at the y axis, as the assembly is.
+template <int D>
+ShapeOf<D> placedShape(const AssemblyOf<D>& assembly, ShapeOf<D> shape) {
+  if (!assembly.placement.mirror) return shape;
+  for (VecOf<D>& vertex : shape.vertices) vertex[0] *= -1.0;
+  std::ranges::reverse(shape.vertices);
+  return shape;
+}
+
+template <int D>
+TurnOf<D> placedTurn(const AssemblyOf<D>& assembly, const TurnOf<D>& turn) {
+  if constexpr (D == 2)
+    return assembly.placement.turn + (assembly.placement.mirror ? -turn : turn);
+  else
+    return turn;
+}
+
+/// @param shape  the group's, among those of the scene; −1 of disks
 template <int D>
 void addDisks(DisksOf<D>& disks, const DiskGroupOf<D>& group, const AssemblyOf<D>& assembly,
-              gsl_rng* random) {
-  const double diameter = 2.0 * group.radius;
+              std::int32_t shape, gsl_rng* random) {
   for (const VecOf<D>& place : placesOf(group, random)) {
     const double scale = 1.0 + within(random, group.radiusSpread);
     const VecOf<D> jitter = each<D>([&] { return within(random, group.jitter); });
@@ -90,13 +125,21 @@ void addDisks(DisksOf<D>& disks, const DiskGroupOf<D>& group, const AssemblyOf<D
     const double radius = group.radius * scale;
     double mass = group.mass * scale * scale;
     if (D == 3) mass *= scale;
-    const VecOf<D> position = group.position + diameter * (place + jitter);
+    const VecOf<D> position = group.position + group.pitch().cwiseProduct(place + jitter);
     disks.radius.push_back(radius);
     disks.mass.push_back(mass);
     disks.inertia.push_back(assembly.inertiaFactor * mass * radius * radius);
     disks.position.push_back(placedAt(assembly, position));
     disks.velocity.push_back(movingAt<D>(assembly, group.velocity + extra));
     disks.spin.push_back(spinningAt(assembly, group.spin));
+    if (!anyShape(assembly)) continue;
+    disks.shape.push_back(shape);
+    const TurnOf<D> turn = group.randomTurn ? anyTurn<D>(random) : group.turn;
+    disks.turn.push_back(placedTurn(assembly, turn));
+    const bool round = shape < 0;
+    if (!round) disks.inertia.back() = D == 2 ? group.moments.z() : group.moments.mean();
+    if (D == 3)
+      disks.moments.push_back(round ? Vec3(Vec3::Constant(disks.inertia.back())) : group.moments);
   }
 }
 
@@ -174,7 +217,9 @@ DisksOf<D> assemblyDisks(const Case& setup, int packing) {
     return placed(starts[static_cast<std::size_t>(packing) % starts.size()], assembly,
                   random.get());
   DisksOf<D> disks;
-  for (const DiskGroupOf<D>& group : assembly.disks) addDisks(disks, group, assembly, random.get());
+  std::int32_t shapes = 0;
+  for (const DiskGroupOf<D>& group : assembly.disks)
+    addDisks(disks, group, assembly, group.shape ? shapes++ : -1, random.get());
   return disks;
 }
 template Disks assemblyDisks<2>(const Case&, int);
@@ -195,6 +240,8 @@ SceneOf<D> assemblyScene(const Case& setup, DisksOf<D> disks, double wallTime, d
   scene.dt = dt;
   scene.energyLedger = setup.run.energyLedger;
   scene.disks = std::move(disks);
+  for (const DiskGroupOf<D>& group : assembly.disks)
+    if (group.shape) scene.shapes.push_back(placedShape(assembly, *group.shape));
   for (const WallGroupOf<D>& group : assembly.walls) {
     scene.bodies.push_back(bodyOf(group, assembly, scene.bodies.size()));
     moveOn(scene.bodies.back(), wallTime);

@@ -149,11 +149,12 @@ struct Collision {
   std::vector<MaterialName> material = {};  ///< of the two, where [[law.pairs]] has them
 };
 
-/// Disks, or spheres in space, of one kind, each at `position` plus one of `places`.
+/// Disks, or spheres in space, or convex bodies, of one kind, each at `position` plus one of
+/// `places`.
 template <int D>
 struct DiskGroupOf {
   VecOf<D> position = VecOf<D>::Zero();               ///< [m]
-  std::vector<VecOf<D>> places = {VecOf<D>::Zero()};  ///< in diameters of the group
+  std::vector<VecOf<D>> places = {VecOf<D>::Zero()};  ///< in multiples of pitch()
   VecOf<D> velocity = VecOf<D>::Zero();               ///< [m/s]
   SpinOf<D> spin = noSpin<D>();                       ///< [rad/s]
   double radius = 0.0;                                ///< [m]
@@ -164,9 +165,17 @@ struct DiskGroupOf {
   MaterialName material = {};
   int choose = 0;  ///< so many of the places, others in each packing; 0: all of them
 
+  std::optional<ShapeOf<D>> shape = {};  ///< of convex bodies, which `radius` reaches around
+  TurnOf<D> turn = noTurn<D>();          ///< of each, or
+  bool randomTurn = false;               ///< any, each as likely
+  Vec3 moments = Vec3::Zero();           ///< of inertia of one; in the plane that about z [kg m²]
+  VecOf<D> extents = VecOf<D>::Zero();   ///< of the shape [m]
+
   std::size_t count() const {
     return choose > 0 ? static_cast<std::size_t>(choose) : places.size();
   }
+  /// A diameter, or the extents of the shape [m].
+  VecOf<D> pitch() const { return shape ? extents : VecOf<D>::Constant(2.0 * radius); }
 };
 using DiskGroup = DiskGroupOf<2>;
 

@@ -139,7 +139,14 @@ std::span<const RegionNumber> diskNumbers(int dimension) {
                                 vx = {"velocity_x", "m/s", "x of a disk's velocity"},
                                 vy = {"velocity_y", "m/s", "y of a disk's velocity"};
   static constexpr std::array inPlane = {
-      x, y, vx, vy, RegionNumber{"spin", "rad/s", "angular velocity of a disk, counter-clockwise"}};
+      x,
+      y,
+      vx,
+      vy,
+      RegionNumber{"spin", "rad/s", "angular velocity of a disk, counter-clockwise"},
+      RegionNumber{"angle", "rad",
+                   "orientation of a convex body, counter-clockwise, within half a turn of that of "
+                   "the snapshot before"}};
   static constexpr std::array inSpace = {
       x,
       y,
@@ -149,7 +156,8 @@ std::span<const RegionNumber> diskNumbers(int dimension) {
       RegionNumber{"velocity_z", "m/s", "z of a sphere's velocity"},
       RegionNumber{"spin_x", "rad/s", "x of a sphere's angular velocity"},
       RegionNumber{"spin_y", "rad/s", "y of a sphere's angular velocity"},
-      RegionNumber{"spin_z", "rad/s", "z of a sphere's angular velocity"}};
+      RegionNumber{"spin_z", "rad/s", "z of a sphere's angular velocity"},
+      RegionNumber{"angle", "rad", "by which a convex body has turned from its start, 0 to π"}};
   if (dimension == 3) return inSpace;
   return inPlane;
 }

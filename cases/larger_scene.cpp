@@ -101,11 +101,10 @@ void repeatAlong(SceneOf<D>& scene, const Direction& along, std::size_t copies) 
   VecOf<D> shift = VecOf<D>::Zero();
   shift[along.axis] = along.length;
   DisksOf<D>& disks = scene.disks;
-  for (std::vector<double>* const each : {&disks.radius, &disks.mass, &disks.inertia})
-    repeat(*each, copies);
-  repeat(disks.velocity, copies);
-  repeat(disks.spin, copies);
-  repeatShifted<D>(disks.position, copies, shift);
+  const std::size_t once = disks.size();
+  disks.forEachList([&](auto& list) { repeat(list, copies); });
+  for (std::size_t k = once; k < disks.size(); ++k)
+    disks.position[k] += static_cast<double>(k / once) * shift;
   if (scene.materials) repeat(scene.materials->ofDisk, copies);
   const std::size_t bodies = scene.bodies.size();
   for (std::size_t b = 0; b < bodies; ++b) {

@@ -275,8 +275,8 @@ Endpoint readEndpoint(Reader& in, const Case& c, Margin& margin) {
 
 bool startsDiffer(const Case& setup) {
   const auto varies = [](const auto& group) {
-    return group.jitter > 0.0 || group.radiusSpread > 0.0 || group.velocityRms > 0.0 ||
-           group.count() < group.places.size();
+    return group.jitter > 0.0 || group.randomTurn || group.radiusSpread > 0.0 ||
+           group.velocityRms > 0.0 || group.count() < group.places.size();
   };
   return withAssembly(setup, [&](const auto& assembly) {
     const auto& starts = assembly.starts;
@@ -309,12 +309,12 @@ void readEndpoints(std::vector<Reader>& endpoints, const Reader& average, const 
     if (packingsAreFiles(c) || c.preparation.packings < 2) return;
     average.fail("bins",
                  "no packing would differ from another: give assembly.disks a jitter, "
-                 "radius_spread, velocity_rms or choose, or preparation.packings = 1");
+                 "radius_spread, velocity_rms, random_turn or choose, or preparation.packings = 1");
   }
   const Reader& one = endpoints[static_cast<std::size_t>(first - own.begin())];
   one.check(!differ, "expected",
-            "is of one start, and here packings differ: several files, or a jitter, radius_spread "
-            "or velocity_rms");
+            "is of one start, and here packings differ: several files, or a jitter, radius_spread, "
+            "random_turn or velocity_rms");
   if (preparation.has("packings"))
     preparation.check(c.preparation.packings <= closedFormRuns, "packings",
                       "no packing would differ from another, and endpoints with an expected value "

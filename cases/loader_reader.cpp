@@ -179,6 +179,16 @@ void convert(const Value& value, Vec3& target, const Range& range) {
   convertVector<3>(value, target, range);
 }
 
+void convert(const Value& value, std::vector<Vec2>& target, const Range& range) {
+  if (!value.node.is_array()) value.failType("a list of vectors");
+  convertList(value, target, range);
+}
+
+void convert(const Value& value, std::vector<Vec3>& target, const Range& range) {
+  if (!value.node.is_array()) value.failType("a list of vectors");
+  convertList(value, target, range);
+}
+
 void convert(const Value& value, double (&target)[2], const Range& range) {
   std::vector<double> values;
   convert(value, values, range);

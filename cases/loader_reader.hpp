@@ -69,6 +69,9 @@ void convert(const Value& value, std::vector<std::filesystem::path>& target,
 /// [x, y], [x, y, z]
 void convert(const Value& value, Vec2& target, const Range& range);
 void convert(const Value& value, Vec3& target, const Range& range);
+/// Lists of those; a list of one is no vector.
+void convert(const Value& value, std::vector<Vec2>& target, const Range& range);
+void convert(const Value& value, std::vector<Vec3>& target, const Range& range);
 /// One number for both bodies, or two.
 void convert(const Value& value, double (&target)[2], const Range& range);
 /// An enum whose values have these names, in its order.

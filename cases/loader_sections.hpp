@@ -61,6 +61,9 @@ template <int D>
 void checkCylinders(const Reader& in, const AssemblyOf<D>& assembly);
 template <int D>
 void readStartFiles(Reader in, AssemblyOf<D>& assembly);
+/// A convex body as the case has it: its centre of mass need not be the origin.
+template <int D>
+ShapeOf<D> readShape(Reader in);
 SectionInfo boxSection();
 SectionInfo startSection();
 /// @param c  whose [assembly] and [preparation] have been read

@@ -58,6 +58,8 @@ std::string contentHash(const Packing& packing) {
   const DisksOf<3>& spheres = packing.spheres;
   for (const auto* values : {&spheres.radius, &spheres.mass, &spheres.inertia}) add(*values);
   for (const auto* values : {&spheres.position, &spheres.velocity, &spheres.spin}) add(*values);
+  add(disks.turn);
+  add(spheres.turn);
   std::string hash = fmt::format("{:016x} {}", fnv1a(bytes), packing.wheelAngle);
   if (packing.wallTime != 0.0) hash += fmt::format(" {}", packing.wallTime);
   if (!packing.fixed.empty()) hash += " fixed " + packing.fixed;

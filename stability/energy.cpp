@@ -33,9 +33,13 @@ template <int D>
 double kineticEnergy(const DisksOf<D>& disks, const SnapshotOf<D>& snapshot) {
   const std::vector<SpinOf<D>>& spin = snapshot.spin ? *snapshot.spin : disks.spin;
   double energy = 0.0;
-  for (std::size_t i = 0; i < disks.size(); ++i)
-    energy += 0.5 * disks.mass[i] * snapshot.velocity[i].squaredNorm() +
-              0.5 * disks.inertia[i] * square(spin[i]);
+  for (std::size_t i = 0; i < disks.size(); ++i) {
+    energy += 0.5 * disks.mass[i] * snapshot.velocity[i].squaredNorm();
+    if constexpr (D == 2)
+      energy += 0.5 * disks.inertia[i] * square(spin[i]);
+    else
+      energy += spinEnergy(disks, i, spin[i], turnIn(snapshot, i));
+  }
   return energy;
 }
 template double kineticEnergy<2>(const Disks&, const Snapshot&);

@@ -33,7 +33,7 @@ template std::vector<Vec3> wallDisksAt<3>(const SpaceScene&, double);
 
 template <int D>
 std::vector<OverlapOf<D>> overlapsOf(const SceneOf<D>& scene, const std::vector<VecOf<D>>& position,
-                                     double t) {
+                                     double t, const std::vector<TurnOf<D>>* turn) {
   std::vector<VecOf<D>> place = position;
   const std::vector<double> radius = scene.radii();
   const std::vector<VecOf<D>> walls = wallDisksAt(scene, t);
@@ -44,13 +44,14 @@ std::vector<OverlapOf<D>> overlapsOf(const SceneOf<D>& scene, const std::vector<
   if (std::ranges::all_of(place, finite))
     nearPairs<D>(place, radius, scene.disks.size(), scene.box, [&](std::size_t i, std::size_t j) {
       const VecOf<D> apart = apartIn<D>(scene, place[i] - place[j]);
-      const double depth = radius[i] + radius[j] - apart.norm();
+      const double depth = scene.shapes.empty() ? radius[i] + radius[j] - apart.norm()
+                                                : overlapOfPair(scene, i, j, apart, turn);
       if (depth > 0.0)
         found.push_back({i, j, depth, std::min(radius[i], radius[j]),
                          radius[i] * radius[j] / (radius[i] + radius[j]), apart.normalized()});
     });
   const auto addPlane = [&](std::size_t i, std::size_t id, const PlaneOf<D>& plane) {
-    const double depth = radius[i] - (position[i] - plane.point).dot(plane.normal);
+    const double depth = overlapWithPlane(scene, i, position[i], plane, turn);
     if (depth > 0.0) found.push_back({i, id, depth, radius[i], radius[i], plane.normal});
   };
   const std::vector<PlaneOf<D>> planes = planesAt(scene, t);
@@ -64,8 +65,9 @@ std::vector<OverlapOf<D>> overlapsOf(const SceneOf<D>& scene, const std::vector<
   }
   return found;
 }
-template std::vector<OverlapOf<2>> overlapsOf<2>(const Scene&, const std::vector<Vec2>&, double);
+template std::vector<OverlapOf<2>> overlapsOf<2>(const Scene&, const std::vector<Vec2>&, double,
+                                                 const std::vector<double>*);
 template std::vector<OverlapOf<3>> overlapsOf<3>(const SpaceScene&, const std::vector<Vec3>&,
-                                                 double);
+                                                 double, const std::vector<Eigen::Vector4d>*);
 
 }  // namespace crossgrain::inline stability

@@ -174,7 +174,11 @@ AngularMomentum<D> angularMomentumOf(const DisksOf<D>& disks, const SnapshotOf<D
   for (std::size_t i = 0; i < disks.size(); ++i) {
     const VecOf<D> arm = position[i] - centre, velocity = now.velocity[i] - drift;
     const SpinOf<D> spin = now.spin ? (*now.spin)[i] : disks.spin[i];
-    sum.value += disks.mass[i] * cross(arm, velocity) + disks.inertia[i] * spin;
+    if constexpr (D == 2)
+      sum.value += disks.mass[i] * cross(arm, velocity) + disks.inertia[i] * spin;
+    else
+      sum.value +=
+          disks.mass[i] * cross(arm, velocity) + spinMomentum(disks, i, spin, turnIn(now, i));
     sum.scale += disks.mass[i] * (arm.norm() + disks.radius[i]) * velocity.norm() +
                  disks.inertia[i] * sizeOf(spin);
   }
@@ -195,7 +199,8 @@ template <int D>
 Curve maxOverlap(const RecordingOf<D>& run) {
   return each(run, [&](const SnapshotOf<D>& now) {
     double deepest = 0.0;
-    for (const OverlapOf<D>& overlap : overlapsOf(run.scene, now.position, now.positionTime))
+    for (const OverlapOf<D>& overlap :
+         overlapsOf(run.scene, now.position, now.positionTime, now.turn ? &*now.turn : nullptr))
       deepest = std::max(deepest, overlap.depth / overlap.smallerRadius);
     return deepest;
   });
@@ -246,6 +251,20 @@ double farthest(const SceneOf<D>& scene, const SnapshotOf<D>& from, const Snapsh
   for (std::size_t i = 0; i < scene.disks.size(); ++i)
     largest = std::max(largest, apartIn<D>(scene, to.position[i] - from.position[i]).norm());
   return largest / smallestDiameter(scene);
+}
+
+/// Farthest turn of a convex body since it should be at rest.
+template <int D>
+Curve lean(const RecordingOf<D>& run) {
+  const SnapshotOf<D>& start = run.settle > 0.0 ? restingStart(run) : run.snapshots.front();
+  if (!start.turn) return {};
+  return each(run, [&](const SnapshotOf<D>& now) {
+    double most = 0.0;
+    for (std::size_t i = 0; now.turn && i < now.turn->size(); ++i)
+      if (run.scene.isConvex(i) && now.positionTime >= start.positionTime)
+        most = std::max(most, turnBetween<D>((*start.turn)[i], (*now.turn)[i]));
+    return most;
+  });
 }
 
 template <int D>
@@ -589,6 +608,7 @@ constexpr std::array measures = {
                      kineticAtRest<2>, kineticAtRest<3>},
     StabilityMeasure{"creep", "diameters/s", "farthest displacement at rest, by the time watched",
                      creep<2>, creep<3>},
+    StabilityMeasure{"lean", "rad", "farthest turn of a convex body at rest", lean<2>, lean<3>},
     StabilityMeasure{"pile_angle_change", "degrees", "of the slope of a pile at rest",
                      pileAngleChange<2>, pileAngleChange<3>},
     StabilityMeasure{"copies_differ", "diameters",

@@ -47,9 +47,10 @@ struct OverlapOf {
 
 /// All of them at one instant, walls where their motion takes them, in a periodic box of nearest
 /// images.
+/// @param turn  orientations of convex bodies; those of the scene's start if null
 template <int D>
 std::vector<OverlapOf<D>> overlapsOf(const SceneOf<D>& scene, const std::vector<VecOf<D>>& position,
-                                     double t);
+                                     double t, const std::vector<TurnOf<D>>* turn = nullptr);
 
 /// Planes of all bodies at time t, in Scene's order.
 template <int D>

@@ -74,6 +74,11 @@ SceneOf<D> inUnits(SceneOf<D> scene, const Units& units) {
   for (VecOf<D>& position : disks.position) position *= units.length;
   for (VecOf<D>& velocity : disks.velocity) velocity *= speed;
   for (SpinOf<D>& spin : disks.spin) spin *= rate;
+  for (Vec3& moments : disks.moments) moments *= units.of(2, 1, 0);
+  for (ShapeOf<D>& shape : scene.shapes) {
+    for (VecOf<D>& vertex : shape.vertices) vertex *= units.length;
+    shape.rounding *= units.length;
+  }
   for (WallBodyOf<D>& body : scene.bodies) {
     body.centre *= units.length;
     for (VecOf<D>& position : body.diskPosition) position *= units.length;
@@ -193,17 +198,11 @@ template SpaceScene placed<3>(SpaceScene, const Placement&);
 
 template <int D>
 SceneOf<D> renumbered(SceneOf<D> scene, const std::vector<std::size_t>& order) {
-  const DisksOf<D>& from = scene.disks;
-  DisksOf<D> disks = from;
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    disks.radius[k] = from.radius[order[k]];
-    disks.mass[k] = from.mass[order[k]];
-    disks.inertia[k] = from.inertia[order[k]];
-    disks.position[k] = from.position[order[k]];
-    disks.velocity[k] = from.velocity[order[k]];
-    disks.spin[k] = from.spin[order[k]];
-  }
-  scene.disks = std::move(disks);
+  scene.disks.forEachList([&](auto& list) {
+    const auto from = list;
+    if (!from.empty())
+      for (std::size_t k = 0; k < order.size(); ++k) list[k] = from[order[k]];
+  });
   if (scene.materials) {
     const std::vector<std::int32_t> ofDisk = scene.materials->ofDisk;
     for (std::size_t k = 0; k < order.size(); ++k) scene.materials->ofDisk[k] = ofDisk[order[k]];

@@ -26,11 +26,6 @@ std::size_t sizeOfType(const std::string& type) {
   return 0;
 }
 
-template <int D>
-std::span<const double> flat(std::span<const VecOf<D>> values) {
-  return {reinterpret_cast<const double*>(values.data()), D * values.size()};
-}
-
 /// One that has grown beyond is made anew rather than spoiled [bytes].
 constexpr off_t longestKept = off_t{16} << 20;
 
@@ -68,14 +63,6 @@ void ArrayWriter::add(const std::string& name, std::span<const std::int32_t> val
 
 void ArrayWriter::add(const std::string& name, std::span<const std::uint8_t> values) {
   append(name, "u8", values.size(), std::as_bytes(values));
-}
-
-void ArrayWriter::add(const std::string& name, std::span<const Vec2> values) {
-  add(name, flat<2>(values));
-}
-
-void ArrayWriter::add(const std::string& name, std::span<const Vec3> values) {
-  add(name, flat<3>(values));
 }
 
 // A worker knows where the next file will be and may have put something there: opening a pipe would
@@ -176,20 +163,6 @@ std::vector<double> ArrayReader::f64(const std::string& name, std::size_t count)
     if (!std::isfinite(values[k]))
       throw std::runtime_error(fmt::format("{}: {}[{}] is {}", file_, name, k, values[k]));
   return values;
-}
-
-std::vector<Vec2> ArrayReader::vec2(const std::string& name, std::size_t count) const {
-  const std::vector<double> numbers = f64(name, 2 * count);
-  std::vector<Vec2> vectors(count);
-  for (std::size_t k = 0; k < count; ++k) vectors[k] = {numbers[2 * k], numbers[2 * k + 1]};
-  return vectors;
-}
-
-std::vector<Vec3> ArrayReader::vec3(const std::string& name, std::size_t count) const {
-  const std::vector<double> numbers = f64(name, 3 * count);
-  std::vector<Vec3> vectors(count);
-  for (std::size_t k = 0; k < count; ++k) vectors[k] = Vec3::Map(&numbers[3 * k]);
-  return vectors;
 }
 
 std::vector<std::int32_t> ArrayReader::i32(const std::string& name, std::size_t count) const {

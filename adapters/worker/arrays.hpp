@@ -26,8 +26,10 @@ class ArrayWriter {
   void add(const std::string& name, std::span<const double> values);
   void add(const std::string& name, std::span<const std::int32_t> values);
   void add(const std::string& name, std::span<const std::uint8_t> values);
-  void add(const std::string& name, std::span<const Vec2> values);
-  void add(const std::string& name, std::span<const Vec3> values);
+  template <int N>
+  void add(const std::string& name, const std::vector<VecOf<N>>& values) {
+    add(name, std::span(reinterpret_cast<const double*>(values.data()), N * values.size()));
+  }
 
   /// Writes the file anew, whatever lies under its name. @returns the list that describes it
   /// @throws std::runtime_error naming the file
@@ -66,8 +68,13 @@ class ArrayReader {
 
   /// The array of that name with exactly `count` elements, all finite.
   std::vector<double> f64(const std::string& name, std::size_t count) const;
-  std::vector<Vec2> vec2(const std::string& name, std::size_t count) const;
-  std::vector<Vec3> vec3(const std::string& name, std::size_t count) const;
+  template <int N>
+  std::vector<VecOf<N>> vectors(const std::string& name, std::size_t count) const {
+    const std::vector<double> numbers = f64(name, N * count);
+    std::vector<VecOf<N>> vectors(count);
+    for (std::size_t k = 0; k < count; ++k) vectors[k] = VecOf<N>::Map(&numbers[N * k]);
+    return vectors;
+  }
   std::vector<std::int32_t> i32(const std::string& name, std::size_t count) const;
   std::vector<std::uint8_t> u8(const std::string& name, std::size_t count) const;
 

@@ -65,6 +65,13 @@ void fields(auto& io, Cylinder& cylinder) {
 }
 
 template <int D>
+void fields(auto& io, ShapeOf<D>& shape) {
+  io.required("kind", shape.kind);
+  io.required("vertices", shape.vertices);
+  io.required("rounding", shape.rounding);
+}
+
+template <int D>
 void fields(auto& io, WallBodyOf<D>& body) {
   io.required("name", body.name);
   io.required("centre", body.centre);
@@ -91,6 +98,7 @@ void fields(auto& io, SceneOf<D>& scene) {
   int dimension = D;
   io.when(D == 3, "dimension", dimension);
   io.required("name", scene.name);
+  io.when(!scene.shapes.empty(), "shapes", scene.shapes);
   io.required("bodies", scene.bodies);
   io.required("law", scene.law);
   io.present("materials", scene.materials);
@@ -159,11 +167,9 @@ struct ListReader {
   void operator()(const std::string& name, std::vector<double>& list, std::size_t count) const {
     list = arrays.f64(name, count);
   }
-  void operator()(const std::string& name, std::vector<Vec2>& list, std::size_t count) const {
-    list = arrays.vec2(name, count);
-  }
-  void operator()(const std::string& name, std::vector<Vec3>& list, std::size_t count) const {
-    list = arrays.vec3(name, count);
+  template <int N>
+  void operator()(const std::string& name, std::vector<VecOf<N>>& list, std::size_t count) const {
+    list = arrays.vectors<N>(name, count);
   }
   void operator()(const std::string& name, std::vector<std::int32_t>& list,
                   std::size_t count) const {
@@ -184,6 +190,14 @@ void lists(const auto& io, auto& disks, std::size_t count) {
   io("disks.spin", disks.spin, count);
 }
 
+/// Of scenes with convex bodies.
+template <int D>
+void shapeLists(const auto& io, auto& disks, std::size_t count) {
+  io("disks.shape", disks.shape, count);
+  io("disks.turn", disks.turn, count);
+  if constexpr (D == 3) io("disks.moments", disks.moments, count);
+}
+
 void bodyLists(const auto& io, auto& body, std::size_t index, std::size_t count) {
   io(fmt::format("bodies.{}.disk_position", index), body.diskPosition, count);
   io(fmt::format("bodies.{}.disk_radius", index), body.diskRadius, count);
@@ -193,6 +207,7 @@ void snapshotLists(const auto& io, auto& snapshot, std::size_t disks, std::size_
   io("position", snapshot.position, disks);
   io("velocity", snapshot.velocity, disks);
   io.present("spin", snapshot.spin, disks);
+  io.present("turn", snapshot.turn, disks);
   io("wall_position", snapshot.wallPosition, wallDisks);
 }
 
@@ -210,6 +225,7 @@ template <int D>
 void optionalContactLists(const auto& visit) {
   visit("contacts.rolling_torque", &ContactsOf<D>::rollingTorque);
   visit("contacts.dissipation", &ContactsOf<D>::dissipation);
+  visit("contacts.point", &ContactsOf<D>::point);
 }
 
 /// @throws std::runtime_error unless every body is of one of the materials, every two of which have
@@ -273,6 +289,7 @@ Json toJson(const SceneOf<D>& scene, ArrayWriter& arrays) {
   Json out = jsonOf(scene);
   const ListWriter writer{arrays};
   lists(writer, scene.disks, 0);
+  if (!scene.disks.areRound()) shapeLists<D>(writer, scene.disks, 0);
   if (scene.materials) writer("disks.material", scene.materials->ofDisk, 0);
   out["disks"] = scene.disks.size();
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -299,6 +316,12 @@ SceneOf<D> sceneFromJson(const Json& in, const ArrayReader& arrays) {
   const ListReader reader{arrays};
   const auto disks = member<std::size_t>(in, "disks");
   lists(reader, scene.disks, disks);
+  if (!scene.shapes.empty()) {
+    shapeLists<D>(reader, scene.disks, disks);
+    const auto count = static_cast<std::int32_t>(scene.shapes.size());
+    if (!std::ranges::all_of(scene.disks.shape, [&](auto k) { return k >= -1 && k < count; }))
+      throw std::runtime_error("disks.shape: is of a shape that the scene does not have");
+  }
   if (auto& materials = scene.materials) {
     reader("disks.material", materials->ofDisk, disks);
     checkMaterials(*materials, scene.bodies.size());

@@ -47,6 +47,9 @@ constexpr auto namesOf(Precision) {
 constexpr auto namesOf(Motion::Kind) {
   return motionNames;
 }
+constexpr auto namesOf(ShapeKind) {
+  return shapeKindNames;
+}
 constexpr auto namesOf(Effect) {
   return effectNames;
 }
@@ -95,6 +98,9 @@ void fields(auto& io, SceneLimits& limits) {
   io.present("plane_motions", limits.planeMotions);
   io.present("plane_normals", normals);
   io.when(limits.cylinders, "cylinders", limits.cylinders);
+  io.when(!limits.shapes.empty(), "shapes", limits.shapes);
+  io.when(!limits.shapes.empty(), "most_vertices", limits.mostVertices);
+  io.when(limits.rounded, "rounded", limits.rounded);
   io.present("restitution", restitution);
   if (io.reading) {
     limits.planesAlongAxes = normals == PlaneNormals::axis;

@@ -114,6 +114,7 @@ class PlaneInSpace final : public Engine {
     const Capabilities can = engine_->capabilities();
     if (std::ranges::find(can.dimensions, 3) == can.dimensions.end())
       throw UnsupportedScene("has dimension = 2, not 3");
+    if (!scene.shapes.empty()) throw UnsupportedScene("has no convex bodies in a plane of space");
     const bool axes = scene.box || (scene.planeCount() > 0 && can.limits.planesAlongAxes);
     turn_ = frame_ == PlaneFrame::flat ? Turn(Turn::Identity()) : axes ? alongAxes() : anyTurn();
     radius_ = scene.disks.size() > 0 ? std::ranges::min(scene.disks.radius) : 1.0;

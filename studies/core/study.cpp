@@ -13,6 +13,17 @@
 
 namespace crossgrain::inline studies {
 
+namespace {
+
+/// x0, y0, x1 …, as pictures have it.
+std::vector<double> flat(const std::vector<Vec2>& outline) {
+  std::vector<double> numbers;
+  for (const Vec2& vertex : outline) numbers.insert(numbers.end(), {vertex.x(), vertex.y()});
+  return numbers;
+}
+
+}  // namespace
+
 ScenePicture scenePicture(const Scene& scene, const Snapshot& now, double rotation) {
   ScenePicture picture;
   picture.radius = scene.disks.radius;
@@ -22,6 +33,16 @@ ScenePicture scenePicture(const Scene& scene, const Snapshot& now, double rotati
     const Vec2& start = scene.disks.position[i];
     picture.startR.push_back(start.norm());
     picture.startPhi.push_back(std::atan2(start.y(), start.x()));
+  }
+  if (now.turn) {
+    picture.outlines.emplace(scene.disks.size());
+    for (std::size_t i = 0; i < scene.disks.size(); ++i)
+      if (scene.isConvex(i)) {
+        auto outline = outlineOf(scene.shapes[static_cast<std::size_t>(scene.disks.shape[i])]);
+        for (Vec2& vertex : outline)
+          vertex = now.position[i] + matrixOf<2>((*now.turn)[i]) * vertex;
+        (*picture.outlines)[i] = flat(outline);
+      }
   }
   for (const Vec2& position : now.wallPosition) {
     picture.wallX.push_back(position.x());
@@ -60,6 +81,20 @@ ScenePicture scenePicture(const SpaceScene& scene, const SpaceSnapshot& now, dou
   for (std::size_t i = 0; i < scene.disks.size(); ++i) {
     const auto radius = cutRadius(now.position[i], scene.disks.radius[i]);
     if (!radius) continue;
+    if (now.turn) {
+      const Vec3 away =
+          scene.box ? scene.box->nearest(now.position[i] - cut) : Vec3(now.position[i] - cut);
+      std::vector<Vec2> section;
+      if (scene.isConvex(i)) {
+        section = sectionOf(scene.shapes[static_cast<std::size_t>(scene.disks.shape[i])],
+                            (*now.turn)[i], -away.y());
+        if (section.size() < 3) continue;
+      }
+      for (Vec2& place : section)
+        place += Vec2(wrapped(now.position[i]).x(), wrapped(now.position[i]).z());
+      if (!picture.outlines) picture.outlines.emplace();
+      picture.outlines->push_back(flat(section));
+    }
     const Vec3 x = wrapped(now.position[i]), start = wrapped(scene.disks.position[i]);
     picture.radius.push_back(*radius);
     picture.x.push_back(x.x());

@@ -80,6 +80,29 @@ Eigen::Index componentOf(std::string_view name) {
   return static_cast<Eigen::Index>(axes.find(name.back()));
 }
 
+/// Orientation of a convex body as endpoints have it; absent of a disk.
+/// @param last  what it was before
+template <int D>
+std::optional<double> angleOf(const SceneOf<D>& scene, const SnapshotOf<D>& now, std::size_t i,
+                              const std::optional<double>& last) {
+  if (!scene.isConvex(i) || !now.turn) return std::nullopt;
+  const TurnOf<D>&turn = (*now.turn)[i], &start = scene.disks.turn[i];
+  if constexpr (D == 2)
+    return turn - 2.0 * std::numbers::pi *
+                      std::round((turn - last.value_or(start)) / (2.0 * std::numbers::pi));
+  else
+    return turnBetween<D>(turn, start);
+}
+
+/// How far a body reaches above its centre, along y or, in space, z [m].
+template <int D>
+double reachUp(const SceneOf<D>& scene, const SnapshotOf<D>& now, std::size_t i) {
+  if (!scene.isConvex(i) || !now.turn) return scene.disks.radius[i];
+  const VecOf<D> up = VecOf<D>::Unit(D - 1);
+  const PlacedBody<D> body(scene, i, VecOf<D>::Zero(), (*now.turn)[i]);
+  return depthBehind<D>(body.get(), VecOf<D>::Zero(), -up);
+}
+
 }  // namespace
 
 template <int D>
@@ -89,7 +112,9 @@ void FlowAverages<D>::addDisks(const SnapshotOf<D>& now) {
     if (!own.disk || !added.insert(own.series()).second) continue;
     const auto i = static_cast<std::size_t>(*own.disk);
     Numbers& row = series_[own.series()];
-    if (own.quantity.starts_with("spin")) {
+    if (own.quantity == "angle") {
+      row.push_back(angleOf(scene_, now, i, row.empty() ? std::nullopt : row.back()));
+    } else if (own.quantity.starts_with("spin")) {
       if (!now.spin)
         row.emplace_back();
       else if constexpr (D == 2)
@@ -117,7 +142,7 @@ void FlowAverages<D>::addMoments(const SnapshotOf<D>& now) {
     inside.push_back(i);
     mass += scene_.disks.mass[i];
     first += scene_.disks.mass[i] * x;
-    top = std::max(top, x[up] + scene_.disks.radius[i]);
+    top = std::max(top, x[up] + reachUp(scene_, now, i));
   }
   const bool any = !inside.empty();
   const Vec centre = any ? Vec(first / mass) : Vec::Zero();

@@ -80,10 +80,8 @@ template <typename Value>
 std::vector<Value> listOf(const ArrayReader& arrays, const std::string& name, std::size_t count) {
   if constexpr (std::is_same_v<Value, double>)
     return arrays.f64(name, count);
-  else if constexpr (std::is_same_v<Value, Vec2>)
-    return arrays.vec2(name, count);
   else
-    return arrays.vec3(name, count);
+    return arrays.vectors<Value::RowsAtCompileTime>(name, count);
 }
 
 template <int D>
@@ -96,6 +94,11 @@ Record recordOf(const FlowState& state) {
   arrays.add("position", disks.position);
   arrays.add("velocity", disks.velocity);
   arrays.add("spin", disks.spin);
+  if (!disks.areRound()) {
+    arrays.add("shape", disks.shape);
+    arrays.add("turn", disks.turn);
+    arrays.add("moments", disks.moments);
+  }
   Json line = {{"start", jsonOf(state.start)}};
   if (state.packing.wallTime != 0.0) line["wall_time_s"] = state.packing.wallTime;
   return recordOf(std::move(line), arrays);
@@ -114,6 +117,11 @@ FlowState stateOf(const Record& record) {
   disks.position = listOf<VecOf<D>>(arrays, "position", count);
   disks.velocity = listOf<VecOf<D>>(arrays, "velocity", count);
   disks.spin = listOf<SpinOf<D>>(arrays, "spin", count);
+  if (arrays.has("shape")) {
+    disks.shape = arrays.i32("shape", count);
+    disks.turn = listOf<TurnOf<D>>(arrays, "turn", count);
+    if (D == 3) disks.moments = arrays.vectors<3>("moments", count);
+  }
   state.packing.wheelAngle = state.start.wheelAngle;
   state.packing.wallTime = record.line.value("wall_time_s", 0.0);
   state.packing.hash = contentHash(state.packing);

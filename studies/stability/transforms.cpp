@@ -268,6 +268,8 @@ class Trial {
         throw UnsupportedScene("a single disk has one number only");
       if (hard_.scene.box && !turnsBox<D>(change.placement))
         throw UnsupportedScene("a periodic box lies along the axes: it cannot be turned so");
+      if (!hard_.scene.shapes.empty() && (change.placement.mirror || change.placement.turn != 0.0))
+        throw UnsupportedScene("convex bodies are neither turned nor mirrored");
       const EffectiveParameters effective = load(transformed(hard_.scene, change), change.units);
       const double dt = dt_ * change.units.time;
       if (std::abs(effective.dt - dt) > 1e-12 * dt)

@@ -45,13 +45,13 @@ TEST_F(ArrayFile, WrittenAndRead_KeepsEveryBit) {
   EXPECT_EQ(std::memcmp(readNumbers.data(), numbers.data(), 32), 0);
   EXPECT_EQ(reader.i32("ids", 2), ids);
   EXPECT_EQ(reader.u8("flags", 3), flags);
-  EXPECT_EQ(reader.vec2("vectors", 2), vectors);
+  EXPECT_EQ(reader.vectors<2>("vectors", 2), vectors);
   EXPECT_TRUE(reader.f64("nothing", 0).empty());
   EXPECT_FALSE(reader.has("other"));
 
   const auto* const bytes = reinterpret_cast<const char*>(writer.bytes().data());
   const ArrayReader content(std::string(bytes, writer.bytes().size()), "content", writer.list());
-  EXPECT_EQ(content.vec2("vectors", 2), vectors);
+  EXPECT_EQ(content.vectors<2>("vectors", 2), vectors);
   EXPECT_THROW(ArrayReader(std::string(bytes, 8), "content", writer.list()), std::runtime_error);
 }
 
@@ -109,7 +109,7 @@ TEST_F(ArrayFile, NanInfinityOrWrongCount_IsRefused) {
     return std::string();
   };
   EXPECT_EQ(failure([&] { reader.f64("x", 2); }), name + ": x[1] is inf");
-  EXPECT_EQ(failure([&] { reader.vec2("v", 2); }), name + ": v is 2 × f64, expected 4 × f64");
+  EXPECT_EQ(failure([&] { reader.vectors<2>("v", 2); }), name + ": v is 2 × f64, expected 4 × f64");
   EXPECT_EQ(failure([&] { reader.i32("x", 2); }), name + ": x is 2 × f64, expected 2 × i32");
   EXPECT_EQ(failure([&] { reader.f64("y", 2); }), name + " has no array 'y'");
 }

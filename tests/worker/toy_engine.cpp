@@ -43,7 +43,10 @@ Capabilities ToyEngine::capabilities() const {
   can.energyLedger = true;
   can.settings.push_back({"threads", 1.0, "", "how many", {}});
   can.settings.push_back({"mode", std::string("fast"), "", "which", {"fast", "slow"}});
-  can.limits = {{{0.5, 0.1 + 0.2}}, {{Motion::Kind::radial}}, {}, true, true};
+  can.limits.inertia = {0.5, 0.1 + 0.2};
+  can.limits.wallMotions = {Motion::Kind::radial};
+  can.limits.cylinders = true;
+  can.limits.planesAlongAxes = true;
   if (mischief_ == "option") can.lawOptions["colour"] = {"red"};
   if (mischief_ == "value") can.lawOptions["tension"] = {"red"};
   if (mischief_ == "no value") can.lawOptions["tension"] = {};
