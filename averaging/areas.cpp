@@ -66,4 +66,48 @@ double quadrantArea(double X, double Y) {
   return area + top * (to - from) + underCircle(to) - underCircle(from);
 }
 
+double areaOf(const std::vector<Vec2>& outline) {
+  double area = 0.0;
+  for (std::size_t k = 0; k < outline.size(); ++k)  // about the first, so that little cancels
+    area += 0.5 * cross(outline[k] - outline[0], outline[(k + 1) % outline.size()] - outline[0]);
+  return area;
+}
+
+double commonArea(const std::vector<Vec2>& outline, double R) {
+  double area = 0.0;
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const Vec2 &from = outline[k], side = outline[(k + 1) % outline.size()] - from;
+    // |from + s side| = R, and what of s in [0, 1] is inside.
+    const double square = side.squaredNorm(), half = from.dot(side) / square;
+    const double root = half * half - (from.squaredNorm() - R * R) / square;
+    double enters = 1.0, leaves = 1.0;
+    if (root > 0.0) {
+      enters = std::clamp(-half - std::sqrt(root), 0.0, 1.0);
+      leaves = std::clamp(-half + std::sqrt(root), 0.0, 1.0);
+    }
+    const Vec2 a = from + enters * side, b = from + leaves * side, to = from + side;
+    const auto sector = [R](const Vec2& p, const Vec2& q) {
+      return 0.5 * R * R * std::atan2(cross(p, q), p.dot(q));
+    };
+    area += sector(from, a) + 0.5 * cross(a, b) + sector(b, to);
+  }
+  return area;
+}
+
+double quadrantArea(const std::vector<Vec2>& outline, const Vec2& corner) {
+  std::vector<Vec2> left = outline, kept;
+  for (const int axis : {0, 1}) {
+    kept.clear();
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      const Vec2 &from = left[k], &to = left[(k + 1) % left.size()];
+      const double before = corner[axis] - from[axis], after = corner[axis] - to[axis];
+      if (before >= 0.0) kept.push_back(from);
+      if ((before > 0.0 && after < 0.0) || (before < 0.0 && after > 0.0))
+        kept.emplace_back(from + before / (before - after) * (to - from));
+    }
+    left.swap(kept);
+  }
+  return left.empty() ? 0.0 : areaOf(left);
+}
+
 }  // namespace crossgrain::inline averaging

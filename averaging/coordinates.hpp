@@ -59,6 +59,10 @@ class Coordinates : public BinSet {
   /// to 1. Whatever was in `fractions` is dropped.
   virtual void discFractions(const Vec2& x, double a, Edges edges,
                              BinFractions& fractions) const = 0;
+
+  /// The same of a convex polygon, counter-clockwise [m]; edges are exact.
+  virtual void outlineFractions(const std::vector<Vec2>& outline,
+                                BinFractions& fractions) const = 0;
 };
 
 }  // namespace crossgrain::inline averaging

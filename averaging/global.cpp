@@ -69,7 +69,7 @@ double kineticEnergy(const DisksOf<D>& disks, const SnapshotOf<D>& snapshot) {
     if constexpr (D == 2)
       energy += 0.5 * disks.inertia[p] * spin * spin;
     else
-      energy += 0.5 * disks.inertia[p] * spin.squaredNorm();
+      energy += spinEnergy(disks, p, spin, turnIn(snapshot, p));
   }
   return energy;
 }

@@ -36,9 +36,9 @@ std::size_t Grid::slotAt(const Vec2& x) const {
   return inside ? slot(static_cast<int>(place.x()), static_cast<int>(place.y())) : 0;
 }
 
-void Grid::addFractions(const Vec2& x, double a, BinFractions& fractions, double& rest) const {
-  const Vec2 from = (x - Vec2(a, a) - low_).cwiseQuotient(cell_);
-  const Vec2 to = (x + Vec2(a, a) - low_).cwiseQuotient(cell_);
+template <typename Within>
+void Grid::fractionsOf(const Vec2& low, const Vec2& high, double whole, const Within& within,
+                       BinFractions& fractions) const {
   // Before the cast: beyond what an int holds the other side of the range is as good.
   const auto first = [](double place, int count) {
     return static_cast<int>(std::floor(std::clamp(place, 0.0, static_cast<double>(count))));
@@ -46,35 +46,54 @@ void Grid::addFractions(const Vec2& x, double a, BinFractions& fractions, double
   const auto last = [](double place, int count) {
     return static_cast<int>(std::clamp(std::floor(place), -1.0, count - 1.0));
   };
-  const auto within = [&](int i, int j) {  // what lies below and left of corner (i, j)
-    const Vec2 corner = (low_ + cell_.cwiseProduct(Vec2(i, j)) - x) / a;
-    return quadrantArea(corner.x(), corner.y());
-  };
-  for (int j = first(from.y(), ny_); j <= last(to.y(), ny_); ++j)
-    for (int i = first(from.x(), nx_); i <= last(to.x(), nx_); ++i) {
-      const double area = within(i + 1, j + 1) - within(i, j + 1) - within(i + 1, j) + within(i, j);
-      const double fraction = std::max(area / std::numbers::pi, 0.0);
-      fractions.push_back({slot(i, j), fraction});
-      rest -= fraction;
-    }
-}
-
-void Grid::discFractions(const Vec2& x, double a, Edges, BinFractions& fractions) const {
   fractions.assign(1, {0, 0.0});
-  // The images that reach the grid; without a period the disk itself.
+  double rest = 1.0;
+  const auto addImage = [&](const Vec2& shift) {
+    const Vec2 from = (low + shift - low_).cwiseQuotient(cell_);
+    const Vec2 to = (high + shift - low_).cwiseQuotient(cell_);
+    const auto below = [&](int i, int j) {
+      return within(shift, Vec2(low_ + cell_.cwiseProduct(Vec2(i, j))));
+    };
+    for (int j = first(from.y(), ny_); j <= last(to.y(), ny_); ++j)
+      for (int i = first(from.x(), nx_); i <= last(to.x(), nx_); ++i) {
+        const double area = below(i + 1, j + 1) - below(i, j + 1) - below(i + 1, j) + below(i, j);
+        const double fraction = std::max(area / whole, 0.0);
+        fractions.push_back({slot(i, j), fraction});
+        rest -= fraction;
+      }
+  };
+  // The images that reach the grid; without a period the body itself.
   const Vec2 size = cell_.cwiseProduct(Vec2(nx_, ny_));
-  std::array<double, 2> first{}, last{};
+  std::array<double, 2> begin{}, end{};
   for (std::size_t k = 0; k < 2; ++k) {
     const auto d = static_cast<Eigen::Index>(k);
     if (!(period_[d] > 0.0)) continue;
-    first[k] = std::ceil((low_[d] - a - x[d]) / period_[d]);
-    last[k] = std::floor((low_[d] + size[d] + a - x[d]) / period_[d]);
+    begin[k] = std::ceil((low_[d] - high[d]) / period_[d]);
+    end[k] = std::floor((low_[d] + size[d] - low[d]) / period_[d]);
   }
-  double rest = 1.0;
-  for (double j = first[1]; j <= last[1]; ++j)
-    for (double i = first[0]; i <= last[0]; ++i)
-      addFractions(x + period_.cwiseProduct(Vec2(i, j)), a, fractions, rest);
+  for (double j = begin[1]; j <= end[1]; ++j)
+    for (double i = begin[0]; i <= end[0]; ++i) addImage(period_.cwiseProduct(Vec2(i, j)));
   fractions.front().fraction = std::max(rest, 0.0);
+}
+
+void Grid::discFractions(const Vec2& x, double a, Edges, BinFractions& fractions) const {
+  const auto within = [&](const Vec2& shift, const Vec2& place) {
+    const Vec2 corner = (place - (x + shift)) / a;
+    return quadrantArea(corner.x(), corner.y());
+  };
+  fractionsOf(x - Vec2(a, a), x + Vec2(a, a), std::numbers::pi, within, fractions);
+}
+
+void Grid::outlineFractions(const std::vector<Vec2>& outline, BinFractions& fractions) const {
+  Vec2 low = outline.front(), high = low;
+  for (const Vec2& vertex : outline) {
+    low = low.cwiseMin(vertex);
+    high = high.cwiseMax(vertex);
+  }
+  const auto within = [&](const Vec2& shift, const Vec2& place) {
+    return quadrantArea(outline, place - shift);
+  };
+  fractionsOf(low, high, areaOf(outline), within, fractions);
 }
 
 }  // namespace crossgrain::inline averaging

@@ -34,10 +34,14 @@ class Grid : public Coordinates {
   /// Straight edges are exact here: both kinds of cut are one. What sticks out of a periodic side
   /// counts inside the other.
   void discFractions(const Vec2& x, double a, Edges edges, BinFractions& fractions) const override;
+  void outlineFractions(const std::vector<Vec2>& outline, BinFractions& fractions) const override;
 
  private:
-  /// Appends those of one image, and takes them off the rest.
-  void addFractions(const Vec2& x, double a, BinFractions& fractions, double& rest) const;
+  /// Of a body between two corners, every image of it.
+  /// @param within  its area below and left of a place [whole]
+  template <typename Within>
+  void fractionsOf(const Vec2& low, const Vec2& high, double whole, const Within& within,
+                   BinFractions& fractions) const;
 
   Vec2 low_, cell_;
   int nx_, ny_;

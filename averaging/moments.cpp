@@ -66,20 +66,34 @@ template void SceneCounts::require(const SpaceSnapshot&, bool) const;
 
 MomentSums::MomentSums(std::shared_ptr<const Coordinates> coordinates,
                        const std::vector<Weight>& weights, const Scene& scene, bool countWallDisks)
-    : coordinates_(std::move(coordinates)),
-      radius_(scene.radii()),
-      mass_(scene.disks.mass),
-      inertia_(scene.disks.inertia),
-      counts_(scene),
-      countWallDisks_(countWallDisks) {
+    : coordinates_(std::move(coordinates)), counts_(scene), countWallDisks_(countWallDisks) {
+  setBodies(scene);
   for (const Weight& weight : weights) sharings_.emplace_back(*coordinates_, weight);
 }
 
-void MomentSums::changeDisks(const Scene& scene) {
+void MomentSums::setBodies(const Scene& scene) {
   radius_ = scene.radii();
   mass_ = scene.disks.mass;
   inertia_ = scene.disks.inertia;
+  shape_ = scene.disks.shape;
+  box_ = scene.box;
+  outlines_.clear();
+  for (const ShapeOf<2>& shape : scene.shapes) outlines_.push_back(outlineOf(shape));
+  area_.clear();
+  for (std::size_t p = 0; p < mass_.size(); ++p)
+    area_.push_back(scene.isConvex(p)
+                        ? massOf(scene.shapes[static_cast<std::size_t>(shape_[p])]).measure
+                        : std::numbers::pi * radius_[p] * radius_[p]);
+}
+
+void MomentSums::changeDisks(const Scene& scene) {
+  setBodies(scene);
   counts_ = SceneCounts(scene);
+}
+
+Vec2 MomentSums::arm(const Snapshot& snapshot, std::size_t c, std::size_t p) const {
+  const Vec2 arm = snapshot.contacts->point[c] - snapshot.position[p];
+  return box_ ? box_->nearest(arm) : arm;
 }
 
 void MomentSums::compute(const Snapshot& snapshot, std::vector<std::vector<Moments>>& sums) {
@@ -88,18 +102,27 @@ void MomentSums::compute(const Snapshot& snapshot, std::vector<std::vector<Momen
   for (std::vector<Moments>& bins : sums) bins.assign(coordinates_->slots(), Moments{});
   contactSums_.resize(radius_.size());
   for (ContactSums& zero : contactSums_) zero = ContactSums{};  // assign() copies a zero to each
-  if (snapshot.contacts) sumContacts(*snapshot.contacts);
+  if (snapshot.contacts) sumContacts(snapshot);
 
+  std::vector<Vec2> outline;
   for (std::size_t p = 0; p < mass_.size(); ++p) {
     throwIfLongInterrupted();  // a disk may reach over as many bins as there are
     const Vec2& x = snapshot.position[p];
+    const bool convex = !shape_.empty() && shape_[p] >= 0;
+    if (convex) {
+      outline = outlines_[static_cast<std::size_t>(shape_[p])];
+      const Eigen::Matrix2d axes = matrixOf<2>((*snapshot.turn)[p]);
+      for (Vec2& vertex : outline) vertex = x + axes * vertex;
+    }
     const Vec2 er = coordinates_->firstDirection(x);
     Moments moments = momentsOf(snapshot, p, er);
     for (const bool alongBranch : {true, false}) {  // those have their stress from addBranches()
       if (!alongBranch) addStress(contactSums_[p].stress, er, 1.0, Moment::stress, moments);
       for (std::size_t k = 0; k < sharings_.size(); ++k)
         if (sharings_[k].weight().alongBranch() == alongBranch)
-          distribute(moments, sharings_[k].ofDisk(x, radius_[p]), sums[k]);
+          distribute(moments,
+                     convex ? sharings_[k].ofBody(x, outline) : sharings_[k].ofDisk(x, radius_[p]),
+                     sums[k]);
     }
   }
   for (std::size_t k = 0; k < sharings_.size(); ++k) {
@@ -157,17 +180,23 @@ void MomentSums::addBranches(const Snapshot& snapshot, Partition& partition,
       const auto p = static_cast<std::size_t>(first ? contacts.i[c] : contacts.j[c]);
       if (p >= radius_.size()) continue;  // a plane
       const bool wall = p >= mass_.size();
-      const double a = radius_[p];
+      double a = radius_[p];
       const Vec2& x = wall ? snapshot.wallPosition[p - mass_.size()] : snapshot.position[p];
-      const Vec2 branch = (first ? -a : a) * n;
+      Vec2 branch = (first ? -a : a) * n;
+      Eigen::Matrix2d forceAlong = forceNormal;
+      if (!shape_.empty() && !wall) {
+        branch = arm(snapshot, c, p);
+        a = branch.norm();
+        forceAlong = (first ? -1.0 : 1.0) / a * contacts.force(c) * branch.transpose();
+      }
       for (const auto& [place, part] : branchPoints(a, partition.weight().width)) {
         const Vec2 point = x + place * branch;
         const Vec2 er = coordinates_->firstDirection(point);
         for (const auto& [slot, fraction] : wall && !coordinates_->isCartesian()
                                                 ? partition.ofWallPoint(point, x, a)
                                                 : partition.ofPoint(point))
-          addStress(forceNormal, er, a * part * fraction,
-                    wall ? Moment::wallStress : Moment::stress, sums[slot]);
+          addStress(forceAlong, er, a * part * fraction, wall ? Moment::wallStress : Moment::stress,
+                    sums[slot]);
       }
     }
   }
@@ -183,7 +212,8 @@ void MomentSums::fetch(std::int32_t disk) const {
     __builtin_prefetch(sums + line, 1);
 }
 
-void MomentSums::sumContacts(const Contacts& contacts) {
+void MomentSums::sumContacts(const Snapshot& snapshot) {
+  const Contacts& contacts = *snapshot.contacts;
   constexpr std::size_t ahead = 16;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (c + ahead < contacts.size()) fetch(contacts.j[c + ahead]);
@@ -199,8 +229,14 @@ void MomentSums::sumContacts(const Contacts& contacts) {
       if (p < radius_.size()) {
         const double a = radius_[p];
         ContactSums& sums = contactSums_[p];
-        sums.stress += a * forceNormal;
-        sums.couple += side * a * a * contacts.tangentialForce[c] * n;
+        if (!shape_.empty() && p < mass_.size()) {
+          const Vec2 force = -side * contacts.force(c), l = arm(snapshot, c, p);
+          sums.stress -= force * l.transpose();
+          sums.couple -= cross(l, force) * l;
+        } else {
+          sums.stress += a * forceNormal;
+          sums.couple += side * a * a * contacts.tangentialForce[c] * n;
+        }
         sums.harmonic2 += two;
         sums.harmonic4 += four;
         sums.harmonic6 += six;
@@ -224,7 +260,7 @@ void MomentSums::addHeat(const Contacts& contacts, std::size_t c) {
 
 Moments MomentSums::momentsOf(const Snapshot& snapshot, std::size_t p, const Vec2& er) const {
   const Vec2 ep = perpendicular(er);
-  const double volume = std::numbers::pi * radius_[p] * radius_[p] * coordinates_->height();
+  const double volume = area_[p] * coordinates_->height();
   const ContactSums& sums = contactSums_[p];
 
   Moments moments{};

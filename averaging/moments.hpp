@@ -176,7 +176,8 @@ struct SceneCounts {
 /// Computes the moments of snapshots of one scene. In a contact of disk p, f is the force **on** p
 /// and l = a_p times the unit vector from p's centre to the contact, the whole radius as in the
 /// thesis (the overlap, 10⁻⁵ a, is not taken off). Both disks of a contact take part, each with its
-/// own l. Contacts count as the engine reports them, whatever their overlap.
+/// own l. Of convex bodies l goes to the point where the force acts, and areas are those of their
+/// outlines. Contacts count as the engine reports them, whatever their overlap.
 ///
 /// Wall disks carry stress and couples too: the half of a wall disk that lies in the cell (Lätzel
 /// 2003, section 3.2, builds the walls of half disks) holds all of its contacts, so its −Σ f⊗l and
@@ -221,8 +222,11 @@ class MomentSums {
     double heat = 0.0;  ///< [W]
   };
 
+  void setBodies(const Scene& scene);
   void fetch(std::int32_t disk) const;
-  void sumContacts(const Contacts& contacts);
+  void sumContacts(const Snapshot& snapshot);
+  /// Of disk p in contact c, from its centre to where the force acts [m].
+  Vec2 arm(const Snapshot& snapshot, std::size_t c, std::size_t p) const;
   void addHeat(const Contacts& contacts, std::size_t c);
   Moments momentsOf(const Snapshot& snapshot, std::size_t disk, const Vec2& er) const;
   void addWalls(const Snapshot& snapshot, Partition& partition, std::vector<Moments>& sums) const;
@@ -232,7 +236,10 @@ class MomentSums {
   std::shared_ptr<const Coordinates> coordinates_;
   std::vector<Partition> sharings_;
   std::vector<double> radius_;  ///< of moving disks, then of wall disks [m]
-  std::vector<double> mass_, inertia_;
+  std::vector<double> mass_, inertia_, area_;
+  std::vector<std::int32_t> shape_;  ///< −1: a disk; empty: all are
+  std::vector<std::vector<Vec2>> outlines_;
+  std::optional<BoxOf<2>> box_;
   SceneCounts counts_;
   bool countWallDisks_;
   std::vector<ContactSums> contactSums_;

@@ -69,20 +69,40 @@ Vec2 Rings::firstDirection(const Vec2& x) const {
   return r > 0.0 ? Vec2(x / r) : Vec2(Vec2::UnitX());
 }
 
-void Rings::discFractions(const Vec2& x, double a, Edges edges, BinFractions& fractions) const {
+void Rings::fractionsOf(double nearest, double farthest, auto&& within,
+                        BinFractions& fractions) const {
   fractions.clear();
-  const auto areaWithin = edges == Edges::exact ? commonArea : straightCutArea;
-  const double r = x.norm();
-  const double area = std::numbers::pi * a * a;
-  int bin = binOf(std::max(r - a, 0.0));
+  int bin = binOf(nearest);
   double before = 0.0;
   // Differences of one rising sequence that ends at the whole area: they add up to 1.
-  for (; bin < count() && edge(bin + 1) < r + a; ++bin) {
-    const double within = areaWithin(r, a, edge(bin + 1)) / area;
-    fractions.push_back({slot(bin), std::max(within - before, 0.0)});
-    before = std::max(within, before);
+  for (; bin < count() && edge(bin + 1) < farthest; ++bin) {
+    const double inside = within(edge(bin + 1));
+    fractions.push_back({slot(bin), std::max(inside - before, 0.0)});
+    before = std::max(inside, before);
   }
   fractions.push_back({slot(bin), std::max(1.0 - before, 0.0)});
+}
+
+void Rings::discFractions(const Vec2& x, double a, Edges edges, BinFractions& fractions) const {
+  double (*const areaWithin)(double, double, double) =
+      edges == Edges::exact ? static_cast<double (*)(double, double, double)>(commonArea)
+                            : straightCutArea;
+  const double r = x.norm();
+  const double area = std::numbers::pi * a * a;
+  fractionsOf(
+      std::max(r - a, 0.0), r + a, [&](double edge) { return areaWithin(r, a, edge) / area; },
+      fractions);
+}
+
+void Rings::outlineFractions(const std::vector<Vec2>& outline, BinFractions& fractions) const {
+  const double area = areaOf(outline);
+  double farthest = 0.0, nearest = 0.0;
+  for (const Vec2& vertex : outline) farthest = std::max(farthest, vertex.norm());
+  // Inside of the first edge that any of it is within there is nothing.
+  while (binOf(nearest) < count() && commonArea(outline, edge(binOf(nearest) + 1)) <= 0.0)
+    nearest = edge(binOf(nearest) + 1);
+  fractionsOf(
+      nearest, farthest, [&](double edge) { return commonArea(outline, edge) / area; }, fractions);
 }
 
 std::optional<Slope> Rings::slope(std::size_t slot) const {

@@ -56,6 +56,7 @@ class Rings : public Coordinates {
   std::size_t slotAt(const Vec2& x) const override { return slot(binOf(x.norm())); }
   Vec2 firstDirection(const Vec2& x) const override;
   void discFractions(const Vec2& x, double a, Edges edges, BinFractions& fractions) const override;
+  void outlineFractions(const std::vector<Vec2>& outline, BinFractions& fractions) const override;
 
   /// Of the parabola through the ring and its neighbours, at the first and the last ring through
   /// the three rings there. Absent with fewer than three rings.
@@ -63,6 +64,8 @@ class Rings : public Coordinates {
 
  private:
   void check() const;
+  /// @param within  the part of a body's area within a radius of the origin
+  void fractionsOf(double nearest, double farthest, auto&& within, BinFractions& fractions) const;
 
   std::vector<double> edges_;
   double height_;

@@ -117,6 +117,19 @@ void SpaceBins::sphereFractions(const Vec3& x, double a, const Weight& weight,
     addVolumes(x, a, fractions);
 }
 
+void SpaceBins::bodyFractions(const Vec3& x, double a, const std::vector<Vec3>& points,
+                              const Weight& weight, BinFractions& fractions) const {
+  sphereFractions(x, weight.method == WeightMethod::centre ? 0.0 : a, weight, fractions);
+  if (weight.isFunction() || fractions.size() == 1) return;
+  fractions.clear();
+  for (const Vec3& point : points) {
+    const std::size_t slot = slotAt(point);
+    auto found = std::ranges::find(fractions, slot, &BinFraction::slot);
+    if (found == fractions.end()) found = fractions.insert(found, {slot, 0.0});
+    found->fraction += 1.0 / static_cast<double>(points.size());
+  }
+}
+
 Cells::Cells(const Vec3& low, const Vec3& high, const std::array<int, 3>& count,
              const std::optional<BoxOf<3>>& box, std::optional<int> axis)
     : parts_{Parts(low.x(), high.x(), count[0], period(box, 0), axisNames[0]),

@@ -68,6 +68,9 @@ class SpaceBins : public BinSet {
   /// over all slots. Whatever was in `fractions` is dropped. @pre require(weight)
   void sphereFractions(const Vec3& x, double a, const Weight& weight,
                        BinFractions& fractions) const;
+  /// The same of a body of radius a about x, by points that fill it evenly.
+  void bodyFractions(const Vec3& x, double a, const std::vector<Vec3>& points, const Weight& weight,
+                     BinFractions& fractions) const;
   /// The same of a line from x to x + step; with a function each of its points is spread.
   virtual void lineFractions(const Vec3& x, const Vec3& step, const Weight& weight,
                              std::vector<LineFraction>& fractions) const = 0;

@@ -41,17 +41,29 @@ void addSymmetric(SpaceMoments& moments, Moment which, double weight,
 
 SpaceMomentSums::SpaceMomentSums(std::shared_ptr<const SpaceBins> bins,
                                  const std::vector<Weight>& weights, const SpaceScene& scene)
-    : bins_(std::move(bins)),
-      weights_(weights),
-      radius_(scene.radii()),
-      mass_(scene.disks.mass),
-      counts_(scene) {
+    : bins_(std::move(bins)), weights_(weights), counts_(scene) {
+  setBodies(scene);
   for (const Weight& weight : weights_) bins_->require(weight);
 }
 
-void SpaceMomentSums::changeDisks(const SpaceScene& scene) {
+void SpaceMomentSums::setBodies(const SpaceScene& scene) {
   radius_ = scene.radii();
   mass_ = scene.disks.mass;
+  shape_ = scene.disks.shape;
+  box_ = scene.box;
+  points_.clear();
+  for (const ShapeOf<3>& shape : scene.shapes) points_.push_back(pointsIn(shape));
+  volume_.clear();
+  for (std::size_t p = 0; p < mass_.size(); ++p) {
+    const double a = radius_[p];
+    volume_.push_back(scene.isConvex(p)
+                          ? massOf(scene.shapes[static_cast<std::size_t>(shape_[p])]).measure
+                          : 4.0 / 3.0 * std::numbers::pi * a * a * a);
+  }
+}
+
+void SpaceMomentSums::changeDisks(const SpaceScene& scene) {
+  setBodies(scene);
   counts_ = SceneCounts(scene);
 }
 
@@ -66,8 +78,17 @@ void SpaceMomentSums::compute(const SpaceSnapshot& snapshot,
   for (std::size_t p = 0; p < mass_.size(); ++p) {
     throwIfLongInterrupted();  // a sphere may reach over as many bins as there are
     const SpaceMoments moments = momentsOf(snapshot, p);
+    std::vector<Vec3> filling;
+    if (!shape_.empty() && shape_[p] >= 0) {
+      const Eigen::Matrix3d axes = matrixOf<3>((*snapshot.turn)[p]);
+      for (const Vec3& point : points_[static_cast<std::size_t>(shape_[p])])
+        filling.emplace_back(snapshot.position[p] + axes * point);
+    }
     for (std::size_t k = 0; k < weights_.size(); ++k) {
-      bins_->sphereFractions(snapshot.position[p], radius_[p], weights_[k], fractions_);
+      if (filling.empty())
+        bins_->sphereFractions(snapshot.position[p], radius_[p], weights_[k], fractions_);
+      else
+        bins_->bodyFractions(snapshot.position[p], radius_[p], filling, weights_[k], fractions_);
       distribute(moments, fractions_, sums[k]);
     }
   }
@@ -96,8 +117,7 @@ void SpaceMomentSums::sumContacts(const ContactsOf<3>& contacts) {
 }
 
 SpaceMoments SpaceMomentSums::momentsOf(const SpaceSnapshot& snapshot, std::size_t p) const {
-  const double a = radius_[p], m = mass_[p];
-  const double V = 4.0 / 3.0 * std::numbers::pi * a * a * a;
+  const double m = mass_[p], V = volume_[p];
   const Eigen::Matrix3d turn = bins_->directions(snapshot.position[p]).transpose();
   const ContactSums& sums = contactSums_[p];
 
@@ -123,7 +143,12 @@ void SpaceMomentSums::addBranches(const SpaceSnapshot& snapshot, const Weight& w
     const double beyond = !wall ? radius_[j] : j < radius_.size() ? 0.5 * pairs.overlap[c] : 0.0;
     const double length = radius_[i] - pairs.overlap[c] + beyond;
     const Vec3& x = snapshot.position[i];
-    const Vec3 branch = length * pairs.normal[c], force = pairs.force(c);
+    Vec3 branch = length * pairs.normal[c];
+    if (!shape_.empty()) {
+      branch = x - (wall ? pairs.point[c] : snapshot.position[j]);
+      if (box_) branch = box_->nearest(branch);
+    }
+    const Vec3 force = pairs.force(c);
     bins_->lineFractions(x, -branch, weight, along_);
     for (const auto& [slot, w, place] : along_) {
       const Eigen::Matrix3d turn = bins_->directions(place).transpose();

@@ -19,6 +19,9 @@ namespace crossgrain::inline averaging {
 /// where the snapshot has the second one. Whatever the weight, stress lies along it, a bin has the
 /// fraction of the branch inside; that is what balances forces slab by slab.
 ///
+/// Of convex bodies branches join centres of mass, and end at walls where the force acts; their
+/// volumes are divided among bins by points that fill them (pointsIn()).
+///
 /// Against a wall, a sphere of one or a plane, the branch ends where the force acts, a − δ/2 from
 /// the centre or on the plane, and there the force enters as one from outside (Weinhart et al.
 /// 2012, Granular Matter 14:289): with t = Σ_c f φ at those points, at rest
@@ -54,7 +57,12 @@ class SpaceMomentSums {
   std::shared_ptr<const SpaceBins> bins_;
   std::vector<Weight> weights_;
   std::vector<double> radius_;  ///< of moving spheres, then of wall spheres [m]
-  std::vector<double> mass_;
+  void setBodies(const SpaceScene& scene);
+
+  std::vector<double> mass_, volume_;
+  std::vector<std::int32_t> shape_;        ///< −1: a sphere; empty: all are
+  std::vector<std::vector<Vec3>> points_;  ///< that fill each shape
+  std::optional<BoxOf<3>> box_;
   SceneCounts counts_;
   std::vector<ContactSums> contactSums_;
   BinFractions fractions_;

@@ -82,6 +82,12 @@ const BinFractions& Partition::ofDisk(const Vec2& x, double a) {
   return fractions_;
 }
 
+const BinFractions& Partition::ofBody(const Vec2& x, const std::vector<Vec2>& outline) {
+  if (weight_.method == WeightMethod::centre || weight_.alongBranch()) return ofDisk(x, 0.0);
+  coordinates_.outlineFractions(outline, fractions_);
+  return fractions_;
+}
+
 const BinFractions& Partition::ofWallDisk(const Vec2& x, double a) {
   ofDisk(x, a);
   return keepInCell(x, a);

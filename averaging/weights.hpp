@@ -67,6 +67,9 @@ class Partition {
   /// A disk of radius a [m] about x.
   const BinFractions& ofDisk(const Vec2& x, double a);
 
+  /// A convex body about x. @param outline  where it is
+  const BinFractions& ofBody(const Vec2& x, const std::vector<Vec2>& outline);
+
   /// Of a wall disk at the border of all bins, as the walls of a Couette cell are: its part in the
   /// cell. What reaches into the overflow is given to the bins that
   /// the disk reaches; a disk that reaches none stays where it is.

@@ -16,7 +16,9 @@ struct ScenePicture {
   std::optional<std::vector<int>> contactI, contactJ;        ///< ids: disks, then wall disks
   std::optional<std::vector<double>> contactForce;           ///< f_n [N]
   std::optional<std::vector<std::array<double, 4>>> planes;  ///< x, y and normal x, y
-  double time = 0.0;                                         ///< [s]
+  /// x0, y0, x1 … of each convex body, where it is; empty of a disk
+  std::optional<std::vector<std::vector<double>>> outlines;
+  double time = 0.0;      ///< [s]
   double rotation = 0.0;                                     ///< of the wheel so far
 
   void fields(auto& io) {
@@ -32,6 +34,7 @@ struct ScenePicture {
     io.present("contact_j", contactJ);
     io.present("contact_force", contactForce);
     io.present("planes", planes);
+    io.present("outlines", outlines);
     io("time_s", time);
     io("rotation", rotation);
   }

@@ -16,11 +16,13 @@ struct Stroke {
   double x1 = 0.0, y1 = 0.0, x2 = 0.0, y2 = 0.0;
 };
 
-/// Strokes of one colour and width; later groups cover earlier ones.
+/// Strokes of one colour and width; later groups cover earlier ones. Its outlines, x0, y0, x1 …, are
+/// filled with that colour.
 struct StrokeGroup {
   std::string colour;  ///< "#rrggbb"
   double width = 0.0;
   std::vector<Stroke> strokes;
+  std::vector<std::vector<double>> outlines = {};
 };
 
 /// A square window on the plane, centred on the origin, y upward.

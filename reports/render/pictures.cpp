@@ -19,6 +19,7 @@ constexpr double pictureSize = 520.0;  // px
 
 struct Disk {
   double x = 0.0, y = 0.0, radius = 0.0;
+  std::vector<double> outline = {};  ///< of a convex body
 };
 
 /// Disks to draw; one without a position has radius 0.
@@ -33,7 +34,11 @@ std::vector<Disk> disksOf(const std::vector<double>& x, const std::vector<double
 }
 
 std::vector<Disk> disksOf(const ScenePicture& picture) {
-  return disksOf(picture.x, picture.y, picture.radius);
+  std::vector<Disk> disks = disksOf(picture.x, picture.y, picture.radius);
+  if (picture.outlines)
+    for (std::size_t k = 0; k < std::min(disks.size(), picture.outlines->size()); ++k)
+      disks[k].outline = (*picture.outlines)[k];
+  return disks;
 }
 
 std::vector<Disk> wallsOf(const ScenePicture& picture) {
@@ -50,14 +55,29 @@ class Groups {
   void add(const std::string& colour, double width, const Stroke& stroke) {
     if (width > 0.0) groups_[{width, colour}].push_back(stroke);
   }
+  /// A disk, or a convex body shrunk by `rim` on all sides, as far as that goes.
+  void add(const std::string& colour, const Disk& disk, double rim = 0.0) {
+    if (disk.outline.empty())
+      return add(colour, std::max(0.0, 2.0 * disk.radius - 2.0 * rim), dot(disk));
+    const double share = std::max(0.0, 1.0 - 1.4 * rim / disk.radius);
+    std::vector<double>& outline = outlines_[colour].emplace_back(disk.outline);
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+      const double middle = k % 2 == 0 ? disk.x : disk.y;
+      outline[k] = middle + share * (outline[k] - middle);
+    }
+  }
   void moveTo(Drawing& drawing) {
     for (auto& [key, strokes] : groups_)
       drawing.groups.push_back({key.second, key.first, std::move(strokes)});
+    for (auto& [colour, outlines] : outlines_)
+      drawing.groups.push_back({colour, 0.0, {}, std::move(outlines)});
     groups_.clear();
+    outlines_.clear();
   }
 
  private:
   std::map<std::pair<double, std::string>, std::vector<Stroke>> groups_;
+  std::map<std::string, std::vector<std::vector<double>>> outlines_;
 };
 
 /// Twelve sectors of starting angle in four colours, paler in every other band of radius.
@@ -140,6 +160,15 @@ std::string pdfContent(const Drawing& drawing, double points) {
       content +=
           fmt::format("{} {} m {} {} l\n", place(s.x1), place(s.y1), place(s.x2), place(s.y2));
     content += "S\n";
+    if (group.outlines.empty()) continue;
+    content += fmt::format("{:.3f} {:.3f} {:.3f} rg\n", channel(group.colour, 0),
+                           channel(group.colour, 1), channel(group.colour, 2));
+    for (const std::vector<double>& outline : group.outlines) {
+      for (std::size_t k = 0; k + 1 < outline.size(); k += 2)
+        content +=
+            fmt::format("{} {} {} ", place(outline[k]), place(outline[k + 1]), k == 0 ? "m" : "l");
+      content += "f\n";
+    }
   }
   return content;
 }
@@ -155,8 +184,7 @@ Drawing originsDrawing(const ScenePicture& picture, double inner, double diamete
   for (std::size_t k = 0; k < disks.size(); ++k) {
     const auto radius = at(picture.startR, k), angle = at(picture.startPhi, k);
     const bool known = radius && angle;
-    groups.add(known ? originColour(*radius, *angle, band, inner) : "#cccccc",
-               2.0 * disks[k].radius, dot(disks[k]));
+    groups.add(known ? originColour(*radius, *angle, band, inner) : "#cccccc", disks[k]);
   }
   groups.moveTo(drawing);
   addWalls(walls, drawing);
@@ -171,8 +199,8 @@ Drawing forcesDrawing(const ScenePicture& picture, double widest, double width) 
   double largest = 0.0;
   Groups rims, fills;
   for (const Disk& disk : disks) {
-    rims.add("#c8d4dc", 2.0 * disk.radius, dot(disk));
-    fills.add("#f6f9fb", std::max(0.0, 2.0 * disk.radius - 2.0 * outline), dot(disk));
+    rims.add("#c8d4dc", disk);
+    fills.add("#f6f9fb", disk, outline);
     largest = std::max(largest, disk.radius);
   }
   rims.moveTo(drawing);
@@ -216,6 +244,13 @@ std::string toSvg(const Drawing& drawing, double size, const std::string& title)
       "{0}\">\n<title>{1}</title>\n<g fill=\"none\" stroke-linecap=\"round\">\n",
       size, escaped(title));
   for (const StrokeGroup& group : drawing.groups) {
+    for (const std::vector<double>& outline : group.outlines) {
+      svg += fmt::format("<path fill=\"{}\" d=\"", group.colour);
+      for (std::size_t k = 0; k + 1 < outline.size(); k += 2)
+        svg += (k == 0 ? "M" : "L") + x(outline[k]) + " " + y(outline[k + 1]);
+      svg += "z\"/>\n";
+    }
+    if (group.strokes.empty()) continue;
     svg += fmt::format("<path stroke=\"{}\" stroke-width=\"{}\" d=\"", group.colour,
                        shortNumber(group.width * scale));
     for (const Stroke& s : group.strokes) {

@@ -38,6 +38,16 @@ void writeContacts(Hdf5File& out, const std::string& path, const ContactsOf<D>& 
   if (!contacts.rollingTorque.empty())
     writeSpins<D>(out, path + "/rolling_torque", contacts.rollingTorque);
   if (!contacts.dissipation.empty()) out.write(path + "/dissipation", contacts.dissipation);
+  if (!contacts.point.empty()) writeVectors<D>(out, path + "/point", contacts.point);
+}
+
+/// Angles, or quaternions w, x, y, z.
+template <int D>
+void writeTurns(Hdf5File& out, const std::string& path, const std::vector<TurnOf<D>>& turns) {
+  if constexpr (D == 2)
+    out.write(path, turns);
+  else
+    out.write(path, turns.front().data(), turns.size(), 4);
 }
 
 /// One row per body; force and torque where every body has them.
@@ -69,6 +79,7 @@ void writeSnapshot(Hdf5File& out, const std::string& group, const SnapshotOf<D>&
   writeVectors<D>(out, group + "/position", now.position);
   writeVectors<D>(out, group + "/velocity", now.velocity);
   if (now.spin) writeSpins<D>(out, group + "/spin", *now.spin);
+  if (now.turn) writeTurns<D>(out, group + "/turn", *now.turn);
   writeVectors<D>(out, group + "/wall_position", now.wallPosition);
   if (!now.bodies.empty()) writeBodies(out, group + "/bodies", now.bodies);
   if (now.energies)
@@ -187,6 +198,12 @@ void SnapshotFileOf<D>::begin() {
   out.write("/disks/radius", scene_.disks.radius);
   out.write("/disks/mass", scene_.disks.mass);
   out.write("/disks/inertia", scene_.disks.inertia);
+  if (!scene_.shapes.empty()) out.write("/disks/shape", scene_.disks.shape);
+  for (std::size_t k = 0; k < scene_.shapes.size(); ++k) {
+    const std::string path = fmt::format("/shapes/{}/", k);
+    writeVectors<D>(out, path + "vertices", scene_.shapes[k].vertices);
+    out.write(path + "rounding", std::vector{scene_.shapes[k].rounding});
+  }
   std::vector<double> wallRadius;
   std::vector<std::int32_t> wallBody;
   for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {

@@ -98,6 +98,8 @@ std::size_t diskCount(const SnapshotDatasets& in) {
 template <int D>
 DisksOf<D> readDisks(const SnapshotDatasets& in, const Case& setup) {
   const std::size_t count = diskCount(in);
+  if (in.holds("/disks/shape"))
+    in.fail("it holds convex bodies, and only disks and spheres are read");
   DisksOf<D> disks;
   disks.radius = in.numbers("/disks/radius", count);
   if (!std::ranges::all_of(disks.radius, [](double a) { return a > 0.0; }))

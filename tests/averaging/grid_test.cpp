@@ -94,6 +94,89 @@ TEST(Grid, WhatSticksOutOfAPeriodicSideCountsInsideTheOther) {
                std::invalid_argument);
 }
 
+/// A square of side 1 about the origin, turned by an angle and put somewhere.
+std::vector<Vec2> squareAt(const Vec2& place, double angle) {
+  std::vector<Vec2> outline = {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
+  for (Vec2& vertex : outline) vertex = place + Eigen::Rotation2Dd(angle) * vertex;
+  return outline;
+}
+
+TEST(OutlineArea, KnownValues) {
+  const std::vector<Vec2> square = squareAt({0.0, 0.0}, 0.0);
+  EXPECT_NEAR(areaOf(square), 1.0, 1e-15);
+  EXPECT_NEAR(quadrantArea(square, {0.2, 5.0}), 0.7, 1e-15);
+  EXPECT_NEAR(quadrantArea(square, {0.2, -0.1}), 0.7 * 0.4, 1e-15);
+  EXPECT_EQ(quadrantArea(square, {-0.6, 0.0}), 0.0);
+  // Turned by 45° it has its corners on the axes: below and left of the origin a quarter.
+  EXPECT_NEAR(quadrantArea(squareAt({0.0, 0.0}, pi / 4.0), {0.0, 0.0}), 0.25, 1e-15);
+  // Common to a disk about the origin: all of a small one, none far off, all of the square.
+  EXPECT_NEAR(commonArea(square, 0.3), 0.09 * pi, 1e-15);
+  EXPECT_NEAR(commonArea(square, 1.0), 1.0, 1e-15);
+  EXPECT_NEAR(commonArea(squareAt({2.0, 0.0}, 0.3), 1.0), 0.0, 1e-15);
+  EXPECT_NEAR(commonArea(squareAt({5.0, 0.0}, 0.3), 9.0), 1.0, 1e-14);
+  // Four segments of the circle of radius 0.6 lie outside: each R² (φ − sin φ cos φ), cos φ = 5/6.
+  const double phi = std::acos(0.5 / 0.6);
+  EXPECT_NEAR(commonArea(square, 0.6), 0.36 * (pi - 4.0 * (phi - std::sin(phi) * std::cos(phi))),
+              1e-15);
+}
+
+TEST(OutlineArea, SharesAgreeWithPointsAtRandomOnRingsAndGrids) {
+  std::mt19937_64 generator(32);
+  std::uniform_real_distribution<double> unit(-0.5, 0.5);
+  const Rings rings(0.3, 0.9, 5, 1.0, 0.1);
+  const Grid grid({-0.7, -0.4}, {0.6, 0.9}, 4, 3, 1.0);
+  for (int k = 0; k < 20; ++k) {
+    const Vec2 place(unit(generator), unit(generator));
+    const double angle = 6.0 * unit(generator);
+    for (const Coordinates* coordinates :
+         {static_cast<const Coordinates*>(&rings), static_cast<const Coordinates*>(&grid)}) {
+      BinFractions fractions;
+      coordinates->outlineFractions(squareAt(place, angle), fractions);
+      std::vector<double> found(coordinates->slots()), sampled(coordinates->slots());
+      double sum = 0.0;
+      for (const auto& [slot, fraction] : fractions) {
+        found[slot] += fraction;
+        sum += fraction;
+      }
+      EXPECT_NEAR(sum, 1.0, 1e-14);
+      constexpr int samples = 20'000;
+      for (int n = 0; n < samples; ++n) {
+        const Vec2 in(unit(generator), unit(generator));
+        sampled[coordinates->slotAt(place + Eigen::Rotation2Dd(angle) * in)] += 1.0 / samples;
+      }
+      for (std::size_t slot = 0; slot < found.size(); ++slot)
+        EXPECT_NEAR(found[slot], sampled[slot], 5.0 * std::sqrt(0.25 / samples)) << slot;
+    }
+  }
+}
+
+TEST(ConvexBodies, StressIsThatOfTheirContactPointsAndAreaThatOfTheirOutlines) {
+  // A block of 2 × 1 between two planes: f = 3 N up at its left lower corner, and down at the right
+  // upper one; −Σ f⊗l = −(3 y)(−1, −½) − (−3 y)(1, ½) has σ_yx = 6, σ_yy = 3 N m.
+  Instant instant;
+  instant.addDisk({0.3, 0.2}, std::hypot(1.0, 0.5));
+  Scene& scene = instant.scene;
+  scene.shapes = {{ShapeKind::polygon, {{-1, -.5}, {1, -.5}, {1, .5}, {-1, .5}}, 0.0}};
+  scene.disks.shape = {0};
+  scene.disks.turn = {0.0};
+  instant.snapshot.turn = {{0.0}};
+  scene.bodies.resize(1);
+  scene.bodies[0].planes.resize(2);
+  instant.addContact(0, 1, Vec2::UnitY(), 3.0, 0.0);
+  instant.addContact(0, 2, -Vec2::UnitY(), 3.0, 0.0);
+  instant.snapshot.contacts->point = {{-0.7, -0.3}, {1.3, 0.7}};
+  const Grid all({-2.0, -2.0}, {2.0, 2.0}, 1, 1, 1.0);
+  const auto moments = test::momentsOf(all, instant);
+  const auto field = [&](const char* name) { return fieldIn(all.slot(0, 0), name, all, moments); };
+  EXPECT_NEAR(field("volume_fraction"), 2.0 / 16.0, 1e-14);
+  EXPECT_NEAR(field("stress_pp"), 3.0 / 16.0, 1e-14);
+  EXPECT_NEAR(field("stress_rr"), 0.0, 1e-14);
+  // Cut at x = 0: 1.3 of its length of 2 lies right of that.
+  const Grid halves({-2.0, -2.0}, {2.0, 2.0}, 2, 1, 1.0);
+  const auto cut = test::momentsOf(halves, instant);
+  EXPECT_NEAR(fieldIn(halves.slot(1, 0), "volume_fraction", halves, cut), 1.3 / 8.0, 1e-14);
+}
+
 TEST(Grid, SquareLatticeUnderUnequalForcesKeepsItsDirections) {
   // Cells of whole lattice constants: σ_xx = f_x/(2ah) and σ_yy = f_y/(2ah) to rounding, which
   // rings average away.
