@@ -190,6 +190,10 @@ std::string wallMotion(Motion::Kind kind) {
   return "walls: " + toString(kind);
 }
 
+std::string convexBodies(ShapeKind kind) {
+  return "convex bodies: " + toString(kind);
+}
+
 std::string precisionNamed(Precision precision) {
   return "precision " + toString(precision);
 }
@@ -243,6 +247,7 @@ std::vector<std::string> declaredBy(const Capabilities& can) {
         {true, lateTimes},
         {can.tangentialRestitution && impulses, tangentialRestitution}})
     if (declared) all.push_back(name);
+  for (const ShapeKind kind : limits.shapes) all.push_back(convexBodies(kind));
   for (const Precision precision : can.precisions) all.push_back(precisionNamed(precision));
   if (const auto known = std::ranges::find(can.settings, "dt", &SettingSpec::name);
       known != can.settings.end())

@@ -94,6 +94,7 @@ inline const std::string settingDt = "setting dt, other than its default";
 std::string planeMotion(Motion::Kind kind);  ///< "planes: rotating"
 std::string wallMotion(Motion::Kind kind);   ///< "walls: rotating"
 std::string precisionNamed(Precision precision);
+std::string convexBodies(ShapeKind kind);  ///< "convex bodies: polygon"
 
 /// All of it: effects, each value of each law option, planes and walls with each motion,
 /// observables, precisions, a setting of the time step; and what every engine must have: several
@@ -302,13 +303,10 @@ template <int D>
 SceneOf<D> withPosts(SceneOf<D> scene) {
   WallBodyOf<D>& posts = scene.bodies.emplace_back();
   posts.name = "posts";
-  const DisksOf<D> all = std::exchange(scene.disks, {});
-  const auto firsts = [&](auto list, auto& of) {
-    for (std::size_t k = 0; k < all.size(); k += 2) of.push_back((all.*list)[k]);
-  };
-  using Each = DisksOf<D>;
-  const auto keep = [&](auto... lists) { (firsts(lists, scene.disks.*lists), ...); };
-  keep(&Each::radius, &Each::mass, &Each::inertia, &Each::position, &Each::velocity, &Each::spin);
+  const DisksOf<D> all = scene.disks;
+  scene.disks.forEachList([](auto& list) {
+    for (std::size_t k = 1; k < list.size(); ++k) list.erase(list.begin() + static_cast<long>(k));
+  });
   for (std::size_t k = 1; k < all.size(); k += 2) {
     posts.diskPosition.push_back(all.position[k]);
     posts.diskRadius.push_back(all.radius[k]);
@@ -369,6 +367,7 @@ Checks sceneChecks();
 Checks springChecks();
 Checks spaceChecks();
 Checks cylinderChecks();
+Checks convexChecks();
 Checks refusalChecks();
 
 }  // namespace crossgrain::conformance

@@ -149,6 +149,7 @@ std::vector<Check> allChecks() {
                                      {"springs in space", springChecks()},
                                      {"space and periodic borders", spaceChecks()},
                                      {"cylinders", cylinderChecks()},
+                                     {"convex bodies", convexChecks()},
                                      {"refusals", refusalChecks()}})
     for (Check check : checks) {
       check.about = name;
