@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace crossgrain_worker::bullet {
@@ -36,9 +37,57 @@ btQuaternion turnOf(Vector3 angle) {
   return size > 0.0 ? btQuaternion(toBullet(angle), size) : btQuaternion::getIdentity();
 }
 
+btQuaternion turnOf(const std::array<double, 4>& turn) {
+  return {turn[1], turn[2], turn[3], turn[0]};
+}
+
+/// Sharp boxes, cylinders and hulls have no margin: Bullet's own, 0.04 m, rounds their corners.
+/// Polygons are prisms, which the plane cuts in the middle.
+template <int D>
+std::unique_ptr<btCollisionShape> shapeOf(const DiskOf<D>& disk) {
+  if (!disk.shape) return std::make_unique<btSphereShape>(disk.radius);
+  const ShapeOf<D>& shape = *disk.shape;
+  if (shape.kind == "capsule") {
+    const double length = 2.0 * shape.halfLength();
+    if (D == 2) return std::make_unique<btCapsuleShapeX>(shape.rounding, length);
+    return std::make_unique<btCapsuleShapeZ>(shape.rounding, length);
+  }
+  std::unique_ptr<btConvexInternalShape> sharp;
+  if (shape.kind == "cylinder") {
+    sharp = std::make_unique<btCylinderShapeZ>(
+        btVector3(shape.rounding, shape.rounding, shape.halfLength()));
+    sharp->setMargin(0.0);
+    return sharp;
+  }
+  std::unique_ptr<btPolyhedralConvexShape> made;
+  if (shape.isBox()) {
+    btVector3 half = toBullet(shape.halfSides());
+    if (D == 2) half.setZ(disk.radius);
+    made = std::make_unique<btBoxShape>(half);
+  } else {
+    auto hull = std::make_unique<btConvexHullShape>();
+    for (const Vector3& corner : shape.corners(disk.radius))
+      hull->addPoint(toBullet(corner), false);
+    hull->recalcLocalAabb();
+    made = std::move(hull);
+  }
+  made->setMargin(shape.rounding);
+  // Faces, which give two polyhedra several points; they would be without the rounding.
+  if (shape.rounding == 0.0) made->initializePolyhedralFeatures();
+  return made;
+}
+
+bool isSphere(const btCollisionObject* object) {
+  return object->getCollisionShape()->getShapeType() == SPHERE_SHAPE_PROXYTYPE;
+}
+
 /// How far apart a disk and a plane may be and be in contact, in smallest radii: far below what a
 /// disk moves in a step, and above rounding, by which Bullet would lose contacts that touch.
 constexpr double contactMargin = 1e-6;
+
+/// How far apart points of convex bodies are kept, in smallest radii: Bullet's own share of a size.
+/// They act within the margin above.
+constexpr double keptPoints = 0.02;
 
 template <int D>
 const Space<D>& spaceOf(const btCollisionObject* object) {
@@ -51,7 +100,7 @@ template <int D>
 Space<D>::Space(const ImpulseSceneOf<D>& scene) : scene_(scene) {
   // Globals of Bullet. The margins are 0.02 m and 0.05 m otherwise: planes would act from afar, and
   // all disks of a small scene be neighbours.
-  gContactBreakingThreshold = contactMargin * scene.smallest;
+  gContactBreakingThreshold = (scene.convex ? keptPoints : contactMargin) * scene.smallest;
   gDbvtMargin = 0.1 * scene.smallest;
   gCalculateCombinedRestitutionCallback = pairRestitution;
   gCalculateCombinedFrictionCallback = pairFriction;
@@ -74,6 +123,15 @@ Space<D>::Space(const ImpulseSceneOf<D>& scene) : scene_(scene) {
   if (D == 3 && scene.setting("friction_directions") == 2.0)
     solver.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
   world_.setGravity(toBullet(scene.gravity));
+  if (scene.convex) {
+    // Bullet asks for the lowest corner alone; of boxes that is one of those they stand on.
+    constexpr int directions = 8, mostPoints = 4;
+    configuration_.setPlaneConvexMultipointIterations(directions, mostPoints);
+    // Bullet takes a product of three moments below 2e-16 for 0, and leaves out Euler's term.
+    double least = std::numeric_limits<double>::infinity();
+    for (const DiskOf<D>& disk : scene.disks) least = std::min(least, disk.moments.z);
+    if (least > 0.0 && std::isfinite(least)) mass_ = least;
+  }
   for (const DiskOf<D>& disk : scene.disks) addDisk(disk);
   for (const BodyOf<D>& wall : scene.walls)
     for (std::size_t k = 0; k < wall.radius.size(); ++k)
@@ -95,24 +153,26 @@ Space<D>::~Space() {
 }
 
 template <int D>
-btRigidBody& Space<D>::add(std::unique_ptr<btCollisionShape> shape, double mass, double inertia,
-                           Vector place) {
-  btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape.get(),
-                                                {inertia, inertia, inertia});
-  info.m_startWorldTransform.setOrigin(toBullet(place));
+btRigidBody& Space<D>::add(std::unique_ptr<btCollisionShape> shape, double mass,
+                           const btVector3& inertia, const btTransform& pose) {
+  btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape.get(), inertia);
+  info.m_startWorldTransform = pose;
   shapes_.push_back(std::move(shape));
   btRigidBody& body = *bodies_.emplace_back(std::make_unique<btRigidBody>(info));
   body.setUserIndex(static_cast<int>(bodies_.size()) - 1);
   body.setUserPointer(this);
+  if (scene_.convex) body.setContactProcessingThreshold(contactMargin * scene_.smallest);
   return body;
 }
 
 template <int D>
 void Space<D>::addDisk(const DiskOf<D>& disk) {
-  const double inertia =
-      std::isinf(disk.inertia) ? 0.0 : disk.inertia;  // Bullet's 0: none turns it
-  btRigidBody& body =
-      add(std::make_unique<btSphereShape>(disk.radius), disk.mass, inertia, disk.position);
+  const double round = disk.inertia;
+  btVector3 inertia = disk.shape ? toBullet(disk.moments) : btVector3(round, round, round);
+  for (int k = 0; k < 3; ++k)  // Bullet's 0: nothing turns it
+    inertia[k] = std::isinf(inertia[k]) ? 0.0 : inertia[k] / mass_;
+  btRigidBody& body = add(shapeOf(disk), disk.mass / mass_, inertia,
+                          btTransform(turnOf(disk.turn), toBullet(disk.position)));
   if (D == 2) {
     body.setLinearFactor({1.0, 1.0, 0.0});
     body.setAngularFactor({0.0, 0.0, 1.0});
@@ -125,7 +185,8 @@ void Space<D>::addDisk(const DiskOf<D>& disk) {
 
 template <int D>
 void Space<D>::addWall(std::unique_ptr<btCollisionShape> shape, Vector place, bool moves) {
-  btRigidBody& body = add(std::move(shape), 0.0, 0.0, place);
+  btRigidBody& body = add(std::move(shape), 0.0, {0.0, 0.0, 0.0},
+                          btTransform(btQuaternion::getIdentity(), toBullet(place)));
   if (moves) {
     body.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
     body.setActivationState(DISABLE_DEACTIVATION);
@@ -166,8 +227,10 @@ void Space<D>::step(double next) {
   });
   // Bullet forgets the contact points of two spheres before it looks for new ones, and keeps those
   // of a plane for a warm start; up to four then stand for one contact.
-  for (int k = 0; k < dispatcher_.getNumManifolds(); ++k)
-    dispatcher_.getManifoldByIndexInternal(k)->clearManifold();
+  for (int k = 0; k < dispatcher_.getNumManifolds(); ++k) {
+    btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(k);
+    if (isSphere(manifold.getBody0()) || isSphere(manifold.getBody1())) manifold.clearManifold();
+  }
   world_.stepSimulation(scene_.dt, 0);
   for (BodyOf<D>& wall : scene_.walls) wall.at(next);
   takeImpulses();
@@ -178,10 +241,14 @@ void Space<D>::takeImpulses() {
   auto& impulses = this->impulses_;
   impulses.clear();
   for (int k = 0; k < dispatcher_.getNumManifolds(); ++k) {
-    const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(k);
+    btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(k);
     const int a = manifold.getBody0()->getUserIndex(), b = manifold.getBody1()->getUserIndex();
     for (int c = 0; c < manifold.getNumContacts(); ++c) {
-      const btManifoldPoint& contact = manifold.getContactPoint(c);
+      btManifoldPoint& contact = manifold.getContactPoint(c);
+      if (contact.getDistance() > manifold.getContactProcessingThreshold()) {
+        contact.m_appliedImpulse = 0.0;  // of when it last acted
+        continue;
+      }
       const Vector normal = fromBullet<D>(contact.m_normalWorldOnB),
                    along = fromBullet<D>(contact.m_lateralFrictionDir1);
       TangentOf<D> tangential;
@@ -194,10 +261,11 @@ void Space<D>::takeImpulses() {
             contact.m_appliedImpulseLateral1 * along +
             contact.m_appliedImpulseLateral2 * fromBullet<D>(contact.m_lateralFrictionDir2);
       }
-      impulses.push_back(
-          PairImpulseOf<D>::between(a, b, normal, contact.m_appliedImpulse, tangential,
-                                    fromBullet<D>(contact.getPositionWorldOnA()),
-                                    fromBullet<D>(contact.getPositionWorldOnB()), rolling));
+      impulses.push_back(PairImpulseOf<D>::between(
+          a, b, normal, mass_ * contact.m_appliedImpulse, mass_ * tangential,
+          fromBullet<D>(contact.getPositionWorldOnA()),
+          fromBullet<D>(contact.getPositionWorldOnB()), rolling));
+      impulses.back().depth = -contact.getDistance();
     }
   }
   std::sort(impulses.begin(), impulses.end(),
@@ -252,6 +320,15 @@ SpinOf<D> Space<D>::spin(std::size_t disk) const {
     return spin.z();
   else
     return fromBullet<D>(spin);
+}
+
+template <int D>
+OrientationOf<D> Space<D>::turn(std::size_t disk) const {
+  const btQuaternion turn = bodies_[disk]->getWorldTransform().getRotation();
+  if constexpr (D == 2)
+    return 2.0 * std::atan2(turn.z(), turn.w());
+  else
+    return {turn.w(), turn.x(), turn.y(), turn.z()};
 }
 
 template class Space<2>;

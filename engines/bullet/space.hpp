@@ -23,6 +23,7 @@ class Space : public ImpulseSpaceOf<D> {
   VectorOf<D> position(std::size_t disk) const override;
   VectorOf<D> velocity(std::size_t disk) const override;
   SpinOf<D> spin(std::size_t disk) const override;
+  OrientationOf<D> turn(std::size_t disk) const override;
 
  private:
   using Vector = VectorOf<D>;
@@ -44,8 +45,8 @@ class Space : public ImpulseSpaceOf<D> {
 
   void addDisk(const DiskOf<D>& disk);
   void addWall(std::unique_ptr<btCollisionShape> shape, Vector place, bool moves);
-  btRigidBody& add(std::unique_ptr<btCollisionShape> shape, double mass, double inertia,
-                   Vector place);
+  btRigidBody& add(std::unique_ptr<btCollisionShape> shape, double mass, const btVector3& inertia,
+                   const btTransform& pose);
   /// @param visit  (body, wall, place, velocity) of each wall disk, plane and cylinder that moves
   template <typename Visit>
   void forMovingWalls(const Visit& visit);
@@ -56,6 +57,7 @@ class Space : public ImpulseSpaceOf<D> {
   static btScalar pairRolling(const btCollisionObject* a, const btCollisionObject* b);
 
   ImpulseSceneOf<D> scene_;
+  double mass_ = 1.0;  ///< Bullet's unit [kg]
   btDefaultCollisionConfiguration configuration_;
   SphereInCylinder::Create sphereInCylinder_;
   btCollisionDispatcher dispatcher_{&configuration_};

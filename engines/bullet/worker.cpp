@@ -26,7 +26,10 @@ int main() {
        within(setting("erp", 0.2, "-", "share of an overlap that a step pushes apart"), 0.0, 1.0,
               false),
        setting("restitution_threshold", 0.0, "m/s",
-               "approaches slower than this give nothing back; Bullet's own is 0.2")}};
+               "approaches slower than this give nothing back; Bullet's own is 0.2")},
+      {"polygon", "capsule", "box", "polyhedron", "cylinder"},
+      1000,
+      true};
   const auto make = [](const auto& scene) { return spaceFor<bullet::Space>(scene); };
   return serve(ImpulseEngine(about, make, make));
 }

@@ -1,5 +1,6 @@
 #include "space.hpp"
 
+#include <chipmunk/chipmunk_structs.h>
 #include <chipmunk/chipmunk_unsafe.h>
 
 #include <algorithm>
@@ -25,6 +26,16 @@ std::int32_t idOf(const cpShape* shape) {
 }
 
 void staysAsPlaced(cpBody*, cpFloat) {}
+
+cpShape* newShape(cpBody* body, const Disk& disk) {
+  if (!disk.shape) return cpCircleShapeNew(body, disk.radius, cpvzero);
+  std::vector<cpVect> vertices;
+  for (const Vector& vertex : disk.shape->vertices) vertices.push_back(toChipmunk(vertex));
+  const double rounding = disk.shape->rounding;
+  if (disk.shape->kind == "capsule")
+    return cpSegmentShapeNew(body, vertices[0], vertices[1], rounding);
+  return cpPolyShapeNewRaw(body, static_cast<int>(vertices.size()), vertices.data(), rounding);
+}
 
 /// How far anything reaches from the origin at the start [m].
 double extentOf(const std::vector<Disk>& disks, const std::vector<Body>& walls) {
@@ -90,10 +101,11 @@ void Space::addDisk(const Disk& disk) {
   cpBodySetPosition(body, toChipmunk(disk.position));
   cpBodySetVelocity(body, toChipmunk(disk.velocity));
   cpBodySetAngularVelocity(body, disk.spin);
+  if (disk.shape) cpBodySetAngle(body, disk.turn);
   allBodies_.push_back(body);
   disks_.push_back(body);
   radius_.push_back(disk.radius);
-  cpShape* const shape = cpCircleShapeNew(body, disk.radius, cpvzero);
+  cpShape* const shape = newShape(body, disk);
   cpShapeSetUserData(shape, reinterpret_cast<cpDataPointer>(nextId_++));
   add(shape, false);
 }
@@ -196,6 +208,17 @@ void Space::afterSolving(cpArbiter* arbiter, cpSpace*, cpDataPointer self) {
 void Space::take(const cpArbiter* arbiter) {
   CP_ARBITER_GET_SHAPES(arbiter, a, b);
   const Vector normal = -1.0 * fromChipmunk(cpArbiterGetNormal(arbiter));
+  for (int k = 0; scene_.convex && k < cpArbiterGetCount(arbiter); ++k) {
+    // What acts along Chipmunk's turned normal is the same on both.
+    // Points on planes may be mirrored along them, those on what meets them are right.
+    const cpContact& contact = arbiter->contacts[k];
+    const Vector point = fromChipmunk(idOf(a) < idOf(b) ? cpArbiterGetPointA(arbiter, k)
+                                                        : cpArbiterGetPointB(arbiter, k));
+    impulses_.push_back(
+        PairImpulse::between(idOf(a), idOf(b), normal, contact.jnAcc, contact.jtAcc, point, point));
+    impulses_.back().depth = -cpArbiterGetDepth(arbiter, k);
+  }
+  if (scene_.convex) return;
   const Vector onA = fromChipmunk(cpArbiterTotalImpulse(arbiter));
   impulses_.push_back(PairImpulse::between(
       idOf(a), idOf(b), normal, dot(onA, normal), dot(onA, turned(normal)),
@@ -215,6 +238,10 @@ Json Space::deviations() const {
            {"value", slop_},
            {"unit", "m"},
            {"note", "overlaps up to this are left standing"}}};
+}
+
+double Space::turn(std::size_t disk) const {
+  return cpBodyGetAngle(disks_[disk]);
 }
 
 double Space::spin(std::size_t disk) const {

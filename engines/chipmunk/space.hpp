@@ -20,6 +20,7 @@ class Space : public ImpulseSpace {
   Vector position(std::size_t disk) const override;
   Vector velocity(std::size_t disk) const override;
   double spin(std::size_t disk) const override;
+  double turn(std::size_t disk) const override;
   Json deviations() const override;
 
  private:

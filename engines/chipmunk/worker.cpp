@@ -21,7 +21,10 @@ int main() {
                "overlaps up to this are left standing; 0: a thousandth of the smallest radius"),
        within(setting("bias", std::pow(0.9, 60.0), "-",
                       "what is left after a second of an overlap beyond the slop"),
-              0.0, 1.0, false)}};
+              0.0, 1.0, false)},
+      {"polygon", "capsule"},
+      1000,
+      true};
   return serve(ImpulseEngine(
       about, [](const ImpulseScene& scene) { return std::make_unique<chipmunk::Space>(scene); }));
 }

@@ -40,7 +40,10 @@ struct ImpulseAbout {
   double lag;
   /// Where forces act: lever_arm, velocity_arm, plane_arm; and `rolling`, of those that have it.
   Json lawOptions;
-  Json settings;  ///< `dt` among them
+  Json settings;            ///< `dt` among them
+  Json shapes = {};         ///< kinds of convex bodies that it has; null: none
+  int mostVertices = 1000;  ///< of a polygon or polyhedron
+  bool rounded = false;     ///< polygons, too
 };
 
 template <int D>
@@ -89,8 +92,10 @@ class ImpulseRunOf : public ImpulseRun {
     radius_ = arrays.at("disks.radius");
     friction_ = law.friction() > 0.0;
     rolls_ = law.rolling() > 0.0 && scene.at("rotation").get<bool>();
-    rotation_ = (friction_ || rolls_) && scene.at("rotation").get<bool>();
+    convex_ = scene.contains("shapes");
+    rotation_ = (friction_ || rolls_ || convex_) && scene.at("rotation").get<bool>();
     if (D == 3 && rolls_) throw Unsupported("resists no rolling in space");
+    if (convex_ && rolls_) throw Unsupported("resists no rolling of convex bodies");
     loadWalls(scene, arrays);
     pairs_ = RigidPairs(law, arrays.at("disks.mass"), radius_);
     const auto end = radius_.begin() + static_cast<long>(disks_);
@@ -99,8 +104,16 @@ class ImpulseRunOf : public ImpulseRun {
     const auto restitution = [this](std::int32_t i, std::int32_t j) {
       return pairs_.restitution(i, j);
     };
-    ImpulseSceneOf<D> made{turningDisks(arrays), bodies_, dt_,   law.friction(), gravity, smallest,
-                           restitution,          {},      number};
+    ImpulseSceneOf<D> made{turningDisks(scene, arrays),
+                           bodies_,
+                           dt_,
+                           law.friction(),
+                           gravity,
+                           smallest,
+                           convex_,
+                           restitution,
+                           {},
+                           number};
     if (rolls_)
       made.rolling = [this](std::int32_t i, std::int32_t j) { return pairs_.rolling(i, j); };
     space_ = make_(made);
@@ -145,7 +158,12 @@ class ImpulseRunOf : public ImpulseRun {
     arrays.add("position", position);
     arrays.add("velocity", velocity);
     arrays.add("wall_position", walls);
-    if (friction_ || rolls_) arrays.add("spin", spin);
+    if (friction_ || rolls_ || convex_) arrays.add("spin", spin);
+    if (convex_) {
+      std::vector<double> turn;
+      for (std::size_t i = 0; i < disks_; ++i) append(turn, space_->turn(i));
+      arrays.add("turn", turn);
+    }
     const bool accumulated = contacts == "accumulated";
     ImpulseSumsOf<D>& shown = accumulated ? sums_ : last_;
     const double interval = static_cast<double>(shown.steps) * dt_;
@@ -157,7 +175,9 @@ class ImpulseRunOf : public ImpulseRun {
       bodies.back()["force"] = toJson(force);
       bodies.back()["torque"] = toJson(meanOf(shown.torqueOnBody[b], interval));
     }
-    if (shown.steps > 0 && contacts != "none")
+    if (shown.steps > 0 && contacts != "none" && convex_)
+      addPoints(arrays, shown, interval);
+    else if (shown.steps > 0 && contacts != "none")
       addContacts(arrays, shown, interval, rolls_,
                   [this](std::size_t i, std::size_t j) { return geometry(i, j); });
     if (accumulated) sums_.clear(bodies_.size());
@@ -175,16 +195,24 @@ class ImpulseRunOf : public ImpulseRun {
     bodies_ = bodiesOf<D>(scene, arrays);
     for (const BodyOf<D>& body : bodies_)
       radius_.insert(radius_.end(), body.radius.begin(), body.radius.end());
+    if (convex_ && std::any_of(bodies_.begin(), bodies_.end(),
+                               [](const BodyOf<D>& body) { return !body.cylinders.empty(); }))
+      throw Unsupported("has cylinders with spheres inside, not convex bodies");
     ids_.emplace(disks_, bodies_);
   }
 
   /// Disks as they take part: of infinite inertia where they cannot turn, without spin where
-  /// nothing turns them.
-  std::vector<DiskOf<D>> turningDisks(const Arrays& arrays) const {
+  /// nothing turns them, or, beside convex bodies, where they cannot turn.
+  std::vector<DiskOf<D>> turningDisks(const Json& scene, const Arrays& arrays) const {
     std::vector<DiskOf<D>> disks = disksOf<D>(arrays);
+    addShapes(disks, scene, arrays);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
     for (DiskOf<D>& disk : disks) {
-      if (!rotation_) disk.inertia = std::numeric_limits<double>::infinity();
-      if (!friction_ && !rolls_) disk.spin = {};
+      if (!rotation_) {
+        disk.inertia = infinity;
+        disk.moments = {infinity, infinity, infinity};
+      }
+      if (convex_ ? !rotation_ : !friction_ && !rolls_) disk.spin = {};
     }
     return disks;
   }
@@ -194,6 +222,11 @@ class ImpulseRunOf : public ImpulseRun {
     last_.clear(bodies_.size());
     for (PairImpulseOf<D> impulse : space_->impulses()) {
       ++evaluations_;
+      if (convex_) {
+        if (impulse.pressing != 0.0 || !isZero(impulse.along))
+          for (ImpulseSumsOf<D>* sums : {&last_, &sums_}) sums->addPoint(impulse, *ids_, bodies_);
+        continue;
+      }
       // Without rotation friction has no arm, on a wall disk either.
       const auto j = static_cast<std::size_t>(impulse.j);
       if (!rotation_ && ids_->isWallDisk(j)) impulse.place = wallDisk(j);
@@ -224,7 +257,7 @@ class ImpulseRunOf : public ImpulseRun {
   const MakeSpaceOf<D>& make_;
   RigidPairs pairs_;
   double dt_ = 0.0;
-  bool friction_ = false, rotation_ = false, rolls_ = false;
+  bool friction_ = false, rotation_ = false, rolls_ = false, convex_ = false;
   std::size_t disks_ = 0;
   std::vector<double> radius_;  ///< disks, then wall disks [m]
   std::vector<BodyOf<D>> bodies_;
@@ -252,6 +285,10 @@ class ImpulseEngine {
                 {"instant_contacts", true},        {"accumulated_contacts", true},
                 {"warm_handover", false},          {"sliding_flags", false},
                 {"tangential_restitution", false}, {"settings", about_.settings}};
+    if (!about_.shapes.is_null())
+      can.update({{"shapes", about_.shapes},
+                  {"most_vertices", about_.mostVertices},
+                  {"rounded", about_.rounded}});
     if (inSpace_) {
       can["dimensions"] = {2, 3};
       can["cylinders"] = true;

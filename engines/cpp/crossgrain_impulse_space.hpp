@@ -10,8 +10,8 @@
 
 namespace crossgrain_worker {
 
-/// Impulse between two bodies in a step. Ids: disks, then wall disks, then planes, then
-/// cylinders; i < j.
+/// Impulse between two bodies in a step, in scenes with convex bodies at each of the points in
+/// which they touch. Ids: disks, then wall disks, then planes, then cylinders; i < j.
 template <int D>
 struct PairImpulseOf {
   using Vector = VectorOf<D>;
@@ -20,8 +20,9 @@ struct PairImpulseOf {
   Vector normal;           ///< from j to i, as the engine had it
   double pressing;         ///< on i, along the normal [N s]
   TangentOf<D> along;      ///< on i, along z × normal, or normal to it in space [N s]
-  Vector place;            ///< where j takes it; needed of walls alone [m]
+  Vector place;            ///< where j takes it; needed of walls and convex bodies alone [m]
   SpinOf<D> rolling = {};  ///< against rolling, on i; j takes as much the other way [N m s]
+  double depth = 0.0;      ///< of the overlap there, where there are convex bodies [m]
 
   Vector onFirst() const { return pressing * normal + alongTangent(along, normal); }
 
@@ -46,6 +47,7 @@ struct ImpulseSceneOf {
   double friction;                ///< µ of all pairs
   VectorOf<D> gravity;            ///< [m/s²]
   double smallest;                ///< radius; 1 m where there is no disk
+  bool convex;                    ///< whether there are convex bodies
   /// e_n of two ids.
   std::function<double(std::int32_t, std::int32_t)> restitution;
   /// µ_r L of two ids [m]; empty where nothing resists rolling.
@@ -70,6 +72,8 @@ class ImpulseSpaceOf {
   virtual VectorOf<D> position(std::size_t disk) const = 0;
   virtual VectorOf<D> velocity(std::size_t disk) const = 0;
   virtual SpinOf<D> spin(std::size_t disk) const = 0;
+  /// Called where there are convex bodies, which engines have that declare shapes.
+  virtual OrientationOf<D> turn(std::size_t) const { return {}; }
   /// Impulses of the last step, in ascending order of ids.
   const std::vector<PairImpulseOf<D>>& impulses() const { return impulses_; }
   /// Deviations that the engine reports besides those of the law.

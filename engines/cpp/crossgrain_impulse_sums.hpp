@@ -2,6 +2,8 @@
 
 // Impulses summed over steps, and the mean forces that a snapshot shows of them.
 
+#include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -26,13 +28,22 @@ struct ImpulseSumsOf {
     SpinOf<D> rolling = {};
     VectorOf<D> normal;  ///< of the last
   };
+  /// Of a pair that touches in several points: all that pushes, its moment about the origin, and
+  /// normal and place weighed with what presses.
+  struct Points {
+    double weight = 0.0, depth = -std::numeric_limits<double>::infinity();
+    VectorOf<D> push = {}, normal = {}, place = {};
+    SpinOf<D> moment = {};
+  };
   std::map<std::pair<std::int32_t, std::int32_t>, Impulse> onFirst;
+  std::map<std::pair<std::int32_t, std::int32_t>, Points> points;  ///< instead, of convex bodies
   std::vector<VectorOf<D>> onBody;
   std::vector<SpinOf<D>> torqueOnBody;  ///< about the body's centre [N m s]
   long long steps = 0;
 
   void clear(std::size_t bodies) {
     onFirst.clear();
+    points.clear();
     onBody.assign(bodies, {});
     torqueOnBody.assign(bodies, {});
     steps = 0;
@@ -47,6 +58,26 @@ struct ImpulseSumsOf {
     sum.pressing += impulse.pressing;
     sum.along += impulse.along;
     sum.rolling += impulse.rolling;
+    loadWall(impulse, ids, bodies);
+  }
+
+  void addPoint(const PairImpulseOf<D>& impulse, const WallIds& ids,
+                const std::vector<BodyOf<D>>& bodies) {
+    constexpr double least = 1e-200;  // a point that only rubs has a place, too
+    const double weight = std::max(impulse.pressing, least);
+    const VectorOf<D> push = impulse.onFirst();
+    Points& sum = points[{impulse.i, impulse.j}];
+    sum.weight += weight;
+    sum.depth = std::max(sum.depth, impulse.depth);
+    sum.push = sum.push + push;
+    sum.normal = sum.normal + weight * impulse.normal;
+    sum.place = sum.place + weight * impulse.place;
+    sum.moment += cross(impulse.place, push);
+    loadWall(impulse, ids, bodies);
+  }
+
+  void loadWall(const PairImpulseOf<D>& impulse, const WallIds& ids,
+                const std::vector<BodyOf<D>>& bodies) {
     const auto j = static_cast<std::size_t>(impulse.j);
     if (!ids.isWall(j)) return;
     const std::size_t b = ids.body(j);
@@ -81,6 +112,26 @@ void addContacts(ArrayFile& arrays, const ImpulseSumsOf<D>& sums, double interva
   }
   contacts.writeTo(arrays);
   if (rolls) arrays.add("contacts.rolling_torque", rolling);
+}
+
+/// As addContacts(), of convex bodies: one contact of each pair, at the mean of its points, with
+/// the moment that is left about there.
+template <int D>
+void addPoints(ArrayFile& arrays, const ImpulseSumsOf<D>& sums, double interval) {
+  ContactColumnsOf<D> contacts;
+  std::vector<double> left, points;
+  for (const auto& [pair, sum] : sums.points) {
+    const VectorOf<D> normal = (1.0 / norm(sum.normal)) * sum.normal,
+                      place = (1.0 / sum.weight) * sum.place;
+    const double pressing = dot(sum.push, normal);
+    contacts.add(pair.first, pair.second, normal, sum.depth, pressing / interval,
+                 meanOf(tangentOf(sum.push - pressing * normal, normal), interval));
+    append(left, meanOf(sum.moment - cross(place, sum.push), interval));
+    append(points, place);
+  }
+  contacts.writeTo(arrays);
+  arrays.add("contacts.rolling_torque", left);
+  arrays.add("contacts.point", points);
 }
 
 }  // namespace crossgrain_worker

@@ -2,9 +2,11 @@
 
 // Disks or spheres, walls and contacts as the protocol has them, for engines in C++17.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,11 +16,49 @@
 
 namespace crossgrain_worker {
 
+/// A convex body in its own frame, whose origin is its centre of mass and whose axes are principal:
+/// all within `rounding` of the hull of `vertices` (adapters/shape.hpp).
+template <int D>
+struct ShapeOf {
+  std::string kind;
+  std::vector<VectorOf<D>> vertices;  ///< in the plane counter-clockwise [m]
+  double rounding;                    ///< [m]
+
+  /// In the plane a rectangle with sharp corners.
+  bool isBox() const {
+    if constexpr (D == 3) return kind == "box";
+    const VectorOf<D> half = halfSides();
+    return rounding == 0.0 && vertices.size() == 4 &&
+           std::all_of(vertices.begin(), vertices.end(), [&](VectorOf<D> vertex) {
+             return norm(absolute(vertex) - half) <= 1e-12 * norm(half);
+           });
+  }
+  VectorOf<D> halfSides() const { return absolute(vertices.front()); }
+  /// Half the distance between the two vertices of a capsule or cylinder [m].
+  double halfLength() const { return norm(vertices.front()); }
+  /// Corners in space, of a polygon those of a prism that reaches `half` to both sides of its
+  /// plane.
+  std::vector<Vector3> corners(double half) const {
+    if constexpr (D == 3) {
+      return vertices;
+    } else {
+      std::vector<Vector3> prism;
+      for (const double z : {-half, half})
+        for (const Vector& vertex : vertices) prism.push_back({vertex.x, vertex.y, z});
+      return prism;
+    }
+  }
+};
+
 template <int D>
 struct DiskOf {
   double radius, mass, inertia;    ///< [m], [kg], [kg m²]; inertia INFINITY: its spin stays
   VectorOf<D> position, velocity;  ///< [m], [m/s]
   SpinOf<D> spin;                  ///< [rad/s]
+  // Of a convex body, whose radius is that of the circle or sphere around it:
+  std::shared_ptr<const ShapeOf<D>> shape = {};
+  OrientationOf<D> turn = noTurn<D>();
+  Vector3 moments = {};  ///< of inertia about its axes, in the plane about z [kg m²]
 };
 using Disk = DiskOf<2>;
 
@@ -36,6 +76,32 @@ std::vector<DiskOf<D>> disksOf(const Arrays& arrays) {
     disks.push_back({arrays.at("disks.radius")[i], arrays.at("disks.mass")[i],
                      arrays.at("disks.inertia")[i], position[i], velocity[i], spin[i]});
   return disks;
+}
+
+/// Gives disks the shapes that a scene has.
+template <int D>
+void addShapes(std::vector<DiskOf<D>>& disks, const Json& scene, const Arrays& arrays) {
+  if (!scene.contains("shapes")) return;
+  std::vector<std::shared_ptr<const ShapeOf<D>>> shapes;
+  for (const Json& shape : scene.at("shapes"))
+    shapes.push_back(std::make_shared<const ShapeOf<D>>(
+        ShapeOf<D>{shape.at("kind"), shape.at("vertices").get<std::vector<VectorOf<D>>>(),
+                   shape.at("rounding")}));
+  const std::vector<double>& turn = arrays.at("disks.turn");
+  std::vector<Vector3> moments;
+  if constexpr (D == 3) moments = vectorsOf<3>(arrays.at("disks.moments"));
+  for (std::size_t i = 0; i < disks.size(); ++i) {
+    DiskOf<D>& disk = disks[i];
+    if (const double shape = arrays.at("disks.shape")[i]; shape >= 0.0)
+      disk.shape = shapes.at(static_cast<std::size_t>(shape));
+    if constexpr (D == 2) {
+      disk.turn = turn[i];
+      disk.moments.z = disk.inertia;
+    } else {
+      std::copy_n(&turn[4 * i], 4, disk.turn.begin());
+      disk.moments = moments[i];
+    }
+  }
 }
 
 template <int D = 2>

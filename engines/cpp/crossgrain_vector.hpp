@@ -3,6 +3,7 @@
 // Vectors in the plane of motion, or in space (SI units, laboratory frame), in plain C++17. A
 // quantity about z, one number in the plane, is a vector along its axis in space.
 
+#include <array>
 #include <cmath>
 #include <type_traits>
 #include <vector>
@@ -24,6 +25,17 @@ using Vector3 = VectorOf<3>;
 /// Angular velocity, angle about a fixed axis, torque.
 template <int D>
 using SpinOf = std::conditional_t<D == 2, double, Vector3>;
+
+/// Orientation of a convex body: its angle about z, or a unit quaternion w, x, y, z.
+template <int D>
+using OrientationOf = std::conditional_t<D == 2, double, std::array<double, 4>>;
+template <int D>
+OrientationOf<D> noTurn() {
+  if constexpr (D == 2)
+    return 0.0;
+  else
+    return {1.0, 0.0, 0.0, 0.0};
+}
 
 inline Vector operator+(Vector a, Vector b) {
   return {a.x + b.x, a.y + b.y};
@@ -70,6 +82,12 @@ inline double cross(Vector a, Vector b) {
 }
 inline Vector3 cross(Vector3 a, Vector3 b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline Vector absolute(Vector a) {
+  return {std::abs(a.x), std::abs(a.y)};
+}
+inline Vector3 absolute(Vector3 a) {
+  return {std::abs(a.x), std::abs(a.y), std::abs(a.z)};
 }
 /// z × a: a turned by +90°.
 inline Vector turned(Vector a) {
@@ -153,6 +171,9 @@ inline void append(std::vector<double>& numbers, Vector v) {
 }
 inline void append(std::vector<double>& numbers, Vector3 v) {
   numbers.insert(numbers.end(), {v.x, v.y, v.z});
+}
+inline void append(std::vector<double>& numbers, const std::array<double, 4>& turn) {
+  numbers.insert(numbers.end(), turn.begin(), turn.end());
 }
 
 }  // namespace crossgrain_worker

@@ -103,7 +103,9 @@ void Model::build(const std::vector<Disk>& disks, const std::vector<Body>& bodie
   }
   // Disks that touch in a plane are a planar graph, of at most three edges a node; the rest is for
   // those that overlap so far that it is none.
-  const std::size_t contacts = 4 * disks.size() + 2 * wallDisks + 2 * planes + 64;
+  // Of convex bodies each of these may have as many points as two boxes have.
+  const std::size_t contacts =
+      (options_.convex ? 8 : 1) * (4 * disks.size() + 2 * wallDisks + 2 * planes) + 64;
   const std::size_t rows = contacts * (law_.mu > 0.0 ? 3 : 1), count = disks.size() + moving + 1;
   requireMemory(rows, 3 * count);
   xml << "<mujoco><compiler angle='radian' inertiafromgeom='false'/>"
@@ -117,7 +119,9 @@ void Model::build(const std::vector<Disk>& disks, const std::vector<Body>& bodie
       << (law_.mu > 0.0 ? law_.gt / law_.gn : 1.0) << "'/>"
       << "<default><geom condim='" << (law_.mu > 0.0 ? 3 : 1)
       << "' contype='1' conaffinity='3' margin='" << MARGIN << "' gap='" << MARGIN
-      << "'/></default><worldbody>";
+      << "'/></default>";
+  if (options_.convex) writeMeshes(xml, disks);
+  xml << "<worldbody>";
   const auto sphere = [&](Vector at, double radius, const char* more) {
     xml << "<geom type='sphere' size='" << radius / length_ << "' pos='" << at.x / length_ << ' '
         << at.y / length_ << " 0' " << more << "/>";
@@ -146,7 +150,10 @@ void Model::build(const std::vector<Disk>& disks, const std::vector<Body>& bodie
   for (const Disk& disk : disks) {
     idOfGeom_.push_back(static_cast<std::int32_t>(&disk - disks.data()));
     free(disk.mass / mass_, disk.inertia / (mass_ * length_ * length_), options_.rotation);
-    sphere({}, disk.radius, "");
+    if (disk.shape)
+      writeShape(xml, disk, static_cast<std::size_t>(&disk - disks.data()));
+    else
+      sphere({}, disk.radius, "");
     xml << "</body>";
   }
   idOfGeom_.insert(idOfGeom_.end(), ofMoving.begin(), ofMoving.end());
@@ -173,6 +180,34 @@ void Model::build(const std::vector<Disk>& disks, const std::vector<Body>& bodie
   data_.reset(mj_makeData(model_.get()));
 }
 
+/// Polygons are prisms, which the plane cuts in the middle.
+void Model::writeMeshes(std::ostream& xml, const std::vector<Disk>& disks) const {
+  xml << "<asset>";
+  for (std::size_t i = 0; i < disks.size(); ++i) {
+    const auto& shape = disks[i].shape;
+    if (!shape || shape->kind == "capsule" || shape->isBox()) continue;
+    xml << "<mesh name='" << i << "' vertex='";
+    for (const Vector3& corner : shape->corners(disks[i].radius))
+      xml << corner.x / length_ << ' ' << corner.y / length_ << ' ' << corner.z / length_ << ' ';
+    xml << "'/>";
+  }
+  xml << "</asset>";
+}
+
+/// @param number  of the disk
+void Model::writeShape(std::ostream& xml, const Disk& disk, std::size_t number) const {
+  const ShapeOf<2>& shape = *disk.shape;
+  const Vector half = (1.0 / length_) * shape.halfSides();
+  if (shape.kind == "capsule")
+    xml << "<geom type='capsule' size='" << shape.rounding / length_ << "' fromto='" << -half.x
+        << " 0 0 " << half.x << " 0 0'/>";
+  else if (shape.isBox())
+    xml << "<geom type='box' size='" << half.x << ' ' << half.y << ' ' << disk.radius / length_
+        << "'/>";
+  else
+    xml << "<geom type='mesh' mesh='" << number << "'/>";
+}
+
 void Model::setState(const std::vector<Disk>& disks) {
   for (std::size_t i = 0; i < disks_; ++i) {
     const std::size_t at = i * static_cast<std::size_t>(freedoms_);
@@ -180,7 +215,9 @@ void Model::setState(const std::vector<Disk>& disks) {
     data_->qpos[at + 1] = disks[i].position.y / length_;
     data_->qvel[at] = disks[i].velocity.x / length_;
     data_->qvel[at + 1] = disks[i].velocity.y / length_;
-    if (options_.rotation) data_->qvel[at + 2] = disks[i].spin;
+    if (!options_.rotation) continue;
+    data_->qpos[at + 2] = disks[i].turn;
+    data_->qvel[at + 2] = disks[i].spin;
   }
 }
 
@@ -288,6 +325,9 @@ Vector Model::position(std::size_t disk) const {
 }
 Vector Model::velocity(std::size_t disk) const {
   return length_ * inPlane(data_->qvel + disk * static_cast<std::size_t>(freedoms_));
+}
+double Model::turn(std::size_t disk) const {
+  return data_->qpos[disk * static_cast<std::size_t>(freedoms_) + 2];
 }
 double Model::spin(std::size_t disk) const {
   return options_.rotation ? data_->qvel[disk * static_cast<std::size_t>(freedoms_) + 2] : 0.0;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <ostream>
 #include <vector>
 
 #include <mujoco/mujoco.h>
@@ -23,6 +24,7 @@ struct ModelOptions {
   double dt;         ///< [s]
   Vector gravity;    ///< [m/s²]
   bool rotation;     ///< false: disks keep their angle
+  bool convex;       ///< whether there are convex bodies
   double impedance;  ///< MuJoCo's d, see README.md [-]
   double tolerance;  ///< of its solver [-]
   int iterations;    ///< most of its solver
@@ -52,6 +54,7 @@ class Model {
   Vector position(std::size_t disk) const;
   Vector velocity(std::size_t disk) const;
   double spin(std::size_t disk) const;
+  double turn(std::size_t disk) const;
   /// Of the solver, over all steps.
   long long iterations() const { return iterations_; }
 
@@ -62,6 +65,8 @@ class Model {
   };
 
   void build(const std::vector<Disk>& disks, const std::vector<Body>& bodies);
+  void writeMeshes(std::ostream& xml, const std::vector<Disk>& disks) const;
+  void writeShape(std::ostream& xml, const Disk& disk, std::size_t number) const;
   void setState(const std::vector<Disk>& disks);
   void placeWalls(const std::vector<Body>& bodies);
   void findForces();

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "crossgrain_impulse_sums.hpp"
 #include "crossgrain_worker.hpp"
 #include "model.hpp"
 
@@ -46,6 +47,7 @@ class Engine {
         {"wall_motions", {"fixed", "rotating", "translating", "oscillating"}},
         {"plane_motions", only("fixed")},
         {"precisions", only("double")},
+        {"shapes", {"polygon", "capsule"}},
         {"instant_contacts", true},
         {"accumulated_contacts", false},
         {"warm_handover", false},
@@ -82,14 +84,19 @@ class Engine {
         throw Unsupported("has friction that brakes with gt, by a ratio to gn: both must be > 0");
     }
     friction_ = pair.mu > 0.0;
-    rotation_ = friction_ && scene.at("rotation").get<bool>();
+    convex_ = scene.contains("shapes");
+    rotation_ = (friction_ || convex_) && scene.at("rotation").get<bool>();
+    if (convex_ && !rotation_) throw Unsupported("has convex bodies that turn");
     disks_ = scene.at("disks");
     bodies_ = bodiesOf(scene, arrays);
     ids_.emplace(disks_, bodies_);
     const Vector gravity{scene.at("gravity").at(0), scene.at("gravity").at(1)};
-    model_.emplace(disksOf(arrays), bodies_, pair,
-                   ModelOptions{dt, gravity, rotation_, used.at("impedance"), used.at("tolerance"),
-                                used.at("iterations").get<int>(), used.at("solver") == "Newton"});
+    std::vector<Disk> disks = disksOf(arrays);
+    addShapes(disks, scene, arrays);
+    model_.emplace(
+        disks, bodies_, pair,
+        ModelOptions{dt, gravity, rotation_, convex_, used.at("impedance"), used.at("tolerance"),
+                     used.at("iterations").get<int>(), used.at("solver") == "Newton"});
     const bool moving =
         std::any_of(bodies_.begin(), bodies_.end(), [](const Body& body) { return body.moves(); });
     Json effects = Json::array();
@@ -137,7 +144,12 @@ class Engine {
     arrays.add("position", position);
     arrays.add("velocity", velocity);
     arrays.add("wall_position", walls);
-    if (friction_) arrays.add("spin", spin);
+    if (friction_ || convex_) arrays.add("spin", spin);
+    if (convex_) {
+      std::vector<double> turn;
+      for (std::size_t i = 0; i < disks_; ++i) turn.push_back(model_->turn(i));
+      arrays.add("turn", turn);
+    }
     if (contacts == "instant") addContacts(arrays);
     return {{"position_time", steps_.now()},
             {"velocity_time", steps_.now()},
@@ -174,6 +186,7 @@ class Engine {
   }
 
   void addContacts(ArrayFile& arrays) const {
+    if (convex_) return addForces(arrays);
     ContactColumns columns;
     for (const ContactForce& c : model_->contacts())
       columns.add(c.i, c.j, c.normal, c.overlap, dot(c.onFirst, c.normal),
@@ -181,7 +194,18 @@ class Engine {
     columns.writeTo(arrays);
   }
 
-  bool friction_ = false, rotation_ = false;
+  /// Those of all points of a pair together.
+  void addForces(ArrayFile& arrays) const {
+    ImpulseSumsOf<2> sums;
+    sums.clear(bodies_.size());
+    for (const ContactForce& c : model_->contacts())
+      sums.addPoint({c.i, c.j, c.normal, dot(c.onFirst, c.normal), dot(c.onFirst, turned(c.normal)),
+                     c.point, 0.0, c.overlap},
+                    *ids_, bodies_);
+    addPoints(arrays, sums, 1.0);
+  }
+
+  bool friction_ = false, rotation_ = false, convex_ = false;
   std::size_t disks_ = 0;
   std::vector<Body> bodies_;
   std::optional<WallIds> ids_;

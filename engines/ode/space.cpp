@@ -5,6 +5,7 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "crossgrain_worker.hpp"
@@ -44,6 +45,18 @@ std::int32_t idOf(dGeomID shape) {
 
 void setId(dGeomID shape, std::size_t id) {
   dGeomSetData(shape, reinterpret_cast<void*>(static_cast<std::intptr_t>(id)));
+}
+
+/// Turns ODE's capsules, which are along z, to x.
+constexpr dMatrix3 alongX{0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0};
+
+dQuaternion* toOde(double angle, dQuaternion* turn) {
+  dQFromAxisAndAngle(*turn, 0.0, 0.0, 1.0, angle);
+  return turn;
+}
+dQuaternion* toOde(const std::array<double, 4>& from, dQuaternion* turn) {
+  std::copy(from.begin(), from.end(), *turn);
+  return turn;
 }
 
 // Hollow cylinders, a class of shapes beside ODE's own, which are solid.
@@ -150,21 +163,50 @@ void Space<D>::addDisk(const DiskOf<D>& disk) {
   turns_.push_back(std::isfinite(disk.inertia));
   const double inertia =
       turns_.back() ? disk.inertia : 1e30 * disk.mass * disk.radius * disk.radius;
+  const bool hasAxes = D == 3 && disk.shape && turns_.back();
+  const Vector3 moments = hasAxes ? disk.moments : Vector3{inertia, inertia, inertia};
   dMass mass;
-  dMassSetParameters(&mass, disk.mass, 0.0, 0.0, 0.0, inertia, inertia, inertia, 0.0, 0.0, 0.0);
+  dMassSetParameters(&mass, disk.mass, 0.0, 0.0, 0.0, moments.x, moments.y, moments.z, 0.0, 0.0,
+                     0.0);
   dBodySetMass(body, &mass);
-  dBodySetGyroscopicMode(body, 0);
+  dBodySetGyroscopicMode(body, hasAxes);
   const Vector3 place = inSpace(disk.position), velocity = inSpace(disk.velocity),
                 spin = inSpace(disk.spin);
   dBodySetPosition(body, place.x, place.y, place.z);
   dBodySetLinearVel(body, velocity.x, velocity.y, velocity.z);
   dBodySetAngularVel(body, spin.x, spin.y, spin.z);
-  const dGeomID shape = dCreateSphere(shapes_, disk.radius);
+  if (scene_.convex) {
+    dQuaternion turn;
+    dBodySetQuaternion(body, *toOde(disk.turn, &turn));
+  }
+  const dGeomID shape = createShape(disk);
   dGeomSetBody(shape, body);
+  if (D == 2 && disk.shape && disk.shape->kind == "capsule") dGeomSetOffsetRotation(shape, alongX);
   dGeomSetCategoryBits(shape, diskBit);
   dGeomSetCollideBits(shape, diskBit | wallBit);
   setId(shape, disks_.size());
   disks_.push_back(body);
+}
+
+/// Polygons are prisms, which the plane cuts in the middle.
+template <int D>
+dGeomID Space<D>::createShape(const DiskOf<D>& disk) {
+  if (!disk.shape) return dCreateSphere(shapes_, disk.radius);
+  const ShapeOf<D>& shape = *disk.shape;
+  const double length = 2.0 * shape.halfLength();
+  if (shape.kind == "capsule") return dCreateCapsule(shapes_, shape.rounding, length);
+  if (shape.kind == "cylinder") return dCreateCylinder(shapes_, shape.rounding, length);
+  if (shape.isBox()) {
+    const Vector3 half = inSpace(shape.halfSides());
+    return dCreateBox(shapes_, 2.0 * half.x, 2.0 * half.y, 2.0 * (D == 2 ? disk.radius : half.z));
+  }
+  std::vector<double>& corners = corners_.emplace_back();
+  for (const Vector3& corner : shape.corners(disk.radius)) append(corners, corner);
+  // libccd and planes ask for corners alone, and no faces.
+  static const dReal noPlanes[4]{};
+  static const unsigned noFaces[1]{};
+  return dCreateConvex(shapes_, noPlanes, 0, corners.data(),
+                       static_cast<unsigned>(corners.size() / 3), noFaces);
 }
 
 /// Walls are shapes without bodies, which are put where they are; contacts have their velocity.
@@ -195,9 +237,31 @@ void Space<D>::placeWalls() {
 template <int D>
 void Space<D>::near(void* space, dGeomID a, dGeomID b) {
   if (idOf(a) > idOf(b)) std::swap(a, b);
+  Space& self = *static_cast<Space*>(space);
+  if (self.scene_.convex) return self.addConvex(a, b);
   Touch touch{idOf(a), idOf(b), {}};
-  if (dCollide(a, b, 1, &touch.geometry, sizeof(dContactGeom)) > 0)
-    static_cast<Space*>(space)->touches_.push_back(touch);
+  if (dCollide(a, b, 1, &touch.geometry, sizeof(dContactGeom)) > 0) self.touches_.push_back(touch);
+}
+
+/// All points of a pair. In the plane each is where the plane cuts what two prisms have along z.
+template <int D>
+void Space<D>::addConvex(dGeomID a, dGeomID b) {
+  dContactGeom found[64];
+  const int count = dCollide(a, b, 64, found, sizeof(dContactGeom));
+  const std::size_t first = touches_.size();
+  for (int k = 0; k < count; ++k) {
+    dContactGeom& point = found[k];
+    if (D == 2) {
+      point.pos[2] = 0.0;
+      const double length = std::hypot(point.normal[0], point.normal[1]);
+      toOde({point.normal[0] / length, point.normal[1] / length, 0.0}, point.normal);
+    }
+    const auto same = [&](const Touch& touch) {
+      return norm(fromOde<D>(touch.geometry.pos) - fromOde<D>(point.pos)) < 1e-6 * scene_.smallest;
+    };
+    if (std::none_of(touches_.begin() + static_cast<long>(first), touches_.end(), same))
+      touches_.push_back({idOf(a), idOf(b), point});
+  }
 }
 
 template <int D>
@@ -205,9 +269,12 @@ void Space<D>::findTouches() {
   touches_.clear();
   dSpaceCollide(shapes_, this, near);
   // In one order, however the shapes' list came about.
-  std::sort(touches_.begin(), touches_.end(), [](const Touch& a, const Touch& b) {
-    return std::pair(a.i, a.j) < std::pair(b.i, b.j);
-  });
+  const auto key = [](const Touch& touch) {
+    const dReal* const at = touch.geometry.pos;
+    return std::tuple(touch.i, touch.j, at[0], at[1], at[2]);
+  };
+  std::sort(touches_.begin(), touches_.end(),
+            [&](const Touch& a, const Touch& b) { return key(a) < key(b); });
 }
 
 template <int D>
@@ -316,7 +383,7 @@ void Space<D>::step(double next) {
     }
     // The solver's normal force is not negative; a product of rounded numbers could be.
     impulses.push_back({touches_[k].i, touches_[k].j, normal, std::max(0.0, scene_.dt * pressing),
-                        along, place, rolling});
+                        along, place, rolling, touches_[k].geometry.depth});
   }
   dJointGroupEmpty(contacts_);
   if (D == 2) requirePlane();
@@ -352,6 +419,15 @@ SpinOf<D> Space<D>::spin(std::size_t disk) const {
     return spin[2];
   else
     return fromOde<D>(spin);
+}
+
+template <int D>
+OrientationOf<D> Space<D>::turn(std::size_t disk) const {
+  const dReal* const turn = dBodyGetQuaternion(disks_[disk]);
+  if constexpr (D == 2)
+    return 2.0 * std::atan2(turn[3], turn[0]);
+  else
+    return {turn[0], turn[1], turn[2], turn[3]};
 }
 
 template class Space<2>;

@@ -21,6 +21,7 @@ class Space : public ImpulseSpaceOf<D> {
   VectorOf<D> position(std::size_t disk) const override;
   VectorOf<D> velocity(std::size_t disk) const override;
   SpinOf<D> spin(std::size_t disk) const override;
+  OrientationOf<D> turn(std::size_t disk) const override;
 
  private:
   using Vector = VectorOf<D>;
@@ -31,6 +32,7 @@ class Space : public ImpulseSpaceOf<D> {
   };
 
   void addDisk(const DiskOf<D>& disk);
+  dGeomID createShape(const DiskOf<D>& disk);
   void addWall(dGeomID shape);
   void placeWalls();
   void findTouches();
@@ -40,6 +42,7 @@ class Space : public ImpulseSpaceOf<D> {
   void requirePlane() const;
 
   static void near(void* space, dGeomID a, dGeomID b);
+  void addConvex(dGeomID a, dGeomID b);
 
   ImpulseSceneOf<D> scene_;
   int iterations_;
@@ -50,6 +53,7 @@ class Space : public ImpulseSpaceOf<D> {
   dSpaceID shapes_;
   dJointGroupID contacts_;
   std::vector<dBodyID> disks_;
+  std::vector<std::vector<double>> corners_;  ///< of polyhedra, which ODE reads here
   std::vector<bool> turns_;
   std::vector<dGeomID> wallShapes_;  ///< wall disks, then planes, then cylinders
   /// Of each of these: its body, and its number among the body's disks, planes or cylinders.

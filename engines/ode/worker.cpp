@@ -41,7 +41,8 @@ int main() {
        setting("correcting_speed", 0.0, "m/s",
                "the fastest that overlaps are pushed apart, a speed that stays; 0: no limit"),
        setting("restitution_threshold", 0.0, "m/s",
-               "approaches slower than this give nothing back")}};
+               "approaches slower than this give nothing back")},
+      {"polygon", "capsule", "box", "polyhedron", "cylinder"}};
   const auto make = [](const auto& scene) { return spaceFor<ode::Space>(scene); };
   return serve(ImpulseEngine(about, make, make));
 }
