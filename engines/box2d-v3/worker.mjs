@@ -9,6 +9,9 @@ import {Box2dWorld, version} from './world.mjs';
 serve(new ImpulseEngine({
   name: 'box2d-v3',
   version,
+  shapes: ['polygon', 'capsule'],
+  mostVertices: 8,
+  rounded: true,
   integrator: 'semi_implicit_euler with sequential impulses',
   dt: 1.25e-4,
   settings: [

@@ -3,6 +3,7 @@
 
 import {readFileSync} from 'node:fs';
 import {unitOf} from '../node/crossgrain_vector.mjs';
+import {Unsupported} from '../node/crossgrain_worker.mjs';
 
 const home = new URL('../node/node_modules/box2d3-wasm/', import.meta.url);
 const {default: Box2D} = await import(new URL('build/dist/es/compat/Box2D.compat.mjs', home));
@@ -10,6 +11,7 @@ const b2 = await Box2D();
 const MOST_CONTACTS = 64;    // of one disk at a time
 const THICKNESS = 20;        // of planes, in units: what lies behind one comes out in front of it
 const FAR = 1e4;             // half a plane's length, in units: it follows the disks
+const NEAR = 256;            // the same where there are convex bodies: their corners are clipped to its far ends, in single precision
 const CHECK_EVERY = 32;      // steps between two checks of where they are: in these they go less than half of that
 
 export const version = `box2d3-wasm ${JSON.parse(readFileSync(new URL('package.json', home))).version}`;
@@ -27,6 +29,7 @@ export class Box2dWorld {
     this.unit = unitOf(disks, 5);
     this.dt = dt;
     this.count = disks.length;
+    this.convex = disks.some(({shape}) => shape);
     this.kinds = [...new Set(disks.map((disk) => disk.mass))];  // the walls are one kind more
     this.idOf = new Map();                                      // shape's index → id
     this.makeWorld(gravity, law, number);
@@ -41,6 +44,11 @@ export class Box2dWorld {
   }
 
   free() { b2.b2DestroyWorld(this.world); }
+
+  /// Box2D's own sine and cosine are off by 1e-4: a slanting plane is so much steeper.
+  turnOf(angle) {
+    return Object.assign(b2.b2MakeRot(angle), this.convex && {c: Math.cos(angle), s: Math.sin(angle)});
+  }
 
   toUnits(metres) { return new b2.b2Vec2(metres[0] / this.unit, metres[1] / this.unit); }
 
@@ -69,6 +77,7 @@ export class Box2dWorld {
     if (disk) {
       how.linearVelocity = this.toUnits(disk.velocity);
       how.angularVelocity = disk.spin;
+      if (disk.shape) how.rotation = this.turnOf(disk.turn);
       if (disk.locked) how.motionLocks = Object.assign(how.motionLocks, {angularZ: true});
     }
     return once(how, () => b2.b2CreateBody(this.world, how));
@@ -76,7 +85,9 @@ export class Box2dWorld {
 
   disk_(disk, rotation) {
     const body = this.body('b2_dynamicBody', disk.position, {...disk, locked: !rotation});
-    this.circle(body, [0, 0], disk.radius, this.kinds.indexOf(disk.mass));
+    const kind = this.kinds.indexOf(disk.mass);
+    if (disk.shape) this.polygon(body, disk.shape, kind);
+    else this.circle(body, [0, 0], disk.radius, kind);
     const data = new b2.b2MassData();
     data.mass = disk.mass;
     data.rotationalInertia = disk.inertia / this.unit ** 2;
@@ -103,8 +114,20 @@ export class Box2dWorld {
     circle.delete();
   }
 
+  polygon(body, {kind, vertices, rounding}, material) {
+    const radius = rounding / this.unit, corners = vertices.map((vertex) => this.toUnits(vertex));
+    if (kind === 'capsule') {
+      const capsule = Object.assign(new b2.b2Capsule(), {center1: corners[0], center2: corners[1], radius});
+      return once(capsule, () => this.shape(material, (how) => b2.b2CreateCapsuleShape(body, how, capsule)));
+    }
+    once(b2.b2ComputeHull(corners), (hull) => {
+      if (hull.count !== vertices.length) throw new Unsupported('has no polygons with corners as near, or sides as straight, as in the scene');
+      once(b2.b2MakePolygon(hull, radius), (polygon) => this.shape(material, (how) => b2.b2CreatePolygonShape(body, how, polygon)));
+    });
+  }
+
   plane(b, at, normal) {
-    const plane = {b, at, normal, middle: 0, half: FAR * this.unit};
+    const plane = {b, at, normal, middle: 0, half: (this.convex ? NEAR : FAR) * this.unit};
     plane.shape = this.shape(this.kinds.length, (how) => b2.b2CreatePolygonShape(this.walls[b], how, this.box(plane)));
     return plane;
   }
@@ -112,7 +135,7 @@ export class Box2dWorld {
   box({at, normal, middle, half}) {
     const deep = THICKNESS * this.unit;
     const centre = [0, 1].map((k) => at[k] - deep * normal[k] + middle * (k ? -normal[0] : normal[1]));
-    return b2.b2MakeOffsetBox(half / this.unit, THICKNESS, this.toUnits(centre), b2.b2MakeRot(Math.atan2(-normal[0], normal[1])));
+    return b2.b2MakeOffsetBox(half / this.unit, THICKNESS, this.toUnits(centre), this.turnOf(Math.atan2(-normal[0], normal[1])));
   }
 
   /// Planes are infinite: each reaches as far as the disks which could touch it, whatever the way that they or the wall go.
@@ -143,7 +166,7 @@ export class Box2dWorld {
       if (!this.moving[b]) return;
       const target = new b2.b2Transform();
       target.p = this.toUnits(next[b].centre);
-      target.q = b2.b2MakeRot(next[b].angle);
+      target.q = this.turnOf(next[b].angle);
       b2.b2Body_SetTargetTransform(wall, target, this.dt);
       target.delete();
     });
@@ -155,6 +178,7 @@ export class Box2dWorld {
   disk(i) {
     const metres = (vector) => xy(vector).map((x) => x * this.unit);
     return {
+      turn: once(b2.b2Body_GetRotation(this.disks[i]), ({c, s}) => Math.atan2(s, c)),
       position: metres(b2.b2Body_GetPosition(this.disks[i])),
       velocity: metres(b2.b2Body_GetLinearVelocity(this.disks[i])),
       spin: b2.b2Body_GetAngularVelocity(this.disks[i]),
@@ -171,11 +195,13 @@ export class Box2dWorld {
             const away = a < b ? -1 : 1;
             for (let k = 0; k < manifold.pointCount; ++k)
               once(manifold.GetPoint(k), (at) => {
-                const pressing = at.totalNormalImpulse * this.unit, along = -at.tangentImpulse * this.unit;
+                const depth = -at.separation * this.unit;
+                const pressing = at.normalImpulse * this.unit, along = -at.tangentImpulse * this.unit;
                 if (pressing === 0 && along === 0) return;
                 visit(n, Math.max(a, b), pressing, along, () => ({
                   normal: xy(manifold.normal).map((x) => away * x),
                   point: xy(at.point).map((x) => x * this.unit),
+                  depth,
                 }));
               });
           });

@@ -11,6 +11,8 @@ serve(new ImpulseEngine({
   version,
   dimensions: [2, 3],
   contacts: false,
+  shapes: ['polygon', 'capsule', 'box', 'cylinder', 'polyhedron'],
+  mostVertices: 64,
   integrator: 'semi_implicit_euler with sequential impulses',
   dt: 5e-4,
   settings: [],

@@ -11,6 +11,8 @@ serve(new ImpulseEngine({
   name: 'jolt',
   version,
   dimensions: [2, 3],
+  shapes: ['polygon', 'capsule', 'box', 'cylinder', 'polyhedron'],
+  mostVertices: 128,
   integrator: 'semi_implicit_euler with sequential impulses',
   dt: 5e-4,
   settings: [

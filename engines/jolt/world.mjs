@@ -2,7 +2,7 @@
 // has a radius of about one, since Jolt's tolerances are made for things of 0.1 to 10 m.
 
 import {readFileSync} from 'node:fs';
-import {cross, noSpin, plus, quaternionOf, scaled, unitOf} from '../node/crossgrain_vector.mjs';
+import {cross, dot, halfSidesOf, minus, noSpin, plus, prismOf, quaternionOf, quaternionOfTurn, scaled, turnOf, unitOf} from '../node/crossgrain_vector.mjs';
 import {ballsOf, placeBalls} from '../node/crossgrain_walls.mjs';
 import {Unsupported} from '../node/crossgrain_worker.mjs';
 
@@ -14,6 +14,7 @@ const MOST_CONTACTS = 10240;  // of a step: for more there is no room in what Jo
 const MOST_BODIES = 10240;    // JoltSettings' own
 const HALF_PLANE = 1e6;       // units; it bounds a plane's box in the broad phase, nothing else
 const FIXED = 0, MOVING = 1;  // layers
+const HULL_TOLERANCE = 1e-6;  // units; by Jolt's own, 1e-3, corners of fine polygons are left out
 
 const {version: binding} = JSON.parse(readFileSync(new URL('package.json', home)));
 // Until Jolt 5.5, jolt-physics 1.0, each point of a contact had friction of its own; since 5.6 a contact has it once.
@@ -67,7 +68,8 @@ class ContactStream {
     for (let k = 0; k < count; ++k) this.bytes.setUint8(this.size++, J.HEAPU8[from + k]);
   }
 
-  /// @param visit  (lower body, other body, normal impulse, impulses along Jolt's two tangents)
+  /// @param visit  (lower body, other body, normal impulses of the points, friction's along Jolt's two tangents, of each point or
+  ///                once, friction's about the normal)
   read(system, visit) {
     this.size = 0;
     system.SaveState(this.recorder, J.EStateRecorderState_Contacts);
@@ -81,22 +83,13 @@ class ContactStream {
         at += 4;
         const points = this.bytes.getUint16((at += 2) - 2, true);
         at += 12;  // the normal in the second body's axes
-        let pressing = 0;
-        const along = [0, 0];
-        const friction = () => {
-          along[0] += real();
-          along[1] += real();
-        };
-        if (!FRICTION_OF_POINTS) {
-          friction();
-          at += 4;  // about the normal
-        }
+        const pressing = [], along = FRICTION_OF_POINTS ? [] : [[real(), real()]], about = FRICTION_OF_POINTS ? 0 : real();
         for (let k = 0; k < points; ++k) {
           at += 24;  // its places in the two bodies
-          pressing += real();
-          if (FRICTION_OF_POINTS) friction();
+          pressing.push(real());
+          if (FRICTION_OF_POINTS) along.push([real(), real()]);
         }
-        visit(a, b, pressing, along);
+        visit(a, b, pressing, along, about);
       }
     }
     if (at + 4 !== this.size) throw new Error(`Jolt wrote ${this.size} bytes of contacts where ${at + 4} were expected`);
@@ -110,6 +103,7 @@ export class JoltWorld {
     this.unit = unitOf(disks);
     this.dt = dt;
     this.count = disks.length;
+    this.convex = disks.some(({shape}) => shape);
     this.law = law;
     this.mass = disks.map((disk) => disk.mass);  // by id; beyond them, walls
     this.room = Math.min(MOST_CONTACTS, 1024 + 8 * this.count);
@@ -163,17 +157,18 @@ export class JoltWorld {
 
   /// Jolt asks about each contact in each step; it takes what is set there, not its own mixture of two bodies' coefficients.
   listen() {
-    this.contacts = new Map();  // lower id · 2^20 + other id → {normal from lower to other, point [m]}
+    this.contacts = new Map();  // lower id · 2^20 + other id → {normal from lower to other, points [m]}
     const set = (a, b, manifold, settings) => {
       const i = J.wrapPointer(a, J.Body).GetID().GetIndex(), j = J.wrapPointer(b, J.Body).GetID().GetIndex();
       const how = J.wrapPointer(settings, J.ContactSettings), found = J.wrapPointer(manifold, J.ContactManifold);
       how.mCombinedFriction = this.law.friction;
       how.mCombinedRestitution = this.law.restitution(this.mass[i] ?? Infinity, this.mass[j] ?? Infinity);
-      const contact = {normal: this.components(found.mWorldSpaceNormal)};
-      if (j >= this.count) {
-        const on1 = this.metres(found.GetWorldSpaceContactPointOn1(0)), on2 = this.metres(found.GetWorldSpaceContactPointOn2(0));
-        contact.point = on1.map((x, k) => (x + on2[k]) / 2);
-      }
+      const contact = {normal: this.components(found.mWorldSpaceNormal)}, points = this.convex ? found.mRelativeContactPointsOn1.size() : 1;
+      if (this.convex || j >= this.count)
+        contact.points = Array.from({length: points}, (_, p) => {
+          const on1 = this.metres(found.GetWorldSpaceContactPointOn1(p)), on2 = this.metres(found.GetWorldSpaceContactPointOn2(p));
+          return {point: on1.map((x, k) => (x + on2[k]) / 2), depth: dot(minus(on1, on2), contact.normal)};
+        });
       this.contacts.set(i * 2 ** 20 + j, contact);
     };
     this.listener = new J.ContactListenerJS();
@@ -202,16 +197,47 @@ export class JoltWorld {
     return body;
   }
 
+  /// Of a convex body, with sharp edges; polygons are prisms, whose thickness is no matter, as bodies keep to the plane.
+  shapeOf({shape, radius}) {
+    if (!shape) return new J.SphereShape(radius / this.unit);
+    const {kind, vertices, rounding} = shape, half = halfSidesOf(shape), length = Math.hypot(...vertices[0]) / this.unit;
+    const turned = (own) => {  // Jolt's capsules and cylinders are along y
+      this.turn.Set(...(this.inSpace ? [Math.SQRT1_2, 0, 0, Math.SQRT1_2] : [0, 0, Math.SQRT1_2, Math.SQRT1_2]));
+      return this.made(new J.RotatedTranslatedShapeSettings(this.vectorOf([0, 0, 0]), this.turn, own));
+    };
+    if (kind === 'capsule') return turned(new J.CapsuleShapeSettings(length, rounding / this.unit));
+    if (kind === 'cylinder') return turned(new J.CylinderShapeSettings(length, rounding / this.unit, 0));
+    if (half) return new J.BoxShape(this.vectorOf([half[0], half[1], half[2] ?? radius]), 0);
+    const how = new J.ConvexHullShapeSettings();
+    how.mMaxConvexRadius = 0;
+    how.mHullTolerance = HULL_TOLERANCE;
+    for (const corner of prismOf(vertices, radius)) how.mPoints.push_back(this.vectorOf(corner));
+    return this.made(how);
+  }
+
+  made(how) {
+    return once(how, () => {
+      const result = how.Create();
+      if (result.HasError()) throw new Unsupported(`refuses a shape: ${result.GetError().c_str()}`);
+      const own = result.Get();
+      own.AddRef();
+      return own;
+    });
+  }
+
   disk_(disk, rotation) {
-    const body = this.body(new J.SphereShape(disk.radius / this.unit), disk.position, J.EMotionType_Dynamic, (how) => {
+    const body = this.body(this.shapeOf(disk), disk.position, J.EMotionType_Dynamic, (how) => {
       const moves = J.EAllowedDOFs_TranslationX | J.EAllowedDOFs_TranslationY;
       if (this.inSpace) how.mAllowedDOFs = rotation ? J.EAllowedDOFs_All : moves | J.EAllowedDOFs_TranslationZ;
       else how.mAllowedDOFs = rotation ? J.EAllowedDOFs_Plane2D : moves;
+      if (!disk.shape) return;
+      how.mRotation = (this.turn.Set(...quaternionOfTurn(disk.turn)), this.turn);
+      how.mApplyGyroscopicForce = true;  // Euler's term, which Jolt leaves out otherwise
     });
-    const own = body.GetMotionProperties(), inertia = disk.inertia / this.unit ** 2;
+    const own = body.GetMotionProperties(), moments = disk.moments || Array(3).fill(disk.inertia);
     own.SetInverseMass(1 / disk.mass);
     if (rotation)
-      own.SetInverseInertia((this.vector.Set(1 / inertia, 1 / inertia, 1 / inertia), this.vector), this.turnOf(this.unturned));
+      own.SetInverseInertia((this.vector.Set(...moments.map((j) => 1 / (j / this.unit ** 2))), this.vector), this.turnOf(this.unturned));
     body.SetLinearVelocity(this.vectorOf(disk.velocity));
     body.SetAngularVelocity(this.spinOf(disk.spin));
   }
@@ -256,7 +282,9 @@ export class JoltWorld {
   metres(vector) { return scaled(this.unit, this.components(vector)); }
 
   disk(i) {
+    const turn = this.convex && this.bodies[i].GetRotation();
     return {
+      ...(turn && {turn: turnOf(this.inSpace ? 3 : 2, [turn.GetX(), turn.GetY(), turn.GetZ(), turn.GetW()])}),
       position: this.metres(this.bodies[i].GetPosition()),
       velocity: this.metres(this.bodies[i].GetLinearVelocity()),
       spin: this.inSpace ? this.components(this.bodies[i].GetAngularVelocity()) : this.bodies[i].GetAngularVelocity().GetZ(),
@@ -270,14 +298,25 @@ export class JoltWorld {
 
   /// Of the last step.
   impulses(visit) {
-    this.stream.read(this.system, (a, b, pressing, along) => {
+    this.stream.read(this.system, (a, b, pressing, along, about) => {
       const i = a & 0x7fffff, j = b & 0x7fffff;  // without Jolt's count of uses
-      if (pressing === 0 && along.every((impulse) => impulse === 0)) return;
-      const {normal, point} = this.contacts.get(i * 2 ** 20 + j), id = this.idOf(j);
-      const tangential = this.inSpace ? alongTangents(normal, along) : alongTangentInPlane(normal, along);
-      visit(i, id, pressing * this.unit, scaled(this.unit, tangential), () => ({normal: normal.map((x) => -x), point}));
+      if (pressing.every((impulse) => impulse === 0) && along.every((own) => own.every((impulse) => impulse === 0))) return;
+      const {normal, points} = this.contacts.get(i * 2 ** 20 + j), id = this.idOf(j);
+      const add = (push, friction, place) => visit(i, id, push * this.unit, scaled(this.unit, friction), () => ({normal: scaled(-1, normal), ...place}));
+      const tangential = along.map((own) => (this.inSpace ? alongTangents(normal, own) : alongTangentInPlane(normal, own)));
+      if (pressing.length === 1) return add(pressing[0], tangential[0], points?.[0]);
+      pressing.forEach((push, k) => add(push, FRICTION_OF_POINTS ? tangential[k] : this.unturned, points[k]));
+      if (!FRICTION_OF_POINTS) frictionOf(normal, points, tangential[0], about * this.unit).forEach(([friction, point]) => add(0, friction, {point, depth: -Infinity}));
     });
   }
+}
+
+/// Friction of a contact of several points [impulse, point]: once, in their middle, and what is about the normal as a couple.
+function frictionOf(normal, points, along, about) {
+  const middle = scaled(1 / points.length, points.map(({point}) => point).reduce(plus)), arm = minus(points[0].point, middle);
+  if (about === 0) return [[along, middle]];
+  const aside = scaled(-about / (2 * dot(arm, arm)), cross(normal, arm));
+  return [[along, middle], [aside, plus(middle, arm)], [scaled(-1, aside), minus(middle, arm)]];
 }
 
 /// On the lower body, in space: Jolt's tangents of a normal n from it to the other are p, n turned in the plane of its larger one of

@@ -44,3 +44,19 @@ export function carriedAlong(along, n, m) {
   const w = cross(n, m), across = cross(w, along), share = 1 + dot(n, m);  // 0: any turn by 180° is as small
   return share > 0 ? plus(plus(along, across), scaled(1 / share, cross(w, across))) : along;
 }
+
+/// Half the sides of a shape that is a box, also one in the plane; null of others.
+export function halfSidesOf({vertices, rounding}) {
+  const half = vertices[0].map(Math.abs);
+  const isBox = rounding === 0 && vertices.length === 2 ** half.length &&
+    vertices.every((vertex) => vertex.every((x, k) => Math.abs(x) === half[k]));
+  return isBox ? half : null;
+}
+
+/// Corners of a polygon as a prism about its plane, for engines of space; those of a polyhedron as they are.
+export const prismOf = (vertices, half) =>
+  (vertices[0].length === 3 ? vertices : vertices.flatMap(([x, y]) => [[x, y, -half], [x, y, half]]));
+
+/// An orientation of the protocol as [x, y, z, w], and back.
+export const quaternionOfTurn = (turn) => (Array.isArray(turn) ? [...turn.slice(1), turn[0]] : quaternionOf(turn));
+export const turnOf = (dimension, [x, y, z, w]) => (dimension === 3 ? [w, x, y, z] : 2 * Math.atan2(z, w));

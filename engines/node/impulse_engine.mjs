@@ -1,22 +1,24 @@
 // A scene on an engine of rigid contacts and impulses: what all such engines do alike. An engine brings a world,
 //
 //     new World({disks, bodies, law, gravity, dt, rotation, number})    throws Unsupported
-//         disks   [{position, velocity, spin, radius, mass, inertia}]
+//         disks   [{position, velocity, spin, radius, mass, inertia}]; of a convex body also {shape: {kind, vertices, rounding},
+//                 turn, moments} as in the protocol, where the engine declares shapes
 //         bodies  of crossgrain_walls.mjs
 //         number  (name) → a setting's value
 //     world.placeWalls(states, next)   where each body is now and after the next step
 //     world.step()
-//     world.disk(i) → {position, velocity, spin}
+//     world.disk(i) → {position, velocity, spin}, and turn in a scene with convex bodies
 //     world.impulses(visit)            visit(i, j, normal impulse ≥ 0, tangential, place), i < j, of those that are not 0; what
 //                                      is tangential is a number along z × normal, or a vector on i in space;
-//                                      place() → {normal towards i, point}
+//                                      place() → {normal towards i, point}, and depth in a scene with convex bodies, where each
+//                                      point of a pair is visited
 //     world.touching()    in its place, where contacts cannot be read: how many there are, if that is known
 //     world.pairs, world.deviations, world.gap   what the engine makes of the law; how far apart it lets disks touch
 //
 // in SI units, ids as the protocol's: disks, or spheres, then wall disks, then planes, then cylinders. Vectors are those of
 // crossgrain_vector.mjs.
 
-import {carriedAlong, cross, isZero, minus, noSpin, plus, scaled} from './crossgrain_vector.mjs';
+import {carriedAlong, cross, dot, isZero, minus, noSpin, plus, scaled} from './crossgrain_vector.mjs';
 import {Body, facing} from './crossgrain_walls.mjs';
 import {Unsupported} from './crossgrain_worker.mjs';
 import {RigidLaw} from './rigid_law.mjs';
@@ -29,7 +31,7 @@ const mean = (sum, interval) => (Array.isArray(sum) ? sum.map((x) => x / interva
 
 export class ImpulseEngine {
   /// @param about  {name, version, integrator, dt: its usual step [s], settings; dimensions: [2] where absent; contacts: false
-  ///                where its contacts cannot be read}
+  ///                where its contacts cannot be read; shapes, mostVertices, rounded: of convex bodies, if it has them}
   constructor(about, World) {
     this.about = about;
     this.showsContacts = about.contacts ?? true;
@@ -37,10 +39,11 @@ export class ImpulseEngine {
   }
 
   capabilities() {
-    const {dimensions} = this.about;
+    const {dimensions, shapes, mostVertices, rounded} = this.about;
     return {
       version: this.about.version,
       ...(dimensions && {dimensions, cylinders: true}),
+      ...(shapes && {shapes, most_vertices: mostVertices, rounded: rounded ?? false}),
       effects: Object.fromEntries(EFFECTS.map((name) => [name, 'optional'])),
       law_options: {normal: ['rigid'], lever_arm: ['overlap_middle'], velocity_arm: ['lever_arm'], plane_arm: ['middle']},
       wall_motions: MOTIONS,
@@ -65,7 +68,7 @@ export class ImpulseEngine {
     const dimension = this.dimension = scene.dimension ?? 2;
     this.law = new RigidLaw(scene.law);
     this.friction = this.law.friction > 0;
-    const rotation = this.friction && scene.rotation;
+    const rotation = (this.friction || Boolean(scene.shapes)) && scene.rotation;
     this.bodies = scene.bodies.map((body, b) =>
       new Body(body, arrays[`bodies.${b}.disk_position`], arrays[`bodies.${b}.disk_radius`]));
     this.surfaces = ['planes', 'cylinders'].flatMap(
@@ -82,7 +85,13 @@ export class ImpulseEngine {
       radius: arrays['disks.radius'][i],
       mass: arrays['disks.mass'][i],
       inertia: arrays['disks.inertia'][i],
+      ...(scene.shapes && arrays['disks.shape'][i] >= 0 && {
+        shape: scene.shapes[arrays['disks.shape'][i]],
+        turn: dimension === 3 ? [...arrays['disks.turn'].slice(4 * i, 4 * i + 4)] : arrays['disks.turn'][i],
+        moments: dimension === 3 && vector('disks.moments', i),
+      }),
     }));
+    this.convex = Boolean(scene.shapes);
     this.world?.free();
     this.world = new this.World(
       {disks, bodies: this.bodies, law: this.law, gravity: scene.gravity, dt: this.dt, rotation, number});
@@ -139,6 +148,7 @@ export class ImpulseEngine {
     const space = this.dimension === 3, add = space ? plus : (a, b) => a + b;
     this.world.impulses((i, j, pressing, along, place) => {
       ++this.evaluations;
+      if (this.convex) return this.addPoint(states, i, j, pressing, along, place());
       const key = i * ids + j, wall = j >= this.disks;
       const {normal, point} = space || wall ? place() : {};
       for (const list of [this.last, this.sums]) {
@@ -149,15 +159,36 @@ export class ImpulseEngine {
         list.set(key, sum);
       }
       if (!wall) return;
-      const b = this.owner[j - this.disks], arm = minus(point, states[b].centre);
-      const push = space ? scaled(-1, plus(scaled(pressing, normal), along))
-        : [-(pressing * normal[0] - along * normal[1]), -(pressing * normal[1] + along * normal[0])];
-      for (const on of [this.lastOnBodies[b], this.onBodies[b]]) {
-        on.force = plus(on.force, push);
-        on.torque = add(on.torque, cross(arm, push));
-      }
+      this.loadWall(states, j, point, space ? scaled(-1, plus(scaled(pressing, normal), along))
+        : [-(pressing * normal[0] - along * normal[1]), -(pressing * normal[1] + along * normal[0])]);
     });
     ++this.summed;
+  }
+
+  /// An impulse on a wall, by its id.
+  loadWall(states, j, point, push) {
+    const b = this.owner[j - this.disks], turning = cross(minus(point, states[b].centre), push);
+    for (const on of [this.lastOnBodies[b], this.onBodies[b]]) {
+      on.force = plus(on.force, push);
+      on.torque = this.dimension === 3 ? plus(on.torque, turning) : on.torque + turning;
+    }
+  }
+
+  /// One of the points in which two bodies touch, to the sums of the pair: its impulse [N s], the moment of that about the origin,
+  /// and where it acts, weighed with what presses.
+  addPoint(states, i, j, pressing, along, {normal, point, depth}) {
+    const key = i * (this.radius.length + this.owner.length) + j, weight = pressing || 1e-200;  // of what only rubs, so that it has a place
+    const push = plus(scaled(pressing, normal), this.dimension === 3 ? along : scaled(along, [-normal[1], normal[0]]));
+    const moment = cross(point, push);
+    for (const list of [this.last, this.sums]) {
+      const sum = list.get(key);
+      list.set(key, sum ? {
+        i, j, weight: sum.weight + weight, push: plus(sum.push, push), normal: plus(sum.normal, scaled(weight, normal)),
+        at: plus(sum.at, scaled(weight, point)), depth: Math.max(sum.depth, depth),
+        moment: this.dimension === 3 ? plus(sum.moment, moment) : sum.moment + moment,
+      } : {i, j, weight, push, normal: scaled(weight, normal), at: scaled(weight, point), depth, moment});
+    }
+    if (j >= this.disks) this.loadWall(states, j, point, scaled(-1, push));
   }
 
   snapshot(report) {
@@ -170,7 +201,8 @@ export class ImpulseEngine {
       velocity: ['f64', disks.flatMap((disk) => disk.velocity)],
       wall_position: ['f64', wallDisks.flat()],
     };
-    if (this.friction) arrays.spin = ['f64', disks.flatMap((disk) => disk.spin)];
+    if (this.friction || this.convex) arrays.spin = ['f64', disks.flatMap((disk) => disk.spin)];
+    if (this.convex) arrays.turn = ['f64', disks.flatMap((disk) => disk.turn)];
     const steps = accumulated ? this.summed : Math.min(this.showsContacts ? 1 : 0, this.steps), interval = steps * this.dt;
     const snapshot = {position_time: t, velocity_time: t, contact_time: t, contact_interval: interval};
     const onBodies = accumulated ? this.onBodies : this.lastOnBodies;
@@ -189,6 +221,7 @@ export class ImpulseEngine {
   /// Mean forces over an interval, with the geometry of now.
   addContacts(arrays, impulses, interval, positions, states) {
     const list = [...impulses.values()].sort((a, b) => a.i - b.i || a.j - b.j);
+    if (this.convex) return this.addSums(arrays, list, interval);
     const geometry = list.map(({i, j}) =>
       j < positions.length ? this.ofDisks(i, j, positions)
                            : this.ofSurface(i, this.surfaces[j - positions.length], positions, states));
@@ -199,6 +232,25 @@ export class ImpulseEngine {
     arrays['contacts.normal_force'] = ['f64', list.map((c) => c.pressing / interval)];
     const tangential = list.map((c, k) => mean(carriedAlong(c.along, c.normal ?? [0, 0], geometry[k].normal), interval));
     arrays['contacts.tangential_force'] = ['f64', tangential.flat()];
+  }
+
+  /// Of pairs that touch in several points: all that pushes, at one of them.
+  addSums(arrays, list, interval) {
+    const space = this.dimension === 3;
+    const each = list.map(({weight, push, normal, at, moment}) => {
+      const n = scaled(1 / Math.hypot(...normal), normal), point = scaled(1 / weight, at), pressing = dot(push, n);
+      const couple = cross(point, push);
+      return {n, point, pressing, along: space ? minus(push, scaled(pressing, n)) : dot(push, [-n[1], n[0]]),
+              left: space ? minus(moment, couple) : moment - couple};
+    });
+    arrays['contacts.i'] = ['i32', list.map((c) => c.i)];
+    arrays['contacts.j'] = ['i32', list.map((c) => c.j)];
+    arrays['contacts.normal'] = ['f64', each.flatMap((c) => c.n)];
+    arrays['contacts.overlap'] = ['f64', list.map(({depth}) => (Number.isFinite(depth) ? depth : 0))];
+    arrays['contacts.normal_force'] = ['f64', each.map((c) => c.pressing / interval)];
+    arrays['contacts.tangential_force'] = ['f64', each.map((c) => mean(c.along, interval)).flat()];
+    arrays['contacts.rolling_torque'] = ['f64', each.map((c) => mean(c.left, interval)).flat()];
+    arrays['contacts.point'] = ['f64', each.flatMap((c) => c.point)];
   }
 
   ofDisks(i, j, positions) {

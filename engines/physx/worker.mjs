@@ -11,6 +11,8 @@ serve(new ImpulseEngine({
   name: 'physx',
   version,
   dimensions: [2, 3],
+  shapes: ['polygon', 'capsule', 'box', 'polyhedron'],
+  mostVertices: 64,
   integrator: 'semi_implicit_euler with sequential impulses',
   dt: 5e-4,
   settings: [

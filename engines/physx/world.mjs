@@ -2,7 +2,7 @@
 // radius of about one.
 
 import {readFileSync} from 'node:fs';
-import {dot, quaternionOf, scaled, unitOf} from '../node/crossgrain_vector.mjs';
+import {dot, halfSidesOf, prismOf, quaternionOf, quaternionOfTurn, scaled, turnOf, unitOf} from '../node/crossgrain_vector.mjs';
 import {ballsOf, placeBalls} from '../node/crossgrain_walls.mjs';
 
 const home = new URL('../node/node_modules/physx-js-webidl/', import.meta.url);
@@ -13,9 +13,12 @@ const P = await outsideNode(async () => {
 
 const CONTACT_OFFSET = 1e-6;  // of each body, units: contacts act from a gap of twice that on; PhysX wants more than 0
 const NO_LIMIT = 1e9;         // of speeds; PhysX' own of spins is 100 /s
-const PAIR = {size: 44, patches: 8, points: 12, impulses: 16, frictions: 20};  // PxContactPair in bytes
-const NORMAL = 16;            // in a PxContactPatch
-const FRICTION = 24;          // in a PxFrictionPatch, of its first anchor; two bodies that touch in one point have no other
+const GYROSCOPIC = 1 << 10;   // PxRigidBodyFlag::eENABLE_GYROSCOPIC_FORCES, Euler's term: the binding has no name for it
+// In bytes: PxContactPair, PxContactPatch, PxContact, and PxFrictionPatch with its two anchors.
+const PAIR = {size: 44, patches: 8, points: 12, impulses: 16, frictions: 20, count: 28, patchCount: 29};
+const PATCH = {size: 64, normal: 16, start: 44, count: 46};
+const POINT = {size: 16, separation: 12};
+const FRICTION = {size: 52, impulses: 24, anchors: 48, three: 12};
 
 export const version = `physx-js-webidl ${JSON.parse(readFileSync(new URL('package.json', home))).version}`;
 
@@ -28,6 +31,8 @@ const dispatcher = top.DefaultCpuDispatcherCreate(0);
 const filter = (({eNOTIFY_TOUCH_FOUND: found, eNOTIFY_TOUCH_PERSISTS: persists, eNOTIFY_CONTACT_POINTS: points}) =>
   new P.PxFilterData(1, 1, found | persists | points, 0))(P.PxPairFlagEnum);
 const simulated = new P.PxShapeFlags(P.PxShapeFlagEnum.eSIMULATION_SHAPE);
+const cooking = new P.PxCookingParams(scale);
+const ALONG_Z = [0, -Math.SQRT1_2, 0, Math.SQRT1_2];  // the turn of PhysX' capsules, which are along x
 const vector = new P.PxVec3(), pose = new P.PxTransform(P.PxIDENTITYEnum.PxIdentity);
 
 /// The package is built for browsers alone, and refuses Node where it finds one; it runs in it.
@@ -105,6 +110,24 @@ export class PhysxWorld {
   }
   sphere(radius) { return new P.PxSphereGeometry(radius / this.unit); }
 
+  /// Of a convex body; polygons are prisms, whose thickness is no matter, as bodies keep to the plane.
+  geometryOf({shape, radius}) {
+    const {kind, vertices, rounding} = shape, half = halfSidesOf(shape), thick = radius / this.unit;
+    if (kind === 'capsule') return new P.PxCapsuleGeometry(rounding / this.unit, Math.hypot(...vertices[0]) / this.unit);
+    if (half) return new P.PxBoxGeometry(half[0] / this.unit, half[1] / this.unit, half.length === 3 ? half[2] / this.unit : thick);
+    const corners = prismOf(vertices, radius), points = new P.PxArray_PxVec3(corners.length);
+    corners.forEach((corner, k) => points.set(k, this.vectorOf(corner)));
+    const mesh = new P.PxConvexMeshDesc();
+    mesh.flags.raise(P.PxConvexFlagEnum.eCOMPUTE_CONVEX);
+    mesh.points.count = corners.length;
+    mesh.points.stride = 12;
+    mesh.points.data = points.begin();
+    const made = new P.PxConvexMeshGeometry(top.CreateConvexMesh(cooking, mesh));
+    P.destroy(mesh);
+    P.destroy(points);
+    return made;
+  }
+
   /// @param mass  whose material it has; Infinity: walls'
   actor(geometry, at, moves, mass, turn) {
     const own = moves ? physics.createRigidDynamic(this.poseOf(at)) : physics.createRigidStatic(this.poseOf(at));
@@ -123,12 +146,18 @@ export class PhysxWorld {
   }
 
   disk_(disk, rotation) {
-    const own = this.actor(this.sphere(disk.radius), disk.position, true, disk.mass);
+    const {shape} = disk, space = this.dimension === 3;
+    const own = this.actor(shape ? this.geometryOf(disk) : this.sphere(disk.radius), disk.position, true, disk.mass,
+                           shape?.kind === 'capsule' && space ? ALONG_Z : undefined);
+    if (shape) {
+      own.setGlobalPose(this.poseOf(disk.position, quaternionOfTurn(disk.turn)));
+      own.setRigidBodyFlag(GYROSCOPIC, true);
+    }
     const locked = this.dimension === 2 ? ['LINEAR_Z', 'ANGULAR_X', 'ANGULAR_Y'] : [];
     for (const axis of [...locked, ...(rotation ? [] : ['ANGULAR_X', 'ANGULAR_Y', 'ANGULAR_Z'])])
       own.setRigidDynamicLockFlag(P.PxRigidDynamicLockFlagEnum[`eLOCK_${axis}`], true);
     own.setMass(disk.mass);
-    own.setMassSpaceInertiaTensor(this.vectorOf(Array(3).fill(disk.inertia / this.unit)));
+    own.setMassSpaceInertiaTensor(this.vectorOf(scaled(1 / this.unit, disk.moments || Array(3).fill(disk.inertia))));
     own.setLinearDamping(0);
     own.setAngularDamping(0);
     own.setMaxLinearVelocity(NO_LIMIT);
@@ -163,23 +192,38 @@ export class PhysxWorld {
   }
 
   /// Of a pair that touches, out of PhysX' memory: the binding does not show its friction. The layouts are those of
-  /// PxSimulationEventCallback.h and PxContact.h (5.6.1); normals point to the first shape, impulses act on it.
+  /// PxSimulationEventCallback.h and PxContact.h (5.6.1); normals point to the first shape, impulses act on it. Of two bodies that
+  /// touch in one point both are at it; else friction is at up to two anchors of a patch.
   contact(at) {
     const words = P.HEAPU32, word = (address) => words[address >> 2];
-    const numbers = new Float32Array(words.buffer), three = (address) => [...numbers.subarray(address >> 2, (address >> 2) + this.dimension)];
+    const bytes = new Uint8Array(words.buffer), short = (address) => bytes[address] + 256 * bytes[address + 1];
+    const numbers = new Float32Array(words.buffer), number = (address) => numbers[address >> 2];
+    const three = (address) => [...numbers.subarray(address >> 2, (address >> 2) + this.dimension)];
     const a = this.idOf.get(word(at)), b = this.idOf.get(word(at + 4)), sense = a < b ? 1 : -1;
-    const pressing = numbers[word(at + PAIR.impulses) >> 2], friction = three(word(at + PAIR.frictions) + FRICTION);
-    if (pressing === 0 && friction.every((impulse) => impulse === 0)) return;
-    this.contacts.push({
-      i: Math.min(a, b), j: Math.max(a, b), pressing, friction: scaled(sense, friction),
-      normal: scaled(sense, three(word(at + PAIR.patches) + NORMAL)), point: scaled(this.unit, three(word(at + PAIR.points))),
-    });
+    const none = [0, 0, 0].slice(0, this.dimension), single = bytes[at + PAIR.count] === 1;
+    const add = (pressing, friction, normal, point, separation) => {
+      if (pressing === 0 && friction.every((impulse) => impulse === 0)) return;
+      this.contacts.push({i: Math.min(a, b), j: Math.max(a, b), pressing, friction: scaled(sense, friction), normal: scaled(sense, normal),
+                          point: scaled(this.unit, three(point)), depth: -separation * this.unit});
+    };
+    for (let p = 0; p < bytes[at + PAIR.patchCount]; ++p) {
+      const patch = word(at + PAIR.patches) + p * PATCH.size, anchors = word(at + PAIR.frictions) + p * FRICTION.size;
+      const normal = three(patch + PATCH.normal), first = short(patch + PATCH.start);
+      for (let k = first; k < first + bytes[patch + PATCH.count]; ++k) {
+        const point = word(at + PAIR.points) + k * POINT.size;
+        add(number(word(at + PAIR.impulses) + 4 * k), single ? three(anchors + FRICTION.impulses) : none, normal, point,
+            number(point + POINT.separation));
+      }
+      for (let k = 0; k < (single ? 0 : word(anchors + FRICTION.anchors)); ++k)
+        add(0, three(anchors + FRICTION.impulses + k * FRICTION.three), normal, anchors + k * FRICTION.three, Infinity);
+    }
   }
 
   disk(i) {
     const own = this.disks[i], components = ({x, y, z}) => [x, y, z], metres = (v) => scaled(this.unit, components(v).slice(0, this.dimension));
-    const spin = components(own.getAngularVelocity());
+    const spin = components(own.getAngularVelocity()), {x, y, z, w} = own.getGlobalPose().q;
     return {
+      turn: turnOf(this.dimension, [x, y, z, w]),
       position: metres(own.getGlobalPose().p),
       velocity: metres(own.getLinearVelocity()),
       spin: this.dimension === 3 ? spin : spin[2],
@@ -193,9 +237,9 @@ export class PhysxWorld {
 
   /// Of the last step.
   impulses(visit) {
-    for (const {i, j, pressing, friction, normal, point} of this.contacts) {
+    for (const {i, j, pressing, friction, normal, point, depth} of this.contacts) {
       const along = this.dimension === 3 ? friction : dot(friction, [-normal[1], normal[0]]);
-      visit(i, this.idOfActor(j), pressing * this.unit, scaled(this.unit, along), () => ({normal, point}));
+      visit(i, this.idOfActor(j), pressing * this.unit, scaled(this.unit, along), () => ({normal, point, depth}));
     }
   }
 }

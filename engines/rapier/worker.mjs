@@ -11,6 +11,9 @@ serve(new ImpulseEngine({
   name: inSpace ? 'rapier3d' : 'rapier',
   version,
   ...(inSpace && {dimensions: [3], contacts: false}),
+  shapes: inSpace ? ['capsule', 'box', 'cylinder', 'polyhedron'] : ['polygon', 'capsule'],
+  mostVertices: 1000,
+  rounded: !inSpace,
   integrator: 'semi_implicit_euler with sequential impulses',
   dt: 5e-4,
   settings: [

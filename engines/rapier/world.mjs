@@ -1,7 +1,7 @@
 // The scene as Rapier's rigid bodies and colliders, in SI units and single precision.
 
 import {createRequire} from 'node:module';
-import {quaternionOf} from '../node/crossgrain_vector.mjs';
+import {halfSidesOf, quaternionOf, quaternionOfTurn, turnOf as turnOfQuaternion} from '../node/crossgrain_vector.mjs';
 import {ballsOf, placeBalls} from '../node/crossgrain_walls.mjs';
 
 const require = createRequire(new URL('../node/', import.meta.url));
@@ -14,13 +14,33 @@ const vectorOf = ([x, y, z]) => (inSpace ? {x, y, z} : {x, y});
 const componentsOf = ({x, y, z}) => (inSpace ? [x, y, z] : [x, y]);
 
 /// A turn as Rapier takes it.
-function turnOf(angle) {
-  if (!inSpace) return angle;
-  const [x, y, z, w] = quaternionOf(angle);
-  return {x, y, z, w};
+function turnOf(angle) { return inSpace ? orientationOf(quaternionOf(angle)) : angle; }
+const orientationOf = ([x, y, z, w]) => ({x, y, z, w});
+
+// The turns of Rapier's capsules and cylinders, which are along y.
+const ALONG_X = -Math.PI / 2, ALONG_Z = {x: Math.SQRT1_2, y: 0, z: 0, w: Math.SQRT1_2};
+
+/// The collider of a disk, or of a convex body.
+function colliderOf({shape, radius}) {
+  if (!shape) return RAPIER.ColliderDesc.ball(radius);
+  const {kind, vertices, rounding} = shape, half = halfSidesOf(shape);
+  if (kind === 'capsule' || kind === 'cylinder')
+    return RAPIER.ColliderDesc[kind](Math.hypot(...vertices[0]), rounding).setRotation(inSpace ? ALONG_Z : ALONG_X);
+  if (half) return RAPIER.ColliderDesc.cuboid(...half);
+  const points = Float32Array.from(vertices.flat());
+  if (inSpace) return RAPIER.ColliderDesc.convexHull(points);
+  return rounding > 0 ? RAPIER.ColliderDesc.roundConvexPolyline(points, rounding) : RAPIER.ColliderDesc.convexPolyline(points);
 }
 
 export const version = RAPIER.version();
+
+/// Of the points of a manifold those that the solver had, in its order: the others, which are too far apart, keep old impulses.
+function solvedPoints(manifold) {
+  const all = Array.from({length: manifold.numContacts()}, (_, k) => k), solved = manifold.numSolverContacts();
+  if (solved === 0 || solved === all.length) return solved === 0 ? [] : all;
+  const apart = (k, place) => Math.abs(manifold.contactDist(k) - manifold.solverContactDist(place));
+  return Array.from({length: solved}, (_, place) => all.reduce((a, b) => (apart(b, place) < apart(a, place) ? b : a)));
+}
 
 export class RapierWorld {
   constructor({disks, bodies, law, gravity, dt, rotation, number}) {
@@ -66,9 +86,10 @@ export class RapierWorld {
     this.disks = disks.map((disk) => {
       const body = RAPIER.RigidBodyDesc.dynamic().setTranslation(...disk.position).setLinvel(...disk.velocity)
                      .setAngvel(inSpace ? vectorOf(disk.spin) : disk.spin).setCanSleep(false);
+      if (disk.shape) body.setRotation(inSpace ? orientationOf(quaternionOfTurn(disk.turn)) : disk.turn);
       const own = this.world.createRigidBody(rotation ? body : body.lockRotations());
-      this.add(RAPIER.ColliderDesc.ball(disk.radius), this.ofMass.get(disk.mass), own);
-      const inertia = inSpace ? [vectorOf(Array(3).fill(disk.inertia)), turnOf([0, 0, 0])] : [disk.inertia];
+      this.add(colliderOf(disk), this.ofMass.get(disk.mass), own);
+      const inertia = inSpace ? [vectorOf(disk.moments || Array(3).fill(disk.inertia)), turnOf([0, 0, 0])] : [disk.inertia];
       own.setAdditionalMassProperties(disk.mass, vectorOf([0, 0, 0]), ...inertia, true);
       return own;
     });
@@ -109,8 +130,9 @@ export class RapierWorld {
   step() { this.world.step(); }
 
   disk(i) {
-    const spin = this.disks[i].angvel();
+    const spin = this.disks[i].angvel(), turn = this.disks[i].rotation();
     return {
+      turn: inSpace ? turnOfQuaternion(3, [turn.x, turn.y, turn.z, turn.w]) : turn,
       position: componentsOf(this.disks[i].translation()),
       velocity: componentsOf(this.disks[i].linvel()),
       spin: inSpace ? componentsOf(spin) : spin,
@@ -137,14 +159,14 @@ export class RapierWorld {
         const j = this.idOf.get(other);
         if (j < i) return;
         contactPair(this.colliders[i], other, guarded((manifold, flipped) => {
-          for (let k = 0; k < manifold.numContacts(); ++k) {
+          solvedPoints(manifold).forEach((k, place) => {
             const pressing = manifold.contactImpulse(k), along = manifold.contactTangentImpulse(k);
-            if (pressing === 0 && along === 0) continue;
+            if (pressing === 0 && along === 0) return;
             visit(i, j, pressing, along, () => {
-              const normal = manifold.normal(), away = flipped ? 1 : -1, point = manifold.solverContactPoint(k);
-              return {normal: [away * normal.x, away * normal.y], point: [point.x, point.y]};
+              const normal = manifold.normal(), away = flipped ? 1 : -1, point = manifold.solverContactPoint(place);
+              return {normal: [away * normal.x, away * normal.y], point: [point.x, point.y], depth: -manifold.contactDist(k)};
             });
-          }
+          });
         }));
       }));
     if (failure) throw failure;
