@@ -381,9 +381,13 @@ TEST(HardCases, Repository_EachIsShownToFail) {
   std::set<std::string> known = {"blocked", "coincident-centres", "disk-in-disk", "long-couette",
                                  "pile-viscous"};
   for (const Shown& one : shownToFail) known.insert(one.file);
-  for (const auto& entry : std::filesystem::directory_iterator(CROSSGRAIN_CASES "/hard"))
-    EXPECT_TRUE(entry.path().extension() != ".toml" || known.contains(entry.path().stem()))
+  for (const auto& entry : std::filesystem::directory_iterator(CROSSGRAIN_CASES "/hard")) {
+    const std::string stem = entry.path().stem();
+    // Convex bodies are not the in-house engine's: tests/system/test_convex.py shows them to fail.
+    EXPECT_TRUE(entry.path().extension() != ".toml" || known.contains(stem) ||
+                stem.starts_with("convex-"))
         << entry.path();
+  }
 }
 
 /// Two disks that are apart in place of one inside the other.
