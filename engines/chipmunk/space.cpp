@@ -209,8 +209,8 @@ void Space::take(const cpArbiter* arbiter) {
   CP_ARBITER_GET_SHAPES(arbiter, a, b);
   const Vector normal = -1.0 * fromChipmunk(cpArbiterGetNormal(arbiter));
   for (int k = 0; scene_.convex && k < cpArbiterGetCount(arbiter); ++k) {
-    // What acts along Chipmunk's turned normal is the same on both.
-    // Points on planes may be mirrored along them, those on what meets them are right.
+    // Impulses on a, along −n and its turn, have the signs of those on b along n and its turn.
+    // Points on a plane may be mirrored along it, those on the body that meets it are right.
     const cpContact& contact = arbiter->contacts[k];
     const Vector point = fromChipmunk(idOf(a) < idOf(b) ? cpArbiterGetPointA(arbiter, k)
                                                         : cpArbiterGetPointB(arbiter, k));

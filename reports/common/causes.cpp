@@ -191,7 +191,7 @@ Panel stackedPanel(const StackedCauses& one, std::map<std::string, const char*>&
   };
   const auto size = [](const auto& value) { return std::abs(value.value_or(0.0)); };
   const double least = 1e-3 * size(*std::ranges::max_element(one.whole, {}, size));
-  // What is above zero stands on what is, what is below hangs from it.
+  // Stacks parts above zero upwards, parts below zero downwards.
   std::vector<double> above(one.x.size(), 0.0), below = above;
   for (const auto& [name, values] : one.parts) {
     if (std::ranges::none_of(values, [&](const auto& value) { return size(value) > least; }))

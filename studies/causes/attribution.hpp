@@ -36,7 +36,7 @@ struct AttributionPlan {
 
 /// Parts of v(all) − v(0) that differences have.
 ///
-/// What t differences T do together beyond what fewer of them do is, beside others S,
+/// Effect of t differences T together, beyond those of fewer of them, beside others S,
 ///   Δ_T(S) = Σ_{L ⊆ T} (−1)^{t − |L|} v(S ∪ L).
 /// Where all mixtures of k differences ran, its mean over all orders in which they can be taken
 /// (Grabisch and Roubens 1999),

@@ -115,7 +115,7 @@ class ClosestLaw {
   Changes withTaken(const Changes& further) const;
   /// Of changes that are all; absent likewise.
   std::optional<double> distanceOf(const Changes& all, double limit) const;
-  /// What of that kind leaves least, if that is less than `distance`, which becomes that.
+  /// Changes of that kind that leave least, if less than `distance`, which becomes that.
   Changes best(ChangeKind kind, double& distance) const;
   bool take(const Changes& further);
 

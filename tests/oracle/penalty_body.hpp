@@ -21,8 +21,8 @@ struct PenaltySteps {
 /// falls (Walton and Braun, J. Rheol. 30, 1986), which gives back e² of the work that it took, and
 /// Coulomb's friction without any tangential compliance. Störmer–Verlet in half drifts, with the
 /// friction of a kick implicit: it ends the slip or opposes the slip that is left.
-/// What remains of the distance from a rigid impact falls as √(1/k) and as the step, with its
-/// square where the slip does not turn.
+/// Distance from a rigid impact falls as √(1/k) and as the step, with its square where the slip
+/// does not turn.
 inline ConvexImpactBody<3> penaltyImpact(const ConvexImpactStart<3>& start,
                                          const PenaltySteps& how) {
   ConvexImpactBody<3> body = start.body[0];
