@@ -161,7 +161,7 @@ std::string pointFault(const SnapshotOf<D>& snapshot, const AuditBasisOf<D>& bas
       if (id < scene.disks.size() && snapshot.spin) spinning = sizeOf((*snapshot.spin)[id]);
       if (id < scene.disks.size() && scene.isConvex(id)) {
         const double small = 1e-6 * basis.radius[id];
-        const ShapeOf<D> mark{ShapeKind::capsule, {VecOf<D>::Zero()}, small};
+        const ShapeOf<D> mark = roundShape<D>(small);
         gap = small - overlapOf<D>({&mark, point},
                                    PlacedBody<D>(scene, id, place, (*snapshot.turn)[id]).get());
       }

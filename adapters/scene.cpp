@@ -108,9 +108,9 @@ PlacedBody<D>::PlacedBody(const SceneOf<D>& scene, std::size_t disk, const VecOf
                           const TurnOf<D>& turn)
     : position_(position), turn_(turn) {
   if (scene.isConvex(disk))
-    of_ = &scene.shapes[static_cast<std::size_t>(scene.disks.shape[disk])];
+    of_ = &scene.shapeOf(disk);
   else
-    round_ = {ShapeKind::capsule, {VecOf<D>::Zero()}, scene.disks.radius[disk]};
+    round_ = roundShape<D>(scene.disks.radius[disk]);
 }
 template class PlacedBody<2>;
 template class PlacedBody<3>;
@@ -135,7 +135,7 @@ double overlapOfPair(const SceneOf<D>& scene, std::size_t i, std::size_t j, cons
   const PlacedBody<D> one(scene, i, apart, turns[i]);
   if (moving)
     return overlapOf<D>(one.get(), PlacedBody<D>(scene, j, VecOf<D>::Zero(), turns[j]).get());
-  const ShapeOf<D> round{ShapeKind::capsule, {VecOf<D>::Zero()}, radiusOf(j)};
+  const ShapeOf<D> round = roundShape<D>(radiusOf(j));
   return overlapOf<D>(one.get(), {&round});
 }
 template double overlapOfPair<2>(const Scene&, std::size_t, std::size_t, const Vec2&,
@@ -161,8 +161,7 @@ std::string nameOfId(const SceneOf<D>& scene, std::size_t id) {
   const std::size_t disks = scene.disks.size();
   if (id < disks) {
     if (!scene.isConvex(id)) return fmt::format("{} {}", round, id);
-    return fmt::format(
-        "{} {}", toString(scene.shapes[static_cast<std::size_t>(scene.disks.shape[id])].kind), id);
+    return fmt::format("{} {}", toString(scene.shapeOf(id).kind), id);
   }
   const std::size_t walls = disks + scene.wallDiskCount(), planes = walls + scene.planeCount();
   if (id < walls) return fmt::format("wall {} {}", round, id - disks);

@@ -161,6 +161,10 @@ struct SceneOf {
   const ContactLaw& lawOf(std::size_t i, std::size_t j) const;
   std::vector<double> radii() const;  ///< of the disks, then of the wall disks [m]
   bool isConvex(std::size_t disk) const { return !disks.areRound() && disks.shape[disk] >= 0; }
+  /// @pre isConvex(disk)
+  const ShapeOf<D>& shapeOf(std::size_t disk) const {
+    return shapes[static_cast<std::size_t>(disks.shape[disk])];
+  }
 };
 using Scene = SceneOf<2>;
 using SpaceScene = SceneOf<3>;

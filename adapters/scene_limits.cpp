@@ -31,9 +31,10 @@ std::string describe(const std::vector<ShapeKind>& kinds, const char* first) {
 
 /// The first of a scene that is none of them.
 template <int D>
-std::optional<double> otherInertia(const SceneLimits& limits, const DisksOf<D>& disks) {
+std::optional<double> otherInertia(const SceneLimits& limits, const SceneOf<D>& scene) {
+  const DisksOf<D>& disks = scene.disks;
   for (std::size_t k = 0; k < disks.size(); ++k) {
-    if (!disks.areRound() && disks.shape[k] >= 0) continue;
+    if (scene.isConvex(k)) continue;
     const double q = disks.inertia[k] / (disks.mass[k] * disks.radius[k] * disks.radius[k]);
     if (!hasInertia(limits, q)) return q;
   }
@@ -128,7 +129,7 @@ std::vector<std::string> beyondLimits(const SceneLimits& limits, const SceneOf<D
                                       bool softLawStoodFor) {
   std::vector<std::string> reasons;
   if (effectsOf(scene).contains(Effect::rotation))
-    if (const auto q = otherInertia(limits, scene.disks))
+    if (const auto q = otherInertia(limits, scene))
       reasons.push_back(fmt::format("has moments of inertia of {} m a², not {:.6g} m a²",
                                     fmt::join(*limits.inertia, " | "), *q));
   if (std::string why = beyondOfShapes(limits, scene); !why.empty())

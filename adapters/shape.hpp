@@ -44,6 +44,11 @@ Eigen::Matrix<double, D, D> matrixOf(const TurnOf<D>& turn) {
     return Eigen::Quaterniond(turn[0], turn[1], turn[2], turn[3]).toRotationMatrix();
 }
 
+/// Whether a quaternion that people write has length 1, to six digits.
+inline bool isUnit(const Eigen::Quaterniond& written) {
+  return std::abs(written.norm() - 1.0) <= 1e-6;
+}
+
 /// The angle between two orientations, 0 to π [rad].
 template <int D>
 double turnBetween(const TurnOf<D>& a, const TurnOf<D>& b) {
@@ -68,6 +73,12 @@ struct ShapeOf {
 
   bool operator==(const ShapeOf&) const = default;
 };
+
+/// A disk or sphere as one of them: one vertex with its radius around it.
+template <int D>
+ShapeOf<D> roundShape(double radius) {
+  return {ShapeKind::capsule, {VecOf<D>::Zero()}, radius};
+}
 
 /// The size of a body and how its mass is spread, of density 1.
 template <int D>
@@ -108,6 +119,18 @@ struct FrameOf {
 };
 template <int D>
 FrameOf<D> intoOwnFrame(ShapeOf<D>& shape);
+
+/// The orientation of a shape's own frame where that in which it was given has this one.
+template <int D>
+TurnOf<D> ownTurn(const FrameOf<D>& frame, const TurnOf<D>& given) {
+  if constexpr (D == 2) {
+    return given;
+  } else {
+    const Eigen::Quaterniond turn =
+        Eigen::Quaterniond(given[0], given[1], given[2], given[3]) * Eigen::Quaterniond(frame.axes);
+    return {turn.w(), turn.x(), turn.y(), turn.z()};
+  }
+}
 
 /// The outline of a body in its frame, counter-clockwise; what is rounded is chords of at most 3°,
 /// which hold all but 5e-4 of its area.

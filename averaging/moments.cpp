@@ -81,9 +81,8 @@ void MomentSums::setBodies(const Scene& scene) {
   for (const ShapeOf<2>& shape : scene.shapes) outlines_.push_back(outlineOf(shape));
   area_.clear();
   for (std::size_t p = 0; p < mass_.size(); ++p)
-    area_.push_back(scene.isConvex(p)
-                        ? massOf(scene.shapes[static_cast<std::size_t>(shape_[p])]).measure
-                        : std::numbers::pi * radius_[p] * radius_[p]);
+    area_.push_back(scene.isConvex(p) ? massOf(scene.shapeOf(p)).measure
+                                      : std::numbers::pi * radius_[p] * radius_[p]);
 }
 
 void MomentSums::changeDisks(const Scene& scene) {

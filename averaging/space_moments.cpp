@@ -56,9 +56,8 @@ void SpaceMomentSums::setBodies(const SpaceScene& scene) {
   volume_.clear();
   for (std::size_t p = 0; p < mass_.size(); ++p) {
     const double a = radius_[p];
-    volume_.push_back(scene.isConvex(p)
-                          ? massOf(scene.shapes[static_cast<std::size_t>(shape_[p])]).measure
-                          : 4.0 / 3.0 * std::numbers::pi * a * a * a);
+    volume_.push_back(scene.isConvex(p) ? massOf(scene.shapeOf(p)).measure
+                                        : 4.0 / 3.0 * std::numbers::pi * a * a * a);
   }
 }
 

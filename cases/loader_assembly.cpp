@@ -159,12 +159,6 @@ void checkArrangement(Reader& in) {
 
 /// The keys of [[assembly.disks]].
 template <int D>
-struct DisksInput : DiskGroupOf<D> {
-  double density = 0.0, angle = 0.0;
-  std::vector<double> inertia, quaternion;
-};
-
-template <int D>
 const Section<DisksInput<D>>& disksKeys() {
   using I = DisksInput<D>;
   static const Section<I> section(
@@ -221,67 +215,6 @@ const Section<DisksInput<D>>& disksKeys() {
   return section;
 }
 
-/// The orientation of a group, its shape's own frame turned first.
-template <int D>
-TurnOf<D> turnOf(const Reader& in, const DisksInput<D>& group, const FrameOf<D>& frame) {
-  if constexpr (D == 2) {
-    return group.angle * std::numbers::pi / 180.0;
-  } else {
-    Eigen::Quaterniond given = Eigen::Quaterniond::Identity();
-    if (in.has("quaternion")) {
-      const std::vector<double>& q = group.quaternion;
-      constexpr double digits = 1e-6;  // as many as people write
-      in.check(q.size() == 4, "quaternion", "must be four numbers, [w, x, y, z]");
-      const double length = Eigen::Vector4d::Map(q.data()).norm();
-      in.check(std::abs(length - 1.0) <= digits, "quaternion",
-               "must be [w, x, y, z] of length 1, which is {:g}", length);
-      given = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
-    }
-    const Eigen::Quaterniond turn = given * Eigen::Quaterniond(frame.axes);
-    return {turn.w(), turn.x(), turn.y(), turn.z()};
-  }
-}
-
-/// Of a group with a shape: its own frame, its size, and how its mass is spread.
-template <int D>
-DiskGroupOf<D> readConvex(const Reader& in, DisksInput<D>& group) {
-  in.check(!in.has("radius"), "radius", "and shape: give one of them");
-  in.check(group.radiusSpread == 0.0, "radius_spread", "is of disks and spheres");
-  ShapeOf<D>& shape = *group.shape;
-  const FrameOf<D> frame = intoOwnFrame(shape);
-  group.turn = turnOf<D>(in, group, frame);
-  group.radius = shape.reach();
-  for (int k = 0; k < D; ++k) {
-    const VecOf<D> along = frame.axes.transpose() * VecOf<D>::Unit(k);
-    group.extents[k] = along.dot(farthest<D>(shape, along) - farthest<D>(shape, -along));
-  }
-  const ShapeMassOf<D> spread = massOf(shape);
-  if (in.has("density")) group.mass = group.density * spread.measure;
-  in.check(std::isnormal(group.mass), in.has("mass") ? "mass" : "density",
-           "makes bodies weigh {} kg", group.mass);
-  constexpr std::size_t numbers = D == 2 ? 1 : 3;
-  if (!in.has("inertia")) {
-    if constexpr (D == 2)
-      group.moments = {0.0, 0.0, group.mass * momentsPerMass(spread)};
-    else
-      group.moments = group.mass * momentsPerMass(spread);
-    return group;
-  }
-  const std::vector<double>& given = group.inertia;
-  in.check(given.size() == numbers, "inertia", "must be {}",
-           D == 2 ? "one number, about z" : "[J_x, J_y, J_z]");
-  for (std::size_t k = 0; k < numbers; ++k)
-    group.moments[D == 2 ? 2 : static_cast<int>(k)] = given[k];
-  // No part of a body is beyond its reach, and each two moments are more than the third.
-  const double most = group.mass * group.radius * group.radius;
-  in.check(*std::ranges::max_element(given) <= most, "inertia",
-           "is more than a body of {:g} kg that reaches {:g} m can have, {:g} kg m²", group.mass,
-           group.radius, most);
-  in.check(D == 2 || group.moments.sum() >= 2.0 * group.moments.maxCoeff(), "inertia",
-           "is of no body: one moment is more than the other two together");
-  return group;
-}
-
 template <int D>
 DiskGroupOf<D> readDisks(Reader in) {
   DisksInput<D> group;
@@ -293,7 +226,10 @@ DiskGroupOf<D> readDisks(Reader in) {
            group.places.size());
   in.check(!in.has("mass") || !in.has("density"), "density", "and mass: give one of them");
   if (!in.has("mass") && !in.has("density")) in.failMissing("mass", "or density");
-  if (group.shape) return readConvex<D>(in, group);
+  if (group.shape) {
+    makeConvex(in, group);
+    return group;
+  }
   for (const char* const ofShapes : {"angle", "quaternion", "random_turn", "inertia"})
     in.check(!in.has(ofShapes), ofShapes, "is of convex bodies, which have a shape");
   if (!in.has("radius")) in.failMissing("radius", "or shape");

@@ -64,6 +64,15 @@ void readStartFiles(Reader in, AssemblyOf<D>& assembly);
 /// A convex body as the case has it: its centre of mass need not be the origin.
 template <int D>
 ShapeOf<D> readShape(Reader in);
+/// The keys of [[assembly.disks]].
+template <int D>
+struct DisksInput : DiskGroupOf<D> {
+  double density = 0.0, angle = 0.0;
+  std::vector<double> inertia, quaternion;
+};
+/// Of a group with a shape: its own frame, its size, and how its mass is spread.
+template <int D>
+void makeConvex(const Reader& in, DisksInput<D>& group);
 SectionInfo boxSection();
 SectionInfo startSection();
 /// @param c  whose [assembly] and [preparation] have been read

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "cases/loader_sections.hpp"
@@ -91,5 +93,65 @@ ShapeOf<D> readShape(Reader in) {
 }
 template ShapeOf<2> readShape<2>(Reader);
 template ShapeOf<3> readShape<3>(Reader);
+
+namespace {
+
+/// The orientation of a group as it is given.
+template <int D>
+TurnOf<D> givenTurn(const Reader& in, const DisksInput<D>& group) {
+  if constexpr (D == 2) {
+    return group.angle * std::numbers::pi / 180.0;
+  } else {
+    if (!in.has("quaternion")) return noTurn<3>();
+    const std::vector<double>& q = group.quaternion;
+    in.check(q.size() == 4, "quaternion", "must be four numbers, [w, x, y, z]");
+    const Eigen::Quaterniond given(q[0], q[1], q[2], q[3]), unit = given.normalized();
+    in.check(isUnit(given), "quaternion", "must be [w, x, y, z] of length 1, which is {:g}",
+             given.norm());
+    return {unit.w(), unit.x(), unit.y(), unit.z()};
+  }
+}
+
+}  // namespace
+
+template <int D>
+void makeConvex(const Reader& in, DisksInput<D>& group) {
+  in.check(!in.has("radius"), "radius", "and shape: give one of them");
+  in.check(group.radiusSpread == 0.0, "radius_spread", "is of disks and spheres");
+  ShapeOf<D>& shape = *group.shape;
+  const FrameOf<D> frame = intoOwnFrame(shape);
+  group.turn = ownTurn<D>(frame, givenTurn<D>(in, group));
+  group.radius = shape.reach();
+  for (int k = 0; k < D; ++k) {
+    const VecOf<D> along = frame.axes.transpose() * VecOf<D>::Unit(k);
+    group.extents[k] = along.dot(farthest<D>(shape, along) - farthest<D>(shape, -along));
+  }
+  const ShapeMassOf<D> spread = massOf(shape);
+  if (in.has("density")) group.mass = group.density * spread.measure;
+  in.check(std::isnormal(group.mass), in.has("mass") ? "mass" : "density",
+           "makes bodies weigh {} kg", group.mass);
+  constexpr std::size_t numbers = D == 2 ? 1 : 3;
+  if (!in.has("inertia")) {
+    if constexpr (D == 2)
+      group.moments = {0.0, 0.0, group.mass * momentsPerMass(spread)};
+    else
+      group.moments = group.mass * momentsPerMass(spread);
+    return;
+  }
+  const std::vector<double>& given = group.inertia;
+  in.check(given.size() == numbers, "inertia", "must be {}",
+           D == 2 ? "one number, about z" : "[J_x, J_y, J_z]");
+  for (std::size_t k = 0; k < numbers; ++k)
+    group.moments[D == 2 ? 2 : static_cast<int>(k)] = given[k];
+  // No part of a body is beyond its reach, and each two moments are more than the third.
+  const double most = group.mass * group.radius * group.radius;
+  in.check(*std::ranges::max_element(given) <= most, "inertia",
+           "is more than a body of {:g} kg that reaches {:g} m can have, {:g} kg m²", group.mass,
+           group.radius, most);
+  in.check(D == 2 || group.moments.sum() >= 2.0 * group.moments.maxCoeff(), "inertia",
+           "is of no body: one moment is more than the other two together");
+}
+template void makeConvex<2>(const Reader&, DisksInput<2>&);
+template void makeConvex<3>(const Reader&, DisksInput<3>&);
 
 }  // namespace crossgrain::inline cases

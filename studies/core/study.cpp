@@ -38,7 +38,7 @@ ScenePicture scenePicture(const Scene& scene, const Snapshot& now, double rotati
     picture.outlines.emplace(scene.disks.size());
     for (std::size_t i = 0; i < scene.disks.size(); ++i)
       if (scene.isConvex(i)) {
-        auto outline = outlineOf(scene.shapes[static_cast<std::size_t>(scene.disks.shape[i])]);
+        auto outline = outlineOf(scene.shapeOf(i));
         for (Vec2& vertex : outline)
           vertex = now.position[i] + matrixOf<2>((*now.turn)[i]) * vertex;
         (*picture.outlines)[i] = flat(outline);
@@ -86,8 +86,7 @@ ScenePicture scenePicture(const SpaceScene& scene, const SpaceSnapshot& now, dou
           scene.box ? scene.box->nearest(now.position[i] - cut) : Vec3(now.position[i] - cut);
       std::vector<Vec2> section;
       if (scene.isConvex(i)) {
-        section = sectionOf(scene.shapes[static_cast<std::size_t>(scene.disks.shape[i])],
-                            (*now.turn)[i], -away.y());
+        section = sectionOf(scene.shapeOf(i), (*now.turn)[i], -away.y());
         if (section.size() < 3) continue;
       }
       for (Vec2& place : section)
