@@ -67,11 +67,6 @@ SpinOf<D> spinningAt(const AssemblyOf<D>& assembly, const SpinOf<D>& spin) {
   return assembly.placement.mirror ? -spin : spin;
 }
 
-template <int D>
-bool anyShape(const AssemblyOf<D>& assembly) {
-  return std::ranges::any_of(assembly.disks, [](const auto& group) { return !!group.shape; });
-}
-
 /// All places of a group, or so many of them, drawn without repeats.
 template <int D>
 std::vector<VecOf<D>> placesOf(const DiskGroupOf<D>& group, gsl_rng* random) {
@@ -132,7 +127,7 @@ void addDisks(DisksOf<D>& disks, const DiskGroupOf<D>& group, const AssemblyOf<D
     disks.position.push_back(placedAt(assembly, position));
     disks.velocity.push_back(movingAt<D>(assembly, group.velocity + extra));
     disks.spin.push_back(spinningAt(assembly, group.spin));
-    if (!anyShape(assembly)) continue;
+    if (!assembly.anyConvex()) continue;
     disks.shape.push_back(shape);
     const TurnOf<D> turn = group.randomTurn ? anyTurn<D>(random) : group.turn;
     disks.turn.push_back(placedTurn(assembly, turn));
@@ -191,6 +186,7 @@ DisksOf<D> placed(DisksOf<D> disks, const AssemblyOf<D>& assembly, gsl_rng* rand
     disks.position[i] = placedAt(assembly, disks.position[i]);
     disks.velocity[i] = movingAt<D>(assembly, disks.velocity[i] + extra);
     disks.spin[i] = spinningAt(assembly, disks.spin[i]);
+    if (!disks.areRound()) disks.turn[i] = placedTurn(assembly, disks.turn[i]);
   }
   return disks;
 }
@@ -242,6 +238,8 @@ SceneOf<D> assemblyScene(const Case& setup, DisksOf<D> disks, double wallTime, d
   scene.disks = std::move(disks);
   for (const DiskGroupOf<D>& group : assembly.disks)
     if (group.shape) scene.shapes.push_back(placedShape(assembly, *group.shape));
+  for (const ShapeOf<D>& shape : assembly.starts.shapes)
+    scene.shapes.push_back(placedShape(assembly, shape));
   for (const WallGroupOf<D>& group : assembly.walls) {
     scene.bodies.push_back(bodyOf(group, assembly, scene.bodies.size()));
     moveOn(scene.bodies.back(), wallTime);

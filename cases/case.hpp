@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -197,7 +198,8 @@ using WallGroup = WallGroupOf<2>;
 template <int D>
 struct StartFilesOf {
   std::vector<std::filesystem::path> files;
-  std::vector<DisksOf<D>> disks;  ///< of each
+  std::vector<DisksOf<D>> disks;        ///< of each
+  std::vector<ShapeOf<D>> shapes = {};  ///< of convex bodies among them
   /// Of each component, added to all velocities, other ones in each packing: so one file makes
   /// several packings [m/s].
   double velocityRms = 0.0;
@@ -238,6 +240,10 @@ struct AssemblyOf {
     for (const auto& group : disks) count += group.count();
     return count;
   }
+  bool anyConvex() const {
+    return !starts.shapes.empty() ||
+           std::ranges::any_of(disks, [](const auto& group) { return group.shape.has_value(); });
+  }
 };
 using Assembly = AssemblyOf<2>;
 
@@ -276,7 +282,8 @@ enum class Reduction {
   slope,    ///< of a field along its slabs or rings, by least squares [per m]
   end,      ///< the last value of a series
   rate,     ///< of a series over time, by least squares [per s]
-  maximum,  ///< of a series: the parabola through the largest value and its two neighbours
+  maximum,  ///< of a series: of the parabola through the largest value and its two neighbours,
+            ///< where a fourth point lies on it, too
   minimum,  ///< likewise
   time,     ///< a series at one time
   reaches   ///< when a series first is at a value [s]
@@ -374,6 +381,13 @@ inline const std::filesystem::path* packingFile(const Case& setup) {
 /// Does the same to the assembly of the case's own dimension. @throws as assemblyIn()
 decltype(auto) withAssembly(auto& setup, auto&& work) {
   return setup.dimension == 3 ? work(assemblyIn<3>(setup)) : work(assemblyIn<2>(setup));
+}
+
+/// Whether there are convex bodies among its disks.
+inline bool anyConvex(const Case& setup) {
+  const auto* const plane = std::get_if<AssemblyOf<2>>(&setup.source);
+  const auto* const space = std::get_if<AssemblyOf<3>>(&setup.source);
+  return (plane && plane->anyConvex()) || (space && space->anyConvex());
 }
 
 /// Calls work.operator()<D>() with the case's dimension.

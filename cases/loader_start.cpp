@@ -56,29 +56,45 @@ double largestReach(const AssemblyOf<D>& assembly) {
 }
 
 /// The keys of [assembly.start].
+template <int D>
 struct StartInput {
+  std::vector<StartShapeOf<D>> shapes;
   std::vector<std::filesystem::path> files;
   double density = 0.0, velocityRms = 0.0;
   MaterialName material, fixedMaterial;
 };
 
 template <int D>
-const Section<StartInput>& startKeys() {
-  static const Section<StartInput> section(
+const Section<StartInput<D>>& startKeys() {
+  using I = StartInput<D>;
+  static const Section<I> section(
       {.name = "assembly.start",
        .kinds = "assembly",
        .note = "Disks of your own, in place of `[[assembly.disks]]`: "
                "[how](../cases/assembly/README.md#a-start-of-your-own)."},
-      {need("file", &StartInput::files, ExistingFile{".csv"},
+      {need("file", &I::files, ExistingFile{".csv"},
             "one CSV or HDF5 file, or a list of different ones: each is a packing"),
-       key("density", &StartInput::density, densities<D>(), densityMeaning)
+       special<I>({"shapes", "m", "–", "a table",
+                   "convex bodies that rows of CSV files name: `{ brick = { box = [0.2, 0.1] }, … "
+                   "}`, each as `shape` of `[[assembly.disks]]`"},
+                  [](Reader& in, const std::string& key, I& start) {
+                    Reader named = in.section(key);
+                    for (const std::string& name : named.keys()) {
+                      StartShapeOf<D>& own = start.shapes.emplace_back();
+                      own.name = name;
+                      own.shape = readShape<D>(named.section(name));
+                      own.frame = intoOwnFrame(own.shape);
+                      own.spread = massOf(own.shape);
+                    }
+                  }),
+       key("density", &I::density, densities<D>(), densityMeaning)
            .listed("required where a file has no masses"),
-       key("velocity_rms", &StartInput::velocityRms, atLeast(0.0, "m/s"),
+       key("velocity_rms", &I::velocityRms, atLeast(0.0, "m/s"),
            "normally distributed, added: makes `preparation.packings` packings of the files in "
            "turn"),
-       key("material", &StartInput::material, any,
+       key("material", &I::material, any,
            "of its disks, a name of `[[law.pairs]]`, where their rows name none"),
-       key("fixed_material", &StartInput::fixedMaterial, any, "of those that stand still")});
+       key("fixed_material", &I::fixedMaterial, any, "of those that stand still")});
   return section;
 }
 
@@ -197,7 +213,7 @@ template void readBox<3>(Reader, AssemblyOf<3>&);
 template <int D>
 void readStartFiles(Reader in, AssemblyOf<D>& assembly) {
   StartFilesOf<D>& starts = assembly.starts;
-  StartInput input;
+  StartInput<D> input;
   startKeys<D>().read(in, input);
   in.check(!input.files.empty(), "file", "must name one file or more");
   starts.files = input.files;
@@ -210,7 +226,10 @@ void readStartFiles(Reader in, AssemblyOf<D>& assembly) {
             fmt::format("{}: has no masses, and [assembly.start] no density", file.string()));
       return massOfOne<D>(in, density, radius);
     };
-    StartOf<D> start = readStart<D>(file, {mass, assembly.inertiaFactor});
+    in.check(input.shapes.empty() || file.extension() == ".csv", "shapes",
+             "are named by rows of CSV files, and {} is none", file.string());
+    StartOf<D> start =
+        readStart<D>(file, {mass, assembly.inertiaFactor, mostDisks, input.density}, input.shapes);
     if (starts.disks.empty()) {
       starts.fixedPosition = start.fixedPosition;
       starts.fixedRadius = start.fixedRadius;
@@ -226,6 +245,14 @@ void readStartFiles(Reader in, AssemblyOf<D>& assembly) {
                                start.fixedLines.end());
   }
   requireDifferent(starts);
+  for (std::size_t k = 0; k < input.shapes.size(); ++k) {
+    const auto isOf = [k](const DisksOf<D>& disks) {
+      return std::ranges::count(disks.shape, static_cast<std::int32_t>(k)) > 0;
+    };
+    in.check(std::ranges::any_of(starts.disks, isOf), "shapes", "no row names {}",
+             input.shapes[k].name);
+    starts.shapes.push_back(input.shapes[k].shape);
+  }
   if (starts.fixedRadius.empty()) return;
   WallGroupOf<D> fixed;  // disks of the file that stand still, as one more body
   fixed.position = starts.fixedPosition;

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -60,6 +61,8 @@ std::string contentHash(const Packing& packing) {
   for (const auto* values : {&spheres.position, &spheres.velocity, &spheres.spin}) add(*values);
   add(disks.turn);
   add(spheres.turn);
+  add(disks.shape);
+  add(spheres.shape);
   std::string hash = fmt::format("{:016x} {}", fnv1a(bytes), packing.wheelAngle);
   if (packing.wallTime != 0.0) hash += fmt::format(" {}", packing.wallTime);
   if (!packing.fixed.empty()) hash += " fixed " + packing.fixed;
@@ -244,9 +247,24 @@ template <int D>
 struct Csv;
 template <>
 struct Csv<2> {
-  enum Column : std::size_t { x, y, radius, vx, vy, spin, mass, inertia, fixed, material, count };
+  enum Column : std::size_t {
+    x,
+    y,
+    radius,
+    vx,
+    vy,
+    spin,
+    mass,
+    inertia,
+    fixed,
+    material,
+    shape,
+    turn,
+    count
+  };
   static inline const std::array<std::string, count> names = {
-      "x", "y", "radius", "vx", "vy", "spin", "mass", "inertia", "fixed", "material"};
+      "x",    "y",       "radius", "vx",       "vy",    "spin",
+      "mass", "inertia", "fixed",  "material", "shape", "angle"};
 };
 template <>
 struct Csv<3> {
@@ -265,11 +283,16 @@ struct Csv<3> {
     inertia,
     fixed,
     material,
+    shape,
+    turn,
+    qx,
+    qy,
+    qz,
     count
   };
   static inline const std::array<std::string, count> names = {
-      "x",      "y",      "z",      "radius", "vx",      "vy",    "vz",
-      "spin_x", "spin_y", "spin_z", "mass",   "inertia", "fixed", "material"};
+      "x",    "y",       "z",     "radius",   "vx",    "vy", "vz", "spin_x", "spin_y", "spin_z",
+      "mass", "inertia", "fixed", "material", "shape", "qw", "qx", "qy",     "qz"};
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -323,9 +346,17 @@ std::vector<std::size_t> readNames(const CsvLine& line,
                name);
     columns.push_back(column);
   }
+  const auto has = [&](std::size_t column) {
+    return std::ranges::find(columns, column) != columns.end();
+  };
   for (std::size_t need = 0; need <= Csv<D>::radius; ++need)
-    line.check(std::ranges::find(columns, need) != columns.end(), "there is no column {}",
+    line.check(has(need) || (need == Csv<D>::radius && has(Csv<D>::shape)), "there is no column {}",
                known[need]);
+  const bool turned = std::ranges::max(columns) >= Csv<D>::turn;
+  line.check(!turned || has(Csv<D>::shape), "{} is of convex bodies: there is no column shape",
+             known[std::ranges::max(columns)]);
+  for (std::size_t own = Csv<D>::turn; turned && own < Csv<D>::count; ++own)
+    line.check(has(own), "there is no column {}: quaternions are qw, qx, qy, qz", known[own]);
   return columns;
 }
 
@@ -340,20 +371,84 @@ double readNumber(const CsvLine& line, std::string_view text, const std::string&
   return value;
 }
 
+/// The numbers of a row.
+template <int D>
+using CsvValues = std::array<std::optional<double>, Csv<D>::count>;
+
+/// The one that a row names.
+template <int D>
+const StartShapeOf<D>& shapeNamed(const CsvLine& line, const std::string& name,
+                                  const std::vector<StartShapeOf<D>>& shapes) {
+  const auto found = std::ranges::find(shapes, name, &StartShapeOf<D>::name);
+  std::vector<std::string> known;
+  for (const StartShapeOf<D>& shape : shapes) known.push_back(shape.name);
+  line.check(found != shapes.end(), "shape = {}: {}{}", name,
+             shapes.empty() ? "[assembly.start] has no shapes" : "is no shape of [assembly.start]",
+             suggestion(name, known));
+  return *found;
+}
+
+/// Adds what bodies of a start with shapes have beside a disk's numbers, which are there already.
+/// @param own  null of a disk, or sphere
+template <int D>
+void addShape(const CsvLine& line, const CsvValues<D>& values, const StartShapeOf<D>* own,
+              std::int32_t index, DisksOf<D>& disks) {
+  using Columns = Csv<D>;
+  TurnOf<D> turn = noTurn<D>();
+  for (std::size_t column = Columns::turn; column < Columns::count; ++column)
+    line.check(values[column].has_value() == values[Columns::turn].has_value(),
+               "{} = nothing: quaternions are qw, qx, qy, qz", Columns::names[column]);
+  if (const auto& first = values[Columns::turn]) {
+    line.check(own, "{} = {}: is of convex bodies, which have a shape",
+               Columns::names[Columns::turn], *first);
+    if constexpr (D == 2) {
+      turn = *first * std::numbers::pi / 180.0;
+    } else {
+      const auto part = [&](std::size_t column) { return values[column].value_or(0.0); };
+      const Eigen::Quaterniond given(part(Columns::turn), part(Columns::qx), part(Columns::qy),
+                                     part(Columns::qz));
+      line.check(isUnit(given), "qw, qx, qy, qz: must be of length 1, which is {:g}", given.norm());
+      const Eigen::Quaterniond unit = given.normalized();
+      turn = {unit.w(), unit.x(), unit.y(), unit.z()};
+    }
+  }
+  disks.shape.push_back(index);
+  disks.turn.push_back(own ? ownTurn<D>(own->frame, turn) : turn);
+  const double mass = disks.mass.back(), reach = disks.radius.back();
+  const auto& inertia = values[Columns::inertia];
+  Vec3 moments = Vec3::Constant(disks.inertia.back());
+  if constexpr (D == 2) {
+    line.check(!own || !inertia || *inertia <= mass * reach * reach,
+               "inertia = {}: is more than a body of {:g} kg that reaches {:g} m can have",
+               inertia.value_or(0.0), mass, reach);
+    if (own && !inertia) disks.inertia.back() = mass * momentsPerMass(own->spread);
+  } else {
+    line.check(!own || !inertia, "inertia = {}: a convex body in space has that of its density",
+               inertia.value_or(0.0));
+    if (own) moments = mass * momentsPerMass(own->spread);
+    disks.inertia.back() = own ? moments.mean() : disks.inertia.back();
+    disks.moments.push_back(moments);
+  }
+}
+
 template <int D>
 void readDisk(const CsvLine& line, const std::vector<std::size_t>& columns,
               const std::vector<std::string_view>& cells, const DiskDefaults& defaults,
-              StartOf<D>& start) {
+              const std::vector<StartShapeOf<D>>& shapes, StartOf<D>& start) {
   using Columns = Csv<D>;
   line.check(cells.size() == columns.size(), "has {} values for {} columns", cells.size(),
              columns.size());
-  std::array<std::optional<double>, Columns::count> values;
-  std::string material;
-  for (std::size_t k = 0; k < cells.size(); ++k)
-    if (columns[k] == Columns::material)
-      material = unquoted(cells[k]);
-    else
-      values[columns[k]] = readNumber(line, cells[k], Columns::names[columns[k]]);
+  CsvValues<D> values;
+  std::string material, shape;
+  const bool mayBeEmpty = std::ranges::find(columns, Columns::shape) != columns.end();
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const std::size_t column = columns[k];
+    const bool ofSome = column == Columns::radius || column >= Columns::turn;
+    if (column == Columns::material || column == Columns::shape)
+      (column == Columns::shape ? shape : material) = unquoted(cells[k]);
+    else if (!mayBeEmpty || !ofSome || !cells[k].empty())
+      values[column] = readNumber(line, cells[k], Columns::names[column]);
+  }
   for (const auto column : {Columns::radius, Columns::mass, Columns::inertia})
     line.check(!values[column] || *values[column] > 0.0, "{} = {}: must be > 0",
                Columns::names[column], values[column].value_or(0));
@@ -366,8 +461,13 @@ void readDisk(const CsvLine& line, const std::vector<std::size_t>& columns,
     for (std::size_t k = 0; k < D; ++k) v[static_cast<int>(k)] = values[column + k].value_or(0.0);
     return v;
   };
+  const StartShapeOf<D>* const own = shape.empty() ? nullptr : &shapeNamed(line, shape, shapes);
+  line.check(own || values[Columns::radius], "has neither a radius nor a shape");
+  line.check(!own || !values[Columns::radius], "shape = {}: and a radius: give one of them", shape);
+  line.check(!own || isFixed == 0.0, "shape = {}: what stands still is disks, not convex bodies",
+             shape);
   const VecOf<D> position = vectorFrom(Columns::x);
-  const double a = *values[Columns::radius];
+  const double a = own ? own->shape.reach() : *values[Columns::radius];
   if (isFixed == 1.0) {
     start.fixedPosition.push_back(position);
     start.fixedRadius.push_back(a);
@@ -376,7 +476,11 @@ void readDisk(const CsvLine& line, const std::vector<std::size_t>& columns,
     return;
   }
   DisksOf<D>& disks = start.disks;
-  const double m = values[Columns::mass] ? *values[Columns::mass] : defaults.mass(a);
+  line.check(!own || values[Columns::mass] || defaults.density > 0.0,
+             "has no mass, and [assembly.start] no density");
+  const double m = values[Columns::mass] ? *values[Columns::mass]
+                   : own                 ? defaults.density * own->spread.measure
+                                         : defaults.mass(a);
   start.lines.push_back(line.number);
   start.materials.push_back(std::move(material));
   disks.position.push_back(position);
@@ -388,11 +492,13 @@ void readDisk(const CsvLine& line, const std::vector<std::size_t>& columns,
     disks.spin.push_back(vectorFrom(Columns::spin));
   disks.mass.push_back(m);
   disks.inertia.push_back(values[Columns::inertia].value_or(defaults.inertiaFactor * m * a * a));
+  if (!shapes.empty())
+    addShape(line, values, own, own ? static_cast<std::int32_t>(own - shapes.data()) : -1, disks);
 }
 
 template <int D>
 StartOf<D> readCsv(const std::filesystem::path& file, std::string_view text,
-                   const DiskDefaults& defaults) {
+                   const DiskDefaults& defaults, const std::vector<StartShapeOf<D>>& shapes) {
   constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";  // spreadsheets begin with it
   if (text.starts_with(byteOrderMark)) text.remove_prefix(byteOrderMark.size());
   StartOf<D> start;
@@ -405,7 +511,7 @@ StartOf<D> readCsv(const std::filesystem::path& file, std::string_view text,
     if (columns.empty())
       columns = readNames<D>(line, cells);
     else
-      readDisk(line, columns, cells, defaults, start);
+      readDisk(line, columns, cells, defaults, shapes, start);
   }
   const char* const lacks = columns.empty()           ? "line of column names, as x,y,radius"
                             : start.disks.size() == 0 ? "disks that move"
@@ -417,16 +523,19 @@ StartOf<D> readCsv(const std::filesystem::path& file, std::string_view text,
 }  // namespace
 
 template <int D>
-StartOf<D> readStart(const std::filesystem::path& file, const DiskDefaults& defaults) {
+StartOf<D> readStart(const std::filesystem::path& file, const DiskDefaults& defaults,
+                     const std::vector<StartShapeOf<D>>& shapes) {
   if (file.extension() != ".csv") {
     Packing packing = readPacking<D>(file, defaults);
     return {std::move(disksIn<D>(packing)), {}, {}};
   }
   const auto text = readFile(file);
   if (!text) throw BadInput(fmt::format("{}: {}", file.string(), noSuchFile));
-  return readCsv<D>(file, *text, defaults);
+  return readCsv<D>(file, *text, defaults, shapes);
 }
-template StartOf<2> readStart<2>(const std::filesystem::path&, const DiskDefaults&);
-template StartOf<3> readStart<3>(const std::filesystem::path&, const DiskDefaults&);
+template StartOf<2> readStart<2>(const std::filesystem::path&, const DiskDefaults&,
+                                 const std::vector<StartShapeOf<2>>&);
+template StartOf<3> readStart<3>(const std::filesystem::path&, const DiskDefaults&,
+                                 const std::vector<StartShapeOf<3>>&);
 
 }  // namespace crossgrain::inline cases

@@ -64,6 +64,16 @@ struct DiskDefaults {
   std::function<double(double radius)> mass;  ///< [kg]
   double inertiaFactor = 0.5;                 ///< q in J = q m a²
   std::size_t most = mostDisks;               ///< more in a file are refused
+  double density = 0.0;                       ///< of convex bodies; 0: none [kg/m², kg/m³]
+};
+
+/// A convex body that rows of a start file name.
+template <int D>
+struct StartShapeOf {
+  std::string name;
+  ShapeOf<D> shape;  ///< in its own frame
+  FrameOf<D> frame;  ///< in which it was given
+  ShapeMassOf<D> spread;
 };
 /// @throws likewise
 template <int D = 2>
@@ -87,8 +97,12 @@ struct StartOf {
 /// [kg], inertia [kg m²], fixed (0 or 1) and material (a name of
 /// [[law.pairs]]) may be there, in any order. In space also z, vz, and
 /// spin_x, spin_y, spin_z in place of spin; in HDF5 vectors have three columns.
+/// In place of a radius a row may name a shape, and say its angle [degrees], in space its
+/// quaternion qw, qx, qy, qz; where there is a column of shapes, what is not of a row is empty.
+/// @param shapes  that rows may name
 /// @throws BadInput "start.csv:12: radius = -0.1: must be > 0 m"
 template <int D>
-StartOf<D> readStart(const std::filesystem::path& file, const DiskDefaults& defaults);
+StartOf<D> readStart(const std::filesystem::path& file, const DiskDefaults& defaults,
+                     const std::vector<StartShapeOf<D>>& shapes = {});
 
 }  // namespace crossgrain::inline cases

@@ -234,5 +234,96 @@ TEST_F(Average, StartFile_MaterialOfARow) {
       "the case has no [[law.pairs]]");
 }
 
+/// A start whose rows name shapes is the scene of groups that have them, to the bit.
+template <int D>
+void expectSameStart(const std::string& rows, const std::string& groups) {
+  const auto sceneOf = [](const std::string& text) {
+    std::ofstream("case.toml") << text;
+    const Case c = loadCase("case.toml").front();
+    return assemblyScene<D>(c, assemblyDisks<D>(c, 0), 0.0, 1e-3);
+  };
+  const SceneOf<D> made = sceneOf(rows), target = sceneOf(groups);
+  EXPECT_EQ(made.shapes, target.shapes);
+  EXPECT_EQ(made.disks.shape, target.disks.shape);
+  EXPECT_EQ(made.disks.position, target.disks.position);
+  EXPECT_EQ(made.disks.velocity, target.disks.velocity);
+  EXPECT_EQ(made.disks.radius, target.disks.radius);
+  EXPECT_EQ(made.disks.mass, target.disks.mass);
+  EXPECT_EQ(made.disks.inertia, target.disks.inertia);
+  EXPECT_EQ(made.disks.moments, target.disks.moments);
+  EXPECT_EQ(made.disks.turn, target.disks.turn);
+}
+
+TEST_F(Average, StartFile_ShapeOfARow) {
+  const std::string head = scene.substr(0, scene.find("[["));
+  const std::string file = "[assembly.start]\nfile = \"start.csv\"\ndensity = 2\n";
+  const std::string start =
+      head + file +
+      "shapes = { a = { polygon = [[0, 0], [1, 0], [0, 2]] }, b = { box = [2, 1] } }\n";
+  write("start.csv",
+        "x,y,radius,shape,angle,vx,mass\n0,1,,a,30,1,2\n8,1,,b,,0,3\n4,1,0.5,,,-1,1\n");
+  expectSameStart<2>(
+      start, head +
+                 "[[assembly.disks]]\nposition = [0, 1]\nmass = 2\nvelocity = [1, 0]\nangle = "
+                 "30\nshape = { polygon = [[0, 0], [1, 0], [0, 2]] }\n"
+                 "[[assembly.disks]]\nposition = [8, 1]\nmass = 3\nshape = { box = [2, 1] }\n"
+                 "[[assembly.disks]]\nposition = [4, 1]\nmass = 1\nvelocity = [-1, 0]\nradius = "
+                 "0.5\n");
+  for (const auto& [text, message] :
+       {std::pair{"x,y,shape\n0,1,a\n3,1,d\n",
+                  "start.csv:3: shape = d: is no shape of [assembly.start]"},
+        {"x,y,shape,radius\n0,1,a,1\n", "start.csv:2: shape = a: and a radius: give one of them"},
+        {"x,y,shape,radius\n0,1,,\n", "start.csv:2: has neither a radius nor a shape"},
+        {"x,y,angle\n0,1,3\n", "start.csv:1: there is no column radius"},
+        {"x,y,radius,angle\n0,1,1,3\n",
+         "start.csv:1: angle is of convex bodies: there is no column shape"},
+        {"x,y,radius,shape,angle\n0,1,1,,3\n",
+         "start.csv:2: angle = 3: is of convex bodies, which have a shape"},
+        {"x,y,shape,fixed\n0,1,a,1\n", "start.csv:2: shape = a: what stands still is disks"},
+        {"x,y,shape,mass,inertia\n0,1,b,1,9\n",
+         "start.csv:2: inertia = 9: is more than a body of 1 kg that reaches 1.11803 m can "
+         "have"}}) {
+    write("start.csv", text);
+    expectMessage(start, message);
+  }
+  write("start.csv", "x,y,shape\n0,1,a\n");
+  expectMessage(start, "[assembly.start.shapes]: no row names b");
+  expectMessage(head + file, "start.csv:2: shape = a: [assembly.start] has no shapes");
+  std::string unweighed = start;
+  unweighed.erase(unweighed.find("density"), 12);
+  expectMessage(unweighed, "start.csv:2: has no mass, and [assembly.start] no density");
+}
+
+TEST_F(Average, StartFile_ShapeOfARowInSpace) {
+  const std::string head =
+      "[case]\nkind = \"assembly\"\ndimension = 3\n[law]\nkn = 100\ngn = "
+      "0\ntangential = \"none\"\n[assembly]\ncontact_times = 3\n";
+  const std::string wedge = "{ polyhedron = [[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3]] }";
+  const std::string start = head +
+                            "[assembly.start]\nfile = \"start.csv\"\ndensity = 2\nshapes = "
+                            "{ wedge = " +
+                            wedge + " }\n";
+  write("start.csv",
+        "x,y,z,radius,shape,qw,qx,qy,qz,spin_x\n0,1,2,,wedge,0.6,0,0,0.8,5\n9,1,2,0.5,,,,,,0\n");
+  expectSameStart<3>(start, head +
+                                "[[assembly.disks]]\nposition = [0, 1, 2]\ndensity = 2\nspin = "
+                                "[5, 0, 0]\nquaternion = [0.6, 0, 0, 0.8]\nshape = " +
+                                wedge +
+                                "\n[[assembly.disks]]\nposition = [9, 1, 2]\ndensity = 2\nradius = "
+                                "0.5\n");
+  for (const auto& [text, message] :
+       {std::pair{"x,y,z,shape,qw,qx,qy,qz\n0,1,2,wedge,1,0,0,1\n",
+                  "start.csv:2: qw, qx, qy, qz: must be of length 1, which is 1.41421"},
+        {"x,y,z,shape,qw,qx,qy,qz\n0,1,2,wedge,1,0,,0\n",
+         "start.csv:2: qy = nothing: quaternions are qw, qx, qy, qz"},
+        {"x,y,z,shape,qw,qx,qz\n0,1,2,wedge,1,0,0\n",
+         "start.csv:1: there is no column qy: quaternions are qw, qx, qy, qz"},
+        {"x,y,z,shape,inertia\n0,1,2,wedge,1\n",
+         "start.csv:2: inertia = 1: a convex body in space has that of its density"}}) {
+    write("start.csv", text);
+    expectMessage(start, message);
+  }
+}
+
 }  // namespace
 }  // namespace crossgrain::test
