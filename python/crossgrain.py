@@ -190,6 +190,7 @@ class Contacts:
     sliding: np.ndarray = None  #: whether at the Coulomb bound; None: not known
     rolling_torque: np.ndarray = None  #: of rolling resistance on i, the opposite on j [N m]; None: there is none
     dissipation: np.ndarray = None  #: power turned into heat [W]; None: not known
+    point: np.ndarray = None  #: (contacts, 2 or 3): where forces act [m]; of scenes with convex bodies
 
     def __len__(self):
         return len(self.i)
@@ -234,10 +235,24 @@ class Snapshot:
     #: centre [m], velocity [m/s], angle [rad], angular_velocity [rad/s], force [N], torque [N m] of wall bodies; None: the file has none
     bodies: dict
     energies: dict  #: kinetic and elastic [J]; None: not known
+    #: of scenes with convex bodies: angles [rad], in space quaternions w, x, y, z, (bodies, 4); None: all are round
+    turn: np.ndarray = None
 
     def centres(self):
         """(disks + wall disks, 2 or 3): centres by id [m]."""
         return self.position if self.wall_position is None else np.concatenate([self.position, self.wall_position])
+
+
+SHAPES = ("polygon", "capsule", "box", "cylinder", "polyhedron")
+
+
+@dataclasses.dataclass
+class Shape:
+    """A convex body in its own frame: all within rounding of the hull of its vertices; of a cylinder across its axis alone."""
+
+    kind: str  #: of SHAPES
+    vertices: np.ndarray  #: (vertices, 2 or 3) [m]
+    rounding: float  #: [m]
 
 
 class Snapshots:
@@ -254,6 +269,10 @@ class Snapshots:
         self.radius = self._file["disks/radius"][:]  #: of the disks [m]
         self.mass = self._file["disks/mass"][:]  #: [kg]
         self.inertia = self._optional("disks/inertia")  #: moments of inertia [kg m²]; None: not in the file
+        kinds = self._array("shapes/kind").astype(int)
+        self.shapes = [self._shape(k, kind) for k, kind in enumerate(kinds)]  #: of convex bodies, whose radius is their reach
+        self.shape = self._optional("disks/shape")  #: index of each body's, -1: it is round; None: all are
+        self.moments = self._optional("disks/moments")  #: in space, about the bodies' axes [kg m²]; None: all are round, or in the plane
         self.wall_radius = self._array("walls/radius")  #: of wall disks [m]
         self.wall_body = self._array("walls/body").astype(int)  #: index of the wall body of each
 
@@ -279,6 +298,10 @@ class Snapshots:
         values = self._optional(path)
         return np.zeros(0) if values is None else values
 
+    def _shape(self, k, kind):
+        vertices = self._file[f"shapes/{k}/vertices"][:].reshape(-1, self.dimension)
+        return Shape(SHAPES[kind], vertices, float(self._file[f"shapes/{k}/rounding"][0]))
+
     def __getitem__(self, k):
         if k < 0:
             k += len(self)
@@ -296,13 +319,14 @@ class Snapshots:
             contacts=self._contacts(f"{at}/contacts"),
             bodies={name: values[:] for name, values in group["bodies"].items()} if "bodies" in group else None,
             energies=None if energies is None else dict(zip(("kinetic", "elastic"), energies)),
+            turn=self._optional(f"{at}/turn"),
         )
 
     def _contacts(self, at):
         if f"{at}/i" not in self._file:
             return None
         names = ("i", "j", "normal", "overlap", "normal_force", "tangential_force")
-        optional = ("sliding", "rolling_torque", "dissipation")
+        optional = ("sliding", "rolling_torque", "dissipation", "point")
         columns = {name: self._file[f"{at}/{name}"][:] for name in names}
         columns["normal"] = columns["normal"].reshape(-1, self.dimension)
         columns |= {name: self._optional(f"{at}/{name}") for name in optional}

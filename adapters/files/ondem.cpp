@@ -178,6 +178,8 @@ Part readScene(const fs::path& file, bool traction) {
   FileParticles& particles = part.frame.particles;
   particles.position = arrays.vectors(layout.points, rows);
   arrays.need(ofPoints + "body_id");
+  if (arrays.holds(ofPoints + "dimensions"))
+    arrays.fail(ofPoints + "dimensions: it holds boxes, and only spheres are read");
   particles.id = arrays.wholeNumbers(ofPoints + "body_id", rows);
   particles.radius = arrays.needNumbers(ofPoints + "radius", rows);
   particles.mass = arrays.numbers(ofPoints + "mass", rows, 1, 0.0);

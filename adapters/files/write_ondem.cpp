@@ -150,10 +150,11 @@ Vec3 shearForce(const WrittenContactOf<3>& contact) {
 struct BodyColumns {
   Int64s id, shape, material, clump, blocked;
   Doubles position, velocity, angularVelocity, orientation, radius, mass, volume, inertia, normal;
+  Doubles dimensions;  ///< of boxes; empty: there are none
 };
 
 /// Indices into the file's shape_names.
-constexpr std::int64_t sphereShape = 0, planeShape = 1;
+constexpr std::int64_t sphereShape = 0, planeShape = 1, boxShape = 2;
 /// Bits 0 to 2 are the translations along x, y and z, 3 to 5 the rotations about them.
 constexpr std::int64_t planarDofs = 0b011100, fixedDofs = 0b111111;
 
@@ -190,8 +191,9 @@ class OnDemWriter : public SnapshotWriterOf<D> {
       lines.emplace_back(
           "disks: the format has none; they are spheres with the mass, volume and moment of "
           "inertia of the disks");
-    lines.emplace_back(D == 2 ? "angles of disks: the snapshots have none; files have 0"
-                              : "orientations: the snapshots have none; files have the identity");
+    if (scene_.shapes.empty())
+      lines.emplace_back(D == 2 ? "angles of disks: the snapshots have none; files have 0"
+                                : "orientations: the snapshots have none; files have the identity");
     lines.emplace_back("the contact law: classes of materials are not decided in the format");
     if (scene_.planeCount() > 0)
       lines.emplace_back("planes: the format has none yet; they are points with a plane_normal");
@@ -199,8 +201,9 @@ class OnDemWriter : public SnapshotWriterOf<D> {
   }
 
  private:
-  double volumeOf(double radius) const {
-    const double disk = std::numbers::pi * radius * radius;
+  double volumeOf(std::size_t id) const {
+    if (id < scene_.disks.size() && scene_.isConvex(id)) return massOf(scene_.shapeOf(id)).measure;
+    const double radius = particles_.radii()[id], disk = std::numbers::pi * radius * radius;
     return D == 2 ? disk * height_ : 4.0 / 3.0 * disk * radius;
   }
 
@@ -223,14 +226,32 @@ class OnDemWriter : public SnapshotWriterOf<D> {
       const WrittenParticleOf<D> p = particles_.at(now, id);
       addBody(columns, sphereShape, p);
       columns.radius.push_back(p.radius);
-      columns.volume.push_back(volumeOf(p.radius));
+      columns.volume.push_back(volumeOf(id));
       const double inertia = p.mass ? scene_.disks.inertia[id] : notApplicable;
       const double across = D == 2 ? notApplicable : inertia;  // a disk turns about z alone
       columns.inertia.insert(columns.inertia.end(),
                              {across, 0.0, 0.0, 0.0, across, 0.0, 0.0, 0.0, inertia});
       columns.normal.insert(columns.normal.end(), {notApplicable, notApplicable, notApplicable});
+      if constexpr (D == 3)
+        if (!scene_.shapes.empty()) setBox(columns, now, id);
     }
     return columns;
+  }
+
+  /// Of a body of a scene with boxes: the last of the columns, set as a sphere already. Moments of
+  /// inertia are about its own axes, as YADE's, from which the format comes.
+  void setBox(BodyColumns& columns, const SnapshotOf<3>& now, std::size_t id) const {
+    const bool isBox = id < scene_.disks.size() && scene_.isConvex(id);
+    append(columns.dimensions, isBox ? Vec3(2.0 * farthest<3>(scene_.shapeOf(id), Vec3::Ones()))
+                                     : Vec3(Vec3::Constant(notApplicable)));
+    if (id >= scene_.disks.size()) return;
+    const auto row = static_cast<std::ptrdiff_t>(id);
+    std::ranges::copy((*now.turn)[id], columns.orientation.begin() + 4 * row);
+    if (!isBox) return;
+    columns.shape[id] = boxShape;
+    columns.radius[id] = notApplicable;
+    for (int k = 0; k < 3; ++k)
+      columns.inertia[9 * id + 4 * static_cast<std::size_t>(k)] = scene_.disks.moments[id][k];
   }
 
   BodyColumns planeColumns(const SnapshotOf<D>& now) const {
@@ -292,6 +313,7 @@ class OnDemWriter : public SnapshotWriterOf<D> {
     file.array(data + "/inertia", columns.inertia, 9);
     file.array(data + "/blocked_dofs", columns.blocked);
     file.array(data + "/plane_normal", columns.normal, 3);
+    if (!columns.dimensions.empty()) file.array(data + "/dimensions", columns.dimensions, 3);
     file.link("/VTKHDF/Assembly/" + name, at);
   }
 
@@ -308,7 +330,9 @@ class OnDemWriter : public SnapshotWriterOf<D> {
     file.array(at + "/gravity", gravity);
     file.texts(at + "/units", {"second", "meter", "kilogram"});
     file.texts(at + "/display_group_names", {"Points", "Others"});
-    file.texts(at + "/shape_names", {"sphere", "plane"});
+    std::vector<std::string> names = {"sphere", "plane"};
+    if (!scene_.shapes.empty()) names.emplace_back("box");
+    file.texts(at + "/shape_names", names);
   }
 
   void writeMaterials(MemoryFile& file) const {
@@ -320,7 +344,7 @@ class OnDemWriter : public SnapshotWriterOf<D> {
     for (std::size_t i = 0; i < scene_.disks.size(); ++i) {
       auto& [mass, volume] = sums[scene_.materials ? scene_.materials->ofDisk[i] : 0];
       mass += scene_.disks.mass[i];
-      volume += volumeOf(scene_.disks.radius[i]);
+      volume += volumeOf(i);
     }
     for (const auto& [id, sum] : sums) {
       const std::string at = fmt::format("/ONDEM/Materials/{}", id);

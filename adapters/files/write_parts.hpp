@@ -81,6 +81,7 @@ class WrittenParticlesOf {
 
   std::size_t size() const { return radius_.size(); }
   const std::vector<double>& radii() const { return radius_; }
+  bool areRound() const { return scene_.shapes.empty(); }
   WrittenParticleOf<D> at(const SnapshotOf<D>& now, std::size_t id) const;
 
  private:

@@ -86,8 +86,11 @@ WrittenContactOf<D> contactAt(const WrittenParticlesOf<D>& particles, const Snap
   contact.normalForce = contacts.normalForce[k];
   contact.tangentialForce = contacts.tangentialForce[k];
   if (!contacts.rollingTorque.empty()) contact.rollingTorque = contacts.rollingTorque[k];
-  contact.point = now.position[contact.first] -
-                  (particles.radii()[contact.first] - 0.5 * contact.overlap) * contact.normal;
+  contact.point =
+      particles.areRound()
+          ? now.position[contact.first] -
+                (particles.radii()[contact.first] - 0.5 * contact.overlap) * contact.normal
+          : contacts.point[k];
   return contact;
 }
 template WrittenContactOf<2> contactAt(const WrittenParticles&, const Snapshot&, std::size_t);
@@ -137,6 +140,17 @@ std::vector<std::filesystem::path> writtenFiles(std::string_view format,
 
 namespace {
 
+/// Bodies that are neither disks nor spheres: of space boxes, in one format.
+template <int D>
+void requireShapes(std::string_view format, const SceneOf<D>& scene) {
+  const bool boxes = D == 3 && format == "ondem";
+  for (const ShapeOf<D>& shape : scene.shapes)
+    if (!boxes || shape.kind != ShapeKind::box)
+      throw BadInput(fmt::format(
+          "format {}: has no {}, as {} has; the snapshots themselves are HDF5, docs/files.md",
+          format, toString(shape.kind), scene.name));
+}
+
 /// Periodic along z, as LAMMPS' own boxes of two dimensions are.
 FileBox dumpedBox(const Scene& scene, const WrittenBox& box) {
   FileBox made{{box.low.x(), box.low.y(), -0.5 * box.height},
@@ -155,6 +169,7 @@ FileBox dumpedBox(const Scene& scene, const WrittenBox& box) {
 std::unique_ptr<SnapshotWriter> openWriter(std::string_view format,
                                            const std::filesystem::path& out, const Scene& scene,
                                            const WrittenBox& box) {
+  requireShapes(format, scene);
   if (format == "mercurydpm") return openMercuryDpm(out, scene, box);
   if (format == "lammps") return openLammps<2>(out, scene, dumpedBox(scene, box));
   if (format == "ondem") return openOnDem<2>(out, scene, box.height);
@@ -170,6 +185,7 @@ std::unique_ptr<SnapshotWriterOf<3>> openWriter(std::string_view format,
         fmt::format("format {}: has no cylinders, as the walls of {} are; the snapshots "
                     "themselves are HDF5, docs/files.md",
                     format, scene.name));
+  requireShapes(format, scene);
   if (format == "ondem") return openOnDem<3>(out, scene, 0.0);
   if (format == "lammps") return openLammps<3>(out, scene, boxInFiles(box, {}));
   throw BadInput(fmt::format(

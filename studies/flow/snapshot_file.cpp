@@ -198,7 +198,14 @@ void SnapshotFileOf<D>::begin() {
   out.write("/disks/radius", scene_.disks.radius);
   out.write("/disks/mass", scene_.disks.mass);
   out.write("/disks/inertia", scene_.disks.inertia);
-  if (!scene_.shapes.empty()) out.write("/disks/shape", scene_.disks.shape);
+  if (!scene_.shapes.empty()) {
+    out.write("/disks/shape", scene_.disks.shape);
+    if (D == 3) writeVectors<3>(out, "/disks/moments", scene_.disks.moments);
+    std::vector<std::int32_t> kinds;
+    for (const ShapeOf<D>& shape : scene_.shapes)
+      kinds.push_back(static_cast<std::int32_t>(shape.kind));
+    out.write("/shapes/kind", kinds);
+  }
   for (std::size_t k = 0; k < scene_.shapes.size(); ++k) {
     const std::string path = fmt::format("/shapes/{}/", k);
     writeVectors<D>(out, path + "vertices", scene_.shapes[k].vertices);

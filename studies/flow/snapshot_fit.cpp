@@ -108,7 +108,14 @@ void comparePlaces(const Snapshot& first, const Cell& cell, Misfits& misfits) {
 struct GroupDisk {
   double least, most;  ///< radius [m]
   double massPerSize;  ///< mass/radius², in space mass/radius³ [kg/m², kg/m³]
+  std::int32_t shape;  ///< among those of the case; −1: it is round
 };
+
+/// As DisksOf::shape has it.
+template <int D>
+std::int32_t shapeIndex(const DisksOf<D>& disks, std::size_t k) {
+  return disks.areRound() ? -1 : disks.shape[k];
+}
 
 /// a², in space a³.
 template <int D>
@@ -119,10 +126,12 @@ double sizeOf(double radius) {
 template <int D>
 std::vector<GroupDisk> groupDisks(const AssemblyOf<D>& assembly) {
   std::vector<GroupDisk> all;
+  std::int32_t shapes = 0;
   for (const DiskGroupOf<D>& group : assembly.disks)
-    all.insert(all.end(), group.count(),
-               {group.radius * (1.0 - group.radiusSpread),
-                group.radius * (1.0 + group.radiusSpread), group.mass / sizeOf<D>(group.radius)});
+    all.insert(
+        all.end(), group.count(),
+        {group.radius * (1.0 - group.radiusSpread), group.radius * (1.0 + group.radiusSpread),
+         group.mass / sizeOf<D>(group.radius), group.shape ? shapes++ : -1});
   return all;
 }
 
@@ -133,16 +142,20 @@ void compareGroups(const DisksOf<D>& disks, const AssemblyOf<D>& assembly,
   for (std::size_t k = 0; k < disks.size(); ++k) {
     const GroupDisk& own = groups[k];
     const double a = disks.radius[k];
+    const char* const word = own.shape < 0 ? "disk" : "body";
+    if (const std::int32_t shape = shapeIndex(disks, k); shape != own.shape)
+      return misfits.add(fmt::format("{} {} of shape {}, not {}", word, k, shape, own.shape));
     if (a < own.least * (1.0 - tolerance) || a > own.most * (1.0 + tolerance)) {
       const std::string target = same(own.least, own.most)
                                      ? fmt::format("{:.4g}", own.most)
                                      : fmt::format("{:.4g} to {:.4g}", own.least, own.most);
-      return misfits.add(fmt::format("disk {} of radius {:.4g} m, not {} m{}", k, a, target,
+      return misfits.add(fmt::format("{} {} of radius {:.4g} m, not {} m{}", word, k, a, target,
                                      unitHint(a, own.most, "length", origin)));
     }
     if (const double mass = own.massPerSize * sizeOf<D>(a); !same(disks.mass[k], mass))
-      return misfits.add(fmt::format("disk {} of mass {:.4g} kg, not {:.4g} kg{}", k, disks.mass[k],
-                                     mass, unitHint(disks.mass[k], mass, "mass", origin)));
+      return misfits.add(fmt::format("{} {} of mass {:.4g} kg, not {:.4g} kg{}", word, k,
+                                     disks.mass[k], mass,
+                                     unitHint(disks.mass[k], mass, "mass", origin)));
   }
 }
 
@@ -153,7 +166,7 @@ void compareStarts(const DisksOf<D>& disks, const StartFilesOf<D>& starts,
   const auto firstOther = [&](const DisksOf<D>& start) {
     std::size_t k = 0;
     while (k < disks.size() && k < start.size() && same(disks.radius[k], start.radius[k]) &&
-           same(disks.mass[k], start.mass[k]))
+           same(disks.mass[k], start.mass[k]) && shapeIndex(disks, k) == shapeIndex(start, k))
       ++k;
     return k;
   };
@@ -183,11 +196,12 @@ void throwIfAny(const Misfits& misfits, const Case& setup, const SnapshotOrigin&
 /// Of an assembly; any start file's number will do.
 template <int D>
 void compareNumber(std::size_t found, const AssemblyOf<D>& assembly, Misfits& misfits) {
+  const char* const word = assembly.anyConvex() ? "bodies" : "disks";
   if (assembly.starts.disks.empty())
-    return misfits.number("disks", found, groupDisks<D>(assembly).size());
+    return misfits.number(word, found, groupDisks<D>(assembly).size());
   const bool known = std::ranges::any_of(
       assembly.starts.disks, [&](const DisksOf<D>& start) { return start.size() == found; });
-  if (!known) misfits.number("disks", found, assembly.starts.disks.front().size());
+  if (!known) misfits.number(word, found, assembly.starts.disks.front().size());
 }
 
 /// Disks of a file in a Couette cell.

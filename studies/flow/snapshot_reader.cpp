@@ -77,6 +77,19 @@ class SnapshotDatasets {
       return vectors<D>(path, wanted);
   }
 
+  /// Angles, or quaternions w, x, y, z.
+  template <int D>
+  std::vector<TurnOf<D>> turns(const std::string& path, std::size_t wanted) const {
+    std::vector<double> flat = numbers(path, (D == 2 ? 1 : 4) * wanted);
+    if constexpr (D == 2) {
+      return flat;
+    } else {
+      std::vector<TurnOf<3>> result;
+      for (std::size_t k = 0; k < wanted; ++k) result.emplace_back(flat.data() + 4 * k);
+      return result;
+    }
+  }
+
   [[noreturn]] void fail(const std::string& what) const {
     throw BadInput(fmt::format("{}: {}", name_.string(), what));
   }
@@ -95,11 +108,50 @@ std::size_t diskCount(const SnapshotDatasets& in) {
   return *count;
 }
 
+/// What convex bodies have beside what is of the circles or spheres around them.
+template <int D>
+void readConvex(const SnapshotDatasets& in, DisksOf<D>& disks) {
+  const std::size_t count = disks.size();
+  const auto shapes = static_cast<double>(*in.length("/shapes/kind"));
+  for (const double shape : in.numbers("/disks/shape", count)) {
+    if (shape < -1.0 || shape >= shapes || shape != std::floor(shape))
+      in.fail(fmt::format("/disks/shape holds {}; wanted are whole numbers from -1 to {}", shape,
+                          shapes - 1.0));
+    disks.shape.push_back(static_cast<std::int32_t>(shape));
+  }
+  disks.turn.assign(count, noTurn<D>());
+  if constexpr (D == 3) disks.moments = in.vectors<3>("/disks/moments", count);
+}
+
+/// Shapes are the case's, and the file must have the same.
+template <int D>
+void compareShapes(const SnapshotDatasets& in, const SceneOf<D>& scene) {
+  const std::size_t count = in.length("/shapes/kind").value_or(0);
+  if (count != scene.shapes.size())
+    in.fail(fmt::format("it holds {} shapes of convex bodies, the case has {}", count,
+                        scene.shapes.size()));
+  if (count == 0) return;
+  const std::vector<double> kind = in.numbers("/shapes/kind", count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const ShapeOf<D>& wanted = scene.shapes[k];
+    const std::string at = fmt::format("/shapes/{}/", k);
+    bool same = kind[k] == static_cast<double>(wanted.kind) &&
+                in.length(at + "vertices") == D * wanted.vertices.size();
+    const double small = 1e-5 * wanted.reach();
+    if (same) {
+      const auto vertices = in.vectors<D>(at + "vertices", wanted.vertices.size());
+      for (std::size_t v = 0; v < vertices.size(); ++v)
+        same = same && (vertices[v] - wanted.vertices[v]).norm() <= small;
+      same = same && std::abs(in.numbers(at + "rounding", 1)[0] - wanted.rounding) <= small;
+    }
+    if (!same)
+      in.fail(fmt::format("its shape {} is not that of the case, a {}", k, toString(wanted.kind)));
+  }
+}
+
 template <int D>
 DisksOf<D> readDisks(const SnapshotDatasets& in, const Case& setup) {
   const std::size_t count = diskCount(in);
-  if (in.holds("/disks/shape"))
-    in.fail("it holds convex bodies, and only disks and spheres are read");
   DisksOf<D> disks;
   disks.radius = in.numbers("/disks/radius", count);
   if (!std::ranges::all_of(disks.radius, [](double a) { return a > 0.0; }))
@@ -114,6 +166,7 @@ DisksOf<D> readDisks(const SnapshotDatasets& in, const Case& setup) {
   disks.position.assign(count, VecOf<D>::Zero());
   disks.velocity.assign(count, VecOf<D>::Zero());
   disks.spin.assign(count, noSpin<D>());
+  if (in.holds("/shapes/kind")) readConvex<D>(in, disks);
   return disks;
 }
 
@@ -193,6 +246,7 @@ ContactsOf<D> readContacts(const SnapshotDatasets& in, const std::string& path,
     contacts.rollingTorque = in.spins<D>(path + "/rolling_torque", count);
   if (in.holds(path + "/dissipation"))
     contacts.dissipation = in.numbers(path + "/dissipation", count);
+  if (!scene.shapes.empty()) contacts.point = in.vectors<D>(path + "/point", count);
   return contacts;
 }
 
@@ -232,6 +286,7 @@ SnapshotOf<D> readSnapshot(const SnapshotDatasets& in, std::size_t k, const Scen
   snapshot.position = in.vectors<D>(group + "/position", disks);
   snapshot.velocity = in.vectors<D>(group + "/velocity", disks);
   if (in.holds(group + "/spin")) snapshot.spin = in.spins<D>(group + "/spin", disks);
+  if (!scene.shapes.empty()) snapshot.turn = in.turns<D>(group + "/turn", disks);
   placeWallsAsPrescribed(scene, snapshot.positionTime, snapshot);
   if (walls > 0 && (!isAssembly || in.holds(group + "/wall_position")))
     snapshot.wallPosition = in.vectors<D>(group + "/wall_position", walls);
@@ -268,6 +323,7 @@ SnapshotReaderOf<D>::SnapshotReaderOf(const std::filesystem::path& file, const C
   in.requireDimension(D);
   scene_ = sceneAround<D>(setup, readDisks<D>(in, setup), {file.string()});
   if (isAssembly) compareWalls(in, scene_);
+  compareShapes(in, scene_);
   if constexpr (D == 2)
     if (!isAssembly) readCellWalls(in, scene_);
   engine_ = in.engine().value_or(file.stem().string());
@@ -276,10 +332,11 @@ SnapshotReaderOf<D>::SnapshotReaderOf(const std::filesystem::path& file, const C
   const SnapshotOf<D> first = readSnapshot<D>(in, 0, scene_, isAssembly);
   scene_.disks.position = first.position;
   scene_.disks.velocity = first.velocity;
+  if (first.turn) scene_.disks.turn = *first.turn;
   if constexpr (D == 2)
     if (!isAssembly) placeCellWalls(first, scene_);
   basis_ = auditBasis(scene_);
-  basis_.byOverlap = setup.law.soft();
+  basis_.byOverlap = setup.law.soft() && scene_.shapes.empty();  // those are rigid
   basis_.prescribed = isAssembly;
   if (cellOf(setup) || !setup.region) return;
   const FlowTimes times = flowTimes(setup);  // steps of an engine need not end with them

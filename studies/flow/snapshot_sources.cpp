@@ -345,6 +345,10 @@ std::unique_ptr<SnapshotSourceOf<D>> openSnapshots(const SnapshotRun& run, const
   target.name = name;
   target.where = sectionWords(setup, name);
   const SceneOf<D> walls = wallsOf<D>(setup);
+  if (!walls.shapes.empty())
+    throw BadInput(fmt::format(
+        "{}: of files of other programs disks and spheres are read, and {} has convex bodies",
+        run.name(), setup.file.string()));
   target.bodies = walls.bodies;
   target.box = walls.box;
   target.anyAngle = cellOf(setup) != nullptr;

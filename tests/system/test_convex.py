@@ -5,7 +5,12 @@ import subprocess
 import sys
 import unittest
 
+import h5py
+
 from harness import BAD_INPUT, BUILD, CASES, FELL_SHORT, HELD, HOME, PROGRAM, SystemTest
+
+sys.path.insert(0, str(HOME / "python"))
+import crossgrain  # noqa: E402
 
 # By case of cases/convex the engines that agree with it. What others make of it is in engines/NAME/README.md.
 AGREE = {
@@ -69,14 +74,60 @@ class Convex(SystemTest):
         self.assert_status(done, FELL_SHORT)
         self.assertIn("has polygons of at most 8 vertices, not 12", done.stdout + done.stderr)
 
+    def kept(self, case, *changes):
+        """A run of Bullet that keeps all its snapshots."""
+        words = [case, "--engines", "bullet", "--out", self.out, "--quiet", "--no-causes", "--set", "run.keep_snapshots=1000", *changes]
+        self.assert_status(self.run_program("compare", *words), HELD, FELL_SHORT)
+        return next((self.out / "snapshots").rglob("*.h5"))
+
+    def assert_file_is_the_run(self, case, *changes):
+        """Every mean, error and series, to the last digit."""
+        file, again = self.kept(case, *changes), self.folder / "again"
+        self.assert_status(self.run_program("average", file, case, "--out", again, "--quiet", *changes), HELD)
+        for table in ("profiles.csv", "series.csv"):
+            run, read = ([row for row in self.rows(table, folder) if row["packing"] == "0"] for folder in (self.out, again))
+            self.assertGreater(len(run), 10, table)
+            self.assertEqual(run, read, table)
+        return file
+
     @unittest.skipUnless("bullet" in INSTALLED, "bullet is not installed")
-    def test_kept_snapshots_are_not_read_as_disks(self):
-        case, out = CASES / "convex/slide.toml", self.folder / "out"
-        self.assert_status(self.run_program("compare", case, "--engines", "bullet", "--out", out, "--quiet", "--no-causes"), HELD)
-        file = next((out / "snapshots").rglob("*.h5"))
-        done = self.run_program("average", file, case, "--out", self.folder / "averages")
-        self.assert_status(done, BAD_INPUT)
-        self.assertIn("it holds convex bodies, and only disks and spheres are read", done.stderr)
+    def test_averages_of_a_file_are_those_of_its_run(self):
+        case = CASES / "convex/heap.toml"
+        changes = ["--set", "preparation.packings=1", "--set", "assembly.duration=0.5", "--set", "average.from=0.3"]
+        file = self.assert_file_is_the_run(case, *changes)
+        with crossgrain.Snapshots(file) as snapshots:
+            self.assertEqual([0] * 60 + [-1] * 10, list(snapshots.shape))
+            self.assertEqual("polygon", snapshots.shapes[0].kind)
+            self.assertEqual((70,), snapshots[0].turn.shape)
+            self.assertEqual((len(snapshots[0].contacts), 2), snapshots[0].contacts.point.shape)
+        for words, why in (
+            (["average", file, CASES / "convex/slide.toml", "--out", self.folder / "other"], "it has 70 bodies, not 1"),
+            (["export", "lammps", file, case, *changes, "--out", self.folder / "x"], "format lammps: has no polygon, as heap has"),
+            (["export", "mercurydpm", file, case, *changes, "--out", self.folder / "x"], "format mercurydpm: has no polygon, as heap has"),
+            (["export", "ondem", file, case, *changes, "--out", self.folder / "x"], "format ondem: has no polygon, as heap has"),
+            (["import", "csv", self.write("t-1.csv", "x,y,radius\n0,1,0.5\n"), case, *changes, "--out", self.folder / "x.h5"], "disks and spheres are read"),
+        ):
+            self.assert_one_error(self.run_program(*words), BAD_INPUT, why)
+
+    @unittest.skipUnless("bullet" in INSTALLED, "bullet is not installed")
+    def test_boxes_in_space_are_those_of_the_file_and_of_ondem(self):
+        case, words = CASES / "convex/spin-on-the-spot.toml", ["--out", self.folder / "box", "--quiet"]
+        file = self.assert_file_is_the_run(case)
+        self.assert_status(self.run_program("export", "ondem", file, case, *words), HELD)
+        with crossgrain.Snapshots(file) as snapshots, h5py.File(self.folder / "box-000.vtkhdf") as written:
+            points, last = written["VTKHDF/Points/PointData"], snapshots[0]
+            box = snapshots.shapes[0]
+            self.assertEqual("box", box.kind)
+            self.assertEqual([2.0 * box.vertices.max(axis=0)], points["dimensions"][:].tolist())
+            self.assertEqual(last.turn.tolist(), points["orientation"][:].tolist())
+            self.assertEqual(snapshots.moments[0].tolist(), points["inertia"][0][::4].tolist())
+            self.assertEqual([2], list(points["shape_type"]))
+            self.assertEqual(last.contacts.point.tolist(), written["ONDEM/Interactions/contact/contact_point"][:].tolist())
+        file = self.folder / "box-000.vtkhdf"
+        done = self.run_program("import", "ondem", file, CASES / "space/shear-3d.toml", "--out", self.folder / "x.h5")
+        self.assert_one_error(done, BAD_INPUT, "it holds boxes, and only spheres are read")
+        done = self.run_program("export", "lammps", self.kept(case), case, *words)
+        self.assert_one_error(done, BAD_INPUT, "format lammps: has no box, as spin-on-the-spot has")
 
     @unittest.skipUnless("bullet" in INSTALLED, "bullet is not installed")
     def test_planted_faults_are_found_and_named(self):
