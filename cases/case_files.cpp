@@ -63,11 +63,7 @@ std::string nameAndVariant(const Case& setup) {
 }
 
 bool fits(const Case& setup, const std::string& pattern) {
-  const std::string whole = nameAndVariant(setup);
-  if (pattern.find_first_of("*?[") == std::string::npos)
-    return whole.find(pattern) != std::string::npos;
-  return ::fnmatch(pattern.c_str(), setup.name.c_str(), 0) == 0 ||
-         ::fnmatch(pattern.c_str(), whole.c_str(), 0) == 0;
+  return fitsPattern(setup.name, pattern) || fitsPattern(nameAndVariant(setup), pattern);
 }
 
 bool isComparedWithFirst(const Case& setup) {
@@ -76,6 +72,12 @@ bool isComparedWithFirst(const Case& setup) {
 }
 
 }  // namespace
+
+bool fitsPattern(const std::string& name, const std::string& pattern) {
+  if (pattern.find_first_of("*?[") == std::string::npos)
+    return name.find(pattern) != std::string::npos;
+  return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+}
 
 std::vector<Case> selectedCases(const std::vector<Case>& cases, const std::string& pattern) {
   std::set<std::string> originals;

@@ -22,6 +22,9 @@ struct CaseSummary {
 /// extend, not a case. @throws BadInput if there is none, or one cannot be read
 std::vector<CaseSummary> casesBelow(const std::filesystem::path& folder);
 
+/// Whether a name holds a pattern, or fits it where that has a *, ? or [.
+bool fitsPattern(const std::string& name, const std::string& pattern);
+
 /// The cases whose NAME, or NAME/VARIANT, holds the pattern, or fits it where it has a * or ?. The
 /// first variant of a case stays where others are measured against it (copies_differ).
 /// @throws BadInput if there is none

@@ -288,7 +288,8 @@ Action declareConformance(CLI::App& app, CommandLine& line) {
           "folder for results.json, junit.xml and report.html; what is there is written anew",
           "FOLDER");
   addText(app, "-k", line.only,
-          "only checks with this in their name, or with one of several, separated by commas");
+          "only checks whose name contains this, or matches it where it has * or ?; several are "
+          "separated by commas");
   addText(
       app, "--budget", options->budget,
       "start no further check after this time, e.g. 90s or 10m; checks not started give status 1",

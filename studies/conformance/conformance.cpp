@@ -10,6 +10,7 @@
 #include <ranges>
 
 #include "adapters/suitability.hpp"
+#include "cases/case_files.hpp"
 #include "cases/flow.hpp"
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
@@ -447,7 +448,7 @@ std::vector<std::string> wordsOf(const std::optional<std::string>& list,
   for (const conformance::Check& check : checks) names.emplace_back(check.name);
   for (const auto part : std::views::split(*list, ',')) {
     const std::string& word = words.emplace_back(part.begin(), part.end());
-    if (std::ranges::none_of(names, [&](const auto& name) { return name.find(word) != name.npos; }))
+    if (std::ranges::none_of(names, [&](const auto& name) { return fitsPattern(name, word); }))
       throw BadInput(fmt::format("-k '{}': no check has that in its name", word));
   }
   return words;
@@ -466,9 +467,8 @@ ConformanceResults runConformance(const ConformanceTask& task) {
   std::vector<conformance::Check> checks = conformance::allChecks();
   const std::vector<std::string> words = wordsOf(task.only, checks);
   const auto wanted = [&](const std::string& name) {
-    return !task.only || std::ranges::any_of(words, [&](const std::string& word) {
-      return name.find(word) != std::string::npos;
-    });
+    return !task.only ||
+           std::ranges::any_of(words, [&](const auto& word) { return fitsPattern(name, word); });
   };
   std::erase_if(checks, [&](const conformance::Check& check) { return !wanted(check.name); });
 
