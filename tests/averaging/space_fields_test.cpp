@@ -95,6 +95,79 @@ SpaceInstant cubicLattice(int n, const Vec3& force, const Vec3& shift) {
   return instant;
 }
 
+/// Bodies of 2 × 1 × ½ about their centres.
+SpaceInstant blocks(const std::vector<std::pair<Vec3, TurnOf<3>>>& placed) {
+  SpaceInstant instant;
+  SpaceScene& scene = instant.scene;
+  scene.shapes = {{ShapeKind::box, {}, 0.0}};
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-0.5, 0.5})
+      for (const double z : {-0.25, 0.25}) scene.shapes[0].vertices.emplace_back(x, y, z);
+  instant.snapshot.turn.emplace();
+  for (const auto& [position, turn] : placed) {
+    instant.addSphere(position, scene.shapes[0].reach());
+    scene.disks.shape.push_back(0);
+    instant.snapshot.turn->push_back(turn);
+  }
+  scene.disks.turn = *instant.snapshot.turn;
+  return instant;
+}
+
+TEST(ConvexBodiesInSpace, BlockBetweenPlanesHasTheStressOfItsTwoCorners) {
+  // f = (1, 0, 3) N at its corner (−1, −½, −¼) and −f at (1, ½, ¼): −Σ f⊗l = −2 f⊗(−1, −½, −¼), so
+  // that σ_xx, σ_xy, σ_xz are 2, 1, ½ and σ_zx, σ_zy, σ_zz 6, 3, 3/2 over the volume of 64.
+  SpaceInstant instant = blocks({{Vec3(0.3, 0.2, 0.1), noTurn<3>()}});
+  instant.addPlane();
+  instant.addPlane();
+  instant.addContact(0, 1, Vec3::UnitZ(), 0.0, 3.0, Vec3::UnitX());
+  instant.addContact(0, 2, -Vec3::UnitZ(), 0.0, 3.0, -Vec3::UnitX());
+  instant.snapshot.contacts->point = {{-0.7, -0.3, -0.15}, {1.3, 0.7, 0.35}};
+  const auto bins = slabs(Vec3::Constant(-2.0), Vec3::Constant(2.0), 1, {false, false, false});
+  const auto moments = momentsOf(bins, instant);
+  for (const auto& [name, value] : {std::pair("stress_xx", 2.0),
+                                    {"stress_xy", 1.0},
+                                    {"stress_xz", 0.5},
+                                    {"stress_yx", 0.0},
+                                    {"stress_yy", 0.0},
+                                    {"stress_yz", 0.0},
+                                    {"stress_zx", 6.0},
+                                    {"stress_zy", 3.0},
+                                    {"stress_zz", 1.5}})
+    EXPECT_NEAR(field(name, *bins, moments, 1), value / 64.0, 1e-15) << name;
+  EXPECT_NEAR(field("volume_fraction", *bins, moments, 1), 1.0 / 64.0, 1e-15);
+  EXPECT_EQ(field("coordination", *bins, moments, 1), 2.0);  // points, not partners
+  // Stood on end by 90° about y the same body reaches from z = −0.9 to 1.1: 1.1 of its 2 m of
+  // height lie above 0, of which 16 layers of points find 9/16 (0.55 to the layer).
+  SpaceInstant stood = blocks({{Vec3(0.3, 0.2, 0.1), {std::sqrt(0.5), 0, std::sqrt(0.5), 0}}});
+  const auto halves = slabs(Vec3::Constant(-2.0), Vec3::Constant(2.0), 2, {false, false, false});
+  const auto cut = momentsOf(halves, stood);
+  EXPECT_NEAR(field("volume_fraction", *halves, cut, 2), 9.0 / 16.0 / 32.0, 1e-15);
+  EXPECT_NEAR(field("volume_fraction", *halves, cut, 1), 7.0 / 16.0 / 32.0, 1e-15);
+}
+
+TEST(ConvexBodiesInSpace, StressOfAPairIsThatOfItsTwoArms) {
+  // One acts on the other with f = (1, 2, 4) N at (0.5, 0.1, 0.2), off the line of their centres:
+  // the arms are (0.5, 0.1, 0.2) from (0, 0, 0) and (0.1, 0.1, −0.3) from (0.4, 0, 0.5), and
+  // −(−f)⊗l_0 − f⊗l_1 = f⊗(0.4, 0, 0.5), the branch, wherever they touch. So σ_zx = 4 · 0.4 / 64.
+  const double half = std::sqrt(0.5);
+  SpaceInstant instant =
+      blocks({{Vec3::Zero(), noTurn<3>()}, {Vec3(0.4, 0.0, 0.5), {half, 0.0, 0.0, half}}});
+  instant.addContact(0, 1, -Vec3::UnitZ(), 0.0, 4.0, Vec3(-1.0, -2.0, 0.0));  // on body 0
+  instant.snapshot.contacts->point = {{0.5, 0.1, 0.2}};
+  const auto bins = slabs(Vec3::Constant(-2.0), Vec3::Constant(2.0), 1, {false, false, false});
+  const auto moments = momentsOf(bins, instant);
+  for (const auto& [name, value] : {std::pair("stress_xx", 0.4),
+                                    {"stress_xz", 0.5},
+                                    {"stress_yx", 0.8},
+                                    {"stress_yz", 1.0},
+                                    {"stress_zx", 1.6},
+                                    {"stress_zy", 0.0},
+                                    {"stress_zz", 2.0}})
+    EXPECT_NEAR(field(name, *bins, moments, 1), value / 64.0, 1e-15) << name;
+  EXPECT_NEAR(field("volume_fraction", *bins, moments, 1), 2.0 / 64.0, 1e-15);
+  EXPECT_EQ(field("coordination", *bins, moments, 1), 1.0);
+}
+
 TEST(SpaceFields, LatticeIsUniformWhereverItLies) {
   constexpr int n = 3;
   for (const double shift : {0.0, 0.123, 1.0, -7.77}) {
