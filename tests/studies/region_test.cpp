@@ -282,6 +282,37 @@ FlowRun thrown() {
   return run;
 }
 
+TEST(OwnEndpoints, WhatJumpsHasNoParabola) {
+  const Case setup = threeDisks();
+  Endpoint endpoint;
+  endpoint.disk = 2;
+  endpoint.quantity = "spin";
+  const auto value = [&](Reduction reduction, const std::vector<double>& spins) {
+    FlowRun run;
+    Numbers times;
+    for (std::size_t k = 0; k < spins.size(); ++k)
+      times.emplace_back(0.1 * static_cast<double>(k + 1));
+    run.series = RunSeries{{"t_s", times},
+                           {"velocity_t_s", times},
+                           {"disk_2_spin", Numbers(spins.begin(), spins.end())}};
+    endpoint.reduction = reduction;
+    return *endpointValue(endpoint, setup, run).value;
+  };
+  // An impact: through (1, 8, 8) a parabola has 8.875.
+  EXPECT_EQ(value(Reduction::maximum, {0, 1, 8, 8, 8}), 8.0);
+  EXPECT_EQ(value(Reduction::maximum, {0, 1, 8, 7.5, 7}), 8.0);
+  EXPECT_EQ(value(Reduction::maximum, {7, 7.5, 8, 0, 0}), 8.0);
+  EXPECT_EQ(value(Reduction::minimum, {0, -1, -8, -8, -8}), -8.0);
+  EXPECT_EQ(value(Reduction::maximum, {0, 0, 8, 0, 0}), 8.0);
+  // A swing of 13 snapshots a period, its peak of 1 between two of them.
+  std::vector<double> swing;
+  for (int k = 0; k < 7; ++k) swing.push_back(std::cos(0.5 * k - 1.3));
+  EXPECT_NEAR(value(Reduction::maximum, swing), 1.0, 2e-3);
+  EXPECT_GT(value(Reduction::maximum, swing), std::ranges::max(swing));
+  // Free flight of four snapshots between two bounces: its parabola is known.
+  EXPECT_NEAR(value(Reduction::maximum, {1, 0, 1.75, 2.25, 2, 1, 0}), 2.25 + 1.0 / 96.0, 1e-12);
+}
+
 TEST(OwnEndpoints, OneDisk_HasApexesTimesAndEvents) {
   const Case setup = threeDisks();
   Endpoint endpoint;
