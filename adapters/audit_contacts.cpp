@@ -55,8 +55,9 @@ std::string forceFault(const ContactsOf<D>& contacts, const AuditBasisOf<D>& bas
                            name(), lengthwise, across);
     }
     if (basis.dt > 0.0 && !(std::abs(along) + across <= most))
-      return fmt::format("{}: a force of {:.3g} N would throw all disks out of the scene in a step",
-                         name(), std::max(std::abs(along), across));
+      return fmt::format("{}: a force of {:.3g} N would throw all {} out of the scene in a step",
+                         name(), std::max(std::abs(along), across),
+                         basis.scene->shapes.empty() ? "disks" : "bodies");
   }
   return {};
 }
@@ -69,9 +70,9 @@ std::string idsFault(const ContactsOf<D>& contacts, const SceneOf<D>& scene) {
     const std::int64_t i = contacts.i[k], j = contacts.j[k];
     if (i < 0 || i >= disks || j <= i || j >= all)
       return fmt::format(
-          "contact {} is of {} and {}: the first must be one of {} disks, the second "
+          "contact {} is of {} and {}: the first must be one of {} {}, the second "
           "a later id below {}",
-          k, i, j, disks, all);
+          k, i, j, disks, scene.shapes.empty() ? "disks" : "bodies", all);
   }
   return {};
 }

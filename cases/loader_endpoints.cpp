@@ -176,10 +176,10 @@ void setReduction(Reader& in, const EndpointInput& input, const Region& region, 
 }
 
 /// With `per` each of the two is reduced, and then divided: "ratio of the means of a and b over …".
-std::string definitionOf(const Endpoint& endpoint, bool isField) {
+std::string definitionOf(const Endpoint& endpoint, bool isField, const char* disk) {
   const bool ratio = !endpoint.per.empty();
   std::string what = endpoint.quantity;
-  if (endpoint.disk) what += fmt::format(" of disk {}", *endpoint.disk);
+  if (endpoint.disk) what += fmt::format(" of {} {}", disk, *endpoint.disk);
   if (endpoint.wall) what += fmt::format(" of wall {}", *endpoint.wall);
   if (endpoint.plane) what += fmt::format(", plane {}", *endpoint.plane);
   if (ratio) what += " and " + endpoint.per;
@@ -267,7 +267,7 @@ Endpoint readEndpoint(Reader& in, const Case& c, Margin& margin) {
   endpoint.words = endpoint.name;
   std::ranges::replace(endpoint.words, '_', ' ');
   endpoint.unit = unitOf(endpoint, quantity);
-  endpoint.definition = definitionOf(endpoint, quantity.isField);
+  endpoint.definition = definitionOf(endpoint, quantity.isField, anyConvex(c) ? "body" : "disk");
   endpoint.byRatio = margin.relative;
   margin.why = endpoint.definition + "; " + margin.why;
   return endpoint;

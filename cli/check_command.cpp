@@ -103,8 +103,8 @@ void printChecked(const json& checked) {
   const std::string variant = checked["variant"], name = checked["name"];
   const char* const round = checked.contains("dimension") ? "spheres" : "disks";
   fmt::print("{}: {} {}, {} wall {}, dt {:.3g} s\n", variant.empty() ? name : variant,
-             number(checked, "disks"), round, number(checked, "wall_disks"), round,
-             number(checked, "dt_s"));
+             number(checked, "disks"), checked.contains("shapes") ? "bodies" : round,
+             number(checked, "wall_disks"), round, number(checked, "dt_s"));
   fmt::print("  effects called for: {}; left out: {}\n", listed(checked["effects"]),
              listed(checked["left_out"]));
   if (checked["steps_per_contact"].is_number())

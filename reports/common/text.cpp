@@ -171,6 +171,17 @@ std::string counted(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
+std::string ofBodies(std::string text) {
+  for (const auto& [round, any] : {std::pair("disks", "bodies"),
+                                   {"Disks", "Bodies"},
+                                   {"spheres", "bodies"},
+                                   {"disk", "body"},
+                                   {"sphere", "body"}})
+    for (std::size_t at = 0; (at = text.find(round, at)) != text.npos;)
+      text.replace(at, std::string_view(round).size(), any);
+  return text;
+}
+
 std::string capitalised(std::string text) {
   if (!text.empty())
     text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));

@@ -249,11 +249,13 @@ void addPictures(Report& report, const CompareResults& results, const Engines& e
   Drawings forces = drawingsOf(report.pictures, Picture::Shows::forces);
   if (origins.names.empty()) return;
   Blocks& blocks = report.section("pictures", "Pictures").blocks;
-  blocks = {Heading{"Where disks came from"},
+  const bool convex = anyConvex(engines);
+  blocks = {Heading{convex ? "Where bodies came from" : "Where disks came from"},
             Paragraph{fmt::format(
-                "Positions of the disks of the same packing {}, coloured by where they started: "
+                "Positions of the {} of the same packing {}, coloured by where they started: "
                 "twelve sectors of angle{}, paler in every other band of two diameters.{}",
-                instantOf(results, engines), results.region ? " about the origin" : "",
+                convex ? "bodies" : "disks", instantOf(results, engines),
+                results.region ? " about the origin" : "",
                 results.region ? "" : " A straight sector bends where the cell shears.")},
             std::move(origins)};
   if (forces.names.empty()) return;
@@ -387,9 +389,9 @@ void addProfiles(Report& report, const CompareResults& results, const Engines& e
         std::move(checks), std::move(numbers)};
   if (Drawings distributions = drawings("distribution_"); !distributions.names.empty())
     report.section("distributions", "Distributions").blocks = {
-        Paragraph{"Of single disks and contacts over all snapshots, a mean over packings where "
-                  "there are several. " +
-                  bars},
+        Paragraph{fmt::format("Of single {} and contacts over all snapshots, a mean over packings "
+                              "where there are several. {}",
+                              anyConvex(engines) ? "bodies" : "disks", bars)},
         std::move(distributions)};
 }
 

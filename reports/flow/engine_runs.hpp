@@ -41,6 +41,9 @@ Engines engineRuns(const FlowStudy& study, const std::vector<CouetteEnsemble>& e
 /// The same with `isSingle` and `surrogate`.
 Engines engineRuns(const CompareResults& results);
 
+/// Whether one of them drew convex bodies.
+bool anyConvex(const Engines& engines);
+
 /// Curve of an engine in its style; pale and without bars for a single run beside means.
 Curve curveOf(const EngineRuns& engine, std::vector<Point> points = {}, double width = 1.5);
 

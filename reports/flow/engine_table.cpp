@@ -317,10 +317,13 @@ TableRow headRow(const std::string& name, const Engines& engines) {
   for (const EngineRuns& engine : engines)
     if (const HeadNumber* number = headOf(engine, name); number && unit.empty())
       unit = number->unit;
-  return tableRow(headLabel(name), unit, engines, [&name](const EngineRuns& engine) {
-    const HeadNumber* number = headOf(engine, name);
-    return number ? readable(number->value, number->standardError) : std::string(absentText);
-  });
+  const std::string label = headLabel(name);
+  return tableRow(anyConvex(engines) ? ofBodies(label) : label, unit, engines,
+                  [&name](const EngineRuns& engine) {
+                    const HeadNumber* number = headOf(engine, name);
+                    return number ? readable(number->value, number->standardError)
+                                  : std::string(absentText);
+                  });
 }
 
 /// Counters that engines keep of their own, summed over finished runs.

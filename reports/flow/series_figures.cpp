@@ -365,6 +365,11 @@ std::vector<Figure> compareFigures(const CompareResults& results) {
                     seriesFigures(results, engines), distributionFigures(results, engines),
                     profileCausesFigures(results)})
     std::ranges::move(more, std::back_inserter(figures));
+  if (anyConvex(engines))
+    for (Figure& figure : figures) {
+      for (std::string* const text : {&figure.title, &figure.caption}) *text = ofBodies(*text);
+      for (Panel& panel : figure.panels) panel.yLabel = ofBodies(panel.yLabel);
+    }
   return figures;
 }
 
@@ -377,10 +382,13 @@ std::vector<Picture> comparePictures(const CompareResults& results) {
     if (!picture || picture->x.empty()) continue;
     const std::string word = fmt::format("{}_{}", origins.size() + 1, fileWord(engine.name));
     const bool inSpace = results.region && !results.region->z.empty();
+    const auto titled = [&](const std::string& words) {
+      return engine.name + (picture->outlines ? ofBodies(words) : words);
+    };
     origins.push_back(
         {"origins_" + word, engine.name,
-         engine.name + (inSpace ? ": spheres cut along x and z, coloured by where they started"
-                                : ": disks coloured by where they started"),
+         titled(inSpace ? ": spheres cut along x and z, coloured by where they started"
+                        : ": disks coloured by where they started"),
          "", Picture::Shows::origins,
          originsDrawing(*picture, results.cell.innerRadius,
                         results.region ? results.region->diameter : results.cell.diameter)});
@@ -388,7 +396,7 @@ std::vector<Picture> comparePictures(const CompareResults& results) {
     const auto own = widestForce(*picture);
     if (!own) continue;
     if (!widest) widest = own;
-    forces.push_back({"forces_" + word, engine.name, engine.name + ": forces between disks",
+    forces.push_back({"forces_" + word, engine.name, titled(": forces between disks"),
                       forceWords(countForces(*picture, *widest), *widest), Picture::Shows::forces,
                       forcesDrawing(*picture, *widest, 0.75)});
   }

@@ -252,6 +252,7 @@ json checkedIn(const Case& setup, const std::vector<std::string>& names, bool ti
                  {"left_out", json::array()},
                  {"cautions", cautions(setup, fraction)}};
   if (D == 3) result["dimension"] = D;
+  for (const ShapeOf<D>& shape : scene.shapes) result["shapes"].push_back(toString(shape.kind));
   if (const auto limit = pairStepLimit(setup)) {
     result["step_limit_s"] = limit->dt;
     if (const auto time = pairContactTime(setup)) result["steps_per_contact"] = *time / scene.dt;
