@@ -200,6 +200,7 @@ void SnapshotFileOf<D>::begin() {
   out.write("/disks/inertia", scene_.disks.inertia);
   if (!scene_.shapes.empty()) {
     out.write("/disks/shape", scene_.disks.shape);
+    writeTurns<D>(out, "/disks/turn", scene_.disks.turn);
     if (D == 3) writeVectors<3>(out, "/disks/moments", scene_.disks.moments);
     std::vector<std::int32_t> kinds;
     for (const ShapeOf<D>& shape : scene_.shapes)

@@ -119,8 +119,12 @@ void readConvex(const SnapshotDatasets& in, DisksOf<D>& disks) {
                           shapes - 1.0));
     disks.shape.push_back(static_cast<std::int32_t>(shape));
   }
-  disks.turn.assign(count, noTurn<D>());
-  if constexpr (D == 3) disks.moments = in.vectors<3>("/disks/moments", count);
+  disks.turn = in.turns<D>("/disks/turn", count);
+  if constexpr (D == 3) {
+    disks.moments = in.vectors<3>("/disks/moments", count);
+    if (!std::ranges::all_of(disks.moments, [](const Vec3& j) { return j.minCoeff() > 0.0; }))
+      in.fail("/disks/moments holds a moment of inertia that is not above 0");
+  }
 }
 
 /// Shapes are the case's, and the file must have the same.
@@ -158,7 +162,7 @@ DisksOf<D> readDisks(const SnapshotDatasets& in, const Case& setup) {
     in.fail("/disks/radius holds a radius that is not above 0");
   disks.mass = in.numbers("/disks/mass", count);
   const double factor = inertiaFactorOf(setup);
-  if (in.holds("/disks/inertia"))
+  if (in.holds("/disks/inertia") || in.holds("/shapes/kind"))
     disks.inertia = in.numbers("/disks/inertia", count);
   else
     for (std::size_t p = 0; p < count; ++p)
@@ -332,7 +336,6 @@ SnapshotReaderOf<D>::SnapshotReaderOf(const std::filesystem::path& file, const C
   const SnapshotOf<D> first = readSnapshot<D>(in, 0, scene_, isAssembly);
   scene_.disks.position = first.position;
   scene_.disks.velocity = first.velocity;
-  if (first.turn) scene_.disks.turn = *first.turn;
   if constexpr (D == 2)
     if (!isAssembly) placeCellWalls(first, scene_);
   basis_ = auditBasis(scene_);

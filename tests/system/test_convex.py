@@ -87,6 +87,8 @@ class Convex(SystemTest):
         for table in ("profiles.csv", "series.csv"):
             run, read = ([row for row in self.rows(table, folder) if row["packing"] == "0"] for folder in (self.out, again))
             self.assertGreater(len(run), 10, table)
+            for row in run + read:  # by how much an engine's velocities lag behind the places no file says
+                row.pop("velocity_t_s", None)
             self.assertEqual(run, read, table)
         return file
 
