@@ -244,56 +244,21 @@ namespace {
 
 /// Columns of a CSV file; vectors have one for each component, one after the other.
 template <int D>
-struct Csv;
-template <>
-struct Csv<2> {
-  enum Column : std::size_t {
-    x,
-    y,
-    radius,
-    vx,
-    vy,
-    spin,
-    mass,
-    inertia,
-    fixed,
-    material,
-    shape,
-    turn,
-    count
-  };
-  static inline const std::array<std::string, count> names = {
-      "x",    "y",       "radius", "vx",       "vy",    "spin",
-      "mass", "inertia", "fixed",  "material", "shape", "angle"};
+struct Csv {
+  static constexpr std::size_t x = 0, radius = D, vx = radius + 1, spin = vx + D,
+                               mass = spin + (D == 2 ? 1 : 3), inertia = mass + 1,
+                               fixed = inertia + 1, material = fixed + 1, shape = material + 1,
+                               turn = shape + 1, count = turn + (D == 2 ? 1 : 4);
+  static const std::array<std::string, count> names;
 };
 template <>
-struct Csv<3> {
-  enum Column : std::size_t {
-    x,
-    y,
-    z,
-    radius,
-    vx,
-    vy,
-    vz,
-    spin,
-    spin_y,
-    spin_z,
-    mass,
-    inertia,
-    fixed,
-    material,
-    shape,
-    turn,
-    qx,
-    qy,
-    qz,
-    count
-  };
-  static inline const std::array<std::string, count> names = {
-      "x",    "y",       "z",     "radius",   "vx",    "vy", "vz", "spin_x", "spin_y", "spin_z",
-      "mass", "inertia", "fixed", "material", "shape", "qw", "qx", "qy",     "qz"};
-};
+const std::array<std::string, Csv<2>::count> Csv<2>::names = {
+    "x",    "y",       "radius", "vx",       "vy",    "spin",
+    "mass", "inertia", "fixed",  "material", "shape", "angle"};
+template <>
+const std::array<std::string, Csv<3>::count> Csv<3>::names = {
+    "x",    "y",       "z",     "radius",   "vx",    "vy", "vz", "spin_x", "spin_y", "spin_z",
+    "mass", "inertia", "fixed", "material", "shape", "qw", "qx", "qy",     "qz"};
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t\r";
@@ -404,9 +369,8 @@ void addShape(const CsvLine& line, const CsvValues<D>& values, const StartShapeO
     if constexpr (D == 2) {
       turn = *first * std::numbers::pi / 180.0;
     } else {
-      const auto part = [&](std::size_t column) { return values[column].value_or(0.0); };
-      const Eigen::Quaterniond given(part(Columns::turn), part(Columns::qx), part(Columns::qy),
-                                     part(Columns::qz));
+      const auto part = [&](std::size_t k) { return *values[Columns::turn + k]; };
+      const Eigen::Quaterniond given(*first, part(1), part(2), part(3));
       line.check(isUnit(given), "qw, qx, qy, qz: must be of length 1, which is {:g}", given.norm());
       const Eigen::Quaterniond unit = given.normalized();
       turn = {unit.w(), unit.x(), unit.y(), unit.z()};
