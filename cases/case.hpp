@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -128,28 +129,6 @@ struct RunOptions {
   int keepSnapshotsOf = 1;    ///< packings, from the first, whose runs keep theirs
 };
 
-/// Two-body collisions: disks that meet each other, or a wall, with v_t = Ψ_i v_n.
-struct Collision {
-  std::vector<double> psi;             ///< Ψ_i = v_t/|v_n| before
-  Approach approach = Approach::spin;  ///< source of v_t
-  std::vector<double> vn;              ///< approach speeds [m/s]; empty: `speed` is given
-  double speed = 0.0;                  ///< √(v_n² + v_t²), for every Ψ_i its own v_n [m/s]
-  std::vector<double> counterSpin = {0.0};  ///< CollisionStart::counterSpin [rad/s]
-  bool wall = false;                        ///< the second body is a plane wall
-  Vec2 wallVelocity =
-      Vec2::Zero();  ///< (along its normal, along it): relative motion is the same [m/s]
-  double radius[2] = {0.0, 0.0};  ///< of a wall not used [m]
-  double mass[2] = {0.0, 0.0};    ///< likewise [kg]
-  double inertiaFactor = 0.5;
-  std::vector<double> stepsPerContact = {50.0};           ///< one sweep for each
-  Vec2 spinOutOfPlane[2] = {Vec2::Zero(), Vec2::Zero()};  ///< CollisionStart's, in space [rad/s]
-  /// In space the whole scene is turned by that angle about that axis, through the origin [rad].
-  Vec3 turn = Vec3::Zero();
-  double startPhase = 0.5;  ///< the disks touch this fraction of a step after a step, [0, 1)
-  std::map<std::string, Margin> margins;    ///< "psi_f", "e_n": largest distance from the oracle
-  std::vector<MaterialName> material = {};  ///< of the two, where [[law.pairs]] has them
-};
-
 /// Disks, or spheres in space, or convex bodies, of one kind, each at `position` plus one of
 /// `places`.
 template <int D>
@@ -179,6 +158,44 @@ struct DiskGroupOf {
   VecOf<D> pitch() const { return shape ? extents : VecOf<D>::Constant(2.0 * radius); }
 };
 using DiskGroup = DiskGroupOf<2>;
+
+/// Convex bodies that meet once, in the frame n, s (, b) of the touch, which is at x = 0.
+template <int D>
+struct ConvexPairOf {
+  /// The second without a shape is a disk, or sphere; with a wall there is none.
+  DiskGroupOf<D> body[2];
+  Vec3 axis = Vec3::UnitZ();        ///< in space, that the first is turned about by its orientation
+  VecOf<D> arm = VecOf<D>::Zero();  ///< from the second's centre of mass to the contact [m]
+  /// From there to the rim of the second's face, at least [m].
+  double room = std::numeric_limits<double>::infinity();
+};
+
+/// Two-body collisions: disks or convex bodies that meet each other, or a wall, with v_t = Ψ_i v_n.
+struct Collision {
+  std::vector<double> psi;             ///< Ψ_i = v_t/|v_n| before
+  Approach approach = Approach::spin;  ///< source of v_t
+  std::vector<double> vn;              ///< approach speeds [m/s]; empty: `speed` is given
+  double speed = 0.0;                  ///< √(v_n² + v_t²), for every Ψ_i its own v_n [m/s]
+  std::vector<double> counterSpin = {0.0};  ///< CollisionStart::counterSpin [rad/s]
+  bool wall = false;                        ///< the second body is a plane wall
+  Vec2 wallVelocity =
+      Vec2::Zero();  ///< (along its normal, along it): relative motion is the same [m/s]
+  double radius[2] = {0.0, 0.0};  ///< of a wall not used [m]
+  double mass[2] = {0.0, 0.0};    ///< likewise [kg]
+  double inertiaFactor = 0.5;
+  std::vector<double> stepsPerContact = {50.0};           ///< one sweep for each
+  Vec2 spinOutOfPlane[2] = {Vec2::Zero(), Vec2::Zero()};  ///< CollisionStart's, in space [rad/s]
+  /// In space the whole scene is turned by that angle about that axis, through the origin [rad].
+  Vec3 turn = Vec3::Zero();
+  double startPhase = 0.5;  ///< the disks touch this fraction of a step after a step, [0, 1)
+  std::map<std::string, Margin> margins;    ///< "psi_f", "e_n": largest distance from the oracle
+  std::vector<MaterialName> material = {};  ///< of the two, where [[law.pairs]] has them
+  /// Of convex bodies, of the case's dimension; `radius` is then what reaches around each.
+  std::variant<std::monostate, ConvexPairOf<2>, ConvexPairOf<3>> convex = {};
+  std::vector<double> orientation = {0.0}, spin = {0.0};  ///< as CollisionStart [rad, rad/s]
+
+  bool isConvex() const { return convex.index() > 0; }
+};
 
 /// A body of planes, cylinders and wall disks that moves as prescribed.
 template <int D>

@@ -6,6 +6,7 @@
 #include "adapters/scene.hpp"
 #include "cases/case.hpp"
 #include "oracle/collision_end.hpp"
+#include "oracle/convex_contact.hpp"
 
 namespace crossgrain::inline cases {
 
@@ -14,6 +15,29 @@ CollidingPair collidingPair(const Case& setup);
 
 /// Every collision of a case's sweep: all Ψ_i at each v_n (or at the one speed) and counter-spin.
 std::vector<CollisionStart> collisionStarts(const Case& setup);
+
+/// Convex bodies at the instant when they touch, in the frame n, s (, b) with the contact at 0,
+/// where the wall, or the centre of mass of both, is at rest.
+template <int D>
+struct ConvexTouchOf {
+  DisksOf<D> bodies;  ///< two, or one on a wall; `shape` is their place in the scene's shapes
+  ConvexImpactStart<D> impact;  ///< of the case's law
+  /// How much farther from each other they are, at least, where they may touch next [m].
+  double next = 0.0;
+};
+template <int D>
+ConvexTouchOf<D> convexTouch(const Case& setup, const CollisionStart& start);
+
+/// How long after the touch convex bodies may touch elsewhere, at the earliest [s], if the impact
+/// is that of any of the oracle's hypotheses.
+double freeFlight(const Case& setup, const CollisionStart& start);
+
+/// Steps after which velocities of rigid bodies are read: what an engine needs to find an impact
+/// and bring it to an end. And the time of it, from the scene's start [s].
+inline constexpr double readingSteps = 21.0;
+inline double readingTime(double dt) {
+  return readingSteps * dt;
+}
 
 /// All collisions of a sweep side by side in one scene, far enough apart not to meet.
 /// Pair k is disks 2k (on the right, i) and 2k + 1 (on the left, j), its centre of mass at rest.

@@ -259,6 +259,7 @@ void readCollisionCase(Reader& root, Reader& law, Reader& run, Case& c) {
                     "a rigid law has no contact time, give run.dt");
     if (!c.run.dt) run.failMissing("dt", "a rigid law has no contact time");
   }
+  if (collisionIn(c).isConvex()) checkConvexStarts(collision, c);
   checkDamping(law, c);
   checkCollisionNumbers(c);
   if (!c.law.soft()) return;

@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
+#include "cases/collision_scene.hpp"
 #include "cases/loader_sections.hpp"
+#include "cases/time_step.hpp"
 #include "oracle/collision_quantities.hpp"
 
 namespace crossgrain::inline cases {
@@ -25,6 +28,13 @@ void readSweep(Reader& in, const std::string& key, std::vector<double>& values,
   for (int k = 0; k < count; ++k) values.push_back(from + (to - from) * k / (count - 1));
 }
 
+/// A key that is read where the case's dimension is known.
+Key<Collision> later(const char* name, const char* unit, const char* standard, const char* values,
+                     const char* meaning) {
+  return special<Collision>({name, unit, standard, values, meaning},
+                            [](Reader& in, const std::string& key, Collision&) { in.take(key); });
+}
+
 const Section<Collision>& collisionKeys() {
   constexpr const char* users = "calibrate baseline collide record stability";
   const Range speeds = positive("m/s", ", else the disks never meet");
@@ -33,7 +43,9 @@ const Section<Collision>& collisionKeys() {
        .kinds = "collision",
        .commands = "compare plan lockstep identify baseline record effects cost stability collide",
        .note = "Two disks that meet, or a disk and a wall, with Ψ_i = v_t/\\|v_n\\| of the contact "
-               "point; one sweep over `psi` for each `vn` and each `steps_per_contact`."},
+               "point; one sweep over `psi` for each `vn` and each `steps_per_contact`. With "
+               "`shape` a convex body that meets a wall, a body or a disk with one corner, under a "
+               "rigid law; a sweep over `psi`, `orientation` and `spin`."},
       {special<Collision>(
            {"psi", "–", "required", "", "a number, a list, or `{ from = 0, to = 4, count = 41 }`"},
            [](Reader& in, const std::string& key, Collision& c) {
@@ -58,11 +70,12 @@ const Section<Collision>& collisionKeys() {
            "what gives v_t: both disks' spins, the first one's, or the centres' velocities"),
        key("counter_spin", &Collision::counterSpin, anyNumber("rad/s"),
            "a list: added to the first spin, a_i/a_j of it taken from the second: v_t stays"),
-       special<Collision>({"second", "", "\"disk\"", "disk, wall",
-                           "`wall`: the second body is a plane wall of infinite mass"},
+       special<Collision>({"second", "", "\"disk\"", "disk, wall, body",
+                           "`wall`: the second body is a plane wall of infinite mass; `body`: a "
+                           "convex one, with a face towards the first, of which a corner meets it"},
                           [](Reader& in, const std::string& key, Collision& c) {
                             std::string second = "disk";
-                            in.read(key, second, Names{"disk", "wall"});
+                            in.read(key, second, Names{"disk", "wall", "body"});
                             c.wall = second == "wall";
                           }),
        special<Collision>({"wall_velocity", "m/s", "[0, 0]", "",
@@ -74,8 +87,9 @@ const Section<Collision>& collisionKeys() {
                                      "must be [along its normal, along it] in m/s");
                             c.wallVelocity = {velocity[0], velocity[1]};
                           }),
-       need("radius", &Collision::radius, positive("m"),
-            "one number for both disks, or `[a, b]`; with a wall the disk's")
+       key("radius", &Collision::radius, positive("m"),
+           "one number for both disks, or `[a, b]`; with a wall the disk's")
+           .listed("required without `shape`")
            .usedBy(users),
        need("mass", &Collision::mass, positive("kg"), "likewise").usedBy(users),
        special<Collision>(
@@ -108,6 +122,35 @@ const Section<Collision>& collisionKeys() {
                             in.check(degrees.size() == 3, key, "must be [x, y, z] in degrees");
                             c.turn = Vec3::Map(degrees.data()) * (std::numbers::pi / 180.0);
                           }),
+       later(
+           "shape", "m", "–", "a table",
+           "a convex body, as under `[[assembly.disks]]`, in place of the first disk of `radius`"),
+       later("second_shape", "m", "`shape`", "a table", "of `second = \"body\"`"),
+       later("second_radius", "m", "–", "> 0", "of a disk, or sphere, that a convex body meets"),
+       later("offset", "m", "0", "",
+             "from the middle of the second body's face to where the corner meets it, along s; in "
+             "space [along s, along n × s]"),
+       special<Collision>({"orientation", "degrees", "0", "[-360, 360]",
+                           "of the convex body at the touch, counter-clockwise, a sweep like "
+                           "`psi`; at 0 its x axis "
+                           "is along n, the normal towards it, and its y axis along s"},
+                          [](Reader& in, const std::string& key, Collision& c) {
+                            if (!in.has(key)) return static_cast<void>(in.take(key));
+                            c.orientation.clear();
+                            readSweep(in, key, c.orientation, between(-360.0, 360.0, "degrees"));
+                            for (double& angle : c.orientation) angle *= std::numbers::pi / 180.0;
+                          }),
+       later("axis", "–", "[0, 0, 1]", "", "in space, that `orientation` is about"),
+       later("quaternion", "–", "[1, 0, 0, 0]", "",
+             "in space, as under `[[assembly.disks]]`: the orientation at `orientation = 0`"),
+       special<Collision>({"spin", "rad/s", "0", "",
+                           "of the convex body at the touch, about n × s, a sweep like `psi`; the "
+                           "centre's velocity makes v_n and Ψ_i what they are"},
+                          [](Reader& in, const std::string& key, Collision& c) {
+                            if (!in.has(key)) return static_cast<void>(in.take(key));
+                            c.spin.clear();
+                            readSweep(in, key, c.spin, anyNumber("rad/s"));
+                          }),
        key("steps_per_contact", &Collision::stepsPerContact, atLeast(2.0),
            "a number or a list; a rigid law takes `run.dt` instead"),
        key("start_phase", &Collision::startPhase,
@@ -125,11 +168,140 @@ void checkWall(Reader& in, const Collision& c) {
     return;
   }
   for (const char* const key : {"radius", "mass"})
-    in.check(!in.take(key)->is_array(), key, "a wall has none: give the disk's alone");
+    in.check(!in.has(key) || !in.take(key)->is_array(), key,
+             "a wall has none: give the disk's alone");
   in.check(c.counterSpin == std::vector<double>{0.0}, "counter_spin", "a wall does not turn");
 }
 
+/// The middle of a body's face towards +x, from its centre of mass, and the distance from where a
+/// corner meets it to its rim, at least [m].
+template <int D>
+std::pair<VecOf<D>, double> faceOf(const Reader& in, const ShapeOf<D>& shape, const TurnOf<D>& turn,
+                                   const Eigen::Matrix<double, D - 1, 1>& offset) {
+  const Eigen::Matrix<double, D, D> axes = matrixOf<D>(turn);
+  const VecOf<D> own = axes.transpose() * VecOf<D>::UnitX();
+  const double top = own.dot(farthest<D>(shape, own)) - shape.rounding;
+  std::vector<VecOf<D>> corners;
+  VecOf<D> middle = VecOf<D>::Zero();
+  for (const VecOf<D>& corner : shape.vertices)
+    if (top - corner.dot(own) < 1e-9 * shape.reach()) corners.emplace_back(axes * corner);
+  in.check(corners.size() >= D && shape.kind != ShapeKind::cylinder,
+           in.has("second_shape") ? "second_shape" : "second",
+           "this body has no flat face towards n, its x axis");
+  for (const VecOf<D>& corner : corners) middle += corner / static_cast<double>(corners.size());
+  const VecOf<D> arm = middle + (VecOf<D>() << shape.rounding, offset).finished();
+  double room = std::numeric_limits<double>::infinity();
+  if constexpr (D == 2) {
+    const auto [low, high] = std::ranges::minmax(corners, {}, [](const Vec2& c) { return c.y(); });
+    room = std::min(arm.y() - low.y(), high.y() - arm.y());
+  } else {
+    std::ranges::sort(corners, {}, [&](const Vec3& corner) {
+      return std::atan2(corner.z() - middle.z(), corner.y() - middle.y());
+    });
+    const auto flat = [](const Vec3& v) { return Vec2(v.y(), v.z()); };
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Vec2 from = flat(corners[k]), along = flat(corners[(k + 1) % corners.size()]) - from;
+      room = std::min(room, cross(along.normalized(), Vec2(flat(arm) - from)));
+    }
+  }
+  in.check(room > 1e-3 * shape.reach(), in.has("offset") ? "offset" : "second",
+           "the corner misses the second body's face, or meets its rim");
+  return {arm, room};
+}
+
+template <int D>
+void readConvexPair(Reader& in, Collision& c) {
+  const bool disk = in.has("second_radius");
+  ConvexPairOf<D> pair;
+  DisksInput<D> first;
+  first.mass = c.mass[0];
+  refuseKeysOf<D>(in, 2, {"quaternion", "axis"});
+  in.read("quaternion", first.quaternion, Range{});
+  in.read("axis", pair.axis, Range{});
+  in.check(pair.axis.norm() > 0.0, "axis", "must not be zero");
+  pair.axis.normalize();
+  first.shape = readShape<D>(in.section("shape"));
+  makeConvex<D>(in, first);
+  pair.body[0] = first;
+  c.radius[0] = c.radius[1] = pair.body[0].radius;
+  std::vector<double> offset(D - 1);
+  in.read("offset", offset, anyNumber("m"));
+  in.check(offset.size() == D - 1, "offset",
+           D == 2 ? "must be one number in m" : "must be [along s, along n × s] in m");
+  in.check(!in.has("offset") || (!c.wall && !disk), "offset", "is along a second body's face");
+  if (disk) {
+    in.read("second_radius", c.radius[1], positive("m"));
+    pair.body[1].radius = c.radius[1];
+    pair.body[1].mass = c.mass[1];
+    pair.body[1].moments.setConstant(c.inertiaFactor * c.mass[1] * c.radius[1] * c.radius[1]);
+    pair.arm = c.radius[1] * VecOf<D>::UnitX();
+  } else if (!c.wall) {
+    DisksInput<D> second;
+    second.mass = c.mass[1];
+    second.quaternion = {1.0, 0.0, 0.0, 0.0};
+    second.shape = readShape<D>(in.section(in.has("second_shape") ? "second_shape" : "shape"));
+    makeConvex<D>(in, second);
+    pair.body[1] = second;
+    c.radius[1] = pair.body[1].radius;
+    std::tie(pair.arm, pair.room) = faceOf<D>(in, *pair.body[1].shape, pair.body[1].turn,
+                                              Eigen::Matrix<double, D - 1, 1>::Map(offset.data()));
+  }
+  c.convex = std::move(pair);
+}
+
+/// What disks have and convex bodies do not, and the other way.
+void checkShape(Reader& in, const Collision& c) {
+  std::string second = c.wall ? "wall" : "disk";
+  if (const toml::node* const node = in.take("second")) second = *node->value<std::string>();
+  if (!in.has("shape")) {
+    if (!in.has("radius")) in.failMissing("radius", "or shape");
+    for (const char* const key :
+         {"second_shape", "second_radius", "orientation", "axis", "quaternion", "spin", "offset"})
+      in.check(!in.has(key), key, "is of convex bodies, which have a shape");
+    in.check(second != "body", "second", "is of convex bodies: give shape");
+    return;
+  }
+  in.check(!in.has("radius"), "radius", "and shape: give one of them");
+  for (const char* const key : {"approach", "counter_spin"})
+    in.check(!in.has(key), key,
+             "is of disks and spheres: the centre of a convex body moves as v_n, "
+             "Ψ_i and its spin say");
+  in.check(second == "body" || !in.has("second_shape"), "second_shape", "is of second = \"body\"");
+  in.check(second == "disk" || !in.has("second_radius"), "second_radius",
+           "is of second = \"disk\"");
+  in.check(second == "disk" || !in.has("inertia_factor"), "inertia_factor",
+           "is of a disk or sphere: a convex body has its own moments");
+  if (second == "disk" && !in.has("second_radius"))
+    in.failMissing("second_radius", "of the disk; or second = \"wall\" or \"body\"");
+}
+
 }  // namespace
+
+void checkConvexStarts(const Reader& in, const Case& c) {
+  const Collision& collision = collisionIn(c);
+  in.check(!c.law.soft(), "shape",
+           "bodies that meet with a corner have a rigid law: law.normal = \"rigid\"");
+  in.check(c.law.et0 == 0.0, "shape", "takes law.e_t0 = 0: tangential restitution is of disks");
+  in.check(
+      !c.stability, "shape",
+      "and [stability]: its measures of collisions are those of disks; an assembly has others");
+  const char* const key = in.has("orientation")  ? "orientation"
+                          : in.has("quaternion") ? "quaternion"
+                                                 : "shape";
+  for (const CollisionStart& start : collisionStarts(c)) {
+    const auto [next, free] = inDimensionOf(
+        c, [&]<int D>() { return std::pair(convexTouch<D>(c, start).next, freeFlight(c, start)); });
+    const double degrees = start.orientation * 180.0 / std::numbers::pi;
+    in.check(next > 1e-6 * collision.radius[0], key,
+             "at orientation {:.6g} a face or an edge meets flat: no single corner is the nearest",
+             degrees);
+    in.check(free > readingTime(timeStep(c)), key,
+             "at orientation {:.6g} a second corner may meet {:.2g} s after the first, within the "
+             "{:g} steps after which velocities are read: take another orientation, a smaller "
+             "run.dt or a slower approach",
+             degrees, free, readingSteps);
+  }
+}
 
 std::vector<SectionInfo> collisionSections() {
   return {collisionKeys().info(),
@@ -149,16 +321,21 @@ void readCollision(Reader& in, Collision& c, int dimension) {
     in.check(!in.has("vn"), "speed", "and vn, its part along the normal: give one of them");
   else if (!in.has("vn"))
     in.failMissing("vn");
+  checkShape(in, c);
   checkWall(in, c);
+  if (in.has("shape")) dimension == 3 ? readConvexPair<3>(in, c) : readConvexPair<2>(in, c);
   for (const char* const key : {"first_spin", "second_spin", "turn"})
     in.check(dimension == 3 || !in.has(key), key,
              "only collisions in space have it (case.dimension = 3)");
   in.check(!c.wall || !in.has("second_spin"), "second_spin", "a wall does not turn");
-  const auto starts = static_cast<double>(c.psi.size()) *
-                      static_cast<double>(std::max<std::size_t>(1, c.vn.size())) *
-                      static_cast<double>(c.counterSpin.size());
+  const auto starts =
+      static_cast<double>(c.psi.size()) *
+      static_cast<double>(std::max<std::size_t>(1, c.vn.size())) *
+      static_cast<double>(c.counterSpin.size() * c.orientation.size() * c.spin.size());
   in.check(starts <= mostCollisions, in.has("psi") ? "psi" : "angle",
-           "with all vn and counter_spin {:.0f} collisions: at most {}", starts, mostCollisions);
+           "with all {} {:.0f} collisions: at most {}",
+           c.isConvex() ? "vn, orientation and spin" : "vn and counter_spin", starts,
+           mostCollisions);
   std::vector<Judged> quantities;
   for (const CollisionQuantity& quantity : scoredQuantities())
     quantities.push_back({std::string(quantity.name), ""});

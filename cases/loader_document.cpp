@@ -39,6 +39,7 @@ const std::vector<std::vector<Way>> rivals = {
     {{"gn"}, {"e_n"}},
     {{"kr"}, {"kr_per_kt"}, {"kr_factor"}},
     {{"w"}, {"gamma"}},
+    {{"polygon"}, {"sides", "radius"}, {"box"}, {"capsule"}, {"cylinder"}, {"polyhedron"}},
 };
 
 toml::table parse(std::string_view text, const std::string& source) {

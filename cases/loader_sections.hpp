@@ -51,6 +51,8 @@ void readStability(Reader& in, int dimension, Stability& stability);
 void readCost(Reader& in, Cost& cost);
 /// @param dimension  of the case: some keys are of collisions in space alone
 void readCollision(Reader& in, Collision& collision, int dimension);
+/// Whether convex bodies meet as the case's law and time step let them be read.
+void checkConvexStarts(const Reader& in, const Case& c);
 template <int D>
 void readAssembly(Reader& in, AssemblyOf<D>& assembly);
 /// [assembly.box] and [assembly.start]. @param assembly  whose disks and walls have been read
@@ -71,6 +73,7 @@ struct DisksInput : DiskGroupOf<D> {
   std::vector<double> inertia, quaternion;
 };
 /// Of a group with a shape: its own frame, its size, and how its mass is spread.
+/// @param in  whose keys radius, density, inertia and quaternion are the group's
 template <int D>
 void makeConvex(const Reader& in, DisksInput<D>& group);
 SectionInfo boxSection();

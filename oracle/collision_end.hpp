@@ -28,6 +28,9 @@ struct CollisionStart {
   /// In space, spins that each body has besides, about the line of centres n and about the tangent
   /// s: the first leave the slip as it is, the second give it a part along b = n × s [rad/s].
   Vec2 spinOutOfPlane[2] = {Vec2::Zero(), Vec2::Zero()};
+  /// Of convex bodies: the first one's orientation [rad], and its spin along b at the touch
+  /// [rad/s].
+  double orientation = 0.0, spin = 0.0;
 };
 
 /// Motion of i against j, in the frame of the normal n (from j to i) and s = z × n.
@@ -80,10 +83,16 @@ struct EndOutOfPlane {
   double spinTangent[2] = {};  ///< ω·s [rad/s]
 };
 
+/// Numbers of a collision of convex bodies besides.
+struct ConvexEnd {
+  double centreNormal = 0.0;  ///< centres' v_n after / speed of approach of the contact point
+  double gained = 0.0;        ///< kinetic energy that the collision adds, else 0 [J]
+};
+
 /// State after a collision, at the instant of separation and with that instant's normal.
-/// About the contact point: psi, beta. About the centres' relative motion: en, centrePsi, et,
-/// reboundAngle. The two kinds are different numbers: friction moves the contact point K = 1 + 1/q
-/// times as much as the centres. Absent: not known.
+/// About the contact point: psi, beta, and of convex bodies en. About the centres' relative motion:
+/// en, centrePsi, et, reboundAngle. The two kinds are different numbers: friction moves the contact
+/// point K = 1 + 1/q times as much as the centres. Absent: not known.
 struct CollisionEnd {
   double en = 0.0;   ///< −v_n after / v_n before
   double psi = 0.0;  ///< Ψ_f = v_t after / speed of approach; sign against Ψ_i: reversed
@@ -99,6 +108,7 @@ struct CollisionEnd {
   std::optional<double> duration;    ///< from the first touch to separation [s]; none if rigid
   std::optional<double> maxOverlap;  ///< [m]; none if rigid
   std::optional<EnergySplit> lost;
+  std::optional<ConvexEnd> convex;  ///< of convex bodies
   /// The law has no limit of small time steps here: it jumps (jumpsAtTouch()), or a slip ended at
   /// v_t = 0 while the bound fell faster than the dashpot relaxes. Reset to the bound, the spring
   /// is caught by it again after a time ∝ v_t, so v_t grows from its rounding by a factor per

@@ -51,6 +51,12 @@ std::optional<double> spin(const Outcome& outcome) {
   return outcome.end.spin[side];
 }
 
+template <double ConvexEnd::*part>
+std::optional<double> ofConvex(const Outcome& outcome) {
+  const auto& convex = outcome.end.convex;
+  return convex ? std::optional((*convex).*part) : std::nullopt;
+}
+
 std::optional<double> energyLost(const Outcome& outcome) {
   return outcome.end.energyBefore - outcome.end.energyAfter;
 }
@@ -100,6 +106,9 @@ constexpr std::array<CollisionQuantity, quantityCount> quantities = {{
      Scored::surfaceSpeedJ},
     {Id::spinJTangent, "spin_j_tangent", "ω_j·s", "rad/s", 25, spinOut<&Out::spinTangent, 1>,
      Scored::surfaceSpeedJ},
+    {Id::centreNormal, "centre_v_n", "centres' v_n", "", 26, ofConvex<&ConvexEnd::centreNormal>},
+    {Id::energyGained, "energy_gained", "energy gained", "J", 27, ofConvex<&ConvexEnd::gained>,
+     fraction, InFiles::nineDigits, 0.0},
     {Id::energyBefore, "energy_before", "energy before", "J", 9, own<&End::energyBefore>,
      Scored::never},
     {Id::energyAfter, "energy_after", "energy after", "J", 10, own<&End::energyAfter>,

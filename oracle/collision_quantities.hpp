@@ -56,6 +56,8 @@ enum class QuantityId {
   spinITangent,
   spinJNormal,
   spinJTangent,
+  centreNormal,
+  energyGained,
   energyBefore,
   energyAfter
 };
@@ -78,6 +80,8 @@ struct CollisionQuantity {
   /// Nine digits are what the oracle's and the engines' errors leave of a number, and half the
   /// file. Not: it follows from others.
   InFiles inFiles = InFiles::nineDigits;
+  /// Its value in every sound collision, whether an oracle has the outcome or not.
+  std::optional<double> always = {};
 
   /// The same; absent of a pair that has not parted.
   std::optional<double> valueOf(const CollisionOutcome& outcome) const {

@@ -30,7 +30,8 @@ void push(ConvexImpactBody<D>& body, const VecOf<D>& impulse) {
     body.spin += body.inverseInertia * body.arm.cross(impulse);
 }
 
-/// As ImpactOutcome::energyAfter [J].
+}  // namespace
+
 template <int D>
 double kineticEnergy(const ConvexImpactBody<D>& body) {
   double twice = std::isfinite(body.mass) ? body.mass * body.velocity.squaredNorm() : 0.0;
@@ -47,6 +48,10 @@ double kineticEnergy(const ConvexImpactBody<D>& body) {
   }
   return 0.5 * twice;
 }
+template double kineticEnergy(const ConvexImpactBody<2>&);
+template double kineticEnergy(const ConvexImpactBody<3>&);
+
+namespace {
 
 /// Columns n, then the tangents.
 template <int D>

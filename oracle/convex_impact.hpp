@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <type_traits>
 
 #include "adapters/vec2.hpp"
@@ -41,6 +42,10 @@ VecOf<D> velocityAtContact(const ConvexImpactBody<D>& body) {
     return body.velocity + body.spin.cross(body.arm);
 }
 
+/// Kinetic energy of what can move and turn [J].
+template <int D>
+double kineticEnergy(const ConvexImpactBody<D>& body);
+
 /// Impact of two bodies at one point.
 template <int D>
 struct ConvexImpactStart {
@@ -58,6 +63,9 @@ enum class ImpactKind {
   slipThenStick,    ///< it stops for good
   slipThenReversed  ///< it stops and begins anew, in the plane the other way
 };
+/// In results and reports, in enum order.
+inline constexpr std::array<std::string_view, 5> impactKindNames = {"no impact", "stick", "slip",
+                                                                    "slip-stick", "slip-reversal"};
 
 template <int D>
 struct ImpactOutcome {

@@ -110,6 +110,10 @@ std::string nothingJudged(const CollideResults& results) {
            "or a larger time step is needed to tell";
   if (measured) return "the case has no [collision.margins] for what was measured";
   if (!noOracle.empty()) return "there is no oracle to judge by: " + noOracle;
+  const auto isConvex = [](const CollisionVariant& variant) { return variant.convex.has_value(); };
+  if (noLimit && std::ranges::any_of(results.variants, isConvex))
+    return "no point of the sweep has an outcome that all hypotheses of restitution share, and the "
+           "case has no margin of energy_gained";
   if (noLimit) return "the law has no limit of small time steps at any point of the sweep";
   return "no engine has an outcome to judge";
 }

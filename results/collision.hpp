@@ -73,18 +73,42 @@ const CurveScore& declaredScore(const CollisionCurve& curve);
 std::optional<double> ownDeviation(const CollisionCurve& curve);
 
 /// A point of the sweep at which the oracle's outcome is no reference: the law has no limit of
-/// small time steps there, or jumps beside it.
+/// small time steps there, or jumps beside it; of convex bodies the hypotheses of restitution
+/// differ.
 struct NoLimitPoint {
   double psi = 0.0;       ///< Ψ_i
   double vn = 0.0;        ///< [m/s]
   double psiAfter = 0.0;  ///< Ψ_f, one of the outcomes there
   std::string reason;
+  std::optional<double> orientation, spin;  ///< as CollisionTable has them
 
   void fields(auto& io) {
     io("psi_i", psi);
     io("v_n", vn);
     io("psi_f", psiAfter);
     io("reason", reason);
+    io.present("orientation", orientation);
+    io.present("spin_before", spin);
+  }
+};
+
+/// A sweep of convex bodies, besides.
+struct ConvexSweep {
+  std::string bodies;  ///< in words
+  /// Over which of them its figures are: "psi_i", "orientation" or "spin_before".
+  std::string axis;
+  /// Outcomes by Poisson's and by Stronge's restitution, at the points of CollisionVariant::oracle,
+  /// which is Newton's.
+  CollisionTable poisson, stronge;
+  /// Of each point of all curves, a name of impactKindNames; where hypotheses end in two, both.
+  std::vector<std::string> kinds;
+
+  void fields(auto& io) {
+    io("bodies", bodies);
+    io("axis", axis);
+    io("poisson", poisson);
+    io("stronge", stronge);
+    io("kinds", kinds);
   }
 };
 
@@ -109,6 +133,7 @@ struct CollisionVariant {
   std::optional<std::string> space;       ///< of spheres in space: their spins and turn, in words
   CollisionTable reference;  ///< the oracle at the points of all curves, where it has a limit
   std::vector<NoLimitPoint> noLimit;
+  std::optional<ConvexSweep> convex;  ///< of convex bodies
   std::vector<CollisionCurve> curves;
 
   void fields(auto& io) {
@@ -124,6 +149,7 @@ struct CollisionVariant {
     io.present("space", space);
     io("reference", reference);
     io("no_limit", noLimit);
+    io.present("convex", convex);
     io("curves", curves);
   }
 };

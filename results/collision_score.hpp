@@ -35,8 +35,10 @@ class PerQuantity {
 
 /// Collisions, one per row, in the units of CollisionQuantity.
 struct CollisionTable {
-  std::vector<double> psi;                                  ///< Ψ_i
-  std::vector<double> vn;                                   ///< speed of approach [m/s]
+  std::vector<double> psi;  ///< Ψ_i
+  std::vector<double> vn;   ///< speed of approach [m/s]
+  /// Of convex bodies, else empty: CollisionStart's [degrees, rad/s].
+  std::vector<double> orientation, spin;
   PerQuantity<std::vector<std::optional<double>>> columns;  ///< absent: known of no row
   std::vector<bool> noLimit;  ///< of the oracle: no limit of small time steps; empty: nowhere
 
@@ -52,6 +54,8 @@ struct CollisionTable {
   void fields(auto& io) {
     presentUnlessEmpty(io, "psi_i", psi);
     presentUnlessEmpty(io, "v_n", vn);
+    presentUnlessEmpty(io, "orientation", orientation);
+    presentUnlessEmpty(io, "spin_before", spin);
     columns.fields(io);
     presentUnlessEmpty(io, "limitless", noLimit);
   }
@@ -74,7 +78,8 @@ struct CollisionPoints : CollisionTable {
   /// As files have it: a pair that parted may have no limit to be compared with.
   std::string status(std::size_t row) const {
     if (!parted(row)) return "not parted";
-    return row < reason.size() && !reason[row].empty() ? "no limit" : "parted";
+    if (row >= reason.size() || reason[row].empty()) return "parted";
+    return orientation.empty() ? "no limit" : "not judged";
   }
 
   void fields(auto& io) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "reports/collide/report.hpp"
@@ -18,26 +19,34 @@ using Styles = std::vector<std::pair<std::string, LineStyle>>;  ///< of engines,
 const LineStyle oracleStyle{"#999999", 0, false};
 const LineStyle asymptoteStyle{"#999999", 0, true};
 const LineStyle noLimitStyle{"#cc3311", 4, false};  ///< open squares
+const LineStyle poissonStyle{"#117733", 0, true}, strongeStyle{"#aa4499", 0, true};
 
-double largestPsi(const CollisionVariant& variant) {
-  double largest = 0.0;
+/// From 0, but for convex bodies.
+Range rangeOf(const CollisionVariant& variant) {
+  double least = variant.convex ? std::numeric_limits<double>::infinity() : 0.0;
+  double largest = variant.convex ? -least : 0.0;
   const auto take = [&](const CollisionTable& table) {
-    for (const double psi : table.psi)
-      if (std::isfinite(psi)) largest = std::max(largest, psi);
+    for (const double x : axisOf(variant, table)) {
+      if (!std::isfinite(x)) continue;
+      largest = std::max(largest, x);
+      if (variant.convex) least = std::min(least, x);
+    }
   };
   take(variant.oracle);
   for (const CollisionCurve& curve : variant.curves) take(curve.points);
-  return largest > 0.0 ? largest : 1.0;
+  if (!variant.convex) return {0.0, 1.02 * (largest > 0.0 ? largest : 1.0)};
+  const double room = least < largest ? 0.02 * (largest - least) : 1.0;
+  return {least - room, largest + room};
 }
 
-/// An axis over Ψ_i for a variant, with its name above.
+/// An axis over Ψ_i, or what else is swept, for a variant, with its name above.
 Panel panelOver(const CollisionVariant& variant, const char* yLabel) {
   Panel panel;
   panel.name = variant.variant;
-  panel.xLabel = "slide before Ψ_{i}";
+  panel.xLabel = axisWords(variant);
   panel.yLabel = yLabel;
   panel.key = Key::none;
-  panel.xRange = Range{0.0, 1.02 * largestPsi(variant)};
+  panel.xRange = rangeOf(variant);
   return panel;
 }
 
@@ -64,11 +73,12 @@ bool draws(const Figure& figure, const LineStyle& style) {
   });
 }
 
-/// Ψ_f over Ψ_i; `stride` 1: all points.
-std::vector<Point> sweepPoints(const CollisionTable& table, std::size_t stride) {
+/// A quantity over what is swept; `stride` 1: all points.
+std::vector<Point> sweepPoints(const CollisionVariant& variant, const CollisionTable& table,
+                               QuantityId quantity, std::size_t stride) {
   std::vector<Point> points;
   for (std::size_t k = 0; k < table.size(); k += stride) {
-    const auto x = at(table.psi, k), y = table.at(QuantityId::psiF, k);
+    const auto x = at(axisOf(variant, table), k), y = table.at(quantity, k);
     if (x && y) points.push_back({*x, *y, {}});
   }
   return points;
@@ -103,27 +113,46 @@ std::vector<Curve> asymptotes(const CollisionVariant& variant, double lastPsi) {
   return curves;
 }
 
-/// Points of the sweep at which the law has no limit of small time steps, on the oracle's line.
+/// Points of the sweep that are not judged, as the law has no limit of small time steps there or
+/// hypotheses differ, on the oracle's line.
 Curve noLimitMarks(const CollisionVariant& variant) {
   Curve marks{"", noLimitStyle, Draw::points, {}, 1.5};
-  for (const NoLimitPoint& point : variant.noLimit)
-    if (std::isfinite(point.psi) && std::isfinite(point.psiAfter))
-      marks.points.push_back({point.psi, point.psiAfter, {}});
+  for (const NoLimitPoint& point : variant.noLimit) {
+    CollisionTable place;
+    place.psi = {point.psi};
+    place.orientation = {point.orientation.value_or(0.0)};
+    place.spin = {point.spin.value_or(0.0)};
+    const double x = axisOf(variant, place).front();
+    if (std::isfinite(x) && std::isfinite(point.psiAfter))
+      marks.points.push_back({x, point.psiAfter, {}});
+  }
   return marks;
 }
 
-/// Figure 4.3 of Lätzel (2003): each engine at the largest of its time steps.
-Panel sweepPanel(const CollisionVariant& variant, const Styles& styles) {
-  Panel panel = panelOver(variant, "Ψ_{f}");
+/// Figure 4.3 of Lätzel (2003): each engine at the largest of its time steps. Of convex bodies also
+/// by the other hypotheses of restitution.
+Panel sweepPanel(const CollisionVariant& variant, const Styles& styles,
+                 QuantityId quantity = QuantityId::psiF) {
+  const bool psi = quantity == QuantityId::psiF;
+  Panel panel = panelOver(variant, psi ? "Ψ_{f}" : "e_{n}");
   panel.level = 0.0;
-  panel.curves = asymptotes(variant, panel.xRange->high);
-  if (auto line = sweepPoints(variant.oracle, 1); !line.empty())
-    panel.curves.push_back({"oracle", oracleStyle, Draw::lines, std::move(line), 3.0});
+  if (psi) panel.curves = asymptotes(variant, panel.xRange->high);
+  const auto add = [&](const char* name, const CollisionTable& table, const LineStyle& style,
+                       double width) {
+    if (auto line = sweepPoints(variant, table, quantity, 1); !line.empty())
+      panel.curves.push_back({name, style, Draw::lines, std::move(line), width});
+  };
+  add("oracle", variant.oracle, oracleStyle, 3.0);
+  if (variant.convex) {
+    add("Poisson", variant.convex->poisson, poissonStyle, 1.5);
+    add("Stronge", variant.convex->stronge, strongeStyle, 1.5);
+  }
   for (const auto& [engine, style] : styles)
     if (const CollisionCurve* curve = coarsestCurve(variant, engine))
-      panel.curves.push_back({engine, style, Draw::points,
-                              sweepPoints(curve->points, markStride(curve->points)), 1.0});
-  panel.curves.push_back(noLimitMarks(variant));
+      panel.curves.push_back(
+          {engine, style, Draw::points,
+           sweepPoints(variant, curve->points, quantity, markStride(curve->points)), 1.0});
+  if (psi) panel.curves.push_back(noLimitMarks(variant));
   return panel;
 }
 
@@ -137,7 +166,7 @@ Panel errorPanel(const CollisionVariant& variant, const Styles& styles) {
     const CollisionTable& table = curve->points;
     std::vector<Point> points;
     for (std::size_t k = 0; k < table.size(); ++k) {
-      const auto psi = at(table.psi, k), found = table.at(QuantityId::psiF, k),
+      const auto psi = at(axisOf(variant, table), k), found = table.at(QuantityId::psiF, k),
                  expected = variant.reference.at(QuantityId::psiF, k);
       if (psi && found && expected) points.push_back({*psi, std::abs(*found - *expected), {}});
     }
@@ -158,7 +187,9 @@ Panel emptyPanel(const CollisionVariant& variant, const char* why) {
 Figure curvesFigure(const CaseGroup& group, const Styles& styles, const std::string& name) {
   Figure figure;
   figure.name = name;
-  figure.title = "Tangential velocity after a collision against before, and its error";
+  figure.title = group.variants.front()->convex
+                     ? "Velocities of the contact point after a collision of convex bodies"
+                     : "Tangential velocity after a collision against before, and its error";
   for (const CollisionVariant* variant : group.variants) {
     Panel sweep = sweepPanel(*variant, styles);
     if (!hasPoints(sweep)) continue;
@@ -166,17 +197,25 @@ Figure curvesFigure(const CaseGroup& group, const Styles& styles, const std::str
     Panel error = errorPanel(*variant, styles);
     if (!hasPoints(error)) error = emptyPanel(*variant, "no error: no oracle, or no run");
     figure.panels.push_back(std::move(error));
+    if (variant->convex) figure.panels.push_back(sweepPanel(*variant, styles, QuantityId::en));
   }
-  figure.caption =
-      "Ψ_f = v_t/v_n of the contact point after against Ψ_i before, and its distance from the "
-      "oracle (log axis), every engine at the largest of its time steps.";
+  const bool convex = group.variants.front()->convex.has_value();
+  figure.caption = fmt::format(
+      "Ψ_f = v_t/v_n of the contact point after {}, and its distance from the "
+      "oracle (log axis){}, every engine at the largest of its time steps.",
+      convex ? "a collision" : "against Ψ_i before", convex ? ", and e_n there" : "");
   if (draws(figure, oracleStyle)) figure.caption += " Grey: the oracle.";
+  if (convex)
+    figure.caption +=
+        " It is Newton's restitution; dashed green: Poisson's, dashed pink: Stronge's. Red "
+        "squares: "
+        "these differ there, and nothing but a gain of energy is judged.";
   if (draws(figure, asymptoteStyle))
     figure.caption += " Dashed grey: hard disks, sticking and sliding, as far as the law has them.";
-  if (draws(figure, noLimitStyle))
+  if (draws(figure, noLimitStyle) && !convex)
     figure.caption +=
         " Red squares: the law has no limit of small time steps there, nothing is judged.";
-  arrange(figure, 4, group.variants.size());
+  arrange(figure, convex ? 3 : 4, group.variants.size());
   return figure;
 }
 
@@ -217,10 +256,11 @@ std::optional<double> partAt(const CollisionTable& table, QuantityId part, std::
 }
 
 /// A part of the energy lost in units of the energy before.
-std::vector<Point> fractionsOf(const CollisionTable& table, QuantityId part, std::size_t stride) {
+std::vector<Point> fractionsOf(const CollisionVariant& variant, const CollisionTable& table,
+                               QuantityId part, std::size_t stride) {
   std::vector<Point> points;
   for (std::size_t k = 0; k < table.size(); k += stride) {
-    const auto psi = at(table.psi, k), before = table.at(QuantityId::energyBefore, k),
+    const auto psi = at(axisOf(variant, table), k), before = table.at(QuantityId::energyBefore, k),
                value = partAt(table, part, k);
     if (psi && before && value && *before > 0.0) points.push_back({*psi, *value / *before, {}});
   }
@@ -235,7 +275,7 @@ Panel energyPanel(const CollisionVariant& variant, const Styles& styles) {
     std::vector<Curve> curves = {{"",
                                   {part.colour, 0, false},
                                   Draw::lines,
-                                  fractionsOf(variant.oracle, part.quantity, 1),
+                                  fractionsOf(variant, variant.oracle, part.quantity, 1),
                                   2.0}};
     for (const auto& [engine, style] : styles) {
       const CollisionCurve* curve = coarsestCurve(variant, engine);
@@ -244,7 +284,7 @@ Panel energyPanel(const CollisionVariant& variant, const Styles& styles) {
       curves.push_back({"",
                         {part.colour, part.mark, false},
                         Draw::points,
-                        fractionsOf(table, part.quantity, (table.size() + 6) / 7),
+                        fractionsOf(variant, table, part.quantity, (table.size() + 6) / 7),
                         1.0});
     }
     const auto visible = [](const Point& point) { return std::abs(point.y) > 1e-6; };

@@ -32,7 +32,11 @@ const std::vector<QuantityGroup>& quantityGroups() {
       {"energy",
        "Energy lost, and where to.",
        {energyLost, lostNormalDamping, lostTangential, lostTangentialDamping, lostStiffening,
-        lostSliding, lostStored}}};
+        lostSliding, lostStored}},
+      {"normal velocity of the centres", "Of convex bodies, after the collision.", {centreNormal}},
+      {"gain of energy",
+       "Of convex bodies, at any point: no collision adds energy.",
+       {energyGained}}};
   return groups;
 }
 

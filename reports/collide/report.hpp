@@ -19,6 +19,11 @@ std::vector<CaseGroup> casesOf(const CollideResults& results);
 /// A variant's own case where the results hold several.
 std::string caseOf(const CollideResults& results, const CollisionVariant& variant);
 
+/// What the points of a variant are drawn and listed over: its values in a table of them, and what
+/// they are, "orientation [°]".
+const std::vector<double>& axisOf(const CollisionVariant& variant, const CollisionTable& table);
+const char* axisWords(const CollisionVariant& variant);
+
 /// An engine's curve of the largest time step that has points; null without one.
 const CollisionCurve* coarsestCurve(const CollisionVariant& variant, const std::string& engine);
 
@@ -66,6 +71,8 @@ std::string headline(const Tally& tally);
 Table variantTable(const CollideResults& results, const CaseGroup& group);
 Table mirrorTable(const CaseGroup& group, const std::vector<EngineRow>& engines);
 Table scoreTable(const CaseGroup& group);
+/// Of convex bodies: how each impact goes, and what it ends in; no rows of others.
+Table kindTable(const CaseGroup& group);
 
 /// A difference of one quantity of an engine's sweep from the in-house engine's, and its causes,
 /// where it is largest.

@@ -196,6 +196,16 @@ std::vector<CaseGroup> casesOf(const CollideResults& results) {
   return groups;
 }
 
+const std::vector<double>& axisOf(const CollisionVariant& variant, const CollisionTable& table) {
+  if (!variant.convex || variant.convex->axis == "psi_i") return table.psi;
+  return variant.convex->axis == "orientation" ? table.orientation : table.spin;
+}
+
+const char* axisWords(const CollisionVariant& variant) {
+  if (!variant.convex || variant.convex->axis == "psi_i") return "slide before Ψ_{i}";
+  return variant.convex->axis == "orientation" ? "orientation [°]" : "spin before [rad/s]";
+}
+
 std::vector<const CollisionCurve*> curvesOf(const CollisionVariant& variant,
                                             const std::string& engine) {
   std::vector<const CollisionCurve*> curves;
@@ -243,7 +253,8 @@ std::string quantityWords(const CollisionQuantity& quantity) {
       {spinINormal, "spin of the first about the line of centres"},
       {spinITangent, "spin of the first about the tangent"},
       {spinJNormal, "spin of the second about the line of centres"},
-      {spinJTangent, "spin of the second about the tangent"}};
+      {spinJTangent, "spin of the second about the tangent"},
+      {centreNormal, "normal velocity of the centres"}};
   const auto* const found =
       std::ranges::find(all, quantity.id, &std::pair<QuantityId, std::string_view>::first);
   return std::string(found == std::end(all) ? quantity.label : found->second);
@@ -370,6 +381,33 @@ Table scoreTable(const CaseGroup& group) {
         table.rows.push_back(std::move(row));
       }
     }
+  return table;
+}
+
+Table kindTable(const CaseGroup& group) {
+  Table table{{"variant", numbers("orientation [°]"), numbers("Ψ_i"),
+               numbers("spin before [rad/s]"), "impact"}};
+  constexpr QuantityId shown[] = {QuantityId::en, QuantityId::psiF, QuantityId::centreNormal,
+                                  QuantityId::centrePsiF, QuantityId::spinI};
+  for (const QuantityId id : shown)
+    table.columns.push_back(numbers(quantityWords(collisionQuantity(id))));
+  table.dense = true;
+  table.note =
+      "Stick: the contact slips neither at the end nor, if not at the start, on the way. Slip: it "
+      "slips to the end. Slip-stick: a slip stops for good. Slip-reversal: it stops and begins "
+      "anew, the other way. Numbers are the reference's; –: Newton's, Poisson's and Stronge's "
+      "restitution differ, and only a gain of energy is judged.";
+  for (const CollisionVariant* variant : group.variants) {
+    if (!variant->convex) continue;
+    const CollisionTable& points = variant->reference;
+    for (std::size_t k = 0; k < std::min(points.size(), variant->convex->kinds.size()); ++k) {
+      TableRow row{{variant->variant, readableSetting(at(points.orientation, k)),
+                    readableSetting(at(points.psi, k)), readableSetting(at(points.spin, k)),
+                    variant->convex->kinds[k]}};
+      for (const QuantityId id : shown) row.cells.emplace_back(shortly(points.at(id, k)));
+      table.rows.push_back(std::move(row));
+    }
+  }
   return table;
 }
 

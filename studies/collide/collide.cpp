@@ -12,6 +12,7 @@
 #include "cases/time_step.hpp"
 #include "results/collision.hpp"
 #include "results/schema.hpp"
+#include "studies/collide/convex.hpp"
 #include "studies/collide/own_scheme.hpp"
 #include "studies/collide/sweep.hpp"
 #include "studies/core/engine_access.hpp"
@@ -97,7 +98,7 @@ CachedTask<std::vector<CollisionCurve>>::Outcome sweepsOf(
       const bool passesFiner = !curves.empty() && verdictOf(curves.front()) == Verdict::pass;
       CollisionCurve curve = runSweep(*worker, entry, *each.setup, dt, each.starts, each.oracle,
                                       largest, &declared, passesFiner);
-      if (largest && each.setup->dimension == 2)
+      if (largest && each.setup->dimension == 2 && !collisionIn(*each.setup).isConvex())
         curve.ownScheme = schemeScore(*worker, entry, *each.setup, dt);
       // An engine that keeps its own step says the same at each of the case's, and most at the
       // last.
@@ -213,21 +214,22 @@ bool anyTaken(const std::vector<CollisionCase>& cases, const VersionedEngines& e
   return !anyNamed;
 }
 
-/// The oracle on a grid fine enough for a smooth line, about 80 points, at the first v_n.
-CollisionTable fineOracle(const Case& setup) {
-  const auto& psi = collisionIn(setup).psi;
-  const auto parts = std::max<std::size_t>(1, 80 / psi.size());
+/// Starts fine enough for a smooth line, about 80, over the list that is swept, at the first of all
+/// other values.
+std::vector<CollisionStart> fineStarts(const Case& setup) {
+  const auto list = sweptList(collisionIn(setup));
+  const std::vector<double>& swept = collisionIn(setup).*list;
+  const auto parts = std::max<std::size_t>(1, 80 / swept.size());
   std::vector<CollisionStart> starts;
   Case one = setup;
-  collisionIn(one).margins.clear();  // nothing is judged by it
-  for (std::size_t k = 0; k < psi.size(); ++k)
-    for (std::size_t part = 0; part < (k + 1 < psi.size() ? parts : 1); ++part) {
-      const double next = k + 1 < psi.size() ? psi[k + 1] : psi[k];
+  for (std::size_t k = 0; k < swept.size(); ++k)
+    for (std::size_t part = 0; part < (k + 1 < swept.size() ? parts : 1); ++part) {
+      const double next = k + 1 < swept.size() ? swept[k + 1] : swept[k];
       const double fraction = static_cast<double>(part) / static_cast<double>(parts);
-      collisionIn(one).psi = {psi[k] + (next - psi[k]) * fraction};
+      collisionIn(one).*list = {swept[k] + (next - swept[k]) * fraction};
       starts.push_back(collisionStarts(one).front());
     }
-  return tableOf(starts, outcomesOf(oracleCurve(one, starts)));
+  return starts;
 }
 
 /// Further words on a case in space: "J = 0.4 m a², first spin (2000, 200) rad/s".
@@ -259,20 +261,30 @@ CollisionVariant variantOf(const CollisionCase& sweep) {
                                  ? effectsOf(spaceCollisionScene(setup, sweep.starts, dt))
                                  : effectsOf(collisionScene(setup, sweep.starts, dt)))
     variant.effects->push_back(toString(effect));
-  if (setup.dimension == 3) variant.space = describeSpace(collisionIn(setup));
+  const bool convex = collisionIn(setup).isConvex();
+  if (setup.dimension == 3 && !convex) variant.space = describeSpace(collisionIn(setup));
   variant.closedEn = closedRestitution(setup.law, pair.reducedMass());
-  if (!setup.law.soft()) variant.sticking.et0 = setup.law.et0;
+  if (!setup.law.soft() && !convex) variant.sticking.et0 = setup.law.et0;
   // Ψ_f = Ψ_i − it is of a slip along s alone.
   const auto& besides = collisionIn(setup).spinOutOfPlane;
-  if (besides[0].y() == 0.0 && besides[1].y() == 0.0)
+  if (besides[0].y() == 0.0 && besides[1].y() == 0.0 && !convex)
     variant.slidingConstant = slidingConstant(setup.law, pair);
-  variant.oracle = fineOracle(setup);
+  Case unjudged = setup;
+  collisionIn(unjudged).margins.clear();  // nothing is judged by it
+  const std::vector<CollisionStart> fine = fineStarts(setup);
+  const OracleCurve line = oracleCurve(unjudged, fine);
+  variant.oracle = tableOf(fine, outcomesOf(line));
+  if (convex) variant.convex = convexSweep(setup, fine, line, sweep.oracle);
   variant.oracleReason = sweep.oracle.reason;
   variant.reference = tableOf(sweep.starts, referenceOf(sweep.oracle));
   for (std::size_t k = 0; k < sweep.starts.size(); ++k)
-    if (const std::string& why = sweep.oracle.unsure[k]; !why.empty() && sweep.oracle.ends[k])
+    if (const std::string& why = sweep.oracle.unsure[k]; !why.empty() && sweep.oracle.ends[k]) {
       variant.noLimit.push_back(
-          {sweep.starts[k].psi, sweep.starts[k].vn, sweep.oracle.ends[k]->psi, why});
+          {sweep.starts[k].psi, sweep.starts[k].vn, sweep.oracle.ends[k]->psi, why, {}, {}});
+      if (!convex) continue;
+      variant.noLimit.back().orientation = sweep.starts[k].orientation * 180.0 / std::numbers::pi;
+      variant.noLimit.back().spin = sweep.starts[k].spin;
+    }
   return variant;
 }
 

@@ -45,7 +45,8 @@ std::optional<QuantityScore> scoreQuantity(const Case& setup, const CollisionQua
     const auto valueOf = [&](const Outcomes& outcomes) {
       return outcomes[k] ? quantity.scoredValue(*outcomes[k], pair, starts[k].vn) : std::nullopt;
     };
-    const auto reference = valueOf(oracle), value = valueOf(found);
+    const auto reference = quantity.always ? quantity.always : valueOf(oracle),
+               value = valueOf(found);
     if (!reference) continue;
     expected.push_back(*reference);
     if (!value) continue;
@@ -64,7 +65,8 @@ std::optional<QuantityScore> scoreQuantity(const Case& setup, const CollisionQua
   score.unit = unit.value;
   score.unitIs = unit.kind;
   const auto margin = collisionIn(setup).margins.find(std::string(quantity.name));
-  if (!mostAreKnown(oracle) || margin == collisionIn(setup).margins.end()) return score;
+  if (!(quantity.always || mostAreKnown(oracle)) || margin == collisionIn(setup).margins.end())
+    return score;
   score.limit = margin->second.relative ? margin->second.value : margin->second.value / unit.value;
   // Times, lengths and energies are scored as shares; others are of the approach's speed.
   const bool share = quantity.scored == CollisionQuantity::Scored::byLargest ||

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <string>
 
 #include "adapters/declared_law.hpp"
@@ -17,6 +18,7 @@
 #include "oracle/impact.hpp"
 #include "studies/collide/causes.hpp"
 #include "studies/collide/contact_account.hpp"
+#include "studies/collide/convex.hpp"
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline studies {
@@ -106,6 +108,12 @@ OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& st
     throwIfInterrupted();
     std::string& unsure = curve.unsure.emplace_back();
     try {
+      if (collisionIn(setup).isConvex()) {
+        const ConvexOutcomes& of = curve.convex.emplace_back(convexOutcomes(setup, start));
+        curve.ends.push_back(of.newton ? of.newton : of.poisson);
+        if (!of.judged) unsure = "Newton's, Poisson's and Stronge's restitution differ";
+        continue;
+      }
       const CollisionEnd end = oracleOutcome(setup.law, collidingPair(setup), start);
       curve.ends.emplace_back(end);
       if (end.noLimit)
@@ -185,6 +193,12 @@ CollisionTable tableOf(const std::vector<CollisionStart>& starts, const Outcomes
     table.psi.push_back(start.psi);
     table.vn.push_back(start.vn);
   }
+  const auto isConvex = [](const auto& outcome) { return outcome && outcome->end.convex; };
+  if (std::ranges::any_of(outcomes, isConvex))
+    for (const CollisionStart& start : starts) {
+      table.orientation.push_back(shortened(start.orientation * 180.0 / std::numbers::pi));
+      table.spin.push_back(start.spin);
+    }
   for (const CollisionQuantity& quantity : collisionQuantities())
     if (quantity.inFiles != CollisionQuantity::InFiles::no)
       table.columns[quantity.id] = columnOf(quantity, outcomes);
@@ -239,7 +253,8 @@ Outcomes runOutcomes(Engine& engine, const Capabilities& can, const Case& setup,
   const double end = sweepEnd(setup, scene.dt, effective.dt);
   const ContactRecording<D> watched{scene, collidingPair(setup), law, effective, can.slidingFlags};
   std::vector<std::optional<ContactAccount>> accounts(starts.size());
-  if (watch && can.instantContacts)
+  const bool convex = collisionIn(setup).isConvex();
+  if (watch && can.instantContacts && !convex)
     accounts = recordContacts(engine, watched, end);
   else
     engine.advance(end);
@@ -252,7 +267,8 @@ Outcomes runOutcomes(Engine& engine, const Capabilities& can, const Case& setup,
     after = engine.snapshotInSpace(ContactReport::none);
   Outcomes outcomes;
   for (std::size_t k = 0; k < starts.size(); ++k) {
-    const auto parted = endOfPair(setup, under, after, k, starts[k]);
+    const auto parted = convex ? convexEndOf<D>(setup, after, k, starts[k])
+                               : endOfPair(setup, under, after, k, starts[k]);
     outcomes.push_back(parted ? std::optional(CollisionOutcome{*parted, {}}) : std::nullopt);
     if (!parted || !accounts[k]) continue;
     outcomes[k]->end.maxOverlap = accounts[k]->maxOverlap;
@@ -341,6 +357,11 @@ std::optional<DeclaredScore> scoreDeclared(const SweptCurve<D>& swept, const Eng
   }
   score.law = lawDifference(*law, swept.setup.law);
   if (score.law.empty()) return std::nullopt;
+  const bool convex = collisionIn(swept.setup).isConvex();
+  if (convex && law->soft()) {
+    score.oracleReason = "impacts of convex bodies have an oracle under rigid laws alone";
+    return score;
+  }
   Case declared = swept.setup;
   declared.law = *law;
   const OracleCurve oracle =
@@ -420,14 +441,19 @@ CollisionCurve sweepIn(Engine& engine, const EngineEntry& entry, const Case& set
   if (contact > 0.0) curve.stepsPerContact = contact / effective.dt;
   // An engine of impulses does not resolve a contact: its steps excuse nothing.
   const double step = std::min(dt, effective.dt);
-  const OracleCurve oracle = atStep(limit, setup, starts, step);
+  const bool convex = collisionIn(setup).isConvex();
+  OracleCurve oracle = convex ? limit : atStep(limit, setup, starts, step);
+  for (std::size_t k = 0; convex && k < starts.size(); ++k)
+    if (freeFlight(setup, starts[k]) < sweepEnd(setup, dt, effective.dt))
+      oracle.unsure[k] = "in steps of the engine's own a second corner meets too soon";
   int missing = 0;
   std::vector<bool> sticks;
   for (std::size_t k = 0; k < found.size(); ++k) {
     sticks.push_back(oracle.ends[k] && !oracle.ends[k]->parted);
     missing += !found[k] && !sticks[k];
   }
-  if (missing > 0) curve.reason = fmt::format("{} pairs did not part", missing);
+  if (missing > 0)
+    curve.reason = fmt::format("{} pairs did not {}", missing, convex ? "meet" : "part");
   curve.effective = effective;
   curve.stats = engine.stats();
   static_cast<CollisionTable&>(curve.points) = tableOf(starts, found);
@@ -445,7 +471,7 @@ CollisionCurve sweepIn(Engine& engine, const EngineEntry& entry, const Case& set
                  soft ? roundingOfPlaces<D>(scene, effective, starts, reference) : std::nullopt);
   const SweptCurve<D> swept{setup, starts, asRun, effective, found, watch, step, curve.score};
   if (declared) curve.declared = scoreDeclared(swept, entry, law, *declared);
-  if (declared && watch && law && entry.mirrors.empty())
+  if (declared && watch && law && entry.mirrors.empty() && !convex)
     curve.causes = causesOfSweep<D>(setup, starts, scene, peerScene(asRun, *law, effective), found,
                                     curve.score);
   if (passesFiner && soft && !curve.declared && missing == 0 &&

@@ -23,6 +23,14 @@ LawDescription describeLaw(const ContactLaw& law);
 /// law.
 LawDescription lawDifference(const ContactLaw& law, const ContactLaw& from);
 
+/// Of convex bodies, by the hypotheses of restitution.
+struct ConvexOutcomes {
+  std::optional<CollisionEnd> newton;  ///< absent where no impulse satisfies it
+  CollisionEnd poisson, stronge;
+  bool judged = false;  ///< all three agree
+  std::string kind;     ///< of impactKindNames; where they end in two of them, both
+};
+
 /// Outcome of the oracle for each start; absent where it has no outcome.
 struct OracleCurve {
   std::vector<std::optional<CollisionEnd>> ends;
@@ -32,6 +40,7 @@ struct OracleCurve {
   /// the case's margin of Ψ_f: an error of v_t that the margin allows after the contact decides,
   /// within it, on which side of the jump a scheme finds itself.
   std::vector<std::string> unsure;
+  std::vector<ConvexOutcomes> convex = {};  ///< of convex bodies, whose ends are Newton's
 };
 OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& starts);
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <tuple>
 
-#include "oracle/convex_impact.hpp"
+#include "oracle/convex_contact.hpp"
 #include "studies/conformance/check_context.hpp"
 
 namespace crossgrain::conformance {
@@ -83,30 +83,10 @@ void addConvex(SceneOf<D>& scene, const VecOf<D>& place, const TurnOf<D>& turn,
   disks.turn.push_back(turn);
 }
 
+/// The lowest point of a body.
 template <int D>
-InverseInertiaOf<D> inverseInertia(const SceneOf<D>& scene, std::size_t i) {
-  if constexpr (D == 2) {
-    return 1.0 / scene.disks.inertia[i];
-  } else {
-    const Eigen::Matrix3d axes = matrixOf<3>(scene.disks.turn[i]);
-    return axes * scene.disks.moments[i].cwiseInverse().asDiagonal() * axes.transpose();
-  }
-}
-
-/// The lowest point of a body, from its centre, and how far the next corner or end is above it [m].
-template <int D>
-std::pair<VecOf<D>, double> lowestCorner(const SceneOf<D>& scene, std::size_t i) {
-  const ShapeOf<D>& shape = scene.shapes[0];
-  const Eigen::Matrix<double, D, D> axes = matrixOf<D>(scene.disks.turn[i]);
-  const VecOf<D> down = -(axes.transpose() * VecOf<D>::Unit(D - 1));
-  std::vector<double> heights;
-  for (const VecOf<D>& corner : shape.vertices) heights.push_back(-corner.dot(down));
-  std::ranges::sort(heights);
-  double next = heights[1] - heights[0];
-  // The other side of a cylinder's rim.
-  if (shape.kind == ShapeKind::cylinder)
-    next = std::min(next, 2.0 * shape.rounding * down.template head<D - 1>().norm());
-  return {axes * farthest<D>(shape, down), next};
+CornerOf<D> lowestCorner(const SceneOf<D>& scene, std::size_t i) {
+  return cornerTowards<D>(scene.shapes[0], scene.disks.turn[i], -VecOf<D>::Unit(D - 1));
 }
 
 /// Bodies in poses of all kinds, each with one corner a step and a half of flight above the plane.
@@ -204,8 +184,7 @@ const std::vector<Otherwise<D>>& otherwise() {
 template <int D>
 ConvexImpactStart<D> startOf(const SceneOf<D>& scene, std::size_t i) {
   ConvexImpactStart<D> start;
-  start.body[0] = {scene.disks.mass[i], inverseInertia(scene, i), lowestCorner(scene, i).first,
-                   scene.disks.velocity[i], scene.disks.spin[i]};
+  start.body[0] = impactBody<D>(scene.disks, i, lowestCorner(scene, i).arm);
   start.normal = VecOf<D>::Unit(D - 1);
   start.restitution = scene.law.en;
   start.mu = scene.law.mu;

@@ -258,6 +258,75 @@ TEST_F(LoaderErrors, Collision_OfAWall_HasNeitherItsSizeNorItsSpin) {
   });
 }
 
+/// A box above a wall, with one line more.
+std::string convex(const std::string& shape, const std::string& more = "") {
+  return R"([case]
+kind = "collision"
+[law]
+normal = "rigid"
+e_n = 0.5
+mu = 0.3
+[run]
+dt = 1e-4
+[collision]
+second = "wall"
+psi = 1.0
+vn = 0.1
+mass = 1.0
+)" + shape +
+         "\n" + more + "\n";
+}
+
+TEST_F(LoaderErrors, Collision_OfConvexBodies) {
+  const std::string box = "shape = { box = [0.1, 0.06] }", angle = "orientation = 30";
+  const std::vector<Bad> bads = {
+      {convex(box, angle), ""},
+      {convex(box, angle + "\nradius = 0.1"),
+       "case.toml:16:10: collision.radius = 0.1: and shape: give one of them"},
+      {convex(""), "case.toml:9:1: collision.radius is missing: or shape"},
+      {convex("shape = { polygon = [[0, 0], [1, 0], [0.4, 0.4], [0, 1]] }", angle),
+       "case.toml:14:21: collision.shape.polygon: "},
+      {convex("shape = { polygon = [[0, 0], [0, 1], [1, 0]] }", angle),
+       "case.toml:14:21: collision.shape.polygon: "},
+      {convex("shape = { polygon = [[0, 0], [1, 0], [1, 0], [0, 1]] }", angle),
+       "case.toml:14:21: collision.shape.polygon: "},
+      {convex(box, "orientation = [30, 90]"),
+       "case.toml:15:15: collision.orientation: at orientation 90 a face or an edge meets flat: no "
+       "single corner is the nearest"},
+      {convex(box),
+       "case.toml:14:9: collision.shape: at orientation 0 a face or an edge meets flat"},
+      {convex(box, "orientation = 89.95"),
+       "case.toml:15:15: collision.orientation = 89.95: at orientation 89.95 a second corner may"},
+      {convex(box, angle + "\napproach = \"spin\""),
+       "case.toml:16:12: collision.approach = \"spin\": is of disks and spheres"},
+      {convex(box, angle + "\nsecond_radius = 1"),
+       "case.toml:16:17: collision.second_radius = 1: is of second = \"disk\""},
+      {convex(box, angle + "\nsecond_shape = { box = [1, 1] }"),
+       "case.toml:16:16: collision.second_shape: is of second = \"body\""},
+      {convex(box, angle + "\noffset = 0.1"),
+       "case.toml:16:10: collision.offset = 0.1: is along a second body's face"},
+      {convex(box, angle + "\nquaternion = [1, 0, 0, 0]"),
+       "case.toml:16:14: collision.quaternion: is of space alone"},
+      {withLine(convex(box, angle), 10, "second = \"disk\""),
+       "case.toml:9:1: collision.second_radius is missing"},
+      {withLine(convex(box, angle + "\noffset = 0.04"), 10, "second = \"body\""),
+       "case.toml:16:10: collision.offset = 0.04: the corner misses the second body's face"},
+      {withLine(convex(box, angle + "\nsecond_shape = { sides = 5, radius = 0.1 }"), 10,
+                "second = \"body\""),
+       "case.toml:16:16: collision.second_shape: this body has no flat face towards n"},
+      {withLine(convex("radius = 0.1", angle), 10, "second = \"wall\""),
+       "case.toml:15:15: collision.orientation = 30: is of convex bodies, which have a shape"},
+      {withLine(convex(box, angle), 5, "e_n = 0.5\ne_t0 = 0.2"),
+       "case.toml:15:9: collision.shape: takes law.e_t0 = 0"},
+  };
+  for (const Bad& bad : bads) {
+    std::ofstream("case.toml") << bad.text;
+    const std::string message = messageOf("case.toml");
+    EXPECT_EQ(message.substr(0, bad.message.size()), bad.message) << bad.text;
+    EXPECT_EQ(message.empty(), bad.message.empty()) << message;
+  }
+}
+
 TEST_F(LoaderErrors, Assembly_Walls_Density_Stability) {
   expectMessages({
       {assembly(12, "mass = 1.0\n[[assembly.walls]]\nbox = [0, 0, 0, 1]"),

@@ -35,7 +35,7 @@ LEFT_OUT = {
     "hard/coincident-centres": "is refused, as it must be",
     "hard/disk-in-disk": "is refused, as it must be",
 }
-LEFT_OUT |= {f"hard/{file.stem}": "grain has no convex bodies" for file in CASES.glob("hard/convex-*.toml")}
+LEFT_OUT |= {f"{folder}/{file.stem}": "grain has no convex bodies" for folder in ("collision", "hard") for file in CASES.glob(f"{folder}/convex-*.toml")}
 SECONDS = 0.02  # some 500 steps of most; collisions take as long as they take
 OWN_SECONDS = {"hard/units": 5e-7, "couette/quick": 0.005}
 
